@@ -1,0 +1,35 @@
+# What `cmake --install` puts where, and how another project finds it:
+#   find_package(paperproof COMPONENTS controller box2d_adapter)
+# Each library has an export of its own, so that a project without Box2D can use the controller.
+include(CMakePackageConfigHelpers)
+
+set(PAPERPROOF_CONFIG_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/paperproof")
+
+function(paperproof_install_library component)
+  install(TARGETS paperproof_${component} EXPORT paperproof_${component}_export
+          ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+          LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+  install(DIRECTORY "${PROJECT_SOURCE_DIR}/${component}/include/" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
+          FILES_MATCHING PATTERN "*.hpp")
+  install(EXPORT paperproof_${component}_export NAMESPACE paperproof::
+          FILE paperproof_${component}.cmake DESTINATION "${PAPERPROOF_CONFIG_DIR}")
+endfunction()
+
+paperproof_install_library(controller)
+if(TARGET paperproof_box2d_adapter)
+  paperproof_install_library(box2d_adapter)
+endif()
+if(TARGET paperproof)
+  install(TARGETS paperproof RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+  install(DIRECTORY "${PROJECT_SOURCE_DIR}/compare/scenes/" DESTINATION "${CMAKE_INSTALL_DATADIR}/paperproof"
+          FILES_MATCHING PATTERN "*.schema.json")
+endif()
+
+configure_package_config_file(
+  "${PROJECT_SOURCE_DIR}/cmake/paperproofConfig.cmake.in" "${PROJECT_BINARY_DIR}/paperproofConfig.cmake"
+  INSTALL_DESTINATION "${PAPERPROOF_CONFIG_DIR}" NO_SET_AND_CHECK_MACRO)
+# Below 1.0 a minor version may change an interface.
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/paperproofConfigVersion.cmake"
+  VERSION "${PROJECT_VERSION}" COMPATIBILITY SameMinorVersion)
+install(FILES "${PROJECT_BINARY_DIR}/paperproofConfig.cmake" "${PROJECT_BINARY_DIR}/paperproofConfigVersion.cmake"
+        DESTINATION "${PAPERPROOF_CONFIG_DIR}")

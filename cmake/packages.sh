@@ -1,0 +1,72 @@
+# Sourced by compare/run.sh and tests/run.sh: which Debian and Ubuntu packages this project needs, and how they get there.
+# shellcheck shell=bash disable=SC2034  # the lists are used by the scripts that source this file
+
+# To configure and build everything, tests and benchmarks included.
+build_packages=(
+  build-essential cmake ninja-build pkg-config
+  libeigen3-dev                                        # controller
+  libbox2d-dev libpolyclipping-dev                     # box2d_adapter
+  libboost-dev libcli11-dev libfmt-dev libpugixml-dev  # compare
+  nlohmann-json3-dev zlib1g-dev libzstd-dev libpng-dev
+  libgtest-dev librapidcheck-dev libbenchmark-dev      # tests and benchmarks
+)
+# To run every test.
+test_packages=(
+  clang          # the same bits from a second compiler
+  supertux-data  # real levels
+)
+# Used by tests where the distribution has it (Ubuntu's is a snap): a browser, for the report.
+optional_test_packages=(chromium)
+
+missing_packages() {
+  local package
+  for package in "$@"; do
+    [[ $(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null) == installed ]] || echo "$package"
+  done
+}
+
+# Installs what is missing of the packages named. When nothing is missing it needs neither root nor a network.
+install_missing() {
+  local missing as_root=()
+  mapfile -t missing < <(missing_packages "$@")
+  ((${#missing[@]})) || return 0
+  if ! command -v apt-get >/dev/null; then
+    echo "$0: no apt-get here; install by hand what these Debian packages hold: ${missing[*]}" >&2
+    exit 2
+  fi
+  if ((EUID != 0)); then
+    # Without a terminal nobody can type a password.
+    if ! command -v sudo >/dev/null || { [[ ! -t 0 ]] && ! sudo -n true 2>/dev/null; }; then
+      echo "$0: not root and no sudo; run first: apt-get install --no-install-recommends ${missing[*]}" >&2
+      exit 2
+    fi
+    as_root=(sudo)
+  fi
+  local apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive NEEDRESTART_MODE=a
+    apt-get --quiet --yes --option DPkg::Lock::Timeout=300)
+  echo "installing ${missing[*]}"
+  if [[ -z ${package_lists_are_fresh:-} ]]; then
+    "${apt[@]}" update </dev/null
+    package_lists_are_fresh=1
+  fi
+  "${apt[@]}" install --no-install-recommends "${missing[@]}" </dev/null
+}
+
+# The packages named that the distribution can install. Ubuntu's chromium would need snapd, which a container has not.
+installable_packages() {
+  local package
+  for package in "$@"; do
+    [[ $(apt-cache policy "$package" 2>/dev/null) =~ Candidate:\ [0-9] ]] && echo "$package"
+  done
+  return 0
+}
+
+# One compiler per core, and no more than memory allows: the heaviest sources take 2 GB.
+build_jobs() {
+  local cores memory_kb
+  cores=$(nproc)
+  memory_kb=$(awk '/^MemAvailable:/ { print $2 }' /proc/meminfo)
+  local by_memory=$((memory_kb / 2000000))
+  ((by_memory < 1)) && by_memory=1
+  echo $((cores < by_memory ? cores : by_memory))
+}

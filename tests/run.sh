@@ -1,0 +1,39 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds and runs every test, then the same under the address and undefined behaviour
+# sanitizers. The last lines are CTest's summaries. The exit status is 0 only if everything was built and passed.
+set -euo pipefail
+
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+# shellcheck source=cmake/packages.sh
+source cmake/packages.sh
+
+install_missing "${build_packages[@]}" "${test_packages[@]}"
+mapfile -t optional < <(installable_packages "${optional_test_packages[@]}")
+(install_missing "${optional[@]}") || echo "going on without ${optional[*]}: tests that need it are skipped"
+
+jobs=$(build_jobs)
+
+# Configures, builds and tests one preset; more arguments go to ctest.
+run_preset() {
+  local preset=$1 log=build/$1/ctest.log
+  shift
+  cmake --preset "$preset" &&
+    cmake --build --preset "$preset" --parallel "$jobs" &&
+    ctest --preset "$preset" --parallel "$jobs" --no-tests=error "$@" 2>&1 | tee "$log"
+}
+
+rm -f build/*/ctest.log
+status=0
+run_preset release </dev/null || status=1
+run_preset asan-ubsan --label-exclude slow </dev/null || status=1
+
+for preset in asan-ubsan release; do
+  echo
+  echo "== $preset"
+  if [[ -f build/$preset/ctest.log ]]; then
+    sed -n '/tests passed,/,$p' "build/$preset/ctest.log"
+  else
+    echo "was not built"
+  fi
+done
+exit "$status"
