@@ -1,0 +1,99 @@
+/// The character: its shape, how it wants to move, and its state.
+#pragma once
+
+#include <paperproof/types.hpp>
+
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+
+namespace paperproof {
+
+class InvalidCharacter : public std::invalid_argument {
+ public:
+  using std::invalid_argument::invalid_argument;
+};
+
+/// The collision points of a character, relative to its position [m], y up. They are the corners of a convex polygon.
+class CharacterShape {
+ public:
+  static constexpr std::size_t max_points = 8;
+  /// Indices of the two points of a side: top and bottom from left to right, left and right from bottom to top. A side
+  /// that is a corner has the same index twice.
+  using Pair = std::array<std::size_t, 2>;
+
+  /// The article's 20 x 40 pixel character: two points each for head, feet, left and right arm, at `pixels_per_metre`.
+  [[nodiscard]] static CharacterShape article(double pixels_per_metre = 32);
+
+  /// From points in a sprite's pixels (y down, any order); the position is the centre of their bounding box.
+  /// @throws InvalidCharacter as the constructor.
+  [[nodiscard]] static CharacterShape from_pixels(std::span<const Vec2d> points_px, double pixels_per_metre);
+
+  /// @param points relative to the position [m], y up, in any order.
+  /// @throws InvalidCharacter unless there are 3 to 8 distinct finite points that are all corners of their hull.
+  explicit CharacterShape(std::span<const Vec2d> points);
+
+  /// In the order given.
+  [[nodiscard]] std::span<const Vec2d> points() const noexcept { return {points_.begin(), points_.end()}; }
+  /// The same points, counter-clockwise, starting with the lowest (leftmost of equals).
+  [[nodiscard]] std::span<const Vec2d> hull() const noexcept { return {hull_.begin(), hull_.end()}; }
+  [[nodiscard]] const Box2<double>& box() const noexcept { return box_; }
+  /// The points of one side: those at the extreme of that direction. For the article's character these are its pairs.
+  [[nodiscard]] Pair pair(Side side) const noexcept { return pairs_[static_cast<std::size_t>(side)]; }
+
+ private:
+  FixedVector<Vec2d, max_points> points_;
+  FixedVector<Vec2d, max_points> hull_;
+  std::array<Pair, 4> pairs_{};
+  Box2<double> box_;
+};
+
+/// How a character wants to move. Defaults are those of a scene that does not say.
+struct CharacterDef {
+  CharacterShape shape = CharacterShape::article();
+  double walk_speed = 6;                   ///< [m/s]
+  double acceleration = 60;                ///< Of the horizontal speed on the ground [m/s²].
+  std::optional<double> air_acceleration;  ///< The same in the air [m/s²]; `acceleration` where absent.
+  double jump_speed = 12;                  ///< Upward speed that a jump sets [m/s].
+  std::optional<double> max_fall_speed;    ///< [m/s]; no limit where absent.
+  double max_climb_degrees = 50;           ///< Steepest ground that is walked on, from the horizontal; in [0, 89].
+  double snap = 0;                         ///< How far down the ground is followed when walking [m]; 0: not at all.
+  bool no_jump_toward_wall = false;        ///< The article's rule: no jump while standing beside a wall, toward it.
+  bool side_hit_ends_rise = false;  ///< The article's rule: hitting the side of something while rising ends the rise.
+
+  /// @throws InvalidCharacter naming the value that is not finite or out of range.
+  void validate() const;
+};
+
+/// What the player wants during one step.
+struct Input {
+  /// Horizontal direction in [-1, 1]: the speed approaches `move * walk_speed`. Absent: nothing steers, and the
+  /// horizontal speed stays as it is.
+  std::optional<double> move;
+  /// The jump button is down. One press gives at most one jump; a press that cannot jump yet stays pending while held.
+  bool jump = false;
+};
+
+/// Everything that one step hands to the next. A plain value: copy it to save a game or to roll back.
+template <class Scalar>
+struct CharacterState {
+  Vec2<Scalar> position{Vec2<Scalar>::Zero()};   ///< [m]
+  Vec2<Scalar> velocity{Vec2<Scalar>::Zero()};   ///< [m/s]
+  Vec2<Scalar> last_free{Vec2<Scalar>::Zero()};  ///< Last position that overlapped nothing; valid with `has_last_free`.
+  /// Motion that was wanted and not made yet [m]: a technique that moves by whole squares makes it when there is enough
+  /// of it. Zero with all others.
+  Vec2<Scalar> remainder{Vec2<Scalar>::Zero()};
+  bool has_last_free = false;
+  bool grounded = false;
+  bool jumping = false;       ///< The article's jumping flag: set by a jump, cleared by ground.
+  bool jump_held = false;     ///< The jump button was down in the last step.
+  bool jump_pending = false;  ///< A press that has not become a jump yet.
+  bool wall_left = false;     ///< The last step ended against something on the left.
+  bool wall_right = false;
+  std::uint8_t stuck_steps = 0;  ///< How many steps in a row ended inside something.
+
+  friend bool operator==(const CharacterState&, const CharacterState&) = default;
+};
+
+}  // namespace paperproof

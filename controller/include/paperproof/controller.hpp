@@ -1,0 +1,61 @@
+/// The controller: intent and gravity in, one step of motion out.
+#pragma once
+
+#include <paperproof/character.hpp>
+#include <paperproof/techniques.hpp>
+
+#include <memory>
+
+namespace paperproof {
+
+/// The velocity that a character wants in this step, before anything is in the way, and the jump bookkeeping.
+/// Common to every contender, the Box2D twin included:
+/// horizontal speed approaches `move * walk_speed`; a jump that is allowed sets the upward speed once; then gravity,
+/// with the fall speed limited (semi-implicit Euler: the displacement of the step is this velocity times dt).
+/// @param state its flags `jump_held`, `jump_pending`, `jumping`, `grounded` are updated; position and velocity are
+/// not.
+template <class Scalar>
+[[nodiscard]] Vec2<Scalar> desired_velocity(const CharacterDef& character, const Vec2<Scalar>& gravity,
+                                            const Input& input, Scalar dt, CharacterState<Scalar>& state) noexcept;
+
+enum class StepStatus : std::uint8_t {
+  moved,
+  dropped,        ///< See MoveStatus.
+  stuck,          ///< See MoveStatus.
+  out_of_range,   ///< Refused: the step would leave +-2e6 m. Position and velocity are unchanged.
+  invalid_input,  ///< Refused: NaN, infinity or dt <= 0. Nothing changed at all.
+};
+
+/// What one step did. `move` is valid unless the status is `invalid_input`.
+template <class Scalar>
+struct StepReport {
+  StepStatus status = StepStatus::moved;
+  Vec2<Scalar> requested{Vec2<Scalar>::Zero()};  ///< Displacement that was wanted [m].
+  MoveResult<Scalar> move;
+};
+
+/// Steps characters of one kind through one scenery. Const and shareable between threads.
+template <class Scalar>
+class Controller {
+ public:
+  /// @throws InvalidCharacter, std::invalid_argument as `make_technique`. `scenery` must outlive the controller.
+  Controller(const Scenery<Scalar>& scenery, const CharacterDef& character, const TechniqueDef& technique = {});
+
+  /// One step of `dt` seconds under `gravity` [m/s²]. `state` is read and written; nothing else carries over.
+  /// Never allocates, never throws.
+  StepStatus step(CharacterState<Scalar>& state, const Input& input, const Vec2<Scalar>& gravity, Scalar dt,
+                  Scratch<Scalar>& scratch, StepReport<Scalar>& report) const noexcept;
+
+  [[nodiscard]] Scratch<Scalar> make_scratch() const { return technique_->make_scratch(); }
+  [[nodiscard]] const CharacterDef& character() const noexcept { return character_; }
+  [[nodiscard]] const Technique<Scalar>& technique() const noexcept { return *technique_; }
+
+ private:
+  CharacterDef character_;
+  std::unique_ptr<Technique<Scalar>> technique_;
+};
+
+extern template class Controller<float>;
+extern template class Controller<double>;
+
+}  // namespace paperproof

@@ -1,0 +1,89 @@
+/// What the character can bump into: polygons and chains, cut once into convex pieces.
+#pragma once
+
+#include <paperproof/types.hpp>
+
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace paperproof {
+
+/// One polygon or one chain, in world metres, y up.
+///
+/// A polygon may be concave, have any number of vertices and either winding, and have holes. A chain is a polyline of
+/// zero thickness; it blocks from both sides unless `one_way` is given.
+struct ColliderDef {
+  enum class Shape : std::uint8_t { polygon, chain };
+
+  Shape shape = Shape::polygon;
+  std::vector<Vec2d> points;                ///< Outer ring (not closed: the first vertex is not repeated) or polyline.
+  std::vector<std::vector<Vec2d>> holes{};  ///< Polygons only; each strictly inside the outer ring.
+  /// Chains only. A segment's blocking normal is the one of its two with `normal · one_way > 0`; a segment for which
+  /// neither holds (it runs along `one_way`) blocks nothing. The character passes against the normal freely.
+  std::optional<Vec2d> one_way{};
+};
+
+/// Everything that does not move.
+struct SceneryDef {
+  std::vector<ColliderDef> colliders;
+};
+
+/// A collider that cannot be used; `what()` says why in words a level designer understands.
+class InvalidScenery : public std::invalid_argument {
+ public:
+  InvalidScenery(ColliderIndex collider, const std::string& reason)
+      : std::invalid_argument(reason), collider_(collider) {}
+  /// Which entry of `SceneryDef::colliders`.
+  [[nodiscard]] ColliderIndex collider() const noexcept { return collider_; }
+
+ private:
+  ColliderIndex collider_;
+};
+
+/// A convex part of a collider. Polygons: counter-clockwise vertices, strictly convex, 3 to 32, taken from the
+/// collider's own vertices. Chains: the 2 end points of a segment, zero thickness; for a one-way segment in the order
+/// that has its blocking normal on the left.
+struct PieceInfo {
+  ColliderIndex collider = 0;
+  std::uint32_t first_vertex = 0;  ///< Into `Scenery::vertices()`.
+  std::uint32_t vertex_count = 0;
+  bool one_way = false;
+};
+
+/// Immutable after construction; may be shared between threads.
+template <class Scalar>
+class Scenery {
+ public:
+  /// Rounds every vertex to `Scalar` (and magnitudes below 1e-90 m to zero: their products would underflow), checks
+  /// every collider and cuts polygons into convex pieces.
+  /// @throws InvalidScenery on: fewer than 3 (polygon) or 2 (chain) points, a coordinate that is not finite or beyond
+  ///   2e6 m, repeated neighbouring points, zero area, a ring that crosses or touches itself or another ring of its
+  ///   polygon, a hole that is not inside, a `one_way` that is zero, not finite or on a polygon.
+  explicit Scenery(const SceneryDef& def);
+
+  [[nodiscard]] std::span<const PieceInfo> pieces() const noexcept { return pieces_; }
+  [[nodiscard]] std::span<const Vec2<Scalar>> vertices() const noexcept { return vertices_; }
+  [[nodiscard]] std::span<const Vec2<Scalar>> vertices_of(PieceIndex piece) const noexcept {
+    return std::span(vertices_).subspan(pieces_[piece].first_vertex, pieces_[piece].vertex_count);
+  }
+  /// Smallest box around a piece [m].
+  [[nodiscard]] const Box2<Scalar>& box(PieceIndex piece) const noexcept { return boxes_[piece]; }
+  [[nodiscard]] std::span<const Box2<Scalar>> boxes() const noexcept { return boxes_; }
+
+  /// The definition as it runs: every coordinate rounded to `Scalar`. An exact judge reads this one.
+  [[nodiscard]] const SceneryDef& as_run() const noexcept { return as_run_; }
+
+ private:
+  SceneryDef as_run_;
+  std::vector<PieceInfo> pieces_;
+  std::vector<Vec2<Scalar>> vertices_;
+  std::vector<Box2<Scalar>> boxes_;
+};
+
+extern template class Scenery<float>;
+extern template class Scenery<double>;
+
+}  // namespace paperproof

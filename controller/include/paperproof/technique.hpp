@@ -1,0 +1,103 @@
+/// The one interface of all techniques: a move that is wanted goes in, the move that is possible comes out.
+#pragma once
+
+#include <paperproof/types.hpp>
+
+#include <memory>
+#include <string_view>
+#include <vector>
+
+namespace paperproof {
+
+/// Something was in the way of the requested motion.
+template <class Scalar>
+struct Contact {
+  ColliderIndex collider = 0;
+  Vec2<Scalar> point{Vec2<Scalar>::Zero()};   ///< On the obstacle [m].
+  Vec2<Scalar> normal{Vec2<Scalar>::Zero()};  ///< Unit, from the obstacle towards the character.
+  Scalar fraction = 0;                        ///< Time of impact as a fraction of the step, in [0, 1].
+  Scalar separation = 0;                      ///< Gap that is left, along the normal [m]; negative: overlap.
+  Side side = Side::bottom;
+};
+
+/// A corner of the way that was travelled.
+template <class Scalar>
+struct PathPoint {
+  Vec2<Scalar> position{Vec2<Scalar>::Zero()};  ///< [m]
+  Scalar fraction = 0;                          ///< Of the step, in [0, 1].
+};
+
+template <class Scalar>
+struct MoveRequest {
+  Vec2<Scalar> position{Vec2<Scalar>::Zero()};      ///< Where the step begins [m].
+  Vec2<Scalar> displacement{Vec2<Scalar>::Zero()};  ///< Where it should go [m].
+  Vec2<Scalar> velocity{Vec2<Scalar>::Zero()};      ///< The velocity behind the displacement [m/s].
+  Vec2<Scalar> last_free{Vec2<Scalar>::Zero()};     ///< See `CharacterState::last_free`.
+  Vec2<Scalar> remainder{Vec2<Scalar>::Zero()};     ///< See `CharacterState::remainder`.
+  bool has_last_free = false;
+  bool grounded = false;  ///< The last step ended on the ground, and this one does not begin with a jump.
+};
+
+enum class MoveStatus : std::uint8_t {
+  moved,         ///< The result holds. It may be shorter than requested: see `contacts`.
+  dropped,       ///< The result holds, but displacement was left when the iterations ran out and was dropped.
+  stuck,         ///< The step began inside something and still ends inside it.
+  out_of_range,  ///< Refused: the step would leave the range the technique is made for. Nothing moved.
+};
+
+template <class Scalar>
+struct MoveResult {
+  static constexpr std::size_t max_corners = 32;
+  static constexpr std::size_t max_contacts = 16;
+
+  MoveStatus status = MoveStatus::moved;
+  Vec2<Scalar> position{Vec2<Scalar>::Zero()};
+  Vec2<Scalar> velocity{Vec2<Scalar>::Zero()};
+  Vec2<Scalar> remainder{Vec2<Scalar>::Zero()};  ///< See `CharacterState::remainder`.
+  bool grounded = false;
+  /// From the start (fraction 0) to the end (fraction 1); linear between. A technique that only looks at where it
+  /// arrives has just these two.
+  FixedVector<PathPoint<Scalar>, max_corners> path;
+  FixedVector<Contact<Scalar>, max_contacts> contacts;
+
+  void clear() noexcept {
+    status = MoveStatus::moved;
+    remainder.setZero();
+    grounded = false;
+    path.clear();
+    contacts.clear();
+  }
+};
+
+/// Memory that only its technique knows how to use.
+struct OwnMemory {
+  virtual ~OwnMemory() = default;
+};
+
+/// Memory that a technique may use while it works, one per thread. It belongs to the technique that made it and carries
+/// nothing from one call to the next that could change a result.
+template <class Scalar>
+struct Scratch {
+  std::vector<PieceIndex> candidates;  ///< Sized by `Technique::make_scratch`; never grows afterwards.
+  std::size_t candidate_count = 0;
+  Box2<Scalar> candidate_box;  ///< Positions for which the candidates are complete, where `valid`.
+  bool valid = false;
+  std::unique_ptr<OwnMemory> own;  ///< Null for most techniques.
+};
+
+/// A way to find out how far a character can move. Const and shareable between threads; each thread brings its scratch.
+template <class Scalar>
+class Technique {
+ public:
+  virtual ~Technique() = default;
+  /// The name the command takes.
+  [[nodiscard]] virtual std::string_view name() const noexcept = 0;
+  [[nodiscard]] virtual Scratch<Scalar> make_scratch() const = 0;
+  /// What its own picture of the level takes [bytes]; 0 for a technique that keeps none and reads the scenery.
+  [[nodiscard]] virtual std::size_t memory_bytes() const noexcept { return 0; }
+  /// Never allocates and never throws.
+  virtual void move(const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,
+                    MoveResult<Scalar>& result) const noexcept = 0;
+};
+
+}  // namespace paperproof

@@ -1,0 +1,46 @@
+/// Every length that is neither input nor result, in one place.
+#pragma once
+
+namespace paperproof {
+
+/// All in metres. Each says what goes wrong at both extremes. The four lengths and their order were found against an
+/// exact oracle: one threshold alone makes a walker snag on abutting tiles, two do not.
+template <class Scalar>
+struct Tolerances;
+
+template <>
+struct Tolerances<double> {
+  /// A motion hits where it would come nearer than this. Zero: rounding (about 4e-9 at 1e6 m) lets it overlap.
+  /// Large: narrow openings count as closed; they do below twice this.
+  double hit = 1e-7;
+  /// Gap at which a motion is stopped. Below `hit` it would hit again while sliding. Large: visible hover.
+  double stop = 5e-7;
+  /// Up to this gap a stopped character still touches. Equal to `stop`: rounding makes it creep for ever. Large: it
+  /// touches from afar.
+  double touch = 7e-7;
+  /// How far beyond the displacement the sweep looks. Zero: a slow approach stops short of `hit` in several steps.
+  /// Large: more candidates.
+  double look = 1e-3;
+  /// A gap below this is within reach of rounding: motion then needs an exact certificate. Zero: overlaps by rounding.
+  /// Large: slow. 4e-9 is the error at 1e6 m.
+  double certain = 1e-8;
+  /// A sliding character this much below `stop` is aimed back to it. Zero: it never slides straight. Beyond
+  /// `stop - hit`: the gap drifts away far from the origin.
+  double restore = 2e-7;
+  /// Positions and steps beyond this are refused: rounding would reach `hit`.
+  double range = 2e6;
+};
+
+/// `float` keeps 24 bits: at 100 m a position is known to 4e-6 m. Nothing is guaranteed; the harness counts.
+template <>
+struct Tolerances<float> {
+  float hit = 1e-4F;
+  float stop = 5e-4F;
+  float touch = 7e-4F;
+  float look = 1e-2F;
+  float certain = 1e-5F;
+  float restore = 2e-4F;
+  float range = 2e6F;
+};
+
+}  // namespace paperproof

@@ -1,0 +1,99 @@
+/// Vectors, boxes, identifiers and the other small values that every part shares.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+
+namespace paperproof {
+
+template <class Scalar>
+using Vec2 = Eigen::Matrix<Scalar, 2, 1, Eigen::DontAlign>;
+using Vec2d = Vec2<double>;
+using Vec2f = Vec2<float>;
+
+/// Position of a collider in `SceneryDef::colliders`. A collider is what a user placed: one polygon or one chain.
+using ColliderIndex = std::uint32_t;
+
+/// Position of a convex piece in `Scenery::pieces()`. A collider has one or more pieces.
+using PieceIndex = std::uint32_t;
+
+/// The side of the *character* that a contact is on: standing on the ground is a `bottom` contact.
+enum class Side : std::uint8_t { top, bottom, left, right };
+
+/// The side that a contact normal (unit, from the obstacle towards the character) belongs to. The larger component
+/// decides; at exactly 45 degrees the vertical one does.
+template <class Scalar>
+[[nodiscard]] constexpr Side side_of_normal(Scalar normal_x, Scalar normal_y) noexcept {
+  const Scalar width = normal_x < 0 ? -normal_x : normal_x;
+  if (normal_y >= width) return Side::bottom;
+  if (-normal_y >= width) return Side::top;
+  return normal_x > 0 ? Side::left : Side::right;
+}
+
+/// Closed axis-aligned box [m].
+template <class Scalar>
+struct Box2 {
+  Vec2<Scalar> lower{Vec2<Scalar>::Zero()};
+  Vec2<Scalar> upper{Vec2<Scalar>::Zero()};
+
+  [[nodiscard]] bool overlaps(const Box2& other) const noexcept {
+    return lower.x() <= other.upper.x() && other.lower.x() <= upper.x() && lower.y() <= other.upper.y() &&
+           other.lower.y() <= upper.y();
+  }
+  [[nodiscard]] bool contains(const Box2& other) const noexcept {
+    return lower.x() <= other.lower.x() && other.upper.x() <= upper.x() && lower.y() <= other.lower.y() &&
+           other.upper.y() <= upper.y();
+  }
+  [[nodiscard]] Box2 merged(const Box2& other) const noexcept {
+    return {lower.cwiseMin(other.lower), upper.cwiseMax(other.upper)};
+  }
+  [[nodiscard]] Box2 inflated(Scalar by) const noexcept {
+    return {lower - Vec2<Scalar>::Constant(by), upper + Vec2<Scalar>::Constant(by)};
+  }
+};
+
+/// A vector with inline storage: what a step reports is stored without allocating. Elements past `size()` are not
+/// initialised. `push_back` on a full vector is refused and remembered: see `overflowed()`.
+template <class T, std::size_t Capacity>
+class FixedVector {
+ public:
+  bool push_back(const T& value) noexcept {
+    if (size_ == Capacity) {
+      overflowed_ = true;
+      return false;
+    }
+    items_[size_++] = value;
+    return true;
+  }
+  void clear() noexcept {
+    size_ = 0;
+    overflowed_ = false;
+  }
+  void pop_back() noexcept {
+    assert(size_ > 0);
+    --size_;
+  }
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  [[nodiscard]] bool empty() const noexcept { return size_ == 0; }
+  [[nodiscard]] bool overflowed() const noexcept { return overflowed_; }
+  [[nodiscard]] static constexpr std::size_t capacity() noexcept { return Capacity; }
+  [[nodiscard]] T& operator[](std::size_t i) noexcept { return items_[i]; }
+  [[nodiscard]] const T& operator[](std::size_t i) const noexcept { return items_[i]; }
+  [[nodiscard]] T& back() noexcept { return items_[size_ - 1]; }
+  [[nodiscard]] const T& back() const noexcept { return items_[size_ - 1]; }
+  [[nodiscard]] T* begin() noexcept { return items_.data(); }
+  [[nodiscard]] T* end() noexcept { return items_.data() + size_; }
+  [[nodiscard]] const T* begin() const noexcept { return items_.data(); }
+  [[nodiscard]] const T* end() const noexcept { return items_.data() + size_; }
+
+ private:
+  std::array<T, Capacity> items_;
+  std::size_t size_ = 0;
+  bool overflowed_ = false;
+};
+
+}  // namespace paperproof

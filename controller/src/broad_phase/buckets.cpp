@@ -1,0 +1,147 @@
+#include "broad_phase/buckets.hpp"
+
+#include <bit>
+#include <cmath>
+
+namespace paperproof::broad_phase {
+namespace {
+
+/// Most cells that one box is entered into. Few: wide platforms are looked at by every query. Many: memory.
+constexpr std::int64_t most_cells_of_a_box = 64;
+
+/// Cells are numbered from minus this to this; what is farther out is in the last one. Beyond 2^31 the number of cells
+/// of a box would not fit into 64 bits.
+constexpr double last_cell = 0x1p30;
+
+/// The value that a fraction of all values lies below. Reorders them.
+template <class Scalar>
+Scalar quantile(std::vector<Scalar>& values, std::size_t quarters) {
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() * quarters / 4);
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+/// How widely the middle half of the boxes is spread along an axis [m].
+template <class Scalar>
+Scalar middle_spread(std::span<const Box2<Scalar>> boxes, Eigen::Index axis) {
+  std::vector<Scalar> lower;
+  for (const Box2<Scalar>& box : boxes) lower.push_back(box.lower[axis]);
+  return quantile(lower, 3) - quantile(lower, 1);
+}
+
+/// The side of a square that holds one box, on average, if boxes lie evenly: half of them in half of the width [m].
+template <class Scalar>
+Scalar spacing(std::span<const Box2<Scalar>> boxes) {
+  const auto count = static_cast<Scalar>(boxes.size());
+  const Scalar width = 2 * middle_spread(boxes, 0);
+  const Scalar height = 2 * middle_spread(boxes, 1);
+  // By roots, as the product could be too large a number. Along a line the other side is zero.
+  return std::max(std::sqrt(width) * std::sqrt(height) / std::sqrt(count), std::max(width, height) / count);
+}
+
+template <class Scalar>
+Scalar median_of_longer_sides(std::span<const Box2<Scalar>> boxes) {
+  std::vector<Scalar> sides;
+  for (const Box2<Scalar>& box : boxes) sides.push_back((box.upper - box.lower).maxCoeff());
+  return quantile(sides, 2);
+}
+
+/// Any number will do where all boxes are points in one place.
+template <class Scalar>
+Scalar cells_per_metre(std::span<const Box2<Scalar>> boxes) {
+  if (boxes.empty()) return 1;
+  const Scalar side = std::max(median_of_longer_sides(boxes), spacing(boxes));
+  const Scalar per_metre = 1 / side;
+  return std::isfinite(per_metre) ? per_metre : Scalar(1);
+}
+
+}  // namespace
+
+template <class Scalar>
+Buckets<Scalar>::Buckets(std::span<const Box2<Scalar>> boxes)
+    : boxes_(boxes.begin(), boxes.end()), cells_per_metre_(cells_per_metre(boxes)) {
+  fill();
+}
+
+/// Never falls as the coordinate rises, whatever the rounding: boxes that overlap share a cell.
+template <class Scalar>
+std::int64_t Buckets<Scalar>::cell_of(Scalar coordinate) const noexcept {
+  const double cell = std::floor(static_cast<double>(coordinate * cells_per_metre_));
+  return static_cast<std::int64_t>(std::clamp(cell, -last_cell, last_cell));
+}
+
+template <class Scalar>
+typename Buckets<Scalar>::Cells Buckets<Scalar>::cells_of(const Box2<Scalar>& box) const noexcept {
+  return {{cell_of(box.lower.x()), cell_of(box.lower.y())}, {cell_of(box.upper.x()), cell_of(box.upper.y())}};
+}
+
+/// Multiplying by a large odd number spreads neighbours over the upper bits, which are then folded onto the lower ones.
+template <class Scalar>
+std::size_t Buckets<Scalar>::bucket_of(const Cell& cell) const noexcept {
+  const std::uint64_t of_x = static_cast<std::uint64_t>(cell.x) * 0x9e3779b97f4a7c15U;
+  const std::uint64_t mixed = (of_x ^ (of_x >> 32U) ^ static_cast<std::uint64_t>(cell.y)) * 0xd6e8feb86659fd93U;
+  return static_cast<std::size_t>(mixed ^ (mixed >> 32U)) & (first_entry_.size() - 2);
+}
+
+template <class Scalar>
+void Buckets<Scalar>::fill() {
+  std::vector<Entry> unsorted;
+  for (std::size_t i = 0; i < boxes_.size(); ++i) {
+    const auto piece = static_cast<PieceIndex>(i);
+    const Cells cells = cells_of(boxes_[i]);
+    if (cells.count() > most_cells_of_a_box) {
+      large_.push_back(piece);
+      continue;
+    }
+    for (std::int64_t y = cells.lower.y; y <= cells.upper.y; ++y) {
+      for (std::int64_t x = cells.lower.x; x <= cells.upper.x; ++x) unsorted.push_back({{x, y}, piece});
+    }
+  }
+  // A power of two of buckets, so that the remainder is a mask, and the end of the last.
+  first_entry_.assign(std::bit_ceil(unsorted.size() + 1) + 1, 0);
+  for (const Entry& entry : unsorted) ++first_entry_[bucket_of(entry.cell) + 1];
+  for (std::size_t i = 1; i < first_entry_.size(); ++i) first_entry_[i] += first_entry_[i - 1];
+  std::vector<std::uint32_t> next(first_entry_.begin(), first_entry_.end() - 1);
+  entries_.resize(unsorted.size());
+  for (const Entry& entry : unsorted) entries_[next[bucket_of(entry.cell)]++] = entry;
+}
+
+/// A box may be in several of the query's cells and counts in one: the first that both are in.
+template <class Scalar>
+bool Buckets<Scalar>::is_first_cell(const Cell& cell, const Cells& cells, const Box2<Scalar>& box) const noexcept {
+  return cell.x == std::max(cells.lower.x, cell_of(box.lower.x())) &&
+         cell.y == std::max(cells.lower.y, cell_of(box.lower.y()));
+}
+
+template <class Scalar>
+std::size_t Buckets<Scalar>::query(const Box2<Scalar>& query, std::span<PieceIndex> found) const noexcept {
+  std::size_t count = 0;
+  const auto look_at = [&](PieceIndex piece) {
+    if (!boxes_[piece].overlaps(query)) return;
+    if (count < found.size()) found[count] = piece;
+    ++count;
+  };
+  const Cells cells = cells_of(query);
+  if (cells.count() > static_cast<std::int64_t>(boxes_.size())) {
+    for (std::size_t i = 0; i < boxes_.size(); ++i) look_at(static_cast<PieceIndex>(i));
+    return count;
+  }
+  for (const PieceIndex piece : large_) look_at(piece);
+  for (Cell cell = cells.lower; cell.y <= cells.upper.y; ++cell.y) {
+    for (cell.x = cells.lower.x; cell.x <= cells.upper.x; ++cell.x) {
+      const std::size_t bucket = bucket_of(cell);
+      for (std::size_t i = first_entry_[bucket]; i < first_entry_[bucket + 1]; ++i) {
+        if (entries_[i].cell == cell && is_first_cell(cell, cells, boxes_[entries_[i].piece])) {
+          look_at(entries_[i].piece);
+        }
+      }
+    }
+  }
+  if (count <= found.size()) std::sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(count));
+  return count;
+}
+
+template class Buckets<float>;
+template class Buckets<double>;
+
+}  // namespace paperproof::broad_phase

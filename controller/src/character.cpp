@@ -1,0 +1,129 @@
+#include <paperproof/character.hpp>
+#include <paperproof/tolerances.hpp>
+
+#include <cmath>
+
+#include "geometry/exact.hpp"
+
+namespace paperproof {
+namespace {
+
+using Points = FixedVector<Vec2d, CharacterShape::max_points>;
+
+std::string point_name(std::size_t index) { return "point " + std::to_string(index) + " of the character"; }
+
+bool lower_then_left(const Vec2d& a, const Vec2d& b) { return a.y() != b.y() ? a.y() < b.y() : a.x() < b.x(); }
+
+Box2<double> box_around(std::span<const Vec2d> points) {
+  Box2<double> box{points[0], points[0]};
+  for (const Vec2d& point : points) box = box.merged({point, point});
+  return box;
+}
+
+void check_count(std::size_t count) {
+  if (count < 3 || count > CharacterShape::max_points) {
+    throw InvalidCharacter("a character has 3 to 8 points, this one has " + std::to_string(count));
+  }
+}
+
+Points checked_points(std::span<const Vec2d> points) {
+  check_count(points.size());
+  Points checked;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double range = Tolerances<double>{}.range;
+    // Written so that NaN fails.
+    if (!(std::abs(points[i].x()) <= range && std::abs(points[i].y()) <= range)) {
+      throw InvalidCharacter(point_name(i) + " is not a finite length of at most 2e6 m");
+    }
+    checked.push_back({geometry::without_traces(points[i].x()), geometry::without_traces(points[i].y())});
+    for (std::size_t other = 0; other < i; ++other) {
+      if (checked[other] == checked[i])
+        throw InvalidCharacter(point_name(i) + " repeats point " + std::to_string(other));
+    }
+  }
+  return checked;
+}
+
+/// Sorted by angle around the lowest point: if the points are the corners of a convex polygon, this is its outline.
+Points outline_of(const Points& points) {
+  Points hull = points;
+  std::sort(hull.begin(), hull.end(), lower_then_left);
+  const Vec2d lowest = hull[0];
+  std::sort(hull.begin() + 1, hull.end(),
+            [&](const Vec2d& a, const Vec2d& b) { return geometry::orientation_sign(lowest, a, b) > 0; });
+  return hull;
+}
+
+/// A point inside the hull, or on a side of it, shows as a turn that is not to the left: there, or at its neighbour.
+void check_all_corners(const Points& hull) {
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Vec2d& next = hull[(i + 1) % hull.size()];
+    if (geometry::orientation_sign(hull[i], next, hull[(i + 2) % hull.size()]) <= 0) {
+      throw InvalidCharacter("the points of a character must all be corners of their convex hull");
+    }
+  }
+}
+
+/// The one or two points furthest in direction (x, y), one of which is 0 and the other 1 or -1, sorted along the side.
+CharacterShape::Pair extreme_pair(std::span<const Vec2d> points, double x, double y) {
+  const auto reach = [&](std::size_t i) { return points[i].x() * x + points[i].y() * y; };
+  const auto along = [&](std::size_t i) { return points[i].x() * std::abs(y) + points[i].y() * std::abs(x); };
+  CharacterShape::Pair pair{0, 0};
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (reach(i) > reach(pair[0])) {
+      pair = {i, i};
+    } else if (reach(i) == reach(pair[0])) {
+      pair[along(i) < along(pair[0]) ? 0 : 1] = i;
+    }
+  }
+  return pair;
+}
+
+void require(bool holds, const char* name, const char* what) {
+  if (!holds) throw InvalidCharacter(std::string(name) + " must be " + what);
+}
+
+void require_not_negative(double value, const char* name) {
+  require(std::isfinite(value) && value >= 0, name, "a finite number, zero or more");
+}
+
+}  // namespace
+
+CharacterShape CharacterShape::article(double pixels_per_metre) {
+  const std::array<Vec2d, 8> points_px{Vec2d(5, 0),  Vec2d(15, 0), Vec2d(5, 40),  Vec2d(15, 40),
+                                       Vec2d(0, 10), Vec2d(0, 30), Vec2d(20, 10), Vec2d(20, 30)};
+  return from_pixels(points_px, pixels_per_metre);
+}
+
+CharacterShape CharacterShape::from_pixels(std::span<const Vec2d> points_px, double pixels_per_metre) {
+  require(std::isfinite(pixels_per_metre) && pixels_per_metre > 0, "pixels_per_metre", "a finite number above zero");
+  check_count(points_px.size());
+  const Box2<double> sprite = box_around(points_px);
+  const Vec2d centre = 0.5 * sprite.lower + 0.5 * sprite.upper;
+  Points points;
+  for (const Vec2d& at : points_px) {
+    points.push_back({(at.x() - centre.x()) / pixels_per_metre, (centre.y() - at.y()) / pixels_per_metre});
+  }
+  return CharacterShape(std::span<const Vec2d>(points.begin(), points.end()));
+}
+
+CharacterShape::CharacterShape(std::span<const Vec2d> points)
+    : points_(checked_points(points)), hull_(outline_of(points_)), box_(box_around(this->points())) {
+  check_all_corners(hull_);
+  pairs_[static_cast<std::size_t>(Side::top)] = extreme_pair(this->points(), 0, 1);
+  pairs_[static_cast<std::size_t>(Side::bottom)] = extreme_pair(this->points(), 0, -1);
+  pairs_[static_cast<std::size_t>(Side::left)] = extreme_pair(this->points(), -1, 0);
+  pairs_[static_cast<std::size_t>(Side::right)] = extreme_pair(this->points(), 1, 0);
+}
+
+void CharacterDef::validate() const {
+  require_not_negative(walk_speed, "walk_speed");
+  require_not_negative(acceleration, "acceleration");
+  if (air_acceleration) require_not_negative(*air_acceleration, "air_acceleration");
+  require_not_negative(jump_speed, "jump_speed");
+  if (max_fall_speed) require_not_negative(*max_fall_speed, "max_fall_speed");
+  require(max_climb_degrees >= 0 && max_climb_degrees <= 89, "max_climb_degrees", "from 0 to 89");
+  require_not_negative(snap, "snap");
+}
+
+}  // namespace paperproof

@@ -1,0 +1,136 @@
+#include <paperproof/controller.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace paperproof {
+namespace {
+
+template <class Scalar>
+bool finite(const Vec2<Scalar>& v) noexcept {
+  return std::isfinite(v.x()) && std::isfinite(v.y());
+}
+
+template <class Scalar>
+Scalar steered(const CharacterDef& character, const CharacterState<Scalar>& state, double move, Scalar dt) noexcept {
+  const double acceleration =
+      state.grounded ? character.acceleration : character.air_acceleration.value_or(character.acceleration);
+  const Scalar target = static_cast<Scalar>(std::clamp(move, -1.0, 1.0) * character.walk_speed);
+  const Scalar change = static_cast<Scalar>(acceleration) * dt;
+  return state.velocity.x() + std::clamp(target - state.velocity.x(), -change, change);
+}
+
+template <class Scalar>
+bool may_jump(const CharacterDef& character, const CharacterState<Scalar>& state, const Input& input) noexcept {
+  if (!state.grounded || state.jumping) return false;
+  if (!character.no_jump_toward_wall) return true;
+  const double move = input.move.value_or(0);
+  return !(move < 0 && state.wall_left) && !(move > 0 && state.wall_right);
+}
+
+StepStatus status_of(MoveStatus status) noexcept {
+  switch (status) {
+    case MoveStatus::moved:
+      return StepStatus::moved;
+    case MoveStatus::dropped:
+      return StepStatus::dropped;
+    case MoveStatus::stuck:
+      return StepStatus::stuck;
+    case MoveStatus::out_of_range:
+      return StepStatus::out_of_range;
+  }
+  return StepStatus::moved;
+}
+
+template <class Scalar>
+bool touches(const MoveResult<Scalar>& move, Side side) noexcept {
+  return std::any_of(move.contacts.begin(), move.contacts.end(),
+                     [side](const Contact<Scalar>& contact) { return contact.side == side; });
+}
+
+/// What the move means for the next step.
+template <class Scalar>
+void adopt(const CharacterDef& character, const MoveResult<Scalar>& move, CharacterState<Scalar>& state) noexcept {
+  state.position = move.position;
+  state.velocity = move.velocity;
+  state.remainder = move.remainder;
+  state.grounded = move.grounded;
+  if (move.grounded) state.jumping = false;
+  state.wall_left = touches(move, Side::left);
+  state.wall_right = touches(move, Side::right);
+  if (character.side_hit_ends_rise && (state.wall_left || state.wall_right))
+    state.velocity.y() = std::min(state.velocity.y(), Scalar(0));
+  if (move.status == MoveStatus::stuck) {
+    state.stuck_steps = static_cast<std::uint8_t>(std::min(state.stuck_steps + 1, 255));
+  } else {
+    state.stuck_steps = 0;
+    state.last_free = move.position;
+    state.has_last_free = true;
+  }
+}
+
+}  // namespace
+
+template <class Scalar>
+Vec2<Scalar> desired_velocity(const CharacterDef& character, const Vec2<Scalar>& gravity, const Input& input, Scalar dt,
+                              CharacterState<Scalar>& state) noexcept {
+  Vec2<Scalar> velocity = state.velocity;
+  if (input.move) velocity.x() = steered(character, state, *input.move, dt);
+  if (!input.jump)
+    state.jump_pending = false;
+  else if (!state.jump_held)
+    state.jump_pending = true;
+  state.jump_held = input.jump;
+  if (state.jump_pending && may_jump(character, state, input)) {
+    velocity.y() = static_cast<Scalar>(character.jump_speed);
+    state.jumping = true;
+    state.grounded = false;
+    state.jump_pending = false;
+  }
+  velocity += gravity * dt;
+  if (character.max_fall_speed) velocity.y() = std::max(velocity.y(), static_cast<Scalar>(-*character.max_fall_speed));
+  return velocity;
+}
+
+template <class Scalar>
+Controller<Scalar>::Controller(const Scenery<Scalar>& scenery, const CharacterDef& character,
+                               const TechniqueDef& technique)
+    : character_(character) {
+  character_.validate();
+  technique_ = make_technique<Scalar>(technique, scenery, character_);
+}
+
+template <class Scalar>
+StepStatus Controller<Scalar>::step(CharacterState<Scalar>& state, const Input& input, const Vec2<Scalar>& gravity,
+                                    Scalar dt, Scratch<Scalar>& scratch, StepReport<Scalar>& report) const noexcept {
+  const bool usable = finite(state.position) && finite(state.velocity) && finite(state.remainder) && finite(gravity) &&
+                      std::isfinite(dt) && dt > 0 && std::isfinite(input.move.value_or(0)) &&
+                      (!state.has_last_free || finite(state.last_free));
+  if (!usable) return report.status = StepStatus::invalid_input;
+
+  CharacterState<Scalar> next = state;
+  const Vec2<Scalar> velocity = desired_velocity(character_, gravity, input, dt, next);
+  report.requested = velocity * dt;
+  technique_->move({.position = state.position,
+                    .displacement = report.requested,
+                    .velocity = velocity,
+                    .last_free = state.last_free,
+                    .remainder = state.remainder,
+                    .has_last_free = state.has_last_free,
+                    .grounded = next.grounded},
+                   scratch, report.move);
+  report.status = status_of(report.move.status);
+  if (report.status == StepStatus::out_of_range) return report.status;
+  adopt(character_, report.move, next);
+  state = next;
+  return report.status;
+}
+
+template Vec2<float> desired_velocity(const CharacterDef&, const Vec2<float>&, const Input&, float,
+                                      CharacterState<float>&) noexcept;
+template Vec2<double> desired_velocity(const CharacterDef&, const Vec2<double>&, const Input&, double,
+                                       CharacterState<double>&) noexcept;
+template class Controller<float>;
+template class Controller<double>;
+
+}  // namespace paperproof

@@ -1,0 +1,37 @@
+/// Orientation of three points with the exact sign.
+#pragma once
+
+#include <paperproof/types.hpp>
+
+namespace paperproof::geometry {
+
+/// Smallest magnitude, other than zero, that the functions below are exact for. Its square is far above where doubles
+/// lose bits to underflow.
+inline constexpr double smallest_exact = 0x1p-300;
+/// Largest magnitude that the functions below are exact for.
+inline constexpr double largest_exact = 0x1p300;
+
+/// Zero instead of a magnitude below `smallest_exact`, else the value itself: brings finite lengths into the range.
+[[nodiscard]] constexpr double without_traces(double value) noexcept {
+  return value < smallest_exact && value > -smallest_exact ? 0.0 : value;
+}
+
+/// On which side of the directed line a->b does c lie?
+///
+/// All functions of this header take every coordinate for exactly the number it is, and are exact while coordinates are
+/// zero or have a magnitude in [`smallest_exact`, `largest_exact`]. They never allocate, hold no state (any thread),
+/// and give the same answer on every target with IEEE 754 doubles. A floating-point filter answers first; what it
+/// leaves open goes to expansions of doubles: J. R. Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast
+/// Robust Geometric Predicates", 1997.
+/// @return +1: to the left (a, b, c turn counter-clockwise), -1: to the right, 0: on the line, or a equals b.
+[[nodiscard]] int orientation_sign(const Vec2d& a, const Vec2d& b, const Vec2d& c) noexcept;
+
+/// `orientation_sign(a, b, position + offset)`, where the sum is not rounded.
+[[nodiscard]] int orientation_sign_of_offset(const Vec2d& a, const Vec2d& b, const Vec2d& position,
+                                             const Vec2d& offset) noexcept;
+
+/// `orientation_sign(position + from, position + to, v)`, where the sums are not rounded.
+[[nodiscard]] int orientation_sign_of_edge_offset(const Vec2d& position, const Vec2d& from, const Vec2d& to,
+                                                  const Vec2d& v) noexcept;
+
+}  // namespace paperproof::geometry

@@ -1,0 +1,124 @@
+/// What the article's techniques share: their collision points, and what happens to a movement that hits something.
+///
+/// The method is the article's (its part "A possibly optimum collision detection approach"): points in pairs, chosen by
+/// the direction of movement; pieces near the total bounding box of current and desired position, found anew in every
+/// iteration; first the search along the movement vector, where a technique has one, then penetration resolution; a
+/// pair that hits changes only the component of its own direction; the position is updated at once, nothing is left of
+/// the frame's movement, and the test is repeated.
+#pragma once
+
+#include "techniques/nearby_scenery.hpp"
+
+#include <paperproof/broad_phase.hpp>
+#include <paperproof/character.hpp>
+#include <paperproof/technique.hpp>
+#include <paperproof/techniques.hpp>
+
+#include <memory>
+#include <span>
+
+namespace paperproof::article {
+
+inline constexpr std::array all_sides{Side::top, Side::bottom, Side::left, Side::right};
+
+/// How many units a search may take. Below 1e5 the bullets of the comparison would be refused; without any limit one
+/// step over a million metres would take seconds. Longer movements are refused as out of range.
+inline constexpr int max_search_steps = 1'000'000;
+
+/// Where the collision points are, and which of them belong to a side.
+template <class Scalar>
+struct CollisionPoints {
+  FixedVector<Vec2<Scalar>, CharacterShape::max_points> offsets;  ///< Relative to the character's position [m].
+  std::array<CharacterShape::Pair, 4> pairs{};                    ///< By Side; a corner has the same index twice.
+  Box2<Scalar> box;                                               ///< Around the offsets [m].
+};
+
+/// Everything that a technique of the article knows before the first step. Immutable; shareable between threads.
+template <class Scalar>
+struct Parts {
+  const Scenery<Scalar>* scenery = nullptr;
+  std::unique_ptr<BroadPhase<Scalar>> broad_phase;
+  CollisionPoints<Scalar> points;
+  Scalar unit = 0;  ///< [m]
+  ArticleKnobs knobs;
+
+  /// @param def its article knobs are valid. `scenery` must outlive the parts.
+  Parts(const TechniqueDef& def, const Scenery<Scalar>& scenery, const CharacterDef& character);
+
+  [[nodiscard]] Scratch<Scalar> make_scratch() const;
+  /// The pieces near the total bounding box of a character here and there.
+  [[nodiscard]] NearbyScenery<Scalar> near(const Vec2<Scalar>& here, const Vec2<Scalar>& there,
+                                           Scratch<Scalar>& scratch) const noexcept;
+  /// Any of the points is in a polygon.
+  [[nodiscard]] bool inside(const NearbyScenery<Scalar>& nearby, const Vec2<Scalar>& position) const noexcept;
+};
+
+/// One of a pair's points ran into something.
+template <class Scalar>
+struct CollisionPointHit {
+  PointHit<Scalar> on;
+  std::size_t collision_point = 0;
+};
+
+/// How far along a movement a pair can go. Without hits the whole movement is free, as far as the search can see, and
+/// the other fields are not valid.
+template <class Scalar>
+struct PairImpact {
+  Scalar fraction = 1;                         ///< Of the movement, up to where the pair is free.
+  Vec2<Scalar> reached{Vec2<Scalar>::Zero()};  ///< The part of the movement that is free [m]. Zero where the
+                                               ///< pair is in something from the start.
+  FixedVector<CollisionPointHit<Scalar>, 2> hits;
+};
+
+/// Searches along `movement` (not zero) of a character at `position`, for one pair.
+template <class Scalar>
+using ImpactSearch = PairImpact<Scalar> (*)(const Parts<Scalar>& parts, const NearbyScenery<Scalar>& nearby,
+                                            const CharacterShape::Pair& pair, const Vec2<Scalar>& position,
+                                            const Vec2<Scalar>& movement) noexcept;
+
+/// One frame of the article's method.
+/// @param search null: penetration resolution alone, which looks only at where the character arrives.
+template <class Scalar>
+void move(const Parts<Scalar>& parts, ImpactSearch<Scalar> search, const MoveRequest<Scalar>& request,
+          Scratch<Scalar>& scratch, MoveResult<Scalar>& result) noexcept;
+
+/// Fills `result` as a refusal and returns true where the movement leaves the range of the tolerances.
+template <class Scalar>
+[[nodiscard]] bool refuse_out_of_range(const MoveRequest<Scalar>& request, MoveResult<Scalar>& result) noexcept;
+
+/// Fills `result` as a refusal and returns true where the movement leaves the range of the tolerances, or would take
+/// more than `max_search_steps` units to search and `searches_by_units`.
+template <class Scalar>
+[[nodiscard]] bool refuse(const Parts<Scalar>& parts, bool searches_by_units, const MoveRequest<Scalar>& request,
+                          MoveResult<Scalar>& result) noexcept;
+
+/// Adds a contact with the collider that was hit, once for each collider and side; its separation is left at zero.
+/// @return false where it was there already, or nothing more fits.
+template <class Scalar>
+bool add_contact(const Scenery<Scalar>& scenery, const PointHit<Scalar>& hit, Side side, Scalar fraction,
+                 MoveResult<Scalar>& result) noexcept;
+
+/// The points of a pair, or its one point where the side is a corner.
+[[nodiscard]] inline std::span<const std::size_t> distinct(const CharacterShape::Pair& pair) noexcept {
+  return std::span(pair).first(pair[0] == pair[1] ? 1U : 2U);
+}
+
+/// The component of a vector that belongs to a side: 0 for left and right, 1 for top and bottom.
+[[nodiscard]] constexpr Eigen::Index component_of(Side side) noexcept {
+  return side == Side::left || side == Side::right ? 0 : 1;
+}
+
+/// Out of the character through that side: -1 for left and bottom, 1 for right and top.
+[[nodiscard]] constexpr int outwards(Side side) noexcept { return side == Side::left || side == Side::bottom ? -1 : 1; }
+
+/// The side of the character that meets something when it moves along a component.
+[[nodiscard]] constexpr Side side_ahead(Eigen::Index component, bool forwards) noexcept {
+  if (component == 0) return forwards ? Side::right : Side::left;
+  return forwards ? Side::top : Side::bottom;
+}
+
+/// Length by the theorem of Pythagoras [m].
+template <class Scalar>
+[[nodiscard]] Scalar length(const Vec2<Scalar>& vector) noexcept;
+
+}  // namespace paperproof::article

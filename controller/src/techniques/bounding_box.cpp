@@ -1,0 +1,199 @@
+#include "techniques/bounding_box.hpp"
+
+#include "techniques/article_response.hpp"
+#include "techniques/rounding.hpp"
+
+#include <limits>
+
+namespace paperproof {
+namespace {
+
+/// Where the position must not be, so that the character's box does not meet the piece's: its interior. Never smaller
+/// than that by rounding.
+template <class Scalar>
+Box2<Scalar> grown(const Box2<Scalar>& piece, const Box2<Scalar>& character) noexcept {
+  Box2<Scalar> box;
+  for (const Eigen::Index i : {0, 1}) {
+    box.lower[i] = -difference_rounded_up(character.upper[i], piece.lower[i]);
+    box.upper[i] = difference_rounded_up(piece.upper[i], character.lower[i]);
+  }
+  return box;
+}
+
+template <class Scalar>
+bool holds(const Box2<Scalar>& box, const Vec2<Scalar>& position) noexcept {
+  return box.lower.x() < position.x() && position.x() < box.upper.x() && box.lower.y() < position.y() &&
+         position.y() < box.upper.y();
+}
+
+template <class Scalar>
+class BoundingBox final : public Technique<Scalar> {
+ public:
+  BoundingBox(const TechniqueDef& def, const Scenery<Scalar>& scenery, const CharacterDef& character)
+      : scenery_(&scenery),
+        character_{character.shape.box().lower.cast<Scalar>(), character.shape.box().upper.cast<Scalar>()},
+        iterations_(def.article.iterations) {
+    for (const Box2<Scalar>& box : scenery.boxes()) grown_.push_back(grown(box, character_));
+    broad_phase_ = make_broad_phase<Scalar>(def.broad_phase, grown_);
+  }
+
+  [[nodiscard]] std::string_view name() const noexcept override { return name_of(TechniqueKind::bounding_box); }
+  [[nodiscard]] Scratch<Scalar> make_scratch() const override {
+    Scratch<Scalar> scratch;
+    scratch.candidates.resize(grown_.size());
+    return scratch;
+  }
+  void move(const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,
+            MoveResult<Scalar>& result) const noexcept override;
+
+ private:
+  using Pieces = std::span<const PieceIndex>;
+
+  [[nodiscard]] Pieces near(const Vec2<Scalar>& here, const Vec2<Scalar>& there,
+                            Scratch<Scalar>& scratch) const noexcept;
+  [[nodiscard]] bool blocks(PieceIndex piece, Side side) const noexcept;
+  [[nodiscard]] const PieceIndex* holding(Pieces nearby, const Vec2<Scalar>& position) const noexcept;
+  void advance(Pieces nearby, Eigen::Index component, Scalar by, MoveResult<Scalar>& result) const noexcept;
+  void push_out(Scratch<Scalar>& scratch, MoveResult<Scalar>& result) const noexcept;
+  void meet(PieceIndex piece, Side side, MoveResult<Scalar>& result) const noexcept;
+
+  const Scenery<Scalar>* scenery_;
+  Box2<Scalar> character_;
+  int iterations_;
+  std::vector<Box2<Scalar>> grown_;  ///< By piece.
+  std::unique_ptr<BroadPhase<Scalar>> broad_phase_;
+};
+
+template <class Scalar>
+void BoundingBox<Scalar>::move(const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,
+                               MoveResult<Scalar>& result) const noexcept {
+  if (article::refuse_out_of_range(request, result)) return;
+  result.clear();
+  result.position = request.position;
+  result.velocity = request.velocity;
+  const Pieces nearby = near(request.position, request.position + request.displacement, scratch);
+  for (const Eigen::Index component : {1, 0}) advance(nearby, component, request.displacement[component], result);
+  push_out(scratch, result);
+  result.path.push_back({request.position, 0});
+  result.path.push_back({result.position, 1});
+}
+
+template <class Scalar>
+typename BoundingBox<Scalar>::Pieces BoundingBox<Scalar>::near(const Vec2<Scalar>& here, const Vec2<Scalar>& there,
+                                                               Scratch<Scalar>& scratch) const noexcept {
+  const Box2<Scalar> total{here.cwiseMin(there), here.cwiseMax(there)};
+  scratch.valid = false;
+  scratch.candidate_count = broad_phase_->query(total, scratch.candidates);
+  return Pieces(scratch.candidates).first(scratch.candidate_count);
+}
+
+/// A one-way segment runs so that its blocking normal is on its left.
+template <class Scalar>
+bool BoundingBox<Scalar>::blocks(PieceIndex piece, Side side) const noexcept {
+  if (!scenery_->pieces()[piece].one_way) return true;
+  const std::span<const Vec2<Scalar>> ends = scenery_->vertices_of(piece);
+  return side_of_normal(ends[0].y() - ends[1].y(), ends[1].x() - ends[0].x()) == side;
+}
+
+/// The first box that holds a position, other than one-way ones; null where there is none.
+template <class Scalar>
+const PieceIndex* BoundingBox<Scalar>::holding(Pieces nearby, const Vec2<Scalar>& position) const noexcept {
+  const auto found = std::find_if(nearby.begin(), nearby.end(), [&](PieceIndex piece) {
+    return !scenery_->pieces()[piece].one_way && holds(grown_[piece], position);
+  });
+  return found == nearby.end() ? nullptr : &*found;
+}
+
+/// One component of the movement, stopped by the boxes that it has entered where it ends. Going back to the nearest of
+/// their faces may end in a thinner box, hence the iterations.
+template <class Scalar>
+void BoundingBox<Scalar>::advance(Pieces nearby, Eigen::Index component, Scalar by,
+                                  MoveResult<Scalar>& result) const noexcept {
+  const Vec2<Scalar> start = result.position;
+  const bool forwards = by > 0;
+  const Side side = article::side_ahead(component, forwards);
+  const auto face_of = [&](PieceIndex piece) {
+    return forwards ? grown_[piece].lower[component] : grown_[piece].upper[component];
+  };
+  const auto entered = [&](PieceIndex piece, const Vec2<Scalar>& end) {
+    return holds(grown_[piece], end) && !holds(grown_[piece], start) && blocks(piece, side);
+  };
+  Vec2<Scalar> last_entered = start;
+  result.position[component] += by;
+  bool hit = false;
+  for (int iteration = 0; iteration < iterations_; ++iteration) {
+    const Vec2<Scalar> end = result.position;
+    bool free = true;
+    for (const PieceIndex piece : nearby) {
+      if (!entered(piece, end)) continue;
+      free = false;
+      const Scalar face = face_of(piece);
+      const bool nearer = forwards ? face < result.position[component] : face > result.position[component];
+      if (nearer) result.position[component] = face;
+    }
+    if (free) break;
+    hit = true;
+    last_entered = end;
+  }
+  if (!hit) return;
+  for (const PieceIndex piece : nearby) {
+    if (entered(piece, last_entered) && face_of(piece) == result.position[component]) meet(piece, side, result);
+  }
+}
+
+/// Only where the step began inside something, or iterations were too few.
+template <class Scalar>
+void BoundingBox<Scalar>::push_out(Scratch<Scalar>& scratch, MoveResult<Scalar>& result) const noexcept {
+  for (int iteration = 0; iteration < iterations_; ++iteration) {
+    const PieceIndex* const piece = holding(near(result.position, result.position, scratch), result.position);
+    if (piece == nullptr) return;
+    const Box2<Scalar>& box = grown_[*piece];
+    Scalar least = std::numeric_limits<Scalar>::infinity();
+    Side side = Side::bottom;
+    for (const Side each : article::all_sides) {
+      const Eigen::Index component = article::component_of(each);
+      const Scalar overlap = article::outwards(each) < 0 ? box.upper[component] - result.position[component]
+                                                         : result.position[component] - box.lower[component];
+      if (!(overlap < least)) continue;
+      least = overlap;
+      side = each;
+    }
+    const Eigen::Index component = article::component_of(side);
+    result.position[component] = article::outwards(side) < 0 ? box.upper[component] : box.lower[component];
+    meet(*piece, side, result);
+  }
+  const bool inside = holding(near(result.position, result.position, scratch), result.position) != nullptr;
+  if (inside) result.status = MoveStatus::stuck;
+}
+
+template <class Scalar>
+void BoundingBox<Scalar>::meet(PieceIndex piece, Side side, MoveResult<Scalar>& result) const noexcept {
+  const Eigen::Index component = article::component_of(side);
+  const Eigen::Index along = 1 - component;
+  const int outwards = article::outwards(side);
+  const Box2<Scalar>& box = scenery_->box(piece);
+  PointHit<Scalar> hit{.piece = piece};
+  hit.normal[component] = static_cast<Scalar>(-outwards);
+  hit.point[component] = outwards < 0 ? box.upper[component] : box.lower[component];
+  const Scalar lower = std::max(box.lower[along], result.position[along] + character_.lower[along]);
+  const Scalar upper = std::min(box.upper[along], result.position[along] + character_.upper[along]);
+  hit.point[along] = lower + (upper - lower) / 2;
+  article::add_contact(*scenery_, hit, side, Scalar(1), result);
+  if (side == Side::bottom) result.grounded = true;
+  if (result.velocity[component] * static_cast<Scalar>(outwards) > 0) result.velocity[component] = 0;
+}
+
+}  // namespace
+
+template <class Scalar>
+std::unique_ptr<Technique<Scalar>> make_bounding_box(const TechniqueDef& def, const Scenery<Scalar>& scenery,
+                                                     const CharacterDef& character) {
+  return std::make_unique<BoundingBox<Scalar>>(def, scenery, character);
+}
+
+template std::unique_ptr<Technique<float>> make_bounding_box(const TechniqueDef&, const Scenery<float>&,
+                                                             const CharacterDef&);
+template std::unique_ptr<Technique<double>> make_bounding_box(const TechniqueDef&, const Scenery<double>&,
+                                                              const CharacterDef&);
+
+}  // namespace paperproof

@@ -1,0 +1,81 @@
+/// The article's discrete collision detection, for any number of moving bodies.
+#pragma once
+
+#include "techniques/discrete/body.hpp"
+
+#include <vector>
+
+namespace paperproof::discrete {
+
+using BodyIndex = std::uint32_t;
+
+/// Two bodies whose total boxes overlap: at risk of colliding. The first can be moved, and is the one with the lower
+/// index if the second can be too.
+struct Pair {
+  BodyIndex first = 0;
+  BodyIndex second = 0;
+};
+
+/// Two bodies that were pushed apart.
+template <class Scalar>
+struct SolvedImpact {
+  Pair bodies;
+  Impact<Scalar> impact;  ///< As it was before the push.
+};
+
+/// Corrects the movements of one frame.
+///
+/// Each round finds the total box of every body's current and expected position, groups bodies whose boxes overlap into
+/// time-of-impact islands (union-find; what cannot be moved joins no two islands), and solves each island in order of
+/// time of impact: the two bodies are pushed apart along the normal, by their inverse masses and to a small gap, and
+/// lose the speed with which they approach. A correction can cause new collisions, so rounds are repeated, a number of
+/// times that the caller sets. Only the start and the expected end of the frame are looked at: paper is passed.
+///
+/// Results depend on the bodies and their order only. One solver per thread: it owns the memory that it works in, which
+/// grows to what the largest frame needed.
+template <class Scalar>
+class Solver {
+ public:
+  /// @param gap between bodies that were pushed apart [m]. Zero: rounding leaves them overlapping.
+  /// @param touch up to this overlap at the start of a frame bodies only touch [m].
+  Solver(Scalar gap, Scalar touch) noexcept : gap_(gap), touch_(touch) {}
+
+  /// Takes all memory that frames of this size can need, so that none is taken later.
+  void reserve(std::size_t bodies, std::size_t pairs);
+
+  /// One round. @return whether anything was pushed.
+  bool solve_once(std::span<Body<Scalar>> bodies);
+
+  /// Up to `rounds` rounds. @return how many pushed something; fewer than `rounds`: nothing is left to solve.
+  int solve(std::span<Body<Scalar>> bodies, int rounds);
+
+  /// What the last round pushed apart, island by island, in order of time of impact.
+  [[nodiscard]] std::span<const SolvedImpact<Scalar>> solved() const noexcept { return solved_; }
+  /// The island of each body in the last round: the lowest index in it. What cannot be moved is an island of its own.
+  [[nodiscard]] BodyIndex island_of(BodyIndex body) const noexcept;
+
+ private:
+  struct Planned {
+    BodyIndex island = 0;
+    Scalar time = 0;
+    Pair bodies;
+  };
+
+  void find_pairs(std::span<const Body<Scalar>> bodies);
+  void find_islands(std::span<const Body<Scalar>> bodies);
+  void plan(std::span<const Body<Scalar>> bodies);
+  void push_apart(const Impact<Scalar>& impact, Body<Scalar>& first, Body<Scalar>& second) const noexcept;
+
+  Scalar gap_;
+  Scalar touch_;
+  std::vector<Box2<Scalar>> boxes_;
+  std::vector<Pair> pairs_;
+  std::vector<BodyIndex> parents_;  ///< Never larger than the body's own index: a root is the lowest of its island.
+  std::vector<Planned> planned_;
+  std::vector<SolvedImpact<Scalar>> solved_;
+};
+
+extern template class Solver<float>;
+extern template class Solver<double>;
+
+}  // namespace paperproof::discrete

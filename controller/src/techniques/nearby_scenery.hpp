@@ -1,0 +1,68 @@
+/// What a single collision point can ask of the pieces near a character.
+#pragma once
+
+#include <paperproof/scenery.hpp>
+
+#include <optional>
+#include <span>
+
+namespace paperproof {
+
+/// The part of a piece's outline that a point met.
+template <class Scalar>
+struct PointHit {
+  PieceIndex piece = 0;
+  Vec2<Scalar> point{Vec2<Scalar>::Zero()};   ///< On the outline [m].
+  Vec2<Scalar> normal{Vec2<Scalar>::Zero()};  ///< Unit, out of the solid; of a chain: to the side the point came from.
+  Scalar fraction = 0;                        ///< Of the motion asked about, in [0, 1].
+};
+
+/// The pieces that the broad phase found, as seen by one point at a time.
+///
+/// A polygon has an inside: a point is in it when it is strictly inside one piece, or on an edge along which two pieces
+/// abut (without the second rule a point could fall down the seam between two tiles). A corner where pieces meet counts
+/// as outside. A chain has no inside: it can only be crossed, by motion. A two-sided chain is crossed by a motion that
+/// begins off its line and ends on it or beyond; a one-way chain by one that begins on the side of its normal, or on
+/// its line, and ends beyond. End points of a segment belong to it, so that a chain is closed at its joints.
+///
+/// A view: valid as long as the scenery and the list of pieces are. Const, reads only.
+template <class Scalar>
+class NearbyScenery {
+ public:
+  NearbyScenery(const Scenery<Scalar>& scenery, std::span<const PieceIndex> pieces) noexcept
+      : scenery_(&scenery), pieces_(pieces) {}
+
+  [[nodiscard]] bool empty() const noexcept { return pieces_.empty(); }
+
+  /// The first polygon piece that `point` is in.
+  [[nodiscard]] std::optional<PieceIndex> containing(const Vec2<Scalar>& point) const noexcept;
+
+  /// The first chain piece that the straight motion of a point crosses, in order of index.
+  [[nodiscard]] std::optional<PieceIndex> crossed(const Vec2<Scalar>& from, const Vec2<Scalar>& to) const noexcept;
+
+  /// Where a point that moves straight by `displacement` first enters a polygon or crosses a chain, from the half
+  /// planes of each convex piece (Cyrus and Beck 1978). A point that is in a polygon already has the fraction 0 and the
+  /// normal of the edge through which it would leave backwards. Entering at the very end of the motion is no entry.
+  [[nodiscard]] std::optional<PointHit<Scalar>> first_entry(const Vec2<Scalar>& from,
+                                                            const Vec2<Scalar>& displacement) const noexcept;
+
+  /// The edge through which a point of polygon piece `piece` leaves it when pushed along `direction` (not zero).
+  [[nodiscard]] PointHit<Scalar> way_out(PieceIndex piece, const Vec2<Scalar>& point,
+                                         const Vec2<Scalar>& direction) const noexcept;
+
+  /// The crossing of chain piece `piece` by a motion for which `crossed` named it.
+  [[nodiscard]] PointHit<Scalar> crossing(PieceIndex piece, const Vec2<Scalar>& from,
+                                          const Vec2<Scalar>& to) const noexcept;
+
+ private:
+  [[nodiscard]] bool is_chain(PieceIndex piece) const noexcept { return scenery_->pieces()[piece].vertex_count == 2; }
+  [[nodiscard]] bool crosses(PieceIndex piece, const Vec2<Scalar>& from, const Vec2<Scalar>& to) const noexcept;
+
+  const Scenery<Scalar>* scenery_;
+  std::span<const PieceIndex> pieces_;
+};
+
+extern template class NearbyScenery<float>;
+extern template class NearbyScenery<double>;
+
+}  // namespace paperproof

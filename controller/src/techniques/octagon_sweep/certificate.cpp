@@ -1,0 +1,81 @@
+#include "techniques/octagon_sweep/certificate.hpp"
+
+#include "geometry/exact.hpp"
+
+namespace paperproof::octagon_sweep {
+namespace {
+
+using geometry::orientation_sign_of_edge_offset;
+using geometry::orientation_sign_of_offset;
+
+/// All points of the octagon at `p` on the right-hand side of a -> b, or on the line.
+template <class Scalar>
+bool octagon_right_of(const ConfigurationSpace<Scalar>& space, const Vec2d& a, const Vec2d& b,
+                      const Vec2d& p) noexcept {
+  for (const Vec2<Scalar>& o : space.hull())
+    if (orientation_sign_of_offset(a, b, p, o.template cast<double>()) > 0) return false;
+  return true;
+}
+
+/// All vertices of the piece on the right-hand side of the octagon's edge o0 -> o1 at `p`, or on its line.
+template <class Scalar>
+bool piece_right_of(std::span<const Vec2<Scalar>> vertices, const Vec2d& o0, const Vec2d& o1, const Vec2d& p) noexcept {
+  for (const Vec2<Scalar>& v : vertices)
+    if (orientation_sign_of_edge_offset(p, o0, o1, v.template cast<double>()) > 0) return false;
+  return true;
+}
+
+/// Calls `separated(index, at)` for each candidate line until `accept` is true; both rings are counter-clockwise, so
+/// that the outside of an edge is on its right.
+template <class Scalar>
+bool some_line_separates(const ConfigurationSpace<Scalar>& space, PieceIndex piece, const Vec2d& from,
+                         const Vec2d& to) noexcept {
+  const std::span<const Vec2<Scalar>> vertices = space.scenery().vertices_of(piece);
+  for (std::size_t j = 0; j < vertices.size(); ++j) {
+    const Vec2d a = vertices[j].template cast<double>();
+    const Vec2d b = vertices[(j + 1) % vertices.size()].template cast<double>();
+    if (octagon_right_of(space, a, b, from) && octagon_right_of(space, a, b, to)) return true;
+  }
+  const std::span<const Vec2<Scalar>> hull = space.hull();
+  for (std::size_t k = 0; k < hull.size(); ++k) {
+    const Vec2d o0 = hull[k].template cast<double>();
+    const Vec2d o1 = hull[(k + 1) % hull.size()].template cast<double>();
+    if (piece_right_of(vertices, o0, o1, from) && piece_right_of(vertices, o0, o1, to)) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+template <class Scalar>
+bool overlaps_exactly(const ConfigurationSpace<Scalar>& space, PieceIndex piece,
+                      const Vec2<Scalar>& position) noexcept {
+  const Vec2d p = position.template cast<double>();
+  return !some_line_separates(space, piece, p, p);
+}
+
+template <class Scalar>
+bool clear_of_exactly(const ConfigurationSpace<Scalar>& space, PieceIndex piece, const Vec2<Scalar>& from,
+                      const Vec2<Scalar>& to) noexcept {
+  return some_line_separates(space, piece, from.template cast<double>(), to.template cast<double>());
+}
+
+template <class Scalar>
+bool on_blocking_side_exactly(const ConfigurationSpace<Scalar>& space, PieceIndex piece,
+                              const Vec2<Scalar>& position) noexcept {
+  const std::span<const Vec2<Scalar>> v = space.scenery().vertices_of(piece);
+  // The normal is on the left of v0 -> v1, hence on the right of the way back.
+  return octagon_right_of(space, v[1].template cast<double>(), v[0].template cast<double>(),
+                          position.template cast<double>());
+}
+
+#define PAPERPROOF_INSTANTIATE(Scalar)                                                                         \
+  template bool overlaps_exactly(const ConfigurationSpace<Scalar>&, PieceIndex, const Vec2<Scalar>&) noexcept; \
+  template bool clear_of_exactly(const ConfigurationSpace<Scalar>&, PieceIndex, const Vec2<Scalar>&,           \
+                                 const Vec2<Scalar>&) noexcept;                                                \
+  template bool on_blocking_side_exactly(const ConfigurationSpace<Scalar>&, PieceIndex, const Vec2<Scalar>&) noexcept;
+PAPERPROOF_INSTANTIATE(float)
+PAPERPROOF_INSTANTIATE(double)
+#undef PAPERPROOF_INSTANTIATE
+
+}  // namespace paperproof::octagon_sweep

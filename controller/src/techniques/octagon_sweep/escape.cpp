@@ -1,0 +1,177 @@
+#include "techniques/octagon_sweep/escape.hpp"
+
+#include "techniques/octagon_sweep/certificate.hpp"
+#include "techniques/octagon_sweep/narrow_phase.hpp"
+#include "techniques/octagon_sweep/one_way.hpp"
+
+#include <paperproof/tolerances.hpp>
+
+namespace paperproof::octagon_sweep {
+namespace {
+
+/// The boundary of the union of the obstacles is made of facets. The nearest position outside lies on one of them or
+/// where two of them cross; the nearest this many are looked at.
+constexpr std::size_t max_facets = 96;
+/// Pieces that the octagon is inside of at once; a start inside more of them looks at the first ones only.
+constexpr std::size_t max_inside = 64;
+
+template <class Scalar>
+struct OpenFacet {
+  PieceIndex piece;
+  std::size_t axis;
+  Vec2<Scalar> nearest;  ///< Position on it, pushed out to the gap, that is nearest to the start.
+  Scalar distance;
+};
+
+template <std::size_t Lanes, class Scalar>
+class Escape {
+ public:
+  Escape(const ConfigurationSpace<Scalar>& space, std::span<const PieceIndex> candidates, const Vec2<Scalar>& from,
+         const Vec2<Scalar>* last_free) noexcept
+      : space_(space), candidates_(candidates), from_(from), last_free_(last_free) {}
+
+  std::optional<Vec2<Scalar>> find() noexcept {
+    collect_solids();
+    collect_facets();
+    for (const OpenFacet<Scalar>& facet : facets_) consider(facet.nearest);
+    for (std::size_t i = 0; i < facets_.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) consider_crossing(facets_[i], facets_[j]);
+    if (same_side_) return same_side_;
+    return any_side_;
+  }
+
+ private:
+  void collect_solids() noexcept {
+    for (const PieceIndex piece : candidates_)
+      if (solid(piece) && near(piece, from_) && overlaps_exactly(space_, piece, from_)) inside_.push_back(piece);
+  }
+
+  [[nodiscard]] bool solid(PieceIndex piece) const noexcept {
+    return space_.info(piece).one_way_axis == ObstacleInfo::not_one_way;
+  }
+
+  [[nodiscard]] bool near(PieceIndex piece, const Vec2<Scalar>& p) const noexcept {
+    return best_axis<Lanes>(space_, piece, p).separation < Tolerances<Scalar>{}.certain;
+  }
+
+  /// Whether a piece belongs to a collider that the start is inside of: such a one may be passed on the way out.
+  [[nodiscard]] bool may_pass(PieceIndex piece) const noexcept {
+    const std::span<const PieceInfo> pieces = space_.scenery().pieces();
+    return std::any_of(inside_.begin(), inside_.end(),
+                       [&](PieceIndex other) { return pieces[other].collider == pieces[piece].collider; });
+  }
+
+  void collect_facets() noexcept {
+    for (const PieceIndex piece : candidates_) {
+      if (!solid(piece) || !may_pass(piece)) continue;
+      for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis) {
+        const Vec2<Scalar> n = space_.normal(piece, axis);
+        if (space_.covered(piece, axis) || (n.x() == 0 && n.y() == 0)) continue;
+        keep_nearest(open_facet(piece, axis, n));
+      }
+    }
+  }
+
+  [[nodiscard]] OpenFacet<Scalar> open_facet(PieceIndex piece, std::size_t axis, const Vec2<Scalar>& n) const noexcept {
+    const auto facet = space_.facet(piece, axis);
+    const Vec2d from = from_.template cast<double>();
+    const Vec2d span = facet.to - facet.from;
+    const double squared = span.dot(span);
+    const double share = squared > 0 ? std::clamp(span.dot(from - facet.from) / squared, 0.0, 1.0) : 0.0;
+    const Vec2d foot = facet.from + span * share;
+    const Vec2<Scalar> out = foot.template cast<Scalar>() + n * Tolerances<Scalar>{}.stop;
+    return {piece, axis, out, length_of(Vec2<Scalar>(out - from_))};
+  }
+
+  void keep_nearest(const OpenFacet<Scalar>& facet) noexcept {
+    if (facets_.push_back(facet)) return;
+    auto furthest = std::max_element(facets_.begin(), facets_.end(),
+                                     [](const auto& a, const auto& b) { return a.distance < b.distance; });
+    if (facet.distance < furthest->distance) *furthest = facet;
+  }
+
+  /// Where the two inflated facets' lines cross: the way out of a corner.
+  void consider_crossing(const OpenFacet<Scalar>& a, const OpenFacet<Scalar>& b) noexcept {
+    const Vec2<Scalar> na = space_.normal(a.piece, a.axis);
+    const Vec2<Scalar> nb = space_.normal(b.piece, b.axis);
+    const Scalar determinant = na.x() * nb.y() - na.y() * nb.x();
+    if (std::abs(determinant) < Tolerances<Scalar>{}.hit) return;
+    const Scalar gap = Tolerances<Scalar>{}.stop;
+    const Scalar da = gap - space_.separation(a.piece, a.axis, from_);
+    const Scalar db = gap - space_.separation(b.piece, b.axis, from_);
+    consider(from_ +
+             Vec2<Scalar>((da * nb.y() - db * na.y()) / determinant, (db * na.x() - da * nb.x()) / determinant));
+  }
+
+  void consider(const Vec2<Scalar>& q) noexcept {
+    const Scalar distance = length_of(Vec2<Scalar>(q - from_));
+    if (!(distance < same_side_distance_)) return;
+    const bool best_of_any = distance < any_side_distance_;
+    if (!best_of_any && last_free_ == nullptr) return;
+    if (!roomy(q) || !reachable(q)) return;
+    if (best_of_any) {
+      any_side_ = q;
+      any_side_distance_ = distance;
+    }
+    if (last_free_ != nullptr && clear(*last_free_, q, false)) {
+      same_side_ = q;
+      same_side_distance_ = distance;
+    }
+  }
+
+  [[nodiscard]] bool roomy(const Vec2<Scalar>& q) const noexcept {
+    for (const PieceIndex piece : candidates_)
+      if (solid(piece) && best_axis<Lanes>(space_, piece, q).separation < Tolerances<Scalar>{}.hit) return false;
+    return true;
+  }
+
+  [[nodiscard]] bool reachable(const Vec2<Scalar>& q) const noexcept { return clear(from_, q, true); }
+
+  /// Whether the straight way meets nothing but, where allowed, the solids that the start is inside of; and no one-way
+  /// segment against its normal.
+  [[nodiscard]] bool clear(const Vec2<Scalar>& from, const Vec2<Scalar>& to, bool leaving) const noexcept {
+    const Motion<Lanes, Scalar> motion = make_motion<Lanes>(space_, from, Vec2<Scalar>(to - from));
+    for (const PieceIndex piece : candidates_) {
+      if ((leaving && solid(piece) && may_pass(piece)) || !blocks(space_, motion, piece)) continue;
+      bool certain = false;
+      for (std::size_t axis = 0; axis < space_.axis_count(piece) && !certain; ++axis)
+        certain = space_.separation(piece, axis, from) >= Tolerances<Scalar>{}.certain &&
+                  space_.separation(piece, axis, to) >= Tolerances<Scalar>{}.certain;
+      if (certain || clear_of_exactly(space_, piece, from, to)) continue;
+      const Clearance<Scalar> room = clearance(space_, motion, piece);
+      if (room.start < Tolerances<Scalar>{}.certain) return false;
+      if (!room.clear() && sweep_piece(space_, motion, piece, room).hit) return false;
+    }
+    return true;
+  }
+
+  const ConfigurationSpace<Scalar>& space_;
+  std::span<const PieceIndex> candidates_;
+  Vec2<Scalar> from_;
+  const Vec2<Scalar>* last_free_;
+  FixedVector<PieceIndex, max_inside> inside_;
+  FixedVector<OpenFacet<Scalar>, max_facets> facets_;
+  std::optional<Vec2<Scalar>> any_side_;
+  std::optional<Vec2<Scalar>> same_side_;
+  Scalar any_side_distance_ = std::numeric_limits<Scalar>::infinity();
+  Scalar same_side_distance_ = std::numeric_limits<Scalar>::infinity();
+};
+
+}  // namespace
+
+template <std::size_t Lanes, class Scalar>
+std::optional<Vec2<Scalar>> way_out(const ConfigurationSpace<Scalar>& space, std::span<const PieceIndex> candidates,
+                                    const Vec2<Scalar>& from, const Vec2<Scalar>* last_free) noexcept {
+  return Escape<Lanes, Scalar>{space, candidates, from, last_free}.find();
+}
+
+#define PAPERPROOF_INSTANTIATE(Lanes, Scalar)                                                                         \
+  template std::optional<Vec2<Scalar>> way_out<Lanes>(const ConfigurationSpace<Scalar>&, std::span<const PieceIndex>, \
+                                                      const Vec2<Scalar>&, const Vec2<Scalar>*) noexcept;
+PAPERPROOF_INSTANTIATE(8, float)
+PAPERPROOF_INSTANTIATE(8, double)
+PAPERPROOF_INSTANTIATE(12, float)
+PAPERPROOF_INSTANTIATE(12, double)
+#undef PAPERPROOF_INSTANTIATE
+
+}  // namespace paperproof::octagon_sweep

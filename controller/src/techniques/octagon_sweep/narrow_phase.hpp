@@ -1,0 +1,229 @@
+/// One piece against one straight motion.
+///
+/// The functions are always inlined: a step is short, and vectors handed over in memory cost as much as the arithmetic
+/// (a pair that is written as two numbers and read as one waits for the memory).
+#pragma once
+
+#include "techniques/octagon_sweep/configuration_space.hpp"
+
+#include <paperproof/tolerances.hpp>
+
+#include <cmath>
+#include <limits>
+
+namespace paperproof::octagon_sweep {
+
+/// A straight motion of the reference point, with all that is the same for every piece.
+template <std::size_t Lanes, class Scalar>
+struct Motion {
+  Vec2<Scalar> from;
+  Vec2<Scalar> way;              ///< What is to be travelled [m].
+  Scalar length;                 ///< Of `way` [m].
+  Scalar reach;                  ///< The sweep covers `way` times this: it looks a little beyond the end.
+  Vec2<Scalar> extended;         ///< That product [m].
+  PerAxis<Lanes, Scalar> at;     ///< n·from
+  PerAxis<Lanes, Scalar> along;  ///< n·extended
+
+  [[nodiscard]] Box2<Scalar> box() const noexcept {
+    const Vec2<Scalar> to = from + extended;
+    return {from.cwiseMin(to), from.cwiseMax(to)};
+  }
+};
+
+/// Length without overflow or underflow in the squares; only correctly rounded operations, so that its bits are the
+/// same everywhere (std::hypot is not).
+template <class Scalar>
+[[nodiscard, gnu::always_inline]] inline Scalar length_of(const Vec2<Scalar>& v) noexcept {
+  const Scalar scale = std::max(std::abs(v.x()), std::abs(v.y()));
+  if (scale == 0) return 0;
+  const Scalar x = v.x() / scale;
+  const Scalar y = v.y() / scale;
+  return scale * std::sqrt(x * x + y * y);
+}
+
+template <std::size_t Lanes, class Scalar>
+[[nodiscard, gnu::always_inline]] inline Motion<Lanes, Scalar> make_motion(const ConfigurationSpace<Scalar>& space,
+                                                                           const Vec2<Scalar>& from,
+                                                                           const Vec2<Scalar>& way) noexcept {
+  // A shorter motion would make the reach infinite.
+  constexpr Scalar shortest = std::numeric_limits<Scalar>::min() * Scalar(1e8);
+  const PerAxis<Lanes, Scalar> x = PerAxis<Lanes, Scalar>::Map(space.shared_x().data());
+  const PerAxis<Lanes, Scalar> y = PerAxis<Lanes, Scalar>::Map(space.shared_y().data());
+  Motion<Lanes, Scalar> motion;
+  motion.from = from;
+  motion.way = way;
+  motion.length = length_of(way);
+  // By the larger component: a look up to 1.42 times as far is as good, and nothing waits for a square root.
+  const Scalar larger = std::max(std::abs(way.x()), std::abs(way.y()));
+  motion.reach = 1 + Tolerances<Scalar>{}.look / std::max(larger, shortest);
+  motion.extended = way * motion.reach;
+  motion.at = x * from.x() + y * from.y();
+  motion.along = x * motion.extended.x() + y * motion.extended.y();
+  return motion;
+}
+
+/// Separations of a piece at the start and at the end of the extended motion [m], shared axes first.
+template <class Scalar>
+struct AxisRanges {
+  std::size_t count;
+  std::array<Scalar, ConfigurationSpace<Scalar>::max_axes> start;
+  std::array<Scalar, ConfigurationSpace<Scalar>::max_axes> end;
+};
+
+template <std::size_t Lanes, class Scalar>
+[[gnu::always_inline]] inline void find_ranges(const ConfigurationSpace<Scalar>& space,
+                                               const Motion<Lanes, Scalar>& motion, PieceIndex piece,
+                                               AxisRanges<Scalar>& f) noexcept {
+  using Shared = PerAxis<Lanes, Scalar>;
+  const Shared start = motion.at - Shared::Map(space.shared_offsets(piece));
+  Shared::Map(f.start.data()) = start;
+  Shared::Map(f.end.data()) = start + motion.along;
+  f.count = Lanes;
+  for (const OwnAxis<Scalar>& own : space.own_axes(piece)) {
+    const Scalar at = own.normal.x() * motion.from.x() + own.normal.y() * motion.from.y() - own.offset;
+    f.start[f.count] = at;
+    f.end[f.count++] = at + (own.normal.x() * motion.extended.x() + own.normal.y() * motion.extended.y());
+  }
+}
+
+/// What the axes of a piece say together about a motion.
+template <class Scalar>
+struct Clearance {
+  Scalar start;  ///< Largest separation before the motion [m]; below zero: inside.
+  Scalar kept;   ///< Largest separation that one axis keeps over the whole motion [m].
+
+  /// What counts as a hit [m]: coming nearer than `hit`, or than at the start where that is nearer.
+  [[nodiscard]] Scalar tau() const noexcept { return std::min(Tolerances<Scalar>{}.hit, start); }
+  /// One axis keeps the motion clear.
+  [[nodiscard]] bool clear() const noexcept { return kept >= tau(); }
+};
+
+template <std::size_t Lanes, class Scalar>
+[[nodiscard, gnu::always_inline]] inline Clearance<Scalar> clearance(const ConfigurationSpace<Scalar>& space,
+                                                                     const Motion<Lanes, Scalar>& motion,
+                                                                     PieceIndex piece) noexcept {
+  using Shared = PerAxis<Lanes, Scalar>;
+  const Shared start = motion.at - Shared::Map(space.shared_offsets(piece));
+  const Shared least = start.min(start + motion.along);
+  Clearance<Scalar> result{start.maxCoeff(), least.maxCoeff()};
+  if (space.info(piece).own_count == 0) return result;
+  for (const OwnAxis<Scalar>& own : space.own_axes(piece)) {
+    const Scalar at = own.normal.x() * motion.from.x() + own.normal.y() * motion.from.y() - own.offset;
+    const Scalar end = at + (own.normal.x() * motion.extended.x() + own.normal.y() * motion.extended.y());
+    result.start = std::max(result.start, at);
+    result.kept = std::max(result.kept, std::min(at, end));
+  }
+  return result;
+}
+
+/// The axes along which a piece is entered last.
+struct EntryAxes {
+  std::size_t normal;  ///< Its normal is the contact's: below the hit distance.
+  std::size_t impact;  ///< Its time is the time of impact: below zero. The number of axes where none is.
+};
+
+/// What a motion does to a piece that it comes near to.
+template <class Scalar>
+struct PieceHit {
+  bool hit;
+  Scalar stop;     ///< Where to stop, as a fraction of `way`.
+  EntryAxes axes;  ///< Valid for a hit.
+};
+
+/// Finds the axis that is entered last. Axes on facets that are covered by other obstacles give no contact normal
+/// unless there is no other; of times that are equal but for rounding the normal that points up most wins.
+template <class Scalar>
+class LastEntry {
+ public:
+  LastEntry(const ConfigurationSpace<Scalar>& space, PieceIndex piece) noexcept
+      : space_(space), piece_(piece), axis_(space.axis_count(piece)) {}
+
+  void add(std::size_t axis, Scalar time) noexcept {
+    const bool covered = space_.covered(piece_, axis);
+    if (covered && !covered_) return;
+    const bool open_first = covered_ && !covered;
+    if (!open_first && !(time > time_ + same) && !(time >= time_ - same && up(axis) > up(axis_))) return;
+    axis_ = axis;
+    covered_ = covered;
+    time_ = time;
+  }
+  [[nodiscard]] std::size_t axis() const noexcept { return axis_; }
+
+ private:
+  /// Times closer than this are one corner, met with both facets at once.
+  static constexpr Scalar same = std::numeric_limits<Scalar>::epsilon() * 64;
+  [[nodiscard]] Scalar up(std::size_t axis) const noexcept { return space_.normal(piece_, axis).y(); }
+
+  const ConfigurationSpace<Scalar>& space_;
+  PieceIndex piece_;
+  std::size_t axis_;
+  bool covered_ = true;
+  Scalar time_ = -1;
+};
+
+/// Sweeps the reference point against one obstacle that may be in the way: no axis keeps it clear.
+///
+/// Every separation is linear in time. The motion hits when, at some time, all of them are below tau: the latest entry
+/// below tau comes before the earliest exit above it. It is then stopped where it enters the larger region below
+/// `stop`. The obstacle is inflated instead of backing off along the motion: where the motion grazes, its time of
+/// impact is ill-conditioned, but the separations are not.
+template <std::size_t Lanes, class Scalar>
+[[nodiscard, gnu::always_inline]] inline PieceHit<Scalar> sweep_piece(const ConfigurationSpace<Scalar>& space,
+                                                                      const Motion<Lanes, Scalar>& motion,
+                                                                      PieceIndex piece,
+                                                                      const Clearance<Scalar>& clear) noexcept {
+  constexpr Tolerances<Scalar> tolerances{};
+  AxisRanges<Scalar> f;
+  find_ranges(space, motion, piece, f);
+  const Scalar tau = clear.tau();
+  const bool touching = clear.start <= tolerances.touch;
+  LastEntry<Scalar> last(space, piece);
+  Scalar entry = 0;
+  Scalar exit = 1;
+  Scalar stop = 0;
+  Scalar impact_time = -1;
+  std::size_t impact = f.count;
+  for (std::size_t axis = 0; axis < f.count; ++axis) {
+    const Scalar start = f.start[axis];
+    const Scalar end = f.end[axis];
+    const Scalar approach = start - end;
+    if (start >= 0 && approach > 0 && start > impact_time * approach) {
+      impact_time = start / approach;
+      impact = axis;
+    }
+    if (start >= tau) {  // end < tau then, or the axis would keep it clear
+      const Scalar time = (start - tau) / approach;
+      entry = std::max(entry, time);
+      last.add(axis, time);
+    } else if (end > tau) {
+      exit = std::min(exit, (tau - start) / (end - start));
+    }
+    if (!touching && start > tolerances.stop) stop = std::max(stop, (start - tolerances.stop) / approach);
+  }
+  stop *= motion.reach;
+  return {entry < exit && stop <= 1, stop, {last.axis(), impact}};
+}
+
+/// The axis of largest separation at a position, and that separation.
+template <class Scalar>
+struct BestAxis {
+  std::size_t axis = 0;
+  Scalar separation = 0;
+};
+
+template <std::size_t Lanes, class Scalar>
+[[nodiscard, gnu::always_inline]] inline BestAxis<Scalar> best_axis(const ConfigurationSpace<Scalar>& space,
+                                                                    PieceIndex piece, const Vec2<Scalar>& p) noexcept {
+  using Shared = PerAxis<Lanes, Scalar>;
+  const Shared f = Shared::Map(space.shared_x().data()) * p.x() + Shared::Map(space.shared_y().data()) * p.y() -
+                   Shared::Map(space.shared_offsets(piece));
+  BestAxis<Scalar> best{0, f.maxCoeff()};
+  while (f[static_cast<Eigen::Index>(best.axis)] != best.separation) ++best.axis;
+  for (std::size_t axis = Lanes; axis < space.axis_count(piece); ++axis) {
+    const Scalar separation = space.separation(piece, axis, p);
+    if (separation > best.separation) best = {axis, separation};
+  }
+  return best;
+}
+
+}  // namespace paperproof::octagon_sweep

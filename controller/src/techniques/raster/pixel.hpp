@@ -1,0 +1,60 @@
+/// Whole pixels of a level: which they are, and which of them a piece of scenery covers.
+///
+/// Pixel (x, y) is the square from (x, y) to (x + 1, y + 1) in units of one pixel, y up; pixel (0, 0) has its lower
+/// left corner at the origin of the world.
+#pragma once
+
+#include <paperproof/types.hpp>
+
+#include <cmath>
+#include <cstdint>
+
+namespace paperproof::raster {
+
+/// 64 bits: 2e6 m at the finest resolution leave room to add to.
+struct Pixel {
+  std::int64_t x = 0;
+  std::int64_t y = 0;
+
+  friend bool operator==(const Pixel&, const Pixel&) = default;
+  friend Pixel operator+(const Pixel& a, const Pixel& b) noexcept { return {a.x + b.x, a.y + b.y}; }
+  friend Pixel operator-(const Pixel& a, const Pixel& b) noexcept { return {a.x - b.x, a.y - b.y}; }
+};
+
+/// Half open: from `lower` to, but not including, `lower + (width, height)`.
+struct PixelBox {
+  Pixel lower;
+  std::int64_t width = 0;
+  std::int64_t height = 0;
+
+  [[nodiscard]] bool contains(const Pixel& pixel) const noexcept {
+    const Pixel at = pixel - lower;
+    return at.x >= 0 && at.x < width && at.y >= 0 && at.y < height;
+  }
+};
+
+/// One pixel out of the character through that side.
+[[nodiscard]] constexpr Pixel towards(Side side) noexcept {
+  switch (side) {
+    case Side::top:
+      return {0, 1};
+    case Side::bottom:
+      return {0, -1};
+    case Side::left:
+      return {-1, 0};
+    case Side::right:
+      return {1, 0};
+  }
+  return {};
+}
+
+template <class Scalar>
+[[nodiscard]] std::int64_t floor_to_pixel(Scalar coordinate) noexcept {
+  return static_cast<std::int64_t>(std::floor(coordinate));
+}
+template <class Scalar>
+[[nodiscard]] std::int64_t ceil_to_pixel(Scalar coordinate) noexcept {
+  return static_cast<std::int64_t>(std::ceil(coordinate));
+}
+
+}  // namespace paperproof::raster
