@@ -1,0 +1,94 @@
+/// A Box2D world beside the controller: the same scenery, the same octagon, the same wanted velocity.
+#pragma once
+
+#include <paperproof/character.hpp>
+#include <paperproof/scenery.hpp>
+#include <paperproof/technique.hpp>
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace paperproof::box2d {
+
+/// How the solids become fixtures.
+enum class SceneryMode : std::uint8_t {
+  chain_loops,  ///< One-sided chain loops around the union of the solids: the way Box2D recommends. Contender `box2d`.
+  pieces,       ///< One fixture per convex piece: shows ghost collisions. Contender `box2d_pieces`.
+};
+
+/// A definition that Box2D must not see: it would abort, or build something else.
+class InvalidDefinition : public std::invalid_argument {
+ public:
+  using std::invalid_argument::invalid_argument;
+};
+
+struct ReferenceWorldDef {
+  SceneryMode mode = SceneryMode::chain_loops;
+  int velocity_iterations = 8;
+  int position_iterations = 3;
+};
+
+/// Version of the Box2D in use, as it should be cited ("2.4.1": the packaged library calls itself 2.4.0).
+[[nodiscard]] std::string box2d_version();
+
+/// Travel cap of Box2D: a body moves at most this far in one step [m].
+inline constexpr double max_travel_per_step = 2.0;
+/// Gap at which polygons rest in Box2D [m], and at which it begins to report touching.
+inline constexpr double rest_gap = 0.015;
+inline constexpr double touch_gap = 0.020;
+
+/// What one step of the twin did. Positions and velocities are Box2D's floats.
+///
+/// Contacts: `separation` is the gap between the bare shapes, Box2D's own plus both radii, so that rest gives about
+/// +0.015 m. `fraction` is where along the step's way Box2D stopped the body, 0 where it was touching when the step began.
+/// Listed is what continuous collision stopped at, and what touches while the wanted motion leads into it by more than
+/// 1e-7 m; one entry per collider and side, the earliest first.
+struct TwinStep {
+  bool capped = false;                     ///< The wanted motion exceeds the 2 m cap.
+  Vec2d velocity{Vec2d::Zero()};           ///< After the step.
+  /// Touching something whose normal is within the climb limit of up, and not moving away from it.
+  bool grounded = false;
+  std::vector<PathPoint<double>> path;     ///< Start, positions seen in callbacks during the step, end.
+  std::vector<Contact<double>> contacts;   ///< Touching after the step, and those that began and ended during it.
+};
+
+/// Owns a `b2World` with static scenery and one dynamic octagon. Not thread-safe; two worlds are independent.
+class ReferenceWorld {
+ public:
+  /// @param scenery judged and cut exactly as for the controller; every definition is validated before Box2D sees it.
+  /// @throws InvalidDefinition in words; never aborts inside Box2D.
+  ReferenceWorld(const Scenery<double>& scenery, const CharacterDef& character, const Vec2d& position,
+                 const ReferenceWorldDef& def = {});
+  ~ReferenceWorld();
+  ReferenceWorld(ReferenceWorld&&) noexcept;
+  ReferenceWorld& operator=(ReferenceWorld&&) noexcept;
+
+  /// Puts the character somewhere else (respawn, lockstep). Contacts and the solver's stored impulses are forgotten:
+  /// what follows depends on this call only. What is within 20 mm touches again in the next step.
+  /// @throws InvalidDefinition for numbers that are not finite or beyond 1e9; then nothing changed.
+  void place(const Vec2d& position, const Vec2d& velocity);
+  /// Sets the wanted velocity and steps the world once.
+  /// @throws InvalidDefinition for numbers that are not finite or beyond 1e9, or dt below 1e-9 s; then nothing was stepped.
+  const TwinStep& step(const Vec2d& wanted_velocity, double dt);
+
+  [[nodiscard]] Vec2d position() const;
+  /// The scenery as Box2D has it (float geometry): polygons as the original colliders rounded to float.
+  [[nodiscard]] const SceneryDef& as_run() const noexcept;
+  /// The octagon as Box2D has it.
+  [[nodiscard]] const std::vector<Vec2d>& points_as_run() const noexcept;
+  /// Fixtures, child shapes and vertices, for the report and for tests.
+  struct Size {
+    std::size_t fixtures = 0;
+    std::size_t loops = 0;
+    std::size_t vertices = 0;
+  };
+  [[nodiscard]] Size size() const noexcept;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace paperproof::box2d

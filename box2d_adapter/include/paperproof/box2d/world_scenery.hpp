@@ -1,0 +1,45 @@
+/// The controller over a borrowed `b2World`: the level that a game already has in Box2D becomes the controller's
+/// scenery.
+#pragma once
+
+#include <paperproof/scenery.hpp>
+
+#include <functional>
+#include <vector>
+
+class b2Fixture;
+class b2World;
+
+namespace paperproof::box2d {
+
+/// Static fixtures as colliders. Collider `i` is (a part of) `fixtures[i]`: that is how a contact finds the game's
+/// object.
+struct WorldScenery {
+  SceneryDef scenery;
+  std::vector<b2Fixture*> fixtures;  ///< As many as colliders; owned by the world.
+};
+
+struct WorldSceneryDef {
+  /// Which fixtures of static bodies become scenery. Absent: all that are enabled and no sensors.
+  std::function<bool(const b2Fixture&)> filter{};
+  /// Corners of the polygon that stands for a circle; it encloses the circle, and at 32 corners reaches 0.5 % of the
+  /// radius beyond it. At least 3.
+  int circle_corners = 32;
+};
+
+/// Reads the static bodies of `world`, in the order in which bodies and their fixtures were created.
+///
+/// - A polygon becomes a polygon of the same corners in world coordinates (Box2D's skin of 1 cm is not part of it).
+/// - An edge or a chain becomes a chain, a loop a closed one. It blocks from both sides, also where Box2D's is
+/// one-sided: a
+///   loop blocks as it does in Box2D from the side that faces the game, and what is behind it is out of reach.
+/// - A circle becomes the polygon of `circle_corners` corners around it.
+///
+/// The world is only read (Box2D's own lists are not const); call it between steps. Read it again after the level
+/// changed.
+/// @throws InvalidDefinition for `circle_corners` below 3. Shapes that the controller refuses (points that coincide,
+/// zero
+///   area) throw `InvalidScenery` when the `Scenery` is built.
+[[nodiscard]] WorldScenery scenery_of(b2World& world, const WorldSceneryDef& def = {});
+
+}  // namespace paperproof::box2d

@@ -1,0 +1,222 @@
+#include "fixtures.hpp"
+
+#include "solid_union.hpp"
+
+#include <box2d/b2_chain_shape.h>
+#include <box2d/b2_fixture.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace paperproof::box2d {
+namespace {
+
+/// What gives a fixture its friction and restitution: none, as for the character.
+void add_fixture(b2Body& body, const b2Shape& shape, const FixtureSource& source, SceneryFixtures& made) {
+  b2FixtureDef def;
+  def.shape = &shape;
+  def.friction = 0;
+  def.restitution = 0;
+  def.userData.pointer = made.sources.size();
+  body.CreateFixture(&def);
+  made.sources.push_back(source);
+  ++made.size.fixtures;
+}
+
+bool long_enough(const b2Vec2& a, const b2Vec2& b) { return b2Distance(a, b) > shortest_edge; }
+
+void add_two_sided_edge(b2Body& body, const b2Vec2& a, const b2Vec2& b, const FixtureSource& source,
+                        SceneryFixtures& made) {
+  if (!long_enough(a, b)) return;
+  b2EdgeShape edge;
+  edge.SetTwoSided(a, b);
+  add_fixture(body, edge, source, made);
+  made.size.vertices += 2;
+}
+
+/// A ring of no area runs to and fro: an edge that was already added the other way round is left out.
+void add_every_edge(b2Body& body, const Ring& ring, const FixtureSource& source, SceneryFixtures& made) {
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const b2Vec2& a = ring[i];
+    const b2Vec2& b = ring[(i + 1) % ring.size()];
+    bool known = false;
+    for (std::size_t j = 0; j < i && !known; ++j) known = ring[j] == b && ring[j + 1] == a;
+    if (!known) add_two_sided_edge(body, a, b, source, made);
+  }
+}
+
+void add_loop(b2Body& body, const Ring& loop, SceneryFixtures& made) {
+  const Ring chain_loop = spaced(loop);
+  if (chain_loop.empty()) {
+    const bool is_void = twice_area(loop) < 0;
+    if (!is_void) add_every_edge(body, loop, {}, made);
+    return;
+  }
+  b2ChainShape chain;
+  chain.CreateLoop(chain_loop.data(), static_cast<int32>(chain_loop.size()));
+  add_fixture(body, chain, {}, made);
+  ++made.size.loops;
+  made.size.vertices += chain_loop.size();
+}
+
+void add_polygon(b2Body& body, std::span<const b2Vec2> vertices, const FixtureSource& source, SceneryFixtures& made) {
+  add_fixture(body, polygon_as_given(vertices), source, made);
+  made.size.vertices += vertices.size();
+}
+
+/// A fan around the first vertex in parts that Box2D can hold.
+void add_convex_piece(b2Body& body, const Ring& ring, const FixtureSource& source, SceneryFixtures& made) {
+  constexpr std::size_t most = b2_maxPolygonVertices;
+  for (std::size_t first = 1; first + 1 < ring.size(); first += most - 2) {
+    const std::size_t last = std::min(first + most - 2, ring.size() - 1);
+    Ring part{ring[0]};
+    part.insert(part.end(), ring.begin() + static_cast<std::ptrdiff_t>(first),
+                ring.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+    if (twice_area(part) > 0) {
+      add_polygon(body, part, source, made);
+    } else {
+      add_every_edge(body, part, source, made);
+    }
+  }
+}
+
+void add_pieces(b2Body& body, const Scenery<double>& scenery, const SceneryDef& as_run, SceneryFixtures& made) {
+  const std::span<const PieceInfo> pieces = scenery.pieces();
+  for (PieceIndex i = 0; i < pieces.size(); ++i) {
+    const ColliderIndex collider = pieces[i].collider;
+    if (as_run.colliders[collider].shape != ColliderDef::Shape::polygon) continue;
+    const Ring ring = without_repeats(scenery.vertices_of(i), true);
+    if (ring.size() == 2) add_two_sided_edge(body, ring[0], ring[1], {collider}, made);
+    add_convex_piece(body, ring, {collider}, made);
+  }
+}
+
+void add_loops(b2Body& body, const SceneryDef& as_run, SceneryFixtures& made) {
+  for (const Ring& loop : solid_union(as_run)) add_loop(body, loop, made);
+  for (const ColliderIndex i : flat_polygons(as_run)) {
+    add_every_edge(body, without_repeats(as_run.colliders[i].points, true), {i}, made);
+  }
+}
+
+b2Vec2 right_normal(const b2Vec2& from, const b2Vec2& to) {
+  b2Vec2 normal = b2Cross(to - from, 1.0F);
+  normal.Normalize();
+  return normal;
+}
+
+enum class Blocks : std::uint8_t { nothing, right, left };
+
+/// Which side of the segment, seen along the chain, a one-way segment blocks.
+Blocks blocked_side(const b2Vec2& a, const b2Vec2& b, const Vec2d& one_way) {
+  const double along_right = widened(b2Cross(b - a, 1.0F)).dot(one_way);
+  if (!long_enough(a, b) || along_right == 0) return Blocks::nothing;
+  return along_right > 0 ? Blocks::right : Blocks::left;
+}
+
+/// Box2D's one-sided edges block on the right, looking from the first vertex to the second.
+void add_one_way_segment(b2Body& body, const Ring& chain, std::size_t i, const Vec2d& one_way, ColliderIndex collider,
+                         SceneryFixtures& made) {
+  const Blocks side = blocked_side(chain[i], chain[i + 1], one_way);
+  if (side == Blocks::nothing) return;
+  b2Vec2 before = chain[i] - (chain[i + 1] - chain[i]);
+  b2Vec2 after = chain[i + 1] + (chain[i + 1] - chain[i]);
+  if (i > 0 && blocked_side(chain[i - 1], chain[i], one_way) == side) before = chain[i - 1];
+  if (i + 2 < chain.size() && blocked_side(chain[i + 1], chain[i + 2], one_way) == side) after = chain[i + 2];
+
+  b2EdgeShape edge;
+  if (side == Blocks::right) {
+    edge.SetOneSided(before, chain[i], chain[i + 1], after);
+  } else {
+    edge.SetOneSided(after, chain[i + 1], chain[i], before);
+  }
+  const Vec2d normal = widened(right_normal(edge.m_vertex1, edge.m_vertex2));
+  add_fixture(body, edge, {collider, FixtureSource::OneWay{widened(chain[i]), normal}}, made);
+  made.size.vertices += 2;
+}
+
+void add_chain(b2Body& body, const ColliderDef& def, ColliderIndex collider, SceneryFixtures& made) {
+  const Ring chain = without_repeats(def.points, false);
+  for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+    if (def.one_way) {
+      add_one_way_segment(body, chain, i, *def.one_way, collider, made);
+    } else {
+      add_two_sided_edge(body, chain[i], chain[i + 1], {collider}, made);
+    }
+  }
+}
+
+void check_colliders(const SceneryDef& as_run) {
+  for (std::size_t i = 0; i < as_run.colliders.size(); ++i) {
+    const std::vector<Vec2d>& points = as_run.colliders[i].points;
+    const std::string name = "collider " + std::to_string(i);
+    for (const Vec2d& point : points) (void)checked(point, name);
+    const Ring ring = without_repeats(points, true);
+    const bool has_extent = std::any_of(ring.begin(), ring.end(),
+                                        [&ring](const b2Vec2& vertex) { return long_enough(vertex, ring.front()); });
+    if (!has_extent) throw InvalidDefinition(name + " is a single point in Box2D's single precision");
+  }
+}
+
+}  // namespace
+
+b2PolygonShape polygon_as_given(std::span<const b2Vec2> vertices) {
+  b2PolygonShape shape;
+  shape.m_count = static_cast<int32>(vertices.size());
+  Vec2d weighted = Vec2d::Zero();
+  const Vec2d origin = widened(vertices[0]);
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    shape.m_vertices[i] = vertices[i];
+    shape.m_normals[i] = right_normal(vertices[i], vertices[(i + 1) % vertices.size()]);
+    const Vec2d a = widened(vertices[i]) - origin;
+    const Vec2d b = widened(vertices[(i + 1) % vertices.size()]) - origin;
+    weighted += (a.x() * b.y() - a.y() * b.x()) * (a + b);
+  }
+  shape.m_centroid = rounded(Vec2d(origin + weighted / (3 * twice_area(vertices))));
+  return shape;
+}
+
+b2PolygonShape character_polygon(std::span<const Vec2d> hull) {
+  Ring corners;
+  for (const Vec2d& corner : hull) corners.push_back(checked(corner, "a corner of the character"));
+  const std::size_t count = corners.size();
+  if (count < 3 || count > b2_maxPolygonVertices) throw InvalidDefinition("Box2D takes characters of 3 to 8 corners");
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      if (!(b2Distance(corners[i], corners[j]) > 0.505F * b2_linearSlop)) {
+        throw InvalidDefinition("the character has corners nearer than 2.5 mm, which Box2D would weld");
+      }
+    }
+    const b2Vec2 along = corners[(i + 1) % count] - corners[i];
+    const b2Vec2 onward = corners[(i + 2) % count] - corners[(i + 1) % count];
+    if (!(b2Cross(along, onward) > 0))
+      throw InvalidDefinition("the character is not strictly convex in single precision");
+  }
+  // Box2D asserts an area above 1.2e-7 m²; ten times that leaves room for its rounding.
+  if (!(twice_area(corners) > 2e-6)) throw InvalidDefinition("the character is smaller than 1e-6 m²");
+
+  b2PolygonShape shape;
+  shape.Set(corners.data(), static_cast<int32>(count));
+  if (static_cast<std::size_t>(shape.m_count) != count)
+    throw InvalidDefinition("Box2D would drop a corner of the character");
+  return shape;
+}
+
+SceneryFixtures add_scenery(b2Body& body, const Scenery<double>& scenery, const SceneryDef& as_run, SceneryMode mode) {
+  check_colliders(as_run);
+  SceneryFixtures made;
+  switch (mode) {
+    case SceneryMode::chain_loops:
+      add_loops(body, as_run, made);
+      break;
+    case SceneryMode::pieces:
+      add_pieces(body, scenery, as_run, made);
+      break;
+  }
+  for (ColliderIndex i = 0; i < as_run.colliders.size(); ++i) {
+    const ColliderDef& collider = as_run.colliders[i];
+    if (collider.shape == ColliderDef::Shape::chain) add_chain(body, collider, i, made);
+  }
+  return made;
+}
+
+}  // namespace paperproof::box2d

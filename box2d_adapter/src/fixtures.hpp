@@ -1,0 +1,62 @@
+/// Scenery as static fixtures, every shape checked before Box2D sees it.
+#pragma once
+
+#include "float_geometry.hpp"
+
+#include <paperproof/box2d/reference_world.hpp>
+
+#include <box2d/b2_body.h>
+#include <box2d/b2_edge_shape.h>
+#include <box2d/b2_polygon_shape.h>
+
+#include <optional>
+#include <vector>
+
+namespace paperproof::box2d {
+
+/// Where a fixture comes from. A fixture's user data is its position in `SceneryFixtures::sources`.
+struct FixtureSource {
+  /// Absent for an outline of several colliders: which one is touched depends on where.
+  std::optional<ColliderIndex> collider;
+  /// One-way segments only: a point on it, and the unit normal of the side that it blocks.
+  struct OneWay {
+    Vec2d point;
+    Vec2d normal;
+  };
+  std::optional<OneWay> one_way{};
+};
+
+struct SceneryFixtures {
+  std::vector<FixtureSource> sources;
+  ReferenceWorld::Size size;
+};
+
+/// Gives `body` one fixture per loop of the union of the solids, or one per convex piece; and one per chain segment.
+///
+/// - An outline is a one-sided chain loop. A solid too thin or too small for one (`spaced` in solid_union.hpp) gets
+/// every
+///   edge of its own outline as a two-sided edge: Box2D's edges have no smallest length, and nothing passes them. A
+///   void that thin is filled: nothing fits into it.
+/// - A piece is a polygon set vertex by vertex: `b2PolygonShape::Set` would weld points within 2.5 mm and turn thin
+/// paper
+///   into a box of 2 m. Pieces of more than 8 vertices are cut as a fan.
+/// - A chain segment is a two-sided edge; a one-way segment a one-sided edge whose ghost vertices are its neighbours
+/// where
+///   these block the same way, and its own continuation where not.
+/// @param scenery gives the convex pieces; `as_run` the same colliders rounded to float.
+/// @throws InvalidDefinition for a collider that is a single point in float.
+[[nodiscard]] SceneryFixtures add_scenery(b2Body& body, const Scenery<double>& scenery, const SceneryDef& as_run,
+                                          SceneryMode mode);
+
+/// A convex polygon exactly as given: counter-clockwise, 3 to 8 vertices that differ. Two-sided, any thickness above
+/// zero.
+[[nodiscard]] b2PolygonShape polygon_as_given(std::span<const b2Vec2> vertices);
+
+/// The character's fixture, made by Box2D's own `Set`.
+/// @param hull counter-clockwise.
+/// @throws InvalidDefinition where Box2D would weld or drop a corner, or abort: corners nearer than 2.5 mm, an area
+/// below
+///   1e-6 m², corners that are not strictly convex in float.
+[[nodiscard]] b2PolygonShape character_polygon(std::span<const Vec2d> hull);
+
+}  // namespace paperproof::box2d

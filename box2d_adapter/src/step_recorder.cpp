@@ -1,0 +1,98 @@
+#include "step_recorder.hpp"
+
+#include <algorithm>
+
+namespace paperproof::box2d {
+
+SceneryEnd scenery_end(const b2Contact& contact, const b2Body& character) {
+  // Box2D puts edges and chains first, but polygons in the order in which it found them.
+  const bool character_is_a = contact.GetFixtureA()->GetBody() == &character;
+  // The const overload of GetUserData does not exist in 2.4.
+  auto* fixture = const_cast<b2Fixture*>(character_is_a ? contact.GetFixtureB() : contact.GetFixtureA());
+  return {fixture->GetUserData().pointer, character_is_a ? contact.GetChildIndexB() : contact.GetChildIndexA()};
+}
+
+FixedVector<TouchPoint, b2_maxManifoldPoints> touch_points(const b2Contact& contact, const b2Body& character) {
+  b2WorldManifold manifold;
+  contact.GetWorldManifold(&manifold);
+  const bool character_is_a = contact.GetFixtureA()->GetBody() == &character;
+  const Vec2d normal = widened(character_is_a ? -manifold.normal : manifold.normal);
+  const double radii = static_cast<double>(contact.GetFixtureA()->GetShape()->m_radius) +
+                       static_cast<double>(contact.GetFixtureB()->GetShape()->m_radius);
+  FixedVector<TouchPoint, b2_maxManifoldPoints> points;
+  for (int32 i = 0; i < contact.GetManifold()->pointCount; ++i) {
+    // Box2D's point lies half way between the surfaces, as both shapes have the same radius.
+    const double gap = static_cast<double>(manifold.separations[i]) + radii;
+    points.push_back({widened(manifold.points[i]) - normal * (gap / 2), normal, gap});
+  }
+  return points;
+}
+
+void StepRecorder::begin_step(const b2Body& character, const Vec2d& wanted_displacement) {
+  character_ = &character;
+  phase_ = Phase::collide;
+  step_start_ = widened(character.GetPosition());
+  leg_start_ = {step_start_, 0};
+  leg_end_ = step_start_ + wanted_displacement;
+  seen_ = leg_start_;
+  path_.assign(1, leg_start_);
+  beginnings_.clear();
+}
+
+void StepRecorder::end_step() {
+  path_.push_back({widened(character_->GetPosition()), 1});
+  character_ = nullptr;
+}
+
+bool StepRecorder::blocks(std::size_t source) const {
+  const std::optional<FixtureSource::OneWay>& one_way = sources_[source].one_way;
+  return !one_way || std::all_of(hull_.begin(), hull_.end(), [this, &one_way](const Vec2d& corner) {
+    const Vec2d to_corner = step_start_ + corner - one_way->point;
+    return one_way->normal.dot(to_corner) >= 0;
+  });
+}
+
+double StepRecorder::fraction_at(const Vec2d& position) const {
+  const Vec2d leg = leg_end_ - leg_start_.position;
+  const double length_squared = leg.squaredNorm();
+  if (!(length_squared > 0)) return leg_start_.fraction;
+  const Vec2d travelled = position - leg_start_.position;
+  const double share = std::clamp(travelled.dot(leg) / length_squared, 0.0, 1.0);
+  return leg_start_.fraction + (1 - leg_start_.fraction) * share;
+}
+
+/// Notes where the body is, if that is somewhere new.
+void StepRecorder::look() {
+  const Vec2d position = widened(character_->GetPosition());
+  if (phase_ == Phase::collide && position == step_start_) return;
+  phase_ = Phase::impacts;
+  if (position == seen_.position) return;
+  seen_ = {position, std::max(seen_.fraction, fraction_at(position))};
+  path_.push_back(seen_);
+}
+
+void StepRecorder::BeginContact(b2Contact* contact) {
+  if (character_ == nullptr) return;
+  look();
+  const SceneryEnd end = scenery_end(*contact, *character_);
+  if (!blocks(end.source)) return;
+  const bool was_impact = phase_ == Phase::impacts;
+  beginnings_.push_back({end.source, end.child, seen_.fraction, was_impact, touch_points(*contact, *character_)});
+}
+
+/// A one-way segment lets through what is not wholly on the side that it blocks. The question is asked in every step,
+/// not once per contact: who rises through it and falls back before the contact has ended must land on it.
+void StepRecorder::PreSolve(b2Contact* contact, const b2Manifold*) {
+  if (character_ == nullptr) return;
+  look();
+  if (!blocks(scenery_end(*contact, *character_).source)) contact->SetEnabled(false);
+}
+
+void StepRecorder::PostSolve(b2Contact*, const b2ContactImpulse*) {
+  if (character_ == nullptr) return;
+  if (phase_ == Phase::collide) phase_ = Phase::solved;
+  if (phase_ == Phase::impacts) leg_start_ = seen_;
+  leg_end_ = widened(character_->GetPosition());
+}
+
+}  // namespace paperproof::box2d

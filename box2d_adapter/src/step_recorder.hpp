@@ -1,0 +1,80 @@
+/// Listens to one step of Box2D: where the character was seen, and which contacts began.
+#pragma once
+
+#include "fixtures.hpp"
+
+#include <box2d/b2_contact.h>
+#include <box2d/b2_world_callbacks.h>
+
+#include <span>
+#include <vector>
+
+namespace paperproof::box2d {
+
+/// One point of a contact in world metres, as Box2D's manifold has it at the body's present position.
+struct TouchPoint {
+  Vec2d point{Vec2d::Zero()};   ///< On the obstacle's bare surface.
+  Vec2d normal{Vec2d::Zero()};  ///< Unit, towards the character.
+  /// Between the bare surfaces [m]: Box2D's separation plus the radii of both shapes, 20 mm for polygons and edges.
+  double gap = 0;
+};
+
+/// A contact that began during the step, copied: Box2D may destroy it before the step ends.
+struct Beginning {
+  std::size_t source = 0;
+  int32 child = 0;
+  double fraction = 0;
+  bool was_impact = false;  ///< Continuous collision stopped the body there; else it was near when the step began.
+  FixedVector<TouchPoint, b2_maxManifoldPoints> points;
+};
+
+/// The scenery's side of a contact with the character.
+struct SceneryEnd {
+  std::size_t source = 0;  ///< Position in `SceneryFixtures::sources`.
+  int32 child = 0;
+};
+[[nodiscard]] SceneryEnd scenery_end(const b2Contact& contact, const b2Body& character);
+
+[[nodiscard]] FixedVector<TouchPoint, b2_maxManifoldPoints> touch_points(const b2Contact& contact,
+                                                                         const b2Body& character);
+
+/// The listener of a reference world. Box2D calls back in three phases, and only the third moves the body between
+/// calls: Collide (the body is where the step began), Solve (PostSolve sees it at the end of its way, before continuous
+/// collision), SolveTOI (the body is moved along that way to each impact, and on from there).
+class StepRecorder final : public b2ContactListener {
+ public:
+  /// `sources` and `hull` (relative to the position, as run) must outlive the recorder.
+  StepRecorder(const std::vector<FixtureSource>& sources, const std::vector<Vec2d>& hull)
+      : sources_(sources), hull_(hull) {}
+
+  void begin_step(const b2Body& character, const Vec2d& wanted_displacement);
+  void end_step();
+
+  [[nodiscard]] std::span<const Beginning> beginnings() const noexcept { return beginnings_; }
+  [[nodiscard]] const std::vector<PathPoint<double>>& path() const noexcept { return path_; }
+  /// False for a one-way segment while the character is not wholly on the side that it blocks.
+  [[nodiscard]] bool blocks(std::size_t source) const;
+
+  void BeginContact(b2Contact* contact) override;
+  void PreSolve(b2Contact* contact, const b2Manifold* old_manifold) override;
+  void PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) override;
+
+ private:
+  enum class Phase : std::uint8_t { collide, solved, impacts };
+
+  void look();
+  [[nodiscard]] double fraction_at(const Vec2d& position) const;
+
+  const std::vector<FixtureSource>& sources_;
+  const std::vector<Vec2d>& hull_;
+  const b2Body* character_ = nullptr;  ///< Null between steps: destroying contacts calls back as well.
+  Phase phase_ = Phase::collide;
+  Vec2d step_start_{Vec2d::Zero()};
+  PathPoint<double> leg_start_;   ///< Where the straight leg that the body is on began.
+  Vec2d leg_end_{Vec2d::Zero()};  ///< Where it leads to at fraction 1.
+  PathPoint<double> seen_;        ///< Last position seen.
+  std::vector<PathPoint<double>> path_;
+  std::vector<Beginning> beginnings_;
+};
+
+}  // namespace paperproof::box2d
