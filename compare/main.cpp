@@ -1,0 +1,113 @@
+/// The command `paperproof`.
+#include "command/compare_command.hpp"
+#include "scenes/describe.hpp"
+#include "scenes/load.hpp"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+
+namespace {
+
+using namespace paperproof::compare;
+
+constexpr int unusable = 2;
+
+void add_compare(CLI::App& app, CompareArguments& arguments, std::string& input, std::vector<std::string>& scalars,
+                 std::string& mode) {
+  CLI::App* command = app.add_subcommand("compare", "Run scenes, judge every step exactly, say who is right");
+  command->add_option("SCENE", arguments.scenes, "Built-in names, .json scenes, .tmx/.tmj maps, SuperTux .stl levels")
+      ->required();
+  command->add_option("--contender", arguments.run.contenders, "Only these (see `paperproof list contenders`)")
+      ->allow_extra_args(false);
+  command->add_option("--scalar", scalars, "Number type of the techniques")
+      ->check(CLI::IsMember({"double", "float"}))
+      ->allow_extra_args(false);
+  command
+      ->add_option("--mode", mode,
+                   "free: each on its own; lockstep: the twin is put to the controller before each step")
+      ->check(CLI::IsMember({"free", "lockstep"}));
+  command->add_option("--steps", arguments.run.steps, "Instead of the scene's")->check(CLI::Range(1, 1'000'000'000));
+  command->add_option("--input", input, "random:SEED replaces the scene's input");
+  command->add_option("--trace", arguments.run.trace_stem, "Write STEM.<scene>.<contender>.<scalar>.jsonl");
+  command->add_option("--rows", arguments.rows_path, "Write all rows as JSON");
+  command->add_option("--report", arguments.report_path, "Write one self-contained HTML page");
+  command->add_flag("!--no-reference", arguments.run.reference, "Without the Box2D twin");
+  command->add_flag("!--no-timing", arguments.run.measure_cost, "Without measuring the cost of a step");
+  command->add_flag("--quiet", arguments.quiet, "No tables, no progress");
+  command->add_flag("--json", arguments.json, "Rows as JSON on standard output");
+}
+
+std::vector<std::string> without_repeats(const std::vector<std::string>& names) {
+  std::vector<std::string> once;
+  for (const std::string& name : names)
+    if (std::find(once.begin(), once.end(), name) == once.end()) once.push_back(name);
+  return once;
+}
+
+void print_list(const std::string& what) {
+  if (what == "contenders") {
+    for (const std::string_view name : contender_names()) fmt::print("{}\n", name);
+    return;
+  }
+  for (const BuiltInScene& scene : built_in_scenes()) fmt::print("{:<28} {}\n", scene.name, scene.description);
+}
+
+void check(const std::vector<std::string>& scenes) {
+  for (const std::string& name : scenes)
+    for (const Scene& scene : load_scenes(name)) fmt::print("{}\n", describe(scene));
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{"A 2D kinematic character controller beside Box2D, judged by exact arithmetic"};
+  app.set_version_flag("--version", PAPERPROOF_VERSION);
+  app.require_subcommand(1);
+  CompareArguments arguments;
+  std::string input;
+  std::string mode = "free";
+  std::vector<std::string> scalars;
+  add_compare(app, arguments, input, scalars, mode);
+  std::string what;
+  CLI::App* list = app.add_subcommand("list", "Names, one per line");
+  list->add_option("WHAT", what)->required()->check(CLI::IsMember({"scenes", "contenders"}));
+  std::vector<std::string> to_check;
+  CLI::App* checking = app.add_subcommand("check", "Validate scenes and say what is in them");
+  checking->add_option("SCENE", to_check)->required();
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& wanted) {
+    return app.exit(wanted);
+  } catch (const CLI::ParseError& error) {
+    std::fputs(fmt::format("paperproof: {}\n", error.what()).c_str(), stderr);
+    return unusable;
+  }
+  if (list->parsed()) {
+    print_list(what);
+    return 0;
+  }
+  if (checking->parsed()) {
+    check(to_check);
+    return 0;
+  }
+  if (!input.empty()) arguments.run.random_input = parse_random_input(input);
+  arguments.run.mode = mode == "lockstep" ? Mode::lockstep : Mode::free;
+  if (!scalars.empty()) arguments.run.scalars.clear();
+  for (const std::string& scalar : without_repeats(scalars))
+    arguments.run.scalars.push_back(scalar == "float" ? ScalarKind::binary32 : ScalarKind::binary64);
+  arguments.run.contenders = without_repeats(arguments.run.contenders);
+  return compare_scenes(std::move(arguments));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fputs(fmt::format("{}\n", error.what()).c_str(), stderr);
+    return unusable;
+  }
+}

@@ -1,0 +1,157 @@
+#include "metrics/agreement.hpp"
+
+#include "metrics/rest.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace paperproof::compare {
+namespace {
+
+/// The sides on which every contact is with a collider that is a don't-care, and no ghost.
+std::uint8_t only_excused(const std::vector<Contact<double>>& contacts, const StepJudgement& judged) {
+  std::uint8_t other = 0;
+  for (const Contact<double>& contact : contacts) {
+    const bool ghost = std::find(judged.ghosts.begin(), judged.ghosts.end(),
+                                 std::pair(contact.collider, contact.side)) != judged.ghosts.end();
+    const std::vector<ColliderIndex>& near = judged.dont_care;
+    if (!ghost && std::find(near.begin(), near.end(), contact.collider) != near.end()) continue;
+    other |= static_cast<std::uint8_t>(1U << static_cast<unsigned>(contact.side));
+  }
+  return static_cast<std::uint8_t>(sides_of(contacts) & ~other);
+}
+
+std::string named(std::uint8_t sides) {
+  std::string text;
+  for (const auto& [side, name] : {std::pair{Side::bottom, "bottom"}, std::pair{Side::top, "top"},
+                                   std::pair{Side::left, "left"}, std::pair{Side::right, "right"}}) {
+    if ((sides >> static_cast<unsigned>(side) & 1U) != 0) text += (text.empty() ? "" : " and ") + std::string(name);
+  }
+  return text.empty() ? "no contact" : text;
+}
+
+unsigned size_of(unsigned sides) { return static_cast<unsigned>(std::popcount(sides)); }
+
+}  // namespace
+
+Agreement::Agreement(const TraceHeader& mine, const TraceHeader& reference, std::size_t most)
+    : mine_name_(mine.contender), reference_name_(reference.contender), most_(most) {}
+
+void Agreement::match(const View& view, Matches& matches) {
+  unsigned mine = 0;
+  unsigned reference = 0;
+  unsigned excused = 0;
+  for (const Moment& moment : view.around) {
+    mine |= moment.mine.reported;
+    reference |= moment.reference.reported;
+    excused |= moment.excused;
+  }
+  const auto count = [&](unsigned sides, unsigned others, int& counted, int& matched) {
+    const unsigned found = sides & others;
+    matched += static_cast<int>(size_of(found));
+    counted += static_cast<int>(size_of(found | (sides & ~excused)));
+  };
+  count(view.now().mine.reported, reference, matches.mine, matches.mine_matched);
+  count(view.now().reference.reported, mine, matches.reference, matches.reference_matched);
+}
+
+bool Agreement::is_right(const View& view, Party Moment::*party) {
+  unsigned exact = 0;
+  unsigned reported = 0;
+  for (const Moment& moment : view.around) {
+    exact |= (moment.*party).exact;
+    reported |= (moment.*party).reported;
+  }
+  const Party& now = view.now().*party;
+  const unsigned wrong = now.reported & ~exact & ~unsigned{now.excused};
+  const unsigned missed = now.exact & ~reported;
+  return wrong == 0 && missed == 0;
+}
+
+SideDisagreement::Right Agreement::who(const View& view) {
+  using Right = SideDisagreement::Right;
+  const bool mine = is_right(view, &Moment::mine);
+  const bool reference = is_right(view, &Moment::reference);
+  if (mine) return reference ? Right::both : Right::mine;
+  return reference ? Right::reference : Right::neither;
+}
+
+/// The step before now has both its neighbours.
+void Agreement::settle_last(const View& view) {
+  if (!last_) return;
+  const SideDisagreement::Right right = who(view);
+  --counts_[static_cast<std::size_t>(*last_)];
+  ++counts_[static_cast<std::size_t>(right)];
+  if (!last_is_kept_) return;
+  disagreements_.back().right = right;
+  disagreements_.back().who_is_right = words(disagreements_.back());
+}
+
+void Agreement::add(const TraceStep& mine, const StepJudgement& mine_judged, const TraceStep& reference,
+                    const StepJudgement& reference_judged) {
+  Moment moment;
+  moment.mine = {sides_of(mine.contacts), sides_of(mine_judged.contacts), only_excused(mine.contacts, mine_judged)};
+  moment.reference = {sides_of(reference.contacts), sides_of(reference_judged.contacts),
+                      only_excused(reference.contacts, reference_judged)};
+  moment.excused = static_cast<Sides>(only_excused(mine.contacts, reference_judged) | moment.reference.excused |
+                                      moment.mine.excused);
+  window_.add(moment, [this](const View& view) {
+    match(view, matches_);
+    settle_last(view);
+  });
+  last_.reset();
+  last_is_kept_ = false;
+  ++steps_;
+  if (!mine.path.empty() && !reference.path.empty()) {
+    farthest_ = std::max(farthest_, (mine.path.back().position - reference.path.back().position).norm());
+  }
+  const unsigned only_mine = unsigned{moment.mine.reported} & ~unsigned{moment.reference.reported};
+  const unsigned only_reference = unsigned{moment.reference.reported} & ~unsigned{moment.mine.reported};
+  // A missing contact can be excused; another side in its place cannot.
+  const bool other_sides = only_mine != 0 && only_reference != 0;
+  const unsigned differ = (only_mine | only_reference) & ~unsigned{moment.excused};
+  if (differ == 0 && !other_sides) {
+    ++same_;
+    return;
+  }
+  window_.last([this](const View& view) { last_ = who(view); });
+  ++counts_[static_cast<std::size_t>(*last_)];
+  if (disagreements_.size() == most_) return;
+  last_is_kept_ = true;
+  disagreements_.push_back({mine.step, mine, reference, mine_judged.contacts, reference_judged.contacts, *last_, {}});
+  disagreements_.back().who_is_right = words(disagreements_.back());
+}
+
+std::string Agreement::words(const SideDisagreement& one) const {
+  const auto claim = [](const std::string& name, std::uint8_t says, std::uint8_t exact) {
+    return name + " reports " + named(says) + " where exact arithmetic has " + named(exact);
+  };
+  const std::string facts = claim(mine_name_, sides_of(one.mine.contacts), sides_of(one.mine_exact)) + ", " +
+                            claim(reference_name_, sides_of(one.reference.contacts), sides_of(one.reference_exact)) +
+                            ": ";
+  switch (one.right) {
+    case SideDisagreement::Right::mine:
+      return facts + mine_name_ + " is right";
+    case SideDisagreement::Right::reference:
+      return facts + reference_name_ + " is right";
+    case SideDisagreement::Right::both:
+      return facts + "both are right about their own motion";
+    case SideDisagreement::Right::neither:
+      return facts + "neither is right";
+  }
+  return facts;
+}
+
+void Agreement::write(Row& row) const {
+  if (steps_ == 0) return;
+  row.contact_agreement_box2d = static_cast<double>(same_) / steps_;
+  row.max_position_difference_box2d_m = farthest_;
+  Matches matches = matches_;
+  window_.last([&](const View& view) { match(view, matches); });
+  if (matches.mine > 0) row.contact_precision_box2d = static_cast<double>(matches.mine_matched) / matches.mine;
+  if (matches.reference > 0) {
+    row.contact_recall_box2d = static_cast<double>(matches.reference_matched) / matches.reference;
+  }
+}
+
+}  // namespace paperproof::compare

@@ -1,0 +1,95 @@
+/// Two runs of the same scene, step by step: where they differ about contacts, and who is right.
+#pragma once
+
+#include "metrics/window.hpp"
+#include "oracle/judge.hpp"
+#include "runs/row.hpp"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace paperproof::compare {
+
+/// A step on which the two report different sides of contact.
+struct SideDisagreement {
+  enum class Right : std::uint8_t { mine, reference, both, neither };
+  int step = 0;
+  TraceStep mine;
+  TraceStep reference;
+  std::vector<ExactContact> mine_exact;  ///< What exact arithmetic says about each motion.
+  std::vector<ExactContact> reference_exact;
+  Right right = Right::both;
+  std::string who_is_right;  ///< The same in words, with what each says.
+};
+
+/// Compares a contender with the reference (Box2D). Feed both runs' steps in order. Not thread-safe.
+///
+/// - `contact_agreement_box2d`: the share of steps with the same set of sides. A side that only one reports is excused
+///   where its collider lies in the reference's skin (`dont_care`): Box2D touches from 20 mm away by design. Another
+///   side in its place is not excused.
+/// - `contact_precision_box2d`: the share of (step, side) of the contender that the reference reports too within one
+///   step; `contact_recall_box2d`: the share of (step, side) of the reference that the contender reports too within one
+///   step. Excused sides do not count.
+/// - `max_position_difference_box2d_m`: largest distance of the two ends of a step [m].
+///
+/// Right is who reports, on that step, no side that exact arithmetic does not have for its own motion within one step,
+/// and misses none that exact arithmetic has.
+class Agreement {
+ public:
+  /// @param most disagreements that are kept; all are counted.
+  Agreement(const TraceHeader& mine, const TraceHeader& reference, std::size_t most = 24);
+  void add(const TraceStep& mine, const StepJudgement& mine_judged, const TraceStep& reference,
+           const StepJudgement& reference_judged);
+  /// Fills the metrics above; leaves everything else alone.
+  void write(Row& row) const;
+
+  /// The first ones, in order. Who is right on the last step that was added may still change with the next one.
+  [[nodiscard]] const std::vector<SideDisagreement>& disagreements() const noexcept { return disagreements_; }
+  /// How many there were, by who is right.
+  [[nodiscard]] int count(SideDisagreement::Right right) const noexcept {
+    return counts_[static_cast<std::size_t>(right)];
+  }
+
+ private:
+  using Sides = std::uint8_t;  ///< One bit for each side.
+  struct Party {
+    Sides reported = 0;
+    Sides exact = 0;
+    Sides excused = 0;  ///< Reported, but only for colliders in its own skin.
+  };
+  struct Moment {
+    Party mine;
+    Party reference;
+    Sides excused = 0;  ///< A difference about these sides is none.
+  };
+  struct Matches {
+    int mine = 0;
+    int mine_matched = 0;
+    int reference = 0;
+    int reference_matched = 0;
+  };
+  using View = detail::Window<Moment>::View;
+  static void match(const View& view, Matches& matches);
+  [[nodiscard]] static bool is_right(const View& view, Party Moment::*party);
+  [[nodiscard]] static SideDisagreement::Right who(const View& view);
+  void settle_last(const View& view);
+  [[nodiscard]] std::string words(const SideDisagreement& disagreement) const;
+
+  std::string mine_name_;
+  std::string reference_name_;
+  std::size_t most_;
+  detail::Window<Moment> window_;
+  Matches matches_;
+  int steps_ = 0;
+  int same_ = 0;
+  double farthest_ = 0;
+  std::array<int, 4> counts_{};
+  /// Who is right on the step before, if the two differ there.
+  std::optional<SideDisagreement::Right> last_;
+  bool last_is_kept_ = false;
+  std::vector<SideDisagreement> disagreements_;
+};
+
+}  // namespace paperproof::compare

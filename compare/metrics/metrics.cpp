@@ -1,0 +1,138 @@
+#include "metrics/metrics.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace paperproof::compare {
+namespace {
+
+void raise(std::optional<double>& maximum, double value) { maximum = std::max(maximum.value_or(value), value); }
+
+void count(std::optional<int>& counter, bool happened) { counter = counter.value_or(0) + (happened ? 1 : 0); }
+
+template <class Range, class Value>
+bool contains(const Range& range, const Value& value) {
+  return std::find(range.begin(), range.end(), value) != range.end();
+}
+
+std::string sentence(const TraceStep& step, const Passing& passing, const std::string& id) {
+  char numbers[160];
+  std::snprintf(numbers, sizeof numbers, "at %.1f m/s, %.3f m thick at the crossing, %.0f° to its face", passing.speed,
+                passing.thickness, passing.angle);
+  return "step " + std::to_string(step.step) + ": passed `" + id + "` " + numbers;
+}
+
+double share(int part, int whole) { return static_cast<double>(part) / static_cast<double>(whole); }
+
+template <class Contacts>
+std::vector<std::pair<ColliderIndex, Side>> touches_of(const Contacts& contacts) {
+  std::vector<std::pair<ColliderIndex, Side>> touches;
+  for (const auto& contact : contacts) touches.emplace_back(contact.collider, contact.side);
+  std::sort(touches.begin(), touches.end());
+  touches.erase(std::unique(touches.begin(), touches.end()), touches.end());
+  return touches;
+}
+
+}  // namespace
+
+Metrics::Metrics(const TraceHeader& header) : ids_(header.ids) {
+  for (const ColliderDef& def : header.scenery.colliders) has_one_way_ = has_one_way_ || def.one_way.has_value();
+  for (std::optional<int>* counter : {&sums_.tunnels, &sums_.corner_cuts, &sums_.steps_ending_inside,
+                                      &sums_.contact_steps, &sums_.respawns, &sums_.dropped_steps}) {
+    *counter = 0;
+  }
+  if (has_one_way_) sums_.one_way_violations = 0;
+  sums_.max_penetration_m = 0;
+}
+
+/// Both directions of the match of one step with its neighbours.
+void Metrics::match(const View& view, Matches& matches) {
+  const Moment& now = view.now();
+  const auto anywhere = [&](auto&& test) { return std::any_of(view.around.begin(), view.around.end(), test); };
+  for (const Touch& touch : now.reported) {
+    const bool right = anywhere([&](const Moment& moment) { return contains(moment.exact, touch); });
+    const bool ghost = contains(now.ghosts, touch);
+    if (!right && !ghost && anywhere([&](const Moment& moment) { return contains(moment.dont_care, touch.first); }))
+      continue;
+    ++matches.counted;
+    matches.right += right;
+  }
+  for (const Side side : {Side::top, Side::bottom, Side::left, Side::right}) {
+    const auto of_side = [&](const Touch& touch) { return touch.second == side; };
+    if (std::none_of(now.exact.begin(), now.exact.end(), of_side)) continue;
+    ++matches.wanted;
+    matches.found += anywhere([&](const Moment& moment) {
+      return std::any_of(moment.reported.begin(), moment.reported.end(),
+                         [&](const Touch& touch) { return of_side(touch) && contains(now.exact, touch); });
+    });
+  }
+}
+
+void Metrics::add_contacts(const TraceStep& step, const StepJudgement& judgement) {
+  window_.add({touches_of(step.contacts), touches_of(judgement.contacts), judgement.dont_care, judgement.ghosts},
+              [this](const View& view) { match(view, matches_); });
+  if (step.contacts.empty()) return;
+  for (const Contact<double>& contact : step.contacts) touched_.insert(contact.collider);
+  raise(sums_.max_contact_gap_m, judgement.max_contact_gap);
+  const Contact<double>& first =
+      *std::min_element(step.contacts.begin(), step.contacts.end(),
+                        [](const Contact<double>& a, const Contact<double>& b) { return a.fraction < b.fraction; });
+  if (!sums_.first_contact_step) {
+    sums_.first_contact_step = step.step;
+    sums_.first_contact_fraction = first.fraction;
+  }
+  const bool exact = std::any_of(judgement.contacts.begin(), judgement.contacts.end(),
+                                 [&](const ExactContact& contact) { return contact.collider == first.collider; });
+  if (judgement.first_impact && judgement.first_impact_comparable && exact) {
+    raise(sums_.toi_error_max, std::abs(first.fraction - *judgement.first_impact));
+  }
+}
+
+void Metrics::add_passings(const TraceStep& step, const StepJudgement& judgement) {
+  count(sums_.tunnels, !judgement.tunnelled.empty());
+  count(sums_.corner_cuts, !judgement.corner_cut.empty());
+  count(sums_.steps_ending_inside, !judgement.end_overlap.empty());
+  if (has_one_way_) count(sums_.one_way_violations, !judgement.one_way_broken.empty());
+  raise(sums_.max_penetration_m, judgement.max_penetration);
+  if (!judgement.passings.empty() && sums_.findings.empty()) {
+    const Passing& passing = judgement.passings.front();
+    sums_.findings.push_back(sentence(step, passing, ids_[passing.collider]));
+  }
+}
+
+void Metrics::add(const TraceStep& step, const StepJudgement& judgement) {
+  add_contacts(step, judgement);
+  add_passings(step, judgement);
+  rest_.add(step);
+  count(sums_.contact_steps, !step.contacts.empty());
+  count(sums_.respawns, step.respawn);
+  count(sums_.dropped_steps, step.dropped);
+  if (step.requested.x() != 0) raise(sums_.ghost_speed_loss, judgement.ghost_speed_loss);
+}
+
+void Metrics::write(Row& row) const {
+  row.tunnels = sums_.tunnels;
+  row.corner_cuts = sums_.corner_cuts;
+  row.steps_ending_inside = sums_.steps_ending_inside;
+  row.one_way_violations = sums_.one_way_violations;
+  row.max_penetration_m = sums_.max_penetration_m;
+  row.max_contact_gap_m = sums_.max_contact_gap_m;
+  row.first_contact_step = sums_.first_contact_step;
+  row.first_contact_fraction = sums_.first_contact_fraction;
+  row.contact_steps = sums_.contact_steps;
+  row.colliders_touched = static_cast<int>(touched_.size());
+  row.respawns = sums_.respawns;
+  row.dropped_steps = sums_.dropped_steps;
+  row.toi_error_max = sums_.toi_error_max;
+  row.ghost_speed_loss = sums_.ghost_speed_loss;
+  row.findings.insert(row.findings.begin(), sums_.findings.begin(), sums_.findings.end());
+  rest_.write(row);
+
+  Matches matches = matches_;
+  window_.last([&](const View& view) { match(view, matches); });
+  if (matches.counted > 0) row.contact_precision = share(matches.right, matches.counted);
+  if (matches.wanted > 0) row.contact_recall = share(matches.found, matches.wanted);
+}
+
+}  // namespace paperproof::compare

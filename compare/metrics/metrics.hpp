@@ -1,0 +1,71 @@
+/// Metrics: pure functions of a trace and its judgement.
+#pragma once
+
+#include "metrics/agreement.hpp"
+#include "metrics/rest.hpp"
+#include "metrics/window.hpp"
+#include "oracle/judge.hpp"
+#include "runs/row.hpp"
+
+#include <set>
+#include <utility>
+
+namespace paperproof::compare {
+
+/// Collects one run. Feed every step with its judgement in order, then write the row. Memory does not grow with the
+/// number of steps. Not thread-safe.
+///
+/// - `tunnels`, `corner_cuts`, `one_way_violations`, `steps_ending_inside`: steps with any; see `Judge`. The third only
+///   where the scenery has a one-way chain.
+/// - `max_penetration_m`: deepest exact penetration at the end of a step. `max_contact_gap_m`: largest exact separation
+///   at which a reported contact stopped the character.
+/// - `contact_precision`: the share of reported contacts (one per step, collider and side) for which exact arithmetic
+/// has
+///   one with the same collider and side within one step. Contacts that are don't-care within one step do not
+///   count, unless they are ghosts.
+/// - `contact_recall`: the share of exact (step, side) for which a contact of that side with one of the colliders that
+///   exact arithmetic has there was reported within one step: a floor of two abutting tiles is one contact.
+/// - `contact_steps`: steps with a reported contact. `colliders_touched`: how many different ones.
+/// - `first_contact_step`, `first_contact_fraction`: the earliest reported contact.
+/// - `toi_error_max`: largest difference of the first reported fraction of a step and the exact first impact, over the
+///   steps where the two are comparable (see `Judge`) and the reported collider is one of exact arithmetic's.
+/// - `ghost_speed_loss`: largest share of the wanted horizontal speed lost in one step to nothing exact; only where
+///   horizontal motion was wanted.
+/// - `rest_peak_to_peak_m`, `rest_rms_m`, `contact_toggles`: see `Rest`.
+/// - `respawns`, `dropped_steps`: counted.
+class Metrics {
+ public:
+  explicit Metrics(const TraceHeader& header);
+  void add(const TraceStep& step, const StepJudgement& judgement);
+  /// Fills every metric that applies; leaves verdict, reason, cost and the comparison with Box2D alone.
+  void write(Row& row) const;
+
+ private:
+  using Touch = std::pair<ColliderIndex, Side>;
+  struct Moment {
+    std::vector<Touch> reported;
+    std::vector<Touch> exact;
+    std::vector<ColliderIndex> dont_care;
+    std::vector<Touch> ghosts;
+  };
+  struct Matches {
+    int counted = 0;
+    int right = 0;
+    int wanted = 0;
+    int found = 0;
+  };
+  using View = detail::Window<Moment>::View;
+  static void match(const View& view, Matches& matches);
+  void add_contacts(const TraceStep& step, const StepJudgement& judgement);
+  void add_passings(const TraceStep& step, const StepJudgement& judgement);
+
+  std::vector<std::string> ids_;
+  bool has_one_way_ = false;
+  detail::Window<Moment> window_;
+  Matches matches_;
+  Rest rest_;
+  std::set<ColliderIndex> touched_;
+  Row sums_;  ///< Counts and maxima so far, absent until something applies.
+};
+
+}  // namespace paperproof::compare

@@ -1,0 +1,227 @@
+#include "oracle/convex_parts.hpp"
+
+#include "oracle/world.hpp"
+
+#include <map>
+#include <stdexcept>
+
+namespace paperproof::compare::detail {
+namespace {
+
+using Ring = std::vector<std::uint32_t>;  ///< Indices of vertices.
+
+struct Polygon {
+  std::vector<Vec2d> vertices;
+  std::vector<Ring> rings;  ///< The outer one counter-clockwise, then the holes, clockwise.
+};
+
+Polygon with_windings(const ColliderDef& def) {
+  Polygon polygon;
+  const auto add = [&](const std::vector<Vec2d>& points, Sign wanted) {
+    Ring ring;
+    for (const Vec2d& point : points) {
+      ring.push_back(static_cast<std::uint32_t>(polygon.vertices.size()));
+      polygon.vertices.push_back(point);
+    }
+    if (winding(points) != wanted) std::reverse(ring.begin(), ring.end());
+    polygon.rings.push_back(std::move(ring));
+  };
+  add(def.points, Sign::positive);
+  for (const std::vector<Vec2d>& hole : def.holes) add(hole, Sign::negative);
+  return polygon;
+}
+
+Sign turn_at(const Polygon& polygon, const Ring& ring, std::size_t i) {
+  const std::size_t n = ring.size();
+  return turn(polygon.vertices[ring[(i + n - 1) % n]], polygon.vertices[ring[i]], polygon.vertices[ring[(i + 1) % n]]);
+}
+
+bool is_convex(const Polygon& polygon, const Ring& ring) {
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    if (turn_at(polygon, ring, i) == Sign::negative) return false;
+  }
+  return true;
+}
+
+/// Strictly between a and b, for a point on their line.
+bool between(const Vec2d& a, const Vec2d& b, const Vec2d& p) {
+  return p != a && p != b && Box2<double>{a.cwiseMin(b), a.cwiseMax(b)}.overlaps({p, p});
+}
+
+/// Whether the open segments a-b and c-d have a point in common, or an end of one lies inside the other.
+bool blocks(const Vec2d& a, const Vec2d& b, const Vec2d& c, const Vec2d& d) {
+  const Sign c_side = turn(a, b, c);
+  const Sign d_side = turn(a, b, d);
+  const Sign a_side = turn(c, d, a);
+  const Sign b_side = turn(c, d, b);
+  if (c_side == Sign::zero && between(a, b, c)) return true;
+  if (d_side == Sign::zero && between(a, b, d)) return true;
+  if (a_side == Sign::zero && between(c, d, a)) return true;
+  if (b_side == Sign::zero && between(c, d, b)) return true;
+  const bool crosses_line = c_side != d_side && c_side != Sign::zero && d_side != Sign::zero;
+  return crosses_line && a_side != b_side && a_side != Sign::zero && b_side != Sign::zero;
+}
+
+/// Whether the way from the corner `at` of a ring to `p` begins inside the polygon.
+bool begins_inside(const Polygon& polygon, const Ring& ring, std::size_t at, const Vec2d& p) {
+  const std::size_t n = ring.size();
+  const Vec2d& corner = polygon.vertices[ring[at]];
+  const bool left_of_in = turn(polygon.vertices[ring[(at + n - 1) % n]], corner, p) == Sign::positive;
+  const bool left_of_out = turn(corner, polygon.vertices[ring[(at + 1) % n]], p) == Sign::positive;
+  return turn_at(polygon, ring, at) == Sign::negative ? left_of_in || left_of_out : left_of_in && left_of_out;
+}
+
+struct Bridge {
+  std::size_t ring = 0;    ///< Which hole.
+  std::size_t corner = 0;  ///< Of the hole.
+  std::size_t outer = 0;   ///< Corner of the outer ring.
+};
+
+bool is_bridge(const Polygon& polygon, const Bridge& bridge) {
+  const Ring& outer = polygon.rings[0];
+  const Ring& hole = polygon.rings[bridge.ring];
+  const Vec2d& from = polygon.vertices[outer[bridge.outer]];
+  const Vec2d& to = polygon.vertices[hole[bridge.corner]];
+  if (!begins_inside(polygon, outer, bridge.outer, to) || !begins_inside(polygon, hole, bridge.corner, from))
+    return false;
+  for (const Ring& ring : polygon.rings) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Vec2d& c = polygon.vertices[ring[i]];
+      const Vec2d& d = polygon.vertices[ring[(i + 1) % ring.size()]];
+      if (blocks(from, to, c, d)) return false;
+    }
+  }
+  return true;
+}
+
+Bridge find_bridge(const Polygon& polygon) {
+  for (std::size_t ring = 1; ring < polygon.rings.size(); ++ring) {
+    for (std::size_t corner = 0; corner < polygon.rings[ring].size(); ++corner) {
+      for (std::size_t outer = 0; outer < polygon.rings[0].size(); ++outer) {
+        const Bridge bridge{ring, corner, outer};
+        if (is_bridge(polygon, bridge)) return bridge;
+      }
+    }
+  }
+  throw std::logic_error("a hole cannot be joined to its polygon: does it touch it?");
+}
+
+/// Joins every hole to the outer ring by a cut that is walked in both directions.
+void join_holes(Polygon& polygon) {
+  while (polygon.rings.size() > 1) {
+    const Bridge bridge = find_bridge(polygon);
+    Ring& outer = polygon.rings[0];
+    Ring hole = polygon.rings[bridge.ring];
+    std::rotate(hole.begin(), hole.begin() + static_cast<std::ptrdiff_t>(bridge.corner), hole.end());
+    hole.push_back(hole.front());
+    hole.push_back(outer[bridge.outer]);
+    outer.insert(outer.begin() + static_cast<std::ptrdiff_t>(bridge.outer) + 1, hole.begin(), hole.end());
+    polygon.rings.erase(polygon.rings.begin() + static_cast<std::ptrdiff_t>(bridge.ring));
+  }
+}
+
+bool in_closed_triangle(const Vec2d& a, const Vec2d& b, const Vec2d& c, const Vec2d& p) {
+  return turn(a, b, p) != Sign::negative && turn(b, c, p) != Sign::negative && turn(c, a, p) != Sign::negative;
+}
+
+bool is_ear(const Polygon& polygon, const Ring& ring, std::size_t i) {
+  const std::size_t n = ring.size();
+  const std::size_t before = (i + n - 1) % n;
+  const std::size_t after = (i + 1) % n;
+  if (turn_at(polygon, ring, i) != Sign::positive) return false;
+  const Vec2d& a = polygon.vertices[ring[before]];
+  const Vec2d& b = polygon.vertices[ring[i]];
+  const Vec2d& c = polygon.vertices[ring[after]];
+  // A cut that is walked twice has both of its copies in the ring: the cone tells which one the diagonal may leave
+  // from.
+  if (!begins_inside(polygon, ring, before, c) || !begins_inside(polygon, ring, after, a)) return false;
+  for (const std::uint32_t other : ring) {
+    if (other == ring[before] || other == ring[i] || other == ring[after]) continue;
+    if (in_closed_triangle(a, b, c, polygon.vertices[other])) return false;
+  }
+  return true;
+}
+
+std::vector<Ring> triangles(const Polygon& polygon) {
+  Ring ring = polygon.rings[0];
+  std::vector<Ring> found;
+  while (ring.size() > 3) {
+    std::size_t i = 0;
+    while (i < ring.size() && turn_at(polygon, ring, i) != Sign::zero && !is_ear(polygon, ring, i)) ++i;
+    if (i == ring.size()) throw std::logic_error("a polygon cannot be cut: does it touch itself?");
+    const std::size_t n = ring.size();
+    if (turn_at(polygon, ring, i) == Sign::positive)
+      found.push_back({ring[(i + n - 1) % n], ring[i], ring[(i + 1) % n]});
+    ring.erase(ring.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  if (turn_at(polygon, ring, 0) == Sign::positive) found.push_back(ring);
+  return found;
+}
+
+/// `left` with `right` in place of its edge number `at`; both contain it, in opposite directions.
+Ring merged(const Ring& left, std::size_t at, Ring right) {
+  const std::uint32_t end = left[(at + 1) % left.size()];
+  std::rotate(right.begin(), std::find(right.begin(), right.end(), left[at]), right.end());
+  Ring ring(left.begin(), left.begin() + static_cast<std::ptrdiff_t>(at) + 1);
+  for (std::size_t i = 1; i < right.size() && right[i] != end; ++i) ring.push_back(right[i]);
+  ring.insert(ring.end(), left.begin() + static_cast<std::ptrdiff_t>(at) + 1, left.end());
+  return ring;
+}
+
+/// Merges one pair of neighbours around part `p`, if some pair stays convex.
+bool merge_one(const Polygon& polygon, std::vector<Ring>& parts, std::size_t p) {
+  for (std::size_t at = 0; at < parts[p].size(); ++at) {
+    const std::uint32_t a = parts[p][at];
+    const std::uint32_t b = parts[p][(at + 1) % parts[p].size()];
+    for (std::size_t q = p + 1; q < parts.size(); ++q) {
+      const Ring& other = parts[q];
+      for (std::size_t i = 0; i < other.size(); ++i) {
+        if (other[i] != b || other[(i + 1) % other.size()] != a) continue;
+        Ring ring = merged(parts[p], at, other);
+        if (!is_convex(polygon, ring)) break;
+        parts[p] = std::move(ring);
+        parts.erase(parts.begin() + static_cast<std::ptrdiff_t>(q));
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+ConvexPart make_part(std::vector<Vec2d> points) {
+  Box2<double> box{points[0], points[0]};
+  for (const Vec2d& point : points) box = box.merged({point, point});
+  return {std::move(points), box};
+}
+
+}  // namespace
+
+std::vector<ConvexPart> convex_parts(const ColliderDef& def) {
+  std::vector<ConvexPart> parts;
+  if (def.shape == ColliderDef::Shape::chain) {
+    for (std::size_t i = 0; i + 1 < def.points.size(); ++i) {
+      if (def.points[i] != def.points[i + 1]) parts.push_back(make_part({def.points[i], def.points[i + 1]}));
+    }
+    return parts;
+  }
+  Polygon polygon = with_windings(def);
+  std::vector<Ring> rings;
+  if (polygon.rings.size() == 1 && is_convex(polygon, polygon.rings[0])) {
+    rings = polygon.rings;
+  } else {
+    join_holes(polygon);
+    rings = triangles(polygon);
+    for (std::size_t p = 0; p < rings.size(); ++p) {
+      while (merge_one(polygon, rings, p)) {
+      }
+    }
+  }
+  for (const Ring& ring : rings) {
+    std::vector<Vec2d> points;
+    for (const std::uint32_t i : ring) points.push_back(polygon.vertices[i]);
+    parts.push_back(make_part(std::move(points)));
+  }
+  return parts;
+}
+
+}  // namespace paperproof::compare::detail

@@ -1,0 +1,103 @@
+#include "oracle/depth.hpp"
+
+namespace paperproof::compare::detail {
+namespace {
+
+/// A candidate: the edge of one of the two whose left normal points from the part towards the octagon.
+struct Candidate {
+  Vec2d start;  ///< Of the edge, in its owner's frame.
+  Vec2d end;
+  double estimate = 0;  ///< Separation in plain doubles.
+};
+
+/// The smaller of two; of two approximate values a number whose bound holds for either choice.
+Integer least(const Integer& a, const Integer& b) { return a < b ? a : b; }
+Approximate least(const Approximate& a, const Approximate& b) noexcept {
+  return {std::min(a.value, b.value), std::max(a.radius, b.radius)};
+}
+
+/// The exact product of the separation and the length of the edge: for a left normal n of the edge, n·x = edge × x.
+template <class Number>
+Number scaled_separation(const Convert<Number>& number, const Candidate& axis, const ConvexPart& part,
+                         std::span<const Vec2d> octagon, const Vec2d& position) {
+  const Point<Number> from = convert(number, position);
+  const Point<Number> edge = convert(number, axis.end) - convert(number, axis.start);
+  const auto near_side = [&](const Vec2d& corner) { return cross(edge, convert(number, corner)); };
+  const auto far_side = [&](const Vec2d& vertex) { return -cross(edge, convert(number, vertex) - from); };
+  Number corner = near_side(octagon[0]);
+  Number vertex = far_side(part.points[0]);
+  for (const Vec2d& point : octagon) corner = least(corner, near_side(point));
+  for (const Vec2d& point : part.points) vertex = least(vertex, far_side(point));
+  return corner + vertex;
+}
+
+double to_double(const Integer& x, int exponent) {
+  if (x == 0) return 0;
+  const int drop = std::max(0, static_cast<int>(msb(abs(x))) - 62);
+  return std::ldexp(static_cast<double>(static_cast<std::int64_t>(x / (Integer(1) << drop))), exponent + drop);
+}
+
+double length_of(const Candidate& axis) {
+  const Vec2d edge = axis.end - axis.start;
+  const double scale = edge.cwiseAbs().maxCoeff();
+  const Vec2d unit = edge / scale;
+  return scale * std::sqrt(unit.x() * unit.x() + unit.y() * unit.y());
+}
+
+double exact_separation(const Candidate& axis, const ConvexPart& part, std::span<const Vec2d> octagon,
+                        const Vec2d& position) {
+  constexpr double good_enough = 1e-13;  // relative; the length that it is divided by has a few ulp of its own
+  const Approximate quick = scaled_separation(Convert<Approximate>{}, axis, part, octagon, position);
+  if (quick.radius <= good_enough * std::abs(quick.value)) return quick.value / length_of(axis);
+  int unit = lowest_bit(position);
+  for (const Vec2d& corner : octagon) unit = std::min(unit, lowest_bit(corner));
+  for (const Vec2d& vertex : part.points) unit = std::min(unit, lowest_bit(vertex));
+  const Integer exact = scaled_separation(Convert<Integer>{unit}, axis, part, octagon, position);
+  return to_double(exact, 2 * unit) / length_of(axis);
+}
+
+double estimate_of(const Candidate& axis, const ConvexPart& part, std::span<const Vec2d> octagon,
+                   const Vec2d& position) {
+  const Vec2d edge = (axis.end - axis.start) / length_of(axis);
+  const auto along = [&](const Vec2d& v) { return edge.x() * v.y() - edge.y() * v.x(); };
+  double nearest = std::numeric_limits<double>::infinity();
+  double farthest = -nearest;
+  for (const Vec2d& corner : octagon) nearest = std::min(nearest, along(corner));
+  for (const Vec2d& vertex : part.points) farthest = std::max(farthest, along(Vec2d(vertex - position)));
+  return nearest - farthest;
+}
+
+}  // namespace
+
+Axis best_axis(const ConvexPart& part, std::span<const Vec2d> octagon, const Vec2d& position) {
+  std::vector<Candidate> axes;
+  const std::size_t n = part.points.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    // The outward normal of a counter-clockwise edge is the left one of the edge reversed.
+    axes.push_back({part.points[(i + 1) % n], part.points[i], 0});
+  }
+  for (std::size_t k = 0; k < octagon.size(); ++k) {
+    axes.push_back({octagon[k], octagon[(k + 1) % octagon.size()], 0});
+  }
+  double best = -std::numeric_limits<double>::infinity();
+  double size = 0;
+  for (Candidate& axis : axes) {
+    axis.estimate = estimate_of(axis, part, octagon, position);
+    best = std::max(best, axis.estimate);
+  }
+  for (const Vec2d& vertex : part.points) size = std::max(size, (vertex - position).cwiseAbs().maxCoeff());
+  for (const Vec2d& corner : octagon) size = std::max(size, corner.cwiseAbs().maxCoeff());
+
+  const double window = size * 0x1p-46;  // more than the estimates can be off
+  Axis result{-std::numeric_limits<double>::infinity(), Vec2d::Zero()};
+  for (const Candidate& axis : axes) {
+    if (axis.estimate < best - window) continue;
+    const double separation = exact_separation(axis, part, octagon, position);
+    if (separation <= result.separation) continue;
+    const Vec2d edge = (axis.end - axis.start) / length_of(axis);
+    result = {separation, Vec2d(-edge.y(), edge.x())};
+  }
+  return result;
+}
+
+}  // namespace paperproof::compare::detail

@@ -1,0 +1,115 @@
+/// Judges a run from its trace alone, step by step.
+#pragma once
+
+#include "oracle/exact.hpp"
+#include "runs/trace.hpp"
+
+#include <map>
+
+namespace paperproof::compare {
+
+/// A contact that the requested motion really had.
+struct ExactContact {
+  ColliderIndex collider = 0;
+  Side side = Side::bottom;
+  Vec2d normal{Vec2d::Zero()};  ///< Unit, from the obstacle towards the octagon.
+  double fraction = 0;          ///< Of the step.
+};
+
+/// How a solid was passed.
+struct Passing {
+  ColliderIndex collider = 0;
+  double speed = 0;      ///< Length of the step's way over dt [m/s].
+  double thickness = 0;  ///< Of the solid, along the normal of the face that was passed [m]; 0 for a chain.
+  double angle = 0;      ///< Of the way to that face [degrees]: 90 is head-on, 0 grazes.
+};
+
+struct StepJudgement {
+  std::vector<ColliderIndex> end_overlap;     ///< Solids that the octagon overlaps at the end of the step.
+  std::vector<ColliderIndex> tunnelled;       ///< Solids that were passed through: see `Judge`.
+  std::vector<Passing> passings;              ///< One for each of `tunnelled`.
+  std::vector<ColliderIndex> corner_cut;      ///< The same, but no deeper than the slop.
+  std::vector<ColliderIndex> one_way_broken;  ///< One-way chains that were passed against their normal.
+  double max_penetration = 0;                 ///< At the end of the step [m].
+  double max_contact_gap = 0;  ///< Over the reported contacts: exact separation where the contact stopped it [m].
+  std::vector<ExactContact> contacts;  ///< What should have been reported.
+  std::vector<ColliderIndex>
+      dont_care;  ///< Within reach of what the contender calls touching: neither right nor wrong.
+  /// Reported contacts with a don't-care collider on a side where no face stands out: wrong all the same.
+  std::vector<std::pair<ColliderIndex, Side>> ghosts;
+  std::optional<double> first_impact;    ///< Exact fraction of the first impact of the requested motion, started free.
+  bool first_impact_comparable = false;  ///< A reported fraction can be held against it: see `Judge`.
+  double ghost_speed_loss = 0;  ///< Share of the wanted horizontal speed that was lost to nothing exact, in [0, 1].
+};
+
+/// Feed it every step of one run in order. Not thread-safe.
+///
+/// **Tunnelled.** A solid (a polygon, or a two-sided chain) is tunnelled in a step that ends free of it when
+/// - the octagon was free of it when the step began, and its open interior meets the solid somewhere on the polyline
+/// that
+///   was travelled; or
+/// - it was inside since an earlier step, and the straight way from its last position free of the solid to the end of
+///   this step meets the solid: it left on another side. Leaving a solid in which the run (or a respawn, or a placement
+///   of the twin) began is none.
+///
+/// **Corner cut.** The same, but nowhere deeper than the slop: 5 mm, or 20 mm where the path is sampled (Box2D), and
+/// never more than an eighth of the octagon's narrowest width. The depth is the octagon's, not the solid's: however
+/// thin a paper is, an octagon that passes it is half its own width deep at some instant. What a cut touches is
+/// therefore only a rim of the octagon; its core stays free all along.
+///
+/// **Contact.** A collider that the requested displacement, from a corner of the path (for Box2D: from its start or
+/// end), enters after at most 1e-6 m along the contact normal; or one that the requested motion of the step meets
+/// first. Nearness without motion into it is none, nor is a normal that only a seam between abutting colliders has.
+///
+/// **Don't care.** A collider whose contact is a matter of the contender's stated skin: for Box2D within 20 mm of the
+/// start or the end of the path, else within 1e-7 m of where the requested motion ends; and one that is near enough for
+/// a contact, but only behind a seam. A report of it is a ghost where no face stands out that its normal could be of.
+///
+/// **Fraction.** A first impact is comparable where the octagon began farther than 1e-6 m (Box2D: its skin, 20 mm) away
+/// along the normal, and the approach against the normal is at least 1e-3 of the displacement: at rest, and where the
+/// motion grazes, a gap of a micrometre is much of the way.
+///
+/// **Ghost speed loss.** Horizontal speed was lost to nothing where the step began free, and no solid opposes the
+/// wanted horizontal motion within the step and the skin beyond (20 mm for Box2D), from any corner of the path.
+class Judge {
+ public:
+  explicit Judge(const TraceHeader& header);
+  [[nodiscard]] StepJudgement judge(const TraceStep& step);
+  [[nodiscard]] const ExactScenery& scenery() const noexcept { return scenery_; }
+
+ private:
+  /// A stay inside a solid.
+  struct Episode {
+    std::optional<Vec2d> free_from;  ///< Last position free of it; none where the run began inside.
+    double depth = 0;                ///< Largest so far [m].
+  };
+  using Path = std::vector<Vec2d>;
+
+  /// Whether nothing differs from the last step, as at rest: then neither does the judgement.
+  [[nodiscard]] bool repeats(const TraceStep& step) const;
+  void begin_episodes(const TraceStep& step, const Vec2d& start);
+  void judge_way(const Path& path, StepJudgement& judgement);
+  void judge_passing(const Path& path, ColliderIndex collider, const Episode& episode, StepJudgement& judgement) const;
+  [[nodiscard]] double depth_of(const Path& path, ColliderIndex collider) const;
+  void judge_contacts(const TraceStep& step, bool starts_free, StepJudgement& judgement) const;
+  void judge_skin(const TraceStep& step, StepJudgement& judgement) const;
+  void add_contacts_at(const std::vector<ExactImpact>& impacts, double fraction, const TraceStep& step,
+                       StepJudgement& judgement) const;
+  void add_first_impacts(const std::vector<ExactImpact>& impacts, const TraceStep& step, bool starts_free,
+                         StepJudgement& judgement) const;
+  [[nodiscard]] double ghost_speed_loss(const TraceStep& step, bool starts_free) const;
+  [[nodiscard]] bool pushed_by_skin(const TraceStep& step, double wanted) const;
+  [[nodiscard]] bool has_face(const TraceStep& step, const Contact<double>& contact) const;
+  [[nodiscard]] bool met_after_another(const TraceStep& step, const Contact<double>& contact,
+                                       const StepJudgement& judgement) const;
+  void add_ghosts(const TraceStep& step, StepJudgement& judgement) const;
+
+  const TraceHeader header_;
+  ExactScenery scenery_;
+  double slop_ = 0;
+  std::map<ColliderIndex, Episode> inside_;
+  std::optional<Vec2d> last_end_;
+  std::optional<std::pair<TraceStep, StepJudgement>> last_;  ///< Where no episode was open.
+};
+
+}  // namespace paperproof::compare

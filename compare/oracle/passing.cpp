@@ -1,0 +1,64 @@
+#include "oracle/passing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace paperproof::compare::detail {
+namespace {
+
+constexpr double degrees = 180 / 3.14159265358979323846;
+
+double cross(const Vec2d& a, const Vec2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+/// Distances along the line point + s · way at which it crosses the ring.
+void add_crossings(const std::vector<Vec2d>& ring, const Vec2d& point, const Vec2d& way, std::vector<double>& found) {
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Vec2d a = ring[i] - point;
+    const Vec2d b = ring[(i + 1) % ring.size()] - point;
+    const double at_a = cross(way, a);
+    const double at_b = cross(way, b);
+    if ((at_a > 0) == (at_b > 0)) continue;
+    const Vec2d place = a + at_a / (at_a - at_b) * (b - a);
+    found.push_back(place.dot(way));
+  }
+}
+
+/// Of the solid, from where it was entered against the normal to where that line leaves it.
+double thickness_at(const ColliderDef& def, const Vec2d& point, const Vec2d& normal) {
+  if (def.shape == ColliderDef::Shape::chain) return 0;
+  std::vector<double> crossings;
+  const Vec2d way = -normal;
+  add_crossings(def.points, point, way, crossings);
+  for (const std::vector<Vec2d>& hole : def.holes) add_crossings(hole, point, way, crossings);
+  std::sort(crossings.begin(), crossings.end());
+  // Pairs of entry and exit; the one that was passed begins at the point, up to rounding.
+  for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
+    if (crossings[i + 1] > 0) return crossings[i + 1] - crossings[i];
+  }
+  return 0;
+}
+
+}  // namespace
+
+Passing describe_passing(const ExactScenery& scenery, const Vec2d& from, const Vec2d& to, ColliderIndex collider) {
+  Passing passing{.collider = collider};
+  const Vec2d way = to - from;
+  const std::optional<ExactImpact> impact = scenery.time_of_impact(from, way, collider);
+  if (!impact) return passing;  // `way` is rounded: it may just miss a corner that the exact one meets
+  passing.thickness = thickness_at(scenery.scenery().colliders[collider], impact->point, impact->normal);
+  passing.angle = std::asin(std::min(1.0, std::abs(way.dot(impact->normal)) / way.norm())) * degrees;
+  return passing;
+}
+
+double narrowest_width(const std::vector<Vec2d>& ring) {
+  double narrowest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Vec2d edge = ring[(i + 1) % ring.size()] - ring[i];
+    double width = 0;
+    for (const Vec2d& corner : ring) width = std::max(width, std::abs(cross(edge, corner - ring[i])) / edge.norm());
+    narrowest = std::min(narrowest, width);
+  }
+  return narrowest;
+}
+
+}  // namespace paperproof::compare::detail

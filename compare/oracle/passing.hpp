@@ -1,0 +1,15 @@
+/// How a solid was passed: for the sentence that tells it, so rounded numbers do.
+#pragma once
+
+#include "oracle/judge.hpp"
+
+namespace paperproof::compare::detail {
+
+/// The passing of `collider` on the straight way between two positions free of it.
+[[nodiscard]] Passing describe_passing(const ExactScenery& scenery, const Vec2d& from, const Vec2d& to,
+                                       ColliderIndex collider);
+
+/// The smallest distance of two parallel lines that hold the convex ring between them [m].
+[[nodiscard]] double narrowest_width(const std::vector<Vec2d>& ring);
+
+}  // namespace paperproof::compare::detail

@@ -1,0 +1,249 @@
+#include "oracle/world.hpp"
+
+#include <stdexcept>
+
+namespace paperproof::compare::detail {
+namespace {
+
+template <class Number>
+Sign turn_in(const Convert<Number>& number, const Vec2d& a, const Vec2d& b, const Vec2d& c) {
+  const Point<Number> origin = convert(number, a);
+  return sign_of(cross(convert(number, b) - origin, convert(number, c) - origin));
+}
+
+template <class Number>
+Sign winding_in(const Convert<Number>& number, std::span<const Vec2d> ring) {
+  const Point<Number> origin = convert(number, ring[0]);
+  Number area = number(0);
+  for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
+    area = area + cross(convert(number, ring[i]) - origin, convert(number, ring[i + 1]) - origin);
+  }
+  return sign_of(area);
+}
+
+int lowest_bit(std::span<const Vec2d> points) {
+  int lowest = std::numeric_limits<int>::max();
+  for (const Vec2d& point : points) lowest = std::min(lowest, detail::lowest_bit(point));
+  return lowest;
+}
+
+Box2<double> box_around(std::span<const Vec2d> points) {
+  Box2<double> box{points[0], points[0]};
+  for (const Vec2d& point : points) box = box.merged({point, point});
+  return box;
+}
+
+/// The octagon counter-clockwise and without repeated points.
+std::vector<Vec2d> normalised(std::vector<Vec2d> points) {
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  while (points.size() > 1 && points.front() == points.back()) points.pop_back();
+  if (points.size() < 3 || points.size() > max_points) {
+    throw std::invalid_argument("the character needs 3 to 16 distinct hull points");
+  }
+  const Sign way = winding(points);
+  if (way == Sign::zero) throw std::invalid_argument("the character's points have no area");
+  if (way == Sign::negative) std::reverse(points.begin(), points.end());
+  return points;
+}
+
+bool strictly_inside(std::span<const Vec2d> convex, const Vec2d& point) {
+  for (std::size_t k = 0; k < convex.size(); ++k) {
+    if (turn(convex[k], convex[(k + 1) % convex.size()], point) != Sign::positive) return false;
+  }
+  return true;
+}
+
+Vec2d find_witness(std::span<const Vec2d> points) {
+  Vec2d sum = Vec2d::Zero();
+  for (const Vec2d& point : points) sum += point;
+  const Vec2d mean = sum / static_cast<double>(points.size());
+  if (strictly_inside(points, mean)) return mean;
+  throw std::invalid_argument("the character is not convex, or too thin for its coordinates");
+}
+
+}  // namespace
+
+Sign turn(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
+  const Sign quick = turn_in(Convert<Approximate>{}, a, b, c);
+  if (quick != Sign::unknown) return quick;
+  return turn_in(Convert<Integer>{std::min({detail::lowest_bit(a), detail::lowest_bit(b), detail::lowest_bit(c)})}, a,
+                 b, c);
+}
+
+Sign winding(std::span<const Vec2d> ring) {
+  const Sign quick = winding_in(Convert<Approximate>{}, ring);
+  return quick != Sign::unknown ? quick : winding_in(Convert<Integer>{lowest_bit(ring)}, ring);
+}
+
+World::World(const SceneryDef& scenery, std::vector<Vec2d> points)
+    : scenery_(scenery), points_(normalised(std::move(points))) {
+  witness_ = find_witness(points_);
+  points_box_ = box_around(points_);
+  points_unit_ = std::min(lowest_bit(points_), detail::lowest_bit(witness_));
+  std::vector<Box2<double>> boxes;
+  for (ColliderIndex i = 0; i < scenery_.colliders.size(); ++i) {
+    const ColliderDef& def = scenery_.colliders[i];
+    solids_.push_back({.kind = Kind::polygon,
+                       .first_edge = static_cast<std::uint32_t>(edges_.size()),
+                       .edge_count = 0,
+                       .unit = std::numeric_limits<int>::max(),
+                       .box = box_around(def.points)});
+    def.shape == ColliderDef::Shape::polygon ? add_polygon(i) : add_chain(i);
+    boxes.push_back(solids_.back().box);
+  }
+  solid_tree_ = BoxTree(std::move(boxes));
+  boxes.clear();
+  for (const Edge& edge : edges_) boxes.push_back({edge.a.cwiseMin(edge.b), edge.a.cwiseMax(edge.b)});
+  edge_tree_ = BoxTree(std::move(boxes));
+}
+
+void World::add_edge(ColliderIndex index, const Vec2d& a, const Vec2d& b) {
+  if (a == b) return;
+  Solid& solid = solids_[index];
+  edges_.push_back({a, b, index});
+  ++solid.edge_count;
+  solid.unit = std::min({solid.unit, detail::lowest_bit(a), detail::lowest_bit(b)});
+}
+
+void World::add_polygon(ColliderIndex index) {
+  const auto add_ring = [&](const std::vector<Vec2d>& ring, Sign wanted) {
+    const bool keep = winding(ring) == wanted;
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const Vec2d& a = ring[i];
+      const Vec2d& b = ring[(i + 1) % ring.size()];
+      keep ? add_edge(index, a, b) : add_edge(index, b, a);
+    }
+  };
+  const ColliderDef& def = scenery_.colliders[index];
+  add_ring(def.points, Sign::positive);
+  for (const std::vector<Vec2d>& hole : def.holes) add_ring(hole, Sign::negative);
+}
+
+void World::add_chain(ColliderIndex index) {
+  const ColliderDef& def = scenery_.colliders[index];
+  solids_[index].kind = def.one_way ? Kind::one_way : Kind::two_sided;
+  for (std::size_t i = 0; i + 1 < def.points.size(); ++i) {
+    const Vec2d& a = def.points[i];
+    const Vec2d& b = def.points[i + 1];
+    if (!def.one_way) {
+      add_edge(index, a, b);
+      continue;
+    }
+    const Convert<Integer> number{
+        std::min({detail::lowest_bit(a), detail::lowest_bit(b), detail::lowest_bit(*def.one_way)})};
+    const Sign left = sign_of(cross(convert(number, b) - convert(number, a), convert(number, *def.one_way)));
+    if (left == Sign::positive) add_edge(index, a, b);
+    if (left == Sign::negative) add_edge(index, b, a);
+  }
+}
+
+Box2<double> World::box_of(const Way& way) const noexcept {
+  const Vec2d end = way.vector_is_end ? way.vector : Vec2d(way.from + way.vector);
+  const Box2<double> ends = Box2<double>{way.from, way.from}.merged({end, end});
+  const Box2<double> box{ends.lower + points_box_.lower, ends.upper + points_box_.upper};
+  // Two roundings of numbers no larger than these.
+  const double size = way.from.cwiseAbs().maxCoeff() + way.vector.cwiseAbs().maxCoeff() +
+                      points_box_.lower.cwiseAbs().maxCoeff() + points_box_.upper.cwiseAbs().maxCoeff();
+  return box.inflated(size * 0x1p-50 + std::numeric_limits<double>::min());
+}
+
+template <class Number>
+Passage::Frame<Number> Passage::frame(int unit) const {
+  Frame<Number> frame{.number = {unit}, .from = {}, .way = {}, .octagon = {}, .hull = {}, .known = false};
+  frame.from = convert(frame.number, way_.from);
+  frame.way = way_.displacement(frame.number);
+  frame.octagon = convert_octagon(frame.number, world_.points());
+  frame.known = sweep_hull(frame.octagon, frame.way, frame.hull);
+  return frame;
+}
+
+template <class Number>
+Answer Passage::enters(const Frame<Number>& frame, const Edge& edge) const {
+  if (!frame.known) return Answer::unknown;
+  const Point<Number> a = frame.at(edge.a);
+  const Point<Number> b = frame.at(edge.b);
+  const Answer entered = segment_enters(frame.hull, a, b);
+  if (entered == Answer::no || world_.solids()[edge.collider].kind != Kind::one_way) return entered;
+  const Answer blocks = one_way_blocks(frame.octagon, frame.way, a, b);
+  if (blocks == Answer::no) return Answer::no;
+  return entered == Answer::yes && blocks == Answer::yes ? Answer::yes : Answer::unknown;
+}
+
+template <class Number>
+Answer Passage::inside(const Frame<Number>& frame, ColliderIndex collider) const {
+  const Point<Number> witness = convert(frame.number, world_.witness());
+  bool odd = false;
+  for (const Edge& edge : world_.edges_of(collider)) {
+    const Answer crosses = crosses_ray(witness, frame.at(edge.a), frame.at(edge.b));
+    if (crosses == Answer::unknown) return Answer::unknown;
+    odd = odd != (crosses == Answer::yes);
+  }
+  return odd ? Answer::yes : Answer::no;
+}
+
+Passage::Passage(const World& world, const Way& way)
+    : world_(world), way_(way), box_(world.box_of(way)), quick_(frame<Approximate>(0)) {}
+
+std::vector<std::uint32_t> Passage::entered(const std::vector<std::uint32_t>& candidates) const {
+  std::vector<std::uint32_t> found;
+  std::optional<Frame<Integer>> exact;
+  for (const std::uint32_t i : candidates) {
+    const Edge& edge = world_.edges()[i];
+    Answer answer = enters(quick_, edge);
+    if (answer == Answer::unknown) {
+      world_.count_exact();
+      const int unit = world_.unit_of(way_, edge.collider);
+      if (!exact || exact->number.unit != unit) exact = frame<Integer>(unit);
+      answer = enters(*exact, edge);
+    }
+    if (answer == Answer::yes) found.push_back(i);
+  }
+  return found;
+}
+
+std::vector<std::uint32_t> Passage::entered_edges() const { return entered(world_.edge_tree().meeting(box_)); }
+
+std::vector<std::uint32_t> Passage::entered_edges(ColliderIndex collider) const {
+  std::vector<std::uint32_t> candidates;
+  const Solid& solid = world_.solids()[collider];
+  for (std::uint32_t i = solid.first_edge; i < solid.first_edge + solid.edge_count; ++i) {
+    const Edge& edge = world_.edges()[i];
+    if (box_.overlaps({edge.a.cwiseMin(edge.b), edge.a.cwiseMax(edge.b)})) candidates.push_back(i);
+  }
+  return entered(candidates);
+}
+
+bool Passage::inside(ColliderIndex collider) const {
+  if (world_.solids()[collider].kind != Kind::polygon) return false;
+  Answer answer = inside(quick_, collider);
+  if (answer == Answer::unknown) {
+    world_.count_exact();
+    answer = inside(frame<Integer>(world_.unit_of(way_, collider)), collider);
+  }
+  return answer == Answer::yes;
+}
+
+bool Passage::meets(ColliderIndex collider) const {
+  if (!world_.solids()[collider].box.overlaps(box_)) return false;
+  return !entered_edges(collider).empty() || inside(collider);
+}
+
+std::span<const std::uint32_t> Passage::of_collider(std::span<const std::uint32_t> edges,
+                                                    ColliderIndex collider) const {
+  const Solid& solid = world_.solids()[collider];
+  const auto first = std::lower_bound(edges.begin(), edges.end(), solid.first_edge);
+  return {first, std::lower_bound(first, edges.end(), solid.first_edge + solid.edge_count)};
+}
+
+std::vector<ColliderIndex> Passage::met() const {
+  const std::vector<std::uint32_t> near = world_.solid_tree().meeting(box_);
+  std::vector<ColliderIndex> found;
+  if (near.empty()) return found;
+  const std::vector<std::uint32_t> entered = entered_edges();
+  for (const ColliderIndex collider : near) {
+    if (!of_collider(entered, collider).empty() || inside(collider)) found.push_back(collider);
+  }
+  return found;
+}
+
+}  // namespace paperproof::compare::detail

@@ -1,0 +1,145 @@
+/// The solids as the oracle keeps them: boundaries as edges, uncut, in two trees of boxes.
+#pragma once
+
+#include "oracle/box_tree.hpp"
+#include "oracle/predicates.hpp"
+
+#include <paperproof/scenery.hpp>
+
+#include <atomic>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace paperproof::compare::detail {
+
+/// A boundary edge of a polygon, its interior on the left, or a segment of a chain; of a one-way chain with its
+/// blocking normal on the left (segments that block nothing are not kept).
+struct Edge {
+  Vec2d a;
+  Vec2d b;
+  ColliderIndex collider = 0;
+};
+
+enum class Kind : std::uint8_t { polygon, two_sided, one_way };
+
+struct Solid {
+  Kind kind = Kind::polygon;
+  std::uint32_t first_edge = 0;
+  std::uint32_t edge_count = 0;
+  int unit = 0;  ///< Lowest bit of its vertices.
+  Box2<double> box;
+};
+
+/// A straight way of the octagon, to an end point or by a displacement; both exact.
+struct Way {
+  Vec2d from{Vec2d::Zero()};
+  Vec2d vector{Vec2d::Zero()};
+  bool vector_is_end = false;
+
+  [[nodiscard]] static Way stay(const Vec2d& at) { return {at, Vec2d::Zero(), false}; }
+  [[nodiscard]] static Way by(const Vec2d& from, const Vec2d& displacement) { return {from, displacement, false}; }
+  [[nodiscard]] static Way to(const Vec2d& from, const Vec2d& end) { return {from, end, true}; }
+
+  template <class Number>
+  [[nodiscard]] Point<Number> displacement(const Convert<Number>& number) const {
+    return vector_is_end ? convert(number, vector) - convert(number, from) : convert(number, vector);
+  }
+  [[nodiscard]] int unit() const noexcept { return std::min(lowest_bit(from), lowest_bit(vector)); }
+};
+
+/// Everything that does not change from question to question. Immutable, apart from the counter.
+class World {
+ public:
+  World(const SceneryDef& scenery, std::vector<Vec2d> points);
+
+  [[nodiscard]] const SceneryDef& scenery() const noexcept { return scenery_; }
+  [[nodiscard]] std::span<const Vec2d> points() const noexcept { return points_; }
+  [[nodiscard]] std::span<const Edge> edges() const noexcept { return edges_; }
+  [[nodiscard]] std::span<const Edge> edges_of(ColliderIndex collider) const noexcept {
+    return std::span(edges_).subspan(solids_[collider].first_edge, solids_[collider].edge_count);
+  }
+  [[nodiscard]] std::span<const Solid> solids() const noexcept { return solids_; }
+  [[nodiscard]] const BoxTree& edge_tree() const noexcept { return edge_tree_; }
+  [[nodiscard]] const BoxTree& solid_tree() const noexcept { return solid_tree_; }
+  /// A point strictly inside the octagon, relative to its position.
+  [[nodiscard]] const Vec2d& witness() const noexcept { return witness_; }
+  /// Encloses all that the octagon touches on the way.
+  [[nodiscard]] Box2<double> box_of(const Way& way) const noexcept;
+  /// The unit in which everything about this way and this solid is an integer.
+  [[nodiscard]] int unit_of(const Way& way, ColliderIndex collider) const noexcept {
+    return std::min({solids_[collider].unit, points_unit_, way.unit()});
+  }
+
+  void count_exact() const noexcept { exact_decisions_.fetch_add(1, std::memory_order_relaxed); }
+  [[nodiscard]] std::uint64_t exact_decisions() const noexcept {
+    return exact_decisions_.load(std::memory_order_relaxed);
+  }
+
+ private:
+  void add_polygon(ColliderIndex index);
+  void add_chain(ColliderIndex index);
+  void add_edge(ColliderIndex index, const Vec2d& a, const Vec2d& b);
+
+  SceneryDef scenery_;
+  std::vector<Vec2d> points_;
+  Vec2d witness_{Vec2d::Zero()};
+  Box2<double> points_box_;
+  int points_unit_ = 0;
+  std::vector<Edge> edges_;
+  std::vector<Solid> solids_;
+  BoxTree edge_tree_;
+  BoxTree solid_tree_;
+  mutable std::atomic<std::uint64_t> exact_decisions_{0};
+};
+
+/// Twice the signed area of a ring: positive when it runs counter-clockwise. Exact.
+[[nodiscard]] Sign winding(std::span<const Vec2d> ring);
+
+/// The sign of the turn a → b → c, exact.
+[[nodiscard]] Sign turn(const Vec2d& a, const Vec2d& b, const Vec2d& c);
+
+/// What the octagon meets on a way. Lives for one question.
+class Passage {
+ public:
+  Passage(const World& world, const Way& way);
+
+  /// The edges (indices into `World::edges()`, ascending) that the open octagon meets on the way; one-way segments only
+  /// where they block.
+  [[nodiscard]] std::vector<std::uint32_t> entered_edges() const;
+  [[nodiscard]] std::vector<std::uint32_t> entered_edges(ColliderIndex collider) const;
+  /// The edges of one collider among edges that are sorted.
+  [[nodiscard]] std::span<const std::uint32_t> of_collider(std::span<const std::uint32_t> edges,
+                                                           ColliderIndex collider) const;
+  /// The colliders that the open octagon meets, ascending.
+  [[nodiscard]] std::vector<ColliderIndex> met() const;
+  [[nodiscard]] bool meets(ColliderIndex collider) const;
+
+ private:
+  /// The hull of the way in one kind of number.
+  template <class Number>
+  struct Frame {
+    Convert<Number> number;
+    Point<Number> from;
+    Point<Number> way;
+    Octagon<Number> octagon;
+    Hull<Number> hull;
+    bool known = false;
+    [[nodiscard]] Point<Number> at(const Vec2d& v) const { return convert(number, v) - from; }
+  };
+  template <class Number>
+  [[nodiscard]] Frame<Number> frame(int unit) const;
+  template <class Number>
+  [[nodiscard]] Answer enters(const Frame<Number>& frame, const Edge& edge) const;
+  template <class Number>
+  [[nodiscard]] Answer inside(const Frame<Number>& frame, ColliderIndex collider) const;
+  [[nodiscard]] std::vector<std::uint32_t> entered(const std::vector<std::uint32_t>& candidates) const;
+  [[nodiscard]] bool inside(ColliderIndex collider) const;
+
+  const World& world_;
+  Way way_;
+  Box2<double> box_;
+  Frame<Approximate> quick_;
+};
+
+}  // namespace paperproof::compare::detail

@@ -1,0 +1,17 @@
+/// What the summary, the list of scenes and the tables need, as JSON.
+#pragma once
+
+#include "report/report.hpp"
+
+namespace paperproof::compare {
+
+/// `{"name","description","sentence","rows":[…],"runs":n,"disagreements":n}`. A row has the keys of a rows file; a
+/// metric that does not apply is absent, one that is not finite is the string "not finite". The verdict is in words.
+[[nodiscard]] std::string scene_index_json(const ReportScene& scene);
+
+/// `{"environment":[[name,value]…],"tolerances":[[name,metres]…],"guarantee_notes":[…],"scenes":[…]}`.
+[[nodiscard]] std::string index_json(const Environment& environment, const std::vector<NamedTolerance>& tolerances,
+                                     const std::vector<std::string>& guarantee_notes,
+                                     const std::vector<std::string>& scenes);
+
+}  // namespace paperproof::compare

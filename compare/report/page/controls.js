@@ -1,0 +1,168 @@
+// The replay's controls, and its read-out in words.
+
+const SPEEDS = [[1 / 240, '1/240'], [1 / 60, '1/60'], [1 / 16, '1/16'], [1 / 4, '1/4'], [1, '1'], [4, '4'], [16, '16']];
+
+function keptInWords(replay) {
+  const first = replay.timeline[0], last = replay.timeline[replay.timeline.length - 1];
+  const every = Math.max(...replay.runs.map((run) => run.every));
+  const thinned = every > 1 ? `, every ${ordinal(every)} and those around an event` : '';
+  const sampled = replay.runs.filter((run) => !run.path_exact).map((run) => run.label);
+  const lost = replay.runs.filter((run) => run.not_finite_from !== undefined)
+                   .map((run) => ` ${run.label}: no finite position from step ${run.not_finite_from} on.`);
+  return `Showing steps ${grouped(first)} to ${grouped(last)}${thinned}; positions rounded to ${
+             lengthInWords(replay.data.quantum)}.` +
+      (sampled.length ? ` The way within a step is sampled, not exact, for ${sampled.join(', ')} (dashed).` : '') +
+      lost.join('');
+}
+
+function legend(replay) {
+  const toggles = replay.runs.map((run) => {
+    const ink = inkOf(run, replay.names);
+    const button =
+        el('button', {type: 'button', 'aria-pressed': 'true', title: 'Show or hide; double-click shows only this one'},
+           el('span', {
+             class: 'swatch',
+             style: `border-color:${ink.colour};border-top-style:${ink.dash.length ? 'dashed' : 'solid'}`
+           }),
+           run.label);
+    button.addEventListener('click', () => replay.toggle(run));
+    button.addEventListener('dblclick', () => replay.only(run));
+    run.button = button;
+    return button;
+  });
+  return el(
+      'div', {class: 'bar legend', role: 'group', 'aria-label': 'Contenders shown'}, toggles,
+      el('button', {type: 'button', onclick: () => replay.setVisible(replay.runs)}, 'All'));
+}
+
+function cameraBar(replay) {
+  const choice = (key, words) => {
+    const input = el('input', {type: 'checkbox'});
+    input.checked = replay.show[key];
+    input.addEventListener('change', () => {
+      replay.show[key] = input.checked;
+      replay.draw();
+    });
+    return el('label', {}, input, words);
+  };
+  replay.modeButtons = new Map([['fit', 'Fit scene'], ['ways', 'Fit trajectories'], ['follow', 'Follow']].map(
+      ([
+        mode, words
+      ]) => [mode, el('button', {type: 'button', 'aria-pressed': 'false', onclick: () => replay.look(mode)}, words)]));
+  replay.layoutButton =
+      el('button', {type: 'button', 'aria-pressed': 'false', onclick: () => replay.setTogether(!replay.together)},
+         'Side by side');
+  return el(
+      'div', {class: 'bar', role: 'group', 'aria-label': 'View'}, replay.layoutButton, [...replay.modeButtons.values()],
+      el('button', {type: 'button', 'aria-label': 'Zoom in', onclick: () => replay.zoom(1.4)}, '+'),
+      el('button', {type: 'button', 'aria-label': 'Zoom out', onclick: () => replay.zoom(1 / 1.4)}, '\u2212'),
+      el('span', {class: 'gap'}), choice('trajectories', 'trajectories'), choice('start', 'start of step'),
+      choice('velocity', 'velocity'));
+}
+
+function transport(replay) {
+  const button = (words, label, act) =>
+      el('button', {type: 'button', 'aria-label': label, title: label, onclick: act}, words);
+  replay.playButton = button('Play', 'Play', () => replay.togglePlay());
+  replay.slider = el('input', {
+    type: 'range',
+    class: 'steps',
+    min: 0,
+    max: Math.max(replay.timeline.length - 1, 0),
+    step: 1,
+    value: 0,
+    'aria-label': 'Step'
+  });
+  replay.slider.addEventListener('input', () => replay.seek(Number(replay.slider.value)));
+  replay.within =
+      el('input',
+         {type: 'range', class: 'within', min: 0, max: 1, step: 0.001, value: 1, 'aria-label': 'Fraction of the step'});
+  replay.within.addEventListener('input', () => {
+    replay.pause();
+    replay.t = Number(replay.within.value);
+    replay.draw();
+  });
+  const speed = el('select', {}, SPEEDS.map(([value, words]) => el('option', {value, selected: value === 1}, words)));
+  speed.addEventListener('change', () => {
+    replay.speed = Number(speed.value);
+  });
+  replay.clock = el('span', {class: 'clock'});
+  return el(
+      'div', {class: 'bar transport', role: 'group', 'aria-label': 'Transport'},
+      button('\u25c0', 'One step back', () => replay.move(-1)), replay.playButton,
+      button('\u25b6', 'One step forward', () => replay.move(1)), replay.slider, replay.clock,
+      el('label', {}, 'within the step', replay.within), el('label', {}, 'speed', speed));
+}
+
+function jumps(replay) {
+  const buttons = targets(replay).map(
+      ({words, step, title}) => el('button', {type: 'button', title, onclick: () => replay.goTo(step)}, words));
+  return buttons.length === 0 ? null :
+                                el('div', {class: 'bar', role: 'group', 'aria-label': 'Jump to'},
+                                   el('span', {class: 'quiet'}, 'Jump to'), buttons);
+}
+
+/// First contact of anyone, the first event of each kind for each contender, the first disagreement.
+function targets(replay) {
+  const list = [];
+  const touching = replay.runs.map((run) => run.steps.find((step) => step.contacts.length > 0))
+                       .filter(Boolean)
+                       .map((step) => step.step);
+  if (touching.length) list.push({words: 'first contact', step: Math.min(...touching), title: ''});
+  for (const run of replay.runs) {
+    for (const kind of new Set(run.events.map((event) => event.kind))) {
+      if (kind === 'note') continue;
+      const event = run.events.find((candidate) => candidate.kind === kind);
+      list.push({words: `${run.label}: first ${kind}`, step: event.step, title: event.words});
+    }
+  }
+  if (replay.data.disagreements.length)
+    list.push({words: 'first disagreement', step: replay.data.disagreements[0].step, title: ''});
+  return list;
+}
+
+function fillReadout(replay) {
+  const head = [
+    'Contender', 'Position [m]', 'Velocity [m/s]', 'State', 'Contacts: side, collider, normal, t, separation'
+  ].map((words) => el('th', {scope: 'col'}, words));
+  replay.readout.replaceChildren(
+      el('table', {}, el('caption', {}, `At the end of step ${grouped(replay.step)}`),
+         el('thead', {}, el('tr', {}, head)), el('tbody', {}, replay.chosen().map((run) => readoutRow(replay, run)))));
+}
+
+function readoutRow(replay, run) {
+  const {record, ended} = replay.stateOf(run), names = run.scenery.colliders;
+  const overlaps = record.startOverlap.map((i) => (names[i] ? names[i].id : i));
+  const words = ended ? [`ended at step ${grouped(record.step)}`] : [
+    ...record.flags, record.step === replay.step ? null : `as of step ${grouped(record.step)}`,
+    overlaps.length ? `began inside ${overlaps.join(', ')}` : null
+  ].filter(Boolean);
+  const events = run.events.filter((event) => event.step === record.step && !ended);
+  const contacts = ended ?
+      [] :
+      record.contacts.map(
+          (contact) =>
+              el('div', {},
+                 `${contactWords(contact, names)}, (${measure(contact.nx)}, ${measure(contact.ny)}), ${
+                     measure(contact.t)}, ${contact.separation === null ? '' : `${measure(contact.separation)} m`}`));
+  const pair = (x, y, unit) => `${fixedTo(x, unit)}, ${fixedTo(y, unit)}`;
+  return el(
+      'tr', {class: ended ? 'ended' : null}, el('th', {scope: 'row'}, run.label),
+      el('td', {class: 'number'}, pair(record.x, record.y, replay.data.quantum)),
+      el('td', {class: 'number'}, pair(record.vx, record.vy, replay.data.quantum * 10)),
+      el('td', {}, words.join(', '),
+         events.map(
+             (event) => el('div', {class: 'event'}, event.words ? `${event.kind}: ${event.words}` : event.kind))),
+      el('td', {}, contacts));
+}
+
+/// As many decimals as the unit it was rounded to has.
+function fixedTo(value, unit) {
+  const decimals = Math.max(0, Math.min(12, Math.round(-Math.log10(unit))));
+  return value.toFixed(decimals).replace('-', MINUS);
+}
+
+function ordinal(n) {
+  const teen = n % 100 >= 11 && n % 100 <= 13;
+  return `${n}${teen ? 'th' : ['th', 'st', 'nd', 'rd'][n % 10] || 'th'}`;
+}

@@ -1,0 +1,326 @@
+// Draws scenery, ways and characters on a canvas. World metres are turned into pixels here and not by the canvas: its
+// own transformation works in single precision, which is too coarse far from the origin.
+
+function darkPreferred() {
+  return matchMedia('(prefers-color-scheme: dark)').matches;
+}
+
+function theme() {
+  const style = getComputedStyle(document.documentElement);
+  const value = (name) => style.getPropertyValue(`--${name}`).trim();
+  return {
+    canvas: value('canvas'),
+    solid: value('solid'),
+    edge: value('solid-edge'),
+    chain: value('chain'),
+    grid: value('grid'),
+    text: value('text'),
+    quiet: value('quiet'),
+    bad: value('bad')
+  };
+}
+
+const INKS = {
+  light: [
+    '#0b5cad', '#d1590a', '#2a7d3f', '#a3268f', '#7a5c00', '#007d84', '#6a4fc4', '#c0304f', '#4b5a66', '#5b7a12',
+    '#8c4a2f', '#2f6f9f'
+  ],
+  dark: [
+    '#74b4f5', '#ff9a4d', '#74cf8d', '#eb86da', '#dcbb4b', '#55cdd4', '#ac98fa', '#ff8aa2', '#aebac4', '#b5d560',
+    '#dba184', '#93c5e8'
+  ],
+};
+const DASHES = [[], [7, 4], [2, 3], [9, 3, 2, 3], [4, 2], [12, 4], [1, 2]];
+
+/// A contender has the same colour in every scene, whatever its scalar type and mode; the dashes tell these apart.
+/// @param names  contenders and labels of the whole report, in a fixed order.
+function inkOf(run, names) {
+  const list = INKS[darkPreferred() ? 'dark' : 'light'];
+  const colour = Math.max(0, names.contenders.indexOf(run.contender)),
+        dash = Math.max(0, names.labels.indexOf(run.label));
+  return {colour: list[colour % list.length], dash: DASHES[dash % DASHES.length]};
+}
+
+/// A camera: the world point in the middle, and pixels per metre.
+class Camera {
+  constructor(x = 0, y = 0, scale = 32) {
+    Object.assign(this, {x, y, scale});
+  }
+  fit(box, width, height, margin = 0.06) {
+    const w = Math.max(box[2] - box[0], 1e-12), h = Math.max(box[3] - box[1], 1e-12);
+    this.x = (box[0] + box[2]) / 2;
+    this.y = (box[1] + box[3]) / 2;
+    this.scale = Math.min(width / w, height / h) * (1 - 2 * margin);
+  }
+  zoom(factor, x, y) {
+    this.x = x + (this.x - x) / factor;
+    this.y = y + (this.y - y) / factor;
+    this.scale *= factor;
+  }
+}
+
+class Painter {
+  constructor(canvas) {
+    this.canvas = canvas;
+    this.context = canvas.getContext('2d');
+  }
+
+  begin(camera, colours) {
+    const ratio = window.devicePixelRatio || 1;
+    this.width = Math.max(this.canvas.clientWidth, 1);
+    this.height = Math.max(this.canvas.clientHeight, 1);
+    const pixels = [Math.round(this.width * ratio), Math.round(this.height * ratio)];
+    if (this.canvas.width !== pixels[0] || this.canvas.height !== pixels[1])
+      [this.canvas.width, this.canvas.height] = pixels;
+    this.camera = camera;
+    this.colours = colours;
+    this.context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    this.context.setLineDash([]);
+    this.context.globalAlpha = 1;
+    this.context.fillStyle = colours.canvas;
+    this.context.fillRect(0, 0, this.width, this.height);
+  }
+
+  toX(x) {
+    return (x - this.camera.x) * this.camera.scale + this.width / 2;
+  }
+  toY(y) {
+    return this.height / 2 - (y - this.camera.y) * this.camera.scale;
+  }
+  worldX(px) {
+    return (px - this.width / 2) / this.camera.scale + this.camera.x;
+  }
+  worldY(py) {
+    return (this.height / 2 - py) / this.camera.scale + this.camera.y;
+  }
+
+  sees(box) {
+    return box[2] >= this.worldX(0) && box[0] <= this.worldX(this.width) && box[3] >= this.worldY(this.height) &&
+        box[1] <= this.worldY(0);
+  }
+
+  ring(flat, close) {
+    for (let i = 0; i < flat.length; i += 2) {
+      const x = this.toX(flat[i]), y = this.toY(flat[i + 1]);
+      if (i === 0)
+        this.context.moveTo(x, y);
+      else
+        this.context.lineTo(x, y);
+    }
+    if (close) this.context.closePath();
+  }
+
+  scenery(scenery) {
+    const visible = scenery.colliders.filter((collider) => this.sees(collider.box));
+    const polygons = visible.filter((collider) => !collider.chain);
+    const c = this.context;
+    c.beginPath();
+    for (const collider of polygons)
+      for (const ring of collider.rings) this.ring(ring, true);
+    c.fillStyle = this.colours.solid;
+    c.fill('nonzero');
+    // Outlines of pieces that are a few pixels wide would be nothing but grey; paper would vanish without one.
+    c.beginPath();
+    for (const collider of polygons) {
+      const w = (collider.box[2] - collider.box[0]) * this.camera.scale,
+            h = (collider.box[3] - collider.box[1]) * this.camera.scale;
+      if (Math.min(w, h) > 7 || Math.min(w, h) < 2)
+        for (const ring of collider.rings) this.ring(ring, true);
+    }
+    c.strokeStyle = this.colours.edge;
+    c.lineWidth = 0.75;
+    c.stroke();
+    for (const collider of visible)
+      if (collider.chain) this.chain(collider);
+  }
+
+  chain(collider) {
+    const c = this.context, flat = collider.rings[0];
+    c.strokeStyle = this.colours.chain;
+    c.lineWidth = 2;
+    c.beginPath();
+    this.ring(flat, false);
+    c.stroke();
+    if (!collider.oneWay) return;
+    c.lineWidth = 1;
+    c.beginPath();
+    for (let i = 0; i + 3 < flat.length; i += 2) this.ticks(flat.slice(i, i + 4), collider.oneWay);
+    c.stroke();
+  }
+
+  /// Short strokes on the side from which a one-way segment blocks.
+  ticks([x0, y0, x1, y1], oneWay) {
+    const length = Math.hypot(x1 - x0, y1 - y0);
+    if (length === 0) return;
+    let nx = -(y1 - y0) / length, ny = (x1 - x0) / length;
+    const facing = nx * oneWay[0] + ny * oneWay[1];
+    if (facing === 0) return;
+    if (facing < 0) {
+      nx = -nx;
+      ny = -ny;
+    }
+    const count = Math.max(1, Math.min(200, Math.floor((length * this.camera.scale) / 10)));
+    for (let i = 0; i < count; ++i) {
+      const part = (i + 0.5) / count, x = this.toX(x0 + (x1 - x0) * part), y = this.toY(y0 + (y1 - y0) * part);
+      this.context.moveTo(x, y);
+      this.context.lineTo(x + nx * 6, y - ny * 6);
+    }
+  }
+
+  /// The outline of one collider, emphasised.
+  highlight(collider, colour) {
+    const c = this.context;
+    c.strokeStyle = colour;
+    c.lineWidth = 2;
+    c.globalAlpha = 0.5;
+    c.beginPath();
+    for (const ring of collider.rings) this.ring(ring, !collider.chain);
+    c.stroke();
+    c.globalAlpha = 1;
+  }
+
+  octagon(hull, x, y, {colour, fill = false, dash = [], alpha = 1}) {
+    const c = this.context;
+    c.globalAlpha = alpha;
+    c.beginPath();
+    this.ring(hull.map((v, i) => v + (i % 2 === 0 ? x : y)), true);
+    if (fill) {
+      c.globalAlpha = alpha * 0.25;
+      c.fillStyle = colour;
+      c.fill();
+      c.globalAlpha = alpha;
+    }
+    c.setLineDash(dash);
+    c.strokeStyle = colour;
+    c.lineWidth = 1.75;
+    c.stroke();
+    c.setLineDash([]);
+    c.globalAlpha = 1;
+    this.dot(x, y, 1.75, colour);
+  }
+
+  dot(x, y, radius, colour) {
+    const c = this.context;
+    c.fillStyle = colour;
+    c.beginPath();
+    c.arc(this.toX(x), this.toY(y), radius, 0, 2 * Math.PI);
+    c.fill();
+  }
+
+  /// The way within one step, a diamond at each corner.
+  way(path, colour, dashed) {
+    const c = this.context;
+    c.strokeStyle = colour;
+    c.lineWidth = 2.5;
+    c.setLineDash(dashed ? [3, 3] : []);
+    c.beginPath();
+    path.forEach((p, i) => (i === 0 ? c.moveTo(this.toX(p.x), this.toY(p.y)) : c.lineTo(this.toX(p.x), this.toY(p.y))));
+    c.stroke();
+    c.setLineDash([]);
+    c.fillStyle = colour;
+    for (const p of path.slice(1, -1)) {
+      const x = this.toX(p.x), y = this.toY(p.y);
+      c.beginPath();
+      c.moveTo(x - 4, y);
+      c.lineTo(x, y - 4);
+      c.lineTo(x + 4, y);
+      c.lineTo(x, y + 4);
+      c.fill();
+    }
+  }
+
+  /// All the ways of a run from one stored step to another.
+  trajectory(steps, from, to, {colour, dash, alpha}) {
+    const c = this.context;
+    c.strokeStyle = colour;
+    c.lineWidth = 1.5;
+    c.globalAlpha = alpha;
+    c.setLineDash(dash);
+    c.beginPath();
+    for (let i = Math.max(from, 0); i < to; ++i) {
+      const jump = i === from || steps[i].flags.includes('respawn');
+      steps[i].path.forEach(
+          (p, k) =>
+              (jump && k === 0 ? c.moveTo(this.toX(p.x), this.toY(p.y)) : c.lineTo(this.toX(p.x), this.toY(p.y))));
+    }
+    c.stroke();
+    c.setLineDash([]);
+    c.globalAlpha = 1;
+  }
+
+  contact({x, y, nx, ny}, colour, length = 26) {
+    const c = this.context, px = this.toX(x), py = this.toY(y), ex = px + nx * length, ey = py - ny * length;
+    c.strokeStyle = colour;
+    c.lineWidth = 2;
+    c.beginPath();
+    c.moveTo(px, py);
+    c.lineTo(ex, ey);
+    c.moveTo(ex - 6 * nx + 4 * ny, ey + 6 * ny + 4 * nx);
+    c.lineTo(ex, ey);
+    c.lineTo(ex - 6 * nx - 4 * ny, ey + 6 * ny - 4 * nx);
+    c.stroke();
+    c.fillStyle = this.colours.canvas;
+    c.beginPath();
+    c.arc(px, py, 4, 0, 2 * Math.PI);
+    c.fill();
+    c.stroke();
+  }
+
+  velocity(x, y, vx, vy, colour) {
+    const speed = Math.hypot(vx, vy);
+    if (!(speed > 0)) return;
+    const c = this.context, length = Math.min(60, 14 + 8 * Math.log1p(speed));
+    c.strokeStyle = colour;
+    c.lineWidth = 1;
+    c.setLineDash([2, 2]);
+    c.beginPath();
+    c.moveTo(this.toX(x), this.toY(y));
+    c.lineTo(this.toX(x) + (vx / speed) * length, this.toY(y) - (vy / speed) * length);
+    c.stroke();
+    c.setLineDash([]);
+  }
+
+  cross(x, y) {
+    const c = this.context, px = this.toX(x), py = this.toY(y);
+    c.strokeStyle = this.colours.bad;
+    c.lineWidth = 2.5;
+    c.beginPath();
+    c.moveTo(px - 5, py - 5);
+    c.lineTo(px + 5, py + 5);
+    c.moveTo(px + 5, py - 5);
+    c.lineTo(px - 5, py + 5);
+    c.stroke();
+  }
+
+  scaleBar() {
+    const c = this.context, metres = niceLength(90 / this.camera.scale), pixels = metres * this.camera.scale,
+          y = this.height - 12;
+    c.globalAlpha = 0.8;
+    c.fillStyle = this.colours.canvas;
+    c.fillRect(6, y - 20, pixels + 12, 26);
+    c.globalAlpha = 1;
+    c.strokeStyle = this.colours.quiet;
+    c.lineWidth = 1.5;
+    c.beginPath();
+    c.moveTo(12, y - 4);
+    c.lineTo(12, y);
+    c.lineTo(12 + pixels, y);
+    c.lineTo(12 + pixels, y - 4);
+    c.stroke();
+    c.fillStyle = this.colours.quiet;
+    c.font = '12px system-ui, sans-serif';
+    c.fillText(lengthInWords(metres), 18, y - 5);
+  }
+}
+
+/// The largest of 1, 2, 5 times a power of ten that is not above the given length.
+function niceLength(length) {
+  const power = 10 ** Math.floor(Math.log10(length));
+  return [5, 2, 1].find((digit) => digit * power <= length * (1 + 1e-9)) * power;
+}
+
+function lengthInWords(metres) {
+  const units = [[1000, 'km'], [1, 'm'], [1e-3, 'mm'], [1e-6, '\u00b5m'], [1e-9, 'nm']];
+  const [size, unit] = units.find(([s]) => metres >= (s === 1000 ? s : s / 10) * (1 - 1e-9)) || units[units.length - 1];
+  return `${Number((metres / size).toPrecision(3))} ${unit}`;
+}

@@ -1,0 +1,163 @@
+// Puts the page together: the list of scenes, one scene at a time, and what the address asks for:
+// #summary, or #scene=2&step=10&t=0.5&layout=side&view=follow.
+
+const INDEX = JSON.parse(document.getElementById('index').textContent);
+const main = document.getElementById('main');
+let open = {scene: null, replay: null, pictures: null};
+
+/// Contenders and labels in an order that is the same for all scenes: the default and the reference first.
+function namesWith(runs) {
+  const rows = [...INDEX.scenes.flatMap((scene) => scene.rows), ...runs];
+  const leading = ['octagon_sweep', 'box2d'];
+  const order = (names) => [...leading, ...[...new Set(names)].filter((name) => !leading.includes(name)).sort()];
+  return {contenders: order(rows.map((row) => row.contender)), labels: order(rows.map(rowLabel))};
+}
+
+function runDetails(replay) {
+  const rows = replay.runs.map((run) => {
+    const facts = [`dt ${measure(run.dt)} s`, `${grouped(run.steps.length)} steps stored`];
+    if (run.box2d) facts.push(`Box2D ${run.box2d}`);
+    if (run.plan_omitted.length) facts.push(`left out by the plan: ${run.plan_omitted.join('; ')}`);
+    return [run.label, facts.join(', ')];
+  });
+  return el('details', {}, el('summary', {}, 'About the runs'), pairs(rows));
+}
+
+function replayNodes(index) {
+  const source = document.getElementById(`replay-${index}`);
+  const replay = decodeReplay(source.textContent);
+  if (!replay.runs.some((run) => run.steps.length > 0)) {
+    open.replay = open.pictures = null;
+    return [el('p', {class: 'quiet'}, 'No run of this scene was stored for replay.')];
+  }
+  const names = namesWith(replay.runs);
+  open.replay = new Replay(replay, names, noteDrawn);
+  open.pictures = disagreementsSection(replay, names, (step) => open.replay.goTo(step));
+  return [open.replay.root, ...open.pictures.nodes, runDetails(replay)];
+}
+
+/// For whoever looks from outside (tests, above all): which step was drawn, without error.
+function noteDrawn(replay) {
+  document.documentElement.dataset.drawn = `scene ${open.scene} step ${replay.step} t ${replay.t}`;
+}
+
+/// How many colours the first canvas has: one means that nothing was drawn. Asked for with #...&check=1.
+function countColours() {
+  const canvas = document.querySelector('canvas');
+  const data = new Uint32Array(canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data.buffer);
+  document.documentElement.dataset.colours = String(new Set(data).size);
+}
+
+function showScene(index, wanted) {
+  if (open.replay) open.replay.pause();
+  const scene = INDEX.scenes[index];
+  open = {scene: index, replay: null, pictures: null};
+  const tables = sceneTables(scene);
+  main.replaceChildren(
+      ...[el('h2', {}, scene.name), scene.description ? el('p', {class: 'quiet'}, scene.description) : null,
+          scene.sentence ? el('p', {class: 'sentence'}, scene.sentence) : null, ...tables, ...replayNodes(index)]
+          .filter(Boolean));
+  document.title = `${scene.name} - paperproof report`;
+  if (open.replay) startReplay(open.replay, wanted);
+  if (open.pictures) open.pictures.draw();
+}
+
+function startReplay(replay, wanted) {
+  if (wanted.get('layout') === 'side') replay.setTogether(false);
+  if (wanted.has('step')) replay.goTo(Number(wanted.get('step')));
+  if (wanted.has('t')) replay.t = Math.max(0, Math.min(1, Number(wanted.get('t')) || 0));
+  replay.look(['fit', 'ways', 'follow'].includes(wanted.get('view')) ? wanted.get('view') : 'ways');
+  if (!wanted.has('step')) window.scrollTo(0, 0);
+  if (wanted.has('check')) countColours();
+}
+
+function showSummary() {
+  if (open.replay) open.replay.pause();
+  open = {scene: null, replay: null, pictures: null};
+  main.replaceChildren(...summaryPage(INDEX));
+  document.title = 'paperproof report';
+  document.documentElement.dataset.drawn = 'summary';
+  window.scrollTo(0, 0);
+}
+
+function route() {
+  if (location.hash === '#main') return;
+  const wanted = new URLSearchParams(location.hash.slice(1));
+  const index = wanted.has('scene') ? Number(wanted.get('scene')) : NaN;
+  const known = Number.isInteger(index) && index >= 0 && index < INDEX.scenes.length;
+  if (known)
+    showScene(index, wanted);
+  else
+    showSummary();
+  for (const link of document.querySelectorAll('.scene-link')) {
+    const current = link.id === (known ? `scene-link-${index}` : 'summary-link');
+    if (current)
+      link.setAttribute('aria-current', 'page');
+    else
+      link.removeAttribute('aria-current');
+    if (current && known) link.scrollIntoView({block: 'nearest'});
+  }
+}
+
+// --- the list ---
+
+function has(scene, verdicts) {
+  return scene.rows.some((row) => verdicts.includes(row.verdict));
+}
+
+const KINDS = {
+  all: () => true,
+  tunnels: (scene) => scene.rows.some((row) => row.tunnels > 0),
+  violates: (scene) => has(scene, ['violates']),
+  disagreements: (scene) => scene.disagreements > 0,
+  failed: (scene) => has(scene, ['flagged', 'failed']),
+};
+
+function markOf(scene) {
+  const tunnelling = scene.rows.filter((row) => row.tunnels > 0).length;
+  if (has(scene, ['violates'])) return el('span', {class: 'mark bad'}, 'violated');
+  if (tunnelling > 0) return el('span', {class: 'mark'}, `${tunnelling} tunnelled`);
+  return null;
+}
+
+function buildList() {
+  const list = document.getElementById('scene-list'), text = document.getElementById('filter-text'),
+        kind = document.getElementById('filter-kind');
+  const items = INDEX.scenes.map(
+      (scene, i) =>
+          el('li', {},
+             el('a', {class: 'scene-link', id: `scene-link-${i}`, href: `#scene=${i}`}, el('span', {}, scene.name),
+                markOf(scene))));
+  list.replaceChildren(...items);
+  const filter = () => {
+    const words = text.value.trim().toLowerCase();
+    let shown = 0;
+    INDEX.scenes.forEach((scene, i) => {
+      items[i].hidden = !(scene.name.toLowerCase().includes(words) && KINDS[kind.value](scene));
+      shown += items[i].hidden ? 0 : 1;
+    });
+    document.getElementById('filter-count').textContent = `${shown} of ${INDEX.scenes.length} shown`;
+  };
+  text.addEventListener('input', filter);
+  kind.addEventListener('change', filter);
+  filter();
+}
+
+function redraw() {
+  if (open.replay) open.replay.draw();
+  if (open.pictures) open.pictures.draw();
+}
+
+buildList();
+route();
+window.addEventListener('hashchange', route);
+window.addEventListener('resize', redraw);
+document.addEventListener('keydown', (event) => {
+  if (open.replay) open.replay.key(event);
+});
+matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
+  if (open.scene !== null)
+    route();
+  else
+    redraw();
+});

@@ -1,0 +1,264 @@
+// The summary and the tables. Text only ever enters the page through textContent.
+
+function el(tag, attributes = {}, ...children) {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) {
+    if (value === false || value === undefined || value === null) continue;
+    if (name.startsWith('on'))
+      element.addEventListener(name.slice(2), value);
+    else
+      element.setAttribute(name, value === true ? '' : value);
+  }
+  element.append(...children.flat().filter((child) => child !== null && child !== undefined));
+  return element;
+}
+
+const MINUS = '\u2212', THIN = '\u2009';
+
+function grouped(number) {
+  const digits = String(Math.abs(number)).replace(/\B(?=(\d{3})+$)/g, THIN);
+  return (number < 0 ? MINUS : '') + digits;
+}
+
+/// A measure with three significant digits: plain where that is short, else with a power of ten.
+function measure(number) {
+  if (typeof number === 'string') return number;
+  if (number === 0) return '0';
+  const size = Math.abs(number);
+  if (size >= 1e-3 && size < 1e5) return Number(number.toPrecision(3)).toString().replace('-', MINUS);
+  const [mantissa, exponent] = number.toExponential(1).split('e');
+  return `${mantissa.replace('-', MINUS)}e${exponent.replace('+', '').replace('-', MINUS)}`;
+}
+
+const count = (value) => (typeof value === 'string' ? value : grouped(value));
+const share = (value) =>
+    (typeof value === 'string' ?
+         value :
+         (value * 100 >= 99.995 || value === 0 ? (value * 100).toFixed(0) : (value * 100).toFixed(2)));
+
+// key, heading, unit, how it is written, what it means
+const SAFETY = [
+  ['tunnels', 'Tunnels', 'steps', count, 'Steps whose way crosses a solid and ends free of it'],
+  ['steps_ending_inside', 'Ending inside', 'steps', count, 'Steps that end overlapping a solid, in exact arithmetic'],
+  ['corner_cuts', 'Corner cuts', 'steps', count, 'Crossings no deeper than the slop, counted apart'],
+  ['one_way_violations', 'One-way broken', 'steps', count, 'One-way chains passed against their normal'],
+  ['max_penetration_m', 'Max penetration', 'm', measure, 'Largest exact depth at the end of a step'],
+  ['max_contact_gap_m', 'Max contact gap', 'm', measure, 'Largest exact gap left at a reported contact'],
+  [
+    'toi_error_max', 'Impact time error', 'of a step', measure,
+    'Largest error of the first time of impact, as a fraction of the step'
+  ],
+];
+const QUALITY = [
+  ['rest_peak_to_peak_m', 'Rest jitter', 'm, peak to peak', measure, 'Movement at rest after settling'],
+  ['rest_rms_m', 'Rest jitter', 'm, RMS', measure, 'Movement at rest after settling'],
+  ['contact_toggles', 'Contact toggles', 'per 1000 steps', measure, 'Contacts that come and go at rest'],
+  [
+    'max_position_difference_box2d_m', 'Max position difference to Box2D', 'm', measure,
+    'Between the two runs at the same step'
+  ],
+  [
+    'dropped_steps', 'Dropped', 'steps', count,
+    'Steps whose displacement was partly dropped when the iterations ran out'
+  ],
+  ['ns_per_step', 'Cost', 'ns per step', measure, 'Minimum of the repeats'],
+  ['ns_per_step_max', 'Cost, slowest', 'ns per step', measure, 'Maximum of the repeats'],
+  ['memory_bytes', 'Memory', 'bytes', measure, 'Of a contender\'s own picture of the level'],
+];
+const CONTACTS = [
+  ['contact_precision', 'Precision', '%, exact', share, 'Share of reported contacts that exact arithmetic confirms'],
+  ['contact_recall', 'Recall', '%, exact', share, 'Share of the exact contacts that were reported'],
+  ['contact_precision_box2d', 'Precision', '%, Box2D', share, 'Share of reported contacts that Box2D reports too'],
+  ['contact_recall_box2d', 'Recall', '%, Box2D', share, 'Share of Box2D\'s contacts that were reported'],
+  [
+    'contact_agreement_box2d', 'Same sides as Box2D', '% of steps', share,
+    'Steps on which the sides of contact are the same'
+  ],
+  ['first_contact_step', 'First contact', 'step', count, 'The first step with a contact'],
+  ['first_contact_fraction', 'First contact', 't in the step', measure, 'Its time of impact as a fraction of the step'],
+  ['contact_steps', 'With contact', 'steps', count, 'Steps with any contact'],
+  ['colliders_touched', 'Colliders touched', '', count, 'Different colliders'],
+  ['respawns', 'Respawns', '', count, 'Times the character was put back at the start'],
+];
+
+function rowLabel(row) {
+  return runLabel(row);
+}
+
+function heading([, title, unit, , meaning]) {
+  return el(
+      'th', {scope: 'col', class: 'number', title: meaning}, el('span', {class: 'title'}, title),
+      el('span', {class: 'unit'}, unit || '\u00a0'));
+}
+
+function verdictCell(row) {
+  return el('td', {}, el('span', {class: `verdict ${row.verdict.replace(' ', '-')}`}, row.verdict));
+}
+
+/// A table of the columns that anyone has; null if nobody has any.
+function metricTable(rows, columns, caption, withVerdict) {
+  const used = columns.filter(([key]) => rows.some((row) => row[key] !== undefined));
+  if (used.length === 0 && !withVerdict) return null;
+  const head = [el('th', {scope: 'col'}, 'Contender')];
+  if (withVerdict)
+    head.push(
+        el('th', {scope: 'col'}, 'Verdict'),
+        el('th', {scope: 'col', class: 'number'}, el('span', {class: 'title'}, 'Ran'),
+           el('span', {class: 'unit'}, 'steps')));
+  const body = rows.map(
+      (row) => el(
+          'tr', {}, el('th', {scope: 'row'}, rowLabel(row)),
+          withVerdict ? [verdictCell(row), el('td', {class: 'number'}, grouped(row.steps))] : [],
+          used.map(([key, , , write]) => el('td', {class: 'number'}, row[key] === undefined ? '' : write(row[key])))));
+  return el(
+      'div', {class: 'table-box', tabindex: '0', role: 'region', 'aria-label': caption},
+      el('table', {}, el('caption', {}, caption), el('thead', {}, el('tr', {}, head, used.map(heading))),
+         el('tbody', {}, body)));
+}
+
+function findingsList(rows) {
+  const items = rows.flatMap(
+      (row) => [row.reason, ...row.findings].filter(Boolean).map(
+          (words) => el('li', {}, el('strong', {}, rowLabel(row)), `: ${words}`)));
+  return items.length === 0 ? null : el('ul', {class: 'findings'}, items);
+}
+
+function sceneTables(scene) {
+  if (scene.rows.length === 0) return [el('p', {class: 'quiet'}, 'No contender ran in this scene.')];
+  const ran = scene.rows.filter((row) => row.verdict !== 'not applicable');
+  return [
+    metricTable(scene.rows, SAFETY, 'Safety', true),
+    metricTable(ran, CONTACTS, 'Contacts', false),
+    metricTable(ran, QUALITY, 'Rest, difference to Box2D, cost', false),
+    findingsList(scene.rows),
+  ];
+}
+
+// --- Summary ---
+
+function sum(rows, key) {
+  return rows.reduce((total, row) => total + (typeof row[key] === 'number' ? row[key] : 0), 0);
+}
+
+/// Contenders over all scenes, in the order in which they first appear.
+function byContender(scenes) {
+  const groups = new Map();
+  scenes.forEach((scene, index) => scene.rows.forEach((row) => {
+    const label = rowLabel(row);
+    if (!groups.has(label)) groups.set(label, []);
+    groups.get(label).push({...row, index, sceneName: scene.name});
+  }));
+  return groups;
+}
+
+function sceneLinks(rows) {
+  const link = (row) => el('a', {href: `#scene=${row.index}`}, row.sceneName);
+  const joined = (list) => list.flatMap((row, i) => (i === 0 ? [link(row)] : [', ', link(row)]));
+  if (rows.length === 0) return [];
+  if (rows.length <= 4) return joined(rows);
+  return [el('details', {}, el('summary', {}, `${rows.length} scenes`), joined(rows))];
+}
+
+function largest(rows, key) {
+  const values = rows.map((row) => row[key]).filter((value) => value !== undefined);
+  if (values.length === 0) return '';
+  return values.find((value) => typeof value === 'string') || measure(Math.max(...values));
+}
+
+function summaryRow(label, rows) {
+  const ran = rows.filter((row) => row.verdict !== 'not applicable');
+  const verdicts = (name) => ran.filter((row) => row.verdict === name).length;
+  const counted = (value) => el('td', {class: 'number'}, grouped(value));
+  const judged = (key) =>
+      (ran.some((row) => row[key] !== undefined) ? counted(sum(ran, key)) : el('td', {class: 'number'}));
+  return el(
+      'tr', {}, el('th', {scope: 'row'}, label), counted(ran.length), counted(sum(ran, 'steps')),
+      counted(verdicts('holds')), judged('tunnels'), judged('steps_ending_inside'),
+      el('td', {class: 'number'}, largest(ran, 'max_penetration_m')), counted(verdicts('flagged')),
+      counted(rows.length - ran.length));
+}
+
+function summaryTable(groups) {
+  const columns = [
+    ['Scenes', 'ran'], ['Steps', ''], ['Held', 'scenes'], ['Tunnels', 'steps'], ['Ending inside', 'steps'],
+    ['Max penetration', 'm'], ['Flagged', 'scenes'], ['Not applicable', 'scenes']
+  ];
+  const head = columns.map(([title, unit]) => heading([null, title, unit, null, null]));
+  return el(
+      'div', {class: 'table-box', tabindex: '0', role: 'region', 'aria-label': 'All contenders over all scenes'},
+      el('table', {}, el('caption', {}, 'All contenders over all scenes'),
+         el('thead', {}, el('tr', {}, el('th', {scope: 'col'}, 'Contender'), head)),
+         el('tbody', {}, [...groups].map(([label, rows]) => summaryRow(label, rows)))));
+}
+
+/// For each contender the scenes in which it did worse than to hold.
+function troubleList(groups) {
+  const items =
+      [...groups]
+          .map(([label, rows]) => {
+            const trouble = rows.filter((row) => ['tunnels', 'violates', 'failed'].includes(row.verdict));
+            return trouble.length === 0 ? null : el('li', {}, el('strong', {}, label), ': ', sceneLinks(trouble));
+          })
+          .filter(Boolean);
+  return items.length === 0 ?
+      [] :
+      [el('h3', {}, 'Who tunnelled, broke a guarantee or failed, and where'), el('ul', {class: 'findings'}, items)];
+}
+
+/// One sentence each for those who held everywhere, and for those who did not.
+function whoHeld(groups) {
+  const held = [], others = [];
+  for (const [label, rows] of groups) {
+    const judged = rows.filter((row) => row.verdict !== 'not applicable');
+    if (judged.length === 0) continue;
+    const bad = judged.filter((row) => row.verdict !== 'holds').length;
+    if (bad === 0)
+      held.push(`${label} (${judged.length})`);
+    else
+      others.push(`${label} (held in ${judged.length - bad} of ${judged.length})`);
+  }
+  return [
+    held.length ? `Held in every scene it ran in: ${held.join(', ')}.` : 'No contender held in every scene.',
+    others.length ? `Not in every scene: ${others.join(', ')}.` : '',
+  ].filter(Boolean);
+}
+
+function pairs(list) {
+  return el('dl', {class: 'pairs'}, list.flatMap(([name, value]) => [el('dt', {}, name), el('dd', {}, value)]));
+}
+
+function definitions() {
+  return el('details', {}, el('summary', {}, 'What the columns mean'), pairs([
+              ...SAFETY, ...CONTACTS, ...QUALITY
+            ].map(([, title, unit, , meaning]) => [unit ? `${title} (${unit})` : title, meaning])));
+}
+
+function summaryPage(index) {
+  const groups = byContender(index.scenes);
+  const steps = index.scenes.reduce((total, scene) => total + sum(scene.rows, 'steps'), 0);
+  const scenes = `${grouped(index.scenes.length)} ${index.scenes.length === 1 ? 'scene' : 'scenes'}`;
+  return [
+    el('h2', {}, 'Summary'),
+    el('p', {},
+       `${scenes}, ${groups.size} ${groups.size === 1 ? 'contender' : 'contenders'}, ${grouped(steps)} steps in all. ` +
+           'A scene is held when no step passes through a solid and none ends inside one; ' +
+           'both are decided in exact arithmetic from the trace.'),
+    whoHeld(groups).map((words) => el('p', {}, words)),
+    summaryTable(groups),
+    troubleList(groups),
+    index.guarantee_notes.length ?
+        [
+          el('h3', {}, 'The guarantee, and its violations counted'),
+          el('ul', {class: 'findings'}, index.guarantee_notes.map((note) => el('li', {}, note)))
+        ] :
+        [],
+    el('h3', {}, 'How it was measured'),
+    index.environment.length ? pairs(index.environment) : [],
+    index.tolerances.length ? el('details', {}, el('summary', {}, 'Tolerances [m]'),
+                                 pairs(index.tolerances.map(([name, metres]) => [name, measure(metres)]))) :
+                              [],
+    definitions(),
+    el('p', {class: 'quiet'},
+       'Numbers in this page are rounded for display. The trace files hold every number to the last bit.'),
+  ].flat();
+}

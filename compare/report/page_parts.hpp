@@ -1,0 +1,18 @@
+/// The page's own files, embedded at build time (see embed.cmake).
+#pragma once
+
+#include <string_view>
+
+namespace paperproof::compare::page {
+
+extern const std::string_view page_html;  ///< The frame, with a marker for each of the other parts.
+extern const std::string_view style_css;
+extern const std::string_view decode_js;
+extern const std::string_view draw_js;
+extern const std::string_view tables_js;
+extern const std::string_view disagreements_js;
+extern const std::string_view controls_js;
+extern const std::string_view replay_js;
+extern const std::string_view main_js;
+
+}  // namespace paperproof::compare::page

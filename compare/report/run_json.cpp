@@ -1,0 +1,204 @@
+#include "report/run_json.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+namespace paperproof::compare {
+namespace {
+
+constexpr double parts_of_one = 10'000;  ///< Fractions and normals are shown to four decimals.
+
+std::int64_t in_parts(double number) { return std::isfinite(number) ? std::llround(number * parts_of_one) : 0; }
+
+struct Cell {
+  std::int64_t x = 0;
+  std::int64_t y = 0;
+  friend bool operator==(const Cell&, const Cell&) = default;
+};
+
+/// Writes the steps of one run, column by column.
+class Columns {
+ public:
+  explicit Columns(const Quantum& quantum) : quantum_(quantum) {}
+
+  void add(const TraceStep& step) {
+    steps_.add(step.step - last_step_);
+    last_step_ = step.step;
+    add_flags(step);
+    add_path(step.path);
+    add_velocity(step.velocity);
+    add_contacts(step.contacts);
+    add_overlaps(step.start_overlap);
+    ++count_;
+  }
+
+  void write(JsonObject& run) && {
+    run.put("step", std::move(steps_).take()).put("flags", json_string(flags_)).put("path", std::move(path_).take());
+    run.put("velocity", std::move(velocity_).take()).put("contacts", std::move(contacts_).take());
+    run.put("kinds", std::move(kinds_).take()).put("start_overlap", std::move(overlaps_).take());
+  }
+
+ private:
+  using Kind = std::array<std::int64_t, 4>;
+
+  [[nodiscard]] Cell rounded(const Vec2d& point) const {
+    return {quantum_.round(point.x()), quantum_.round(point.y())};
+  }
+
+  void add_flags(const TraceStep& step) {
+    const int bits = (step.grounded ? 1 : 0) | (step.jumping ? 2 : 0) | (step.respawn ? 4 : 0) | (step.stuck ? 8 : 0) |
+                     (step.dropped ? 16 : 0) | (step.capped ? 32 : 0);
+    flags_ += static_cast<char>('0' + bits);
+  }
+
+  void add_corner(const Cell& corner) {
+    path_.add(corner.x - position_.x).add(corner.y - position_.y);
+    position_ = corner;
+  }
+
+  void add_path(const std::vector<PathPoint<double>>& path) {
+    if (path.empty()) {
+      path_.add(-1);
+    } else if (path.size() == 2 && rounded(path.front().position) == position_) {
+      path_.add(0);
+      add_corner(rounded(path.back().position));
+    } else {
+      path_.add(static_cast<std::int64_t>(path.size()));
+      for (const PathPoint<double>& corner : path) {
+        add_corner(rounded(corner.position));
+        path_.add(in_parts(corner.fraction));
+      }
+    }
+  }
+
+  void add_velocity(const Vec2d& velocity) {
+    const Cell now{quantum_.round(velocity.x() / 10), quantum_.round(velocity.y() / 10)};
+    velocity_.add(now.x - last_velocity_.x).add(now.y - last_velocity_.y);
+    last_velocity_ = now;
+  }
+
+  std::size_t index_of(const Kind& kind) {
+    const auto [entry, is_new] = known_kinds_.try_emplace(kind, known_kinds_.size());
+    if (is_new) {
+      for (const std::int64_t number : kind) kinds_.add(number);
+      last_points_.push_back({});
+    }
+    return entry->second;
+  }
+
+  void add_contacts(const std::vector<Contact<double>>& contacts) {
+    contacts_.add(static_cast<std::int64_t>(contacts.size()));
+    for (const Contact<double>& contact : contacts) {
+      const std::size_t kind = index_of({contact.collider, static_cast<std::int64_t>(contact.side),
+                                         in_parts(contact.normal.x()), in_parts(contact.normal.y())});
+      const Cell point = rounded(contact.point);
+      const Cell relative{point.x - position_.x, point.y - position_.y};
+      Cell& last = last_points_[kind];
+      contacts_.add(static_cast<std::int64_t>(kind)).add(relative.x - last.x).add(relative.y - last.y);
+      contacts_.add(in_parts(contact.fraction)).add_short(contact.separation);
+      last = relative;
+    }
+  }
+
+  void add_overlaps(const std::vector<ColliderIndex>& overlaps) {
+    if (overlaps.empty()) return;
+    JsonArray list;
+    for (const ColliderIndex collider : overlaps) list.add(collider);
+    overlaps_.put(std::to_string(count_), std::move(list).take());
+  }
+
+  const Quantum& quantum_;
+  JsonArray steps_, path_, velocity_, contacts_, kinds_;
+  std::string flags_;
+  JsonObject overlaps_;
+  std::map<Kind, std::size_t> known_kinds_;
+  std::vector<Cell> last_points_;
+  Cell position_, last_velocity_;
+  std::int64_t last_step_ = 0;
+  std::size_t count_ = 0;
+};
+
+bool is_finite(const TraceStep& step) {
+  return step.velocity.allFinite() &&
+         std::all_of(step.path.begin(), step.path.end(),
+                     [](const PathPoint<double>& corner) { return corner.position.allFinite(); });
+}
+
+std::string_view word_for(ReportEvent::Kind kind) {
+  switch (kind) {
+    case ReportEvent::Kind::tunnel:
+      return "tunnel";
+    case ReportEvent::Kind::corner_cut:
+      return "corner cut";
+    case ReportEvent::Kind::inside:
+      return "inside";
+    case ReportEvent::Kind::one_way:
+      return "one-way broken";
+    case ReportEvent::Kind::note:
+      return "note";
+  }
+  return "note";
+}
+
+std::string events_json(const std::vector<ReportEvent>& events) {
+  JsonArray list;
+  for (const ReportEvent& event : events) {
+    list.add_raw(
+        std::move(
+            JsonArray().add(event.step).add_raw(json_string(word_for(event.kind))).add_raw(json_string(event.words)))
+            .take());
+  }
+  return std::move(list).take();
+}
+
+std::string hull_json(const std::vector<Vec2d>& points, const Quantum& quantum) {
+  JsonArray hull;
+  for (const Vec2d& point : points) hull.add(quantum.round(point.x())).add(quantum.round(point.y()));
+  return std::move(hull).take();
+}
+
+void write_header(JsonObject& object, const ReportRun& run, const Quantum& quantum) {
+  const TraceHeader& header = run.header;
+  JsonArray omitted;
+  for (const std::string& reason : header.plan_omitted) omitted.add_raw(json_string(reason));
+  object.put("contender", json_string(header.contender)).put("scalar", json_string(header.scalar));
+  object.put("mode", json_string(header.mode)).put("dt", short_number(header.dt, 6));
+  object.put("box2d", json_string(header.box2d)).put("path_exact", header.path_exact ? "true" : "false");
+  object.put("plan_omitted", std::move(omitted).take()).put("every", run.every);
+  object.put("hull", hull_json(header.points, quantum)).put("events", events_json(run.events));
+}
+
+}  // namespace
+
+std::string run_json(const ReportRun& run, std::size_t scenery, const Quantum& quantum) {
+  Columns columns(quantum);
+  JsonObject object;
+  write_header(object, run, quantum);
+  object.put("scenery", static_cast<std::int64_t>(scenery));
+  for (const TraceStep& step : run.steps) {
+    if (!is_finite(step)) {
+      object.put("not_finite_from", step.step);
+      break;
+    }
+    columns.add(step);
+  }
+  std::move(columns).write(object);
+  return std::move(object).take();
+}
+
+std::string plain_contacts_json(const std::vector<Contact<double>>& contacts, const Quantum& quantum) {
+  JsonArray list;
+  for (const Contact<double>& contact : contacts) {
+    JsonArray numbers;
+    numbers.add(contact.collider).add(static_cast<std::int64_t>(contact.side));
+    numbers.add(quantum.round(contact.point.x())).add(quantum.round(contact.point.y()));
+    numbers.add(in_parts(contact.normal.x())).add(in_parts(contact.normal.y()));
+    numbers.add(in_parts(contact.fraction)).add_short(contact.separation);
+    list.add_raw(std::move(numbers).take());
+  }
+  return std::move(list).take();
+}
+
+}  // namespace paperproof::compare

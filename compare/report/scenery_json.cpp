@@ -1,0 +1,114 @@
+#include "report/scenery_json.hpp"
+
+#include <map>
+#include <numeric>
+
+namespace paperproof::compare {
+namespace {
+
+struct Cell {
+  std::int64_t x = 0;
+  std::int64_t y = 0;
+};
+
+Cell rounded(const Vec2d& point, const Quantum& quantum) {
+  return {quantum.round(point.x()), quantum.round(point.y())};
+}
+
+std::string ring_json(const std::vector<Vec2d>& points, Cell last, const Quantum& quantum) {
+  JsonArray ring;
+  for (const Vec2d& point : points) {
+    const Cell cell = rounded(point, quantum);
+    ring.add(cell.x - last.x).add(cell.y - last.y);
+    last = cell;
+  }
+  return std::move(ring).take();
+}
+
+std::string shape_json(const ColliderDef& collider, Cell origin, const Quantum& quantum) {
+  JsonArray rings;
+  rings.add_raw(ring_json(collider.points, origin, quantum));
+  for (const std::vector<Vec2d>& hole : collider.holes) rings.add_raw(ring_json(hole, origin, quantum));
+  JsonArray shape;
+  shape.add(collider.shape == ColliderDef::Shape::chain ? 1 : 0).add_raw(std::move(rings).take());
+  if (collider.one_way) {
+    JsonArray normal;
+    normal.add_short(collider.one_way->x()).add_short(collider.one_way->y());
+    shape.add_raw(std::move(normal).take());
+  }
+  return std::move(shape).take();
+}
+
+/// Which shape each collider has, as (shape, how many in a row).
+class Order {
+ public:
+  void add(std::int64_t shape) {
+    if (count_ > 0 && shape == shape_) {
+      ++count_;
+      return;
+    }
+    flush();
+    shape_ = shape;
+    count_ = 1;
+  }
+  [[nodiscard]] std::string take() && {
+    flush();
+    return std::move(list_).take();
+  }
+
+ private:
+  void flush() {
+    if (count_ > 0) list_.add(shape_).add(count_);
+  }
+  JsonArray list_;
+  std::int64_t shape_ = 0;
+  std::int64_t count_ = 0;
+};
+
+std::string ids_json(const std::vector<std::string>& ids, const std::set<ColliderIndex>& named) {
+  JsonObject object;
+  for (const ColliderIndex collider : named) {
+    if (collider < ids.size()) object.put(std::to_string(collider), json_string(ids[collider]));
+  }
+  return std::move(object).take();
+}
+
+/// Tiles stand on a lattice: with its unit taken out, most differences are one digit.
+std::string places_json(const std::vector<Cell>& steps, std::int64_t unit) {
+  JsonArray at;
+  for (const Cell& step : steps) at.add(step.x / unit).add(step.y / unit);
+  return std::move(at).take();
+}
+
+std::int64_t lattice_unit(const std::vector<Cell>& steps) {
+  std::int64_t unit = 0;
+  for (const Cell& step : steps) unit = std::gcd(unit, std::gcd(step.x, step.y));
+  return unit == 0 ? 1 : unit;
+}
+
+}  // namespace
+
+std::string scenery_json(const SceneryDef& scenery, const std::vector<std::string>& ids,
+                         const std::set<ColliderIndex>& named, const Quantum& quantum) {
+  std::map<std::string, std::int64_t> known;
+  JsonArray shapes;
+  Order order;
+  std::vector<Cell> steps;
+  Cell last;
+  for (const ColliderDef& collider : scenery.colliders) {
+    const Cell origin = collider.points.empty() ? last : rounded(collider.points.front(), quantum);
+    const std::string shape = shape_json(collider, origin, quantum);
+    const auto [entry, is_new] = known.try_emplace(shape, static_cast<std::int64_t>(known.size()));
+    if (is_new) shapes.add_raw(shape);
+    order.add(entry->second);
+    steps.push_back({origin.x - last.x, origin.y - last.y});
+    last = origin;
+  }
+  const std::int64_t unit = lattice_unit(steps);
+  JsonObject object;
+  object.put("shapes", std::move(shapes).take()).put("order", std::move(order).take());
+  object.put("unit", unit).put("at", places_json(steps, unit)).put("ids", ids_json(ids, named));
+  return std::move(object).take();
+}
+
+}  // namespace paperproof::compare

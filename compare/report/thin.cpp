@@ -1,0 +1,48 @@
+#include "report/report.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <set>
+
+namespace paperproof::compare {
+namespace {
+
+/// Steps that must stay whatever the stride is, the most telling first.
+std::vector<int> telling_steps(const ReportRun& run) {
+  std::vector<int> steps;
+  const auto contact =
+      std::find_if(run.steps.begin(), run.steps.end(), [](const TraceStep& step) { return !step.contacts.empty(); });
+  if (contact != run.steps.end()) steps.push_back(contact->step);
+  for (const ReportEvent& event : run.events) steps.push_back(event.step);
+  return steps;
+}
+
+/// The telling steps with their neighbours, as many as fit into half of the room.
+std::set<int> steps_to_keep(const ReportRun& run, std::size_t room) {
+  std::set<int> keep{run.steps.front().step, run.steps.back().step};
+  for (const int step : telling_steps(run)) {
+    if (keep.size() + 3 > room / 2) break;
+    keep.insert({step - 1, step, step + 1});
+  }
+  return keep;
+}
+
+}  // namespace
+
+void thin_for_replay(ReportRun& run, int max_steps) {
+  const auto limit = static_cast<std::size_t>(std::max(max_steps, 8));
+  if (run.steps.size() <= limit) return;
+  const std::set<int> keep = steps_to_keep(run, limit);
+  const std::size_t room = limit - keep.size();
+  const std::size_t stride = (run.steps.size() + room - 1) / room;
+
+  std::vector<TraceStep> kept;
+  kept.reserve(limit);
+  for (std::size_t i = 0; i < run.steps.size(); ++i) {
+    if (i % stride == 0 || keep.contains(run.steps[i].step)) kept.push_back(std::move(run.steps[i]));
+  }
+  run.steps = std::move(kept);
+  run.every *= static_cast<int>(stride);
+}
+
+}  // namespace paperproof::compare

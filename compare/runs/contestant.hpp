@@ -1,0 +1,65 @@
+/// One side of a comparison: something that moves a character through a scene, step by step.
+#pragma once
+
+#include "runs/trace.hpp"
+#include "scenes/scene.hpp"
+
+#include <paperproof/techniques.hpp>
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace paperproof::compare {
+
+/// The names the command takes, in the order of the tables: the techniques, then Box2D.
+[[nodiscard]] std::span<const std::string_view> contender_names();
+[[nodiscard]] bool is_reference(std::string_view contender);
+
+enum class ScalarKind : std::uint8_t { binary64, binary32 };
+[[nodiscard]] std::string_view name_of(ScalarKind scalar) noexcept;
+
+/// What a contestant carries from step to step that a twin in lockstep takes over.
+struct Pose {
+  Vec2d position{Vec2d::Zero()};
+  Vec2d velocity{Vec2d::Zero()};
+  bool grounded = false;
+  bool jumping = false;
+  bool jump_held = false;
+  bool jump_pending = false;
+};
+
+class Contestant {
+ public:
+  virtual ~Contestant() = default;
+  /// Everything but the plan of the trace's header.
+  [[nodiscard]] virtual const TraceHeader& header() const noexcept = 0;
+  /// One step. Fills path, requested, velocity, grounded, jumping, contacts, stuck, dropped and capped of `record`.
+  virtual void step(const Input& input, TraceStep& record) = 0;
+  /// One step without a record, for timing.
+  virtual void step_unrecorded(const Input& input) = 0;
+  [[nodiscard]] virtual Pose pose() const = 0;
+  virtual void place(const Pose& pose) = 0;
+  /// What its own picture of the level takes [bytes]; 0 where it keeps none.
+  [[nodiscard]] virtual std::size_t memory_bytes() const { return 0; }
+};
+
+/// A run that cannot be made, with the reason in words; its row is `not_applicable` or `failed`.
+class NotApplicable : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The motion of a step left the range that contestants are made for; the steps before it stand.
+class LeftRange : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// @param scenery of the scene, in double; must outlive the contestant.
+/// @throws NotApplicable where the contender cannot express the scene; std::exception where it cannot be built.
+[[nodiscard]] std::unique_ptr<Contestant> make_contestant(std::string_view name, ScalarKind scalar, const Scene& scene,
+                                                          const Scenery<double>& scenery);
+
+}  // namespace paperproof::compare

@@ -1,0 +1,158 @@
+#include "runs/lane.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace paperproof::compare {
+namespace {
+
+/// The guarantee of octagon_sweep covers starts this near to the origin [m].
+constexpr double guaranteed_range = 1e6;
+/// The largest gap that it may leave at a contact [m].
+constexpr double guaranteed_gap = 1e-6;
+/// The first steps are kept for the replay one by one: a start is what people look at.
+constexpr int first_steps = 60;
+
+}  // namespace
+
+Lane::Lane(std::string contender, ScalarKind scalar, const Scene& scene, const Scenery<double>& scenery,
+           const std::string& mode, const std::string& trace_stem, const ReplayLimit& replay)
+    : limit_(replay) {
+  row_.scene = scene.name;
+  row_.contender = std::move(contender);
+  row_.scalar = is_reference(row_.contender) ? name_of(ScalarKind::binary32) : name_of(scalar);
+  row_.mode = mode;
+  try {
+    contestant_ = make_contestant(row_.contender, scalar, scene, scenery);
+    judge_ = std::make_unique<Judge>(header());
+    metrics_ = std::make_unique<Metrics>(header());
+    if (limit_.most > 0) {
+      replay_.header = header();
+      replay_.every = std::max(1, (limit_.steps + limit_.most - 1) / limit_.most);
+    }
+    inside_ = solids().overlapped(contestant_->pose().position);
+  } catch (const NotApplicable& reason) {
+    fail(Verdict::not_applicable, reason.what());
+  } catch (const std::exception& error) {
+    fail(Verdict::failed, error.what());
+  }
+  // A trace that cannot be written ends the command, not the lane.
+  if (running() && !trace_stem.empty())
+    trace_ = std::make_unique<TraceWriter>(trace_path(trace_stem, header()), header());
+}
+
+void Lane::fail(Verdict verdict, const std::string& reason) {
+  row_.verdict = verdict;
+  row_.reason = reason;
+  contestant_.reset();
+}
+
+/// What ran is scored; the row says that it ended before its time.
+void Lane::end_early(const std::string& reason) {
+  metrics_->write(row_);
+  conclude();
+  if (row_.verdict == Verdict::holds) {
+    row_.verdict = Verdict::flagged;
+    row_.reason = reason;
+  } else {
+    row_.findings.push_back(reason);
+  }
+  contestant_.reset();
+}
+
+void Lane::place(const Pose& pose) {
+  contestant_->place(pose);
+  inside_ = solids().overlapped(contestant_->pose().position);
+  placed_ = true;
+}
+
+void Lane::step(int step, const Input& input) {
+  try {
+    record_.step = step;
+    record_.respawn = placed_ && step > 0;
+    placed_ = false;
+    contestant_->step(input, record_);
+    record_.start_overlap = inside_;
+    judgement_ = judge_->judge(record_);
+    metrics_->add(record_, judgement_);
+  } catch (const LeftRange& reason) {
+    return end_early(fmt::format("step {}: {}", step, reason.what()));
+  } catch (const std::exception& error) {
+    return fail(Verdict::failed, fmt::format("step {}: {}", step, error.what()));
+  }
+  ++row_.steps;
+  inside_ = judgement_.end_overlap;
+  const bool entered = std::any_of(inside_.begin(), inside_.end(), [this](ColliderIndex collider) {
+    return std::find(record_.start_overlap.begin(), record_.start_overlap.end(), collider) ==
+           record_.start_overlap.end();
+  });
+  if (entered || !judgement_.tunnelled.empty() || !judgement_.one_way_broken.empty()) ++steps_broken_;
+  if (record_.capped) ++steps_capped_;
+  if (trace_) trace_->write(record_);
+  if (limit_.most > 0) keep_for_replay();
+}
+
+void Lane::keep_for_replay() {
+  const std::size_t before = replay_.events.size();
+  const auto note = [this](ReportEvent::Kind kind, const std::vector<ColliderIndex>& colliders, const char* what) {
+    if (!colliders.empty() && replay_.events.size() < static_cast<std::size_t>(limit_.most))
+      replay_.events.push_back({record_.step, kind, fmt::format("{} {}", what, header().ids[colliders.front()])});
+  };
+  note(ReportEvent::Kind::tunnel, judgement_.tunnelled, "passes");
+  note(ReportEvent::Kind::corner_cut, judgement_.corner_cut, "cuts a corner of");
+  note(ReportEvent::Kind::one_way, judgement_.one_way_broken, "passes against its normal:");
+  if (inside_ != record_.start_overlap) note(ReportEvent::Kind::inside, inside_, "ends inside");
+  const bool kept = record_.step < first_steps || record_.step % replay_.every == 0 ||
+                    record_.step + 1 == limit_.steps || replay_.events.size() > before;
+  if (kept) replay_.steps.push_back(record_);
+}
+
+void Lane::finish() {
+  if (running()) {
+    metrics_->write(row_);
+    if (const std::size_t bytes = contestant_->memory_bytes(); bytes > 0) row_.memory_bytes = bytes;
+    conclude();
+  }
+  if (trace_) trace_->commit();
+}
+
+bool Lane::guaranteed() const {
+  if (row_.contender != paperproof::name_of(TechniqueKind::octagon_sweep) ||
+      row_.scalar != name_of(ScalarKind::binary64))
+    return false;
+  const auto within = [](const Vec2d& p) { return p.cwiseAbs().maxCoeff() <= guaranteed_range; };
+  const std::vector<ColliderDef>& colliders = header().scenery.colliders;
+  return std::all_of(colliders.begin(), colliders.end(), [&](const ColliderDef& collider) {
+    return std::all_of(collider.points.begin(), collider.points.end(), within);
+  });
+}
+
+void Lane::conclude() {
+  const int inside = row_.steps_ending_inside.value_or(0);
+  const double gap = row_.max_contact_gap_m.value_or(0);
+  const bool wide_gap = gap > guaranteed_gap;
+  if (guaranteed() && (steps_broken_ > 0 || wide_gap)) {
+    row_.verdict = Verdict::violates;
+    row_.reason = steps_broken_ > 0 ? fmt::format("{} steps enter or pass a solid", steps_broken_)
+                                    : fmt::format("a contact is {:.3g} m away", gap);
+  } else if (steps_capped_ > 0) {
+    row_.verdict = Verdict::flagged;
+    row_.reason = fmt::format("{} steps exceed Box2D's travel cap of 2 m per step and are not scored", steps_capped_);
+  } else if (row_.tunnels.value_or(0) > 0) {
+    row_.verdict = Verdict::tunnels;
+    row_.reason = fmt::format("{} steps pass a solid", *row_.tunnels);
+    if (!row_.findings.empty()) {  // the first passage in words says more
+      row_.reason = row_.findings.front();
+      row_.findings.erase(row_.findings.begin());
+    }
+  } else if (steps_broken_ > 0) {
+    row_.verdict = Verdict::flagged;
+    row_.reason = inside > 0 ? fmt::format("{} steps end inside a solid, up to {:.3g} m deep", inside,
+                                           row_.max_penetration_m.value_or(0))
+                             : fmt::format("{} steps pass a one-way chain against its normal", steps_broken_);
+  }
+}
+
+}  // namespace paperproof::compare

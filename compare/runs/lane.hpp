@@ -1,0 +1,66 @@
+/// One contestant with everything that watches it.
+#pragma once
+
+#include "metrics/metrics.hpp"
+#include "oracle/judge.hpp"
+#include "report/report.hpp"
+#include "runs/contestant.hpp"
+#include "runs/trace_writer.hpp"
+
+#include <memory>
+#include <optional>
+
+namespace paperproof::compare {
+
+/// How many steps a replay keeps, and which.
+struct ReplayLimit {
+  int steps = 0;  ///< That run.
+  int most = 0;   ///< To keep; 0: none.
+};
+
+/// Steps a contestant, has every step judged, and collects what a row, a trace and a replay need. Whatever goes wrong
+/// ends the lane with a row that says why. Not thread-safe.
+class Lane {
+ public:
+  Lane(std::string contender, ScalarKind scalar, const Scene& scene, const Scenery<double>& scenery,
+       const std::string& mode, const std::string& trace_stem, const ReplayLimit& replay);
+
+  [[nodiscard]] bool running() const noexcept { return contestant_ != nullptr; }
+  [[nodiscard]] const std::string& contender() const noexcept { return row_.contender; }
+  [[nodiscard]] Contestant& contestant() noexcept { return *contestant_; }
+  [[nodiscard]] const TraceHeader& header() const noexcept { return contestant_->header(); }
+  [[nodiscard]] const ExactScenery& solids() const noexcept { return judge_->scenery(); }
+  [[nodiscard]] const TraceStep& record() const noexcept { return record_; }
+  [[nodiscard]] const StepJudgement& judgement() const noexcept { return judgement_; }
+  [[nodiscard]] Row& row() noexcept { return row_; }
+  [[nodiscard]] ReportRun& replay() noexcept { return replay_; }
+
+  /// Puts the contestant somewhere; the next step begins a new story.
+  void place(const Pose& pose);
+  void step(int step, const Input& input);
+  /// Writes metrics and verdict into the row and the trace to its place.
+  void finish();
+
+ private:
+  void fail(Verdict verdict, const std::string& reason);
+  void end_early(const std::string& reason);
+  void keep_for_replay();
+  void conclude();
+  [[nodiscard]] bool guaranteed() const;
+
+  Row row_;
+  ReportRun replay_;
+  ReplayLimit limit_;
+  std::unique_ptr<Contestant> contestant_;
+  std::unique_ptr<Judge> judge_;
+  std::unique_ptr<Metrics> metrics_;
+  std::unique_ptr<TraceWriter> trace_;
+  TraceStep record_;
+  StepJudgement judgement_;
+  std::vector<ColliderIndex> inside_;  ///< What the octagon overlaps now, exactly.
+  int steps_broken_ = 0;               ///< Steps that entered a solid, passed one, or passed a one-way chain backwards.
+  int steps_capped_ = 0;
+  bool placed_ = true;
+};
+
+}  // namespace paperproof::compare

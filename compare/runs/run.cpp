@@ -1,0 +1,233 @@
+#include "runs/run.hpp"
+
+#include "metrics/agreement.hpp"
+
+#include "runs/cost.hpp"
+#include "runs/input_cursor.hpp"
+#include "runs/lane.hpp"
+#include "runs/lockstep.hpp"
+#include "runs/sentence.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace paperproof::compare {
+namespace {
+
+constexpr std::string_view default_lockstep = "octagon_sweep";
+constexpr std::string_view twin_name = "box2d";
+/// A character this far outside of its map has left it [m].
+constexpr double lost = 10;
+/// Steps between two calls of the progress callback.
+constexpr int progress_every = 64;
+/// Disagreements kept per scene for the report.
+constexpr std::size_t most_disagreements = 24;
+
+class SceneRun {
+ public:
+  SceneRun(const Scene& scene, const RunOptions& options)
+      : scene_(scene),
+        options_(options),
+        steps_(options.steps.value_or(scene.steps)),
+        input_(options.random_input ? random_input(*options.random_input, steps_) : scene.input),
+        scenery_(scene.scenery) {
+    const std::string mode = options.mode == Mode::lockstep ? "lockstep" : "free";
+    const ReplayLimit replay{.steps = steps_, .most = options.max_replay_steps};
+    for (const std::string& name : names())
+      for (const ScalarKind scalar : options.scalars) {
+        if (is_reference(name) && scalar != options.scalars.front()) continue;
+        lanes_.push_back(std::make_unique<Lane>(name, scalar, scene, scenery_, mode, options.trace_stem, replay));
+        if (options.mode != Mode::lockstep) continue;
+        const std::string stem = options.trace_stem.empty() ? "" : options.trace_stem + ".twin_of_" + name;
+        twins_.push_back(std::make_unique<Lane>(std::string(twin_name), scalar, scene, scenery_, mode, stem, replay));
+        twins_.back()->row().findings.push_back("twin of " + name);
+      }
+    begin_agreements();
+  }
+
+  ReportScene go() {
+    InputCursor cursor(input_);
+    for (int step = 0; step < steps_; ++step) {
+      const Input& input = cursor.at(step);
+      if (options_.mode == Mode::lockstep)
+        step_in_lockstep(step, input);
+      else
+        step_freely(step, input);
+      if (options_.progress && step % progress_every == 0)
+        options_.progress(static_cast<double>(step) / static_cast<double>(steps_));
+    }
+    return collect();
+  }
+
+ private:
+  /// A lane beside the reference, and how far they agree.
+  struct Pair {
+    Lane* mine;
+    Lane* reference;
+    Agreement agreement;
+    int not_compared = 0;  ///< Lockstep: steps without room for Box2D's skin.
+  };
+
+  [[nodiscard]] std::vector<std::string> names() const {
+    std::vector<std::string> chosen = options_.contenders;
+    const bool lockstep = options_.mode == Mode::lockstep;
+    if (chosen.empty() && lockstep) chosen.emplace_back(default_lockstep);
+    if (chosen.empty())
+      for (const std::string_view name : contender_names())
+        if (!is_reference(name) || options_.reference) chosen.emplace_back(name);
+    if (!options_.contenders.empty() && options_.reference && !lockstep &&
+        std::find(chosen.begin(), chosen.end(), twin_name) == chosen.end())
+      chosen.emplace_back(twin_name);
+    if (lockstep) std::erase_if(chosen, [](const std::string& name) { return is_reference(name); });
+    return chosen;
+  }
+
+  void begin_agreements() {
+    const auto pair_up = [this](Lane& mine, Lane& reference) {
+      if (mine.running() && reference.running())
+        pairs_.push_back({&mine, &reference, Agreement(mine.header(), reference.header()), 0});
+    };
+    if (options_.mode == Mode::lockstep) {
+      for (std::size_t i = 0; i < lanes_.size(); ++i) pair_up(*lanes_[i], *twins_[i]);
+      return;
+    }
+    const auto reference =
+        std::find_if(lanes_.begin(), lanes_.end(), [](const auto& lane) { return lane->contender() == twin_name; });
+    if (reference == lanes_.end()) return;
+    for (const auto& lane : lanes_)
+      if (lane != *reference) pair_up(*lane, **reference);
+  }
+
+  void respawn_if_lost(Lane& lane) const {
+    if (!scene_.respawn_box) return;
+    const Vec2d position = lane.contestant().pose().position;
+    if (scene_.respawn_box->inflated(lost).contains({position, position})) return;
+    lane.place({.position = scene_.start.position, .velocity = scene_.start.velocity});
+  }
+
+  void step_freely(int step, const Input& input) {
+    for (const auto& lane : lanes_) {
+      if (!lane->running()) continue;
+      respawn_if_lost(*lane);
+      lane->step(step, input);
+    }
+    for (Pair& pair : pairs_)
+      if (pair.mine->running() && pair.reference->running())
+        pair.agreement.add(pair.mine->record(), pair.mine->judgement(), pair.reference->record(),
+                           pair.reference->judgement());
+  }
+
+  void step_in_lockstep(int step, const Input& input) {
+    for (Pair& pair : pairs_) {
+      if (!pair.mine->running() || !pair.reference->running()) continue;
+      respawn_if_lost(*pair.mine);
+      const TwinStart start = twin_start(*pair.mine);
+      pair.mine->step(step, input);
+      pair.reference->place(start.pose);
+      pair.reference->step(step, input);
+      if (!pair.mine->running() || !pair.reference->running()) continue;
+      if (!start.room) {
+        ++pair.not_compared;
+        continue;
+      }
+      TraceStep unshifted = pair.reference->record();
+      for (PathPoint<double>& corner : unshifted.path) corner.position -= start.shift;
+      pair.agreement.add(pair.mine->record(), pair.mine->judgement(), unshifted, pair.reference->judgement());
+    }
+  }
+
+  ReportScene collect() {
+    for (const auto& lane : lanes_) lane->finish();
+    for (const auto& lane : twins_) lane->finish();
+    for (Pair& pair : pairs_) {
+      pair.agreement.write(pair.mine->row());
+      if (pair.not_compared > 0)
+        pair.mine->row().findings.push_back(
+            fmt::format("{} steps not compared: no room for Box2D's skin", pair.not_compared));
+    }
+    for (const auto& lane : lanes_)
+      if (!scene_.movers.empty())
+        lane->row().findings.push_back(fmt::format("{} movers are left out", scene_.movers.size()));
+    for (const auto& lane : twins_) lane->row().respawns.reset();  // it was placed anew before every step
+
+    ReportScene result;
+    result.name = scene_.name;
+    result.description = scene_.description;
+    for (const auto& lane : lanes_) add(*lane, result);
+    for (const auto& lane : twins_) add(*lane, result);
+    result.sentence = who_is_right(result.rows);
+    if (options_.mode == Mode::lockstep)
+      for (const Pair& pair : pairs_) result.sentence += in_lockstep(pair);
+    if (!scene_.movers.empty())
+      result.sentence +=
+          fmt::format(" Left out: {} movers; this version runs what stands still.", scene_.movers.size());
+    for (const Pair& pair : pairs_) describe_disagreements(pair, result);
+    return result;
+  }
+
+  /// How often the two agree on one step from the same start, and who is right where they do not.
+  static std::string in_lockstep(const Pair& pair) {
+    const std::optional<double> share = pair.mine->row().contact_agreement_box2d;
+    if (!share) return "";
+    using Right = SideDisagreement::Right;
+    const auto count = [&pair](Right right) { return pair.agreement.count(right); };
+    const int differ = count(Right::mine) + count(Right::reference) + count(Right::both) + count(Right::neither);
+    std::string text =
+        fmt::format(" From the same start {} and Box2D report the same sides of contact on {:.2f} % of {} steps",
+                    pair.mine->contender(), 100 * *share, pair.mine->row().steps - pair.not_compared);
+    if (differ == 0) return text + ".";
+    return text + fmt::format(
+                      "; of the {} others exact arithmetic is with {} on {}, with Box2D on {}, with both on {}, with "
+                      "neither on {}.",
+                      differ, pair.mine->contender(), count(Right::mine), count(Right::reference), count(Right::both),
+                      count(Right::neither));
+  }
+
+  void add(Lane& lane, ReportScene& result) {
+    const bool placed_every_step = options_.mode == Mode::lockstep && is_reference(lane.contender());
+    if (options_.measure_cost && lane.running() && !placed_every_step) {
+      const Cost cost = measure_cost(lane.contestant(), scene_, input_, steps_);
+      lane.row().ns_per_step = cost.ns_per_step_min;
+      lane.row().ns_per_step_max = cost.ns_per_step_max;
+    }
+    result.rows.push_back(lane.row());
+    if (options_.max_replay_steps > 0 && lane.running()) result.runs.push_back(std::move(lane.replay()));
+  }
+
+  void describe_disagreements(const Pair& pair, ReportScene& result) const {
+    const bool told = pair.mine->contender() == default_lockstep;
+    if (!told || options_.max_replay_steps == 0) return;
+    const auto run_of = [&](const Lane& lane) {
+      const auto found = std::find_if(result.runs.begin(), result.runs.end(),
+                                      [&](const ReportRun& run) { return run.header.contender == lane.contender(); });
+      return static_cast<std::size_t>(found - result.runs.begin());
+    };
+    for (const SideDisagreement& one : pair.agreement.disagreements()) {
+      if (result.disagreements.size() == most_disagreements) return;
+      Disagreement told_one;
+      told_one.step = one.step;
+      told_one.statements = {
+          {run_of(*pair.mine), one.mine.path.front().position, one.mine.path.back().position, one.mine.contacts},
+          {run_of(*pair.reference), one.reference.path.front().position, one.reference.path.back().position,
+           one.reference.contacts}};
+      told_one.who_is_right = one.who_is_right;
+      result.disagreements.push_back(std::move(told_one));
+    }
+  }
+
+  const Scene& scene_;
+  const RunOptions& options_;
+  int steps_;
+  std::vector<InputEvent> input_;
+  Scenery<double> scenery_;
+  std::vector<std::unique_ptr<Lane>> lanes_;
+  std::vector<std::unique_ptr<Lane>> twins_;
+  std::vector<Pair> pairs_;
+};
+
+}  // namespace
+
+ReportScene run_scene(const Scene& scene, const RunOptions& options) { return SceneRun(scene, options).go(); }
+
+}  // namespace paperproof::compare

@@ -1,0 +1,113 @@
+#include "runs/sentence.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <functional>
+
+namespace paperproof::compare {
+namespace {
+
+std::string called(const Row& row) {
+  return row.scalar == "float" && !row.contender.starts_with("box2d") ? row.contender + " in float" : row.contender;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  return text;
+}
+
+std::vector<std::string> those(const std::vector<Row>& rows, const std::function<bool(const Row&)>& which) {
+  std::vector<std::string> names;
+  for (const Row& row : rows)
+    if (which(row)) names.push_back(called(row));
+  return names;
+}
+
+bool scored(const Row& row) { return row.verdict != Verdict::not_applicable && row.verdict != Verdict::failed; }
+
+/// A horizontal speed loss in one step beyond which a run counts as snagged: Box2D's users call 1 % a ghost collision.
+constexpr double snagged = 0.01;
+/// Box2D rests this far away by design; a difference of positions within it is agreement [m].
+constexpr double skin = 0.021;
+
+std::string plural(const std::vector<std::string>& names, const char* one, const char* many) {
+  return names.size() == 1 ? one : many;
+}
+
+/// What a row's first tunnel was, in words.
+std::string passage(const Row& row) {
+  return row.verdict == Verdict::tunnels ? row.reason : fmt::format("passes a solid on {} steps", *row.tunnels);
+}
+
+std::string about_tunnels(const std::vector<Row>& rows) {
+  const auto passes = [](const Row& row) { return scored(row) && row.tunnels.value_or(0) > 0; };
+  const auto firm = those(rows, [&](const Row& row) { return scored(row) && !passes(row); });
+  std::vector<std::string> told;
+  std::string text;
+  for (const Row& row : rows) {
+    if (!passes(row) || std::find(told.begin(), told.end(), passage(row)) != told.end()) continue;
+    told.push_back(passage(row));
+    const auto same = those(rows, [&](const Row& other) { return passes(other) && passage(other) == passage(row); });
+    text += fmt::format("{} {} wrong: {}. ", listed(same), plural(same, "is", "are"), passage(row));
+  }
+  if (firm.empty()) return text;
+  if (text.empty()) return "Nobody passes a solid. ";
+  return text + fmt::format("{} {} not pass. ", listed(firm), plural(firm, "does", "do"));
+}
+
+std::string about_overlap(const std::vector<Row>& rows) {
+  const auto ends_inside = [](const Row& row) { return row.steps_ending_inside.value_or(0) > 0; };
+  const auto inside = those(rows, ends_inside);
+  if (inside.empty()) return "";
+  double deepest = 0;
+  for (const Row& row : rows)
+    if (ends_inside(row)) deepest = std::max(deepest, row.max_penetration_m.value_or(0));
+  const auto outside = those(rows, [&](const Row& row) { return scored(row) && !ends_inside(row); });
+  std::string text = fmt::format("{} {} steps inside a solid, up to {:.2g} m deep", listed(inside),
+                                 plural(inside, "ends", "end"), deepest);
+  if (!outside.empty()) text += fmt::format("; {} never {}", listed(outside), plural(outside, "does", "do"));
+  return text + ". ";
+}
+
+std::string about_snags(const std::vector<Row>& rows) {
+  const auto snags = those(rows, [](const Row& row) { return row.ghost_speed_loss.value_or(0) > snagged; });
+  if (snags.empty()) return "";
+  return fmt::format("{} {} where exact arithmetic has nothing in the way (ghost collision). ", listed(snags),
+                     plural(snags, "snags", "snag"));
+}
+
+std::string about_agreement(const std::vector<Row>& rows) {
+  for (const Row& row : rows) {
+    if (row.contender != "octagon_sweep" || row.scalar != "double") continue;
+    if (!row.max_position_difference_box2d_m) return "";
+    if (*row.max_position_difference_box2d_m <= skin)
+      return fmt::format("octagon_sweep and Box2D agree to {:.3g} m, which is Box2D's skin. ",
+                         *row.max_position_difference_box2d_m);
+    return fmt::format("octagon_sweep and Box2D come {:.3g} m apart. ", *row.max_position_difference_box2d_m);
+  }
+  return "";
+}
+
+std::string about_limits(const std::vector<Row>& rows) {
+  std::string text;
+  for (const Row& row : rows) {
+    const bool told = row.steps_ending_inside.value_or(0) > 0;  // by about_overlap
+    if ((row.verdict == Verdict::flagged && !told) || !scored(row))
+      text += fmt::format("{}: {}. ", called(row), row.reason);
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string who_is_right(const std::vector<Row>& rows) {
+  std::string text = about_tunnels(rows) + about_overlap(rows) + about_snags(rows) + about_agreement(rows);
+  text += about_limits(rows);
+  if (!text.empty()) text.pop_back();
+  return text;
+}
+
+}  // namespace paperproof::compare

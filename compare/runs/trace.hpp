@@ -1,0 +1,50 @@
+/// What a run leaves behind: a header and one record per step, in double (every float is one exactly).
+#pragma once
+
+#include <paperproof/scenery.hpp>
+#include <paperproof/technique.hpp>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace paperproof::compare {
+
+/// Tolerances as (name, metres, why), printed with every result.
+struct NamedTolerance {
+  std::string name;
+  double metres = 0;
+};
+
+struct TraceHeader {
+  std::string scene;
+  std::string contender;
+  std::string scalar;            ///< "double" or "float"
+  std::string mode = "free";     ///< "free" or "lockstep"
+  double dt = 0;                 ///< [s]
+  std::vector<Vec2d> points;     ///< Hull of the character, relative to its position [m], as run.
+  SceneryDef scenery;            ///< As run, world metres.
+  std::vector<std::string> ids;  ///< One per collider.
+  std::string box2d;             ///< Version of the Box2D in use.
+  std::vector<std::string> plan_omitted;
+  std::vector<NamedTolerance> tolerances;
+  /// Box2D only: `path` holds sampled positions, and cuts under 20 mm are counted apart.
+  bool path_exact = true;
+};
+
+struct TraceStep {
+  int step = 0;
+  std::vector<PathPoint<double>> path;  ///< From the start (fraction 0) to the end (1).
+  Vec2d requested{Vec2d::Zero()};       ///< Displacement that was wanted [m].
+  Vec2d velocity{Vec2d::Zero()};        ///< At the end [m/s].
+  bool grounded = false;
+  bool jumping = false;
+  std::vector<ColliderIndex> start_overlap;  ///< What the octagon overlapped when the step began, exactly.
+  std::vector<Contact<double>> contacts;
+  bool respawn = false;  ///< The character was put back at the start before this step.
+  bool stuck = false;    ///< The contender reported that it is stuck inside something.
+  bool dropped = false;  ///< Displacement was left when the iterations ran out.
+  bool capped = false;   ///< Box2D only: the step met the 2 m cap.
+};
+
+}  // namespace paperproof::compare

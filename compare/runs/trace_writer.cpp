@@ -1,0 +1,152 @@
+#include "runs/trace_writer.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <iterator>
+
+namespace paperproof::compare {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json points_json(const std::vector<Vec2d>& points) {
+  ordered_json array = ordered_json::array();
+  for (const Vec2d& point : points) array.push_back({point.x(), point.y()});
+  return array;
+}
+
+ordered_json collider_json(const std::string& id, const ColliderDef& collider) {
+  ordered_json object;
+  object["id"] = id;
+  object[collider.shape == ColliderDef::Shape::polygon ? "polygon" : "chain"] = points_json(collider.points);
+  for (const std::vector<Vec2d>& hole : collider.holes) object["holes"].push_back(points_json(hole));
+  if (collider.one_way) object["one_way"] = {collider.one_way->x(), collider.one_way->y()};
+  return object;
+}
+
+ordered_json header_json(const TraceHeader& header) {
+  ordered_json object;
+  object["paperproof_trace"] = 1;
+  object["scene"] = header.scene;
+  object["contender"] = header.contender;
+  object["scalar"] = header.scalar;
+  object["mode"] = header.mode;
+  object["dt"] = header.dt;
+  object["points"] = points_json(header.points);
+  object["colliders"] = ordered_json::array();
+  for (std::size_t i = 0; i < header.ids.size(); ++i)
+    object["colliders"].push_back(collider_json(header.ids[i], header.scenery.colliders[i]));
+  object["box2d"] = header.box2d;
+  object["plan"]["omitted"] = header.plan_omitted;
+  for (const NamedTolerance& tolerance : header.tolerances) object["tolerances"][tolerance.name] = tolerance.metres;
+  return object;
+}
+
+using Buffer = fmt::memory_buffer;
+
+/// The shortest digits that read back to the same bits; a negative zero keeps its sign in every reader.
+void put(Buffer& out, double value) {
+  if (value == 0 && std::signbit(value))
+    fmt::format_to(std::back_inserter(out), "-0.0");
+  else
+    fmt::format_to(std::back_inserter(out), "{}", value);
+}
+
+void put(Buffer& out, const Vec2d& v) {
+  out.push_back('[');
+  put(out, v.x());
+  out.push_back(',');
+  put(out, v.y());
+  out.push_back(']');
+}
+
+void put_text(Buffer& out, std::string_view text) { out.append(text.data(), text.data() + text.size()); }
+
+void put_path(Buffer& out, const std::vector<PathPoint<double>>& path) {
+  put_text(out, "\"path\":[");
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    put_text(out, i == 0 ? "[" : ",[");
+    put(out, path[i].position.x());
+    out.push_back(',');
+    put(out, path[i].position.y());
+    out.push_back(',');
+    put(out, path[i].fraction);
+    out.push_back(']');
+  }
+  out.push_back(']');
+}
+
+std::string_view name_of(Side side) {
+  switch (side) {
+    case Side::top:
+      return "top";
+    case Side::bottom:
+      return "bottom";
+    case Side::left:
+      return "left";
+    case Side::right:
+      return "right";
+  }
+  return "bottom";
+}
+
+void put_contact(Buffer& out, const Contact<double>& contact, const std::vector<std::string>& ids) {
+  put_text(out, "{\"collider\":");
+  put_text(out, ids[contact.collider]);
+  put_text(out, ",\"point\":");
+  put(out, contact.point);
+  put_text(out, ",\"normal\":");
+  put(out, contact.normal);
+  put_text(out, ",\"fraction\":");
+  put(out, contact.fraction);
+  put_text(out, ",\"separation\":");
+  put(out, contact.separation);
+  fmt::format_to(std::back_inserter(out), ",\"side\":\"{}\"}}", name_of(contact.side));
+}
+
+}  // namespace
+
+std::string trace_path(const std::string& stem, const TraceHeader& header) {
+  std::string scene = header.scene;
+  for (char& c : scene)
+    if (c == '/' || c == '\\' || c == '\0') c = '_';
+  return fmt::format("{}.{}.{}.{}.jsonl", stem, scene, header.contender, header.scalar);
+}
+
+TraceWriter::TraceWriter(const std::string& path, const TraceHeader& header)
+    : file_(path), path_exact_(header.path_exact) {
+  for (const std::string& id : header.ids)
+    ids_.push_back(ordered_json(id).dump(-1, ' ', false, ordered_json::error_handler_t::replace));
+  file_.stream() << header_json(header).dump(-1, ' ', false, ordered_json::error_handler_t::replace) << '\n';
+}
+
+void TraceWriter::write(const TraceStep& step) {
+  Buffer out;
+  fmt::format_to(std::back_inserter(out), "{{\"step\":{},", step.step);
+  put_path(out, step.path);
+  if (!path_exact_) put_text(out, ",\"path_exact\":false");
+  put_text(out, ",\"requested\":");
+  put(out, step.requested);
+  put_text(out, ",\"velocity\":");
+  put(out, step.velocity);
+  fmt::format_to(std::back_inserter(out), ",\"grounded\":{},\"start_overlap\":[", step.grounded);
+  for (std::size_t i = 0; i < step.start_overlap.size(); ++i) {
+    if (i > 0) out.push_back(',');
+    put_text(out, ids_[step.start_overlap[i]]);
+  }
+  put_text(out, "],\"movers\":{},\"contacts\":[");
+  for (std::size_t i = 0; i < step.contacts.size(); ++i) {
+    if (i > 0) out.push_back(',');
+    put_contact(out, step.contacts[i], ids_);
+  }
+  out.push_back(']');
+  for (const auto& [name, set] :
+       {std::pair{"respawn", step.respawn}, {"stuck", step.stuck}, {"dropped", step.dropped}, {"capped", step.capped}})
+    if (set) fmt::format_to(std::back_inserter(out), ",\"{}\":true", name);
+  put_text(out, "}\n");
+  file_.stream().write(out.data(), static_cast<std::streamsize>(out.size()));
+}
+
+}  // namespace paperproof::compare

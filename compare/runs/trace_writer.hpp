@@ -1,0 +1,28 @@
+/// Writes a trace as JSON Lines: everything needed to check a run without this project's code.
+#pragma once
+
+#include "runs/output_file.hpp"
+#include "runs/trace.hpp"
+
+namespace paperproof::compare {
+
+/// `STEM.<scene>.<contender>.<scalar>.jsonl`; what a file name cannot hold becomes `_`.
+[[nodiscard]] std::string trace_path(const std::string& stem, const TraceHeader& header);
+
+/// Numbers are printed so that they read back to the same bits. Not thread-safe.
+class TraceWriter {
+ public:
+  /// Writes the header.
+  /// @throws std::runtime_error naming the path.
+  TraceWriter(const std::string& path, const TraceHeader& header);
+  void write(const TraceStep& step);
+  /// @throws std::runtime_error naming the path.
+  void commit() { file_.commit(); }
+
+ private:
+  OutputFile file_;
+  std::vector<std::string> ids_;  ///< As JSON strings.
+  bool path_exact_;
+};
+
+}  // namespace paperproof::compare

@@ -1,0 +1,50 @@
+#include "scenes/built_in.hpp"
+
+#include <iterator>
+
+namespace paperproof::compare {
+
+const std::vector<BuiltInScene>& built_in_scenes() {
+  static const std::vector<BuiltInScene> all = [] {
+    std::vector<BuiltInScene> scenes;
+    for (auto theme : {paper_scenes(), angle_scenes(), ground_scenes(), article_scenes(), extreme_scenes()}) {
+      scenes.insert(scenes.end(), std::make_move_iterator(theme.begin()), std::make_move_iterator(theme.end()));
+    }
+    return scenes;
+  }();
+  return all;
+}
+
+Scene flight(double x, double y, double velocity_x, double velocity_y, int steps) {
+  Scene scene;
+  scene.gravity = {0, 0};
+  scene.steps = steps;
+  scene.start.position = {x, y};
+  scene.start.velocity = {velocity_x, velocity_y};
+  return scene;
+}
+
+Scene walk(double x, double y, double move, int steps) {
+  Scene scene;
+  scene.gravity = {0, -10};
+  scene.steps = steps;
+  scene.start.position = {x, y};
+  scene.input = {{.step = 0, .move = move, .jump = std::nullopt}};
+  return scene;
+}
+
+void add_polygon(Scene& scene, std::string id, std::vector<Vec2d> points) {
+  scene.ids.push_back(std::move(id));
+  scene.scenery.colliders.push_back({.shape = ColliderDef::Shape::polygon, .points = std::move(points)});
+}
+
+void add_box(Scene& scene, std::string id, double left, double bottom, double right, double top) {
+  add_polygon(scene, std::move(id), {{left, bottom}, {right, bottom}, {right, top}, {left, top}});
+}
+
+void add_chain(Scene& scene, std::string id, std::vector<Vec2d> points) {
+  scene.ids.push_back(std::move(id));
+  scene.scenery.colliders.push_back({.shape = ColliderDef::Shape::chain, .points = std::move(points)});
+}
+
+}  // namespace paperproof::compare

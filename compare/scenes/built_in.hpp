@@ -1,0 +1,30 @@
+/// The built-in scenes by theme, and what they are made from. Only the registry and the tests include this.
+#pragma once
+
+#include "scenes/load.hpp"
+
+#include <string_view>
+#include <vector>
+
+namespace paperproof::compare {
+
+[[nodiscard]] std::vector<BuiltInScene> paper_scenes();    ///< Thin things, hit fast.
+[[nodiscard]] std::vector<BuiltInScene> angle_scenes();    ///< Grazing, rotated, corners and wedges.
+[[nodiscard]] std::vector<BuiltInScene> ground_scenes();   ///< Tiles, slopes, shafts, rest.
+[[nodiscard]] std::vector<BuiltInScene> article_scenes();  ///< Where the article's points and rules show.
+[[nodiscard]] std::vector<BuiltInScene> extreme_scenes();  ///< Overlapping starts, far origins, other scales.
+
+/// Half the width, and the height below and above the position, of the article's character: 20 x 40 px at 32 px/m [m].
+inline constexpr double half_width = 10.0 / 32;
+inline constexpr double half_height = 20.0 / 32;
+
+/// A scene without gravity or input: a body that flies.
+[[nodiscard]] Scene flight(double x, double y, double velocity_x, double velocity_y, int steps);
+/// A scene with gravity 10 in which the character walks with `move` from the first step on.
+[[nodiscard]] Scene walk(double x, double y, double move, int steps);
+
+void add_polygon(Scene& scene, std::string id, std::vector<Vec2d> points);
+void add_box(Scene& scene, std::string id, double left, double bottom, double right, double top);
+void add_chain(Scene& scene, std::string id, std::vector<Vec2d> points);
+
+}  // namespace paperproof::compare

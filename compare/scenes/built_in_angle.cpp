@@ -1,0 +1,130 @@
+/// Walls at an angle, corners and wedges: scenes 4 to 9.
+///
+/// Angles are written as their sines and tangents: the library's functions give other bits on other machines.
+#include "scenes/built_in.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace paperproof::compare {
+
+namespace {
+
+struct Angle {
+  double sin;
+  double cos;
+};
+constexpr Angle degrees_0_001{.sin = 1.7453292519057202e-5, .cos = 0.99999999984769129};
+constexpr Angle degrees_0_1{.sin = 1.7453283658983089e-3, .cos = 0.99999847691328765};
+constexpr Angle degrees_10{.sin = 0.17364817766693036, .cos = 0.98480775301220802};
+constexpr Angle degrees_30{.sin = 0.5, .cos = 0.86602540378443865};
+constexpr Angle degrees_45{.sin = 0.70710678118654752, .cos = 0.70710678118654752};
+constexpr Angle degrees_80{.sin = 0.98480775301220802, .cos = 0.17364817766693036};
+
+/// Flies along a wall and into it at a small angle, from `distance` metres.
+Scene grazing_at(const Angle& angle, double speed, double distance, int steps) {
+  Scene scene = flight(0, 0, speed * angle.sin, speed * angle.cos, steps);
+  add_box(scene, "wall", half_width + distance, -10, half_width + distance + 1, 1000);
+  return scene;
+}
+
+Scene grazing_wall() { return grazing_at(degrees_10, 10, 0.25, 60); }
+Scene grazing_wall_01() { return grazing_at(degrees_0_1, 60, 0.05, 120); }
+Scene grazing_wall_0001() { return grazing_at(degrees_0_001, 100, 0.004, 240); }
+
+Scene parallel_at(double clearance) {
+  Scene scene = flight(0, 0, 0, 10, 120);
+  add_box(scene, "wall", half_width + clearance, -10, half_width + clearance + 1, 100);
+  return scene;
+}
+
+Scene parallel_pass() { return parallel_at(0.005); }
+Scene parallel_pass_30mm() { return parallel_at(0.03); }
+Scene parallel_pass_0() { return parallel_at(0); }
+
+/// Flies to the right at 50 m/s into a wall of 1 cm whose normal is turned from the horizontal by `angle`.
+Scene rotated_by(const Angle& angle) {
+  Scene scene = flight(0, 0, 50, 0, 60);
+  constexpr double distance = 1.5;
+  constexpr double thickness = 0.01;
+  constexpr double half_length = 12;
+  const auto at = [&](double along_normal, double along_wall) {
+    return Vec2d{along_normal * angle.cos - along_wall * angle.sin, along_normal * angle.sin + along_wall * angle.cos};
+  };
+  add_polygon(scene, "wall",
+              {at(distance, -half_length), at(distance + thickness, -half_length),
+               at(distance + thickness, half_length), at(distance, half_length)});
+  return scene;
+}
+
+Scene rotated_wall_10() { return rotated_by(degrees_10); }
+Scene rotated_wall_30() { return rotated_by(degrees_30); }
+Scene rotated_wall() { return rotated_by(degrees_45); }
+Scene rotated_wall_80() { return rotated_by(degrees_80); }
+
+/// Flies down to the right, so that the left foot point (-5, -20) px meets the upper right corner of a box, or just
+/// not: x + y of the character stays 0, of that point -25 px, and of the box's corner too.
+Scene corner_at(double top) {
+  Scene scene = flight(-2, 2, 30, -30, 60);
+  constexpr double right = -0.25;
+  add_box(scene, "box", right - 2, top - 2, right, top);
+  return scene;
+}
+constexpr double corner_top = -25.0 / 32 + 0.25;
+
+Scene corner_to_corner() { return corner_at(corner_top); }
+Scene corner_plus_ulp() { return corner_at(std::nextafter(corner_top, 0.0)); }
+Scene corner_minus_ulp() { return corner_at(std::nextafter(corner_top, -1.0)); }
+Scene corner_hit() { return corner_at(corner_top + 0.03125); }
+
+/// Falls from `height` into a V whose apex is the origin. @param tangent of half the angle. @param rim [m] above the
+/// apex.
+Scene wedge_of(double tangent, double rim, double height, int steps) {
+  Scene scene = flight(0, height, 0, 0, steps);
+  scene.gravity = {0, -30};
+  const double half = rim * tangent;
+  add_polygon(scene, "wedge",
+              {{0, 0}, {half, rim}, {half + 1, rim}, {half + 1, -1}, {-half - 1, -1}, {-half - 1, rim}, {-half, rim}});
+  return scene;
+}
+
+Scene wedge_60() { return wedge_of(0.57735026918962576, 4, 2.5, 120); }
+Scene wedge_5() { return wedge_of(0.043660942908512058, 12, 9, 180); }
+Scene wedge_1() { return wedge_of(0.0087268677907587893, 50, 40, 300); }
+
+Scene concave_corner() {
+  Scene scene = flight(0, 3, 40, -40, 60);
+  scene.gravity = {0, -10};
+  add_box(scene, "floor", -4, -1, 4, 0);
+  add_box(scene, "wall", 3, 0, 4, 5);
+  return scene;
+}
+
+}  // namespace
+
+std::vector<BuiltInScene> angle_scenes() {
+  return {
+      {"grazing_wall", "into a wall at 10 degrees: t = d / (v sin 10°) = 0.25 / 1.736 s, in step 8", grazing_wall},
+      {"grazing_wall_0.1", "into a wall at 0.1 degrees: t = 0.05 / 0.1047 s, in step 28", grazing_wall_01},
+      {"grazing_wall_0.001", "into a wall at 0.001 degrees: t = 0.004 / 0.001745 s, in step 137", grazing_wall_0001},
+      {"parallel_pass", "past a wall with 5 mm of clearance: no contact", parallel_pass},
+      {"parallel_pass_30mm", "past a wall with 30 mm of clearance: no contact", parallel_pass_30mm},
+      {"parallel_pass_0", "along a wall that is touched: no motion into it, no overlap, no loss of speed",
+       parallel_pass_0},
+      {"rotated_wall", "thin wall at 45 degrees, 50 m/s: t = d / (v·n), never passed", rotated_wall},
+      {"rotated_wall_10", "thin wall at 10 degrees, 50 m/s: t = d / (v·n), never passed", rotated_wall_10},
+      {"rotated_wall_30", "thin wall at 30 degrees, 50 m/s: t = d / (v·n), never passed", rotated_wall_30},
+      {"rotated_wall_80", "thin wall at 80 degrees, 50 m/s: t = d / (v·n), never passed", rotated_wall_80},
+      {"corner_to_corner", "a corner passes a corner at distance 0: touches, overlaps nowhere", corner_to_corner},
+      {"corner_to_corner_plus_ulp", "the same, one ulp closer: the swept octagon meets the box", corner_plus_ulp},
+      {"corner_to_corner_minus_ulp", "the same, one ulp away: passes", corner_minus_ulp},
+      {"corner_to_corner_hit", "the same, 1 px closer: hits", corner_hit},
+      {"wedge_60", "falls into a V of 60 degrees: rests on both sides, centre 28.66 px above the apex, v = 0",
+       wedge_60},
+      {"wedge_5", "falls into a V of 5 degrees: rests on both sides, centre 239.0 px above the apex, v = 0", wedge_5},
+      {"wedge_1", "falls into a V of 1 degree: rests on both sides, centre 1,155.9 px above the apex, v = 0", wedge_1},
+      {"concave_corner", "into a right-angled corner at 57 m/s: contacts with floor and wall, v = 0", concave_corner},
+  };
+}
+
+}  // namespace paperproof::compare

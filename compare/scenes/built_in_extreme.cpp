@@ -1,0 +1,101 @@
+/// Slivers, starts inside solids, far origins, other scales and other gravities: scenes 21 to 25.
+#include "scenes/built_in.hpp"
+
+#include <cmath>
+
+namespace paperproof::compare {
+
+namespace {
+
+Scene sliver_drop() {
+  Scene scene = flight(0, 3, 0, -30, 90);
+  scene.gravity = {0, -30};
+  add_polygon(scene, "sliver", {{-2, 0}, {2, -0.0005}, {2, 0.0005}});
+  return scene;
+}
+
+/// Begins this deep in a floor.
+Scene start_inside(double y) {
+  Scene scene = flight(0, y, 0, 0, 120);
+  scene.gravity = {0, -30};
+  scene.start.resolve_overlap = true;
+  add_box(scene, "floor", -4, -2, 4, 0);
+  return scene;
+}
+
+Scene start_overlapping_ulp() { return start_inside(std::nextafter(half_height, 0.0)); }
+Scene start_overlapping_slop() { return start_inside(half_height - 0.005); }
+Scene start_overlapping_deep() { return start_inside(half_height - 0.4); }
+
+/// Walks over tiles and into a wall, all of it just below `origin` on the x axis. Everything is a multiple of 1/64 m,
+/// so that the scene is the same wherever it is.
+Scene far_from(double origin) {
+  const double x = origin - 16;
+  Scene scene = walk(x + 0.5, half_height + 1.0 / 32, 1, 240);
+  for (int i = 0; i < 14; ++i) add_box(scene, "tile" + std::to_string(i), x + i - 1, -1, x + i, 0);
+  add_box(scene, "wall", x + 12, 0, x + 13, 4);
+  scene.input.push_back({.step = 90, .move = std::nullopt, .jump = true});
+  scene.input.push_back({.step = 100, .move = std::nullopt, .jump = false});
+  return scene;
+}
+
+Scene far_origin_0() { return far_from(16); }
+Scene far_origin_1e3() { return far_from(1e3); }
+Scene far_origin_1e4() { return far_from(1e4); }
+Scene far_origin_1e5() { return far_from(1e5); }
+Scene far_origin_1e6() { return far_from(1e6); }
+
+/// Drops, walks up a ramp, meets a wall, with every length multiplied by a power of two.
+Scene scaled_by(double scale) {
+  Scene scene = walk(0, (half_height + 0.25) * scale, 1, 180);
+  scene.gravity *= scale;
+  std::vector<Vec2d> points;
+  for (const Vec2d& point : scene.character.shape.points()) points.push_back(point * scale);
+  scene.character.shape = CharacterShape(points);
+  scene.character.walk_speed *= scale;
+  scene.character.acceleration *= scale;
+  scene.character.jump_speed *= scale;
+  const auto at = [&](double x, double y) { return Vec2d{x * scale, y * scale}; };
+  add_polygon(scene, "ground", {at(-2, -1), at(14, -1), at(14, 2), at(8, 2), at(4, 0), at(-2, 0)});
+  add_polygon(scene, "wall", {at(12, 2), at(13, 2), at(13, 6), at(12, 6)});
+  return scene;
+}
+
+Scene scaled_small() { return scaled_by(1.0 / 1024); }
+Scene scaled_one() { return scaled_by(1); }
+Scene scaled_large() { return scaled_by(1024); }
+
+Scene gravity_of(double gravity) {
+  Scene scene = flight(0, half_height + 0.25, 0, 0, 120);
+  scene.gravity = {0, -gravity};
+  add_box(scene, "floor", -4, -1, 4, 0);
+  return scene;
+}
+
+Scene gravity_10() { return gravity_of(10); }
+Scene gravity_1e3() { return gravity_of(1e3); }
+Scene gravity_1e6() { return gravity_of(1e6); }
+
+}  // namespace
+
+std::vector<BuiltInScene> extreme_scenes() {
+  return {
+      {"sliver_drop", "drops at 30 m/s onto a sliver of 4 m x 1 mm: it is never passed", sliver_drop},
+      {"start_overlapping_ulp", "begins one ulp inside a floor: comes out upwards", start_overlapping_ulp},
+      {"start_overlapping_slop", "begins 5 mm inside a floor: comes out upwards", start_overlapping_slop},
+      {"start_overlapping_deep", "begins 0.4 m inside a floor: comes out upwards", start_overlapping_deep},
+      {"far_origin_0", "walk, wall and jump at the origin: what the far ones are compared with", far_origin_0},
+      {"far_origin_1e3", "the same 1,000 m away: the same to a few ulp", far_origin_1e3},
+      {"far_origin_1e4", "the same 10,000 m away: the same to a few ulp", far_origin_1e4},
+      {"far_origin_1e5", "the same 100,000 m away: the same to a few ulp", far_origin_1e5},
+      {"far_origin_1e6", "the same 1,000,000 m away, the end of the guarantee: the same to a few ulp", far_origin_1e6},
+      {"scaled_1", "drop, ramp and wall: what the scaled ones are compared with", scaled_one},
+      {"scaled_1e-3", "all lengths divided by 1,024: the same result times the scale, the gap apart", scaled_small},
+      {"scaled_1e3", "all lengths times 1,024: the same result times the scale, the gap apart", scaled_large},
+      {"gravity_10", "drops 0.25 m under 10 m/s²: rests", gravity_10},
+      {"gravity_1e3", "the same under 1,000 m/s²: the same rest gap", gravity_1e3},
+      {"gravity_1e6", "the same under 1,000,000 m/s²: the same rest gap, nothing is passed", gravity_1e6},
+  };
+}
+
+}  // namespace paperproof::compare

@@ -1,0 +1,103 @@
+/// Tiles, slopes, shafts: scenes 10, 11 and 14.
+#include "scenes/built_in.hpp"
+
+#include <cmath>
+
+namespace paperproof::compare {
+
+namespace {
+
+/// Walks along flush tiles of 1 m at a constant speed. The speed is there from the start, so that any change of it is
+/// the seams' doing.
+Scene flush_tiles_at(double speed) {
+  // From a drop: put down 20 mm above the ground, Box2D comes to rest at the far end of its skin and never snags.
+  Scene scene = walk(0.5, half_height + 0.3, 1, 300);
+  scene.gravity = {0, -10};  // at 30 m/s² Box2D's pieces snag at fewer speeds
+  scene.character.walk_speed = speed;
+  scene.start.velocity = {speed, 0};
+  for (int i = 0; i < 64; ++i) add_box(scene, "tile" + std::to_string(i), i - 1, -1, i, 0);
+  return scene;
+}
+
+Scene flush_tiles() { return flush_tiles_at(7.3); }
+Scene flush_tiles_slow() { return flush_tiles_at(1.7); }
+Scene flush_tiles_fast() { return flush_tiles_at(11.3); }
+
+/// Nothing steers, so speed that is lost at a seam is lost for good.
+Scene flush_tiles_slide() {
+  Scene scene = flush_tiles_at(5);
+  scene.input.clear();
+  return scene;
+}
+
+constexpr double tan_10 = 0.17632698070846498;
+constexpr double tan_30 = 0.57735026918962576;
+
+/// Level ground, up 30 degrees, level, down 30 degrees, level: two convex joints and two concave ones.
+Scene slope_joints_with(double snap) {
+  Scene scene = walk(-3, half_height + 0.02, 1, 240);
+  scene.character.snap = snap;
+  constexpr double run = 4;
+  add_polygon(
+      scene, "hill",
+      {{-5, -1}, {26, -1}, {26, 0}, {3 * run, 0}, {2 * run, run * tan_30}, {run, run * tan_30}, {0, 0}, {-5, 0}});
+  return scene;
+}
+
+Scene slope_joints() { return slope_joints_with(0.5); }
+Scene slope_joints_no_snap() { return slope_joints_with(0); }
+
+/// Stands on a slope, then walks down its 30 degrees and up another of 10.
+Scene skier_with(double snap) {
+  constexpr double x = 1;
+  constexpr double left_foot = 5.0 / 32;  // stands on it while the slope falls to the right
+  Scene scene = walk(x, half_height - (x - left_foot) * tan_30 + 0.02, 0, 240);
+  scene.input.push_back({.step = 30, .move = 1, .jump = std::nullopt});
+  scene.character.walk_speed = 8;
+  scene.character.snap = snap;
+  constexpr double run = 10;
+  constexpr double foot = -run * tan_30;
+  add_polygon(scene, "piste", {{0, 0}, {0, -20}, {5 * run, -20}, {5 * run, foot + 4 * run * tan_10}, {run, foot}});
+  return scene;
+}
+
+Scene skier() { return skier_with(0.5); }
+Scene skier_no_snap() { return skier_with(0); }
+
+/// Falls down a shaft onto its floor. @param half of the width between the walls [m].
+Scene shaft_of(double half) {
+  Scene scene = flight(0, 5, 0, 0, 180);
+  scene.gravity = {0, -10};
+  add_box(scene, "left", -half - 1, -1, -half, 8);
+  add_box(scene, "right", half, -1, half + 1, 8);
+  add_box(scene, "floor", -half, -1, half, 0);
+  return scene;
+}
+
+Scene exact_fit_shaft() { return shaft_of(half_width); }
+Scene shaft_one_ulp_wider() { return shaft_of(std::nextafter(half_width, 1.0)); }
+Scene shaft_wider() { return shaft_of(half_width + 1e-6); }
+
+}  // namespace
+
+std::vector<BuiltInScene> ground_scenes() {
+  return {
+      {"flush_tiles", "walk at 7.3 m/s over separate 1 m tiles: speed and height do not change at the seams",
+       flush_tiles},
+      {"flush_tiles_slow", "the same at 1.7 m/s: no change", flush_tiles_slow},
+      {"flush_tiles_fast", "the same at 11.3 m/s: no change", flush_tiles_fast},
+      {"flush_tiles_slide", "slide at 5 m/s with nothing to steer: speed and height do not change at the seams",
+       flush_tiles_slide},
+      {"slope_joints", "walk over a hill of 30 degrees with snap: the path is the hill's offset curve", slope_joints},
+      {"slope_joints_no_snap", "the same without snap: a ballistic hop where the ground falls away",
+       slope_joints_no_snap},
+      {"skier", "down 30 degrees, then up 10, with snap: the path is the offset curve", skier},
+      {"skier_no_snap", "the same without snap: hops down, follows up", skier_no_snap},
+      {"exact_fit_shaft", "a shaft exactly as wide as the character: falls or stays, never overlaps", exact_fit_shaft},
+      {"shaft_one_ulp_wider", "one ulp of room on each side, which counts as closed: never overlaps",
+       shaft_one_ulp_wider},
+      {"shaft_1um_wider", "1 micrometre of room on each side: falls freely, x does not change", shaft_wider},
+  };
+}
+
+}  // namespace paperproof::compare

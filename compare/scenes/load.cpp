@@ -1,0 +1,47 @@
+#include "scenes/load.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "scenes/input_error.hpp"
+#include "scenes/json_scene.hpp"
+#include "scenes/json_text.hpp"
+#include "scenes/supertux.hpp"
+#include "scenes/tiled.hpp"
+#include "scenes/validate.hpp"
+
+namespace paperproof::compare {
+
+namespace {
+
+Scene load_built_in(const BuiltInScene& entry) {
+  Scene scene = entry.make();
+  scene.name = entry.name;
+  scene.description = entry.description;
+  check_scenery(scene.scenery, scene.ids, [&](ColliderIndex) { return entry.name; });
+  check_start(scene, entry.name);
+  return scene;
+}
+
+/// A scene and a Tiled map both end in .json.
+Scene load_json(const std::string& path) {
+  const nlohmann::json document = parse_json(read_file(path, path), path);
+  const bool is_map = document.is_object() && !document.contains("paperproof_scene") && document.contains("layers");
+  return is_map ? read_tiled_json(document, path, path) : read_json_scene(document, path, path);
+}
+
+}  // namespace
+
+std::vector<Scene> load_scenes(const std::string& name_or_path) {
+  const std::vector<BuiltInScene>& known = built_in_scenes();
+  const auto built_in = std::find_if(known.begin(), known.end(), [&](const auto& s) { return s.name == name_or_path; });
+  if (built_in != known.end()) return {load_built_in(*built_in)};
+  const std::string extension = std::filesystem::path(name_or_path).extension().string();
+  if (extension == ".json") return {load_json(name_or_path)};
+  if (extension == ".tmx" || extension == ".tmj") return {read_tiled(name_or_path, name_or_path)};
+  if (extension == ".stl") return read_supertux(name_or_path, name_or_path);
+  refuse(name_or_path, "expected the name of a built-in scene, or a file that ends in .json, .tmx, .tmj or .stl");
+}
+
+}  // namespace paperproof::compare

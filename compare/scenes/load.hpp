@@ -1,0 +1,34 @@
+/// Reads scenes: built-in names, JSON scenes, Tiled maps, SuperTux levels.
+#pragma once
+
+#include "scenes/scene.hpp"
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace paperproof::compare {
+
+/// Unusable input. `what()` is one line that begins with the file (or name) as the user gave it, then the line or JSON
+/// pointer, then what was expected.
+class InputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A built-in name, or a path that ends in .json (a scene or a Tiled map: told apart by content), .tmx, .tmj or .stl.
+/// The scene is complete and validated: its polygons are simple, its numbers finite, its start is free of solids
+/// (exactly) unless it asks to resolve that. A SuperTux level with several sectors gives one scene per sector that has
+/// solids and a spawn point, named `<level>` or `<level>/<sector>`.
+/// @throws InputError
+[[nodiscard]] std::vector<Scene> load_scenes(const std::string& name_or_path);
+
+/// The names of the built-in scenes with their descriptions, in the order of registration.
+struct BuiltInScene {
+  std::string name;
+  std::string description;
+  Scene (*make)();
+};
+[[nodiscard]] const std::vector<BuiltInScene>& built_in_scenes();
+
+}  // namespace paperproof::compare

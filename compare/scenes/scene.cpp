@@ -1,0 +1,60 @@
+#include "scenes/scene.hpp"
+
+#include <algorithm>
+
+namespace paperproof::compare {
+
+namespace {
+
+/// splitmix64 (Steele, Lea, Flood: Fast splittable pseudorandom number generators, 2014). Ours and not the library's,
+/// because the library's distributions give other numbers on other machines.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : state_(seed) {}
+  /// In [lowest, highest].
+  int between(int lowest, int highest) {
+    const std::uint64_t count = static_cast<std::uint64_t>(highest - lowest) + 1;
+    return lowest + static_cast<int>(next() % count);
+  }
+
+ private:
+  std::uint64_t next() {
+    state_ += 0x9e3779b97f4a7c15U;
+    std::uint64_t z = state_;
+    z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
+    z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
+    return z ^ (z >> 31U);
+  }
+  std::uint64_t state_;
+};
+
+}  // namespace
+
+Input input_at(const std::vector<InputEvent>& events, int step) {
+  Input input;
+  for (const InputEvent& event : events) {
+    if (event.step > step) break;
+    if (event.move) input.move = event.move;
+    if (event.jump) input.jump = *event.jump;
+  }
+  return input;
+}
+
+std::vector<InputEvent> random_input(std::uint64_t seed, int steps) {
+  // As often to the left as to the right: a walk that only goes right leaves levels of small platforms at once.
+  static constexpr std::array<double, 10> moves{1, 1, 1, -1, -1, -1, 0, 0, 0, 0};
+  Random random(seed);
+  std::vector<InputEvent> events;
+  for (int step = 0; step < steps;) {
+    const int held = random.between(15, 120);
+    const bool jump = random.between(0, 1) == 1;
+    const int press = random.between(4, std::min(30, held - 1));
+    const double move = moves[static_cast<std::size_t>(random.between(0, static_cast<int>(moves.size()) - 1))];
+    events.push_back({.step = step, .move = move, .jump = jump});
+    if (jump && step + press < steps) events.push_back({.step = step + press, .move = std::nullopt, .jump = false});
+    step += held;
+  }
+  return events;
+}
+
+}  // namespace paperproof::compare

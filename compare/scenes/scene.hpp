@@ -1,0 +1,70 @@
+/// A scene: everything a run needs, as a value.
+#pragma once
+
+#include <paperproof/character.hpp>
+#include <paperproof/scenery.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace paperproof::compare {
+
+/// From `step` on, the keys that are given apply until a later event changes them.
+struct InputEvent {
+  int step = 0;
+  std::optional<double> move;
+  std::optional<bool> jump;
+
+  friend bool operator==(const InputEvent&, const InputEvent&) = default;
+};
+
+/// A collider that moves along a path. `shape` is where it is at offset (0, 0); its place at time t is shape +
+/// offset(t).
+struct MoverDef {
+  enum class Loop : std::uint8_t { once, loop, ping_pong };
+  struct Waypoint {
+    double time = 0;          ///< [s], ascending
+    Vec2d at{Vec2d::Zero()};  ///< offset [m]
+  };
+  std::string id;
+  ColliderDef shape;
+  std::vector<Waypoint> path;
+  Loop loop = Loop::once;
+};
+
+/// Where the scene's character begins.
+struct Start {
+  Vec2d position{Vec2d::Zero()};  ///< [m]
+  Vec2d velocity{Vec2d::Zero()};  ///< [m/s]
+  /// A start inside a solid is an error unless the scene asks to resolve it.
+  bool resolve_overlap = false;
+};
+
+struct Scene {
+  std::string name;
+  std::string description;  ///< One line: what is measured and the exact answer. May be empty.
+  double pixels_per_metre = 32;
+  Vec2d gravity{0, -30};  ///< [m/s²]
+  double dt = 1.0 / 60;   ///< [s]
+  int steps = 600;
+  CharacterDef character;
+  Start start;
+  SceneryDef scenery;
+  std::vector<std::string> ids;  ///< One per collider, unique.
+  std::vector<MoverDef> movers;
+  std::vector<InputEvent> input;  ///< Sorted by step.
+  /// Maps only: their box [m]. A character that leaves it by more than 10 m is put back at the start.
+  std::optional<Box2<double>> respawn_box;
+  /// What a loader left out or could not place, in words (tiles unknown to the tileset, for instance).
+  std::vector<std::string> notes;
+};
+
+/// The input at a step: the events up to and including it, applied in order.
+[[nodiscard]] Input input_at(const std::vector<InputEvent>& events, int step);
+
+/// Walks and jumps at random: each choice (left, right, stand; jump or not) is held for 15 to 120 steps. The same seed
+/// gives the same events on every machine.
+[[nodiscard]] std::vector<InputEvent> random_input(std::uint64_t seed, int steps);
+
+}  // namespace paperproof::compare

@@ -1,0 +1,51 @@
+#include "scenes/spawn.hpp"
+
+#include <algorithm>
+#include <functional>
+
+#include "scenes/validate.hpp"
+
+namespace paperproof::compare {
+
+std::optional<Vec2d> first_ground(const Scene& scene, const Box2<double>& box, double column) {
+  const FreePlaces places(scene.scenery, scene.character.shape);
+  const Box2<double>& body = scene.character.shape.box();
+  constexpr double above = 1.0 / 16;
+  for (int i = 0;; ++i) {
+    const double x = box.lower.x() + (i + 0.5) * column;
+    if (x > box.upper.x()) return std::nullopt;
+    std::vector<double> grounds;
+    for (const ColliderDef& collider : scene.scenery.colliders) {
+      const Box2<double> bounds = box_of(collider);
+      if (bounds.lower.x() <= x && x <= bounds.upper.x()) grounds.push_back(bounds.upper.y());
+    }
+    std::sort(grounds.begin(), grounds.end(), std::greater<>());
+    for (const double ground : grounds) {
+      const Vec2d position{x, ground + above - body.lower.y()};
+      if (position.y() + body.upper.y() <= box.upper.y() && places.is_free(position)) return position;
+    }
+  }
+}
+
+std::optional<Vec2d> free_place_near(const Scene& scene, const Box2<double>& box, const Vec2d& wanted) {
+  const FreePlaces places(scene.scenery, scene.character.shape);
+  constexpr double pixel = 1.0 / 32;
+  const auto search_up = [&](double x, int pixels) -> std::optional<Vec2d> {
+    for (int i = 0; i <= pixels; ++i) {
+      const Vec2d position{x, wanted.y() + i * pixel};
+      if (places.is_free(position)) return position;
+    }
+    return std::nullopt;
+  };
+  constexpr int near = 5 * 32;
+  for (int columns = 0; columns <= 8; ++columns) {
+    for (const int direction : {1, -1}) {
+      if (const auto found = search_up(wanted.x() + direction * columns, near)) return found;
+    }
+  }
+  const double to_top = std::max(box.upper.y() - wanted.y(), 0.0) / pixel;
+  constexpr double most = 1 << 16;
+  return search_up(wanted.x(), static_cast<int>(std::min(to_top, most)));
+}
+
+}  // namespace paperproof::compare

@@ -1,0 +1,269 @@
+#include "scenes/supertux.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "scenes/input_error.hpp"
+#include "scenes/spawn.hpp"
+#include "scenes/supertux_level.hpp"
+#include "scenes/validate.hpp"
+
+namespace paperproof::compare {
+
+namespace {
+
+constexpr double tile_pixels = 32;  // also the pixels of a metre
+
+/// The collider of a tile in its cell, y up, or none where the tile blocks nothing.
+std::optional<ColliderDef> collider_of(const SuperTuxTile& tile, int column, int row) {
+  const auto at = [&](double x, double y) { return Vec2d{column + x, 0 - (row + y)}; };
+  ColliderDef collider;
+  switch (tile.kind()) {
+    case SuperTuxTile::Kind::nothing:
+      return std::nullopt;
+    case SuperTuxTile::Kind::solid:
+      collider.points = {at(0, 1), at(1, 1), at(1, 0), at(0, 0)};
+      return collider;
+    case SuperTuxTile::Kind::slope:
+      for (const Vec2d& point : tile.solid_part()) collider.points.push_back(at(point.x(), point.y()));
+      return collider;
+    case SuperTuxTile::Kind::one_way:
+      break;
+  }
+  collider.shape = ColliderDef::Shape::chain;
+  switch (tile.direction()) {
+    case SuperTuxTile::Direction::north:
+      collider.points = {at(0, 0), at(1, 0)};
+      collider.one_way = Vec2d{0, 1};
+      break;
+    case SuperTuxTile::Direction::south:
+      collider.points = {at(0, 1), at(1, 1)};
+      collider.one_way = Vec2d{0, -1};
+      break;
+    case SuperTuxTile::Direction::west:
+      collider.points = {at(0, 0), at(0, 1)};
+      collider.one_way = Vec2d{-1, 0};
+      break;
+    case SuperTuxTile::Direction::east:
+      collider.points = {at(1, 0), at(1, 1)};
+      collider.one_way = Vec2d{1, 0};
+      break;
+  }
+  return collider;
+}
+
+class SectorBuilder {
+ public:
+  SectorBuilder(const SuperTuxLevel& level, const SuperTuxSector& sector, std::string name)
+      : level_(level), sector_(sector) {
+    scene_.name = std::move(name);
+    scene_.steps = 3600;
+    scene_.character.walk_speed = 7;
+    scene_.character.jump_speed = 14;
+    scene_.character.max_fall_speed = 25;
+  }
+
+  /// None where the sector has no solids or no spawn point.
+  std::optional<Scene> build() {
+    for (std::size_t i = 0; i < sector_.tilemaps.size(); ++i) {
+      if (sector_.tilemaps[i].solid) add_tilemap(sector_.tilemaps[i], i);
+    }
+    for (const SuperTuxPlatform& platform : sector_.platforms) add_platform(platform);
+    if (scene_.ids.empty() || sector_.spawns.empty()) return std::nullopt;
+    check_scenery(scene_.scenery, scene_.ids, [this](ColliderIndex) { return sector_.where; });
+    scene_.respawn_box = Box2<double>{{0, -size_.y()}, {size_.x(), 0}};
+    add_counted_notes();
+    place_start();
+    return std::move(scene_);
+  }
+
+ private:
+  void add_tilemap(const SuperTuxTilemap& map, std::size_t index) {
+    const std::string prefix = scene_.ids.empty() ? "" : fmt::format("l{}/", index);
+    if (!map.path || map.path->nodes.empty()) {
+      size_ = size_.cwiseMax(Vec2d(map.width, map.height));
+      return add_tiles(map, prefix, Vec2d::Zero());
+    }
+    const std::optional<SuperTuxWay> way = way_of(*map.path);
+    if (!way) {
+      ++unclear_tilemaps_;
+    } else if (way->waypoints.size() == 1) {
+      add_tiles(map, prefix, way->waypoints.front().at);
+    } else {
+      for_each_tile(map, [&](const ColliderDef& collider, int column, int row) {
+        scene_.movers.push_back({.id = fmt::format("l{}/t{},{}", index, column, row),
+                                 .shape = collider,
+                                 .path = way->waypoints,
+                                 .loop = way->loop});
+      });
+    }
+  }
+
+  void add_tiles(const SuperTuxTilemap& map, const std::string& prefix, const Vec2d& offset) {
+    for_each_tile(map, [&](ColliderDef collider, int column, int row) {
+      for (Vec2d& point : collider.points) point += offset;
+      scene_.scenery.colliders.push_back(std::move(collider));
+      scene_.ids.push_back(fmt::format("{}t{},{}", prefix, column, row));
+    });
+  }
+
+  template <class Function>
+  void for_each_tile(const SuperTuxTilemap& map, const Function& function) {
+    std::size_t next = 0;
+    for (int row = 0; row < map.height; ++row) {
+      for (int column = 0; column < map.width; ++column) {
+        const std::uint32_t number = map.tiles[next++];
+        if (number == 0) continue;
+        const auto tile = level_.tiles.find(number);
+        if (tile == level_.tiles.end()) {
+          ++unknown_tiles_;
+        } else if (const std::optional<ColliderDef> collider = collider_of(tile->second, column, row)) {
+          function(*collider, column, row);
+        }
+      }
+    }
+  }
+
+  void add_platform(const SuperTuxPlatform& platform) {
+    if (platform.hurts) {
+      ++hurting_platforms_;
+      return;
+    }
+    std::optional<SuperTuxWay> way = platform.path ? way_of(*platform.path) : std::nullopt;
+    const std::optional<Vec2d> pixels = sprite_size(level_.root, platform.sprite);
+    if (!way || !pixels) {
+      ++unclear_platforms_;
+      return;
+    }
+    // One that waits for a script stands where its path begins.
+    if (!platform.running) way->waypoints.resize(1);
+    const Vec2d size = *pixels / tile_pixels;
+    MoverDef mover;
+    mover.id = fmt::format("platform{}", next_platform_++);
+    mover.shape.points = {{0, -size.y()}, {size.x(), -size.y()}, {size.x(), 0}, {0, 0}};
+    mover.path = std::move(way->waypoints);
+    mover.loop = way->loop;
+    scene_.movers.push_back(std::move(mover));
+  }
+
+  void note(int count, const char* what) {
+    if (count > 0) scene_.notes.push_back(fmt::format("{} {}", count, what));
+  }
+
+  void add_counted_notes() {
+    note(unknown_tiles_, "placed tiles are unknown to tiles.strf and left out");
+    note(unclear_tilemaps_, "moving tilemaps are left out: their path is not clear");
+    note(unclear_platforms_, "platforms are left out: their path or picture is not clear");
+    note(hurting_platforms_, "hurting platforms are left out: they are not solid");
+  }
+
+  void place_start() {
+    const auto main =
+        std::find_if(sector_.spawns.begin(), sector_.spawns.end(), [](const auto& s) { return s.name == "main"; });
+    const SuperTuxSpawn& spawn = main == sector_.spawns.end() ? sector_.spawns.front() : *main;
+    const Box2<double>& body = scene_.character.shape.box();
+    const Vec2d wanted{spawn.at.x() / tile_pixels - body.lower.x(), 0 - spawn.at.y() / tile_pixels - body.upper.y()};
+    const std::optional<Vec2d> found = free_place_near(scene_, *scene_.respawn_box, wanted);
+    if (!found)
+      refuse(sector_.where, fmt::format("expected room for the character near the spawn point \"{}\"", spawn.name));
+    scene_.start.position = *found;
+    const Vec2d moved = *found - wanted;
+    if (moved == Vec2d::Zero()) return;
+    scene_.notes.push_back(
+        fmt::format("the spawn point \"{}\" is inside a solid for this character: moved by {} px right, "
+                    "{} px up",
+                    spawn.name, moved.x() * tile_pixels, moved.y() * tile_pixels));
+  }
+
+  const SuperTuxLevel& level_;
+  const SuperTuxSector& sector_;
+  Scene scene_;
+  Vec2d size_{Vec2d::Zero()};  ///< Of the largest solid tilemap that stands still [m].
+  int unknown_tiles_ = 0;
+  int unclear_tilemaps_ = 0;
+  int unclear_platforms_ = 0;
+  int hurting_platforms_ = 0;
+  int next_platform_ = 0;
+};
+
+void count_tilemap(const SuperTuxTilemap& map, const SuperTuxTiles& tiles, SuperTuxCounts& counts) {
+  for (const std::uint32_t number : map.tiles) {
+    if (number == 0) continue;
+    const auto found = tiles.find(number);
+    if (found == tiles.end()) {
+      ++counts.unknown;
+      continue;
+    }
+    const SuperTuxTile& tile = found->second;
+    switch (tile.kind()) {
+      case SuperTuxTile::Kind::nothing:
+        break;
+      case SuperTuxTile::Kind::solid:
+        ++counts.solid;
+        break;
+      case SuperTuxTile::Kind::slope:
+        ++counts.slopes;
+        ++counts.slopes_by_steepness[static_cast<std::size_t>(tile.steepness())];
+        break;
+      case SuperTuxTile::Kind::one_way:
+        ++counts.one_way;
+        ++counts.one_way_by_direction[static_cast<std::size_t>(tile.direction())];
+        break;
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Scene> read_supertux(const std::string& path, const std::string& given) {
+  const SuperTuxLevel level = read_supertux_level(path, given);
+  const std::string name = std::filesystem::path(given).stem().string();
+  std::vector<Scene> scenes;
+  std::set<std::string> names;
+  for (const SuperTuxSector& sector : level.sectors) {
+    const std::string own = level.sectors.size() == 1 ? name : name + "/" + sector.name;
+    std::string unused = own;
+    for (int i = 2; !names.insert(unused).second; ++i) unused = fmt::format("{}#{}", own, i);
+    if (std::optional<Scene> scene = SectorBuilder(level, sector, unused).build()) scenes.push_back(*std::move(scene));
+  }
+  if (scenes.empty()) refuse(given, "expected a sector with solid tiles and a spawn point");
+  return scenes;
+}
+
+SuperTuxCounts& SuperTuxCounts::operator+=(const SuperTuxCounts& other) {
+  levels += other.levels;
+  sectors += other.sectors;
+  solid += other.solid;
+  slopes += other.slopes;
+  one_way += other.one_way;
+  unknown += other.unknown;
+  moving_tilemaps += other.moving_tilemaps;
+  platforms += other.platforms;
+  path_nodes += other.path_nodes;
+  for (std::size_t i = 0; i < slopes_by_steepness.size(); ++i) slopes_by_steepness[i] += other.slopes_by_steepness[i];
+  for (std::size_t i = 0; i < one_way_by_direction.size(); ++i)
+    one_way_by_direction[i] += other.one_way_by_direction[i];
+  return *this;
+}
+
+SuperTuxCounts count_supertux(const std::string& path, const std::string& given) {
+  const SuperTuxLevel level = read_supertux_level(path, given);
+  SuperTuxCounts counts;
+  counts.levels = 1;
+  counts.sectors = static_cast<long>(level.sectors.size());
+  for (const SuperTuxSector& sector : level.sectors) {
+    counts.platforms += static_cast<long>(sector.platforms.size());
+    counts.path_nodes += sector.path_nodes;
+    for (const SuperTuxTilemap& map : sector.tilemaps) {
+      if (!map.solid) continue;
+      if (map.path) ++counts.moving_tilemaps;
+      count_tilemap(map, level.tiles, counts);
+    }
+  }
+  return counts;
+}
+
+}  // namespace paperproof::compare

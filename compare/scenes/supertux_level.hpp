@@ -1,0 +1,73 @@
+/// A SuperTux level as it is written, apart from everything that has nothing to do with collisions.
+#pragma once
+
+#include "scenes/scene.hpp"
+#include "scenes/supertux_tiles.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace paperproof::compare {
+
+struct SuperTuxPath {
+  enum class Mode : std::uint8_t { circular, one_shot, ping_pong, unordered };
+  struct Node {
+    Vec2d at{Vec2d::Zero()};  ///< [px], y down
+    double time = 1;          ///< To the next node [s].
+  };
+  Mode mode = Mode::circular;
+  bool curved = false;  ///< A node has handles of a curve that lie apart from it.
+  std::vector<Node> nodes;
+};
+
+struct SuperTuxTilemap {
+  bool solid = false;
+  int width = 0, height = 0;         ///< [tiles]
+  std::vector<std::uint32_t> tiles;  ///< Row by row.
+  std::optional<SuperTuxPath> path;
+};
+
+struct SuperTuxPlatform {
+  std::string name;
+  std::string sprite;
+  bool running = true;  ///< Otherwise it waits for a script where its path begins.
+  bool hurts = false;   ///< These are not solid.
+  std::optional<SuperTuxPath> path;
+};
+
+struct SuperTuxSpawn {
+  std::string name;
+  Vec2d at{Vec2d::Zero()};  ///< [px], y down
+};
+
+struct SuperTuxSector {
+  std::string name;
+  std::vector<SuperTuxTilemap> tilemaps;
+  std::vector<SuperTuxPlatform> platforms;
+  std::vector<SuperTuxSpawn> spawns;
+  long path_nodes = 0;
+  std::string where;
+};
+
+struct SuperTuxLevel {
+  std::string root;  ///< Folder with images/.
+  SuperTuxTiles tiles;
+  std::vector<SuperTuxSector> sectors;
+};
+
+/// @throws InputError
+[[nodiscard]] SuperTuxLevel read_supertux_level(const std::string& path, const std::string& given);
+
+/// A path as waypoints [m, y up], or none where it is not clear what it does.
+struct SuperTuxWay {
+  std::vector<MoverDef::Waypoint> waypoints;
+  MoverDef::Loop loop = MoverDef::Loop::once;
+};
+[[nodiscard]] std::optional<SuperTuxWay> way_of(const SuperTuxPath& path);
+
+/// Width and height of the picture of a sprite [px]; none where it cannot be read.
+/// @param root the folder with images/. @param sprite as the level names it.
+[[nodiscard]] std::optional<Vec2d> sprite_size(const std::string& root, const std::string& sprite);
+
+}  // namespace paperproof::compare

@@ -1,0 +1,25 @@
+/// The numbers of a tile layer, in every encoding that Tiled writes.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace paperproof::compare {
+
+/// A tile number as stored: the lower 28 bits say which tile, the upper ones how it is flipped.
+using TileNumber = std::uint32_t;
+
+/// Numbers separated by commas.
+/// @throws InputError at `where` unless there are exactly `count` of them.
+[[nodiscard]] std::vector<TileNumber> decode_csv(std::string_view text, std::size_t count, const std::string& where);
+
+/// Base64 of little-endian 32-bit numbers.
+/// @param compression "" (none), "zlib", "gzip" or "zstd".
+/// @throws InputError at `where` for text that is not base64, a stream that cannot be unpacked, another count.
+[[nodiscard]] std::vector<TileNumber> decode_base64(std::string_view text, std::string_view compression,
+                                                    std::size_t count, const std::string& where);
+
+}  // namespace paperproof::compare

@@ -1,0 +1,306 @@
+#include "scenes/tiled.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "scenes/input_error.hpp"
+#include "scenes/json_text.hpp"
+#include "scenes/spawn.hpp"
+#include "scenes/tiled_model.hpp"
+#include "scenes/tiled_rule.hpp"
+#include "scenes/tiled_shapes.hpp"
+#include "scenes/validate.hpp"
+
+namespace paperproof::compare {
+
+namespace {
+
+TiledRole first_mark(TiledRole own, TiledRole around) { return own == TiledRole::unmarked ? around : own; }
+
+/// Turns a map into scenery, by the rule in tiled.hpp.
+class MapBuilder {
+ public:
+  MapBuilder(const TiledMap& map, std::string given, double pixels_per_metre)
+      : map_(map), given_(std::move(given)), scale_(pixels_per_metre) {
+    scene_.name = std::filesystem::path(given_).stem().string();
+    scene_.pixels_per_metre = pixels_per_metre;
+  }
+
+  Scene part() {
+    add_layers(map_.layers, TiledRole::unmarked, Vec2d::Zero());
+    if (scene_.ids.empty()) {
+      only_shapes_ = true;
+      add_layers(map_.layers, TiledRole::solid, Vec2d::Zero());
+      if (!scene_.ids.empty())
+        scene_.notes.emplace_back("nothing is marked; tiles with collision shapes are the solids");
+    }
+    if (scene_.ids.empty()) {
+      refuse(given_,
+             "expected at least one solid: a layer named collision, solid or platforms, or things with the class "
+             "or property solid (the README has the rule)");
+    }
+    check_scenery(scene_.scenery, scene_.ids, [this](ColliderIndex index) { return where_[index]; });
+    if (templates_ > 0) {
+      scene_.notes.push_back(
+          fmt::format("{} objects made from templates are left out: templates are not read", templates_));
+    }
+    scene_.respawn_box = box();
+    return std::move(scene_);
+  }
+
+  Scene whole() {
+    scene_ = part();
+    scene_.steps = 3600;
+    constexpr double fall_limit = 25;  // [m/s], of every map without a scene
+    scene_.character.max_fall_speed = fall_limit;
+    place_start();
+    return std::move(scene_);
+  }
+
+ private:
+  Vec2d to_metres(const Vec2d& pixels) const { return {pixels.x() / scale_, 0 - pixels.y() / scale_}; }
+
+  std::string unused(const std::string& id) {
+    std::string name = id;
+    for (int i = 2; !ids_.insert(name).second; ++i) name = fmt::format("{}#{}", id, i);
+    return name;
+  }
+
+  ColliderDef collider_of(const PixelShape& shape, bool one_way) const {
+    ColliderDef collider;
+    collider.shape = shape.closed ? ColliderDef::Shape::polygon : ColliderDef::Shape::chain;
+    for (const Vec2d& point : shape.points) collider.points.push_back(to_metres(point));
+    if (one_way) collider.one_way = Vec2d{0, 1};
+    return collider;
+  }
+
+  void add(const std::vector<PixelShape>& shapes, TiledRole role, const std::string& id) {
+    std::vector<PixelShape> pieces;
+    for (const PixelShape& shape : shapes) {
+      if (role == TiledRole::one_way) {
+        for (PixelShape& edge : upper_edges(shape)) pieces.push_back(std::move(edge));
+      } else {
+        pieces.push_back(shape);
+      }
+    }
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+      scene_.scenery.colliders.push_back(collider_of(pieces[i], role == TiledRole::one_way));
+      scene_.ids.push_back(unused(i == 0 ? id : fmt::format("{}.{}", id, i)));
+      where_.push_back(pieces[i].where);
+    }
+  }
+
+  void add_layers(const std::vector<TiledLayer>& layers, TiledRole around, const Vec2d& offset) {
+    for (const TiledLayer& layer : layers) {
+      const TiledRole role = only_shapes_ ? around : first_mark(role_of_layer(layer), around);
+      const Vec2d at = offset + layer.offset;
+      switch (layer.kind) {
+        case TiledLayer::Kind::tiles:
+          add_tiles(layer, role, at);
+          break;
+        case TiledLayer::Kind::objects:
+          add_objects(layer, role, at);
+          break;
+        case TiledLayer::Kind::group:
+          add_layers(layer.layers, role, at);
+          break;
+        case TiledLayer::Kind::other:
+          break;
+      }
+    }
+  }
+
+  void add_tiles(const TiledLayer& layer, TiledRole around, const Vec2d& offset) {
+    for (const TiledChunk& chunk : layer.chunks) {
+      std::size_t next = 0;
+      for (int row = chunk.y; row < chunk.y + chunk.height; ++row) {
+        for (int column = chunk.x; column < chunk.x + chunk.width; ++column) {
+          const TileNumber number = chunk.tiles[next++];
+          if (number != 0) add_tile(layer, around, offset, number, column, row);
+        }
+      }
+    }
+  }
+
+  void add_tile(const TiledLayer& layer, TiledRole around, const Vec2d& offset, TileNumber number, int column,
+                int row) {
+    const TileInfo info = find_tile(map_, number, layer.where);
+    if (only_shapes_ && !info.has_shapes()) return;
+    const TiledRole own = info.tile == nullptr ? TiledRole::unmarked : role_of(info.tile->marks);
+    const TiledRole role = first_mark(own, around);
+    if (role != TiledRole::solid && role != TiledRole::one_way) return;
+    add(shapes_in_cell(map_, info, number, column, row, offset, layer.where), role, fmt::format("t{},{}", column, row));
+  }
+
+  void add_objects(const TiledLayer& layer, TiledRole around, const Vec2d& offset) {
+    if (only_shapes_) return;
+    for (const TiledObject& object : layer.objects) {
+      if (names_movers(layer.name)) {
+        add_mover(object, offset);
+        continue;
+      }
+      TiledRole role = role_of(object.marks);
+      if (role == TiledRole::unmarked && object.shape == TiledObject::Shape::tile) {
+        const TileInfo info = find_tile(map_, object.tile, object.where);
+        if (info.tile != nullptr) role = role_of(info.tile->marks);
+      }
+      role = first_mark(role, around);
+      if (object.from_template) ++templates_;
+      if (role != TiledRole::solid && role != TiledRole::one_way) continue;
+      if (object.from_template) refuse(object.where, "expected a solid with its own shape; templates are not read");
+      const std::vector<PixelShape> shapes = shapes_of_object(map_, object, offset);
+      if (shapes.empty()) scene_.notes.push_back(fmt::format("object {} is left out: it has no area", object.id));
+      add(shapes, role, fmt::format("o{}", object.id));
+    }
+  }
+
+  static std::optional<double> number_property(const TiledObject& object, const std::string& name) {
+    const auto found = object.marks.properties.find(name);
+    if (found == object.marks.properties.end()) return std::nullopt;
+    const std::string& text = found->second;
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size()) {
+      refuse(object.where, fmt::format("expected a number in the property \"{}\"", name));
+    }
+    return value;
+  }
+
+  void add_mover(const TiledObject& object, const Vec2d& offset) {
+    const std::optional<double> x_speed = number_property(object, "change_x");
+    const std::optional<double> y_speed = number_property(object, "change_y");
+    const bool vertical = y_speed.value_or(0) != 0;
+    const auto low = number_property(object, vertical ? "boundary_bottom" : "boundary_left");
+    const auto high = number_property(object, vertical ? "boundary_top" : "boundary_right");
+    const bool both = vertical && x_speed.value_or(0) != 0;
+    const double speed = (vertical ? y_speed : x_speed).value_or(0);
+    if (both || speed == 0 || !low || !high) {
+      scene_.notes.push_back(
+          fmt::format("mover {} is left out: its path needs one speed and two boundaries", object.id));
+      return;
+    }
+    // Where the object's lower left corner is, from the map's lower left corner, y up.
+    const Vec2d corner = upper_left(map_, object, offset);
+    const double at = vertical ? map_.height * map_.tile_size.y() - (corner.y() + object.size.y()) : corner.x();
+    const double size = vertical ? object.size.y() : object.size.x();
+    const std::vector<MoverDef::Waypoint> path = back_and_forth(*low - at, *high - size - at, speed, vertical);
+    const std::vector<PixelShape> shapes = shapes_of_object(map_, object, offset);
+    for (std::size_t i = 0; i < shapes.size() && !path.empty(); ++i) {
+      MoverDef mover;
+      mover.id = unused(i == 0 ? fmt::format("m{}", object.id) : fmt::format("m{}.{}", object.id, i));
+      mover.shape = collider_of(shapes[i], false);
+      mover.path = path;
+      mover.loop = MoverDef::Loop::loop;
+      check_scenery({{mover.shape}}, {mover.id}, [&](ColliderIndex) { return object.where; });
+      scene_.movers.push_back(std::move(mover));
+    }
+    if (path.empty())
+      scene_.notes.push_back(fmt::format("mover {} is left out: its boundaries leave it no way", object.id));
+  }
+
+  /// From 0 to one end of the way, to the other and back to 0. @param low, high [px] relative to the start.
+  std::vector<MoverDef::Waypoint> back_and_forth(double low, double high, double speed, bool vertical) const {
+    low = std::min(low, 0.0);  // one that begins beyond a turning point turns where it began
+    high = std::max(high, 0.0);
+    if (!(low < high)) return {};
+    constexpr double frames_per_second = 60;
+    const double per_second = std::abs(speed) * frames_per_second;
+    std::vector<MoverDef::Waypoint> path{{.time = 0, .at = Vec2d::Zero()}};
+    double before = 0;
+    for (const double next : {speed > 0 ? high : low, speed > 0 ? low : high, 0.0}) {
+      if (next == before) continue;
+      const Vec2d at = vertical ? Vec2d{0, next / scale_} : Vec2d{next / scale_, 0};
+      path.push_back({.time = path.back().time + std::abs(next - before) / per_second, .at = at});
+      before = next;
+    }
+    return path;
+  }
+
+  Box2<double> box() const {
+    if (!map_.infinite) {
+      const Vec2d size{map_.width * map_.tile_size.x(), map_.height * map_.tile_size.y()};
+      return {to_metres({0, size.y()}), to_metres({size.x(), 0})};
+    }
+    Box2<double> all = box_of(scene_.scenery.colliders.front());
+    for (const ColliderDef& collider : scene_.scenery.colliders) all = all.merged(box_of(collider));
+    return all.inflated(map_.tile_size.y() / scale_);
+  }
+
+  struct Marked {
+    const TiledObject* object = nullptr;
+    Vec2d offset{Vec2d::Zero()};
+  };
+
+  /// The first object that `is_spawn` accepts, in the order of the file.
+  template <class Predicate>
+  static Marked find_object(const std::vector<TiledLayer>& layers, const Vec2d& offset, const Predicate& is_spawn) {
+    for (const TiledLayer& layer : layers) {
+      const Vec2d at = offset + layer.offset;
+      if (const Marked inner = find_object(layer.layers, at, is_spawn); inner.object != nullptr) return inner;
+      for (const TiledObject& object : layer.objects) {
+        if (!object.from_template && is_spawn(layer, object)) return {&object, at};
+      }
+    }
+    return {};
+  }
+
+  void place_start() {
+    const auto by_object = [](const TiledLayer&, const TiledObject& object) {
+      return names_spawn(object.name) || names_spawn(object.marks.type);
+    };
+    const auto by_layer = [](const TiledLayer& layer, const TiledObject&) { return names_spawn(layer.name); };
+    Marked marked = find_object(map_.layers, Vec2d::Zero(), by_object);
+    if (marked.object == nullptr) marked = find_object(map_.layers, Vec2d::Zero(), by_layer);
+    if (marked.object == nullptr) {
+      const auto found = first_ground(scene_, *scene_.respawn_box, map_.tile_size.x() / scale_);
+      if (!found) refuse(given_, "expected a spawn object, or ground with room above it to begin on");
+      scene_.start.position = *found;
+      scene_.notes.emplace_back("no spawn is marked; the character begins above the first ground");
+      return;
+    }
+    const Box2<double>& body = scene_.character.shape.box();
+    const Vec2d corner = to_metres(upper_left(map_, *marked.object, marked.offset));
+    scene_.start.position = {corner.x() - body.lower.x(), corner.y() - body.upper.y()};
+    check_start(scene_, marked.object->where);
+  }
+
+  const TiledMap& map_;
+  std::string given_;
+  double scale_;
+  bool only_shapes_ = false;  ///< Nothing is marked: tiles with collision shapes are what is solid.
+  int templates_ = 0;
+  Scene scene_;
+  std::vector<std::string> where_;
+  std::set<std::string> ids_;
+};
+
+TiledMap read_map(const std::string& path, const std::string& given) {
+  if (std::filesystem::path(path).extension() == ".tmx") return read_tmx_map(path, given);
+  const nlohmann::json document = parse_json(read_file(path, given), given);
+  return read_json_map(document, path, given);
+}
+
+Scene whole_scene(const TiledMap& map, const std::string& given) {
+  return MapBuilder(map, given, map.tile_size.y()).whole();
+}
+
+}  // namespace
+
+Scene read_tiled(const std::string& path, const std::string& given) {
+  return whole_scene(read_map(path, given), given);
+}
+
+Scene read_tiled_json(const nlohmann::json& document, const std::string& path, const std::string& given) {
+  return whole_scene(read_json_map(document, path, given), given);
+}
+
+Scene read_tiled_part(const std::string& path, const std::string& given, double pixels_per_metre) {
+  return MapBuilder(read_map(path, given), given, pixels_per_metre).part();
+}
+
+}  // namespace paperproof::compare

@@ -1,0 +1,44 @@
+/// What every loader asks before it hands a scene out.
+#pragma once
+
+#include "scenes/scene.hpp"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace paperproof::compare {
+
+/// "file: /pointer" or "file:line" of a collider.
+using WhereIs = std::function<std::string(ColliderIndex)>;
+
+/// Builds the scenery once, for its checks. @throws InputError with the place and the id of a collider that is
+/// unusable.
+void check_scenery(const SceneryDef& scenery, const std::vector<std::string>& ids, const WhereIs& where);
+
+/// Answers where a character can stand, exactly. Keeps the boxes of the colliders, so that many places can be asked.
+class FreePlaces {
+ public:
+  /// @param scenery must outlive this.
+  FreePlaces(const SceneryDef& scenery, const CharacterShape& shape);
+
+  /// The colliders that the character overlaps at `position`, by exact arithmetic. One-way chains are never listed.
+  [[nodiscard]] std::vector<ColliderIndex> overlapped(const Vec2d& position) const;
+  [[nodiscard]] bool is_free(const Vec2d& position) const { return overlapped(position).empty(); }
+
+ private:
+  const SceneryDef& scenery_;
+  std::vector<Box2<double>> boxes_;
+  std::vector<Vec2d> hull_;
+  Box2<double> character_box_;
+};
+
+/// Smallest box around a collider [m]. It has at least one point.
+[[nodiscard]] Box2<double> box_of(const ColliderDef& collider);
+
+/// Refuses a start inside a solid unless the scene asks to resolve it.
+/// @param where of the start. @param remedy what the user can do about it; may be empty.
+/// @throws InputError naming the solids.
+void check_start(const Scene& scene, const std::string& where, const std::string& remedy = {});
+
+}  // namespace paperproof::compare
