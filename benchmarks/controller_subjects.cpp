@@ -1,0 +1,79 @@
+#include "subject.hpp"
+
+#include "runs/contestant.hpp"
+
+#include <paperproof/controller.hpp>
+
+namespace paperproof::benchmarks {
+namespace {
+
+template <class Scalar>
+class ControllerSubject final : public Subject {
+ public:
+  explicit ControllerSubject(const Workload& workload)
+      : workload_(workload),
+        scenery_(workload.scenery.as_run()),
+        controller_(scenery_, workload.scene.character),
+        scratch_(controller_.make_scratch()) {
+    restart();
+  }
+
+  void restart() override {
+    state_ = {};
+    state_.position = workload_.scene.start.position.cast<Scalar>();
+    state_.velocity = workload_.scene.start.velocity.cast<Scalar>();
+  }
+
+  void run() override {
+    const Vec2<Scalar> gravity = workload_.scene.gravity.cast<Scalar>();
+    const auto dt = static_cast<Scalar>(workload_.scene.dt);
+    for (const Input& input : workload_.inputs) controller_.step(state_, input, gravity, dt, scratch_, report_);
+  }
+
+  [[nodiscard]] Vec2d position() const override { return state_.position.template cast<double>(); }
+
+ private:
+  const Workload& workload_;
+  Scenery<Scalar> scenery_;
+  Controller<Scalar> controller_;
+  Scratch<Scalar> scratch_;
+  CharacterState<Scalar> state_;
+  StepReport<Scalar> report_;
+};
+
+class ContenderSubject final : public Subject {
+ public:
+  ContenderSubject(const Workload& workload, TechniqueKind kind)
+      : workload_(workload),
+        contestant_(
+            compare::make_contestant(name_of(kind), compare::ScalarKind::binary64, workload.scene, workload.scenery)) {}
+
+  void restart() override {
+    const compare::Start& start = workload_.scene.start;
+    contestant_->place({.position = start.position, .velocity = start.velocity});
+  }
+  void run() override {
+    for (const Input& input : workload_.inputs) contestant_->step_unrecorded(input);
+  }
+  [[nodiscard]] Vec2d position() const override { return contestant_->pose().position; }
+
+ private:
+  const Workload& workload_;
+  std::unique_ptr<compare::Contestant> contestant_;
+};
+
+}  // namespace
+
+template <class Scalar>
+std::unique_ptr<Subject> make_controller(const Workload& workload) {
+  return std::make_unique<ControllerSubject<Scalar>>(workload);
+}
+
+template std::unique_ptr<Subject> make_controller<float>(const Workload&);
+template std::unique_ptr<Subject> make_controller<double>(const Workload&);
+
+std::unique_ptr<Subject> make_contender(const Workload& workload, TechniqueKind kind) {
+  return std::make_unique<ContenderSubject>(workload, kind);
+}
+
+}  // namespace paperproof::benchmarks

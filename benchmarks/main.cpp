@@ -1,0 +1,23 @@
+// Times the controller beside Box2D, and the broad phases. Takes the options of Google Benchmark:
+//   --benchmark_filter=step/tiles       some of them
+//   --benchmark_out=FILE.json           keep the figures
+#include "broad_phase_benchmark.hpp"
+#include "step_benchmark.hpp"
+
+#include <benchmark/benchmark.h>
+
+#include <exception>
+#include <iostream>
+
+int main(int argc, char** argv) try {
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  paperproof::benchmarks::register_step_benchmarks();
+  paperproof::benchmarks::register_broad_phase_benchmarks();
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+  return 0;
+} catch (const std::exception& error) {
+  std::cerr << error.what() << '\n';
+  return 1;
+}

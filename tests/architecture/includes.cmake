@@ -1,0 +1,52 @@
+# Reads every #include under ROOT and refuses those that point against the arrows of the architecture:
+#   controller  <-  box2d_adapter  <-  compare
+# What a part may include is listed, so that a library nobody thought of is refused as well.
+cmake_minimum_required(VERSION 3.25)
+
+set(standard "<[a-z_0-9]+>")
+set(may_include_controller "${standard}|<Eigen/[A-Za-z]+>|<paperproof/[a-z_0-9]+[.]hpp>")
+set(may_include_box2d_adapter "${may_include_controller}|<paperproof/box2d/[a-z_0-9]+[.]hpp>|<box2d/[a-z_0-9]+[.]h>|<polyclipping/clipper[.]hpp>")
+set(may_include_compare "<.*>")
+# The oracle judges the controller: of it, it may know the values that both speak of, and no geometry.
+set(may_include_oracle "${standard}|<boost/.*>|<paperproof/(types|scenery|character|technique)[.]hpp>")
+
+set(seen 0)
+set(refused "")
+
+# `own`: the folder that holds what the part may include in quotes.
+function(check_part folder allowed own)
+  file(GLOB_RECURSE files "${ROOT}/${folder}/*.[ch]pp" "${ROOT}/${folder}/*.h")
+  foreach(file IN LISTS files)
+    file(STRINGS "${file}" lines REGEX "^[ \t]*#[ \t]*include")
+    foreach(line IN LISTS lines)
+      math(EXPR seen "${seen} + 1")
+      string(REGEX REPLACE "^[ \t]*#[ \t]*include[ \t]*" "" included "${line}")
+      if(included MATCHES "^\"([^\"]+)\"")
+        cmake_path(GET file PARENT_PATH beside)
+        set(named "${ROOT}/${own}/${CMAKE_MATCH_1}")  # or configured from a file of this name with .in
+        if(EXISTS "${beside}/${CMAKE_MATCH_1}" OR EXISTS "${named}" OR EXISTS "${named}.in")
+          continue()
+        endif()
+      elseif(included MATCHES "^(${allowed})")
+        continue()
+      endif()
+      cmake_path(RELATIVE_PATH file BASE_DIRECTORY "${ROOT}" OUTPUT_VARIABLE shown)
+      string(APPEND refused "  ${shown}: ${included}\n")
+    endforeach()
+  endforeach()
+  set(seen "${seen}" PARENT_SCOPE)
+  set(refused "${refused}" PARENT_SCOPE)
+endfunction()
+
+check_part(controller "${may_include_controller}" controller/src)
+check_part(box2d_adapter "${may_include_box2d_adapter}" box2d_adapter/src)
+check_part(compare "${may_include_compare}" compare)
+check_part(compare/oracle "${may_include_oracle}" compare)
+
+if(seen LESS AT_LEAST)
+  message(FATAL_ERROR "only ${seen} includes under ${ROOT}: this check looks in the wrong place")
+endif()
+if(NOT refused STREQUAL EXPECTED)
+  message(FATAL_ERROR "against the arrows:\n${refused}expected:\n${EXPECTED}")
+endif()
+message(STATUS "${seen} includes read")

@@ -1,0 +1,2 @@
+#include "scenes/scene.hpp"
+#include "geometry.hpp"

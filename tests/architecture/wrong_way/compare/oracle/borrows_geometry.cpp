@@ -1,0 +1,2 @@
+#include "geometry.hpp"
+#include <paperproof/techniques.hpp>

@@ -1,0 +1,121 @@
+/// The controller over a world that a game owns.
+#include "worlds.hpp"
+
+#include <paperproof/box2d/world_scenery.hpp>
+#include <paperproof/paperproof.hpp>
+
+#include <box2d/box2d.h>
+
+#include <gtest/gtest.h>
+
+namespace paperproof::box2d::test {
+namespace {
+
+b2Body* new_body(b2World& world, b2BodyType type, const b2Vec2& position = {0, 0}, float angle = 0) {
+  b2BodyDef def;
+  def.type = type;
+  def.position = position;
+  def.angle = angle;
+  return world.CreateBody(&def);
+}
+
+b2Fixture* add_box(b2Body* body, float half_width, float half_height_of_box) {
+  b2PolygonShape shape;
+  shape.SetAsBox(half_width, half_height_of_box);
+  return body->CreateFixture(&shape, 1);
+}
+
+TEST(WorldScenery, ten_lines_put_the_controller_into_a_box2d_game) {
+  b2World world({0, -10});  // the game's
+  b2Fixture* const floor = add_box(new_body(world, b2_staticBody, {0, -1}), 20, 1);
+  b2Fixture* const wall = add_box(new_body(world, b2_staticBody, {6, 2}), 0.5F, 2);
+  b2Body* const hero_body = new_body(world, b2_kinematicBody, {0, 2});
+  std::vector<b2Fixture*> touched;
+  const double dt = frame;
+
+  const WorldScenery borrowed = scenery_of(world);  // once per level
+  const Scenery<double> scenery(borrowed.scenery);
+  const Controller<double> controller(scenery, CharacterDef{});
+  Scratch<double> scratch = controller.make_scratch();
+  StepReport<double> report;
+  CharacterState<double> hero;
+  hero.position = {0, 2};
+  for (int i = 0; i < 240; ++i) {  // every frame, before world.Step
+    controller.step(hero, {.move = 1.0, .jump = false}, {0, -10}, dt, scratch, report);
+    const Vec2d way = hero.position - Vec2d(hero_body->GetPosition().x, hero_body->GetPosition().y);
+    hero_body->SetLinearVelocity({static_cast<float>(way.x() / dt), static_cast<float>(way.y() / dt)});
+    for (const Contact<double>& contact : report.move.contacts) touched.push_back(borrowed.fixtures[contact.collider]);
+    world.Step(static_cast<float>(dt), 8, 3);
+  }
+
+  const double half_width = CharacterDef{}.shape.box().upper.x();
+  EXPECT_TRUE(hero.grounded);
+  EXPECT_NEAR(hero.position.y(), half_height(), 2e-6);
+  EXPECT_NEAR(hero.position.x(), 6 - 0.5 - half_width, 2e-6);
+  EXPECT_NEAR(static_cast<double>(hero_body->GetPosition().x), hero.position.x(), 1e-4);
+  EXPECT_NE(std::find(touched.begin(), touched.end(), floor), touched.end());
+  EXPECT_NE(std::find(touched.begin(), touched.end(), wall), touched.end());
+}
+
+TEST(WorldScenery, fixtures_come_in_order_of_creation_and_only_the_static_solid_ones) {
+  b2World world({0, 0});
+  b2Body* const first = new_body(world, b2_staticBody);
+  b2Fixture* const a = add_box(first, 1, 1);
+  b2Fixture* const b = add_box(first, 2, 1);
+  add_box(new_body(world, b2_dynamicBody, {9, 9}), 1, 1);
+  b2Body* const second = new_body(world, b2_staticBody, {5, 0});
+  b2Fixture* const c = add_box(second, 1, 1);
+  add_box(second, 3, 3)->SetSensor(true);
+  new_body(world, b2_staticBody, {50, 0})->SetEnabled(false);
+  EXPECT_EQ(scenery_of(world).fixtures, (std::vector<b2Fixture*>{a, b, c}));
+  const auto only_b = [b](const b2Fixture& fixture) { return &fixture == b; };
+  EXPECT_EQ(scenery_of(world, {.filter = only_b}).fixtures, std::vector<b2Fixture*>{b});
+}
+
+TEST(WorldScenery, shapes_arrive_in_world_coordinates) {
+  b2World world({0, 0});
+  b2Body* const turned = new_body(world, b2_staticBody, {3, 4}, b2_pi / 2);
+  add_box(turned, 2, 1);
+  b2EdgeShape edge;
+  edge.SetTwoSided({0, 0}, {1, 0});
+  turned->CreateFixture(&edge, 0);
+  const WorldScenery read = scenery_of(world);
+  Box2<double> box{read.scenery.colliders[0].points[0], read.scenery.colliders[0].points[0]};
+  for (const Vec2d& point : read.scenery.colliders[0].points) box = box.merged({point, point});
+  EXPECT_LT((box.lower - Vec2d(3 - 1, 4 - 2)).cwiseAbs().maxCoeff(), 1e-6);
+  EXPECT_LT((box.upper - Vec2d(3 + 1, 4 + 2)).cwiseAbs().maxCoeff(), 1e-6);
+  ASSERT_EQ(read.scenery.colliders[1].shape, ColliderDef::Shape::chain);
+  EXPECT_LT((read.scenery.colliders[1].points[1] - Vec2d(3, 5)).cwiseAbs().maxCoeff(), 1e-6);
+}
+
+TEST(WorldScenery, a_loop_arrives_closed_and_the_controller_accepts_it) {
+  b2World world({0, 0});
+  const std::array<b2Vec2, 4> corners{b2Vec2(0, 0), b2Vec2(4, 0), b2Vec2(4, 3), b2Vec2(0, 3)};
+  b2ChainShape loop;
+  loop.CreateLoop(corners.data(), 4);
+  new_body(world, b2_staticBody)->CreateFixture(&loop, 0);
+  const WorldScenery read = scenery_of(world);
+  ASSERT_EQ(read.scenery.colliders[0].points.size(), 5U);
+  EXPECT_EQ(read.scenery.colliders[0].points.front(), read.scenery.colliders[0].points.back());
+  EXPECT_EQ(Scenery<double>(read.scenery).pieces().size(), 4U);
+}
+
+TEST(WorldScenery, the_polygon_around_a_circle_encloses_it_within_half_a_percent) {
+  b2World world({0, 0});
+  b2CircleShape circle;
+  circle.m_p = {1, 0};
+  circle.m_radius = 2;
+  new_body(world, b2_staticBody, {10, 20})->CreateFixture(&circle, 0);
+  const std::vector<Vec2d> corners = scenery_of(world).scenery.colliders.at(0).points;
+  const Vec2d centre(11, 20);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec2d corner = corners[i] - centre;
+    const Vec2d middle = (corners[i] + corners[(i + 1) % corners.size()]) / 2 - centre;
+    EXPECT_GE(std::sqrt(middle.squaredNorm()), 2 - 1e-12);
+    EXPECT_LE(std::sqrt(corner.squaredNorm()), 2 * 1.005);
+  }
+  EXPECT_THROW((void)scenery_of(world, {.circle_corners = 2}), InvalidDefinition);
+}
+
+}  // namespace
+}  // namespace paperproof::box2d::test

@@ -1,0 +1,227 @@
+/// The command as a user runs it: exit status, what it says, which files it touches.
+#include "compare/scene_files.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+namespace paperproof::compare {
+namespace {
+
+struct Finished {
+  int status = -1;
+  std::string out;
+  std::string err;
+};
+
+std::string content(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// A folder in which the command runs.
+class Workplace : public SceneFiles {
+ public:
+  /// @param arguments as typed in a shell.
+  [[nodiscard]] Finished run(const std::string& arguments) const {
+    const std::string out = path("") + "../" + unique() + ".out";
+    const std::string err = path("") + "../" + unique() + ".err";
+    const std::string line =
+        "cd '" + path("") + "' && '" PAPERPROOF_COMMAND "' " + arguments + " >'" + out + "' 2>'" + err + "' </dev/null";
+    const int raw = std::system(line.c_str());
+    Finished finished{WIFEXITED(raw) ? WEXITSTATUS(raw) : -1, content(out), content(err)};
+    std::filesystem::remove(out);
+    std::filesystem::remove(err);
+    return finished;
+  }
+  /// Every file with what is in it.
+  [[nodiscard]] std::map<std::string, std::string> files() const {
+    std::map<std::string, std::string> all;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(path("")))
+      if (entry.is_regular_file()) all[entry.path().filename()] = content(entry.path());
+    return all;
+  }
+
+ private:
+  static std::string unique() {
+    const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
+    return std::string("paperproof_") + test->test_suite_name() + "_" + test->name();
+  }
+};
+
+/// A scene that runs; the bad ones differ from it in one place.
+constexpr const char* good_scene = R"({
+  "paperproof_scene": 1, "name": "good", "gravity": [0, -30], "dt": 0.016, "steps": 20,
+  "character": { "position": [0, 3] },
+  "scenery": [ { "id": "floor", "polygon": [[-4,0],[4,0],[4,-1],[-4,-1]] } ]
+})";
+
+std::string good_with(std::string_view from, std::string_view to) { return with(good_scene, from, to); }
+
+/// Runs one unusable input with every kind of output asked for, and checks all that is promised of it.
+void expect_refused(const Workplace& place, const std::string& arguments, const std::string& begin,
+                    const std::string& part = "") {
+  place.write("rows.json", "rows of an earlier run");
+  for (const char* quiet : {"", " --quiet", " --json"}) {
+    const auto before = place.files();
+    const Finished finished =
+        place.run("compare --no-timing --rows rows.json --report report.html --trace trace " + arguments + quiet);
+    EXPECT_EQ(finished.status, 2) << arguments;
+    EXPECT_TRUE(begins(finished.err, begin)) << arguments;
+    EXPECT_TRUE(holds(finished.err, part)) << arguments;
+    EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1) << "one line:\n" << finished.err;
+    EXPECT_EQ(finished.out, "") << arguments;
+    EXPECT_EQ(place.files(), before) << arguments << ": an output file was touched";
+  }
+}
+
+TEST(Command, refuses_a_scene_file_that_cannot_be_used) {
+  struct Case {
+    std::string file;
+    std::string text;
+    std::string begin;
+    std::string part;
+  };
+  const Workplace place;
+  for (const Case& bad : {
+           Case{"json.json", "{ \"paperproof_scene\": 1,\n oops", "json.json:2:", "expected JSON"},
+           Case{"xml.tmx", "<map><layer></map>", "xml.tmx:1", ""},
+           Case{"level.stl", "(supertux-level\n (version 2)", "level.stl:", ""},
+           Case{"key.json", good_with("\"gravity\"", "\"gravitas\": 1, \"gravity\""), "key.json: /gravitas",
+                "unknown key"},
+           Case{"twice.json", good_with("\"dt\"", "\"steps\": 3, \"dt\""), "twice.json: /steps", "once"},
+           Case{"bow.json", good_with("[4,0],[4,-1]", "[4,-1],[4,0]"), "bow.json: /scenery/0", "floor"},
+           Case{"flat.json", good_with("[[-4,0],[4,0],[4,-1],[-4,-1]]", "[[-4,0],[0,0],[4,0]]"),
+                "flat.json: /scenery/0", "floor"},
+           Case{"huge.json", good_with("[0, -30]", "[0, 1e999]"), "huge.json:2", "finite"},
+           Case{"nan.json", good_with("[0, -30]", "[0, NaN]"), "nan.json:2", ""},
+           Case{"still.json", good_with("0.016", "0"), "still.json: /dt", "greater than 0"},
+           Case{"back.json", good_with("0.016", "-0.016"), "back.json: /dt", "greater than 0"},
+           Case{"never.json", good_with("\"steps\": 20", "\"steps\": -1"), "never.json: /steps", "whole number"},
+           Case{"missing.json", good_with("\"dt\": 0.016, ", ""), "missing.json: /dt", "missing"},
+           Case{"empty.json", good_with("{ \"id\": \"floor\", \"polygon\": [[-4,0],[4,0],[4,-1],[-4,-1]] }", ""),
+                "empty.json: /scenery", "empty"},
+           Case{"inside.json", good_with("[0, 3]", "[0, 0.5]"), "inside.json: /character", "floor"},
+           Case{"type.json", good_with("0.016", "\"fast\""), "type.json: /dt", "number"},
+           Case{"name.png", "not a scene", "name.png: ", "expected"},
+       }) {
+    place.write(bad.file, bad.text);
+    expect_refused(place, bad.file, bad.begin, bad.part);
+  }
+}
+
+TEST(Command, refuses_a_map_without_a_solid) {
+  const Workplace place;
+  place.write("air.tmx",
+              "<?xml version=\"1.0\"?>\n<map version=\"1.5\" orientation=\"orthogonal\" width=\"2\" height=\"1\" "
+              "tilewidth=\"16\" tileheight=\"16\" infinite=\"0\">\n<layer id=\"1\" name=\"solid\" width=\"2\" "
+              "height=\"1\"><data encoding=\"csv\">0,0</data></layer>\n</map>\n");
+  expect_refused(place, "air.tmx", "air.tmx", "solid");
+}
+
+TEST(Command, refuses_what_is_not_there) {
+  const Workplace place;
+  expect_refused(place, "nowhere.json", "nowhere.json: ");
+  expect_refused(place, "nowhere.tmx", "nowhere.tmx: ");
+  expect_refused(place, "nowhere.stl", "nowhere.stl: ");
+  expect_refused(place, "article_bulet", "article_bulet: ", "expected the name of a built-in scene");
+  place.write("good.json", good_scene);
+  expect_refused(place, "good.json nowhere.json", "nowhere.json: ");
+}
+
+TEST(Command, refuses_options_that_cannot_be) {
+  const Workplace place;
+  expect_refused(place, "article_bullet --contender nobody", "--contender nobody: ", "octagon_sweep");
+  expect_refused(place, "article_bullet --scalar half", "paperproof: --scalar", "half");
+  expect_refused(place, "article_bullet --input fixed:1", "--input fixed:1: ", "random:SEED");
+  expect_refused(place, "article_bullet --input random:x", "--input random:x: ", "random:SEED");
+  expect_refused(place, "article_bullet --mode sideways", "paperproof: --mode", "sideways");
+  expect_refused(place, "article_bullet --steps 0", "paperproof: --steps", "0");
+  expect_refused(place, "article_bullet --stepps 5", "paperproof: ", "--stepps");
+}
+
+TEST(Command, refuses_an_output_that_cannot_be_written) {
+  const Workplace place;
+  const auto before = place.files();
+  for (const char* option : {"--rows", "--report", "--trace"}) {
+    const Finished finished =
+        place.run(std::string("compare article_bullet --no-timing --quiet ") + option + " no_such_folder/out");
+    EXPECT_EQ(finished.status, 2) << option;
+    EXPECT_TRUE(begins(finished.err, "no_such_folder/out")) << option;
+    EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1) << finished.err;
+    EXPECT_EQ(finished.out, "") << option;
+  }
+  EXPECT_EQ(place.files(), before);
+}
+
+TEST(Command, shows_the_table_of_a_scene_and_who_is_right) {
+  const Workplace place;
+  const Finished finished = place.run("compare article_bullet --no-timing");
+  EXPECT_EQ(finished.status, 0) << finished.err;
+  EXPECT_EQ(finished.err, "") << "no progress where nobody watches";
+  EXPECT_TRUE(begins(finished.out, "article_bullet"));
+  for (const char* part : {"octagon_sweep", "penetration_resolution", "tunnels", "wrong"})
+    EXPECT_TRUE(holds(finished.out, part));
+  EXPECT_TRUE(place.files().empty());
+}
+
+TEST(Command, runs_a_scene_from_a_file_and_writes_what_it_is_asked_for) {
+  const Workplace place;
+  place.write("good.json", good_scene);
+  const Finished finished = place.run(
+      "compare good.json --no-timing --quiet --contender octagon_sweep --rows rows.json --report report.html --trace "
+      "t");
+  EXPECT_EQ(finished.status, 0) << finished.err;
+  EXPECT_EQ(finished.out, "");
+  EXPECT_EQ(finished.err, "");
+  const auto files = place.files();
+  EXPECT_EQ(files.size(), 5U);
+  for (const char* name : {"rows.json", "report.html", "t.good.octagon_sweep.double.jsonl", "t.good.box2d.float.jsonl"})
+    EXPECT_EQ(files.count(name), 1U) << name;
+  EXPECT_EQ(nlohmann::json::parse(files.at("rows.json")).at("rows").size(), 2U);
+}
+
+TEST(Command, puts_rows_alone_on_standard_output_when_asked_for_json) {
+  const Workplace place;
+  const Finished finished = place.run("compare article_bullet wedge_60 --no-timing --json");
+  EXPECT_EQ(finished.status, 0) << finished.err;
+  EXPECT_EQ(finished.err, "");
+  const nlohmann::json read = nlohmann::json::parse(finished.out, nullptr, false);
+  ASSERT_FALSE(read.is_discarded()) << finished.out;
+  EXPECT_EQ(read.at("paperproof_rows"), 1);
+  int scenes = 0;
+  for (const auto& row : read.at("rows"))
+    if (row.at("contender") == "octagon_sweep") {
+      ++scenes;
+      EXPECT_EQ(row.at("verdict"), "holds");
+    }
+  EXPECT_EQ(scenes, 2);
+}
+
+TEST(Command, lists_names_first_and_checks_scenes) {
+  const Workplace place;
+  const Finished scenes = place.run("list scenes");
+  EXPECT_EQ(scenes.status, 0);
+  EXPECT_TRUE(begins(scenes.out, "article_bullet ")) << "no heading";
+  const Finished contenders = place.run("list contenders");
+  EXPECT_TRUE(holds(contenders.out, "octagon_sweep\n"));
+  place.write("good.json", good_scene);
+  EXPECT_EQ(place.run("check good.json").status, 0);
+  place.write("bad.json", "{}");
+  const Finished bad = place.run("check bad.json");
+  EXPECT_EQ(bad.status, 2);
+  EXPECT_TRUE(begins(bad.err, "bad.json: "));
+  EXPECT_EQ(bad.out, "");
+}
+
+}  // namespace
+}  // namespace paperproof::compare

@@ -1,0 +1,343 @@
+#include "oracle/judge.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace paperproof::compare {
+namespace {
+
+constexpr double dt = 1.0 / 64;
+
+std::vector<Vec2d> octagon() {
+  return {{-0.15625, -0.625}, {0.15625, -0.625}, {0.3125, -0.3125}, {0.3125, 0.3125},
+          {0.15625, 0.625},   {-0.15625, 0.625}, {-0.3125, 0.3125}, {-0.3125, -0.3125}};
+}
+
+ColliderDef box(double left, double bottom, double right, double top) {
+  return {.points = {{left, bottom}, {right, bottom}, {right, top}, {left, top}}};
+}
+ColliderDef chain(std::vector<Vec2d> points, std::optional<Vec2d> one_way = {}) {
+  return {.shape = ColliderDef::Shape::chain, .points = std::move(points), .one_way = one_way};
+}
+
+TraceHeader header(std::vector<ColliderDef> colliders, bool path_exact = true) {
+  TraceHeader header;
+  header.dt = dt;
+  header.points = octagon();
+  for (std::size_t i = 0; i < colliders.size(); ++i) header.ids.push_back(std::to_string(i));
+  header.scenery.colliders = std::move(colliders);
+  header.path_exact = path_exact;
+  return header;
+}
+
+TraceStep step(const std::vector<Vec2d>& path) {
+  TraceStep step;
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    step.path.push_back(
+        {path[i], static_cast<double>(i) / static_cast<double>(std::max<std::size_t>(path.size() - 1, 1))});
+  }
+  step.requested = path.back() - path.front();
+  step.velocity = step.requested / dt;
+  return step;
+}
+
+using Colliders = std::vector<ColliderIndex>;
+
+TEST(Judge, passing_a_paper_in_one_step_is_tunnelling_told_with_speed_thickness_and_angle) {
+  constexpr double thickness = 1.0 / 128;
+  Judge judge(header({box(-4, 0, 4, thickness)}));
+  const StepJudgement judged = judge.judge(step({{0, 1}, {0, -1}}));
+  EXPECT_EQ(judged.tunnelled, Colliders{0});
+  EXPECT_TRUE(judged.corner_cut.empty());
+  EXPECT_TRUE(judged.end_overlap.empty());
+  ASSERT_EQ(judged.passings.size(), 1U);
+  EXPECT_DOUBLE_EQ(judged.passings[0].speed, 2 / dt);
+  EXPECT_DOUBLE_EQ(judged.passings[0].thickness, thickness);
+  EXPECT_DOUBLE_EQ(judged.passings[0].angle, 90);
+}
+
+TEST(Judge, the_angle_is_that_of_the_way_to_the_face) {
+  Judge judge(header({box(-4, 0, 4, 0.125)}));
+  const StepJudgement judged = judge.judge(step({{-1, 1}, {1, -1}}));
+  ASSERT_EQ(judged.passings.size(), 1U);
+  EXPECT_NEAR(judged.passings[0].angle, 45, 1e-9);
+}
+
+TEST(Judge, a_paper_of_any_thickness_is_never_a_corner_cut) {
+  for (const double thickness : {1e-3, 1e-6, 1e-12, 0.0}) {
+    const ColliderDef paper = thickness > 0 ? box(-4, 0, 4, thickness) : chain({{-4, 0}, {4, 0}});
+    for (const bool path_exact : {true, false}) {
+      Judge judge(header({paper}, path_exact));
+      EXPECT_EQ(judge.judge(step({{0, 1}, {0, -1}})).tunnelled, Colliders{0}) << thickness;
+    }
+  }
+}
+
+TEST(Judge, a_character_smaller_than_the_slop_still_tunnels) {
+  TraceHeader small = header({box(-4, 0, 4, 1e-6)}, false);
+  for (Vec2d& point : small.points) point *= 0x1p-10;
+  Judge judge(small);
+  EXPECT_EQ(judge.judge(step({{0, 1}, {0, -1}})).tunnelled, Colliders{0});
+}
+
+TEST(Judge, cutting_a_corner_shallower_than_the_slop_is_counted_apart) {
+  // The left arm passes the box's right face, `depth` beyond it.
+  for (const double depth : {0.004, 0.006, 0.019, 0.021}) {
+    const double x = 1 + 0.3125 - depth;
+    for (const bool path_exact : {true, false}) {
+      Judge judge(header({box(0, -0.125, 1, 0.125)}, path_exact));
+      const StepJudgement judged = judge.judge(step({{x, 2}, {x, -2}}));
+      const bool cut = depth < (path_exact ? 0.005 : 0.020);
+      EXPECT_EQ(judged.corner_cut, cut ? Colliders{0} : Colliders{}) << depth;
+      EXPECT_EQ(judged.tunnelled, cut ? Colliders{} : Colliders{0}) << depth;
+    }
+  }
+}
+
+TEST(Judge, going_around_is_free) {
+  Judge judge(header({box(-4, 0, 4, 0.125)}));
+  const StepJudgement judged = judge.judge(step({{0, 1}, {5, 1}, {5, -1}, {0, -1}}));
+  EXPECT_TRUE(judged.tunnelled.empty());
+  EXPECT_TRUE(judged.corner_cut.empty());
+}
+
+TEST(Judge, leaving_a_solid_on_another_side_steps_later_is_tunnelling_once) {
+  Judge judge(header({box(-4, 0, 4, 0.5)}));
+  const StepJudgement in = judge.judge(step({{0, 2}, {0, 1}}));
+  EXPECT_EQ(in.end_overlap, Colliders{0});
+  EXPECT_EQ(in.max_penetration, 0.5 - (1 - 0.625));
+  EXPECT_TRUE(in.tunnelled.empty());
+  EXPECT_TRUE(judge.judge(step({{0, 1}, {0, 0}})).tunnelled.empty());
+  EXPECT_EQ(judge.judge(step({{0, 0}, {0, -2}})).tunnelled, Colliders{0});
+  EXPECT_TRUE(judge.judge(step({{0, -2}, {0, -3}})).tunnelled.empty());
+}
+
+TEST(Judge, leaving_a_solid_on_the_side_it_was_entered_is_none) {
+  Judge judge(header({box(-4, 0, 4, 0.5)}));
+  EXPECT_EQ(judge.judge(step({{0, 2}, {0, 1}})).end_overlap, Colliders{0});
+  EXPECT_EQ(judge.judge(step({{0, 1}, {1, 0.75}})).end_overlap, Colliders{0});
+  const StepJudgement out = judge.judge(step({{1, 0.75}, {2, 2}}));
+  EXPECT_TRUE(out.end_overlap.empty());
+  EXPECT_TRUE(out.tunnelled.empty());
+}
+
+TEST(Judge, leaving_a_solid_in_which_the_run_began_is_none) {
+  Judge judge(header({box(-4, 0, 4, 0.5)}));
+  EXPECT_EQ(judge.judge(step({{0, 0.9}, {0, 0.5}})).end_overlap, Colliders{0});
+  EXPECT_TRUE(judge.judge(step({{0, 0.5}, {0, -2}})).tunnelled.empty());
+}
+
+TEST(Judge, a_respawn_ends_every_episode) {
+  Judge judge(header({box(-4, 0, 4, 0.5)}));
+  EXPECT_EQ(judge.judge(step({{0, 2}, {0, 0.5}})).end_overlap, Colliders{0});
+  TraceStep respawned = step({{0, -5}, {0, -6}});
+  respawned.respawn = true;
+  EXPECT_TRUE(judge.judge(respawned).tunnelled.empty());
+
+  EXPECT_EQ(judge.judge(step({{0, 2}, {0, 0.5}})).end_overlap, Colliders{0});
+  TraceStep at_the_same_place = step({{0, 0.5}, {0, -6}});
+  at_the_same_place.respawn = true;
+  EXPECT_TRUE(judge.judge(at_the_same_place).tunnelled.empty()) << "it was put inside";
+}
+
+TEST(Judge, a_step_at_rest_is_judged_as_the_one_before) {
+  Judge judge(header({box(-4, -1, 4, 0)}));
+  TraceStep rest = step({{0, 0.625 + 5e-7}});
+  rest.requested = {0, -1.0 / 128};
+  EXPECT_EQ(judge.judge(rest).contacts.size(), 1U);
+  EXPECT_EQ(judge.judge(rest).contacts.size(), 1U);
+  TraceStep other = rest;
+  other.requested = {0, 1};
+  EXPECT_TRUE(judge.judge(other).contacts.empty());
+  other = rest;
+  other.path[0].position.y() += 1;
+  EXPECT_TRUE(judge.judge(other).contacts.empty());
+  other = rest;
+  other.contacts.push_back({.collider = 0, .normal = {0, 1}});
+  EXPECT_EQ(judge.judge(rest).max_contact_gap, 0);
+  EXPECT_GT(judge.judge(other).max_contact_gap, 0);
+}
+
+TEST(Judge, a_one_way_chain_is_broken_against_its_normal_only) {
+  Judge judge(header({chain({{-4, 0}, {4, 0}}, Vec2d(0, 1))}));
+  EXPECT_EQ(judge.judge(step({{0, 1}, {0, -1}})).one_way_broken, Colliders{0});
+  const StepJudgement up = judge.judge(step({{0, -1}, {0, 1}}));
+  EXPECT_TRUE(up.one_way_broken.empty());
+  EXPECT_TRUE(up.tunnelled.empty());
+  // A leg that begins half through passes freely, however it got there.
+  EXPECT_TRUE(judge.judge(step({{0, 0.5}, {0, -1}})).one_way_broken.empty());
+}
+
+TEST(Judge, a_landing_is_an_exact_contact_at_its_fraction) {
+  Judge judge(header({box(-4, -1, 4, 0)}));
+  TraceStep landing = step({{0, 1}, {0, 0.625 + 5e-7}});
+  landing.requested = {0, -1};
+  const StepJudgement judged = judge.judge(landing);
+  ASSERT_EQ(judged.contacts.size(), 1U);
+  EXPECT_EQ(judged.contacts[0].side, Side::bottom);
+  EXPECT_EQ(judged.contacts[0].fraction, 0.375);
+  ASSERT_TRUE(judged.first_impact);
+  EXPECT_EQ(*judged.first_impact, 0.375);
+  EXPECT_TRUE(judged.first_impact_comparable);
+}
+
+TEST(Judge, resting_nearness_is_a_contact_with_motion_into_it_and_none_without) {
+  for (const double gravity : {-1.0 / 128, 0.0}) {
+    Judge judge(header({box(-4, -1, 4, 0), box(0.3125 + 5e-7, 0, 1, 4)}));
+    TraceStep rest = step({{0, 0.625 + 5e-7}});
+    rest.requested = {0, gravity};
+    const StepJudgement judged = judge.judge(rest);
+    EXPECT_EQ(judged.contacts.size(), gravity < 0 ? 1U : 0U);
+    EXPECT_FALSE(judged.first_impact_comparable) << "a resting gap is no time of impact";
+  }
+}
+
+TEST(Judge, walking_over_abutting_tiles_touches_only_the_floor) {
+  std::vector<ColliderDef> tiles;
+  for (int i = 0; i < 8; ++i) tiles.push_back(box(i, -1, i + 1, 0));
+  Judge judge(header(tiles));
+  int contacts = 0;
+  Vec2d at(0.5, 0.625 + 5e-7);
+  for (int i = 0; i < 448; ++i) {
+    const Vec2d next = at + Vec2d(1.0 / 64, 0);
+    TraceStep walk = step({at, next});
+    walk.requested = {1.0 / 64, -1.0 / 128};
+    for (const ExactContact& contact : judge.judge(walk).contacts) {
+      EXPECT_EQ(contact.side, Side::bottom) << "at " << at.x();
+      ++contacts;
+    }
+    at = next;
+  }
+  EXPECT_GE(contacts, 448);
+}
+
+TEST(Judge, walking_into_a_wall_on_the_floor_touches_both) {
+  Judge judge(header({box(-4, -1, 4, 0), box(1, 0, 2, 2)}));
+  TraceStep walk = step({{0.5, 0.625 + 5e-7}, {1 - 0.3125 - 5e-7, 0.625 + 5e-7}});
+  walk.requested = {0.5, -1.0 / 128};
+  const StepJudgement judged = judge.judge(walk);
+  ASSERT_EQ(judged.contacts.size(), 2U);
+  const bool floor_first = judged.contacts[0].collider == 0;
+  EXPECT_EQ(judged.contacts[floor_first ? 0 : 1].side, Side::bottom);
+  EXPECT_EQ(judged.contacts[floor_first ? 1 : 0].side, Side::right);
+}
+
+TEST(Judge, a_concave_polygon_is_touched_on_both_sides_of_a_wedge) {
+  const ColliderDef wedge{.points = {{0, 0}, {1, 4}, {2, 4}, {2, -1}, {-2, -1}, {-2, 4}, {-1, 4}}};
+  const ColliderDef chain_wedge = chain({{-1, 4}, {0, 0}, {1, 4}});
+  // The arms' corners (0.3125, -0.3125) meet the walls |x| = y / 4 where the octagon's centre is this high.
+  const double touching = 4 * 0.3125 + 0.3125;
+  for (const ColliderDef& def : {wedge, chain_wedge}) {
+    Judge judge(header({def}));
+    TraceStep rest = step({{0, touching + 1e-6}});
+    rest.requested = {0, -1.0 / 128};
+    const StepJudgement judged = judge.judge(rest);
+    ASSERT_EQ(judged.contacts.size(), 2U);
+    EXPECT_NE(judged.contacts[0].side, judged.contacts[1].side);
+    for (const ExactContact& contact : judged.contacts) {
+      EXPECT_TRUE(contact.side == Side::left || contact.side == Side::right);
+      EXPECT_NEAR(std::abs(contact.normal.x()), 4 / std::sqrt(17.0), 1e-15);
+    }
+  }
+}
+
+TEST(Judge, walking_over_a_concave_outline_with_vertices_in_a_row_touches_only_the_floor) {
+  ColliderDef map{.points = {{0, -1}, {9, -1}, {9, 3}, {8, 3}}};
+  for (int i = 8; i >= 0; --i) map.points.emplace_back(i, 0);
+  Judge judge(header({map}));
+  for (int i = 0; i < 448; ++i) {
+    const Vec2d at(0.5 + i / 64.0, 0.625 + 5e-7);
+    TraceStep walk = step({at, at + Vec2d(1.0 / 64, 0)});
+    walk.requested = {1.0 / 64, -1.0 / 128};
+    const StepJudgement judged = judge.judge(walk);
+    ASSERT_FALSE(judged.contacts.empty());
+    for (const ExactContact& contact : judged.contacts) {
+      ASSERT_EQ(contact.side, at.x() < 8 - 0.3125 - 1.0 / 64 ? Side::bottom : contact.side) << "at " << at.x();
+    }
+  }
+}
+
+TEST(Judge, the_gap_of_a_contact_is_the_separation_where_it_stopped) {
+  Judge judge(header({box(-4, -1, 4, 0)}));
+  TraceStep landing = step({{0, 1}, {0, 0.75}, {2, 0.75}});
+  landing.requested = {2, -1};
+  landing.contacts.push_back({.collider = 0, .normal = {0, 1}, .fraction = 0.375, .side = Side::bottom});
+  EXPECT_EQ(judge.judge(landing).max_contact_gap, 0.125);
+}
+
+TEST(Judge, box2d_may_touch_from_its_skin_without_being_right_or_wrong) {
+  for (const double gap : {0.015, 0.025}) {
+    for (const bool path_exact : {true, false}) {
+      Judge judge(header({box(-4, -1, 4, 0)}, path_exact));
+      TraceStep rest = step({{0, 0.625 + gap}});
+      rest.requested = {0, -1.0 / 128};
+      const StepJudgement judged = judge.judge(rest);
+      EXPECT_TRUE(judged.contacts.empty());
+      EXPECT_EQ(judged.dont_care, !path_exact && gap < 0.020 ? Colliders{0} : Colliders{});
+    }
+  }
+}
+
+TEST(Judge, a_contact_in_the_skin_is_a_ghost_where_no_face_stands_out) {
+  // The foot's corner stands over the seam, just before the second tile, in Box2D's rest gap.
+  Judge judge(header({box(-4, -1, 0, 0), box(0, -1, 4, 0)}, false));
+  TraceStep rest = step({{-0.15625 - 1e-9, 0.625 + 0.015}});
+  rest.requested = {1.0 / 64, -1.0 / 128};
+  const double part = 1 / std::sqrt(5.0);
+  rest.contacts = {{.collider = 1, .normal = {0, 1}, .side = Side::bottom},
+                   {.collider = 1, .normal = {-2 * part, part}, .side = Side::right}};
+  const StepJudgement judged = judge.judge(rest);
+  EXPECT_TRUE(judged.contacts.empty());
+  EXPECT_EQ(judged.dont_care, (Colliders{0, 1}));
+  const std::vector<std::pair<ColliderIndex, Side>> ghosts{{1, Side::right}};
+  EXPECT_EQ(judged.ghosts, ghosts);
+}
+
+TEST(Judge, a_collider_behind_a_seam_is_neither_right_nor_wrong) {
+  // The foot's corner falls within rounding of the seam: the second tile is met at its vertex, which is no corner of
+  // the floor.
+  const double below_seam = std::nextafter(4 - 0.15625, 0.0);
+  Judge judge(header({box(-4, -1, 4, 0), box(4, -1, 8, 0)}));
+  TraceStep rest = step({{below_seam, 0.625 + 5e-7}});
+  rest.requested = {0, -1.0 / 128};
+  rest.contacts = {{.collider = 0, .normal = {0, 1}, .side = Side::bottom},
+                   {.collider = 1, .normal = {0, 1}, .side = Side::bottom}};
+  const StepJudgement judged = judge.judge(rest);
+  ASSERT_EQ(judged.contacts.size(), 1U);
+  EXPECT_EQ(judged.contacts[0].collider, 0U);
+  EXPECT_EQ(judged.dont_care, Colliders{1});
+  EXPECT_TRUE(judged.ghosts.empty());
+
+  rest.contacts[1] = {.collider = 1, .normal = {-1, 0}, .side = Side::right};
+  EXPECT_EQ(judge.judge(rest).ghosts.size(), 1U) << "a wall where no face stands out";
+}
+
+TEST(Judge, speed_lost_to_nothing_is_a_ghost_and_speed_lost_to_a_wall_is_none) {
+  const std::vector<ColliderDef> floor{box(-4, -1, 0, 0), box(0, -1, 4, 0), box(2, 0, 3, 2)};
+  TraceStep snag = step({{-0.5, 0.625 + 5e-7}, {-0.25, 0.625 + 5e-7}});
+  snag.requested = {0.5, -1.0 / 128};
+  snag.velocity = {0.25 * 0.5 / dt, 0};
+  EXPECT_EQ(Judge(header(floor)).judge(snag).ghost_speed_loss, 0.75);
+
+  TraceStep wall = step({{1.5, 0.625 + 5e-7}, {2 - 0.3125 - 5e-7, 0.625 + 5e-7}});
+  wall.requested = {0.5, -1.0 / 128};
+  wall.velocity = {0, 0};
+  EXPECT_EQ(Judge(header(floor)).judge(wall).ghost_speed_loss, 0);
+
+  TraceStep smooth = step({{-0.5, 0.625 + 5e-7}, {0, 0.625 + 5e-7}});
+  smooth.requested = {0.5, -1.0 / 128};
+  smooth.velocity = {0.5 / dt, 0};
+  EXPECT_EQ(Judge(header(floor)).judge(smooth).ghost_speed_loss, 0);
+}
+
+TEST(Judge, a_run_far_from_everything_has_nothing_to_report) {
+  Judge judge(header({box(-4, -1, 4, 0)}));
+  const StepJudgement judged = judge.judge(step({{100, 100}, {101, 99}}));
+  EXPECT_TRUE(judged.contacts.empty());
+  EXPECT_FALSE(judged.first_impact);
+  EXPECT_EQ(judge.scenery().rational_decisions(), 0U);
+}
+
+}  // namespace
+}  // namespace paperproof::compare

@@ -1,0 +1,65 @@
+#!/usr/bin/env bash
+# Opens the sample report in a headless Chromium and checks that every scene draws without an error.
+# usage: report_in_browser.sh WRITE_SAMPLE_REPORT    (exit status 77: skipped, with the reason)
+set -u
+writer=$1
+
+browser=""
+for name in chromium chromium-browser google-chrome; do
+  if command -v "$name" >/dev/null 2>&1; then browser=$name; break; fi
+done
+if [ -z "$browser" ]; then
+  echo "skipped: no chromium is installed, so the page cannot be opened (Debian: apt install chromium)"
+  exit 77
+fi
+
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+"$writer" "$folder/report.html" || exit 1
+
+# Prints the document as it stands after its scripts have run.
+open_page() {
+  timeout 120 "$browser" --headless --no-sandbox --disable-gpu --no-first-run --disable-background-networking \
+    --disable-component-update --disable-sync --disable-extensions --disable-dev-shm-usage \
+    --user-data-dir="$folder/profile" --window-size=1280,900 --virtual-time-budget=3000 \
+    --dump-dom "file://$folder/report.html$1" 2>"$folder/stderr" >"$folder/dom" ||
+    { echo "the browser failed on $1:"; tail -n 5 "$folder/stderr"; exit 1; }
+}
+
+failures=0
+fail() { echo "FAILED at $1: $2"; failures=$((failures + 1)); }
+
+# check ADDRESS WHAT_WAS_DRAWN
+check() {
+  open_page "$1"
+  head -c 2000 "$folder/dom" >"$folder/head"
+  grep -q 'data-error=' "$folder/head" && fail "$1" "the page reports an error: $(grep -o 'data-error="[^"]*"' "$folder/head")"
+  grep -qF "data-drawn=\"$2\"" "$folder/head" || fail "$1" "expected data-drawn=\"$2\", found: $(grep -o 'data-drawn="[^"]*"' "$folder/head")"
+  case $1 in
+    *check=1*)
+      colours=$(sed -n 's/.*data-colours="\([0-9]*\)".*/\1/p' "$folder/head" | head -n 1)
+      # Background, solids, outlines and at least one contender, each with its anti-aliased shades.
+      [ "${colours:-0}" -ge 8 ] || fail "$1" "the canvas has ${colours:-no} colours: nothing was drawn" ;;
+  esac
+}
+
+# wants TEXT: the text stands in the document that was opened last, outside of its data.
+wants() {
+  sed 's/<script[^>]*>.*<\/script>//' "$folder/dom" | grep -qF -- "$1" || fail "the last page" "it does not show: $1"
+}
+
+check "" "summary"
+wants "penetration_resolution"
+wants "Held in every scene it ran in: octagon_sweep"
+check "#scene=0&step=2&view=fit&check=1" "scene 0 step 2 t 1"
+wants "tunnel: through paper at 120 m/s"
+check "#scene=0&step=2&t=0.25&view=follow&check=1" "scene 0 step 2 t 0.25"
+check "#scene=1&step=150&layout=side&check=1" "scene 1 step 150 t 1"
+wants "bottom, tile_9"
+check "#scene=2&step=40&check=1" "scene 2 step 40 t 1"
+wants "octagon_sweep is right"
+wants "&lt;/script&gt;&lt;script&gt;throw 1&lt;/script&gt;"
+check "#scene=999" "summary"
+
+[ "$failures" -eq 0 ] && echo "every page was drawn"
+exit "$((failures > 0))"

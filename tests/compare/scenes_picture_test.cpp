@@ -1,0 +1,194 @@
+/// Pictures as levels.
+#include "scenes/picture.hpp"
+
+#include <gtest/gtest.h>
+#include <png.h>
+#include <zlib.h>
+
+#include <cstring>
+#include <random>
+#include <set>
+
+#include "scene_files.hpp"
+
+namespace paperproof::compare {
+namespace {
+
+using Rgba = std::array<std::uint8_t, 4>;
+constexpr Rgba white{255, 255, 255, 255};
+constexpr Rgba black{0, 0, 0, 255};
+constexpr Rgba grass{0x20, 0xc0, 0x40, 255};
+constexpr Rgba glass{255, 255, 255, 100};
+
+/// A drawing in letters, one for each pixel.
+struct Drawing {
+  std::vector<std::string> rows;
+
+  [[nodiscard]] static Rgba colour_of(char letter) {
+    if (letter == '#') return white;
+    if (letter == 'g') return grass;
+    return letter == '/' ? glass : black;
+  }
+  [[nodiscard]] std::string png() const {
+    png_image image{};
+    image.version = PNG_IMAGE_VERSION;
+    image.width = static_cast<png_uint_32>(rows[0].size());
+    image.height = static_cast<png_uint_32>(rows.size());
+    image.format = PNG_FORMAT_RGBA;
+    std::vector<std::uint8_t> pixels;
+    for (const std::string& row : rows) {
+      for (const char letter : row) {
+        const Rgba colour = colour_of(letter);
+        pixels.insert(pixels.end(), colour.begin(), colour.end());
+      }
+    }
+    png_alloc_size_t size = 0;
+    png_image_write_get_memory_size(image, size, 0, pixels.data(), 0, nullptr);
+    std::string bytes(size, '\0');
+    EXPECT_NE(png_image_write_to_memory(&image, bytes.data(), &size, 0, pixels.data(), 0, nullptr), 0);
+    bytes.resize(size);
+    return bytes;
+  }
+};
+
+std::string scene_with(const std::string& entry, double pixels_per_metre = 32) {
+  return R"({ "paperproof_scene": 1, "name": "drawn", "gravity": [0, -30], "dt": 0.0078125, "steps": 120,
+              "pixels_per_metre": )" +
+         std::to_string(pixels_per_metre) + R"(, "character": { "position": [-30, 30] }, "scenery": [ )" + entry +
+         " ] }";
+}
+
+TEST(Picture, becomes_rectangles_of_its_solid_pixels) {
+  const SceneFiles files;
+  files.write("level.png", Drawing{{"........",  //
+                                    ".##..###",  //
+                                    ".##..###",  //
+                                    "#####..."}}
+                               .png());
+  const Scene scene = files.load("drawn.json", scene_with(R"({ "id": "level", "picture": "level.png" })", 4));
+  EXPECT_EQ(scene.ids, (std::vector<std::string>{"level/1,1", "level/5,1", "level/0,3"}));
+  const auto& colliders = scene.scenery.colliders;
+  EXPECT_EQ(colliders[0].points[0], Vec2d(0.25, -0.75));
+  EXPECT_EQ(colliders[0].points[2], Vec2d(0.75, -0.25));
+  EXPECT_EQ(colliders[2].points[0], Vec2d(0, -1));
+  EXPECT_EQ(colliders[2].points[2], Vec2d(1.25, -0.75));
+  ASSERT_TRUE(scene.respawn_box.has_value());
+  EXPECT_EQ(scene.respawn_box->lower, Vec2d(0, -1));
+  EXPECT_EQ(scene.respawn_box->upper, Vec2d(2, 0));
+}
+
+std::set<std::pair<int, int>> pixels_of(const Scene& scene, double pixels_per_metre) {
+  std::set<std::pair<int, int>> pixels;
+  for (const ColliderDef& collider : scene.scenery.colliders) {
+    const Vec2d lower = collider.points[0] * pixels_per_metre;
+    const Vec2d upper = collider.points[2] * pixels_per_metre;
+    for (double y = lower.y() + 0.5; y < upper.y(); ++y) {
+      for (double x = lower.x() + 0.5; x < upper.x(); ++x) {
+        const bool is_new = pixels.insert({int(std::floor(x)), int(-std::ceil(y))}).second;
+        EXPECT_TRUE(is_new) << "two rectangles have the pixel " << x << ' ' << y;
+      }
+    }
+  }
+  return pixels;
+}
+
+TEST(Picture, has_each_solid_pixel_in_exactly_one_rectangle_that_shares_its_bits_with_neighbours) {
+  constexpr std::uint64_t seed = 12;
+  std::mt19937_64 random(seed);
+  const SceneFiles files;
+  for (int i = 0; i < 30; ++i) {
+    Drawing drawing;
+    std::set<std::pair<int, int>> expected;
+    for (int row = 0; row < 24; ++row) {
+      drawing.rows.emplace_back();
+      for (int column = 0; column < 40; ++column) {
+        const bool solid = (random() >> 33) % 4 != 0;
+        drawing.rows.back() += solid ? '#' : '.';
+        if (solid) expected.insert({column, row});
+      }
+    }
+    files.write("level.png", drawing.png());
+    const double scale = 21.3;  // nothing is exact
+    const Scene scene = files.load("drawn.json", scene_with(R"({ "picture": "level.png" })", scale));
+    EXPECT_EQ(pixels_of(scene, scale), expected) << "seed " << seed << ", picture " << i;
+    for (const ColliderDef& collider : scene.scenery.colliders) {
+      for (const Vec2d& point : collider.points) {
+        EXPECT_EQ(point.x(), std::round(point.x() * scale) / scale);
+        EXPECT_EQ(point.y(), std::round(point.y() * scale) / scale);
+        EXPECT_FALSE(std::signbit(point.x()));
+        EXPECT_TRUE(point.y() != 0 || !std::signbit(point.y())) << "zero has one sign";
+      }
+    }
+  }
+}
+
+TEST(Picture, is_solid_where_the_scene_says) {
+  const SceneFiles files;
+  files.write("level.png", Drawing{{"#g./"}}.png());
+  const auto solid = [&](const std::string& rule) {
+    return pixels_of(files.load("drawn.json", scene_with(R"({ "picture": "level.png")" + rule + "}")), 32);
+  };
+  using Columns = std::set<std::pair<int, int>>;
+  EXPECT_EQ(solid(""), (Columns{{0, 0}})) << "white, as in a mask; what can be seen through is air";
+  EXPECT_EQ(solid(R"(, "solid": "#20C040")"), (Columns{{1, 0}}));
+  EXPECT_EQ(solid(R"(, "solid": "#000000")"), (Columns{{2, 0}}));
+  EXPECT_EQ(solid(R"(, "background": "#000000")"), (Columns{{0, 0}, {1, 0}}));
+  EXPECT_EQ(solid(R"(, "background": "#ffffff")"), (Columns{{1, 0}, {2, 0}}));
+}
+
+/// Byte `i` of a PNG chunk's checksum, most significant first.
+char checksum_byte(const std::string& type_and_data, int i) {
+  const auto sum =
+      crc32(0, reinterpret_cast<const Bytef*>(type_and_data.data()), static_cast<uInt>(type_and_data.size()));
+  return static_cast<char>((sum >> (24 - 8 * i)) & 0xffU);
+}
+
+std::string chequers(std::size_t width, int row) {
+  std::string text(width, '.');
+  for (std::size_t i = row % 2 == 0 ? 0 : 1; i < width; i += 2) text[i] = '#';
+  return text;
+}
+
+TEST(Picture, that_cannot_be_used_is_refused_in_one_line) {
+  const SceneFiles files;
+  const std::string png = Drawing{{"#g./"}}.png();
+  files.write("level.png", png);
+  files.write("text.png", "This is no picture.");
+  files.write("half.png", png.substr(0, png.size() - 25));
+  std::string huge = png;
+  huge.replace(16, 8, std::string("\0\1\0\0\0\1\0\0", 8));  // 65536 x 65536
+  files.write("spoilt.png", huge);                          // its header's checksum does not fit
+  for (int i = 0; i < 4; ++i) huge[static_cast<std::size_t>(29 + i)] = checksum_byte(huge.substr(12, 17), i);
+  files.write("huge.png", huge);
+  Drawing noise;
+  for (int row = 0; row < 640; ++row) noise.rows.push_back(chequers(640, row));  // each other pixel: 204,800 rectangles
+  files.write("noise.png", noise.png());
+  const auto complaint = [&](const std::string& entry) { return files.complaint("drawn.json", scene_with(entry)); };
+  EXPECT_EQ(complaint(R"({ "picture": "none.png" })"),
+            ": /scenery/0/picture: none.png: expected a file that exists; there is none");
+  for (const std::string name : {"text.png", "half.png", "spoilt.png"}) {
+    const std::string start = ": /scenery/0/picture: " + name + ": expected a PNG picture (";
+    EXPECT_EQ(complaint(R"({ "picture": ")" + name + R"(" })").substr(0, start.size()), start);
+  }
+  EXPECT_EQ(complaint(R"({ "picture": "huge.png" })"),
+            ": /scenery/0/picture: huge.png: expected a picture of at most 67108864 pixels, not 65536 x 65536");
+  EXPECT_EQ(complaint(R"({ "picture": "noise.png" })"),
+            ": /scenery/0/picture: noise.png: expected a drawing; its solid pixels make more than 200000 rectangles");
+  EXPECT_EQ(complaint(R"({ "picture": "level.png", "solid": "#123456" })"),
+            ": /scenery/0/picture: level.png: expected a solid pixel; none is #123456");
+  for (const std::string colour : {"white", "#fff", "#00000g", "ffffff", "#ffffff0"}) {
+    EXPECT_EQ(complaint(R"({ "picture": "level.png", "solid": ")" + colour + R"(" })"),
+              ": /scenery/0/solid: expected a colour like \"#00a0ff\"");
+  }
+  EXPECT_EQ(complaint(R"({ "picture": "level.png", "solid": "#ffffff", "background": "#000000" })"),
+            ": /scenery/0/background: expected one of \"solid\" and \"background\", not both");
+  EXPECT_EQ(complaint(R"({ "chain": [[0,0],[1,0]], "solid": "#ffffff" })"),
+            ": /scenery/0/solid: expected only beside \"picture\"");
+  EXPECT_EQ(complaint(R"({ "picture": "level.png", "one_way": [0,1] })"),
+            ": /scenery/0/one_way: expected only beside \"chain\"");
+  EXPECT_EQ(complaint(R"({ "picture": "level.png", "tiled": "a.tmx" })").substr(0, 30),
+            std::string(": /scenery/0: expected exactly one shape").substr(0, 30));
+}
+
+}  // namespace
+}  // namespace paperproof::compare

@@ -1,0 +1,37 @@
+# Traces are checked by a program that shares nothing with this one: Python's standard library and exact fractions.
+find_program(PAPERPROOF_PYTHON3 python3)
+mark_as_advanced(PAPERPROOF_PYTHON3)
+set(traces "${CMAKE_CURRENT_BINARY_DIR}/traces")
+file(MAKE_DIRECTORY "${traces}")
+set(checker "${CMAKE_CURRENT_SOURCE_DIR}/check_trace.py")
+
+# -B: leaves no cache in the sources. Without Python the tests are skipped, and say why.
+function(paperproof_trace_test name)
+  cmake_parse_arguments(ARG "" "" "COMMAND;PROPERTIES" ${ARGN})
+  if(PAPERPROOF_PYTHON3)
+    add_test(NAME trace.${name} COMMAND "${PAPERPROOF_PYTHON3}" -B ${ARG_COMMAND})
+  else()
+    add_test(NAME trace.${name} COMMAND "${CMAKE_COMMAND}" -E echo "skipped: there is no python3 here")
+    set(ARG_PROPERTIES SKIP_REGULAR_EXPRESSION "skipped: ")
+  endif()
+  set_tests_properties(trace.${name} PROPERTIES FIXTURES_REQUIRED traces TIMEOUT 300 ${ARG_PROPERTIES})
+endfunction()
+
+set(checked_scenes article_bullet slope_joints jump_into_corner rotated_wall wedge_60 start_overlapping_deep)
+add_test(NAME trace.write COMMAND paperproof compare ${checked_scenes} --no-timing --quiet --trace "${traces}/t")
+set_tests_properties(trace.write PROPERTIES FIXTURES_SETUP traces TIMEOUT 300)
+
+set(good)
+foreach(scene IN LISTS checked_scenes)
+  list(APPEND good "${traces}/t.${scene}.octagon_sweep.double.jsonl")
+endforeach()
+paperproof_trace_test(of_octagon_sweep_hold COMMAND "${checker}" ${good})
+
+# It has to find what is wrong: the bullet that passes the paper, and traces that are spoilt on purpose.
+set(passed "${traces}/t.article_bullet.penetration_resolution.double.jsonl")
+paperproof_trace_test(of_penetration_resolution_shows_the_tunnel COMMAND "${checker}" "${passed}"
+  PROPERTIES PASS_REGULAR_EXPRESSION "step 0 passes or enters platform.*60 steps, 0 contacts, 1 violation")
+paperproof_trace_test(of_penetration_resolution_ends_with_an_error COMMAND "${checker}" "${passed}"
+  PROPERTIES WILL_FAIL TRUE)
+paperproof_trace_test(checker_finds_every_kind_of_spoilt_trace
+  COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/check_trace_test.py" "${traces}/t.article_bullet.octagon_sweep.double.jsonl")

@@ -1,0 +1,291 @@
+/// What is common to every technique: how a character falls, walks and jumps, against formulas.
+#include "controller/stepping.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace paperproof::stepping {
+namespace {
+
+constexpr double dt = 1.0 / 64;
+constexpr double gravity = 32;  // half a metre per second in each step: no rounding
+
+/// Stands on a floor whose top is y = 0.
+Stepper<double> standing(const CharacterDef& character = {}, std::vector<ColliderDef> more = {}) {
+  more.insert(more.begin(), rectangle(-100, -1, 100, 0));
+  Stepper<double> stepper(more, character);
+  stepper.dt = dt;
+  stepper.gravity = {0, -gravity};
+  stepper.at(0, half_height + px).steps(20);
+  EXPECT_TRUE(stepper.state.grounded);
+  return stepper;
+}
+
+Input walking(double move) { return {.move = move}; }
+Input jumping(std::optional<double> move = {}) { return {.move = move, .jump = true}; }
+
+TEST(Falling, follows_the_semi_implicit_parabola_with_every_technique_that_moves_freely) {
+  for (const TechniqueKind kind : all_techniques) {
+    if (kind == TechniqueKind::grid) continue;  // by whole squares: see grid_test
+    Stepper<double> faller({rectangle(50, -100, 51, 100)}, {}, kind);
+    faller.at(0.1, 7).with_velocity(1.25, 0);
+    for (int n = 1; n <= 120; ++n) {
+      ASSERT_EQ(faller.step(), StepStatus::moved) << name_of(kind);
+      // v_k = -g dt k, so that y_n = y_0 - g dt² (1 + 2 + ... + n).
+      const double fallen = 10.0 / 3600 * n * (n + 1) / 2;
+      ASSERT_NEAR(faller.state.position.y(), 7 - fallen, 1e-12) << name_of(kind) << ", step " << n;
+      ASSERT_NEAR(faller.state.position.x(), 0.1 + 1.25 / 60 * n, 1e-12) << name_of(kind);
+      ASSERT_NEAR(faller.state.velocity.y(), -10.0 / 60 * n, 1e-12) << name_of(kind);
+    }
+    EXPECT_TRUE(faller.report.move.contacts.empty());
+  }
+}
+
+TEST(Falling, is_no_faster_than_the_limit) {
+  CharacterDef character;
+  character.max_fall_speed = 5.25;
+  Stepper<double> faller({rectangle(50, -100, 51, 100)}, character);
+  faller.dt = dt;
+  faller.gravity = {0, -gravity};
+  for (int n = 1; n <= 40; ++n) {
+    faller.step();
+    ASSERT_EQ(faller.state.velocity.y(), -std::min(gravity * dt * n, 5.25)) << "step " << n;
+  }
+  const double before = faller.state.position.y();
+  faller.step();
+  EXPECT_EQ(faller.state.position.y(), before - 5.25 * dt);
+  faller.with_velocity(0, 9).step();
+  EXPECT_EQ(faller.state.velocity.y(), 9 - gravity * dt) << "a rise has no limit";
+}
+
+TEST(Walking, approaches_the_walking_speed_by_the_acceleration) {
+  CharacterDef character;
+  character.walk_speed = 6;
+  character.acceleration = 24;
+  Stepper<double> walker = standing(character);
+  double travelled = 0;
+  for (int n = 1; n <= 40; ++n) {
+    walker.step(walking(1));
+    const double speed = std::min(24 * dt * n, 6.0);
+    travelled += speed * dt;
+    ASSERT_EQ(walker.state.velocity.x(), speed) << "step " << n;
+    ASSERT_NEAR(walker.state.position.x(), travelled, 1e-13) << "step " << n;
+  }
+  walker.step(walking(-0.5));
+  EXPECT_EQ(walker.state.velocity.x(), 6 - 24 * dt) << "it turns with the same acceleration";
+  walker.steps(100, walking(-0.5));
+  EXPECT_EQ(walker.state.velocity.x(), -3) << "half a deflection is half the speed";
+  walker.steps(100, walking(-7));
+  EXPECT_EQ(walker.state.velocity.x(), -6) << "a deflection is at most one";
+  walker.steps(100, walking(0));
+  EXPECT_EQ(walker.state.velocity.x(), 0) << "letting go brakes";
+}
+
+TEST(Walking, without_steering_keeps_its_speed) {
+  Stepper<double> walker = standing();
+  walker.with_velocity(2.7, 0).steps(50);
+  EXPECT_EQ(walker.state.velocity.x(), 2.7);
+}
+
+TEST(Walking, is_steered_in_the_air_by_the_air_acceleration) {
+  CharacterDef character;
+  character.acceleration = 64;
+  character.air_acceleration = 8;
+  Stepper<double> walker = standing(character);
+  walker.step(walking(1));
+  EXPECT_EQ(walker.state.velocity.x(), 64 * dt);
+  walker.step(jumping(1));
+  EXPECT_EQ(walker.state.velocity.x(), 2 * 64 * dt) << "the step that leaves the ground still pushes off";
+  walker.step(jumping(1));
+  EXPECT_EQ(walker.state.velocity.x(), 2 * 64 * dt + 8 * dt);
+
+  character.air_acceleration.reset();
+  Stepper<double> same = standing(character);
+  same.at(0, 5).step(walking(1));
+  same.step(walking(1));
+  EXPECT_EQ(same.state.velocity.x(), 2 * 64 * dt) << "without one of its own the air is as the ground";
+}
+
+TEST(Jumping, reaches_the_semi_implicit_apex) {
+  CharacterDef character;
+  character.jump_speed = 16;
+  Stepper<double> jumper = standing(character);
+  const double floor = jumper.state.position.y();
+  double expected = 0;
+  for (double speed = 16 - gravity * dt; speed > 0; speed -= gravity * dt) expected += speed * dt;
+  ASSERT_EQ(expected, 16.0 * 16 / (2 * gravity) - 16 * dt / 2) << "short of v²/2g by v dt / 2";
+  double highest = 0;
+  for (int n = 0; n < 120; ++n) {
+    jumper.step(jumping());
+    highest = std::max(highest, jumper.state.position.y() - floor);
+  }
+  EXPECT_NEAR(highest, expected, 1e-13);
+  EXPECT_TRUE(jumper.state.grounded);
+}
+
+/// Steps on which the character leaves the ground with its jumping speed.
+int take_offs(Stepper<double>& jumper, int steps, const Input& input) {
+  int count = 0;
+  for (int n = 0; n < steps; ++n) {
+    const bool jumped_before = jumper.state.jumping;
+    jumper.step(input);
+    if (!jumped_before && jumper.state.jumping) ++count;
+  }
+  return count;
+}
+
+TEST(Jumping, gives_one_jump_for_one_press) {
+  Stepper<double> jumper = standing();
+  EXPECT_EQ(take_offs(jumper, 300, jumping()), 1) << "held through several landings";
+  EXPECT_EQ(take_offs(jumper, 1, {}), 0);
+  EXPECT_EQ(take_offs(jumper, 300, jumping()), 1) << "pressed anew";
+}
+
+TEST(Jumping, waits_for_the_ground_while_the_button_is_held) {
+  Stepper<double> jumper = standing();
+  jumper.at(0, 3).with_velocity(0, 0).step();
+  ASSERT_FALSE(jumper.state.grounded);
+  int landed = -1;
+  for (int n = 0; n < 200 && landed < 0; ++n) {
+    jumper.step(jumping());
+    ASSERT_FALSE(jumper.state.jumping);
+    if (jumper.state.grounded) landed = n;
+  }
+  ASSERT_GE(landed, 1);
+  jumper.step(jumping());
+  EXPECT_TRUE(jumper.state.jumping);
+  EXPECT_EQ(jumper.state.velocity.y(), jumper.controller.character().jump_speed - gravity * dt);
+}
+
+TEST(Jumping, forgets_a_press_that_was_let_go_in_the_air) {
+  Stepper<double> jumper = standing();
+  jumper.at(0, 3).with_velocity(0, 0).step(jumping());
+  EXPECT_EQ(take_offs(jumper, 200, {}), 0);
+  EXPECT_TRUE(jumper.state.grounded);
+}
+
+TEST(JumpingRules, refuse_a_jump_toward_a_wall_one_stands_beside) {
+  const std::vector<ColliderDef> walls{rectangle(2, 0, 3, 9), rectangle(-3, 0, -2, 9)};
+  for (const double toward : {1.0, -1.0}) {
+    CharacterDef character;
+    for (const bool rule : {false, true}) {
+      character.no_jump_toward_wall = rule;
+      Stepper<double> jumper = standing(character, walls);
+      jumper.steps(100, walking(toward));
+      ASSERT_EQ(jumper.state.wall_right, toward > 0);
+      ASSERT_EQ(jumper.state.wall_left, toward < 0);
+      EXPECT_EQ(take_offs(jumper, 30, jumping(toward)), rule ? 0 : 1) << "rule " << rule;
+    }
+    Stepper<double> away = standing(character, walls);
+    away.steps(100, walking(toward));
+    EXPECT_EQ(take_offs(away, 30, jumping(-toward)), 1) << "away from it is allowed";
+    Stepper<double> still = standing(character, walls);
+    still.steps(100, walking(toward));
+    EXPECT_EQ(take_offs(still, 30, jumping()), 1) << "and straight up";
+  }
+}
+
+TEST(JumpingRules, end_a_rise_at_the_side_of_something) {
+  CharacterDef character;
+  for (const bool rule : {false, true}) {
+    character.side_hit_ends_rise = rule;
+    Stepper<double> jumper = standing(character, {rectangle(1, 0, 2, 9)});
+    jumper.step(jumping(1));
+    double before = jumper.state.velocity.y();
+    int steps = 0;
+    while (!jumper.touched(Side::right) && ++steps < 40) {
+      before = jumper.state.velocity.y();
+      jumper.step(jumping(1));
+    }
+    ASSERT_GT(before, 2) << "it meets the wall while rising";
+    EXPECT_EQ(jumper.state.velocity.y(), rule ? 0 : before - gravity * dt);
+  }
+}
+
+/// A state in the middle of things, whose every field differs from its default.
+CharacterState<double> busy() {
+  return {.position = {1, 2},
+          .velocity = {3, -4},
+          .last_free = {1, 2.5},
+          .has_last_free = true,
+          .grounded = true,
+          .jumping = true,
+          .jump_held = true,
+          .jump_pending = true,
+          .wall_left = true,
+          .wall_right = true,
+          .stuck_steps = 3};
+}
+
+TEST(Refusals, change_nothing_for_input_that_is_no_number) {
+  struct Case {
+    CharacterState<double> state = busy();
+    Input input{.move = 0.5};
+    Vec2d gravity{0, -10};
+    double dt = 1.0 / 60;
+  };
+  const double infinity = std::numeric_limits<double>::infinity();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  std::vector<Case> cases;
+  const auto with = [&cases](auto change) { change(cases.emplace_back()); };
+  for (const double bad : {nan, infinity, -infinity}) {
+    with([bad](Case& c) { c.state.position.x() = bad; });
+    with([bad](Case& c) { c.state.position.y() = bad; });
+    with([bad](Case& c) { c.state.velocity.x() = bad; });
+    with([bad](Case& c) { c.state.velocity.y() = bad; });
+    with([bad](Case& c) { c.state.last_free.x() = bad; });
+    with([bad](Case& c) { c.state.last_free.y() = bad; });
+    with([bad](Case& c) { c.input.move = bad; });
+    with([bad](Case& c) { c.gravity.x() = bad; });
+    with([bad](Case& c) { c.gravity.y() = bad; });
+    with([bad](Case& c) { c.dt = bad; });
+  }
+  for (const double bad : {0.0, -0.0, -1e-9, -1.0}) with([bad](Case& c) { c.dt = bad; });
+
+  for (const TechniqueKind kind : all_techniques) {
+    Stepper<double> stepper({rectangle(-9, -9, 9, 0)}, {}, kind);
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+      CharacterState<double> state = cases[i].state;
+      const StepStatus status = stepper.controller.step(state, cases[i].input, cases[i].gravity, cases[i].dt,
+                                                        stepper.scratch, stepper.report);
+      EXPECT_EQ(status, StepStatus::invalid_input) << name_of(kind) << ", case " << i;
+      EXPECT_EQ(stepper.report.status, StepStatus::invalid_input);
+      EXPECT_TRUE(same_bits(state, cases[i].state)) << name_of(kind) << ", case " << i;
+    }
+  }
+}
+
+TEST(Refusals, a_last_free_position_that_is_not_valid_may_be_anything) {
+  Stepper<double> stepper({rectangle(-9, -9, 9, 0)});
+  stepper.at(0, 3).state.last_free.x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(stepper.step(), StepStatus::moved);
+}
+
+TEST(Refusals, change_nothing_for_a_step_that_leaves_the_range) {
+  const double range = Tolerances<double>{}.range;
+  for (const TechniqueKind kind : all_techniques) {
+    Stepper<double> stepper({rectangle(-9, -9, 9, 0)}, {}, kind);
+    for (const Vec2d& velocity :
+         {Vec2d{1.3 * range, 0}, Vec2d{0, 1.3 * range}, Vec2d{0, -1.3 * range}, Vec2d{1e300, 0}}) {
+      CharacterState<double> state = busy();
+      state.velocity = velocity;
+      const CharacterState<double> before = state;
+      EXPECT_EQ(
+          stepper.controller.step(state, {.move = {}, .jump = true}, Vec2d{0, 0}, 1, stepper.scratch, stepper.report),
+          StepStatus::out_of_range)
+          << name_of(kind);
+      EXPECT_TRUE(same_bits(state, before)) << name_of(kind);
+    }
+  }
+}
+
+TEST(Refusals, a_character_that_cannot_be_is_named) {
+  const Scenery<double> scenery(SceneryDef{});
+  CharacterDef character;
+  character.walk_speed = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(Controller<double>(scenery, character), InvalidCharacter);
+}
+
+}  // namespace
+}  // namespace paperproof::stepping

@@ -1,0 +1,169 @@
+#include "geometry/exact.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "exact_reference.hpp"
+
+namespace paperproof {
+namespace {
+
+using geometry::orientation_sign;
+using geometry::orientation_sign_of_edge_offset;
+using geometry::orientation_sign_of_offset;
+using test::cross;
+using test::ExactPoint;
+
+/// What plain doubles make of it, and whether they can be sure.
+struct InDoubles {
+  int sign;
+  bool undecided;
+};
+
+InDoubles in_doubles(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
+  const double left = (b.x() - a.x()) * (c.y() - a.y());
+  const double right = (b.y() - a.y()) * (c.x() - a.x());
+  const double value = left - right;
+  const double four_roundings = 4 * 0x1p-53 * (std::abs(left) + std::abs(right));
+  return {value > 0 ? 1 : value < 0 ? -1 : 0, std::abs(value) <= four_roundings};
+}
+
+/// What the cases were like: a test that never met a hard one shows nothing.
+struct Coverage {
+  int cases = 0;
+  int zeros = 0;
+  int undecided_in_doubles = 0;
+  int wrong_in_doubles = 0;
+
+  void count(int exact, const InDoubles& doubles) {
+    ++cases;
+    if (exact == 0) ++zeros;
+    if (doubles.undecided) ++undecided_in_doubles;
+    if (doubles.sign != exact) ++wrong_in_doubles;
+  }
+  void expect_hard_cases() const {
+    EXPECT_GE(undecided_in_doubles, cases / 4);
+    EXPECT_GE(wrong_in_doubles, cases / 30);
+  }
+};
+
+class ExactSigns : public testing::Test {
+ protected:
+  static constexpr unsigned seed = 20240607;
+  static constexpr int cases = 20000;
+
+  double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+  int integer(int low, int high) { return std::uniform_int_distribution<int>(low, high)(random_); }
+  Vec2d point(double reach) { return {uniform(-reach, reach), uniform(-reach, reach)}; }
+
+  double an_ulp_away(double value) {
+    const int direction = integer(-1, 1);
+    return direction == 0 ? value : std::nextafter(value, direction * 1e308);
+  }
+  Vec2d an_ulp_away(const Vec2d& at) { return {an_ulp_away(at.x()), an_ulp_away(at.y())}; }
+  /// Near the line through a and b, as nearly as doubles can say; now and then on it, if a and b have few digits.
+  Vec2d near_line(const Vec2d& a, const Vec2d& b) {
+    const double t = integer(0, 1) == 0 ? 0.5 * integer(-2, 4) : uniform(-0.5, 1.5);
+    const Vec2d on_line = a + t * (b - a);
+    return integer(0, 3) == 0 ? on_line : an_ulp_away(on_line);
+  }
+  Vec2d few_digits(const Vec2d& at, double scale) {
+    return {scale * std::round(at.x() / scale), scale * std::round(at.y() / scale)};
+  }
+  static Vec2d without_traces(const Vec2d& at) {
+    return {geometry::without_traces(at.x()), geometry::without_traces(at.y())};
+  }
+  double power_of_two(int range) { return std::ldexp(1.0, integer(-range, range)); }
+
+  std::mt19937 random_{seed};
+};
+
+TEST_F(ExactSigns, orientation_agrees_with_rational_numbers_for_points_within_ulps_of_one_line) {
+  Coverage coverage;
+  for (int i = 0; i < cases; ++i) {
+    const double scale = power_of_two(20);
+    const bool few = integer(0, 4) == 0;
+    const Vec2d a = few ? few_digits(point(scale), scale / 1024) : point(scale);
+    const Vec2d b = few ? few_digits(point(scale), scale / 1024) : Vec2d(a + point(scale * power_of_two(10) / 1024));
+    const Vec2d c = near_line(a, b);
+    const int exact = cross(ExactPoint(a), ExactPoint(b), ExactPoint(c)).sign();
+    ASSERT_EQ(orientation_sign(a, b, c), exact) << "seed " << seed << ", case " << i;
+    coverage.count(exact, in_doubles(a, b, c));
+  }
+  coverage.expect_hard_cases();
+  EXPECT_GE(coverage.zeros, coverage.cases / 100);
+}
+
+TEST_F(ExactSigns, orientation_of_an_offset_point_does_not_round_the_sum) {
+  Coverage coverage;
+  for (int i = 0; i < cases; ++i) {
+    const Vec2d offset = point(1);
+    const Vec2d a = point(power_of_two(20));
+    const Vec2d b = a + point(power_of_two(6));
+    const Vec2d position = near_line(a, b) - offset;
+    const int exact = cross(ExactPoint(a), ExactPoint(b), ExactPoint(position, offset)).sign();
+    ASSERT_EQ(orientation_sign_of_offset(a, b, position, offset), exact) << "seed " << seed << ", case " << i;
+    coverage.count(exact, in_doubles(a, b, position + offset));
+  }
+  coverage.expect_hard_cases();
+}
+
+TEST_F(ExactSigns, orientation_of_an_offset_edge_does_not_round_the_sums) {
+  Coverage coverage;
+  for (int i = 0; i < cases; ++i) {
+    const Vec2d from = point(1);
+    const Vec2d to = point(1);
+    const Vec2d position = point(power_of_two(20));
+    const Vec2d v = near_line(position + from, position + to);
+    const int exact = cross(ExactPoint(position, from), ExactPoint(position, to), ExactPoint(v)).sign();
+    ASSERT_EQ(orientation_sign_of_edge_offset(position, from, to, v), exact) << "seed " << seed << ", case " << i;
+    coverage.count(exact, in_doubles(position + from, position + to, v));
+  }
+  coverage.expect_hard_cases();
+}
+
+TEST_F(ExactSigns, signs_are_exact_for_every_mixture_of_magnitudes_in_range) {
+  const auto any = [&] {
+    return integer(0, 9) == 0 ? 0.0 : std::copysign(std::ldexp(uniform(1, 2), integer(-300, 299)), uniform(-1, 1));
+  };
+  int on_line = 0;
+  for (int i = 0; i < cases / 4; ++i) {
+    const Vec2d a(any(), any());
+    const Vec2d b = integer(0, 4) == 0 ? a : Vec2d(any(), any());
+    const Vec2d c = integer(0, 1) == 0 ? Vec2d(any(), any()) : without_traces(an_ulp_away(b));
+    const Vec2d offset(any(), any());
+    const int exact = cross(ExactPoint(a), ExactPoint(b), ExactPoint(c)).sign();
+    ASSERT_EQ(orientation_sign(a, b, c), exact) << "seed " << seed << ", case " << i;
+    ASSERT_EQ(orientation_sign_of_offset(a, b, c, offset),
+              cross(ExactPoint(a), ExactPoint(b), ExactPoint(c, offset)).sign());
+    ASSERT_EQ(orientation_sign_of_edge_offset(a, b, offset, c),
+              cross(ExactPoint(a, b), ExactPoint(a, offset), ExactPoint(c)).sign());
+    if (exact == 0) ++on_line;
+  }
+  EXPECT_GE(on_line, cases / 100);
+}
+
+TEST_F(ExactSigns, left_is_positive_and_swapping_two_points_changes_the_sign) {
+  EXPECT_EQ(orientation_sign({0, 0}, {1, 0}, {0, 1}), 1);
+  EXPECT_EQ(orientation_sign({1, 0}, {0, 0}, {0, 1}), -1);
+  EXPECT_EQ(orientation_sign({0, 0}, {1, 1}, {3, 3}), 0);
+  for (int i = 0; i < cases; ++i) {
+    const Vec2d a = point(1e6);
+    const Vec2d b = point(1e6);
+    const Vec2d c = near_line(a, b);
+    ASSERT_EQ(orientation_sign(a, b, c), -orientation_sign(b, a, c)) << "seed " << seed << ", case " << i;
+    ASSERT_EQ(orientation_sign(a, b, c), orientation_sign(b, c, a)) << "seed " << seed << ", case " << i;
+  }
+}
+
+TEST(WithoutTraces, lengths_too_small_for_exact_products_become_zero_and_others_stay) {
+  EXPECT_EQ(geometry::without_traces(std::nextafter(geometry::smallest_exact, 0)), 0);
+  EXPECT_EQ(geometry::without_traces(-5e-324), 0);
+  EXPECT_EQ(geometry::without_traces(-geometry::smallest_exact), -geometry::smallest_exact);
+  EXPECT_EQ(geometry::without_traces(0.1), 0.1);
+}
+
+}  // namespace
+}  // namespace paperproof

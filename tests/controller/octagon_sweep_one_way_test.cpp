@@ -1,0 +1,135 @@
+/// One-way platforms under octagon_sweep: the truth table.
+#include "controller/stepping.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace paperproof::stepping {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// A platform from (-2, 0) to (2, 0), turned around the origin, that lets through what comes from below.
+ColliderDef platform(double angle = 0) {
+  const Vec2d end{2 * std::cos(angle), 2 * std::sin(angle)};
+  return chain({-end, end}, Vec2d{0, 1});
+}
+
+struct Row {
+  const char* words;
+  Vec2d from;
+  Vec2d way;
+  bool blocked;
+};
+
+TEST(OneWay, blocks_what_comes_against_its_normal_from_wholly_above) {
+  const double h = half_height;
+  const double w = half_width;
+  for (const Row& row : {
+           Row{"falling onto it", {0, h + 1}, {0, -4}, true},
+           Row{"falling onto it, slanting", {-1, h + 1}, {2, -4}, true},
+           Row{"resting on it", {0, h + 5e-7}, {0, -0.1}, true},
+           Row{"touching it exactly", {0, h}, {0, -0.1}, true},
+           Row{"rising through it", {0, -h - 1}, {0, 4}, false},
+           Row{"rising through it, slanting", {-1, -h - 1}, {2, 4}, false},
+           Row{"rising while it is across it", {0, 0}, {0, 4}, false},
+           Row{"falling while it is across it", {0, 0.1}, {0, -4}, false},
+           Row{"falling with the feet an ulp below it", {0, std::nextafter(h, 0.0)}, {0, -0.1}, false},
+           Row{"falling from below it", {0, -h - 0.1}, {0, -4}, false},
+           Row{"walking into its end, feet below and head above", {-2 - w - 1, 0}, {4, 0}, false},
+           Row{"walking along on it", {0, h + 5e-7}, {1, 0}, false},
+           Row{"falling past its end", {2 + w + 1e-6, h + 1}, {0, -4}, false},
+       }) {
+    Stepper<double> mover({platform()});
+    const MoveResult<double>& move = mover.at(row.from.x(), row.from.y()).fly(row.way.x(), row.way.y());
+    EXPECT_EQ(!move.contacts.empty(), row.blocked) << row.words;
+    if (row.blocked) {
+      EXPECT_GE(move.position.y(), h) << row.words;
+      EXPECT_LE(move.position.y(), h + 1e-6) << row.words;
+      EXPECT_EQ(move.contacts[0].normal, Vec2d(0, 1)) << row.words;
+      EXPECT_TRUE(move.grounded) << row.words;
+    } else {
+      EXPECT_EQ(move.position, Vec2d(row.from + row.way)) << row.words;
+      EXPECT_EQ(move.velocity, row.way) << row.words;
+    }
+  }
+}
+
+TEST(OneWay, blocks_along_the_normal_of_a_slope) {
+  for (const double degrees : {-40.0, -20.0, 20.0, 40.0}) {
+    const double angle = degrees * degree;
+    const Vec2d n{-std::sin(angle), std::cos(angle)};
+    const Vec2d above = n * 2;
+    const Vec2d below = n * -2;
+    Stepper<double> faller({platform(angle)});
+    const MoveResult<double>& fall = faller.at(above.x(), above.y()).fly(0, -4);
+    ASSERT_FALSE(fall.contacts.empty()) << degrees;
+    EXPECT_NEAR(fall.contacts[0].normal.dot(n), 1, 1e-15) << degrees;
+    Stepper<double> riser({platform(angle)});
+    EXPECT_TRUE(riser.at(below.x(), below.y()).fly(0, 4).contacts.empty()) << degrees;
+    EXPECT_EQ(riser.state.position, Vec2d(below + Vec2d(0, 4))) << degrees;
+    // Rising, and all the same against the normal: the slope is met from above, from the side.
+    Stepper<double> slanting({platform(angle)});
+    const Vec2d way = Vec2d{4 * (degrees > 0 ? 1 : -1), 0.5};
+    ASSERT_LT(way.dot(n), 0);
+    const Vec2d start = n * 1 - way * 0.1;
+    EXPECT_FALSE(slanting.at(start.x(), start.y()).fly(way.x(), way.y()).contacts.empty()) << degrees;
+  }
+}
+
+TEST(OneWay, is_jumped_through_and_landed_on) {
+  Stepper<double> jumper({rectangle(-9, -4, 9, -3), platform()});
+  jumper.gravity = {0, -30};
+  jumper.at(0, -3 + half_height + 0.01).steps(20);
+  ASSERT_TRUE(jumper.state.grounded);
+  jumper.with_velocity(0, 17).state.grounded = false;  // 17² / 60 = 4.8 m up: through and beyond
+  bool passed_freely = true;
+  double highest = -3;
+  for (int n = 0; n < 240; ++n) {
+    const double rising = jumper.state.velocity.y();
+    jumper.step();
+    highest = std::max(highest, jumper.state.position.y());
+    if (rising > 0.5) passed_freely = passed_freely && jumper.report.move.contacts.empty();
+  }
+  EXPECT_TRUE(passed_freely);
+  EXPECT_GT(highest, half_height + 0.5);
+  EXPECT_TRUE(jumper.state.grounded);
+  EXPECT_GT(jumper.state.position.y(), half_height);
+  EXPECT_LE(jumper.state.position.y(), half_height + 1e-6);
+}
+
+TEST(OneWay, a_jump_that_ends_across_it_falls_back) {
+  Stepper<double> jumper({rectangle(-9, -4, 9, -3), platform()});
+  jumper.gravity = {0, -30};
+  jumper.at(0, -3 + half_height + 0.01).steps(20);
+  jumper.with_velocity(0, 12).state.grounded = false;  // 12² / 60 = 2.4 m: the apex is at 0.03 m, across the platform
+  jumper.steps(240);
+  EXPECT_TRUE(jumper.state.grounded);
+  EXPECT_LE(jumper.state.position.y(), -3 + half_height + 1e-6) << "back on the floor";
+}
+
+TEST(OneWay, the_other_direction_blocks_the_other_way) {
+  // A trap door in a ceiling: what comes from above passes, what comes from below does not.
+  Stepper<double> riser({chain({{-2, 0}, {2, 0}}, Vec2d{0, -1})});
+  EXPECT_FALSE(riser.at(0, -2).fly(0, 4).contacts.empty());
+  Stepper<double> faller({chain({{-2, 0}, {2, 0}}, Vec2d{0, -1})});
+  EXPECT_TRUE(faller.at(0, 2).fly(0, -4).contacts.empty());
+  // A gate: only to the right.
+  for (const double way : {4.0, -4.0}) {
+    Stepper<double> walker({chain({{0, -2}, {0, 2}}, Vec2d{1, 0})});
+    EXPECT_EQ(walker.at(-way / 2, 0).fly(way, 0).contacts.empty(), way > 0);
+  }
+}
+
+TEST(OneWay, a_segment_along_its_direction_blocks_nothing) {
+  for (const Vec2d& way : {Vec2d{4, 0}, Vec2d{-4, 0}, Vec2d{0, 4}, Vec2d{0, -4}}) {
+    Stepper<double> mover({chain({{0, -1}, {0, 1}}, Vec2d{0, 1})});
+    const Vec2d from = way * -0.5;
+    EXPECT_TRUE(mover.at(from.x(), from.y()).fly(way.x(), way.y()).contacts.empty()) << way.transpose();
+  }
+}
+
+}  // namespace
+}  // namespace paperproof::stepping

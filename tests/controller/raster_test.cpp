@@ -1,0 +1,267 @@
+/// Which pixels a scenery covers.
+#include "techniques/raster/sprite.hpp"
+
+#include "controller/article_support.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace paperproof::article_tests {
+namespace {
+
+using raster::Bitmap;
+using raster::Pixel;
+using raster::PixelBox;
+using raster::Span;
+
+constexpr int sixteenth = 16;  // the tests place vertices on sixteenths of a pixel, exact in every arithmetic
+
+using Lattice = std::array<std::int64_t, 2>;  ///< A point in sixteenths of a pixel.
+
+ColliderDef polygon_of(const std::vector<Lattice>& ring) {
+  ColliderDef polygon;
+  for (const Lattice& at : ring) polygon.points.push_back(Vec2d(double(at[0]), double(at[1])) / sixteenth);
+  return polygon;
+}
+
+enum class Place : std::uint8_t { outside, inside, edge };
+
+/// The slow, honest twin: crossing parity of one point in whole numbers.
+Place place_of(const Lattice& point, const std::vector<Lattice>& ring) {
+  bool inside = false;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Lattice& a = ring[i];
+    const Lattice& b = ring[(i + 1) % ring.size()];
+    const std::int64_t area = (b[0] - a[0]) * (point[1] - a[1]) - (b[1] - a[1]) * (point[0] - a[0]);
+    const bool in_box = std::min(a[0], b[0]) <= point[0] && point[0] <= std::max(a[0], b[0]) &&
+                        std::min(a[1], b[1]) <= point[1] && point[1] <= std::max(a[1], b[1]);
+    if (area == 0 && in_box) return Place::edge;
+    const bool crosses = (a[1] <= point[1]) != (b[1] <= point[1]);
+    const bool on_right = b[1] > a[1] ? area < 0 : area > 0;
+    if (crosses && on_right) inside = !inside;
+  }
+  return inside ? Place::inside : Place::outside;
+}
+
+std::vector<Lattice> random_ring(Random& random, int size) {
+  std::vector<Lattice> ring;
+  const int corners = 3 + random.below(6);
+  for (int i = 0; i < corners; ++i) ring.push_back({random.below(2 * size) - size, random.below(2 * size) - size});
+  return ring;
+}
+
+TEST(Rasteriser, makes_a_pixel_solid_when_its_centre_is_inside) {
+  constexpr std::uint64_t seed = 3;
+  Random random(seed);
+  int inside = 0;
+  int outside = 0;
+  for (int i = 0; i < 500; ++i) {
+    const std::vector<Lattice> ring = random_ring(random, 20 * sixteenth);  // it may cross itself: parity counts
+    const Bitmap level = raster::rasterise({{polygon_of(ring)}}, 1);
+    for (int y = -22; y < 22; ++y) {
+      for (int x = -22; x < 22; ++x) {
+        const Place place = place_of({x * sixteenth + sixteenth / 2, y * sixteenth + sixteenth / 2}, ring);
+        if (place == Place::edge) continue;  // either: see the test of shared edges
+        ++(place == Place::inside ? inside : outside);
+        ASSERT_EQ(level.is_white({x, y}), place == Place::inside)
+            << "seed " << seed << ", polygon " << i << ": " << x << ' ' << y;
+      }
+    }
+  }
+  EXPECT_GT(inside, 80'000);
+  EXPECT_GT(outside, 80'000);
+}
+
+std::set<std::pair<std::int64_t, std::int64_t>> pixels_of(const ColliderDef& collider, double pixels_per_metre) {
+  std::vector<Span> spans;
+  raster::spans_of(collider, pixels_per_metre, spans);
+  std::set<std::pair<std::int64_t, std::int64_t>> pixels;
+  for (const Span& span : spans) {
+    for (std::int64_t x = span.first; x < span.end; ++x) pixels.insert({x, span.row});
+  }
+  return pixels;
+}
+
+TEST(Rasteriser, gives_each_pixel_of_two_polygons_with_a_common_edge_to_exactly_one) {
+  constexpr std::uint64_t seed = 4;
+  Random random(seed);
+  std::size_t shared = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const auto corner = [&](double x, double y) { return Vec2d(x * random.between(1, 9), y * random.between(1, 9)); };
+    // One corner in each quadrant; cut from the first to the third.
+    const std::vector<Vec2d> quad{corner(1, 1), corner(-1, 1), corner(-1, -1), corner(1, -1)};
+    const auto whole = pixels_of({.points = quad}, 2.7);
+    const auto left = pixels_of({.points = {quad[0], quad[1], quad[2]}}, 2.7);
+    const auto right = pixels_of({.points = {quad[2], quad[3], quad[0]}}, 2.7);
+    auto both = left;
+    both.insert(right.begin(), right.end());
+    // The quadrilateral is concave where the cut leaves it: then one triangle takes from the other.
+    const auto side = [&](const Vec2d& p) {
+      const Vec2d cut = quad[2] - quad[0];
+      const Vec2d to = p - quad[0];
+      return cut.x() * to.y() - cut.y() * to.x();
+    };
+    if (side(quad[1]) >= 0 || side(quad[3]) <= 0) continue;
+    ++shared;
+    ASSERT_EQ(both, whole) << "seed " << seed << ", " << i;
+    ASSERT_EQ(left.size() + right.size(), whole.size()) << "seed " << seed << ", " << i;
+  }
+  EXPECT_GT(shared, 500U);
+}
+
+TEST(Rasteriser, tiles_on_whole_pixels_fill_exactly_those) {
+  const Bitmap level = raster::rasterise({{rectangle(-1, -2, 0, 0), rectangle(0, -1, 3, 0)}}, 32);
+  for (std::int64_t y = -70; y < 8; ++y) {
+    for (std::int64_t x = -40; x < 104; ++x) {
+      const bool left = x >= -32 && x < 0 && y >= -64 && y < 0;
+      const bool right = x >= 0 && x < 96 && y >= -32 && y < 0;
+      ASSERT_EQ(level.is_white({x, y}), left || right) << x << ' ' << y;
+    }
+  }
+}
+
+TEST(Rasteriser, respects_holes) {
+  ColliderDef frame = rectangle(0, 0, 10, 10);
+  frame.holes.push_back({{3, 3}, {7, 3}, {7, 7}, {3, 7}});
+  EXPECT_EQ(pixels_of(frame, 1).size(), 100U - 16U);
+  EXPECT_FALSE(raster::rasterise({{frame}}, 1).is_white({5, 5}));
+}
+
+TEST(Rasteriser, draws_a_chain_as_a_line_without_gaps_or_thickness) {
+  constexpr std::uint64_t seed = 5;
+  Random random(seed);
+  for (int i = 0; i < 2000; ++i) {
+    std::vector<Vec2d> points;
+    for (int k = 0; k < 3; ++k) points.push_back({random.between(-30, 30), random.between(-30, 30)});
+    const auto pixels = pixels_of(chain(points), 1);
+    const auto pixel_at = [](const Vec2d& p) {
+      return std::pair(static_cast<std::int64_t>(std::floor(p.x())), static_cast<std::int64_t>(std::floor(p.y())));
+    };
+    for (const Vec2d& point : points) EXPECT_TRUE(pixels.contains(pixel_at(point)));
+    // Every pixel that the line runs through is drawn, or a neighbour of it across the line.
+    for (int k = 0; k < 200; ++k) {
+      const std::size_t segment = k % 2 == 0 ? 0 : 1;
+      const Vec2d on_line = points[segment] + random.between(0, 1) * (points[segment + 1] - points[segment]);
+      const auto [x, y] = pixel_at(on_line);
+      const Vec2d along = (points[segment + 1] - points[segment]).cwiseAbs();
+      const bool flat = along.x() >= along.y();
+      const bool drawn =
+          pixels.contains({x, y}) || pixels.contains({x - !flat, y - flat}) || pixels.contains({x + !flat, y + flat});
+      ASSERT_TRUE(drawn) << "seed " << seed << ", chain " << i;
+    }
+    std::size_t longest = 0;
+    for (std::size_t k = 0; k < 2; ++k)
+      longest += static_cast<std::size_t>((points[k + 1] - points[k]).cwiseAbs().maxCoeff()) + 4;
+    EXPECT_LE(pixels.size(), longest) << "one pixel for each column or row";
+  }
+}
+
+TEST(Rasteriser, finds_the_pixels_of_a_piece_one_by_one_too) {
+  constexpr std::uint64_t seed = 6;
+  Random random(seed);
+  std::size_t solid = 0;
+  for (int i = 0; i < 500; ++i) {
+    std::vector<Vec2d> points;
+    for (int k = 0; k < 2 + i % 2; ++k) points.push_back({random.between(-9, 9), random.between(-9, 9)});
+    const ColliderDef collider = points.size() == 2 ? chain(points) : ColliderDef{.points = points};
+    const auto pixels = pixels_of(collider, 1.3);
+    for (std::int64_t y = -14; y < 14; ++y) {
+      for (std::int64_t x = -14; x < 14; ++x) {
+        ASSERT_EQ(raster::covers<double>(points, 1.3, {x, y}), pixels.contains({x, y})) << "seed " << seed << ", " << i;
+      }
+    }
+    solid += pixels.size();
+  }
+  EXPECT_GT(solid, 10'000U);
+}
+
+TEST(Rasteriser, says_why_it_cannot_draw_something) {
+  const auto reason = [](const ColliderDef& collider, TechniqueKind kind) -> std::string {
+    try {
+      Rig<double> rig(kind, {collider});
+    } catch (const NotExpressible& error) {
+      return error.what();
+    }
+    return "drawn";
+  };
+  for (const TechniqueKind kind : {TechniqueKind::mask, TechniqueKind::pixel_colour, TechniqueKind::pixel_tile}) {
+    EXPECT_NE(reason(chain({{-1, 0}, {1, 0}}, Vec2d{0, 1}), kind).find("one-way"), std::string::npos);
+    const std::string too_large = reason({.points = {{-1e6, 0}, {1e6, 0}, {0, 1e6}}}, kind);
+    EXPECT_NE(too_large.find("64000001 x 32000001"), std::string::npos) << too_large;
+    EXPECT_NE(too_large.find("256 MiB"), std::string::npos) << too_large;
+    EXPECT_EQ(reason(rectangle(0, 0, 1, 1), kind), "drawn");
+  }
+}
+
+TEST(Colours, go_round_from_1_to_255_and_leave_0_to_the_background) {
+  SceneryDef tiles;
+  for (int i = 0; i < 300; ++i) tiles.colliders.push_back(rectangle(i, 0, i + 1, 1));
+  const raster::ColourPicture picture(tiles, 2);
+  for (int i = 0; i < 300; ++i) {
+    for (int x = 2 * i; x < 2 * i + 2; ++x) ASSERT_EQ(picture.colour({x, 1}), 1 + i % 255);
+  }
+  for (const Pixel& outside : {Pixel{-1, 0}, Pixel{0, -1}, Pixel{0, 2}, Pixel{600, 0}})
+    EXPECT_EQ(picture.colour(outside), 0);
+}
+
+TEST(SpriteOfTheArticle, is_its_octagon_with_the_collision_points_on_its_edge) {
+  const raster::Sprite sprite(CharacterShape::article(), 32);
+  // Row y of 40 is cut by the shoulders: in the lowest and highest 10 rows half a pixel for each row of the distance.
+  std::int64_t solid = 0;
+  for (int y = 0; y < 40; ++y) {
+    const double from_end = std::min(y, 39 - y) + 0.5;
+    const double cut = std::max(0.0, 5 - from_end / 2);  // from (5, 0) to (0, 10)
+    const auto first = static_cast<std::int64_t>(std::ceil(cut - 0.5));
+    for (int x = 0; x < 20; ++x) {
+      const bool is_solid = x >= first && x < 20 - first;
+      const bool on_slant = cut > 0 && (x + 0.5 == cut || x + 0.5 == 20 - cut);
+      if (!on_slant) {
+        ASSERT_EQ(sprite.mask().is_white({x, y}), is_solid) << x << ' ' << y;
+      }
+      solid += is_solid ? 1 : 0;
+    }
+  }
+  EXPECT_GT(solid, 600);
+  EXPECT_EQ(sprite.edge(Side::left).size(), 40U);
+  EXPECT_EQ(sprite.edge(Side::bottom).size(), 20U);
+  EXPECT_EQ(sprite.feet()[0], (Pixel{5, 0}));
+  EXPECT_EQ(sprite.feet()[1], (Pixel{14, 0}));
+  for (const Pixel& point : sprite.points()) EXPECT_TRUE(sprite.mask().box().contains(point));
+}
+
+TEST(Bitmaps, overlap_by_words_as_they_do_pixel_by_pixel) {
+  constexpr std::uint64_t seed = 7;
+  Random random(seed);
+  int overlapping = 0;
+  for (int scene = 0; scene < 100; ++scene) {
+    SceneryDef scenery;
+    for (int i = 0; i < 12; ++i) scenery.colliders.push_back(polygon_of(random_ring(random, 150 * sixteenth)));
+    for (ColliderDef& each : scenery.colliders) {
+      const Vec2d shift{random.between(-200, 200), random.between(-200, 200)};
+      for (Vec2d& point : each.points) point = 0.6 * point + shift;
+    }
+    const Bitmap level = raster::rasterise(scenery, 1);
+    // Up to three words wide.
+    const Bitmap sprite = raster::rasterise({{polygon_of(random_ring(random, (5 + random.below(80)) * sixteenth))}}, 1);
+    for (int i = 0; i < 100; ++i) {
+      const Pixel at{random.below(500) - 250, random.below(500) - 250};
+      int expected = 0;
+      for (std::int64_t y = 0; y < sprite.box().height; ++y) {
+        for (std::int64_t x = 0; x < sprite.box().width; ++x) {
+          expected += level.is_white(at + Pixel{x, y}) && sprite.is_white(sprite.box().lower + Pixel{x, y}) ? 1 : 0;
+        }
+      }
+      ASSERT_EQ(level.overlaps(sprite, at), expected > 0) << "seed " << seed << ", scene " << scene << ", " << i;
+      int found = 0;
+      level.for_each_overlap(sprite, at, [&](const Pixel&) { ++found; });
+      ASSERT_EQ(found, expected) << "seed " << seed << ", scene " << scene << ", " << i;
+      overlapping += expected > 0 ? 1 : 0;
+    }
+  }
+  EXPECT_GE(overlapping, 3000);
+  EXPECT_LE(overlapping, 7000);
+}
+
+}  // namespace
+}  // namespace paperproof::article_tests

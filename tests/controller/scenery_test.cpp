@@ -1,0 +1,466 @@
+#include <gtest/gtest.h>
+#include <paperproof/scenery.hpp>
+
+#include <cmath>
+#include <limits>
+
+#include "exact_reference.hpp"
+#include "geometry/exact.hpp"
+#include "random_polygons.hpp"
+
+namespace paperproof {
+namespace {
+
+using geometry::orientation_sign;
+using test::Points;
+using test::Polygon;
+using test::Rational;
+
+SceneryDef scenery_of(const Polygon& polygon) { return {{{.points = polygon.outer, .holes = polygon.holes}}}; }
+
+SceneryDef scenery_of(const Points& chain, std::optional<Vec2d> one_way) {
+  return {{{.shape = ColliderDef::Shape::chain, .points = chain, .one_way = one_way}}};
+}
+
+template <class Scalar = double>
+std::string refusal_of(const SceneryDef& def) {
+  try {
+    const Scenery<Scalar> scenery(def);
+  } catch (const InvalidScenery& refused) {
+    return refused.what();
+  }
+  return "accepted";
+}
+
+template <class Scalar>
+Points piece_of(const Scenery<Scalar>& scenery, std::size_t piece) {
+  Points points;
+  for (const Vec2<Scalar>& vertex : scenery.vertices_of(static_cast<PieceIndex>(piece))) {
+    points.push_back(vertex.template cast<double>());
+  }
+  return points;
+}
+
+template <class Scalar>
+std::vector<Points> pieces_of(const Scenery<Scalar>& scenery) {
+  std::vector<Points> pieces;
+  for (std::size_t i = 0; i < scenery.pieces().size(); ++i) pieces.push_back(piece_of(scenery, i));
+  return pieces;
+}
+
+bool is_strictly_convex(const Points& piece) {
+  for (std::size_t i = 0; i < piece.size(); ++i) {
+    const Vec2d& next = piece[(i + 1) % piece.size()];
+    for (const Vec2d& other : piece) {
+      if (other == piece[i] || other == next) continue;
+      if (orientation_sign(piece[i], next, other) <= 0) return false;
+    }
+  }
+  return piece.size() >= 3;
+}
+
+/// Two convex pieces are apart exactly if a side of one of them has the whole other one on its outer side.
+bool interiors_are_disjoint(const Points& a, const Points& b) {
+  const auto has_separating_side = [](const Points& piece, const Points& other) {
+    for (std::size_t i = 0; i < piece.size(); ++i) {
+      const Vec2d& next = piece[(i + 1) % piece.size()];
+      bool separates = true;
+      for (const Vec2d& vertex : other) separates = separates && orientation_sign(piece[i], next, vertex) <= 0;
+      if (separates) return true;
+    }
+    return false;
+  };
+  return has_separating_side(a, b) || has_separating_side(b, a);
+}
+
+enum class Where { inside, on_the_outline, outside };
+
+Where where_is(const Vec2d& point, const Points& ring) {
+  bool inside = false;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Vec2d& from = ring[i];
+    const Vec2d& to = ring[(i + 1) % ring.size()];
+    const int side = orientation_sign(from, to, point);
+    const bool in_reach = std::min(from.x(), to.x()) <= point.x() && point.x() <= std::max(from.x(), to.x()) &&
+                          std::min(from.y(), to.y()) <= point.y() && point.y() <= std::max(from.y(), to.y());
+    if (side == 0 && in_reach) return Where::on_the_outline;
+    if ((from.y() > point.y()) != (to.y() > point.y()) && (to.y() > from.y()) == (side > 0)) inside = !inside;
+  }
+  return inside ? Where::inside : Where::outside;
+}
+
+Where where_is(const Vec2d& point, const Polygon& polygon) {
+  Where where = where_is(point, polygon.outer);
+  for (const Points& hole : polygon.holes) {
+    const Where in_hole = where_is(point, hole);
+    if (in_hole == Where::on_the_outline) return in_hole;
+    if (in_hole == Where::inside) where = Where::outside;
+  }
+  return where;
+}
+
+Rational twice_area(const Polygon& polygon) {
+  Rational area = abs(test::twice_area(polygon.outer));
+  for (const Points& hole : polygon.holes) area -= abs(test::twice_area(hole));
+  return area;
+}
+
+Points vertices_of(const Polygon& polygon) {
+  Points all = polygon.outer;
+  for (const Points& hole : polygon.holes) all.insert(all.end(), hole.begin(), hole.end());
+  return all;
+}
+
+/// Everything that a cut must be: convex, of the polygon's own vertices, without overlap, and all of it.
+void expect_exact_tiling(const Polygon& polygon, const std::vector<Points>& pieces, test::Random& random) {
+  const Points own = vertices_of(polygon);
+  Rational area = 0;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    ASSERT_TRUE(is_strictly_convex(pieces[i]));
+    for (const Vec2d& vertex : pieces[i]) ASSERT_NE(std::find(own.begin(), own.end(), vertex), own.end());
+    for (std::size_t j = 0; j < i; ++j) ASSERT_TRUE(interiors_are_disjoint(pieces[i], pieces[j]));
+    area += test::twice_area(pieces[i]);
+  }
+  ASSERT_EQ(area, twice_area(polygon));
+  for (int i = 0; i < 10; ++i) {
+    // A point of a piece, on or near a line between two of its vertices.
+    const Points& piece = pieces[random.index(pieces.size())];
+    const double t = random.uniform(0, 1);
+    const Vec2d point = (1 - t) * piece[random.index(piece.size())] + t * piece[random.index(piece.size())];
+    if (where_is(point, piece) == Where::inside) {
+      ASSERT_EQ(where_is(point, polygon), Where::inside);
+    }
+  }
+}
+
+struct Family {
+  const char* name;
+  Polygon (*make)(test::Random&);
+  bool always_valid;
+};
+
+class Cutting : public testing::TestWithParam<Family> {};
+
+TEST_P(Cutting, pieces_tile_random_polygons_exactly) {
+  int cut = 0;
+  int concave = 0;
+  for (unsigned seed = 0; seed < 1000; ++seed) {
+    test::Random random(seed);
+    const Polygon polygon = GetParam().make(random);
+    const SceneryDef def = scenery_of(polygon);
+    const std::string refusal = refusal_of(def);
+    if (refusal != "accepted") {
+      ASSERT_FALSE(GetParam().always_valid) << refusal << ", seed " << seed;
+      continue;
+    }
+    const std::vector<Points> pieces = pieces_of(Scenery<double>(def));
+    ASSERT_NO_FATAL_FAILURE(expect_exact_tiling(polygon, pieces, random)) << "seed " << seed;
+    ++cut;
+    if (pieces.size() > 1) ++concave;
+  }
+  EXPECT_GE(cut, 300);
+  EXPECT_GE(concave, 250);
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, Cutting,
+                         testing::Values(Family{"star", test::star, true},
+                                         Family{"star_on_grid", test::star_on_grid, false},
+                                         Family{"spiral", test::spiral, true}, Family{"comb", test::comb, true},
+                                         Family{"holed", test::holed, true}, Family{"rooms", test::rooms, true},
+                                         Family{"far_away", test::far_away, false}),
+                         [](const auto& family) { return std::string(family.param.name); });
+
+TEST(Cutting, a_polygon_is_cut_the_same_whatever_its_winding_and_however_it_is_listed) {
+  for (unsigned seed = 0; seed < 300; ++seed) {
+    test::Random random(seed);
+    const Polygon polygon = test::holed(random);
+    Polygon turned = polygon;
+    std::reverse(turned.outer.begin(), turned.outer.end());
+    std::rotate(turned.outer.begin(), turned.outer.begin() + 1, turned.outer.end());
+    for (Points& hole : turned.holes) std::reverse(hole.begin(), hole.end());
+    const std::vector<Points> pieces = pieces_of(Scenery<double>(scenery_of(turned)));
+    ASSERT_NO_FATAL_FAILURE(expect_exact_tiling(polygon, pieces, random)) << "seed " << seed;
+  }
+}
+
+TEST(Cutting, a_convex_polygon_is_one_piece_without_the_vertices_on_its_sides) {
+  const Polygon square{{{0, 0}, {1, 0}, {2, 0}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}, {}};
+  for (const bool clockwise : {false, true}) {
+    Polygon polygon = square;
+    if (clockwise) std::reverse(polygon.outer.begin(), polygon.outer.end());
+    const Scenery<double> scenery(scenery_of(polygon));
+    ASSERT_EQ(scenery.pieces().size(), 1U);
+    EXPECT_EQ(scenery.pieces()[0].vertex_count, 4U);
+    EXPECT_EQ(test::twice_area(piece_of(scenery, 0)), 2 * 2 * 2);
+    EXPECT_EQ(scenery.box(0).lower, Vec2d(0, 0));
+    EXPECT_EQ(scenery.box(0).upper, Vec2d(2, 2));
+  }
+}
+
+TEST(Cutting, an_l_is_two_pieces_and_a_frame_is_at_most_eight) {
+  const Polygon l{{{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}, {}};
+  EXPECT_EQ(Scenery<double>(scenery_of(l)).pieces().size(), 2U);
+  const Polygon frame{{{0, 0}, {3, 0}, {3, 3}, {0, 3}}, {{{1, 1}, {2, 1}, {2, 2}, {1, 2}}}};
+  const std::size_t pieces = Scenery<double>(scenery_of(frame)).pieces().size();
+  EXPECT_GE(pieces, 3U);
+  EXPECT_LE(pieces, 8U);
+}
+
+TEST(Cutting, the_pieces_of_several_colliders_keep_their_collider_and_their_order) {
+  SceneryDef def;
+  def.colliders.push_back({.points = {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}});
+  def.colliders.push_back({.shape = ColliderDef::Shape::chain, .points = {{5, 0}, {6, 0}, {7, 1}}});
+  def.colliders.push_back({.points = {{9, 9}, {10, 9}, {9, 10}}});
+  const Scenery<double> scenery(def);
+  std::vector<ColliderIndex> colliders;
+  std::uint32_t next_vertex = 0;
+  for (std::size_t i = 0; i < scenery.pieces().size(); ++i) {
+    const PieceInfo& piece = scenery.pieces()[i];
+    colliders.push_back(piece.collider);
+    EXPECT_EQ(piece.first_vertex, next_vertex);
+    EXPECT_FALSE(piece.one_way);
+    next_vertex += piece.vertex_count;
+    for (const Vec2d& vertex : scenery.vertices_of(static_cast<PieceIndex>(i))) {
+      EXPECT_TRUE(scenery.box(static_cast<PieceIndex>(i)).overlaps({vertex, vertex}));
+    }
+  }
+  EXPECT_EQ(colliders, (std::vector<ColliderIndex>{0, 0, 1, 1, 2}));
+  EXPECT_EQ(scenery.vertices().size(), next_vertex);
+  EXPECT_EQ(scenery.boxes().size(), scenery.pieces().size());
+}
+
+/// Do two sides have a point in common that they need not have? Solves for it in rational numbers, apart from the
+/// cases on one line, and so shares nothing with the check under test.
+bool sides_meet(const Vec2d& a, const Vec2d& b, const Vec2d& c, const Vec2d& d) {
+  const test::ExactPoint p(a), q(b), r(c), s(d);
+  const Rational ux = q.x - p.x, uy = q.y - p.y, vx = s.x - r.x, vy = s.y - r.y;
+  const Rational wx = r.x - p.x, wy = r.y - p.y;
+  const Rational determinant = ux * vy - uy * vx;
+  if (determinant != 0) {
+    const Rational along_first = (wx * vy - wy * vx) / determinant;
+    const Rational along_second = (wx * uy - wy * ux) / determinant;
+    return along_first >= 0 && along_first <= 1 && along_second >= 0 && along_second <= 1;
+  }
+  if (ux * wy - uy * wx != 0) return false;
+  const Rational length = ux * ux + uy * uy;
+  const Rational from = (wx * ux + wy * uy) / length;
+  const Rational to = from + (vx * ux + vy * uy) / length;
+  return std::max(from, to) >= 0 && std::min(from, to) <= 1;
+}
+
+bool is_simple(const Points& ring) {
+  const std::size_t size = ring.size();
+  for (std::size_t i = 0; i < size; ++i) {
+    if (ring[i] == ring[(i + 1) % size]) return false;
+  }
+  for (std::size_t i = 0; i < size; ++i) {
+    const Vec2d& end = ring[(i + 1) % size];
+    for (std::size_t j = i + 1; j < size; ++j) {
+      const bool follows = j == i + 1;
+      const bool precedes = (j + 1) % size == i;
+      if (!follows && !precedes) {
+        if (sides_meet(ring[i], end, ring[j], ring[(j + 1) % size])) return false;
+      }
+      // Neighbours share one point; more only where the second runs back along the first.
+      if (follows && sides_meet(ring[i], end, 0.5 * (end + ring[(j + 1) % size]), ring[(j + 1) % size])) return false;
+      if (follows && sides_meet(ring[i], 0.5 * (ring[i] + end), end, ring[(j + 1) % size])) return false;
+    }
+    const Vec2d& after = ring[(i + 2) % size];
+    const Vec2d back = ring[i] - end;
+    const Vec2d on = after - end;
+    if (back.x() * on.y() == back.y() * on.x() && back.dot(on) > 0) return false;
+  }
+  return true;
+}
+
+TEST(Refusals, exactly_the_rings_that_touch_or_cross_themselves_are_refused) {
+  int valid = 0;
+  int invalid = 0;
+  for (unsigned seed = 0; seed < 20000; ++seed) {
+    test::Random random(seed);
+    Points ring(3 + random.index(4));
+    for (Vec2d& vertex : ring)
+      vertex = Vec2d(static_cast<double>(random.index(5)), static_cast<double>(random.index(5)));
+    const bool simple = is_simple(ring);
+    ASSERT_EQ(refusal_of(scenery_of(Polygon{ring, {}})) == "accepted", simple) << "seed " << seed;
+    ++(simple ? valid : invalid);
+  }
+  EXPECT_GE(valid, 3000);
+  EXPECT_GE(invalid, 3000);
+}
+
+TEST(Refusals, exactly_the_holes_that_are_strictly_inside_are_accepted) {
+  int valid = 0;
+  int invalid = 0;
+  for (unsigned seed = 0; seed < 20000; ++seed) {
+    test::Random random(seed);
+    const Points outer{{0, 0}, {8, 0}, {8, 8}, {4, 3}, {0, 8}};
+    Points hole(3);
+    for (Vec2d& vertex : hole) {
+      vertex = Vec2d(static_cast<double>(random.index(9)) - 0.5, static_cast<double>(random.index(8)));
+    }
+    if (!is_simple(hole)) continue;
+    bool inside = true;
+    for (std::size_t i = 0; i < hole.size(); ++i) {
+      inside = inside && where_is(hole[i], outer) == Where::inside;
+      for (std::size_t j = 0; j < outer.size(); ++j) {
+        inside = inside && !sides_meet(hole[i], hole[(i + 1) % 3], outer[j], outer[(j + 1) % outer.size()]);
+      }
+    }
+    ASSERT_EQ(refusal_of(scenery_of(Polygon{outer, {hole}})) == "accepted", inside) << "seed " << seed;
+    ++(inside ? valid : invalid);
+  }
+  EXPECT_GE(valid, 800);
+  EXPECT_GE(invalid, 800);
+}
+
+TEST(Refusals, reasons_are_words_a_level_designer_understands) {
+  const Points square{{0, 0}, {4, 0}, {4, 4}, {0, 4}};
+  const auto polygon = [&](const Points& ring) { return refusal_of(scenery_of(Polygon{ring, {}})); };
+  const auto with_holes = [&](const std::vector<Points>& holes) {
+    return refusal_of(scenery_of(Polygon{square, holes}));
+  };
+  EXPECT_EQ(polygon({{0, 0}, {1, 0}}), "the outline needs at least 3 points, it has 2");
+  EXPECT_EQ(polygon({{0, 0}, {1, 0}, {1, 0}, {0, 1}}),
+            "the outline has the same point twice in a row: points 1 and 2 (counted from 0) are both (1, 0)");
+  EXPECT_EQ(polygon({{0, 0}, {1, 1}, {3, 3}}), "the outline has no area: all its points are on one line");
+  EXPECT_EQ(polygon({{0, 0}, {4, 0}, {2, 0}, {2, 2}}), "the outline folds back onto itself at (4, 0)");
+  EXPECT_EQ(polygon({{0, 0}, {2, 2}, {2, 0}, {0, 2}}),
+            "the outline crosses itself: the side from (0, 0) to (2, 2) meets the side from (2, 0) to (0, 2)");
+  EXPECT_EQ(polygon({{0, 0}, {4, 0}, {4, 4}, {2, 0}, {0, 4}}).find("the outline touches itself: "), 0U);
+  EXPECT_EQ(with_holes({{{5, 5}, {6, 5}, {5, 6}}}), "hole 0 is not inside the outline");
+  EXPECT_EQ(with_holes({{{1, 1}, {5, 1}, {1, 2}}}).find("hole 0 crosses the outline: "), 0U);
+  EXPECT_EQ(with_holes({{{0, 1}, {1, 1}, {1, 2}}}).find("hole 0 touches the outline: "), 0U);
+  EXPECT_EQ(with_holes({{{1, 1}, {3, 1}, {1, 3}}, {{1.25, 1.25}, {1.5, 1.25}, {1.25, 1.5}}}),
+            "hole 1 is inside hole 0");
+  EXPECT_EQ(with_holes({{{1, 1}, {3, 1}, {1, 3}}, {{2, 0.5}, {2, 1.5}, {3, 0.5}}}).find("hole 1 crosses hole 0: "), 0U);
+  EXPECT_EQ(refusal_of({{{.points = square, .one_way = Vec2d(0, 1)}}}),
+            "one_way is for chains: a polygon blocks from all sides");
+  EXPECT_EQ(refusal_of(scenery_of({{0, 0}}, {})), "a chain needs at least 2 points, it has 1");
+  EXPECT_EQ(refusal_of(scenery_of({{0, 0}, {0, 0}}, {})),
+            "the chain has the same point twice in a row: points 0 and 1 (counted from 0) are both (0, 0)");
+  EXPECT_EQ(refusal_of(scenery_of({{0, 0}, {1, 0}}, Vec2d(0, 0))), "one_way is zero: it must point somewhere");
+}
+
+TEST(Refusals, coordinates_that_are_not_finite_or_too_far_out_are_named) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  const std::string reason = " has a coordinate that is not a finite number of at most 2e6 m";
+  for (const double bad : {nan, infinity, -infinity, std::nextafter(2e6, 3e6), -1e300}) {
+    EXPECT_EQ(refusal_of(scenery_of(Polygon{{{0, 0}, {1, bad}, {0, 1}}, {}})), "point 1" + reason);
+    EXPECT_EQ(refusal_of<float>(scenery_of(Polygon{{{0, 0}, {1, bad}, {0, 1}}, {}})), "point 1" + reason);
+    EXPECT_EQ(refusal_of(scenery_of(Polygon{{{0, 0}, {9, 0}, {0, 9}}, {{{1, 1}, {2, 1}, {bad, 2}}}})),
+              "point 2 of hole 0" + reason);
+    EXPECT_EQ(refusal_of(scenery_of({{0, 0}, {1, 0}}, Vec2d(bad, 1))), "one_way" + reason);
+  }
+  EXPECT_EQ(refusal_of(scenery_of(Polygon{{{0, 0}, {2e6, 0}, {0, -2e6}}, {}})), "accepted");
+}
+
+TEST(Refusals, the_collider_that_was_refused_is_named) {
+  SceneryDef def;
+  for (int i = 0; i < 3; ++i) def.colliders.push_back({.points = {{0, 0}, {1, 0}, {0, 1}}});
+  def.colliders[2].points.pop_back();
+  try {
+    const Scenery<double> scenery(def);
+    FAIL() << "accepted";
+  } catch (const InvalidScenery& refused) {
+    EXPECT_EQ(refused.collider(), 2U);
+  }
+}
+
+TEST(Chains, every_segment_of_a_two_sided_chain_is_a_piece_in_the_given_direction) {
+  const Points chain{{0, 0}, {1, 0}, {1, 2}, {0, 0}};
+  const Scenery<double> scenery(scenery_of(chain, {}));
+  ASSERT_EQ(scenery.pieces().size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(piece_of(scenery, i), (Points{chain[i], chain[i + 1]}));
+    EXPECT_FALSE(scenery.pieces()[i].one_way);
+  }
+}
+
+TEST(Chains, a_one_way_segment_has_its_blocking_normal_on_the_left_whatever_its_direction) {
+  for (const Vec2d& one_way : {Vec2d(0, 1), Vec2d(0, -3), Vec2d(1, 0), Vec2d(-0.5, 0.25)}) {
+    for (unsigned seed = 0; seed < 200; ++seed) {
+      test::Random random(seed);
+      const Points chain{random.point(10), random.point(10)};
+      const Scenery<double> scenery(scenery_of(chain, one_way));
+      ASSERT_EQ(scenery.pieces().size(), 1U);
+      EXPECT_TRUE(scenery.pieces()[0].one_way);
+      const Points segment = piece_of(scenery, 0);
+      const Vec2d along = segment[1] - segment[0];
+      const Vec2d normal_on_the_left(-along.y(), along.x());
+      EXPECT_GT(normal_on_the_left.dot(one_way), 0) << "seed " << seed;
+    }
+  }
+}
+
+TEST(Chains, a_one_way_segment_along_its_direction_blocks_nothing) {
+  const Scenery<double> stairs(scenery_of({{0, 0}, {1, 0}, {1, 1}, {2, 1}}, Vec2d(0, 1)));
+  ASSERT_EQ(stairs.pieces().size(), 2U);
+  // Up is on the left of what runs to the right.
+  EXPECT_EQ(piece_of(stairs, 0), (Points{{0, 0}, {1, 0}}));
+  EXPECT_EQ(piece_of(stairs, 1), (Points{{1, 1}, {2, 1}}));
+}
+
+TEST(FloatScenery, vertices_are_rounded_first_and_the_definition_as_run_says_to_what) {
+  const Polygon polygon{{{0.1, 0.2}, {1.1, 0.3}, {0.7, 1.3}}, {}};
+  const Scenery<float> scenery(scenery_of(polygon));
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (const Eigen::Index axis : {0, 1}) {
+      const float rounded = static_cast<float>(polygon.outer[i][axis]);
+      EXPECT_EQ(scenery.vertices()[i][axis], rounded);
+      const double as_run = scenery.as_run().colliders[0].points[i][axis];
+      EXPECT_EQ(as_run, rounded);
+      EXPECT_NE(as_run, polygon.outer[i][axis]);
+    }
+  }
+  EXPECT_EQ(Scenery<double>(scenery_of(polygon)).as_run().colliders[0].points, polygon.outer);
+}
+
+TEST(FloatScenery, a_polygon_that_rounding_destroys_is_refused_with_the_reason) {
+  const double x = 1000;
+  const Polygon thin{{{x, 0}, {x + 1e-6, 0}, {x + 1e-6, 1}, {x, 1}}, {}};
+  EXPECT_EQ(refusal_of<double>(scenery_of(thin)), "accepted");
+  EXPECT_NE(refusal_of<float>(scenery_of(thin)).find("after rounding the coordinates"), std::string::npos);
+}
+
+TEST(FloatScenery, pieces_of_random_polygons_tile_what_runs) {
+  int cut = 0;
+  for (unsigned seed = 0; seed < 300; ++seed) {
+    test::Random random(seed);
+    const SceneryDef def = scenery_of(test::holed(random));
+    if (refusal_of<float>(def) != "accepted") continue;
+    const Scenery<float> scenery(def);
+    const ColliderDef& as_run = scenery.as_run().colliders[0];
+    ASSERT_NO_FATAL_FAILURE(expect_exact_tiling({as_run.points, as_run.holes}, pieces_of(scenery), random))
+        << "seed " << seed;
+    ++cut;
+  }
+  EXPECT_GE(cut, 250);
+}
+
+TEST(Scenery, traces_of_a_length_become_zero_and_the_definition_as_run_says_so) {
+  const Scenery<double> scenery(scenery_of(Polygon{{{1e-200, 0}, {1, -5e-324}, {0, 1}}, {}}));
+  EXPECT_EQ(scenery.as_run().colliders[0].points, (Points{{0, 0}, {1, 0}, {0, 1}}));
+}
+
+TEST(Scenery, no_colliders_at_all_are_a_scenery) {
+  const Scenery<double> scenery(SceneryDef{});
+  EXPECT_TRUE(scenery.pieces().empty());
+  EXPECT_TRUE(scenery.boxes().empty());
+}
+
+TEST(Scenery, polygons_of_thousands_of_vertices_are_cut_completely) {
+  test::Random random(1);
+  const Polygon polygon{test::star_ring(random, 3000, Vec2d::Zero(), 1, 3), {}};
+  const Scenery<double> scenery(scenery_of(polygon));
+  Rational area = 0;
+  for (const Points& piece : pieces_of(scenery)) {
+    ASSERT_TRUE(is_strictly_convex(piece));
+    area += test::twice_area(piece);
+  }
+  EXPECT_EQ(area, twice_area(polygon));
+}
+
+}  // namespace
+}  // namespace paperproof

@@ -1,0 +1,89 @@
+/// A scenery, a controller with one character, and the buttons it is steered with.
+#pragma once
+
+#include "controller/article_support.hpp"
+
+#include <paperproof/controller.hpp>
+
+#include <bit>
+#include <cstdint>
+#include <type_traits>
+
+namespace paperproof::stepping {
+
+using article_tests::chain;
+using article_tests::px;
+using article_tests::rectangle;
+using article_tests::single_pixel;
+
+/// Half the width and half the height of the article's character [m].
+inline constexpr double half_width = 10 * px;
+inline constexpr double half_height = 20 * px;
+
+inline ColliderDef polygon(std::vector<Vec2d> points) { return {.points = std::move(points)}; }
+
+template <class Scalar>
+struct Stepper {
+  std::unique_ptr<const Scenery<Scalar>> scenery;  ///< Stays where it is when the stepper is moved.
+  Controller<Scalar> controller;
+  Scratch<Scalar> scratch;
+  CharacterState<Scalar> state;
+  StepReport<Scalar> report;
+  Vec2<Scalar> gravity{0, -10};
+  Scalar dt = Scalar(1) / 60;
+
+  explicit Stepper(std::vector<ColliderDef> colliders, const CharacterDef& character = {},
+                   TechniqueKind kind = TechniqueKind::octagon_sweep)
+      : scenery(std::make_unique<const Scenery<Scalar>>(SceneryDef{std::move(colliders)})),
+        controller(*scenery, character, {.kind = kind}),
+        scratch(controller.make_scratch()) {}
+
+  Stepper& at(double x, double y) {
+    state.position = Vec2d{x, y}.cast<Scalar>();
+    return *this;
+  }
+  Stepper& with_velocity(double x, double y) {
+    state.velocity = Vec2d{x, y}.cast<Scalar>();
+    return *this;
+  }
+  StepStatus step(const Input& input = {}) { return controller.step(state, input, gravity, dt, scratch, report); }
+  /// A step of a second without gravity: the displacement is this, to the last bit.
+  const MoveResult<Scalar>& fly(double x, double y) {
+    state.velocity = Vec2d{x, y}.cast<Scalar>();
+    gravity = Vec2<Scalar>::Zero();
+    dt = 1;
+    step();
+    return report.move;
+  }
+  void steps(int count, const Input& input = {}) {
+    for (int i = 0; i < count; ++i) step(input);
+  }
+  [[nodiscard]] bool touched(Side side) const {
+    for (const Contact<Scalar>& contact : report.move.contacts)
+      if (contact.side == side) return true;
+    return false;
+  }
+};
+
+template <class Scalar>
+bool same_bits(Scalar a, Scalar b) {
+  using Bits = std::conditional_t<sizeof(Scalar) == 8, std::uint64_t, std::uint32_t>;
+  return std::bit_cast<Bits>(a) == std::bit_cast<Bits>(b);
+}
+
+template <class Scalar>
+bool same_bits(const Vec2<Scalar>& a, const Vec2<Scalar>& b) {
+  return same_bits(a.x(), b.x()) && same_bits(a.y(), b.y());
+}
+
+/// Every field, NaN and the sign of zero included.
+template <class Scalar>
+bool same_bits(const CharacterState<Scalar>& a, const CharacterState<Scalar>& b) {
+  return same_bits(a.position, b.position) && same_bits(a.velocity, b.velocity) &&
+         same_bits(a.last_free, b.last_free) && same_bits(a.remainder, b.remainder) &&
+         a.has_last_free == b.has_last_free && a.grounded == b.grounded && a.jumping == b.jumping &&
+         a.jump_held == b.jump_held && a.jump_pending == b.jump_pending && a.wall_left == b.wall_left &&
+         a.wall_right == b.wall_right && a.stuck_steps == b.stuck_steps;
+}
+
+}  // namespace paperproof::stepping

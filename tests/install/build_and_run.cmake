@@ -1,0 +1,22 @@
+# Configures, builds and runs one consumer in an empty folder; see CMakeLists.txt beside this file.
+cmake_minimum_required(VERSION 3.25)
+
+file(REMOVE_RECURSE "${WORK}")
+execute_process(
+  COMMAND "${CMAKE_COMMAND}" -S "${CONSUMER}" -B "${WORK}" -G "${GENERATOR}" "-DCMAKE_CXX_COMPILER=${CXX_COMPILER}"
+          -DCMAKE_BUILD_TYPE=Release "-DCMAKE_PREFIX_PATH=${PREFIX}" "-DPAPERPROOF_SOURCE=${SOURCE}" ${CONFIGURE}
+  RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+
+if(EXPECTED_ERROR)
+  string(REGEX REPLACE "[ \n]+" " " output "${output}")  # CMake breaks its messages into lines
+  if(status EQUAL 0 OR NOT output MATCHES "${EXPECTED_ERROR}")
+    message(FATAL_ERROR "expected a refusal with \"${EXPECTED_ERROR}\", got status ${status} and:\n${output}")
+  endif()
+  return()
+endif()
+
+if(NOT status EQUAL 0)
+  message(FATAL_ERROR "${output}")
+endif()
+execute_process(COMMAND "${CMAKE_COMMAND}" --build "${WORK}" COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND "${WORK}/consumer" COMMAND_ERROR_IS_FATAL ANY)

@@ -1,0 +1,247 @@
+#include "support/random_sceneries.hpp"
+
+#include <numbers>
+
+namespace paperproof::test {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// Collects colliders relative to an origin.
+class Builder {
+ public:
+  explicit Builder(const Vec2d& origin) : origin_(origin) {}
+
+  void polygon(std::initializer_list<Vec2d> points) {
+    ColliderDef collider;
+    for (const Vec2d& p : points) collider.points.push_back(origin_ + p);
+    def.colliders.push_back(collider);
+  }
+  void box(double x0, double y0, double x1, double y1) { polygon({{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}); }
+  ColliderDef& chain(std::initializer_list<Vec2d> points) {
+    ColliderDef collider;
+    collider.shape = ColliderDef::Shape::chain;
+    for (const Vec2d& p : points) collider.points.push_back(origin_ + p);
+    def.colliders.push_back(collider);
+    return def.colliders.back();
+  }
+  /// A strip of the given thickness along `angle`.
+  void strip(const Vec2d& middle, double length, double thickness, double angle) {
+    const Vec2d along{std::cos(angle) * length / 2, std::sin(angle) * length / 2};
+    const Vec2d up{-std::sin(angle) * thickness / 2, std::cos(angle) * thickness / 2};
+    polygon({middle - along - up, middle + along - up, middle + along + up, middle - along + up});
+  }
+  void floor() { box(-8, -3, 8, -2); }
+
+  SceneryDef def;
+
+ private:
+  Vec2d origin_;
+};
+
+void tiles(Builder& b, Random& r) {
+  const double size = r.chance(0.5) ? 1 : r.between(0.3, 1.4);
+  for (int x = -6; x <= 6; ++x)
+    for (int y = -5; y <= 5; ++y)
+      if (r.chance(y < -1 ? 0.7 : 0.12)) b.box(x * size, y * size, (x + 1) * size, (y + 1) * size);
+}
+
+void slopes(Builder& b, Random& r) {
+  double x = -6;
+  double y = -2;
+  while (x < 6) {
+    const double width = r.between(0.2, 2);
+    const double angle = (r.chance(0.2) ? r.between(80, 89.9) : r.between(0, 60)) * degree * (r.chance(0.5) ? 1 : -1);
+    const double next = std::clamp(y + std::tan(angle) * width, -6.0, 6.0);
+    b.polygon({{x, -8}, {x + width, -8}, {x + width, next}, {x, y}});
+    x += width;
+    y = next;
+  }
+}
+
+void spikes(Builder& b, Random& r) {
+  b.floor();
+  for (int i = 0; i < 12; ++i) {
+    const double x = r.between(-5, 5);
+    const double width = r.log_between(1e-4, 0.5);
+    b.polygon({{x - width, -2}, {x + width, -2}, {x, -2 + r.between(0.1, 2.5)}});
+  }
+}
+
+void papers(Builder& b, Random& r) {
+  for (int i = 0; i < 8; ++i)
+    b.strip({r.between(-4, 4), r.between(-4, 4)}, r.between(0.5, 5), r.log_between(1e-6, 0.1), r.angle());
+}
+
+void chains(Builder& b, Random& r) {
+  for (int i = 0; i < 6; ++i) {
+    const Vec2d a{r.between(-4, 4), r.between(-4, 4)};
+    const Vec2d d{r.between(-2, 2), r.between(-2, 2)};
+    const Vec2d e{r.between(-2, 2), r.between(-2, 2)};
+    b.chain({a, a + d, a + d + e});
+  }
+}
+
+void wedges(Builder& b, Random& r) {
+  const double half = r.log_between(0.5, 45) * degree;
+  const double lean = r.chance(0.5) ? 0 : r.between(-0.3, 0.3);
+  // Two plates, 1 m thick, that meet in an edge.
+  const auto plate = [&](double angle, double side) {
+    const Vec2d along{std::sin(angle) * 8, std::cos(angle) * 8};
+    const Vec2d out{side * std::cos(angle), -side * std::sin(angle)};
+    const Vec2d apex{0, -2};
+    b.polygon({apex, apex + along, apex + along + out, apex + out});
+  };
+  plate(lean - half, -1);
+  plate(lean + half, 1);
+}
+
+void stairs(Builder& b, Random& r) {
+  const double rise = r.log_between(1e-7, 0.7);
+  for (int i = -8; i < 8; ++i) b.box(i * 0.6, -8, (i + 1) * 0.6, -2 + i * rise);
+}
+
+void ceilings(Builder& b, Random& r) {
+  slopes(b, r);
+  for (int i = 0; i < 5; ++i)
+    b.strip({r.between(-5, 5), r.between(-1, 3)}, r.between(1, 5), r.between(0.1, 1), r.between(-60, 60) * degree);
+}
+
+void shafts(Builder& b, Random& r) {
+  // The article's character is 0.625 m wide.
+  const double clearance = r.chance(0.3) ? 0 : r.log_between(1e-9, 1e-2);
+  const double left = r.chance(0.5) ? -0.3125 : r.between(-1, 0);
+  b.box(left - 1, -6, left, 1);
+  b.box(left + 0.625 + clearance, -6, left + 1.625 + clearance, 1);
+  if (r.chance(0.5)) b.box(-3, -6.5, 3, -6);
+}
+
+void needles(Builder& b, Random& r) {
+  b.floor();
+  for (int i = 0; i < 8; ++i) {
+    const Vec2d tip{r.between(-4, 4), r.between(-2, 3)};
+    const double angle = r.angle();
+    const Vec2d along{std::cos(angle), std::sin(angle)};
+    const Vec2d across{-along.y() * r.log_between(1e-6, 1e-2), along.x() * r.log_between(1e-6, 1e-2)};
+    b.polygon({tip, tip + along * r.between(0.5, 3) + across, tip + along * r.between(0.5, 3) - across});
+  }
+}
+
+void concave(Builder& b, Random& r) {
+  b.floor();
+  for (int i = 0; i < 3; ++i) {
+    // A star around a point: always simple, hardly ever convex.
+    ColliderDef star;
+    const Vec2d middle{r.between(-4, 4), r.between(-2, 3)};
+    const int corners = r.integer(5, 14);
+    for (int k = 0; k < corners; ++k) {
+      const double angle = 2 * std::numbers::pi * k / corners;
+      const double radius = r.between(0.15, 1.2);
+      star.points.push_back(middle + Vec2d{std::cos(angle) * radius, std::sin(angle) * radius});
+    }
+    Builder shifted({0, 0});
+    const Vec2d origin = b.def.colliders.front().points.front() - Vec2d{-8, -3};
+    for (Vec2d& p : star.points) p += origin;
+    b.def.colliders.push_back(star);
+  }
+}
+
+void one_way(Builder& b, Random& r) {
+  b.floor();
+  for (int i = 0; i < 7; ++i) {
+    const Vec2d a{r.between(-5, 4), r.between(-1.5, 3)};
+    const double tilt = r.chance(0.5) ? 0 : r.between(-0.8, 0.8);
+    b.chain({a, a + Vec2d{r.between(0.3, 2), tilt}}).one_way = Vec2d{0, 1};
+  }
+}
+
+void lattice(Builder& b, Random& r) {
+  // Starts touch: everything lies on multiples of a pixel.
+  for (int i = 0; i < 25; ++i) {
+    const double x = r.integer(-120, 120) / 32.0;
+    const double y = r.integer(-120, 80) / 32.0;
+    b.box(x, y, x + r.integer(1, 64) / 32.0, y + r.integer(1, 64) / 32.0);
+  }
+}
+
+}  // namespace
+
+std::string name_of(Family family) {
+  switch (family) {
+    case Family::tiles:
+      return "tiles";
+    case Family::slopes:
+      return "slopes";
+    case Family::spikes:
+      return "spikes";
+    case Family::papers:
+      return "papers";
+    case Family::chains:
+      return "chains";
+    case Family::wedges:
+      return "wedges";
+    case Family::stairs:
+      return "stairs";
+    case Family::ceilings:
+      return "ceilings";
+    case Family::shafts:
+      return "shafts";
+    case Family::needles:
+      return "needles";
+    case Family::concave:
+      return "concave";
+    case Family::one_way:
+      return "one_way";
+    case Family::lattice:
+      return "lattice";
+  }
+  return "";
+}
+
+SceneryDef random_scenery(Family family, Random& random, const Vec2d& origin) {
+  Builder builder(origin);
+  switch (family) {
+    case Family::tiles:
+      tiles(builder, random);
+      break;
+    case Family::slopes:
+      slopes(builder, random);
+      break;
+    case Family::spikes:
+      spikes(builder, random);
+      break;
+    case Family::papers:
+      papers(builder, random);
+      break;
+    case Family::chains:
+      chains(builder, random);
+      break;
+    case Family::wedges:
+      wedges(builder, random);
+      break;
+    case Family::stairs:
+      stairs(builder, random);
+      break;
+    case Family::ceilings:
+      ceilings(builder, random);
+      break;
+    case Family::shafts:
+      shafts(builder, random);
+      break;
+    case Family::needles:
+      needles(builder, random);
+      break;
+    case Family::concave:
+      concave(builder, random);
+      break;
+    case Family::one_way:
+      one_way(builder, random);
+      break;
+    case Family::lattice:
+      lattice(builder, random);
+      break;
+  }
+  return builder.def;
+}
+
+}  // namespace paperproof::test
