@@ -36,6 +36,8 @@ StepStatus status_of(MoveStatus status) noexcept {
       return StepStatus::dropped;
     case MoveStatus::stuck:
       return StepStatus::stuck;
+    case MoveStatus::crushed:
+      return StepStatus::crushed;
     case MoveStatus::out_of_range:
       return StepStatus::out_of_range;
   }
@@ -55,6 +57,7 @@ void adopt(const CharacterDef& character, const MoveResult<Scalar>& move, Charac
   state.velocity = move.velocity;
   state.remainder = move.remainder;
   state.grounded = move.grounded;
+  state.ride = move.ride;
   if (move.grounded) state.jumping = false;
   state.wall_left = touches(move, Side::left);
   state.wall_right = touches(move, Side::right);
@@ -95,17 +98,22 @@ Vec2<Scalar> desired_velocity(const CharacterDef& character, const Vec2<Scalar>&
 template <class Scalar>
 Controller<Scalar>::Controller(const Scenery<Scalar>& scenery, const CharacterDef& character,
                                const TechniqueDef& technique)
-    : character_(character) {
+    : scenery_(&scenery), character_(character) {
   character_.validate();
   technique_ = make_technique<Scalar>(technique, scenery, character_);
 }
 
 template <class Scalar>
 StepStatus Controller<Scalar>::step(CharacterState<Scalar>& state, const Input& input, const Vec2<Scalar>& gravity,
-                                    Scalar dt, Scratch<Scalar>& scratch, StepReport<Scalar>& report) const noexcept {
+                                    Scalar dt, std::span<const MoverMotion<Scalar>> movers, Scratch<Scalar>& scratch,
+                                    StepReport<Scalar>& report) const noexcept {
+  report.sensors.clear();
   const bool usable = finite(state.position) && finite(state.velocity) && finite(state.remainder) && finite(gravity) &&
                       std::isfinite(dt) && dt > 0 && std::isfinite(input.move.value_or(0)) &&
-                      (!state.has_last_free || finite(state.last_free));
+                      (!state.has_last_free || finite(state.last_free)) && movers.size() == scenery_->mover_count() &&
+                      std::all_of(movers.begin(), movers.end(), [](const MoverMotion<Scalar>& mover) {
+                        return finite(mover.from) && finite(mover.to);
+                      });
   if (!usable) return report.status = StepStatus::invalid_input;
 
   CharacterState<Scalar> next = state;
@@ -117,7 +125,10 @@ StepStatus Controller<Scalar>::step(CharacterState<Scalar>& state, const Input& 
                     .last_free = state.last_free,
                     .remainder = state.remainder,
                     .has_last_free = state.has_last_free,
-                    .grounded = next.grounded},
+                    .grounded = next.grounded,
+                    .movers = movers,
+                    .dt = dt,
+                    .ride = state.ride},
                    scratch, report.move);
   report.status = status_of(report.move.status);
   if (report.status == StepStatus::out_of_range) return report.status;

@@ -1,7 +1,9 @@
 #include <paperproof/scenery.hpp>
 #include <paperproof/tolerances.hpp>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "geometry/convex_pieces.hpp"
 #include "geometry/exact.hpp"
@@ -86,11 +88,12 @@ struct Pieces {
   std::vector<PieceInfo>& infos;
   std::vector<Vec2<Scalar>>& vertices;
   std::vector<Box2<Scalar>>& boxes;
+  MoverIndex mover = no_mover;  ///< Of what is being added.
 
   /// Casting back is exact: the vertices were rounded before.
   void add(ColliderIndex collider, std::span<const Vec2d> outline, bool one_way) {
-    infos.push_back(
-        {collider, static_cast<std::uint32_t>(vertices.size()), static_cast<std::uint32_t>(outline.size()), one_way});
+    infos.push_back({collider, static_cast<std::uint32_t>(vertices.size()), static_cast<std::uint32_t>(outline.size()),
+                     one_way, mover});
     const Box2<double> box = geometry::box_of(outline);
     boxes.push_back({box.lower.template cast<Scalar>(), box.upper.template cast<Scalar>()});
     for (const Vec2d& vertex : outline) vertices.push_back(vertex.template cast<Scalar>());
@@ -106,6 +109,15 @@ struct Pieces {
                   ring.begin() + static_cast<std::ptrdiff_t>(next + count));
       add(collider, part, false);
       next += count - 1;
+    }
+  }
+
+  void add(ColliderIndex collider, const ColliderDef& def) {
+    switch (def.shape) {
+      case ColliderDef::Shape::polygon:
+        return add_polygon(collider, def);
+      case ColliderDef::Shape::chain:
+        return add_chain(collider, def);
     }
   }
 
@@ -129,6 +141,26 @@ struct Pieces {
   }
 };
 
+void check_role(const ColliderDef& def, std::size_t colliders) {
+  if (def.mover != no_mover && def.mover >= colliders)
+    throw Refused("its mover has the number " + std::to_string(def.mover) + ", and there are only " +
+                  std::to_string(colliders) + " colliders");
+  if (!std::isfinite(def.surface_speed)) throw Refused("surface_speed is not a finite number");
+  if (def.sensor && def.one_way) throw Refused("a sensor cannot be one-way");
+}
+
+/// What stands, what moves, mover by mover, and what only watches; colliders of one kind as they came.
+std::vector<ColliderIndex> by_role(std::span<const ColliderDef> colliders) {
+  const auto role = [&](ColliderIndex i) {
+    const ColliderDef& collider = colliders[i];
+    return std::pair(collider.sensor, collider.sensor ? 0 : collider.mover + 1);  // no_mover + 1 is 0
+  };
+  std::vector<ColliderIndex> order(colliders.size());
+  std::iota(order.begin(), order.end(), ColliderIndex{0});
+  std::stable_sort(order.begin(), order.end(), [&](ColliderIndex a, ColliderIndex b) { return role(a) < role(b); });
+  return order;
+}
+
 /// Rounding to `float` can make neighbours one point, or a thin polygon cross itself.
 std::string explained(const std::string& reason, const ColliderDef& given, const ColliderDef& as_run) {
   const bool same = given.points == as_run.points && given.holes == as_run.holes;
@@ -139,29 +171,38 @@ std::string explained(const std::string& reason, const ColliderDef& given, const
 
 template <class Scalar>
 Scenery<Scalar>::Scenery(const SceneryDef& def) {
-  Pieces<Scalar> pieces{pieces_, vertices_, boxes_};
   as_run_.colliders.reserve(def.colliders.size());
+  MoverIndex movers = 0;
   for (const ColliderDef& given : def.colliders) {
     const auto collider = static_cast<ColliderIndex>(as_run_.colliders.size());
     try {
+      check_role(given, def.colliders.size());
       as_run_.colliders.push_back(rounded<Scalar>(given));
     } catch (const Refused& refused) {
       throw InvalidScenery(collider, refused.what());
     }
-    const ColliderDef& as_run = as_run_.colliders.back();
-    try {
-      switch (as_run.shape) {
-        case ColliderDef::Shape::polygon:
-          pieces.add_polygon(collider, as_run);
-          break;
-        case ColliderDef::Shape::chain:
-          pieces.add_chain(collider, as_run);
-          break;
-      }
-    } catch (const std::invalid_argument& refused) {
-      throw InvalidScenery(collider, explained(refused.what(), given, as_run));
-    }
+    if (given.mover != no_mover) movers = std::max(movers, given.mover + 1);
   }
+  mover_begin_.assign(movers + std::size_t{1}, 0);
+  Pieces<Scalar> pieces{pieces_, vertices_, boxes_};
+  for (const ColliderIndex collider : by_role(as_run_.colliders)) {
+    const ColliderDef& as_run = as_run_.colliders[collider];
+    pieces.mover = as_run.mover;
+    try {
+      pieces.add(collider, as_run);
+    } catch (const std::invalid_argument& refused) {
+      throw InvalidScenery(collider, explained(refused.what(), def.colliders[collider], as_run));
+    }
+    const auto count = static_cast<PieceIndex>(pieces_.size());
+    if (as_run.sensor) continue;
+    if (as_run.mover == no_mover)
+      static_count_ = count;
+    else
+      mover_begin_[as_run.mover + 1] = count;
+  }
+  // A mover that only sensors go along with has no pieces of its own.
+  mover_begin_.front() = static_count_;
+  for (std::size_t i = 1; i < mover_begin_.size(); ++i) mover_begin_[i] = std::max(mover_begin_[i], mover_begin_[i - 1]);
 }
 
 template class Scenery<float>;

@@ -215,7 +215,8 @@ CharacterState<double> busy() {
           .jump_pending = true,
           .wall_left = true,
           .wall_right = true,
-          .stuck_steps = 3};
+          .stuck_steps = 3,
+          .ride = {.ground = 4, .place = {1, 1.5}, .velocity = {0.5, 0}}};
 }
 
 TEST(Refusals, change_nothing_for_input_that_is_no_number) {

@@ -75,6 +75,19 @@ struct Input {
   bool jump = false;
 };
 
+/// What a character stands on that carries it: a mover, a conveyor.
+template <class Scalar>
+struct Ride {
+  static constexpr ColliderIndex none = ~ColliderIndex{0};
+  ColliderIndex ground = none;
+  /// Where the character stands relative to the mover's offset [m]. It changes only when the character moves relative
+  /// to what carries it, so errors do not add up however long the ride is.
+  Vec2<Scalar> place{Vec2<Scalar>::Zero()};
+  Vec2<Scalar> velocity{Vec2<Scalar>::Zero()};  ///< Of the ground in the last step, conveyor included [m/s].
+
+  friend bool operator==(const Ride&, const Ride&) = default;
+};
+
 /// Everything that one step hands to the next. A plain value: copy it to save a game or to roll back.
 template <class Scalar>
 struct CharacterState {
@@ -92,6 +105,7 @@ struct CharacterState {
   bool wall_left = false;     ///< The last step ended against something on the left.
   bool wall_right = false;
   std::uint8_t stuck_steps = 0;  ///< How many steps in a row ended inside something.
+  Ride<Scalar> ride;             ///< None on ground that does not move.
 
   friend bool operator==(const CharacterState&, const CharacterState&) = default;
 };

@@ -22,8 +22,18 @@ enum class StepStatus : std::uint8_t {
   moved,
   dropped,        ///< See MoveStatus.
   stuck,          ///< See MoveStatus.
+  crushed,        ///< See MoveStatus.
   out_of_range,   ///< Refused: the step would leave +-2e6 m. Position and velocity are unchanged.
   invalid_input,  ///< Refused: NaN, infinity or dt <= 0. Nothing changed at all.
+};
+
+/// The character's interior came to overlap a sensor, or ceased to.
+template <class Scalar>
+struct SensorEvent {
+  enum class Change : std::uint8_t { enter, exit };
+  ColliderIndex sensor = 0;
+  Change change = Change::enter;
+  Scalar fraction = 0;  ///< Of the step, in [0, 1].
 };
 
 /// What one step did. `move` is valid unless the status is `invalid_input`.
@@ -32,6 +42,7 @@ struct StepReport {
   StepStatus status = StepStatus::moved;
   Vec2<Scalar> requested{Vec2<Scalar>::Zero()};  ///< Displacement that was wanted [m].
   MoveResult<Scalar> move;
+  FixedVector<SensorEvent<Scalar>, 32> sensors;  ///< In order of time.
 };
 
 /// Steps characters of one kind through one scenery. Const and shareable between threads.
@@ -44,13 +55,21 @@ class Controller {
   /// One step of `dt` seconds under `gravity` [m/s²]. `state` is read and written; nothing else carries over.
   /// Never allocates, never throws.
   StepStatus step(CharacterState<Scalar>& state, const Input& input, const Vec2<Scalar>& gravity, Scalar dt,
-                  Scratch<Scalar>& scratch, StepReport<Scalar>& report) const noexcept;
+                  Scratch<Scalar>& scratch, StepReport<Scalar>& report) const noexcept {
+    return step(state, input, gravity, dt, {}, scratch, report);
+  }
+  /// The same among movers.
+  /// @param movers one for each mover of the scenery; another number of them is invalid input.
+  StepStatus step(CharacterState<Scalar>& state, const Input& input, const Vec2<Scalar>& gravity, Scalar dt,
+                  std::span<const MoverMotion<Scalar>> movers, Scratch<Scalar>& scratch,
+                  StepReport<Scalar>& report) const noexcept;
 
   [[nodiscard]] Scratch<Scalar> make_scratch() const { return technique_->make_scratch(); }
   [[nodiscard]] const CharacterDef& character() const noexcept { return character_; }
   [[nodiscard]] const Technique<Scalar>& technique() const noexcept { return *technique_; }
 
  private:
+  const Scenery<Scalar>* scenery_;
   CharacterDef character_;
   std::unique_ptr<Technique<Scalar>> technique_;
 };

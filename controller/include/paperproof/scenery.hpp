@@ -24,9 +24,15 @@ struct ColliderDef {
   /// Chains only. A segment's blocking normal is the one of its two with `normal · one_way > 0`; a segment for which
   /// neither holds (it runs along `one_way`) blocks nothing. The character passes against the normal freely.
   std::optional<Vec2d> one_way{};
+  /// The mover it goes along with; `points` are then where it is while the mover's offset is zero.
+  MoverIndex mover = no_mover;
+  /// Blocks nothing: the controller reports when the character enters and leaves it. Not for one-way chains.
+  bool sensor = false;
+  /// A conveyor: what stands on it is carried along the surface, to the right for a positive speed [m/s].
+  double surface_speed = 0;
 };
 
-/// Everything that does not move.
+/// Everything that can be met, standing or moving.
 struct SceneryDef {
   std::vector<ColliderDef> colliders;
 };
@@ -51,6 +57,14 @@ struct PieceInfo {
   std::uint32_t first_vertex = 0;  ///< Into `Scenery::vertices()`.
   std::uint32_t vertex_count = 0;
   bool one_way = false;
+  MoverIndex mover = no_mover;  ///< Of its collider.
+};
+
+/// Some consecutive pieces.
+struct PieceRange {
+  PieceIndex first = 0;
+  PieceIndex end = 0;  ///< One past the last.
+  [[nodiscard]] std::size_t size() const noexcept { return end - first; }
 };
 
 /// Immutable after construction; may be shared between threads.
@@ -61,7 +75,8 @@ class Scenery {
   /// every collider and cuts polygons into convex pieces.
   /// @throws InvalidScenery on: fewer than 3 (polygon) or 2 (chain) points, a coordinate that is not finite or beyond
   ///   2e6 m, repeated neighbouring points, zero area, a ring that crosses or touches itself or another ring of its
-  ///   polygon, a hole that is not inside, a `one_way` that is zero, not finite or on a polygon.
+  ///   polygon, a hole that is not inside, a `one_way` that is zero, not finite or on a polygon, a sensor that is one-way, a
+  ///   `surface_speed` that is not finite, a `mover` beyond the number of colliders.
   explicit Scenery(const SceneryDef& def);
 
   [[nodiscard]] std::span<const PieceInfo> pieces() const noexcept { return pieces_; }
@@ -69,9 +84,21 @@ class Scenery {
   [[nodiscard]] std::span<const Vec2<Scalar>> vertices_of(PieceIndex piece) const noexcept {
     return std::span(vertices_).subspan(pieces_[piece].first_vertex, pieces_[piece].vertex_count);
   }
-  /// Smallest box around a piece [m].
+  /// Pieces stand in this order: the solid ones that do not move, the solid ones of mover 0, of mover 1, …, sensors.
+  [[nodiscard]] PieceRange static_pieces() const noexcept { return {0, static_count_}; }
+  [[nodiscard]] PieceRange pieces_of_mover(MoverIndex mover) const noexcept {
+    return {mover_begin_[mover], mover_begin_[mover + 1]};
+  }
+  [[nodiscard]] PieceRange sensor_pieces() const noexcept {
+    return {mover_begin_.back(), static_cast<PieceIndex>(pieces_.size())};
+  }
+  /// One more than the highest mover that a collider goes along with.
+  [[nodiscard]] std::size_t mover_count() const noexcept { return mover_begin_.size() - 1; }
+
+  /// Smallest box around a piece, at offset zero where it moves [m].
   [[nodiscard]] const Box2<Scalar>& box(PieceIndex piece) const noexcept { return boxes_[piece]; }
   [[nodiscard]] std::span<const Box2<Scalar>> boxes() const noexcept { return boxes_; }
+  [[nodiscard]] std::span<const Box2<Scalar>> static_boxes() const noexcept { return boxes().first(static_count_); }
 
   /// The definition as it runs: every coordinate rounded to `Scalar`. An exact judge reads this one.
   [[nodiscard]] const SceneryDef& as_run() const noexcept { return as_run_; }
@@ -81,6 +108,8 @@ class Scenery {
   std::vector<PieceInfo> pieces_;
   std::vector<Vec2<Scalar>> vertices_;
   std::vector<Box2<Scalar>> boxes_;
+  PieceIndex static_count_ = 0;
+  std::vector<PieceIndex> mover_begin_;  ///< First piece of each mover, and one past the last of the last.
 };
 
 extern template class Scenery<float>;

@@ -1,9 +1,10 @@
 /// The one interface of all techniques: a move that is wanted goes in, the move that is possible comes out.
 #pragma once
 
-#include <paperproof/types.hpp>
+#include <paperproof/character.hpp>
 
 #include <memory>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -36,12 +37,19 @@ struct MoveRequest {
   Vec2<Scalar> remainder{Vec2<Scalar>::Zero()};     ///< See `CharacterState::remainder`.
   bool has_last_free = false;
   bool grounded = false;  ///< The last step ended on the ground, and this one does not begin with a jump.
+  /// One for each mover of the scenery.
+  std::span<const MoverMotion<Scalar>> movers{};
+  Scalar dt = 0;  ///< [s]
+  /// What carries the character, if anything: `displacement` and `velocity` are then relative to it, and the technique
+  /// adds its motion.
+  Ride<Scalar> ride{};
 };
 
 enum class MoveStatus : std::uint8_t {
   moved,         ///< The result holds. It may be shorter than requested: see `contacts`.
   dropped,       ///< The result holds, but displacement was left when the iterations ran out and was dropped.
   stuck,         ///< The step began inside something and still ends inside it.
+  crushed,       ///< The result holds, but movers left no free position: see `crushed`.
   out_of_range,  ///< Refused: the step would leave the range the technique is made for. Nothing moved.
 };
 
@@ -49,6 +57,7 @@ template <class Scalar>
 struct MoveResult {
   static constexpr std::size_t max_corners = 32;
   static constexpr std::size_t max_contacts = 16;
+  static constexpr std::size_t max_crushed = 16;
 
   MoveStatus status = MoveStatus::moved;
   Vec2<Scalar> position{Vec2<Scalar>::Zero()};
@@ -59,6 +68,9 @@ struct MoveResult {
   /// arrives has just these two.
   FixedVector<PathPoint<Scalar>, max_corners> path;
   FixedVector<Contact<Scalar>, max_contacts> contacts;
+  Ride<Scalar> ride;  ///< For the next step. `velocity` above is in the world, the ride included.
+  /// Colliders of movers that ran into the character where it had no room to give way.
+  FixedVector<ColliderIndex, max_crushed> crushed;
 
   void clear() noexcept {
     status = MoveStatus::moved;
@@ -66,6 +78,8 @@ struct MoveResult {
     grounded = false;
     path.clear();
     contacts.clear();
+    ride = {};
+    crushed.clear();
   }
 };
 

@@ -21,6 +21,18 @@ using ColliderIndex = std::uint32_t;
 /// Position of a convex piece in `Scenery::pieces()`. A collider has one or more pieces.
 using PieceIndex = std::uint32_t;
 
+/// Which of the movers a collider goes along with: they are counted from 0, and several colliders may share one.
+using MoverIndex = std::uint32_t;
+inline constexpr MoverIndex no_mover = ~MoverIndex{0};
+
+/// How a mover goes during one step: linearly, from one offset to another, each relative to where its colliders were
+/// defined [m].
+template <class Scalar>
+struct MoverMotion {
+  Vec2<Scalar> from{Vec2<Scalar>::Zero()};  ///< When the step begins: `to` of the step before, bit for bit.
+  Vec2<Scalar> to{Vec2<Scalar>::Zero()};    ///< When it ends.
+};
+
 /// The side of the *character* that a contact is on: standing on the ground is a `bottom` contact.
 enum class Side : std::uint8_t { top, bottom, left, right };
 

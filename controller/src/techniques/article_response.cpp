@@ -239,7 +239,7 @@ Scalar length(const Vec2<Scalar>& vector) noexcept {
 template <class Scalar>
 Parts<Scalar>::Parts(const TechniqueDef& def, const Scenery<Scalar>& where, const CharacterDef& character)
     : scenery(&where),
-      broad_phase(make_broad_phase<Scalar>(def.broad_phase, where.boxes())),
+      broad_phase(make_broad_phase<Scalar>(def.broad_phase, where.static_boxes())),
       points(def.article.points == 4 ? corners_of_box<Scalar>(character.shape) : points_of<Scalar>(character.shape)),
       unit(static_cast<Scalar>(def.article.unit)),
       knobs(def.article) {}

@@ -33,7 +33,7 @@ class BoundingBox final : public Technique<Scalar> {
       : scenery_(&scenery),
         character_{character.shape.box().lower.cast<Scalar>(), character.shape.box().upper.cast<Scalar>()},
         iterations_(def.article.iterations) {
-    for (const Box2<Scalar>& box : scenery.boxes()) grown_.push_back(grown(box, character_));
+    for (const Box2<Scalar>& box : scenery.static_boxes()) grown_.push_back(grown(box, character_));
     broad_phase_ = make_broad_phase<Scalar>(def.broad_phase, grown_);
   }
 

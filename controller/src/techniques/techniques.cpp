@@ -77,6 +77,12 @@ std::string_view name_of(TechniqueKind kind) noexcept {
   return "unknown";
 }
 
+namespace {
+
+bool knows_movers(TechniqueKind) noexcept { return false; }
+
+}  // namespace
+
 template <class Scalar>
 std::unique_ptr<Technique<Scalar>> make_technique(const TechniqueDef& def, const Scenery<Scalar>& scenery,
                                                   const CharacterDef& character) {
@@ -84,6 +90,8 @@ std::unique_ptr<Technique<Scalar>> make_technique(const TechniqueDef& def, const
   validate<Scalar>(def.article);
   require(def.sweep_iterations >= 1,
           "sweep_iterations: must be at least 1, not " + std::to_string(def.sweep_iterations));
+  if (scenery.mover_count() > 0 && !knows_movers(def.kind))
+    throw NotExpressible(std::string(name_of(def.kind)) + " is for scenery that stands still");
   switch (def.kind) {
     case TechniqueKind::grid:
       return make_grid(def, scenery, character);

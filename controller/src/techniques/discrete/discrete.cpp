@@ -20,7 +20,7 @@ class Discrete final : public Technique<Scalar> {
  public:
   Discrete(const TechniqueDef& def, const Scenery<Scalar>& scenery, const CharacterDef& character)
       : scenery_(&scenery),
-        broad_phase_(make_broad_phase<Scalar>(def.broad_phase, scenery.boxes())),
+        broad_phase_(make_broad_phase<Scalar>(def.broad_phase, scenery.static_boxes())),
         box_{character.shape.box().lower.cast<Scalar>(), character.shape.box().upper.cast<Scalar>()},
         iterations_(def.article.iterations) {
     for (const Vec2d& corner : character.shape.hull()) outline_.push_back(corner.cast<Scalar>());

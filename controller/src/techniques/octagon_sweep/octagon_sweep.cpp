@@ -29,7 +29,7 @@ template <class Scalar>
 class OctagonSweep final : public Technique<Scalar> {
  public:
   OctagonSweep(const TechniqueDef& def, const Scenery<Scalar>& scenery, const CharacterDef& character)
-      : broad_phase_(make_broad_phase<Scalar>(def.broad_phase, scenery.boxes())),
+      : broad_phase_(make_broad_phase<Scalar>(def.broad_phase, scenery.static_boxes())),
         space_(scenery, character.shape, *broad_phase_),
         settings_(settings_for<Scalar>(def, character)) {}
 

@@ -15,7 +15,7 @@ bool in_range(const Vec2<Scalar>& position) noexcept {
 template <class Scalar>
 RasterParts<Scalar>::RasterParts(const TechniqueDef& def, const Scenery<Scalar>& scenery, const CharacterDef& character)
     : scenery_(&scenery),
-      broad_phase_(make_broad_phase<Scalar>(def.broad_phase, scenery.boxes())),
+      broad_phase_(make_broad_phase<Scalar>(def.broad_phase, scenery.static_boxes())),
       pixels_per_metre_(def.article.raster_pixels_per_metre),
       scale_(static_cast<Scalar>(pixels_per_metre_)),
       lower_(character.shape.box().lower.template cast<Scalar>()),
