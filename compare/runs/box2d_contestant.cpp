@@ -86,6 +86,7 @@ class Box2dContestant final : public Contestant {
 
 std::unique_ptr<Contestant> make_box2d_contestant(box2d::SceneryMode mode, const Scene& scene,
                                                   const Scenery<double>& scenery) {
+  if (!scene.movers.empty()) throw NotApplicable("the twin's world does not move");
   return std::make_unique<Box2dContestant>(mode, scene, scenery);
 }
 

@@ -146,9 +146,6 @@ class SceneRun {
         pair.mine->row().findings.push_back(
             fmt::format("{} steps not compared: no room for Box2D's skin", pair.not_compared));
     }
-    for (const auto& lane : lanes_)
-      if (!scene_.movers.empty())
-        lane->row().findings.push_back(fmt::format("{} movers are left out", scene_.movers.size()));
     for (const auto& lane : twins_) lane->row().respawns.reset();  // it was placed anew before every step
 
     ReportScene result;
@@ -159,9 +156,6 @@ class SceneRun {
     result.sentence = who_is_right(result.rows);
     if (options_.mode == Mode::lockstep)
       for (const Pair& pair : pairs_) result.sentence += in_lockstep(pair);
-    if (!scene_.movers.empty())
-      result.sentence +=
-          fmt::format(" Left out: {} movers; this version runs what stands still.", scene_.movers.size());
     for (const Pair& pair : pairs_) describe_disagreements(pair, result);
     return result;
   }

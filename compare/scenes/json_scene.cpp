@@ -20,6 +20,8 @@ namespace paperproof::compare {
 namespace {
 
 constexpr int most_steps = std::numeric_limits<int>::max();
+/// [m], of the sweep: see Tolerances<double>::range
+constexpr double largest_coordinate = 2e6;
 
 /// A key of the format that this version does not run. Refused in words: ignoring it would run another scene.
 void refuse_unsupported(const JsonCursor& object, std::string_view key, const char* needs) {
@@ -67,8 +69,8 @@ Start read_start(const JsonCursor& character) {
   Start start;
   const JsonCursor position = character.require("position");
   start.position = position.point();
-  constexpr double range = 2e6;  // of the sweep: see Tolerances<double>::range
-  if (!(start.position.cwiseAbs().maxCoeff() <= range)) position.refuse("expected coordinates within 2e6 m");
+  if (!(start.position.cwiseAbs().maxCoeff() <= largest_coordinate))
+    position.refuse("expected coordinates within 2e6 m");
   if (const auto velocity = character.find("velocity")) start.velocity = velocity->point();
   if (const auto overlap = character.find("start_overlap")) {
     const std::string word = overlap->text();
@@ -129,6 +131,11 @@ ColliderDef read_collider(const JsonCursor& entry, const std::string& shape) {
   refuse_key_beside(entry, "holes", shape, "polygon");
   refuse_key_beside(entry, "one_way", shape, "chain");
   ColliderDef collider;
+  collider.sensor = read_flag(entry, "sensor");
+  if (const auto speed = entry.find("surface_speed")) {
+    if (collider.sensor) speed->refuse("expected only beside what blocks: nothing stands on a sensor");
+    collider.surface_speed = speed->number();
+  }
   if (shape == "chain") {
     collider.shape = ColliderDef::Shape::chain;
     collider.points = read_points(entry.require("chain"), 2);
@@ -159,13 +166,10 @@ class SceneryReader {
  public:
   SceneryReader(Scene& scene, std::string path) : scene_(scene), path_(std::move(path)) {}
 
-  void read(const JsonCursor& scenery) {
+  void read(const JsonCursor& scenery, const std::optional<JsonCursor>& movers) {
     for (std::size_t i = 0; i < scenery.size(); ++i) read_entry(scenery.element(i), i);
+    for (std::size_t i = 0; movers && i < movers->size(); ++i) read_mover(movers->element(i), i);
     check_scenery(scene_.scenery, scene_.ids, [this](ColliderIndex index) { return where_[index]; });
-  }
-
-  void read_movers(const JsonCursor& movers) {
-    for (std::size_t i = 0; i < movers.size(); ++i) read_mover(movers.element(i), i);
   }
 
  private:
@@ -184,18 +188,19 @@ class SceneryReader {
   }
 
   void read_entry(const JsonCursor& entry, std::size_t index) {
-    refuse_unsupported(entry, "sensor", "sensors");
-    refuse_unsupported(entry, "surface_speed", "conveyors");
-    entry.refuse_other_keys({"id", "polygon", "holes", "chain", "one_way", "tiled", "picture", "solid", "background"});
+    entry.refuse_other_keys({"id", "polygon", "holes", "chain", "one_way", "sensor", "surface_speed", "tiled",
+                             "picture", "solid", "background"});
     const std::string shape = only_shape(entry, {"polygon", "chain", "tiled", "picture"});
     refuse_key_beside(entry, "solid", shape, "picture");
     refuse_key_beside(entry, "background", shape, "picture");
     const std::string id = take_id(entry, "scenery", index);
     const JsonCursor at = entry.require(shape);
-    ColliderDef collider;
     if (shape == "tiled" || shape == "picture") {
       refuse_key_beside(entry, "holes", shape, "polygon");
       refuse_key_beside(entry, "one_way", shape, "chain");
+      for (const char* key : {"sensor", "surface_speed"}) {
+        if (const auto found = entry.find(key)) found->refuse("expected only beside \"polygon\" or \"chain\"");
+      }
       if (shape == "tiled")
         add_map(id, at);
       else
@@ -209,11 +214,16 @@ class SceneryReader {
     const Scene map = read_beside(at, [this](const std::string& beside, const std::string& file) {
       return read_tiled_part(beside, file, scene_.pixels_per_metre);
     });
-    for (std::size_t i = 0; i < map.ids.size(); ++i) add(id + "/" + map.ids[i], map.scenery.colliders[i], at.where());
-    for (const std::string& map_id : map.ids) claim(id + "/" + map_id, at);
+    const auto movers_before = static_cast<MoverIndex>(scene_.movers.size());
+    for (std::size_t i = 0; i < map.ids.size(); ++i) {
+      const std::string own = id + "/" + map.ids[i];
+      claim(own, at);
+      ColliderDef collider = map.scenery.colliders[i];
+      if (collider.mover != no_mover) collider.mover += movers_before;
+      add(own, std::move(collider), at.where());
+    }
     for (MoverDef mover : map.movers) {
       mover.id = id + "/" + mover.id;
-      claim(mover.id, at);
       scene_.movers.push_back(std::move(mover));
     }
     for (const std::string& note : map.notes) scene_.notes.push_back(id + ": " + note);
@@ -252,32 +262,52 @@ class SceneryReader {
   }
 
   void read_mover(const JsonCursor& entry, std::size_t index) {
-    refuse_unsupported(entry, "angle", "rotating movers");
-    refuse_unsupported(entry, "sensor", "sensors");
-    refuse_unsupported(entry, "surface_speed", "conveyors");
-    entry.refuse_other_keys({"id", "polygon", "holes", "chain", "one_way", "path", "loop"});
+    entry.refuse_other_keys(
+        {"id", "polygon", "holes", "chain", "one_way", "sensor", "surface_speed", "path", "angle", "loop"});
     const std::string shape = only_shape(entry, {"polygon", "chain"});
     MoverDef mover;
     mover.id = take_id(entry, "movers", index);
-    mover.shape = read_collider(entry, shape);
-    check_scenery({{mover.shape}}, {mover.id}, [&](ColliderIndex) { return entry.require(shape).where(); });
-    mover.path = read_path(entry.require("path"));
+    ColliderDef collider = read_collider(entry, shape);
+    collider.mover = static_cast<MoverIndex>(scene_.movers.size());
     if (const auto loop = entry.find("loop")) mover.loop = read_loop(*loop);
+    const JsonCursor path = entry.require("path");
+    mover.path = read_path(path);
+    if (mover.loop == MoverDef::Loop::loop && mover.path.front().at != mover.path.back().at) {
+      path.element(path.size() - 1)
+          .require("at")
+          .refuse("expected the place where the path begins: a loop never jumps");
+    }
+    if (const auto angle = entry.find("angle")) mover.turns = read_turns(*angle);
+    add(mover.id, std::move(collider), entry.require(shape).where());
     scene_.movers.push_back(std::move(mover));
   }
 
-  static std::vector<MoverDef::Waypoint> read_path(const JsonCursor& at) {
+  /// @param read_at what stands under "at". One place of it is reached at one time, in ascending order.
+  template <class Point, class ReadAt>
+  static std::vector<Point> read_timed(const JsonCursor& at, const ReadAt& read_at) {
     if (at.size() == 0) at.refuse("expected at least one waypoint");
-    std::vector<MoverDef::Waypoint> path;
+    std::vector<Point> points;
     for (std::size_t i = 0; i < at.size(); ++i) {
       const JsonCursor entry = at.element(i);
       entry.refuse_other_keys({"t", "at"});
       const double time = not_negative(entry.require("t"));
-      if (!path.empty() && !(time > path.back().time))
+      if (!points.empty() && !(time > points.back().time))
         entry.require("t").refuse("expected a time after the one before");
-      path.push_back({.time = time, .at = entry.require("at").point()});
+      points.push_back({.time = time, .at = read_at(entry.require("at"))});
     }
-    return path;
+    return points;
+  }
+
+  static std::vector<MoverDef::Waypoint> read_path(const JsonCursor& at) {
+    return read_timed<MoverDef::Waypoint>(at, [](const JsonCursor& offset) {
+      const Vec2d value = offset.point();
+      if (!(value.cwiseAbs().maxCoeff() <= largest_coordinate)) offset.refuse("expected coordinates within 2e6 m");
+      return value;
+    });
+  }
+
+  static std::vector<MoverDef::Turn> read_turns(const JsonCursor& at) {
+    return read_timed<MoverDef::Turn>(at, [](const JsonCursor& angle) { return angle.number(); });
   }
 
   static MoverDef::Loop read_loop(const JsonCursor& at) {
@@ -326,9 +356,7 @@ void read_scenery(const JsonCursor& root, const std::string& path, Scene& scene)
   const bool empty = read_flag(root, "empty");
   if (scenery.size() == 0 && !empty) scenery.refuse("expected at least one solid, or \"empty\": true beside it");
   if (scenery.size() > 0 && empty) root.require("empty").refuse("expected false, as \"scenery\" is not empty");
-  SceneryReader reader(scene, path);
-  reader.read(scenery);
-  if (const auto movers = root.find("movers")) reader.read_movers(*movers);
+  SceneryReader(scene, path).read(scenery, root.find("movers"));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "scenes/scene.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace paperproof::compare {
 
@@ -28,7 +29,32 @@ class Random {
   std::uint64_t state_;
 };
 
+Vec2d turned(const Vec2d& point, double angle) {
+  const double cosine = std::cos(angle);
+  const double sine = std::sin(angle);
+  return {cosine * point.x() - sine * point.y(), sine * point.x() + cosine * point.y()};
+}
+
 }  // namespace
+
+SceneryDef scenery_at(const Scene& scene, double time) {
+  SceneryDef placed = scene.scenery;
+  for (ColliderDef& collider : placed.colliders) {
+    if (collider.mover == no_mover) continue;
+    const MoverDef& mover = scene.movers[collider.mover];
+    const Vec2d offset = offset_at(mover, time);
+    const double angle = angle_at(mover, time);
+    const auto place = [&](Vec2d& point) {
+      if (angle != 0) point = turned(point, angle);
+      point += offset;
+    };
+    std::for_each(collider.points.begin(), collider.points.end(), place);
+    for (std::vector<Vec2d>& hole : collider.holes) std::for_each(hole.begin(), hole.end(), place);
+    if (collider.one_way && angle != 0) collider.one_way = turned(*collider.one_way, angle);
+    collider.mover = no_mover;
+  }
+  return placed;
+}
 
 Input input_at(const std::vector<InputEvent>& events, int step) {
   Input input;

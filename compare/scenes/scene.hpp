@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "scenes/mover.hpp"
+
 namespace paperproof::compare {
 
 /// From `step` on, the keys that are given apply until a later event changes them.
@@ -17,20 +19,6 @@ struct InputEvent {
   std::optional<bool> jump;
 
   friend bool operator==(const InputEvent&, const InputEvent&) = default;
-};
-
-/// A collider that moves along a path. `shape` is where it is at offset (0, 0); its place at time t is shape +
-/// offset(t).
-struct MoverDef {
-  enum class Loop : std::uint8_t { once, loop, ping_pong };
-  struct Waypoint {
-    double time = 0;          ///< [s], ascending
-    Vec2d at{Vec2d::Zero()};  ///< offset [m]
-  };
-  std::string id;
-  ColliderDef shape;
-  std::vector<Waypoint> path;
-  Loop loop = Loop::once;
 };
 
 /// Where the scene's character begins.
@@ -50,15 +38,19 @@ struct Scene {
   int steps = 600;
   CharacterDef character;
   Start start;
-  SceneryDef scenery;
-  std::vector<std::string> ids;  ///< One per collider, unique.
-  std::vector<MoverDef> movers;
+  SceneryDef scenery;             ///< What stands, what moves and what only notices.
+  std::vector<std::string> ids;   ///< One per collider, unique.
+  std::vector<MoverDef> movers;   ///< By `ColliderDef::mover`; each has a collider.
   std::vector<InputEvent> input;  ///< Sorted by step.
   /// Maps only: their box [m]. A character that leaves it by more than 10 m is put back at the start.
   std::optional<Box2<double>> respawn_box;
   /// What a loader left out or could not place, in words (tiles unknown to the tileset, for instance).
   std::vector<std::string> notes;
 };
+
+/// The scenery as it is `time` seconds after the start: every collider stands where its mover has
+/// taken it (rounded), and none moves.
+[[nodiscard]] SceneryDef scenery_at(const Scene& scene, double time);
 
 /// The input at a step: the events up to and including it, applied in order.
 [[nodiscard]] Input input_at(const std::vector<InputEvent>& events, int step);

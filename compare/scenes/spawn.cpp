@@ -8,14 +8,16 @@
 namespace paperproof::compare {
 
 std::optional<Vec2d> first_ground(const Scene& scene, const Box2<double>& box, double column) {
-  const FreePlaces places(scene.scenery, scene.character.shape);
+  const SceneryDef scenery = scenery_at(scene, 0);
+  const FreePlaces places(scenery, scene.character.shape);
   const Box2<double>& body = scene.character.shape.box();
   constexpr double above = 1.0 / 16;
   for (int i = 0;; ++i) {
     const double x = box.lower.x() + (i + 0.5) * column;
     if (x > box.upper.x()) return std::nullopt;
     std::vector<double> grounds;
-    for (const ColliderDef& collider : scene.scenery.colliders) {
+    for (const ColliderDef& collider : scenery.colliders) {
+      if (collider.sensor) continue;
       const Box2<double> bounds = box_of(collider);
       if (bounds.lower.x() <= x && x <= bounds.upper.x()) grounds.push_back(bounds.upper.y());
     }
@@ -28,7 +30,8 @@ std::optional<Vec2d> first_ground(const Scene& scene, const Box2<double>& box, d
 }
 
 std::optional<Vec2d> free_place_near(const Scene& scene, const Box2<double>& box, const Vec2d& wanted) {
-  const FreePlaces places(scene.scenery, scene.character.shape);
+  const SceneryDef scenery = scenery_at(scene, 0);
+  const FreePlaces places(scenery, scene.character.shape);
   constexpr double pixel = 1.0 / 32;
   const auto search_up = [&](double x, int pixels) -> std::optional<Vec2d> {
     for (int i = 0; i <= pixels; ++i) {

@@ -72,7 +72,7 @@ class SectorBuilder {
       if (sector_.tilemaps[i].solid) add_tilemap(sector_.tilemaps[i], i);
     }
     for (const SuperTuxPlatform& platform : sector_.platforms) add_platform(platform);
-    if (scene_.ids.empty() || sector_.spawns.empty()) return std::nullopt;
+    if (still_colliders_ == 0 || sector_.spawns.empty()) return std::nullopt;
     check_scenery(scene_.scenery, scene_.ids, [this](ColliderIndex) { return sector_.where; });
     scene_.respawn_box = Box2<double>{{0, -size_.y()}, {size_.x(), 0}};
     add_counted_notes();
@@ -82,32 +82,36 @@ class SectorBuilder {
 
  private:
   void add_tilemap(const SuperTuxTilemap& map, std::size_t index) {
-    const std::string prefix = scene_.ids.empty() ? "" : fmt::format("l{}/", index);
+    const std::string own = fmt::format("l{}", index);
     if (!map.path || map.path->nodes.empty()) {
       size_ = size_.cwiseMax(Vec2d(map.width, map.height));
-      return add_tiles(map, prefix, Vec2d::Zero());
+      return add_still(map, own, Vec2d::Zero());
     }
     const std::optional<SuperTuxWay> way = way_of(*map.path);
     if (!way) {
       ++unclear_tilemaps_;
     } else if (way->waypoints.size() == 1) {
-      add_tiles(map, prefix, way->waypoints.front().at);
-    } else {
-      for_each_tile(map, [&](const ColliderDef& collider, int column, int row) {
-        scene_.movers.push_back({.id = fmt::format("l{}/t{},{}", index, column, row),
-                                 .shape = collider,
-                                 .path = way->waypoints,
-                                 .loop = way->loop});
-      });
+      add_still(map, own, way->waypoints.front().at);
+    } else if (add_tiles(map, own + "/", Vec2d::Zero(), static_cast<MoverIndex>(scene_.movers.size())) > 0) {
+      scene_.movers.push_back({.id = own, .path = way->waypoints, .loop = way->loop});
     }
   }
 
-  void add_tiles(const SuperTuxTilemap& map, const std::string& prefix, const Vec2d& offset) {
+  /// The first tilemap that stands still gives its tiles the short names.
+  void add_still(const SuperTuxTilemap& map, const std::string& own, const Vec2d& offset) {
+    still_colliders_ += add_tiles(map, still_colliders_ == 0 ? "" : own + "/", offset, no_mover);
+  }
+
+  /// @returns how many of them block.
+  std::size_t add_tiles(const SuperTuxTilemap& map, const std::string& prefix, const Vec2d& offset, MoverIndex mover) {
+    const std::size_t before = scene_.ids.size();
     for_each_tile(map, [&](ColliderDef collider, int column, int row) {
       for (Vec2d& point : collider.points) point += offset;
+      collider.mover = mover;
       scene_.scenery.colliders.push_back(std::move(collider));
       scene_.ids.push_back(fmt::format("{}t{},{}", prefix, column, row));
     });
+    return scene_.ids.size() - before;
   }
 
   template <class Function>
@@ -141,12 +145,16 @@ class SectorBuilder {
     // One that waits for a script stands where its path begins.
     if (!platform.running) way->waypoints.resize(1);
     const Vec2d size = *pixels / tile_pixels;
-    MoverDef mover;
-    mover.id = fmt::format("platform{}", next_platform_++);
-    mover.shape.points = {{0, -size.y()}, {size.x(), -size.y()}, {size.x(), 0}, {0, 0}};
-    mover.path = std::move(way->waypoints);
-    mover.loop = way->loop;
-    scene_.movers.push_back(std::move(mover));
+    ColliderDef collider;
+    collider.points = {{0, -size.y()}, {size.x(), -size.y()}, {size.x(), 0}, {0, 0}};
+    scene_.ids.push_back(fmt::format("platform{}", next_platform_++));
+    if (way->waypoints.size() == 1) {
+      for (Vec2d& point : collider.points) point += way->waypoints.front().at;
+    } else {
+      collider.mover = static_cast<MoverIndex>(scene_.movers.size());
+      scene_.movers.push_back({.id = scene_.ids.back(), .path = std::move(way->waypoints), .loop = way->loop});
+    }
+    scene_.scenery.colliders.push_back(std::move(collider));
   }
 
   void note(int count, const char* what) {
@@ -182,6 +190,7 @@ class SectorBuilder {
   const SuperTuxSector& sector_;
   Scene scene_;
   Vec2d size_{Vec2d::Zero()};  ///< Of the largest solid tilemap that stands still [m].
+  std::size_t still_colliders_ = 0;
   int unknown_tiles_ = 0;
   int unclear_tilemaps_ = 0;
   int unclear_platforms_ = 0;

@@ -4,9 +4,10 @@
 /// one-way tile a chain at the side that blocks. Nothing is merged. 32 px are 1 m; y is negated, so a level lies below
 /// 0.
 ///
-/// Solid tilemaps and platforms that follow a path become movers where their shape and path are clear; those that stand
-/// still (a path of one node) are scenery. What is left out is counted in the scene's notes: curved paths, platforms
-/// whose picture is missing, tile numbers that `images/tiles.strf` does not know.
+/// Solid tilemaps and platforms that follow a path become movers, each with all its tiles, where their shape and path
+/// are clear; those that stand still (a path of one node, a platform that waits for a script) are scenery. What is left
+/// out is counted in the scene's notes: curved paths, platforms whose picture is missing, tile numbers that
+/// `images/tiles.strf` does not know.
 ///
 /// The character is 20 x 40 px with its upper left corner at the spawn point `main`, else at the first one; where that
 /// is inside a solid (the game's own character is lower) it begins at the nearest free place above, and a note says so.

@@ -33,13 +33,13 @@ class MapBuilder {
 
   Scene part() {
     add_layers(map_.layers, TiledRole::unmarked, Vec2d::Zero());
-    if (scene_.ids.empty()) {
+    if (!has_still_solids()) {
       only_shapes_ = true;
       add_layers(map_.layers, TiledRole::solid, Vec2d::Zero());
-      if (!scene_.ids.empty())
+      if (has_still_solids())
         scene_.notes.emplace_back("nothing is marked; tiles with collision shapes are the solids");
     }
-    if (scene_.ids.empty()) {
+    if (!has_still_solids()) {
       refuse(given_,
              "expected at least one solid: a layer named collision, solid or platforms, or things with the class "
              "or property solid (the README has the rule)");
@@ -63,6 +63,11 @@ class MapBuilder {
   }
 
  private:
+  [[nodiscard]] bool has_still_solids() const {
+    const std::vector<ColliderDef>& colliders = scene_.scenery.colliders;
+    return std::any_of(colliders.begin(), colliders.end(), [](const auto& each) { return each.mover == no_mover; });
+  }
+
   Vec2d to_metres(const Vec2d& pixels) const { return {pixels.x() / scale_, 0 - pixels.y() / scale_}; }
 
   std::string unused(const std::string& id) {
@@ -88,10 +93,16 @@ class MapBuilder {
         pieces.push_back(shape);
       }
     }
-    for (std::size_t i = 0; i < pieces.size(); ++i) {
-      scene_.scenery.colliders.push_back(collider_of(pieces[i], role == TiledRole::one_way));
+    add_colliders(pieces, role == TiledRole::one_way, id, no_mover);
+  }
+
+  void add_colliders(const std::vector<PixelShape>& shapes, bool one_way, const std::string& id, MoverIndex mover) {
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+      ColliderDef collider = collider_of(shapes[i], one_way);
+      collider.mover = mover;
+      scene_.scenery.colliders.push_back(std::move(collider));
       scene_.ids.push_back(unused(i == 0 ? id : fmt::format("{}.{}", id, i)));
-      where_.push_back(pieces[i].where);
+      where_.push_back(shapes[i].where);
     }
   }
 
@@ -190,17 +201,14 @@ class MapBuilder {
     const double size = vertical ? object.size.y() : object.size.x();
     const std::vector<MoverDef::Waypoint> path = back_and_forth(*low - at, *high - size - at, speed, vertical);
     const std::vector<PixelShape> shapes = shapes_of_object(map_, object, offset);
-    for (std::size_t i = 0; i < shapes.size() && !path.empty(); ++i) {
-      MoverDef mover;
-      mover.id = unused(i == 0 ? fmt::format("m{}", object.id) : fmt::format("m{}.{}", object.id, i));
-      mover.shape = collider_of(shapes[i], false);
-      mover.path = path;
-      mover.loop = MoverDef::Loop::loop;
-      check_scenery({{mover.shape}}, {mover.id}, [&](ColliderIndex) { return object.where; });
-      scene_.movers.push_back(std::move(mover));
+    if (path.empty() || shapes.empty()) {
+      scene_.notes.push_back(fmt::format("mover {} is left out: {}", object.id,
+                                         path.empty() ? "its boundaries leave it no way" : "it has no area"));
+      return;
     }
-    if (path.empty())
-      scene_.notes.push_back(fmt::format("mover {} is left out: its boundaries leave it no way", object.id));
+    const std::string id = fmt::format("m{}", object.id);
+    add_colliders(shapes, false, id, static_cast<MoverIndex>(scene_.movers.size()));
+    scene_.movers.push_back({.id = id, .path = path, .loop = MoverDef::Loop::loop});
   }
 
   /// From 0 to one end of the way, to the other and back to 0. @param low, high [px] relative to the start.
@@ -226,8 +234,13 @@ class MapBuilder {
       const Vec2d size{map_.width * map_.tile_size.x(), map_.height * map_.tile_size.y()};
       return {to_metres({0, size.y()}), to_metres({size.x(), 0})};
     }
-    Box2<double> all = box_of(scene_.scenery.colliders.front());
-    for (const ColliderDef& collider : scene_.scenery.colliders) all = all.merged(box_of(collider));
+    const std::vector<ColliderDef>& colliders = scene_.scenery.colliders;
+    const auto still =
+        std::find_if(colliders.begin(), colliders.end(), [](const auto& each) { return each.mover == no_mover; });
+    Box2<double> all = box_of(*still);
+    for (const ColliderDef& collider : colliders) {
+      if (collider.mover == no_mover) all = all.merged(box_of(collider));
+    }
     return all.inflated(map_.tile_size.y() / scale_);
   }
 

@@ -36,7 +36,7 @@ std::vector<ColliderIndex> FreePlaces::overlapped(const Vec2d& position) const {
   SceneryDef near;
   std::vector<ColliderIndex> original;
   for (std::size_t i = 0; i < boxes_.size(); ++i) {
-    if (!boxes_[i].overlaps(box)) continue;
+    if (scenery_.colliders[i].sensor || !boxes_[i].overlaps(box)) continue;
     near.colliders.push_back(scenery_.colliders[i]);
     original.push_back(static_cast<ColliderIndex>(i));
   }
@@ -48,8 +48,8 @@ std::vector<ColliderIndex> FreePlaces::overlapped(const Vec2d& position) const {
 
 void check_start(const Scene& scene, const std::string& where, const std::string& remedy) {
   if (scene.start.resolve_overlap) return;
-  const std::vector<ColliderIndex> inside =
-      FreePlaces(scene.scenery, scene.character.shape).overlapped(scene.start.position);
+  const SceneryDef scenery = scenery_at(scene, 0);
+  const std::vector<ColliderIndex> inside = FreePlaces(scenery, scene.character.shape).overlapped(scene.start.position);
   if (inside.empty()) return;
   refuse(where, fmt::format("expected a start outside of every solid, but the character overlaps \"{}\"{}{}{}",
                             scene.ids[inside.front()],

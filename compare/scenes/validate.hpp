@@ -19,10 +19,11 @@ void check_scenery(const SceneryDef& scenery, const std::vector<std::string>& id
 /// Answers where a character can stand, exactly. Keeps the boxes of the colliders, so that many places can be asked.
 class FreePlaces {
  public:
-  /// @param scenery must outlive this.
+  /// @param scenery must outlive this; all of it is taken as standing where its points are.
   FreePlaces(const SceneryDef& scenery, const CharacterShape& shape);
 
-  /// The colliders that the character overlaps at `position`, by exact arithmetic. One-way chains are never listed.
+  /// The colliders that the character overlaps at `position`, by exact arithmetic. One-way chains and sensors are
+  /// never listed.
   [[nodiscard]] std::vector<ColliderIndex> overlapped(const Vec2d& position) const;
   [[nodiscard]] bool is_free(const Vec2d& position) const { return overlapped(position).empty(); }
 
@@ -36,7 +37,7 @@ class FreePlaces {
 /// Smallest box around a collider [m]. It has at least one point.
 [[nodiscard]] Box2<double> box_of(const ColliderDef& collider);
 
-/// Refuses a start inside a solid unless the scene asks to resolve it.
+/// Refuses a start inside a solid, where movers are when the scene begins, unless the scene asks to resolve it.
 /// @param where of the start. @param remedy what the user can do about it; may be empty.
 /// @throws InputError naming the solids.
 void check_start(const Scene& scene, const std::string& where, const std::string& remedy = {});

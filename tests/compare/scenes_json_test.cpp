@@ -28,7 +28,7 @@ TEST(JsonScene, every_key_arrives) {
   EXPECT_EQ(scene.steps, 120);
   EXPECT_EQ(scene.start.position, Vec2d(0, 3));
   EXPECT_EQ(scene.start.velocity, Vec2d(0, -40));
-  EXPECT_EQ(scene.ids, (std::vector<std::string>{"paper", "wall", "ledge", "ring"}));
+  EXPECT_EQ(scene.ids, (std::vector<std::string>{"paper", "wall", "ledge", "ring", "lift"}));
   const auto& colliders = scene.scenery.colliders;
   EXPECT_EQ(colliders[0].shape, ColliderDef::Shape::polygon);
   EXPECT_EQ(colliders[0].points[2], Vec2d(4, 0.01));
@@ -38,6 +38,9 @@ TEST(JsonScene, every_key_arrives) {
   ASSERT_EQ(colliders[3].holes.size(), 1U);
   EXPECT_EQ(colliders[3].holes[0][1], Vec2d(18, 2));
   ASSERT_EQ(scene.movers.size(), 1U);
+  EXPECT_EQ(colliders[3].mover, no_mover);
+  EXPECT_EQ(colliders[4].mover, 0U);
+  EXPECT_EQ(colliders[4].points[2], Vec2d(2, 0.25));
   EXPECT_EQ(scene.movers[0].id, "lift");
   EXPECT_EQ(scene.movers[0].loop, MoverDef::Loop::ping_pong);
   EXPECT_EQ(scene.movers[0].path[1].time, 2);
@@ -46,6 +49,47 @@ TEST(JsonScene, every_key_arrives) {
   EXPECT_EQ(scene.input[1].jump, true);
   EXPECT_FALSE(scene.input[1].move.has_value());
   EXPECT_FALSE(scene.respawn_box.has_value());
+}
+
+TEST(JsonScene, sensors_conveyors_and_angles_arrive_standing_and_moving) {
+  const SceneFiles files;
+  const Scene scene = files.load(
+      "room.json",
+      with(with(with(good, "\"chain\": [[5,0],[5,4]]", R"("chain": [[5,0],[5,4]], "sensor": true)"), R"("holes": [)",
+                R"("surface_speed": -2, "holes": [)"),
+           "\"loop\"", R"("surface_speed": 3, "angle": [ { "t": 0.5, "at": 0 }, { "t": 1.5, "at": -2 } ], "loop")"));
+  const auto& colliders = scene.scenery.colliders;
+  EXPECT_FALSE(colliders[0].sensor);
+  EXPECT_TRUE(colliders[1].sensor);
+  EXPECT_EQ(colliders[0].surface_speed, 0);
+  EXPECT_EQ(colliders[3].surface_speed, -2);
+  EXPECT_EQ(colliders[4].surface_speed, 3);
+  ASSERT_EQ(scene.movers[0].turns.size(), 2U);
+  EXPECT_EQ(scene.movers[0].turns[0].time, 0.5);
+  EXPECT_EQ(scene.movers[0].turns[1].at, -2);
+}
+
+TEST(JsonScene, the_colliders_of_several_movers_know_their_own) {
+  const SceneFiles files;
+  const Scene scene = files.load("room.json", with(good, R"("movers": [)", R"("movers": [
+      { "id": "saw", "chain": [[0,8],[1,8]], "path": [ { "t": 0, "at": [0,0] } ] },)"));
+  ASSERT_EQ(scene.movers.size(), 2U);
+  EXPECT_EQ(scene.movers[1].id, "lift");
+  EXPECT_EQ(scene.ids[4], "saw");
+  EXPECT_EQ(scene.scenery.colliders[4].mover, 0U);
+  EXPECT_EQ(scene.ids[5], "lift");
+  EXPECT_EQ(scene.scenery.colliders[5].mover, 1U);
+}
+
+TEST(JsonScene, a_start_is_held_against_movers_where_they_begin_and_never_against_sensors) {
+  const SceneFiles files;
+  // The lift is written around (0, 0) to (2, 0.25) and begins 6 m to the right of that.
+  EXPECT_EQ(files.complaint("in.json", with(good, "\"position\": [0, 3]", "\"position\": [7, 0.125]")),
+            ": /character/position: expected a start outside of every solid, but the character overlaps \"lift\"; "
+            "\"start_overlap\": \"resolve\" beside it asks to move it out");
+  const Scene sensor = files.load("sensor.json", with(with(good, "\"position\": [0, 3]", "\"position\": [7, 0.125]"),
+                                                      "\"loop\"", "\"sensor\": true, \"loop\""));
+  EXPECT_EQ(sensor.start.position, Vec2d(7, 0.125));
 }
 
 TEST(JsonScene, what_is_left_out_has_the_defaults_of_the_types) {
@@ -210,11 +254,20 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"negative_step", "\"step\": 0", "\"step\": -1", ": /input/0/step: expected a whole number from 0"},
         Bad{"missing_picture", "\"chain\": [[5,0],[5,4]]", "\"picture\": \"a.png\"",
             ": /scenery/1/picture: a.png: expected a file that exists"},
-        Bad{"sensor", "\"chain\": [[5,0],[5,4]]", "\"sensor\": true, \"chain\": [[5,0],[5,4]]",
-            ": /scenery/1/sensor: \"sensor\" needs sensors, which this version"},
-        Bad{"conveyor", "\"chain\": [[5,0],[5,4]]", "\"surface_speed\": 1, \"chain\": [[5,0],[5,4]]",
-            ": /scenery/1/surface_speed: "},
-        Bad{"angle", "\"loop\"", "\"angle\": 1, \"loop\"", ": /movers/0/angle: "},
+        Bad{"one_way_sensor", "\"one_way\": [0, 1]", "\"one_way\": [0, 1], \"sensor\": true",
+            ": /scenery/2/chain: \"ledge\": "},
+        Bad{"sensor_with_speed", "\"chain\": [[5,0],[5,4]]",
+            "\"sensor\": true, \"surface_speed\": 1, \"chain\": [[5,0],[5,4]]",
+            ": /scenery/1/surface_speed: expected only beside what blocks"},
+        Bad{"sensor_picture", "\"chain\": [[5,0],[5,4]]", "\"sensor\": true, \"picture\": \"a.png\"",
+            ": /scenery/1/sensor: expected only beside \"polygon\" or \"chain\""},
+        Bad{"angle_is_a_number", "\"loop\"", "\"angle\": 1, \"loop\"", ": /movers/0/angle: expected an array"},
+        Bad{"angle_back_in_time", "\"loop\"",
+            "\"angle\": [ { \"t\": 1, \"at\": 0 }, { \"t\": 1, \"at\": 2 } ], \"loop\"",
+            ": /movers/0/angle/1/t: expected a time after the one before"},
+        Bad{"loop_that_jumps", "\"ping_pong\"", "\"loop\"",
+            ": /movers/0/path/1/at: expected the place where the path begins"},
+        Bad{"far_path", "\"at\": [6,3]", "\"at\": [6,3e6]", ": /movers/0/path/1/at: expected coordinates within 2e6 m"},
         Bad{"step_height", "\"velocity\"", "\"step_height\": 1, \"velocity\"", ": /character/step_height: "},
         Bad{"bodies", "\"name\"", "\"bodies\": [], \"name\"",
             ": /bodies: \"bodies\" needs dynamic bodies, which this version does not have"},

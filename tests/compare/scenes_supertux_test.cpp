@@ -118,11 +118,16 @@ TEST(SuperTux, a_tilemap_with_a_path_is_made_of_movers) {
   const SceneFiles files;
   const std::string moving =
       R"((path (name "p") (path (mode "pingpong") (node (x 32) (y 0) (time 2)) (node (x 32) (y 64))))
-    (tilemap (solid #t) (path-ref "p") (width 2) (height 1) (tiles 0 1)) (tilemap)";
+    (tilemap (solid #t) (path-ref "p") (width 2) (height 1) (tiles 1 1)) (tilemap)";
   const Scene scene = load_level(files, with(level, "(tilemap", moving));
-  EXPECT_EQ(scene.ids.size(), 4U);
+  // The two tiles that block are those of one mover.
+  EXPECT_EQ(scene.ids, (std::vector<std::string>{"l0/t0,0", "l0/t1,0", "t0,2", "t1,2", "t2,2", "t3,2"}));
   ASSERT_EQ(scene.movers.size(), 1U);
-  EXPECT_EQ(scene.movers[0].shape.points[3], Vec2d(1, 0));
+  EXPECT_EQ(scene.movers[0].id, "l0");
+  EXPECT_EQ(scene.scenery.colliders[0].mover, 0U);
+  EXPECT_EQ(scene.scenery.colliders[1].mover, 0U);
+  EXPECT_EQ(scene.scenery.colliders[2].mover, no_mover);
+  EXPECT_EQ(scene.scenery.colliders[1].points[3], Vec2d(1, 0));
   EXPECT_EQ(scene.movers[0].loop, MoverDef::Loop::ping_pong);
   ASSERT_EQ(scene.movers[0].path.size(), 2U);
   EXPECT_EQ(scene.movers[0].path[0].at, Vec2d(1, 0));
@@ -239,7 +244,8 @@ TEST(SuperTuxData, every_level_of_the_first_world_loads_and_begins_outside_of_ev
   for (const std::string& path : paths) {
     for (const Scene& scene : load_scenes(path)) {
       const auto hull = scene.character.shape.hull();
-      EXPECT_TRUE(ExactScenery(scene.scenery, {hull.begin(), hull.end()}).overlapped(scene.start.position).empty())
+      EXPECT_TRUE(
+          ExactScenery(scenery_at(scene, 0), {hull.begin(), hull.end()}).overlapped(scene.start.position).empty())
           << path;
     }
   }

@@ -1,0 +1,46 @@
+/// What moves in a scene: a path through time that colliders go along.
+#pragma once
+
+#include <paperproof/types.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace paperproof::compare {
+
+/// A body that goes along a path; the colliders with its number in `ColliderDef::mover` go with it. Their points are
+/// where they are at offset (0, 0) and angle 0; they turn about the point (0, 0) that they are written around, and are
+/// then moved by the offset.
+struct MoverDef {
+  enum class Loop : std::uint8_t {
+    once,       ///< Stays at the last waypoint.
+    loop,       ///< Begins anew at the first one. Offsets end where they began; angles go on from where they ended.
+    ping_pong,  ///< Goes back the same way, in the same time.
+  };
+  struct Waypoint {
+    double time = 0;          ///< [s], ascending
+    Vec2d at{Vec2d::Zero()};  ///< Offset [m].
+  };
+  struct Turn {
+    double time = 0;  ///< [s], ascending
+    double at = 0;    ///< Angle, counter-clockwise [radians].
+  };
+  std::string id;
+  std::vector<Waypoint> path;  ///< At least one.
+  Loop loop = Loop::once;
+  std::vector<Turn> turns{};  ///< Empty: it does not turn.
+};
+
+/// Where the mover is `time` seconds after the start of the scene [m]: linear between waypoints, at a waypoint exactly
+/// that, before the first one there. The same bits on every machine.
+[[nodiscard]] Vec2d offset_at(const MoverDef& mover, double time);
+
+/// How far it is turned at that time [radians], in the same way.
+[[nodiscard]] double angle_at(const MoverDef& mover, double time);
+
+/// How the mover goes in step number `step`: from where it is at `step * dt` to where it is at `(step + 1) * dt`. Both
+/// come from the absolute time, so that one step begins where the one before ended, bit for bit.
+[[nodiscard]] MoverMotion<double> motion_in_step(const MoverDef& mover, int step, double dt);
+
+}  // namespace paperproof::compare

@@ -1,0 +1,110 @@
+#include "scenes/mover.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "scenes/scene.hpp"
+
+namespace paperproof::compare {
+namespace {
+
+using Loop = MoverDef::Loop;
+
+/// From (1, 0) at 0.5 s by way of (1, 3) at 2.5 s to (0.1, 3) at 2.75 s: times and places that no product hits by luck.
+MoverDef crooked(Loop loop) {
+  return {.id = "crooked",
+          .path = {{.time = 0.5, .at = {1, 0}}, {.time = 2.5, .at = {1, 3}}, {.time = 2.75, .at = {0.1, 3}}},
+          .loop = loop};
+}
+
+TEST(MoverOffset, is_the_waypoint_at_its_time_exactly_and_linear_between) {
+  for (const Loop loop : {Loop::once, Loop::loop, Loop::ping_pong}) {
+    EXPECT_EQ(offset_at(crooked(loop), 0.5), Vec2d(1, 0));
+    EXPECT_EQ(offset_at(crooked(loop), 2.5), Vec2d(1, 3));
+    EXPECT_EQ(offset_at(crooked(loop), 1), Vec2d(1, 3 * (1 - 0.5) / (2.5 - 0.5)));
+  }
+  EXPECT_EQ(offset_at(crooked(Loop::once), 2.75), Vec2d(0.1, 3));
+  EXPECT_EQ(offset_at(crooked(Loop::ping_pong), 2.75), Vec2d(0.1, 3));
+}
+
+TEST(MoverOffset, waits_at_the_first_waypoint_before_its_time) {
+  for (const Loop loop : {Loop::once, Loop::loop, Loop::ping_pong}) {
+    EXPECT_EQ(offset_at(crooked(loop), 0), Vec2d(1, 0));
+    EXPECT_EQ(offset_at(crooked(loop), 0.4999), Vec2d(1, 0));
+  }
+}
+
+TEST(MoverOffset, stays_at_the_last_waypoint_of_a_path_that_runs_once) {
+  EXPECT_EQ(offset_at(crooked(Loop::once), 3), Vec2d(0.1, 3));
+  EXPECT_EQ(offset_at(crooked(Loop::once), 1e9), Vec2d(0.1, 3));
+}
+
+TEST(MoverOffset, of_a_loop_repeats_with_its_length_to_the_bit) {
+  const double length = 2.75 - 0.5;
+  for (const double time : {0.5, 0.75, 1.1, 2.5, 2.6}) {
+    // Multiples of 1/64 s are exact, and so is every sum of them.
+    const double exact = std::round(time * 64) / 64;
+    for (const double rounds : {1.0, 2.0, 1000.0, 1e6})
+      EXPECT_EQ(offset_at(crooked(Loop::loop), exact + rounds * length), offset_at(crooked(Loop::loop), exact));
+  }
+}
+
+TEST(MoverOffset, of_a_ping_pong_comes_back_the_same_way) {
+  const MoverDef mover = crooked(Loop::ping_pong);
+  for (const double before_the_end : {0.0, 0.125, 0.25, 1.0, 2.25}) {
+    EXPECT_EQ(offset_at(mover, 2.75 + before_the_end), offset_at(mover, 2.75 - before_the_end));
+    EXPECT_EQ(offset_at(mover, 2.75 + before_the_end + 1e6 * 4.5), offset_at(mover, 2.75 - before_the_end));
+  }
+}
+
+TEST(MoverOffset, of_a_single_waypoint_never_changes) {
+  for (const Loop loop : {Loop::once, Loop::loop, Loop::ping_pong}) {
+    const MoverDef parked{.id = "parked", .path = {{.time = 1, .at = {4, 5}}}, .loop = loop};
+    for (const double time : {0.0, 1.0, 7.25}) EXPECT_EQ(offset_at(parked, time), Vec2d(4, 5));
+  }
+}
+
+TEST(MoverOffset, one_step_begins_where_the_one_before_ended) {
+  const MoverDef mover = crooked(Loop::ping_pong);
+  const double dt = 1.0 / 60;
+  for (int step = 1; step < 3600; ++step) {
+    EXPECT_EQ(motion_in_step(mover, step, dt).from, motion_in_step(mover, step - 1, dt).to);
+    EXPECT_EQ(motion_in_step(mover, step, dt).from, offset_at(mover, step * dt));
+  }
+}
+
+TEST(MoverAngle, is_zero_without_turns) { EXPECT_EQ(angle_at(crooked(Loop::loop), 3), 0); }
+
+TEST(MoverAngle, goes_on_from_round_to_round_and_comes_back_in_a_ping_pong) {
+  MoverDef mover{.id = "fan", .path = {{}}, .turns = {{.time = 0, .at = 1}, {.time = 2, .at = 4}}};
+  EXPECT_EQ(angle_at(mover, 1), 2.5);
+  EXPECT_EQ(angle_at(mover, 5), 4);
+  mover.loop = Loop::loop;
+  EXPECT_EQ(angle_at(mover, 2), 4);  // the end of the first round is the beginning of the second
+  EXPECT_EQ(angle_at(mover, 5), 1 + 2 * 3 + 1.5);
+  mover.loop = Loop::ping_pong;
+  EXPECT_EQ(angle_at(mover, 3), 2.5);
+  EXPECT_EQ(angle_at(mover, 4), 1);
+}
+
+TEST(SceneryAt, turns_about_the_origin_of_the_shape_and_then_moves) {
+  Scene scene;
+  scene.scenery.colliders = {
+      {.points = {{0, 0}, {1, 0}, {0, 1}}},
+      {.shape = ColliderDef::Shape::chain, .points = {{0, 0}, {2, 0}}, .one_way = Vec2d{0, 1}, .mover = 0}};
+  scene.movers = {{.id = "door",
+                   .path = {{.time = 0, .at = {5, 6}}},
+                   .turns = {{.time = 0, .at = 0}, {.time = 1, .at = std::numbers::pi / 2}}}};
+  EXPECT_EQ(scenery_at(scene, 0).colliders[1].points[1], Vec2d(7, 6));
+  const SceneryDef turned = scenery_at(scene, 1);
+  EXPECT_EQ(turned.colliders[0].points, scene.scenery.colliders[0].points);
+  EXPECT_EQ(turned.colliders[1].mover, no_mover);
+  EXPECT_EQ(turned.colliders[1].points[0], Vec2d(5, 6));
+  EXPECT_LE((turned.colliders[1].points[1] - Vec2d(5, 8)).norm(), 1e-15);
+  EXPECT_LE((*turned.colliders[1].one_way - Vec2d(-1, 0)).norm(), 1e-15);
+}
+
+}  // namespace
+}  // namespace paperproof::compare
