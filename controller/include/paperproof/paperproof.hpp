@@ -5,6 +5,7 @@
 #include <paperproof/character.hpp>
 #include <paperproof/controller.hpp>
 #include <paperproof/pixel_tiles.hpp>
+#include <paperproof/plan.hpp>
 #include <paperproof/scenery.hpp>
 #include <paperproof/technique.hpp>
 #include <paperproof/techniques.hpp>

@@ -75,8 +75,8 @@ class Scenery {
   /// every collider and cuts polygons into convex pieces.
   /// @throws InvalidScenery on: fewer than 3 (polygon) or 2 (chain) points, a coordinate that is not finite or beyond
   ///   2e6 m, repeated neighbouring points, zero area, a ring that crosses or touches itself or another ring of its
-  ///   polygon, a hole that is not inside, a `one_way` that is zero, not finite or on a polygon, a sensor that is one-way, a
-  ///   `surface_speed` that is not finite, a `mover` beyond the number of colliders.
+  ///   polygon, a hole that is not inside, a `one_way` that is zero, not finite or on a polygon, a sensor that is
+  ///   one-way, a `surface_speed` that is not finite, a `mover` beyond the number of colliders.
   explicit Scenery(const SceneryDef& def);
 
   [[nodiscard]] std::span<const PieceInfo> pieces() const noexcept { return pieces_; }

@@ -3,6 +3,7 @@
 
 #include <paperproof/broad_phase.hpp>
 #include <paperproof/character.hpp>
+#include <paperproof/plan.hpp>
 #include <paperproof/scenery.hpp>
 #include <paperproof/technique.hpp>
 #include <paperproof/tolerances.hpp>
@@ -68,6 +69,7 @@ struct PixelTileSet;
 struct TechniqueDef {
   TechniqueKind kind = TechniqueKind::octagon_sweep;
   BroadPhaseKind broad_phase = BroadPhaseKind::tree;
+  Stages stages{};
   ArticleKnobs article{};
   int sweep_iterations = 12;  ///< `octagon_sweep`: impacts per step before the rest of the motion is dropped.
   /// `pixel_tile`: the level as tiles (pixel_tiles.hpp), `article.raster_pixels_per_metre` fine. None: they are made
