@@ -11,7 +11,8 @@ constexpr std::size_t max_depth = 64;
 
 }  // namespace
 
-BoxTree::BoxTree(std::vector<Box2<double>> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
+BoxTree::BoxTree(std::vector<Box2<double>> boxes, std::vector<std::uint32_t> names)
+    : boxes_(std::move(boxes)), names_(std::move(names)), order_(boxes_.size()) {
   if (boxes_.empty()) return;
   std::iota(order_.begin(), order_.end(), 0U);
   nodes_.reserve(boxes_.size());
@@ -59,7 +60,7 @@ std::vector<std::uint32_t> BoxTree::meeting(const Box2<double>& box) const {
       waiting[size++] = node.first;
     }
     for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-      if (boxes_[order_[i]].overlaps(box)) found.push_back(order_[i]);
+      if (boxes_[order_[i]].overlaps(box)) found.push_back(names_[order_[i]]);
     }
   }
   std::sort(found.begin(), found.end());

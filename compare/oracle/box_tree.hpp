@@ -12,9 +12,10 @@ namespace paperproof::compare::detail {
 class BoxTree {
  public:
   BoxTree() = default;
-  explicit BoxTree(std::vector<Box2<double>> boxes);
+  /// @param names what each box is called in an answer.
+  BoxTree(std::vector<Box2<double>> boxes, std::vector<std::uint32_t> names);
 
-  /// The indices of the boxes that meet `box` (closed), ascending.
+  /// The names of the boxes that meet `box` (closed), ascending.
   [[nodiscard]] std::vector<std::uint32_t> meeting(const Box2<double>& box) const;
 
  private:
@@ -26,6 +27,7 @@ class BoxTree {
   void build(std::uint32_t node, std::uint32_t first, std::uint32_t count);
 
   std::vector<Box2<double>> boxes_;
+  std::vector<std::uint32_t> names_;
   std::vector<std::uint32_t> order_;
   std::vector<Node> nodes_;
 };

@@ -19,8 +19,8 @@ Approximate least(const Approximate& a, const Approximate& b) noexcept {
 /// The exact product of the separation and the length of the edge: for a left normal n of the edge, n·x = edge × x.
 template <class Number>
 Number scaled_separation(const Convert<Number>& number, const Candidate& axis, const ConvexPart& part,
-                         std::span<const Vec2d> octagon, const Vec2d& position) {
-  const Point<Number> from = convert(number, position);
+                         std::span<const Vec2d> octagon, const FramePlace& place) {
+  const Point<Number> from = place.in(number);
   const Point<Number> edge = convert(number, axis.end) - convert(number, axis.start);
   const auto near_side = [&](const Vec2d& corner) { return cross(edge, convert(number, corner)); };
   const auto far_side = [&](const Vec2d& vertex) { return -cross(edge, convert(number, vertex) - from); };
@@ -45,14 +45,14 @@ double length_of(const Candidate& axis) {
 }
 
 double exact_separation(const Candidate& axis, const ConvexPart& part, std::span<const Vec2d> octagon,
-                        const Vec2d& position) {
+                        const FramePlace& place) {
   constexpr double good_enough = 1e-13;  // relative; the length that it is divided by has a few ulp of its own
-  const Approximate quick = scaled_separation(Convert<Approximate>{}, axis, part, octagon, position);
+  const Approximate quick = scaled_separation(Convert<Approximate>{}, axis, part, octagon, place);
   if (quick.radius <= good_enough * std::abs(quick.value)) return quick.value / length_of(axis);
-  int unit = lowest_bit(position);
+  int unit = place.unit();
   for (const Vec2d& corner : octagon) unit = std::min(unit, lowest_bit(corner));
   for (const Vec2d& vertex : part.points) unit = std::min(unit, lowest_bit(vertex));
-  const Integer exact = scaled_separation(Convert<Integer>{unit}, axis, part, octagon, position);
+  const Integer exact = scaled_separation(Convert<Integer>{unit}, axis, part, octagon, place);
   return to_double(exact, 2 * unit) / length_of(axis);
 }
 
@@ -69,7 +69,8 @@ double estimate_of(const Candidate& axis, const ConvexPart& part, std::span<cons
 
 }  // namespace
 
-Axis best_axis(const ConvexPart& part, std::span<const Vec2d> octagon, const Vec2d& position) {
+Axis best_axis(const ConvexPart& part, std::span<const Vec2d> octagon, const FramePlace& place) {
+  const Vec2d position = place.rounded();
   std::vector<Candidate> axes;
   const std::size_t n = part.points.size();
   for (std::size_t i = 0; i < n; ++i) {
@@ -88,11 +89,12 @@ Axis best_axis(const ConvexPart& part, std::span<const Vec2d> octagon, const Vec
   for (const Vec2d& vertex : part.points) size = std::max(size, (vertex - position).cwiseAbs().maxCoeff());
   for (const Vec2d& corner : octagon) size = std::max(size, corner.cwiseAbs().maxCoeff());
 
-  const double window = size * 0x1p-46;  // more than the estimates can be off
+  // More than the estimates can be off: among movers the place itself is rounded.
+  const double window = size * 0x1p-46 + (place.moved() ? place.size() * 0x1p-48 : 0);
   Axis result{-std::numeric_limits<double>::infinity(), Vec2d::Zero()};
   for (const Candidate& axis : axes) {
     if (axis.estimate < best - window) continue;
-    const double separation = exact_separation(axis, part, octagon, position);
+    const double separation = exact_separation(axis, part, octagon, place);
     if (separation <= result.separation) continue;
     const Vec2d edge = (axis.end - axis.start) / length_of(axis);
     result = {separation, Vec2d(-edge.y(), edge.x())};

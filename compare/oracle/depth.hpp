@@ -3,6 +3,7 @@
 
 #include "oracle/convex_parts.hpp"
 #include "oracle/predicates.hpp"
+#include "oracle/way.hpp"
 
 #include <optional>
 #include <span>
@@ -15,6 +16,7 @@ struct Axis {
 };
 
 /// The axis, of all edge normals of the two, along which they are separated best. Rounded once from the exact value.
-[[nodiscard]] Axis best_axis(const ConvexPart& part, std::span<const Vec2d> octagon, const Vec2d& position);
+/// @param place in the frame of the part.
+[[nodiscard]] Axis best_axis(const ConvexPart& part, std::span<const Vec2d> octagon, const FramePlace& place);
 
 }  // namespace paperproof::compare::detail

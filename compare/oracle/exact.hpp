@@ -1,15 +1,18 @@
 /// Exact answers about an octagon and solids, in rational arithmetic.
 ///
 /// No geometry is shared with the controller, and the algorithms differ on purpose: nothing is cut into convex pieces
-/// and nothing is moved to configuration space. A solid is overlapped where an edge of its uncut boundary enters the
-/// open octagon (Cyrus-Beck, strict) or the octagon lies wholly inside; a way is judged as the open hull of all its
-/// positions; the time of impact is the earliest of all times at which a corner of one meets an edge of the other.
+/// and nothing is moved to configuration space. What goes along with a mover is judged in the frame of that mover,
+/// where the octagon makes the relative motion: a sum of doubles and products of two, so it is exact as well. A solid
+/// is overlapped where an edge of its uncut boundary enters the open octagon (Cyrus-Beck, strict) or the octagon lies
+/// wholly inside; a way is judged as the open hull of all its positions; the time of impact is the earliest of all
+/// times at which a corner of one meets an edge of the other.
 ///
 /// Every decision is tried first in doubles that carry a rigorous bound of their own rounding errors, and is made in
 /// unlimited integers (all doubles scaled by one power of two) where that bound leaves it open.
 #pragma once
 
 #include <paperproof/scenery.hpp>
+#include <paperproof/technique.hpp>
 
 #include <boost/multiprecision/cpp_int.hpp>
 
@@ -22,21 +25,40 @@ namespace paperproof::compare {
 
 using Rational = boost::multiprecision::cpp_rational;
 
+/// A place of the octagon at a moment of a step: every mover is at from + fraction (to - from), unrounded. A position
+/// alone stands for that position while every mover is at offset zero.
+struct Place {
+  Vec2d position;
+  std::span<const MoverMotion<double>> movers{};  ///< One for each mover, or none. Not copied.
+  double fraction = 0;                            ///< Of the step, in [0, 1].
+
+  template <class Derived>
+  Place(const Eigen::MatrixBase<Derived>& at) : position(at) {}  // NOLINT(google-explicit-constructor): a place as well
+  Place(double x, double y) : position(x, y) {}
+  Place(const PathPoint<double>& at, std::span<const MoverMotion<double>> motions)
+      : position(at.position), movers(motions), fraction(at.fraction) {}
+  Place(const Vec2d& at, std::span<const MoverMotion<double>> motions, double when)
+      : position(at), movers(motions), fraction(when) {}
+};
+
 /// When and where a translation first touches a collider on its way to overlapping it.
 struct ExactImpact {
   ColliderIndex collider = 0;
-  Rational fraction;  ///< in [0, 1)
+  Rational fraction;  ///< Of the way that was asked about, in [0, 1).
   /// Unit, from the obstacle towards the octagon, rounded. Where two facets meet at once it is the one more opposed to
   /// the motion.
   Vec2d normal{Vec2d::Zero()};
-  Vec2d point{Vec2d::Zero()};  ///< On the obstacle, the middle of what touches, rounded.
+  Vec2d point{Vec2d::Zero()};  ///< On the obstacle at that moment, the middle of what touches, rounded.
   /// False where the normal is no side of the solids taken together: it belongs to an edge that an abutting collider
   /// covers all along the contact, or to a vertex that another collider passes on that side (a seam).
   bool exposed = true;
 };
 
 /// The solids of one run with the exact questions that can be asked of them. The octagon at position p is the exact sum
-/// of p and each point, unrounded. Immutable after construction; may be shared between threads.
+/// of p and each point, unrounded. Sensors are no solids. Immutable after construction; may be shared between threads.
+///
+/// Wherever a place is asked for, its movers are one for each mover of the scenery, or none.
+/// @throws std::invalid_argument from every question whose movers are another number of them.
 class ExactScenery {
  public:
   /// @param scenery as run; every double is taken as the rational it is. Copied.
@@ -49,37 +71,40 @@ class ExactScenery {
 
   /// The colliders whose interior (polygons) or line (two-sided chains) meets the octagon's open interior. One-way
   /// chains may be overlapped and are never listed.
-  [[nodiscard]] std::vector<ColliderIndex> overlapped(const Vec2d& position) const;
+  [[nodiscard]] std::vector<ColliderIndex> overlapped(const Place& at) const;
 
-  /// The colliders that the open octagon meets anywhere on the straight way from `from` to `to`. A one-way segment
-  /// counts where it blocks: the whole octagon on the side of its normal at `from`, and motion against the normal.
-  [[nodiscard]] std::vector<ColliderIndex> met(const Vec2d& from, const Vec2d& to) const;
+  /// The colliders that the open octagon meets anywhere on the way from `from` to `to`, which is straight in the frame
+  /// of every mover: so it is within a step, and from a place in one step to a place in a later one it is the shortest.
+  /// A one-way segment counts where it blocks: the whole octagon on the side of its normal at `from`, and relative
+  /// motion against the normal.
+  [[nodiscard]] std::vector<ColliderIndex> met(const Place& from, const Place& to) const;
 
   /// Whether the open octagon meets `collider` anywhere on the straight way, as `met`.
-  [[nodiscard]] bool meets(const Vec2d& from, const Vec2d& to, ColliderIndex collider) const;
+  [[nodiscard]] bool meets(const Place& from, const Place& to, ColliderIndex collider) const;
   /// Whether `collider` is overlapped, as `overlapped`.
-  [[nodiscard]] bool overlaps(const Vec2d& position, ColliderIndex collider) const;
+  [[nodiscard]] bool overlaps(const Place& at, ColliderIndex collider) const;
 
-  /// The first impact with `collider` when moving from `position` by `displacement` (`from + displacement` unrounded),
-  /// or none. Where the octagon overlaps it at once the fraction is 0 and the normal that of the shortest way out.
-  [[nodiscard]] std::optional<ExactImpact> time_of_impact(const Vec2d& position, const Vec2d& displacement,
+  /// The first impact with `collider` when moving by `displacement` (unrounded) while its mover makes the motion of a
+  /// whole step, beginning at the offset of `from`; or none. Where the octagon overlaps it at once the fraction is 0
+  /// and the normal that of the shortest way out.
+  [[nodiscard]] std::optional<ExactImpact> time_of_impact(const Place& from, const Vec2d& displacement,
                                                           ColliderIndex collider) const;
   /// The impacts with all colliders that the displacement meets, each as if it were alone; by index. A collider that is
   /// not convex may be met in several places (the two sides of a wedge): after its first impact follow those with each
   /// of its edges that are met, each as if it were alone.
-  [[nodiscard]] std::vector<ExactImpact> impacts(const Vec2d& position, const Vec2d& displacement) const;
+  [[nodiscard]] std::vector<ExactImpact> impacts(const Place& from, const Vec2d& displacement) const;
   /// The earliest impact over all colliders (ties: larger normal.y, then lower index).
-  [[nodiscard]] std::optional<ExactImpact> first_impact(const Vec2d& position, const Vec2d& displacement) const;
+  [[nodiscard]] std::optional<ExactImpact> first_impact(const Place& from, const Vec2d& displacement) const;
 
   /// How deep the octagon is in `collider` [m]: the largest, over its convex parts, of the shortest translation that
   /// frees the part. 0 where it does not overlap. Rounded from the exact value.
-  [[nodiscard]] double penetration(const Vec2d& position, ColliderIndex collider) const;
+  [[nodiscard]] double penetration(const Place& at, ColliderIndex collider) const;
 
   /// Separation along the best axis [m], for the nearest part of `collider`; negative where it overlaps.
-  [[nodiscard]] double separation(const Vec2d& position, ColliderIndex collider) const;
+  [[nodiscard]] double separation(const Place& at, ColliderIndex collider) const;
 
   /// Colliders whose boxes come within `within` metres of the box of the octagon's way from `from` to `to`.
-  [[nodiscard]] std::vector<ColliderIndex> near(const Vec2d& from, const Vec2d& to, double within) const;
+  [[nodiscard]] std::vector<ColliderIndex> near(const Place& from, const Place& to, double within) const;
 
   [[nodiscard]] const SceneryDef& scenery() const noexcept;
 

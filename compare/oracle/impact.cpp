@@ -35,7 +35,7 @@ struct Frame {
 template <class Number>
 Frame<Number> make_frame(const World& world, const Way& way, int unit) {
   const Convert<Number> number{unit};
-  return {number, convert(number, way.from), way.displacement(number), convert_octagon(number, world.points())};
+  return {number, way.from.in(number), way.displacement(number), convert_octagon(number, world.points())};
 }
 
 /// The point `q`, moving by `way`, against the edge from `start` along `edge`.
@@ -250,7 +250,7 @@ bool covered(const World& world, const Edge& edge, const Range& range) {
   const auto place = [&](const Vec2d& p) { return (p - edge.a).dot(along); };
   std::vector<std::pair<double, double>> covers;
   const Box2<double> box{range.first.cwiseMin(range.last), range.first.cwiseMax(range.last)};
-  for (const std::uint32_t i : world.edge_tree().meeting(box)) {
+  for (const std::uint32_t i : world.group_of(edge.collider).edge_tree.meeting(box)) {
     const Edge& other = world.edges()[i];
     if (other.collider == edge.collider || world.solids()[other.collider].kind != Kind::polygon) continue;
     if (turn(edge.a, edge.b, other.a) != Sign::zero || turn(edge.a, edge.b, other.b) != Sign::zero) continue;
@@ -290,7 +290,8 @@ bool goes_along_normal(const Vec2d& edge_start, const Vec2d& edge_end, const Vec
 bool passed(const World& world, const Touch& touch, const Vec2d& vertex) {
   const Vec2d& start = world.points()[touch.event.part];
   const Vec2d& end = world.points()[(touch.event.part + 1U) % world.points().size()];
-  for (const std::uint32_t i : world.edge_tree().meeting({vertex, vertex})) {
+  const Group& group = world.group_of(world.edges()[touch.event.edge].collider);
+  for (const std::uint32_t i : group.edge_tree.meeting({vertex, vertex})) {
     const Edge& other = world.edges()[i];
     if (i == touch.event.edge || world.solids()[other.collider].kind == Kind::one_way) continue;
     if (turn(other.a, other.b, vertex) != Sign::zero) continue;
@@ -319,19 +320,21 @@ bool is_exposed(const World& world, const std::vector<Touch>& touches, const Tou
 
 }  // namespace
 
-ExactImpact find_impact(const World& world, const Vec2d& from, const Vec2d& displacement, ColliderIndex collider,
+ExactImpact find_impact(const World& world, const Way& way, ColliderIndex collider,
                         std::span<const std::uint32_t> edges) {
-  const Way way = Way::by(from, displacement);
   const Frame<Integer> frame = make_frame<Integer>(world, way, world.unit_of(way, collider));
   const std::vector<Touch> touches = earliest(world, frame, candidates(world, way, edges));
-  const Touch& chosen = choose(world, frame, touches, displacement);
+  const Touch& chosen = choose(world, frame, touches, way.rounded_displacement());
   const Vec2d normal = left_normal(world, chosen);
   const Range range = range_of(world, touches, chosen, normal);
   using boost::multiprecision::cpp_int;
+  const MoverMotion<double>& mover = way.from.mover;
+  const double fraction = ratio(chosen.timing.numerator, chosen.timing.denominator);
+  const Vec2d offset = way.from.offset() + fraction * (mover.to - mover.from);
   return ExactImpact{.collider = collider,
                      .fraction = Rational(cpp_int(chosen.timing.numerator), cpp_int(chosen.timing.denominator)),
                      .normal = normal,
-                     .point = (range.first + range.last) / 2,
+                     .point = (range.first + range.last) / 2 + offset,
                      .exposed = is_exposed(world, touches, chosen, range, normal)};
 }
 

@@ -8,10 +8,10 @@
 
 namespace paperproof::compare::detail {
 
-/// The first touch with `collider` on the way from `from` by `displacement`.
+/// The first touch with `collider` on a way in its frame, as a fraction of that way.
 /// @param edges those of the collider that the octagon enters on that way, which it does not overlap at the start; at
 ///   least one.
-[[nodiscard]] ExactImpact find_impact(const World& world, const Vec2d& from, const Vec2d& displacement,
-                                      ColliderIndex collider, std::span<const std::uint32_t> edges);
+[[nodiscard]] ExactImpact find_impact(const World& world, const Way& way, ColliderIndex collider,
+                                      std::span<const std::uint32_t> edges);
 
 }  // namespace paperproof::compare::detail

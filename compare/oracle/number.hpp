@@ -70,6 +70,11 @@ using Integer =
   return exponent - 53 + std::countr_zero(mantissa);
 }
 
+/// The lowest bit that the exact product of two doubles can have set.
+[[nodiscard]] inline int lowest_bit_of_product(double a, double b) noexcept {
+  return a == 0 || b == 0 ? std::numeric_limits<int>::max() : lowest_bit(a) + lowest_bit(b);
+}
+
 /// Turns doubles into numbers of one kind. Integers count units of 2^unit, where `unit` is no larger than the lowest
 /// bit of anything that is converted.
 template <class Number>
@@ -79,6 +84,7 @@ template <>
 struct Convert<Approximate> {
   int unit = 0;
   [[nodiscard]] Approximate operator()(double x) const noexcept { return {x, 0}; }
+  [[nodiscard]] Approximate product(double a, double b) const noexcept { return (*this)(a) * (*this)(b); }
 };
 
 template <>
@@ -91,6 +97,13 @@ struct Convert<Integer> {
     const int shift = exponent - 53 - unit;
     if (shift < 0) return Integer(mantissa / (std::int64_t{1} << -shift));  // exact: those bits are zero
     return Integer(mantissa) << shift;
+  }
+  /// `unit` is no larger than the sum of the lowest bits of the two.
+  [[nodiscard]] Integer product(double a, double b) const {
+    if (a == 0 || b == 0) return 0;
+    const Convert first{lowest_bit(a)};
+    const Convert second{lowest_bit(b)};
+    return (first(a) * second(b)) << (first.unit + second.unit - unit);
   }
 };
 

@@ -1,5 +1,6 @@
 #include "oracle/world.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace paperproof::compare::detail {
@@ -80,21 +81,50 @@ World::World(const SceneryDef& scenery, std::vector<Vec2d> points)
   witness_ = find_witness(points_);
   points_box_ = box_around(points_);
   points_unit_ = std::min(lowest_bit(points_), detail::lowest_bit(witness_));
-  std::vector<Box2<double>> boxes;
   for (ColliderIndex i = 0; i < scenery_.colliders.size(); ++i) {
     const ColliderDef& def = scenery_.colliders[i];
     solids_.push_back({.kind = Kind::polygon,
+                       .group = find_group(def),
                        .first_edge = static_cast<std::uint32_t>(edges_.size()),
                        .edge_count = 0,
                        .unit = std::numeric_limits<int>::max(),
                        .box = box_around(def.points)});
     def.shape == ColliderDef::Shape::polygon ? add_polygon(i) : add_chain(i);
-    boxes.push_back(solids_.back().box);
+    groups_[solids_.back().group].colliders.push_back(i);
+    if (def.mover != no_mover) mover_count_ = std::max(mover_count_, std::size_t{def.mover} + 1);
   }
-  solid_tree_ = BoxTree(std::move(boxes));
-  boxes.clear();
-  for (const Edge& edge : edges_) boxes.push_back({edge.a.cwiseMin(edge.b), edge.a.cwiseMax(edge.b)});
-  edge_tree_ = BoxTree(std::move(boxes));
+  for (Group& group : groups_) build_trees(group);
+}
+
+std::uint32_t World::find_group(const ColliderDef& def) {
+  const auto known = std::find_if(groups_.begin(), groups_.end(), [&](const Group& group) {
+    return group.mover == def.mover && group.sensor == def.sensor;
+  });
+  const auto index = static_cast<std::uint32_t>(known - groups_.begin());
+  if (known == groups_.end()) {
+    groups_.emplace_back();
+    groups_.back().mover = def.mover;
+    groups_.back().sensor = def.sensor;
+  }
+  return index;
+}
+
+void World::build_trees(Group& group) const {
+  std::vector<Box2<double>> solid_boxes;
+  std::vector<Box2<double>> edge_boxes;
+  std::vector<std::uint32_t> edge_names;
+  group.box = solids_[group.colliders.front()].box;
+  for (const ColliderIndex collider : group.colliders) {
+    const Solid& solid = solids_[collider];
+    group.box = group.box.merged(solid.box);
+    solid_boxes.push_back(solid.box);
+    for (std::uint32_t i = solid.first_edge; i < solid.first_edge + solid.edge_count; ++i) {
+      edge_boxes.push_back({edges_[i].a.cwiseMin(edges_[i].b), edges_[i].a.cwiseMax(edges_[i].b)});
+      edge_names.push_back(i);
+    }
+  }
+  group.solid_tree = BoxTree(std::move(solid_boxes), group.colliders);
+  group.edge_tree = BoxTree(std::move(edge_boxes), std::move(edge_names));
 }
 
 void World::add_edge(ColliderIndex index, const Vec2d& a, const Vec2d& b) {
@@ -138,19 +168,19 @@ void World::add_chain(ColliderIndex index) {
 }
 
 Box2<double> World::box_of(const Way& way) const noexcept {
-  const Vec2d end = way.vector_is_end ? way.vector : Vec2d(way.from + way.vector);
-  const Box2<double> ends = Box2<double>{way.from, way.from}.merged({end, end});
+  const Vec2d from = way.from.rounded();
+  const Vec2d end = way.rounded_end();
+  const Box2<double> ends = Box2<double>{from, from}.merged({end, end});
   const Box2<double> box{ends.lower + points_box_.lower, ends.upper + points_box_.upper};
-  // Two roundings of numbers no larger than these.
-  const double size = way.from.cwiseAbs().maxCoeff() + way.vector.cwiseAbs().maxCoeff() +
-                      points_box_.lower.cwiseAbs().maxCoeff() + points_box_.upper.cwiseAbs().maxCoeff();
-  return box.inflated(size * 0x1p-50 + std::numeric_limits<double>::min());
+  // At most eight roundings of numbers no larger than these.
+  const double size = way.size() + points_box_.lower.cwiseAbs().maxCoeff() + points_box_.upper.cwiseAbs().maxCoeff();
+  return box.inflated(size * 0x1p-49 + std::numeric_limits<double>::min());
 }
 
 template <class Number>
 Passage::Frame<Number> Passage::frame(int unit) const {
   Frame<Number> frame{.number = {unit}, .from = {}, .way = {}, .octagon = {}, .hull = {}, .known = false};
-  frame.from = convert(frame.number, way_.from);
+  frame.from = way_.from.in(frame.number);
   frame.way = way_.displacement(frame.number);
   frame.octagon = convert_octagon(frame.number, world_.points());
   frame.known = sweep_hull(frame.octagon, frame.way, frame.hull);
@@ -181,8 +211,8 @@ Answer Passage::inside(const Frame<Number>& frame, ColliderIndex collider) const
   return odd ? Answer::yes : Answer::no;
 }
 
-Passage::Passage(const World& world, const Way& way)
-    : world_(world), way_(way), box_(world.box_of(way)), quick_(frame<Approximate>(0)) {}
+Passage::Passage(const World& world, const Group& group, const Way& way)
+    : world_(world), group_(group), way_(way), box_(world.box_of(way)), quick_(frame<Approximate>(0)) {}
 
 std::vector<std::uint32_t> Passage::entered(const std::vector<std::uint32_t>& candidates) const {
   std::vector<std::uint32_t> found;
@@ -201,7 +231,7 @@ std::vector<std::uint32_t> Passage::entered(const std::vector<std::uint32_t>& ca
   return found;
 }
 
-std::vector<std::uint32_t> Passage::entered_edges() const { return entered(world_.edge_tree().meeting(box_)); }
+std::vector<std::uint32_t> Passage::entered_edges() const { return entered(group_.edge_tree.meeting(box_)); }
 
 std::vector<std::uint32_t> Passage::entered_edges(ColliderIndex collider) const {
   std::vector<std::uint32_t> candidates;
@@ -236,7 +266,7 @@ std::span<const std::uint32_t> Passage::of_collider(std::span<const std::uint32_
 }
 
 std::vector<ColliderIndex> Passage::met() const {
-  const std::vector<std::uint32_t> near = world_.solid_tree().meeting(box_);
+  const std::vector<std::uint32_t> near = group_.solid_tree.meeting(box_);
   std::vector<ColliderIndex> found;
   if (near.empty()) return found;
   const std::vector<std::uint32_t> entered = entered_edges();

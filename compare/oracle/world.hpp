@@ -1,8 +1,9 @@
-/// The solids as the oracle keeps them: boundaries as edges, uncut, in two trees of boxes.
+/// The solids as the oracle keeps them: boundaries as edges, uncut, in two trees of boxes for each mover.
 #pragma once
 
 #include "oracle/box_tree.hpp"
 #include "oracle/predicates.hpp"
+#include "oracle/way.hpp"
 
 #include <paperproof/scenery.hpp>
 
@@ -25,27 +26,22 @@ enum class Kind : std::uint8_t { polygon, two_sided, one_way };
 
 struct Solid {
   Kind kind = Kind::polygon;
+  std::uint32_t group = 0;  ///< Into `World::groups()`.
   std::uint32_t first_edge = 0;
   std::uint32_t edge_count = 0;
   int unit = 0;  ///< Lowest bit of its vertices.
   Box2<double> box;
 };
 
-/// A straight way of the octagon, to an end point or by a displacement; both exact.
-struct Way {
-  Vec2d from{Vec2d::Zero()};
-  Vec2d vector{Vec2d::Zero()};
-  bool vector_is_end = false;
-
-  [[nodiscard]] static Way stay(const Vec2d& at) { return {at, Vec2d::Zero(), false}; }
-  [[nodiscard]] static Way by(const Vec2d& from, const Vec2d& displacement) { return {from, displacement, false}; }
-  [[nodiscard]] static Way to(const Vec2d& from, const Vec2d& end) { return {from, end, true}; }
-
-  template <class Number>
-  [[nodiscard]] Point<Number> displacement(const Convert<Number>& number) const {
-    return vector_is_end ? convert(number, vector) - convert(number, from) : convert(number, vector);
-  }
-  [[nodiscard]] int unit() const noexcept { return std::min(lowest_bit(from), lowest_bit(vector)); }
+/// What goes along with one mover, or stands: its frame is the one where that mover's offset is zero. Sensors are kept
+/// apart from solids, so that no question about solids finds one.
+struct Group {
+  MoverIndex mover = no_mover;
+  bool sensor = false;
+  std::vector<ColliderIndex> colliders;
+  Box2<double> box;
+  BoxTree edge_tree;
+  BoxTree solid_tree;
 };
 
 /// Everything that does not change from question to question. Immutable, apart from the counter.
@@ -60,8 +56,12 @@ class World {
     return std::span(edges_).subspan(solids_[collider].first_edge, solids_[collider].edge_count);
   }
   [[nodiscard]] std::span<const Solid> solids() const noexcept { return solids_; }
-  [[nodiscard]] const BoxTree& edge_tree() const noexcept { return edge_tree_; }
-  [[nodiscard]] const BoxTree& solid_tree() const noexcept { return solid_tree_; }
+  [[nodiscard]] std::span<const Group> groups() const noexcept { return groups_; }
+  /// One more than the highest mover that a collider goes along with.
+  [[nodiscard]] std::size_t mover_count() const noexcept { return mover_count_; }
+  [[nodiscard]] const Group& group_of(ColliderIndex collider) const noexcept {
+    return groups_[solids_[collider].group];
+  }
   /// A point strictly inside the octagon, relative to its position.
   [[nodiscard]] const Vec2d& witness() const noexcept { return witness_; }
   /// Encloses all that the octagon touches on the way.
@@ -80,6 +80,8 @@ class World {
   void add_polygon(ColliderIndex index);
   void add_chain(ColliderIndex index);
   void add_edge(ColliderIndex index, const Vec2d& a, const Vec2d& b);
+  [[nodiscard]] std::uint32_t find_group(const ColliderDef& def);
+  void build_trees(Group& group) const;
 
   SceneryDef scenery_;
   std::vector<Vec2d> points_;
@@ -88,8 +90,8 @@ class World {
   int points_unit_ = 0;
   std::vector<Edge> edges_;
   std::vector<Solid> solids_;
-  BoxTree edge_tree_;
-  BoxTree solid_tree_;
+  std::vector<Group> groups_;
+  std::size_t mover_count_ = 0;
   mutable std::atomic<std::uint64_t> exact_decisions_{0};
 };
 
@@ -99,10 +101,10 @@ class World {
 /// The sign of the turn a → b → c, exact.
 [[nodiscard]] Sign turn(const Vec2d& a, const Vec2d& b, const Vec2d& c);
 
-/// What the octagon meets on a way. Lives for one question.
+/// What of one group the octagon meets on a way in that group's frame. Lives for one question.
 class Passage {
  public:
-  Passage(const World& world, const Way& way);
+  Passage(const World& world, const Group& group, const Way& way);
 
   /// The edges (indices into `World::edges()`, ascending) that the open octagon meets on the way; one-way segments only
   /// where they block.
@@ -137,6 +139,7 @@ class Passage {
   [[nodiscard]] bool inside(ColliderIndex collider) const;
 
   const World& world_;
+  const Group& group_;
   Way way_;
   Box2<double> box_;
   Frame<Approximate> quick_;

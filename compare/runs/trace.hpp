@@ -1,8 +1,8 @@
 /// What a run leaves behind: a header and one record per step, in double (every float is one exactly).
 #pragma once
 
+#include <paperproof/controller.hpp>
 #include <paperproof/scenery.hpp>
-#include <paperproof/technique.hpp>
 
 #include <string>
 #include <utility>
@@ -35,16 +35,20 @@ struct TraceHeader {
 struct TraceStep {
   int step = 0;
   std::vector<PathPoint<double>> path;  ///< From the start (fraction 0) to the end (1).
-  Vec2d requested{Vec2d::Zero()};       ///< Displacement that was wanted [m].
-  Vec2d velocity{Vec2d::Zero()};        ///< At the end [m/s].
+  /// Displacement that was wanted [m], in the world: what carries the character is included.
+  Vec2d requested{Vec2d::Zero()};
+  Vec2d velocity{Vec2d::Zero()};  ///< At the end [m/s].
   bool grounded = false;
   bool jumping = false;
   std::vector<ColliderIndex> start_overlap;  ///< What the octagon overlapped when the step began, exactly.
   std::vector<Contact<double>> contacts;
-  bool respawn = false;  ///< The character was put back at the start before this step.
-  bool stuck = false;    ///< The contender reported that it is stuck inside something.
-  bool dropped = false;  ///< Displacement was left when the iterations ran out.
-  bool capped = false;   ///< Box2D only: the step met the 2 m cap.
+  std::vector<MoverMotion<double>> movers;   ///< One for each mover of the scenery.
+  std::vector<ColliderIndex> crushed;        ///< Colliders of movers that left the character no room, as reported.
+  std::vector<SensorEvent<double>> sensors;  ///< In order of time, as reported.
+  bool respawn = false;                      ///< The character was put back at the start before this step.
+  bool stuck = false;                        ///< The contender reported that it is stuck inside something.
+  bool dropped = false;                      ///< Displacement was left when the iterations ran out.
+  bool capped = false;                       ///< Box2D only: the step met the 2 m cap.
 };
 
 }  // namespace paperproof::compare
