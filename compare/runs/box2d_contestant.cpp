@@ -29,7 +29,7 @@ class Box2dContestant final : public Contestant {
 
   [[nodiscard]] const TraceHeader& header() const noexcept override { return header_; }
 
-  void step(const Input& input, TraceStep& record) override {
+  void step(const StepInput& input, TraceStep& record) override {
     const box2d::TwinStep& twin = advance(input);
     record.path = twin.path;
     record.requested = requested_;
@@ -41,7 +41,7 @@ class Box2dContestant final : public Contestant {
     record.capped = twin.capped;
   }
 
-  void step_unrecorded(const Input& input) override { advance(input); }
+  void step_unrecorded(const StepInput& input) override { advance(input); }
 
   [[nodiscard]] Pose pose() const override {
     return {.position = world_.position(),
@@ -63,8 +63,8 @@ class Box2dContestant final : public Contestant {
   }
 
  private:
-  const box2d::TwinStep& advance(const Input& input) {
-    const Vec2d velocity = desired_velocity(character_, gravity_, input, dt_, state_);
+  const box2d::TwinStep& advance(const StepInput& input) {
+    const Vec2d velocity = desired_velocity(character_, gravity_, input.player, dt_, state_);
     requested_ = velocity * dt_;
     const box2d::TwinStep& twin = world_.step(velocity, dt_);
     state_.velocity = twin.velocity;

@@ -32,6 +32,10 @@ std::string_view name_of(ScalarKind scalar) noexcept { return scalar == ScalarKi
 
 std::unique_ptr<Contestant> make_contestant(std::string_view name, ScalarKind scalar, const Scene& scene,
                                             const Scenery<double>& scenery) {
+  const auto turning = std::find_if(scene.movers.begin(), scene.movers.end(),
+                                    [](const MoverDef& mover) { return !mover.turns.empty(); });
+  if (turning != scene.movers.end())
+    throw NotApplicable(std::string(name) + " is for movers that do not turn, and \"" + turning->id + "\" does");
   if (is_reference(name)) {
     const auto mode = name == box2d_name ? box2d::SceneryMode::chain_loops : box2d::SceneryMode::pieces;
     try {

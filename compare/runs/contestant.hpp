@@ -28,6 +28,13 @@ struct Pose {
   bool jumping = false;
   bool jump_held = false;
   bool jump_pending = false;
+  Ride<double> ride{};  ///< `place` is not looked at: where something is put down, it stands anew.
+};
+
+/// What happens to every contestant alike in one step.
+struct StepInput {
+  Input player;
+  std::span<const MoverMotion<double>> movers;  ///< One for each mover of the scene.
 };
 
 class Contestant {
@@ -35,10 +42,11 @@ class Contestant {
   virtual ~Contestant() = default;
   /// Everything but the plan of the trace's header.
   [[nodiscard]] virtual const TraceHeader& header() const noexcept = 0;
-  /// One step. Fills path, requested, velocity, grounded, jumping, contacts, stuck, dropped and capped of `record`.
-  virtual void step(const Input& input, TraceStep& record) = 0;
+  /// One step. Fills everything of `record` but step, start_overlap and respawn. Movers are recorded as they ran: the
+  /// input's, rounded to what the contestant computes in.
+  virtual void step(const StepInput& input, TraceStep& record) = 0;
   /// One step without a record, for timing.
-  virtual void step_unrecorded(const Input& input) = 0;
+  virtual void step_unrecorded(const StepInput& input) = 0;
   [[nodiscard]] virtual Pose pose() const = 0;
   virtual void place(const Pose& pose) = 0;
   /// What its own picture of the level takes [bytes]; 0 where it keeps none.

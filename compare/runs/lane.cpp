@@ -68,7 +68,7 @@ void Lane::place(const Pose& pose) {
   placed_ = true;
 }
 
-void Lane::step(int step, const Input& input) {
+void Lane::step(int step, const StepInput& input) {
   try {
     record_.step = step;
     record_.respawn = placed_ && step > 0;

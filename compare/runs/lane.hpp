@@ -37,7 +37,7 @@ class Lane {
 
   /// Puts the contestant somewhere; the next step begins a new story.
   void place(const Pose& pose);
-  void step(int step, const Input& input);
+  void step(int step, const StepInput& input);
   /// Writes metrics and verdict into the row and the trace to its place.
   void finish();
 

@@ -47,9 +47,9 @@ class SceneRun {
   }
 
   ReportScene go() {
-    InputCursor cursor(input_);
+    InputCursor cursor(scene_, input_);
     for (int step = 0; step < steps_; ++step) {
-      const Input& input = cursor.at(step);
+      const StepInput input = cursor.at(step);
       if (options_.mode == Mode::lockstep)
         step_in_lockstep(step, input);
       else
@@ -106,7 +106,7 @@ class SceneRun {
     lane.place({.position = scene_.start.position, .velocity = scene_.start.velocity});
   }
 
-  void step_freely(int step, const Input& input) {
+  void step_freely(int step, const StepInput& input) {
     for (const auto& lane : lanes_) {
       if (!lane->running()) continue;
       respawn_if_lost(*lane);
@@ -118,7 +118,7 @@ class SceneRun {
                            pair.reference->judgement());
   }
 
-  void step_in_lockstep(int step, const Input& input) {
+  void step_in_lockstep(int step, const StepInput& input) {
     for (Pair& pair : pairs_) {
       if (!pair.mine->running() || !pair.reference->running()) continue;
       respawn_if_lost(*pair.mine);

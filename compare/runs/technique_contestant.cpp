@@ -5,6 +5,8 @@
 namespace paperproof::compare {
 namespace {
 
+using SensorChange = SensorEvent<double>::Change;
+
 template <class Scalar>
 std::vector<NamedTolerance> tolerances_of() {
   constexpr Tolerances<Scalar> t{};
@@ -40,7 +42,8 @@ class TechniqueContestant final : public Contestant {
         controller_(scenery_.get(), rules_for(kind, scene.character), definition(kind, scene)),
         scratch_(controller_.make_scratch()),
         gravity_(scene.gravity.cast<Scalar>()),
-        dt_(static_cast<Scalar>(scene.dt)) {
+        dt_(static_cast<Scalar>(scene.dt)),
+        motions_(scene.movers.size()) {
     header_.scene = scene.name;
     header_.contender = name_of(kind);
     header_.scalar = name_of(std::is_same_v<Scalar, float> ? ScalarKind::binary32 : ScalarKind::binary64);
@@ -55,7 +58,7 @@ class TechniqueContestant final : public Contestant {
 
   [[nodiscard]] const TraceHeader& header() const noexcept override { return header_; }
 
-  void step(const Input& input, TraceStep& record) override {
+  void step(const StepInput& input, TraceStep& record) override {
     step_unrecorded(input);
     const MoveResult<Scalar>& move = report_.move;
     record.path.clear();
@@ -68,6 +71,16 @@ class TechniqueContestant final : public Contestant {
     record.stuck = report_.status == StepStatus::stuck;
     record.dropped = report_.status == StepStatus::dropped;
     record.capped = false;
+    record.movers.clear();
+    for (const MoverMotion<Scalar>& motion : motions_)
+      record.movers.push_back({motion.from.template cast<double>(), motion.to.template cast<double>()});
+    record.crushed.assign(move.crushed.begin(), move.crushed.end());
+    record.sensors.clear();
+    for (const SensorEvent<Scalar>& event : report_.sensors) {
+      const bool enters = event.change == SensorEvent<Scalar>::Change::enter;
+      record.sensors.push_back(
+          {event.sensor, enters ? SensorChange::enter : SensorChange::exit, static_cast<double>(event.fraction)});
+    }
     record.contacts.clear();
     // The article's techniques name the pair that was tested; all contenders are compared by where the normal points.
     for (const Contact<Scalar>& contact : move.contacts)
@@ -82,8 +95,10 @@ class TechniqueContestant final : public Contestant {
     if (report_.status == StepStatus::invalid_input) throw std::runtime_error("the motion is not finite");
   }
 
-  void step_unrecorded(const Input& input) override {
-    controller_.step(state_, input, gravity_, dt_, scratch_, report_);
+  void step_unrecorded(const StepInput& input) override {
+    for (std::size_t i = 0; i < motions_.size(); ++i)
+      motions_[i] = {input.movers[i].from.template cast<Scalar>(), input.movers[i].to.template cast<Scalar>()};
+    controller_.step(state_, input.player, gravity_, dt_, motions_, scratch_, report_);
   }
 
   [[nodiscard]] Pose pose() const override {
@@ -92,7 +107,10 @@ class TechniqueContestant final : public Contestant {
             .grounded = state_.grounded,
             .jumping = state_.jumping,
             .jump_held = state_.jump_held,
-            .jump_pending = state_.jump_pending};
+            .jump_pending = state_.jump_pending,
+            .ride = {.ground = state_.ride.ground,
+                     .place = state_.ride.place.template cast<double>(),
+                     .velocity = state_.ride.velocity.template cast<double>()}};
   }
 
   [[nodiscard]] std::size_t memory_bytes() const override { return controller_.technique().memory_bytes(); }
@@ -127,6 +145,7 @@ class TechniqueContestant final : public Contestant {
   Scratch<Scalar> scratch_;
   Vec2<Scalar> gravity_;
   Scalar dt_;
+  std::vector<MoverMotion<Scalar>> motions_;  ///< Of the present step.
   TraceHeader header_;
   CharacterState<Scalar> state_;
   StepReport<Scalar> report_;

@@ -23,6 +23,8 @@ ordered_json collider_json(const std::string& id, const ColliderDef& collider) {
   object[collider.shape == ColliderDef::Shape::polygon ? "polygon" : "chain"] = points_json(collider.points);
   for (const std::vector<Vec2d>& hole : collider.holes) object["holes"].push_back(points_json(hole));
   if (collider.one_way) object["one_way"] = {collider.one_way->x(), collider.one_way->y()};
+  if (collider.sensor) object["sensor"] = true;
+  if (collider.surface_speed != 0) object["surface_speed"] = collider.surface_speed;
   return object;
 }
 
@@ -106,6 +108,28 @@ void put_contact(Buffer& out, const Contact<double>& contact, const std::vector<
   fmt::format_to(std::back_inserter(out), ",\"side\":\"{}\"}}", name_of(contact.side));
 }
 
+void put_ids(Buffer& out, const std::vector<ColliderIndex>& colliders, const std::vector<std::string>& ids) {
+  out.push_back('[');
+  for (std::size_t i = 0; i < colliders.size(); ++i) {
+    if (i > 0) out.push_back(',');
+    put_text(out, ids[colliders[i]]);
+  }
+  out.push_back(']');
+}
+
+void put_sensors(Buffer& out, const std::vector<SensorEvent<double>>& events, const std::vector<std::string>& ids) {
+  put_text(out, ",\"sensors\":[");
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    const bool enters = events[i].change == SensorEvent<double>::Change::enter;
+    put_text(out, i == 0 ? "{\"id\":" : ",{\"id\":");
+    put_text(out, ids[events[i].sensor]);
+    put_text(out, enters ? ",\"change\":\"enter\",\"fraction\":" : ",\"change\":\"exit\",\"fraction\":");
+    put(out, events[i].fraction);
+    out.push_back('}');
+  }
+  out.push_back(']');
+}
+
 }  // namespace
 
 std::string trace_path(const std::string& stem, const TraceHeader& header) {
@@ -117,6 +141,10 @@ std::string trace_path(const std::string& stem, const TraceHeader& header) {
 
 TraceWriter::TraceWriter(const std::string& path, const TraceHeader& header)
     : file_(path), path_exact_(header.path_exact) {
+  const std::vector<ColliderDef>& colliders = header.scenery.colliders;
+  for (ColliderIndex i = 0; i < colliders.size(); ++i) {
+    if (colliders[i].mover != no_mover) moving_.push_back({i, colliders[i].mover});
+  }
   for (const std::string& id : header.ids)
     ids_.push_back(ordered_json(id).dump(-1, ' ', false, ordered_json::error_handler_t::replace));
   file_.stream() << header_json(header).dump(-1, ' ', false, ordered_json::error_handler_t::replace) << '\n';
@@ -131,17 +159,30 @@ void TraceWriter::write(const TraceStep& step) {
   put(out, step.requested);
   put_text(out, ",\"velocity\":");
   put(out, step.velocity);
-  fmt::format_to(std::back_inserter(out), ",\"grounded\":{},\"start_overlap\":[", step.grounded);
-  for (std::size_t i = 0; i < step.start_overlap.size(); ++i) {
+  fmt::format_to(std::back_inserter(out), ",\"grounded\":{},\"start_overlap\":", step.grounded);
+  put_ids(out, step.start_overlap, ids_);
+  put_text(out, ",\"movers\":{");
+  for (std::size_t i = 0; i < moving_.size(); ++i) {
+    const MoverMotion<double>& motion = step.movers[moving_[i].mover];
     if (i > 0) out.push_back(',');
-    put_text(out, ids_[step.start_overlap[i]]);
+    put_text(out, ids_[moving_[i].collider]);
+    put_text(out, ":[");
+    put(out, motion.from);
+    out.push_back(',');
+    put(out, motion.to);
+    out.push_back(']');
   }
-  put_text(out, "],\"movers\":{},\"contacts\":[");
+  put_text(out, "},\"contacts\":[");
   for (std::size_t i = 0; i < step.contacts.size(); ++i) {
     if (i > 0) out.push_back(',');
     put_contact(out, step.contacts[i], ids_);
   }
   out.push_back(']');
+  if (!step.crushed.empty()) {
+    put_text(out, ",\"crush\":");
+    put_ids(out, step.crushed, ids_);
+  }
+  if (!step.sensors.empty()) put_sensors(out, step.sensors, ids_);
   for (const auto& [name, set] :
        {std::pair{"respawn", step.respawn}, {"stuck", step.stuck}, {"dropped", step.dropped}, {"capped", step.capped}})
     if (set) fmt::format_to(std::back_inserter(out), ",\"{}\":true", name);

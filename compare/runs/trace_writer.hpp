@@ -20,8 +20,13 @@ class TraceWriter {
   void commit() { file_.commit(); }
 
  private:
+  struct Moving {
+    ColliderIndex collider = 0;
+    MoverIndex mover = 0;
+  };
   OutputFile file_;
   std::vector<std::string> ids_;  ///< As JSON strings.
+  std::vector<Moving> moving_;
   bool path_exact_;
 };
 

@@ -107,6 +107,18 @@ TEST(Contenders, are_those_asked_for_and_the_twin_beside_them) {
   EXPECT_NE(find_row(result, "box2d", "float"), nullptr);
 }
 
+TEST(Contenders, that_cannot_turn_what_moves_say_so) {
+  Scene scene = empty_sky(3);
+  scene.movers = {{.id = "fan", .path = {{}}, .turns = {{.time = 0, .at = 0}, {.time = 1, .at = 1}}}};
+  scene.scenery.colliders.push_back({.points = {{50, 50}, {51, 50}, {51, 51}}, .mover = 0});
+  scene.ids.emplace_back("fan");
+  const ReportScene result = run_scene(scene, quick());
+  for (const Row& row : result.rows) {
+    EXPECT_EQ(row.verdict, Verdict::not_applicable) << row.contender;
+    EXPECT_TRUE(holds(row.reason, "\"fan\"")) << row.contender;
+  }
+}
+
 TEST(Contenders, are_given_the_same_random_input) {
   RunOptions options = quick();
   options.random_input = 7;
@@ -295,6 +307,46 @@ TEST(Traces, mark_the_sampled_path_of_box2d) {
     EXPECT_EQ(line.contains("path_exact"), line.contains("step")) << line;
   for (const nlohmann::json& line : lines_of(files.path("t.article_bullet.octagon_sweep.double.jsonl")))
     EXPECT_FALSE(line.contains("path_exact"));
+}
+
+TEST(Traces, hold_every_moving_collider_crushes_and_sensor_events_by_their_ids) {
+  const SceneFiles files;
+  TraceHeader header;
+  header.scenery.colliders = {{.points = {{0, 0}, {1, 0}, {0, 1}}},
+                              {.points = {{0, 0}, {1, 0}, {0, 1}}, .mover = 1},
+                              {.points = {{0, 0}, {1, 0}, {0, 1}}, .mover = 0, .surface_speed = -2},
+                              {.points = {{0, 0}, {1, 0}, {0, 1}}, .mover = 1},
+                              {.points = {{0, 0}, {1, 0}, {0, 1}}, .sensor = true}};
+  header.ids = {"floor", "saw/0", "belt", "saw/1", "zone"};
+  TraceStep step;
+  step.path = {{{0, 0}, 0}, {{0, 0}, 1}};
+  step.movers = {{{0.1, -0.0}, {0.2, 1e-300}}, {{3, 4}, {5, 6}}};
+  step.crushed = {2, 3};
+  using Change = SensorEvent<double>::Change;
+  step.sensors = {{4, Change::enter, 0.25}, {4, Change::exit, 1 / 3.0}};
+  TraceWriter writer(files.path("t.jsonl"), header);
+  writer.write(step);
+  step.crushed.clear();
+  step.sensors.clear();
+  writer.write(step);
+  writer.commit();
+
+  const auto lines = lines_of(files.path("t.jsonl"));
+  ASSERT_EQ(lines.size(), 3U);
+  EXPECT_EQ(lines[0]["colliders"][4].at("sensor"), true);
+  EXPECT_FALSE(lines[0]["colliders"][0].contains("sensor"));
+  EXPECT_EQ(lines[0]["colliders"][2].at("surface_speed"), -2);
+  const nlohmann::json& movers = lines[1].at("movers");
+  ASSERT_EQ(movers.size(), 3U);
+  EXPECT_TRUE(reads_back(movers["belt"][0][0], 0.1) && reads_back(movers["belt"][0][1], -0.0));
+  EXPECT_TRUE(reads_back(movers["belt"][1][0], 0.2) && reads_back(movers["belt"][1][1], 1e-300));
+  for (const char* part : {"saw/0", "saw/1"}) EXPECT_EQ(movers.at(part), nlohmann::json::parse("[[3,4],[5,6]]"));
+  EXPECT_EQ(lines[1].at("crush"), nlohmann::json::parse(R"(["belt","saw/1"])"));
+  EXPECT_EQ(lines[1].at("sensors")[0], nlohmann::json::parse(R"({"id":"zone","change":"enter","fraction":0.25})"));
+  EXPECT_EQ(lines[1].at("sensors")[1].at("change"), "exit");
+  EXPECT_TRUE(reads_back(lines[1]["sensors"][1]["fraction"], 1 / 3.0));
+  EXPECT_EQ(lines[2].at("movers"), movers);
+  EXPECT_FALSE(lines[2].contains("crush") || lines[2].contains("sensors"));
 }
 
 TEST(Traces, that_cannot_be_written_end_the_run) {
