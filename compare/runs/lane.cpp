@@ -32,7 +32,6 @@ Lane::Lane(std::string contender, ScalarKind scalar, const Scene& scene, const S
       replay_.header = header();
       replay_.every = std::max(1, (limit_.steps + limit_.most - 1) / limit_.most);
     }
-    inside_ = solids().overlapped(contestant_->pose().position);
   } catch (const NotApplicable& reason) {
     fail(Verdict::not_applicable, reason.what());
   } catch (const std::exception& error) {
@@ -64,7 +63,6 @@ void Lane::end_early(const std::string& reason) {
 
 void Lane::place(const Pose& pose) {
   contestant_->place(pose);
-  inside_ = solids().overlapped(contestant_->pose().position);
   placed_ = true;
 }
 
@@ -72,8 +70,10 @@ void Lane::step(int step, const StepInput& input) {
   try {
     record_.step = step;
     record_.respawn = placed_ && step > 0;
-    placed_ = false;
     contestant_->step(input, record_);
+    // What moves stands where the last step left it: who was not put elsewhere begins in what he ended in.
+    if (placed_) inside_ = solids().overlapped({record_.path.front(), record_.movers});
+    placed_ = false;
     record_.start_overlap = inside_;
     judgement_ = judge_->judge(record_);
     metrics_->add(record_, judgement_);
