@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sensors.hpp"
+
 namespace paperproof {
 namespace {
 
@@ -101,6 +103,7 @@ Controller<Scalar>::Controller(const Scenery<Scalar>& scenery, const CharacterDe
     : scenery_(&scenery), character_(character) {
   character_.validate();
   technique_ = make_technique<Scalar>(technique, scenery, character_);
+  if (scenery.sensor_pieces().size() > 0) sensors_ = std::make_shared<Sensors<Scalar>>(scenery, character_.shape);
 }
 
 template <class Scalar>
@@ -132,6 +135,7 @@ StepStatus Controller<Scalar>::step(CharacterState<Scalar>& state, const Input& 
                    scratch, report.move);
   report.status = status_of(report.move.status);
   if (report.status == StepStatus::out_of_range) return report.status;
+  if (sensors_) sensors_->observe(report.move.path, movers, report.sensors);
   adopt(character_, report.move, next);
   state = next;
   return report.status;

@@ -202,7 +202,8 @@ Scenery<Scalar>::Scenery(const SceneryDef& def) {
   }
   // A mover that only sensors go along with has no pieces of its own.
   mover_begin_.front() = static_count_;
-  for (std::size_t i = 1; i < mover_begin_.size(); ++i) mover_begin_[i] = std::max(mover_begin_[i], mover_begin_[i - 1]);
+  for (std::size_t i = 1; i < mover_begin_.size(); ++i)
+    mover_begin_[i] = std::max(mover_begin_[i], mover_begin_[i - 1]);
 }
 
 template class Scenery<float>;

@@ -27,7 +27,8 @@ enum class StepStatus : std::uint8_t {
   invalid_input,  ///< Refused: NaN, infinity or dt <= 0. Nothing changed at all.
 };
 
-/// The character's interior came to overlap a sensor, or ceased to.
+/// The character's open interior came to overlap a sensor (of a chain: its line), or ceased to. Events of one sensor
+/// alternate, also over steps; a character that begins inside does not enter.
 template <class Scalar>
 struct SensorEvent {
   enum class Change : std::uint8_t { enter, exit };
@@ -42,8 +43,12 @@ struct StepReport {
   StepStatus status = StepStatus::moved;
   Vec2<Scalar> requested{Vec2<Scalar>::Zero()};  ///< Displacement that was wanted [m].
   MoveResult<Scalar> move;
-  FixedVector<SensorEvent<Scalar>, 32> sensors;  ///< In order of time.
+  /// In order of time: see `SensorEvent`. Where more happened than fits the latest are missing, and it `overflowed`.
+  FixedVector<SensorEvent<Scalar>, 32> sensors;
 };
+
+template <class Scalar>
+class Sensors;
 
 /// Steps characters of one kind through one scenery. Const and shareable between threads.
 template <class Scalar>
@@ -72,6 +77,7 @@ class Controller {
   const Scenery<Scalar>* scenery_;
   CharacterDef character_;
   std::unique_ptr<Technique<Scalar>> technique_;
+  std::shared_ptr<const Sensors<Scalar>> sensors_;  ///< Null where the scenery has none.
 };
 
 extern template class Controller<float>;

@@ -1,0 +1,37 @@
+/// While two convex outlines overlap, when one of them moves straight.
+#pragma once
+
+#include <paperproof/types.hpp>
+
+#include <span>
+
+namespace paperproof::geometry {
+
+/// The open interval of a straight motion, whose fractions run from 0 to 1, in which two outlines overlap. Empty where
+/// `begin >= end`. Where they overlap at the start already `begin` is `before`, where they still do at the end `end` is
+/// `after`: the other values are fractions in [0, 1].
+template <class Scalar>
+struct OverlapTime {
+  static constexpr Scalar before = -1;
+  static constexpr Scalar after = 2;
+  Scalar begin = before;
+  Scalar end = after;
+
+  [[nodiscard]] bool any() const noexcept { return begin < end; }
+};
+
+/// When does the open interior of the convex `mover`, at a position that goes straight from `from` to `to`, meet the
+/// interior of the convex `standing`, or the segment that it is with two points?
+///
+/// The separation along each edge normal of the two (separating axes, which are the edges of their Minkowski sum) is
+/// linear in time; they overlap while all of them are negative. Whether they overlap at an end of the motion depends
+/// on the bits of that position alone, so that motions which share it agree. A fraction is exact but for the rounding
+/// of two separations, a few ulp of the distance between the outlines over the length of the motion.
+/// @param mover 3 points or more, counter-clockwise, relative to its position [m].
+/// @param standing the same, or the two ends of a segment [m].
+template <class Scalar>
+[[nodiscard]] OverlapTime<Scalar> overlap_time(std::span<const Vec2<Scalar>> mover,
+                                               std::span<const Vec2<Scalar>> standing, const Vec2<Scalar>& from,
+                                               const Vec2<Scalar>& to) noexcept;
+
+}  // namespace paperproof::geometry
