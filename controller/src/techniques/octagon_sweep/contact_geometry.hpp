@@ -20,15 +20,16 @@ template <class Scalar>
 }
 
 /// Time of impact of a motion with a piece it hits, as a fraction of the motion, in [0, 1]: when the separation along
-/// `axis`, the one that is entered last, becomes zero.
-template <std::size_t Lanes, class Scalar>
+/// the axis that is entered last becomes zero; or, where the piece itself is missed, when it comes within `hit`.
+template <class Scalar>
 [[nodiscard, gnu::always_inline]] inline Scalar time_of_impact(const ConfigurationSpace<Scalar>& space,
-                                                               const Motion<Lanes, Scalar>& motion, PieceIndex piece,
-                                                               std::size_t axis) noexcept {
-  if (axis == space.axis_count(piece)) return 0;  // inside from the start
-  const Vec2<Scalar> n = space.normal(piece, axis);
-  const Scalar approach = -(n.x() * motion.way.x() + n.y() * motion.way.y());
-  return std::clamp(accurate_separation(space, piece, axis, motion.from) / approach, Scalar(0), Scalar(1));
+                                                               const Vec2<Scalar>& from, const Vec2<Scalar>& way,
+                                                               PieceIndex piece, const EntryAxes& axes) noexcept {
+  if (axes.impact == space.axis_count(piece)) return 0;  // inside from the start
+  const Scalar level = axes.missed ? Tolerances<Scalar>{}.hit : Scalar(0);
+  const Vec2<Scalar> n = space.normal(piece, axes.impact);
+  const Scalar approach = -(n.x() * way.x() + n.y() * way.y());
+  return std::clamp((accurate_separation(space, piece, axes.impact, from) - level) / approach, Scalar(0), Scalar(1));
 }
 
 /// Where a contact is, and the gap there.

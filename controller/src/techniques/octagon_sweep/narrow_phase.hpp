@@ -120,6 +120,9 @@ template <std::size_t Lanes, class Scalar>
 struct EntryAxes {
   std::size_t normal;  ///< Its normal is the contact's: below the hit distance.
   std::size_t impact;  ///< Its time is the time of impact: below zero. The number of axes where none is.
+  /// The piece itself is missed, by less than the hit distance: `impact` is then the axis along which it comes that
+  /// near, covered or not.
+  bool missed;
 };
 
 /// What a motion does to a piece that it comes near to.
@@ -182,7 +185,9 @@ template <std::size_t Lanes, class Scalar>
   Scalar exit = 1;
   Scalar stop = 0;
   Scalar impact_time = -1;
+  Scalar leaves = 1;  // when some separation is above zero again
   std::size_t impact = f.count;
+  std::size_t near = f.count;
   for (std::size_t axis = 0; axis < f.count; ++axis) {
     const Scalar start = f.start[axis];
     const Scalar end = f.end[axis];
@@ -191,9 +196,16 @@ template <std::size_t Lanes, class Scalar>
       impact_time = start / approach;
       impact = axis;
     }
+    if (start >= 0 && approach <= 0)
+      leaves = -1;  // this axis keeps the piece itself clear
+    else if (start < 0 && end > 0)
+      leaves = std::min(leaves, start / approach);
     if (start >= tau) {  // end < tau then, or the axis would keep it clear
       const Scalar time = (start - tau) / approach;
-      entry = std::max(entry, time);
+      if (time >= entry) {
+        entry = time;
+        near = axis;
+      }
       last.add(axis, time);
     } else if (end > tau) {
       exit = std::min(exit, (tau - start) / (end - start));
@@ -201,7 +213,8 @@ template <std::size_t Lanes, class Scalar>
     if (!touching && start > tolerances.stop) stop = std::max(stop, (start - tolerances.stop) / approach);
   }
   stop *= motion.reach;
-  return {entry < exit && stop <= 1, stop, {last.axis(), impact}};
+  const bool missed = impact_time > leaves;
+  return {entry < exit && stop <= 1, stop, {last.axis(), missed ? near : impact, missed}};
 }
 
 /// The axis of largest separation at a position, and that separation.

@@ -61,6 +61,7 @@ template <std::size_t Lanes, class Scalar>
 void StepSolver<Lanes, Scalar>::solve(const MoveRequest<Scalar>& request) noexcept {
   position_ = request.position;
   velocity_ = request.velocity;
+  start_ = position_;
   push_corner(0);
   look_along(request.displacement);
   const bool near = found_.least_separation < Tolerances<Scalar>{}.hit;
@@ -126,7 +127,7 @@ bool StepSolver<Lanes, Scalar>::prepare_start(const MoveRequest<Scalar>& request
   if (overlaps(position_)) {
     const std::optional<V> out = find_way_out(request);
     if (!out) return false;
-    position_ = *out;
+    start_ = position_ = *out;
     push_corner(0);
     return true;
   }
@@ -293,12 +294,13 @@ template <std::size_t Lanes, class Scalar>
 void StepSolver<Lanes, Scalar>::report(Scalar begin) noexcept {
   auto& contacts = result_.contacts;
   const std::size_t before = contacts.size();
+  const V& from = begin == 0 ? start_ : motion_.from;
   for (const Stop<Scalar>& stop : found_.stops) {
     Contact<Scalar> contact;
     contact.collider = space_.scenery().pieces()[stop.piece].collider;
     contact.normal = space_.normal(stop.piece, stop.axes.normal);
     contact.side = side_of_normal(contact.normal.x(), contact.normal.y());
-    contact.fraction = begin + (1 - begin) * time_of_impact(space_, motion_, stop.piece, stop.axes.impact);
+    contact.fraction = begin + (1 - begin) * impact_of(stop, from);
     if (walkable(contact.normal)) {
       met_ground_ = on_ground_ = true;
       ground_ = stop.piece;
@@ -306,7 +308,8 @@ void StepSolver<Lanes, Scalar>::report(Scalar begin) noexcept {
     Contact<Scalar>* const known = std::find_if(contacts.begin(), contacts.end(), [&](const Contact<Scalar>& other) {
       return other.collider == contact.collider && other.side == contact.side;
     });
-    if (known != contacts.end() && known->fraction <= contact.fraction) continue;
+    const bool of_an_earlier_moment = known < contacts.begin() + before;
+    if (known != contacts.end() && (of_an_earlier_moment || known->fraction <= contact.fraction)) continue;
     const ContactPlace<Scalar> place = contact_place(space_, stop.piece, stop.axes.normal, position_);
     contact.point = place.point;
     contact.separation = place.separation;
@@ -318,6 +321,24 @@ void StepSolver<Lanes, Scalar>::report(Scalar begin) noexcept {
   if (contacts.size() - before > 1)
     std::sort(contacts.begin() + before, contacts.end(),
               [](const Contact<Scalar>& a, const Contact<Scalar>& b) { return a.fraction < b.fraction; });
+}
+
+/// The time of impact of the collider, as a fraction of the motion. Where its piece is met long after it was stopped at,
+/// as a rim that is grazed, another piece of the same collider may be met in between.
+template <std::size_t Lanes, class Scalar>
+Scalar StepSolver<Lanes, Scalar>::impact_of(const Stop<Scalar>& stop, const V& from) noexcept {
+  Scalar earliest = time_of_impact(space_, from, motion_.way, stop.piece, stop.axes);
+  if ((earliest - stop.stop) * motion_.length <= 2 * Tolerances<Scalar>{}.stop) return earliest;
+  const std::span<const PieceInfo> pieces = space_.scenery().pieces();
+  for (const PieceIndex other : neighbourhood_.around(motion_.box(), motion_.way)) {
+    if (other == stop.piece || pieces[other].collider != pieces[stop.piece].collider) continue;
+    if (!blocks(space_, motion_, other)) continue;
+    const Clearance<Scalar> clear = clearance(space_, motion_, other);
+    if (clear.clear()) continue;
+    const PieceHit<Scalar> hit = sweep_piece(space_, motion_, other, clear);
+    if (hit.hit) earliest = std::min(earliest, time_of_impact(space_, from, motion_.way, other, hit.axes));
+  }
+  return earliest;
 }
 
 /// A slide along a plane that is nearer than it should be ends at the right gap.

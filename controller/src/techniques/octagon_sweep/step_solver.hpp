@@ -98,6 +98,7 @@ class StepSolver {
   void travel() noexcept;
   [[nodiscard]] bool advance(Scalar stop) noexcept;
   void report(Scalar begin) noexcept;
+  [[nodiscard]] Scalar impact_of(const Stop<Scalar>& stop, const V& from) noexcept;
   [[nodiscard]] V aimed_back(const V& way, const Stop<Scalar>& at) const noexcept;
   void halt() noexcept;
 
@@ -114,6 +115,7 @@ class StepSolver {
 
   Motion<Lanes, Scalar> motion_;  ///< Of the last sweep,
   SweepResult<Scalar> found_;     ///< and what it met.
+  V start_{V::Zero()};        ///< Where the step began, before its gaps were restored: impacts count from there.
   V position_{V::Zero()};
   V velocity_{V::Zero()};
   Scalar time_ = 0;       ///< Fraction of the step that is spent.
