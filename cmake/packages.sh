@@ -14,6 +14,7 @@ build_packages=(
 test_packages=(
   clang          # the same bits from a second compiler
   supertux-data  # real levels
+  python3        # the checker of traces that shares no code with the project
 )
 # Used by tests where the distribution has it (Ubuntu's is a snap): a browser, for the report.
 optional_test_packages=(chromium)
