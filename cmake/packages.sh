@@ -16,8 +16,9 @@ test_packages=(
   supertux-data  # real levels
   python3        # the checker of traces that shares no code with the project
 )
-# Used by tests where the distribution has it (Ubuntu's is a snap): a browser, for the report.
-optional_test_packages=(chromium)
+# Used by tests where the distribution has them: a browser, for the report (Ubuntu's is a snap), and the sanitizers' part
+# of clang (in older releases it comes with clang itself).
+optional_test_packages=(chromium libclang-rt-dev)
 
 missing_packages() {
   local package
