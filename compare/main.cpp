@@ -21,10 +21,14 @@ void add_compare(CLI::App& app, CompareArguments& arguments, std::string& input,
   CLI::App* command = app.add_subcommand("compare", "Run scenes, judge every step exactly, say who is right");
   command->add_option("SCENE", arguments.scenes, "Built-in names, .json scenes, .tmx/.tmj maps, SuperTux .stl levels")
       ->required();
-  command->add_option("--contender", arguments.run.contenders, "Only these (see `paperproof list contenders`)")
+  command
+      ->add_option("--contender", arguments.run.contenders,
+                   "Only these (see `paperproof list contenders`), each by its own option or with commas")
+      ->delimiter(',')
       ->allow_extra_args(false);
   command->add_option("--scalar", scalars, "Number type of the techniques")
       ->check(CLI::IsMember({"double", "float"}))
+      ->delimiter(',')
       ->allow_extra_args(false);
   command
       ->add_option("--mode", mode,
@@ -33,8 +37,8 @@ void add_compare(CLI::App& app, CompareArguments& arguments, std::string& input,
   command->add_option("--steps", arguments.run.steps, "Instead of the scene's")->check(CLI::Range(1, 1'000'000'000));
   command->add_option("--input", input, "random:SEED replaces the scene's input");
   command->add_option("--trace", arguments.run.trace_stem, "Write STEM.<scene>.<contender>.<scalar>.jsonl");
-  command->add_option("--rows", arguments.rows_path, "Write all rows as JSON");
-  command->add_option("--report", arguments.report_path, "Write one self-contained HTML page");
+  command->add_option("--rows", arguments.rows_path, "Write all rows as JSON to this file");
+  command->add_option("--report", arguments.report_path, "Write one self-contained HTML page to this file");
   command->add_flag("!--no-reference", arguments.run.reference, "Without the Box2D twin");
   command->add_flag("!--no-timing", arguments.run.measure_cost, "Without measuring the cost of a step");
   command->add_flag("--quiet", arguments.quiet, "No tables, no progress");

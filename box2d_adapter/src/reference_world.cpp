@@ -45,8 +45,7 @@ void check_definition(const ReferenceWorldDef& def) {
 
 float checked_step(double dt) {
   const auto step = static_cast<float>(dt);
-  // The reciprocal must be finite as well; 1e-9 s is far below any step that is simulated.
-  if (!(dt >= 1e-9) || !(dt <= largest_number)) throw InvalidDefinition("a time step must be 1e-9 s to 1e9 s");
+  if (!(dt >= least_step) || !(dt <= largest_number)) throw InvalidDefinition("a time step must be 1e-9 s to 1e9 s");
   return step;
 }
 

@@ -3,7 +3,9 @@
 #include "runs/output_file.hpp"
 #include "runs/rows_json.hpp"
 #include "runs/table.hpp"
+#include "runs/trace_writer.hpp"
 #include "scenes/load.hpp"
+#include "words.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -12,7 +14,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
-#include <set>
+#include <filesystem>
+#include <map>
 
 namespace paperproof::compare {
 namespace {
@@ -42,23 +45,43 @@ class Progress {
 };
 
 /// What was found over all scenes, for the closing line and the exit status.
-struct Totals {
-  long long guaranteed_steps = 0;
-  int guaranteed_rows = 0;
-  int violations = 0;
-  int failed = 0;
-
+class Totals {
+ public:
   void add(const Row& row) {
-    failed += row.verdict == Verdict::failed;
-    if (row.contender != paperproof::name_of(TechniqueKind::octagon_sweep) || row.scalar != "double") return;
-    guaranteed_steps += row.steps;
-    ++guaranteed_rows;
-    violations += row.verdict == Verdict::violates;
+    failed_ += row.verdict == Verdict::failed;
+    if (row.contender != paperproof::name_of(TechniqueKind::octagon_sweep)) return;
+    Count& count = row.scalar == "double" ? in_double_ : in_float_;
+    const bool breaks =
+        row.verdict == Verdict::tunnels || (row.verdict == Verdict::flagged && row.steps_ending_inside.value_or(0) > 0);
+    count.steps += row.steps;
+    ++count.runs;
+    count.broken += row.scalar == "double" ? row.verdict == Verdict::violates : breaks;
   }
-  [[nodiscard]] std::string words() const {
-    return fmt::format("octagon_sweep in double: {} steps in {} runs, {} runs with a violation of the guarantee",
-                       guaranteed_steps, guaranteed_rows, violations);
+  [[nodiscard]] bool trouble() const { return in_double_.broken > 0 || failed_ > 0; }
+  /// One line for each number type that ran.
+  [[nodiscard]] std::vector<std::string> lines() const {
+    std::vector<std::string> all;
+    if (in_double_.runs > 0)
+      all.push_back(fmt::format("octagon_sweep in double: {}, {} with a violation of the guarantee",
+                                in_double_.extent(), counted(in_double_.broken, "run")));
+    if (in_float_.runs > 0)
+      all.push_back(
+          fmt::format("octagon_sweep in float, for which nothing is guaranteed: {}, {} with a step through or "
+                      "into a solid",
+                      in_float_.extent(), counted(in_float_.broken, "run")));
+    return all;
   }
+
+ private:
+  struct Count {
+    long long steps = 0;
+    int runs = 0;
+    int broken = 0;
+    [[nodiscard]] std::string extent() const { return counted(steps, "step") + " in " + counted(runs, "run"); }
+  };
+  Count in_double_;
+  Count in_float_;
+  int failed_ = 0;
 };
 
 std::vector<NamedTolerance> tolerances_of(const ReportScene& scene) {
@@ -67,9 +90,54 @@ std::vector<NamedTolerance> tolerances_of(const ReportScene& scene) {
   return {};
 }
 
+/// The files that a comparison is going to write: no two may be the same, and none an input.
+class Outputs {
+ public:
+  explicit Outputs(const CompareArguments& arguments) : arguments_(arguments) {}
+
+  void add_scene(const std::string& given, const std::string& name) {
+    if (std::filesystem::exists(given)) claim(given, "the scene " + given);
+    if (arguments_.run.trace_stem.empty()) return;
+    const auto claim_traces = [&](const std::string& stem, const std::string& contender) {
+      for (const ScalarKind scalar : {ScalarKind::binary64, ScalarKind::binary32}) {
+        const std::string path = trace_path(stem, name, contender, name_of(scalar));
+        if (!claim(path, "a trace"))
+          throw InputError(fmt::format(
+              "{}: expected another name than {}: its traces would overwrite those of another scene", given, name));
+      }
+    };
+    for (const std::string_view contender : contender_names()) {
+      claim_traces(arguments_.run.trace_stem, std::string(contender));
+      claim_traces(twin_stem(arguments_.run.trace_stem, contender), "box2d");
+    }
+  }
+
+  void check() {
+    const auto check_one = [this](const char* option, const std::string& path) {
+      if (!path.empty() && !claim(path, option))
+        throw InputError(fmt::format("{} {}: expected another file than {}", option, path, claimed_[place_of(path)]));
+    };
+    check_one("--rows", arguments_.rows_path);
+    check_one("--report", arguments_.report_path);
+  }
+
+ private:
+  static std::string place_of(const std::string& path) {
+    std::error_code unknown;
+    const std::filesystem::path place = std::filesystem::weakly_canonical(std::filesystem::absolute(path), unknown);
+    return unknown ? path : place.string();
+  }
+  /// @returns whether nobody has the file yet.
+  bool claim(const std::string& path, const std::string& by) { return claimed_.emplace(place_of(path), by).second; }
+
+  const CompareArguments& arguments_;
+  std::map<std::string, std::string> claimed_;  ///< By whom.
+};
+
 class Comparison {
  public:
-  explicit Comparison(CompareArguments& arguments) : arguments_(arguments), progress_(!arguments.quiet) {
+  explicit Comparison(CompareArguments& arguments)
+      : arguments_(arguments), progress_(!arguments.quiet), outputs_(arguments) {
     check_contenders(arguments.run.contenders);
     check_lockstep();
     const bool keep = arguments.scenes.size() <= kept_in_memory;
@@ -77,13 +145,15 @@ class Comparison {
       progress_.show("checking " + arguments.scenes[i],
                      static_cast<double>(i) / static_cast<double>(arguments.scenes.size()));
       std::vector<Scene> scenes = load_scenes(arguments.scenes[i]);
-      for (const Scene& scene : scenes) check_name(arguments.scenes[i], scene.name);
+      for (const Scene& scene : scenes) outputs_.add_scene(arguments.scenes[i], scene.name);
       if (keep) kept_.push_back(std::move(scenes));
     }
+    progress_.clear();
+    outputs_.check();
+    open_outputs();
   }
 
   int run() {
-    if (!arguments_.report_path.empty()) open_report();
     for (std::size_t i = 0; i < arguments_.scenes.size(); ++i) {
       const std::vector<Scene> scenes = kept_.empty() ? load_scenes(arguments_.scenes[i]) : std::move(kept_[i]);
       for (const Scene& scene : scenes)
@@ -91,7 +161,7 @@ class Comparison {
     }
     progress_.clear();
     finish();
-    return totals_.violations > 0 || totals_.failed > 0 ? 1 : 0;
+    return totals_.trouble() ? 1 : 0;
   }
 
  private:
@@ -104,13 +174,11 @@ class Comparison {
         throw InputError(fmt::format("--contender {}: expected a technique, as lockstep runs Box2D beside each", name));
   }
 
-  /// Two scenes of one name would write to the same trace.
-  void check_name(const std::string& given, const std::string& name) {
-    if (!names_.insert(name).second && !arguments_.run.trace_stem.empty())
-      throw InputError(
-          fmt::format("{}: expected another name than {}, which another scene has: their traces would "
-                      "overwrite each other",
-                      given, name));
+  /// Everything is opened before the first step: who waited for an hour wants to be able to keep the result.
+  void open_outputs() {
+    if (!arguments_.rows_path.empty()) rows_file_.emplace(arguments_.rows_path);
+    if (!arguments_.report_path.empty()) open_report();
+    if (!arguments_.run.trace_stem.empty()) const OutputFile probe(arguments_.run.trace_stem + ".jsonl");
   }
 
   void open_report() {
@@ -146,23 +214,23 @@ class Comparison {
   void finish() {
     const nlohmann::ordered_json rows = rows_json(rows_);
     const auto text = [&rows] { return rows.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace); };
-    if (!arguments_.rows_path.empty()) {
-      OutputFile file(arguments_.rows_path);
-      file.stream() << text() << '\n';
-      file.commit();
+    if (rows_file_) {
+      rows_file_->write(text() + '\n');
+      rows_file_->commit();
     }
-    if (report_) report_->finish(environment(), tolerances_, {totals_.words()});
+    if (report_) report_->finish(environment(), tolerances_, totals_.lines());
     if (arguments_.json)
       fmt::print("{}\n", text());
     else if (!arguments_.quiet)
-      fmt::print("{}\n", totals_.words());
+      for (const std::string& line : totals_.lines()) fmt::print("{}\n", line);
     if (report_ && !arguments_.quiet && !arguments_.json) fmt::print("report: {}\n", arguments_.report_path);
   }
 
   CompareArguments& arguments_;
   Progress progress_;
   std::vector<std::vector<Scene>> kept_;
-  std::set<std::string> names_;
+  Outputs outputs_;
+  std::optional<OutputFile> rows_file_;
   std::vector<Row> rows_;
   Totals totals_;
   ReportOptions report_options_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstdio>
 
 namespace paperproof::compare {
 namespace {
@@ -28,6 +29,14 @@ std::string named(std::uint8_t sides) {
     if ((sides >> static_cast<unsigned>(side) & 1U) != 0) text += (text.empty() ? "" : " and ") + std::string(name);
   }
   return text.empty() ? "no contact" : text;
+}
+
+bool breaks(const TraceStep& step, const StepJudgement& judged) {
+  const bool entered =
+      std::any_of(judged.end_overlap.begin(), judged.end_overlap.end(), [&step](ColliderIndex collider) {
+        return std::find(step.start_overlap.begin(), step.start_overlap.end(), collider) == step.start_overlap.end();
+      });
+  return entered || !judged.tunnelled.empty() || !judged.one_way_broken.empty();
 }
 
 unsigned size_of(unsigned sides) { return static_cast<unsigned>(std::popcount(sides)); }
@@ -80,11 +89,12 @@ SideDisagreement::Right Agreement::who(const View& view) {
 void Agreement::settle_last(const View& view) {
   if (!last_) return;
   const SideDisagreement::Right right = who(view);
-  --counts_[static_cast<std::size_t>(*last_)];
+  --counts_[static_cast<std::size_t>(last_->right)];
   ++counts_[static_cast<std::size_t>(right)];
-  if (!last_is_kept_) return;
-  disagreements_.back().right = right;
-  disagreements_.back().who_is_right = words(disagreements_.back());
+  last_->right = right;
+  last_->who_is_right = words(*last_);
+  if (last_is_kept_) disagreements_.back() = *last_;
+  if (!first_wrong_ && right != SideDisagreement::Right::both) first_wrong_ = last_;
 }
 
 void Agreement::add(const TraceStep& mine, const StepJudgement& mine_judged, const TraceStep& reference,
@@ -102,9 +112,7 @@ void Agreement::add(const TraceStep& mine, const StepJudgement& mine_judged, con
   last_.reset();
   last_is_kept_ = false;
   ++steps_;
-  if (!mine.path.empty() && !reference.path.empty()) {
-    farthest_ = std::max(farthest_, (mine.path.back().position - reference.path.back().position).norm());
-  }
+  note_positions(mine, mine_judged, reference, reference_judged);
   const unsigned only_mine = unsigned{moment.mine.reported} & ~unsigned{moment.reference.reported};
   const unsigned only_reference = unsigned{moment.reference.reported} & ~unsigned{moment.mine.reported};
   // A missing contact can be excused; another side in its place cannot.
@@ -114,12 +122,60 @@ void Agreement::add(const TraceStep& mine, const StepJudgement& mine_judged, con
     ++same_;
     return;
   }
-  window_.last([this](const View& view) { last_ = who(view); });
-  ++counts_[static_cast<std::size_t>(*last_)];
+  last_ = {mine.step, mine, reference, mine_judged.contacts, reference_judged.contacts, {}, {}};
+  window_.last([this](const View& view) { last_->right = who(view); });
+  last_->who_is_right = words(*last_);
+  ++counts_[static_cast<std::size_t>(last_->right)];
   if (disagreements_.size() == most_) return;
   last_is_kept_ = true;
-  disagreements_.push_back({mine.step, mine, reference, mine_judged.contacts, reference_judged.contacts, *last_, {}});
-  disagreements_.back().who_is_right = words(disagreements_.back());
+  disagreements_.push_back(*last_);
+}
+
+void Agreement::note_positions(const TraceStep& mine, const StepJudgement& mine_judged, const TraceStep& reference,
+                               const StepJudgement& reference_judged) {
+  if (mine.path.empty() || reference.path.empty()) return;
+  const double distance = (mine.path.back().position - reference.path.back().position).norm();
+  farthest_ = std::max(farthest_, distance);
+  if (apart_) return;
+  if (!mine_broke_ && breaks(mine, mine_judged)) mine_broke_ = mine.step;
+  if (!reference_broke_ && breaks(reference, reference_judged)) reference_broke_ = reference.step;
+  if (!reference_capped_ && reference.capped) reference_capped_ = reference.step;
+  if (!(distance <= box2d_skin))
+    apart_ = {mine.step, distance, !mine_judged.end_overlap.empty(), !reference_judged.end_overlap.empty()};
+}
+
+std::string Agreement::words_about_positions() const {
+  const auto right = [](const std::string& one, const std::string& other, int step) {
+    return one + " is right, as " + other + " passed or entered a solid on step " + std::to_string(step);
+  };
+  char distance[32];
+  std::snprintf(distance, sizeof distance, "%.3g", apart_->by);
+  const std::string fact = mine_name_ + " and " + reference_name_ + " are " + distance + " m apart: ";
+  if (mine_broke_ && reference_broke_) return fact + "neither is right, as both passed or entered a solid";
+  if (mine_broke_) return fact + right(reference_name_, mine_name_, *mine_broke_);
+  if (reference_broke_) return fact + right(mine_name_, reference_name_, *reference_broke_);
+  if (apart_->mine_inside != apart_->reference_inside) {
+    const auto [one, other] =
+        apart_->mine_inside ? std::pair(mine_name_, reference_name_) : std::pair(reference_name_, mine_name_);
+    return fact + other + " is right, as " + one + " is still inside a solid";
+  }
+  if (reference_capped_) return fact + reference_name_ + " moves at most 2 m per step";
+  return fact + "neither passed or entered a solid, they respond differently";
+}
+
+std::optional<std::pair<int, std::string>> Agreement::first_difference() const {
+  const SideDisagreement* sides = disagreements_.empty() ? nullptr : &disagreements_.front();
+  if (apart_ && (sides == nullptr || apart_->step < sides->step))
+    return std::pair(apart_->step, words_about_positions());
+  if (sides == nullptr) return std::nullopt;
+  std::string text = sides->who_is_right;
+  const std::optional<SideDisagreement>& wrong = first_wrong_ ? first_wrong_ : last_;
+  if (sides->right != SideDisagreement::Right::both) return std::pair(sides->step, text);
+  if (wrong && wrong->right != SideDisagreement::Right::both)
+    text += "; step " + std::to_string(wrong->step) + " is the first on which one is not: " + wrong->who_is_right;
+  else if (apart_)
+    text += "; from step " + std::to_string(apart_->step) + " on " + words_about_positions();
+  return std::pair(sides->step, text);
 }
 
 std::string Agreement::words(const SideDisagreement& one) const {
@@ -146,6 +202,10 @@ void Agreement::write(Row& row) const {
   if (steps_ == 0) return;
   row.contact_agreement_box2d = static_cast<double>(same_) / steps_;
   row.max_position_difference_box2d_m = farthest_;
+  if (auto first = first_difference()) {
+    row.first_difference_box2d_step = first->first;
+    row.first_difference_box2d = "step " + std::to_string(first->first) + ": " + first->second;
+  }
   Matches matches = matches_;
   window_.last([&](const View& view) { match(view, matches); });
   if (matches.mine > 0) row.contact_precision_box2d = static_cast<double>(matches.mine_matched) / matches.mine;

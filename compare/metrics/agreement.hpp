@@ -8,6 +8,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace paperproof::compare {
@@ -24,6 +25,9 @@ struct SideDisagreement {
   std::string who_is_right;  ///< The same in words, with what each says.
 };
 
+/// Box2D keeps bodies this far apart by design: positions within it agree [m].
+inline constexpr double box2d_skin = 0.021;
+
 /// Compares a contender with the reference (Box2D). Feed both runs' steps in order. Not thread-safe.
 ///
 /// - `contact_agreement_box2d`: the share of steps with the same set of sides. A side that only one reports is excused
@@ -33,6 +37,10 @@ struct SideDisagreement {
 ///   step; `contact_recall_box2d`: the share of (step, side) of the reference that the contender reports too within one
 ///   step. Excused sides do not count.
 /// - `max_position_difference_box2d_m`: largest distance of the two ends of a step [m].
+///
+/// - `first_difference_box2d_step`: the first step with other sides of contact, or with ends of the step further apart
+///   than Box2D's skin (21 mm). Positions differ for a reason that may lie earlier: right is then who has not passed or
+///   entered a solid so far, where just one has.
 ///
 /// Right is who reports, on that step, no side that exact arithmetic does not have for its own motion within one step,
 /// and misses none that exact arithmetic has.
@@ -47,6 +55,9 @@ class Agreement {
 
   /// The first ones, in order. Who is right on the last step that was added may still change with the next one.
   [[nodiscard]] const std::vector<SideDisagreement>& disagreements() const noexcept { return disagreements_; }
+  /// The first step on which the two differ, in words with who is right; where both are right there, also the first on
+  /// which one of them is not.
+  [[nodiscard]] std::optional<std::pair<int, std::string>> first_difference() const;
   /// How many there were, by who is right.
   [[nodiscard]] int count(SideDisagreement::Right right) const noexcept {
     return counts_[static_cast<std::size_t>(right)];
@@ -70,12 +81,22 @@ class Agreement {
     int reference = 0;
     int reference_matched = 0;
   };
+  /// Positions further apart than the skin.
+  struct Apart {
+    int step = 0;
+    double by = 0;  ///< [m]
+    bool mine_inside = false;
+    bool reference_inside = false;
+  };
   using View = detail::Window<Moment>::View;
   static void match(const View& view, Matches& matches);
   [[nodiscard]] static bool is_right(const View& view, Party Moment::*party);
   [[nodiscard]] static SideDisagreement::Right who(const View& view);
   void settle_last(const View& view);
   [[nodiscard]] std::string words(const SideDisagreement& disagreement) const;
+  void note_positions(const TraceStep& mine, const StepJudgement& mine_judged, const TraceStep& reference,
+                      const StepJudgement& reference_judged);
+  [[nodiscard]] std::string words_about_positions() const;
 
   std::string mine_name_;
   std::string reference_name_;
@@ -85,9 +106,13 @@ class Agreement {
   int steps_ = 0;
   int same_ = 0;
   double farthest_ = 0;
+  std::optional<Apart> apart_;
+  std::optional<int> mine_broke_;  ///< The first step that passed or entered a solid, while they are not apart.
+  std::optional<int> reference_broke_;
+  std::optional<int> reference_capped_;
+  std::optional<SideDisagreement> first_wrong_;  ///< The first on which not both are right.
   std::array<int, 4> counts_{};
-  /// Who is right on the step before, if the two differ there.
-  std::optional<SideDisagreement::Right> last_;
+  std::optional<SideDisagreement> last_;  ///< Of the step before, if the two differ there.
   bool last_is_kept_ = false;
   std::vector<SideDisagreement> disagreements_;
 };

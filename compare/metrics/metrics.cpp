@@ -18,7 +18,7 @@ bool contains(const Range& range, const Value& value) {
 
 std::string sentence(const TraceStep& step, const Passing& passing, const std::string& id) {
   char numbers[160];
-  std::snprintf(numbers, sizeof numbers, "at %.1f m/s, %.3f m thick at the crossing, %.0f° to its face", passing.speed,
+  std::snprintf(numbers, sizeof numbers, "at %.1f m/s, %.3g m thick at the crossing, %.0f° to its face", passing.speed,
                 passing.thickness, passing.angle);
   return "step " + std::to_string(step.step) + ": passed `" + id + "` " + numbers;
 }

@@ -42,6 +42,7 @@ void put_counts(nlohmann::json& object, const Row& row) {
   put(object, "steps_ending_inside", row.steps_ending_inside);
   put(object, "one_way_violations", row.one_way_violations);
   put(object, "first_contact_step", row.first_contact_step);
+  put(object, "first_difference_box2d_step", row.first_difference_box2d_step);
   put(object, "contact_steps", row.contact_steps);
   put(object, "colliders_touched", row.colliders_touched);
   put(object, "respawns", row.respawns);
@@ -58,11 +59,13 @@ void put_measures(nlohmann::json& object, const Row& row) {
   put(object, "contact_recall_box2d", row.contact_recall_box2d);
   put(object, "contact_agreement_box2d", row.contact_agreement_box2d);
   put(object, "toi_error_max", row.toi_error_max);
+  put(object, "ghost_speed_loss", row.ghost_speed_loss);
   put(object, "rest_peak_to_peak_m", row.rest_peak_to_peak_m);
   put(object, "rest_rms_m", row.rest_rms_m);
   put(object, "contact_toggles", row.contact_toggles);
   put(object, "max_position_difference_box2d_m", row.max_position_difference_box2d_m);
   put(object, "ns_per_step", row.ns_per_step);
+  put(object, "ns_per_step_median", row.ns_per_step_median);
   put(object, "ns_per_step_max", row.ns_per_step_max);
   put(object, "memory_bytes", row.memory_bytes);
 }
@@ -70,6 +73,7 @@ void put_measures(nlohmann::json& object, const Row& row) {
 nlohmann::json row_json(const Row& row) {
   nlohmann::json object{{"contender", row.contender}, {"scalar", row.scalar}, {"mode", row.mode},
                         {"steps", row.steps},         {"reason", row.reason}, {"findings", row.findings}};
+  if (!row.first_difference_box2d.empty()) object["findings"].push_back(row.first_difference_box2d);
   object["verdict"] = std::string(words_for(row.verdict));
   put_counts(object, row);
   put_measures(object, row);

@@ -4,12 +4,9 @@
 #include "report/json_text.hpp"
 #include "report/page_parts.hpp"
 #include "report/replay_json.hpp"
+#include "runs/output_file.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <stdexcept>
 
 namespace paperproof::compare {
@@ -32,44 +29,8 @@ ReportRun thinned(const ReportRun& run, int max_steps, const std::vector<Disagre
 
 }  // namespace
 
-struct ReportWriter::File {
-  explicit File(const std::string& path) : final_path(path), partial_path(path + ".partial") {
-    stream.open(partial_path, std::ios::binary | std::ios::trunc);
-    if (!stream) fail("cannot be written");
-  }
-  ~File() {
-    if (finished) return;
-    stream.close();
-    std::error_code ignored;
-    std::filesystem::remove(partial_path, ignored);
-  }
-  File(const File&) = delete;
-  File& operator=(const File&) = delete;
-
-  void write(std::string_view text) {
-    stream.write(text.data(), static_cast<std::streamsize>(text.size()));
-    if (!stream) fail("could not be written to the end");
-  }
-  void finish() {
-    stream.close();
-    if (!stream) fail("could not be written to the end");
-    std::error_code error;
-    std::filesystem::rename(partial_path, final_path, error);
-    if (error) throw std::runtime_error(final_path + ": the report could not be put in place: " + error.message());
-    finished = true;
-  }
-  [[noreturn]] void fail(const std::string& what) const {
-    throw std::runtime_error(final_path + ": the report " + what + ": " + std::strerror(errno));
-  }
-
-  std::string final_path;
-  std::string partial_path;
-  std::ofstream stream;
-  bool finished = false;
-};
-
 ReportWriter::ReportWriter(const std::string& path, const ReportOptions& options)
-    : file_(std::make_unique<File>(path)), options_(options) {
+    : file_(std::make_unique<OutputFile>(path)), options_(options) {
   const auto [head, rest] = split_at(page::page_html, "/*STYLE*/");
   file_->write(head);
   file_->write(page::style_css);
@@ -101,7 +62,7 @@ void ReportWriter::finish(const Environment& environment, const std::vector<Name
     file_->write(part);
   }
   file_->write(after);
-  file_->finish();
+  file_->commit();
 }
 
 ReportOptions options_for(std::size_t runs) noexcept {

@@ -12,6 +12,8 @@
 
 namespace paperproof::compare {
 
+class OutputFile;
+
 /// Versions, compiler, flags, processor, build: (name, value) in the order in which they are shown.
 using Environment = std::vector<std::pair<std::string, std::string>>;
 
@@ -92,8 +94,7 @@ class ReportWriter {
               const std::vector<std::string>& guarantee_notes);
 
  private:
-  struct File;
-  std::unique_ptr<File> file_;
+  std::unique_ptr<OutputFile> file_;
   ReportOptions options_;
   std::vector<std::string> index_;  ///< One JSON object per scene: what the summary and the tables need.
 };

@@ -12,6 +12,7 @@ class Box2dContestant final : public Contestant {
         gravity_(scene.gravity),
         dt_(scene.dt),
         world_(scenery, scene.character, scene.start.position, {.mode = mode}) {
+    if (!(dt_ >= box2d::least_step)) throw box2d::InvalidDefinition("Box2D takes no steps shorter than 1e-9 s");
     header_.scene = scene.name;
     header_.contender = mode == box2d::SceneryMode::pieces ? "box2d_pieces" : "box2d";
     header_.scalar = name_of(ScalarKind::binary32);
@@ -66,11 +67,19 @@ class Box2dContestant final : public Contestant {
   const box2d::TwinStep& advance(const StepInput& input) {
     const Vec2d velocity = desired_velocity(character_, gravity_, input.player, dt_, state_);
     requested_ = velocity * dt_;
-    const box2d::TwinStep& twin = world_.step(velocity, dt_);
+    const box2d::TwinStep& twin = step_world(velocity);
     state_.velocity = twin.velocity;
     state_.grounded = twin.grounded;
     if (twin.grounded && twin.velocity.y() <= 0) state_.jumping = false;
     return twin;
+  }
+
+  const box2d::TwinStep& step_world(const Vec2d& velocity) {
+    try {
+      return world_.step(velocity, dt_);
+    } catch (const box2d::InvalidDefinition& reason) {
+      throw LeftRange(std::string(reason.what()) + ": beyond what Box2D is given, and the run ends there");
+    }
   }
 
   CharacterDef character_;

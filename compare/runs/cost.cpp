@@ -3,13 +3,13 @@
 #include "runs/input_cursor.hpp"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
-#include <limits>
 
 namespace paperproof::compare {
 namespace {
 
-constexpr int repeats = 9;
+constexpr std::size_t repeats = 9;
 /// Enough for a clock that ticks every microsecond, few enough that a comparison of hundreds of levels stays short.
 constexpr int most_steps = 1000;
 
@@ -30,17 +30,16 @@ Cost measure_cost(Contestant& contestant, const Scene& scene, const std::vector<
   for (std::size_t step = 0; step < players.size(); ++step)
     inputs.push_back({players[step], std::span(motions).subspan(step * movers, movers)});
 
-  Cost cost{std::numeric_limits<double>::infinity(), 0};
-  for (int repeat = 0; repeat <= repeats; ++repeat) {
+  std::array<double, repeats> costs{};
+  for (std::size_t run = 0; run <= repeats; ++run) {
     contestant.place({.position = scene.start.position, .velocity = scene.start.velocity});
     const auto begin = std::chrono::steady_clock::now();
     for (const StepInput& now : inputs) contestant.step_unrecorded(now);
     const std::chrono::duration<double, std::nano> took = std::chrono::steady_clock::now() - begin;
-    if (repeat == 0) continue;
-    cost.ns_per_step_min = std::min(cost.ns_per_step_min, took.count() / timed);
-    cost.ns_per_step_max = std::max(cost.ns_per_step_max, took.count() / timed);
+    if (run > 0) costs[run - 1] = took.count() / timed;
   }
-  return cost;
+  std::sort(costs.begin(), costs.end());
+  return {costs.front(), costs[repeats / 2], costs.back()};
 }
 
 }  // namespace paperproof::compare

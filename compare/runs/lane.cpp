@@ -1,5 +1,7 @@
 #include "runs/lane.hpp"
 
+#include "words.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -39,7 +41,14 @@ Lane::Lane(std::string contender, ScalarKind scalar, const Scene& scene, const S
   }
   // A trace that cannot be written ends the command, not the lane.
   if (running() && !trace_stem.empty())
-    trace_ = std::make_unique<TraceWriter>(trace_path(trace_stem, header()), header());
+    trace_ = std::make_unique<TraceWriter>(trace_path(trace_stem, row_.scene, row_.contender, row_.scalar), header());
+}
+
+void Lane::note_start() {
+  if (inside_.empty()) return;
+  begins_inside_ = fmt::format("the run begins inside `{}`", header().ids[inside_.front()]);
+  if (inside_.size() > 1) begins_inside_ += " and " + counted(inside_.size() - 1, "other collider");
+  row_.findings.push_back(begins_inside_);
 }
 
 void Lane::fail(Verdict verdict, const std::string& reason) {
@@ -75,6 +84,7 @@ void Lane::step(int step, const StepInput& input) {
     if (placed_) inside_ = solids().overlapped({record_.path.front(), record_.movers});
     placed_ = false;
     record_.start_overlap = inside_;
+    if (step == 0) note_start();
     judgement_ = judge_->judge(record_);
     metrics_->add(record_, judgement_);
   } catch (const LeftRange& reason) {
@@ -135,23 +145,25 @@ void Lane::conclude() {
   const bool wide_gap = gap > guaranteed_gap;
   if (guaranteed() && (steps_broken_ > 0 || wide_gap)) {
     row_.verdict = Verdict::violates;
-    row_.reason = steps_broken_ > 0 ? fmt::format("{} steps enter or pass a solid", steps_broken_)
+    row_.reason = steps_broken_ > 0 ? fmt::format("{} into or through a solid", counted(steps_broken_, "step"))
                                     : fmt::format("a contact is {:.3g} m away", gap);
   } else if (steps_capped_ > 0) {
     row_.verdict = Verdict::flagged;
-    row_.reason = fmt::format("{} steps exceed Box2D's travel cap of 2 m per step and are not scored", steps_capped_);
+    row_.reason =
+        fmt::format("{} beyond Box2D's travel cap of 2 m per step, not scored", counted(steps_capped_, "step"));
   } else if (row_.tunnels.value_or(0) > 0) {
     row_.verdict = Verdict::tunnels;
-    row_.reason = fmt::format("{} steps pass a solid", *row_.tunnels);
+    row_.reason = fmt::format("{} through a solid", counted(*row_.tunnels, "step"));
     if (!row_.findings.empty()) {  // the first passage in words says more
       row_.reason = row_.findings.front();
       row_.findings.erase(row_.findings.begin());
     }
   } else if (steps_broken_ > 0) {
     row_.verdict = Verdict::flagged;
-    row_.reason = inside > 0 ? fmt::format("{} steps end inside a solid, up to {:.3g} m deep", inside,
-                                           row_.max_penetration_m.value_or(0))
-                             : fmt::format("{} steps pass a one-way chain against its normal", steps_broken_);
+    row_.reason = inside > 0
+                      ? fmt::format("ends {} inside a solid, up to {:.3g} m deep", counted(inside, "step"),
+                                    row_.max_penetration_m.value_or(0))
+                      : fmt::format("passes a one-way chain against its normal on {}", counted(steps_broken_, "step"));
   }
 }
 

@@ -33,6 +33,8 @@ class Lane {
   [[nodiscard]] const TraceStep& record() const noexcept { return record_; }
   [[nodiscard]] const StepJudgement& judgement() const noexcept { return judgement_; }
   [[nodiscard]] Row& row() noexcept { return row_; }
+  /// In words; empty where the run begins free.
+  [[nodiscard]] const std::string& begins_inside() const noexcept { return begins_inside_; }
   [[nodiscard]] ReportRun& replay() noexcept { return replay_; }
 
   /// Puts the contestant somewhere; the next step begins a new story.
@@ -42,6 +44,7 @@ class Lane {
   void finish();
 
  private:
+  void note_start();
   void fail(Verdict verdict, const std::string& reason);
   void end_early(const std::string& reason);
   void keep_for_replay();
@@ -58,7 +61,8 @@ class Lane {
   TraceStep record_;
   StepJudgement judgement_;
   std::vector<ColliderIndex> inside_;  ///< What the octagon overlaps now, exactly.
-  int steps_broken_ = 0;               ///< Steps that entered a solid, passed one, or passed a one-way chain backwards.
+  std::string begins_inside_;
+  int steps_broken_ = 0;  ///< Steps that entered a solid, passed one, or passed a one-way chain backwards.
   int steps_capped_ = 0;
   bool placed_ = true;
 };

@@ -1,30 +1,48 @@
 #include "runs/output_file.hpp"
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 namespace paperproof::compare {
 
-OutputFile::OutputFile(std::string path) : path_(std::move(path)), beside_(path_ + ".part") {
+OutputFile::OutputFile(std::string path) : path_(std::move(path)), target_(path_) {
+  std::error_code none;
+  const std::filesystem::file_status status = std::filesystem::status(target_, none);
+  if (std::filesystem::is_directory(status)) throw std::runtime_error(path_ + ": cannot be written: it is a directory");
+  in_place_ = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
+  if (std::filesystem::is_regular_file(status)) target_ = std::filesystem::canonical(target_, none);
+  beside_ = target_;
+  if (!in_place_) beside_ += ".part";
   stream_.open(beside_, std::ios::binary | std::ios::trunc);
-  if (!stream_) throw std::runtime_error(path_ + ": cannot be written: " + std::strerror(errno));
+  if (!stream_) fail("cannot be written");
 }
 
 OutputFile::~OutputFile() {
-  if (committed_) return;
+  if (committed_ || in_place_) return;
   stream_.close();
-  std::remove(beside_.c_str());
+  std::error_code ignored;
+  std::filesystem::remove(beside_, ignored);
+}
+
+void OutputFile::write(std::string_view text) {
+  stream_.write(text.data(), static_cast<std::streamsize>(text.size()));
+  if (!stream_) fail("cannot be written whole");
 }
 
 void OutputFile::commit() {
   stream_.close();
-  if (!stream_) throw std::runtime_error(path_ + ": cannot be written whole: " + std::strerror(errno));
-  if (std::rename(beside_.c_str(), path_.c_str()) != 0)
-    throw std::runtime_error(path_ + ": cannot be replaced: " + std::strerror(errno));
+  if (!stream_) fail("cannot be written whole");
+  std::error_code error;
+  if (!in_place_) std::filesystem::rename(beside_, target_, error);
+  if (error) throw std::runtime_error(path_ + ": cannot be replaced: " + error.message());
   committed_ = true;
+}
+
+void OutputFile::fail(const std::string& what) const {
+  throw std::runtime_error(path_ + ": " + what + ": " + std::strerror(errno));
 }
 
 }  // namespace paperproof::compare

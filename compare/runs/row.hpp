@@ -44,10 +44,14 @@ struct Row {
   std::optional<double> rest_rms_m;
   std::optional<double> contact_toggles;  ///< per 1,000 resting steps
   std::optional<double> max_position_difference_box2d_m;
-  std::optional<double> ns_per_step;        ///< minimum
-  std::optional<double> ns_per_step_max;    ///< the spread: the slowest of the repeats
-  std::optional<std::size_t> memory_bytes;  ///< of a contender's own picture of the level
-  std::vector<std::string> findings;        ///< sentences: first tunnel with speed and thickness, caps, labels
+  /// the first step on which it and the Box2D twin differ: see `Agreement::first_difference`
+  std::optional<int> first_difference_box2d_step;
+  std::string first_difference_box2d;        ///< the same in words, with who is right
+  std::optional<double> ns_per_step;         ///< minimum
+  std::optional<double> ns_per_step_median;  ///< of the repeats: on a busy machine the slowest says little
+  std::optional<double> ns_per_step_max;     ///< the spread: the slowest of the repeats
+  std::optional<std::size_t> memory_bytes;   ///< of a contender's own picture of the level
+  std::vector<std::string> findings;         ///< sentences: first tunnel with speed and thickness, caps, labels
 };
 
 }  // namespace paperproof::compare

@@ -58,7 +58,10 @@ nlohmann::ordered_json row_json(const Row& row) {
   put(object, "rest_rms_m", row.rest_rms_m);
   put(object, "contact_toggles", row.contact_toggles);
   put(object, "max_position_difference_box2d_m", row.max_position_difference_box2d_m);
+  put(object, "first_difference_box2d_step", row.first_difference_box2d_step);
+  if (!row.first_difference_box2d.empty()) object["first_difference_box2d"] = row.first_difference_box2d;
   put(object, "ns_per_step", row.ns_per_step);
+  put(object, "ns_per_step_median", row.ns_per_step_median);
   put(object, "ns_per_step_max", row.ns_per_step_max);
   put(object, "memory_bytes", row.memory_bytes);
   if (!row.findings.empty()) object["findings"] = row.findings;

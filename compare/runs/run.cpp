@@ -7,6 +7,7 @@
 #include "runs/lane.hpp"
 #include "runs/lockstep.hpp"
 #include "runs/sentence.hpp"
+#include "words.hpp"
 
 #include <fmt/format.h>
 
@@ -39,7 +40,7 @@ class SceneRun {
         if (is_reference(name) && scalar != options.scalars.front()) continue;
         lanes_.push_back(std::make_unique<Lane>(name, scalar, scene, scenery_, mode, options.trace_stem, replay));
         if (options.mode != Mode::lockstep) continue;
-        const std::string stem = options.trace_stem.empty() ? "" : options.trace_stem + ".twin_of_" + name;
+        const std::string stem = options.trace_stem.empty() ? "" : twin_stem(options.trace_stem, name);
         twins_.push_back(std::make_unique<Lane>(std::string(twin_name), scalar, scene, scenery_, mode, stem, replay));
         twins_.back()->row().findings.push_back("twin of " + name);
       }
@@ -142,9 +143,13 @@ class SceneRun {
     for (const auto& lane : twins_) lane->finish();
     for (Pair& pair : pairs_) {
       pair.agreement.write(pair.mine->row());
+      if (options_.mode == Mode::lockstep) {  // every step is compared by itself there: none is the first
+        pair.mine->row().first_difference_box2d_step.reset();
+        pair.mine->row().first_difference_box2d.clear();
+      }
       if (pair.not_compared > 0)
         pair.mine->row().findings.push_back(
-            fmt::format("{} steps not compared: no room for Box2D's skin", pair.not_compared));
+            fmt::format("{} not compared: no room for Box2D's skin", counted(pair.not_compared, "step")));
     }
     for (const auto& lane : twins_) lane->row().respawns.reset();  // it was placed anew before every step
 
@@ -154,6 +159,9 @@ class SceneRun {
     for (const auto& lane : lanes_) add(*lane, result);
     for (const auto& lane : twins_) add(*lane, result);
     result.sentence = who_is_right(result.rows);
+    const auto inside =
+        std::find_if(lanes_.begin(), lanes_.end(), [](const auto& lane) { return !lane->begins_inside().empty(); });
+    if (inside != lanes_.end()) result.sentence += fmt::format(" Mind that {}.", (*inside)->begins_inside());
     if (options_.mode == Mode::lockstep)
       for (const Pair& pair : pairs_) result.sentence += in_lockstep(pair);
     for (const Pair& pair : pairs_) describe_disagreements(pair, result);
@@ -168,14 +176,15 @@ class SceneRun {
     const auto count = [&pair](Right right) { return pair.agreement.count(right); };
     const int differ = count(Right::mine) + count(Right::reference) + count(Right::both) + count(Right::neither);
     std::string text =
-        fmt::format(" From the same start {} and Box2D report the same sides of contact on {:.2f} % of {} steps",
-                    pair.mine->contender(), 100 * *share, pair.mine->row().steps - pair.not_compared);
+        fmt::format(" From the same start {} and Box2D report the same sides of contact on {:.2f} % of {}",
+                    pair.mine->contender(), 100 * *share, counted(pair.mine->row().steps - pair.not_compared, "step"));
     if (differ == 0) return text + ".";
-    return text + fmt::format(
-                      "; of the {} others exact arithmetic is with {} on {}, with Box2D on {}, with both on {}, with "
-                      "neither on {}.",
-                      differ, pair.mine->contender(), count(Right::mine), count(Right::reference), count(Right::both),
-                      count(Right::neither));
+    return text +
+           fmt::format(
+               "; where they differ ({}) exact arithmetic is with {} on {}, with Box2D on {}, with both on {}, with "
+               "neither on {}.",
+               counted(differ, "step"), pair.mine->contender(), count(Right::mine), count(Right::reference),
+               count(Right::both), count(Right::neither));
   }
 
   void add(Lane& lane, ReportScene& result) {
@@ -183,6 +192,7 @@ class SceneRun {
     if (options_.measure_cost && lane.running() && !placed_every_step) {
       const Cost cost = measure_cost(lane.contestant(), scene_, input_, steps_);
       lane.row().ns_per_step = cost.ns_per_step_min;
+      lane.row().ns_per_step_median = cost.ns_per_step_median;
       lane.row().ns_per_step_max = cost.ns_per_step_max;
     }
     result.rows.push_back(lane.row());

@@ -1,5 +1,8 @@
 #include "runs/sentence.hpp"
 
+#include "metrics/agreement.hpp"
+#include "words.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,8 +33,6 @@ bool scored(const Row& row) { return row.verdict != Verdict::not_applicable && r
 
 /// A horizontal speed loss in one step beyond which a run counts as snagged: Box2D's users call 1 % a ghost collision.
 constexpr double snagged = 0.01;
-/// Box2D rests this far away by design; a difference of positions within it is agreement [m].
-constexpr double skin = 0.021;
 
 std::string plural(const std::vector<std::string>& names, const char* one, const char* many) {
   return names.size() == 1 ? one : many;
@@ -39,7 +40,8 @@ std::string plural(const std::vector<std::string>& names, const char* one, const
 
 /// What a row's first tunnel was, in words.
 std::string passage(const Row& row) {
-  return row.verdict == Verdict::tunnels ? row.reason : fmt::format("passes a solid on {} steps", *row.tunnels);
+  return row.verdict == Verdict::tunnels ? row.reason
+                                         : fmt::format("passes a solid on {}", counted(*row.tunnels, "step"));
 }
 
 std::string about_tunnels(const std::vector<Row>& rows) {
@@ -66,7 +68,7 @@ std::string about_overlap(const std::vector<Row>& rows) {
   for (const Row& row : rows)
     if (ends_inside(row)) deepest = std::max(deepest, row.max_penetration_m.value_or(0));
   const auto outside = those(rows, [&](const Row& row) { return scored(row) && !ends_inside(row); });
-  std::string text = fmt::format("{} {} steps inside a solid, up to {:.2g} m deep", listed(inside),
+  std::string text = fmt::format("{} {} some steps inside a solid, up to {:.2g} m deep", listed(inside),
                                  plural(inside, "ends", "end"), deepest);
   if (!outside.empty()) text += fmt::format("; {} never {}", listed(outside), plural(outside, "does", "do"));
   return text + ". ";
@@ -83,10 +85,14 @@ std::string about_agreement(const std::vector<Row>& rows) {
   for (const Row& row : rows) {
     if (row.contender != "octagon_sweep" || row.scalar != "double") continue;
     if (!row.max_position_difference_box2d_m) return "";
-    if (*row.max_position_difference_box2d_m <= skin)
-      return fmt::format("octagon_sweep and Box2D agree to {:.3g} m, which is Box2D's skin. ",
+    std::string text;
+    if (*row.max_position_difference_box2d_m <= box2d_skin)
+      text = fmt::format("octagon_sweep and Box2D agree to {:.3g} m, which is Box2D's skin. ",
                          *row.max_position_difference_box2d_m);
-    return fmt::format("octagon_sweep and Box2D come {:.3g} m apart. ", *row.max_position_difference_box2d_m);
+    else
+      text = fmt::format("octagon_sweep and Box2D come {:.3g} m apart. ", *row.max_position_difference_box2d_m);
+    if (!row.first_difference_box2d.empty()) text += "They first differ on " + row.first_difference_box2d + ". ";
+    return text;
   }
   return "";
 }

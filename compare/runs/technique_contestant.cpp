@@ -2,6 +2,8 @@
 
 #include <paperproof/controller.hpp>
 
+#include <algorithm>
+
 namespace paperproof::compare {
 namespace {
 
@@ -130,7 +132,8 @@ class TechniqueContestant final : public Contestant {
     TechniqueDef def;
     def.kind = kind;
     def.article.unit = 1 / scene.pixels_per_metre;
-    def.article.raster_pixels_per_metre = scene.pixels_per_metre;
+    constexpr double finest = 1000;  // that the picture techniques take
+    def.article.raster_pixels_per_metre = std::min(scene.pixels_per_metre, finest);
     return def;
   }
 

@@ -40,7 +40,7 @@ ordered_json header_json(const TraceHeader& header) {
   object["colliders"] = ordered_json::array();
   for (std::size_t i = 0; i < header.ids.size(); ++i)
     object["colliders"].push_back(collider_json(header.ids[i], header.scenery.colliders[i]));
-  object["box2d"] = header.box2d;
+  if (!header.box2d.empty()) object["box2d"] = header.box2d;
   object["plan"]["omitted"] = header.plan_omitted;
   for (const NamedTolerance& tolerance : header.tolerances) object["tolerances"][tolerance.name] = tolerance.metres;
   return object;
@@ -132,11 +132,15 @@ void put_sensors(Buffer& out, const std::vector<SensorEvent<double>>& events, co
 
 }  // namespace
 
-std::string trace_path(const std::string& stem, const TraceHeader& header) {
-  std::string scene = header.scene;
+std::string trace_path(const std::string& stem, std::string scene, const std::string& contender,
+                       std::string_view scalar) {
   for (char& c : scene)
     if (c == '/' || c == '\\' || c == '\0') c = '_';
-  return fmt::format("{}.{}.{}.{}.jsonl", stem, scene, header.contender, header.scalar);
+  return fmt::format("{}.{}.{}.{}.jsonl", stem, scene, contender, scalar);
+}
+
+std::string twin_stem(const std::string& stem, std::string_view contender) {
+  return fmt::format("{}.twin_of_{}", stem, contender);
 }
 
 TraceWriter::TraceWriter(const std::string& path, const TraceHeader& header)
@@ -147,7 +151,7 @@ TraceWriter::TraceWriter(const std::string& path, const TraceHeader& header)
   }
   for (const std::string& id : header.ids)
     ids_.push_back(ordered_json(id).dump(-1, ' ', false, ordered_json::error_handler_t::replace));
-  file_.stream() << header_json(header).dump(-1, ' ', false, ordered_json::error_handler_t::replace) << '\n';
+  file_.write(header_json(header).dump(-1, ' ', false, ordered_json::error_handler_t::replace) + '\n');
 }
 
 void TraceWriter::write(const TraceStep& step) {
@@ -187,7 +191,7 @@ void TraceWriter::write(const TraceStep& step) {
        {std::pair{"respawn", step.respawn}, {"stuck", step.stuck}, {"dropped", step.dropped}, {"capped", step.capped}})
     if (set) fmt::format_to(std::back_inserter(out), ",\"{}\":true", name);
   put_text(out, "}\n");
-  file_.stream().write(out.data(), static_cast<std::streamsize>(out.size()));
+  file_.write({out.data(), out.size()});
 }
 
 }  // namespace paperproof::compare

@@ -7,7 +7,11 @@
 namespace paperproof::compare {
 
 /// `STEM.<scene>.<contender>.<scalar>.jsonl`; what a file name cannot hold becomes `_`.
-[[nodiscard]] std::string trace_path(const std::string& stem, const TraceHeader& header);
+[[nodiscard]] std::string trace_path(const std::string& stem, std::string scene, const std::string& contender,
+                                     std::string_view scalar);
+
+/// The stem of the twin that runs in lockstep with a contender.
+[[nodiscard]] std::string twin_stem(const std::string& stem, std::string_view contender);
 
 /// Numbers are printed so that they read back to the same bits. Not thread-safe.
 class TraceWriter {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "scenes/validate.hpp"
+#include "words.hpp"
 
 namespace paperproof::compare {
 
@@ -31,10 +32,10 @@ std::string colliders(const SceneryDef& scenery) {
       ++(collider.one_way ? one_way : chains);
     }
   }
-  std::string out =
-      fmt::format("{} polygons ({} holes), {} two-sided chains, {} one-way chains", polygons, holes, chains, one_way);
-  if (moving > 0) out += fmt::format("; {} of them move", moving);
-  if (sensors > 0) out += fmt::format("; {} of them are sensors", sensors);
+  std::string out = fmt::format("{} ({}), {}, {}", counted(polygons, "polygon"), counted(holes, "hole"),
+                                counted(chains, "two-sided chain"), counted(one_way, "one-way chain"));
+  if (moving > 0) out += fmt::format("; moving: {}", moving);
+  if (sensors > 0) out += fmt::format("; sensors: {}", sensors);
   return out;
 }
 
@@ -42,9 +43,9 @@ std::string mover(const Scene& scene, MoverIndex index) {
   const MoverDef& def = scene.movers[index];
   const std::vector<ColliderDef>& all = scene.scenery.colliders;
   const auto colliders = std::count_if(all.begin(), all.end(), [index](const auto& c) { return c.mover == index; });
-  std::string out = fmt::format("{}: {} colliders, {} waypoints in {} s", def.id, colliders, def.path.size(),
-                                def.path.back().time - def.path.front().time);
-  if (!def.turns.empty()) out += fmt::format(", {} angles", def.turns.size());
+  std::string out = fmt::format("{}: {}, {} in {} s", def.id, counted(colliders, "collider"),
+                                counted(def.path.size(), "waypoint"), def.path.back().time - def.path.front().time);
+  if (!def.turns.empty()) out += ", " + counted(def.turns.size(), "angle");
   switch (def.loop) {
     case MoverDef::Loop::once:
       return out + ", once";
@@ -54,6 +55,21 @@ std::string mover(const Scene& scene, MoverIndex index) {
       return out + ", to and fro";
   }
   return out;
+}
+
+/// One-way chains with segments that run along `one_way`, which have no side to block from.
+std::vector<std::string> idle_segments(const Scene& scene, const Scenery<double>& built) {
+  std::vector<std::size_t> blocking(scene.ids.size(), 0);
+  for (const PieceInfo& piece : built.pieces()) ++blocking[piece.collider];
+  std::vector<std::string> notes;
+  for (std::size_t i = 0; i < scene.ids.size(); ++i) {
+    const ColliderDef& collider = scene.scenery.colliders[i];
+    if (!collider.one_way || blocking[i] + 1 == collider.points.size()) continue;
+    const std::size_t idle = collider.points.size() - 1 - blocking[i];
+    notes.push_back(
+        fmt::format("\"{}\": {} along its one_way, where nothing is blocked", scene.ids[i], counted(idle, "segment")));
+  }
+  return notes;
 }
 
 }  // namespace
@@ -77,12 +93,13 @@ std::string describe(const Scene& scene) {
   line("character", fmt::format("{} points, {} x {} m", scene.character.shape.points().size(),
                                 scene.character.shape.box().upper.x() - scene.character.shape.box().lower.x(),
                                 scene.character.shape.box().upper.y() - scene.character.shape.box().lower.y()));
-  line("run", fmt::format("{} steps of {} s, gravity {} m/s²", scene.steps, scene.dt, point(scene.gravity)));
-  line("input", fmt::format("{} events", scene.input.size()));
+  line("run", fmt::format("{} of {} s, gravity {} m/s²", counted(scene.steps, "step"), scene.dt, point(scene.gravity)));
+  line("input", counted(scene.input.size(), "event"));
   line("movers", std::to_string(scene.movers.size()));
   for (MoverIndex i = 0; i < scene.movers.size(); ++i) line("", mover(scene, i));
   if (scene.respawn_box) line("map", box(*scene.respawn_box));
   for (const std::string& note : scene.notes) line("note", note);
+  for (const std::string& note : idle_segments(scene, built)) line("note", note);
   return out;
 }
 

@@ -65,19 +65,46 @@ CharacterShape read_shape(const JsonCursor& character, double pixels_per_metre) 
   }
 }
 
-Start read_start(const JsonCursor& character) {
+/// A number in [lowest, highest].
+double within(const JsonCursor& at, double lowest, double highest) {
+  const double value = at.number();
+  if (!(value >= lowest && value <= highest))
+    at.refuse(fmt::format("expected a number from {} to {}", lowest, highest));
+  return value;
+}
+
+/// Refuses speeds that leave in one step what a sweep can hold; later steps are watched by the run.
+/// @param per_step how far it moves the character in a step [m].
+void check_travel(const JsonCursor& at, double per_step, double dt) {
+  constexpr double most = 1e6;  // of the guarantee
+  if (!(per_step <= most)) at.refuse(fmt::format("expected at most 1e6 m of motion in a step of {} s", dt));
+}
+
+double largest(const Vec2d& v) { return v.cwiseAbs().maxCoeff(); }
+
+/// @param dt of the longest step [s].
+Start read_start(const JsonCursor& character, double dt) {
   Start start;
   const JsonCursor position = character.require("position");
   start.position = position.point();
   if (!(start.position.cwiseAbs().maxCoeff() <= largest_coordinate))
     position.refuse("expected coordinates within 2e6 m");
-  if (const auto velocity = character.find("velocity")) start.velocity = velocity->point();
+  if (const auto velocity = character.find("velocity")) {
+    start.velocity = velocity->point();
+    check_travel(*velocity, largest(start.velocity) * dt, dt);
+  }
   if (const auto overlap = character.find("start_overlap")) {
     const std::string word = overlap->text();
     if (word != "resolve" && word != "refuse") overlap->refuse("expected \"resolve\" or \"refuse\"");
     start.resolve_overlap = word == "resolve";
   }
   return start;
+}
+
+double read_speed(const JsonCursor& object, std::string_view key, double otherwise, double dt) {
+  const double speed = read_not_negative(object, key, otherwise);
+  if (const auto found = object.find(key)) check_travel(*found, speed * dt, dt);
+  return speed;
 }
 
 void read_character(const JsonCursor& at, Scene& scene) {
@@ -87,11 +114,11 @@ void read_character(const JsonCursor& at, Scene& scene) {
                         "no_jump_toward_wall", "side_hit_ends_rise"});
   CharacterDef& character = scene.character;
   character.shape = read_shape(at, scene.pixels_per_metre);
-  scene.start = read_start(at);
-  character.walk_speed = read_not_negative(at, "walk_speed", character.walk_speed);
+  scene.start = read_start(at, scene.dt);
+  character.walk_speed = read_speed(at, "walk_speed", character.walk_speed, scene.dt);
   character.acceleration = read_not_negative(at, "acceleration", character.acceleration);
   if (const auto air = at.find("air_acceleration")) character.air_acceleration = not_negative(*air);
-  character.jump_speed = read_not_negative(at, "jump_speed", character.jump_speed);
+  character.jump_speed = read_speed(at, "jump_speed", character.jump_speed, scene.dt);
   if (const auto limit = at.find("max_fall_speed")) character.max_fall_speed = limit->positive();
   if (const auto climb = at.find("max_climb_degrees")) {
     character.max_climb_degrees = climb->number();
@@ -99,7 +126,7 @@ void read_character(const JsonCursor& at, Scene& scene) {
       climb->refuse("expected an angle from 0 to 89 degrees");
     }
   }
-  character.snap = read_not_negative(at, "snap", character.snap);
+  if (const auto snap = at.find("snap")) character.snap = within(*snap, 0, 1e6);
   character.no_jump_toward_wall = read_flag(at, "no_jump_toward_wall");
   character.side_hit_ends_rise = read_flag(at, "side_hit_ends_rise");
   try {
@@ -371,9 +398,13 @@ Scene read_json_scene(const nlohmann::json& document, const std::string& path, c
   Scene scene;
   scene.name = root.require("name").text();
   if (const auto description = root.find("description")) scene.description = description->text();
-  if (const auto scale = root.find("pixels_per_metre")) scene.pixels_per_metre = scale->positive();
-  scene.gravity = root.require("gravity").point();
+  if (const auto scale = root.find("pixels_per_metre")) scene.pixels_per_metre = within(*scale, 1e-3, 1e6);
   scene.dt = root.require("dt").positive();
+  constexpr double longest = 1e4;  // [s]; in more a walk leaves the range of a step
+  if (!(scene.dt <= longest)) root.require("dt").refuse(fmt::format("expected at most {} s", longest));
+  const JsonCursor gravity = root.require("gravity");
+  scene.gravity = gravity.point();
+  check_travel(gravity, largest(scene.gravity) * scene.dt * scene.dt, scene.dt);
   scene.steps = root.require("steps").integer(1, most_steps);
   const JsonCursor character = root.require("character");
   read_character(character, scene);

@@ -163,6 +163,54 @@ TEST(Command, refuses_an_output_that_cannot_be_written) {
   EXPECT_EQ(place.files(), before);
 }
 
+TEST(Command, refuses_an_output_that_cannot_be_written_before_it_runs_anything) {
+  const Workplace place;
+  // The first scene would say that it ran; the work would take minutes.
+  for (const char* option : {"--rows", "--report", "--trace"}) {
+    const Finished finished = place.run(std::string("compare article_bullet long_rest ") + option + " no_folder/out");
+    EXPECT_EQ(finished.status, 2) << option;
+    EXPECT_EQ(finished.out, "") << option;
+  }
+  const Finished directory = place.run("compare article_bullet --rows .");
+  EXPECT_EQ(directory.status, 2);
+  EXPECT_TRUE(begins(directory.err, ".: cannot be written: it is a directory"));
+}
+
+TEST(Command, refuses_one_file_for_two_purposes) {
+  const Workplace place;
+  place.write("good.json", good_scene);
+  for (const auto& [options, part] :
+       {std::pair{"--rows out --report ./out", "--report ./out: expected another file than --rows"},
+        {"--rows good.json", "--rows good.json: expected another file than the scene good.json"},
+        {"--trace t --rows t.good.octagon_sweep.double.jsonl", "expected another file than a trace"}}) {
+    const auto before = place.files();
+    const Finished finished = place.run(std::string("compare good.json --no-timing ") + options);
+    EXPECT_EQ(finished.status, 2) << options;
+    EXPECT_TRUE(holds(finished.err, part));
+    EXPECT_EQ(finished.out, "");
+    EXPECT_EQ(place.files(), before);
+  }
+}
+
+TEST(Command, refuses_scenes_whose_traces_would_have_one_name) {
+  const Workplace place;
+  place.write("a.json", good_with("\"good\"", "\"a/b\""));
+  place.write("b.json", good_with("\"good\"", "\"a_b\""));
+  const Finished finished = place.run("compare a.json b.json --no-timing --trace t");
+  EXPECT_EQ(finished.status, 2);
+  EXPECT_TRUE(begins(finished.err, "b.json: expected another name than a_b"));
+  EXPECT_EQ(place.run("compare a.json b.json --no-timing --quiet --contender octagon_sweep").status, 0);
+}
+
+TEST(Command, counts_runs_in_double_and_in_float_apart) {
+  const Workplace place;
+  const std::string common = "compare article_bullet --no-timing --contender octagon_sweep ";
+  EXPECT_TRUE(holds(place.run(common).out, "octagon_sweep in double: 60 steps in 1 run, 0 runs with a violation"));
+  const std::string only_float = place.run(common + "--scalar float").out;
+  EXPECT_TRUE(holds(only_float, "octagon_sweep in float, for which nothing is guaranteed: 60 steps in 1 run, 0 runs"));
+  EXPECT_EQ(only_float.find("in double"), std::string::npos);
+}
+
 TEST(Command, shows_the_table_of_a_scene_and_who_is_right) {
   const Workplace place;
   const Finished finished = place.run("compare article_bullet --no-timing");
@@ -188,6 +236,14 @@ TEST(Command, runs_a_scene_from_a_file_and_writes_what_it_is_asked_for) {
   for (const char* name : {"rows.json", "report.html", "t.good.octagon_sweep.double.jsonl", "t.good.box2d.float.jsonl"})
     EXPECT_EQ(files.count(name), 1U) << name;
   EXPECT_EQ(nlohmann::json::parse(files.at("rows.json")).at("rows").size(), 2U);
+}
+
+TEST(Command, takes_several_contenders_and_scalars_with_commas) {
+  const Workplace place;
+  const Finished finished =
+      place.run("compare article_bullet --no-timing --json --contender octagon_sweep,grid --scalar double,float");
+  EXPECT_EQ(finished.status, 0) << finished.err;
+  EXPECT_EQ(nlohmann::json::parse(finished.out).at("rows").size(), 5U) << "two of each, and Box2D beside them";
 }
 
 TEST(Command, puts_rows_alone_on_standard_output_when_asked_for_json) {

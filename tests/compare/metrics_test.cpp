@@ -66,7 +66,7 @@ TEST(Metrics, counts_what_the_judge_found) {
   EXPECT_EQ(row.respawns, 1);
   EXPECT_EQ(row.dropped_steps, 1);
   ASSERT_EQ(row.findings.size(), 1U);
-  EXPECT_EQ(row.findings[0], "step 2: passed `paper` at 40.0 m/s, 0.010 m thick at the crossing, 90° to its face");
+  EXPECT_EQ(row.findings[0], "step 2: passed `paper` at 40.0 m/s, 0.01 m thick at the crossing, 90° to its face");
 }
 
 TEST(Metrics, one_way_violations_are_absent_without_one_way_chains) {
@@ -302,6 +302,45 @@ TEST_F(AgreementTest, keeps_the_first_disagreements_and_counts_all) {
   ASSERT_EQ(agreement_->disagreements().size(), 2U);
   EXPECT_EQ(agreement_->disagreements()[1].step, 1);
   EXPECT_EQ(agreement_->count(SideDisagreement::Right::reference), 6);
+}
+
+TEST_F(AgreementTest, the_first_difference_is_named_with_who_is_right) {
+  const auto floor = contact(0, Side::bottom);
+  const auto truth = exact(0, Side::bottom);
+  Row row = compare({{moment(0), moment(0)}, {moment(1, {floor}, {truth}), moment(1, {}, {truth})}});
+  EXPECT_EQ(row.first_difference_box2d_step, 1);
+  EXPECT_NE(row.first_difference_box2d.find("mine is right"), std::string::npos) << row.first_difference_box2d;
+  row = compare({{moment(0), moment(0)}, {moment(1), moment(1)}});
+  EXPECT_FALSE(row.first_difference_box2d_step);
+  EXPECT_EQ(row.first_difference_box2d, "");
+}
+
+TEST_F(AgreementTest, a_first_difference_on_which_both_are_right_is_followed_by_the_first_on_which_one_is_not) {
+  const auto floor = contact(0, Side::bottom);
+  const auto truth = exact(0, Side::bottom);
+  std::vector<std::pair<Moment, Moment>> run{
+      {moment(0, {floor}, {truth}), moment(0)}, {moment(1), moment(1)}, {moment(2), moment(2)}, {moment(3), moment(3)}};
+  run[3].first.step.contacts = {floor};
+  const Row row = compare(run);
+  EXPECT_EQ(row.first_difference_box2d_step, 0);
+  EXPECT_NE(row.first_difference_box2d.find("; step 3 is the first on which one is not"), std::string::npos)
+      << row.first_difference_box2d;
+}
+
+TEST_F(AgreementTest, positions_apart_by_more_than_the_skin_are_a_difference) {
+  std::vector<std::pair<Moment, Moment>> run;
+  for (int i = 0; i < 5; ++i) run.emplace_back(moment(i), moment(i));
+  run[2].second.step.path.back().position = {0.0209, 0};
+  EXPECT_FALSE(compare(run).first_difference_box2d_step);
+  run[3].second.step.path.back().position = {0.0211, 0};
+  EXPECT_EQ(compare(run).first_difference_box2d_step, 3);
+  EXPECT_NE(compare(run).first_difference_box2d.find("they respond differently"), std::string::npos);
+  run[1].second.judged.tunnelled = {1};
+  EXPECT_NE(compare(run).first_difference_box2d.find("mine is right, as box2d passed or entered a solid on step 1"),
+            std::string::npos)
+      << compare(run).first_difference_box2d;
+  run[2].first.judged.end_overlap = {0};
+  EXPECT_NE(compare(run).first_difference_box2d.find("neither is right"), std::string::npos);
 }
 
 TEST_F(AgreementTest, the_position_difference_is_the_largest_distance_of_the_ends) {

@@ -166,6 +166,13 @@ TEST(JsonScene, a_start_inside_a_solid_is_refused_unless_it_is_to_be_resolved) {
   EXPECT_NO_THROW((void)files.load("room.json", with(good, "[0, 3]", "[0, 0.63500000000000012]")));
 }
 
+TEST(JsonScene, motion_of_a_million_metres_in_a_step_is_the_most) {
+  const SceneFiles files;
+  // dt is 1/128 s, so 1e6 m in a step are 1.28e8 m/s.
+  EXPECT_NO_THROW((void)files.load("room.json", with(good, "[0, -40]", "[0, -1.28e8]")));
+  EXPECT_TRUE(holds(files.complaint("room.json", with(good, "[0, -40]", "[0, -1.2800001e8]")), "/velocity"));
+}
+
 struct Bad {
   const char* what;
   const char* from;
@@ -202,6 +209,18 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"nan", "0.0078125", "NaN", ":4:30: expected JSON; "},
         Bad{"zero_dt", "0.0078125", "0", ": /dt: expected a number greater than 0"},
         Bad{"negative_dt", "0.0078125", "-0.01", ": /dt: expected a number greater than 0"},
+        Bad{"dt_of_hours", "0.0078125", "1e300", ": /dt: expected at most 10000 s"},
+        Bad{"gravity_beyond_a_step", "[0, -30]", "[0, -1e300]", ": /gravity: expected at most 1e6 m of motion"},
+        Bad{"velocity_beyond_a_step", "[0, -40]", "[0, -1e300]",
+            ": /character/velocity: expected at most 1e6 m of motion"},
+        Bad{"walk_beyond_a_step", "\"velocity\"", "\"walk_speed\": 2e8, \"velocity\"",
+            ": /character/walk_speed: expected at most 1e6 m of motion"},
+        Bad{"jump_beyond_a_step", "\"velocity\"", "\"jump_speed\": 2e8, \"velocity\"",
+            ": /character/jump_speed: expected at most 1e6 m of motion"},
+        Bad{"scale_too_large", "\"dt\"", "\"pixels_per_metre\": 1e300, \"dt\"",
+            ": /pixels_per_metre: expected a number from 0.001 to 1000000"},
+        Bad{"scale_too_small", "\"dt\"", "\"pixels_per_metre\": 1e-300, \"dt\"",
+            ": /pixels_per_metre: expected a number from 0.001 to 1000000"},
         Bad{"no_steps", "\"steps\": 120", "\"steps\": 0", ": /steps: expected a whole number from 1 to "},
         Bad{"half_a_step", "\"steps\": 120", "\"steps\": 1.5", ": /steps: expected a whole number"},
         Bad{"text_for_number", "\"steps\": 120", "\"steps\": \"120\"", ": /steps: expected a whole number"},

@@ -238,6 +238,17 @@ TEST(Describe, counts_what_is_there) {
   EXPECT_NE(describe(load_scenes("zero_thickness_paper").front()).find("1 two-sided"), std::string::npos);
 }
 
+TEST(Describe, names_one_way_segments_that_block_nothing) {
+  Scene scene = load_scenes("article_bullet").front();
+  scene.ids.emplace_back("ledge");
+  // Level, then straight up along one_way, then level again.
+  scene.scenery.colliders.push_back(
+      {.shape = ColliderDef::Shape::chain, .points = {{40, 0}, {41, 0}, {41, 1}, {42, 1}}, .one_way = Vec2d(0, 1)});
+  EXPECT_NE(describe(scene).find("\"ledge\": 1 segment along its one_way"), std::string::npos) << describe(scene);
+  scene.scenery.colliders.back().points[2] = {41.5, 1};
+  EXPECT_EQ(describe(scene).find("ledge"), std::string::npos);
+}
+
 TEST(LoadScenes, an_unknown_name_is_refused_with_what_is_possible) {
   try {
     (void)load_scenes("no_such_scene");

@@ -58,10 +58,16 @@ const QUALITY = [
     'Between the two runs at the same step'
   ],
   [
+    'first_difference_box2d_step', 'First difference to Box2D', 'step', count,
+    'First step with other sides of contact, or positions further apart than Box2D\'s skin'
+  ],
+  ['ghost_speed_loss', 'Snag', 'share', measure, 'Largest share of the wanted speed lost in one step to nothing exact'],
+  [
     'dropped_steps', 'Dropped', 'steps', count,
     'Steps whose displacement was partly dropped when the iterations ran out'
   ],
   ['ns_per_step', 'Cost', 'ns per step', measure, 'Minimum of the repeats'],
+  ['ns_per_step_median', 'Cost, median', 'ns per step', measure, 'Median of the repeats'],
   ['ns_per_step_max', 'Cost, slowest', 'ns per step', measure, 'Maximum of the repeats'],
   ['memory_bytes', 'Memory', 'bytes', measure, 'Of a contender\'s own picture of the level'],
 ];

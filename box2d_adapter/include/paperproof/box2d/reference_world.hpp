@@ -35,6 +35,8 @@ struct ReferenceWorldDef {
 
 /// Travel cap of Box2D: a body moves at most this far in one step [m].
 inline constexpr double max_travel_per_step = 2.0;
+/// Shortest step that it is given [s]: the reciprocal must be finite as a float, too.
+inline constexpr double least_step = 1e-9;
 /// Gap at which polygons rest in Box2D [m], and at which it begins to report touching.
 inline constexpr double rest_gap = 0.015;
 inline constexpr double touch_gap = 0.020;

@@ -1,0 +1,69 @@
+/// Runs as tests want them, and how they look for what came of them.
+#pragma once
+
+#include "compare/scene_files.hpp"
+#include "runs/run.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include <bit>
+#include <fstream>
+
+namespace paperproof::compare {
+
+inline Scene built_in(const std::string& name) { return load_scenes(name).front(); }
+
+inline RunOptions quick() {
+  RunOptions options;
+  options.measure_cost = false;
+  return options;
+}
+
+inline const Row* find_row(const ReportScene& result, std::string_view contender, std::string_view scalar = "") {
+  for (const Row& row : result.rows)
+    if (row.contender == contender && (scalar.empty() || row.scalar == scalar)) return &row;
+  return nullptr;
+}
+
+inline const Row& row_of(const ReportScene& result, std::string_view contender) {
+  static const Row none;
+  const Row* found = find_row(result, contender);
+  EXPECT_NE(found, nullptr) << contender;
+  return found != nullptr ? *found : none;
+}
+
+inline const ReportRun& run_of(const ReportScene& result, std::string_view contender) {
+  static const ReportRun none;
+  for (const ReportRun& run : result.runs)
+    if (run.header.contender == contender) return run;
+  ADD_FAILURE() << contender << " has no replay";
+  return none;
+}
+
+/// Nothing but a block that is never reached: whoever is here flies.
+inline Scene empty_sky(int steps) {
+  Scene scene;
+  scene.name = "sky";
+  scene.gravity = {0, -10};
+  scene.steps = steps;
+  scene.scenery.colliders.push_back({.points = {{500, 500}, {501, 500}, {501, 501}, {500, 501}}});
+  scene.ids.emplace_back("far");
+  return scene;
+}
+
+inline std::vector<nlohmann::json> lines_of(const std::string& path) {
+  std::vector<nlohmann::json> lines;
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line);) lines.push_back(nlohmann::json::parse(line));
+  return lines;
+}
+
+inline ::testing::AssertionResult reads_back(const nlohmann::json& read, double value) {
+  const auto bits = [](double number) { return std::bit_cast<std::uint64_t>(number); };
+  if (bits(read.get<double>()) == bits(value)) return ::testing::AssertionSuccess();
+  return ::testing::AssertionFailure() << read << " is not " << value;
+}
+
+}  // namespace paperproof::compare
