@@ -60,7 +60,9 @@ class BareBox2d final : public Subject {
   BareBox2d(const Workload& workload, Box2dScenery scenery) : workload_(workload), iterations_(definition(scenery)) {
     const b2BodyDef ground;
     const SceneryDef as_run = box2d::rounded(workload.scenery.as_run());
-    const auto fixtures = add_scenery(*world_.CreateBody(&ground), workload.scenery, as_run, iterations_.mode);
+    const box2d::Part still = box2d::parts_of(as_run, 0).front();
+    box2d::SceneryFixtures fixtures;
+    add_solids(*world_.CreateBody(&ground), workload.scenery, still, iterations_.mode, fixtures);
     if (fixtures.size.fixtures == 0) throw std::logic_error("there is nothing in the world");
     world_.SetAllowSleeping(false);
     add_character();

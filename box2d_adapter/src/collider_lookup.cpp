@@ -28,12 +28,12 @@ struct EachProxy {
 
 }  // namespace
 
-ColliderLookup::ColliderLookup(const SceneryDef& as_run) {
-  for (ColliderIndex i = 0; i < as_run.colliders.size(); ++i) {
+ColliderLookup::ColliderLookup(const SceneryDef& as_run, std::span<const ColliderIndex> names) {
+  for (std::size_t i = 0; i < as_run.colliders.size(); ++i) {
     const ColliderDef& collider = as_run.colliders[i];
     if (collider.shape != ColliderDef::Shape::polygon) continue;
-    add_ring(collider.points, i);
-    for (const std::vector<Vec2d>& hole : collider.holes) add_ring(hole, i);
+    add_ring(collider.points, names[i]);
+    for (const std::vector<Vec2d>& hole : collider.holes) add_ring(hole, names[i]);
   }
 }
 

@@ -7,14 +7,16 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace paperproof::box2d {
 
 class ColliderLookup {
  public:
-  /// @param as_run polygons only are looked at; the caller keeps nothing.
-  explicit ColliderLookup(const SceneryDef& as_run);
+  /// @param as_run polygons only are looked at; the caller keeps nothing. @param names what each collider is called in
+  ///   an answer.
+  ColliderLookup(const SceneryDef& as_run, std::span<const ColliderIndex> names);
   ColliderLookup(const ColliderLookup&) = delete;  // Box2D's tree owns raw memory and copies it shallowly.
   ColliderLookup& operator=(const ColliderLookup&) = delete;
 

@@ -17,6 +17,7 @@ void add_fixture(b2Body& body, const b2Shape& shape, const FixtureSource& source
   def.shape = &shape;
   def.friction = 0;
   def.restitution = 0;
+  def.isSensor = source.sensor;
   def.userData.pointer = made.sources.size();
   body.CreateFixture(&def);
   made.sources.push_back(source);
@@ -45,16 +46,16 @@ void add_every_edge(b2Body& body, const Ring& ring, const FixtureSource& source,
   }
 }
 
-void add_loop(b2Body& body, const Ring& loop, SceneryFixtures& made) {
+void add_loop(b2Body& body, const Ring& loop, const FixtureSource& source, SceneryFixtures& made) {
   const Ring chain_loop = spaced(loop);
   if (chain_loop.empty()) {
     const bool is_void = twice_area(loop) < 0;
-    if (!is_void) add_every_edge(body, loop, {}, made);
+    if (!is_void) add_every_edge(body, loop, source, made);
     return;
   }
   b2ChainShape chain;
   chain.CreateLoop(chain_loop.data(), static_cast<int32>(chain_loop.size()));
-  add_fixture(body, chain, {}, made);
+  add_fixture(body, chain, source, made);
   ++made.size.loops;
   made.size.vertices += chain_loop.size();
 }
@@ -80,21 +81,31 @@ void add_convex_piece(b2Body& body, const Ring& ring, const FixtureSource& sourc
   }
 }
 
-void add_pieces(b2Body& body, const Scenery<double>& scenery, const SceneryDef& as_run, SceneryFixtures& made) {
-  const std::span<const PieceInfo> pieces = scenery.pieces();
-  for (PieceIndex i = 0; i < pieces.size(); ++i) {
-    const ColliderIndex collider = pieces[i].collider;
-    if (as_run.colliders[collider].shape != ColliderDef::Shape::polygon) continue;
-    const Ring ring = without_repeats(scenery.vertices_of(i), true);
-    if (ring.size() == 2) add_two_sided_edge(body, ring[0], ring[1], {collider}, made);
-    add_convex_piece(body, ring, {collider}, made);
+void add_polygon_piece(b2Body& body, std::span<const Vec2d> vertices, const FixtureSource& source,
+                       SceneryFixtures& made) {
+  const Ring ring = without_repeats(vertices, true);
+  if (ring.size() == 2) add_two_sided_edge(body, ring[0], ring[1], source, made);
+  add_convex_piece(body, ring, source, made);
+}
+
+/// Polygons have pieces of three vertices and more.
+bool is_chain(const PieceInfo& piece) { return piece.vertex_count == 2; }
+
+void add_pieces(b2Body& body, const Scenery<double>& scenery, const Part& part, SceneryFixtures& made) {
+  const PieceRange range = part.mover == no_mover ? scenery.static_pieces() : scenery.pieces_of_mover(part.mover);
+  for (PieceIndex i = range.first; i < range.end; ++i) {
+    const PieceInfo& piece = scenery.pieces()[i];
+    if (!is_chain(piece))
+      add_polygon_piece(body, scenery.vertices_of(i), {.collider = piece.collider, .mover = part.mover}, made);
   }
 }
 
-void add_loops(b2Body& body, const SceneryDef& as_run, SceneryFixtures& made) {
-  for (const Ring& loop : solid_union(as_run)) add_loop(body, loop, made);
-  for (const ColliderIndex i : flat_polygons(as_run)) {
-    add_every_edge(body, without_repeats(as_run.colliders[i].points, true), {i}, made);
+void add_loops(b2Body& body, const Part& part, SceneryFixtures& made) {
+  const FixtureSource several{.collider = std::nullopt, .mover = part.mover};
+  for (const Ring& loop : solid_union(part.solids)) add_loop(body, loop, several, made);
+  for (const ColliderIndex i : flat_polygons(part.solids)) {
+    const FixtureSource one{.collider = part.colliders[i], .mover = part.mover};
+    add_every_edge(body, without_repeats(part.solids.colliders[i].points, true), one, made);
   }
 }
 
@@ -114,7 +125,7 @@ Blocks blocked_side(const b2Vec2& a, const b2Vec2& b, const Vec2d& one_way) {
 }
 
 /// Box2D's one-sided edges block on the right, looking from the first vertex to the second.
-void add_one_way_segment(b2Body& body, const Ring& chain, std::size_t i, const Vec2d& one_way, ColliderIndex collider,
+void add_one_way_segment(b2Body& body, const Ring& chain, std::size_t i, const Vec2d& one_way, FixtureSource source,
                          SceneryFixtures& made) {
   const Blocks side = blocked_side(chain[i], chain[i + 1], one_way);
   if (side == Blocks::nothing) return;
@@ -130,17 +141,18 @@ void add_one_way_segment(b2Body& body, const Ring& chain, std::size_t i, const V
     edge.SetOneSided(after, chain[i + 1], chain[i], before);
   }
   const Vec2d normal = widened(right_normal(edge.m_vertex1, edge.m_vertex2));
-  add_fixture(body, edge, {collider, FixtureSource::OneWay{widened(chain[i]), normal}}, made);
+  source.one_way = FixtureSource::OneWay{widened(chain[i]), normal};
+  add_fixture(body, edge, source, made);
   made.size.vertices += 2;
 }
 
-void add_chain(b2Body& body, const ColliderDef& def, ColliderIndex collider, SceneryFixtures& made) {
+void add_chain(b2Body& body, const ColliderDef& def, const FixtureSource& source, SceneryFixtures& made) {
   const Ring chain = without_repeats(def.points, false);
   for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
     if (def.one_way) {
-      add_one_way_segment(body, chain, i, *def.one_way, collider, made);
+      add_one_way_segment(body, chain, i, *def.one_way, source, made);
     } else {
-      add_two_sided_edge(body, chain[i], chain[i + 1], {collider}, made);
+      add_two_sided_edge(body, chain[i], chain[i + 1], source, made);
     }
   }
 }
@@ -201,22 +213,52 @@ b2PolygonShape character_polygon(std::span<const Vec2d> hull) {
   return shape;
 }
 
-SceneryFixtures add_scenery(b2Body& body, const Scenery<double>& scenery, const SceneryDef& as_run, SceneryMode mode) {
+std::vector<Part> parts_of(const SceneryDef& as_run, std::size_t mover_count) {
   check_colliders(as_run);
-  SceneryFixtures made;
-  switch (mode) {
-    case SceneryMode::chain_loops:
-      add_loops(body, as_run, made);
-      break;
-    case SceneryMode::pieces:
-      add_pieces(body, scenery, as_run, made);
-      break;
-  }
+  std::vector<Part> parts(mover_count + 1);
+  for (MoverIndex mover = 0; mover < mover_count; ++mover) parts[mover + 1].mover = mover;
   for (ColliderIndex i = 0; i < as_run.colliders.size(); ++i) {
     const ColliderDef& collider = as_run.colliders[i];
-    if (collider.shape == ColliderDef::Shape::chain) add_chain(body, collider, i, made);
+    if (collider.sensor) continue;
+    Part& part = parts[collider.mover == no_mover ? 0 : collider.mover + 1];
+    part.solids.colliders.push_back(collider);
+    part.colliders.push_back(i);
   }
-  return made;
+  return parts;
+}
+
+void add_solids(b2Body& body, const Scenery<double>& scenery, const Part& part, SceneryMode mode,
+                SceneryFixtures& made) {
+  switch (mode) {
+    case SceneryMode::chain_loops:
+      add_loops(body, part, made);
+      break;
+    case SceneryMode::pieces:
+      add_pieces(body, scenery, part, made);
+      break;
+  }
+  for (std::size_t i = 0; i < part.colliders.size(); ++i) {
+    const ColliderDef& collider = part.solids.colliders[i];
+    if (collider.shape == ColliderDef::Shape::chain)
+      add_chain(body, collider, {.collider = part.colliders[i], .mover = part.mover}, made);
+  }
+}
+
+void add_sensors(std::span<b2Body* const> bodies, const Scenery<double>& scenery, const SceneryDef& as_run,
+                 SceneryFixtures& made) {
+  const PieceRange range = scenery.sensor_pieces();
+  for (PieceIndex i = range.first; i < range.end; ++i) {
+    const PieceInfo& piece = scenery.pieces()[i];
+    const MoverIndex mover = as_run.colliders[piece.collider].mover;
+    b2Body& body = *bodies[mover == no_mover ? 0 : mover + 1];
+    const FixtureSource source{.collider = piece.collider, .mover = mover, .sensor = true};
+    const std::span<const Vec2d> vertices = scenery.vertices_of(i);
+    if (is_chain(piece)) {
+      add_two_sided_edge(body, rounded(vertices[0]), rounded(vertices[1]), source, made);
+    } else {
+      add_polygon_piece(body, vertices, source, made);
+    }
+  }
 }
 
 }  // namespace paperproof::box2d

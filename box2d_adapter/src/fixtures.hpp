@@ -1,4 +1,4 @@
-/// Scenery as static fixtures, every shape checked before Box2D sees it.
+/// Scenery as fixtures of static and kinematic bodies, every shape checked before Box2D sees it.
 #pragma once
 
 #include "float_geometry.hpp"
@@ -18,7 +18,9 @@ namespace paperproof::box2d {
 struct FixtureSource {
   /// Absent for an outline of several colliders: which one is touched depends on where.
   std::optional<ColliderIndex> collider;
-  /// One-way segments only: a point on it, and the unit normal of the side that it blocks.
+  MoverIndex mover = no_mover;
+  bool sensor = false;
+  /// One-way segments only: a point on it at offset zero, and the unit normal of the side that it blocks.
   struct OneWay {
     Vec2d point;
     Vec2d normal;
@@ -26,12 +28,25 @@ struct FixtureSource {
   std::optional<OneWay> one_way{};
 };
 
+/// What goes along with one mover, or stands. It has a body of its own, whose position is the mover's offset.
+struct Part {
+  MoverIndex mover = no_mover;
+  SceneryDef solids;                     ///< As run; chains are among them, sensors are not.
+  std::vector<ColliderIndex> colliders;  ///< Which those are.
+};
+
+/// What stands comes first, then each mover in order.
+/// @param as_run rounded to float.
+/// @throws InvalidDefinition for a collider that is a single point in float.
+[[nodiscard]] std::vector<Part> parts_of(const SceneryDef& as_run, std::size_t mover_count);
+
 struct SceneryFixtures {
   std::vector<FixtureSource> sources;
   ReferenceWorld::Size size;
 };
 
-/// Gives `body` one fixture per loop of the union of the solids, or one per convex piece; and one per chain segment.
+/// Gives `body` one fixture per loop of the union of the part's solids, or one per convex piece; and one per chain
+/// segment.
 ///
 /// - An outline is a one-sided chain loop. A solid too thin or too small for one (`spaced` in solid_union.hpp) gets
 /// every
@@ -43,10 +58,14 @@ struct SceneryFixtures {
 /// - A chain segment is a two-sided edge; a one-way segment a one-sided edge whose ghost vertices are its neighbours
 /// where
 ///   these block the same way, and its own continuation where not.
-/// @param scenery gives the convex pieces; `as_run` the same colliders rounded to float.
-/// @throws InvalidDefinition for a collider that is a single point in float.
-[[nodiscard]] SceneryFixtures add_scenery(b2Body& body, const Scenery<double>& scenery, const SceneryDef& as_run,
-                                          SceneryMode mode);
+/// @param scenery gives the convex pieces.
+void add_solids(b2Body& body, const Scenery<double>& scenery, const Part& part, SceneryMode mode,
+                SceneryFixtures& made);
+
+/// Gives every sensor to the body of its mover, piece by piece.
+/// @param bodies of the parts, in their order.
+void add_sensors(std::span<b2Body* const> bodies, const Scenery<double>& scenery, const SceneryDef& as_run,
+                 SceneryFixtures& made);
 
 /// A convex polygon exactly as given: counter-clockwise, 3 to 8 vertices that differ. Two-sided, any thickness above
 /// zero.

@@ -10,7 +10,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <numbers>
+#include <utility>
 
 namespace paperproof::box2d {
 namespace {
@@ -59,39 +61,17 @@ struct ReferenceWorld::Impl {
       : def(definition),
         as_run(rounded(scenery.as_run())),
         least_up(std::cos(character.max_climb_degrees * std::numbers::pi / 180)),
-        lookup(as_run),
         recorder(fixtures.sources, points) {
     check_definition(def);
     for (const Vec2d& corner : character.shape.hull()) points.push_back(widened(rounded(corner)));
-    const b2BodyDef ground;
-    fixtures = add_scenery(*world.CreateBody(&ground), scenery, as_run, def.mode);
+    add_scenery(scenery);
     world.SetAllowSleeping(false);
     world.SetContactListener(&recorder);
     add_character(character, checked(position, "the character's position"));
   }
 
-  void add_character(const CharacterDef& character, const b2Vec2& position) {
-    const b2PolygonShape shape = character_polygon(character.shape.hull());
-    b2BodyDef body_def;
-    body_def.type = b2_dynamicBody;
-    body_def.position = position;
-    body_def.fixedRotation = true;
-    body_def.bullet = true;
-    body_def.allowSleep = false;
-    body = world.CreateBody(&body_def);
-    b2FixtureDef fixture;
-    fixture.shape = &shape;
-    fixture.density = 1;
-    fixture.friction = 0;
-    fixture.restitution = 0;
-    body->CreateFixture(&fixture);
-    // Box2D moves the centre of mass and derives the position from it. With the centre at the position nothing is lost.
-    b2MassData mass;
-    mass.mass = body->GetMass();
-    mass.center.SetZero();
-    mass.I = 0;
-    body->SetMassData(&mass);
-  }
+  void add_scenery(const Scenery<double>& scenery);
+  void add_character(const CharacterDef& character, const b2Vec2& position);
 
   void place(const b2Vec2& position, const b2Vec2& velocity) {
     body->SetEnabled(false);  // The one way to have Box2D drop its contacts and the impulses stored in them.
@@ -100,13 +80,25 @@ struct ReferenceWorld::Impl {
     body->SetEnabled(true);
   }
 
-  void step(const b2Vec2& velocity, float dt);
+  void step(const b2Vec2& velocity, float dt, std::span<const MoverMotion<double>> motions);
+  void send_movers(float dt, std::span<const MoverMotion<double>> motions);
   void add_touching();
   void add_begun();
-  void add(std::size_t source, const TouchPoint& touch, double fraction);
-  [[nodiscard]] ColliderIndex nearest_collider(const Vec2d& point);
+  void add(const SceneryEnd& end, const TouchPoint& touch, double fraction);
+  void stand_on(const SceneryEnd& end, const TouchPoint& touch);
+  void add_sensor_events();
+  [[nodiscard]] ColliderIndex collider_of(const SceneryEnd& end, const Vec2d& point);
   [[nodiscard]] double fraction_of(const SceneryEnd& end) const;
-  [[nodiscard]] bool moves_into(const Vec2d& normal) const { return normal.dot(wanted) < -least_approach; }
+  [[nodiscard]] Vec2d wanted_relative_to(const SceneryEnd& end) const;
+  [[nodiscard]] bool moves_into(const SceneryEnd& end, const Vec2d& normal) const {
+    return normal.dot(wanted_relative_to(end)) < -least_approach;
+  }
+
+  /// The body of a mover.
+  struct Mover {
+    b2Body* body = nullptr;
+    b2Vec2 goal{0, 0};  ///< Where it is to be after the present step, or the last [m].
+  };
 
   ReferenceWorldDef def;
   SceneryDef as_run;
@@ -114,39 +106,113 @@ struct ReferenceWorld::Impl {
   double least_up;  ///< Smallest upward part of the normal of walkable ground.
   b2World world{b2Vec2(0, 0)};
   SceneryFixtures fixtures;
-  ColliderLookup lookup;
+  std::deque<ColliderLookup> lookups;  ///< For what stands, then for each mover; they can neither be copied nor moved.
   StepRecorder recorder;
+  std::vector<Mover> movers;
+  std::vector<Vec2d> offsets;         ///< Of the movers, when the step begins [m].
+  bool looks_for_ground = false;      ///< There is ground that carries.
+  std::vector<ColliderIndex> sensed;  ///< Sensors that were touched in the last step, ascending.
+  std::vector<ColliderIndex> sensed_before;
   b2Body* body = nullptr;
   float last_dt = 0;
   Vec2d wanted{Vec2d::Zero()};  ///< Displacement of the present step [m].
   TwinStep result;
 };
 
-void ReferenceWorld::Impl::step(const b2Vec2& velocity, float dt) {
+void ReferenceWorld::Impl::add_scenery(const Scenery<double>& scenery) {
+  std::vector<b2Body*> bodies;
+  for (const Part& part : parts_of(as_run, scenery.mover_count())) {
+    b2BodyDef body_def;
+    body_def.type = part.mover == no_mover ? b2_staticBody : b2_kinematicBody;
+    body_def.allowSleep = false;
+    bodies.push_back(world.CreateBody(&body_def));
+    add_solids(*bodies.back(), scenery, part, def.mode, fixtures);
+    lookups.emplace_back(part.solids, part.colliders);
+    if (part.mover != no_mover) movers.push_back({.body = bodies.back()});
+  }
+  add_sensors(bodies, scenery, as_run, fixtures);
+  offsets.resize(movers.size(), Vec2d::Zero());
+  result.movers.resize(movers.size());
+  looks_for_ground =
+      !movers.empty() || std::any_of(as_run.colliders.begin(), as_run.colliders.end(),
+                                     [](const ColliderDef& collider) { return collider.surface_speed != 0; });
+}
+
+void ReferenceWorld::Impl::add_character(const CharacterDef& character, const b2Vec2& position) {
+  const b2PolygonShape shape = character_polygon(character.shape.hull());
+  b2BodyDef body_def;
+  body_def.type = b2_dynamicBody;
+  body_def.position = position;
+  body_def.fixedRotation = true;
+  body_def.bullet = true;
+  body_def.allowSleep = false;
+  body = world.CreateBody(&body_def);
+  b2FixtureDef fixture;
+  fixture.shape = &shape;
+  fixture.density = 1;
+  fixture.friction = 0;
+  fixture.restitution = 0;
+  body->CreateFixture(&fixture);
+  // Box2D moves the centre of mass and derives the position from it. With the centre at the position nothing is lost.
+  b2MassData mass;
+  mass.mass = body->GetMass();
+  mass.center.SetZero();
+  mass.I = 0;
+  body->SetMassData(&mass);
+}
+
+/// By velocity: Box2D sweeps a body from where the step finds it, and what is put somewhere was never on the way.
+void ReferenceWorld::Impl::send_movers(float dt, std::span<const MoverMotion<double>> motions) {
+  for (std::size_t i = 0; i < movers.size(); ++i) {
+    Mover& mover = movers[i];
+    const b2Vec2 from = rounded(motions[i].from);
+    if (!(mover.goal == from)) mover.body->SetTransform(from, 0);
+    mover.goal = rounded(motions[i].to);
+    const b2Vec2 way = mover.goal - mover.body->GetPosition();
+    if (way.LengthSquared() > b2_maxTranslationSquared) result.capped = true;
+    mover.body->SetLinearVelocity((1 / dt) * way);
+    offsets[i] = widened(mover.body->GetPosition());
+  }
+}
+
+void ReferenceWorld::Impl::step(const b2Vec2& velocity, float dt, std::span<const MoverMotion<double>> motions) {
   const b2Vec2 displacement = dt * velocity;
   wanted = widened(displacement);
   result.capped = displacement.LengthSquared() > b2_maxTranslationSquared;
   body->SetLinearVelocity(velocity);
+  send_movers(dt, motions);
   world.SetWarmStarting(dt <= largest_step_ratio * last_dt);
-  recorder.begin_step(*body, wanted);
+  recorder.begin_step(*body, wanted, offsets);
   world.Step(dt, def.velocity_iterations, def.position_iterations);
   recorder.end_step();
   last_dt = dt;
 
+  for (std::size_t i = 0; i < movers.size(); ++i)
+    result.movers[i] = {offsets[i], widened(movers[i].body->GetPosition())};
   result.velocity = widened(body->GetLinearVelocity());
   result.path = recorder.path();
   result.contacts.clear();
   result.grounded = false;
+  result.ground.reset();
+  sensed.swap(sensed_before);
+  sensed.clear();
   add_touching();
   add_begun();
+  add_sensor_events();
   std::sort(result.contacts.begin(), result.contacts.end(), comes_before);
 }
 
 double ReferenceWorld::Impl::fraction_of(const SceneryEnd& end) const {
   for (const Beginning& beginning : recorder.beginnings()) {
-    if (beginning.source == end.source && beginning.child == end.child) return beginning.fraction;
+    if (beginning.end.source == end.source && beginning.end.child == end.child) return beginning.fraction;
   }
   return 0;  // It touched when the step began.
+}
+
+Vec2d ReferenceWorld::Impl::wanted_relative_to(const SceneryEnd& end) const {
+  const MoverIndex mover = fixtures.sources[end.source].mover;
+  if (mover == no_mover) return wanted;
+  return wanted - (result.movers[mover].to - result.movers[mover].from);
 }
 
 void ReferenceWorld::Impl::add_touching() {
@@ -154,12 +220,24 @@ void ReferenceWorld::Impl::add_touching() {
     const b2Contact& contact = *edge->contact;
     if (!contact.IsTouching() || !contact.IsEnabled()) continue;
     const SceneryEnd end = scenery_end(contact, *body);
+    if (const FixtureSource& source = fixtures.sources[end.source]; source.sensor) {
+      sensed.push_back(*source.collider);
+      continue;
+    }
     for (const TouchPoint& touch : touch_points(contact, *body)) {
-      const bool leaves = touch.normal.dot(wanted) > least_approach;
-      if (touch.normal.y() >= least_up && touch.gap <= standing_gap && !leaves) result.grounded = true;
-      if (moves_into(touch.normal)) add(end.source, touch, fraction_of(end));
+      const bool leaves = touch.normal.dot(wanted_relative_to(end)) > least_approach;
+      if (touch.normal.y() >= least_up && touch.gap <= standing_gap && !leaves) stand_on(end, touch);
+      if (moves_into(end, touch.normal)) add(end, touch, fraction_of(end));
     }
   }
+}
+
+void ReferenceWorld::Impl::stand_on(const SceneryEnd& end, const TouchPoint& touch) {
+  result.grounded = true;
+  if (!looks_for_ground) return;
+  const TwinStep::Ground ground{collider_of(end, touch.point), touch.normal};
+  const auto rank = [](const TwinStep::Ground& one) { return std::pair(-one.normal.y(), one.collider); };
+  if (!result.ground || rank(ground) < rank(*result.ground)) result.ground = ground;
 }
 
 /// After `add_touching`: what still touches is listed with the gap that is left, what does not with the gap it had.
@@ -167,24 +245,42 @@ void ReferenceWorld::Impl::add_touching() {
 void ReferenceWorld::Impl::add_begun() {
   for (const Beginning& beginning : recorder.beginnings()) {
     for (const TouchPoint& touch : beginning.points) {
-      if (beginning.was_impact || moves_into(touch.normal)) add(beginning.source, touch, beginning.fraction);
+      if (beginning.was_impact || moves_into(beginning.end, touch.normal))
+        add(beginning.end, touch, beginning.fraction);
     }
   }
 }
 
+/// A sensor is touched piece by piece; it is entered with the first and left with the last.
+void ReferenceWorld::Impl::add_sensor_events() {
+  std::sort(sensed.begin(), sensed.end());
+  sensed.erase(std::unique(sensed.begin(), sensed.end()), sensed.end());
+  result.sensors.clear();
+  const auto add_missing = [this](const std::vector<ColliderIndex>& these, const std::vector<ColliderIndex>& in_those,
+                                  SensorEvent<double>::Change change) {
+    for (const ColliderIndex sensor : these)
+      if (!std::binary_search(in_those.begin(), in_those.end(), sensor)) result.sensors.push_back({sensor, change, 0});
+  };
+  add_missing(sensed_before, sensed, SensorEvent<double>::Change::exit);
+  add_missing(sensed, sensed_before, SensorEvent<double>::Change::enter);
+}
+
 /// The outline was moved by at most 5 mm and the point is rounded to float a few times; but at the end of a chain Box2D
 /// may put a point beside the edge, where a foot is in the air: then what is nearest further away is meant.
-ColliderIndex ReferenceWorld::Impl::nearest_collider(const Vec2d& point) {
+ColliderIndex ReferenceWorld::Impl::collider_of(const SceneryEnd& end, const Vec2d& point) {
+  const FixtureSource& source = fixtures.sources[end.source];
+  if (source.collider) return *source.collider;
+  ColliderLookup& lookup = lookups[source.mover == no_mover ? 0 : source.mover + 1];
+  const Vec2d place = point - end.offset;
   double reach = touch_gap + 16 * static_cast<double>(b2_epsilon) * point.cwiseAbs().maxCoeff();
   for (; std::isfinite(reach); reach *= 8)
-    if (const std::optional<ColliderIndex> found = lookup.nearest(point, reach)) return *found;
+    if (const std::optional<ColliderIndex> found = lookup.nearest(place, reach)) return *found;
   return 0;
 }
 
 /// One contact per collider and side; the first to come gives the geometry, the earliest the time.
-void ReferenceWorld::Impl::add(std::size_t source, const TouchPoint& touch, double fraction) {
-  const std::optional<ColliderIndex> owner = fixtures.sources[source].collider;
-  const ColliderIndex collider = owner ? *owner : nearest_collider(touch.point);
+void ReferenceWorld::Impl::add(const SceneryEnd& end, const TouchPoint& touch, double fraction) {
+  const ColliderIndex collider = collider_of(end, touch.point);
   const Side side = side_of_normal(touch.normal.x(), touch.normal.y());
   const auto same = std::find_if(result.contacts.begin(), result.contacts.end(), [&](const Contact<double>& known) {
     return known.collider == collider && known.side == side;
@@ -207,8 +303,14 @@ void ReferenceWorld::place(const Vec2d& position, const Vec2d& velocity) {
   impl_->place(checked(position, "the character's position"), checked(velocity, "the character's velocity"));
 }
 
-const TwinStep& ReferenceWorld::step(const Vec2d& wanted_velocity, double dt) {
-  impl_->step(checked(wanted_velocity, "the wanted velocity"), checked_step(dt));
+const TwinStep& ReferenceWorld::step(const Vec2d& wanted_velocity, double dt,
+                                     std::span<const MoverMotion<double>> movers) {
+  if (movers.size() != impl_->movers.size()) throw InvalidDefinition("a step takes one motion for each mover");
+  for (const MoverMotion<double>& motion : movers) {
+    (void)checked(motion.from, "a mover");
+    (void)checked(motion.to, "a mover");
+  }
+  impl_->step(checked(wanted_velocity, "the wanted velocity"), checked_step(dt), movers);
   return impl_->result;
 }
 

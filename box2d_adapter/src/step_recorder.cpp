@@ -9,7 +9,8 @@ SceneryEnd scenery_end(const b2Contact& contact, const b2Body& character) {
   const bool character_is_a = contact.GetFixtureA()->GetBody() == &character;
   // The const overload of GetUserData does not exist in 2.4.
   auto* fixture = const_cast<b2Fixture*>(character_is_a ? contact.GetFixtureB() : contact.GetFixtureA());
-  return {fixture->GetUserData().pointer, character_is_a ? contact.GetChildIndexB() : contact.GetChildIndexA()};
+  return {fixture->GetUserData().pointer, character_is_a ? contact.GetChildIndexB() : contact.GetChildIndexA(),
+          widened(fixture->GetBody()->GetPosition())};
 }
 
 FixedVector<TouchPoint, b2_maxManifoldPoints> touch_points(const b2Contact& contact, const b2Body& character) {
@@ -28,8 +29,10 @@ FixedVector<TouchPoint, b2_maxManifoldPoints> touch_points(const b2Contact& cont
   return points;
 }
 
-void StepRecorder::begin_step(const b2Body& character, const Vec2d& wanted_displacement) {
+void StepRecorder::begin_step(const b2Body& character, const Vec2d& wanted_displacement,
+                              std::span<const Vec2d> offsets) {
   character_ = &character;
+  offsets_ = offsets;
   phase_ = Phase::collide;
   step_start_ = widened(character.GetPosition());
   leg_start_ = {step_start_, 0};
@@ -45,10 +48,14 @@ void StepRecorder::end_step() {
 }
 
 bool StepRecorder::blocks(std::size_t source) const {
-  const std::optional<FixtureSource::OneWay>& one_way = sources_[source].one_way;
-  return !one_way || std::all_of(hull_.begin(), hull_.end(), [this, &one_way](const Vec2d& corner) {
-    const Vec2d to_corner = step_start_ + corner - one_way->point;
-    return one_way->normal.dot(to_corner) >= 0;
+  const FixtureSource& from = sources_[source];
+  if (from.sensor) return false;
+  if (!from.one_way) return true;
+  Vec2d point = from.one_way->point;
+  if (from.mover != no_mover) point += offsets_[from.mover];
+  return std::all_of(hull_.begin(), hull_.end(), [this, &from, &point](const Vec2d& corner) {
+    const Vec2d to_corner = step_start_ + corner - point;
+    return from.one_way->normal.dot(to_corner) >= 0;
   });
 }
 
@@ -77,7 +84,7 @@ void StepRecorder::BeginContact(b2Contact* contact) {
   const SceneryEnd end = scenery_end(*contact, *character_);
   if (!blocks(end.source)) return;
   const bool was_impact = phase_ == Phase::impacts;
-  beginnings_.push_back({end.source, end.child, seen_.fraction, was_impact, touch_points(*contact, *character_)});
+  beginnings_.push_back({end, seen_.fraction, was_impact, touch_points(*contact, *character_)});
 }
 
 /// A one-way segment lets through what is not wholly on the side that it blocks. The question is asked in every step,

@@ -19,24 +19,24 @@ struct TouchPoint {
   double gap = 0;
 };
 
-/// A contact that began during the step, copied: Box2D may destroy it before the step ends.
-struct Beginning {
-  std::size_t source = 0;
-  int32 child = 0;
-  double fraction = 0;
-  bool was_impact = false;  ///< Continuous collision stopped the body there; else it was near when the step began.
-  FixedVector<TouchPoint, b2_maxManifoldPoints> points;
-};
-
 /// The scenery's side of a contact with the character.
 struct SceneryEnd {
   std::size_t source = 0;  ///< Position in `SceneryFixtures::sources`.
   int32 child = 0;
+  Vec2d offset{Vec2d::Zero()};  ///< Of its body at that moment [m].
 };
 [[nodiscard]] SceneryEnd scenery_end(const b2Contact& contact, const b2Body& character);
 
 [[nodiscard]] FixedVector<TouchPoint, b2_maxManifoldPoints> touch_points(const b2Contact& contact,
                                                                          const b2Body& character);
+
+/// A contact that began during the step, copied: Box2D may destroy it before the step ends.
+struct Beginning {
+  SceneryEnd end;
+  double fraction = 0;
+  bool was_impact = false;  ///< Continuous collision stopped the body there; else it was near when the step began.
+  FixedVector<TouchPoint, b2_maxManifoldPoints> points;
+};
 
 /// The listener of a reference world. Box2D calls back in three phases, and only the third moves the body between
 /// calls: Collide (the body is where the step began), Solve (PostSolve sees it at the end of its way, before continuous
@@ -47,12 +47,13 @@ class StepRecorder final : public b2ContactListener {
   StepRecorder(const std::vector<FixtureSource>& sources, const std::vector<Vec2d>& hull)
       : sources_(sources), hull_(hull) {}
 
-  void begin_step(const b2Body& character, const Vec2d& wanted_displacement);
+  /// @param offsets of the movers when the step begins [m]; must outlive the step.
+  void begin_step(const b2Body& character, const Vec2d& wanted_displacement, std::span<const Vec2d> offsets);
   void end_step();
 
   [[nodiscard]] std::span<const Beginning> beginnings() const noexcept { return beginnings_; }
   [[nodiscard]] const std::vector<PathPoint<double>>& path() const noexcept { return path_; }
-  /// False for a one-way segment while the character is not wholly on the side that it blocks.
+  /// False for a sensor, and for a one-way segment while the character is not wholly on the side that it blocks.
   [[nodiscard]] bool blocks(std::size_t source) const;
 
   void BeginContact(b2Contact* contact) override;
@@ -68,6 +69,7 @@ class StepRecorder final : public b2ContactListener {
   const std::vector<FixtureSource>& sources_;
   const std::vector<Vec2d>& hull_;
   const b2Body* character_ = nullptr;  ///< Null between steps: destroying contacts calls back as well.
+  std::span<const Vec2d> offsets_;
   Phase phase_ = Phase::collide;
   Vec2d step_start_{Vec2d::Zero()};
   PathPoint<double> leg_start_;   ///< Where the straight leg that the body is on began.

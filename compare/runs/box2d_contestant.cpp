@@ -38,6 +38,8 @@ class Box2dContestant final : public Contestant {
     record.grounded = twin.grounded;
     record.jumping = state_.jumping;
     record.contacts = twin.contacts;
+    record.movers = twin.movers;
+    record.sensors = twin.sensors;
     record.stuck = record.dropped = false;
     record.capped = twin.capped;
   }
@@ -50,7 +52,9 @@ class Box2dContestant final : public Contestant {
             .grounded = state_.grounded,
             .jumping = state_.jumping,
             .jump_held = state_.jump_held,
-            .jump_pending = state_.jump_pending};
+            .jump_pending = state_.jump_pending,
+            .ride = state_.ride,
+            .ground_normal = ground_normal_};
   }
 
   void place(const Pose& pose) override {
@@ -60,26 +64,54 @@ class Box2dContestant final : public Contestant {
     state_.jumping = pose.jumping;
     state_.jump_held = pose.jump_held;
     state_.jump_pending = pose.jump_pending;
+    state_.ride = pose.ride;
+    ground_normal_ = pose.ground_normal;
     world_.place(pose.position, pose.velocity);
   }
 
  private:
+  /// On ground that carries the intent is relative to it, as it is for the controller.
   const box2d::TwinStep& advance(const StepInput& input) {
-    const Vec2d velocity = desired_velocity(character_, gravity_, input.player, dt_, state_);
+    state_.velocity -= state_.ride.velocity;
+    const Vec2d carried = velocity_of_ground(state_.ride.ground, ground_normal_, input.movers);
+    const Vec2d velocity = carried + desired_velocity(character_, gravity_, input.player, dt_, state_);
     requested_ = velocity * dt_;
-    const box2d::TwinStep& twin = step_world(velocity);
+    const box2d::TwinStep& twin = step_world(velocity, input.movers);
     state_.velocity = twin.velocity;
     state_.grounded = twin.grounded;
-    if (twin.grounded && twin.velocity.y() <= 0) state_.jumping = false;
+    ride_on(twin);
+    // Of what rides, float keeps no more than this [m/s].
+    const double at_rest = state_.ride.ground == Ride<double>::none ? 0 : 1e-4;
+    if (twin.grounded && twin.velocity.y() <= state_.ride.velocity.y() + at_rest) state_.jumping = false;
     return twin;
   }
 
-  const box2d::TwinStep& step_world(const Vec2d& velocity) {
+  const box2d::TwinStep& step_world(const Vec2d& velocity, std::span<const MoverMotion<double>> movers) {
     try {
-      return world_.step(velocity, dt_);
+      return world_.step(velocity, dt_, movers);
     } catch (const box2d::InvalidDefinition& reason) {
       throw LeftRange(std::string(reason.what()) + ": beyond what Box2D is given, and the run ends there");
     }
+  }
+
+  void ride_on(const box2d::TwinStep& twin) {
+    state_.ride = {};
+    if (!twin.ground) return;
+    const ColliderDef& ground = header_.scenery.colliders[twin.ground->collider];
+    if (ground.mover == no_mover && ground.surface_speed == 0) return;
+    ground_normal_ = twin.ground->normal;
+    state_.ride.ground = twin.ground->collider;
+    state_.ride.velocity = velocity_of_ground(twin.ground->collider, ground_normal_, twin.movers);
+  }
+
+  /// In one step [m/s]; a conveyor's surface runs along the ground, to the right where its speed is positive.
+  [[nodiscard]] Vec2d velocity_of_ground(ColliderIndex ground, const Vec2d& normal,
+                                         std::span<const MoverMotion<double>> movers) const {
+    Vec2d velocity = Vec2d::Zero();
+    if (ground == Ride<double>::none) return velocity;
+    const ColliderDef& collider = header_.scenery.colliders[ground];
+    if (collider.mover != no_mover) velocity = (movers[collider.mover].to - movers[collider.mover].from) / dt_;
+    return velocity + collider.surface_speed * Vec2d(normal.y(), -normal.x());
   }
 
   CharacterDef character_;
@@ -88,6 +120,7 @@ class Box2dContestant final : public Contestant {
   box2d::ReferenceWorld world_;
   TraceHeader header_;
   CharacterState<double> state_;
+  Vec2d ground_normal_{Vec2d::UnitY()};  ///< Of what the ride is on.
   Vec2d requested_{Vec2d::Zero()};
 };
 
@@ -95,7 +128,6 @@ class Box2dContestant final : public Contestant {
 
 std::unique_ptr<Contestant> make_box2d_contestant(box2d::SceneryMode mode, const Scene& scene,
                                                   const Scenery<double>& scenery) {
-  if (!scene.movers.empty()) throw NotApplicable("the twin's world does not move");
   return std::make_unique<Box2dContestant>(mode, scene, scenery);
 }
 

@@ -28,7 +28,8 @@ struct Pose {
   bool jumping = false;
   bool jump_held = false;
   bool jump_pending = false;
-  Ride<double> ride{};  ///< `place` is not looked at: where something is put down, it stands anew.
+  Ride<double> ride{};                  ///< Without its place: what is put down stands anew.
+  Vec2d ground_normal{Vec2d::UnitY()};  ///< Of what it rides on.
 };
 
 /// What happens to every contestant alike in one step.

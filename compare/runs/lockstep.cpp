@@ -15,10 +15,10 @@ constexpr double gap_slack = 1e-3;
 /// Normals that enclose a smaller angle (its sine) are pushed out of as one.
 constexpr double same_direction = 1e-3;
 
-std::vector<Vec2d> held_normals(Lane& lane, const Vec2d& position) {
+std::vector<Vec2d> held_normals(Lane& lane, const Place& place) {
   std::vector<Vec2d> normals;
   for (const Contact<double>& contact : lane.record().contacts) {
-    if (lane.solids().separation(position, contact.collider) > held_gap) continue;
+    if (lane.solids().separation(place, contact.collider) > held_gap) continue;
     const bool known = std::any_of(normals.begin(), normals.end(), [&](const Vec2d& other) {
       return std::abs(other.x() * contact.normal.y() - other.y() * contact.normal.x()) < same_direction &&
              other.dot(contact.normal) > 0;
@@ -41,15 +41,22 @@ Vec2d out_of(const std::vector<Vec2d>& normals, double gap) {
 
 }  // namespace
 
-TwinStart twin_start(Lane& lane) {
+TwinStart twin_start(Lane& lane, const StepInput& input) {
   TwinStart start;
   start.pose = lane.contestant().pose();
-  const Vec2d position = start.pose.position;
-  start.shift = out_of(held_normals(lane, position), box2d::rest_gap);
+  // Movers are where the last step left them, in the numbers that ran.
+  const std::vector<MoverMotion<double>>& ran = lane.record().movers;
+  const auto place = [&] {
+    return ran.empty() ? Place(start.pose.position, input.movers, 0) : Place(start.pose.position, ran, 1);
+  };
+  start.shift = out_of(held_normals(lane, place()), box2d::rest_gap);
   start.pose.position += start.shift;
   const ExactScenery& solids = lane.solids();
-  for (const ColliderIndex near : solids.near(start.pose.position, start.pose.position, box2d::rest_gap))
-    if (solids.separation(start.pose.position, near) < box2d::rest_gap - gap_slack) start.room = false;
+  for (const ColliderIndex near : solids.near(place(), place(), box2d::rest_gap))
+    if (solids.separation(place(), near) < box2d::rest_gap - gap_slack) start.room = false;
+  for (const Contact<double>& contact : lane.record().contacts)
+    if (contact.collider == start.pose.ride.ground && contact.side == Side::bottom)
+      start.pose.ground_normal = contact.normal;
   return start;
 }
 

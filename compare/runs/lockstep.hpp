@@ -14,6 +14,7 @@ struct TwinStart {
 
 /// Box2D keeps bodies 15 mm apart and pushes out what is nearer, every step. The controller keeps 0.5 micrometres. So
 /// the twin is moved out along the contacts that the controller holds, to Box2D's own rest gap.
-[[nodiscard]] TwinStart twin_start(Lane& lane);
+/// @param input of the step that is about to begin.
+[[nodiscard]] TwinStart twin_start(Lane& lane, const StepInput& input);
 
 }  // namespace paperproof::compare

@@ -123,7 +123,7 @@ class SceneRun {
     for (Pair& pair : pairs_) {
       if (!pair.mine->running() || !pair.reference->running()) continue;
       respawn_if_lost(*pair.mine);
-      const TwinStart start = twin_start(*pair.mine);
+      const TwinStart start = twin_start(*pair.mine, input);
       pair.mine->step(step, input);
       pair.reference->place(start.pose);
       pair.reference->step(step, input);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace paperproof::box2d::test {
 namespace {
@@ -149,6 +150,12 @@ double distance_to_boundary(const ColliderDef& rectangle, const Vec2d& point) {
   return outside.maxCoeff() > 0 ? std::sqrt(beyond.squaredNorm()) : -outside.maxCoeff();
 }
 
+std::vector<ColliderIndex> numbered(std::size_t count) {
+  std::vector<ColliderIndex> names(count);
+  std::iota(names.begin(), names.end(), ColliderIndex{0});
+  return names;
+}
+
 TEST(ColliderLookup, agrees_with_a_search_through_all_edges) {
   Random random(10);
   std::vector<ColliderDef> colliders;
@@ -157,7 +164,7 @@ TEST(ColliderLookup, agrees_with_a_search_through_all_edges) {
     const double y = random.between(-10, 10);
     colliders.push_back(box(x, y, x + random.between(0.1, 3), y + random.between(0.1, 3)));
   }
-  ColliderLookup lookup(SceneryDef{colliders});
+  ColliderLookup lookup(SceneryDef{colliders}, numbered(colliders.size()));
   const double reach = 0.1;
   int found = 0;
   for (int i = 0; i < 2000; ++i) {
@@ -183,7 +190,7 @@ TEST(ColliderLookup, agrees_with_a_search_through_all_edges) {
 }
 
 TEST(ColliderLookup, a_shared_edge_belongs_to_the_lowest_index) {
-  ColliderLookup lookup(SceneryDef{{box(5, 5, 6, 6), box(1, 0, 2, 1), box(0, 0, 1, 1)}});
+  ColliderLookup lookup(SceneryDef{{box(5, 5, 6, 6), box(1, 0, 2, 1), box(0, 0, 1, 1)}}, numbered(3));
   EXPECT_EQ(lookup.nearest({1, 0.5}, 0.02), std::optional<ColliderIndex>(1));
   EXPECT_EQ(lookup.nearest({0, 0.5}, 0.02), std::optional<ColliderIndex>(2));
   EXPECT_EQ(lookup.nearest({3, 0.5}, 0.02), std::nullopt);

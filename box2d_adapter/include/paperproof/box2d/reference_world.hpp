@@ -1,11 +1,12 @@
 /// A Box2D world beside the controller: the same scenery, the same octagon, the same wanted velocity.
 #pragma once
 
-#include <paperproof/character.hpp>
+#include <paperproof/controller.hpp>
 #include <paperproof/scenery.hpp>
-#include <paperproof/technique.hpp>
 
 #include <memory>
+#include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -44,19 +45,31 @@ inline constexpr double touch_gap = 0.020;
 /// What one step of the twin did. Positions and velocities are Box2D's floats.
 ///
 /// Contacts: `separation` is the gap between the bare shapes, Box2D's own plus both radii, so that rest gives about
-/// +0.015 m. `fraction` is where along the step's way Box2D stopped the body, 0 where it was touching when the step began.
-/// Listed is what continuous collision stopped at, and what touches while the wanted motion leads into it by more than
-/// 1e-7 m; one entry per collider and side, the earliest first.
+/// +0.015 m. `fraction` is where along the step's way Box2D stopped the body, 0 where it was touching when the step
+/// began. Listed is what continuous collision stopped at, and what touches while the wanted motion leads into it by
+/// more than 1e-7 m; one entry per collider and side, the earliest first.
 struct TwinStep {
-  bool capped = false;                     ///< The wanted motion exceeds the 2 m cap.
-  Vec2d velocity{Vec2d::Zero()};           ///< After the step.
+  bool capped = false;            ///< The wanted motion, or a mover's, exceeds the 2 m cap.
+  Vec2d velocity{Vec2d::Zero()};  ///< After the step.
   /// Touching something whose normal is within the climb limit of up, and not moving away from it.
   bool grounded = false;
-  std::vector<PathPoint<double>> path;     ///< Start, positions seen in callbacks during the step, end.
-  std::vector<Contact<double>> contacts;   ///< Touching after the step, and those that began and ended during it.
+  /// What it stands on: the most level of what it touches, the lowest index among equals. Looked for only where
+  /// something in the scenery moves or has a surface speed; absent elsewhere.
+  struct Ground {
+    ColliderIndex collider = 0;
+    Vec2d normal{Vec2d::Zero()};  ///< Unit, upwards.
+  };
+  std::optional<Ground> ground;
+  std::vector<PathPoint<double>> path;      ///< Start, positions seen in callbacks during the step, end.
+  std::vector<Contact<double>> contacts;    ///< Touching after the step, and those that began and ended during it.
+  std::vector<MoverMotion<double>> movers;  ///< Where Box2D had the movers when the step began and ended.
+  /// Box2D looks for sensors once, when a step begins, and within 20 mm: what is crossed in one step is not seen, and
+  /// the fraction is always 0.
+  std::vector<SensorEvent<double>> sensors;
 };
 
-/// Owns a `b2World` with static scenery and one dynamic octagon. Not thread-safe; two worlds are independent.
+/// Owns a `b2World` with the scenery and one dynamic octagon. What moves are kinematic bodies, one for each mover, that
+/// are moved by velocity. Not thread-safe; two worlds are independent.
 class ReferenceWorld {
  public:
   /// @param scenery judged and cut exactly as for the controller; every definition is validated before Box2D sees it.
@@ -72,8 +85,12 @@ class ReferenceWorld {
   /// @throws InvalidDefinition for numbers that are not finite or beyond 1e9; then nothing changed.
   void place(const Vec2d& position, const Vec2d& velocity);
   /// Sets the wanted velocity and steps the world once.
-  /// @throws InvalidDefinition for numbers that are not finite or beyond 1e9, or dt below 1e-9 s; then nothing was stepped.
-  const TwinStep& step(const Vec2d& wanted_velocity, double dt);
+  /// @param movers one for each mover of the scenery. Each gets the velocity that takes it from where Box2D has it to
+  ///   where it should be at the end, so that rounding does not add up; one that does not begin where it was to end in
+  ///   the step before is put there.
+  /// @throws InvalidDefinition for numbers that are not finite or beyond 1e9, another number of movers, or dt below
+  ///   1e-9 s; then nothing was stepped.
+  const TwinStep& step(const Vec2d& wanted_velocity, double dt, std::span<const MoverMotion<double>> movers = {});
 
   [[nodiscard]] Vec2d position() const;
   /// The scenery as Box2D has it (float geometry): polygons as the original colliders rounded to float.
