@@ -73,22 +73,58 @@ ColliderDef collider_of(const b2Shape& shape, const b2Transform& transform, int 
 }
 
 bool is_solid(const b2Fixture& fixture) { return !fixture.IsSensor(); }
+bool is_no_mover(const b2Body&) { return false; }
+
+/// Where `b2Island::Solve` takes a kinematic body, in the same operations and so to the same bits.
+b2Vec2 position_after_step(const b2Body& body, float dt) {
+  b2Vec2 velocity = body.GetLinearVelocity();
+  const b2Vec2 way = dt * velocity;
+  if (way.LengthSquared() > b2_maxTranslationSquared) velocity *= b2_maxTranslation / way.Length();
+  return body.GetPosition() + dt * velocity;
+}
 
 }  // namespace
 
 WorldScenery scenery_of(b2World& world, const WorldSceneryDef& def) {
   if (def.circle_corners < 3) throw InvalidDefinition("a polygon around a circle has at least 3 corners");
   const auto& wanted = def.filter ? def.filter : is_solid;
+  const auto& moves = def.movers ? def.movers : is_no_mover;
   WorldScenery result;
   for (b2Body* body : in_order_of_creation(world.GetBodyList())) {
-    if (body->GetType() != b2_staticBody || !body->IsEnabled()) continue;
+    const bool is_mover = body->GetType() == b2_kinematicBody && moves(*body);
+    if (!body->IsEnabled() || (body->GetType() != b2_staticBody && !is_mover)) continue;
+    b2Transform transform = body->GetTransform();
+    if (is_mover) transform.p.SetZero();
+    const std::size_t before = result.fixtures.size();
     for (b2Fixture* fixture : in_order_of_creation(body->GetFixtureList())) {
       if (!wanted(*fixture)) continue;
-      result.scenery.colliders.push_back(collider_of(*fixture->GetShape(), body->GetTransform(), def.circle_corners));
+      ColliderDef collider = collider_of(*fixture->GetShape(), transform, def.circle_corners);
+      collider.sensor = fixture->IsSensor();
+      if (is_mover) collider.mover = static_cast<MoverIndex>(result.movers.size());
+      result.scenery.colliders.push_back(std::move(collider));
       result.fixtures.push_back(fixture);
     }
+    if (!is_mover || result.fixtures.size() == before) continue;
+    result.movers.push_back(body);
+    result.angles.push_back(body->GetAngle());
   }
   return result;
 }
+
+template <class Scalar>
+bool motions_of(const WorldScenery& scenery, float dt, std::span<MoverMotion<Scalar>> motions) noexcept {
+  bool straight = true;
+  for (std::size_t i = 0; i < scenery.movers.size(); ++i) {
+    const b2Body& body = *scenery.movers[i];
+    const Vec2d from = widened(body.GetPosition());
+    const Vec2d to = widened(position_after_step(body, dt));
+    motions[i] = {from.cast<Scalar>(), to.cast<Scalar>()};
+    straight = straight && body.GetAngularVelocity() == 0 && body.GetAngle() == scenery.angles[i];
+  }
+  return straight;
+}
+
+template bool motions_of(const WorldScenery&, float, std::span<MoverMotion<float>>) noexcept;
+template bool motions_of(const WorldScenery&, float, std::span<MoverMotion<double>>) noexcept;
 
 }  // namespace paperproof::box2d

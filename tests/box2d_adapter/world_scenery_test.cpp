@@ -1,4 +1,5 @@
 /// The controller over a world that a game owns.
+#include "float_geometry.hpp"
 #include "worlds.hpp"
 
 #include <paperproof/box2d/world_scenery.hpp>
@@ -115,6 +116,69 @@ TEST(WorldScenery, the_polygon_around_a_circle_encloses_it_within_half_a_percent
     EXPECT_LE(std::sqrt(corner.squaredNorm()), 2 * 1.005);
   }
   EXPECT_THROW((void)scenery_of(world, {.circle_corners = 2}), InvalidDefinition);
+}
+
+TEST(WorldMovers, are_the_kinematic_bodies_asked_for_and_no_others) {
+  b2World world({0, 0});
+  add_box(new_body(world, b2_staticBody), 1, 1);
+  add_box(new_body(world, b2_kinematicBody, {0, 9}), 1, 1);  // the hero
+  new_body(world, b2_kinematicBody, {5, 5});                 // has no fixtures
+  b2Body* const lift = new_body(world, b2_kinematicBody, {3, 4}, b2_pi / 2);
+  b2Fixture* const deck = add_box(lift, 2, 1);
+  b2Fixture* const zone = add_box(lift, 4, 4);
+  zone->SetSensor(true);
+  add_box(new_body(world, b2_dynamicBody, {8, 8}), 1, 1);
+  EXPECT_TRUE(scenery_of(world).movers.empty());
+
+  const WorldScenery read = scenery_of(world, {.filter = [](const b2Fixture&) { return true; },
+                                               .movers = [](const b2Body& body) { return body.GetPosition().y < 9; }});
+  EXPECT_EQ(read.movers, std::vector<b2Body*>{lift});
+  ASSERT_EQ(read.fixtures.size(), 3U);
+  EXPECT_EQ(read.fixtures[1], deck);
+  const std::vector<ColliderDef>& colliders = read.scenery.colliders;
+  EXPECT_EQ(colliders[0].mover, no_mover);
+  EXPECT_EQ(colliders[1].mover, 0U);
+  EXPECT_TRUE(!colliders[1].sensor && colliders[2].sensor && colliders[2].mover == 0);
+  // Turned, around its own origin: 4 m wide became 4 m high.
+  for (const Vec2d& point : colliders[1].points) EXPECT_NEAR(std::abs(point.y()), 2, 1e-6);
+  EXPECT_EQ(Scenery<double>(read.scenery).mover_count(), 1U);
+}
+
+TEST(WorldMovers, go_as_box2d_moves_them_to_the_bit) {
+  b2World world({0, -10});
+  b2Body* const lift = new_body(world, b2_kinematicBody, {0.1F, 1000.3F});
+  add_box(lift, 2, 1);
+  const WorldScenery read = scenery_of(world, {.movers = [](const b2Body&) { return true; }});
+  std::vector<MoverMotion<double>> motions(1);
+  std::vector<MoverMotion<float>> rounded_motions(1);
+  Random random(5);
+  const float dt = 1 / 60.0F;
+  for (int step = 0; step < 1000; ++step) {
+    // Now and then more than the 2 m that Box2D moves at most.
+    const Vec2d velocity = random.direction() * random.between(0, step % 10 == 0 ? 300 : 50);
+    lift->SetLinearVelocity({static_cast<float>(velocity.x()), static_cast<float>(velocity.y())});
+    ASSERT_TRUE(motions_of<double>(read, dt, motions));
+    ASSERT_TRUE(motions_of<float>(read, dt, rounded_motions));
+    EXPECT_EQ(motions[0].from, widened(lift->GetPosition()));
+    world.Step(dt, 8, 3);
+    EXPECT_EQ(motions[0].to, widened(lift->GetPosition())) << step;
+    EXPECT_EQ(rounded_motions[0].to.cast<double>(), motions[0].to);
+  }
+}
+
+TEST(WorldMovers, that_turn_are_no_longer_known) {
+  b2World world({0, 0});
+  b2Body* const door = new_body(world, b2_kinematicBody);
+  add_box(door, 2, 1);
+  const WorldScenery read = scenery_of(world, {.movers = [](const b2Body&) { return true; }});
+  std::vector<MoverMotion<double>> motions(1);
+  EXPECT_TRUE(motions_of<double>(read, 0.01F, motions));
+  door->SetAngularVelocity(1);
+  EXPECT_FALSE(motions_of<double>(read, 0.01F, motions));
+  world.Step(0.01F, 8, 3);
+  door->SetAngularVelocity(0);
+  EXPECT_FALSE(motions_of<double>(read, 0.01F, motions));
+  EXPECT_TRUE(motions_of<double>(scenery_of(world, {.movers = [](const b2Body&) { return true; }}), 0.01F, motions));
 }
 
 }  // namespace

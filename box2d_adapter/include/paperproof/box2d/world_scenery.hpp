@@ -5,41 +5,60 @@
 #include <paperproof/scenery.hpp>
 
 #include <functional>
+#include <span>
 #include <vector>
 
+class b2Body;
 class b2Fixture;
 class b2World;
 
 namespace paperproof::box2d {
 
-/// Static fixtures as colliders. Collider `i` is (a part of) `fixtures[i]`: that is how a contact finds the game's
-/// object.
+/// Fixtures as colliders. Collider `i` is (a part of) `fixtures[i]`: that is how a contact finds the game's object.
 struct WorldScenery {
   SceneryDef scenery;
   std::vector<b2Fixture*> fixtures;  ///< As many as colliders; owned by the world.
+  std::vector<b2Body*> movers;       ///< By `ColliderDef::mover`; owned by the world.
+  std::vector<float> angles;         ///< Of those bodies when they were read [radians].
 };
 
 struct WorldSceneryDef {
-  /// Which fixtures of static bodies become scenery. Absent: all that are enabled and no sensors.
+  /// Which fixtures of static bodies and of movers become scenery; sensors become sensors. Absent: all but sensors.
   std::function<bool(const b2Fixture&)> filter{};
   /// Corners of the polygon that stands for a circle; it encloses the circle, and at 32 corners reaches 0.5 % of the
   /// radius beyond it. At least 3.
   int circle_corners = 32;
+  /// Which kinematic bodies become movers. Absent: none, as the character itself often is one.
+  std::function<bool(const b2Body&)> movers{};
 };
 
-/// Reads the static bodies of `world`, in the order in which bodies and their fixtures were created.
+/// Reads the static bodies of `world` that are enabled, and the kinematic ones that are asked for, in the order in
+/// which bodies and their fixtures were created.
 ///
 /// - A polygon becomes a polygon of the same corners in world coordinates (Box2D's skin of 1 cm is not part of it).
 /// - An edge or a chain becomes a chain, a loop a closed one. It blocks from both sides, also where Box2D's is
-/// one-sided: a
-///   loop blocks as it does in Box2D from the side that faces the game, and what is behind it is out of reach.
+///   one-sided: a loop blocks as it does in Box2D from the side that faces the game, and what is behind it is out of
+///   reach.
 /// - A circle becomes the polygon of `circle_corners` corners around it.
+/// - A kinematic body becomes a mover: its fixtures as it is turned now, around its own origin, which is the mover's
+///   offset.
 ///
 /// The world is only read (Box2D's own lists are not const); call it between steps. Read it again after the level
 /// changed.
 /// @throws InvalidDefinition for `circle_corners` below 3. Shapes that the controller refuses (points that coincide,
-/// zero
-///   area) throw `InvalidScenery` when the `Scenery` is built.
+///   zero area) throw `InvalidScenery` when the `Scenery` is built.
 [[nodiscard]] WorldScenery scenery_of(b2World& world, const WorldSceneryDef& def = {});
+
+/// How the movers will go in the world's next step: from where their bodies are, with the velocities they have, as
+/// Box2D will move them (at most 2 m). Call it before `world.Step` with the same `dt` and hand it to
+/// `Controller::step`. Neither allocates nor throws.
+/// @param scenery its world must still have the bodies.
+/// @param motions one for each of `scenery.movers`.
+/// @returns false where a body turns, or has turned since it was read: then the controller does not know where it is.
+template <class Scalar>
+[[nodiscard]] bool motions_of(const WorldScenery& scenery, float dt, std::span<MoverMotion<Scalar>> motions) noexcept;
+
+extern template bool motions_of(const WorldScenery&, float, std::span<MoverMotion<float>>) noexcept;
+extern template bool motions_of(const WorldScenery&, float, std::span<MoverMotion<double>>) noexcept;
 
 }  // namespace paperproof::box2d
