@@ -3,13 +3,6 @@
 namespace paperproof::compare::detail {
 namespace {
 
-/// A candidate: the edge of one of the two whose left normal points from the part towards the octagon.
-struct Candidate {
-  Vec2d start;  ///< Of the edge, in its owner's frame.
-  Vec2d end;
-  double estimate = 0;  ///< Separation in plain doubles.
-};
-
 /// The smaller of two; of two approximate values a number whose bound holds for either choice.
 Integer least(const Integer& a, const Integer& b) { return a < b ? a : b; }
 Approximate least(const Approximate& a, const Approximate& b) noexcept {
@@ -18,7 +11,7 @@ Approximate least(const Approximate& a, const Approximate& b) noexcept {
 
 /// The exact product of the separation and the length of the edge: for a left normal n of the edge, n·x = edge × x.
 template <class Number>
-Number scaled_separation(const Convert<Number>& number, const Candidate& axis, const ConvexPart& part,
+Number scaled_separation(const Convert<Number>& number, const AxisEdge& axis, const ConvexPart& part,
                          std::span<const Vec2d> octagon, const FramePlace& place) {
   const Point<Number> from = place.in(number);
   const Point<Number> edge = convert(number, axis.end) - convert(number, axis.start);
@@ -37,26 +30,24 @@ double to_double(const Integer& x, int exponent) {
   return std::ldexp(static_cast<double>(static_cast<std::int64_t>(x / (Integer(1) << drop))), exponent + drop);
 }
 
-double length_of(const Candidate& axis) {
+double length_of(const AxisEdge& axis) {
   const Vec2d edge = axis.end - axis.start;
   const double scale = edge.cwiseAbs().maxCoeff();
   const Vec2d unit = edge / scale;
   return scale * std::sqrt(unit.x() * unit.x() + unit.y() * unit.y());
 }
 
-double exact_separation(const Candidate& axis, const ConvexPart& part, std::span<const Vec2d> octagon,
+double exact_separation(const AxisEdge& axis, const ConvexPart& part, std::span<const Vec2d> octagon,
                         const FramePlace& place) {
   constexpr double good_enough = 1e-13;  // relative; the length that it is divided by has a few ulp of its own
   const Approximate quick = scaled_separation(Convert<Approximate>{}, axis, part, octagon, place);
   if (quick.radius <= good_enough * std::abs(quick.value)) return quick.value / length_of(axis);
-  int unit = place.unit();
-  for (const Vec2d& corner : octagon) unit = std::min(unit, lowest_bit(corner));
-  for (const Vec2d& vertex : part.points) unit = std::min(unit, lowest_bit(vertex));
+  const int unit = common_unit(part, octagon, place);
   const Integer exact = scaled_separation(Convert<Integer>{unit}, axis, part, octagon, place);
   return to_double(exact, 2 * unit) / length_of(axis);
 }
 
-double estimate_of(const Candidate& axis, const ConvexPart& part, std::span<const Vec2d> octagon,
+double estimate_of(const AxisEdge& axis, const ConvexPart& part, std::span<const Vec2d> octagon,
                    const Vec2d& position) {
   const Vec2d edge = (axis.end - axis.start) / length_of(axis);
   const auto along = [&](const Vec2d& v) { return edge.x() * v.y() - edge.y() * v.x(); };
@@ -69,22 +60,42 @@ double estimate_of(const Candidate& axis, const ConvexPart& part, std::span<cons
 
 }  // namespace
 
+std::vector<AxisEdge> axis_edges(const ConvexPart& part, std::span<const Vec2d> octagon) {
+  std::vector<AxisEdge> axes;
+  axes.reserve(part.points.size() + octagon.size());
+  const std::size_t n = part.points.size();
+  // The outward normal of a counter-clockwise edge is the left one of the edge reversed.
+  for (std::size_t i = 0; i < n; ++i) axes.push_back({part.points[(i + 1) % n], part.points[i]});
+  for (std::size_t k = 0; k < octagon.size(); ++k) axes.push_back({octagon[k], octagon[(k + 1) % octagon.size()]});
+  return axes;
+}
+
+int common_unit(const ConvexPart& part, std::span<const Vec2d> octagon, const FramePlace& place) {
+  int unit = place.unit();
+  for (const Vec2d& corner : octagon) unit = std::min(unit, lowest_bit(corner));
+  for (const Vec2d& vertex : part.points) unit = std::min(unit, lowest_bit(vertex));
+  return unit;
+}
+
+std::vector<Integer> scaled_separations(const ConvexPart& part, std::span<const Vec2d> octagon, const FramePlace& place,
+                                        int unit) {
+  std::vector<Integer> separations;
+  for (const AxisEdge& axis : axis_edges(part, octagon)) {
+    separations.push_back(scaled_separation(Convert<Integer>{unit}, axis, part, octagon, place));
+  }
+  return separations;
+}
+
 Axis best_axis(const ConvexPart& part, std::span<const Vec2d> octagon, const FramePlace& place) {
   const Vec2d position = place.rounded();
-  std::vector<Candidate> axes;
-  const std::size_t n = part.points.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    // The outward normal of a counter-clockwise edge is the left one of the edge reversed.
-    axes.push_back({part.points[(i + 1) % n], part.points[i], 0});
-  }
-  for (std::size_t k = 0; k < octagon.size(); ++k) {
-    axes.push_back({octagon[k], octagon[(k + 1) % octagon.size()], 0});
-  }
+  const std::vector<AxisEdge> axes = axis_edges(part, octagon);
+  std::vector<double> estimates;
+  estimates.reserve(axes.size());
   double best = -std::numeric_limits<double>::infinity();
   double size = 0;
-  for (Candidate& axis : axes) {
-    axis.estimate = estimate_of(axis, part, octagon, position);
-    best = std::max(best, axis.estimate);
+  for (const AxisEdge& axis : axes) {
+    estimates.push_back(estimate_of(axis, part, octagon, position));
+    best = std::max(best, estimates.back());
   }
   for (const Vec2d& vertex : part.points) size = std::max(size, (vertex - position).cwiseAbs().maxCoeff());
   for (const Vec2d& corner : octagon) size = std::max(size, corner.cwiseAbs().maxCoeff());
@@ -92,8 +103,9 @@ Axis best_axis(const ConvexPart& part, std::span<const Vec2d> octagon, const Fra
   // More than the estimates can be off: among movers the place itself is rounded.
   const double window = size * 0x1p-46 + (place.moved() ? place.size() * 0x1p-48 : 0);
   Axis result{-std::numeric_limits<double>::infinity(), Vec2d::Zero()};
-  for (const Candidate& axis : axes) {
-    if (axis.estimate < best - window) continue;
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    if (estimates[i] < best - window) continue;
+    const AxisEdge& axis = axes[i];
     const double separation = exact_separation(axis, part, octagon, place);
     if (separation <= result.separation) continue;
     const Vec2d edge = (axis.end - axis.start) / length_of(axis);

@@ -19,4 +19,19 @@ struct Axis {
 /// @param place in the frame of the part.
 [[nodiscard]] Axis best_axis(const ConvexPart& part, std::span<const Vec2d> octagon, const FramePlace& place);
 
+/// An edge whose left normal points from the part towards the octagon: of the part, reversed, or of the octagon. The
+/// two are apart exactly if they are along one of these normals.
+struct AxisEdge {
+  Vec2d start;  ///< In its owner's frame.
+  Vec2d end;
+};
+[[nodiscard]] std::vector<AxisEdge> axis_edges(const ConvexPart& part, std::span<const Vec2d> octagon);
+
+/// For every axis the separation times the length of its edge, in units of 2^(2 unit).
+/// @param unit no larger than `common_unit` of the same.
+[[nodiscard]] std::vector<Integer> scaled_separations(const ConvexPart& part, std::span<const Vec2d> octagon,
+                                                      const FramePlace& place, int unit);
+/// The lowest bit of the place, the part and the octagon.
+[[nodiscard]] int common_unit(const ConvexPart& part, std::span<const Vec2d> octagon, const FramePlace& place);
+
 }  // namespace paperproof::compare::detail

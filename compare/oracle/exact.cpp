@@ -1,7 +1,9 @@
 #include "oracle/exact.hpp"
 
 #include "oracle/depth.hpp"
+#include "oracle/free_space.hpp"
 #include "oracle/impact.hpp"
+#include "oracle/sensor.hpp"
 #include "oracle/world.hpp"
 
 #include <algorithm>
@@ -20,26 +22,26 @@ struct ExactScenery::Impl {
   }
 
   [[nodiscard]] detail::FramePlace seen_from(const detail::Group& group, const Place& at) const {
-    if (!at.movers.empty() && at.movers.size() != world.mover_count()) {
-      throw std::invalid_argument("a place needs the motion of every mover, or of none");
+    if (!at.movers.empty() && at.movers.size() < world.mover_count()) {
+      throw std::invalid_argument("a place needs the motion of every mover");
     }
-    if (group.mover == no_mover || at.movers.empty()) return {at.position, {}, 0};
+    if (group.mover == no_mover || at.movers.empty()) return {at.position, {}, at.fraction};
     return {at.position, at.movers[group.mover], at.fraction};
   }
   [[nodiscard]] detail::FramePlace seen_from(ColliderIndex collider, const Place& at) const {
     return seen_from(world.group_of(collider), at);
   }
-  [[nodiscard]] Passage passage(ColliderIndex collider, const Way& way) const {
-    return Passage(world, world.group_of(collider), way);
+  [[nodiscard]] Way way_between(const detail::Group& group, const Place& from, const Place& to) const {
+    return Way::to(seen_from(group, from), seen_from(group, to));
   }
 
   /// Calls `visit(group, way)` for every group of solids whose box the way reaches.
   template <class MakeWay, class Visit>
-  void for_groups(const MakeWay& make_way, double within, const Visit& visit) const {
+  void for_groups(const MakeWay& make_way, const Visit& visit) const {
     for (const detail::Group& group : world.groups()) {
       if (group.sensor) continue;
       const Way way = make_way(group);
-      if (group.box.overlaps(world.box_of(way).inflated(within))) visit(group, way);
+      if (group.box.overlaps(world.box_of(way))) visit(group, way);
     }
   }
 
@@ -60,6 +62,23 @@ struct ExactScenery::Impl {
   [[nodiscard]] ExactImpact at_once(const Place& from, ColliderIndex collider) const {
     const detail::Axis out = nearest(seen_from(collider, from), collider);
     return {.collider = collider, .fraction = 0, .normal = out.normal, .point = from.position, .exposed = true};
+  }
+
+  [[nodiscard]] std::optional<ExactImpact> find_impact(const Way& way, ColliderIndex collider) const {
+    const std::vector<std::uint32_t> edges = Passage(world, world.group_of(collider), way).entered_edges(collider);
+    if (edges.empty()) return std::nullopt;
+    return detail::find_impact(world, way, collider, edges);
+  }
+
+  template <class MakeWay>
+  [[nodiscard]] std::vector<ExactImpact> all_impacts(const Place& from, const std::vector<ColliderIndex>& at_start,
+                                                     const MakeWay& make_way) const {
+    std::vector<ExactImpact> all;
+    for (const ColliderIndex collider : at_start) all.push_back(at_once(from, collider));
+    for_groups(make_way, [&](const detail::Group& group, const Way& way) { add_impacts(group, way, at_start, all); });
+    std::stable_sort(all.begin(), all.end(),
+                     [](const ExactImpact& a, const ExactImpact& b) { return a.collider < b.collider; });
+    return all;
   }
 
   /// The impacts of one way with the colliders of one group.
@@ -99,6 +118,11 @@ struct ExactScenery::Impl {
   double share_of_distance = 0;
 };
 
+Vec2d Place::offset(MoverIndex mover) const {
+  if (mover == no_mover || movers.empty()) return Vec2d::Zero();
+  return detail::FramePlace{position, movers[mover], fraction}.offset();
+}
+
 ExactScenery::ExactScenery(const SceneryDef& scenery, std::vector<Vec2d> points)
     : impl_(std::make_unique<Impl>(scenery, std::move(points))) {}
 
@@ -110,10 +134,8 @@ bool ExactScenery::overlaps(const Place& at, ColliderIndex collider) const { ret
 
 std::vector<ColliderIndex> ExactScenery::met(const Place& from, const Place& to) const {
   std::vector<ColliderIndex> found;
-  const auto way_in = [&](const detail::Group& group) {
-    return Way::to(impl_->seen_from(group, from), impl_->seen_from(group, to));
-  };
-  impl_->for_groups(way_in, 0, [&](const detail::Group& group, const Way& way) {
+  const auto way_in = [&](const detail::Group& group) { return impl_->way_between(group, from, to); };
+  impl_->for_groups(way_in, [&](const detail::Group& group, const Way& way) {
     const std::vector<ColliderIndex> met = Passage(impl_->world, group, way).met();
     found.insert(found.end(), met.begin(), met.end());
   });
@@ -122,29 +144,31 @@ std::vector<ColliderIndex> ExactScenery::met(const Place& from, const Place& to)
 }
 
 bool ExactScenery::meets(const Place& from, const Place& to, ColliderIndex collider) const {
-  return impl_->passage(collider, Way::to(impl_->seen_from(collider, from), impl_->seen_from(collider, to)))
-      .meets(collider);
+  const detail::Group& group = impl_->world.group_of(collider);
+  return Passage(impl_->world, group, impl_->way_between(group, from, to)).meets(collider);
 }
 
 std::optional<ExactImpact> ExactScenery::time_of_impact(const Place& from, const Vec2d& displacement,
                                                         ColliderIndex collider) const {
   if (overlaps(from, collider)) return impl_->at_once(from, collider);
-  const Way way = Way::by(impl_->seen_from(collider, from), displacement);
-  const std::vector<std::uint32_t> edges = impl_->passage(collider, way).entered_edges(collider);
-  if (edges.empty()) return std::nullopt;
-  return detail::find_impact(impl_->world, way, collider, edges);
+  return impl_->find_impact(Way::by(impl_->seen_from(collider, from), displacement), collider);
+}
+
+std::optional<ExactImpact> ExactScenery::impact_between(const Place& from, const Place& to,
+                                                        ColliderIndex collider) const {
+  if (overlaps(from, collider)) return impl_->at_once(from, collider);
+  return impl_->find_impact(impl_->way_between(impl_->world.group_of(collider), from, to), collider);
 }
 
 std::vector<ExactImpact> ExactScenery::impacts(const Place& from, const Vec2d& displacement) const {
-  const std::vector<ColliderIndex> at_once = overlapped(from);
-  std::vector<ExactImpact> all;
-  for (const ColliderIndex collider : at_once) all.push_back(impl_->at_once(from, collider));
-  const auto way_in = [&](const detail::Group& group) { return Way::by(impl_->seen_from(group, from), displacement); };
-  impl_->for_groups(way_in, 0,
-                    [&](const detail::Group& group, const Way& way) { impl_->add_impacts(group, way, at_once, all); });
-  std::stable_sort(all.begin(), all.end(),
-                   [](const ExactImpact& a, const ExactImpact& b) { return a.collider < b.collider; });
-  return all;
+  return impl_->all_impacts(from, overlapped(from), [&](const detail::Group& group) {
+    return Way::by(impl_->seen_from(group, from), displacement);
+  });
+}
+
+std::vector<ExactImpact> ExactScenery::impacts_between(const Place& from, const Place& to) const {
+  return impl_->all_impacts(from, overlapped(from),
+                            [&](const detail::Group& group) { return impl_->way_between(group, from, to); });
 }
 
 std::optional<ExactImpact> ExactScenery::first_impact(const Place& from, const Vec2d& displacement) const {
@@ -168,15 +192,58 @@ double ExactScenery::separation(const Place& at, ColliderIndex collider) const {
 
 std::vector<ColliderIndex> ExactScenery::near(const Place& from, const Place& to, double within) const {
   std::vector<ColliderIndex> found;
-  const auto way_in = [&](const detail::Group& group) {
-    return Way::to(impl_->seen_from(group, from), impl_->seen_from(group, to));
-  };
-  impl_->for_groups(way_in, within, [&](const detail::Group& group, const Way& way) {
-    const auto met = group.solid_tree.meeting(impl_->world.box_of(way).inflated(within));
-    found.insert(found.end(), met.begin(), met.end());
-  });
+  const Place early(to.position, from.movers, from.fraction);
+  const Place late(from.position, to.movers, to.fraction);
+  for (const detail::Group& group : impl_->world.groups()) {
+    if (group.sensor) continue;
+    Box2<double> box = impl_->world.box_of(impl_->way_between(group, from, to));
+    if (group.mover != no_mover) box = box.merged(impl_->world.box_of(impl_->way_between(group, early, late)));
+    const std::vector<ColliderIndex> near = group.solid_tree.meeting(box.inflated(within));
+    found.insert(found.end(), near.begin(), near.end());
+  }
   std::sort(found.begin(), found.end());
   return found;
+}
+
+std::vector<ExactSensorEvent> ExactScenery::sensor_events(std::span<const Place> path) const {
+  std::vector<ExactSensorEvent> events;
+  for (const detail::Group& group : impl_->world.groups()) {
+    if (!group.sensor) continue;
+    std::vector<detail::FramePlace> places;
+    for (const Place& place : path) places.push_back(impl_->seen_from(group, place));
+    for (const ColliderIndex sensor : group.colliders) {
+      detail::add_sensor_events(impl_->world, sensor, impl_->parts[sensor], places, events);
+    }
+  }
+  std::stable_sort(events.begin(), events.end(), [](const ExactSensorEvent& a, const ExactSensorEvent& b) {
+    if (a.fraction != b.fraction) return a.fraction < b.fraction;
+    return a.sensor < b.sensor;
+  });
+  return events;
+}
+
+std::optional<Vec2d> ExactScenery::find_free(const Place& at, double reach, double clearance,
+                                             std::span<const Vec2d> others,
+                                             const std::function<bool(const Vec2d&)>& accept) const {
+  std::vector<detail::Obstacle> obstacles;
+  for (const ColliderIndex collider : near(at, at, reach + 2 * clearance)) {
+    if (scenery().colliders[collider].one_way) continue;
+    for (const detail::ConvexPart& part : impl_->parts[collider]) {
+      obstacles.push_back({&part, impl_->seen_from(collider, at)});
+    }
+  }
+  const auto is_free = [&](const Vec2d& position) {
+    return std::all_of(obstacles.begin(), obstacles.end(), [&](const detail::Obstacle& obstacle) {
+      detail::FramePlace place = obstacle.place;
+      place.position = position;
+      return detail::best_axis(*obstacle.part, impl_->world.points(), place).separation >= clearance;
+    });
+  };
+  for (const Vec2d& position :
+       detail::free_candidates(obstacles, impl_->world.points(), at.position, reach, clearance, others)) {
+    if (is_free(position) && accept(position)) return position;
+  }
+  return std::nullopt;
 }
 
 const SceneryDef& ExactScenery::scenery() const noexcept { return impl_->world.scenery(); }

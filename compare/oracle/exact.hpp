@@ -11,11 +11,12 @@
 /// unlimited integers (all doubles scaled by one power of two) where that bound leaves it open.
 #pragma once
 
+#include <paperproof/controller.hpp>
 #include <paperproof/scenery.hpp>
-#include <paperproof/technique.hpp>
 
 #include <boost/multiprecision/cpp_int.hpp>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -30,7 +31,7 @@ using Rational = boost::multiprecision::cpp_rational;
 struct Place {
   Vec2d position;
   std::span<const MoverMotion<double>> movers{};  ///< One for each mover, or none. Not copied.
-  double fraction = 0;                            ///< Of the step, in [0, 1].
+  double fraction = 0;                            ///< Of the step, in [0, 1]; movers go on beyond 1 as before.
 
   template <class Derived>
   Place(const Eigen::MatrixBase<Derived>& at) : position(at) {}  // NOLINT(google-explicit-constructor): a place as well
@@ -39,6 +40,9 @@ struct Place {
       : position(at.position), movers(motions), fraction(at.fraction) {}
   Place(const Vec2d& at, std::span<const MoverMotion<double>> motions, double when)
       : position(at), movers(motions), fraction(when) {}
+
+  /// Where a mover is, rounded.
+  [[nodiscard]] Vec2d offset(MoverIndex mover) const;
 };
 
 /// When and where a translation first touches a collider on its way to overlapping it.
@@ -54,11 +58,19 @@ struct ExactImpact {
   bool exposed = true;
 };
 
+/// The octagon's interior came to overlap a sensor's, or ceased to.
+struct ExactSensorEvent {
+  using Change = SensorEvent<double>::Change;
+  ColliderIndex sensor = 0;
+  Change change = Change::enter;
+  Rational fraction;  ///< Of the step, in [0, 1].
+};
+
 /// The solids of one run with the exact questions that can be asked of them. The octagon at position p is the exact sum
 /// of p and each point, unrounded. Sensors are no solids. Immutable after construction; may be shared between threads.
 ///
-/// Wherever a place is asked for, its movers are one for each mover of the scenery, or none.
-/// @throws std::invalid_argument from every question whose movers are another number of them.
+/// Wherever a place is asked for, it brings the motion of every mover of the scenery, or of none.
+/// @throws std::invalid_argument from every question that brings fewer.
 class ExactScenery {
  public:
   /// @param scenery as run; every double is taken as the rational it is. Copied.
@@ -93,6 +105,10 @@ class ExactScenery {
   /// not convex may be met in several places (the two sides of a wedge): after its first impact follow those with each
   /// of its edges that are met, each as if it were alone.
   [[nodiscard]] std::vector<ExactImpact> impacts(const Place& from, const Vec2d& displacement) const;
+  /// The same on the way from one place to another, as `met`; the fractions are of that way.
+  [[nodiscard]] std::vector<ExactImpact> impacts_between(const Place& from, const Place& to) const;
+  [[nodiscard]] std::optional<ExactImpact> impact_between(const Place& from, const Place& to,
+                                                          ColliderIndex collider) const;
   /// The earliest impact over all colliders (ties: larger normal.y, then lower index).
   [[nodiscard]] std::optional<ExactImpact> first_impact(const Place& from, const Vec2d& displacement) const;
 
@@ -103,8 +119,21 @@ class ExactScenery {
   /// Separation along the best axis [m], for the nearest part of `collider`; negative where it overlaps.
   [[nodiscard]] double separation(const Place& at, ColliderIndex collider) const;
 
-  /// Colliders whose boxes come within `within` metres of the box of the octagon's way from `from` to `to`.
+  /// Colliders whose boxes come within `within` metres of the box of the octagon, wherever it is in the box of the two
+  /// positions while they go from the one moment to the other.
   [[nodiscard]] std::vector<ColliderIndex> near(const Place& from, const Place& to, double within) const;
+
+  /// What happens to the sensors on a way, corner by corner, in order of time (ties: sensor, exit first). A sensor that
+  /// is overlapped where the way begins was entered before.
+  [[nodiscard]] std::vector<ExactSensorEvent> sensor_events(std::span<const Place> path) const;
+
+  /// A place not farther than `reach` from `at`, at the same moment, that keeps at least `clearance` [m] from every
+  /// solid along its best axis (exactly), and that `accept` takes; or none. It looks, nearest first, at `at` itself, at
+  /// `others`, and at all corners of the space that is free with 0.5 % more clearance, and feet of perpendiculars from
+  /// `at` to its edges: the nearest free place of all is one of them.
+  [[nodiscard]] std::optional<Vec2d> find_free(const Place& at, double reach, double clearance,
+                                               std::span<const Vec2d> others,
+                                               const std::function<bool(const Vec2d&)>& accept) const;
 
   [[nodiscard]] const SceneryDef& scenery() const noexcept;
 

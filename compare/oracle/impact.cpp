@@ -328,9 +328,7 @@ ExactImpact find_impact(const World& world, const Way& way, ColliderIndex collid
   const Vec2d normal = left_normal(world, chosen);
   const Range range = range_of(world, touches, chosen, normal);
   using boost::multiprecision::cpp_int;
-  const MoverMotion<double>& mover = way.from.mover;
-  const double fraction = ratio(chosen.timing.numerator, chosen.timing.denominator);
-  const Vec2d offset = way.from.offset() + fraction * (mover.to - mover.from);
+  const Vec2d offset = way.offset_after(ratio(chosen.timing.numerator, chosen.timing.denominator));
   return ExactImpact{.collider = collider,
                      .fraction = Rational(cpp_int(chosen.timing.numerator), cpp_int(chosen.timing.denominator)),
                      .normal = normal,

@@ -1,8 +1,12 @@
 #include "oracle/judge.hpp"
 
+#include "oracle/contacts.hpp"
+#include "oracle/crush.hpp"
 #include "oracle/passing.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <stdexcept>
 
 namespace paperproof::compare {
 namespace {
@@ -15,54 +19,21 @@ constexpr double slop_of_sampled_path = 0.020;
 /// So much of the octagon's narrowest width the slop may be at most: a character of a few millimetres that is passed by
 /// a paper is half a width deep, which must not be excused.
 constexpr double slop_of_width = 0.125;
-/// A contact is this near along its normal [m]: twice what the controller stops at.
-constexpr double contact_reach = 1e-6;
-/// Below this gap at the end of the motion the controller may call it a contact already [m]: its hit distance, with
-/// room for the rounding of the comparison.
-constexpr double hit_reach = 1.01e-7;
-/// Box2D begins to report touching at this gap [m].
-constexpr double skin = 0.020;
-/// See `Judge`: sine of the flattest approach whose fraction is compared.
-constexpr double least_approach = 1e-3;
-/// Cosine of the angle between two normals of one face, as far as Box2D's floats and its rounded corners know it.
-constexpr double same_face = 0.9;
-/// A smaller share of the speed is rounding: Box2D's floats have 24 bits.
-constexpr double least_loss = 1e-5;
 /// Instants at which the depth of a passing is looked at first.
 constexpr int depth_samples = 32;
 constexpr int depth_refinements = 40;
 
-bool contains(const std::vector<ColliderIndex>& sorted, ColliderIndex collider) {
-  return std::binary_search(sorted.begin(), sorted.end(), collider);
+bool contains(const std::vector<ColliderIndex>& some, ColliderIndex collider) {
+  return std::find(some.begin(), some.end(), collider) != some.end();
 }
 
-std::vector<Vec2d> positions_of(const TraceStep& step) {
-  std::vector<Vec2d> path;
-  for (const PathPoint<double>& corner : step.path) {
-    if (path.empty() || path.back() != corner.position) path.push_back(corner.position);
-  }
-  return path;
+Place between(const Place& from, const Place& to, double share) {
+  return {from.position + share * (to.position - from.position), from.movers,
+          from.fraction + share * (to.fraction - from.fraction)};
 }
 
-double length_of(const std::vector<Vec2d>& path) {
-  double length = 0;
-  for (std::size_t i = 0; i + 1 < path.size(); ++i) length += (path[i + 1] - path[i]).norm();
-  return length;
-}
-
-bool is_one_way(const ExactScenery& scenery, ColliderIndex collider) {
-  return scenery.scenery().colliders[collider].one_way.has_value();
-}
-
-void add_contact(const ExactImpact& impact, double fraction, StepJudgement& judgement) {
-  const Side side = side_of_normal(impact.normal.x(), impact.normal.y());
-  for (ExactContact& known : judgement.contacts) {
-    if (known.collider != impact.collider || known.side != side) continue;
-    known.fraction = std::min(known.fraction, fraction);
-    return;
-  }
-  judgement.contacts.push_back(
-      {.collider = impact.collider, .side = side, .normal = impact.normal, .fraction = fraction});
+bool same_motion(const MoverMotion<double>& a, const MoverMotion<double>& b) {
+  return a.from == b.from && a.to == b.to;
 }
 
 }  // namespace
@@ -70,33 +41,54 @@ void add_contact(const ExactImpact& impact, double fraction, StepJudgement& judg
 Judge::Judge(const TraceHeader& header) : header_(header), scenery_(header.scenery, header.points) {
   slop_ = std::min(header.path_exact ? slop_of_exact_path : slop_of_sampled_path,
                    slop_of_width * detail::narrowest_width(header.points));
+  for (const ColliderDef& def : header.scenery.colliders) {
+    has_sensors_ = has_sensors_ || def.sensor;
+    if (def.mover != no_mover) mover_count_ = std::max(mover_count_, std::size_t{def.mover} + 1);
+  }
 }
 
 StepJudgement Judge::judge(const TraceStep& step) {
+  if (step.movers.size() < mover_count_) throw std::invalid_argument("a step needs the motion of every mover");
   if (repeats(step)) return last_->second;
   StepJudgement judgement;
-  const Path path = positions_of(step);
+  const Path path = path_of(step);
   if (path.empty()) return judgement;
-  begin_episodes(step, path.front());
+  if (!continues(step, path.front())) begin_episodes(path.front());
   const bool starts_free = inside_.empty();
-  Box2<double> reach{path[0], path[0]};
-  for (const Vec2d& corner : path) {
-    reach = reach.merged({corner, corner});
-    const Vec2d wanted = corner + step.requested;
-    reach = reach.merged({wanted, wanted});
-  }
-  const bool alone = inside_.empty() && step.contacts.empty() && scenery_.near(reach.lower, reach.upper, skin).empty();
-  if (!alone) {
+  if (!starts_free || !step.contacts.empty() || !step.crushed.empty() || !alone(path, step)) {
     judgement.end_overlap = scenery_.overlapped(path.back());
-    judge_way(path, judgement);
-    judge_contacts(step, starts_free, judgement);
+    judge_way(path, step, judgement);
+    detail::ContactJudge(header_, scenery_, step).judge(starts_free, judgement);
   }
-  const double speed = length_of(path) / header_.dt;
-  for (Passing& passing : judgement.passings) passing.speed = speed;
-  last_end_ = path.back();
+  if (has_sensors_) judge_sensors(path, step, judgement);
+  last_end_.emplace(path.back());
   last_.reset();
   if (path.size() == 1 && inside_.empty()) last_.emplace(step, judgement);
   return judgement;
+}
+
+/// Corners where nothing moves are left out; a way that ends early waits where it is while the movers go on.
+Judge::Path Judge::path_of(const TraceStep& step) const {
+  Path path;
+  for (const PathPoint<double>& corner : step.path) {
+    const bool still = !path.empty() && path.back().position == corner.position;
+    if (still && (mover_count_ == 0 || path.back().fraction == corner.fraction)) continue;
+    path.emplace_back(corner, step.movers);
+  }
+  if (mover_count_ > 0 && !path.empty() && path.back().fraction < 1) {
+    path.emplace_back(path.back().position, step.movers, 1);
+  }
+  return path;
+}
+
+bool Judge::alone(const Path& path, const TraceStep& step) const {
+  Box2<double> reach{path[0].position, path[0].position};
+  for (const Place& corner : path) {
+    const Vec2d wanted = corner.position + step.requested;
+    reach = reach.merged({corner.position, corner.position}).merged({wanted, wanted});
+  }
+  // What is requested is looked at from every corner, for as long as a whole step.
+  return scenery_.near(Place(reach.lower, step.movers, 0), Place(reach.upper, step.movers, 2), detail::skin).empty();
 }
 
 bool Judge::repeats(const TraceStep& step) const {
@@ -108,70 +100,97 @@ bool Judge::repeats(const TraceStep& step) const {
   const auto same_contact = [](const Contact<double>& a, const Contact<double>& b) {
     return a.collider == b.collider && a.normal == b.normal;
   };
-  return step.requested == last.requested && step.velocity == last.velocity &&
+  return step.requested == last.requested && step.velocity == last.velocity && step.crushed == last.crushed &&
+         step.sensors.empty() && last.sensors.empty() &&
+         std::equal(step.movers.begin(), step.movers.end(), last.movers.begin(), last.movers.end(), same_motion) &&
          std::equal(step.path.begin(), step.path.end(), last.path.begin(), last.path.end(), same_corner) &&
          std::equal(step.contacts.begin(), step.contacts.end(), last.contacts.begin(), last.contacts.end(),
                     same_contact);
 }
 
-void Judge::begin_episodes(const TraceStep& step, const Vec2d& start) {
-  if (!step.respawn && last_end_ && *last_end_ == start) return;
+bool Judge::continues(const TraceStep& step, const Place& start) const {
+  const auto goes_on = [](const MoverMotion<double>& now, const MoverMotion<double>& before) {
+    return now.from == before.to;
+  };
+  return !step.respawn && last_end_ && last_end_->position == start.position &&
+         std::equal(step.movers.begin(), step.movers.end(), last_end_->movers.begin(), last_end_->movers.end(),
+                    goes_on);
+}
+
+void Judge::begin_episodes(const Place& start) {
   inside_.clear();
   for (const ColliderIndex collider : scenery_.overlapped(start)) {
-    inside_[collider] = {std::nullopt, scenery_.penetration(start, collider)};
+    inside_[collider] = {std::nullopt, scenery_.penetration(start, collider), false};
   }
 }
 
-void Judge::judge_way(const Path& path, StepJudgement& judgement) {
-  std::map<ColliderIndex, Vec2d> touched;  // with the corner where the first leg that meets it begins
+void Judge::judge_way(const Path& path, const TraceStep& step, StepJudgement& judgement) {
+  Touched touched;
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
     for (const ColliderIndex collider : scenery_.met(path[i], path[i + 1])) touched.emplace(collider, path[i]);
   }
+  judge_crushes(path, step, touched, judgement);
+  judge_end(path, touched, judgement);
   for (const auto& [collider, from] : touched) {
-    if (is_one_way(scenery_, collider)) judgement.one_way_broken.push_back(collider);
-  }
-  for (const ColliderIndex collider : judgement.end_overlap) {
-    const double depth = scenery_.penetration(path.back(), collider);
-    judgement.max_penetration = std::max(judgement.max_penetration, depth);
-    const auto entered = touched.find(collider);
-    Episode& episode =
-        inside_.try_emplace(collider, Episode{entered != touched.end() ? entered->second : path[0], 0}).first->second;
-    episode.depth = std::max(episode.depth, depth);
-    touched.erase(collider);
-  }
-  for (auto it = inside_.begin(); it != inside_.end();) {
-    const ColliderIndex collider = it->first;
-    if (contains(judgement.end_overlap, collider)) {
-      ++it;
-      continue;
+    if (contains(judgement.crushed, collider)) continue;
+    if (scenery_.scenery().colliders[collider].one_way) {
+      judgement.one_way_broken.push_back(collider);
+    } else {
+      const auto leg = std::find_if(path.begin(), path.end(), [&, &from = from](const Place& corner) {
+        return corner.position == from.position && corner.fraction == from.fraction;
+      });
+      judge_passing(path, collider, from, *std::next(leg), 0, judgement);
     }
-    const std::optional<Vec2d>& from = it->second.free_from;
-    if (from && scenery_.meets(*from, path.back(), collider)) judge_passing(path, collider, it->second, judgement);
-    touched.erase(collider);
-    it = inside_.erase(it);
-  }
-  for (const auto& [collider, from] : touched) {
-    if (!is_one_way(scenery_, collider)) judge_passing(path, collider, {path[0], 0}, judgement);
   }
 }
 
-void Judge::judge_passing(const Path& path, ColliderIndex collider, const Episode& episode,
+/// Where the step leaves the octagon: stays inside solids go on, begin and end. What is left in `touched` was passed
+/// within the step.
+void Judge::judge_end(const Path& path, Touched& touched, StepJudgement& judgement) {
+  for (const ColliderIndex collider : judgement.end_overlap) {
+    const auto entered = touched.find(collider);
+    const auto [it, is_new] =
+        inside_.try_emplace(collider, Episode{Kept(entered != touched.end() ? entered->second : path[0]), 0, false});
+    Episode& episode = it->second;
+    const double depth = scenery_.penetration(path.back(), collider);
+    episode.depth = std::max(episode.depth, depth);
+    episode.pressed = episode.pressed || contains(judgement.crushed, collider);
+    if (episode.pressed) {
+      judgement.pressed.push_back(collider);
+    } else {
+      judgement.max_penetration = std::max(judgement.max_penetration, depth);
+      if (is_new) judgement.entered.push_back(collider);
+    }
+    touched.erase(collider);
+  }
+  std::erase_if(inside_, [&](const auto& stay) {
+    const auto& [collider, episode] = stay;
+    if (contains(judgement.end_overlap, collider)) return false;
+    const bool excused = episode.pressed || contains(judgement.crushed, collider);
+    if (!excused && episode.free_from && scenery_.meets(episode.free_from->place(), path.back(), collider)) {
+      judge_passing(path, collider, episode.free_from->place(), path.back(), episode.depth, judgement);
+    }
+    touched.erase(collider);
+    return true;
+  });
+}
+
+/// @param from, to both free of the collider; the straight way between them meets it.
+void Judge::judge_passing(const Path& path, ColliderIndex collider, const Place& from, const Place& to, double depth,
                           StepJudgement& judgement) const {
-  const double depth = std::max(episode.depth, depth_of(path, collider));
-  if (depth <= slop_) {
+  if (std::max(depth, depth_of(path, collider)) <= slop_) {
     judgement.corner_cut.push_back(collider);
     return;
   }
   judgement.tunnelled.push_back(collider);
-  Vec2d from = *episode.free_from;
-  Vec2d to = path.back();
-  for (std::size_t i = 0; i + 1 < path.size() && *episode.free_from == path[0]; ++i) {
-    if (!scenery_.meets(path[i], path[i + 1], collider)) continue;
-    from = path[i];
-    to = path[i + 1];
-    break;
+  Passing passing = detail::describe_passing(scenery_, from, to, collider);
+  const MoverIndex mover = header_.scenery.colliders[collider].mover;
+  double length = 0;
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    length += ((path[i + 1].position - path[i + 1].offset(mover)) - (path[i].position - path[i].offset(mover))).norm();
   }
-  judgement.passings.push_back(detail::describe_passing(scenery_, from, to, collider));
+  passing.speed = length / header_.dt;
+  judgement.passings.push_back(passing);
 }
 
 /// The largest depth on the way: between entry and exit of every leg at equal distances, then closing in on the deepest
@@ -179,14 +198,12 @@ void Judge::judge_passing(const Path& path, ColliderIndex collider, const Episod
 double Judge::depth_of(const Path& path, ColliderIndex collider) const {
   double deepest = 0;
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-    const Vec2d& from = path[i];
-    const Vec2d way = path[i + 1] - from;
-    const auto in = scenery_.time_of_impact(from, way, collider);
-    const auto out = scenery_.time_of_impact(path[i + 1], -way, collider);
+    const auto in = scenery_.impact_between(path[i], path[i + 1], collider);
+    const auto out = scenery_.impact_between(path[i + 1], path[i], collider);
     const double first = in ? static_cast<double>(in->fraction) : 0;
     const double last = out ? 1 - static_cast<double>(out->fraction) : 1;
     if (!in && !out) continue;
-    const auto depth_at = [&](double t) { return scenery_.penetration(from + t * way, collider); };
+    const auto depth_at = [&](double t) { return scenery_.penetration(between(path[i], path[i + 1], t), collider); };
     const double apart = (last - first) / depth_samples;
     double best = first;
     double depth = depth_at(first);
@@ -208,141 +225,41 @@ double Judge::depth_of(const Path& path, ColliderIndex collider) const {
   return deepest;
 }
 
-void Judge::add_contacts_at(const std::vector<ExactImpact>& impacts, double fraction, const TraceStep& step,
-                            StepJudgement& judgement) const {
-  for (const ExactImpact& impact : impacts) {
-    const double way = static_cast<double>(impact.fraction) * std::abs(step.requested.dot(impact.normal));
-    if (way > contact_reach) continue;
-    if (impact.exposed) {
-      add_contact(impact, fraction, judgement);
-    } else {
-      judgement.dont_care.push_back(impact.collider);
-    }
+void Judge::judge_crushes(const Path& path, const TraceStep& step, const Touched& touched,
+                          StepJudgement& judgement) const {
+  if (step.crushed.empty()) return;
+  Touched free_of = touched;
+  for (const auto& [collider, episode] : inside_) {
+    free_of.erase(collider);
+    if (episode.free_from) free_of.emplace(collider, episode.free_from->place());
+  }
+  const std::optional<Vec2d> room = detail::find_room(scenery_, path, step.crushed, free_of);
+  for (const ColliderIndex collider : step.crushed) {
+    const bool moves = header_.scenery.colliders[collider].mover != no_mover;
+    (moves && !room ? judgement.crushed : judgement.crushed_with_room).push_back(collider);
   }
 }
 
-void Judge::add_first_impacts(const std::vector<ExactImpact>& impacts, const TraceStep& step, bool starts_free,
-                              StepJudgement& judgement) const {
-  const auto first = std::min_element(impacts.begin(), impacts.end(), [](const ExactImpact& a, const ExactImpact& b) {
-    return a.fraction < b.fraction;
-  });
-  if (first == impacts.end()) return;
-  for (const ExactImpact& impact : impacts) {
-    if (impact.fraction != first->fraction || !impact.exposed) continue;
-    add_contact(impact, static_cast<double>(impact.fraction), judgement);
-  }
-  if (!starts_free) return;
-  const double fraction = static_cast<double>(first->fraction);
-  const double approach = std::abs(step.requested.dot(first->normal));
-  judgement.first_impact = fraction;
-  judgement.first_impact_comparable = fraction * approach > (header_.path_exact ? contact_reach : skin) &&
-                                      approach >= least_approach * step.requested.norm();
-}
-
-void Judge::judge_contacts(const TraceStep& step, bool starts_free, StepJudgement& judgement) const {
-  for (std::size_t i = 0; i < step.path.size(); ++i) {
-    const Vec2d& position = step.path[i].position;
-    const bool end = i == 0 || i + 1 == step.path.size();
-    if (!header_.path_exact && !end) continue;
-    if (i > 0 && position == step.path[i - 1].position) continue;
-    const std::vector<ExactImpact> impacts = scenery_.impacts(position, step.requested);
-    if (i == 0) add_first_impacts(impacts, step, starts_free, judgement);
-    add_contacts_at(impacts, step.path[i].fraction, step, judgement);
-  }
-  for (const Contact<double>& contact : step.contacts) {
-    double gap = std::numeric_limits<double>::infinity();
-    for (const Vec2d& corner : positions_of(step)) gap = std::min(gap, scenery_.separation(corner, contact.collider));
-    judgement.max_contact_gap = std::max(judgement.max_contact_gap, gap);
-  }
-  judge_skin(step, judgement);
-  judgement.ghost_speed_loss = ghost_speed_loss(step, starts_free);
-}
-
-double Judge::ghost_speed_loss(const TraceStep& step, bool starts_free) const {
-  const double wanted = step.requested.x() / header_.dt;
-  if (wanted == 0) return 0;
-  const double loss = std::clamp(1 - step.velocity.x() / wanted, 0.0, 1.0);
-  if (loss < least_loss || !starts_free) return 0;
-  const double beyond = std::copysign(header_.path_exact ? contact_reach : skin, wanted);
-  for (const PathPoint<double>& corner : step.path) {
-    for (const ExactImpact& impact : scenery_.impacts(corner.position, step.requested + Vec2d(beyond, 0))) {
-      if (impact.exposed && impact.normal.x() * wanted < 0) return 0;
-    }
-  }
-  if (!header_.path_exact && pushed_by_skin(step, wanted)) return 0;
-  return loss;
-}
-
-/// Box2D pushes out of what is within its skin: whether a reported contact against the motion has a real face there.
-bool Judge::pushed_by_skin(const TraceStep& step, double wanted) const {
-  return std::any_of(step.contacts.begin(), step.contacts.end(), [&](const Contact<double>& contact) {
-    return contact.normal.x() * wanted < 0 && has_face(step, contact);
-  });
-}
-
-/// Whether a face of the solids taken together is there to be touched along the reported normal.
-bool Judge::has_face(const TraceStep& step, const Contact<double>& contact) const {
-  const double reach = header_.path_exact ? 2 * contact_reach : skin;
-  for (const PathPoint<double>& corner : step.path) {
-    for (const ExactImpact& impact : scenery_.impacts(corner.position, -contact.normal * reach)) {
-      if (impact.exposed && impact.normal.dot(contact.normal) > same_face) return true;
-    }
-  }
-  return false;
-}
-
-void Judge::add_ghosts(const TraceStep& step, StepJudgement& judgement) const {
-  for (const Contact<double>& contact : step.contacts) {
-    if (!contains(judgement.dont_care, contact.collider) || has_face(step, contact)) continue;
-    judgement.ghosts.emplace_back(contact.collider, contact.side);
-  }
-}
-
-/// Whether what an exact contact leaves of the requested motion leads into a collider that is touched: which part that
-/// is belongs to the contender's law of response, not to geometry. (In a corner of a wall and a slope, pushing down
-/// along the slope: it runs along the slope and into the wall; what is left of it falls onto the slope.)
-bool Judge::met_after_another(const TraceStep& step, const Contact<double>& contact,
-                              const StepJudgement& judgement) const {
-  const Vec2d& d = step.requested;
-  const bool deflected =
-      std::any_of(judgement.contacts.begin(), judgement.contacts.end(), [&](const ExactContact& one) {
-        const Vec2d along = d - one.normal * d.dot(one.normal);
-        return std::min({contact.normal.dot(along), contact.normal.x() * d.x(), contact.normal.y() * d.y()}) < 0;
-      });
-  return deflected && std::any_of(step.path.begin(), step.path.end(), [&](const PathPoint<double>& corner) {
-           return scenery_.separation(corner.position, contact.collider) <= contact_reach;
-         });
-}
-
-void Judge::judge_skin(const TraceStep& step, StepJudgement& judgement) const {
-  const Vec2d& start = step.path.front().position;
-  const Vec2d& end = step.path.back().position;
-  const auto exact = [&](ColliderIndex collider) {
-    return std::any_of(judgement.contacts.begin(), judgement.contacts.end(),
-                       [&](const ExactContact& contact) { return contact.collider == collider; });
+void Judge::judge_sensors(const Path& path, const TraceStep& step, StepJudgement& judgement) const {
+  judgement.sensor_events = scenery_.sensor_events(path);
+  std::vector<bool> taken(step.sensors.size());
+  const auto is_report_of = [&](const ExactSensorEvent& event, std::size_t i) {
+    const SensorEvent<double>& reported = step.sensors[i];
+    return !taken[i] && reported.sensor == event.sensor && reported.change == event.change &&
+           std::isfinite(reported.fraction);
   };
-  if (!header_.path_exact) {
-    for (const ColliderIndex collider : scenery_.near(start, end, skin)) {
-      const double gap = std::min(scenery_.separation(start, collider), scenery_.separation(end, collider));
-      if (gap <= skin) judgement.dont_care.push_back(collider);
+  for (const ExactSensorEvent& event : judgement.sensor_events) {
+    std::size_t i = 0;
+    while (i < taken.size() && !is_report_of(event, i)) ++i;
+    if (i == taken.size()) {
+      ++judgement.sensor_events_missing;
+      continue;
     }
+    taken[i] = true;
+    const double error = std::abs(static_cast<double>(Rational(step.sensors[i].fraction) - event.fraction));
+    judgement.max_sensor_error = std::max(judgement.max_sensor_error, error);
   }
-  for (const Contact<double>& contact : step.contacts) {
-    if (!header_.path_exact) break;
-    if (exact(contact.collider) || contact.normal.dot(step.requested) >= 0) continue;
-    for (const PathPoint<double>& corner : step.path) {
-      const double gap = scenery_.separation(corner.position + step.requested, contact.collider);
-      if (gap >= 0 && gap <= hit_reach) judgement.dont_care.push_back(contact.collider);
-    }
-  }
-  for (const Contact<double>& contact : step.contacts)
-    if (header_.path_exact && !exact(contact.collider) && met_after_another(step, contact, judgement))
-      judgement.dont_care.push_back(contact.collider);
-  std::sort(judgement.dont_care.begin(), judgement.dont_care.end());
-  judgement.dont_care.erase(std::unique(judgement.dont_care.begin(), judgement.dont_care.end()),
-                            judgement.dont_care.end());
-  std::erase_if(judgement.dont_care, exact);
-  add_ghosts(step, judgement);
+  judgement.sensor_events_extra = static_cast<int>(std::count(taken.begin(), taken.end(), false));
 }
 
 }  // namespace paperproof::compare

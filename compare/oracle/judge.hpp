@@ -19,18 +19,22 @@ struct ExactContact {
 /// How a solid was passed.
 struct Passing {
   ColliderIndex collider = 0;
-  double speed = 0;      ///< Length of the step's way over dt [m/s].
+  double speed = 0;      ///< Length of the step's way relative to the solid over dt [m/s].
   double thickness = 0;  ///< Of the solid, along the normal of the face that was passed [m]; 0 for a chain.
   double angle = 0;      ///< Of the way to that face [degrees]: 90 is head-on, 0 grazes.
 };
 
 struct StepJudgement {
   std::vector<ColliderIndex> end_overlap;     ///< Solids that the octagon overlaps at the end of the step.
+  std::vector<ColliderIndex> pressed;         ///< Of these, the ones that a verified crush brought on, now or before.
+  std::vector<ColliderIndex> entered;         ///< Of these, the ones that are new and not pressed.
   std::vector<ColliderIndex> tunnelled;       ///< Solids that were passed through: see `Judge`.
   std::vector<Passing> passings;              ///< One for each of `tunnelled`.
   std::vector<ColliderIndex> corner_cut;      ///< The same, but no deeper than the slop.
   std::vector<ColliderIndex> one_way_broken;  ///< One-way chains that were passed against their normal.
-  double max_penetration = 0;                 ///< At the end of the step [m].
+  std::vector<ColliderIndex> crushed;         ///< Reported as crushing, and there was no room: see `Judge`.
+  std::vector<ColliderIndex> crushed_with_room;  ///< Reported as crushing, although there was room.
+  double max_penetration = 0;                    ///< At the end of the step, apart from `pressed` [m].
   double max_contact_gap = 0;  ///< Over the reported contacts: exact separation where the contact stopped it [m].
   std::vector<ExactContact> contacts;  ///< What should have been reported.
   std::vector<ColliderIndex>
@@ -40,9 +44,17 @@ struct StepJudgement {
   std::optional<double> first_impact;    ///< Exact fraction of the first impact of the requested motion, started free.
   bool first_impact_comparable = false;  ///< A reported fraction can be held against it: see `Judge`.
   double ghost_speed_loss = 0;  ///< Share of the wanted horizontal speed that was lost to nothing exact, in [0, 1].
+  std::vector<ExactSensorEvent> sensor_events;  ///< What should have been reported.
+  int sensor_events_missing = 0;                ///< Of `sensor_events`.
+  int sensor_events_extra = 0;                  ///< Reported, and there was no such event.
+  double max_sensor_error = 0;                  ///< Over the other reported ones: of the fraction of the step.
 };
 
 /// Feed it every step of one run in order. Not thread-safe.
+///
+/// Among movers everything is judged in the frame of the mover that a collider goes along with: the way that tunnels
+/// it, the position from which it was last free, and the requested displacement, less the mover's own, that leads into
+/// it.
 ///
 /// **Tunnelled.** A solid (a polygon, or a two-sided chain) is tunnelled in a step that ends free of it when
 /// - the octagon was free of it when the step began, and its open interior meets the solid somewhere on the polyline
@@ -51,6 +63,17 @@ struct StepJudgement {
 /// - it was inside since an earlier step, and the straight way from its last position free of the solid to the end of
 ///   this step meets the solid: it left on another side. Leaving a solid in which the run (or a respawn, or a placement
 ///   of the twin) began is none.
+///
+/// **Crushed.** A mover that the contender names as crushing is excused, and what it is pressed into stays excused
+/// until the octagon is free of it, if exact arithmetic finds no room. Room is a position at the end of the step
+/// - not farther from the octagon's than the longest way of the movers that are named, and 1e-6 m;
+/// - with a clearance of at least 1e-7 m to every solid, so that no opening under 2e-7 m is asked for;
+/// - reached from a corner of the way that was travelled by a straight uniform motion until the end of the step that
+///   meets no solid; a solid that is overlapped at that corner must not lie between the last place free of it and
+///   there: on its far side there is no room.
+/// A collider that stands still never crushes. What a mover presses the octagon into besides itself is not excused.
+///
+/// **Sensor events** are compared in order, for every sensor entering and leaving apart.
 ///
 /// **Corner cut.** The same, but nowhere deeper than the slop: 5 mm, or 20 mm where the path is sampled (Box2D), and
 /// never more than an eighth of the octagon's narrowest width. The depth is the octagon's, not the solid's: however
@@ -78,37 +101,47 @@ class Judge {
   [[nodiscard]] const ExactScenery& scenery() const noexcept { return scenery_; }
 
  private:
+  /// A place that outlasts its step.
+  struct Kept {
+    explicit Kept(const Place& at)
+        : position(at.position), movers(at.movers.begin(), at.movers.end()), fraction(at.fraction) {}
+    [[nodiscard]] Place place() const { return {position, movers, fraction}; }
+    Vec2d position;
+    std::vector<MoverMotion<double>> movers;
+    double fraction = 0;
+  };
   /// A stay inside a solid.
   struct Episode {
-    std::optional<Vec2d> free_from;  ///< Last position free of it; none where the run began inside.
-    double depth = 0;                ///< Largest so far [m].
+    std::optional<Kept> free_from;  ///< Last place free of it; none where the run began inside.
+    double depth = 0;               ///< Largest so far [m].
+    bool pressed = false;           ///< By a verified crush.
   };
-  using Path = std::vector<Vec2d>;
+  using Path = std::vector<Place>;
+  using Touched = std::map<ColliderIndex, Place>;  ///< With the corner where the first leg that meets it begins.
 
+  [[nodiscard]] Path path_of(const TraceStep& step) const;
   /// Whether nothing differs from the last step, as at rest: then neither does the judgement.
   [[nodiscard]] bool repeats(const TraceStep& step) const;
-  void begin_episodes(const TraceStep& step, const Vec2d& start);
-  void judge_way(const Path& path, StepJudgement& judgement);
-  void judge_passing(const Path& path, ColliderIndex collider, const Episode& episode, StepJudgement& judgement) const;
+  /// Whether the step begins where the last one ended, movers included.
+  [[nodiscard]] bool continues(const TraceStep& step, const Place& start) const;
+  void begin_episodes(const Place& start);
+  /// Whether no solid is near enough to matter.
+  [[nodiscard]] bool alone(const Path& path, const TraceStep& step) const;
+  void judge_way(const Path& path, const TraceStep& step, StepJudgement& judgement);
+  void judge_end(const Path& path, Touched& touched, StepJudgement& judgement);
+  void judge_passing(const Path& path, ColliderIndex collider, const Place& from, const Place& to, double depth,
+                     StepJudgement& judgement) const;
   [[nodiscard]] double depth_of(const Path& path, ColliderIndex collider) const;
-  void judge_contacts(const TraceStep& step, bool starts_free, StepJudgement& judgement) const;
-  void judge_skin(const TraceStep& step, StepJudgement& judgement) const;
-  void add_contacts_at(const std::vector<ExactImpact>& impacts, double fraction, const TraceStep& step,
-                       StepJudgement& judgement) const;
-  void add_first_impacts(const std::vector<ExactImpact>& impacts, const TraceStep& step, bool starts_free,
-                         StepJudgement& judgement) const;
-  [[nodiscard]] double ghost_speed_loss(const TraceStep& step, bool starts_free) const;
-  [[nodiscard]] bool pushed_by_skin(const TraceStep& step, double wanted) const;
-  [[nodiscard]] bool has_face(const TraceStep& step, const Contact<double>& contact) const;
-  [[nodiscard]] bool met_after_another(const TraceStep& step, const Contact<double>& contact,
-                                       const StepJudgement& judgement) const;
-  void add_ghosts(const TraceStep& step, StepJudgement& judgement) const;
+  void judge_crushes(const Path& path, const TraceStep& step, const Touched& touched, StepJudgement& judgement) const;
+  void judge_sensors(const Path& path, const TraceStep& step, StepJudgement& judgement) const;
 
   const TraceHeader header_;
   ExactScenery scenery_;
+  std::size_t mover_count_ = 0;
+  bool has_sensors_ = false;
   double slop_ = 0;
   std::map<ColliderIndex, Episode> inside_;
-  std::optional<Vec2d> last_end_;
+  std::optional<Kept> last_end_;
   std::optional<std::pair<TraceStep, StepJudgement>> last_;  ///< Where no episode was open.
 };
 

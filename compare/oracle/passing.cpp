@@ -40,12 +40,16 @@ double thickness_at(const ColliderDef& def, const Vec2d& point, const Vec2d& nor
 
 }  // namespace
 
-Passing describe_passing(const ExactScenery& scenery, const Vec2d& from, const Vec2d& to, ColliderIndex collider) {
+Passing describe_passing(const ExactScenery& scenery, const Place& from, const Place& to, ColliderIndex collider) {
   Passing passing{.collider = collider};
-  const Vec2d way = to - from;
-  const std::optional<ExactImpact> impact = scenery.time_of_impact(from, way, collider);
-  if (!impact) return passing;  // `way` is rounded: it may just miss a corner that the exact one meets
-  passing.thickness = thickness_at(scenery.scenery().colliders[collider], impact->point, impact->normal);
+  const std::optional<ExactImpact> impact = scenery.impact_between(from, to, collider);
+  if (!impact) return passing;
+  const ColliderDef& def = scenery.scenery().colliders[collider];
+  const Vec2d at_start = from.offset(def.mover);
+  const Vec2d at_end = to.offset(def.mover);
+  const Vec2d way = (to.position - at_end) - (from.position - at_start);
+  const Vec2d offset = at_start + static_cast<double>(impact->fraction) * (at_end - at_start);
+  passing.thickness = thickness_at(def, impact->point - offset, impact->normal);
   passing.angle = std::asin(std::min(1.0, std::abs(way.dot(impact->normal)) / way.norm())) * degrees;
   return passing;
 }

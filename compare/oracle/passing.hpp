@@ -5,8 +5,8 @@
 
 namespace paperproof::compare::detail {
 
-/// The passing of `collider` on the straight way between two positions free of it.
-[[nodiscard]] Passing describe_passing(const ExactScenery& scenery, const Vec2d& from, const Vec2d& to,
+/// The passing of `collider` on the straight way between two places free of it; its speed is left open.
+[[nodiscard]] Passing describe_passing(const ExactScenery& scenery, const Place& from, const Place& to,
                                        ColliderIndex collider);
 
 /// The smallest distance of two parallel lines that hold the convex ring between them [m].

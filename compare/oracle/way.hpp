@@ -17,7 +17,6 @@ struct FramePlace {
   MoverMotion<double> mover{};
   double fraction = 0;
 
-  [[nodiscard]] bool moved() const noexcept { return mover.from != Vec2d::Zero() || mover.to != Vec2d::Zero(); }
   template <class Number>
   [[nodiscard]] Point<Number> in(const Convert<Number>& number) const {
     const Point<Number> at = convert(number, position);
@@ -30,6 +29,7 @@ struct FramePlace {
     };
     return from - (share(mover.to) - share(mover.from));
   }
+  [[nodiscard]] bool moved() const noexcept { return mover.from != Vec2d::Zero() || mover.to != Vec2d::Zero(); }
   /// No larger than the lowest bit of the place.
   [[nodiscard]] int unit() const noexcept {
     if (!moved()) return lowest_bit(position);
@@ -76,6 +76,11 @@ struct Way {
   }
   [[nodiscard]] Vec2d rounded_end() const noexcept {
     return to_end ? end.rounded() : Vec2d(from.rounded() + rounded_displacement());
+  }
+  /// Where the mover is, rounded, after a fraction of the way.
+  [[nodiscard]] Vec2d offset_after(double fraction) const noexcept {
+    const Vec2d change = to_end ? Vec2d(end.offset() - from.offset()) : Vec2d(from.mover.to - from.mover.from);
+    return from.offset() + fraction * change;
   }
   [[nodiscard]] int unit() const noexcept {
     return std::min(from.unit(), to_end ? end.unit() : lowest_bit(by_displacement));

@@ -1,4 +1,4 @@
-#include "oracle/judge.hpp"
+#include "compare/judge_steps.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,40 +7,7 @@
 namespace paperproof::compare {
 namespace {
 
-constexpr double dt = 1.0 / 64;
-
-std::vector<Vec2d> octagon() {
-  return {{-0.15625, -0.625}, {0.15625, -0.625}, {0.3125, -0.3125}, {0.3125, 0.3125},
-          {0.15625, 0.625},   {-0.15625, 0.625}, {-0.3125, 0.3125}, {-0.3125, -0.3125}};
-}
-
-ColliderDef box(double left, double bottom, double right, double top) {
-  return {.points = {{left, bottom}, {right, bottom}, {right, top}, {left, top}}};
-}
-ColliderDef chain(std::vector<Vec2d> points, std::optional<Vec2d> one_way = {}) {
-  return {.shape = ColliderDef::Shape::chain, .points = std::move(points), .one_way = one_way};
-}
-
-TraceHeader header(std::vector<ColliderDef> colliders, bool path_exact = true) {
-  TraceHeader header;
-  header.dt = dt;
-  header.points = octagon();
-  for (std::size_t i = 0; i < colliders.size(); ++i) header.ids.push_back(std::to_string(i));
-  header.scenery.colliders = std::move(colliders);
-  header.path_exact = path_exact;
-  return header;
-}
-
-TraceStep step(const std::vector<Vec2d>& path) {
-  TraceStep step;
-  for (std::size_t i = 0; i < path.size(); ++i) {
-    step.path.push_back(
-        {path[i], static_cast<double>(i) / static_cast<double>(std::max<std::size_t>(path.size() - 1, 1))});
-  }
-  step.requested = path.back() - path.front();
-  step.velocity = step.requested / dt;
-  return step;
-}
+using namespace test;  // NOLINT(google-build-using-namespace): the shapes of this folder
 
 using Colliders = std::vector<ColliderIndex>;
 

@@ -1,0 +1,188 @@
+#include "oracle/contacts.hpp"
+
+#include <algorithm>
+
+namespace paperproof::compare::detail {
+namespace {
+
+/// Below this gap at the end of the motion the controller may call it a contact already [m]: its hit distance, with
+/// room for the rounding of the comparison.
+constexpr double hit_reach = 1.01e-7;
+/// See `Judge`: sine of the flattest approach whose fraction is compared.
+constexpr double least_approach = 1e-3;
+/// Cosine of the angle between two normals of one face, as far as Box2D's floats and its rounded corners know it.
+constexpr double same_face = 0.9;
+/// A smaller share of the speed is rounding: Box2D's floats have 24 bits.
+constexpr double least_loss = 1e-5;
+
+void add_contact(const ExactImpact& impact, double fraction, StepJudgement& judgement) {
+  const Side side = side_of_normal(impact.normal.x(), impact.normal.y());
+  for (ExactContact& known : judgement.contacts) {
+    if (known.collider != impact.collider || known.side != side) continue;
+    known.fraction = std::min(known.fraction, fraction);
+    return;
+  }
+  judgement.contacts.push_back(
+      {.collider = impact.collider, .side = side, .normal = impact.normal, .fraction = fraction});
+}
+
+}  // namespace
+
+Vec2d ContactJudge::wanted(ColliderIndex collider) const {
+  const MoverIndex mover = scenery_.scenery().colliders[collider].mover;
+  if (mover == no_mover) return step_.requested;
+  return step_.requested - (step_.movers[mover].to - step_.movers[mover].from);
+}
+
+void ContactJudge::judge(bool starts_free, StepJudgement& judgement) const {
+  for (std::size_t i = 0; i < step_.path.size(); ++i) {
+    const Vec2d& position = step_.path[i].position;
+    const bool end = i == 0 || i + 1 == step_.path.size();
+    if (!header_.path_exact && !end) continue;
+    if (i > 0 && step_.movers.empty() && position == step_.path[i - 1].position) continue;
+    const std::vector<ExactImpact> impacts = scenery_.impacts(place(i), step_.requested);
+    if (i == 0) add_first_impacts(impacts, starts_free, judgement);
+    add_contacts_at(impacts, step_.path[i].fraction, judgement);
+  }
+  add_gaps(judgement);
+  add_dont_care(judgement);
+  add_ghosts(judgement);
+  judgement.ghost_speed_loss = ghost_speed_loss(starts_free);
+}
+
+void ContactJudge::add_contacts_at(const std::vector<ExactImpact>& impacts, double fraction,
+                                   StepJudgement& judgement) const {
+  for (const ExactImpact& impact : impacts) {
+    const double way = static_cast<double>(impact.fraction) * std::abs(wanted(impact.collider).dot(impact.normal));
+    if (way > contact_reach) continue;
+    if (impact.exposed) {
+      add_contact(impact, fraction, judgement);
+    } else {
+      judgement.dont_care.push_back(impact.collider);
+    }
+  }
+}
+
+void ContactJudge::add_first_impacts(const std::vector<ExactImpact>& impacts, bool starts_free,
+                                     StepJudgement& judgement) const {
+  const auto first = std::min_element(impacts.begin(), impacts.end(), [](const ExactImpact& a, const ExactImpact& b) {
+    return a.fraction < b.fraction;
+  });
+  if (first == impacts.end()) return;
+  for (const ExactImpact& impact : impacts) {
+    if (impact.fraction != first->fraction || !impact.exposed) continue;
+    add_contact(impact, static_cast<double>(impact.fraction), judgement);
+  }
+  if (!starts_free) return;
+  const double fraction = static_cast<double>(first->fraction);
+  const Vec2d relative = wanted(first->collider);
+  const double approach = std::abs(relative.dot(first->normal));
+  judgement.first_impact = fraction;
+  judgement.first_impact_comparable =
+      fraction * approach > (header_.path_exact ? contact_reach : skin) && approach >= least_approach * relative.norm();
+}
+
+/// The smallest separation over the corners of the way [m].
+double ContactJudge::nearest(ColliderIndex collider) const {
+  double gap = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < step_.path.size(); ++i) {
+    if (i > 0 && step_.movers.empty() && step_.path[i].position == step_.path[i - 1].position) continue;
+    gap = std::min(gap, scenery_.separation(place(i), collider));
+  }
+  return gap;
+}
+
+void ContactJudge::add_gaps(StepJudgement& judgement) const {
+  for (const Contact<double>& contact : step_.contacts) {
+    judgement.max_contact_gap = std::max(judgement.max_contact_gap, nearest(contact.collider));
+  }
+}
+
+double ContactJudge::ghost_speed_loss(bool starts_free) const {
+  const double wanted = step_.requested.x() / header_.dt;
+  if (wanted == 0) return 0;
+  const double loss = std::clamp(1 - step_.velocity.x() / wanted, 0.0, 1.0);
+  if (loss < least_loss || !starts_free) return 0;
+  const double beyond = std::copysign(header_.path_exact ? contact_reach : skin, wanted);
+  for (std::size_t i = 0; i < step_.path.size(); ++i) {
+    for (const ExactImpact& impact : scenery_.impacts(place(i), step_.requested + Vec2d(beyond, 0))) {
+      if (impact.exposed && impact.normal.x() * wanted < 0) return 0;
+    }
+  }
+  if (!header_.path_exact && pushed_by_skin(wanted)) return 0;
+  return loss;
+}
+
+/// Box2D pushes out of what is within its skin: whether a reported contact against the motion has a real face there.
+bool ContactJudge::pushed_by_skin(double wanted) const {
+  return std::any_of(step_.contacts.begin(), step_.contacts.end(), [&](const Contact<double>& contact) {
+    return contact.normal.x() * wanted < 0 && has_face(contact);
+  });
+}
+
+/// Whether a face of the solids taken together is there to be touched along the reported normal.
+bool ContactJudge::has_face(const Contact<double>& contact) const {
+  const double reach = header_.path_exact ? 2 * contact_reach : skin;
+  for (std::size_t i = 0; i < step_.path.size(); ++i) {
+    Place beyond = place(i);
+    beyond.position -= contact.normal * reach;
+    for (const ExactImpact& impact : scenery_.impacts_between(place(i), beyond)) {
+      if (impact.exposed && impact.normal.dot(contact.normal) > same_face) return true;
+    }
+  }
+  return false;
+}
+
+void ContactJudge::add_ghosts(StepJudgement& judgement) const {
+  for (const Contact<double>& contact : step_.contacts) {
+    const bool dont_care = std::binary_search(judgement.dont_care.begin(), judgement.dont_care.end(), contact.collider);
+    if (dont_care && !has_face(contact)) judgement.ghosts.emplace_back(contact.collider, contact.side);
+  }
+}
+
+/// Whether what an exact contact leaves of the requested motion, or what a mover adds to it by pushing, leads into a
+/// collider that is touched: which part that is belongs to the contender's law of response, not to geometry. (In a
+/// corner of a wall and a slope, pushing down along the slope: it runs along the slope and into the wall; what is left
+/// of it falls onto the slope.)
+bool ContactJudge::met_after_another(const Contact<double>& contact, const StepJudgement& judgement) const {
+  const Vec2d& d = step_.requested;
+  const Vec2d own = d - wanted(contact.collider);
+  const bool deflected =
+      std::any_of(judgement.contacts.begin(), judgement.contacts.end(), [&](const ExactContact& one) {
+        const Vec2d along = d - one.normal * wanted(one.collider).dot(one.normal) - own;
+        return std::min({contact.normal.dot(along), contact.normal.x() * (d.x() - own.x()),
+                         contact.normal.y() * (d.y() - own.y())}) < 0;
+      });
+  return deflected && nearest(contact.collider) <= contact_reach;
+}
+
+void ContactJudge::add_dont_care(StepJudgement& judgement) const {
+  const auto exact = [&](ColliderIndex collider) {
+    return std::any_of(judgement.contacts.begin(), judgement.contacts.end(),
+                       [&](const ExactContact& contact) { return contact.collider == collider; });
+  };
+  if (!header_.path_exact) {
+    const Place start = place(0);
+    const Place end = place(step_.path.size() - 1);
+    for (const ColliderIndex collider : scenery_.near(start, end, skin)) {
+      const double gap = std::min(scenery_.separation(start, collider), scenery_.separation(end, collider));
+      if (gap <= skin) judgement.dont_care.push_back(collider);
+    }
+  }
+  for (const Contact<double>& contact : step_.contacts) {
+    if (!header_.path_exact || exact(contact.collider)) continue;
+    if (met_after_another(contact, judgement)) judgement.dont_care.push_back(contact.collider);
+    if (contact.normal.dot(wanted(contact.collider)) >= 0) continue;
+    for (const PathPoint<double>& corner : step_.path) {
+      const Place arrived(corner.position + step_.requested, step_.movers, corner.fraction + 1);
+      const double gap = scenery_.separation(arrived, contact.collider);
+      if (gap >= 0 && gap <= hit_reach) judgement.dont_care.push_back(contact.collider);
+    }
+  }
+  std::sort(judgement.dont_care.begin(), judgement.dont_care.end());
+  judgement.dont_care.erase(std::unique(judgement.dont_care.begin(), judgement.dont_care.end()),
+                            judgement.dont_care.end());
+  std::erase_if(judgement.dont_care, exact);
+}
+
+}  // namespace paperproof::compare::detail

@@ -1,0 +1,40 @@
+/// What a step should have reported as contacts, and what it lost to nothing.
+#pragma once
+
+#include "oracle/judge.hpp"
+
+namespace paperproof::compare::detail {
+
+/// Box2D begins to report touching at this gap [m].
+inline constexpr double skin = 0.020;
+/// A contact is this near along its normal [m]: twice what the controller stops at.
+inline constexpr double contact_reach = 1e-6;
+
+/// Judges the contacts of one step: see `Judge` for what each answer means. Lives for one step.
+class ContactJudge {
+ public:
+  ContactJudge(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step)
+      : header_(header), scenery_(scenery), step_(step) {}
+  void judge(bool starts_free, StepJudgement& judgement) const;
+
+ private:
+  [[nodiscard]] Place place(std::size_t corner) const { return {step_.path[corner], step_.movers}; }
+  /// The requested displacement relative to what a collider goes along with [m].
+  [[nodiscard]] Vec2d wanted(ColliderIndex collider) const;
+  void add_contacts_at(const std::vector<ExactImpact>& impacts, double fraction, StepJudgement& judgement) const;
+  void add_first_impacts(const std::vector<ExactImpact>& impacts, bool starts_free, StepJudgement& judgement) const;
+  void add_gaps(StepJudgement& judgement) const;
+  void add_dont_care(StepJudgement& judgement) const;
+  void add_ghosts(StepJudgement& judgement) const;
+  [[nodiscard]] double ghost_speed_loss(bool starts_free) const;
+  [[nodiscard]] bool pushed_by_skin(double wanted) const;
+  [[nodiscard]] bool has_face(const Contact<double>& contact) const;
+  [[nodiscard]] bool met_after_another(const Contact<double>& contact, const StepJudgement& judgement) const;
+  [[nodiscard]] double nearest(ColliderIndex collider) const;
+
+  const TraceHeader& header_;
+  const ExactScenery& scenery_;
+  const TraceStep& step_;
+};
+
+}  // namespace paperproof::compare::detail
