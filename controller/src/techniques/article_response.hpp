@@ -5,8 +5,17 @@
 /// iteration; first the search along the movement vector, where a technique has one, then penetration resolution; a
 /// pair that hits changes only the component of its own direction; the position is updated at once, nothing is left of
 /// the frame's movement, and the test is repeated.
+///
+/// Among movers all of this is about motion relative to what is met: a pair is chosen where the movement relative to a
+/// mover faces that way, and a hit makes the component the mover's own, so that the mover pushes. The article asks for
+/// the order of time of impact where several things move: scenery with movers (or conveyors) is searched in that order,
+/// each hit along the rest of the movement from where the last one left it; scenery that stands still is searched pair
+/// by pair along the whole vector, as the article has it. What stands on a mover is carried: the frame is worked out in
+/// the mover's own frame of reference. What comes to rest on it is carried at once, unless it had a speed of its own
+/// along it. What a mover pushes against something that stands still is not pushed through it, but crushed.
 #pragma once
 
+#include "techniques/frame_of_reference.hpp"
 #include "techniques/nearby_scenery.hpp"
 
 #include <paperproof/broad_phase.hpp>
@@ -33,22 +42,45 @@ struct CollisionPoints {
   Box2<Scalar> box;                                               ///< Around the offsets [m].
 };
 
+/// Pieces near a character that go the same way during a step: those that stand still, or those of one mover.
+template <class Scalar>
+struct PieceGroup {
+  NearbyScenery<Scalar> pieces;
+  MoverIndex mover = no_mover;
+  Vec2<Scalar> shift_at_start;  ///< See `FrameOfReference`.
+  Vec2<Scalar> shift_at_end;
+
+  [[nodiscard]] Vec2<Scalar> drift() const noexcept { return shift_at_end - shift_at_start; }
+  /// A position of the frame of reference, at a fraction of the step, as the pieces see it.
+  [[nodiscard]] Vec2<Scalar> seen(const Vec2<Scalar>& position, Scalar fraction) const noexcept {
+    if (!(fraction < 1)) return position + shift_at_end;
+    return position + (shift_at_start + drift() * fraction);
+  }
+};
+
 /// Everything that a technique of the article knows before the first step. Immutable; shareable between threads.
 template <class Scalar>
 struct Parts {
   const Scenery<Scalar>* scenery = nullptr;
   std::unique_ptr<BroadPhase<Scalar>> broad_phase;
   CollisionPoints<Scalar> points;
-  Scalar unit = 0;  ///< [m]
+  Scalar unit = 0;         ///< [m]
+  bool something_carries;  ///< See the function; scenery with movers is searched in order of time.
   ArticleKnobs knobs;
 
   /// @param def its article knobs are valid. `scenery` must outlive the parts.
   Parts(const TechniqueDef& def, const Scenery<Scalar>& scenery, const CharacterDef& character);
 
   [[nodiscard]] Scratch<Scalar> make_scratch() const;
-  /// The pieces near the total bounding box of a character here and there.
+  /// The static pieces near the total bounding box of a character here and there.
   [[nodiscard]] NearbyScenery<Scalar> near(const Vec2<Scalar>& here, const Vec2<Scalar>& there,
                                            Scratch<Scalar>& scratch) const noexcept;
+  /// All pieces near the box, by what they go with: first what stands still, then mover by mover. A mover of which
+  /// nothing is near has no group.
+  /// @param box around the character wherever it may come during the step, in the frame of reference.
+  [[nodiscard]] std::span<const PieceGroup<Scalar>> groups_near(const Box2<Scalar>& box,
+                                                                const FrameOfReference<Scalar>& frame,
+                                                                Scratch<Scalar>& scratch) const noexcept;
   /// Any of the points is in a polygon.
   [[nodiscard]] bool inside(const NearbyScenery<Scalar>& nearby, const Vec2<Scalar>& position) const noexcept;
 };
@@ -69,6 +101,13 @@ struct PairImpact {
                                                ///< pair is in something from the start.
   FixedVector<CollisionPointHit<Scalar>, 2> hits;
 };
+
+/// Some point of the pair would be in something at `to`, or run across a chain on the way.
+/// @param from, to positions of the character as the pieces see it.
+template <class Scalar>
+[[nodiscard]] bool collides(const Parts<Scalar>& parts, const NearbyScenery<Scalar>& nearby,
+                            const CharacterShape::Pair& pair, const Vec2<Scalar>& from,
+                            const Vec2<Scalar>& to) noexcept;
 
 /// Searches along `movement` (not zero) of a character at `position`, for one pair.
 template <class Scalar>
@@ -92,6 +131,14 @@ template <class Scalar>
 [[nodiscard]] bool refuse(const Parts<Scalar>& parts, bool searches_by_units, const MoveRequest<Scalar>& request,
                           MoveResult<Scalar>& result) noexcept;
 
+/// Fills `result` as a refusal: nothing moved.
+template <class Scalar>
+void refuse(const MoveRequest<Scalar>& request, MoveResult<Scalar>& result) noexcept;
+
+/// NaN is not.
+template <class Scalar>
+[[nodiscard]] bool in_range(const Vec2<Scalar>& position) noexcept;
+
 /// Adds a contact with the collider that was hit, once for each collider and side; its separation is left at zero.
 /// @return false where it was there already, or nothing more fits.
 template <class Scalar>
@@ -110,6 +157,20 @@ bool add_contact(const Scenery<Scalar>& scenery, const PointHit<Scalar>& hit, Si
 
 /// Out of the character through that side: -1 for left and bottom, 1 for right and top.
 [[nodiscard]] constexpr int outwards(Side side) noexcept { return side == Side::left || side == Side::bottom ? -1 : 1; }
+
+[[nodiscard]] constexpr Side opposite(Side side) noexcept {
+  switch (side) {
+    case Side::top:
+      return Side::bottom;
+    case Side::bottom:
+      return Side::top;
+    case Side::left:
+      return Side::right;
+    case Side::right:
+      break;
+  }
+  return Side::left;
+}
 
 /// The side of the character that meets something when it moves along a component.
 [[nodiscard]] constexpr Side side_ahead(Eigen::Index component, bool forwards) noexcept {

@@ -11,19 +11,6 @@ using article::distinct;
 using article::PairImpact;
 using article::Parts;
 
-/// Some point of the pair would be in something, or beyond it, after that fraction of the movement.
-template <class Scalar>
-bool collides(const Parts<Scalar>& parts, const NearbyScenery<Scalar>& nearby, const CharacterShape::Pair& pair,
-              const Vec2<Scalar>& position, const Vec2<Scalar>& movement, Scalar fraction) noexcept {
-  const Vec2<Scalar> landing = position + movement * fraction;
-  for (const std::size_t i : distinct(pair)) {
-    const Vec2<Scalar> from = position + parts.points.offsets[i];
-    const Vec2<Scalar> to = landing + parts.points.offsets[i];
-    if (nearby.containing(to) || nearby.crossed(from, to)) return true;
-  }
-  return false;
-}
-
 /// The time of impact is rounded, and so is the position that it leads to: without this the next frame would find the
 /// point an ulp inside, and penetration resolution would push it out by a whole unit. Doubling reaches any rounding
 /// error in a few tests.
@@ -32,7 +19,7 @@ Scalar just_outside(const Parts<Scalar>& parts, const NearbyScenery<Scalar>& nea
                     const Vec2<Scalar>& position, const Vec2<Scalar>& movement, Scalar fraction) noexcept {
   const Scalar scale = position.cwiseAbs().maxCoeff() / movement.cwiseAbs().maxCoeff();
   Scalar back = std::numeric_limits<Scalar>::epsilon() * std::max(scale, fraction);
-  while (fraction > 0 && collides(parts, nearby, pair, position, movement, fraction)) {
+  while (fraction > 0 && collides<Scalar>(parts, nearby, pair, position, position + movement * fraction)) {
     fraction = std::max(Scalar(0), fraction - back);
     back *= 2;
   }

@@ -2,6 +2,7 @@
 
 #include "techniques/bounding_box.hpp"
 #include "techniques/discrete/discrete.hpp"
+#include "techniques/frame_of_reference.hpp"
 #include "techniques/grid/grid.hpp"
 #include "techniques/mask.hpp"
 #include "techniques/octagon_sweep/octagon_sweep.hpp"
@@ -79,7 +80,25 @@ std::string_view name_of(TechniqueKind kind) noexcept {
 
 namespace {
 
-bool knows_movers(TechniqueKind) noexcept { return false; }
+/// Also of conveyors: what is carried.
+bool knows_movers(TechniqueKind kind) noexcept {
+  switch (kind) {
+    case TechniqueKind::penetration_resolution:
+    case TechniqueKind::speculative_march:
+    case TechniqueKind::speculative:
+      return true;
+    case TechniqueKind::grid:
+    case TechniqueKind::pixel_colour:
+    case TechniqueKind::pixel_tile:
+    case TechniqueKind::mask:
+    case TechniqueKind::bounding_box:
+    case TechniqueKind::discrete:
+    case TechniqueKind::wind_back:
+    case TechniqueKind::octagon_sweep:
+      break;
+  }
+  return false;
+}
 
 }  // namespace
 
@@ -90,7 +109,7 @@ std::unique_ptr<Technique<Scalar>> make_technique(const TechniqueDef& def, const
   validate<Scalar>(def.article);
   require(def.sweep_iterations >= 1,
           "sweep_iterations: must be at least 1, not " + std::to_string(def.sweep_iterations));
-  if (scenery.mover_count() > 0 && !knows_movers(def.kind))
+  if (!knows_movers(def.kind) && something_carries(scenery))
     throw NotExpressible(std::string(name_of(def.kind)) + " is for scenery that stands still");
   switch (def.kind) {
     case TechniqueKind::grid:

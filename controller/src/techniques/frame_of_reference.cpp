@@ -1,0 +1,95 @@
+#include "techniques/frame_of_reference.hpp"
+
+#include <algorithm>
+
+namespace paperproof {
+
+template <class Scalar>
+FrameOfReference<Scalar>::FrameOfReference(const Scenery<Scalar>& scenery, const MoveRequest<Scalar>& request) noexcept
+    : scenery_(&scenery),
+      movers_(request.movers),
+      dt_(request.dt),
+      start_(request.position),
+      wanted_(request.displacement),
+      velocity_(request.velocity) {
+  const ColliderIndex ground = request.ride.ground;
+  if (ground >= scenery.as_run().colliders.size()) return;
+  mover_ = mover_of(ground);
+  wanted_ += surface_motion(ground);
+  velocity_ += velocity_of(ground);
+  if (mover_ == no_mover) return;
+  const Vec2<Scalar>& offset = movers_[mover_].from;
+  // A character that was put somewhere else since then does not stand at its place.
+  const bool in_place = offset + request.ride.place == request.position;
+  start_ = in_place ? request.ride.place : Vec2<Scalar>(request.position - offset);
+}
+
+template <class Scalar>
+Vec2<Scalar> FrameOfReference<Scalar>::motion(MoverIndex mover) const noexcept {
+  const MoverMotion<Scalar> motion = motion_of(mover);
+  return motion.to - motion.from;
+}
+
+template <class Scalar>
+Vec2<Scalar> FrameOfReference<Scalar>::velocity(MoverIndex mover) const noexcept {
+  const Vec2<Scalar> moved = motion(mover);
+  if (moved.isZero(0)) return moved;  // whatever dt is
+  return moved / dt_;
+}
+
+template <class Scalar>
+Vec2<Scalar> FrameOfReference<Scalar>::velocity_of(ColliderIndex ground) const noexcept {
+  const ColliderDef& collider = scenery_->as_run().colliders[ground];
+  Vec2<Scalar> result = velocity(collider.mover);
+  result.x() += static_cast<Scalar>(collider.surface_speed);
+  return result;
+}
+
+template <class Scalar>
+Vec2<Scalar> FrameOfReference<Scalar>::shift_at_start(MoverIndex mover) const noexcept {
+  return motion_of(mover_).from - motion_of(mover).from;
+}
+
+template <class Scalar>
+Vec2<Scalar> FrameOfReference<Scalar>::shift_at_end(MoverIndex mover) const noexcept {
+  return motion_of(mover_).to - motion_of(mover).to;
+}
+
+template <class Scalar>
+Vec2<Scalar> FrameOfReference<Scalar>::offset(MoverIndex mover, Scalar fraction) const noexcept {
+  const MoverMotion<Scalar> motion = motion_of(mover);
+  if (!(fraction < 1)) return motion.to;
+  return motion.from + (motion.to - motion.from) * fraction;
+}
+
+template <class Scalar>
+Vec2<Scalar> FrameOfReference<Scalar>::in_world(const Vec2<Scalar>& position, Scalar fraction) const noexcept {
+  if (mover_ == no_mover) return position;
+  return offset(mover_, fraction) + position;
+}
+
+template <class Scalar>
+Vec2<Scalar> FrameOfReference<Scalar>::surface_motion(ColliderIndex ground) const noexcept {
+  return {static_cast<Scalar>(scenery_->as_run().colliders[ground].surface_speed) * dt_, 0};
+}
+
+template <class Scalar>
+bool FrameOfReference<Scalar>::carries(ColliderIndex ground) const noexcept {
+  const ColliderDef& collider = scenery_->as_run().colliders[ground];
+  return collider.mover != no_mover || collider.surface_speed != 0;
+}
+
+template <class Scalar>
+bool something_carries(const Scenery<Scalar>& scenery) noexcept {
+  const std::vector<ColliderDef>& colliders = scenery.as_run().colliders;
+  return scenery.mover_count() > 0 || std::any_of(colliders.begin(), colliders.end(), [](const ColliderDef& collider) {
+           return collider.surface_speed != 0;
+         });
+}
+
+template bool something_carries(const Scenery<float>&) noexcept;
+template bool something_carries(const Scenery<double>&) noexcept;
+template class FrameOfReference<float>;
+template class FrameOfReference<double>;
+
+}  // namespace paperproof

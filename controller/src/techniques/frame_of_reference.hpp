@@ -1,0 +1,75 @@
+/// Where the motion of one step is worked out: in the world, or together with the mover that carries the character.
+#pragma once
+
+#include <paperproof/scenery.hpp>
+#include <paperproof/technique.hpp>
+
+namespace paperproof {
+
+/// Positions in this frame are the world's where nothing carries the character. On a mover they are relative to the
+/// mover's offset: what stands on it does not move here at all, so no rounding can add up, however long it rides.
+///
+/// Every mover, and what stands still (`no_mover`), has a *shift*: what is added to a position of this frame to see it
+/// from there, that is relative to the places where the pieces of that mover were defined. Shifts go linearly from the
+/// start of the step to its end. Const; a view of the scenery and the request.
+template <class Scalar>
+class FrameOfReference {
+ public:
+  /// @param request `movers` has one for each mover of the scenery.
+  FrameOfReference(const Scenery<Scalar>& scenery, const MoveRequest<Scalar>& request) noexcept;
+
+  /// Where the character is when the step begins [m].
+  [[nodiscard]] const Vec2<Scalar>& start() const noexcept { return start_; }
+  /// The motion that is wanted in this frame [m], a conveyor under the character included.
+  [[nodiscard]] const Vec2<Scalar>& wanted() const noexcept { return wanted_; }
+  /// The velocity behind it, in the world [m/s].
+  [[nodiscard]] const Vec2<Scalar>& velocity() const noexcept { return velocity_; }
+
+  /// How a mover, or `no_mover`, goes during the step, in the world [m].
+  [[nodiscard]] Vec2<Scalar> motion(MoverIndex mover) const noexcept;
+  /// The same in metres per second.
+  [[nodiscard]] Vec2<Scalar> velocity(MoverIndex mover) const noexcept;
+  /// Of a collider, a conveyor's surface included [m/s].
+  [[nodiscard]] Vec2<Scalar> velocity_of(ColliderIndex ground) const noexcept;
+
+  [[nodiscard]] Vec2<Scalar> shift_at_start(MoverIndex mover) const noexcept;
+  [[nodiscard]] Vec2<Scalar> shift_at_end(MoverIndex mover) const noexcept;
+
+  /// A position of this frame, at a fraction of the step, in the world. At the end it is exactly `to + place`.
+  [[nodiscard]] Vec2<Scalar> in_world(const Vec2<Scalar>& position, Scalar fraction) const noexcept;
+  /// Where the pieces of a mover are at a fraction of the step, relative to where they were defined [m].
+  [[nodiscard]] Vec2<Scalar> offset(MoverIndex mover, Scalar fraction) const noexcept;
+
+  /// How far a conveyor's surface goes during the step [m]: along x, whatever its slope.
+  [[nodiscard]] Vec2<Scalar> surface_motion(ColliderIndex ground) const noexcept;
+
+  /// What stands on it is carried.
+  [[nodiscard]] bool carries(ColliderIndex ground) const noexcept;
+  [[nodiscard]] MoverIndex mover_of(ColliderIndex collider) const noexcept {
+    return scenery_->as_run().colliders[collider].mover;
+  }
+  /// The mover whose frame this is; `no_mover` for the world's.
+  [[nodiscard]] MoverIndex mover() const noexcept { return mover_; }
+
+ private:
+  [[nodiscard]] MoverMotion<Scalar> motion_of(MoverIndex mover) const noexcept {
+    return mover == no_mover ? MoverMotion<Scalar>{} : movers_[mover];
+  }
+
+  const Scenery<Scalar>* scenery_;
+  std::span<const MoverMotion<Scalar>> movers_;
+  Scalar dt_;
+  MoverIndex mover_ = no_mover;
+  Vec2<Scalar> start_;
+  Vec2<Scalar> wanted_;
+  Vec2<Scalar> velocity_;
+};
+
+/// The scenery has movers or conveyors.
+template <class Scalar>
+[[nodiscard]] bool something_carries(const Scenery<Scalar>& scenery) noexcept;
+
+extern template class FrameOfReference<float>;
+extern template class FrameOfReference<double>;
+
+}  // namespace paperproof
