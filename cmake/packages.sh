@@ -7,7 +7,7 @@ build_packages=(
   libeigen3-dev                                        # controller
   libbox2d-dev libpolyclipping-dev                     # box2d_adapter
   libboost-dev libcli11-dev libfmt-dev libpugixml-dev  # compare
-  nlohmann-json3-dev zlib1g-dev libzstd-dev libpng-dev
+  nlohmann-json3-dev zlib1g-dev libzstd-dev libpng-dev libjs-chart.js
   libgtest-dev librapidcheck-dev libbenchmark-dev      # tests and benchmarks
 )
 # To run every test.

@@ -1,5 +1,6 @@
 /// The command `paperproof`.
 #include "command/compare_command.hpp"
+#include "command/study_command.hpp"
 #include "scenes/describe.hpp"
 #include "scenes/load.hpp"
 
@@ -45,6 +46,17 @@ void add_compare(CLI::App& app, CompareArguments& arguments, std::string& input,
   command->add_flag("--json", arguments.json, "Rows as JSON on standard output");
 }
 
+CLI::App* add_study(CLI::App& app, StudyArguments& arguments) {
+  CLI::App* command = app.add_subcommand("study", "One question over a range, as numbers and as a picture");
+  command->require_subcommand(1);
+  CLI::App* scale = command->add_subcommand("scale", "Cost of a step against the number of pieces, per broad phase");
+  scale->add_option("--grid", arguments.grid, "Numbers of pieces, multiples of 100")->delimiter(',');
+  scale->add_option("--rows", arguments.rows_path, "Write all rows as JSON to this file");
+  scale->add_option("--report", arguments.report_path, "Write one self-contained HTML page to this file");
+  scale->add_flag("--quiet", arguments.quiet, "No table, no progress");
+  return scale;
+}
+
 std::vector<std::string> without_repeats(const std::vector<std::string>& names) {
   std::vector<std::string> once;
   for (const std::string& name : names)
@@ -74,6 +86,8 @@ int run(int argc, char** argv) {
   std::string mode = "free";
   std::vector<std::string> scalars;
   add_compare(app, arguments, input, scalars, mode);
+  StudyArguments study_arguments;
+  const CLI::App* scale = add_study(app, study_arguments);
   std::string what;
   CLI::App* list = app.add_subcommand("list", "Names, one per line");
   list->add_option("WHAT", what)->required()->check(CLI::IsMember({"scenes", "contenders"}));
@@ -96,6 +110,7 @@ int run(int argc, char** argv) {
     check(to_check);
     return 0;
   }
+  if (scale->parsed()) return study_scale_command(study_arguments);
   if (!input.empty()) arguments.run.random_input = parse_random_input(input);
   arguments.run.mode = mode == "lockstep" ? Mode::lockstep : Mode::free;
   if (!scalars.empty()) arguments.run.scalars.clear();

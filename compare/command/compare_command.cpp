@@ -1,5 +1,6 @@
 #include "command/compare_command.hpp"
 
+#include "command/progress.hpp"
 #include "runs/output_file.hpp"
 #include "runs/rows_json.hpp"
 #include "runs/table.hpp"
@@ -8,7 +9,6 @@
 #include "words.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -22,27 +22,6 @@ namespace {
 
 /// Up to this many arguments their scenes are kept in memory; more are read once to be checked and again to be run.
 constexpr std::size_t kept_in_memory = 16;
-
-/// One line on a terminal's stderr that says how far the work is.
-class Progress {
- public:
-  explicit Progress(bool wanted) : shown_(wanted && isatty(STDERR_FILENO) != 0) {}
-  ~Progress() {
-    if (shown_) std::fputs("\r\x1b[K", stderr);
-  }
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
-
-  void show(const std::string& what, double share) const {
-    if (shown_) std::fputs(fmt::format("\r\x1b[K{} {:.0f} %", what, 100 * share).c_str(), stderr);
-  }
-  void clear() const {
-    if (shown_) std::fputs("\r\x1b[K", stderr);
-  }
-
- private:
-  bool shown_;
-};
 
 /// What was found over all scenes, for the closing line and the exit status.
 class Totals {

@@ -32,6 +32,7 @@ nlohmann::ordered_json row_json(const Row& row) {
   object["contender"] = row.contender;
   object["scalar"] = row.scalar;
   object["mode"] = row.mode;
+  if (!row.knob.empty()) object["knob"] = row.knob;
   object["steps"] = row.steps;
   object["verdict"] = name_of(row.verdict);
   if (!row.reason.empty()) object["reason"] = row.reason;

@@ -1,0 +1,39 @@
+/// What a step costs among more and more pieces, for each broad phase.
+#pragma once
+
+#include <paperproof/broad_phase.hpp>
+
+#include <cstdint>
+#include <functional>
+#include <string_view>
+#include <vector>
+
+namespace paperproof::compare {
+
+[[nodiscard]] std::string_view name_of(BroadPhaseKind kind) noexcept;
+
+/// One broad phase among one number of pieces.
+struct ScalePoint {
+  BroadPhaseKind broad_phase = BroadPhaseKind::tree;
+  std::size_t pieces = 0;
+  int steps = 0;               ///< Of one run.
+  double build_ms = 0;         ///< Once per level, everything that the technique prepares included.
+  double ns_per_step_min = 0;  ///< Of 9 runs after a warm-up; the kinds take turns, so that a disturbance meets all.
+  double ns_per_step_median = 0;
+  double ns_per_step_max = 0;
+  bool same_bits = true;  ///< Every position is that of `all_pairs`, bit for bit.
+};
+
+/// Floors of 100 tiles of 1 m, 8 m above one another, on the middle one of which the character walks and jumps at
+/// random with octagon_sweep in double: what is near stays the same, only the level around it grows.
+/// @param counts pieces of each level, in multiples of 100.
+/// @param progress called with the share that is done; may be empty.
+/// @throws std::invalid_argument for a count that is no positive multiple of 100. Not for tests of speed: machines are
+///   shared.
+[[nodiscard]] std::vector<ScalePoint> study_scale(const std::vector<std::size_t>& counts,
+                                                  const std::function<void(double)>& progress);
+
+/// How many times as much a step costs among the most pieces as among the fewest.
+[[nodiscard]] double growth(const std::vector<ScalePoint>& points, BroadPhaseKind kind);
+
+}  // namespace paperproof::compare

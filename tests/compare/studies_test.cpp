@@ -1,0 +1,52 @@
+#include "studies/chart_page.hpp"
+#include "studies/scale.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace paperproof::compare {
+namespace {
+
+TEST(StudyScale, every_broad_phase_moves_the_character_alike_at_every_size) {
+  const std::vector<ScalePoint> points = study_scale({100, 300}, {});
+  ASSERT_EQ(points.size(), 6U);
+  for (const ScalePoint& point : points) {
+    EXPECT_TRUE(point.same_bits) << name_of(point.broad_phase) << " " << point.pieces;
+    EXPECT_GT(point.ns_per_step_min, 0);
+    EXPECT_LE(point.ns_per_step_min, point.ns_per_step_median);
+    EXPECT_LE(point.ns_per_step_median, point.ns_per_step_max);
+  }
+  EXPECT_EQ(std::count_if(points.begin(), points.end(), [](const ScalePoint& p) { return p.pieces == 300; }), 3);
+}
+
+TEST(StudyScale, refuses_a_number_of_pieces_that_is_no_floor) {
+  EXPECT_THROW((void)study_scale({0}, {}), std::invalid_argument);
+  EXPECT_THROW((void)study_scale({100, 150}, {}), std::invalid_argument);
+}
+
+TEST(StudyScale, growth_is_from_the_fewest_pieces_to_the_most) {
+  const std::vector<ScalePoint> points{{.broad_phase = BroadPhaseKind::tree, .pieces = 1000, .ns_per_step_min = 60},
+                                       {.broad_phase = BroadPhaseKind::tree, .pieces = 100, .ns_per_step_min = 50},
+                                       {.broad_phase = BroadPhaseKind::buckets, .pieces = 10000, .ns_per_step_min = 9},
+                                       {.broad_phase = BroadPhaseKind::tree, .pieces = 500, .ns_per_step_min = 900}};
+  EXPECT_DOUBLE_EQ(growth(points, BroadPhaseKind::tree), 60.0 / 50);
+  EXPECT_DOUBLE_EQ(growth(points, BroadPhaseKind::buckets), 1);
+}
+
+TEST(ChartPage, carries_its_data_its_library_and_no_way_out_of_the_script) {
+  ChartPage page;
+  page.title = "a </script><b>title";
+  page.chart = {"chart", "x", "y", {{"series", {{1, 2}, {10, 3.5}}}}};
+  page.table = {{"x", "y"}, {{"1", "2"}}};
+  const std::string html = html_of(page);
+  EXPECT_EQ(html.find("</script><b>"), std::string::npos);
+  EXPECT_NE(html.find(R"({"x":10.0,"y":3.5})"), std::string::npos);
+  EXPECT_NE(html.find("Chart.js v"), std::string::npos);
+  for (const char* marker : {"/*DATA*/", "/*LIBRARY*/", "/*STUDY*/", "src="})
+    EXPECT_EQ(html.find(marker), std::string::npos) << marker;
+}
+
+}  // namespace
+}  // namespace paperproof::compare
