@@ -30,8 +30,13 @@ double extent_of_character(const ReportScene& scene) {
 double farthest_coordinate(const ReportScene& scene) {
   Vec2d extent = Vec2d::Zero();
   for (const ReportRun& run : scene.runs) {
+    Vec2d farthest_offset = Vec2d::Zero();
+    for (const TraceStep& step : run.steps) {
+      for (const MoverMotion<double>& mover : step.movers) grow(farthest_offset, mover.to);
+    }
     for (const ColliderDef& collider : run.header.scenery.colliders) {
-      for (const Vec2d& point : collider.points) grow(extent, point);
+      for (const Vec2d& point : collider.points)
+        grow(extent, collider.mover == no_mover ? point : Vec2d(point.cwiseAbs() + farthest_offset));
     }
     for (const TraceStep& step : run.steps) {
       for (const PathPoint<double>& corner : step.path) grow(extent, corner.position);
@@ -49,6 +54,7 @@ std::set<ColliderIndex> colliders_to_name(const ReportScene& scene) {
     for (const TraceStep& step : run.steps) {
       add_contacts(step.contacts);
       named.insert(step.start_overlap.begin(), step.start_overlap.end());
+      named.insert(step.crushed.begin(), step.crushed.end());
     }
   }
   for (const Disagreement& disagreement : scene.disagreements) {
@@ -59,7 +65,8 @@ std::set<ColliderIndex> colliders_to_name(const ReportScene& scene) {
 }
 
 bool same(const ColliderDef& a, const ColliderDef& b) {
-  return a.shape == b.shape && a.points == b.points && a.holes == b.holes && a.one_way == b.one_way;
+  return a.shape == b.shape && a.points == b.points && a.holes == b.holes && a.one_way == b.one_way &&
+         a.mover == b.mover && a.sensor == b.sensor;
 }
 
 bool same_scenery(const TraceHeader& a, const TraceHeader& b) {

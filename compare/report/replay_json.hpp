@@ -5,8 +5,8 @@
 
 namespace paperproof::compare {
 
-/// `{"quantum":q,"sceneries":[…],"runs":[…],"disagreements":[…],"disagreements_in_all":n}`; page/decode.js reads it back.
-/// Runs whose scenery is the same share it.
+/// `{"quantum":q,"sceneries":[…],"runs":[…],"disagreements":[…],"disagreements_in_all":n}`; page/decode.js reads it
+/// back. Runs whose scenery is the same share it.
 [[nodiscard]] std::string replay_json(const ReportScene& scene, const ReportOptions& options);
 
 }  // namespace paperproof::compare

@@ -30,7 +30,9 @@ class Columns {
     add_path(step.path);
     add_velocity(step.velocity);
     add_contacts(step.contacts);
-    add_overlaps(step.start_overlap);
+    add_colliders(overlaps_, step.start_overlap);
+    add_colliders(crushed_, step.crushed);
+    add_movers(step.movers);
     ++count_;
   }
 
@@ -38,10 +40,17 @@ class Columns {
     run.put("step", std::move(steps_).take()).put("flags", json_string(flags_)).put("path", std::move(path_).take());
     run.put("velocity", std::move(velocity_).take()).put("contacts", std::move(contacts_).take());
     run.put("kinds", std::move(kinds_).take()).put("start_overlap", std::move(overlaps_).take());
+    if (!crushed_.empty()) run.put("crush", std::move(crushed_).take());
+    if (!places_.empty()) run.put("movers", std::move(movers_).take());
   }
 
  private:
   using Kind = std::array<std::int64_t, 4>;
+  /// Where a mover ended a step, and how it got there.
+  struct Place {
+    Cell at;
+    Cell way;
+  };
 
   [[nodiscard]] Cell rounded(const Vec2d& point) const {
     return {quantum_.round(point.x()), quantum_.round(point.y())};
@@ -102,17 +111,36 @@ class Columns {
     }
   }
 
-  void add_overlaps(const std::vector<ColliderIndex>& overlaps) {
-    if (overlaps.empty()) return;
+  void add_colliders(JsonObject& of_steps, const std::vector<ColliderIndex>& colliders) const {
+    if (colliders.empty()) return;
     JsonArray list;
-    for (const ColliderIndex collider : overlaps) list.add(collider);
-    overlaps_.put(std::to_string(count_), std::move(list).take());
+    for (const ColliderIndex collider : colliders) list.add(collider);
+    of_steps.put(std::to_string(count_), std::move(list).take());
+  }
+
+  /// At a steady speed all numbers are 0 or, where it is no whole number of units, 1.
+  void add_movers(const std::vector<MoverMotion<double>>& movers) {
+    if (count_ == 0) places_.resize(movers.size());
+    const std::size_t known = std::min(places_.size(), movers.size());
+    bool jumped = false;
+    for (std::size_t i = 0; i < known; ++i) jumped = jumped || !(rounded(movers[i].from) == places_[i].at);
+    if (!places_.empty()) movers_.add(jumped ? 1 : 0);
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      Place& place = places_[i];
+      const Cell from = i < known ? rounded(movers[i].from) : place.at;
+      const Cell to = i < known ? rounded(movers[i].to) : place.at;
+      if (jumped) movers_.add(from.x - place.at.x).add(from.y - place.at.y);
+      const Cell way{to.x - from.x, to.y - from.y};
+      movers_.add(way.x - place.way.x).add(way.y - place.way.y);
+      place = {to, way};
+    }
   }
 
   const Quantum& quantum_;
-  JsonArray steps_, path_, velocity_, contacts_, kinds_;
+  JsonArray steps_, path_, velocity_, contacts_, kinds_, movers_;
   std::string flags_;
-  JsonObject overlaps_;
+  JsonObject overlaps_, crushed_;
+  std::vector<Place> places_;
   std::map<Kind, std::size_t> known_kinds_;
   std::vector<Cell> last_points_;
   Cell position_, last_velocity_;
@@ -121,7 +149,8 @@ class Columns {
 };
 
 bool is_finite(const TraceStep& step) {
-  return step.velocity.allFinite() &&
+  const auto moves = [](const MoverMotion<double>& mover) { return mover.from.allFinite() && mover.to.allFinite(); };
+  return step.velocity.allFinite() && std::all_of(step.movers.begin(), step.movers.end(), moves) &&
          std::all_of(step.path.begin(), step.path.end(),
                      [](const PathPoint<double>& corner) { return corner.position.allFinite(); });
 }
@@ -136,6 +165,10 @@ std::string_view word_for(ReportEvent::Kind kind) {
       return "inside";
     case ReportEvent::Kind::one_way:
       return "one-way broken";
+    case ReportEvent::Kind::crush:
+      return "crush";
+    case ReportEvent::Kind::sensor:
+      return "sensor";
     case ReportEvent::Kind::note:
       return "note";
   }

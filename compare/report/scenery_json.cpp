@@ -1,5 +1,6 @@
 #include "report/scenery_json.hpp"
 
+#include <algorithm>
 #include <map>
 #include <numeric>
 
@@ -39,16 +40,16 @@ std::string shape_json(const ColliderDef& collider, Cell origin, const Quantum& 
   return std::move(shape).take();
 }
 
-/// Which shape each collider has, as (shape, how many in a row).
+/// A number for each collider, as (number, how many in a row).
 class Order {
  public:
-  void add(std::int64_t shape) {
-    if (count_ > 0 && shape == shape_) {
+  void add(std::int64_t number) {
+    if (count_ > 0 && number == number_) {
       ++count_;
       return;
     }
     flush();
-    shape_ = shape;
+    number_ = number;
     count_ = 1;
   }
   [[nodiscard]] std::string take() && {
@@ -58,10 +59,10 @@ class Order {
 
  private:
   void flush() {
-    if (count_ > 0) list_.add(shape_).add(count_);
+    if (count_ > 0) list_.add(number_).add(count_);
   }
   JsonArray list_;
-  std::int64_t shape_ = 0;
+  std::int64_t number_ = 0;
   std::int64_t count_ = 0;
 };
 
@@ -93,6 +94,8 @@ std::string scenery_json(const SceneryDef& scenery, const std::vector<std::strin
   std::map<std::string, std::int64_t> known;
   JsonArray shapes;
   Order order;
+  Order movers;
+  JsonArray sensors;
   std::vector<Cell> steps;
   Cell last;
   for (const ColliderDef& collider : scenery.colliders) {
@@ -101,6 +104,8 @@ std::string scenery_json(const SceneryDef& scenery, const std::vector<std::strin
     const auto [entry, is_new] = known.try_emplace(shape, static_cast<std::int64_t>(known.size()));
     if (is_new) shapes.add_raw(shape);
     order.add(entry->second);
+    movers.add(collider.mover == no_mover ? 0 : std::int64_t{collider.mover} + 1);
+    if (collider.sensor) sensors.add(static_cast<std::int64_t>(&collider - scenery.colliders.data()));
     steps.push_back({origin.x - last.x, origin.y - last.y});
     last = origin;
   }
@@ -108,6 +113,11 @@ std::string scenery_json(const SceneryDef& scenery, const std::vector<std::strin
   JsonObject object;
   object.put("shapes", std::move(shapes).take()).put("order", std::move(order).take());
   object.put("unit", unit).put("at", places_json(steps, unit)).put("ids", ids_json(ids, named));
+  const auto any = [&scenery](const auto& is) {
+    return std::any_of(scenery.colliders.begin(), scenery.colliders.end(), is);
+  };
+  if (any([](const ColliderDef& c) { return c.mover != no_mover; })) object.put("movers", std::move(movers).take());
+  if (any([](const ColliderDef& c) { return c.sensor; })) object.put("sensors", std::move(sensors).take());
   return std::move(object).take();
 }
 

@@ -106,13 +106,20 @@ void Lane::step(int step, const StepInput& input) {
 
 void Lane::keep_for_replay() {
   const std::size_t before = replay_.events.size();
-  const auto note = [this](ReportEvent::Kind kind, const std::vector<ColliderIndex>& colliders, const char* what) {
+  const auto note = [this](ReportEvent::Kind kind, const std::vector<ColliderIndex>& colliders, const char* what,
+                           const std::string& when = "") {
     if (!colliders.empty() && replay_.events.size() < static_cast<std::size_t>(limit_.most))
-      replay_.events.push_back({record_.step, kind, fmt::format("{} {}", what, header().ids[colliders.front()])});
+      replay_.events.push_back(
+          {record_.step, kind, fmt::format("{} {}{}", what, header().ids[colliders.front()], when)});
   };
   note(ReportEvent::Kind::tunnel, judgement_.tunnelled, "passes");
   note(ReportEvent::Kind::corner_cut, judgement_.corner_cut, "cuts a corner of");
   note(ReportEvent::Kind::one_way, judgement_.one_way_broken, "passes against its normal:");
+  note(ReportEvent::Kind::crush, record_.crushed, "is crushed by");
+  for (const SensorEvent<double>& event : record_.sensors)
+    note(ReportEvent::Kind::sensor, {event.sensor},
+         event.change == SensorEvent<double>::Change::enter ? "enters" : "leaves",
+         header().path_exact ? fmt::format(" at {:.6g} of the step", event.fraction) : ", seen when the step begins");
   if (inside_ != record_.start_overlap) note(ReportEvent::Kind::inside, inside_, "ends inside");
   const bool kept = record_.step < first_steps || record_.step % replay_.every == 0 ||
                     record_.step + 1 == limit_.steps || replay_.events.size() > before;

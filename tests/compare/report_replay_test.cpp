@@ -137,6 +137,70 @@ TEST_F(ReportTest, every_step_comes_back_to_half_a_display_unit) {
   }
 }
 
+/// What the column of movers says, as run_json.hpp describes it.
+std::vector<std::vector<MoverMotion<double>>> decoded_movers(const json& run, std::size_t movers, double quantum) {
+  std::size_t at = 0;
+  const auto pair = [&] {
+    const double x = run["movers"][at++];
+    return Vec2d(x, run["movers"][at++]);
+  };
+  std::vector<Vec2d> place(movers, Vec2d::Zero());
+  std::vector<Vec2d> way(movers, Vec2d::Zero());
+  std::vector<std::vector<MoverMotion<double>>> steps(run["step"].size());
+  for (auto& step : steps) {
+    const bool jumped = run["movers"][at++] == 1;
+    for (std::size_t i = 0; i < movers; ++i) {
+      if (jumped) place[i] += pair();
+      way[i] += pair();
+      step.push_back({place[i] * quantum, (place[i] + way[i]) * quantum});
+      place[i] += way[i];
+    }
+  }
+  EXPECT_EQ(at, run["movers"].size());
+  return steps;
+}
+
+TEST_F(ReportTest, movers_come_back_to_half_a_display_unit_also_across_steps_that_were_left_out) {
+  ReportScene scene = walk_of(400);
+  ReportRun& run = scene.runs[0];
+  for (TraceStep& step : run.steps) {
+    const auto at = [](int number) { return Vec2d(3 * std::sin(number * 0.05), number * 0.01); };
+    step.movers = {{at(step.step), at(step.step + 1)}, {{7, 7}, {7, 7}}};
+  }
+  run.header.scenery.colliders[0].mover = 1;
+  run.header.scenery.colliders[2].mover = 0;
+  run.header.scenery.colliders[3].mover = 0;
+  run.header.scenery.colliders[1].sensor = true;
+  std::erase_if(run.steps, [](const TraceStep& step) { return step.step > 100 && step.step % 7 != 0; });
+  const json replay = data(page(report_of(scene)), "replay-0");
+  const double quantum = replay["quantum"];
+  const auto movers = decoded_movers(replay["runs"][0], 2, quantum);
+  ASSERT_EQ(movers.size(), run.steps.size());
+  for (std::size_t i = 0; i < movers.size(); ++i) {
+    for (std::size_t m = 0; m < 2; ++m) {
+      expect_near(movers[i][m].from, run.steps[i].movers[m].from, half_unit(quantum, 10), run.steps[i].step);
+      expect_near(movers[i][m].to, run.steps[i].movers[m].to, half_unit(quantum, 10), run.steps[i].step);
+    }
+  }
+  const auto rest = static_cast<int>(run.header.ids.size()) - 4;
+  EXPECT_EQ(replay["sceneries"][0]["movers"], (json{2, 1, 0, 1, 1, 2, 0, rest}));
+  EXPECT_EQ(replay["sceneries"][0]["sensors"], json{1});
+}
+
+TEST_F(ReportTest, a_run_without_movers_has_no_column_for_them) {
+  const json replay = data(page(report_of(walk_of(3))), "replay-0");
+  EXPECT_FALSE(replay["runs"][0].contains("movers") || replay["runs"][0].contains("crush"));
+  EXPECT_FALSE(replay["sceneries"][0].contains("movers") || replay["sceneries"][0].contains("sensors"));
+}
+
+TEST_F(ReportTest, a_crush_comes_back_with_the_colliders_that_did_it) {
+  ReportScene scene = walk_of(5);
+  scene.runs[0].steps[3].crushed = {2, 5};
+  const json replay = data(page(report_of(scene)), "replay-0");
+  EXPECT_EQ(replay["runs"][0]["crush"], (json{{"3", {2, 5}}}));
+  EXPECT_TRUE(replay["sceneries"][0]["ids"].contains("5"));
+}
+
 TEST_F(ReportTest, flags_and_overlaps_come_back) {
   ReportScene scene = walk_of(3);
   TraceStep& step = scene.runs[0].steps[1];

@@ -193,6 +193,48 @@ ReportScene hostile_scene() {
   return scene;
 }
 
+// --- scene 3: a lift under a ceiling, and a sensor ---
+
+/// It rises from -3 by 0.05 m per step, under the feet and on, until the head is at the ceiling.
+ReportRun lift_run(const std::string& contender, double gap) {
+  constexpr double rise = 0.05, ceiling = 2;
+  constexpr int last_free = 75;
+  ReportRun run;
+  run.header = header("lift", contender);
+  ColliderDef lift = box(-1, -0.25, 1, 0);
+  lift.mover = 0;
+  ColliderDef arm = box(1, -0.1, 2, 0);
+  arm.mover = 0;
+  ColliderDef zone = box(-0.5, -1, 0.5, 0.5);
+  zone.sensor = true;
+  run.header.scenery.colliders = {box(-4, ceiling, 4, ceiling + 1), lift, arm, zone};
+  run.header.ids = {"ceiling", "lift", "arm", "zone"};
+  for (int number = 0; number < 80; ++number) {
+    const double low = -3 + rise * number;
+    const int ridden = std::min(number, last_free);
+    TraceStep step = straight_step(number, {0, -3 + rise * ridden + feet + gap},
+                                   {0, -3 + rise * std::min(number + 1, last_free) + feet + gap});
+    step.movers = {{{0, low}, {0, low + rise}}};
+    step.grounded = true;
+    step.contacts = {{1, {0, low + rise}, {0, 1}, 0, gap, Side::bottom}};
+    if (number >= last_free) step.crushed = {1};
+    if (number == 25) step.sensors = {{3, SensorEvent<double>::Change::enter, 0.25}};
+    run.steps.push_back(step);
+  }
+  run.events = {{25, ReportEvent::Kind::sensor, "enters zone at 0.25 of the step"},
+                {last_free, ReportEvent::Kind::crush, "is crushed by lift"}};
+  return run;
+}
+
+ReportScene lift_scene() {
+  ReportScene scene;
+  scene.name = "lift";
+  scene.sentence = "The lift leaves no room from step 75 on.";
+  scene.runs = {lift_run("octagon_sweep", 5e-7), lift_run("box2d", 0.015)};
+  scene.rows = {row("lift", "octagon_sweep", 80), row("lift", "box2d", 80)};
+  return scene;
+}
+
 }  // namespace
 
 std::string hostile_text() { return "</script><script>throw 1</script><!-- & \" ' ]]>"; }
@@ -201,7 +243,7 @@ Report sample_report() {
   Report report;
   report.environment = {{"paperproof", "sample"}, {"compiler", "the one that built this test"}};
   report.tolerances = {{"hit", 1e-7}, {"stop", 5e-7}, {"touch", 7e-7}};
-  report.scenes = {bullet_scene(), walk_scene(), hostile_scene()};
+  report.scenes = {bullet_scene(), walk_scene(), hostile_scene(), lift_scene()};
   report.guarantee_notes = {"No step of octagon_sweep in double ended inside a solid: 0 violations in 812 steps."};
   return report;
 }

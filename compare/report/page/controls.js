@@ -135,7 +135,8 @@ function readoutRow(replay, run) {
   const overlaps = record.startOverlap.map((i) => (names[i] ? names[i].id : i));
   const words = ended ? [`ended at step ${grouped(record.step)}`] : [
     ...record.flags, record.step === replay.step ? null : `as of step ${grouped(record.step)}`,
-    overlaps.length ? `began inside ${overlaps.join(', ')}` : null
+    overlaps.length ? `began inside ${overlaps.join(', ')}` : null,
+    record.crush.length ? `crushed by ${record.crush.map((i) => (names[i] ? names[i].id : i)).join(', ')}` : null
   ].filter(Boolean);
   const events = run.events.filter((event) => event.step === record.step && !ended);
   const contacts = ended ?

@@ -55,13 +55,53 @@ function decodeScenery(packed, quantum) {
         oneWay: shape.oneWay,
         rings,
         box: boxOf(rings[0]),
-        id: packed.ids[i] || `collider ${i}`
+        id: packed.ids[i] || `collider ${i}`,
+        mover: -1,
+        sensor: false
       });
     }
   }
+  let at = 0;
+  for (let run = 0; packed.movers && run < packed.movers.length; run += 2)
+    for (let n = 0; n < packed.movers[run + 1]; ++n) colliders[at++].mover = packed.movers[run] - 1;
+  for (const i of packed.sensors || []) colliders[i].sensor = true;
   const box = [Infinity, Infinity, -Infinity, -Infinity];
-  for (const collider of colliders) boxOf(collider.box, box);
+  for (const collider of colliders)
+    if (collider.mover < 0) boxOf(collider.box, box);
   return {colliders, box};
+}
+
+function movedBox([left, bottom, right, top], [x, y]) {
+  return [left + x, bottom + y, right + x, top + y];
+}
+
+/// A collider where its mover has taken it. @param offsets of the movers, [x, y] each.
+function placed(collider, offsets) {
+  const offset = offsets[collider.mover];
+  if (!offset) return collider;
+  const rings = collider.rings.map((ring) => ring.map((v, i) => v + offset[i % 2]));
+  return {...collider, rings, box: movedBox(collider.box, offset)};
+}
+
+/// Where the movers are at a fraction of a step, in metres.
+function offsetsAt(step, t) {
+  return step.movers.map(({fx, fy, tx, ty}) => [fx + (tx - fx) * t, fy + (ty - fy) * t]);
+}
+
+/// All that moving colliders come to cover in a run.
+function boxOfMoving(run) {
+  const box = [Infinity, Infinity, -Infinity, -Infinity], ranges = [];
+  for (const step of run.steps)
+    step.movers.forEach((m, i) => {
+      ranges[i] = boxOf([m.fx, m.fy, m.tx, m.ty], ranges[i]);
+    });
+  for (const collider of run.scenery.colliders) {
+    const range = ranges[collider.mover];
+    if (!range) continue;
+    boxOf(movedBox(collider.box, range), box);
+    boxOf(movedBox(collider.box, range.slice(2)), box);
+  }
+  return box;
 }
 
 /// A reader of one column of numbers.
@@ -119,8 +159,24 @@ function decodeKinds(flat) {
   return kinds;
 }
 
-function decodeSteps(packed, quantum) {
+function decodeMovers(next, movers, quantum) {
+  const jumped = next() === 1;
+  return movers.map((mover) => {
+    if (jumped) {
+      mover.x += next();
+      mover.y += next();
+    }
+    const from = {x: mover.x, y: mover.y};
+    mover.x += (mover.dx += next());
+    mover.y += (mover.dy += next());
+    return {fx: from.x * quantum, fy: from.y * quantum, tx: mover.x * quantum, ty: mover.y * quantum};
+  });
+}
+
+/// @param moverCount  0 where nothing moves.
+function decodeSteps(packed, quantum, moverCount) {
   const path = reader(packed.path), velocity = reader(packed.velocity), contacts = reader(packed.contacts);
+  const moved = reader(packed.movers || []), movers = Array.from({length: moverCount}, () => ({x: 0, y: 0, dx: 0, dy: 0}));
   const kinds = decodeKinds(packed.kinds);
   const position = {x: 0, y: 0}, speed = {x: 0, y: 0};
   let number = 0;
@@ -140,6 +196,8 @@ function decodeSteps(packed, quantum) {
       vy: speed.y * quantum * 10,
       contacts: touched,
       startOverlap: packed.start_overlap[i] || [],
+      crush: (packed.crush || {})[i] || [],
+      movers: moverCount > 0 ? decodeMovers(moved, movers, quantum) : [],
       flags: FLAGS.filter((_, bit) => bits & (1 << bit))
     };
     if (step.path.length === 0) step.path = [{x: step.x, y: step.y, t: 0}, {x: step.x, y: step.y, t: 1}];
@@ -159,7 +217,10 @@ function decodeRun(packed, sceneries, quantum) {
     scenery: sceneries[packed.scenery],
     hull: packed.hull.map((v) => v * quantum)
   };
-  run.steps = decodeSteps(packed, quantum);
+  // A mover without a column is one whose steps say nothing about movers.
+  const moverCount = packed.movers ? 1 + Math.max(...run.scenery.colliders.map((collider) => collider.mover)) : 0;
+  run.steps = decodeSteps(packed, quantum, moverCount);
+  run.movingBox = boxOfMoving(run);
   run.events = packed.events.map(([step, kind, words]) => ({step, kind, words}));
   run.byStep = new Map(run.steps.map((step, i) => [step.step, i]));
   return run;

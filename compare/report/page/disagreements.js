@@ -23,7 +23,8 @@ function drawDisagreement(canvas, disagreement, names) {
   const painter = new Painter(canvas), camera = new Camera();
   camera.fit(boxOfStatements(disagreement), canvas.clientWidth, canvas.clientHeight, 0.16);
   painter.begin(camera, theme());
-  painter.scenery(disagreement.statements[0].run.scenery);
+  const {run: first} = disagreement.statements[0], record = first.steps[Math.max(indexAt(first, disagreement.step), 0)];
+  painter.scenery(first.scenery, record ? offsetsAt(record, 1) : []);
   for (const {run, from, to, contacts} of disagreement.statements) {
     const {colour, dash} = inkOf(run, names);
     painter.octagon(run.hull, from.x, from.y, {colour, dash: [2, 3], alpha: 0.45});

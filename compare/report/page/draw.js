@@ -11,6 +11,7 @@ function theme() {
   return {
     canvas: value('canvas'),
     solid: value('solid'),
+    mover: value('mover'),
     edge: value('solid-edge'),
     chain: value('chain'),
     grid: value('grid'),
@@ -110,14 +111,25 @@ class Painter {
     if (close) this.context.closePath();
   }
 
-  scenery(scenery) {
-    const visible = scenery.colliders.filter((collider) => this.sees(collider.box));
+  /// @param offsets  of the movers, [x, y] each.
+  scenery(scenery, offsets) {
+    const visible = scenery.colliders.filter((collider) => collider.mover < 0 && this.sees(collider.box));
+    const moving = scenery.colliders.filter((collider) => collider.mover >= 0)
+                       .map((collider) => placed(collider, offsets))
+                       .filter((collider) => this.sees(collider.box));
+    this.solids(visible.filter((collider) => !collider.sensor), this.colours.solid);
+    this.solids(moving.filter((collider) => !collider.sensor), this.colours.mover);
+    for (const collider of [...visible, ...moving])
+      if (collider.sensor) this.sensor(collider);
+  }
+
+  solids(visible, fill) {
     const polygons = visible.filter((collider) => !collider.chain);
     const c = this.context;
     c.beginPath();
     for (const collider of polygons)
       for (const ring of collider.rings) this.ring(ring, true);
-    c.fillStyle = this.colours.solid;
+    c.fillStyle = fill;
     c.fill('nonzero');
     // Outlines of pieces that are a few pixels wide would be nothing but grey; paper would vanish without one.
     c.beginPath();
@@ -132,6 +144,18 @@ class Painter {
     c.stroke();
     for (const collider of visible)
       if (collider.chain) this.chain(collider);
+  }
+
+  /// Blocks nothing: an outline that lets see through.
+  sensor(collider) {
+    const c = this.context;
+    c.strokeStyle = this.colours.quiet;
+    c.lineWidth = 1.5;
+    c.setLineDash([5, 4]);
+    c.beginPath();
+    for (const ring of collider.rings) this.ring(ring, !collider.chain);
+    c.stroke();
+    c.setLineDash([]);
   }
 
   chain(collider) {

@@ -85,6 +85,7 @@ class Replay {
       for (const step of run.steps)
         for (const p of step.path) boxOf([hull[0] + p.x, hull[1] + p.y, hull[2] + p.x, hull[3] + p.y], ways);
       boxOf(run.scenery.box.filter(Number.isFinite), all);
+      boxOf(run.movingBox.filter(Number.isFinite), all);
     }
     if (mode === 'ways') this.camera.fit(ways, width, height, 0.1);
     if (mode === 'fit') this.camera.fit(boxOf(ways, all), width, height);
@@ -236,6 +237,11 @@ class Replay {
     return {index, record, ended, t, position: positionAt(record, t)};
   }
 
+  offsetsOf(run) {
+    const {record, t} = this.stateOf(run);
+    return offsetsAt(record, t);
+  }
+
   draw() {
     const colours = theme();
     for (const view of this.views) this.drawView(view, colours);
@@ -251,8 +257,12 @@ class Replay {
   drawView(view, colours) {
     const {painter, runs} = view;
     painter.begin(this.cameraOf(view), colours);
-    for (const scenery of new Set(runs.length ? runs.map((run) => run.scenery) : [this.runs[0].scenery]))
-      painter.scenery(scenery);
+    const drawn = new Set();
+    for (const run of runs.length ? runs : this.runs.slice(0, 1)) {
+      if (drawn.has(run.scenery)) continue;
+      drawn.add(run.scenery);
+      painter.scenery(run.scenery, this.offsetsOf(run));
+    }
     if (this.show.trajectories)
       for (const run of runs) this.drawTrajectory(painter, run);
     for (const run of runs) this.drawRun(painter, run);
@@ -264,7 +274,7 @@ class Replay {
     painter.trajectory(run.steps, index, run.steps.length, {...ink, alpha: 0.25});
     painter.trajectory(run.steps, 0, index + 1, {...ink, alpha: 0.8});
     for (const event of run.events) {
-      if (event.kind === 'note') continue;
+      if (event.kind === 'note' || event.kind === 'sensor') continue;
       const at = run.byStep.get(event.step);
       if (at !== undefined) painter.cross(run.steps[at].x, run.steps[at].y);
     }
@@ -273,16 +283,20 @@ class Replay {
   drawRun(painter, run) {
     const ink = inkOf(run, this.names), {record, ended, position} = this.stateOf(run), first = record.path[0];
     if (!ended) {
-      for (const contact of record.contacts) {
-        const collider = run.scenery.colliders[contact.collider];
-        if (collider) painter.highlight(collider, ink.colour);
-      }
+      const offsets = this.offsetsOf(run);
+      const highlight = (index, colour) => {
+        const collider = run.scenery.colliders[index];
+        if (collider) painter.highlight(placed(collider, offsets), colour);
+      };
+      for (const contact of record.contacts) highlight(contact.collider, ink.colour);
+      for (const index of record.crush) highlight(index, painter.colours.bad);
       if (this.show.start) painter.octagon(run.hull, first.x, first.y, {colour: ink.colour, dash: [2, 3], alpha: 0.5});
       painter.way(record.path, ink.colour, !run.path_exact);
     }
     painter.octagon(
         run.hull, position.x, position.y, {colour: ink.colour, fill: !ended, dash: ink.dash, alpha: ended ? 0.4 : 1});
     if (ended) return;
+    if (record.crush.length > 0) painter.cross(position.x, position.y);
     if (this.show.velocity) painter.velocity(position.x, position.y, record.vx, record.vy, ink.colour);
     record.contacts.forEach((contact) => painter.contact(contact, ink.colour));
   }
