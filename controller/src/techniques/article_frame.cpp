@@ -416,9 +416,6 @@ class Frame {
     return parts_.scenery->pieces()[piece].collider;
   }
   using Colliders = decltype(MoveResult<Scalar>::crushed);
-  static void add_once(ColliderIndex collider, Colliders& all) noexcept {
-    if (std::find(all.begin(), all.end(), collider) == all.end()) all.push_back(collider);
-  }
 
   void finish() noexcept {
     const bool in_static = (parts_.something_carries || began_inside_) && find_what_is_inside();
@@ -430,7 +427,7 @@ class Frame {
       const Vec2<Scalar> gap = seen + parts_.points.offsets[touch.collision_point] - touch.point;
       contact.separation = gap.dot(contact.normal);
     }
-    take_place();
+    frame_.arrive(position_, result_);
     result_.path.push_back({result_.position, 1});
     if (!result_.crushed.empty())
       result_.status = MoveStatus::crushed;
@@ -460,27 +457,7 @@ class Frame {
   /// Nothing is pushed into what stands still.
   void stay_where_it_began() noexcept {
     for (const ColliderIndex pusher : pushers_) add_once(pusher, result_.crushed);
-    result_.status = MoveStatus::crushed;
-    result_.position = request_.position;
-    result_.velocity.setZero();
-    result_.grounded = false;
-    result_.ride = {};
-    result_.path.clear();
-    result_.path.push_back({request_.position, 0});
-    result_.path.push_back({request_.position, 1});
-  }
-
-  /// In the world, and on what carries it.
-  void take_place() noexcept {
-    result_.position = frame_.in_world(position_, 1);
-    Ride<Scalar>& ride = result_.ride;
-    if (ride.ground == Ride<Scalar>::none) return;
-    const MoverIndex mover = frame_.mover_of(ride.ground);
-    ride.velocity = frame_.velocity_of(ride.ground);
-    ride.place = result_.position;
-    if (mover == no_mover) return;
-    ride.place = position_ + frame_.shift_at_end(mover);
-    result_.position = frame_.offset(mover, 1) + ride.place;
+    stay_crushed(request_, result_);
   }
 
   const Parts<Scalar>& parts_;

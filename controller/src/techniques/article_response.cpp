@@ -135,6 +135,18 @@ void refuse(const MoveRequest<Scalar>& request, MoveResult<Scalar>& result) noex
 }
 
 template <class Scalar>
+void stay_crushed(const MoveRequest<Scalar>& request, MoveResult<Scalar>& result) noexcept {
+  result.status = MoveStatus::crushed;
+  result.position = request.position;
+  result.velocity.setZero();
+  result.grounded = false;
+  result.ride = {};
+  result.path.clear();
+  result.path.push_back({request.position, 0});
+  result.path.push_back({request.position, 1});
+}
+
+template <class Scalar>
 bool refuse_out_of_range(const MoveRequest<Scalar>& request, MoveResult<Scalar>& result) noexcept {
   const Vec2<Scalar> end = request.position + request.displacement;
   if (in_range(request.position) && in_range(end)) return false;
@@ -142,18 +154,34 @@ bool refuse_out_of_range(const MoveRequest<Scalar>& request, MoveResult<Scalar>&
   return true;
 }
 
+namespace {
+
+/// The most that a mover goes during the step, by component [m].
+template <class Scalar>
+Vec2<Scalar> farthest_motion(const MoveRequest<Scalar>& request) noexcept {
+  Vec2<Scalar> farthest{Vec2<Scalar>::Zero()};
+  for (const MoverMotion<Scalar>& mover : request.movers)
+    farthest = farthest.cwiseMax((mover.to - mover.from).cwiseAbs());
+  return farthest;
+}
+
+}  // namespace
+
+template <class Scalar>
+bool leaves_range(const Scenery<Scalar>& scenery, const MoveRequest<Scalar>& request) noexcept {
+  const FrameOfReference<Scalar> frame(scenery, request);
+  return !in_range(request.position) || !in_range<Scalar>(request.position + frame.wanted()) ||
+         !in_range(farthest_motion(request));
+}
+
 template <class Scalar>
 bool refuse(const Parts<Scalar>& parts, bool searches_by_units, const MoveRequest<Scalar>& request,
             MoveResult<Scalar>& result) noexcept {
+  // Relative to one mover, on another one or pushed by it.
   const Vec2<Scalar> wanted = FrameOfReference<Scalar>(*parts.scenery, request).wanted();
-  // Relative to a mover, on another one or pushed by it.
-  Vec2<Scalar> carried{Vec2<Scalar>::Zero()};
-  for (const MoverMotion<Scalar>& mover : request.movers)
-    carried = carried.cwiseMax((mover.to - mover.from).cwiseAbs());
-  const Vec2<Scalar> farthest = wanted.cwiseAbs() + 2 * carried;
+  const Vec2<Scalar> farthest = wanted.cwiseAbs() + 2 * farthest_motion(request);
   const bool quick = !searches_by_units || length(farthest) <= parts.unit * Scalar(max_search_steps);
-  if (quick && in_range(request.position) && in_range<Scalar>(request.position + wanted) && in_range(carried))
-    return false;
+  if (quick && !leaves_range(*parts.scenery, request)) return false;
   refuse(request, result);
   return true;
 }
@@ -174,6 +202,8 @@ bool add_contact(const Scenery<Scalar>& scenery, const PointHit<Scalar>& hit, Si
   template bool collides(const Parts<Scalar>&, const NearbyScenery<Scalar>&, const CharacterShape::Pair&,     \
                          const Vec2<Scalar>&, const Vec2<Scalar>&) noexcept;                                  \
   template bool in_range(const Vec2<Scalar>&) noexcept;                                                       \
+  template bool leaves_range(const Scenery<Scalar>&, const MoveRequest<Scalar>&) noexcept;                    \
+  template void stay_crushed(const MoveRequest<Scalar>&, MoveResult<Scalar>&) noexcept;                       \
   template void refuse(const MoveRequest<Scalar>&, MoveResult<Scalar>&) noexcept;                             \
   template bool refuse_out_of_range(const MoveRequest<Scalar>&, MoveResult<Scalar>&) noexcept;                \
   template bool refuse(const Parts<Scalar>&, bool, const MoveRequest<Scalar>&, MoveResult<Scalar>&) noexcept; \

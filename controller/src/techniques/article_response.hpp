@@ -125,6 +125,10 @@ void move(const Parts<Scalar>& parts, ImpactSearch<Scalar> search, const MoveReq
 template <class Scalar>
 [[nodiscard]] bool refuse_out_of_range(const MoveRequest<Scalar>& request, MoveResult<Scalar>& result) noexcept;
 
+/// The step would lead beyond the range of the tolerances, alone, carried or pushed; or is no number.
+template <class Scalar>
+[[nodiscard]] bool leaves_range(const Scenery<Scalar>& scenery, const MoveRequest<Scalar>& request) noexcept;
+
 /// Fills `result` as a refusal and returns true where the movement leaves the range of the tolerances, or would take
 /// more than `max_search_steps` units to search and `searches_by_units`.
 template <class Scalar>
@@ -134,6 +138,16 @@ template <class Scalar>
 /// Fills `result` as a refusal: nothing moved.
 template <class Scalar>
 void refuse(const MoveRequest<Scalar>& request, MoveResult<Scalar>& result) noexcept;
+
+/// Makes `result`, whose `crushed` is filled in, that of a character that stays where the step began.
+template <class Scalar>
+void stay_crushed(const MoveRequest<Scalar>& request, MoveResult<Scalar>& result) noexcept;
+
+/// What is there already is not added again.
+template <std::size_t capacity>
+void add_once(ColliderIndex collider, FixedVector<ColliderIndex, capacity>& all) noexcept {
+  if (std::find(all.begin(), all.end(), collider) == all.end()) all.push_back(collider);
+}
 
 /// NaN is not.
 template <class Scalar>

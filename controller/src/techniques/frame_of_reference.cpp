@@ -74,6 +74,19 @@ Vec2<Scalar> FrameOfReference<Scalar>::surface_motion(ColliderIndex ground) cons
 }
 
 template <class Scalar>
+void FrameOfReference<Scalar>::arrive(const Vec2<Scalar>& position, MoveResult<Scalar>& result) const noexcept {
+  result.position = in_world(position, 1);
+  Ride<Scalar>& ride = result.ride;
+  if (ride.ground == Ride<Scalar>::none) return;
+  const MoverIndex mover = mover_of(ride.ground);
+  ride.velocity = velocity_of(ride.ground);
+  ride.place = result.position;
+  if (mover == no_mover) return;
+  ride.place = position + shift_at_end(mover);
+  result.position = offset(mover, 1) + ride.place;
+}
+
+template <class Scalar>
 bool FrameOfReference<Scalar>::carries(ColliderIndex ground) const noexcept {
   const ColliderDef& collider = scenery_->as_run().colliders[ground];
   return collider.mover != no_mover || collider.surface_speed != 0;

@@ -40,6 +40,10 @@ class FrameOfReference {
   /// Where the pieces of a mover are at a fraction of the step, relative to where they were defined [m].
   [[nodiscard]] Vec2<Scalar> offset(MoverIndex mover, Scalar fraction) const noexcept;
 
+  /// Fills in the result's position, and its ride where its `ride.ground` is set.
+  /// @param position where the step ends, in this frame.
+  void arrive(const Vec2<Scalar>& position, MoveResult<Scalar>& result) const noexcept;
+
   /// How far a conveyor's surface goes during the step [m]: along x, whatever its slope.
   [[nodiscard]] Vec2<Scalar> surface_motion(ColliderIndex ground) const noexcept;
 

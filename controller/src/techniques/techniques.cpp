@@ -83,6 +83,7 @@ namespace {
 /// Also of conveyors: what is carried.
 bool knows_movers(TechniqueKind kind) noexcept {
   switch (kind) {
+    case TechniqueKind::discrete:
     case TechniqueKind::penetration_resolution:
     case TechniqueKind::speculative_march:
     case TechniqueKind::speculative:
@@ -92,7 +93,6 @@ bool knows_movers(TechniqueKind kind) noexcept {
     case TechniqueKind::pixel_tile:
     case TechniqueKind::mask:
     case TechniqueKind::bounding_box:
-    case TechniqueKind::discrete:
     case TechniqueKind::wind_back:
     case TechniqueKind::octagon_sweep:
       break;

@@ -1,11 +1,15 @@
-/// The article's discrete collision detection for one character among static scenery: see `discrete::Solver`, which
-/// does the same for many moving bodies.
+/// The article's discrete collision detection for one character: see `discrete::Solver`, which does the same for many
+/// moving bodies. Movers are bodies that nothing can move.
 ///
 /// The knob `iterations` is the number of rounds, each with its own search for nearby pieces; the others have no
 /// meaning here. The response is the solver's: the part of the motion into a normal is taken away. The corners of the
 /// character are one convex body, whichever `points` are chosen, so nothing slips between two of them; but only the
 /// start and the end of a step are looked at, so paper is passed. A one-way segment stops what begins on its side of
 /// the normal. Stopped motion leaves a gap of `Tolerances::stop`. A contact's fraction is its time of impact.
+///
+/// What stands on a mover is carried: the frame is worked out in the mover's frame of reference. What comes to rest on
+/// it is carried at once, unless it had a speed of its own along it. A mover's push that leads through something that
+/// stands still, or ends in it, is none: the character stays where it was, and is crushed.
 #pragma once
 
 #include <paperproof/techniques.hpp>
