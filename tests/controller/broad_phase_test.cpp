@@ -97,6 +97,86 @@ TYPED_TEST(BroadPhases, buckets_and_tree_find_what_looking_at_every_box_finds_on
   EXPECT_GE(selective, queries * 3 / 10);
 }
 
+/// Boxes on a lattice, so that moving them is exact in either scalar; some stand still, the others go with movers.
+template <class Scalar>
+class MovingScene {
+ public:
+  explicit MovingScene(unsigned seed) : random_(seed) {
+    groups_.resize(1 + below(6));
+    offsets_.resize(groups_.size(), Vec2<Scalar>::Zero());  // the first stays where it is
+    for (std::size_t i = below(120); i > 0; --i) groups_[below(groups_.size())].push_back(box(16, 4));
+  }
+
+  void move_on() {
+    for (std::size_t i = 1; i < offsets_.size(); ++i) offsets_[i] += point(8);
+  }
+  Box2<Scalar> query() { return box(16, 12); }
+
+  /// Of each group in turn: one broad phase for it where it was defined, which is asked with the box as it is seen from
+  /// there.
+  [[nodiscard]] std::vector<PieceIndex> found_by_shifting(BroadPhaseKind kind, const Box2<Scalar>& query) const {
+    std::vector<PieceIndex> found;
+    PieceIndex first = 0;
+    for (std::size_t i = 0; i < groups_.size(); ++i) {
+      const auto broad_phase = make_broad_phase<Scalar>(kind, groups_[i]);
+      const Box2<Scalar> seen{query.lower - offsets_[i], query.upper - offsets_[i]};
+      for (const PieceIndex piece : all_found(*broad_phase, seen)) found.push_back(first + piece);
+      first += static_cast<PieceIndex>(groups_[i].size());
+    }
+    return found;
+  }
+  /// One broad phase over all boxes where they are now.
+  [[nodiscard]] std::vector<PieceIndex> found_by_moving(BroadPhaseKind kind, const Box2<Scalar>& query) const {
+    Boxes<Scalar> moved;
+    for (std::size_t i = 0; i < groups_.size(); ++i)
+      for (const Box2<Scalar>& box : groups_[i]) moved.push_back({box.lower + offsets_[i], box.upper + offsets_[i]});
+    return all_found(*make_broad_phase<Scalar>(kind, moved), query);
+  }
+
+ private:
+  std::size_t below(std::size_t count) { return random_() % count; }
+  Vec2<Scalar> point(int reach) {
+    const auto coordinate = [&] {
+      return static_cast<Scalar>(static_cast<int>(below(16U * static_cast<unsigned>(reach))) - 8 * reach) / 8;
+    };
+    const Scalar x = coordinate();
+    return {x, coordinate()};
+  }
+  Box2<Scalar> box(int reach, int size) {
+    const Vec2<Scalar> a = point(reach);
+    const Vec2<Scalar> b = a + point(size);
+    return {a.cwiseMin(b), a.cwiseMax(b)};
+  }
+
+  std::mt19937 random_;
+  std::vector<Boxes<Scalar>> groups_;
+  std::vector<Vec2<Scalar>> offsets_;
+};
+
+TYPED_TEST(BroadPhases, find_the_same_boxes_in_the_same_order_on_10000_scenes_that_move) {
+  using Scalar = TypeParam;
+  int queries = 0;
+  int not_empty = 0;
+  for (unsigned seed = 0; seed < 10000; ++seed) {
+    MovingScene<Scalar> scene(seed);
+    for (int step = 0; step < 2; ++step) {
+      const Box2<Scalar> query = scene.query();
+      const std::vector<PieceIndex> expected = scene.found_by_moving(BroadPhaseKind::all_pairs, query);
+      for (const BroadPhaseKind kind : all_kinds) {
+        const auto name = testing::Message()
+                          << "kind " << static_cast<int>(kind) << ", seed " << seed << ", step " << step;
+        ASSERT_EQ(scene.found_by_shifting(kind, query), expected) << name;
+        ASSERT_EQ(scene.found_by_moving(kind, query), expected) << name;
+      }
+      ++queries;
+      not_empty += expected.empty() ? 0 : 1;
+      scene.move_on();
+    }
+  }
+  EXPECT_GE(not_empty, queries * 2 / 10);
+  EXPECT_LE(not_empty, queries * 8 / 10);
+}
+
 TYPED_TEST(BroadPhases, looking_at_every_box_finds_exactly_those_that_overlap_in_ascending_order) {
   using Scalar = TypeParam;
   for (unsigned seed = 0; seed < 500; ++seed) {
