@@ -60,6 +60,7 @@ void adopt(const CharacterDef& character, const MoveResult<Scalar>& move, Charac
   state.remainder = move.remainder;
   state.grounded = move.grounded;
   state.ride = move.ride;
+  state.crushed = move.status == MoveStatus::crushed;
   if (move.grounded) state.jumping = false;
   state.wall_left = touches(move, Side::left);
   state.wall_right = touches(move, Side::right);
@@ -69,6 +70,7 @@ void adopt(const CharacterDef& character, const MoveResult<Scalar>& move, Charac
     state.stuck_steps = static_cast<std::uint8_t>(std::min(state.stuck_steps + 1, 255));
   } else {
     state.stuck_steps = 0;
+    if (state.crushed) return;  // something is on it
     state.last_free = move.position;
     state.has_last_free = true;
   }
@@ -113,13 +115,16 @@ StepStatus Controller<Scalar>::step(CharacterState<Scalar>& state, const Input& 
   report.sensors.clear();
   const bool usable = finite(state.position) && finite(state.velocity) && finite(state.remainder) && finite(gravity) &&
                       std::isfinite(dt) && dt > 0 && std::isfinite(input.move.value_or(0)) &&
-                      (!state.has_last_free || finite(state.last_free)) && movers.size() == scenery_->mover_count() &&
+                      (!state.has_last_free || finite(state.last_free)) && finite(state.ride.place) &&
+                      finite(state.ride.velocity) && movers.size() == scenery_->mover_count() &&
                       std::all_of(movers.begin(), movers.end(), [](const MoverMotion<Scalar>& mover) {
                         return finite(mover.from) && finite(mover.to);
                       });
   if (!usable) return report.status = StepStatus::invalid_input;
 
   CharacterState<Scalar> next = state;
+  // What is carried steers, jumps and falls relative to what carries it.
+  if (state.ride.ground != Ride<Scalar>::none) next.velocity -= state.ride.velocity;
   const Vec2<Scalar> velocity = desired_velocity(character_, gravity, input, dt, next);
   report.requested = velocity * dt;
   technique_->move({.position = state.position,
@@ -129,6 +134,7 @@ StepStatus Controller<Scalar>::step(CharacterState<Scalar>& state, const Input& 
                     .remainder = state.remainder,
                     .has_last_free = state.has_last_free,
                     .grounded = next.grounded,
+                    .crushed = state.crushed,
                     .movers = movers,
                     .dt = dt,
                     .ride = state.ride},

@@ -29,6 +29,7 @@ struct Stepper {
   Scratch<Scalar> scratch;
   CharacterState<Scalar> state;
   StepReport<Scalar> report;
+  std::vector<MoverMotion<Scalar>> movers;  ///< Of the next step.
   Vec2<Scalar> gravity{0, -10};
   Scalar dt = Scalar(1) / 60;
 
@@ -36,7 +37,8 @@ struct Stepper {
                    TechniqueKind kind = TechniqueKind::octagon_sweep)
       : scenery(std::make_unique<const Scenery<Scalar>>(SceneryDef{std::move(colliders)})),
         controller(*scenery, character, {.kind = kind}),
-        scratch(controller.make_scratch()) {}
+        scratch(controller.make_scratch()),
+        movers(scenery->mover_count()) {}
 
   Stepper& at(double x, double y) {
     state.position = Vec2d{x, y}.cast<Scalar>();
@@ -46,7 +48,14 @@ struct Stepper {
     state.velocity = Vec2d{x, y}.cast<Scalar>();
     return *this;
   }
-  StepStatus step(const Input& input = {}) { return controller.step(state, input, gravity, dt, scratch, report); }
+  StepStatus step(const Input& input = {}) {
+    return controller.step(state, input, gravity, dt, movers, scratch, report);
+  }
+  /// The mover goes on from where it is.
+  StepStatus step_with_mover_by(double x, double y, const Input& input = {}) {
+    for (MoverMotion<Scalar>& mover : movers) mover = {mover.to, mover.to + Vec2d{x, y}.cast<Scalar>()};
+    return step(input);
+  }
   /// A step of a second without gravity: the displacement is this, to the last bit.
   const MoveResult<Scalar>& fly(double x, double y) {
     state.velocity = Vec2d{x, y}.cast<Scalar>();

@@ -104,6 +104,9 @@ struct CharacterState {
   bool jump_pending = false;  ///< A press that has not become a jump yet.
   bool wall_left = false;     ///< The last step ended against something on the left.
   bool wall_right = false;
+  /// Movers left no room in the last step. While one of them is still on the character it stays where it is: it does
+  /// not come out on another side.
+  bool crushed = false;
   std::uint8_t stuck_steps = 0;  ///< How many steps in a row ended inside something.
   Ride<Scalar> ride;             ///< None on ground that does not move.
 

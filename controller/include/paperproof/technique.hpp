@@ -37,6 +37,7 @@ struct MoveRequest {
   Vec2<Scalar> remainder{Vec2<Scalar>::Zero()};     ///< See `CharacterState::remainder`.
   bool has_last_free = false;
   bool grounded = false;  ///< The last step ended on the ground, and this one does not begin with a jump.
+  bool crushed = false;   ///< See `CharacterState::crushed`.
   /// One for each mover of the scenery.
   std::span<const MoverMotion<Scalar>> movers{};
   Scalar dt = 0;  ///< [s]
@@ -55,9 +56,9 @@ enum class MoveStatus : std::uint8_t {
 
 template <class Scalar>
 struct MoveResult {
-  static constexpr std::size_t max_corners = 32;
-  static constexpr std::size_t max_contacts = 16;
-  static constexpr std::size_t max_crushed = 16;
+  static constexpr std::size_t max_corners = 64;
+  static constexpr std::size_t max_contacts = 32;
+  static constexpr std::size_t max_crushed = 64;
 
   MoveStatus status = MoveStatus::moved;
   Vec2<Scalar> position{Vec2<Scalar>::Zero()};

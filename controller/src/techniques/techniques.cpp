@@ -27,6 +27,8 @@ void require(bool holds, const std::string& what) {
 constexpr double max_raster_pixels_per_metre = 1000;
 /// Larger, and one type of tile takes half of the memory that a level may.
 constexpr int max_pixels_per_tile = 4096;
+/// Each impact is a corner of the path; the start, the end, a start that is put right and a snap are corners too.
+constexpr int max_sweep_iterations = static_cast<int>(MoveResult<double>::max_corners) - 4;
 
 /// @tparam Scalar in which the unit has to be a positive number too.
 template <class Scalar>
@@ -87,6 +89,7 @@ bool knows_movers(TechniqueKind kind) noexcept {
     case TechniqueKind::penetration_resolution:
     case TechniqueKind::speculative_march:
     case TechniqueKind::speculative:
+    case TechniqueKind::octagon_sweep:
       return true;
     case TechniqueKind::grid:
     case TechniqueKind::pixel_colour:
@@ -94,7 +97,6 @@ bool knows_movers(TechniqueKind kind) noexcept {
     case TechniqueKind::mask:
     case TechniqueKind::bounding_box:
     case TechniqueKind::wind_back:
-    case TechniqueKind::octagon_sweep:
       break;
   }
   return false;
@@ -107,8 +109,9 @@ std::unique_ptr<Technique<Scalar>> make_technique(const TechniqueDef& def, const
                                                   const CharacterDef& character) {
   character.validate();
   validate<Scalar>(def.article);
-  require(def.sweep_iterations >= 1,
-          "sweep_iterations: must be at least 1, not " + std::to_string(def.sweep_iterations));
+  require(def.sweep_iterations >= 1 && def.sweep_iterations <= max_sweep_iterations,
+          "sweep_iterations: must be from 1 to " + std::to_string(max_sweep_iterations) + ", not " +
+              std::to_string(def.sweep_iterations));
   if (!knows_movers(def.kind) && something_carries(scenery))
     throw NotExpressible(std::string(name_of(def.kind)) + " is for scenery that stands still");
   switch (def.kind) {

@@ -42,7 +42,8 @@ double open_share(std::vector<Interval>& covered) {
 
 template <class Scalar>
 ConfigurationSpace<Scalar>::ConfigurationSpace(const Scenery<Scalar>& scenery, const CharacterShape& shape,
-                                               const BroadPhase<Scalar>& broad_phase)
+                                               const BroadPhase<Scalar>& broad_phase,
+                                               const MoverPhases<Scalar>& mover_phases)
     : scenery_(scenery) {
   for (const Vec2d& point : shape.hull()) hull_.push_back(point.cast<Scalar>());
   hull_box_ = {shape.box().lower.cast<Scalar>(), shape.box().upper.cast<Scalar>()};
@@ -59,13 +60,28 @@ ConfigurationSpace<Scalar>::ConfigurationSpace(const Scenery<Scalar>& scenery, c
   info_.reserve(count);
   for (PieceIndex piece = 0; piece < count; ++piece) build_obstacle(piece);
 
+  // Only what keeps its place relative to a piece can cover its facets: the pieces that go with the same mover, or
+  // none.
   const Vec2<Scalar> reach = hull_box_.upper - hull_box_.lower;
   std::vector<PieceIndex> neighbours(count);
-  for (PieceIndex piece = 0; piece < count; ++piece) {
-    const Box2<Scalar>& box = scenery.box(piece);
-    const std::size_t found = broad_phase.query({box.lower - reach, box.upper + reach}, neighbours);
+  const auto around = [&](PieceIndex piece) -> Box2<Scalar> {
+    return {scenery.box(piece).lower - reach, scenery.box(piece).upper + reach};
+  };
+  for (PieceIndex piece = 0; piece < scenery.static_pieces().end; ++piece) {
+    const std::size_t found = broad_phase.query(around(piece), neighbours);
     build_covered(piece, {neighbours.data(), found});
   }
+  for (MoverIndex mover = 0; mover < mover_phases.size(); ++mover) {
+    const PieceRange pieces = scenery.pieces_of_mover(mover);
+    for (PieceIndex piece = pieces.first; piece < pieces.end; ++piece)
+      build_covered(piece, mover_phases.query(mover, around(piece), neighbours));
+  }
+}
+
+template <class Scalar>
+bool ConfigurationSpace<Scalar>::has_own_axes() const noexcept {
+  const auto blocking = std::span(info_).first(scenery_.sensor_pieces().first);
+  return std::any_of(blocking.begin(), blocking.end(), [](const ObstacleInfo& info) { return info.own_count > 0; });
 }
 
 template <class Scalar>

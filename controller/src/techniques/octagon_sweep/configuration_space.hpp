@@ -11,9 +11,12 @@
 /// products with p and with the motion are formed once per motion, and a tile costs a handful of subtractions.
 #pragma once
 
+#include "techniques/octagon_sweep/mover_phases.hpp"
+
 #include <paperproof/broad_phase.hpp>
 #include <paperproof/character.hpp>
 #include <paperproof/scenery.hpp>
+#include <paperproof/tolerances.hpp>
 
 #include <span>
 #include <vector>
@@ -62,14 +65,19 @@ class ConfigurationSpace {
 
   /// `scenery` must outlive it.
   /// @throws InvalidScenery for a piece with more edges than axes are kept for.
-  ConfigurationSpace(const Scenery<Scalar>& scenery, const CharacterShape& shape,
-                     const BroadPhase<Scalar>& broad_phase);
+  ConfigurationSpace(const Scenery<Scalar>& scenery, const CharacterShape& shape, const BroadPhase<Scalar>& broad_phase,
+                     const MoverPhases<Scalar>& mover_phases);
 
   [[nodiscard]] const Scenery<Scalar>& scenery() const noexcept { return scenery_; }
   /// Hull of the character, counter-clockwise, rounded to Scalar [m].
   [[nodiscard]] std::span<const Vec2<Scalar>> hull() const noexcept { return {hull_.begin(), hull_.end()}; }
   /// Box of the hull, around position zero.
   [[nodiscard]] const Box2<Scalar>& hull_box() const noexcept { return hull_box_; }
+
+  /// What the octagon covers or touches while its reference point is in `box` [m].
+  [[nodiscard]] Box2<Scalar> touched_from(const Box2<Scalar>& box) const noexcept {
+    return Box2<Scalar>{box.lower + hull_box_.lower, box.upper + hull_box_.upper}.inflated(Tolerances<Scalar>{}.touch);
+  }
 
   /// Shared axes per piece: 8 or 12. Unused ones have a zero normal and an offset that is never the largest.
   [[nodiscard]] std::size_t lanes() const noexcept { return lanes_; }
@@ -83,6 +91,8 @@ class ConfigurationSpace {
   [[nodiscard]] std::span<const OwnAxis<Scalar>> own_axes(PieceIndex piece) const noexcept {
     return std::span(own_axes_).subspan(info_[piece].first_own, info_[piece].own_count);
   }
+  /// Some piece that blocks has an axis of its own.
+  [[nodiscard]] bool has_own_axes() const noexcept;
   [[nodiscard]] std::size_t axis_count(PieceIndex piece) const noexcept { return lanes_ + info_[piece].own_count; }
   [[nodiscard]] Vec2<Scalar> normal(PieceIndex piece, std::size_t axis) const noexcept {
     if (axis < lanes_) return {shared_x_[axis], shared_y_[axis]};

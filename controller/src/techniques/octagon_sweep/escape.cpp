@@ -26,9 +26,9 @@ struct OpenFacet {
 template <std::size_t Lanes, class Scalar>
 class Escape {
  public:
-  Escape(const ConfigurationSpace<Scalar>& space, std::span<const PieceIndex> candidates, const Vec2<Scalar>& from,
-         const Vec2<Scalar>* last_free) noexcept
-      : space_(space), candidates_(candidates), from_(from), last_free_(last_free) {}
+  Escape(const ConfigurationSpace<Scalar>& space, std::span<const PieceIndex> candidates,
+         std::span<const MoverMotion<Scalar>> movers, const Vec2<Scalar>& from, const Vec2<Scalar>* last_free) noexcept
+      : space_(space), candidates_(candidates), movers_(movers), from_(from), last_free_(last_free) {}
 
   std::optional<Vec2<Scalar>> find() noexcept {
     collect_solids();
@@ -43,15 +43,25 @@ class Escape {
  private:
   void collect_solids() noexcept {
     for (const PieceIndex piece : candidates_)
-      if (solid(piece) && near(piece, from_) && overlaps_exactly(space_, piece, from_)) inside_.push_back(piece);
+      if (solid(piece) && near(piece, from_) && overlaps_exactly(space_, piece, local(piece, from_)))
+        inside_.push_back(piece);
   }
+
+  /// Where a piece is while its mover is at the step's start, relative to where it was built.
+  [[nodiscard]] Vec2<Scalar> offset(PieceIndex piece) const noexcept {
+    const MoverIndex mover = space_.scenery().pieces()[piece].mover;
+    if (mover == no_mover) return Vec2<Scalar>::Zero();
+    return movers_[mover].from;
+  }
+  /// A position as a piece that has not moved would see it.
+  [[nodiscard]] Vec2<Scalar> local(PieceIndex piece, const Vec2<Scalar>& p) const noexcept { return p - offset(piece); }
 
   [[nodiscard]] bool solid(PieceIndex piece) const noexcept {
     return space_.info(piece).one_way_axis == ObstacleInfo::not_one_way;
   }
 
   [[nodiscard]] bool near(PieceIndex piece, const Vec2<Scalar>& p) const noexcept {
-    return best_axis<Lanes>(space_, piece, p).separation < Tolerances<Scalar>{}.certain;
+    return best_axis<everything>(space_, piece, local(piece, p)).separation < Tolerances<Scalar>{}.certain;
   }
 
   /// Whether a piece belongs to a collider that the start is inside of: such a one may be passed on the way out.
@@ -74,12 +84,12 @@ class Escape {
 
   [[nodiscard]] OpenFacet<Scalar> open_facet(PieceIndex piece, std::size_t axis, const Vec2<Scalar>& n) const noexcept {
     const auto facet = space_.facet(piece, axis);
-    const Vec2d from = from_.template cast<double>();
+    const Vec2d from = local(piece, from_).template cast<double>();
     const Vec2d span = facet.to - facet.from;
     const double squared = span.dot(span);
     const double share = squared > 0 ? std::clamp(span.dot(from - facet.from) / squared, 0.0, 1.0) : 0.0;
     const Vec2d foot = facet.from + span * share;
-    const Vec2<Scalar> out = foot.template cast<Scalar>() + n * Tolerances<Scalar>{}.stop;
+    const Vec2<Scalar> out = foot.template cast<Scalar>() + n * Tolerances<Scalar>{}.stop + offset(piece);
     return {piece, axis, out, length_of(Vec2<Scalar>(out - from_))};
   }
 
@@ -97,8 +107,8 @@ class Escape {
     const Scalar determinant = na.x() * nb.y() - na.y() * nb.x();
     if (std::abs(determinant) < Tolerances<Scalar>{}.hit) return;
     const Scalar gap = Tolerances<Scalar>{}.stop;
-    const Scalar da = gap - space_.separation(a.piece, a.axis, from_);
-    const Scalar db = gap - space_.separation(b.piece, b.axis, from_);
+    const Scalar da = gap - space_.separation(a.piece, a.axis, local(a.piece, from_));
+    const Scalar db = gap - space_.separation(b.piece, b.axis, local(b.piece, from_));
     consider(from_ +
              Vec2<Scalar>((da * nb.y() - db * na.y()) / determinant, (db * na.x() - da * nb.x()) / determinant));
   }
@@ -121,7 +131,8 @@ class Escape {
 
   [[nodiscard]] bool roomy(const Vec2<Scalar>& q) const noexcept {
     for (const PieceIndex piece : candidates_)
-      if (solid(piece) && best_axis<Lanes>(space_, piece, q).separation < Tolerances<Scalar>{}.hit) return false;
+      if (solid(piece) && best_axis<everything>(space_, piece, local(piece, q)).separation < Tolerances<Scalar>{}.hit)
+        return false;
     return true;
   }
 
@@ -130,23 +141,29 @@ class Escape {
   /// Whether the straight way meets nothing but, where allowed, the solids that the start is inside of; and no one-way
   /// segment against its normal.
   [[nodiscard]] bool clear(const Vec2<Scalar>& from, const Vec2<Scalar>& to, bool leaving) const noexcept {
-    const Motion<Lanes, Scalar> motion = make_motion<Lanes>(space_, from, Vec2<Scalar>(to - from));
-    for (const PieceIndex piece : candidates_) {
-      if ((leaving && solid(piece) && may_pass(piece)) || !blocks(space_, motion, piece)) continue;
-      bool certain = false;
-      for (std::size_t axis = 0; axis < space_.axis_count(piece) && !certain; ++axis)
-        certain = space_.separation(piece, axis, from) >= Tolerances<Scalar>{}.certain &&
-                  space_.separation(piece, axis, to) >= Tolerances<Scalar>{}.certain;
-      if (certain || clear_of_exactly(space_, piece, from, to)) continue;
-      const Clearance<Scalar> room = clearance(space_, motion, piece);
-      if (room.start < Tolerances<Scalar>{}.certain) return false;
-      if (!room.clear() && sweep_piece(space_, motion, piece, room).hit) return false;
-    }
+    for (const PieceIndex piece : candidates_)
+      if (!(leaving && solid(piece) && may_pass(piece)) && !clear(piece, local(piece, from), local(piece, to)))
+        return false;
     return true;
   }
 
+  [[nodiscard]] bool clear(PieceIndex piece, const Vec2<Scalar>& from, const Vec2<Scalar>& to) const noexcept {
+    const Motion<Lanes, Scalar> motion = make_motion<everything>(space_, from, Vec2<Scalar>(to - from));
+    if (!blocks<everything>(space_, motion, piece)) return true;
+    for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis)
+      if (space_.separation(piece, axis, from) >= Tolerances<Scalar>{}.certain &&
+          space_.separation(piece, axis, to) >= Tolerances<Scalar>{}.certain)
+        return true;
+    if (clear_of_exactly(space_, piece, from, to)) return true;
+    const Clearance<Scalar> room = clearance<everything>(space_, motion, piece);
+    if (room.start < Tolerances<Scalar>{}.certain) return false;
+    return room.clear() || !sweep_piece<everything>(space_, motion, piece, room).hit;
+  }
+
+  static constexpr Variant everything{.lanes = Lanes};
   const ConfigurationSpace<Scalar>& space_;
   std::span<const PieceIndex> candidates_;
+  std::span<const MoverMotion<Scalar>> movers_;
   Vec2<Scalar> from_;
   const Vec2<Scalar>* last_free_;
   FixedVector<PieceIndex, max_inside> inside_;
@@ -161,13 +178,15 @@ class Escape {
 
 template <std::size_t Lanes, class Scalar>
 std::optional<Vec2<Scalar>> way_out(const ConfigurationSpace<Scalar>& space, std::span<const PieceIndex> candidates,
-                                    const Vec2<Scalar>& from, const Vec2<Scalar>* last_free) noexcept {
-  return Escape<Lanes, Scalar>{space, candidates, from, last_free}.find();
+                                    std::span<const MoverMotion<Scalar>> movers, const Vec2<Scalar>& from,
+                                    const Vec2<Scalar>* last_free) noexcept {
+  return Escape<Lanes, Scalar>{space, candidates, movers, from, last_free}.find();
 }
 
 #define PAPERPROOF_INSTANTIATE(Lanes, Scalar)                                                                         \
   template std::optional<Vec2<Scalar>> way_out<Lanes>(const ConfigurationSpace<Scalar>&, std::span<const PieceIndex>, \
-                                                      const Vec2<Scalar>&, const Vec2<Scalar>*) noexcept;
+                                                      std::span<const MoverMotion<Scalar>>, const Vec2<Scalar>&,      \
+                                                      const Vec2<Scalar>*) noexcept;
 PAPERPROOF_INSTANTIATE(8, float)
 PAPERPROOF_INSTANTIATE(8, double)
 PAPERPROOF_INSTANTIATE(12, float)

@@ -3,7 +3,7 @@
 
 #include "techniques/octagon_sweep/configuration_space.hpp"
 
-#include <paperproof/broad_phase.hpp>
+#include <paperproof/types.hpp>
 
 #include <optional>
 
@@ -14,12 +14,15 @@ namespace paperproof::octagon_sweep {
 /// first: out to the side one came from.
 ///
 /// Slow (it looks at pairs of facets), and exact in its checks. Allocates nothing.
+/// Movers are taken where they are when the step begins.
 /// @param candidates every piece that may be met on the way. A result further from `from` than they are known to reach
 ///   has to be asked for again with more.
+/// @param movers those of the candidates' scenery; may be empty where no candidate moves.
 /// @return nothing where there is no such position.
 template <std::size_t Lanes, class Scalar>
 [[nodiscard]] std::optional<Vec2<Scalar>> way_out(const ConfigurationSpace<Scalar>& space,
-                                                  std::span<const PieceIndex> candidates, const Vec2<Scalar>& from,
+                                                  std::span<const PieceIndex> candidates,
+                                                  std::span<const MoverMotion<Scalar>> movers, const Vec2<Scalar>& from,
                                                   const Vec2<Scalar>* last_free) noexcept;
 
 }  // namespace paperproof::octagon_sweep

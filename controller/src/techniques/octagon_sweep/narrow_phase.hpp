@@ -5,6 +5,7 @@
 #pragma once
 
 #include "techniques/octagon_sweep/configuration_space.hpp"
+#include "techniques/octagon_sweep/variant.hpp"
 
 #include <paperproof/tolerances.hpp>
 
@@ -41,15 +42,14 @@ template <class Scalar>
   return scale * std::sqrt(x * x + y * y);
 }
 
-template <std::size_t Lanes, class Scalar>
-[[nodiscard, gnu::always_inline]] inline Motion<Lanes, Scalar> make_motion(const ConfigurationSpace<Scalar>& space,
-                                                                           const Vec2<Scalar>& from,
-                                                                           const Vec2<Scalar>& way) noexcept {
+template <Variant variant, class Scalar>
+[[nodiscard, gnu::always_inline]] inline Motion<variant.lanes, Scalar> make_motion(
+    const ConfigurationSpace<Scalar>& space, const Vec2<Scalar>& from, const Vec2<Scalar>& way) noexcept {
   // A shorter motion would make the reach infinite.
   constexpr Scalar shortest = std::numeric_limits<Scalar>::min() * Scalar(1e8);
-  const PerAxis<Lanes, Scalar> x = PerAxis<Lanes, Scalar>::Map(space.shared_x().data());
-  const PerAxis<Lanes, Scalar> y = PerAxis<Lanes, Scalar>::Map(space.shared_y().data());
-  Motion<Lanes, Scalar> motion;
+  const PerAxis<variant.lanes, Scalar> x = PerAxis<variant.lanes, Scalar>::Map(space.shared_x().data());
+  const PerAxis<variant.lanes, Scalar> y = PerAxis<variant.lanes, Scalar>::Map(space.shared_y().data());
+  Motion<variant.lanes, Scalar> motion;
   motion.from = from;
   motion.way = way;
   motion.length = length_of(way);
@@ -70,15 +70,16 @@ struct AxisRanges {
   std::array<Scalar, ConfigurationSpace<Scalar>::max_axes> end;
 };
 
-template <std::size_t Lanes, class Scalar>
+template <Variant variant, class Scalar>
 [[gnu::always_inline]] inline void find_ranges(const ConfigurationSpace<Scalar>& space,
-                                               const Motion<Lanes, Scalar>& motion, PieceIndex piece,
+                                               const Motion<variant.lanes, Scalar>& motion, PieceIndex piece,
                                                AxisRanges<Scalar>& f) noexcept {
-  using Shared = PerAxis<Lanes, Scalar>;
+  using Shared = PerAxis<variant.lanes, Scalar>;
   const Shared start = motion.at - Shared::Map(space.shared_offsets(piece));
   Shared::Map(f.start.data()) = start;
   Shared::Map(f.end.data()) = start + motion.along;
-  f.count = Lanes;
+  f.count = variant.lanes;
+  if constexpr (!variant.slopes) return;
   for (const OwnAxis<Scalar>& own : space.own_axes(piece)) {
     const Scalar at = own.normal.x() * motion.from.x() + own.normal.y() * motion.from.y() - own.offset;
     f.start[f.count] = at;
@@ -98,14 +99,15 @@ struct Clearance {
   [[nodiscard]] bool clear() const noexcept { return kept >= tau(); }
 };
 
-template <std::size_t Lanes, class Scalar>
+template <Variant variant, class Scalar>
 [[nodiscard, gnu::always_inline]] inline Clearance<Scalar> clearance(const ConfigurationSpace<Scalar>& space,
-                                                                     const Motion<Lanes, Scalar>& motion,
+                                                                     const Motion<variant.lanes, Scalar>& motion,
                                                                      PieceIndex piece) noexcept {
-  using Shared = PerAxis<Lanes, Scalar>;
+  using Shared = PerAxis<variant.lanes, Scalar>;
   const Shared start = motion.at - Shared::Map(space.shared_offsets(piece));
   const Shared least = start.min(start + motion.along);
   Clearance<Scalar> result{start.maxCoeff(), least.maxCoeff()};
+  if constexpr (!variant.slopes) return result;
   if (space.info(piece).own_count == 0) return result;
   for (const OwnAxis<Scalar>& own : space.own_axes(piece)) {
     const Scalar at = own.normal.x() * motion.from.x() + own.normal.y() * motion.from.y() - own.offset;
@@ -170,14 +172,14 @@ class LastEntry {
 /// below tau comes before the earliest exit above it. It is then stopped where it enters the larger region below
 /// `stop`. The obstacle is inflated instead of backing off along the motion: where the motion grazes, its time of
 /// impact is ill-conditioned, but the separations are not.
-template <std::size_t Lanes, class Scalar>
+template <Variant variant, class Scalar>
 [[nodiscard, gnu::always_inline]] inline PieceHit<Scalar> sweep_piece(const ConfigurationSpace<Scalar>& space,
-                                                                      const Motion<Lanes, Scalar>& motion,
+                                                                      const Motion<variant.lanes, Scalar>& motion,
                                                                       PieceIndex piece,
                                                                       const Clearance<Scalar>& clear) noexcept {
   constexpr Tolerances<Scalar> tolerances{};
   AxisRanges<Scalar> f;
-  find_ranges(space, motion, piece, f);
+  find_ranges<variant>(space, motion, piece, f);
   const Scalar tau = clear.tau();
   const bool touching = clear.start <= tolerances.touch;
   LastEntry<Scalar> last(space, piece);
@@ -224,15 +226,16 @@ struct BestAxis {
   Scalar separation = 0;
 };
 
-template <std::size_t Lanes, class Scalar>
+template <Variant variant, class Scalar>
 [[nodiscard, gnu::always_inline]] inline BestAxis<Scalar> best_axis(const ConfigurationSpace<Scalar>& space,
                                                                     PieceIndex piece, const Vec2<Scalar>& p) noexcept {
-  using Shared = PerAxis<Lanes, Scalar>;
+  using Shared = PerAxis<variant.lanes, Scalar>;
   const Shared f = Shared::Map(space.shared_x().data()) * p.x() + Shared::Map(space.shared_y().data()) * p.y() -
                    Shared::Map(space.shared_offsets(piece));
   BestAxis<Scalar> best{0, f.maxCoeff()};
   while (f[static_cast<Eigen::Index>(best.axis)] != best.separation) ++best.axis;
-  for (std::size_t axis = Lanes; axis < space.axis_count(piece); ++axis) {
+  if constexpr (!variant.slopes) return best;
+  for (std::size_t axis = variant.lanes; axis < space.axis_count(piece); ++axis) {
     const Scalar separation = space.separation(piece, axis, p);
     if (separation > best.separation) best = {axis, separation};
   }

@@ -1,6 +1,6 @@
 #include "techniques/octagon_sweep/octagon_sweep.hpp"
 
-#include "techniques/octagon_sweep/step_solver.hpp"
+#include "techniques/octagon_sweep/solvers.hpp"
 
 #include <cmath>
 #include <numbers>
@@ -18,20 +18,54 @@ template <class Scalar>
 Settings<Scalar> settings_for(const TechniqueDef& def, const CharacterDef& character) {
   const double limit = character.max_climb_degrees * std::numbers::pi / 180;
   const Vec2d extent = character.shape.box().upper - character.shape.box().lower;
-  return {.walkable_cosine = static_cast<Scalar>(std::cos(limit)),
-          .walkable_tangent = static_cast<Scalar>(std::tan(limit)),
-          .snap = static_cast<Scalar>(character.snap),
-          .look_ahead = static_cast<Scalar>(look_ahead_share * std::max(extent.x(), extent.y())),
-          .iterations = def.sweep_iterations};
+  return {
+      .walkable_cosine = static_cast<Scalar>(std::cos(limit)),
+      .walkable_tangent = static_cast<Scalar>(std::tan(limit)),
+      .snap = static_cast<Scalar>(character.snap),
+      .max_fall_speed = static_cast<Scalar>(character.max_fall_speed.value_or(std::numeric_limits<double>::infinity())),
+      .look_ahead = static_cast<Scalar>(look_ahead_share * std::max(extent.x(), extent.y())),
+      .iterations = def.sweep_iterations};
+}
+
+void refuse_omission(bool unsafe, const char* stage, const char* reason) {
+  if (unsafe) throw std::invalid_argument("stages: " + std::string(stage) + " cannot be left out: " + reason);
 }
 
 template <class Scalar>
-class OctagonSweep final : public Technique<Scalar> {
+bool has_conveyors(const Scenery<Scalar>& scenery) {
+  const std::vector<ColliderDef>& colliders = scenery.as_run().colliders;
+  return std::any_of(colliders.begin(), colliders.end(), [](const ColliderDef& c) { return c.surface_speed != 0; });
+}
+
+template <class Scalar>
+void check(const Stages& stages, const Scenery<Scalar>& scenery, const CharacterDef& character,
+           const ConfigurationSpace<Scalar>& space) {
+  const auto pieces = scenery.pieces();
+  const bool one_way = std::any_of(pieces.begin(), pieces.end(), [](const PieceInfo& piece) { return piece.one_way; });
+  refuse_omission(!stages.movers && scenery.mover_count() > 0, "movers", "something moves");
+  refuse_omission(!stages.movers && has_conveyors(scenery), "movers", "there is a conveyor");
+  refuse_omission(!stages.one_way && one_way, "one_way", "there is a one-way chain");
+  refuse_omission(!stages.slopes && space.has_own_axes(), "slopes",
+                  "there is an edge that is parallel to no side of the character or of its box");
+  refuse_omission(!stages.snap && character.snap > 0, "snap", "the character follows the ground down");
+}
+
+/// Among scenery that stands still.
+template <class Scalar>
+class OctagonSweep : public Technique<Scalar> {
  public:
   OctagonSweep(const TechniqueDef& def, const Scenery<Scalar>& scenery, const CharacterDef& character)
       : broad_phase_(make_broad_phase<Scalar>(def.broad_phase, scenery.static_boxes())),
-        space_(scenery, character.shape, *broad_phase_),
-        settings_(settings_for<Scalar>(def, character)) {}
+        mover_phases_(def.broad_phase, scenery),
+        space_(scenery, character.shape, *broad_phase_, mover_phases_),
+        settings_(settings_for<Scalar>(def, character)),
+        solve_(still_solver<Scalar>({.lanes = space_.lanes(),
+                                     .movers = false,
+                                     .one_way = def.stages.one_way,
+                                     .slopes = def.stages.slopes,
+                                     .snap = def.stages.snap})) {
+    check(def.stages, scenery, character, space_);
+  }
 
   [[nodiscard]] std::string_view name() const noexcept override { return name_of(TechniqueKind::octagon_sweep); }
 
@@ -44,22 +78,17 @@ class OctagonSweep final : public Technique<Scalar> {
   void move(const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,
             MoveResult<Scalar>& result) const noexcept override {
     result.clear();
-    if (!in_range(request)) {
-      result.status = MoveStatus::out_of_range;
-      result.position = request.position;
-      result.velocity = request.velocity;
-      result.path.push_back({request.position, 0});
-      result.path.push_back({request.position, 1});
-      return;
-    }
-    const Neighbourhood<Scalar> neighbourhood{space_, *broad_phase_, settings_.look_ahead, scratch};
-    if (space_.lanes() == 8)
-      StepSolver<8, Scalar>{space_, settings_, neighbourhood, result}.solve(request);
+    if (in_range(request))
+      solve_(space_, settings_, neighbourhood(scratch), request, result);
     else
-      StepSolver<12, Scalar>{space_, settings_, neighbourhood, result}.solve(request);
+      refuse(request, result);
   }
 
- private:
+ protected:
+  [[nodiscard]] Neighbourhood<Scalar> neighbourhood(Scratch<Scalar>& scratch) const noexcept {
+    return {space_, *broad_phase_, settings_.look_ahead, scratch};
+  }
+
   [[nodiscard]] static bool in_range(const MoveRequest<Scalar>& request) noexcept {
     constexpr Scalar range = Tolerances<Scalar>{}.range;
     const Vec2<Scalar> target = request.position + request.displacement;
@@ -68,9 +97,88 @@ class OctagonSweep final : public Technique<Scalar> {
     return within(request.position.x()) && within(request.position.y()) && within(target.x()) && within(target.y());
   }
 
+  static void refuse(const MoveRequest<Scalar>& request, MoveResult<Scalar>& result) noexcept {
+    result.status = MoveStatus::out_of_range;
+    result.position = request.position;
+    result.velocity = request.velocity + request.ride.velocity;
+    result.ride = request.ride;
+    result.path.push_back({request.position, 0});
+    result.path.push_back({request.position, 1});
+  }
+
   std::unique_ptr<BroadPhase<Scalar>> broad_phase_;
+  MoverPhases<Scalar> mover_phases_;
   ConfigurationSpace<Scalar> space_;
   Settings<Scalar> settings_;
+  SolveStill<Scalar> solve_;
+};
+
+/// Among movers and conveyors.
+template <class Scalar>
+class OctagonSweepAmongMovers final : public OctagonSweep<Scalar> {
+ public:
+  OctagonSweepAmongMovers(const TechniqueDef& def, const Scenery<Scalar>& scenery, const CharacterDef& character)
+      : OctagonSweep<Scalar>(def, scenery, character),
+        solve_moving_(moving_solver<Scalar>(this->space_.lanes())),
+        has_conveyors_(has_conveyors(scenery)) {}
+
+  [[nodiscard]] Scratch<Scalar> make_scratch() const override {
+    Scratch<Scalar> scratch = OctagonSweep<Scalar>::make_scratch();
+    scratch.own = std::make_unique<MoverMemory>(this->space_.scenery().pieces().size());
+    return scratch;
+  }
+
+  /// A step that keeps away from everything that moves is one without movers, and costs no more.
+  void move(const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,
+            MoveResult<Scalar>& result) const noexcept override {
+    result.clear();
+    if (!this->in_range(request) || request.movers.size() != mover_phases().size() ||
+        (!request.movers.empty() && !(request.dt > 0)))
+      return this->refuse(request, result);
+    const Neighbourhood<Scalar> neighbourhood = this->neighbourhood(scratch);
+    const Box2<Scalar> start{request.position, request.position};
+    if (request.ride.ground == Ride<Scalar>::none && keeps_away(start, request)) {
+      this->solve_(this->space_, this->settings_, neighbourhood, request, result);
+      if ((request.movers.empty() || keeps_away(box_of(result.path), request)) && !meets_conveyor(result)) return;
+      result.clear();
+    }
+    auto& memory = static_cast<MoverMemory&>(*scratch.own);
+    const Surroundings<Scalar> surroundings{mover_phases(), request.movers, request.dt, memory};
+    solve_moving_(this->space_, this->settings_, neighbourhood, surroundings, request, result);
+  }
+
+ private:
+  [[nodiscard]] const MoverPhases<Scalar>& mover_phases() const noexcept { return this->mover_phases_; }
+
+  template <class Path>
+  [[nodiscard]] static Box2<Scalar> box_of(const Path& path) noexcept {
+    Box2<Scalar> box{path[0].position, path[0].position};
+    for (const PathPoint<Scalar>& corner : path) box = box.merged({corner.position, corner.position});
+    return box;
+  }
+
+  /// Whether no mover comes near a character that is anywhere in a box, during the whole step.
+  [[nodiscard]] bool keeps_away(const Box2<Scalar>& positions, const MoveRequest<Scalar>& request) const noexcept {
+    const Box2<Scalar> touched = this->space_.touched_from(positions.inflated(Tolerances<Scalar>{}.look));
+    for (MoverIndex mover = 0; mover < mover_phases().size(); ++mover) {
+      const Box2<Scalar>& whole = mover_phases().whole(mover);
+      const MoverMotion<Scalar>& motion = request.movers[mover];
+      const Box2<Scalar> swept{whole.lower + motion.from.cwiseMin(motion.to),
+                               whole.upper + motion.from.cwiseMax(motion.to)};
+      if (touched.overlaps(swept)) return false;
+    }
+    return true;
+  }
+
+  [[nodiscard]] bool meets_conveyor(const MoveResult<Scalar>& result) const noexcept {
+    if (!has_conveyors_) return false;
+    const std::vector<ColliderDef>& colliders = this->space_.scenery().as_run().colliders;
+    return std::any_of(result.contacts.begin(), result.contacts.end(),
+                       [&](const Contact<Scalar>& contact) { return colliders[contact.collider].surface_speed != 0; });
+  }
+
+  SolveMoving<Scalar> solve_moving_;
+  bool has_conveyors_;
 };
 
 }  // namespace
@@ -78,6 +186,7 @@ class OctagonSweep final : public Technique<Scalar> {
 template <class Scalar>
 std::unique_ptr<Technique<Scalar>> make_octagon_sweep(const TechniqueDef& def, const Scenery<Scalar>& scenery,
                                                       const CharacterDef& character) {
+  if (def.stages.movers) return std::make_unique<OctagonSweepAmongMovers<Scalar>>(def, scenery, character);
   return std::make_unique<OctagonSweep<Scalar>>(def, scenery, character);
 }
 

@@ -8,9 +8,11 @@ namespace paperproof::octagon_sweep {
 
 /// Whether a piece can stop a motion at all. A solid always can. A one-way segment blocks motion against its normal
 /// that begins with the whole octagon on the side of the normal; near the line that is decided exactly.
-template <std::size_t Lanes, class Scalar>
+template <Variant variant, class Scalar>
 [[nodiscard, gnu::always_inline]] inline bool blocks(const ConfigurationSpace<Scalar>& space,
-                                                     const Motion<Lanes, Scalar>& motion, PieceIndex piece) noexcept {
+                                                     const Motion<variant.lanes, Scalar>& motion,
+                                                     PieceIndex piece) noexcept {
+  if constexpr (!variant.one_way) return true;
   constexpr Tolerances<Scalar> tolerances{};
   const std::size_t axis = space.info(piece).one_way_axis;
   if (axis == ObstacleInfo::not_one_way) return true;

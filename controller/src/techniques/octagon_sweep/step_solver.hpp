@@ -1,14 +1,19 @@
 /// The working state of one step of the octagon sweep.
+///
+/// The definitions are in step_sweep.hpp, step_start.hpp, step_travel.hpp and, where something moves, step_ride.hpp and
+/// step_among_movers.hpp: each instance is compiled as a whole, so that what is called from one place is inlined.
 #pragma once
 
-#include "techniques/octagon_sweep/configuration_space.hpp"
 #include "techniques/octagon_sweep/narrow_phase.hpp"
+#include "techniques/octagon_sweep/neighbourhood.hpp"
+#include "techniques/octagon_sweep/variant.hpp"
 
 #include <paperproof/technique.hpp>
 #include <paperproof/tolerances.hpp>
 
 #include <optional>
 #include <span>
+#include <type_traits>
 
 namespace paperproof::octagon_sweep {
 
@@ -18,38 +23,17 @@ struct Settings {
   Scalar walkable_cosine;   ///< Least upward component of a normal that is walked on.
   Scalar walkable_tangent;  ///< Steepest walkable slope, as rise over run.
   Scalar snap;              ///< How far down ground is followed [m].
+  Scalar max_fall_speed;    ///< Ground that falls faster leaves its rider behind [m/s]; infinite: none does.
   Scalar look_ahead;        ///< How far ahead of a motion candidates are collected at most [m].
   int iterations;
-};
-
-/// Which pieces the solver may have to look at. Superset of what meets a box; kept between steps.
-template <class Scalar>
-class Neighbourhood {
- public:
-  Neighbourhood(const ConfigurationSpace<Scalar>& space, const BroadPhase<Scalar>& broad_phase, Scalar look_ahead,
-                Scratch<Scalar>& scratch) noexcept
-      : space_(space), broad_phase_(broad_phase), look_ahead_(look_ahead), scratch_(scratch) {}
-
-  /// Every piece that the octagon can touch while its reference point is in `box`, and perhaps more; ascending.
-  /// @param way where it is going [m]: what is there will be wanted next.
-  [[nodiscard]] std::span<const PieceIndex> around(const Box2<Scalar>& box,
-                                                   const Vec2<Scalar>& way = Vec2<Scalar>::Zero()) noexcept;
-
-  /// What comes next does not depend on what was collected before, not even in how much more it is.
-  void forget() noexcept { scratch_.valid = false; }
-
- private:
-  const ConfigurationSpace<Scalar>& space_;
-  const BroadPhase<Scalar>& broad_phase_;
-  Scalar look_ahead_;
-  Scratch<Scalar>& scratch_;
 };
 
 /// A piece that stops a motion.
 template <class Scalar>
 struct Stop {
   PieceIndex piece;
-  Scalar stop;  ///< Fraction of the motion.
+  Scalar stop;      ///< Fraction of the motion.
+  Scalar together;  ///< Stops up to this much later or earlier are at the same time.
   EntryAxes axes;
 };
 
@@ -69,53 +53,140 @@ struct SweepResult {
   }
 };
 
-template <std::size_t Lanes, class Scalar>
+/// A surface that is touched: no motion may go further into it.
+template <class Scalar>
+struct Hold {
+  PieceIndex piece;
+  std::size_t axis;
+  Vec2<Scalar> normal;
+  MoverIndex mover;
+};
+
+/// A motion of the character, and the velocity behind it. What happens to one happens to the other.
+template <class Scalar>
+struct Drive {
+  Vec2<Scalar> way;       ///< For the rest of the step [m].
+  Vec2<Scalar> velocity;  ///< [m/s]
+};
+
+/// What the solver knows about what moves.
+template <class Scalar>
+struct MoverState {
+  const Surroundings<Scalar>& around;
+  FixedVector<Hold<Scalar>, 32> holds{};
+  Ride<Scalar> ride{};            ///< What carries the character in this step; `velocity` is that of this step.
+  MoverIndex carrier = no_mover;  ///< Its mover; none for a conveyor that stands still.
+  bool anchored = false;          ///< The character has not moved on what carries it.
+};
+
+struct NoMoverState {};
+
+template <Variant variant, class Scalar>
 class StepSolver {
  public:
   StepSolver(const ConfigurationSpace<Scalar>& space, const Settings<Scalar>& settings,
-             Neighbourhood<Scalar> neighbourhood, MoveResult<Scalar>& result) noexcept
+             Neighbourhood<Scalar> neighbourhood, MoveResult<Scalar>& result) noexcept requires(!variant.movers)
       : space_(space), settings_(settings), neighbourhood_(neighbourhood), result_(result) {}
+  StepSolver(const ConfigurationSpace<Scalar>& space, const Settings<Scalar>& settings,
+             Neighbourhood<Scalar> neighbourhood, const Surroundings<Scalar>& surroundings,
+             MoveResult<Scalar>& result) noexcept requires(variant.movers)
+      : space_(space),
+        settings_(settings),
+        neighbourhood_(neighbourhood),
+        result_(result),
+        moving_{.around = surroundings} {}
 
   void solve(const MoveRequest<Scalar>& request) noexcept;
 
  private:
   using V = Vec2<Scalar>;
+  using LocalMotion = Motion<variant.lanes, Scalar>;
 
+  // step_sweep.hpp
   /// Sweeps from the present position, and keeps motion and result.
   void look_along(const V& way) noexcept;
-  void keep(const Stop<Scalar>& stop) noexcept;
+  void sweep(const LocalMotion& motion, std::span<const PieceIndex> pieces) noexcept;
+  void keep(Stop<Scalar> stop, Scalar length) noexcept;
   void order_stops() noexcept;
+  [[nodiscard]] bool advance(Scalar stop) noexcept;
+  void report(Scalar begin) noexcept;
+  [[nodiscard]] Scalar fraction_of(const Stop<Scalar>& stop, Scalar begin) noexcept;
+  [[nodiscard]] Scalar impact_of(const Stop<Scalar>& stop, const LocalMotion& motion, const V& from) noexcept;
+  [[nodiscard]] std::span<const PieceIndex> pieces_along(const LocalMotion& motion, MoverIndex mover) noexcept;
+  [[nodiscard]] bool certified(const V& target) noexcept;
+  void push_corner(Scalar fraction) noexcept;
+  /// Where the mover of a piece is now, at fraction `time_`; zero where nothing moves.
+  [[nodiscard]] V offset(PieceIndex piece) const noexcept;
+  /// A position as a piece sees it that is still at offset zero.
+  [[nodiscard]] V local(PieceIndex piece, const V& p) const noexcept;
+  /// Calls `visit(piece)` for everything near a box, where it is now.
+  template <class Visit>
+  void for_each_near(const Box2<Scalar>& box, const Visit& visit) noexcept;
 
+  // step_start.hpp
   /// Makes room around a start that is nearer than `hit` to something, or inside it. False: stuck.
   [[nodiscard]] bool prepare_start(const MoveRequest<Scalar>& request) noexcept;
   [[nodiscard]] std::optional<V> find_way_out(const MoveRequest<Scalar>& request) noexcept;
+  [[nodiscard]] std::span<const PieceIndex> all_near(const Box2<Scalar>& box) noexcept;
   [[nodiscard]] Scalar reach_of_solids_inside() noexcept;
   [[nodiscard]] bool overlaps(const V& position) noexcept;
   [[nodiscard]] bool overlaps(PieceIndex piece, const V& position) const noexcept;
+  [[nodiscard]] bool may_block(PieceIndex piece, const V& position) const noexcept;
   void restore_gap() noexcept;
   [[nodiscard]] bool clear_way(const V& from, const V& to) noexcept;
+  [[nodiscard]] bool clear_way(PieceIndex piece, const V& from, const V& to) const noexcept;
 
+  // step_travel.hpp
   void travel() noexcept;
-  [[nodiscard]] bool advance(Scalar stop) noexcept;
-  void report(Scalar begin) noexcept;
-  [[nodiscard]] Scalar impact_of(const Stop<Scalar>& stop, const V& from) noexcept;
   [[nodiscard]] V aimed_back(const V& way, const Stop<Scalar>& at) const noexcept;
   void halt() noexcept;
-
   [[nodiscard]] bool stands() noexcept;
   [[nodiscard]] bool stands_on(PieceIndex piece) const noexcept;
-  void follow_ground_down(Scalar travelled_sideways) noexcept;
-  void push_corner(Scalar fraction) noexcept;
+  void follow_ground_down(const MoveRequest<Scalar>& request) noexcept;
   [[nodiscard]] bool walkable(const V& normal) const noexcept { return normal.y() >= settings_.walkable_cosine; }
+
+  // step_ride.hpp
+  [[nodiscard]] MoverIndex mover_of(PieceIndex piece) const noexcept { return space_.scenery().pieces()[piece].mover; }
+  [[nodiscard]] bool carries(PieceIndex piece) const noexcept;
+  [[nodiscard]] Scalar surface_speed(PieceIndex piece) const noexcept;
+  [[nodiscard]] V ground_velocity(PieceIndex piece, const V& normal) const noexcept;
+  [[nodiscard]] V ground_rest(PieceIndex piece, const V& normal) const noexcept;
+  [[nodiscard]] std::optional<Hold<Scalar>> ground_here(ColliderIndex ridden, bool walkable_only) noexcept;
+  [[nodiscard]] V begin_ride(const MoveRequest<Scalar>& request) noexcept;
+  void mount(const Hold<Scalar>& ground) noexcept;
+  [[nodiscard]] V anchor(Scalar time) const noexcept;
+  void note_motion_on_ground() noexcept;
+  void end_ride() noexcept;
+
+  // step_among_movers.hpp
+  void look_at_movers() noexcept;
+  [[nodiscard]] bool ignored(PieceIndex piece) const noexcept;
+  [[nodiscard]] bool kept_clear_by_hold(const LocalMotion& motion, PieceIndex piece) const noexcept;
+  void travel_among_movers() noexcept;
+  void update_holds() noexcept;
+  [[nodiscard]] V rest_of(const Hold<Scalar>& hold) const noexcept;
+  [[nodiscard]] V velocity_of(const Hold<Scalar>& hold) const noexcept;
+  [[nodiscard]] bool allowed(const Drive<Scalar>& drive, const Hold<Scalar>& hold) const noexcept;
+  [[nodiscard]] bool allowed(const Drive<Scalar>& drive) const noexcept;
+  [[nodiscard]] Drive<Scalar> response_to(const Hold<Scalar>& hold, const Drive<Scalar>& drive) const noexcept;
+  [[nodiscard]] bool respond_one_by_one(Drive<Scalar>& drive) const noexcept;
+  [[nodiscard]] bool respond_in_crease(Drive<Scalar>& drive) const noexcept;
+  [[nodiscard]] bool respond_together(Drive<Scalar>& drive) const noexcept;
+  void respond_to_holds(Drive<Scalar>& drive) noexcept;
+  void crush(PieceIndex piece) noexcept;
+  template <class Condition>
+  bool crush_near_movers(const Condition& condition) noexcept;
+  void stay() noexcept;
+  void last_resort(const V& way) noexcept;
 
   const ConfigurationSpace<Scalar>& space_;
   const Settings<Scalar>& settings_;
   Neighbourhood<Scalar> neighbourhood_;
   MoveResult<Scalar>& result_;
 
-  Motion<Lanes, Scalar> motion_;  ///< Of the last sweep,
-  SweepResult<Scalar> found_;     ///< and what it met.
-  V start_{V::Zero()};        ///< Where the step began, before its gaps were restored: impacts count from there.
+  LocalMotion motion_;         ///< Of the last sweep,
+  SweepResult<Scalar> found_;  ///< and what it met.
+  V start_{V::Zero()};         ///< Where the step began, before its gaps were restored: impacts count from there.
   V position_{V::Zero()};
   V velocity_{V::Zero()};
   Scalar time_ = 0;       ///< Fraction of the step that is spent.
@@ -124,6 +195,7 @@ class StepSolver {
   bool met_ground_ = false;  ///< Something walkable was in the way during this step,
   bool on_ground_ = false;   ///< and nothing has moved since.
   PieceIndex ground_ = 0;    ///< What that was, where `met_ground_`.
+  [[no_unique_address]] std::conditional_t<variant.movers, MoverState<Scalar>, NoMoverState> moving_;
 };
 
 }  // namespace paperproof::octagon_sweep

@@ -108,8 +108,11 @@ class PixelWalk {
   void record(Scalar time) noexcept {
     const Vec2<Scalar> position = position_at(time);
     if (position == result_.path.back().position) return;
-    if (result_.path.size() + 1 < MoveResult<Scalar>::max_corners) result_.path.push_back({position, time});
+    if (result_.path.size() + 1 < most_corners) result_.path.push_back({position, time});
   }
+
+  /// Of the path: a walk over many pixels shows its first turns.
+  static constexpr std::size_t most_corners = 32;
 
   const RasterParts<Scalar>& parts_;
   const Rules& rules_;

@@ -1,0 +1,95 @@
+/// Which pieces a step may have to look at.
+#pragma once
+
+#include "techniques/octagon_sweep/configuration_space.hpp"
+
+#include <paperproof/technique.hpp>
+#include <paperproof/tolerances.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+namespace paperproof::octagon_sweep {
+
+/// The pieces that stand still around a character. Superset of what meets a box; kept between steps.
+template <class Scalar>
+class Neighbourhood {
+ public:
+  /// @param look_ahead how far ahead of a motion candidates are collected at most [m].
+  Neighbourhood(const ConfigurationSpace<Scalar>& space, const BroadPhase<Scalar>& broad_phase, Scalar look_ahead,
+                Scratch<Scalar>& scratch) noexcept
+      : space_(space), broad_phase_(broad_phase), look_ahead_(look_ahead), scratch_(scratch) {}
+
+  /// Every piece that the octagon can touch while its reference point is in `box`, and perhaps more; ascending.
+  /// @param way where it is going [m]: what is there will be wanted next.
+  [[nodiscard]] std::span<const PieceIndex> around(const Box2<Scalar>& box,
+                                                   const Vec2<Scalar>& way = Vec2<Scalar>::Zero()) noexcept;
+
+  /// What comes next does not depend on what was collected before, not even in how much more it is.
+  void forget() noexcept { scratch_.valid = false; }
+
+ private:
+  /// Candidates are collected for this many further steps like the present one. None: every step asks the broad phase.
+  /// Many: every step looks at pieces it never meets.
+  static constexpr int steps_ahead = 8;
+  /// And this far to the sides, as a share of the reach ahead: for small turns.
+  static constexpr int sides = 32;
+
+  const ConfigurationSpace<Scalar>& space_;
+  const BroadPhase<Scalar>& broad_phase_;
+  Scalar look_ahead_;
+  Scratch<Scalar>& scratch_;
+};
+
+template <class Scalar>
+std::span<const PieceIndex> Neighbourhood<Scalar>::around(const Box2<Scalar>& box, const Vec2<Scalar>& way) noexcept {
+  if (!scratch_.valid || !scratch_.candidate_box.contains(box)) {
+    const Vec2<Scalar> most = Vec2<Scalar>::Constant(look_ahead_);
+    const Vec2<Scalar> ahead = (way * Scalar(steps_ahead)).cwiseMin(most).cwiseMax(-most);
+    scratch_.candidate_box = box.merged({box.lower + ahead, box.upper + ahead}).inflated(look_ahead_ / sides);
+    scratch_.candidate_count = broad_phase_.query(space_.touched_from(scratch_.candidate_box), scratch_.candidates);
+    scratch_.valid = true;
+  }
+  return {scratch_.candidates.data(), scratch_.candidate_count};
+}
+
+/// What a step among movers keeps in its scratch.
+struct MoverMemory final : OwnMemory {
+  explicit MoverMemory(std::size_t pieces) : of_mover(pieces), all(pieces) {}
+  std::vector<PieceIndex> of_mover;  ///< Answers of one mover's broad phase,
+  std::vector<PieceIndex> all;       ///< and of all of them, with what stands still.
+};
+
+/// Everything that moves during one step.
+template <class Scalar>
+struct Surroundings {
+  const MoverPhases<Scalar>& phases;
+  std::span<const MoverMotion<Scalar>> movers;
+  Scalar dt;  ///< [s]
+  MoverMemory& memory;
+
+  /// How far a mover goes in the step [m].
+  [[nodiscard]] Vec2<Scalar> course(MoverIndex mover) const noexcept { return movers[mover].to - movers[mover].from; }
+  /// Where it is at a fraction of the step [m].
+  [[nodiscard]] Vec2<Scalar> offset(MoverIndex mover, Scalar time) const noexcept {
+    if (time >= 1) return movers[mover].to;
+    return movers[mover].from + course(mover) * time;
+  }
+  /// How far it still goes after a fraction of the step [m].
+  [[nodiscard]] Vec2<Scalar> rest(MoverIndex mover, Scalar time) const noexcept { return course(mover) * (1 - time); }
+
+  /// A motion for the rest of the step as the mover sees it [m]. What is nothing but rounding becomes zero: a rider at
+  /// rest rests, and a sweep that looks ahead does not take noise for a direction.
+  [[nodiscard]] Vec2<Scalar> relative(const Vec2<Scalar>& way, MoverIndex mover, Scalar time) const noexcept {
+    constexpr Scalar noise = std::numeric_limits<Scalar>::epsilon() * 8;
+    const Vec2<Scalar> whole = course(mover);
+    Vec2<Scalar> result = way - rest(mover, time);
+    for (Eigen::Index i = 0; i < 2; ++i)
+      if (std::abs(result[i]) <= noise * std::max(std::abs(way[i]), std::abs(whole[i]))) result[i] = 0;
+    return result;
+  }
+};
+
+}  // namespace paperproof::octagon_sweep

@@ -1,0 +1,286 @@
+/// StepSolver: the way among movers.
+///
+/// Everything is swept in order of time of impact: a motion w over the rest of the step is, as a mover sees it that
+/// goes by d in that time, the motion w - d. Every surface that is touched holds the character: with normal n it allows
+/// what keeps n·w >= n·d. Where the response to one surface after the other does not satisfy all, the nearest allowed
+/// motion is taken; where there is none the character stays where it is and what moves into it is reported as a crush.
+#pragma once
+
+#include "techniques/octagon_sweep/half_planes.hpp"
+#include "techniques/octagon_sweep/response.hpp"
+#include "techniques/octagon_sweep/step_solver.hpp"
+
+namespace paperproof::octagon_sweep {
+
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::look_at_movers() noexcept {
+  const Surroundings<Scalar>& around = moving_.around;
+  // The sweep looks this far beyond the end of a motion (twice: it goes by the larger component).
+  constexpr Scalar look = 2 * Tolerances<Scalar>{}.look;
+  for (MoverIndex mover = 0; mover < around.phases.size(); ++mover) {
+    const V from = motion_.from - around.offset(mover, time_);
+    const V way = around.relative(motion_.way, mover, time_);
+    const V to = from + way;
+    const Box2<Scalar> box = space_.touched_from(Box2<Scalar>{from.cwiseMin(to), from.cwiseMax(to)}.inflated(look));
+    if (!box.overlaps(around.phases.whole(mover))) continue;
+    sweep(make_motion<variant>(space_, from, way), around.phases.query(mover, box, around.memory.of_mover));
+  }
+}
+
+/// What has crushed the character goes through it for the rest of the step.
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::ignored(PieceIndex piece) const noexcept {
+  if (result_.crushed.empty()) return false;
+  const ColliderIndex collider = space_.scenery().pieces()[piece].collider;
+  return std::find(result_.crushed.begin(), result_.crushed.end(), collider) != result_.crushed.end();
+}
+
+/// Whether a motion keeps off a piece along the axis that holds it. The axis alone is then proof.
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::kept_clear_by_hold(const LocalMotion& motion, PieceIndex piece) const noexcept {
+  constexpr Scalar noise = std::numeric_limits<Scalar>::epsilon() * 32;
+  for (const Hold<Scalar>& hold : moving_.holds) {
+    if (hold.piece != piece) continue;
+    const Scalar start = space_.separation(piece, hold.axis, motion.from);
+    const Scalar out = hold.normal.x() * motion.way.x() + hold.normal.y() * motion.way.y();
+    Scalar size = std::abs(motion_.way.x()) + std::abs(motion_.way.y());
+    if (hold.mover != no_mover) size += moving_.around.course(hold.mover).cwiseAbs().sum();
+    return start >= Tolerances<Scalar>{}.certain && (out >= -noise * size || start + out >= Tolerances<Scalar>{}.hit);
+  }
+  return false;
+}
+
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::travel_among_movers() noexcept {
+  /// Impacts at one moment, and moments: the path has room for so many.
+  constexpr int most_sweeps = 4 * MoveResult<Scalar>::max_corners;
+  Drive<Scalar> drive{motion_.way, velocity_};
+  V way = drive.way;  // with the aim back to the gap
+  bool may_aim = true;
+  int impacts = 0;
+  for (int sweeps = 0; sweeps < most_sweeps && result_.path.size() + 3 < result_.path.capacity(); ++sweeps) {
+    if (sweeps > 0) look_along(way);
+    if (found_.hit && found_.stop == 0 && (way.x() != drive.way.x() || way.y() != drive.way.y())) {
+      // There is no room to restore the gap: give that up for this step.
+      way = drive.way;
+      may_aim = false;
+      continue;
+    }
+    const Scalar begin = time_;
+    if (!advance(found_.hit ? found_.stop : Scalar(1))) return stay();
+    if (!found_.hit) return;
+    report(begin);
+    update_holds();
+    drive.way *= 1 - found_.stop;
+    if (++impacts == settings_.iterations) {
+      // What it wants itself is dropped; what moves into it goes on moving.
+      if (result_.status == MoveStatus::moved) result_.status = MoveStatus::dropped;
+      drive = {V::Zero(), V::Zero()};
+    }
+    respond_to_holds(drive);
+    velocity_ = drive.velocity;
+    way = may_aim ? aimed_back(drive.way, found_.stops[0]) : drive.way;
+  }
+  last_resort(way);
+}
+
+/// Forgets surfaces that are no longer touched, and adds those of the last sweep.
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::update_holds() noexcept {
+  constexpr Scalar touch = Tolerances<Scalar>{}.touch;
+  auto& holds = moving_.holds;
+  const auto add = [&holds](const Hold<Scalar>& hold) {
+    if (!holds.push_back(hold)) holds[0] = hold;
+  };
+  const FixedVector<Hold<Scalar>, 32> before = holds;
+  holds.clear();
+  for (const Stop<Scalar>& stop : found_.stops)
+    add({stop.piece, stop.axes.normal, space_.normal(stop.piece, stop.axes.normal), mover_of(stop.piece)});
+  for (const Hold<Scalar>& hold : before) {
+    const bool again = std::any_of(found_.stops.begin(), found_.stops.end(),
+                                   [&hold](const Stop<Scalar>& stop) { return stop.piece == hold.piece; });
+    if (again || ignored(hold.piece)) continue;
+    const V at = local(hold.piece, position_);
+    if (best_axis<variant>(space_, hold.piece, at).separation <= touch &&
+        std::abs(space_.separation(hold.piece, hold.axis, at)) <= touch)
+      add(hold);
+  }
+}
+
+/// How far the surface still goes in this step [m].
+template <Variant variant, class Scalar>
+Vec2<Scalar> StepSolver<variant, Scalar>::rest_of(const Hold<Scalar>& hold) const noexcept {
+  if (hold.mover == no_mover) return V::Zero();
+  return moving_.around.rest(hold.mover, time_);
+}
+
+/// [m/s]
+template <Variant variant, class Scalar>
+Vec2<Scalar> StepSolver<variant, Scalar>::velocity_of(const Hold<Scalar>& hold) const noexcept {
+  if (hold.mover == no_mover) return V::Zero();
+  return moving_.around.course(hold.mover) / moving_.around.dt;
+}
+
+template <class Scalar>
+[[nodiscard]] HalfPlane<Scalar> behind(const Vec2<Scalar>& normal, const Vec2<Scalar>& motion) noexcept {
+  return {normal, normal.x() * motion.x() + normal.y() * motion.y()};
+}
+
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::allowed(const Drive<Scalar>& drive, const Hold<Scalar>& hold) const noexcept {
+  return behind(hold.normal, rest_of(hold)).allows(drive.way) &&
+         behind(hold.normal, velocity_of(hold)).allows(drive.velocity);
+}
+
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::allowed(const Drive<Scalar>& drive) const noexcept {
+  return std::all_of(moving_.holds.begin(), moving_.holds.end(),
+                     [&](const Hold<Scalar>& hold) { return allowed(drive, hold); });
+}
+
+/// The response to a surface, as it is seen from there: ground one stands on takes one along; from any other surface
+/// only its motion along its normal is felt.
+template <Variant variant, class Scalar>
+Drive<Scalar> StepSolver<variant, Scalar>::response_to(const Hold<Scalar>& hold,
+                                                       const Drive<Scalar>& drive) const noexcept {
+  const auto response = [&](const V& wanted, const V& surface) -> V {
+    V frame = surface;
+    if (!walkable(hold.normal)) frame = hold.normal * behind(hold.normal, surface).least;
+    const V relative = wanted - frame;
+    if (relative.x() * hold.normal.x() + relative.y() * hold.normal.y() >= 0) return wanted;
+    return respond(relative, hold.normal, settings_.walkable_cosine) + frame;
+  };
+  return {response(drive.way, rest_of(hold)), response(drive.velocity, velocity_of(hold))};
+}
+
+/// The first surface, and then another one that the answer would enter.
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::respond_one_by_one(Drive<Scalar>& drive) const noexcept {
+  const Drive<Scalar> wanted = drive;
+  const Hold<Scalar>& first = moving_.holds[0];
+  const Drive<Scalar> alone = response_to(first, wanted);
+  drive = alone;
+  if (allowed(drive)) return true;
+  for (const Hold<Scalar>& hold : moving_.holds) {
+    if (allowed(alone, hold)) continue;
+    drive = response_to(hold, alone);
+    if (allowed(drive)) return true;
+    drive = response_to(first, response_to(hold, wanted));
+    if (allowed(drive)) return true;
+  }
+  drive = wanted;
+  return false;
+}
+
+/// Surfaces of one body that leave no way between them: the motion ends there, relative to that body.
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::respond_in_crease(Drive<Scalar>& drive) const noexcept {
+  const Hold<Scalar>& first = moving_.holds[0];
+  const Drive<Scalar> alone = response_to(first, drive);
+  for (const Hold<Scalar>& hold : moving_.holds)
+    if (!allowed(alone, hold) && rest_of(hold) != rest_of(first)) return false;
+  const Drive<Scalar> still{rest_of(first), velocity_of(first)};
+  if (!allowed(still)) return false;
+  drive = still;
+  return true;
+}
+
+/// The nearest motion that all surfaces allow. Where the closing of a gap leaves none, one that uses up the gap.
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::respond_together(Drive<Scalar>& drive) const noexcept {
+  FixedVector<HalfPlane<Scalar>, 32> ways;
+  FixedVector<HalfPlane<Scalar>, 32> velocities;
+  for (const Hold<Scalar>& hold : moving_.holds) {
+    ways.push_back(behind(hold.normal, rest_of(hold)));
+    velocities.push_back(behind(hold.normal, velocity_of(hold)));
+  }
+  const auto nearest = [](const V& wanted, const auto& planes) {
+    return nearest_allowed<Scalar>(wanted, {planes.begin(), planes.end()});
+  };
+  drive.velocity = nearest(drive.velocity, velocities).value_or(V::Zero());
+  std::optional<V> way = nearest(drive.way, ways);
+  if (!way) {
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+      const Hold<Scalar>& hold = moving_.holds[i];
+      const Scalar gap = space_.separation(hold.piece, hold.axis, local(hold.piece, position_));
+      ways[i].least -= std::max(Scalar(0), gap - Tolerances<Scalar>{}.hit);
+    }
+    way = nearest(drive.way, ways);
+  }
+  if (way) drive.way = *way;
+  return way.has_value();
+}
+
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::respond_to_holds(Drive<Scalar>& drive) noexcept {
+  const Hold<Scalar>& first = moving_.holds[0];
+  ended_in_crease_ = false;
+  if (walkable(first.normal) && carries(first.piece) && moving_.ride.ground == Ride<Scalar>::none &&
+      drive.velocity.x() == 0) {
+    mount(first);
+    drive.velocity.x() = moving_.ride.velocity.x();
+    drive.way.x() = ground_rest(first.piece, first.normal).x();
+  }
+  if (respond_one_by_one(drive)) return;
+  if (respond_in_crease(drive)) {
+    ended_in_crease_ = true;
+    return;
+  }
+  if (respond_together(drive)) return;
+
+  drive = {V::Zero(), V::Zero()};
+  for (const Hold<Scalar>& hold : moving_.holds)
+    if (!behind(hold.normal, rest_of(hold)).allows(drive.way)) crush(hold.piece);
+}
+
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::crush(PieceIndex piece) noexcept {
+  if (ignored(piece)) return;
+  result_.crushed.push_back(space_.scenery().pieces()[piece].collider);
+  result_.status = MoveStatus::crushed;
+}
+
+/// Every mover near the position for whose pieces the condition holds crushes. True if there was one.
+template <Variant variant, class Scalar>
+template <class Condition>
+bool StepSolver<variant, Scalar>::crush_near_movers(const Condition& condition) noexcept {
+  const std::size_t before = result_.crushed.size();
+  for_each_near({position_, position_}, [&](PieceIndex piece) {
+    if (mover_of(piece) != no_mover && !ignored(piece) && condition(piece)) crush(piece);
+  });
+  return result_.crushed.size() > before;
+}
+
+/// The character keeps its position for the rest of the step, and what runs into it crushes.
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::stay() noexcept {
+  halt();
+  moving_.holds.clear();
+  while (true) {
+    look_along(V::Zero());
+    const std::size_t before = result_.crushed.size();
+    for (const Stop<Scalar>& stop : found_.stops)
+      if (mover_of(stop.piece) != no_mover) crush(stop.piece);
+    if (result_.crushed.size() == before) break;  // nothing more, or no room to name it
+  }
+  moving_.anchored = false;
+  time_ = 1;
+  push_corner(time_);
+}
+
+/// The path has no more corners: the last one is at the end of the step. With what it was doing, with what holds it, or
+/// standing still, if the way is then clear.
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::last_resort(const V& way) noexcept {
+  if (result_.status == MoveStatus::moved) result_.status = MoveStatus::dropped;
+  const auto goes = [this](const V& last) {
+    look_along(last);
+    return !found_.hit && advance(1);
+  };
+  if (goes(way)) return;
+  for (const Hold<Scalar>& hold : moving_.holds)
+    if (goes(rest_of(hold))) return;
+  stay();
+}
+
+}  // namespace paperproof::octagon_sweep

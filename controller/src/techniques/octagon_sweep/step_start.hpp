@@ -1,0 +1,168 @@
+/// StepSolver: a start that is nearer than it should be.
+#pragma once
+
+#include "techniques/octagon_sweep/certificate.hpp"
+#include "techniques/octagon_sweep/escape.hpp"
+#include "techniques/octagon_sweep/one_way.hpp"
+#include "techniques/octagon_sweep/step_solver.hpp"
+
+namespace paperproof::octagon_sweep {
+
+/// How many pushes may be needed to restore the gaps of a start in a corner; what needs more has no room.
+inline constexpr int restore_rounds = 16;
+
+/// How far around itself a character looks for a way out first, in multiples of its larger extent.
+inline constexpr int escape_reach = 8;
+
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::prepare_start(const MoveRequest<Scalar>& request) noexcept {
+  const auto is_inside = [this](PieceIndex piece) { return overlaps(piece, position_); };
+  if constexpr (variant.movers)
+    if (request.crushed && crush_near_movers(is_inside)) return true;
+  while (overlaps(position_)) {
+    const std::optional<V> out = find_way_out(request);
+    if (out) {
+      start_ = position_ = *out;
+      push_corner(0);
+      return true;
+    }
+    if constexpr (variant.movers) {
+      // Those are on the character, and there is no room beside them: without them there may be.
+      if (crush_near_movers(is_inside)) continue;
+    }
+    return false;
+  }
+  restore_gap();
+  if constexpr (variant.movers) {
+    // Nearer than rounding, and it stayed so: closed.
+    crush_near_movers([this](PieceIndex piece) {
+      return best_axis<variant>(space_, piece, local(piece, position_)).separation < Tolerances<Scalar>{}.certain &&
+             may_block(piece, position_);
+    });
+  }
+  look_along(V::Zero());
+  certify_ = found_.least_separation < Tolerances<Scalar>{}.certain;
+  return true;
+}
+
+/// Looks near first. A large solid may only be left further away than that: then the same is asked again with all that
+/// is as near as the answer, or, where there was none, with more, until the whole of the solids has been looked at.
+template <Variant variant, class Scalar>
+std::optional<Vec2<Scalar>> StepSolver<variant, Scalar>::find_way_out(const MoveRequest<Scalar>& request) noexcept {
+  const V extent = space_.hull_box().upper - space_.hull_box().lower;
+  const V* const last_free = request.has_last_free ? &request.last_free : nullptr;
+  const Scalar whole = reach_of_solids_inside();
+  Scalar reach = std::max(extent.x(), extent.y()) * escape_reach;
+  neighbourhood_.forget();  // more than what is asked for could give another answer
+  while (true) {
+    Box2<Scalar> box = Box2<Scalar>{position_, position_}.inflated(reach);
+    if (last_free != nullptr) box = box.merged({*last_free, *last_free});
+    const std::optional<V> out = way_out<variant.lanes>(space_, all_near(box), request.movers, position_, last_free);
+    if (!out && reach >= whole) return out;
+    const Scalar distance = out ? V(*out - position_).cwiseAbs().maxCoeff() : Scalar(0);
+    if (out && distance <= reach) return out;
+    reach = std::max(2 * reach, distance);
+  }
+}
+
+template <Variant variant, class Scalar>
+std::span<const PieceIndex> StepSolver<variant, Scalar>::all_near(const Box2<Scalar>& box) noexcept {
+  if constexpr (!variant.movers) return neighbourhood_.around(box);
+  if constexpr (variant.movers) {
+    std::vector<PieceIndex>& all = moving_.around.memory.all;
+    std::size_t count = 0;
+    for_each_near(box, [&](PieceIndex piece) { all[count++] = piece; });
+    return {all.data(), count};
+  }
+}
+
+/// How far from the position all pieces of the colliders that are overlapped are within reach [m].
+template <Variant variant, class Scalar>
+Scalar StepSolver<variant, Scalar>::reach_of_solids_inside() noexcept {
+  const std::span<const PieceInfo> pieces = space_.scenery().pieces();
+  Box2<Scalar> whole{position_, position_};
+  for_each_near({position_, position_}, [&](PieceIndex piece) {
+    if (!overlaps(piece, position_)) return;
+    const V shift = offset(piece);
+    const auto add = [&](PieceIndex other) {
+      const Box2<Scalar>& box = space_.scenery().box(other);
+      whole = whole.merged({box.lower + shift, box.upper + shift});
+    };
+    add(piece);
+    // The pieces of a collider stand together.
+    for (PieceIndex k = piece; k > 0 && pieces[k - 1].collider == pieces[piece].collider; --k) add(k - 1);
+    for (PieceIndex k = piece + 1; k < pieces.size() && pieces[k].collider == pieces[piece].collider; ++k) add(k);
+  });
+  const V below = position_ - whole.lower;
+  const V above = whole.upper - position_;
+  return std::max(below.maxCoeff(), above.maxCoeff());
+}
+
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::overlaps(const V& position) noexcept {
+  bool any = false;
+  for_each_near({position, position}, [&](PieceIndex piece) { any = any || overlaps(piece, position); });
+  return any;
+}
+
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::overlaps(PieceIndex piece, const V& position) const noexcept {
+  const V at = local(piece, position);
+  return space_.info(piece).one_way_axis == ObstacleInfo::not_one_way &&
+         best_axis<variant>(space_, piece, at).separation < Tolerances<Scalar>{}.certain &&
+         overlaps_exactly(space_, piece, at);
+}
+
+/// Whether a piece counts for a character at `position`: one-way segments do from one side only.
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::may_block(PieceIndex piece, const V& position) const noexcept {
+  return space_.info(piece).one_way_axis == ObstacleInfo::not_one_way ||
+         on_blocking_side_exactly(space_, piece, local(piece, position));
+}
+
+/// Pushes out of the nearest piece, again and again, until every gap is at least `hit`; undone where there is no room.
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::restore_gap() noexcept {
+  constexpr Tolerances<Scalar> tolerances{};
+  V q = position_;
+  for (int round = 0; round < restore_rounds; ++round) {
+    Scalar least = std::numeric_limits<Scalar>::infinity();
+    V push = V::Zero();
+    for_each_near({q.cwiseMin(position_), q.cwiseMax(position_)}, [&](PieceIndex piece) {
+      if (!may_block(piece, position_)) return;
+      const BestAxis<Scalar> best = best_axis<variant>(space_, piece, local(piece, q));
+      if (best.separation >= least) return;
+      least = best.separation;
+      push = space_.normal(piece, best.axis) * (tolerances.stop - best.separation);
+    });
+    if (least >= tolerances.hit) {
+      if (!clear_way(position_, q)) return;
+      position_ = q;
+      push_corner(0);
+      return;
+    }
+    q += push;
+  }
+}
+
+/// Whether a straight way, made in no time, meets nothing, without rounding where it is near.
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::clear_way(const V& from, const V& to) noexcept {
+  bool clear = true;
+  for_each_near({from.cwiseMin(to), from.cwiseMax(to)},
+                [&](PieceIndex piece) { clear = clear && clear_way(piece, local(piece, from), local(piece, to)); });
+  return clear;
+}
+
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::clear_way(PieceIndex piece, const V& from, const V& to) const noexcept {
+  constexpr Tolerances<Scalar> tolerances{};
+  if (!blocks<variant>(space_, make_motion<variant>(space_, from, V(to - from)), piece)) return true;
+  for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis)
+    if (space_.separation(piece, axis, from) >= tolerances.certain &&
+        space_.separation(piece, axis, to) >= tolerances.certain)
+      return true;
+  return clear_of_exactly(space_, piece, from, to);
+}
+
+}  // namespace paperproof::octagon_sweep

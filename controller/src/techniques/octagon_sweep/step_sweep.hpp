@@ -1,0 +1,212 @@
+/// StepSolver: what is in the way, and going up to it.
+#pragma once
+
+#include "techniques/octagon_sweep/contact_geometry.hpp"
+#include "techniques/octagon_sweep/one_way.hpp"
+#include "techniques/octagon_sweep/step_solver.hpp"
+
+namespace paperproof::octagon_sweep {
+
+template <Variant variant, class Scalar>
+Vec2<Scalar> StepSolver<variant, Scalar>::offset(PieceIndex piece) const noexcept {
+  if constexpr (variant.movers) {
+    const MoverIndex mover = space_.scenery().pieces()[piece].mover;
+    if (mover != no_mover) return moving_.around.offset(mover, time_);
+  }
+  return V::Zero();
+}
+
+template <Variant variant, class Scalar>
+Vec2<Scalar> StepSolver<variant, Scalar>::local(PieceIndex piece, const V& p) const noexcept {
+  if constexpr (variant.movers) return p - offset(piece);
+  return p;
+}
+
+template <Variant variant, class Scalar>
+template <class Visit>
+void StepSolver<variant, Scalar>::for_each_near(const Box2<Scalar>& box, const Visit& visit) noexcept {
+  for (const PieceIndex piece : neighbourhood_.around(box)) visit(piece);
+  if constexpr (variant.movers) {
+    const Box2<Scalar> world = space_.touched_from(box);
+    for (MoverIndex mover = 0; mover < moving_.around.phases.size(); ++mover) {
+      const V shift = moving_.around.offset(mover, time_);
+      const Box2<Scalar> shifted{world.lower - shift, world.upper - shift};
+      if (!shifted.overlaps(moving_.around.phases.whole(mover))) continue;
+      for (const PieceIndex piece : moving_.around.phases.query(mover, shifted, moving_.around.memory.of_mover))
+        if (!ignored(piece)) visit(piece);
+    }
+  }
+}
+
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::look_along(const V& way) noexcept {
+  motion_ = make_motion<variant>(space_, position_, way);
+  found_.clear();
+  sweep(motion_, neighbourhood_.around(motion_.box(), way));
+  if constexpr (variant.movers) look_at_movers();
+  order_stops();
+}
+
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::sweep(const LocalMotion& motion, std::span<const PieceIndex> pieces) noexcept {
+  for (const PieceIndex piece : pieces) {
+    if constexpr (variant.movers)
+      if (ignored(piece) || kept_clear_by_hold(motion, piece)) continue;
+    if (!blocks<variant>(space_, motion, piece)) continue;
+    const Clearance<Scalar> clear = clearance<variant>(space_, motion, piece);
+    found_.least_separation = std::min(found_.least_separation, clear.start);
+    if (clear.clear()) continue;
+    const PieceHit<Scalar> hit = sweep_piece<variant>(space_, motion, piece, clear);
+    if (hit.hit) keep({piece, hit.stop, 0, hit.axes}, motion.length);
+  }
+}
+
+/// Pieces that stop the motion together with the first are met together with it.
+/// @param length of the motion, as the piece sees it [m].
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::keep(Stop<Scalar> stop, Scalar length) noexcept {
+  constexpr Tolerances<Scalar> tolerances{};
+  stop.together = length > 0 ? (tolerances.touch - tolerances.stop) / length : Scalar(0);
+  if (found_.hit && stop.stop > found_.stop + stop.together) return;
+  if (!found_.hit || stop.stop < found_.stop) {
+    found_.stop = stop.stop;
+    std::size_t kept = 0;
+    for (const Stop<Scalar>& other : found_.stops)
+      if (other.stop <= found_.stop + other.together) found_.stops[kept++] = other;
+    while (found_.stops.size() > kept) found_.stops.pop_back();
+  }
+  found_.hit = true;
+  found_.stops.push_back(stop);
+}
+
+/// Puts first the stop whose normal points up most (of equals the lowest index).
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::order_stops() noexcept {
+  if (found_.stops.size() < 2) return;
+  const auto less_up = [this](const Stop<Scalar>& a, const Stop<Scalar>& b) {
+    return space_.normal(a.piece, a.axes.normal).y() < space_.normal(b.piece, b.axes.normal).y();
+  };
+  std::swap(found_.stops[0], *std::max_element(found_.stops.begin(), found_.stops.end(), less_up));
+}
+
+/// Moves along the motion up to `stop`. False where that cannot be certified or leaves the range: then nothing moved.
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::advance(Scalar stop) noexcept {
+  if (stop == 0) return true;
+  V target = motion_.from + motion_.way * stop;
+  Scalar end = time_ + (1 - time_) * stop;
+  if constexpr (variant.movers) {
+    if (stop == 1) end = 1;
+    note_motion_on_ground();
+    if (moving_.anchored) target = anchor(end);
+  }
+  const Scalar furthest = std::max(std::abs(target.x()), std::abs(target.y()));
+  if (!(furthest <= Tolerances<Scalar>{}.range)) return false;
+  if (certify_ && !certified(target)) return false;
+  position_ = target;
+  on_ground_ = false;
+  time_ = end;
+  push_corner(time_);
+  return true;
+}
+
+/// Whether the straight way meets nothing that stands still, without rounding where it is near.
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::certified(const V& target) noexcept {
+  const Box2<Scalar> box{position_.cwiseMin(target), position_.cwiseMax(target)};
+  for (const PieceIndex piece : neighbourhood_.around(box))
+    if (!clear_way(piece, position_, target)) return false;
+  return true;
+}
+
+/// Contacts of one moment, the earliest impact first; one per collider and side.
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::report(Scalar begin) noexcept {
+  auto& contacts = result_.contacts;
+  const std::size_t before = contacts.size();
+  for (const Stop<Scalar>& stop : found_.stops) {
+    Contact<Scalar> contact;
+    contact.collider = space_.scenery().pieces()[stop.piece].collider;
+    contact.normal = space_.normal(stop.piece, stop.axes.normal);
+    contact.side = side_of_normal(contact.normal.x(), contact.normal.y());
+    contact.fraction = fraction_of(stop, begin);
+    if (walkable(contact.normal)) {
+      met_ground_ = on_ground_ = true;
+      ground_ = stop.piece;
+    }
+    Contact<Scalar>* const known = std::find_if(contacts.begin(), contacts.end(), [&](const Contact<Scalar>& other) {
+      return other.collider == contact.collider && other.side == contact.side;
+    });
+    const bool of_an_earlier_moment = known < contacts.begin() + before;
+    if (known != contacts.end() && (of_an_earlier_moment || known->fraction <= contact.fraction)) continue;
+    const ContactPlace<Scalar> place =
+        contact_place(space_, stop.piece, stop.axes.normal, local(stop.piece, position_));
+    contact.point = place.point;
+    if constexpr (variant.movers) contact.point += offset(stop.piece);
+    contact.separation = place.separation;
+    if (known != contacts.end())
+      *known = contact;
+    else
+      contacts.push_back(contact);
+  }
+  if (contacts.size() - before > 1)
+    std::sort(contacts.begin() + before, contacts.end(),
+              [](const Contact<Scalar>& a, const Contact<Scalar>& b) { return a.fraction < b.fraction; });
+}
+
+/// When the collider of a piece is met by the motion of the last sweep, as a fraction of the step.
+/// @param begin when that motion began.
+template <Variant variant, class Scalar>
+Scalar StepSolver<variant, Scalar>::fraction_of(const Stop<Scalar>& stop, Scalar begin) noexcept {
+  const V& from = begin == 0 ? start_ : motion_.from;
+  if constexpr (variant.movers) {
+    const MoverIndex mover = mover_of(stop.piece);
+    if (mover != no_mover) {
+      const V shift = moving_.around.offset(mover, begin);
+      const V way = moving_.around.relative(motion_.way, mover, begin);
+      const LocalMotion motion = make_motion<variant>(space_, V(motion_.from - shift), way);
+      return begin + (1 - begin) * impact_of(stop, motion, V(from - shift));
+    }
+  }
+  return begin + (1 - begin) * impact_of(stop, motion_, from);
+}
+
+/// The time of impact of the collider, as a fraction of the motion. Where its piece is met long after it was stopped at,
+/// as a rim that is grazed, another piece of the same collider may be met in between.
+template <Variant variant, class Scalar>
+Scalar StepSolver<variant, Scalar>::impact_of(const Stop<Scalar>& stop, const LocalMotion& motion,
+                                              const V& from) noexcept {
+  Scalar earliest = time_of_impact(space_, from, motion.way, stop.piece, stop.axes);
+  if ((earliest - stop.stop) * motion.length <= 2 * Tolerances<Scalar>{}.stop) return earliest;
+  const std::span<const PieceInfo> pieces = space_.scenery().pieces();
+  for (const PieceIndex other : pieces_along(motion, pieces[stop.piece].mover)) {
+    if (other == stop.piece || pieces[other].collider != pieces[stop.piece].collider) continue;
+    if (!blocks<variant>(space_, motion, other)) continue;
+    const Clearance<Scalar> clear = clearance<variant>(space_, motion, other);
+    if (clear.clear()) continue;
+    const PieceHit<Scalar> hit = sweep_piece<variant>(space_, motion, other, clear);
+    if (hit.hit) earliest = std::min(earliest, time_of_impact(space_, from, motion.way, other, hit.axes));
+  }
+  return earliest;
+}
+
+/// What a motion may meet, of what stands still or of one mover.
+template <Variant variant, class Scalar>
+std::span<const PieceIndex> StepSolver<variant, Scalar>::pieces_along(const LocalMotion& motion,
+                                                                      MoverIndex mover) noexcept {
+  if constexpr (variant.movers) {
+    const Surroundings<Scalar>& around = moving_.around;
+    if (mover != no_mover)
+      return around.phases.query(mover, space_.touched_from(motion.box()), around.memory.of_mover);
+  }
+  return neighbourhood_.around(motion.box(), motion.way);
+}
+
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::push_corner(Scalar fraction) noexcept {
+  if (!result_.path.empty() && result_.path.back().fraction == fraction && result_.path.back().position == position_)
+    return;
+  result_.path.push_back({position_, fraction});
+}
+
+}  // namespace paperproof::octagon_sweep
