@@ -171,8 +171,8 @@ Scalar StepSolver<variant, Scalar>::fraction_of(const Stop<Scalar>& stop, Scalar
   return begin + (1 - begin) * impact_of(stop, motion_, from);
 }
 
-/// The time of impact of the collider, as a fraction of the motion. Where its piece is met long after it was stopped at,
-/// as a rim that is grazed, another piece of the same collider may be met in between.
+/// The time of impact of the collider, as a fraction of the motion. Where its piece is met long after it was stopped
+/// at, as a rim that is grazed, another piece of the same collider may be met in between.
 template <Variant variant, class Scalar>
 Scalar StepSolver<variant, Scalar>::impact_of(const Stop<Scalar>& stop, const LocalMotion& motion,
                                               const V& from) noexcept {
@@ -196,8 +196,7 @@ std::span<const PieceIndex> StepSolver<variant, Scalar>::pieces_along(const Loca
                                                                       MoverIndex mover) noexcept {
   if constexpr (variant.movers) {
     const Surroundings<Scalar>& around = moving_.around;
-    if (mover != no_mover)
-      return around.phases.query(mover, space_.touched_from(motion.box()), around.memory.of_mover);
+    if (mover != no_mover) return around.phases.query(mover, space_.touched_from(motion.box()), around.memory.of_mover);
   }
   return neighbourhood_.around(motion.box(), motion.way);
 }
