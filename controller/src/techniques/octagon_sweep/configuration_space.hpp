@@ -65,7 +65,7 @@ class ConfigurationSpace {
 
   /// `scenery` must outlive it.
   /// @throws InvalidScenery for a piece with more edges than axes are kept for.
-  ConfigurationSpace(const Scenery<Scalar>& scenery, const CharacterShape& shape, const BroadPhase<Scalar>& broad_phase,
+  ConfigurationSpace(const Scenery<Scalar>& scenery, const CharacterShape& shape,
                      const MoverPhases<Scalar>& mover_phases);
 
   [[nodiscard]] const Scenery<Scalar>& scenery() const noexcept { return scenery_; }

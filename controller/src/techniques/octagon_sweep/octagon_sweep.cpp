@@ -57,7 +57,7 @@ class OctagonSweep : public Technique<Scalar> {
   OctagonSweep(const TechniqueDef& def, const Scenery<Scalar>& scenery, const CharacterDef& character)
       : broad_phase_(make_broad_phase<Scalar>(def.broad_phase, scenery.static_boxes())),
         mover_phases_(def.broad_phase, scenery),
-        space_(scenery, character.shape, *broad_phase_, mover_phases_),
+        space_(scenery, character.shape, mover_phases_),
         settings_(settings_for<Scalar>(def, character)),
         solve_(still_solver<Scalar>({.lanes = space_.lanes(),
                                      .movers = false,
