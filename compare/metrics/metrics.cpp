@@ -36,8 +36,11 @@ std::vector<std::pair<ColliderIndex, Side>> touches_of(const Contacts& contacts)
 
 }  // namespace
 
-Metrics::Metrics(const TraceHeader& header) : ids_(header.ids) {
-  for (const ColliderDef& def : header.scenery.colliders) has_one_way_ = has_one_way_ || def.one_way.has_value();
+Metrics::Metrics(const TraceHeader& header) : ids_(header.ids), rest_(header.scenery) {
+  for (const ColliderDef& def : header.scenery.colliders) {
+    has_one_way_ = has_one_way_ || def.one_way.has_value();
+    if (def.sensor) sums_.sensor_events = sums_.sensor_errors = 0;
+  }
   for (std::optional<int>* counter : {&sums_.tunnels, &sums_.corner_cuts, &sums_.steps_ending_inside,
                                       &sums_.contact_steps, &sums_.respawns, &sums_.dropped_steps}) {
     *counter = 0;
@@ -92,7 +95,11 @@ void Metrics::add_contacts(const TraceStep& step, const StepJudgement& judgement
 void Metrics::add_passings(const TraceStep& step, const StepJudgement& judgement) {
   count(sums_.tunnels, !judgement.tunnelled.empty());
   count(sums_.corner_cuts, !judgement.corner_cut.empty());
-  count(sums_.steps_ending_inside, !judgement.end_overlap.empty());
+  const auto inside_on_its_own = [&judgement](ColliderIndex collider) {
+    return !contains(judgement.pressed, collider);
+  };
+  count(sums_.steps_ending_inside,
+        std::any_of(judgement.end_overlap.begin(), judgement.end_overlap.end(), inside_on_its_own));
   if (has_one_way_) count(sums_.one_way_violations, !judgement.one_way_broken.empty());
   raise(sums_.max_penetration_m, judgement.max_penetration);
   if (!judgement.passings.empty() && sums_.findings.empty()) {
@@ -101,9 +108,22 @@ void Metrics::add_passings(const TraceStep& step, const StepJudgement& judgement
   }
 }
 
+void Metrics::add_events(const TraceStep& step, const StepJudgement& judgement) {
+  if (!step.movers.empty()) {
+    count(sums_.crushes, !judgement.crushed.empty());
+    count(sums_.crushes_with_room, !judgement.crushed_with_room.empty());
+  }
+  if (!sums_.sensor_events) return;
+  *sums_.sensor_events += static_cast<int>(judgement.sensor_events.size());
+  *sums_.sensor_errors += judgement.sensor_events_missing + judgement.sensor_events_extra;
+  const bool matched = static_cast<int>(judgement.sensor_events.size()) > judgement.sensor_events_missing;
+  if (matched) raise(sums_.max_sensor_error, judgement.max_sensor_error);
+}
+
 void Metrics::add(const TraceStep& step, const StepJudgement& judgement) {
   add_contacts(step, judgement);
   add_passings(step, judgement);
+  add_events(step, judgement);
   rest_.add(step);
   count(sums_.contact_steps, !step.contacts.empty());
   count(sums_.respawns, step.respawn);
@@ -123,6 +143,11 @@ void Metrics::write(Row& row) const {
   row.contact_steps = sums_.contact_steps;
   row.colliders_touched = static_cast<int>(touched_.size());
   row.respawns = sums_.respawns;
+  row.crushes = sums_.crushes;
+  row.crushes_with_room = sums_.crushes_with_room;
+  row.sensor_events = sums_.sensor_events;
+  row.sensor_errors = sums_.sensor_errors;
+  row.max_sensor_error = sums_.max_sensor_error;
   row.dropped_steps = sums_.dropped_steps;
   row.toi_error_max = sums_.toi_error_max;
   row.ghost_speed_loss = sums_.ghost_speed_loss;

@@ -32,6 +32,10 @@ namespace paperproof::compare {
 /// - `ghost_speed_loss`: largest share of the wanted horizontal speed lost in one step to nothing exact; only where
 ///   horizontal motion was wanted.
 /// - `rest_peak_to_peak_m`, `rest_rms_m`, `contact_toggles`: see `Rest`.
+/// - `crushes`: steps with a crush that exact arithmetic verified; what movers press the character into on them is not
+///   counted as inside. `crushes_with_room`: steps with one that it refuted.
+/// - `sensor_events`: entries and exits that there were. `sensor_errors`: those that were not reported, and reports of
+///   others. `max_sensor_error`: of the fractions of the rest.
 /// - `respawns`, `dropped_steps`: counted.
 class Metrics {
  public:
@@ -57,6 +61,7 @@ class Metrics {
   using View = detail::Window<Moment>::View;
   static void match(const View& view, Matches& matches);
   void add_contacts(const TraceStep& step, const StepJudgement& judgement);
+  void add_events(const TraceStep& step, const StepJudgement& judgement);
   void add_passings(const TraceStep& step, const StepJudgement& judgement);
 
   std::vector<std::string> ids_;

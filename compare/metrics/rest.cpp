@@ -1,5 +1,6 @@
 #include "metrics/rest.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace paperproof::compare {
@@ -25,12 +26,36 @@ void Rest::measure(const Vec2d& position, std::uint8_t sides) {
   now_.squares += offset.squaredNorm();
 }
 
+Rest::Rest(const SceneryDef& scenery) {
+  for (const ColliderDef& collider : scenery.colliders) mover_of_.push_back(collider.mover);
+}
+
+MoverIndex Rest::carrying(const TraceStep& step) const {
+  const auto at_feet = std::find_if(step.contacts.begin(), step.contacts.end(),
+                                    [](const Contact<double>& contact) { return contact.side == Side::bottom; });
+  return at_feet == step.contacts.end() ? no_mover : mover_of_[at_feet->collider];
+}
+
 void Rest::add(const TraceStep& step) {
-  if (!step.grounded || step.requested.x() != 0 || step.path.empty()) {
+  const MoverIndex ground = carrying(step);
+  Vec2d carried = Vec2d::Zero();
+  double wanted = step.requested.x();
+  if (ground != no_mover) {
+    carried = step.movers[ground].to;
+    // A sum of velocities that are divided and multiplied by dt comes back rounded.
+    constexpr double rounding = 1e-6;
+    wanted -= carried.x() - step.movers[ground].from.x();
+    if (std::abs(wanted) <= rounding) wanted = 0;
+  }
+  if (!step.grounded || wanted != 0 || step.path.empty()) {
     now_ = {};
     return;
   }
-  if (++now_.steps > settling_steps) measure(step.path.back().position, sides_of(step.contacts));
+  if (ground != now_.ground) {
+    now_ = {};
+    now_.ground = ground;
+  }
+  if (++now_.steps > settling_steps) measure(step.path.back().position - carried, sides_of(step.contacts));
   if (now_.steps >= least_steps) last_ = now_;
 }
 

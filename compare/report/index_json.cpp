@@ -46,6 +46,10 @@ void put_counts(nlohmann::json& object, const Row& row) {
   put(object, "contact_steps", row.contact_steps);
   put(object, "colliders_touched", row.colliders_touched);
   put(object, "respawns", row.respawns);
+  put(object, "crushes", row.crushes);
+  put(object, "crushes_with_room", row.crushes_with_room);
+  put(object, "sensor_events", row.sensor_events);
+  put(object, "sensor_errors", row.sensor_errors);
   put(object, "dropped_steps", row.dropped_steps);
 }
 
@@ -59,6 +63,7 @@ void put_measures(nlohmann::json& object, const Row& row) {
   put(object, "contact_recall_box2d", row.contact_recall_box2d);
   put(object, "contact_agreement_box2d", row.contact_agreement_box2d);
   put(object, "toi_error_max", row.toi_error_max);
+  put(object, "max_sensor_error", row.max_sensor_error);
   put(object, "ghost_speed_loss", row.ghost_speed_loss);
   put(object, "rest_peak_to_peak_m", row.rest_peak_to_peak_m);
   put(object, "rest_rms_m", row.rest_rms_m);

@@ -94,11 +94,9 @@ void Lane::step(int step, const StepInput& input) {
   }
   ++row_.steps;
   inside_ = judgement_.end_overlap;
-  const bool entered = std::any_of(inside_.begin(), inside_.end(), [this](ColliderIndex collider) {
-    return std::find(record_.start_overlap.begin(), record_.start_overlap.end(), collider) ==
-           record_.start_overlap.end();
-  });
-  if (entered || !judgement_.tunnelled.empty() || !judgement_.one_way_broken.empty()) ++steps_broken_;
+  if (!judgement_.crushed_with_room.empty()) ++steps_miscalled_;
+  if (!judgement_.entered.empty() || !judgement_.tunnelled.empty() || !judgement_.one_way_broken.empty())
+    ++steps_broken_;
   if (record_.capped) ++steps_capped_;
   if (trace_) trace_->write(record_);
   if (limit_.most > 0) keep_for_replay();
@@ -150,10 +148,12 @@ void Lane::conclude() {
   const int inside = row_.steps_ending_inside.value_or(0);
   const double gap = row_.max_contact_gap_m.value_or(0);
   const bool wide_gap = gap > guaranteed_gap;
-  if (guaranteed() && (steps_broken_ > 0 || wide_gap)) {
+  const std::string miscalled = fmt::format("a crush with room to give way on {}", counted(steps_miscalled_, "step"));
+  if (guaranteed() && (steps_broken_ > 0 || steps_miscalled_ > 0 || wide_gap)) {
     row_.verdict = Verdict::violates;
-    row_.reason = steps_broken_ > 0 ? fmt::format("{} into or through a solid", counted(steps_broken_, "step"))
-                                    : fmt::format("a contact is {:.3g} m away", gap);
+    row_.reason = steps_broken_ > 0      ? fmt::format("{} into or through a solid", counted(steps_broken_, "step"))
+                  : steps_miscalled_ > 0 ? miscalled
+                                         : fmt::format("a contact is {:.3g} m away", gap);
   } else if (steps_capped_ > 0) {
     row_.verdict = Verdict::flagged;
     row_.reason =
@@ -171,6 +171,9 @@ void Lane::conclude() {
                       ? fmt::format("ends {} inside a solid, up to {:.3g} m deep", counted(inside, "step"),
                                     row_.max_penetration_m.value_or(0))
                       : fmt::format("passes a one-way chain against its normal on {}", counted(steps_broken_, "step"));
+  } else if (steps_miscalled_ > 0) {
+    row_.verdict = Verdict::flagged;
+    row_.reason = miscalled;
   }
 }
 

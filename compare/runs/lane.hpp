@@ -62,7 +62,8 @@ class Lane {
   StepJudgement judgement_;
   std::vector<ColliderIndex> inside_;  ///< What the octagon overlaps now, exactly.
   std::string begins_inside_;
-  int steps_broken_ = 0;  ///< Steps that entered a solid, passed one, or passed a one-way chain backwards.
+  int steps_broken_ = 0;     ///< Steps that entered a solid, passed one, or passed a one-way chain backwards.
+  int steps_miscalled_ = 0;  ///< Steps with a crush where there was room.
   int steps_capped_ = 0;
   bool placed_ = true;
 };

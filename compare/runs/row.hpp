@@ -17,7 +17,7 @@ struct Row {
   std::string scalar = "double";
   std::string mode = "free";
   std::string knob;  ///< Settings that differ from row to row, as `name=value`; empty where none does.
-  int steps = 0;  ///< that ran
+  int steps = 0;     ///< that ran
   Verdict verdict = Verdict::holds;
   std::string reason;  ///< empty for `holds` only
 
@@ -37,8 +37,13 @@ struct Row {
   std::optional<int> contact_steps;               ///< steps with any contact
   std::optional<int> colliders_touched;
   std::optional<int> respawns;
-  std::optional<int> dropped_steps;     ///< steps with displacement dropped after the iterations
-  std::optional<double> toi_error_max;  ///< in fractions of a step, first contact of each step
+  std::optional<int> crushes;              ///< steps on which movers left no room, verified; absent where nothing moves
+  std::optional<int> crushes_with_room;    ///< steps on which a crush was reported and there was room
+  std::optional<int> sensor_events;        ///< that there were, exactly; absent where there are no sensors
+  std::optional<int> sensor_errors;        ///< events missed, and events that there were not
+  std::optional<double> max_sensor_error;  ///< of the fraction of the step
+  std::optional<int> dropped_steps;        ///< steps with displacement dropped after the iterations
+  std::optional<double> toi_error_max;     ///< in fractions of a step, first contact of each step
   std::optional<double>
       ghost_speed_loss;  ///< largest share of the wanted horizontal speed lost in a step to nothing exact
   std::optional<double> rest_peak_to_peak_m;

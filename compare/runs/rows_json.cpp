@@ -52,6 +52,11 @@ nlohmann::ordered_json row_json(const Row& row) {
   put(object, "contact_steps", row.contact_steps);
   put(object, "colliders_touched", row.colliders_touched);
   put(object, "respawns", row.respawns);
+  put(object, "crushes", row.crushes);
+  put(object, "crushes_with_room", row.crushes_with_room);
+  put(object, "sensor_events", row.sensor_events);
+  put(object, "sensor_errors", row.sensor_errors);
+  put(object, "max_sensor_error", row.max_sensor_error);
   put(object, "dropped_steps", row.dropped_steps);
   put(object, "toi_error_max", row.toi_error_max);
   put(object, "ghost_speed_loss", row.ghost_speed_loss);

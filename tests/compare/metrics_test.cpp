@@ -178,6 +178,60 @@ TEST(Metrics, rest_jitter_of_an_oscillation_is_its_closed_form) {
   EXPECT_DOUBLE_EQ(*row.contact_toggles, 1000.0 * 19 / 100);
 }
 
+TEST(Metrics, who_stands_on_a_mover_rests_relative_to_it) {
+  TraceHeader head = header();
+  head.scenery.colliders[1].mover = 0;
+  const auto at = [](int number) { return Vec2d(0.25 * number, 2 * number); };
+  std::vector<Moment> run;
+  for (int i = 0; i < 100; ++i) {
+    Moment one = moment(i, {contact(1, Side::bottom)});
+    one.step.grounded = true;
+    one.step.movers = {{at(i), at(i + 1)}};
+    one.step.requested = {0.25, -1};  // the ride, and gravity
+    one.step.path.back().position = at(i + 1) + Vec2d(0, i % 2 == 0 ? 0.125 : 0);
+    run.push_back(one);
+  }
+  EXPECT_EQ(row_of(run, head).rest_peak_to_peak_m, 0.125);
+  for (Moment& one : run) one.step.requested.x() = 0.5;
+  EXPECT_FALSE(row_of(run, head).rest_peak_to_peak_m) << "it walks on what moves";
+}
+
+TEST(Metrics, crushes_are_counted_apart_and_so_is_what_they_press_into) {
+  std::vector<Moment> run;
+  for (int i = 0; i < 6; ++i) {
+    run.push_back(moment(i));
+    run.back().step.movers = {{}};
+  }
+  run[2].judged.crushed = {1};
+  run[2].judged.end_overlap = run[2].judged.pressed = {1};
+  run[3].judged.crushed_with_room = {1};
+  run[3].judged.end_overlap = {0, 1};
+  run[3].judged.pressed = {1};
+  const Row row = row_of(run);
+  EXPECT_EQ(row.crushes, 1);
+  EXPECT_EQ(row.crushes_with_room, 1);
+  EXPECT_EQ(row.steps_ending_inside, 1) << "in the floor, which pressed nobody";
+  for (Moment& one : run) one.step.movers.clear();
+  EXPECT_FALSE(row_of(run).crushes) << "nothing moves";
+}
+
+TEST(Metrics, sensor_events_and_what_was_made_of_them_are_counted) {
+  TraceHeader head = header();
+  std::vector<Moment> run{moment(0), moment(1), moment(2)};
+  run[0].judged.sensor_events.resize(3);
+  run[0].judged.sensor_events_missing = 1;
+  run[0].judged.max_sensor_error = 0.25;
+  run[1].judged.sensor_events_extra = 2;
+  run[2].judged.sensor_events.resize(1);
+  run[2].judged.max_sensor_error = 0.125;
+  EXPECT_FALSE(row_of(run, head).sensor_events) << "there are no sensors";
+  head.scenery.colliders[1].sensor = true;
+  const Row row = row_of(run, head);
+  EXPECT_EQ(row.sensor_events, 4);
+  EXPECT_EQ(row.sensor_errors, 1 + 2);
+  EXPECT_EQ(row.max_sensor_error, 0.25);
+}
+
 TEST(Metrics, a_rest_needs_sixty_steps_and_the_last_one_counts) {
   const auto rest = [](std::vector<Moment>& run, int steps, double height, double hop) {
     for (int i = 0; i < steps; ++i) {

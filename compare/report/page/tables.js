@@ -62,6 +62,11 @@ const QUALITY = [
     'First step with other sides of contact, or positions further apart than Box2D\'s skin'
   ],
   ['ghost_speed_loss', 'Snag', 'share', measure, 'Largest share of the wanted speed lost in one step to nothing exact'],
+  ['crushes', 'Crushed', 'steps', count, 'Steps on which movers left no room, verified by exact arithmetic'],
+  ['crushes_with_room', 'Crushed with room', 'steps', count, 'Steps on which a crush was reported and there was room'],
+  ['sensor_events', 'Sensor events', '', count, 'Entries and exits that there were, exactly'],
+  ['sensor_errors', 'Sensor errors', '', count, 'Entries and exits that were missed, or reported and were not'],
+  ['max_sensor_error', 'Sensor time error', 'of a step', measure, 'Largest error of the fraction of a step'],
   [
     'dropped_steps', 'Dropped', 'steps', count,
     'Steps whose displacement was partly dropped when the iterations ran out'
