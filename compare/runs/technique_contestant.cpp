@@ -61,12 +61,14 @@ class TechniqueContestant final : public Contestant {
   [[nodiscard]] const TraceHeader& header() const noexcept override { return header_; }
 
   void step(const StepInput& input, TraceStep& record) override {
+    const Ride<Scalar> ride = state_.ride;
+    const Vec2d rode = motion_of(ride.ground);
     step_unrecorded(input);
     const MoveResult<Scalar>& move = report_.move;
     record.path.clear();
     for (const PathPoint<Scalar>& corner : move.path)
       record.path.push_back({corner.position.template cast<double>(), static_cast<double>(corner.fraction)});
-    record.requested = report_.requested.template cast<double>();
+    record.requested = report_.requested.template cast<double>() + carried_by(ride, rode);
     record.velocity = state_.velocity.template cast<double>();
     record.grounded = state_.grounded;
     record.jumping = state_.jumping;
@@ -128,6 +130,24 @@ class TechniqueContestant final : public Contestant {
   }
 
  private:
+  /// Of the mover that a collider goes along with, in the present step or, before it, in the last one [m].
+  [[nodiscard]] Vec2d motion_of(ColliderIndex ground) const {
+    if (ground == Ride<Scalar>::none) return Vec2d::Zero();
+    const MoverIndex mover = header_.scenery.colliders[ground].mover;
+    if (mover == no_mover) return Vec2d::Zero();
+    return (motions_[mover].to - motions_[mover].from).template cast<double>();
+  }
+
+  /// What the ground adds to the displacement of this step [m]. A conveyor's part is what was left of the ride's
+  /// velocity in the last step, `rode` apart.
+  [[nodiscard]] Vec2d carried_by(const Ride<Scalar>& ride, const Vec2d& rode) const {
+    if (ride.ground == Ride<Scalar>::none) return Vec2d::Zero();
+    Vec2d carried = motion_of(ride.ground);
+    if (header_.scenery.colliders[ride.ground].surface_speed != 0)
+      carried += ride.velocity.template cast<double>() * header_.dt - rode;
+    return carried;
+  }
+
   static TechniqueDef definition(TechniqueKind kind, const Scene& scene) {
     TechniqueDef def;
     def.kind = kind;

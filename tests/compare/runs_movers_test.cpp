@@ -20,7 +20,7 @@ Scene on_a_slab(int steps) {
   scene.start.position = {0, half_height + 0.015};
   scene.scenery.colliders = {slab(-50, -31, 50, -30), slab(-3, -1, 3, 0)};
   scene.ids = {"floor", "slab"};
-  scene.input = {{.step = 0, .move = 0}};
+  scene.input = {{.step = 0, .move = 0, .jump = false}};
   return scene;
 }
 
@@ -55,6 +55,22 @@ TEST(Movers, are_the_same_for_everyone_and_begin_each_step_where_they_ended_the_
   }
 }
 
+TEST(Movers, are_part_of_the_displacement_that_a_rider_wants) {
+  Scene scene = on_a_mover(100, {{.time = 0, .at = {0, 0}}, {.time = 2, .at = {6, 2}}});
+  scene.scenery.colliders[1].surface_speed = 1.5;
+  const ReportScene result = run_scene(scene, watched(scene, {"octagon_sweep"}));
+  const ReportRun& run = run_of(result, "octagon_sweep");
+  for (std::size_t i = 30; i < run.steps.size(); ++i) {
+    const Vec2d ridden = run.steps[i].movers[0].to - run.steps[i].movers[0].from;
+    const Vec2d fall = scene.gravity * scene.dt * scene.dt;
+    EXPECT_LE((run.steps[i].requested - (ridden + Vec2d(1.5 * scene.dt, 0) + fall)).norm(), 1e-12) << i;
+  }
+  const Row& row = row_of(result, "octagon_sweep");
+  EXPECT_EQ(row.verdict, Verdict::holds) << row.reason;
+  EXPECT_EQ(row.contact_recall, 1.0);
+  EXPECT_EQ(row.contact_precision, 1.0) << "exact arithmetic judges the displacement that was wanted";
+}
+
 TEST(Movers, carry_the_twin_sideways_as_if_it_stood_still) {
   const Scene scene = on_a_mover(240, {{.time = 0, .at = {0, 0}}, {.time = 2, .at = {6, 2}}});
   const ReportScene result = run_scene(scene, watched(scene, {"box2d"}));
@@ -75,7 +91,7 @@ TEST(Movers, carry_the_twin_sideways_as_if_it_stood_still) {
 
 TEST(Movers, give_the_twin_that_jumps_off_their_speed) {
   Scene scene = on_a_mover(100, {{.time = 0, .at = {0, 0}}, {.time = 4, .at = {12, 0}}});
-  scene.input.push_back({.step = 60, .jump = true});
+  scene.input.push_back({.step = 60, .move = std::nullopt, .jump = true});
   scene.input.front().move.reset();  // nobody steers: what it has it keeps
   const ReportScene result = run_scene(scene, watched(scene, {"box2d"}));
   const ReportRun& run = run_of(result, "box2d");
