@@ -315,6 +315,14 @@ TEST(MovingRefusals, of_steps_that_movers_make_too_long) {
   }
 }
 
+TEST(MovingRefusals, of_steps_that_a_conveyor_would_make_too_long) {
+  for (const TechniqueKind kind : all_moving_kinds) {
+    Passenger passenger(kind, {conveyor(rectangle(-9, -1, 9, 0), 1e300)});
+    EXPECT_EQ(passenger.fly({0, 1}, {0, -2}, {}).status, MoveStatus::out_of_range) << name_of(kind);
+    EXPECT_EQ(passenger.position, Vec2d(0, 1)) << name_of(kind);
+  }
+}
+
 TEST(MovingRefusals, of_techniques_for_scenery_that_stands_still_say_so) {
   const Scenery<double> movers(SceneryDef{{of_mover(rectangle(0, 0, 1, 1))}});
   const Scenery<double> conveyors(SceneryDef{{conveyor(rectangle(0, 0, 1, 1), 1)}});

@@ -48,6 +48,7 @@ Parts<Scalar>::Parts(const TechniqueDef& def, const Scenery<Scalar>& where, cons
       points(def.article.points == 4 ? corners_of_box<Scalar>(character.shape) : points_of<Scalar>(character.shape)),
       unit(static_cast<Scalar>(def.article.unit)),
       something_carries(paperproof::something_carries(where)),
+      fastest_surface(paperproof::fastest_surface(where)),
       knobs(def.article) {}
 
 template <class Scalar>
@@ -156,22 +157,23 @@ bool refuse_out_of_range(const MoveRequest<Scalar>& request, MoveResult<Scalar>&
 
 namespace {
 
-/// The most that a mover goes during the step, by component [m].
+/// The most that a mover goes during the step, and a surface on it, by component [m].
 template <class Scalar>
-Vec2<Scalar> farthest_motion(const MoveRequest<Scalar>& request) noexcept {
+Vec2<Scalar> farthest_motion(Scalar fastest_surface, const MoveRequest<Scalar>& request) noexcept {
   Vec2<Scalar> farthest{Vec2<Scalar>::Zero()};
   for (const MoverMotion<Scalar>& mover : request.movers)
     farthest = farthest.cwiseMax((mover.to - mover.from).cwiseAbs());
+  farthest.x() += fastest_surface * request.dt;
   return farthest;
 }
 
 }  // namespace
 
 template <class Scalar>
-bool leaves_range(const Scenery<Scalar>& scenery, const MoveRequest<Scalar>& request) noexcept {
+bool leaves_range(const Scenery<Scalar>& scenery, Scalar fastest_surface, const MoveRequest<Scalar>& request) noexcept {
   const FrameOfReference<Scalar> frame(scenery, request);
   return !in_range(request.position) || !in_range<Scalar>(request.position + frame.wanted()) ||
-         !in_range(farthest_motion(request));
+         !in_range(farthest_motion(fastest_surface, request));
 }
 
 template <class Scalar>
@@ -179,9 +181,9 @@ bool refuse(const Parts<Scalar>& parts, bool searches_by_units, const MoveReques
             MoveResult<Scalar>& result) noexcept {
   // Relative to one mover, on another one or pushed by it.
   const Vec2<Scalar> wanted = FrameOfReference<Scalar>(*parts.scenery, request).wanted();
-  const Vec2<Scalar> farthest = wanted.cwiseAbs() + 2 * farthest_motion(request);
+  const Vec2<Scalar> farthest = wanted.cwiseAbs() + 2 * farthest_motion(parts.fastest_surface, request);
   const bool quick = !searches_by_units || length(farthest) <= parts.unit * Scalar(max_search_steps);
-  if (quick && !leaves_range(*parts.scenery, request)) return false;
+  if (quick && !leaves_range(*parts.scenery, parts.fastest_surface, request)) return false;
   refuse(request, result);
   return true;
 }
@@ -202,7 +204,7 @@ bool add_contact(const Scenery<Scalar>& scenery, const PointHit<Scalar>& hit, Si
   template bool collides(const Parts<Scalar>&, const NearbyScenery<Scalar>&, const CharacterShape::Pair&,     \
                          const Vec2<Scalar>&, const Vec2<Scalar>&) noexcept;                                  \
   template bool in_range(const Vec2<Scalar>&) noexcept;                                                       \
-  template bool leaves_range(const Scenery<Scalar>&, const MoveRequest<Scalar>&) noexcept;                    \
+  template bool leaves_range(const Scenery<Scalar>&, Scalar, const MoveRequest<Scalar>&) noexcept;            \
   template void stay_crushed(const MoveRequest<Scalar>&, MoveResult<Scalar>&) noexcept;                       \
   template void refuse(const MoveRequest<Scalar>&, MoveResult<Scalar>&) noexcept;                             \
   template bool refuse_out_of_range(const MoveRequest<Scalar>&, MoveResult<Scalar>&) noexcept;                \

@@ -66,6 +66,7 @@ struct Parts {
   CollisionPoints<Scalar> points;
   Scalar unit = 0;         ///< [m]
   bool something_carries;  ///< See the function; scenery with movers is searched in order of time.
+  Scalar fastest_surface;  ///< Of all conveyors [m/s].
   ArticleKnobs knobs;
 
   /// @param def its article knobs are valid. `scenery` must outlive the parts.
@@ -127,7 +128,8 @@ template <class Scalar>
 
 /// The step would lead beyond the range of the tolerances, alone, carried or pushed; or is no number.
 template <class Scalar>
-[[nodiscard]] bool leaves_range(const Scenery<Scalar>& scenery, const MoveRequest<Scalar>& request) noexcept;
+[[nodiscard]] bool leaves_range(const Scenery<Scalar>& scenery, Scalar fastest_surface,
+                                const MoveRequest<Scalar>& request) noexcept;
 
 /// Fills `result` as a refusal and returns true where the movement leaves the range of the tolerances, or would take
 /// more than `max_search_steps` units to search and `searches_by_units`.

@@ -1,6 +1,7 @@
 #include "techniques/frame_of_reference.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace paperproof {
 
@@ -94,12 +95,19 @@ bool FrameOfReference<Scalar>::carries(ColliderIndex ground) const noexcept {
 
 template <class Scalar>
 bool something_carries(const Scenery<Scalar>& scenery) noexcept {
-  const std::vector<ColliderDef>& colliders = scenery.as_run().colliders;
-  return scenery.mover_count() > 0 || std::any_of(colliders.begin(), colliders.end(), [](const ColliderDef& collider) {
-           return collider.surface_speed != 0;
-         });
+  return scenery.mover_count() > 0 || fastest_surface(scenery) > 0;
 }
 
+template <class Scalar>
+Scalar fastest_surface(const Scenery<Scalar>& scenery) noexcept {
+  Scalar fastest = 0;
+  for (const ColliderDef& collider : scenery.as_run().colliders)
+    fastest = std::max(fastest, std::abs(static_cast<Scalar>(collider.surface_speed)));
+  return fastest;
+}
+
+template float fastest_surface(const Scenery<float>&) noexcept;
+template double fastest_surface(const Scenery<double>&) noexcept;
 template bool something_carries(const Scenery<float>&) noexcept;
 template bool something_carries(const Scenery<double>&) noexcept;
 template class FrameOfReference<float>;

@@ -73,6 +73,10 @@ class FrameOfReference {
 template <class Scalar>
 [[nodiscard]] bool something_carries(const Scenery<Scalar>& scenery) noexcept;
 
+/// The highest speed of a conveyor's surface, to whichever side [m/s].
+template <class Scalar>
+[[nodiscard]] Scalar fastest_surface(const Scenery<Scalar>& scenery) noexcept;
+
 extern template class FrameOfReference<float>;
 extern template class FrameOfReference<double>;
 

@@ -24,7 +24,8 @@ class Discrete final : public Technique<Scalar> {
       : scenery_(&scenery),
         broad_phase_(make_broad_phase<Scalar>(def.broad_phase, scenery.static_boxes())),
         box_{character.shape.box().lower.cast<Scalar>(), character.shape.box().upper.cast<Scalar>()},
-        iterations_(def.article.iterations) {
+        iterations_(def.article.iterations),
+        fastest_surface_(fastest_surface(scenery)) {
     for (const Vec2d& corner : character.shape.hull()) outline_.push_back(corner.cast<Scalar>());
   }
 
@@ -68,6 +69,7 @@ class Discrete final : public Technique<Scalar> {
   FixedVector<Vec2<Scalar>, CharacterShape::max_points> outline_;
   Box2<Scalar> box_;
   int iterations_;
+  Scalar fastest_surface_;
 };
 
 template <class Scalar>
@@ -91,7 +93,7 @@ Scratch<Scalar> Discrete<Scalar>::make_scratch() const {
 template <class Scalar>
 void Discrete<Scalar>::move(const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,
                             MoveResult<Scalar>& result) const noexcept {
-  if (article::leaves_range(*scenery_, request)) return article::refuse(request, result);
+  if (article::leaves_range(*scenery_, fastest_surface_, request)) return article::refuse(request, result);
   result.clear();
   Frame frame{request, {*scenery_, request}, scratch, result, {}};
   frame.character.outline = {outline_.begin(), outline_.end()};
