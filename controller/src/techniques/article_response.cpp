@@ -129,8 +129,9 @@ void refuse(const MoveRequest<Scalar>& request, MoveResult<Scalar>& result) noex
   result.clear();
   result.status = MoveStatus::out_of_range;
   result.position = request.position;
-  result.velocity = request.velocity;
+  result.velocity = request.velocity + request.ride.velocity;
   result.remainder = request.remainder;
+  result.ride = request.ride;
   result.path.push_back({request.position, 0});
   result.path.push_back({request.position, 1});
 }
