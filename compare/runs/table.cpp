@@ -45,7 +45,7 @@ const std::vector<Column>& columns() {
       {"inside", [](const Row& r) { return number(r.steps_ending_inside, "{}"); }},
       {"depth m", [](const Row& r) { return number(r.max_penetration_m, "{:.2g}"); }, true},
       {"crushes", [](const Row& r) { return number(r.crushes, "{}"); }, true},
-      {"no crush", [](const Row& r) { return number(r.crushes_with_room, "{}"); }, true},
+      {"false crush", [](const Row& r) { return number(r.crushes_with_room, "{}"); }, true},
       {"sensor err.", [](const Row& r) { return number(r.sensor_errors, "{}"); }, true},
       {"gap m", [](const Row& r) { return number(r.max_contact_gap_m, "{:.2g}"); }},
       {"prec. recall", [](const Row& r) { return shares(r.contact_precision, r.contact_recall); }},

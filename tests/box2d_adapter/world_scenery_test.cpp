@@ -166,6 +166,38 @@ TEST(WorldMovers, go_as_box2d_moves_them_to_the_bit) {
   }
 }
 
+TEST(WorldMovers, carry_the_games_hero) {
+  b2World world({0, -10});  // the game's
+  add_box(new_body(world, b2_staticBody, {0, -3}), 20, 1);
+  b2Body* const lift = new_body(world, b2_kinematicBody, {0, -0.5F});
+  add_box(lift, 3, 0.5F);
+  b2Body* const hero_body = new_body(world, b2_kinematicBody, {0, 1});
+  add_box(hero_body, 0.3F, 0.6F);
+  const auto dt = static_cast<float>(frame);
+
+  const WorldScenery borrowed =
+      scenery_of(world, {.movers = [hero_body](const b2Body& body) { return &body != hero_body; }});
+  const Scenery<double> scenery(borrowed.scenery);
+  const Controller<double> controller(scenery, CharacterDef{});
+  Scratch<double> scratch = controller.make_scratch();
+  StepReport<double> report;
+  CharacterState<double> hero;
+  hero.position = {0, half_height() + 0.1};
+  std::vector<MoverMotion<double>> motions(borrowed.movers.size());
+  for (int i = 0; i < 600; ++i) {
+    const double angle = 0.02 * i;
+    lift->SetLinearVelocity({2 * static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))});
+    ASSERT_TRUE(motions_of<double>(borrowed, dt, motions));
+    controller.step(hero, {.move = 0.0, .jump = false}, {0, -10}, static_cast<double>(dt), motions, scratch, report);
+    world.Step(dt, 8, 3);
+    const Vec2d place = hero.position - widened(lift->GetPosition());
+    if (i < 60) continue;  // it falls, and is taken along
+    EXPECT_TRUE(hero.grounded) << i;
+    EXPECT_NEAR(place.y(), 0.5 + half_height(), 2e-6) << i;
+    EXPECT_LT(std::abs(place.x()), 1) << i;
+  }
+}
+
 TEST(WorldMovers, that_turn_are_no_longer_known) {
   b2World world({0, 0});
   b2Body* const door = new_body(world, b2_kinematicBody);
