@@ -48,7 +48,7 @@ class Discrete final : public Technique<Scalar> {
   /// What the character overlaps.
   struct Inside {
     bool anything = false;
-    bool what_stands_still = false;
+    bool what_stands_still = false;                  ///< By however little: a push must not lead into it.
     decltype(MoveResult<Scalar>::crushed) movers{};  ///< Colliders of those that move in this step.
   };
 
@@ -232,12 +232,13 @@ typename Discrete<Scalar>::Inside Discrete<Scalar>::find_inside(Frame& frame, bo
   const std::span<const Body<Scalar>> bodies = gather(frame);
   const Body<Scalar> character = placed(bodies.front());
   for (std::size_t i = 1; i < bodies.size(); ++i) {
-    if (!discrete::began_overlapping<Scalar>(character, placed(bodies[i]), Tolerances<Scalar>{}.touch)) continue;
+    const Body<Scalar> body = placed(bodies[i]);
     const PieceInfo& info = scenery_->pieces()[frame.scratch.candidates[i - 1]];
-    inside.anything = true;
-    if (info.mover == no_mover)
+    if (info.mover == no_mover && discrete::began_overlapping<Scalar>(character, body, 0))
       inside.what_stands_still = true;
-    else if (!frame.place.motion(info.mover).isZero(0))
+    if (!discrete::began_overlapping<Scalar>(character, body, Tolerances<Scalar>{}.touch)) continue;
+    inside.anything = true;
+    if (info.mover != no_mover && !frame.place.motion(info.mover).isZero(0))
       article::add_once(info.collider, inside.movers);
   }
   return inside;
