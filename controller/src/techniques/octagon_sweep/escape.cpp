@@ -3,39 +3,32 @@
 #include "techniques/octagon_sweep/certificate.hpp"
 #include "techniques/octagon_sweep/narrow_phase.hpp"
 #include "techniques/octagon_sweep/one_way.hpp"
+#include "techniques/octagon_sweep/open_facets.hpp"
 
 #include <paperproof/tolerances.hpp>
 
 namespace paperproof::octagon_sweep {
 namespace {
 
-/// The boundary of the union of the obstacles is made of facets. The nearest position outside lies on one of them or
-/// where two of them cross; the nearest this many are looked at.
-constexpr std::size_t max_facets = 96;
 /// Pieces that the octagon is inside of at once; a start inside more of them looks at the first ones only.
 constexpr std::size_t max_inside = 64;
-
-template <class Scalar>
-struct OpenFacet {
-  PieceIndex piece;
-  std::size_t axis;
-  Vec2<Scalar> nearest;  ///< Position on it, pushed out to the gap, that is nearest to the start.
-  Scalar distance;
-};
 
 template <std::size_t Lanes, class Scalar>
 class Escape {
  public:
   Escape(const ConfigurationSpace<Scalar>& space, std::span<const PieceIndex> candidates,
          std::span<const MoverMotion<Scalar>> movers, const Vec2<Scalar>& from, const Vec2<Scalar>* last_free) noexcept
-      : space_(space), candidates_(candidates), movers_(movers), from_(from), last_free_(last_free) {}
+      : space_(space),
+        candidates_(candidates),
+        movers_(movers),
+        from_(from),
+        last_free_(last_free),
+        facets_(space, from, Tolerances<Scalar>{}.stop) {}
 
   std::optional<Vec2<Scalar>> find() noexcept {
     collect_solids();
     collect_facets();
-    for (const OpenFacet<Scalar>& facet : facets_) consider(facet.nearest);
-    for (std::size_t i = 0; i < facets_.size(); ++i)
-      for (std::size_t j = 0; j < i; ++j) consider_crossing(facets_[i], facets_[j]);
+    facets_.for_each_position([this](const Vec2<Scalar>& q) { consider(q); });
     if (same_side_) return same_side_;
     return any_side_;
   }
@@ -72,45 +65,8 @@ class Escape {
   }
 
   void collect_facets() noexcept {
-    for (const PieceIndex piece : candidates_) {
-      if (!solid(piece) || !may_pass(piece)) continue;
-      for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis) {
-        const Vec2<Scalar> n = space_.normal(piece, axis);
-        if (space_.covered(piece, axis) || (n.x() == 0 && n.y() == 0)) continue;
-        keep_nearest(open_facet(piece, axis, n));
-      }
-    }
-  }
-
-  [[nodiscard]] OpenFacet<Scalar> open_facet(PieceIndex piece, std::size_t axis, const Vec2<Scalar>& n) const noexcept {
-    const auto facet = space_.facet(piece, axis);
-    const Vec2d from = local(piece, from_).template cast<double>();
-    const Vec2d span = facet.to - facet.from;
-    const double squared = span.dot(span);
-    const double share = squared > 0 ? std::clamp(span.dot(from - facet.from) / squared, 0.0, 1.0) : 0.0;
-    const Vec2d foot = facet.from + span * share;
-    const Vec2<Scalar> out = foot.template cast<Scalar>() + n * Tolerances<Scalar>{}.stop + offset(piece);
-    return {piece, axis, out, length_of(Vec2<Scalar>(out - from_))};
-  }
-
-  void keep_nearest(const OpenFacet<Scalar>& facet) noexcept {
-    if (facets_.push_back(facet)) return;
-    auto furthest = std::max_element(facets_.begin(), facets_.end(),
-                                     [](const auto& a, const auto& b) { return a.distance < b.distance; });
-    if (facet.distance < furthest->distance) *furthest = facet;
-  }
-
-  /// Where the two inflated facets' lines cross: the way out of a corner.
-  void consider_crossing(const OpenFacet<Scalar>& a, const OpenFacet<Scalar>& b) noexcept {
-    const Vec2<Scalar> na = space_.normal(a.piece, a.axis);
-    const Vec2<Scalar> nb = space_.normal(b.piece, b.axis);
-    const Scalar determinant = na.x() * nb.y() - na.y() * nb.x();
-    if (std::abs(determinant) < Tolerances<Scalar>{}.hit) return;
-    const Scalar gap = Tolerances<Scalar>{}.stop;
-    const Scalar da = gap - space_.separation(a.piece, a.axis, local(a.piece, from_));
-    const Scalar db = gap - space_.separation(b.piece, b.axis, local(b.piece, from_));
-    consider(from_ +
-             Vec2<Scalar>((da * nb.y() - db * na.y()) / determinant, (db * na.x() - da * nb.x()) / determinant));
+    for (const PieceIndex piece : candidates_)
+      if (solid(piece) && may_pass(piece)) facets_.add(piece, offset(piece));
   }
 
   void consider(const Vec2<Scalar>& q) noexcept {
@@ -167,7 +123,7 @@ class Escape {
   Vec2<Scalar> from_;
   const Vec2<Scalar>* last_free_;
   FixedVector<PieceIndex, max_inside> inside_;
-  FixedVector<OpenFacet<Scalar>, max_facets> facets_;
+  OpenFacets<Scalar> facets_;
   std::optional<Vec2<Scalar>> any_side_;
   std::optional<Vec2<Scalar>> same_side_;
   Scalar any_side_distance_ = std::numeric_limits<Scalar>::infinity();

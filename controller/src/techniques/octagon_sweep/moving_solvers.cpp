@@ -1,5 +1,6 @@
 #include "techniques/octagon_sweep/solvers.hpp"
 #include "techniques/octagon_sweep/step_among_movers.hpp"
+#include "techniques/octagon_sweep/step_crush.hpp"
 #include "techniques/octagon_sweep/step_ride.hpp"
 #include "techniques/octagon_sweep/step_start.hpp"
 #include "techniques/octagon_sweep/step_sweep.hpp"

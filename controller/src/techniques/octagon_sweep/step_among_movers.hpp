@@ -27,12 +27,12 @@ void StepSolver<variant, Scalar>::look_at_movers() noexcept {
   }
 }
 
-/// What has crushed the character goes through it for the rest of the step.
+/// What has crushed the character, or is on it since an earlier step, goes through it for the rest of the step.
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::ignored(PieceIndex piece) const noexcept {
-  if (result_.crushed.empty()) return false;
+  if (moving_.ignored.empty()) return false;
   const ColliderIndex collider = space_.scenery().pieces()[piece].collider;
-  return std::find(result_.crushed.begin(), result_.crushed.end(), collider) != result_.crushed.end();
+  return std::find(moving_.ignored.begin(), moving_.ignored.end(), collider) != moving_.ignored.end();
 }
 
 /// Whether a motion keeps off a piece along the axis that holds it. The axis alone is then proof.
@@ -67,7 +67,7 @@ void StepSolver<variant, Scalar>::travel_among_movers() noexcept {
       continue;
     }
     const Scalar begin = time_;
-    if (!advance(found_.hit ? found_.stop : Scalar(1))) return stay();
+    if (!advance(found_.hit ? found_.stop : Scalar(1))) return stay(true);
     if (!found_.hit) return;
     report(begin);
     update_holds();
@@ -77,7 +77,11 @@ void StepSolver<variant, Scalar>::travel_among_movers() noexcept {
       if (result_.status == MoveStatus::moved) result_.status = MoveStatus::dropped;
       drive = {V::Zero(), V::Zero()};
     }
-    respond_to_holds(drive);
+    if (!respond_to_holds(drive)) {
+      if (find_room()) return;
+      crush_what_presses();
+      drive = {V::Zero(), V::Zero()};
+    }
     velocity_ = drive.velocity;
     way = may_aim ? aimed_back(drive.way, found_.stops[0]) : drive.way;
   }
@@ -185,7 +189,7 @@ bool StepSolver<variant, Scalar>::respond_in_crease(Drive<Scalar>& drive) const 
   return true;
 }
 
-/// The nearest motion that all surfaces allow. Where the closing of a gap leaves none, one that uses up the gap.
+/// The nearest motion that all surfaces allow.
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::respond_together(Drive<Scalar>& drive) const noexcept {
   FixedVector<HalfPlane<Scalar>, 32> ways;
@@ -198,21 +202,14 @@ bool StepSolver<variant, Scalar>::respond_together(Drive<Scalar>& drive) const n
     return nearest_allowed<Scalar>(wanted, {planes.begin(), planes.end()});
   };
   drive.velocity = nearest(drive.velocity, velocities).value_or(V::Zero());
-  std::optional<V> way = nearest(drive.way, ways);
-  if (!way) {
-    for (std::size_t i = 0; i < ways.size(); ++i) {
-      const Hold<Scalar>& hold = moving_.holds[i];
-      const Scalar gap = space_.separation(hold.piece, hold.axis, local(hold.piece, position_));
-      ways[i].least -= std::max(Scalar(0), gap - Tolerances<Scalar>{}.hit);
-    }
-    way = nearest(drive.way, ways);
-  }
+  const std::optional<V> way = nearest(drive.way, ways);
   if (way) drive.way = *way;
   return way.has_value();
 }
 
+/// False where the surfaces leave no motion.
 template <Variant variant, class Scalar>
-void StepSolver<variant, Scalar>::respond_to_holds(Drive<Scalar>& drive) noexcept {
+bool StepSolver<variant, Scalar>::respond_to_holds(Drive<Scalar>& drive) noexcept {
   const Hold<Scalar>& first = moving_.holds[0];
   ended_in_crease_ = false;
   if (walkable(first.normal) && carries(first.piece) && moving_.ride.ground == Ride<Scalar>::none &&
@@ -221,55 +218,13 @@ void StepSolver<variant, Scalar>::respond_to_holds(Drive<Scalar>& drive) noexcep
     drive.velocity.x() = moving_.ride.velocity.x();
     drive.way.x() = ground_rest(first.piece, first.normal).x();
   }
-  if (respond_one_by_one(drive)) return;
-  if (respond_in_crease(drive)) {
-    ended_in_crease_ = true;
-    return;
-  }
-  if (respond_together(drive)) return;
-
-  drive = {V::Zero(), V::Zero()};
-  for (const Hold<Scalar>& hold : moving_.holds)
-    if (!behind(hold.normal, rest_of(hold)).allows(drive.way)) crush(hold.piece);
-}
-
-template <Variant variant, class Scalar>
-void StepSolver<variant, Scalar>::crush(PieceIndex piece) noexcept {
-  if (ignored(piece)) return;
-  result_.crushed.push_back(space_.scenery().pieces()[piece].collider);
-  result_.status = MoveStatus::crushed;
-}
-
-/// Every mover near the position for whose pieces the condition holds crushes. True if there was one.
-template <Variant variant, class Scalar>
-template <class Condition>
-bool StepSolver<variant, Scalar>::crush_near_movers(const Condition& condition) noexcept {
-  const std::size_t before = result_.crushed.size();
-  for_each_near({position_, position_}, [&](PieceIndex piece) {
-    if (mover_of(piece) != no_mover && !ignored(piece) && condition(piece)) crush(piece);
-  });
-  return result_.crushed.size() > before;
-}
-
-/// The character keeps its position for the rest of the step, and what runs into it crushes.
-template <Variant variant, class Scalar>
-void StepSolver<variant, Scalar>::stay() noexcept {
-  halt();
-  moving_.holds.clear();
-  while (true) {
-    look_along(V::Zero());
-    const std::size_t before = result_.crushed.size();
-    for (const Stop<Scalar>& stop : found_.stops)
-      if (mover_of(stop.piece) != no_mover) crush(stop.piece);
-    if (result_.crushed.size() == before) break;  // nothing more, or no room to name it
-  }
-  moving_.anchored = false;
-  time_ = 1;
-  push_corner(time_);
+  if (respond_one_by_one(drive)) return true;
+  ended_in_crease_ = respond_in_crease(drive);
+  return ended_in_crease_ || respond_together(drive);
 }
 
 /// The path has no more corners: the last one is at the end of the step. With what it was doing, with what holds it, or
-/// standing still, if the way is then clear.
+/// wherever there is room.
 template <Variant variant, class Scalar>
 void StepSolver<variant, Scalar>::last_resort(const V& way) noexcept {
   if (result_.status == MoveStatus::moved) result_.status = MoveStatus::dropped;
@@ -280,7 +235,7 @@ void StepSolver<variant, Scalar>::last_resort(const V& way) noexcept {
   if (goes(way)) return;
   for (const Hold<Scalar>& hold : moving_.holds)
     if (goes(rest_of(hold))) return;
-  stay();
+  stay(true);
 }
 
 }  // namespace paperproof::octagon_sweep

@@ -1,7 +1,8 @@
 /// The working state of one step of the octagon sweep.
 ///
-/// The definitions are in step_sweep.hpp, step_start.hpp, step_travel.hpp and, where something moves, step_ride.hpp and
-/// step_among_movers.hpp: each instance is compiled as a whole, so that what is called from one place is inlined.
+/// The definitions are in step_sweep.hpp, step_start.hpp, step_travel.hpp and, where something moves, step_ride.hpp,
+/// step_among_movers.hpp and step_crush.hpp: each instance is compiled as a whole, so that what is called from one
+/// place is inlined.
 #pragma once
 
 #include "techniques/octagon_sweep/narrow_phase.hpp"
@@ -74,9 +75,16 @@ template <class Scalar>
 struct MoverState {
   const Surroundings<Scalar>& around;
   FixedVector<Hold<Scalar>, 32> holds{};
+  FixedVector<Hold<Scalar>, 32> holds_before{};  ///< While room is looked for.
   Ride<Scalar> ride{};            ///< What carries the character in this step; `velocity` is that of this step.
   MoverIndex carrier = no_mover;  ///< Its mover; none for a conveyor that stands still.
   bool anchored = false;          ///< The character has not moved on what carries it.
+  /// Colliders that go through the character in this step: they crush it, or are on it since an earlier step.
+  FixedVector<ColliderIndex, MoveResult<Scalar>::max_crushed> ignored{};
+  std::size_t on_it = 0;         ///< The first so many of them were on it when the step began.
+  std::size_t first_corner = 0;  ///< Of the path, from which on it travelled.
+  /// How many contacts were known at each corner of the path.
+  std::array<std::size_t, MoveResult<Scalar>::max_corners> contacts_at{};
 };
 
 struct NoMoverState {};
@@ -172,12 +180,23 @@ class StepSolver {
   [[nodiscard]] bool respond_one_by_one(Drive<Scalar>& drive) const noexcept;
   [[nodiscard]] bool respond_in_crease(Drive<Scalar>& drive) const noexcept;
   [[nodiscard]] bool respond_together(Drive<Scalar>& drive) const noexcept;
-  void respond_to_holds(Drive<Scalar>& drive) noexcept;
+  [[nodiscard]] bool respond_to_holds(Drive<Scalar>& drive) noexcept;
+  void last_resort(const V& way) noexcept;
+
+  // step_crush.hpp
+  [[nodiscard]] bool find_room() noexcept;
+  [[nodiscard]] bool find_room(Scalar gap) noexcept;
+  [[nodiscard]] bool roomy(std::span<const PieceIndex> candidates, const V& q) const noexcept;
+  [[nodiscard]] bool goes_straight(std::size_t corner, const V& end) noexcept;
+  void go_back_to(std::size_t corner) noexcept;
+  [[nodiscard]] Scalar longest_course() const noexcept;
+  void crush_what_presses() noexcept;
   void crush(PieceIndex piece) noexcept;
   template <class Condition>
-  bool crush_near_movers(const Condition& condition) noexcept;
-  void stay() noexcept;
-  void last_resort(const V& way) noexcept;
+  bool let_through(const Condition& condition) noexcept;
+  bool let_through_what_is_on_it() noexcept;
+  void end_wait() noexcept;
+  void stay(bool may_give_way) noexcept;
 
   const ConfigurationSpace<Scalar>& space_;
   const Settings<Scalar>& settings_;

@@ -16,9 +16,9 @@ inline constexpr int escape_reach = 8;
 
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::prepare_start(const MoveRequest<Scalar>& request) noexcept {
-  const auto is_inside = [this](PieceIndex piece) { return overlaps(piece, position_); };
-  if constexpr (variant.movers)
-    if (request.crushed && crush_near_movers(is_inside)) return true;
+  if constexpr (variant.movers) {
+    if (request.crushed) let_through_what_is_on_it();
+  }
   while (overlaps(position_)) {
     const std::optional<V> out = find_way_out(request);
     if (out) {
@@ -27,15 +27,15 @@ bool StepSolver<variant, Scalar>::prepare_start(const MoveRequest<Scalar>& reque
       return true;
     }
     if constexpr (variant.movers) {
-      // Those are on the character, and there is no room beside them: without them there may be.
-      if (crush_near_movers(is_inside)) continue;
+      // There is no room beside what moves: without it there may be.
+      if (let_through_what_is_on_it()) continue;
     }
     return false;
   }
   restore_gap();
   if constexpr (variant.movers) {
     // Nearer than rounding, and it stayed so: closed.
-    crush_near_movers([this](PieceIndex piece) {
+    let_through([this](PieceIndex piece) {
       return best_axis<variant>(space_, piece, local(piece, position_)).separation < Tolerances<Scalar>{}.certain &&
              may_block(piece, position_);
     });

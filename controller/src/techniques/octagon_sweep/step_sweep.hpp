@@ -149,6 +149,7 @@ void StepSolver<variant, Scalar>::report(Scalar begin) noexcept {
     else
       contacts.push_back(contact);
   }
+  if constexpr (variant.movers) moving_.contacts_at[result_.path.size() - 1] = contacts.size();
   if (contacts.size() - before > 1)
     std::sort(contacts.begin() + before, contacts.end(),
               [](const Contact<Scalar>& a, const Contact<Scalar>& b) { return a.fraction < b.fraction; });
@@ -206,6 +207,7 @@ void StepSolver<variant, Scalar>::push_corner(Scalar fraction) noexcept {
   if (!result_.path.empty() && result_.path.back().fraction == fraction && result_.path.back().position == position_)
     return;
   result_.path.push_back({position_, fraction});
+  if constexpr (variant.movers) moving_.contacts_at[result_.path.size() - 1] = result_.contacts.size();
 }
 
 }  // namespace paperproof::octagon_sweep

@@ -39,17 +39,25 @@ void StepSolver<variant, Scalar>::solve(const MoveRequest<Scalar>& request) noex
   if (near && !prepare_start(request)) {
     result_.status = MoveStatus::stuck;
     halt();
-    if constexpr (variant.movers) stay();
+    if constexpr (variant.movers) stay(false);
   } else {
+    if constexpr (variant.movers) {
+      moving_.first_corner = result_.path.size() - 1;
+      if (moving_.on_it > 0) {
+        halt();
+        wanted = V::Zero();
+      }
+    }
     if (near) look_along(wanted);
     if constexpr (variant.movers)
-      result_.crushed.empty() ? travel_among_movers() : stay();
+      travel_among_movers();
     else
       travel();
     result_.grounded = stands();
     if constexpr (variant.snap) follow_ground_down(request);
     if constexpr (variant.movers) end_ride();
   }
+  if constexpr (variant.movers) end_wait();
   push_corner(1);
   result_.position = position_;
   result_.velocity = velocity_;
