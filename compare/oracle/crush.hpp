@@ -7,12 +7,18 @@
 
 namespace paperproof::compare::detail {
 
+/// The solids that a step meets on its way.
+struct Meetings {
+  /// Met first on the leg that begins at this corner.
+  std::map<ColliderIndex, std::size_t> within_step;
+  /// Overlapped when the step began, with the last place free of it as far as there is one.
+  std::map<ColliderIndex, std::optional<Place>> before;
+};
+
 /// A position at the end of the step that would have been free: see `Judge` for what counts as room. Or none.
 /// @param path the way of the step, corner by corner, up to its end.
 /// @param crushed the colliders of movers that are said to crush.
-/// @param free_of for what the octagon overlaps on its way the last place free of it, as far as there is one.
 [[nodiscard]] std::optional<Vec2d> find_room(const ExactScenery& scenery, std::span<const Place> path,
-                                             std::span<const ColliderIndex> crushed,
-                                             const std::map<ColliderIndex, Place>& free_of);
+                                             std::span<const ColliderIndex> crushed, const Meetings& meetings);
 
 }  // namespace paperproof::compare::detail

@@ -127,19 +127,16 @@ void Judge::begin_episodes(const Place& start) {
 void Judge::judge_way(const Path& path, const TraceStep& step, StepJudgement& judgement) {
   Touched touched;
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-    for (const ColliderIndex collider : scenery_.met(path[i], path[i + 1])) touched.emplace(collider, path[i]);
+    for (const ColliderIndex collider : scenery_.met(path[i], path[i + 1])) touched.emplace(collider, i);
   }
   judge_crushes(path, step, touched, judgement);
   judge_end(path, touched, judgement);
-  for (const auto& [collider, from] : touched) {
+  for (const auto& [collider, corner] : touched) {
     if (contains(judgement.crushed, collider)) continue;
     if (scenery_.scenery().colliders[collider].one_way) {
       judgement.one_way_broken.push_back(collider);
     } else {
-      const auto leg = std::find_if(path.begin(), path.end(), [&, &from = from](const Place& corner) {
-        return corner.position == from.position && corner.fraction == from.fraction;
-      });
-      judge_passing(path, collider, from, *std::next(leg), 0, judgement);
+      judge_passing(path, collider, path[corner], path[corner + 1], 0, judgement);
     }
   }
 }
@@ -150,7 +147,7 @@ void Judge::judge_end(const Path& path, Touched& touched, StepJudgement& judgeme
   for (const ColliderIndex collider : judgement.end_overlap) {
     const auto entered = touched.find(collider);
     const auto [it, is_new] =
-        inside_.try_emplace(collider, Episode{Kept(entered != touched.end() ? entered->second : path[0]), 0, false});
+        inside_.try_emplace(collider, Episode{Kept(path[entered != touched.end() ? entered->second : 0]), 0, false});
     Episode& episode = it->second;
     const double depth = scenery_.penetration(path.back(), collider);
     episode.depth = std::max(episode.depth, depth);
@@ -228,12 +225,12 @@ double Judge::depth_of(const Path& path, ColliderIndex collider) const {
 void Judge::judge_crushes(const Path& path, const TraceStep& step, const Touched& touched,
                           StepJudgement& judgement) const {
   if (step.crushed.empty()) return;
-  Touched free_of = touched;
+  detail::Meetings meetings{touched, {}};
   for (const auto& [collider, episode] : inside_) {
-    free_of.erase(collider);
-    if (episode.free_from) free_of.emplace(collider, episode.free_from->place());
+    std::optional<Place>& free = meetings.before[collider];
+    if (episode.free_from) free = episode.free_from->place();
   }
-  const std::optional<Vec2d> room = detail::find_room(scenery_, path, step.crushed, free_of);
+  const std::optional<Vec2d> room = detail::find_room(scenery_, path, step.crushed, meetings);
   for (const ColliderIndex collider : step.crushed) {
     const bool moves = header_.scenery.colliders[collider].mover != no_mover;
     (moves && !room ? judgement.crushed : judgement.crushed_with_room).push_back(collider);

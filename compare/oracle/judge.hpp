@@ -117,7 +117,7 @@ class Judge {
     bool pressed = false;           ///< By a verified crush.
   };
   using Path = std::vector<Place>;
-  using Touched = std::map<ColliderIndex, Place>;  ///< With the corner where the first leg that meets it begins.
+  using Touched = std::map<ColliderIndex, std::size_t>;  ///< With the corner where the first leg that meets it begins.
 
   [[nodiscard]] Path path_of(const TraceStep& step) const;
   /// Whether nothing differs from the last step, as at rest: then neither does the judgement.

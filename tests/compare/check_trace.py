@@ -5,12 +5,16 @@
 
 For every step:
 - the way that was travelled, corner by corner, enters no solid that the character was not already in, and the step does
-  not end inside one; what the trace calls an overlap at the start of a step is one;
-- a step begins where the last one ended, unless the trace says that the character was put elsewhere.
+  not end inside one; what the trace calls an overlap at the start of a step is one. What moves is looked at from where it
+  is: its offset goes evenly from one end to the other while the fraction of the step goes from 0 to 1. Only a mover that
+  the step names in `crush` may come into the character;
+- a step begins where the last one ended, unless the trace says that the character was put elsewhere; so does every mover,
+  and every mover stands in every step.
 For octagon_sweep in double, which promises more, also:
 - the gap at every contact is above 0 and at most 1e-6 m, between the contact's point, which lies on the collider, and
   the character at a corner of its way;
-- the fraction of the first contact is the time of impact of the exact motion, to 1e-6 m along the normal.
+- the fraction of the first contact is the time of impact of the exact motion, to 1e-6 m along the normal;
+- the sensors' events are those of the way, in order, with fractions that are right to 1e-6 m along it.
 
 Every number of a trace is a double, and every double is a fraction: the answers are exact but where a tolerance is named.
 Exit status: 0 all holds, 1 something does not (one line each), 2 not a trace.
@@ -32,6 +36,10 @@ def exact(points):
 
 def add(a, b):
     return (a[0] + b[0], a[1] + b[1])
+
+
+def less(a, b):
+    return (a[0] - b[0], a[1] - b[1])
 
 
 def turn(a, b, c):
@@ -83,6 +91,7 @@ def inside(point, rings):
 class Collider:
     def __init__(self, entry):
         self.id = entry["id"]
+        self.sensor = entry.get("sensor", False)
         self.one_way = tuple(map(Fraction, entry["one_way"])) if "one_way" in entry else None
         self.rings = [exact(ring) for ring in [entry["polygon"]] + entry.get("holes", [])] if "polygon" in entry else []
         line = exact(entry.get("chain", []))
@@ -104,9 +113,39 @@ class Collider:
                 yield a, b
 
 
+class Motion:
+    """Of the movers during one step, by the ids of their colliders."""
+
+    def __init__(self, step):
+        self.ends = {name: exact(ends) for name, ends in step["movers"].items()}
+
+    def change(self, name):
+        ends = self.ends.get(name)
+        return less(ends[1], ends[0]) if ends else (ZERO, ZERO)
+
+    def offset(self, name, fraction):
+        return add(self.ends[name][0], scaled(self.change(name), fraction)) if name in self.ends else (ZERO, ZERO)
+
+    def seen(self, name, corner):
+        """A corner of a way as the collider sees it, which then stands still."""
+        return less(corner[:2], self.offset(name, corner[2]))
+
+
+def crossings(start, way, body, edges):
+    """Where on a straight way a corner of the body meets an edge, or an end of an edge one of the body."""
+    pairs = [(add(start, corner), a, b, way) for corner in body for a, b in edges]
+    sides = [(add(start, a), add(start, b)) for a, b in zip(body, body[1:] + body[:1])]
+    pairs += [(end, a, b, scaled(way, -1)) for edge in edges for end in edge for a, b in sides]
+    for point, a, b, moved in pairs:
+        along = less(b, a)
+        speed = moved[1] * along[0] - moved[0] * along[1]
+        if speed != 0:
+            yield -turn(a, b, point) / speed
+
+
 class Checker:
     def __init__(self, header):
-        self.body = exact(header["points"])
+        self.body = hull(exact(header["points"]))
         self.low = [float(min(corner[k] for corner in self.body)) for k in (0, 1)]
         self.high = [float(max(corner[k] for corner in self.body)) for k in (0, 1)]
         self.colliders = {entry["id"]: Collider(entry) for entry in header["colliders"]}
@@ -133,39 +172,94 @@ class Checker:
         middle = (sum(p[0] for p in swept) / len(swept), sum(p[1] for p in swept) / len(swept))
         return inside(middle, collider.rings)
 
-    def check_way(self, step, path):
+    def check_way(self, step, path, motion):
         allowed = step["start_overlap"]
         for name in allowed:
-            if not self.meets(name, path[0], (ZERO, ZERO)):
+            if not self.meets(name, motion.seen(name, path[0]), (ZERO, ZERO)):
                 yield f"does not overlap {name} at the start, as it says"
+        for name in step.get("crush", []):
+            if name not in motion.ends:
+                yield f"is crushed by {name}, which does not move"
         for name, collider in self.colliders.items():
-            if name in allowed:
+            crushes = name in step.get("crush", []) and name in motion.ends
+            if name in allowed or crushes or collider.sensor:
                 continue
-            for start, end in zip(path, path[1:]):
-                if self.meets(name, start, (end[0] - start[0], end[1] - start[1])):
-                    yield f"passes or enters {name} on its way from {show(start)} to {show(end)}"
-            if collider.one_way is None and self.meets(name, path[-1], (ZERO, ZERO)):
+            corners = [motion.seen(name, corner) for corner in path]
+            for i, (start, end) in enumerate(zip(corners, corners[1:])):
+                if self.meets(name, start, less(end, start)):
+                    yield f"passes or enters {name} on its way from {show(path[i])} to {show(path[i + 1])}"
+            if collider.one_way is None and self.meets(name, corners[-1], (ZERO, ZERO)):
                 yield f"ends inside {name}"
 
-    def check_contact(self, contact, path):
+    def sensor_events(self, name, corners):
+        """(change, leg, fraction of the leg) of everything that happens to a sensor, which stands still."""
+        states = []  # in turn at an instant and between two, with the leg and its fraction
+        for leg, (start, end) in enumerate(zip(corners, corners[1:])):
+            way = less(end, start)
+            near = self.meets(name, start, way)
+            found = crossings(start, way, self.body, self.colliders[name].edges) if near else []
+            times = [ZERO] + sorted({t for t in found if 0 < t < 1}) + [Fraction(1)]
+            for first, last in zip(times, times[1:]):
+                for t in (first, (first + last) / 2):
+                    at = add(start, scaled(way, t))
+                    states.append((near and self.meets(name, at, (ZERO, ZERO)), leg, first if t == first else last))
+        states.append((self.meets(name, corners[-1], (ZERO, ZERO)), len(corners) - 2, Fraction(1)))
+        for i, (before, now) in enumerate(zip(states, states[1:])):
+            if before[0] != now[0]:
+                instant = before if i % 2 == 0 else now
+                yield "enter" if now[0] else "exit", instant[1], instant[2]
+
+    def check_sensors(self, step, path, motion):
+        for name, collider in self.colliders.items():
+            if not collider.sensor:
+                continue
+            corners = [motion.seen(name, corner) for corner in path]
+            expected = []
+            for change, leg, share in self.sensor_events(name, corners):
+                expected.append((change, path[leg][2] + share * (path[leg + 1][2] - path[leg][2])))
+            found = [(e["change"], Fraction(e["fraction"])) for e in step.get("sensors", []) if e["id"] == name]
+            if [change for change, _ in found] != [change for change, _ in expected]:
+                words = [f"{change} at {float(t)}" for change, t in expected] or ["nothing"]
+                yield f"does not report {', '.join(words)} at the sensor {name}"
+                continue
+            length = sum(size(less(end, start)) for start, end in zip(corners, corners[1:]))
+            for (change, reported), (_, right) in zip(found, expected):
+                if not abs(reported - right) * Fraction(length) <= GAP:
+                    yield f"has the {change} of {name} at {float(reported)}, not at {float(right)}"
+
+    def check_movers(self, step, motion, last):
+        if last is None:
+            return
+        if motion.ends.keys() != last.ends.keys():
+            yield "has not the same movers as the step before"
+        for name in motion.ends.keys() & last.ends.keys():
+            if motion.ends[name][0] != last.ends[name][1]:
+                yield f"has {name} begin at {show(motion.ends[name][0])}, not where it was"
+
+    def check_contact(self, contact, path, motion):
         n = contact["normal"]
         name = contact["collider"]
         if abs(n[0] ** 2 + n[1] ** 2 - 1) > 1e-12:
             yield f"has a normal that is no unit vector at {name}"
         point = tuple(map(Fraction, contact["point"]))
-        if min(distance(point, a, b) for a, b in self.colliders[name].edges) > ROUNDING:
+        edges = self.colliders[name].edges
+        # The place that is touched is one of the moment of the impact.
+        point = less(point, motion.offset(name, Fraction(contact["fraction"])))
+        if not min(distance(point, a, b) for a, b in edges) <= ROUNDING:
             yield f"has a contact point {show(point)} that is not on {name}"
         n = tuple(map(Fraction, n))
         reach = min(dot(n, corner) for corner in self.body)
-        gaps = [dot(n, corner) + reach - dot(n, point) for corner in path]
+        gaps = [dot(n, motion.seen(name, corner)) + reach - dot(n, point) for corner in path]
         gap = min(gaps, key=lambda g: abs(g - Fraction(contact["separation"])))
         if abs(gap - Fraction(contact["separation"])) > ROUNDING:
             yield f"is nowhere {contact['separation']} m from {name}"
         if not 0 < gap <= GAP:
             yield f"keeps a gap of {float(gap)} m at {name}"
 
-    def check_impact(self, contact, start, requested):
+    def check_impact(self, contact, start, requested, motion):
         name, n, t = contact["collider"], contact["normal"], Fraction(contact["fraction"])
+        start = motion.seen(name, start)
+        requested = less(requested, motion.change(name))
         along = abs(dot(tuple(map(Fraction, n)), requested))
         if along == 0:
             yield f"has a contact with {name} that it does not move towards"
@@ -182,23 +276,24 @@ class Checker:
 
     def check(self, steps):
         """Yields (step, what is wrong)."""
-        last = None
+        last = last_motion = None
         for step in steps:
-            if step["movers"]:
-                raise ValueError("moving scenery is not known here")
-            path = exact(corner[:2] for corner in step["path"])
+            motion = Motion(step)
+            path = exact(step["path"])
             fractions = [corner[2] for corner in step["path"]]
             if fractions[0] != 0 or fractions[-1] != 1 or fractions != sorted(fractions):
                 yield step, "has a way that does not go from fraction 0 to 1"
-            if last not in (None, path[0]) and not step.get("respawn") and not self.placed_anew:
+            if last not in (None, path[0][:2]) and not step.get("respawn") and not self.placed_anew:
                 yield step, f"begins at {show(path[0])}, not where the last one ended"
-            last = path[-1]
-            found = list(self.check_way(step, path))
+            found = list(self.check_movers(step, motion, last_motion)) + list(self.check_way(step, path, motion))
+            last, last_motion = path[-1][:2], motion
             if self.promises:
                 for contact in step["contacts"]:
-                    found += self.check_contact(contact, path)
-                if step["contacts"] and not step["start_overlap"]:
-                    found += self.check_impact(step["contacts"][0], path[0], tuple(map(Fraction, step["requested"])))
+                    found += self.check_contact(contact, path, motion)
+                if step["contacts"] and not step["start_overlap"] and not step.get("crush"):
+                    requested = tuple(map(Fraction, step["requested"]))
+                    found += self.check_impact(step["contacts"][0], path[0], requested, motion)
+                found += self.check_sensors(step, path, motion)
             for words in found:
                 yield step, words
 
@@ -217,7 +312,12 @@ def distance(point, a, b):
     off = (point[0] - a[0], point[1] - a[1])
     share = min(max(dot(off, way) / dot(way, way), ZERO), Fraction(1))
     rest = (off[0] - share * way[0], off[1] - share * way[1])
-    return float(dot(rest, rest)) ** 0.5
+    return size(rest)
+
+
+def size(v):
+    """The length of a vector, rounded once."""
+    return float(dot(v, v)) ** 0.5
 
 
 def show(point):

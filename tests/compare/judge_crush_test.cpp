@@ -1,0 +1,164 @@
+#include "compare/judge_steps.hpp"
+
+#include <gtest/gtest.h>
+
+namespace paperproof::compare {
+namespace {
+
+using namespace test;  // NOLINT(google-build-using-namespace): the shapes of this folder
+
+using Colliders = std::vector<ColliderIndex>;
+
+constexpr double gap = 5e-7;
+
+ColliderDef moving(ColliderDef def, MoverIndex mover = 0) {
+  def.mover = mover;
+  return def;
+}
+
+/// It stays where it is and says that `crushed` crushes it.
+TraceStep staying(const Vec2d& at, MoverMotion<double> motion, Colliders crushed) {
+  TraceStep staying = step({at, at});
+  staying.movers = {motion};
+  staying.crushed = std::move(crushed);
+  return staying;
+}
+
+/// A floor, and a ceiling that comes down onto the octagon that stands on it.
+std::vector<ColliderDef> press() { return {box(-4, -1, 4, 0), moving(box(-4, 1.5, 4, 2))}; }
+
+const Vec2d standing(0, 0.625 + gap);
+
+TEST(JudgeCrush, without_room_it_is_verified_and_excused) {
+  Judge judge(header(press()));
+  const StepJudgement judged = judge.judge(staying(standing, {{0, 0}, {0, -0.5}}, {1}));
+  EXPECT_EQ(judged.crushed, Colliders{1});
+  EXPECT_TRUE(judged.crushed_with_room.empty());
+  EXPECT_EQ(judged.end_overlap, Colliders{1});
+  EXPECT_EQ(judged.pressed, Colliders{1});
+  EXPECT_TRUE(judged.entered.empty());
+  EXPECT_EQ(judged.max_penetration, 0);
+}
+
+TEST(JudgeCrush, unsaid_it_is_a_solid_entered) {
+  Judge judge(header(press()));
+  const StepJudgement judged = judge.judge(staying(standing, {{0, 0}, {0, -0.5}}, {}));
+  EXPECT_TRUE(judged.crushed.empty());
+  EXPECT_EQ(judged.entered, Colliders{1});
+  EXPECT_NEAR(judged.max_penetration, 0.25 + gap, 1e-15);
+}
+
+TEST(JudgeCrush, with_room_below_it_is_none) {
+  Judge judge(header({box(-4, -3, 4, -2), moving(box(-4, 1.5, 4, 2))}));
+  const StepJudgement judged = judge.judge(staying(standing, {{0, 0}, {0, -0.5}}, {1}));
+  EXPECT_TRUE(judged.crushed.empty());
+  EXPECT_EQ(judged.crushed_with_room, Colliders{1});
+  EXPECT_EQ(judged.entered, Colliders{1});
+}
+
+TEST(JudgeCrush, an_opening_counts_from_two_tenths_of_a_micrometre_on) {
+  // Pushed to the right by a face that comes from -0.5 to -0.1; the wall leaves an opening of the octagon's width and
+  // `more`.
+  for (const double more : {-1e-3, 0.0, 1.9e-7, 2.1e-7, 1e-5, 0.1}) {
+    const double wall = -0.1 + 0.625 + more;
+    Judge judge(header({box(wall, -4, 9, 4), moving(box(-2, -4, -0.5, 4))}));
+    const StepJudgement judged = judge.judge(staying({0, 0}, {{0, 0}, {0.4, 0}}, {1}));
+    EXPECT_EQ(judged.crushed.empty(), more > 2e-7) << more;
+    EXPECT_EQ(judged.crushed_with_room.empty(), !(more > 2e-7)) << more;
+  }
+}
+
+TEST(JudgeCrush, room_beyond_a_thin_wall_is_none) {
+  for (const bool walled : {false, true}) {
+    std::vector<ColliderDef> colliders{moving(box(-2, -4, -0.5, 4))};
+    if (walled) colliders.push_back(chain({{0.4, -4}, {0.4, 4}}));
+    Judge judge(header(colliders));
+    const StepJudgement judged = judge.judge(staying({0, 0}, {{0, 0}, {1.0, 0}}, {0}));
+    EXPECT_EQ(judged.crushed, walled ? Colliders{0} : Colliders{}) << walled;
+  }
+}
+
+TEST(JudgeCrush, room_on_the_far_side_of_the_mover_is_none) {
+  // A paper that passes the octagon within the step: where the octagon stays is free in the end.
+  for (const bool walled : {false, true}) {
+    std::vector<ColliderDef> colliders{moving(chain({{-0.5, -4}, {-0.5, 4}}))};
+    if (walled) colliders.push_back(box(0.3125 + gap, -4, 1, 4));
+    Judge judge(header(colliders));
+    const StepJudgement judged = judge.judge(staying({0, 0}, {{0, 0}, {1.1, 0}}, {0}));
+    EXPECT_EQ(judged.crushed, walled ? Colliders{0} : Colliders{}) << walled;
+    EXPECT_EQ(judged.tunnelled, walled ? Colliders{} : Colliders{0}) << walled;
+    EXPECT_TRUE(judged.end_overlap.empty());
+  }
+}
+
+TEST(JudgeCrush, what_was_pressed_in_stays_excused_until_it_is_free) {
+  Judge judge(header(press()));
+  (void)judge.judge(staying(standing, {{0, 0}, {0, -0.5}}, {1}));
+  const StepJudgement deeper = judge.judge(staying(standing, {{0, -0.5}, {0, -0.75}}, {}));
+  EXPECT_EQ(deeper.pressed, Colliders{1});
+  EXPECT_TRUE(deeper.entered.empty());
+  const StepJudgement free = judge.judge(staying(standing, {{0, -0.75}, {0, 0}}, {}));
+  EXPECT_TRUE(free.pressed.empty());
+  EXPECT_TRUE(free.tunnelled.empty());
+  const StepJudgement again = judge.judge(staying(standing, {{0, 0}, {0, -0.5}}, {}));
+  EXPECT_EQ(again.entered, Colliders{1}) << "the excuse has ended";
+}
+
+TEST(JudgeCrush, a_static_solid_never_crushes_and_being_pressed_into_one_is_not_excused) {
+  Judge judge(header(press()));
+  TraceStep sunk = staying(standing, {{0, 0}, {0, -0.5}}, {0, 1});
+  sunk.path.back().position.y() -= 0.125;
+  const StepJudgement judged = judge.judge(sunk);
+  EXPECT_EQ(judged.crushed_with_room, Colliders{0});
+  EXPECT_EQ(judged.crushed, Colliders{1});
+  EXPECT_EQ(judged.entered, Colliders{0});
+}
+
+TEST(JudgeCrush, a_ceiling_that_stops_short_by_less_than_an_opening_may_be_called_a_crush) {
+  Judge judge(header(press()));
+  const double down = 1.5 - 1.25 - gap - 1e-8;  // what is left is 1e-8 more than touching
+  const StepJudgement judged = judge.judge(staying({0, 0.625 + 1e-7}, {{0, 0}, {0, -down - gap}}, {1}));
+  EXPECT_EQ(judged.crushed, Colliders{1});
+}
+
+TEST(FreeSpace, a_place_that_is_found_keeps_the_clearance_and_none_is_missed) {
+  constexpr std::uint64_t seed = 71;
+  Random random(seed);
+  constexpr double clearance = 0.02;
+  constexpr double reach = 0.75;
+  int with_room = 0;
+  constexpr int rounds = 300;
+  for (int i = 0; i < rounds; ++i) {
+    std::vector<ColliderDef> colliders;
+    for (int k = 0; k < 14; ++k)
+      colliders.push_back(polygon(star(random, random.point(1.8), 0.9, 3 + random.below(4))));
+    colliders[0].mover = 0;
+    const ExactScenery world(scenery(colliders), octagon());
+    const std::vector<MoverMotion<double>> movers{{random.point(1), random.point(1)}};
+    const Place at(random.point(0.5), movers, 0.5);
+    const auto clear_by = [&](const Vec2d& position) {
+      double least = std::numeric_limits<double>::infinity();
+      for (ColliderIndex c = 0; c < colliders.size(); ++c) {
+        least = std::min(least, world.separation(Place(position, movers, 0.5), c));
+      }
+      return least;
+    };
+    const auto found = world.find_free(at, reach, clearance, {}, [](const Vec2d&) { return true; });
+    if (found) {
+      ++with_room;
+      EXPECT_GE(clear_by(*found), clearance) << "seed " << seed << " round " << i;
+      EXPECT_LE((*found - at.position).norm(), reach * (1 + 1e-12));
+    }
+    for (int k = 0; k < 300; ++k) {
+      const Vec2d off = random.point(reach);
+      if (off.norm() > reach || clear_by(at.position + off) < 1.01 * clearance) continue;
+      ASSERT_TRUE(found) << "seed " << seed << " round " << i;
+      EXPECT_LE((*found - at.position).norm(), off.norm()) << "the nearest comes first";
+    }
+  }
+  EXPECT_GT(with_room, rounds * 3 / 10);
+  EXPECT_LT(with_room, rounds * 8 / 10);
+}
+
+}  // namespace
+}  // namespace paperproof::compare
