@@ -48,6 +48,9 @@ struct StepJudgement {
   int sensor_events_missing = 0;                ///< Of `sensor_events`.
   int sensor_events_extra = 0;                  ///< Reported, and there was no such event.
   double max_sensor_error = 0;                  ///< Over the other reported ones: of the fraction of the step.
+
+  /// The step entered a solid, passed one, or passed a one-way chain against its normal.
+  [[nodiscard]] bool broke() const { return !entered.empty() || !tunnelled.empty() || !one_way_broken.empty(); }
 };
 
 /// Feed it every step of one run in order. Not thread-safe.

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""That check_trace.py finds what is wrong: a good trace of octagon_sweep through article_bullet, spoilt in one way each.
+"""That check_trace.py finds what is wrong: a good trace of octagon_sweep through article_bullet, and one among movers
+that is made here, spoilt in one way each.
 
     check_trace_test.py TRACE.jsonl
 """
@@ -14,10 +15,10 @@ with open(sys.argv.pop(), encoding="utf-8") as file:
     HEADER, *STEPS = map(json.loads, file)
 
 
-class SpoiltTraces(unittest.TestCase):
+class Spoiling:
     def found(self, spoil):
         """What is said about the trace after `spoil` has changed header and steps."""
-        header, steps = copy.deepcopy(HEADER), copy.deepcopy(STEPS[:3])
+        header, steps = copy.deepcopy(self.header), copy.deepcopy(self.steps)
         spoil(header, steps)
         return [words for _, words in Checker(header).check(steps)]
 
@@ -27,6 +28,12 @@ class SpoiltTraces(unittest.TestCase):
 
     def test_the_good_trace_has_nothing(self):
         self.assertEqual(self.found(lambda header, steps: None), [])
+
+
+class SpoiltTraces(Spoiling, unittest.TestCase):
+    header, steps = HEADER, STEPS[:3]
+
+    def test_the_good_trace_has_a_contact(self):
         self.assertEqual(len(STEPS[0]["contacts"]), 1)
 
     def test_a_way_through_the_platform(self):
@@ -91,6 +98,128 @@ class SpoiltTraces(unittest.TestCase):
 
     def test_a_contact_point_off_the_platform(self):
         self.expect("is not on platform", lambda _, steps: steps[0]["contacts"][0].update(point=[0, 1e-6]))
+
+
+GAP = 2.0 ** -21
+
+
+def moving_trace():
+    """A square of 1 m rides a lift that rises by 0.25 in every step, through the line of a sensor, until it has to stay
+    under a ceiling and the lift comes into it; then the lift goes down again. A paper comes to its left side.
+    """
+    header = {
+        "paperproof_trace": 1, "scene": "made", "contender": "octagon_sweep", "scalar": "double", "dt": 0.25,
+        "points": [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]],
+        "colliders": [
+            {"id": "lift", "polygon": [[-2, -1], [2, -1], [2, 0], [-2, 0]]},
+            {"id": "paper", "chain": [[-0.5, -4], [-0.5, 4]]},
+            {"id": "ceiling", "polygon": [[-2, 1.75 + 2 * GAP], [2, 1.75 + 2 * GAP], [2, 3], [-2, 3]]},
+            {"id": "line", "chain": [[-4, 1.125], [4, 1.125]], "sensor": True}],
+    }
+    lift = [0, 0.25, 0.5, 0.75, 1, 0.75]
+    square = [0.5 + GAP + height for height in (0, 0.25, 0.5, 0.75, 0.75, 0.75)]
+    paper = [-1, -GAP, -GAP, -GAP, -GAP, -GAP]
+    steps = []
+    for k in range(5):
+        step = {
+            "step": k, "path": [[0, square[k], 0], [0, square[k + 1], 1]], "requested": [0, 0.25 - 2.0 ** -10],
+            "velocity": [0, 0], "grounded": True, "start_overlap": [], "contacts": [],
+            "movers": {"lift": [[0, lift[k]], [0, lift[k + 1]]], "paper": [[paper[k], 0], [paper[k + 1], 0]]}}
+        if k < 4:
+            step["contacts"] = [{"collider": "lift", "point": [0, lift[k]], "normal": [0, 1], "fraction": 0,
+                                 "separation": GAP, "side": "bottom"}]
+        steps.append(step)
+    # Its head is at 1 when it begins.
+    steps[0]["sensors"] = [{"id": "line", "change": "enter", "fraction": (0.125 - GAP) / 0.25}]
+    steps[3]["crush"] = ["lift"]
+    steps[4]["start_overlap"] = ["lift"]
+    return header, steps
+
+
+class SpoiltMovingTraces(Spoiling, unittest.TestCase):
+    header, steps = moving_trace()
+
+    def test_a_rider_that_lags_behind(self):
+        def spoil(_, steps):
+            steps[1]["path"] = [steps[1]["path"][0], [0, steps[1]["path"][1][1] - 2 * GAP, 1]]
+
+        self.expect("passes or enters lift", spoil)
+
+    def test_a_rider_that_moves_later_than_what_carries_it(self):
+        def spoil(_, steps):
+            start, end = steps[1]["path"]
+            steps[1]["path"] = [start, start[:2] + [0.5], end]
+
+        self.expect("passes or enters lift", spoil)
+
+    def test_a_paper_that_passes(self):
+        def spoil(_, steps):
+            for step in steps:
+                step["movers"]["paper"][1][0] = 2
+            for step in steps[1:]:
+                step["movers"]["paper"][0][0] = 2
+
+        self.assertEqual(len(self.found(spoil)), 1)
+        self.expect("passes or enters paper", spoil)
+
+    def test_a_crush_that_is_not_named(self):
+        self.expect("ends inside lift", lambda _, steps: steps[3].pop("crush"))
+
+    def test_a_crush_by_what_does_not_move(self):
+        def spoil(_, steps):
+            steps[3]["crush"] = ["ceiling"]
+
+        self.expect("ends inside lift", spoil)
+        self.expect("crushed by ceiling, which does not move", spoil)
+
+    def test_a_crush_excuses_nothing_but_what_it_names(self):
+        def spoil(_, steps):
+            steps[3]["path"][1][1] += 4 * GAP
+            steps[4:] = []
+
+        self.expect("ends inside ceiling", spoil)
+
+    def test_a_character_that_is_let_in_again_unsaid(self):
+        self.expect("passes or enters lift", lambda _, steps: steps[4].update(start_overlap=[]))
+
+    def test_an_overlap_that_the_mover_has_left(self):
+        self.expect("does not overlap lift", lambda _, steps: steps[2].update(start_overlap=["lift"]))
+
+    def test_a_mover_that_jumps_or_is_left_out(self):
+        self.expect("not where it was", lambda _, steps: steps[2]["movers"]["paper"][0].__setitem__(1, 1e-9))
+        self.expect("not the same movers", lambda _, steps: steps[2]["movers"].pop("paper"))
+
+    def test_a_contact_point_where_the_mover_was_before(self):
+        self.expect("is not on lift", lambda _, steps: steps[1]["contacts"][0].update(point=[0, 0]))
+
+    def test_a_fraction_that_is_not_that_of_the_relative_motion(self):
+        self.expect("earlier than at 0.1", lambda _, steps: steps[1]["contacts"][0].update(
+            fraction=0.1, point=[0, 0.25 + 0.025]))
+
+    def test_a_sensor_that_is_not_reported_or_reported_wrongly(self):
+        self.expect("does not report enter at 0.49", lambda _, steps: steps[0].pop("sensors"))
+        self.expect("does not report enter at 0.49", lambda _, steps: steps[0]["sensors"][0].update(change="exit"))
+        self.expect("does not report nothing", lambda _, steps: steps[1].update(sensors=steps[0]["sensors"]))
+        for off, wrong in ((1e-5, True), (1e-6, False)):
+            def spoil(_, steps):
+                steps[0]["sensors"][0]["fraction"] += off
+
+            self.assertEqual(any("has the enter of line" in said for said in self.found(spoil)), wrong)
+
+    def test_sensors_passed_in_one_step(self):
+        """Falling by 10 m through a line, and through both bars of a C that is one sensor."""
+        def spoil(header, steps):
+            header["colliders"] = [
+                {"id": "line", "chain": [[-4, 0], [4, 0]], "sensor": True},
+                {"id": "bars", "sensor": True, "polygon": [
+                    [-2, 2], [3, 2], [3, -2], [-2, -2], [-2, -2.5], [4, -2.5], [4, 2.5], [-2, 2.5]]}]
+            events = [("bars", "enter", 0.2), ("bars", "exit", 0.35), ("line", "enter", 0.45), ("line", "exit", 0.55),
+                      ("bars", "enter", 0.65), ("bars", "exit", 0.8)]
+            steps[1:] = []
+            steps[0].update(path=[[0, 5, 0], [0, -5, 1]], contacts=[], movers={}, sensors=[
+                {"id": name, "change": change, "fraction": fraction} for name, change, fraction in events])
+
+        self.assertEqual(self.found(spoil), [])
 
 
 if __name__ == "__main__":
