@@ -31,14 +31,6 @@ std::string named(std::uint8_t sides) {
   return text.empty() ? "no contact" : text;
 }
 
-bool breaks(const TraceStep& step, const StepJudgement& judged) {
-  const bool entered =
-      std::any_of(judged.end_overlap.begin(), judged.end_overlap.end(), [&step](ColliderIndex collider) {
-        return std::find(step.start_overlap.begin(), step.start_overlap.end(), collider) == step.start_overlap.end();
-      });
-  return entered || !judged.tunnelled.empty() || !judged.one_way_broken.empty();
-}
-
 unsigned size_of(unsigned sides) { return static_cast<unsigned>(std::popcount(sides)); }
 
 }  // namespace
@@ -137,8 +129,8 @@ void Agreement::note_positions(const TraceStep& mine, const StepJudgement& mine_
   const double distance = (mine.path.back().position - reference.path.back().position).norm();
   farthest_ = std::max(farthest_, distance);
   if (apart_) return;
-  if (!mine_broke_ && breaks(mine, mine_judged)) mine_broke_ = mine.step;
-  if (!reference_broke_ && breaks(reference, reference_judged)) reference_broke_ = reference.step;
+  if (!mine_broke_ && mine_judged.broke()) mine_broke_ = mine.step;
+  if (!reference_broke_ && reference_judged.broke()) reference_broke_ = reference.step;
   if (!reference_capped_ && reference.capped) reference_capped_ = reference.step;
   if (!(distance <= box2d_skin))
     apart_ = {mine.step, distance, !mine_judged.end_overlap.empty(), !reference_judged.end_overlap.empty()};

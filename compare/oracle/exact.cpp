@@ -36,11 +36,11 @@ struct ExactScenery::Impl {
   }
 
   /// Calls `visit(group, way)` for every group of solids whose box the way reaches.
-  template <class MakeWay, class Visit>
-  void for_groups(const MakeWay& make_way, const Visit& visit) const {
+  template <class Visit>
+  void for_groups(const detail::WayIn& way_in, const Visit& visit) const {
     for (const detail::Group& group : world.groups()) {
       if (group.sensor) continue;
-      const Way way = make_way(group);
+      const Way way = way_in(group);
       if (group.box.overlaps(world.box_of(way))) visit(group, way);
     }
   }
@@ -64,38 +64,45 @@ struct ExactScenery::Impl {
     return {.collider = collider, .fraction = 0, .normal = out.normal, .point = from.position, .exposed = true};
   }
 
-  [[nodiscard]] std::optional<ExactImpact> find_impact(const Way& way, ColliderIndex collider) const {
-    const std::vector<std::uint32_t> edges = Passage(world, world.group_of(collider), way).entered_edges(collider);
+  [[nodiscard]] std::optional<ExactImpact> find_impact(const detail::WayIn& way_in, ColliderIndex collider) const {
+    const detail::Group& group = world.group_of(collider);
+    const std::vector<std::uint32_t> edges = Passage(world, group, way_in(group)).entered_edges(collider);
     if (edges.empty()) return std::nullopt;
-    return detail::find_impact(world, way, collider, edges);
+    return detail::find_impact(world, way_in, collider, edges);
+  }
+  [[nodiscard]] detail::WayIn moving_by(const Place& from, const Vec2d& displacement) const {
+    return [=, this](const detail::Group& group) { return Way::by(seen_from(group, from), displacement); };
+  }
+  [[nodiscard]] detail::WayIn moving_to(const Place& from, const Place& to) const {
+    return [=, this](const detail::Group& group) { return way_between(group, from, to); };
   }
 
-  template <class MakeWay>
   [[nodiscard]] std::vector<ExactImpact> all_impacts(const Place& from, const std::vector<ColliderIndex>& at_start,
-                                                     const MakeWay& make_way) const {
+                                                     const detail::WayIn& way_in) const {
     std::vector<ExactImpact> all;
     for (const ColliderIndex collider : at_start) all.push_back(at_once(from, collider));
-    for_groups(make_way, [&](const detail::Group& group, const Way& way) { add_impacts(group, way, at_start, all); });
+    for_groups(way_in, [&](const detail::Group& group, const Way& way) {
+      add_impacts(Passage(world, group, way), way_in, at_start, all);
+    });
     std::stable_sort(all.begin(), all.end(),
                      [](const ExactImpact& a, const ExactImpact& b) { return a.collider < b.collider; });
     return all;
   }
 
   /// The impacts of one way with the colliders of one group.
-  void add_impacts(const detail::Group& group, const Way& way, const std::vector<ColliderIndex>& at_once,
+  void add_impacts(const Passage& passage, const detail::WayIn& way_in, const std::vector<ColliderIndex>& at_start,
                    std::vector<ExactImpact>& all) const {
-    const Passage passage(world, group, way);
     const std::vector<std::uint32_t> edges = passage.entered_edges();
     std::vector<ColliderIndex> colliders;
     for (const std::uint32_t edge : edges) colliders.push_back(world.edges()[edge].collider);
     colliders.erase(std::unique(colliders.begin(), colliders.end()), colliders.end());
     for (const ColliderIndex collider : colliders) {
-      if (std::binary_search(at_once.begin(), at_once.end(), collider)) continue;
+      if (std::binary_search(at_start.begin(), at_start.end(), collider)) continue;
       const std::span<const std::uint32_t> own = passage.of_collider(edges, collider);
-      all.push_back(detail::find_impact(world, way, collider, own));
+      all.push_back(detail::find_impact(world, way_in, collider, own));
       if (own.size() == 1 || parts[collider].size() == 1) continue;
       for (const std::uint32_t edge : own) {
-        all.push_back(detail::find_impact(world, way, collider, std::span(&edge, 1)));
+        all.push_back(detail::find_impact(world, way_in, collider, std::span(&edge, 1)));
       }
     }
   }
@@ -134,8 +141,7 @@ bool ExactScenery::overlaps(const Place& at, ColliderIndex collider) const { ret
 
 std::vector<ColliderIndex> ExactScenery::met(const Place& from, const Place& to) const {
   std::vector<ColliderIndex> found;
-  const auto way_in = [&](const detail::Group& group) { return impl_->way_between(group, from, to); };
-  impl_->for_groups(way_in, [&](const detail::Group& group, const Way& way) {
+  impl_->for_groups(impl_->moving_to(from, to), [&](const detail::Group& group, const Way& way) {
     const std::vector<ColliderIndex> met = Passage(impl_->world, group, way).met();
     found.insert(found.end(), met.begin(), met.end());
   });
@@ -151,24 +157,21 @@ bool ExactScenery::meets(const Place& from, const Place& to, ColliderIndex colli
 std::optional<ExactImpact> ExactScenery::time_of_impact(const Place& from, const Vec2d& displacement,
                                                         ColliderIndex collider) const {
   if (overlaps(from, collider)) return impl_->at_once(from, collider);
-  return impl_->find_impact(Way::by(impl_->seen_from(collider, from), displacement), collider);
+  return impl_->find_impact(impl_->moving_by(from, displacement), collider);
 }
 
 std::optional<ExactImpact> ExactScenery::impact_between(const Place& from, const Place& to,
                                                         ColliderIndex collider) const {
   if (overlaps(from, collider)) return impl_->at_once(from, collider);
-  return impl_->find_impact(impl_->way_between(impl_->world.group_of(collider), from, to), collider);
+  return impl_->find_impact(impl_->moving_to(from, to), collider);
 }
 
 std::vector<ExactImpact> ExactScenery::impacts(const Place& from, const Vec2d& displacement) const {
-  return impl_->all_impacts(from, overlapped(from), [&](const detail::Group& group) {
-    return Way::by(impl_->seen_from(group, from), displacement);
-  });
+  return impl_->all_impacts(from, overlapped(from), impl_->moving_by(from, displacement));
 }
 
 std::vector<ExactImpact> ExactScenery::impacts_between(const Place& from, const Place& to) const {
-  return impl_->all_impacts(from, overlapped(from),
-                            [&](const detail::Group& group) { return impl_->way_between(group, from, to); });
+  return impl_->all_impacts(from, overlapped(from), impl_->moving_to(from, to));
 }
 
 std::optional<ExactImpact> ExactScenery::first_impact(const Place& from, const Vec2d& displacement) const {

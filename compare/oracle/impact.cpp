@@ -244,62 +244,6 @@ Range range_of(const World& world, const std::vector<Touch>& touches, const Touc
   return range;
 }
 
-/// Whether polygons of other colliders abut the edge all along the range.
-bool covered(const World& world, const Edge& edge, const Range& range) {
-  const Vec2d along = (edge.b - edge.a) / (edge.b - edge.a).cwiseAbs().maxCoeff();
-  const auto place = [&](const Vec2d& p) { return (p - edge.a).dot(along); };
-  std::vector<std::pair<double, double>> covers;
-  const Box2<double> box{range.first.cwiseMin(range.last), range.first.cwiseMax(range.last)};
-  for (const std::uint32_t i : world.group_of(edge.collider).edge_tree.meeting(box)) {
-    const Edge& other = world.edges()[i];
-    if (other.collider == edge.collider || world.solids()[other.collider].kind != Kind::polygon) continue;
-    if (turn(edge.a, edge.b, other.a) != Sign::zero || turn(edge.a, edge.b, other.b) != Sign::zero) continue;
-    if (place(other.b) < place(other.a)) covers.emplace_back(place(other.b), place(other.a));
-  }
-  std::sort(covers.begin(), covers.end());
-  double reached = std::min(place(range.first), place(range.last));
-  const double end = std::max(place(range.first), place(range.last));
-  bool begun = false;
-  for (const auto& [first, last] : covers) {
-    if (first > reached) break;
-    begun = begun || last >= reached;
-    reached = std::max(reached, last);
-  }
-  return begun && reached >= end;
-}
-
-template <class Number>
-Sign along_normal(const Convert<Number>& number, const Vec2d& edge_start, const Vec2d& edge_end, const Vec2d& from,
-                  const Vec2d& to) {
-  return sign_of(
-      cross(convert(number, edge_end) - convert(number, edge_start), convert(number, to) - convert(number, from)));
-}
-
-/// Whether the way between two points has a part along the left normal of the edge. Exact.
-bool goes_along_normal(const Vec2d& edge_start, const Vec2d& edge_end, const Vec2d& from, const Vec2d& to) {
-  Sign sign = along_normal(Convert<Approximate>{}, edge_start, edge_end, from, to);
-  if (sign == Sign::unknown) {
-    const int unit = std::min({lowest_bit(edge_start), lowest_bit(edge_end), lowest_bit(from), lowest_bit(to)});
-    sign = along_normal(Convert<Integer>{unit}, edge_start, edge_end, from, to);
-  }
-  return sign == Sign::positive;
-}
-
-/// Whether another edge passes the vertex that the octagon's edge meets, and goes on to the side of the normal: then
-/// the vertex is no corner of the solids on that side.
-bool passed(const World& world, const Touch& touch, const Vec2d& vertex) {
-  const Vec2d& start = world.points()[touch.event.part];
-  const Vec2d& end = world.points()[(touch.event.part + 1U) % world.points().size()];
-  const Group& group = world.group_of(world.edges()[touch.event.edge].collider);
-  for (const std::uint32_t i : group.edge_tree.meeting({vertex, vertex})) {
-    const Edge& other = world.edges()[i];
-    if (i == touch.event.edge || world.solids()[other.collider].kind == Kind::one_way) continue;
-    if (turn(other.a, other.b, vertex) != Sign::zero) continue;
-    if (goes_along_normal(start, end, vertex, other.a) || goes_along_normal(start, end, vertex, other.b)) return true;
-  }
-  return false;
-}
-
 /// A polygon's edge that is met from the inside is one that the octagon comes out of.
 bool from_inside(const World& world, const Touch& touch, const Vec2d& normal) {
   const Edge& edge = world.edges()[touch.event.edge];
@@ -308,20 +252,31 @@ bool from_inside(const World& world, const Touch& touch, const Vec2d& normal) {
 }
 
 bool is_exposed(const World& world, const std::vector<Touch>& touches, const Touch& chosen, const Range& range,
-                const Vec2d& normal) {
+                const Vec2d& normal, const WayIn& way_in) {
+  const Group& group = world.group_of(world.edges()[chosen.event.edge].collider);
+  const Vec2d place = place_of(world, chosen);
+  const Box2<double> near =
+      Box2<double>{range.first.cwiseMin(range.last), range.first.cwiseMax(range.last)}.merged({place, place});
+  const auto seams = [&] {
+    return Seams(world, group, way_in, chosen.timing.numerator, chosen.timing.denominator, near);
+  };
   for (const Touch& touch : touches) {
     if (!touch.event.on_world_edge || sign_of(cross(touch.edge, chosen.edge)) != Sign::zero) continue;
     const Edge& edge = world.edges()[touch.event.edge];
     if (from_inside(world, touch, normal)) return false;
-    return world.solids()[edge.collider].kind != Kind::polygon || !covered(world, edge, range);
+    if (world.solids()[edge.collider].kind != Kind::polygon) return true;
+    return !seams().cover(edge, range.first, range.last);
   }
-  return !passed(world, chosen, place_of(world, chosen));
+  const Vec2d& start = world.points()[chosen.event.part];
+  const Vec2d& end = world.points()[(chosen.event.part + 1U) % world.points().size()];
+  return !seams().pass(place, chosen.event.edge, start, end);
 }
 
 }  // namespace
 
-ExactImpact find_impact(const World& world, const Way& way, ColliderIndex collider,
+ExactImpact find_impact(const World& world, const WayIn& way_in, ColliderIndex collider,
                         std::span<const std::uint32_t> edges) {
+  const Way way = way_in(world.group_of(collider));
   const Frame<Integer> frame = make_frame<Integer>(world, way, world.unit_of(way, collider));
   const std::vector<Touch> touches = earliest(world, frame, candidates(world, way, edges));
   const Touch& chosen = choose(world, frame, touches, way.rounded_displacement());
@@ -333,7 +288,7 @@ ExactImpact find_impact(const World& world, const Way& way, ColliderIndex collid
                      .fraction = Rational(cpp_int(chosen.timing.numerator), cpp_int(chosen.timing.denominator)),
                      .normal = normal,
                      .point = (range.first + range.last) / 2 + offset,
-                     .exposed = is_exposed(world, touches, chosen, range, normal)};
+                     .exposed = is_exposed(world, touches, chosen, range, normal, way_in)};
 }
 
 }  // namespace paperproof::compare::detail

@@ -95,8 +95,7 @@ void Lane::step(int step, const StepInput& input) {
   ++row_.steps;
   inside_ = judgement_.end_overlap;
   if (!judgement_.crushed_with_room.empty()) ++steps_miscalled_;
-  if (!judgement_.entered.empty() || !judgement_.tunnelled.empty() || !judgement_.one_way_broken.empty())
-    ++steps_broken_;
+  if (judgement_.broke()) ++steps_broken_;
   if (record_.capped) ++steps_capped_;
   if (trace_) trace_->write(record_);
   if (limit_.most > 0) keep_for_replay();

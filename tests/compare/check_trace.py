@@ -242,10 +242,10 @@ class Checker:
         if abs(n[0] ** 2 + n[1] ** 2 - 1) > 1e-12:
             yield f"has a normal that is no unit vector at {name}"
         point = tuple(map(Fraction, contact["point"]))
-        edges = self.colliders[name].edges
-        # The place that is touched is one of the moment of the impact.
-        point = less(point, motion.offset(name, Fraction(contact["fraction"])))
-        if not min(distance(point, a, b) for a, b in edges) <= ROUNDING:
+        # The place that is touched is one of the moment when the character stopped before it: at a corner of its way.
+        seen = [less(point, motion.offset(name, corner[2])) for corner in path]
+        off, point = min((min(distance(at, a, b) for a, b in self.colliders[name].edges), at) for at in seen)
+        if not off <= ROUNDING:
             yield f"has a contact point {show(point)} that is not on {name}"
         n = tuple(map(Fraction, n))
         reach = min(dot(n, corner) for corner in self.body)

@@ -393,7 +393,7 @@ TEST_F(AgreementTest, positions_apart_by_more_than_the_skin_are_a_difference) {
   EXPECT_NE(compare(run).first_difference_box2d.find("mine is right, as box2d passed or entered a solid on step 1"),
             std::string::npos)
       << compare(run).first_difference_box2d;
-  run[2].first.judged.end_overlap = {0};
+  run[2].first.judged.end_overlap = run[2].first.judged.entered = {0};
   EXPECT_NE(compare(run).first_difference_box2d.find("neither is right"), std::string::npos);
 }
 

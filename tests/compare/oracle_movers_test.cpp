@@ -148,6 +148,35 @@ TEST(ExactMovers, a_one_way_lift_blocks_the_relative_motion_against_its_normal) 
   EXPECT_TRUE(world.met(Place({0, -1}, down, 0), Place({0, -1}, down, 1)).empty()) << "it comes from above";
 }
 
+TEST(ExactMovers, a_lift_beside_the_floor_is_a_seam_exactly_where_the_two_are_flush) {
+  const ExactScenery world(scenery({box(0, -1, 1, 0), moving(box(-2, -1.75, -1, -0.75), 0)}), octagon());
+  // Already a millimetre inside the floor, the lift is met at its vertex.
+  const auto exposed = [&](MoverMotion<double> motion) {
+    const std::vector<MoverMotion<double>> movers{motion};
+    const std::optional<ExactImpact> vertex = world.time_of_impact(Place({0.8, 0.624}, movers, 0), {0.5, -0.001}, 1);
+    EXPECT_TRUE(vertex);
+    return vertex && vertex->exposed;
+  };
+  EXPECT_FALSE(exposed({{3, 0.75}, {3, 0.75}})) << "waiting";
+  EXPECT_FALSE(exposed({{2.97, 0.75}, {3, 0.75}})) << "sliding out of the floor, its top in line";
+  EXPECT_TRUE(exposed({{3, 0.75 + 0x1p-40}, {3, 0.75 + 0x1p-40}})) << "a hair above it";
+  EXPECT_TRUE(exposed({{3, 0.75}, {3, 0.85}})) << "rising out of it";
+}
+
+TEST(ExactMovers, a_seam_is_looked_for_where_the_neighbours_are_at_the_moment_of_the_touch) {
+  // Two halves of a platform go along together; or the near one falls away and uncovers the far one's side.
+  const std::vector<Vec2d> square{{-0.25, -0.25}, {0.25, -0.25}, {0.25, 0.25}, {-0.25, 0.25}};
+  const ExactScenery world(scenery({moving(box(0, -1, 1, 0), 1), moving(box(1, -1, 2, 0), 0)}), square);
+  for (const bool together : {true, false}) {
+    const std::vector<MoverMotion<double>> movers{{{0, 0}, {0, 0.5}}, {{0, 0}, {0, together ? 0.5 : -4}}};
+    const std::optional<ExactImpact> side = world.time_of_impact(Place({0.5, -0.5}, movers, 0), {0.5, 0.5}, 1);
+    ASSERT_TRUE(side);
+    EXPECT_EQ(side->fraction, Exact(1, 2));
+    EXPECT_EQ(side->normal, Vec2d(-1, 0));
+    EXPECT_EQ(side->exposed, !together);
+  }
+}
+
 TEST(ExactMovers, separation_and_penetration_are_those_at_the_moment) {
   const ExactScenery world(scenery({moving(box(-1, -1, 1, 0), 0)}), octagon());
   const Motions movers{{{0, 0}, {0, -2}}};

@@ -1,0 +1,109 @@
+#include "oracle/seam.hpp"
+
+#include <algorithm>
+
+namespace paperproof::compare::detail {
+namespace {
+
+template <class Number>
+Sign side_in(const Convert<Number>& number, const Vec2d& start, const Vec2d& end, const Vec2d& from, const Vec2d& to) {
+  return sign_of(cross(convert(number, end) - convert(number, start), convert(number, to) - convert(number, from)));
+}
+
+}  // namespace
+
+Seams::Seams(const World& world, const Group& own, const WayIn& way_in, const Integer& numerator,
+             const Integer& denominator, const Box2<double>& near)
+    : world_(world) {
+  const Way own_way = way_in(own);
+  for (const Group& group : world.groups()) {
+    if (group.sensor) continue;
+    if (&group == &own) {
+      neighbours_.push_back({.group = &group, .shift = {}});
+      continue;
+    }
+    Neighbour neighbour = make_neighbour(group, own_way, way_in(group), numerator, denominator);
+    const Vec2d& shift = neighbour.rounded_shift;
+    if (group.box.overlaps(Box2<double>{near.lower + shift, near.upper + shift}.inflated(neighbour.rounding))) {
+      neighbours_.push_back(std::move(neighbour));
+    }
+  }
+}
+
+Seams::Neighbour Seams::make_neighbour(const Group& group, const Way& own, const Way& way, const Integer& numerator,
+                                       const Integer& denominator) {
+  Neighbour neighbour;
+  neighbour.group = &group;
+  neighbour.same_frame = false;
+  neighbour.over = denominator;
+  neighbour.unit = std::min(own.unit(), way.unit());
+  const Convert<Integer> number{neighbour.unit};
+  const Point<Integer> start = way.from.in(number)-own.from.in(number);
+  const Point<Integer> change = way.displacement(number) - own.displacement(number);
+  neighbour.shift = {start.x * denominator + change.x * numerator, start.y * denominator + change.y * numerator};
+  neighbour.rounded_shift = {std::ldexp(ratio(neighbour.shift.x, denominator), neighbour.unit),
+                             std::ldexp(ratio(neighbour.shift.y, denominator), neighbour.unit)};
+  neighbour.rounding = (own.size() + way.size()) * 0x1p-48;
+  return neighbour;
+}
+
+Sign Seams::side(const Neighbour& neighbour, const Vec2d& start, const Vec2d& end, const Vec2d& from, const Vec2d& to) {
+  int unit = std::min({lowest_bit(start), lowest_bit(end), lowest_bit(from), lowest_bit(to)});
+  if (neighbour.same_frame) {
+    const Sign quick = side_in(Convert<Approximate>{}, start, end, from, to);
+    return quick != Sign::unknown ? quick : side_in(Convert<Integer>{unit}, start, end, from, to);
+  }
+  unit = std::min(unit, neighbour.unit);
+  const Convert<Integer> number{unit};
+  const Point<Integer> way = convert(number, to) - convert(number, from);
+  const int finer = neighbour.unit - unit;
+  const Point<Integer> seen{way.x * neighbour.over - (neighbour.shift.x << finer),
+                            way.y * neighbour.over - (neighbour.shift.y << finer)};
+  return sign_of(cross(convert(number, end) - convert(number, start), seen));
+}
+
+bool Seams::cover(const Edge& edge, const Vec2d& first, const Vec2d& last) const {
+  const Vec2d along = (edge.b - edge.a) / (edge.b - edge.a).cwiseAbs().maxCoeff();
+  const auto place = [&](const Vec2d& p) { return (p - edge.a).dot(along); };
+  std::vector<std::pair<double, double>> covers;
+  for (const Neighbour& neighbour : neighbours_) {
+    const Vec2d& shift = neighbour.rounded_shift;
+    const Box2<double> box{first.cwiseMin(last) + shift, first.cwiseMax(last) + shift};
+    for (const std::uint32_t i : neighbour.group->edge_tree.meeting(box.inflated(neighbour.rounding))) {
+      const Edge& other = world_.edges()[i];
+      if (other.collider == edge.collider || world_.solids()[other.collider].kind != Kind::polygon) continue;
+      if (side(neighbour, edge.a, edge.b, edge.a, other.a) != Sign::zero) continue;
+      if (side(neighbour, edge.a, edge.b, edge.a, other.b) != Sign::zero) continue;
+      const double a = place(other.a - shift);
+      const double b = place(other.b - shift);
+      covers.emplace_back(std::min(a, b) - 2 * neighbour.rounding, std::max(a, b) + 2 * neighbour.rounding);
+    }
+  }
+  std::sort(covers.begin(), covers.end());
+  double reached = std::min(place(first), place(last));
+  const double end = std::max(place(first), place(last));
+  bool begun = false;
+  for (const auto& [from, to] : covers) {
+    if (from > reached) break;
+    begun = begun || to >= reached;
+    reached = std::max(reached, to);
+  }
+  return begun && reached >= end;
+}
+
+bool Seams::pass(const Vec2d& vertex, std::uint32_t own, const Vec2d& start, const Vec2d& end) const {
+  return std::any_of(neighbours_.begin(), neighbours_.end(), [&](const Neighbour& neighbour) {
+    const Vec2d there = vertex + neighbour.rounded_shift;
+    const std::vector<std::uint32_t> edges =
+        neighbour.group->edge_tree.meeting(Box2<double>{there, there}.inflated(neighbour.rounding));
+    return std::any_of(edges.begin(), edges.end(), [&](std::uint32_t i) {
+      const Edge& other = world_.edges()[i];
+      if (i == own || world_.solids()[other.collider].kind == Kind::one_way) return false;
+      if (side(neighbour, other.a, other.b, vertex, other.a) != Sign::zero) return false;
+      return side(neighbour, start, end, vertex, other.a) == Sign::positive ||
+             side(neighbour, start, end, vertex, other.b) == Sign::positive;
+    });
+  });
+}
+
+}  // namespace paperproof::compare::detail
