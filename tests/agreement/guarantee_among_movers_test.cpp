@@ -297,7 +297,12 @@ template <class Scalar>
 Tally run_family(Family family, int steps) {
   Tally tally;
   for (std::uint64_t run = 0; tally.steps < steps; ++run) {
-    RandomRun<Scalar>(family, 2000003 * (static_cast<std::uint64_t>(family) + 1) + run).go(tally);
+    try {
+      RandomRun<Scalar>(family, 2000003 * (static_cast<std::uint64_t>(family) + 1) + run).go(tally);
+    } catch (const InvalidScenery&) {
+      // Far from the origin neighbouring vertices become one in float.
+      EXPECT_EQ(sizeof(Scalar), sizeof(float));
+    }
     if (::testing::Test::HasFailure()) break;
   }
   std::printf(

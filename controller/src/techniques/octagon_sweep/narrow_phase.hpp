@@ -42,9 +42,11 @@ template <class Scalar>
   return scale * std::sqrt(x * x + y * y);
 }
 
+/// @param look how far beyond the end of the way the sweep looks [m].
 template <Variant variant, class Scalar>
 [[nodiscard, gnu::always_inline]] inline Motion<variant.lanes, Scalar> make_motion(
-    const ConfigurationSpace<Scalar>& space, const Vec2<Scalar>& from, const Vec2<Scalar>& way) noexcept {
+    const ConfigurationSpace<Scalar>& space, const Vec2<Scalar>& from, const Vec2<Scalar>& way,
+    Scalar look = Tolerances<Scalar>{}.look) noexcept {
   // A shorter motion would make the reach infinite.
   constexpr Scalar shortest = std::numeric_limits<Scalar>::min() * Scalar(1e8);
   const PerAxis<variant.lanes, Scalar> x = PerAxis<variant.lanes, Scalar>::Map(space.shared_x().data());
@@ -55,7 +57,7 @@ template <Variant variant, class Scalar>
   motion.length = length_of(way);
   // By the larger component: a look up to 1.42 times as far is as good, and nothing waits for a square root.
   const Scalar larger = std::max(std::abs(way.x()), std::abs(way.y()));
-  motion.reach = 1 + Tolerances<Scalar>{}.look / std::max(larger, shortest);
+  motion.reach = 1 + look / std::max(larger, shortest);
   motion.extended = way * motion.reach;
   motion.at = x * from.x() + y * from.y();
   motion.along = x * motion.extended.x() + y * motion.extended.y();

@@ -80,11 +80,31 @@ bool StepSolver<variant, Scalar>::roomy(std::span<const PieceIndex> candidates, 
 /// Whether the rest of the step can be one straight motion from a corner of the path.
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::goes_straight(std::size_t corner, const V& end) noexcept {
+  const Surroundings<Scalar>& around = moving_.around;
   position_ = result_.path[corner].position;
   time_ = result_.path[corner].fraction;
-  if (!(time_ < 1)) return false;
-  look_along(end - position_);
-  return !found_.hit && (!certify_ || certified(end));
+  if (!(time_ < 1) || (certify_ && !certified(end))) return false;
+  const V way = end - position_;
+  const LocalMotion motion = make_motion<variant>(space_, position_, way, Scalar(0));
+  if (!passes(motion, pieces_along(motion, no_mover))) return false;
+  for (MoverIndex mover = 0; mover < around.phases.size(); ++mover) {
+    const V from = position_ - around.offset(mover, time_);
+    const LocalMotion seen = make_motion<variant>(space_, from, around.relative(way, mover, time_), Scalar(0));
+    if (space_.touched_from(seen.box()).overlaps(around.phases.whole(mover)) &&
+        !passes(seen, pieces_along(seen, mover)))
+      return false;
+  }
+  return true;
+}
+
+/// Whether a motion comes to its end.
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::passes(const LocalMotion& motion, std::span<const PieceIndex> pieces) const noexcept {
+  return std::none_of(pieces.begin(), pieces.end(), [&](PieceIndex piece) {
+    if (ignored(piece) || !blocks<variant>(space_, motion, piece)) return false;
+    const Clearance<Scalar> clear = clearance<variant>(space_, motion, piece);
+    return !clear.clear() && sweep_piece<variant>(space_, motion, piece, clear).hit;
+  });
 }
 
 /// Takes back what was travelled since a corner.

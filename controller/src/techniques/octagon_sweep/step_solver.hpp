@@ -188,6 +188,7 @@ class StepSolver {
   [[nodiscard]] bool find_room(Scalar gap) noexcept;
   [[nodiscard]] bool roomy(std::span<const PieceIndex> candidates, const V& q) const noexcept;
   [[nodiscard]] bool goes_straight(std::size_t corner, const V& end) noexcept;
+  [[nodiscard]] bool passes(const LocalMotion& motion, std::span<const PieceIndex> pieces) const noexcept;
   void go_back_to(std::size_t corner) noexcept;
   [[nodiscard]] Scalar longest_course() const noexcept;
   void crush_what_presses() noexcept;
