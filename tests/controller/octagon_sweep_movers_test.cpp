@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace paperproof::stepping {
 namespace {
@@ -134,6 +136,183 @@ TEST(Crush, never_pushes_through_what_stands_still) {
     EXPECT_EQ(status == StepStatus::stuck, closed && step > 88) << step;
   }
   EXPECT_TRUE(pressed.state.grounded);
+}
+
+TEST(PaperSweep, over_a_resting_character_meets_it_at_distance_over_speed_and_stays_on_its_side) {
+  for (const double speed : {0.9, 7.0, 500.0, 1e5}) {
+    const double distance = std::min(0.5, speed / 3);
+    const double left = half_width + distance;
+    Stepper<double> resting({rectangle(-4, -1, 4, 0), moving(rectangle(left, 0.25, left + 1e-3, 5))});
+    resting.at(0, half_height + tolerances.stop);
+    resting.dt = 1;
+    resting.movers[0].to = {-speed, 0};
+    resting.step();
+    const auto& contacts = resting.report.move.contacts;
+    const auto* const met = std::find_if(contacts.begin(), contacts.end(),
+                                         [](const Contact<double>& contact) { return contact.collider == 1; });
+    ASSERT_NE(met, contacts.end());
+    EXPECT_NEAR(met->fraction, (left - half_width) / speed, 1e-12);
+    EXPECT_LT(resting.state.position.x() + half_width, left - speed) << "on the side it was on";
+    EXPECT_EQ(resting.state.position.y(), half_height + tolerances.stop) << "on the ground";
+  }
+}
+
+/// A tooth whose facet, 30 degrees steep, is met by a character at `p`: from below, rising to the right, or from above,
+/// falling to the right.
+ColliderDef tooth(const Vec2d& p, bool floor) {
+  const double up = floor ? 1 : -1;
+  const Vec2d along{std::cos(std::numbers::pi / 6), up * std::sin(std::numbers::pi / 6)};
+  const Vec2d met = p + Vec2d{5 * px, -up * half_height};  // by the right foot, or the right of the head
+  const std::vector<Vec2d> corners{met - 0.05 * along, met + 0.2 * along, met + Vec2d{0.05, -up}};
+  return polygon(corners);
+}
+
+TEST(SawtoothCorridor, of_k_teeth_crossed_in_one_step_gives_k_impacts_at_their_times) {
+  for (const int teeth : {1, 2, 3, 7, 12}) {
+    const double wanted = 200;
+    // A rising tooth keeps what is horizontal (it is ground), a falling one halves it: from (1, tan 30) the part into
+    // the normal (-1/2, -cos 30) is 1, which leaves (1/2, -tan(30)/2). Half a metre from one to the next.
+    std::vector<ColliderDef> colliders;
+    std::vector<double> fractions;
+    Vec2d p{0, 0};
+    double share = 1;
+    double spent = 0;
+    double slope = 0;
+    for (int k = 0; k < teeth; ++k) {
+      p += Vec2d{0.5, 0.5 * slope};
+      spent += 0.5 / share;
+      fractions.push_back(spent / wanted);
+      const bool floor = k % 2 == 0;
+      colliders.push_back(tooth(p, floor));
+      slope = (floor ? 1 : -1) * std::tan(std::numbers::pi / 6);
+      if (!floor) share /= 2;
+    }
+    const Scenery<double> scenery(SceneryDef{colliders});
+    const Controller<double> controller(scenery, {}, {.sweep_iterations = teeth + 1});
+    Scratch<double> scratch = controller.make_scratch();
+    StepReport<double> report;
+    CharacterState<double> state;
+    state.velocity = {wanted, 0};
+    EXPECT_EQ(controller.step(state, {}, {0, 0}, 1.0, scratch, report), StepStatus::moved) << teeth;
+    ASSERT_EQ(report.move.contacts.size(), static_cast<std::size_t>(teeth));
+    for (std::size_t k = 0; k < fractions.size(); ++k) {
+      EXPECT_EQ(report.move.contacts[k].collider, k);
+      // Each is stopped at up to 2 gaps early, and what that shifts grows with the shares that follow.
+      EXPECT_NEAR(report.move.contacts[k].fraction, fractions[k], 1e-6) << k << " of " << teeth;
+    }
+  }
+}
+
+TEST(Leaving, by_a_jump_keeps_the_speed_of_the_lift) {
+  Stepper<double> rider({moving(rectangle(-3, -1, 3, 0))});
+  rider.at(0, half_height + tolerances.stop);
+  rider.gravity = {0, -30};
+  const Vec2d by{0.05, 0.03};
+  for (int step = 0; step < 10; ++step) rider.step_with_mover_by(by.x(), by.y());
+  ASSERT_TRUE(rider.state.grounded);
+  rider.step_with_mover_by(by.x(), by.y(), {.move = std::nullopt, .jump = true});
+  EXPECT_FALSE(rider.state.grounded);
+  EXPECT_EQ(rider.state.ride.ground, Ride<double>::none);
+  // Both come out of offsets of up to 0.6 m: 1e-12 is far above their rounding.
+  EXPECT_NEAR(rider.state.velocity.x(), by.x() * 60, 1e-12);
+  EXPECT_NEAR(rider.state.velocity.y(), 12 - 30.0 / 60 + by.y() * 60, 1e-12);
+}
+
+TEST(Leaving, over_the_edge_keeps_the_speed_of_the_lift) {
+  Stepper<double> rider({moving(rectangle(-3, -1, 3, 0))});
+  rider.at(1.5, half_height + tolerances.stop);
+  rider.step_with_mover_by(-0.05, 0);
+  int steps = 0;
+  while (rider.state.grounded && ++steps < 60) rider.step_with_mover_by(-0.05, 0, {.move = 1});
+  EXPECT_FALSE(rider.state.grounded);
+  EXPECT_NEAR(rider.state.velocity.x(), 6 - 0.05 * 60, 1e-12);
+}
+
+TEST(Walking, on_a_lift_is_as_fast_as_on_the_ground) {
+  Stepper<double> rider({moving(rectangle(-30, -1, 30, 0))});
+  Stepper<double> walker({rectangle(-30, -1, 30, 0)});
+  rider.at(0, half_height + tolerances.stop);
+  walker.at(0, half_height + tolerances.stop);
+  rider.step_with_mover_by(0.04, 0.02);
+  walker.step();
+  for (int step = 0; step < 120; ++step) {
+    rider.step_with_mover_by(0.04, 0.02, {.move = 1});
+    walker.step({.move = 1});
+    ASSERT_TRUE(rider.state.grounded) << step;
+  }
+  EXPECT_NEAR(rider.state.position.x() - rider.movers[0].to.x(), walker.state.position.x(), 1e-12);
+  EXPECT_NEAR(rider.state.position.y() - rider.movers[0].to.y(), walker.state.position.y(), 1e-12);
+}
+
+TEST(Conveyor, carries_what_stands_on_it_along_its_surface) {
+  for (const double speed : {-2.0, 3.0}) {
+    ColliderDef belt = rectangle(-30, -1, 30, 0);
+    belt.surface_speed = speed;
+    Stepper<double> rider({belt});
+    rider.at(0, half_height + tolerances.stop).steps(60);
+    EXPECT_NEAR(rider.state.position.x(), speed, 1e-12);
+    EXPECT_EQ(rider.state.position.y(), half_height + tolerances.stop);
+    EXPECT_TRUE(rider.state.grounded);
+  }
+}
+
+TEST(Conveyor, up_a_slope_goes_with_its_speed_along_the_slope) {
+  ColliderDef belt = polygon({{-40, -30}, {40, -30}, {40, 30}, {-40, -30 + 1e-9}});
+  belt.surface_speed = 2;
+  Stepper<double> rider({belt});
+  const Vec2d along = Vec2d{80, 60}.normalized();
+  // The right foot, at (5, -20) px, stands on the line y = 3/4 x.
+  rider.at(0, half_height + 0.75 * 5 * px + 1e-3).steps(10);
+  const Vec2d from = rider.state.position;
+  rider.steps(60);
+  EXPECT_NEAR((rider.state.position - from).x(), 2 * along.x(), 1e-8);
+  EXPECT_NEAR((rider.state.position - from).y(), 2 * along.y(), 1e-8);
+}
+
+TEST(Push, up_a_slope_follows_the_slope) {
+  // 30 degrees: the wall pushes by 0.5 m to the right, the slope takes it up.
+  const double rise = std::tan(std::numbers::pi / 6);
+  Stepper<double> pushed(
+      {polygon({{-9, -9}, {9, -9}, {9, 9 * rise}, {-9, -9 * rise}}), moving(rectangle(-4, -5, -3, 9))});
+  pushed.at(0, half_height + 5 * px * rise + 1e-3).steps(5);
+  ASSERT_TRUE(pushed.state.grounded);
+  const Vec2d from = pushed.state.position;
+  for (int step = 0; step < 40; ++step) pushed.step_with_mover_by(0.1, 0);
+  // The wall's right side has gone from -3 to 1.
+  EXPECT_NEAR(pushed.state.position.x(), 1 + half_width, 2 * tolerances.touch);
+  EXPECT_NEAR(pushed.state.position.y() - from.y(), (pushed.state.position.x() - from.x()) * rise, 1e-6);
+}
+
+TEST(OneWayLift, carries_from_above_and_is_passed_from_below) {
+  Stepper<double> rider({moving(chain({{-3, 0}, {3, 0}}, Vec2d{0, 1}))});
+  rider.at(0, half_height + tolerances.stop);
+  for (int step = 0; step < 60; ++step) rider.step_with_mover_by(0, 0.05);
+  EXPECT_NEAR(rider.state.position.y(), 3 + half_height, 1e-6);
+  EXPECT_TRUE(rider.state.grounded);
+
+  Stepper<double> below({rectangle(-4, -2, 4, -1), moving(chain({{-3, 0}, {3, 0}}, Vec2d{0, 1}))});
+  below.at(0, half_height - 1 + tolerances.stop);
+  for (int step = 0; step < 60; ++step) below.step_with_mover_by(0, -0.02);
+  EXPECT_EQ(below.state.position.y(), half_height - 1 + tolerances.stop) << "it comes down through the character";
+}
+
+TEST(Stages, that_the_scenery_needs_cannot_be_left_out) {
+  const auto make = [](std::vector<ColliderDef> colliders, const Stages& stages, double snap = 0) {
+    const Scenery<double> scenery(SceneryDef{std::move(colliders)});
+    CharacterDef character;
+    character.snap = snap;
+    const Controller<double> controller(scenery, character, {.stages = stages});
+  };
+  const ColliderDef floor = rectangle(-4, -1, 4, 0);
+  ColliderDef belt = floor;
+  belt.surface_speed = 1;
+  const ColliderDef slope = polygon({{0, 0}, {4, 0}, {4, 3}});
+  EXPECT_NO_THROW(make({floor}, {.movers = false, .one_way = false, .slopes = false, .snap = false}));
+  EXPECT_THROW(make({moving(floor)}, {.movers = false}), std::invalid_argument);
+  EXPECT_THROW(make({belt}, {.movers = false}), std::invalid_argument);
+  EXPECT_THROW(make({chain({{0, 0}, {1, 0}}, Vec2d{0, 1})}, {.one_way = false}), std::invalid_argument);
+  EXPECT_THROW(make({slope}, {.slopes = false}), std::invalid_argument);
+  EXPECT_THROW(make({floor}, {.snap = false}, 0.5), std::invalid_argument);
 }
 
 }  // namespace
