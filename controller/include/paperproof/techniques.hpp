@@ -71,7 +71,7 @@ struct TechniqueDef {
   BroadPhaseKind broad_phase = BroadPhaseKind::tree;
   Stages stages{};
   ArticleKnobs article{};
-  int sweep_iterations = 12;  ///< `octagon_sweep`: impacts per step before the rest of the motion is dropped.
+  int sweep_iterations = 12;  ///< `octagon_sweep`: impacts per step before the rest is dropped; from 1 to 60.
   /// `pixel_tile`: the level as tiles (pixel_tiles.hpp), `article.raster_pixels_per_metre` fine. None: they are made
   /// from the scenery, which is what contacts name in either case.
   std::shared_ptr<const PixelTileSet> pixel_tiles{};

@@ -139,7 +139,7 @@ class OctagonSweepAmongMovers final : public OctagonSweep<Scalar> {
     const Box2<Scalar> start{request.position, request.position};
     if (request.ride.ground == Ride<Scalar>::none && keeps_away(start, request)) {
       this->solve_(this->space_, this->settings_, neighbourhood, request, result);
-      if ((request.movers.empty() || keeps_away(box_of(result.path), request)) && !meets_conveyor(result)) return;
+      if (keeps_away(box_of(result.path), request) && !meets_conveyor(result)) return;
       result.clear();
     }
     auto& memory = static_cast<MoverMemory&>(*scratch.own);
@@ -159,6 +159,7 @@ class OctagonSweepAmongMovers final : public OctagonSweep<Scalar> {
 
   /// Whether no mover comes near a character that is anywhere in a box, during the whole step.
   [[nodiscard]] bool keeps_away(const Box2<Scalar>& positions, const MoveRequest<Scalar>& request) const noexcept {
+    if (request.movers.empty()) return true;
     const Box2<Scalar> touched = this->space_.touched_from(positions.inflated(Tolerances<Scalar>{}.look));
     for (MoverIndex mover = 0; mover < mover_phases().size(); ++mover) {
       const Box2<Scalar>& whole = mover_phases().whole(mover);
