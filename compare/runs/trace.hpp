@@ -1,8 +1,8 @@
 /// What a run leaves behind: a header and one record per step, in double (every float is one exactly).
 #pragma once
 
-#include <paperproof/controller.hpp>
 #include <paperproof/scenery.hpp>
+#include <paperproof/technique.hpp>
 
 #include <string>
 #include <utility>

@@ -27,16 +27,6 @@ enum class StepStatus : std::uint8_t {
   invalid_input,  ///< Refused: NaN, infinity or dt <= 0. Nothing changed at all.
 };
 
-/// The character's open interior came to overlap a sensor (of a chain: its line), or ceased to. Events of one sensor
-/// alternate, also over steps; a character that begins inside does not enter.
-template <class Scalar>
-struct SensorEvent {
-  enum class Change : std::uint8_t { enter, exit };
-  ColliderIndex sensor = 0;
-  Change change = Change::enter;
-  Scalar fraction = 0;  ///< Of the step, in [0, 1].
-};
-
 /// What one step did. `move` is valid unless the status is `invalid_input`.
 template <class Scalar>
 struct StepReport {

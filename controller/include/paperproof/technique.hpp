@@ -21,6 +21,16 @@ struct Contact {
   Side side = Side::bottom;
 };
 
+/// The character's open interior came to overlap a sensor (of a chain: its line), or ceased to. Events of one sensor
+/// alternate, also over steps; a character that begins inside does not enter.
+template <class Scalar>
+struct SensorEvent {
+  enum class Change : std::uint8_t { enter, exit };
+  ColliderIndex sensor = 0;
+  Change change = Change::enter;
+  Scalar fraction = 0;  ///< Of the step, in [0, 1].
+};
+
 /// A corner of the way that was travelled.
 template <class Scalar>
 struct PathPoint {
