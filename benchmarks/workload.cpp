@@ -1,6 +1,5 @@
 #include "workload.hpp"
 
-#include "runs/input_cursor.hpp"
 #include "scenes/load.hpp"
 
 #include <algorithm>
@@ -65,8 +64,7 @@ void add_supertux(std::vector<std::shared_ptr<const Workload>>& all) {
 
 std::vector<Input> input_of_every_step(const std::vector<InputEvent>& events) {
   std::vector<Input> inputs;
-  compare::InputCursor cursor(events);
-  for (int step = 0; step < steps; ++step) inputs.push_back(cursor.at(step));
+  for (int step = 0; step < steps; ++step) inputs.push_back(compare::input_at(events, step));
   return inputs;
 }
 
