@@ -1,6 +1,7 @@
 /// The command `paperproof`.
 #include "command/compare_command.hpp"
 #include "command/study_command.hpp"
+#include "runs/scene_plan.hpp"
 #include "scenes/describe.hpp"
 #include "scenes/load.hpp"
 
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <optional>
 
 namespace {
 
@@ -17,8 +19,19 @@ using namespace paperproof::compare;
 
 constexpr int unusable = 2;
 
-void add_compare(CLI::App& app, CompareArguments& arguments, std::string& input, std::vector<std::string>& scalars,
-                 std::string& mode) {
+/// What stands on the command line, as it stands there.
+struct Words {
+  CompareArguments compare;
+  std::string input;
+  std::string mode = "free";
+  std::string plan;
+  std::vector<std::string> scalars;
+  std::string what;                 ///< To list.
+  std::vector<std::string> scenes;  ///< To check or to plan.
+};
+
+CLI::App* add_compare(CLI::App& app, Words& words) {
+  CompareArguments& arguments = words.compare;
   CLI::App* command = app.add_subcommand("compare", "Run scenes, judge every step exactly, say who is right");
   command->add_option("SCENE", arguments.scenes, "Built-in names, .json scenes, .tmx/.tmj maps, SuperTux .stl levels")
       ->required();
@@ -27,23 +40,26 @@ void add_compare(CLI::App& app, CompareArguments& arguments, std::string& input,
                    "Only these (see `paperproof list contenders`), each by its own option or with commas")
       ->delimiter(',')
       ->allow_extra_args(false);
-  command->add_option("--scalar", scalars, "Number type of the techniques")
+  command->add_option("--scalar", words.scalars, "Number type of the techniques")
       ->check(CLI::IsMember({"double", "float"}))
       ->delimiter(',')
       ->allow_extra_args(false);
   command
-      ->add_option("--mode", mode,
+      ->add_option("--mode", words.mode,
                    "free: each on its own; lockstep: the twin is put to the controller before each step")
       ->check(CLI::IsMember({"free", "lockstep"}));
   command->add_option("--steps", arguments.run.steps, "Instead of the scene's")->check(CLI::Range(1, 1'000'000'000));
-  command->add_option("--input", input, "random:SEED replaces the scene's input");
+  command->add_option("--input", words.input, "random:SEED replaces the scene's input");
   command->add_option("--trace", arguments.run.trace_stem, "Write STEM.<scene>.<contender>.<scalar>.jsonl");
   command->add_option("--rows", arguments.rows_path, "Write all rows as JSON to this file");
   command->add_option("--report", arguments.report_path, "Write one self-contained HTML page to this file");
+  command->add_option("--plan", words.plan, "full: leave nothing out, whatever the scene can need")
+      ->check(CLI::IsMember({"full"}));
   command->add_flag("!--no-reference", arguments.run.reference, "Without the Box2D twin");
   command->add_flag("!--no-timing", arguments.run.measure_cost, "Without measuring the cost of a step");
   command->add_flag("--quiet", arguments.quiet, "No tables, no progress");
   command->add_flag("--json", arguments.json, "Rows as JSON on standard output");
+  return command;
 }
 
 CLI::App* add_study(CLI::App& app, StudyArguments& arguments) {
@@ -77,23 +93,39 @@ void check(const std::vector<std::string>& scenes) {
     for (const Scene& scene : load_scenes(name)) fmt::print("{}\n", describe(scene));
 }
 
+void print_plans(const std::vector<std::string>& scenes, const std::optional<std::uint64_t>& seed) {
+  for (const std::string& name : scenes)
+    for (const Scene& scene : load_scenes(name))
+      fmt::print("{}\n", describe_plan(scene, seed ? random_input(*seed, scene.steps) : scene.input));
+}
+
+CompareArguments compare_arguments(const Words& words, const std::optional<std::uint64_t>& seed) {
+  CompareArguments arguments = words.compare;
+  arguments.run.random_input = seed;
+  arguments.run.full_plan = words.plan == "full";
+  arguments.run.mode = words.mode == "lockstep" ? Mode::lockstep : Mode::free;
+  if (!words.scalars.empty()) arguments.run.scalars.clear();
+  for (const std::string& scalar : without_repeats(words.scalars))
+    arguments.run.scalars.push_back(scalar == "float" ? ScalarKind::binary32 : ScalarKind::binary64);
+  arguments.run.contenders = without_repeats(arguments.run.contenders);
+  return arguments;
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"A 2D kinematic character controller beside Box2D, judged by exact arithmetic"};
   app.set_version_flag("--version", PAPERPROOF_VERSION);
   app.require_subcommand(1);
-  CompareArguments arguments;
-  std::string input;
-  std::string mode = "free";
-  std::vector<std::string> scalars;
-  add_compare(app, arguments, input, scalars, mode);
+  Words words;
+  const CLI::App* comparing = add_compare(app, words);
   StudyArguments study_arguments;
   const CLI::App* scale = add_study(app, study_arguments);
-  std::string what;
   CLI::App* list = app.add_subcommand("list", "Names, one per line");
-  list->add_option("WHAT", what)->required()->check(CLI::IsMember({"scenes", "contenders"}));
-  std::vector<std::string> to_check;
+  list->add_option("WHAT", words.what)->required()->check(CLI::IsMember({"scenes", "contenders"}));
   CLI::App* checking = app.add_subcommand("check", "Validate scenes and say what is in them");
-  checking->add_option("SCENE", to_check)->required();
+  checking->add_option("SCENE", words.scenes)->required();
+  CLI::App* planning = app.add_subcommand("plan", "Say what scenes cannot need and runs therefore leave out, and why");
+  planning->add_option("SCENE", words.scenes)->required();
+  planning->add_option("--input", words.input, "random:SEED replaces the scene's input");
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& wanted) {
@@ -102,22 +134,14 @@ int run(int argc, char** argv) {
     std::fputs(fmt::format("paperproof: {}\n", error.what()).c_str(), stderr);
     return unusable;
   }
-  if (list->parsed()) {
-    print_list(what);
-    return 0;
-  }
-  if (checking->parsed()) {
-    check(to_check);
-    return 0;
-  }
+  std::optional<std::uint64_t> seed;
+  if (!words.input.empty()) seed = parse_random_input(words.input);
+  if (comparing->parsed()) return compare_scenes(compare_arguments(words, seed));
   if (scale->parsed()) return study_scale_command(study_arguments);
-  if (!input.empty()) arguments.run.random_input = parse_random_input(input);
-  arguments.run.mode = mode == "lockstep" ? Mode::lockstep : Mode::free;
-  if (!scalars.empty()) arguments.run.scalars.clear();
-  for (const std::string& scalar : without_repeats(scalars))
-    arguments.run.scalars.push_back(scalar == "float" ? ScalarKind::binary32 : ScalarKind::binary64);
-  arguments.run.contenders = without_repeats(arguments.run.contenders);
-  return compare_scenes(std::move(arguments));
+  if (list->parsed()) print_list(words.what);
+  if (checking->parsed()) check(words.scenes);
+  if (planning->parsed()) print_plans(words.scenes, seed);
+  return 0;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "metrics/agreement.hpp"
+#include "metrics/measured.hpp"
 #include "metrics/rest.hpp"
 #include "metrics/window.hpp"
 #include "oracle/judge.hpp"
@@ -16,7 +17,7 @@ namespace paperproof::compare {
 /// number of steps. Not thread-safe.
 ///
 /// - `tunnels`, `corner_cuts`, `one_way_violations`, `steps_ending_inside`: steps with any; see `Judge`. The third only
-///   where the scenery has a one-way chain.
+///   where the scenery has a one-way chain. What `Measured` leaves out is absent.
 /// - `max_penetration_m`: deepest exact penetration at the end of a step. `max_contact_gap_m`: largest exact separation
 ///   at which a reported contact stopped the character.
 /// - `contact_precision`: the share of reported contacts (one per step, collider and side) for which exact arithmetic
@@ -39,7 +40,7 @@ namespace paperproof::compare {
 /// - `respawns`, `dropped_steps`: counted.
 class Metrics {
  public:
-  explicit Metrics(const TraceHeader& header);
+  explicit Metrics(const TraceHeader& header, const Measured& measured = {});
   void add(const TraceStep& step, const StepJudgement& judgement);
   /// Fills every metric that applies; leaves verdict, reason, cost and the comparison with Box2D alone.
   void write(Row& row) const;
@@ -65,7 +66,7 @@ class Metrics {
   void add_passings(const TraceStep& step, const StepJudgement& judgement);
 
   std::vector<std::string> ids_;
-  bool has_one_way_ = false;
+  Measured measured_;
   detail::Window<Moment> window_;
   Matches matches_;
   Rest rest_;

@@ -195,7 +195,9 @@ std::string hull_json(const std::vector<Vec2d>& points, const Quantum& quantum) 
 void write_header(JsonObject& object, const ReportRun& run, const Quantum& quantum) {
   const TraceHeader& header = run.header;
   JsonArray omitted;
-  for (const std::string& reason : header.plan_omitted) omitted.add_raw(json_string(reason));
+  if (header.plan)
+    for (const Omission& omission : header.plan->omitted)
+      omitted.add_raw(json_string(std::string(name_of(omission.stage)) + ": " + omission.reason));
   object.put("contender", json_string(header.contender)).put("scalar", json_string(header.scalar));
   object.put("mode", json_string(header.mode)).put("dt", short_number(header.dt, 6));
   object.put("box2d", json_string(header.box2d)).put("path_exact", header.path_exact ? "true" : "false");

@@ -31,7 +31,7 @@ bool is_reference(std::string_view contender) { return contender == box2d_name |
 std::string_view name_of(ScalarKind scalar) noexcept { return scalar == ScalarKind::binary32 ? "float" : "double"; }
 
 std::unique_ptr<Contestant> make_contestant(std::string_view name, ScalarKind scalar, const Scene& scene,
-                                            const Scenery<double>& scenery) {
+                                            const Scenery<double>& scenery, const Planning& planning) {
   const auto turning = std::find_if(scene.movers.begin(), scene.movers.end(),
                                     [](const MoverDef& mover) { return !mover.turns.empty(); });
   if (turning != scene.movers.end())
@@ -48,7 +48,7 @@ std::unique_ptr<Contestant> make_contestant(std::string_view name, ScalarKind sc
                                  [&](TechniqueKind each) { return paperproof::name_of(each) == name; });
   if (kind != all_techniques.end()) {
     try {
-      return make_technique_contestant(*kind, scalar, scene, scenery);
+      return make_technique_contestant(*kind, scalar, scene, scenery, planning);
     } catch (const NotExpressible& error) {
       throw NotApplicable(error.what());
     }

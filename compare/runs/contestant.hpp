@@ -1,6 +1,7 @@
 /// One side of a comparison: something that moves a character through a scene, step by step.
 #pragma once
 
+#include "runs/scene_plan.hpp"
 #include "runs/trace.hpp"
 #include "scenes/scene.hpp"
 
@@ -41,7 +42,6 @@ struct StepInput {
 class Contestant {
  public:
   virtual ~Contestant() = default;
-  /// Everything but the plan of the trace's header.
   [[nodiscard]] virtual const TraceHeader& header() const noexcept = 0;
   /// One step. Fills everything of `record` but step, start_overlap and respawn. Movers are recorded as they ran: the
   /// input's, rounded to what the contestant computes in.
@@ -67,8 +67,10 @@ class LeftRange : public std::runtime_error {
 };
 
 /// @param scenery of the scene, in double; must outlive the contestant.
+/// @param planning of the techniques; Box2D has none.
 /// @throws NotApplicable where the contender cannot express the scene; std::exception where it cannot be built.
 [[nodiscard]] std::unique_ptr<Contestant> make_contestant(std::string_view name, ScalarKind scalar, const Scene& scene,
-                                                          const Scenery<double>& scenery);
+                                                          const Scenery<double>& scenery,
+                                                          const Planning& planning = {});
 
 }  // namespace paperproof::compare

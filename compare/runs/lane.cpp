@@ -20,16 +20,16 @@ constexpr int first_steps = 60;
 }  // namespace
 
 Lane::Lane(std::string contender, ScalarKind scalar, const Scene& scene, const Scenery<double>& scenery,
-           const std::string& mode, const std::string& trace_stem, const ReplayLimit& replay)
+           const Planning& planning, const std::string& mode, const std::string& trace_stem, const ReplayLimit& replay)
     : limit_(replay) {
   row_.scene = scene.name;
   row_.contender = std::move(contender);
   row_.scalar = is_reference(row_.contender) ? name_of(ScalarKind::binary32) : name_of(scalar);
   row_.mode = mode;
   try {
-    contestant_ = make_contestant(row_.contender, scalar, scene, scenery);
+    contestant_ = make_contestant(row_.contender, scalar, scene, scenery, planning);
     judge_ = std::make_unique<Judge>(header());
-    metrics_ = std::make_unique<Metrics>(header());
+    metrics_ = std::make_unique<Metrics>(header(), metrics_for(scene, planning).measured);
     if (limit_.most > 0) {
       replay_.header = header();
       replay_.every = std::max(1, (limit_.steps + limit_.most - 1) / limit_.most);

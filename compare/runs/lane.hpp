@@ -23,7 +23,7 @@ struct ReplayLimit {
 class Lane {
  public:
   Lane(std::string contender, ScalarKind scalar, const Scene& scene, const Scenery<double>& scenery,
-       const std::string& mode, const std::string& trace_stem, const ReplayLimit& replay);
+       const Planning& planning, const std::string& mode, const std::string& trace_stem, const ReplayLimit& replay);
 
   [[nodiscard]] bool running() const noexcept { return contestant_ != nullptr; }
   [[nodiscard]] const std::string& contender() const noexcept { return row_.contender; }

@@ -32,16 +32,19 @@ class SceneRun {
         options_(options),
         steps_(options.steps.value_or(scene.steps)),
         input_(options.random_input ? random_input(*options.random_input, steps_) : scene.input),
-        scenery_(scene.scenery) {
+        scenery_(scene.scenery),
+        planning_{.full = options.full_plan, .foreseen = foreseen_in(scene, input_)} {
     const std::string mode = options.mode == Mode::lockstep ? "lockstep" : "free";
     const ReplayLimit replay{.steps = steps_, .most = options.max_replay_steps};
     for (const std::string& name : names())
       for (const ScalarKind scalar : options.scalars) {
         if (is_reference(name) && scalar != options.scalars.front()) continue;
-        lanes_.push_back(std::make_unique<Lane>(name, scalar, scene, scenery_, mode, options.trace_stem, replay));
+        lanes_.push_back(
+            std::make_unique<Lane>(name, scalar, scene, scenery_, planning_, mode, options.trace_stem, replay));
         if (options.mode != Mode::lockstep) continue;
         const std::string stem = options.trace_stem.empty() ? "" : twin_stem(options.trace_stem, name);
-        twins_.push_back(std::make_unique<Lane>(std::string(twin_name), scalar, scene, scenery_, mode, stem, replay));
+        twins_.push_back(
+            std::make_unique<Lane>(std::string(twin_name), scalar, scene, scenery_, planning_, mode, stem, replay));
         twins_.back()->row().findings.push_back("twin of " + name);
       }
     begin_agreements();
@@ -225,6 +228,7 @@ class SceneRun {
   int steps_;
   std::vector<InputEvent> input_;
   Scenery<double> scenery_;
+  Planning planning_;
   std::vector<std::unique_ptr<Lane>> lanes_;
   std::vector<std::unique_ptr<Lane>> twins_;
   std::vector<Pair> pairs_;

@@ -39,9 +39,10 @@ class OwnScenery<double> {
 template <class Scalar>
 class TechniqueContestant final : public Contestant {
  public:
-  TechniqueContestant(TechniqueKind kind, const Scene& scene, const Scenery<double>& scenery)
+  TechniqueContestant(TechniqueKind kind, const Scene& scene, const Scenery<double>& scenery, const Planning& planning)
       : scenery_(scenery),
-        controller_(scenery_.get(), rules_for(kind, scene.character), definition(kind, scene)),
+        plan_(plan_of(scenery_.get(), scene.character, planning)),
+        controller_(scenery_.get(), rules_for(kind, scene.character), definition(kind, scene, plan_)),
         scratch_(controller_.make_scratch()),
         gravity_(scene.gravity.cast<Scalar>()),
         dt_(static_cast<Scalar>(scene.dt)),
@@ -54,6 +55,7 @@ class TechniqueContestant final : public Contestant {
       header_.points.push_back(point.cast<Scalar>().template cast<double>());
     header_.scenery = scenery_.get().as_run();
     header_.ids = scene.ids;
+    header_.plan = plan_;
     header_.tolerances = tolerances_of<Scalar>();
     place({.position = scene.start.position, .velocity = scene.start.velocity});
   }
@@ -148,9 +150,11 @@ class TechniqueContestant final : public Contestant {
     return carried;
   }
 
-  static TechniqueDef definition(TechniqueKind kind, const Scene& scene) {
+  static TechniqueDef definition(TechniqueKind kind, const Scene& scene, const Plan& plan) {
     TechniqueDef def;
     def.kind = kind;
+    def.broad_phase = plan.broad_phase;
+    def.stages = plan.stages;
     def.article.unit = 1 / scene.pixels_per_metre;
     constexpr double finest = 1000;  // that the picture techniques take
     def.article.raster_pixels_per_metre = std::min(scene.pixels_per_metre, finest);
@@ -164,6 +168,7 @@ class TechniqueContestant final : public Contestant {
   }
 
   OwnScenery<Scalar> scenery_;
+  Plan plan_;
   Controller<Scalar> controller_;
   Scratch<Scalar> scratch_;
   Vec2<Scalar> gravity_;
@@ -177,9 +182,10 @@ class TechniqueContestant final : public Contestant {
 }  // namespace
 
 std::unique_ptr<Contestant> make_technique_contestant(TechniqueKind kind, ScalarKind scalar, const Scene& scene,
-                                                      const Scenery<double>& scenery) {
-  if (scalar == ScalarKind::binary32) return std::make_unique<TechniqueContestant<float>>(kind, scene, scenery);
-  return std::make_unique<TechniqueContestant<double>>(kind, scene, scenery);
+                                                      const Scenery<double>& scenery, const Planning& planning) {
+  if (scalar == ScalarKind::binary32)
+    return std::make_unique<TechniqueContestant<float>>(kind, scene, scenery, planning);
+  return std::make_unique<TechniqueContestant<double>>(kind, scene, scenery, planning);
 }
 
 }  // namespace paperproof::compare

@@ -6,6 +6,7 @@
 namespace paperproof::compare {
 
 [[nodiscard]] std::unique_ptr<Contestant> make_technique_contestant(TechniqueKind kind, ScalarKind scalar,
-                                                                    const Scene& scene, const Scenery<double>& scenery);
+                                                                    const Scene& scene, const Scenery<double>& scenery,
+                                                                    const Planning& planning);
 
 }  // namespace paperproof::compare

@@ -1,9 +1,11 @@
 /// What a run leaves behind: a header and one record per step, in double (every float is one exactly).
 #pragma once
 
+#include <paperproof/plan.hpp>
 #include <paperproof/scenery.hpp>
 #include <paperproof/technique.hpp>
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,7 +28,7 @@ struct TraceHeader {
   SceneryDef scenery;            ///< As run, world metres.
   std::vector<std::string> ids;  ///< One per collider.
   std::string box2d;             ///< Version of the Box2D in use.
-  std::vector<std::string> plan_omitted;
+  std::optional<Plan> plan;      ///< None for Box2D, which has none.
   std::vector<NamedTolerance> tolerances;
   /// Box2D only: `path` holds sampled positions, and cuts under 20 mm are counted apart.
   bool path_exact = true;

@@ -28,6 +28,16 @@ ordered_json collider_json(const std::string& id, const ColliderDef& collider) {
   return object;
 }
 
+ordered_json plan_json(const std::optional<Plan>& plan) {
+  ordered_json object = ordered_json::object();
+  if (plan) object["broad_phase"] = paperproof::name_of(plan->broad_phase);
+  object["omitted"] = ordered_json::array();
+  if (plan)
+    for (const Omission& omission : plan->omitted)
+      object["omitted"].push_back({{"stage", paperproof::name_of(omission.stage)}, {"reason", omission.reason}});
+  return object;
+}
+
 ordered_json header_json(const TraceHeader& header) {
   ordered_json object;
   object["paperproof_trace"] = 1;
@@ -41,7 +51,7 @@ ordered_json header_json(const TraceHeader& header) {
   for (std::size_t i = 0; i < header.ids.size(); ++i)
     object["colliders"].push_back(collider_json(header.ids[i], header.scenery.colliders[i]));
   if (!header.box2d.empty()) object["box2d"] = header.box2d;
-  object["plan"]["omitted"] = header.plan_omitted;
+  object["plan"] = plan_json(header.plan);
   for (const NamedTolerance& tolerance : header.tolerances) object["tolerances"][tolerance.name] = tolerance.metres;
   return object;
 }

@@ -120,18 +120,6 @@ void study_level(std::size_t pieces, const std::vector<Input>& inputs, std::vect
 
 }  // namespace
 
-std::string_view name_of(BroadPhaseKind kind) noexcept {
-  switch (kind) {
-    case BroadPhaseKind::all_pairs:
-      return "all_pairs";
-    case BroadPhaseKind::buckets:
-      return "buckets";
-    case BroadPhaseKind::tree:
-      return "tree";
-  }
-  return "unknown";
-}
-
 std::vector<ScalePoint> study_scale(const std::vector<std::size_t>& counts,
                                     const std::function<void(double)>& progress) {
   for (const std::size_t count : counts) {

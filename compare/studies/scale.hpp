@@ -5,12 +5,9 @@
 
 #include <cstdint>
 #include <functional>
-#include <string_view>
 #include <vector>
 
 namespace paperproof::compare {
-
-[[nodiscard]] std::string_view name_of(BroadPhaseKind kind) noexcept;
 
 /// One broad phase among one number of pieces.
 struct ScalePoint {

@@ -279,5 +279,28 @@ TEST(Command, lists_names_first_and_checks_scenes) {
   EXPECT_EQ(bad.out, "");
 }
 
+TEST(Command, says_what_a_scene_does_not_need_and_writes_it_into_traces) {
+  const Workplace place;
+  const Finished plan = place.run("plan article_bullet");
+  EXPECT_EQ(plan.status, 0) << plan.err;
+  EXPECT_TRUE(begins(plan.out, "article_bullet\n  broad phase  all_pairs: 1 piece"));
+  EXPECT_TRUE(holds(plan.out, "without      jump: "));
+  EXPECT_EQ(place.run("plan article_bullet --input random:1").out.find("without      jump: "), std::string::npos);
+  EXPECT_EQ(place.run("plan nothing").status, 2);
+
+  const std::string compare = "compare article_bullet --no-timing --quiet --contender octagon_sweep --trace ";
+  EXPECT_EQ(place.run(compare + "planned").status, 0);
+  EXPECT_EQ(place.run(compare + "full --plan full").status, 0);
+  const auto files = place.files();
+  const std::string planned = files.at("planned.article_bullet.octagon_sweep.double.jsonl");
+  const std::string full = files.at("full.article_bullet.octagon_sweep.double.jsonl");
+  const nlohmann::json header = nlohmann::json::parse(planned.substr(0, planned.find('\n')));
+  EXPECT_EQ(header["plan"]["broad_phase"], "all_pairs");
+  EXPECT_EQ(header["plan"]["omitted"][0]["stage"], "movers");
+  EXPECT_TRUE(nlohmann::json::parse(full.substr(0, full.find('\n')))["plan"]["omitted"].empty());
+  EXPECT_EQ(planned.substr(planned.find('\n')), full.substr(full.find('\n')))
+      << "the steps are the same to the last bit";
+}
+
 }  // namespace
 }  // namespace paperproof::compare

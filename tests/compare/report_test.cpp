@@ -25,7 +25,7 @@ TEST_F(ReportTest, text_that_ends_a_script_stays_inside_its_element) {
   report.tolerances.push_back({hostile_text(), 1});
   report.scenes[0].rows[0].reason = hostile_text();
   report.scenes[0].rows[0].findings = {hostile_text()};
-  report.scenes[0].runs[0].header.plan_omitted = {hostile_text()};
+  report.scenes[0].runs[0].header.plan = Plan{.omitted = {{Stage::movers, hostile_text()}}};
   report.scenes[0].runs[0].events = {{1, ReportEvent::Kind::note, hostile_text()}};
   const std::string text = page(report);
   EXPECT_EQ(text.find(hostile_text()), std::string::npos);

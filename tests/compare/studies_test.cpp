@@ -1,6 +1,8 @@
 #include "studies/chart_page.hpp"
 #include "studies/scale.hpp"
 
+#include <paperproof/plan.hpp>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>

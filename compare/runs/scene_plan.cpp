@@ -1,0 +1,59 @@
+#include "runs/scene_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace paperproof::compare {
+
+Foreseen foreseen_in(const Scene& scene, const std::vector<InputEvent>& input) {
+  return {.gravity = scene.gravity != Vec2d(0, 0),
+          .jump = std::any_of(input.begin(), input.end(), [](const InputEvent& event) { return event.jump == true; })};
+}
+
+template <class Scalar>
+Plan plan_of(const Scenery<Scalar>& scenery, const CharacterDef& character, const Planning& planning) {
+  if (!planning.full) return make_plan(scenery, character, planning.foreseen);
+  Plan full;
+  full.broad_phase_reason = "as asked for: nothing is left out";
+  return full;
+}
+
+template Plan plan_of(const Scenery<float>&, const CharacterDef&, const Planning&);
+template Plan plan_of(const Scenery<double>&, const CharacterDef&, const Planning&);
+
+MetricPlan metrics_for(const Scene& scene, const Planning& planning) {
+  MetricPlan plan;
+  if (planning.full) return plan;
+  const std::vector<ColliderDef>& colliders = scene.scenery.colliders;
+  const auto any = [&colliders](auto&& test) { return std::any_of(colliders.begin(), colliders.end(), test); };
+  const auto leave_out = [&plan](bool needed, bool Measured::*member, const char* metric, const char* reason) {
+    plan.measured.*member = needed;
+    if (!needed) plan.omitted.push_back({metric, reason});
+  };
+  leave_out(planning.foreseen.gravity, &Measured::rest, "rest jitter",
+            "without gravity nothing presses the character onto anything, so nothing rests");
+  leave_out(any([](const ColliderDef& def) { return def.one_way.has_value(); }), &Measured::one_way,
+            "one-way violations", "there is no one-way chain");
+  leave_out(scene.respawn_box.has_value(), &Measured::respawns, "respawns", "there is no map that could be left");
+  leave_out(any([](const ColliderDef& def) { return def.mover != no_mover; }), &Measured::crushes, "crushes",
+            "nothing moves that could leave no room");
+  leave_out(any([](const ColliderDef& def) { return def.sensor; }), &Measured::sensors, "sensor events",
+            "there is no sensor");
+  return plan;
+}
+
+std::string describe_plan(const Scene& scene, const std::vector<InputEvent>& input) {
+  const Planning planning{.foreseen = foreseen_in(scene, input)};
+  const Plan plan = plan_of(Scenery<double>(scene.scenery), scene.character, planning);
+  std::string out = scene.name + "\n";
+  out += fmt::format("  broad phase  {}: {}\n", name_of(plan.broad_phase), plan.broad_phase_reason);
+  for (const Omission& omission : plan.omitted)
+    out += fmt::format("  without      {}: {}\n", name_of(omission.stage), omission.reason);
+  if (plan.omitted.empty()) out += "  without      nothing: the scene can need every stage\n";
+  for (const MetricOmission& omission : metrics_for(scene, planning).omitted)
+    out += fmt::format("  not measured {}: {}\n", omission.metric, omission.reason);
+  return out;
+}
+
+}  // namespace paperproof::compare
