@@ -4,6 +4,7 @@
 #include "runs/scene_plan.hpp"
 #include "scenes/describe.hpp"
 #include "scenes/load.hpp"
+#include "scenes/sets.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -86,6 +87,7 @@ void print_list(const std::string& what) {
     return;
   }
   for (const BuiltInScene& scene : built_in_scenes()) fmt::print("{:<28} {}\n", scene.name, scene.description);
+  for (const SceneSet& set : scene_sets()) fmt::print("{:<28} {}\n", set.name, set.description);
 }
 
 void check(const std::vector<std::string>& scenes) {

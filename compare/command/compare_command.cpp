@@ -1,11 +1,13 @@
 #include "command/compare_command.hpp"
 
 #include "command/progress.hpp"
+#include "runs/gallery.hpp"
 #include "runs/output_file.hpp"
 #include "runs/rows_json.hpp"
 #include "runs/table.hpp"
 #include "runs/trace_writer.hpp"
 #include "scenes/load.hpp"
+#include "scenes/sets.hpp"
 #include "words.hpp"
 
 #include <fmt/format.h>
@@ -22,6 +24,8 @@ namespace {
 
 /// Up to this many arguments their scenes are kept in memory; more are read once to be checked and again to be run.
 constexpr std::size_t kept_in_memory = 16;
+
+constexpr const char* gallery_title = "Where each contender fails, and where it is the cheapest of those that do not";
 
 /// What was found over all scenes, for the closing line and the exit status.
 class Totals {
@@ -124,6 +128,7 @@ class Comparison {
       progress_.show("checking " + arguments.scenes[i],
                      static_cast<double>(i) / static_cast<double>(arguments.scenes.size()));
       std::vector<Scene> scenes = load_scenes(arguments.scenes[i]);
+      shows_gallery_ = shows_gallery_ || find_set(arguments.scenes[i]) != nullptr;
       for (const Scene& scene : scenes) outputs_.add_scene(arguments.scenes[i], scene.name);
       if (keep) kept_.push_back(std::move(scenes));
     }
@@ -190,18 +195,30 @@ class Comparison {
     std::fflush(stdout);
   }
 
+  void print_summary(const std::vector<ReportSection>& sections) const {
+    for (const ReportSection& section : sections) {
+      fmt::print("{}\n\n", section.title);
+      for (const std::string& line : section.lines) fmt::print("- {}\n", line);
+      fmt::print("\n");
+    }
+    for (const std::string& line : totals_.lines()) fmt::print("{}\n", line);
+  }
+
   void finish() {
-    const nlohmann::ordered_json rows = rows_json(rows_);
+    nlohmann::ordered_json rows = rows_json(rows_);
+    if (shows_gallery_) rows["gallery"] = gallery_json(gallery_of(rows_));
     const auto text = [&rows] { return rows.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace); };
     if (rows_file_) {
       rows_file_->write(text() + '\n');
       rows_file_->commit();
     }
-    if (report_) report_->finish(environment(), tolerances_, totals_.lines());
+    std::vector<ReportSection> sections;
+    if (shows_gallery_) sections.push_back({gallery_title, gallery_lines(gallery_of(rows_))});
+    if (report_) report_->finish(environment(), tolerances_, totals_.lines(), sections);
     if (arguments_.json)
       fmt::print("{}\n", text());
     else if (!arguments_.quiet)
-      for (const std::string& line : totals_.lines()) fmt::print("{}\n", line);
+      print_summary(sections);
     if (report_ && !arguments_.quiet && !arguments_.json) fmt::print("report: {}\n", arguments_.report_path);
   }
 
@@ -209,6 +226,7 @@ class Comparison {
   Progress progress_;
   std::vector<std::vector<Scene>> kept_;
   Outputs outputs_;
+  bool shows_gallery_ = false;  ///< A set of scenes was asked for.
   std::optional<OutputFile> rows_file_;
   std::vector<Row> rows_;
   Totals totals_;

@@ -103,16 +103,21 @@ std::string scene_index_json(const ReportScene& scene) {
 }
 
 std::string index_json(const Environment& environment, const std::vector<NamedTolerance>& tolerances,
-                       const std::vector<std::string>& guarantee_notes, const std::vector<std::string>& scenes) {
+                       const std::vector<std::string>& guarantee_notes, const std::vector<ReportSection>& sections,
+                       const std::vector<std::string>& scenes) {
   nlohmann::json names = nlohmann::json::array();
   for (const auto& [name, value] : environment) names.push_back({name, value});
   nlohmann::json lengths = nlohmann::json::array();
   for (const NamedTolerance& tolerance : tolerances) lengths.push_back({tolerance.name, tolerance.metres});
   JsonArray list;
   for (const std::string& scene : scenes) list.add_raw(scene);
+  nlohmann::json titled = nlohmann::json::array();
+  for (const ReportSection& section : sections) titled.push_back({{"title", section.title}, {"lines", section.lines}});
   JsonObject object;
   object.put("environment", dumped(names)).put("tolerances", dumped(lengths));
-  object.put("guarantee_notes", dumped(guarantee_notes)).put("scenes", std::move(list).take());
+  object.put("guarantee_notes", dumped(guarantee_notes))
+      .put("sections", dumped(titled))
+      .put("scenes", std::move(list).take());
   return std::move(object).take();
 }
 

@@ -9,9 +9,11 @@ namespace paperproof::compare {
 /// metric that does not apply is absent, one that is not finite is the string "not finite". The verdict is in words.
 [[nodiscard]] std::string scene_index_json(const ReportScene& scene);
 
-/// `{"environment":[[name,value]…],"tolerances":[[name,metres]…],"guarantee_notes":[…],"scenes":[…]}`.
+/// `{"environment":[[name,value]…],"tolerances":[[name,metres]…],"guarantee_notes":[…],"sections":[{"title","lines"}…],
+/// "scenes":[…]}`.
 [[nodiscard]] std::string index_json(const Environment& environment, const std::vector<NamedTolerance>& tolerances,
                                      const std::vector<std::string>& guarantee_notes,
+                                     const std::vector<ReportSection>& sections,
                                      const std::vector<std::string>& scenes);
 
 }  // namespace paperproof::compare

@@ -51,9 +51,9 @@ void ReportWriter::add(const ReportScene& scene) {
 }
 
 void ReportWriter::finish(const Environment& environment, const std::vector<NamedTolerance>& tolerances,
-                          const std::vector<std::string>& guarantee_notes) {
+                          const std::vector<std::string>& guarantee_notes, const std::vector<ReportSection>& sections) {
   file_->write("<script type=\"application/json\" id=\"index\">");
-  file_->write(index_json(environment, tolerances, guarantee_notes, index_));
+  file_->write(index_json(environment, tolerances, guarantee_notes, sections, index_));
   file_->write("</script>\n");
   const auto [before, after] = split_at(split_at(page::page_html, "<!--DATA-->").second, "/*SCRIPT*/");
   file_->write(before);

@@ -63,6 +63,12 @@ struct Report {
   std::vector<std::string> guarantee_notes;  ///< What is guaranteed, and the counts of violations, zero included.
 };
 
+/// Lines under a heading of their own in the summary.
+struct ReportSection {
+  std::string title;
+  std::vector<std::string> lines;
+};
+
 /// How much of the runs goes into the file. A stored step takes about 30 bytes.
 struct ReportOptions {
   int max_replay_steps = 1200;  ///< Per run [steps]. Small: jumps in the replay. Large: a file of hundreds of MB.
@@ -91,7 +97,7 @@ class ReportWriter {
   void add(const ReportScene& scene);
   /// To be called once, last.
   void finish(const Environment& environment, const std::vector<NamedTolerance>& tolerances,
-              const std::vector<std::string>& guarantee_notes);
+              const std::vector<std::string>& guarantee_notes, const std::vector<ReportSection>& sections = {});
 
  private:
   std::unique_ptr<OutputFile> file_;

@@ -97,4 +97,20 @@ nlohmann::ordered_json rows_json(const std::vector<Row>& rows) {
   return file;
 }
 
+nlohmann::ordered_json gallery_json(const std::vector<GalleryEntry>& gallery) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const GalleryEntry& entry : gallery) {
+    nlohmann::ordered_json object{{"contender", entry.contender}, {"scenes", entry.scenes}};
+    if (entry.fails) object["fails_on"] = {{"scene", entry.fails->scene}, {"failure", entry.fails->failure.words}};
+    if (entry.cheapest) {
+      object["cheapest_on"] = {{"scene", entry.cheapest->scene}, {"ns_per_step", entry.cheapest->ns_per_step}};
+      if (!entry.cheapest->next.empty())
+        object["cheapest_on"]["next"] = {{"contender", entry.cheapest->next},
+                                         {"ns_per_step", entry.cheapest->next_ns_per_step}};
+    }
+    list.push_back(std::move(object));
+  }
+  return list;
+}
+
 }  // namespace paperproof::compare

@@ -7,6 +7,7 @@
 #include "scenes/input_error.hpp"
 #include "scenes/json_scene.hpp"
 #include "scenes/json_text.hpp"
+#include "scenes/sets.hpp"
 #include "scenes/supertux.hpp"
 #include "scenes/tiled.hpp"
 #include "scenes/validate.hpp"
@@ -37,6 +38,11 @@ std::vector<Scene> load_scenes(const std::string& name_or_path) {
   const std::vector<BuiltInScene>& known = built_in_scenes();
   const auto built_in = std::find_if(known.begin(), known.end(), [&](const auto& s) { return s.name == name_or_path; });
   if (built_in != known.end()) return {load_built_in(*built_in)};
+  if (const SceneSet* set = find_set(name_or_path)) {
+    std::vector<Scene> scenes;
+    for (const std::string& name : set->scenes) scenes.push_back(load_scenes(name).front());
+    return scenes;
+  }
   const std::string extension = std::filesystem::path(name_or_path).extension().string();
   if (extension == ".json") return {load_json(name_or_path)};
   if (extension == ".tmx" || extension == ".tmj") return {read_tiled(name_or_path, name_or_path)};

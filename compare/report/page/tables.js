@@ -263,6 +263,9 @@ function summaryPage(index) {
           el('ul', {class: 'findings'}, index.guarantee_notes.map((note) => el('li', {}, note)))
         ] :
         [],
+    index.sections.map(({title, lines}) => [
+      el('h3', {}, title), el('ul', {class: 'findings'}, lines.map((line) => el('li', {}, line)))
+    ]).flat(),
     el('h3', {}, 'How it was measured'),
     index.environment.length ? pairs(index.environment) : [],
     index.tolerances.length ? el('details', {}, el('summary', {}, 'Tolerances [m]'),

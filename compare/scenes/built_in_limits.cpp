@@ -1,0 +1,161 @@
+/// Where a rule begins to hold: the climb limit, the length of a step, one-way chains, numbers of tiles, sensors,
+/// perturbed replicas: scenes 13, 26, 31, 32, 34 and 35.
+#include "scenes/built_in.hpp"
+
+namespace paperproof::compare {
+
+namespace {
+
+constexpr double pixel = 1.0 / 32;  // [m]
+
+InputEvent press(int step) { return {.step = step, .move = std::nullopt, .jump = true}; }
+InputEvent release(int step) { return {.step = step, .move = std::nullopt, .jump = false}; }
+
+/// Walks from level ground against a ramp 3 m long that rises by `tangent`.
+Scene ramp_of(double tangent) {
+  Scene scene = walk(-2, half_height + 0.02, 1, 180);
+  scene.gravity = {0, -30};
+  scene.character.max_climb_degrees = 50;
+  add_polygon(scene, "ground", {{-6, -1}, {9, -1}, {9, 3 * tangent}, {3, 3 * tangent}, {0, 0}, {-6, 0}});
+  return scene;
+}
+
+// tan(50 degrees + the angle in the name)
+Scene climb_below() { return ramp_of(1.1917511723204688); }
+Scene climb_above() { return ramp_of(1.19175601287372); }
+Scene climb_far_below() { return ramp_of(1.0774552687432373); }
+Scene climb_far_above() { return ramp_of(1.3205494158674156); }
+
+/// Falls for one second through empty air.
+Scene fall_with(double dt, int steps) {
+  Scene scene = flight(0, 0, 0, 0, steps);
+  scene.gravity = {0, -10};
+  scene.dt = dt;
+  add_box(scene, "floor", -4, -30, 4, -29);
+  return scene;
+}
+
+Scene fall_dt_1() { return fall_with(1, 1); }
+Scene fall_dt_01() { return fall_with(0.1, 10); }
+Scene fall_dt_001() { return fall_with(0.01, 100); }
+Scene fall_dt_0001() { return fall_with(0.001, 1000); }
+Scene fall_dt_00001() { return fall_with(0.0001, 10000); }
+
+void add_ledge(Scene& scene, double left, double right, double y) {
+  add_chain(scene, "ledge", {{left, y}, {right, y}});
+  scene.scenery.colliders.back().one_way = Vec2d(0, 1);
+}
+
+/// Jumps through a ledge 1 m above its head, and lands on it.
+Scene one_way_from_below() {
+  Scene scene = walk(0, half_height + 0.02, 0, 180);
+  scene.gravity = {0, -30};
+  add_box(scene, "floor", -4, -1, 4, 0);
+  add_ledge(scene, -2, 2, 2);
+  scene.input.push_back(press(30));
+  scene.input.push_back(release(40));
+  return scene;
+}
+
+Scene one_way_from_above() {
+  Scene scene = flight(0, 2 + half_height, 0, -50, 120);
+  scene.gravity = {0, -30};
+  add_box(scene, "floor", -4, -4, 4, -3);
+  add_ledge(scene, -2, 2, 0);
+  return scene;
+}
+
+/// Flies level through the tip of a ledge at the height of its arms.
+Scene one_way_from_the_side() {
+  Scene scene = flight(-3, 0, 6, 0, 60);
+  add_ledge(scene, 0, 2, 0);
+  return scene;
+}
+
+/// Begins in the middle of a ledge: it is not wholly above, so the ledge does not hold it.
+Scene one_way_from_within() {
+  Scene scene = flight(0, 0, 0, 0, 90);
+  scene.gravity = {0, -30};
+  add_box(scene, "floor", -4, -4, 4, -3);
+  add_ledge(scene, -2, 2, 0);
+  return scene;
+}
+
+/// Walks over `count` tiles of 1 m in rows of 1,000, the uppermost of which is walked on.
+Scene tiles_of(int count) {
+  Scene scene = walk(0.5, half_height + 0.02, 1, 300);
+  for (int i = 0; i < count; ++i) {
+    const int column = i % 1000;
+    const int row = i / 1000;
+    add_box(scene, "tile" + std::to_string(i), column, -row - 1, column + 1, -row);
+  }
+  return scene;
+}
+
+Scene tiles_1e2() { return tiles_of(100); }
+Scene tiles_1e3() { return tiles_of(1000); }
+Scene tiles_1e4() { return tiles_of(10'000); }
+
+/// Flies at 6,000 m/s, 100 m in a step, through a sensor of 1 cm and one of no thickness at all.
+Scene thin_sensor() {
+  Scene scene = flight(0, 0, 6000, 0, 3);
+  add_box(scene, "gate", 20, -2, 20.01, 2);
+  scene.scenery.colliders.back().sensor = true;
+  add_chain(scene, "line", {{40, -2}, {40, 2}});
+  scene.scenery.colliders.back().sensor = true;
+  add_box(scene, "wall", 150, -2, 151, 2);
+  return scene;
+}
+
+/// Walks, jumps onto a block, meets a wall. Every margin is far beyond a millimetre: of the jump over the block's
+/// corner, of the steps on which something is met.
+Scene replica_off_by(double distance) {
+  Scene scene = walk(distance, half_height + 0.02 + distance, 1, 240);
+  scene.gravity = {0, -30};
+  add_box(scene, "floor", -4, -1, 30, 0);
+  add_box(scene, "block", 6, 0, 9, 1);
+  add_box(scene, "wall", 14, 0, 15, 6);
+  scene.input.push_back(press(40));
+  scene.input.push_back(release(60));
+  return scene;
+}
+
+Scene replica() { return replica_off_by(0); }
+Scene replica_1e12() { return replica_off_by(1e-12); }
+Scene replica_1e9() { return replica_off_by(1e-9); }
+Scene replica_1e6() { return replica_off_by(1e-6); }
+Scene replica_1e3() { return replica_off_by(1e-3); }
+
+}  // namespace
+
+std::vector<BuiltInScene> limit_scenes() {
+  return {
+      {"climb_limit_-1e-6", "against a ramp of 50° - 1e-6 rad with a limit of 50°: is walked up", climb_below},
+      {"climb_limit_+1e-6", "against a ramp of 50° + 1e-6 rad with a limit of 50°: is not", climb_above},
+      {"climb_limit_-0.05", "against a ramp of 50° - 0.05 rad with a limit of 50°: is walked up", climb_far_below},
+      {"climb_limit_+0.05", "against a ramp of 50° + 0.05 rad with a limit of 50°: is not", climb_far_above},
+      {"fall_dt_1", "a fall of one second in 1 step: g h² n (n + 1) / 2 = 10 m", fall_dt_1},
+      {"fall_dt_1e-1", "the same in 10 steps: 5.5 m", fall_dt_01},
+      {"fall_dt_1e-2", "the same in 100 steps: 5.05 m", fall_dt_001},
+      {"fall_dt_1e-3", "the same in 1,000 steps: 5.005 m", fall_dt_0001},
+      {"fall_dt_1e-4", "the same in 10,000 steps: 5.0005 m", fall_dt_00001},
+      {"one_way_from_below", "jumps through a one-way ledge and lands on it: met once, from above", one_way_from_below},
+      {"one_way_from_above", "falls onto a one-way ledge at 50 m/s and more: it is never passed", one_way_from_above},
+      {"one_way_from_the_side", "flies through the tip of a one-way ledge: no contact, no loss of speed",
+       one_way_from_the_side},
+      {"one_way_from_within", "begins in the middle of a one-way ledge: falls through it to the floor",
+       one_way_from_within},
+      {"tiles_1e2", "walks over 100 tiles: what more tiles around it must not change", tiles_1e2},
+      {"tiles_1e3", "walks over 1,000 tiles: the same", tiles_1e3},
+      {"tiles_1e4", "walks over 10,000 tiles: the same", tiles_1e4},
+      {"thin_sensor", "100 m in a step through a sensor of 1 cm and one of none: one enter and one exit each",
+       thin_sensor},
+      {"replica", "walk, jump, wall: the sequence of events that perturbed replicas share", replica},
+      {"replica_1e-12", "the same begun 1e-12 m aside: the same sequence of events", replica_1e12},
+      {"replica_1e-9", "the same begun 1e-9 m aside: the same sequence of events", replica_1e9},
+      {"replica_1e-6", "the same begun 1e-6 m aside: the same sequence of events", replica_1e6},
+      {"replica_1e-3", "the same begun 1e-3 m aside: the same sequence of events", replica_1e3},
+  };
+}
+
+}  // namespace paperproof::compare

@@ -1,0 +1,109 @@
+/// What moves: scenes 15 to 19.
+#include "scenes/built_in.hpp"
+
+namespace paperproof::compare {
+
+namespace {
+
+/// The last collider goes along a path.
+void move_last(Scene& scene, std::vector<MoverDef::Waypoint> path, MoverDef::Loop loop = MoverDef::Loop::once) {
+  scene.scenery.colliders.back().mover = static_cast<MoverIndex>(scene.movers.size());
+  scene.movers.push_back({.id = scene.ids.back(), .path = std::move(path), .loop = loop});
+}
+
+/// Stands on a lift that goes there and back.
+Scene lift_by(const Vec2d& way) {
+  Scene scene = flight(0, half_height + 0.02, 0, 0, 600);
+  scene.gravity = {0, -30};
+  add_box(scene, "lift", -2, -0.25, 2, 0);
+  move_last(scene, {{.time = 0, .at = {0, 0}}, {.time = 0.5, .at = {0, 0}}, {.time = 2.5, .at = way}},
+            MoverDef::Loop::ping_pong);
+  add_box(scene, "ground", -10, -10, 10, -9);
+  return scene;
+}
+
+Scene lift_up() { return lift_by({0, 3}); }
+Scene lift_down() { return lift_by({0, -3}); }
+Scene lift_sideways() { return lift_by({4, 0}); }
+
+Scene conveyor() {
+  Scene scene = flight(0, half_height + 0.02, 0, 0, 120);
+  scene.gravity = {0, -30};
+  add_box(scene, "belt", -4, -1, 20, 0);
+  scene.scenery.colliders.back().surface_speed = 2;
+  return scene;
+}
+
+/// A ceiling comes down onto a character that stands: it has `gap` metres to go to the head, at `speed`.
+Scene closing_ceiling() {
+  constexpr double gap = 1.07;
+  constexpr double speed = 3;
+  Scene scene = flight(0, half_height + 5e-7, 0, 0, 60);
+  scene.gravity = {0, -30};
+  add_box(scene, "floor", -4, -1, 4, 0);
+  const double head = 2 * half_height;
+  add_box(scene, "ceiling", -4, head + gap, 4, head + gap + 1);
+  move_last(scene, {{.time = 0, .at = {0, 0}}, {.time = 1, .at = {0, -speed}}});
+  return scene;
+}
+
+/// A thin upright paper comes at 20 m/s to a character that stands; from its left arm it is 1.9 m away.
+Scene sweeping_paper() {
+  Scene scene = flight(0, half_height + 0.02, 0, 0, 90);
+  scene.gravity = {0, -30};
+  add_box(scene, "floor", -40, -1, 40, 0);
+  constexpr double start = -half_width - 1.9;
+  add_box(scene, "paper", start - 0.01, 0.1, start, 4);
+  move_last(scene, {{.time = 0, .at = {0, 0}}, {.time = 0.5, .at = {10, 0}}});
+  return scene;
+}
+
+/// A character flies at 30 m/s against a paper that comes at 18 m/s; 2 m are between them.
+Scene head_on() {
+  Scene scene = flight(0, 0, 30, 0, 30);
+  add_chain(scene, "paper", {{half_width + 2, -2}, {half_width + 2, 2}});
+  move_last(scene, {{.time = 0, .at = {0, 0}}, {.time = 0.5, .at = {-9, 0}}});
+  return scene;
+}
+
+/// Two papers pass each other 3 m above and below a character that flies between them and meets neither.
+Scene papers_swap() {
+  Scene scene = flight(0, 0, 2, 0, 60);
+  add_box(scene, "upper", 2, 1, 2.01, 3);
+  move_last(scene, {{.time = 0, .at = {0, 0}}, {.time = 1, .at = {-4, 0}}});
+  add_box(scene, "lower", -2.01, -3, -2, -1);
+  move_last(scene, {{.time = 0, .at = {0, 0}}, {.time = 1, .at = {4, 0}}});
+  return scene;
+}
+
+/// A paper turns about its middle beside a character that stands.
+Scene rotating_paper() {
+  Scene scene = flight(0, half_height + 0.02, 0, 0, 120);
+  scene.gravity = {0, -30};
+  add_box(scene, "floor", -4, -1, 4, 0);
+  add_box(scene, "paper", -1, -0.005, 1, 0.005);
+  move_last(scene, {{.time = 0, .at = {1.2, 1.2}}});
+  scene.movers.back().turns = {{.time = 0, .at = 0}, {.time = 2, .at = 3.14159265358979}};
+  return scene;
+}
+
+}  // namespace
+
+std::vector<BuiltInScene> moving_scenes() {
+  return {
+      {"lift_up", "stands on a lift up and down again: carried without a lag, one contact begins", lift_up},
+      {"lift_down", "stands on a lift down and up again: carried without a lag, one contact begins", lift_down},
+      {"lift_sideways", "stands on a lift to the side and back: carried without a lag", lift_sideways},
+      {"conveyor", "stands on a belt of 2 m/s: carried at that speed", conveyor},
+      {"closing_ceiling",
+       "a ceiling 1.07 m above its head comes down at 3 m/s: crushed in step 21, where gap / (v h) = 21.4 falls",
+       closing_ceiling},
+      {"sweeping_paper", "a paper 1.9 m away comes at 20 m/s: met after 0.095 s, then pushed along, side kept",
+       sweeping_paper},
+      {"head_on", "30 m/s against a paper at 18 m/s, 2 m away: t = d / (v1 + v2), in step 2 at t = 0.5", head_on},
+      {"papers_swap", "two papers pass each other around a character: neither is met", papers_swap},
+      {"rotating_paper", "a paper turns beside a character: only who can turn what moves may run it", rotating_paper},
+  };
+}
+
+}  // namespace paperproof::compare
