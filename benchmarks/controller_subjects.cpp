@@ -10,10 +10,10 @@ namespace {
 template <class Scalar>
 class ControllerSubject final : public Subject {
  public:
-  explicit ControllerSubject(const Workload& workload)
+  ControllerSubject(const Workload& workload, const TechniqueDef& technique)
       : workload_(workload),
         scenery_(workload.scenery.as_run()),
-        controller_(scenery_, workload.scene.character),
+        controller_(scenery_, workload.scene.character, technique),
         scratch_(controller_.make_scratch()) {
     restart();
   }
@@ -65,12 +65,12 @@ class ContenderSubject final : public Subject {
 }  // namespace
 
 template <class Scalar>
-std::unique_ptr<Subject> make_controller(const Workload& workload) {
-  return std::make_unique<ControllerSubject<Scalar>>(workload);
+std::unique_ptr<Subject> make_controller(const Workload& workload, const TechniqueDef& technique) {
+  return std::make_unique<ControllerSubject<Scalar>>(workload, technique);
 }
 
-template std::unique_ptr<Subject> make_controller<float>(const Workload&);
-template std::unique_ptr<Subject> make_controller<double>(const Workload&);
+template std::unique_ptr<Subject> make_controller<float>(const Workload&, const TechniqueDef&);
+template std::unique_ptr<Subject> make_controller<double>(const Workload&, const TechniqueDef&);
 
 std::unique_ptr<Subject> make_contender(const Workload& workload, TechniqueKind kind) {
   return std::make_unique<ContenderSubject>(workload, kind);

@@ -1,7 +1,8 @@
-// Times the controller beside Box2D, and the broad phases. Takes the options of Google Benchmark:
+// Times the controller beside Box2D, as planned beside full, and the broad phases. Takes the options of Google Benchmark:
 //   --benchmark_filter=step/tiles       some of them
 //   --benchmark_out=FILE.json           keep the figures
 #include "broad_phase_benchmark.hpp"
+#include "plan_benchmark.hpp"
 #include "step_benchmark.hpp"
 
 #include <benchmark/benchmark.h>
@@ -13,6 +14,7 @@ int main(int argc, char** argv) try {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   paperproof::benchmarks::register_step_benchmarks();
+  paperproof::benchmarks::register_plan_benchmarks();
   paperproof::benchmarks::register_broad_phase_benchmarks();
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();

@@ -20,9 +20,9 @@ class Subject {
   [[nodiscard]] virtual Vec2d position() const = 0;
 };
 
-/// The controller alone with its default technique, octagon_sweep: intent, gravity, move and contacts.
+/// The controller alone, by default with octagon_sweep and every stage: intent, gravity, move and contacts.
 template <class Scalar>
-[[nodiscard]] std::unique_ptr<Subject> make_controller(const Workload& workload);
+[[nodiscard]] std::unique_ptr<Subject> make_controller(const Workload& workload, const TechniqueDef& technique = {});
 
 /// The controller with any technique and the knobs that `paperproof compare` gives it; one virtual call more.
 /// @throws compare::NotApplicable where the technique cannot express the level.

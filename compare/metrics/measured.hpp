@@ -7,13 +7,11 @@
 namespace paperproof::compare {
 
 /// `false`: the metric is absent from the scene's rows, because nothing in the scene could ever give it a value other
-/// than the trivial one. Metrics that appear only with their cause (contacts, depth, gap) need no choice.
+/// than the trivial one. Metrics that appear only with their cause (contacts, one-way chains, crushes, sensors) need no
+/// choice.
 struct Measured {
   bool rest = true;      ///< Rest jitter and toggles: something can rest.
-  bool one_way = true;   ///< One-way chains passed against their normal.
   bool respawns = true;  ///< A map is left and begun anew.
-  bool crushes = true;   ///< Movers leave no room.
-  bool sensors = true;   ///< Sensors are entered and left.
 
   friend bool operator==(const Measured&, const Measured&) = default;
 };

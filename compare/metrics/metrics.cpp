@@ -39,16 +39,15 @@ std::vector<std::pair<ColliderIndex, Side>> touches_of(const Contacts& contacts)
 Metrics::Metrics(const TraceHeader& header, const Measured& measured)
     : ids_(header.ids), measured_(measured), rest_(header.scenery) {
   const std::vector<ColliderDef>& colliders = header.scenery.colliders;
-  measured_.one_way = measured.one_way && std::any_of(colliders.begin(), colliders.end(),
-                                                      [](const ColliderDef& def) { return def.one_way.has_value(); });
-  if (std::any_of(colliders.begin(), colliders.end(), [](const ColliderDef& def) { return def.sensor; }))
-    sums_.sensor_events = sums_.sensor_errors = 0;
+  const auto any = [&colliders](auto&& test) { return std::any_of(colliders.begin(), colliders.end(), test); };
+  has_one_way_ = any([](const ColliderDef& def) { return def.one_way.has_value(); });
+  if (any([](const ColliderDef& def) { return def.sensor; })) sums_.sensor_events = sums_.sensor_errors = 0;
   for (std::optional<int>* counter :
        {&sums_.tunnels, &sums_.corner_cuts, &sums_.steps_ending_inside, &sums_.contact_steps, &sums_.dropped_steps}) {
     *counter = 0;
   }
   if (measured_.respawns) sums_.respawns = 0;
-  if (measured_.one_way) sums_.one_way_violations = 0;
+  if (has_one_way_) sums_.one_way_violations = 0;
   sums_.max_penetration_m = 0;
 }
 
@@ -103,7 +102,7 @@ void Metrics::add_passings(const TraceStep& step, const StepJudgement& judgement
   };
   count(sums_.steps_ending_inside,
         std::any_of(judgement.end_overlap.begin(), judgement.end_overlap.end(), inside_on_its_own));
-  if (measured_.one_way) count(sums_.one_way_violations, !judgement.one_way_broken.empty());
+  if (has_one_way_) count(sums_.one_way_violations, !judgement.one_way_broken.empty());
   raise(sums_.max_penetration_m, judgement.max_penetration);
   if (!judgement.passings.empty() && sums_.findings.empty()) {
     const Passing& passing = judgement.passings.front();

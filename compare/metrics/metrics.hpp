@@ -67,6 +67,7 @@ class Metrics {
 
   std::vector<std::string> ids_;
   Measured measured_;
+  bool has_one_way_ = false;
   detail::Window<Moment> window_;
   Matches matches_;
   Rest rest_;

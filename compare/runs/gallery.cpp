@@ -18,19 +18,20 @@ constexpr double most_gap = 0.0201;   // [m]: Box2D touches from 20 mm away by d
 
 using Kind = Failure::Kind;
 
+/// Written so that NaN fails.
 std::optional<Failure> mild_failure_of(const Row& row) {
-  if (row.contact_recall && *row.contact_recall < 1 - most_wrong)
+  if (row.contact_recall && !(*row.contact_recall >= 1 - most_wrong))
     return Failure{Kind::missed, fmt::format("misses {:.3g} % of the contacts that exact arithmetic has",
                                              100 * (1 - *row.contact_recall))};
-  if (row.ghost_speed_loss.value_or(0) > most_snag)
+  if (!(row.ghost_speed_loss.value_or(0) <= most_snag))
     return Failure{Kind::snag,
                    fmt::format("loses {:.3g} % of its speed in one step to nothing", 100 * *row.ghost_speed_loss)};
-  if (row.contact_precision && *row.contact_precision < 1 - most_wrong)
+  if (row.contact_precision && !(*row.contact_precision >= 1 - most_wrong))
     return Failure{Kind::false_alarm, fmt::format("{:.3g} % of the contacts that it reports are none",
                                                   100 * (1 - *row.contact_precision))};
-  if (row.rest_peak_to_peak_m.value_or(0) > most_jitter)
+  if (!(row.rest_peak_to_peak_m.value_or(0) <= most_jitter))
     return Failure{Kind::jitter, fmt::format("moves by {:.3g} m at rest", *row.rest_peak_to_peak_m)};
-  if (row.max_contact_gap_m.value_or(0) > most_gap)
+  if (!(row.max_contact_gap_m.value_or(0) <= most_gap))
     return Failure{Kind::gap, fmt::format("stops {:.3g} m away from what it hits", *row.max_contact_gap_m)};
   return std::nullopt;
 }

@@ -28,18 +28,17 @@ MetricPlan metrics_for(const Scene& scene, const Planning& planning) {
   const std::vector<ColliderDef>& colliders = scene.scenery.colliders;
   const auto any = [&colliders](auto&& test) { return std::any_of(colliders.begin(), colliders.end(), test); };
   const auto leave_out = [&plan](bool needed, bool Measured::*member, const char* metric, const char* reason) {
-    plan.measured.*member = needed;
+    if (member != nullptr) plan.measured.*member = needed;
     if (!needed) plan.omitted.push_back({metric, reason});
   };
   leave_out(planning.foreseen.gravity, &Measured::rest, "rest jitter",
             "without gravity nothing presses the character onto anything, so nothing rests");
-  leave_out(any([](const ColliderDef& def) { return def.one_way.has_value(); }), &Measured::one_way,
-            "one-way violations", "there is no one-way chain");
+  leave_out(any([](const ColliderDef& def) { return def.one_way.has_value(); }), nullptr, "one-way violations",
+            "there is no one-way chain");
   leave_out(scene.respawn_box.has_value(), &Measured::respawns, "respawns", "there is no map that could be left");
-  leave_out(any([](const ColliderDef& def) { return def.mover != no_mover; }), &Measured::crushes, "crushes",
+  leave_out(any([](const ColliderDef& def) { return def.mover != no_mover; }), nullptr, "crushes",
             "nothing moves that could leave no room");
-  leave_out(any([](const ColliderDef& def) { return def.sensor; }), &Measured::sensors, "sensor events",
-            "there is no sensor");
+  leave_out(any([](const ColliderDef& def) { return def.sensor; }), nullptr, "sensor events", "there is no sensor");
   return plan;
 }
 

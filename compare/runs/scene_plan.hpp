@@ -26,7 +26,7 @@ template <class Scalar>
 
 struct MetricPlan {
   Measured measured;
-  std::vector<MetricOmission> omitted;  ///< One for each that is false.
+  std::vector<MetricOmission> omitted;  ///< Those, and what has no cause in the scene.
 };
 [[nodiscard]] MetricPlan metrics_for(const Scene& scene, const Planning& planning);
 

@@ -13,7 +13,7 @@ InputEvent release(int step) { return {.step = step, .move = std::nullopt, .jump
 
 /// Walks from level ground against a ramp 3 m long that rises by `tangent`.
 Scene ramp_of(double tangent) {
-  Scene scene = walk(-2, half_height + 0.02, 1, 180);
+  Scene scene = walk(-2, half_height + 0.02, 1, 90);
   scene.gravity = {0, -30};
   scene.character.max_climb_degrees = 50;
   add_polygon(scene, "ground", {{-6, -1}, {9, -1}, {9, 3 * tangent}, {3, 3 * tangent}, {0, 0}, {-6, 0}});

@@ -1,7 +1,9 @@
 #include <paperproof/controller.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <stdexcept>
 
 #include "sensors.hpp"
 
@@ -76,13 +78,9 @@ void adopt(const CharacterDef& character, const MoveResult<Scalar>& move, Charac
   }
 }
 
-}  // namespace
-
 template <class Scalar>
-Vec2<Scalar> desired_velocity(const CharacterDef& character, const Vec2<Scalar>& gravity, const Input& input, Scalar dt,
-                              CharacterState<Scalar>& state) noexcept {
-  Vec2<Scalar> velocity = state.velocity;
-  if (input.move) velocity.x() = steered(character, state, *input.move, dt);
+void take_jump(const CharacterDef& character, const Input& input, CharacterState<Scalar>& state,
+               Vec2<Scalar>& velocity) noexcept {
   if (!input.jump)
     state.jump_pending = false;
   else if (!state.jump_held)
@@ -94,27 +92,64 @@ Vec2<Scalar> desired_velocity(const CharacterDef& character, const Vec2<Scalar>&
     state.grounded = false;
     state.jump_pending = false;
   }
-  velocity += gravity * dt;
+}
+
+/// A stage that is left out still gives the bits of one that finds nothing to do.
+template <bool has_jump, bool has_gravity, class Scalar>
+Vec2<Scalar> wanted_velocity(const CharacterDef& character, const Vec2<Scalar>& gravity, const Input& input, Scalar dt,
+                             CharacterState<Scalar>& state) noexcept {
+  Vec2<Scalar> velocity = state.velocity;
+  if (input.move) velocity.x() = steered(character, state, *input.move, dt);
+  if constexpr (has_jump)
+    take_jump(character, input, state, velocity);
+  else
+    state.jump_pending = state.jump_held = false;
+  if constexpr (has_gravity)
+    velocity += gravity * dt;
+  else
+    velocity += gravity;  // zero, and a negative zero becomes a positive one
   if (character.max_fall_speed) velocity.y() = std::max(velocity.y(), static_cast<Scalar>(-*character.max_fall_speed));
   return velocity;
+}
+
+}  // namespace
+
+template <class Scalar>
+Vec2<Scalar> desired_velocity(const CharacterDef& character, const Vec2<Scalar>& gravity, const Input& input, Scalar dt,
+                              CharacterState<Scalar>& state) noexcept {
+  return wanted_velocity<true, true>(character, gravity, input, dt, state);
 }
 
 template <class Scalar>
 Controller<Scalar>::Controller(const Scenery<Scalar>& scenery, const CharacterDef& character,
                                const TechniqueDef& technique)
-    : scenery_(&scenery), character_(character) {
+    : scenery_(&scenery), character_(character), step_(variant_for(technique.stages)) {
   character_.validate();
+  if (!technique.stages.sensors && scenery.sensor_pieces().size() > 0)
+    throw std::invalid_argument("stages: sensors cannot be left out: there is a sensor");
   technique_ = make_technique<Scalar>(technique, scenery, character_);
   if (scenery.sensor_pieces().size() > 0) sensors_ = std::make_shared<Sensors<Scalar>>(scenery, character_.shape);
 }
 
 template <class Scalar>
-StepStatus Controller<Scalar>::step(CharacterState<Scalar>& state, const Input& input, const Vec2<Scalar>& gravity,
-                                    Scalar dt, std::span<const MoverMotion<Scalar>> movers, Scratch<Scalar>& scratch,
-                                    StepReport<Scalar>& report) const noexcept {
+typename Controller<Scalar>::Step Controller<Scalar>::variant_for(const Stages& stages) noexcept {
+  static constexpr std::array<Step, 8> all{
+      &Controller::step_with<false, false, false>, &Controller::step_with<false, false, true>,
+      &Controller::step_with<false, true, false>,  &Controller::step_with<false, true, true>,
+      &Controller::step_with<true, false, false>,  &Controller::step_with<true, false, true>,
+      &Controller::step_with<true, true, false>,   &Controller::step_with<true, true, true>};
+  return all[(stages.sensors ? 4U : 0U) + (stages.jump ? 2U : 0U) + (stages.gravity ? 1U : 0U)];
+}
+
+template <class Scalar>
+template <bool has_sensors, bool has_jump, bool has_gravity>
+StepStatus Controller<Scalar>::step_with(CharacterState<Scalar>& state, const Input& input, const Vec2<Scalar>& gravity,
+                                         Scalar dt, std::span<const MoverMotion<Scalar>> movers,
+                                         Scratch<Scalar>& scratch, StepReport<Scalar>& report) const noexcept {
   report.sensors.clear();
-  const bool usable = finite(state.position) && finite(state.velocity) && finite(state.remainder) && finite(gravity) &&
-                      std::isfinite(dt) && dt > 0 && std::isfinite(input.move.value_or(0)) &&
+  const bool foreseen = (has_jump || !input.jump) && (has_gravity || (gravity.x() == 0 && gravity.y() == 0));
+  const bool usable = foreseen && finite(state.position) && finite(state.velocity) && finite(state.remainder) &&
+                      finite(gravity) && std::isfinite(dt) && dt > 0 && std::isfinite(input.move.value_or(0)) &&
                       (!state.has_last_free || finite(state.last_free)) && finite(state.ride.place) &&
                       finite(state.ride.velocity) && movers.size() == scenery_->mover_count() &&
                       std::all_of(movers.begin(), movers.end(), [](const MoverMotion<Scalar>& mover) {
@@ -125,7 +160,7 @@ StepStatus Controller<Scalar>::step(CharacterState<Scalar>& state, const Input& 
   CharacterState<Scalar> next = state;
   // What is carried steers, jumps and falls relative to what carries it.
   if (state.ride.ground != Ride<Scalar>::none) next.velocity -= state.ride.velocity;
-  const Vec2<Scalar> velocity = desired_velocity(character_, gravity, input, dt, next);
+  const Vec2<Scalar> velocity = wanted_velocity<has_jump, has_gravity>(character_, gravity, input, dt, next);
   report.requested = velocity * dt;
   technique_->move({.position = state.position,
                     .displacement = report.requested,
@@ -141,7 +176,8 @@ StepStatus Controller<Scalar>::step(CharacterState<Scalar>& state, const Input& 
                    scratch, report.move);
   report.status = status_of(report.move.status);
   if (report.status == StepStatus::out_of_range) return report.status;
-  if (sensors_) sensors_->observe(report.move.path, movers, report.sensors);
+  if constexpr (has_sensors)
+    if (sensors_) sensors_->observe(report.move.path, movers, report.sensors);
   adopt(character_, report.move, next);
   state = next;
   return report.status;

@@ -8,6 +8,7 @@
 
 #include <cstring>
 #include <functional>
+#include <limits>
 
 namespace paperproof {
 namespace {
@@ -138,6 +139,56 @@ TEST(Plan, chooses_the_broad_phase_by_number_and_spread_of_what_stands_still) {
   EXPECT_EQ(plan_for(many).broad_phase, BroadPhaseKind::all_pairs);
 }
 
+// --- what is built by it
+
+/// What building says about an omission, or nothing.
+std::string refusal(const SceneryDef& def, const Stages& stages, const CharacterDef& character = {}) {
+  const Scenery<double> scenery(def);
+  try {
+    const Controller<double> controller(scenery, character, {.stages = stages});
+    return {};
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+}
+
+TEST(Stages, cannot_be_left_out_where_the_scenery_or_the_character_needs_them) {
+  SceneryDef mover = floor_only();
+  mover.colliders.push_back(moving(rectangle(20, 0, 21, 1)));
+  EXPECT_NE(refusal(mover, {.movers = false}).find("movers"), std::string::npos);
+  SceneryDef one_way = floor_only();
+  one_way.colliders.push_back({.shape = ColliderDef::Shape::chain, .points = {{0, 2}, {1, 2}}, .one_way = Vec2d(0, 1)});
+  EXPECT_NE(refusal(one_way, {.one_way = false}).find("one_way"), std::string::npos);
+  SceneryDef sensor = floor_only();
+  sensor.colliders.push_back(rectangle(0, 1, 1, 2));
+  sensor.colliders.back().sensor = true;
+  EXPECT_NE(refusal(sensor, {.sensors = false}).find("sensors"), std::string::npos);
+  SceneryDef slope = floor_only();
+  slope.colliders.push_back({.points = {{0, 0}, {2, 0}, {2, 1}}});
+  EXPECT_NE(refusal(slope, {.slopes = false}).find("slopes"), std::string::npos);
+  CharacterDef snapping;
+  snapping.snap = 0.1;
+  EXPECT_NE(refusal(floor_only(), {.snap = false}, snapping).find("snap"), std::string::npos);
+  EXPECT_EQ(refusal(floor_only(), plan_for(floor_only()).stages), "");
+}
+
+TEST(Stages, that_were_left_out_make_what_they_were_for_invalid_input) {
+  const Scenery<double> scenery(floor_only());
+  const Controller<double> controller(scenery, CharacterDef{}, {.stages = {.jump = false, .gravity = false}});
+  Scratch<double> scratch = controller.make_scratch();
+  CharacterState<double> state;
+  state.position = {0, 3};
+  const CharacterState<double> before = state;
+  StepReport<double> report;
+  EXPECT_EQ(controller.step(state, {.move = 0.0, .jump = true}, {0, 0}, 0.1, scratch, report),
+            StepStatus::invalid_input);
+  EXPECT_EQ(controller.step(state, {}, {0, -1e-300}, 0.1, scratch, report), StepStatus::invalid_input);
+  EXPECT_EQ(controller.step(state, {}, {0, std::numeric_limits<double>::quiet_NaN()}, 0.1, scratch, report),
+            StepStatus::invalid_input);
+  EXPECT_EQ(state, before);
+  EXPECT_EQ(controller.step(state, {}, {0, 0}, 0.1, scratch, report), StepStatus::moved);
+}
+
 // --- planned and full, bit for bit
 
 template <class Scalar>
@@ -177,6 +228,11 @@ SceneryDef varied_scenery(test::Random& random) {
     def.colliders.push_back({.shape = ColliderDef::Shape::chain, .points = {{x, y}, {x + 2, y}}});
     if (random.chance(0.5)) def.colliders.back().one_way = Vec2d(0, 1);
   }
+  if (random.chance(0.3)) {
+    const double x = random.between(-4, 3);
+    def.colliders.push_back(moving(rectangle(x, 3, x + 1, 3.5)));
+  }
+  if (random.chance(0.1)) def.colliders[0].surface_speed = 2;
   if (random.chance(0.2)) {
     def.colliders.push_back(rectangle(-1, -1, 0, 0));
     def.colliders.back().sensor = true;
@@ -191,6 +247,7 @@ struct Play {
   std::vector<Input> inputs;
   Vec2d position;
   Vec2d velocity;
+  Vec2d mover_way;  ///< In each step [m].
 };
 
 Play random_play(test::Random& random) {
@@ -200,6 +257,7 @@ Play random_play(test::Random& random) {
   run.snap = random.chance(0.3) ? 0.3 : 0;
   run.position = {random.between(-4, 4), random.between(-3, 5)};
   run.velocity = {random.between(-20, 20), random.between(-20, 20)};
+  run.mover_way = {random.between(-0.2, 0.2), random.between(-0.4, 0.1)};
   Input input;
   for (int i = 0; i < 20; ++i) {
     if (random.chance(0.2)) input.move = random.integer(-1, 1);
@@ -227,9 +285,13 @@ std::size_t run_both(const SceneryDef& def, const Play& run) {
   const Vec2<Scalar> gravity = run.gravity.cast<Scalar>();
   StepReport<Scalar> one;
   StepReport<Scalar> two;
+  MoverMotion<Scalar> motion;
   for (const Input& input : run.inputs) {
-    planned.step(a, input, gravity, Scalar(1) / 60, planned_scratch, one);
-    full.step(b, input, gravity, Scalar(1) / 60, full_scratch, two);
+    motion.from = motion.to;
+    motion.to += run.mover_way.cast<Scalar>();
+    const std::span<const MoverMotion<Scalar>> movers(&motion, scenery.mover_count());
+    planned.step(a, input, gravity, Scalar(1) / 60, movers, planned_scratch, one);
+    full.step(b, input, gravity, Scalar(1) / 60, movers, full_scratch, two);
     const testing::AssertionResult equal = same_bits(a, one, b, two);
     EXPECT_TRUE(equal);
     if (!equal) break;

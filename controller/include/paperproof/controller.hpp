@@ -44,7 +44,8 @@ class Sensors;
 template <class Scalar>
 class Controller {
  public:
-  /// @throws InvalidCharacter, std::invalid_argument as `make_technique`. `scenery` must outlive the controller.
+  /// @throws InvalidCharacter, std::invalid_argument as `make_technique`, and where `technique.stages` leaves out
+  /// sensors that there are. `scenery` must outlive the controller.
   Controller(const Scenery<Scalar>& scenery, const CharacterDef& character, const TechniqueDef& technique = {});
 
   /// One step of `dt` seconds under `gravity` [m/s²]. `state` is read and written; nothing else carries over.
@@ -57,15 +58,28 @@ class Controller {
   /// @param movers one for each mover of the scenery; another number of them is invalid input.
   StepStatus step(CharacterState<Scalar>& state, const Input& input, const Vec2<Scalar>& gravity, Scalar dt,
                   std::span<const MoverMotion<Scalar>> movers, Scratch<Scalar>& scratch,
-                  StepReport<Scalar>& report) const noexcept;
+                  StepReport<Scalar>& report) const noexcept {
+    return (this->*step_)(state, input, gravity, dt, movers, scratch, report);
+  }
 
   [[nodiscard]] Scratch<Scalar> make_scratch() const { return technique_->make_scratch(); }
   [[nodiscard]] const CharacterDef& character() const noexcept { return character_; }
   [[nodiscard]] const Technique<Scalar>& technique() const noexcept { return *technique_; }
 
  private:
+  using Step = StepStatus (Controller::*)(CharacterState<Scalar>&, const Input&, const Vec2<Scalar>&, Scalar,
+                                          std::span<const MoverMotion<Scalar>>, Scratch<Scalar>&,
+                                          StepReport<Scalar>&) const noexcept;
+  /// A step without the stages that are left out: they are no code.
+  template <bool has_sensors, bool has_jump, bool has_gravity>
+  StepStatus step_with(CharacterState<Scalar>& state, const Input& input, const Vec2<Scalar>& gravity, Scalar dt,
+                       std::span<const MoverMotion<Scalar>> movers, Scratch<Scalar>& scratch,
+                       StepReport<Scalar>& report) const noexcept;
+  [[nodiscard]] static Step variant_for(const Stages& stages) noexcept;
+
   const Scenery<Scalar>* scenery_;
   CharacterDef character_;
+  Step step_;
   std::unique_ptr<Technique<Scalar>> technique_;
   std::shared_ptr<const Sensors<Scalar>> sensors_;  ///< Null where the scenery has none.
 };

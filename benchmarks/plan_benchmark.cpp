@@ -1,0 +1,69 @@
+#include "plan_benchmark.hpp"
+
+#include "subject.hpp"
+
+#include "runs/scene_plan.hpp"
+#include "scenes/load.hpp"
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+
+namespace paperproof::benchmarks {
+namespace {
+
+constexpr int passes = 25;
+
+double nanoseconds_of_pass(Subject& subject) {
+  subject.restart();
+  const auto begin = std::chrono::steady_clock::now();
+  subject.run();
+  const std::chrono::duration<double, std::nano> took = std::chrono::steady_clock::now() - begin;
+  return took.count();
+}
+
+void plan_benchmark(benchmark::State& state, const Workload& workload) {
+  const auto jumps = [](const Input& input) { return input.jump; };
+  const Foreseen foreseen{.gravity = workload.scene.gravity != Vec2d(0, 0),
+                          .jump = std::any_of(workload.inputs.begin(), workload.inputs.end(), jumps)};
+  const Plan plan = make_plan(workload.scenery, workload.scene.character, foreseen);
+  const auto planned = make_controller<double>(workload, {.broad_phase = plan.broad_phase, .stages = plan.stages});
+  const auto full = make_controller<double>(workload, {});
+  nanoseconds_of_pass(*full);
+  nanoseconds_of_pass(*planned);
+  if (planned->position() != full->position())
+    return state.SkipWithError("planned and full end at different positions");
+  std::vector<double> planned_times;
+  std::vector<double> full_times;
+  for ([[maybe_unused]] auto _ : state) {
+    full_times.push_back(nanoseconds_of_pass(*full));
+    planned_times.push_back(nanoseconds_of_pass(*planned));
+    state.SetIterationTime(planned_times.back() * 1e-9);
+  }
+  const auto steps = static_cast<double>(workload.inputs.size());
+  const double least_planned = *std::min_element(planned_times.begin(), planned_times.end());
+  const double least_full = *std::min_element(full_times.begin(), full_times.end());
+  state.counters["planned_ns"] = least_planned / steps;
+  state.counters["full_ns"] = least_full / steps;
+  state.counters["ratio"] = least_full / least_planned;
+  state.counters["omitted"] = static_cast<double>(plan.omitted.size());
+}
+
+}  // namespace
+
+void register_plan_benchmarks() {
+  std::vector<std::shared_ptr<const Workload>> workloads = all_workloads();
+  for (const char* name : {"article_bullet", "flush_tiles", "skier", "jump_into_wall", "rotated_wall"}) {
+    const compare::Scene scene = compare::load_scenes(name).front();
+    workloads.push_back(std::make_shared<const Workload>(name, scene, scene.input));
+  }
+  for (const std::shared_ptr<const Workload>& workload : workloads)
+    benchmark::RegisterBenchmark(("plan/" + workload->name).c_str(),
+                                 [workload](benchmark::State& state) { plan_benchmark(state, *workload); })
+        ->Iterations(passes)
+        ->UseManualTime()
+        ->Unit(benchmark::kMicrosecond);
+}
+
+}  // namespace paperproof::benchmarks

@@ -1,0 +1,208 @@
+/// The exact answers of scenes that are told by a formula: what octagon_sweep does there, through the run itself.
+#include "compare/scene_runs.hpp"
+
+#include <array>
+#include <cmath>
+
+namespace paperproof::compare {
+namespace {
+
+constexpr double half_height = 20.0 / 32;
+constexpr double half_width = 10.0 / 32;
+
+/// All steps of octagon_sweep in double, and its row.
+struct Ran {
+  Row row;
+  std::vector<TraceStep> steps;
+  [[nodiscard]] const Vec2d& end() const { return steps.back().path.back().position; }
+};
+
+Ran ran(const std::string& name) {
+  RunOptions options = quick();
+  options.contenders = {"octagon_sweep"};
+  options.reference = false;
+  options.max_replay_steps = 20'000;
+  const ReportScene result = run_scene(built_in(name), options);
+  EXPECT_EQ(result.rows.front().verdict, Verdict::holds) << name << ": " << result.rows.front().reason;
+  return {result.rows.front(), result.runs.front().steps};
+}
+
+TEST(ClimbLimit, is_walked_up_exactly_where_the_angle_is_not_above_it) {
+  // The ramp is 3 m long; who climbs it ends on the plateau, who does not keeps his feet below it.
+  for (const auto& [name, tangent] :
+       {std::pair{"climb_limit_-1e-6", 1.1917511723204688}, {"climb_limit_-0.05", 1.0774552687432373}})
+    EXPECT_NEAR(ran(name).end().y(), 3 * tangent + half_height, 1e-5) << name;
+  for (const char* name : {"climb_limit_+1e-6", "climb_limit_+0.05"}) {
+    EXPECT_LT(ran(name).end().y(), half_height + 0.5) << name;
+    EXPECT_LT(ran(name).end().x(), 0.5) << name;
+  }
+}
+
+TEST(Fall, of_one_second_is_the_sum_of_its_steps_and_nears_the_parabola_with_slope_one) {
+  double last_error = 0;
+  for (const auto& [name, dt, n] : {std::tuple{"fall_dt_1", 1.0, 1},
+                                    {"fall_dt_1e-1", 0.1, 10},
+                                    {"fall_dt_1e-2", 0.01, 100},
+                                    {"fall_dt_1e-3", 0.001, 1000},
+                                    {"fall_dt_1e-4", 0.0001, 10'000}}) {
+    const double fallen = -ran(name).end().y();
+    EXPECT_NEAR(fallen, 10 * dt * dt * n * (n + 1) / 2, 1e-11 * n) << name;
+    const double error = fallen - 5;  // g t² / 2
+    if (last_error > 0) {
+      EXPECT_NEAR(last_error / error, 10, 1e-3) << name << ": a tenth of the step, a tenth of the error";
+    }
+    last_error = error;
+  }
+}
+
+TEST(OneWay, blocks_from_above_only) {
+  const auto met = [](const Ran& run) {
+    return std::count_if(run.steps.begin(), run.steps.end(), [](const TraceStep& step) {
+      return std::any_of(step.contacts.begin(), step.contacts.end(), [](const auto& c) { return c.collider == 1; });
+    });
+  };
+  const Ran below = ran("one_way_from_below");
+  EXPECT_NEAR(below.end().y(), 2 + half_height, 1e-6) << "stands on the ledge";
+  for (const TraceStep& step : below.steps)
+    for (const auto& contact : step.contacts)
+      if (contact.collider == 1) {
+        EXPECT_EQ(contact.side, Side::bottom) << "step " << step.step;
+      }
+  EXPECT_GT(met(below), 30);
+  EXPECT_NEAR(ran("one_way_from_above").end().y(), half_height, 1e-6);
+  const Ran side = ran("one_way_from_the_side");
+  EXPECT_EQ(side.row.contact_steps, 0);
+  EXPECT_EQ(side.steps.back().velocity, Vec2d(6, 0));
+  const Ran within = ran("one_way_from_within");
+  EXPECT_EQ(met(within), 0);
+  EXPECT_NEAR(within.end().y(), -3 + half_height, 1e-6);
+}
+
+TEST(Tiles, far_away_change_nothing) {
+  const Ran few = ran("tiles_1e2");
+  for (const char* name : {"tiles_1e3", "tiles_1e4"}) {
+    const Ran more = ran(name);
+    for (std::size_t i = 0; i < few.steps.size(); ++i)
+      ASSERT_EQ(more.steps[i].path.back().position, few.steps[i].path.back().position) << name << ", step " << i;
+  }
+}
+
+TEST(ThinSensor, is_entered_and_left_once_each_at_the_exact_fraction) {
+  const Ran run = ran("thin_sensor");
+  EXPECT_EQ(run.row.sensor_events, 4);
+  EXPECT_EQ(run.row.sensor_errors, 0);
+  using Change = SensorEvent<double>::Change;
+  struct Event {
+    ColliderIndex sensor;
+    Change change;
+    double place;  ///< Of the character, after so many metres.
+  };
+  const std::array<Event, 4> expected{{{0, Change::enter, 20 - half_width},
+                                       {0, Change::exit, 20.01 + half_width},
+                                       {1, Change::enter, 40 - half_width},
+                                       {1, Change::exit, 40 + half_width}}};
+  ASSERT_EQ(run.steps[0].sensors.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    const SensorEvent<double>& event = run.steps[0].sensors[i];
+    EXPECT_EQ(event.sensor, expected[i].sensor);
+    EXPECT_EQ(event.change, expected[i].change);
+    EXPECT_NEAR(event.fraction, expected[i].place / 100, 1e-12);
+  }
+  EXPECT_TRUE(run.steps[1].sensors.empty());
+}
+
+TEST(Replicas, share_the_sequence_of_events) {
+  const auto events = [](const std::string& name) {
+    std::vector<std::tuple<int, ColliderIndex, Side>> all;
+    for (const TraceStep& step : ran(name).steps)
+      for (const auto& contact : step.contacts) all.emplace_back(step.step, contact.collider, contact.side);
+    return all;
+  };
+  const auto expected = events("replica");
+  EXPECT_GT(expected.size(), 50U);
+  for (const char* name : {"replica_1e-12", "replica_1e-9", "replica_1e-6", "replica_1e-3"})
+    EXPECT_EQ(events(name), expected) << name;
+}
+
+/// |(p - m) - (p0 - m0)| of a rider from `settled` on, in units of the last place of the larger coordinate.
+double drift_in_ulps(const Ran& run, std::size_t settled) {
+  const auto relative = [&run](std::size_t i) -> Vec2d {
+    return run.steps[i].path.back().position - run.steps[i].movers[0].to;
+  };
+  double drift = 0;
+  double largest = 0;
+  for (std::size_t i = settled; i < run.steps.size(); ++i) {
+    drift = std::max(drift, (relative(i) - relative(settled)).cwiseAbs().maxCoeff());
+    largest = std::max(largest, run.steps[i].path.back().position.cwiseAbs().maxCoeff());
+  }
+  return drift / (std::nextafter(largest, 1e9) - largest);
+}
+
+TEST(Lifts, carry_without_a_lag_and_without_drift) {
+  for (const char* name : {"lift_up", "lift_down", "lift_sideways"}) {
+    const Ran run = ran(name);
+    EXPECT_LE(drift_in_ulps(run, 10), 1) << name;
+    // 4 m or 3 m in two seconds, there and back: it has moved that far at some time.
+    double far = 0;
+    for (const TraceStep& step : run.steps)
+      far = std::max(far, (step.path.back().position - run.steps[10].path.back().position).norm());
+    EXPECT_NEAR(far, std::string(name) == "lift_sideways" ? 4 : 3, 1e-6) << name;
+    for (std::size_t i = 10; i < run.steps.size(); ++i) ASSERT_TRUE(run.steps[i].grounded) << name << ", step " << i;
+  }
+}
+
+TEST(Conveyor, carries_at_its_speed) {
+  const Ran run = ran("conveyor");
+  for (std::size_t i = 20; i < run.steps.size(); ++i)
+    ASSERT_NEAR(run.steps[i].path.back().position.x() - run.steps[i].path.front().position.x(), 2.0 / 60, 1e-12) << i;
+}
+
+TEST(ClosingCeiling, crushes_in_the_step_of_the_formula_and_never_pushes_out) {
+  const Ran run = ran("closing_ceiling");
+  // It stands 5e-7 m above the floor, so the way to its head is that much shorter.
+  const double way = 1.07 - 5e-7;
+  const int expected = static_cast<int>(std::ceil(way / (3.0 / 60))) - 1;  // counted from 0
+  int first = -1;
+  for (const TraceStep& step : run.steps) {
+    if (first < 0 && !step.crushed.empty()) first = step.step;
+    EXPECT_GE(step.path.back().position.y(), half_height) << "below the floor in step " << step.step;
+    EXPECT_LE(step.path.back().position.y(), half_height + 1e-6) << "in step " << step.step;
+  }
+  EXPECT_EQ(first, expected);
+  EXPECT_GT(run.row.crushes, 0);
+  EXPECT_EQ(run.row.crushes_with_room.value_or(0), 0);
+}
+
+TEST(SweepingPaper, is_met_after_distance_over_speed_and_stays_on_its_side) {
+  const Ran run = ran("sweeping_paper");
+  const double steps = 1.9 / 20 * 60;
+  const auto step = static_cast<std::size_t>(steps);
+  const auto& contacts = run.steps[step].contacts;
+  const auto met = std::find_if(contacts.begin(), contacts.end(), [](const auto& c) { return c.collider == 1; });
+  ASSERT_NE(met, contacts.end());
+  EXPECT_NEAR(met->fraction, steps - std::floor(steps), 1e-6);
+  for (const TraceStep& each : run.steps)
+    EXPECT_GT(each.path.back().position.x() - half_width, -half_width - 1.9 + each.movers[0].to.x())
+        << "the paper is on its left in step " << each.step;
+}
+
+TEST(HeadOn, is_met_after_distance_over_both_speeds) {
+  const Ran run = ran("head_on");
+  EXPECT_EQ(run.row.first_contact_step, 2);
+  ASSERT_TRUE(run.row.first_contact_fraction);
+  EXPECT_NEAR(*run.row.first_contact_fraction, 2 / (30.0 + 18.0) * 60 - 2, 1e-12);
+}
+
+TEST(PapersSwap, meet_nobody) { EXPECT_EQ(ran("papers_swap").row.contact_steps, 0); }
+
+TEST(RotatingPaper, is_refused_in_words_by_who_cannot_turn_it) {
+  RunOptions options = quick();
+  const ReportScene result = run_scene(built_in("rotating_paper"), options);
+  for (const Row& row : result.rows) {
+    EXPECT_EQ(row.verdict, Verdict::not_applicable) << row.contender;
+    EXPECT_TRUE(holds(row.reason, "paper")) << row.contender;
+  }
+}
+
+}  // namespace
+}  // namespace paperproof::compare
