@@ -4,6 +4,7 @@
 #include <paperproof/broad_phase.hpp>
 #include <paperproof/character.hpp>
 #include <paperproof/controller.hpp>
+#include <paperproof/crowd.hpp>
 #include <paperproof/pixel_tiles.hpp>
 #include <paperproof/plan.hpp>
 #include <paperproof/scenery.hpp>

@@ -1,0 +1,99 @@
+/// Several characters of one kind that do not get past each other either.
+#pragma once
+
+#include <paperproof/controller.hpp>
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace paperproof {
+
+/// Position of a character in the states handed to `Crowd::step`.
+using CharacterIndex = std::uint32_t;
+
+/// Another character was in the way. Both get one, with opposite normals.
+template <class Scalar>
+struct CrowdContact {
+  CharacterIndex other = 0;
+  Vec2<Scalar> normal{Vec2<Scalar>::Zero()};  ///< Unit, from the other towards this one.
+  Scalar fraction = 0;                        ///< Time of impact as a fraction of the step, in [0, 1].
+  Side side = Side::bottom;                   ///< Of this character.
+};
+
+/// What one step did to one character. Contacts with scenery are in `step.move`, those with characters here.
+template <class Scalar>
+struct CrowdMember {
+  StepReport<Scalar> step;
+  FixedVector<CrowdContact<Scalar>, 16> met;           ///< One per other character and side, in order of time.
+  FixedVector<CharacterIndex, 16> started_overlapping;  ///< Whom it overlapped when the step began.
+  /// No order of impacts could be shown to be safe: it stayed where the step began, with velocity zero.
+  bool stayed = false;
+};
+
+template <class Scalar>
+struct CrowdReport {
+  explicit CrowdReport(std::size_t most_characters) : members(most_characters) {}
+
+  /// `moved`, or why nothing changed for anybody: `invalid_input`, `out_of_range`.
+  StepStatus status = StepStatus::moved;
+  std::vector<CrowdMember<Scalar>> members;  ///< Valid up to the number of states, unless the step was refused.
+  std::size_t impacts = 0;                   ///< Of characters against characters.
+};
+
+/// Memory of a step, one per thread and crowd; it carries nothing from step to step.
+struct CrowdScratch {
+  std::size_t most_characters = 0;
+  std::unique_ptr<OwnMemory> own;
+};
+
+/// Steps characters of one kind through one scenery that does not move. Const and shareable between threads.
+///
+/// All move at once; impacts are handled in the order of their times (Mirtich 1996, "Impulse-based Dynamic Simulation
+/// of Rigid Body Systems", without the impulses). Each character first gets the way that `Controller` would give it:
+/// one that meets nobody moves as by `Controller`, bit for bit. Then, again and again, the earliest impact of any pair
+/// is looked for. Whoever of the two moves into the other, and faster than the other gives way, is stopped at that
+/// moment, keeps what does not go into the other, and gets a new way for the rest of the step. Neither pushes: the
+/// other goes on as it did. What comes down on a walkable part of another stands on it (and is not carried along).
+/// Of impacts at the same time the one with the lowest first index comes first, then the lowest second index.
+///
+/// Guarantee, beside that of `octagon_sweep` for each of them: characters that were apart stay apart, and do not pass
+/// through each other. What cannot be shown to be safe stays where it is (`dropped`). Characters that overlap are
+/// reported, and move only so that they do not get deeper into each other; where the separation is below 1e-8 m, in
+/// `double`, and a motion cannot be shown by exact arithmetic to be free, the same holds.
+///
+/// Cost: the ways are compared pair by pair, by their boxes first: n^2/2 box tests for n characters, then one row of
+/// them for each impact. Meant for up to a few hundred.
+template <class Scalar>
+class Crowd {
+ public:
+  /// @throws std::invalid_argument where the scenery has movers or conveyors, or for another technique than
+  ///   `octagon_sweep`; else as `Controller`. `scenery` must outlive the crowd.
+  Crowd(const Scenery<Scalar>& scenery, const CharacterDef& character, const TechniqueDef& technique = {});
+  ~Crowd();
+  Crowd(Crowd&&) noexcept;
+  Crowd& operator=(Crowd&&) noexcept;
+
+  [[nodiscard]] CrowdScratch make_scratch(std::size_t most_characters) const;
+
+  /// One step of `dt` seconds under `gravity` [m/s²] for all of them. Never allocates, never throws.
+  /// @param states read and written; nothing else carries over.
+  /// @param inputs one per state.
+  /// @param scratch,report made for at least as many characters. With fewer, or where one state, input or step is
+  ///   refused (see `StepStatus`), nothing changes for anybody.
+  StepStatus step(std::span<CharacterState<Scalar>> states, std::span<const Input> inputs, const Vec2<Scalar>& gravity,
+                  Scalar dt, CrowdScratch& scratch, CrowdReport<Scalar>& report) const noexcept;
+
+  [[nodiscard]] const CharacterDef& character() const noexcept { return controller_.character(); }
+
+ private:
+  struct Rules;
+
+  Controller<Scalar> controller_;
+  std::unique_ptr<const Rules> rules_;
+};
+
+extern template class Crowd<float>;
+extern template class Crowd<double>;
+
+}  // namespace paperproof

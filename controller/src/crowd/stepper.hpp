@@ -1,0 +1,117 @@
+/// The working state of one step of a crowd.
+#pragma once
+
+#include "crowd/meeting.hpp"
+
+#include <paperproof/crowd.hpp>
+
+#include <span>
+#include <vector>
+
+namespace paperproof::crowd {
+
+/// What a crowd knows before the first step.
+template <class Scalar>
+struct CrowdRules {
+  PairSpace<Scalar> space;
+  Scalar walkable_cosine;  ///< Least upward component of a normal that is stood on.
+  int most_impacts;        ///< Of one character in one step, before it stays where it is.
+};
+
+/// One character during a step: what it has done, and what it is about to do.
+template <class Scalar>
+struct Runner {
+  CharacterState<Scalar> state;   ///< At `begin`.
+  CharacterState<Scalar> after;   ///< At the end of the step, if nothing comes in between.
+  StepReport<Scalar> plan;        ///< The way from `begin` to there.
+  Scalar begin = 0;               ///< Fraction of the step.
+  Box2<Scalar> box;               ///< Around the shape along the plan.
+  int impacts = 0;
+  bool halted = false;
+  bool no_snap = false;  ///< Somebody stands where it would follow the ground down to.
+  bool stands = false;   ///< On somebody.
+  bool dropped = false;
+  bool stuck = false;
+  bool jump_held = false;  ///< As this step's input leaves them.
+  bool jump_pending = false;
+};
+
+/// The earliest meeting of a character with one of a higher index.
+template <class Scalar>
+struct RowBest {
+  Meeting<Scalar> meeting;
+  CharacterIndex other = 0;
+};
+
+template <class Scalar>
+struct Memory final : OwnMemory {
+  std::vector<Runner<Scalar>> runners;
+  std::vector<RowBest<Scalar>> rows;
+  StepReport<Scalar> part;  ///< Of a way up to an impact.
+  Scratch<Scalar> technique;
+};
+
+template <class Scalar>
+class Stepper {
+ public:
+  Stepper(const Controller<Scalar>& controller, const CrowdRules<Scalar>& rules, Memory<Scalar>& memory,
+          CrowdReport<Scalar>& report, std::size_t count, const Vec2<Scalar>& gravity, Scalar dt) noexcept
+      : controller_(controller),
+        rules_(rules),
+        memory_(memory),
+        report_(report),
+        runners_(std::span(memory.runners).first(count)),
+        rows_(std::span(memory.rows).first(count)),
+        gravity_(gravity),
+        dt_(dt) {}
+
+  /// The way of every character, as if it were alone. Anything but `moved`: refused.
+  [[nodiscard]] StepStatus begin(std::span<const CharacterState<Scalar>> states,
+                                 std::span<const Input> inputs) noexcept;
+  /// Handles the impacts in order of time.
+  void solve() noexcept;
+  /// Checks the ways as they were made, and hands out what came of them.
+  void finish(std::span<CharacterState<Scalar>> states) noexcept;
+
+ private:
+  using V = Vec2<Scalar>;
+
+  [[nodiscard]] CrowdMember<Scalar>& member(std::size_t i) noexcept { return report_.members[i]; }
+  [[nodiscard]] StepStatus move(Runner<Scalar>& runner, Scalar duration, CharacterState<Scalar>& state,
+                                StepReport<Scalar>& report) noexcept;
+  [[nodiscard]] static bool refused(StepStatus status) noexcept {
+    return status == StepStatus::invalid_input || status == StepStatus::out_of_range;
+  }
+  void plan(std::size_t i) noexcept;
+  void stay(std::size_t i) noexcept;
+  void halt(std::size_t i) noexcept;
+  void find_box(Runner<Scalar>& runner) noexcept;
+  void commit(std::size_t i, const StepReport<Scalar>& part, Scalar end) noexcept;
+  void go_on_to(std::size_t i, Scalar time) noexcept;
+
+  [[nodiscard]] Meeting<Scalar> meeting(std::size_t i, std::size_t j) const noexcept;
+  void find_row(std::size_t i) noexcept;
+  void find_again(std::size_t changed) noexcept;
+  [[nodiscard]] std::size_t earliest_row() const noexcept;
+  void respond(std::size_t i, const Meeting<Scalar>& meeting, const V& normal, Scalar limit) noexcept;
+  void note(std::size_t i, std::size_t other, const Meeting<Scalar>& meeting, const V& normal) noexcept;
+
+  void note_overlaps(std::span<const CharacterState<Scalar>> states) noexcept;
+  [[nodiscard]] Way<Scalar> way_made(std::size_t i) noexcept;
+  void keep_back_what_is_not_clear(std::span<const CharacterState<Scalar>> states) noexcept;
+  void keep_back(std::size_t i, const CharacterState<Scalar>& start) noexcept;
+  [[nodiscard]] StepStatus status_of(std::size_t i) noexcept;
+  void hand_out(std::size_t i, CharacterState<Scalar>& state) noexcept;
+
+  const Controller<Scalar>& controller_;
+  const CrowdRules<Scalar>& rules_;
+  Memory<Scalar>& memory_;
+  CrowdReport<Scalar>& report_;
+  std::span<Runner<Scalar>> runners_;
+  std::span<RowBest<Scalar>> rows_;
+  V gravity_;
+  Scalar dt_;
+  Scalar now_ = 0;
+};
+
+}  // namespace paperproof::crowd
