@@ -66,6 +66,9 @@ class PairJudge {
     return met_on_segment(rational(jump.from.position) - there, rational(jump.to.position) - there);
   }
   [[nodiscard]] bool overlap(const Vec2d& one, const Vec2d& other) const {
+    const Part first{{one, 0}, {one, 1}};
+    const Part second{{other, 0}, {other, 1}};
+    if (surely_apart(first, second)) return false;
     const RationalPoint difference = rational(one) - rational(other);
     return met_on_segment(difference, difference);
   }
@@ -96,8 +99,7 @@ class PairJudge {
     return false;
   }
 
-  /// `depth` of the nearest corner inside an edge line of the shape at the origin, for the shape at d: negative where
-  /// all of it is outside.
+  /// Whether the shape at d, for d anywhere on a segment, overlaps the one at the origin.
   [[nodiscard]] bool met_on_segment(const RationalPoint& start, const RationalPoint& finish) const {
     Rational entry = 0;
     Rational exit = 1;
@@ -131,8 +133,8 @@ ColliderDef box(double left, double bottom, double right, double top) {
 /// A closed room, in sizes of the character, with a few things in it.
 SceneryDef tight_room(Random& random, const Vec2d& extent, const Vec2d& room) {
   SceneryDef def;
-  def.colliders = {box(-1, -1, room.x() + 1, 0), box(-1, room.y(), room.x() + 1, room.y() + 1),
-                   box(-1, 0, 0, room.y()), box(room.x(), 0, room.x() + 1, room.y())};
+  def.colliders = {box(-1, -1, room.x() + 1, 0), box(-1, room.y(), room.x() + 1, room.y() + 1), box(-1, 0, 0, room.y()),
+                   box(room.x(), 0, room.x() + 1, room.y())};
   const int things = random.integer(0, 4);
   for (int i = 0; i < things; ++i) {
     const Vec2d at{random.between(0, room.x()), random.between(0, room.y())};
@@ -141,7 +143,8 @@ SceneryDef tight_room(Random& random, const Vec2d& extent, const Vec2d& room) {
     if (random.chance(0.4))
       def.colliders.push_back(polygon({at, at + Vec2d{w, 0}, at + Vec2d{random.chance(0.5) ? w : 0, h}}));
     else if (random.chance(0.3))
-      def.colliders.push_back({.shape = ColliderDef::Shape::chain, .points = {at, at + Vec2d{w, random.between(-h, h)}}});
+      def.colliders.push_back(
+          {.shape = ColliderDef::Shape::chain, .points = {at, at + Vec2d{w, random.between(-h, h)}}});
     else
       def.colliders.push_back(box(at.x(), at.y(), at.x() + w, at.y() + h));
   }
@@ -154,6 +157,7 @@ struct Tally {
   std::size_t with_impact = 0;
   std::size_t impacts = 0;
   std::size_t stayed = 0;
+  std::size_t stayed_touching = 0;  ///< In runs where neighbours may start without a gap.
   std::size_t dropped = 0;
   std::size_t stuck = 0;
   std::size_t moves = 0;
@@ -203,6 +207,7 @@ class RandomCrowd {
   /// Apart from each other and from the room; in some runs on whole pixels, so that neighbours touch exactly.
   void place() {
     const bool whole_pixels = random_.chance(0.3);
+    may_touch_ = whole_pixels;
     for (int tries = 0; tries < 200 && static_cast<int>(states_.size()) < wanted_; ++tries) {
       Vec2d at{random_.between(0, room_.x()), random_.between(0, room_.y())};
       if (whole_pixels) at = Vec2d{std::round(at.x() * 32) / 32, std::round(at.y() * 32) / 32};
@@ -212,7 +217,7 @@ class RandomCrowd {
         return judge_.overlap(at, other.position);
       });
       if (!free || !oracle_.overlapped(at).empty()) continue;
-      states_.push_back({.position = at});
+      states_.emplace_back().position = at;
     }
   }
 
@@ -232,7 +237,7 @@ class RandomCrowd {
     for (std::size_t i = 0; i < states_.size(); ++i) {
       const CrowdMember<double>& member = report_.members[i];
       ++tally.moves;
-      tally.stayed += member.stayed;
+      (may_touch_ ? tally.stayed_touching : tally.stayed) += member.stayed;
       tally.dropped += member.step.status == StepStatus::dropped;
       tally.stuck += member.step.status == StepStatus::stuck;
       check_way(i);
@@ -307,6 +312,7 @@ class RandomCrowd {
   CharacterDef character_;
   Vec2d extent_;
   int wanted_;
+  bool may_touch_ = false;
   Vec2d room_;
   Scenery<double> scenery_;
   Crowd<double> crowd_;
@@ -322,15 +328,16 @@ class RandomCrowd {
 TEST(CrowdGuarantee, those_who_were_apart_never_overlap_or_pass_through_each_other_or_a_solid) {
   Tally tally;
   for (std::uint64_t seed = 1; tally.steps < steps_wanted() && !HasFatalFailure(); ++seed) RandomCrowd(seed).go(tally);
-  std::printf("%d steps, %zu moves, %zu steps with impacts, %zu impacts, %d launches; %zu kept back, %zu dropped, %zu "
-              "stuck; %zu exact decisions\n",
-              tally.steps, tally.moves, tally.with_impact, tally.impacts, tally.launches, tally.stayed, tally.dropped,
-              tally.stuck, tally.exact_decisions);
+  std::printf(
+      "%d steps, %zu moves, %zu steps with impacts, %zu impacts, %d launches; %zu kept back, %zu "
+      "more from no gap, %zu dropped, %zu stuck; %zu exact decisions\n",
+      tally.steps, tally.moves, tally.with_impact, tally.impacts, tally.launches, tally.stayed, tally.stayed_touching,
+      tally.dropped, tally.stuck, tally.exact_decisions);
   const double share = static_cast<double>(tally.with_impact) / tally.steps;
   EXPECT_GE(share, 0.3);
   EXPECT_LE(share, 0.95);
   // The last resort is one.
-  EXPECT_LE(static_cast<double>(tally.stayed), 1e-3 * static_cast<double>(tally.moves));
+  EXPECT_LE(static_cast<double>(tally.stayed), 1e-4 * static_cast<double>(tally.moves));
 }
 
 TEST(CrowdGuarantee, the_judge_sees_a_meeting_where_there_is_one) {

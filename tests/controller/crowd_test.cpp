@@ -170,7 +170,8 @@ TEST(Crowd, two_bullets_do_not_pass_through_each_other) {
 TEST(Crowd, whom_nobody_meets_moves_as_by_the_controller_bit_for_bit) {
   CharacterDef character;
   character.snap = 0.25;
-  const std::vector<ColliderDef> level{floor_at_zero(), polygon({{2, -0.5}, {6, -0.5}, {6, 2}}), rectangle(-8, 0, -7, 9)};
+  const std::vector<ColliderDef> level{floor_at_zero(), polygon({{2, -0.5}, {6, -0.5}, {6, 2}}),
+                                       rectangle(-8, 0, -7, 9)};
   Together two({{0, 1}, {-5, 1}}, level, character);
   two.gravity = {0, -30};
   two.dt = 1.0 / 60;

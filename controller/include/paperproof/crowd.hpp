@@ -25,7 +25,7 @@ struct CrowdContact {
 template <class Scalar>
 struct CrowdMember {
   StepReport<Scalar> step;
-  FixedVector<CrowdContact<Scalar>, 16> met;           ///< One per other character and side, in order of time.
+  FixedVector<CrowdContact<Scalar>, 16> met;            ///< One per other character and side, in order of time.
   FixedVector<CharacterIndex, 16> started_overlapping;  ///< Whom it overlapped when the step began.
   /// No order of impacts could be shown to be safe: it stayed where the step began, with velocity zero.
   bool stayed = false;

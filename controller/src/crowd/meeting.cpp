@@ -13,6 +13,7 @@ class Traveller {
   Traveller(const Way<Scalar>& way, Scalar time) noexcept : way_(way) {
     while (!arrived() && leg_end() < time) ++corner_;
     position_ = at(time);
+    rounded_ = between_corners(time);
   }
   /// At the last corner.
   [[nodiscard]] bool arrived() const noexcept { return corner_ + 1 >= way_.path.size(); }
@@ -22,19 +23,26 @@ class Traveller {
   [[nodiscard]] bool jumps() const noexcept { return !arrived() && way_.time(corner_) == leg_end(); }
   [[nodiscard]] Leg<Scalar> jump() noexcept {
     ++corner_;
-    const Leg<Scalar> leg{position_, way_.path[corner_].position};
+    const Leg<Scalar> leg{position_, way_.path[corner_].position, rounded_};
     position_ = leg.to;
+    rounded_ = false;
     return leg;
   }
   /// On to a time that is not beyond the end of the present part.
   [[nodiscard]] Leg<Scalar> go_to(Scalar time) noexcept {
-    const Leg<Scalar> leg{position_, at(time)};
+    Leg<Scalar> leg{position_, at(time), rounded_};
     position_ = leg.to;
+    rounded_ = between_corners(time);
+    leg.rounded = leg.rounded || rounded_;
     if (!arrived() && leg_end() <= time) ++corner_;
     return leg;
   }
 
  private:
+  [[nodiscard]] bool between_corners(Scalar time) const noexcept {
+    return !arrived() && time > way_.time(corner_) && time < leg_end() &&
+           way_.path[corner_].position != way_.path[corner_ + 1].position;
+  }
   [[nodiscard]] Vec2<Scalar> at(Scalar time) const noexcept {
     const Vec2<Scalar>& start = way_.path[corner_].position;
     const Scalar start_time = way_.time(corner_);
@@ -48,11 +56,12 @@ class Traveller {
   const Way<Scalar>& way_;
   std::size_t corner_ = 0;
   Vec2<Scalar> position_{Vec2<Scalar>::Zero()};
+  bool rounded_ = false;
 };
 
 template <class Scalar>
 Leg<Scalar> stay(const Vec2<Scalar>& position) noexcept {
-  return {position, position};
+  return {.from = position, .to = position};
 }
 
 /// @param begin,end when the two legs are made, as fractions of the step.

@@ -26,9 +26,9 @@ struct Way {
 template <class Scalar>
 struct Meeting {
   bool meets = false;
-  Scalar time = 0;                            ///< When to stop, as a fraction of the step.
-  Scalar impact = 0;                          ///< Time of impact, likewise, at most 1.
-  Vec2<Scalar> normal{Vec2<Scalar>::Zero()};  ///< Unit, from the second towards the first.
+  Scalar time = 0;                                ///< When to stop, as a fraction of the step.
+  Scalar impact = 0;                              ///< Time of impact, likewise, at most 1.
+  Vec2<Scalar> normal{Vec2<Scalar>::Zero()};      ///< Unit, from the second towards the first.
   Vec2<Scalar> first_rate{Vec2<Scalar>::Zero()};  ///< How the first was going, in metres per step.
   Vec2<Scalar> second_rate{Vec2<Scalar>::Zero()};
   /// They met in a part of a way that takes no time (out of a solid, down to the ground); its rate is its length, and

@@ -2,6 +2,7 @@
 
 #include <paperproof/tolerances.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -97,7 +98,7 @@ typename PairSpace<Scalar>::Ranges PairSpace<Scalar>::ranges(const Leg<Scalar>& 
 
 template <class Scalar>
 Scalar PairSpace<Scalar>::separation(const Vec2<Scalar>& first, const Vec2<Scalar>& second) const noexcept {
-  const Ranges f = ranges({first, first}, {second, second});
+  const Ranges f = ranges({.from = first, .to = first}, {.from = second, .to = second});
   return f.start[f.best];
 }
 
@@ -115,9 +116,11 @@ bool PairSpace<Scalar>::gets_no_nearer(const Ranges& f) const noexcept {
   return true;
 }
 
-/// Whether one line separates the two at both ends of a motion, exactly. False also where their distance is no double.
+/// Whether one line separates the two at both ends of a motion, exactly. False also where an end or their distance is
+/// no double.
 template <class Scalar>
 bool PairSpace<Scalar>::certified(const Leg<Scalar>& first, const Leg<Scalar>& second) const noexcept {
+  if (first.rounded || second.rounded) return false;
   const std::optional<Vec2d> start = exact_difference(first.from, second.from);
   const std::optional<Vec2d> end = exact_difference(first.to, second.to);
   if (!start || !end) return false;

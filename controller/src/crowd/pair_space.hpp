@@ -20,6 +20,7 @@ template <class Scalar>
 struct Leg {
   Vec2<Scalar> from{Vec2<Scalar>::Zero()};
   Vec2<Scalar> to{Vec2<Scalar>::Zero()};
+  bool rounded = false;  ///< An end lies between two corners of a way: where it is exactly is no double.
 };
 
 /// The first of a pair at p and the second at q overlap exactly when p - q is inside the Minkowski sum of the shape and

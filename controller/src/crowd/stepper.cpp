@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace paperproof::crowd {
 namespace {
@@ -69,7 +70,9 @@ StepStatus Stepper<Scalar>::begin(std::span<const CharacterState<Scalar>> states
     runner.impacts = 0;
     runner.halted = runner.no_snap = runner.stands = runner.dropped = runner.stuck = false;
     clear(member(i));
-    const StepStatus status = move(runner, dt_, runner.after, runner.plan);
+    runner.walks = runner.state.grounded;
+    runner.held.clear();
+    const StepStatus status = move(runner, dt_, true, runner.after, runner.plan);
     if (refused(status)) return status;
     member(i).step.requested = runner.plan.requested;
     find_box(runner);
@@ -80,10 +83,10 @@ StepStatus Stepper<Scalar>::begin(std::span<const CharacterState<Scalar>> states
 
 /// The intent is in the velocity already, and nothing is added to it here.
 template <class Scalar>
-StepStatus Stepper<Scalar>::move(Runner<Scalar>& runner, Scalar duration, CharacterState<Scalar>& state,
-                                 StepReport<Scalar>& report) noexcept {
+StepStatus Stepper<Scalar>::move(const Runner<Scalar>& runner, Scalar duration, bool follow_down,
+                                 CharacterState<Scalar>& state, StepReport<Scalar>& report) noexcept {
   state = runner.state;
-  if (runner.no_snap) state.grounded = false;
+  state.grounded = runner.walks && follow_down && !runner.no_snap;
   return controller_.step(state, Input{}, V::Zero(), duration, memory_.technique, report);
 }
 
@@ -93,7 +96,7 @@ void Stepper<Scalar>::plan(std::size_t i) noexcept {
   Runner<Scalar>& runner = runners_[i];
   const Scalar duration = dt_ * (1 - runner.begin);
   if (!(duration > 0)) return stay(i);
-  const bool usable = !refused(move(runner, duration, runner.after, runner.plan));
+  const bool usable = !refused(move(runner, duration, true, runner.after, runner.plan));
   const auto& made = member(i).step.move.path;
   if (!usable || made.size() + runner.plan.move.path.size() > made.capacity()) {
     runner.dropped = true;
@@ -153,11 +156,14 @@ void Stepper<Scalar>::go_on_to(std::size_t i, Scalar time) noexcept {
   const Scalar duration = dt_ * (time - runner.begin);
   if (!(duration > 0)) return;
   CharacterState<Scalar> state;
-  if (refused(move(runner, duration, state, memory_.part))) {
+  // The ground is followed at the end of the step only: here it may have been left for a head.
+  if (refused(move(runner, duration, false, state, memory_.part))) {
     runner.dropped = true;
     return;
   }
   commit(i, memory_.part, time);
+  const V way = state.position - runner.state.position;
+  if (std::max(std::abs(way.x()), std::abs(way.y())) > Tolerances<Scalar>{}.touch) runner.held.clear();
   runner.state = state;
   runner.begin = time;
   // The ground took its weight, which holds it to the ground for the rest as well.
@@ -263,17 +269,38 @@ void Stepper<Scalar>::respond(std::size_t i, const Meeting<Scalar>& meeting, con
   }
   go_on_to(i, meeting.time);
   if (normal.y() >= rules_.walkable_cosine) runner.stands = true;
+  runner.held.push_back({normal, limit / dt_});
   V& velocity = runner.state.velocity;
   const Scalar excess = -dot(velocity, normal) - limit / dt_;
-  // What is in the way besides turns it into the other: it is between the two.
-  if (!(excess > 0)) return halt(i);
+  // Scenery turns it into the other: it is between the two.
+  if (!(excess > 0)) return halt_between(i);
   velocity += normal * excess;
+  if (is_held(runner)) return halt_between(i);
   plan(i);
 }
 
+/// Whether its velocity goes into somebody it touches, by more than rounding.
 template <class Scalar>
-void Stepper<Scalar>::note(std::size_t i, std::size_t other, const Meeting<Scalar>& meeting,
-                           const V& normal) noexcept {
+bool Stepper<Scalar>::is_held(const Runner<Scalar>& runner) const noexcept {
+  const V& velocity = runner.state.velocity;
+  const Scalar noise =
+      std::numeric_limits<Scalar>::epsilon() * 64 * std::max(std::abs(velocity.x()), std::abs(velocity.y()));
+  return runner.held.overflowed() ||
+         std::any_of(runner.held.begin(), runner.held.end(),
+                     [&](const HeldBy<Scalar>& other) { return -dot(velocity, other.normal) > other.limit + noise; });
+}
+
+/// What holds a fall from two sides is stood on.
+template <class Scalar>
+void Stepper<Scalar>::halt_between(std::size_t i) noexcept {
+  Runner<Scalar>& runner = runners_[i];
+  runner.stands = runner.stands || std::any_of(runner.held.begin(), runner.held.end(),
+                                               [](const HeldBy<Scalar>& other) { return other.normal.y() > 0; });
+  halt(i);
+}
+
+template <class Scalar>
+void Stepper<Scalar>::note(std::size_t i, std::size_t other, const Meeting<Scalar>& meeting, const V& normal) noexcept {
   auto& met = member(i).met;
   const CrowdContact<Scalar> contact{static_cast<CharacterIndex>(other), normal, meeting.impact,
                                      side_of_normal(normal.x(), normal.y())};
@@ -375,9 +402,7 @@ void Stepper<Scalar>::hand_out(std::size_t i, CharacterState<Scalar>& state) noe
   report.status = status_of(i);
   const int stuck_steps = runner.stuck ? std::min(state.stuck_steps + 1, 255) : 0;
   next.stuck_steps = static_cast<std::uint8_t>(stuck_steps);
-  report.move.status = runner.stuck     ? MoveStatus::stuck
-                       : runner.dropped ? MoveStatus::dropped
-                                        : MoveStatus::moved;
+  report.move.status = runner.stuck ? MoveStatus::stuck : runner.dropped ? MoveStatus::dropped : MoveStatus::moved;
   report.move.position = next.position;
   report.move.velocity = next.velocity;
   report.move.grounded = next.grounded;

@@ -18,16 +18,25 @@ struct CrowdRules {
   int most_impacts;        ///< Of one character in one step, before it stays where it is.
 };
 
+/// Another character that is touched: no faster than `limit` towards it [m/s].
+template <class Scalar>
+struct HeldBy {
+  Vec2<Scalar> normal;
+  Scalar limit;
+};
+
 /// One character during a step: what it has done, and what it is about to do.
 template <class Scalar>
 struct Runner {
-  CharacterState<Scalar> state;   ///< At `begin`.
-  CharacterState<Scalar> after;   ///< At the end of the step, if nothing comes in between.
-  StepReport<Scalar> plan;        ///< The way from `begin` to there.
-  Scalar begin = 0;               ///< Fraction of the step.
-  Box2<Scalar> box;               ///< Around the shape along the plan.
+  CharacterState<Scalar> state;         ///< At `begin`.
+  CharacterState<Scalar> after;         ///< At the end of the step, if nothing comes in between.
+  StepReport<Scalar> plan;              ///< The way from `begin` to there.
+  Scalar begin = 0;                     ///< Fraction of the step.
+  Box2<Scalar> box;                     ///< Around the shape along the plan.
+  FixedVector<HeldBy<Scalar>, 8> held;  ///< Met since it moved last.
   int impacts = 0;
   bool halted = false;
+  bool walks = false;    ///< It was on the ground and does not jump: its way follows the ground down.
   bool no_snap = false;  ///< Somebody stands where it would follow the ground down to.
   bool stands = false;   ///< On somebody.
   bool dropped = false;
@@ -77,8 +86,8 @@ class Stepper {
   using V = Vec2<Scalar>;
 
   [[nodiscard]] CrowdMember<Scalar>& member(std::size_t i) noexcept { return report_.members[i]; }
-  [[nodiscard]] StepStatus move(Runner<Scalar>& runner, Scalar duration, CharacterState<Scalar>& state,
-                                StepReport<Scalar>& report) noexcept;
+  [[nodiscard]] StepStatus move(const Runner<Scalar>& runner, Scalar duration, bool follow_down,
+                                CharacterState<Scalar>& state, StepReport<Scalar>& report) noexcept;
   [[nodiscard]] static bool refused(StepStatus status) noexcept {
     return status == StepStatus::invalid_input || status == StepStatus::out_of_range;
   }
@@ -94,6 +103,8 @@ class Stepper {
   void find_again(std::size_t changed) noexcept;
   [[nodiscard]] std::size_t earliest_row() const noexcept;
   void respond(std::size_t i, const Meeting<Scalar>& meeting, const V& normal, Scalar limit) noexcept;
+  [[nodiscard]] bool is_held(const Runner<Scalar>& runner) const noexcept;
+  void halt_between(std::size_t i) noexcept;
   void note(std::size_t i, std::size_t other, const Meeting<Scalar>& meeting, const V& normal) noexcept;
 
   void note_overlaps(std::span<const CharacterState<Scalar>> states) noexcept;
