@@ -27,16 +27,18 @@ const Scenery<Scalar>& checked(const Scenery<Scalar>& scenery, const TechniqueDe
 
 /// All that `Controller::step` does not look at in the form it is called here.
 template <class Scalar>
-bool usable(std::span<const CharacterState<Scalar>> states, std::span<const Input> inputs, const Vec2<Scalar>& gravity,
-            Scalar dt) noexcept {
-  const auto steers = [](const Input& input) { return std::isfinite(input.move.value_or(0)); };
+bool usable(const Stages& stages, std::span<const CharacterState<Scalar>> states, std::span<const Input> inputs,
+            const Vec2<Scalar>& gravity, Scalar dt) noexcept {
+  const auto steers = [&](const Input& input) {
+    return std::isfinite(input.move.value_or(0)) && (stages.jump || !input.jump);
+  };
   const auto walks = [](const CharacterState<Scalar>& state) {
     return state.ride.ground == Ride<Scalar>::none && std::isfinite(state.velocity.x()) &&
            std::isfinite(state.velocity.y());
   };
   return std::isfinite(dt) && dt > 0 && std::isfinite(gravity.x()) && std::isfinite(gravity.y()) &&
-         inputs.size() == states.size() && std::all_of(inputs.begin(), inputs.end(), steers) &&
-         std::all_of(states.begin(), states.end(), walks);
+         (stages.gravity || (gravity.x() == 0 && gravity.y() == 0)) && inputs.size() == states.size() &&
+         std::all_of(inputs.begin(), inputs.end(), steers) && std::all_of(states.begin(), states.end(), walks);
 }
 
 }  // namespace
@@ -48,8 +50,9 @@ template <class Scalar>
 Crowd<Scalar>::Crowd(const Scenery<Scalar>& scenery, const CharacterDef& character, const TechniqueDef& technique)
     : controller_(checked(scenery, technique), character, technique) {
   const double limit = character.max_climb_degrees * std::numbers::pi / 180;
-  rules_ = std::make_unique<const Rules>(Rules{
-      {crowd::PairSpace<Scalar>(character.shape), static_cast<Scalar>(std::cos(limit)), technique.sweep_iterations}});
+  rules_ = std::make_unique<const Rules>(
+      Rules{{crowd::PairSpace<Scalar>(character.shape), static_cast<Scalar>(std::cos(limit)),
+             technique.sweep_iterations, technique.stages}});
 }
 
 template <class Scalar>
@@ -73,7 +76,8 @@ StepStatus Crowd<Scalar>::step(std::span<CharacterState<Scalar>> states, std::sp
                                const Vec2<Scalar>& gravity, Scalar dt, CrowdScratch& scratch,
                                CrowdReport<Scalar>& report) const noexcept {
   const bool room = scratch.most_characters >= states.size() && report.members.size() >= states.size();
-  if (!room || !usable<Scalar>(states, inputs, gravity, dt)) return report.status = StepStatus::invalid_input;
+  if (!room || !usable<Scalar>(rules_->stages, states, inputs, gravity, dt))
+    return report.status = StepStatus::invalid_input;
   auto& memory = static_cast<crowd::Memory<Scalar>&>(*scratch.own);
   crowd::Stepper<Scalar> stepper(controller_, *rules_, memory, report, states.size(), gravity, dt);
   report.status = stepper.begin(states, inputs);

@@ -361,6 +361,16 @@ TEST(Crowd, an_input_that_is_refused_changes_nothing_for_anybody) {
   refused([](Together& t) { t.states[1].velocity = {3e6, 0}; }, StepStatus::out_of_range);
 }
 
+TEST(Crowd, a_stage_that_is_left_out_is_not_asked_for) {
+  Together still({{0, 1}}, {}, {}, {.stages = {.jump = false, .gravity = false}});
+  EXPECT_EQ(still.step(), StepStatus::moved);
+  still.gravity = {0, -1};
+  EXPECT_EQ(still.step(), StepStatus::invalid_input);
+  still.gravity = {0, 0};
+  still.inputs[0].jump = true;
+  EXPECT_EQ(still.step(), StepStatus::invalid_input);
+}
+
 TEST(Crowd, scenery_that_moves_is_refused_with_a_reason) {
   ColliderDef lift = rectangle(0, 0, 1, 1);
   lift.mover = 0;

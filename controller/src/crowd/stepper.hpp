@@ -16,6 +16,7 @@ struct CrowdRules {
   PairSpace<Scalar> space;
   Scalar walkable_cosine;  ///< Least upward component of a normal that is stood on.
   int most_impacts;        ///< Of one character in one step, before it stays where it is.
+  Stages stages;           ///< What was not left out.
 };
 
 /// Another character that is touched: no faster than `limit` towards it [m/s].
