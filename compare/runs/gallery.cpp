@@ -110,6 +110,7 @@ std::vector<GalleryEntry> gallery_of(const std::vector<Row>& rows) {
 }
 
 std::vector<std::string> gallery_lines(const std::vector<GalleryEntry>& gallery) {
+  const bool timed = std::any_of(gallery.begin(), gallery.end(), [](const auto& entry) { return entry.cheapest; });
   std::vector<std::string> lines;
   for (const GalleryEntry& entry : gallery) {
     std::string line = entry.contender + ": ";
@@ -121,7 +122,9 @@ std::vector<std::string> gallery_lines(const std::vector<GalleryEntry>& gallery)
       line += fmt::format("fails on {} ({}); ", entry.fails->scene, entry.fails->failure.words);
     else
       line += fmt::format("the search over {} found none on which it fails; ", counted(entry.scenes, "scene"));
-    if (!entry.cheapest)
+    if (!timed)
+      line += "nothing was timed.";
+    else if (!entry.cheapest)
       line += "on none it is the cheapest of those that do not fail.";
     else if (entry.cheapest->next.empty())
       line += fmt::format("on {} it is the only one that does not fail ({:.0f} ns per step).", entry.cheapest->scene,

@@ -85,9 +85,11 @@ struct Surroundings {
   [[nodiscard]] Vec2<Scalar> relative(const Vec2<Scalar>& way, MoverIndex mover, Scalar time) const noexcept {
     constexpr Scalar noise = std::numeric_limits<Scalar>::epsilon() * 8;
     const Vec2<Scalar> whole = course(mover);
+    // Each offset is rounded on its own: a mover at one speed goes an ulp more or less from step to step.
+    const Vec2<Scalar> furthest = movers[mover].from.cwiseAbs().cwiseMax(movers[mover].to.cwiseAbs());
     Vec2<Scalar> result = way - rest(mover, time);
     for (Eigen::Index i = 0; i < 2; ++i)
-      if (std::abs(result[i]) <= noise * std::max(std::abs(way[i]), std::abs(whole[i]))) result[i] = 0;
+      if (std::abs(result[i]) <= noise * std::max({std::abs(way[i]), std::abs(whole[i]), furthest[i]})) result[i] = 0;
     return result;
   }
 };
