@@ -6,7 +6,6 @@ namespace paperproof::compare {
 
 namespace {
 
-constexpr double pixel = 1.0 / 32;  // [m]
 
 InputEvent press(int step) { return {.step = step, .move = std::nullopt, .jump = true}; }
 InputEvent release(int step) { return {.step = step, .move = std::nullopt, .jump = false}; }
