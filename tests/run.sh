@@ -25,7 +25,7 @@ run_preset() {
 rm -f build/*/ctest.log
 status=0
 run_preset release </dev/null || status=1
-run_preset asan-ubsan --label-exclude slow </dev/null || status=1
+run_preset asan-ubsan </dev/null || status=1
 
 for preset in asan-ubsan release; do
   echo

@@ -6,7 +6,6 @@ namespace paperproof::compare {
 
 namespace {
 
-
 InputEvent press(int step) { return {.step = step, .move = std::nullopt, .jump = true}; }
 InputEvent release(int step) { return {.step = step, .move = std::nullopt, .jump = false}; }
 
