@@ -1,6 +1,7 @@
 #include "plan_benchmark.hpp"
 
 #include "subject.hpp"
+#include "timed_pass.hpp"
 
 #include "runs/scene_plan.hpp"
 #include "scenes/load.hpp"
@@ -8,20 +9,9 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <chrono>
 
 namespace paperproof::benchmarks {
 namespace {
-
-constexpr int passes = 25;
-
-double nanoseconds_of_pass(Subject& subject) {
-  subject.restart();
-  const auto begin = std::chrono::steady_clock::now();
-  subject.run();
-  const std::chrono::duration<double, std::nano> took = std::chrono::steady_clock::now() - begin;
-  return took.count();
-}
 
 void plan_benchmark(benchmark::State& state, const Workload& workload) {
   const auto jumps = [](const Input& input) { return input.jump; };
@@ -30,15 +20,15 @@ void plan_benchmark(benchmark::State& state, const Workload& workload) {
   const Plan plan = make_plan(workload.scenery, workload.scene.character, foreseen);
   const auto planned = make_controller<double>(workload, {.broad_phase = plan.broad_phase, .stages = plan.stages});
   const auto full = make_controller<double>(workload, {});
-  nanoseconds_of_pass(*full);
-  nanoseconds_of_pass(*planned);
+  timed_pass(*full);
+  timed_pass(*planned);
   if (planned->position() != full->position())
     return state.SkipWithError("planned and full end at different positions");
   std::vector<double> planned_times;
   std::vector<double> full_times;
   for ([[maybe_unused]] auto _ : state) {
-    full_times.push_back(nanoseconds_of_pass(*full));
-    planned_times.push_back(nanoseconds_of_pass(*planned));
+    full_times.push_back(timed_pass(*full));
+    planned_times.push_back(timed_pass(*planned));
     state.SetIterationTime(planned_times.back() * 1e-9);
   }
   const auto steps = static_cast<double>(workload.inputs.size());

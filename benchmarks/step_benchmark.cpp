@@ -1,32 +1,19 @@
 #include "step_benchmark.hpp"
 
 #include "subject.hpp"
+#include "timed_pass.hpp"
 
 #include "runs/contestant.hpp"
 
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <chrono>
 #include <functional>
 
 namespace paperproof::benchmarks {
 namespace {
 
 using MakeSubject = std::function<std::unique_ptr<Subject>(const Workload&)>;
-
-/// Timed passes of each side, after one that is not. The design asks for 9 at least; the more, the nearer the minimum
-/// comes to an undisturbed machine.
-constexpr int passes = 25;
-
-/// Nanoseconds of a pass.
-double timed_pass(Subject& subject) {
-  subject.restart();
-  const auto begin = std::chrono::steady_clock::now();
-  subject.run();
-  const std::chrono::duration<double, std::nano> took = std::chrono::steady_clock::now() - begin;
-  return took.count();
-}
 
 void step_benchmark(benchmark::State& state, const Workload& workload, const MakeSubject& make) {
   const std::unique_ptr<Subject> subject = make(workload);

@@ -13,13 +13,12 @@ mapfile -t optional < <(installable_packages "${optional_test_packages[@]}")
 
 jobs=$(build_jobs)
 
-# Configures, builds and tests one preset; more arguments go to ctest.
+# Configures, builds and tests one preset.
 run_preset() {
   local preset=$1 log=build/$1/ctest.log
-  shift
   cmake --preset "$preset" &&
     cmake --build --preset "$preset" --parallel "$jobs" &&
-    ctest --preset "$preset" --parallel "$jobs" --no-tests=error "$@" 2>&1 | tee "$log"
+    ctest --preset "$preset" --parallel "$jobs" --no-tests=error 2>&1 | tee "$log"
 }
 
 rm -f build/*/ctest.log

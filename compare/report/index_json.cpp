@@ -2,28 +2,19 @@
 
 #include "report/json_text.hpp"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
 
 namespace paperproof::compare {
 namespace {
 
-std::string_view words_for(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::holds:
-      return "holds";
-    case Verdict::tunnels:
-      return "tunnels";
-    case Verdict::violates:
-      return "violates";
-    case Verdict::not_applicable:
-      return "not applicable";
-    case Verdict::flagged:
-      return "flagged";
-    case Verdict::failed:
-      return "failed";
-  }
-  return "failed";
+/// As the page shows it.
+std::string words_for(Verdict verdict) {
+  std::string words(name_of(verdict));
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
 }
 
 template <class Number>
@@ -36,52 +27,12 @@ void put(nlohmann::json& object, const char* key, const std::optional<Number>& v
   }
 }
 
-void put_counts(nlohmann::json& object, const Row& row) {
-  put(object, "tunnels", row.tunnels);
-  put(object, "corner_cuts", row.corner_cuts);
-  put(object, "steps_ending_inside", row.steps_ending_inside);
-  put(object, "one_way_violations", row.one_way_violations);
-  put(object, "first_contact_step", row.first_contact_step);
-  put(object, "first_difference_box2d_step", row.first_difference_box2d_step);
-  put(object, "contact_steps", row.contact_steps);
-  put(object, "colliders_touched", row.colliders_touched);
-  put(object, "respawns", row.respawns);
-  put(object, "crushes", row.crushes);
-  put(object, "crushes_with_room", row.crushes_with_room);
-  put(object, "sensor_events", row.sensor_events);
-  put(object, "sensor_errors", row.sensor_errors);
-  put(object, "dropped_steps", row.dropped_steps);
-}
-
-void put_measures(nlohmann::json& object, const Row& row) {
-  put(object, "max_penetration_m", row.max_penetration_m);
-  put(object, "max_contact_gap_m", row.max_contact_gap_m);
-  put(object, "first_contact_fraction", row.first_contact_fraction);
-  put(object, "contact_precision", row.contact_precision);
-  put(object, "contact_recall", row.contact_recall);
-  put(object, "contact_precision_box2d", row.contact_precision_box2d);
-  put(object, "contact_recall_box2d", row.contact_recall_box2d);
-  put(object, "contact_agreement_box2d", row.contact_agreement_box2d);
-  put(object, "toi_error_max", row.toi_error_max);
-  put(object, "max_sensor_error", row.max_sensor_error);
-  put(object, "ghost_speed_loss", row.ghost_speed_loss);
-  put(object, "rest_peak_to_peak_m", row.rest_peak_to_peak_m);
-  put(object, "rest_rms_m", row.rest_rms_m);
-  put(object, "contact_toggles", row.contact_toggles);
-  put(object, "max_position_difference_box2d_m", row.max_position_difference_box2d_m);
-  put(object, "ns_per_step", row.ns_per_step);
-  put(object, "ns_per_step_median", row.ns_per_step_median);
-  put(object, "ns_per_step_max", row.ns_per_step_max);
-  put(object, "memory_bytes", row.memory_bytes);
-}
-
 nlohmann::json row_json(const Row& row) {
   nlohmann::json object{{"contender", row.contender}, {"scalar", row.scalar}, {"mode", row.mode},
                         {"steps", row.steps},         {"reason", row.reason}, {"findings", row.findings}};
   if (!row.first_difference_box2d.empty()) object["findings"].push_back(row.first_difference_box2d);
-  object["verdict"] = std::string(words_for(row.verdict));
-  put_counts(object, row);
-  put_measures(object, row);
+  object["verdict"] = words_for(row.verdict);
+  for_each_metric(row, [&](const char* key, const auto& value) { put(object, key, value); });
   return object;
 }
 

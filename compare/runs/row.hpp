@@ -60,4 +60,43 @@ struct Row {
   std::vector<std::string> findings;         ///< sentences: first tunnel with speed and thickness, caps, labels
 };
 
+/// Calls `visit(key, optional)` for every number of a row, by the key it has in files, in the order in which it stands
+/// there. Written files and the report's page both take their numbers from here.
+template <class Visit>
+void for_each_metric(const Row& row, const Visit& visit) {
+  visit("tunnels", row.tunnels);
+  visit("corner_cuts", row.corner_cuts);
+  visit("steps_ending_inside", row.steps_ending_inside);
+  visit("one_way_violations", row.one_way_violations);
+  visit("max_penetration_m", row.max_penetration_m);
+  visit("max_contact_gap_m", row.max_contact_gap_m);
+  visit("first_contact_step", row.first_contact_step);
+  visit("first_contact_fraction", row.first_contact_fraction);
+  visit("contact_precision", row.contact_precision);
+  visit("contact_recall", row.contact_recall);
+  visit("contact_precision_box2d", row.contact_precision_box2d);
+  visit("contact_recall_box2d", row.contact_recall_box2d);
+  visit("contact_agreement_box2d", row.contact_agreement_box2d);
+  visit("contact_steps", row.contact_steps);
+  visit("colliders_touched", row.colliders_touched);
+  visit("respawns", row.respawns);
+  visit("crushes", row.crushes);
+  visit("crushes_with_room", row.crushes_with_room);
+  visit("sensor_events", row.sensor_events);
+  visit("sensor_errors", row.sensor_errors);
+  visit("max_sensor_error", row.max_sensor_error);
+  visit("dropped_steps", row.dropped_steps);
+  visit("toi_error_max", row.toi_error_max);
+  visit("ghost_speed_loss", row.ghost_speed_loss);
+  visit("rest_peak_to_peak_m", row.rest_peak_to_peak_m);
+  visit("rest_rms_m", row.rest_rms_m);
+  visit("contact_toggles", row.contact_toggles);
+  visit("max_position_difference_box2d_m", row.max_position_difference_box2d_m);
+  visit("first_difference_box2d_step", row.first_difference_box2d_step);
+  visit("ns_per_step", row.ns_per_step);
+  visit("ns_per_step_median", row.ns_per_step_median);
+  visit("ns_per_step_max", row.ns_per_step_max);
+  visit("memory_bytes", row.memory_bytes);
+}
+
 }  // namespace paperproof::compare

@@ -21,11 +21,6 @@ std::string processor() {
   return "unknown";
 }
 
-template <class Value>
-void put(nlohmann::ordered_json& object, const char* key, const std::optional<Value>& value) {
-  if (value) object[key] = *value;
-}
-
 nlohmann::ordered_json row_json(const Row& row) {
   nlohmann::ordered_json object;
   object["scene"] = row.scene;
@@ -36,40 +31,10 @@ nlohmann::ordered_json row_json(const Row& row) {
   object["steps"] = row.steps;
   object["verdict"] = name_of(row.verdict);
   if (!row.reason.empty()) object["reason"] = row.reason;
-  put(object, "tunnels", row.tunnels);
-  put(object, "corner_cuts", row.corner_cuts);
-  put(object, "steps_ending_inside", row.steps_ending_inside);
-  put(object, "one_way_violations", row.one_way_violations);
-  put(object, "max_penetration_m", row.max_penetration_m);
-  put(object, "max_contact_gap_m", row.max_contact_gap_m);
-  put(object, "first_contact_step", row.first_contact_step);
-  put(object, "first_contact_fraction", row.first_contact_fraction);
-  put(object, "contact_precision", row.contact_precision);
-  put(object, "contact_recall", row.contact_recall);
-  put(object, "contact_precision_box2d", row.contact_precision_box2d);
-  put(object, "contact_recall_box2d", row.contact_recall_box2d);
-  put(object, "contact_agreement_box2d", row.contact_agreement_box2d);
-  put(object, "contact_steps", row.contact_steps);
-  put(object, "colliders_touched", row.colliders_touched);
-  put(object, "respawns", row.respawns);
-  put(object, "crushes", row.crushes);
-  put(object, "crushes_with_room", row.crushes_with_room);
-  put(object, "sensor_events", row.sensor_events);
-  put(object, "sensor_errors", row.sensor_errors);
-  put(object, "max_sensor_error", row.max_sensor_error);
-  put(object, "dropped_steps", row.dropped_steps);
-  put(object, "toi_error_max", row.toi_error_max);
-  put(object, "ghost_speed_loss", row.ghost_speed_loss);
-  put(object, "rest_peak_to_peak_m", row.rest_peak_to_peak_m);
-  put(object, "rest_rms_m", row.rest_rms_m);
-  put(object, "contact_toggles", row.contact_toggles);
-  put(object, "max_position_difference_box2d_m", row.max_position_difference_box2d_m);
-  put(object, "first_difference_box2d_step", row.first_difference_box2d_step);
+  for_each_metric(row, [&](const char* key, const auto& value) {
+    if (value) object[key] = *value;
+  });
   if (!row.first_difference_box2d.empty()) object["first_difference_box2d"] = row.first_difference_box2d;
-  put(object, "ns_per_step", row.ns_per_step);
-  put(object, "ns_per_step_median", row.ns_per_step_median);
-  put(object, "ns_per_step_max", row.ns_per_step_max);
-  put(object, "memory_bytes", row.memory_bytes);
   if (!row.findings.empty()) object["findings"] = row.findings;
   return object;
 }

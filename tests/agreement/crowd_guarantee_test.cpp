@@ -2,12 +2,12 @@
 /// tight rooms.
 #include "oracle/exact.hpp"
 #include "support/random.hpp"
+#include "support/steps_wanted.hpp"
 
 #include <paperproof/crowd.hpp>
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <sstream>
 
 namespace paperproof::test {
@@ -15,11 +15,6 @@ namespace {
 
 using compare::ExactScenery;
 using compare::Rational;
-
-int steps_wanted() {
-  const char* wanted = std::getenv("PAPERPROOF_CROWD_STEPS");
-  return wanted != nullptr ? std::atoi(wanted) : 100000;
-}
 
 struct RationalPoint {
   Rational x;
@@ -327,7 +322,8 @@ class RandomCrowd {
 
 TEST(CrowdGuarantee, those_who_were_apart_never_overlap_or_pass_through_each_other_or_a_solid) {
   Tally tally;
-  for (std::uint64_t seed = 1; tally.steps < steps_wanted() && !HasFatalFailure(); ++seed) RandomCrowd(seed).go(tally);
+  const int wanted = steps_wanted("PAPERPROOF_CROWD_STEPS", 100000);
+  for (std::uint64_t seed = 1; tally.steps < wanted && !HasFatalFailure(); ++seed) RandomCrowd(seed).go(tally);
   std::printf(
       "%d steps, %zu moves, %zu steps with impacts, %zu impacts, %d launches; %zu kept back, %zu "
       "more from no gap, %zu dropped, %zu stuck; %zu exact decisions\n",

@@ -2,12 +2,12 @@
 /// chains and rows of tiles, at speeds up to 1e6 m per step, in random scenery that stands still.
 #include "oracle/exact.hpp"
 #include "support/random_sceneries.hpp"
+#include "support/steps_wanted.hpp"
 
 #include <paperproof/controller.hpp>
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <sstream>
 
 namespace paperproof::test {
@@ -20,12 +20,6 @@ using compare::Place;
 constexpr double most_reach = 0.3;
 /// Openings narrower than twice this count as closed [m].
 constexpr double least_clearance = 1e-7;
-
-/// Steps per family: the sum over families is above 100,000.
-int steps_per_family() {
-  const char* wanted = std::getenv("PAPERPROOF_GUARANTEE_STEPS");
-  return wanted != nullptr ? std::atoi(wanted) : 9000;
-}
 
 struct Tally {
   int steps = 0;

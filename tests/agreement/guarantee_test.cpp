@@ -2,24 +2,18 @@
 /// 1e6 m per step, origins up to 1e6 m and paper down to zero thickness.
 #include "oracle/exact.hpp"
 #include "support/random_sceneries.hpp"
+#include "support/steps_wanted.hpp"
 
 #include <paperproof/controller.hpp>
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <sstream>
 
 namespace paperproof::test {
 namespace {
 
 using compare::ExactScenery;
-
-/// Steps per family and per kind of launch: the sum over families is above 100,000.
-int steps_per_family() {
-  const char* wanted = std::getenv("PAPERPROOF_GUARANTEE_STEPS");
-  return wanted != nullptr ? std::atoi(wanted) : 9000;
-}
 
 /// Nearer than this is a contact [m], as the guarantee says; and the rounding of a position 1e6 m away.
 constexpr double hit_distance = 1e-7 + 1e-9;

@@ -42,6 +42,7 @@ double open_share(std::vector<Interval>& covered) {
 
 template <class Scalar>
 ConfigurationSpace<Scalar>::ConfigurationSpace(const Scenery<Scalar>& scenery, const CharacterShape& shape,
+                                               const BroadPhase<Scalar>& broad_phase,
                                                const MoverPhases<Scalar>& mover_phases)
     : scenery_(scenery) {
   for (const Vec2d& point : shape.hull()) hull_.push_back(point.cast<Scalar>());
@@ -66,10 +67,8 @@ ConfigurationSpace<Scalar>::ConfigurationSpace(const Scenery<Scalar>& scenery, c
   const auto around = [&](PieceIndex piece) -> Box2<Scalar> {
     return {scenery.box(piece).lower - reach, scenery.box(piece).upper + reach};
   };
-  // Every piece asks for its neighbours, which a tree answers fast whatever the steps are going to ask.
-  const auto tree = make_broad_phase<Scalar>(BroadPhaseKind::tree, scenery.static_boxes());
   for (PieceIndex piece = 0; piece < scenery.static_pieces().end; ++piece) {
-    const std::size_t found = tree->query(around(piece), neighbours);
+    const std::size_t found = broad_phase.query(around(piece), neighbours);
     build_covered(piece, {neighbours.data(), found});
   }
   for (MoverIndex mover = 0; mover < mover_phases.size(); ++mover) {

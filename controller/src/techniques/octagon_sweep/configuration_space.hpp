@@ -64,8 +64,9 @@ class ConfigurationSpace {
   static constexpr std::size_t max_axes = 64;  ///< Of one piece; the covered mask has as many bits.
 
   /// `scenery` must outlive it.
+  /// @param broad_phase over what stands still, asked once for the neighbours of every piece.
   /// @throws InvalidScenery for a piece with more edges than axes are kept for.
-  ConfigurationSpace(const Scenery<Scalar>& scenery, const CharacterShape& shape,
+  ConfigurationSpace(const Scenery<Scalar>& scenery, const CharacterShape& shape, const BroadPhase<Scalar>& broad_phase,
                      const MoverPhases<Scalar>& mover_phases);
 
   [[nodiscard]] const Scenery<Scalar>& scenery() const noexcept { return scenery_; }

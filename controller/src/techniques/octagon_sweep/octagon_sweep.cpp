@@ -57,7 +57,12 @@ class OctagonSweep : public Technique<Scalar> {
   OctagonSweep(const TechniqueDef& def, const Scenery<Scalar>& scenery, const CharacterDef& character)
       : broad_phase_(make_broad_phase<Scalar>(def.broad_phase, scenery.static_boxes())),
         mover_phases_(def.broad_phase, scenery),
-        space_(scenery, character.shape, mover_phases_),
+        // Every piece asks for its neighbours once, which would take all_pairs the square of their number.
+        space_(scenery, character.shape,
+               def.broad_phase == BroadPhaseKind::all_pairs
+                   ? *make_broad_phase<Scalar>(BroadPhaseKind::tree, scenery.static_boxes())
+                   : *broad_phase_,
+               mover_phases_),
         settings_(settings_for<Scalar>(def, character)),
         solve_(still_solver<Scalar>({.lanes = space_.lanes(),
                                      .movers = false,
