@@ -1,17 +1,18 @@
-// Runs every technique in both scalars through random scenery and hashes every bit that a step produces.
+// Runs every technique, and a crowd, in both scalars through random scenery and hashes every bit that a step produces.
 //   same_bits            prints one line per scene, technique and scalar: its hash, and how many steps had a contact
+//                        (in a crowd: with each other)
 //   same_bits GOLDEN     compares with such lines, and prints both where they differ; exit status 1 then
 // Nothing here may depend on the compiler either: no distribution of the standard library, no libm beyond sqrt.
-#include <paperproof/paperproof.hpp>
+#include "agreement/golden_scenes.hpp"
+
+#include <paperproof/crowd.hpp>
 
 #include <bit>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
-#include <functional>
 #include <iostream>
 #include <map>
-#include <random>
 #include <sstream>
 #include <string>
 #include <type_traits>
@@ -19,31 +20,16 @@
 
 namespace {
 
-using paperproof::ColliderDef;
-using paperproof::SceneryDef;
 using paperproof::Vec2d;
+using paperproof::golden::arena_height;
+using paperproof::golden::arena_width;
+using paperproof::golden::make_scenes;
+using paperproof::golden::Random;
+using paperproof::golden::Scene;
 
-constexpr int steps_per_run = 20000;
+constexpr int steps_per_run = 5000;
 constexpr int steps_between_shots = 250;
-constexpr double arena_width = 40;
-constexpr double arena_height = 20;
-
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : bits_(seed) {}
-  double uniform(double low, double high) {
-    return low + (high - low) * (static_cast<double>(bits_() >> 11) * 0x1p-53);
-  }
-  std::uint64_t below(std::uint64_t count) { return bits_() % count; }
-  Vec2d point(const Vec2d& low, const Vec2d& high) {
-    const double x = uniform(low.x(), high.x());
-    const double y = uniform(low.y(), high.y());
-    return {x, y};
-  }
-
- private:
-  std::mt19937_64 bits_;
-};
+constexpr double dt = 1.0 / 60;
 
 class Hash {
  public:
@@ -72,95 +58,6 @@ class Hash {
   std::uint64_t value_ = 0xcbf29ce484222325U;
 };
 
-ColliderDef polygon(const Vec2d& at, std::vector<Vec2d> points) {
-  for (Vec2d& point : points) point += at;
-  return {.points = std::move(points)};
-}
-
-ColliderDef chain(const Vec2d& at, std::vector<Vec2d> points, bool one_way) {
-  ColliderDef def = polygon(at, std::move(points));
-  def.shape = ColliderDef::Shape::chain;
-  if (one_way) def.one_way = Vec2d(0, 1);
-  return def;
-}
-
-ColliderDef box(const Vec2d& at, double width, double height) {
-  return polygon(at, {{0, 0}, {width, 0}, {width, height}, {0, height}});
-}
-
-ColliderDef random_box(Random& random, const Vec2d& at) {
-  const double width = random.uniform(0.2, 4);
-  return box(at, width, random.uniform(0.2, 2));
-}
-
-ColliderDef random_slope(Random& random, const Vec2d& at) {
-  const double width = random.uniform(0.5, 5);
-  const double height = random.uniform(0.1, 3);
-  switch (random.below(4)) {
-    case 0:
-      return polygon(at, {{0, 0}, {width, 0}, {0, height}});
-    case 1:
-      return polygon(at, {{0, height}, {width, height}, {0.3 * width, 0}});
-    case 2:
-      return polygon(at, {{0, 0}, {width, 0}, {width, height}, {0.5 * width, 0.2 * height}, {0, height}});
-    default:
-      return polygon(at, {{0, 0}, {width, 0}, {0.8 * width, height}, {0.1 * width, 0.7 * height}});
-  }
-}
-
-ColliderDef random_paper(Random& random, const Vec2d& at) {
-  const double width = random.uniform(0.5, 6);
-  const double rise = random.uniform(-1, 1);
-  const double thickness = 0.001;
-  switch (random.below(4)) {
-    case 0:
-      return box(at, width, thickness);
-    case 1:
-      return polygon(at, {{0, 0}, {width, rise}, {width, rise + thickness}, {0, thickness}});
-    case 2:
-      return chain(at, {{0, 0}, {0.5 * width, rise}, {width, 0}}, false);
-    default:
-      return chain(at, {{0, 0}, {width, rise}}, true);
-  }
-}
-
-struct Scene {
-  std::string name;
-  Vec2d origin;
-  SceneryDef scenery;
-};
-
-Scene make_scene(const std::string& name, const Vec2d& origin, std::uint64_t seed, int pieces,
-                 const std::function<ColliderDef(Random&, const Vec2d&)>& make_piece) {
-  Scene scene{name, origin, {}};
-  std::vector<ColliderDef>& colliders = scene.scenery.colliders;
-  colliders.push_back(box(origin - Vec2d(1, 1), arena_width + 2, 1));
-  colliders.push_back(box(origin + Vec2d(-1, arena_height), arena_width + 2, 1));
-  colliders.push_back(box(origin - Vec2d(1, 0), 1, arena_height));
-  colliders.push_back(box(origin + Vec2d(arena_width, 0), 1, arena_height));
-  Random random(seed);
-  for (int piece = 0; piece < pieces; ++piece) {
-    const Vec2d at = random.point(origin, origin + Vec2d(arena_width, arena_height));
-    colliders.push_back(make_piece(random, at));
-  }
-  return scene;
-}
-
-std::vector<Scene> make_scenes() {
-  const auto any = [](Random& random, const Vec2d& at) {
-    switch (random.below(3)) {
-      case 0:
-        return random_box(random, at);
-      case 1:
-        return random_slope(random, at);
-      default:
-        return random_paper(random, at);
-    }
-  };
-  return {make_scene("boxes", {0, 0}, 1, 40, random_box), make_scene("slopes", {-13, 7}, 2, 40, random_slope),
-          make_scene("paper", {0.1, 0.7}, 3, 40, random_paper), make_scene("far_away", {1e5, -1e5}, 4, 60, any)};
-}
-
 template <class Scalar>
 void add_step(Hash& hash, const paperproof::CharacterState<Scalar>& state,
               const paperproof::StepReport<Scalar>& report) {
@@ -186,6 +83,16 @@ void add_step(Hash& hash, const paperproof::CharacterState<Scalar>& state,
     hash.add(contact.separation);
     hash.add(contact.side);
   }
+  hash.add(state.crushed);
+  hash.add(state.ride.ground);
+  hash.add(state.ride.place);
+  hash.add(state.ride.velocity);
+  for (const paperproof::ColliderIndex collider : report.move.crushed) hash.add(collider);
+  for (const paperproof::SensorEvent<Scalar>& event : report.sensors) {
+    hash.add(event.sensor);
+    hash.add(event.change);
+    hash.add(event.fraction);
+  }
 }
 
 struct RunResult {
@@ -193,32 +100,58 @@ struct RunResult {
   int steps_with_contact = 0;
 };
 
+paperproof::CharacterDef character_def() {
+  paperproof::CharacterDef character;
+  character.snap = 0.25;
+  return character;
+}
+
+template <class Scalar>
+paperproof::CharacterState<Scalar> shot(Random& random, const Scene& scene) {
+  paperproof::CharacterState<Scalar> state;
+  state.position = random.point(scene.origin, scene.origin + Vec2d(arena_width, arena_height)).cast<Scalar>();
+  state.velocity = random.point({-200, -200}, {200, 200}).cast<Scalar>();
+  return state;
+}
+
+paperproof::Input any_input(Random& random) {
+  paperproof::Input input;
+  input.move = static_cast<double>(random.below(5)) / 2 - 1;
+  input.jump = random.below(3) == 0;
+  return input;
+}
+
+template <class Scalar>
+paperproof::Vec2<Scalar> gravity() {
+  return {Scalar(0), Scalar(-30)};
+}
+
+template <class Scalar>
+void set_motions(const Scene& scene, int step, std::vector<paperproof::MoverMotion<Scalar>>& motions) {
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    motions[i].from = scene.shuttles[i].offset_at(step * dt).cast<Scalar>();
+    motions[i].to = scene.shuttles[i].offset_at((step + 1) * dt).cast<Scalar>();
+  }
+}
+
 /// Walks and jumps at random; now and then the character is put somewhere else and shot in some direction.
 template <class Scalar>
 RunResult run(const Scene& scene, paperproof::TechniqueKind kind) {
   const paperproof::Scenery<Scalar> scenery(scene.scenery);
-  paperproof::CharacterDef character;
-  character.snap = 0.25;
-  const paperproof::Controller<Scalar> controller(scenery, character, {.kind = kind});
+  const paperproof::Controller<Scalar> controller(scenery, character_def(), {.kind = kind});
   paperproof::Scratch<Scalar> scratch = controller.make_scratch();
   paperproof::StepReport<Scalar> report;
   paperproof::CharacterState<Scalar> state;
+  std::vector<paperproof::MoverMotion<Scalar>> motions(scene.shuttles.size());
   paperproof::Input input;
   Random random(5);
   Hash hash;
   RunResult result;
   for (int step = 0; step < steps_per_run; ++step) {
-    if (step % steps_between_shots == 0) {
-      state = {};
-      state.position = random.point(scene.origin, scene.origin + Vec2d(arena_width, arena_height)).cast<Scalar>();
-      state.velocity = random.point({-200, -200}, {200, 200}).cast<Scalar>();
-    }
-    if (step % 20 == 0) {
-      input.move = static_cast<double>(random.below(5)) / 2 - 1;
-      input.jump = random.below(3) == 0;
-    }
-    const paperproof::Vec2<Scalar> gravity(Scalar(0), Scalar(-30));
-    controller.step(state, input, gravity, Scalar(1) / Scalar(60), scratch, report);
+    if (step % steps_between_shots == 0) state = shot<Scalar>(random, scene);
+    if (step % 20 == 0) input = any_input(random);
+    set_motions(scene, step, motions);
+    controller.step(state, input, gravity<Scalar>(), Scalar(dt), motions, scratch, report);
     add_step(hash, state, report);
     if (!report.move.contacts.empty()) ++result.steps_with_contact;
   }
@@ -226,12 +159,43 @@ RunResult run(const Scene& scene, paperproof::TechniqueKind kind) {
   return result;
 }
 
+/// Several at once: the steps are shared between them.
+template <class Scalar>
+RunResult run_crowd(const Scene& scene) {
+  constexpr std::size_t members = 8;
+  const paperproof::Scenery<Scalar> scenery(scene.scenery);
+  const paperproof::Crowd<Scalar> crowd(scenery, character_def());
+  paperproof::CrowdScratch scratch = crowd.make_scratch(members);
+  paperproof::CrowdReport<Scalar> report(members);
+  std::vector<paperproof::CharacterState<Scalar>> states(members);
+  std::vector<paperproof::Input> inputs(members);
+  Random random(8);
+  Hash hash;
+  RunResult result;
+  for (int step = 0; step < steps_per_run / static_cast<int>(members); ++step) {
+    for (std::size_t i = 0; i < members; ++i) {
+      if (step % steps_between_shots == 0) states[i] = shot<Scalar>(random, scene);
+      if (step % 20 == 0) inputs[i] = any_input(random);
+    }
+    crowd.step(states, inputs, gravity<Scalar>(), Scalar(dt), scratch, report);
+    hash.add(report.impacts);
+    for (const paperproof::CharacterState<Scalar>& state : states) {
+      hash.add(state.position);
+      hash.add(state.velocity);
+      hash.add(state.grounded);
+    }
+    if (report.impacts > 0) ++result.steps_with_contact;
+  }
+  result.hash = hash.value();
+  return result;
+}
+
 using Lines = std::map<std::string, std::string>;
 
-template <class Scalar>
-std::string line_of(const Scene& scene, paperproof::TechniqueKind kind) {
+template <class Run>
+std::string line_of(const Run& run) {
   try {
-    const RunResult result = run<Scalar>(scene, kind);
+    const RunResult result = run();
     std::ostringstream line;
     line << std::hex << result.hash << std::dec << ' ' << result.steps_with_contact;
     return line.str();
@@ -240,15 +204,21 @@ std::string line_of(const Scene& scene, paperproof::TechniqueKind kind) {
   }
 }
 
+template <class Scalar>
+void add_lines(const Scene& scene, const std::string& scalar, Lines& lines) {
+  for (const paperproof::TechniqueKind kind : paperproof::all_techniques)
+    lines[scene.name + ' ' + std::string(paperproof::name_of(kind)) + ' ' + scalar] =
+        line_of([&] { return run<Scalar>(scene, kind); });
+  if (scene.shuttles.empty())
+    lines[scene.name + " crowd " + scalar] = line_of([&] { return run_crowd<Scalar>(scene); });
+}
+
 Lines run_all() {
   Lines lines;
   for (const Scene& scene : make_scenes()) {
-    for (const paperproof::TechniqueKind kind : paperproof::all_techniques) {
-      const std::string key = scene.name + ' ' + std::string(paperproof::name_of(kind)) + ' ';
-      lines[key + "double"] = line_of<double>(scene, kind);
-      // At 1e5 m a float knows a position to 8 mm only: paper is nothing there, and refused.
-      if (scene.name != "far_away") lines[key + "float"] = line_of<float>(scene, kind);
-    }
+    add_lines<double>(scene, "double", lines);
+    // At 1e5 m a float knows a position to 8 mm only: paper is nothing there, and refused.
+    if (scene.name != "far_away") add_lines<float>(scene, "float", lines);
   }
   return lines;
 }
