@@ -98,7 +98,7 @@ void check(const std::vector<std::string>& scenes) {
 void print_plans(const std::vector<std::string>& scenes, const std::optional<std::uint64_t>& seed) {
   for (const std::string& name : scenes)
     for (const Scene& scene : load_scenes(name))
-      fmt::print("{}\n", describe_plan(scene, seed ? random_input(*seed, scene.steps) : scene.input));
+      fmt::print("{}\n", describe_plan(scene, seed ? random_script(scene, *seed, scene.steps) : script_of(scene)));
 }
 
 CompareArguments compare_arguments(const Words& words, const std::optional<std::uint64_t>& seed) {

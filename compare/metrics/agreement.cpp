@@ -206,4 +206,22 @@ void Agreement::write(Row& row) const {
   }
 }
 
+void write_agreement(const std::vector<Agreement>& of_characters, Row& row) {
+  if (of_characters.size() == 1) return of_characters.front().write(row);
+  double shares = 0;
+  for (std::size_t k = 0; k < of_characters.size(); ++k) {
+    Row one;
+    of_characters[k].write(one);
+    if (!one.max_position_difference_box2d_m) return;
+    shares += *one.contact_agreement_box2d;
+    row.max_position_difference_box2d_m =
+        std::max(row.max_position_difference_box2d_m.value_or(0), *one.max_position_difference_box2d_m);
+    const std::optional<int>& step = one.first_difference_box2d_step;
+    if (!step || (row.first_difference_box2d_step && *row.first_difference_box2d_step <= *step)) continue;
+    row.first_difference_box2d_step = step;
+    row.first_difference_box2d = "character " + std::to_string(k) + ", " + one.first_difference_box2d;
+  }
+  row.contact_agreement_box2d = shares / static_cast<double>(of_characters.size());
+}
+
 }  // namespace paperproof::compare

@@ -117,4 +117,8 @@ class Agreement {
   std::vector<SideDisagreement> disagreements_;
 };
 
+/// What several characters of one run agree on with their twins, one each: the largest difference of positions, the
+/// mean share of steps with the same sides, the first difference of any; of one, everything.
+void write_agreement(const std::vector<Agreement>& of_characters, Row& row);
+
 }  // namespace paperproof::compare

@@ -23,6 +23,15 @@ std::string sentence(const TraceStep& step, const Passing& passing, const std::s
   return "step " + std::to_string(step.step) + ": passed `" + id + "` " + numbers;
 }
 
+std::string named(CharacterIndex character) { return "character " + std::to_string(character); }
+
+void write_the_least_quiet(const Rest& rest, Row& row) {
+  Row other;
+  rest.write(other);
+  for (const auto metric : {&Row::rest_peak_to_peak_m, &Row::rest_rms_m, &Row::contact_toggles})
+    if (other.*metric) raise(row.*metric, *(other.*metric));
+}
+
 double share(int part, int whole) { return static_cast<double>(part) / static_cast<double>(whole); }
 
 template <class Contacts>
@@ -37,7 +46,8 @@ std::vector<std::pair<ColliderIndex, Side>> touches_of(const Contacts& contacts)
 }  // namespace
 
 Metrics::Metrics(const TraceHeader& header, const Measured& measured)
-    : ids_(header.ids), measured_(measured), rest_(header.scenery) {
+    : ids_(header.ids), measured_(measured), followers_(header.characters, Follower(header.scenery)) {
+  if (header.characters > 1) sums_.characters = static_cast<int>(header.characters);
   const std::vector<ColliderDef>& colliders = header.scenery.colliders;
   const auto any = [&colliders](auto&& test) { return std::any_of(colliders.begin(), colliders.end(), test); };
   has_one_way_ = any([](const ColliderDef& def) { return def.one_way.has_value(); });
@@ -75,38 +85,54 @@ void Metrics::match(const View& view, Matches& matches) {
 }
 
 void Metrics::add_contacts(const TraceStep& step, const StepJudgement& judgement) {
-  window_.add({touches_of(step.contacts), touches_of(judgement.contacts), judgement.dont_care, judgement.ghosts},
-              [this](const View& view) { match(view, matches_); });
-  if (step.contacts.empty()) return;
+  followers_[step.character].window.add(
+      {touches_of(step.contacts), touches_of(judgement.contacts), judgement.dont_care, judgement.ghosts},
+      [this](const View& view) { match(view, matches_); });
   for (const Contact<double>& contact : step.contacts) touched_.insert(contact.collider);
-  raise(sums_.max_contact_gap_m, judgement.max_contact_gap);
-  const Contact<double>& first =
-      *std::min_element(step.contacts.begin(), step.contacts.end(),
-                        [](const Contact<double>& a, const Contact<double>& b) { return a.fraction < b.fraction; });
-  if (!sums_.first_contact_step) {
+  if (!step.contacts.empty()) raise(sums_.max_contact_gap_m, judgement.max_contact_gap);
+  if (!step.contacts.empty() || !step.met.empty()) add_first_contact(step, judgement);
+}
+
+void Metrics::add_first_contact(const TraceStep& step, const StepJudgement& judgement) {
+  const auto earlier = [](const auto& a, const auto& b) { return a.fraction < b.fraction; };
+  const auto with_scenery = std::min_element(step.contacts.begin(), step.contacts.end(), earlier);
+  const auto with_another = std::min_element(step.met.begin(), step.met.end(), earlier);
+  const bool meets = with_scenery == step.contacts.end() ||
+                     (with_another != step.met.end() && with_another->fraction < with_scenery->fraction);
+  const double fraction = meets ? with_another->fraction : with_scenery->fraction;
+  const bool same_step = sums_.first_contact_step == step.step && fraction < *sums_.first_contact_fraction;
+  if (!sums_.first_contact_step || same_step) {
     sums_.first_contact_step = step.step;
-    sums_.first_contact_fraction = first.fraction;
+    sums_.first_contact_fraction = fraction;
   }
-  const bool exact = std::any_of(judgement.contacts.begin(), judgement.contacts.end(),
-                                 [&](const ExactContact& contact) { return contact.collider == first.collider; });
+  const bool exact = meets ? judgement.first_met == with_another->other
+                           : !judgement.first_met && std::any_of(judgement.contacts.begin(), judgement.contacts.end(),
+                                                                 [&](const ExactContact& contact) {
+                                                                   return contact.collider == with_scenery->collider;
+                                                                 });
   if (judgement.first_impact && judgement.first_impact_comparable && exact) {
-    raise(sums_.toi_error_max, std::abs(first.fraction - *judgement.first_impact));
+    raise(sums_.toi_error_max, std::abs(fraction - *judgement.first_impact));
   }
 }
 
 void Metrics::add_passings(const TraceStep& step, const StepJudgement& judgement) {
-  count(sums_.tunnels, !judgement.tunnelled.empty());
-  count(sums_.corner_cuts, !judgement.corner_cut.empty());
+  const StepJudgement::Company& company = judgement.company;
+  count(sums_.tunnels, !judgement.tunnelled.empty() || !company.passed.empty());
+  count(sums_.corner_cuts, !judgement.corner_cut.empty() || !company.corner_cut.empty());
   const auto inside_on_its_own = [&judgement](ColliderIndex collider) {
     return !contains(judgement.pressed, collider);
   };
   count(sums_.steps_ending_inside,
-        std::any_of(judgement.end_overlap.begin(), judgement.end_overlap.end(), inside_on_its_own));
+        !company.overlap.empty() ||
+            std::any_of(judgement.end_overlap.begin(), judgement.end_overlap.end(), inside_on_its_own));
   if (has_one_way_) count(sums_.one_way_violations, !judgement.one_way_broken.empty());
   raise(sums_.max_penetration_m, judgement.max_penetration);
   if (!judgement.passings.empty() && sums_.findings.empty()) {
     const Passing& passing = judgement.passings.front();
     sums_.findings.push_back(sentence(step, passing, ids_[passing.collider]));
+  } else if (!company.passed.empty() && sums_.findings.empty()) {
+    sums_.findings.push_back("step " + std::to_string(step.step) + ": " + named(step.character) + " and " +
+                             named(company.passed.front()) + " passed through each other");
   }
 }
 
@@ -126,8 +152,8 @@ void Metrics::add(const TraceStep& step, const StepJudgement& judgement) {
   add_contacts(step, judgement);
   add_passings(step, judgement);
   add_events(step, judgement);
-  if (measured_.rest) rest_.add(step);
-  count(sums_.contact_steps, !step.contacts.empty());
+  if (measured_.rest) followers_[step.character].rest.add(step);
+  count(sums_.contact_steps, !step.contacts.empty() || !step.met.empty());
   if (measured_.respawns) count(sums_.respawns, step.respawn);
   count(sums_.dropped_steps, step.dropped);
   if (step.requested.x() != 0) raise(sums_.ghost_speed_loss, judgement.ghost_speed_loss);
@@ -154,10 +180,13 @@ void Metrics::write(Row& row) const {
   row.toi_error_max = sums_.toi_error_max;
   row.ghost_speed_loss = sums_.ghost_speed_loss;
   row.findings.insert(row.findings.begin(), sums_.findings.begin(), sums_.findings.end());
-  rest_.write(row);
+  row.characters = sums_.characters;
 
   Matches matches = matches_;
-  window_.last([&](const View& view) { match(view, matches); });
+  for (const Follower& follower : followers_) {
+    write_the_least_quiet(follower.rest, row);
+    follower.window.last([&](const View& view) { match(view, matches); });
+  }
   if (matches.counted > 0) row.contact_precision = share(matches.right, matches.counted);
   if (matches.wanted > 0) row.contact_recall = share(matches.found, matches.wanted);
 }

@@ -38,6 +38,12 @@ namespace paperproof::compare {
 /// - `sensor_events`: entries and exits that there were. `sensor_errors`: those that were not reported, and reports of
 ///   others. `max_sensor_error`: of the fractions of the rest.
 /// - `respawns`, `dropped_steps`: counted.
+///
+/// Of several characters each step of each one counts: counts are sums over them, maxima the largest, shares those of
+/// all contacts together, the first contact the earliest, rest that of the least quiet one. Characters that pass or
+/// overlap each other count as passing or overlapping a solid, each pair once; a contact with another character is one
+/// in `contact_steps`, `first_contact_*` and `toi_error_max`, while `contact_precision` and `contact_recall` are about
+/// scenery. `characters` says how many there were.
 class Metrics {
  public:
   explicit Metrics(const TraceHeader& header, const Measured& measured = {});
@@ -60,7 +66,14 @@ class Metrics {
     int found = 0;
   };
   using View = detail::Window<Moment>::View;
+  /// What is matched from step to step.
+  struct Follower {
+    explicit Follower(const SceneryDef& scenery) : rest(scenery) {}
+    detail::Window<Moment> window{};
+    Rest rest;
+  };
   static void match(const View& view, Matches& matches);
+  void add_first_contact(const TraceStep& step, const StepJudgement& judgement);
   void add_contacts(const TraceStep& step, const StepJudgement& judgement);
   void add_events(const TraceStep& step, const StepJudgement& judgement);
   void add_passings(const TraceStep& step, const StepJudgement& judgement);
@@ -68,9 +81,8 @@ class Metrics {
   std::vector<std::string> ids_;
   Measured measured_;
   bool has_one_way_ = false;
-  detail::Window<Moment> window_;
+  std::vector<Follower> followers_;  ///< By character.
   Matches matches_;
-  Rest rest_;
   std::set<ColliderIndex> touched_;
   Row sums_;  ///< Counts and maxima so far, absent until something applies.
 };

@@ -55,7 +55,9 @@ void Rest::add(const TraceStep& step) {
     now_ = {};
     now_.ground = ground;
   }
-  if (++now_.steps > settling_steps) measure(step.path.back().position - carried, sides_of(step.contacts));
+  if (++now_.steps > settling_steps)
+    measure(step.path.back().position - carried,
+            static_cast<std::uint8_t>(sides_of(step.contacts) | sides_of(step.met)));
   if (now_.steps >= least_steps) last_ = now_;
 }
 

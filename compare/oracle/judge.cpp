@@ -11,14 +11,6 @@
 namespace paperproof::compare {
 namespace {
 
-/// Passing a solid by no deeper than this is a corner cut [m]. Zero: a rounding error at a corner counts as tunnelling.
-/// Large: real passages are hidden.
-constexpr double slop_of_exact_path = 0.005;
-/// The same for a path that only holds samples: Box2D's skin.
-constexpr double slop_of_sampled_path = 0.020;
-/// So much of the octagon's narrowest width the slop may be at most: a character of a few millimetres that is passed by
-/// a paper is half a width deep, which must not be excused.
-constexpr double slop_of_width = 0.125;
 /// Instants at which the depth of a passing is looked at first.
 constexpr int depth_samples = 32;
 constexpr int depth_refinements = 40;
@@ -39,8 +31,7 @@ bool same_motion(const MoverMotion<double>& a, const MoverMotion<double>& b) {
 }  // namespace
 
 Judge::Judge(const TraceHeader& header) : header_(header), scenery_(header.scenery, header.points) {
-  slop_ = std::min(header.path_exact ? slop_of_exact_path : slop_of_sampled_path,
-                   slop_of_width * detail::narrowest_width(header.points));
+  slop_ = detail::slop_of(header);
   for (const ColliderDef& def : header.scenery.colliders) {
     has_sensors_ = has_sensors_ || def.sensor;
     if (def.mover != no_mover) mover_count_ = std::max(mover_count_, std::size_t{def.mover} + 1);

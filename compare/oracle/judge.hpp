@@ -49,8 +49,22 @@ struct StepJudgement {
   int sensor_events_extra = 0;                  ///< Reported, and there was no such event.
   double max_sensor_error = 0;                  ///< Over the other reported ones: of the fraction of the step.
 
-  /// The step entered a solid, passed one, or passed a one-way chain against its normal.
-  [[nodiscard]] bool broke() const { return !entered.empty() || !tunnelled.empty() || !one_way_broken.empty(); }
+  /// What happened with characters of a higher index; each pair is told once. See `CompanyJudge`.
+  struct Company {
+    std::vector<CharacterIndex> overlap;     ///< Overlapped at the end of the step.
+    std::vector<CharacterIndex> entered;     ///< Of these, the ones that are new.
+    std::vector<CharacterIndex> passed;      ///< Got past each other.
+    std::vector<CharacterIndex> corner_cut;  ///< The same, but no deeper than the slop.
+
+    [[nodiscard]] bool broke() const { return !entered.empty() || !passed.empty(); }
+  };
+  Company company{};
+  std::optional<CharacterIndex> first_met;  ///< Whom `first_impact` is with, if that is no collider.
+
+  /// The step entered a solid or another character, passed one, or passed a one-way chain against its normal.
+  [[nodiscard]] bool broke() const {
+    return !entered.empty() || !tunnelled.empty() || !one_way_broken.empty() || company.broke();
+  }
 };
 
 /// Feed it every step of one run in order. Not thread-safe.

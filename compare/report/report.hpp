@@ -28,7 +28,9 @@ struct ReportEvent {
 /// One run, for drawing. The page shows numbers rounded for display; the bits stand in the trace.
 struct ReportRun {
   TraceHeader header;
-  std::vector<TraceStep> steps;     ///< Ascending by `step`; there may be fewer than ran: see `thin_for_replay`.
+  std::vector<TraceStep> steps;  ///< Ascending by `step`; there may be fewer than ran: see `thin_for_replay`.
+  /// Characters 1, 2, ...: the same steps of theirs.
+  std::vector<std::vector<TraceStep>> others{};
   std::vector<ReportEvent> events;  ///< What the judgement found.
   int every = 1;                    ///< Every how many steps one was kept, apart from those with an event.
 };

@@ -25,12 +25,13 @@ class Box2dContestant final : public Contestant {
                           {"touch_gap", box2d::touch_gap},
                           {"max_travel_per_step", box2d::max_travel_per_step}};
     header_.path_exact = false;
-    place({.position = scene.start.position, .velocity = scene.start.velocity});
+    place_at_start(*this, scene);
   }
 
   [[nodiscard]] const TraceHeader& header() const noexcept override { return header_; }
 
-  void step(const StepInput& input, TraceStep& record) override {
+  void step(const StepInput& input, std::span<TraceStep> records) override {
+    TraceStep& record = records.front();
     const box2d::TwinStep& twin = advance(input);
     record.path = twin.path;
     record.requested = requested_;
@@ -46,7 +47,7 @@ class Box2dContestant final : public Contestant {
 
   void step_unrecorded(const StepInput& input) override { advance(input); }
 
-  [[nodiscard]] Pose pose() const override {
+  [[nodiscard]] Pose pose(std::size_t) const override {
     return {.position = world_.position(),
             .velocity = state_.velocity,
             .grounded = state_.grounded,
@@ -57,7 +58,7 @@ class Box2dContestant final : public Contestant {
             .ground_normal = ground_normal_};
   }
 
-  void place(const Pose& pose) override {
+  void place(const Pose& pose, std::size_t) override {
     state_ = {};
     state_.velocity = pose.velocity;
     state_.grounded = pose.grounded;
@@ -74,7 +75,7 @@ class Box2dContestant final : public Contestant {
   const box2d::TwinStep& advance(const StepInput& input) {
     state_.velocity -= state_.ride.velocity;
     const Vec2d carried = velocity_of_ground(state_.ride.ground, ground_normal_, input.movers);
-    const Vec2d velocity = carried + desired_velocity(character_, gravity_, input.player, dt_, state_);
+    const Vec2d velocity = carried + desired_velocity(character_, gravity_, input.players.front(), dt_, state_);
     requested_ = velocity * dt_;
     const box2d::TwinStep& twin = step_world(velocity, input.movers);
     state_.velocity = twin.velocity;

@@ -1,7 +1,10 @@
 #include "runs/contestant.hpp"
 
 #include "runs/box2d_contestant.hpp"
+#include "runs/crowd_contestant.hpp"
 #include "runs/technique_contestant.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -30,6 +33,11 @@ bool is_reference(std::string_view contender) { return contender == box2d_name |
 
 std::string_view name_of(ScalarKind scalar) noexcept { return scalar == ScalarKind::binary32 ? "float" : "double"; }
 
+void place_at_start(Contestant& contestant, const Scene& scene) {
+  for (std::size_t k = 0; k < character_count(scene); ++k)
+    contestant.place({.position = start_of(scene, k).position, .velocity = start_of(scene, k).velocity}, k);
+}
+
 std::unique_ptr<Contestant> make_contestant(std::string_view name, ScalarKind scalar, const Scene& scene,
                                             const Scenery<double>& scenery, const Planning& planning) {
   const auto turning = std::find_if(scene.movers.begin(), scene.movers.end(),
@@ -37,6 +45,8 @@ std::unique_ptr<Contestant> make_contestant(std::string_view name, ScalarKind sc
   if (turning != scene.movers.end())
     throw NotApplicable(std::string(name) + " is for movers that do not turn, and \"" + turning->id + "\" does");
   if (is_reference(name)) {
+    if (!scene.others.empty())
+      throw NotApplicable(fmt::format("{} knows one character, and here are {}", name, character_count(scene)));
     const auto mode = name == box2d_name ? box2d::SceneryMode::chain_loops : box2d::SceneryMode::pieces;
     try {
       return make_box2d_contestant(mode, scene, scenery);
@@ -47,6 +57,10 @@ std::unique_ptr<Contestant> make_contestant(std::string_view name, ScalarKind sc
   const auto kind = std::find_if(all_techniques.begin(), all_techniques.end(),
                                  [&](TechniqueKind each) { return paperproof::name_of(each) == name; });
   if (kind != all_techniques.end()) {
+    const bool crowd = !scene.others.empty();
+    if (crowd && *kind == TechniqueKind::octagon_sweep) return make_crowd_contestant(scalar, scene, scenery, planning);
+    if (crowd)
+      throw NotApplicable(fmt::format("{} knows one character, and here are {}", name, character_count(scene)));
     try {
       return make_technique_contestant(*kind, scalar, scene, scenery, planning);
     } catch (const NotExpressible& error) {

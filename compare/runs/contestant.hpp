@@ -1,4 +1,4 @@
-/// One side of a comparison: something that moves a character through a scene, step by step.
+/// One side of a comparison: something that moves the characters of a scene, step by step.
 #pragma once
 
 #include "runs/scene_plan.hpp"
@@ -35,7 +35,7 @@ struct Pose {
 
 /// What happens to every contestant alike in one step.
 struct StepInput {
-  Input player;
+  std::span<const Input> players;               ///< One for each character.
   std::span<const MoverMotion<double>> movers;  ///< One for each mover of the scene.
 };
 
@@ -43,13 +43,13 @@ class Contestant {
  public:
   virtual ~Contestant() = default;
   [[nodiscard]] virtual const TraceHeader& header() const noexcept = 0;
-  /// One step. Fills everything of `record` but step, start_overlap and respawn. Movers are recorded as they ran: the
-  /// input's, rounded to what the contestant computes in.
-  virtual void step(const StepInput& input, TraceStep& record) = 0;
+  /// One step. Fills everything of the records, one for each character, but step, character, the overlaps at the start
+  /// and respawn. Movers are recorded as they ran: the input's, rounded to what the contestant computes in.
+  virtual void step(const StepInput& input, std::span<TraceStep> records) = 0;
   /// One step without a record, for timing.
   virtual void step_unrecorded(const StepInput& input) = 0;
-  [[nodiscard]] virtual Pose pose() const = 0;
-  virtual void place(const Pose& pose) = 0;
+  [[nodiscard]] virtual Pose pose(std::size_t character = 0) const = 0;
+  virtual void place(const Pose& pose, std::size_t character = 0) = 0;
   /// What its own picture of the level takes [bytes]; 0 where it keeps none.
   [[nodiscard]] virtual std::size_t memory_bytes() const { return 0; }
 };
@@ -65,6 +65,9 @@ class LeftRange : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
+
+/// Puts every character where the scene has it begin.
+void place_at_start(Contestant& contestant, const Scene& scene);
 
 /// @param scenery of the scene, in double; must outlive the contestant.
 /// @param planning of the techniques; Box2D has none.

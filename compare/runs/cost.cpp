@@ -15,24 +15,26 @@ constexpr int most_steps = 1000;
 
 }  // namespace
 
-Cost measure_cost(Contestant& contestant, const Scene& scene, const std::vector<InputEvent>& input, int steps) {
+Cost measure_cost(Contestant& contestant, const Scene& scene, const Script& script, int steps) {
   const int timed = std::min(steps, most_steps);
   const std::size_t movers = scene.movers.size();
   std::vector<MoverMotion<double>> motions;
   std::vector<Input> players;
-  InputCursor cursor(scene, input);
+  InputCursor cursor(scene, script);
   for (int step = 0; step < timed; ++step) {
     const StepInput now = cursor.at(step);
-    players.push_back(now.player);
+    players.insert(players.end(), now.players.begin(), now.players.end());
     motions.insert(motions.end(), now.movers.begin(), now.movers.end());
   }
   std::vector<StepInput> inputs;
-  for (std::size_t step = 0; step < players.size(); ++step)
-    inputs.push_back({players[step], std::span(motions).subspan(step * movers, movers)});
+  const std::size_t characters = script.size();
+  for (std::size_t step = 0; step < static_cast<std::size_t>(timed); ++step)
+    inputs.push_back(
+        {std::span(players).subspan(step * characters, characters), std::span(motions).subspan(step * movers, movers)});
 
   std::array<double, repeats> costs{};
   for (std::size_t run = 0; run <= repeats; ++run) {
-    contestant.place({.position = scene.start.position, .velocity = scene.start.velocity});
+    place_at_start(contestant, scene);
     const auto begin = std::chrono::steady_clock::now();
     for (const StepInput& now : inputs) contestant.step_unrecorded(now);
     const std::chrono::duration<double, std::nano> took = std::chrono::steady_clock::now() - begin;

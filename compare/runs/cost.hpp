@@ -11,9 +11,8 @@ struct Cost {
   double ns_per_step_max = 0;  ///< The spread.
 };
 
-/// One untimed warm-up, then 9 timed runs of the same steps from the start, of which minimum, median and maximum are
-/// returned. Not for tests: machines are shared.
-[[nodiscard]] Cost measure_cost(Contestant& contestant, const Scene& scene, const std::vector<InputEvent>& input,
-                                int steps);
+/// Of all characters together. One untimed warm-up, then 9 timed runs of the same steps from the start, of which
+/// minimum, median and maximum are returned. Not for tests: machines are shared.
+[[nodiscard]] Cost measure_cost(Contestant& contestant, const Scene& scene, const Script& script, int steps);
 
 }  // namespace paperproof::compare

@@ -7,28 +7,34 @@
 
 namespace paperproof::compare {
 
-/// `at` must be called with ascending steps. The scene and the events must outlive the cursor.
+/// `at` must be called with ascending steps. The scene and the script must outlive the cursor.
 class InputCursor {
  public:
-  /// @param events instead of the scene's own.
-  InputCursor(const Scene& scene, const std::vector<InputEvent>& events)
-      : scene_(scene), events_(events), motions_(scene.movers.size()) {}
+  /// @param script instead of the scene's own; one list for each character.
+  InputCursor(const Scene& scene, const Script& script)
+      : scene_(scene), script_(script), next_(script.size()), now_(script.size()), motions_(scene.movers.size()) {}
 
-  /// The player does what `input_at` says. What is returned holds until the next call.
+  /// The players do what `input_at` says. What is returned holds until the next call.
   [[nodiscard]] StepInput at(int step) {
     for (std::size_t i = 0; i < motions_.size(); ++i) motions_[i] = motion_in_step(scene_.movers[i], step, scene_.dt);
-    for (; next_ < events_.size() && events_[next_].step <= step; ++next_) {
-      if (events_[next_].move) now_.move = events_[next_].move;
-      if (events_[next_].jump) now_.jump = *events_[next_].jump;
-    }
+    for (std::size_t k = 0; k < script_.size(); ++k) advance(k, step);
     return {now_, motions_};
   }
 
  private:
+  void advance(std::size_t character, int step) {
+    const std::vector<InputEvent>& events = script_[character];
+    Input& now = now_[character];
+    for (std::size_t& next = next_[character]; next < events.size() && events[next].step <= step; ++next) {
+      if (events[next].move) now.move = events[next].move;
+      if (events[next].jump) now.jump = *events[next].jump;
+    }
+  }
+
   const Scene& scene_;
-  const std::vector<InputEvent>& events_;
-  std::size_t next_ = 0;
-  Input now_;
+  const Script& script_;
+  std::vector<std::size_t> next_;
+  std::vector<Input> now_;
   std::vector<MoverMotion<double>> motions_;
 };
 

@@ -27,11 +27,20 @@ Lane::Lane(std::string contender, ScalarKind scalar, const Scene& scene, const S
   row_.scalar = is_reference(row_.contender) ? name_of(ScalarKind::binary32) : name_of(scalar);
   row_.mode = mode;
   try {
+    if (mode == "lockstep" && !scene.others.empty())
+      throw NotApplicable(
+          fmt::format("lockstep is between one character and its twin, and here are {}", character_count(scene)));
     contestant_ = make_contestant(row_.contender, scalar, scene, scenery, planning);
-    judge_ = std::make_unique<Judge>(header());
+    records_.resize(header().characters);
+    judgements_.resize(records_.size());
+    inside_.resize(records_.size());
+    placed_.resize(records_.size(), true);
+    for (std::size_t k = 0; k < records_.size(); ++k) judges_.push_back(std::make_unique<Judge>(header()));
+    if (records_.size() > 1) company_ = std::make_unique<CompanyJudge>(header());
     metrics_ = std::make_unique<Metrics>(header(), metrics_for(scene, planning).measured);
     if (limit_.most > 0) {
       replay_.header = header();
+      replay_.others.resize(header().characters - 1);
       replay_.every = std::max(1, (limit_.steps + limit_.most - 1) / limit_.most);
     }
   } catch (const NotApplicable& reason) {
@@ -45,10 +54,14 @@ Lane::Lane(std::string contender, ScalarKind scalar, const Scene& scene, const S
 }
 
 void Lane::note_start() {
-  if (inside_.empty()) return;
-  begins_inside_ = fmt::format("the run begins inside `{}`", header().ids[inside_.front()]);
-  if (inside_.size() > 1) begins_inside_ += " and " + counted(inside_.size() - 1, "other collider");
-  row_.findings.push_back(begins_inside_);
+  for (std::size_t k = 0; k < records_.size(); ++k) {
+    if (inside_[k].empty()) continue;
+    const std::string who = company_ ? fmt::format("character {}", k) : "the run";
+    std::string text = fmt::format("{} begins inside `{}`", who, header().ids[inside_[k].front()]);
+    if (inside_[k].size() > 1) text += " and " + counted(inside_[k].size() - 1, "other collider");
+    row_.findings.push_back(text);
+    if (begins_inside_.empty()) begins_inside_ = text;
+  }
 }
 
 void Lane::fail(Verdict verdict, const std::string& reason) {
@@ -70,57 +83,106 @@ void Lane::end_early(const std::string& reason) {
   contestant_.reset();
 }
 
-void Lane::place(const Pose& pose) {
-  contestant_->place(pose);
-  placed_ = true;
+void Lane::place(const Pose& pose, std::size_t character) {
+  contestant_->place(pose, character);
+  placed_[character] = true;
+}
+
+bool Lane::is_free(const Vec2d& position, std::size_t character) const {
+  if (!company_) return true;
+  std::vector<Vec2d> positions;
+  for (std::size_t k = 0; k < records_.size(); ++k)
+    positions.push_back(k == character ? position : contestant_->pose(k).position);
+  return company_->overlapped(positions, static_cast<CharacterIndex>(character)).empty();
+}
+
+/// What was put somewhere in between did not get there by itself.
+void Lane::begin_records(int step) {
+  for (std::size_t k = 0; k < records_.size(); ++k) {
+    records_[k].step = step;
+    records_[k].character = static_cast<CharacterIndex>(k);
+    records_[k].respawn = placed_[k] && step > 0;
+  }
+}
+
+void Lane::judge_step() {
+  std::vector<Vec2d> starts;
+  for (const TraceStep& record : records_) starts.push_back(record.path.front().position);
+  for (std::size_t k = 0; k < records_.size(); ++k) {
+    TraceStep& record = records_[k];
+    // What moves stands where the last step left it: who was not put elsewhere begins in what he ended in.
+    if (placed_[k]) inside_[k] = solids().overlapped({record.path.front(), record.movers});
+    placed_[k] = false;
+    record.start_overlap = inside_[k];
+    if (company_) record.start_overlap_characters = company_->overlapped(starts, record.character);
+    judgements_[k] = judges_[k]->judge(record);
+  }
+  if (records_.front().step == 0) note_start();
+  if (company_) company_->judge(records_, judgements_);
+  for (std::size_t k = 0; k < records_.size(); ++k) metrics_->add(records_[k], judgements_[k]);
 }
 
 void Lane::step(int step, const StepInput& input) {
   try {
-    record_.step = step;
-    record_.respawn = placed_ && step > 0;
-    contestant_->step(input, record_);
-    // What moves stands where the last step left it: who was not put elsewhere begins in what he ended in.
-    if (placed_) inside_ = solids().overlapped({record_.path.front(), record_.movers});
-    placed_ = false;
-    record_.start_overlap = inside_;
-    if (step == 0) note_start();
-    judgement_ = judge_->judge(record_);
-    metrics_->add(record_, judgement_);
+    begin_records(step);
+    contestant_->step(input, records_);
+    judge_step();
   } catch (const LeftRange& reason) {
     return end_early(fmt::format("step {}: {}", step, reason.what()));
   } catch (const std::exception& error) {
     return fail(Verdict::failed, fmt::format("step {}: {}", step, error.what()));
   }
   ++row_.steps;
-  inside_ = judgement_.end_overlap;
-  if (!judgement_.crushed_with_room.empty()) ++steps_miscalled_;
-  if (judgement_.broke()) ++steps_broken_;
-  if (record_.capped) ++steps_capped_;
-  if (trace_) trace_->write(record_);
+  const auto any = [this](const auto& is) { return std::any_of(judgements_.begin(), judgements_.end(), is); };
+  if (any([](const StepJudgement& judged) { return !judged.crushed_with_room.empty(); })) ++steps_miscalled_;
+  if (any([](const StepJudgement& judged) { return judged.broke(); })) ++steps_broken_;
+  broke_company_ = broke_company_ || any([](const StepJudgement& judged) { return judged.company.broke(); });
+  if (std::any_of(records_.begin(), records_.end(), [](const TraceStep& record) { return record.capped; }))
+    ++steps_capped_;
+  for (std::size_t k = 0; k < records_.size(); ++k) inside_[k] = judgements_[k].end_overlap;
+  if (trace_)
+    for (const TraceStep& record : records_) trace_->write(record);
   if (limit_.most > 0) keep_for_replay();
 }
 
 void Lane::keep_for_replay() {
   const std::size_t before = replay_.events.size();
-  const auto note = [this](ReportEvent::Kind kind, const std::vector<ColliderIndex>& colliders, const char* what,
-                           const std::string& when = "") {
-    if (!colliders.empty() && replay_.events.size() < static_cast<std::size_t>(limit_.most))
-      replay_.events.push_back(
-          {record_.step, kind, fmt::format("{} {}{}", what, header().ids[colliders.front()], when)});
+  for (std::size_t k = 0; k < records_.size(); ++k) note_events(k);
+  const int step = records_.front().step;
+  const bool kept =
+      step < first_steps || step % replay_.every == 0 || step + 1 == limit_.steps || replay_.events.size() > before;
+  if (!kept) return;
+  replay_.steps.push_back(records_.front());
+  for (std::size_t k = 1; k < records_.size(); ++k) replay_.others[k - 1].push_back(records_[k]);
+}
+
+void Lane::note_events(std::size_t character) {
+  const TraceStep& record = records_[character];
+  const StepJudgement& judged = judgements_[character];
+  const std::string who = company_ ? fmt::format("character {} ", character) : "";
+  const auto tell = [&](ReportEvent::Kind kind, const std::string& words) {
+    if (replay_.events.size() < static_cast<std::size_t>(limit_.most))
+      replay_.events.push_back({record.step, kind, who + words});
   };
-  note(ReportEvent::Kind::tunnel, judgement_.tunnelled, "passes");
-  note(ReportEvent::Kind::corner_cut, judgement_.corner_cut, "cuts a corner of");
-  note(ReportEvent::Kind::one_way, judgement_.one_way_broken, "passes against its normal:");
-  note(ReportEvent::Kind::crush, record_.crushed, "is crushed by");
-  for (const SensorEvent<double>& event : record_.sensors)
+  const auto note = [&](ReportEvent::Kind kind, const std::vector<ColliderIndex>& colliders, const char* what,
+                        const std::string& when = "") {
+    if (!colliders.empty()) tell(kind, fmt::format("{} {}{}", what, header().ids[colliders.front()], when));
+  };
+  const auto note_company = [&](ReportEvent::Kind kind, const std::vector<CharacterIndex>& others, const char* what) {
+    if (!others.empty()) tell(kind, fmt::format("{} character {}", what, others.front()));
+  };
+  note(ReportEvent::Kind::tunnel, judged.tunnelled, "passes");
+  note_company(ReportEvent::Kind::tunnel, judged.company.passed, "passes");
+  note(ReportEvent::Kind::corner_cut, judged.corner_cut, "cuts a corner of");
+  note_company(ReportEvent::Kind::corner_cut, judged.company.corner_cut, "cuts a corner of");
+  note(ReportEvent::Kind::one_way, judged.one_way_broken, "passes against its normal:");
+  note(ReportEvent::Kind::crush, record.crushed, "is crushed by");
+  for (const SensorEvent<double>& event : record.sensors)
     note(ReportEvent::Kind::sensor, {event.sensor},
          event.change == SensorEvent<double>::Change::enter ? "enters" : "leaves",
          header().path_exact ? fmt::format(" at {:.6g} of the step", event.fraction) : ", seen when the step begins");
-  if (inside_ != record_.start_overlap) note(ReportEvent::Kind::inside, inside_, "ends inside");
-  const bool kept = record_.step < first_steps || record_.step % replay_.every == 0 ||
-                    record_.step + 1 == limit_.steps || replay_.events.size() > before;
-  if (kept) replay_.steps.push_back(record_);
+  if (inside_[character] != record.start_overlap) note(ReportEvent::Kind::inside, inside_[character], "ends inside");
+  note_company(ReportEvent::Kind::inside, judged.company.entered, "ends inside");
 }
 
 void Lane::finish() {
@@ -147,10 +209,11 @@ void Lane::conclude() {
   const int inside = row_.steps_ending_inside.value_or(0);
   const double gap = row_.max_contact_gap_m.value_or(0);
   const bool wide_gap = gap > guaranteed_gap;
+  const std::string solid = broke_company_ ? "a solid or another character" : "a solid";
   const std::string miscalled = fmt::format("a crush with room to give way on {}", counted(steps_miscalled_, "step"));
   if (guaranteed() && (steps_broken_ > 0 || steps_miscalled_ > 0 || wide_gap)) {
     row_.verdict = Verdict::violates;
-    row_.reason = steps_broken_ > 0      ? fmt::format("{} into or through a solid", counted(steps_broken_, "step"))
+    row_.reason = steps_broken_ > 0      ? fmt::format("{} into or through {}", counted(steps_broken_, "step"), solid)
                   : steps_miscalled_ > 0 ? miscalled
                                          : fmt::format("a contact is {:.3g} m away", gap);
   } else if (steps_capped_ > 0) {
@@ -159,7 +222,7 @@ void Lane::conclude() {
         fmt::format("{} beyond Box2D's travel cap of 2 m per step, not scored", counted(steps_capped_, "step"));
   } else if (row_.tunnels.value_or(0) > 0) {
     row_.verdict = Verdict::tunnels;
-    row_.reason = fmt::format("{} through a solid", counted(*row_.tunnels, "step"));
+    row_.reason = fmt::format("{} through {}", counted(*row_.tunnels, "step"), solid);
     if (!row_.findings.empty()) {  // the first passage in words says more
       row_.reason = row_.findings.front();
       row_.findings.erase(row_.findings.begin());
@@ -167,7 +230,7 @@ void Lane::conclude() {
   } else if (steps_broken_ > 0) {
     row_.verdict = Verdict::flagged;
     row_.reason = inside > 0
-                      ? fmt::format("ends {} inside a solid, up to {:.3g} m deep", counted(inside, "step"),
+                      ? fmt::format("ends {} inside {}, up to {:.3g} m deep", counted(inside, "step"), solid,
                                     row_.max_penetration_m.value_or(0))
                       : fmt::format("passes a one-way chain against its normal on {}", counted(steps_broken_, "step"));
   } else if (steps_miscalled_ > 0) {

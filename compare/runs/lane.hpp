@@ -2,6 +2,7 @@
 #pragma once
 
 #include "metrics/metrics.hpp"
+#include "oracle/company.hpp"
 #include "oracle/judge.hpp"
 #include "report/report.hpp"
 #include "runs/contestant.hpp"
@@ -29,25 +30,33 @@ class Lane {
   [[nodiscard]] const std::string& contender() const noexcept { return row_.contender; }
   [[nodiscard]] Contestant& contestant() noexcept { return *contestant_; }
   [[nodiscard]] const TraceHeader& header() const noexcept { return contestant_->header(); }
-  [[nodiscard]] const ExactScenery& solids() const noexcept { return judge_->scenery(); }
-  [[nodiscard]] const TraceStep& record() const noexcept { return record_; }
-  [[nodiscard]] const StepJudgement& judgement() const noexcept { return judgement_; }
+  [[nodiscard]] const ExactScenery& solids() const noexcept { return judges_.front()->scenery(); }
+  [[nodiscard]] std::size_t characters() const noexcept { return records_.size(); }
+  [[nodiscard]] const TraceStep& record(std::size_t character = 0) const noexcept { return records_[character]; }
+  [[nodiscard]] const StepJudgement& judgement(std::size_t character = 0) const noexcept {
+    return judgements_[character];
+  }
   [[nodiscard]] Row& row() noexcept { return row_; }
   /// In words; empty where the run begins free.
   [[nodiscard]] const std::string& begins_inside() const noexcept { return begins_inside_; }
   [[nodiscard]] ReportRun& replay() noexcept { return replay_; }
 
-  /// Puts the contestant somewhere; the next step begins a new story.
-  void place(const Pose& pose);
+  /// Puts a character somewhere; the next step begins a new story.
+  void place(const Pose& pose, std::size_t character = 0);
+  /// Whether no other character would be overlapped there.
+  [[nodiscard]] bool is_free(const Vec2d& position, std::size_t character) const;
   void step(int step, const StepInput& input);
   /// Writes metrics and verdict into the row and the trace to its place.
   void finish();
 
  private:
   void note_start();
+  void begin_records(int step);
+  void judge_step();
   void fail(Verdict verdict, const std::string& reason);
   void end_early(const std::string& reason);
   void keep_for_replay();
+  void note_events(std::size_t character);
   void conclude();
   [[nodiscard]] bool guaranteed() const;
 
@@ -55,17 +64,20 @@ class Lane {
   ReportRun replay_;
   ReplayLimit limit_;
   std::unique_ptr<Contestant> contestant_;
-  std::unique_ptr<Judge> judge_;
+  std::unique_ptr<CompanyJudge> company_;  ///< Null for one character.
   std::unique_ptr<Metrics> metrics_;
   std::unique_ptr<TraceWriter> trace_;
-  TraceStep record_;
-  StepJudgement judgement_;
-  std::vector<ColliderIndex> inside_;  ///< What the octagon overlaps now, exactly.
+  // By character:
+  std::vector<std::unique_ptr<Judge>> judges_;
+  std::vector<TraceStep> records_;
+  std::vector<StepJudgement> judgements_;
+  std::vector<std::vector<ColliderIndex>> inside_;  ///< What the octagon overlaps now, exactly.
+  std::vector<bool> placed_;                        ///< Since the last step.
   std::string begins_inside_;
   int steps_broken_ = 0;     ///< Steps that entered a solid, passed one, or passed a one-way chain backwards.
   int steps_miscalled_ = 0;  ///< Steps with a crush where there was room.
   int steps_capped_ = 0;
-  bool placed_ = true;
+  bool broke_company_ = false;  ///< Some of `steps_broken_` are with another character.
 };
 
 }  // namespace paperproof::compare

@@ -21,6 +21,7 @@ struct Row {
   Verdict verdict = Verdict::holds;
   std::string reason;  ///< empty for `holds` only
 
+  std::optional<int> characters;   ///< that the run had; absent for one
   std::optional<int> tunnels;      ///< steps that passed through a solid
   std::optional<int> corner_cuts;  ///< passes shallower than the slop, counted apart
   std::optional<int> steps_ending_inside;
@@ -64,6 +65,7 @@ struct Row {
 /// there. Written files and the report's page both take their numbers from here.
 template <class Visit>
 void for_each_metric(const Row& row, const Visit& visit) {
+  visit("characters", row.characters);
   visit("tunnels", row.tunnels);
   visit("corner_cuts", row.corner_cuts);
   visit("steps_ending_inside", row.steps_ending_inside);

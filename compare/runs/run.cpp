@@ -31,9 +31,9 @@ class SceneRun {
       : scene_(scene),
         options_(options),
         steps_(options.steps.value_or(scene.steps)),
-        input_(options.random_input ? random_input(*options.random_input, steps_) : scene.input),
+        script_(options.random_input ? random_script(scene, *options.random_input, steps_) : script_of(scene)),
         scenery_(scene.scenery),
-        planning_{.full = options.full_plan, .foreseen = foreseen_in(scene, input_)} {
+        planning_{.full = options.full_plan, .foreseen = foreseen_in(scene, script_)} {
     const std::string mode = options.mode == Mode::lockstep ? "lockstep" : "free";
     const ReplayLimit replay{.steps = steps_, .most = options.max_replay_steps};
     for (const std::string& name : names())
@@ -51,7 +51,7 @@ class SceneRun {
   }
 
   ReportScene go() {
-    InputCursor cursor(scene_, input_);
+    InputCursor cursor(scene_, script_);
     for (int step = 0; step < steps_; ++step) {
       const StepInput input = cursor.at(step);
       if (options_.mode == Mode::lockstep)
@@ -69,8 +69,8 @@ class SceneRun {
   struct Pair {
     Lane* mine;
     Lane* reference;
-    Agreement agreement;
-    int not_compared = 0;  ///< Lockstep: steps without room for Box2D's skin.
+    std::vector<Agreement> agreements;  ///< By character.
+    int not_compared = 0;               ///< Lockstep: steps without room for Box2D's skin.
   };
 
   [[nodiscard]] std::vector<std::string> names() const {
@@ -90,7 +90,8 @@ class SceneRun {
   void begin_agreements() {
     const auto pair_up = [this](Lane& mine, Lane& reference) {
       if (mine.running() && reference.running())
-        pairs_.push_back({&mine, &reference, Agreement(mine.header(), reference.header()), 0});
+        pairs_.push_back(
+            {&mine, &reference, std::vector(mine.characters(), Agreement(mine.header(), reference.header())), 0});
     };
     if (options_.mode == Mode::lockstep) {
       for (std::size_t i = 0; i < lanes_.size(); ++i) pair_up(*lanes_[i], *twins_[i]);
@@ -105,9 +106,12 @@ class SceneRun {
 
   void respawn_if_lost(Lane& lane) const {
     if (!scene_.respawn_box) return;
-    const Vec2d position = lane.contestant().pose().position;
-    if (scene_.respawn_box->inflated(lost).contains({position, position})) return;
-    lane.place({.position = scene_.start.position, .velocity = scene_.start.velocity});
+    for (std::size_t k = 0; k < lane.characters(); ++k) {
+      const Vec2d position = lane.contestant().pose(k).position;
+      if (scene_.respawn_box->inflated(lost).contains({position, position})) continue;
+      const Start& start = start_of(scene_, k);
+      if (lane.is_free(start.position, k)) lane.place({.position = start.position, .velocity = start.velocity}, k);
+    }
   }
 
   void step_freely(int step, const StepInput& input) {
@@ -118,8 +122,9 @@ class SceneRun {
     }
     for (Pair& pair : pairs_)
       if (pair.mine->running() && pair.reference->running())
-        pair.agreement.add(pair.mine->record(), pair.mine->judgement(), pair.reference->record(),
-                           pair.reference->judgement());
+        for (std::size_t k = 0; k < pair.agreements.size(); ++k)
+          pair.agreements[k].add(pair.mine->record(k), pair.mine->judgement(k), pair.reference->record(k),
+                                 pair.reference->judgement(k));
   }
 
   void step_in_lockstep(int step, const StepInput& input) {
@@ -137,7 +142,7 @@ class SceneRun {
       }
       TraceStep unshifted = pair.reference->record();
       for (PathPoint<double>& corner : unshifted.path) corner.position -= start.shift;
-      pair.agreement.add(pair.mine->record(), pair.mine->judgement(), unshifted, pair.reference->judgement());
+      pair.agreements.front().add(pair.mine->record(), pair.mine->judgement(), unshifted, pair.reference->judgement());
     }
   }
 
@@ -145,7 +150,7 @@ class SceneRun {
     for (const auto& lane : lanes_) lane->finish();
     for (const auto& lane : twins_) lane->finish();
     for (Pair& pair : pairs_) {
-      pair.agreement.write(pair.mine->row());
+      write_agreement(pair.agreements, pair.mine->row());
       if (options_.mode == Mode::lockstep) {  // every step is compared by itself there: none is the first
         pair.mine->row().first_difference_box2d_step.reset();
         pair.mine->row().first_difference_box2d.clear();
@@ -176,7 +181,7 @@ class SceneRun {
     const std::optional<double> share = pair.mine->row().contact_agreement_box2d;
     if (!share) return "";
     using Right = SideDisagreement::Right;
-    const auto count = [&pair](Right right) { return pair.agreement.count(right); };
+    const auto count = [&pair](Right right) { return pair.agreements.front().count(right); };
     const int differ = count(Right::mine) + count(Right::reference) + count(Right::both) + count(Right::neither);
     std::string text =
         fmt::format(" From the same start {} and Box2D report the same sides of contact on {:.2f} % of {}",
@@ -193,7 +198,7 @@ class SceneRun {
   void add(Lane& lane, ReportScene& result) {
     const bool placed_every_step = options_.mode == Mode::lockstep && is_reference(lane.contender());
     if (options_.measure_cost && lane.running() && !placed_every_step) {
-      const Cost cost = measure_cost(lane.contestant(), scene_, input_, steps_);
+      const Cost cost = measure_cost(lane.contestant(), scene_, script_, steps_);
       lane.row().ns_per_step = cost.ns_per_step_min;
       lane.row().ns_per_step_median = cost.ns_per_step_median;
       lane.row().ns_per_step_max = cost.ns_per_step_max;
@@ -210,7 +215,7 @@ class SceneRun {
                                       [&](const ReportRun& run) { return run.header.contender == lane.contender(); });
       return static_cast<std::size_t>(found - result.runs.begin());
     };
-    for (const SideDisagreement& one : pair.agreement.disagreements()) {
+    for (const SideDisagreement& one : pair.agreements.front().disagreements()) {
       if (result.disagreements.size() == most_disagreements) return;
       Disagreement told_one;
       told_one.step = one.step;
@@ -226,7 +231,7 @@ class SceneRun {
   const Scene& scene_;
   const RunOptions& options_;
   int steps_;
-  std::vector<InputEvent> input_;
+  Script script_;
   Scenery<double> scenery_;
   Planning planning_;
   std::vector<std::unique_ptr<Lane>> lanes_;

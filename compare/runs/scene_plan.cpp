@@ -6,9 +6,11 @@
 
 namespace paperproof::compare {
 
-Foreseen foreseen_in(const Scene& scene, const std::vector<InputEvent>& input) {
-  return {.gravity = scene.gravity != Vec2d(0, 0),
-          .jump = std::any_of(input.begin(), input.end(), [](const InputEvent& event) { return event.jump == true; })};
+Foreseen foreseen_in(const Scene& scene, const Script& script) {
+  const auto jumps = [](const std::vector<InputEvent>& events) {
+    return std::any_of(events.begin(), events.end(), [](const InputEvent& event) { return event.jump == true; });
+  };
+  return {.gravity = scene.gravity != Vec2d(0, 0), .jump = std::any_of(script.begin(), script.end(), jumps)};
 }
 
 template <class Scalar>
@@ -42,8 +44,8 @@ MetricPlan metrics_for(const Scene& scene, const Planning& planning) {
   return plan;
 }
 
-std::string describe_plan(const Scene& scene, const std::vector<InputEvent>& input) {
-  const Planning planning{.foreseen = foreseen_in(scene, input)};
+std::string describe_plan(const Scene& scene, const Script& script) {
+  const Planning planning{.foreseen = foreseen_in(scene, script)};
   const Plan plan = plan_of(Scenery<double>(scene.scenery), scene.character, planning);
   std::string out = scene.name + "\n";
   out += fmt::format("  broad phase  {}: {}\n", name_of(plan.broad_phase), plan.broad_phase_reason);

@@ -18,7 +18,7 @@ struct Planning {
 };
 
 /// What gravity and input of a scene say about every step.
-[[nodiscard]] Foreseen foreseen_in(const Scene& scene, const std::vector<InputEvent>& input);
+[[nodiscard]] Foreseen foreseen_in(const Scene& scene, const Script& script);
 
 /// The controller's plan, or with `Planning::full` one that omits nothing and finds pieces with a tree.
 template <class Scalar>
@@ -31,6 +31,6 @@ struct MetricPlan {
 [[nodiscard]] MetricPlan metrics_for(const Scene& scene, const Planning& planning);
 
 /// Several lines for `paperproof plan`: broad phase, stages and metrics that are left out, each with its reason.
-[[nodiscard]] std::string describe_plan(const Scene& scene, const std::vector<InputEvent>& input);
+[[nodiscard]] std::string describe_plan(const Scene& scene, const Script& script);
 
 }  // namespace paperproof::compare

@@ -1,6 +1,7 @@
 /// What a run leaves behind: a header and one record per step, in double (every float is one exactly).
 #pragma once
 
+#include <paperproof/crowd.hpp>
 #include <paperproof/plan.hpp>
 #include <paperproof/scenery.hpp>
 #include <paperproof/technique.hpp>
@@ -24,6 +25,7 @@ struct TraceHeader {
   std::string scalar;            ///< "double" or "float"
   std::string mode = "free";     ///< "free" or "lockstep"
   double dt = 0;                 ///< [s]
+  std::size_t characters = 1;    ///< Each has one record in every step, in order.
   std::vector<Vec2d> points;     ///< Hull of the character, relative to its position [m], as run.
   SceneryDef scenery;            ///< As run, world metres.
   std::vector<std::string> ids;  ///< One per collider.
@@ -36,6 +38,7 @@ struct TraceHeader {
 
 struct TraceStep {
   int step = 0;
+  CharacterIndex character = 0;
   std::vector<PathPoint<double>> path;  ///< From the start (fraction 0) to the end (1).
   /// Displacement that was wanted [m], in the world: what carries the character is included.
   Vec2d requested{Vec2d::Zero()};
@@ -44,7 +47,9 @@ struct TraceStep {
   bool jumping = false;
   std::vector<ColliderIndex> start_overlap;  ///< What the octagon overlapped when the step began, exactly.
   std::vector<Contact<double>> contacts;
-  std::vector<MoverMotion<double>> movers;   ///< One for each mover of the scenery.
+  std::vector<CharacterIndex> start_overlap_characters;  ///< Which it overlapped when the step began, exactly.
+  std::vector<CrowdContact<double>> met;                 ///< Contacts with other characters.
+  std::vector<MoverMotion<double>> movers;               ///< One for each mover of the scenery.
   std::vector<ColliderIndex> crushed;        ///< Colliders of movers that left the character no room, as reported.
   std::vector<SensorEvent<double>> sensors;  ///< In order of time, as reported.
   bool respawn = false;                      ///< The character was put back at the start before this step.

@@ -46,6 +46,7 @@ ordered_json header_json(const TraceHeader& header) {
   object["scalar"] = header.scalar;
   object["mode"] = header.mode;
   object["dt"] = header.dt;
+  if (header.characters > 1) object["characters"] = header.characters;
   object["points"] = points_json(header.points);
   object["colliders"] = ordered_json::array();
   for (std::size_t i = 0; i < header.ids.size(); ++i)
@@ -118,6 +119,18 @@ void put_contact(Buffer& out, const Contact<double>& contact, const std::vector<
   fmt::format_to(std::back_inserter(out), ",\"side\":\"{}\"}}", name_of(contact.side));
 }
 
+void put_met(Buffer& out, const std::vector<CrowdContact<double>>& met) {
+  put_text(out, ",\"met\":[");
+  for (std::size_t i = 0; i < met.size(); ++i) {
+    fmt::format_to(std::back_inserter(out), "{}{{\"character\":{},\"normal\":", i == 0 ? "" : ",", met[i].other);
+    put(out, met[i].normal);
+    put_text(out, ",\"fraction\":");
+    put(out, met[i].fraction);
+    fmt::format_to(std::back_inserter(out), ",\"side\":\"{}\"}}", name_of(met[i].side));
+  }
+  out.push_back(']');
+}
+
 void put_ids(Buffer& out, const std::vector<ColliderIndex>& colliders, const std::vector<std::string>& ids) {
   out.push_back('[');
   for (std::size_t i = 0; i < colliders.size(); ++i) {
@@ -154,7 +167,7 @@ std::string twin_stem(const std::string& stem, std::string_view contender) {
 }
 
 TraceWriter::TraceWriter(const std::string& path, const TraceHeader& header)
-    : file_(path), path_exact_(header.path_exact) {
+    : file_(path), path_exact_(header.path_exact), several_(header.characters > 1) {
   const std::vector<ColliderDef>& colliders = header.scenery.colliders;
   for (ColliderIndex i = 0; i < colliders.size(); ++i) {
     if (colliders[i].mover != no_mover) moving_.push_back({i, colliders[i].mover});
@@ -167,6 +180,7 @@ TraceWriter::TraceWriter(const std::string& path, const TraceHeader& header)
 void TraceWriter::write(const TraceStep& step) {
   Buffer out;
   fmt::format_to(std::back_inserter(out), "{{\"step\":{},", step.step);
+  if (several_) fmt::format_to(std::back_inserter(out), "\"character\":{},", step.character);
   put_path(out, step.path);
   if (!path_exact_) put_text(out, ",\"path_exact\":false");
   put_text(out, ",\"requested\":");
@@ -175,6 +189,9 @@ void TraceWriter::write(const TraceStep& step) {
   put(out, step.velocity);
   fmt::format_to(std::back_inserter(out), ",\"grounded\":{},\"start_overlap\":", step.grounded);
   put_ids(out, step.start_overlap, ids_);
+  if (!step.start_overlap_characters.empty())
+    fmt::format_to(std::back_inserter(out), ",\"start_overlap_characters\":[{}]",
+                   fmt::join(step.start_overlap_characters, ","));
   put_text(out, ",\"movers\":{");
   for (std::size_t i = 0; i < moving_.size(); ++i) {
     const MoverMotion<double>& motion = step.movers[moving_[i].mover];
@@ -192,6 +209,7 @@ void TraceWriter::write(const TraceStep& step) {
     put_contact(out, step.contacts[i], ids_);
   }
   out.push_back(']');
+  if (!step.met.empty()) put_met(out, step.met);
   if (!step.crushed.empty()) {
     put_text(out, ",\"crush\":");
     put_ids(out, step.crushed, ids_);

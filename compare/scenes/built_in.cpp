@@ -8,7 +8,7 @@ const std::vector<BuiltInScene>& built_in_scenes() {
   static const std::vector<BuiltInScene> all = [] {
     std::vector<BuiltInScene> scenes;
     for (auto theme : {paper_scenes(), angle_scenes(), ground_scenes(), article_scenes(), limit_scenes(),
-                       moving_scenes(), extreme_scenes()}) {
+                       moving_scenes(), crowd_scenes(), extreme_scenes()}) {
       scenes.insert(scenes.end(), std::make_move_iterator(theme.begin()), std::make_move_iterator(theme.end()));
     }
     return scenes;

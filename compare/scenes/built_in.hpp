@@ -14,6 +14,7 @@ namespace paperproof::compare {
 [[nodiscard]] std::vector<BuiltInScene> article_scenes();  ///< Where the article's points and rules show.
 [[nodiscard]] std::vector<BuiltInScene> limit_scenes();    ///< Climb limit, dt, one-way chains, many tiles, sensors.
 [[nodiscard]] std::vector<BuiltInScene> moving_scenes();   ///< Lifts, conveyors, papers, a ceiling.
+[[nodiscard]] std::vector<BuiltInScene> crowd_scenes();    ///< Several characters.
 [[nodiscard]] std::vector<BuiltInScene> extreme_scenes();  ///< Overlapping starts, far origins, other scales.
 
 /// Half the width, and the height below and above the position, of the article's character: 20 x 40 px at 32 px/m [m].

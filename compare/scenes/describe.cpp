@@ -93,6 +93,10 @@ std::string describe(const Scene& scene) {
   line("character", fmt::format("{} points, {} x {} m", scene.character.shape.points().size(),
                                 scene.character.shape.box().upper.x() - scene.character.shape.box().lower.x(),
                                 scene.character.shape.box().upper.y() - scene.character.shape.box().lower.y()));
+  if (!scene.others.empty()) line("characters", fmt::format("{} of that kind", character_count(scene)));
+  for (std::size_t k = 1; k < character_count(scene); ++k)
+    line("", fmt::format("{}: {} m, {} m/s, {}", k, point(start_of(scene, k).position),
+                         point(start_of(scene, k).velocity), counted(scene.others[k - 1].input.size(), "input event")));
   line("run", fmt::format("{} of {} s, gravity {} m/s²", counted(scene.steps, "step"), scene.dt, point(scene.gravity)));
   line("input", counted(scene.input.size(), "event"));
   line("movers", std::to_string(scene.movers.size()));

@@ -372,9 +372,25 @@ std::vector<InputEvent> read_input(const JsonCursor& at) {
   return events;
 }
 
+/// Further characters. They are of the kind that "character" describes, and do what the scene's input says unless they
+/// have one of their own.
+void read_others(const JsonCursor& at, Scene& scene) {
+  constexpr std::size_t most = 255;  // pairs are judged one by one
+  if (at.size() > most) at.refuse(fmt::format("expected at most {} further characters", most));
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const JsonCursor entry = at.element(i);
+    for (const char* key : {"points_px", "walk_speed", "acceleration", "air_acceleration", "jump_speed",
+                            "max_fall_speed", "max_climb_degrees", "snap", "no_jump_toward_wall", "side_hit_ends_rise"})
+      if (const auto found = entry.find(key))
+        found->refuse("expected only in \"character\": all characters of a scene are of one kind");
+    entry.refuse_other_keys({"position", "velocity", "start_overlap", "input"});
+    const auto input = entry.find("input");
+    scene.others.push_back({read_start(entry, scene.dt), input ? read_input(*input) : scene.input});
+  }
+}
+
 void refuse_unsupported_keys(const JsonCursor& root) {
   refuse_unsupported(root, "bodies", "dynamic bodies");
-  refuse_unsupported(root, "characters", "several characters");
   refuse_unsupported(root, "dt_list", "a varying dt");
 }
 
@@ -394,7 +410,7 @@ Scene read_json_scene(const nlohmann::json& document, const std::string& path, c
   if (version.integer(0, most_steps) != 1) version.refuse("expected 1, the version of the format");
   refuse_unsupported_keys(root);
   root.refuse_other_keys({"$schema", "paperproof_scene", "name", "description", "pixels_per_metre", "gravity", "dt",
-                          "steps", "character", "scenery", "empty", "movers", "input"});
+                          "steps", "character", "characters", "scenery", "empty", "movers", "input"});
   Scene scene;
   scene.name = root.require("name").text();
   if (const auto description = root.find("description")) scene.description = description->text();
@@ -410,8 +426,12 @@ Scene read_json_scene(const nlohmann::json& document, const std::string& path, c
   read_character(character, scene);
   read_scenery(root, path, scene);
   if (const auto input = root.find("input")) scene.input = read_input(*input);
-  check_start(scene, character.require("position").where(),
-              "\"start_overlap\": \"resolve\" beside it asks to move it out");
+  const auto others = root.find("characters");
+  if (others) read_others(*others, scene);
+  const std::string remedy = "\"start_overlap\": \"resolve\" beside it asks to move it out";
+  check_start(scene, character.require("position").where(), remedy);
+  for (std::size_t i = 0; i < scene.others.size(); ++i)
+    check_start(scene, others->element(i).require("position").where(), remedy, i + 1);
   return scene;
 }
 

@@ -21,7 +21,7 @@ Scene load_built_in(const BuiltInScene& entry) {
   scene.name = entry.name;
   scene.description = entry.description;
   check_scenery(scene.scenery, scene.ids, [&](ColliderIndex) { return entry.name; });
-  check_start(scene, entry.name);
+  for (std::size_t k = 0; k < character_count(scene); ++k) check_start(scene, entry.name, "", k);
   return scene;
 }
 

@@ -37,6 +37,18 @@ Vec2d turned(const Vec2d& point, double angle) {
 
 }  // namespace
 
+Script script_of(const Scene& scene) {
+  Script script{scene.input};
+  for (const OtherCharacter& other : scene.others) script.push_back(other.input);
+  return script;
+}
+
+Script random_script(const Scene& scene, std::uint64_t seed, int steps) {
+  Script script;
+  for (std::size_t k = 0; k < character_count(scene); ++k) script.push_back(random_input(seed + k, steps));
+  return script;
+}
+
 SceneryDef scenery_at(const Scene& scene, double time) {
   SceneryDef placed = scene.scenery;
   for (ColliderDef& collider : placed.colliders) {

@@ -29,6 +29,15 @@ struct Start {
   bool resolve_overlap = false;
 };
 
+/// One more character, of the same kind as the scene's first.
+struct OtherCharacter {
+  Start start;
+  std::vector<InputEvent> input;  ///< Sorted by step.
+};
+
+/// What characters want: one list of events for each of them.
+using Script = std::vector<std::vector<InputEvent>>;
+
 struct Scene {
   std::string name;
   std::string description;  ///< One line: what is measured and the exact answer. May be empty.
@@ -42,11 +51,23 @@ struct Scene {
   std::vector<std::string> ids;   ///< One per collider, unique.
   std::vector<MoverDef> movers;   ///< By `ColliderDef::mover`; each has a collider.
   std::vector<InputEvent> input;  ///< Sorted by step.
+  /// Characters 1, 2, ...; character 0 begins at `start` and does what `input` says.
+  std::vector<OtherCharacter> others;
   /// Maps only: their box [m]. A character that leaves it by more than 10 m is put back at the start.
   std::optional<Box2<double>> respawn_box;
   /// What a loader left out or could not place, in words (tiles unknown to the tileset, for instance).
   std::vector<std::string> notes;
 };
+
+[[nodiscard]] inline std::size_t character_count(const Scene& scene) { return 1 + scene.others.size(); }
+/// Where a character begins.
+[[nodiscard]] inline const Start& start_of(const Scene& scene, std::size_t character) {
+  return character == 0 ? scene.start : scene.others[character - 1].start;
+}
+/// What the scene's characters want by themselves.
+[[nodiscard]] Script script_of(const Scene& scene);
+/// What they want with random input: character k as by `random_input(seed + k, steps)`.
+[[nodiscard]] Script random_script(const Scene& scene, std::uint64_t seed, int steps);
 
 /// The scenery as it is `time` seconds after the start: every collider stands where its mover has
 /// taken it (rounded), and none moves.

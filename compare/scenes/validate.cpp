@@ -3,9 +3,23 @@
 #include <fmt/format.h>
 
 #include "oracle/exact.hpp"
+#include "oracle/pair.hpp"
 #include "scenes/input_error.hpp"
 
 namespace paperproof::compare {
+
+namespace {
+
+void check_company(const Scene& scene, const std::string& where, std::size_t character) {
+  const ExactPair pair(scene.character.shape.hull());
+  for (std::size_t other = 0; other < character; ++other)
+    if (pair.overlap(start_of(scene, character).position, start_of(scene, other).position))
+      refuse(where, fmt::format("expected a start outside of every other character, but it overlaps character {}, "
+                                "which begins at ({}, {})",
+                                other, start_of(scene, other).position.x(), start_of(scene, other).position.y()));
+}
+
+}  // namespace
 
 void check_scenery(const SceneryDef& scenery, const std::vector<std::string>& ids, const WhereIs& where) {
   try {
@@ -46,10 +60,12 @@ std::vector<ColliderIndex> FreePlaces::overlapped(const Vec2d& position) const {
   return found;
 }
 
-void check_start(const Scene& scene, const std::string& where, const std::string& remedy) {
-  if (scene.start.resolve_overlap) return;
+void check_start(const Scene& scene, const std::string& where, const std::string& remedy, std::size_t character) {
+  check_company(scene, where, character);
+  const Start& start = start_of(scene, character);
+  if (start.resolve_overlap) return;
   const SceneryDef scenery = scenery_at(scene, 0);
-  const std::vector<ColliderIndex> inside = FreePlaces(scenery, scene.character.shape).overlapped(scene.start.position);
+  const std::vector<ColliderIndex> inside = FreePlaces(scenery, scene.character.shape).overlapped(start.position);
   if (inside.empty()) return;
   refuse(where, fmt::format("expected a start outside of every solid, but the character overlaps \"{}\"{}{}{}",
                             scene.ids[inside.front()],

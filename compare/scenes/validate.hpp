@@ -37,9 +37,11 @@ class FreePlaces {
 /// Smallest box around a collider [m]. It has at least one point.
 [[nodiscard]] Box2<double> box_of(const ColliderDef& collider);
 
-/// Refuses a start inside a solid, where movers are when the scene begins, unless the scene asks to resolve it.
-/// @param where of the start. @param remedy what the user can do about it; may be empty.
-/// @throws InputError naming the solids.
-void check_start(const Scene& scene, const std::string& where, const std::string& remedy = {});
+/// Refuses a start inside a solid, where movers are when the scene begins, unless the scene asks to resolve it; and one
+/// that overlaps a character of a lower index.
+/// @param where of the start. @param remedy what the user can do about a solid; may be empty.
+/// @throws InputError naming the solids, or the character.
+void check_start(const Scene& scene, const std::string& where, const std::string& remedy = {},
+                 std::size_t character = 0);
 
 }  // namespace paperproof::compare

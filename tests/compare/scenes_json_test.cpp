@@ -125,6 +125,27 @@ TEST(JsonScene, the_characters_keys_arrive) {
   EXPECT_TRUE(scene.start.resolve_overlap);
 }
 
+TEST(JsonScene,
+     further_characters_begin_where_they_are_put_and_do_as_the_scene_unless_they_have_an_input_of_their_own) {
+  const SceneFiles files;
+  // 0.625 m is the width: the second touches the first.
+  const Scene scene = files.load("room.json", with(good, "\"scenery\"", R"("characters": [
+      { "position": [0.625, 3], "velocity": [1, 2] },
+      { "position": [-2, 0.5], "start_overlap": "resolve", "input": [ { "step": 3, "move": -1 } ] }], "scenery")"));
+  ASSERT_EQ(character_count(scene), 3U);
+  EXPECT_EQ(start_of(scene, 0).position, Vec2d(0, 3));
+  EXPECT_EQ(start_of(scene, 1).position, Vec2d(0.625, 3));
+  EXPECT_EQ(start_of(scene, 1).velocity, Vec2d(1, 2));
+  EXPECT_EQ(start_of(scene, 2).velocity, Vec2d(0, 0));
+  EXPECT_TRUE(start_of(scene, 2).resolve_overlap);
+  const Script script = script_of(scene);
+  EXPECT_EQ(script[1], scene.input);
+  EXPECT_EQ(script[2], (std::vector<InputEvent>{{.step = 3, .move = -1, .jump = std::nullopt}}));
+  const Script random = random_script(scene, 5, 600);
+  EXPECT_EQ(random[0], random_input(5, 600));
+  EXPECT_NE(random[1], random[2]);
+}
+
 TEST(JsonScene, pixels_become_metres_about_the_centre_of_the_sprite) {
   const SceneFiles files;
   const Scene scene =
@@ -290,7 +311,29 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"step_height", "\"velocity\"", "\"step_height\": 1, \"velocity\"", ": /character/step_height: "},
         Bad{"bodies", "\"name\"", "\"bodies\": [], \"name\"",
             ": /bodies: \"bodies\" needs dynamic bodies, which this version does not have"},
-        Bad{"characters", "\"name\"", "\"characters\": [], \"name\"", ": /characters: "},
+        Bad{"characters_are_a_list", "\"name\"", "\"characters\": {}, \"name\"", ": /characters: expected an array"},
+        Bad{"character_without_a_place", "\"name\"", "\"characters\": [{}], \"name\"",
+            ": /characters/0/position: expected this key, which is missing"},
+        Bad{"character_of_another_kind", "\"name\"",
+            "\"characters\": [{\"position\": [0,6], \"walk_speed\": 3}], \"name\"",
+            ": /characters/0/walk_speed: expected only in \"character\": all characters of a scene are of one kind"},
+        Bad{"unknown_key_of_a_character", "\"name\"",
+            "\"characters\": [{\"position\": [0,6], \"speed\": [0,1]}], \"name\"",
+            ": /characters/0/speed: unknown key; expected one of "},
+        Bad{"characters_that_overlap", "\"name\"",
+            "\"characters\": [{\"position\": [9,6]}, {\"position\": [9.5,6]}], \"name\"",
+            ": /characters/1/position: expected a start outside of every other character, but it overlaps character 1, "
+            "which begins at (9, 6)"},
+        Bad{"a_character_on_the_first", "\"name\"", "\"characters\": [{\"position\": [0,4]}], \"name\"",
+            ": /characters/0/position: expected a start outside of every other character, but it overlaps character 0"},
+        Bad{"a_character_in_a_solid", "\"name\"", "\"characters\": [{\"position\": [-2,0.5]}], \"name\"",
+            ": /characters/0/position: expected a start outside of every solid, but the character overlaps \"paper\""},
+        Bad{"a_fast_character", "\"name\"",
+            "\"characters\": [{\"position\": [0,6], \"velocity\": [1e300,0]}], \"name\"",
+            ": /characters/0/velocity: expected at most 1e6 m of motion"},
+        Bad{"input_of_a_character", "\"name\"",
+            "\"characters\": [{\"position\": [0,6], \"input\": [{\"step\": 0, \"move\": 2}]}], \"name\"",
+            ": /characters/0/input/0/move: expected a number from -1 to 1"},
         Bad{"dt_list", "\"name\"", "\"dt_list\": [], \"name\"", ": /dt_list: "},
         Bad{"drop", "\"jump\": false", "\"drop\": true", ": /input/2/drop: "},
         Bad{"missing_map", "\"chain\": [[5,0],[5,4]]", "\"tiled\": \"none.tmx\"",

@@ -1,0 +1,192 @@
+#include "oracle/company.hpp"
+
+#include "oracle/contacts.hpp"
+#include "oracle/passing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace paperproof::compare {
+namespace {
+
+/// Where the approach is a smaller part of the motion it grazes: see `Judge`.
+constexpr double least_approach = 1e-3;
+
+Box2<double> box_of(const std::vector<Vec2d>& points) {
+  Box2<double> box{points.front(), points.front()};
+  for (const Vec2d& point : points) box = box.merged({point, point});
+  return box;
+}
+
+/// All positions of the way, and of what was requested instead.
+Box2<double> reach_of(const TraceStep& step) {
+  const Vec2d start = step.path.front().position;
+  const Vec2d wanted = start + step.requested;
+  Box2<double> box = Box2<double>{start, start}.merged({wanted, wanted});
+  for (const PathPoint<double>& corner : step.path) box = box.merged({corner.position, corner.position});
+  return box;
+}
+
+/// Rounded; where a jump leads from one place to another the first one.
+Vec2d place_at(const std::vector<PathPoint<double>>& path, double fraction) {
+  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
+    if (fraction > path[i + 1].fraction) continue;
+    const double span = path[i + 1].fraction - path[i].fraction;
+    if (!(span > 0)) return path[i].position;
+    return path[i].position + (fraction - path[i].fraction) / span * (path[i + 1].position - path[i].position);
+  }
+  return path.back().position;
+}
+
+const Vec2d& start_of(const TraceStep& step) { return step.path.front().position; }
+const Vec2d& end_of(const TraceStep& step) { return step.path.back().position; }
+
+}  // namespace
+
+CompanyJudge::CompanyJudge(const TraceHeader& header)
+    : header_(header),
+      pair_(header.points),
+      box_(box_of(header.points)),
+      slop_(detail::slop_of(header)),
+      reach_(header.path_exact ? detail::contact_reach : detail::skin) {}
+
+std::vector<CharacterIndex> CompanyJudge::overlapped(std::span<const Vec2d> positions, CharacterIndex character) const {
+  std::vector<CharacterIndex> found;
+  for (CharacterIndex other = 0; other < positions.size(); ++other)
+    if (other != character && pair_.overlap(positions[character], positions[other])) found.push_back(other);
+  return found;
+}
+
+bool CompanyJudge::continues(const TraceStep& step) const {
+  return !step.respawn && !last_ends_.empty() && last_ends_[step.character] == start_of(step);
+}
+
+bool CompanyJudge::may_meet(const TraceStep& one, const TraceStep& other) const {
+  const auto covered = [this](const TraceStep& step) {
+    const Box2<double> places = reach_of(step);
+    const double size = std::max(places.lower.cwiseAbs().maxCoeff(), places.upper.cwiseAbs().maxCoeff());
+    return Box2<double>{places.lower + box_.lower, places.upper + box_.upper}.inflated(detail::skin + size * 0x1p-48);
+  };
+  return covered(one).overlaps(covered(other));
+}
+
+void CompanyJudge::judge(std::span<const TraceStep> steps, std::span<StepJudgement> judgements) {
+  for (const TraceStep& step : steps)
+    if (step.path.empty()) return;
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    for (std::size_t j = i + 1; j < steps.size(); ++j) judge_pair(steps[i], steps[j], judgements[i]);
+  judge_first_impacts(steps, judgements);
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    for (std::size_t j = 0; j < steps.size(); ++j)
+      if (i != j && may_meet(steps[i], steps[j])) excuse(steps[i], steps[j], judgements[i]);
+  last_ends_.clear();
+  for (const TraceStep& step : steps) last_ends_.push_back(end_of(step));
+}
+
+void CompanyJudge::judge_pair(const TraceStep& one, const TraceStep& other, StepJudgement& judgement) {
+  const std::pair key(one.character, other.character);
+  if (!continues(one) || !continues(other)) {
+    inside_.erase(key);
+    if (pair_.overlap(start_of(one), start_of(other)))
+      inside_[key] = {std::nullopt, -pair_.separation(start_of(one), start_of(other))};
+  }
+  if (!inside_.contains(key) && !may_meet(one, other)) return;
+  if (!pair_.overlap(end_of(one), end_of(other))) return judge_apart(one, other, judgement);
+  const auto [it, is_new] = inside_.try_emplace(key, Episode{std::pair(start_of(one), start_of(other)), 0});
+  const double depth = -pair_.separation(end_of(one), end_of(other));
+  it->second.depth = std::max(it->second.depth, depth);
+  judgement.max_penetration = std::max(judgement.max_penetration, depth);
+  judgement.company.overlap.push_back(other.character);
+  if (is_new) judgement.company.entered.push_back(other.character);
+}
+
+/// The two are apart where the step ends.
+void CompanyJudge::judge_apart(const TraceStep& one, const TraceStep& other, StepJudgement& judgement) {
+  const auto stay = inside_.find({one.character, other.character});
+  if (stay == inside_.end()) {
+    if (pair_.meet(one.path, other.path)) note_passing(other.character, pair_.deepest(one.path, other.path), judgement);
+    return;
+  }
+  const Episode& episode = stay->second;
+  if (episode.free_from &&
+      pair_.meet_between(episode.free_from->first, episode.free_from->second, end_of(one), end_of(other)))
+    note_passing(other.character, std::max(episode.depth, pair_.deepest(one.path, other.path)), judgement);
+  inside_.erase(stay);
+}
+
+void CompanyJudge::note_passing(CharacterIndex other, double depth, StepJudgement& judgement) const {
+  // Written so that a depth that is no number is a passing.
+  (depth <= slop_ ? judgement.company.corner_cut : judgement.company.passed).push_back(other);
+}
+
+std::optional<CompanyJudge::Impact> CompanyJudge::first_impact(const TraceStep& one, const TraceStep& other) const {
+  const auto impact = pair_.first_impact(start_of(one), one.requested, start_of(other), other.requested);
+  if (!impact) return std::nullopt;
+  const Vec2d way = one.requested - other.requested;
+  const double approach = -way.dot(impact->normal);
+  const bool comparable =
+      pair_.separation(start_of(one), start_of(other)) > reach_ && approach >= least_approach * way.norm();
+  return Impact{one.character, other.character, static_cast<double>(impact->fraction), comparable};
+}
+
+/// Who has met anything no longer goes as requested, and may turn aside whoever is near.
+void CompanyJudge::judge_first_impacts(std::span<const TraceStep> steps, std::span<StepJudgement> judgements) const {
+  std::vector<Impact> impacts;
+  std::vector<double> earliest;
+  for (const StepJudgement& judgement : judgements)
+    earliest.push_back(judgement.first_impact.value_or(std::numeric_limits<double>::infinity()));
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    for (std::size_t j = i + 1; j < steps.size(); ++j) {
+      if (!may_meet(steps[i], steps[j])) continue;
+      const std::optional<Impact> impact = first_impact(steps[i], steps[j]);
+      if (!impact) continue;
+      impacts.push_back(*impact);
+      for (const std::size_t who : {i, j}) earliest[who] = std::min(earliest[who], impact->fraction);
+    }
+  for (const Impact& impact : impacts) {
+    const auto turned_by_a_third = [&] {
+      for (std::size_t k = 0; k < steps.size(); ++k) {
+        if (k == impact.one || k == impact.other || earliest[k] >= impact.fraction) continue;
+        if (may_meet(steps[k], steps[impact.one]) || may_meet(steps[k], steps[impact.other])) return true;
+      }
+      return false;
+    };
+    const bool both_first = earliest[impact.one] == impact.fraction && earliest[impact.other] == impact.fraction;
+    for (const auto& [who, whom] : {std::pair(impact.one, impact.other), {impact.other, impact.one}}) {
+      if (earliest[who] != impact.fraction) continue;
+      judgements[who].first_impact = impact.fraction;
+      judgements[who].first_met = whom;
+      judgements[who].first_impact_comparable = impact.comparable && both_first && !turned_by_a_third();
+    }
+  }
+}
+
+void CompanyJudge::excuse(const TraceStep& one, const TraceStep& other, StepJudgement& judgement) const {
+  bool near = false;
+  bool opposed = false;
+  const Vec2d wanted(one.requested.x() + std::copysign(reach_, one.requested.x()), 0);
+  const auto look = [&](const Vec2d& mine, const Vec2d& theirs) {
+    near = near || pair_.separation(mine, theirs) <= reach_;
+    opposed = opposed || pair_.meet_between(mine, theirs, mine + wanted, theirs);
+  };
+  for (const PathPoint<double>& corner : one.path) look(corner.position, place_at(other.path, corner.fraction));
+  for (const PathPoint<double>& corner : other.path) look(place_at(one.path, corner.fraction), corner.position);
+  if (opposed) judgement.ghost_speed_loss = 0;
+  if (!near) return;
+  for (const Contact<double>& contact : one.contacts) {
+    const bool exact = std::any_of(judgement.contacts.begin(), judgement.contacts.end(), [&](const ExactContact& each) {
+      return each.collider == contact.collider && each.side == contact.side;
+    });
+    if (!exact) judgement.dont_care.push_back(contact.collider);
+  }
+  std::erase_if(judgement.contacts, [&one](const ExactContact& exact) {
+    return std::none_of(one.contacts.begin(), one.contacts.end(), [&exact](const Contact<double>& contact) {
+      return contact.collider == exact.collider && contact.side == exact.side;
+    });
+  });
+  judgement.ghosts.clear();
+  if (!judgement.first_met) judgement.first_impact_comparable = false;
+}
+
+}  // namespace paperproof::compare

@@ -1,0 +1,73 @@
+/// Judges what the characters of one run do to each other.
+#pragma once
+
+#include "oracle/judge.hpp"
+#include "oracle/pair.hpp"
+
+#include <map>
+#include <utility>
+
+namespace paperproof::compare {
+
+/// Feed it every step of one run in order, after each character has been judged by itself. Not thread-safe.
+///
+/// Two characters go along their ways at the same time, so it is the way of their difference that counts, exactly.
+///
+/// **Inside.** Their open interiors overlap at the end of the step. It is new where they did not at its beginning.
+///
+/// **Passed.** They are apart at both ends, and overlap at some moment between; or they overlapped since an earlier
+/// step, and the straight way of their difference from the last step without to the end of this one leads through
+/// overlap: they left on other sides. No deeper than the slop (see `Judge`) it is a corner cut.
+///
+/// **First impact.** Both go evenly along what they requested, apart where the step begins, and meet nothing before; it
+/// then takes the place of the scenery's. It is comparable under the conditions of `Judge`, and if no third one that
+/// comes near either has met something before: that one may have turned them aside.
+///
+/// **In company.** Who comes within 1e-6 m of another (Box2D: its skin, 20 mm) at a corner of either's way may be
+/// turned aside there, so what was requested no longer says what scenery is met: on such a step contacts with scenery
+/// that were reported and are not exact, or are exact and were not reported, count neither way; and horizontal speed
+/// that the other opposes (within the step and the skin beyond, as for solids) is not lost to nothing.
+class CompanyJudge {
+ public:
+  explicit CompanyJudge(const TraceHeader& header);
+
+  /// The characters that one of them overlaps, exactly.
+  /// @param positions of all of them.
+  [[nodiscard]] std::vector<CharacterIndex> overlapped(std::span<const Vec2d> positions,
+                                                       CharacterIndex character) const;
+
+  /// @param steps,judgements one of each character, in order; what is found is written into the judgements.
+  void judge(std::span<const TraceStep> steps, std::span<StepJudgement> judgements);
+
+ private:
+  /// An overlap of two.
+  struct Episode {
+    std::optional<std::pair<Vec2d, Vec2d>> free_from;  ///< Last places without; none where the run began with it.
+    double depth = 0;                                  ///< Largest so far [m].
+  };
+  /// The first impacts that every one of them would have.
+  struct Impact {
+    CharacterIndex one;
+    CharacterIndex other;
+    double fraction = 0;
+    bool comparable = false;
+  };
+  [[nodiscard]] bool continues(const TraceStep& step) const;
+  void judge_pair(const TraceStep& one, const TraceStep& other, StepJudgement& judgement);
+  void judge_apart(const TraceStep& one, const TraceStep& other, StepJudgement& judgement);
+  void note_passing(CharacterIndex other, double depth, StepJudgement& judgement) const;
+  [[nodiscard]] bool may_meet(const TraceStep& one, const TraceStep& other) const;
+  [[nodiscard]] std::optional<Impact> first_impact(const TraceStep& one, const TraceStep& other) const;
+  void judge_first_impacts(std::span<const TraceStep> steps, std::span<StepJudgement> judgements) const;
+  void excuse(const TraceStep& one, const TraceStep& other, StepJudgement& judgement) const;
+
+  TraceHeader header_;
+  ExactPair pair_;
+  Box2<double> box_;  ///< Around the shape, relative to the position [m].
+  double slop_;
+  double reach_;                  ///< What counts as touching [m].
+  std::vector<Vec2d> last_ends_;  ///< Empty before the first step.
+  std::map<std::pair<CharacterIndex, CharacterIndex>, Episode> inside_;
+};
+
+}  // namespace paperproof::compare

@@ -1,0 +1,192 @@
+#include "oracle/pair.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace paperproof::compare {
+namespace {
+
+/// The largest depth on a way is closed in on by thirds this often: the interval shrinks to less than rounding.
+constexpr int refinements = 90;
+
+/// Above the rounding of a few sums and products of numbers of this size [m].
+double margin_at(double size) { return 64 * std::numeric_limits<double>::epsilon() * size; }
+
+double largest(const Vec2d& v) { return v.cwiseAbs().maxCoeff(); }
+
+Rational cross(const auto& a, const auto& b) { return a.x * b.y - a.y * b.x; }
+auto minus(const auto& a, const auto& b) { return std::decay_t<decltype(a)>{a.x - b.x, a.y - b.y}; }
+
+}  // namespace
+
+ExactPair::ExactPair(std::span<const Vec2d> hull) {
+  for (std::size_t k = 0; k < hull.size(); ++k) {
+    const Vec2d& start = hull[k];
+    const Vec2d edge = hull[(k + 1) % hull.size()] - start;
+    Side side{.edge = minus(exact(hull[(k + 1) % hull.size()]), exact(start)),
+              .reach = 0,
+              .normal = Vec2d(edge.y(), -edge.x()) / edge.norm(),
+              .width = 0};
+    for (const Vec2d& corner : hull) {
+      side.reach = std::max(side.reach, Rational(abs(cross(side.edge, minus(exact(corner), exact(start))))));
+      side.width = std::max(side.width, std::abs(side.normal.dot(corner - start)));
+    }
+    sides_.push_back(std::move(side));
+  }
+}
+
+ExactPair::Point ExactPair::Part::at(double fraction) const {
+  if (fraction == from.fraction) return exact(from.position);
+  if (fraction == to.fraction) return exact(to.position);
+  const Rational share =
+      (Rational(fraction) - Rational(from.fraction)) / (Rational(to.fraction) - Rational(from.fraction));
+  const Point start = exact(from.position);
+  const Point way = minus(exact(to.position), start);
+  return {start.x + way.x * share, start.y + way.y * share};
+}
+
+Vec2d ExactPair::Part::near(double fraction) const {
+  if (fraction == from.fraction) return from.position;
+  return from.position + (fraction - from.fraction) / (to.fraction - from.fraction) * (to.position - from.position);
+}
+
+/// Who has arrived waits there until the step ends.
+ExactPair::Part ExactPair::part_of(Way way, std::size_t corner, double now, double end) {
+  if (corner + 1 < way.size()) return {way[corner], way[corner + 1], now, end, false};
+  return {way[corner], {way[corner].position, std::max(end, 1.0)}, now, end, false};
+}
+
+template <class Visit>
+bool ExactPair::any_part(Way one, Way other, const Visit& visit) {
+  std::size_t a = 0;
+  std::size_t b = 0;
+  double now = 0;
+  const auto jumps = [&now](Way way, std::size_t corner) {
+    return corner + 1 < way.size() && way[corner + 1].fraction <= now;
+  };
+  const auto end_of = [](Way way, std::size_t corner) {
+    return corner + 1 < way.size() ? way[corner + 1].fraction : std::numeric_limits<double>::infinity();
+  };
+  while (a + 1 < one.size() || b + 1 < other.size()) {
+    const bool one_jumps = jumps(one, a);
+    const bool other_jumps = !one_jumps && jumps(other, b);
+    const bool at_once = one_jumps || other_jumps;
+    const double end = at_once ? now : std::min(end_of(one, a), end_of(other, b));
+    Part of_one = part_of(one, a, now, end);
+    Part of_other = part_of(other, b, now, end);
+    of_one.jump = one_jumps;
+    of_other.jump = other_jumps;
+    if (visit(of_one, of_other)) return true;
+    if (one_jumps || (!at_once && end_of(one, a) == end)) ++a;
+    if (other_jumps || (!at_once && end_of(other, b) == end)) ++b;
+    now = end;
+  }
+  return false;
+}
+
+/// By the normals of the sides, over the whole of what leads from corner to corner.
+bool ExactPair::surely_apart(const Part& one, const Part& other) const {
+  const double size = std::max(
+      {largest(one.from.position), largest(one.to.position), largest(other.from.position), largest(other.to.position)});
+  return std::any_of(sides_.begin(), sides_.end(), [&](const Side& side) {
+    const auto range = [&side](const Part& part) {
+      return std::minmax({side.normal.dot(part.from.position), side.normal.dot(part.to.position)});
+    };
+    const auto [one_low, one_high] = range(one);
+    const auto [other_low, other_high] = range(other);
+    return std::max(one_low - other_high, other_low - one_high) > side.width + margin_at(size + side.width);
+  });
+}
+
+/// Cyrus and Beck 1978, with strict insides: what is left of the way's parameters after every side is more than a
+/// point, or the way is a single point that is inside.
+std::optional<PairImpact> ExactPair::inside_on(const Point& start, const Point& end) const {
+  PairImpact first{.fraction = 0};
+  Rational exit = 1;
+  const bool still = start.x == end.x && start.y == end.y;
+  for (const Side& side : sides_) {
+    const Rational start_off = cross(side.edge, start);
+    const Rational end_off = cross(side.edge, end);
+    for (const int sign : {1, -1}) {
+      // Inside where above zero. What is right of the edge is beyond it.
+      const Rational before = start_off * sign + side.reach;
+      const Rational after = end_off * sign + side.reach;
+      if (before <= 0 && after <= 0) return std::nullopt;
+      if (still) continue;
+      if (before <= 0) {
+        const Rational crossing = before / (before - after);
+        if (first.normal == Vec2d::Zero() || crossing > first.fraction) first = {crossing, sign * side.normal};
+      }
+      if (after <= 0) exit = std::min(exit, Rational(before / (before - after)));
+    }
+  }
+  if (!still && first.fraction >= exit) return std::nullopt;
+  return first;
+}
+
+bool ExactPair::meet_on(const Part& one, const Part& other) const {
+  if (surely_apart(one, other)) return false;
+  return inside_on(minus(one.first(), other.first()), minus(one.last(), other.last())).has_value();
+}
+
+bool ExactPair::overlap(const Vec2d& one, const Vec2d& other) const { return meet_between(one, other, one, other); }
+
+bool ExactPair::meet_between(const Vec2d& one_from, const Vec2d& other_from, const Vec2d& one_to,
+                             const Vec2d& other_to) const {
+  return meet_on({{one_from, 0}, {one_to, 1}, 0, 1}, {{other_from, 0}, {other_to, 1}, 0, 1});
+}
+
+bool ExactPair::meet(Way one, Way other) const {
+  return any_part(one, other, [this](const Part& a, const Part& b) { return meet_on(a, b); });
+}
+
+std::optional<PairImpact> ExactPair::first_impact(const Vec2d& one, const Vec2d& one_by, const Vec2d& other,
+                                                  const Vec2d& other_by) const {
+  const Vec2d one_end = one + one_by;
+  const Vec2d other_end = other + other_by;
+  if (surely_apart({{one, 0}, {one_end, 1}, 0, 1}, {{other, 0}, {other_end, 1}, 0, 1})) return std::nullopt;
+  const Point start = minus(exact(one), exact(other));
+  const Point by = minus(exact(one_by), exact(other_by));
+  std::optional<PairImpact> impact = inside_on(start, {start.x + by.x, start.y + by.y});
+  if (impact && impact->normal == Vec2d::Zero()) return std::nullopt;  // they overlap already
+  return impact;
+}
+
+double ExactPair::separation_of(const Vec2d& difference) const {
+  double best = -std::numeric_limits<double>::infinity();
+  for (const Side& side : sides_) best = std::max(best, std::abs(side.normal.dot(difference)) - side.width);
+  return best;
+}
+
+double ExactPair::separation(const Vec2d& one, const Vec2d& other) const { return separation_of(one - other); }
+
+/// On a straight way the separation is convex: there is one deepest place, closed in on by thirds.
+double ExactPair::deepest(Way one, Way other) const {
+  double deepest = 0;
+  any_part(one, other, [&](const Part& a, const Part& b) {
+    const auto ends = [](const Part& part) {
+      return part.jump ? std::pair(part.from.position, part.to.position)
+                       : std::pair(part.near(part.begin), part.near(part.end));
+    };
+    const auto [one_from, one_to] = ends(a);
+    const auto [other_from, other_to] = ends(b);
+    const Vec2d start = one_from - other_from;
+    const Vec2d way = (one_to - other_to) - start;
+    const auto depth_at = [&](double t) { return -separation_of(start + t * way); };
+    double low = 0;
+    double high = 1;
+    for (int i = 0; i < refinements; ++i) {
+      const double third = (high - low) / 3;
+      if (depth_at(low + third) < depth_at(high - third))
+        low += third;
+      else
+        high -= third;
+    }
+    deepest = std::max({deepest, depth_at(0), depth_at(1), depth_at((low + high) / 2)});
+    return false;
+  });
+  return deepest;
+}
+
+}  // namespace paperproof::compare

@@ -1,0 +1,76 @@
+#include "runs/crowd_contestant.hpp"
+
+#include "runs/technique_parts.hpp"
+
+#include <paperproof/crowd.hpp>
+
+namespace paperproof::compare {
+namespace {
+
+constexpr auto technique = TechniqueKind::octagon_sweep;
+
+template <class Scalar>
+class CrowdContestant final : public Contestant {
+ public:
+  CrowdContestant(const Scene& scene, const Scenery<double>& scenery, const Planning& planning)
+      : scenery_(scenery),
+        plan_(plan_of(scenery_.get(), scene.character, planning)),
+        crowd_(scenery_.get(), rules_for(technique, scene.character), definition_of(technique, scene, plan_)),
+        scratch_(crowd_.make_scratch(character_count(scene))),
+        gravity_(scene.gravity.cast<Scalar>()),
+        dt_(static_cast<Scalar>(scene.dt)),
+        header_(header_of(technique, scenery_.get(), scene, plan_)),
+        states_(character_count(scene)),
+        report_(character_count(scene)) {
+    place_at_start(*this, scene);
+  }
+
+  [[nodiscard]] const TraceHeader& header() const noexcept override { return header_; }
+
+  void step(const StepInput& input, std::span<TraceStep> records) override {
+    step_unrecorded(input);
+    refuse_unusable(report_.status);
+    for (std::size_t k = 0; k < states_.size(); ++k) {
+      const CrowdMember<Scalar>& member = report_.members[k];
+      write_report(member.step, states_[k], records[k]);
+      records[k].met.clear();
+      for (const CrowdContact<Scalar>& contact : member.met)
+        records[k].met.push_back({.other = contact.other,
+                                  .normal = contact.normal.template cast<double>(),
+                                  .fraction = static_cast<double>(contact.fraction),
+                                  .side = contact.side});
+    }
+  }
+
+  void step_unrecorded(const StepInput& input) override {
+    crowd_.step(states_, input.players, gravity_, dt_, scratch_, report_);
+  }
+
+  [[nodiscard]] Pose pose(std::size_t character) const override { return pose_of(states_[character]); }
+  void place(const Pose& pose, std::size_t character) override { states_[character] = state_at<Scalar>(pose); }
+
+ private:
+  OwnScenery<Scalar> scenery_;
+  Plan plan_;
+  Crowd<Scalar> crowd_;
+  CrowdScratch scratch_;
+  Vec2<Scalar> gravity_;
+  Scalar dt_;
+  TraceHeader header_;
+  std::vector<CharacterState<Scalar>> states_;
+  CrowdReport<Scalar> report_;
+};
+
+}  // namespace
+
+std::unique_ptr<Contestant> make_crowd_contestant(ScalarKind scalar, const Scene& scene, const Scenery<double>& scenery,
+                                                  const Planning& planning) {
+  try {
+    if (scalar == ScalarKind::binary32) return std::make_unique<CrowdContestant<float>>(scene, scenery, planning);
+    return std::make_unique<CrowdContestant<double>>(scene, scenery, planning);
+  } catch (const std::invalid_argument& error) {
+    throw NotApplicable(error.what());
+  }
+}
+
+}  // namespace paperproof::compare

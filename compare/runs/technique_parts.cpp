@@ -1,0 +1,132 @@
+#include "runs/technique_parts.hpp"
+
+#include <algorithm>
+
+namespace paperproof::compare {
+namespace {
+
+using SensorChange = SensorEvent<double>::Change;
+
+template <class Scalar>
+std::vector<NamedTolerance> tolerances_of() {
+  constexpr Tolerances<Scalar> t{};
+  return {{"hit", t.hit},         {"stop", t.stop},       {"touch", t.touch}, {"look", t.look},
+          {"certain", t.certain}, {"restore", t.restore}, {"range", t.range}};
+}
+
+template <class Scalar>
+Vec2d widened(const Vec2<Scalar>& v) {
+  return v.template cast<double>();
+}
+
+/// The article's techniques name the pair that was tested; all contenders are compared by where the normal points.
+template <class Scalar>
+Contact<double> recorded(const Contact<Scalar>& contact) {
+  return {.collider = contact.collider,
+          .point = widened<Scalar>(contact.point),
+          .normal = widened<Scalar>(contact.normal),
+          .fraction = static_cast<double>(contact.fraction),
+          .separation = static_cast<double>(contact.separation),
+          .side = side_of_normal(contact.normal.x(), contact.normal.y())};
+}
+
+}  // namespace
+
+TechniqueDef definition_of(TechniqueKind kind, const Scene& scene, const Plan& plan) {
+  TechniqueDef def;
+  def.kind = kind;
+  def.broad_phase = plan.broad_phase;
+  def.stages = plan.stages;
+  def.article.unit = 1 / scene.pixels_per_metre;
+  constexpr double finest = 1000;  // that the picture techniques take
+  def.article.raster_pixels_per_metre = std::min(scene.pixels_per_metre, finest);
+  return def;
+}
+
+CharacterDef rules_for(TechniqueKind kind, CharacterDef character) {
+  if (kind != TechniqueKind::octagon_sweep) character.no_jump_toward_wall = character.side_hit_ends_rise = true;
+  return character;
+}
+
+template <class Scalar>
+TraceHeader header_of(TechniqueKind kind, const Scenery<Scalar>& scenery, const Scene& scene, const Plan& plan) {
+  TraceHeader header;
+  header.scene = scene.name;
+  header.contender = name_of(kind);
+  header.scalar = name_of(std::is_same_v<Scalar, float> ? ScalarKind::binary32 : ScalarKind::binary64);
+  header.dt = static_cast<double>(static_cast<Scalar>(scene.dt));
+  header.characters = character_count(scene);
+  for (const Vec2d& point : scene.character.shape.hull())
+    header.points.push_back(point.cast<Scalar>().template cast<double>());
+  header.scenery = scenery.as_run();
+  header.ids = scene.ids;
+  header.plan = plan;
+  header.tolerances = tolerances_of<Scalar>();
+  return header;
+}
+
+template <class Scalar>
+void write_report(const StepReport<Scalar>& report, const CharacterState<Scalar>& state, TraceStep& record) {
+  const MoveResult<Scalar>& move = report.move;
+  record.path.clear();
+  for (const PathPoint<Scalar>& corner : move.path)
+    record.path.push_back({widened<Scalar>(corner.position), static_cast<double>(corner.fraction)});
+  record.requested = widened<Scalar>(report.requested);
+  record.velocity = widened<Scalar>(state.velocity);
+  record.grounded = state.grounded;
+  record.jumping = state.jumping;
+  record.stuck = report.status == StepStatus::stuck;
+  record.dropped = report.status == StepStatus::dropped;
+  record.capped = false;
+  record.crushed.assign(move.crushed.begin(), move.crushed.end());
+  record.sensors.clear();
+  for (const SensorEvent<Scalar>& event : report.sensors) {
+    const bool enters = event.change == SensorEvent<Scalar>::Change::enter;
+    record.sensors.push_back(
+        {event.sensor, enters ? SensorChange::enter : SensorChange::exit, static_cast<double>(event.fraction)});
+  }
+  record.contacts.clear();
+  for (const Contact<Scalar>& contact : move.contacts) record.contacts.push_back(recorded(contact));
+}
+
+void refuse_unusable(StepStatus status) {
+  if (status == StepStatus::out_of_range)
+    throw LeftRange("the motion would leave the range of +-2e6 m, and the run ends there");
+  if (status == StepStatus::invalid_input) throw std::runtime_error("the motion is not finite");
+}
+
+template <class Scalar>
+Pose pose_of(const CharacterState<Scalar>& state) {
+  return {.position = widened<Scalar>(state.position),
+          .velocity = widened<Scalar>(state.velocity),
+          .grounded = state.grounded,
+          .jumping = state.jumping,
+          .jump_held = state.jump_held,
+          .jump_pending = state.jump_pending,
+          .ride = {.ground = state.ride.ground,
+                   .place = widened<Scalar>(state.ride.place),
+                   .velocity = widened<Scalar>(state.ride.velocity)}};
+}
+
+template <class Scalar>
+CharacterState<Scalar> state_at(const Pose& pose) {
+  CharacterState<Scalar> state;
+  state.position = pose.position.cast<Scalar>();
+  state.velocity = pose.velocity.cast<Scalar>();
+  state.grounded = pose.grounded;
+  state.jumping = pose.jumping;
+  state.jump_held = pose.jump_held;
+  state.jump_pending = pose.jump_pending;
+  return state;
+}
+
+template TraceHeader header_of(TechniqueKind, const Scenery<float>&, const Scene&, const Plan&);
+template TraceHeader header_of(TechniqueKind, const Scenery<double>&, const Scene&, const Plan&);
+template void write_report(const StepReport<float>&, const CharacterState<float>&, TraceStep&);
+template void write_report(const StepReport<double>&, const CharacterState<double>&, TraceStep&);
+template Pose pose_of(const CharacterState<float>&);
+template Pose pose_of(const CharacterState<double>&);
+template CharacterState<float> state_at(const Pose&);
+template CharacterState<double> state_at(const Pose&);
+
+}  // namespace paperproof::compare

@@ -1,0 +1,56 @@
+/// What the contestants that run our controller have in common: scenery, header, and how a report becomes a record.
+#pragma once
+
+#include "runs/contestant.hpp"
+
+#include <paperproof/controller.hpp>
+
+#include <type_traits>
+
+namespace paperproof::compare {
+
+/// `Scenery<double>` is shared by all contestants of a scene; one in float brings its own, rounded.
+template <class Scalar>
+class OwnScenery {
+ public:
+  explicit OwnScenery(const Scenery<double>& shared) : own_(shared.as_run()) {}
+  [[nodiscard]] const Scenery<Scalar>& get() const noexcept { return own_; }
+
+ private:
+  Scenery<Scalar> own_;
+};
+template <>
+class OwnScenery<double> {
+ public:
+  explicit OwnScenery(const Scenery<double>& shared) : shared_(shared) {}
+  [[nodiscard]] const Scenery<double>& get() const noexcept { return shared_; }
+
+ private:
+  const Scenery<double>& shared_;
+};
+
+[[nodiscard]] TechniqueDef definition_of(TechniqueKind kind, const Scene& scene, const Plan& plan);
+
+/// The article's jumping rules belong to the article's techniques; for octagon_sweep they are the scene's choice.
+[[nodiscard]] CharacterDef rules_for(TechniqueKind kind, CharacterDef character);
+
+template <class Scalar>
+[[nodiscard]] TraceHeader header_of(TechniqueKind kind, const Scenery<Scalar>& scenery, const Scene& scene,
+                                    const Plan& plan);
+
+/// Fills what a step report and the state after it say; not `movers`. `requested` is as the controller has it: relative
+/// to what carries the character.
+template <class Scalar>
+void write_report(const StepReport<Scalar>& report, const CharacterState<Scalar>& state, TraceStep& record);
+
+/// @throws LeftRange, std::runtime_error for a step that was refused.
+void refuse_unusable(StepStatus status);
+
+template <class Scalar>
+[[nodiscard]] Pose pose_of(const CharacterState<Scalar>& state);
+
+/// A new story begins there.
+template <class Scalar>
+[[nodiscard]] CharacterState<Scalar> state_at(const Pose& pose);
+
+}  // namespace paperproof::compare

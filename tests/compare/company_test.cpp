@@ -1,0 +1,182 @@
+/// Several characters, judged from records that are made here.
+#include "oracle/company.hpp"
+#include "compare/judge_steps.hpp"
+
+#include <gtest/gtest.h>
+
+namespace paperproof::compare::test {
+namespace {
+
+using Way = std::vector<PathPoint<double>>;
+
+constexpr double width = 0.625;  // of the octagon
+const std::vector<CharacterIndex> nobody{};
+const std::vector<CharacterIndex> the_other{1};
+
+ExactPair pair() { return ExactPair(octagon()); }
+
+TEST(ExactPair, touching_is_no_overlap_and_an_ulp_more_is_one) {
+  EXPECT_FALSE(pair().overlap({0, 0}, {width, 0}));
+  EXPECT_TRUE(pair().overlap({0x1p-52, 0}, {width, 0}));
+  EXPECT_TRUE(pair().overlap({3, 3}, {3, 3}));
+  EXPECT_EQ(pair().separation({0, 0}, {2, 0}), 2 - width);
+  EXPECT_EQ(pair().separation({2, 0}, {2.25, 0}), 0.25 - width);
+}
+
+TEST(ExactPair, a_way_that_only_slides_along_the_other_does_not_meet_it) {
+  EXPECT_FALSE(pair().meet_between({0, -5}, {width, 0}, {0, 5}, {width, 0}));
+  EXPECT_TRUE(pair().meet_between({0x1p-50, -5}, {width, 0}, {0x1p-50, 5}, {width, 0})) << "both ends are free";
+}
+
+TEST(ExactPair, ways_that_cross_meet_only_at_the_same_time) {
+  const Way right{{{-2, 0}, 0}, {{2, 0}, 1}};
+  EXPECT_TRUE(pair().meet(right, Way{{{0, -4}, 0}, {{0, 4}, 1}}));
+  EXPECT_FALSE(pair().meet(right, Way{{{0, -4}, 0}, {{0, 4}, 0.125}, {{0, 4}, 1}})) << "it was there before";
+  // At 0.3125 its right side is at -0.4375, and at 0.5 beyond the other's left side at -0.3125.
+  EXPECT_FALSE(pair().meet(right, Way{{{0, 0}, 0}, {{0, 0}, 0.25}, {{0, 9}, 0.3125}, {{0, 9}, 1}}));
+  EXPECT_TRUE(pair().meet(right, Way{{{0, 0}, 0}, {{0, 0}, 0.5}, {{0, 9}, 0.5625}, {{0, 9}, 1}}));
+}
+
+TEST(ExactPair, a_part_that_takes_no_time_is_looked_at_from_where_the_other_is_then) {
+  const Way jump{{{-3, 0}, 0}, {{-3, 0}, 0.5}, {{3, 0}, 0.5}, {{3, 0}, 1}};
+  EXPECT_TRUE(pair().meet(jump, Way{{{0, 0}, 0}, {{0, 0}, 1}}));
+  EXPECT_FALSE(pair().meet(jump, Way{{{0, 4}, 0}, {{0, -12}, 1}})) << "it is at -4 by then";
+  EXPECT_TRUE(pair().meet(Way{{{0, 4}, 0}, {{0, -4}, 1}}, jump)) << "it is at 0 by then";
+}
+
+TEST(ExactPair, the_first_impact_is_distance_over_both_speeds) {
+  const auto impact = pair().first_impact({0, 0}, {0.5, 0}, {width + 0.25, 0}, {-0.25, 0});
+  ASSERT_TRUE(impact);
+  EXPECT_EQ(impact->fraction, Rational(1, 3));
+  EXPECT_EQ(impact->normal, Vec2d(-1, 0)) << "from the other towards the one";
+  EXPECT_FALSE(pair().first_impact({0, 0}, {0.125, 0}, {width + 0.25, 0}, {-0.125, 0})) << "they come to touch";
+  EXPECT_FALSE(pair().first_impact({0, 0}, {1, 0}, {0.5, 0}, {0, 0})) << "they overlap already";
+}
+
+TEST(ExactPair, the_deepest_place_of_a_passing_is_found_between_the_corners) {
+  // Through each other's middle: half a width off, so the shortest way out is the other half.
+  EXPECT_NEAR(pair().deepest(Way{{{-3, 0}, 0}, {{3, 0}, 1}}, Way{{{0, 1.25 - 0.1}, 0}, {{0, 1.25 - 0.1}, 1}}), 0.1,
+              1e-12);
+  EXPECT_EQ(pair().deepest(Way{{{-3, 0}, 0}, {{3, 0}, 1}}, Way{{{0, 3}, 0}, {{0, 3}, 1}}), 0);
+}
+
+/// What two characters do in one step, and what is said of the first one.
+class Two {
+ public:
+  explicit Two(std::vector<ColliderDef> colliders = {}) : header_(header(std::move(colliders))), judge_(with_two()) {}
+
+  StepJudgement operator()(TraceStep one, TraceStep other, StepJudgement alone = {}) {
+    other.character = 1;
+    const std::array<TraceStep, 2> steps{std::move(one), std::move(other)};
+    judged_ = {std::move(alone), StepJudgement{}};
+    judge_.judge(steps, judged_);
+    return judged_[0];
+  }
+  [[nodiscard]] const StepJudgement& other() const { return judged_[1]; }
+
+ private:
+  TraceHeader with_two() {
+    header_.characters = 2;
+    return header_;
+  }
+  TraceHeader header_;
+  CompanyJudge judge_;
+  std::array<StepJudgement, 2> judged_{};
+};
+
+TEST(CompanyJudge, tells_a_passing_once_with_the_lower_of_the_two) {
+  Two two;
+  const StepJudgement judged = two(step({{-1, 0}, {1, 0}}), step({{1, 0}, {-1, 0}}));
+  EXPECT_EQ(judged.company.passed, the_other);
+  EXPECT_TRUE(judged.broke());
+  EXPECT_FALSE(two.other().broke());
+  EXPECT_EQ(judged.company.overlap, nobody);
+}
+
+TEST(CompanyJudge, a_rim_that_is_cut_by_no_more_than_the_slop_is_a_corner_cut) {
+  EXPECT_EQ(Two()(step({{-2, 0}, {2, 0}}), step({{0, 1.246}, {0, 1.246}})).company.corner_cut, the_other);
+  EXPECT_EQ(Two()(step({{-2, 0}, {2, 0}}), step({{0, 1.244}, {0, 1.244}})).company.passed, the_other);
+}
+
+TEST(CompanyJudge, an_overlap_is_new_once_and_its_end_on_the_same_side_is_no_passing) {
+  Two two;
+  const TraceStep rest = step({{0, 0}, {0, 0}});
+  StepJudgement judged = two(step({{-1, 0}, {-0.5, 0}}), rest);
+  EXPECT_EQ(judged.company.overlap, the_other);
+  EXPECT_EQ(judged.company.entered, the_other);
+  EXPECT_EQ(judged.max_penetration, 0.125);
+  judged = two(step({{-0.5, 0}, {-0.5, 0}}), rest);
+  EXPECT_EQ(judged.company.overlap, the_other);
+  EXPECT_EQ(judged.company.entered, nobody);
+  EXPECT_FALSE(two(step({{-0.5, 0}, {-1, 0}}), rest).company.broke());
+}
+
+TEST(CompanyJudge, an_overlap_that_ends_on_another_side_was_a_passing) {
+  Two two;
+  const TraceStep rest = step({{0, 0}, {0, 0}});
+  (void)two(step({{-1, 0}, {-0.25, 0}}), rest);
+  EXPECT_EQ(two(step({{-0.25, 0}, {1, 0}}), rest).company.passed, the_other);
+}
+
+TEST(CompanyJudge, who_begins_inside_another_may_leave_on_any_side) {
+  for (const double x : {-1.0, 1.0}) {
+    const StepJudgement judged = Two()(step({{-0.25, 0}, {x, 0}}), step({{0, 0}, {0, 0}}));
+    EXPECT_FALSE(judged.broke()) << x;
+  }
+}
+
+TEST(CompanyJudge, a_character_that_is_put_elsewhere_does_not_pass_who_is_between) {
+  Two two;
+  const TraceStep rest = step({{0, 0}, {0, 0}});
+  (void)two(step({{-1, 0}, {-0.5, 0}}), rest);
+  TraceStep put = step({{1, 0}, {2, 0}});
+  put.respawn = true;
+  EXPECT_FALSE(two(put, rest).broke());
+}
+
+TEST(CompanyJudge, the_first_impact_of_both_is_theirs_unless_scenery_comes_first) {
+  Two two;
+  TraceStep one = step({{0, 0}, {0.0625, 0}});
+  one.requested = {0.5, 0};
+  TraceStep other = step({{1, 0}, {0.75, 0}});
+  other.requested = {-0.25, 0};
+  // 0.375 m are between them, and 0.75 m would be gone.
+  StepJudgement judged = two(one, other);
+  EXPECT_EQ(judged.first_impact, 0.5);
+  EXPECT_EQ(judged.first_met, CharacterIndex{1});
+  EXPECT_TRUE(judged.first_impact_comparable);
+  EXPECT_EQ(two.other().first_met, CharacterIndex{0});
+  StepJudgement alone;
+  alone.first_impact = 0.25;
+  alone.first_impact_comparable = true;
+  judged = Two()(one, other, alone);
+  EXPECT_EQ(judged.first_impact, 0.25);
+  EXPECT_FALSE(judged.first_met);
+}
+
+TEST(CompanyJudge, speed_that_another_takes_is_not_lost_to_nothing) {
+  StepJudgement alone;
+  alone.ghost_speed_loss = 1;
+  TraceStep one = step({{0, 0}, {0, 0}});
+  one.requested = {0.1, 0};
+  EXPECT_EQ(Two()(one, step({{width + 0.05, 0}, {width + 0.05, 0}}), alone).ghost_speed_loss, 0);
+  EXPECT_EQ(Two()(one, step({{width + 0.15, 0}, {width + 0.15, 0}}), alone).ghost_speed_loss, 1) << "too far away";
+  EXPECT_EQ(Two()(one, step({{-width, 0}, {-width, 0}}), alone).ghost_speed_loss, 1) << "behind it";
+  EXPECT_EQ(Two()(one, step({{0, -1.25}, {0, -1.25}}), alone).ghost_speed_loss, 1) << "below it";
+}
+
+TEST(CompanyJudge, beside_another_what_scenery_was_met_is_not_told_from_what_was_requested) {
+  StepJudgement alone;
+  alone.contacts = {{.collider = 0, .side = Side::right}};
+  TraceStep one = step({{0, 0}, {0, 0}});
+  one.contacts = {{.collider = 1, .side = Side::bottom}};
+  const StepJudgement beside = Two()(one, step({{width + 5e-7, 0}, {width + 5e-7, 0}}), alone);
+  EXPECT_TRUE(beside.contacts.empty());
+  EXPECT_EQ(beside.dont_care, std::vector<ColliderIndex>{1});
+  const StepJudgement apart = Two()(one, step({{width + 2e-6, 0}, {width + 2e-6, 0}}), alone);
+  EXPECT_EQ(apart.contacts.size(), 1U);
+  EXPECT_TRUE(apart.dont_care.empty());
+}
+
+}  // namespace
+}  // namespace paperproof::compare::test
