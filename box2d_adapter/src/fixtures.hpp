@@ -26,6 +26,7 @@ struct FixtureSource {
     Vec2d normal;
   };
   std::optional<OneWay> one_way{};
+  std::optional<CharacterIndex> character{};  ///< It is no scenery, but a character.
 };
 
 /// What goes along with one mover, or stands. It has a body of its own, whose position is the mover's offset.

@@ -1,9 +1,9 @@
 #include <paperproof/box2d/reference_world.hpp>
 
+#include "characters.hpp"
 #include "collider_lookup.hpp"
 #include "fixtures.hpp"
 #include "float_geometry.hpp"
-#include "step_recorder.hpp"
 
 #include <box2d/b2_fixture.h>
 #include <box2d/b2_world.h>
@@ -56,42 +56,43 @@ float checked_step(double dt) {
 std::string box2d_version() { return PAPERPROOF_BOX2D_VERSION; }
 
 struct ReferenceWorld::Impl {
-  Impl(const Scenery<double>& scenery, const CharacterDef& character, const Vec2d& position,
+  Impl(const Scenery<double>& scenery, const CharacterDef& character, std::span<const Vec2d> positions,
        const ReferenceWorldDef& definition)
       : def(definition),
         as_run(rounded(scenery.as_run())),
-        least_up(std::cos(character.max_climb_degrees * std::numbers::pi / 180)),
-        recorder(fixtures.sources, points) {
+        least_up(std::cos(character.max_climb_degrees * std::numbers::pi / 180)) {
     check_definition(def);
     for (const Vec2d& corner : character.shape.hull()) points.push_back(widened(rounded(corner)));
     add_scenery(scenery);
     world.SetAllowSleeping(false);
-    world.SetContactListener(&recorder);
-    add_character(character, checked(position, "the character's position"));
+    world.SetContactListener(&dispatcher);
+    for (const Vec2d& position : positions) add_character(character, checked(position, "the character's position"));
   }
 
   void add_scenery(const Scenery<double>& scenery);
   void add_character(const CharacterDef& character, const b2Vec2& position);
 
-  void place(const b2Vec2& position, const b2Vec2& velocity) {
+  static void place(b2Body* body, const b2Vec2& position, const b2Vec2& velocity) {
     body->SetEnabled(false);  // The one way to have Box2D drop its contacts and the impulses stored in them.
     body->SetTransform(position, 0);
     body->SetLinearVelocity(velocity);
     body->SetEnabled(true);
   }
 
-  void step(const b2Vec2& velocity, float dt, std::span<const MoverMotion<double>> motions);
+  void step(std::span<const Vec2d> velocities, float dt, std::span<const MoverMotion<double>> motions);
   void send_movers(float dt, std::span<const MoverMotion<double>> motions);
-  void add_touching();
-  void add_begun();
-  void add(const SceneryEnd& end, const TouchPoint& touch, double fraction);
-  void stand_on(const SceneryEnd& end, const TouchPoint& touch);
-  void add_sensor_events();
+  void read(Character& who);
+  void add_touching(Character& who);
+  void add_begun(Character& who);
+  void add(Character& who, const SceneryEnd& end, const TouchPoint& touch, double fraction);
+  static void add_met(TwinStep& result, CharacterIndex other, const Vec2d& normal, double fraction);
+  void stand_on(TwinStep& result, const SceneryEnd& end, const TouchPoint& touch);
+  static void add_sensor_events(Character& who);
   [[nodiscard]] ColliderIndex collider_of(const SceneryEnd& end, const Vec2d& point);
-  [[nodiscard]] double fraction_of(const SceneryEnd& end) const;
-  [[nodiscard]] Vec2d wanted_relative_to(const SceneryEnd& end) const;
-  [[nodiscard]] bool moves_into(const SceneryEnd& end, const Vec2d& normal) const {
-    return normal.dot(wanted_relative_to(end)) < -least_approach;
+  [[nodiscard]] static double fraction_of(const Character& who, const SceneryEnd& end);
+  [[nodiscard]] Vec2d wanted_relative_to(const Character& who, const SceneryEnd& end) const;
+  [[nodiscard]] bool moves_into(const Character& who, const SceneryEnd& end, const Vec2d& normal) const {
+    return normal.dot(wanted_relative_to(who, end)) < -least_approach;
   }
 
   /// The body of a mover.
@@ -107,16 +108,15 @@ struct ReferenceWorld::Impl {
   b2World world{b2Vec2(0, 0)};
   SceneryFixtures fixtures;
   std::deque<ColliderLookup> lookups;  ///< For what stands, then for each mover; they can neither be copied nor moved.
-  StepRecorder recorder;
+  std::deque<Character> characters;    ///< Their recorders are known to the dispatcher.
+  Dispatcher dispatcher{characters};
   std::vector<Mover> movers;
-  std::vector<Vec2d> offsets;         ///< Of the movers, when the step begins [m].
-  bool looks_for_ground = false;      ///< There is ground that carries.
-  std::vector<ColliderIndex> sensed;  ///< Sensors that were touched in the last step, ascending.
-  std::vector<ColliderIndex> sensed_before;
-  b2Body* body = nullptr;
+  std::vector<Vec2d> offsets;                      ///< Of the movers, when the step begins [m].
+  std::vector<MoverMotion<double>> mover_motions;  ///< As Box2D made them.
+  bool movers_capped = false;                      ///< One was to go beyond the travel cap.
+  bool looks_for_ground = false;                   ///< There is ground that carries.
   float last_dt = 0;
-  Vec2d wanted{Vec2d::Zero()};  ///< Displacement of the present step [m].
-  TwinStep result;
+  std::vector<TwinStep> results;
 };
 
 void ReferenceWorld::Impl::add_scenery(const Scenery<double>& scenery) {
@@ -132,7 +132,7 @@ void ReferenceWorld::Impl::add_scenery(const Scenery<double>& scenery) {
   }
   add_sensors(bodies, scenery, as_run, fixtures);
   offsets.resize(movers.size(), Vec2d::Zero());
-  result.movers.resize(movers.size());
+  mover_motions.resize(movers.size());
   looks_for_ground =
       !movers.empty() || std::any_of(as_run.colliders.begin(), as_run.colliders.end(),
                                      [](const ColliderDef& collider) { return collider.surface_speed != 0; });
@@ -146,12 +146,17 @@ void ReferenceWorld::Impl::add_character(const CharacterDef& character, const b2
   body_def.fixedRotation = true;
   body_def.bullet = true;
   body_def.allowSleep = false;
-  body = world.CreateBody(&body_def);
+  Character& who = characters.emplace_back(fixtures, points);
+  b2Body* body = who.body = world.CreateBody(&body_def);
   b2FixtureDef fixture;
   fixture.shape = &shape;
   fixture.density = 1;
   fixture.friction = 0;
   fixture.restitution = 0;
+  fixture.userData.pointer = who.source = fixtures.sources.size();
+  FixtureSource source;
+  source.character = static_cast<CharacterIndex>(characters.size() - 1);
+  fixtures.sources.push_back(source);
   body->CreateFixture(&fixture);
   // Box2D moves the centre of mass and derives the position from it. With the centre at the position nothing is lost.
   b2MassData mass;
@@ -163,78 +168,103 @@ void ReferenceWorld::Impl::add_character(const CharacterDef& character, const b2
 
 /// By velocity: Box2D sweeps a body from where the step finds it, and what is put somewhere was never on the way.
 void ReferenceWorld::Impl::send_movers(float dt, std::span<const MoverMotion<double>> motions) {
+  movers_capped = false;
   for (std::size_t i = 0; i < movers.size(); ++i) {
     Mover& mover = movers[i];
     const b2Vec2 from = rounded(motions[i].from);
     if (!(mover.goal == from)) mover.body->SetTransform(from, 0);
     mover.goal = rounded(motions[i].to);
     const b2Vec2 way = mover.goal - mover.body->GetPosition();
-    if (way.LengthSquared() > b2_maxTranslationSquared) result.capped = true;
+    if (way.LengthSquared() > b2_maxTranslationSquared) movers_capped = true;
     mover.body->SetLinearVelocity((1 / dt) * way);
     offsets[i] = widened(mover.body->GetPosition());
   }
 }
 
-void ReferenceWorld::Impl::step(const b2Vec2& velocity, float dt, std::span<const MoverMotion<double>> motions) {
-  const b2Vec2 displacement = dt * velocity;
-  wanted = widened(displacement);
-  result.capped = displacement.LengthSquared() > b2_maxTranslationSquared;
-  body->SetLinearVelocity(velocity);
+void ReferenceWorld::Impl::step(std::span<const Vec2d> velocities, float dt,
+                                std::span<const MoverMotion<double>> motions) {
   send_movers(dt, motions);
+  for (std::size_t k = 0; k < characters.size(); ++k) {
+    Character& who = characters[k];
+    const b2Vec2 velocity = rounded(velocities[k]);
+    const b2Vec2 displacement = dt * velocity;
+    who.wanted = widened(displacement);
+    who.result.capped = movers_capped || displacement.LengthSquared() > b2_maxTranslationSquared;
+    who.body->SetLinearVelocity(velocity);
+    who.recorder.begin_step(*who.body, who.wanted, offsets);
+  }
   world.SetWarmStarting(dt <= largest_step_ratio * last_dt);
-  recorder.begin_step(*body, wanted, offsets);
   world.Step(dt, def.velocity_iterations, def.position_iterations);
-  recorder.end_step();
+  for (Character& who : characters) who.recorder.end_step();
   last_dt = dt;
-
   for (std::size_t i = 0; i < movers.size(); ++i)
-    result.movers[i] = {offsets[i], widened(movers[i].body->GetPosition())};
-  result.velocity = widened(body->GetLinearVelocity());
-  result.path = recorder.path();
-  result.contacts.clear();
-  result.grounded = false;
-  result.ground.reset();
-  sensed.swap(sensed_before);
-  sensed.clear();
-  add_touching();
-  add_begun();
-  add_sensor_events();
-  std::sort(result.contacts.begin(), result.contacts.end(), comes_before);
+    mover_motions[i] = {offsets[i], widened(movers[i].body->GetPosition())};
+  results.clear();
+  for (Character& who : characters) {
+    read(who);
+    results.push_back(who.result);
+  }
 }
 
-double ReferenceWorld::Impl::fraction_of(const SceneryEnd& end) const {
-  for (const Beginning& beginning : recorder.beginnings()) {
+/// What the step did to a character.
+void ReferenceWorld::Impl::read(Character& who) {
+  TwinStep& result = who.result;
+  result.movers = mover_motions;
+  result.velocity = widened(who.body->GetLinearVelocity());
+  result.path = who.recorder.path();
+  result.contacts.clear();
+  result.met.clear();
+  result.grounded = false;
+  result.ground.reset();
+  who.sensed.swap(who.sensed_before);
+  who.sensed.clear();
+  add_touching(who);
+  add_begun(who);
+  add_sensor_events(who);
+  std::sort(result.contacts.begin(), result.contacts.end(), comes_before);
+  std::stable_sort(result.met.begin(), result.met.end(), [](const auto& a, const auto& b) {
+    return a.fraction < b.fraction || (a.fraction == b.fraction && a.other < b.other);
+  });
+}
+
+double ReferenceWorld::Impl::fraction_of(const Character& who, const SceneryEnd& end) {
+  for (const Beginning& beginning : who.recorder.beginnings()) {
     if (beginning.end.source == end.source && beginning.end.child == end.child) return beginning.fraction;
   }
   return 0;  // It touched when the step began.
 }
 
-Vec2d ReferenceWorld::Impl::wanted_relative_to(const SceneryEnd& end) const {
-  const MoverIndex mover = fixtures.sources[end.source].mover;
-  if (mover == no_mover) return wanted;
-  return wanted - (result.movers[mover].to - result.movers[mover].from);
+Vec2d ReferenceWorld::Impl::wanted_relative_to(const Character& who, const SceneryEnd& end) const {
+  const FixtureSource& source = fixtures.sources[end.source];
+  if (source.character) {
+    const std::vector<PathPoint<double>>& path = characters[*source.character].recorder.path();
+    return who.wanted - (path.back().position - path.front().position);
+  }
+  if (source.mover == no_mover) return who.wanted;
+  return who.wanted - (mover_motions[source.mover].to - mover_motions[source.mover].from);
 }
 
-void ReferenceWorld::Impl::add_touching() {
-  for (const b2ContactEdge* edge = body->GetContactList(); edge != nullptr; edge = edge->next) {
+void ReferenceWorld::Impl::add_touching(Character& who) {
+  for (const b2ContactEdge* edge = who.body->GetContactList(); edge != nullptr; edge = edge->next) {
     const b2Contact& contact = *edge->contact;
     if (!contact.IsTouching() || !contact.IsEnabled()) continue;
-    const SceneryEnd end = scenery_end(contact, *body);
+    const SceneryEnd end = scenery_end(contact, *who.body);
     if (const FixtureSource& source = fixtures.sources[end.source]; source.sensor) {
-      sensed.push_back(*source.collider);
+      who.sensed.push_back(*source.collider);
       continue;
     }
-    for (const TouchPoint& touch : touch_points(contact, *body)) {
-      const bool leaves = touch.normal.dot(wanted_relative_to(end)) > least_approach;
-      if (touch.normal.y() >= least_up && touch.gap <= standing_gap && !leaves) stand_on(end, touch);
-      if (moves_into(end, touch.normal)) add(end, touch, fraction_of(end));
+    for (const TouchPoint& touch : touch_points(contact, *who.body)) {
+      const bool leaves = touch.normal.dot(wanted_relative_to(who, end)) > least_approach;
+      if (touch.normal.y() >= least_up && touch.gap <= standing_gap && !leaves) stand_on(who.result, end, touch);
+      if (moves_into(who, end, touch.normal)) add(who, end, touch, fraction_of(who, end));
     }
   }
 }
 
-void ReferenceWorld::Impl::stand_on(const SceneryEnd& end, const TouchPoint& touch) {
+/// Another character carries nobody.
+void ReferenceWorld::Impl::stand_on(TwinStep& result, const SceneryEnd& end, const TouchPoint& touch) {
   result.grounded = true;
-  if (!looks_for_ground) return;
+  if (!looks_for_ground || fixtures.sources[end.source].character) return;
   const TwinStep::Ground ground{collider_of(end, touch.point), touch.normal};
   const auto rank = [](const TwinStep::Ground& one) { return std::pair(-one.normal.y(), one.collider); };
   if (!result.ground || rank(ground) < rank(*result.ground)) result.ground = ground;
@@ -242,27 +272,29 @@ void ReferenceWorld::Impl::stand_on(const SceneryEnd& end, const TouchPoint& tou
 
 /// After `add_touching`: what still touches is listed with the gap that is left, what does not with the gap it had.
 /// What Box2D begins because it is within 20 mm is a contact only if the motion leads into it.
-void ReferenceWorld::Impl::add_begun() {
-  for (const Beginning& beginning : recorder.beginnings()) {
+void ReferenceWorld::Impl::add_begun(Character& who) {
+  for (const Beginning& beginning : who.recorder.beginnings()) {
     for (const TouchPoint& touch : beginning.points) {
-      if (beginning.was_impact || moves_into(beginning.end, touch.normal))
-        add(beginning.end, touch, beginning.fraction);
+      if (beginning.was_impact || moves_into(who, beginning.end, touch.normal))
+        add(who, beginning.end, touch, beginning.fraction);
     }
   }
 }
 
 /// A sensor is touched piece by piece; it is entered with the first and left with the last.
-void ReferenceWorld::Impl::add_sensor_events() {
-  std::sort(sensed.begin(), sensed.end());
-  sensed.erase(std::unique(sensed.begin(), sensed.end()), sensed.end());
-  result.sensors.clear();
-  const auto add_missing = [this](const std::vector<ColliderIndex>& these, const std::vector<ColliderIndex>& in_those,
-                                  SensorEvent<double>::Change change) {
+void ReferenceWorld::Impl::add_sensor_events(Character& who) {
+  std::vector<ColliderIndex>& now = who.sensed;
+  std::sort(now.begin(), now.end());
+  now.erase(std::unique(now.begin(), now.end()), now.end());
+  std::vector<SensorEvent<double>>& events = who.result.sensors;
+  events.clear();
+  const auto add_missing = [&events](const std::vector<ColliderIndex>& these,
+                                     const std::vector<ColliderIndex>& in_those, SensorEvent<double>::Change change) {
     for (const ColliderIndex sensor : these)
-      if (!std::binary_search(in_those.begin(), in_those.end(), sensor)) result.sensors.push_back({sensor, change, 0});
+      if (!std::binary_search(in_those.begin(), in_those.end(), sensor)) events.push_back({sensor, change, 0});
   };
-  add_missing(sensed_before, sensed, SensorEvent<double>::Change::exit);
-  add_missing(sensed, sensed_before, SensorEvent<double>::Change::enter);
+  add_missing(who.sensed_before, now, SensorEvent<double>::Change::exit);
+  add_missing(now, who.sensed_before, SensorEvent<double>::Change::enter);
 }
 
 /// The outline was moved by at most 5 mm and the point is rounded to float a few times; but at the end of a chain Box2D
@@ -279,7 +311,13 @@ ColliderIndex ReferenceWorld::Impl::collider_of(const SceneryEnd& end, const Vec
 }
 
 /// One contact per collider and side; the first to come gives the geometry, the earliest the time.
-void ReferenceWorld::Impl::add(const SceneryEnd& end, const TouchPoint& touch, double fraction) {
+void ReferenceWorld::Impl::add(Character& who, const SceneryEnd& end, const TouchPoint& touch, double fraction) {
+  TwinStep& result = who.result;
+  if (const auto& other = fixtures.sources[end.source].character) {
+    // Of who stands where it is met, its own way does not tell the time.
+    const double of_other = fraction_of(characters[*other], {who.source, 0});
+    return add_met(result, *other, touch.normal, std::max(fraction, of_other));
+  }
   const ColliderIndex collider = collider_of(end, touch.point);
   const Side side = side_of_normal(touch.normal.x(), touch.normal.y());
   const auto same = std::find_if(result.contacts.begin(), result.contacts.end(), [&](const Contact<double>& known) {
@@ -292,29 +330,54 @@ void ReferenceWorld::Impl::add(const SceneryEnd& end, const TouchPoint& touch, d
   result.contacts.push_back({collider, touch.point, touch.normal, fraction, touch.gap, side});
 }
 
+void ReferenceWorld::Impl::add_met(TwinStep& result, CharacterIndex other, const Vec2d& normal, double fraction) {
+  const Side side = side_of_normal(normal.x(), normal.y());
+  const auto same = std::find_if(result.met.begin(), result.met.end(), [&](const CrowdContact<double>& known) {
+    return known.other == other && known.side == side;
+  });
+  if (same == result.met.end())
+    result.met.push_back({other, normal, fraction, side});
+  else
+    same->fraction = std::min(same->fraction, fraction);
+}
+
 ReferenceWorld::ReferenceWorld(const Scenery<double>& scenery, const CharacterDef& character, const Vec2d& position,
                                const ReferenceWorldDef& def)
-    : impl_(std::make_unique<Impl>(scenery, character, position, def)) {}
+    : ReferenceWorld(scenery, character, std::span(&position, 1), def) {}
+ReferenceWorld::ReferenceWorld(const Scenery<double>& scenery, const CharacterDef& character,
+                               std::span<const Vec2d> positions, const ReferenceWorldDef& def)
+    : impl_(std::make_unique<Impl>(scenery, character, positions, def)) {}
 ReferenceWorld::~ReferenceWorld() = default;
 ReferenceWorld::ReferenceWorld(ReferenceWorld&&) noexcept = default;
 ReferenceWorld& ReferenceWorld::operator=(ReferenceWorld&&) noexcept = default;
 
-void ReferenceWorld::place(const Vec2d& position, const Vec2d& velocity) {
-  impl_->place(checked(position, "the character's position"), checked(velocity, "the character's velocity"));
+void ReferenceWorld::place(const Vec2d& position, const Vec2d& velocity, std::size_t character) {
+  const b2Vec2 at = checked(position, "the character's position");
+  Impl::place(impl_->characters.at(character).body, at, checked(velocity, "the character's velocity"));
 }
 
 const TwinStep& ReferenceWorld::step(const Vec2d& wanted_velocity, double dt,
                                      std::span<const MoverMotion<double>> movers) {
+  return step_all(std::span(&wanted_velocity, 1), dt, movers).front();
+}
+
+std::span<const TwinStep> ReferenceWorld::step_all(std::span<const Vec2d> wanted_velocities, double dt,
+                                                   std::span<const MoverMotion<double>> movers) {
+  if (wanted_velocities.size() != impl_->characters.size())
+    throw InvalidDefinition("a step takes one velocity for each character");
   if (movers.size() != impl_->movers.size()) throw InvalidDefinition("a step takes one motion for each mover");
   for (const MoverMotion<double>& motion : movers) {
     (void)checked(motion.from, "a mover");
     (void)checked(motion.to, "a mover");
   }
-  impl_->step(checked(wanted_velocity, "the wanted velocity"), checked_step(dt), movers);
-  return impl_->result;
+  for (const Vec2d& velocity : wanted_velocities) (void)checked(velocity, "the wanted velocity");
+  impl_->step(wanted_velocities, checked_step(dt), movers);
+  return impl_->results;
 }
 
-Vec2d ReferenceWorld::position() const { return widened(impl_->body->GetPosition()); }
+Vec2d ReferenceWorld::position(std::size_t character) const {
+  return widened(impl_->characters.at(character).body->GetPosition());
+}
 const SceneryDef& ReferenceWorld::as_run() const noexcept { return impl_->as_run; }
 const std::vector<Vec2d>& ReferenceWorld::points_as_run() const noexcept { return impl_->points; }
 ReferenceWorld::Size ReferenceWorld::size() const noexcept { return impl_->fixtures.size; }

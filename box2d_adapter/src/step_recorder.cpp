@@ -78,25 +78,22 @@ void StepRecorder::look() {
   path_.push_back(seen_);
 }
 
-void StepRecorder::BeginContact(b2Contact* contact) {
-  if (character_ == nullptr) return;
+void StepRecorder::begin_contact(const b2Contact& contact) {
   look();
-  const SceneryEnd end = scenery_end(*contact, *character_);
+  const SceneryEnd end = scenery_end(contact, *character_);
   if (!blocks(end.source)) return;
   const bool was_impact = phase_ == Phase::impacts;
-  beginnings_.push_back({end, seen_.fraction, was_impact, touch_points(*contact, *character_)});
+  beginnings_.push_back({end, seen_.fraction, was_impact, touch_points(contact, *character_)});
 }
 
 /// A one-way segment lets through what is not wholly on the side that it blocks. The question is asked in every step,
 /// not once per contact: who rises through it and falls back before the contact has ended must land on it.
-void StepRecorder::PreSolve(b2Contact* contact, const b2Manifold*) {
-  if (character_ == nullptr) return;
+void StepRecorder::pre_solve(b2Contact& contact) {
   look();
-  if (!blocks(scenery_end(*contact, *character_).source)) contact->SetEnabled(false);
+  if (!blocks(scenery_end(contact, *character_).source)) contact.SetEnabled(false);
 }
 
-void StepRecorder::PostSolve(b2Contact*, const b2ContactImpulse*) {
-  if (character_ == nullptr) return;
+void StepRecorder::post_solve() {
   if (phase_ == Phase::collide) phase_ = Phase::solved;
   if (phase_ == Phase::impacts) leg_start_ = seen_;
   leg_end_ = widened(character_->GetPosition());

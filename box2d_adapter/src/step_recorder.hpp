@@ -19,7 +19,7 @@ struct TouchPoint {
   double gap = 0;
 };
 
-/// The scenery's side of a contact with the character.
+/// The other side of a contact of the character: scenery, or another character.
 struct SceneryEnd {
   std::size_t source = 0;  ///< Position in `SceneryFixtures::sources`.
   int32 child = 0;
@@ -38,10 +38,10 @@ struct Beginning {
   FixedVector<TouchPoint, b2_maxManifoldPoints> points;
 };
 
-/// The listener of a reference world. Box2D calls back in three phases, and only the third moves the body between
-/// calls: Collide (the body is where the step began), Solve (PostSolve sees it at the end of its way, before continuous
-/// collision), SolveTOI (the body is moved along that way to each impact, and on from there).
-class StepRecorder final : public b2ContactListener {
+/// What a reference world hears about one character. Box2D calls back in three phases, and only the third moves the
+/// body between calls: Collide (the body is where the step began), Solve (PostSolve sees it at the end of its way,
+/// before continuous collision), SolveTOI (the body is moved along that way to each impact, and on from there).
+class StepRecorder {
  public:
   /// `sources` and `hull` (relative to the position, as run) must outlive the recorder.
   StepRecorder(const std::vector<FixtureSource>& sources, const std::vector<Vec2d>& hull)
@@ -50,15 +50,21 @@ class StepRecorder final : public b2ContactListener {
   /// @param offsets of the movers when the step begins [m]; must outlive the step.
   void begin_step(const b2Body& character, const Vec2d& wanted_displacement, std::span<const Vec2d> offsets);
   void end_step();
+  /// Whether a call about this contact is for this recorder.
+  [[nodiscard]] bool watches(const b2Contact& contact) const {
+    const auto is_its = [this](const b2Fixture* fixture) { return fixture->GetBody() == character_; };
+    return character_ != nullptr && (is_its(contact.GetFixtureA()) || is_its(contact.GetFixtureB()));
+  }
 
   [[nodiscard]] std::span<const Beginning> beginnings() const noexcept { return beginnings_; }
   [[nodiscard]] const std::vector<PathPoint<double>>& path() const noexcept { return path_; }
   /// False for a sensor, and for a one-way segment while the character is not wholly on the side that it blocks.
   [[nodiscard]] bool blocks(std::size_t source) const;
 
-  void BeginContact(b2Contact* contact) override;
-  void PreSolve(b2Contact* contact, const b2Manifold* old_manifold) override;
-  void PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) override;
+  // For contacts that it watches:
+  void begin_contact(const b2Contact& contact);
+  void pre_solve(b2Contact& contact);
+  void post_solve();
 
  private:
   enum class Phase : std::uint8_t { collide, solved, impacts };

@@ -4,6 +4,7 @@
 #include "oracle/passing.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -88,14 +89,12 @@ void CompanyJudge::judge_pair(const TraceStep& one, const TraceStep& other, Step
   const std::pair key(one.character, other.character);
   if (!continues(one) || !continues(other)) {
     inside_.erase(key);
-    if (pair_.overlap(start_of(one), start_of(other)))
-      inside_[key] = {std::nullopt, -pair_.separation(start_of(one), start_of(other))};
+    if (pair_.overlap(start_of(one), start_of(other))) inside_[key] = std::nullopt;
   }
   if (!inside_.contains(key) && !may_meet(one, other)) return;
   if (!pair_.overlap(end_of(one), end_of(other))) return judge_apart(one, other, judgement);
-  const auto [it, is_new] = inside_.try_emplace(key, Episode{std::pair(start_of(one), start_of(other)), 0});
+  const bool is_new = inside_.try_emplace(key, std::pair(start_of(one), start_of(other))).second;
   const double depth = -pair_.separation(end_of(one), end_of(other));
-  it->second.depth = std::max(it->second.depth, depth);
   judgement.max_penetration = std::max(judgement.max_penetration, depth);
   judgement.company.overlap.push_back(other.character);
   if (is_new) judgement.company.entered.push_back(other.character);
@@ -104,20 +103,21 @@ void CompanyJudge::judge_pair(const TraceStep& one, const TraceStep& other, Step
 /// The two are apart where the step ends.
 void CompanyJudge::judge_apart(const TraceStep& one, const TraceStep& other, StepJudgement& judgement) {
   const auto stay = inside_.find({one.character, other.character});
-  if (stay == inside_.end()) {
-    if (pair_.meet(one.path, other.path)) note_passing(other.character, pair_.deepest(one.path, other.path), judgement);
-    return;
-  }
-  const Episode& episode = stay->second;
-  if (episode.free_from &&
-      pair_.meet_between(episode.free_from->first, episode.free_from->second, end_of(one), end_of(other)))
-    note_passing(other.character, std::max(episode.depth, pair_.deepest(one.path, other.path)), judgement);
-  inside_.erase(stay);
+  const bool was_apart = stay == inside_.end();
+  if (was_apart && header_.path_exact) return judge_ways(one.path, other.path, other.character, judgement);
+  const FreeFrom from = was_apart ? FreeFrom(std::pair(start_of(one), start_of(other))) : stay->second;
+  if (!was_apart) inside_.erase(stay);
+  if (!from) return;
+  const std::array<PathPoint<double>, 2> of_one{{{from->first, 0}, {end_of(one), 1}}};
+  const std::array<PathPoint<double>, 2> of_other{{{from->second, 0}, {end_of(other), 1}}};
+  judge_ways(of_one, of_other, other.character, judgement);
 }
 
-void CompanyJudge::note_passing(CharacterIndex other, double depth, StepJudgement& judgement) const {
-  // Written so that a depth that is no number is a passing.
-  (depth <= slop_ ? judgement.company.corner_cut : judgement.company.passed).push_back(other);
+/// Written so that a depth that is no number is a passing.
+void CompanyJudge::judge_ways(Way one, Way other, CharacterIndex whom, StepJudgement& judgement) const {
+  if (!pair_.meet(one, other)) return;
+  StepJudgement::Company& company = judgement.company;
+  (pair_.deepest(one, other) <= slop_ ? company.corner_cut : company.passed).push_back(whom);
 }
 
 std::optional<CompanyJudge::Impact> CompanyJudge::first_impact(const TraceStep& one, const TraceStep& other) const {
@@ -166,13 +166,19 @@ void CompanyJudge::excuse(const TraceStep& one, const TraceStep& other, StepJudg
   bool near = false;
   bool opposed = false;
   const Vec2d wanted(one.requested.x() + std::copysign(reach_, one.requested.x()), 0);
+  // The other comes from ahead, or from above on a shoulder.
+  const auto is_pushed = [&](const Vec2d& mine, const Vec2d& theirs) {
+    const auto impact = pair_.first_impact(mine, wanted, theirs, other.requested);
+    return impact && impact->normal.x() * wanted.x() < 0;
+  };
   const auto look = [&](const Vec2d& mine, const Vec2d& theirs) {
     near = near || pair_.separation(mine, theirs) <= reach_;
-    opposed = opposed || pair_.meet_between(mine, theirs, mine + wanted, theirs);
+    opposed = opposed || pair_.meet_between(mine, theirs, mine + wanted, theirs) || is_pushed(mine, theirs);
   };
   for (const PathPoint<double>& corner : one.path) look(corner.position, place_at(other.path, corner.fraction));
   for (const PathPoint<double>& corner : other.path) look(place_at(one.path, corner.fraction), corner.position);
-  if (opposed) judgement.ghost_speed_loss = 0;
+  const bool may_be_pushed = near && !header_.path_exact;
+  if (opposed || may_be_pushed) judgement.ghost_speed_loss = 0;
   if (!near) return;
   for (const Contact<double>& contact : one.contacts) {
     const bool exact = std::any_of(judgement.contacts.begin(), judgement.contacts.end(), [&](const ExactContact& each) {

@@ -17,7 +17,9 @@ namespace paperproof::compare {
 ///
 /// **Passed.** They are apart at both ends, and overlap at some moment between; or they overlapped since an earlier
 /// step, and the straight way of their difference from the last step without to the end of this one leads through
-/// overlap: they left on other sides. No deeper than the slop (see `Judge`) it is a corner cut.
+/// overlap: they left on other sides. No deeper than the slop (see `Judge`) on that way it is a corner cut.
+/// Where paths are sampled (Box2D) their moments are estimates that do not go together: of one step, too, the straight
+/// way counts then.
 ///
 /// **First impact.** Both go evenly along what they requested, apart where the step begins, and meet nothing before; it
 /// then takes the place of the scenery's. It is comparable under the conditions of `Judge`, and if no third one that
@@ -26,7 +28,8 @@ namespace paperproof::compare {
 /// **In company.** Who comes within 1e-6 m of another (Box2D: its skin, 20 mm) at a corner of either's way may be
 /// turned aside there, so what was requested no longer says what scenery is met: on such a step contacts with scenery
 /// that were reported and are not exact, or are exact and were not reported, count neither way; and horizontal speed
-/// that the other opposes (within the step and the skin beyond, as for solids) is not lost to nothing.
+/// that the other opposes, where it is or where it wants to go (within the step and the skin beyond, as for solids), is
+/// not lost to nothing. In Box2D characters push each other, and whoever is in company may have been.
 class CompanyJudge {
  public:
   explicit CompanyJudge(const TraceHeader& header);
@@ -40,11 +43,9 @@ class CompanyJudge {
   void judge(std::span<const TraceStep> steps, std::span<StepJudgement> judgements);
 
  private:
-  /// An overlap of two.
-  struct Episode {
-    std::optional<std::pair<Vec2d, Vec2d>> free_from;  ///< Last places without; none where the run began with it.
-    double depth = 0;                                  ///< Largest so far [m].
-  };
+  using Way = std::span<const PathPoint<double>>;
+  /// Where two that overlap were last without; none where the run began with it.
+  using FreeFrom = std::optional<std::pair<Vec2d, Vec2d>>;
   /// The first impacts that every one of them would have.
   struct Impact {
     CharacterIndex one;
@@ -55,7 +56,7 @@ class CompanyJudge {
   [[nodiscard]] bool continues(const TraceStep& step) const;
   void judge_pair(const TraceStep& one, const TraceStep& other, StepJudgement& judgement);
   void judge_apart(const TraceStep& one, const TraceStep& other, StepJudgement& judgement);
-  void note_passing(CharacterIndex other, double depth, StepJudgement& judgement) const;
+  void judge_ways(Way one, Way other, CharacterIndex whom, StepJudgement& judgement) const;
   [[nodiscard]] bool may_meet(const TraceStep& one, const TraceStep& other) const;
   [[nodiscard]] std::optional<Impact> first_impact(const TraceStep& one, const TraceStep& other) const;
   void judge_first_impacts(std::span<const TraceStep> steps, std::span<StepJudgement> judgements) const;
@@ -67,7 +68,7 @@ class CompanyJudge {
   double slop_;
   double reach_;                  ///< What counts as touching [m].
   std::vector<Vec2d> last_ends_;  ///< Empty before the first step.
-  std::map<std::pair<CharacterIndex, CharacterIndex>, Episode> inside_;
+  std::map<std::pair<CharacterIndex, CharacterIndex>, FreeFrom> inside_;
 };
 
 }  // namespace paperproof::compare

@@ -11,12 +11,15 @@ class Box2dContestant final : public Contestant {
       : character_(scene.character),
         gravity_(scene.gravity),
         dt_(scene.dt),
-        world_(scenery, scene.character, scene.start.position, {.mode = mode}) {
+        world_(scenery, scene.character, starts_of(scene), {.mode = mode}),
+        twins_(character_count(scene)),
+        wanted_(character_count(scene)) {
     if (!(dt_ >= box2d::least_step)) throw box2d::InvalidDefinition("Box2D takes no steps shorter than 1e-9 s");
     header_.scene = scene.name;
     header_.contender = mode == box2d::SceneryMode::pieces ? "box2d_pieces" : "box2d";
     header_.scalar = name_of(ScalarKind::binary32);
     header_.dt = scene.dt;
+    header_.characters = character_count(scene);
     header_.points = world_.points_as_run();
     header_.scenery = world_.as_run();
     header_.ids = scene.ids;
@@ -31,78 +34,102 @@ class Box2dContestant final : public Contestant {
   [[nodiscard]] const TraceHeader& header() const noexcept override { return header_; }
 
   void step(const StepInput& input, std::span<TraceStep> records) override {
-    TraceStep& record = records.front();
-    const box2d::TwinStep& twin = advance(input);
-    record.path = twin.path;
-    record.requested = requested_;
-    record.velocity = twin.velocity;
-    record.grounded = twin.grounded;
-    record.jumping = state_.jumping;
-    record.contacts = twin.contacts;
-    record.movers = twin.movers;
-    record.sensors = twin.sensors;
-    record.stuck = record.dropped = false;
-    record.capped = twin.capped;
+    const std::span<const box2d::TwinStep> steps = advance(input);
+    for (std::size_t k = 0; k < twins_.size(); ++k) {
+      const box2d::TwinStep& twin = steps[k];
+      TraceStep& record = records[k];
+      record.path = twin.path;
+      record.requested = wanted_[k] * dt_;
+      record.velocity = twin.velocity;
+      record.grounded = twin.grounded;
+      record.jumping = twins_[k].state.jumping;
+      record.contacts = twin.contacts;
+      record.met = twin.met;
+      record.movers = twin.movers;
+      record.sensors = twin.sensors;
+      record.stuck = record.dropped = false;
+      record.capped = twin.capped;
+    }
   }
 
   void step_unrecorded(const StepInput& input) override { advance(input); }
 
-  [[nodiscard]] Pose pose(std::size_t) const override {
-    return {.position = world_.position(),
-            .velocity = state_.velocity,
-            .grounded = state_.grounded,
-            .jumping = state_.jumping,
-            .jump_held = state_.jump_held,
-            .jump_pending = state_.jump_pending,
-            .ride = state_.ride,
-            .ground_normal = ground_normal_};
+  [[nodiscard]] Pose pose(std::size_t character) const override {
+    const CharacterState<double>& state = twins_[character].state;
+    return {.position = world_.position(character),
+            .velocity = state.velocity,
+            .grounded = state.grounded,
+            .jumping = state.jumping,
+            .jump_held = state.jump_held,
+            .jump_pending = state.jump_pending,
+            .ride = state.ride,
+            .ground_normal = twins_[character].ground_normal};
   }
 
-  void place(const Pose& pose, std::size_t) override {
-    state_ = {};
-    state_.velocity = pose.velocity;
-    state_.grounded = pose.grounded;
-    state_.jumping = pose.jumping;
-    state_.jump_held = pose.jump_held;
-    state_.jump_pending = pose.jump_pending;
-    state_.ride = pose.ride;
-    ground_normal_ = pose.ground_normal;
-    world_.place(pose.position, pose.velocity);
+  void place(const Pose& pose, std::size_t character) override {
+    CharacterState<double>& state = twins_[character].state = {};
+    state.velocity = pose.velocity;
+    state.grounded = pose.grounded;
+    state.jumping = pose.jumping;
+    state.jump_held = pose.jump_held;
+    state.jump_pending = pose.jump_pending;
+    state.ride = pose.ride;
+    twins_[character].ground_normal = pose.ground_normal;
+    world_.place(pose.position, pose.velocity, character);
   }
 
  private:
-  /// On ground that carries the intent is relative to it, as it is for the controller.
-  const box2d::TwinStep& advance(const StepInput& input) {
-    state_.velocity -= state_.ride.velocity;
-    const Vec2d carried = velocity_of_ground(state_.ride.ground, ground_normal_, input.movers);
-    const Vec2d velocity = carried + desired_velocity(character_, gravity_, input.players.front(), dt_, state_);
-    requested_ = velocity * dt_;
-    const box2d::TwinStep& twin = step_world(velocity, input.movers);
-    state_.velocity = twin.velocity;
-    state_.grounded = twin.grounded;
-    ride_on(twin);
-    // Of what rides, float keeps no more than this [m/s].
-    const double at_rest = state_.ride.ground == Ride<double>::none ? 0 : 1e-4;
-    if (twin.grounded && twin.velocity.y() <= state_.ride.velocity.y() + at_rest) state_.jumping = false;
-    return twin;
+  struct Twin {
+    CharacterState<double> state;
+    Vec2d ground_normal{Vec2d::UnitY()};  ///< Of what the ride is on.
+  };
+
+  static std::vector<Vec2d> starts_of(const Scene& scene) {
+    std::vector<Vec2d> starts;
+    for (std::size_t k = 0; k < character_count(scene); ++k) starts.push_back(start_of(scene, k).position);
+    return starts;
   }
 
-  const box2d::TwinStep& step_world(const Vec2d& velocity, std::span<const MoverMotion<double>> movers) {
+  std::span<const box2d::TwinStep> advance(const StepInput& input) {
+    for (std::size_t k = 0; k < twins_.size(); ++k) wanted_[k] = wanted_by(twins_[k], input.players[k], input.movers);
+    const std::span<const box2d::TwinStep> steps = step_world(input.movers);
+    for (std::size_t k = 0; k < twins_.size(); ++k) take_over(steps[k], twins_[k]);
+    return steps;
+  }
+
+  /// On ground that carries the intent is relative to it, as it is for the controller.
+  Vec2d wanted_by(Twin& twin, const Input& player, std::span<const MoverMotion<double>> movers) const {
+    twin.state.velocity -= twin.state.ride.velocity;
+    const Vec2d carried = velocity_of_ground(twin.state.ride.ground, twin.ground_normal, movers);
+    return carried + desired_velocity(character_, gravity_, player, dt_, twin.state);
+  }
+
+  std::span<const box2d::TwinStep> step_world(std::span<const MoverMotion<double>> movers) {
     try {
-      return world_.step(velocity, dt_, movers);
+      return world_.step_all(wanted_, dt_, movers);
     } catch (const box2d::InvalidDefinition& reason) {
       throw LeftRange(std::string(reason.what()) + ": beyond what Box2D is given, and the run ends there");
     }
   }
 
-  void ride_on(const box2d::TwinStep& twin) {
-    state_.ride = {};
-    if (!twin.ground) return;
-    const ColliderDef& ground = header_.scenery.colliders[twin.ground->collider];
+  void take_over(const box2d::TwinStep& step, Twin& twin) const {
+    CharacterState<double>& state = twin.state;
+    state.velocity = step.velocity;
+    state.grounded = step.grounded;
+    ride_on(step, twin);
+    // Of what rides, float keeps no more than this [m/s].
+    const double at_rest = state.ride.ground == Ride<double>::none ? 0 : 1e-4;
+    if (step.grounded && step.velocity.y() <= state.ride.velocity.y() + at_rest) state.jumping = false;
+  }
+
+  void ride_on(const box2d::TwinStep& step, Twin& twin) const {
+    twin.state.ride = {};
+    if (!step.ground) return;
+    const ColliderDef& ground = header_.scenery.colliders[step.ground->collider];
     if (ground.mover == no_mover && ground.surface_speed == 0) return;
-    ground_normal_ = twin.ground->normal;
-    state_.ride.ground = twin.ground->collider;
-    state_.ride.velocity = velocity_of_ground(twin.ground->collider, ground_normal_, twin.movers);
+    twin.ground_normal = step.ground->normal;
+    twin.state.ride.ground = step.ground->collider;
+    twin.state.ride.velocity = velocity_of_ground(step.ground->collider, twin.ground_normal, step.movers);
   }
 
   /// In one step [m/s]; a conveyor's surface runs along the ground, to the right where its speed is positive.
@@ -120,9 +147,8 @@ class Box2dContestant final : public Contestant {
   double dt_;
   box2d::ReferenceWorld world_;
   TraceHeader header_;
-  CharacterState<double> state_;
-  Vec2d ground_normal_{Vec2d::UnitY()};  ///< Of what the ride is on.
-  Vec2d requested_{Vec2d::Zero()};
+  std::vector<Twin> twins_;
+  std::vector<Vec2d> wanted_;  ///< Velocities in the present step [m/s].
 };
 
 }  // namespace

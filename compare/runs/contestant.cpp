@@ -45,8 +45,6 @@ std::unique_ptr<Contestant> make_contestant(std::string_view name, ScalarKind sc
   if (turning != scene.movers.end())
     throw NotApplicable(std::string(name) + " is for movers that do not turn, and \"" + turning->id + "\" does");
   if (is_reference(name)) {
-    if (!scene.others.empty())
-      throw NotApplicable(fmt::format("{} knows one character, and here are {}", name, character_count(scene)));
     const auto mode = name == box2d_name ? box2d::SceneryMode::chain_loops : box2d::SceneryMode::pieces;
     try {
       return make_box2d_contestant(mode, scene, scenery);

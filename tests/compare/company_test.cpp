@@ -63,7 +63,7 @@ TEST(ExactPair, the_deepest_place_of_a_passing_is_found_between_the_corners) {
 /// What two characters do in one step, and what is said of the first one.
 class Two {
  public:
-  explicit Two(std::vector<ColliderDef> colliders = {}) : header_(header(std::move(colliders))), judge_(with_two()) {}
+  explicit Two(bool path_exact = true) : header_(header({}, path_exact)), judge_(with_two()) {}
 
   StepJudgement operator()(TraceStep one, TraceStep other, StepJudgement alone = {}) {
     other.character = 1;
@@ -116,6 +116,14 @@ TEST(CompanyJudge, an_overlap_that_ends_on_another_side_was_a_passing) {
   const TraceStep rest = step({{0, 0}, {0, 0}});
   (void)two(step({{-1, 0}, {-0.25, 0}}), rest);
   EXPECT_EQ(two(step({{-0.25, 0}, {1, 0}}), rest).company.passed, the_other);
+}
+
+TEST(CompanyJudge, of_a_sampled_path_only_both_ends_of_the_step_count) {
+  const TraceStep there_and_back = step({{-1, 0}, {-0.5, 0}, {-1, 0}});
+  const TraceStep rest = step({{0, 0}, {0, 0}});
+  EXPECT_EQ(Two()(there_and_back, rest).company.passed, the_other);
+  EXPECT_FALSE(Two(false)(there_and_back, rest).broke());
+  EXPECT_EQ(Two(false)(step({{-1, 0}, {1, 0}}), rest).company.passed, the_other);
 }
 
 TEST(CompanyJudge, who_begins_inside_another_may_leave_on_any_side) {

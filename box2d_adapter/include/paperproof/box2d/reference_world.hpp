@@ -2,6 +2,7 @@
 #pragma once
 
 #include <paperproof/controller.hpp>
+#include <paperproof/crowd.hpp>
 #include <paperproof/scenery.hpp>
 
 #include <memory>
@@ -66,24 +67,29 @@ struct TwinStep {
   /// Box2D looks for sensors once, when a step begins, and within 20 mm: what is crossed in one step is not seen, and
   /// the fraction is always 0.
   std::vector<SensorEvent<double>> sensors;
+  std::vector<CrowdContact<double>> met;  ///< Contacts with other characters, listed as those with scenery are.
 };
 
-/// Owns a `b2World` with the scenery and one dynamic octagon. What moves are kinematic bodies, one for each mover, that
-/// are moved by velocity. Not thread-safe; two worlds are independent.
+/// Owns a `b2World` with the scenery and one dynamic octagon for each character. What moves are kinematic bodies, one
+/// for each mover, that are moved by velocity. Characters have the same mass and push each other. Not thread-safe; two
+/// worlds are independent.
 class ReferenceWorld {
  public:
   /// @param scenery judged and cut exactly as for the controller; every definition is validated before Box2D sees it.
   /// @throws InvalidDefinition in words; never aborts inside Box2D.
   ReferenceWorld(const Scenery<double>& scenery, const CharacterDef& character, const Vec2d& position,
                  const ReferenceWorldDef& def = {});
+  /// The same with several characters of one kind.
+  ReferenceWorld(const Scenery<double>& scenery, const CharacterDef& character, std::span<const Vec2d> positions,
+                 const ReferenceWorldDef& def = {});
   ~ReferenceWorld();
   ReferenceWorld(ReferenceWorld&&) noexcept;
   ReferenceWorld& operator=(ReferenceWorld&&) noexcept;
 
-  /// Puts the character somewhere else (respawn, lockstep). Contacts and the solver's stored impulses are forgotten:
+  /// Puts a character somewhere else (respawn, lockstep). Contacts and the solver's stored impulses are forgotten:
   /// what follows depends on this call only. What is within 20 mm touches again in the next step.
   /// @throws InvalidDefinition for numbers that are not finite or beyond 1e9; then nothing changed.
-  void place(const Vec2d& position, const Vec2d& velocity);
+  void place(const Vec2d& position, const Vec2d& velocity, std::size_t character = 0);
   /// Sets the wanted velocity and steps the world once.
   /// @param movers one for each mover of the scenery. Each gets the velocity that takes it from where Box2D has it to
   ///   where it should be at the end, so that rounding does not add up; one that does not begin where it was to end in
@@ -91,8 +97,11 @@ class ReferenceWorld {
   /// @throws InvalidDefinition for numbers that are not finite or beyond 1e9, another number of movers, or dt below
   ///   1e-9 s; then nothing was stepped.
   const TwinStep& step(const Vec2d& wanted_velocity, double dt, std::span<const MoverMotion<double>> movers = {});
+  /// The same with the wanted velocity of each character. @returns one for each, valid until the next step.
+  std::span<const TwinStep> step_all(std::span<const Vec2d> wanted_velocities, double dt,
+                                     std::span<const MoverMotion<double>> movers = {});
 
-  [[nodiscard]] Vec2d position() const;
+  [[nodiscard]] Vec2d position(std::size_t character = 0) const;
   /// The scenery as Box2D has it (float geometry): polygons as the original colliders rounded to float.
   [[nodiscard]] const SceneryDef& as_run() const noexcept;
   /// The octagon as Box2D has it.
