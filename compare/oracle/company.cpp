@@ -173,6 +173,7 @@ void CompanyJudge::excuse(const TraceStep& one, const TraceStep& other, StepJudg
   };
   const auto look = [&](const Vec2d& mine, const Vec2d& theirs) {
     near = near || pair_.separation(mine, theirs) <= reach_;
+    if (judgement.ghost_speed_loss == 0) return;
     opposed = opposed || pair_.meet_between(mine, theirs, mine + wanted, theirs) || is_pushed(mine, theirs);
   };
   for (const PathPoint<double>& corner : one.path) look(corner.position, place_at(other.path, corner.fraction));

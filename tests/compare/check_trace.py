@@ -9,12 +9,16 @@ For every step:
   is: its offset goes evenly from one end to the other while the fraction of the step goes from 0 to 1. Only a mover that
   the step names in `crush` may come into the character;
 - a step begins where the last one ended, unless the trace says that the character was put elsewhere; so does every mover,
-  and every mover stands in every step.
+  and every mover stands in every step;
+- of several characters each has a record in every step, in order; no two come to overlap at any moment of their ways
+  that did not when the step began (where the ways are samples: on the straight way from their start to their end).
 For octagon_sweep in double, which promises more, also:
 - the gap at every contact is above 0 and at most 1e-6 m, between the contact's point, which lies on the collider, and
   the character at a corner of its way;
 - the fraction of the first contact is the time of impact of the exact motion, to 1e-6 m along the normal;
-- the sensors' events are those of the way, in order, with fractions that are right to 1e-6 m along it.
+- the sensors' events are those of the way, in order, with fractions that are right to 1e-6 m along it;
+- two characters that met say so both, with opposite normals and the same fraction, and come to within 1e-6 m along them;
+  where both had met nothing before, the fraction is the time of impact of their requested motions, as above.
 
 Every number of a trace is a double, and every double is a fraction: the answers are exact but where a tolerance is named.
 Exit status: 0 all holds, 1 something does not (one line each), 2 not a trace.
@@ -27,6 +31,7 @@ from functools import lru_cache
 GAP = Fraction(1, 10**6)  # largest gap at a contact, and largest error of an impact along its normal [m]
 ROUNDING = 1e-8  # of a reported separation or contact point [m]: positions of 1e6 m are known to 1e-10
 NEAR_PASS = Fraction(4, 10**7)  # a way that passes a solid this closely may be called a contact [m]
+GRAZING = 1e-3  # an approach of less than this part of the relative motion grazes, and says little of when
 ZERO = Fraction(0)
 
 
@@ -143,8 +148,114 @@ def crossings(start, way, body, edges):
             yield -turn(a, b, point) / speed
 
 
+def parts(one, other):
+    """What two do at the same time, as (from, to) of each: ways of (x, y, fraction) from 0 to 1. Jumps, which take no
+    time, come one after the other, those of the one first."""
+    def at(way, t):
+        """All corners of that moment, or the place between two."""
+        corners = [corner[:2] for corner in way if corner[2] == t]
+        if corners:
+            return corners
+        before = max(i for i, corner in enumerate(way) if corner[2] < t)
+        a, b = way[before], way[before + 1]
+        share = (t - a[2]) / (b[2] - a[2])
+        return [add(a[:2], scaled(less(b, a), share))]
+
+    times = sorted({corner[2] for corner in one + other})
+    for t, following in zip(times, times[1:] + [None]):
+        mine, theirs = at(one, t), at(other, t)
+        for a, b in zip(mine, mine[1:]):
+            yield (a, b), (theirs[0], theirs[0])
+        for a, b in zip(theirs, theirs[1:]):
+            yield (mine[-1], mine[-1]), (a, b)
+        if following is not None:
+            yield (mine[-1], at(one, following)[0]), (theirs[-1], at(other, following)[0])
+
+
+def first_event(step):
+    """The fraction of the earliest contact of a step with anything."""
+    return min((event["fraction"] for event in step["contacts"] + step.get("met", [])), default=None)
+
+
+class Company:
+    """Several characters of one shape: they overlap where the difference of their places is inside `reach`."""
+
+    def __init__(self, body):
+        self.body = body
+        self.reach = hull([less(a, b) for a in body for b in body])
+        self.size = [float(max(corner[k] for corner in self.reach)) for k in (0, 1)]
+
+    def meet(self, mine, theirs):
+        """On two straight ways at the same time."""
+        start, end = less(mine[0], theirs[0]), less(mine[1], theirs[1])
+        for k in (0, 1):  # doubles tell what is far away
+            a, b = float(start[k]), float(end[k])
+            if min(a, b) > 1.01 * self.size[k] or max(a, b) < -1.01 * self.size[k]:
+                return False
+        return enters(start, end, self.reach)
+
+    def width(self, n):
+        return max(dot(n, corner) for corner in self.reach)
+
+    def check(self, one, other, promises):
+        """Two records of one step."""
+        i, j = one["character"], other["character"]
+        mine, theirs = exact(one["path"]), exact(other["path"])
+        overlapped = self.meet((mine[0], mine[0]), (theirs[0], theirs[0]))
+        for a, b in ((one, j), (other, i)):
+            said = b in a.get("start_overlap_characters", [])
+            if said != overlapped:
+                yield f"and character {j}: {a['character']} says {said} of an overlap at the start that is {overlapped}"
+        if not overlapped:
+            if one.get("path_exact") is False:
+                mine, theirs = [mine[0], mine[-1]], [theirs[0], theirs[-1]]
+            if any(self.meet(*part) for part in parts(mine, theirs)):
+                yield f"and character {j} come to overlap or pass through each other"
+        if promises:
+            yield from self.check_met(one, other)
+
+    def check_met(self, one, other):
+        j = other["character"]
+        of_one = [met for met in one.get("met", []) if met["character"] == j]
+        of_other = [met for met in other.get("met", []) if met["character"] == one["character"]]
+        if [([-x for x in met["normal"]], met["fraction"]) for met in of_one] != [
+                (met["normal"], met["fraction"]) for met in of_other]:
+            yield f"and character {j} do not say the same of how they met"
+            return
+        for met in of_one:
+            n = tuple(map(Fraction, met["normal"]))
+            if abs(met["normal"][0] ** 2 + met["normal"][1] ** 2 - 1) > 1e-12:
+                yield f"has a normal that is no unit vector at character {j}"
+            moments = [(m[k], t[k]) for m, t in parts(exact(one["path"]), exact(other["path"])) for k in (0, 1)]
+            gaps = [dot(n, less(m, t)) - self.width(n) for m, t in moments]
+            if not any(0 < gap <= GAP for gap in gaps):
+                yield f"and character {j} have met, and at no corner are within 1e-6 m: {[float(gap) for gap in gaps]}"
+            if met["fraction"] == first_event(one) == first_event(other):
+                yield from self.check_impact(one, other, met)
+
+    def check_impact(self, one, other, met):
+        n, t = tuple(map(Fraction, met["normal"])), Fraction(met["fraction"])
+        mine, theirs = (tuple(map(Fraction, step["path"][0][:2])) for step in (one, other))
+        wanted, by = (tuple(map(Fraction, step["requested"])) for step in (one, other))
+        along = -dot(n, less(wanted, by))
+        if along <= GRAZING * size(less(wanted, by)):
+            return  # what holds one of them, a micrometre away, turns it into the other
+        slack = GAP / along
+
+        def meet_until(time, wider=ZERO):
+            reach = less(scaled(n, -wider), (ZERO, ZERO))
+            return self.meet((mine, add(add(mine, scaled(wanted, time)), reach)),
+                             (theirs, add(theirs, scaled(by, time))))
+
+        if t > slack and meet_until(t - slack):
+            yield f"meets character {met['character']} earlier than at {float(t)} of the step"
+        if not meet_until(t + slack, NEAR_PASS):
+            yield f"does not meet character {met['character']} by {float(t)} of the step"
+
+
 class Checker:
     def __init__(self, header):
+        self.characters = header.get("characters", 1)
         self.body = hull(exact(header["points"]))
         self.low = [float(min(corner[k] for corner in self.body)) for k in (0, 1)]
         self.high = [float(max(corner[k] for corner in self.body)) for k in (0, 1)]
@@ -274,28 +385,44 @@ class Checker:
             if not self.meets(name, start, scaled(requested, after), 1 + NEAR_PASS / Fraction(nearest)):
                 yield f"does not meet {name} by {float(t)} of the step"
 
-    def check(self, steps):
+    def check(self, records):
         """Yields (step, what is wrong)."""
-        last = last_motion = None
-        for step in steps:
-            motion = Motion(step)
-            path = exact(step["path"])
-            fractions = [corner[2] for corner in step["path"]]
-            if fractions[0] != 0 or fractions[-1] != 1 or fractions != sorted(fractions):
-                yield step, "has a way that does not go from fraction 0 to 1"
-            if last not in (None, path[0][:2]) and not step.get("respawn") and not self.placed_anew:
-                yield step, f"begins at {show(path[0])}, not where the last one ended"
-            found = list(self.check_movers(step, motion, last_motion)) + list(self.check_way(step, path, motion))
-            last, last_motion = path[-1][:2], motion
-            if self.promises:
-                for contact in step["contacts"]:
-                    found += self.check_contact(contact, path, motion)
-                if step["contacts"] and not step["start_overlap"] and not step.get("crush"):
-                    requested = tuple(map(Fraction, step["requested"]))
-                    found += self.check_impact(step["contacts"][0], path[0], requested, motion)
-                found += self.check_sensors(step, path, motion)
-            for words in found:
-                yield step, words
+        last, last_motion, together = {}, {}, []
+        company = Company(self.body)
+        for number, step in enumerate(records):
+            who = step.get("character", 0)
+            told = f"character {who} " if self.characters > 1 else ""
+            if who != number % self.characters:
+                yield step, f"has a record of character {who} where that of {number % self.characters} belongs"
+            for words in self.check_alone(step, last.get(who), last_motion.get(who)):
+                yield step, told + words
+            last[who], last_motion[who] = exact(step["path"])[-1][:2], Motion(step)
+            together = [other for other in together if other["step"] == step["step"]]
+            for other in together:
+                for words in company.check(other, step, self.promises):
+                    yield step, f"character {other['character']} {words}"
+            together.append(step)
+
+    def check_alone(self, step, last, last_motion):
+        motion = Motion(step)
+        path = exact(step["path"])
+        fractions = [corner[2] for corner in step["path"]]
+        if fractions[0] != 0 or fractions[-1] != 1 or fractions != sorted(fractions):
+            yield "has a way that does not go from fraction 0 to 1"
+        if last not in (None, path[0][:2]) and not step.get("respawn") and not self.placed_anew:
+            yield f"begins at {show(path[0])}, not where the last one ended"
+        yield from self.check_movers(step, motion, last_motion)
+        yield from self.check_way(step, path, motion)
+        if not self.promises:
+            return
+        for contact in step["contacts"]:
+            yield from self.check_contact(contact, path, motion)
+        # Who met another before may have been turned aside.
+        first = step["contacts"] and step["contacts"][0]["fraction"] == first_event(step)
+        if first and not step["start_overlap"] and not step.get("crush"):
+            requested = tuple(map(Fraction, step["requested"]))
+            yield from self.check_impact(step["contacts"][0], path[0], requested, motion)
+        yield from self.check_sensors(step, path, motion)
 
 
 def dot(a, b):

@@ -17,7 +17,8 @@ function(paperproof_trace_test name)
   set_tests_properties(trace.${name} PROPERTIES FIXTURES_REQUIRED traces TIMEOUT 300 ${ARG_PROPERTIES})
 endfunction()
 
-set(checked_scenes article_bullet slope_joints jump_into_corner rotated_wall wedge_60 start_overlapping_deep)
+set(checked_scenes article_bullet slope_joints jump_into_corner rotated_wall wedge_60 start_overlapping_deep
+  three_in_a_row jump_onto_a_head)
 add_test(NAME trace.write COMMAND paperproof compare ${checked_scenes} --no-timing --quiet --trace "${traces}/t")
 set_tests_properties(trace.write PROPERTIES FIXTURES_SETUP traces TIMEOUT 300)
 
