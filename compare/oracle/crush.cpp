@@ -10,25 +10,45 @@ constexpr double least_clearance = 1e-7;
 /// What the controller may keep from a contact on top of what the mover pushes [m].
 constexpr double beyond_travel = 1e-6;
 
-/// Whether a straight uniform motion from a corner of the way comes to `there` without meeting a solid. Of what was
-/// met before that corner it must not come out on another side.
-bool reaches(const ExactScenery& scenery, std::span<const Place> path, std::size_t corner, const Place& there,
-             const Meetings& meetings) {
-  std::vector<ColliderIndex> known;
-  for (const auto& [collider, first] : meetings.within_step) {
-    if (first >= corner) continue;
-    known.push_back(collider);
-    if (!meetings.before.contains(collider) && scenery.meets(path[first], there, collider)) return false;
+/// The ways from one corner to the end of the step.
+class Departure {
+ public:
+  Departure(const ExactScenery& scenery, std::span<const Place> path, std::size_t corner, const Meetings& meetings)
+      : scenery_(scenery), from_(path[corner]) {
+    for (const auto& [collider, first] : meetings.within_step) {
+      if (first >= corner) continue;
+      known_.push_back(collider);
+      if (!meetings.before.contains(collider)) sides_.emplace_back(collider, path[first]);
+    }
+    for (const auto& [collider, free] : meetings.before) {
+      known_.push_back(collider);
+      if (free) sides_.emplace_back(collider, *free);
+    }
   }
-  for (const auto& [collider, free] : meetings.before) {
-    known.push_back(collider);
-    if (free && scenery.meets(*free, there, collider)) return false;
+
+  /// Whether a straight uniform motion comes to `there` without meeting a solid. Of what was met before it must not
+  /// come out on another side.
+  [[nodiscard]] bool reaches(const Place& there) {
+    // What was in the way to one place mostly is in the way to the next, too.
+    if (last_met_ && scenery_.meets(from_, there, *last_met_)) return false;
+    for (const auto& [collider, free] : sides_) {
+      if (scenery_.meets(free, there, collider)) return false;
+    }
+    for (const ColliderIndex collider : scenery_.met(from_, there)) {
+      if (std::find(known_.begin(), known_.end(), collider) != known_.end()) continue;
+      last_met_ = collider;
+      return false;
+    }
+    return true;
   }
-  const std::vector<ColliderIndex> met = scenery.met(path[corner], there);
-  return std::all_of(met.begin(), met.end(), [&](ColliderIndex collider) {
-    return std::find(known.begin(), known.end(), collider) != known.end();
-  });
-}
+
+ private:
+  const ExactScenery& scenery_;
+  const Place& from_;
+  std::vector<ColliderIndex> known_;
+  std::vector<std::pair<ColliderIndex, Place>> sides_;  ///< What was met, with the last place free of it.
+  std::optional<ColliderIndex> last_met_;
+};
 
 }  // namespace
 
@@ -45,12 +65,11 @@ std::optional<Vec2d> find_room(const ExactScenery& scenery, std::span<const Plac
     for (const Place& corner : path) others.push_back(corner.position + (end.offset(mover) - corner.offset(mover)));
   }
   for (const Place& corner : path) others.push_back(corner.position);
+  std::vector<Departure> departures;
+  for (std::size_t corner = 0; corner < path.size(); ++corner) departures.emplace_back(scenery, path, corner, meetings);
   const auto can_go_there = [&](const Vec2d& position) {
     const Place there(position, end.movers, end.fraction);
-    for (std::size_t corner = 0; corner < path.size(); ++corner) {
-      if (reaches(scenery, path, corner, there, meetings)) return true;
-    }
-    return false;
+    return std::any_of(departures.begin(), departures.end(), [&](Departure& one) { return one.reaches(there); });
   };
   return scenery.find_free(end, travel + beyond_travel, least_clearance, others, can_go_there);
 }

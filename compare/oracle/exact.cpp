@@ -235,10 +235,16 @@ std::optional<Vec2d> ExactScenery::find_free(const Place& at, double reach, doub
       obstacles.push_back({&part, impl_->seen_from(collider, at)});
     }
   }
+  /// Boxes that are this far apart leave any clearance along the best axis, unless a corner is sharper than 0.01° [m].
+  const double surely_clear = 1e4 * clearance;
+  const Box2<double> octagon = impl_->world.points_box();
   const auto is_free = [&](const Vec2d& position) {
     return std::all_of(obstacles.begin(), obstacles.end(), [&](const detail::Obstacle& obstacle) {
       detail::FramePlace place = obstacle.place;
       place.position = position;
+      const Vec2d seen = place.rounded();
+      const Box2<double> around{seen + octagon.lower, seen + octagon.upper};
+      if (!obstacle.part->box.overlaps(around.inflated(surely_clear))) return true;
       return detail::best_axis(*obstacle.part, impl_->world.points(), place).separation >= clearance;
     });
   };

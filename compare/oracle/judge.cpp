@@ -221,10 +221,10 @@ void Judge::judge_crushes(const Path& path, const TraceStep& step, const Touched
     std::optional<Place>& free = meetings.before[collider];
     if (episode.free_from) free = episode.free_from->place();
   }
-  const std::optional<Vec2d> room = detail::find_room(scenery_, path, step.crushed, meetings);
+  judgement.room = detail::find_room(scenery_, path, step.crushed, meetings);
   for (const ColliderIndex collider : step.crushed) {
     const bool moves = header_.scenery.colliders[collider].mover != no_mover;
-    (moves && !room ? judgement.crushed : judgement.crushed_with_room).push_back(collider);
+    (moves && !judgement.room ? judgement.crushed : judgement.crushed_with_room).push_back(collider);
   }
 }
 

@@ -34,6 +34,7 @@ struct StepJudgement {
   std::vector<ColliderIndex> one_way_broken;  ///< One-way chains that were passed against their normal.
   std::vector<ColliderIndex> crushed;         ///< Reported as crushing, and there was no room: see `Judge`.
   std::vector<ColliderIndex> crushed_with_room;  ///< Reported as crushing, although there was room.
+  std::optional<Vec2d> room;                     ///< Where that was, if something was reported as crushing.
   double max_penetration = 0;                    ///< At the end of the step, apart from `pressed` [m].
   double max_contact_gap = 0;  ///< Over the reported contacts: exact separation where the contact stopped it [m].
   std::vector<ExactContact> contacts;  ///< What should have been reported.

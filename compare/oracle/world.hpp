@@ -51,6 +51,7 @@ class World {
 
   [[nodiscard]] const SceneryDef& scenery() const noexcept { return scenery_; }
   [[nodiscard]] std::span<const Vec2d> points() const noexcept { return points_; }
+  [[nodiscard]] const Box2<double>& points_box() const noexcept { return points_box_; }
   [[nodiscard]] std::span<const Edge> edges() const noexcept { return edges_; }
   [[nodiscard]] std::span<const Edge> edges_of(ColliderIndex collider) const noexcept {
     return std::span(edges_).subspan(solids_[collider].first_edge, solids_[collider].edge_count);
