@@ -2,6 +2,7 @@
 #pragma once
 
 #include "techniques/octagon_sweep/configuration_space.hpp"
+#include "techniques/octagon_sweep/room.hpp"
 
 #include <paperproof/technique.hpp>
 #include <paperproof/tolerances.hpp>
@@ -56,10 +57,13 @@ std::span<const PieceIndex> Neighbourhood<Scalar>::around(const Box2<Scalar>& bo
 }
 
 /// What a step among movers keeps in its scratch.
+template <class Scalar>
 struct MoverMemory final : OwnMemory {
-  explicit MoverMemory(std::size_t pieces) : of_mover(pieces), all(pieces) {}
+  explicit MoverMemory(const ConfigurationSpace<Scalar>& space)
+      : of_mover(space.scenery().pieces().size()), all(of_mover.size()), room(space) {}
   std::vector<PieceIndex> of_mover;  ///< Answers of one mover's broad phase,
   std::vector<PieceIndex> all;       ///< and of all of them, with what stands still.
+  RoomMemory<Scalar> room;
 };
 
 /// Everything that moves during one step.
@@ -68,7 +72,7 @@ struct Surroundings {
   const MoverPhases<Scalar>& phases;
   std::span<const MoverMotion<Scalar>> movers;
   Scalar dt;  ///< [s]
-  MoverMemory& memory;
+  MoverMemory<Scalar>& memory;
 
   /// How far a mover goes in the step [m].
   [[nodiscard]] Vec2<Scalar> course(MoverIndex mover) const noexcept { return movers[mover].to - movers[mover].from; }

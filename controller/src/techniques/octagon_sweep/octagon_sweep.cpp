@@ -129,7 +129,7 @@ class OctagonSweepAmongMovers final : public OctagonSweep<Scalar> {
 
   [[nodiscard]] Scratch<Scalar> make_scratch() const override {
     Scratch<Scalar> scratch = OctagonSweep<Scalar>::make_scratch();
-    scratch.own = std::make_unique<MoverMemory>(this->space_.scenery().pieces().size());
+    scratch.own = std::make_unique<MoverMemory<Scalar>>(this->space_);
     return scratch;
   }
 
@@ -147,7 +147,7 @@ class OctagonSweepAmongMovers final : public OctagonSweep<Scalar> {
       if (keeps_away(box_of(result.path), request) && !meets_conveyor(result)) return;
       result.clear();
     }
-    auto& memory = static_cast<MoverMemory&>(*scratch.own);
+    auto& memory = static_cast<MoverMemory<Scalar>&>(*scratch.own);
     const Surroundings<Scalar> surroundings{mover_phases(), request.movers, request.dt, memory};
     solve_moving_(this->space_, this->settings_, neighbourhood, surroundings, request, result);
   }

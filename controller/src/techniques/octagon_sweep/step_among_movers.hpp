@@ -78,7 +78,7 @@ void StepSolver<variant, Scalar>::travel_among_movers() noexcept {
       drive = {V::Zero(), V::Zero()};
     }
     if (!respond_to_holds(drive)) {
-      if (find_room()) return;
+      if (gives_way()) return;
       crush_what_presses();
       drive = {V::Zero(), V::Zero()};
     }
@@ -88,18 +88,17 @@ void StepSolver<variant, Scalar>::travel_among_movers() noexcept {
   last_resort(way);
 }
 
-/// Forgets surfaces that are no longer touched, and adds those of the last sweep.
+/// Forgets surfaces that are no longer touched, and adds those of the last sweep. Where more are touched than there is
+/// memory for, those of the last sweep come first; what is forgotten meanwhile is met again by the next sweep, which
+/// looks at everything.
 template <Variant variant, class Scalar>
 void StepSolver<variant, Scalar>::update_holds() noexcept {
   constexpr Scalar touch = Tolerances<Scalar>{}.touch;
   auto& holds = moving_.holds;
-  const auto add = [&holds](const Hold<Scalar>& hold) {
-    if (!holds.push_back(hold)) holds[0] = hold;
-  };
   const FixedVector<Hold<Scalar>, 32> before = holds;
   holds.clear();
   for (const Stop<Scalar>& stop : found_.stops)
-    add({stop.piece, stop.axes.normal, space_.normal(stop.piece, stop.axes.normal), mover_of(stop.piece)});
+    holds.push_back({stop.piece, stop.axes.normal, space_.normal(stop.piece, stop.axes.normal), mover_of(stop.piece)});
   for (const Hold<Scalar>& hold : before) {
     const bool again = std::any_of(found_.stops.begin(), found_.stops.end(),
                                    [&hold](const Stop<Scalar>& stop) { return stop.piece == hold.piece; });
@@ -107,7 +106,7 @@ void StepSolver<variant, Scalar>::update_holds() noexcept {
     const V at = local(hold.piece, position_);
     if (best_axis<variant>(space_, hold.piece, at).separation <= touch &&
         std::abs(space_.separation(hold.piece, hold.axis, at)) <= touch)
-      add(hold);
+      holds.push_back(hold);
   }
 }
 

@@ -6,75 +6,98 @@
 /// on the character, the character is stuck: it does not come out on another side, and only other movers move it.
 #pragma once
 
-#include "techniques/octagon_sweep/open_facets.hpp"
+#include "techniques/octagon_sweep/room.hpp"
 #include "techniques/octagon_sweep/step_solver.hpp"
 
 namespace paperproof::octagon_sweep {
 
-/// Goes to the nearest place where there is room. False where there is none: then nothing has changed.
+/// Goes to the nearest place where there is room, away from some corner of the way. False where there is none: then
+/// nothing has changed.
+/// @param reach how far away it may be at most [m].
+/// @param corners so many of the path may be where it leaves the way.
 template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::find_room() noexcept {
+bool StepSolver<variant, Scalar>::find_room(Scalar reach, std::size_t corners) noexcept {
   constexpr Tolerances<Scalar> tolerances{};
   /// Of the hit distance: room must be a little more than what counts as closed.
   constexpr Scalar least_room = Scalar(1.25);
-  moving_.holds_before = moving_.holds;
-  moving_.holds.clear();
-  if (find_room(tolerances.stop) || find_room(tolerances.hit * least_room)) return true;
-  moving_.holds = moving_.holds_before;
+  /// What is kept from a mover comes on top of what the mover goes.
+  constexpr Scalar beyond = 16 * tolerances.stop;
+  /// Room is looked for near first, and then so many times farther.
+  constexpr Scalar farther = 8;
+  const Scalar extent = (space_.hull_box().upper - space_.hull_box().lower).maxCoeff();
+  const Scalar whole = reach + beyond;
+  neighbourhood_.forget();  // more than what is asked for could give another answer
+  for (const Scalar gap : {tolerances.stop, tolerances.hit * least_room}) {
+    for (Scalar radius = std::min(whole, extent);; radius = std::min(whole, radius * farther)) {
+      Room room{radius, V::Zero(), corners};
+      for (std::size_t corner = corners; corner-- > 0;) find_room_from(corner, gap, radius, room);
+      if (room.corner < corners) {
+        go_back_to(room.corner);
+        go_to(room.position);
+        return true;
+      }
+      if (radius >= whole) break;
+    }
+  }
   return false;
 }
 
-/// @param gap that is left around the character [m].
+/// @param radius around the present position in which room is looked for [m].
 template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::find_room(Scalar gap) noexcept {
+void StepSolver<variant, Scalar>::find_room_from(std::size_t corner, Scalar gap, Scalar radius, Room& room) noexcept {
+  const Surroundings<Scalar>& around = moving_.around;
+  const PathPoint<Scalar> begin = result_.path[corner];
+  if (!(begin.fraction < 1)) return;
+  moving_.leaving = corner == 0;
+  TakenPositions<Scalar> positions(space_, around.memory.room, gap);
+  const auto add = [&](std::span<const PieceIndex> pieces, const V& from, const V& end) {
+    return std::all_of(pieces.begin(), pieces.end(), [&](PieceIndex piece) {
+      if (ignored(piece)) return true;
+      if (!left_behind(piece)) return positions.add(piece, from, end);
+      positions.add_end(piece, end);
+      return true;
+    });
+  };
+  const auto box_of = [&](const V& from, const V& end) {
+    return Box2<Scalar>{end, end}.inflated(radius).merged({from, from});
+  };
+  if (!add(neighbourhood_.around(box_of(begin.position, position_)), begin.position, position_)) return;
+  for (MoverIndex mover = 0; mover < around.phases.size(); ++mover) {
+    const V from = begin.position - around.offset(mover, begin.fraction);
+    const V end = position_ - around.offset(mover, Scalar(1));
+    const Box2<Scalar> box = space_.touched_from(box_of(from, end));
+    if (!box.overlaps(around.phases.whole(mover))) continue;
+    if (!add(around.phases.query(mover, box, around.memory.of_mover), from, end)) return;
+  }
+  positions.for_each_position(room.distance, [&](const V& w) { consider_room(corner, position_ + w, room); });
+}
+
+/// Takes a position where there is room, nearer than what is known and reached from a corner.
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::consider_room(std::size_t corner, const V& end, Room& room) noexcept {
   const V here = position_;
   const Scalar now = time_;
-  const Scalar reach = longest_course() + 2 * Tolerances<Scalar>{}.stop;
+  const Scalar distance = length_of(V(end - here));
+  if (!(distance < room.distance) || !(end.cwiseAbs().maxCoeff() <= Tolerances<Scalar>{}.range)) return;
   time_ = 1;
-  const std::span<const PieceIndex> candidates = all_near(Box2<Scalar>{here, here}.inflated(reach + gap));
-  OpenFacets<Scalar> facets(space_, here, gap);
-  for (const PieceIndex piece : candidates) facets.add(piece, offset(piece));
-
-  std::optional<V> room;
-  std::size_t from = 0;
-  Scalar nearest = reach;
-  const auto consider = [&](const V& q) {
-    const Scalar distance = length_of(V(q - here));
-    if (!(distance <= nearest) || (room && distance == nearest)) return;
-    time_ = 1;
-    if (!roomy(candidates, q)) return;
-    for (std::size_t corner = result_.path.size(); corner-- > moving_.first_corner;) {
-      if (!goes_straight(corner, q)) continue;
-      room = q;
-      from = corner;
-      nearest = distance;
-      return;
-    }
-  };
-  for (std::size_t corner = moving_.first_corner; corner < result_.path.size(); ++corner) {
-    const PathPoint<Scalar> at = result_.path[corner];
-    consider(at.position);
-    for (const Hold<Scalar>& hold : moving_.holds_before)
-      if (hold.mover != no_mover) consider(at.position + moving_.around.rest(hold.mover, at.fraction));
+  if (roomy(end) && goes_straight(corner, end) && (!moving_.leaving || stays_on_its_side(end))) {
+    room.distance = distance;
+    room.position = end;
+    room.corner = corner;
   }
-  facets.for_each_position(consider);
-
   position_ = here;
   time_ = now;
-  if (!room) return false;
-  go_back_to(from);
-  look_along(*room - position_);
-  halt();
-  return advance(1);
 }
 
 /// Whether nothing is near a position, where it is now.
 template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::roomy(std::span<const PieceIndex> candidates, const V& q) const noexcept {
-  return std::none_of(candidates.begin(), candidates.end(), [&](PieceIndex piece) {
-    return space_.info(piece).one_way_axis == ObstacleInfo::not_one_way &&
-           best_axis<variant>(space_, piece, local(piece, q)).separation < Tolerances<Scalar>{}.hit;
+bool StepSolver<variant, Scalar>::roomy(const V& q) noexcept {
+  bool free = true;
+  for_each_near({q, q}, [&](PieceIndex piece) {
+    free = free && (space_.info(piece).one_way_axis != ObstacleInfo::not_one_way || ignored(piece) ||
+                    best_axis<variant>(space_, piece, local(piece, q)).separation >= Tolerances<Scalar>{}.hit);
   });
+  return free;
 }
 
 /// Whether the rest of the step can be one straight motion from a corner of the path.
@@ -101,10 +124,64 @@ bool StepSolver<variant, Scalar>::goes_straight(std::size_t corner, const V& end
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::passes(const LocalMotion& motion, std::span<const PieceIndex> pieces) const noexcept {
   return std::none_of(pieces.begin(), pieces.end(), [&](PieceIndex piece) {
-    if (ignored(piece) || !blocks<variant>(space_, motion, piece)) return false;
-    const Clearance<Scalar> clear = clearance<variant>(space_, motion, piece);
-    return !clear.clear() && sweep_piece<variant>(space_, motion, piece, clear).hit;
+    return !ignored(piece) && !left_behind(piece) && stopped_by(motion, piece);
   });
+}
+
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::stopped_by(const LocalMotion& motion, PieceIndex piece) const noexcept {
+  if (!blocks<variant>(space_, motion, piece)) return false;
+  const Clearance<Scalar> clear = clearance<variant>(space_, motion, piece);
+  return !clear.clear() && sweep_piece<variant>(space_, motion, piece, clear).hit;
+}
+
+/// What the step began inside of is not in the way while it is left.
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::left_behind(PieceIndex piece) const noexcept {
+  if (!moving_.leaving || moving_.left.empty()) return false;
+  const ColliderIndex collider = space_.scenery().pieces()[piece].collider;
+  return std::find(moving_.left.begin(), moving_.left.end(), collider) != moving_.left.end();
+}
+
+/// Of a step that begins inside something: the colliders, and from where it came to be inside.
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::note_what_is_left(const MoveRequest<Scalar>& request) noexcept {
+  if (request.has_last_free) moving_.last_free = request.last_free;
+  for_each_near({position_, position_}, [&](PieceIndex piece) {
+    const ColliderIndex collider = space_.scenery().pieces()[piece].collider;
+    const auto& left = moving_.left;
+    if (std::find(left.begin(), left.end(), collider) == left.end() && overlaps(piece, position_))
+      moving_.left.push_back(collider);
+  });
+}
+
+/// Whether a position at the end of the step is on the side of what is left from which the character came: the straight
+/// way there from its last free position does not meet it. (Where that was is known as of the step's start.)
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::stays_on_its_side(const V& end) noexcept {
+  if (!moving_.last_free || moving_.left.empty()) return true;
+  const std::span<const PieceInfo> pieces = space_.scenery().pieces();
+  for (PieceIndex piece = 0; piece < space_.scenery().sensor_pieces().first; ++piece) {
+    if (!left_behind(piece)) continue;
+    V from = *moving_.last_free;
+    V to = end;
+    if (pieces[piece].mover != no_mover) {
+      from -= moving_.around.offset(pieces[piece].mover, Scalar(0));
+      to -= moving_.around.offset(pieces[piece].mover, Scalar(1));
+    }
+    if (stopped_by(make_motion<variant>(space_, from, V(to - from), Scalar(0)), piece)) return false;
+  }
+  return true;
+}
+
+/// In one motion for the rest of the step, that is known to be clear.
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::go_to(const V& end) noexcept {
+  halt();
+  position_ = end;
+  time_ = 1;
+  on_ground_ = ended_in_crease_ = false;
+  push_corner(time_);
 }
 
 /// Takes back what was travelled since a corner.
@@ -117,13 +194,43 @@ void StepSolver<variant, Scalar>::go_back_to(std::size_t corner) noexcept {
   moving_.anchored = false;
 }
 
-/// Of the movers that hold the character [m].
+/// Room beside what holds the character, before it is crushed.
 template <Variant variant, class Scalar>
-Scalar StepSolver<variant, Scalar>::longest_course() const noexcept {
-  Scalar longest = 0;
-  for (const Hold<Scalar>& hold : moving_.holds_before)
-    if (hold.mover != no_mover) longest = std::max(longest, length_of(moving_.around.course(hold.mover)));
-  return longest;
+bool StepSolver<variant, Scalar>::gives_way() noexcept {
+  Scalar reach = 0;
+  for (const Hold<Scalar>& hold : moving_.holds)
+    if (hold.mover != no_mover) reach = std::max(reach, length_of(moving_.around.course(hold.mover)));
+  const FixedVector<Hold<Scalar>, 32> holds = moving_.holds;
+  moving_.holds.clear();
+  if (find_room(reach, result_.path.size())) return true;
+  moving_.holds = holds;
+  return false;
+}
+
+/// One crush after the other may leave a way to go that none of them left alone: with all that crushed in its place
+/// again, and as far away as any of them goes.
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::take_back_crushes() noexcept {
+  const auto& crushed = result_.crushed;
+  if (crushed.empty()) return;
+  const auto crushing = [&](ColliderIndex collider) {
+    return std::find(crushed.begin(), crushed.end(), collider) != crushed.end();
+  };
+  const auto ignored_before = moving_.ignored;
+  moving_.ignored.clear();
+  for (const ColliderIndex collider : ignored_before)
+    if (!crushing(collider)) moving_.ignored.push_back(collider);
+  Scalar reach = 0;
+  const std::vector<ColliderDef>& colliders = space_.scenery().as_run().colliders;
+  for (const ColliderIndex collider : crushed)
+    reach = std::max(reach, length_of(moving_.around.course(colliders[collider].mover)));
+  moving_.holds.clear();
+  if (find_room(reach, moving_.corners_before_crush)) {
+    result_.crushed.clear();
+    result_.status = moving_.status_before_crush;
+  } else {
+    moving_.ignored = ignored_before;
+  }
 }
 
 /// What runs into a character that stays where it is.
@@ -137,6 +244,10 @@ template <Variant variant, class Scalar>
 void StepSolver<variant, Scalar>::crush(PieceIndex piece) noexcept {
   if (ignored(piece) || mover_of(piece) == no_mover) return;
   const ColliderIndex collider = space_.scenery().pieces()[piece].collider;
+  if (result_.crushed.empty()) {
+    moving_.corners_before_crush = result_.path.size();
+    moving_.status_before_crush = result_.status;
+  }
   moving_.ignored.push_back(collider);
   result_.crushed.push_back(collider);
   result_.status = MoveStatus::crushed;
@@ -189,7 +300,7 @@ void StepSolver<variant, Scalar>::stay(bool may_give_way) noexcept {
     look_along(V::Zero());
     update_holds();
     const auto before = moving_.ignored.size();
-    if (may_give_way && found_.hit && find_room()) return;
+    if (may_give_way && found_.hit && gives_way()) return;
     for (const Hold<Scalar>& hold : moving_.holds) crush(hold.piece);
     moving_.holds.clear();
     if (moving_.ignored.size() == before) break;  // nothing more, or no room to name it

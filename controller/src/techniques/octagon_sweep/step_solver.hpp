@@ -75,16 +75,20 @@ template <class Scalar>
 struct MoverState {
   const Surroundings<Scalar>& around;
   FixedVector<Hold<Scalar>, 32> holds{};
-  FixedVector<Hold<Scalar>, 32> holds_before{};  ///< While room is looked for.
   Ride<Scalar> ride{};            ///< What carries the character in this step; `velocity` is that of this step.
   MoverIndex carrier = no_mover;  ///< Its mover; none for a conveyor that stands still.
   bool anchored = false;          ///< The character has not moved on what carries it.
   /// Colliders that go through the character in this step: they crush it, or are on it since an earlier step.
   FixedVector<ColliderIndex, MoveResult<Scalar>::max_crushed> ignored{};
-  std::size_t on_it = 0;         ///< The first so many of them were on it when the step began.
-  std::size_t first_corner = 0;  ///< Of the path, from which on it travelled.
+  std::size_t on_it = 0;  ///< The first so many of them were on it when the step began.
+  /// Colliders that the step began inside of and got out of at once,
+  FixedVector<ColliderIndex, MoveResult<Scalar>::max_crushed> left{};
+  std::optional<Vec2<Scalar>> last_free{};  ///< and where the character was before it was inside, if anywhere.
+  bool leaving = false;                     ///< They are not in the way at present.
   /// How many contacts were known at each corner of the path.
   std::array<std::size_t, MoveResult<Scalar>::max_corners> contacts_at{};
+  std::size_t corners_before_crush = 0;                ///< Of the path, where something crushes; and
+  MoveStatus status_before_crush = MoveStatus::moved;  ///< how the step went until then.
 };
 
 struct NoMoverState {};
@@ -184,13 +188,26 @@ class StepSolver {
   void last_resort(const V& way) noexcept;
 
   // step_crush.hpp
-  [[nodiscard]] bool find_room() noexcept;
-  [[nodiscard]] bool find_room(Scalar gap) noexcept;
-  [[nodiscard]] bool roomy(std::span<const PieceIndex> candidates, const V& q) const noexcept;
+  /// A position where there is room, and the corner of the path to reach it from.
+  struct Room {
+    Scalar distance;  ///< From where the character is [m].
+    V position;
+    std::size_t corner;
+  };
+  [[nodiscard]] bool gives_way() noexcept;
+  void take_back_crushes() noexcept;
+  [[nodiscard]] bool find_room(Scalar reach, std::size_t corners) noexcept;
+  [[nodiscard]] bool left_behind(PieceIndex piece) const noexcept;
+  [[nodiscard]] bool stays_on_its_side(const V& end) noexcept;
+  void note_what_is_left(const MoveRequest<Scalar>& request) noexcept;
+  void find_room_from(std::size_t corner, Scalar gap, Scalar radius, Room& room) noexcept;
+  void consider_room(std::size_t corner, const V& end, Room& room) noexcept;
+  [[nodiscard]] bool roomy(const V& q) noexcept;
   [[nodiscard]] bool goes_straight(std::size_t corner, const V& end) noexcept;
   [[nodiscard]] bool passes(const LocalMotion& motion, std::span<const PieceIndex> pieces) const noexcept;
+  [[nodiscard]] bool stopped_by(const LocalMotion& motion, PieceIndex piece) const noexcept;
   void go_back_to(std::size_t corner) noexcept;
-  [[nodiscard]] Scalar longest_course() const noexcept;
+  void go_to(const V& end) noexcept;
   void crush_what_presses() noexcept;
   void crush(PieceIndex piece) noexcept;
   template <class Condition>

@@ -22,6 +22,7 @@ bool StepSolver<variant, Scalar>::prepare_start(const MoveRequest<Scalar>& reque
   while (overlaps(position_)) {
     const std::optional<V> out = find_way_out(request);
     if (out) {
+      if constexpr (variant.movers) note_what_is_left(request);
       start_ = position_ = *out;
       push_corner(0);
       return true;

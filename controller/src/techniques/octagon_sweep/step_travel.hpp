@@ -42,17 +42,18 @@ void StepSolver<variant, Scalar>::solve(const MoveRequest<Scalar>& request) noex
     if constexpr (variant.movers) stay(false);
   } else {
     if constexpr (variant.movers) {
-      moving_.first_corner = result_.path.size() - 1;
       if (moving_.on_it > 0) {
         halt();
         wanted = V::Zero();
       }
     }
     if (near) look_along(wanted);
-    if constexpr (variant.movers)
+    if constexpr (variant.movers) {
       travel_among_movers();
-    else
+      take_back_crushes();
+    } else {
       travel();
+    }
     result_.grounded = stands();
     if constexpr (variant.snap) follow_ground_down(request);
     if constexpr (variant.movers) end_ride();
@@ -146,6 +147,8 @@ bool StepSolver<variant, Scalar>::stands_on(PieceIndex piece) const noexcept {
 template <Variant variant, class Scalar>
 void StepSolver<variant, Scalar>::follow_ground_down(const MoveRequest<Scalar>& request) noexcept {
   if (settings_.snap <= 0 || !request.grounded || result_.grounded) return;
+  if constexpr (variant.movers)
+    if (!result_.crushed.empty()) return;  // it stays where it was crushed
   V travelled = position_ - request.position;
   V left_ground = V::Zero();  // velocity of what was walked on
   if constexpr (variant.movers) {
