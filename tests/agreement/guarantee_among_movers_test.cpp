@@ -1,10 +1,11 @@
 /// The guarantee of octagon_sweep against the exact oracle, among up to 64 movers: boxes, papers, chains, one-way
 /// chains and rows of tiles, at speeds up to 1e6 m per step, in random scenery that stands still.
-#include "oracle/exact.hpp"
+#include "oracle/judge.hpp"
 #include "support/random_sceneries.hpp"
 #include "support/steps_wanted.hpp"
 
 #include <paperproof/controller.hpp>
+#include <paperproof/tolerances.hpp>
 
 #include <gtest/gtest.h>
 
@@ -14,13 +15,31 @@ namespace paperproof::test {
 namespace {
 
 using compare::ExactScenery;
+using compare::Judge;
 using compare::Place;
+using compare::StepJudgement;
+using compare::TraceHeader;
+using compare::TraceStep;
 
-/// Room for a crushed character is looked for no farther than this [m]: nearly all that could be within its reach.
-constexpr double most_reach = 0.3;
-/// Openings narrower than twice this count as closed [m].
-constexpr double least_clearance = 1e-7;
+/// What is left at a contact at most, and how far its place along its normal may be off [m]: in double the guarantee's
+/// 1e-6.
+template <class Scalar>
+constexpr double contact_reach = 2 * static_cast<double>(Tolerances<Scalar>{}.stop);
+/// Nearer than this is a contact, and the rounding of a position 1e6 m away [m].
+template <class Scalar>
+constexpr double hit_distance = static_cast<double>(Tolerances<Scalar>{}.hit) * 1.01;
+/// Among many movers the oracle takes seconds to find that there is no room within reach of one that goes farther than
+/// this [m]: such crushes are judged where there are few, unless all are asked for; and the first one of a run, as the
+/// steps that follow mostly are the same again.
+constexpr double far_crush = 3;
+constexpr std::size_t few_movers = 8;
+/// So many steps of a family that break it are described.
+constexpr int most_described = 3;
 
+/// Runs are counted from here, in each family: others have not been seen before.
+std::uint64_t first_run() { return static_cast<std::uint64_t>(steps_wanted("PAPERPROOF_GUARANTEE_FIRST_RUN", 0)); }
+
+/// Steps, and how many of them did what.
 struct Tally {
   int steps = 0;
   int with_contact = 0;
@@ -28,9 +47,17 @@ struct Tally {
   int crushed = 0;
   int dropped = 0;
   int stuck = 0;
-  int violations = 0;
-  int room_looked_for = 0;
-  int crushed_with_room = 0;
+  int overlaps = 0;        ///< Ended inside what they did not begin in, and what did not crush.
+  int passages = 0;        ///< Passed a solid, and be it with a rim.
+  int one_way = 0;         ///< Passed a one-way chain against its normal.
+  int gaps = 0;            ///< Left more than the guaranteed gap, or none, at a contact.
+  int fractions_seen = 0;  ///< Had a first contact that can be compared,
+  int fractions = 0;       ///< at another time than the exact one.
+  int room = 0;            ///< Were crushed where there was room.
+  int far = 0;             ///< Were crushed by what goes far.
+  int unsound = 0;         ///< Were not finite, or did not end where they said.
+
+  [[nodiscard]] int broken() const { return overlaps + passages + one_way + gaps + fractions + room + unsound; }
 };
 
 /// Something that moves about in an arena of 12 m.
@@ -86,7 +113,6 @@ class RandomRun {
         origin_(random_.chance(0.8) ? Vec2d{0, 0} : Vec2d{far(), far()}),
         scenery_(scenery()),
         controller_(scenery_, character()),
-        oracle_(scenery_.as_run(), hull()),
         scratch_(controller_.make_scratch()),
         motions_(scenery_.mover_count()),
         bodies_(scenery_.mover_count()) {}
@@ -94,6 +120,11 @@ class RandomRun {
   void go(Tally& tally) {
     state_.position = (origin_ + Vec2d{random_.between(-4, 4), random_.between(-3, 5)}).cast<Scalar>();
     const double dt = random_.chance(0.7) ? 1.0 / 60 : random_.log_between(1e-3, 0.1);
+    TraceHeader header;
+    header.points = hull();
+    header.scenery = scenery_.as_run();
+    header.dt = static_cast<double>(static_cast<Scalar>(dt));
+    judge_.emplace(header);
     Input input;
     for (int step = 0; step < 60; ++step) {
       if (random_.chance(0.1)) input.move = random_.integer(-1, 1);
@@ -102,7 +133,7 @@ class RandomRun {
       move_bodies();
       take(input, static_cast<Scalar>(dt), tally);
       const bool gone = (state_.position.template cast<double>() - origin_).cwiseAbs().maxCoeff() > 14;
-      if (gone || ::testing::Test::HasFailure()) return;
+      if (gone || ends_ || ::testing::Test::HasFatalFailure()) return;
     }
   }
 
@@ -165,12 +196,14 @@ class RandomRun {
 
   void take(const Input& input, Scalar dt, Tally& tally) {
     const Vec2<Scalar> gravity{0, -30};
+    const bool rides = state_.ride.ground != Ride<Scalar>::none;
     const StepStatus status = controller_.step(state_, input, gravity, dt, motions_, scratch_, report_);
     ++tally.steps;
     ASSERT_NE(status, StepStatus::invalid_input) << where();
     if (status == StepStatus::out_of_range) {
       state_ = CharacterState<Scalar>{};
       state_.position = origin_.cast<Scalar>();
+      begins_anew_ = true;
       return;
     }
     tally.with_contact += !report_.move.contacts.empty();
@@ -178,67 +211,100 @@ class RandomRun {
     tally.crushed += !report_.move.crushed.empty();
     tally.dropped += status == StepStatus::dropped;
     tally.stuck += status == StepStatus::stuck;
-    judge(status, tally);
+    const bool far = crushed_from_afar();
+    tally.far += far;
+    ends_ = far;
+    if (far && bodies_.size() > few_movers && steps_wanted("PAPERPROOF_FAR_CRUSHES", 0) == 0) return;
+    const Tally before = tally;
+    const TraceStep record = recorded();
+    const StepJudgement judgement = judge_->judge(record);
+    count(record, judgement, tally);
+    if (!rides) count_fraction(record, judgement, tally);
+    if (!std::is_same_v<Scalar, float> && before.broken() < most_described && tally.broken() > before.broken())
+      std::printf("breaks: %s\n", (what(judgement) + where()).c_str());
   }
 
-  void judge(StepStatus status, Tally& tally) {
-    exact_motions_.clear();
-    for (const MoverMotion<Scalar>& m : motions_)
-      exact_motions_.push_back({m.from.template cast<double>(), m.to.template cast<double>()});
-    std::vector<Place> path;
-    for (const PathPoint<Scalar>& corner : report_.move.path)
-      path.emplace_back(corner.position.template cast<double>(), exact_motions_, static_cast<double>(corner.fraction));
-    const std::vector<ColliderIndex> at_start = oracle_.overlapped(path.front());
-    const std::vector<ColliderIndex> at_end = oracle_.overlapped(path.back());
-    const auto excused = [&](ColliderIndex c) { return contains(at_start, c) || crushes(c); };
-    std::vector<ColliderIndex> broken;
-    for (std::size_t i = 1; i < path.size(); ++i)
-      for (const ColliderIndex c : oracle_.met(path[i - 1], path[i]))
-        if (!excused(c)) broken.push_back(c);
-    for (const ColliderIndex c : at_end)
-      if (!excused(c) || (!crushes(c) && status != StepStatus::stuck && status != StepStatus::crushed))
-        broken.push_back(c);
-    const bool room = at_start.empty() && has_room(path, tally);
-    tally.violations += !broken.empty();
-    tally.crushed_with_room += room;
-    if (std::is_same_v<Scalar, float>) return;
-    ASSERT_TRUE(broken.empty()) << "meets " << names(broken) << where();
-    ASSERT_FALSE(room) << "crushed beside room at " << room_.transpose() << where();
-    ASSERT_TRUE(state_.position.allFinite() && state_.velocity.allFinite()) << where();
-    ASSERT_FALSE(report_.move.path.overflowed() || report_.move.crushed.overflowed()) << where();
-    ASSERT_EQ(report_.move.path.back().fraction, 1) << where();
-    ASSERT_EQ(report_.move.path.back().position, state_.position) << where();
-    for (const Contact<Scalar>& contact : report_.move.contacts) ASSERT_LE(contact.separation, 1e-6) << where();
-  }
-
-  static bool contains(const std::vector<ColliderIndex>& all, ColliderIndex one) {
-    return std::find(all.begin(), all.end(), one) != all.end();
-  }
-
-  [[nodiscard]] bool crushes(ColliderIndex collider) const {
+  [[nodiscard]] bool crushed_from_afar() const {
     const auto& crushed = report_.move.crushed;
-    return std::find(crushed.begin(), crushed.end(), collider) != crushed.end();
+    return std::any_of(crushed.begin(), crushed.end(), [&](ColliderIndex collider) {
+      const MoverMotion<Scalar>& motion = motions_[scenery_.as_run().colliders[collider].mover];
+      return static_cast<double>((motion.to - motion.from).norm()) > far_crush;
+    });
   }
 
-  /// A place at the end of the step, no farther than the crushing movers go, that a straight motion from a corner of
-  /// the way reaches without meeting anything.
-  bool has_room(const std::vector<Place>& path, Tally& tally) {
-    double reach = 0;
-    for (const ColliderIndex c : report_.move.crushed) {
-      const MoverMotion<double>& motion = exact_motions_[scenery_.as_run().colliders[c].mover];
-      reach = std::max(reach, (motion.to - motion.from).norm());
-    }
-    if (reach == 0 || reach > most_reach) return false;
-    ++tally.room_looked_for;
-    const auto reached = [&](const Vec2d& q) {
-      const Place there(q, exact_motions_, 1);
-      return std::any_of(path.begin(), std::prev(path.end()), [&](const Place& corner) {
-        return oracle_.overlapped(corner).empty() && oracle_.met(corner, there).empty();
-      });
-    };
-    const auto room = oracle_.find_free(path.back(), reach + 1e-6, least_clearance, {}, reached);
-    if (room) room_ = *room;
-    return room.has_value();
+  TraceStep recorded() {
+    TraceStep record;
+    for (const PathPoint<Scalar>& corner : report_.move.path)
+      record.path.push_back({corner.position.template cast<double>(), static_cast<double>(corner.fraction)});
+    record.requested = report_.requested.template cast<double>();
+    record.velocity = state_.velocity.template cast<double>();
+    for (const Contact<Scalar>& contact : report_.move.contacts)
+      record.contacts.push_back({.collider = contact.collider,
+                                 .point = contact.point.template cast<double>(),
+                                 .normal = contact.normal.template cast<double>(),
+                                 .fraction = static_cast<double>(contact.fraction),
+                                 .separation = static_cast<double>(contact.separation),
+                                 .side = contact.side});
+    for (const MoverMotion<Scalar>& m : motions_)
+      record.movers.push_back({m.from.template cast<double>(), m.to.template cast<double>()});
+    record.crushed.assign(report_.move.crushed.begin(), report_.move.crushed.end());
+    record.respawn = begins_anew_;
+    begins_anew_ = false;
+    return record;
+  }
+
+  void count(const TraceStep& record, const StepJudgement& judgement, Tally& tally) {
+    const MoveResult<Scalar>& move = report_.move;
+    tally.overlaps += !judgement.entered.empty();
+    tally.passages += !judgement.tunnelled.empty() || !judgement.corner_cut.empty();
+    tally.one_way += !judgement.one_way_broken.empty();
+    tally.room += !judgement.crushed_with_room.empty();
+    const bool named =
+        judgement.end_overlap.empty() || report_.status == StepStatus::stuck || report_.status == StepStatus::crushed;
+    const bool ends = record.path.back().fraction == 1 && move.path.back().position == state_.position;
+    const bool kept = !move.path.overflowed() && !move.crushed.overflowed();
+    tally.unsound += !(named && ends && kept && state_.position.allFinite() && state_.velocity.allFinite());
+    const bool near = std::all_of(record.contacts.begin(), record.contacts.end(), [](const Contact<double>& contact) {
+      return contact.separation > 0 && contact.separation <= contact_reach<Scalar>;
+    });
+    // A contact with what was overlapped, or crushes later in the step, has no gap.
+    const bool free = record.crushed.empty() && judgement.end_overlap.empty();
+    tally.gaps += free && !(near && judgement.max_contact_gap <= contact_reach<Scalar>);
+  }
+
+  /// The first contact of a step that nothing carries happens when the exact motion first meets its collider.
+  void count_fraction(const TraceStep& record, const StepJudgement& judgement, Tally& tally) {
+    if (!judgement.first_impact_comparable || record.contacts.empty()) return;
+    const ExactScenery& oracle = judge_->scenery();
+    const Place start(record.path.front(), record.movers);
+    const Vec2d wanted = record.requested;
+    // What rests, and touches something, is carried from now on.
+    if (wanted.x() == 0 && wanted.y() <= 0 && !oracle.near(start, start, contact_reach<Scalar>).empty()) return;
+    ++tally.fractions_seen;
+    const Contact<double>& first = record.contacts[0];
+    const auto exact = oracle.time_of_impact(start, wanted, first.collider);
+    const MoverIndex mover = scenery_.as_run().colliders[first.collider].mover;
+    Vec2d relative = wanted;
+    if (mover != no_mover) relative -= record.movers[mover].to - record.movers[mover].from;
+    if (exact &&
+        std::abs(static_cast<double>(exact->fraction) - first.fraction) * std::abs(relative.dot(exact->normal)) <=
+            contact_reach<Scalar>)
+      return;
+    // A way that passes a rim within the hit distance may be stopped there.
+    const Place there(start.position + wanted * first.fraction, record.movers, first.fraction);
+    const double gap = oracle.separation(there, first.collider);
+    tally.fractions += !(gap > 0 && gap <= hit_distance<Scalar>);
+  }
+
+  [[nodiscard]] static std::string what(const StepJudgement& judgement) {
+    std::ostringstream text;
+    text.precision(17);
+    text << "enters " << names(judgement.entered) << "passes " << names(judgement.tunnelled)
+         << names(judgement.corner_cut) << "against one-way " << names(judgement.one_way_broken) << "with room beside "
+         << names(judgement.crushed_with_room) << "gap " << judgement.max_contact_gap;
+    if (judgement.room) text << " room at " << judgement.room->transpose();
+    if (judgement.first_impact) text << " exact fraction " << *judgement.first_impact;
+    return text.str();
   }
 
   static std::string names(const std::vector<ColliderIndex>& colliders) {
@@ -275,14 +341,14 @@ class RandomRun {
   SceneryDef def_;
   Scenery<Scalar> scenery_;
   Controller<Scalar> controller_;
-  ExactScenery oracle_;
+  std::optional<Judge> judge_;
   Scratch<Scalar> scratch_;
   CharacterState<Scalar> state_;
   StepReport<Scalar> report_;
   std::vector<MoverMotion<Scalar>> motions_;
   std::vector<Body> bodies_;
-  std::vector<MoverMotion<double>> exact_motions_;
-  Vec2d room_{0, 0};
+  bool begins_anew_ = false;
+  bool ends_ = false;
 };
 
 class AmongMovers : public ::testing::TestWithParam<Family> {};
@@ -290,28 +356,38 @@ class AmongMovers : public ::testing::TestWithParam<Family> {};
 template <class Scalar>
 Tally run_family(Family family, int steps) {
   Tally tally;
-  for (std::uint64_t run = 0; tally.steps < steps; ++run) {
+  for (std::uint64_t run = first_run(); tally.steps < steps; ++run) {
     try {
       RandomRun<Scalar>(family, 2000003 * (static_cast<std::uint64_t>(family) + 1) + run).go(tally);
     } catch (const InvalidScenery&) {
       // Far from the origin neighbouring vertices become one in float.
       EXPECT_EQ(sizeof(Scalar), sizeof(float));
     }
-    if (::testing::Test::HasFailure()) break;
+    if (::testing::Test::HasFatalFailure()) break;
   }
   std::printf(
-      "%s in %s: %d steps, %d with contact, %d riding, %d crushed, %d stuck, %d dropped; %d violations, %d of "
-      "%d crushes with room\n",
+      "%s in %s: %d steps, %d with contact, %d riding, %d crushed, %d stuck, %d dropped; %d overlaps, %d passages, %d "
+      "against one-way chains, %d gaps, %d of %d fractions, %d crushes with room, %d crushed "
+      "from afar, %d unsound\n",
       name_of(family).c_str(), sizeof(Scalar) == 8 ? "double" : "float", tally.steps, tally.with_contact, tally.riding,
-      tally.crushed, tally.stuck, tally.dropped, tally.violations, tally.crushed_with_room, tally.room_looked_for);
+      tally.crushed, tally.stuck, tally.dropped, tally.overlaps, tally.passages, tally.one_way, tally.gaps,
+      tally.fractions, tally.fractions_seen, tally.room, tally.far, tally.unsound);
   return tally;
 }
 
-TEST_P(AmongMovers, no_step_passes_a_solid_or_ends_inside_one_that_does_not_crush) {
+TEST_P(AmongMovers, no_step_breaks_the_guarantee) {
   const Tally tally = run_family<double>(GetParam(), steps_per_family());
+  EXPECT_EQ(tally.overlaps, 0);
+  EXPECT_EQ(tally.passages, 0);
+  EXPECT_EQ(tally.one_way, 0);
+  EXPECT_EQ(tally.gaps, 0);
+  EXPECT_EQ(tally.fractions, 0);
+  EXPECT_EQ(tally.room, 0);
+  EXPECT_EQ(tally.unsound, 0);
   // The generators must really meet the solids, and also miss them.
   EXPECT_GE(tally.with_contact, tally.steps * 0.1);
   EXPECT_LE(tally.with_contact, tally.steps * 0.9);
+  EXPECT_GT(tally.fractions_seen, 0);
   EXPECT_GT(tally.riding, 0);
   EXPECT_GT(tally.crushed, 0);
   EXPECT_LT(tally.crushed, tally.steps / 5);
