@@ -30,7 +30,7 @@ main_comparison=(
 
 build_command() {
   install_missing "${build_packages[@]}" &&
-    cmake -S "$here" --preset release &&
+    cmake -S "$here" --preset release "${whole_build[@]}" &&
     cmake --build "$here/build/release" --target paperproof --parallel "$(build_jobs)"
 }
 build_command >&2 || exit 2

@@ -16,7 +16,7 @@ jobs=$(build_jobs)
 # Configures, builds and tests one preset.
 run_preset() {
   local preset=$1 log=build/$1/ctest.log
-  cmake --preset "$preset" &&
+  cmake --preset "$preset" "${whole_build[@]}" &&
     cmake --build --preset "$preset" --parallel "$jobs" &&
     ctest --preset "$preset" --parallel "$jobs" --no-tests=error 2>&1 | tee "$log"
 }

@@ -1,6 +1,8 @@
 /// Small pieces of JSON, written straight into a string: the replay has millions of numbers.
 #pragma once
 
+#include <paperproof/types.hpp>
+
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -43,6 +45,13 @@ class JsonObject {
   std::string text_ = "{";
 };
 
+/// A point in display units.
+struct Cell {
+  std::int64_t x = 0;
+  std::int64_t y = 0;
+  friend bool operator==(const Cell&, const Cell&) = default;
+};
+
 /// Rounds metres to a whole number of display units, the same for all coordinates of a scene.
 class Quantum {
  public:
@@ -52,6 +61,7 @@ class Quantum {
   Quantum(double extent, double farthest);
   [[nodiscard]] double metres() const noexcept { return metres_; }
   [[nodiscard]] std::int64_t round(double metres) const noexcept;
+  [[nodiscard]] Cell round(const Vec2d& point) const noexcept { return {round(point.x()), round(point.y())}; }
 
  private:
   double metres_ = 1;

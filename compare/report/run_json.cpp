@@ -12,12 +12,6 @@ constexpr double parts_of_one = 10'000;  ///< Fractions and normals are shown to
 
 std::int64_t in_parts(double number) { return std::isfinite(number) ? std::llround(number * parts_of_one) : 0; }
 
-struct Cell {
-  std::int64_t x = 0;
-  std::int64_t y = 0;
-  friend bool operator==(const Cell&, const Cell&) = default;
-};
-
 /// Writes the steps of one run, column by column.
 class Columns {
  public:
@@ -52,10 +46,6 @@ class Columns {
     Cell way;
   };
 
-  [[nodiscard]] Cell rounded(const Vec2d& point) const {
-    return {quantum_.round(point.x()), quantum_.round(point.y())};
-  }
-
   void add_flags(const TraceStep& step) {
     const int bits = (step.grounded ? 1 : 0) | (step.jumping ? 2 : 0) | (step.respawn ? 4 : 0) | (step.stuck ? 8 : 0) |
                      (step.dropped ? 16 : 0) | (step.capped ? 32 : 0);
@@ -70,13 +60,13 @@ class Columns {
   void add_path(const std::vector<PathPoint<double>>& path) {
     if (path.empty()) {
       path_.add(-1);
-    } else if (path.size() == 2 && rounded(path.front().position) == position_) {
+    } else if (path.size() == 2 && quantum_.round(path.front().position) == position_) {
       path_.add(0);
-      add_corner(rounded(path.back().position));
+      add_corner(quantum_.round(path.back().position));
     } else {
       path_.add(static_cast<std::int64_t>(path.size()));
       for (const PathPoint<double>& corner : path) {
-        add_corner(rounded(corner.position));
+        add_corner(quantum_.round(corner.position));
         path_.add(in_parts(corner.fraction));
       }
     }
@@ -102,7 +92,7 @@ class Columns {
     for (const Contact<double>& contact : contacts) {
       const std::size_t kind = index_of({contact.collider, static_cast<std::int64_t>(contact.side),
                                          in_parts(contact.normal.x()), in_parts(contact.normal.y())});
-      const Cell point = rounded(contact.point);
+      const Cell point = quantum_.round(contact.point);
       const Cell relative{point.x - position_.x, point.y - position_.y};
       Cell& last = last_points_[kind];
       contacts_.add(static_cast<std::int64_t>(kind)).add(relative.x - last.x).add(relative.y - last.y);
@@ -123,12 +113,12 @@ class Columns {
     if (count_ == 0) places_.resize(movers.size());
     const std::size_t known = std::min(places_.size(), movers.size());
     bool jumped = false;
-    for (std::size_t i = 0; i < known; ++i) jumped = jumped || !(rounded(movers[i].from) == places_[i].at);
+    for (std::size_t i = 0; i < known; ++i) jumped = jumped || !(quantum_.round(movers[i].from) == places_[i].at);
     if (!places_.empty()) movers_.add(jumped ? 1 : 0);
     for (std::size_t i = 0; i < places_.size(); ++i) {
       Place& place = places_[i];
-      const Cell from = i < known ? rounded(movers[i].from) : place.at;
-      const Cell to = i < known ? rounded(movers[i].to) : place.at;
+      const Cell from = i < known ? quantum_.round(movers[i].from) : place.at;
+      const Cell to = i < known ? quantum_.round(movers[i].to) : place.at;
       if (jumped) movers_.add(from.x - place.at.x).add(from.y - place.at.y);
       const Cell way{to.x - from.x, to.y - from.y};
       movers_.add(way.x - place.way.x).add(way.y - place.way.y);

@@ -7,19 +7,10 @@
 namespace paperproof::compare {
 namespace {
 
-struct Cell {
-  std::int64_t x = 0;
-  std::int64_t y = 0;
-};
-
-Cell rounded(const Vec2d& point, const Quantum& quantum) {
-  return {quantum.round(point.x()), quantum.round(point.y())};
-}
-
 std::string ring_json(const std::vector<Vec2d>& points, Cell last, const Quantum& quantum) {
   JsonArray ring;
   for (const Vec2d& point : points) {
-    const Cell cell = rounded(point, quantum);
+    const Cell cell = quantum.round(point);
     ring.add(cell.x - last.x).add(cell.y - last.y);
     last = cell;
   }
@@ -99,7 +90,7 @@ std::string scenery_json(const SceneryDef& scenery, const std::vector<std::strin
   std::vector<Cell> steps;
   Cell last;
   for (const ColliderDef& collider : scenery.colliders) {
-    const Cell origin = collider.points.empty() ? last : rounded(collider.points.front(), quantum);
+    const Cell origin = collider.points.empty() ? last : quantum.round(collider.points.front());
     const std::string shape = shape_json(collider, origin, quantum);
     const auto [entry, is_new] = known.try_emplace(shape, static_cast<std::int64_t>(known.size()));
     if (is_new) shapes.add_raw(shape);

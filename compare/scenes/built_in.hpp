@@ -20,6 +20,12 @@ namespace paperproof::compare {
 /// Half the width, and the height below and above the position, of the article's character: 20 x 40 px at 32 px/m [m].
 inline constexpr double half_width = 10.0 / 32;
 inline constexpr double half_height = 20.0 / 32;
+inline constexpr double pixel = 1.0 / 32;              ///< [m]
+inline constexpr double tan_30 = 0.57735026918962576;  ///< Of 30 degrees.
+
+/// The jump button goes down, comes up.
+[[nodiscard]] inline InputEvent press(int step) { return {.step = step, .move = std::nullopt, .jump = true}; }
+[[nodiscard]] inline InputEvent release(int step) { return {.step = step, .move = std::nullopt, .jump = false}; }
 
 /// A scene without gravity or input: a body that flies.
 [[nodiscard]] Scene flight(double x, double y, double velocity_x, double velocity_y, int steps);

@@ -5,10 +5,6 @@ namespace paperproof::compare {
 
 namespace {
 
-constexpr double pixel = 1.0 / 32;  // [m]
-
-InputEvent press(int step) { return {.step = step, .move = std::nullopt, .jump = true}; }
-InputEvent release(int step) { return {.step = step, .move = std::nullopt, .jump = false}; }
 InputEvent steer(int step, double move) { return {.step = step, .move = move, .jump = std::nullopt}; }
 
 /// Falls onto a spike that is narrower everywhere than the distance between the two foot points.
@@ -28,7 +24,6 @@ Scene sloped_paper_walk() {
   scene.character.walk_speed = 20;
   scene.start.velocity = {20, 0};
   constexpr double thickness = 0.01;
-  constexpr double tan_30 = 0.57735026918962576;
   constexpr double run = 24;
   add_box(scene, "ground", -6, -thickness, 0, 0);
   add_polygon(scene, "paper", {{0, -thickness}, {run, run * tan_30 - thickness}, {run, run * tan_30}, {0, 0}});

@@ -31,7 +31,6 @@ Scene flush_tiles_slide() {
 }
 
 constexpr double tan_10 = 0.17632698070846498;
-constexpr double tan_30 = 0.57735026918962576;
 
 /// Level ground, up 30 degrees, level, down 30 degrees, level: two convex joints and two concave ones.
 Scene slope_joints_with(double snap) {

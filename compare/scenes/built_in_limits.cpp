@@ -6,9 +6,6 @@ namespace paperproof::compare {
 
 namespace {
 
-InputEvent press(int step) { return {.step = step, .move = std::nullopt, .jump = true}; }
-InputEvent release(int step) { return {.step = step, .move = std::nullopt, .jump = false}; }
-
 /// Walks from level ground against a ramp 3 m long that rises by `tangent`.
 Scene ramp_of(double tangent) {
   Scene scene = walk(-2, half_height + 0.02, 1, 90);

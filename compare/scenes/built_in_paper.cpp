@@ -5,7 +5,6 @@ namespace paperproof::compare {
 
 namespace {
 
-constexpr double pixel = 1.0 / 32;  // [m]
 constexpr double frames_per_second = 60;
 
 /// The article's example: a character of one pixel, a platform 5 px thick that begins 30 px below it.

@@ -131,8 +131,8 @@ double SReader::number(const SExpression& list, std::string_view name, std::opti
 
 int SReader::integer(const SExpression& list, std::string_view name, std::optional<int> otherwise) const {
   const double value = number(list, name, otherwise);
-  constexpr int most = std::numeric_limits<int>::max();
-  if (!(std::abs(value) <= most && std::floor(value) == value)) {
+  constexpr int largest = std::numeric_limits<int>::max();
+  if (!(std::abs(value) <= largest && std::floor(value) == value)) {
     refuse(*list.find(name), fmt::format("expected a whole number in ({})", name));
   }
   return static_cast<int>(value);

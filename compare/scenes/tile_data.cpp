@@ -15,7 +15,7 @@ namespace {
 
 using Bytes = std::vector<unsigned char>;
 
-constexpr bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+constexpr bool is_xml_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 
 std::optional<std::uint32_t> base64_value(char c) {
   if (c >= 'A' && c <= 'Z') return static_cast<std::uint32_t>(c - 'A');
@@ -33,7 +33,7 @@ Bytes unpack_base64(std::string_view text, const std::string& where) {
   std::size_t digits = 0;
   std::size_t padding = 0;
   for (const char c : text) {
-    if (is_space(c)) continue;
+    if (is_xml_space(c)) continue;
     const std::optional<std::uint32_t> value = base64_value(c);
     if (c == '=') {
       ++padding;
@@ -96,7 +96,7 @@ std::vector<TileNumber> decode_csv(std::string_view text, std::size_t count, con
   const char* at = text.data();
   const char* const end = at + text.size();
   const auto skip_space = [&] {
-    while (at != end && is_space(*at)) ++at;
+    while (at != end && is_xml_space(*at)) ++at;
   };
   skip_space();
   while (at != end) {

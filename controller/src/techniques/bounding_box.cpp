@@ -21,7 +21,7 @@ Box2<Scalar> grown(const Box2<Scalar>& piece, const Box2<Scalar>& character) noe
 }
 
 template <class Scalar>
-bool holds(const Box2<Scalar>& box, const Vec2<Scalar>& position) noexcept {
+bool holds_inside(const Box2<Scalar>& box, const Vec2<Scalar>& position) noexcept {
   return box.lower.x() < position.x() && position.x() < box.upper.x() && box.lower.y() < position.y() &&
          position.y() < box.upper.y();
 }
@@ -99,7 +99,7 @@ bool BoundingBox<Scalar>::blocks(PieceIndex piece, Side side) const noexcept {
 template <class Scalar>
 const PieceIndex* BoundingBox<Scalar>::holding(Pieces nearby, const Vec2<Scalar>& position) const noexcept {
   const auto found = std::find_if(nearby.begin(), nearby.end(), [&](PieceIndex piece) {
-    return !scenery_->pieces()[piece].one_way && holds(grown_[piece], position);
+    return !scenery_->pieces()[piece].one_way && holds_inside(grown_[piece], position);
   });
   return found == nearby.end() ? nullptr : &*found;
 }
@@ -116,7 +116,7 @@ void BoundingBox<Scalar>::advance(Pieces nearby, Eigen::Index component, Scalar 
     return forwards ? grown_[piece].lower[component] : grown_[piece].upper[component];
   };
   const auto entered = [&](PieceIndex piece, const Vec2<Scalar>& end) {
-    return holds(grown_[piece], end) && !holds(grown_[piece], start) && blocks(piece, side);
+    return holds_inside(grown_[piece], end) && !holds_inside(grown_[piece], start) && blocks(piece, side);
   };
   Vec2<Scalar> last_entered = start;
   result.position[component] += by;

@@ -103,7 +103,7 @@ class Types {
   std::vector<PixelTileSet::Tile> types_;
 };
 
-void require(bool holds, const std::string& what) {
+void require_tiles(bool holds, const std::string& what) {
   if (!holds) throw std::invalid_argument("pixel tiles: " + what);
 }
 
@@ -125,22 +125,23 @@ std::size_t PixelTileSet::memory_bytes() const noexcept {
 }
 
 void PixelTileSet::validate() const {
-  require(pixels_per_tile >= 1, "a tile needs at least 1 pixel, not " + std::to_string(pixels_per_tile));
-  require(columns >= 0 && (columns > 0 ? map.size() % static_cast<std::size_t>(columns) == 0 : map.empty()),
-          "the map of " + std::to_string(map.size()) + " tiles is not made of rows of " + std::to_string(columns));
+  require_tiles(pixels_per_tile >= 1, "a tile needs at least 1 pixel, not " + std::to_string(pixels_per_tile));
+  require_tiles(
+      columns >= 0 && (columns > 0 ? map.size() % static_cast<std::size_t>(columns) == 0 : map.empty()),
+      "the map of " + std::to_string(map.size()) + " tiles is not made of rows of " + std::to_string(columns));
   const auto pixels = static_cast<std::size_t>(pixels_per_tile) * static_cast<std::size_t>(pixels_per_tile);
   for (std::size_t i = 0; i < types.size(); ++i) {
     const std::string type = "type " + std::to_string(i);
-    require(types[i].size() == pixels,
-            type + " has " + std::to_string(types[i].size()) + " pixels instead of " + std::to_string(pixels));
+    require_tiles(types[i].size() == pixels,
+                  type + " has " + std::to_string(types[i].size()) + " pixels instead of " + std::to_string(pixels));
     for (const PixelCollision& pixel : types[i]) {
       const bool solid_from_right = PixelCollision{pixel.moving_right, pixel.moving_left}.is_solid();
-      require(pixel.is_solid() == solid_from_right, type + " has a pixel that is solid from one direction only");
+      require_tiles(pixel.is_solid() == solid_from_right, type + " has a pixel that is solid from one direction only");
     }
   }
   for (const std::uint32_t index : map) {
-    require(index < types.size(),
-            "the map names type " + std::to_string(index) + " of " + std::to_string(types.size()));
+    require_tiles(index < types.size(),
+                  "the map names type " + std::to_string(index) + " of " + std::to_string(types.size()));
   }
 }
 
