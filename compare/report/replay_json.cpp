@@ -27,6 +27,13 @@ double extent_of_character(const ReportScene& scene) {
   return (upper - lower).maxCoeff();
 }
 
+/// Of every character.
+template <class Visit>
+void for_each_step(const ReportRun& run, const Visit& visit) {
+  std::for_each(run.steps.begin(), run.steps.end(), visit);
+  for (const std::vector<TraceStep>& steps : run.others) std::for_each(steps.begin(), steps.end(), visit);
+}
+
 double farthest_coordinate(const ReportScene& scene) {
   Vec2d extent = Vec2d::Zero();
   for (const ReportRun& run : scene.runs) {
@@ -38,9 +45,9 @@ double farthest_coordinate(const ReportScene& scene) {
       for (const Vec2d& point : collider.points)
         grow(extent, collider.mover == no_mover ? point : Vec2d(point.cwiseAbs() + farthest_offset));
     }
-    for (const TraceStep& step : run.steps) {
+    for_each_step(run, [&extent](const TraceStep& step) {
       for (const PathPoint<double>& corner : step.path) grow(extent, corner.position);
-    }
+    });
   }
   return extent.maxCoeff();
 }
@@ -51,11 +58,11 @@ std::set<ColliderIndex> colliders_to_name(const ReportScene& scene) {
     for (const Contact<double>& contact : contacts) named.insert(contact.collider);
   };
   for (const ReportRun& run : scene.runs) {
-    for (const TraceStep& step : run.steps) {
+    for_each_step(run, [&](const TraceStep& step) {
       add_contacts(step.contacts);
       named.insert(step.start_overlap.begin(), step.start_overlap.end());
       named.insert(step.crushed.begin(), step.crushed.end());
-    }
+    });
   }
   for (const Disagreement& disagreement : scene.disagreements) {
     for (const Disagreement::Statement& statement : disagreement.statements) add_contacts(statement.contacts);

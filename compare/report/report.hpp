@@ -23,6 +23,7 @@ struct ReportEvent {
   int step = 0;
   Kind kind = Kind::note;
   std::string words;  ///< One sentence: what happened, how fast, through what. May be empty.
+  CharacterIndex character = 0;
 };
 
 /// One run, for drawing. The page shows numbers rounded for display; the bits stand in the trace.

@@ -24,6 +24,7 @@ class Columns {
     add_path(step.path);
     add_velocity(step.velocity);
     add_contacts(step.contacts);
+    add_met(step.met);
     add_colliders(overlaps_, step.start_overlap);
     add_colliders(crushed_, step.crushed);
     add_movers(step.movers);
@@ -34,6 +35,7 @@ class Columns {
     run.put("step", std::move(steps_).take()).put("flags", json_string(flags_)).put("path", std::move(path_).take());
     run.put("velocity", std::move(velocity_).take()).put("contacts", std::move(contacts_).take());
     run.put("kinds", std::move(kinds_).take()).put("start_overlap", std::move(overlaps_).take());
+    if (!met_.empty()) run.put("met", std::move(met_).take());
     if (!crushed_.empty()) run.put("crush", std::move(crushed_).take());
     if (!places_.empty()) run.put("movers", std::move(movers_).take());
   }
@@ -101,6 +103,16 @@ class Columns {
     }
   }
 
+  void add_met(const std::vector<CrowdContact<double>>& met) {
+    if (met.empty()) return;
+    JsonArray list;
+    for (const CrowdContact<double>& contact : met) {
+      list.add(contact.other).add(static_cast<std::int64_t>(contact.side));
+      list.add(in_parts(contact.normal.x())).add(in_parts(contact.normal.y())).add(in_parts(contact.fraction));
+    }
+    met_.put(std::to_string(count_), std::move(list).take());
+  }
+
   void add_colliders(JsonObject& of_steps, const std::vector<ColliderIndex>& colliders) const {
     if (colliders.empty()) return;
     JsonArray list;
@@ -129,7 +141,7 @@ class Columns {
   const Quantum& quantum_;
   JsonArray steps_, path_, velocity_, contacts_, kinds_, movers_;
   std::string flags_;
-  JsonObject overlaps_, crushed_;
+  JsonObject overlaps_, crushed_, met_;
   std::vector<Place> places_;
   std::map<Kind, std::size_t> known_kinds_;
   std::vector<Cell> last_points_;
@@ -143,6 +155,17 @@ bool is_finite(const TraceStep& step) {
   return step.velocity.allFinite() && std::all_of(step.movers.begin(), step.movers.end(), moves) &&
          std::all_of(step.path.begin(), step.path.end(),
                      [](const PathPoint<double>& corner) { return corner.position.allFinite(); });
+}
+
+/// Up to the first step on which a character is not.
+std::size_t finite_steps(const ReportRun& run) {
+  std::size_t count = 0;
+  const auto all_finite = [&run](std::size_t i) {
+    return is_finite(run.steps[i]) &&
+           std::all_of(run.others.begin(), run.others.end(), [i](const auto& steps) { return is_finite(steps[i]); });
+  };
+  while (count < run.steps.size() && all_finite(count)) ++count;
+  return count;
 }
 
 std::string_view word_for(ReportEvent::Kind kind) {
@@ -168,10 +191,10 @@ std::string_view word_for(ReportEvent::Kind kind) {
 std::string events_json(const std::vector<ReportEvent>& events) {
   JsonArray list;
   for (const ReportEvent& event : events) {
-    list.add_raw(
-        std::move(
-            JsonArray().add(event.step).add_raw(json_string(word_for(event.kind))).add_raw(json_string(event.words)))
-            .take());
+    JsonArray one;
+    one.add(event.step).add_raw(json_string(word_for(event.kind))).add_raw(json_string(event.words));
+    if (event.character != 0) one.add(event.character);
+    list.add_raw(std::move(one).take());
   }
   return std::move(list).take();
 }
@@ -198,18 +221,25 @@ void write_header(JsonObject& object, const ReportRun& run, const Quantum& quant
 }  // namespace
 
 std::string run_json(const ReportRun& run, std::size_t scenery, const Quantum& quantum) {
-  Columns columns(quantum);
   JsonObject object;
   write_header(object, run, quantum);
   object.put("scenery", static_cast<std::int64_t>(scenery));
-  for (const TraceStep& step : run.steps) {
-    if (!is_finite(step)) {
-      object.put("not_finite_from", step.step);
-      break;
-    }
-    columns.add(step);
+  const std::size_t shown = finite_steps(run);
+  if (shown < run.steps.size()) object.put("not_finite_from", run.steps[shown].step);
+  const auto write_columns = [&](const std::vector<TraceStep>& steps, JsonObject& into) {
+    Columns columns(quantum);
+    for (std::size_t i = 0; i < shown; ++i) columns.add(steps[i]);
+    std::move(columns).write(into);
+  };
+  write_columns(run.steps, object);
+  if (run.others.empty()) return std::move(object).take();
+  JsonArray others;
+  for (const std::vector<TraceStep>& steps : run.others) {
+    JsonObject other;
+    write_columns(steps, other);
+    others.add_raw(std::move(other).take());
   }
-  std::move(columns).write(object);
+  object.put("others", std::move(others).take());
   return std::move(object).take();
 }
 

@@ -20,6 +20,10 @@ namespace paperproof::compare {
 /// - `movers`, where there are any: per step 1 and (dx, dy) from where each of them ended the step before, if any
 /// begins
 ///   elsewhere, else 0; then for each the change of its way (to - from) since the step before.
+/// - `met`, where there is any: {index of the stored step: [character, side, normal x, normal y, fraction…]}, the last
+///   three in 1/10,000;
+/// - `others`, where there are several characters: for each but the first an object with these columns, for the same
+/// steps.
 /// Steps from the first one with a position that is not finite are left out, and `not_finite_from` says so.
 [[nodiscard]] std::string run_json(const ReportRun& run, std::size_t scenery, const Quantum& quantum);
 

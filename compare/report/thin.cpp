@@ -27,6 +27,13 @@ std::set<int> steps_to_keep(const ReportRun& run, std::size_t room) {
   return keep;
 }
 
+void keep_only(const std::vector<std::size_t>& kept, std::vector<TraceStep>& steps) {
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    if (kept[i] != i) steps[i] = std::move(steps[kept[i]]);
+  }
+  steps.resize(kept.size());
+}
+
 }  // namespace
 
 void thin_for_replay(ReportRun& run, int max_steps) {
@@ -36,12 +43,11 @@ void thin_for_replay(ReportRun& run, int max_steps) {
   const std::size_t room = limit - keep.size();
   const std::size_t stride = (run.steps.size() + room - 1) / room;
 
-  std::vector<TraceStep> kept;
-  kept.reserve(limit);
-  for (std::size_t i = 0; i < run.steps.size(); ++i) {
-    if (i % stride == 0 || keep.contains(run.steps[i].step)) kept.push_back(std::move(run.steps[i]));
-  }
-  run.steps = std::move(kept);
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < run.steps.size(); ++i)
+    if (i % stride == 0 || keep.contains(run.steps[i].step)) kept.push_back(i);
+  keep_only(kept, run.steps);
+  for (std::vector<TraceStep>& steps : run.others) keep_only(kept, steps);
   run.every *= static_cast<int>(stride);
 }
 

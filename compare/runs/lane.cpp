@@ -162,7 +162,7 @@ void Lane::note_events(std::size_t character) {
   const std::string who = company_ ? fmt::format("character {} ", character) : "";
   const auto tell = [&](ReportEvent::Kind kind, const std::string& words) {
     if (replay_.events.size() < static_cast<std::size_t>(limit_.most))
-      replay_.events.push_back({record.step, kind, who + words});
+      replay_.events.push_back({record.step, kind, who + words, record.character});
   };
   const auto note = [&](ReportEvent::Kind kind, const std::vector<ColliderIndex>& colliders, const char* what,
                         const std::string& when = "") {

@@ -187,6 +187,31 @@ TEST_F(ReportTest, movers_come_back_to_half_a_display_unit_also_across_steps_tha
   EXPECT_EQ(replay["sceneries"][0]["sensors"], json{1});
 }
 
+TEST_F(ReportTest, every_character_comes_back_with_whom_it_met) {
+  const ReportScene scene = sample_report().scenes[4];
+  const json replay = data(page(report_of(scene)), "replay-0");
+  const json& run = replay["runs"][0];
+  ASSERT_EQ(run["others"].size(), 1U);
+  const double quantum = replay["quantum"];
+  const std::vector<TraceStep>& sent = scene.runs[0].others[0];
+  const std::vector<DecodedStep> read = Decoder(run["others"][0], quantum).steps();
+  ASSERT_EQ(read.size(), sent.size());
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    EXPECT_LE((read[i].corners.back() - sent[i].path.back().position).cwiseAbs().maxCoeff(), 0.51 * quantum) << i;
+    EXPECT_EQ(run["others"][0]["met"].contains(std::to_string(i)), !sent[i].met.empty()) << i;
+  }
+  EXPECT_EQ(run["others"][0]["met"]["20"], json::parse("[0, 1, 0, 10000, 5000]"));
+  EXPECT_EQ(run["events"][0][3], 1);
+}
+
+TEST_F(ReportTest, thinned_characters_keep_the_same_steps) {
+  ReportRun run = sample_report().scenes[4].runs[0];
+  thin_for_replay(run, 12);
+  ASSERT_LE(run.steps.size(), 12U);
+  ASSERT_EQ(run.others[0].size(), run.steps.size());
+  for (std::size_t i = 0; i < run.steps.size(); ++i) EXPECT_EQ(run.others[0][i].step, run.steps[i].step);
+}
+
 TEST_F(ReportTest, a_run_without_movers_has_no_column_for_them) {
   const json replay = data(page(report_of(walk_of(3))), "replay-0");
   EXPECT_FALSE(replay["runs"][0].contains("movers") || replay["runs"][0].contains("crush"));

@@ -235,6 +235,48 @@ ReportScene lift_scene() {
   return scene;
 }
 
+// --- scene 4: two characters ---
+
+/// The second comes down by 0.1 m per step onto the head of the first and stands there.
+ReportRun pair_run(const std::string& contender, double gap) {
+  constexpr double fall = 0.1;
+  ReportRun run;
+  run.header = header("pair", contender);
+  run.header.characters = 2;
+  run.header.scenery.colliders = {box(-4, -1, 4, 0)};
+  run.header.ids = {"floor"};
+  run.others.resize(1);
+  const double low = feet + gap;
+  double height = low + 2 * feet + 1.05;
+  for (int number = 0; number < 40; ++number) {
+    TraceStep below = straight_step(number, {0, low}, {0, low});
+    below.grounded = true;
+    below.contacts = {{0, {0, 0}, {0, 1}, 0, gap, Side::bottom}};
+    const double lowest = low + 2 * feet + gap;
+    TraceStep above = straight_step(number, {0.1, height}, {0.1, std::max(height - fall, lowest)});
+    above.character = 1;
+    if (height - fall <= lowest) {
+      above.met = {{0, {0, 1}, 0.5, Side::bottom}};
+      below.met = {{1, {0, -1}, 0.5, Side::top}};
+    }
+    height = above.path.back().position.y();
+    run.steps.push_back(below);
+    run.others[0].push_back(above);
+  }
+  run.events = {{10, ReportEvent::Kind::corner_cut, "character 1 cuts a corner of character 0", 1}};
+  return run;
+}
+
+ReportScene pair_scene() {
+  ReportScene scene;
+  scene.name = "pair";
+  scene.sentence = "One stands on the head of the other.";
+  scene.runs = {pair_run("octagon_sweep", 5e-7), pair_run("box2d", 0.015)};
+  scene.rows = {row("pair", "octagon_sweep", 40), row("pair", "box2d", 40)};
+  scene.rows[0].characters = scene.rows[1].characters = 2;
+  return scene;
+}
+
 }  // namespace
 
 std::string hostile_text() { return "</script><script>throw 1</script><!-- & \" ' ]]>"; }
@@ -243,7 +285,7 @@ Report sample_report() {
   Report report;
   report.environment = {{"paperproof", "sample"}, {"compiler", "the one that built this test"}};
   report.tolerances = {{"hit", 1e-7}, {"stop", 5e-7}, {"touch", 7e-7}};
-  report.scenes = {bullet_scene(), walk_scene(), hostile_scene(), lift_scene()};
+  report.scenes = {bullet_scene(), walk_scene(), hostile_scene(), lift_scene(), pair_scene()};
   report.guarantee_notes = {"No step of octagon_sweep in double ended inside a solid: 0 violations in 812 steps."};
   return report;
 }

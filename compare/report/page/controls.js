@@ -105,7 +105,8 @@ function jumps(replay) {
 /// First contact of anyone, the first event of each kind for each contender, the first disagreement.
 function targets(replay) {
   const list = [];
-  const touching = replay.runs.map((run) => run.steps.find((step) => step.contacts.length > 0))
+  const touching = replay.runs.flatMap((run) => run.characters)
+                       .map(({steps}) => steps.find((step) => step.contacts.length + step.met.length > 0))
                        .filter(Boolean)
                        .map((step) => step.step);
   if (touching.length) list.push({words: 'first contact', step: Math.min(...touching), title: ''});
@@ -127,33 +128,42 @@ function fillReadout(replay) {
   ].map((words) => el('th', {scope: 'col'}, words));
   replay.readout.replaceChildren(
       el('table', {}, el('caption', {}, `At the end of step ${grouped(replay.step)}`),
-         el('thead', {}, el('tr', {}, head)), el('tbody', {}, replay.chosen().map((run) => readoutRow(replay, run)))));
+         el('thead', {}, el('tr', {}, head)), el('tbody', {}, replay.chosen().flatMap((run) => readoutRows(replay, run)))));
 }
 
-function readoutRow(replay, run) {
-  const {record, ended} = replay.stateOf(run), names = run.scenery.colliders;
+function readoutRows(replay, run) {
+  const several = run.characters.length > 1;
+  return run.characters.map((character, number) => {
+    const events = run.events.filter((event) => event.character === number);
+    return readoutRow(replay, run, character, several ? `${run.label}, character ${number}` : run.label, events);
+  });
+}
+
+function readoutRow(replay, run, character, label, events) {
+  const {record, ended} = replay.stateOf(character), names = run.scenery.colliders;
   const overlaps = record.startOverlap.map((i) => (names[i] ? names[i].id : i));
   const words = ended ? [`ended at step ${grouped(record.step)}`] : [
     ...record.flags, record.step === replay.step ? null : `as of step ${grouped(record.step)}`,
     overlaps.length ? `began inside ${overlaps.join(', ')}` : null,
     record.crush.length ? `crushed by ${record.crush.map((i) => (names[i] ? names[i].id : i)).join(', ')}` : null
   ].filter(Boolean);
-  const events = run.events.filter((event) => event.step === record.step && !ended);
-  const contacts = ended ?
-      [] :
-      record.contacts.map(
-          (contact) =>
-              el('div', {},
-                 `${contactWords(contact, names)}, (${measure(contact.nx)}, ${measure(contact.ny)}), ${
-                     measure(contact.t)}, ${contact.separation === null ? '' : `${measure(contact.separation)} m`}`));
+  const now = events.filter((event) => event.step === record.step && !ended);
+  const line = (what, {nx, ny, t}, rest) =>
+      el('div', {}, `${what}, (${measure(nx)}, ${measure(ny)}), ${measure(t)}${rest}`);
+  const contacts = ended ? [] : [
+    ...record.contacts.map(
+        (contact) => line(
+            contactWords(contact, names), contact,
+            `, ${contact.separation === null ? '' : `${measure(contact.separation)} m`}`)),
+    ...record.met.map((met) => line(`${met.side}, character ${met.character}`, met, ''))
+  ];
   const pair = (x, y, unit) => `${fixedTo(x, unit)}, ${fixedTo(y, unit)}`;
   return el(
-      'tr', {class: ended ? 'ended' : null}, el('th', {scope: 'row'}, run.label),
+      'tr', {class: ended ? 'ended' : null}, el('th', {scope: 'row'}, label),
       el('td', {class: 'number'}, pair(record.x, record.y, replay.data.quantum)),
       el('td', {class: 'number'}, pair(record.vx, record.vy, replay.data.quantum * 10)),
       el('td', {}, words.join(', '),
-         events.map(
-             (event) => el('div', {class: 'event'}, event.words ? `${event.kind}: ${event.words}` : event.kind))),
+         now.map((event) => el('div', {class: 'event'}, event.words ? `${event.kind}: ${event.words}` : event.kind))),
       el('td', {}, contacts));
 }
 

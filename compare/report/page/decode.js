@@ -144,6 +144,16 @@ function decodeContacts(next, kinds, position, quantum) {
   return contacts;
 }
 
+/// Contacts with other characters.
+function decodeMet(flat) {
+  const met = [];
+  for (let i = 0; i < flat.length; i += 5) {
+    const [nx, ny, t] = flat.slice(i + 2, i + 5).map((parts) => parts / PARTS_OF_ONE);
+    met.push({character: flat[i], side: SIDES[flat[i + 1]], nx, ny, t});
+  }
+  return met;
+}
+
 function decodeKinds(flat) {
   const kinds = [];
   for (let i = 0; i < flat.length; i += 4) {
@@ -197,6 +207,7 @@ function decodeSteps(packed, quantum, moverCount) {
       contacts: touched,
       startOverlap: packed.start_overlap[i] || [],
       crush: (packed.crush || {})[i] || [],
+      met: decodeMet((packed.met || {})[i] || []),
       movers: moverCount > 0 ? decodeMovers(moved, movers, quantum) : [],
       flags: FLAGS.filter((_, bit) => bits & (1 << bit))
     };
@@ -220,8 +231,10 @@ function decodeRun(packed, sceneries, quantum) {
   // A mover without a column is one whose steps say nothing about movers.
   const moverCount = packed.movers ? 1 + Math.max(...run.scenery.colliders.map((collider) => collider.mover)) : 0;
   run.steps = decodeSteps(packed, quantum, moverCount);
+  // Its characters, the first one being the run itself.
+  run.characters = [run, ...(packed.others || []).map((other) => ({steps: decodeSteps(other, quantum, moverCount)}))];
   run.movingBox = boxOfMoving(run);
-  run.events = packed.events.map(([step, kind, words]) => ({step, kind, words}));
+  run.events = packed.events.map(([step, kind, words, character = 0]) => ({step, kind, words, character}));
   run.byStep = new Map(run.steps.map((step, i) => [step.step, i]));
   return run;
 }

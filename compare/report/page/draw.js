@@ -223,6 +223,13 @@ class Painter {
     this.dot(x, y, 1.75, colour);
   }
 
+  /// Of a character, beside the dot in its middle.
+  number(number, x, y, colour) {
+    this.context.fillStyle = colour;
+    this.context.font = '12px system-ui, sans-serif';
+    this.context.fillText(number, this.toX(x) + 4, this.toY(y) - 4);
+  }
+
   dot(x, y, radius, colour) {
     const c = this.context;
     c.fillStyle = colour;
@@ -335,6 +342,16 @@ class Painter {
     c.font = '12px system-ui, sans-serif';
     c.fillText(lengthInWords(metres), 18, y - 5);
   }
+}
+
+/// The point of a convex outline that lies farthest in a direction: the middle of them where it is a side.
+function farthest(flat, dx, dy) {
+  const along = [];
+  for (let i = 0; i < flat.length; i += 2) along.push(flat[i] * dx + flat[i + 1] * dy);
+  const most = Math.max(...along), near = 1e-3 * (most - Math.min(...along));
+  const found = along.flatMap((value, i) => (most - value <= near ? [i] : []));
+  const mean = (k) => found.reduce((sum, i) => sum + flat[2 * i + k], 0) / found.length;
+  return [mean(0), mean(1)];
 }
 
 /// The largest of 1, 2, 5 times a power of ten that is not above the given length.

@@ -82,8 +82,9 @@ class Replay {
     const ways = [Infinity, Infinity, -Infinity, -Infinity], all = [Infinity, Infinity, -Infinity, -Infinity];
     for (const run of this.runs) {
       const hull = boxOf(run.hull);
-      for (const step of run.steps)
-        for (const p of step.path) boxOf([hull[0] + p.x, hull[1] + p.y, hull[2] + p.x, hull[3] + p.y], ways);
+      for (const {steps} of run.characters)
+        for (const step of steps)
+          for (const p of step.path) boxOf([hull[0] + p.x, hull[1] + p.y, hull[2] + p.x, hull[3] + p.y], ways);
       boxOf(run.scenery.box.filter(Number.isFinite), all);
       boxOf(run.movingBox.filter(Number.isFinite), all);
     }
@@ -228,11 +229,12 @@ class Replay {
 
   // --- drawing ---
 
-  /// What a run does at the step that is shown: its record, the position within it, and whether it has ended before.
-  stateOf(run) {
-    const index = Math.max(indexAt(run, this.step), 0), record = run.steps[index];
+  /// What a character does at the step that is shown: its record, the position within it, and whether it has ended
+  /// before. A run is its first character.
+  stateOf(character) {
+    const index = Math.max(indexAt(character, this.step), 0), record = character.steps[index];
     const exact = record.step === this.step;
-    const ended = !exact && index === run.steps.length - 1;
+    const ended = !exact && index === character.steps.length - 1;
     const t = exact ? this.t : 1;
     return {index, record, ended, t, position: positionAt(record, t)};
   }
@@ -271,17 +273,27 @@ class Replay {
 
   drawTrajectory(painter, run) {
     const ink = inkOf(run, this.names), {index} = this.stateOf(run);
-    painter.trajectory(run.steps, index, run.steps.length, {...ink, alpha: 0.25});
-    painter.trajectory(run.steps, 0, index + 1, {...ink, alpha: 0.8});
+    // Of many only where they come from: where all will go nobody could read.
+    const several = run.characters.length > 1;
+    for (const {steps} of run.characters) {
+      if (!several) painter.trajectory(steps, index, steps.length, {...ink, alpha: 0.25});
+      painter.trajectory(steps, several ? index - 30 : 0, index + 1, {...ink, alpha: several ? 0.4 : 0.8});
+    }
     for (const event of run.events) {
       if (event.kind === 'note' || event.kind === 'sensor') continue;
       const at = run.byStep.get(event.step);
-      if (at !== undefined) painter.cross(run.steps[at].x, run.steps[at].y);
+      if (at === undefined) continue;
+      const {x, y} = run.characters[event.character].steps[at];
+      painter.cross(x, y);
     }
   }
 
   drawRun(painter, run) {
-    const ink = inkOf(run, this.names), {record, ended, position} = this.stateOf(run), first = record.path[0];
+    run.characters.forEach((character, number) => this.drawCharacter(painter, run, character, number));
+  }
+
+  drawCharacter(painter, run, character, number) {
+    const ink = inkOf(run, this.names), {record, ended, position} = this.stateOf(character), first = record.path[0];
     if (!ended) {
       const offsets = this.offsetsOf(run);
       const highlight = (index, colour) => {
@@ -295,9 +307,14 @@ class Replay {
     }
     painter.octagon(
         run.hull, position.x, position.y, {colour: ink.colour, fill: !ended, dash: ink.dash, alpha: ended ? 0.4 : 1});
+    if (run.characters.length > 1) painter.number(number, position.x, position.y, ink.colour);
     if (ended) return;
     if (record.crush.length > 0) painter.cross(position.x, position.y);
     if (this.show.velocity) painter.velocity(position.x, position.y, record.vx, record.vy, ink.colour);
     record.contacts.forEach((contact) => painter.contact(contact, ink.colour));
+    for (const {nx, ny} of record.met) {
+      const [x, y] = farthest(run.hull, -nx, -ny);
+      painter.contact({x: position.x + x, y: position.y + y, nx, ny}, ink.colour, 16);
+    }
   }
 }

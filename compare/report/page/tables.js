@@ -50,6 +50,7 @@ const SAFETY = [
   ],
 ];
 const QUALITY = [
+  ['characters', 'Characters', '', count, 'That the run had; counts are sums over them'],
   ['rest_peak_to_peak_m', 'Rest jitter', 'm, peak to peak', measure, 'Movement at rest after settling'],
   ['rest_rms_m', 'Rest jitter', 'm, RMS', measure, 'Movement at rest after settling'],
   ['contact_toggles', 'Contact toggles', 'per 1000 steps', measure, 'Contacts that come and go at rest'],
