@@ -286,6 +286,44 @@ TEST(Crowd, who_walks_into_another_stays_on_the_ground) {
   EXPECT_GT(two.states[0].velocity.y(), 11);
 }
 
+/// The first is held between a wall and the second's shoulder; the second jumps from under it.
+Together between_wall_and_shoulder() {
+  Together two({{half_width + 5e-7, 1.4993281862229892}, {0.8128372159054997, half_height + 5e-7}},
+               {floor_at_zero(), rectangle(-1, 0, 0, 9)});
+  two.gravity = {0, -30};
+  two.dt = 1.0 / 60;
+  two.states[0].grounded = two.states[1].grounded = true;
+  two.inputs = {{.move = 0}, {.move = 1, .jump = true}};
+  return two;
+}
+
+TEST(Crowd, who_goes_along_another_is_not_halted_by_rounding) {
+  Together two = between_wall_and_shoulder();
+  two.step();
+  // It wants (1, 11.5) m/s, and keeps what is along the facet with the normal (2, -1).
+  const Vec2d wanted(1, 11.5);
+  const Vec2d facet = Vec2d(1, 2) / std::sqrt(5.0);
+  const Vec2d kept = facet * facet.dot(wanted);
+  EXPECT_LE((two.states[1].velocity - kept).norm(), 1e-12);
+  EXPECT_LE((two.states[1].position - Vec2d(0.8128372159054997, half_height + 5e-7) - kept / 60).norm(), 1e-12);
+}
+
+TEST(Crowd, scenery_that_turns_one_into_another_is_a_contact_although_nothing_moves) {
+  Together two = between_wall_and_shoulder();
+  two.inputs[1] = {.move = 0};
+  two.inputs[0] = {.move = -1};
+  for (int step = 0; step < 3; ++step) {
+    two.step();
+    const auto& contacts = two.report.members[0].step.move.contacts;
+    ASSERT_EQ(contacts.size(), 1U) << step;
+    EXPECT_EQ(contacts[0].collider, 1U);
+    EXPECT_EQ(contacts[0].side, Side::left);
+    EXPECT_TRUE(gap_of_a_contact(contacts[0].separation));
+    EXPECT_TRUE(two.states[0].wall_left);
+    EXPECT_TRUE(two.states[0].grounded);
+  }
+}
+
 TEST(Crowd, exact_neighbours_fall_and_walk_together) {
   // Exactly touching, in pixels: no gap at all.
   Together two({{0, 1}, {20 * px, 1}}, {floor_at_zero()});

@@ -46,6 +46,13 @@ void clear(CrowdMember<Scalar>& member) noexcept {
   member.stayed = false;
 }
 
+/// Bound of the rounding of a component of these rates along a normal.
+template <class Scalar>
+Scalar noise_of(const Vec2<Scalar>& a, const Vec2<Scalar>& b) noexcept {
+  const Scalar largest = std::max({std::abs(a.x()), std::abs(a.y()), std::abs(b.x()), std::abs(b.y())});
+  return std::numeric_limits<Scalar>::epsilon() * 64 * largest;
+}
+
 template <class Scalar, class Path>
 Box2<Scalar> box_along(const PairSpace<Scalar>& space, const Path& path) noexcept {
   Box2<Scalar> box{path[0].position, path[0].position};
@@ -237,10 +244,14 @@ void Stepper<Scalar>::solve() noexcept {
     const Scalar second_toward = dot(meeting.second_rate, meeting.normal);
     const Scalar first_limit = std::max(Scalar(0), -second_toward);
     const Scalar second_limit = std::max(Scalar(0), -first_toward);
+    // Who goes along the other has a rate towards it that is nothing but rounding: it must not be halted for that.
+    const Scalar noise = noise_of(meeting.first_rate, meeting.second_rate);
+    const bool first_moves_in = first_toward > first_limit + noise;
+    const bool second_moves_in = second_toward > second_limit + noise;
     // Where rounding hides who comes nearer both stop.
-    const bool nobody = !(first_toward > first_limit) && !(second_toward > second_limit);
-    const bool first_changes = nobody || first_toward > first_limit;
-    const bool second_changes = nobody || second_toward > second_limit;
+    const bool nobody = !first_moves_in && !second_moves_in;
+    const bool first_changes = nobody || first_moves_in;
+    const bool second_changes = nobody || second_moves_in;
     note(i, j, meeting, meeting.normal);
     note(j, i, meeting, -meeting.normal);
     if (first_changes) respond(i, meeting, meeting.normal, first_limit);
@@ -267,6 +278,7 @@ void Stepper<Scalar>::respond(std::size_t i, const Meeting<Scalar>& meeting, con
     runner.no_snap = true;
     return plan(i);
   }
+  if (!(meeting.time > runner.begin)) note_touched_scenery(i, meeting.impact);
   go_on_to(i, meeting.time);
   if (normal.y() >= rules_.walkable_cosine) runner.stands = true;
   runner.held.push_back({normal, limit / dt_});
@@ -283,8 +295,7 @@ void Stepper<Scalar>::respond(std::size_t i, const Meeting<Scalar>& meeting, con
 template <class Scalar>
 bool Stepper<Scalar>::is_held(const Runner<Scalar>& runner) const noexcept {
   const V& velocity = runner.state.velocity;
-  const Scalar noise =
-      std::numeric_limits<Scalar>::epsilon() * 64 * std::max(std::abs(velocity.x()), std::abs(velocity.y()));
+  const Scalar noise = noise_of<Scalar>(velocity, V::Zero());
   return runner.held.overflowed() ||
          std::any_of(runner.held.begin(), runner.held.end(),
                      [&](const HeldBy<Scalar>& other) { return -dot(velocity, other.normal) > other.limit + noise; });
@@ -297,6 +308,21 @@ void Stepper<Scalar>::halt_between(std::size_t i) noexcept {
   runner.stands = runner.stands || std::any_of(runner.held.begin(), runner.held.end(),
                                                [](const HeldBy<Scalar>& other) { return other.normal.y() > 0; });
   halt(i);
+}
+
+/// Of a way that ends where it begins nothing is committed: the scenery that was touched there, and turned it into the
+/// other, is a contact all the same.
+template <class Scalar>
+void Stepper<Scalar>::note_touched_scenery(std::size_t i, Scalar impact) noexcept {
+  const Runner<Scalar>& runner = runners_[i];
+  const MoveResult<Scalar>& planned = runner.plan.move;
+  const Way<Scalar> way{{planned.path.begin(), planned.path.size()}, runner.begin, 1};
+  const V& wanted = runner.plan.requested;
+  for (Contact<Scalar> contact : planned.contacts) {
+    const bool touched = contact.fraction * -dot(wanted, contact.normal) <= Tolerances<Scalar>{}.touch;
+    contact.fraction = way.time_of(contact.fraction);
+    if (touched && contact.fraction <= impact) add_contact(member(i).step.move, contact);
+  }
 }
 
 template <class Scalar>

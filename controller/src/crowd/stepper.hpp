@@ -106,6 +106,7 @@ class Stepper {
   void respond(std::size_t i, const Meeting<Scalar>& meeting, const V& normal, Scalar limit) noexcept;
   [[nodiscard]] bool is_held(const Runner<Scalar>& runner) const noexcept;
   void halt_between(std::size_t i) noexcept;
+  void note_touched_scenery(std::size_t i, Scalar impact) noexcept;
   void note(std::size_t i, std::size_t other, const Meeting<Scalar>& meeting, const V& normal) noexcept;
 
   void note_overlaps(std::span<const CharacterState<Scalar>> states) noexcept;
