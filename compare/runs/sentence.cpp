@@ -38,6 +38,12 @@ std::string plural(const std::vector<std::string>& names, const char* one, const
   return names.size() == 1 ? one : many;
 }
 
+/// What may not be passed.
+const char* solid_in(const std::vector<Row>& rows) {
+  const bool several = std::any_of(rows.begin(), rows.end(), [](const Row& row) { return row.characters.has_value(); });
+  return several ? "a solid or another character" : "a solid";
+}
+
 /// What a row's first tunnel was, in words.
 std::string passage(const Row& row) {
   return row.verdict == Verdict::tunnels ? row.reason
@@ -56,7 +62,7 @@ std::string about_tunnels(const std::vector<Row>& rows) {
     text += fmt::format("{} {} wrong: {}. ", listed(same), plural(same, "is", "are"), passage(row));
   }
   if (firm.empty()) return text;
-  if (text.empty()) return "Nobody passes a solid. ";
+  if (text.empty()) return fmt::format("Nobody passes {}. ", solid_in(rows));
   return text + fmt::format("{} {} not pass. ", listed(firm), plural(firm, "does", "do"));
 }
 
@@ -68,8 +74,8 @@ std::string about_overlap(const std::vector<Row>& rows) {
   for (const Row& row : rows)
     if (ends_inside(row)) deepest = std::max(deepest, row.max_penetration_m.value_or(0));
   const auto outside = those(rows, [&](const Row& row) { return scored(row) && !ends_inside(row); });
-  std::string text = fmt::format("{} {} some steps inside a solid, up to {:.2g} m deep", listed(inside),
-                                 plural(inside, "ends", "end"), deepest);
+  std::string text = fmt::format("{} {} some steps inside {}, up to {:.2g} m deep", listed(inside),
+                                 plural(inside, "ends", "end"), solid_in(rows), deepest);
   if (!outside.empty()) text += fmt::format("; {} never {}", listed(outside), plural(outside, "does", "do"));
   return text + ". ";
 }

@@ -69,6 +69,73 @@ TEST(Metrics, counts_what_the_judge_found) {
   EXPECT_EQ(row.findings[0], "step 2: passed `paper` at 40.0 m/s, 0.01 m thick at the crossing, 90° to its face");
 }
 
+/// Two characters, each step of each.
+std::vector<Moment> two(int steps) {
+  std::vector<Moment> run;
+  for (int i = 0; i < 2 * steps; ++i) {
+    run.push_back(moment(i / 2));
+    run.back().step.character = static_cast<CharacterIndex>(i % 2);
+  }
+  return run;
+}
+
+TraceHeader header_of_two() {
+  TraceHeader head = header();
+  head.characters = 2;
+  return head;
+}
+
+TEST(Metrics, of_two_characters_every_step_of_each_counts_and_what_they_do_to_each_other_once) {
+  std::vector<Moment> run = two(4);
+  run[2].judged.company.passed = {1};
+  run[4].judged.company.overlap = run[4].judged.company.entered = {1};
+  run[5].judged.end_overlap = {0};
+  run[6].judged.company.corner_cut = {1};
+  const Row row = row_of(run, header_of_two());
+  EXPECT_EQ(row.characters, 2);
+  EXPECT_EQ(row.tunnels, 1);
+  EXPECT_EQ(row.steps_ending_inside, 2);
+  EXPECT_EQ(row.corner_cuts, 1);
+  ASSERT_FALSE(row.findings.empty());
+  EXPECT_EQ(row.findings[0], "step 1: character 0 and character 1 passed through each other");
+  EXPECT_FALSE(row_of({moment(0)}).characters);
+}
+
+TEST(Metrics, a_contact_with_another_character_is_one_and_may_be_the_first) {
+  std::vector<Moment> run = two(2);
+  run[2].step.contacts = {contact(0, Side::bottom, 0.75)};
+  run[2].judged.contacts = {exact(0, Side::bottom)};
+  run[3].step.met = {{.other = 0, .fraction = 0.5, .side = Side::left}};
+  run[3].judged.first_met = CharacterIndex{0};
+  run[3].judged.first_impact = 0.5 + 0x1p-20;
+  run[3].judged.first_impact_comparable = true;
+  const Row row = row_of(run, header_of_two());
+  EXPECT_EQ(row.contact_steps, 2);
+  EXPECT_EQ(row.first_contact_step, 1);
+  EXPECT_EQ(row.first_contact_fraction, 0.5);
+  EXPECT_EQ(row.toi_error_max, 0x1p-20);
+  EXPECT_EQ(row.contact_precision, 1);
+  run[3].judged.first_met = CharacterIndex{1};
+  EXPECT_FALSE(row_of(run, header_of_two()).toi_error_max) << "with somebody else";
+}
+
+TEST(Metrics, two_characters_are_matched_and_rest_each_by_itself) {
+  std::vector<Moment> run = two(80);
+  for (std::size_t i = 0; i < run.size(); ++i) {
+    run[i].step.grounded = true;
+    if (i % 2 == 0) continue;
+    // The second one moves by 1/64 m every other step.
+    const Vec2d at(7 + (i % 4 == 1 ? 0x1p-6 : 0), 0);
+    run[i].step.path = {{at, 0}, {at, 1}};
+  }
+  run[10].step.contacts = {contact(0, Side::bottom)};
+  run[11].judged.contacts = {exact(0, Side::bottom)};
+  const Row row = row_of(run, header_of_two());
+  EXPECT_EQ(row.rest_peak_to_peak_m, 0x1p-6);
+  EXPECT_EQ(row.contact_precision, 0) << "the other one's contact is no excuse";
+  EXPECT_EQ(row.contact_recall, 0);
+}
+
 TEST(Metrics, one_way_violations_are_absent_without_one_way_chains) {
   EXPECT_FALSE(row_of({moment(0)}).one_way_violations);
   std::vector<Moment> run{moment(0), moment(1)};
