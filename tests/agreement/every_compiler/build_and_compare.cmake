@@ -1,4 +1,5 @@
-# Builds same_bits with one COMPILER and one OPTIMISATION and compares what it prints with GOLDEN.
+# Builds same_bits with one COMPILER and one OPTIMISATION, as a project that adds the folder, and compares what it prints
+# with GOLDEN.
 cmake_minimum_required(VERSION 3.25)
 
 if(NOT COMPILER)
@@ -10,4 +11,5 @@ execute_process(
           "-DCMAKE_CXX_COMPILER=${COMPILER}" "-DCMAKE_CXX_FLAGS=${OPTIMISATION}"
   OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND "${CMAKE_COMMAND}" --build "${WORK}" --parallel 1 COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND "${WORK}/consumer" COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND "${WORK}/same_bits" "${GOLDEN}" COMMAND_ERROR_IS_FATAL ANY)
