@@ -215,17 +215,22 @@ class SceneRun {
                                       [&](const ReportRun& run) { return run.header.contender == lane.contender(); });
       return static_cast<std::size_t>(found - result.runs.begin());
     };
-    for (const SideDisagreement& one : pair.agreements.front().disagreements()) {
-      if (result.disagreements.size() == most_disagreements) return;
-      Disagreement told_one;
-      told_one.step = one.step;
-      told_one.statements = {
-          {run_of(*pair.mine), one.mine.path.front().position, one.mine.path.back().position, one.mine.contacts},
-          {run_of(*pair.reference), one.reference.path.front().position, one.reference.path.back().position,
-           one.reference.contacts}};
-      told_one.who_is_right = one.who_is_right;
-      result.disagreements.push_back(std::move(told_one));
+    for (std::size_t k = 0; k < pair.agreements.size(); ++k) {
+      const std::string who = pair.agreements.size() > 1 ? fmt::format("character {}: ", k) : "";
+      for (const SideDisagreement& one : pair.agreements[k].disagreements()) {
+        if (result.disagreements.size() == most_disagreements) return;
+        Disagreement told_one;
+        told_one.step = one.step;
+        told_one.statements = {statement_of(one.mine, run_of(*pair.mine)),
+                               statement_of(one.reference, run_of(*pair.reference))};
+        told_one.who_is_right = who + one.who_is_right;
+        result.disagreements.push_back(std::move(told_one));
+      }
     }
+  }
+
+  static Disagreement::Statement statement_of(const TraceStep& step, std::size_t run) {
+    return {run, step.path.front().position, step.path.back().position, step.contacts};
   }
 
   const Scene& scene_;
