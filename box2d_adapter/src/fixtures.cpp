@@ -141,7 +141,7 @@ void add_one_way_segment(b2Body& body, const Ring& chain, std::size_t i, const V
     edge.SetOneSided(after, chain[i + 1], chain[i], before);
   }
   const Vec2d normal = widened(right_normal(edge.m_vertex1, edge.m_vertex2));
-  source.one_way = FixtureSource::OneWay{widened(chain[i]), normal};
+  source.one_way = FixtureSource::OneWay{widened(chain[i]), widened(chain[i + 1]), normal};
   add_fixture(body, edge, source, made);
   made.size.vertices += 2;
 }

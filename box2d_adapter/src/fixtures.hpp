@@ -20,9 +20,10 @@ struct FixtureSource {
   std::optional<ColliderIndex> collider;
   MoverIndex mover = no_mover;
   bool sensor = false;
-  /// One-way segments only: a point on it at offset zero, and the unit normal of the side that it blocks.
+  /// One-way segments only: its ends at offset zero, and the unit normal of the side that it blocks.
   struct OneWay {
     Vec2d point;
+    Vec2d end;
     Vec2d normal;
   };
   std::optional<OneWay> one_way{};

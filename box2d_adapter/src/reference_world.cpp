@@ -79,7 +79,7 @@ struct ReferenceWorld::Impl {
     body->SetEnabled(true);
   }
 
-  void step(std::span<const Vec2d> velocities, float dt, std::span<const MoverMotion<double>> motions);
+  void step(std::span<const TwinWish> wishes, float dt, std::span<const MoverMotion<double>> motions);
   void send_movers(float dt, std::span<const MoverMotion<double>> motions);
   void read(Character& who);
   void add_touching(Character& who);
@@ -181,17 +181,17 @@ void ReferenceWorld::Impl::send_movers(float dt, std::span<const MoverMotion<dou
   }
 }
 
-void ReferenceWorld::Impl::step(std::span<const Vec2d> velocities, float dt,
+void ReferenceWorld::Impl::step(std::span<const TwinWish> wishes, float dt,
                                 std::span<const MoverMotion<double>> motions) {
   send_movers(dt, motions);
   for (std::size_t k = 0; k < characters.size(); ++k) {
     Character& who = characters[k];
-    const b2Vec2 velocity = rounded(velocities[k]);
+    const b2Vec2 velocity = rounded(wishes[k].velocity);
     const b2Vec2 displacement = dt * velocity;
     who.wanted = widened(displacement);
     who.result.capped = movers_capped || displacement.LengthSquared() > b2_maxTranslationSquared;
     who.body->SetLinearVelocity(velocity);
-    who.recorder.begin_step(*who.body, who.wanted, offsets);
+    who.recorder.begin_step(*who.body, who.wanted, offsets, wishes[k].drop);
   }
   world.SetWarmStarting(dt <= largest_step_ratio * last_dt);
   world.Step(dt, def.velocity_iterations, def.position_iterations);
@@ -212,6 +212,7 @@ void ReferenceWorld::Impl::read(Character& who) {
   result.movers = mover_motions;
   result.velocity = widened(who.body->GetLinearVelocity());
   result.path = who.recorder.path();
+  result.dropped_through = who.recorder.dropped_through(mover_motions);
   result.contacts.clear();
   result.met.clear();
   result.grounded = false;
@@ -357,21 +358,21 @@ void ReferenceWorld::place(const Vec2d& position, const Vec2d& velocity, std::si
 }
 
 const TwinStep& ReferenceWorld::step(const Vec2d& wanted_velocity, double dt,
-                                     std::span<const MoverMotion<double>> movers) {
-  return step_all(std::span(&wanted_velocity, 1), dt, movers).front();
+                                     std::span<const MoverMotion<double>> movers, bool drop) {
+  const TwinWish wish{wanted_velocity, drop};
+  return step_all(std::span(&wish, 1), dt, movers).front();
 }
 
-std::span<const TwinStep> ReferenceWorld::step_all(std::span<const Vec2d> wanted_velocities, double dt,
+std::span<const TwinStep> ReferenceWorld::step_all(std::span<const TwinWish> wishes, double dt,
                                                    std::span<const MoverMotion<double>> movers) {
-  if (wanted_velocities.size() != impl_->characters.size())
-    throw InvalidDefinition("a step takes one velocity for each character");
+  if (wishes.size() != impl_->characters.size()) throw InvalidDefinition("a step takes one wish of each character");
   if (movers.size() != impl_->movers.size()) throw InvalidDefinition("a step takes one motion for each mover");
   for (const MoverMotion<double>& motion : movers) {
     (void)checked(motion.from, "a mover");
     (void)checked(motion.to, "a mover");
   }
-  for (const Vec2d& velocity : wanted_velocities) (void)checked(velocity, "the wanted velocity");
-  impl_->step(wanted_velocities, checked_step(dt), movers);
+  for (const TwinWish& wish : wishes) (void)checked(wish.velocity, "the wanted velocity");
+  impl_->step(wishes, checked_step(dt), movers);
   return impl_->results;
 }
 

@@ -29,10 +29,11 @@ FixedVector<TouchPoint, b2_maxManifoldPoints> touch_points(const b2Contact& cont
   return points;
 }
 
-void StepRecorder::begin_step(const b2Body& character, const Vec2d& wanted_displacement,
-                              std::span<const Vec2d> offsets) {
+void StepRecorder::begin_step(const b2Body& character, const Vec2d& wanted_displacement, std::span<const Vec2d> offsets,
+                              bool drop) {
   character_ = &character;
   offsets_ = offsets;
+  drops_ = drop;
   phase_ = Phase::collide;
   step_start_ = widened(character.GetPosition());
   leg_start_ = {step_start_, 0};
@@ -51,12 +52,37 @@ bool StepRecorder::blocks(std::size_t source) const {
   const FixtureSource& from = sources_[source];
   if (from.sensor) return false;
   if (!from.one_way) return true;
-  Vec2d point = from.one_way->point;
-  if (from.mover != no_mover) point += offsets_[from.mover];
-  return std::all_of(hull_.begin(), hull_.end(), [this, &from, &point](const Vec2d& corner) {
-    const Vec2d to_corner = step_start_ + corner - point;
-    return from.one_way->normal.dot(to_corner) >= 0;
+  return !drops_ && wholly_above(from, step_start_, from.mover == no_mover ? Vec2d::Zero() : offsets_[from.mover]);
+}
+
+bool StepRecorder::wholly_above(const FixtureSource& segment, const Vec2d& position, const Vec2d& offset) const {
+  return std::all_of(hull_.begin(), hull_.end(), [&](const Vec2d& corner) {
+    const Vec2d to_corner = position + corner - segment.one_way->point - offset;
+    return segment.one_way->normal.dot(to_corner) >= 0;
   });
+}
+
+std::vector<ColliderIndex> StepRecorder::dropped_through(std::span<const MoverMotion<double>> movers) const {
+  std::vector<ColliderIndex> passed;
+  if (!drops_) return passed;
+  for (const FixtureSource& source : sources_)
+    if (source.one_way && leaves(source, source.mover == no_mover ? MoverMotion<double>{} : movers[source.mover]))
+      passed.push_back(*source.collider);
+  std::sort(passed.begin(), passed.end());
+  passed.erase(std::unique(passed.begin(), passed.end()), passed.end());
+  return passed;
+}
+
+/// Whether the character was wholly above a segment when the step began, is not when it ends, and came by.
+bool StepRecorder::leaves(const FixtureSource& segment, const MoverMotion<double>& motion) const {
+  const Vec2d from = path_.front().position - motion.from;
+  const Vec2d to = path_.back().position - motion.to;
+  if (!wholly_above(segment, from, Vec2d::Zero()) || wholly_above(segment, to, Vec2d::Zero())) return false;
+  Box2<double> swept{from + hull_.front(), from + hull_.front()};
+  for (const Vec2d& corner : hull_)
+    for (const Vec2d& at : {from, to}) swept = swept.merged({at + corner, at + corner});
+  const auto& [point, end, normal] = *segment.one_way;
+  return swept.overlaps({point.cwiseMin(end), point.cwiseMax(end)});
 }
 
 double StepRecorder::fraction_at(const Vec2d& position) const {

@@ -48,7 +48,8 @@ class StepRecorder {
       : sources_(sources), hull_(hull) {}
 
   /// @param offsets of the movers when the step begins [m]; must outlive the step.
-  void begin_step(const b2Body& character, const Vec2d& wanted_displacement, std::span<const Vec2d> offsets);
+  /// @param drop one-way segments block nothing in this step.
+  void begin_step(const b2Body& character, const Vec2d& wanted_displacement, std::span<const Vec2d> offsets, bool drop);
   void end_step();
   /// Whether a call about this contact is for this recorder.
   [[nodiscard]] bool watches(const b2Contact& contact) const {
@@ -60,6 +61,8 @@ class StepRecorder {
   [[nodiscard]] const std::vector<PathPoint<double>>& path() const noexcept { return path_; }
   /// False for a sensor, and for a one-way segment while the character is not wholly on the side that it blocks.
   [[nodiscard]] bool blocks(std::size_t source) const;
+  /// After the step: see `TwinStep`. @param movers as they went.
+  [[nodiscard]] std::vector<ColliderIndex> dropped_through(std::span<const MoverMotion<double>> movers) const;
 
   // For contacts that it watches:
   void begin_contact(const b2Contact& contact);
@@ -70,12 +73,15 @@ class StepRecorder {
   enum class Phase : std::uint8_t { collide, solved, impacts };
 
   void look();
+  [[nodiscard]] bool wholly_above(const FixtureSource& segment, const Vec2d& position, const Vec2d& offset) const;
+  [[nodiscard]] bool leaves(const FixtureSource& segment, const MoverMotion<double>& motion) const;
   [[nodiscard]] double fraction_at(const Vec2d& position) const;
 
   const std::vector<FixtureSource>& sources_;
   const std::vector<Vec2d>& hull_;
   const b2Body* character_ = nullptr;  ///< Null between steps: destroying contacts calls back as well.
   std::span<const Vec2d> offsets_;
+  bool drops_ = false;
   Phase phase_ = Phase::collide;
   Vec2d step_start_{Vec2d::Zero()};
   PathPoint<double> leg_start_;   ///< Where the straight leg that the body is on began.

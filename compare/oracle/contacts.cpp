@@ -34,13 +34,20 @@ Vec2d ContactJudge::wanted(ColliderIndex collider) const {
   return step_.requested - (step_.movers[mover].to - step_.movers[mover].from);
 }
 
+/// What is passed on purpose is no contact.
+bool ContactJudge::dropped_through(ColliderIndex collider) const {
+  const std::vector<ColliderIndex>& passed = step_.dropped_through;
+  return std::find(passed.begin(), passed.end(), collider) != passed.end();
+}
+
 void ContactJudge::judge(bool starts_free, StepJudgement& judgement) const {
   for (std::size_t i = 0; i < step_.path.size(); ++i) {
     const Vec2d& position = step_.path[i].position;
     const bool end = i == 0 || i + 1 == step_.path.size();
     if (!header_.path_exact && !end) continue;
     if (i > 0 && step_.movers.empty() && position == step_.path[i - 1].position) continue;
-    const std::vector<ExactImpact> impacts = scenery_.impacts(place(i), step_.requested);
+    std::vector<ExactImpact> impacts = scenery_.impacts(place(i), step_.requested);
+    std::erase_if(impacts, [this](const ExactImpact& impact) { return dropped_through(impact.collider); });
     if (i == 0) add_first_impacts(impacts, starts_free, judgement);
     add_contacts_at(impacts, step_.path[i].fraction, judgement);
   }

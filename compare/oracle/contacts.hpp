@@ -30,6 +30,7 @@ class ContactJudge {
   [[nodiscard]] bool pushed_by_skin(double wanted) const;
   [[nodiscard]] bool has_face(const Contact<double>& contact) const;
   [[nodiscard]] bool met_after_another(const Contact<double>& contact, const StepJudgement& judgement) const;
+  [[nodiscard]] bool dropped_through(ColliderIndex collider) const;
   [[nodiscard]] double nearest(ColliderIndex collider) const;
 
   const TraceHeader& header_;

@@ -92,7 +92,7 @@ bool Judge::repeats(const TraceStep& step) const {
     return a.collider == b.collider && a.normal == b.normal;
   };
   return step.requested == last.requested && step.velocity == last.velocity && step.crushed == last.crushed &&
-         step.sensors.empty() && last.sensors.empty() &&
+         step.dropped_through == last.dropped_through && step.sensors.empty() && last.sensors.empty() &&
          std::equal(step.movers.begin(), step.movers.end(), last.movers.begin(), last.movers.end(), same_motion) &&
          std::equal(step.path.begin(), step.path.end(), last.path.begin(), last.path.end(), same_corner) &&
          std::equal(step.contacts.begin(), step.contacts.end(), last.contacts.begin(), last.contacts.end(),
@@ -125,7 +125,7 @@ void Judge::judge_way(const Path& path, const TraceStep& step, StepJudgement& ju
   for (const auto& [collider, corner] : touched) {
     if (contains(judgement.crushed, collider)) continue;
     if (scenery_.scenery().colliders[collider].one_way) {
-      judgement.one_way_broken.push_back(collider);
+      if (!contains(step.dropped_through, collider)) judgement.one_way_broken.push_back(collider);
     } else {
       judge_passing(path, collider, path[corner], path[corner + 1], 0, judgement);
     }

@@ -25,14 +25,15 @@ struct Passing {
 };
 
 struct StepJudgement {
-  std::vector<ColliderIndex> end_overlap;     ///< Solids that the octagon overlaps at the end of the step.
-  std::vector<ColliderIndex> pressed;         ///< Of these, the ones that a verified crush brought on, now or before.
-  std::vector<ColliderIndex> entered;         ///< Of these, the ones that are new and not pressed.
-  std::vector<ColliderIndex> tunnelled;       ///< Solids that were passed through: see `Judge`.
-  std::vector<Passing> passings;              ///< One for each of `tunnelled`.
-  std::vector<ColliderIndex> corner_cut;      ///< The same, but no deeper than the slop.
-  std::vector<ColliderIndex> one_way_broken;  ///< One-way chains that were passed against their normal.
-  std::vector<ColliderIndex> crushed;         ///< Reported as crushing, and there was no room: see `Judge`.
+  std::vector<ColliderIndex> end_overlap;  ///< Solids that the octagon overlaps at the end of the step.
+  std::vector<ColliderIndex> pressed;      ///< Of these, the ones that a verified crush brought on, now or before.
+  std::vector<ColliderIndex> entered;      ///< Of these, the ones that are new and not pressed.
+  std::vector<ColliderIndex> tunnelled;    ///< Solids that were passed through: see `Judge`.
+  std::vector<Passing> passings;           ///< One for each of `tunnelled`.
+  std::vector<ColliderIndex> corner_cut;   ///< The same, but no deeper than the slop.
+  /// One-way chains that were passed against their normal, and not on purpose.
+  std::vector<ColliderIndex> one_way_broken;
+  std::vector<ColliderIndex> crushed;            ///< Reported as crushing, and there was no room: see `Judge`.
   std::vector<ColliderIndex> crushed_with_room;  ///< Reported as crushing, although there was room.
   std::optional<Vec2d> room;                     ///< Where that was, if something was reported as crushing.
   double max_penetration = 0;                    ///< At the end of the step, apart from `pressed` [m].
@@ -100,7 +101,8 @@ struct StepJudgement {
 ///
 /// **Contact.** A collider that the requested displacement, from a corner of the path (for Box2D: from its start or
 /// end), enters after at most 1e-6 m along the contact normal; or one that the requested motion of the step meets
-/// first. Nearness without motion into it is none, nor is a normal that only a seam between abutting colliders has.
+/// first. Nearness without motion into it is none, nor is a normal that only a seam between abutting colliders has, nor
+/// a one-way chain that is passed on purpose.
 ///
 /// **Don't care.** A collider whose contact is a matter of the contender's stated skin: for Box2D within 20 mm of the
 /// start or the end of the path, else within 1e-7 m of where the requested motion ends; and one that is near enough for

@@ -13,7 +13,7 @@ class Box2dContestant final : public Contestant {
         dt_(scene.dt),
         world_(scenery, scene.character, starts_of(scene), {.mode = mode}),
         twins_(character_count(scene)),
-        wanted_(character_count(scene)) {
+        wishes_(character_count(scene)) {
     if (!(dt_ >= box2d::least_step)) throw box2d::InvalidDefinition("Box2D takes no steps shorter than 1e-9 s");
     header_.scene = scene.name;
     header_.contender = mode == box2d::SceneryMode::pieces ? "box2d_pieces" : "box2d";
@@ -39,7 +39,7 @@ class Box2dContestant final : public Contestant {
       const box2d::TwinStep& twin = steps[k];
       TraceStep& record = records[k];
       record.path = twin.path;
-      record.requested = wanted_[k] * dt_;
+      record.requested = wishes_[k].velocity * dt_;
       record.velocity = twin.velocity;
       record.grounded = twin.grounded;
       record.jumping = twins_[k].state.jumping;
@@ -47,6 +47,7 @@ class Box2dContestant final : public Contestant {
       record.met = twin.met;
       record.movers = twin.movers;
       record.sensors = twin.sensors;
+      record.dropped_through = twin.dropped_through;
       record.stuck = record.dropped = false;
       record.capped = twin.capped;
     }
@@ -91,7 +92,8 @@ class Box2dContestant final : public Contestant {
   }
 
   std::span<const box2d::TwinStep> advance(const StepInput& input) {
-    for (std::size_t k = 0; k < twins_.size(); ++k) wanted_[k] = wanted_by(twins_[k], input.players[k], input.movers);
+    for (std::size_t k = 0; k < twins_.size(); ++k)
+      wishes_[k] = {wanted_by(twins_[k], input.players[k], input.movers), input.players[k].drop};
     const std::span<const box2d::TwinStep> steps = step_world(input.movers);
     for (std::size_t k = 0; k < twins_.size(); ++k) take_over(steps[k], twins_[k]);
     return steps;
@@ -106,7 +108,7 @@ class Box2dContestant final : public Contestant {
 
   std::span<const box2d::TwinStep> step_world(std::span<const MoverMotion<double>> movers) {
     try {
-      return world_.step_all(wanted_, dt_, movers);
+      return world_.step_all(wishes_, dt_, movers);
     } catch (const box2d::InvalidDefinition& reason) {
       throw LeftRange(std::string(reason.what()) + ": beyond what Box2D is given, and the run ends there");
     }
@@ -148,7 +150,7 @@ class Box2dContestant final : public Contestant {
   box2d::ReferenceWorld world_;
   TraceHeader header_;
   std::vector<Twin> twins_;
-  std::vector<Vec2d> wanted_;  ///< Velocities in the present step [m/s].
+  std::vector<box2d::TwinWish> wishes_;  ///< Of the present step.
 };
 
 }  // namespace

@@ -28,6 +28,7 @@ class InputCursor {
     for (std::size_t& next = next_[character]; next < events.size() && events[next].step <= step; ++next) {
       if (events[next].move) now.move = events[next].move;
       if (events[next].jump) now.jump = *events[next].jump;
+      if (events[next].drop) now.drop = *events[next].drop;
     }
   }
 

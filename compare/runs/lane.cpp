@@ -126,6 +126,8 @@ void Lane::step(int step, const StepInput& input) {
   try {
     begin_records(step);
     contestant_->step(input, records_);
+    for (std::size_t k = 0; k < records_.size(); ++k)
+      if (!input.players[k].drop) records_[k].dropped_through.clear();  // nobody asked for it
     judge_step();
   } catch (const LeftRange& reason) {
     return end_early(fmt::format("step {}: {}", step, reason.what()));

@@ -79,6 +79,7 @@ void write_report(const StepReport<Scalar>& report, const CharacterState<Scalar>
   record.dropped = report.status == StepStatus::dropped;
   record.capped = false;
   record.crushed.assign(move.crushed.begin(), move.crushed.end());
+  record.dropped_through.assign(report.dropped_through.begin(), report.dropped_through.end());
   record.sensors.clear();
   for (const SensorEvent<Scalar>& event : report.sensors) {
     const bool enters = event.change == SensorEvent<Scalar>::Change::enter;

@@ -52,10 +52,12 @@ struct TraceStep {
   std::vector<MoverMotion<double>> movers;               ///< One for each mover of the scenery.
   std::vector<ColliderIndex> crushed;        ///< Colliders of movers that left the character no room, as reported.
   std::vector<SensorEvent<double>> sensors;  ///< In order of time, as reported.
-  bool respawn = false;                      ///< The character was put back at the start before this step.
-  bool stuck = false;                        ///< The contender reported that it is stuck inside something.
-  bool dropped = false;                      ///< Displacement was left when the iterations ran out.
-  bool capped = false;                       ///< Box2D only: the step met the 2 m cap.
+  /// One-way chains that were passed against their normal on purpose, as reported: the input asked to drop.
+  std::vector<ColliderIndex> dropped_through{};
+  bool respawn = false;  ///< The character was put back at the start before this step.
+  bool stuck = false;    ///< The contender reported that it is stuck inside something.
+  bool dropped = false;  ///< Displacement was left when the iterations ran out.
+  bool capped = false;   ///< Box2D only: the step met the 2 m cap.
 };
 
 }  // namespace paperproof::compare

@@ -214,6 +214,10 @@ void TraceWriter::write(const TraceStep& step) {
     put_text(out, ",\"crush\":");
     put_ids(out, step.crushed, ids_);
   }
+  if (!step.dropped_through.empty()) {
+    put_text(out, ",\"drop\":");
+    put_ids(out, step.dropped_through, ids_);
+  }
   if (!step.sensors.empty()) put_sensors(out, step.sensors, ids_);
   for (const auto& [name, set] :
        {std::pair{"respawn", step.respawn}, {"stuck", step.stuck}, {"dropped", step.dropped}, {"capped", step.capped}})

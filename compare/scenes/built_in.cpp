@@ -8,7 +8,7 @@ const std::vector<BuiltInScene>& built_in_scenes() {
   static const std::vector<BuiltInScene> all = [] {
     std::vector<BuiltInScene> scenes;
     for (auto theme : {paper_scenes(), angle_scenes(), ground_scenes(), article_scenes(), limit_scenes(),
-                       moving_scenes(), crowd_scenes(), extreme_scenes()}) {
+                       one_way_scenes(), moving_scenes(), crowd_scenes(), extreme_scenes()}) {
       scenes.insert(scenes.end(), std::make_move_iterator(theme.begin()), std::make_move_iterator(theme.end()));
     }
     return scenes;
@@ -46,6 +46,21 @@ void add_box(Scene& scene, std::string id, double left, double bottom, double ri
 void add_chain(Scene& scene, std::string id, std::vector<Vec2d> points) {
   scene.ids.push_back(std::move(id));
   scene.scenery.colliders.push_back({.shape = ColliderDef::Shape::chain, .points = std::move(points)});
+}
+
+void move_last(Scene& scene, std::vector<MoverDef::Waypoint> path, MoverDef::Loop loop) {
+  scene.scenery.colliders.back().mover = static_cast<MoverIndex>(scene.movers.size());
+  scene.movers.push_back({.id = scene.ids.back(), .path = std::move(path), .loop = loop});
+}
+
+void hold_jump(Scene& scene, int from, int to) {
+  scene.input.push_back({.step = from, .move = std::nullopt, .jump = true});
+  scene.input.push_back({.step = to, .move = std::nullopt, .jump = false});
+}
+
+void hold_drop(Scene& scene, int from, int to) {
+  scene.input.push_back({.step = from, .move = std::nullopt, .jump = std::nullopt, .drop = true});
+  scene.input.push_back({.step = to, .move = std::nullopt, .jump = std::nullopt, .drop = false});
 }
 
 }  // namespace paperproof::compare

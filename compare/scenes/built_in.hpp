@@ -12,7 +12,8 @@ namespace paperproof::compare {
 [[nodiscard]] std::vector<BuiltInScene> angle_scenes();    ///< Grazing, rotated, corners and wedges.
 [[nodiscard]] std::vector<BuiltInScene> ground_scenes();   ///< Tiles, slopes, shafts, rest.
 [[nodiscard]] std::vector<BuiltInScene> article_scenes();  ///< Where the article's points and rules show.
-[[nodiscard]] std::vector<BuiltInScene> limit_scenes();    ///< Climb limit, dt, one-way chains, many tiles, sensors.
+[[nodiscard]] std::vector<BuiltInScene> limit_scenes();    ///< Climb limit, dt, many tiles, sensors.
+[[nodiscard]] std::vector<BuiltInScene> one_way_scenes();  ///< One-way chains, standing, moving, dropped through.
 [[nodiscard]] std::vector<BuiltInScene> moving_scenes();   ///< Lifts, conveyors, papers, a ceiling.
 [[nodiscard]] std::vector<BuiltInScene> crowd_scenes();    ///< Several characters.
 [[nodiscard]] std::vector<BuiltInScene> extreme_scenes();  ///< Overlapping starts, far origins, other scales.
@@ -35,5 +36,11 @@ inline constexpr double tan_30 = 0.57735026918962576;  ///< Of 30 degrees.
 void add_polygon(Scene& scene, std::string id, std::vector<Vec2d> points);
 void add_box(Scene& scene, std::string id, double left, double bottom, double right, double top);
 void add_chain(Scene& scene, std::string id, std::vector<Vec2d> points);
+/// The last collider goes along a path.
+void move_last(Scene& scene, std::vector<MoverDef::Waypoint> path, MoverDef::Loop loop = MoverDef::Loop::once);
+/// The jump button is down from one step to before another; input is given in the order of the steps.
+void hold_jump(Scene& scene, int from, int to);
+/// The same for dropping through one-way chains.
+void hold_drop(Scene& scene, int from, int to);
 
 }  // namespace paperproof::compare

@@ -1,5 +1,5 @@
-/// Where a rule begins to hold: the climb limit, the length of a step, one-way chains, numbers of tiles, sensors,
-/// perturbed replicas: scenes 13, 26, 31, 32, 34 and 35.
+/// Where a rule begins to hold: the climb limit, the length of a step, numbers of tiles, sensors, perturbed replicas:
+/// scenes 13, 26, 32, 34 and 35.
 #include "scenes/built_in.hpp"
 
 namespace paperproof::compare {
@@ -36,46 +36,6 @@ Scene fall_dt_001() { return fall_with(0.01, 100); }
 Scene fall_dt_0001() { return fall_with(0.001, 1000); }
 Scene fall_dt_00001() { return fall_with(0.0001, 10000); }
 
-void add_ledge(Scene& scene, double left, double right, double y) {
-  add_chain(scene, "ledge", {{left, y}, {right, y}});
-  scene.scenery.colliders.back().one_way = Vec2d(0, 1);
-}
-
-/// Jumps through a ledge 1 m above its head, and lands on it.
-Scene one_way_from_below() {
-  Scene scene = walk(0, half_height + 0.02, 0, 180);
-  scene.gravity = {0, -30};
-  add_box(scene, "floor", -4, -1, 4, 0);
-  add_ledge(scene, -2, 2, 2);
-  scene.input.push_back(press(30));
-  scene.input.push_back(release(40));
-  return scene;
-}
-
-Scene one_way_from_above() {
-  Scene scene = flight(0, 2 + half_height, 0, -50, 120);
-  scene.gravity = {0, -30};
-  add_box(scene, "floor", -4, -4, 4, -3);
-  add_ledge(scene, -2, 2, 0);
-  return scene;
-}
-
-/// Flies level through the tip of a ledge at the height of its arms.
-Scene one_way_from_the_side() {
-  Scene scene = flight(-3, 0, 6, 0, 60);
-  add_ledge(scene, 0, 2, 0);
-  return scene;
-}
-
-/// Begins in the middle of a ledge: it is not wholly above, so the ledge does not hold it.
-Scene one_way_from_within() {
-  Scene scene = flight(0, 0, 0, 0, 90);
-  scene.gravity = {0, -30};
-  add_box(scene, "floor", -4, -4, 4, -3);
-  add_ledge(scene, -2, 2, 0);
-  return scene;
-}
-
 /// Walks over `count` tiles of 1 m in rows of 1,000, the uppermost of which is walked on.
 Scene tiles_of(int count) {
   Scene scene = walk(0.5, half_height + 0.02, 1, 300);
@@ -110,8 +70,7 @@ Scene replica_off_by(double distance) {
   add_box(scene, "floor", -4, -1, 30, 0);
   add_box(scene, "block", 6, 0, 9, 1);
   add_box(scene, "wall", 14, 0, 15, 6);
-  scene.input.push_back(press(40));
-  scene.input.push_back(release(60));
+  hold_jump(scene, 40, 60);
   return scene;
 }
 
@@ -134,12 +93,6 @@ std::vector<BuiltInScene> limit_scenes() {
       {"fall_dt_1e-2", "the same in 100 steps: 5.05 m", fall_dt_001},
       {"fall_dt_1e-3", "the same in 1,000 steps: 5.005 m", fall_dt_0001},
       {"fall_dt_1e-4", "the same in 10,000 steps: 5.0005 m", fall_dt_00001},
-      {"one_way_from_below", "jumps through a one-way ledge and lands on it: met once, from above", one_way_from_below},
-      {"one_way_from_above", "falls onto a one-way ledge at 50 m/s and more: it is never passed", one_way_from_above},
-      {"one_way_from_the_side", "flies through the tip of a one-way ledge: no contact, no loss of speed",
-       one_way_from_the_side},
-      {"one_way_from_within", "begins in the middle of a one-way ledge: falls through it to the floor",
-       one_way_from_within},
       {"tiles_1e2", "walks over 100 tiles: what more tiles around it must not change", tiles_1e2},
       {"tiles_1e3", "walks over 1,000 tiles: the same", tiles_1e3},
       {"tiles_1e4", "walks over 10,000 tiles: the same", tiles_1e4},

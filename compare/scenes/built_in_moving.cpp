@@ -5,12 +5,6 @@ namespace paperproof::compare {
 
 namespace {
 
-/// The last collider goes along a path.
-void move_last(Scene& scene, std::vector<MoverDef::Waypoint> path, MoverDef::Loop loop = MoverDef::Loop::once) {
-  scene.scenery.colliders.back().mover = static_cast<MoverIndex>(scene.movers.size());
-  scene.movers.push_back({.id = scene.ids.back(), .path = std::move(path), .loop = loop});
-}
-
 /// Stands on a lift that goes there and back.
 Scene lift_by(const Vec2d& way) {
   Scene scene = flight(0, half_height + 0.02, 0, 0, 600);

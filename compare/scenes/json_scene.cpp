@@ -355,8 +355,7 @@ std::vector<InputEvent> read_input(const JsonCursor& at) {
   std::vector<InputEvent> events;
   for (std::size_t i = 0; i < at.size(); ++i) {
     const JsonCursor entry = at.element(i);
-    refuse_unsupported(entry, "drop", "dropping through one-way pieces");
-    entry.refuse_other_keys({"step", "move", "jump"});
+    entry.refuse_other_keys({"step", "move", "jump", "drop"});
     InputEvent event;
     event.step = entry.require("step").integer(0, most_steps);
     if (!events.empty() && event.step < events.back().step) {
@@ -367,6 +366,7 @@ std::vector<InputEvent> read_input(const JsonCursor& at) {
       if (!(*event.move >= -1 && *event.move <= 1)) move->refuse("expected a number from -1 to 1");
     }
     if (const auto jump = entry.find("jump")) event.jump = jump->boolean();
+    if (const auto drop = entry.find("drop")) event.drop = drop->boolean();
     events.push_back(event);
   }
   return events;

@@ -74,6 +74,7 @@ Input input_at(const std::vector<InputEvent>& events, int step) {
     if (event.step > step) break;
     if (event.move) input.move = event.move;
     if (event.jump) input.jump = *event.jump;
+    if (event.drop) input.drop = *event.drop;
   }
   return input;
 }

@@ -17,6 +17,7 @@ struct InputEvent {
   int step = 0;
   std::optional<double> move;
   std::optional<bool> jump;
+  std::optional<bool> drop{};
 
   friend bool operator==(const InputEvent&, const InputEvent&) = default;
 };

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "one_way_chains.hpp"
 #include "sensors.hpp"
 
 namespace paperproof {
@@ -129,6 +130,9 @@ Controller<Scalar>::Controller(const Scenery<Scalar>& scenery, const CharacterDe
     throw std::invalid_argument("stages: sensors cannot be left out: there is a sensor");
   technique_ = make_technique<Scalar>(technique, scenery, character_);
   if (scenery.sensor_pieces().size() > 0) sensors_ = std::make_shared<Sensors<Scalar>>(scenery, character_.shape);
+  const std::span<const PieceInfo> pieces = scenery.pieces();
+  if (std::any_of(pieces.begin(), pieces.end(), [](const PieceInfo& piece) { return piece.one_way; }))
+    one_way_ = std::make_shared<OneWayChains<Scalar>>(scenery, character_.shape);
 }
 
 template <class Scalar>
@@ -147,6 +151,7 @@ StepStatus Controller<Scalar>::step_with(CharacterState<Scalar>& state, const In
                                          Scalar dt, std::span<const MoverMotion<Scalar>> movers,
                                          Scratch<Scalar>& scratch, StepReport<Scalar>& report) const noexcept {
   report.sensors.clear();
+  report.dropped_through.clear();
   const bool foreseen = (has_jump || !input.jump) && (has_gravity || (gravity.x() == 0 && gravity.y() == 0));
   const bool usable = foreseen && finite(state.position) && finite(state.velocity) && finite(state.remainder) &&
                       finite(gravity) && std::isfinite(dt) && dt > 0 && std::isfinite(input.move.value_or(0)) &&
@@ -170,6 +175,7 @@ StepStatus Controller<Scalar>::step_with(CharacterState<Scalar>& state, const In
                     .has_last_free = state.has_last_free,
                     .grounded = next.grounded,
                     .crushed = state.crushed,
+                    .drop = input.drop,
                     .movers = movers,
                     .dt = dt,
                     .ride = state.ride},
@@ -178,6 +184,7 @@ StepStatus Controller<Scalar>::step_with(CharacterState<Scalar>& state, const In
   if (report.status == StepStatus::out_of_range) return report.status;
   if constexpr (has_sensors)
     if (sensors_) sensors_->observe(report.move.path, movers, report.sensors);
+  if (input.drop && one_way_) one_way_->find_passed(report.move.path, movers, report.dropped_through);
   adopt(character_, report.move, next);
   state = next;
   return report.status;

@@ -85,6 +85,21 @@ TEST_P(OneWay, walking_past_its_end_at_its_own_height_is_not_stopped) {
   for (int k = 0; k < 120; ++k) ASSERT_EQ(world.step({6, 0}, frame).velocity, Vec2d(6, 0));
 }
 
+TEST_P(OneWay, who_drops_goes_through_it_and_says_so) {
+  ReferenceWorld world(ledge(GetParam()), {}, {0.3, half_height() + rest_gap});
+  run(world, {0, 0}, gravity, 30);
+  std::vector<ColliderIndex> passed;
+  Vec2d velocity{0, 0};
+  for (int k = 0; k < 60; ++k) {
+    velocity += gravity * frame;
+    const TwinStep& step = world.step(velocity, frame, {}, k < 8);
+    velocity = step.velocity;
+    passed.insert(passed.end(), step.dropped_through.begin(), step.dropped_through.end());
+  }
+  EXPECT_EQ(passed, std::vector<ColliderIndex>{1});
+  EXPECT_NEAR(world.position().y(), half_height() + rest_gap - 10 * frame * frame * 60 * 61 / 2, 0.01);
+}
+
 TEST(OneWayDirections, a_segment_that_runs_along_one_way_blocks_nothing) {
   ReferenceWorld world(level({chain({{0, -4}, {0, 4}}, up)}), {}, {-2, 0});
   for (int k = 0; k < 60; ++k) world.step({10, 0}, frame);

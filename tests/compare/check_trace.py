@@ -7,7 +7,8 @@ For every step:
 - the way that was travelled, corner by corner, enters no solid that the character was not already in, and the step does
   not end inside one; what the trace calls an overlap at the start of a step is one. What moves is looked at from where it
   is: its offset goes evenly from one end to the other while the fraction of the step goes from 0 to 1. Only a mover that
-  the step names in `crush` may come into the character;
+  the step names in `crush` may come into the character, and one-way chains are passed against their normal only where
+  the step names them in `drop`;
 - a step begins where the last one ended, unless the trace says that the character was put elsewhere; so does every mover,
   and every mover stands in every step;
 - of several characters each has a record in every step, in order; no two come to overlap at any moment of their ways
@@ -31,6 +32,7 @@ from functools import lru_cache
 GAP = Fraction(1, 10**6)  # largest gap at a contact, and largest error of an impact along its normal [m]
 ROUNDING = 1e-8  # of a reported separation or contact point [m]: positions of 1e6 m are known to 1e-10
 NEAR_PASS = Fraction(4, 10**7)  # a way that passes a solid this closely may be called a contact [m]
+NEAR_DROP = Fraction(2, 10**6)  # and one that passes a one-way chain this closely may be said to drop through it [m]
 GRAZING = 1e-3  # an approach of less than this part of the relative motion grazes, and says little of when
 ZERO = Fraction(0)
 
@@ -276,7 +278,9 @@ class Checker:
                 return False
         body = [add(start, scaled(corner, grown)) for corner in self.body]
         swept = body + [add(corner, way) for corner in body]
-        edges = collider.edges if collider.one_way is None else collider.blocking_edges(body, way)
+        edges = collider.edges
+        if collider.one_way is not None:
+            edges = collider.blocking_edges([add(start, corner) for corner in self.body], way)
         swept = hull(swept)
         if any(enters(a, b, swept) for a, b in edges):
             return True
@@ -296,11 +300,27 @@ class Checker:
             if name in allowed or crushes or collider.sensor:
                 continue
             corners = [motion.seen(name, corner) for corner in path]
+            if name in step.get("drop", []):
+                yield from self.check_drop(name, corners)
+                continue
             for i, (start, end) in enumerate(zip(corners, corners[1:])):
                 if self.meets(name, start, less(end, start)):
                     yield f"passes or enters {name} on its way from {show(path[i])} to {show(path[i + 1])}"
             if collider.one_way is None and self.meets(name, corners[-1], (ZERO, ZERO)):
                 yield f"ends inside {name}"
+
+    def check_drop(self, name, corners):
+        if self.colliders[name].one_way is None:
+            yield f"drops through {name}, which is no one-way chain"
+            return
+        grown = self.grown_by(NEAR_DROP)
+        if not any(self.meets(name, start, less(end, start), grown) for start, end in zip(corners, corners[1:])):
+            yield f"does not drop through {name}, as it says"
+
+    def grown_by(self, metres):
+        """The factor by which every side of the body goes outwards by at least so much."""
+        nearest = min(distance((ZERO, ZERO), a, b) for a, b in zip(self.body, self.body[1:] + self.body[:1]))
+        return 1 + metres / Fraction(nearest)
 
     def sensor_events(self, name, corners):
         """(change, leg, fraction of the leg) of everything that happens to a sensor, which stands still."""
@@ -381,8 +401,7 @@ class Checker:
             yield f"meets {name} earlier than at {float(t)} of the step"
         if not self.meets(name, start, scaled(requested, after)):
             # Not by then, unless it passes so closely that it may be called a contact.
-            nearest = min(distance((ZERO, ZERO), a, b) for a, b in zip(self.body, self.body[1:] + self.body[:1]))
-            if not self.meets(name, start, scaled(requested, after), 1 + NEAR_PASS / Fraction(nearest)):
+            if not self.meets(name, start, scaled(requested, after), self.grown_by(NEAR_PASS)):
                 yield f"does not meet {name} by {float(t)} of the step"
 
     def check(self, records):

@@ -63,6 +63,18 @@ class SpoiltTraces(Spoiling, unittest.TestCase):
         self.expect("passes or enters paper", paper([0, 1]))
         self.assertEqual(self.found(paper([0, -1])), [])
 
+    def test_a_drop_through_a_one_way_chain_and_through_nothing_else(self):
+        def dropping(names):
+            def spoil(header, steps):
+                header["colliders"].append({"id": "paper", "chain": [[-1, 0.5], [1, 0.5]], "one_way": [0, 1]})
+                header["colliders"].append({"id": "tip", "chain": [[0.75, 0.5], [1, 0.5]], "one_way": [0, 1]})
+                steps[0]["drop"] = names
+            return spoil
+
+        self.assertEqual(self.found(dropping(["paper"])), [])
+        self.expect("drops through platform, which is no one-way chain", dropping(["paper", "platform"]))
+        self.expect("does not drop through tip, as it says", dropping(["paper", "tip"]))
+
     def test_an_overlap_that_is_none(self):
         self.expect("does not overlap", lambda _, steps: steps[0].update(start_overlap=["platform"]))
 

@@ -136,6 +136,18 @@ TEST(Judge, a_one_way_chain_is_broken_against_its_normal_only) {
   EXPECT_TRUE(judge.judge(step({{0, 0.5}, {0, -1}})).one_way_broken.empty());
 }
 
+TEST(Judge, what_is_dropped_through_is_excused_and_nothing_else) {
+  const auto ledge = [](double y) { return chain({{-4, y}, {4, y}}, Vec2d(0, 1)); };
+  Judge judge(header({ledge(0), ledge(-1), box(-4, -3, 4, -2.9)}));
+  TraceStep fall = step({{0, 1}, {0, -4}});
+  fall.dropped_through = {0, 2};  // who says so of a solid is not believed
+  const StepJudgement judged = judge.judge(fall);
+  EXPECT_EQ(judged.one_way_broken, Colliders{1});
+  EXPECT_EQ(judged.tunnelled, Colliders{2});
+  fall.dropped_through = {0, 1};
+  EXPECT_TRUE(judge.judge(fall).one_way_broken.empty());
+}
+
 TEST(Judge, a_landing_is_an_exact_contact_at_its_fraction) {
   Judge judge(header({box(-4, -1, 4, 0)}));
   TraceStep landing = step({{0, 1}, {0, 0.625 + 5e-7}});

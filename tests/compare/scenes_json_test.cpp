@@ -16,7 +16,7 @@ const std::string good = R"({
                { "id": "ring", "polygon": [[10,0],[20,0],[20,10],[10,10]], "holes": [[[12,2],[18,2],[18,8],[12,8]]] } ],
   "movers": [ { "id": "lift", "polygon": [[0,0],[2,0],[2,0.25],[0,0.25]],
                 "path": [ { "t": 0, "at": [6,0] }, { "t": 2, "at": [6,3] } ], "loop": "ping_pong" } ],
-  "input": [ { "step": 0, "move": 1 }, { "step": 40, "jump": true }, { "step": 44, "jump": false } ]
+  "input": [ { "step": 0, "move": 1 }, { "step": 40, "jump": true }, { "step": 44, "jump": false, "drop": true } ]
 })";
 
 TEST(JsonScene, every_key_arrives) {
@@ -48,6 +48,10 @@ TEST(JsonScene, every_key_arrives) {
   ASSERT_EQ(scene.input.size(), 3U);
   EXPECT_EQ(scene.input[1].jump, true);
   EXPECT_FALSE(scene.input[1].move.has_value());
+  EXPECT_FALSE(scene.input[1].drop.has_value());
+  EXPECT_EQ(scene.input[2].drop, true);
+  EXPECT_FALSE(input_at(scene.input, 43).drop);
+  EXPECT_TRUE(input_at(scene.input, 119).drop) << "until an event changes it";
   EXPECT_FALSE(scene.respawn_box.has_value());
 }
 
@@ -335,7 +339,7 @@ INSTANTIATE_TEST_SUITE_P(
             "\"characters\": [{\"position\": [0,6], \"input\": [{\"step\": 0, \"move\": 2}]}], \"name\"",
             ": /characters/0/input/0/move: expected a number from -1 to 1"},
         Bad{"dt_list", "\"name\"", "\"dt_list\": [], \"name\"", ": /dt_list: "},
-        Bad{"drop", "\"jump\": false", "\"drop\": true", ": /input/2/drop: "},
+        Bad{"drop_is_a_flag", "\"drop\": true", "\"drop\": 1", ": /input/2/drop: expected true or false"},
         Bad{"missing_map", "\"chain\": [[5,0],[5,4]]", "\"tiled\": \"none.tmx\"",
             ": /scenery/1/tiled: none.tmx: expected a file that exists"}),
     [](const testing::TestParamInfo<Bad>& bad) { return bad.param.what; });

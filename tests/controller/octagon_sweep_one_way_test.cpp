@@ -131,5 +131,80 @@ TEST(OneWay, a_segment_along_its_direction_blocks_nothing) {
   }
 }
 
+/// Steps of a character that stands on the platform, `drops` of them with the button down.
+template <class Scalar>
+void stand_and_drop(Stepper<Scalar>& character, int drops) {
+  character.gravity = {0, -30};
+  character.at(0, half_height + 0.01).steps(20);
+  ASSERT_TRUE(character.state.grounded);
+  character.steps(drops, {.move = std::nullopt, .jump = false, .drop = true});
+}
+
+/// Every technique that knows one-way chains.
+class Dropping : public testing::TestWithParam<TechniqueKind> {};
+
+TEST_P(Dropping, leaves_the_ledge_and_is_held_by_the_next_one_once_the_button_is_up) {
+  Stepper<double> character({platform(), chain({{-2, -2}, {2, -2}}, Vec2d{0, 1}), rectangle(-9, -5, 9, -4)}, {},
+                            GetParam());
+  stand_and_drop(character, 1);
+  EXPECT_FALSE(character.state.grounded);
+  ASSERT_EQ(character.report.dropped_through.size(), 1U);
+  EXPECT_EQ(character.report.dropped_through[0], 0U);
+  for (int n = 0; n < 100; ++n) {
+    character.step();
+    ASSERT_TRUE(character.report.dropped_through.empty()) << n;
+  }
+  EXPECT_TRUE(character.state.grounded);
+  EXPECT_NEAR(character.state.position.y(), -2 + half_height, 0.04);
+}
+
+TEST_P(Dropping, goes_through_every_ledge_while_the_button_is_down_and_through_nothing_else) {
+  Stepper<double> character({platform(), chain({{-2, -2}, {2, -2}}, Vec2d{0, 1}), rectangle(-9, -5, 9, -4)}, {},
+                            GetParam());
+  stand_and_drop(character, 0);
+  std::vector<ColliderIndex> passed;
+  for (int n = 0; n < 100; ++n) {
+    character.step({.move = std::nullopt, .jump = false, .drop = true});
+    for (const ColliderIndex chain : character.report.dropped_through) passed.push_back(chain);
+  }
+  EXPECT_EQ(passed, (std::vector<ColliderIndex>{0, 1}));
+  EXPECT_TRUE(character.state.grounded) << "on the floor";
+  EXPECT_NEAR(character.state.position.y(), -4 + half_height, 0.04);
+}
+
+INSTANTIATE_TEST_SUITE_P(Techniques, Dropping,
+                         testing::Values(TechniqueKind::octagon_sweep, TechniqueKind::speculative,
+                                         TechniqueKind::speculative_march, TechniqueKind::bounding_box,
+                                         TechniqueKind::discrete),
+                         [](const auto& kind) { return std::string(name_of(kind.param)); });
+
+TEST(DroppingOff, from_a_ledge_that_rises_keeps_its_speed) {
+  ColliderDef lift = platform();
+  lift.mover = 0;
+  Stepper<double> rider({lift});
+  rider.gravity = {0, -30};
+  rider.at(0, half_height + 0.01).steps(20);
+  for (int n = 0; n < 10; ++n) rider.step_with_mover_by(0, 2.0 / 60);
+  ASSERT_EQ(rider.state.ride.ground, 0U);
+  rider.step_with_mover_by(0, 2.0 / 60, {.move = std::nullopt, .jump = false, .drop = true});
+  EXPECT_EQ(rider.state.ride.ground, Ride<double>::none);
+  EXPECT_NEAR(rider.state.velocity.y(), 2 - 30.0 / 60, 1e-12);
+  ASSERT_EQ(rider.report.dropped_through.size(), 1U);
+  rider.step_with_mover_by(0, 2.0 / 60);
+  EXPECT_FALSE(rider.state.grounded) << "partly below it: the ledge is not met again";
+}
+
+TEST(DroppingOff, names_only_what_is_passed) {
+  const ColliderDef beside = chain({{half_width + 0.01, 0}, {3, 0}}, Vec2d{0, 1});
+  const ColliderDef other_way = chain({{-2, -0.2}, {2, -0.2}}, Vec2d{0, -1});
+  Stepper<double> character({platform(), beside, other_way});
+  character.gravity = {0, -30};
+  character.at(0, half_height + 0.5);
+  character.state.velocity = {0, -100};
+  character.step({.move = std::nullopt, .jump = false, .drop = true});
+  ASSERT_EQ(character.report.dropped_through.size(), 1U);
+  EXPECT_EQ(character.report.dropped_through[0], 0U);
+}
+
 }  // namespace
 }  // namespace paperproof::stepping

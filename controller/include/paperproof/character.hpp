@@ -73,6 +73,9 @@ struct Input {
   std::optional<double> move;
   /// The jump button is down. One press gives at most one jump; a press that cannot jump yet stays pending while held.
   bool jump = false;
+  /// One-way chains hold nobody while this is given: what stands on one drops through it. A character that has come
+  /// partly below a chain goes on without it; one step is enough to leave a chain that it touches.
+  bool drop = false;
 };
 
 /// What a character stands on that carries it: a mover, a conveyor.

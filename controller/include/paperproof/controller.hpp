@@ -35,10 +35,15 @@ struct StepReport {
   MoveResult<Scalar> move;
   /// In order of time: see `SensorEvent`. Where more happened than fits the latest are missing, and it `overflowed`.
   FixedVector<SensorEvent<Scalar>, 32> sensors;
+  /// One-way chains that the character passed against their normal, or by less than a micrometre did not, in a step
+  /// whose input asked to drop. Each once, in the order of their indices.
+  FixedVector<ColliderIndex, 32> dropped_through;
 };
 
 template <class Scalar>
 class Sensors;
+template <class Scalar>
+class OneWayChains;
 
 /// Steps characters of one kind through one scenery. Const and shareable between threads.
 template <class Scalar>
@@ -81,7 +86,8 @@ class Controller {
   CharacterDef character_;
   Step step_;
   std::unique_ptr<Technique<Scalar>> technique_;
-  std::shared_ptr<const Sensors<Scalar>> sensors_;  ///< Null where the scenery has none.
+  std::shared_ptr<const Sensors<Scalar>> sensors_;       ///< Null where the scenery has none.
+  std::shared_ptr<const OneWayChains<Scalar>> one_way_;  ///< Null where the scenery has none.
 };
 
 extern template class Controller<float>;

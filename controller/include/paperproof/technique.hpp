@@ -48,6 +48,7 @@ struct MoveRequest {
   bool has_last_free = false;
   bool grounded = false;  ///< The last step ended on the ground, and this one does not begin with a jump.
   bool crushed = false;   ///< See `CharacterState::crushed`.
+  bool drop = false;      ///< One-way chains hold nobody: see `Input::drop`.
   /// One for each mover of the scenery.
   std::span<const MoverMotion<Scalar>> movers{};
   Scalar dt = 0;  ///< [s]

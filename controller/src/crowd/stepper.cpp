@@ -41,6 +41,7 @@ void clear(CrowdMember<Scalar>& member) noexcept {
   member.step.status = StepStatus::moved;
   member.step.move.clear();
   member.step.sensors.clear();
+  member.step.dropped_through.clear();
   member.met.clear();
   member.started_overlapping.clear();
   member.stayed = false;
@@ -78,6 +79,7 @@ StepStatus Stepper<Scalar>::begin(std::span<const CharacterState<Scalar>> states
     runner.halted = runner.no_snap = runner.stands = runner.dropped = runner.stuck = false;
     clear(member(i));
     runner.walks = runner.state.grounded;
+    runner.drops = inputs[i].drop;
     runner.held.clear();
     const StepStatus status = move(runner, dt_, true, runner.after, runner.plan);
     if (refused(status)) return status;
@@ -88,13 +90,14 @@ StepStatus Stepper<Scalar>::begin(std::span<const CharacterState<Scalar>> states
   return StepStatus::moved;
 }
 
-/// The intent is in the velocity already, and nothing is added to it here.
+/// The intent is in the velocity already; of the input only whether to drop is left.
 template <class Scalar>
 StepStatus Stepper<Scalar>::move(const Runner<Scalar>& runner, Scalar duration, bool follow_down,
                                  CharacterState<Scalar>& state, StepReport<Scalar>& report) noexcept {
   state = runner.state;
   state.grounded = runner.walks && follow_down && !runner.no_snap;
-  return controller_.step(state, Input{}, V::Zero(), duration, memory_.technique, report);
+  const Input input{.move = std::nullopt, .jump = false, .drop = runner.drops};
+  return controller_.step(state, input, V::Zero(), duration, memory_.technique, report);
 }
 
 /// A new way for the rest of the step.
@@ -118,6 +121,7 @@ void Stepper<Scalar>::stay(std::size_t i) noexcept {
   runner.after = runner.state;
   runner.plan.status = StepStatus::moved;
   runner.plan.sensors.clear();
+  runner.plan.dropped_through.clear();
   runner.plan.move.clear();
   runner.plan.move.path.push_back({runner.state.position, 0});
   runner.plan.move.path.push_back({runner.state.position, 1});
@@ -150,6 +154,10 @@ void Stepper<Scalar>::commit(std::size_t i, const StepReport<Scalar>& part, Scal
   for (SensorEvent<Scalar> event : part.sensors) {
     event.fraction = way.time_of(event.fraction);
     made.step.sensors.push_back(event);
+  }
+  for (const ColliderIndex chain : part.dropped_through) {
+    const auto& known = made.step.dropped_through;
+    if (std::find(known.begin(), known.end(), chain) == known.end()) made.step.dropped_through.push_back(chain);
   }
   runners_[i].stuck = part.status == StepStatus::stuck;
   runners_[i].dropped = runners_[i].dropped || part.status == StepStatus::dropped;
@@ -395,6 +403,7 @@ void Stepper<Scalar>::keep_back(std::size_t i, const CharacterState<Scalar>& sta
   CrowdMember<Scalar>& made = member(i);
   made.stayed = true;
   made.step.sensors.clear();
+  made.step.dropped_through.clear();
   made.step.move.clear();
   made.step.move.path.push_back({start.position, 0});
   made.step.move.path.push_back({start.position, 1});

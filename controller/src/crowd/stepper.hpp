@@ -38,6 +38,7 @@ struct Runner {
   int impacts = 0;
   bool halted = false;
   bool walks = false;    ///< It was on the ground and does not jump: its way follows the ground down.
+  bool drops = false;    ///< One-way chains hold it not in this step.
   bool no_snap = false;  ///< Somebody stands where it would follow the ground down to.
   bool stands = false;   ///< On somebody.
   bool dropped = false;

@@ -83,8 +83,8 @@ std::span<const PieceGroup<Scalar>> Parts<Scalar>::groups_near(const Box2<Scalar
     const Vec2<Scalar> first = frame.shift_at_start(mover);
     const Vec2<Scalar> last = frame.shift_at_end(mover);
     const std::span<PieceIndex> room = found.subspan(scratch.candidate_count);
-    const std::size_t count =
-        find(Box2<Scalar>{box.lower + first.cwiseMin(last), box.upper + first.cwiseMax(last)}, room);
+    std::size_t count = find(Box2<Scalar>{box.lower + first.cwiseMin(last), box.upper + first.cwiseMax(last)}, room);
+    if (frame.drops()) count = without_one_way(*scenery, room.first(count));
     scratch.candidate_count += count;
     if (count > 0) groups.push_back({{*scenery, room.first(count)}, mover, first, last});
   };

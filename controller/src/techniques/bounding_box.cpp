@@ -71,7 +71,9 @@ void BoundingBox<Scalar>::move(const MoveRequest<Scalar>& request, Scratch<Scala
   result.clear();
   result.position = request.position;
   result.velocity = request.velocity;
-  const Pieces nearby = near(request.position, request.position + request.displacement, scratch);
+  Pieces nearby = near(request.position, request.position + request.displacement, scratch);
+  if (request.drop)
+    nearby = nearby.first(without_one_way(*scenery_, std::span(scratch.candidates).first(nearby.size())));
   for (const Eigen::Index component : {1, 0}) advance(nearby, component, request.displacement[component], result);
   push_out(scratch, result);
   result.path.push_back({request.position, 0});

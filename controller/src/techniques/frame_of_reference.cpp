@@ -10,6 +10,7 @@ FrameOfReference<Scalar>::FrameOfReference(const Scenery<Scalar>& scenery, const
     : scenery_(&scenery),
       movers_(request.movers),
       dt_(request.dt),
+      drops_(request.drop),
       start_(request.position),
       wanted_(request.displacement),
       velocity_(request.velocity) {

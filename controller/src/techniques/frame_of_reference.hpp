@@ -47,6 +47,8 @@ class FrameOfReference {
   /// How far a conveyor's surface goes during the step [m]: along x, whatever its slope.
   [[nodiscard]] Vec2<Scalar> surface_motion(ColliderIndex ground) const noexcept;
 
+  /// One-way chains hold nobody in this step.
+  [[nodiscard]] bool drops() const noexcept { return drops_; }
   /// What stands on it is carried.
   [[nodiscard]] bool carries(ColliderIndex ground) const noexcept;
   [[nodiscard]] MoverIndex mover_of(ColliderIndex collider) const noexcept {
@@ -63,6 +65,7 @@ class FrameOfReference {
   const Scenery<Scalar>* scenery_;
   std::span<const MoverMotion<Scalar>> movers_;
   Scalar dt_;
+  bool drops_;
   MoverIndex mover_ = no_mover;
   Vec2<Scalar> start_;
   Vec2<Scalar> wanted_;

@@ -3,10 +3,20 @@
 
 #include <paperproof/scenery.hpp>
 
+#include <algorithm>
 #include <optional>
 #include <span>
 
 namespace paperproof {
+
+/// Takes the one-way segments out of a list of pieces, for a step that drops through them.
+/// @returns how many are left, at its front, in their order.
+template <class Scalar>
+[[nodiscard]] std::size_t without_one_way(const Scenery<Scalar>& scenery, std::span<PieceIndex> pieces) noexcept {
+  const auto end =
+      std::remove_if(pieces.begin(), pieces.end(), [&](PieceIndex piece) { return scenery.pieces()[piece].one_way; });
+  return static_cast<std::size_t>(end - pieces.begin());
+}
 
 /// The part of a piece's outline that a point met.
 template <class Scalar>

@@ -43,6 +43,12 @@ inline constexpr double least_step = 1e-9;
 inline constexpr double rest_gap = 0.015;
 inline constexpr double touch_gap = 0.020;
 
+/// What a character wants in one step.
+struct TwinWish {
+  Vec2d velocity{Vec2d::Zero()};  ///< [m/s]
+  bool drop = false;              ///< One-way chains do not hold it.
+};
+
 /// What one step of the twin did. Positions and velocities are Box2D's floats.
 ///
 /// Contacts: `separation` is the gap between the bare shapes, Box2D's own plus both radii, so that rest gives about
@@ -68,6 +74,9 @@ struct TwinStep {
   /// the fraction is always 0.
   std::vector<SensorEvent<double>> sensors;
   std::vector<CrowdContact<double>> met;  ///< Contacts with other characters, listed as those with scenery are.
+  /// One-way chains that held the character when the step began, and through which it went because it dropped; of
+  /// chains beside the way those are among them whose box it met. Ascending.
+  std::vector<ColliderIndex> dropped_through;
 };
 
 /// Owns a `b2World` with the scenery and one dynamic octagon for each character. What moves are kinematic bodies, one
@@ -94,11 +103,13 @@ class ReferenceWorld {
   /// @param movers one for each mover of the scenery. Each gets the velocity that takes it from where Box2D has it to
   ///   where it should be at the end, so that rounding does not add up; one that does not begin where it was to end in
   ///   the step before is put there.
+  /// @param drop one-way chains hold nobody in this step.
   /// @throws InvalidDefinition for numbers that are not finite or beyond 1e9, another number of movers, or dt below
   ///   1e-9 s; then nothing was stepped.
-  const TwinStep& step(const Vec2d& wanted_velocity, double dt, std::span<const MoverMotion<double>> movers = {});
-  /// The same with the wanted velocity of each character. @returns one for each, valid until the next step.
-  std::span<const TwinStep> step_all(std::span<const Vec2d> wanted_velocities, double dt,
+  const TwinStep& step(const Vec2d& wanted_velocity, double dt, std::span<const MoverMotion<double>> movers = {},
+                       bool drop = false);
+  /// The same with a wish of each character. @returns one for each, valid until the next step.
+  std::span<const TwinStep> step_all(std::span<const TwinWish> wishes, double dt,
                                      std::span<const MoverMotion<double>> movers = {});
 
   [[nodiscard]] Vec2d position(std::size_t character = 0) const;

@@ -150,6 +150,8 @@ std::span<Body<Scalar>> Discrete<Scalar>::gather(Frame& frame) const noexcept {
   for (PieceIndex piece = scenery_->static_pieces().end; piece < movers_end; ++piece) {
     if (body_of(piece, frame.place).total_box().overlaps(total)) scratch.candidates[scratch.candidate_count++] = piece;
   }
+  if (frame.request.drop)
+    scratch.candidate_count = without_one_way(*scenery_, std::span(scratch.candidates).first(scratch.candidate_count));
   std::vector<Body<Scalar>>& bodies = workplace_of(scratch).bodies;
   bodies.clear();  // keeps its memory
   bodies.push_back(frame.character);

@@ -130,7 +130,7 @@ bool StepSolver<variant, Scalar>::passes(const LocalMotion& motion, std::span<co
 
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::stopped_by(const LocalMotion& motion, PieceIndex piece) const noexcept {
-  if (!blocks<variant>(space_, motion, piece)) return false;
+  if (!in_way(motion, piece)) return false;
   const Clearance<Scalar> clear = clearance<variant>(space_, motion, piece);
   return !clear.clear() && sweep_piece<variant>(space_, motion, piece, clear).hit;
 }

@@ -51,6 +51,7 @@ std::optional<Hold<Scalar>> StepSolver<variant, Scalar>::ground_here(ColliderInd
   bool rides = false;
   bool stands_still = false;
   for_each_near({position_, position_}, [&](PieceIndex piece) {
+    if (dropped(piece)) return;
     const BestAxis<Scalar> best = best_axis<variant>(space_, piece, local(piece, position_));
     const V normal = space_.normal(piece, best.axis);
     if (std::abs(best.separation) > Tolerances<Scalar>{}.touch || normal.y() <= 0) return;

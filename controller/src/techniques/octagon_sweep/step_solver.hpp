@@ -7,6 +7,7 @@
 
 #include "techniques/octagon_sweep/narrow_phase.hpp"
 #include "techniques/octagon_sweep/neighbourhood.hpp"
+#include "techniques/octagon_sweep/one_way.hpp"
 #include "techniques/octagon_sweep/variant.hpp"
 
 #include <paperproof/technique.hpp>
@@ -135,6 +136,16 @@ class StepSolver {
   template <class Visit>
   void for_each_near(const Box2<Scalar>& box, const Visit& visit) noexcept;
 
+  /// Whether a piece can stop a motion at all.
+  [[nodiscard]] bool in_way(const LocalMotion& motion, PieceIndex piece) const noexcept {
+    return blocks<variant>(space_, motion, piece) && !dropped(piece);
+  }
+  /// A one-way segment in a step that drops through them.
+  [[nodiscard]] bool dropped(PieceIndex piece) const noexcept {
+    if constexpr (!variant.one_way) return false;
+    return drops_ && space_.info(piece).one_way_axis != ObstacleInfo::not_one_way;
+  }
+
   // step_start.hpp
   /// Makes room around a start that is nearer than `hit` to something, or inside it. False: stuck.
   [[nodiscard]] bool prepare_start(const MoveRequest<Scalar>& request) noexcept;
@@ -227,6 +238,7 @@ class StepSolver {
   V position_{V::Zero()};
   V velocity_{V::Zero()};
   Scalar time_ = 0;       ///< Fraction of the step that is spent.
+  bool drops_ = false;    ///< One-way segments hold nobody in this step.
   bool certify_ = false;  ///< Something is nearer than rounding: every motion needs an exact certificate.
   bool ended_in_crease_ = false;
   bool met_ground_ = false;  ///< Something walkable was in the way during this step,

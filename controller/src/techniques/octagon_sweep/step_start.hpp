@@ -3,7 +3,6 @@
 
 #include "techniques/octagon_sweep/certificate.hpp"
 #include "techniques/octagon_sweep/escape.hpp"
-#include "techniques/octagon_sweep/one_way.hpp"
 #include "techniques/octagon_sweep/step_solver.hpp"
 
 namespace paperproof::octagon_sweep {
@@ -118,7 +117,7 @@ bool StepSolver<variant, Scalar>::overlaps(PieceIndex piece, const V& position) 
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::may_block(PieceIndex piece, const V& position) const noexcept {
   return space_.info(piece).one_way_axis == ObstacleInfo::not_one_way ||
-         on_blocking_side_exactly(space_, piece, local(piece, position));
+         (!drops_ && on_blocking_side_exactly(space_, piece, local(piece, position)));
 }
 
 /// Pushes out of the nearest piece, again and again, until every gap is at least `hit`; undone where there is no room.
@@ -158,7 +157,7 @@ bool StepSolver<variant, Scalar>::clear_way(const V& from, const V& to) noexcept
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::clear_way(PieceIndex piece, const V& from, const V& to) const noexcept {
   constexpr Tolerances<Scalar> tolerances{};
-  if (!blocks<variant>(space_, make_motion<variant>(space_, from, V(to - from)), piece)) return true;
+  if (!in_way(make_motion<variant>(space_, from, V(to - from)), piece)) return true;
   for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis)
     if (space_.separation(piece, axis, from) >= tolerances.certain &&
         space_.separation(piece, axis, to) >= tolerances.certain)

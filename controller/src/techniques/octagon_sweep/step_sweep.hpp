@@ -2,7 +2,6 @@
 #pragma once
 
 #include "techniques/octagon_sweep/contact_geometry.hpp"
-#include "techniques/octagon_sweep/one_way.hpp"
 #include "techniques/octagon_sweep/step_solver.hpp"
 
 namespace paperproof::octagon_sweep {
@@ -52,7 +51,7 @@ void StepSolver<variant, Scalar>::sweep(const LocalMotion& motion, std::span<con
   for (const PieceIndex piece : pieces) {
     if constexpr (variant.movers)
       if (ignored(piece) || kept_clear_by_hold(motion, piece)) continue;
-    if (!blocks<variant>(space_, motion, piece)) continue;
+    if (!in_way(motion, piece)) continue;
     const Clearance<Scalar> clear = clearance<variant>(space_, motion, piece);
     found_.least_separation = std::min(found_.least_separation, clear.start);
     if (clear.clear()) continue;
@@ -182,7 +181,7 @@ Scalar StepSolver<variant, Scalar>::impact_of(const Stop<Scalar>& stop, const Lo
   const std::span<const PieceInfo> pieces = space_.scenery().pieces();
   for (const PieceIndex other : pieces_along(motion, pieces[stop.piece].mover)) {
     if (other == stop.piece || pieces[other].collider != pieces[stop.piece].collider) continue;
-    if (!blocks<variant>(space_, motion, other)) continue;
+    if (!in_way(motion, other)) continue;
     const Clearance<Scalar> clear = clearance<variant>(space_, motion, other);
     if (clear.clear()) continue;
     const PieceHit<Scalar> hit = sweep_piece<variant>(space_, motion, other, clear);

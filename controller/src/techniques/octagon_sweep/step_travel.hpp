@@ -31,6 +31,7 @@ void StepSolver<variant, Scalar>::solve(const MoveRequest<Scalar>& request) noex
   position_ = request.position;
   velocity_ = request.velocity;
   start_ = position_;
+  drops_ = request.drop;
   V wanted = request.displacement;
   if constexpr (variant.movers) wanted = begin_ride(request);
   push_corner(0);
