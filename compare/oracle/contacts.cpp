@@ -106,7 +106,7 @@ void ContactJudge::add_gaps(StepJudgement& judgement) const {
 }
 
 double ContactJudge::ghost_speed_loss(bool starts_free) const {
-  const double wanted = step_.requested.x() / header_.dt;
+  const double wanted = step_.requested.x() / length_of(step_, header_);
   if (wanted == 0) return 0;
   const double loss = std::clamp(1 - step_.velocity.x() / wanted, 0.0, 1.0);
   if (loss < least_loss || !starts_free) return 0;

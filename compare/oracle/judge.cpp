@@ -41,6 +41,7 @@ Judge::Judge(const TraceHeader& header) : header_(header), scenery_(header.scene
 StepJudgement Judge::judge(const TraceStep& step) {
   if (step.movers.size() < mover_count_) throw std::invalid_argument("a step needs the motion of every mover");
   if (repeats(step)) return last_->second;
+  dt_ = length_of(step, header_);
   StepJudgement judgement;
   const Path path = path_of(step);
   if (path.empty()) return judgement;
@@ -91,8 +92,9 @@ bool Judge::repeats(const TraceStep& step) const {
   const auto same_contact = [](const Contact<double>& a, const Contact<double>& b) {
     return a.collider == b.collider && a.normal == b.normal;
   };
-  return step.requested == last.requested && step.velocity == last.velocity && step.crushed == last.crushed &&
-         step.dropped_through == last.dropped_through && step.sensors.empty() && last.sensors.empty() &&
+  return step.dt == last.dt && step.requested == last.requested && step.velocity == last.velocity &&
+         step.crushed == last.crushed && step.dropped_through == last.dropped_through && step.sensors.empty() &&
+         last.sensors.empty() &&
          std::equal(step.movers.begin(), step.movers.end(), last.movers.begin(), last.movers.end(), same_motion) &&
          std::equal(step.path.begin(), step.path.end(), last.path.begin(), last.path.end(), same_corner) &&
          std::equal(step.contacts.begin(), step.contacts.end(), last.contacts.begin(), last.contacts.end(),
@@ -177,7 +179,7 @@ void Judge::judge_passing(const Path& path, ColliderIndex collider, const Place&
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
     length += ((path[i + 1].position - path[i + 1].offset(mover)) - (path[i].position - path[i].offset(mover))).norm();
   }
-  passing.speed = length / header_.dt;
+  passing.speed = length / dt_;
   judgement.passings.push_back(passing);
 }
 

@@ -160,6 +160,7 @@ class Judge {
   std::size_t mover_count_ = 0;
   bool has_sensors_ = false;
   double slop_ = 0;
+  double dt_ = 0;  ///< Of the step that is being judged [s].
   std::map<ColliderIndex, Episode> inside_;
   std::optional<Kept> last_end_;
   std::optional<std::pair<TraceStep, StepJudgement>> last_;  ///< Where no episode was open.

@@ -1,5 +1,7 @@
 #include "runs/box2d_contestant.hpp"
 
+#include "scenes/step_times.hpp"
+
 #include <paperproof/controller.hpp>
 
 namespace paperproof::compare {
@@ -10,11 +12,11 @@ class Box2dContestant final : public Contestant {
   Box2dContestant(box2d::SceneryMode mode, const Scene& scene, const Scenery<double>& scenery)
       : character_(scene.character),
         gravity_(scene.gravity),
-        dt_(scene.dt),
         world_(scenery, scene.character, starts_of(scene), {.mode = mode}),
         twins_(character_count(scene)),
         wishes_(character_count(scene)) {
-    if (!(dt_ >= box2d::least_step)) throw box2d::InvalidDefinition("Box2D takes no steps shorter than 1e-9 s");
+    if (!(StepTimes(scene).shortest() >= box2d::least_step))
+      throw box2d::InvalidDefinition("Box2D takes no steps shorter than 1e-9 s");
     header_.scene = scene.name;
     header_.contender = mode == box2d::SceneryMode::pieces ? "box2d_pieces" : "box2d";
     header_.scalar = name_of(ScalarKind::binary32);
@@ -92,6 +94,7 @@ class Box2dContestant final : public Contestant {
   }
 
   std::span<const box2d::TwinStep> advance(const StepInput& input) {
+    dt_ = input.dt;
     for (std::size_t k = 0; k < twins_.size(); ++k)
       wishes_[k] = {wanted_by(twins_[k], input.players[k], input.movers), input.players[k].drop};
     const std::span<const box2d::TwinStep> steps = step_world(input.movers);
@@ -146,7 +149,7 @@ class Box2dContestant final : public Contestant {
 
   CharacterDef character_;
   Vec2d gravity_;
-  double dt_;
+  double dt_ = 0;  ///< Of the present step.
   box2d::ReferenceWorld world_;
   TraceHeader header_;
   std::vector<Twin> twins_;

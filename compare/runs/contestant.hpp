@@ -35,6 +35,7 @@ struct Pose {
 
 /// What happens to every contestant alike in one step.
 struct StepInput {
+  double dt = 0;                                ///< [s]
   std::span<const Input> players;               ///< One for each character.
   std::span<const MoverMotion<double>> movers;  ///< One for each mover of the scene.
 };

@@ -20,17 +20,19 @@ Cost measure_cost(Contestant& contestant, const Scene& scene, const Script& scri
   const std::size_t movers = scene.movers.size();
   std::vector<MoverMotion<double>> motions;
   std::vector<Input> players;
+  std::vector<double> lengths;
   InputCursor cursor(scene, script);
   for (int step = 0; step < timed; ++step) {
     const StepInput now = cursor.at(step);
+    lengths.push_back(now.dt);
     players.insert(players.end(), now.players.begin(), now.players.end());
     motions.insert(motions.end(), now.movers.begin(), now.movers.end());
   }
   std::vector<StepInput> inputs;
   const std::size_t characters = script.size();
-  for (std::size_t step = 0; step < static_cast<std::size_t>(timed); ++step)
-    inputs.push_back(
-        {std::span(players).subspan(step * characters, characters), std::span(motions).subspan(step * movers, movers)});
+  for (std::size_t step = 0; step < lengths.size(); ++step)
+    inputs.push_back({lengths[step], std::span(players).subspan(step * characters, characters),
+                      std::span(motions).subspan(step * movers, movers)});
 
   std::array<double, repeats> costs{};
   for (std::size_t run = 0; run <= repeats; ++run) {

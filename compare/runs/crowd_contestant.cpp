@@ -18,7 +18,6 @@ class CrowdContestant final : public Contestant {
         crowd_(scenery_.get(), rules_for(technique, scene.character), definition_of(technique, scene, plan_)),
         scratch_(crowd_.make_scratch(character_count(scene))),
         gravity_(scene.gravity.cast<Scalar>()),
-        dt_(static_cast<Scalar>(scene.dt)),
         header_(header_of(technique, scenery_.get(), scene, plan_)),
         states_(character_count(scene)),
         report_(character_count(scene)) {
@@ -43,7 +42,7 @@ class CrowdContestant final : public Contestant {
   }
 
   void step_unrecorded(const StepInput& input) override {
-    crowd_.step(states_, input.players, gravity_, dt_, scratch_, report_);
+    crowd_.step(states_, input.players, gravity_, static_cast<Scalar>(input.dt), scratch_, report_);
   }
 
   [[nodiscard]] Pose pose(std::size_t character) const override { return pose_of(states_[character]); }
@@ -55,7 +54,6 @@ class CrowdContestant final : public Contestant {
   Crowd<Scalar> crowd_;
   CrowdScratch scratch_;
   Vec2<Scalar> gravity_;
-  Scalar dt_;
   TraceHeader header_;
   std::vector<CharacterState<Scalar>> states_;
   CrowdReport<Scalar> report_;

@@ -1,9 +1,10 @@
-/// The input of one step after the other: what the player does, without looking at all events each time, and how the
-/// movers go.
+/// The input of one step after the other: how long it is, what the players do, without looking at all events each
+/// time, and how the movers go.
 #pragma once
 
 #include "runs/contestant.hpp"
 #include "scenes/scene.hpp"
+#include "scenes/step_times.hpp"
 
 namespace paperproof::compare {
 
@@ -12,13 +13,19 @@ class InputCursor {
  public:
   /// @param script instead of the scene's own; one list for each character.
   InputCursor(const Scene& scene, const Script& script)
-      : scene_(scene), script_(script), next_(script.size()), now_(script.size()), motions_(scene.movers.size()) {}
+      : scene_(scene),
+        script_(script),
+        times_(scene),
+        next_(script.size()),
+        now_(script.size()),
+        motions_(scene.movers.size()) {}
 
   /// The players do what `input_at` says. What is returned holds until the next call.
   [[nodiscard]] StepInput at(int step) {
-    for (std::size_t i = 0; i < motions_.size(); ++i) motions_[i] = motion_in_step(scene_.movers[i], step, scene_.dt);
+    for (std::size_t i = 0; i < motions_.size(); ++i)
+      motions_[i] = motion_between(scene_.movers[i], times_.begin(step), times_.end(step));
     for (std::size_t k = 0; k < script_.size(); ++k) advance(k, step);
-    return {now_, motions_};
+    return {times_.length(step), now_, motions_};
   }
 
  private:
@@ -34,6 +41,7 @@ class InputCursor {
 
   const Scene& scene_;
   const Script& script_;
+  StepTimes times_;
   std::vector<std::size_t> next_;
   std::vector<Input> now_;
   std::vector<MoverMotion<double>> motions_;

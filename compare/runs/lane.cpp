@@ -21,7 +21,7 @@ constexpr int first_steps = 60;
 
 Lane::Lane(std::string contender, ScalarKind scalar, const Scene& scene, const Scenery<double>& scenery,
            const Planning& planning, const std::string& mode, const std::string& trace_stem, const ReplayLimit& replay)
-    : limit_(replay) {
+    : limit_(replay), steps_vary_(!scene.dt_list.empty()) {
   row_.scene = scene.name;
   row_.contender = std::move(contender);
   row_.scalar = is_reference(row_.contender) ? name_of(ScalarKind::binary32) : name_of(scalar);
@@ -97,9 +97,10 @@ bool Lane::is_free(const Vec2d& position, std::size_t character) const {
 }
 
 /// What was put somewhere in between did not get there by itself.
-void Lane::begin_records(int step) {
+void Lane::begin_records(int step, double dt) {
   for (std::size_t k = 0; k < records_.size(); ++k) {
     records_[k].step = step;
+    if (steps_vary_) records_[k].dt = dt;
     records_[k].character = static_cast<CharacterIndex>(k);
     records_[k].respawn = placed_[k] && step > 0;
   }
@@ -124,7 +125,7 @@ void Lane::judge_step() {
 
 void Lane::step(int step, const StepInput& input) {
   try {
-    begin_records(step);
+    begin_records(step, input.dt);
     contestant_->step(input, records_);
     for (std::size_t k = 0; k < records_.size(); ++k)
       if (!input.players[k].drop) records_[k].dropped_through.clear();  // nobody asked for it

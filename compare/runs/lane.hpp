@@ -51,7 +51,7 @@ class Lane {
 
  private:
   void note_start();
-  void begin_records(int step);
+  void begin_records(int step, double dt);
   void judge_step();
   void fail(Verdict verdict, const std::string& reason);
   void end_early(const std::string& reason);
@@ -63,6 +63,7 @@ class Lane {
   Row row_;
   ReportRun replay_;
   ReplayLimit limit_;
+  bool steps_vary_;  ///< Each step has a length of its own.
   std::unique_ptr<Contestant> contestant_;
   std::unique_ptr<CompanyJudge> company_;  ///< Null for one character.
   std::unique_ptr<Metrics> metrics_;

@@ -18,7 +18,6 @@ class TechniqueContestant final : public Contestant {
         controller_(scenery_.get(), rules_for(kind, scene.character), definition_of(kind, scene, plan_)),
         scratch_(controller_.make_scratch()),
         gravity_(scene.gravity.cast<Scalar>()),
-        dt_(static_cast<Scalar>(scene.dt)),
         motions_(scene.movers.size()),
         header_(header_of(kind, scenery_.get(), scene, plan_)) {
     place_at_start(*this, scene);
@@ -30,9 +29,10 @@ class TechniqueContestant final : public Contestant {
     TraceStep& record = records.front();
     const Ride<Scalar> ride = state_.ride;
     const Vec2d rode = motion_of(ride.ground);
+    const Scalar last_dt = dt_;
     step_unrecorded(input);
     write_report(report_, state_, record);
-    record.requested = report_.requested.template cast<double>() + carried_by(ride, rode);
+    record.requested = report_.requested.template cast<double>() + carried_by(ride, rode, last_dt);
     record.movers.clear();
     for (const MoverMotion<Scalar>& motion : motions_)
       record.movers.push_back({motion.from.template cast<double>(), motion.to.template cast<double>()});
@@ -42,6 +42,7 @@ class TechniqueContestant final : public Contestant {
   void step_unrecorded(const StepInput& input) override {
     for (std::size_t i = 0; i < motions_.size(); ++i)
       motions_[i] = {input.movers[i].from.template cast<Scalar>(), input.movers[i].to.template cast<Scalar>()};
+    dt_ = static_cast<Scalar>(input.dt);
     controller_.step(state_, input.players.front(), gravity_, dt_, motions_, scratch_, report_);
   }
 
@@ -61,12 +62,13 @@ class TechniqueContestant final : public Contestant {
   }
 
   /// What the ground adds to the displacement of this step [m]. A conveyor's part is what was left of the ride's
-  /// velocity in the last step, `rode` apart.
-  [[nodiscard]] Vec2d carried_by(const Ride<Scalar>& ride, const Vec2d& rode) const {
+  /// velocity in the last step, `rode` in `last_dt` seconds apart.
+  [[nodiscard]] Vec2d carried_by(const Ride<Scalar>& ride, const Vec2d& rode, Scalar last_dt) const {
     if (ride.ground == Ride<Scalar>::none) return Vec2d::Zero();
     Vec2d carried = motion_of(ride.ground);
     if (header_.scenery.colliders[ride.ground].surface_speed != 0)
-      carried += ride.velocity.template cast<double>() * header_.dt - rode;
+      carried +=
+          ride.velocity.template cast<double>() * static_cast<double>(dt_) - rode * static_cast<double>(dt_ / last_dt);
     return carried;
   }
 
@@ -75,7 +77,7 @@ class TechniqueContestant final : public Contestant {
   Controller<Scalar> controller_;
   Scratch<Scalar> scratch_;
   Vec2<Scalar> gravity_;
-  Scalar dt_;
+  Scalar dt_ = 0;                             ///< Of the present step.
   std::vector<MoverMotion<Scalar>> motions_;  ///< Of the present step.
   TraceHeader header_;
   CharacterState<Scalar> state_;

@@ -24,7 +24,7 @@ struct TraceHeader {
   std::string contender;
   std::string scalar;            ///< "double" or "float"
   std::string mode = "free";     ///< "free" or "lockstep"
-  double dt = 0;                 ///< [s]
+  double dt = 0;                 ///< [s]; where the steps have lengths of their own it is only shown.
   std::size_t characters = 1;    ///< Each has one record in every step, in order.
   std::vector<Vec2d> points;     ///< Hull of the character, relative to its position [m], as run.
   SceneryDef scenery;            ///< As run, world metres.
@@ -38,6 +38,7 @@ struct TraceHeader {
 
 struct TraceStep {
   int step = 0;
+  std::optional<double> dt{};  ///< Its own length [s], where the scene gives each step one.
   CharacterIndex character = 0;
   std::vector<PathPoint<double>> path;  ///< From the start (fraction 0) to the end (1).
   /// Displacement that was wanted [m], in the world: what carries the character is included.
@@ -59,5 +60,10 @@ struct TraceStep {
   bool dropped = false;  ///< Displacement was left when the iterations ran out.
   bool capped = false;   ///< Box2D only: the step met the 2 m cap.
 };
+
+/// How long a step was [s].
+[[nodiscard]] inline double length_of(const TraceStep& step, const TraceHeader& header) {
+  return step.dt.value_or(header.dt);
+}
 
 }  // namespace paperproof::compare

@@ -180,6 +180,11 @@ TraceWriter::TraceWriter(const std::string& path, const TraceHeader& header)
 void TraceWriter::write(const TraceStep& step) {
   Buffer out;
   fmt::format_to(std::back_inserter(out), "{{\"step\":{},", step.step);
+  if (step.dt) {
+    put_text(out, "\"dt\":");
+    put(out, *step.dt);
+    out.push_back(',');
+  }
   if (several_) fmt::format_to(std::back_inserter(out), "\"character\":{},", step.character);
   put_path(out, step.path);
   if (!path_exact_) put_text(out, ",\"path_exact\":false");

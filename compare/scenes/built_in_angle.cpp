@@ -1,10 +1,11 @@
-/// Walls at an angle, corners and wedges: scenes 4 to 9.
+/// Walls at an angle, corners, wedges and teeth: scenes 4 to 9 and 33.
 ///
 /// Angles are written as their sines and tangents: the library's functions give other bits on other machines.
 #include "scenes/built_in.hpp"
 
 #include <cmath>
 #include <limits>
+#include <string>
 
 namespace paperproof::compare {
 
@@ -100,6 +101,30 @@ Scene concave_corner() {
   return scene;
 }
 
+/// Flies 200 m in its only step, between teeth 30 degrees steep that stand half a metre apart, on the floor and under
+/// the ceiling in turn: the right foot meets each tooth of the floor and is led up, the right of the head each of the
+/// ceiling and is led down.
+Scene sawtooth_of(int teeth) {
+  Scene scene = flight(0, 0, 12'000, 0, 1);
+  constexpr double tangent = degrees_30.sin / degrees_30.cos;
+  constexpr double foot = 5.0 / 32;
+  Vec2d place{0, 0};
+  double slope = 0;
+  for (int k = 0; k < teeth; ++k) {
+    const double up = k % 2 == 0 ? 1 : -1;
+    place += Vec2d(0.5, 0.5 * slope);
+    const Vec2d along{degrees_30.cos, up * degrees_30.sin};
+    const Vec2d met = place + Vec2d(foot, -up * half_height);
+    add_polygon(scene, "tooth" + std::to_string(k), {met - 0.05 * along, met + 0.2 * along, met + Vec2d(0.05, -up)});
+    slope = up * tangent;
+  }
+  return scene;
+}
+
+Scene sawtooth_1() { return sawtooth_of(1); }
+Scene sawtooth_4() { return sawtooth_of(4); }
+Scene sawtooth_11() { return sawtooth_of(11); }
+
 }  // namespace
 
 std::vector<BuiltInScene> angle_scenes() {
@@ -124,6 +149,9 @@ std::vector<BuiltInScene> angle_scenes() {
       {"wedge_5", "falls into a V of 5 degrees: rests on both sides, centre 239.0 px above the apex, v = 0", wedge_5},
       {"wedge_1", "falls into a V of 1 degree: rests on both sides, centre 1,155.9 px above the apex, v = 0", wedge_1},
       {"concave_corner", "into a right-angled corner at 57 m/s: contacts with floor and wall, v = 0", concave_corner},
+      {"sawtooth_1", "200 m in a step past one tooth: one impact", sawtooth_1},
+      {"sawtooth_4", "the same between 4 teeth: 4 impacts in the step, at the times of the formula", sawtooth_4},
+      {"sawtooth_11", "the same between 11 teeth: 11 impacts in the step", sawtooth_11},
   };
 }
 

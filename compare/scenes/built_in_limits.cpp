@@ -1,5 +1,5 @@
-/// Where a rule begins to hold: the climb limit, the length of a step, numbers of tiles, sensors, perturbed replicas:
-/// scenes 13, 26, 32, 34 and 35.
+/// Where a rule begins to hold: the climb limit, the length of a step and of each step, numbers of tiles, sensors,
+/// perturbed replicas: scenes 13, 26, 27, 32, 34 and 35.
 #include "scenes/built_in.hpp"
 
 namespace paperproof::compare {
@@ -35,6 +35,42 @@ Scene fall_dt_01() { return fall_with(0.1, 10); }
 Scene fall_dt_001() { return fall_with(0.01, 100); }
 Scene fall_dt_0001() { return fall_with(0.001, 1000); }
 Scene fall_dt_00001() { return fall_with(0.0001, 10000); }
+
+/// 64 lengths from 1/1024 to 31/1024 s in no order: each and the next make 32/1024 s, so all of them 1 s, exactly.
+std::vector<double> uneven_steps() {
+  std::vector<double> lengths;
+  for (int pair = 0; pair < 32; ++pair) {
+    const int first = (11 * pair + 5) % 31 + 1;
+    for (const int part : {first, 32 - first}) lengths.push_back(part / 1024.0);
+  }
+  return lengths;
+}
+
+/// Flies for two seconds at a constant velocity, none of whose steps a double holds.
+Scene even_flight() {
+  Scene scene = flight(0.1, 0.2, 3.7, -1.3, 128);
+  scene.dt = 1.0 / 64;
+  add_box(scene, "floor", -4, -30, 4, -29);
+  return scene;
+}
+
+Scene uneven_flight() {
+  Scene scene = even_flight();
+  scene.dt_list = uneven_steps();
+  return scene;
+}
+
+/// Stands on a lift that goes up and down while the steps differ.
+Scene uneven_lift() {
+  Scene scene = flight(0, half_height + 0.02, 0, 0, 512);
+  scene.gravity = {0, -30};
+  scene.dt_list = uneven_steps();
+  add_box(scene, "lift", -2, -0.25, 2, 0);
+  move_last(scene, {{.time = 0, .at = {0, 0}}, {.time = 0.5, .at = {0, 0}}, {.time = 2.5, .at = {1, 3}}},
+            MoverDef::Loop::ping_pong);
+  add_box(scene, "ground", -10, -10, 10, -9);
+  return scene;
+}
 
 /// Walks over `count` tiles of 1 m in rows of 1,000, the uppermost of which is walked on.
 Scene tiles_of(int count) {
@@ -93,6 +129,11 @@ std::vector<BuiltInScene> limit_scenes() {
       {"fall_dt_1e-2", "the same in 100 steps: 5.05 m", fall_dt_001},
       {"fall_dt_1e-3", "the same in 1,000 steps: 5.005 m", fall_dt_0001},
       {"fall_dt_1e-4", "the same in 10,000 steps: 5.0005 m", fall_dt_00001},
+      {"even_flight", "two seconds at a constant velocity in 128 steps of 1/64 s", even_flight},
+      {"uneven_flight", "the same in 128 steps of 1/1024 to 31/1024 s: the same end, to an ulp per step",
+       uneven_flight},
+      {"uneven_lift", "stands on a lift while the steps differ: carried without a lag, (p - m) within an ulp",
+       uneven_lift},
       {"tiles_1e2", "walks over 100 tiles: what more tiles around it must not change", tiles_1e2},
       {"tiles_1e3", "walks over 1,000 tiles: the same", tiles_1e3},
       {"tiles_1e4", "walks over 10,000 tiles: the same", tiles_1e4},

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "scenes/step_times.hpp"
 #include "scenes/validate.hpp"
 #include "words.hpp"
 
@@ -14,6 +15,13 @@ namespace {
 std::string point(const Vec2d& p) { return fmt::format("({}, {})", p.x(), p.y()); }
 
 std::string box(const Box2<double>& b) { return fmt::format("{} to {} m", point(b.lower), point(b.upper)); }
+
+std::string lengths(const Scene& scene) {
+  const StepTimes times(scene);
+  if (!times.vary()) return fmt::format("{} s", scene.dt);
+  return fmt::format("{} to {} s ({}, again and again)", times.shortest(), times.longest(),
+                     counted(scene.dt_list.size(), "length"));
+}
 
 std::string colliders(const SceneryDef& scenery) {
   std::size_t polygons = 0;
@@ -97,7 +105,8 @@ std::string describe(const Scene& scene) {
   for (std::size_t k = 1; k < character_count(scene); ++k)
     line("", fmt::format("{}: {} m, {} m/s, {}", k, point(start_of(scene, k).position),
                          point(start_of(scene, k).velocity), counted(scene.others[k - 1].input.size(), "input event")));
-  line("run", fmt::format("{} of {} s, gravity {} m/s²", counted(scene.steps, "step"), scene.dt, point(scene.gravity)));
+  line("run",
+       fmt::format("{} of {}, gravity {} m/s²", counted(scene.steps, "step"), lengths(scene), point(scene.gravity)));
   line("input", counted(scene.input.size(), "event"));
   line("movers", std::to_string(scene.movers.size()));
   for (MoverIndex i = 0; i < scene.movers.size(); ++i) line("", mover(scene, i));

@@ -12,6 +12,7 @@
 #include "scenes/json_text.hpp"
 #include "scenes/load.hpp"
 #include "scenes/picture.hpp"
+#include "scenes/step_times.hpp"
 #include "scenes/tiled.hpp"
 #include "scenes/validate.hpp"
 
@@ -107,18 +108,19 @@ double read_speed(const JsonCursor& object, std::string_view key, double otherwi
   return speed;
 }
 
-void read_character(const JsonCursor& at, Scene& scene) {
+/// @param dt of the longest step [s].
+void read_character(const JsonCursor& at, double dt, Scene& scene) {
   refuse_unsupported(at, "step_height", "stepping up");
   at.refuse_other_keys({"points_px", "position", "velocity", "start_overlap", "walk_speed", "acceleration",
                         "air_acceleration", "jump_speed", "max_fall_speed", "max_climb_degrees", "snap",
                         "no_jump_toward_wall", "side_hit_ends_rise"});
   CharacterDef& character = scene.character;
   character.shape = read_shape(at, scene.pixels_per_metre);
-  scene.start = read_start(at, scene.dt);
-  character.walk_speed = read_speed(at, "walk_speed", character.walk_speed, scene.dt);
+  scene.start = read_start(at, dt);
+  character.walk_speed = read_speed(at, "walk_speed", character.walk_speed, dt);
   character.acceleration = read_not_negative(at, "acceleration", character.acceleration);
   if (const auto air = at.find("air_acceleration")) character.air_acceleration = not_negative(*air);
-  character.jump_speed = read_speed(at, "jump_speed", character.jump_speed, scene.dt);
+  character.jump_speed = read_speed(at, "jump_speed", character.jump_speed, dt);
   if (const auto limit = at.find("max_fall_speed")) character.max_fall_speed = limit->positive();
   if (const auto climb = at.find("max_climb_degrees")) {
     character.max_climb_degrees = climb->number();
@@ -374,7 +376,8 @@ std::vector<InputEvent> read_input(const JsonCursor& at) {
 
 /// Further characters. They are of the kind that "character" describes, and do what the scene's input says unless they
 /// have one of their own.
-void read_others(const JsonCursor& at, Scene& scene) {
+/// @param dt of the longest step [s].
+void read_others(const JsonCursor& at, double dt, Scene& scene) {
   constexpr std::size_t most = 255;  // pairs are judged one by one
   if (at.size() > most) at.refuse(fmt::format("expected at most {} further characters", most));
   for (std::size_t i = 0; i < at.size(); ++i) {
@@ -385,14 +388,26 @@ void read_others(const JsonCursor& at, Scene& scene) {
         found->refuse("expected only in \"character\": all characters of a scene are of one kind");
     entry.refuse_other_keys({"position", "velocity", "start_overlap", "input"});
     const auto input = entry.find("input");
-    scene.others.push_back({read_start(entry, scene.dt), input ? read_input(*input) : scene.input});
+    scene.others.push_back({read_start(entry, dt), input ? read_input(*input) : scene.input});
   }
 }
 
-void refuse_unsupported_keys(const JsonCursor& root) {
-  refuse_unsupported(root, "bodies", "dynamic bodies");
-  refuse_unsupported(root, "dt_list", "a varying dt");
+constexpr double longest_step = 1e4;  // [s]; in more a walk leaves the range of a step
+
+double read_length(const JsonCursor& at) {
+  const double length = at.positive();
+  if (!(length <= longest_step)) at.refuse(fmt::format("expected at most {} s", longest_step));
+  return length;
 }
+
+std::vector<double> read_lengths(const JsonCursor& at) {
+  if (at.size() == 0) at.refuse("expected at least one length of a step");
+  std::vector<double> lengths;
+  for (std::size_t i = 0; i < at.size(); ++i) lengths.push_back(read_length(at.element(i)));
+  return lengths;
+}
+
+void refuse_unsupported_keys(const JsonCursor& root) { refuse_unsupported(root, "bodies", "dynamic bodies"); }
 
 void read_scenery(const JsonCursor& root, const std::string& path, Scene& scene) {
   const JsonCursor scenery = root.require("scenery");
@@ -410,24 +425,24 @@ Scene read_json_scene(const nlohmann::json& document, const std::string& path, c
   if (version.integer(0, most_steps) != 1) version.refuse("expected 1, the version of the format");
   refuse_unsupported_keys(root);
   root.refuse_other_keys({"$schema", "paperproof_scene", "name", "description", "pixels_per_metre", "gravity", "dt",
-                          "steps", "character", "characters", "scenery", "empty", "movers", "input"});
+                          "dt_list", "steps", "character", "characters", "scenery", "empty", "movers", "input"});
   Scene scene;
   scene.name = root.require("name").text();
   if (const auto description = root.find("description")) scene.description = description->text();
   if (const auto scale = root.find("pixels_per_metre")) scene.pixels_per_metre = within(*scale, 1e-3, 1e6);
-  scene.dt = root.require("dt").positive();
-  constexpr double longest = 1e4;  // [s]; in more a walk leaves the range of a step
-  if (!(scene.dt <= longest)) root.require("dt").refuse(fmt::format("expected at most {} s", longest));
+  scene.dt = read_length(root.require("dt"));
+  if (const auto list = root.find("dt_list")) scene.dt_list = read_lengths(*list);
+  const double dt = StepTimes(scene).longest();
   const JsonCursor gravity = root.require("gravity");
   scene.gravity = gravity.point();
-  check_travel(gravity, largest(scene.gravity) * scene.dt * scene.dt, scene.dt);
+  check_travel(gravity, largest(scene.gravity) * dt * dt, dt);
   scene.steps = root.require("steps").integer(1, most_steps);
   const JsonCursor character = root.require("character");
-  read_character(character, scene);
+  read_character(character, dt, scene);
   read_scenery(root, path, scene);
   if (const auto input = root.find("input")) scene.input = read_input(*input);
   const auto others = root.find("characters");
-  if (others) read_others(*others, scene);
+  if (others) read_others(*others, dt, scene);
   const std::string remedy = "\"start_overlap\": \"resolve\" beside it asks to move it out";
   check_start(scene, character.require("position").where(), remedy);
   for (std::size_t i = 0; i < scene.others.size(); ++i)

@@ -58,8 +58,8 @@ double angle_at(const MoverDef& mover, double time) {
   return between(mover.turns, at.time) + at.runs * (last.at - first.at);
 }
 
-MoverMotion<double> motion_in_step(const MoverDef& mover, int step, double dt) {
-  return {offset_at(mover, step * dt), offset_at(mover, (step + 1.0) * dt)};
+MoverMotion<double> motion_between(const MoverDef& mover, double begin, double end) {
+  return {offset_at(mover, begin), offset_at(mover, end)};
 }
 
 }  // namespace paperproof::compare

@@ -39,8 +39,7 @@ struct MoverDef {
 /// How far it is turned at that time [radians], in the same way.
 [[nodiscard]] double angle_at(const MoverDef& mover, double time);
 
-/// How the mover goes in step number `step`: from where it is at `step * dt` to where it is at `(step + 1) * dt`. Both
-/// come from the absolute time, so that one step begins where the one before ended, bit for bit.
-[[nodiscard]] MoverMotion<double> motion_in_step(const MoverDef& mover, int step, double dt);
+/// How the mover goes in a step from one absolute time to another [s].
+[[nodiscard]] MoverMotion<double> motion_between(const MoverDef& mover, double begin, double end);
 
 }  // namespace paperproof::compare

@@ -45,6 +45,8 @@ struct Scene {
   double pixels_per_metre = 32;
   Vec2d gravity{0, -30};  ///< [m/s²]
   double dt = 1.0 / 60;   ///< [s]
+  /// Where it is not empty the lengths of the steps, again and again [s]; `dt` is only shown then.
+  std::vector<double> dt_list{};
   int steps = 600;
   CharacterDef character;
   Start start;

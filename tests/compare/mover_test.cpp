@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "scenes/scene.hpp"
+#include "scenes/step_times.hpp"
 
 namespace paperproof::compare {
 namespace {
@@ -70,9 +71,31 @@ TEST(MoverOffset, one_step_begins_where_the_one_before_ended) {
   const MoverDef mover = crooked(Loop::ping_pong);
   const double dt = 1.0 / 60;
   for (int step = 1; step < 3600; ++step) {
-    EXPECT_EQ(motion_in_step(mover, step, dt).from, motion_in_step(mover, step - 1, dt).to);
-    EXPECT_EQ(motion_in_step(mover, step, dt).from, offset_at(mover, step * dt));
+    const StepTimes times(dt, {});
+    const auto motion = [&](int at) { return motion_between(mover, times.begin(at), times.end(at)); };
+    EXPECT_EQ(motion(step).from, motion(step - 1).to);
+    EXPECT_EQ(motion(step).from, offset_at(mover, step * dt));
   }
+}
+
+TEST(StepTimes, one_step_begins_when_the_one_before_ends_round_after_round) {
+  const StepTimes times(1, {0.1, 0.2, 0.3, 1e-9, 7});
+  for (int step = 1; step < 1000; ++step) EXPECT_EQ(times.begin(step), times.end(step - 1)) << step;
+  EXPECT_EQ(times.begin(0), 0);
+  EXPECT_EQ(times.length(7), 0.3);
+  EXPECT_EQ(times.shortest(), 1e-9);
+  EXPECT_EQ(times.longest(), 7);
+}
+
+TEST(StepTimes, are_sums_without_the_error_of_adding_up) {
+  // A plain sum loses every one of the small lengths.
+  std::vector<double> lengths(1001, 1e-13);
+  lengths[0] = 1e4;
+  const StepTimes times(1, lengths);
+  EXPECT_EQ(times.end(1000), 1e4 + 1e-10);
+  EXPECT_EQ(times.end(2001), 2 * (1e4 + 1e-10));
+  const StepTimes even(0.1, {});
+  EXPECT_EQ(even.begin(3), 3 * 0.1);
 }
 
 TEST(MoverAngle, is_zero_without_turns) { EXPECT_EQ(angle_at(crooked(Loop::loop), 3), 0); }

@@ -55,6 +55,20 @@ TEST(Fall, of_one_second_is_the_sum_of_its_steps_and_nears_the_parabola_with_slo
   }
 }
 
+/// |(p - m) - (p0 - m0)| of a rider from `settled` on, in units of the last place of the larger coordinate.
+double drift_in_ulps(const Ran& run, std::size_t settled) {
+  const auto relative = [&run](std::size_t i) -> Vec2d {
+    return run.steps[i].path.back().position - run.steps[i].movers[0].to;
+  };
+  double drift = 0;
+  double largest = 0;
+  for (std::size_t i = settled; i < run.steps.size(); ++i) {
+    drift = std::max(drift, (relative(i) - relative(settled)).cwiseAbs().maxCoeff());
+    largest = std::max(largest, run.steps[i].path.back().position.cwiseAbs().maxCoeff());
+  }
+  return drift / (std::nextafter(largest, 1e9) - largest);
+}
+
 /// Steps with a contact with a collider.
 long steps_met(const Ran& run, ColliderIndex collider) {
   return std::count_if(run.steps.begin(), run.steps.end(), [collider](const TraceStep& step) {
@@ -148,6 +162,77 @@ TEST(OneWay, that_turns_below_the_character_gives_it_its_speed) {
   EXPECT_NEAR(run.end().y(), 1.5 / 0.97 * (120 - met) / 60, 1e-6) << "and goes on with that";
 }
 
+TEST(Sawtooth, of_k_teeth_crossed_in_one_step_gives_k_impacts_at_the_times_of_the_formula) {
+  for (const auto& [name, teeth] : {std::pair{"sawtooth_1", 1}, {"sawtooth_4", 4}, {"sawtooth_11", 11}}) {
+    const Ran run = ran(name);
+    const auto& contacts = run.steps[0].contacts;
+    ASSERT_EQ(contacts.size(), static_cast<std::size_t>(teeth)) << name;
+    // A tooth of the floor keeps what is horizontal: it is ground. One of the ceiling halves it: from (1, tan 30) it
+    // takes the part into its normal (-1/2, -cos 30), which is 1 long, and leaves (1/2, -tan(30)/2).
+    double share = 1;
+    double spent = 0;
+    for (int k = 0; k < teeth; ++k) {
+      spent += 0.5 / share;
+      const auto& contact = contacts[static_cast<std::size_t>(k)];
+      EXPECT_EQ(contact.collider, static_cast<ColliderIndex>(k)) << name;
+      // Each is stopped at up to 2 gaps early, and what that shifts grows with the shares that follow.
+      EXPECT_NEAR(contact.fraction, spent / 200, 1e-6) << name << ", tooth " << k;
+      if (k % 2 == 1) share /= 2;
+    }
+  }
+}
+
+TEST(UnevenSteps, end_a_constant_velocity_where_even_ones_do) {
+  const Ran even = ran("even_flight");
+  const Ran uneven = ran("uneven_flight");
+  EXPECT_NE(uneven.steps[0].dt, uneven.steps[1].dt);
+  double seconds = 0;
+  for (const TraceStep& step : uneven.steps) seconds += step.dt.value_or(0);
+  EXPECT_EQ(seconds, 2.0) << "dyadic lengths add up exactly";
+  for (const Ran* run : {&even, &uneven}) {
+    const Vec2d exact = Vec2d(0.1, 0.2) + 2 * Vec2d(3.7, -1.3);
+    // The way of a step and the position after it are rounded once each.
+    const double ulp = std::nextafter(8.0, 9.0) - 8;
+    EXPECT_LE((run->end() - exact).cwiseAbs().maxCoeff(), 128 * ulp);
+  }
+  EXPECT_NE(even.steps[0].path.back().position, uneven.steps[0].path.back().position);
+}
+
+TEST(UnevenSteps, take_movers_and_riders_to_where_the_sum_of_the_lengths_says) {
+  const Ran run = ran("uneven_lift");
+  EXPECT_LE(drift_in_ulps(run, 30), 1);
+  double time = 0;
+  for (const TraceStep& step : run.steps) {
+    const double length = step.dt.value_or(-1);
+    // It stands for half a second, and goes (1, 3) m in the two that follow, there and back.
+    const auto risen = [](double at) {
+      const double within = std::fmod(at, 5.0);
+      return 3 * std::clamp(((within <= 2.5 ? within : 5 - within) - 0.5) / 2, 0.0, 1.0);
+    };
+    ASSERT_NEAR(step.movers[0].from.y(), risen(time), 1e-12) << step.step;
+    time += length;
+    ASSERT_NEAR(step.movers[0].to.y(), risen(time), 1e-12) << step.step;
+  }
+  EXPECT_NEAR(time, 8, 1e-12);
+}
+
+TEST(UnevenSteps, are_the_same_for_the_twin) {
+  RunOptions options = quick();
+  options.contenders = {"octagon_sweep"};
+  options.max_replay_steps = 1000;
+  const ReportScene result = run_scene(built_in("uneven_lift"), options);
+  const ReportRun& twin = run_of(result, "box2d");
+  const ReportRun& mine = run_of(result, "octagon_sweep");
+  ASSERT_EQ(twin.steps.size(), mine.steps.size());
+  for (std::size_t i = 0; i < twin.steps.size(); ++i) {
+    EXPECT_EQ(twin.steps[i].dt, mine.steps[i].dt) << i;
+    EXPECT_LE((twin.steps[i].movers[0].to - mine.steps[i].movers[0].to).norm(), 2e-6) << i;
+    if (i > 60) {
+      EXPECT_TRUE(twin.steps[i].grounded) << i;
+    }
+  }
+}
+
 TEST(Tiles, far_away_change_nothing) {
   const Ran few = ran("tiles_1e2");
   for (const char* name : {"tiles_1e3", "tiles_1e4"}) {
@@ -192,20 +277,6 @@ TEST(Replicas, share_the_sequence_of_events) {
   EXPECT_GT(expected.size(), 50U);
   for (const char* name : {"replica_1e-12", "replica_1e-9", "replica_1e-6", "replica_1e-3"})
     EXPECT_EQ(events(name), expected) << name;
-}
-
-/// |(p - m) - (p0 - m0)| of a rider from `settled` on, in units of the last place of the larger coordinate.
-double drift_in_ulps(const Ran& run, std::size_t settled) {
-  const auto relative = [&run](std::size_t i) -> Vec2d {
-    return run.steps[i].path.back().position - run.steps[i].movers[0].to;
-  };
-  double drift = 0;
-  double largest = 0;
-  for (std::size_t i = settled; i < run.steps.size(); ++i) {
-    drift = std::max(drift, (relative(i) - relative(settled)).cwiseAbs().maxCoeff());
-    largest = std::max(largest, run.steps[i].path.back().position.cwiseAbs().maxCoeff());
-  }
-  return drift / (std::nextafter(largest, 1e9) - largest);
 }
 
 TEST(Lifts, carry_without_a_lag_and_without_drift) {

@@ -96,6 +96,14 @@ TEST(JsonScene, a_start_is_held_against_movers_where_they_begin_and_never_agains
   EXPECT_EQ(sensor.start.position, Vec2d(7, 0.125));
 }
 
+TEST(JsonScene, lengths_of_steps_arrive_and_dt_is_still_asked_for) {
+  const SceneFiles files;
+  const Scene scene = files.load("room.json", with(good, "\"steps\"", "\"dt_list\": [0.01, 0.02], \"steps\""));
+  EXPECT_EQ(scene.dt_list, (std::vector<double>{0.01, 0.02}));
+  EXPECT_EQ(scene.dt, 1.0 / 128);
+  EXPECT_TRUE(files.load("room.json", good).dt_list.empty());
+}
+
 TEST(JsonScene, what_is_left_out_has_the_defaults_of_the_types) {
   const SceneFiles files;
   const Scene scene = files.load("room.json", good);
@@ -338,7 +346,14 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"input_of_a_character", "\"name\"",
             "\"characters\": [{\"position\": [0,6], \"input\": [{\"step\": 0, \"move\": 2}]}], \"name\"",
             ": /characters/0/input/0/move: expected a number from -1 to 1"},
-        Bad{"dt_list", "\"name\"", "\"dt_list\": [], \"name\"", ": /dt_list: "},
+        Bad{"no_lengths", "\"name\"", "\"dt_list\": [], \"name\"", ": /dt_list: expected at least one length"},
+        Bad{"lengths_are_a_list", "\"name\"", "\"dt_list\": 0.1, \"name\"", ": /dt_list: expected an array"},
+        Bad{"length_of_zero", "\"name\"", "\"dt_list\": [0.1, 0], \"name\"",
+            ": /dt_list/1: expected a number greater than 0"},
+        Bad{"length_of_hours", "\"name\"", "\"dt_list\": [0.1, 1e5], \"name\"",
+            ": /dt_list/1: expected at most 10000 s"},
+        Bad{"gravity_beyond_the_longest_step", "\"name\"", "\"dt_list\": [0.1, 1e3, 0.1], \"name\"",
+            ": /gravity: expected at most 1e6 m of motion in a step of 1000 s"},
         Bad{"drop_is_a_flag", "\"drop\": true", "\"drop\": 1", ": /input/2/drop: expected true or false"},
         Bad{"missing_map", "\"chain\": [[5,0],[5,4]]", "\"tiled\": \"none.tmx\"",
             ": /scenery/1/tiled: none.tmx: expected a file that exists"}),
