@@ -54,8 +54,8 @@ void move_last(Scene& scene, std::vector<MoverDef::Waypoint> path, MoverDef::Loo
 }
 
 void hold_jump(Scene& scene, int from, int to) {
-  scene.input.push_back({.step = from, .move = std::nullopt, .jump = true});
-  scene.input.push_back({.step = to, .move = std::nullopt, .jump = false});
+  scene.input.push_back(press(from));
+  scene.input.push_back(release(to));
 }
 
 void hold_drop(Scene& scene, int from, int to) {

@@ -106,7 +106,6 @@ Scene concave_corner() {
 /// ceiling and is led down.
 Scene sawtooth_of(int teeth) {
   Scene scene = flight(0, 0, 12'000, 0, 1);
-  constexpr double tangent = degrees_30.sin / degrees_30.cos;
   constexpr double foot = 5.0 / 32;
   Vec2d place{0, 0};
   double slope = 0;
@@ -116,7 +115,7 @@ Scene sawtooth_of(int teeth) {
     const Vec2d along{degrees_30.cos, up * degrees_30.sin};
     const Vec2d met = place + Vec2d(foot, -up * half_height);
     add_polygon(scene, "tooth" + std::to_string(k), {met - 0.05 * along, met + 0.2 * along, met + Vec2d(0.05, -up)});
-    slope = up * tangent;
+    slope = up * tan_30;
   }
   return scene;
 }

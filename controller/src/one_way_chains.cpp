@@ -15,13 +15,7 @@ constexpr double margin_share = 1e-6;
 
 /// Of the height over a segment, as a share of the coordinates.
 template <class Scalar>
-inline constexpr Scalar rounding = std::numeric_limits<Scalar>::epsilon() * 16;
-
-template <class Scalar>
-Vec2<Scalar> offset_at(const MoverMotion<Scalar>& motion, Scalar fraction) noexcept {
-  if (!(fraction < 1)) return motion.to;
-  return motion.from + (motion.to - motion.from) * fraction;
-}
+inline constexpr Scalar height_rounding = std::numeric_limits<Scalar>::epsilon() * 16;
 
 }  // namespace
 
@@ -50,8 +44,8 @@ void OneWayChains<Scalar>::find_passed(std::span<const PathPoint<Scalar>> path,
     if (!passed.empty() && passed.back() == info.collider) continue;
     const MoverMotion<Scalar> motion = info.mover == no_mover ? MoverMotion<Scalar>{} : movers[info.mover];
     for (std::size_t i = 1; i < path.size(); ++i) {
-      const Vec2<Scalar> from = path[i - 1].position - offset_at(motion, path[i - 1].fraction);
-      const Vec2<Scalar> to = path[i].position - offset_at(motion, path[i].fraction);
+      const Vec2<Scalar> from = path[i - 1].position - motion.at(path[i - 1].fraction);
+      const Vec2<Scalar> to = path[i].position - motion.at(path[i].fraction);
       if (!passes(piece, from, to)) continue;
       passed.push_back(info.collider);
       break;
@@ -68,7 +62,7 @@ bool OneWayChains<Scalar>::passes(PieceIndex piece, const Vec2<Scalar>& from, co
   const Vec2<Scalar> way = to - from;
   if (!(normal.dot(way) < 0)) return false;
   const Scalar size = from.cwiseAbs().maxCoeff() + ends[0].cwiseAbs().maxCoeff() + ends[1].cwiseAbs().maxCoeff();
-  const Scalar below = -rounding<Scalar> * size * (std::abs(normal.x()) + std::abs(normal.y()));
+  const Scalar below = -height_rounding<Scalar> * size * (std::abs(normal.x()) + std::abs(normal.y()));
   for (const Vec2<Scalar>& corner : outline_) {
     const Vec2<Scalar> above = from + corner - ends[0];
     if (!(normal.dot(above) >= below)) return false;

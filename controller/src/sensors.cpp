@@ -17,12 +17,6 @@ using geometry::OverlapTime;
 template <class Scalar>
 inline constexpr Scalar one_instant = std::is_same_v<Scalar, float> ? Scalar(1e-5) : Scalar(1e-12);
 
-template <class Scalar>
-Vec2<Scalar> offset_at(const MoverMotion<Scalar>& motion, Scalar fraction) noexcept {
-  if (!(fraction < 1)) return motion.to;  // without rounding, as the next step begins there
-  return motion.from + (motion.to - motion.from) * fraction;
-}
-
 /// Sorted in. A full vector keeps the earliest.
 template <class Scalar, std::size_t capacity>
 void add_in_order(const SensorEvent<Scalar>& event, FixedVector<SensorEvent<Scalar>, capacity>& events) noexcept {
@@ -123,7 +117,7 @@ void Sensors<Scalar>::observe(std::span<const PathPoint<Scalar>> path, std::span
     for (std::size_t i = 1; i < path.size(); ++i) {
       const PathPoint<Scalar>& begin = path[i - 1];
       const PathPoint<Scalar>& end = path[i];
-      const Segment segment = seen_from(offset_at(motion, begin.fraction), offset_at(motion, end.fraction), begin, end);
+      const Segment segment = seen_from(motion.at(begin.fraction), motion.at(end.fraction), begin, end);
       if (segment.box.overlaps(sensor.box)) observe(sensor, segment, events);
     }
   }

@@ -31,6 +31,12 @@ template <class Scalar>
 struct MoverMotion {
   Vec2<Scalar> from{Vec2<Scalar>::Zero()};  ///< When the step begins: `to` of the step before, bit for bit.
   Vec2<Scalar> to{Vec2<Scalar>::Zero()};    ///< When it ends.
+
+  /// At a fraction of the step; at its end without rounding, as the next one begins there.
+  [[nodiscard]] Vec2<Scalar> at(Scalar fraction) const noexcept {
+    if (!(fraction < 1)) return to;
+    return from + (to - from) * fraction;
+  }
 };
 
 /// The side of the *character* that a contact is on: standing on the ground is a `bottom` contact.
