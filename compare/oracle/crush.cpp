@@ -26,6 +26,9 @@ class Departure {
     }
   }
 
+  /// Whether the step is not over: in no time nothing is reached.
+  [[nodiscard]] bool has_time() const { return from_.fraction < 1; }
+
   /// Whether a straight uniform motion comes to `there` without meeting a solid. Of what was met before it must not
   /// come out on another side.
   [[nodiscard]] bool reaches(const Place& there) {
@@ -69,7 +72,9 @@ std::optional<Vec2d> find_room(const ExactScenery& scenery, std::span<const Plac
   for (std::size_t corner = 0; corner < path.size(); ++corner) departures.emplace_back(scenery, path, corner, meetings);
   const auto can_go_there = [&](const Vec2d& position) {
     const Place there(position, end.movers, end.fraction);
-    return std::any_of(departures.begin(), departures.end(), [&](Departure& one) { return one.reaches(there); });
+    return std::any_of(departures.begin(), departures.end(), [&](Departure& one) {
+      return (one.has_time() || position == end.position) && one.reaches(there);
+    });
   };
   return scenery.find_free(end, travel + beyond_travel, least_clearance, others, can_go_there);
 }

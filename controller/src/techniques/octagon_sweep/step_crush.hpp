@@ -17,6 +17,25 @@ namespace paperproof::octagon_sweep {
 /// @param corners so many of the path may be where it leaves the way.
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::find_room(Scalar reach, std::size_t corners) noexcept {
+  neighbourhood_.forget();  // more than what is asked for could give another answer
+  // What is on the character is not in the way, but there is no room where it still would be.
+  const auto ignored_before = moving_.ignored;
+  moving_.ignored.clear();
+  for (std::size_t i = 0; i < ignored_before.size(); ++i)
+    (i < moving_.on_it ? moving_.lying : moving_.ignored).push_back(ignored_before[i]);
+  const Room room = nearest_room(reach, corners);
+  moving_.ignored = ignored_before;
+  moving_.lying.clear();
+  if (room.corner == corners) return false;
+  go_back_to(room.corner);
+  go_to(room.position);
+  return true;
+}
+
+/// Its corner is `corners` where there is none.
+template <Variant variant, class Scalar>
+typename StepSolver<variant, Scalar>::Room StepSolver<variant, Scalar>::nearest_room(Scalar reach,
+                                                                                     std::size_t corners) noexcept {
   constexpr Tolerances<Scalar> tolerances{};
   /// Of the hit distance: room must be a little more than what counts as closed.
   constexpr Scalar least_room = Scalar(1.25);
@@ -26,20 +45,16 @@ bool StepSolver<variant, Scalar>::find_room(Scalar reach, std::size_t corners) n
   constexpr Scalar farther = 8;
   const Scalar extent = (space_.hull_box().upper - space_.hull_box().lower).maxCoeff();
   const Scalar whole = reach + beyond;
-  neighbourhood_.forget();  // more than what is asked for could give another answer
+  Room room{0, V::Zero(), corners};
   for (const Scalar gap : {tolerances.stop, tolerances.hit * least_room}) {
     for (Scalar radius = std::min(whole, extent);; radius = std::min(whole, radius * farther)) {
-      Room room{radius, V::Zero(), corners};
+      room.distance = radius;
       for (std::size_t corner = corners; corner-- > 0;) find_room_from(corner, gap, radius, room);
-      if (room.corner < corners) {
-        go_back_to(room.corner);
-        go_to(room.position);
-        return true;
-      }
+      if (room.corner < corners) return room;
       if (radius >= whole) break;
     }
   }
-  return false;
+  return room;
 }
 
 /// @param radius around the present position in which room is looked for [m].
@@ -80,7 +95,7 @@ void StepSolver<variant, Scalar>::consider_room(std::size_t corner, const V& end
   const Scalar distance = length_of(V(end - here));
   if (!(distance < room.distance) || !(end.cwiseAbs().maxCoeff() <= Tolerances<Scalar>{}.range)) return;
   time_ = 1;
-  if (roomy(end) && goes_straight(corner, end) && (!moving_.leaving || stays_on_its_side(end))) {
+  if (roomy(end) && goes_straight(corner, end) && stays_on_its_side(end)) {
     room.distance = distance;
     room.position = end;
     room.corner = corner;
@@ -135,18 +150,18 @@ bool StepSolver<variant, Scalar>::stopped_by(const LocalMotion& motion, PieceInd
   return !clear.clear() && sweep_piece<variant>(space_, motion, piece, clear).hit;
 }
 
-/// What the step began inside of is not in the way while it is left.
+/// What the step began inside of is not in the way while it is left, nor what is on the character.
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::left_behind(PieceIndex piece) const noexcept {
-  if (!moving_.leaving || moving_.left.empty()) return false;
-  const ColliderIndex collider = space_.scenery().pieces()[piece].collider;
-  return std::find(moving_.left.begin(), moving_.left.end(), collider) != moving_.left.end();
+  const auto among = [collider = space_.scenery().pieces()[piece].collider](const auto& some) {
+    return std::find(some.begin(), some.end(), collider) != some.end();
+  };
+  return (moving_.leaving && among(moving_.left)) || among(moving_.lying);
 }
 
-/// Of a step that begins inside something: the colliders, and from where it came to be inside.
+/// The colliders that a step begins inside of.
 template <Variant variant, class Scalar>
-void StepSolver<variant, Scalar>::note_what_is_left(const MoveRequest<Scalar>& request) noexcept {
-  if (request.has_last_free) moving_.last_free = request.last_free;
+void StepSolver<variant, Scalar>::note_what_is_left() noexcept {
   for_each_near({position_, position_}, [&](PieceIndex piece) {
     const ColliderIndex collider = space_.scenery().pieces()[piece].collider;
     const auto& left = moving_.left;
@@ -159,7 +174,7 @@ void StepSolver<variant, Scalar>::note_what_is_left(const MoveRequest<Scalar>& r
 /// way there from its last free position does not meet it. (Where that was is known as of the step's start.)
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::stays_on_its_side(const V& end) noexcept {
-  if (!moving_.last_free || moving_.left.empty()) return true;
+  if (!moving_.last_free || (moving_.left.empty() && moving_.lying.empty())) return true;
   const std::span<const PieceInfo> pieces = space_.scenery().pieces();
   for (PieceIndex piece = 0; piece < space_.scenery().sensor_pieces().first; ++piece) {
     if (!left_behind(piece)) continue;
@@ -227,7 +242,7 @@ void StepSolver<variant, Scalar>::take_back_crushes() noexcept {
   moving_.holds.clear();
   if (find_room(reach, moving_.corners_before_crush)) {
     result_.crushed.clear();
-    result_.status = moving_.status_before_crush;
+    result_.status = moving_.status_before_crush == MoveStatus::dropped ? MoveStatus::dropped : MoveStatus::moved;
   } else {
     moving_.ignored = ignored_before;
   }

@@ -82,10 +82,12 @@ struct MoverState {
   /// Colliders that go through the character in this step: they crush it, or are on it since an earlier step.
   FixedVector<ColliderIndex, MoveResult<Scalar>::max_crushed> ignored{};
   std::size_t on_it = 0;  ///< The first so many of them were on it when the step began.
-  /// Colliders that the step began inside of and got out of at once,
+  /// While room is looked for: colliders that the step began inside of,
   FixedVector<ColliderIndex, MoveResult<Scalar>::max_crushed> left{};
-  std::optional<Vec2<Scalar>> last_free{};  ///< and where the character was before it was inside, if anywhere.
-  bool leaving = false;                     ///< They are not in the way at present.
+  bool leaving = false;  ///< and whether it is looked for from there;
+  /// those that are on the character since an earlier step;
+  FixedVector<ColliderIndex, MoveResult<Scalar>::max_crushed> lying{};
+  std::optional<Vec2<Scalar>> last_free{};  ///< and where it was before, if anywhere.
   /// How many contacts were known at each corner of the path.
   std::array<std::size_t, MoveResult<Scalar>::max_corners> contacts_at{};
   std::size_t corners_before_crush = 0;                ///< Of the path, where something crushes; and
@@ -208,9 +210,10 @@ class StepSolver {
   [[nodiscard]] bool gives_way() noexcept;
   void take_back_crushes() noexcept;
   [[nodiscard]] bool find_room(Scalar reach, std::size_t corners) noexcept;
+  [[nodiscard]] Room nearest_room(Scalar reach, std::size_t corners) noexcept;
   [[nodiscard]] bool left_behind(PieceIndex piece) const noexcept;
   [[nodiscard]] bool stays_on_its_side(const V& end) noexcept;
-  void note_what_is_left(const MoveRequest<Scalar>& request) noexcept;
+  void note_what_is_left() noexcept;
   void find_room_from(std::size_t corner, Scalar gap, Scalar radius, Room& room) noexcept;
   void consider_room(std::size_t corner, const V& end, Room& room) noexcept;
   [[nodiscard]] bool roomy(const V& q) noexcept;

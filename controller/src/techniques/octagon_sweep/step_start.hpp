@@ -16,12 +16,13 @@ inline constexpr int escape_reach = 8;
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::prepare_start(const MoveRequest<Scalar>& request) noexcept {
   if constexpr (variant.movers) {
+    if (request.has_last_free) moving_.last_free = request.last_free;
     if (request.crushed) let_through_what_is_on_it();
   }
   while (overlaps(position_)) {
     const std::optional<V> out = find_way_out(request);
     if (out) {
-      if constexpr (variant.movers) note_what_is_left(request);
+      if constexpr (variant.movers) note_what_is_left();
       start_ = position_ = *out;
       push_corner(0);
       return true;

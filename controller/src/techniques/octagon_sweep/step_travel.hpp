@@ -40,7 +40,11 @@ void StepSolver<variant, Scalar>::solve(const MoveRequest<Scalar>& request) noex
   if (near && !prepare_start(request)) {
     result_.status = MoveStatus::stuck;
     halt();
-    if constexpr (variant.movers) stay(false);
+    if constexpr (variant.movers) {
+      note_what_is_left();
+      stay(false);
+      take_back_crushes();
+    }
   } else {
     if constexpr (variant.movers) {
       if (moving_.on_it > 0) {
