@@ -14,20 +14,14 @@ constexpr double beyond_travel = 1e-6;
 class Departure {
  public:
   Departure(const ExactScenery& scenery, std::span<const Place> path, std::size_t corner, const Meetings& meetings)
-      : scenery_(scenery), from_(path[corner]) {
-    for (const auto& [collider, first] : meetings.within_step) {
-      if (first >= corner) continue;
-      known_.push_back(collider);
-      if (!meetings.before.contains(collider)) sides_.emplace_back(collider, path[first]);
-    }
+      : scenery_(scenery), from_(path[corner]), inside_(scenery.overlapped(from_)) {
     for (const auto& [collider, free] : meetings.before) {
-      known_.push_back(collider);
       if (free) sides_.emplace_back(collider, *free);
     }
+    for (const auto& [collider, first] : meetings.within_step) {
+      if (first < corner && !meetings.before.contains(collider)) sides_.emplace_back(collider, path[first]);
+    }
   }
-
-  /// Whether the step is not over: in no time nothing is reached.
-  [[nodiscard]] bool has_time() const { return from_.fraction < 1; }
 
   /// Whether a straight uniform motion comes to `there` without meeting a solid. Of what was met before it must not
   /// come out on another side.
@@ -38,7 +32,7 @@ class Departure {
       if (scenery_.meets(free, there, collider)) return false;
     }
     for (const ColliderIndex collider : scenery_.met(from_, there)) {
-      if (std::find(known_.begin(), known_.end(), collider) != known_.end()) continue;
+      if (std::find(inside_.begin(), inside_.end(), collider) != inside_.end()) continue;
       last_met_ = collider;
       return false;
     }
@@ -48,7 +42,7 @@ class Departure {
  private:
   const ExactScenery& scenery_;
   const Place& from_;
-  std::vector<ColliderIndex> known_;
+  std::vector<ColliderIndex> inside_;
   std::vector<std::pair<ColliderIndex, Place>> sides_;  ///< What was met, with the last place free of it.
   std::optional<ColliderIndex> last_met_;
 };
@@ -68,13 +62,19 @@ std::optional<Vec2d> find_room(const ExactScenery& scenery, std::span<const Plac
     for (const Place& corner : path) others.push_back(corner.position + (end.offset(mover) - corner.offset(mover)));
   }
   for (const Place& corner : path) others.push_back(corner.position);
+  // What leaves the way later has been pressed into already, and where the step ends there is no time to go anywhere.
+  std::size_t last = path.size();
+  for (const ColliderIndex collider : crushed) {
+    const auto first = meetings.within_step.find(collider);
+    if (first != meetings.within_step.end()) last = std::min(last, first->second);
+  }
   std::vector<Departure> departures;
-  for (std::size_t corner = 0; corner < path.size(); ++corner) departures.emplace_back(scenery, path, corner, meetings);
+  for (std::size_t corner = 0; corner < path.size() && corner <= last && path[corner].fraction < 1; ++corner) {
+    departures.emplace_back(scenery, path, corner, meetings);
+  }
   const auto can_go_there = [&](const Vec2d& position) {
     const Place there(position, end.movers, end.fraction);
-    return std::any_of(departures.begin(), departures.end(), [&](Departure& one) {
-      return (one.has_time() || position == end.position) && one.reaches(there);
-    });
+    return std::any_of(departures.begin(), departures.end(), [&](Departure& one) { return one.reaches(there); });
   };
   return scenery.find_free(end, travel + beyond_travel, least_clearance, others, can_go_there);
 }

@@ -87,9 +87,10 @@ struct StepJudgement {
 /// until the octagon is free of it, if exact arithmetic finds no room. Room is a position at the end of the step
 /// - not farther from the octagon's than the longest way of the movers that are named, and 1e-6 m;
 /// - with a clearance of at least 1e-7 m to every solid, so that no opening under 2e-7 m is asked for;
-/// - reached from a corner of the way that was travelled by a straight uniform motion until the end of the step that
-///   meets no solid (where the step ends there is no time left for one: only the end itself is reached); a solid that is overlapped at that corner must not lie between the last place free of it and
-///   there: on its far side there is no room.
+/// - reached from a corner of the way that was travelled, no later than where the first leg begins that meets one of
+///   those named (no way that leaves later undoes what has been pressed in), by a straight uniform motion until the end
+///   of the step that meets no solid but what is overlapped at that corner; and no solid that was met before lies
+///   between the last place free of it and there: on its far side there is no room.
 /// A collider that stands still never crushes. What a mover presses the octagon into besides itself is not excused.
 ///
 /// **Sensor events** are compared in order, for every sensor entering and leaving apart.

@@ -50,7 +50,7 @@ struct Tally {
   int overlaps = 0;        ///< Ended inside what they did not begin in, and what did not crush.
   int passages = 0;        ///< Passed a solid, and be it with a rim.
   int one_way = 0;         ///< Passed a one-way chain against its normal.
-  int gaps = 0;            ///< Left more than the guaranteed gap, or none, at a contact.
+  int gaps = 0;            ///< Left more than the guaranteed gap at a contact.
   int fractions_seen = 0;  ///< Had a first contact that can be compared,
   int fractions = 0;       ///< at another time than the exact one.
   int room = 0;            ///< Were crushed where there was room.
@@ -265,7 +265,7 @@ class RandomRun {
     const bool kept = !move.path.overflowed() && !move.crushed.overflowed();
     tally.unsound += !(named && ends && kept && state_.position.allFinite() && state_.velocity.allFinite());
     const bool near = std::all_of(record.contacts.begin(), record.contacts.end(), [](const Contact<double>& contact) {
-      return contact.separation > 0 && contact.separation <= contact_reach<Scalar>;
+      return contact.separation <= contact_reach<Scalar>;
     });
     // A contact with what was overlapped, or crushes later in the step, has no gap.
     const bool free = record.crushed.empty() && judgement.end_overlap.empty();

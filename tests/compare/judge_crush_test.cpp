@@ -78,6 +78,24 @@ TEST(JudgeCrush, room_beyond_a_thin_wall_is_none) {
   }
 }
 
+TEST(JudgeCrush, room_that_only_a_way_from_after_it_reaches_is_none) {
+  // A face presses the octagon against a block, and something lifts it meanwhile above the block: beside where it comes
+  // to, over the block, there is room when the step ends. A straight way there from where the step began meets the
+  // block; a way that begins later, or in no time from the end, begins inside the face.
+  const double half = 0.3125;
+  for (const bool blocked : {true, false}) {
+    std::vector<ColliderDef> colliders{moving(box(half, 0, 1, 3))};
+    if (blocked) colliders.push_back(box(-3, 0, -half, 1));
+    Judge judge(header(colliders));
+    TraceStep lifted = step({{0, 0.625}, {0, 1.7}});
+    lifted.movers = {{{0, 0}, {-0.8, 0}}};
+    lifted.crushed = {0};
+    const StepJudgement judged = judge.judge(lifted);
+    EXPECT_EQ(judged.crushed, blocked ? Colliders{0} : Colliders{}) << blocked;
+    EXPECT_EQ(judged.room.has_value(), !blocked);
+  }
+}
+
 TEST(JudgeCrush, room_on_the_far_side_of_the_mover_is_none) {
   // A paper that passes the octagon within the step: where the octagon stays is free in the end.
   for (const bool walled : {false, true}) {

@@ -45,9 +45,11 @@ struct RoomMemory {
     for (PieceIndex piece = 0; piece < pieces; ++piece) needed += 2 * space.axis_count(piece) + 3;
     lines.reserve(std::min(needed, most_lines));
     regions.reserve(std::min(std::size_t{2} * pieces, most_lines));
+    order.reserve(regions.capacity());
   }
   std::vector<TakenLine<Scalar>> lines;  ///< Never grows.
   std::vector<TakenRegion> regions;      ///< Never grows.
+  std::vector<std::uint32_t> order;      ///< Never grows.
 };
 
 /// The positions that cannot be reached from one corner of the way, and those that are not free.
@@ -56,9 +58,10 @@ class TakenPositions {
  public:
   /// @param gap that is left to what is solid when the step ends [m].
   TakenPositions(const ConfigurationSpace<Scalar>& space, RoomMemory<Scalar>& memory, Scalar gap) noexcept
-      : space_(space), lines_(memory.lines), regions_(memory.regions), gap_(gap) {
+      : space_(space), lines_(memory.lines), regions_(memory.regions), order_(memory.order), gap_(gap) {
     lines_.clear();
     regions_.clear();
+    order_.clear();
   }
 
   /// @param from the corner, as the piece sees it at that time.
@@ -87,7 +90,8 @@ class TakenPositions {
   /// away.
   /// @param nearest may shrink meanwhile [m].
   template <class Consider>
-  void for_each_position(const Scalar& nearest, const Consider& consider) const noexcept {
+  void for_each_position(const Scalar& nearest, const Consider& consider) noexcept {
+    for (std::uint32_t region = 0; region < regions_.size(); ++region) order_.push_back(region);
     if (!taken(Vec2<Scalar>::Zero())) consider(Vec2<Scalar>(Vec2<Scalar>::Zero()));
     for (std::size_t region = 0; region < regions_.size(); ++region)
       for (std::uint32_t k = regions_[region].first; k < regions_[region].end; ++k)
@@ -188,17 +192,21 @@ class TakenPositions {
 
   template <class Consider>
   void consider_along(const TakenLine<Scalar>& line, std::size_t own, const Scalar& nearest,
-                      const Consider& consider) const noexcept {
+                      const Consider& consider) noexcept {
     const Vec2<Scalar> foot = line.normal * line.bound;
     const Vec2<Scalar> along{-line.normal.y(), line.normal.x()};
     const Scalar half = std::sqrt(nearest * nearest - line.bound * line.bound);
     Parts free;
     free.push_back({-half, half});
-    for (std::size_t region = 0; region < regions_.size(); ++region) {
+    for (std::uint32_t& region : order_) {
       if (region == own) continue;
       const Part covered = covered_by(regions_[region], foot, along, half);
-      if (covered.from < covered.to) take(covered, free);
-      if (free.empty()) return;
+      if (!(covered.from < covered.to)) continue;
+      take(covered, free);
+      if (!free.empty()) continue;
+      // What covers one line often covers the next.
+      std::swap(region, order_.front());
+      return;
     }
     for (const Part& part : free) {
       consider(Vec2<Scalar>(foot + along * std::clamp(Scalar(0), part.from, part.to)));
@@ -253,6 +261,7 @@ class TakenPositions {
   const ConfigurationSpace<Scalar>& space_;
   std::vector<TakenLine<Scalar>>& lines_;
   std::vector<TakenRegion>& regions_;
+  std::vector<std::uint32_t>& order_;  ///< In which regions are asked what they cover.
   Scalar gap_;
 };
 

@@ -23,7 +23,15 @@ bool StepSolver<variant, Scalar>::find_room(Scalar reach, std::size_t corners) n
   moving_.ignored.clear();
   for (std::size_t i = 0; i < ignored_before.size(); ++i)
     (i < moving_.on_it ? moving_.lying : moving_.ignored).push_back(ignored_before[i]);
-  const Room room = nearest_room(reach, corners);
+  constexpr Tolerances<Scalar> tolerances{};
+  /// Of the hit distance: room must be a little more than what counts as closed.
+  constexpr Scalar least_room = Scalar(1.25);
+  Room room = nearest_room(tolerances.hit * least_room, reach, corners);
+  if (room.corner < corners) {
+    // Where there is any, there mostly is as much as is kept everywhere else.
+    const Room ample = nearest_room(tolerances.stop, reach, corners);
+    if (ample.corner < corners) room = ample;
+  }
   moving_.ignored = ignored_before;
   moving_.lying.clear();
   if (room.corner == corners) return false;
@@ -33,26 +41,20 @@ bool StepSolver<variant, Scalar>::find_room(Scalar reach, std::size_t corners) n
 }
 
 /// Its corner is `corners` where there is none.
+/// @param gap that is left around the character [m].
 template <Variant variant, class Scalar>
-typename StepSolver<variant, Scalar>::Room StepSolver<variant, Scalar>::nearest_room(Scalar reach,
+typename StepSolver<variant, Scalar>::Room StepSolver<variant, Scalar>::nearest_room(Scalar gap, Scalar reach,
                                                                                      std::size_t corners) noexcept {
-  constexpr Tolerances<Scalar> tolerances{};
-  /// Of the hit distance: room must be a little more than what counts as closed.
-  constexpr Scalar least_room = Scalar(1.25);
   /// What is kept from a mover comes on top of what the mover goes.
-  constexpr Scalar beyond = 16 * tolerances.stop;
-  /// Room is looked for near first, and then so many times farther.
-  constexpr Scalar farther = 8;
-  const Scalar extent = (space_.hull_box().upper - space_.hull_box().lower).maxCoeff();
+  constexpr Scalar beyond = 16 * Tolerances<Scalar>{}.stop;
   const Scalar whole = reach + beyond;
+  // Room is looked for near first: mostly it is there, among few pieces.
+  const Scalar near = std::min(whole, (space_.hull_box().upper - space_.hull_box().lower).maxCoeff());
   Room room{0, V::Zero(), corners};
-  for (const Scalar gap : {tolerances.stop, tolerances.hit * least_room}) {
-    for (Scalar radius = std::min(whole, extent);; radius = std::min(whole, radius * farther)) {
-      room.distance = radius;
-      for (std::size_t corner = corners; corner-- > 0;) find_room_from(corner, gap, radius, room);
-      if (room.corner < corners) return room;
-      if (radius >= whole) break;
-    }
+  for (const Scalar radius : {near, whole}) {
+    room.distance = radius;
+    for (std::size_t corner = corners; corner-- > 0;) find_room_from(corner, gap, radius, room);
+    if (room.corner < corners || near == whole) break;
   }
   return room;
 }

@@ -210,7 +210,7 @@ class StepSolver {
   [[nodiscard]] bool gives_way() noexcept;
   void take_back_crushes() noexcept;
   [[nodiscard]] bool find_room(Scalar reach, std::size_t corners) noexcept;
-  [[nodiscard]] Room nearest_room(Scalar reach, std::size_t corners) noexcept;
+  [[nodiscard]] Room nearest_room(Scalar gap, Scalar reach, std::size_t corners) noexcept;
   [[nodiscard]] bool left_behind(PieceIndex piece) const noexcept;
   [[nodiscard]] bool stays_on_its_side(const V& end) noexcept;
   void note_what_is_left() noexcept;
