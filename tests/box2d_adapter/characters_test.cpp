@@ -17,8 +17,8 @@ ReferenceWorld world_of(const std::vector<Vec2d>& positions) {
 TEST(Characters, two_bullets_do_not_pass_each_other_and_both_name_the_other) {
   // 110 m/s is below the travel cap: 1.83 m in a step, and half of the 3.375 m between them is less.
   ReferenceWorld world = world_of({{-2, 5}, {2, 5}});
-  const std::vector<Vec2d> velocities{{110, 0}, {-110, 0}};
-  const std::span<const TwinStep> steps = world.step_all(velocities, frame);
+  const std::vector<TwinWish> wishes{{.velocity = {110, 0}}, {.velocity = {-110, 0}}};
+  const std::span<const TwinStep> steps = world.step_all(wishes, frame);
   EXPECT_GE(world.position(1).x() - world.position(0).x(), width);
   ASSERT_EQ(steps[0].met.size(), 1U);
   ASSERT_EQ(steps[1].met.size(), 1U);
@@ -34,7 +34,7 @@ TEST(Characters, two_bullets_do_not_pass_each_other_and_both_name_the_other) {
 
 TEST(Characters, who_stands_on_another_is_grounded_and_nothing_carries_it) {
   ReferenceWorld world = world_of({{0, half_height() + rest_gap}, {0, 3 * half_height() + 2 * rest_gap}});
-  const std::vector<Vec2d> fall(2, Vec2d(0, -0.5));
+  const std::vector<TwinWish> fall(2, TwinWish{.velocity = {0, -0.5}});
   for (int i = 0; i < 60; ++i) world.step_all(fall, frame);
   const std::span<const TwinStep> steps = world.step_all(fall, frame);
   EXPECT_TRUE(steps[0].grounded);
@@ -48,13 +48,13 @@ TEST(Characters, who_stands_on_another_is_grounded_and_nothing_carries_it) {
 
 TEST(Characters, of_the_same_mass_share_the_speed_that_one_has) {
   ReferenceWorld world = world_of({{0, 5}, {width + 0.05, 5}});
-  std::vector<Vec2d> velocities{{6, 0}, {0, 0}};
+  std::vector<TwinWish> wishes{{.velocity = {6, 0}}, {}};
   for (int i = 0; i < 4; ++i) {
-    const std::span<const TwinStep> steps = world.step_all(velocities, frame);
-    for (std::size_t k = 0; k < 2; ++k) velocities[k] = steps[k].velocity;
+    const std::span<const TwinStep> steps = world.step_all(wishes, frame);
+    for (std::size_t k = 0; k < 2; ++k) wishes[k].velocity = steps[k].velocity;
   }
-  EXPECT_NEAR(velocities[0].x(), 3, 1e-4);
-  EXPECT_NEAR(velocities[1].x(), 3, 1e-4);
+  EXPECT_NEAR(wishes[0].velocity.x(), 3, 1e-4);
+  EXPECT_NEAR(wishes[1].velocity.x(), 3, 1e-4);
 }
 
 TEST(Characters, one_alone_moves_as_in_a_world_of_its_own_bit_for_bit) {
@@ -63,8 +63,8 @@ TEST(Characters, one_alone_moves_as_in_a_world_of_its_own_bit_for_bit) {
   Vec2d velocity(3, 0);
   for (int i = 0; i < 120; ++i) {
     velocity += Vec2d(0, -10) * frame;
-    const std::vector<Vec2d> velocities{velocity, {0, 0}};
-    const TwinStep one = two.step_all(velocities, frame)[0];
+    const std::vector<TwinWish> wishes{{.velocity = velocity}, {}};
+    const TwinStep one = two.step_all(wishes, frame)[0];
     velocity = alone.step(velocity, frame).velocity;
     ASSERT_EQ(one.velocity, velocity) << i;
     ASSERT_EQ(two.position(0), alone.position()) << i;
