@@ -1,8 +1,8 @@
 /// The working state of one step of the octagon sweep.
 ///
 /// The definitions are in step_sweep.hpp, step_start.hpp, step_travel.hpp and, where something moves, step_ride.hpp,
-/// step_among_movers.hpp and step_crush.hpp: each instance is compiled as a whole, so that what is called from one
-/// place is inlined.
+/// step_among_movers.hpp, step_room.hpp and step_crush.hpp: each instance is compiled as a whole, so that what is
+/// called from one place is inlined.
 #pragma once
 
 #include "techniques/octagon_sweep/narrow_phase.hpp"
@@ -200,28 +200,30 @@ class StepSolver {
   [[nodiscard]] bool respond_to_holds(Drive<Scalar>& drive) noexcept;
   void last_resort(const V& way) noexcept;
 
-  // step_crush.hpp
+  // step_room.hpp
   /// A position where there is room, and the corner of the path to reach it from.
   struct Room {
     Scalar distance;  ///< From where the character is [m].
     V position;
     std::size_t corner;
   };
-  [[nodiscard]] bool gives_way() noexcept;
-  void take_back_crushes() noexcept;
   [[nodiscard]] bool find_room(Scalar reach, std::size_t corners) noexcept;
   [[nodiscard]] Room nearest_room(Scalar gap, Scalar reach, std::size_t corners) noexcept;
-  [[nodiscard]] bool left_behind(PieceIndex piece) const noexcept;
-  [[nodiscard]] bool stays_on_its_side(const V& end) noexcept;
-  void note_what_is_left() noexcept;
   void find_room_from(std::size_t corner, Scalar gap, Scalar radius, Room& room) noexcept;
   void consider_room(std::size_t corner, const V& end, Room& room) noexcept;
   [[nodiscard]] bool roomy(const V& q) noexcept;
   [[nodiscard]] bool goes_straight(std::size_t corner, const V& end) noexcept;
   [[nodiscard]] bool passes(const LocalMotion& motion, std::span<const PieceIndex> pieces) const noexcept;
   [[nodiscard]] bool stopped_by(const LocalMotion& motion, PieceIndex piece) const noexcept;
-  void go_back_to(std::size_t corner) noexcept;
+  [[nodiscard]] bool left_behind(PieceIndex piece) const noexcept;
+  void note_what_is_left() noexcept;
+  [[nodiscard]] bool stays_on_its_side(const V& end) noexcept;
   void go_to(const V& end) noexcept;
+  void go_back_to(std::size_t corner) noexcept;
+
+  // step_crush.hpp
+  [[nodiscard]] bool gives_way() noexcept;
+  void take_back_crushes() noexcept;
   void crush_what_presses() noexcept;
   void crush(PieceIndex piece) noexcept;
   template <class Condition>

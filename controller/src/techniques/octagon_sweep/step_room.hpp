@@ -1,0 +1,213 @@
+/// StepSolver: room for a character that movers press.
+///
+/// Room is a position that is free when the step ends, no farther away than the movers go, and reached in a straight
+/// uniform motion from some corner of the way so far. What the step began inside of may be passed on the way from
+/// there, to the side from which the character came; what is on the character since an earlier step likewise.
+#pragma once
+
+#include "techniques/octagon_sweep/room.hpp"
+#include "techniques/octagon_sweep/step_solver.hpp"
+
+namespace paperproof::octagon_sweep {
+
+/// Goes to the nearest place where there is room, away from some corner of the way. False where there is none: then
+/// nothing has changed.
+/// @param reach how far away it may be at most [m].
+/// @param corners so many of the path may be where it leaves the way.
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::find_room(Scalar reach, std::size_t corners) noexcept {
+  neighbourhood_.forget();  // more than what is asked for could give another answer
+  // What is on the character is not in the way, but there is no room where it still would be.
+  const auto ignored_before = moving_.ignored;
+  moving_.ignored.clear();
+  for (std::size_t i = 0; i < ignored_before.size(); ++i)
+    (i < moving_.on_it ? moving_.lying : moving_.ignored).push_back(ignored_before[i]);
+  constexpr Tolerances<Scalar> tolerances{};
+  /// Of the hit distance: room must be a little more than what counts as closed.
+  constexpr Scalar least_room = Scalar(1.25);
+  Room room = nearest_room(tolerances.hit * least_room, reach, corners);
+  if (room.corner < corners) {
+    // Where there is any, there mostly is as much as is kept everywhere else.
+    const Room ample = nearest_room(tolerances.stop, reach, corners);
+    if (ample.corner < corners) room = ample;
+  }
+  moving_.ignored = ignored_before;
+  moving_.lying.clear();
+  if (room.corner == corners) return false;
+  go_back_to(room.corner);
+  go_to(room.position);
+  return true;
+}
+
+/// Its corner is `corners` where there is none.
+/// @param gap that is left around the character [m].
+template <Variant variant, class Scalar>
+typename StepSolver<variant, Scalar>::Room StepSolver<variant, Scalar>::nearest_room(Scalar gap, Scalar reach,
+                                                                                     std::size_t corners) noexcept {
+  /// What is kept from a mover comes on top of what the mover goes.
+  constexpr Scalar beyond = 16 * Tolerances<Scalar>{}.stop;
+  const Scalar whole = reach + beyond;
+  // Room is looked for near first: mostly it is there, among few pieces.
+  const Scalar near = std::min(whole, (space_.hull_box().upper - space_.hull_box().lower).maxCoeff());
+  Room room{0, V::Zero(), corners};
+  for (const Scalar radius : {near, whole}) {
+    room.distance = radius;
+    for (std::size_t corner = corners; corner-- > 0;) find_room_from(corner, gap, radius, room);
+    if (room.corner < corners || near == whole) break;
+  }
+  return room;
+}
+
+/// @param radius around the present position in which room is looked for [m].
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::find_room_from(std::size_t corner, Scalar gap, Scalar radius, Room& room) noexcept {
+  const Surroundings<Scalar>& around = moving_.around;
+  const PathPoint<Scalar> begin = result_.path[corner];
+  if (!(begin.fraction < 1)) return;
+  moving_.leaving = corner == 0;
+  TakenPositions<Scalar> positions(space_, around.memory.room, gap);
+  const auto add = [&](std::span<const PieceIndex> pieces, const V& from, const V& end) {
+    return std::all_of(pieces.begin(), pieces.end(), [&](PieceIndex piece) {
+      if (ignored(piece) || dropped(piece)) return true;
+      if (!left_behind(piece)) return positions.add(piece, from, end);
+      positions.add_end(piece, end);
+      return true;
+    });
+  };
+  const auto box_of = [&](const V& from, const V& end) {
+    return Box2<Scalar>{end, end}.inflated(radius).merged({from, from});
+  };
+  if (!add(neighbourhood_.around(box_of(begin.position, position_)), begin.position, position_)) return;
+  for (MoverIndex mover = 0; mover < around.phases.size(); ++mover) {
+    const V from = begin.position - around.offset(mover, begin.fraction);
+    const V end = position_ - around.offset(mover, Scalar(1));
+    const Box2<Scalar> box = space_.touched_from(box_of(from, end));
+    if (!box.overlaps(around.phases.whole(mover))) continue;
+    if (!add(around.phases.query(mover, box, around.memory.of_mover), from, end)) return;
+  }
+  positions.for_each_position(room.distance, [&](const V& w) { consider_room(corner, position_ + w, room); });
+}
+
+/// Takes a position where there is room, nearer than what is known and reached from a corner.
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::consider_room(std::size_t corner, const V& end, Room& room) noexcept {
+  const V here = position_;
+  const Scalar now = time_;
+  const Scalar distance = length_of(V(end - here));
+  if (!(distance < room.distance) || !(end.cwiseAbs().maxCoeff() <= Tolerances<Scalar>{}.range)) return;
+  time_ = 1;
+  if (roomy(end) && goes_straight(corner, end) && stays_on_its_side(end)) {
+    room.distance = distance;
+    room.position = end;
+    room.corner = corner;
+  }
+  position_ = here;
+  time_ = now;
+}
+
+/// Whether nothing is near a position, where it is now.
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::roomy(const V& q) noexcept {
+  bool free = true;
+  for_each_near({q, q}, [&](PieceIndex piece) {
+    free = free && (space_.info(piece).one_way_axis != ObstacleInfo::not_one_way || ignored(piece) ||
+                    best_axis<variant>(space_, piece, local(piece, q)).separation >= Tolerances<Scalar>{}.hit);
+  });
+  return free;
+}
+
+/// Whether the rest of the step can be one straight motion from a corner of the path.
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::goes_straight(std::size_t corner, const V& end) noexcept {
+  const Surroundings<Scalar>& around = moving_.around;
+  position_ = result_.path[corner].position;
+  time_ = result_.path[corner].fraction;
+  if (!(time_ < 1) || (certify_ && !certified(end))) return false;
+  const V way = end - position_;
+  const LocalMotion motion = make_motion<variant>(space_, position_, way, Scalar(0));
+  if (!passes(motion, pieces_along(motion, no_mover))) return false;
+  for (MoverIndex mover = 0; mover < around.phases.size(); ++mover) {
+    const V from = position_ - around.offset(mover, time_);
+    const LocalMotion seen = make_motion<variant>(space_, from, around.relative(way, mover, time_), Scalar(0));
+    if (space_.touched_from(seen.box()).overlaps(around.phases.whole(mover)) &&
+        !passes(seen, pieces_along(seen, mover)))
+      return false;
+  }
+  return true;
+}
+
+/// Whether a motion comes to its end.
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::passes(const LocalMotion& motion, std::span<const PieceIndex> pieces) const noexcept {
+  return std::none_of(pieces.begin(), pieces.end(), [&](PieceIndex piece) {
+    return !ignored(piece) && !left_behind(piece) && stopped_by(motion, piece);
+  });
+}
+
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::stopped_by(const LocalMotion& motion, PieceIndex piece) const noexcept {
+  if (!in_way(motion, piece)) return false;
+  const Clearance<Scalar> clear = clearance<variant>(space_, motion, piece);
+  return !clear.clear() && sweep_piece<variant>(space_, motion, piece, clear).hit;
+}
+
+/// What the step began inside of is not in the way while it is left, nor what is on the character.
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::left_behind(PieceIndex piece) const noexcept {
+  const auto among = [collider = space_.scenery().pieces()[piece].collider](const auto& some) {
+    return std::find(some.begin(), some.end(), collider) != some.end();
+  };
+  return (moving_.leaving && among(moving_.left)) || among(moving_.lying);
+}
+
+/// The colliders that a step begins inside of.
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::note_what_is_left() noexcept {
+  for_each_near({position_, position_}, [&](PieceIndex piece) {
+    const ColliderIndex collider = space_.scenery().pieces()[piece].collider;
+    const auto& left = moving_.left;
+    if (std::find(left.begin(), left.end(), collider) == left.end() && overlaps(piece, position_))
+      moving_.left.push_back(collider);
+  });
+}
+
+/// Whether a position at the end of the step is on the side of what is left from which the character came: the straight
+/// way there from its last free position does not meet it. (Where that was is known as of the step's start.)
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::stays_on_its_side(const V& end) noexcept {
+  if (!moving_.last_free || (moving_.left.empty() && moving_.lying.empty())) return true;
+  const std::span<const PieceInfo> pieces = space_.scenery().pieces();
+  for (PieceIndex piece = 0; piece < space_.scenery().sensor_pieces().first; ++piece) {
+    if (!left_behind(piece)) continue;
+    V from = *moving_.last_free;
+    V to = end;
+    if (pieces[piece].mover != no_mover) {
+      from -= moving_.around.offset(pieces[piece].mover, Scalar(0));
+      to -= moving_.around.offset(pieces[piece].mover, Scalar(1));
+    }
+    if (stopped_by(make_motion<variant>(space_, from, V(to - from), Scalar(0)), piece)) return false;
+  }
+  return true;
+}
+
+/// In one motion for the rest of the step, that is known to be clear.
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::go_to(const V& end) noexcept {
+  halt();
+  position_ = end;
+  time_ = 1;
+  on_ground_ = ended_in_crease_ = false;
+  push_corner(time_);
+}
+
+/// Takes back what was travelled since a corner.
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::go_back_to(std::size_t corner) noexcept {
+  while (result_.path.size() > corner + 1) result_.path.pop_back();
+  while (result_.contacts.size() > moving_.contacts_at[corner]) result_.contacts.pop_back();
+  position_ = result_.path[corner].position;
+  time_ = result_.path[corner].fraction;
+  moving_.anchored = false;
+}
+
+}  // namespace paperproof::octagon_sweep
