@@ -79,8 +79,9 @@ struct ReferenceWorld::Impl {
     body->SetEnabled(true);
   }
 
-  void step(std::span<const TwinWish> wishes, float dt, std::span<const MoverMotion<double>> motions);
-  void send_movers(float dt, std::span<const MoverMotion<double>> motions);
+  void step(std::span<const TwinWish> wishes, float dt, std::span<const MoverMotion<double>> motions,
+            std::span<const MoverTurn> turns);
+  void send_movers(float dt, std::span<const MoverMotion<double>> motions, std::span<const MoverTurn> turns);
   void read(Character& who);
   void add_touching(Character& who);
   void add_begun(Character& who);
@@ -90,15 +91,16 @@ struct ReferenceWorld::Impl {
   static void add_sensor_events(Character& who);
   [[nodiscard]] ColliderIndex collider_of(const SceneryEnd& end, const Vec2d& point);
   [[nodiscard]] static double fraction_of(const Character& who, const SceneryEnd& end);
-  [[nodiscard]] Vec2d wanted_relative_to(const Character& who, const SceneryEnd& end) const;
-  [[nodiscard]] bool moves_into(const Character& who, const SceneryEnd& end, const Vec2d& normal) const {
-    return normal.dot(wanted_relative_to(who, end)) < -least_approach;
+  [[nodiscard]] Vec2d wanted_relative_to(const Character& who, const SceneryEnd& end, const TouchPoint& touch) const;
+  [[nodiscard]] bool moves_into(const Character& who, const SceneryEnd& end, const TouchPoint& touch) const {
+    return touch.normal.dot(wanted_relative_to(who, end, touch)) < -least_approach;
   }
 
   /// The body of a mover.
   struct Mover {
     b2Body* body = nullptr;
-    b2Vec2 goal{0, 0};  ///< Where it is to be after the present step, or the last [m].
+    b2Vec2 goal{0, 0};     ///< Where it is to be after the present step, or the last [m].
+    float goal_angle = 0;  ///< The same [radians].
   };
 
   ReferenceWorldDef def;
@@ -113,8 +115,9 @@ struct ReferenceWorld::Impl {
   std::vector<Mover> movers;
   std::vector<Vec2d> offsets;                      ///< Of the movers, when the step begins [m].
   std::vector<MoverMotion<double>> mover_motions;  ///< As Box2D made them.
-  bool movers_capped = false;                      ///< One was to go beyond the travel cap.
-  bool looks_for_ground = false;                   ///< There is ground that carries.
+  std::vector<MoverTurn> mover_turns;
+  bool movers_capped = false;     ///< One was to go beyond the travel cap.
+  bool looks_for_ground = false;  ///< There is ground that carries.
   float last_dt = 0;
   std::vector<TwinStep> results;
 };
@@ -133,6 +136,7 @@ void ReferenceWorld::Impl::add_scenery(const Scenery<double>& scenery) {
   add_sensors(bodies, scenery, as_run, fixtures);
   offsets.resize(movers.size(), Vec2d::Zero());
   mover_motions.resize(movers.size());
+  mover_turns.resize(movers.size());
   looks_for_ground =
       !movers.empty() || std::any_of(as_run.colliders.begin(), as_run.colliders.end(),
                                      [](const ColliderDef& collider) { return collider.surface_speed != 0; });
@@ -167,23 +171,31 @@ void ReferenceWorld::Impl::add_character(const CharacterDef& character, const b2
 }
 
 /// By velocity: Box2D sweeps a body from where the step finds it, and what is put somewhere was never on the way.
-void ReferenceWorld::Impl::send_movers(float dt, std::span<const MoverMotion<double>> motions) {
+void ReferenceWorld::Impl::send_movers(float dt, std::span<const MoverMotion<double>> motions,
+                                       std::span<const MoverTurn> turns) {
   movers_capped = false;
   for (std::size_t i = 0; i < movers.size(); ++i) {
     Mover& mover = movers[i];
+    const MoverTurn turn = turns.empty() ? MoverTurn{} : turns[i];
     const b2Vec2 from = rounded(motions[i].from);
-    if (!(mover.goal == from)) mover.body->SetTransform(from, 0);
+    const auto from_angle = static_cast<float>(turn.from);
+    if (!(mover.goal == from) || mover.goal_angle != from_angle) mover.body->SetTransform(from, from_angle);
     mover.goal = rounded(motions[i].to);
+    mover.goal_angle = static_cast<float>(turn.to);
     const b2Vec2 way = mover.goal - mover.body->GetPosition();
     if (way.LengthSquared() > b2_maxTranslationSquared) movers_capped = true;
+    const float angle = mover.goal_angle - mover.body->GetAngle();
+    if (angle * angle > b2_maxRotationSquared) movers_capped = true;
     mover.body->SetLinearVelocity((1 / dt) * way);
+    mover.body->SetAngularVelocity(angle / dt);
+    mover_turns[i].from = static_cast<double>(mover.body->GetAngle());
     offsets[i] = widened(mover.body->GetPosition());
   }
 }
 
 void ReferenceWorld::Impl::step(std::span<const TwinWish> wishes, float dt,
-                                std::span<const MoverMotion<double>> motions) {
-  send_movers(dt, motions);
+                                std::span<const MoverMotion<double>> motions, std::span<const MoverTurn> turns) {
+  send_movers(dt, motions, turns);
   for (std::size_t k = 0; k < characters.size(); ++k) {
     Character& who = characters[k];
     const b2Vec2 velocity = rounded(wishes[k].velocity);
@@ -197,8 +209,10 @@ void ReferenceWorld::Impl::step(std::span<const TwinWish> wishes, float dt,
   world.Step(dt, def.velocity_iterations, def.position_iterations);
   for (Character& who : characters) who.recorder.end_step();
   last_dt = dt;
-  for (std::size_t i = 0; i < movers.size(); ++i)
+  for (std::size_t i = 0; i < movers.size(); ++i) {
     mover_motions[i] = {offsets[i], widened(movers[i].body->GetPosition())};
+    mover_turns[i].to = static_cast<double>(movers[i].body->GetAngle());
+  }
   results.clear();
   for (Character& who : characters) {
     read(who);
@@ -210,6 +224,7 @@ void ReferenceWorld::Impl::step(std::span<const TwinWish> wishes, float dt,
 void ReferenceWorld::Impl::read(Character& who) {
   TwinStep& result = who.result;
   result.movers = mover_motions;
+  result.turns = mover_turns;
   result.velocity = widened(who.body->GetLinearVelocity());
   result.path = who.recorder.path();
   result.dropped_through = who.recorder.dropped_through(mover_motions);
@@ -235,14 +250,19 @@ double ReferenceWorld::Impl::fraction_of(const Character& who, const SceneryEnd&
   return 0;  // It touched when the step began.
 }
 
-Vec2d ReferenceWorld::Impl::wanted_relative_to(const Character& who, const SceneryEnd& end) const {
+/// What is touched goes with its mover, and around it.
+Vec2d ReferenceWorld::Impl::wanted_relative_to(const Character& who, const SceneryEnd& end,
+                                               const TouchPoint& touch) const {
   const FixtureSource& source = fixtures.sources[end.source];
   if (source.character) {
     const std::vector<PathPoint<double>>& path = characters[*source.character].recorder.path();
     return who.wanted - (path.back().position - path.front().position);
   }
   if (source.mover == no_mover) return who.wanted;
-  return who.wanted - (mover_motions[source.mover].to - mover_motions[source.mover].from);
+  const Vec2d arm = touch.point - end.offset;
+  const double angle = mover_turns[source.mover].to - mover_turns[source.mover].from;
+  return who.wanted - (mover_motions[source.mover].to - mover_motions[source.mover].from) -
+         angle * Vec2d(-arm.y(), arm.x());
 }
 
 void ReferenceWorld::Impl::add_touching(Character& who) {
@@ -255,9 +275,9 @@ void ReferenceWorld::Impl::add_touching(Character& who) {
       continue;
     }
     for (const TouchPoint& touch : touch_points(contact, *who.body)) {
-      const bool leaves = touch.normal.dot(wanted_relative_to(who, end)) > least_approach;
+      const bool leaves = touch.normal.dot(wanted_relative_to(who, end, touch)) > least_approach;
       if (touch.normal.y() >= least_up && touch.gap <= standing_gap && !leaves) stand_on(who.result, end, touch);
-      if (moves_into(who, end, touch.normal)) add(who, end, touch, fraction_of(who, end));
+      if (moves_into(who, end, touch)) add(who, end, touch, fraction_of(who, end));
     }
   }
 }
@@ -276,7 +296,7 @@ void ReferenceWorld::Impl::stand_on(TwinStep& result, const SceneryEnd& end, con
 void ReferenceWorld::Impl::add_begun(Character& who) {
   for (const Beginning& beginning : who.recorder.beginnings()) {
     for (const TouchPoint& touch : beginning.points) {
-      if (beginning.was_impact || moves_into(who, beginning.end, touch.normal))
+      if (beginning.was_impact || moves_into(who, beginning.end, touch))
         add(who, beginning.end, touch, beginning.fraction);
     }
   }
@@ -304,7 +324,8 @@ ColliderIndex ReferenceWorld::Impl::collider_of(const SceneryEnd& end, const Vec
   const FixtureSource& source = fixtures.sources[end.source];
   if (source.collider) return *source.collider;
   ColliderLookup& lookup = lookups[source.mover == no_mover ? 0 : source.mover + 1];
-  const Vec2d place = point - end.offset;
+  const Vec2d arm = point - end.offset;
+  const Vec2d place = {end.cosine * arm.x() + end.sine * arm.y(), end.cosine * arm.y() - end.sine * arm.x()};
   double reach = touch_gap + 16 * static_cast<double>(b2_epsilon) * point.cwiseAbs().maxCoeff();
   for (; std::isfinite(reach); reach *= 8)
     if (const std::optional<ColliderIndex> found = lookup.nearest(place, reach)) return *found;
@@ -364,15 +385,18 @@ const TwinStep& ReferenceWorld::step(const Vec2d& wanted_velocity, double dt,
 }
 
 std::span<const TwinStep> ReferenceWorld::step_all(std::span<const TwinWish> wishes, double dt,
-                                                   std::span<const MoverMotion<double>> movers) {
+                                                   std::span<const MoverMotion<double>> movers,
+                                                   std::span<const MoverTurn> turns) {
   if (wishes.size() != impl_->characters.size()) throw InvalidDefinition("a step takes one wish of each character");
   if (movers.size() != impl_->movers.size()) throw InvalidDefinition("a step takes one motion for each mover");
   for (const MoverMotion<double>& motion : movers) {
     (void)checked(motion.from, "a mover");
     (void)checked(motion.to, "a mover");
   }
+  if (!turns.empty() && turns.size() != movers.size()) throw InvalidDefinition("a step takes one turn for each mover");
+  for (const MoverTurn& turn : turns) (void)checked(Vec2d(turn.from, turn.to), "the angle of a mover");
   for (const TwinWish& wish : wishes) (void)checked(wish.velocity, "the wanted velocity");
-  impl_->step(wishes, checked_step(dt), movers);
+  impl_->step(wishes, checked_step(dt), movers, turns);
   return impl_->results;
 }
 

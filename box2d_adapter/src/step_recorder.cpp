@@ -9,8 +9,9 @@ SceneryEnd scenery_end(const b2Contact& contact, const b2Body& character) {
   const bool character_is_a = contact.GetFixtureA()->GetBody() == &character;
   // The const overload of GetUserData does not exist in 2.4.
   auto* fixture = const_cast<b2Fixture*>(character_is_a ? contact.GetFixtureB() : contact.GetFixtureA());
+  const b2Transform& at = fixture->GetBody()->GetTransform();
   return {fixture->GetUserData().pointer, character_is_a ? contact.GetChildIndexB() : contact.GetChildIndexA(),
-          widened(fixture->GetBody()->GetPosition())};
+          widened(at.p), static_cast<double>(at.q.c), static_cast<double>(at.q.s)};
 }
 
 FixedVector<TouchPoint, b2_maxManifoldPoints> touch_points(const b2Contact& contact, const b2Body& character) {

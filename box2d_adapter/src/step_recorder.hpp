@@ -23,7 +23,9 @@ struct TouchPoint {
 struct SceneryEnd {
   std::size_t source = 0;  ///< Position in `SceneryFixtures::sources`.
   int32 child = 0;
-  Vec2d offset{Vec2d::Zero()};  ///< Of its body at that moment [m].
+  Vec2d offset{Vec2d::Zero()};  ///< Of its body at that moment [m],
+  double cosine = 1;            ///< and how far that was turned.
+  double sine = 0;
 };
 [[nodiscard]] SceneryEnd scenery_end(const b2Contact& contact, const b2Body& character);
 

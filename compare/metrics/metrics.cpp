@@ -110,6 +110,7 @@ void Metrics::add_first_contact(const TraceStep& step, const StepJudgement& judg
                                                                  [&](const ExactContact& contact) {
                                                                    return contact.collider == with_scenery->collider;
                                                                  });
+  if (judgement.turning_toi_error) raise(sums_.toi_error_max, *judgement.turning_toi_error);
   if (judgement.first_impact && judgement.first_impact_comparable && exact) {
     raise(sums_.toi_error_max, std::abs(fraction - *judgement.first_impact));
   }

@@ -3,6 +3,7 @@
 #include "oracle/contacts.hpp"
 #include "oracle/crush.hpp"
 #include "oracle/passing.hpp"
+#include "oracle/turning.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +31,10 @@ bool same_motion(const MoverMotion<double>& a, const MoverMotion<double>& b) {
 
 }  // namespace
 
-Judge::Judge(const TraceHeader& header) : header_(header), scenery_(header.scenery, header.points) {
+Judge::Judge(const TraceHeader& header)
+    : header_(header),
+      turning_(std::make_unique<detail::TurningJudge>(header_)),
+      scenery_(detail::TurningJudge::exact_part(header), header.points) {
   slop_ = detail::slop_of(header);
   for (const ColliderDef& def : header.scenery.colliders) {
     has_sensors_ = has_sensors_ || def.sensor;
@@ -38,7 +42,16 @@ Judge::Judge(const TraceHeader& header) : header_(header), scenery_(header.scene
   }
 }
 
+Judge::~Judge() = default;
+
 StepJudgement Judge::judge(const TraceStep& step) {
+  if (!turning_->any()) return judge_exactly(step);
+  StepJudgement judgement = judge_exactly(turning_->exact_part(step));
+  turning_->judge(step, judgement);
+  return judgement;
+}
+
+StepJudgement Judge::judge_exactly(const TraceStep& step) {
   if (step.movers.size() < mover_count_) throw std::invalid_argument("a step needs the motion of every mover");
   if (repeats(step)) return last_->second;
   dt_ = length_of(step, header_);
@@ -232,6 +245,7 @@ void Judge::judge_crushes(const Path& path, const TraceStep& step, const Touched
 
 void Judge::judge_sensors(const Path& path, const TraceStep& step, StepJudgement& judgement) const {
   judgement.sensor_events = scenery_.sensor_events(path);
+  std::erase_if(judgement.sensor_events, [this](const auto& event) { return turning_->turns(event.sensor); });
   std::vector<bool> taken(step.sensors.size());
   const auto is_report_of = [&](const ExactSensorEvent& event, std::size_t i) {
     const SensorEvent<double>& reported = step.sensors[i];

@@ -5,8 +5,13 @@
 #include "runs/trace.hpp"
 
 #include <map>
+#include <memory>
 
 namespace paperproof::compare {
+
+namespace detail {
+class TurningJudge;
+}
 
 /// A contact that the requested motion really had.
 struct ExactContact {
@@ -61,6 +66,8 @@ struct StepJudgement {
     [[nodiscard]] bool broke() const { return !entered.empty() || !passed.empty(); }
   };
   Company company{};
+  /// Of a contact with what turns, where it began: how far the reported fraction is from the first touch [steps].
+  std::optional<double> turning_toi_error{};
   std::optional<CharacterIndex> first_met;  ///< Whom `first_impact` is with, if that is no collider.
 
   /// The step entered a solid or another character, passed one, or passed a one-way chain against its normal.
@@ -113,11 +120,15 @@ struct StepJudgement {
 /// along the normal, and the approach against the normal is at least 1e-3 of the displacement: at rest, and where the
 /// motion grazes, a gap of a micrometre is much of the way.
 ///
+/// **What turns** is judged apart, between bounds: see oracle/turning.hpp.
+///
 /// **Ghost speed loss.** Horizontal speed was lost to nothing where the step began free, and no solid opposes the
 /// wanted horizontal motion within the step and the skin beyond (20 mm for Box2D), from any corner of the path.
 class Judge {
  public:
   explicit Judge(const TraceHeader& header);
+  ~Judge();
+  Judge(Judge&&) = delete;
   [[nodiscard]] StepJudgement judge(const TraceStep& step);
   [[nodiscard]] const ExactScenery& scenery() const noexcept { return scenery_; }
 
@@ -140,6 +151,7 @@ class Judge {
   using Path = std::vector<Place>;
   using Touched = std::map<ColliderIndex, std::size_t>;  ///< With the corner where the first leg that meets it begins.
 
+  [[nodiscard]] StepJudgement judge_exactly(const TraceStep& step);
   [[nodiscard]] Path path_of(const TraceStep& step) const;
   /// Whether nothing differs from the last step, as at rest: then neither does the judgement.
   [[nodiscard]] bool repeats(const TraceStep& step) const;
@@ -157,6 +169,7 @@ class Judge {
   void judge_sensors(const Path& path, const TraceStep& step, StepJudgement& judgement) const;
 
   const TraceHeader header_;
+  std::unique_ptr<detail::TurningJudge> turning_;
   ExactScenery scenery_;
   std::size_t mover_count_ = 0;
   bool has_sensors_ = false;

@@ -28,6 +28,8 @@ class Columns {
     add_colliders(overlaps_, step.start_overlap);
     add_colliders(crushed_, step.crushed);
     add_movers(step.movers);
+    for (const TurnMotion& turn : step.turns) turns_.add(in_parts(turn.from)).add(in_parts(turn.to));
+    turns_any_ = turns_any_ || !step.turns.empty();
     ++count_;
   }
 
@@ -38,6 +40,7 @@ class Columns {
     if (!met_.empty()) run.put("met", std::move(met_).take());
     if (!crushed_.empty()) run.put("crush", std::move(crushed_).take());
     if (!places_.empty()) run.put("movers", std::move(movers_).take());
+    if (turns_any_) run.put("turns", std::move(turns_).take());
   }
 
  private:
@@ -139,7 +142,8 @@ class Columns {
   }
 
   const Quantum& quantum_;
-  JsonArray steps_, path_, velocity_, contacts_, kinds_, movers_;
+  JsonArray steps_, path_, velocity_, contacts_, kinds_, movers_, turns_;
+  bool turns_any_ = false;
   std::string flags_;
   JsonObject overlaps_, crushed_, met_;
   std::vector<Place> places_;

@@ -4,6 +4,8 @@
 
 #include <paperproof/controller.hpp>
 
+#include <algorithm>
+
 namespace paperproof::compare {
 namespace {
 
@@ -30,6 +32,7 @@ class Box2dContestant final : public Contestant {
                           {"touch_gap", box2d::touch_gap},
                           {"max_travel_per_step", box2d::max_travel_per_step}};
     header_.path_exact = false;
+    note_turning(scene);
     place_at_start(*this, scene);
   }
 
@@ -48,6 +51,9 @@ class Box2dContestant final : public Contestant {
       record.contacts = twin.contacts;
       record.met = twin.met;
       record.movers = twin.movers;
+      record.turns.clear();
+      if (!header_.turning.empty())
+        for (const box2d::MoverTurn& turn : twin.turns) record.turns.push_back({turn.from, turn.to});
       record.sensors = twin.sensors;
       record.dropped_through = twin.dropped_through;
       record.stuck = record.dropped = false;
@@ -93,10 +99,26 @@ class Box2dContestant final : public Contestant {
     return starts;
   }
 
+  /// A one-way chain that turns would hold on another side in every step: Box2D is not asked to.
+  void note_turning(const Scene& scene) {
+    std::vector<bool> turning;
+    for (const MoverDef& mover : scene.movers) turning.push_back(!mover.turns.empty());
+    if (std::find(turning.begin(), turning.end(), true) == turning.end()) return;
+    for (ColliderIndex i = 0; i < scene.ids.size(); ++i) {
+      const ColliderDef& collider = scene.scenery.colliders[i];
+      if (collider.one_way && collider.mover != no_mover && turning[collider.mover])
+        throw NotApplicable(header_.contender + " is for one-way chains that do not turn, and \"" + scene.ids[i] +
+                            "\" does");
+    }
+    header_.turning = std::move(turning);
+  }
+
   std::span<const box2d::TwinStep> advance(const StepInput& input) {
     dt_ = input.dt;
     for (std::size_t k = 0; k < twins_.size(); ++k)
       wishes_[k] = {wanted_by(twins_[k], input.players[k], input.movers), input.players[k].drop};
+    turns_.clear();
+    for (const TurnMotion& turn : input.turns) turns_.push_back({turn.from, turn.to});
     const std::span<const box2d::TwinStep> steps = step_world(input.movers);
     for (std::size_t k = 0; k < twins_.size(); ++k) take_over(steps[k], twins_[k]);
     return steps;
@@ -111,7 +133,7 @@ class Box2dContestant final : public Contestant {
 
   std::span<const box2d::TwinStep> step_world(std::span<const MoverMotion<double>> movers) {
     try {
-      return world_.step_all(wishes_, dt_, movers);
+      return world_.step_all(wishes_, dt_, movers, turns_);
     } catch (const box2d::InvalidDefinition& reason) {
       throw LeftRange(std::string(reason.what()) + ": beyond what Box2D is given, and the run ends there");
     }
@@ -153,6 +175,7 @@ class Box2dContestant final : public Contestant {
   box2d::ReferenceWorld world_;
   TraceHeader header_;
   std::vector<Twin> twins_;
+  std::vector<box2d::MoverTurn> turns_;  ///< Of the present step.
   std::vector<box2d::TwinWish> wishes_;  ///< Of the present step.
 };
 

@@ -40,10 +40,6 @@ void place_at_start(Contestant& contestant, const Scene& scene) {
 
 std::unique_ptr<Contestant> make_contestant(std::string_view name, ScalarKind scalar, const Scene& scene,
                                             const Scenery<double>& scenery, const Planning& planning) {
-  const auto turning = std::find_if(scene.movers.begin(), scene.movers.end(),
-                                    [](const MoverDef& mover) { return !mover.turns.empty(); });
-  if (turning != scene.movers.end())
-    throw NotApplicable(std::string(name) + " is for movers that do not turn, and \"" + turning->id + "\" does");
   if (is_reference(name)) {
     const auto mode = name == box2d_name ? box2d::SceneryMode::chain_loops : box2d::SceneryMode::pieces;
     try {
@@ -52,6 +48,10 @@ std::unique_ptr<Contestant> make_contestant(std::string_view name, ScalarKind sc
       throw NotApplicable(error.what());
     }
   }
+  const auto turning = std::find_if(scene.movers.begin(), scene.movers.end(),
+                                    [](const MoverDef& mover) { return !mover.turns.empty(); });
+  if (turning != scene.movers.end())
+    throw NotApplicable(std::string(name) + " is for movers that do not turn, and \"" + turning->id + "\" does");
   const auto kind = std::find_if(all_techniques.begin(), all_techniques.end(),
                                  [&](TechniqueKind each) { return paperproof::name_of(each) == name; });
   if (kind != all_techniques.end()) {

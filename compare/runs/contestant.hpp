@@ -38,6 +38,7 @@ struct StepInput {
   double dt = 0;                                ///< [s]
   std::span<const Input> players;               ///< One for each character.
   std::span<const MoverMotion<double>> movers;  ///< One for each mover of the scene.
+  std::span<const TurnMotion> turns;            ///< The same.
 };
 
 class Contestant {

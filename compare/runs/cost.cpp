@@ -19,6 +19,7 @@ Cost measure_cost(Contestant& contestant, const Scene& scene, const Script& scri
   const int timed = std::min(steps, most_steps);
   const std::size_t movers = scene.movers.size();
   std::vector<MoverMotion<double>> motions;
+  std::vector<TurnMotion> turns;
   std::vector<Input> players;
   std::vector<double> lengths;
   InputCursor cursor(scene, script);
@@ -26,13 +27,15 @@ Cost measure_cost(Contestant& contestant, const Scene& scene, const Script& scri
     const StepInput now = cursor.at(step);
     lengths.push_back(now.dt);
     players.insert(players.end(), now.players.begin(), now.players.end());
+    turns.insert(turns.end(), now.turns.begin(), now.turns.end());
     motions.insert(motions.end(), now.movers.begin(), now.movers.end());
   }
   std::vector<StepInput> inputs;
   const std::size_t characters = script.size();
   for (std::size_t step = 0; step < lengths.size(); ++step)
     inputs.push_back({lengths[step], std::span(players).subspan(step * characters, characters),
-                      std::span(motions).subspan(step * movers, movers)});
+                      std::span(motions).subspan(step * movers, movers),
+                      std::span(turns).subspan(step * movers, movers)});
 
   std::array<double, repeats> costs{};
   for (std::size_t run = 0; run <= repeats; ++run) {

@@ -18,14 +18,17 @@ class InputCursor {
         times_(scene),
         next_(script.size()),
         now_(script.size()),
-        motions_(scene.movers.size()) {}
+        motions_(scene.movers.size()),
+        turns_(scene.movers.size()) {}
 
   /// The players do what `input_at` says. What is returned holds until the next call.
   [[nodiscard]] StepInput at(int step) {
-    for (std::size_t i = 0; i < motions_.size(); ++i)
+    for (std::size_t i = 0; i < motions_.size(); ++i) {
       motions_[i] = motion_between(scene_.movers[i], times_.begin(step), times_.end(step));
+      turns_[i] = turn_between(scene_.movers[i], times_.begin(step), times_.end(step));
+    }
     for (std::size_t k = 0; k < script_.size(); ++k) advance(k, step);
-    return {times_.length(step), now_, motions_};
+    return {times_.length(step), now_, motions_, turns_};
   }
 
  private:
@@ -45,6 +48,7 @@ class InputCursor {
   std::vector<std::size_t> next_;
   std::vector<Input> now_;
   std::vector<MoverMotion<double>> motions_;
+  std::vector<TurnMotion> turns_;
 };
 
 }  // namespace paperproof::compare

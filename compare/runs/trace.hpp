@@ -2,6 +2,8 @@
 #pragma once
 
 #include <paperproof/crowd.hpp>
+#include "scenes/mover.hpp"
+
 #include <paperproof/plan.hpp>
 #include <paperproof/scenery.hpp>
 #include <paperproof/technique.hpp>
@@ -29,6 +31,7 @@ struct TraceHeader {
   std::vector<Vec2d> points;     ///< Hull of the character, relative to its position [m], as run.
   SceneryDef scenery;            ///< As run, world metres.
   std::vector<std::string> ids;  ///< One per collider.
+  std::vector<bool> turning;     ///< By mover; empty where none turns.
   std::string box2d;             ///< Version of the Box2D in use.
   std::optional<Plan> plan;      ///< None for Box2D, which has none.
   std::vector<NamedTolerance> tolerances;
@@ -51,6 +54,7 @@ struct TraceStep {
   std::vector<CharacterIndex> start_overlap_characters;  ///< Which it overlapped when the step began, exactly.
   std::vector<CrowdContact<double>> met;                 ///< Contacts with other characters.
   std::vector<MoverMotion<double>> movers;               ///< One for each mover of the scenery.
+  std::vector<TurnMotion> turns;                         ///< The same; empty where none turns.
   std::vector<ColliderIndex> crushed;        ///< Colliders of movers that left the character no room, as reported.
   std::vector<SensorEvent<double>> sensors;  ///< In order of time, as reported.
   /// One-way chains that were passed against their normal on purpose, as reported: the input asked to drop.

@@ -131,6 +131,27 @@ void put_met(Buffer& out, const std::vector<CrowdContact<double>>& met) {
   out.push_back(']');
 }
 
+/// Where a mover is when the step begins and ends; of one that turns with its angle.
+void put_motion(Buffer& out, const TraceStep& step, MoverIndex mover, const std::vector<bool>& turning) {
+  const MoverMotion<double>& motion = step.movers[mover];
+  const bool turns = mover < turning.size() && turning[mover];
+  const auto put_end = [&](const Vec2d& offset, double angle) {
+    if (!turns) return put(out, offset);
+    out.push_back('[');
+    put(out, offset.x());
+    out.push_back(',');
+    put(out, offset.y());
+    out.push_back(',');
+    put(out, angle);
+    out.push_back(']');
+  };
+  out.push_back('[');
+  put_end(motion.from, turns ? step.turns[mover].from : 0);
+  out.push_back(',');
+  put_end(motion.to, turns ? step.turns[mover].to : 0);
+  out.push_back(']');
+}
+
 void put_ids(Buffer& out, const std::vector<ColliderIndex>& colliders, const std::vector<std::string>& ids) {
   out.push_back('[');
   for (std::size_t i = 0; i < colliders.size(); ++i) {
@@ -167,7 +188,7 @@ std::string twin_stem(const std::string& stem, std::string_view contender) {
 }
 
 TraceWriter::TraceWriter(const std::string& path, const TraceHeader& header)
-    : file_(path), path_exact_(header.path_exact), several_(header.characters > 1) {
+    : file_(path), path_exact_(header.path_exact), several_(header.characters > 1), turning_(header.turning) {
   const std::vector<ColliderDef>& colliders = header.scenery.colliders;
   for (ColliderIndex i = 0; i < colliders.size(); ++i) {
     if (colliders[i].mover != no_mover) moving_.push_back({i, colliders[i].mover});
@@ -199,14 +220,10 @@ void TraceWriter::write(const TraceStep& step) {
                    fmt::join(step.start_overlap_characters, ","));
   put_text(out, ",\"movers\":{");
   for (std::size_t i = 0; i < moving_.size(); ++i) {
-    const MoverMotion<double>& motion = step.movers[moving_[i].mover];
     if (i > 0) out.push_back(',');
     put_text(out, ids_[moving_[i].collider]);
-    put_text(out, ":[");
-    put(out, motion.from);
-    out.push_back(',');
-    put(out, motion.to);
-    out.push_back(']');
+    out.push_back(':');
+    put_motion(out, step, moving_[i].mover, turning_);
   }
   put_text(out, "},\"contacts\":[");
   for (std::size_t i = 0; i < step.contacts.size(); ++i) {

@@ -32,7 +32,8 @@ class TraceWriter {
   std::vector<std::string> ids_;  ///< As JSON strings.
   std::vector<Moving> moving_;
   bool path_exact_;
-  bool several_;  ///< Characters.
+  bool several_;               ///< Characters.
+  std::vector<bool> turning_;  ///< By mover.
 };
 
 }  // namespace paperproof::compare

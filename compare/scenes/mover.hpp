@@ -39,6 +39,13 @@ struct MoverDef {
 /// How far it is turned at that time [radians], in the same way.
 [[nodiscard]] double angle_at(const MoverDef& mover, double time);
 
+/// How a mover turns during one step: evenly, from one angle to another [radians], counter-clockwise.
+struct TurnMotion {
+  double from = 0;
+  double to = 0;
+};
+[[nodiscard]] TurnMotion turn_between(const MoverDef& mover, double begin, double end);
+
 /// How the mover goes in a step from one absolute time to another [s].
 [[nodiscard]] MoverMotion<double> motion_between(const MoverDef& mover, double begin, double end);
 

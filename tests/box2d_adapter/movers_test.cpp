@@ -179,5 +179,42 @@ TEST(TwinSensors, are_not_seen_where_they_are_crossed_within_a_step) {
   EXPECT_EQ(events, 0U) << "Box2D sweeps no sensors";
 }
 
+TEST(TurningMovers, go_as_far_as_asked_and_meet_what_floats_above_them_where_the_collider_says) {
+  ColliderDef arm = chain({{0, 0}, {1, 0}});
+  arm.mover = 0;
+  ReferenceWorld world(level({arm}), {}, {0.6, 0.8 + half_height()});
+  const std::vector<MoverMotion<double>> still(1);
+  const TwinWish rest{};
+  bool met = false;
+  for (int k = 0; k < 60 && !met; ++k) {
+    const MoverTurn turn{k * frame, (k + 1) * frame};
+    const TwinStep& step = world.step_all(std::span(&rest, 1), frame, still, std::span(&turn, 1)).front();
+    ASSERT_NEAR(step.turns[0].from, turn.from, 1e-5);
+    ASSERT_NEAR(step.turns[0].to, turn.to, 1e-5);
+    met = !step.contacts.empty();
+    if (!met) continue;
+    // The tip is under the feet at asin 0.8; the skin of 20 mm is met 20 mm lower, by a step that looks when it begins.
+    EXPECT_NEAR(turn.from, std::asin(0.8 - touch_gap), 1.5 * frame);
+    EXPECT_EQ(step.contacts[0].collider, 0U);
+    EXPECT_EQ(step.contacts[0].side, Side::bottom);
+  }
+  EXPECT_TRUE(met);
+}
+
+TEST(TurningMovers, beyond_a_quarter_of_a_circle_are_capped_and_another_number_of_turns_is_refused) {
+  ColliderDef arm = chain({{0, 0}, {1, 0}});
+  arm.mover = 0;
+  ReferenceWorld world(level({arm}), {}, {9, 9});
+  const std::vector<MoverMotion<double>> still(1);
+  const TwinWish rest{};
+  const auto capped = [&](double angle) {
+    const MoverTurn turn{0, angle};
+    return world.step_all(std::span(&rest, 1), frame, still, std::span(&turn, 1)).front().capped;
+  };
+  EXPECT_FALSE(capped(1.5));
+  EXPECT_TRUE(capped(1.6));
+  EXPECT_THROW(world.step_all(std::span(&rest, 1), frame, still, std::vector<MoverTurn>(2)), InvalidDefinition);
+}
+
 }  // namespace
 }  // namespace paperproof::box2d::test

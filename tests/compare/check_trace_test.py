@@ -151,6 +151,22 @@ def moving_trace():
 class SpoiltMovingTraces(Spoiling, unittest.TestCase):
     header, steps = moving_trace()
 
+    def test_what_turns_is_not_looked_at_but_goes_on_where_it_was(self):
+        def spoil(_, steps):
+            for k, step in enumerate(steps):
+                step["movers"]["lift"] = [end + [angle] for end, angle in zip(step["movers"]["lift"], (k, k + 1))]
+                step["contacts"] = []
+                step.pop("crush", None)
+                step["start_overlap"] = []
+
+        self.assertEqual(self.found(spoil), [])
+
+        def jump(header, steps):
+            spoil(header, steps)
+            steps[2]["movers"]["lift"][0][2] += 1
+
+        self.expect("has lift begin", jump)
+
     def test_a_rider_that_lags_behind(self):
         def spoil(_, steps):
             steps[1]["path"] = [steps[1]["path"][0], [0, steps[1]["path"][1][1] - 2 * GAP, 1]]

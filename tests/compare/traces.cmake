@@ -21,7 +21,7 @@ set(checked_scenes article_bullet slope_joints jump_into_corner rotated_wall wed
   three_in_a_row jump_onto_a_head
     lift_up lift_sideways closing_ceiling sweeping_paper head_on one_way_drop one_way_lift_drop one_way_turns_within
     thin_sensor)
-add_test(NAME trace.write COMMAND paperproof compare ${checked_scenes} --no-timing --quiet --trace "${traces}/t")
+add_test(NAME trace.write COMMAND paperproof compare ${checked_scenes} turning_arm --no-timing --quiet --trace "${traces}/t")
 set_tests_properties(trace.write PROPERTIES FIXTURES_SETUP traces TIMEOUT 300)
 
 set(good)
@@ -29,6 +29,9 @@ foreach(scene IN LISTS checked_scenes)
   list(APPEND good "${traces}/t.${scene}.octagon_sweep.double.jsonl")
 endforeach()
 paperproof_trace_test(of_octagon_sweep_hold COMMAND "${checker}" ${good})
+
+paperproof_trace_test(of_what_turns_goes_on_from_step_to_step COMMAND "${checker}" "${traces}/t.turning_arm.box2d.float.jsonl"
+  PROPERTIES PASS_REGULAR_EXPRESSION "90 steps, [1-9][0-9]* contacts, 0 violations")
 
 # It has to find what is wrong: the bullet that passes the paper, and traces that are spoilt on purpose.
 set(passed "${traces}/t.article_bullet.penetration_resolution.double.jsonl")

@@ -75,17 +75,26 @@ function movedBox([left, bottom, right, top], [x, y]) {
   return [left + x, bottom + y, right + x, top + y];
 }
 
-/// A collider where its mover has taken it. @param offsets of the movers, [x, y] each.
+/// All that a box comes to cover that turns about (0, 0).
+function turnedBox(box) {
+  const reach = Math.hypot(Math.max(-box[0], box[2]), Math.max(-box[1], box[3]));
+  return [-reach, -reach, reach, reach];
+}
+
+/// A collider where its mover has taken it. @param offsets of the movers, [x, y, angle] each.
 function placed(collider, offsets) {
   const offset = offsets[collider.mover];
   if (!offset) return collider;
-  const rings = collider.rings.map((ring) => ring.map((v, i) => v + offset[i % 2]));
-  return {...collider, rings, box: movedBox(collider.box, offset)};
+  const [x, y, angle] = offset, c = Math.cos(angle), s = Math.sin(angle);
+  const rings = collider.rings.map(
+      (ring) => ring.map((v, i) => (i % 2 ? s * ring[i - 1] + c * v + y : c * v - s * ring[i + 1] + x)));
+  return {...collider, rings, box: movedBox(angle ? turnedBox(collider.box) : collider.box, offset)};
 }
 
 /// Where the movers are at a fraction of a step, in metres.
 function offsetsAt(step, t) {
-  return step.movers.map(({fx, fy, tx, ty}) => [fx + (tx - fx) * t, fy + (ty - fy) * t]);
+  return step.movers.map(
+      ({fx, fy, fa = 0, tx, ty, ta = 0}) => [fx + (tx - fx) * t, fy + (ty - fy) * t, fa + (ta - fa) * t]);
 }
 
 /// All that moving colliders come to cover in a run.
@@ -98,8 +107,9 @@ function boxOfMoving(run) {
   for (const collider of run.scenery.colliders) {
     const range = ranges[collider.mover];
     if (!range) continue;
-    boxOf(movedBox(collider.box, range), box);
-    boxOf(movedBox(collider.box, range.slice(2)), box);
+    const covered = run.steps.some((step) => step.movers[collider.mover]?.ta) ? turnedBox(collider.box) : collider.box;
+    boxOf(movedBox(covered, range), box);
+    boxOf(movedBox(covered, range.slice(2)), box);
   }
   return box;
 }
@@ -187,6 +197,7 @@ function decodeMovers(next, movers, quantum) {
 function decodeSteps(packed, quantum, moverCount) {
   const path = reader(packed.path), velocity = reader(packed.velocity), contacts = reader(packed.contacts);
   const moved = reader(packed.movers || []), movers = Array.from({length: moverCount}, () => ({x: 0, y: 0, dx: 0, dy: 0}));
+  const turned = packed.turns ? reader(packed.turns) : null;
   const kinds = decodeKinds(packed.kinds);
   const position = {x: 0, y: 0}, speed = {x: 0, y: 0};
   let number = 0;
@@ -208,7 +219,8 @@ function decodeSteps(packed, quantum, moverCount) {
       startOverlap: packed.start_overlap[i] || [],
       crush: (packed.crush || {})[i] || [],
       met: decodeMet((packed.met || {})[i] || []),
-      movers: moverCount > 0 ? decodeMovers(moved, movers, quantum) : [],
+      movers: (moverCount > 0 ? decodeMovers(moved, movers, quantum) : [])
+                  .map((m) => (turned ? {...m, fa: turned() * 1e-4, ta: turned() * 1e-4} : m)),
       flags: FLAGS.filter((_, bit) => bits & (1 << bit))
     };
     if (step.path.length === 0) step.path = [{x: step.x, y: step.y, t: 0}, {x: step.x, y: step.y, t: 1}];

@@ -49,6 +49,12 @@ struct TwinWish {
   bool drop = false;              ///< One-way chains do not hold it.
 };
 
+/// How a mover turns in one step, about its offset: from one angle to another [radians], counter-clockwise.
+struct MoverTurn {
+  double from = 0;
+  double to = 0;
+};
+
 /// What one step of the twin did. Positions and velocities are Box2D's floats.
 ///
 /// Contacts: `separation` is the gap between the bare shapes, Box2D's own plus both radii, so that rest gives about
@@ -70,6 +76,7 @@ struct TwinStep {
   std::vector<PathPoint<double>> path;      ///< Start, positions seen in callbacks during the step, end.
   std::vector<Contact<double>> contacts;    ///< Touching after the step, and those that began and ended during it.
   std::vector<MoverMotion<double>> movers;  ///< Where Box2D had the movers when the step began and ended.
+  std::vector<MoverTurn> turns;             ///< How far it had turned them.
   /// Box2D looks for sensors once, when a step begins, and within 20 mm: what is crossed in one step is not seen, and
   /// the fraction is always 0.
   std::vector<SensorEvent<double>> sensors;
@@ -109,8 +116,11 @@ class ReferenceWorld {
   const TwinStep& step(const Vec2d& wanted_velocity, double dt, std::span<const MoverMotion<double>> movers = {},
                        bool drop = false);
   /// The same with a wish of each character. @returns one for each, valid until the next step.
+  /// @param turns one for each mover, or none where none turns. As with the motions, by velocity; Box2D turns a body by
+  ///   at most a quarter of a circle in a step, and beyond that the step counts as capped.
   std::span<const TwinStep> step_all(std::span<const TwinWish> wishes, double dt,
-                                     std::span<const MoverMotion<double>> movers = {});
+                                     std::span<const MoverMotion<double>> movers = {},
+                                     std::span<const MoverTurn> turns = {});
 
   [[nodiscard]] Vec2d position(std::size_t character = 0) const;
   /// The scenery as Box2D has it (float geometry): polygons as the original colliders rounded to float.
