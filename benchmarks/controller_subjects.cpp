@@ -53,7 +53,8 @@ class ContenderSubject final : public Subject {
     contestant_->place({.position = start.position, .velocity = start.velocity});
   }
   void run() override {
-    for (const Input& input : workload_.inputs) contestant_->step_unrecorded({.players = {&input, 1}, .movers = {}});
+    for (const Input& input : workload_.inputs)
+      contestant_->step_unrecorded({.dt = workload_.scene.dt, .players = {&input, 1}, .movers = {}, .turns = {}});
   }
   [[nodiscard]] Vec2d position() const override { return contestant_->pose().position; }
 
