@@ -11,9 +11,30 @@
 namespace paperproof {
 namespace {
 
+/// Every number that is given, together: x - x is zero for a finite number and NaN for any other, so that one branch
+/// tells what would take one per number (a twentieth of a step).
 template <class Scalar>
-bool finite(const Vec2<Scalar>& v) noexcept {
-  return std::isfinite(v.x()) && std::isfinite(v.y());
+class FiniteCheck {
+ public:
+  FiniteCheck& add(const Vec2<Scalar>& v) noexcept {
+    zero_ += v - v;
+    return *this;
+  }
+  [[nodiscard]] bool passed() const noexcept { return zero_.x() == 0 && zero_.y() == 0; }
+
+ private:
+  Vec2<Scalar> zero_{Vec2<Scalar>::Zero()};
+};
+
+template <class Scalar>
+bool finite(const CharacterState<Scalar>& state, const Input& input, const Vec2<Scalar>& gravity, Scalar dt,
+            std::span<const MoverMotion<Scalar>> movers) noexcept {
+  FiniteCheck<Scalar> check;
+  check.add(state.position).add(state.velocity).add(state.remainder).add(gravity);
+  check.add(state.ride.place).add(state.ride.velocity);
+  if (state.has_last_free) check.add(state.last_free);
+  for (const MoverMotion<Scalar>& mover : movers) check.add(mover.from).add(mover.to);
+  return check.passed() && std::isfinite(dt) && std::isfinite(input.move.value_or(0));
 }
 
 template <class Scalar>
@@ -81,14 +102,14 @@ void adopt(const CharacterDef& character, const MoveResult<Scalar>& move, Charac
 
 template <class Scalar>
 void take_jump(const CharacterDef& character, const Input& input, CharacterState<Scalar>& state,
-               Vec2<Scalar>& velocity) noexcept {
+               Scalar& upwards) noexcept {
   if (!input.jump)
     state.jump_pending = false;
   else if (!state.jump_held)
     state.jump_pending = true;
   state.jump_held = input.jump;
   if (state.jump_pending && may_jump(character, state, input)) {
-    velocity.y() = static_cast<Scalar>(character.jump_speed);
+    upwards = static_cast<Scalar>(character.jump_speed);
     state.jumping = true;
     state.grounded = false;
     state.jump_pending = false;
@@ -99,18 +120,22 @@ void take_jump(const CharacterDef& character, const Input& input, CharacterState
 template <bool has_jump, bool has_gravity, class Scalar>
 Vec2<Scalar> wanted_velocity(const CharacterDef& character, const Vec2<Scalar>& gravity, const Input& input, Scalar dt,
                              CharacterState<Scalar>& state) noexcept {
-  Vec2<Scalar> velocity = state.velocity;
-  if (input.move) velocity.x() = steered(character, state, *input.move, dt);
+  // Component by component: a pair that is written as two numbers and read as one waits for the memory.
+  Scalar x = input.move ? steered(character, state, *input.move, dt) : state.velocity.x();
+  Scalar y = state.velocity.y();
   if constexpr (has_jump)
-    take_jump(character, input, state, velocity);
+    take_jump(character, input, state, y);
   else
     state.jump_pending = state.jump_held = false;
-  if constexpr (has_gravity)
-    velocity += gravity * dt;
-  else
-    velocity += gravity;  // zero, and a negative zero becomes a positive one
-  if (character.max_fall_speed) velocity.y() = std::max(velocity.y(), static_cast<Scalar>(-*character.max_fall_speed));
-  return velocity;
+  if constexpr (has_gravity) {
+    x += gravity.x() * dt;
+    y += gravity.y() * dt;
+  } else {
+    x += 0;  // a negative zero becomes a positive one
+    y += 0;
+  }
+  if (character.max_fall_speed) y = std::max(y, static_cast<Scalar>(-*character.max_fall_speed));
+  return {x, y};
 }
 
 }  // namespace
@@ -147,33 +172,30 @@ typename Controller<Scalar>::Step Controller<Scalar>::variant_for(const Stages& 
 
 template <class Scalar>
 template <bool has_sensors, bool has_jump, bool has_gravity>
-StepStatus Controller<Scalar>::step_with(CharacterState<Scalar>& state, const Input& input, const Vec2<Scalar>& gravity,
-                                         Scalar dt, std::span<const MoverMotion<Scalar>> movers,
-                                         Scratch<Scalar>& scratch, StepReport<Scalar>& report) const noexcept {
+// g++ leaves calls in what is instantiated eight times; without them a step takes 3 % fewer instructions.
+[[gnu::flatten]] StepStatus Controller<Scalar>::step_with(CharacterState<Scalar>& state, const Input& input,
+                                                          const Vec2<Scalar>& gravity, Scalar dt,
+                                                          std::span<const MoverMotion<Scalar>> movers,
+                                                          Scratch<Scalar>& scratch,
+                                                          StepReport<Scalar>& report) const noexcept {
   report.sensors.clear();
   report.dropped_through.clear();
   const bool foreseen = (has_jump || !input.jump) && (has_gravity || (gravity.x() == 0 && gravity.y() == 0));
-  const bool usable = foreseen && finite(state.position) && finite(state.velocity) && finite(state.remainder) &&
-                      finite(gravity) && std::isfinite(dt) && dt > 0 && std::isfinite(input.move.value_or(0)) &&
-                      (!state.has_last_free || finite(state.last_free)) && finite(state.ride.place) &&
-                      finite(state.ride.velocity) && movers.size() == scenery_->mover_count() &&
-                      std::all_of(movers.begin(), movers.end(), [](const MoverMotion<Scalar>& mover) {
-                        return finite(mover.from) && finite(mover.to);
-                      });
-  if (!usable) return report.status = StepStatus::invalid_input;
+  if (!foreseen || !(dt > 0) || movers.size() != scenery_->mover_count() || !finite(state, input, gravity, dt, movers))
+    return report.status = StepStatus::invalid_input;
 
-  CharacterState<Scalar> next = state;
+  const CharacterState<Scalar> before = state;
   // What is carried steers, jumps and falls relative to what carries it.
-  if (state.ride.ground != Ride<Scalar>::none) next.velocity -= state.ride.velocity;
-  const Vec2<Scalar> velocity = wanted_velocity<has_jump, has_gravity>(character_, gravity, input, dt, next);
-  report.requested = velocity * dt;
+  if (state.ride.ground != Ride<Scalar>::none) state.velocity -= state.ride.velocity;
+  const Vec2<Scalar> velocity = wanted_velocity<has_jump, has_gravity>(character_, gravity, input, dt, state);
+  report.requested = {velocity.x() * dt, velocity.y() * dt};
   technique_->move({.position = state.position,
-                    .displacement = report.requested,
-                    .velocity = velocity,
+                    .displacement = {velocity.x() * dt, velocity.y() * dt},
+                    .velocity = {velocity.x(), velocity.y()},
                     .last_free = state.last_free,
                     .remainder = state.remainder,
                     .has_last_free = state.has_last_free,
-                    .grounded = next.grounded,
+                    .grounded = state.grounded,
                     .crushed = state.crushed,
                     .drop = input.drop,
                     .movers = movers,
@@ -181,12 +203,14 @@ StepStatus Controller<Scalar>::step_with(CharacterState<Scalar>& state, const In
                     .ride = state.ride},
                    scratch, report.move);
   report.status = status_of(report.move.status);
-  if (report.status == StepStatus::out_of_range) return report.status;
+  if (report.status == StepStatus::out_of_range) {
+    state = before;
+    return report.status;
+  }
   if constexpr (has_sensors)
     if (sensors_) sensors_->observe(report.move.path, movers, report.sensors);
   if (input.drop && one_way_) one_way_->find_passed(report.move.path, movers, report.dropped_through);
-  adopt(character_, report.move, next);
-  state = next;
+  adopt(character_, report.move, state);
   return report.status;
 }
 

@@ -235,6 +235,12 @@ TEST(Refusals, change_nothing_for_input_that_is_no_number) {
     with([bad](Case& c) { c.state.position.y() = bad; });
     with([bad](Case& c) { c.state.velocity.x() = bad; });
     with([bad](Case& c) { c.state.velocity.y() = bad; });
+    with([bad](Case& c) { c.state.remainder.x() = bad; });
+    with([bad](Case& c) { c.state.remainder.y() = bad; });
+    with([bad](Case& c) { c.state.ride.place.x() = bad; });
+    with([bad](Case& c) { c.state.ride.place.y() = bad; });
+    with([bad](Case& c) { c.state.ride.velocity.x() = bad; });
+    with([bad](Case& c) { c.state.ride.velocity.y() = bad; });
     with([bad](Case& c) { c.state.last_free.x() = bad; });
     with([bad](Case& c) { c.state.last_free.y() = bad; });
     with([bad](Case& c) { c.input.move = bad; });
@@ -261,6 +267,16 @@ TEST(Refusals, a_last_free_position_that_is_not_valid_may_be_anything) {
   Stepper<double> stepper({rectangle(-9, -9, 9, 0)});
   stepper.at(0, 3).state.last_free.x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ(stepper.step(), StepStatus::moved);
+}
+
+TEST(Refusals, spare_a_wish_that_float_cannot_hold_as_it_is_limited_to_one) {
+  Stepper<float> wild({rectangle(-9, -9, 9, 0)});
+  Stepper<float> full({rectangle(-9, -9, 9, 0)});
+  wild.at(0, 3);
+  full.at(0, 3);
+  EXPECT_EQ(wild.step(walking(1e300)), StepStatus::moved);
+  EXPECT_EQ(full.step(walking(1)), StepStatus::moved);
+  EXPECT_TRUE(same_bits(wild.state, full.state));
 }
 
 TEST(Refusals, change_nothing_for_a_step_that_leaves_the_range) {

@@ -7,6 +7,8 @@
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <type_traits>
 
 namespace paperproof {
 
@@ -79,12 +81,20 @@ struct Box2 {
 template <class T, std::size_t Capacity>
 class FixedVector {
  public:
+  // The union is what keeps elements from being initialised before they are there: a step makes many short vectors.
+  FixedVector() noexcept {}
+  FixedVector(const FixedVector& other) noexcept { copy(other); }
+  FixedVector& operator=(const FixedVector& other) noexcept {
+    if (this != &other) copy(other);
+    return *this;
+  }
+
   bool push_back(const T& value) noexcept {
     if (size_ == Capacity) {
       overflowed_ = true;
       return false;
     }
-    items_[size_++] = value;
+    std::construct_at(items_.data() + size_++, value);
     return true;
   }
   void clear() noexcept {
@@ -109,7 +119,17 @@ class FixedVector {
   [[nodiscard]] const T* end() const noexcept { return items_.data() + size_; }
 
  private:
-  std::array<T, Capacity> items_;
+  static_assert(std::is_trivially_destructible_v<T>);
+
+  void copy(const FixedVector& other) noexcept {
+    std::uninitialized_copy(other.begin(), other.end(), items_.data());
+    size_ = other.size_;
+    overflowed_ = other.overflowed_;
+  }
+
+  union {
+    std::array<T, Capacity> items_;
+  };
   std::size_t size_ = 0;
   bool overflowed_ = false;
 };

@@ -12,14 +12,6 @@ FrameRecord<Scalar>::FrameRecord(const Parts<Scalar>& parts, const MoveRequest<S
 }
 
 template <class Scalar>
-bool FrameRecord<Scalar>::is_tested(Side side, const PieceGroup<Scalar>& group) const noexcept {
-  const Eigen::Index i = component_of(side);
-  const Scalar drift = group.drift()[i];
-  return parts_.knobs.pairs == ArticleKnobs::Pairs::all || faces(side, least_[i] + drift) ||
-         faces(side, most_[i] + drift);
-}
-
-template <class Scalar>
 void FrameRecord<Scalar>::include(Eigen::Index component, Scalar along) noexcept {
   least_[component] = std::min(least_[component], along);
   most_[component] = std::max(most_[component], along);

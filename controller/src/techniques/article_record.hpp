@@ -26,7 +26,13 @@ class FrameRecord {
   }
 
   /// The pairs that face a movement of the frame relative to the group, or all of them.
-  [[nodiscard]] bool is_tested(Side side, const PieceGroup<Scalar>& group) const noexcept;
+  [[nodiscard]] bool is_tested(Side side, const PieceGroup<Scalar>& group) const noexcept {
+    if (parts_.knobs.pairs == ArticleKnobs::Pairs::all) return true;
+    const Eigen::Index i = component_of(side);
+    const Scalar drift = group.shift_at_end[i] - group.shift_at_start[i];
+    // Of the movements the furthest to that side is enough.
+    return outwards(side) < 0 ? least_[i] + drift < 0 : most_[i] + drift > 0;
+  }
   /// The frame's movement had this component for a while: pairs that face it are tested.
   void include(Eigen::Index component, Scalar along) noexcept;
 

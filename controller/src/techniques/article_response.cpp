@@ -168,13 +168,17 @@ Vec2<Scalar> farthest_motion(Scalar fastest_surface, const MoveRequest<Scalar>& 
   return farthest;
 }
 
+template <class Scalar>
+bool leaves_range(const Vec2<Scalar>& position, const Vec2<Scalar>& wanted, const Vec2<Scalar>& farthest) noexcept {
+  return !in_range(position) || !in_range<Scalar>(position + wanted) || !in_range(farthest);
+}
+
 }  // namespace
 
 template <class Scalar>
 bool leaves_range(const Scenery<Scalar>& scenery, Scalar fastest_surface, const MoveRequest<Scalar>& request) noexcept {
-  const FrameOfReference<Scalar> frame(scenery, request);
-  return !in_range(request.position) || !in_range<Scalar>(request.position + frame.wanted()) ||
-         !in_range(farthest_motion(fastest_surface, request));
+  const Vec2<Scalar> wanted = FrameOfReference<Scalar>(scenery, request).wanted();
+  return leaves_range<Scalar>(request.position, wanted, farthest_motion(fastest_surface, request));
 }
 
 template <class Scalar>
@@ -182,9 +186,10 @@ bool refuse(const Parts<Scalar>& parts, bool searches_by_units, const MoveReques
             MoveResult<Scalar>& result) noexcept {
   // Relative to one mover, on another one or pushed by it.
   const Vec2<Scalar> wanted = FrameOfReference<Scalar>(*parts.scenery, request).wanted();
-  const Vec2<Scalar> farthest = wanted.cwiseAbs() + 2 * farthest_motion(parts.fastest_surface, request);
-  const bool quick = !searches_by_units || length(farthest) <= parts.unit * Scalar(max_search_steps);
-  if (quick && !leaves_range(*parts.scenery, parts.fastest_surface, request)) return false;
+  const Vec2<Scalar> farthest = farthest_motion(parts.fastest_surface, request);
+  const Vec2<Scalar> searched = wanted.cwiseAbs() + 2 * farthest;
+  const bool quick = !searches_by_units || length(searched) <= parts.unit * Scalar(max_search_steps);
+  if (quick && !leaves_range(request.position, wanted, farthest)) return false;
   refuse(request, result);
   return true;
 }

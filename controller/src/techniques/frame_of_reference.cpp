@@ -5,17 +5,11 @@
 
 namespace paperproof {
 
+/// Becomes the frame of what carries the character.
 template <class Scalar>
-FrameOfReference<Scalar>::FrameOfReference(const Scenery<Scalar>& scenery, const MoveRequest<Scalar>& request) noexcept
-    : scenery_(&scenery),
-      movers_(request.movers),
-      dt_(request.dt),
-      drops_(request.drop),
-      start_(request.position),
-      wanted_(request.displacement),
-      velocity_(request.velocity) {
+void FrameOfReference<Scalar>::go_along(const MoveRequest<Scalar>& request) noexcept {
   const ColliderIndex ground = request.ride.ground;
-  if (ground >= scenery.as_run().colliders.size()) return;
+  if (ground >= scenery_->as_run().colliders.size()) return;
   mover_ = mover_of(ground);
   wanted_ += surface_motion(ground);
   velocity_ += velocity_of(ground);
@@ -45,16 +39,6 @@ Vec2<Scalar> FrameOfReference<Scalar>::velocity_of(ColliderIndex ground) const n
   Vec2<Scalar> result = velocity(collider.mover);
   result.x() += static_cast<Scalar>(collider.surface_speed);
   return result;
-}
-
-template <class Scalar>
-Vec2<Scalar> FrameOfReference<Scalar>::shift_at_start(MoverIndex mover) const noexcept {
-  return motion_of(mover_).from - motion_of(mover).from;
-}
-
-template <class Scalar>
-Vec2<Scalar> FrameOfReference<Scalar>::shift_at_end(MoverIndex mover) const noexcept {
-  return motion_of(mover_).to - motion_of(mover).to;
 }
 
 template <class Scalar>

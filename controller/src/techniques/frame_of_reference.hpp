@@ -16,7 +16,16 @@ template <class Scalar>
 class FrameOfReference {
  public:
   /// @param request `movers` has one for each mover of the scenery.
-  FrameOfReference(const Scenery<Scalar>& scenery, const MoveRequest<Scalar>& request) noexcept;
+  FrameOfReference(const Scenery<Scalar>& scenery, const MoveRequest<Scalar>& request) noexcept
+      : scenery_(&scenery),
+        movers_(request.movers),
+        dt_(request.dt),
+        drops_(request.drop),
+        start_(request.position),
+        wanted_(request.displacement),
+        velocity_(request.velocity) {
+    if (request.ride.ground != Ride<Scalar>::none) go_along(request);
+  }
 
   /// Where the character is when the step begins [m].
   [[nodiscard]] const Vec2<Scalar>& start() const noexcept { return start_; }
@@ -32,8 +41,14 @@ class FrameOfReference {
   /// Of a collider, a conveyor's surface included [m/s].
   [[nodiscard]] Vec2<Scalar> velocity_of(ColliderIndex ground) const noexcept;
 
-  [[nodiscard]] Vec2<Scalar> shift_at_start(MoverIndex mover) const noexcept;
-  [[nodiscard]] Vec2<Scalar> shift_at_end(MoverIndex mover) const noexcept;
+  [[nodiscard]] Vec2<Scalar> shift_at_start(MoverIndex mover) const noexcept {
+    if (mover == mover_) return Vec2<Scalar>::Zero();
+    return motion_of(mover_).from - motion_of(mover).from;
+  }
+  [[nodiscard]] Vec2<Scalar> shift_at_end(MoverIndex mover) const noexcept {
+    if (mover == mover_) return Vec2<Scalar>::Zero();
+    return motion_of(mover_).to - motion_of(mover).to;
+  }
 
   /// A position of this frame, at a fraction of the step, in the world. At the end it is exactly `to + place`.
   [[nodiscard]] Vec2<Scalar> in_world(const Vec2<Scalar>& position, Scalar fraction) const noexcept;
@@ -58,6 +73,7 @@ class FrameOfReference {
   [[nodiscard]] MoverIndex mover() const noexcept { return mover_; }
 
  private:
+  void go_along(const MoveRequest<Scalar>& request) noexcept;
   [[nodiscard]] MoverMotion<Scalar> motion_of(MoverIndex mover) const noexcept {
     return mover == no_mover ? MoverMotion<Scalar>{} : movers_[mover];
   }

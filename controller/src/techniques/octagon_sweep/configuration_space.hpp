@@ -61,6 +61,7 @@ class ConfigurationSpace {
  public:
   /// Edges of the octagon, and the four box directions where they are not among them: they bevel sharp corners.
   static constexpr std::size_t max_shared = 12;
+  static constexpr std::size_t box_axes = 4;   ///< The first shared axes: up, right, left, down.
   static constexpr std::size_t max_axes = 64;  ///< Of one piece; the covered mask has as many bits.
 
   /// `scenery` must outlive it.

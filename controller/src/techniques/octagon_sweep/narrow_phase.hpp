@@ -101,6 +101,18 @@ struct Clearance {
   [[nodiscard]] bool clear() const noexcept { return kept >= tau(); }
 };
 
+/// Whether one of the box directions alone, which are the first shared axes, keeps a piece further than `hit` away
+/// during the whole motion. So it is with most pieces: looking at these axes first saves half of a sweep.
+template <Variant variant, class Scalar>
+[[nodiscard, gnu::always_inline]] inline bool clear_of_box(const ConfigurationSpace<Scalar>& space,
+                                                           const Motion<variant.lanes, Scalar>& motion,
+                                                           PieceIndex piece) noexcept {
+  using BoxAxes = PerAxis<ConfigurationSpace<Scalar>::box_axes, Scalar>;
+  const BoxAxes start = BoxAxes::Map(motion.at.data()) - BoxAxes::Map(space.shared_offsets(piece));
+  const BoxAxes least = start.min(start + BoxAxes::Map(motion.along.data()));
+  return least.maxCoeff() >= Tolerances<Scalar>{}.hit;
+}
+
 template <Variant variant, class Scalar>
 [[nodiscard, gnu::always_inline]] inline Clearance<Scalar> clearance(const ConfigurationSpace<Scalar>& space,
                                                                      const Motion<variant.lanes, Scalar>& motion,
@@ -183,6 +195,7 @@ template <Variant variant, class Scalar>
   AxisRanges<Scalar> f;
   find_ranges<variant>(space, motion, piece, f);
   const Scalar tau = clear.tau();
+  const Scalar inside = std::min(tau, Scalar(0));
   const bool touching = clear.start <= tolerances.touch;
   LastEntry<Scalar> last(space, piece);
   Scalar entry = 0;
@@ -195,6 +208,7 @@ template <Variant variant, class Scalar>
   for (std::size_t axis = 0; axis < f.count; ++axis) {
     const Scalar start = f.start[axis];
     const Scalar end = f.end[axis];
+    if (start < inside && end < inside) continue;  // most axes of a piece that is met: they say nothing
     const Scalar approach = start - end;
     if (start >= 0 && approach > 0 && start > impact_time * approach) {
       impact_time = start / approach;

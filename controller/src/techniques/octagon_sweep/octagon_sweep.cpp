@@ -96,10 +96,11 @@ class OctagonSweep : public Technique<Scalar> {
 
   [[nodiscard]] static bool in_range(const MoveRequest<Scalar>& request) noexcept {
     constexpr Scalar range = Tolerances<Scalar>{}.range;
-    const Vec2<Scalar> target = request.position + request.displacement;
-    // Written so that NaN is out of range.
+    // Written so that NaN is out of range, and by component: see `wanted_velocity`.
     const auto within = [](Scalar value) { return std::abs(value) <= range; };
-    return within(request.position.x()) && within(request.position.y()) && within(target.x()) && within(target.y());
+    return within(request.position.x()) && within(request.position.y()) &&
+           within(request.position.x() + request.displacement.x()) &&
+           within(request.position.y() + request.displacement.y());
   }
 
   static void refuse(const MoveRequest<Scalar>& request, MoveResult<Scalar>& result) noexcept {
@@ -141,8 +142,10 @@ class OctagonSweepAmongMovers final : public OctagonSweep<Scalar> {
         (!request.movers.empty() && !(request.dt > 0)))
       return this->refuse(request, result);
     const Neighbourhood<Scalar> neighbourhood = this->neighbourhood(scratch);
-    const Box2<Scalar> start{request.position, request.position};
-    if (request.ride.ground == Ride<Scalar>::none && keeps_away(start, request)) {
+    const bool rides = request.ride.ground != Ride<Scalar>::none;
+    if (!rides && request.movers.empty() && !has_conveyors_)
+      return this->solve_(this->space_, this->settings_, neighbourhood, request, result);
+    if (!rides && keeps_away({request.position, request.position}, request)) {
       this->solve_(this->space_, this->settings_, neighbourhood, request, result);
       if (keeps_away(box_of(result.path), request) && !meets_conveyor(result)) return;
       result.clear();

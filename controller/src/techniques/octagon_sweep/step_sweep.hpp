@@ -51,7 +51,7 @@ void StepSolver<variant, Scalar>::sweep(const LocalMotion& motion, std::span<con
   for (const PieceIndex piece : pieces) {
     if constexpr (variant.movers)
       if (ignored(piece) || kept_clear_by_hold(motion, piece)) continue;
-    if (!in_way(motion, piece)) continue;
+    if (clear_of_box<variant>(space_, motion, piece) || !in_way(motion, piece)) continue;
     const Clearance<Scalar> clear = clearance<variant>(space_, motion, piece);
     found_.least_separation = std::min(found_.least_separation, clear.start);
     if (clear.clear()) continue;
@@ -178,6 +178,15 @@ Scalar StepSolver<variant, Scalar>::impact_of(const Stop<Scalar>& stop, const Lo
                                               const V& from) noexcept {
   Scalar earliest = time_of_impact(space_, from, motion.way, stop.piece, stop.axes);
   if ((earliest - stop.stop) * motion.length <= 2 * Tolerances<Scalar>{}.stop) return earliest;
+  if (!is_whole_collider(stop.piece)) earliest = std::min(earliest, impact_with_another_piece(stop, motion, from));
+  return earliest;
+}
+
+/// The earliest time of impact of the other pieces of a collider; infinite where none is met.
+template <Variant variant, class Scalar>
+Scalar StepSolver<variant, Scalar>::impact_with_another_piece(const Stop<Scalar>& stop, const LocalMotion& motion,
+                                                              const V& from) noexcept {
+  Scalar earliest = std::numeric_limits<Scalar>::infinity();
   const std::span<const PieceInfo> pieces = space_.scenery().pieces();
   for (const PieceIndex other : pieces_along(motion, pieces[stop.piece].mover)) {
     if (other == stop.piece || pieces[other].collider != pieces[stop.piece].collider) continue;
@@ -188,6 +197,14 @@ Scalar StepSolver<variant, Scalar>::impact_of(const Stop<Scalar>& stop, const Lo
     if (hit.hit) earliest = std::min(earliest, time_of_impact(space_, from, motion.way, other, hit.axes));
   }
   return earliest;
+}
+
+/// Whether a piece is all that its collider has: the pieces of a collider stand together.
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::is_whole_collider(PieceIndex piece) const noexcept {
+  const std::span<const PieceInfo> pieces = space_.scenery().pieces();
+  const auto same = [&](PieceIndex other) { return pieces[other].collider == pieces[piece].collider; };
+  return !(piece > 0 && same(piece - 1)) && !(piece + 1 < pieces.size() && same(piece + 1));
 }
 
 /// What a motion may meet, of what stands still or of one mover.
