@@ -15,21 +15,18 @@ double margin_at(double size) { return 64 * std::numeric_limits<double>::epsilon
 
 double largest(const Vec2d& v) { return v.cwiseAbs().maxCoeff(); }
 
-Rational cross(const auto& a, const auto& b) { return a.x * b.y - a.y * b.x; }
-auto minus(const auto& a, const auto& b) { return std::decay_t<decltype(a)>{a.x - b.x, a.y - b.y}; }
-
 }  // namespace
 
 ExactPair::ExactPair(std::span<const Vec2d> hull) {
   for (std::size_t k = 0; k < hull.size(); ++k) {
     const Vec2d& start = hull[k];
     const Vec2d edge = hull[(k + 1) % hull.size()] - start;
-    Side side{.edge = minus(exact(hull[(k + 1) % hull.size()]), exact(start)),
+    Side side{.edge = exact(hull[(k + 1) % hull.size()]) - exact(start),
               .reach = 0,
               .normal = Vec2d(edge.y(), -edge.x()) / edge.norm(),
               .width = 0};
     for (const Vec2d& corner : hull) {
-      side.reach = std::max(side.reach, Rational(abs(cross(side.edge, minus(exact(corner), exact(start))))));
+      side.reach = std::max(side.reach, Rational(abs(cross(side.edge, exact(corner) - exact(start)))));
       side.width = std::max(side.width, std::abs(side.normal.dot(corner - start)));
     }
     sides_.push_back(std::move(side));
@@ -42,7 +39,7 @@ ExactPair::Point ExactPair::Part::at(double fraction) const {
   const Rational share =
       (Rational(fraction) - Rational(from.fraction)) / (Rational(to.fraction) - Rational(from.fraction));
   const Point start = exact(from.position);
-  const Point way = minus(exact(to.position), start);
+  const Point way = exact(to.position) - start;
   return {start.x + way.x * share, start.y + way.y * share};
 }
 
@@ -127,7 +124,7 @@ std::optional<PairImpact> ExactPair::inside_on(const Point& start, const Point& 
 
 bool ExactPair::meet_on(const Part& one, const Part& other) const {
   if (surely_apart(one, other)) return false;
-  return inside_on(minus(one.first(), other.first()), minus(one.last(), other.last())).has_value();
+  return inside_on(one.first() - other.first(), one.last() - other.last()).has_value();
 }
 
 bool ExactPair::overlap(const Vec2d& one, const Vec2d& other) const { return meet_between(one, other, one, other); }
@@ -146,9 +143,9 @@ std::optional<PairImpact> ExactPair::first_impact(const Vec2d& one, const Vec2d&
   const Vec2d one_end = one + one_by;
   const Vec2d other_end = other + other_by;
   if (surely_apart({{one, 0}, {one_end, 1}, 0, 1}, {{other, 0}, {other_end, 1}, 0, 1})) return std::nullopt;
-  const Point start = minus(exact(one), exact(other));
-  const Point by = minus(exact(one_by), exact(other_by));
-  std::optional<PairImpact> impact = inside_on(start, {start.x + by.x, start.y + by.y});
+  const Point start = exact(one) - exact(other);
+  const Point by = exact(one_by) - exact(other_by);
+  std::optional<PairImpact> impact = inside_on(start, start + by);
   if (impact && impact->normal == Vec2d::Zero()) return std::nullopt;  // they overlap already
   return impact;
 }

@@ -1,6 +1,8 @@
 /// Two characters of one shape, exactly.
 #pragma once
 
+#include "oracle/number.hpp"
+
 #include <paperproof/technique.hpp>
 
 #include <boost/multiprecision/cpp_int.hpp>
@@ -51,10 +53,7 @@ class ExactPair {
   [[nodiscard]] double deepest(std::span<const PathPoint<double>> one, std::span<const PathPoint<double>> other) const;
 
  private:
-  struct Point {
-    Rational x;
-    Rational y;
-  };
+  using Point = detail::Point<Rational>;
   /// An edge of the shape: the two are apart along it where |edge x difference| is at least `reach`.
   struct Side {
     Point edge;

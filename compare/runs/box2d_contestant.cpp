@@ -1,5 +1,6 @@
 #include "runs/box2d_contestant.hpp"
 
+#include "runs/technique_parts.hpp"
 #include "scenes/step_times.hpp"
 
 #include <paperproof/controller.hpp>
@@ -64,26 +65,15 @@ class Box2dContestant final : public Contestant {
   void step_unrecorded(const StepInput& input) override { advance(input); }
 
   [[nodiscard]] Pose pose(std::size_t character) const override {
-    const CharacterState<double>& state = twins_[character].state;
-    return {.position = world_.position(character),
-            .velocity = state.velocity,
-            .grounded = state.grounded,
-            .jumping = state.jumping,
-            .jump_held = state.jump_held,
-            .jump_pending = state.jump_pending,
-            .ride = state.ride,
-            .ground_normal = twins_[character].ground_normal};
+    Pose pose = pose_of(twins_[character].state);
+    pose.position = world_.position(character);
+    pose.ground_normal = twins_[character].ground_normal;
+    return pose;
   }
 
   void place(const Pose& pose, std::size_t character) override {
-    CharacterState<double>& state = twins_[character].state = {};
-    state.velocity = pose.velocity;
-    state.grounded = pose.grounded;
-    state.jumping = pose.jumping;
-    state.jump_held = pose.jump_held;
-    state.jump_pending = pose.jump_pending;
-    state.ride = pose.ride;
-    twins_[character].ground_normal = pose.ground_normal;
+    twins_[character] = {state_at<double>(pose), pose.ground_normal};
+    twins_[character].state.ride = pose.ride;
     world_.place(pose.position, pose.velocity, character);
   }
 

@@ -34,12 +34,8 @@ class InputCursor {
  private:
   void advance(std::size_t character, int step) {
     const std::vector<InputEvent>& events = script_[character];
-    Input& now = now_[character];
-    for (std::size_t& next = next_[character]; next < events.size() && events[next].step <= step; ++next) {
-      if (events[next].move) now.move = events[next].move;
-      if (events[next].jump) now.jump = *events[next].jump;
-      if (events[next].drop) now.drop = *events[next].drop;
-    }
+    for (std::size_t& next = next_[character]; next < events.size() && events[next].step <= step; ++next)
+      apply(events[next], now_[character]);
   }
 
   const Scene& scene_;

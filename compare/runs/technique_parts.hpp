@@ -1,4 +1,5 @@
-/// What the contestants that run our controller have in common: scenery, header, and how a report becomes a record.
+/// What the contestants have in common that run our controller: scenery, header, and how a report becomes a record;
+/// and, with the twin, how a state becomes a pose.
 #pragma once
 
 #include "runs/contestant.hpp"

@@ -1,5 +1,7 @@
 #include "scenes/scene.hpp"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 
@@ -29,12 +31,6 @@ class Random {
   std::uint64_t state_;
 };
 
-Vec2d turned(const Vec2d& point, double angle) {
-  const double cosine = std::cos(angle);
-  const double sine = std::sin(angle);
-  return {cosine * point.x() - sine * point.y(), sine * point.x() + cosine * point.y()};
-}
-
 }  // namespace
 
 Script script_of(const Scene& scene) {
@@ -56,25 +52,30 @@ SceneryDef scenery_at(const Scene& scene, double time) {
     const MoverDef& mover = scene.movers[collider.mover];
     const Vec2d offset = offset_at(mover, time);
     const double angle = angle_at(mover, time);
+    const Eigen::Rotation2Dd turn(angle);
     const auto place = [&](Vec2d& point) {
-      if (angle != 0) point = turned(point, angle);
+      if (angle != 0) point = turn * point;
       point += offset;
     };
     std::for_each(collider.points.begin(), collider.points.end(), place);
     for (std::vector<Vec2d>& hole : collider.holes) std::for_each(hole.begin(), hole.end(), place);
-    if (collider.one_way && angle != 0) collider.one_way = turned(*collider.one_way, angle);
+    if (collider.one_way && angle != 0) collider.one_way = turn * *collider.one_way;
     collider.mover = no_mover;
   }
   return placed;
+}
+
+void apply(const InputEvent& event, Input& input) {
+  if (event.move) input.move = event.move;
+  if (event.jump) input.jump = *event.jump;
+  if (event.drop) input.drop = *event.drop;
 }
 
 Input input_at(const std::vector<InputEvent>& events, int step) {
   Input input;
   for (const InputEvent& event : events) {
     if (event.step > step) break;
-    if (event.move) input.move = event.move;
-    if (event.jump) input.jump = *event.jump;
-    if (event.drop) input.drop = *event.drop;
+    apply(event, input);
   }
   return input;
 }

@@ -76,6 +76,9 @@ struct Scene {
 /// taken it (rounded), and none moves.
 [[nodiscard]] SceneryDef scenery_at(const Scene& scene, double time);
 
+/// What an event changes.
+void apply(const InputEvent& event, Input& input);
+
 /// The input at a step: the events up to and including it, applied in order.
 [[nodiscard]] Input input_at(const std::vector<InputEvent>& events, int step);
 

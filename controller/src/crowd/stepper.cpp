@@ -37,11 +37,24 @@ void add_corner(MoveResult<Scalar>& move, const PathPoint<Scalar>& corner) noexc
 }
 
 template <class Scalar>
+void clear(StepReport<Scalar>& report) noexcept {
+  report.status = StepStatus::moved;
+  report.move.clear();
+  report.sensors.clear();
+  report.dropped_through.clear();
+}
+
+/// Nothing but staying at a place.
+template <class Scalar>
+void report_stay(const Vec2<Scalar>& position, StepReport<Scalar>& report) noexcept {
+  clear(report);
+  report.move.path.push_back({position, 0});
+  report.move.path.push_back({position, 1});
+}
+
+template <class Scalar>
 void clear(CrowdMember<Scalar>& member) noexcept {
-  member.step.status = StepStatus::moved;
-  member.step.move.clear();
-  member.step.sensors.clear();
-  member.step.dropped_through.clear();
+  clear(member.step);
   member.met.clear();
   member.started_overlapping.clear();
   member.stayed = false;
@@ -119,12 +132,7 @@ template <class Scalar>
 void Stepper<Scalar>::stay(std::size_t i) noexcept {
   Runner<Scalar>& runner = runners_[i];
   runner.after = runner.state;
-  runner.plan.status = StepStatus::moved;
-  runner.plan.sensors.clear();
-  runner.plan.dropped_through.clear();
-  runner.plan.move.clear();
-  runner.plan.move.path.push_back({runner.state.position, 0});
-  runner.plan.move.path.push_back({runner.state.position, 1});
+  report_stay(runner.state.position, runner.plan);
   find_box(runner);
 }
 
@@ -402,11 +410,7 @@ template <class Scalar>
 void Stepper<Scalar>::keep_back(std::size_t i, const CharacterState<Scalar>& start) noexcept {
   CrowdMember<Scalar>& made = member(i);
   made.stayed = true;
-  made.step.sensors.clear();
-  made.step.dropped_through.clear();
-  made.step.move.clear();
-  made.step.move.path.push_back({start.position, 0});
-  made.step.move.path.push_back({start.position, 1});
+  report_stay(start.position, made.step);
   Runner<Scalar>& runner = runners_[i];
   runner.state = start;
   runner.state.velocity = V::Zero();

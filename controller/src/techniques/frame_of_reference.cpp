@@ -43,9 +43,7 @@ Vec2<Scalar> FrameOfReference<Scalar>::velocity_of(ColliderIndex ground) const n
 
 template <class Scalar>
 Vec2<Scalar> FrameOfReference<Scalar>::offset(MoverIndex mover, Scalar fraction) const noexcept {
-  const MoverMotion<Scalar> motion = motion_of(mover);
-  if (!(fraction < 1)) return motion.to;
-  return motion.from + (motion.to - motion.from) * fraction;
+  return motion_of(mover).at(fraction);
 }
 
 template <class Scalar>

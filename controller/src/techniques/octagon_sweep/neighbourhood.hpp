@@ -77,10 +77,7 @@ struct Surroundings {
   /// How far a mover goes in the step [m].
   [[nodiscard]] Vec2<Scalar> course(MoverIndex mover) const noexcept { return movers[mover].to - movers[mover].from; }
   /// Where it is at a fraction of the step [m].
-  [[nodiscard]] Vec2<Scalar> offset(MoverIndex mover, Scalar time) const noexcept {
-    if (time >= 1) return movers[mover].to;
-    return movers[mover].from + course(mover) * time;
-  }
+  [[nodiscard]] Vec2<Scalar> offset(MoverIndex mover, Scalar time) const noexcept { return movers[mover].at(time); }
   /// How far it still goes after a fraction of the step [m].
   [[nodiscard]] Vec2<Scalar> rest(MoverIndex mover, Scalar time) const noexcept { return course(mover) * (1 - time); }
 

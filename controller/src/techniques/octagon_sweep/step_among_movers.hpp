@@ -32,7 +32,7 @@ template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::ignored(PieceIndex piece) const noexcept {
   if (moving_.ignored.empty()) return false;
   const ColliderIndex collider = space_.scenery().pieces()[piece].collider;
-  return std::find(moving_.ignored.begin(), moving_.ignored.end(), collider) != moving_.ignored.end();
+  return contains(moving_.ignored, collider);
 }
 
 /// Whether a motion keeps off a piece along the axis that holds it. The axis alone is then proof.

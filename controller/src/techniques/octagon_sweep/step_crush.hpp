@@ -28,13 +28,10 @@ template <Variant variant, class Scalar>
 void StepSolver<variant, Scalar>::take_back_crushes() noexcept {
   const auto& crushed = result_.crushed;
   if (crushed.empty()) return;
-  const auto crushing = [&](ColliderIndex collider) {
-    return std::find(crushed.begin(), crushed.end(), collider) != crushed.end();
-  };
   const auto ignored_before = moving_.ignored;
   moving_.ignored.clear();
   for (const ColliderIndex collider : ignored_before)
-    if (!crushing(collider)) moving_.ignored.push_back(collider);
+    if (!contains(crushed, collider)) moving_.ignored.push_back(collider);
   Scalar reach = 0;
   const std::vector<ColliderDef>& colliders = space_.scenery().as_run().colliders;
   for (const ColliderIndex collider : crushed)

@@ -154,10 +154,8 @@ bool StepSolver<variant, Scalar>::stopped_by(const LocalMotion& motion, PieceInd
 /// What the step began inside of is not in the way while it is left, nor what is on the character.
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::left_behind(PieceIndex piece) const noexcept {
-  const auto among = [collider = space_.scenery().pieces()[piece].collider](const auto& some) {
-    return std::find(some.begin(), some.end(), collider) != some.end();
-  };
-  return (moving_.leaving && among(moving_.left)) || among(moving_.lying);
+  const ColliderIndex collider = space_.scenery().pieces()[piece].collider;
+  return (moving_.leaving && contains(moving_.left, collider)) || contains(moving_.lying, collider);
 }
 
 /// The colliders that a step begins inside of.
@@ -165,9 +163,7 @@ template <Variant variant, class Scalar>
 void StepSolver<variant, Scalar>::note_what_is_left() noexcept {
   for_each_near({position_, position_}, [&](PieceIndex piece) {
     const ColliderIndex collider = space_.scenery().pieces()[piece].collider;
-    const auto& left = moving_.left;
-    if (std::find(left.begin(), left.end(), collider) == left.end() && overlaps(piece, position_))
-      moving_.left.push_back(collider);
+    if (!contains(moving_.left, collider) && overlaps(piece, position_)) moving_.left.push_back(collider);
   });
 }
 

@@ -16,11 +16,16 @@
 #include <paperproof/technique.hpp>
 #include <paperproof/tolerances.hpp>
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <type_traits>
 
 namespace paperproof::octagon_sweep {
+
+[[nodiscard]] inline bool contains(std::span<const ColliderIndex> colliders, ColliderIndex collider) noexcept {
+  return std::find(colliders.begin(), colliders.end(), collider) != colliders.end();
+}
 
 /// What a technique knows before the first step.
 template <class Scalar>
