@@ -62,6 +62,7 @@ std::set<ColliderIndex> colliders_to_name(const ReportScene& scene) {
       add_contacts(step.contacts);
       named.insert(step.start_overlap.begin(), step.start_overlap.end());
       named.insert(step.crushed.begin(), step.crushed.end());
+      named.insert(step.dropped_through.begin(), step.dropped_through.end());
     });
   }
   for (const Disagreement& disagreement : scene.disagreements) {
@@ -138,6 +139,12 @@ std::string disagreement_json(const Disagreement& disagreement, std::size_t runs
   return std::move(object).take();
 }
 
+std::string lengths_json(const std::vector<double>& seconds) {
+  JsonArray list;
+  for (const double length : seconds) list.add_raw(short_number(length, 9));
+  return std::move(list).take();
+}
+
 }  // namespace
 
 std::string replay_json(const ReportScene& scene, const ReportOptions& options) {
@@ -159,6 +166,7 @@ std::string replay_json(const ReportScene& scene, const ReportOptions& options) 
   object.put("quantum", short_number(quantum.metres())).put("sceneries", list_of(sceneries.json));
   object.put("runs", list_of(runs)).put("disagreements", list_of(disagreements));
   object.put("disagreements_in_all", static_cast<std::int64_t>(scene.disagreements.size()));
+  if (!scene.dt_list.empty()) object.put("dt_list", lengths_json(scene.dt_list));
   return std::move(object).take();
 }
 

@@ -40,7 +40,7 @@ ReportWriter::ReportWriter(const std::string& path, const ReportOptions& options
 ReportWriter::~ReportWriter() = default;
 
 void ReportWriter::add(const ReportScene& scene) {
-  ReportScene copy{scene.name, scene.description, scene.sentence, scene.rows, {}, scene.disagreements};
+  ReportScene copy{scene.name, scene.description, scene.sentence, scene.rows, {}, scene.disagreements, scene.dt_list};
   for (const ReportRun& run : scene.runs) {
     copy.runs.push_back(thinned(run, options_.max_replay_steps, scene.disagreements));
   }
@@ -57,8 +57,8 @@ void ReportWriter::finish(const Environment& environment, const std::vector<Name
   file_->write("</script>\n");
   const auto [before, after] = split_at(split_at(page::page_html, "<!--DATA-->").second, "/*SCRIPT*/");
   file_->write(before);
-  for (const std::string_view part : {page::decode_js, page::draw_js, page::tables_js, page::disagreements_js,
-                                      page::controls_js, page::replay_js, page::main_js}) {
+  for (const std::string_view part : {page::time_js, page::decode_js, page::draw_js, page::tables_js,
+                                      page::disagreements_js, page::controls_js, page::replay_js, page::main_js}) {
     file_->write(part);
   }
   file_->write(after);

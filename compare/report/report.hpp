@@ -19,7 +19,7 @@ using Environment = std::vector<std::pair<std::string, std::string>>;
 
 /// A step that a reader may want to jump to. The first contact needs none: the page finds it in the steps.
 struct ReportEvent {
-  enum class Kind : std::uint8_t { tunnel, corner_cut, inside, one_way, crush, sensor, note };
+  enum class Kind : std::uint8_t { tunnel, corner_cut, inside, one_way, crush, drop, sensor, note };
   int step = 0;
   Kind kind = Kind::note;
   std::string words;  ///< One sentence: what happened, how fast, through what. May be empty.
@@ -57,6 +57,7 @@ struct ReportScene {
   std::vector<Row> rows;                    ///< Failures included.
   std::vector<ReportRun> runs;              ///< May be fewer than rows; empty: no replay for this scene.
   std::vector<Disagreement> disagreements;  ///< In the order in which they are to be drawn.
+  std::vector<double> dt_list{};  ///< Lengths of the steps [s], from the front again; empty: all of the runs' `dt`.
 };
 
 struct Report {

@@ -27,6 +27,7 @@ class Columns {
     add_met(step.met);
     add_colliders(overlaps_, step.start_overlap);
     add_colliders(crushed_, step.crushed);
+    add_colliders(dropped_through_, step.dropped_through);
     add_movers(step.movers);
     for (const TurnMotion& turn : step.turns) turns_.add(in_parts(turn.from)).add(in_parts(turn.to));
     turns_any_ = turns_any_ || !step.turns.empty();
@@ -39,6 +40,7 @@ class Columns {
     run.put("kinds", std::move(kinds_).take()).put("start_overlap", std::move(overlaps_).take());
     if (!met_.empty()) run.put("met", std::move(met_).take());
     if (!crushed_.empty()) run.put("crush", std::move(crushed_).take());
+    if (!dropped_through_.empty()) run.put("drop", std::move(dropped_through_).take());
     if (!places_.empty()) run.put("movers", std::move(movers_).take());
     if (turns_any_) run.put("turns", std::move(turns_).take());
   }
@@ -145,7 +147,7 @@ class Columns {
   JsonArray steps_, path_, velocity_, contacts_, kinds_, movers_, turns_;
   bool turns_any_ = false;
   std::string flags_;
-  JsonObject overlaps_, crushed_, met_;
+  JsonObject overlaps_, crushed_, dropped_through_, met_;
   std::vector<Place> places_;
   std::map<Kind, std::size_t> known_kinds_;
   std::vector<Cell> last_points_;
@@ -184,6 +186,8 @@ std::string_view word_for(ReportEvent::Kind kind) {
       return "one-way broken";
     case ReportEvent::Kind::crush:
       return "crush";
+    case ReportEvent::Kind::drop:
+      return "drop";
     case ReportEvent::Kind::sensor:
       return "sensor";
     case ReportEvent::Kind::note:

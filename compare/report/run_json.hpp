@@ -16,7 +16,8 @@ namespace paperproof::compare {
 /// - `contacts`: per step the count, then (kind, dx, dy, fraction in 1/10,000, separation in metres) for each, where
 ///   (dx, dy) is the change of (point - position) since the last contact of that kind; `kinds` are
 ///   (collider, side, normal x, normal y), the normal in 1/10,000;
-/// - `start_overlap`: {index of the stored step: [collider…]}; `crush` in the same way, where there is any;
+/// - `start_overlap`: {index of the stored step: [collider…]}; `crush` and `drop` in the same way, where there are
+///   any;
 /// - `movers`, where there are any: per step 1 and (dx, dy) from where each of them ended the step before, if any
 /// begins
 ///   elsewhere, else 0; then for each the change of its way (to - from) since the step before.

@@ -180,6 +180,7 @@ void Lane::note_events(std::size_t character) {
   note_company(ReportEvent::Kind::corner_cut, judged.company.corner_cut, "cuts a corner of");
   note(ReportEvent::Kind::one_way, judged.one_way_broken, "passes against its normal:");
   note(ReportEvent::Kind::crush, record.crushed, "is crushed by");
+  note(ReportEvent::Kind::drop, record.dropped_through, "drops through");
   for (const SensorEvent<double>& event : record.sensors)
     note(ReportEvent::Kind::sensor, {event.sensor},
          event.change == SensorEvent<double>::Change::enter ? "enters" : "leaves",

@@ -164,6 +164,7 @@ class SceneRun {
     ReportScene result;
     result.name = scene_.name;
     result.description = scene_.description;
+    result.dt_list = scene_.dt_list;
     for (const auto& lane : lanes_) add(*lane, result);
     for (const auto& lane : twins_) add(*lane, result);
     result.sentence = who_is_right(result.rows);

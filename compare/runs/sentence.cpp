@@ -103,12 +103,25 @@ std::string about_agreement(const std::vector<Row>& rows) {
   return "";
 }
 
+/// A reason without the name of the contender that it may begin with: what several have in common.
+std::string shared_reason(const Row& row) {
+  const std::string name = row.contender + " ";
+  return row.reason.starts_with(name) ? "each " + row.reason.substr(name.size()) : row.reason;
+}
+
 std::string about_limits(const std::vector<Row>& rows) {
+  const auto limited = [](const Row& row) {
+    const bool told = row.steps_ending_inside.value_or(0) > 0;  // by about_overlap
+    return (row.verdict == Verdict::flagged && !told) || !scored(row);
+  };
+  std::vector<std::string> told;
   std::string text;
   for (const Row& row : rows) {
-    const bool told = row.steps_ending_inside.value_or(0) > 0;  // by about_overlap
-    if ((row.verdict == Verdict::flagged && !told) || !scored(row))
-      text += fmt::format("{}: {}. ", called(row), row.reason);
+    if (!limited(row) || std::find(told.begin(), told.end(), shared_reason(row)) != told.end()) continue;
+    told.push_back(shared_reason(row));
+    const auto same =
+        those(rows, [&](const Row& other) { return limited(other) && shared_reason(other) == shared_reason(row); });
+    text += fmt::format("{}: {}. ", listed(same), same.size() == 1 ? row.reason : shared_reason(row));
   }
   return text;
 }

@@ -204,14 +204,6 @@ TEST_F(ReportTest, every_character_comes_back_with_whom_it_met) {
   EXPECT_EQ(run["events"][0][3], 1);
 }
 
-TEST_F(ReportTest, thinned_characters_keep_the_same_steps) {
-  ReportRun run = sample_report().scenes[4].runs[0];
-  thin_for_replay(run, 12);
-  ASSERT_LE(run.steps.size(), 12U);
-  ASSERT_EQ(run.others[0].size(), run.steps.size());
-  for (std::size_t i = 0; i < run.steps.size(); ++i) EXPECT_EQ(run.others[0][i].step, run.steps[i].step);
-}
-
 TEST_F(ReportTest, a_run_without_movers_has_no_column_for_them) {
   const json replay = data(page(report_of(walk_of(3))), "replay-0");
   EXPECT_FALSE(replay["runs"][0].contains("movers") || replay["runs"][0].contains("crush"));
@@ -224,6 +216,21 @@ TEST_F(ReportTest, a_crush_comes_back_with_the_colliders_that_did_it) {
   const json replay = data(page(report_of(scene)), "replay-0");
   EXPECT_EQ(replay["runs"][0]["crush"], (json{{"3", {2, 5}}}));
   EXPECT_TRUE(replay["sceneries"][0]["ids"].contains("5"));
+}
+
+TEST_F(ReportTest, a_drop_comes_back_with_the_chains_it_goes_through) {
+  ReportScene scene = walk_of(5);
+  scene.runs[0].steps[2].dropped_through = {16};
+  const json replay = data(page(report_of(scene)), "replay-0");
+  EXPECT_EQ(replay["runs"][0]["drop"], (json{{"2", {16}}}));
+  EXPECT_EQ(replay["sceneries"][0]["ids"]["16"], "ledge");
+}
+
+TEST_F(ReportTest, steps_with_lengths_of_their_own_come_back_with_these) {
+  ReportScene scene = walk_of(5);
+  EXPECT_FALSE(data(page(report_of(scene)), "replay-0").contains("dt_list"));
+  scene.dt_list = {1.0 / 64, 31.0 / 1024};
+  EXPECT_EQ(data(page(report_of(scene)), "replay-0")["dt_list"], (json{0.015625, 0.0302734375}));
 }
 
 TEST_F(ReportTest, flags_and_overlaps_come_back) {
@@ -336,70 +343,6 @@ TEST_F(ReportTest, disagreements_beyond_the_limit_are_counted) {
   EXPECT_EQ(replay["disagreements"][0]["step"], model.step);
   EXPECT_EQ(replay["disagreements"][0]["statements"][0]["contacts"][0][0], model.statements[0].contacts[0].collider);
   EXPECT_TRUE(replay["disagreements"][0].contains("exact"));
-}
-
-TEST_F(ReportTest, the_step_of_a_disagreement_survives_thinning) {
-  ReportScene scene = walk_of(1000);
-  Disagreement disagreement;
-  disagreement.step = 777;
-  disagreement.statements = {{0, Vec2d::Zero(), Vec2d::Zero(), {}}};
-  scene.disagreements = {disagreement};
-  ReportOptions options;
-  options.max_replay_steps = 50;
-  const json run = data(page(report_of(scene), options), "replay-0")["runs"][0];
-  std::set<int> kept;
-  for (const DecodedStep& step : Decoder(run, 1).steps()) kept.insert(step.step);
-  EXPECT_LE(kept.size(), 50U);
-  for (const int step : {776, 777, 778}) EXPECT_TRUE(kept.contains(step)) << step;
-}
-
-TEST(ThinForReplay, keeps_ends_events_and_first_contact_within_the_limit) {
-  for (const int steps : {5, 8, 9, 100, 1200, 1201, 3600}) {
-    for (const int limit : {8, 20, 60, 1200}) {
-      ReportRun run = walk_of(steps).runs[0];
-      for (TraceStep& step : run.steps) {
-        if (step.step < steps / 2) step.contacts.clear();
-      }
-      run.events = {{steps / 3, ReportEvent::Kind::tunnel, ""}};
-      thin_for_replay(run, limit);
-      std::set<int> kept;
-      for (const TraceStep& step : run.steps) kept.insert(step.step);
-      const auto room = static_cast<std::size_t>(std::min(steps, limit));
-      EXPECT_LE(kept.size(), room);
-      EXPECT_GE(kept.size(), room / 3) << steps << " to " << limit;
-      EXPECT_TRUE(kept.contains(0) && kept.contains(steps - 1));
-      if (limit < 20) continue;  // half of less than 20 has no room for two events with their neighbours
-      EXPECT_TRUE(kept.contains(steps / 3)) << steps << " to " << limit;
-      EXPECT_TRUE(kept.contains(steps / 2)) << steps << " to " << limit;
-    }
-  }
-}
-
-TEST(ThinForReplay, leaves_a_short_run_as_it_is) {
-  ReportRun run = walk_of(100).runs[0];
-  thin_for_replay(run, 100);
-  EXPECT_EQ(run.steps.size(), 100U);
-  EXPECT_EQ(run.every, 1);
-}
-
-TEST(ThinForReplay, says_how_many_steps_one_stands_for) {
-  ReportRun run = walk_of(1000).runs[0];
-  run.events.clear();
-  thin_for_replay(run, 100);
-  EXPECT_GE(run.every, 10);
-  EXPECT_LE(run.every, 12);
-  thin_for_replay(run, 50);
-  EXPECT_GE(run.every, 20) << "thinning twice multiplies";
-}
-
-TEST(OptionsFor, many_runs_share_the_room) {
-  EXPECT_EQ(options_for(1).max_replay_steps, ReportOptions{}.max_replay_steps);
-  EXPECT_EQ(options_for(0).max_replay_steps, ReportOptions{}.max_replay_steps);
-  const std::size_t runs = 221 * 8;
-  const auto per_run = static_cast<std::size_t>(options_for(runs).max_replay_steps);
-  EXPECT_LE(per_run * runs, 600'000U);
-  EXPECT_GT((per_run + 1) * runs, 600'000U);
-  EXPECT_EQ(options_for(1'000'000).max_replay_steps, 60);
 }
 
 }  // namespace

@@ -56,6 +56,34 @@ TEST(Contenders, are_those_asked_for_and_the_twin_beside_them) {
   EXPECT_NE(find_row(result, "box2d", "float"), nullptr);
 }
 
+TEST(Replay, has_each_drop_as_an_event_and_the_lengths_of_the_steps) {
+  RunOptions options = quick();
+  options.contenders = {"octagon_sweep"};
+  options.reference = false;
+  Scene scene = built_in("one_way_drop");
+  options.max_replay_steps = scene.steps;
+  const ReportRun drop = run_of(run_scene(scene, options), "octagon_sweep");
+  const auto asked = std::find_if(scene.input.begin(), scene.input.end(),
+                                  [](const InputEvent& event) { return event.drop.value_or(false); });
+  ASSERT_EQ(drop.events.size(), 1U) << "the second ledge holds";
+  EXPECT_EQ(drop.events[0].kind, ReportEvent::Kind::drop);
+  EXPECT_EQ(drop.events[0].words, "drops through ledge");
+  EXPECT_EQ(drop.events[0].step, asked->step) << "it stands on the ledge, and passes it at once";
+
+  scene = built_in("uneven_flight");
+  EXPECT_EQ(run_scene(scene, options).dt_list, scene.dt_list);
+}
+
+TEST(Contenders, that_share_a_reason_not_to_run_are_told_of_together) {
+  RunOptions options = quick();
+  options.steps = 1;
+  const ReportScene result = run_scene(built_in("sweeping_paper"), options);
+  EXPECT_TRUE(holds(result.sentence, "mask, bounding_box and wind_back: each is for scenery that stands still."));
+  options.contenders = {"mask"};
+  const ReportScene alone = run_scene(built_in("sweeping_paper"), options);
+  EXPECT_TRUE(holds(alone.sentence, "mask: mask is for scenery that stands still."));
+}
+
 TEST(Contenders, that_cannot_turn_what_moves_say_so) {
   Scene scene = empty_sky(3);
   scene.movers = {{.id = "fan", .path = {{}}, .turns = {{.time = 0, .at = 0}, {.time = 1, .at = 1}}}};

@@ -277,6 +277,26 @@ ReportScene pair_scene() {
   return scene;
 }
 
+// --- scene 5: steps of different lengths, and a drop ---
+
+/// Falls by 0.1 m in 16 ms, then by 0.2 m in 100 s, through a ledge.
+ReportScene uneven_scene() {
+  ReportScene scene;
+  scene.name = "uneven";
+  scene.sentence = "The second step takes a hundred seconds.";
+  scene.dt_list = {1.0 / 64, 100};
+  ReportRun run;
+  run.header = header("uneven", "octagon_sweep");
+  run.header.scenery.colliders = {box(-4, -9, 4, -8), {ColliderDef::Shape::chain, {{-1, 0}, {1, 0}}, {}, Vec2d(0, 1)}};
+  run.header.ids = {"floor", "ledge"};
+  run.steps = {straight_step(0, {0, feet + 0.2}, {0, feet + 0.1}), straight_step(1, {0, feet + 0.1}, {0, feet - 0.1})};
+  run.steps[1].dropped_through = {1};
+  run.events = {{1, ReportEvent::Kind::drop, "drops through ledge"}};
+  scene.runs = {run};
+  scene.rows = {row("uneven", "octagon_sweep", 2)};
+  return scene;
+}
+
 }  // namespace
 
 std::string hostile_text() { return "</script><script>throw 1</script><!-- & \" ' ]]>"; }
@@ -285,7 +305,7 @@ Report sample_report() {
   Report report;
   report.environment = {{"paperproof", "sample"}, {"compiler", "the one that built this test"}};
   report.tolerances = {{"hit", 1e-7}, {"stop", 5e-7}, {"touch", 7e-7}};
-  report.scenes = {bullet_scene(), walk_scene(), hostile_scene(), lift_scene(), pair_scene()};
+  report.scenes = {bullet_scene(), walk_scene(), hostile_scene(), lift_scene(), pair_scene(), uneven_scene()};
   report.guarantee_notes = {"No step of octagon_sweep in double ended inside a solid: 0 violations in 812 steps."};
   return report;
 }

@@ -5,8 +5,9 @@
 
 namespace paperproof::compare {
 
-/// Three scenes: a bullet through paper (0), a walk over tiles with a slope, a hole and one-way ledges (1), and one
-/// whose texts try to break out of the page and whose runs disagree (2).
+/// A bullet through paper (0), a walk over tiles with a slope, a hole and one-way ledges (1), one whose texts try to
+/// break out of the page and whose runs disagree (2), a lift and a sensor (3), two characters (4), and steps of
+/// different lengths with a drop (5).
 [[nodiscard]] Report sample_report();
 
 /// What scene 2 is called, and its collider.

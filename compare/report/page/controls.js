@@ -126,9 +126,9 @@ function fillReadout(replay) {
   const head = [
     'Contender', 'Position [m]', 'Velocity [m/s]', 'State', 'Contacts: side, collider, normal, t, separation'
   ].map((words) => el('th', {scope: 'col'}, words));
-  replay.readout.replaceChildren(
-      el('table', {}, el('caption', {}, `At the end of step ${grouped(replay.step)}`),
-         el('thead', {}, el('tr', {}, head)), el('tbody', {}, replay.chosen().flatMap((run) => readoutRows(replay, run)))));
+  replay.readout.replaceChildren(el(
+      'table', {}, el('caption', {}, `At the end of step ${grouped(replay.step)}`), el('thead', {}, el('tr', {}, head)),
+      el('tbody', {}, replay.chosen().flatMap((run) => readoutRows(replay, run)))));
 }
 
 function readoutRows(replay, run) {
@@ -141,13 +141,15 @@ function readoutRows(replay, run) {
 
 function readoutRow(replay, run, character, label, events) {
   const {record, ended} = replay.stateOf(character), names = run.scenery.colliders;
-  const overlaps = record.startOverlap.map((i) => (names[i] ? names[i].id : i));
+  const list = (colliders) => colliders.map((i) => (names[i] ? names[i].id : i)).join(', ');
   const words = ended ? [`ended at step ${grouped(record.step)}`] : [
     ...record.flags, record.step === replay.step ? null : `as of step ${grouped(record.step)}`,
-    overlaps.length ? `began inside ${overlaps.join(', ')}` : null,
-    record.crush.length ? `crushed by ${record.crush.map((i) => (names[i] ? names[i].id : i)).join(', ')}` : null
+    record.startOverlap.length ? `began inside ${list(record.startOverlap)}` : null,
+    record.crush.length ? `crushed by ${list(record.crush)}` : null,
+    record.drop.length ? `drops through ${list(record.drop)}` : null
   ].filter(Boolean);
-  const now = events.filter((event) => event.step === record.step && !ended);
+  const told = ['crush', 'drop'];  // by the record
+  const now = events.filter((event) => event.step === record.step && !ended && !told.includes(event.kind));
   const line = (what, {nx, ny, t}, rest) =>
       el('div', {}, `${what}, (${measure(nx)}, ${measure(ny)}), ${measure(t)}${rest}`);
   const contacts = ended ? [] : [
@@ -163,7 +165,10 @@ function readoutRow(replay, run, character, label, events) {
       el('td', {class: 'number'}, pair(record.x, record.y, replay.data.quantum)),
       el('td', {class: 'number'}, pair(record.vx, record.vy, replay.data.quantum * 10)),
       el('td', {}, words.join(', '),
-         now.map((event) => el('div', {class: 'event'}, event.words ? `${event.kind}: ${event.words}` : event.kind))),
+         now.map(
+             (event) =>
+                 el('div', {class: HARMLESS.includes(event.kind) ? null : 'event'},
+                    event.words ? `${event.kind}: ${event.words}` : event.kind))),
       el('td', {}, contacts));
 }
 

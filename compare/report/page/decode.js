@@ -2,7 +2,9 @@
 
 const SIDES = ['top', 'bottom', 'left', 'right'];
 const PARTS_OF_ONE = 10000;
-const FLAGS = ['grounded', 'jumping', 'respawn', 'stuck', 'dropped', 'capped'];
+const FLAGS = ['grounded', 'jumping', 'respawn', 'stuck', 'displacement left over', 'capped'];
+/// Events that are nobody's fault.
+const HARMLESS = ['note', 'sensor', 'drop'];
 
 function boxOf(flat, box = [Infinity, Infinity, -Infinity, -Infinity]) {
   for (let i = 0; i < flat.length; i += 2) {
@@ -196,7 +198,8 @@ function decodeMovers(next, movers, quantum) {
 /// @param moverCount  0 where nothing moves.
 function decodeSteps(packed, quantum, moverCount) {
   const path = reader(packed.path), velocity = reader(packed.velocity), contacts = reader(packed.contacts);
-  const moved = reader(packed.movers || []), movers = Array.from({length: moverCount}, () => ({x: 0, y: 0, dx: 0, dy: 0}));
+  const moved = reader(packed.movers || []),
+        movers = Array.from({length: moverCount}, () => ({x: 0, y: 0, dx: 0, dy: 0}));
   const turned = packed.turns ? reader(packed.turns) : null;
   const kinds = decodeKinds(packed.kinds);
   const position = {x: 0, y: 0}, speed = {x: 0, y: 0};
@@ -218,6 +221,7 @@ function decodeSteps(packed, quantum, moverCount) {
       contacts: touched,
       startOverlap: packed.start_overlap[i] || [],
       crush: (packed.crush || {})[i] || [],
+      drop: (packed.drop || {})[i] || [],
       met: decodeMet((packed.met || {})[i] || []),
       movers: (moverCount > 0 ? decodeMovers(moved, movers, quantum) : [])
                   .map((m) => (turned ? {...m, fa: turned() * 1e-4, ta: turned() * 1e-4} : m)),
@@ -280,6 +284,7 @@ function decodeReplay(text) {
   return {
     quantum: packed.quantum,
     runs,
+    times: new StepTimes(runs[0] ? runs[0].dt : 0, packed.dt_list),
     disagreementsInAll: packed.disagreements_in_all,
     disagreements: packed.disagreements.map((d) => decodeDisagreement(d, runs, packed.quantum))
   };

@@ -192,14 +192,16 @@ class Painter {
   }
 
   /// The outline of one collider, emphasised.
-  highlight(collider, colour) {
+  highlight(collider, colour, dash = []) {
     const c = this.context;
+    c.setLineDash(dash);
     c.strokeStyle = colour;
     c.lineWidth = 2;
     c.globalAlpha = 0.5;
     c.beginPath();
     for (const ring of collider.rings) this.ring(ring, !collider.chain);
     c.stroke();
+    c.setLineDash([]);
     c.globalAlpha = 1;
   }
 

@@ -1,5 +1,5 @@
 // Puts the page together: the list of scenes, one scene at a time, and what the address asks for:
-// #summary, or #scene=2&step=10&t=0.5&layout=side&view=follow.
+// #summary, or #scene=2&step=10&t=0.5&layout=side&view=follow&play=1.
 
 const INDEX = JSON.parse(document.getElementById('index').textContent);
 const main = document.getElementById('main');
@@ -15,7 +15,7 @@ function namesWith(runs) {
 
 function runDetails(replay) {
   const rows = replay.runs.map((run) => {
-    const facts = [`dt ${measure(run.dt)} s`, `${grouped(run.steps.length)} steps stored`];
+    const facts = [replay.times.inWords(), `${grouped(run.steps.length)} steps stored`];
     if (run.box2d) facts.push(`Box2D ${run.box2d}`);
     if (run.plan_omitted.length) facts.push(`left out by the plan: ${run.plan_omitted.join('; ')}`);
     return [run.label, facts.join(', ')];
@@ -28,12 +28,12 @@ function replayNodes(index) {
   const replay = decodeReplay(source.textContent);
   if (!replay.runs.some((run) => run.steps.length > 0)) {
     open.replay = open.pictures = null;
-    return [el('p', {class: 'quiet'}, 'No run of this scene was stored for replay.')];
+    return {shown: [el('p', {class: 'quiet'}, 'No run of this scene was stored for replay.')], details: []};
   }
   const names = namesWith(replay.runs);
   open.replay = new Replay(replay, names, noteDrawn);
   open.pictures = disagreementsSection(replay, names, (step) => open.replay.goTo(step));
-  return [open.replay.root, ...open.pictures.nodes, runDetails(replay)];
+  return {shown: [open.replay.root, ...open.pictures.nodes], details: [runDetails(replay)]};
 }
 
 /// For whoever looks from outside (tests, above all): which step was drawn, without error.
@@ -52,10 +52,11 @@ function showScene(index, wanted) {
   if (open.replay) open.replay.pause();
   const scene = INDEX.scenes[index];
   open = {scene: index, replay: null, pictures: null};
-  const tables = sceneTables(scene);
+  const replay = replayNodes(index);
   main.replaceChildren(
       ...[el('h2', {}, scene.name), scene.description ? el('p', {class: 'quiet'}, scene.description) : null,
-          scene.sentence ? el('p', {class: 'sentence'}, scene.sentence) : null, ...tables, ...replayNodes(index)]
+          scene.sentence ? el('p', {class: 'sentence'}, scene.sentence) : null, ...safetyTable(scene), ...replay.shown,
+          ...furtherTables(scene), ...replay.details]
           .filter(Boolean));
   document.title = `${scene.name} - paperproof report`;
   if (open.replay) startReplay(open.replay, wanted);
@@ -69,6 +70,7 @@ function startReplay(replay, wanted) {
   replay.look(['fit', 'ways', 'follow'].includes(wanted.get('view')) ? wanted.get('view') : 'ways');
   if (!wanted.has('step')) window.scrollTo(0, 0);
   if (wanted.has('check')) countColours();
+  if (wanted.has('play')) replay.play();
 }
 
 function showSummary() {
@@ -120,14 +122,19 @@ function markOf(scene) {
   return null;
 }
 
+/// A long name may go on in a new line after any of its underscores.
+function breakable(name) {
+  return name.split(/(?<=_)/).flatMap((part) => [part, el('wbr')]);
+}
+
 function buildList() {
   const list = document.getElementById('scene-list'), text = document.getElementById('filter-text'),
         kind = document.getElementById('filter-kind');
   const items = INDEX.scenes.map(
       (scene, i) =>
           el('li', {},
-             el('a', {class: 'scene-link', id: `scene-link-${i}`, href: `#scene=${i}`}, el('span', {}, scene.name),
-                markOf(scene))));
+             el('a', {class: 'scene-link', id: `scene-link-${i}`, href: `#scene=${i}`},
+                el('span', {}, breakable(scene.name)), markOf(scene))));
   list.replaceChildren(...items);
   const filter = () => {
     const words = text.value.trim().toLowerCase();

@@ -1,5 +1,8 @@
 // The replay: trajectories over the scenery, and one step at a time.
 
+/// Of several characters the last so many steps are drawn: nobody could read more.
+const RECENT = 30;
+
 class Replay {
   constructor(data, names, onStep) {
     Object.assign(this, {data, names, onStep, playing: false, t: 1, at: 0, speed: 1, together: true, mode: 'fit'});
@@ -179,18 +182,21 @@ class Replay {
     this.playing = true;
     this.playButton.textContent = 'Pause';
     this.playButton.setAttribute('aria-label', 'Pause');
-    const dt = this.runs[0].dt || 1 / 60;
-    // Time in steps, the fraction included: slow playback moves along the way within a step.
-    let now = this.step + this.t, last = null;
+    const {times} = this.data, end = times.at(this.timeline[this.timeline.length - 1] + 1);
+    // Slow playback moves along the way within a step.
+    let now = times.at(this.step, this.t), last = null;
     const tick = (time) => {
       if (!this.playing) return;
-      now += (Math.min((time - (last ?? time)) / 1000, 0.25) * this.speed) / dt;
+      now += Math.min((time - (last ?? time)) / 1000, 0.25) * this.speed;
       last = time;
-      while (this.at + 1 < this.timeline.length && this.timeline[this.at + 1] <= now) ++this.at;
-      const ended = this.at === this.timeline.length - 1 && now - this.step >= 1;
+      const {step, fraction} = times.stepAt(now);
+      while (this.at + 1 < this.timeline.length && this.timeline[this.at + 1] <= step) ++this.at;
       // With a step or more per frame, a fraction of it would only flicker.
-      this.t = ended || this.speed / dt > 30 ? 1 : Math.min(1, now - this.step);
-      if (ended) this.pause();
+      this.t = step > this.step || this.speed / times.mean > 30 ? 1 : fraction;
+      if (now >= end) {
+        this.t = 1;
+        this.pause();
+      }
       this.draw();
       requestAnimationFrame(tick);
     };
@@ -250,8 +256,9 @@ class Replay {
     this.slider.value = this.at;
     this.slider.setAttribute('aria-valuetext', `step ${this.step}`);
     this.within.value = this.t;
-    this.clock.textContent =
-        `step ${grouped(this.step)} of ${grouped(this.timeline[this.timeline.length - 1])}, t = ${this.t.toFixed(3)}`;
+    const last = this.timeline[this.timeline.length - 1];
+    this.clock.textContent = `step ${grouped(this.step)} of ${grouped(last)}, t = ${this.t.toFixed(3)}: ${
+        this.data.times.at(this.step, this.t).toFixed(3)} s`;
     fillReadout(this);
     this.onStep(this);
   }
@@ -273,16 +280,15 @@ class Replay {
 
   drawTrajectory(painter, run) {
     const ink = inkOf(run, this.names), {index} = this.stateOf(run);
-    // Of many only where they come from: where all will go nobody could read.
     const several = run.characters.length > 1;
     for (const {steps} of run.characters) {
       if (!several) painter.trajectory(steps, index, steps.length, {...ink, alpha: 0.25});
-      painter.trajectory(steps, several ? index - 30 : 0, index + 1, {...ink, alpha: several ? 0.4 : 0.8});
+      painter.trajectory(steps, several ? index - RECENT : 0, index + 1, {...ink, alpha: several ? 0.4 : 0.8});
     }
     for (const event of run.events) {
-      if (event.kind === 'note' || event.kind === 'sensor') continue;
+      if (HARMLESS.includes(event.kind)) continue;
       const at = run.byStep.get(event.step);
-      if (at === undefined) continue;
+      if (at === undefined || (several && (at > index || at < index - RECENT))) continue;
       const {x, y} = run.characters[event.character].steps[at];
       painter.cross(x, y);
     }
@@ -296,12 +302,13 @@ class Replay {
     const ink = inkOf(run, this.names), {record, ended, position} = this.stateOf(character), first = record.path[0];
     if (!ended) {
       const offsets = this.offsetsOf(run);
-      const highlight = (index, colour) => {
+      const highlight = (index, colour, dash) => {
         const collider = run.scenery.colliders[index];
-        if (collider) painter.highlight(placed(collider, offsets), colour);
+        if (collider) painter.highlight(placed(collider, offsets), colour, dash);
       };
       for (const contact of record.contacts) highlight(contact.collider, ink.colour);
       for (const index of record.crush) highlight(index, painter.colours.bad);
+      for (const index of record.drop) highlight(index, ink.colour, [3, 3]);
       if (this.show.start) painter.octagon(run.hull, first.x, first.y, {colour: ink.colour, dash: [2, 3], alpha: 0.5});
       painter.way(record.path, ink.colour, !run.path_exact);
     }

@@ -69,8 +69,8 @@ const QUALITY = [
   ['sensor_errors', 'Sensor errors', '', count, 'Entries and exits that were missed, or reported and were not'],
   ['max_sensor_error', 'Sensor time error', 'of a step', measure, 'Largest error of the fraction of a step'],
   [
-    'dropped_steps', 'Dropped', 'steps', count,
-    'Steps whose displacement was partly dropped when the iterations ran out'
+    'dropped_steps', 'Displacement left over', 'steps', count,
+    'Steps on which a part of the displacement was left when the iterations ran out'
   ],
   ['ns_per_step', 'Cost', 'ns per step', measure, 'Minimum of the repeats'],
   ['ns_per_step_median', 'Cost, median', 'ns per step', measure, 'Median of the repeats'],
@@ -128,22 +128,56 @@ function metricTable(rows, columns, caption, withVerdict) {
          el('tbody', {}, body)));
 }
 
+function withoutStop(sentence) {
+  return sentence.replace(/\.$/, '');
+}
+
+/// One item for each contender that there is something to say about.
 function findingsList(rows) {
-  const items = rows.flatMap(
-      (row) => [row.reason, ...row.findings].filter(Boolean).map(
-          (words) => el('li', {}, el('strong', {}, rowLabel(row)), `: ${words}`)));
+  const items = rows.flatMap((row) => {
+    const words = [row.reason, ...row.findings].filter(Boolean);
+    return words.length === 0 ?
+        [] :
+        [el('li', {}, el('strong', {}, rowLabel(row)), `: ${words.map(withoutStop).join('. ')}.`)];
+  });
   return items.length === 0 ? null : el('ul', {class: 'findings'}, items);
 }
 
-function sceneTables(scene) {
-  if (scene.rows.length === 0) return [el('p', {class: 'quiet'}, 'No contender ran in this scene.')];
-  const ran = scene.rows.filter((row) => row.verdict !== 'not applicable');
-  return [
-    metricTable(scene.rows, SAFETY, 'Safety', true),
-    metricTable(ran, CONTACTS, 'Contacts', false),
-    metricTable(ran, QUALITY, 'Rest, difference to Box2D, cost', false),
-    findingsList(scene.rows),
-  ];
+function ranIn(scene) {
+  return scene.rows.filter((row) => row.verdict !== 'not applicable');
+}
+
+/// Those who could not run in a scene, with the reason that they share.
+function notRun(scene) {
+  const byReason = new Map();
+  for (const row of scene.rows) {
+    if (row.verdict !== 'not applicable') continue;
+    // A reason may begin with the name of the contender, which would keep equal ones apart.
+    const named = row.reason.startsWith(`${row.contender} `);
+    const shared = named ? `each${row.reason.slice(row.contender.length)}` : row.reason;
+    byReason.set(shared, [...(byReason.get(shared) || []), row]);
+  }
+  return [...byReason].map(([shared, rows]) => {
+    const reason = withoutStop(rows.length > 1 ? shared : rows[0].reason);
+    return el('p', {class: 'quiet'}, `Not run: ${rows.map(rowLabel).join(', ')} (${reason}).`);
+  });
+}
+
+/// What a scene was run for, and who may not be compared.
+function safetyTable(scene) {
+  const ran = ranIn(scene);
+  const table = ran.length ? metricTable(ran, SAFETY, 'Safety', true) :
+                             el('p', {class: 'quiet'}, 'No contender ran in this scene.');
+  return [table, ...notRun(scene)];
+}
+
+function furtherTables(scene) {
+  const ran = ranIn(scene);
+  const nodes = [
+    metricTable(ran, CONTACTS, 'Contacts', false), metricTable(ran, QUALITY, 'Rest, difference to Box2D, cost', false),
+    findingsList(ran)
+  ].filter(Boolean);
+  return nodes.length ? [el('h3', {}, 'More about the runs'), ...nodes] : [];
 }
 
 // --- Summary ---
@@ -264,9 +298,10 @@ function summaryPage(index) {
           el('ul', {class: 'findings'}, index.guarantee_notes.map((note) => el('li', {}, note)))
         ] :
         [],
-    index.sections.map(({title, lines}) => [
-      el('h3', {}, title), el('ul', {class: 'findings'}, lines.map((line) => el('li', {}, line)))
-    ]).flat(),
+    index.sections
+        .map(({title,
+               lines}) => [el('h3', {}, title), el('ul', {class: 'findings'}, lines.map((line) => el('li', {}, line)))])
+        .flat(),
     el('h3', {}, 'How it was measured'),
     index.environment.length ? pairs(index.environment) : [],
     index.tolerances.length ? el('details', {}, el('summary', {}, 'Tolerances [m]'),
