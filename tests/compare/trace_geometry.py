@@ -1,0 +1,109 @@
+"""For check_trace.py: exact geometry of the plane, whose points are pairs of fractions, and the tolerances."""
+from fractions import Fraction
+
+GAP = Fraction(1, 10**6)  # largest gap at a contact, and largest error of an impact along its normal [m]
+ROUNDING = 1e-8  # of a reported separation or contact point [m]: positions of 1e6 m are known to 1e-10
+NEAR_PASS = Fraction(4, 10**7)  # a way that passes a solid this closely may be called a contact [m]
+NEAR_DROP = Fraction(2, 10**6)  # and one that passes a one-way chain this closely may be said to drop through it [m]
+GRAZING = 1e-3  # an approach of less than this part of the relative motion grazes, and says little of when
+ZERO = Fraction(0)
+
+
+def exact(points):
+    return [tuple(map(Fraction, point)) for point in points]
+
+
+def add(a, b):
+    return (a[0] + b[0], a[1] + b[1])
+
+
+def less(a, b):
+    return (a[0] - b[0], a[1] - b[1])
+
+
+def turn(a, b, c):
+    """Above zero where a, b, c turn left."""
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+
+
+def hull(points):
+    """Corners of the convex hull, counter-clockwise (Andrew's monotone chain)."""
+    points = sorted(set(points))
+
+    def half(ordered):
+        chain = []
+        for point in ordered:
+            while len(chain) > 1 and turn(chain[-2], chain[-1], point) <= 0:
+                chain.pop()
+            chain.append(point)
+        return chain[:-1]
+
+    return half(points) + half(reversed(points))
+
+
+def at_most(v):
+    """No less than the length of a vector, and a fraction."""
+    return abs(v[0]) + abs(v[1])
+
+
+def enters(a, b, convex, wider=ZERO):
+    """Whether the segment a b has a point strictly inside a counter-clockwise convex polygon, all sides of which are first
+    moved outwards, by `wider` or a little more.
+    """
+    first, last = ZERO, Fraction(1)
+    for u, v in zip(convex, convex[1:] + convex[:1]):
+        moved = wider and wider * at_most(less(v, u))
+        at_a, at_b = turn(u, v, a) + moved, turn(u, v, b) + moved
+        if at_a <= 0 and at_b <= 0:
+            return False
+        if at_a <= 0 or at_b <= 0:
+            crossing = at_a / (at_a - at_b)
+            if at_a < at_b:
+                first = max(first, crossing)
+            else:
+                last = min(last, crossing)
+    return first < last
+
+
+def inside(point, rings):
+    """Whether a point that is on no edge lies inside an odd number of rings."""
+    odd = False
+    for ring in rings:
+        for a, b in zip(ring, ring[1:] + ring[:1]):
+            if (a[1] > point[1]) != (b[1] > point[1]) and (turn(a, b, point) > 0) == (b[1] > a[1]):
+                odd = not odd
+    return odd
+
+
+def crossings(start, way, body, edges):
+    """Where on a straight way a corner of the body meets an edge, or an end of an edge one of the body."""
+    pairs = [(add(start, corner), a, b, way) for corner in body for a, b in edges]
+    sides = [(add(start, a), add(start, b)) for a, b in zip(body, body[1:] + body[:1])]
+    pairs += [(end, a, b, scaled(way, -1)) for edge in edges for end in edge for a, b in sides]
+    for point, a, b, moved in pairs:
+        along = less(b, a)
+        speed = moved[1] * along[0] - moved[0] * along[1]
+        if speed != 0:
+            yield -turn(a, b, point) / speed
+
+
+def dot(a, b):
+    return a[0] * b[0] + a[1] * b[1]
+
+
+def scaled(v, by):
+    return (v[0] * by, v[1] * by)
+
+
+def distance(point, a, b):
+    """From a point to a segment, rounded once at the end."""
+    way = (b[0] - a[0], b[1] - a[1])
+    off = (point[0] - a[0], point[1] - a[1])
+    share = min(max(dot(off, way) / dot(way, way), ZERO), Fraction(1))
+    rest = (off[0] - share * way[0], off[1] - share * way[1])
+    return size(rest)
+
+
+def size(v):
+    """The length of a vector, rounded once."""
+    return float(dot(v, v)) ** 0.5
