@@ -1,41 +1,13 @@
 #include "metrics/metrics.hpp"
 
+#include "compare/moments.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 namespace paperproof::compare {
 namespace {
-
-TraceHeader header(bool one_way = false) {
-  TraceHeader header;
-  header.contender = "mine";
-  header.dt = 0.5;
-  header.ids = {"floor", "paper"};
-  header.scenery.colliders.resize(2);
-  if (one_way) header.scenery.colliders[1].one_way = Vec2d(0, 1);
-  return header;
-}
-
-Contact<double> contact(ColliderIndex collider, Side side, double fraction = 0) {
-  return {.collider = collider, .fraction = fraction, .side = side};
-}
-ExactContact exact(ColliderIndex collider, Side side) { return {.collider = collider, .side = side}; }
-
-/// A synthetic run: what was reported and what was so.
-struct Moment {
-  TraceStep step;
-  StepJudgement judged;
-};
-
-Moment moment(int number, std::vector<Contact<double>> contacts = {}, std::vector<ExactContact> truth = {}) {
-  Moment moment;
-  moment.step.step = number;
-  moment.step.path = {{Vec2d(0, 0), 0}, {Vec2d(0, 0), 1}};
-  moment.step.contacts = std::move(contacts);
-  moment.judged.contacts = std::move(truth);
-  return moment;
-}
 
 Row row_of(const std::vector<Moment>& run, const TraceHeader& head = header()) {
   Metrics metrics(head);
@@ -328,147 +300,6 @@ TEST(Metrics, ghost_speed_loss_is_the_largest_share_where_motion_was_wanted) {
   EXPECT_FALSE(row_of(run).ghost_speed_loss);
   for (Moment& one : run) one.step.requested = {1, 0};
   EXPECT_EQ(row_of(run).ghost_speed_loss, 0.5);
-}
-
-class AgreementTest : public testing::Test {
- protected:
-  AgreementTest() { reference_header_.contender = "box2d"; }
-
-  Row compare(const std::vector<std::pair<Moment, Moment>>& run) {
-    agreement_.emplace(header(), reference_header_, 2);
-    for (const auto& [mine, reference] : run) agreement_->add(mine.step, mine.judged, reference.step, reference.judged);
-    Row row;
-    agreement_->write(row);
-    return row;
-  }
-
-  TraceHeader reference_header_ = header();
-  std::optional<Agreement> agreement_;
-};
-
-TEST_F(AgreementTest, is_the_share_of_steps_with_the_same_sides) {
-  const auto floor = contact(0, Side::bottom);
-  const auto wall = contact(1, Side::left);
-  const Row row = compare({{moment(0), moment(0)},
-                           {moment(1, {floor}), moment(1, {floor})},
-                           {moment(2, {floor, wall}), moment(2, {wall, contact(1, Side::bottom)})},
-                           {moment(3, {floor}), moment(3, {floor, wall})},
-                           {moment(4), moment(4)}});
-  EXPECT_EQ(row.contact_agreement_box2d, 0.8);
-  EXPECT_EQ(row.contact_recall_box2d, 1) << "the wall of step 3 was reported one step before";
-  EXPECT_EQ(agreement_->disagreements().size(), 1U);
-}
-
-TEST_F(AgreementTest, contacts_in_the_references_skin_are_excused) {
-  std::vector<std::pair<Moment, Moment>> run{{moment(0), moment(0, {contact(0, Side::bottom)})},
-                                             {moment(9, {contact(1, Side::left)}), moment(9)}};
-  EXPECT_EQ(compare(run).contact_agreement_box2d, 0);
-  run[0].second.judged.dont_care = {0};
-  EXPECT_EQ(compare(run).contact_agreement_box2d, 0.5);
-  run[0].second.judged.ghosts = {{0, Side::bottom}};
-  EXPECT_EQ(compare(run).contact_agreement_box2d, 0) << "a ghost is a difference";
-  run[0].second.judged.ghosts.clear();
-  run[1].second.judged.dont_care = {1};
-  EXPECT_EQ(compare(run).contact_agreement_box2d, 1);
-  EXPECT_FALSE(compare(run).contact_precision_box2d) << "nothing is left to be counted";
-}
-
-TEST_F(AgreementTest, precision_and_recall_count_sides_within_one_step) {
-  const auto floor = contact(0, Side::bottom);
-  std::vector<std::pair<Moment, Moment>> run;
-  for (int i = 0; i < 8; ++i) run.emplace_back(moment(i), moment(i));
-  run[1].first.step.contacts = {floor};   // matched one step later
-  run[2].second.step.contacts = {floor};  // matched one step before
-  run[5].first.step.contacts = {floor};   // two steps apart: not matched
-  run[7].second.step.contacts = {floor};
-  const Row row = compare(run);
-  EXPECT_EQ(row.contact_precision_box2d, 0.5);
-  EXPECT_EQ(row.contact_recall_box2d, 0.5);
-}
-
-TEST_F(AgreementTest, exact_arithmetic_says_who_is_right) {
-  using Right = SideDisagreement::Right;
-  const auto floor = contact(0, Side::bottom);
-  const auto truth = exact(0, Side::bottom);
-  const auto one = [&](const Moment& mine, const Moment& reference) {
-    compare({{mine, reference}});
-    return agreement_->disagreements().at(0).right;
-  };
-  EXPECT_EQ(one(moment(0, {floor}, {truth}), moment(0, {}, {truth})), Right::mine);
-  EXPECT_EQ(one(moment(0, {floor}), moment(0)), Right::reference);
-  EXPECT_EQ(one(moment(0, {floor}, {truth}), moment(0)), Right::both);
-  EXPECT_EQ(one(moment(0, {}, {truth}), moment(0, {contact(0, Side::top)}, {truth})), Right::neither);
-  EXPECT_EQ(agreement_->count(Right::neither), 1);
-  EXPECT_EQ(agreement_->disagreements()[0].who_is_right,
-            "mine reports no contact where exact arithmetic has bottom, box2d reports top where exact arithmetic has "
-            "bottom: neither is right");
-}
-
-TEST_F(AgreementTest, a_report_one_step_early_is_right_once_the_next_step_is_known) {
-  using Right = SideDisagreement::Right;
-  const auto floor = contact(0, Side::bottom);
-  const auto truth = exact(0, Side::bottom);
-  compare({{moment(0, {floor}), moment(0)}});
-  EXPECT_EQ(agreement_->disagreements()[0].right, Right::reference);
-  compare({{moment(0, {floor}), moment(0)}, {moment(1, {floor}, {truth}), moment(1, {floor}, {truth})}});
-  EXPECT_EQ(agreement_->disagreements()[0].right, Right::both);
-  EXPECT_EQ(agreement_->count(Right::both), 1);
-  EXPECT_EQ(agreement_->count(Right::reference), 0);
-}
-
-TEST_F(AgreementTest, keeps_the_first_disagreements_and_counts_all) {
-  std::vector<std::pair<Moment, Moment>> run;
-  for (int i = 0; i < 6; ++i) run.emplace_back(moment(i, {contact(0, Side::bottom)}), moment(i));
-  compare(run);
-  ASSERT_EQ(agreement_->disagreements().size(), 2U);
-  EXPECT_EQ(agreement_->disagreements()[1].step, 1);
-  EXPECT_EQ(agreement_->count(SideDisagreement::Right::reference), 6);
-}
-
-TEST_F(AgreementTest, the_first_difference_is_named_with_who_is_right) {
-  const auto floor = contact(0, Side::bottom);
-  const auto truth = exact(0, Side::bottom);
-  Row row = compare({{moment(0), moment(0)}, {moment(1, {floor}, {truth}), moment(1, {}, {truth})}});
-  EXPECT_EQ(row.first_difference_box2d_step, 1);
-  EXPECT_NE(row.first_difference_box2d.find("mine is right"), std::string::npos) << row.first_difference_box2d;
-  row = compare({{moment(0), moment(0)}, {moment(1), moment(1)}});
-  EXPECT_FALSE(row.first_difference_box2d_step);
-  EXPECT_EQ(row.first_difference_box2d, "");
-}
-
-TEST_F(AgreementTest, a_first_difference_on_which_both_are_right_is_followed_by_the_first_on_which_one_is_not) {
-  const auto floor = contact(0, Side::bottom);
-  const auto truth = exact(0, Side::bottom);
-  std::vector<std::pair<Moment, Moment>> run{
-      {moment(0, {floor}, {truth}), moment(0)}, {moment(1), moment(1)}, {moment(2), moment(2)}, {moment(3), moment(3)}};
-  run[3].first.step.contacts = {floor};
-  const Row row = compare(run);
-  EXPECT_EQ(row.first_difference_box2d_step, 0);
-  EXPECT_NE(row.first_difference_box2d.find("; step 3 is the first on which one is not"), std::string::npos)
-      << row.first_difference_box2d;
-}
-
-TEST_F(AgreementTest, positions_apart_by_more_than_the_skin_are_a_difference) {
-  std::vector<std::pair<Moment, Moment>> run;
-  for (int i = 0; i < 5; ++i) run.emplace_back(moment(i), moment(i));
-  run[2].second.step.path.back().position = {0.0209, 0};
-  EXPECT_FALSE(compare(run).first_difference_box2d_step);
-  run[3].second.step.path.back().position = {0.0211, 0};
-  EXPECT_EQ(compare(run).first_difference_box2d_step, 3);
-  EXPECT_NE(compare(run).first_difference_box2d.find("they respond differently"), std::string::npos);
-  run[1].second.judged.tunnelled = {1};
-  EXPECT_NE(compare(run).first_difference_box2d.find("mine is right, as box2d passed or entered a solid on step 1"),
-            std::string::npos)
-      << compare(run).first_difference_box2d;
-  run[2].first.judged.end_overlap = run[2].first.judged.entered = {0};
-  EXPECT_NE(compare(run).first_difference_box2d.find("neither is right"), std::string::npos);
-}
-
-TEST_F(AgreementTest, the_position_difference_is_the_largest_distance_of_the_ends) {
-  std::vector<std::pair<Moment, Moment>> run{{moment(0), moment(0)}, {moment(1), moment(1)}};
-  run[0].second.step.path.back().position = {3, 4};
-  run[1].first.step.path.back().position = {1, 0};
-  EXPECT_EQ(compare(run).max_position_difference_box2d_m, 5);
 }
 
 }  // namespace

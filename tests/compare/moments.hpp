@@ -1,0 +1,42 @@
+/// Synthetic runs for tests of what is measured: nothing moves but what a test says.
+#pragma once
+
+#include "oracle/judge.hpp"
+#include "runs/trace.hpp"
+
+#include <utility>
+#include <vector>
+
+namespace paperproof::compare {
+
+inline TraceHeader header(bool one_way = false) {
+  TraceHeader header;
+  header.contender = "mine";
+  header.dt = 0.5;
+  header.ids = {"floor", "paper"};
+  header.scenery.colliders.resize(2);
+  if (one_way) header.scenery.colliders[1].one_way = Vec2d(0, 1);
+  return header;
+}
+
+inline Contact<double> contact(ColliderIndex collider, Side side, double fraction = 0) {
+  return {.collider = collider, .fraction = fraction, .side = side};
+}
+inline ExactContact exact(ColliderIndex collider, Side side) { return {.collider = collider, .side = side}; }
+
+/// A synthetic run: what was reported and what was so.
+struct Moment {
+  TraceStep step;
+  StepJudgement judged;
+};
+
+inline Moment moment(int number, std::vector<Contact<double>> contacts = {}, std::vector<ExactContact> truth = {}) {
+  Moment moment;
+  moment.step.step = number;
+  moment.step.path = {{Vec2d(0, 0), 0}, {Vec2d(0, 0), 1}};
+  moment.step.contacts = std::move(contacts);
+  moment.judged.contacts = std::move(truth);
+  return moment;
+}
+
+}  // namespace paperproof::compare

@@ -1,0 +1,47 @@
+/// Sceneries of one collider, whether they are refused, and where a point is.
+#pragma once
+
+#include <paperproof/scenery.hpp>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include "geometry/exact.hpp"
+#include "random_polygons.hpp"
+
+namespace paperproof::test {
+
+inline SceneryDef scenery_of(const Polygon& polygon) { return {{{.points = polygon.outer, .holes = polygon.holes}}}; }
+
+inline SceneryDef scenery_of(const Points& chain, std::optional<Vec2d> one_way) {
+  return {{{.shape = ColliderDef::Shape::chain, .points = chain, .one_way = one_way}}};
+}
+
+template <class Scalar = double>
+std::string refusal_of(const SceneryDef& def) {
+  try {
+    const Scenery<Scalar> scenery(def);
+  } catch (const InvalidScenery& refused) {
+    return refused.what();
+  }
+  return "accepted";
+}
+
+enum class Where { inside, on_the_outline, outside };
+
+inline Where where_is(const Vec2d& point, const Points& ring) {
+  bool inside = false;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Vec2d& from = ring[i];
+    const Vec2d& to = ring[(i + 1) % ring.size()];
+    const int side = geometry::orientation_sign(from, to, point);
+    const bool in_reach = std::min(from.x(), to.x()) <= point.x() && point.x() <= std::max(from.x(), to.x()) &&
+                          std::min(from.y(), to.y()) <= point.y() && point.y() <= std::max(from.y(), to.y());
+    if (side == 0 && in_reach) return Where::on_the_outline;
+    if ((from.y() > point.y()) != (to.y() > point.y()) && (to.y() > from.y()) == (side > 0)) inside = !inside;
+  }
+  return inside ? Where::inside : Where::outside;
+}
+
+}  // namespace paperproof::test
