@@ -1,8 +1,6 @@
 /// Characters against characters, where the answer is a formula.
-#include "controller/stepping.hpp"
+#include "controller/together.hpp"
 #include "support/allocations.hpp"
-
-#include <paperproof/crowd.hpp>
 
 #include <gtest/gtest.h>
 
@@ -13,41 +11,8 @@ namespace {
 
 using namespace stepping;
 
-/// Where a character that was stopped ends [m].
-constexpr double least_gap = 1e-7;
-constexpr double most_gap = 1e-6;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinite = std::numeric_limits<double>::infinity();
-
-struct Together {
-  std::unique_ptr<const Scenery<double>> scenery;
-  Crowd<double> crowd;
-  CrowdScratch scratch;
-  CrowdReport<double> report;
-  std::vector<CharacterState<double>> states;
-  std::vector<Input> inputs;
-  Vec2d gravity{0, 0};
-  double dt = 1;
-
-  explicit Together(std::vector<Vec2d> positions, std::vector<ColliderDef> colliders = {},
-                    const CharacterDef& character = {}, const TechniqueDef& technique = {})
-      : scenery(std::make_unique<const Scenery<double>>(SceneryDef{std::move(colliders)})),
-        crowd(*scenery, character, technique),
-        scratch(crowd.make_scratch(positions.size())),
-        report(positions.size()),
-        states(positions.size()),
-        inputs(positions.size()) {
-    for (std::size_t i = 0; i < positions.size(); ++i) states[i].position = positions[i];
-  }
-  StepStatus step() { return crowd.step(states, inputs, gravity, dt, scratch, report); }
-  void steps(int count) {
-    for (int i = 0; i < count; ++i) step();
-  }
-  /// From right side to left side [m].
-  [[nodiscard]] double gap(std::size_t left, std::size_t right) const {
-    return states[right].position.x() - states[left].position.x() - 2 * half_width;
-  }
-};
 
 ColliderDef floor_at_zero() { return rectangle(-20, -1, 20, 0); }
 
@@ -60,8 +25,6 @@ Together on_floor(std::vector<double> at, const CharacterDef& character = {}) {
   all.dt = 1.0 / 60;
   return all;
 }
-
-bool gap_of_a_contact(double gap) { return gap > least_gap - 1e-9 && gap < most_gap; }
 
 TEST(Crowd, head_on_they_meet_after_distance_over_the_sum_of_speeds) {
   for (const double v1 : {0.5, 3.0, 100.0}) {

@@ -1,0 +1,49 @@
+/// A scenery with several characters in it, and the buttons they are steered with.
+#pragma once
+
+#include "controller/stepping.hpp"
+
+#include <paperproof/crowd.hpp>
+
+#include <memory>
+#include <vector>
+
+namespace paperproof::stepping {
+
+/// Where a character that was stopped ends [m].
+inline constexpr double least_gap = 1e-7;
+inline constexpr double most_gap = 1e-6;
+
+[[nodiscard]] inline bool gap_of_a_contact(double gap) { return gap > least_gap - 1e-9 && gap < most_gap; }
+
+struct Together {
+  std::unique_ptr<const Scenery<double>> scenery;
+  Crowd<double> crowd;
+  CrowdScratch scratch;
+  CrowdReport<double> report;
+  std::vector<CharacterState<double>> states;
+  std::vector<Input> inputs;
+  Vec2d gravity{0, 0};
+  double dt = 1;
+
+  explicit Together(std::vector<Vec2d> positions, std::vector<ColliderDef> colliders = {},
+                    const CharacterDef& character = {}, const TechniqueDef& technique = {})
+      : scenery(std::make_unique<const Scenery<double>>(SceneryDef{std::move(colliders)})),
+        crowd(*scenery, character, technique),
+        scratch(crowd.make_scratch(positions.size())),
+        report(positions.size()),
+        states(positions.size()),
+        inputs(positions.size()) {
+    for (std::size_t i = 0; i < positions.size(); ++i) states[i].position = positions[i];
+  }
+  StepStatus step() { return crowd.step(states, inputs, gravity, dt, scratch, report); }
+  void steps(int count) {
+    for (int i = 0; i < count; ++i) step();
+  }
+  /// From right side to left side [m].
+  [[nodiscard]] double gap(std::size_t left, std::size_t right) const {
+    return states[right].position.x() - states[left].position.x() - 2 * half_width;
+  }
+};
+
+}  // namespace paperproof::stepping
