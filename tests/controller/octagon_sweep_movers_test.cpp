@@ -296,6 +296,26 @@ TEST(OneWayLift, carries_from_above_and_is_passed_from_below) {
   EXPECT_EQ(below.state.position.y(), half_height - 1 + tolerances.stop) << "it comes down through the character";
 }
 
+TEST(CoveredFacet, that_comes_up_while_its_cover_lies_on_the_character_gives_the_normal) {
+  // Two tiles that touch in a corner. The character is inside the upper one since a crush, which covers the bevel
+  // of the lower one with the normal n = (2, 1) / sqrt(5): that is (2 x + y - 3 m - 30 px) / sqrt(5) away from the
+  // lower tile's corner at (1, 1). Its top is 0.1 m below the feet.
+  const double slack = 0.4;  // of 2 x + y
+  Stepper<double> character({moving(rectangle(0, 0, 1, 1)), moving(rectangle(1, 1, 2, 2))});
+  const double y = 1 + half_height + 0.1;
+  character.at((3 + 30 * px + slack - y) / 2, y).state.crushed = true;
+  character.gravity = {0, 0};
+  ASSERT_EQ(character.step_with_mover_by(0, 1.5 * slack), StepStatus::stuck);
+  const auto& contacts = character.report.move.contacts;
+  ASSERT_EQ(contacts.size(), 1U);
+  EXPECT_EQ(contacts[0].collider, 0U);
+  EXPECT_LE((contacts[0].normal - Vec2d{2, 1} / std::sqrt(5.0)).norm(), 1e-15);
+  EXPECT_NEAR(contacts[0].fraction, 1 / 1.5, 1e-9);
+  EXPECT_NEAR(contacts[0].separation, tolerances.stop, 1e-9);
+  EXPECT_NEAR(contacts[0].point.x(), 1, 1e-6);
+  EXPECT_NEAR(contacts[0].point.y(), 1 + slack, 1e-5) << "the corner, where it is by then";
+}
+
 TEST(Stages, that_the_scenery_needs_cannot_be_left_out) {
   const auto make = [](std::vector<ColliderDef> colliders, const Stages& stages, double snap = 0) {
     const Scenery<double> scenery(SceneryDef{std::move(colliders)});

@@ -188,5 +188,26 @@ TEST(Float, meets_the_scenes_within_its_own_tolerances) {
   EXPECT_EQ(met, 901) << "of 901 walls in float";
 }
 
+TEST(RiseBelowAMicrometre, beside_the_feet_is_reported_with_the_gap_that_is_there) {
+  // Falls straight down beside a rise that is too small for a facet of its own: the slanted side between foot and arm,
+  // with normal (-2, 1) / sqrt(5), is what the rise is near to. At (0, rise) that side is
+  // ((-2 x + y) - rise - 30 px) / sqrt(5) away.
+  constexpr double rise = 8e-7;
+  constexpr double aside = 8e-7;
+  Stepper<double> faller({rectangle(-4, -1, 0, 0), rectangle(0, -1, 4, rise)});
+  const MoveResult<double>& move = faller.at(-5 * px - aside, 1).fly(0, -1);
+  ASSERT_EQ(move.contacts.size(), 2U);
+  for (const Contact<double>& contact : move.contacts) {
+    const bool is_rise = contact.collider == 1;
+    const Vec2d normal = is_rise ? Vec2d(Vec2d{-2, 1} / std::sqrt(5.0)) : Vec2d{0, 1};
+    EXPECT_LE((contact.normal - normal).norm(), 1e-15);
+    const Vec2d& p = move.position;
+    const double gap = is_rise ? (-2 * p.x() + p.y() - rise - 30 * px) / std::sqrt(5.0) : p.y() - half_height;
+    EXPECT_NEAR(contact.separation, gap, 1e-15);
+    EXPECT_GT(contact.separation, 0);
+    EXPECT_LE(contact.separation, largest_gap);
+  }
+}
+
 }  // namespace
 }  // namespace paperproof::stepping

@@ -149,35 +149,41 @@ struct PieceHit {
   EntryAxes axes;  ///< Valid for a hit.
 };
 
-/// Finds the axis that is entered last. Axes on facets that are covered by other obstacles give no contact normal
-/// unless there is no other; of times that are equal but for rounding the normal that points up most wins.
+/// Finds the axis that is entered last; of times that are equal but for rounding the normal that points up most wins.
 template <class Scalar>
 class LastEntry {
  public:
   LastEntry(const ConfigurationSpace<Scalar>& space, PieceIndex piece) noexcept
-      : space_(space), piece_(piece), axis_(space.axis_count(piece)) {}
+      : space_(space), piece_(piece), open_{space.axis_count(piece)}, covered_(open_) {}
 
   void add(std::size_t axis, Scalar time) noexcept {
-    const bool covered = space_.covered(piece_, axis);
-    if (covered && !covered_) return;
-    const bool open_first = covered_ && !covered;
-    if (!open_first && !(time > time_ + same) && !(time >= time_ - same && up(axis) > up(axis_))) return;
-    axis_ = axis;
-    covered_ = covered;
-    time_ = time;
+    Entry& last = space_.covered(piece_, axis) ? covered_ : open_;
+    if (!(time > last.time + same) && !(time >= last.time - same && up(axis) > up(last.axis))) return;
+    last = {axis, time};
   }
-  [[nodiscard]] std::size_t axis() const noexcept { return axis_; }
+
+  /// A facet that other obstacles cover gives no contact normal unless there is no other, or no other that is faced
+  /// where the motion is stopped: what covers it may be let through, or leave less of it open than counts.
+  /// @param faced whether the piece is still apart there along an axis.
+  template <class Faced>
+  [[nodiscard]] std::size_t axis(const Faced& faced) const noexcept {
+    if (open_.time < 0) return covered_.axis;
+    return covered_.time < 0 || faced(open_.axis) ? open_.axis : covered_.axis;
+  }
 
  private:
+  struct Entry {
+    std::size_t axis;
+    Scalar time = -1;  ///< Below zero: there is none, and the axis is their number.
+  };
   /// Times closer than this are one corner, met with both facets at once.
   static constexpr Scalar same = std::numeric_limits<Scalar>::epsilon() * 64;
   [[nodiscard]] Scalar up(std::size_t axis) const noexcept { return space_.normal(piece_, axis).y(); }
 
   const ConfigurationSpace<Scalar>& space_;
   PieceIndex piece_;
-  std::size_t axis_;
-  bool covered_ = true;
-  Scalar time_ = -1;
+  Entry open_;
+  Entry covered_;
 };
 
 /// Sweeps the reference point against one obstacle that may be in the way: no axis keeps it clear.
@@ -230,9 +236,13 @@ template <Variant variant, class Scalar>
     }
     if (!touching && start > tolerances.stop) stop = std::max(stop, (start - tolerances.stop) / approach);
   }
+  const auto faced = [&](std::size_t axis) {
+    return f.start[axis] + (f.end[axis] - f.start[axis]) * stop >= std::min(tau, tolerances.certain);
+  };
+  const std::size_t normal = last.axis(faced);
   stop *= motion.reach;
   const bool missed = impact_time > leaves;
-  return {entry < exit && stop <= 1, stop, {last.axis(), missed ? near : impact, missed}};
+  return {entry < exit && stop <= 1, stop, {normal, missed ? near : impact, missed}};
 }
 
 /// The axis of largest separation at a position, and that separation.
