@@ -1,5 +1,6 @@
 /// The guarantee of octagon_sweep against the exact oracle, among up to 64 movers: boxes, papers, chains, one-way
 /// chains and rows of tiles, at speeds up to 1e6 m per step, in random scenery that stands still.
+#include "agreement/reported.hpp"
 #include "oracle/judge.hpp"
 #include "support/random_sceneries.hpp"
 #include "support/steps_wanted.hpp"
@@ -56,8 +57,13 @@ struct Tally {
   int room = 0;            ///< Were crushed where there was room.
   int far = 0;             ///< Were crushed by what goes far.
   int unsound = 0;         ///< Were not finite, or did not end where they said.
+  int on_purpose = 0;      ///< Dropped through one-way chains,
+  int drops = 0;           ///< and named others, or without being asked to.
+  int contacts = 0;        ///< Had a contact whose normal, point and gap are not what is there.
 
-  [[nodiscard]] int broken() const { return overlaps + passages + one_way + gaps + fractions + room + unsound; }
+  [[nodiscard]] int broken() const {
+    return overlaps + passages + one_way + gaps + fractions + room + unsound + drops + contacts;
+  }
 };
 
 /// Something that moves about in an arena of 12 m.
@@ -125,10 +131,12 @@ class RandomRun {
     header.scenery = scenery_.as_run();
     header.dt = static_cast<double>(static_cast<Scalar>(dt));
     judge_.emplace(header);
+    reported_.emplace(header.scenery, header.points, Tolerances<Scalar>{}.certain);
     Input input;
     for (int step = 0; step < 60; ++step) {
       if (random_.chance(0.1)) input.move = random_.integer(-1, 1);
       if (random_.chance(0.1)) input.jump = !input.jump;
+      input.drop = random_.chance(input.drop ? 0.8 : 0.1);
       if (random_.chance(0.05)) launch(dt);
       move_bodies();
       take(input, static_cast<Scalar>(dt), tally);
@@ -219,6 +227,7 @@ class RandomRun {
     const TraceStep record = recorded();
     const StepJudgement judgement = judge_->judge(record);
     count(record, judgement, tally);
+    count_what_is_said(record, input.drop, tally);
     if (!rides) count_fraction(record, judgement, tally);
     if (!std::is_same_v<Scalar, float> && before.broken() < most_described && tally.broken() > before.broken())
       std::printf("breaks: %s\n", (what(judgement) + where()).c_str());
@@ -248,6 +257,7 @@ class RandomRun {
     for (const MoverMotion<Scalar>& m : motions_)
       record.movers.push_back({m.from.template cast<double>(), m.to.template cast<double>()});
     record.crushed.assign(report_.move.crushed.begin(), report_.move.crushed.end());
+    record.dropped_through.assign(report_.dropped_through.begin(), report_.dropped_through.end());
     record.respawn = begins_anew_;
     begins_anew_ = false;
     return record;
@@ -270,6 +280,18 @@ class RandomRun {
     // A contact with what was overlapped, or crushes later in the step, has no gap.
     const bool free = record.crushed.empty() && judgement.end_overlap.empty();
     tally.gaps += free && !(near && judgement.max_contact_gap <= contact_reach<Scalar>);
+  }
+
+  void count_what_is_said(const TraceStep& record, bool drops, Tally& tally) {
+    std::vector<Place> path;
+    for (const PathPoint<double>& corner : record.path) path.emplace_back(corner, record.movers);
+    tally.contacts += !std::all_of(record.contacts.begin(), record.contacts.end(), [&](const Contact<double>& contact) {
+      return reported_->contact_holds(path, contact);
+    });
+    const std::vector<ColliderIndex>& named = record.dropped_through;
+    const bool kept = !report_.dropped_through.overflowed();
+    tally.on_purpose += !named.empty();
+    tally.drops += !named.empty() && !(drops && kept && reported_->drops_hold(path, named));
   }
 
   /// The first contact of a step that nothing carries happens when the exact motion first meets its collider.
@@ -326,6 +348,8 @@ class RandomRun {
       const MoverIndex mover = scenery_.as_run().colliders[c.collider].mover;
       if (mover != no_mover) text << " mover by " << (motions_[mover].to - motions_[mover].from).transpose();
     }
+    text << "\n  drops through";
+    for (const ColliderIndex chain : report_.dropped_through) text << " " << chain;
     text << "\n  crushed";
     for (const ColliderIndex c : report_.move.crushed) {
       const MoverIndex mover = scenery_.as_run().colliders[c].mover;
@@ -342,6 +366,7 @@ class RandomRun {
   Scenery<Scalar> scenery_;
   Controller<Scalar> controller_;
   std::optional<Judge> judge_;
+  std::optional<Reported> reported_;
   Scratch<Scalar> scratch_;
   CharacterState<Scalar> state_;
   StepReport<Scalar> report_;
@@ -367,11 +392,12 @@ Tally run_family(Family family, int steps) {
   }
   std::printf(
       "%s in %s: %d steps, %d with contact, %d riding, %d crushed, %d stuck, %d dropped; %d overlaps, %d passages, %d "
-      "against one-way chains, %d gaps, %d of %d fractions, %d crushes with room, %d crushed "
-      "from afar, %d unsound\n",
+      "against one-way chains, %d gaps, %d of %d fractions, %d crushes with room, %d crushed from afar, %d unsound, "
+      "%d of %d drops, %d contacts\n",
       name_of(family).c_str(), sizeof(Scalar) == 8 ? "double" : "float", tally.steps, tally.with_contact, tally.riding,
       tally.crushed, tally.stuck, tally.dropped, tally.overlaps, tally.passages, tally.one_way, tally.gaps,
-      tally.fractions, tally.fractions_seen, tally.room, tally.far, tally.unsound);
+      tally.fractions, tally.fractions_seen, tally.room, tally.far, tally.unsound, tally.drops, tally.on_purpose,
+      tally.contacts);
   return tally;
 }
 
@@ -384,10 +410,13 @@ TEST_P(AmongMovers, no_step_breaks_the_guarantee) {
   EXPECT_EQ(tally.fractions, 0);
   EXPECT_EQ(tally.room, 0);
   EXPECT_EQ(tally.unsound, 0);
+  EXPECT_EQ(tally.drops, 0);
+  EXPECT_EQ(tally.contacts, 0);
   // The generators must really meet the solids, and also miss them.
   EXPECT_GE(tally.with_contact, tally.steps * 0.1);
   EXPECT_LE(tally.with_contact, tally.steps * 0.9);
   EXPECT_GT(tally.fractions_seen, 0);
+  EXPECT_GT(tally.on_purpose, 0);
   EXPECT_GT(tally.riding, 0);
   EXPECT_GT(tally.crushed, 0);
   EXPECT_LT(tally.crushed, tally.steps / 5);

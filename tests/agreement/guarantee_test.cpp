@@ -1,10 +1,12 @@
 /// Each guarantee of octagon_sweep against the exact oracle, over random scenery of every family, speeds from 1e-3 to
 /// 1e6 m per step, origins up to 1e6 m and paper down to zero thickness.
+#include "agreement/reported.hpp"
 #include "oracle/exact.hpp"
 #include "support/random_sceneries.hpp"
 #include "support/steps_wanted.hpp"
 
 #include <paperproof/controller.hpp>
+#include <paperproof/tolerances.hpp>
 
 #include <gtest/gtest.h>
 
@@ -14,6 +16,7 @@ namespace paperproof::test {
 namespace {
 
 using compare::ExactScenery;
+using compare::Place;
 
 /// Nearer than this is a contact [m], as the guarantee says; and the rounding of a position 1e6 m away.
 constexpr double hit_distance = 1e-7 + 1e-9;
@@ -25,9 +28,11 @@ struct Tally {
   int stuck = 0;
   int dropped = 0;
   int from_inside = 0;
+  int passed_on_purpose = 0;  ///< One-way chains, with the button to drop down.
 };
 
-bool contains(const std::vector<ColliderIndex>& all, ColliderIndex one) {
+template <class Colliders>
+bool contains(const Colliders& all, ColliderIndex one) {
   return std::find(all.begin(), all.end(), one) != all.end();
 }
 
@@ -41,8 +46,9 @@ class RandomRun {
         origin_(random_.chance(0.7) ? Vec2d{0, 0} : Vec2d{far(), far()}),
         scenery_(random_scenery(family, random_, origin_)),
         controller_(scenery_, character()),
-        oracle_(scenery_.as_run(),
-                {controller_.character().shape.hull().begin(), controller_.character().shape.hull().end()}),
+        hull_(controller_.character().shape.hull().begin(), controller_.character().shape.hull().end()),
+        oracle_(scenery_.as_run(), hull_),
+        reported_(scenery_.as_run(), hull_, Tolerances<double>{}.certain),
         scratch_(controller_.make_scratch()) {}
 
   void go(Tally& tally) {
@@ -58,6 +64,7 @@ class RandomRun {
     for (int step = 0; step < 40; ++step) {
       if (random_.chance(0.1)) input.move = random_.integer(-1, 1);
       if (random_.chance(0.1)) input.jump = !input.jump;
+      input.drop = random_.chance(input.drop ? 0.8 : 0.1);
       if (random_.chance(0.2)) launch(dt, tally);
       take(input, gravity, dt, tally);
       const bool gone = (state_.position - origin_).cwiseAbs().maxCoeff() > 12;
@@ -99,7 +106,9 @@ class RandomRun {
     tally.dropped += status == StepStatus::dropped;
     tally.from_inside += !start_overlap.empty();
     tally.with_contact += !report_.move.contacts.empty();
+    tally.passed_on_purpose += static_cast<int>(report_.dropped_through.size());
     check_path(start_overlap, status);
+    check_what_is_said(input.drop);
     if (start_overlap.empty()) check_contacts(before);
   }
 
@@ -111,13 +120,30 @@ class RandomRun {
     for (std::size_t i = 1; i < path.size(); ++i) {
       ASSERT_GE(path[i].fraction, path[i - 1].fraction) << where();
       for (const ColliderIndex met : oracle_.met(path[i - 1].position, path[i].position)) {
-        ASSERT_TRUE(contains(start_overlap, met)) << "leg " << i << " meets collider " << met << where();
+        ASSERT_TRUE(contains(start_overlap, met) || passed_on_purpose(met))
+            << "leg " << i << " meets collider " << met << where();
       }
     }
     for (const ColliderIndex inside : oracle_.overlapped(state_.position)) {
       ASSERT_TRUE(contains(start_overlap, inside)) << "ends inside collider " << inside << where();
       ASSERT_EQ(status, StepStatus::stuck) << "still inside without saying so" << where();
     }
+  }
+
+  [[nodiscard]] bool passed_on_purpose(ColliderIndex collider) const {
+    return scenery_.as_run().colliders[collider].one_way && contains(report_.dropped_through, collider);
+  }
+
+  void check_what_is_said(bool drops) {
+    std::vector<Place> path;
+    for (const PathPoint<double>& corner : report_.move.path) path.emplace_back(corner.position);
+    for (const Contact<double>& contact : report_.move.contacts)
+      ASSERT_TRUE(reported_.contact_holds(path, contact))
+          << "contact with " << contact.collider << ": normal " << contact.normal.transpose() << ", gap "
+          << contact.separation << where();
+    ASSERT_TRUE(drops || report_.dropped_through.empty()) << where();
+    ASSERT_FALSE(report_.dropped_through.overflowed()) << where();
+    ASSERT_TRUE(reported_.drops_hold(path, report_.dropped_through)) << where();
   }
 
   void check_contacts(const CharacterState<double>& before) {
@@ -146,6 +172,7 @@ class RandomRun {
          << ", requested " << report_.requested.transpose() << ", way";
     for (const PathPoint<double>& corner : report_.move.path)
       text << " (" << corner.position.x() << ", " << corner.position.y() << " @ " << corner.fraction << ")";
+    for (const ColliderIndex chain : report_.dropped_through) text << ", drops through " << chain;
     return text.str();
   }
 
@@ -155,7 +182,9 @@ class RandomRun {
   Vec2d origin_;
   Scenery<double> scenery_;
   Controller<double> controller_;
+  std::vector<Vec2d> hull_;
   ExactScenery oracle_;
+  Reported reported_;
   Scratch<double> scratch_;
   CharacterState<double> state_;
   StepReport<double> report_;
@@ -171,12 +200,13 @@ TEST_P(Guarantee, no_step_ends_inside_passes_a_solid_or_leaves_a_gap) {
     if (HasFailure()) return;
   }
   RecordProperty("steps", tally.steps);
-  std::printf("%s: %d steps, %d with contact, %d launches, %d from inside, %d stuck, %d dropped\n",
+  std::printf("%s: %d steps, %d with contact, %d launches, %d from inside, %d stuck, %d dropped, %d chains passed\n",
               name_of(GetParam()).c_str(), tally.steps, tally.with_contact, tally.launched, tally.from_inside,
-              tally.stuck, tally.dropped);
+              tally.stuck, tally.dropped, tally.passed_on_purpose);
   // The generators must really meet the solids, and also miss them.
   EXPECT_GE(tally.with_contact, tally.steps * 0.1);
   EXPECT_LE(tally.with_contact, tally.steps * 0.9);
+  EXPECT_EQ(tally.passed_on_purpose > 0, GetParam() == Family::one_way) << "only there are chains to drop through";
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryFamily, Guarantee, ::testing::ValuesIn(all_families),

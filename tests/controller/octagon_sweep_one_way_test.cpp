@@ -206,5 +206,33 @@ TEST(DroppingOff, names_only_what_is_passed) {
   EXPECT_EQ(character.report.dropped_through[0], 0U);
 }
 
+TEST(DroppingOff, comes_out_of_a_solid_through_a_ledge_that_holds_it_otherwise) {
+  // In a box of 4 m by 3 m: down is nearest, and there is a ledge under the feet; right is next.
+  for (const bool drops : {true, false}) {
+    Stepper<double> character({rectangle(-2, -1.5, 2, 1.5), chain({{-9, -2}, {9, -2}}, Vec2d{0, 1})});
+    character.gravity = {0, 0};
+    character.at(1.1, -1.3);
+    ASSERT_GT(character.state.position.y() - half_height, -2) << "wholly above the ledge";
+    EXPECT_EQ(character.step({.move = std::nullopt, .jump = false, .drop = drops}), StepStatus::moved);
+    const Vec2d out = drops ? Vec2d{1.1, -1.5 - half_height} : Vec2d{2 + half_width, -1.3};
+    EXPECT_LE((character.state.position - out).cwiseAbs().maxCoeff(), 1e-6) << drops;
+    const auto& passed = character.report.dropped_through;
+    EXPECT_EQ(std::vector<ColliderIndex>(passed.begin(), passed.end()), std::vector<ColliderIndex>(drops ? 1 : 0, 1U));
+  }
+}
+
+TEST(DroppingOff, from_the_ground_beside_a_ledge_does_not_stand_on_it) {
+  for (const bool drops : {true, false}) {
+    Stepper<double> character({rectangle(-4, -1, 0, 0), chain({{0, 0}, {4, 0}}, Vec2d{0, 1})});
+    character.gravity = {0, -1};
+    character.dt = 1;
+    character.at(-1, half_height + 5e-7).with_velocity(3, 0);
+    character.step({.move = std::nullopt, .jump = false, .drop = drops});
+    EXPECT_NEAR(character.state.position.x(), 2, 1e-12) << "along the ground, and over the ledge";
+    EXPECT_NEAR(character.state.position.y(), half_height, 1e-6);
+    EXPECT_EQ(character.state.grounded, !drops);
+  }
+}
+
 }  // namespace
 }  // namespace paperproof::stepping

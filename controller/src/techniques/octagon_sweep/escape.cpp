@@ -17,12 +17,13 @@ template <std::size_t Lanes, class Scalar>
 class Escape {
  public:
   Escape(const ConfigurationSpace<Scalar>& space, std::span<const PieceIndex> candidates,
-         std::span<const MoverMotion<Scalar>> movers, const Vec2<Scalar>& from, const Vec2<Scalar>* last_free) noexcept
+         const MoveRequest<Scalar>& request, const Vec2<Scalar>& from) noexcept
       : space_(space),
         candidates_(candidates),
-        movers_(movers),
+        movers_(request.movers),
         from_(from),
-        last_free_(last_free),
+        last_free_(request.has_last_free ? &request.last_free : nullptr),
+        drops_(request.drop),
         facets_(space, from, Tolerances<Scalar>{}.stop) {}
 
   std::optional<Vec2<Scalar>> find() noexcept {
@@ -95,7 +96,7 @@ class Escape {
   [[nodiscard]] bool reachable(const Vec2<Scalar>& q) const noexcept { return clear(from_, q, true); }
 
   /// Whether the straight way meets nothing but, where allowed, the solids that the start is inside of; and no one-way
-  /// segment against its normal.
+  /// segment against its normal, unless it drops.
   [[nodiscard]] bool clear(const Vec2<Scalar>& from, const Vec2<Scalar>& to, bool leaving) const noexcept {
     for (const PieceIndex piece : candidates_)
       if (!(leaving && solid(piece) && may_pass(piece)) && !clear(piece, local(piece, from), local(piece, to)))
@@ -104,6 +105,7 @@ class Escape {
   }
 
   [[nodiscard]] bool clear(PieceIndex piece, const Vec2<Scalar>& from, const Vec2<Scalar>& to) const noexcept {
+    if (drops_ && !solid(piece)) return true;
     const Motion<Lanes, Scalar> motion = make_motion<everything>(space_, from, Vec2<Scalar>(to - from));
     if (!blocks<everything>(space_, motion, piece)) return true;
     for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis)
@@ -122,6 +124,7 @@ class Escape {
   std::span<const MoverMotion<Scalar>> movers_;
   Vec2<Scalar> from_;
   const Vec2<Scalar>* last_free_;
+  bool drops_;
   FixedVector<PieceIndex, max_inside> inside_;
   OpenFacets<Scalar> facets_;
   std::optional<Vec2<Scalar>> any_side_;
@@ -134,15 +137,13 @@ class Escape {
 
 template <std::size_t Lanes, class Scalar>
 std::optional<Vec2<Scalar>> way_out(const ConfigurationSpace<Scalar>& space, std::span<const PieceIndex> candidates,
-                                    std::span<const MoverMotion<Scalar>> movers, const Vec2<Scalar>& from,
-                                    const Vec2<Scalar>* last_free) noexcept {
-  return Escape<Lanes, Scalar>{space, candidates, movers, from, last_free}.find();
+                                    const MoveRequest<Scalar>& request, const Vec2<Scalar>& from) noexcept {
+  return Escape<Lanes, Scalar>{space, candidates, request, from}.find();
 }
 
 #define PAPERPROOF_INSTANTIATE(Lanes, Scalar)                                                                         \
   template std::optional<Vec2<Scalar>> way_out<Lanes>(const ConfigurationSpace<Scalar>&, std::span<const PieceIndex>, \
-                                                      std::span<const MoverMotion<Scalar>>, const Vec2<Scalar>&,      \
-                                                      const Vec2<Scalar>*) noexcept;
+                                                      const MoveRequest<Scalar>&, const Vec2<Scalar>&) noexcept;
 PAPERPROOF_INSTANTIATE(8, float)
 PAPERPROOF_INSTANTIATE(8, double)
 PAPERPROOF_INSTANTIATE(12, float)

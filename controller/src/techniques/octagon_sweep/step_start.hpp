@@ -51,14 +51,13 @@ bool StepSolver<variant, Scalar>::prepare_start(const MoveRequest<Scalar>& reque
 template <Variant variant, class Scalar>
 std::optional<Vec2<Scalar>> StepSolver<variant, Scalar>::find_way_out(const MoveRequest<Scalar>& request) noexcept {
   const V extent = space_.hull_box().upper - space_.hull_box().lower;
-  const V* const last_free = request.has_last_free ? &request.last_free : nullptr;
   const Scalar whole = reach_of_solids_inside();
   Scalar reach = std::max(extent.x(), extent.y()) * escape_reach;
   neighbourhood_.forget();  // more than what is asked for could give another answer
   while (true) {
     Box2<Scalar> box = Box2<Scalar>{position_, position_}.inflated(reach);
-    if (last_free != nullptr) box = box.merged({*last_free, *last_free});
-    const std::optional<V> out = way_out<variant.lanes>(space_, all_near(box), request.movers, position_, last_free);
+    if (request.has_last_free) box = box.merged({request.last_free, request.last_free});
+    const std::optional<V> out = way_out<variant.lanes>(space_, all_near(box), request, position_);
     if (!out && reach >= whole) return out;
     const Scalar distance = out ? V(*out - position_).cwiseAbs().maxCoeff() : Scalar(0);
     if (out && distance <= reach) return out;

@@ -143,6 +143,7 @@ bool StepSolver<variant, Scalar>::stands() noexcept {
 
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::stands_on(PieceIndex piece) const noexcept {
+  if (dropped(piece)) return false;
   constexpr Scalar touch = Tolerances<Scalar>{}.touch;
   const BestAxis<Scalar> best = best_axis<variant>(space_, piece, local(piece, position_));
   return std::abs(best.separation) <= touch && walkable(space_.normal(piece, best.axis));

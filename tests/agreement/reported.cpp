@@ -1,0 +1,74 @@
+#include "agreement/reported.hpp"
+
+#include "oracle/convex_parts.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace paperproof::test {
+namespace {
+
+using compare::Place;
+
+/// A chain that is missed by a micrometre may be named: so much the character grows, as a share of its size,
+constexpr double grown_by = 2e-6;
+/// and so much farther a leg begins and ends [m]: more than what a character below 1 m grows.
+constexpr double longer_by = 3e-6;
+
+std::vector<Vec2d> grown(const std::vector<Vec2d>& hull) {
+  Vec2d middle = Vec2d::Zero();
+  for (const Vec2d& corner : hull) middle += corner / static_cast<double>(hull.size());
+  std::vector<Vec2d> larger;
+  for (const Vec2d& corner : hull) larger.push_back(corner + grown_by * (corner - middle));
+  return larger;
+}
+
+}  // namespace
+
+Reported::Reported(const SceneryDef& scenery, const std::vector<Vec2d>& hull, double rounding)
+    : hull_(hull), rounding_(rounding), exact_(scenery, hull), grown_(scenery, grown(hull)) {
+  for (const ColliderDef& def : scenery.colliders)
+    is_one_part_.push_back(compare::detail::convex_parts(def).size() == 1);
+}
+
+bool Reported::contact_holds(std::span<const Place> path, const Contact<double>& contact) const {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Vec2d& corner : hull_) lowest = std::min(lowest, contact.normal.dot(corner));
+  return std::any_of(path.begin(), path.end(), [&](const Place& corner) {
+    const double along = contact.normal.dot(corner.position - contact.point) + lowest;
+    if (!(std::abs(along - contact.separation) <= rounding_)) return false;
+    const double exact = exact_.separation(corner, contact.collider);
+    // Of several parts another one may be nearer than the one that is met.
+    const bool more = is_one_part_[contact.collider] && !(contact.separation <= exact + rounding_);
+    return !more && (contact.separation >= 0 || exact <= 0);
+  });
+}
+
+bool Reported::drops_hold(std::span<const Place> path, std::span<const ColliderIndex> named) const {
+  const auto& colliders = exact_.scenery().colliders;
+  for (std::size_t k = 0; k < named.size(); ++k) {
+    if (k > 0 && named[k] <= named[k - 1]) return false;
+    if (!colliders[named[k]].one_way) return false;
+    bool passed = false;
+    for (std::size_t i = 1; i < path.size() && !passed; ++i) passed = nearly_passes(path[i - 1], path[i], named[k]);
+    if (!passed) return false;
+  }
+  return true;
+}
+
+bool Reported::nearly_passes(const Place& from, const Place& to, ColliderIndex chain) const {
+  const ColliderDef& def = exact_.scenery().colliders[chain];
+  for (std::size_t i = 1; i < def.points.size(); ++i) {
+    const Vec2d along = def.points[i] - def.points[i - 1];
+    Vec2d normal = Vec2d(-along.y(), along.x()).normalized();
+    if (normal.dot(*def.one_way) < 0) normal = -normal;
+    Place above = from;
+    Place below = to;
+    above.position += longer_by * normal;
+    below.position -= longer_by * normal;
+    if (grown_.meets(above, below, chain)) return true;
+  }
+  return false;
+}
+
+}  // namespace paperproof::test
