@@ -19,6 +19,8 @@ namespace {
 using namespace paperproof::compare;
 
 constexpr int unusable = 2;
+constexpr const char* scene_words =
+    "Built-in names (see `paperproof list scenes`), .json scenes, .tmx/.tmj maps, SuperTux .stl levels";
 
 /// What stands on the command line, as it stands there.
 struct Words {
@@ -31,14 +33,24 @@ struct Words {
   std::vector<std::string> scenes;  ///< To check or to plan.
 };
 
+void add_input(CLI::App& command, Words& words) {
+  command.add_option("--input", words.input, "Replaces the scene's input by one at random")->type_name("random:SEED");
+}
+
+void add_outputs(CLI::App& command, std::string& rows, std::string& report) {
+  command.add_option("--rows", rows, "Write all rows as JSON to this file")->type_name("FILE.json");
+  command.add_option("--report", report, "Write one self-contained HTML page to this file")->type_name("FILE.html");
+}
+
 CLI::App* add_compare(CLI::App& app, Words& words) {
   CompareArguments& arguments = words.compare;
   CLI::App* command = app.add_subcommand("compare", "Run scenes, judge every step exactly, say who is right");
-  command->add_option("SCENE", arguments.scenes, "Built-in names, .json scenes, .tmx/.tmj maps, SuperTux .stl levels")
-      ->required();
+  command->add_option("SCENE", arguments.scenes, scene_words)->required();
   command
       ->add_option("--contender", arguments.run.contenders,
-                   "Only these (see `paperproof list contenders`), each by its own option or with commas")
+                   "Only these and the Box2D twin (see `paperproof list contenders`), each by its own option or with "
+                   "commas")
+      ->type_name("NAME")
       ->delimiter(',')
       ->allow_extra_args(false);
   command->add_option("--scalar", words.scalars, "Number type of the techniques")
@@ -50,14 +62,16 @@ CLI::App* add_compare(CLI::App& app, Words& words) {
                    "free: each on its own; lockstep: the twin is put to the controller before each step")
       ->check(CLI::IsMember({"free", "lockstep"}));
   command->add_option("--steps", arguments.run.steps, "Instead of the scene's")->check(CLI::Range(1, 1'000'000'000));
-  command->add_option("--input", words.input, "random:SEED replaces the scene's input");
-  command->add_option("--trace", arguments.run.trace_stem, "Write STEM.<scene>.<contender>.<scalar>.jsonl");
-  command->add_option("--rows", arguments.rows_path, "Write all rows as JSON to this file");
-  command->add_option("--report", arguments.report_path, "Write one self-contained HTML page to this file");
+  add_input(*command, words);
+  command->add_option("--trace", arguments.run.trace_stem, "Write STEM.<scene>.<contender>.<scalar>.jsonl")
+      ->type_name("STEM");
+  add_outputs(*command, arguments.rows_path, arguments.report_path);
   command->add_option("--plan", words.plan, "full: leave nothing out, whatever the scene can need")
       ->check(CLI::IsMember({"full"}));
-  command->add_flag("!--no-reference", arguments.run.reference, "Without the Box2D twin");
-  command->add_flag("!--no-timing", arguments.run.measure_cost, "Without measuring the cost of a step");
+  command->add_flag_callback(
+      "--no-reference", [&arguments] { arguments.run.reference = false; }, "Without the Box2D twin");
+  command->add_flag_callback(
+      "--no-timing", [&arguments] { arguments.run.measure_cost = false; }, "Without measuring the cost of a step");
   command->add_flag("--quiet", arguments.quiet, "No tables, no progress");
   command->add_flag("--json", arguments.json, "Rows as JSON on standard output");
   return command;
@@ -67,9 +81,10 @@ CLI::App* add_study(CLI::App& app, StudyArguments& arguments) {
   CLI::App* command = app.add_subcommand("study", "One question over a range, as numbers and as a picture");
   command->require_subcommand(1);
   CLI::App* scale = command->add_subcommand("scale", "Cost of a step against the number of pieces, per broad phase");
-  scale->add_option("--grid", arguments.grid, "Numbers of pieces, multiples of 100")->delimiter(',');
-  scale->add_option("--rows", arguments.rows_path, "Write all rows as JSON to this file");
-  scale->add_option("--report", arguments.report_path, "Write one self-contained HTML page to this file");
+  scale->add_option("--grid", arguments.grid, "Numbers of pieces, multiples of 100")
+      ->type_name("N,...")
+      ->delimiter(',');
+  add_outputs(*scale, arguments.rows_path, arguments.report_path);
   scale->add_flag("--quiet", arguments.quiet, "No table, no progress");
   return scale;
 }
@@ -113,6 +128,21 @@ CompareArguments compare_arguments(const Words& words, const std::optional<std::
   return arguments;
 }
 
+/// Why the arguments cannot be used, in one line: with the names that could stand where one is missing or unknown, or
+/// with where to read on.
+std::string refusal(CLI::App& app, const CLI::ParseError& error) {
+  CLI::App* last = &app;
+  std::string called = "paperproof";
+  while (!last->get_subcommands().empty()) {
+    last = last->get_subcommands().front();
+    called += " " + last->get_name();
+  }
+  std::string names;
+  for (const CLI::App* command : last->get_subcommands({})) names += (names.empty() ? "" : ", ") + command->get_name();
+  if (names.empty()) return fmt::format("paperproof: {}; see {} --help\n", error.what(), called);
+  return fmt::format("{}: expected one of {}; see {} --help\n", called, names, called);
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"A 2D kinematic character controller beside Box2D, judged by exact arithmetic"};
   app.set_version_flag("--version", PAPERPROOF_VERSION);
@@ -122,18 +152,18 @@ int run(int argc, char** argv) {
   StudyArguments study_arguments;
   const CLI::App* scale = add_study(app, study_arguments);
   CLI::App* list = app.add_subcommand("list", "Names, one per line");
-  list->add_option("WHAT", words.what)->required()->check(CLI::IsMember({"scenes", "contenders"}));
+  list->add_option("WHAT", words.what, "Which names")->required()->check(CLI::IsMember({"scenes", "contenders"}));
   CLI::App* checking = app.add_subcommand("check", "Validate scenes and say what is in them");
-  checking->add_option("SCENE", words.scenes)->required();
+  checking->add_option("SCENE", words.scenes, scene_words)->required();
   CLI::App* planning = app.add_subcommand("plan", "Say what scenes cannot need and runs therefore leave out, and why");
-  planning->add_option("SCENE", words.scenes)->required();
-  planning->add_option("--input", words.input, "random:SEED replaces the scene's input");
+  planning->add_option("SCENE", words.scenes, scene_words)->required();
+  add_input(*planning, words);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& wanted) {
     return app.exit(wanted);
   } catch (const CLI::ParseError& error) {
-    std::fputs(fmt::format("paperproof: {}\n", error.what()).c_str(), stderr);
+    std::fputs(refusal(app, error).c_str(), stderr);
     return unusable;
   }
   std::optional<std::uint64_t> seed;

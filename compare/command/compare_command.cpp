@@ -37,17 +37,18 @@ class Totals {
     const bool breaks =
         row.verdict == Verdict::tunnels || (row.verdict == Verdict::flagged && row.steps_ending_inside.value_or(0) > 0);
     count.steps += row.steps;
-    ++count.runs;
+    count.asked_for = true;
+    count.runs += row.verdict != Verdict::not_applicable;
     count.broken += row.scalar == "double" ? row.verdict == Verdict::violates : breaks;
   }
   [[nodiscard]] bool trouble() const { return in_double_.broken > 0 || failed_ > 0; }
   /// One line for each number type that ran.
   [[nodiscard]] std::vector<std::string> lines() const {
     std::vector<std::string> all;
-    if (in_double_.runs > 0)
+    if (in_double_.asked_for)
       all.push_back(fmt::format("octagon_sweep in double: {}, {} with a violation of the guarantee",
                                 in_double_.extent(), counted(in_double_.broken, "run")));
-    if (in_float_.runs > 0)
+    if (in_float_.asked_for)
       all.push_back(
           fmt::format("octagon_sweep in float, for which nothing is guaranteed: {}, {} with a step through or "
                       "into a solid",
@@ -58,6 +59,7 @@ class Totals {
  private:
   struct Count {
     long long steps = 0;
+    bool asked_for = false;
     int runs = 0;
     int broken = 0;
     [[nodiscard]] std::string extent() const { return counted(steps, "step") + " in " + counted(runs, "run"); }

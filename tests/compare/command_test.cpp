@@ -149,6 +149,21 @@ TEST(Command, refuses_options_that_cannot_be) {
   expect_refused(place, "article_bullet --stepps 5", "paperproof: ", "--stepps");
 }
 
+TEST(Command, names_what_could_stand_where_a_word_is_missing_or_unknown) {
+  const Workplace place;
+  for (const auto& [arguments, line] :
+       {std::pair{"", "paperproof: expected one of compare, study, list, check, plan; see paperproof --help\n"},
+        {"frobnicate", "paperproof: expected one of compare, study, list, check, plan; see paperproof --help\n"},
+        {"study bullets", "paperproof study: expected one of scale; see paperproof study --help\n"},
+        {"check", "paperproof: SCENE is required; see paperproof check --help\n"}}) {
+    const Finished finished = place.run(arguments);
+    EXPECT_EQ(finished.status, 2) << arguments;
+    EXPECT_EQ(finished.err, line);
+    EXPECT_EQ(finished.out, "");
+  }
+  EXPECT_TRUE(holds(place.run("compare --help").out, "--no-timing                 Without measuring"));
+}
+
 TEST(Command, refuses_an_output_that_cannot_be_written) {
   const Workplace place;
   const auto before = place.files();
@@ -209,6 +224,8 @@ TEST(Command, counts_runs_in_double_and_in_float_apart) {
   const std::string only_float = place.run(common + "--scalar float").out;
   EXPECT_TRUE(holds(only_float, "octagon_sweep in float, for which nothing is guaranteed: 60 steps in 1 run, 0 runs"));
   EXPECT_EQ(only_float.find("in double"), std::string::npos);
+  const std::string turning = place.run("compare turning_arm --no-timing").out;
+  EXPECT_TRUE(holds(turning, "octagon_sweep in double: 0 steps in 0 runs")) << "it does not apply there";
 }
 
 TEST(Command, shows_the_table_of_a_scene_and_who_is_right) {
