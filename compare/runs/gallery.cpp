@@ -73,6 +73,20 @@ void note_cheapest(const TimedByScene& scenes, GalleryEntry& entry) {
   }
 }
 
+std::string failure_in_words(const GalleryEntry& entry) {
+  if (entry.fails) return fmt::format("fails on {} ({})", entry.fails->scene, entry.fails->failure.words);
+  return fmt::format("the search over {} found none on which it fails", counted(entry.scenes, "scene"));
+}
+
+std::string cost_in_words(const GalleryEntry& entry) {
+  if (!entry.cheapest) return "on none it is the cheapest of those that do not fail";
+  const auto& [scene, ns_per_step, next, next_ns_per_step] = *entry.cheapest;
+  if (next.empty())
+    return fmt::format("on {} it is the only one that does not fail ({:.0f} ns per step)", scene, ns_per_step);
+  return fmt::format("on {} it is the cheapest of those that do not fail ({:.0f} ns per step, then {} with {:.0f})",
+                     scene, ns_per_step, next, next_ns_per_step);
+}
+
 }  // namespace
 
 std::optional<Failure> failure_of(const Row& row) {
@@ -113,28 +127,13 @@ std::vector<std::string> gallery_lines(const std::vector<GalleryEntry>& gallery)
   const bool timed = std::any_of(gallery.begin(), gallery.end(), [](const auto& entry) { return entry.cheapest; });
   std::vector<std::string> lines;
   for (const GalleryEntry& entry : gallery) {
-    std::string line = entry.contender + ": ";
-    if (entry.scenes == 0) {
-      lines.push_back(line + "can express none of the scenes.");
-      continue;
-    }
-    if (entry.fails)
-      line += fmt::format("fails on {} ({}); ", entry.fails->scene, entry.fails->failure.words);
+    if (entry.scenes == 0)
+      lines.push_back(entry.contender + ": can express none of the scenes.");
     else
-      line += fmt::format("the search over {} found none on which it fails; ", counted(entry.scenes, "scene"));
-    if (!timed)
-      line += "nothing was timed.";
-    else if (!entry.cheapest)
-      line += "on none it is the cheapest of those that do not fail.";
-    else if (entry.cheapest->next.empty())
-      line += fmt::format("on {} it is the only one that does not fail ({:.0f} ns per step).", entry.cheapest->scene,
-                          entry.cheapest->ns_per_step);
-    else
-      line += fmt::format(
-          "on {} it is the cheapest of those that do not fail ({:.0f} ns per step, then {} with {:.0f}).",
-          entry.cheapest->scene, entry.cheapest->ns_per_step, entry.cheapest->next, entry.cheapest->next_ns_per_step);
-    lines.push_back(std::move(line));
+      lines.push_back(
+          fmt::format("{}: {}{}.", entry.contender, failure_in_words(entry), timed ? "; " + cost_in_words(entry) : ""));
   }
+  if (!timed) lines.emplace_back("Nothing was timed, so that none is named as the cheapest.");
   return lines;
 }
 

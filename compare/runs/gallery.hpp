@@ -50,7 +50,7 @@ struct GalleryEntry {
 /// @param rows of several scenes. In the order in which the contenders first appear.
 [[nodiscard]] std::vector<GalleryEntry> gallery_of(const std::vector<Row>& rows);
 
-/// One paragraph for each contender, without a heading.
+/// One paragraph for each contender, without a heading, and one more where nothing was timed.
 [[nodiscard]] std::vector<std::string> gallery_lines(const std::vector<GalleryEntry>& gallery);
 
 }  // namespace paperproof::compare

@@ -39,7 +39,7 @@ Lane::Lane(std::string contender, ScalarKind scalar, const Scene& scene, const S
     if (records_.size() > 1) company_ = std::make_unique<CompanyJudge>(header());
     metrics_ = std::make_unique<Metrics>(header(), metrics_for(scene, planning).measured);
     if (limit_.most > 0) {
-      replay_.header = header();
+      replay_.header = header_as_run();
       replay_.others.resize(header().characters - 1);
       replay_.every = std::max(1, (limit_.steps + limit_.most - 1) / limit_.most);
     }
@@ -50,7 +50,15 @@ Lane::Lane(std::string contender, ScalarKind scalar, const Scene& scene, const S
   }
   // A trace that cannot be written ends the command, not the lane.
   if (running() && !trace_stem.empty())
-    trace_ = std::make_unique<TraceWriter>(trace_path(trace_stem, row_.scene, row_.contender, row_.scalar), header());
+    trace_ =
+        std::make_unique<TraceWriter>(trace_path(trace_stem, row_.scene, row_.contender, row_.scalar), header_as_run());
+}
+
+/// A contestant does not know in which mode it runs.
+TraceHeader Lane::header_as_run() const {
+  TraceHeader as_run = header();
+  as_run.mode = row_.mode;
+  return as_run;
 }
 
 void Lane::note_start() {

@@ -50,6 +50,7 @@ class Lane {
   void finish();
 
  private:
+  [[nodiscard]] TraceHeader header_as_run() const;
   void note_start();
   void begin_records(int step, double dt);
   void judge_step();

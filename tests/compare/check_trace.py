@@ -99,7 +99,6 @@ class Checker:
         self.high = [float(max(corner[k] for corner in self.body)) for k in (0, 1)]
         self.colliders = {entry["id"]: Collider(entry) for entry in header["colliders"]}
         self.promises = header["contender"] == "octagon_sweep" and header["scalar"] == "double"
-        self.placed_anew = header.get("mode") == "lockstep"
         self.too_close = 0  # ways past what turns of which nothing can be said
         self.meets = lru_cache(maxsize=4096)(self.meets)
 
@@ -293,7 +292,7 @@ class Checker:
         fractions = [corner[2] for corner in step["path"]]
         if fractions[0] != 0 or fractions[-1] != 1 or fractions != sorted(fractions):
             yield "has a way that does not go from fraction 0 to 1"
-        if last not in (None, path[0][:2]) and not step.get("respawn") and not self.placed_anew:
+        if last not in (None, path[0][:2]) and not step.get("respawn"):
             yield f"begins at {show(path[0])}, not where the last one ended"
         yield from self.check_movers(step, motion, last_motion)
         yield from self.check_way(step, path, motion)

@@ -56,6 +56,15 @@ TEST(Gallery, says_that_a_search_found_none) {
   EXPECT_EQ(lines[2], "three: can express none of the scenes.");
 }
 
+TEST(Gallery, says_once_that_nothing_was_timed) {
+  std::vector<Row> rows{row("a", "one", 1), row("a", "two", 1)};
+  for (Row& one : rows) one.ns_per_step.reset();
+  const std::vector<std::string> lines = gallery_lines(gallery_of(rows));
+  ASSERT_EQ(lines.size(), 3U);
+  EXPECT_EQ(lines[1], "two: the search over 1 scene found none on which it fails.");
+  EXPECT_EQ(lines[2], "Nothing was timed, so that none is named as the cheapest.");
+}
+
 TEST(Gallery, a_run_without_a_number_is_no_failure_and_a_nan_is_one) {
   EXPECT_FALSE(failure_of(row("a", "one", 1)));
   Row odd = row("a", "one", 1);

@@ -169,6 +169,7 @@ TEST(Lockstep, compares_one_step_at_a_time) {
   ASSERT_TRUE(mine.contact_agreement_box2d);
   EXPECT_GE(*mine.contact_agreement_box2d, 0.95);
   EXPECT_LE(*mine.contact_agreement_box2d, 1);
+  for (const ReportRun& run : result.runs) EXPECT_EQ(run.header.mode, "lockstep") << run.header.contender;
   // The controller does not notice that it is watched.
   options.mode = Mode::free;
   const ReportScene alone = run_scene(built_in("jump_into_corner"), options);

@@ -141,9 +141,12 @@ function readoutRows(replay, run) {
 
 function readoutRow(replay, run, character, label, events) {
   const {record, ended} = replay.stateOf(character), names = run.scenery.colliders;
+  // Before each step the twin is put to the controller: that is no respawn.
+  const isTwin = run.mode === 'lockstep' && run.box2d !== '';
+  const flags = record.flags.filter((flag) => !(isTwin && flag === 'respawn'));
   const list = (colliders) => colliders.map((i) => (names[i] ? names[i].id : i)).join(', ');
   const words = ended ? [`ended at step ${grouped(record.step)}`] : [
-    ...record.flags, record.step === replay.step ? null : `as of step ${grouped(record.step)}`,
+    ...flags, record.step === replay.step ? null : `as of step ${grouped(record.step)}`,
     record.startOverlap.length ? `began inside ${list(record.startOverlap)}` : null,
     record.crush.length ? `crushed by ${list(record.crush)}` : null,
     record.drop.length ? `drops through ${list(record.drop)}` : null

@@ -15,7 +15,7 @@ for (const paragraph of data.paragraphs) add(document.getElementById('text'), 'p
 
 function addRow(table, tag, cells) {
   const row = add(table, 'tr', '');
-  for (const cell of cells) add(row, tag, cell);
+  for (const cell of cells) add(row, tag, cell).className = Number.isNaN(Number(cell)) ? 'words' : '';
 }
 const table = document.getElementById('table');
 addRow(table, 'th', data.heading);
