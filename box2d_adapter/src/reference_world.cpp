@@ -2,8 +2,8 @@
 
 #include "characters.hpp"
 #include "collider_lookup.hpp"
-#include "fixtures.hpp"
 #include "float_geometry.hpp"
+#include "scenery_bodies.hpp"
 
 #include <box2d/b2_fixture.h>
 #include <box2d/b2_world.h>
@@ -26,10 +26,6 @@ constexpr double least_approach = 1e-7;
 /// so the flag outlives the touch by a step; the slop above its touching distance covers the rest gaps by history.
 constexpr double standing_gap = touch_gap + static_cast<double>(b2_linearSlop);
 
-/// Steps whose length changes by more than this factor start Box2D's solver cold. It scales the stored impulses by the
-/// ratio, and a large one overflows.
-constexpr float largest_step_ratio = 16;
-
 /// By the definition's order: what is met first, then the lowest collider.
 bool comes_before(const Contact<double>& a, const Contact<double>& b) {
   if (a.fraction != b.fraction) return a.fraction < b.fraction;
@@ -37,18 +33,19 @@ bool comes_before(const Contact<double>& a, const Contact<double>& b) {
   return a.side < b.side;
 }
 
-void check_definition(const ReferenceWorldDef& def) {
+bool any_ground_carries(const SceneryDef& scenery) {
+  return std::any_of(scenery.colliders.begin(), scenery.colliders.end(), [](const ColliderDef& collider) {
+    return collider.mover != no_mover || collider.surface_speed != 0;
+  });
+}
+
+const ReferenceWorldDef& checked(const ReferenceWorldDef& def) {
   constexpr int most = 1000;
   if (def.velocity_iterations < 1 || def.velocity_iterations > most || def.position_iterations < 1 ||
       def.position_iterations > most) {
     throw InvalidDefinition("Box2D's iterations must be 1 to 1000");
   }
-}
-
-float checked_step(double dt) {
-  const auto step = static_cast<float>(dt);
-  if (!(dt >= least_step) || !(dt <= largest_number)) throw InvalidDefinition("a time step must be 1e-9 s to 1e9 s");
-  return step;
+  return def;
 }
 
 }  // namespace
@@ -58,18 +55,18 @@ std::string box2d_version() { return PAPERPROOF_BOX2D_VERSION; }
 struct ReferenceWorld::Impl {
   Impl(const Scenery<double>& scenery, const CharacterDef& character, std::span<const Vec2d> positions,
        const ReferenceWorldDef& definition)
-      : def(definition),
-        as_run(rounded(scenery.as_run())),
-        least_up(std::cos(character.max_climb_degrees * std::numbers::pi / 180)) {
-    check_definition(def);
+      : def(checked(definition)),
+        least_up(std::cos(character.max_climb_degrees * std::numbers::pi / 180)),
+        stage(world, scenery, def.mode),
+        looks_for_ground(any_ground_carries(stage.as_run)) {
     for (const Vec2d& corner : character.shape.hull()) points.push_back(widened(rounded(corner)));
-    add_scenery(scenery);
+    for (const Part& part : parts_of(stage.as_run, scenery.mover_count()))
+      lookups.emplace_back(part.solids, part.colliders);
     world.SetAllowSleeping(false);
     world.SetContactListener(&dispatcher);
     for (const Vec2d& position : positions) add_character(character, checked(position, "the character's position"));
   }
 
-  void add_scenery(const Scenery<double>& scenery);
   void add_character(const CharacterDef& character, const b2Vec2& position);
 
   static void place(b2Body* body, const b2Vec2& position, const b2Vec2& velocity) {
@@ -79,9 +76,7 @@ struct ReferenceWorld::Impl {
     body->SetEnabled(true);
   }
 
-  void step(std::span<const TwinWish> wishes, float dt, std::span<const MoverMotion<double>> motions,
-            std::span<const MoverTurn> turns);
-  void send_movers(float dt, std::span<const MoverMotion<double>> motions, std::span<const MoverTurn> turns);
+  void step(std::span<const TwinWish> wishes);
   void read(Character& who);
   void add_touching(Character& who);
   void add_begun(Character& who);
@@ -96,51 +91,17 @@ struct ReferenceWorld::Impl {
     return touch.normal.dot(wanted_relative_to(who, end, touch)) < -least_approach;
   }
 
-  /// The body of a mover.
-  struct Mover {
-    b2Body* body = nullptr;
-    b2Vec2 goal{0, 0};     ///< Where it is to be after the present step, or the last [m].
-    float goal_angle = 0;  ///< The same [radians].
-  };
-
   ReferenceWorldDef def;
-  SceneryDef as_run;
   std::vector<Vec2d> points;
   double least_up;  ///< Smallest upward part of the normal of walkable ground.
   b2World world{b2Vec2(0, 0)};
-  SceneryFixtures fixtures;
+  SceneryBodies stage;
   std::deque<ColliderLookup> lookups;  ///< For what stands, then for each mover; they can neither be copied nor moved.
   std::deque<Character> characters;    ///< Their recorders are known to the dispatcher.
   Dispatcher dispatcher{characters};
-  std::vector<Mover> movers;
-  std::vector<Vec2d> offsets;                      ///< Of the movers, when the step begins [m].
-  std::vector<MoverMotion<double>> mover_motions;  ///< As Box2D made them.
-  std::vector<MoverTurn> mover_turns;
-  bool movers_capped = false;     ///< One was to go beyond the travel cap.
-  bool looks_for_ground = false;  ///< There is ground that carries.
-  float last_dt = 0;
+  bool looks_for_ground;  ///< There is ground that carries.
   std::vector<TwinStep> results;
 };
-
-void ReferenceWorld::Impl::add_scenery(const Scenery<double>& scenery) {
-  std::vector<b2Body*> bodies;
-  for (const Part& part : parts_of(as_run, scenery.mover_count())) {
-    b2BodyDef body_def;
-    body_def.type = part.mover == no_mover ? b2_staticBody : b2_kinematicBody;
-    body_def.allowSleep = false;
-    bodies.push_back(world.CreateBody(&body_def));
-    add_solids(*bodies.back(), scenery, part, def.mode, fixtures);
-    lookups.emplace_back(part.solids, part.colliders);
-    if (part.mover != no_mover) movers.push_back({.body = bodies.back()});
-  }
-  add_sensors(bodies, scenery, as_run, fixtures);
-  offsets.resize(movers.size(), Vec2d::Zero());
-  mover_motions.resize(movers.size());
-  mover_turns.resize(movers.size());
-  looks_for_ground =
-      !movers.empty() || std::any_of(as_run.colliders.begin(), as_run.colliders.end(),
-                                     [](const ColliderDef& collider) { return collider.surface_speed != 0; });
-}
 
 void ReferenceWorld::Impl::add_character(const CharacterDef& character, const b2Vec2& position) {
   const b2PolygonShape shape = character_polygon(character.shape.hull());
@@ -150,17 +111,17 @@ void ReferenceWorld::Impl::add_character(const CharacterDef& character, const b2
   body_def.fixedRotation = true;
   body_def.bullet = true;
   body_def.allowSleep = false;
-  Character& who = characters.emplace_back(fixtures, points);
+  Character& who = characters.emplace_back(stage.fixtures, points);
   b2Body* body = who.body = world.CreateBody(&body_def);
   b2FixtureDef fixture;
   fixture.shape = &shape;
   fixture.density = 1;
   fixture.friction = 0;
   fixture.restitution = 0;
-  fixture.userData.pointer = who.source = fixtures.sources.size();
+  fixture.userData.pointer = who.source = stage.fixtures.sources.size();
   FixtureSource source;
   source.character = static_cast<CharacterIndex>(characters.size() - 1);
-  fixtures.sources.push_back(source);
+  stage.fixtures.sources.push_back(source);
   body->CreateFixture(&fixture);
   // Box2D moves the centre of mass and derives the position from it. With the centre at the position nothing is lost.
   b2MassData mass;
@@ -170,49 +131,18 @@ void ReferenceWorld::Impl::add_character(const CharacterDef& character, const b2
   body->SetMassData(&mass);
 }
 
-/// By velocity: Box2D sweeps a body from where the step finds it, and what is put somewhere was never on the way.
-void ReferenceWorld::Impl::send_movers(float dt, std::span<const MoverMotion<double>> motions,
-                                       std::span<const MoverTurn> turns) {
-  movers_capped = false;
-  for (std::size_t i = 0; i < movers.size(); ++i) {
-    Mover& mover = movers[i];
-    const MoverTurn turn = turns.empty() ? MoverTurn{} : turns[i];
-    const b2Vec2 from = rounded(motions[i].from);
-    const auto from_angle = static_cast<float>(turn.from);
-    if (!(mover.goal == from) || mover.goal_angle != from_angle) mover.body->SetTransform(from, from_angle);
-    mover.goal = rounded(motions[i].to);
-    mover.goal_angle = static_cast<float>(turn.to);
-    const b2Vec2 way = mover.goal - mover.body->GetPosition();
-    if (way.LengthSquared() > b2_maxTranslationSquared) movers_capped = true;
-    const float angle = mover.goal_angle - mover.body->GetAngle();
-    if (angle * angle > b2_maxRotationSquared) movers_capped = true;
-    mover.body->SetLinearVelocity((1 / dt) * way);
-    mover.body->SetAngularVelocity(angle / dt);
-    mover_turns[i].from = static_cast<double>(mover.body->GetAngle());
-    offsets[i] = widened(mover.body->GetPosition());
-  }
-}
-
-void ReferenceWorld::Impl::step(std::span<const TwinWish> wishes, float dt,
-                                std::span<const MoverMotion<double>> motions, std::span<const MoverTurn> turns) {
-  send_movers(dt, motions, turns);
+void ReferenceWorld::Impl::step(std::span<const TwinWish> wishes) {
   for (std::size_t k = 0; k < characters.size(); ++k) {
     Character& who = characters[k];
     const b2Vec2 velocity = rounded(wishes[k].velocity);
-    const b2Vec2 displacement = dt * velocity;
+    const b2Vec2 displacement = stage.dt * velocity;
     who.wanted = widened(displacement);
-    who.result.capped = movers_capped || displacement.LengthSquared() > b2_maxTranslationSquared;
+    who.result.capped = stage.capped || displacement.LengthSquared() > b2_maxTranslationSquared;
     who.body->SetLinearVelocity(velocity);
-    who.recorder.begin_step(*who.body, who.wanted, offsets, wishes[k].drop);
+    who.recorder.begin_step(*who.body, who.wanted, stage.offsets, wishes[k].drop);
   }
-  world.SetWarmStarting(dt <= largest_step_ratio * last_dt);
-  world.Step(dt, def.velocity_iterations, def.position_iterations);
+  stage.step(def);
   for (Character& who : characters) who.recorder.end_step();
-  last_dt = dt;
-  for (std::size_t i = 0; i < movers.size(); ++i) {
-    mover_motions[i] = {offsets[i], widened(movers[i].body->GetPosition())};
-    mover_turns[i].to = static_cast<double>(movers[i].body->GetAngle());
-  }
   results.clear();
   for (Character& who : characters) {
     read(who);
@@ -223,11 +153,11 @@ void ReferenceWorld::Impl::step(std::span<const TwinWish> wishes, float dt,
 /// What the step did to a character.
 void ReferenceWorld::Impl::read(Character& who) {
   TwinStep& result = who.result;
-  result.movers = mover_motions;
-  result.turns = mover_turns;
+  result.movers = stage.motions;
+  result.turns = stage.turns;
   result.velocity = widened(who.body->GetLinearVelocity());
   result.path = who.recorder.path();
-  result.dropped_through = who.recorder.dropped_through(mover_motions);
+  result.dropped_through = who.recorder.dropped_through(stage.motions);
   result.contacts.clear();
   result.met.clear();
   result.grounded = false;
@@ -253,15 +183,15 @@ double ReferenceWorld::Impl::fraction_of(const Character& who, const SceneryEnd&
 /// What is touched goes with its mover, and around it.
 Vec2d ReferenceWorld::Impl::wanted_relative_to(const Character& who, const SceneryEnd& end,
                                                const TouchPoint& touch) const {
-  const FixtureSource& source = fixtures.sources[end.source];
+  const FixtureSource& source = stage.fixtures.sources[end.source];
   if (source.character) {
     const std::vector<PathPoint<double>>& path = characters[*source.character].recorder.path();
     return who.wanted - (path.back().position - path.front().position);
   }
   if (source.mover == no_mover) return who.wanted;
   const Vec2d arm = touch.point - end.offset;
-  const double angle = mover_turns[source.mover].to - mover_turns[source.mover].from;
-  return who.wanted - (mover_motions[source.mover].to - mover_motions[source.mover].from) -
+  const double angle = stage.turns[source.mover].to - stage.turns[source.mover].from;
+  return who.wanted - (stage.motions[source.mover].to - stage.motions[source.mover].from) -
          angle * Vec2d(-arm.y(), arm.x());
 }
 
@@ -270,7 +200,7 @@ void ReferenceWorld::Impl::add_touching(Character& who) {
     const b2Contact& contact = *edge->contact;
     if (!contact.IsTouching() || !contact.IsEnabled()) continue;
     const SceneryEnd end = scenery_end(contact, *who.body);
-    if (const FixtureSource& source = fixtures.sources[end.source]; source.sensor) {
+    if (const FixtureSource& source = stage.fixtures.sources[end.source]; source.sensor) {
       who.sensed.push_back(*source.collider);
       continue;
     }
@@ -285,7 +215,7 @@ void ReferenceWorld::Impl::add_touching(Character& who) {
 /// Another character carries nobody.
 void ReferenceWorld::Impl::stand_on(TwinStep& result, const SceneryEnd& end, const TouchPoint& touch) {
   result.grounded = true;
-  if (!looks_for_ground || fixtures.sources[end.source].character) return;
+  if (!looks_for_ground || stage.fixtures.sources[end.source].character) return;
   const TwinStep::Ground ground{collider_of(end, touch.point), touch.normal};
   const auto rank = [](const TwinStep::Ground& one) { return std::pair(-one.normal.y(), one.collider); };
   if (!result.ground || rank(ground) < rank(*result.ground)) result.ground = ground;
@@ -321,7 +251,7 @@ void ReferenceWorld::Impl::add_sensor_events(Character& who) {
 /// The outline was moved by at most 5 mm and the point is rounded to float a few times; but at the end of a chain Box2D
 /// may put a point beside the edge, where a foot is in the air: then what is nearest further away is meant.
 ColliderIndex ReferenceWorld::Impl::collider_of(const SceneryEnd& end, const Vec2d& point) {
-  const FixtureSource& source = fixtures.sources[end.source];
+  const FixtureSource& source = stage.fixtures.sources[end.source];
   if (source.collider) return *source.collider;
   ColliderLookup& lookup = lookups[source.mover == no_mover ? 0 : source.mover + 1];
   const Vec2d arm = point - end.offset;
@@ -335,7 +265,7 @@ ColliderIndex ReferenceWorld::Impl::collider_of(const SceneryEnd& end, const Vec
 /// One contact per collider and side; the first to come gives the geometry, the earliest the time.
 void ReferenceWorld::Impl::add(Character& who, const SceneryEnd& end, const TouchPoint& touch, double fraction) {
   TwinStep& result = who.result;
-  if (const auto& other = fixtures.sources[end.source].character) {
+  if (const auto& other = stage.fixtures.sources[end.source].character) {
     // Of who stands where it is met, its own way does not tell the time.
     const double of_other = fraction_of(characters[*other], {who.source, 0});
     return add_met(result, *other, touch.normal, std::max(fraction, of_other));
@@ -388,23 +318,17 @@ std::span<const TwinStep> ReferenceWorld::step_all(std::span<const TwinWish> wis
                                                    std::span<const MoverMotion<double>> movers,
                                                    std::span<const MoverTurn> turns) {
   if (wishes.size() != impl_->characters.size()) throw InvalidDefinition("a step takes one wish of each character");
-  if (movers.size() != impl_->movers.size()) throw InvalidDefinition("a step takes one motion for each mover");
-  for (const MoverMotion<double>& motion : movers) {
-    (void)checked(motion.from, "a mover");
-    (void)checked(motion.to, "a mover");
-  }
-  if (!turns.empty() && turns.size() != movers.size()) throw InvalidDefinition("a step takes one turn for each mover");
-  for (const MoverTurn& turn : turns) (void)checked(Vec2d(turn.from, turn.to), "the angle of a mover");
   for (const TwinWish& wish : wishes) (void)checked(wish.velocity, "the wanted velocity");
-  impl_->step(wishes, checked_step(dt), movers, turns);
+  impl_->stage.send(dt, movers, turns);
+  impl_->step(wishes);
   return impl_->results;
 }
 
 Vec2d ReferenceWorld::position(std::size_t character) const {
   return widened(impl_->characters.at(character).body->GetPosition());
 }
-const SceneryDef& ReferenceWorld::as_run() const noexcept { return impl_->as_run; }
+const SceneryDef& ReferenceWorld::as_run() const noexcept { return impl_->stage.as_run; }
 const std::vector<Vec2d>& ReferenceWorld::points_as_run() const noexcept { return impl_->points; }
-ReferenceWorld::Size ReferenceWorld::size() const noexcept { return impl_->fixtures.size; }
+ReferenceWorld::Size ReferenceWorld::size() const noexcept { return impl_->stage.fixtures.size; }
 
 }  // namespace paperproof::box2d

@@ -1,0 +1,55 @@
+/// The scenery inside a Box2D world: bodies for what stands and for what moves.
+#pragma once
+
+#include "fixtures.hpp"
+
+#include <paperproof/box2d/body_world.hpp>
+
+#include <box2d/b2_world.h>
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace paperproof::box2d {
+
+/// One static body for what stands; for each mover a kinematic one, which is moved by velocity, or a dynamic one, which
+/// Box2D moves. A body's position is its mover's offset.
+struct SceneryBodies {
+  /// @param world must outlive this.
+  /// @param scenery judged and cut for the controller; its colliders are rounded to float here.
+  /// @param dynamic which movers are dynamic bodies, one for each mover; or empty: none.
+  /// @throws InvalidDefinition before Box2D sees what it would abort on.
+  SceneryBodies(b2World& world, const Scenery<double>& scenery, SceneryMode mode,
+                std::span<const std::optional<BodyDef>> dynamic = {});
+
+  /// Begins a step: gives every kinematic body the velocity that takes it to where it is to be.
+  /// @throws InvalidDefinition for what `ReferenceWorld::step_all` refuses; then nothing changed.
+  void send(double length, std::span<const MoverMotion<double>> wanted, std::span<const MoverTurn> wanted_turns);
+  /// Steps the world, and fills `motions` and `turns`.
+  void step(const ReferenceWorldDef& def);
+
+  struct Mover {
+    b2Body* body = nullptr;
+    bool dynamic = false;
+    b2Vec2 goal{0, 0};     ///< Where it is to be after the present step, or the last [m].
+    float goal_angle = 0;  ///< The same [radians].
+  };
+
+  SceneryDef as_run;  ///< In float.
+  SceneryFixtures fixtures;
+  std::vector<Mover> movers;
+  std::vector<Vec2d> offsets;                ///< Of the movers, when the step begins [m].
+  std::vector<MoverMotion<double>> motions;  ///< As Box2D made them.
+  std::vector<MoverTurn> turns;
+  bool capped = false;  ///< A kinematic body was to go beyond the travel cap.
+  float dt = 0;         ///< Of the present step, or the last [s].
+
+ private:
+  void send(Mover& mover, const MoverMotion<double>& wanted, const MoverTurn& turn);
+
+  b2World& world_;
+  float last_dt_ = 0;
+};
+
+}  // namespace paperproof::box2d
