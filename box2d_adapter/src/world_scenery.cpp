@@ -75,6 +75,12 @@ ColliderDef collider_of(const b2Shape& shape, const b2Transform& transform, int 
 bool is_solid(const b2Fixture& fixture) { return !fixture.IsSensor(); }
 bool is_no_mover(const b2Body&) { return false; }
 
+/// Still turned as it was when it was read.
+bool keeps_its_angle(const WorldScenery& scenery, std::size_t mover) {
+  const b2Body& body = *scenery.movers[mover];
+  return body.GetAngularVelocity() == 0 && body.GetAngle() == scenery.angles[mover];
+}
+
 /// Where `b2Island::Solve` takes a kinematic body, in the same operations and so to the same bits.
 b2Vec2 position_after_step(const b2Body& body, float dt) {
   b2Vec2 velocity = body.GetLinearVelocity();
@@ -91,7 +97,7 @@ WorldScenery scenery_of(b2World& world, const WorldSceneryDef& def) {
   const auto& moves = def.movers ? def.movers : is_no_mover;
   WorldScenery result;
   for (b2Body* body : in_order_of_creation(world.GetBodyList())) {
-    const bool is_mover = body->GetType() == b2_kinematicBody && moves(*body);
+    const bool is_mover = body->GetType() != b2_staticBody && moves(*body);
     if (!body->IsEnabled() || (body->GetType() != b2_staticBody && !is_mover)) continue;
     b2Transform transform = body->GetTransform();
     if (is_mover) transform.p.SetZero();
@@ -113,18 +119,36 @@ WorldScenery scenery_of(b2World& world, const WorldSceneryDef& def) {
 
 template <class Scalar>
 bool motions_of(const WorldScenery& scenery, float dt, std::span<MoverMotion<Scalar>> motions) noexcept {
-  bool straight = true;
+  bool known = true;
   for (std::size_t i = 0; i < scenery.movers.size(); ++i) {
     const b2Body& body = *scenery.movers[i];
     const Vec2d from = widened(body.GetPosition());
     const Vec2d to = widened(position_after_step(body, dt));
     motions[i] = {from.cast<Scalar>(), to.cast<Scalar>()};
-    straight = straight && body.GetAngularVelocity() == 0 && body.GetAngle() == scenery.angles[i];
+    known = known && keeps_its_angle(scenery, i) && body.GetType() == b2_kinematicBody;
   }
-  return straight;
+  return known;
+}
+
+void places_of(const WorldScenery& scenery, std::span<Vec2d> places) noexcept {
+  for (std::size_t i = 0; i < scenery.movers.size(); ++i) places[i] = widened(scenery.movers[i]->GetPosition());
+}
+
+template <class Scalar>
+bool motions_since(const WorldScenery& scenery, std::span<const Vec2d> places,
+                   std::span<MoverMotion<Scalar>> motions) noexcept {
+  bool known = true;
+  for (std::size_t i = 0; i < scenery.movers.size(); ++i) {
+    const Vec2d to = widened(scenery.movers[i]->GetPosition());
+    motions[i] = {places[i].cast<Scalar>(), to.cast<Scalar>()};
+    known = known && keeps_its_angle(scenery, i);
+  }
+  return known;
 }
 
 template bool motions_of(const WorldScenery&, float, std::span<MoverMotion<float>>) noexcept;
 template bool motions_of(const WorldScenery&, float, std::span<MoverMotion<double>>) noexcept;
+template bool motions_since(const WorldScenery&, std::span<const Vec2d>, std::span<MoverMotion<float>>) noexcept;
+template bool motions_since(const WorldScenery&, std::span<const Vec2d>, std::span<MoverMotion<double>>) noexcept;
 
 }  // namespace paperproof::box2d

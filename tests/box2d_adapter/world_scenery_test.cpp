@@ -118,7 +118,7 @@ TEST(WorldScenery, the_polygon_around_a_circle_encloses_it_within_half_a_percent
   EXPECT_THROW((void)scenery_of(world, {.circle_corners = 2}), InvalidDefinition);
 }
 
-TEST(WorldMovers, are_the_kinematic_bodies_asked_for_and_no_others) {
+TEST(WorldMovers, are_the_bodies_asked_for_and_no_others) {
   b2World world({0, 0});
   add_box(new_body(world, b2_staticBody), 1, 1);
   add_box(new_body(world, b2_kinematicBody, {0, 9}), 1, 1);  // the hero
@@ -131,7 +131,7 @@ TEST(WorldMovers, are_the_kinematic_bodies_asked_for_and_no_others) {
   EXPECT_TRUE(scenery_of(world).movers.empty());
 
   const WorldScenery read = scenery_of(world, {.filter = [](const b2Fixture&) { return true; },
-                                               .movers = [](const b2Body& body) { return body.GetPosition().y < 9; }});
+                                               .movers = [](const b2Body& body) { return body.GetPosition().y < 6; }});
   EXPECT_EQ(read.movers, std::vector<b2Body*>{lift});
   ASSERT_EQ(read.fixtures.size(), 3U);
   EXPECT_EQ(read.fixtures[1], deck);
@@ -196,6 +196,57 @@ TEST(WorldMovers, carry_the_games_hero) {
     EXPECT_NEAR(place.y(), 0.5 + half_height(), 2e-6) << i;
     EXPECT_LT(std::abs(place.x()), 1) << i;
   }
+}
+
+TEST(WorldMovers, that_are_dynamic_carry_the_games_hero_after_the_world_has_stepped) {
+  b2World world({0, -10});  // the game's
+  add_box(new_body(world, b2_staticBody, {0, -3}), 20, 1);
+  std::vector<b2Body*> crates;
+  for (const float y : {-1.4F, -0.3F, 0.9F}) {
+    crates.push_back(new_body(world, b2_dynamicBody, {0, y}));
+    crates.back()->SetFixedRotation(true);
+    add_box(crates.back(), 1, 0.5F);
+  }
+  const auto dt = static_cast<float>(frame);
+
+  const WorldScenery borrowed =
+      scenery_of(world, {.movers = [](const b2Body& body) { return body.IsFixedRotation(); }});
+  ASSERT_EQ(borrowed.movers, crates);
+  const Scenery<double> scenery(borrowed.scenery);
+  const Controller<double> controller(scenery, CharacterDef{});
+  Scratch<double> scratch = controller.make_scratch();
+  StepReport<double> report;
+  CharacterState<double> hero;
+  hero.position = {0, 1.4 + half_height() + 0.1};
+  std::vector<Vec2d> places(borrowed.movers.size());
+  std::vector<MoverMotion<double>> motions(borrowed.movers.size());
+  for (int i = 0; i < 600; ++i) {
+    places_of(borrowed, places);
+    world.Step(dt, 8, 3);
+    ASSERT_TRUE(motions_since<double>(borrowed, places, motions));
+    controller.step(hero, {.move = 0.0, .jump = false}, {0, -10}, static_cast<double>(dt), motions, scratch, report);
+    if (i < 30) continue;                                                                  // all of them fall
+    if (i == 200) crates[2]->ApplyLinearImpulseToCenter({crates[2]->GetMass(), 0}, true);  // 1 m/s, a kick
+    EXPECT_TRUE(hero.grounded) << i;
+    const Vec2d place = hero.position - widened(crates[2]->GetPosition());
+    EXPECT_NEAR(place.y(), 0.5 + half_height(), 2e-6) << i;
+    EXPECT_NEAR(place.x(), 0, 1e-6) << i;
+  }
+  EXPECT_GT(hero.position.x(), 0.1);
+}
+
+TEST(WorldMovers, that_are_dynamic_are_not_known_before_the_world_steps) {
+  b2World world({0, -10});
+  b2Body* const crate = new_body(world, b2_dynamicBody);
+  crate->SetFixedRotation(true);
+  add_box(crate, 1, 1);
+  const WorldScenery read = scenery_of(world, {.movers = [](const b2Body&) { return true; }});
+  std::vector<MoverMotion<double>> motions(1);
+  EXPECT_FALSE(motions_of<double>(read, 0.01F, motions));
+  const std::vector<Vec2d> places(1, Vec2d::Zero());
+  EXPECT_TRUE(motions_since<double>(read, places, motions));
+  crate->SetTransform({0, 0}, 0.1F);
+  EXPECT_FALSE(motions_since<double>(read, places, motions));
 }
 
 TEST(WorldMovers, that_turn_are_no_longer_known) {

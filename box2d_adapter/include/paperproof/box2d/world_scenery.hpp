@@ -28,19 +28,20 @@ struct WorldSceneryDef {
   /// Corners of the polygon that stands for a circle; it encloses the circle, and at 32 corners reaches 0.5 % of the
   /// radius beyond it. At least 3.
   int circle_corners = 32;
-  /// Which kinematic bodies become movers. Absent: none, as the character itself often is one.
+  /// Which kinematic and dynamic bodies become movers. Absent: none, as the character itself often is one. Movers do
+  /// not turn: ask for dynamic ones with `IsFixedRotation()`.
   std::function<bool(const b2Body&)> movers{};
 };
 
-/// Reads the static bodies of `world` that are enabled, and the kinematic ones that are asked for, in the order in
-/// which bodies and their fixtures were created.
+/// Reads the static bodies of `world` that are enabled, and those asked for that move, in the order in which bodies and
+/// their fixtures were created.
 ///
 /// - A polygon becomes a polygon of the same corners in world coordinates (Box2D's skin of 1 cm is not part of it).
 /// - An edge or a chain becomes a chain, a loop a closed one. It blocks from both sides, also where Box2D's is
 ///   one-sided: a loop blocks as it does in Box2D from the side that faces the game, and what is behind it is out of
 ///   reach.
 /// - A circle becomes the polygon of `circle_corners` corners around it.
-/// - A kinematic body becomes a mover: its fixtures as it is turned now, around its own origin, which is the mover's
+/// - A body that moves becomes a mover: its fixtures as it is turned now, around its own origin, which is the mover's
 ///   offset.
 ///
 /// The world is only read (Box2D's own lists are not const); call it between steps. Read it again after the level
@@ -49,16 +50,34 @@ struct WorldSceneryDef {
 ///   zero area) throw `InvalidScenery` when the `Scenery` is built.
 [[nodiscard]] WorldScenery scenery_of(b2World& world, const WorldSceneryDef& def = {});
 
-/// How the movers will go in the world's next step: from where their bodies are, with the velocities they have, as
-/// Box2D will move them (at most 2 m). Call it before `world.Step` with the same `dt` and hand it to
+/// How kinematic movers will go in the world's next step: from where their bodies are, with the velocities they have,
+/// as Box2D will move them (at most 2 m). Call it before `world.Step` with the same `dt` and hand it to
 /// `Controller::step`. Neither allocates nor throws.
 /// @param scenery its world must still have the bodies.
 /// @param motions one for each of `scenery.movers`.
-/// @returns false where a body turns, or has turned since it was read: then the controller does not know where it is.
+/// @returns false where the controller would not know where a body is: it turns, has turned since it was read, or is
+///   dynamic (what those do is known only after the step: `motions_since`).
 template <class Scalar>
 [[nodiscard]] bool motions_of(const WorldScenery& scenery, float dt, std::span<MoverMotion<Scalar>> motions) noexcept;
 
+/// Where the bodies of the movers are [m].
+/// @param places one for each of `scenery.movers`.
+void places_of(const WorldScenery& scenery, std::span<Vec2d> places) noexcept;
+
+/// How all movers went in the world's last step, kinematic or dynamic. Here the world goes first: `places_of`,
+/// `world.Step`, `motions_since`, `Controller::step`. The controller then knows what gravity, impacts and weight did to
+/// a body; what it does to the body (an impulse on `fixtures[contact.collider]->GetBody()`, say) is up to the game.
+/// Neither allocates nor throws.
+/// @param places what `places_of` gave before the step.
+/// @returns false where a body turns, or has turned since it was read: then the controller does not know where it is.
+template <class Scalar>
+[[nodiscard]] bool motions_since(const WorldScenery& scenery, std::span<const Vec2d> places,
+                                 std::span<MoverMotion<Scalar>> motions) noexcept;
+
 extern template bool motions_of(const WorldScenery&, float, std::span<MoverMotion<float>>) noexcept;
 extern template bool motions_of(const WorldScenery&, float, std::span<MoverMotion<double>>) noexcept;
+extern template bool motions_since(const WorldScenery&, std::span<const Vec2d>, std::span<MoverMotion<float>>) noexcept;
+extern template bool motions_since(const WorldScenery&, std::span<const Vec2d>,
+                                   std::span<MoverMotion<double>>) noexcept;
 
 }  // namespace paperproof::box2d
