@@ -3,32 +3,25 @@
 #pragma once
 
 #include "runs/contestant.hpp"
+#include "runs/mover_motions.hpp"
 #include "scenes/scene.hpp"
 #include "scenes/step_times.hpp"
 
 namespace paperproof::compare {
 
-/// `at` must be called with ascending steps. The scene and the script must outlive the cursor.
+/// `at` must be called with one step after the other, from 0 on. The scene and the script must outlive the cursor.
 class InputCursor {
  public:
   /// @param script instead of the scene's own; one list for each character.
+  /// @throws NotApplicable where Box2D cannot have the scene's bodies.
   InputCursor(const Scene& scene, const Script& script)
-      : scene_(scene),
-        script_(script),
-        times_(scene),
-        next_(script.size()),
-        now_(script.size()),
-        motions_(scene.movers.size()),
-        turns_(scene.movers.size()) {}
+      : script_(script), times_(scene), next_(script.size()), now_(script.size()), movers_(scene) {}
 
   /// The players do what `input_at` says. What is returned holds until the next call.
   [[nodiscard]] StepInput at(int step) {
-    for (std::size_t i = 0; i < motions_.size(); ++i) {
-      motions_[i] = motion_between(scene_.movers[i], times_.begin(step), times_.end(step));
-      turns_[i] = turn_between(scene_.movers[i], times_.begin(step), times_.end(step));
-    }
+    movers_.advance(step);
     for (std::size_t k = 0; k < script_.size(); ++k) advance(k, step);
-    return {times_.length(step), now_, motions_, turns_};
+    return {times_.length(step), now_, movers_.motions(), movers_.turns()};
   }
 
  private:
@@ -38,13 +31,11 @@ class InputCursor {
       apply(events[next], now_[character]);
   }
 
-  const Scene& scene_;
   const Script& script_;
   StepTimes times_;
   std::vector<std::size_t> next_;
   std::vector<Input> now_;
-  std::vector<MoverMotion<double>> motions_;
-  std::vector<TurnMotion> turns_;
+  MoverMotions movers_;
 };
 
 }  // namespace paperproof::compare

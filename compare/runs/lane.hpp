@@ -45,6 +45,8 @@ class Lane {
   void place(const Pose& pose, std::size_t character = 0);
   /// Whether no other character would be overlapped there.
   [[nodiscard]] bool is_free(const Vec2d& position, std::size_t character) const;
+  /// The run cannot be made; its row is `not_applicable` and says why.
+  void give_up(const std::string& reason) { fail(Verdict::not_applicable, reason); }
   void step(int step, const StepInput& input);
   /// Writes metrics and verdict into the row and the trace to its place.
   void finish();

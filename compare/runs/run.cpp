@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace paperproof::compare {
 namespace {
@@ -47,13 +48,18 @@ class SceneRun {
             std::make_unique<Lane>(std::string(twin_name), scalar, scene, scenery_, planning_, mode, stem, replay));
         twins_.back()->row().findings.push_back("twin of " + name);
       }
+    try {
+      cursor_.emplace(scene_, script_);
+    } catch (const NotApplicable& reason) {
+      for (const auto& lane : lanes_) lane->give_up(reason.what());
+      for (const auto& lane : twins_) lane->give_up(reason.what());
+    }
     begin_agreements();
   }
 
   ReportScene go() {
-    InputCursor cursor(scene_, script_);
-    for (int step = 0; step < steps_; ++step) {
-      const StepInput input = cursor.at(step);
+    for (int step = 0; cursor_ && step < steps_; ++step) {
+      const StepInput input = cursor_->at(step);
       if (options_.mode == Mode::lockstep)
         step_in_lockstep(step, input);
       else
@@ -240,6 +246,7 @@ class SceneRun {
   Script script_;
   Scenery<double> scenery_;
   Planning planning_;
+  std::optional<InputCursor> cursor_;  ///< None where the scene cannot be run at all.
   std::vector<std::unique_ptr<Lane>> lanes_;
   std::vector<std::unique_ptr<Lane>> twins_;
   std::vector<Pair> pairs_;

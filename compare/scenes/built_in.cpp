@@ -8,7 +8,7 @@ const std::vector<BuiltInScene>& built_in_scenes() {
   static const std::vector<BuiltInScene> all = [] {
     std::vector<BuiltInScene> scenes;
     for (auto theme : {paper_scenes(), angle_scenes(), ground_scenes(), article_scenes(), limit_scenes(),
-                       one_way_scenes(), moving_scenes(), crowd_scenes(), extreme_scenes()}) {
+                       one_way_scenes(), moving_scenes(), body_scenes(), crowd_scenes(), extreme_scenes()}) {
       scenes.insert(scenes.end(), std::make_move_iterator(theme.begin()), std::make_move_iterator(theme.end()));
     }
     return scenes;
@@ -51,6 +51,11 @@ void add_chain(Scene& scene, std::string id, std::vector<Vec2d> points) {
 void move_last(Scene& scene, std::vector<MoverDef::Waypoint> path, MoverDef::Loop loop) {
   scene.scenery.colliders.back().mover = static_cast<MoverIndex>(scene.movers.size());
   scene.movers.push_back({.id = scene.ids.back(), .path = std::move(path), .loop = loop});
+}
+
+void let_box2d_move_last(Scene& scene, const Body& body) {
+  move_last(scene, {{}});
+  scene.movers.back().body = body;
 }
 
 void hold_jump(Scene& scene, int from, int to) {

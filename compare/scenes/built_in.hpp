@@ -15,6 +15,7 @@ namespace paperproof::compare {
 [[nodiscard]] std::vector<BuiltInScene> limit_scenes();    ///< Climb limit, dt, many tiles, sensors.
 [[nodiscard]] std::vector<BuiltInScene> one_way_scenes();  ///< One-way chains, standing, moving, dropped through.
 [[nodiscard]] std::vector<BuiltInScene> moving_scenes();   ///< Lifts, conveyors, papers, a ceiling.
+[[nodiscard]] std::vector<BuiltInScene> body_scenes();     ///< Stacks and crates that Box2D moves.
 [[nodiscard]] std::vector<BuiltInScene> crowd_scenes();    ///< Several characters.
 [[nodiscard]] std::vector<BuiltInScene> extreme_scenes();  ///< Overlapping starts, far origins, other scales.
 
@@ -38,6 +39,8 @@ void add_box(Scene& scene, std::string id, double left, double bottom, double ri
 void add_chain(Scene& scene, std::string id, std::vector<Vec2d> points);
 /// The last collider goes along a path.
 void move_last(Scene& scene, std::vector<MoverDef::Waypoint> path, MoverDef::Loop loop = MoverDef::Loop::once);
+/// The last collider is a body that Box2D moves.
+void let_box2d_move_last(Scene& scene, const Body& body);
 /// The jump button is down from one step to before another; input is given in the order of the steps.
 void hold_jump(Scene& scene, int from, int to);
 /// The same for dropping through one-way chains.

@@ -51,6 +51,7 @@ std::string mover(const Scene& scene, MoverIndex index) {
   const MoverDef& def = scene.movers[index];
   const std::vector<ColliderDef>& all = scene.scenery.colliders;
   const auto colliders = std::count_if(all.begin(), all.end(), [index](const auto& c) { return c.mover == index; });
+  if (def.body) return fmt::format("{}: {}, a body of {} kg", def.id, counted(colliders, "collider"), def.body->mass);
   std::string out = fmt::format("{}: {}, {} in {} s", def.id, counted(colliders, "collider"),
                                 counted(def.path.size(), "waypoint"), def.path.back().time - def.path.front().time);
   if (!def.turns.empty()) out += ", " + counted(def.turns.size(), "angle");

@@ -182,6 +182,18 @@ double JsonCursor::positive() const {
   return value;
 }
 
+double JsonCursor::not_negative() const {
+  const double value = number();
+  if (!(value >= 0)) refuse("expected a number that is not negative");
+  return value;
+}
+
+double JsonCursor::number_within(double lowest, double highest) const {
+  const double value = number();
+  if (!(value >= lowest && value <= highest)) refuse(fmt::format("expected a number from {} to {}", lowest, highest));
+  return value;
+}
+
 int JsonCursor::integer(int lowest, int highest) const {
   const std::string range = fmt::format("expected a whole number from {} to {}", lowest, highest);
   if (!value_->is_number()) refuse(range);
@@ -207,6 +219,19 @@ std::string JsonCursor::text() const {
 Vec2d JsonCursor::point() const {
   if (!value_->is_array() || value_->size() != 2) refuse("expected two numbers, [x, y]");
   return {element(0).number(), element(1).number()};
+}
+
+std::vector<Vec2d> JsonCursor::points(std::size_t at_least) const {
+  if (size() < at_least) refuse(fmt::format("expected an array of at least {} points", at_least));
+  std::vector<Vec2d> points;
+  points.reserve(size());
+  for (std::size_t i = 0; i < size(); ++i) points.push_back(element(i).point());
+  return points;
+}
+
+bool JsonCursor::flag(std::string_view key) const {
+  const auto found = find(key);
+  return found && found->boolean();
 }
 
 }  // namespace paperproof::compare

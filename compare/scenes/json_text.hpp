@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace paperproof::compare {
 
@@ -42,6 +43,9 @@ class JsonCursor {
 
   [[nodiscard]] double number() const;
   [[nodiscard]] double positive() const;
+  [[nodiscard]] double not_negative() const;
+  /// A number in [lowest, highest].
+  [[nodiscard]] double number_within(double lowest, double highest) const;
   /// A number without a fraction (120 and 120.0 are the same), in [lowest, highest].
   [[nodiscard]] int integer(int lowest, int highest) const;
   [[nodiscard]] bool boolean() const;
@@ -49,6 +53,10 @@ class JsonCursor {
   [[nodiscard]] std::string text() const;
   /// Two numbers.
   [[nodiscard]] Vec2d point() const;
+  /// An array of that many points or more.
+  [[nodiscard]] std::vector<Vec2d> points(std::size_t at_least) const;
+  /// The boolean under a key; false where the object does not have it.
+  [[nodiscard]] bool flag(std::string_view key) const;
 
  private:
   const nlohmann::json* value_;

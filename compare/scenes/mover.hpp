@@ -1,17 +1,26 @@
-/// What moves in a scene: a path through time that colliders go along.
+/// What moves in a scene: colliders that go along a path through time, or are bodies that Box2D moves.
 #pragma once
 
 #include <paperproof/types.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace paperproof::compare {
 
-/// A body that goes along a path; the colliders with its number in `ColliderDef::mover` go with it. Their points are
-/// where they are at offset (0, 0) and angle 0; they turn about the point (0, 0) that they are written around, and are
-/// then moved by the offset.
+/// What Box2D moves: by gravity, impacts and weight. It does not turn.
+struct Body {
+  double mass = 1;                ///< [kg]
+  double friction = 0.2;          ///< Of two surfaces Box2D takes the root of the product; scenery has 0.2.
+  double restitution = 0;         ///< From 0 to 1.
+  Vec2d velocity{Vec2d::Zero()};  ///< At the start [m/s].
+};
+
+/// A thing that goes along a path, or that Box2D moves; the colliders with its number in `ColliderDef::mover` go with
+/// it. Their points are where they are at offset (0, 0) and angle 0; they turn about the point (0, 0) that they are
+/// written around, and are then moved by the offset.
 struct MoverDef {
   enum class Loop : std::uint8_t {
     once,       ///< Stays at the last waypoint.
@@ -30,6 +39,8 @@ struct MoverDef {
   std::vector<Waypoint> path;  ///< At least one.
   Loop loop = Loop::once;
   std::vector<Turn> turns{};  ///< Empty: it does not turn.
+  /// Where there is one, the path says only where it begins.
+  std::optional<Body> body{};
 };
 
 /// Where the mover is `time` seconds after the start of the scene [m]: linear between waypoints, at a waypoint exactly

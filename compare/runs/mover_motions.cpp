@@ -1,0 +1,47 @@
+#include "runs/mover_motions.hpp"
+
+#include "runs/contestant.hpp"
+
+#include <algorithm>
+
+namespace paperproof::compare {
+namespace {
+
+std::optional<box2d::BodyWorld> world_of_bodies(const Scene& scene) {
+  std::vector<std::optional<box2d::BodyDef>> bodies;
+  for (const MoverDef& mover : scene.movers) {
+    bodies.emplace_back();
+    if (const auto& body = mover.body) bodies.back() = {body->mass, body->friction, body->restitution, body->velocity};
+  }
+  if (std::none_of(bodies.begin(), bodies.end(), [](const auto& body) { return body.has_value(); }))
+    return std::nullopt;
+  try {
+    if (!(StepTimes(scene).shortest() >= box2d::least_step))
+      throw box2d::InvalidDefinition("it takes no steps shorter than 1e-9 s");
+    return box2d::BodyWorld(Scenery<double>(scene.scenery), bodies, scene.gravity);
+  } catch (const box2d::InvalidDefinition& error) {
+    throw NotApplicable(std::string("the scene's bodies are moved by Box2D, and ") + error.what());
+  }
+}
+
+}  // namespace
+
+MoverMotions::MoverMotions(const Scene& scene)
+    : scene_(scene),
+      times_(scene),
+      bodies_(world_of_bodies(scene)),
+      motions_(scene.movers.size()),
+      turns_(scene.movers.size()) {}
+
+void MoverMotions::advance(int step) {
+  for (std::size_t i = 0; i < motions_.size(); ++i) {
+    motions_[i] = motion_between(scene_.movers[i], times_.begin(step), times_.end(step));
+    turns_[i] = turn_between(scene_.movers[i], times_.begin(step), times_.end(step));
+  }
+  if (!bodies_) return;
+  body_turns_.clear();
+  for (const TurnMotion& turn : turns_) body_turns_.push_back({turn.from, turn.to});
+  bodies_->step(times_.length(step), motions_, body_turns_);
+}
+
+}  // namespace paperproof::compare

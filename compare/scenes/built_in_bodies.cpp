@@ -1,0 +1,61 @@
+/// What Box2D moves: scene 28, and a crate that falls.
+#include "scenes/built_in.hpp"
+
+namespace paperproof::compare {
+
+namespace {
+
+constexpr double rest_gap = 0.015;  ///< That Box2D leaves between polygons [m].
+
+/// Stands on four boxes of 1 kg and a fifth of `mass` [kg] on top of them.
+Scene stack_under(double mass) {
+  constexpr int boxes = 5;
+  constexpr double height = 0.5;
+  Scene scene = flight(0, 0, 0, 0, 600);
+  scene.gravity = {0, -10};
+  add_box(scene, "floor", -5, -1, 5, 0);
+  double top = 0;
+  for (int i = 1; i <= boxes; ++i) {
+    const double bottom = top + rest_gap;
+    top = bottom + height;
+    add_box(scene, "box_" + std::to_string(i), -1, bottom, 1, top);
+    let_box2d_move_last(scene, {.mass = i == boxes ? mass : 1});
+  }
+  scene.start.position = {0, top + half_height + 5e-7};
+  return scene;
+}
+
+Scene stack_1() { return stack_under(1); }
+Scene stack_10() { return stack_under(10); }
+Scene stack_100() { return stack_under(100); }
+Scene stack_1000() { return stack_under(1000); }
+Scene stack_10000() { return stack_under(10000); }
+
+/// A crate falls onto the head of who stands there, from `way` metres above it.
+Scene falling_crate() {
+  constexpr double way = 2;
+  Scene scene = flight(0, half_height + 5e-7, 0, 0, 90);
+  scene.gravity = {0, -10};
+  add_box(scene, "floor", -5, -1, 5, 0);
+  constexpr double bottom = 2 * half_height + way;
+  add_box(scene, "crate", -0.5, bottom, 0.5, bottom + 1);
+  let_box2d_move_last(scene, {.mass = 20});
+  return scene;
+}
+
+}  // namespace
+
+std::vector<BuiltInScene> body_scenes() {
+  return {
+      {"stack_1", "stands on a stack of five boxes of the same mass: never inside, grounded without a toggle", stack_1},
+      {"stack_10", "the same with 10 times the mass in the uppermost box", stack_10},
+      {"stack_100", "the same with 100 times the mass: Box2D's stack gives way", stack_100},
+      {"stack_1000", "the same with 1,000 times the mass: the heavy box sinks through others", stack_1000},
+      {"stack_10000", "the same with 10,000 times the mass: light boxes are pressed through the floor", stack_10000},
+      {"falling_crate",
+       "a crate 2 m above its head falls: crushed in step 37, the first n with g h² (n + 1) (n + 2) / 2 > 2 m",
+       falling_crate},
+  };
+}
+
+}  // namespace paperproof::compare

@@ -1,0 +1,252 @@
+#include "scenes/json_scenery.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <set>
+#include <type_traits>
+
+#include "scenes/input_error.hpp"
+#include "scenes/json_motion.hpp"
+#include "scenes/load.hpp"
+#include "scenes/picture.hpp"
+#include "scenes/tiled.hpp"
+#include "scenes/validate.hpp"
+
+namespace paperproof::compare {
+namespace {
+
+/// The one shape key of an entry. @throws InputError where there is none, or more than one.
+std::string only_shape(const JsonCursor& entry, std::initializer_list<std::string_view> keys) {
+  std::string shape;
+  for (const std::string_view key : keys) {
+    if (!entry.find(key)) continue;
+    if (!shape.empty()) entry.refuse(fmt::format("expected exactly one shape; here are \"{}\" and \"{}\"", shape, key));
+    shape = key;
+  }
+  if (shape.empty()) entry.refuse(fmt::format("expected exactly one shape: {}", fmt::join(keys, ", ")));
+  return shape;
+}
+
+void refuse_key_beside(const JsonCursor& entry, std::string_view key, const std::string& shape,
+                       std::string_view needed) {
+  if (shape == needed) return;
+  if (const auto found = entry.find(key)) found->refuse(fmt::format("expected only beside \"{}\"", needed));
+}
+
+ColliderDef read_collider(const JsonCursor& entry, const std::string& shape) {
+  refuse_key_beside(entry, "holes", shape, "polygon");
+  refuse_key_beside(entry, "one_way", shape, "chain");
+  ColliderDef collider;
+  collider.sensor = entry.flag("sensor");
+  if (const auto speed = entry.find("surface_speed")) {
+    if (collider.sensor) speed->refuse("expected only beside what blocks: nothing stands on a sensor");
+    collider.surface_speed = speed->number();
+  }
+  if (shape == "chain") {
+    collider.shape = ColliderDef::Shape::chain;
+    collider.points = entry.require("chain").points(2);
+    if (const auto one_way = entry.find("one_way")) collider.one_way = one_way->point();
+    return collider;
+  }
+  collider.points = entry.require("polygon").points(3);
+  if (const auto holes = entry.find("holes")) {
+    for (std::size_t i = 0; i < holes->size(); ++i) collider.holes.push_back(holes->element(i).points(3));
+  }
+  return collider;
+}
+
+/// White is solid where the scene says nothing, as in the article's masks.
+PictureRule read_picture_rule(const JsonCursor& entry) {
+  const auto solid = entry.find("solid");
+  const auto background = entry.find("background");
+  if (solid && background) background->refuse("expected one of \"solid\" and \"background\", not both");
+  if (!solid && !background) return {};
+  const JsonCursor& at = solid ? *solid : *background;
+  const std::optional<Colour> colour = colour_from(at.text());
+  if (!colour) at.refuse("expected a colour like \"#00a0ff\"");
+  return {*colour, background.has_value()};
+}
+
+/// Reads everything that has an id.
+class SceneryReader {
+ public:
+  SceneryReader(Scene& scene, std::string path) : scene_(scene), path_(std::move(path)) {}
+
+  void read(const JsonScenery& lists) {
+    for (std::size_t i = 0; i < lists.scenery.size(); ++i) read_entry(lists.scenery.element(i), i);
+    for (std::size_t i = 0; lists.movers && i < lists.movers->size(); ++i) read_mover(lists.movers->element(i), i);
+    for (std::size_t i = 0; lists.bodies && i < lists.bodies->size(); ++i)
+      read_body(lists.bodies->element(i), i, lists.longest_step);
+    check_scenery(scene_.scenery, scene_.ids, [this](ColliderIndex index) { return where_[index]; });
+  }
+
+ private:
+  std::string take_id(const JsonCursor& entry, const char* list, std::size_t index) {
+    const auto at = entry.find("id");
+    std::string id = at ? at->text() : fmt::format("{}/{}", list, index);
+    if (!ids_.insert(id).second)
+      (at ? *at : entry).refuse(fmt::format("expected an id of its own; \"{}\" is taken", id));
+    return id;
+  }
+
+  void add(std::string id, ColliderDef collider, std::string where) {
+    scene_.scenery.colliders.push_back(std::move(collider));
+    scene_.ids.push_back(std::move(id));
+    where_.push_back(std::move(where));
+  }
+
+  void read_entry(const JsonCursor& entry, std::size_t index) {
+    entry.refuse_other_keys({"id", "polygon", "holes", "chain", "one_way", "sensor", "surface_speed", "tiled",
+                             "picture", "solid", "background"});
+    const std::string shape = only_shape(entry, {"polygon", "chain", "tiled", "picture"});
+    refuse_key_beside(entry, "solid", shape, "picture");
+    refuse_key_beside(entry, "background", shape, "picture");
+    const std::string id = take_id(entry, "scenery", index);
+    const JsonCursor at = entry.require(shape);
+    if (shape == "tiled" || shape == "picture") {
+      refuse_key_beside(entry, "holes", shape, "polygon");
+      refuse_key_beside(entry, "one_way", shape, "chain");
+      for (const char* key : {"sensor", "surface_speed"}) {
+        if (const auto found = entry.find(key)) found->refuse("expected only beside \"polygon\" or \"chain\"");
+      }
+      if (shape == "tiled")
+        add_map(id, at);
+      else
+        add_picture(id, at, read_picture_rule(entry));
+    } else {
+      add(id, read_collider(entry, shape), at.where());
+    }
+  }
+
+  void add_map(const std::string& id, const JsonCursor& at) {
+    const Scene map = read_beside(at, [this](const std::string& beside, const std::string& file) {
+      return read_tiled_part(beside, file, scene_.pixels_per_metre);
+    });
+    const auto movers_before = static_cast<MoverIndex>(scene_.movers.size());
+    for (std::size_t i = 0; i < map.ids.size(); ++i) {
+      const std::string own = id + "/" + map.ids[i];
+      claim(own, at);
+      ColliderDef collider = map.scenery.colliders[i];
+      if (collider.mover != no_mover) collider.mover += movers_before;
+      add(own, std::move(collider), at.where());
+    }
+    for (MoverDef mover : map.movers) {
+      mover.id = id + "/" + mover.id;
+      scene_.movers.push_back(std::move(mover));
+    }
+    for (const std::string& note : map.notes) scene_.notes.push_back(id + ": " + note);
+    extend_respawn_box(*map.respawn_box);
+  }
+
+  void add_picture(const std::string& id, const JsonCursor& at, const PictureRule& rule) {
+    const PictureScenery picture = read_beside(at, [&](const std::string& beside, const std::string& file) {
+      return read_picture(beside, file, rule, scene_.pixels_per_metre);
+    });
+    for (std::size_t i = 0; i < picture.ids.size(); ++i) {
+      const std::string own = id + "/" + picture.ids[i];
+      claim(own, at);
+      add(own, picture.scenery.colliders[i], at.where());
+    }
+    extend_respawn_box(picture.box);
+  }
+
+  void extend_respawn_box(const Box2<double>& box) {
+    scene_.respawn_box = scene_.respawn_box ? scene_.respawn_box->merged(box) : box;
+  }
+
+  /// Reads the file named at `at`, which is beside the scene. Trouble inside it is reported at the place that names it.
+  template <class Read>
+  std::invoke_result_t<Read, std::string, std::string> read_beside(const JsonCursor& at, const Read& read) const {
+    const std::string file = at.text();
+    try {
+      return read((std::filesystem::path(path_).parent_path() / file).string(), file);
+    } catch (const InputError& error) {
+      at.refuse(error.what());
+    }
+  }
+
+  void claim(const std::string& id, const JsonCursor& at) {
+    if (!ids_.insert(id).second) at.refuse(fmt::format("expected an id of its own; \"{}\" is taken", id));
+  }
+
+  void read_mover(const JsonCursor& entry, std::size_t index) {
+    entry.refuse_other_keys(
+        {"id", "polygon", "holes", "chain", "one_way", "sensor", "surface_speed", "path", "angle", "loop"});
+    const std::string shape = only_shape(entry, {"polygon", "chain"});
+    MoverDef mover;
+    mover.id = take_id(entry, "movers", index);
+    ColliderDef collider = read_collider(entry, shape);
+    collider.mover = static_cast<MoverIndex>(scene_.movers.size());
+    if (const auto loop = entry.find("loop")) mover.loop = read_loop(*loop);
+    const JsonCursor path = entry.require("path");
+    mover.path = read_path(path);
+    if (mover.loop == MoverDef::Loop::loop && mover.path.front().at != mover.path.back().at) {
+      path.element(path.size() - 1)
+          .require("at")
+          .refuse("expected the place where the path begins: a loop never jumps");
+    }
+    if (const auto angle = entry.find("angle")) mover.turns = read_turns(*angle);
+    add(mover.id, std::move(collider), entry.require(shape).where());
+    scene_.movers.push_back(std::move(mover));
+  }
+
+  void read_body(const JsonCursor& entry, std::size_t index, double longest_step) {
+    entry.refuse_other_keys({"id", "polygon", "holes", "mass", "friction", "restitution", "velocity"});
+    MoverDef mover{.id = take_id(entry, "bodies", index), .path = {{}}};
+    Body& body = mover.body.emplace();
+    if (const auto mass = entry.find("mass")) body.mass = mass->number_within(1e-6, 1e9);
+    if (const auto friction = entry.find("friction")) body.friction = friction->number_within(0, 1e6);
+    if (const auto restitution = entry.find("restitution")) body.restitution = restitution->number_within(0, 1);
+    if (const auto velocity = entry.find("velocity")) body.velocity = read_velocity(*velocity, longest_step);
+    ColliderDef collider = read_collider(entry, "polygon");
+    collider.mover = static_cast<MoverIndex>(scene_.movers.size());
+    add(mover.id, std::move(collider), entry.require("polygon").where());
+    scene_.movers.push_back(std::move(mover));
+  }
+
+  /// @param read_at what stands under "at". One place of it is reached at one time, in ascending order.
+  template <class Point, class ReadAt>
+  static std::vector<Point> read_timed(const JsonCursor& at, const ReadAt& read_at) {
+    if (at.size() == 0) at.refuse("expected at least one waypoint");
+    std::vector<Point> points;
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      const JsonCursor entry = at.element(i);
+      entry.refuse_other_keys({"t", "at"});
+      const double time = entry.require("t").not_negative();
+      if (!points.empty() && !(time > points.back().time))
+        entry.require("t").refuse("expected a time after the one before");
+      points.push_back({.time = time, .at = read_at(entry.require("at"))});
+    }
+    return points;
+  }
+
+  static std::vector<MoverDef::Waypoint> read_path(const JsonCursor& at) {
+    return read_timed<MoverDef::Waypoint>(at, read_place);
+  }
+
+  static std::vector<MoverDef::Turn> read_turns(const JsonCursor& at) {
+    return read_timed<MoverDef::Turn>(at, [](const JsonCursor& angle) { return angle.number(); });
+  }
+
+  static MoverDef::Loop read_loop(const JsonCursor& at) {
+    const std::string word = at.text();
+    if (word == "once") return MoverDef::Loop::once;
+    if (word == "loop") return MoverDef::Loop::loop;
+    if (word == "ping_pong") return MoverDef::Loop::ping_pong;
+    at.refuse("expected \"once\", \"loop\" or \"ping_pong\"");
+  }
+
+  Scene& scene_;
+  std::string path_;
+  std::set<std::string> ids_;
+  std::vector<std::string> where_;
+};
+
+}  // namespace
+
+void read_json_scenery(const JsonScenery& lists, const std::string& path, Scene& scene) {
+  SceneryReader(scene, path).read(lists);
+}
+
+}  // namespace paperproof::compare
