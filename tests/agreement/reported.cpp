@@ -10,10 +10,8 @@ namespace {
 
 using compare::Place;
 
-/// A chain that is missed by a micrometre may be named: so much the character grows, as a share of its size,
+/// A chain that is missed by a micrometre may be named: the character grows by so much, as a share of its size.
 constexpr double grown_by = 2e-6;
-/// and so much farther a leg begins and ends [m]: more than what a character below 1 m grows.
-constexpr double longer_by = 3e-6;
 
 std::vector<Vec2d> grown(const std::vector<Vec2d>& hull) {
   Vec2d middle = Vec2d::Zero();
@@ -23,17 +21,28 @@ std::vector<Vec2d> grown(const std::vector<Vec2d>& hull) {
   return larger;
 }
 
+SceneryDef blocking_both_ways(SceneryDef scenery) {
+  for (ColliderDef& collider : scenery.colliders) collider.one_way.reset();
+  return scenery;
+}
+
+/// How far the lowest of some corners is along a normal.
+double lowest_along(const Vec2d& normal, const std::vector<Vec2d>& corners) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Vec2d& corner : corners) lowest = std::min(lowest, normal.dot(corner));
+  return lowest;
+}
+
 }  // namespace
 
 Reported::Reported(const SceneryDef& scenery, const std::vector<Vec2d>& hull, double rounding)
-    : hull_(hull), rounding_(rounding), exact_(scenery, hull), grown_(scenery, grown(hull)) {
+    : hull_(hull), rounding_(rounding), exact_(scenery, hull), both_ways_(blocking_both_ways(scenery), grown(hull)) {
   for (const ColliderDef& def : scenery.colliders)
     is_one_part_.push_back(compare::detail::convex_parts(def).size() == 1);
 }
 
 bool Reported::contact_holds(std::span<const Place> path, const Contact<double>& contact) const {
-  double lowest = std::numeric_limits<double>::infinity();
-  for (const Vec2d& corner : hull_) lowest = std::min(lowest, contact.normal.dot(corner));
+  const double lowest = lowest_along(contact.normal, hull_);
   return std::any_of(path.begin(), path.end(), [&](const Place& corner) {
     const double along = contact.normal.dot(corner.position - contact.point) + lowest;
     if (!(std::abs(along - contact.separation) <= rounding_)) return false;
@@ -57,16 +66,16 @@ bool Reported::drops_hold(std::span<const Place> path, std::span<const ColliderI
 }
 
 bool Reported::nearly_passes(const Place& from, const Place& to, ColliderIndex chain) const {
+  if (!both_ways_.meets(from, to, chain)) return false;
   const ColliderDef& def = exact_.scenery().colliders[chain];
+  const Vec2d start = from.position - from.offset(def.mover);
+  const Vec2d end = to.position - to.offset(def.mover);
   for (std::size_t i = 1; i < def.points.size(); ++i) {
     const Vec2d along = def.points[i] - def.points[i - 1];
     Vec2d normal = Vec2d(-along.y(), along.x()).normalized();
     if (normal.dot(*def.one_way) < 0) normal = -normal;
-    Place above = from;
-    Place below = to;
-    above.position += longer_by * normal;
-    below.position -= longer_by * normal;
-    if (grown_.meets(above, below, chain)) return true;
+    const double above = normal.dot(start - def.points[i]) + lowest_along(normal, hull_);
+    if (above >= -rounding_ && normal.dot(end - start) <= rounding_) return true;
   }
   return false;
 }

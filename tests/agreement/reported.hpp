@@ -19,8 +19,9 @@ class Reported {
   /// than the exact gap (of a collider that is one convex part), and not negative unless the collider is overlapped.
   [[nodiscard]] bool contact_holds(std::span<const compare::Place> path, const Contact<double>& contact) const;
 
-  /// Each chain is named once, in order, is one-way, and is passed against its normal by some leg, or missed by no more
-  /// than a few micrometres. (That none is passed and not named is for a judge to say.)
+  /// Each chain is named once, in order, is one-way, and is passed against its normal by some leg that begins wholly on
+  /// the side of the normal, or missed by no more than two micrometres. (That none is passed and not named is for a
+  /// judge to say.)
   [[nodiscard]] bool drops_hold(std::span<const compare::Place> path, std::span<const ColliderIndex> named) const;
 
  private:
@@ -30,7 +31,7 @@ class Reported {
   double rounding_;
   std::vector<bool> is_one_part_;  ///< For each collider.
   compare::ExactScenery exact_;
-  compare::ExactScenery grown_;  ///< For a character that is a little larger.
+  compare::ExactScenery both_ways_;  ///< For a character that is a little larger, and one-way chains as others.
 };
 
 }  // namespace paperproof::test
