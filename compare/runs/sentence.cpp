@@ -3,6 +3,8 @@
 #include "metrics/agreement.hpp"
 #include "words.hpp"
 
+#include <paperproof/box2d/reference_world.hpp>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -33,6 +35,8 @@ bool scored(const Row& row) { return row.verdict != Verdict::not_applicable && r
 
 /// A horizontal speed loss in one step beyond which a run counts as snagged: Box2D's users call 1 % a ghost collision.
 constexpr double snagged = 0.01;
+/// Runs that are nearer to each other than this [m] are not held apart by Box2D's skin, whatever it rounds.
+constexpr double nearer_than_skin = 0.99 * box2d::rest_gap;
 
 std::string plural(const std::vector<std::string>& names, const char* one, const char* many) {
   return names.size() == 1 ? one : many;
@@ -92,11 +96,12 @@ std::string about_agreement(const std::vector<Row>& rows) {
     if (row.contender != "octagon_sweep" || row.scalar != "double") continue;
     if (!row.max_position_difference_box2d_m) return "";
     std::string text;
-    if (*row.max_position_difference_box2d_m <= box2d_skin)
-      text = fmt::format("octagon_sweep and Box2D agree to {:.3g} m, which is Box2D's skin. ",
-                         *row.max_position_difference_box2d_m);
+    const double apart = *row.max_position_difference_box2d_m;
+    if (apart <= box2d_skin)
+      text = fmt::format("octagon_sweep and Box2D agree to {:.3g} m, which is {}Box2D's skin. ", apart,
+                         apart < nearer_than_skin ? "less than " : "");
     else
-      text = fmt::format("octagon_sweep and Box2D come {:.3g} m apart. ", *row.max_position_difference_box2d_m);
+      text = fmt::format("octagon_sweep and Box2D come {:.3g} m apart. ", apart);
     if (!row.first_difference_box2d.empty()) text += "They first differ on " + row.first_difference_box2d + ". ";
     return text;
   }

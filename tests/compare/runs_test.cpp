@@ -28,6 +28,7 @@ TEST(ArticleBullet, is_judged_as_the_article_says) {
   EXPECT_NEAR(*ours.first_contact_fraction, 30.0 / 50, 1e-9);
   EXPECT_LE(*ours.max_contact_gap_m, 1e-6);
   EXPECT_LE(*ours.max_position_difference_box2d_m, 0.02) << "Box2D's skin";
+  EXPECT_TRUE(holds(result.sentence, "agree to 0.015 m, which is Box2D's skin."));
   const std::string wrong = result.sentence.substr(0, result.sentence.find("wrong"));
   EXPECT_TRUE(holds(wrong, "penetration_resolution"));
   EXPECT_EQ(wrong.find("octagon_sweep"), std::string::npos) << result.sentence;
@@ -72,6 +73,10 @@ TEST(Replay, has_each_drop_as_an_event_and_the_lengths_of_the_steps) {
 
   scene = built_in("uneven_flight");
   EXPECT_EQ(run_scene(scene, options).dt_list, scene.dt_list);
+}
+
+TEST(Sentence, calls_an_agreement_of_free_flights_less_than_the_skin) {
+  EXPECT_TRUE(holds(run_scene(empty_sky(9), quick()).sentence, "m, which is less than Box2D's skin."));
 }
 
 TEST(Contenders, that_share_a_reason_not_to_run_are_told_of_together) {

@@ -107,7 +107,9 @@ class Replay {
   /// The middle of the view: what is followed, or where the camera was put.
   cameraOf(view) {
     if (this.mode !== 'follow' || view.runs.length === 0) return this.camera;
-    const {x, y} = this.stateOf(view.runs[0]).position;
+    // The default contender, as all may go ways of their own.
+    const followed = view.runs.find((run) => run.contender === 'octagon_sweep') || view.runs[0];
+    const {x, y} = this.stateOf(followed).position;
     [this.camera.x, this.camera.y] = [x, y];
     return new Camera(x, y, this.camera.scale);
   }
