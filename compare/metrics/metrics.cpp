@@ -52,8 +52,8 @@ Metrics::Metrics(const TraceHeader& header, const Measured& measured)
   const auto any = [&colliders](auto&& test) { return std::any_of(colliders.begin(), colliders.end(), test); };
   has_one_way_ = any([](const ColliderDef& def) { return def.one_way.has_value(); });
   if (any([](const ColliderDef& def) { return def.sensor; })) sums_.sensor_events = sums_.sensor_errors = 0;
-  for (std::optional<int>* counter :
-       {&sums_.tunnels, &sums_.corner_cuts, &sums_.steps_ending_inside, &sums_.contact_steps, &sums_.dropped_steps}) {
+  for (std::optional<int>* counter : {&sums_.tunnels, &sums_.corner_cuts, &sums_.steps_ending_inside,
+                                      &sums_.contact_steps, &sums_.stuck_steps, &sums_.dropped_steps}) {
     *counter = 0;
   }
   if (measured_.respawns) sums_.respawns = 0;
@@ -73,6 +73,7 @@ void Metrics::match(const View& view, Matches& matches) {
     ++matches.counted;
     matches.right += right;
   }
+  if (now.stuck) return;
   for (const Side side : {Side::top, Side::bottom, Side::left, Side::right}) {
     const auto of_side = [&](const Touch& touch) { return touch.second == side; };
     if (std::none_of(now.exact.begin(), now.exact.end(), of_side)) continue;
@@ -86,7 +87,7 @@ void Metrics::match(const View& view, Matches& matches) {
 
 void Metrics::add_contacts(const TraceStep& step, const StepJudgement& judgement) {
   followers_[step.character].window.add(
-      {touches_of(step.contacts), touches_of(judgement.contacts), judgement.dont_care, judgement.ghosts},
+      {touches_of(step.contacts), touches_of(judgement.contacts), judgement.dont_care, judgement.ghosts, step.stuck},
       [this](const View& view) { match(view, matches_); });
   for (const Contact<double>& contact : step.contacts) touched_.insert(contact.collider);
   if (!step.contacts.empty()) raise(sums_.max_contact_gap_m, judgement.max_contact_gap);
@@ -156,6 +157,7 @@ void Metrics::add(const TraceStep& step, const StepJudgement& judgement) {
   if (measured_.rest) followers_[step.character].rest.add(step);
   count(sums_.contact_steps, !step.contacts.empty() || !step.met.empty());
   if (measured_.respawns) count(sums_.respawns, step.respawn);
+  count(sums_.stuck_steps, step.stuck);
   count(sums_.dropped_steps, step.dropped);
   if (step.requested.x() != 0) raise(sums_.ghost_speed_loss, judgement.ghost_speed_loss);
 }
@@ -177,6 +179,7 @@ void Metrics::write(Row& row) const {
   row.sensor_events = sums_.sensor_events;
   row.sensor_errors = sums_.sensor_errors;
   row.max_sensor_error = sums_.max_sensor_error;
+  row.stuck_steps = sums_.stuck_steps;
   row.dropped_steps = sums_.dropped_steps;
   row.toi_error_max = sums_.toi_error_max;
   row.ghost_speed_loss = sums_.ghost_speed_loss;

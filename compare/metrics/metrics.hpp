@@ -25,7 +25,8 @@ namespace paperproof::compare {
 ///   one with the same collider and side within one step. Contacts that are don't-care within one step do not
 ///   count, unless they are ghosts.
 /// - `contact_recall`: the share of exact (step, side) for which a contact of that side with one of the colliders that
-///   exact arithmetic has there was reported within one step: a floor of two abutting tiles is one contact.
+///   exact arithmetic has there was reported within one step: a floor of two abutting tiles is one contact. Steps that
+///   are said to be stuck do not count: who is stuck inside something does not move and meets nothing.
 /// - `contact_steps`: steps with a reported contact. `colliders_touched`: how many different ones.
 /// - `first_contact_step`, `first_contact_fraction`: the earliest reported contact.
 /// - `toi_error_max`: largest difference of the first reported fraction of a step and the exact first impact, over the
@@ -37,7 +38,7 @@ namespace paperproof::compare {
 ///   counted as inside. `crushes_with_room`: steps with one that it refuted.
 /// - `sensor_events`: entries and exits that there were. `sensor_errors`: those that were not reported, and reports of
 ///   others. `max_sensor_error`: of the fractions of the rest.
-/// - `respawns`, `dropped_steps`: counted.
+/// - `respawns`, `stuck_steps`, `dropped_steps`: counted.
 ///
 /// Of several characters each step of each one counts: counts are sums over them, maxima the largest, shares those of
 /// all contacts together, the first contact the earliest, rest that of the least quiet one. Characters that pass or
@@ -58,6 +59,7 @@ class Metrics {
     std::vector<Touch> exact;
     std::vector<ColliderIndex> dont_care;
     std::vector<Touch> ghosts;
+    bool stuck = false;
   };
   struct Matches {
     int counted = 0;

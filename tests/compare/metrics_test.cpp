@@ -41,6 +41,20 @@ TEST(Metrics, counts_what_the_judge_found) {
   EXPECT_EQ(row.findings[0], "step 2: passed `paper` at 40.0 m/s, 0.01 m thick at the crossing, 90° to its face");
 }
 
+TEST(Metrics, steps_that_are_said_to_be_stuck_are_counted_and_miss_no_contact) {
+  std::vector<Moment> run;
+  for (int i = 0; i < 6; ++i) {
+    run.push_back(moment(i));
+    run.back().judged.contacts = {exact(0, Side::bottom)};
+    if (i < 2) run.back().step.contacts = {contact(0, Side::bottom, 0)};
+  }
+  EXPECT_EQ(row_of(run).stuck_steps, 0);
+  EXPECT_EQ(row_of(run).contact_recall, 0.5) << "of six, one each side of the two that report counts as found";
+  for (int i = 3; i < 6; ++i) run[static_cast<std::size_t>(i)].step.stuck = true;
+  EXPECT_EQ(row_of(run).stuck_steps, 3);
+  EXPECT_EQ(row_of(run).contact_recall, 1.0);
+}
+
 /// Two characters, each step of each.
 std::vector<Moment> two(int steps) {
   std::vector<Moment> run;
