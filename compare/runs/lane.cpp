@@ -193,7 +193,7 @@ void Lane::note_events(std::size_t character) {
     note(ReportEvent::Kind::sensor, {event.sensor},
          event.change == SensorEvent<double>::Change::enter ? "enters" : "leaves",
          header().path_exact ? fmt::format(" at {:.6g} of the step", event.fraction) : ", seen when the step begins");
-  if (inside_[character] != record.start_overlap) note(ReportEvent::Kind::inside, inside_[character], "ends inside");
+  note(ReportEvent::Kind::inside, judged.entered, "ends inside");
   note_company(ReportEvent::Kind::inside, judged.company.entered, "ends inside");
 }
 

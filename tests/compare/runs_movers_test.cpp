@@ -103,6 +103,17 @@ TEST(Movers, give_the_twin_that_jumps_off_their_speed) {
   EXPECT_LE(std::abs(run.steps[65].velocity.x()), speed + 1e-5);
 }
 
+TEST(Crushes, are_events_and_what_they_press_into_is_none) {
+  const Scene scene = built_in("closing_ceiling");
+  RunOptions options = watched(scene, {"octagon_sweep"});
+  options.reference = false;
+  const ReportScene result = run_scene(scene, options);
+  const std::vector<ReportEvent>& events = run_of(result, "octagon_sweep").events;
+  ASSERT_EQ(events.size(), 1U);
+  EXPECT_EQ(events[0].kind, ReportEvent::Kind::crush);
+  EXPECT_EQ(events[0].step, 21) << "where gap / (v h) = 21.4 falls";
+}
+
 TEST(Conveyors, carry_the_twin_along_their_surface) {
   for (const double speed : {2.0, -3.5}) {
     Scene scene = on_a_slab(60);
