@@ -85,6 +85,7 @@ void adopt(const CharacterDef& character, const MoveResult<Scalar>& move, Charac
   state.grounded = move.grounded;
   state.ride = move.ride;
   state.crushed = move.status == MoveStatus::crushed || (state.crushed && move.status == MoveStatus::stuck);
+  if (state.crushed) state.last_free += move.pressed_along;
   if (move.grounded) state.jumping = false;
   state.wall_left = touches(move, Side::left);
   state.wall_right = touches(move, Side::right);

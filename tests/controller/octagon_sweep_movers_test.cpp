@@ -316,6 +316,31 @@ TEST(CoveredFacet, that_comes_up_while_its_cover_lies_on_the_character_gives_the
   EXPECT_NEAR(contacts[0].point.y(), 1 + slack, 1e-5) << "the corner, where it is by then";
 }
 
+TEST(Crush, by_another_knows_from_which_side_of_what_lies_on_it_the_character_came) {
+  // A slab 0.2 m thick comes down through a character that stands on the floor beside a wall, until it lies on the
+  // floor. Then a block 0.5 m high comes from the left, 2 m in one step: there is room above it, but that is above the
+  // slab as well, under which the character was.
+  const double to_wall = 0.1;
+  Stepper<double> pressed({rectangle(-5, -1, 5, 0), rectangle(half_width + to_wall, 0, 2, 9),
+                           moving(rectangle(-2, 1.5, 2, 1.7), 0), moving(rectangle(-4, 0, -1.9, 0.5), 1)});
+  pressed.gravity = {0, 0};
+  pressed.at(0, half_height + tolerances.stop);
+  pressed.step();
+  const Vec2d free = pressed.state.last_free;
+  for (const double down : {0.75, 1.5}) {
+    pressed.movers[0] = {pressed.movers[0].to, {0, -down}};
+    pressed.step();
+    ASSERT_TRUE(pressed.state.crushed);
+    EXPECT_LE((pressed.state.last_free - (free - Vec2d{0, down})).norm(), 1e-15) << "where it was below the slab";
+  }
+  pressed.movers[0].from = pressed.movers[0].to;
+  pressed.movers[1].to = {2, 0};
+  EXPECT_EQ(pressed.step(), StepStatus::crushed);
+  ASSERT_EQ(pressed.report.move.crushed.size(), 1U);
+  EXPECT_EQ(pressed.report.move.crushed[0], 3U);
+  EXPECT_LE(pressed.state.position.y(), half_height + 1e-6);
+}
+
 TEST(Stages, that_the_scenery_needs_cannot_be_left_out) {
   const auto make = [](std::vector<ColliderDef> colliders, const Stages& stages, double snap = 0) {
     const Scenery<double> scenery(SceneryDef{std::move(colliders)});

@@ -94,9 +94,11 @@ struct Ride {
 /// Everything that one step hands to the next. A plain value: copy it to save a game or to roll back.
 template <class Scalar>
 struct CharacterState {
-  Vec2<Scalar> position{Vec2<Scalar>::Zero()};   ///< [m]
-  Vec2<Scalar> velocity{Vec2<Scalar>::Zero()};   ///< [m/s]
-  Vec2<Scalar> last_free{Vec2<Scalar>::Zero()};  ///< Last position that overlapped nothing; valid with `has_last_free`.
+  Vec2<Scalar> position{Vec2<Scalar>::Zero()};  ///< [m]
+  Vec2<Scalar> velocity{Vec2<Scalar>::Zero()};  ///< [m/s]
+  /// Last position that overlapped nothing; valid with `has_last_free`. It goes along with what lies on a crushed
+  /// character, as it tells the side of that from which the character came; unless that is several things that part.
+  Vec2<Scalar> last_free{Vec2<Scalar>::Zero()};
   /// Motion that was wanted and not made yet [m]: a technique that moves by whole squares makes it when there is enough
   /// of it. Zero with all others.
   Vec2<Scalar> remainder{Vec2<Scalar>::Zero()};

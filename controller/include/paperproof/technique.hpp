@@ -83,6 +83,8 @@ struct MoveResult {
   Ride<Scalar> ride;  ///< For the next step. `velocity` above is in the world, the ride included.
   /// Colliders of movers that ran into the character where it had no room to give way.
   FixedVector<ColliderIndex, max_crushed> crushed;
+  /// How far what lies on a crushed character went in the step [m]; zero where several things do that part.
+  Vec2<Scalar> pressed_along{Vec2<Scalar>::Zero()};
 
   void clear() noexcept {
     status = MoveStatus::moved;
@@ -92,6 +94,7 @@ struct MoveResult {
     contacts.clear();
     ride = {};
     crushed.clear();
+    pressed_along.setZero();
   }
 };
 
