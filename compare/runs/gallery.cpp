@@ -36,10 +36,6 @@ std::optional<Failure> mild_failure_of(const Row& row) {
   return std::nullopt;
 }
 
-std::string called(const Row& row) {
-  return row.scalar == "float" && !row.contender.starts_with("box2d") ? row.contender + " in float" : row.contender;
-}
-
 /// A run that did not fail, with what a step cost.
 struct Timed {
   std::string contender;

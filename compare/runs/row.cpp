@@ -22,4 +22,8 @@ std::string_view name_of(Verdict verdict) noexcept {
   return "failed";
 }
 
+std::string called(const Row& row) {
+  return row.scalar == "float" && !row.contender.starts_with("box2d") ? row.contender + " in float" : row.contender;
+}
+
 }  // namespace paperproof::compare

@@ -62,6 +62,9 @@ struct Row {
   std::vector<std::string> findings;         ///< sentences: first tunnel with speed and thickness, caps, labels
 };
 
+/// The contender in words, with the number type where it could be another: Box2D's is always float.
+[[nodiscard]] std::string called(const Row& row);
+
 /// Calls `visit(key, optional)` for every number of a row, by the key it has in files, in the order in which it stands
 /// there. Written files and the report's page both take their numbers from here.
 template <class Visit>

@@ -13,10 +13,6 @@
 namespace paperproof::compare {
 namespace {
 
-std::string called(const Row& row) {
-  return row.scalar == "float" && !row.contender.starts_with("box2d") ? row.contender + " in float" : row.contender;
-}
-
 std::string listed(const std::vector<std::string>& names) {
   std::string text;
   for (std::size_t i = 0; i < names.size(); ++i)
