@@ -33,6 +33,7 @@ bool finite(const CharacterState<Scalar>& state, const Input& input, const Vec2<
   check.add(state.position).add(state.velocity).add(state.remainder).add(gravity);
   check.add(state.ride.place).add(state.ride.velocity);
   if (state.has_last_free) check.add(state.last_free);
+  for (const Presser<Scalar>& presser : state.pressers) check.add(presser.gone);
   for (const MoverMotion<Scalar>& mover : movers) check.add(mover.from).add(mover.to);
   return check.passed() && std::isfinite(dt) && std::isfinite(input.move.value_or(0));
 }
@@ -85,7 +86,8 @@ void adopt(const CharacterDef& character, const MoveResult<Scalar>& move, Charac
   state.grounded = move.grounded;
   state.ride = move.ride;
   state.crushed = move.status == MoveStatus::crushed || (state.crushed && move.status == MoveStatus::stuck);
-  if (state.crushed) state.last_free += move.pressed_along;
+  state.pressers.clear();
+  if (state.crushed) state.pressers = move.pressers;
   if (move.grounded) state.jumping = false;
   state.wall_left = touches(move, Side::left);
   state.wall_right = touches(move, Side::right);
@@ -199,6 +201,7 @@ template <bool has_sensors, bool has_jump, bool has_gravity>
                     .grounded = state.grounded,
                     .crushed = state.crushed,
                     .drop = input.drop,
+                    .pressers = {before.pressers.begin(), before.pressers.end()},
                     .movers = movers,
                     .dt = dt,
                     .ride = state.ride},

@@ -326,12 +326,13 @@ TEST(Crush, by_another_knows_from_which_side_of_what_lies_on_it_the_character_ca
   pressed.gravity = {0, 0};
   pressed.at(0, half_height + tolerances.stop);
   pressed.step();
-  const Vec2d free = pressed.state.last_free;
   for (const double down : {0.75, 1.5}) {
     pressed.movers[0] = {pressed.movers[0].to, {0, -down}};
     pressed.step();
     ASSERT_TRUE(pressed.state.crushed);
-    EXPECT_LE((pressed.state.last_free - (free - Vec2d{0, down})).norm(), 1e-15) << "where it was below the slab";
+    ASSERT_EQ(pressed.state.pressers.size(), 1U);
+    EXPECT_EQ(pressed.state.pressers[0].collider, 2U);
+    EXPECT_EQ(pressed.state.pressers[0].gone, Vec2d(0, -down)) << "since the character was free below it";
   }
   pressed.movers[0].from = pressed.movers[0].to;
   pressed.movers[1].to = {2, 0};

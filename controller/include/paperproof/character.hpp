@@ -91,14 +91,25 @@ struct Ride {
   friend bool operator==(const Ride&, const Ride&) = default;
 };
 
+/// What has come over a crushed character.
+template <class Scalar>
+struct Presser {
+  ColliderIndex collider = 0;
+  /// How far it has gone since the step in which the character's last free position was left [m]: seen from there that
+  /// is the side from which the character came.
+  Vec2<Scalar> gone{Vec2<Scalar>::Zero()};
+
+  friend bool operator==(const Presser&, const Presser&) = default;
+};
+template <class Scalar>
+using Pressers = FixedVector<Presser<Scalar>, 8>;
+
 /// Everything that one step hands to the next. A plain value: copy it to save a game or to roll back.
 template <class Scalar>
 struct CharacterState {
-  Vec2<Scalar> position{Vec2<Scalar>::Zero()};  ///< [m]
-  Vec2<Scalar> velocity{Vec2<Scalar>::Zero()};  ///< [m/s]
-  /// Last position that overlapped nothing; valid with `has_last_free`. It goes along with what lies on a crushed
-  /// character, as it tells the side of that from which the character came; unless that is several things that part.
-  Vec2<Scalar> last_free{Vec2<Scalar>::Zero()};
+  Vec2<Scalar> position{Vec2<Scalar>::Zero()};   ///< [m]
+  Vec2<Scalar> velocity{Vec2<Scalar>::Zero()};   ///< [m/s]
+  Vec2<Scalar> last_free{Vec2<Scalar>::Zero()};  ///< Last position that overlapped nothing; valid with `has_last_free`.
   /// Motion that was wanted and not made yet [m]: a technique that moves by whole squares makes it when there is enough
   /// of it. Zero with all others.
   Vec2<Scalar> remainder{Vec2<Scalar>::Zero()};
@@ -112,6 +123,7 @@ struct CharacterState {
   /// Movers left no room in the last step. While one of them is still on the character it stays where it is: it does
   /// not come out on another side.
   bool crushed = false;
+  Pressers<Scalar> pressers{};   ///< Since `last_free`, while `crushed`: the first so many.
   std::uint8_t stuck_steps = 0;  ///< How many steps in a row ended inside something.
   Ride<Scalar> ride;             ///< None on ground that does not move.
 

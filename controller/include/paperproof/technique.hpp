@@ -49,6 +49,7 @@ struct MoveRequest {
   bool grounded = false;  ///< The last step ended on the ground, and this one does not begin with a jump.
   bool crushed = false;   ///< See `CharacterState::crushed`.
   bool drop = false;      ///< One-way chains hold nobody: see `Input::drop`.
+  std::span<const Presser<Scalar>> pressers{};  ///< See `CharacterState::pressers`.
   /// One for each mover of the scenery.
   std::span<const MoverMotion<Scalar>> movers{};
   Scalar dt = 0;  ///< [s]
@@ -83,8 +84,7 @@ struct MoveResult {
   Ride<Scalar> ride;  ///< For the next step. `velocity` above is in the world, the ride included.
   /// Colliders of movers that ran into the character where it had no room to give way.
   FixedVector<ColliderIndex, max_crushed> crushed;
-  /// How far what lies on a crushed character went in the step [m]; zero where several things do that part.
-  Vec2<Scalar> pressed_along{Vec2<Scalar>::Zero()};
+  Pressers<Scalar> pressers;  ///< See `CharacterState::pressers`.
 
   void clear() noexcept {
     status = MoveStatus::moved;
@@ -94,7 +94,7 @@ struct MoveResult {
     contacts.clear();
     ride = {};
     crushed.clear();
-    pressed_along.setZero();
+    pressers.clear();
   }
 };
 

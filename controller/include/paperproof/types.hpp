@@ -101,6 +101,9 @@ class FixedVector {
     size_ = 0;
     overflowed_ = false;
   }
+  friend bool operator==(const FixedVector& a, const FixedVector& b) noexcept {
+    return a.overflowed_ == b.overflowed_ && std::equal(a.begin(), a.end(), b.begin(), b.end());
+  }
   void pop_back() noexcept {
     assert(size_ > 0);
     --size_;

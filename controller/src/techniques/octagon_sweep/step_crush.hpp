@@ -84,15 +84,23 @@ bool StepSolver<variant, Scalar>::let_through_what_is_on_it() noexcept {
   return any;
 }
 
+/// What has come over a character since its last free position goes on, also once it is off again.
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::note_pressers(std::span<const Presser<Scalar>> before) noexcept {
+  const std::vector<ColliderDef>& colliders = space_.scenery().as_run().colliders;
+  const auto went = [&](ColliderIndex collider) { return moving_.around.course(colliders[collider].mover); };
+  for (const Presser<Scalar>& presser : before)
+    result_.pressers.push_back({presser.collider, presser.gone + went(presser.collider)});
+  for (const ColliderIndex collider : moving_.ignored) {
+    const bool known = std::any_of(before.begin(), before.end(),
+                                   [&](const Presser<Scalar>& presser) { return presser.collider == collider; });
+    if (!known) result_.pressers.push_back({collider, went(collider)});
+  }
+}
+
 /// What was on the character when the step began, and still is, has it stuck. What was only as near as that crushes it.
 template <Variant variant, class Scalar>
 void StepSolver<variant, Scalar>::end_wait() noexcept {
-  if (moving_.ignored.empty()) return;
-  const std::vector<ColliderDef>& colliders = space_.scenery().as_run().colliders;
-  const auto course = [&](ColliderIndex collider) { return moving_.around.course(colliders[collider].mover); };
-  const V first = course(moving_.ignored[0]);
-  if (std::all_of(moving_.ignored.begin(), moving_.ignored.end(), [&](ColliderIndex c) { return course(c) == first; }))
-    result_.pressed_along = first;
   if (moving_.ignored.size() == result_.crushed.size()) return;
   const auto let_through = moving_.ignored;
   moving_.ignored.clear();

@@ -168,7 +168,7 @@ void StepSolver<variant, Scalar>::note_what_is_left() noexcept {
 }
 
 /// Whether a position at the end of the step is on the side of what is left from which the character came: the straight
-/// way there from its last free position does not meet it. (Where that was is known as of the step's start.)
+/// way there from its last free position, which moves on with it, does not meet it.
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::stays_on_its_side(const V& end) noexcept {
   if (!moving_.last_free || (moving_.left.empty() && moving_.lying.empty())) return true;
@@ -179,6 +179,8 @@ bool StepSolver<variant, Scalar>::stays_on_its_side(const V& end) noexcept {
     V to = end;
     if (pieces[piece].mover != no_mover) {
       from -= moving_.around.offset(pieces[piece].mover, Scalar(0));
+      for (const Presser<Scalar>& presser : moving_.pressers)
+        if (presser.collider == pieces[piece].collider) from += presser.gone;
       to -= moving_.around.offset(pieces[piece].mover, Scalar(1));
     }
     if (stopped_by(make_motion<variant>(space_, from, V(to - from), Scalar(0)), piece)) return false;

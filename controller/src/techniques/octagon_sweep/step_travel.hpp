@@ -63,7 +63,10 @@ void StepSolver<variant, Scalar>::solve(const MoveRequest<Scalar>& request) noex
     if constexpr (variant.snap) follow_ground_down(request);
     if constexpr (variant.movers) end_ride();
   }
-  if constexpr (variant.movers) end_wait();
+  if constexpr (variant.movers) {
+    note_pressers(request.pressers);
+    end_wait();
+  }
   push_corner(1);
   result_.position = position_;
   result_.velocity = velocity_;
