@@ -124,9 +124,9 @@ void Metrics::add_passings(const TraceStep& step, const StepJudgement& judgement
   const auto inside_on_its_own = [&judgement](ColliderIndex collider) {
     return !contains(judgement.pressed, collider);
   };
-  count(sums_.steps_ending_inside,
-        !company.overlap.empty() ||
-            std::any_of(judgement.end_overlap.begin(), judgement.end_overlap.end(), inside_on_its_own));
+  const bool inside = !company.overlap.empty() ||
+                      std::any_of(judgement.end_overlap.begin(), judgement.end_overlap.end(), inside_on_its_own);
+  count(sums_.steps_ending_inside, inside);
   if (has_one_way_) count(sums_.one_way_violations, !judgement.one_way_broken.empty());
   raise(sums_.max_penetration_m, judgement.max_penetration);
   if (!judgement.passings.empty() && sums_.findings.empty()) {
@@ -142,6 +142,8 @@ void Metrics::add_events(const TraceStep& step, const StepJudgement& judgement) 
   if (!step.movers.empty()) {
     count(sums_.crushes, !judgement.crushed.empty());
     count(sums_.crushes_with_room, !judgement.crushed_with_room.empty());
+    const bool pressed_alone = !judgement.pressed.empty() && judgement.pressed.size() == judgement.end_overlap.size();
+    count(sums_.steps_inside_after_crush, pressed_alone);
   }
   if (!sums_.sensor_events) return;
   *sums_.sensor_events += static_cast<int>(judgement.sensor_events.size());
@@ -179,6 +181,7 @@ void Metrics::write(Row& row) const {
   row.sensor_events = sums_.sensor_events;
   row.sensor_errors = sums_.sensor_errors;
   row.max_sensor_error = sums_.max_sensor_error;
+  row.steps_inside_after_crush = sums_.steps_inside_after_crush;
   row.stuck_steps = sums_.stuck_steps;
   row.dropped_steps = sums_.dropped_steps;
   row.toi_error_max = sums_.toi_error_max;

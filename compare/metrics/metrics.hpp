@@ -35,7 +35,8 @@ namespace paperproof::compare {
 ///   horizontal motion was wanted.
 /// - `rest_peak_to_peak_m`, `rest_rms_m`, `contact_toggles`: see `Rest`.
 /// - `crushes`: steps with a crush that exact arithmetic verified; what movers press the character into on them is not
-///   counted as inside. `crushes_with_room`: steps with one that it refuted.
+///   counted as inside, but in `steps_inside_after_crush` for as long as it lasts. `crushes_with_room`: steps with one
+///   that it refuted.
 /// - `sensor_events`: entries and exits that there were. `sensor_errors`: those that were not reported, and reports of
 ///   others. `max_sensor_error`: of the fractions of the rest.
 /// - `respawns`, `stuck_steps`, `dropped_steps`: counted.

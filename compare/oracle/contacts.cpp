@@ -15,6 +15,13 @@ constexpr double same_face = 0.9;
 /// A smaller share of the speed is rounding: Box2D's floats have 24 bits.
 constexpr double least_loss = 1e-5;
 
+/// See `touch_`; 0 where the contender does not say.
+double touch_of(const TraceHeader& header) {
+  for (const NamedTolerance& tolerance : header.tolerances)
+    if (tolerance.name == "touch") return tolerance.metres;
+  return 0;
+}
+
 void add_contact(const ExactImpact& impact, double fraction, StepJudgement& judgement) {
   const Side side = side_of_normal(impact.normal.x(), impact.normal.y());
   for (ExactContact& known : judgement.contacts) {
@@ -27,6 +34,9 @@ void add_contact(const ExactImpact& impact, double fraction, StepJudgement& judg
 }
 
 }  // namespace
+
+ContactJudge::ContactJudge(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step)
+    : header_(header), scenery_(scenery), step_(step), touch_(touch_of(header)) {}
 
 Vec2d ContactJudge::wanted(ColliderIndex collider) const {
   const MoverIndex mover = scenery_.scenery().colliders[collider].mover;
@@ -54,7 +64,8 @@ void ContactJudge::judge(bool starts_free, StepJudgement& judgement) const {
   add_gaps(judgement);
   add_dont_care(judgement);
   add_ghosts(judgement);
-  judgement.ghost_speed_loss = ghost_speed_loss(starts_free);
+  // What a crush stops is not stopped by nothing.
+  if (judgement.crushed.empty()) judgement.ghost_speed_loss = ghost_speed_loss(starts_free);
 }
 
 void ContactJudge::add_contacts_at(const std::vector<ExactImpact>& impacts, double fraction,
@@ -129,7 +140,7 @@ bool ContactJudge::pushed_by_skin(double wanted) const {
 
 /// Whether a face of the solids taken together is there to be touched along the reported normal.
 bool ContactJudge::has_face(const Contact<double>& contact) const {
-  const double reach = header_.path_exact ? 2 * contact_reach : skin;
+  const double reach = header_.path_exact ? 2 * std::max(contact_reach, touch_) : skin;
   for (std::size_t i = 0; i < step_.path.size(); ++i) {
     Place beyond = place(i);
     beyond.position -= contact.normal * reach;
@@ -163,6 +174,22 @@ bool ContactJudge::met_after_another(const Contact<double>& contact, const StepJ
   return deflected && nearest(contact.collider) <= contact_reach;
 }
 
+/// Whether the requested motion leads against the reported normal, and the collider is held already or comes within the
+/// contender's hit distance on the way.
+bool ContactJudge::comes_near(const Contact<double>& contact) const {
+  if (contact.normal.dot(wanted(contact.collider)) >= 0) return false;
+  const auto is_it = [&contact](const ExactImpact& impact) { return impact.collider == contact.collider; };
+  for (std::size_t i = 0; i < step_.path.size(); ++i) {
+    const double gap = scenery_.separation(place(i), contact.collider);
+    if (gap >= 0 && gap <= touch_) return true;
+    Place nearer = place(i);
+    nearer.position -= contact.normal * hit_reach;
+    const std::vector<ExactImpact> impacts = scenery_.impacts(nearer, step_.requested);
+    if (std::any_of(impacts.begin(), impacts.end(), is_it)) return true;
+  }
+  return false;
+}
+
 void ContactJudge::add_dont_care(StepJudgement& judgement) const {
   const auto exact = [&](ColliderIndex collider) {
     return std::any_of(judgement.contacts.begin(), judgement.contacts.end(),
@@ -178,13 +205,7 @@ void ContactJudge::add_dont_care(StepJudgement& judgement) const {
   }
   for (const Contact<double>& contact : step_.contacts) {
     if (!header_.path_exact || exact(contact.collider)) continue;
-    if (met_after_another(contact, judgement)) judgement.dont_care.push_back(contact.collider);
-    if (contact.normal.dot(wanted(contact.collider)) >= 0) continue;
-    for (const PathPoint<double>& corner : step_.path) {
-      const Place arrived(corner.position + step_.requested, step_.movers, corner.fraction + 1);
-      const double gap = scenery_.separation(arrived, contact.collider);
-      if (gap >= 0 && gap <= hit_reach) judgement.dont_care.push_back(contact.collider);
-    }
+    if (met_after_another(contact, judgement) || comes_near(contact)) judgement.dont_care.push_back(contact.collider);
   }
   std::sort(judgement.dont_care.begin(), judgement.dont_care.end());
   judgement.dont_care.erase(std::unique(judgement.dont_care.begin(), judgement.dont_care.end()),

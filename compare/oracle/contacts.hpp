@@ -13,8 +13,7 @@ inline constexpr double contact_reach = 1e-6;
 /// Judges the contacts of one step: see `Judge` for what each answer means. Lives for one step.
 class ContactJudge {
  public:
-  ContactJudge(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step)
-      : header_(header), scenery_(scenery), step_(step) {}
+  ContactJudge(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step);
   void judge(bool starts_free, StepJudgement& judgement) const;
 
  private:
@@ -30,12 +29,14 @@ class ContactJudge {
   [[nodiscard]] bool pushed_by_skin(double wanted) const;
   [[nodiscard]] bool has_face(const Contact<double>& contact) const;
   [[nodiscard]] bool met_after_another(const Contact<double>& contact, const StepJudgement& judgement) const;
+  [[nodiscard]] bool comes_near(const Contact<double>& contact) const;
   [[nodiscard]] bool dropped_through(ColliderIndex collider) const;
   [[nodiscard]] double nearest(ColliderIndex collider) const;
 
   const TraceHeader& header_;
   const ExactScenery& scenery_;
   const TraceStep& step_;
+  double touch_;  ///< Up to this gap the contender holds a contact that it has [m].
 };
 
 }  // namespace paperproof::compare::detail

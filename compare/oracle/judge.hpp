@@ -113,7 +113,8 @@ struct StepJudgement {
 /// a one-way chain that is passed on purpose.
 ///
 /// **Don't care.** A collider whose contact is a matter of the contender's stated skin: for Box2D within 20 mm of the
-/// start or the end of the path, else within 1e-7 m of where the requested motion ends; and one that is near enough for
+/// start or the end of the path; else one that the requested motion leads against and comes within 1e-7 m of, or that
+/// is nearer than the gap up to which the contender says it holds a contact (`touch`); and one that is near enough for
 /// a contact, but only behind a seam. A report of it is a ghost where no face stands out that its normal could be of.
 ///
 /// **Fraction.** A first impact is comparable where the octagon began farther than 1e-6 m (Box2D: its skin, 20 mm) away
@@ -122,8 +123,9 @@ struct StepJudgement {
 ///
 /// **What turns** is judged apart, between bounds: see oracle/turning.hpp.
 ///
-/// **Ghost speed loss.** Horizontal speed was lost to nothing where the step began free, and no solid opposes the
-/// wanted horizontal motion within the step and the skin beyond (20 mm for Box2D), from any corner of the path.
+/// **Ghost speed loss.** Horizontal speed was lost to nothing where the step began free and crushed nobody, and no
+/// solid opposes the wanted horizontal motion within the step and the skin beyond (20 mm for Box2D), from any corner of
+/// the path.
 class Judge {
  public:
   explicit Judge(const TraceHeader& header);

@@ -43,9 +43,10 @@ struct Row {
   std::optional<int> sensor_events;        ///< that there were, exactly; absent where there are no sensors
   std::optional<int> sensor_errors;        ///< events missed, and events that there were not
   std::optional<double> max_sensor_error;  ///< of the fraction of the step
-  std::optional<int> stuck_steps;          ///< steps on which it said that it is stuck inside something
-  std::optional<int> dropped_steps;        ///< steps with displacement dropped after the iterations
-  std::optional<double> toi_error_max;     ///< in fractions of a step, first contact of each step
+  std::optional<int> steps_inside_after_crush;  ///< inside nothing but what a verified crush brought on
+  std::optional<int> stuck_steps;               ///< steps on which it said that it is stuck inside something
+  std::optional<int> dropped_steps;             ///< steps with displacement dropped after the iterations
+  std::optional<double> toi_error_max;          ///< in fractions of a step, first contact of each step
   std::optional<double>
       ghost_speed_loss;  ///< largest share of the wanted horizontal speed lost in a step to nothing exact
   std::optional<double> rest_peak_to_peak_m;
@@ -91,6 +92,7 @@ void for_each_metric(const Row& row, const Visit& visit) {
   visit("sensor_events", row.sensor_events);
   visit("sensor_errors", row.sensor_errors);
   visit("max_sensor_error", row.max_sensor_error);
+  visit("steps_inside_after_crush", row.steps_inside_after_crush);
   visit("stuck_steps", row.stuck_steps);
   visit("dropped_steps", row.dropped_steps);
   visit("toi_error_max", row.toi_error_max);

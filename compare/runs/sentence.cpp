@@ -73,9 +73,14 @@ std::string about_overlap(const std::vector<Row>& rows) {
   double deepest = 0;
   for (const Row& row : rows)
     if (ends_inside(row)) deepest = std::max(deepest, row.max_penetration_m.value_or(0));
-  const auto outside = those(rows, [&](const Row& row) { return scored(row) && !ends_inside(row); });
+  const auto crushed = [](const Row& row) { return row.steps_inside_after_crush.value_or(0) > 0; };
+  const auto outside = those(rows, [&](const Row& row) { return scored(row) && !ends_inside(row) && !crushed(row); });
+  const auto pressed = those(rows, [&](const Row& row) { return scored(row) && !ends_inside(row) && crushed(row); });
   std::string text = fmt::format("{} {} some steps inside {}, up to {:.2g} m deep", listed(inside),
                                  plural(inside, "ends", "end"), solid_in(rows), deepest);
+  if (!pressed.empty())
+    text += fmt::format("; {} only where movers that press {} leave no room", listed(pressed),
+                        plural(pressed, "it", "them"));
   if (!outside.empty()) text += fmt::format("; {} never {}", listed(outside), plural(outside, "does", "do"));
   return text + ". ";
 }

@@ -44,6 +44,7 @@ const std::vector<Column>& columns() {
       {"tunnels", [](const Row& r) { return number(r.tunnels, "{}"); }},
       {"inside", [](const Row& r) { return number(r.steps_ending_inside, "{}"); }},
       {"depth m", [](const Row& r) { return number(r.max_penetration_m, "{:.2g}"); }, true},
+      {"in crush", [](const Row& r) { return number(r.steps_inside_after_crush, "{}"); }, true},
       {"stuck", [](const Row& r) { return number(r.stuck_steps, "{}"); }, true},
       {"crushes", [](const Row& r) { return number(r.crushes, "{}"); }, true},
       {"false crush", [](const Row& r) { return number(r.crushes_with_room, "{}"); }, true},

@@ -258,6 +258,33 @@ TEST(Judge, box2d_may_touch_from_its_skin_without_being_right_or_wrong) {
   }
 }
 
+TEST(Judge, a_contact_that_is_held_is_neither_right_nor_wrong_up_to_the_gap_that_the_contender_names) {
+  TraceHeader head = header({box(-4, -1, 4, 0)});
+  head.tolerances = {{"touch", 7e-7}};
+  for (const auto& [gap, request, held] : {std::tuple{5e-7, 3e-7, true}, {9e-7, 3e-7, false}, {9e-7, 8.5e-7, true}}) {
+    Judge judge(head);
+    TraceStep rest = step({{0, 0.625 + gap}});
+    rest.requested = {0, -request};
+    rest.contacts = {{.collider = 0, .normal = {0, 1}, .side = Side::bottom}};
+    const StepJudgement judged = judge.judge(rest);
+    EXPECT_TRUE(judged.contacts.empty()) << gap;
+    EXPECT_EQ(judged.dont_care, held ? Colliders{0} : Colliders{}) << gap << " " << request;
+    EXPECT_TRUE(judged.ghosts.empty()) << gap;
+    rest.requested = {0, request};
+    EXPECT_TRUE(Judge(head).judge(rest).dont_care.empty()) << "it leaves: " << gap;
+  }
+}
+
+TEST(Judge, a_corner_that_is_passed_within_the_hit_distance_is_neither_right_nor_wrong) {
+  // The foot's corner passes the tile's corner halfway, a twentieth of a micrometre above it, and ends far away.
+  for (const auto& [above, near] : {std::pair{5e-8, true}, {5e-7, false}}) {
+    Judge judge(header({box(-1, -1, -0.15625, 0)}));
+    TraceStep pass = step({{-1, 1.625 + above}, {1, -0.375 + above}});
+    pass.contacts = {{.collider = 0, .normal = {0, 1}, .fraction = 0.5, .side = Side::bottom}};
+    EXPECT_EQ(judge.judge(pass).dont_care, near ? Colliders{0} : Colliders{}) << above;
+  }
+}
+
 TEST(Judge, a_contact_in_the_skin_is_a_ghost_where_no_face_stands_out) {
   // The foot's corner stands over the seam, just before the second tile, in Box2D's rest gap.
   Judge judge(header({box(-4, -1, 0, 0), box(0, -1, 4, 0)}, false));

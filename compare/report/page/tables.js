@@ -69,6 +69,10 @@ const QUALITY = [
   ['sensor_errors', 'Sensor errors', '', count, 'Entries and exits that were missed, or reported and were not'],
   ['max_sensor_error', 'Sensor time error', 'of a step', measure, 'Largest error of the fraction of a step'],
   [
+    'steps_inside_after_crush', 'Inside after a crush', 'steps', count,
+    'Steps that end inside nothing but what a crush brought on, verified by exact arithmetic'
+  ],
+  [
     'stuck_steps', 'Stuck', 'steps', count,
     'Steps on which it said that it is stuck inside something; they do not count for recall'
   ],
