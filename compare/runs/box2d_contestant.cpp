@@ -139,7 +139,9 @@ class Box2dContestant final : public Contestant {
     if (step.grounded && step.velocity.y() <= state.ride.velocity.y() + at_rest) state.jumping = false;
   }
 
+  /// Who comes to rest on what carries is carried at once; who has a speed of his own keeps it, as for the controller.
   void ride_on(const box2d::TwinStep& step, Twin& twin) const {
+    const bool comes_to_rest = twin.state.ride.ground == Ride<double>::none && twin.state.velocity.x() == 0;
     twin.state.ride = {};
     if (!step.ground) return;
     const ColliderDef& ground = header_.scenery.colliders[step.ground->collider];
@@ -147,6 +149,7 @@ class Box2dContestant final : public Contestant {
     twin.ground_normal = step.ground->normal;
     twin.state.ride.ground = step.ground->collider;
     twin.state.ride.velocity = velocity_of_ground(step.ground->collider, twin.ground_normal, step.movers);
+    if (comes_to_rest) twin.state.velocity.x() = twin.state.ride.velocity.x();
   }
 
   /// In one step [m/s]; a conveyor's surface runs along the ground, to the right where its speed is positive.

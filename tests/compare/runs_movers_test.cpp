@@ -55,6 +55,17 @@ TEST(Movers, are_the_same_for_everyone_and_begin_each_step_where_they_ended_the_
   }
 }
 
+TEST(Movers, and_conveyors_take_along_whoever_comes_to_rest_on_them_the_twin_too) {
+  Scene belt = on_a_slab(120);
+  belt.scenery.colliders[1].surface_speed = 2;
+  belt.scenery.colliders[1].points = slab(-3, -1, 9, 0).points;
+  belt.input.clear();
+  for (const char* name : {"octagon_sweep", "box2d"}) {
+    const ReportScene result = run_scene(belt, watched(belt, {"octagon_sweep"}));
+    EXPECT_NEAR(run_of(result, name).steps.back().path.back().position.x(), 4, 0.15) << name;
+  }
+}
+
 TEST(Movers, are_part_of_the_displacement_that_a_rider_wants) {
   Scene scene = on_a_mover(100, {{.time = 0, .at = {0, 0}}, {.time = 2, .at = {6, 2}}});
   scene.scenery.colliders[1].surface_speed = 1.5;
