@@ -13,6 +13,8 @@ namespace {
 
 /// Where the approach is a smaller part of the motion it grazes: see `Judge`.
 constexpr double least_approach = 1e-3;
+/// Half of the narrowest opening between others that counts as room [m]: as between solids.
+constexpr double least_clearance = 1e-7;
 
 Box2<double> box_of(const std::vector<Vec2d>& points) {
   Box2<double> box{points.front(), points.front()};
@@ -40,6 +42,13 @@ Vec2d place_at(const std::vector<PathPoint<double>>& path, double fraction) {
   return path.back().position;
 }
 
+/// Up to this gap a contender says that it touches [m]: in float that is more than what the judge calls touching.
+double touching_gap(const TraceHeader& header) {
+  const auto touch = std::find_if(header.tolerances.begin(), header.tolerances.end(),
+                                  [](const NamedTolerance& tolerance) { return tolerance.name == "touch"; });
+  return touch == header.tolerances.end() ? 0 : touch->metres;
+}
+
 const Vec2d& start_of(const TraceStep& step) { return step.path.front().position; }
 const Vec2d& end_of(const TraceStep& step) { return step.path.back().position; }
 
@@ -50,13 +59,41 @@ CompanyJudge::CompanyJudge(const TraceHeader& header)
       pair_(header.points),
       box_(box_of(header.points)),
       slop_(detail::slop_of(header)),
-      reach_(header.path_exact ? detail::contact_reach : detail::skin) {}
+      reach_(header.path_exact ? std::max(detail::contact_reach, touching_gap(header)) : detail::skin) {}
 
 std::vector<CharacterIndex> CompanyJudge::overlapped(std::span<const Vec2d> positions, CharacterIndex character) const {
   std::vector<CharacterIndex> found;
   for (CharacterIndex other = 0; other < positions.size(); ++other)
     if (other != character && pair_.overlap(positions[character], positions[other])) found.push_back(other);
   return found;
+}
+
+Others CompanyJudge::others_of(CharacterIndex character, std::span<const TraceStep> steps) const {
+  const TraceStep& one = steps[character];
+  const auto any_other = [steps, character](const auto& is) {
+    return std::any_of(steps.begin(), steps.end(),
+                       [&](const TraceStep& other) { return other.character != character && is(other); });
+  };
+  Others others;
+  others.touched = any_other([&](const TraceStep& other) { return may_meet(one, other) && touch(one, other); });
+  others.left_free = [this, any_other](Way way) {
+    return !any_other([&](const TraceStep& other) {
+      return !(pair_.separation(way.back().position, end_of(other)) >= least_clearance) || pair_.meet(way, other.path);
+    });
+  };
+  return others;
+}
+
+/// At a corner of either's way.
+bool CompanyJudge::touch(const TraceStep& one, const TraceStep& other) const {
+  const auto near = [this](const Vec2d& mine, const Vec2d& theirs) { return pair_.separation(mine, theirs) <= reach_; };
+  return std::any_of(one.path.begin(), one.path.end(),
+                     [&](const PathPoint<double>& corner) {
+                       return near(corner.position, place_at(other.path, corner.fraction));
+                     }) ||
+         std::any_of(other.path.begin(), other.path.end(), [&](const PathPoint<double>& corner) {
+           return near(place_at(one.path, corner.fraction), corner.position);
+         });
 }
 
 bool CompanyJudge::continues(const TraceStep& step) const {
@@ -163,7 +200,7 @@ void CompanyJudge::judge_first_impacts(std::span<const TraceStep> steps, std::sp
 }
 
 void CompanyJudge::excuse(const TraceStep& one, const TraceStep& other, StepJudgement& judgement) const {
-  bool near = false;
+  const bool near = touch(one, other);
   bool opposed = false;
   const Vec2d wanted(one.requested.x() + std::copysign(reach_, one.requested.x()), 0);
   // The other comes from ahead, or from above on a shoulder.
@@ -172,7 +209,6 @@ void CompanyJudge::excuse(const TraceStep& one, const TraceStep& other, StepJudg
     return impact && impact->normal.x() * wanted.x() < 0;
   };
   const auto look = [&](const Vec2d& mine, const Vec2d& theirs) {
-    near = near || pair_.separation(mine, theirs) <= reach_;
     if (judgement.ghost_speed_loss == 0) return;
     opposed = opposed || pair_.meet_between(mine, theirs, mine + wanted, theirs) || is_pushed(mine, theirs);
   };

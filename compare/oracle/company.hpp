@@ -25,11 +25,12 @@ namespace paperproof::compare {
 /// then takes the place of the scenery's. It is comparable under the conditions of `Judge`, and if no third one that
 /// comes near either has met something before: that one may have turned them aside.
 ///
-/// **In company.** Who comes within 1e-6 m of another (Box2D: its skin, 20 mm) at a corner of either's way may be
-/// turned aside there, so what was requested no longer says what scenery is met: on such a step contacts with scenery
-/// that were reported and are not exact, or are exact and were not reported, count neither way; and horizontal speed
-/// that the other opposes, where it is or where it wants to go (within the step and the skin beyond, as for solids), is
-/// not lost to nothing. In Box2D characters push each other, and whoever is in company may have been.
+/// **In company.** Who comes within 1e-6 m of another (float: within the gap at which it still touches; Box2D: its
+/// skin, 20 mm) at a corner of either's way may be turned aside there, so what was requested no longer says what
+/// scenery is met: on such a step contacts with scenery that were reported and are not exact, or are exact and were not
+/// reported, count neither way; and horizontal speed that the other opposes, where it is or where it wants to go
+/// (within the step and the skin beyond, as for solids), is not lost to nothing. In Box2D characters push each other,
+/// and whoever is in company may have been.
 class CompanyJudge {
  public:
   explicit CompanyJudge(const TraceHeader& header);
@@ -38,6 +39,10 @@ class CompanyJudge {
   /// @param positions of all of them.
   [[nodiscard]] std::vector<CharacterIndex> overlapped(std::span<const Vec2d> positions,
                                                        CharacterIndex character) const;
+
+  /// What the others mean for one of them that is crushed: see `Judge`.
+  /// @param steps of all of them, in order; not copied.
+  [[nodiscard]] Others others_of(CharacterIndex character, std::span<const TraceStep> steps) const;
 
   /// @param steps,judgements one of each character, in order; what is found is written into the judgements.
   void judge(std::span<const TraceStep> steps, std::span<StepJudgement> judgements);
@@ -60,6 +65,7 @@ class CompanyJudge {
   [[nodiscard]] bool may_meet(const TraceStep& one, const TraceStep& other) const;
   [[nodiscard]] std::optional<Impact> first_impact(const TraceStep& one, const TraceStep& other) const;
   void judge_first_impacts(std::span<const TraceStep> steps, std::span<StepJudgement> judgements) const;
+  [[nodiscard]] bool touch(const TraceStep& one, const TraceStep& other) const;
   void excuse(const TraceStep& one, const TraceStep& other, StepJudgement& judgement) const;
 
   TraceHeader header_;

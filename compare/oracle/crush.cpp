@@ -15,6 +15,7 @@ class Departure {
  public:
   Departure(const ExactScenery& scenery, std::span<const Place> path, std::size_t corner, const Meetings& meetings)
       : scenery_(scenery), from_(path[corner]), inside_(scenery.overlapped(from_)) {
+    for (const Place& place : path.first(corner + 1)) way_.push_back({place.position, place.fraction});
     for (const auto& [collider, free] : meetings.before) {
       if (free) sides_.emplace_back(collider, *free);
     }
@@ -39,9 +40,17 @@ class Departure {
     return true;
   }
 
+  /// The whole way of the step, if it goes straight from here.
+  [[nodiscard]] std::vector<PathPoint<double>> way_to(const Vec2d& end) const {
+    std::vector<PathPoint<double>> way = way_;
+    way.push_back({end, 1});
+    return way;
+  }
+
  private:
   const ExactScenery& scenery_;
   const Place& from_;
+  std::vector<PathPoint<double>> way_;  ///< Up to there.
   std::vector<ColliderIndex> inside_;
   std::vector<std::pair<ColliderIndex, Place>> sides_;  ///< What was met, with the last place free of it.
   std::optional<ColliderIndex> last_met_;
@@ -50,7 +59,8 @@ class Departure {
 }  // namespace
 
 std::optional<Vec2d> find_room(const ExactScenery& scenery, std::span<const Place> path,
-                               std::span<const ColliderIndex> crushed, const Meetings& meetings) {
+                               std::span<const ColliderIndex> crushed, const Meetings& meetings,
+                               const Others& characters) {
   const Place& end = path.back();
   double travel = 0;
   std::vector<Vec2d> others;
@@ -74,7 +84,9 @@ std::optional<Vec2d> find_room(const ExactScenery& scenery, std::span<const Plac
   }
   const auto can_go_there = [&](const Vec2d& position) {
     const Place there(position, end.movers, end.fraction);
-    return std::any_of(departures.begin(), departures.end(), [&](Departure& one) { return one.reaches(there); });
+    return std::any_of(departures.begin(), departures.end(), [&](Departure& one) {
+      return one.reaches(there) && (!characters.left_free || characters.left_free(one.way_to(position)));
+    });
   };
   return scenery.find_free(end, travel + beyond_travel, least_clearance, others, can_go_there);
 }

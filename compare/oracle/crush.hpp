@@ -3,7 +3,20 @@
 
 #include "oracle/exact.hpp"
 
+#include <functional>
 #include <map>
+
+namespace paperproof::compare {
+
+/// What the other characters of a run mean for a crush of one of them.
+struct Others {
+  /// Whether they leave free a way of the whole step, from fraction 0 to 1, and the place where it ends. Empty where
+  /// there are none.
+  std::function<bool(std::span<const PathPoint<double>> way)> left_free{};
+  bool touched = false;  ///< One of them touched it during the step.
+};
+
+}  // namespace paperproof::compare
 
 namespace paperproof::compare::detail {
 
@@ -19,6 +32,7 @@ struct Meetings {
 /// @param path the way of the step, corner by corner, up to its end.
 /// @param crushed the colliders of movers that are said to crush.
 [[nodiscard]] std::optional<Vec2d> find_room(const ExactScenery& scenery, std::span<const Place> path,
-                                             std::span<const ColliderIndex> crushed, const Meetings& meetings);
+                                             std::span<const ColliderIndex> crushed, const Meetings& meetings,
+                                             const Others& characters = {});
 
 }  // namespace paperproof::compare::detail

@@ -1,7 +1,6 @@
 #include "oracle/judge.hpp"
 
 #include "oracle/contacts.hpp"
-#include "oracle/crush.hpp"
 #include "oracle/passing.hpp"
 #include "oracle/turning.hpp"
 
@@ -44,14 +43,14 @@ Judge::Judge(const TraceHeader& header)
 
 Judge::~Judge() = default;
 
-StepJudgement Judge::judge(const TraceStep& step) {
-  if (!turning_->any()) return judge_exactly(step);
-  StepJudgement judgement = judge_exactly(turning_->exact_part(step));
+StepJudgement Judge::judge(const TraceStep& step, const Others& others) {
+  if (!turning_->any()) return judge_exactly(step, others);
+  StepJudgement judgement = judge_exactly(turning_->exact_part(step), others);
   turning_->judge(step, judgement);
   return judgement;
 }
 
-StepJudgement Judge::judge_exactly(const TraceStep& step) {
+StepJudgement Judge::judge_exactly(const TraceStep& step, const Others& others) {
   if (step.movers.size() < mover_count_) throw std::invalid_argument("a step needs the motion of every mover");
   if (repeats(step)) return last_->second;
   dt_ = length_of(step, header_);
@@ -62,7 +61,7 @@ StepJudgement Judge::judge_exactly(const TraceStep& step) {
   const bool starts_free = inside_.empty();
   if (!starts_free || !step.contacts.empty() || !step.crushed.empty() || !alone(path, step)) {
     judgement.end_overlap = scenery_.overlapped(path.back());
-    judge_way(path, step, judgement);
+    judge_way(path, step, others, judgement);
     detail::ContactJudge(header_, scenery_, step).judge(starts_free, judgement);
   }
   if (has_sensors_) judge_sensors(path, step, judgement);
@@ -130,12 +129,12 @@ void Judge::begin_episodes(const Place& start) {
   }
 }
 
-void Judge::judge_way(const Path& path, const TraceStep& step, StepJudgement& judgement) {
+void Judge::judge_way(const Path& path, const TraceStep& step, const Others& others, StepJudgement& judgement) {
   Touched touched;
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
     for (const ColliderIndex collider : scenery_.met(path[i], path[i + 1])) touched.emplace(collider, i);
   }
-  judge_crushes(path, step, touched, judgement);
+  judge_crushes(path, step, touched, others, judgement);
   judge_end(path, touched, judgement);
   for (const auto& [collider, corner] : touched) {
     if (contains(judgement.crushed, collider)) continue;
@@ -228,7 +227,7 @@ double Judge::depth_of(const Path& path, ColliderIndex collider) const {
   return deepest;
 }
 
-void Judge::judge_crushes(const Path& path, const TraceStep& step, const Touched& touched,
+void Judge::judge_crushes(const Path& path, const TraceStep& step, const Touched& touched, const Others& others,
                           StepJudgement& judgement) const {
   if (step.crushed.empty()) return;
   detail::Meetings meetings{touched, {}};
@@ -236,10 +235,11 @@ void Judge::judge_crushes(const Path& path, const TraceStep& step, const Touched
     std::optional<Place>& free = meetings.before[collider];
     if (episode.free_from) free = episode.free_from->place();
   }
-  judgement.room = detail::find_room(scenery_, path, step.crushed, meetings);
+  judgement.room = detail::find_room(scenery_, path, step.crushed, meetings, others);
   for (const ColliderIndex collider : step.crushed) {
     const bool moves = header_.scenery.colliders[collider].mover != no_mover;
-    (moves && !judgement.room ? judgement.crushed : judgement.crushed_with_room).push_back(collider);
+    (moves && (!judgement.room || others.touched) ? judgement.crushed : judgement.crushed_with_room)
+        .push_back(collider);
   }
 }
 

@@ -1,7 +1,7 @@
 /// Judges a run from its trace alone, step by step.
 #pragma once
 
-#include "oracle/exact.hpp"
+#include "oracle/crush.hpp"
 #include "runs/trace.hpp"
 
 #include <map>
@@ -97,7 +97,10 @@ struct StepJudgement {
 /// - reached from a corner of the way that was travelled, no later than where the first leg begins that meets one of
 ///   those named (no way that leaves later undoes what has been pressed in), by a straight uniform motion until the end
 ///   of the step that meets no solid but what is overlapped at that corner; and no solid that was met before lies
-///   between the last place free of it and there: on its far side there is no room.
+///   between the last place free of it and there: on its far side there is no room;
+/// - and, among several characters, whose whole way meets none of the others on theirs, nor ends within 1e-7 m of one.
+/// Who touched another during the step is excused with room, too: what one does to the other is handled impact by
+/// impact, and may hide room that is there for both together. `room` says where it was.
 /// A collider that stands still never crushes. What a mover presses the octagon into besides itself is not excused.
 ///
 /// **Sensor events** are compared in order, for every sensor entering and leaving apart.
@@ -131,7 +134,8 @@ class Judge {
   explicit Judge(const TraceHeader& header);
   ~Judge();
   Judge(Judge&&) = delete;
-  [[nodiscard]] StepJudgement judge(const TraceStep& step);
+  /// @param others of a run with several characters: nobody has room where they are or go through.
+  [[nodiscard]] StepJudgement judge(const TraceStep& step, const Others& others = {});
   [[nodiscard]] const ExactScenery& scenery() const noexcept { return scenery_; }
 
  private:
@@ -153,7 +157,7 @@ class Judge {
   using Path = std::vector<Place>;
   using Touched = std::map<ColliderIndex, std::size_t>;  ///< With the corner where the first leg that meets it begins.
 
-  [[nodiscard]] StepJudgement judge_exactly(const TraceStep& step);
+  [[nodiscard]] StepJudgement judge_exactly(const TraceStep& step, const Others& others);
   [[nodiscard]] Path path_of(const TraceStep& step) const;
   /// Whether nothing differs from the last step, as at rest: then neither does the judgement.
   [[nodiscard]] bool repeats(const TraceStep& step) const;
@@ -162,12 +166,13 @@ class Judge {
   void begin_episodes(const Place& start);
   /// Whether no solid is near enough to matter.
   [[nodiscard]] bool alone(const Path& path, const TraceStep& step) const;
-  void judge_way(const Path& path, const TraceStep& step, StepJudgement& judgement);
+  void judge_way(const Path& path, const TraceStep& step, const Others& others, StepJudgement& judgement);
   void judge_end(const Path& path, Touched& touched, StepJudgement& judgement);
   void judge_passing(const Path& path, ColliderIndex collider, const Place& from, const Place& to, double depth,
                      StepJudgement& judgement) const;
   [[nodiscard]] double depth_of(const Path& path, ColliderIndex collider) const;
-  void judge_crushes(const Path& path, const TraceStep& step, const Touched& touched, StepJudgement& judgement) const;
+  void judge_crushes(const Path& path, const TraceStep& step, const Touched& touched, const Others& others,
+                     StepJudgement& judgement) const;
   void judge_sensors(const Path& path, const TraceStep& step, StepJudgement& judgement) const;
 
   const TraceHeader header_;

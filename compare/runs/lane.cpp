@@ -124,7 +124,8 @@ void Lane::judge_step() {
     placed_[k] = false;
     record.start_overlap = inside_[k];
     if (company_) record.start_overlap_characters = company_->overlapped(starts, record.character);
-    judgements_[k] = judges_[k]->judge(record);
+    const bool ask_others = company_ && !record.crushed.empty();
+    judgements_[k] = judges_[k]->judge(record, ask_others ? company_->others_of(record.character, records_) : Others{});
   }
   if (records_.front().step == 0) note_start();
   if (company_) company_->judge(records_, judgements_);

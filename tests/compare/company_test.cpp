@@ -63,7 +63,8 @@ TEST(ExactPair, the_deepest_place_of_a_passing_is_found_between_the_corners) {
 /// What two characters do in one step, and what is said of the first one.
 class Two {
  public:
-  explicit Two(bool path_exact = true) : header_(header({}, path_exact)), judge_(with_two()) {}
+  /// @param touch as the contender states it among its tolerances [m]; 0: it states none.
+  explicit Two(bool path_exact = true, double touch = 0) : header_(header({}, path_exact)), judge_(with_two(touch)) {}
 
   StepJudgement operator()(TraceStep one, TraceStep other, StepJudgement alone = {}) {
     other.character = 1;
@@ -75,8 +76,9 @@ class Two {
   [[nodiscard]] const StepJudgement& other() const { return judged_[1]; }
 
  private:
-  TraceHeader with_two() {
+  TraceHeader with_two(double touch) {
     header_.characters = 2;
+    if (touch > 0) header_.tolerances = {{"touch", touch}};
     return header_;
   }
   TraceHeader header_;
@@ -184,6 +186,8 @@ TEST(CompanyJudge, beside_another_what_scenery_was_met_is_not_told_from_what_was
   const StepJudgement apart = Two()(one, step({{width + 2e-6, 0}, {width + 2e-6, 0}}), alone);
   EXPECT_EQ(apart.contacts.size(), 1U);
   EXPECT_TRUE(apart.dont_care.empty());
+  const Vec2d in_float(width + 5e-4, 0);
+  EXPECT_TRUE(Two(true, 7e-4)(one, step({in_float, in_float}), alone).contacts.empty()) << "it stops there";
 }
 
 }  // namespace

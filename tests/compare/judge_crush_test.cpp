@@ -1,4 +1,5 @@
 #include "compare/judge_steps.hpp"
+#include "oracle/company.hpp"
 
 #include <gtest/gtest.h>
 
@@ -176,6 +177,32 @@ TEST(FreeSpace, a_place_that_is_found_keeps_the_clearance_and_none_is_missed) {
   }
   EXPECT_GT(with_room, rounds * 3 / 10);
   EXPECT_LT(with_room, rounds * 8 / 10);
+}
+
+/// Pressed to the right by a face that goes from -0.5 to -0.1, with another character at some place all the time.
+StepJudgement pressed_beside(const Vec2d& other) {
+  const TraceHeader two = header({moving(box(-2, -4, -0.5, 4))});
+  std::vector<TraceStep> steps{staying({0, 0}, {{0, 0}, {0.4, 0}}, {0}), staying(other, {{0, 0}, {0.4, 0}}, {})};
+  steps[1].character = 1;
+  return Judge(two).judge(steps[0], CompanyJudge(two).others_of(0, steps));
+}
+
+TEST(JudgeCrush, where_another_character_is_there_is_no_room) {
+  constexpr double half_width = 0.3125;
+  for (const double more : {-0.1, -1e-3, 0.0, 1.9e-7, 2.1e-7, 1e-3, 0.1}) {
+    const double between = -0.1 + 2 * half_width + more;
+    const StepJudgement judged = pressed_beside({between + half_width, 0});
+    EXPECT_EQ(judged.crushed.empty(), more > 2e-7) << more;
+    EXPECT_EQ(judged.crushed_with_room.empty(), !(more > 2e-7)) << more;
+  }
+}
+
+TEST(JudgeCrush, who_touched_another_is_excused_with_room_and_the_room_is_told) {
+  const StepJudgement touched = pressed_beside({0, 1.25 + gap});
+  EXPECT_EQ(touched.crushed, Colliders{0});
+  EXPECT_TRUE(touched.room);
+  const StepJudgement alone = pressed_beside({0, 1.25 + 0.01});
+  EXPECT_EQ(alone.crushed_with_room, Colliders{0});
 }
 
 }  // namespace
