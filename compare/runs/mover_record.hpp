@@ -1,0 +1,63 @@
+/// How movers go, as a contestant of a technique runs them.
+#pragma once
+
+#include "runs/contestant.hpp"
+
+#include <paperproof/character.hpp>
+
+#include <span>
+#include <vector>
+
+namespace paperproof::compare {
+
+/// The motions of the present step, in the scalar that runs, and those of the step before.
+template <class Scalar>
+class MoverRecord {
+ public:
+  /// @param scenery as run; must outlive the record.
+  MoverRecord(std::size_t movers, const SceneryDef& scenery) : scenery_(&scenery), now_(movers), last_(movers) {}
+
+  /// A step begins.
+  void take(const StepInput& input) {
+    std::swap(now_, last_);
+    last_dt_ = dt_;
+    for (std::size_t i = 0; i < now_.size(); ++i)
+      now_[i] = {input.movers[i].from.template cast<Scalar>(), input.movers[i].to.template cast<Scalar>()};
+    dt_ = static_cast<Scalar>(input.dt);
+  }
+  [[nodiscard]] std::span<const MoverMotion<Scalar>> motions() const noexcept { return now_; }
+  [[nodiscard]] Scalar dt() const noexcept { return dt_; }
+
+  void write(TraceStep& record) const {
+    record.movers.clear();
+    for (const MoverMotion<Scalar>& motion : now_)
+      record.movers.push_back({motion.from.template cast<double>(), motion.to.template cast<double>()});
+  }
+
+  /// What the ground adds to the displacement of a step that began with this ride [m]. A conveyor's part is what was
+  /// left of the ride's velocity in the step before, without its mover's.
+  [[nodiscard]] Vec2d carried_by(const Ride<Scalar>& ride) const {
+    if (ride.ground == Ride<Scalar>::none) return Vec2d::Zero();
+    Vec2d carried = way_of(now_, ride.ground);
+    if (scenery_->colliders[ride.ground].surface_speed != 0)
+      carried += ride.velocity.template cast<double>() * static_cast<double>(dt_) -
+                 way_of(last_, ride.ground) * static_cast<double>(dt_ / last_dt_);
+    return carried;
+  }
+
+ private:
+  /// Of the mover that a collider goes along with [m].
+  [[nodiscard]] Vec2d way_of(const std::vector<MoverMotion<Scalar>>& motions, ColliderIndex ground) const {
+    const MoverIndex mover = scenery_->colliders[ground].mover;
+    if (mover == no_mover) return Vec2d::Zero();
+    return (motions[mover].to - motions[mover].from).template cast<double>();
+  }
+
+  const SceneryDef* scenery_;
+  std::vector<MoverMotion<Scalar>> now_;
+  std::vector<MoverMotion<Scalar>> last_;
+  Scalar dt_ = 0;       ///< Of the present step [s].
+  Scalar last_dt_ = 0;  ///< Of the step before [s].
+};
+
+}  // namespace paperproof::compare
