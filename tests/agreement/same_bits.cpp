@@ -169,6 +169,7 @@ RunResult run_crowd(const Scene& scene) {
   paperproof::CrowdReport<Scalar> report(members);
   std::vector<paperproof::CharacterState<Scalar>> states(members);
   std::vector<paperproof::Input> inputs(members);
+  std::vector<paperproof::MoverMotion<Scalar>> motions(scene.shuttles.size());
   Random random(8);
   Hash hash;
   RunResult result;
@@ -177,7 +178,8 @@ RunResult run_crowd(const Scene& scene) {
       if (step % steps_between_shots == 0) states[i] = shot<Scalar>(random, scene);
       if (step % 20 == 0) inputs[i] = any_input(random);
     }
-    crowd.step(states, inputs, gravity<Scalar>(), Scalar(dt), scratch, report);
+    set_motions(scene, step, motions);
+    crowd.step(states, inputs, gravity<Scalar>(), Scalar(dt), motions, scratch, report);
     hash.add(report.impacts);
     for (const paperproof::CharacterState<Scalar>& state : states) {
       hash.add(state.position);
@@ -209,8 +211,7 @@ void add_lines(const Scene& scene, const std::string& scalar, Lines& lines) {
   for (const paperproof::TechniqueKind kind : paperproof::all_techniques)
     lines[scene.name + ' ' + std::string(paperproof::name_of(kind)) + ' ' + scalar] =
         line_of([&] { return run<Scalar>(scene, kind); });
-  if (scene.shuttles.empty())
-    lines[scene.name + " crowd " + scalar] = line_of([&] { return run_crowd<Scalar>(scene); });
+  lines[scene.name + " crowd " + scalar] = line_of([&] { return run_crowd<Scalar>(scene); });
 }
 
 Lines run_all() {

@@ -372,19 +372,7 @@ TEST(Crowd, a_stage_that_is_left_out_is_not_asked_for) {
   EXPECT_EQ(still.step(), StepStatus::invalid_input);
 }
 
-TEST(Crowd, scenery_that_moves_is_refused_with_a_reason) {
-  ColliderDef lift = rectangle(0, 0, 1, 1);
-  lift.mover = 0;
-  ColliderDef belt = floor_at_zero();
-  belt.surface_speed = 1;
-  for (const ColliderDef& collider : {lift, belt}) {
-    try {
-      Together refused({{0, 5}}, {collider});
-      FAIL() << "nothing was refused";
-    } catch (const std::invalid_argument& error) {
-      EXPECT_NE(std::string(error.what()).find("does not move"), std::string::npos) << error.what();
-    }
-  }
+TEST(Crowd, another_technique_is_refused) {
   EXPECT_THROW(Together({{0, 5}}, {}, {}, {.kind = TechniqueKind::discrete}), std::invalid_argument);
 }
 

@@ -23,6 +23,7 @@ struct Together {
   CrowdReport<double> report;
   std::vector<CharacterState<double>> states;
   std::vector<Input> inputs;
+  std::vector<MoverMotion<double>> movers;  ///< Of the next step.
   Vec2d gravity{0, 0};
   double dt = 1;
 
@@ -33,10 +34,16 @@ struct Together {
         scratch(crowd.make_scratch(positions.size())),
         report(positions.size()),
         states(positions.size()),
-        inputs(positions.size()) {
+        inputs(positions.size()),
+        movers(scenery->mover_count()) {
     for (std::size_t i = 0; i < positions.size(); ++i) states[i].position = positions[i];
   }
-  StepStatus step() { return crowd.step(states, inputs, gravity, dt, scratch, report); }
+  StepStatus step() { return crowd.step(states, inputs, gravity, dt, movers, scratch, report); }
+  /// The movers go on from where they are, each by its way.
+  StepStatus step_with_movers_by(const std::vector<Vec2d>& ways) {
+    for (std::size_t k = 0; k < movers.size(); ++k) movers[k] = {movers[k].to, movers[k].to + ways[k]};
+    return step();
+  }
   void steps(int count) {
     for (int i = 0; i < count; ++i) step();
   }

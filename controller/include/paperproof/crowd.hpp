@@ -47,7 +47,7 @@ struct CrowdScratch {
   std::unique_ptr<OwnMemory> own;
 };
 
-/// Steps characters of one kind through one scenery that does not move. Const and shareable between threads.
+/// Steps characters of one kind through one scenery. Const and shareable between threads.
 ///
 /// All move at once; impacts are handled in the order of their times (Mirtich 1996, "Impulse-based Dynamic Simulation
 /// of Rigid Body Systems", without the impulses). Each character first gets the way that `Controller` would give it:
@@ -57,18 +57,27 @@ struct CrowdScratch {
 /// other goes on as it did. What comes down on a walkable part of another stands on it (and is not carried along).
 /// Of impacts at the same time the one with the lowest first index comes first, then the lowest second index.
 ///
+/// Among movers and conveyors the motions of the movers are given, and each is carried, pushed and crushed as by
+/// `Controller`. Who moves into whom is judged relative to what carries both. Who gives way has the other as an
+/// obstacle that goes its own way, as a mover that carries nobody. Whoever is pushed into another, and has no room
+/// beside it, pushes it on; where that one has no room either, the one that the mover presses is crushed by it. When
+/// the step is made, whoever was crushed looks once more for room, over the whole step and beside all the others.
+///
 /// Guarantee, beside that of `octagon_sweep` for each of them: characters that were apart stay apart, and do not pass
-/// through each other. What cannot be shown to be safe stays where it is (`dropped`). Characters that overlap are
-/// reported, and move only so that they do not get deeper into each other; where the separation is below 1e-8 m, in
-/// `double`, and a motion cannot be shown by exact arithmetic to be free, the same holds.
+/// through each other. What cannot be shown to be safe stays where it is (`dropped`); what a mover then does to it is
+/// reported as a crush. Characters that overlap are reported, and move only so that they do not get deeper into each
+/// other; where the separation is below 1e-8 m, in `double`, and a motion cannot be shown by exact arithmetic to be
+/// free, the same holds. Among movers they get out of each other, and restore their gaps, as out of solids. That there
+/// was no room for who is crushed is promised only where nobody touched it during the step.
 ///
 /// Cost: the ways are compared pair by pair, by their boxes first: n^2/2 box tests for n characters, then one row of
-/// them for each impact. Meant for up to a few hundred.
+/// them for each impact. Meant for up to a few hundred. Among movers a character gives way to at most 12 others in one
+/// step, and the crowd keeps a copy of the scenery with places for them.
 template <class Scalar>
 class Crowd {
  public:
-  /// @throws std::invalid_argument where the scenery has movers or conveyors, or for another technique than
-  ///   `octagon_sweep`; else as `Controller`. `scenery` must outlive the crowd.
+  /// @throws std::invalid_argument for another technique than `octagon_sweep`; else as `Controller`. `scenery` must
+  ///   outlive the crowd.
   Crowd(const Scenery<Scalar>& scenery, const CharacterDef& character, const TechniqueDef& technique = {});
   ~Crowd();
   Crowd(Crowd&&) noexcept;
@@ -82,15 +91,25 @@ class Crowd {
   /// @param scratch,report made for at least as many characters. With fewer, or where one state, input or step is
   ///   refused (see `StepStatus`), nothing changes for anybody.
   StepStatus step(std::span<CharacterState<Scalar>> states, std::span<const Input> inputs, const Vec2<Scalar>& gravity,
-                  Scalar dt, CrowdScratch& scratch, CrowdReport<Scalar>& report) const noexcept;
+                  Scalar dt, CrowdScratch& scratch, CrowdReport<Scalar>& report) const noexcept {
+    return step(states, inputs, gravity, dt, {}, scratch, report);
+  }
+  /// The same among movers.
+  /// @param movers one for each mover of the scenery; another number of them is invalid input.
+  StepStatus step(std::span<CharacterState<Scalar>> states, std::span<const Input> inputs, const Vec2<Scalar>& gravity,
+                  Scalar dt, std::span<const MoverMotion<Scalar>> movers, CrowdScratch& scratch,
+                  CrowdReport<Scalar>& report) const noexcept;
 
   [[nodiscard]] const CharacterDef& character() const noexcept { return controller_.character(); }
 
  private:
   struct Rules;
+  [[nodiscard]] static std::unique_ptr<const Rules> rules_for(const Scenery<Scalar>& scenery,
+                                                              const CharacterDef& character,
+                                                              const TechniqueDef& technique);
 
-  Controller<Scalar> controller_;
   std::unique_ptr<const Rules> rules_;
+  Controller<Scalar> controller_;
 };
 
 extern template class Crowd<float>;

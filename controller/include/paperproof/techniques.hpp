@@ -72,6 +72,9 @@ struct TechniqueDef {
   Stages stages{};
   ArticleKnobs article{};
   int sweep_iterations = 12;  ///< `octagon_sweep`: impacts per step before the rest is dropped; from 1 to 60.
+  /// `octagon_sweep`: colliders from here on are other characters. They are in the way and push, and carry nobody.
+  /// `Crowd` sets it; none otherwise.
+  ColliderIndex first_companion = ~ColliderIndex{0};
   /// `pixel_tile`: the level as tiles (pixel_tiles.hpp), `article.raster_pixels_per_metre` fine. None: they are made
   /// from the scenery, which is what contacts name in either case.
   std::shared_ptr<const PixelTileSet> pixel_tiles{};

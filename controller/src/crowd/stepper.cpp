@@ -1,48 +1,13 @@
 #include "crowd/stepper.hpp"
 
-#include <paperproof/tolerances.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
+#include "crowd/parts.hpp"
+#include "step_parts.hpp"
 
 namespace paperproof::crowd {
+
+using step_parts::touches;
+
 namespace {
-
-template <class Scalar>
-Scalar dot(const Vec2<Scalar>& a, const Vec2<Scalar>& b) noexcept {
-  return a.x() * b.x() + a.y() * b.y();
-}
-
-template <class Scalar>
-bool touches(const MoveResult<Scalar>& move, Side side) noexcept {
-  return std::any_of(move.contacts.begin(), move.contacts.end(),
-                     [side](const Contact<Scalar>& contact) { return contact.side == side; });
-}
-
-/// One contact per collider and side, the earliest, as a technique reports them.
-template <class Scalar>
-void add_contact(MoveResult<Scalar>& move, const Contact<Scalar>& contact) noexcept {
-  const bool known = std::any_of(move.contacts.begin(), move.contacts.end(), [&](const Contact<Scalar>& other) {
-    return other.collider == contact.collider && other.side == contact.side;
-  });
-  if (!known) move.contacts.push_back(contact);
-}
-
-template <class Scalar>
-void add_corner(MoveResult<Scalar>& move, const PathPoint<Scalar>& corner) noexcept {
-  const bool known = !move.path.empty() && move.path.back().position == corner.position &&
-                     move.path.back().fraction == corner.fraction;
-  if (!known) move.path.push_back(corner);
-}
-
-template <class Scalar>
-void clear(StepReport<Scalar>& report) noexcept {
-  report.status = StepStatus::moved;
-  report.move.clear();
-  report.sensors.clear();
-  report.dropped_through.clear();
-}
 
 /// Nothing but staying at a place.
 template <class Scalar>
@@ -50,29 +15,6 @@ void report_stay(const Vec2<Scalar>& position, StepReport<Scalar>& report) noexc
   clear(report);
   report.move.path.push_back({position, 0});
   report.move.path.push_back({position, 1});
-}
-
-template <class Scalar>
-void clear(CrowdMember<Scalar>& member) noexcept {
-  clear(member.step);
-  member.met.clear();
-  member.started_overlapping.clear();
-  member.stayed = false;
-}
-
-/// Bound of the rounding of a component of these rates along a normal.
-template <class Scalar>
-Scalar noise_of(const Vec2<Scalar>& a, const Vec2<Scalar>& b) noexcept {
-  const Scalar largest = std::max({std::abs(a.x()), std::abs(a.y()), std::abs(b.x()), std::abs(b.y())});
-  return std::numeric_limits<Scalar>::epsilon() * 64 * largest;
-}
-
-template <class Scalar, class Path>
-Box2<Scalar> box_along(const PairSpace<Scalar>& space, const Path& path) noexcept {
-  Box2<Scalar> box{path[0].position, path[0].position};
-  for (const PathPoint<Scalar>& corner : path) box = box.merged({corner.position, corner.position});
-  return Box2<Scalar>{box.lower + space.box().lower, box.upper + space.box().upper}.inflated(
-      Tolerances<Scalar>{}.touch);
 }
 
 }  // namespace
@@ -99,7 +41,7 @@ StepStatus Stepper<Scalar>::begin(std::span<const CharacterState<Scalar>> states
     member(i).step.requested = runner.plan.requested;
     find_box(runner);
   }
-  note_overlaps(states);
+  note_overlaps(rules_.space, states, report_);
   return StepStatus::moved;
 }
 
@@ -110,7 +52,7 @@ StepStatus Stepper<Scalar>::move(const Runner<Scalar>& runner, Scalar duration, 
   state = runner.state;
   state.grounded = runner.walks && follow_down && !runner.no_snap;
   const Input input{.move = std::nullopt, .jump = false, .drop = runner.drops};
-  return controller_.step(state, input, V::Zero(), duration, memory_.technique, report);
+  return controller_.step(state, input, V::Zero(), duration, technique_, report);
 }
 
 /// A new way for the rest of the step.
@@ -204,76 +146,28 @@ Meeting<Scalar> Stepper<Scalar>::meeting(std::size_t i, std::size_t j) const noe
   return first_meeting(rules_.space, way_of(first), way_of(second), now_, Tolerances<Scalar>{}.hit);
 }
 
-template <class Scalar>
-void Stepper<Scalar>::find_row(std::size_t i) noexcept {
-  RowBest<Scalar>& best = rows_[i];
-  best = {};
-  for (std::size_t j = i + 1; j < runners_.size(); ++j) {
-    const Meeting<Scalar> found = meeting(i, j);
-    if (found.meets && (!best.meeting.meets || found.time < best.meeting.time))
-      best = {found, static_cast<CharacterIndex>(j)};
-  }
-}
-
-/// One character has a new way: its own row, and what other rows know about it.
-template <class Scalar>
-void Stepper<Scalar>::find_again(std::size_t changed) noexcept {
-  find_row(changed);
-  for (std::size_t i = 0; i < changed; ++i) {
-    RowBest<Scalar>& best = rows_[i];
-    if (best.meeting.meets && best.other == changed) {
-      find_row(i);
-      continue;
-    }
-    const Meeting<Scalar> found = meeting(i, changed);
-    if (!found.meets) continue;
-    const bool earlier = !best.meeting.meets || found.time < best.meeting.time ||
-                         (found.time == best.meeting.time && changed < best.other);
-    if (earlier) best = {found, static_cast<CharacterIndex>(changed)};
-  }
-}
-
-/// Of equal times the lowest index; the number of rows where nobody meets.
-template <class Scalar>
-std::size_t Stepper<Scalar>::earliest_row() const noexcept {
-  std::size_t earliest = rows_.size();
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    if (!rows_[i].meeting.meets) continue;
-    if (earliest == rows_.size() || rows_[i].meeting.time < rows_[earliest].meeting.time) earliest = i;
-  }
-  return earliest;
-}
-
 /// Every impact halts somebody or counts for somebody who is halted after `most_impacts`; two that are halted do not
 /// meet. So it ends.
 template <class Scalar>
 void Stepper<Scalar>::solve() noexcept {
-  for (std::size_t i = 0; i < runners_.size(); ++i) find_row(i);
+  const auto when = [this](std::size_t i, std::size_t j) { return meeting(i, j); };
+  timetable_.find_all(when);
   while (true) {
-    const std::size_t i = earliest_row();
-    if (i == rows_.size()) return;
-    const std::size_t j = rows_[i].other;
-    const Meeting<Scalar> meeting = rows_[i].meeting;
+    const std::size_t i = timetable_.earliest_row();
+    if (i == timetable_.size()) return;
+    const std::size_t j = timetable_[i].other;
+    const Meeting<Scalar> meeting = timetable_[i].meeting;
     now_ = std::max(now_, meeting.time);
     ++report_.impacts;
-    const Scalar first_toward = -dot(meeting.first_rate, meeting.normal);
-    const Scalar second_toward = dot(meeting.second_rate, meeting.normal);
-    const Scalar first_limit = std::max(Scalar(0), -second_toward);
-    const Scalar second_limit = std::max(Scalar(0), -first_toward);
-    // Who goes along the other has a rate towards it that is nothing but rounding: it must not be halted for that.
-    const Scalar noise = noise_of(meeting.first_rate, meeting.second_rate);
-    const bool first_moves_in = first_toward > first_limit + noise;
-    const bool second_moves_in = second_toward > second_limit + noise;
-    // Where rounding hides who comes nearer both stop.
-    const bool nobody = !first_moves_in && !second_moves_in;
-    const bool first_changes = nobody || first_moves_in;
-    const bool second_changes = nobody || second_moves_in;
-    note(i, j, meeting, meeting.normal);
-    note(j, i, meeting, -meeting.normal);
-    if (first_changes) respond(i, meeting, meeting.normal, first_limit);
-    if (second_changes) respond(j, meeting, -meeting.normal, second_limit);
-    if (first_changes) find_again(i);
-    if (second_changes) find_again(j);
+    const MovesIn moves = who_moves_in(meeting.first_rate, meeting.second_rate, meeting.normal);
+    note_meeting(member(i), j, meeting.normal, meeting.impact);
+    note_meeting(member(j), i, V(-meeting.normal), meeting.impact);
+    const Scalar first_limit = std::max(Scalar(0), -dot(meeting.second_rate, meeting.normal));
+    const Scalar second_limit = std::max(Scalar(0), dot(meeting.first_rate, meeting.normal));
+    if (moves.first) respond(i, meeting, meeting.normal, first_limit);
+    if (moves.second) respond(j, meeting, -meeting.normal, second_limit);
+    if (moves.first) timetable_.find_again(i, when);
+    if (moves.second) timetable_.find_again(j, when);
   }
 }
 
@@ -342,68 +236,16 @@ void Stepper<Scalar>::note_touched_scenery(std::size_t i, Scalar impact) noexcep
 }
 
 template <class Scalar>
-void Stepper<Scalar>::note(std::size_t i, std::size_t other, const Meeting<Scalar>& meeting, const V& normal) noexcept {
-  auto& met = member(i).met;
-  const CrowdContact<Scalar> contact{static_cast<CharacterIndex>(other), normal, meeting.impact,
-                                     side_of_normal(normal.x(), normal.y())};
-  const bool known = std::any_of(met.begin(), met.end(), [&](const CrowdContact<Scalar>& earlier) {
-    return earlier.other == contact.other && earlier.side == contact.side;
-  });
-  if (!known) met.push_back(contact);
-}
-
-/// Those that overlap by more than rounding.
-template <class Scalar>
-void Stepper<Scalar>::note_overlaps(std::span<const CharacterState<Scalar>> states) noexcept {
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    for (std::size_t j = i + 1; j < states.size(); ++j) {
-      if (!runners_[i].box.overlaps(runners_[j].box)) continue;
-      const Scalar apart = rules_.space.separation(states[i].position, states[j].position);
-      if (apart >= -Tolerances<Scalar>{}.certain) continue;
-      member(i).started_overlapping.push_back(static_cast<CharacterIndex>(j));
-      member(j).started_overlapping.push_back(static_cast<CharacterIndex>(i));
-    }
-  }
-}
-
-template <class Scalar>
 void Stepper<Scalar>::finish(std::span<CharacterState<Scalar>> states) noexcept {
   for (std::size_t i = 0; i < runners_.size(); ++i) {
     commit(i, runners_[i].plan, 1);
     runners_[i].state = runners_[i].after;
     runners_[i].box = box_along(rules_.space, member(i).step.move.path);
   }
-  keep_back_what_is_not_clear(states);
+  const auto box_of = [this](std::size_t i) -> const Box2<Scalar>& { return runners_[i].box; };
+  keep_back_what_is_not_clear<Scalar>(rules_.space, std::span(report_.members).first(runners_.size()), box_of,
+                                      [&](std::size_t i) { keep_back(i, states[i]); });
   for (std::size_t i = 0; i < runners_.size(); ++i) hand_out(i, states[i]);
-}
-
-template <class Scalar>
-Way<Scalar> Stepper<Scalar>::way_made(std::size_t i) noexcept {
-  const auto& path = member(i).step.move.path;
-  return {{path.begin(), path.size()}, 0, 1};
-}
-
-/// The parts of a way were made one by one, and each may be a little off what was planned. All pairs are looked at once
-/// more; whoever comes too near stays where the step began, which is free; and so on with those who go through there.
-template <class Scalar>
-void Stepper<Scalar>::keep_back_what_is_not_clear(std::span<const CharacterState<Scalar>> states) noexcept {
-  for (std::size_t i = 0; i < runners_.size(); ++i)
-    if (member(i).step.move.path.overflowed()) keep_back(i, states[i]);
-  bool changed = true;
-  while (changed) {
-    changed = false;
-    for (std::size_t i = 0; i < runners_.size(); ++i) {
-      for (std::size_t j = i + 1; j < runners_.size(); ++j) {
-        if (member(i).stayed && member(j).stayed) continue;
-        if (!runners_[i].box.overlaps(runners_[j].box)) continue;
-        constexpr Scalar least = Tolerances<Scalar>{}.certain;
-        if (!first_meeting(rules_.space, way_made(i), way_made(j), Scalar(0), least).meets) continue;
-        keep_back(i, states[i]);
-        keep_back(j, states[j]);
-        changed = true;
-      }
-    }
-  }
 }
 
 template <class Scalar>

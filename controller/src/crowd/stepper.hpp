@@ -1,7 +1,8 @@
 /// The working state of one step of a crowd.
 #pragma once
 
-#include "crowd/meeting.hpp"
+#include "crowd/rules.hpp"
+#include "crowd/timetable.hpp"
 
 #include <paperproof/crowd.hpp>
 
@@ -9,15 +10,6 @@
 #include <vector>
 
 namespace paperproof::crowd {
-
-/// What a crowd knows before the first step.
-template <class Scalar>
-struct CrowdRules {
-  PairSpace<Scalar> space;
-  Scalar walkable_cosine;  ///< Least upward component of a normal that is stood on.
-  int most_impacts;        ///< Of one character in one step, before it stays where it is.
-  Stages stages;           ///< What was not left out.
-};
 
 /// Another character that is touched: no faster than `limit` towards it [m/s].
 template <class Scalar>
@@ -47,32 +39,26 @@ struct Runner {
   bool jump_pending = false;
 };
 
-/// The earliest meeting of a character with one of a higher index.
 template <class Scalar>
-struct RowBest {
-  Meeting<Scalar> meeting;
-  CharacterIndex other = 0;
-};
-
-template <class Scalar>
-struct Memory final : OwnMemory {
+struct Memory {
   std::vector<Runner<Scalar>> runners;
   std::vector<RowBest<Scalar>> rows;
   StepReport<Scalar> part;  ///< Of a way up to an impact.
-  Scratch<Scalar> technique;
 };
 
 template <class Scalar>
 class Stepper {
  public:
   Stepper(const Controller<Scalar>& controller, const CrowdRules<Scalar>& rules, Memory<Scalar>& memory,
-          CrowdReport<Scalar>& report, std::size_t count, const Vec2<Scalar>& gravity, Scalar dt) noexcept
+          Scratch<Scalar>& technique, CrowdReport<Scalar>& report, std::size_t count, const Vec2<Scalar>& gravity,
+          Scalar dt) noexcept
       : controller_(controller),
         rules_(rules),
         memory_(memory),
+        technique_(technique),
         report_(report),
         runners_(std::span(memory.runners).first(count)),
-        rows_(std::span(memory.rows).first(count)),
+        timetable_(std::span(memory.rows).first(count)),
         gravity_(gravity),
         dt_(dt) {}
 
@@ -101,18 +87,11 @@ class Stepper {
   void go_on_to(std::size_t i, Scalar time) noexcept;
 
   [[nodiscard]] Meeting<Scalar> meeting(std::size_t i, std::size_t j) const noexcept;
-  void find_row(std::size_t i) noexcept;
-  void find_again(std::size_t changed) noexcept;
-  [[nodiscard]] std::size_t earliest_row() const noexcept;
   void respond(std::size_t i, const Meeting<Scalar>& meeting, const V& normal, Scalar limit) noexcept;
   [[nodiscard]] bool is_held(const Runner<Scalar>& runner) const noexcept;
   void halt_between(std::size_t i) noexcept;
   void note_touched_scenery(std::size_t i, Scalar impact) noexcept;
-  void note(std::size_t i, std::size_t other, const Meeting<Scalar>& meeting, const V& normal) noexcept;
 
-  void note_overlaps(std::span<const CharacterState<Scalar>> states) noexcept;
-  [[nodiscard]] Way<Scalar> way_made(std::size_t i) noexcept;
-  void keep_back_what_is_not_clear(std::span<const CharacterState<Scalar>> states) noexcept;
   void keep_back(std::size_t i, const CharacterState<Scalar>& start) noexcept;
   [[nodiscard]] StepStatus status_of(std::size_t i) noexcept;
   void hand_out(std::size_t i, CharacterState<Scalar>& state) noexcept;
@@ -120,9 +99,10 @@ class Stepper {
   const Controller<Scalar>& controller_;
   const CrowdRules<Scalar>& rules_;
   Memory<Scalar>& memory_;
+  Scratch<Scalar>& technique_;
   CrowdReport<Scalar>& report_;
   std::span<Runner<Scalar>> runners_;
-  std::span<RowBest<Scalar>> rows_;
+  Timetable<Scalar> timetable_;
   V gravity_;
   Scalar dt_;
   Scalar now_ = 0;

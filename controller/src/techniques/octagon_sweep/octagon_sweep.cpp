@@ -24,7 +24,8 @@ Settings<Scalar> settings_for(const TechniqueDef& def, const CharacterDef& chara
       .snap = static_cast<Scalar>(character.snap),
       .max_fall_speed = static_cast<Scalar>(character.max_fall_speed.value_or(std::numeric_limits<double>::infinity())),
       .look_ahead = static_cast<Scalar>(look_ahead_share * std::max(extent.x(), extent.y())),
-      .iterations = def.sweep_iterations};
+      .iterations = def.sweep_iterations,
+      .first_companion = def.first_companion};
 }
 
 void refuse_omission(bool unsafe, const char* stage, const char* reason) {
@@ -143,9 +144,10 @@ class OctagonSweepAmongMovers final : public OctagonSweep<Scalar> {
       return this->refuse(request, result);
     const Neighbourhood<Scalar> neighbourhood = this->neighbourhood(scratch);
     const bool rides = request.ride.ground != Ride<Scalar>::none;
-    if (!rides && request.movers.empty() && !has_conveyors_)
+    const bool needs_no_mover = !rides && !request.stays;
+    if (needs_no_mover && request.movers.empty() && !has_conveyors_)
       return this->solve_(this->space_, this->settings_, neighbourhood, request, result);
-    if (!rides && keeps_away({request.position, request.position}, request)) {
+    if (needs_no_mover && keeps_away({request.position, request.position}, request)) {
       this->solve_(this->space_, this->settings_, neighbourhood, request, result);
       if (keeps_away(box_of(result.path), request) && !meets_conveyor(result)) return;
       result.clear();

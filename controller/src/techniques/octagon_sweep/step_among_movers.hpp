@@ -142,13 +142,13 @@ bool StepSolver<variant, Scalar>::allowed(const Drive<Scalar>& drive) const noex
 }
 
 /// The response to a surface, as it is seen from there: ground one stands on takes one along; from any other surface
-/// only its motion along its normal is felt.
+/// only its motion along its normal is felt, and so from another character.
 template <Variant variant, class Scalar>
 Drive<Scalar> StepSolver<variant, Scalar>::response_to(const Hold<Scalar>& hold,
                                                        const Drive<Scalar>& drive) const noexcept {
   const auto response = [&](const V& wanted, const V& surface) -> V {
     V frame = surface;
-    if (!walkable(hold.normal)) frame = hold.normal * behind(hold.normal, surface).least;
+    if (!walkable(hold.normal) || is_companion(hold.piece)) frame = hold.normal * behind(hold.normal, surface).least;
     const V relative = wanted - frame;
     if (relative.x() * hold.normal.x() + relative.y() * hold.normal.y() >= 0) return wanted;
     return respond(relative, hold.normal, settings_.walkable_cosine) + frame;

@@ -136,4 +136,17 @@ void StepSolver<variant, Scalar>::stay(bool may_give_way) noexcept {
   push_corner(time_);
 }
 
+/// The whole step, where that is asked for.
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::keep_place(const MoveRequest<Scalar>& request) noexcept {
+  push_corner(0);
+  let_through_what_is_on_it();
+  stay(false);
+  note_pressers(request.pressers);
+  end_wait();
+  if (result_.status == MoveStatus::moved && overlaps(position_)) result_.status = MoveStatus::stuck;
+  result_.position = position_;
+  result_.velocity = velocity_;
+}
+
 }  // namespace paperproof::octagon_sweep

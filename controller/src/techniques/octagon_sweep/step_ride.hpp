@@ -20,7 +20,7 @@ Scalar StepSolver<variant, Scalar>::surface_speed(PieceIndex piece) const noexce
 
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::carries(PieceIndex piece) const noexcept {
-  return mover_of(piece) != no_mover || surface_speed(piece) != 0;
+  return (mover_of(piece) != no_mover && !is_companion(piece)) || surface_speed(piece) != 0;
 }
 
 /// Of what stands on a piece at a surface with this normal [m/s].

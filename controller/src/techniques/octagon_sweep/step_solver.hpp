@@ -36,6 +36,7 @@ struct Settings {
   Scalar max_fall_speed;    ///< Ground that falls faster leaves its rider behind [m/s]; infinite: none does.
   Scalar look_ahead;        ///< How far ahead of a motion candidates are collected at most [m].
   int iterations;
+  ColliderIndex first_companion;  ///< See `TechniqueDef::first_companion`.
 };
 
 /// A piece that stops a motion.
@@ -185,6 +186,9 @@ class StepSolver {
 
   // step_ride.hpp
   [[nodiscard]] MoverIndex mover_of(PieceIndex piece) const noexcept { return space_.scenery().pieces()[piece].mover; }
+  [[nodiscard]] bool is_companion(PieceIndex piece) const noexcept {
+    return space_.scenery().pieces()[piece].collider >= settings_.first_companion;
+  }
   [[nodiscard]] bool carries(PieceIndex piece) const noexcept;
   [[nodiscard]] Scalar surface_speed(PieceIndex piece) const noexcept;
   [[nodiscard]] V ground_velocity(PieceIndex piece, const V& normal) const noexcept;
@@ -245,6 +249,7 @@ class StepSolver {
   void note_pressers(std::span<const Presser<Scalar>> before) noexcept;
   void end_wait() noexcept;
   void stay(bool may_give_way) noexcept;
+  void keep_place(const MoveRequest<Scalar>& request) noexcept;
 
   const ConfigurationSpace<Scalar>& space_;
   const Settings<Scalar>& settings_;

@@ -33,7 +33,10 @@ void StepSolver<variant, Scalar>::solve(const MoveRequest<Scalar>& request) noex
   start_ = position_;
   drops_ = request.drop;
   V wanted = request.displacement;
-  if constexpr (variant.movers) wanted = begin_ride(request);
+  if constexpr (variant.movers) {
+    if (request.stays) return keep_place(request);
+    wanted = begin_ride(request);
+  }
   push_corner(0);
   look_along(wanted);
   const bool near = found_.least_separation < Tolerances<Scalar>{}.hit;
@@ -47,6 +50,7 @@ void StepSolver<variant, Scalar>::solve(const MoveRequest<Scalar>& request) noex
     }
   } else {
     if constexpr (variant.movers) {
+      if (near) moving_.ride.place += position_ - request.position;  // it rests where its gaps were restored
       if (moving_.on_it > 0) {
         halt();
         wanted = V::Zero();

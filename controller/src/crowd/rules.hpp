@@ -1,0 +1,18 @@
+/// What a crowd knows before the first step.
+#pragma once
+
+#include "crowd/pair_space.hpp"
+
+#include <paperproof/plan.hpp>
+
+namespace paperproof::crowd {
+
+template <class Scalar>
+struct CrowdRules {
+  PairSpace<Scalar> space;
+  Scalar walkable_cosine;  ///< Least upward component of a normal that is stood on.
+  int most_impacts;        ///< Of one character in one step, before it stays where it is.
+  Stages stages;           ///< What was not left out.
+};
+
+}  // namespace paperproof::crowd

@@ -1,0 +1,79 @@
+/// The meetings of all pairs, in order.
+#pragma once
+
+#include "crowd/meeting.hpp"
+
+#include <paperproof/crowd.hpp>
+
+#include <span>
+
+namespace paperproof::crowd {
+
+/// The earliest meeting of a character with one of a higher index.
+template <class Scalar>
+struct RowBest {
+  Meeting<Scalar> meeting;
+  CharacterIndex other = 0;
+};
+
+/// Knows of every character whom of a higher index it meets first. A view of its rows.
+///
+/// `meeting(i, j)` answers when two meet, i < j, as their ways are now.
+template <class Scalar>
+class Timetable {
+ public:
+  /// @param rows one for each character.
+  explicit Timetable(std::span<RowBest<Scalar>> rows) noexcept : rows_(rows) {}
+
+  template <class MeetingOf>
+  void find_all(const MeetingOf& meeting) noexcept {
+    for (std::size_t i = 0; i < rows_.size(); ++i) find_row(i, meeting);
+  }
+
+  /// One character has a new way: its own row, and what other rows know about it.
+  template <class MeetingOf>
+  void find_again(std::size_t changed, const MeetingOf& meeting) noexcept {
+    find_row(changed, meeting);
+    for (std::size_t i = 0; i < changed; ++i) {
+      RowBest<Scalar>& best = rows_[i];
+      if (best.meeting.meets && best.other == changed) {
+        find_row(i, meeting);
+        continue;
+      }
+      const Meeting<Scalar> found = meeting(i, changed);
+      if (!found.meets) continue;
+      const bool earlier = !best.meeting.meets || found.time < best.meeting.time ||
+                           (found.time == best.meeting.time && changed < best.other);
+      if (earlier) best = {found, static_cast<CharacterIndex>(changed)};
+    }
+  }
+
+  /// Of equal times the lowest index; the number of rows where nobody meets.
+  [[nodiscard]] std::size_t earliest_row() const noexcept {
+    std::size_t earliest = rows_.size();
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      if (!rows_[i].meeting.meets) continue;
+      if (earliest == rows_.size() || rows_[i].meeting.time < rows_[earliest].meeting.time) earliest = i;
+    }
+    return earliest;
+  }
+
+  [[nodiscard]] const RowBest<Scalar>& operator[](std::size_t row) const noexcept { return rows_[row]; }
+  [[nodiscard]] std::size_t size() const noexcept { return rows_.size(); }
+
+ private:
+  template <class MeetingOf>
+  void find_row(std::size_t i, const MeetingOf& meeting) noexcept {
+    RowBest<Scalar>& best = rows_[i];
+    best = {};
+    for (std::size_t j = i + 1; j < rows_.size(); ++j) {
+      const Meeting<Scalar> found = meeting(i, j);
+      if (found.meets && (!best.meeting.meets || found.time < best.meeting.time))
+        best = {found, static_cast<CharacterIndex>(j)};
+    }
+  }
+
+  std::span<RowBest<Scalar>> rows_;
+};
+
+}  // namespace paperproof::crowd

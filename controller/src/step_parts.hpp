@@ -1,0 +1,87 @@
+/// What every step begins and ends with, of one character or of several.
+#pragma once
+
+#include <paperproof/controller.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace paperproof::step_parts {
+
+/// Every number that is given, together: x - x is zero for a finite number and NaN for any other, so that one branch
+/// tells what would take one per number (a twentieth of a step).
+template <class Scalar>
+class FiniteCheck {
+ public:
+  FiniteCheck& add(const Vec2<Scalar>& v) noexcept {
+    zero_ += v - v;
+    return *this;
+  }
+  [[nodiscard]] bool passed() const noexcept { return zero_.x() == 0 && zero_.y() == 0; }
+
+ private:
+  Vec2<Scalar> zero_{Vec2<Scalar>::Zero()};
+};
+
+template <class Scalar>
+[[nodiscard]] bool finite(const CharacterState<Scalar>& state, const Input& input, const Vec2<Scalar>& gravity,
+                          Scalar dt, std::span<const MoverMotion<Scalar>> movers) noexcept {
+  FiniteCheck<Scalar> check;
+  check.add(state.position).add(state.velocity).add(state.remainder).add(gravity);
+  check.add(state.ride.place).add(state.ride.velocity);
+  if (state.has_last_free) check.add(state.last_free);
+  for (const Presser<Scalar>& presser : state.pressers) check.add(presser.gone);
+  for (const MoverMotion<Scalar>& mover : movers) check.add(mover.from).add(mover.to);
+  return check.passed() && std::isfinite(dt) && std::isfinite(input.move.value_or(0));
+}
+
+[[nodiscard]] inline StepStatus status_of(MoveStatus status) noexcept {
+  switch (status) {
+    case MoveStatus::moved:
+      return StepStatus::moved;
+    case MoveStatus::dropped:
+      return StepStatus::dropped;
+    case MoveStatus::stuck:
+      return StepStatus::stuck;
+    case MoveStatus::crushed:
+      return StepStatus::crushed;
+    case MoveStatus::out_of_range:
+      return StepStatus::out_of_range;
+  }
+  return StepStatus::moved;
+}
+
+template <class Scalar>
+[[nodiscard]] bool touches(const MoveResult<Scalar>& move, Side side) noexcept {
+  return std::any_of(move.contacts.begin(), move.contacts.end(),
+                     [side](const Contact<Scalar>& contact) { return contact.side == side; });
+}
+
+/// What the move means for the next step.
+template <class Scalar>
+void adopt(const CharacterDef& character, const MoveResult<Scalar>& move, CharacterState<Scalar>& state) noexcept {
+  state.position = move.position;
+  state.velocity = move.velocity;
+  state.remainder = move.remainder;
+  state.grounded = move.grounded;
+  state.ride = move.ride;
+  state.crushed = move.status == MoveStatus::crushed || (state.crushed && move.status == MoveStatus::stuck);
+  state.pressers.clear();
+  if (state.crushed) state.pressers = move.pressers;
+  if (move.grounded) state.jumping = false;
+  state.wall_left = touches(move, Side::left);
+  state.wall_right = touches(move, Side::right);
+  if (character.side_hit_ends_rise && (state.wall_left || state.wall_right))
+    state.velocity.y() = std::min(state.velocity.y(), Scalar(0));
+  if (move.status == MoveStatus::stuck) {
+    state.stuck_steps = static_cast<std::uint8_t>(std::min(state.stuck_steps + 1, 255));
+  } else {
+    state.stuck_steps = 0;
+    if (state.crushed) return;  // something is on it
+    state.last_free = move.position;
+    state.has_last_free = true;
+  }
+}
+
+}  // namespace paperproof::step_parts
