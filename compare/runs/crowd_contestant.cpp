@@ -1,5 +1,6 @@
 #include "runs/crowd_contestant.hpp"
 
+#include "runs/mover_record.hpp"
 #include "runs/technique_parts.hpp"
 
 #include <paperproof/crowd.hpp>
@@ -18,6 +19,7 @@ class CrowdContestant final : public Contestant {
         crowd_(scenery_.get(), rules_for(technique, scene.character), definition_of(technique, scene, plan_)),
         scratch_(crowd_.make_scratch(character_count(scene))),
         gravity_(scene.gravity.cast<Scalar>()),
+        movers_(scene.movers.size(), scenery_.get().as_run()),
         header_(header_of(technique, scenery_.get(), scene, plan_)),
         states_(character_count(scene)),
         report_(character_count(scene)) {
@@ -27,11 +29,15 @@ class CrowdContestant final : public Contestant {
   [[nodiscard]] const TraceHeader& header() const noexcept override { return header_; }
 
   void step(const StepInput& input, std::span<TraceStep> records) override {
+    rides_.clear();
+    for (const CharacterState<Scalar>& state : states_) rides_.push_back(state.ride);
     step_unrecorded(input);
     refuse_unusable(report_.status);
     for (std::size_t k = 0; k < states_.size(); ++k) {
       const CrowdMember<Scalar>& member = report_.members[k];
       write_report(member.step, states_[k], records[k]);
+      records[k].requested += movers_.carried_by(rides_[k]);
+      movers_.write(records[k]);
       records[k].met.clear();
       for (const CrowdContact<Scalar>& contact : member.met)
         records[k].met.push_back({.other = contact.other,
@@ -42,7 +48,8 @@ class CrowdContestant final : public Contestant {
   }
 
   void step_unrecorded(const StepInput& input) override {
-    crowd_.step(states_, input.players, gravity_, static_cast<Scalar>(input.dt), scratch_, report_);
+    movers_.take(input);
+    crowd_.step(states_, input.players, gravity_, movers_.dt(), movers_.motions(), scratch_, report_);
   }
 
   [[nodiscard]] Pose pose(std::size_t character) const override { return pose_of(states_[character]); }
@@ -54,8 +61,10 @@ class CrowdContestant final : public Contestant {
   Crowd<Scalar> crowd_;
   CrowdScratch scratch_;
   Vec2<Scalar> gravity_;
+  MoverRecord<Scalar> movers_;
   TraceHeader header_;
   std::vector<CharacterState<Scalar>> states_;
+  std::vector<Ride<Scalar>> rides_;  ///< With which the present step began.
   CrowdReport<Scalar> report_;
 };
 

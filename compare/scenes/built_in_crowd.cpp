@@ -65,6 +65,36 @@ Scene crowd_of_16() {
   return scene;
 }
 
+/// Two stand on a lift that goes up and to the side, and back; after a second the right one walks against the left one.
+Scene two_on_a_lift() {
+  Scene scene = flight(0, half_height + 5e-7, 0, 0, 480);
+  scene.gravity = {0, -30};
+  add_box(scene, "lift", -2, -0.25, 3, 0);
+  move_last(scene, {{.time = 0, .at = {0, 0}}, {.time = 0.5, .at = {0, 0}}, {.time = 3.5, .at = {2, 4.5}}},
+            MoverDef::Loop::ping_pong);
+  add_box(scene, "ground", -10, -10, 10, -9);
+  add_character(scene, 2 * half_width + 1, half_height + 5e-7, 0,
+                {{.step = 0, .move = 0, .jump = std::nullopt}, {.step = 60, .move = -0.5, .jump = std::nullopt}});
+  scene.input.push_back({.step = 0, .move = 0, .jump = std::nullopt});
+  return scene;
+}
+
+/// A press comes along a low passage, pushes one character into another, and both against a wall.
+Scene pressed_in_a_row() {
+  constexpr double face = -1;
+  constexpr double wall = 2.3;
+  constexpr double speed = 2.4;
+  Scene scene = flight(0, half_height + 5e-7, 0, 0, 60);
+  scene.gravity = {0, -30};
+  add_box(scene, "floor", -20, -1, 20, 0);
+  add_box(scene, "roof", -20, 1.3, 20, 2);
+  add_box(scene, "wall", wall, 0, wall + 1, 1.3);
+  add_box(scene, "press", face - 1, 0.01, face, 1.29);
+  move_last(scene, {{.time = 0, .at = {0, 0}}, {.time = 2, .at = {2 * speed, 0}}});
+  add_character(scene, 1.5, half_height + 5e-7, 0);
+  return scene;
+}
+
 }  // namespace
 
 std::vector<BuiltInScene> crowd_scenes() {
@@ -77,6 +107,12 @@ std::vector<BuiltInScene> crowd_scenes() {
        jump_onto_a_head},
       {"crowd_of_16", "sixteen in a tight room, each at random by itself: none gets past another or into a wall",
        crowd_of_16},
+      {"two_on_a_lift", "two are carried without a lag, also where one walks against the other on the way",
+       two_on_a_lift},
+      {"pressed_in_a_row",
+       "a press pushes one into another, and both against a wall: the first is crushed in step 51, where "
+       "(3.3 - 4 half widths) / (v h) = 51.25 falls, the other never",
+       pressed_in_a_row},
   };
 }
 

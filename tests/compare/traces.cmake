@@ -18,7 +18,7 @@ function(paperproof_trace_test name)
 endfunction()
 
 set(checked_scenes article_bullet slope_joints jump_into_corner rotated_wall wedge_60 start_overlapping_deep
-  three_in_a_row jump_onto_a_head
+  three_in_a_row jump_onto_a_head two_on_a_lift pressed_in_a_row
     lift_up lift_sideways closing_ceiling sweeping_paper head_on one_way_drop one_way_lift_drop one_way_turns_within
     thin_sensor stack_1000 falling_crate)
 add_test(NAME trace.write COMMAND paperproof compare ${checked_scenes} turning_arm rotating_paper --no-timing --quiet --trace "${traces}/t")
