@@ -39,7 +39,7 @@ bool any_ground_carries(const SceneryDef& scenery) {
   });
 }
 
-const ReferenceWorldDef& checked(const ReferenceWorldDef& def) {
+const ReferenceWorldDef& checked_definition(const ReferenceWorldDef& def) {
   constexpr int most = 1000;
   if (def.velocity_iterations < 1 || def.velocity_iterations > most || def.position_iterations < 1 ||
       def.position_iterations > most) {
@@ -55,7 +55,7 @@ std::string box2d_version() { return PAPERPROOF_BOX2D_VERSION; }
 struct ReferenceWorld::Impl {
   Impl(const Scenery<double>& scenery, const CharacterDef& character, std::span<const Vec2d> positions,
        const ReferenceWorldDef& definition)
-      : def(checked(definition)),
+      : def(checked_definition(definition)),
         least_up(std::cos(character.max_climb_degrees * std::numbers::pi / 180)),
         stage(world, scenery, def.mode),
         looks_for_ground(any_ground_carries(stage.as_run)) {
