@@ -191,14 +191,14 @@ class SceneryReader {
     scene_.movers.push_back(std::move(mover));
   }
 
-  void read_body(const JsonCursor& entry, std::size_t index, double longest_step) {
+  void read_body(const JsonCursor& entry, std::size_t index, double step_seconds) {
     entry.refuse_other_keys({"id", "polygon", "holes", "mass", "friction", "restitution", "velocity"});
     MoverDef mover{.id = take_id(entry, "bodies", index), .path = {{}}};
     Body& body = mover.body.emplace();
     if (const auto mass = entry.find("mass")) body.mass = mass->number_within(1e-6, 1e9);
     if (const auto friction = entry.find("friction")) body.friction = friction->number_within(0, 1e6);
     if (const auto restitution = entry.find("restitution")) body.restitution = restitution->number_within(0, 1);
-    if (const auto velocity = entry.find("velocity")) body.velocity = read_velocity(*velocity, longest_step);
+    if (const auto velocity = entry.find("velocity")) body.velocity = read_velocity(*velocity, step_seconds);
     ColliderDef collider = read_collider(entry, "polygon");
     collider.mover = static_cast<MoverIndex>(scene_.movers.size());
     add(mover.id, std::move(collider), entry.require("polygon").where());
