@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <set>
 #include <type_traits>
@@ -34,7 +35,8 @@ void refuse_key_beside(const JsonCursor& entry, std::string_view key, const std:
   if (const auto found = entry.find(key)) found->refuse(fmt::format("expected only beside \"{}\"", needed));
 }
 
-ColliderDef read_collider(const JsonCursor& entry, const std::string& shape) {
+/// @param step_seconds of the scene's longest step.
+ColliderDef read_collider(const JsonCursor& entry, const std::string& shape, double step_seconds) {
   refuse_key_beside(entry, "holes", shape, "polygon");
   refuse_key_beside(entry, "one_way", shape, "chain");
   ColliderDef collider;
@@ -42,6 +44,7 @@ ColliderDef read_collider(const JsonCursor& entry, const std::string& shape) {
   if (const auto speed = entry.find("surface_speed")) {
     if (collider.sensor) speed->refuse("expected only beside what blocks: nothing stands on a sensor");
     collider.surface_speed = speed->number();
+    check_travel(*speed, std::abs(collider.surface_speed) * step_seconds, step_seconds);
   }
   if (shape == "chain") {
     collider.shape = ColliderDef::Shape::chain;
@@ -71,13 +74,14 @@ PictureRule read_picture_rule(const JsonCursor& entry) {
 /// Reads everything that has an id.
 class SceneryReader {
  public:
-  SceneryReader(Scene& scene, std::string path) : scene_(scene), path_(std::move(path)) {}
+  /// @param step_seconds of the scene's longest step.
+  SceneryReader(Scene& scene, std::string path, double step_seconds)
+      : scene_(scene), path_(std::move(path)), step_seconds_(step_seconds) {}
 
   void read(const JsonScenery& lists) {
     for (std::size_t i = 0; i < lists.scenery.size(); ++i) read_entry(lists.scenery.element(i), i);
     for (std::size_t i = 0; lists.movers && i < lists.movers->size(); ++i) read_mover(lists.movers->element(i), i);
-    for (std::size_t i = 0; lists.bodies && i < lists.bodies->size(); ++i)
-      read_body(lists.bodies->element(i), i, lists.longest_step);
+    for (std::size_t i = 0; lists.bodies && i < lists.bodies->size(); ++i) read_body(lists.bodies->element(i), i);
     check_scenery(scene_.scenery, scene_.ids, [this](ColliderIndex index) { return where_[index]; });
   }
 
@@ -115,7 +119,7 @@ class SceneryReader {
       else
         add_picture(id, at, read_picture_rule(entry));
     } else {
-      add(id, read_collider(entry, shape), at.where());
+      add(id, read_collider(entry, shape, step_seconds_), at.where());
     }
   }
 
@@ -176,7 +180,7 @@ class SceneryReader {
     const std::string shape = only_shape(entry, {"polygon", "chain"});
     MoverDef mover;
     mover.id = take_id(entry, "movers", index);
-    ColliderDef collider = read_collider(entry, shape);
+    ColliderDef collider = read_collider(entry, shape, step_seconds_);
     collider.mover = static_cast<MoverIndex>(scene_.movers.size());
     if (const auto loop = entry.find("loop")) mover.loop = read_loop(*loop);
     const JsonCursor path = entry.require("path");
@@ -191,15 +195,15 @@ class SceneryReader {
     scene_.movers.push_back(std::move(mover));
   }
 
-  void read_body(const JsonCursor& entry, std::size_t index, double step_seconds) {
+  void read_body(const JsonCursor& entry, std::size_t index) {
     entry.refuse_other_keys({"id", "polygon", "holes", "mass", "friction", "restitution", "velocity"});
     MoverDef mover{.id = take_id(entry, "bodies", index), .path = {{}}};
     Body& body = mover.body.emplace();
     if (const auto mass = entry.find("mass")) body.mass = mass->number_within(1e-6, 1e9);
     if (const auto friction = entry.find("friction")) body.friction = friction->number_within(0, 1e6);
     if (const auto restitution = entry.find("restitution")) body.restitution = restitution->number_within(0, 1);
-    if (const auto velocity = entry.find("velocity")) body.velocity = read_velocity(*velocity, step_seconds);
-    ColliderDef collider = read_collider(entry, "polygon");
+    if (const auto velocity = entry.find("velocity")) body.velocity = read_velocity(*velocity, step_seconds_);
+    ColliderDef collider = read_collider(entry, "polygon", step_seconds_);
     collider.mover = static_cast<MoverIndex>(scene_.movers.size());
     add(mover.id, std::move(collider), entry.require("polygon").where());
     scene_.movers.push_back(std::move(mover));
@@ -239,6 +243,7 @@ class SceneryReader {
 
   Scene& scene_;
   std::string path_;
+  double step_seconds_;
   std::set<std::string> ids_;
   std::vector<std::string> where_;
 };
@@ -246,7 +251,7 @@ class SceneryReader {
 }  // namespace
 
 void read_json_scenery(const JsonScenery& lists, const std::string& path, Scene& scene) {
-  SceneryReader(scene, path).read(lists);
+  SceneryReader(scene, path, lists.longest_step).read(lists);
 }
 
 }  // namespace paperproof::compare

@@ -79,10 +79,13 @@ class Builder : public nlohmann::json_sax<json> {
   }
 
  private:
-  /// What the library says after its own prefix with id and position.
+  /// What the library says after its own prefix with id and position. It quotes the file, whose bytes may be no text.
   static std::string reason(const std::string& what) {
     const std::size_t colon = what.find(": ");
-    return colon == std::string::npos ? what : what.substr(colon + 2);
+    std::string said = colon == std::string::npos ? what : what.substr(colon + 2);
+    std::replace_if(
+        said.begin(), said.end(), [](unsigned char c) { return c >= 0x80; }, '?');
+    return said;
   }
   json* add(json value, bool) {
     if (open_.empty()) {

@@ -1,6 +1,8 @@
 /// What JSON scenes are refused, and in which words.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "good_json_scene.hpp"
 #include "scene_files.hpp"
 
@@ -114,6 +116,8 @@ INSTANTIATE_TEST_SUITE_P(
             ": /scenery/1/surface_speed: expected only beside what blocks"},
         Bad{"sensor_picture", "\"chain\": [[5,0],[5,4]]", "\"sensor\": true, \"picture\": \"a.png\"",
             ": /scenery/1/sensor: expected only beside \"polygon\" or \"chain\""},
+        Bad{"fast_belt", "\"chain\": [[5,0],[5,4]]", "\"chain\": [[5,0],[5,4]], \"surface_speed\": -1.3e8",
+            ": /scenery/1/surface_speed: expected at most 1e6 m of motion"},
         Bad{"angle_is_a_number", "\"loop\"", "\"angle\": 1, \"loop\"", ": /movers/0/angle: expected an array"},
         Bad{"angle_back_in_time", "\"loop\"",
             "\"angle\": [ { \"t\": 1, \"at\": 0 }, { \"t\": 1, \"at\": 2 } ], \"loop\"",
@@ -196,7 +200,9 @@ TEST(JsonFile, something_else_in_json_is_refused) {
   const SceneFiles files;
   EXPECT_EQ(files.complaint("other.json", "{\"a\": 1}"), ": /paperproof_scene: expected this key, which is missing");
   EXPECT_EQ(files.complaint("list.json", "[]"), ": /: expected an object");
-  EXPECT_TRUE(begins(files.complaint("bytes.json", "{\"name\": \"\xff\xfe\"}"), ":1:"));
+  const std::string bytes = files.complaint("bytes.json", "{\"name\": \"\xff\xfe\"}");
+  EXPECT_TRUE(begins(bytes, ":1:"));
+  EXPECT_TRUE(std::all_of(bytes.begin(), bytes.end(), [](unsigned char c) { return c < 0x80; })) << bytes;
 }
 
 TEST(JsonFile, line_and_column_count_from_one) {
