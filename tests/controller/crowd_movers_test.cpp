@@ -237,8 +237,10 @@ TEST(CrowdAmongMovers, who_meets_nobody_moves_as_by_the_controller_to_the_last_b
   std::vector<CharacterState<double>> alone = all.states;
   StepReport<double> report;
   for (int step = 0; step < 200; ++step) {
-    for (std::size_t i = 0; i < 3; ++i)
-      all.inputs[i] = {.move = step % (20 + 10 * i) < 10 ? 0.3 : -0.3, .jump = step % 50 > 45, .drop = false};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const int turn = 20 + 10 * static_cast<int>(i);
+      all.inputs[i] = {.move = step % turn < 10 ? 0.3 : -0.3, .jump = step % 50 > 45, .drop = false};
+    }
     all.step_with_movers_by({there_and_back({0.1, 0.05}, step) * 0.5, {0.03, 0}});
     for (std::size_t i = 0; i < 3; ++i) {
       controller.step(alone[i], all.inputs[i], all.gravity, all.dt, all.movers, scratch, report);
