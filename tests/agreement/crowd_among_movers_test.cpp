@@ -321,7 +321,7 @@ TEST(CrowdAmongMovers, nobody_gets_into_or_through_another_or_a_solid_unless_it_
   // Much must have happened.
   EXPECT_GE(tally.with_impact, 0.3 * tally.steps);
   EXPECT_GE(tally.riding, 0.02 * tally.moves);
-  EXPECT_GE(tally.crushed, 1e-3 * tally.moves);
+  EXPECT_GE(tally.crushed, 5e-4 * tally.moves);  // a fifth of what a hundred times as many moves have
   EXPECT_LE(tally.crushed, 0.02 * tally.moves);
 }
 
