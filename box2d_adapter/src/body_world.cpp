@@ -10,6 +10,7 @@ struct BodyWorld::Impl {
   Impl(const Scenery<double>& scenery, std::span<const std::optional<BodyDef>> bodies, const Vec2d& gravity)
       : world(checked(gravity, "gravity")), stage(world, scenery, SceneryMode::chain_loops, bodies) {
     world.SetAllowSleeping(false);
+    stage.parts.clear();
   }
 
   b2World world;

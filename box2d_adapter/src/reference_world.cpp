@@ -60,8 +60,7 @@ struct ReferenceWorld::Impl {
         stage(world, scenery, def.mode),
         looks_for_ground(any_ground_carries(stage.as_run)) {
     for (const Vec2d& corner : character.shape.hull()) points.push_back(widened(rounded(corner)));
-    for (const Part& part : parts_of(stage.as_run, scenery.mover_count()))
-      lookups.emplace_back(part.solids, part.colliders);
+    for (const Part& part : std::exchange(stage.parts, {})) lookups.emplace_back(part.solids, part.colliders);
     world.SetAllowSleeping(false);
     world.SetContactListener(&dispatcher);
     for (const Vec2d& position : positions) add_character(character, checked(position, "the character's position"));

@@ -72,11 +72,11 @@ b2BodyDef body_of(const Part& part, const BodyDef* dynamic) {
 
 SceneryBodies::SceneryBodies(b2World& world, const Scenery<double>& scenery, SceneryMode mode,
                              std::span<const std::optional<BodyDef>> dynamic)
-    : as_run(rounded(scenery.as_run())), world_(world) {
+    : as_run(rounded(scenery.as_run())), parts(parts_of(as_run, scenery.mover_count())), world_(world) {
   if (!dynamic.empty() && dynamic.size() != scenery.mover_count())
     throw InvalidDefinition("bodies are given for each mover, or for none");
   std::vector<b2Body*> bodies;
-  for (const Part& part : parts_of(as_run, scenery.mover_count())) {
+  for (const Part& part : parts) {
     const BodyDef* body = nullptr;
     if (part.mover != no_mover && !dynamic.empty() && dynamic[part.mover]) body = &*dynamic[part.mover];
     const b2BodyDef def = body_of(part, body);

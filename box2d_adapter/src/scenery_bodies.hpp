@@ -36,7 +36,8 @@ struct SceneryBodies {
     float goal_angle = 0;  ///< The same [radians].
   };
 
-  SceneryDef as_run;  ///< In float.
+  SceneryDef as_run;        ///< In float.
+  std::vector<Part> parts;  ///< What stands, then each mover. Needed no more once the bodies are there.
   SceneryFixtures fixtures;
   std::vector<Mover> movers;
   std::vector<Vec2d> offsets;                ///< Of the movers, when the step begins [m].

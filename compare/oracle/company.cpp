@@ -42,13 +42,6 @@ Vec2d place_at(const std::vector<PathPoint<double>>& path, double fraction) {
   return path.back().position;
 }
 
-/// Up to this gap a contender says that it touches [m]: in float that is more than what the judge calls touching.
-double touching_gap(const TraceHeader& header) {
-  const auto touch = std::find_if(header.tolerances.begin(), header.tolerances.end(),
-                                  [](const NamedTolerance& tolerance) { return tolerance.name == "touch"; });
-  return touch == header.tolerances.end() ? 0 : touch->metres;
-}
-
 const Vec2d& start_of(const TraceStep& step) { return step.path.front().position; }
 const Vec2d& end_of(const TraceStep& step) { return step.path.back().position; }
 
@@ -59,7 +52,7 @@ CompanyJudge::CompanyJudge(const TraceHeader& header)
       pair_(header.points),
       box_(box_of(header.points)),
       slop_(detail::slop_of(header)),
-      reach_(header.path_exact ? std::max(detail::contact_reach, touching_gap(header)) : detail::skin) {}
+      reach_(header.path_exact ? std::max(detail::contact_reach, detail::touch_of(header)) : detail::skin) {}
 
 std::vector<CharacterIndex> CompanyJudge::overlapped(std::span<const Vec2d> positions, CharacterIndex character) const {
   std::vector<CharacterIndex> found;

@@ -15,13 +15,6 @@ constexpr double same_face = 0.9;
 /// A smaller share of the speed is rounding: Box2D's floats have 24 bits.
 constexpr double least_loss = 1e-5;
 
-/// See `touch_`; 0 where the contender does not say.
-double touch_of(const TraceHeader& header) {
-  for (const NamedTolerance& tolerance : header.tolerances)
-    if (tolerance.name == "touch") return tolerance.metres;
-  return 0;
-}
-
 void add_contact(const ExactImpact& impact, double fraction, StepJudgement& judgement) {
   const Side side = side_of_normal(impact.normal.x(), impact.normal.y());
   for (ExactContact& known : judgement.contacts) {
@@ -34,6 +27,12 @@ void add_contact(const ExactImpact& impact, double fraction, StepJudgement& judg
 }
 
 }  // namespace
+
+double touch_of(const TraceHeader& header) {
+  for (const NamedTolerance& tolerance : header.tolerances)
+    if (tolerance.name == "touch") return tolerance.metres;
+  return 0;
+}
 
 ContactJudge::ContactJudge(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step)
     : header_(header), scenery_(scenery), step_(step), touch_(touch_of(header)) {}

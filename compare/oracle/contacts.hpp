@@ -10,6 +10,10 @@ inline constexpr double skin = 0.020;
 /// A contact is this near along its normal [m]: twice what the controller stops at.
 inline constexpr double contact_reach = 1e-6;
 
+/// Up to this gap the contender holds a contact that it has [m]; 0 where it does not say. In float that is more than
+/// `contact_reach`.
+[[nodiscard]] double touch_of(const TraceHeader& header);
+
 /// Judges the contacts of one step: see `Judge` for what each answer means. Lives for one step.
 class ContactJudge {
  public:
@@ -36,7 +40,7 @@ class ContactJudge {
   const TraceHeader& header_;
   const ExactScenery& scenery_;
   const TraceStep& step_;
-  double touch_;  ///< Up to this gap the contender holds a contact that it has [m].
+  double touch_;  ///< See `touch_of`.
 };
 
 }  // namespace paperproof::compare::detail

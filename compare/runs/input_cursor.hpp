@@ -19,7 +19,7 @@ class InputCursor {
 
   /// The players do what `input_at` says. What is returned holds until the next call.
   [[nodiscard]] StepInput at(int step) {
-    movers_.advance(step);
+    movers_.advance(step, times_);
     for (std::size_t k = 0; k < script_.size(); ++k) advance(k, step);
     return {times_.length(step), now_, movers_.motions(), movers_.turns()};
   }

@@ -27,21 +27,17 @@ std::optional<box2d::BodyWorld> world_of_bodies(const Scene& scene) {
 }  // namespace
 
 MoverMotions::MoverMotions(const Scene& scene)
-    : scene_(scene),
-      times_(scene),
-      bodies_(world_of_bodies(scene)),
-      motions_(scene.movers.size()),
-      turns_(scene.movers.size()) {}
+    : scene_(scene), bodies_(world_of_bodies(scene)), motions_(scene.movers.size()), turns_(scene.movers.size()) {}
 
-void MoverMotions::advance(int step) {
+void MoverMotions::advance(int step, const StepTimes& times) {
   for (std::size_t i = 0; i < motions_.size(); ++i) {
-    motions_[i] = motion_between(scene_.movers[i], times_.begin(step), times_.end(step));
-    turns_[i] = turn_between(scene_.movers[i], times_.begin(step), times_.end(step));
+    motions_[i] = motion_between(scene_.movers[i], times.begin(step), times.end(step));
+    turns_[i] = turn_between(scene_.movers[i], times.begin(step), times.end(step));
   }
   if (!bodies_) return;
   body_turns_.clear();
   for (const TurnMotion& turn : turns_) body_turns_.push_back({turn.from, turn.to});
-  bodies_->step(times_.length(step), motions_, body_turns_);
+  bodies_->step(times.length(step), motions_, body_turns_);
 }
 
 }  // namespace paperproof::compare

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "one_way_chains.hpp"
+#include "scenery_facts.hpp"
 #include "sensors.hpp"
 #include "step_parts.hpp"
 
@@ -86,9 +87,7 @@ Controller<Scalar>::Controller(const Scenery<Scalar>& scenery, const CharacterDe
     throw std::invalid_argument("stages: sensors cannot be left out: there is a sensor");
   technique_ = make_technique<Scalar>(technique, scenery, character_);
   if (scenery.sensor_pieces().size() > 0) sensors_ = std::make_shared<Sensors<Scalar>>(scenery, character_.shape);
-  const std::span<const PieceInfo> pieces = scenery.pieces();
-  if (std::any_of(pieces.begin(), pieces.end(), [](const PieceInfo& piece) { return piece.one_way; }))
-    one_way_ = std::make_shared<OneWayChains<Scalar>>(scenery, character_.shape);
+  if (has_one_way_chains(scenery)) one_way_ = std::make_shared<OneWayChains<Scalar>>(scenery, character_.shape);
 }
 
 template <class Scalar>

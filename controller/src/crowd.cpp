@@ -8,6 +8,7 @@
 
 #include "crowd/among_movers.hpp"
 #include "crowd/stepper.hpp"
+#include "scenery_facts.hpp"
 
 namespace paperproof {
 namespace {
@@ -15,14 +16,6 @@ namespace {
 void require_octagon_sweep(const TechniqueDef& technique) {
   if (technique.kind != TechniqueKind::octagon_sweep)
     throw std::invalid_argument("a crowd moves by octagon_sweep: no other technique keeps what it promises");
-}
-
-template <class Scalar>
-bool moves(const Scenery<Scalar>& scenery) {
-  const std::vector<ColliderDef>& colliders = scenery.as_run().colliders;
-  return std::any_of(colliders.begin(), colliders.end(), [](const ColliderDef& collider) {
-    return collider.mover != no_mover || collider.surface_speed != 0;
-  });
 }
 
 /// With the stages that places for other characters need.
@@ -78,7 +71,8 @@ std::unique_ptr<const typename Crowd<Scalar>::Rules> Crowd<Scalar>::rules_for(co
                                      technique.sweep_iterations, technique.stages},
                                     scenery.mover_count(),
                                     nullptr});
-  if (moves(scenery)) rules->surrounded = std::make_unique<const crowd::Surrounded<Scalar>>(scenery, character.shape);
+  if (scenery.mover_count() > 0 || has_conveyors(scenery))
+    rules->surrounded = std::make_unique<const crowd::Surrounded<Scalar>>(scenery, character.shape);
   return rules;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scenery_facts.hpp"
+
 namespace paperproof {
 namespace {
 
@@ -105,8 +107,7 @@ Plan make_plan(const Scenery<Scalar>& scenery, const CharacterDef& character, co
     plan.stages.*member = needed;
     if (!needed) plan.omitted.push_back({stage, reason});
   };
-  const bool moves = scenery.mover_count() > 0 || any([](const ColliderDef& def) { return def.surface_speed != 0; });
-  leave_out(moves, Stage::movers, &Stages::movers,
+  leave_out(scenery.mover_count() > 0 || has_conveyors(scenery), Stage::movers, &Stages::movers,
             "nothing moves and nothing conveys, so impacts have no order in time but the character's own way");
   leave_out(any([](const ColliderDef& def) { return def.one_way.has_value(); }), Stage::one_way, &Stages::one_way,
             "there is no one-way chain, so no impact depends on the side from which it comes");

@@ -58,6 +58,15 @@ template <class Scalar>
                      [side](const Contact<Scalar>& contact) { return contact.side == side; });
 }
 
+/// Whether something is on it after a move; where nothing is, that is where it was free last.
+template <class Scalar>
+void note_freedom(const MoveResult<Scalar>& move, CharacterState<Scalar>& state) noexcept {
+  state.crushed = move.status == MoveStatus::crushed || (state.crushed && move.status == MoveStatus::stuck);
+  if (state.crushed || move.status == MoveStatus::stuck) return;
+  state.last_free = move.position;
+  state.has_last_free = true;
+}
+
 /// What the move means for the next step.
 template <class Scalar>
 void adopt(const CharacterDef& character, const MoveResult<Scalar>& move, CharacterState<Scalar>& state) noexcept {
@@ -66,7 +75,7 @@ void adopt(const CharacterDef& character, const MoveResult<Scalar>& move, Charac
   state.remainder = move.remainder;
   state.grounded = move.grounded;
   state.ride = move.ride;
-  state.crushed = move.status == MoveStatus::crushed || (state.crushed && move.status == MoveStatus::stuck);
+  note_freedom(move, state);
   state.pressers.clear();
   if (state.crushed) state.pressers = move.pressers;
   if (move.grounded) state.jumping = false;
@@ -74,14 +83,8 @@ void adopt(const CharacterDef& character, const MoveResult<Scalar>& move, Charac
   state.wall_right = touches(move, Side::right);
   if (character.side_hit_ends_rise && (state.wall_left || state.wall_right))
     state.velocity.y() = std::min(state.velocity.y(), Scalar(0));
-  if (move.status == MoveStatus::stuck) {
-    state.stuck_steps = static_cast<std::uint8_t>(std::min(state.stuck_steps + 1, 255));
-  } else {
-    state.stuck_steps = 0;
-    if (state.crushed) return;  // something is on it
-    state.last_free = move.position;
-    state.has_last_free = true;
-  }
+  const int stuck_steps = move.status == MoveStatus::stuck ? std::min(state.stuck_steps + 1, 255) : 0;
+  state.stuck_steps = static_cast<std::uint8_t>(stuck_steps);
 }
 
 }  // namespace paperproof::step_parts

@@ -1,5 +1,6 @@
 #include "crowd/among_movers_impacts.hpp"
 #include "one_way_chains.hpp"
+#include "scenery_facts.hpp"
 #include "sensors.hpp"
 #include "step_parts.hpp"
 
@@ -17,12 +18,6 @@ SceneryDef with_places_for_company(const Scenery<Scalar>& scene, const Character
   return def;
 }
 
-template <class Scalar>
-bool any_one_way_chain(const Scenery<Scalar>& scenery) {
-  const auto pieces = scenery.pieces();
-  return std::any_of(pieces.begin(), pieces.end(), [](const PieceInfo& piece) { return piece.one_way; });
-}
-
 }  // namespace
 
 template <class Scalar>
@@ -30,7 +25,7 @@ Surrounded<Scalar>::Surrounded(const Scenery<Scalar>& scene, const CharacterShap
     : scenery(with_places_for_company(scene, shape)),
       first_companion(static_cast<ColliderIndex>(scene.as_run().colliders.size())) {
   if (scenery.sensor_pieces().size() > 0) sensors = std::make_unique<Sensors<Scalar>>(scenery, shape);
-  if (any_one_way_chain(scenery)) one_way = std::make_unique<OneWayChains<Scalar>>(scenery, shape);
+  if (has_one_way_chains(scenery)) one_way = std::make_unique<OneWayChains<Scalar>>(scenery, shape);
 }
 
 template <class Scalar>

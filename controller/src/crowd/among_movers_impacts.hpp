@@ -41,15 +41,10 @@ void AmongMovers<Scalar>::solve() noexcept {
   keep_company_from_the_start();
   const auto when = [this](std::size_t i, std::size_t j) { return meeting(i, j); };
   timetable_.find_all(when);
-  while (true) {
-    const std::size_t i = timetable_.earliest_row();
-    if (i == timetable_.size()) return;
-    const std::size_t j = timetable_[i].other;
-    const Meeting<Scalar> found = timetable_[i].meeting;
+  while (const std::optional<NextMeeting<Scalar>> next = timetable_.earliest()) {
+    const auto& [i, j, found] = *next;
     time_ = std::max(time_, found.time);
-    ++report_.impacts;
-    note_meeting(member(i), j, found.normal, found.impact);
-    note_meeting(member(j), i, V(-found.normal), found.impact);
+    note_impact(*next, report_);
     if (found.at_once)
       meet_at_once(i, j, found);
     else

@@ -3,6 +3,7 @@
 
 #include "crowd/among_movers.hpp"
 #include "crowd/parts.hpp"
+#include "step_parts.hpp"
 
 namespace paperproof::crowd {
 
@@ -125,10 +126,7 @@ void AmongMovers<Scalar>::append(const MoveResult<Scalar>& part, Scalar begin, S
     way.status = MoveStatus::crushed;
   else if (!dropped)
     way.status = part.status;
-  way.position = part.position;
-  way.velocity = part.velocity;
-  way.grounded = part.grounded;
-  way.ride = part.ride;
+  take_end(part, way);
 }
 
 template <class Scalar>
@@ -142,13 +140,10 @@ void AmongMovers<Scalar>::pass_on(const MoveResult<Scalar>& part, Scalar end, Mo
   if (state.ride.ground != Ride<Scalar>::none) at.own -= state.ride.velocity;
   // The ground took its weight, which holds it to the ground for the rest as well.
   if (part.grounded) at.own += gravity_ * dt_;
-  state.crushed = part.status == MoveStatus::crushed || (state.crushed && part.status == MoveStatus::stuck);
+  step_parts::note_freedom(part, state);
   state.pressers.clear();
   for (const Presser<Scalar>& presser : part.pressers)
     if (state.crushed && !is_companion(presser.collider)) state.pressers.push_back(presser);
-  if (state.crushed || part.status == MoveStatus::stuck) return;
-  state.last_free = part.position;
-  state.has_last_free = true;
 }
 
 template <class Scalar>
@@ -237,10 +232,7 @@ void AmongMovers<Scalar>::make(std::size_t i, const MoveResult<Scalar>& way) noe
     if (!is_companion(collider) && !names(made, collider)) made.crushed.push_back(collider);
   walker.dropped = walker.dropped || way.status == MoveStatus::dropped;
   made.status = way.status;
-  made.position = way.position;
-  made.velocity = way.velocity;
-  made.grounded = way.grounded;
-  made.ride = way.ride;
+  take_end(way, made);
 }
 
 /// Makes the planned way up to a time: the technique is asked again, with less to go.

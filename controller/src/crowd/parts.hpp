@@ -1,7 +1,7 @@
 /// What both steppers of a crowd do with reports and ways.
 #pragma once
 
-#include "crowd/meeting.hpp"
+#include "crowd/timetable.hpp"
 
 #include <paperproof/crowd.hpp>
 #include <paperproof/tolerances.hpp>
@@ -61,6 +61,15 @@ void note_meeting(CrowdMember<Scalar>& member, std::size_t other, const Vec2<Sca
   if (!known) member.met.push_back(contact);
 }
 
+/// An impact is handled: both report it.
+template <class Scalar>
+void note_impact(const NextMeeting<Scalar>& next, CrowdReport<Scalar>& report) noexcept {
+  const Meeting<Scalar>& meeting = next.meeting;
+  ++report.impacts;
+  note_meeting(report.members[next.first], next.second, meeting.normal, meeting.impact);
+  note_meeting(report.members[next.second], next.first, Vec2<Scalar>(-meeting.normal), meeting.impact);
+}
+
 /// Those that overlap by more than rounding.
 template <class Scalar>
 void note_overlaps(const PairSpace<Scalar>& space, std::span<const CharacterState<Scalar>> states,
@@ -114,6 +123,15 @@ template <class Scalar>
   // Where rounding hides who comes nearer both stop.
   if (!moves.first && !moves.second) moves = {true, true};
   return moves;
+}
+
+/// Where a move ended becomes where another did.
+template <class Scalar>
+void take_end(const MoveResult<Scalar>& from, MoveResult<Scalar>& to) noexcept {
+  to.position = from.position;
+  to.velocity = from.velocity;
+  to.grounded = from.grounded;
+  to.ride = from.ride;
 }
 
 /// The parts of a way were made one by one, and each may be a little off what was planned. All pairs are looked at once

@@ -152,16 +152,11 @@ template <class Scalar>
 void Stepper<Scalar>::solve() noexcept {
   const auto when = [this](std::size_t i, std::size_t j) { return meeting(i, j); };
   timetable_.find_all(when);
-  while (true) {
-    const std::size_t i = timetable_.earliest_row();
-    if (i == timetable_.size()) return;
-    const std::size_t j = timetable_[i].other;
-    const Meeting<Scalar> meeting = timetable_[i].meeting;
+  while (const std::optional<NextMeeting<Scalar>> next = timetable_.earliest()) {
+    const auto& [i, j, meeting] = *next;
     now_ = std::max(now_, meeting.time);
-    ++report_.impacts;
+    note_impact(*next, report_);
     const MovesIn moves = who_moves_in(meeting.first_rate, meeting.second_rate, meeting.normal);
-    note_meeting(member(i), j, meeting.normal, meeting.impact);
-    note_meeting(member(j), i, V(-meeting.normal), meeting.impact);
     const Scalar first_limit = std::max(Scalar(0), -dot(meeting.second_rate, meeting.normal));
     const Scalar second_limit = std::max(Scalar(0), dot(meeting.first_rate, meeting.normal));
     if (moves.first) respond(i, meeting, meeting.normal, first_limit);

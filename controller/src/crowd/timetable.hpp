@@ -5,6 +5,7 @@
 
 #include <paperproof/crowd.hpp>
 
+#include <optional>
 #include <span>
 
 namespace paperproof::crowd {
@@ -14,6 +15,14 @@ template <class Scalar>
 struct RowBest {
   Meeting<Scalar> meeting;
   CharacterIndex other = 0;
+};
+
+/// Who meet next.
+template <class Scalar>
+struct NextMeeting {
+  std::size_t first = 0;
+  std::size_t second = 0;  ///< The higher index.
+  Meeting<Scalar> meeting;
 };
 
 /// Knows of every character whom of a higher index it meets first. A view of its rows.
@@ -48,18 +57,16 @@ class Timetable {
     }
   }
 
-  /// Of equal times the lowest index; the number of rows where nobody meets.
-  [[nodiscard]] std::size_t earliest_row() const noexcept {
+  /// Of equal times the lowest first index; none where nobody meets.
+  [[nodiscard]] std::optional<NextMeeting<Scalar>> earliest() const noexcept {
     std::size_t earliest = rows_.size();
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       if (!rows_[i].meeting.meets) continue;
       if (earliest == rows_.size() || rows_[i].meeting.time < rows_[earliest].meeting.time) earliest = i;
     }
-    return earliest;
+    if (earliest == rows_.size()) return std::nullopt;
+    return NextMeeting<Scalar>{earliest, rows_[earliest].other, rows_[earliest].meeting};
   }
-
-  [[nodiscard]] const RowBest<Scalar>& operator[](std::size_t row) const noexcept { return rows_[row]; }
-  [[nodiscard]] std::size_t size() const noexcept { return rows_.size(); }
 
  private:
   template <class MeetingOf>

@@ -1,5 +1,6 @@
 #include "techniques/octagon_sweep/octagon_sweep.hpp"
 
+#include "scenery_facts.hpp"
 #include "techniques/octagon_sweep/solvers.hpp"
 
 #include <cmath>
@@ -33,19 +34,11 @@ void refuse_omission(bool unsafe, const char* stage, const char* reason) {
 }
 
 template <class Scalar>
-bool has_conveyors(const Scenery<Scalar>& scenery) {
-  const std::vector<ColliderDef>& colliders = scenery.as_run().colliders;
-  return std::any_of(colliders.begin(), colliders.end(), [](const ColliderDef& c) { return c.surface_speed != 0; });
-}
-
-template <class Scalar>
 void check(const Stages& stages, const Scenery<Scalar>& scenery, const CharacterDef& character,
            const ConfigurationSpace<Scalar>& space) {
-  const auto pieces = scenery.pieces();
-  const bool one_way = std::any_of(pieces.begin(), pieces.end(), [](const PieceInfo& piece) { return piece.one_way; });
   refuse_omission(!stages.movers && scenery.mover_count() > 0, "movers", "something moves");
   refuse_omission(!stages.movers && has_conveyors(scenery), "movers", "there is a conveyor");
-  refuse_omission(!stages.one_way && one_way, "one_way", "there is a one-way chain");
+  refuse_omission(!stages.one_way && has_one_way_chains(scenery), "one_way", "there is a one-way chain");
   refuse_omission(!stages.slopes && space.has_own_axes(), "slopes",
                   "there is an edge that is parallel to no side of the character or of its box");
   refuse_omission(!stages.snap && character.snap > 0, "snap", "the character follows the ground down");
