@@ -17,13 +17,19 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 "$writer" "$folder/report.html" || exit 1
 
-# Prints the document as it stands after its scripts have run.
+# Prints the document as it stands after its scripts have run. A browser that does not come up is asked once more: what
+# the page does wrong shows in the document, not in the browser's exit status.
 open_page() {
-  timeout 120 "$browser" --headless --no-sandbox --disable-gpu --no-first-run --disable-background-networking \
-    --disable-component-update --disable-sync --disable-extensions --disable-dev-shm-usage \
-    --user-data-dir="$folder/profile" --window-size=1280,900 --virtual-time-budget=3000 \
-    --dump-dom "file://$folder/report.html$1" 2>"$folder/stderr" >"$folder/dom" ||
-    { echo "the browser failed on $1:"; tail -n 5 "$folder/stderr"; exit 1; }
+  local attempt
+  for attempt in 1 2; do
+    timeout 120 "$browser" --headless --no-sandbox --disable-gpu --no-first-run --disable-background-networking \
+      --disable-component-update --disable-sync --disable-extensions --disable-dev-shm-usage \
+      --user-data-dir="$folder/profile$attempt" --window-size=1280,900 --virtual-time-budget=3000 \
+      --dump-dom "file://$folder/report.html$1" 2>"$folder/stderr" >"$folder/dom" && return
+  done
+  echo "the browser failed on $1:"
+  tail -n 5 "$folder/stderr"
+  exit 1
 }
 
 failures=0
@@ -73,10 +79,12 @@ check "#scene=5&step=1&check=1" "scene 5 step 1 t 1"
 wants "step 1 of 1, t = 1.000: 100.016 s"
 wants "drops through ledge"
 wants "octagon_sweep: first drop"
-# Played for a few seconds it is long through with the first step, and nowhere near the end of the second.
-open_page "#scene=5&step=0&t=0&play=1"
+# After half a second of playing it is long through with the first step, and nowhere near the end of the second. How
+# often a headless browser draws on its own after that is its affair: what is asked for is half a second and what follows.
+open_page "#scene=5&step=0&t=0&play=0.5"
 head -c 2000 "$folder/dom" | grep -Eq 'data-drawn="scene 5 step 1 t (0\.0|[0-9.]*e-)' ||
   fail "scene 5, played" "not in the second step: $(grep -o 'data-drawn="[^"]*"' "$folder/dom" | head -n 1)"
+wants 'aria-label="Pause"'
 check "#scene=999" "summary"
 
 [ "$failures" -eq 0 ] && echo "every page was drawn"

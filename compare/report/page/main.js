@@ -1,5 +1,5 @@
 // Puts the page together: the list of scenes, one scene at a time, and what the address asks for:
-// #summary, or #scene=2&step=10&t=0.5&layout=side&view=follow&play=1.
+// #summary, or #scene=2&step=10&t=0.5&layout=side&view=follow&play=3 (playing, 3 seconds on).
 
 const INDEX = JSON.parse(document.getElementById('index').textContent);
 const main = document.getElementById('main');
@@ -70,7 +70,10 @@ function startReplay(replay, wanted) {
   replay.look(['fit', 'ways', 'follow'].includes(wanted.get('view')) ? wanted.get('view') : 'ways');
   if (!wanted.has('step')) window.scrollTo(0, 0);
   if (wanted.has('check')) countColours();
-  if (wanted.has('play')) replay.play();
+  if (wanted.has('play')) {
+    replay.play();
+    replay.playOn(Number(wanted.get('play')) || 0);
+  }
 }
 
 function showSummary() {

@@ -184,25 +184,29 @@ class Replay {
     this.playing = true;
     this.playButton.textContent = 'Pause';
     this.playButton.setAttribute('aria-label', 'Pause');
-    const {times} = this.data, end = times.at(this.timeline[this.timeline.length - 1] + 1);
-    // Slow playback moves along the way within a step.
-    let now = times.at(this.step, this.t), last = null;
+    this.now = this.data.times.at(this.step, this.t);
+    let last = null;
     const tick = (time) => {
       if (!this.playing) return;
-      now += Math.min((time - (last ?? time)) / 1000, 0.25) * this.speed;
+      this.playOn(Math.min((time - (last ?? time)) / 1000, 0.25));
       last = time;
-      const {step, fraction} = times.stepAt(now);
-      while (this.at + 1 < this.timeline.length && this.timeline[this.at + 1] <= step) ++this.at;
-      // With a step or more per frame, a fraction of it would only flicker.
-      this.t = step > this.step || this.speed / times.mean > 30 ? 1 : fraction;
-      if (now >= end) {
-        this.t = 1;
-        this.pause();
-      }
-      this.draw();
       requestAnimationFrame(tick);
     };
     requestAnimationFrame(tick);
+  }
+  /// Shows what is there so many seconds later, and stops at the end. Slow playback moves along the way within a step.
+  playOn(seconds) {
+    const {times} = this.data;
+    this.now += seconds * this.speed;
+    const {step, fraction} = times.stepAt(this.now);
+    while (this.at + 1 < this.timeline.length && this.timeline[this.at + 1] <= step) ++this.at;
+    // With a step or more per frame, a fraction of it would only flicker.
+    this.t = step > this.step || this.speed / times.mean > 30 ? 1 : fraction;
+    if (this.now >= times.at(this.timeline[this.timeline.length - 1] + 1)) {
+      this.t = 1;
+      this.pause();
+    }
+    this.draw();
   }
   pause() {
     this.playing = false;
