@@ -144,15 +144,15 @@ class SceneryReader {
   }
 
   void add_picture(const std::string& id, const JsonCursor& at, const PictureRule& rule) {
-    const PictureScenery picture = read_beside(at, [&](const std::string& beside, const std::string& file) {
-      return read_picture(beside, file, rule, scene_.pixels_per_metre);
+    const PixelScenery pixels = read_beside(at, [&](const std::string& beside, const std::string& file) {
+      return scenery_of(read_png(beside, file), rule, scene_.pixels_per_metre, file);
     });
-    for (std::size_t i = 0; i < picture.ids.size(); ++i) {
-      const std::string own = id + "/" + picture.ids[i];
+    for (std::size_t i = 0; i < pixels.ids.size(); ++i) {
+      const std::string own = id + "/" + pixels.ids[i];
       claim(own, at);
-      add(own, picture.scenery.colliders[i], at.where());
+      add(own, pixels.scenery.colliders[i], at.where());
     }
-    extend_respawn_box(picture.box);
+    extend_respawn_box(pixels.box);
   }
 
   void extend_respawn_box(const Box2<double>& box) {

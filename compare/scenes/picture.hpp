@@ -1,7 +1,8 @@
-/// Reads a picture (PNG) as scenery.
+/// A picture as scenery.
 #pragma once
 
-#include "scenes/scene.hpp"
+#include "scenes/pixel_rectangles.hpp"
+#include "scenes/png_file.hpp"
 
 #include <array>
 #include <cstdint>
@@ -21,18 +22,10 @@ struct PictureRule {
 [[nodiscard]] std::optional<Colour> colour_from(std::string_view text) noexcept;
 [[nodiscard]] std::string text_of(const Colour& colour);
 
-/// The solid pixels as rectangles: runs of them in a row, and runs of the same extent below each other as one.
-struct PictureScenery {
-  SceneryDef scenery;
-  std::vector<std::string> ids;  ///< `column,row` of the upper left pixel of each.
-  Box2<double> box;              ///< Of the whole picture [m].
-};
-
-/// Reads a PNG of any kind. Its upper left corner is put at the origin, as a map's; vertices are (pixels) /
-/// `pixels_per_metre` with one division, so that neighbours share bits.
+/// The solid pixels of a picture. Its upper left corner is put at the origin, as a map's.
 /// @param given the file as the user named it.
-/// @throws InputError: no file, no PNG, not one solid pixel, more than 2^26 pixels or 200,000 rectangles.
-[[nodiscard]] PictureScenery read_picture(const std::string& path, const std::string& given, const PictureRule& rule,
-                                          double pixels_per_metre);
+/// @throws InputError: not one solid pixel, or too many rectangles of them.
+[[nodiscard]] PixelScenery scenery_of(const PngPicture& picture, const PictureRule& rule, double pixels_per_metre,
+                                      const std::string& given);
 
 }  // namespace paperproof::compare

@@ -1,0 +1,33 @@
+/// Reads PNG files: the numbers that are in the file, whatever they look like on a screen.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace paperproof::compare {
+
+/// Red, green, blue, alpha (255: nothing shines through).
+using Rgba = std::array<std::uint8_t, 4>;
+
+/// A picture in memory; reading is thread-safe.
+struct PngPicture {
+  int width = 0;              ///< [px]
+  int height = 0;             ///< [px]
+  std::vector<Rgba> palette;  ///< Of an indexed picture; empty for all others.
+  /// Row by row from the top: an index into the palette for each pixel, or four bytes where there is none.
+  std::vector<std::uint8_t> bytes;
+
+  [[nodiscard]] Rgba colour_at(int column, int row) const noexcept;
+};
+
+/// Reads a PNG of any kind: grey, true colour or indexed, of 1 to 16 bits, with or without alpha, interlaced or not.
+/// Channels of 16 bits become the nearest of 8, those of fewer bits the same share of 255. No gamma or colour profile
+/// is applied: a level's colours are names.
+/// @param given the file as the user named it.
+/// @throws InputError: no file, no PNG or a broken one, more than 2^26 pixels (before anything is allocated for them),
+///   a pixel whose index is beyond the palette.
+[[nodiscard]] PngPicture read_png(const std::string& path, const std::string& given);
+
+}  // namespace paperproof::compare
