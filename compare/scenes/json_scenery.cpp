@@ -59,15 +59,27 @@ ColliderDef read_collider(const JsonCursor& entry, const std::string& shape, dou
   return collider;
 }
 
+/// @param file that the picture comes from.
+PaletteIndex read_palette_index(const JsonCursor& at, const PngPicture& picture, const std::string& file) {
+  if (picture.palette.empty())
+    at.refuse(fmt::format("expected a colour like \"#00a0ff\": {} has no palette for an index", file));
+  const std::size_t last = picture.palette.size() - 1;
+  const double index = at.number();
+  if (!(index >= 0 && index <= static_cast<double>(last) && std::floor(index) == index))
+    at.refuse(fmt::format("expected an index from 0 to {}, the last in the palette of {}", last, file));
+  return {static_cast<std::uint8_t>(index)};
+}
+
 /// White is solid where the scene says nothing, as in the article's masks.
-PictureRule read_picture_rule(const JsonCursor& entry) {
+PictureRule read_picture_rule(const JsonCursor& entry, const PngPicture& picture, const std::string& file) {
   const auto solid = entry.find("solid");
   const auto background = entry.find("background");
   if (solid && background) background->refuse("expected one of \"solid\" and \"background\", not both");
   if (!solid && !background) return {};
   const JsonCursor& at = solid ? *solid : *background;
-  const std::optional<Colour> colour = colour_from(at.text());
-  if (!colour) at.refuse("expected a colour like \"#00a0ff\"");
+  if (at.is_number()) return {read_palette_index(at, picture, file), background.has_value()};
+  const std::optional<Colour> colour = at.is_text() ? colour_from(at.text()) : std::nullopt;
+  if (!colour) at.refuse("expected a colour like \"#00a0ff\", or the index of one in the picture's palette");
   return {*colour, background.has_value()};
 }
 
@@ -117,7 +129,7 @@ class SceneryReader {
       if (shape == "tiled")
         add_map(id, at);
       else
-        add_picture(id, at, read_picture_rule(entry));
+        add_picture(id, entry, at);
     } else {
       add(id, read_collider(entry, shape, step_seconds_), at.where());
     }
@@ -143,9 +155,11 @@ class SceneryReader {
     extend_respawn_box(*map.respawn_box);
   }
 
-  void add_picture(const std::string& id, const JsonCursor& at, const PictureRule& rule) {
-    const PixelScenery pixels = read_beside(at, [&](const std::string& beside, const std::string& file) {
-      return scenery_of(read_png(beside, file), rule, scene_.pixels_per_metre, file);
+  void add_picture(const std::string& id, const JsonCursor& entry, const JsonCursor& at) {
+    const PngPicture picture = read_beside(at, read_png);
+    const PictureRule rule = read_picture_rule(entry, picture, at.text());
+    const PixelScenery pixels = read_beside(at, [&](const std::string&, const std::string& file) {
+      return scenery_of(picture, rule, scene_.pixels_per_metre, file);
     });
     for (std::size_t i = 0; i < pixels.ids.size(); ++i) {
       const std::string own = id + "/" + pixels.ids[i];

@@ -174,6 +174,10 @@ JsonCursor JsonCursor::element(std::size_t i) const {
   return JsonCursor((*value_)[i], *file_, child(pointer_, std::to_string(i)));
 }
 
+bool JsonCursor::is_number() const noexcept { return value_->is_number(); }
+
+bool JsonCursor::is_text() const noexcept { return value_->is_string(); }
+
 double JsonCursor::number() const {
   if (!value_->is_number()) refuse("expected a number");
   return value_->get<double>();

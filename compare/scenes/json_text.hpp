@@ -41,6 +41,8 @@ class JsonCursor {
   [[nodiscard]] std::size_t size() const;
   [[nodiscard]] JsonCursor element(std::size_t i) const;
 
+  [[nodiscard]] bool is_number() const noexcept;
+  [[nodiscard]] bool is_text() const noexcept;
   [[nodiscard]] double number() const;
   [[nodiscard]] double positive() const;
   [[nodiscard]] double not_negative() const;

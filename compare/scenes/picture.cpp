@@ -16,6 +16,19 @@ int digit(char c) noexcept {
   return -1;
 }
 
+std::string text_of(const std::variant<Colour, PaletteIndex>& pixels) {
+  if (const auto* entry = std::get_if<PaletteIndex>(&pixels))
+    return fmt::format("colour {} of the palette", entry->index);
+  const Colour& colour = std::get<Colour>(pixels);
+  return fmt::format("#{:02x}{:02x}{:02x}", colour[0], colour[1], colour[2]);
+}
+
+bool is_named(const PngPicture& picture, const PictureRule& rule, int column, int row) {
+  if (const auto* entry = std::get_if<PaletteIndex>(&rule.pixels)) return picture.index_at(column, row) == entry->index;
+  const Rgba pixel = picture.colour_at(column, row);
+  return Colour{pixel[0], pixel[1], pixel[2]} == std::get<Colour>(rule.pixels);
+}
+
 }  // namespace
 
 std::optional<Colour> colour_from(std::string_view text) noexcept {
@@ -30,22 +43,17 @@ std::optional<Colour> colour_from(std::string_view text) noexcept {
   return colour;
 }
 
-std::string text_of(const Colour& colour) {
-  return fmt::format("#{:02x}{:02x}{:02x}", colour[0], colour[1], colour[2]);
-}
-
 PixelScenery scenery_of(const PngPicture& picture, const PictureRule& rule, double pixels_per_metre,
                         const std::string& given) {
   const auto is_solid = [&](int column, int row) {
-    const Rgba pixel = picture.colour_at(column, row);
-    const bool same = Colour{pixel[0], pixel[1], pixel[2]} == rule.colour;
-    return pixel[3] >= half_transparent && same != rule.is_background;
+    return picture.colour_at(column, row)[3] >= half_transparent &&
+           is_named(picture, rule, column, row) != rule.is_background;
   };
   PixelScenery result = scenery_of_pixels({.width = picture.width, .height = picture.height, .is_solid = is_solid},
                                           pixels_per_metre, given);
   if (result.ids.empty())
     refuse(given, fmt::format("expected a solid pixel; {} {}", rule.is_background ? "all of them are" : "none is",
-                              text_of(rule.colour)));
+                              text_of(rule.pixels)));
   return result;
 }
 

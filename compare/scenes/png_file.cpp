@@ -151,10 +151,8 @@ class PngReader {
 }  // namespace
 
 Rgba PngPicture::colour_at(int column, int row) const noexcept {
-  const std::size_t pixel =
-      static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column);
-  if (!palette.empty()) return palette[bytes[pixel]];
-  const std::uint8_t* at = bytes.data() + pixel * bytes_per_colour;
+  if (!palette.empty()) return palette[index_at(column, row)];
+  const std::uint8_t* at = bytes.data() + place_of(column, row) * bytes_per_colour;
   return {at[0], at[1], at[2], at[3]};
 }
 

@@ -20,6 +20,12 @@ struct PngPicture {
   std::vector<std::uint8_t> bytes;
 
   [[nodiscard]] Rgba colour_at(int column, int row) const noexcept;
+  /// Only of an indexed picture.
+  [[nodiscard]] std::uint8_t index_at(int column, int row) const noexcept { return bytes[place_of(column, row)]; }
+  /// How many pixels come before it.
+  [[nodiscard]] std::size_t place_of(int column, int row) const noexcept {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column);
+  }
 };
 
 /// Reads a PNG of any kind: grey, true colour or indexed, of 1 to 16 bits, with or without alpha, interlaced or not.

@@ -127,6 +127,52 @@ TEST(Picture, is_solid_where_the_scene_says) {
   EXPECT_EQ(solid(R"(, "background": "#ffffff")"), (Columns{{1, 0}, {2, 0}}));
 }
 
+/// One row of four pixels, with the indices 0 to 3. Entries 1 and 2 look the same, and entry 3 is glass.
+std::string four_entries() {
+  return PngFile{PngColour::indexed,
+                 2,
+                 false,
+                 4,
+                 1,
+                 {0, 1, 2, 3},
+                 png_chunk("PLTE", std::string("\0\0\0ggggggwww", 12)) + png_chunk("tRNS", "\xff\xff\xff\x10")}
+      .bytes();
+}
+
+TEST(Picture, with_a_palette_is_solid_by_index_where_colours_are_the_same) {
+  const SceneFiles files;
+  files.write("level.png", four_entries());
+  const auto solid = [&](const std::string& rule) {
+    return pixels_of(files.load("drawn.json", scene_with(R"({ "picture": "level.png", )" + rule + "}")), 32);
+  };
+  using Columns = std::set<std::pair<int, int>>;
+  EXPECT_EQ(solid(R"("solid": "#676767")"), (Columns{{1, 0}, {2, 0}})) << "the two look alike";
+  EXPECT_EQ(solid(R"("solid": 0)"), (Columns{{0, 0}}));
+  EXPECT_EQ(solid(R"("solid": 1)"), (Columns{{1, 0}}));
+  EXPECT_EQ(solid(R"("solid": 2.0)"), (Columns{{2, 0}}));
+  EXPECT_EQ(solid(R"("background": 0)"), (Columns{{1, 0}, {2, 0}})) << "glass never is";
+  EXPECT_EQ(solid(R"("background": 2)"), (Columns{{0, 0}, {1, 0}}));
+}
+
+TEST(Picture, is_not_given_an_index_that_its_palette_does_not_have) {
+  const SceneFiles files;
+  files.write("level.png", four_entries());
+  files.write("colours.png", Drawing{{"#g./"}}.png());
+  const auto complaint = [&](const std::string& entry) { return files.complaint("drawn.json", scene_with(entry)); };
+  for (const std::string index : {"4", "-1", "0.5", "256", "1e300"}) {
+    EXPECT_EQ(complaint(R"({ "picture": "level.png", "background": )" + index + "}"),
+              ": /scenery/0/background: expected an index from 0 to 3, the last in the palette of level.png");
+  }
+  EXPECT_EQ(complaint(R"({ "picture": "colours.png", "solid": 0 })"),
+            ": /scenery/0/solid: expected a colour like \"#00a0ff\": colours.png has no palette for an index");
+  for (const std::string neither : {"true", "null", "[0]"}) {
+    EXPECT_EQ(complaint(R"({ "picture": "level.png", "solid": )" + neither + "}"),
+              ": /scenery/0/solid: expected a colour like \"#00a0ff\", or the index of one in the picture's palette");
+  }
+  EXPECT_EQ(complaint(R"({ "picture": "level.png", "solid": 3 })"),
+            ": /scenery/0/picture: level.png: expected a solid pixel; none is colour 3 of the palette");
+}
+
 std::string chequers(std::size_t width, int row) {
   std::string text(width, '.');
   for (std::size_t i = row % 2 == 0 ? 0 : 1; i < width; i += 2) text[i] = '#';
@@ -161,7 +207,7 @@ TEST(Picture, that_cannot_be_used_is_refused_in_one_line) {
             ": /scenery/0/picture: level.png: expected a solid pixel; none is #123456");
   for (const std::string colour : {"white", "#fff", "#00000g", "ffffff", "#ffffff0"}) {
     EXPECT_EQ(complaint(R"({ "picture": "level.png", "solid": ")" + colour + R"(" })"),
-              ": /scenery/0/solid: expected a colour like \"#00a0ff\"");
+              ": /scenery/0/solid: expected a colour like \"#00a0ff\", or the index of one in the picture's palette");
   }
   EXPECT_EQ(complaint(R"({ "picture": "level.png", "solid": "#ffffff", "background": "#000000" })"),
             ": /scenery/0/background: expected one of \"solid\" and \"background\", not both");
