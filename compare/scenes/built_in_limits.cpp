@@ -98,6 +98,15 @@ Scene thin_sensor() {
   return scene;
 }
 
+/// Flies at 6 m/s through a sensor that is no whole square, and into a wall.
+Scene sensor_gate() {
+  Scene scene = flight(0.5, half_height, 6, 0, 120);
+  add_box(scene, "gate", 4, -1, 4.5, 3);
+  scene.scenery.colliders.back().sensor = true;
+  add_box(scene, "wall", 8, -1, 9, 3);
+  return scene;
+}
+
 /// Walks, jumps onto a block, meets a wall. Every margin is far beyond a millimetre: of the jump over the block's
 /// corner, of the steps on which something is met.
 Scene replica_off_by(double distance) {
@@ -139,6 +148,8 @@ std::vector<BuiltInScene> limit_scenes() {
       {"tiles_1e4", "walks over 10,000 tiles: the same", tiles_1e4},
       {"thin_sensor", "100 m in a step through a sensor of 1 cm and one of none: one enter and one exit each",
        thin_sensor},
+      {"sensor_gate", "through a sensor in steps 31 to 43, into a wall in step 71: the sensor stops nobody",
+       sensor_gate},
       {"replica", "walk, jump, wall: the sequence of events that perturbed replicas share", replica},
       {"replica_1e-12", "the same begun 1e-12 m aside: the same sequence of events", replica_1e12},
       {"replica_1e-9", "the same begun 1e-9 m aside: the same sequence of events", replica_1e9},

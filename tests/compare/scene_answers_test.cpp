@@ -266,6 +266,25 @@ TEST(ThinSensor, is_entered_and_left_once_each_at_the_exact_fraction) {
   EXPECT_TRUE(run.steps[1].sensors.empty());
 }
 
+TEST(SensorGate, stops_no_contender_and_is_entered_and_left_once_by_all) {
+  const ReportScene result = run_scene(built_in("sensor_gate"), quick());
+  ASSERT_EQ(result.rows.size(), contender_names().size());
+  for (const Row& row : result.rows) {
+    EXPECT_EQ(row.verdict, Verdict::holds) << row.contender << ": " << row.reason;
+    EXPECT_EQ(row.sensor_events, 2) << row.contender;
+    EXPECT_EQ(row.contact_recall.value_or(1), 1) << row.contender;
+    EXPECT_EQ(row.colliders_touched, 1) << row.contender << ": the wall, and not the gate";
+  }
+  // 0.1 m a step: (4 - 0.5 - half_width) / 0.1 is 31.875, and so on.
+  const Ran run = ran("sensor_gate");
+  ASSERT_EQ(run.steps[31].sensors.size(), 1U);
+  ASSERT_EQ(run.steps[43].sensors.size(), 1U);
+  EXPECT_NEAR(run.steps[31].sensors[0].fraction, 0.875, 1e-10);
+  EXPECT_NEAR(run.steps[43].sensors[0].fraction, 0.125, 1e-10);
+  EXPECT_EQ(run.row.first_contact_step, 71);
+  EXPECT_NEAR(run.row.first_contact_fraction.value_or(0), 0.875, 1e-10);
+}
+
 TEST(Replicas, share_the_sequence_of_events) {
   const auto events = [](const std::string& name) {
     std::vector<std::tuple<int, ColliderIndex, Side>> all;

@@ -176,6 +176,23 @@ TEST(Rasteriser, finds_the_pixels_of_a_piece_one_by_one_too) {
   EXPECT_GT(solid, 10'000U);
 }
 
+TEST(Rasteriser, draws_neither_sensors_nor_what_moves) {
+  const ColliderDef solid = rectangle(0, 0, 1, 1);
+  ColliderDef sensor = chain({{-100, 0}, {1e6, 7}});
+  sensor.sensor = true;
+  ColliderDef mover = rectangle(4, 0, 5, 1);
+  mover.mover = 0;
+  const Bitmap level = raster::rasterise({{sensor, solid, mover}}, 32);
+  const Bitmap alone = raster::rasterise({{solid}}, 32);
+  EXPECT_EQ(level.box().lower, alone.box().lower);
+  EXPECT_EQ(level.box().width, alone.box().width);
+  EXPECT_EQ(level.box().height, alone.box().height);
+  EXPECT_EQ(raster::pixels_around({{sensor, mover}}, 32).width, 0) << "nothing is solid";
+  const raster::ColourPicture picture({{sensor, solid, mover}}, 32);
+  EXPECT_EQ(picture.colour({16, 16}), 2) << "a collider keeps its number";
+  EXPECT_EQ(picture.colour({-1, 0}), 0);
+}
+
 TEST(Rasteriser, says_why_it_cannot_draw_something) {
   const auto reason = [](const ColliderDef& collider, TechniqueKind kind) -> std::string {
     try {

@@ -53,6 +53,7 @@ struct PixelTileSet {
 /// chain's line is. The top pixel of a column of solid ones is marked `up` for the movement that comes from a column
 /// whose top is one pixel lower, and the pixel above the lower one's free place `down` for the way back: a slope of up
 /// to 45 degrees, and a step of one pixel. Every other solid pixel blocks. Tiles with the same content share a type.
+/// Sensors, and what moves, are not drawn.
 /// @param pixels_per_tile along one side, at least 1.
 /// @throws NotExpressible for a one-way chain, or where the level would take more than 256 MiB.
 [[nodiscard]] PixelTileSet make_pixel_tiles(const SceneryDef& scenery, double pixels_per_metre, int pixels_per_tile);

@@ -158,12 +158,16 @@ bool refuse_out_of_range(const MoveRequest<Scalar>& request, MoveResult<Scalar>&
 
 namespace {
 
-/// The most that a mover goes during the step, and a surface on it, by component [m].
+/// The most that a mover goes during the step, and a surface on it, by component [m]; sensors may go where they like.
 template <class Scalar>
-Vec2<Scalar> farthest_motion(Scalar fastest_surface, const MoveRequest<Scalar>& request) noexcept {
+Vec2<Scalar> farthest_motion(const Scenery<Scalar>& scenery, Scalar fastest_surface,
+                             const MoveRequest<Scalar>& request) noexcept {
   Vec2<Scalar> farthest{Vec2<Scalar>::Zero()};
-  for (const MoverMotion<Scalar>& mover : request.movers)
-    farthest = farthest.cwiseMax((mover.to - mover.from).cwiseAbs());
+  for (MoverIndex mover = 0; mover < request.movers.size(); ++mover) {
+    if (scenery.pieces_of_mover(mover).size() == 0) continue;
+    const MoverMotion<Scalar>& motion = request.movers[mover];
+    farthest = farthest.cwiseMax((motion.to - motion.from).cwiseAbs());
+  }
   farthest.x() += fastest_surface * request.dt;
   return farthest;
 }
@@ -178,7 +182,7 @@ bool leaves_range(const Vec2<Scalar>& position, const Vec2<Scalar>& wanted, cons
 template <class Scalar>
 bool leaves_range(const Scenery<Scalar>& scenery, Scalar fastest_surface, const MoveRequest<Scalar>& request) noexcept {
   const Vec2<Scalar> wanted = FrameOfReference<Scalar>(scenery, request).wanted();
-  return leaves_range<Scalar>(request.position, wanted, farthest_motion(fastest_surface, request));
+  return leaves_range<Scalar>(request.position, wanted, farthest_motion(scenery, fastest_surface, request));
 }
 
 template <class Scalar>
@@ -186,7 +190,7 @@ bool refuse(const Parts<Scalar>& parts, bool searches_by_units, const MoveReques
             MoveResult<Scalar>& result) noexcept {
   // Relative to one mover, on another one or pushed by it.
   const Vec2<Scalar> wanted = FrameOfReference<Scalar>(*parts.scenery, request).wanted();
-  const Vec2<Scalar> farthest = farthest_motion(parts.fastest_surface, request);
+  const Vec2<Scalar> farthest = farthest_motion(*parts.scenery, parts.fastest_surface, request);
   const Vec2<Scalar> searched = wanted.cwiseAbs() + 2 * farthest;
   const bool quick = !searches_by_units || length(searched) <= parts.unit * Scalar(max_search_steps);
   if (quick && !leaves_range(request.position, wanted, farthest)) return false;

@@ -1,5 +1,7 @@
 #include "techniques/frame_of_reference.hpp"
 
+#include "scenery_facts.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -78,14 +80,14 @@ bool FrameOfReference<Scalar>::carries(ColliderIndex ground) const noexcept {
 
 template <class Scalar>
 bool something_carries(const Scenery<Scalar>& scenery) noexcept {
-  return scenery.mover_count() > 0 || fastest_surface(scenery) > 0;
+  return has_moving_solids(scenery) || has_conveyors(scenery);
 }
 
 template <class Scalar>
 Scalar fastest_surface(const Scenery<Scalar>& scenery) noexcept {
   Scalar fastest = 0;
   for (const ColliderDef& collider : scenery.as_run().colliders)
-    fastest = std::max(fastest, std::abs(static_cast<Scalar>(collider.surface_speed)));
+    if (!collider.sensor) fastest = std::max(fastest, std::abs(static_cast<Scalar>(collider.surface_speed)));
   return fastest;
 }
 

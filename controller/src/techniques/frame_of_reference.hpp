@@ -88,7 +88,7 @@ class FrameOfReference {
   Vec2<Scalar> velocity_;
 };
 
-/// The scenery has movers or conveyors.
+/// The scenery has movers that block, or conveyors.
 template <class Scalar>
 [[nodiscard]] bool something_carries(const Scenery<Scalar>& scenery) noexcept;
 

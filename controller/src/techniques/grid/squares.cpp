@@ -2,6 +2,8 @@
 
 #include <paperproof/techniques.hpp>
 
+#include "scenery_facts.hpp"
+
 #include <cmath>
 #include <span>
 #include <string>
@@ -77,10 +79,11 @@ Rings rings_of(const ColliderDef& def, ColliderIndex collider, const Reader& rea
 
 Squares::Squares(const SceneryDef& scenery, double side, double tolerance) : side_(side) {
   const Reader reader(side, tolerance);
+  const std::vector<ColliderIndex> solids = standing_solids(scenery);
   std::vector<Rings> all;
   std::optional<std::pair<Square, Square>> box;
-  for (const ColliderDef& def : scenery.colliders) {
-    all.push_back(rings_of(def, static_cast<ColliderIndex>(all.size()), reader));
+  for (const ColliderIndex collider : solids) {
+    all.push_back(rings_of(scenery.colliders[collider], collider, reader));
     for (const Square& corner : all.back().front()) {
       if (!box) box = {corner, corner};
       box->first = {std::min(box->first.column, corner.column), std::min(box->first.row, corner.row)};
@@ -97,15 +100,15 @@ Squares::Squares(const SceneryDef& scenery, double side, double tolerance) : sid
                          std::to_string(most_squares));
   }
   colliders_.assign(static_cast<std::size_t>(columns_ * rows_), nothing);
-  for (std::size_t collider = 0; collider < all.size(); ++collider) {
+  for (std::size_t solid = 0; solid < solids.size(); ++solid) {
     std::vector<Crossing> crossings;
-    for (const std::vector<Square>& ring : all[collider]) add_crossings(ring, crossings);
+    for (const std::vector<Square>& ring : all[solid]) add_crossings(ring, crossings);
     std::sort(crossings.begin(), crossings.end());
     // Every ring is closed: in each row crossings come in pairs, into the solid and out of it.
     for (std::size_t i = 0; i + 1 < crossings.size(); i += 2) {
       for (Square at{crossings[i].column, crossings[i].row}; at.column < crossings[i + 1].column; ++at.column) {
         ColliderIndex& here = colliders_[index_of(at)];
-        if (here == nothing) here = static_cast<ColliderIndex>(collider);
+        if (here == nothing) here = solids[solid];
       }
     }
   }

@@ -19,7 +19,7 @@ struct Square {
 /// Which squares are solid, and with what. Immutable after construction; may be shared between threads.
 class Squares {
  public:
-  /// The squares that are filled by the polygons of a scenery.
+  /// The squares that are filled by the polygons of a scenery, sensors and what moves left out.
   /// @param side of a square [m], positive.
   /// @param tolerance how far a vertex may lie from a corner of the squares [m].
   /// @throws NotExpressible where a collider is not made of whole squares, or where the array would have more than

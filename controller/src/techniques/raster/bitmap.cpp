@@ -49,11 +49,7 @@ bool Bitmap::overlaps(const Bitmap& other, const Pixel& at) const noexcept {
 
 Bitmap rasterise(const SceneryDef& scenery, double pixels_per_metre) {
   Bitmap level(pixels_around(scenery, pixels_per_metre));
-  std::vector<Span> spans;
-  for (const ColliderDef& collider : scenery.colliders) {
-    spans_of(collider, pixels_per_metre, spans);
-    for (const Span& span : spans) level.make_white(span);
-  }
+  for_each_span(scenery, pixels_per_metre, [&level](ColliderIndex, const Span& span) { level.make_white(span); });
   return level;
 }
 
@@ -61,14 +57,10 @@ ColourPicture::ColourPicture(const SceneryDef& scenery, double pixels_per_metre)
     : box_(pixels_around(scenery, pixels_per_metre)) {
   check_picture_size(box_, 8);
   colours_.resize(static_cast<std::size_t>(box_.width * box_.height));
-  std::vector<Span> spans;
-  for (std::size_t i = 0; i < scenery.colliders.size(); ++i) {
-    spans_of(scenery.colliders[i], pixels_per_metre, spans);
-    for (const Span& span : spans) {
-      const auto first = colours_.begin() + (span.row - box_.lower.y) * box_.width - box_.lower.x;
-      std::fill(first + span.first, first + span.end, static_cast<std::uint8_t>(1 + i % 255));
-    }
-  }
+  for_each_span(scenery, pixels_per_metre, [this](ColliderIndex collider, const Span& span) {
+    const auto first = colours_.begin() + (span.row - box_.lower.y) * box_.width - box_.lower.x;
+    std::fill(first + span.first, first + span.end, static_cast<std::uint8_t>(1 + collider % 255));
+  });
 }
 
 }  // namespace paperproof::raster

@@ -46,7 +46,7 @@ class Bitmap {
   std::vector<std::uint64_t> words_;
 };
 
-/// The solid pixels of a scenery.
+/// The solid pixels of a scenery: of what blocks and stands still.
 /// @throws NotExpressible as `Bitmap` and `spans_of`.
 [[nodiscard]] Bitmap rasterise(const SceneryDef& scenery, double pixels_per_metre);
 

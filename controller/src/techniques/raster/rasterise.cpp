@@ -123,10 +123,12 @@ void spans_of(const ColliderDef& collider, double pixels_per_metre, std::vector<
 }
 
 PixelBox pixels_around(const SceneryDef& scenery, double pixels_per_metre) {
-  if (scenery.colliders.empty()) return {};
-  Box2<double> box{scenery.colliders[0].points[0], scenery.colliders[0].points[0]};
-  for (const ColliderDef& collider : scenery.colliders) {
-    for (const Vec2d& point : collider.points) box = box.merged({point, point});
+  const std::vector<ColliderIndex> solids = standing_solids(scenery);
+  if (solids.empty()) return {};
+  const Vec2d& any = scenery.colliders[solids.front()].points.front();
+  Box2<double> box{any, any};
+  for (const ColliderIndex solid : solids) {
+    for (const Vec2d& point : scenery.colliders[solid].points) box = box.merged({point, point});
   }
   const Pixel lower{floor_to_pixel(box.lower.x() * pixels_per_metre), floor_to_pixel(box.lower.y() * pixels_per_metre)};
   const Pixel upper{floor_to_pixel(box.upper.x() * pixels_per_metre), floor_to_pixel(box.upper.y() * pixels_per_metre)};

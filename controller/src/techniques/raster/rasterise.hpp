@@ -6,6 +6,7 @@
 /// (row), and the pixels of its ends. A one-way chain cannot be drawn: a pixel is solid from all sides.
 #pragma once
 
+#include "scenery_facts.hpp"
 #include "techniques/raster/pixel.hpp"
 
 #include <paperproof/scenery.hpp>
@@ -28,7 +29,18 @@ struct Span {
 /// @throws NotExpressible for a one-way chain.
 void spans_of(const ColliderDef& collider, double pixels_per_metre, std::vector<Span>& spans);
 
-/// A box that holds every solid pixel; empty for an empty scenery.
+/// Calls `visit(collider, span)` for the solid pixels of everything that blocks and stands still, in order.
+/// @throws NotExpressible as `spans_of`.
+template <class Visit>
+void for_each_span(const SceneryDef& scenery, double pixels_per_metre, const Visit& visit) {
+  std::vector<Span> spans;
+  for (const ColliderIndex collider : standing_solids(scenery)) {
+    spans_of(scenery.colliders[collider], pixels_per_metre, spans);
+    for (const Span& span : spans) visit(collider, span);
+  }
+}
+
+/// A box that holds every solid pixel; empty where nothing is solid.
 [[nodiscard]] PixelBox pixels_around(const SceneryDef& scenery, double pixels_per_metre);
 
 /// Whether `pixel` is one of a piece's solid pixels.
