@@ -57,7 +57,7 @@ class RandomCrowd {
         origin_(random_.chance(0.9) ? Vec2d{0, 0} : Vec2d{far(), far()}),
         extent_(character_.shape.box().upper - character_.shape.box().lower),
         wanted_(random_.integer(2, 10)),
-        room_(extent_.x() * (3 + wanted_ * random_.between(0.5, 1.2)), extent_.y() * random_.between(1.5, 5)),
+        room_{extent_.x() * (3 + wanted_ * random_.between(0.5, 1.2)), extent_.y() * random_.between(1.5, 5)},
         scenery_(room_with_movers()),
         crowd_(scenery_, rules()),
         report_(16),
@@ -90,7 +90,7 @@ class RandomCrowd {
   }
 
  private:
-  double far() { return (random_.chance(0.5) ? 1 : -1) * random_.log_between(1, 9.9e5); }
+  double far() { return random_.either_sign_log_between(1, 9.9e5); }
 
   /// A closed room with one to four things that move in it.
   SceneryDef room_with_movers() {
@@ -120,9 +120,11 @@ class RandomCrowd {
           add(box(width, 0, width + 0.1, 1), mover, at);
           break;
         }
-        case 3:  // a press
-          add(box(0, 0, random_.between(0.2, 1), random_.between(0.5, 2)), mover, at);
+        case 3: {  // a press
+          const Vec2d size{random_.between(0.2, 1), random_.between(0.5, 2)};
+          add(box(0, 0, size.x(), size.y()), mover, at);
           break;
+        }
         case 4: {  // a paper
           const double thin = random_.log_between(1e-4, 0.05);
           add(random_.chance(0.5) ? box(0, 0, thin, 1.5) : box(0, 0, width, thin), mover, at);

@@ -62,7 +62,7 @@ class RandomCrowd {
         random_(seed),
         extent_(character_.shape.box().upper - character_.shape.box().lower),
         wanted_(random_.integer(2, 16)),
-        room_(extent_.x() * (1.5 + wanted_ * random_.between(0.3, 0.8)), extent_.y() * random_.between(1.3, 4)),
+        room_{extent_.x() * (1.5 + wanted_ * random_.between(0.3, 0.8)), extent_.y() * random_.between(1.3, 4)},
         scenery_(tight_room(random_, extent_, room_)),
         crowd_(scenery_, with_snap(character_)),
         oracle_(scenery_.as_run(), {character_.shape.hull().begin(), character_.shape.hull().end()}),

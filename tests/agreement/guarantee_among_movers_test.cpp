@@ -146,7 +146,7 @@ class RandomRun {
   }
 
  private:
-  double far() { return (random_.chance(0.5) ? 1 : -1) * random_.log_between(1, 9.9e5); }
+  double far() { return random_.either_sign_log_between(1, 9.9e5); }
 
   SceneryDef scenery() {
     SceneryDef def = random_.chance(0.8) ? random_scenery(family_, random_, origin_) : SceneryDef{};

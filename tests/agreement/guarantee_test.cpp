@@ -73,7 +73,7 @@ class RandomRun {
   }
 
  private:
-  double far() { return (random_.chance(0.5) ? 1 : -1) * random_.log_between(1, 9.9e5); }
+  double far() { return random_.either_sign_log_between(1, 9.9e5); }
   static void round_to_pixels(Vec2d& p) { p = {std::round(p.x() * 32) / 32, std::round(p.y() * 32) / 32}; }
 
   CharacterDef character() {

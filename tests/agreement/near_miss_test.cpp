@@ -50,7 +50,7 @@ TEST(NearMiss, is_told_from_a_hit_as_exact_arithmetic_does) {
   int hits = 0;
   int too_near_to_tell = 0;
   for (int n = 0; n < flights; ++n) {
-    const double nearer = (random.chance(0.5) ? 1 : -1) * random.log_between(1e-16, 1e-1);
+    const double nearer = random.either_sign_log_between(1e-16, 1e-1);
     const Flight flight = past_a_corner(random, nearer);
     const Scenery<double> scenery(flight.scenery);
     const Controller<double> controller(scenery, {});

@@ -32,7 +32,7 @@ int leaks_of_the_ring(SceneryMode mode) {
     const bool inside = i % 2 == 0;
     const Vec2d direction = random.direction();
     const double speed = random.between(20, 110);
-    const Vec2d start = inside ? Vec2d(random.between(-1, 1), random.between(-1, 1)) : Vec2d(8 * direction);
+    const Vec2d start = inside ? Vec2d{random.between(-1, 1), random.between(-1, 1)} : Vec2d(8 * direction);
     ReferenceWorld world(scenery, {}, start, {.mode = mode});
     Vec2d velocity = (inside ? speed : -speed) * direction;
     bool leaked = false;
@@ -118,7 +118,8 @@ int shots_through(double thickness, SceneryMode mode) {
     const double angle = random.between(0, 2 * std::numbers::pi);
     const Vec2d normal(-std::sin(angle), std::cos(angle));
     const Vec2d along(normal.y(), -normal.x());
-    const Vec2d start = normal * random.between(1, 3) + along * random.between(-2, 2);
+    const double height = random.between(1, 3);
+    const Vec2d start = normal * height + along * random.between(-2, 2);
     ReferenceWorld world(level({paper(thickness, angle)}), {}, start, {.mode = mode});
     const Vec2d velocity = -100 * normal;
     bool passed = false;
@@ -156,7 +157,7 @@ TEST(Blocking, small_features_on_a_floor_leave_no_hole_in_it) {
     const Scenery<double> scenery = level({polygon(floor), box(-1, 0.4, 1, 0.401), box(2, 0.3, 2.003, 0.303)});
     for (int i = 0; i < 20; ++i) {
       ReferenceWorld world(scenery, {}, {random.between(-4.5, 4.5), random.between(2, 3)});
-      const Vec2d velocity(random.between(-20, 20), -random.between(5, 100));
+      const Vec2d velocity{random.between(-20, 20), -random.between(5, 100)};
       for (int k = 0; k < 30; ++k) {
         world.step(velocity, frame);
         if (std::abs(world.position().x()) > 5) break;

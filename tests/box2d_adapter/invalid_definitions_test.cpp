@@ -95,7 +95,7 @@ double any_length(Random& random) {
 Vec2d any_point(Random& random) { return {any_length(random), any_length(random)}; }
 
 ColliderDef any_collider(Random& random) {
-  const Vec2d centre(random.between(-4, 4), random.between(-4, 4));
+  const Vec2d centre{random.between(-4, 4), random.between(-4, 4)};
   const double size = std::pow(10, random.between(-9, 1));
   std::vector<Vec2d> points;
   const std::size_t count = 1 + random.below(12);
@@ -164,7 +164,7 @@ void try_world(Random& random, Outcomes& outcomes) {
     if (random.below(2) == 0) colliders.push_back(polygon(rectangle(-9, -9, 9, 9), {rectangle(-6, -6, 6, 6)}));
     for (std::size_t i = random.below(4); i > 0; --i) colliders.push_back(any_collider(random));
     const SceneryMode mode = random.below(2) == 0 ? SceneryMode::chain_loops : SceneryMode::pieces;
-    const Vec2d start = random.below(10) == 0 ? any_point(random) : Vec2d(random.between(-4, 4), random.between(-4, 4));
+    const Vec2d start = random.below(10) == 0 ? any_point(random) : Vec2d{random.between(-4, 4), random.between(-4, 4)};
     ReferenceWorld world(level(std::move(colliders)), any_character(random), start, {.mode = mode});
     for (int k = 0; k < 20; ++k) try_step(world, random, outcomes);
   } catch (const std::invalid_argument& refused) {

@@ -82,7 +82,7 @@ TEST(ReferenceWorld, two_worlds_give_the_same_bits) {
   Vec2d velocity = Vec2d::Zero();
   for (int i = 0; i < 1000; ++i) {
     velocity += gravity * frame;
-    if (random.below(20) == 0) velocity = Vec2d(random.between(-8, 8), random.between(0, 8));
+    if (random.below(20) == 0) velocity = Vec2d{random.between(-8, 8), random.between(0, 8)};
     const TwinStep& a = first.step(velocity, frame);
     const TwinStep& b = second.step(velocity, frame);
     ASSERT_EQ(first.position(), second.position()) << "seed 5, step " << i;

@@ -92,7 +92,7 @@ TEST(SolidUnion, crossing_polygons_are_united_to_a_micrometre_twenty_kilometres_
 TEST(SolidUnion, original_vertices_keep_their_float_bits) {
   Random random(11);
   for (int i = 0; i < 1000; ++i) {
-    const Vec2d corner = Vec2d(random.between(-2e4, 2e4), random.between(-2e4, 2e4));
+    const Vec2d corner{random.between(-2e4, 2e4), random.between(-2e4, 2e4)};
     const SceneryDef scenery = rounded(SceneryDef{{polygon({corner, corner + Vec2d(5, 0), corner + Vec2d(0, 5)})}});
     const std::vector<Ring> loops = solid_union(scenery);
     ASSERT_EQ(loops.size(), 1U);

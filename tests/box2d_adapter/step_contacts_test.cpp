@@ -160,15 +160,15 @@ TEST(ColliderLookup, agrees_with_a_search_through_all_edges) {
   Random random(10);
   std::vector<ColliderDef> colliders;
   for (int i = 0; i < 200; ++i) {
-    const double x = random.between(-10, 10);
-    const double y = random.between(-10, 10);
-    colliders.push_back(box(x, y, x + random.between(0.1, 3), y + random.between(0.1, 3)));
+    const Vec2d low{random.between(-10, 10), random.between(-10, 10)};
+    const Vec2d high = low + Vec2d{random.between(0.1, 3), random.between(0.1, 3)};
+    colliders.push_back(box(low.x(), low.y(), high.x(), high.y()));
   }
   ColliderLookup lookup(SceneryDef{colliders}, numbered(colliders.size()));
   const double reach = 0.1;
   int found = 0;
   for (int i = 0; i < 2000; ++i) {
-    const Vec2d point(random.between(-10, 13), random.between(-10, 13));
+    const Vec2d point{random.between(-10, 13), random.between(-10, 13)};
     double least = reach;
     std::optional<ColliderIndex> expected;
     for (ColliderIndex c = 0; c < colliders.size(); ++c) {

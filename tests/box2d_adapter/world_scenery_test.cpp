@@ -155,7 +155,8 @@ TEST(WorldMovers, go_as_box2d_moves_them_to_the_bit) {
   const float dt = 1 / 60.0F;
   for (int step = 0; step < 1000; ++step) {
     // Now and then more than the 2 m that Box2D moves at most.
-    const Vec2d velocity = random.direction() * random.between(0, step % 10 == 0 ? 300 : 50);
+    const double speed = random.between(0, step % 10 == 0 ? 300 : 50);
+    const Vec2d velocity = speed * random.direction();
     lift->SetLinearVelocity({static_cast<float>(velocity.x()), static_cast<float>(velocity.y())});
     ASSERT_TRUE(motions_of<double>(read, dt, motions));
     ASSERT_TRUE(motions_of<float>(read, dt, rounded_motions));

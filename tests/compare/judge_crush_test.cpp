@@ -149,8 +149,10 @@ TEST(FreeSpace, a_place_that_is_found_keeps_the_clearance_and_none_is_missed) {
   constexpr int rounds = 300;
   for (int i = 0; i < rounds; ++i) {
     std::vector<ColliderDef> colliders;
-    for (int k = 0; k < 14; ++k)
-      colliders.push_back(polygon(star(random, random.point(1.8), 0.9, 3 + random.below(4))));
+    for (int k = 0; k < 14; ++k) {
+      const Vec2d centre = random.point(1.8);
+      colliders.push_back(polygon(star(random, centre, 0.9, 3 + random.below(4))));
+    }
     colliders[0].mover = 0;
     const ExactScenery world(scenery(colliders), octagon());
     const std::vector<MoverMotion<double>> movers{{random.point(1), random.point(1)}};

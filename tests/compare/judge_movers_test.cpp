@@ -218,7 +218,8 @@ TEST(JudgeSensors, agree_with_overlap_tested_at_many_instants) {
   Random random(seed);
   int events = 0;
   for (int i = 0; i < 300; ++i) {
-    const ColliderDef shape = polygon(star(random, random.point(1), 1, 3 + random.below(6)));
+    const Vec2d centre = random.point(1);
+    const ColliderDef shape = polygon(star(random, centre, 1, 3 + random.below(6)));
     const ExactScenery sensors(scenery({moving(sensor(shape))}), octagon());
     const ExactScenery solids(scenery({moving(shape)}), octagon());
     const std::vector<MoverMotion<double>> movers{{random.point(1), random.point(1)}};

@@ -26,7 +26,8 @@ TEST(ExactImpact, separates_before_and_meets_after) {
   int hits = 0;
   int rounds = 0;
   for (int i = 0; i < 1500; ++i) {
-    const ExactScenery world(scenery({polygon(star(random, random.point(1), 0.8, 3 + random.below(7)))}), octagon());
+    const Vec2d centre = random.point(1);
+    const ExactScenery world(scenery({polygon(star(random, centre, 0.8, 3 + random.below(7)))}), octagon());
     const Vec2d from = random.point(2.5);
     const Vec2d displacement = 1.5 * (random.point(1.2) - from);
     if (world.overlaps(from, 0)) continue;

@@ -59,7 +59,8 @@ TEST(ExactMovers, a_way_among_movers_agrees_with_clipping_in_rationals) {
   int met = 0;
   constexpr int rounds = 2000;
   for (int i = 0; i < rounds; ++i) {
-    const std::vector<Vec2d> ring = star(random, random.point(1), 0.8, 3 + random.below(6));
+    const Vec2d centre = random.point(1);
+    const std::vector<Vec2d> ring = star(random, centre, 0.8, 3 + random.below(6));
     const std::vector<Vec2d> other = star(random, random.point(1), 0.8, 3);
     const ExactScenery world(scenery({moving(polygon(ring), 1), moving(polygon(other), 0)}), octagon());
     // Half of them on a grid, where much only touches.

@@ -28,7 +28,8 @@ TEST(ExactOverlap, agrees_with_the_area_left_by_clipping_concave_rings) {
   int overlaps = 0;
   constexpr int rounds = 2000;
   for (int i = 0; i < rounds; ++i) {
-    const std::vector<Vec2d> ring = star(random, random.point(1), 1.2, 3 + random.below(9));
+    const Vec2d centre = random.point(1);
+    const std::vector<Vec2d> ring = star(random, centre, 1.2, 3 + random.below(9));
     const Vec2d position = random.point(1.2);
     const ExactScenery world(scenery({polygon(ring)}), octagon());
     const bool expected = area_inside(ring, octagon(), position) > 0;

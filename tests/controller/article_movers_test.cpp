@@ -274,7 +274,7 @@ TEST(MovingLine, never_gets_past_whom_it_pushes_however_both_move) {
     passenger.position = {11 * px, 20 * px};
     Vec2d offset{0, 0};
     for (int step = 0; step < 60; ++step) {
-      const MoverMotion<double> motion{offset, offset + Vec2d(random.between(-0.2, 0.8), random.between(-0.3, 0.3))};
+      const MoverMotion<double> motion{offset, offset + Vec2d{random.between(-0.2, 0.8), random.between(-0.3, 0.3)}};
       offset = motion.to;
       passenger.velocity.x() = passenger.ride.velocity.x() + random.between(-30, 20);
       const MoveResult<double>& result = passenger.step({motion});
@@ -350,8 +350,8 @@ TEST(ManyMovers, leave_every_number_finite_and_nothing_pushed_into_what_stands_s
       std::vector<ColliderDef> colliders;
       for (int i = 0; i < 12; ++i) {
         const Vec2d corner{random.between(-4, 4), random.between(-4, 4)};
-        colliders.push_back(rectangle(corner.x(), corner.y(), corner.x() + random.between(0.01, 2),
-                                      corner.y() + random.between(0.01, 2)));
+        const Vec2d opposite = corner + Vec2d{random.between(0.01, 2), random.between(0.01, 2)};
+        colliders.push_back(rectangle(corner.x(), corner.y(), opposite.x(), opposite.y()));
         if (i >= 6) colliders.back().mover = static_cast<MoverIndex>(i - 6);
       }
       Passenger passenger(kind, colliders);
@@ -360,7 +360,7 @@ TEST(ManyMovers, leave_every_number_finite_and_nothing_pushed_into_what_stands_s
       Motions motions(6);
       for (int step = 0; step < 60; ++step) {
         for (MoverMotion<double>& motion : motions)
-          motion = {motion.to, motion.to + Vec2d(random.between(-0.5, 0.5), random.between(-0.5, 0.5))};
+          motion = {motion.to, motion.to + Vec2d{random.between(-0.5, 0.5), random.between(-0.5, 0.5)}};
         const std::size_t before = tests::allocations();
         const MoveResult<double>& result = passenger.step(motions);
         ASSERT_EQ(tests::allocations(), before);

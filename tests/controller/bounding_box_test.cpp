@@ -72,9 +72,9 @@ TEST(BoundingBox, ends_free_to_the_last_bit_and_moves_no_further_than_asked) {
   for (int scene = 0; scene < 200; ++scene) {
     std::vector<ColliderDef> boxes;
     for (int i = 0; i < 30; ++i) {
-      const double x = random.between(-9, 9);
-      const double y = random.between(-9, 9);
-      boxes.push_back(rectangle(x, y, x + random.between(0.1, 2), y + random.between(0.1, 2)));
+      const Vec2d low{random.between(-9, 9), random.between(-9, 9)};
+      const Vec2d high = low + Vec2d{random.between(0.1, 2), random.between(0.1, 2)};
+      boxes.push_back(rectangle(low.x(), low.y(), high.x(), high.y()));
     }
     Rig<float> rig(kind, boxes, {.iterations = 64});
     const Box2<double>& character = rig.character.shape.box();

@@ -34,7 +34,7 @@ class RandomScene {
       if (kind == 0 && i > 0 && integer(0, 2) == 0) {
         boxes.push_back(boxes[static_cast<std::size_t>(integer(0, i - 1))]);
       } else if (kind == 1) {
-        const Vec2<Scalar> corner(static_cast<Scalar>(integer(0, 15)), static_cast<Scalar>(integer(0, 15)));
+        const Vec2<Scalar> corner{static_cast<Scalar>(integer(0, 15)), static_cast<Scalar>(integer(0, 15))};
         boxes.push_back({corner, corner + Vec2<Scalar>::Ones()});
       } else {
         boxes.push_back(box());
@@ -57,7 +57,7 @@ class RandomScene {
   Box2<Scalar> box() {
     const Scalar width = integer(0, 3) == 0 ? Scalar(0) : std::abs(uniform()) * scale_ / 4;
     const Scalar height = integer(0, 2) == 0 ? Scalar(0) : std::abs(uniform()) * scale_ / 4;
-    const Vec2<Scalar> corner(uniform() * scale_, uniform() * scale_);
+    const Vec2<Scalar> corner{uniform() * scale_, uniform() * scale_};
     return {corner, corner + Vec2<Scalar>(width, height)};
   }
 

@@ -78,7 +78,7 @@ TEST(CharacterShape, it_accepts_exactly_the_points_that_are_all_corners_of_their
   int refused = 0;
   for (int i = 0; i < 20000; ++i) {
     Points points(count(random));
-    for (Vec2d& point : points) point = Vec2d(coordinate(random), coordinate(random));
+    for (Vec2d& point : points) point = Vec2d{coordinate(random), coordinate(random)};
     // A point is a corner exactly if it lies in no triangle, segment or point made of the others.
     const auto covered = [&](std::size_t p) {
       for (std::size_t a = 0; a < points.size(); ++a) {

@@ -126,8 +126,8 @@ TEST(DiscreteIslands, of_many_bodies_are_those_of_a_flood_over_overlapping_boxes
   for (int scene = 0; scene < 300; ++scene) {
     Bodies<double> bodies;
     for (int i = 0; i < 40; ++i) {
-      auto& body = bodies.add_box({1, 1}, {random.between(-8, 8), random.between(-8, 8)},
-                                  {random.between(-1, 1), random.between(-1, 1)});
+      const Vec2d middle{random.between(-8, 8), random.between(-8, 8)};
+      auto& body = bodies.add_box({1, 1}, middle, {random.between(-1, 1), random.between(-1, 1)});
       if (random.below(5) == 0) body.inverse_mass = 0;
     }
     std::vector<Box2<double>> boxes;
@@ -181,8 +181,8 @@ TEST(DiscreteOrder, of_all_solved_impacts_rises_within_each_island) {
   for (int scene = 0; scene < 1000; ++scene) {
     Bodies<double> bodies;
     for (int i = 0; i < 30; ++i) {
-      bodies.add_box({0.5, 0.5}, {random.between(-6, 6), random.between(-6, 6)},
-                     {random.between(-1, 1), random.between(-1, 1)});
+      const Vec2d middle{random.between(-6, 6), random.between(-6, 6)};
+      bodies.add_box({0.5, 0.5}, middle, {random.between(-1, 1), random.between(-1, 1)});
     }
     const std::vector<Bodies<double>::Body> before = bodies.all;
     auto solver = make_solver();
@@ -213,8 +213,8 @@ TEST(DiscretePush, keeps_the_momentum_and_the_centre_of_mass_of_what_can_move) {
   for (int i = 0; i < 2000; ++i) {
     Bodies<double> bodies;
     for (int body = 0; body < 6; ++body) {
-      auto& added = bodies.add_box({1, 1}, {random.between(-2, 2), random.between(-2, 2)},
-                                   {random.between(-1, 1), random.between(-1, 1)});
+      const Vec2d middle{random.between(-2, 2), random.between(-2, 2)};
+      auto& added = bodies.add_box({1, 1}, middle, {random.between(-1, 1), random.between(-1, 1)});
       added.inverse_mass = random.between(0.1, 10);
     }
     const auto sums = [&] {

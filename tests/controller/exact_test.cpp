@@ -126,14 +126,17 @@ TEST_F(ExactSigns, orientation_of_an_offset_edge_does_not_round_the_sums) {
 
 TEST_F(ExactSigns, signs_are_exact_for_every_mixture_of_magnitudes_in_range) {
   const auto any = [&] {
-    return integer(0, 9) == 0 ? 0.0 : std::copysign(std::ldexp(uniform(1, 2), integer(-300, 299)), uniform(-1, 1));
+    if (integer(0, 9) == 0) return 0.0;
+    const double significand = uniform(1, 2);
+    const double magnitude = std::ldexp(significand, integer(-300, 299));
+    return std::copysign(magnitude, uniform(-1, 1));
   };
   int on_line = 0;
   for (int i = 0; i < cases / 4; ++i) {
-    const Vec2d a(any(), any());
-    const Vec2d b = integer(0, 4) == 0 ? a : Vec2d(any(), any());
-    const Vec2d c = integer(0, 1) == 0 ? Vec2d(any(), any()) : without_traces(an_ulp_away(b));
-    const Vec2d offset(any(), any());
+    const Vec2d a{any(), any()};
+    const Vec2d b = integer(0, 4) == 0 ? a : Vec2d{any(), any()};
+    const Vec2d c = integer(0, 1) == 0 ? Vec2d{any(), any()} : without_traces(an_ulp_away(b));
+    const Vec2d offset{any(), any()};
     const int exact = cross(ExactPoint(a), ExactPoint(b), ExactPoint(c)).sign();
     ASSERT_EQ(orientation_sign(a, b, c), exact) << "seed " << seed << ", case " << i;
     ASSERT_EQ(orientation_sign_of_offset(a, b, c, offset),

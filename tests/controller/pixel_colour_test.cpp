@@ -108,14 +108,14 @@ TEST(PixelColour, never_ends_in_a_solid_nor_leaves_a_room_of_paper) {
   constexpr int rooms = 20;
   for (int room = 0; room < rooms; ++room) {
     // Walls without thickness, none of them straight up or down, and things in between.
-    const auto near = [&](double x, double y) { return Vec2d(x + random.between(-1, 1), y + random.between(-1, 1)); };
+    const auto near = [&](double x, double y) { return Vec2d{x + random.between(-1, 1), y + random.between(-1, 1)}; };
     const Vec2d first = near(-8, -6);
     SceneryDef scenery{{chain({first, near(8, -6), near(8, 6), near(-8, 6), first})}};
     for (int i = 0; i < 8; ++i) {
       const Vec2d at{random.between(-6, 6), random.between(-4, 4)};
       if (at.cwiseAbs().maxCoeff() < 2.5) continue;  // room for the start
       const auto side = [&] { return random.between(0.1, 1); };
-      scenery.colliders.push_back({.points = {at, at + Vec2d(side(), -0.2 * side()), at + Vec2d(0.1, side())}});
+      scenery.colliders.push_back({.points = {at, at + Vec2d{side(), -0.2 * side()}, at + Vec2d{0.1, side()}}});
     }
     const raster::Bitmap level = raster::rasterise(scenery, 32);
     const raster::Sprite sprite(CharacterShape::article(), 32);

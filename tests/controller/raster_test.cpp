@@ -88,7 +88,7 @@ TEST(Rasteriser, gives_each_pixel_of_two_polygons_with_a_common_edge_to_exactly_
   Random random(seed);
   std::size_t shared = 0;
   for (int i = 0; i < 2000; ++i) {
-    const auto corner = [&](double x, double y) { return Vec2d(x * random.between(1, 9), y * random.between(1, 9)); };
+    const auto corner = [&](double x, double y) { return Vec2d{x * random.between(1, 9), y * random.between(1, 9)}; };
     // One corner in each quadrant; cut from the first to the third.
     const std::vector<Vec2d> quad{corner(1, 1), corner(-1, 1), corner(-1, -1), corner(1, -1)};
     const auto whole = pixels_of({.points = quad}, 2.7);

@@ -70,7 +70,7 @@ TEST(Refusals, exactly_the_rings_that_touch_or_cross_themselves_are_refused) {
     test::Random random(seed);
     Points ring(3 + random.index(4));
     for (Vec2d& vertex : ring)
-      vertex = Vec2d(static_cast<double>(random.index(5)), static_cast<double>(random.index(5)));
+      vertex = Vec2d{static_cast<double>(random.index(5)), static_cast<double>(random.index(5))};
     const bool simple = is_simple(ring);
     ASSERT_EQ(refusal_of(scenery_of(Polygon{ring, {}})) == "accepted", simple) << "seed " << seed;
     ++(simple ? valid : invalid);
@@ -87,7 +87,7 @@ TEST(Refusals, exactly_the_holes_that_are_strictly_inside_are_accepted) {
     const Points outer{{0, 0}, {8, 0}, {8, 8}, {4, 3}, {0, 8}};
     Points hole(3);
     for (Vec2d& vertex : hole) {
-      vertex = Vec2d(static_cast<double>(random.index(9)) - 0.5, static_cast<double>(random.index(8)));
+      vertex = Vec2d{static_cast<double>(random.index(9)) - 0.5, static_cast<double>(random.index(8))};
     }
     if (!is_simple(hole)) continue;
     bool inside = true;

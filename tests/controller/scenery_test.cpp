@@ -95,7 +95,8 @@ void expect_exact_tiling(const Polygon& polygon, const std::vector<Points>& piec
     // A point of a piece, on or near a line between two of its vertices.
     const Points& piece = pieces[random.index(pieces.size())];
     const double t = random.uniform(0, 1);
-    const Vec2d point = (1 - t) * piece[random.index(piece.size())] + t * piece[random.index(piece.size())];
+    const Vec2d& vertex = piece[random.index(piece.size())];
+    const Vec2d point = (1 - t) * vertex + t * piece[random.index(piece.size())];
     if (where_is(point, piece) == Where::inside) {
       ASSERT_EQ(where_is(point, polygon), Where::inside);
     }

@@ -1,4 +1,8 @@
-/// Random numbers that are the same with every standard library.
+/// Random numbers that are the same with every standard library and every compiler.
+///
+/// The compiler chooses the order in which the arguments of a call and the operands of most operators are evaluated:
+/// `Vec2d(r.unit(), r.unit())` and `r.unit() * r.unit()` give other samples with GCC than with Clang. So at most one of
+/// them draws; several draws stand within braces, `Vec2d{r.unit(), r.unit()}`, or one after the other.
 #pragma once
 
 #include <cmath>
@@ -16,6 +20,11 @@ class Random {
   double between(double low, double high) { return low + (high - low) * unit(); }
   /// Every order of magnitude is as likely as the next.
   double log_between(double low, double high) { return std::exp(between(std::log(low), std::log(high))); }
+  /// As log_between, with either sign.
+  double either_sign_log_between(double low, double high) {
+    const double sign = chance(0.5) ? 1 : -1;
+    return sign * log_between(low, high);
+  }
   int integer(int low, int high) {
     return low + static_cast<int>(engine_() % static_cast<std::uint64_t>(high - low + 1));
   }

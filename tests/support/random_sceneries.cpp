@@ -51,7 +51,8 @@ void slopes(Builder& b, Random& r) {
   double y = -2;
   while (x < 6) {
     const double width = r.between(0.2, 2);
-    const double angle = (r.chance(0.2) ? r.between(80, 89.9) : r.between(0, 60)) * degree * (r.chance(0.5) ? 1 : -1);
+    const double steepness = r.chance(0.2) ? r.between(80, 89.9) : r.between(0, 60);
+    const double angle = (r.chance(0.5) ? steepness : -steepness) * degree;
     const double next = std::clamp(y + std::tan(angle) * width, -6.0, 6.0);
     b.polygon({{x, -8}, {x + width, -8}, {x + width, next}, {x, y}});
     x += width;
@@ -69,8 +70,12 @@ void spikes(Builder& b, Random& r) {
 }
 
 void papers(Builder& b, Random& r) {
-  for (int i = 0; i < 8; ++i)
-    b.strip({r.between(-4, 4), r.between(-4, 4)}, r.between(0.5, 5), r.log_between(1e-6, 0.1), r.angle());
+  for (int i = 0; i < 8; ++i) {
+    const Vec2d middle{r.between(-4, 4), r.between(-4, 4)};
+    const double length = r.between(0.5, 5);
+    const double thickness = r.log_between(1e-6, 0.1);
+    b.strip(middle, length, thickness, r.angle());
+  }
 }
 
 void chains(Builder& b, Random& r) {
@@ -103,8 +108,12 @@ void stairs(Builder& b, Random& r) {
 
 void ceilings(Builder& b, Random& r) {
   slopes(b, r);
-  for (int i = 0; i < 5; ++i)
-    b.strip({r.between(-5, 5), r.between(-1, 3)}, r.between(1, 5), r.between(0.1, 1), r.between(-60, 60) * degree);
+  for (int i = 0; i < 5; ++i) {
+    const Vec2d middle{r.between(-5, 5), r.between(-1, 3)};
+    const double length = r.between(1, 5);
+    const double thickness = r.between(0.1, 1);
+    b.strip(middle, length, thickness, r.between(-60, 60) * degree);
+  }
 }
 
 void shafts(Builder& b, Random& r) {
@@ -158,9 +167,9 @@ void one_way(Builder& b, Random& r) {
 void lattice(Builder& b, Random& r) {
   // Starts touch: everything lies on multiples of a pixel.
   for (int i = 0; i < 25; ++i) {
-    const double x = r.integer(-120, 120) / 32.0;
-    const double y = r.integer(-120, 80) / 32.0;
-    b.box(x, y, x + r.integer(1, 64) / 32.0, y + r.integer(1, 64) / 32.0);
+    const Vec2d low{r.integer(-120, 120) / 32.0, r.integer(-120, 80) / 32.0};
+    const Vec2d high = low + Vec2d{r.integer(1, 64) / 32.0, r.integer(1, 64) / 32.0};
+    b.box(low.x(), low.y(), high.x(), high.y());
   }
 }
 
