@@ -1,5 +1,6 @@
 /// The guarantee of octagon_sweep against the exact oracle, among up to 64 movers: boxes, papers, chains, one-way
 /// chains and rows of tiles, at speeds up to 1e6 m per step, in random scenery that stands still.
+#include "agreement/random_movers.hpp"
 #include "agreement/reported.hpp"
 #include "oracle/judge.hpp"
 #include "support/random_sceneries.hpp"
@@ -66,49 +67,6 @@ struct Tally {
   }
 };
 
-/// Something that moves about in an arena of 12 m.
-struct Body {
-  Vec2d velocity;  ///< [m per step]
-  double until_turn = 0;
-};
-
-/// @param colliders where the shapes of the movers are added.
-void add_mover(std::vector<ColliderDef>& colliders, MoverIndex mover, Random& r, const Vec2d& origin) {
-  const auto add = [&](std::vector<Vec2d> points, ColliderDef::Shape shape = ColliderDef::Shape::polygon) {
-    ColliderDef def{.shape = shape, .points = std::move(points), .mover = mover};
-    const double offset_x = r.between(-5, 5);
-    const double offset_y = r.between(-4, 4);
-    for (Vec2d& p : def.points) p += origin + Vec2d{offset_x, offset_y};
-    if (r.chance(0.1)) def.surface_speed = r.between(-5, 5);
-    colliders.push_back(def);
-  };
-  const double width = r.between(0.2, 3);
-  const double height = r.between(0.1, 1.5);
-  const double thin = r.log_between(1e-6, 0.05);
-  switch (r.integer(0, 6)) {
-    case 0:
-    case 1:
-      return add({{0, 0}, {width, 0}, {width, height}, {0, height}});
-    case 2:
-      return add({{0, 0}, {width, r.between(-1, 1)}, {0.5 * width, 1.5}});
-    case 3:
-      return add({{0, 0}, {thin, 0}, {thin, 2 * height}, {0, 2 * height}});
-    case 4:
-      return add({{0, 0}, {width, r.between(-1, 1)}}, ColliderDef::Shape::chain);
-    case 5:
-      add({{0, 0}, {width, r.between(-0.5, 0.5)}}, ColliderDef::Shape::chain);
-      colliders.back().one_way = Vec2d{0, 1};
-      return;
-    default:
-      for (int i = 0; i < 6; ++i) {
-        ColliderDef tile{.points = {{0, 0}, {0.5, 0}, {0.5, 0.5}, {0, 0.5}}, .mover = mover};
-        const Vec2d at{i * 0.5, r.chance(0.2) ? 0.5 : 0};
-        for (Vec2d& p : tile.points) p += origin + at;
-        colliders.push_back(tile);
-      }
-  }
-}
-
 template <class Scalar>
 class RandomRun {
  public:
@@ -121,7 +79,7 @@ class RandomRun {
         controller_(scenery_, character()),
         scratch_(controller_.make_scratch()),
         motions_(scenery_.mover_count()),
-        bodies_(scenery_.mover_count()) {}
+        wanderers_(scenery_.mover_count()) {}
 
   void go(Tally& tally) {
     state_.position = (origin_ + Vec2d{random_.between(-4, 4), random_.between(-3, 5)}).cast<Scalar>();
@@ -138,7 +96,7 @@ class RandomRun {
       if (random_.chance(0.1)) input.jump = !input.jump;
       input.drop = random_.chance(input.drop ? 0.8 : 0.1);
       if (random_.chance(0.05)) launch(dt);
-      move_bodies();
+      move_wanderers();
       take(input, static_cast<Scalar>(dt), tally);
       const bool gone = (state_.position.template cast<double>() - origin_).cwiseAbs().maxCoeff() > 14;
       if (gone || ends_ || ::testing::Test::HasFatalFailure()) return;
@@ -176,30 +134,12 @@ class RandomRun {
     state_.velocity = Vec2d{std::cos(angle) * speed, std::sin(angle) * speed}.cast<Scalar>();
   }
 
-  void move_bodies() {
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      Body& body = bodies_[i];
+  void move_wanderers() {
+    for (std::size_t i = 0; i < wanderers_.size(); ++i) {
       MoverMotion<Scalar>& motion = motions_[i];
-      if (body.until_turn-- <= 0) turn(body);
       motion.from = motion.to;
-      Vec2d to = motion.from.template cast<double>() + body.velocity;
-      // Back to the arena.
-      for (const Eigen::Index k : {0, 1})
-        if (std::abs(to[k]) > 6 && to[k] * body.velocity[k] > 0) body.velocity[k] = -body.velocity[k];
-      if (to.cwiseAbs().maxCoeff() > 1e6) to.setZero();
-      motion.to = to.cast<Scalar>();
+      motion.to = next_offset(wanderers_[i], motion.from.template cast<double>(), random_).template cast<Scalar>();
     }
-  }
-
-  void turn(Body& body) {
-    body.until_turn = random_.integer(3, 40);
-    const double speed =
-        random_.chance(0.02) ? random_.log_between(1, 1e6) : random_.log_between(1e-4, random_.chance(0.3) ? 2 : 0.2);
-    const double angle = random_.chance(0.5) ? random_.integer(0, 7) * std::numbers::pi / 4 : random_.angle();
-    body.velocity = Vec2d{std::cos(angle), std::sin(angle)} * speed;
-    if (random_.chance(0.15)) body.velocity.setZero();
-    if (random_.chance(0.3)) body.velocity.x() = 0;
-    if (random_.chance(0.3)) body.velocity.y() = 0;
   }
 
   void take(const Input& input, Scalar dt, Tally& tally) {
@@ -222,7 +162,7 @@ class RandomRun {
     const bool far = crushed_from_afar();
     tally.far += far;
     ends_ = far;
-    if (far && bodies_.size() > few_movers && steps_wanted("PAPERPROOF_FAR_CRUSHES", 0) == 0) return;
+    if (far && wanderers_.size() > few_movers && steps_wanted("PAPERPROOF_FAR_CRUSHES", 0) == 0) return;
     const Tally before = tally;
     const TraceStep record = recorded();
     const StepJudgement judgement = judge_->judge(record);
@@ -371,7 +311,7 @@ class RandomRun {
   CharacterState<Scalar> state_;
   StepReport<Scalar> report_;
   std::vector<MoverMotion<Scalar>> motions_;
-  std::vector<Body> bodies_;
+  std::vector<Wanderer> wanderers_;
   bool begins_anew_ = false;
   bool ends_ = false;
 };

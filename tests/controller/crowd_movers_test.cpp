@@ -15,21 +15,8 @@ using namespace stepping;
 using article_tests::conveyor;
 using article_tests::of_mover;
 
-constexpr double rest_gap = 5e-7;
-
 /// A lift that is wide and, at offset zero, has its surface at zero.
 ColliderDef lift() { return of_mover(rectangle(-20, -0.25, 20, 0)); }
-ColliderDef floor_at_zero() { return rectangle(-20, -1, 20, 0); }
-
-/// Standing, under gravity.
-Together standing(const std::vector<double>& at, std::vector<ColliderDef> colliders) {
-  std::vector<Vec2d> positions;
-  for (const double x : at) positions.push_back({x, half_height + rest_gap});
-  Together all(positions, std::move(colliders));
-  all.gravity = {0, -30};
-  all.dt = 1.0 / 60;
-  return all;
-}
 
 /// There and back again, a wave with corners [m].
 Vec2d there_and_back(const Vec2d& by, int step) {
@@ -164,9 +151,7 @@ TEST(CrowdAmongMovers, a_ceiling_that_comes_down_on_one_leaves_its_neighbour_alo
 
 TEST(CrowdAmongMovers, who_stands_on_another_goes_up_and_down_with_the_lift_under_both) {
   for (const Vec2d& by : {Vec2d{0, 3}, Vec2d{0, -3}}) {
-    Together all({{0, half_height + rest_gap}, {0, 3 * half_height + 2 * rest_gap}}, {lift()});
-    all.gravity = {0, -30};
-    all.dt = 1.0 / 60;
+    Together all = under_gravity({{0, half_height + rest_gap}, {0, 3 * half_height + 2 * rest_gap}}, {lift()});
     for (int step = 0; step < 240; ++step) {
       all.movers[0] = {there_and_back(by, step), there_and_back(by, step + 1)};
       all.step();
@@ -186,10 +171,8 @@ TEST(CrowdAmongMovers, who_stands_on_another_goes_up_and_down_with_the_lift_unde
 TEST(CrowdAmongMovers, a_lift_that_presses_two_under_a_ceiling_crushes_the_lower_one) {
   const double room = 0.5;
   const double speed = 0.04;
-  Together all({{0, half_height + rest_gap}, {0, 3 * half_height + 2 * rest_gap}},
-               {lift(), rectangle(-20, 4 * half_height + room, 20, 4 * half_height + room + 1)});
-  all.gravity = {0, -30};
-  all.dt = 1.0 / 60;
+  Together all = under_gravity({{0, half_height + rest_gap}, {0, 3 * half_height + 2 * rest_gap}},
+                               {lift(), rectangle(-20, 4 * half_height + room, 20, 4 * half_height + room + 1)});
   const int last_with_room = static_cast<int>(room / speed);
   for (int step = 1; step <= last_with_room + 1; ++step) {
     all.step_with_movers_by({{0, speed}});
@@ -203,10 +186,8 @@ TEST(CrowdAmongMovers, a_lift_that_presses_two_under_a_ceiling_crushes_the_lower
 
 TEST(CrowdAmongMovers, who_is_carried_into_one_who_stands_slides_on_its_ground_and_pushes_nobody) {
   const double other = 2;
-  Together all({{0, half_height + rest_gap}, {other, half_height + rest_gap}},
-               {of_mover(rectangle(-8, -0.25, 1, 0)), rectangle(1.5, -1, 8, 0)});
-  all.gravity = {0, -30};
-  all.dt = 1.0 / 60;
+  Together all = under_gravity({{0, half_height + rest_gap}, {other, half_height + rest_gap}},
+                               {of_mover(rectangle(-8, -0.25, 1, 0)), rectangle(1.5, -1, 8, 0)});
   const double speed = 0.02;  // per step
   for (int step = 1; step <= 90; ++step) {
     all.step_with_movers_by({{speed, 0}});

@@ -14,18 +14,6 @@ using namespace stepping;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-ColliderDef floor_at_zero() { return rectangle(-20, -1, 20, 0); }
-
-/// Standing side by side.
-Together on_floor(std::vector<double> at, const CharacterDef& character = {}) {
-  std::vector<Vec2d> positions;
-  for (const double x : at) positions.push_back({x, half_height + 5e-7});
-  Together all(positions, {floor_at_zero()}, character);
-  all.gravity = {0, -30};
-  all.dt = 1.0 / 60;
-  return all;
-}
-
 TEST(Crowd, head_on_they_meet_after_distance_over_the_sum_of_speeds) {
   for (const double v1 : {0.5, 3.0, 100.0}) {
     for (const double v2 : {0.25, 7.0, 1000.0}) {
@@ -135,9 +123,7 @@ TEST(Crowd, whom_nobody_meets_moves_as_by_the_controller_bit_for_bit) {
   character.snap = 0.25;
   const std::vector<ColliderDef> level{floor_at_zero(), polygon({{2, -0.5}, {6, -0.5}, {6, 2}}),
                                        rectangle(-8, 0, -7, 9)};
-  Together two({{0, 1}, {-5, 1}}, level, character);
-  two.gravity = {0, -30};
-  two.dt = 1.0 / 60;
+  Together two = under_gravity({{0, 1}, {-5, 1}}, level, character);
   Stepper<double> alone(level, character);
   alone.gravity = two.gravity;
   alone.dt = two.dt;
@@ -156,150 +142,6 @@ TEST(Crowd, whom_nobody_meets_moves_as_by_the_controller_bit_for_bit) {
     ASSERT_TRUE(same_bits(two.states[1], other.state)) << step;
   }
   EXPECT_EQ(two.report.impacts, 0U);
-}
-
-TEST(Crowd, what_jumps_onto_a_head_stands_on_it) {
-  Together two = on_floor({0, 1.5});
-  two.steps(5);
-  two.inputs[0] = {.move = 1, .jump = true};
-  bool landed = false;
-  for (int step = 0; step < 120 && !landed; ++step) {
-    if (two.states[0].position.x() > 1.45) two.inputs[0] = {.move = 0};
-    two.step();
-    landed = two.states[0].grounded && two.states[0].position.y() > 2 * half_height;
-  }
-  ASSERT_TRUE(landed);
-  EXPECT_NEAR(two.states[0].position.y() - two.states[1].position.y(), 2 * half_height + 5e-7, 3e-7);
-  EXPECT_FALSE(two.states[0].jumping);
-  EXPECT_EQ(two.report.members[0].met[0].side, Side::bottom);
-  EXPECT_EQ(two.report.members[1].met[0].side, Side::top);
-  EXPECT_TRUE(two.states[1].grounded);
-
-  two.inputs[0] = {.move = 0};
-  two.steps(60);
-  const Vec2d rest = two.states[0].position;
-  for (int step = 0; step < 1000; ++step) {
-    two.step();
-    ASSERT_TRUE(same_bits(two.states[0].position, rest)) << step;
-    ASSERT_TRUE(two.states[0].grounded) << step;
-    ASSERT_TRUE(same_bits(two.states[0].velocity, Vec2d(0, 0))) << step;
-  }
-  two.inputs[0] = {.move = 0, .jump = true};
-  two.step();
-  EXPECT_GT(two.states[0].position.y(), rest.y() + 0.1) << "and jumps off it";
-}
-
-TEST(Crowd, standing_on_a_head_with_snap_is_not_pulled_through) {
-  CharacterDef character;
-  character.snap = 1;
-  Together two({{0, half_height + 5e-7}, {0.1, 3 * half_height + 1e-3}}, {floor_at_zero()}, character);
-  two.gravity = {0, -30};
-  two.dt = 1.0 / 60;
-  for (int step = 0; step < 300; ++step) {
-    two.inputs[1] = {.move = (step + 2) % 8 < 4 ? 1 : -1};  // to and fro on the flat of the head
-    two.step();
-    ASSERT_TRUE(two.states[1].grounded || step == 0) << step;
-    ASSERT_NEAR(two.states[1].position.y() - two.states[0].position.y(), 2 * half_height, 1.1e-3) << step;
-    ASSERT_FALSE(two.report.members[1].stayed) << step;
-  }
-}
-
-TEST(Crowd, two_that_press_against_each_other_at_rest_keep_their_bits) {
-  Together two = on_floor({0, 1});
-  two.inputs = {{.move = 1}, {.move = -1}};
-  two.steps(60);
-  const std::vector<CharacterState<double>> rest = two.states;
-  EXPECT_TRUE(gap_of_a_contact(two.gap(0, 1))) << two.gap(0, 1);
-  for (int step = 0; step < 10000; ++step) {
-    two.step();
-    for (std::size_t i = 0; i < 2; ++i) {
-      ASSERT_TRUE(same_bits(two.states[i], rest[i])) << step;
-      ASSERT_TRUE(two.states[i].grounded) << step;
-    }
-  }
-}
-
-TEST(Crowd, a_queue_against_a_wall_comes_to_rest) {
-  Together queue({{0, half_height + 5e-7}, {1, half_height + 5e-7}, {2, half_height + 5e-7}, {3, half_height + 5e-7}},
-                 {floor_at_zero(), rectangle(5, 0, 6, 5)});
-  queue.gravity = {0, -30};
-  queue.dt = 1.0 / 60;
-  for (Input& input : queue.inputs) input.move = 1;
-  queue.steps(180);
-  const std::vector<CharacterState<double>> rest = queue.states;
-  queue.steps(1000);
-  for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_TRUE(same_bits(queue.states[i], rest[i])) << i;
-    EXPECT_TRUE(queue.states[i].grounded) << i;
-    EXPECT_FALSE(queue.report.members[i].stayed) << i;
-  }
-  for (std::size_t i = 1; i < 4; ++i) EXPECT_TRUE(gap_of_a_contact(queue.gap(i - 1, i))) << i;
-}
-
-TEST(Crowd, who_walks_into_another_stays_on_the_ground) {
-  Together two = on_floor({0, 1});
-  two.inputs = {{.move = 1}, {.move = 0}};
-  for (int step = 0; step < 100; ++step) {
-    two.step();
-    ASSERT_TRUE(two.states[0].grounded) << step;
-  }
-  EXPECT_FALSE(two.report.members[0].met.empty());
-  two.inputs[0].jump = true;
-  two.step();
-  EXPECT_GT(two.states[0].velocity.y(), 11);
-}
-
-/// The first is held between a wall and the second's shoulder; the second jumps from under it.
-Together between_wall_and_shoulder() {
-  Together two({{half_width + 5e-7, 1.4993281862229892}, {0.8128372159054997, half_height + 5e-7}},
-               {floor_at_zero(), rectangle(-1, 0, 0, 9)});
-  two.gravity = {0, -30};
-  two.dt = 1.0 / 60;
-  two.states[0].grounded = two.states[1].grounded = true;
-  two.inputs = {{.move = 0}, {.move = 1, .jump = true}};
-  return two;
-}
-
-TEST(Crowd, who_goes_along_another_is_not_halted_by_rounding) {
-  Together two = between_wall_and_shoulder();
-  two.step();
-  // It wants (1, 11.5) m/s, and keeps what is along the facet with the normal (2, -1).
-  const Vec2d wanted(1, 11.5);
-  const Vec2d facet = Vec2d(1, 2) / std::sqrt(5.0);
-  const Vec2d kept = facet * facet.dot(wanted);
-  EXPECT_LE((two.states[1].velocity - kept).norm(), 1e-12);
-  EXPECT_LE((two.states[1].position - Vec2d(0.8128372159054997, half_height + 5e-7) - kept / 60).norm(), 1e-12);
-}
-
-TEST(Crowd, scenery_that_turns_one_into_another_is_a_contact_although_nothing_moves) {
-  Together two = between_wall_and_shoulder();
-  two.inputs[1] = {.move = 0};
-  two.inputs[0] = {.move = -1};
-  for (int step = 0; step < 3; ++step) {
-    two.step();
-    const auto& contacts = two.report.members[0].step.move.contacts;
-    ASSERT_EQ(contacts.size(), 1U) << step;
-    EXPECT_EQ(contacts[0].collider, 1U);
-    EXPECT_EQ(contacts[0].side, Side::left);
-    EXPECT_TRUE(gap_of_a_contact(contacts[0].separation));
-    EXPECT_TRUE(two.states[0].wall_left);
-    EXPECT_TRUE(two.states[0].grounded);
-  }
-}
-
-TEST(Crowd, exact_neighbours_fall_and_walk_together) {
-  // Exactly touching, in pixels: no gap at all.
-  Together two({{0, 1}, {20 * px, 1}}, {floor_at_zero()});
-  two.gravity = {0, -30};
-  two.dt = 1.0 / 60;
-  two.step();
-  EXPECT_NEAR(two.states[0].velocity.y(), -0.5, 1e-15);
-  EXPECT_NEAR(two.states[1].velocity.y(), -0.5, 1e-15);
-  EXPECT_TRUE(two.report.members[0].met.empty());
-  two.steps(60);
-  two.inputs = {{.move = -1}, {.move = 1}};
-  two.steps(30);
-  EXPECT_GT(two.gap(0, 1), 1);
 }
 
 TEST(Crowd, those_that_overlap_say_so_and_only_part) {
@@ -325,9 +167,7 @@ TEST(Crowd, the_order_in_which_they_are_given_makes_no_difference_where_times_di
       std::reverse(at.begin(), at.end());
       std::reverse(wanted.begin(), wanted.end());
     }
-    Together all(at, {floor_at_zero()});
-    all.gravity = {0, -30};
-    all.dt = 1.0 / 60;
+    Together all = under_gravity(at, {floor_at_zero()});
     for (std::size_t i = 0; i < 4; ++i) all.inputs[i].move = wanted[i];
     all.steps(40);
     if (turned) std::reverse(all.states.begin(), all.states.end());
@@ -379,9 +219,7 @@ TEST(Crowd, another_technique_is_refused) {
 TEST(Crowd, a_step_allocates_nothing) {
   std::vector<Vec2d> at;
   for (int i = 0; i < 12; ++i) at.push_back({i * 0.7, half_height + 0.2 * (i % 3)});
-  Together all(at, {floor_at_zero()});
-  all.gravity = {0, -30};
-  all.dt = 1.0 / 60;
+  Together all = under_gravity(at, {floor_at_zero()});
   std::size_t impacts = 0;
   const std::size_t before = tests::allocations();
   for (int step = 0; step < 200; ++step) {

@@ -13,6 +13,8 @@ namespace paperproof::stepping {
 /// Where a character that was stopped ends [m].
 inline constexpr double least_gap = 1e-7;
 inline constexpr double most_gap = 1e-6;
+/// Where a character that stands stays [m].
+inline constexpr double rest_gap = 5e-7;
 
 [[nodiscard]] inline bool gap_of_a_contact(double gap) { return gap > least_gap - 1e-9 && gap < most_gap; }
 
@@ -52,5 +54,24 @@ struct Together {
     return states[right].position.x() - states[left].position.x() - 2 * half_width;
   }
 };
+
+[[nodiscard]] inline ColliderDef floor_at_zero() { return rectangle(-20, -1, 20, 0); }
+
+/// In a game: it pulls down, and a step is a frame.
+[[nodiscard]] inline Together under_gravity(std::vector<Vec2d> positions, std::vector<ColliderDef> colliders,
+                                            const CharacterDef& character = {}) {
+  Together all(std::move(positions), std::move(colliders), character);
+  all.gravity = {0, -30};
+  all.dt = 1.0 / 60;
+  return all;
+}
+
+/// Standing side by side, at height zero.
+[[nodiscard]] inline Together standing(const std::vector<double>& at,
+                                       std::vector<ColliderDef> colliders = {floor_at_zero()}) {
+  std::vector<Vec2d> positions;
+  for (const double x : at) positions.push_back({x, half_height + rest_gap});
+  return under_gravity(std::move(positions), std::move(colliders));
+}
 
 }  // namespace paperproof::stepping

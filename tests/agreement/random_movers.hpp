@@ -1,0 +1,24 @@
+/// Things of every shape that wander about in an arena of 12 m.
+#pragma once
+
+#include "support/random.hpp"
+
+#include <paperproof/scenery.hpp>
+
+#include <vector>
+
+namespace paperproof::test {
+
+struct Wanderer {
+  Vec2d velocity{0, 0};   ///< [m per step]
+  double until_turn = 0;  ///< [steps]
+};
+
+/// Adds the colliders of one mover: a box, a triangle, a paper, a chain, a one-way chain or a row of tiles.
+void add_mover(std::vector<ColliderDef>& colliders, MoverIndex mover, Random& random, const Vec2d& origin);
+
+/// Where it is a step later. Now and then it turns; it stays in the arena, but for what is thrown out of it.
+/// @return the offset of its mover [m], within 1e6.
+[[nodiscard]] Vec2d next_offset(Wanderer& wanderer, const Vec2d& offset, Random& random);
+
+}  // namespace paperproof::test
