@@ -1,10 +1,12 @@
 /// The command `paperproof`.
 #include "command/compare_command.hpp"
+#include "command/option_checks.hpp"
 #include "command/study_command.hpp"
 #include "runs/scene_plan.hpp"
 #include "scenes/describe.hpp"
 #include "scenes/load.hpp"
 #include "scenes/sets.hpp"
+#include "studies/scale.hpp"
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
@@ -12,6 +14,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <new>
 #include <optional>
 
 namespace {
@@ -25,9 +28,11 @@ constexpr const char* scene_words =
 /// What stands on the command line, as it stands there.
 struct Words {
   CompareArguments compare;
-  std::string input;
+  std::optional<std::string> input;
   std::string mode = "free";
   std::string plan;
+  bool no_reference = false;
+  bool no_timing = false;
   std::vector<std::string> scalars;
   std::string what;                 ///< To list.
   std::vector<std::string> scenes;  ///< To check or to plan.
@@ -38,8 +43,18 @@ void add_input(CLI::App& command, Words& words) {
 }
 
 void add_outputs(CLI::App& command, std::string& rows, std::string& report) {
-  command.add_option("--rows", rows, "Write all rows as JSON to this file")->type_name("FILE.json");
-  command.add_option("--report", report, "Write one self-contained HTML page to this file")->type_name("FILE.html");
+  command.add_option("--rows", rows, "Write all rows as JSON to this file")
+      ->type_name("FILE.json")
+      ->check(expect_file_name());
+  command.add_option("--report", report, "Write one self-contained HTML page to this file")
+      ->type_name("FILE.html")
+      ->check(expect_file_name());
+}
+
+/// It is given or not: a value behind it is refused.
+template <class Variable>
+void add_flag(CLI::App& command, const std::string& name, Variable& variable, const std::string& help) {
+  command.add_flag(name, variable, help)->disable_flag_override();
 }
 
 CLI::App* add_compare(CLI::App& app, Words& words) {
@@ -54,26 +69,30 @@ CLI::App* add_compare(CLI::App& app, Words& words) {
       ->delimiter(',')
       ->allow_extra_args(false);
   command->add_option("--scalar", words.scalars, "Number type of the techniques")
-      ->check(CLI::IsMember({"double", "float"}))
+      ->type_name("double|float")
+      ->check(expect_one_of({"double", "float"}))
       ->delimiter(',')
       ->allow_extra_args(false);
   command
       ->add_option("--mode", words.mode,
                    "free: each on its own; lockstep: the twin is put to the controller before each step")
-      ->check(CLI::IsMember({"free", "lockstep"}));
-  command->add_option("--steps", arguments.run.steps, "Instead of the scene's")->check(CLI::Range(1, 1'000'000'000));
+      ->type_name("free|lockstep")
+      ->check(expect_one_of({"free", "lockstep"}));
+  command->add_option("--steps", arguments.run.steps, "Instead of the scene's")
+      ->type_name("N")
+      ->check(expect_whole_number(1'000'000'000));
   add_input(*command, words);
   command->add_option("--trace", arguments.run.trace_stem, "Write STEM.<scene>.<contender>.<scalar>.jsonl")
-      ->type_name("STEM");
+      ->type_name("STEM")
+      ->check(expect_file_name());
   add_outputs(*command, arguments.rows_path, arguments.report_path);
   command->add_option("--plan", words.plan, "full: leave nothing out, whatever the scene can need")
-      ->check(CLI::IsMember({"full"}));
-  command->add_flag_callback(
-      "--no-reference", [&arguments] { arguments.run.reference = false; }, "Without the Box2D twin");
-  command->add_flag_callback(
-      "--no-timing", [&arguments] { arguments.run.measure_cost = false; }, "Without measuring the cost of a step");
-  command->add_flag("--quiet", arguments.quiet, "No tables, no progress");
-  command->add_flag("--json", arguments.json, "Rows as JSON on standard output");
+      ->type_name("full")
+      ->check(expect_one_of({"full"}));
+  add_flag(*command, "--no-reference", words.no_reference, "Without the Box2D twin");
+  add_flag(*command, "--no-timing", words.no_timing, "Without measuring the cost of a step");
+  add_flag(*command, "--quiet", arguments.quiet, "No tables, no progress");
+  add_flag(*command, "--json", arguments.json, "Rows as JSON on standard output");
   return command;
 }
 
@@ -81,11 +100,12 @@ CLI::App* add_study(CLI::App& app, StudyArguments& arguments) {
   CLI::App* command = app.add_subcommand("study", "One question over a range, as numbers and as a picture");
   command->require_subcommand(1);
   CLI::App* scale = command->add_subcommand("scale", "Cost of a step against the number of pieces, per broad phase");
-  scale->add_option("--grid", arguments.grid, "Numbers of pieces, multiples of 100")
+  scale->add_option("--grid", arguments.grid, fmt::format("Numbers of pieces, multiples of {}", tiles_per_floor))
       ->type_name("N,...")
+      ->check(expect_whole_number(most_tiles, tiles_per_floor))
       ->delimiter(',');
   add_outputs(*scale, arguments.rows_path, arguments.report_path);
-  scale->add_flag("--quiet", arguments.quiet, "No table, no progress");
+  add_flag(*scale, "--quiet", arguments.quiet, "No table, no progress");
   return scale;
 }
 
@@ -120,6 +140,8 @@ CompareArguments compare_arguments(const Words& words, const std::optional<std::
   CompareArguments arguments = words.compare;
   arguments.run.random_input = seed;
   arguments.run.full_plan = words.plan == "full";
+  arguments.run.reference = !words.no_reference;
+  arguments.run.measure_cost = !words.no_timing;
   arguments.run.mode = words.mode == "lockstep" ? Mode::lockstep : Mode::free;
   if (!words.scalars.empty()) arguments.run.scalars.clear();
   for (const std::string& scalar : without_repeats(words.scalars))
@@ -139,8 +161,16 @@ std::string refusal(CLI::App& app, const CLI::ParseError& error) {
   }
   std::string names;
   for (const CLI::App* command : last->get_subcommands({})) names += (names.empty() ? "" : ", ") + command->get_name();
-  if (names.empty()) return fmt::format("paperproof: {}; see {} --help\n", error.what(), called);
-  return fmt::format("{}: expected one of {}; see {} --help\n", called, names, called);
+  if (names.empty()) return fmt::format("paperproof: {}; see {} --help", reason_of(error, *last), called);
+  return fmt::format("{}: expected one of {}; see {} --help", called, names, called);
+}
+
+/// In one line, whatever was typed.
+int complain(std::string reason) {
+  std::replace_if(
+      reason.begin(), reason.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+  std::fputs((reason + '\n').c_str(), stderr);
+  return unusable;
 }
 
 int run(int argc, char** argv) {
@@ -152,7 +182,10 @@ int run(int argc, char** argv) {
   StudyArguments study_arguments;
   const CLI::App* scale = add_study(app, study_arguments);
   CLI::App* list = app.add_subcommand("list", "Names, one per line");
-  list->add_option("WHAT", words.what, "Which names")->required()->check(CLI::IsMember({"scenes", "contenders"}));
+  list->add_option("WHAT", words.what, "Which names")
+      ->required()
+      ->type_name("scenes|contenders")
+      ->check(expect_one_of({"scenes", "contenders"}));
   CLI::App* checking = app.add_subcommand("check", "Validate scenes and say what is in them");
   checking->add_option("SCENE", words.scenes, scene_words)->required();
   CLI::App* planning = app.add_subcommand("plan", "Say what scenes cannot need and runs therefore leave out, and why");
@@ -163,11 +196,10 @@ int run(int argc, char** argv) {
   } catch (const CLI::Success& wanted) {
     return app.exit(wanted);
   } catch (const CLI::ParseError& error) {
-    std::fputs(refusal(app, error).c_str(), stderr);
-    return unusable;
+    return complain(refusal(app, error));
   }
   std::optional<std::uint64_t> seed;
-  if (!words.input.empty()) seed = parse_random_input(words.input);
+  if (words.input) seed = parse_random_input(*words.input);
   if (comparing->parsed()) return compare_scenes(compare_arguments(words, seed));
   if (scale->parsed()) return study_scale_command(study_arguments);
   if (list->parsed()) print_list(words.what);
@@ -181,8 +213,9 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   try {
     return run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    return complain("paperproof: there is not enough memory for what was asked");
   } catch (const std::exception& error) {
-    std::fputs(fmt::format("{}\n", error.what()).c_str(), stderr);
-    return unusable;
+    return complain(error.what());
   }
 }

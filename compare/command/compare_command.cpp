@@ -1,6 +1,8 @@
 #include "command/compare_command.hpp"
 
+#include "command/claimed_files.hpp"
 #include "command/progress.hpp"
+#include "near_names.hpp"
 #include "runs/gallery.hpp"
 #include "runs/output_file.hpp"
 #include "runs/rows_json.hpp"
@@ -17,7 +19,7 @@
 #include <charconv>
 #include <cstdio>
 #include <filesystem>
-#include <map>
+#include <limits>
 
 namespace paperproof::compare {
 namespace {
@@ -81,12 +83,12 @@ class Outputs {
   explicit Outputs(const CompareArguments& arguments) : arguments_(arguments) {}
 
   void add_scene(const std::string& given, const std::string& name) {
-    if (std::filesystem::exists(given)) claim(given, "the scene " + given);
+    if (std::filesystem::exists(given)) files_.claim(given, "the scene " + given);
     if (arguments_.run.trace_stem.empty()) return;
     const auto claim_traces = [&](const std::string& stem, const std::string& contender) {
       for (const ScalarKind scalar : {ScalarKind::binary64, ScalarKind::binary32}) {
         const std::string path = trace_path(stem, name, contender, name_of(scalar));
-        if (!claim(path, "a trace"))
+        if (!files_.claim(path, "a trace"))
           throw InputError(fmt::format(
               "{}: expected another name than {}: its traces would overwrite those of another scene", given, name));
       }
@@ -98,25 +100,13 @@ class Outputs {
   }
 
   void check() {
-    const auto check_one = [this](const char* option, const std::string& path) {
-      if (!path.empty() && !claim(path, option))
-        throw InputError(fmt::format("{} {}: expected another file than {}", option, path, claimed_[place_of(path)]));
-    };
-    check_one("--rows", arguments_.rows_path);
-    check_one("--report", arguments_.report_path);
+    files_.claim_for_option("--rows", arguments_.rows_path);
+    files_.claim_for_option("--report", arguments_.report_path);
   }
 
  private:
-  static std::string place_of(const std::string& path) {
-    std::error_code unknown;
-    const std::filesystem::path place = std::filesystem::weakly_canonical(std::filesystem::absolute(path), unknown);
-    return unknown ? path : place.string();
-  }
-  /// @returns whether nobody has the file yet.
-  bool claim(const std::string& path, const std::string& by) { return claimed_.emplace(place_of(path), by).second; }
-
   const CompareArguments& arguments_;
-  std::map<std::string, std::string> claimed_;  ///< By whom.
+  ClaimedFiles files_;
 };
 
 class Comparison {
@@ -247,14 +237,17 @@ std::uint64_t parse_random_input(const std::string& text) {
     const auto [last, error] = std::from_chars(text.data() + prefix.size(), end, seed);
     if (error == std::errc{} && last == end) return seed;
   }
-  throw InputError("--input " + text + ": expected random:SEED with a whole number, such as random:1");
+  throw InputError(fmt::format("--input {}: expected random:SEED with a whole number from 0 to {}, such as random:1",
+                               shown(text), std::numeric_limits<std::uint64_t>::max()));
 }
 
 void check_contenders(const std::vector<std::string>& names) {
-  const auto known = contender_names();
+  const auto views = contender_names();
+  const std::vector<std::string> known(views.begin(), views.end());
   for (const std::string& name : names)
     if (std::find(known.begin(), known.end(), name) == known.end())
-      throw InputError(fmt::format("--contender {}: expected one of {}", name, fmt::join(known, ", ")));
+      throw InputError(fmt::format("--contender {}: expected {} (see `paperproof list contenders`){}", shown(name),
+                                   one_of_words(known), did_you_mean(name, known)));
 }
 
 int compare_scenes(CompareArguments arguments) { return Comparison(arguments).run(); }

@@ -1,9 +1,9 @@
 #include "command/study_command.hpp"
 
+#include "command/claimed_files.hpp"
 #include "command/progress.hpp"
 #include "runs/output_file.hpp"
 #include "runs/rows_json.hpp"
-#include "scenes/load.hpp"
 #include "studies/chart_page.hpp"
 #include "studies/scale.hpp"
 
@@ -89,18 +89,17 @@ ChartPage page_of(const std::vector<ScalePoint>& points) {
 }  // namespace
 
 int study_scale_command(const StudyArguments& arguments) {
+  ClaimedFiles files;
+  files.claim_for_option("--rows", arguments.rows_path);
+  files.claim_for_option("--report", arguments.report_path);
   std::optional<OutputFile> rows_file;
   std::optional<OutputFile> report_file;
   if (!arguments.rows_path.empty()) rows_file.emplace(arguments.rows_path);
   if (!arguments.report_path.empty()) report_file.emplace(arguments.report_path);
 
   const Progress progress(!arguments.quiet);
-  std::vector<ScalePoint> points;
-  try {
-    points = study_scale(arguments.grid, [&](double share) { progress.show("study scale,", share); });
-  } catch (const std::invalid_argument& error) {
-    throw InputError(fmt::format("--grid: {}", error.what()));
-  }
+  const std::vector<ScalePoint> points =
+      study_scale(arguments.grid, [&](double share) { progress.show("study scale,", share); });
   progress.clear();
 
   std::vector<Row> rows;

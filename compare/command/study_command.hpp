@@ -16,7 +16,8 @@ struct StudyArguments {
 
 /// `study scale`: the cost of a step against the number of pieces, for each broad phase.
 /// @return the exit status: 0, or 1 if two broad phases moved the character differently.
-/// @throws InputError for a grid that cannot be; std::runtime_error if an output cannot be written.
+/// @throws std::invalid_argument for a grid that cannot be; InputError for one file that is to be two;
+///   std::runtime_error if an output cannot be written.
 int study_scale_command(const StudyArguments& arguments);
 
 }  // namespace paperproof::compare

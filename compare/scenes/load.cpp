@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "near_names.hpp"
 #include "scenes/input_error.hpp"
 #include "scenes/json_scene.hpp"
 #include "scenes/json_text.hpp"
@@ -32,6 +33,16 @@ Scene load_json(const std::string& path) {
   return is_map ? read_tiled_json(document, path, path) : read_json_scene(document, path, path);
 }
 
+[[noreturn]] void refuse_unknown(const std::string& name) {
+  std::vector<std::string> known;
+  for (const BuiltInScene& scene : built_in_scenes()) known.push_back(scene.name);
+  for (const SceneSet& set : scene_sets()) known.push_back(set.name);
+  refuse(shown(name),
+         "expected the name of a built-in scene (see `paperproof list scenes`), or a file that ends in .json, .tmx, "
+         ".tmj or .stl" +
+             did_you_mean(name, known));
+}
+
 }  // namespace
 
 std::vector<Scene> load_scenes(const std::string& name_or_path) {
@@ -47,7 +58,7 @@ std::vector<Scene> load_scenes(const std::string& name_or_path) {
   if (extension == ".json") return {load_json(name_or_path)};
   if (extension == ".tmx" || extension == ".tmj") return {read_tiled(name_or_path, name_or_path)};
   if (extension == ".stl") return read_supertux(name_or_path, name_or_path);
-  refuse(name_or_path, "expected the name of a built-in scene, or a file that ends in .json, .tmx, .tmj or .stl");
+  refuse_unknown(name_or_path);
 }
 
 }  // namespace paperproof::compare

@@ -13,7 +13,6 @@
 namespace paperproof::compare {
 namespace {
 
-constexpr std::size_t tiles_per_floor = 100;
 constexpr double between_floors = 8;  ///< [m] Higher than a jump.
 constexpr int steps = 600;
 constexpr std::size_t repeats = 9;
@@ -123,9 +122,10 @@ void study_level(std::size_t pieces, const std::vector<Input>& inputs, std::vect
 std::vector<ScalePoint> study_scale(const std::vector<std::size_t>& counts,
                                     const std::function<void(double)>& progress) {
   for (const std::size_t count : counts) {
-    if (count == 0 || count % tiles_per_floor != 0)
-      throw std::invalid_argument("pieces: expected a positive multiple of " + std::to_string(tiles_per_floor) +
-                                  ", not " + std::to_string(count));
+    if (count == 0 || count % tiles_per_floor != 0 || count > most_tiles)
+      throw std::invalid_argument("pieces: expected a multiple of " + std::to_string(tiles_per_floor) + " from " +
+                                  std::to_string(tiles_per_floor) + " to " + std::to_string(most_tiles) + ", not " +
+                                  std::to_string(count));
   }
   const std::vector<Input> same_for_all = inputs();
   std::vector<ScalePoint> points;

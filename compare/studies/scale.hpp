@@ -21,11 +21,16 @@ struct ScalePoint {
   bool same_bits = true;  ///< Every position is that of `all_pairs`, bit for bit.
 };
 
+inline constexpr std::size_t tiles_per_floor = 100;
+/// A million takes 0.8 GB, so that few machines have room for more; and a floor of these is within the range in which
+/// the controller keeps its promises.
+inline constexpr std::size_t most_tiles = 10'000'000;
+
 /// Floors of 100 tiles of 1 m, 8 m above one another, on the middle one of which the character walks and jumps at
 /// random with octagon_sweep in double: what is near stays the same, only the level around it grows.
-/// @param counts pieces of each level, in multiples of 100.
+/// @param counts pieces of each level, in multiples of 100, at most `most_tiles`.
 /// @param progress called with the share that is done; may be empty.
-/// @throws std::invalid_argument for a count that is no positive multiple of 100. Not for tests of speed: machines are
+/// @throws std::invalid_argument for a count that is not one of these. Not for tests of speed: machines are
 ///   shared.
 [[nodiscard]] std::vector<ScalePoint> study_scale(const std::vector<std::size_t>& counts,
                                                   const std::function<void(double)>& progress);

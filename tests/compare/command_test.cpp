@@ -133,20 +133,86 @@ TEST(Command, refuses_what_is_not_there) {
   expect_refused(place, "nowhere.json", "nowhere.json: ");
   expect_refused(place, "nowhere.tmx", "nowhere.tmx: ");
   expect_refused(place, "nowhere.stl", "nowhere.stl: ");
-  expect_refused(place, "article_bulet", "article_bulet: ", "expected the name of a built-in scene");
   place.write("good.json", good_scene);
   expect_refused(place, "good.json nowhere.json", "nowhere.json: ");
 }
 
 TEST(Command, refuses_options_that_cannot_be) {
   const Workplace place;
-  expect_refused(place, "article_bullet --contender nobody", "--contender nobody: ", "octagon_sweep");
   expect_refused(place, "article_bullet --scalar half", "paperproof: --scalar", "half");
   expect_refused(place, "article_bullet --input fixed:1", "--input fixed:1: ", "random:SEED");
   expect_refused(place, "article_bullet --input random:x", "--input random:x: ", "random:SEED");
-  expect_refused(place, "article_bullet --mode sideways", "paperproof: --mode", "sideways");
-  expect_refused(place, "article_bullet --steps 0", "paperproof: --steps", "0");
+  expect_refused(place, "article_bullet --input random:-1", "--input random:-1: ", "from 0 to 18446744073709551615");
+  expect_refused(place, "article_bullet --input ''", "--input \"\": ", "random:SEED");
+  expect_refused(place, "article_bullet --mode sideways",
+                 "paperproof: --mode: expected free or lockstep, not sideways");
+  expect_refused(place, "article_bullet --plan some", "paperproof: --plan: expected full, not some");
   expect_refused(place, "article_bullet --stepps 5", "paperproof: ", "--stepps");
+  expect_refused(place, "article_bullet --mode free --mode lockstep", "paperproof: --mode: expected once, not 2 times");
+  expect_refused(place, "article_bullet --no-reference=no", "paperproof: --no-reference: expected nothing behind it");
+}
+
+TEST(Command, points_to_the_names_there_are_and_says_which_is_near) {
+  const Workplace place;
+  const std::string scenes =
+      ": expected the name of a built-in scene (see `paperproof list scenes`), or a file that ends in .json, .tmx, "
+      ".tmj or .stl";
+  expect_refused(place, "article_bulet", "article_bulet" + scenes + "; did you mean article_bullet?\n");
+  expect_refused(place, "Corner-Hit", "Corner-Hit" + scenes + "; did you mean corner_to_corner_hit?\n");
+  expect_refused(place, "gallary", "gallary" + scenes + "; did you mean technique_gallery?\n");
+  expect_refused(place, "wedge", "wedge" + scenes + "; did you mean wedge_60, wedge_5 or wedge_1?\n");
+  expect_refused(place, "nothing", "nothing" + scenes + "\n");
+  expect_refused(place, "''", "\"\"" + scenes + "\n");
+  const std::string contenders = ": expected grid, pixel_colour, ";
+  expect_refused(place, "article_bullet --contender octagon_swep", "--contender octagon_swep" + contenders,
+                 "box2d or box2d_pieces (see `paperproof list contenders`); did you mean octagon_sweep?\n");
+  expect_refused(place, "article_bullet --contender grid,nobody", "--contender nobody" + contenders,
+                 "(see `paperproof list contenders`)\n");
+}
+
+/// Runs what has to be refused before anything is done, and gives the one line that it says.
+std::string refusal_of(const Workplace& place, const std::string& arguments) {
+  const Finished finished = place.run(arguments);
+  EXPECT_EQ(finished.status, 2) << arguments;
+  EXPECT_EQ(finished.out, "") << arguments;
+  EXPECT_TRUE(place.files().empty()) << arguments;
+  return finished.err;
+}
+
+TEST(Command, refuses_numbers_that_make_no_sense_in_words) {
+  const Workplace place;
+  for (const std::string number : {"-5", "0", "nan", "inf", "1e3", "2.5", "many", "+7", "0x10", "99999999999999999999",
+                                   "1000000001", "5,5", "''", "' '"}) {
+    std::string seen = number;
+    std::replace(seen.begin(), seen.end(), '\'', '"');
+    EXPECT_EQ(refusal_of(place, "compare article_bullet --steps " + number),
+              "paperproof: --steps: expected a whole number from 1 to 1000000000, in digits, not " + seen +
+                  "; see paperproof compare --help\n");
+  }
+  for (const std::string number :
+       {"-5", "0", "150", "nan", "1e3", "100.5", "few", "10000100", "18446744073709551600", "99999999999999999999"})
+    for (const std::string before : {"", "100,"})
+      EXPECT_EQ(refusal_of(place, "study scale --grid " + before + number),
+                "paperproof: --grid: expected a multiple of 100 from 100 to 10000000, in digits, not " + number +
+                    "; see paperproof study scale --help\n");
+  EXPECT_EQ(refusal_of(place, "study scale --grid"),
+            "paperproof: --grid: expected N,... behind it; see paperproof study scale --help\n");
+}
+
+TEST(Command, refuses_an_output_without_a_name) {
+  const Workplace place;
+  for (const std::string option : {"--rows", "--report", "--trace"})
+    EXPECT_EQ(refusal_of(place, "compare article_bullet " + option + " ''"),
+              "paperproof: " + option + ": expected a file name, not \"\"; see paperproof compare --help\n");
+}
+
+TEST(Command, complains_in_one_line_whatever_was_typed) {
+  const Workplace place;
+  for (const char* arguments : {"check 'a\nb'", "compare article_bullet --steps '5\n6'",
+                                "compare article_bullet --contender 'a\nb'", "list 'a\rb\n'"}) {
+    const std::string refusal = refusal_of(place, arguments);
+    EXPECT_EQ(refusal.find_first_of("\n\r"), refusal.size() - 1) << refusal;
+  }
 }
 
 TEST(Command, names_what_could_stand_where_a_word_is_missing_or_unknown) {
@@ -155,6 +221,7 @@ TEST(Command, names_what_could_stand_where_a_word_is_missing_or_unknown) {
        {std::pair{"", "paperproof: expected one of compare, study, list, check, plan; see paperproof --help\n"},
         {"frobnicate", "paperproof: expected one of compare, study, list, check, plan; see paperproof --help\n"},
         {"study bullets", "paperproof study: expected one of scale; see paperproof study --help\n"},
+        {"list scene", "paperproof: WHAT: expected scenes or contenders, not scene; see paperproof list --help\n"},
         {"check", "paperproof: SCENE is required; see paperproof check --help\n"}}) {
     const Finished finished = place.run(arguments);
     EXPECT_EQ(finished.status, 2) << arguments;
@@ -205,6 +272,12 @@ TEST(Command, refuses_one_file_for_two_purposes) {
     EXPECT_EQ(finished.out, "");
     EXPECT_EQ(place.files(), before);
   }
+}
+
+TEST(Command, refuses_one_file_for_two_results_of_a_study) {
+  const Workplace place;
+  EXPECT_EQ(refusal_of(place, "study scale --grid 100 --rows out --report ./out"),
+            "--report ./out: expected another file than --rows\n");
 }
 
 TEST(Command, refuses_scenes_whose_traces_would_have_one_name) {

@@ -26,6 +26,7 @@ TEST(StudyScale, every_broad_phase_moves_the_character_alike_at_every_size) {
 TEST(StudyScale, refuses_a_number_of_pieces_that_is_no_floor) {
   EXPECT_THROW((void)study_scale({0}, {}), std::invalid_argument);
   EXPECT_THROW((void)study_scale({100, 150}, {}), std::invalid_argument);
+  EXPECT_THROW((void)study_scale({100, most_tiles + tiles_per_floor}, {}), std::invalid_argument);
 }
 
 TEST(StudyScale, growth_is_from_the_fewest_pieces_to_the_most) {

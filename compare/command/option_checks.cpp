@@ -1,0 +1,60 @@
+#include "command/option_checks.hpp"
+
+#include "words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+namespace paperproof::compare {
+namespace {
+
+/// Help shows the name of an option's type and not its check.
+CLI::Validator unnamed(std::function<std::string(std::string&)> check) { return CLI::Validator(std::move(check), ""); }
+
+bool is_multiple(const std::string& typed, std::uint64_t most, std::uint64_t step) {
+  std::uint64_t number = 0;
+  const char* end = typed.data() + typed.size();
+  const auto [last, error] = std::from_chars(typed.data(), end, number);
+  return error == std::errc{} && last == end && number >= step && number <= most && number % step == 0;
+}
+
+}  // namespace
+
+CLI::Validator expect_one_of(const std::vector<std::string>& allowed) {
+  return unnamed([allowed](const std::string& typed) {
+    const bool found = std::find(allowed.begin(), allowed.end(), typed) != allowed.end();
+    return found ? "" : fmt::format("expected {}, not {}", one_of_words(allowed), shown(typed));
+  });
+}
+
+CLI::Validator expect_whole_number(std::uint64_t most, std::uint64_t step) {
+  return unnamed([most, step](const std::string& typed) {
+    const std::string kind = step == 1 ? "a whole number" : fmt::format("a multiple of {}", step);
+    if (is_multiple(typed, most, step)) return std::string{};
+    return fmt::format("expected {} from {} to {}, in digits, not {}", kind, step, most, shown(typed));
+  });
+}
+
+CLI::Validator expect_file_name() {
+  return unnamed([](const std::string& typed) {
+    return typed.empty() ? std::string("expected a file name, not \"\"") : std::string{};
+  });
+}
+
+std::string reason_of(const CLI::ParseError& error, CLI::App& command) {
+  const std::string library = error.what();
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) == nullptr) return library;
+  for (const CLI::Option* option : command.get_options({})) {
+    const std::string name = option->get_name();
+    if (library.starts_with(name.substr(name.find_first_not_of('-')) + " was given"))
+      return fmt::format("{}: expected nothing behind it", name);
+    if (!library.starts_with(name + ":")) continue;
+    if (option->empty()) return fmt::format("{}: expected {} behind it", name, option->get_type_name());
+    return fmt::format("{}: expected once, not {} times", name, option->count());
+  }
+  return library;
+}
+
+}  // namespace paperproof::compare
