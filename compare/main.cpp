@@ -34,6 +34,7 @@ struct Words {
   bool no_reference = false;
   bool no_timing = false;
   std::vector<std::string> scalars;
+  std::vector<std::string> knobs;
   std::string what;                 ///< To list.
   std::vector<std::string> scenes;  ///< To check or to plan.
 };
@@ -78,6 +79,11 @@ CLI::App* add_compare(CLI::App& app, Words& words) {
                    "free: each on its own; lockstep: the twin is put to the controller before each step")
       ->type_name("free|lockstep")
       ->check(expect_one_of({"free", "lockstep"}));
+  command
+      ->add_option("--knob", words.knobs,
+                   "Turns a knob of the techniques that have it (see `paperproof list knobs`), each by its own option")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);
   command->add_option("--steps", arguments.run.steps, "Instead of the scene's")
       ->type_name("N")
       ->check(expect_whole_number(1'000'000'000));
@@ -121,6 +127,10 @@ void print_list(const std::string& what) {
     for (const std::string_view name : contender_names()) fmt::print("{}\n", name);
     return;
   }
+  if (what == "knobs") {
+    for (const std::string& line : describe_knobs()) fmt::print("{}\n", line);
+    return;
+  }
   for (const BuiltInScene& scene : built_in_scenes()) fmt::print("{:<28} {}\n", scene.name, scene.description);
   for (const SceneSet& set : scene_sets()) fmt::print("{:<28} {}\n", set.name, set.description);
 }
@@ -147,6 +157,7 @@ CompareArguments compare_arguments(const Words& words, const std::optional<std::
   for (const std::string& scalar : without_repeats(words.scalars))
     arguments.run.scalars.push_back(scalar == "float" ? ScalarKind::binary32 : ScalarKind::binary64);
   arguments.run.contenders = without_repeats(arguments.run.contenders);
+  arguments.run.knobs = parse_knobs(words.knobs, arguments.run.contenders);
   return arguments;
 }
 
@@ -184,8 +195,8 @@ int run(int argc, char** argv) {
   CLI::App* list = app.add_subcommand("list", "Names, one per line");
   list->add_option("WHAT", words.what, "Which names")
       ->required()
-      ->type_name("scenes|contenders")
-      ->check(expect_one_of({"scenes", "contenders"}));
+      ->type_name("scenes|contenders|knobs")
+      ->check(expect_one_of({"scenes", "contenders", "knobs"}));
   CLI::App* checking = app.add_subcommand("check", "Validate scenes and say what is in them");
   checking->add_option("SCENE", words.scenes, scene_words)->required();
   CLI::App* planning = app.add_subcommand("plan", "Say what scenes cannot need and runs therefore leave out, and why");

@@ -241,6 +241,33 @@ std::uint64_t parse_random_input(const std::string& text) {
                                shown(text), std::numeric_limits<std::uint64_t>::max()));
 }
 
+std::vector<KnobSetting> parse_knobs(const std::vector<std::string>& texts,
+                                     const std::vector<std::string>& contenders) {
+  const auto asked_for = [&](TechniqueKind kind) {
+    return contenders.empty() || std::find(contenders.begin(), contenders.end(), name_of(kind)) != contenders.end();
+  };
+  std::vector<KnobSetting> settings;
+  for (const std::string& text : texts) {
+    bool anyones = false;
+    try {
+      settings.push_back(parse_knob(text));
+      for (const TechniqueKind kind : all_techniques) {
+        if (!asked_for(kind) || !has_knob(kind, settings.back().name)) continue;
+        check_knob(settings.back(), kind);
+        anyones = true;
+      }
+    } catch (const std::invalid_argument& reason) {
+      throw InputError(fmt::format("--knob {}: {}", text, reason.what()));
+    }
+    const std::string& name = settings.back().name;
+    if (!anyones) throw InputError(fmt::format("--knob {}: expected a knob of {}", text, fmt::join(contenders, ", ")));
+    const auto same = [&](const KnobSetting& setting) { return setting.name == name; };
+    if (std::count_if(settings.begin(), settings.end(), same) > 1)
+      throw InputError(fmt::format("--knob {}: expected {} once", text, name));
+  }
+  return settings;
+}
+
 void check_contenders(const std::vector<std::string>& names) {
   const auto views = contender_names();
   const std::vector<std::string> known(views.begin(), views.end());

@@ -21,6 +21,11 @@ struct CompareArguments {
 /// @throws InputError
 [[nodiscard]] std::uint64_t parse_random_input(const std::string& text);
 
+/// @param contenders that are asked for; none: all.
+/// @throws InputError for what is no knob, no value of it, a knob of none of the contenders, or one turned twice.
+[[nodiscard]] std::vector<KnobSetting> parse_knobs(const std::vector<std::string>& texts,
+                                                   const std::vector<std::string>& contenders);
+
 /// @throws InputError naming the contender and those there are.
 void check_contenders(const std::vector<std::string>& names);
 

@@ -31,6 +31,7 @@ nlohmann::json row_json(const Row& row) {
   nlohmann::json object{{"contender", row.contender}, {"scalar", row.scalar}, {"mode", row.mode},
                         {"steps", row.steps},         {"reason", row.reason}, {"findings", row.findings}};
   if (!row.first_difference_box2d.empty()) object["findings"].push_back(row.first_difference_box2d);
+  if (!row.knob.empty()) object["knob"] = row.knob;
   object["verdict"] = words_for(row.verdict);
   for_each_metric(row, [&](const char* key, const auto& value) { put(object, key, value); });
   return object;

@@ -220,6 +220,7 @@ void write_header(JsonObject& object, const ReportRun& run, const Quantum& quant
     for (const Omission& omission : header.plan->omitted)
       omitted.add_raw(json_string(std::string(name_of(omission.stage)) + ": " + omission.reason));
   object.put("contender", json_string(header.contender)).put("scalar", json_string(header.scalar));
+  if (!header.knob.empty()) object.put("knob", json_string(header.knob));
   object.put("mode", json_string(header.mode)).put("dt", short_number(header.dt, 6));
   object.put("box2d", json_string(header.box2d)).put("path_exact", header.path_exact ? "true" : "false");
   object.put("plan_omitted", std::move(omitted).take()).put("every", run.every);

@@ -16,11 +16,12 @@ class CrowdContestant final : public Contestant {
   CrowdContestant(const Scene& scene, const Scenery<double>& scenery, const Planning& planning)
       : scenery_(scenery),
         plan_(plan_of(scenery_.get(), scene.character, planning)),
-        crowd_(scenery_.get(), rules_for(technique, scene.character), definition_of(technique, scene, plan_)),
+        crowd_(scenery_.get(), rules_for(technique, scene.character),
+               definition_of(technique, scene, plan_, planning.knobs)),
         scratch_(crowd_.make_scratch(character_count(scene))),
         gravity_(scene.gravity.cast<Scalar>()),
         movers_(scene.movers.size(), scenery_.get().as_run()),
-        header_(header_of(technique, scenery_.get(), scene, plan_)),
+        header_(header_of(technique, scenery_.get(), scene, plan_, planning.knobs)),
         states_(character_count(scene)),
         report_(character_count(scene)) {
     place_at_start(*this, scene);

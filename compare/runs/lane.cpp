@@ -31,6 +31,7 @@ Lane::Lane(std::string contender, ScalarKind scalar, const Scene& scene, const S
       throw NotApplicable(
           fmt::format("lockstep is between one character and its twin, and here are {}", character_count(scene)));
     contestant_ = make_contestant(row_.contender, scalar, scene, scenery, planning);
+    row_.knob = header().knob;
     records_.resize(header().characters);
     judgements_.resize(records_.size());
     inside_.resize(records_.size());

@@ -23,7 +23,10 @@ std::string_view name_of(Verdict verdict) noexcept {
 }
 
 std::string called(const Row& row) {
-  return row.scalar == "float" && !row.contender.starts_with("box2d") ? row.contender + " in float" : row.contender;
+  std::string name = row.contender;
+  if (!row.knob.empty()) name += " with " + row.knob;
+  if (row.scalar == "float" && !row.contender.starts_with("box2d")) name += " in float";
+  return name;
 }
 
 }  // namespace paperproof::compare

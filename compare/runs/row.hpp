@@ -16,7 +16,7 @@ struct Row {
   std::string contender;
   std::string scalar = "double";
   std::string mode = "free";
-  std::string knob;  ///< Settings that differ from row to row, as `name=value`; empty where none does.
+  std::string knob;  ///< Settings that are not the usual ones, as `name=value`, with spaces between; empty for none.
   int steps = 0;     ///< that ran
   Verdict verdict = Verdict::holds;
   std::string reason;  ///< empty for `holds` only

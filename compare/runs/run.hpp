@@ -24,8 +24,9 @@ struct RunOptions {
   Mode mode = Mode::free;
   std::optional<int> steps;  ///< Instead of the scene's.
   std::optional<std::uint64_t> random_input;
-  bool full_plan = false;  ///< Nothing is left out of the techniques, whatever the scene can need.
-  bool reference = true;   ///< Run the Box2D twin beside the contenders.
+  std::vector<KnobSetting> knobs;  ///< Turned, of the techniques that have them.
+  bool full_plan = false;          ///< Nothing is left out of the techniques, whatever the scene can need.
+  bool reference = true;           ///< Run the Box2D twin beside the contenders.
   bool measure_cost = true;
   std::string trace_stem;                ///< Empty: no traces.
   int max_replay_steps = 0;              ///< Kept per run for the report; 0: none.

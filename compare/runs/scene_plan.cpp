@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace paperproof::compare {
 
@@ -10,7 +11,10 @@ Foreseen foreseen_in(const Scene& scene, const Script& script) {
   const auto jumps = [](const std::vector<InputEvent>& events) {
     return std::any_of(events.begin(), events.end(), [](const InputEvent& event) { return event.jump == true; });
   };
-  return {.gravity = scene.gravity != Vec2d(0, 0), .jump = std::any_of(script.begin(), script.end(), jumps)};
+  const auto pulls = [](double gravity) { return gravity != 0 || std::signbit(gravity); };
+  return {.gravity = pulls(scene.gravity.x()) || pulls(scene.gravity.y()),
+          .jump = std::any_of(script.begin(), script.end(), jumps),
+          .company = !scene.others.empty()};
 }
 
 template <class Scalar>

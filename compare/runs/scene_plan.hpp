@@ -2,10 +2,12 @@
 #pragma once
 
 #include "metrics/measured.hpp"
+#include "runs/knobs.hpp"
 #include "scenes/scene.hpp"
 
 #include <paperproof/plan.hpp>
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,8 +15,9 @@ namespace paperproof::compare {
 
 /// How the runs of a scene are planned.
 struct Planning {
-  bool full = false;    ///< Nothing is left out, whatever the scene can need.
-  Foreseen foreseen{};  ///< From the scene's gravity and the input of the run.
+  bool full = false;                     ///< Nothing is left out, whatever the scene can need.
+  Foreseen foreseen{};                   ///< From the scene's gravity and the input of the run.
+  std::span<const KnobSetting> knobs{};  ///< Turned, of the techniques that have them.
 };
 
 /// What gravity and input of a scene say about every step.

@@ -38,7 +38,8 @@ const std::vector<Column>& columns() {
   static const std::vector<Column> all{
       {"contender",
        [](const Row& r) -> Cell {
-         return r.scalar == "float" && !r.contender.starts_with("box2d") ? r.contender + " (float)" : r.contender;
+         const bool says_float = r.scalar == "float" && !r.contender.starts_with("box2d");
+         return r.contender + (says_float ? " (float)" : "") + (r.knob.empty() ? "" : " " + r.knob);
        }},
       {"verdict", [](const Row& r) -> Cell { return std::string(name_of(r.verdict)); }},
       {"tunnels", [](const Row& r) { return number(r.tunnels, "{}"); }},

@@ -16,11 +16,12 @@ class TechniqueContestant final : public Contestant {
   TechniqueContestant(TechniqueKind kind, const Scene& scene, const Scenery<double>& scenery, const Planning& planning)
       : scenery_(scenery),
         plan_(plan_of(scenery_.get(), scene.character, planning)),
-        controller_(scenery_.get(), rules_for(kind, scene.character), definition_of(kind, scene, plan_)),
+        controller_(scenery_.get(), rules_for(kind, scene.character),
+                    definition_of(kind, scene, plan_, planning.knobs)),
         scratch_(controller_.make_scratch()),
         gravity_(scene.gravity.cast<Scalar>()),
         movers_(scene.movers.size(), scenery_.get().as_run()),
-        header_(header_of(kind, scenery_.get(), scene, plan_)) {
+        header_(header_of(kind, scenery_.get(), scene, plan_, planning.knobs)) {
     place_at_start(*this, scene);
   }
 

@@ -32,7 +32,8 @@ Contact<double> recorded(const Contact<Scalar>& contact) {
 
 }  // namespace
 
-TechniqueDef definition_of(TechniqueKind kind, const Scene& scene, const Plan& plan) {
+TechniqueDef definition_of(TechniqueKind kind, const Scene& scene, const Plan& plan,
+                           std::span<const KnobSetting> knobs) {
   TechniqueDef def;
   def.kind = kind;
   def.broad_phase = plan.broad_phase;
@@ -40,6 +41,7 @@ TechniqueDef definition_of(TechniqueKind kind, const Scene& scene, const Plan& p
   def.article.unit = 1 / scene.pixels_per_metre;
   constexpr double finest = 1000;  // that the picture techniques take
   def.article.raster_pixels_per_metre = std::min(scene.pixels_per_metre, finest);
+  turn_knobs(knobs, def);
   return def;
 }
 
@@ -49,11 +51,13 @@ CharacterDef rules_for(TechniqueKind kind, CharacterDef character) {
 }
 
 template <class Scalar>
-TraceHeader header_of(TechniqueKind kind, const Scenery<Scalar>& scenery, const Scene& scene, const Plan& plan) {
+TraceHeader header_of(TechniqueKind kind, const Scenery<Scalar>& scenery, const Scene& scene, const Plan& plan,
+                      std::span<const KnobSetting> knobs) {
   TraceHeader header;
   header.scene = scene.name;
   header.contender = name_of(kind);
   header.scalar = name_of(std::is_same_v<Scalar, float> ? ScalarKind::binary32 : ScalarKind::binary64);
+  header.knob = turned_knobs(knobs, kind);
   header.dt = static_cast<double>(static_cast<Scalar>(scene.dt));
   header.characters = character_count(scene);
   for (const Vec2d& point : scene.character.shape.hull())
@@ -121,8 +125,10 @@ CharacterState<Scalar> state_at(const Pose& pose) {
   return state;
 }
 
-template TraceHeader header_of(TechniqueKind, const Scenery<float>&, const Scene&, const Plan&);
-template TraceHeader header_of(TechniqueKind, const Scenery<double>&, const Scene&, const Plan&);
+template TraceHeader header_of(TechniqueKind, const Scenery<float>&, const Scene&, const Plan&,
+                               std::span<const KnobSetting>);
+template TraceHeader header_of(TechniqueKind, const Scenery<double>&, const Scene&, const Plan&,
+                               std::span<const KnobSetting>);
 template void write_report(const StepReport<float>&, const CharacterState<float>&, TraceStep&);
 template void write_report(const StepReport<double>&, const CharacterState<double>&, TraceStep&);
 template Pose pose_of(const CharacterState<float>&);

@@ -30,14 +30,15 @@ class OwnScenery<double> {
   const Scenery<double>& shared_;
 };
 
-[[nodiscard]] TechniqueDef definition_of(TechniqueKind kind, const Scene& scene, const Plan& plan);
+[[nodiscard]] TechniqueDef definition_of(TechniqueKind kind, const Scene& scene, const Plan& plan,
+                                         std::span<const KnobSetting> knobs);
 
 /// The article's jumping rules belong to the article's techniques; for octagon_sweep they are the scene's choice.
 [[nodiscard]] CharacterDef rules_for(TechniqueKind kind, CharacterDef character);
 
 template <class Scalar>
 [[nodiscard]] TraceHeader header_of(TechniqueKind kind, const Scenery<Scalar>& scenery, const Scene& scene,
-                                    const Plan& plan);
+                                    const Plan& plan, std::span<const KnobSetting> knobs);
 
 /// Fills what a step report and the state after it say; not `movers`. `requested` is as the controller has it: relative
 /// to what carries the character.

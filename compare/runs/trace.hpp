@@ -25,6 +25,7 @@ struct TraceHeader {
   std::string scene;
   std::string contender;
   std::string scalar;            ///< "double" or "float"
+  std::string knob;              ///< As in a `Row`.
   std::string mode = "free";     ///< "free" or "lockstep"
   double dt = 0;                 ///< [s]; where the steps have lengths of their own it is only shown.
   std::size_t characters = 1;    ///< Each has one record in every step, in order.

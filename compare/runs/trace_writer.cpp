@@ -44,6 +44,7 @@ ordered_json header_json(const TraceHeader& header) {
   object["scene"] = header.scene;
   object["contender"] = header.contender;
   object["scalar"] = header.scalar;
+  if (!header.knob.empty()) object["knob"] = header.knob;
   object["mode"] = header.mode;
   object["dt"] = header.dt;
   if (header.characters > 1) object["characters"] = header.characters;

@@ -107,13 +107,18 @@ Plan make_plan(const Scenery<Scalar>& scenery, const CharacterDef& character, co
     plan.stages.*member = needed;
     if (!needed) plan.omitted.push_back({stage, reason});
   };
-  leave_out(scenery.mover_count() > 0 || has_conveyors(scenery), Stage::movers, &Stages::movers,
-            "nothing moves and nothing conveys, so impacts have no order in time but the character's own way");
+  const bool carries = scenery.mover_count() > 0 || has_conveyors(scenery);
+  leave_out(
+      carries, Stage::movers, &Stages::movers,
+      foreseen.company
+          ? "no scenery moves or conveys: characters meet in order of impact, but each moves in an order of its own"
+          : "nothing moves and nothing conveys, so impacts have no order in time but the character's own way");
   leave_out(any([](const ColliderDef& def) { return def.one_way.has_value(); }), Stage::one_way, &Stages::one_way,
             "there is no one-way chain, so no impact depends on the side from which it comes");
   leave_out(scenery.sensor_pieces().size() > 0, Stage::sensors, &Stages::sensors,
             "there is no sensor, so nothing can be entered without being met");
-  leave_out(has_slope(scenery), Stage::slopes, &Stages::slopes,
+  // Among what moves, characters are obstacles to each other, and an octagon has slopes.
+  leave_out(has_slope(scenery) || (foreseen.company && carries), Stage::slopes, &Stages::slopes,
             "every edge is level or upright, so the sides of the character and of its box are all the axes that can "
             "separate");
   leave_out(foreseen.jump, Stage::jump, &Stages::jump, "the jump button is never pressed, so no jump can begin");

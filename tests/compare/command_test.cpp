@@ -221,7 +221,8 @@ TEST(Command, names_what_could_stand_where_a_word_is_missing_or_unknown) {
        {std::pair{"", "paperproof: expected one of compare, study, list, check, plan; see paperproof --help\n"},
         {"frobnicate", "paperproof: expected one of compare, study, list, check, plan; see paperproof --help\n"},
         {"study bullets", "paperproof study: expected one of scale; see paperproof study --help\n"},
-        {"list scene", "paperproof: WHAT: expected scenes or contenders, not scene; see paperproof list --help\n"},
+        {"list scene",
+         "paperproof: WHAT: expected scenes, contenders or knobs, not scene; see paperproof list --help\n"},
         {"check", "paperproof: SCENE is required; see paperproof check --help\n"}}) {
     const Finished finished = place.run(arguments);
     EXPECT_EQ(finished.status, 2) << arguments;
@@ -334,6 +335,29 @@ TEST(Command, takes_several_contenders_and_scalars_with_commas) {
       place.run("compare article_bullet --no-timing --json --contender octagon_sweep,grid --scalar double,float");
   EXPECT_EQ(finished.status, 0) << finished.err;
   EXPECT_EQ(nlohmann::json::parse(finished.out).at("rows").size(), 5U) << "two of each, and Box2D beside them";
+}
+
+TEST(Command, turns_the_knobs_of_those_that_have_them) {
+  const Workplace place;
+  const Finished finished = place.run(
+      "compare article_bullet --no-timing --no-reference --json --contender speculative_march,mask --knob unit=0.5 "
+      "--trace t");
+  ASSERT_EQ(finished.status, 0) << finished.err;
+  const auto rows = nlohmann::json::parse(finished.out)["rows"];
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0]["knob"], "unit=0.5");
+  // The bullet, 0.9375 m above the platform, stops at the last whole unit before it.
+  EXPECT_DOUBLE_EQ(rows[0]["max_contact_gap_m"].get<double>(), 0.4375);
+  EXPECT_FALSE(rows[1].contains("knob"));
+  EXPECT_TRUE(holds(place.files().at("t.article_bullet.speculative_march.double.jsonl"), R"("knob":"unit=0.5")"));
+}
+
+TEST(Command, refuses_knobs_that_cannot_be_turned) {
+  const Workplace place;
+  expect_refused(place, "article_bullet --knob width=1", "--knob width=1: expected NAME=VALUE", "pixels_per_tile");
+  expect_refused(place, "article_bullet --knob unit=-1", "--knob unit=-1: unit: must be a positive length");
+  expect_refused(place, "article_bullet --contender grid --knob unit=1", "--knob unit=1: expected a knob of grid");
+  expect_refused(place, "article_bullet --knob unit=1 --knob unit=2", "--knob unit=2: expected unit once");
 }
 
 TEST(Command, puts_rows_alone_on_standard_output_when_asked_for_json) {

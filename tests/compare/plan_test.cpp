@@ -117,6 +117,27 @@ TEST(PlanOfScenes, takes_back_an_omission_when_the_scene_comes_to_need_it) {
   EXPECT_TRUE(stages().gravity);
 }
 
+TEST(PlanOfScenes, minus_zero_is_a_gravity) {
+  Scene scene = built_in("article_bullet");
+  EXPECT_FALSE(foreseen_in(scene, script_of(scene)).gravity);
+  scene.gravity = {0, -0.0};
+  scene.start.velocity = {-0.0, -0.0};
+  EXPECT_TRUE(foreseen_in(scene, script_of(scene)).gravity);
+  const Scenery<double> scenery(scene.scenery);
+  for (const std::string_view name : contender_names())
+    if (!is_reference(name)) expect_same_bits(name, ScalarKind::binary64, scene, scenery, script_of(scene), 3);
+}
+
+TEST(PlanOfScenes, among_movers_characters_are_slopes_to_each_other) {
+  const Scene scene = built_in("two_on_a_lift");
+  Foreseen foreseen = foreseen_in(scene, script_of(scene));
+  EXPECT_TRUE(foreseen.company);
+  const Scenery<double> scenery(scene.scenery);
+  EXPECT_TRUE(make_plan(scenery, scene.character, foreseen).stages.slopes);
+  foreseen.company = false;
+  EXPECT_FALSE(make_plan(scenery, scene.character, foreseen).stages.slopes);
+}
+
 TEST(PlanOfScenes, random_input_may_jump) {
   const Scene scene = built_in("flush_tiles");
   EXPECT_FALSE(foreseen_in(scene, script_of(scene)).jump);

@@ -233,7 +233,7 @@ function decodeSteps(packed, quantum, moverCount) {
 }
 
 function runLabel(run) {
-  return run.contender + (run.scalar === 'double' ? '' : ` ${run.scalar}`) +
+  return run.contender + (run.knob ? ` ${run.knob}` : '') + (run.scalar === 'double' ? '' : ` ${run.scalar}`) +
       (run.mode === 'free' ? '' : ` (${run.mode})`);
 }
 

@@ -47,8 +47,9 @@ struct Omission {
 
 /// What is known of the steps before the first one. Where nothing is known the stage is kept.
 struct Foreseen {
-  bool gravity = true;  ///< False: gravity is zero in every step.
-  bool jump = true;     ///< False: the jump button is never pressed.
+  bool gravity = true;   ///< False: gravity is zero in every step. Minus zero counts as some: it leaves another bit.
+  bool jump = true;      ///< False: the jump button is never pressed.
+  bool company = false;  ///< True: several characters are stepped as a `Crowd`.
 };
 
 /// The broad phase and the stages for one scenery and one character.
