@@ -209,6 +209,26 @@ TEST(CrowdAmongMovers, a_belt_carries_a_row_as_it_carries_one) {
   }
 }
 
+TEST(CrowdAmongMovers, a_belt_down_a_slope_keeps_those_who_land_on_it) {
+  // 3-4-5: the right foot, at (5, -20) px, comes down on the line y = 3/4 x.
+  ColliderDef belt = polygon({{-80, -65}, {80, 55}, {80, 60}, {-80, -60}});
+  const double speed = -5;
+  const auto above = [](double x) { return Vec2d{x, half_height + 0.75 * (x + 5 * px) + 0.05}; };
+  Together all({above(0), above(2)}, {conveyor(belt, speed)});
+  all.gravity = {0, -10};
+  all.dt = 1.0 / 60;
+  for (Input& input : all.inputs) input.move = 0;
+  const int falling = 10;  // 0.05 m take 0.1 s
+  all.steps(falling);
+  for (int step = 0; step < 120; ++step) {
+    all.step();
+    for (const CharacterState<double>& state : all.states) {
+      ASSERT_TRUE(state.grounded) << step;
+      ASSERT_LE((state.velocity - speed * Vec2d{0.8, 0.6}).norm(), 1e-12) << step;
+    }
+  }
+}
+
 TEST(CrowdAmongMovers, who_meets_nobody_moves_as_by_the_controller_to_the_last_bit) {
   const std::vector<ColliderDef> colliders{rectangle(-40, -3, 40, -2), lift(), of_mover(rectangle(-6, 0.1, -5, 2), 1)};
   const Scenery<double> scenery(SceneryDef{colliders});

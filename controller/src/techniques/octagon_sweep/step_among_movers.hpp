@@ -211,11 +211,9 @@ template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::respond_to_holds(Drive<Scalar>& drive) noexcept {
   const Hold<Scalar>& first = moving_.holds[0];
   ended_in_crease_ = false;
-  if (walkable(first.normal) && carries(first.piece) && moving_.ride.ground == Ride<Scalar>::none &&
-      drive.velocity.x() == 0) {
+  if (drive.velocity.x() == 0 && takes_along(first)) {
     mount(first);
-    drive.velocity.x() = moving_.ride.velocity.x();
-    drive.way.x() = ground_rest(first.piece, first.normal).x();
+    drive = {ground_rest(first.piece, first.normal), moving_.ride.velocity};
   }
   if (respond_one_by_one(drive)) return true;
   ended_in_crease_ = respond_in_crease(drive);

@@ -5,7 +5,8 @@
 /// A rider that does not move on its ground is anchored to it: its position is the mover's offset plus its place there.
 ///
 /// A character that comes down on moving ground keeps its speed in the world, unless it has none sideways: then it is
-/// carried at once.
+/// carried at once, sideways and down. With its fall alone instead of the ground's, it would be left behind in the air
+/// by what goes down a slope, and land again, and so on.
 #pragma once
 
 #include "techniques/octagon_sweep/step_solver.hpp"
@@ -80,7 +81,7 @@ Vec2<Scalar> StepSolver<variant, Scalar>::begin_ride(const MoveRequest<Scalar>& 
   if (riding && ground && space_.scenery().pieces()[ground->piece].collider != request.ride.ground) ground.reset();
   V carried = V::Zero();
   if (ground) carried = ground_velocity(ground->piece, ground->normal);
-  if (!ground || carried.y() < -settings_.max_fall_speed) {
+  if (!ground || falls_away(carried)) {
     velocity_ += request.ride.velocity;
     return request.displacement + request.ride.velocity * request.dt;
   }
@@ -92,6 +93,13 @@ Vec2<Scalar> StepSolver<variant, Scalar>::begin_ride(const MoveRequest<Scalar>& 
   }
   velocity_ += carried;
   return request.displacement + ground_rest(ground->piece, ground->normal);
+}
+
+/// Whether ground that is met, with nothing sideways, carries the character from then on.
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::takes_along(const Hold<Scalar>& ground) const noexcept {
+  return walkable(ground.normal) && carries(ground.piece) && moving_.ride.ground == Ride<Scalar>::none &&
+         !falls_away(ground_velocity(ground.piece, ground.normal));
 }
 
 /// From here on the character goes with this ground.

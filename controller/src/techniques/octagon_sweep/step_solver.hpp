@@ -195,6 +195,9 @@ class StepSolver {
   [[nodiscard]] V ground_rest(PieceIndex piece, const V& normal) const noexcept;
   [[nodiscard]] std::optional<Hold<Scalar>> ground_here(ColliderIndex ridden, bool walkable_only) noexcept;
   [[nodiscard]] V begin_ride(const MoveRequest<Scalar>& request) noexcept;
+  /// Ground that falls faster than the character may.
+  [[nodiscard]] bool falls_away(const V& ground) const noexcept { return ground.y() < -settings_.max_fall_speed; }
+  [[nodiscard]] bool takes_along(const Hold<Scalar>& ground) const noexcept;
   void mount(const Hold<Scalar>& ground) noexcept;
   [[nodiscard]] V anchor(Scalar time) const noexcept;
   void note_motion_on_ground() noexcept;
