@@ -87,6 +87,40 @@ class SpoiltCompany(Spoiling, unittest.TestCase):
             else:
                 self.assertEqual(self.found(spoil), [])
 
+    def hit_where_it_stands(self, *, post=False, requested=1, **said):
+        """Character 0 does not move, and the other comes 1 m in half of the step."""
+        def spoil(header, steps):
+            if post:
+                beside = -0.5 - 2 * GAP
+                header["colliders"].append(
+                    {"id": "post", "polygon": [[-2, -0.1], [beside, -0.1], [beside, 0.1], [-2, 0.1]]})
+            steps[0].update(path=[[0, 0, 0], [0, 0, 1]], requested=[requested, 0], **said)
+            steps[1].update(path=[[2, 0, 0], [1 + GAP, 0, 0.5 - GAP / 2], [1 + GAP, 0, 1]], requested=[-2, 0])
+            steps[2:] = []
+
+        return spoil
+
+    def test_who_is_stuck_does_not_come_as_requested(self):
+        self.expect("earlier", self.hit_where_it_stands())
+        self.assertEqual(self.found(self.hit_where_it_stands(stuck=True)), [])
+
+    def test_who_is_held_by_what_is_a_micrometre_away_does_not_go_as_requested(self):
+        self.expect("does not meet", self.hit_where_it_stands(requested=-1))
+        self.assertEqual(self.found(self.hit_where_it_stands(requested=-1, post=True)), [])
+
+    def test_what_a_meeting_turns_it_into_at_once_is_no_impact_of_the_requested_motion(self):
+        def contact_at(fraction):
+            def spoil(header, steps):
+                top, at = -0.5 - GAP, 0 if fraction == 0 else 0.5
+                header["colliders"] = [{"id": "floor", "polygon": [[-9, -9], [9, -9], [9, top], [-9, top]]}]
+                steps[0]["contacts"] = [{"collider": "floor", "point": [at, top], "normal": [0, 1],
+                                         "fraction": fraction, "separation": GAP, "side": "bottom"}]
+
+            return spoil
+
+        self.assertEqual(self.found(contact_at(0.5 - GAP / 4)), [])
+        self.expect("that it does not move towards", contact_at(0))
+
     def test_a_meeting_from_afar(self):
         def spoil(_, steps):
             steps[0]["path"] = [[0, 0, 0], [0.25, 0, 0.25], [0.25, 0, 1]]

@@ -14,8 +14,9 @@ For every step:
 - of several characters each has a record in every step, in order; no two come to overlap at any moment of their ways
   that did not when the step began (where the ways are samples: on the straight way from their start to their end).
 For octagon_sweep in double, which promises more, also:
-- the gap at every contact is above 0 and at most 1e-6 m, between the contact's point, which lies on the collider, and
-  the character at a corner of its way;
+- every contact is as it says at one corner of the way that is no later than its fraction: there its point lies on the
+  collider and on the character, to 1e-6 m, and the gap between the two along its normal is its separation, above 0 and
+  at most 1e-6 m;
 - the fraction of the first contact is the time of impact of the exact motion, to 1e-6 m along the normal;
 - the sensors' events are those of the way, in order, with fractions that are right to 1e-6 m along it;
 - two characters that met say so both, with opposite normals and the same fraction, and come to within 1e-6 m along them;
@@ -33,10 +34,10 @@ import sys
 from fractions import Fraction
 from functools import lru_cache
 
-from trace_company import Company, first_event
+from trace_company import Company, first_event, meets_at_once
 from trace_geometry import (
-    GAP, NEAR_DROP, NEAR_PASS, ROUNDING, ZERO, add, crossings, distance, dot, enters, exact, hull, inside, less, scaled, size,
-    turn)
+    GAP, NEAR_DROP, NEAR_PASS, ROUNDING, SAME, ZERO, add, crossings, distance, dot, enters, exact, hull, inside, less,
+    scaled, size, turn)
 from trace_turning import SURE, Leg, comes_to_overlap, is_free, overlaps
 
 
@@ -232,21 +233,28 @@ class Checker:
                 yield f"has {name} begin at {show(motion.ends[name][0])}, not where it was"
 
     def check_contact(self, contact, path, motion):
-        n = contact["normal"]
-        name = contact["collider"]
-        if abs(n[0] ** 2 + n[1] ** 2 - 1) > 1e-12:
+        name, n = contact["collider"], tuple(map(Fraction, contact["normal"]))
+        if abs(dot(n, n) - 1) > 1e-12:
             yield f"has a normal that is no unit vector at {name}"
-        point = tuple(map(Fraction, contact["point"]))
-        # The place that is touched is one of the moment when the character stopped before it: at a corner of its way.
-        seen = [less(point, motion.offset(name, corner[2])) for corner in path]
-        off, point = min((min(distance(at, a, b) for a, b in self.colliders[name].edges), at) for at in seen)
-        if not off <= ROUNDING:
+        # Where a touch takes long to come the way may have other corners before the fraction.
+        corners = [corner for corner in path if corner[2] <= Fraction(contact["fraction"]) + SAME]
+        if not corners:
+            yield f"has a contact with {name} at {contact['fraction']}, before the step"
+            return
+        yield from min((list(self.faults(contact, corner, motion)) for corner in reversed(corners)), key=len)
+
+    def faults(self, contact, corner, motion):
+        """Of a contact, if this is the corner where the character stopped before it."""
+        name, n = contact["collider"], tuple(map(Fraction, contact["normal"]))
+        place, point = corner[:2], tuple(map(Fraction, contact["point"]))
+        seen = less(point, motion.offset(name, corner[2]))
+        if not min(distance(seen, a, b) for a, b in self.colliders[name].edges) <= ROUNDING:
             yield f"has a contact point {show(point)} that is not on {name}"
-        n = tuple(map(Fraction, n))
-        reach = min(dot(n, corner) for corner in self.body)
-        gaps = [dot(n, motion.seen(name, corner)) + reach - dot(n, point) for corner in path]
-        gap = min(gaps, key=lambda g: abs(g - Fraction(contact["separation"])))
-        if abs(gap - Fraction(contact["separation"])) > ROUNDING:
+        body = [add(place, corner) for corner in self.body]
+        if not min(distance(point, a, b) for a, b in zip(body, body[1:] + body[:1])) <= GAP + Fraction(ROUNDING):
+            yield f"has a contact point {show(point)} with {name} that is not on the character"
+        gap = dot(n, less(place, point)) + min(dot(n, corner) for corner in self.body)
+        if not abs(gap - Fraction(contact["separation"])) <= ROUNDING:
             yield f"is nowhere {contact['separation']} m from {name}"
         if not 0 < gap <= GAP:
             yield f"keeps a gap of {float(gap)} m at {name}"
@@ -268,6 +276,12 @@ class Checker:
             if not self.meets(name, start, scaled(requested, after), self.grown_by(NEAR_PASS)):
                 yield f"does not meet {name} by {float(t)} of the step"
 
+    def is_held(self, step):
+        """Whether it begins within 1e-6 m of a collider: that may turn it at once, and be no contact yet."""
+        motion, start = Motion(step), exact(step["path"])[0]
+        return any(motion.turns(name) or self.meets(name, motion.seen(name, start), (ZERO, ZERO), self.grown_by(GAP))
+                   for name, collider in self.colliders.items() if not collider.sensor)
+
     def check(self, records):
         """Yields (step, what is wrong)."""
         last, last_motion, together = {}, {}, []
@@ -282,7 +296,7 @@ class Checker:
             last[who], last_motion[who] = exact(step["path"])[-1][:2], Motion(step)
             together = [other for other in together if other["step"] == step["step"]]
             for other in together:
-                for words in company.check(other, step, self.promises):
+                for words in company.check(other, step, self.promises, self.is_held):
                     yield step, f"character {other['character']} {words}"
             together.append(step)
 
@@ -301,9 +315,9 @@ class Checker:
         contacts = [contact for contact in step["contacts"] if not motion.turns(contact["collider"])]
         for contact in contacts:
             yield from self.check_contact(contact, path, motion)
-        # Who met another before, or what turns, may have been turned aside.
-        first = contacts and contacts[0]["fraction"] == first_event(step)
-        if first and not step["start_overlap"] and not step.get("crush"):
+        # Who met another before, or what turns, may have been turned aside; who is stuck does not go as requested.
+        first = contacts and contacts[0]["fraction"] == first_event(step) and not meets_at_once(contacts[0], step)
+        if first and not step["start_overlap"] and not step.get("crush") and not step.get("stuck"):
             requested = tuple(map(Fraction, step["requested"]))
             yield from self.check_impact(contacts[0], path[0], requested, motion)
         yield from self.check_sensors(step, path, motion)

@@ -185,6 +185,10 @@ class SpoiltMovingTraces(Spoiling, unittest.TestCase):
     def test_a_contact_point_where_the_mover_was_before(self):
         self.expect("is not on lift", lambda _, steps: steps[1]["contacts"][0].update(point=[0, 0]))
 
+    def test_a_contact_point_far_from_the_rider(self):
+        self.expect("with lift that is not on the character",
+                    lambda _, steps: steps[1]["contacts"][0].update(point=[1.5, 0.25]))
+
     def test_a_fraction_that_is_not_that_of_the_relative_motion(self):
         self.expect("earlier than at 0.1", lambda _, steps: steps[1]["contacts"][0].update(
             fraction=0.1, point=[0, 0.25 + 0.025]))
@@ -213,6 +217,38 @@ class SpoiltMovingTraces(Spoiling, unittest.TestCase):
                 {"id": name, "change": change, "fraction": fraction} for name, change, fraction in events])
 
         self.assertEqual(self.found(spoil), [])
+
+
+def shouldering_trace():
+    """A lift rises by 0.5 past a diamond. Its corner meets the diamond's lower left side after half the step, and pushes
+    it aside; at the end the side of the lift is where its corner was.
+    """
+    header = {
+        "paperproof_trace": 1, "scene": "made", "contender": "octagon_sweep", "scalar": "double", "dt": 0.25,
+        "points": [[0, -0.5], [0.5, 0], [0, 0.5], [-0.5, 0]],
+        "colliders": [{"id": "lift", "polygon": [[-2, -1], [0, -1], [0, 0], [-2, 0]]}]}
+    slant, room = 0.5 ** 0.5, 2.0 ** -20  # the corner stops `room` below the diamond's side
+    place = [0.25, 0.5 + room]
+    step = {
+        "step": 0, "path": [place + [0], place + [0.5], [place[0] + 0.125, place[1] + 0.125, 1]], "requested": [0, 0],
+        "velocity": [0, 0], "grounded": False, "start_overlap": [], "movers": {"lift": [[0, 0], [0, 0.5]]},
+        "contacts": [{"collider": "lift", "point": [0, 0.25], "normal": [slant, slant], "fraction": 0.5 + 2 * room,
+                      "separation": slant * room, "side": "left"}]}
+    return header, [step]
+
+
+class SpoiltShoulderingTraces(Spoiling, unittest.TestCase):
+    header, steps = shouldering_trace()
+
+    def test_a_contact_that_is_right_only_after_its_fraction(self):
+        self.expect("is not on lift", lambda _, steps: steps[0]["contacts"][0].update(point=[0, 0.5]))
+
+    def test_a_contact_point_on_the_side_of_the_lift(self):
+        self.expect("is nowhere", lambda _, steps: steps[0]["contacts"][0].update(point=[0, 0.25 - 2e-8]))
+
+    def test_a_fraction_before_the_character_stopped(self):
+        self.expect("is not on lift", lambda _, steps: steps[0]["contacts"][0].update(fraction=0.5 - 1e-6))
+        self.expect("before the step", lambda _, steps: steps[0]["contacts"][0].update(fraction=-0.5))
 
 
 if __name__ == "__main__":

@@ -4,33 +4,48 @@ from fractions import Fraction
 from trace_geometry import GAP, GRAZING, NEAR_PASS, ZERO, add, dot, enters, exact, hull, less, scaled, size
 
 
+def places_at(way, t):
+    """All corners of a way of (x, y, fraction) at that moment, or the place between two."""
+    corners = [corner[:2] for corner in way if corner[2] == t]
+    if corners:
+        return corners
+    before = max(i for i, corner in enumerate(way) if corner[2] < t)
+    a, b = way[before], way[before + 1]
+    share = (t - a[2]) / (b[2] - a[2])
+    return [add(a[:2], scaled(less(b, a), share))]
+
+
 def parts(one, other):
     """What two do at the same time, as (from, to) of each: ways of (x, y, fraction) from 0 to 1. Jumps, which take no
     time, come one after the other, those of the one first."""
-    def at(way, t):
-        """All corners of that moment, or the place between two."""
-        corners = [corner[:2] for corner in way if corner[2] == t]
-        if corners:
-            return corners
-        before = max(i for i, corner in enumerate(way) if corner[2] < t)
-        a, b = way[before], way[before + 1]
-        share = (t - a[2]) / (b[2] - a[2])
-        return [add(a[:2], scaled(less(b, a), share))]
-
     times = sorted({corner[2] for corner in one + other})
     for t, following in zip(times, times[1:] + [None]):
-        mine, theirs = at(one, t), at(other, t)
+        mine, theirs = places_at(one, t), places_at(other, t)
         for a, b in zip(mine, mine[1:]):
             yield (a, b), (theirs[0], theirs[0])
         for a, b in zip(theirs, theirs[1:]):
             yield (mine[-1], mine[-1]), (a, b)
         if following is not None:
-            yield (mine[-1], at(one, following)[0]), (theirs[-1], at(other, following)[0])
+            yield (mine[-1], places_at(one, following)[0]), (theirs[-1], places_at(other, following)[0])
 
 
 def first_event(step):
     """The fraction of the earliest contact of a step with anything."""
     return min((event["fraction"] for event in step["contacts"] + step.get("met", [])), default=None)
+
+
+def meets_at_once(contact, step):
+    """Whether a step stops for a contact where it stops for another character: either may turn it into the other."""
+    stops = [[corner[2] for corner in step["path"] if corner[2] <= event["fraction"]][-1:]
+             for event in [contact] + step.get("met", [])]
+    return stops[0] in stops[1:]
+
+
+def goes_as_requested(step, fraction):
+    """Whether a character is then where its requested motion takes it, to 1e-6 m."""
+    way = exact(step["path"])
+    wanted = scaled(tuple(map(Fraction, step["requested"])), Fraction(fraction))
+    return any(size(less(less(place, way[0]), wanted)) <= GAP for place in places_at(way, Fraction(fraction)))
 
 
 class Company:
@@ -53,8 +68,8 @@ class Company:
     def width(self, n):
         return max(dot(n, corner) for corner in self.reach)
 
-    def check(self, one, other, promises):
-        """Two records of one step."""
+    def check(self, one, other, promises, is_held):
+        """Two records of one step. `is_held` says of a record whether it begins beside a collider."""
         i, j = one["character"], other["character"]
         mine, theirs = exact(one["path"]), exact(other["path"])
         overlapped = self.meet((mine[0], mine[0]), (theirs[0], theirs[0]))
@@ -68,9 +83,9 @@ class Company:
             if any(self.meet(*part) for part in parts(mine, theirs)):
                 yield f"and character {j} come to overlap or pass through each other"
         if promises:
-            yield from self.check_met(one, other)
+            yield from self.check_met(one, other, is_held)
 
-    def check_met(self, one, other):
+    def check_met(self, one, other, is_held):
         j = other["character"]
         of_one = [met for met in one.get("met", []) if met["character"] == j]
         of_other = [met for met in other.get("met", []) if met["character"] == one["character"]]
@@ -86,7 +101,9 @@ class Company:
             gaps = [dot(n, less(m, t)) - self.width(n) for m, t in moments]
             if not any(0 < gap <= GAP for gap in gaps):
                 yield f"and character {j} have met, and at no corner are within 1e-6 m: {[float(gap) for gap in gaps]}"
-            if met["fraction"] == first_event(one) == first_event(other):
+            turned = any(step.get("stuck") or (not goes_as_requested(step, met["fraction"]) and is_held(step))
+                         for step in (one, other))
+            if met["fraction"] == first_event(one) == first_event(other) and not turned:
                 yield from self.check_impact(one, other, met)
 
     def check_impact(self, one, other, met):

@@ -3,6 +3,7 @@ from fractions import Fraction
 
 GAP = Fraction(1, 10**6)  # largest gap at a contact, and largest error of an impact along its normal [m]
 ROUNDING = 1e-8  # of a reported separation or contact point [m]: positions of 1e6 m are known to 1e-10
+SAME = Fraction(1, 10**12)  # two fractions of one moment may be rounded so far apart [steps]
 NEAR_PASS = Fraction(4, 10**7)  # a way that passes a solid this closely may be called a contact [m]
 NEAR_DROP = Fraction(2, 10**6)  # and one that passes a one-way chain this closely may be said to drop through it [m]
 GRAZING = 1e-3  # an approach of less than this part of the relative motion grazes, and says little of when
