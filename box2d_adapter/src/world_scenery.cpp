@@ -75,14 +75,18 @@ ColliderDef collider_of(const b2Shape& shape, const b2Transform& transform, int 
 bool is_solid(const b2Fixture& fixture) { return !fixture.IsSensor(); }
 bool is_no_mover(const b2Body&) { return false; }
 
-/// Still turned as it was when it was read.
-bool keeps_its_angle(const WorldScenery& scenery, std::size_t mover) {
-  const b2Body& body = *scenery.movers[mover];
-  return body.GetAngularVelocity() == 0 && body.GetAngle() == scenery.angles[mover];
+/// Still turned as it was when it was read, and does not turn: what is disabled stays as it is, whatever its velocity.
+bool keeps_its_angle(const b2Body& body, float read_at) {
+  return (body.GetAngularVelocity() == 0 || !body.IsEnabled()) && body.GetAngle() == read_at;
 }
 
-/// Where `b2Island::Solve` takes a kinematic body, in the same operations and so to the same bits.
+/// Whether it is known before a step what it does to a body.
+bool is_predictable(const b2Body& body) { return body.GetType() != b2_dynamicBody || !body.IsEnabled(); }
+
+/// Where `b2Island::Solve` takes a kinematic body, in the same operations and so to the same bits. It leaves out who is
+/// disabled, whatever velocity it has; who sleeps has none.
 b2Vec2 position_after_step(const b2Body& body, float dt) {
+  if (!body.IsEnabled()) return body.GetPosition();
   b2Vec2 velocity = body.GetLinearVelocity();
   const b2Vec2 way = dt * velocity;
   if (way.LengthSquared() > b2_maxTranslationSquared) velocity *= b2_maxTranslation / way.Length();
@@ -125,9 +129,15 @@ bool motions_of(const WorldScenery& scenery, float dt, std::span<MoverMotion<Sca
     const Vec2d from = widened(body.GetPosition());
     const Vec2d to = widened(position_after_step(body, dt));
     motions[i] = {from.cast<Scalar>(), to.cast<Scalar>()};
-    known = known && keeps_its_angle(scenery, i) && body.GetType() == b2_kinematicBody;
+    known = known && is_predictable(body);
   }
-  return known;
+  return known && first_turned(scenery) == nullptr;
+}
+
+b2Body* first_turned(const WorldScenery& scenery) noexcept {
+  for (std::size_t i = 0; i < scenery.movers.size(); ++i)
+    if (!keeps_its_angle(*scenery.movers[i], scenery.angles[i])) return scenery.movers[i];
+  return nullptr;
 }
 
 void places_of(const WorldScenery& scenery, std::span<Vec2d> places) noexcept {
@@ -137,13 +147,11 @@ void places_of(const WorldScenery& scenery, std::span<Vec2d> places) noexcept {
 template <class Scalar>
 bool motions_since(const WorldScenery& scenery, std::span<const Vec2d> places,
                    std::span<MoverMotion<Scalar>> motions) noexcept {
-  bool known = true;
   for (std::size_t i = 0; i < scenery.movers.size(); ++i) {
     const Vec2d to = widened(scenery.movers[i]->GetPosition());
     motions[i] = {places[i].cast<Scalar>(), to.cast<Scalar>()};
-    known = known && keeps_its_angle(scenery, i);
   }
-  return known;
+  return first_turned(scenery) == nullptr;
 }
 
 template bool motions_of(const WorldScenery&, float, std::span<MoverMotion<float>>) noexcept;
