@@ -276,11 +276,17 @@ class Checker:
             if not self.meets(name, start, scaled(requested, after), self.grown_by(NEAR_PASS)):
                 yield f"does not meet {name} by {float(t)} of the step"
 
-    def is_held(self, step):
-        """Whether it begins within 1e-6 m of a collider: that may turn it at once, and be no contact yet."""
-        motion, start = Motion(step), exact(step["path"])[0]
-        return any(motion.turns(name) or self.meets(name, motion.seen(name, start), (ZERO, ZERO), self.grown_by(GAP))
-                   for name, collider in self.colliders.items() if not collider.sensor)
+    def is_in_the_way(self, step, fraction):
+        """Whether the requested motion leads until then to within 1e-6 m of a collider, which may turn it before that, and
+        be no contact yet."""
+        motion, (start, *_) = Motion(step), exact(step["path"])
+        requested = tuple(map(Fraction, step["requested"]))
+
+        def is_near(name):
+            way = scaled(less(requested, motion.change(name)), Fraction(fraction))
+            return motion.turns(name) or self.meets(name, motion.seen(name, start), way, self.grown_by(GAP))
+
+        return any(is_near(name) for name, collider in self.colliders.items() if not collider.sensor)
 
     def check(self, records):
         """Yields (step, what is wrong)."""
@@ -296,7 +302,7 @@ class Checker:
             last[who], last_motion[who] = exact(step["path"])[-1][:2], Motion(step)
             together = [other for other in together if other["step"] == step["step"]]
             for other in together:
-                for words in company.check(other, step, self.promises, self.is_held):
+                for words in company.check(other, step, self.promises, self.is_in_the_way):
                     yield step, f"character {other['character']} {words}"
             together.append(step)
 

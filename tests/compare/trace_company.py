@@ -68,8 +68,9 @@ class Company:
     def width(self, n):
         return max(dot(n, corner) for corner in self.reach)
 
-    def check(self, one, other, promises, is_held):
-        """Two records of one step. `is_held` says of a record whether it begins beside a collider."""
+    def check(self, one, other, promises, is_in_the_way):
+        """Two records of one step. `is_in_the_way` says whether a collider may turn one of them aside before a
+        fraction."""
         i, j = one["character"], other["character"]
         mine, theirs = exact(one["path"]), exact(other["path"])
         overlapped = self.meet((mine[0], mine[0]), (theirs[0], theirs[0]))
@@ -83,9 +84,9 @@ class Company:
             if any(self.meet(*part) for part in parts(mine, theirs)):
                 yield f"and character {j} come to overlap or pass through each other"
         if promises:
-            yield from self.check_met(one, other, is_held)
+            yield from self.check_met(one, other, is_in_the_way)
 
-    def check_met(self, one, other, is_held):
+    def check_met(self, one, other, is_in_the_way):
         j = other["character"]
         of_one = [met for met in one.get("met", []) if met["character"] == j]
         of_other = [met for met in other.get("met", []) if met["character"] == one["character"]]
@@ -101,9 +102,10 @@ class Company:
             gaps = [dot(n, less(m, t)) - self.width(n) for m, t in moments]
             if not any(0 < gap <= GAP for gap in gaps):
                 yield f"and character {j} have met, and at no corner are within 1e-6 m: {[float(gap) for gap in gaps]}"
-            turned = any(step.get("stuck") or (not goes_as_requested(step, met["fraction"]) and is_held(step))
+            t = met["fraction"]
+            turned = any(step.get("stuck") or (not goes_as_requested(step, t) and is_in_the_way(step, t))
                          for step in (one, other))
-            if met["fraction"] == first_event(one) == first_event(other) and not turned:
+            if t == first_event(one) == first_event(other) and not turned:
                 yield from self.check_impact(one, other, met)
 
     def check_impact(self, one, other, met):
