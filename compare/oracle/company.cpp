@@ -155,8 +155,8 @@ std::optional<CompanyJudge::Impact> CompanyJudge::first_impact(const TraceStep& 
   if (!impact) return std::nullopt;
   const Vec2d way = one.requested - other.requested;
   const double approach = -way.dot(impact->normal);
-  const bool comparable =
-      pair_.separation(start_of(one), start_of(other)) > reach_ && approach >= least_approach * way.norm();
+  const bool comparable = !one.stuck && !other.stuck && pair_.separation(start_of(one), start_of(other)) > reach_ &&
+                          approach >= least_approach * way.norm();
   return Impact{one.character, other.character, static_cast<double>(impact->fraction), comparable};
 }
 

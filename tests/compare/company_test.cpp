@@ -164,6 +164,18 @@ TEST(CompanyJudge, the_first_impact_of_both_is_theirs_unless_scenery_comes_first
   EXPECT_FALSE(judged.first_met);
 }
 
+TEST(CompanyJudge, who_is_stuck_does_not_go_as_requested_so_that_no_first_impact_is_comparable) {
+  TraceStep one = step({{0, 0}, {0, 0}});
+  one.requested = {0.5, 0};
+  one.stuck = true;
+  TraceStep other = step({{1, 0}, {0.75, 0}});
+  other.requested = {-0.5, 0};
+  EXPECT_FALSE(Two()(one, other).first_impact_comparable);
+  EXPECT_FALSE(Two()(other, one).first_impact_comparable) << "nor that of who comes to it";
+  one.stuck = false;
+  EXPECT_TRUE(Two()(one, other).first_impact_comparable);
+}
+
 TEST(CompanyJudge, speed_that_another_takes_is_not_lost_to_nothing) {
   StepJudgement alone;
   alone.ghost_speed_loss = 1;
