@@ -50,6 +50,7 @@ bool ContactJudge::dropped_through(ColliderIndex collider) const {
 }
 
 void ContactJudge::judge(bool starts_free, StepJudgement& judgement) const {
+  std::vector<ColliderIndex> met;  // by the requested motion
   for (std::size_t i = 0; i < step_.path.size(); ++i) {
     const Vec2d& position = step_.path[i].position;
     const bool end = i == 0 || i + 1 == step_.path.size();
@@ -57,8 +58,11 @@ void ContactJudge::judge(bool starts_free, StepJudgement& judgement) const {
     if (i > 0 && step_.movers.empty() && position == step_.path[i - 1].position) continue;
     std::vector<ExactImpact> impacts = scenery_.impacts(place(i), step_.requested);
     std::erase_if(impacts, [this](const ExactImpact& impact) { return dropped_through(impact.collider); });
-    if (i == 0) add_first_impacts(impacts, starts_free, judgement);
-    add_contacts_at(impacts, step_.path[i].fraction, judgement);
+    if (i == 0) {
+      for (const ExactImpact& impact : impacts) met.push_back(impact.collider);
+      add_first_impacts(impacts, starts_free, judgement);
+    }
+    add_contacts_at(impacts, step_.path[i].fraction, met, judgement);
   }
   add_gaps(judgement);
   add_dont_care(judgement);
@@ -67,12 +71,25 @@ void ContactJudge::judge(bool starts_free, StepJudgement& judgement) const {
   if (judgement.crushed.empty()) judgement.ghost_speed_loss = ghost_speed_loss(starts_free);
 }
 
+bool ContactJudge::reports(const ExactImpact& impact) const {
+  const Side side = side_of_normal(impact.normal.x(), impact.normal.y());
+  return std::any_of(step_.contacts.begin(), step_.contacts.end(), [&](const Contact<double>& contact) {
+    return contact.collider == impact.collider && contact.side == side;
+  });
+}
+
+/// @param met what the requested motion of the step enters, from its start.
 void ContactJudge::add_contacts_at(const std::vector<ExactImpact>& impacts, double fraction,
-                                   StepJudgement& judgement) const {
+                                   std::span<const ColliderIndex> met, StepJudgement& judgement) const {
+  // What the step only comes near to is entered in the next one, if the motion goes on.
+  const auto is_met = [&](const ExactImpact& impact) {
+    return !header_.path_exact || impact.fraction + Rational(fraction) <= 1 ||
+           std::find(met.begin(), met.end(), impact.collider) != met.end();
+  };
   for (const ExactImpact& impact : impacts) {
     const double way = static_cast<double>(impact.fraction) * std::abs(wanted(impact.collider).dot(impact.normal));
     if (way > contact_reach) continue;
-    if (impact.exposed) {
+    if (impact.exposed && (is_met(impact) || reports(impact))) {
       add_contact(impact, fraction, judgement);
     } else {
       judgement.dont_care.push_back(impact.collider);
@@ -95,8 +112,9 @@ void ContactJudge::add_first_impacts(const std::vector<ExactImpact>& impacts, bo
   const Vec2d relative = wanted(first->collider);
   const double approach = std::abs(relative.dot(first->normal));
   judgement.first_impact = fraction;
-  judgement.first_impact_comparable =
-      fraction * approach > (header_.path_exact ? contact_reach : skin) && approach >= least_approach * relative.norm();
+  judgement.first_impact_comparable = !step_.stuck &&
+                                      fraction * approach > (header_.path_exact ? contact_reach : skin) &&
+                                      approach >= least_approach * relative.norm();
 }
 
 /// The smallest separation over the corners of the way [m].

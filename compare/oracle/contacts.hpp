@@ -24,7 +24,9 @@ class ContactJudge {
   [[nodiscard]] Place place(std::size_t corner) const { return {step_.path[corner], step_.movers}; }
   /// The requested displacement relative to what a collider goes along with [m].
   [[nodiscard]] Vec2d wanted(ColliderIndex collider) const;
-  void add_contacts_at(const std::vector<ExactImpact>& impacts, double fraction, StepJudgement& judgement) const;
+  [[nodiscard]] bool reports(const ExactImpact& impact) const;
+  void add_contacts_at(const std::vector<ExactImpact>& impacts, double fraction, std::span<const ColliderIndex> met,
+                       StepJudgement& judgement) const;
   void add_first_impacts(const std::vector<ExactImpact>& impacts, bool starts_free, StepJudgement& judgement) const;
   void add_gaps(StepJudgement& judgement) const;
   void add_dont_care(StepJudgement& judgement) const;

@@ -111,18 +111,20 @@ struct StepJudgement {
 /// therefore only a rim of the octagon; its core stays free all along.
 ///
 /// **Contact.** A collider that the requested displacement, from a corner of the path (for Box2D: from its start or
-/// end), enters after at most 1e-6 m along the contact normal; or one that the requested motion of the step meets
-/// first. Nearness without motion into it is none, nor is a normal that only a seam between abutting colliders has, nor
-/// a one-way chain that is passed on purpose.
+/// end), enters after at most 1e-6 m along the contact normal, if it enters it in what is left of the step there, or
+/// from the start of the step (for Box2D: in any case); or one that the requested motion of the step meets first.
+/// Nearness without motion into it is none, nor is a normal that only a seam between abutting colliders has, nor a
+/// one-way chain that is passed on purpose.
 ///
 /// **Don't care.** A collider whose contact is a matter of the contender's stated skin: for Box2D within 20 mm of the
 /// start or the end of the path; else one that the requested motion leads against and comes within 1e-7 m of, or that
-/// is nearer than the gap up to which the contender says it holds a contact (`touch`); and one that is near enough for
-/// a contact, but only behind a seam. A report of it is a ghost where no face stands out that its normal could be of.
+/// is nearer than the gap up to which the contender says it holds a contact (`touch`); one that is near enough for a
+/// contact where the step ends, but not reported, as the motion, or that of a mover, may end there; and one that is
+/// near enough, but only behind a seam. A report of it is a ghost where no face stands out that its normal could be of.
 ///
 /// **Fraction.** A first impact is comparable where the octagon began farther than 1e-6 m (Box2D: its skin, 20 mm) away
 /// along the normal, and the approach against the normal is at least 1e-3 of the displacement: at rest, and where the
-/// motion grazes, a gap of a micrometre is much of the way.
+/// motion grazes, a gap of a micrometre is much of the way. Who is stuck does not go as requested, and has none.
 ///
 /// **What turns** is judged apart, between bounds: see oracle/turning.hpp.
 ///

@@ -38,6 +38,22 @@ TEST(JudgeMovers, a_paper_that_sweeps_over_a_resting_character_is_tunnelled_at_t
   EXPECT_DOUBLE_EQ(judged.passings[0].angle, 90);
 }
 
+TEST(JudgeMovers, a_paper_that_stops_closer_than_a_contact_is_need_not_be_reported_and_may_be) {
+  constexpr double gap = 6e-7;  // less than the reach of a contact, 1e-6 m, more than what has to be seen, 1e-7 m
+  const TraceHeader paper = header({moving(box(-1, -1, -0.3125 - gap, 1))});
+  TraceStep comes = leg({0, 0}, {0, 0}, {{{-0.0625, 0}, {0, 0}}});
+  StepJudgement judged = Judge(paper).judge(comes);
+  EXPECT_TRUE(judged.contacts.empty());
+  EXPECT_EQ(judged.dont_care, Colliders{0});
+  comes.contacts = {{.collider = 0, .normal = {1, 0}, .fraction = 1, .separation = gap, .side = Side::left}};
+  EXPECT_EQ(Judge(paper).judge(comes).contacts.size(), 1U);
+  // It goes on for as long again, and would be met after half of the step, or in its last micrometre.
+  for (const double end : {0.0625, 2 * gap}) {
+    const StepJudgement met = Judge(paper).judge(leg({0, 0}, {0, 0}, {{{-0.0625, 0}, {end, 0}}}));
+    EXPECT_EQ(met.contacts.size(), 1U) << end;
+  }
+}
+
 TEST(JudgeMovers, going_along_with_a_paper_is_free) {
   Judge judge(header({moving(box(0, -4, 0.125, 4))}));
   const StepJudgement judged = judge.judge(leg({-1, 0}, {7, 0}, {{{0, 0}, {8, 0}}}));

@@ -159,6 +159,9 @@ TEST(Judge, a_landing_is_an_exact_contact_at_its_fraction) {
   ASSERT_TRUE(judged.first_impact);
   EXPECT_EQ(*judged.first_impact, 0.375);
   EXPECT_TRUE(judged.first_impact_comparable);
+  landing.stuck = true;
+  EXPECT_FALSE(Judge(header({box(-4, -1, 4, 0)})).judge(landing).first_impact_comparable)
+      << "it does not go as requested";
 }
 
 TEST(Judge, resting_nearness_is_a_contact_with_motion_into_it_and_none_without) {
