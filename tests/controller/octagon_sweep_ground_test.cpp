@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace paperproof::stepping {
 namespace {
@@ -145,6 +149,89 @@ TEST(SteepSlope, accelerates_by_gravity_along_the_surface) {
         ASSERT_LE(gap, largest_gap);
       }
     }
+  }
+}
+
+/// What carries nobody, or a belt, or a lift.
+struct FaintGround {
+  std::string name;
+  std::vector<ColliderDef> colliders;
+  double slope = 0;           ///< Rise over run, through the origin.
+  Vec2d lift{Vec2d::Zero()};  ///< Velocity of mover 0 [m/s].
+};
+
+std::vector<FaintGround> faint_grounds() {
+  const auto ramp = [](double slope) {
+    return polygon({{-60, -60 * slope - 1}, {60, 60 * slope - 1}, {60, 60 * slope}, {-60, -60 * slope}});
+  };
+  std::vector<ColliderDef> tiles;
+  for (int i = -8; i < 64; ++i) tiles.push_back(rectangle(0.25 * i, -1, 0.25 * (i + 1), 0));
+  ColliderDef belt = ramp(0);
+  belt.surface_speed = 2;
+  ColliderDef lift = ramp(0);
+  lift.mover = 0;
+  ColliderDef ledge = chain({{-60, 0}, {60, 0}}, Vec2d{0, 1});
+  return {{"floor", {ramp(0)}}, {"tiles", tiles}, {"uphill", {ramp(0.6)}, 0.6}, {"downhill", {ramp(-0.6)}, -0.6},
+          {"one-way", {ledge}}, {"belt", {belt}}, {"lift", {lift}, 0, {1, 2}},  {"sinking", {lift}, 0, {-1, -2}}};
+}
+
+/// Walks on ground that gravity presses it onto by less than a rest gap each step: it never loses it, nor sinks.
+void expect_steady_walk(const FaintGround& ground, double dt, double gravity, double snap = 0) {
+  SCOPED_TRACE(ground.name + testing::PrintToString(std::pair(dt, gravity)));
+  CharacterDef character;
+  character.snap = snap;
+  Stepper<double> walker(ground.colliders, character);
+  walker.dt = dt;
+  walker.gravity = {0, -gravity};
+  const double cosine = 1 / std::sqrt(1 + ground.slope * ground.slope);
+  walker.at(0, half_height + std::abs(ground.slope) * half_foot + Tolerances<double>{}.stop / cosine);
+  walker.with_velocity(6 + ground.lift.x(), 6 * ground.slope + ground.lift.y());
+  int begins = 0;
+  bool stood = false;
+  double lowest = 1;
+  double highest = 0;
+  const double way = 12;
+  for (int step = 0; step < std::min(2000.0, way / (6 * dt)); ++step) {
+    const Vec2d offset = ground.lift * ((step + 1) * dt);
+    for (MoverMotion<double>& mover : walker.movers) mover = {mover.to, offset};
+    walker.step();
+    const bool stands = walker.state.grounded && walker.touched(Side::bottom);
+    ASSERT_TRUE(stands || !stood) << "after step " << step;
+    begins += stands && !stood;
+    stood = stands;
+    const Vec2d at = walker.state.position - offset;
+    const double gap = (at.y() - half_height - std::abs(ground.slope) * half_foot - ground.slope * at.x()) * cosine;
+    ASSERT_GT(gap, 0) << step;
+    ASSERT_LE(gap, largest_gap) << step;
+    if (step < 100) continue;
+    lowest = std::min(lowest, gap);
+    highest = std::max(highest, gap);
+  }
+  EXPECT_EQ(begins, 1);
+  EXPECT_LE(highest - lowest, 1e-9);
+  EXPECT_NEAR(walker.state.velocity.x(), 6 + ground.lift.x(), 1e-9);
+  EXPECT_NEAR(walker.state.velocity.y(), 6 * ground.slope + ground.lift.y(), 1e-9);
+}
+
+TEST(FaintGravity, keeps_a_walker_on_its_ground) {
+  for (const FaintGround& ground : faint_grounds()) {
+    for (const double gravity : {0.05, 0.2, 0.4}) expect_steady_walk(ground, 1e-3, gravity);
+    for (const double gravity : {1.0, 2.0, 5.0, 9.81, 29.0, 35.0}) expect_steady_walk(ground, 1e-4, gravity);
+    expect_steady_walk(ground, 1.0 / 60, 1e-3);
+    expect_steady_walk(ground, 1e-4, 30, 0.25);
+  }
+}
+
+TEST(FaintGravity, lets_a_walker_go_over_the_edge) {
+  Stepper<double> walker({rectangle(-4, -1, 1, 0)});
+  walker.dt = 1e-3;
+  walker.gravity = {0, -0.2};
+  walker.at(0, half_height + Tolerances<double>{}.stop).with_velocity(6, 0);
+  for (int step = 0; step < 1000; ++step) {
+    const double left_foot = walker.state.position.x() - half_foot;
+    walker.step();
+    if (step < 5) continue;  // it comes down
+    ASSERT_EQ(walker.state.grounded, left_foot + 6 * walker.dt <= 1) << step;
   }
 }
 

@@ -180,7 +180,9 @@ class StepSolver {
   [[nodiscard]] V aimed_back(const V& way, const Stop<Scalar>& at) const noexcept;
   void halt() noexcept;
   [[nodiscard]] bool stands() noexcept;
+  [[nodiscard]] bool stands_on_any() noexcept;
   [[nodiscard]] bool stands_on(PieceIndex piece) const noexcept;
+  [[gnu::cold, gnu::noinline]] void keep_ground() noexcept;
   void follow_ground_down(const MoveRequest<Scalar>& request) noexcept;
   [[nodiscard]] bool walkable(const V& normal) const noexcept { return normal.y() >= settings_.walkable_cosine; }
 

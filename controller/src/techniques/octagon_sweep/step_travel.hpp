@@ -57,6 +57,7 @@ void StepSolver<variant, Scalar>::solve(const MoveRequest<Scalar>& request) noex
       }
     }
     if (near) look_along(wanted);
+    if (request.grounded && !found_.hit) keep_ground();
     if constexpr (variant.movers) {
       travel_among_movers();
       take_back_crushes();
@@ -74,6 +75,32 @@ void StepSolver<variant, Scalar>::solve(const MoveRequest<Scalar>& request) noex
   push_corner(1);
   result_.position = position_;
   result_.velocity = velocity_;
+}
+
+/// Ground that was touched and is still touched where the motion ends stops a motion into it, as it stops one that is
+/// straight down. A walk goes into its ground by less than the sweep sees where gravity is tiny: it would leave the
+/// ground, sink until it is met, and be put back, over and over.
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::keep_ground() noexcept {
+  const V from = position_;
+  const Scalar begin = time_;
+  position_ += motion_.way;
+  time_ = 1;
+  const bool ends_on_ground = stands_on_any();
+  position_ = from;
+  time_ = begin;
+  if (!ends_on_ground) return;
+  for_each_near({position_, position_}, [this](PieceIndex piece) {
+    const BestAxis<Scalar> best = best_axis<variant>(space_, piece, local(piece, position_));
+    if (!stands_on(piece) || space_.covered(piece, best.axis)) return;
+    V way = motion_.way;
+    if constexpr (variant.movers)
+      if (mover_of(piece) != no_mover) way = moving_.around.relative(way, mover_of(piece), time_);
+    const LocalMotion motion = make_motion<variant>(space_, local(piece, position_), way);
+    if (!enters(way, space_.normal(piece, best.axis)) || !in_way(motion, piece)) return;
+    keep({piece, 0, 0, {best.axis, best.axis, false}}, motion.length);
+  });
+  order_stops();
 }
 
 /// The way itself: stop at what the sweep found, respond, and sweep again with what is left. What is left only shrinks.
@@ -142,7 +169,11 @@ bool StepSolver<variant, Scalar>::stands() noexcept {
     return std::any_of(result_.contacts.begin(), result_.contacts.end(),
                        [](const Contact<Scalar>& contact) { return contact.normal.y() > 0; });
   if (!met_ground_) return false;
-  if (stands_on(ground_)) return true;  // mostly
+  return stands_on(ground_) || stands_on_any();  // mostly the first
+}
+
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::stands_on_any() noexcept {
   bool any = false;
   for_each_near({position_, position_}, [&](PieceIndex piece) { any = any || stands_on(piece); });
   return any;
