@@ -56,7 +56,7 @@ std::unique_ptr<Contestant> make_contestant(std::string_view name, ScalarKind sc
                                  [&](TechniqueKind each) { return paperproof::name_of(each) == name; });
   if (kind != all_techniques.end()) {
     const bool crowd = !scene.others.empty();
-    if (crowd && *kind == TechniqueKind::octagon_sweep) return make_crowd_contestant(scalar, scene, scenery, planning);
+    if (crowd && moves_crowds(*kind)) return make_crowd_contestant(*kind, scalar, scene, scenery, planning);
     if (crowd)
       throw NotApplicable(fmt::format("{} knows one character, and here are {}", name, character_count(scene)));
     try {

@@ -8,20 +8,17 @@
 namespace paperproof::compare {
 namespace {
 
-constexpr auto technique = TechniqueKind::octagon_sweep;
-
 template <class Scalar>
 class CrowdContestant final : public Contestant {
  public:
-  CrowdContestant(const Scene& scene, const Scenery<double>& scenery, const Planning& planning)
+  CrowdContestant(TechniqueKind kind, const Scene& scene, const Scenery<double>& scenery, const Planning& planning)
       : scenery_(scenery),
         plan_(plan_of(scenery_.get(), scene.character, planning)),
-        crowd_(scenery_.get(), rules_for(technique, scene.character),
-               definition_of(technique, scene, plan_, planning.knobs)),
+        crowd_(scenery_.get(), rules_for(kind, scene.character), definition_of(kind, scene, plan_, planning.knobs)),
         scratch_(crowd_.make_scratch(character_count(scene))),
         gravity_(scene.gravity.cast<Scalar>()),
         movers_(scene.movers.size(), scenery_.get().as_run()),
-        header_(header_of(technique, scenery_.get(), scene, plan_, planning.knobs)),
+        header_(header_of(kind, scenery_.get(), scene, plan_, planning.knobs)),
         states_(character_count(scene)),
         report_(character_count(scene)) {
     place_at_start(*this, scene);
@@ -71,11 +68,11 @@ class CrowdContestant final : public Contestant {
 
 }  // namespace
 
-std::unique_ptr<Contestant> make_crowd_contestant(ScalarKind scalar, const Scene& scene, const Scenery<double>& scenery,
-                                                  const Planning& planning) {
+std::unique_ptr<Contestant> make_crowd_contestant(TechniqueKind kind, ScalarKind scalar, const Scene& scene,
+                                                  const Scenery<double>& scenery, const Planning& planning) {
   try {
-    if (scalar == ScalarKind::binary32) return std::make_unique<CrowdContestant<float>>(scene, scenery, planning);
-    return std::make_unique<CrowdContestant<double>>(scene, scenery, planning);
+    if (scalar == ScalarKind::binary32) return std::make_unique<CrowdContestant<float>>(kind, scene, scenery, planning);
+    return std::make_unique<CrowdContestant<double>>(kind, scene, scenery, planning);
   } catch (const std::invalid_argument& error) {
     throw NotApplicable(error.what());
   }

@@ -4,18 +4,21 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "crowd/among_movers.hpp"
+#include "crowd/joint_technique.hpp"
+#include "crowd/parts.hpp"
 #include "crowd/stepper.hpp"
 #include "scenery_facts.hpp"
 
 namespace paperproof {
 namespace {
 
-void require_octagon_sweep(const TechniqueDef& technique) {
-  if (technique.kind != TechniqueKind::octagon_sweep)
-    throw std::invalid_argument("a crowd moves by octagon_sweep: no other technique keeps what it promises");
+void require_several(const TechniqueDef& technique) {
+  if (!moves_crowds(technique.kind))
+    throw std::invalid_argument("a crowd moves by octagon_sweep or discrete: the other techniques know one character");
 }
 
 /// With the stages that places for other characters need.
@@ -55,6 +58,8 @@ template <class Scalar>
 struct CrowdMemory final : OwnMemory {
   crowd::Memory<Scalar> standing;
   crowd::WalkerMemory<Scalar> walking;
+  std::vector<CharacterState<Scalar>> states;  ///< Of those that are moved at once, as they will be.
+  std::vector<MoveRequest<Scalar>> requests;   ///< What they want.
   Scratch<Scalar> technique;
 };
 
@@ -64,14 +69,15 @@ template <class Scalar>
 std::unique_ptr<const typename Crowd<Scalar>::Rules> Crowd<Scalar>::rules_for(const Scenery<Scalar>& scenery,
                                                                               const CharacterDef& character,
                                                                               const TechniqueDef& technique) {
-  require_octagon_sweep(technique);
+  require_several(technique);
   const double limit = character.max_climb_degrees * std::numbers::pi / 180;
   auto rules =
       std::make_unique<Rules>(Rules{{crowd::PairSpace<Scalar>(character.shape), static_cast<Scalar>(std::cos(limit)),
                                      technique.sweep_iterations, technique.stages},
                                     scenery.mover_count(),
                                     nullptr});
-  if (scenery.mover_count() > 0 || has_conveyors(scenery))
+  const bool sweeps = technique.kind == TechniqueKind::octagon_sweep;
+  if (sweeps && (scenery.mover_count() > 0 || has_conveyors(scenery)))
     rules->surrounded = std::make_unique<const crowd::Surrounded<Scalar>>(scenery, character.shape);
   return rules;
 }
@@ -82,7 +88,8 @@ Crowd<Scalar>::Crowd(const Scenery<Scalar>& scenery, const CharacterDef& charact
       controller_(rules_->surrounded
                       ? Controller<Scalar>(rules_->surrounded->scenery, character,
                                            among_companions(technique, rules_->surrounded->first_companion))
-                      : Controller<Scalar>(scenery, character, technique)) {}
+                      : Controller<Scalar>(scenery, character, technique)),
+      joint_(dynamic_cast<const JointTechnique<Scalar>*>(&controller_.technique())) {}
 
 template <class Scalar>
 Crowd<Scalar>::~Crowd() = default;
@@ -94,6 +101,12 @@ Crowd<Scalar>& Crowd<Scalar>::operator=(Crowd&&) noexcept = default;
 template <class Scalar>
 CrowdScratch Crowd<Scalar>::make_scratch(std::size_t most_characters) const {
   auto memory = std::make_unique<CrowdMemory<Scalar>>();
+  if (joint_ != nullptr) {
+    memory->states.resize(most_characters);
+    memory->requests.resize(most_characters);
+    memory->technique = joint_->make_joint_scratch(most_characters);
+    return {most_characters, std::move(memory)};
+  }
   if (rules_->surrounded) {
     memory->walking.walkers.resize(most_characters);
     memory->walking.rows.resize(most_characters);
@@ -110,10 +123,13 @@ template <class Scalar>
 StepStatus Crowd<Scalar>::step(std::span<CharacterState<Scalar>> states, std::span<const Input> inputs,
                                const Vec2<Scalar>& gravity, Scalar dt, std::span<const MoverMotion<Scalar>> movers,
                                CrowdScratch& scratch, CrowdReport<Scalar>& report) const noexcept {
+  const bool may_ride = joint_ != nullptr || rules_->surrounded != nullptr;
   const bool room = scratch.most_characters >= states.size() && report.members.size() >= states.size();
   if (!room || movers.size() != rules_->movers ||
-      !usable<Scalar>(rules_->stages, rules_->surrounded != nullptr, states, inputs, gravity, dt))
+      !usable<Scalar>(rules_->stages, may_ride, states, inputs, gravity, dt))
     return report.status = StepStatus::invalid_input;
+  if (joint_ != nullptr) return step_jointly(states, inputs, gravity, dt, movers, scratch, report);
+  for (std::size_t i = 0; i < states.size(); ++i) report.members[i].island = static_cast<CharacterIndex>(i);
   auto& memory = static_cast<CrowdMemory<Scalar>&>(*scratch.own);
   const auto run = [&](auto&& stepper) {
     report.status = stepper.begin(states, inputs);
@@ -127,6 +143,34 @@ StepStatus Crowd<Scalar>::step(std::span<CharacterState<Scalar>> states, std::sp
                                           report, states.size(), gravity, dt, movers));
   return run(crowd::Stepper<Scalar>(controller_, *rules_, memory.standing, memory.technique, report, states.size(),
                                     gravity, dt));
+}
+
+/// Nobody's state is written before it is known that no step is refused.
+template <class Scalar>
+StepStatus Crowd<Scalar>::step_jointly(std::span<CharacterState<Scalar>> states, std::span<const Input> inputs,
+                                       const Vec2<Scalar>& gravity, Scalar dt,
+                                       std::span<const MoverMotion<Scalar>> movers, CrowdScratch& scratch,
+                                       CrowdReport<Scalar>& report) const noexcept {
+  auto& memory = static_cast<CrowdMemory<Scalar>&>(*scratch.own);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    CrowdMember<Scalar>& member = report.members[i];
+    crowd::clear(member);
+    if (!controller_.begin_together(states[i], inputs[i], gravity, dt, movers, memory.states[i], memory.requests[i],
+                                    member.step))
+      return report.status = StepStatus::invalid_input;
+  }
+  if (!joint_->move_together(std::span(memory.requests).first(states.size()), memory.technique, report))
+    return report.status = StepStatus::out_of_range;
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    CrowdMember<Scalar>& member = report.members[i];
+    const auto earlier = [](const CrowdContact<Scalar>& a, const CrowdContact<Scalar>& b) {
+      return std::tie(a.fraction, a.other, a.side) < std::tie(b.fraction, b.other, b.side);
+    };
+    std::sort(member.met.begin(), member.met.end(), earlier);  // they were found round by round
+    controller_.end_together(memory.requests[i], memory.states[i], member.step);
+    states[i] = memory.states[i];
+  }
+  return report.status = StepStatus::moved;
 }
 
 template class Crowd<float>;

@@ -166,7 +166,8 @@ TEST(Crowd, is_refused_in_words_by_who_knows_one_character) {
   RunOptions options = quick();
   Scene scene = built_in("characters_head_on");
   for (const Row& row : run_scene(scene, options).rows) {
-    const bool knows = row.contender == "octagon_sweep" || row.contender.starts_with("box2d");
+    const bool knows =
+        row.contender == "octagon_sweep" || row.contender == "discrete" || row.contender.starts_with("box2d");
     EXPECT_EQ(row.verdict == Verdict::not_applicable, !knows) << row.contender << ": " << row.reason;
     if (!knows) {
       EXPECT_EQ(row.reason, row.contender + " knows one character, and here are 2");

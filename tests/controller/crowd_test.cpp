@@ -212,8 +212,11 @@ TEST(Crowd, a_stage_that_is_left_out_is_not_asked_for) {
   EXPECT_EQ(still.step(), StepStatus::invalid_input);
 }
 
-TEST(Crowd, another_technique_is_refused) {
-  EXPECT_THROW(Together({{0, 5}}, {}, {}, {.kind = TechniqueKind::discrete}), std::invalid_argument);
+TEST(Crowd, a_technique_that_knows_one_character_is_refused) {
+  for (const TechniqueKind kind : all_techniques) {
+    if (moves_crowds(kind)) continue;
+    EXPECT_THROW(Together({{0, 5}}, {}, {}, {.kind = kind}), std::invalid_argument) << name_of(kind);
+  }
 }
 
 TEST(Crowd, a_step_allocates_nothing) {

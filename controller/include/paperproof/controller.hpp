@@ -44,6 +44,8 @@ template <class Scalar>
 class Sensors;
 template <class Scalar>
 class OneWayChains;
+template <class Scalar>
+class Crowd;
 
 /// Steps characters of one kind through one scenery. Const and shareable between threads.
 template <class Scalar>
@@ -81,6 +83,24 @@ class Controller {
                        std::span<const MoverMotion<Scalar>> movers, Scratch<Scalar>& scratch,
                        StepReport<Scalar>& report) const noexcept;
   [[nodiscard]] static Step variant_for(const Stages& stages) noexcept;
+
+  /// What a step begins with: all but `report.move`. @return false where the input is invalid: `state` is unchanged.
+  template <bool has_jump, bool has_gravity>
+  bool begin_step(const CharacterState<Scalar>& before, const Input& input, const Vec2<Scalar>& gravity, Scalar dt,
+                  std::span<const MoverMotion<Scalar>> movers, CharacterState<Scalar>& state,
+                  MoveRequest<Scalar>& request, StepReport<Scalar>& report) const noexcept;
+  /// What it ends with, once `report.move` is made.
+  template <bool has_sensors>
+  void end_step(const MoveRequest<Scalar>& request, CharacterState<Scalar>& state,
+                StepReport<Scalar>& report) const noexcept;
+
+  /// A crowd may move all its characters at once, between the beginnings of their steps and the ends; with all stages.
+  friend class Crowd<Scalar>;
+  bool begin_together(const CharacterState<Scalar>& before, const Input& input, const Vec2<Scalar>& gravity, Scalar dt,
+                      std::span<const MoverMotion<Scalar>> movers, CharacterState<Scalar>& state,
+                      MoveRequest<Scalar>& request, StepReport<Scalar>& report) const noexcept;
+  void end_together(const MoveRequest<Scalar>& request, CharacterState<Scalar>& state,
+                    StepReport<Scalar>& report) const noexcept;
 
   const Scenery<Scalar>* scenery_;
   CharacterDef character_;

@@ -12,6 +12,11 @@ namespace paperproof {
 /// Position of a character in the states handed to `Crowd::step`.
 using CharacterIndex = std::uint32_t;
 
+/// The technique can move several characters that are in each other's way: see `Crowd`.
+[[nodiscard]] constexpr bool moves_crowds(TechniqueKind kind) noexcept {
+  return kind == TechniqueKind::octagon_sweep || kind == TechniqueKind::discrete;
+}
+
 /// Another character was in the way. Both get one, with opposite normals.
 template <class Scalar>
 struct CrowdContact {
@@ -29,6 +34,9 @@ struct CrowdMember {
   FixedVector<CharacterIndex, 16> started_overlapping;  ///< Whom it overlapped when the step began.
   /// No order of impacts could be shown to be safe: it stayed where the step began, with velocity zero.
   bool stayed = false;
+  /// `discrete`: the time-of-impact island it was in when the step began, by the lowest character in it. Otherwise, or
+  /// alone, itself.
+  CharacterIndex island = 0;
 };
 
 template <class Scalar>
@@ -41,6 +49,9 @@ struct CrowdReport {
   std::size_t impacts = 0;                   ///< Of characters against characters.
 };
 
+template <class Scalar>
+class JointTechnique;
+
 /// Memory of a step, one per thread and crowd; it carries nothing from step to step.
 struct CrowdScratch {
   std::size_t most_characters = 0;
@@ -49,13 +60,14 @@ struct CrowdScratch {
 
 /// Steps characters of one kind through one scenery. Const and shareable between threads.
 ///
-/// All move at once; impacts are handled in the order of their times (Mirtich 1996, "Impulse-based Dynamic Simulation
-/// of Rigid Body Systems", without the impulses). Each character first gets the way that `Controller` would give it:
-/// one that meets nobody moves as by `Controller`, bit for bit. Then, again and again, the earliest impact of any pair
-/// is looked for. Whoever of the two moves into the other, and faster than the other gives way, is stopped at that
-/// moment, keeps what does not go into the other, and gets a new way for the rest of the step. Neither pushes: the
-/// other goes on as it did. What comes down on a walkable part of another stands on it (and is not carried along).
-/// Of impacts at the same time the one with the lowest first index comes first, then the lowest second index.
+/// By `octagon_sweep`: all move at once; impacts are handled in the order of their times (Mirtich 1996, "Impulse-based
+/// Dynamic Simulation of Rigid Body Systems", without the impulses). Each character first gets the way that
+/// `Controller` would give it: one that meets nobody moves as by `Controller`, bit for bit. Then, again and again, the
+/// earliest impact of any pair is looked for. Whoever of the two moves into the other, and faster than the other gives
+/// way, is stopped at that moment, keeps what does not go into the other, and gets a new way for the rest of the step.
+/// Neither pushes: the other goes on as it did. What comes down on a walkable part of another stands on it (and is not
+/// carried along). Of impacts at the same time the one with the lowest first index comes first, then the lowest second
+/// index.
 ///
 /// Among movers and conveyors the motions of the movers are given, and each is carried, pushed and crushed as by
 /// `Controller`. Who moves into whom is judged relative to what carries both. Who gives way has the other as an
@@ -63,21 +75,32 @@ struct CrowdScratch {
 /// beside it, pushes it on; where that one has no room either, the one that the mover presses is crushed by it. When
 /// the step is made, whoever was crushed looks once more for room, over the whole step and beside all the others.
 ///
-/// Guarantee, beside that of `octagon_sweep` for each of them: characters that were apart stay apart, and do not pass
-/// through each other. What cannot be shown to be safe stays where it is (`dropped`); what a mover then does to it is
-/// reported as a crush. Characters that overlap are reported, and move only so that they do not get deeper into each
+/// Its guarantee, beside that of `octagon_sweep` for each of them: characters that were apart stay apart, and do not
+/// pass through each other. What cannot be shown to be safe stays where it is (`dropped`); what a mover then does to it
+/// is reported as a crush. Characters that overlap are reported, and move only so that they do not get deeper into each
 /// other; where the separation is below 1e-8 m, in `double`, and a motion cannot be shown by exact arithmetic to be
 /// free, the same holds. Among movers they get out of each other, and restore their gaps, as out of solids. That there
 /// was no room for who is crushed is promised only where nobody touched it during the step.
 ///
-/// Cost: the ways are compared pair by pair, by their boxes first: n^2/2 box tests for n characters, then one row of
-/// them for each impact. Meant for up to a few hundred. Among movers a character gives way to at most 12 others in one
-/// step, and the crowd keeps a copy of the scenery with places for them.
+/// By `discrete`, which guarantees nothing: all are bodies of one joint solve, of the same mass. Only the start and the
+/// expected end of the step are looked at. Characters whose boxes around both overlap form islands; in each, those that
+/// are expected to end in each other are pushed apart in order of time of impact, half of the overlap each, and lose
+/// the speed with which they approach, so that both go on with the mean of the two. That is repeated `iterations`
+/// times with all that is near. So they push each other, also into and through solids; who is fast enough passes
+/// another; and stacks sink into themselves. One that is alone moves as by `Controller`, bit for bit. What comes down
+/// on another stands on it, and is not carried along. Whom a mover would push through what stands still stays where it
+/// was, crushed, and is in the way. Where more than 256 bodies on average are near each character those beyond that are
+/// not looked at, and everybody is `dropped`.
+///
+/// Cost of `octagon_sweep`: the ways are compared pair by pair, by their boxes first: n^2/2 box tests for n characters,
+/// then one row of them for each impact. Meant for up to a few hundred. Among movers a character gives way to at most
+/// 12 others in one step, and the crowd keeps a copy of the scenery with places for them. `discrete` sorts boxes: a
+/// little more than n.
 template <class Scalar>
 class Crowd {
  public:
-  /// @throws std::invalid_argument for another technique than `octagon_sweep`; else as `Controller`. `scenery` must
-  ///   outlive the crowd.
+  /// @throws std::invalid_argument for a technique that knows one character (see `moves_crowds`); else as `Controller`.
+  ///   `scenery` must outlive the crowd.
   Crowd(const Scenery<Scalar>& scenery, const CharacterDef& character, const TechniqueDef& technique = {});
   ~Crowd();
   Crowd(Crowd&&) noexcept;
@@ -107,9 +130,13 @@ class Crowd {
   [[nodiscard]] static std::unique_ptr<const Rules> rules_for(const Scenery<Scalar>& scenery,
                                                               const CharacterDef& character,
                                                               const TechniqueDef& technique);
+  StepStatus step_jointly(std::span<CharacterState<Scalar>> states, std::span<const Input> inputs,
+                          const Vec2<Scalar>& gravity, Scalar dt, std::span<const MoverMotion<Scalar>> movers,
+                          CrowdScratch& scratch, CrowdReport<Scalar>& report) const noexcept;
 
   std::unique_ptr<const Rules> rules_;
   Controller<Scalar> controller_;
+  const JointTechnique<Scalar>* joint_;  ///< The controller's technique, where it moves all at once; else null.
 };
 
 extern template class Crowd<float>;

@@ -71,12 +71,13 @@ class FrameOfReference {
   }
   /// The mover whose frame this is; `no_mover` for the world's.
   [[nodiscard]] MoverIndex mover() const noexcept { return mover_; }
-
- private:
-  void go_along(const MoveRequest<Scalar>& request) noexcept;
+  /// How a mover goes during the step; `no_mover` stays at zero.
   [[nodiscard]] MoverMotion<Scalar> motion_of(MoverIndex mover) const noexcept {
     return mover == no_mover ? MoverMotion<Scalar>{} : movers_[mover];
   }
+
+ private:
+  void go_along(const MoveRequest<Scalar>& request) noexcept;
 
   const Scenery<Scalar>* scenery_;
   std::span<const MoverMotion<Scalar>> movers_;

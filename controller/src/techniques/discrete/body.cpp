@@ -22,6 +22,20 @@ struct Extent {
   }
 };
 
+/// Where a body goes during the frame, seen from the base of another.
+template <class Scalar>
+struct Course {
+  Vec2<Scalar> start;
+  Vec2<Scalar> movement;
+
+  Course(const Body<Scalar>& seen, const MoverMotion<Scalar>& from) noexcept {
+    const Vec2<Scalar> shift = seen.base.from - from.from;
+    start = seen.position + shift;
+    movement = seen.movement + ((seen.base.to - from.to) - shift);
+  }
+  [[nodiscard]] Vec2<Scalar> end() const noexcept { return start + movement; }
+};
+
 /// The right-hand normal of the edge that ends at vertex `i`; zero for an edge whose length is lost to underflow.
 template <class Scalar>
 Vec2<Scalar> outward_normal(std::span<const Vec2<Scalar>> outline, std::size_t i) noexcept {
@@ -77,11 +91,11 @@ class Decision {
 /// of impact.
 template <class Scalar>
 Vec2<Scalar> meeting_point(const Impact<Scalar>& impact, const Body<Scalar>& first, const Body<Scalar>& second,
-                           Scalar touch) noexcept {
+                           const Course<Scalar>& of_second, Scalar touch) noexcept {
   const Vec2<Scalar> tangent(-impact.normal.y(), impact.normal.x());
-  const Vec2<Scalar> relative = first.movement - second.movement;
+  const Vec2<Scalar> relative = first.movement - of_second.movement;
   const Vec2<Scalar> first_at = first.expected() - relative * (1 - impact.time);
-  const Vec2<Scalar> second_at = second.expected();
+  const Vec2<Scalar> second_at = of_second.end();
   const Scalar face_of_first = Extent<Scalar>(first.outline, first_at, impact.normal).lower;
   const Scalar face = Extent<Scalar>(second.outline, second_at, impact.normal).upper;
   Scalar lower = -std::numeric_limits<Scalar>::infinity();
@@ -108,9 +122,11 @@ Vec2<Scalar> meeting_point(const Impact<Scalar>& impact, const Body<Scalar>& fir
 template <class Scalar>
 std::optional<Impact<Scalar>> find_impact(const Body<Scalar>& first, const Body<Scalar>& second,
                                           Scalar touch) noexcept {
+  if (second.one_way && first.drops) return std::nullopt;
+  const Course<Scalar> of_second(second, first.base);
   const Vec2<Scalar> first_at = first.expected();
-  const Vec2<Scalar> second_at = second.expected();
-  const Vec2<Scalar> relative = first.movement - second.movement;
+  const Vec2<Scalar> second_at = of_second.end();
+  const Vec2<Scalar> relative = first.movement - of_second.movement;
   Decision<Scalar> decision(relative, touch);
   Decision<Scalar> through(relative, touch);  // a one-way segment, along its blocking normal
   bool apart = false;
@@ -128,17 +144,18 @@ std::optional<Impact<Scalar>> find_impact(const Body<Scalar>& first, const Body<
     if (!through.met()) return std::nullopt;
   }
   Impact<Scalar> impact = second.one_way ? through.impact() : decision.impact();
-  impact.point = meeting_point(impact, first, second, touch);
+  impact.point = meeting_point(impact, first, second, of_second, touch);
   return impact;
 }
 
 template <class Scalar>
 bool began_overlapping(const Body<Scalar>& first, const Body<Scalar>& second, Scalar touch) noexcept {
   if (second.one_way) return false;
+  const Vec2<Scalar> second_at = Course<Scalar>(second, first.base).start;
   bool apart = false;
   for_each_axis(first, second, [&](const Vec2<Scalar>& normal) {
     if (normal.isZero(0)) return;
-    apart = apart || !(-separation_along(normal, first, first.position, second, second.position) > touch);
+    apart = apart || !(-separation_along(normal, first, first.position, second, second_at) > touch);
   });
   return !apart;
 }

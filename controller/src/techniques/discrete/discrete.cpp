@@ -1,24 +1,22 @@
 #include "techniques/discrete/discrete.hpp"
 
+#include "crowd/joint_technique.hpp"
+#include "crowd/parts.hpp"
 #include "geometry/overlap_time.hpp"
 #include "techniques/article_response.hpp"
-#include "techniques/discrete/solver.hpp"
+#include "techniques/discrete/frame.hpp"
 
 namespace paperproof {
 namespace {
 
 using discrete::Body;
-using discrete::Solver;
+using discrete::BodyIndex;
+using discrete::Frame;
+using discrete::SolvedImpact;
+using discrete::Workplace;
 
 template <class Scalar>
-struct Workplace final : OwnMemory {
-  Solver<Scalar> solver{Tolerances<Scalar>{}.stop, Tolerances<Scalar>{}.touch};
-  std::vector<Body<Scalar>> bodies;  ///< The character, then what is near.
-  std::vector<PieceIndex> in_way;    ///< Of a push.
-};
-
-template <class Scalar>
-class Discrete final : public Technique<Scalar> {
+class Discrete final : public JointTechnique<Scalar> {
  public:
   Discrete(const TechniqueDef& def, const Scenery<Scalar>& scenery, const CharacterDef& character)
       : scenery_(&scenery),
@@ -30,20 +28,15 @@ class Discrete final : public Technique<Scalar> {
   }
 
   [[nodiscard]] std::string_view name() const noexcept override { return name_of(TechniqueKind::discrete); }
-  [[nodiscard]] Scratch<Scalar> make_scratch() const override;
+  [[nodiscard]] Scratch<Scalar> make_scratch() const override { return make_joint_scratch(1); }
+  [[nodiscard]] Scratch<Scalar> make_joint_scratch(std::size_t most_characters) const override;
   void move(const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,
             MoveResult<Scalar>& result) const noexcept override;
+  bool move_together(std::span<const MoveRequest<Scalar>> requests, Scratch<Scalar>& scratch,
+                     CrowdReport<Scalar>& report) const noexcept override;
 
  private:
-  /// One frame while it is worked out, in its frame of reference.
-  struct Frame {
-    const MoveRequest<Scalar>& request;
-    FrameOfReference<Scalar> place;
-    Scratch<Scalar>& scratch;
-    MoveResult<Scalar>& result;
-    Body<Scalar> character;
-    decltype(MoveResult<Scalar>::crushed) pushers{};  ///< Colliders of movers that pushed the character.
-  };
+  using Frames = std::span<Frame<Scalar>>;
 
   /// What the character overlaps.
   struct Inside {
@@ -52,16 +45,24 @@ class Discrete final : public Technique<Scalar> {
     decltype(MoveResult<Scalar>::crushed) movers{};  ///< Colliders of those that move in this step.
   };
 
+  void add_frame(const MoveRequest<Scalar>& request, MoveResult<Scalar>& result, CrowdMember<Scalar>* member,
+                 std::vector<Frame<Scalar>>& frames) const noexcept;
+  [[nodiscard]] std::size_t move_all(Scratch<Scalar>& scratch) const noexcept;
   [[nodiscard]] Body<Scalar> body_of(PieceIndex piece, const FrameOfReference<Scalar>& place) const noexcept;
-  [[nodiscard]] std::span<Body<Scalar>> gather(Frame& frame) const noexcept;
-  bool report(Frame& frame) const noexcept;
-  [[nodiscard]] bool take_along(Frame& frame, ColliderIndex ground, Scalar time) const noexcept;
-  [[nodiscard]] bool pushed_through(Frame& frame, Vec2<Scalar> expected) const noexcept;
+  [[nodiscard]] std::span<Body<Scalar>> gather(std::span<const Frame<Scalar>> frames,
+                                               Scratch<Scalar>& scratch) const noexcept;
+  void note_company(Frames frames, const Workplace<Scalar>& work) const noexcept;
+  [[nodiscard]] std::size_t report(Frames frames, const Workplace<Scalar>& work) const noexcept;
+  void report_piece(Frame<Scalar>& frame, const discrete::Impact<Scalar>& impact, PieceIndex piece) const noexcept;
+  void report_meeting(Frames frames, const SolvedImpact<Scalar>& solved) const noexcept;
+  [[nodiscard]] bool take_along(Frame<Scalar>& frame, ColliderIndex ground, Scalar time) const noexcept;
+  [[nodiscard]] bool pushed_through(Frames frames, BodyIndex character, Scratch<Scalar>& scratch) const noexcept;
   [[nodiscard]] bool passes_static(const Vec2<Scalar>& from, const Vec2<Scalar>& to,
                                    Scratch<Scalar>& scratch) const noexcept;
-  [[nodiscard]] Inside find_inside(Frame& frame, bool at_end) const noexcept;
-  void stay(Frame& frame) const noexcept;
-  void finish(Frame& frame) const noexcept;
+  [[nodiscard]] Inside find_inside(const Frame<Scalar>& frame, bool at_end, Scratch<Scalar>& scratch) const noexcept;
+  void stay(Frame<Scalar>& frame) const noexcept;
+  void finish(Frame<Scalar>& frame, Scratch<Scalar>& scratch) const noexcept;
+  void arrive(Frame<Scalar>& frame) const noexcept;
   void measure_gaps(const Vec2<Scalar>& position, MoveResult<Scalar>& result) const noexcept;
 
   const Scenery<Scalar>* scenery_;
@@ -78,14 +79,20 @@ Workplace<Scalar>& workplace_of(Scratch<Scalar>& scratch) noexcept {
 }
 
 template <class Scalar>
-Scratch<Scalar> Discrete<Scalar>::make_scratch() const {
+Scratch<Scalar> Discrete<Scalar>::make_joint_scratch(std::size_t most_characters) const {
   const std::size_t pieces = scenery_->pieces().size();
   Scratch<Scalar> scratch;
   scratch.candidates.resize(pieces);
   auto own = std::make_unique<Workplace<Scalar>>();
-  own->bodies.reserve(pieces + 1);
+  own->frames.reserve(most_characters);
+  own->bodies.reserve(pieces + most_characters);
+  own->near.reserve(pieces);
+  own->gathered.resize(pieces);
   own->in_way.resize(pieces);
-  own->solver.reserve(pieces + 1, pieces);  // the character with each piece; pieces do not meet each other
+  // Each character with each piece and each other one; pieces do not meet each other.
+  const std::size_t all_pairs = most_characters * pieces + most_characters * (most_characters - 1) / 2;
+  own->solver.reserve(pieces + most_characters,
+                      std::min(all_pairs, pieces + discrete::most_pairs_each * most_characters));
   scratch.own = std::move(own);
   return scratch;
 }
@@ -94,95 +101,177 @@ template <class Scalar>
 void Discrete<Scalar>::move(const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,
                             MoveResult<Scalar>& result) const noexcept {
   if (article::leaves_range(*scenery_, fastest_surface_, request)) return article::refuse(request, result);
+  std::vector<Frame<Scalar>>& frames = workplace_of(scratch).frames;
+  frames.clear();
+  add_frame(request, result, nullptr, frames);
+  (void)move_all(scratch);
+}
+
+template <class Scalar>
+bool Discrete<Scalar>::move_together(std::span<const MoveRequest<Scalar>> requests, Scratch<Scalar>& scratch,
+                                     CrowdReport<Scalar>& report) const noexcept {
+  const auto leaves = [&](const MoveRequest<Scalar>& request) {
+    return article::leaves_range(*scenery_, fastest_surface_, request);
+  };
+  if (std::any_of(requests.begin(), requests.end(), leaves)) return false;
+  std::vector<Frame<Scalar>>& frames = workplace_of(scratch).frames;
+  frames.clear();
+  for (std::size_t i = 0; i < requests.size(); ++i)
+    add_frame(requests[i], report.members[i].step.move, &report.members[i], frames);
+  report.impacts = move_all(scratch);
+  return true;
+}
+
+/// The character as it wants to move.
+template <class Scalar>
+void Discrete<Scalar>::add_frame(const MoveRequest<Scalar>& request, MoveResult<Scalar>& result,
+                                 CrowdMember<Scalar>* member, std::vector<Frame<Scalar>>& frames) const noexcept {
   result.clear();
-  Frame frame{request, {*scenery_, request}, scratch, result, {}};
+  Frame<Scalar>& frame =
+      frames.emplace_back(Frame<Scalar>{request, FrameOfReference<Scalar>(*scenery_, request), result, member});
   frame.character.outline = {outline_.begin(), outline_.end()};
   frame.character.box = box_;
+  frame.character.base = frame.place.motion_of(frame.place.mover());
   frame.character.position = frame.place.start();
   frame.character.movement = frame.place.wanted();
   frame.character.velocity = frame.place.velocity();
-  bool left_over = true;
-  for (int iteration = 0; left_over && iteration < iterations_; ++iteration) {
-    const Vec2<Scalar> expected = frame.character.expected();
-    const std::span<Body<Scalar>> bodies = gather(frame);
-    left_over = workplace_of(scratch).solver.solve_once(bodies);
-    frame.character = bodies.front();
-    left_over = report(frame) || left_over;
-    if (pushed_through(frame, expected)) return stay(frame);
-  }
-  if (left_over || scenery_->mover_count() > 0) {
-    const Inside begin = find_inside(frame, false);
-    const Inside end = find_inside(frame, true);
-    if (end.what_stands_still && !begin.what_stands_still && !frame.pushers.empty()) return stay(frame);
-    result.crushed = end.movers;
-    if (left_over && begin.anything && end.anything) result.status = MoveStatus::stuck;
-    if (!result.crushed.empty()) result.status = MoveStatus::crushed;
-  }
-  finish(frame);
+  frame.character.drops = request.drop;
 }
 
-/// A piece as it goes in the frame of reference.
+/// All frames of the workplace. @return how many impacts between characters were solved.
+template <class Scalar>
+std::size_t Discrete<Scalar>::move_all(Scratch<Scalar>& scratch) const noexcept {
+  Workplace<Scalar>& work = workplace_of(scratch);
+  const Frames frames = work.frames;
+  std::size_t impacts = 0;
+  bool left_over = true;
+  bool overflowed = false;
+  for (int iteration = 0; left_over && iteration < iterations_; ++iteration) {
+    for (Frame<Scalar>& frame : frames) frame.expected = frame.character.expected();
+    const std::span<Body<Scalar>> bodies = gather(frames, scratch);
+    work.solver.solve_once(bodies);
+    for (std::size_t i = 0; i < frames.size(); ++i) frames[i].character = bodies[i];
+    if (iteration == 0) note_company(frames, work);
+    overflowed = overflowed || work.solver.overflowed();
+    impacts += report(frames, work);
+    for (BodyIndex i = 0; i < frames.size(); ++i)
+      if (pushed_through(frames, i, scratch)) stay(frames[i]);
+    left_over = std::any_of(frames.begin(), frames.end(), [](const Frame<Scalar>& frame) { return frame.left_over; });
+  }
+  for (Frame<Scalar>& frame : frames) {
+    if (overflowed && !frame.stays) frame.result.status = MoveStatus::dropped;
+    finish(frame, scratch);
+  }
+  return impacts;
+}
+
+/// A piece as it goes, in the frame of reference of its mover.
 template <class Scalar>
 Body<Scalar> Discrete<Scalar>::body_of(PieceIndex piece, const FrameOfReference<Scalar>& place) const noexcept {
   const PieceInfo& info = scenery_->pieces()[piece];
   Body<Scalar> body;
   body.outline = scenery_->vertices_of(piece);
   body.box = scenery_->box(piece);
-  body.position = Vec2<Scalar>::Zero() - place.shift_at_start(info.mover);
-  body.movement = place.shift_at_start(info.mover) - place.shift_at_end(info.mover);
+  body.base = place.motion_of(info.mover);
   body.velocity = place.velocity(info.mover);
   body.inverse_mass = 0;
   body.one_way = info.one_way;
   return body;
 }
 
-/// The character and all pieces near its total box.
+/// The characters and all pieces near the total box of any of them.
 template <class Scalar>
-std::span<Body<Scalar>> Discrete<Scalar>::gather(Frame& frame) const noexcept {
-  Scratch<Scalar>& scratch = frame.scratch;
-  const Box2<Scalar> total = frame.character.total_box();
-  const Vec2<Scalar> first = frame.place.shift_at_start(no_mover);
-  const Vec2<Scalar> last = frame.place.shift_at_end(no_mover);
-  scratch.valid = false;
-  scratch.candidate_count =
-      broad_phase_->query({total.lower + first.cwiseMin(last), total.upper + first.cwiseMax(last)}, scratch.candidates);
+std::span<Body<Scalar>> Discrete<Scalar>::gather(std::span<const Frame<Scalar>> frames,
+                                                 Scratch<Scalar>& scratch) const noexcept {
+  Workplace<Scalar>& work = workplace_of(scratch);
+  work.near.clear();  // keeps its memory, as all of them
+  const auto add = [&work](PieceIndex piece) {
+    if (work.gathered[piece] != 0) return;
+    work.gathered[piece] = 1;
+    work.near.push_back(piece);
+  };
   const PieceIndex movers_end = scenery_->sensor_pieces().first;
-  for (PieceIndex piece = scenery_->static_pieces().end; piece < movers_end; ++piece) {
-    if (body_of(piece, frame.place).total_box().overlaps(total)) scratch.candidates[scratch.candidate_count++] = piece;
+  for (const Frame<Scalar>& frame : frames) {
+    const Box2<Scalar> total = frame.character.total_box();
+    const std::size_t found = broad_phase_->query(total, scratch.candidates);
+    for (const PieceIndex piece : std::span(scratch.candidates).first(found)) add(piece);
+    for (PieceIndex piece = scenery_->static_pieces().end; piece < movers_end; ++piece)
+      if (body_of(piece, frame.place).total_box().overlaps(total)) add(piece);
   }
-  if (frame.request.drop)
-    scratch.candidate_count = without_one_way(*scenery_, std::span(scratch.candidates).first(scratch.candidate_count));
-  std::vector<Body<Scalar>>& bodies = workplace_of(scratch).bodies;
-  bodies.clear();  // keeps its memory
-  bodies.push_back(frame.character);
-  for (const PieceIndex piece : std::span(scratch.candidates).first(scratch.candidate_count))
-    bodies.push_back(body_of(piece, frame.place));
-  return bodies;
+  for (const PieceIndex piece : work.near) work.gathered[piece] = 0;
+  if (frames.size() > 1) std::sort(work.near.begin(), work.near.end());
+  work.bodies.clear();
+  for (const Frame<Scalar>& frame : frames) work.bodies.push_back(frame.character);
+  for (const PieceIndex piece : work.near) work.bodies.push_back(body_of(piece, frames.front().place));
+  return work.bodies;
 }
 
-/// What the last round pushed apart. @return whether the character is carried from now on: that needs another round.
+/// Who is at risk of colliding with whom when the step begins, and who overlaps.
 template <class Scalar>
-bool Discrete<Scalar>::report(Frame& frame) const noexcept {
-  bool taken = false;
-  for (const discrete::SolvedImpact<Scalar>& each : workplace_of(frame.scratch).solver.solved()) {
-    const discrete::Impact<Scalar>& impact = each.impact;
-    const PieceIndex piece = frame.scratch.candidates[each.bodies.second - 1];
-    const PieceInfo& info = scenery_->pieces()[piece];
-    const Side side = side_of_normal(impact.normal.x(), impact.normal.y());
-    article::add_contact(*scenery_, {piece, impact.point, impact.normal, impact.time}, side, impact.time, frame.result);
-    if (info.mover != no_mover && !frame.place.motion(info.mover).isZero(0))
-      article::add_once(info.collider, frame.pushers);
-    if (side != Side::bottom) continue;
-    frame.result.grounded = true;
-    frame.result.ride.ground = frame.place.carries(info.collider) ? info.collider : Ride<Scalar>::none;
-    taken = take_along(frame, info.collider, impact.time) || taken;
+void Discrete<Scalar>::note_company(Frames frames, const Workplace<Scalar>& work) const noexcept {
+  for (BodyIndex i = 0; i < frames.size(); ++i)
+    if (frames[i].member != nullptr) frames[i].member->island = work.solver.island_of(i);
+  for (const discrete::Pair& pair : work.solver.pairs()) {
+    if (pair.second >= frames.size()) continue;
+    const Body<Scalar>& first = frames[pair.first].character;
+    const Body<Scalar>& second = frames[pair.second].character;
+    if (!discrete::began_overlapping<Scalar>(first, second, Tolerances<Scalar>{}.certain)) continue;
+    frames[pair.first].member->started_overlapping.push_back(pair.second);
+    frames[pair.second].member->started_overlapping.push_back(pair.first);
   }
-  return taken;
+  for (Frame<Scalar>& frame : frames)
+    if (frame.member != nullptr)
+      std::sort(frame.member->started_overlapping.begin(), frame.member->started_overlapping.end());
+}
+
+/// What the last round pushed apart. @return how many of these were two characters.
+template <class Scalar>
+std::size_t Discrete<Scalar>::report(Frames frames, const Workplace<Scalar>& work) const noexcept {
+  std::size_t meetings = 0;
+  for (Frame<Scalar>& frame : frames) frame.left_over = false;
+  for (const SolvedImpact<Scalar>& each : work.solver.solved()) {
+    frames[each.bodies.first].left_over = true;
+    if (each.bodies.second < frames.size()) {
+      report_meeting(frames, each);
+      ++meetings;
+    } else {
+      report_piece(frames[each.bodies.first], each.impact, work.near[each.bodies.second - frames.size()]);
+    }
+  }
+  return meetings;
+}
+
+template <class Scalar>
+void Discrete<Scalar>::report_piece(Frame<Scalar>& frame, const discrete::Impact<Scalar>& impact,
+                                    PieceIndex piece) const noexcept {
+  const PieceInfo& info = scenery_->pieces()[piece];
+  const Side side = side_of_normal(impact.normal.x(), impact.normal.y());
+  article::add_contact(*scenery_, {piece, impact.point, impact.normal, impact.time}, side, impact.time, frame.result);
+  if (info.mover != no_mover && !frame.place.motion(info.mover).isZero(0))
+    article::add_once(info.collider, frame.pushers);
+  if (side != Side::bottom) return;
+  frame.result.grounded = true;
+  frame.result.ride.ground = frame.place.carries(info.collider) ? info.collider : Ride<Scalar>::none;
+  frame.left_over = take_along(frame, info.collider, impact.time) || frame.left_over;
+}
+
+/// Who comes down on another stands on it, and is not carried along.
+template <class Scalar>
+void Discrete<Scalar>::report_meeting(Frames frames, const SolvedImpact<Scalar>& solved) const noexcept {
+  const auto note = [&](BodyIndex one, BodyIndex other, const Vec2<Scalar>& normal) {
+    Frame<Scalar>& frame = frames[one];
+    crowd::note_meeting(*frame.member, other, normal, solved.impact.time);
+    if (frame.stays) return;
+    frame.left_over = true;
+    if (side_of_normal(normal.x(), normal.y()) == Side::bottom) frame.result.grounded = true;
+  };
+  note(solved.bodies.first, solved.bodies.second, solved.impact.normal);
+  note(solved.bodies.second, solved.bodies.first, -solved.impact.normal);
 }
 
 /// What comes to rest on moving ground is carried for the rest of the frame, unless it had a speed of its own along it.
 template <class Scalar>
-bool Discrete<Scalar>::take_along(Frame& frame, ColliderIndex ground, Scalar time) const noexcept {
+bool Discrete<Scalar>::take_along(Frame<Scalar>& frame, ColliderIndex ground, Scalar time) const noexcept {
   if (!frame.place.carries(ground) || frame.request.ride.ground != Ride<Scalar>::none) return false;
   if (frame.request.velocity.x() != 0 || frame.character.velocity.x() != 0) return false;
   const Vec2<Scalar> motion = frame.place.motion(frame.place.mover_of(ground)) + frame.place.surface_motion(ground);
@@ -192,16 +281,21 @@ bool Discrete<Scalar>::take_along(Frame& frame, ColliderIndex ground, Scalar tim
 }
 
 /// One of the last round's pushes by a mover led through something that stands still.
-/// @param expected where the character was expected before that round.
 template <class Scalar>
-bool Discrete<Scalar>::pushed_through(Frame& frame, Vec2<Scalar> expected) const noexcept {
-  if (frame.pushers.empty()) return false;
-  for (const discrete::SolvedImpact<Scalar>& each : workplace_of(frame.scratch).solver.solved()) {
-    const MoverIndex mover = scenery_->pieces()[frame.scratch.candidates[each.bodies.second - 1]].mover;
+bool Discrete<Scalar>::pushed_through(Frames frames, BodyIndex character, Scratch<Scalar>& scratch) const noexcept {
+  const Frame<Scalar>& frame = frames[character];
+  if (frame.pushers.empty() || frame.stays) return false;
+  const Workplace<Scalar>& work = workplace_of(scratch);
+  const Vec2<Scalar> shift = frame.place.shift_at_end(no_mover);
+  Vec2<Scalar> expected = frame.expected;
+  for (const SolvedImpact<Scalar>& each : work.solver.solved()) {
     const Vec2<Scalar> from = expected;
-    expected += each.impact.normal * (each.impact.depth + Tolerances<Scalar>{}.stop);
-    const Vec2<Scalar> shift = frame.place.shift_at_end(no_mover);
-    if (mover != no_mover && passes_static(from + shift, expected + shift, frame.scratch)) return true;
+    if (each.bodies.second == character) expected += each.second_push;
+    if (each.bodies.first != character) continue;
+    expected += each.first_push;
+    const bool by_another = each.bodies.second < frames.size();
+    if (by_another || scenery_->pieces()[work.near[each.bodies.second - frames.size()]].mover == no_mover) continue;
+    if (passes_static(from + shift, expected + shift, scratch)) return true;
   }
   return false;
 }
@@ -224,18 +318,21 @@ bool Discrete<Scalar>::passes_static(const Vec2<Scalar>& from, const Vec2<Scalar
 
 /// Where the step begins, or where the character is expected to end.
 template <class Scalar>
-typename Discrete<Scalar>::Inside Discrete<Scalar>::find_inside(Frame& frame, bool at_end) const noexcept {
+typename Discrete<Scalar>::Inside Discrete<Scalar>::find_inside(const Frame<Scalar>& frame, bool at_end,
+                                                                Scratch<Scalar>& scratch) const noexcept {
   const auto placed = [&](Body<Scalar> body) {
     if (at_end) body.position = body.expected();
+    body.base =
+        at_end ? MoverMotion<Scalar>{body.base.to, body.base.to} : MoverMotion<Scalar>{body.base.from, body.base.from};
     body.movement.setZero();
     return body;
   };
   Inside inside;
-  const std::span<const Body<Scalar>> bodies = gather(frame);
+  const std::span<const Body<Scalar>> bodies = gather({&frame, 1}, scratch);
   const Body<Scalar> character = placed(bodies.front());
   for (std::size_t i = 1; i < bodies.size(); ++i) {
     const Body<Scalar> body = placed(bodies[i]);
-    const PieceInfo& info = scenery_->pieces()[frame.scratch.candidates[i - 1]];
+    const PieceInfo& info = scenery_->pieces()[workplace_of(scratch).near[i - 1]];
     if (info.mover == no_mover && discrete::began_overlapping<Scalar>(character, body, 0))
       inside.what_stands_still = true;
     if (!discrete::began_overlapping<Scalar>(character, body, Tolerances<Scalar>{}.touch)) continue;
@@ -246,16 +343,38 @@ typename Discrete<Scalar>::Inside Discrete<Scalar>::find_inside(Frame& frame, bo
   return inside;
 }
 
-/// Nothing is pushed into what stands still, or through it.
+/// Nothing is pushed into what stands still, or through it. For others it is in the way there, and nothing moves it.
 template <class Scalar>
-void Discrete<Scalar>::stay(Frame& frame) const noexcept {
+void Discrete<Scalar>::stay(Frame<Scalar>& frame) const noexcept {
   frame.result.crushed = frame.pushers;
   article::stay_crushed(frame.request, frame.result);
+  frame.stays = true;
+  frame.left_over = false;
+  frame.character.base = {};
+  frame.character.position = frame.request.position;
+  frame.character.movement.setZero();
+  frame.character.velocity.setZero();
+  frame.character.inverse_mass = 0;
+}
+
+/// After the last round.
+template <class Scalar>
+void Discrete<Scalar>::finish(Frame<Scalar>& frame, Scratch<Scalar>& scratch) const noexcept {
+  if (frame.stays) return;
+  if (frame.left_over || scenery_->mover_count() > 0) {
+    const Inside begin = find_inside(frame, false, scratch);
+    const Inside end = find_inside(frame, true, scratch);
+    if (end.what_stands_still && !begin.what_stands_still && !frame.pushers.empty()) return stay(frame);
+    frame.result.crushed = end.movers;
+    if (frame.left_over && begin.anything && end.anything) frame.result.status = MoveStatus::stuck;
+    if (!frame.result.crushed.empty()) frame.result.status = MoveStatus::crushed;
+  }
+  arrive(frame);
 }
 
 /// In the world, and on what carries the character.
 template <class Scalar>
-void Discrete<Scalar>::finish(Frame& frame) const noexcept {
+void Discrete<Scalar>::arrive(Frame<Scalar>& frame) const noexcept {
   MoveResult<Scalar>& result = frame.result;
   const Vec2<Scalar> position = frame.character.expected();
   measure_gaps(position, result);

@@ -1,5 +1,5 @@
-/// The article's discrete collision detection for one character: see `discrete::Solver`, which does the same for many
-/// moving bodies. Movers are bodies that nothing can move.
+/// The article's discrete collision detection: see `discrete::Solver`. The character is a body, and so are others that
+/// move with it in a `Crowd`, all in one solve (this is a `JointTechnique`). Movers are bodies that nothing can move.
 ///
 /// The knob `iterations` is the number of rounds, each with its own search for nearby pieces; the others have no
 /// meaning here. The response is the solver's: the part of the motion into a normal is taken away. The corners of the

@@ -3,12 +3,19 @@
 #include <tuple>
 
 namespace paperproof::discrete {
+namespace {
+
+/// Of what can be moved: from here on a sweep is faster than looking at everything, as measured.
+constexpr std::size_t worth_sweeping = 64;
+
+}  // namespace
 
 template <class Scalar>
 void Solver<Scalar>::reserve(std::size_t bodies, std::size_t pairs) {
-  boxes_.reserve(bodies);
+  reaches_.movable.reserve(bodies);
+  reaches_.fixed.reserve(bodies);
   parents_.reserve(bodies);
-  pairs_.reserve(pairs);
+  pairs_.limit(pairs);
   planned_.reserve(pairs);
   solved_.reserve(pairs);
 }
@@ -32,41 +39,44 @@ bool Solver<Scalar>::solve_once(std::span<Body<Scalar>> bodies) {
     // An earlier impact may have changed this one, or prevented it.
     const auto impact = find_impact<Scalar>(first, second, touch_);
     if (!impact) continue;
-    push_apart(*impact, first, second);
-    solved_.push_back({each.bodies, *impact});
+    solved_.push_back({.bodies = each.bodies, .impact = *impact});
+    push_apart(solved_.back(), first, second);
   }
   return !solved_.empty();
 }
 
 template <class Scalar>
 void Solver<Scalar>::find_pairs(std::span<const Body<Scalar>> bodies) {
-  boxes_.clear();
-  for (const Body<Scalar>& body : bodies) boxes_.push_back(body.total_box());
+  reaches_.movable.clear();
+  reaches_.fixed.clear();
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    (bodies[i].can_be_moved() ? reaches_.movable : reaches_.fixed)
+        .push_back({bodies[i].total_box(), static_cast<BodyIndex>(i)});
   pairs_.clear();
-  const auto count = static_cast<BodyIndex>(bodies.size());
-  for (BodyIndex i = 0; i < count; ++i) {
-    if (!bodies[i].can_be_moved()) continue;
-    for (BodyIndex j = 0; j < count; ++j) {
-      const bool seen = j <= i && bodies[j].can_be_moved();
-      if (!seen && boxes_[i].overlaps(boxes_[j])) pairs_.push_back({i, j});
-    }
-  }
+  if (reaches_.movable.size() < worth_sweeping)
+    find_pairs_one_by_one(reaches_, pairs_);
+  else
+    find_pairs_by_sweep(reaches_, pairs_);
 }
 
 template <class Scalar>
 BodyIndex Solver<Scalar>::island_of(BodyIndex body) const noexcept {
-  while (parents_[body] != body) body = parents_[body];
-  return body;
+  return parents_[body];
 }
 
 template <class Scalar>
 void Solver<Scalar>::find_islands(std::span<const Body<Scalar>> bodies) {
   parents_.clear();
   for (std::size_t i = 0; i < bodies.size(); ++i) parents_.push_back(static_cast<BodyIndex>(i));
-  for (const Pair& pair : pairs_) {
+  // On the way to a root each body is hung one up, so that no way grows long.
+  const auto root_of = [this](BodyIndex body) {
+    while (parents_[body] != body) body = parents_[body] = parents_[parents_[body]];
+    return body;
+  };
+  for (const Pair& pair : pairs_.all()) {
     if (!bodies[pair.second].can_be_moved()) continue;
-    const BodyIndex a = island_of(pair.first);
-    const BodyIndex b = island_of(pair.second);
+    const BodyIndex a = root_of(pair.first);
+    const BodyIndex b = root_of(pair.second);
     parents_[std::max(a, b)] = std::min(a, b);
   }
   // A parent's index is lower, so its own way to the root is one step by now.
@@ -76,7 +86,7 @@ void Solver<Scalar>::find_islands(std::span<const Body<Scalar>> bodies) {
 template <class Scalar>
 void Solver<Scalar>::plan(std::span<const Body<Scalar>> bodies) {
   planned_.clear();
-  for (const Pair& pair : pairs_) {
+  for (const Pair& pair : pairs_.all()) {
     const auto impact = find_impact<Scalar>(bodies[pair.first], bodies[pair.second], touch_);
     if (impact) planned_.push_back({parents_[pair.first], impact->time, pair});
   }
@@ -87,17 +97,20 @@ void Solver<Scalar>::plan(std::span<const Body<Scalar>> bodies) {
 }
 
 template <class Scalar>
-void Solver<Scalar>::push_apart(const Impact<Scalar>& impact, Body<Scalar>& first,
+void Solver<Scalar>::push_apart(SolvedImpact<Scalar>& solved, Body<Scalar>& first,
                                 Body<Scalar>& second) const noexcept {
+  const Vec2<Scalar>& normal = solved.impact.normal;
   const Scalar share = first.inverse_mass / (first.inverse_mass + second.inverse_mass);
-  const Vec2<Scalar> push = impact.normal * (impact.depth + gap_);
-  first.movement += push * share;
-  second.movement -= push * (1 - share);
+  const Vec2<Scalar> push = normal * (solved.impact.depth + gap_);
+  solved.first_push = push * share;
+  solved.second_push = push * (share - 1);
+  first.movement += solved.first_push;
+  second.movement += solved.second_push;
   const Vec2<Scalar> relative = first.velocity - second.velocity;
-  const Scalar approach = relative.dot(impact.normal);
+  const Scalar approach = relative.dot(normal);
   if (!(approach < 0)) return;
-  first.velocity -= impact.normal * (approach * share);
-  second.velocity += impact.normal * (approach * (1 - share));
+  first.velocity -= normal * (approach * share);
+  second.velocity += normal * (approach * (1 - share));
 }
 
 template class Solver<float>;

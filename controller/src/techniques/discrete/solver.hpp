@@ -2,25 +2,19 @@
 #pragma once
 
 #include "techniques/discrete/body.hpp"
+#include "techniques/discrete/pairs.hpp"
 
 #include <vector>
 
 namespace paperproof::discrete {
 
-using BodyIndex = std::uint32_t;
-
-/// Two bodies whose total boxes overlap: at risk of colliding. The first can be moved, and is the one with the lower
-/// index if the second can be too.
-struct Pair {
-  BodyIndex first = 0;
-  BodyIndex second = 0;
-};
-
 /// Two bodies that were pushed apart.
 template <class Scalar>
 struct SolvedImpact {
   Pair bodies;
-  Impact<Scalar> impact;  ///< As it was before the push.
+  Impact<Scalar> impact;                           ///< As it was before the push.
+  Vec2<Scalar> first_push{Vec2<Scalar>::Zero()};   ///< [m]
+  Vec2<Scalar> second_push{Vec2<Scalar>::Zero()};  ///< [m]
 };
 
 /// Corrects the movements of one frame.
@@ -40,7 +34,8 @@ class Solver {
   /// @param touch up to this overlap at the start of a frame bodies only touch [m].
   Solver(Scalar gap, Scalar touch) noexcept : gap_(gap), touch_(touch) {}
 
-  /// Takes all memory that frames of this size can need, so that none is taken later.
+  /// Takes all memory that frames of this size need, so that none is taken later.
+  /// @param pairs no more than so many are looked at in a round from now on: see `overflowed`.
   void reserve(std::size_t bodies, std::size_t pairs);
 
   /// One round. @return whether anything was pushed.
@@ -51,6 +46,10 @@ class Solver {
 
   /// What the last round pushed apart, island by island, in order of time of impact.
   [[nodiscard]] std::span<const SolvedImpact<Scalar>> solved() const noexcept { return solved_; }
+  /// At risk of colliding in the last round, in no particular order.
+  [[nodiscard]] std::span<const Pair> pairs() const noexcept { return pairs_.all(); }
+  /// There were more of them in the last round than `reserve` allowed: it did not look at all of them.
+  [[nodiscard]] bool overflowed() const noexcept { return pairs_.overflowed(); }
   /// The island of each body in the last round: the lowest index in it. What cannot be moved is an island of its own.
   [[nodiscard]] BodyIndex island_of(BodyIndex body) const noexcept;
 
@@ -64,12 +63,12 @@ class Solver {
   void find_pairs(std::span<const Body<Scalar>> bodies);
   void find_islands(std::span<const Body<Scalar>> bodies);
   void plan(std::span<const Body<Scalar>> bodies);
-  void push_apart(const Impact<Scalar>& impact, Body<Scalar>& first, Body<Scalar>& second) const noexcept;
+  void push_apart(SolvedImpact<Scalar>& solved, Body<Scalar>& first, Body<Scalar>& second) const noexcept;
 
   Scalar gap_;
   Scalar touch_;
-  std::vector<Box2<Scalar>> boxes_;
-  std::vector<Pair> pairs_;
+  Reaches<Scalar> reaches_;
+  PairList pairs_;
   std::vector<BodyIndex> parents_;  ///< Never larger than the body's own index: a root is the lowest of its island.
   std::vector<Planned> planned_;
   std::vector<SolvedImpact<Scalar>> solved_;
