@@ -167,7 +167,7 @@ StepStatus Crowd<Scalar>::step_jointly(std::span<CharacterState<Scalar>> states,
       return std::tie(a.fraction, a.other, a.side) < std::tie(b.fraction, b.other, b.side);
     };
     std::sort(member.met.begin(), member.met.end(), earlier);  // they were found round by round
-    controller_.end_together(memory.requests[i], memory.states[i], member.step);
+    controller_.end_together(inputs[i], movers, memory.states[i], member.step);
     states[i] = memory.states[i];
   }
   return report.status = StepStatus::moved;

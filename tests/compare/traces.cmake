@@ -18,7 +18,7 @@ function(paperproof_trace_test name)
 endfunction()
 
 set(checked_scenes article_bullet slope_joints jump_into_corner rotated_wall wedge_60 start_overlapping_deep
-  three_in_a_row jump_onto_a_head two_on_a_lift pressed_in_a_row
+  characters_head_on three_in_a_row jump_onto_a_head two_on_a_lift pressed_in_a_row
     lift_up lift_sideways closing_ceiling sweeping_paper head_on one_way_drop one_way_lift_drop one_way_turns_within
     thin_sensor stack_1000 falling_crate)
 add_test(NAME trace.write COMMAND paperproof compare ${checked_scenes} turning_arm rotating_paper --no-timing --quiet --trace "${traces}/t")
@@ -29,6 +29,12 @@ foreach(scene IN LISTS checked_scenes)
   list(APPEND good "${traces}/t.${scene}.octagon_sweep.double.jsonl")
 endforeach()
 paperproof_trace_test(of_octagon_sweep_hold COMMAND "${checker}" ${good})
+
+# By discrete two that meet share their overlap, and are apart; with a third one rounds are too few for that.
+paperproof_trace_test(of_discrete_characters_hold_for_two_and_show_the_overlap_of_three
+  COMMAND "${checker}" "${traces}/t.characters_head_on.discrete.double.jsonl"
+          "${traces}/t.three_in_a_row.discrete.double.jsonl"
+  PROPERTIES PASS_REGULAR_EXPRESSION "60 steps, 0 contacts, 0 violations\n.*step 0 character 0 and character 1 come to overlap.*90 steps, 0 contacts, 1 violation")
 
 # Box2D keeps 15 mm away, so that nothing of it is too close to tell.
 paperproof_trace_test(of_what_turns_hold

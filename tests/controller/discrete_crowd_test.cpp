@@ -213,7 +213,7 @@ std::vector<CharacterState<double>> random_crowd(std::uint64_t seed, std::size_t
   ColliderDef lift = rectangle(1, -0.5, 4, 0.1);
   lift.mover = 0;
   std::vector<Vec2d> places;
-  for (int i = 0; i < 30; ++i) places.emplace_back(random.between(-4, 4), random.between(0.7, 6));
+  for (int i = 0; i < 30; ++i) places.push_back({random.between(-4, 4), random.between(0.7, 6)});
   Together all(places, {rectangle(-6, -1, 6, 0), lift, rectangle(-6, 0, -5, 9), rectangle(5, 0, 6, 9)}, {}, discrete());
   all.gravity = {0, -30};
   all.dt = 1.0 / 60;

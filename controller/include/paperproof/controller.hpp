@@ -84,22 +84,29 @@ class Controller {
                        StepReport<Scalar>& report) const noexcept;
   [[nodiscard]] static Step variant_for(const Stages& stages) noexcept;
 
-  /// What a step begins with: all but `report.move`. @return false where the input is invalid: `state` is unchanged.
   template <bool has_jump, bool has_gravity>
-  bool begin_step(const CharacterState<Scalar>& before, const Input& input, const Vec2<Scalar>& gravity, Scalar dt,
-                  std::span<const MoverMotion<Scalar>> movers, CharacterState<Scalar>& state,
-                  MoveRequest<Scalar>& request, StepReport<Scalar>& report) const noexcept;
+  [[nodiscard]] bool accepts(const CharacterState<Scalar>& state, const Input& input, const Vec2<Scalar>& gravity,
+                             Scalar dt, std::span<const MoverMotion<Scalar>> movers) const noexcept;
+  /// What an accepted step begins with: the intent.
+  /// @param pressers of the state as it was; must outlive the request.
+  template <bool has_jump, bool has_gravity>
+  [[nodiscard]] MoveRequest<Scalar> begin_step(const Pressers<Scalar>& pressers, const Input& input,
+                                               const Vec2<Scalar>& gravity, Scalar dt,
+                                               std::span<const MoverMotion<Scalar>> movers,
+                                               CharacterState<Scalar>& state,
+                                               StepReport<Scalar>& report) const noexcept;
   /// What it ends with, once `report.move` is made.
   template <bool has_sensors>
-  void end_step(const MoveRequest<Scalar>& request, CharacterState<Scalar>& state,
+  void end_step(const Input& input, std::span<const MoverMotion<Scalar>> movers, CharacterState<Scalar>& state,
                 StepReport<Scalar>& report) const noexcept;
 
   /// A crowd may move all its characters at once, between the beginnings of their steps and the ends; with all stages.
+  /// @param before must outlive the request. @return false where it is not accepted.
   friend class Crowd<Scalar>;
   bool begin_together(const CharacterState<Scalar>& before, const Input& input, const Vec2<Scalar>& gravity, Scalar dt,
                       std::span<const MoverMotion<Scalar>> movers, CharacterState<Scalar>& state,
                       MoveRequest<Scalar>& request, StepReport<Scalar>& report) const noexcept;
-  void end_together(const MoveRequest<Scalar>& request, CharacterState<Scalar>& state,
+  void end_together(const Input& input, std::span<const MoverMotion<Scalar>> movers, CharacterState<Scalar>& state,
                     StepReport<Scalar>& report) const noexcept;
 
   const Scenery<Scalar>* scenery_;
