@@ -297,6 +297,24 @@ TEST(ArticleRefusals, a_step_out_of_range_or_with_too_many_units_moves_nothing) 
   }
 }
 
+TEST(ArticleContacts, of_what_is_held_are_at_fraction_zero_without_a_sign) {
+  constexpr double half_height = 20 * px;
+  constexpr double half_width = 10 * px;
+  const std::vector<ColliderDef> corner{rectangle(-4, -1, 4, 0), rectangle(-4, 0, -1, 4), rectangle(1, 0, 4, 4)};
+  for (const TechniqueKind kind : all_techniques) {
+    if (kind == TechniqueKind::grid) continue;  // stands in the middle of its square, beside nothing
+    Rig<double> rig(kind, corner);
+    for (const double wall : {-1.0, 1.0}) {
+      rig.move({wall * (1 - half_width), half_height}, {wall * px, -px});
+      EXPECT_FALSE(rig.result.contacts.empty()) << name_of(kind);
+      for (const Contact<double>& contact : rig.result.contacts) {
+        EXPECT_GE(contact.fraction, 0) << name_of(kind);
+        EXPECT_FALSE(std::signbit(contact.fraction)) << name_of(kind);
+      }
+    }
+  }
+}
+
 TEST(ArticleKnobsCheck, a_knob_out_of_range_is_named) {
   const Scenery<double> scenery(SceneryDef{{rectangle(0, 0, 1, 1)}});
   const auto message = [&](const ArticleKnobs& knobs) -> std::string {

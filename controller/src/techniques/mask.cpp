@@ -68,7 +68,7 @@ void Mask<Scalar>::wind_back(Side side, const Pixel& start, const MoveRequest<Sc
   if (collided == placement) collided = placement + out;  // it has not moved at all
   result.position[i] = parts_.position_of(i == 0 ? placement.x : placement.y, i);
   const Scalar share = (result.position[i] - request.position[i]) / request.displacement[i];
-  stop(side, collided, std::clamp(share, Scalar(0), Scalar(1)), scratch, result);
+  stop(side, collided, raster::fraction_of_step(share), scratch, result);
 }
 
 /// Along the whole movement, by one pixel of its length at a time. It ends between whole pixels.

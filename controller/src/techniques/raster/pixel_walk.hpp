@@ -64,7 +64,7 @@ class PixelWalk {
   /// The fraction of the movement at which the next pixel is entered. A pixel that the start lies in is entered at 0.
   [[nodiscard]] Scalar time_of(Eigen::Index component) const noexcept {
     const Scalar to_go = static_cast<Scalar>(at(component)) - corner_[component];
-    return std::clamp(to_go / way_[component], Scalar(0), Scalar(1));
+    return fraction_of_step(to_go / way_[component]);
   }
   [[nodiscard]] Side side_of(Eigen::Index component) const noexcept {
     if (component == 0) return way_.x() < 0 ? Side::left : Side::right;

@@ -12,6 +12,12 @@
 
 namespace paperproof::raster {
 
+/// A share of the way as a fraction of the step, in [0, 1]; a negative zero, as of no way at all to the left, is zero.
+template <class Scalar>
+[[nodiscard]] Scalar fraction_of_step(Scalar share) noexcept {
+  return share > 0 ? std::min(share, Scalar(1)) : Scalar(0);
+}
+
 /// @tparam Scalar of the positions; pictures are drawn in double. Immutable; shareable between threads.
 template <class Scalar>
 class RasterParts {
