@@ -125,7 +125,7 @@ class Box2dContestant final : public Contestant {
     try {
       return world_.step_all(wishes_, dt_, movers, turns_);
     } catch (const box2d::InvalidDefinition& reason) {
-      throw LeftRange(std::string(reason.what()) + ": beyond what Box2D is given, and the run ends there");
+      throw StepRefused(std::string(reason.what()) + ": beyond what Box2D is given, and the run ends there");
     }
   }
 

@@ -62,8 +62,8 @@ class NotApplicable : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The motion of a step left the range that contestants are made for; the steps before it stand.
-class LeftRange : public std::runtime_error {
+/// A step that the contestant is not made for was refused; the steps before it stand.
+class StepRefused : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };

@@ -140,7 +140,7 @@ void Lane::step(int step, const StepInput& input) {
     for (std::size_t k = 0; k < records_.size(); ++k)
       if (!input.players[k].drop) records_[k].dropped_through.clear();  // nobody asked for it
     judge_step();
-  } catch (const LeftRange& reason) {
+  } catch (const StepRefused& reason) {
     return end_early(fmt::format("step {}: {}", step, reason.what()));
   } catch (const std::exception& error) {
     return fail(Verdict::failed, fmt::format("step {}: {}", step, error.what()));

@@ -96,7 +96,9 @@ void write_report(const StepReport<Scalar>& report, const CharacterState<Scalar>
 
 void refuse_unusable(StepStatus status) {
   if (status == StepStatus::out_of_range)
-    throw LeftRange("the motion would leave the range of +-2e6 m, and the run ends there");
+    throw StepRefused("the motion would leave the range of +-2e6 m, and the run ends there");
+  if (status == StepStatus::search_too_long)
+    throw StepRefused("the motion needs more than 1,000,000 units of search in one step, and the run ends there");
   if (status == StepStatus::invalid_input) throw std::runtime_error("the motion is not finite");
 }
 

@@ -45,7 +45,7 @@ template <class Scalar>
 template <class Scalar>
 void write_report(const StepReport<Scalar>& report, const CharacterState<Scalar>& state, TraceStep& record);
 
-/// @throws LeftRange, std::runtime_error for a step that was refused.
+/// @throws StepRefused for a motion that is too far, std::runtime_error for one that is not finite.
 void refuse_unusable(StepStatus status);
 
 template <class Scalar>

@@ -161,7 +161,7 @@ template <bool has_sensors, bool has_jump, bool has_gravity>
   technique_->move(begin_step<has_jump, has_gravity>(before.pressers, input, gravity, dt, movers, state, report),
                    scratch, report.move);
   report.status = status_of(report.move.status);
-  if (report.status == StepStatus::out_of_range) {
+  if (is_refused(report.status)) {
     state = before;
     return report.status;
   }

@@ -48,8 +48,26 @@ template <class Scalar>
       return StepStatus::crushed;
     case MoveStatus::out_of_range:
       return StepStatus::out_of_range;
+    case MoveStatus::search_too_long:
+      return StepStatus::search_too_long;
   }
   return StepStatus::moved;
+}
+
+/// Nothing moved.
+[[nodiscard]] inline bool is_refused(StepStatus status) noexcept {
+  switch (status) {
+    case StepStatus::moved:
+    case StepStatus::dropped:
+    case StepStatus::stuck:
+    case StepStatus::crushed:
+      return false;
+    case StepStatus::out_of_range:
+    case StepStatus::search_too_long:
+    case StepStatus::invalid_input:
+      break;
+  }
+  return true;
 }
 
 template <class Scalar>

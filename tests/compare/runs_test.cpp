@@ -204,6 +204,22 @@ TEST(Failures, become_rows_with_a_reason) {
   EXPECT_EQ(row_of(result, "octagon_sweep").verdict, Verdict::holds) << "the others run on";
 }
 
+TEST(Failures, to_search_a_whole_step_are_told_from_leaving_the_range) {
+  Scene scene = empty_sky(2);
+  scene.gravity = {0, 0};
+  RunOptions options = quick();
+  options.reference = false;
+  for (const auto& [metres, reason] : {std::pair{4e4, "step 0: the motion needs more than 1,000,000 units of search"},
+                                       std::pair{4e6, "step 0: the motion would leave the range of +-2e6 m"}}) {
+    scene.start.velocity = {metres / scene.dt, 0};
+    const ReportScene result = run_scene(scene, options);
+    for (const char* contender : {"wind_back", "penetration_resolution", "speculative_march", "pixel_colour", "mask"}) {
+      EXPECT_EQ(row_of(result, contender).verdict, Verdict::flagged) << contender;
+      EXPECT_TRUE(row_of(result, contender).reason.starts_with(reason)) << row_of(result, contender).reason;
+    }
+  }
+}
+
 TEST(Failures, of_box2d_to_express_a_scene_are_not_applicable) {
   // 20 x 40 px at 32,768 px/m: corners nearer to each other than Box2D keeps apart.
   const ReportScene result = run_scene(built_in("scaled_1e-3"), quick());

@@ -292,8 +292,11 @@ TEST(ArticleRefusals, a_step_out_of_range_or_with_too_many_units_moves_nothing) 
       EXPECT_EQ(rig.result.path.size(), 2U);
     }
     const bool searches = kind != TechniqueKind::speculative;
-    const MoveStatus far = searches ? MoveStatus::out_of_range : MoveStatus::moved;
+    const MoveStatus far = searches ? MoveStatus::search_too_long : MoveStatus::moved;
     EXPECT_EQ(rig.move({0, 5}, {1e6, 0}).status, far) << name_of(kind);
+    if (searches) {
+      EXPECT_EQ(rig.result.position, Vec2d(0, 5)) << name_of(kind);
+    }
   }
 }
 

@@ -297,6 +297,24 @@ TEST(Refusals, change_nothing_for_a_step_that_leaves_the_range) {
   }
 }
 
+TEST(Refusals, change_nothing_for_a_step_that_takes_too_long_to_search) {
+  for (const TechniqueKind kind :
+       {TechniqueKind::wind_back, TechniqueKind::penetration_resolution, TechniqueKind::speculative_march,
+        TechniqueKind::pixel_colour, TechniqueKind::pixel_tile, TechniqueKind::mask}) {
+    Stepper<double> stepper({rectangle(-9, -9, 9, 0)}, {}, kind);
+    // A million units of a pixel are 31,250 m.
+    for (const auto& [metres, status] :
+         {std::pair{31'249.0, StepStatus::moved}, std::pair{31'251.0, StepStatus::search_too_long}}) {
+      stepper.state = {};
+      stepper.at(0, 20);
+      const CharacterState<double> before = stepper.with_velocity(metres, 0).state;
+      stepper.fly(metres, 0);
+      EXPECT_EQ(stepper.report.status, status) << name_of(kind);
+      EXPECT_EQ(same_bits(stepper.state, before), status != StepStatus::moved) << name_of(kind);
+    }
+  }
+}
+
 TEST(Refusals, a_character_that_cannot_be_is_named) {
   const Scenery<double> scenery(SceneryDef{});
   CharacterDef character;

@@ -20,11 +20,12 @@ template <class Scalar>
 
 enum class StepStatus : std::uint8_t {
   moved,
-  dropped,        ///< See MoveStatus.
-  stuck,          ///< See MoveStatus.
-  crushed,        ///< See MoveStatus.
-  out_of_range,   ///< Refused: the step would leave +-2e6 m. Position and velocity are unchanged.
-  invalid_input,  ///< Refused: NaN, infinity or dt <= 0. Nothing changed at all.
+  dropped,          ///< See MoveStatus.
+  stuck,            ///< See MoveStatus.
+  crushed,          ///< See MoveStatus.
+  out_of_range,     ///< Refused: the step would leave +-2e6 m. Position and velocity are unchanged.
+  search_too_long,  ///< Refused: see MoveStatus. Position and velocity are unchanged.
+  invalid_input,    ///< Refused: NaN, infinity or dt <= 0. Nothing changed at all.
 };
 
 /// What one step did. `move` is valid unless the status is `invalid_input`.

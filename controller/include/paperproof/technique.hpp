@@ -62,11 +62,13 @@ struct MoveRequest {
 };
 
 enum class MoveStatus : std::uint8_t {
-  moved,         ///< The result holds. It may be shorter than requested: see `contacts`.
-  dropped,       ///< The result holds, but displacement was left when the iterations ran out and was dropped.
-  stuck,         ///< The step began inside something and still ends inside it.
-  crushed,       ///< The result holds, but movers left no free position: see `crushed`.
-  out_of_range,  ///< Refused: the step would leave the range the technique is made for. Nothing moved.
+  moved,            ///< The result holds. It may be shorter than requested: see `contacts`.
+  dropped,          ///< The result holds, but displacement was left when the iterations ran out and was dropped.
+  stuck,            ///< The step began inside something and still ends inside it.
+  crushed,          ///< The result holds, but movers left no free position: see `crushed`.
+  out_of_range,     ///< Refused: the step would leave the range the technique is made for. Nothing moved.
+  search_too_long,  ///< Refused: a technique that searches by units would need more than 1,000,000 of them in this
+                    ///< step. Nothing moved.
 };
 
 template <class Scalar>

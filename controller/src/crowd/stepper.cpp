@@ -37,7 +37,7 @@ StepStatus Stepper<Scalar>::begin(std::span<const CharacterState<Scalar>> states
     runner.drops = inputs[i].drop;
     runner.held.clear();
     const StepStatus status = move(runner, dt_, true, runner.after, runner.plan);
-    if (refused(status)) return status;
+    if (step_parts::is_refused(status)) return status;
     member(i).step.requested = runner.plan.requested;
     find_box(runner);
   }
@@ -61,7 +61,7 @@ void Stepper<Scalar>::plan(std::size_t i) noexcept {
   Runner<Scalar>& runner = runners_[i];
   const Scalar duration = dt_ * (1 - runner.begin);
   if (!(duration > 0)) return stay(i);
-  const bool usable = !refused(move(runner, duration, true, runner.after, runner.plan));
+  const bool usable = !step_parts::is_refused(move(runner, duration, true, runner.after, runner.plan));
   const auto& made = member(i).step.move.path;
   if (!usable || made.size() + runner.plan.move.path.size() > made.capacity()) {
     runner.dropped = true;
@@ -122,7 +122,7 @@ void Stepper<Scalar>::go_on_to(std::size_t i, Scalar time) noexcept {
   if (!(duration > 0)) return;
   CharacterState<Scalar> state;
   // The ground is followed at the end of the step only: here it may have been left for a head.
-  if (refused(move(runner, duration, false, state, memory_.part))) {
+  if (step_parts::is_refused(move(runner, duration, false, state, memory_.part))) {
     runner.dropped = true;
     return;
   }

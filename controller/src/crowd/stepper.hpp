@@ -76,9 +76,6 @@ class Stepper {
   [[nodiscard]] CrowdMember<Scalar>& member(std::size_t i) noexcept { return report_.members[i]; }
   [[nodiscard]] StepStatus move(const Runner<Scalar>& runner, Scalar duration, bool follow_down,
                                 CharacterState<Scalar>& state, StepReport<Scalar>& report) noexcept;
-  [[nodiscard]] static bool refused(StepStatus status) noexcept {
-    return status == StepStatus::invalid_input || status == StepStatus::out_of_range;
-  }
   void plan(std::size_t i) noexcept;
   void stay(std::size_t i) noexcept;
   void halt(std::size_t i) noexcept;

@@ -125,9 +125,9 @@ bool in_range(const Vec2<Scalar>& position) noexcept {
 }
 
 template <class Scalar>
-void refuse(const MoveRequest<Scalar>& request, MoveResult<Scalar>& result) noexcept {
+void refuse(const MoveRequest<Scalar>& request, MoveResult<Scalar>& result, MoveStatus why) noexcept {
   result.clear();
-  result.status = MoveStatus::out_of_range;
+  result.status = why;
   result.position = request.position;
   result.velocity = request.velocity + request.ride.velocity;
   result.remainder = request.remainder;
@@ -193,8 +193,9 @@ bool refuse(const Parts<Scalar>& parts, bool searches_by_units, const MoveReques
   const Vec2<Scalar> farthest = farthest_motion(*parts.scenery, parts.fastest_surface, request);
   const Vec2<Scalar> searched = wanted.cwiseAbs() + 2 * farthest;
   const bool quick = !searches_by_units || length(searched) <= parts.unit * Scalar(max_search_steps);
-  if (quick && !leaves_range(request.position, wanted, farthest)) return false;
-  refuse(request, result);
+  const bool leaves = leaves_range(request.position, wanted, farthest);
+  if (quick && !leaves) return false;
+  refuse(request, result, leaves ? MoveStatus::out_of_range : MoveStatus::search_too_long);
   return true;
 }
 
@@ -216,7 +217,7 @@ bool add_contact(const Scenery<Scalar>& scenery, const PointHit<Scalar>& hit, Si
   template bool in_range(const Vec2<Scalar>&) noexcept;                                                       \
   template bool leaves_range(const Scenery<Scalar>&, Scalar, const MoveRequest<Scalar>&) noexcept;            \
   template void stay_crushed(const MoveRequest<Scalar>&, MoveResult<Scalar>&) noexcept;                       \
-  template void refuse(const MoveRequest<Scalar>&, MoveResult<Scalar>&) noexcept;                             \
+  template void refuse(const MoveRequest<Scalar>&, MoveResult<Scalar>&, MoveStatus) noexcept;                 \
   template bool refuse_out_of_range(const MoveRequest<Scalar>&, MoveResult<Scalar>&) noexcept;                \
   template bool refuse(const Parts<Scalar>&, bool, const MoveRequest<Scalar>&, MoveResult<Scalar>&) noexcept; \
   template bool add_contact(const Scenery<Scalar>&, const PointHit<Scalar>&, Side, Scalar, MoveResult<Scalar>&) noexcept

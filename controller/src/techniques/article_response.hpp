@@ -31,7 +31,7 @@ namespace paperproof::article {
 inline constexpr std::array all_sides{Side::top, Side::bottom, Side::left, Side::right};
 
 /// How many units a search may take. Below 1e5 the bullets of the comparison would be refused; without any limit one
-/// step over a million metres would take seconds. Longer movements are refused as out of range.
+/// step over a million metres would take seconds. Longer movements are refused.
 inline constexpr int max_search_steps = 1'000'000;
 
 /// Where the collision points are, and which of them belong to a side.
@@ -139,7 +139,8 @@ template <class Scalar>
 
 /// Fills `result` as a refusal: nothing moved.
 template <class Scalar>
-void refuse(const MoveRequest<Scalar>& request, MoveResult<Scalar>& result) noexcept;
+void refuse(const MoveRequest<Scalar>& request, MoveResult<Scalar>& result,
+            MoveStatus why = MoveStatus::out_of_range) noexcept;
 
 /// Makes `result`, whose `crushed` is filled in, that of a character that stays where the step began.
 template <class Scalar>

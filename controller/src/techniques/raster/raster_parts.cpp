@@ -36,8 +36,9 @@ bool RasterParts<Scalar>::refuse(const MoveRequest<Scalar>& request, MoveResult<
   result.position = request.position;
   result.velocity = request.velocity;
   result.path.push_back({request.position, 0});
-  if (in_range(request.position) && in_range(end) && pixels <= Scalar(article::max_search_steps)) return false;
-  result.status = MoveStatus::out_of_range;
+  const bool stays = in_range(request.position) && in_range(end);
+  if (stays && pixels <= Scalar(article::max_search_steps)) return false;
+  result.status = stays ? MoveStatus::search_too_long : MoveStatus::out_of_range;
   result.path.push_back({request.position, 1});
   return true;
 }
