@@ -33,6 +33,13 @@ Cell cost(const Row& row) {
   return fmt::format("{:.0f}..{:.0f}", *row.ns_per_step, row.ns_per_step_median.value_or(*row.ns_per_step));
 }
 
+Cell memory(const Row& row) {
+  if (!row.memory_bytes) return std::nullopt;
+  const auto bytes = static_cast<double>(*row.memory_bytes);
+  if (bytes < 1e3) return fmt::format("{:.0f} B", bytes);
+  return bytes < 1e6 ? fmt::format("{:.1f} kB", bytes / 1e3) : fmt::format("{:.1f} MB", bytes / 1e6);
+}
+
 /// What a reader looks for first. The rest of a row stands in the report and in the rows' JSON.
 const std::vector<Column>& columns() {
   static const std::vector<Column> all{
@@ -58,6 +65,7 @@ const std::vector<Column>& columns() {
       {"rest m", [](const Row& r) { return number(r.rest_peak_to_peak_m, "{:.2g}"); }},
       {"from Box2D m", [](const Row& r) { return number(r.max_position_difference_box2d_m, "{:.3g}"); }},
       {"since", [](const Row& r) { return number(r.first_difference_box2d_step, "{}"); }},
+      {"memory", memory},
       {"ns/step", cost},
   };
   return all;

@@ -192,6 +192,21 @@ TEST(Table, leaves_out_a_depth_that_nobody_has) {
   EXPECT_TRUE(holds(table({row, other}), "depth"));
 }
 
+TEST(Table, has_a_column_for_memory_where_a_row_has_any) {
+  std::vector<Row> rows(4);
+  EXPECT_EQ(table(rows).find("memory"), std::string::npos);
+  rows[1].memory_bytes = 640;
+  rows[2].memory_bytes = 12'345;
+  rows[3].memory_bytes = 67'108'864;
+  const std::string text = table(rows);
+  for (const char* wanted : {"memory", " 640 B\n", " 12.3 kB\n", " 67.1 MB\n", " -\n"})
+    EXPECT_TRUE(holds(text, wanted));
+  RunOptions options = quick();
+  options.contenders = {"mask", "octagon_sweep"};
+  // A square of 32 px and a sprite of 20 x 40, with the border pixel of their boxes one word wide: 33 + 41 rows.
+  EXPECT_TRUE(holds(table(run_scene(empty_sky(5), options).rows), "592 B"));
+}
+
 TEST(OutputFile, keeps_a_link_and_what_it_points_to) {
   const SceneFiles files;
   const std::string real = files.write("real.json", "before");
