@@ -25,6 +25,7 @@ class Columns {
     add_velocity(step.velocity);
     add_contacts(step.contacts);
     add_met(step.met);
+    add_remainder(step.remainder);
     add_colliders(overlaps_, step.start_overlap);
     add_colliders(crushed_, step.crushed);
     add_colliders(dropped_through_, step.dropped_through);
@@ -39,6 +40,7 @@ class Columns {
     run.put("velocity", std::move(velocity_).take()).put("contacts", std::move(contacts_).take());
     run.put("kinds", std::move(kinds_).take()).put("start_overlap", std::move(overlaps_).take());
     if (!met_.empty()) run.put("met", std::move(met_).take());
+    if (!remainders_.empty()) run.put("remainder", std::move(remainders_).take());
     if (!crushed_.empty()) run.put("crush", std::move(crushed_).take());
     if (!dropped_through_.empty()) run.put("drop", std::move(dropped_through_).take());
     if (!places_.empty()) run.put("movers", std::move(movers_).take());
@@ -118,6 +120,13 @@ class Columns {
     met_.put(std::to_string(count_), std::move(list).take());
   }
 
+  void add_remainder(const Vec2d& remainder) {
+    if (remainder.isZero(0)) return;
+    JsonArray pair;
+    pair.add(quantum_.round(remainder.x())).add(quantum_.round(remainder.y()));
+    remainders_.put(std::to_string(count_), std::move(pair).take());
+  }
+
   void add_colliders(JsonObject& of_steps, const std::vector<ColliderIndex>& colliders) const {
     if (colliders.empty()) return;
     JsonArray list;
@@ -147,7 +156,7 @@ class Columns {
   JsonArray steps_, path_, velocity_, contacts_, kinds_, movers_, turns_;
   bool turns_any_ = false;
   std::string flags_;
-  JsonObject overlaps_, crushed_, dropped_through_, met_;
+  JsonObject overlaps_, crushed_, dropped_through_, met_, remainders_;
   std::vector<Place> places_;
   std::map<Kind, std::size_t> known_kinds_;
   std::vector<Cell> last_points_;
@@ -158,7 +167,8 @@ class Columns {
 
 bool is_finite(const TraceStep& step) {
   const auto moves = [](const MoverMotion<double>& mover) { return mover.from.allFinite() && mover.to.allFinite(); };
-  return step.velocity.allFinite() && std::all_of(step.movers.begin(), step.movers.end(), moves) &&
+  return step.velocity.allFinite() && step.remainder.allFinite() &&
+         std::all_of(step.movers.begin(), step.movers.end(), moves) &&
          std::all_of(step.path.begin(), step.path.end(),
                      [](const PathPoint<double>& corner) { return corner.position.allFinite(); });
 }

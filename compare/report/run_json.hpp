@@ -23,6 +23,9 @@ namespace paperproof::compare {
 ///   elsewhere, else 0; then for each the change of its way (to - from) since the step before.
 /// - `met`, where there is any: {index of the stored step: [character, side, normal x, normal y, fraction…]}, the last
 ///   three in 1/10,000;
+/// - `remainder`, where there is any: {index of the stored step: [dx, dy]}, from the end of its way to where the
+/// character
+///   is drawn;
 /// - `others`, where there are several characters: for each but the first an object with these columns, for the same
 /// steps.
 /// Steps from the first one with a position that is not finite are left out, and `not_finite_from` says so.

@@ -77,6 +77,7 @@ void write_report(const StepReport<Scalar>& report, const CharacterState<Scalar>
     record.path.push_back({widened<Scalar>(corner.position), static_cast<double>(corner.fraction)});
   record.requested = widened<Scalar>(report.requested);
   record.velocity = widened<Scalar>(state.velocity);
+  record.remainder = widened<Scalar>(state.remainder);
   record.grounded = state.grounded;
   record.jumping = state.jumping;
   record.stuck = report.status == StepStatus::stuck;

@@ -48,6 +48,8 @@ struct TraceStep {
   /// Displacement that was wanted [m], in the world: what carries the character is included.
   Vec2d requested{Vec2d::Zero()};
   Vec2d velocity{Vec2d::Zero()};  ///< At the end [m/s].
+  /// From where the way ends to where the character is drawn [m]: see `CharacterState::remainder`.
+  Vec2d remainder{Vec2d::Zero()};
   bool grounded = false;
   bool jumping = false;
   std::vector<ColliderIndex> start_overlap;  ///< What the octagon overlapped when the step began, exactly.

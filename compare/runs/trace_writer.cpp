@@ -242,6 +242,10 @@ void TraceWriter::write(const TraceStep& step) {
     put_ids(out, step.dropped_through, ids_);
   }
   if (!step.sensors.empty()) put_sensors(out, step.sensors, ids_);
+  if (!step.remainder.isZero(0)) {
+    put_text(out, ",\"remainder\":");
+    put(out, step.remainder);
+  }
   for (const auto& [name, set] :
        {std::pair{"respawn", step.respawn}, {"stuck", step.stuck}, {"dropped", step.dropped}, {"capped", step.capped}})
     if (set) fmt::format_to(std::back_inserter(out), ",\"{}\":true", name);

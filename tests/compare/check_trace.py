@@ -26,6 +26,9 @@ What turns (its ends have an angle as well) has places that are no fractions. Ov
 told where they are certain between bounds (trace_turning.py: 1e-12 m deep, to 1e-9 of a way); what is too close to tell is
 counted. Its contacts are not looked at, nor its sensors and one-way chains.
 
+Where a character that goes by whole squares is drawn in between two of them (`remainder`) is not looked at: nothing
+collides there.
+
 Every number of a trace is a double, and every double is a fraction: the answers are exact but where a tolerance is named.
 Exit status: 0 all holds, 1 something does not (one line each), 2 not a trace.
 """

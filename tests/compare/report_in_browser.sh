@@ -79,6 +79,9 @@ check "#scene=5&step=1&check=1" "scene 5 step 1 t 1"
 wants "step 1 of 1, t = 1.000: 100.016 s"
 wants "drops through ledge"
 wants "octagon_sweep: first drop"
+check "#scene=6&step=7&view=fit&check=1" "scene 6 step 7 t 1"
+wants "drawn at 0.8"
+wants "in between two squares"
 # After half a second of playing it is long through with the first step, and nowhere near the end of the second. How
 # often a headless browser draws on its own after that is its affair: what is asked for is half a second and what follows.
 open_page "#scene=5&step=0&t=0&play=0.5"

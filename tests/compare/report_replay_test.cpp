@@ -187,6 +187,25 @@ TEST_F(ReportTest, movers_come_back_to_half_a_display_unit_also_across_steps_tha
   EXPECT_EQ(replay["sceneries"][0]["sensors"], json{1});
 }
 
+TEST_F(ReportTest, what_is_drawn_between_two_squares_comes_back_where_it_is) {
+  const ReportScene scene = sample_report().scenes[6];
+  const json replay = data(page(report_of(scene)), "replay-0");
+  const json& remainder = replay["runs"][0]["remainder"];
+  const std::vector<TraceStep>& steps = scene.runs[0].steps;
+  int between = 0;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const std::string key = std::to_string(i);
+    ASSERT_EQ(remainder.contains(key), !steps[i].remainder.isZero(0)) << i;
+    if (!remainder.contains(key)) continue;
+    const Vec2d read = Vec2d(remainder[key][0], remainder[key][1]) * replay["quantum"].get<double>();
+    expect_near(read, steps[i].remainder, half_unit(replay["quantum"], 1), steps[i].step);
+    ++between;
+  }
+  EXPECT_GE(between, 25);
+  const json others = data(page(report_of(sample_report().scenes[0])), "replay-0");
+  EXPECT_FALSE(others["runs"][0].contains("remainder")) << "nothing of it where there is none";
+}
+
 TEST_F(ReportTest, every_character_comes_back_with_whom_it_met) {
   const ReportScene scene = sample_report().scenes[4];
   const json replay = data(page(report_of(scene)), "replay-0");

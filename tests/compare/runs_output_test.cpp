@@ -6,6 +6,7 @@
 #include "runs/trace_writer.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace paperproof::compare {
 namespace {
@@ -117,6 +118,35 @@ TEST(Traces, hold_every_moving_collider_crushes_and_sensor_events_by_their_ids) 
   EXPECT_TRUE(reads_back(lines[1]["sensors"][1]["fraction"], 1 / 3.0));
   EXPECT_EQ(lines[2].at("movers"), movers);
   EXPECT_FALSE(lines[2].contains("crush") || lines[2].contains("sensors"));
+}
+
+TEST(Traces, say_where_a_character_is_drawn_between_two_squares) {
+  const SceneFiles files;
+  Scene scene = empty_sky(64);
+  scene.gravity = {0, 0};
+  scene.dt = 1.0 / 64;
+  scene.start.position = {0.5, 0.625};
+  scene.start.velocity = {4, 0};
+  RunOptions options = quick();
+  options.contenders = {"grid", "speculative"};
+  options.reference = false;
+  options.trace_stem = files.path("t");
+  EXPECT_EQ(run_scene(scene, options).rows.size(), 2U);
+  const auto grid = lines_of(files.path("t.sky.grid.double.jsonl"));
+  const auto other = lines_of(files.path("t.sky.speculative.double.jsonl"));
+  ASSERT_EQ(grid.size(), 65U);
+  int between = 0;
+  for (std::size_t i = 1; i < grid.size(); ++i) {
+    EXPECT_FALSE(other[i].contains("remainder")) << "it is drawn where it is";
+    const double end = grid[i].at("path").back()[0];
+    EXPECT_EQ(end - 0.5, std::floor(end)) << "the middle of a square";
+    const bool drawn_elsewhere = grid[i].contains("remainder");
+    const double drawn = end + (drawn_elsewhere ? grid[i]["remainder"][0].get<double>() : 0);
+    EXPECT_EQ(drawn, 0.5 + static_cast<double>(i) / 16) << "a sixteenth of a metre per step";
+    EXPECT_EQ(drawn_elsewhere, i % 16 != 0);
+    between += drawn_elsewhere ? 1 : 0;
+  }
+  EXPECT_EQ(between, 60);
 }
 
 TEST(Traces, that_cannot_be_written_end_the_run) {

@@ -297,6 +297,31 @@ ReportScene uneven_scene() {
   return scene;
 }
 
+// --- scene 6: a character that goes by whole squares ---
+
+/// A tenth of a square is wanted in each step: it is made once it is half a square.
+ReportScene squares_scene() {
+  ReportScene scene;
+  scene.name = "squares";
+  scene.sentence = "It is in one square or in the next, and drawn in between.";
+  ReportRun run;
+  run.header = header("squares", "grid");
+  run.header.scenery.colliders = {box(-4, -1, 8, 0)};
+  run.header.ids = {"floor"};
+  Vec2d position{0, feet};
+  for (int number = 0; number < 30; ++number) {
+    const double wanted = 0.1 * (number + 1);
+    TraceStep step = straight_step(number, position, {std::floor(wanted + 0.5), feet});
+    position = step.path.back().position;
+    step.remainder = {wanted - position.x(), 0};
+    step.grounded = true;
+    run.steps.push_back(step);
+  }
+  scene.runs = {run};
+  scene.rows = {row("squares", "grid", 30)};
+  return scene;
+}
+
 }  // namespace
 
 std::string hostile_text() { return "</script><script>throw 1</script><!-- & \" ' ]]>"; }
@@ -305,7 +330,8 @@ Report sample_report() {
   Report report;
   report.environment = {{"paperproof", "sample"}, {"compiler", "the one that built this test"}};
   report.tolerances = {{"hit", 1e-7}, {"stop", 5e-7}, {"touch", 7e-7}};
-  report.scenes = {bullet_scene(), walk_scene(), hostile_scene(), lift_scene(), pair_scene(), uneven_scene()};
+  report.scenes = {bullet_scene(), walk_scene(),   hostile_scene(), lift_scene(),
+                   pair_scene(),   uneven_scene(), squares_scene()};
   report.guarantee_notes = {"No step of octagon_sweep in double ended inside a solid: 0 violations in 812 steps."};
   return report;
 }

@@ -20,7 +20,7 @@ endfunction()
 set(checked_scenes article_bullet slope_joints jump_into_corner rotated_wall wedge_60 start_overlapping_deep
   characters_head_on three_in_a_row jump_onto_a_head two_on_a_lift pressed_in_a_row
     lift_up lift_sideways closing_ceiling sweeping_paper head_on one_way_drop one_way_lift_drop one_way_turns_within
-    thin_sensor stack_1000 falling_crate)
+    thin_sensor sensor_gate stack_1000 falling_crate)
 add_test(NAME trace.write COMMAND paperproof compare ${checked_scenes} turning_arm rotating_paper --no-timing --quiet --trace "${traces}/t")
 set_tests_properties(trace.write PROPERTIES FIXTURES_SETUP traces TIMEOUT 300)
 
@@ -40,6 +40,9 @@ paperproof_trace_test(of_discrete_characters_hold_for_two_and_show_the_overlap_o
 paperproof_trace_test(of_what_turns_hold
   COMMAND "${checker}" "${traces}/t.turning_arm.box2d.float.jsonl" "${traces}/t.rotating_paper.box2d.float.jsonl"
   PROPERTIES PASS_REGULAR_EXPRESSION "90 steps, [1-9][0-9]* contacts, 0 violations\n.*120 steps, [1-9][0-9]* contacts, 0 violations\n$")
+
+# A character that goes by whole squares is drawn elsewhere: `remainder` says so.
+paperproof_trace_test(of_grid_hold COMMAND "${checker}" "${traces}/t.sensor_gate.grid.double.jsonl")
 
 # It has to find what is wrong: the bullet that passes the paper, and traces that are spoilt on purpose.
 set(passed "${traces}/t.article_bullet.penetration_resolution.double.jsonl")

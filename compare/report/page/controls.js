@@ -7,11 +7,14 @@ function keptInWords(replay) {
   const every = Math.max(...replay.runs.map((run) => run.every));
   const thinned = every > 1 ? `, every ${ordinal(every)} and those around an event` : '';
   const sampled = replay.runs.filter((run) => !run.path_exact).map((run) => run.label);
+  const gliding = replay.runs.filter((run) => run.remainder).map((run) => run.label);
   const lost = replay.runs.filter((run) => run.not_finite_from !== undefined)
                    .map((run) => ` ${run.label}: no finite position from step ${run.not_finite_from} on.`);
   return `Showing steps ${grouped(first)} to ${grouped(last)}${thinned}; positions rounded to ${
              lengthInWords(replay.data.quantum)}.` +
       (sampled.length ? ` The way within a step is sampled, not exact, for ${sampled.join(', ')} (dashed).` : '') +
+      (gliding.length ? ` Of ${gliding.join(', ')} the filled figure stands in its square; dashed: drawn in between.` :
+                        '') +
       lost.join('');
 }
 
@@ -140,7 +143,8 @@ function readoutRows(replay, run) {
 }
 
 function readoutRow(replay, run, character, label, events) {
-  const {record, ended} = replay.stateOf(character), names = run.scenery.colliders;
+  const {record, ended} = replay.stateOf(character), names = run.scenery.colliders, [ahead, above] = record.remainder;
+  const pair = (x, y, unit) => `${fixedTo(x, unit)}, ${fixedTo(y, unit)}`;
   // Before each step the twin is put to the controller: that is no respawn.
   const isTwin = run.mode === 'lockstep' && run.box2d !== '';
   const flags = record.flags.filter((flag) => !(isTwin && flag === 'respawn'));
@@ -148,6 +152,9 @@ function readoutRow(replay, run, character, label, events) {
   const words = ended ? [`ended at step ${grouped(record.step)}`] : [
     ...flags, record.step === replay.step ? null : `as of step ${grouped(record.step)}`,
     record.startOverlap.length ? `began inside ${list(record.startOverlap)}` : null,
+    ahead || above ?
+        `drawn at ${pair(record.x + ahead, record.y + above, replay.data.quantum)}, in between two squares` :
+        null,
     record.crush.length ? `crushed by ${list(record.crush)}` : null,
     record.drop.length ? `drops through ${list(record.drop)}` : null
   ].filter(Boolean);
@@ -162,7 +169,6 @@ function readoutRow(replay, run, character, label, events) {
             `, ${contact.separation === null ? '' : `${measure(contact.separation)} m`}`)),
     ...record.met.map((met) => line(`${met.side}, character ${met.character}`, met, ''))
   ];
-  const pair = (x, y, unit) => `${fixedTo(x, unit)}, ${fixedTo(y, unit)}`;
   return el(
       'tr', {class: ended ? 'ended' : null}, el('th', {scope: 'row'}, label),
       el('td', {class: 'number'}, pair(record.x, record.y, replay.data.quantum)),

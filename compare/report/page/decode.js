@@ -223,6 +223,7 @@ function decodeSteps(packed, quantum, moverCount) {
       crush: (packed.crush || {})[i] || [],
       drop: (packed.drop || {})[i] || [],
       met: decodeMet((packed.met || {})[i] || []),
+      remainder: ((packed.remainder || {})[i] || [0, 0]).map((v) => v * quantum),
       movers: (moverCount > 0 ? decodeMovers(moved, movers, quantum) : [])
                   .map((m) => (turned ? {...m, fa: turned() * 1e-4, ta: turned() * 1e-4} : m)),
       flags: FLAGS.filter((_, bit) => bits & (1 << bit))
@@ -301,6 +302,23 @@ function indexAt(run, step) {
       high = middle;
   }
   return low - 1;
+}
+
+/// Where a character that goes by whole squares is drawn at a fraction of a step: it glides from where it was drawn
+/// when the step began. Null where it is drawn where it is.
+function drawnAt(steps, index, t) {
+  const step = steps[index], before = steps[index - 1], first = step.path[0];
+  let from = step.remainder;  // unless the step before was stored
+  if (step.step === 0 || step.flags.includes('respawn'))
+    from = [0, 0];
+  else if (before && before.step === step.step - 1)
+    from = before.remainder;
+  if (![...from, ...step.remainder].some((v) => v !== 0)) return null;
+  const glide = (begin, end) => begin + (end - begin) * t;
+  return {
+    x: glide(first.x + from[0], step.x + step.remainder[0]),
+    y: glide(first.y + from[1], step.y + step.remainder[1])
+  };
 }
 
 /// Where the character is at a fraction of a step: linear between the corners of its way.

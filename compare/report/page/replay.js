@@ -242,13 +242,13 @@ class Replay {
   // --- drawing ---
 
   /// What a character does at the step that is shown: its record, the position within it, and whether it has ended
-  /// before. A run is its first character.
+  /// before. A run is its first character. Where a game would draw it is `drawn`, if that is somewhere else.
   stateOf(character) {
     const index = Math.max(indexAt(character, this.step), 0), record = character.steps[index];
     const exact = record.step === this.step;
     const ended = !exact && index === character.steps.length - 1;
     const t = exact ? this.t : 1;
-    return {index, record, ended, t, position: positionAt(record, t)};
+    return {index, record, ended, t, position: positionAt(record, t), drawn: drawnAt(character.steps, index, t)};
   }
 
   offsetsOf(run) {
@@ -305,7 +305,8 @@ class Replay {
   }
 
   drawCharacter(painter, run, character, number) {
-    const ink = inkOf(run, this.names), {record, ended, position} = this.stateOf(character), first = record.path[0];
+    const ink = inkOf(run, this.names), {record, ended, position, drawn} = this.stateOf(character);
+    const first = record.path[0];
     if (!ended) {
       const offsets = this.offsetsOf(run);
       const highlight = (index, colour, dash) => {
@@ -320,6 +321,7 @@ class Replay {
     }
     painter.octagon(
         run.hull, position.x, position.y, {colour: ink.colour, fill: !ended, dash: ink.dash, alpha: ended ? 0.4 : 1});
+    if (drawn && !ended) painter.octagon(run.hull, drawn.x, drawn.y, {colour: ink.colour, dash: [6, 3]});
     if (run.characters.length > 1) painter.number(number, position.x, position.y, ink.colour);
     if (ended) return;
     if (record.crush.length > 0) painter.cross(position.x, position.y);
