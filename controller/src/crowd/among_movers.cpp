@@ -59,6 +59,7 @@ StepStatus AmongMovers<Scalar>::begin(std::span<const CharacterState<Scalar>> st
     Walker<Scalar>& walker = walkers_[i];
     CharacterState<Scalar>& state = walker.now.state;
     state = states[i];
+    remember(states[i].pressers, state);
     // What is carried steers, jumps and falls relative to what carries it.
     if (state.ride.ground != Ride<Scalar>::none) state.velocity -= state.ride.velocity;
     walker.now.time = 0;

@@ -142,8 +142,15 @@ void AmongMovers<Scalar>::pass_on(const MoveResult<Scalar>& part, Scalar end, Mo
   if (part.grounded) at.own += gravity_ * dt_;
   step_parts::note_freedom(part, state);
   state.pressers.clear();
-  for (const Presser<Scalar>& presser : part.pressers)
-    if (state.crushed && !is_companion(presser.collider)) state.pressers.push_back(presser);
+  if (state.crushed) remember(part.pressers, state);
+}
+
+/// Places for company are taken by others in the next step.
+template <class Scalar>
+void AmongMovers<Scalar>::remember(const Pressers<Scalar>& pressers, CharacterState<Scalar>& state) const noexcept {
+  state.pressers.clear();
+  for (const Presser<Scalar>& presser : pressers)
+    if (!is_companion(presser.collider)) state.pressers.push_back(presser);
 }
 
 template <class Scalar>

@@ -84,11 +84,22 @@ bool StepSolver<variant, Scalar>::let_through_what_is_on_it() noexcept {
   return any;
 }
 
+/// What the character brings from the steps before. It may have been remembered among other scenery: what names
+/// nothing that moves here is forgotten.
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::recall_pressers(std::span<const Presser<Scalar>> before) noexcept {
+  const std::vector<ColliderDef>& colliders = space_.scenery().as_run().colliders;
+  for (const Presser<Scalar>& presser : before)
+    if (presser.collider < colliders.size() && colliders[presser.collider].mover < moving_.around.movers.size())
+      moving_.pressers.push_back(presser);
+}
+
 /// What has come over a character since its last free position goes on, also once it is off again.
 template <Variant variant, class Scalar>
-void StepSolver<variant, Scalar>::note_pressers(std::span<const Presser<Scalar>> before) noexcept {
+void StepSolver<variant, Scalar>::note_pressers() noexcept {
   const std::vector<ColliderDef>& colliders = space_.scenery().as_run().colliders;
   const auto went = [&](ColliderIndex collider) { return moving_.around.course(colliders[collider].mover); };
+  const Pressers<Scalar>& before = moving_.pressers;
   for (const Presser<Scalar>& presser : before)
     result_.pressers.push_back({presser.collider, presser.gone + went(presser.collider)});
   for (const ColliderIndex collider : moving_.ignored) {
@@ -138,11 +149,11 @@ void StepSolver<variant, Scalar>::stay(bool may_give_way) noexcept {
 
 /// The whole step, where that is asked for.
 template <Variant variant, class Scalar>
-void StepSolver<variant, Scalar>::keep_place(const MoveRequest<Scalar>& request) noexcept {
+void StepSolver<variant, Scalar>::keep_place() noexcept {
   push_corner(0);
   let_through_what_is_on_it();
   stay(false);
-  note_pressers(request.pressers);
+  note_pressers();
   end_wait();
   if (result_.status == MoveStatus::moved && overlaps(position_)) result_.status = MoveStatus::stuck;
   result_.position = position_;

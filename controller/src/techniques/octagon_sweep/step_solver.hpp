@@ -97,8 +97,8 @@ struct MoverState {
   bool leaving = false;  ///< and whether it is looked for from there;
   /// those that are on the character since an earlier step;
   FixedVector<ColliderIndex, MoveResult<Scalar>::max_crushed> lying{};
-  std::optional<Vec2<Scalar>> last_free{};      ///< and where it was before, if anywhere,
-  std::span<const Presser<Scalar>> pressers{};  ///< and how far these have gone since then.
+  std::optional<Vec2<Scalar>> last_free{};  ///< and where it was before, if anywhere,
+  Pressers<Scalar> pressers{};              ///< and how far these have gone since then.
   /// How many contacts were known at each corner of the path.
   std::array<std::size_t, MoveResult<Scalar>::max_corners> contacts_at{};
   std::size_t corners_before_crush = 0;                ///< Of the path, where something crushes; and
@@ -251,10 +251,11 @@ class StepSolver {
   template <class Condition>
   bool let_through(const Condition& condition) noexcept;
   bool let_through_what_is_on_it() noexcept;
-  void note_pressers(std::span<const Presser<Scalar>> before) noexcept;
+  void recall_pressers(std::span<const Presser<Scalar>> before) noexcept;
+  void note_pressers() noexcept;
   void end_wait() noexcept;
   void stay(bool may_give_way) noexcept;
-  void keep_place(const MoveRequest<Scalar>& request) noexcept;
+  void keep_place() noexcept;
 
   const ConfigurationSpace<Scalar>& space_;
   const Settings<Scalar>& settings_;

@@ -17,7 +17,6 @@ template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::prepare_start(const MoveRequest<Scalar>& request) noexcept {
   if constexpr (variant.movers) {
     if (request.has_last_free) moving_.last_free = request.last_free;
-    moving_.pressers = request.pressers;
     if (request.crushed) let_through_what_is_on_it();
   }
   while (overlaps(position_)) {

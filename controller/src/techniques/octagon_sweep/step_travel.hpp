@@ -34,7 +34,8 @@ void StepSolver<variant, Scalar>::solve(const MoveRequest<Scalar>& request) noex
   drops_ = request.drop;
   V wanted = request.displacement;
   if constexpr (variant.movers) {
-    if (request.stays) return keep_place(request);
+    recall_pressers(request.pressers);
+    if (request.stays) return keep_place();
     wanted = begin_ride(request);
   }
   push_corner(0);
@@ -69,7 +70,7 @@ void StepSolver<variant, Scalar>::solve(const MoveRequest<Scalar>& request) noex
     if constexpr (variant.movers) end_ride();
   }
   if constexpr (variant.movers) {
-    note_pressers(request.pressers);
+    note_pressers();
     end_wait();
   }
   push_corner(1);
