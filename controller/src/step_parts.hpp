@@ -31,7 +31,7 @@ template <class Scalar>
   check.add(state.position).add(state.velocity).add(state.remainder).add(gravity);
   check.add(state.ride.place).add(state.ride.velocity);
   if (state.has_last_free) check.add(state.last_free);
-  for (const Presser<Scalar>& presser : state.pressers) check.add(presser.gone);
+  for (const Presser<Scalar>& presser : state.pressers) check.add(presser.from).add(presser.gone);
   for (const MoverMotion<Scalar>& mover : movers) check.add(mover.from).add(mover.to);
   return check.passed() && std::isfinite(dt) && std::isfinite(input.move.value_or(0));
 }

@@ -35,6 +35,7 @@ void garble(CharacterState<Scalar>& state, Random& random) {
   for (int i = random.integer(0, 8); i > 0; --i) {
     Presser<Scalar> presser;
     presser.collider = any_index(random);
+    presser.from.x() = static_cast<Scalar>(random.between(-2, 2));
     presser.gone.y() = static_cast<Scalar>(random.between(-2, 2));
     state.pressers.push_back(presser);
   }

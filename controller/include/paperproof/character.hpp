@@ -91,12 +91,14 @@ struct Ride {
   friend bool operator==(const Ride&, const Ride&) = default;
 };
 
-/// What has come over a crushed character.
+/// What has come over a crushed character, and is on it still.
 template <class Scalar>
 struct Presser {
   ColliderIndex collider = 0;
-  /// How far it has gone since the step in which the character's last free position was left [m]: seen from there that
-  /// is the side from which the character came.
+  /// Where the character was when it came over it, free of it until then [m],
+  Vec2<Scalar> from{Vec2<Scalar>::Zero()};
+  /// and how far it has gone since that moment [m]: what is seen of it from there, moved on by so much, is the side
+  /// from which the character came.
   Vec2<Scalar> gone{Vec2<Scalar>::Zero()};
 
   friend bool operator==(const Presser&, const Presser&) = default;
@@ -120,10 +122,10 @@ struct CharacterState {
   bool jump_pending = false;  ///< A press that has not become a jump yet.
   bool wall_left = false;     ///< The last step ended against something on the left.
   bool wall_right = false;
-  /// Movers left no room in the last step. While one of them is still on the character it stays where it is: it does
-  /// not come out on another side.
+  /// Movers left no room, and one of them is still on the character. It stays where it is: whatever else runs into it
+  /// finds it room on the side from which it came, or crushes it, too.
   bool crushed = false;
-  Pressers<Scalar> pressers{};   ///< Since `last_free`, while `crushed`: the first so many.
+  Pressers<Scalar> pressers{};   ///< While `crushed`: the first so many.
   std::uint8_t stuck_steps = 0;  ///< How many steps in a row ended inside something.
   Ride<Scalar> ride;             ///< None on ground that does not move.
 

@@ -77,9 +77,9 @@ void StepSolver<variant, Scalar>::travel_among_movers() noexcept {
       if (result_.status == MoveStatus::moved) result_.status = MoveStatus::dropped;
       drive = {V::Zero(), V::Zero()};
     }
-    if (!respond_to_holds(drive)) {
+    if (pinned() || !respond_to_holds(drive)) {
       if (gives_way()) return;
-      crush_what_presses();
+      if (!crush_what_presses() && pinned()) return stay(true);
       drive = {V::Zero(), V::Zero()};
     }
     velocity_ = drive.velocity;
@@ -230,8 +230,10 @@ void StepSolver<variant, Scalar>::last_resort(const V& way) noexcept {
     return !found_.hit && advance(1);
   };
   if (goes(way)) return;
-  for (const Hold<Scalar>& hold : moving_.holds)
-    if (goes(rest_of(hold))) return;
+  if (!pinned()) {
+    for (const Hold<Scalar>& hold : moving_.holds)
+      if (goes(rest_of(hold))) return;
+  }
   stay(true);
 }
 

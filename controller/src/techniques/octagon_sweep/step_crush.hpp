@@ -2,16 +2,24 @@
 ///
 /// Before that is said room is looked for (step_room.hpp). Where there is none the character stays where it is, which
 /// is free of everything that stands still, and what presses goes through it. As long as it is on the character, the
-/// character is stuck: it does not come out on another side, and only other movers move it.
+/// character is stuck, and does not come out on another side: what else runs into it finds it room, free of all that
+/// and on the side from which it came, or crushes it as well.
 #pragma once
 
 #include "techniques/octagon_sweep/step_room.hpp"
 
 namespace paperproof::octagon_sweep {
 
-/// Room beside what holds the character, before it is crushed.
+/// Whether something goes through the character: nothing but room moves it then.
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::pinned() const noexcept {
+  return moving_.on_it > 0 || !result_.crushed.empty();
+}
+
+/// Room beside what holds the character, before it is crushed: later it is looked for beside all that crushed it.
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::gives_way() noexcept {
+  if (!result_.crushed.empty()) return false;
   Scalar reach = 0;
   for (const Hold<Scalar>& hold : moving_.holds)
     if (hold.mover != no_mover) reach = std::max(reach, length_of(moving_.around.course(hold.mover)));
@@ -45,22 +53,31 @@ void StepSolver<variant, Scalar>::take_back_crushes() noexcept {
   }
 }
 
-/// What runs into a character that stays where it is.
+/// What runs into a character that stays where it is. False where nothing does.
 template <Variant variant, class Scalar>
-void StepSolver<variant, Scalar>::crush_what_presses() noexcept {
+bool StepSolver<variant, Scalar>::crush_what_presses() noexcept {
+  const std::size_t before = result_.crushed.size();
   for (const Hold<Scalar>& hold : moving_.holds)
     if (!behind(hold.normal, rest_of(hold)).allows(V::Zero())) crush(hold.piece);
+  return result_.crushed.size() > before;
 }
 
 template <Variant variant, class Scalar>
 void StepSolver<variant, Scalar>::crush(PieceIndex piece) noexcept {
-  if (ignored(piece) || mover_of(piece) == no_mover) return;
+  const MoverIndex mover = mover_of(piece);
+  if (ignored(piece) || mover == no_mover) return;
   const ColliderIndex collider = space_.scenery().pieces()[piece].collider;
+  moving_.ignored.push_back(collider);
+  name_as_crushing(collider);
+  remember({collider, position_, moving_.around.rest(mover, time_)});
+}
+
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::name_as_crushing(ColliderIndex collider) noexcept {
   if (result_.crushed.empty()) {
     moving_.corners_before_crush = result_.path.size();
     moving_.status_before_crush = result_.status;
   }
-  moving_.ignored.push_back(collider);
   result_.crushed.push_back(collider);
   result_.status = MoveStatus::crushed;
 }
@@ -77,54 +94,73 @@ bool StepSolver<variant, Scalar>::let_through(const Condition& condition) noexce
   return moving_.ignored.size() > before;
 }
 
+/// What the character remembers of it from the steps before is looked up: that may be of other scenery, and name what
+/// is not here. What it does not remember came over it at its last free position, as far as it has one.
 template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::let_through_what_is_on_it() noexcept {
+bool StepSolver<variant, Scalar>::let_through_what_is_on_it(const MoveRequest<Scalar>& request) noexcept {
   const bool any = let_through([this](PieceIndex piece) { return overlaps(piece, position_); });
   moving_.on_it = moving_.ignored.size();
+  for (const ColliderIndex collider : moving_.ignored) {
+    const auto known = std::find_if(request.pressers.begin(), request.pressers.end(),
+                                    [&](const Presser<Scalar>& before) { return before.collider == collider; });
+    if (known != request.pressers.end())
+      remember({collider, known->from, known->gone + course_of(collider)});
+    else if (request.has_last_free)
+      remember({collider, request.last_free, course_of(collider)});
+  }
   return any;
 }
 
-/// What the character brings from the steps before. It may have been remembered among other scenery: what names
-/// nothing that moves here is forgotten.
+/// How far the mover of a collider goes in the step [m].
 template <Variant variant, class Scalar>
-void StepSolver<variant, Scalar>::recall_pressers(std::span<const Presser<Scalar>> before) noexcept {
-  const std::vector<ColliderDef>& colliders = space_.scenery().as_run().colliders;
-  for (const Presser<Scalar>& presser : before)
-    if (presser.collider < colliders.size() && colliders[presser.collider].mover < moving_.around.movers.size())
-      moving_.pressers.push_back(presser);
+Vec2<Scalar> StepSolver<variant, Scalar>::course_of(ColliderIndex collider) const noexcept {
+  return moving_.around.course(mover_of_collider(collider));
 }
 
-/// What has come over a character since its last free position goes on, also once it is off again.
+/// @param now `gone` is by the end of the step.
 template <Variant variant, class Scalar>
-void StepSolver<variant, Scalar>::note_pressers() noexcept {
-  const std::vector<ColliderDef>& colliders = space_.scenery().as_run().colliders;
-  const auto went = [&](ColliderIndex collider) { return moving_.around.course(colliders[collider].mover); };
-  const Pressers<Scalar>& before = moving_.pressers;
-  for (const Presser<Scalar>& presser : before)
-    result_.pressers.push_back({presser.collider, presser.gone + went(presser.collider)});
-  for (const ColliderIndex collider : moving_.ignored) {
-    const bool known = std::any_of(before.begin(), before.end(),
-                                   [&](const Presser<Scalar>& presser) { return presser.collider == collider; });
-    if (!known) result_.pressers.push_back({collider, went(collider)});
+void StepSolver<variant, Scalar>::remember(const Presser<Scalar>& now) noexcept {
+  for (Presser<Scalar>& known : moving_.pressers) {
+    if (known.collider != now.collider) continue;
+    known = now;
+    return;
   }
+  moving_.pressers.push_back(now);
 }
 
-/// What was on the character when the step began, and still is, has it stuck. What was only as near as that crushes it.
+/// Null for what is not remembered.
+template <Variant variant, class Scalar>
+const Presser<Scalar>* StepSolver<variant, Scalar>::presser(ColliderIndex collider) const noexcept {
+  for (const Presser<Scalar>& known : moving_.pressers)
+    if (known.collider == collider) return &known;
+  return nullptr;
+}
+
+/// What of all that was let through is on the character where the step ends. What was when it began has it stuck; what
+/// was only as near as that crushes it. Whatever is off again is forgotten.
 template <Variant variant, class Scalar>
 void StepSolver<variant, Scalar>::end_wait() noexcept {
-  if (moving_.ignored.size() == result_.crushed.size()) return;
+  if (moving_.ignored.empty()) return;
   const auto let_through = moving_.ignored;
   moving_.ignored.clear();
-  for (const ColliderIndex collider : result_.crushed) moving_.ignored.push_back(collider);
+  FixedVector<ColliderIndex, MoveResult<Scalar>::max_crushed> still;
   for_each_near({position_, position_}, [&](PieceIndex piece) {
     const ColliderIndex collider = space_.scenery().pieces()[piece].collider;
-    const auto* const found = std::find(let_through.begin(), let_through.end(), collider);
-    if (found == let_through.end() || !overlaps(piece, position_)) return;
-    if (static_cast<std::size_t>(found - let_through.begin()) >= moving_.on_it)
-      crush(piece);
-    else if (result_.status != MoveStatus::crushed)
-      result_.status = MoveStatus::stuck;
+    if (contains(let_through, collider) && !contains(still, collider) && overlaps(piece, position_))
+      still.push_back(collider);
   });
+  for (std::size_t i = 0; i < let_through.size(); ++i) {
+    const ColliderIndex collider = let_through[i];
+    if (!contains(still, collider) || contains(result_.crushed, collider)) continue;
+    if (i >= moving_.on_it) {
+      name_as_crushing(collider);
+      remember({collider, start_, course_of(collider)});
+    } else if (result_.status != MoveStatus::crushed) {
+      result_.status = MoveStatus::stuck;
+    }
+  }
+  for (const Presser<Scalar>& known : moving_.pressers)
+    if (contains(still, known.collider)) result_.pressers.push_back(known);
 }
 
 /// The character keeps its position for the rest of the step, and what runs into it crushes.
@@ -149,11 +185,10 @@ void StepSolver<variant, Scalar>::stay(bool may_give_way) noexcept {
 
 /// The whole step, where that is asked for.
 template <Variant variant, class Scalar>
-void StepSolver<variant, Scalar>::keep_place() noexcept {
+void StepSolver<variant, Scalar>::keep_place(const MoveRequest<Scalar>& request) noexcept {
   push_corner(0);
-  let_through_what_is_on_it();
+  let_through_what_is_on_it(request);
   stay(false);
-  note_pressers();
   end_wait();
   if (result_.status == MoveStatus::moved && overlaps(position_)) result_.status = MoveStatus::stuck;
   result_.position = position_;

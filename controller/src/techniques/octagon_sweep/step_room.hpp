@@ -70,7 +70,8 @@ void StepSolver<variant, Scalar>::find_room_from(std::size_t corner, Scalar gap,
     return std::all_of(pieces.begin(), pieces.end(), [&](PieceIndex piece) {
       if (ignored(piece) || dropped(piece)) return true;
       if (!left_behind(piece)) return positions.add(piece, from, end);
-      positions.add_end(piece, end);
+      const std::optional<V> side = is_lying(piece) ? came_from(piece) : std::nullopt;
+      if (!side || !positions.add(piece, *side, end)) positions.add_end(piece, end);
       return true;
     });
   };
@@ -81,7 +82,12 @@ void StepSolver<variant, Scalar>::find_room_from(std::size_t corner, Scalar gap,
   for (MoverIndex mover = 0; mover < around.phases.size(); ++mover) {
     const V from = begin.position - around.offset(mover, begin.fraction);
     const V end = position_ - around.offset(mover, Scalar(1));
-    const Box2<Scalar> box = space_.touched_from(box_of(from, end));
+    Box2<Scalar> places = box_of(from, end);
+    for (const Presser<Scalar>& known : moving_.pressers) {
+      const V side = known.from + (known.gone - around.offset(mover, Scalar(1)));
+      if (!moving_.lying.empty() && mover_of_collider(known.collider) == mover) places = places.merged({side, side});
+    }
+    const Box2<Scalar> box = space_.touched_from(places);
     if (!box.overlaps(around.phases.whole(mover))) continue;
     if (!add(around.phases.query(mover, box, around.memory.of_mover), from, end)) return;
   }
@@ -155,7 +161,12 @@ bool StepSolver<variant, Scalar>::stopped_by(const LocalMotion& motion, PieceInd
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::left_behind(PieceIndex piece) const noexcept {
   const ColliderIndex collider = space_.scenery().pieces()[piece].collider;
-  return (moving_.leaving && contains(moving_.left, collider)) || contains(moving_.lying, collider);
+  return (moving_.leaving && contains(moving_.left, collider)) || is_lying(piece);
+}
+
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::is_lying(PieceIndex piece) const noexcept {
+  return contains(moving_.lying, space_.scenery().pieces()[piece].collider);
 }
 
 /// The colliders that a step begins inside of.
@@ -167,23 +178,30 @@ void StepSolver<variant, Scalar>::note_what_is_left() noexcept {
   });
 }
 
+/// Where the character was last free of what is left, as a piece of it sees that when the step ends: it moves on with
+/// it.
+template <Variant variant, class Scalar>
+std::optional<Vec2<Scalar>> StepSolver<variant, Scalar>::came_from(PieceIndex piece) const noexcept {
+  const PieceInfo& info = space_.scenery().pieces()[piece];
+  if (info.mover == no_mover) return moving_.last_free;
+  const V shift = moving_.around.offset(info.mover, Scalar(1));
+  if (const Presser<Scalar>* const known = presser(info.collider)) return V(known->from + (known->gone - shift));
+  if (!moving_.last_free) return std::nullopt;
+  return V(*moving_.last_free + (moving_.around.course(info.mover) - shift));
+}
+
 /// Whether a position at the end of the step is on the side of what is left from which the character came: the straight
-/// way there from its last free position, which moves on with it, does not meet it.
+/// way there does not meet it.
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::stays_on_its_side(const V& end) noexcept {
-  if (!moving_.last_free || (moving_.left.empty() && moving_.lying.empty())) return true;
-  const std::span<const PieceInfo> pieces = space_.scenery().pieces();
+  if (moving_.left.empty() && moving_.lying.empty()) return true;
   for (PieceIndex piece = 0; piece < space_.scenery().sensor_pieces().first; ++piece) {
     if (!left_behind(piece)) continue;
-    V from = *moving_.last_free;
+    const std::optional<V> from = came_from(piece);
+    const MoverIndex mover = mover_of(piece);
     V to = end;
-    if (pieces[piece].mover != no_mover) {
-      from -= moving_.around.offset(pieces[piece].mover, Scalar(0));
-      for (const Presser<Scalar>& presser : moving_.pressers)
-        if (presser.collider == pieces[piece].collider) from += presser.gone;
-      to -= moving_.around.offset(pieces[piece].mover, Scalar(1));
-    }
-    if (stopped_by(make_motion<variant>(space_, from, V(to - from), Scalar(0)), piece)) return false;
+    if (mover != no_mover) to -= moving_.around.offset(mover, Scalar(1));
+    if (from && stopped_by(make_motion<variant>(space_, *from, V(to - *from), Scalar(0)), piece)) return false;
   }
   return true;
 }

@@ -97,8 +97,9 @@ struct MoverState {
   bool leaving = false;  ///< and whether it is looked for from there;
   /// those that are on the character since an earlier step;
   FixedVector<ColliderIndex, MoveResult<Scalar>::max_crushed> lying{};
-  std::optional<Vec2<Scalar>> last_free{};  ///< and where it was before, if anywhere,
-  Pressers<Scalar> pressers{};              ///< and how far these have gone since then.
+  std::optional<Vec2<Scalar>> last_free{};  ///< and where it was before, if anywhere.
+  /// What came over the character, now or before, and how far it has gone by the end of the step.
+  Pressers<Scalar> pressers{};
   /// How many contacts were known at each corner of the path.
   std::array<std::size_t, MoveResult<Scalar>::max_corners> contacts_at{};
   std::size_t corners_before_crush = 0;                ///< Of the path, where something crushes; and
@@ -238,24 +239,32 @@ class StepSolver {
   [[nodiscard]] bool passes(const LocalMotion& motion, std::span<const PieceIndex> pieces) const noexcept;
   [[nodiscard]] bool stopped_by(const LocalMotion& motion, PieceIndex piece) const noexcept;
   [[nodiscard]] bool left_behind(PieceIndex piece) const noexcept;
+  [[nodiscard]] bool is_lying(PieceIndex piece) const noexcept;
+  [[nodiscard]] std::optional<V> came_from(PieceIndex piece) const noexcept;
   void note_what_is_left() noexcept;
   [[nodiscard]] bool stays_on_its_side(const V& end) noexcept;
   void go_to(const V& end) noexcept;
   void go_back_to(std::size_t corner) noexcept;
 
   // step_crush.hpp
+  [[nodiscard]] bool pinned() const noexcept;
   [[nodiscard]] bool gives_way() noexcept;
   void take_back_crushes() noexcept;
-  void crush_what_presses() noexcept;
+  bool crush_what_presses() noexcept;
   void crush(PieceIndex piece) noexcept;
+  void name_as_crushing(ColliderIndex collider) noexcept;
   template <class Condition>
   bool let_through(const Condition& condition) noexcept;
-  bool let_through_what_is_on_it() noexcept;
-  void recall_pressers(std::span<const Presser<Scalar>> before) noexcept;
-  void note_pressers() noexcept;
+  bool let_through_what_is_on_it(const MoveRequest<Scalar>& request) noexcept;
+  [[nodiscard]] MoverIndex mover_of_collider(ColliderIndex collider) const noexcept {
+    return space_.scenery().as_run().colliders[collider].mover;
+  }
+  [[nodiscard]] V course_of(ColliderIndex collider) const noexcept;
+  void remember(const Presser<Scalar>& now) noexcept;
+  [[nodiscard]] const Presser<Scalar>* presser(ColliderIndex collider) const noexcept;
   void end_wait() noexcept;
   void stay(bool may_give_way) noexcept;
-  void keep_place() noexcept;
+  void keep_place(const MoveRequest<Scalar>& request) noexcept;
 
   const ConfigurationSpace<Scalar>& space_;
   const Settings<Scalar>& settings_;

@@ -17,9 +17,13 @@ template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::prepare_start(const MoveRequest<Scalar>& request) noexcept {
   if constexpr (variant.movers) {
     if (request.has_last_free) moving_.last_free = request.last_free;
-    if (request.crushed) let_through_what_is_on_it();
+    if (request.crushed) let_through_what_is_on_it(request);
   }
   while (overlaps(position_)) {
+    if constexpr (variant.movers) {
+      // Out of what stands still there may be a way, but it stays on its side of what has come over it.
+      if (!moving_.pressers.empty()) return false;
+    }
     const std::optional<V> out = find_way_out(request);
     if (out) {
       if constexpr (variant.movers) note_what_is_left();
@@ -29,12 +33,13 @@ bool StepSolver<variant, Scalar>::prepare_start(const MoveRequest<Scalar>& reque
     }
     if constexpr (variant.movers) {
       // There is no room beside what moves: without it there may be.
-      if (let_through_what_is_on_it()) continue;
+      if (let_through_what_is_on_it(request)) continue;
     }
     return false;
   }
-  restore_gap();
+  if constexpr (!variant.movers) restore_gap();
   if constexpr (variant.movers) {
+    if (!pinned()) restore_gap();
     // Nearer than rounding, and it stayed so: closed.
     let_through([this](PieceIndex piece) {
       return best_axis<variant>(space_, piece, local(piece, position_)).separation < Tolerances<Scalar>{}.certain &&

@@ -34,8 +34,7 @@ void StepSolver<variant, Scalar>::solve(const MoveRequest<Scalar>& request) noex
   drops_ = request.drop;
   V wanted = request.displacement;
   if constexpr (variant.movers) {
-    recall_pressers(request.pressers);
-    if (request.stays) return keep_place();
+    if (request.stays) return keep_place(request);
     wanted = begin_ride(request);
   }
   push_corner(0);
@@ -55,6 +54,7 @@ void StepSolver<variant, Scalar>::solve(const MoveRequest<Scalar>& request) noex
       if (moving_.on_it > 0) {
         halt();
         wanted = V::Zero();
+        moving_.anchored = false;
       }
     }
     if (near) look_along(wanted);
@@ -69,10 +69,7 @@ void StepSolver<variant, Scalar>::solve(const MoveRequest<Scalar>& request) noex
     if constexpr (variant.snap) follow_ground_down(request);
     if constexpr (variant.movers) end_ride();
   }
-  if constexpr (variant.movers) {
-    note_pressers();
-    end_wait();
-  }
+  if constexpr (variant.movers) end_wait();
   push_corner(1);
   result_.position = position_;
   result_.velocity = velocity_;
@@ -193,7 +190,7 @@ template <Variant variant, class Scalar>
 void StepSolver<variant, Scalar>::follow_ground_down(const MoveRequest<Scalar>& request) noexcept {
   if (settings_.snap <= 0 || !request.grounded || result_.grounded) return;
   if constexpr (variant.movers)
-    if (!result_.crushed.empty()) return;  // it stays where it was crushed
+    if (pinned()) return;  // it stays where it was crushed
   V travelled = position_ - request.position;
   V left_ground = V::Zero();  // velocity of what was walked on
   if constexpr (variant.movers) {
