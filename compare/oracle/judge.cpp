@@ -137,7 +137,7 @@ void Judge::judge_way(const Path& path, const TraceStep& step, const Others& oth
   judge_crushes(path, step, touched, others, judgement);
   judge_end(path, touched, judgement);
   for (const auto& [collider, corner] : touched) {
-    if (contains(judgement.crushed, collider)) continue;
+    if (contains(judgement.crushed, collider) && !went_through(path[corner].position, path.back(), collider)) continue;
     if (scenery_.scenery().colliders[collider].one_way) {
       if (!contains(step.dropped_through, collider)) judgement.one_way_broken.push_back(collider);
     } else {
@@ -156,6 +156,12 @@ void Judge::judge_end(const Path& path, Touched& touched, StepJudgement& judgeme
     Episode& episode = it->second;
     const double depth = scenery_.penetration(path.back(), collider);
     episode.depth = std::max(episode.depth, depth);
+    if (!is_new && contains(judgement.crushed, collider)) {
+      // It was left within the step before it came again: what counts is where it was free of it then.
+      const auto free = std::find_if(path.rbegin(), path.rend(),
+                                     [&](const Place& corner) { return !scenery_.overlaps(corner, collider); });
+      if (free != path.rend()) episode.free_from.emplace(*free);
+    }
     episode.pressed = episode.pressed || contains(judgement.crushed, collider);
     if (episode.pressed) {
       judgement.pressed.push_back(collider);
@@ -168,13 +174,20 @@ void Judge::judge_end(const Path& path, Touched& touched, StepJudgement& judgeme
   std::erase_if(inside_, [&](const auto& stay) {
     const auto& [collider, episode] = stay;
     if (contains(judgement.end_overlap, collider)) return false;
-    const bool excused = episode.pressed || contains(judgement.crushed, collider);
-    if (!excused && episode.free_from && scenery_.meets(episode.free_from->place(), path.back(), collider)) {
-      judge_passing(path, collider, episode.free_from->place(), path.back(), episode.depth, judgement);
+    if (episode.free_from && scenery_.meets(episode.free_from->place(), path.back(), collider)) {
+      const bool excused = episode.pressed || contains(judgement.crushed, collider);
+      if (!excused || went_through(episode.free_from->position, path.back(), collider)) {
+        judge_passing(path, collider, episode.free_from->place(), path.back(), episode.depth, judgement);
+      }
     }
     touched.erase(collider);
     return true;
   });
+}
+
+/// Whether the octagon itself went through what crushed it, rather than that through the octagon.
+bool Judge::went_through(const Vec2d& from, const Place& end, ColliderIndex collider) const {
+  return scenery_.meets(Place(from, end.movers, end.fraction), end, collider);
 }
 
 /// @param from, to both free of the collider; the straight way between them meets it.

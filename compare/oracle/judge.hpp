@@ -90,6 +90,11 @@ struct StepJudgement {
 ///   this step meets the solid: it left on another side. Leaving a solid in which the run (or a respawn, or a placement
 ///   of the twin) began is none.
 ///
+/// What a verified crush excuses may go through the octagon, but the octagon not through it: such a mover is tunnelled
+/// only if, standing still where this step leaves it, it also lies on the straight way from where the octagon was in
+/// the world when the mover came over it to where the octagon is now. An octagon that stayed there was passed over and
+/// left behind.
+///
 /// **Crushed.** A mover that the contender names as crushing is excused, and what it is pressed into stays excused
 /// until the octagon is free of it, if exact arithmetic finds no room. Room is a position at the end of the step
 /// - not farther from the octagon's than the longest way of the movers that are named, and 1e-6 m;
@@ -170,6 +175,7 @@ class Judge {
   [[nodiscard]] bool alone(const Path& path, const TraceStep& step) const;
   void judge_way(const Path& path, const TraceStep& step, const Others& others, StepJudgement& judgement);
   void judge_end(const Path& path, Touched& touched, StepJudgement& judgement);
+  [[nodiscard]] bool went_through(const Vec2d& from, const Place& end, ColliderIndex collider) const;
   void judge_passing(const Path& path, ColliderIndex collider, const Place& from, const Place& to, double depth,
                      StepJudgement& judgement) const;
   [[nodiscard]] double depth_of(const Path& path, ColliderIndex collider) const;

@@ -123,6 +123,61 @@ TEST(JudgeCrush, what_was_pressed_in_stays_excused_until_it_is_free) {
   EXPECT_EQ(again.entered, Colliders{1}) << "the excuse has ended";
 }
 
+/// A slab 0.1 m thick that rises under an octagon below a ceiling: after 0.2 m it is 0.1 m deep in the octagon.
+struct Risen {
+  Judge judge{header({box(-4, 0.625 + gap, 4, 2), moving(box(-4, -0.825, 4, -0.725))})};
+
+  Risen() {
+    const StepJudgement judged = judge.judge(staying({0, 0}, {{0, 0}, {0, 0.2}}, {1}));
+    EXPECT_EQ(judged.crushed, Colliders{1});
+    EXPECT_EQ(judged.pressed, Colliders{1});
+  }
+  /// The octagon goes straight there while the slab goes on, up to an offset.
+  StepJudgement next(const Vec2d& from, const Vec2d& to, double slab_from, double slab_to) {
+    TraceStep gone = step({from, to});
+    gone.movers = {{{0, slab_from}, {0, slab_to}}};
+    return judge.judge(gone);
+  }
+};
+
+TEST(JudgeCrush, whoever_comes_out_on_the_far_side_by_its_own_motion_has_passed_what_crushed_it) {
+  Risen risen;
+  const StepJudgement half_way = risen.next({0, 0}, {0, -0.3}, 0.2, 0.2);
+  EXPECT_TRUE(half_way.tunnelled.empty()) << "it may still go back";
+  const StepJudgement out = risen.next({0, -0.3}, {0, -1.4}, 0.2, 0.2);
+  EXPECT_EQ(out.tunnelled, Colliders{1});
+  ASSERT_EQ(out.passings.size(), 1U);
+  EXPECT_NEAR(out.passings[0].thickness, 0.1, 1e-12);
+}
+
+TEST(JudgeCrush, whoever_stays_and_is_left_behind_by_what_crushed_it_has_passed_nothing) {
+  Risen risen;
+  EXPECT_TRUE(risen.next({0, 0}, {0, 0}, 0.2, 1.9).tunnelled.empty()) << "the slab is above the octagon";
+  const StepJudgement fallen = risen.next({0, 0}, {0, -0.5}, 1.9, 1.9);
+  EXPECT_FALSE(fallen.broke()) << "it falls away from there";
+}
+
+TEST(JudgeCrush, whoever_moves_back_where_it_came_from_has_passed_nothing) {
+  Risen risen;
+  const StepJudgement free = risen.next({0, 0}, {0.5, -0.1}, 0.2, -0.2);
+  EXPECT_FALSE(free.broke());
+  EXPECT_TRUE(free.end_overlap.empty());
+}
+
+TEST(JudgeCrush, left_behind_in_the_step_of_the_crush_it_must_have_stayed_there_too) {
+  // The slab goes up through the octagon and beyond it; the octagon then is below it, or went there itself.
+  for (const bool goes : {false, true}) {
+    Judge judge(header({moving(box(-4, -0.825, 4, -0.725)), box(-4, 0.625 + gap, 4, 0.7)}));
+    TraceStep passed = step({{0, 0}, {0, 0}, {0, goes ? -2.0 : 0.0}});
+    passed.path[1].fraction = 0.05;
+    passed.movers = {{{0, 0}, {0, goes ? 0.2 : 1.6}}};
+    passed.crushed = {0};
+    const StepJudgement judged = judge.judge(passed);
+    EXPECT_EQ(judged.crushed, Colliders{0});
+    EXPECT_EQ(judged.tunnelled, goes ? Colliders{0} : Colliders{}) << goes;
+  }
+}
+
 TEST(JudgeCrush, a_static_solid_never_crushes_and_being_pressed_into_one_is_not_excused) {
   Judge judge(header(press()));
   TraceStep sunk = staying(standing, {{0, 0}, {0, -0.5}}, {0, 1});
