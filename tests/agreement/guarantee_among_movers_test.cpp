@@ -1,6 +1,7 @@
 /// The guarantee of octagon_sweep against the exact oracle, among up to 64 movers: boxes, papers, chains, one-way
 /// chains and rows of tiles, at speeds up to 1e6 m per step, in random scenery that stands still.
 #include "agreement/random_movers.hpp"
+#include "agreement/recorded.hpp"
 #include "agreement/reported.hpp"
 #include "oracle/judge.hpp"
 #include "support/random_sceneries.hpp"
@@ -164,7 +165,9 @@ class RandomRun {
     ends_ = far;
     if (far && wanderers_.size() > few_movers && steps_wanted("PAPERPROOF_FAR_CRUSHES", 0) == 0) return;
     const Tally before = tally;
-    const TraceStep record = recorded();
+    TraceStep record = recorded<Scalar>(report_, state_, motions_);
+    record.respawn = begins_anew_;
+    begins_anew_ = false;
     const StepJudgement judgement = judge_->judge(record);
     count(record, judgement, tally);
     count_what_is_said(record, input.drop, tally);
@@ -179,28 +182,6 @@ class RandomRun {
       const MoverMotion<Scalar>& motion = motions_[scenery_.as_run().colliders[collider].mover];
       return static_cast<double>((motion.to - motion.from).norm()) > far_crush;
     });
-  }
-
-  TraceStep recorded() {
-    TraceStep record;
-    for (const PathPoint<Scalar>& corner : report_.move.path)
-      record.path.push_back({corner.position.template cast<double>(), static_cast<double>(corner.fraction)});
-    record.requested = report_.requested.template cast<double>();
-    record.velocity = state_.velocity.template cast<double>();
-    for (const Contact<Scalar>& contact : report_.move.contacts)
-      record.contacts.push_back({.collider = contact.collider,
-                                 .point = contact.point.template cast<double>(),
-                                 .normal = contact.normal.template cast<double>(),
-                                 .fraction = static_cast<double>(contact.fraction),
-                                 .separation = static_cast<double>(contact.separation),
-                                 .side = contact.side});
-    for (const MoverMotion<Scalar>& m : motions_)
-      record.movers.push_back({m.from.template cast<double>(), m.to.template cast<double>()});
-    record.crushed.assign(report_.move.crushed.begin(), report_.move.crushed.end());
-    record.dropped_through.assign(report_.dropped_through.begin(), report_.dropped_through.end());
-    record.respawn = begins_anew_;
-    begins_anew_ = false;
-    return record;
   }
 
   void count(const TraceStep& record, const StepJudgement& judgement, Tally& tally) {

@@ -1,0 +1,175 @@
+/// The guarantee of octagon_sweep against the exact oracle where movers leave no room: two to four presses go in and
+/// out of a chamber about as large as the character, and come down on who is crushed already.
+#include "agreement/recorded.hpp"
+#include "oracle/judge.hpp"
+#include "support/random.hpp"
+#include "support/steps_wanted.hpp"
+
+#include <paperproof/controller.hpp>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace paperproof::test {
+namespace {
+
+using compare::Judge;
+using compare::StepJudgement;
+using compare::TraceHeader;
+
+constexpr int steps_per_run = 120;
+constexpr double half_height = 0.625;
+
+/// Steps, and how many of them did what.
+struct Pressed {
+  int steps = 0;
+  int crushed = 0;
+  int crushed_again = 0;  ///< While something was on it already.
+  int stuck = 0;
+  int freed = 0;     ///< Began with something on it, and ended free.
+  int overlaps = 0;  ///< Ended inside what did not crush.
+  int passages = 0;  ///< Came out on another side, or passed something, and be it with a rim.
+  int room = 0;      ///< Were crushed where there was room.
+
+  [[nodiscard]] int broken() const { return overlaps + passages + room; }
+};
+
+ColliderDef box(double left, double bottom, double right, double top) {
+  return {.points = {{left, bottom}, {right, bottom}, {right, top}, {left, top}}};
+}
+
+/// Goes at one speed through points, and back.
+struct Course {
+  std::vector<Vec2d> points;
+  double speed = 0;  ///< [m/s]
+
+  [[nodiscard]] Vec2d at(double time) const {
+    double length = 0;
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) length += (points[i + 1] - points[i]).norm();
+    double along = std::fmod(time * speed, 2 * length);
+    if (along > length) along = 2 * length - along;
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+      const double leg = (points[i + 1] - points[i]).norm();
+      if (along <= leg && leg > 0) return points[i] + (points[i + 1] - points[i]) * (along / leg);
+      along -= leg;
+    }
+    return points.back();
+  }
+};
+
+class Chamber {
+ public:
+  explicit Chamber(std::uint64_t seed)
+      : random_(seed), colliders_(walls()), courses_(presses()), scenery_(SceneryDef{colliders_}) {}
+
+  void go(Pressed& tally) {
+    const Controller<double> controller(scenery_, CharacterDef{});
+    Scratch<double> scratch = controller.make_scratch();
+    StepReport<double> report;
+    CharacterState<double> state;
+    state.position = {random_.between(-0.3, 0.3), half_height + 1e-5};
+    constexpr std::array steps_a_second{60, 60, 30, 20};
+    constexpr std::array pulls{0, -10, -30};
+    const double dt = 1.0 / steps_a_second[static_cast<std::size_t>(random_.integer(0, 3))];
+    const Vec2d gravity(0, pulls[static_cast<std::size_t>(random_.integer(0, 2))]);
+    TraceHeader header;
+    header.points.assign(controller.character().shape.hull().begin(), controller.character().shape.hull().end());
+    header.scenery = scenery_.as_run();
+    header.dt = dt;
+    Judge judge(header);
+    std::vector<MoverMotion<double>> motions(courses_.size());
+    Input input;
+    for (int step = 0; step < steps_per_run; ++step) {
+      if (step % 11 == 0) input = {.move = random_.integer(-1, 1), .jump = random_.chance(0.3)};
+      for (std::size_t k = 0; k < courses_.size(); ++k)
+        motions[k] = {step == 0 ? courses_[k].at(0) : motions[k].to, courses_[k].at((step + 1) * dt)};
+      const bool under = !state.pressers.empty();
+      const StepStatus status = controller.step(state, input, gravity, dt, motions, scratch, report);
+      ASSERT_NE(status, StepStatus::invalid_input);
+      ++tally.steps;
+      tally.crushed += status == StepStatus::crushed;
+      tally.crushed_again += under && status == StepStatus::crushed;
+      tally.stuck += status == StepStatus::stuck;
+      tally.freed += under && state.pressers.empty();
+      const StepJudgement judgement = judge.judge(recorded<double>(report, state, motions));
+      tally.overlaps += !judgement.entered.empty();
+      tally.passages += !judgement.tunnelled.empty() || !judgement.corner_cut.empty();
+      tally.room += !judgement.crushed_with_room.empty();
+      if (state.position.cwiseAbs().maxCoeff() > 9) return;
+    }
+  }
+
+ private:
+  std::vector<ColliderDef> walls() {
+    height_ = random_.between(1.4, 3);
+    width_ = random_.between(0.8, 2.5);
+    std::vector<ColliderDef> walls{box(-6, -1, 6, 0), box(-6, height_, 6, height_ + 1), box(-6, 0, -width_, height_),
+                                   box(width_, 0, 6, height_)};
+    if (random_.chance(0.4)) walls.erase(walls.begin() + random_.integer(1, 3));
+    return walls;
+  }
+
+  /// Each begins beside the chamber, and goes to some places in it.
+  std::vector<Course> presses() {
+    std::vector<Course> courses;
+    const int count = random_.integer(2, 4);
+    constexpr std::array speeds{1, 3, 10, 30};
+    for (int i = 0; i < count; ++i) {
+      const double width = random_.between(0.1, 1);
+      const double height = random_.between(0.05, 0.6);
+      const double across = random_.between(-width_, width_);
+      const double up = random_.between(0, height_);
+      const bool sideways = random_.chance(0.5);
+      const double away = random_.between(0, 1);
+      Vec2d at(across, random_.chance(0.5) ? height_ + away : -height - away);
+      if (sideways) at = {random_.chance(0.5) ? width_ + away : -width_ - width - away, up};
+      ColliderDef press = box(at.x(), at.y(), at.x() + width, at.y() + height);
+      if (random_.chance(0.3)) press.points = {at, {at.x() + width, at.y()}, {at.x() + width / 2, at.y() + height}};
+      press.mover = static_cast<MoverIndex>(i);
+      colliders_.push_back(press);
+      Course course{{Vec2d{0, 0}}, static_cast<double>(speeds[static_cast<std::size_t>(random_.integer(0, 3))])};
+      for (int points = random_.integer(1, 4); points > 0; --points) {
+        Vec2d to;
+        to.x() = random_.between(-width_, width_) - width / 2 - at.x();
+        to.y() = random_.between(0, height_) - height / 2 - at.y();
+        if (random_.chance(0.5)) to[sideways ? 1 : 0] = course.points.back()[sideways ? 1 : 0];
+        course.points.push_back(to);
+      }
+      courses.push_back(course);
+    }
+    return courses;
+  }
+
+  Random random_;
+  double height_ = 0;
+  double width_ = 0;
+  std::vector<ColliderDef> colliders_;
+  std::vector<Course> courses_;
+  Scenery<double> scenery_;
+};
+
+TEST(AmongPresses, no_step_comes_out_on_another_side_of_what_crushed_nor_is_crushed_with_room) {
+  Pressed all;
+  const int wanted = steps_per_family() / 3;
+  for (std::uint64_t seed = 1; all.steps < wanted && !HasFatalFailure(); ++seed) {
+    const Pressed before = all;
+    Chamber(seed).go(all);
+    if (all.broken() == before.broken()) continue;
+    std::printf("breaks: seed %d: %d overlaps, %d passages, %d with room\n", static_cast<int>(seed),
+                all.overlaps - before.overlaps, all.passages - before.passages, all.room - before.room);
+  }
+  std::printf("%d steps, %d crushed, %d of them again, %d stuck, %d freed; %d overlaps, %d passages, %d with room\n",
+              all.steps, all.crushed, all.crushed_again, all.stuck, all.freed, all.overlaps, all.passages, all.room);
+  EXPECT_EQ(all.overlaps, 0);
+  EXPECT_EQ(all.passages, 0);
+  EXPECT_EQ(all.room, 0);
+  EXPECT_GE(all.crushed, all.steps / 200);
+  EXPECT_GE(all.crushed_again, all.steps / 2000);
+  EXPECT_GE(all.freed, all.steps / 500);
+}
+
+}  // namespace
+}  // namespace paperproof::test

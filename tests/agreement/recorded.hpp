@@ -1,0 +1,35 @@
+/// A step of a controller as a trace has it.
+#pragma once
+
+#include "oracle/judge.hpp"
+
+#include <paperproof/controller.hpp>
+
+#include <span>
+
+namespace paperproof::test {
+
+/// @param state after the step.
+template <class Scalar>
+[[nodiscard]] compare::TraceStep recorded(const StepReport<Scalar>& report, const CharacterState<Scalar>& state,
+                                          std::span<const MoverMotion<Scalar>> motions) {
+  compare::TraceStep record;
+  for (const PathPoint<Scalar>& corner : report.move.path)
+    record.path.push_back({corner.position.template cast<double>(), static_cast<double>(corner.fraction)});
+  record.requested = report.requested.template cast<double>();
+  record.velocity = state.velocity.template cast<double>();
+  for (const Contact<Scalar>& contact : report.move.contacts)
+    record.contacts.push_back({.collider = contact.collider,
+                               .point = contact.point.template cast<double>(),
+                               .normal = contact.normal.template cast<double>(),
+                               .fraction = static_cast<double>(contact.fraction),
+                               .separation = static_cast<double>(contact.separation),
+                               .side = contact.side});
+  for (const MoverMotion<Scalar>& m : motions)
+    record.movers.push_back({m.from.template cast<double>(), m.to.template cast<double>()});
+  record.crushed.assign(report.move.crushed.begin(), report.move.crushed.end());
+  record.dropped_through.assign(report.dropped_through.begin(), report.dropped_through.end());
+  return record;
+}
+
+}  // namespace paperproof::test
