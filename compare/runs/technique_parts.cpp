@@ -1,5 +1,7 @@
 #include "runs/technique_parts.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace paperproof::compare {
@@ -30,6 +32,26 @@ Contact<double> recorded(const Contact<Scalar>& contact) {
           .side = side_of_normal(contact.normal.x(), contact.normal.y())};
 }
 
+/// That the picture techniques take.
+constexpr double finest_raster = 1000;
+
+bool is_turned(std::span<const KnobSetting> knobs, std::string_view name) {
+  return std::any_of(knobs.begin(), knobs.end(), [name](const KnobSetting& each) { return each.name == name; });
+}
+
+bool is_drawn(TechniqueKind kind) {
+  return kind == TechniqueKind::pixel_colour || kind == TechniqueKind::pixel_tile || kind == TechniqueKind::mask;
+}
+
+/// Scenery of vectors is drawn as finely as can be, since there the resolution is a knob. A picture that is drawn
+/// with fewer pixels than it has is another level, and that is for who turns the knob to say.
+void refuse_coarser_drawing(TechniqueKind kind, const Scene& scene, std::span<const KnobSetting> knobs) {
+  if (!is_drawn(kind) || !scene.has_pixels || is_turned(knobs, "raster_pixels_per_metre")) return;
+  if (scene.pixels_per_metre > finest_raster)
+    throw NotApplicable(fmt::format("{} draws at most {} pixels per metre, and the scene's pixels are {} to the metre",
+                                    name_of(kind), finest_raster, scene.pixels_per_metre));
+}
+
 }  // namespace
 
 TechniqueDef definition_of(TechniqueKind kind, const Scene& scene, const Plan& plan,
@@ -39,9 +61,9 @@ TechniqueDef definition_of(TechniqueKind kind, const Scene& scene, const Plan& p
   def.broad_phase = plan.broad_phase;
   def.stages = plan.stages;
   def.article.unit = 1 / scene.pixels_per_metre;
-  constexpr double finest = 1000;  // that the picture techniques take
-  def.article.raster_pixels_per_metre = std::min(scene.pixels_per_metre, finest);
+  def.article.raster_pixels_per_metre = std::min(scene.pixels_per_metre, finest_raster);
   turn_knobs(knobs, def);
+  refuse_coarser_drawing(kind, scene, knobs);
   return def;
 }
 

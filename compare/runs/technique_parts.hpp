@@ -30,6 +30,7 @@ class OwnScenery<double> {
   const Scenery<double>& shared_;
 };
 
+/// @throws NotApplicable for a technique that would have to draw a picture coarser than it is.
 [[nodiscard]] TechniqueDef definition_of(TechniqueKind kind, const Scene& scene, const Plan& plan,
                                          std::span<const KnobSetting> knobs);
 

@@ -167,6 +167,7 @@ class SceneryReader {
       add(own, pixels.scenery.colliders[i], at.where());
     }
     extend_respawn_box(pixels.box);
+    scene_.has_pixels = true;
   }
 
   void extend_respawn_box(const Box2<double>& box) {

@@ -56,6 +56,8 @@ struct Scene {
   std::vector<InputEvent> input;  ///< Sorted by step.
   /// Characters 1, 2, ...; character 0 begins at `start` and does what `input` says.
   std::vector<OtherCharacter> others;
+  /// Part of the scenery is a picture: who draws the level draws these pixels, `pixels_per_metre` of them, or none.
+  bool has_pixels = false;
   /// Maps only: their box [m]. A character that leaves it by more than 10 m is put back at the start.
   std::optional<Box2<double>> respawn_box;
   /// What a loader left out or could not place, in words (tiles unknown to the tileset, for instance).
