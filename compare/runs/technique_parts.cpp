@@ -52,6 +52,22 @@ void refuse_coarser_drawing(TechniqueKind kind, const Scene& scene, std::span<co
                                     name_of(kind), finest_raster, scene.pixels_per_metre));
 }
 
+/// A level of tiles is complete, has pixels of its own, and is in nobody's way but through its tiles.
+std::shared_ptr<const PixelTileSet> tiles_for(TechniqueKind kind, const Scene& scene,
+                                              std::span<const KnobSetting> knobs) {
+  if (kind != TechniqueKind::pixel_tile || !scene.tile_level.tiles) return nullptr;
+  for (const std::string_view knob : {"raster_pixels_per_metre", "pixels_per_tile"})
+    if (is_turned(knobs, knob))
+      throw NotApplicable(fmt::format("pixel_tile has its tiles from the scene's file, where {} is no knob", knob));
+  const std::vector<ColliderDef>& all = scene.scenery.colliders;
+  const auto solids = std::count_if(all.begin(), all.end(), [](const ColliderDef& each) { return !each.sensor; });
+  if (const std::size_t others = static_cast<std::size_t>(solids) - scene.tile_level.colliders; others > 0)
+    throw NotApplicable(
+        fmt::format("pixel_tile sees the tiles of the scene's file alone, and {} in the way beside them",
+                    others == 1 ? "1 collider is" : fmt::format("{} colliders are", others)));
+  return scene.tile_level.tiles;
+}
+
 }  // namespace
 
 TechniqueDef definition_of(TechniqueKind kind, const Scene& scene, const Plan& plan,
@@ -64,6 +80,7 @@ TechniqueDef definition_of(TechniqueKind kind, const Scene& scene, const Plan& p
   def.article.raster_pixels_per_metre = std::min(scene.pixels_per_metre, finest_raster);
   turn_knobs(knobs, def);
   refuse_coarser_drawing(kind, scene, knobs);
+  def.pixel_tiles = tiles_for(kind, scene, knobs);
   return def;
 }
 

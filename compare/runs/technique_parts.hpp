@@ -30,7 +30,8 @@ class OwnScenery<double> {
   const Scenery<double>& shared_;
 };
 
-/// @throws NotApplicable for a technique that would have to draw a picture coarser than it is.
+/// @throws NotApplicable for a technique that would have to draw a picture coarser than it is, or pixel_tile where it
+///   would see only the part of the scenery that is in a file of tiles, or with other pixels than those of the file.
 [[nodiscard]] TechniqueDef definition_of(TechniqueKind kind, const Scene& scene, const Plan& plan,
                                          std::span<const KnobSetting> knobs);
 

@@ -111,6 +111,12 @@ std::string describe(const Scene& scene) {
   line("input", counted(scene.input.size(), "event"));
   line("movers", std::to_string(scene.movers.size()));
   for (MoverIndex i = 0; i < scene.movers.size(); ++i) line("", mover(scene, i));
+  if (const PixelTileSet* tiles = scene.tile_level.tiles.get()) {
+    // The first of the types is no tile.
+    line("tiles", fmt::format("{} of {} x {} px, {} x {} in the map", counted(tiles->types.size() - 1, "type"),
+                              tiles->pixels_per_tile, tiles->pixels_per_tile, tiles->columns,
+                              tiles->map.size() / static_cast<std::size_t>(tiles->columns)));
+  }
   if (scene.respawn_box) line("map", box(*scene.respawn_box));
   for (const std::string& note : scene.notes) line("note", note);
   for (const std::string& note : idle_segments(scene, built)) line("note", note);

@@ -11,6 +11,7 @@
 #include "scenes/json_motion.hpp"
 #include "scenes/load.hpp"
 #include "scenes/picture.hpp"
+#include "scenes/pixel_tile_file.hpp"
 #include "scenes/tiled.hpp"
 #include "scenes/validate.hpp"
 
@@ -114,13 +115,13 @@ class SceneryReader {
 
   void read_entry(const JsonCursor& entry, std::size_t index) {
     entry.refuse_other_keys({"id", "polygon", "holes", "chain", "one_way", "sensor", "surface_speed", "tiled",
-                             "picture", "solid", "background"});
-    const std::string shape = only_shape(entry, {"polygon", "chain", "tiled", "picture"});
+                             "picture", "solid", "background", "pixel_tiles"});
+    const std::string shape = only_shape(entry, {"polygon", "chain", "tiled", "picture", "pixel_tiles"});
     refuse_key_beside(entry, "solid", shape, "picture");
     refuse_key_beside(entry, "background", shape, "picture");
     const std::string id = take_id(entry, "scenery", index);
     const JsonCursor at = entry.require(shape);
-    if (shape == "tiled" || shape == "picture") {
+    if (shape != "polygon" && shape != "chain") {
       refuse_key_beside(entry, "holes", shape, "polygon");
       refuse_key_beside(entry, "one_way", shape, "chain");
       for (const char* key : {"sensor", "surface_speed"}) {
@@ -128,8 +129,10 @@ class SceneryReader {
       }
       if (shape == "tiled")
         add_map(id, at);
-      else
+      else if (shape == "picture")
         add_picture(id, entry, at);
+      else
+        add_tiles(id, at);
     } else {
       add(id, read_collider(entry, shape, step_seconds_), at.where());
     }
@@ -161,6 +164,20 @@ class SceneryReader {
     const PixelScenery pixels = read_beside(at, [&](const std::string&, const std::string& file) {
       return scenery_of(picture, rule, scene_.pixels_per_metre, file);
     });
+    add_pixels(id, at, pixels);
+  }
+
+  void add_tiles(const std::string& id, const JsonCursor& at) {
+    if (scene_.tile_level.tiles) at.refuse("expected one file of tiles in a scene; this is the second");
+    auto tiles = std::make_shared<const PixelTileSet>(read_beside(at, read_pixel_tiles));
+    const PixelScenery pixels = read_beside(at, [&](const std::string&, const std::string& file) {
+      return scenery_of(*tiles, scene_.pixels_per_metre, file);
+    });
+    add_pixels(id, at, pixels);
+    scene_.tile_level = {std::move(tiles), pixels.ids.size()};
+  }
+
+  void add_pixels(const std::string& id, const JsonCursor& at, const PixelScenery& pixels) {
     for (std::size_t i = 0; i < pixels.ids.size(); ++i) {
       const std::string own = id + "/" + pixels.ids[i];
       claim(own, at);

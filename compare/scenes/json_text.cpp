@@ -165,6 +165,13 @@ void JsonCursor::refuse_other_keys(std::initializer_list<std::string_view> known
   }
 }
 
+std::vector<std::string> JsonCursor::keys() const {
+  if (!value_->is_object()) refuse("expected an object");
+  std::vector<std::string> keys;
+  for (const auto& [key, value] : value_->items()) keys.push_back(key);
+  return keys;
+}
+
 std::size_t JsonCursor::size() const {
   if (!value_->is_array()) refuse("expected an array");
   return value_->size();

@@ -37,6 +37,9 @@ class JsonCursor {
   /// @throws InputError naming the first key that is not listed, and those that are.
   void refuse_other_keys(std::initializer_list<std::string_view> known) const;
 
+  /// The keys of an object, in the order of their characters. @throws InputError unless this is an object.
+  [[nodiscard]] std::vector<std::string> keys() const;
+
   /// Elements of an array. @throws InputError unless this is an array.
   [[nodiscard]] std::size_t size() const;
   [[nodiscard]] JsonCursor element(std::size_t i) const;

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <paperproof/character.hpp>
+#include <paperproof/pixel_tiles.hpp>
 #include <paperproof/scenery.hpp>
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -36,6 +38,12 @@ struct OtherCharacter {
   std::vector<InputEvent> input;  ///< Sorted by step.
 };
 
+/// Part of the scenery as a file has it whose pixels say what a collision does: for the technique that can read that.
+struct TileLevel {
+  std::shared_ptr<const PixelTileSet> tiles{};  ///< None: there is no such part.
+  std::size_t colliders = 0;                    ///< That its solid pixels are for everybody else.
+};
+
 /// What characters want: one list of events for each of them.
 using Script = std::vector<std::vector<InputEvent>>;
 
@@ -56,8 +64,9 @@ struct Scene {
   std::vector<InputEvent> input;  ///< Sorted by step.
   /// Characters 1, 2, ...; character 0 begins at `start` and does what `input` says.
   std::vector<OtherCharacter> others;
-  /// Part of the scenery is a picture: who draws the level draws these pixels, `pixels_per_metre` of them, or none.
+  /// Part of the scenery is made of pixels: who draws the level draws these, `pixels_per_metre` of them, or none.
   bool has_pixels = false;
+  TileLevel tile_level{};
   /// Maps only: their box [m]. A character that leaves it by more than 10 m is put back at the start.
   std::optional<Box2<double>> respawn_box;
   /// What a loader left out or could not place, in words (tiles unknown to the tileset, for instance).
