@@ -9,14 +9,10 @@
 namespace paperproof::compare {
 namespace {
 
-using Kind = TechniqueKind;
-using Pairs = ArticleKnobs::Pairs;
-using Response = ArticleKnobs::Response;
-
 struct Knob {
   std::string_view name;
   std::string_view meaning;
-  std::vector<Kind> kinds;  ///< Who has it.
+  std::vector<TechniqueKind> kinds;  ///< Who has it.
   void (*turn)(const std::string& value, TechniqueDef& def);
 };
 
@@ -40,44 +36,46 @@ bool second_of(const std::string& text, std::string_view first, std::string_view
 }
 
 const std::vector<Knob>& all_knobs() {
-  static const std::vector<Kind> searching{Kind::penetration_resolution, Kind::speculative_march, Kind::speculative};
+  using enum TechniqueKind;
+  static const std::vector<TechniqueKind> searching{penetration_resolution, speculative_march, speculative};
   static const std::vector<Knob> all{
       {"unit",
        "step of every search [m]; without it a pixel of the scene",
-       {Kind::wind_back, Kind::penetration_resolution, Kind::speculative_march, Kind::speculative},
+       {wind_back, penetration_resolution, speculative_march, speculative},
        [](const std::string& value, TechniqueDef& def) { def.article.unit = real_in(value); }},
       {"iterations",
        "rounds per step, at least 1",
-       {Kind::bounding_box, Kind::discrete, Kind::penetration_resolution, Kind::speculative_march, Kind::speculative,
-        Kind::octagon_sweep},
+       {bounding_box, discrete, penetration_resolution, speculative_march, speculative, octagon_sweep},
        [](const std::string& value, TechniqueDef& def) {
-         (def.kind == Kind::octagon_sweep ? def.sweep_iterations : def.article.iterations) = whole_in(value);
+         (def.kind == octagon_sweep ? def.sweep_iterations : def.article.iterations) = whole_in(value);
        }},
       {"points",
        "8, or 4: the corners of the bounding box",
-       {Kind::wind_back, Kind::penetration_resolution, Kind::speculative_march, Kind::speculative},
+       {wind_back, penetration_resolution, speculative_march, speculative},
        [](const std::string& value, TechniqueDef& def) { def.article.points = whole_in(value); }},
       {"pairs", "direction, or all: points are tested whichever way it goes", searching,
        [](const std::string& value, TechniqueDef& def) {
-         def.article.pairs = second_of(value, "direction", "all") ? Pairs::all : Pairs::direction;
+         def.article.pairs =
+             second_of(value, "direction", "all") ? ArticleKnobs::Pairs::all : ArticleKnobs::Pairs::direction;
        }},
       {"response",
        "component, or shorten: a hit shortens the whole vector",
-       {Kind::mask, Kind::penetration_resolution, Kind::speculative_march, Kind::speculative},
+       {mask, penetration_resolution, speculative_march, speculative},
        [](const std::string& value, TechniqueDef& def) {
-         def.article.response = second_of(value, "component", "shorten") ? Response::shorten : Response::component;
+         def.article.response = second_of(value, "component", "shorten") ? ArticleKnobs::Response::shorten
+                                                                         : ArticleKnobs::Response::component;
        }},
       {"square",
        "side of a square [m]",
-       {Kind::grid},
+       {grid},
        [](const std::string& value, TechniqueDef& def) { def.article.square = real_in(value); }},
       {"raster_pixels_per_metre",
        "resolution of the level, at most 1000; without it the scene's",
-       {Kind::pixel_colour, Kind::pixel_tile, Kind::mask},
+       {pixel_colour, pixel_tile, mask},
        [](const std::string& value, TechniqueDef& def) { def.article.raster_pixels_per_metre = real_in(value); }},
       {"pixels_per_tile",
        "along a side of a tile: more take more memory, nothing else changes",
-       {Kind::pixel_tile},
+       {pixel_tile},
        [](const std::string& value, TechniqueDef& def) { def.article.pixels_per_tile = whole_in(value); }},
   };
   return all;
@@ -89,7 +87,7 @@ const Knob* find_knob(std::string_view name) {
   return found == all_knobs().end() ? nullptr : &*found;
 }
 
-bool has(const Knob& knob, TechniqueKind kind) {
+bool is_of(const Knob& knob, TechniqueKind kind) {
   return std::find(knob.kinds.begin(), knob.kinds.end(), kind) != knob.kinds.end();
 }
 
@@ -133,12 +131,12 @@ std::vector<std::string> describe_knobs() {
 
 bool has_knob(TechniqueKind kind, std::string_view name) {
   const Knob* knob = find_knob(name);
-  return knob != nullptr && has(*knob, kind);
+  return knob != nullptr && is_of(*knob, kind);
 }
 
 void turn_knobs(std::span<const KnobSetting> knobs, TechniqueDef& def) {
   for (const KnobSetting& setting : knobs)
-    if (const Knob* knob = find_knob(setting.name); knob != nullptr && has(*knob, def.kind))
+    if (const Knob* knob = find_knob(setting.name); knob != nullptr && is_of(*knob, def.kind))
       knob->turn(setting.value, def);
 }
 
