@@ -90,7 +90,10 @@ void expect_one_contact(const Walk& walk, const Vec2d& velocity) {
 
 class GoingRamp : public ::testing::TestWithParam<std::tuple<double, double, bool>> {
  protected:
-  [[nodiscard]] static Ramp ramp() { return std::make_from_tuple<Ramp>(GetParam()); }
+  [[nodiscard]] static Ramp ramp() {
+    const auto& [degrees, speed, is_mover] = GetParam();
+    return {degrees, speed, is_mover};
+  }
 };
 
 TEST_P(GoingRamp, carries_what_is_dropped_or_placed_on_it_and_lets_it_walk_without_losing_it) {
