@@ -39,7 +39,7 @@ class RecordedBox2d final : public Subject {
   /// @return the velocity that was wanted.
   Vec2d step(const Input& input) {
     const compare::Scene& scene = workload_.scene;
-    const Vec2d wanted = desired_velocity(scene.character, scene.gravity, input, scene.dt, state_);
+    const Vec2d wanted = desired_velocity(scene.character, scene.gravity, input, scene.dt, state_).velocity;
     const box2d::TwinStep& twin = world_.step(wanted, scene.dt);
     state_.velocity = twin.velocity;
     state_.grounded = twin.grounded;

@@ -46,6 +46,7 @@ class Box2dContestant final : public Contestant {
       TraceStep& record = records[k];
       record.path = twin.path;
       record.requested = wishes_[k].velocity * dt_;
+      record.steered = twins_[k].steered * dt_;
       record.velocity = twin.velocity;
       record.grounded = twin.grounded;
       record.jumping = twins_[k].state.jumping;
@@ -72,7 +73,7 @@ class Box2dContestant final : public Contestant {
   }
 
   void place(const Pose& pose, std::size_t character) override {
-    twins_[character] = {state_at<double>(pose), pose.ground_normal};
+    twins_[character] = {state_at<double>(pose), pose.ground_normal, 0};
     twins_[character].state.ride = pose.ride;
     world_.place(pose.position, pose.velocity, character);
   }
@@ -81,6 +82,7 @@ class Box2dContestant final : public Contestant {
   struct Twin {
     CharacterState<double> state;
     Vec2d ground_normal{Vec2d::UnitY()};  ///< Of what the ride is on.
+    double steered = 0;                   ///< See `DesiredVelocity`, of the present step [m/s].
   };
 
   static std::vector<Vec2d> starts_of(const Scene& scene) {
@@ -118,7 +120,9 @@ class Box2dContestant final : public Contestant {
   Vec2d wanted_by(Twin& twin, const Input& player, std::span<const MoverMotion<double>> movers) const {
     twin.state.velocity -= twin.state.ride.velocity;
     const Vec2d carried = velocity_of_ground(twin.state.ride.ground, twin.ground_normal, movers);
-    return carried + desired_velocity(character_, gravity_, player, dt_, twin.state);
+    const DesiredVelocity<double> own = desired_velocity(character_, gravity_, player, dt_, twin.state);
+    twin.steered = own.steered;
+    return carried + own.velocity;
   }
 
   std::span<const box2d::TwinStep> step_world(std::span<const MoverMotion<double>> movers) {

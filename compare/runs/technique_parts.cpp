@@ -115,6 +115,7 @@ void write_report(const StepReport<Scalar>& report, const CharacterState<Scalar>
   for (const PathPoint<Scalar>& corner : move.path)
     record.path.push_back({widened<Scalar>(corner.position), static_cast<double>(corner.fraction)});
   record.requested = widened<Scalar>(report.requested);
+  record.steered = static_cast<double>(report.steered);
   record.velocity = widened<Scalar>(state.velocity);
   record.remainder = widened<Scalar>(state.remainder);
   record.grounded = state.grounded;

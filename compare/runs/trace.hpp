@@ -47,6 +47,7 @@ struct TraceStep {
   std::vector<PathPoint<double>> path;  ///< From the start (fraction 0) to the end (1).
   /// Displacement that was wanted [m], in the world: what carries the character is included.
   Vec2d requested{Vec2d::Zero()};
+  double steered = 0;             ///< The part of `requested.x()` that this step's steering added [m].
   Vec2d velocity{Vec2d::Zero()};  ///< At the end [m/s].
   /// From where the way ends to where the character is drawn [m]: see `CharacterState::remainder`.
   Vec2d remainder{Vec2d::Zero()};

@@ -50,10 +50,11 @@ void take_jump(const CharacterDef& character, const Input& input, CharacterState
 
 /// A stage that is left out still gives the bits of one that finds nothing to do.
 template <bool has_jump, bool has_gravity, class Scalar>
-Vec2<Scalar> wanted_velocity(const CharacterDef& character, const Vec2<Scalar>& gravity, const Input& input, Scalar dt,
-                             CharacterState<Scalar>& state) noexcept {
+DesiredVelocity<Scalar> wanted_velocity(const CharacterDef& character, const Vec2<Scalar>& gravity, const Input& input,
+                                        Scalar dt, CharacterState<Scalar>& state) noexcept {
   // Component by component: a pair that is written as two numbers and read as one waits for the memory.
   Scalar x = input.move ? steered(character, state, *input.move, dt) : state.velocity.x();
+  const Scalar change = x - state.velocity.x();
   Scalar y = state.velocity.y();
   if constexpr (has_jump)
     take_jump(character, input, state, y);
@@ -67,14 +68,14 @@ Vec2<Scalar> wanted_velocity(const CharacterDef& character, const Vec2<Scalar>& 
     y += 0;
   }
   if (character.max_fall_speed) y = std::max(y, static_cast<Scalar>(-*character.max_fall_speed));
-  return {x, y};
+  return {{x, y}, change};
 }
 
 }  // namespace
 
 template <class Scalar>
-Vec2<Scalar> desired_velocity(const CharacterDef& character, const Vec2<Scalar>& gravity, const Input& input, Scalar dt,
-                              CharacterState<Scalar>& state) noexcept {
+DesiredVelocity<Scalar> desired_velocity(const CharacterDef& character, const Vec2<Scalar>& gravity, const Input& input,
+                                         Scalar dt, CharacterState<Scalar>& state) noexcept {
   return wanted_velocity<true, true>(character, gravity, input, dt, state);
 }
 
@@ -117,11 +118,13 @@ MoveRequest<Scalar> Controller<Scalar>::begin_step(const Pressers<Scalar>& press
                                                    StepReport<Scalar>& report) const noexcept {
   // What is carried steers, jumps and falls relative to what carries it.
   if (state.ride.ground != Ride<Scalar>::none) state.velocity -= state.ride.velocity;
-  const Vec2<Scalar> velocity = wanted_velocity<has_jump, has_gravity>(character_, gravity, input, dt, state);
+  const auto [velocity, steered] = wanted_velocity<has_jump, has_gravity>(character_, gravity, input, dt, state);
   report.requested = {velocity.x() * dt, velocity.y() * dt};
+  report.steered = steered * dt;
   return {.position = state.position,
           .displacement = {velocity.x() * dt, velocity.y() * dt},
           .velocity = {velocity.x(), velocity.y()},
+          .steered = steered,
           .last_free = state.last_free,
           .remainder = state.remainder,
           .has_last_free = state.has_last_free,
@@ -187,9 +190,9 @@ void Controller<Scalar>::end_together(const Input& input, std::span<const MoverM
   end_step<true>(input, movers, state, report);
 }
 
-template Vec2<float> desired_velocity(const CharacterDef&, const Vec2<float>&, const Input&, float,
+template DesiredVelocity<float> desired_velocity(const CharacterDef&, const Vec2<float>&, const Input&, float,
                                       CharacterState<float>&) noexcept;
-template Vec2<double> desired_velocity(const CharacterDef&, const Vec2<double>&, const Input&, double,
+template DesiredVelocity<double> desired_velocity(const CharacterDef&, const Vec2<double>&, const Input&, double,
                                        CharacterState<double>&) noexcept;
 template class Controller<float>;
 template class Controller<double>;

@@ -17,6 +17,7 @@ template <class Scalar>
   for (const PathPoint<Scalar>& corner : report.move.path)
     record.path.push_back({corner.position.template cast<double>(), static_cast<double>(corner.fraction)});
   record.requested = report.requested.template cast<double>();
+  record.steered = static_cast<double>(report.steered);
   record.velocity = state.velocity.template cast<double>();
   for (const Contact<Scalar>& contact : report.move.contacts)
     record.contacts.push_back({.collider = contact.collider,

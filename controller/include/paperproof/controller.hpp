@@ -8,6 +8,15 @@
 
 namespace paperproof {
 
+/// What a character wants in one step, before anything is in the way.
+template <class Scalar>
+struct DesiredVelocity {
+  Vec2<Scalar> velocity{Vec2<Scalar>::Zero()};  ///< [m/s]
+  /// The part of `velocity.x()` that this step's steering added, braking included [m/s]. The rest is momentum and
+  /// gravity.
+  Scalar steered = 0;
+};
+
 /// The velocity that a character wants in this step, before anything is in the way, and the jump bookkeeping.
 /// Common to every contender, the Box2D twin included:
 /// horizontal speed approaches `move * walk_speed`; a jump that is allowed sets the upward speed once; then gravity,
@@ -15,8 +24,9 @@ namespace paperproof {
 /// @param state its flags `jump_held`, `jump_pending`, `jumping`, `grounded` are updated; position and velocity are
 /// not.
 template <class Scalar>
-[[nodiscard]] Vec2<Scalar> desired_velocity(const CharacterDef& character, const Vec2<Scalar>& gravity,
-                                            const Input& input, Scalar dt, CharacterState<Scalar>& state) noexcept;
+[[nodiscard]] DesiredVelocity<Scalar> desired_velocity(const CharacterDef& character, const Vec2<Scalar>& gravity,
+                                                       const Input& input, Scalar dt,
+                                                       CharacterState<Scalar>& state) noexcept;
 
 enum class StepStatus : std::uint8_t {
   moved,
@@ -33,6 +43,7 @@ template <class Scalar>
 struct StepReport {
   StepStatus status = StepStatus::moved;
   Vec2<Scalar> requested{Vec2<Scalar>::Zero()};  ///< Displacement that was wanted [m].
+  Scalar steered = 0;                            ///< The part of `requested.x()` that this step's steering added [m].
   MoveResult<Scalar> move;
   /// In order of time: see `SensorEvent`. Where more happened than fits the latest are missing, and it `overflowed`.
   FixedVector<SensorEvent<Scalar>, 32> sensors;

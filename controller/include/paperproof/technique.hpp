@@ -43,6 +43,7 @@ struct MoveRequest {
   Vec2<Scalar> position{Vec2<Scalar>::Zero()};      ///< Where the step begins [m].
   Vec2<Scalar> displacement{Vec2<Scalar>::Zero()};  ///< Where it should go [m].
   Vec2<Scalar> velocity{Vec2<Scalar>::Zero()};      ///< The velocity behind the displacement [m/s].
+  Scalar steered = 0;  ///< The part of `velocity.x()` that this step's steering added [m/s].
   Vec2<Scalar> last_free{Vec2<Scalar>::Zero()};     ///< See `CharacterState::last_free`.
   Vec2<Scalar> remainder{Vec2<Scalar>::Zero()};     ///< See `CharacterState::remainder`.
   bool has_last_free = false;

@@ -63,7 +63,8 @@ StepStatus AmongMovers<Scalar>::begin(std::span<const CharacterState<Scalar>> st
     // What is carried steers, jumps and falls relative to what carries it.
     if (state.ride.ground != Ride<Scalar>::none) state.velocity -= state.ride.velocity;
     walker.now.time = 0;
-    walker.now.own = desired_velocity(controller_.character(), gravity_, inputs[i], dt_, state);
+    const DesiredVelocity<Scalar> desired = desired_velocity(controller_.character(), gravity_, inputs[i], dt_, state);
+    walker.now.own = desired.velocity;
     walker.start = walker.now;
     walker.company.clear();
     walker.changes = 0;
@@ -72,6 +73,7 @@ StepStatus AmongMovers<Scalar>::begin(std::span<const CharacterState<Scalar>> st
     walker.drops = inputs[i].drop;
     clear(member(i));
     member(i).step.requested = walker.now.own * dt_;
+    member(i).step.steered = desired.steered * dt_;
     walker.end = walker.now;
     if (!ask(i, 1, walker.plan, walker.end)) return StepStatus::out_of_range;
     walker.box = box_along(space_, walker.plan.path);

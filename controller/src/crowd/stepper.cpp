@@ -26,7 +26,9 @@ StepStatus Stepper<Scalar>::begin(std::span<const CharacterState<Scalar>> states
   for (std::size_t i = 0; i < runners_.size(); ++i) {
     Runner<Scalar>& runner = runners_[i];
     runner.state = states[i];
-    runner.state.velocity = desired_velocity(controller_.character(), gravity_, inputs[i], dt_, runner.state);
+    const DesiredVelocity<Scalar> desired =
+        desired_velocity(controller_.character(), gravity_, inputs[i], dt_, runner.state);
+    runner.state.velocity = desired.velocity;
     runner.jump_held = runner.state.jump_held;
     runner.jump_pending = runner.state.jump_pending;
     runner.begin = 0;
@@ -39,6 +41,7 @@ StepStatus Stepper<Scalar>::begin(std::span<const CharacterState<Scalar>> states
     const StepStatus status = move(runner, dt_, true, runner.after, runner.plan);
     if (step_parts::is_refused(status)) return status;
     member(i).step.requested = runner.plan.requested;
+    member(i).step.steered = desired.steered * dt_;
     find_box(runner);
   }
   note_overlaps(rules_.space, states, report_);
