@@ -3,8 +3,11 @@
 # Box2D.
 #   compare/run.sh                     the main comparison
 #   compare/run.sh SCENE… [OPTION…]    `paperproof compare` with what you name instead
+# It prints first what becomes of the article's bullet, by technique, and what a step costs; then one table over all scenes.
+# --all-tables prints the table of every scene, and the report holds them anyway.
 # Both write report.html and rows.json into the project's folder, unless --report or --rows name another place.
-# What the command prints goes to stdout, everything else to stderr. The exit status is the command's; 2 also means that
+# What the command prints goes to stdout, everything else to stderr: of setting up and building a line each, the rest into
+# build/release/compare_build.log, which is shown where it fails. The exit status is the command's; 2 also means that
 # it could not be built.
 set -euo pipefail
 
@@ -28,12 +31,33 @@ main_comparison=(
   long_rest             # a million steps at rest: the position's bits do not change
 )
 
-build_command() {
-  install_missing "${build_packages[@]}" &&
-    cmake -S "$here" --preset release "${whole_build[@]}" &&
-    cmake --build "$here/build/release" --target paperproof --parallel "$(build_jobs)"
+mkdir -p "$here/build/release"
+log=$here/build/release/compare_build.log
+: >"$log"
+
+# Runs a command with its output in the log. Where it fails the end of that says why.
+logged() {
+  "$@" >>"$log" 2>&1 && return
+  echo "failed: $*" >&2
+  tail -n 40 "$log" >&2
+  echo "the whole log: $log" >&2
+  return 1
 }
-build_command >&2 || exit 2
+
+build() {
+  local command=(cmake --build "$here/build/release" --target paperproof --parallel "$(build_jobs)")
+  # On a terminal ninja shows in one line how far it is.
+  if [[ -t 2 ]]; then "${command[@]}" >&2; else logged "${command[@]}"; fi
+}
+
+# In a shell of its own, as it exits where nothing can be installed; what it says of that goes to stderr.
+(install_missing "${build_packages[@]}" > >(tee -a "$log" | grep --line-buffered '^installing' >&2)) || {
+  tail -n 40 "$log" >&2
+  exit 2
+}
+logged cmake -S "$here" --preset release "${whole_build[@]}" || exit 2
+if [[ ! -x $here/build/release/bin/paperproof ]]; then echo "building; it takes a few minutes the first time" >&2; fi
+build || exit 2
 
 arguments=("$@")
 ((${#arguments[@]})) || arguments=("${main_comparison[@]}")

@@ -4,8 +4,10 @@
 #include "command/progress.hpp"
 #include "near_names.hpp"
 #include "runs/gallery.hpp"
+#include "runs/headline.hpp"
 #include "runs/output_file.hpp"
 #include "runs/rows_json.hpp"
+#include "runs/summary.hpp"
 #include "runs/table.hpp"
 #include "runs/trace_writer.hpp"
 #include "scenes/load.hpp"
@@ -20,6 +22,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <limits>
+#include <utility>
 
 namespace paperproof::compare {
 namespace {
@@ -122,6 +125,7 @@ class Comparison {
       std::vector<Scene> scenes = load_scenes(arguments.scenes[i]);
       shows_gallery_ = shows_gallery_ || find_set(arguments.scenes[i]) != nullptr;
       for (const Scene& scene : scenes) outputs_.add_scene(arguments.scenes[i], scene.name);
+      scene_count_ += scenes.size();
       if (keep) kept_.push_back(std::move(scenes));
     }
     progress_.clear();
@@ -180,17 +184,27 @@ class Comparison {
     if (!arguments_.quiet && !arguments_.json) print(result);
   }
 
-  static void print(const ReportScene& result) {
-    fmt::print("{}", result.name);
-    if (!result.description.empty()) fmt::print(": {}", result.description);
-    fmt::print("\n\n{}\n{}\n\n", table(result.rows), result.sentence);
+  /// One scene, or each where all tables are asked for, as a table. Of several scenes the first in plain words, as soon
+  /// as it is there; all of them stand in one table at the end.
+  void print(const ReportScene& result) {
+    const bool first = !std::exchange(printed_, true);
+    const bool whole = scene_count_ == 1 || arguments_.all_tables;
+    if (!whole && !first) return;
+    fmt::print("{}\n", shortened(result.name + (result.description.empty() ? "" : ": " + result.description)));
+    if (whole) {
+      fmt::print("\n{}\n{}\n", table(result.rows), in_lines(result.sentence));
+    } else {
+      const std::string exact = exact_answer(result.rows);
+      fmt::print("{}{}\n{}\n", exact, exact.empty() ? "" : "\n", headline(result.rows));
+    }
     std::fflush(stdout);
   }
 
   void print_summary(const std::vector<ReportSection>& sections) const {
+    if (scene_count_ > 1) fmt::print("{}\n\n{}\n", counted(scene_count_, "scene"), summary_table(rows_));
     for (const ReportSection& section : sections) {
       fmt::print("{}\n\n", section.title);
-      for (const std::string& line : section.lines) fmt::print("- {}\n", line);
+      for (const std::string& line : section.lines) fmt::print("- {}\n", shortened(line));
       fmt::print("\n");
     }
     for (const std::string& line : totals_.lines()) fmt::print("{}\n", line);
@@ -218,6 +232,8 @@ class Comparison {
   Progress progress_;
   std::vector<std::vector<Scene>> kept_;
   Outputs outputs_;
+  std::size_t scene_count_ = 0;
+  bool printed_ = false;        ///< A scene was printed.
   bool shows_gallery_ = false;  ///< A set of scenes was asked for.
   std::optional<OutputFile> rows_file_;
   std::vector<Row> rows_;

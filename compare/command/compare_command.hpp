@@ -13,6 +13,7 @@ struct CompareArguments {
   RunOptions run;
   std::string rows_path;    ///< Empty: none.
   std::string report_path;  ///< Empty: none.
+  bool all_tables = false;  ///< Of every scene, where there are several.
   bool quiet = false;       ///< No table, no progress.
   bool json = false;        ///< Rows on standard output instead of tables.
 };

@@ -117,6 +117,23 @@ void Metrics::add_first_contact(const TraceStep& step, const StepJudgement& judg
   }
 }
 
+void Metrics::add_exact_impact(const TraceStep& step, const StepJudgement& judgement) {
+  if (!judgement.first_impact) return;
+  const bool later = sums_.exact_first_impact_step && (*sums_.exact_first_impact_step != step.step ||
+                                                       *judgement.first_impact >= *sums_.exact_first_impact_fraction);
+  if (later) return;
+  sums_.exact_first_impact_step = step.step;
+  sums_.exact_first_impact_fraction = judgement.first_impact;
+  // What is within reach of a corner of the way is merged with what is met from there: the earliest is the one.
+  const auto with =
+      std::min_element(judgement.contacts.begin(), judgement.contacts.end(),
+                       [](const ExactContact& a, const ExactContact& b) { return a.fraction < b.fraction; });
+  if (judgement.first_met)
+    sums_.exact_first_impact = named(*judgement.first_met);
+  else
+    sums_.exact_first_impact = with == judgement.contacts.end() ? "" : "`" + ids_[with->collider] + "`";
+}
+
 void Metrics::add_passings(const TraceStep& step, const StepJudgement& judgement) {
   const StepJudgement::Company& company = judgement.company;
   count(sums_.tunnels, !judgement.tunnelled.empty() || !company.passed.empty());
@@ -154,6 +171,7 @@ void Metrics::add_events(const TraceStep& step, const StepJudgement& judgement) 
 
 void Metrics::add(const TraceStep& step, const StepJudgement& judgement) {
   add_contacts(step, judgement);
+  add_exact_impact(step, judgement);
   add_passings(step, judgement);
   add_events(step, judgement);
   if (measured_.rest) followers_[step.character].rest.add(step);
@@ -173,6 +191,9 @@ void Metrics::write(Row& row) const {
   row.max_contact_gap_m = sums_.max_contact_gap_m;
   row.first_contact_step = sums_.first_contact_step;
   row.first_contact_fraction = sums_.first_contact_fraction;
+  row.exact_first_impact_step = sums_.exact_first_impact_step;
+  row.exact_first_impact_fraction = sums_.exact_first_impact_fraction;
+  row.exact_first_impact = sums_.exact_first_impact;
   row.contact_steps = sums_.contact_steps;
   row.colliders_touched = static_cast<int>(touched_.size());
   row.respawns = sums_.respawns;

@@ -29,6 +29,8 @@ namespace paperproof::compare {
 ///   are said to be stuck do not count: who is stuck inside something does not move and meets nothing.
 /// - `contact_steps`: steps with a reported contact. `colliders_touched`: how many different ones.
 /// - `first_contact_step`, `first_contact_fraction`: the earliest reported contact.
+/// - `exact_first_impact_step`, `exact_first_impact_fraction`: the first impact of the wanted motion that exact arithmetic
+///   has, over the steps that began free.
 /// - `toi_error_max`: largest difference of the first reported fraction of a step and the exact first impact, over the
 ///   steps where the two are comparable (see `Judge`) and the reported collider is one of exact arithmetic's.
 /// - `ghost_speed_loss`: largest share of the wanted horizontal speed lost in one step to nothing exact; only where
@@ -77,6 +79,7 @@ class Metrics {
   };
   static void match(const View& view, Matches& matches);
   void add_first_contact(const TraceStep& step, const StepJudgement& judgement);
+  void add_exact_impact(const TraceStep& step, const StepJudgement& judgement);
   void add_contacts(const TraceStep& step, const StepJudgement& judgement);
   void add_events(const TraceStep& step, const StepJudgement& judgement);
   void add_passings(const TraceStep& step, const StepJudgement& judgement);

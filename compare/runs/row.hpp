@@ -30,6 +30,10 @@ struct Row {
   std::optional<double> max_contact_gap_m;
   std::optional<int> first_contact_step;
   std::optional<double> first_contact_fraction;
+  /// The first impact of the motion that was wanted, as exact arithmetic has it, reported or not.
+  std::optional<int> exact_first_impact_step;
+  std::optional<double> exact_first_impact_fraction;
+  std::string exact_first_impact;           ///< With what; empty where there is none, or only a seam.
   std::optional<double> contact_precision;  ///< against exact
   std::optional<double> contact_recall;     ///< against exact
   std::optional<double> contact_precision_box2d;
@@ -59,6 +63,7 @@ struct Row {
   std::optional<double> ns_per_step;         ///< minimum
   std::optional<double> ns_per_step_median;  ///< of the repeats: on a busy machine the slowest says little
   std::optional<double> ns_per_step_max;     ///< the spread: the slowest of the repeats
+  std::optional<double> ns_per_step_bare;    ///< Box2D's: minimum of the world alone, with nothing recorded
   std::optional<std::size_t> memory_bytes;   ///< of a contender's own picture of the level
   std::vector<std::string> findings;         ///< sentences: first tunnel with speed and thickness, caps, labels
 };
@@ -79,6 +84,8 @@ void for_each_metric(const Row& row, const Visit& visit) {
   visit("max_contact_gap_m", row.max_contact_gap_m);
   visit("first_contact_step", row.first_contact_step);
   visit("first_contact_fraction", row.first_contact_fraction);
+  visit("exact_first_impact_step", row.exact_first_impact_step);
+  visit("exact_first_impact_fraction", row.exact_first_impact_fraction);
   visit("contact_precision", row.contact_precision);
   visit("contact_recall", row.contact_recall);
   visit("contact_precision_box2d", row.contact_precision_box2d);
@@ -105,6 +112,7 @@ void for_each_metric(const Row& row, const Visit& visit) {
   visit("ns_per_step", row.ns_per_step);
   visit("ns_per_step_median", row.ns_per_step_median);
   visit("ns_per_step_max", row.ns_per_step_max);
+  visit("ns_per_step_bare", row.ns_per_step_bare);
   visit("memory_bytes", row.memory_bytes);
 }
 

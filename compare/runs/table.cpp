@@ -1,14 +1,15 @@
 #include "runs/table.hpp"
 
+#include "runs/text_columns.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <functional>
+#include <string_view>
 
 namespace paperproof::compare {
 namespace {
-
-using Cell = std::optional<std::string>;
 
 struct Column {
   const char* heading;
@@ -67,6 +68,7 @@ const std::vector<Column>& columns() {
       {"since", [](const Row& r) { return number(r.first_difference_box2d_step, "{}"); }},
       {"memory", memory},
       {"ns/step", cost},
+      {"bare", [](const Row& r) { return number(r.ns_per_step_bare, "{:.0f}"); }},
   };
   return all;
 }
@@ -74,28 +76,16 @@ const std::vector<Column>& columns() {
 }  // namespace
 
 std::string table(const std::vector<Row>& rows) {
-  std::string text;
-  std::vector<std::string> lines(rows.size() + 1);
+  std::vector<TextColumn> shown;
   for (const Column& column : columns()) {
     std::vector<Cell> cells;
     for (const Row& row : rows) cells.push_back(column.cell(row));
     const auto says_something = [&](const Cell& cell) { return cell && !(column.trouble && *cell == "0"); };
     if (std::none_of(cells.begin(), cells.end(), says_something)) continue;
-    std::size_t width = std::string_view(column.heading).size();
-    for (const Cell& cell : cells) width = std::max(width, cell ? cell->size() : 1);
-    const bool words = lines[0].empty() || std::string_view(column.heading) == "verdict";
-    const auto put = [&](std::string& line, std::string_view what) {
-      if (!line.empty()) line += "  ";
-      line += words ? fmt::format("{:<{}}", what, width) : fmt::format("{:>{}}", what, width);
-    };
-    put(lines[0], column.heading);
-    for (std::size_t i = 0; i < rows.size(); ++i) put(lines[i + 1], cells[i] ? std::string_view(*cells[i]) : "-");
+    const bool words = shown.empty() || std::string_view(column.heading) == "verdict";
+    shown.push_back({column.heading, std::move(cells), words});
   }
-  for (std::string& line : lines) {
-    line.erase(line.find_last_not_of(' ') + 1);
-    text += line + '\n';
-  }
-  return text;
+  return aligned(shown);
 }
 
 }  // namespace paperproof::compare

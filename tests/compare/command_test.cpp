@@ -313,6 +313,58 @@ TEST(Command, shows_the_table_of_a_scene_and_who_is_right) {
   EXPECT_TRUE(place.files().empty());
 }
 
+std::vector<std::string> in_lines(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST(Command, answers_on_the_first_screen_who_lets_the_bullet_through_and_what_a_step_costs) {
+  const Workplace place;
+  const Finished finished = place.run("compare article_bullet thin_platform flush_tiles");
+  EXPECT_EQ(finished.status, 0) << finished.err;
+  std::vector<std::string> screen = in_lines(finished.out);
+  ASSERT_GT(screen.size(), 25U);
+  screen.resize(25);
+  EXPECT_EQ(screen[1], "exact arithmetic: `platform` is met at 0.600");
+  const std::map<std::string, std::string> expected{{"grid", "cannot run"},
+                                                    {"pixel_colour", "stopped at 0.600"},
+                                                    {"mask", "through"},
+                                                    {"discrete", "through"},
+                                                    {"penetration_resolution", "through"},
+                                                    {"wind_back", "through"},
+                                                    {"speculative", "stopped at 0.6"},
+                                                    {"speculative_march", "stopped at 0.6"},
+                                                    {"octagon_sweep", "stopped at 0.6"},
+                                                    {"bounding_box", "through"},
+                                                    {"pixel_tile", "stopped at 0.600"},
+                                                    {"box2d", "stopped at 0.59"}};
+  for (const auto& [contender, outcome] : expected) {
+    const auto line =
+        std::find_if(screen.begin(), screen.end(), [&](const auto& one) { return begins(one, contender + " "); });
+    ASSERT_NE(line, screen.end()) << contender;
+    EXPECT_TRUE(holds(*line, "  " + outcome)) << contender;
+    const std::string cost = line->substr(line->find_last_of(' ') + 1);
+    EXPECT_TRUE(outcome == "cannot run" ? cost == "-" : std::atof(cost.c_str()) > 1) << *line;
+  }
+}
+
+TEST(Command, prints_one_table_over_several_scenes_and_all_of_them_when_asked) {
+  const Workplace place;
+  const std::string scenes = "compare article_bullet thin_platform --no-timing";
+  const std::string one = place.run(scenes).out;
+  EXPECT_TRUE(holds(one, "2 scenes\n"));
+  EXPECT_EQ(one.find("verdict"), std::string::npos);
+  EXPECT_EQ(one.find("thin_platform"), std::string::npos);
+  const std::string all = place.run(scenes + " --all-tables").out;
+  EXPECT_TRUE(holds(all, "\nthin_platform: "));
+  EXPECT_TRUE(holds(all, "verdict"));
+  EXPECT_TRUE(holds(all, "2 scenes\n"));
+  for (const std::string& text : {one, all})
+    for (const std::string& line : in_lines(text)) EXPECT_LE(line.size(), 300U) << line;
+}
+
 TEST(Command, runs_a_scene_from_a_file_and_writes_what_it_is_asked_for) {
   const Workplace place;
   place.write("good.json", good_scene);
