@@ -4,6 +4,7 @@
 #include "oracle/free_space.hpp"
 #include "oracle/impact.hpp"
 #include "oracle/sensor.hpp"
+#include "oracle/way_out.hpp"
 #include "oracle/world.hpp"
 
 #include <algorithm>
@@ -105,6 +106,56 @@ struct ExactScenery::Impl {
         all.push_back(detail::find_impact(world, way_in, collider, std::span(&edge, 1)));
       }
     }
+  }
+
+  /// Whether a position keeps at least `clearance` from an obstacle.
+  [[nodiscard]] bool keeps_clear(const detail::Obstacle& obstacle, const Vec2d& position, double clearance) const {
+    /// Boxes that are this far apart leave any clearance along the best axis, unless a corner is sharper than 0.01°
+    /// [m].
+    const double surely_clear = 1e4 * clearance;
+    detail::FramePlace place = obstacle.place;
+    place.position = position;
+    const Vec2d seen = place.rounded();
+    const Box2<double>& octagon = world.points_box();
+    const Box2<double> around{seen + octagon.lower, seen + octagon.upper};
+    if (!obstacle.part->box.overlaps(around.inflated(surely_clear))) return true;
+    return detail::best_axis(*obstacle.part, world.points(), place).separation >= clearance;
+  }
+
+  /// Everything that may bar a way from `at` that is no longer than `reach`.
+  [[nodiscard]] std::vector<detail::Barrier> barriers(const Place& at, std::span<const ColliderIndex> near,
+                                                      std::span<const ColliderIndex> inside, double reach) const {
+    std::vector<detail::Barrier> all;
+    for (const ColliderIndex collider : near) {
+      const detail::FramePlace place = seen_from(collider, at);
+      const Box2<double> within = world.box_of(Way::stay(place)).inflated(reach);
+      const bool one_way = world.solids()[collider].kind == detail::Kind::one_way;
+      const bool may_pass = std::find(inside.begin(), inside.end(), collider) != inside.end();
+      for (const detail::ConvexPart& part : parts[collider]) {
+        if (!part.box.overlaps(within) || (one_way && !starts_above(part, place, collider))) continue;
+        all.push_back({{&part, place},
+                       one_way    ? detail::Bars::ways
+                       : may_pass ? detail::Bars::ends
+                                  : detail::Bars::ways_and_ends});
+      }
+    }
+    return all;
+  }
+
+  /// Whether a segment of a one-way chain may block: the octagon is on the side of its normal, but for rounding.
+  [[nodiscard]] bool starts_above(const detail::ConvexPart& segment, const detail::FramePlace& place,
+                                  ColliderIndex collider) const {
+    constexpr double rounding = 1e-8;
+    const Vec2d along = (segment.points[1] - segment.points[0]).normalized();
+    const Vec2d normal =
+        Vec2d(-along.y(), along.x()) * (along.x() * world.scenery().colliders[collider].one_way->y() -
+                                                    along.y() * world.scenery().colliders[collider].one_way->x() >
+                                                0
+                                            ? 1
+                                            : -1);
+    const Vec2d seen = place.rounded() - segment.points[0];
+    return std::all_of(world.points().begin(), world.points().end(),
+                       [&](const Vec2d& corner) { return normal.dot(Vec2d(seen + corner)) >= -rounding; });
   }
 
   /// Along the best axis the separation is at least this share of the distance: no direction is farther than half the
@@ -235,17 +286,9 @@ std::optional<Vec2d> ExactScenery::find_free(const Place& at, double reach, doub
       obstacles.push_back({&part, impl_->seen_from(collider, at)});
     }
   }
-  /// Boxes that are this far apart leave any clearance along the best axis, unless a corner is sharper than 0.01° [m].
-  const double surely_clear = 1e4 * clearance;
-  const Box2<double> octagon = impl_->world.points_box();
   const auto is_free = [&](const Vec2d& position) {
     return std::all_of(obstacles.begin(), obstacles.end(), [&](const detail::Obstacle& obstacle) {
-      detail::FramePlace place = obstacle.place;
-      place.position = position;
-      const Vec2d seen = place.rounded();
-      const Box2<double> around{seen + octagon.lower, seen + octagon.upper};
-      if (!obstacle.part->box.overlaps(around.inflated(surely_clear))) return true;
-      return detail::best_axis(*obstacle.part, impl_->world.points(), place).separation >= clearance;
+      return impl_->keeps_clear(obstacle, position, clearance);
     });
   };
   for (const Vec2d& position :
@@ -253,6 +296,41 @@ std::optional<Vec2d> ExactScenery::find_free(const Place& at, double reach, doub
     if (is_free(position) && accept(position)) return position;
   }
   return std::nullopt;
+}
+
+std::optional<Vec2d> ExactScenery::way_out(const Place& at, double reach) const {
+  /// What the end keeps [m], and what it is looked for with: twice that, for the rounding.
+  constexpr double clearance = 1e-7;
+  /// How far to the sides of its end the way must be open, too [m]; for the rounding it is looked for with half more.
+  constexpr double beside = 1e-6;
+  const std::vector<ColliderIndex> inside = overlapped(at);
+  if (inside.empty()) return std::nullopt;
+  const auto open = [&](const Vec2d& end) {
+    const std::vector<ColliderIndex> met_there = met(at, Place(end, at.movers, at.fraction));
+    return std::includes(inside.begin(), inside.end(), met_there.begin(), met_there.end());
+  };
+  const Vec2d size = impl_->world.points_box().upper - impl_->world.points_box().lower;
+  double farthest = 0;
+  for (const ColliderIndex collider : inside) {
+    const Vec2d seen = impl_->seen_from(collider, at).rounded();
+    const Box2<double>& box = impl_->world.solids()[collider].box;
+    farthest = std::max(farthest, (box.upper - seen).cwiseMax(seen - box.lower).norm());
+  }
+  const double whole = std::min(reach, farthest + size.norm());
+  for (double radius = std::min(whole, size.maxCoeff());; radius = std::min(whole, 2 * radius)) {
+    const std::vector<ColliderIndex> colliders = near(at, at, radius + 2 * clearance);
+    const std::vector<detail::Barrier> barriers = impl_->barriers(at, colliders, inside, radius + 2 * clearance);
+    for (const Vec2d& end :
+         detail::ways_out(barriers, impl_->world.points(), at.position, radius, 2 * clearance, 1.5 * beside)) {
+      const Vec2d way = (end - at.position).normalized();
+      const Vec2d aside = Vec2d(-way.y(), way.x()) * beside;
+      const bool free = std::all_of(barriers.begin(), barriers.end(), [&](const detail::Barrier& barrier) {
+        return barrier.bars == detail::Bars::ways || impl_->keeps_clear(barrier.obstacle, end, clearance);
+      });
+      if (free && open(end) && open(end + aside) && open(end - aside)) return end;
+    }
+    if (!(radius < whole)) return std::nullopt;
+  }
 }
 
 const SceneryDef& ExactScenery::scenery() const noexcept { return impl_->world.scenery(); }
