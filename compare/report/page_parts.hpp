@@ -12,6 +12,7 @@ extern const std::string_view decode_js;
 extern const std::string_view draw_js;
 extern const std::string_view tables_js;
 extern const std::string_view disagreements_js;
+extern const std::string_view focus_js;
 extern const std::string_view controls_js;
 extern const std::string_view replay_js;
 extern const std::string_view main_js;

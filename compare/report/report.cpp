@@ -57,8 +57,9 @@ void ReportWriter::finish(const Environment& environment, const std::vector<Name
   file_->write("</script>\n");
   const auto [before, after] = split_at(split_at(page::page_html, "<!--DATA-->").second, "/*SCRIPT*/");
   file_->write(before);
-  for (const std::string_view part : {page::time_js, page::decode_js, page::draw_js, page::tables_js,
-                                      page::disagreements_js, page::controls_js, page::replay_js, page::main_js}) {
+  for (const std::string_view part :
+       {page::time_js, page::decode_js, page::draw_js, page::tables_js, page::disagreements_js, page::focus_js,
+        page::controls_js, page::replay_js, page::main_js}) {
     file_->write(part);
   }
   file_->write(after);

@@ -24,6 +24,7 @@ struct ReportEvent {
   Kind kind = Kind::note;
   std::string words;  ///< One sentence: what happened, how fast, through what. May be empty.
   CharacterIndex character = 0;
+  std::optional<ColliderIndex> collider{};  ///< What it happened with.
 };
 
 /// One run, for drawing. The page shows numbers rounded for display; the bits stand in the trace.

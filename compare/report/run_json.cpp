@@ -211,7 +211,8 @@ std::string events_json(const std::vector<ReportEvent>& events) {
   for (const ReportEvent& event : events) {
     JsonArray one;
     one.add(event.step).add_raw(json_string(word_for(event.kind))).add_raw(json_string(event.words));
-    if (event.character != 0) one.add(event.character);
+    if (event.character != 0 || event.collider) one.add(event.character);
+    if (event.collider) one.add(*event.collider);
     list.add_raw(std::move(one).take());
   }
   return std::move(list).take();

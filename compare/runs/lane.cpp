@@ -173,13 +173,15 @@ void Lane::note_events(std::size_t character) {
   const TraceStep& record = records_[character];
   const StepJudgement& judged = judgements_[character];
   const std::string who = company_ ? fmt::format("character {} ", character) : "";
-  const auto tell = [&](ReportEvent::Kind kind, const std::string& words) {
+  const auto tell = [&](ReportEvent::Kind kind, const std::string& words, std::optional<ColliderIndex> collider = {}) {
     if (replay_.events.size() < static_cast<std::size_t>(limit_.most))
-      replay_.events.push_back({record.step, kind, who + words, record.character});
+      replay_.events.push_back({record.step, kind, who + words, record.character, collider});
   };
   const auto note = [&](ReportEvent::Kind kind, const std::vector<ColliderIndex>& colliders, const char* what,
                         const std::string& when = "") {
-    if (!colliders.empty()) tell(kind, fmt::format("{} {}{}", what, header().ids[colliders.front()], when));
+    if (colliders.empty()) return;
+    const ColliderIndex first = colliders.front();
+    tell(kind, fmt::format("{} {}{}", what, header().ids[first], when), first);
   };
   const auto note_company = [&](ReportEvent::Kind kind, const std::vector<CharacterIndex>& others, const char* what) {
     if (!others.empty()) tell(kind, fmt::format("{} character {}", what, others.front()));

@@ -237,6 +237,12 @@ TEST_F(ReportTest, a_crush_comes_back_with_the_colliders_that_did_it) {
   EXPECT_TRUE(replay["sceneries"][0]["ids"].contains("5"));
 }
 
+TEST_F(ReportTest, an_event_comes_back_with_the_collider_that_it_is_about) {
+  const json runs = data(page(report_of(sample_report().scenes[0])), "replay-0")["runs"];
+  EXPECT_EQ(runs[1]["events"][0][1], "tunnel");
+  EXPECT_EQ(runs[1]["events"][0][4], 0) << "the paper";
+}
+
 TEST_F(ReportTest, a_drop_comes_back_with_the_chains_it_goes_through) {
   ReportScene scene = walk_of(5);
   scene.runs[0].steps[2].dropped_through = {16};

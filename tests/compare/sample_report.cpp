@@ -89,7 +89,7 @@ ReportScene bullet_scene() {
   scene.sentence = "penetration_resolution passes through the paper in step 2; octagon_sweep and Box2D stop on it.";
   scene.runs = {bullet_run("octagon_sweep", true, 5e-7), bullet_run("penetration_resolution", false, 0),
                 bullet_run("box2d", true, 0.015)};
-  scene.runs[1].events = {{2, ReportEvent::Kind::tunnel, "through paper at 120 m/s, 10 mm thick"}};
+  scene.runs[1].events = {{2, ReportEvent::Kind::tunnel, "through paper at 120 m/s, 10 mm thick", 0, 0}};
   scene.rows = {row("bullet", "octagon_sweep", 12), row("bullet", "penetration_resolution", 12),
                 row("bullet", "box2d", 12)};
   scene.rows[0].max_contact_gap_m = 5e-7;
@@ -222,7 +222,7 @@ ReportRun lift_run(const std::string& contender, double gap) {
     run.steps.push_back(step);
   }
   run.events = {{25, ReportEvent::Kind::sensor, "enters zone at 0.25 of the step"},
-                {last_free, ReportEvent::Kind::crush, "is crushed by lift"}};
+                {last_free, ReportEvent::Kind::crush, "is crushed by lift", 0, 1}};
   return run;
 }
 

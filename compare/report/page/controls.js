@@ -48,10 +48,16 @@ function cameraBar(replay) {
     });
     return el('label', {}, input, words);
   };
-  replay.modeButtons = new Map([['fit', 'Fit scene'], ['ways', 'Fit trajectories'], ['follow', 'Follow']].map(
-      ([
-        mode, words
-      ]) => [mode, el('button', {type: 'button', 'aria-pressed': 'false', onclick: () => replay.look(mode)}, words)]));
+  replay.modeButtons =
+      new Map([['event', 'Event'], ['fit', 'Fit scene'], ['ways', 'Fit trajectories'], ['follow', 'Follow']].map(
+          ([mode, words]) =>
+              [mode,
+               el('button', {
+                 type: 'button',
+                 'aria-pressed': 'false',
+                 onclick: () => (mode === 'event' && replay.focus ? replay.focusOn(replay.focus) : replay.look(mode))
+               },
+                  words)]));
   replay.layoutButton =
       el('button', {type: 'button', 'aria-pressed': 'false', onclick: () => replay.setTogether(!replay.together)},
          'Side by side');
@@ -99,7 +105,7 @@ function transport(replay) {
 
 function jumps(replay) {
   const buttons = targets(replay).map(
-      ({words, step, title}) => el('button', {type: 'button', title, onclick: () => replay.goTo(step)}, words));
+      ({words, focus, title}) => el('button', {type: 'button', title, onclick: () => replay.jumpTo(focus)}, words));
   return buttons.length === 0 ? null :
                                 el('div', {class: 'bar', role: 'group', 'aria-label': 'Jump to'},
                                    el('span', {class: 'quiet'}, 'Jump to'), buttons);
@@ -108,20 +114,17 @@ function jumps(replay) {
 /// First contact of anyone, the first event of each kind for each contender, the first disagreement.
 function targets(replay) {
   const list = [];
-  const touching = replay.runs.flatMap((run) => run.characters)
-                       .map(({steps}) => steps.find((step) => step.contacts.length + step.met.length > 0))
-                       .filter(Boolean)
-                       .map((step) => step.step);
-  if (touching.length) list.push({words: 'first contact', step: Math.min(...touching), title: ''});
+  const touching = firstContact(replay.runs);
+  if (touching) list.push({words: 'first contact', focus: touching, title: ''});
   for (const run of replay.runs) {
     for (const kind of new Set(run.events.map((event) => event.kind))) {
       if (kind === 'note') continue;
       const event = run.events.find((candidate) => candidate.kind === kind);
-      list.push({words: `${run.label}: first ${kind}`, step: event.step, title: event.words});
+      list.push({words: `${run.label}: first ${kind}`, focus: eventFocus(run, event), title: event.words});
     }
   }
   if (replay.data.disagreements.length)
-    list.push({words: 'first disagreement', step: replay.data.disagreements[0].step, title: ''});
+    list.push({words: 'first disagreement', focus: disagreementFocus(replay.data.disagreements[0]), title: ''});
   return list;
 }
 

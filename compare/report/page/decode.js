@@ -251,7 +251,8 @@ function decodeRun(packed, sceneries, quantum) {
   // Its characters, the first one being the run itself.
   run.characters = [run, ...(packed.others || []).map((other) => ({steps: decodeSteps(other, quantum, moverCount)}))];
   run.movingBox = boxOfMoving(run);
-  run.events = packed.events.map(([step, kind, words, character = 0]) => ({step, kind, words, character}));
+  run.events =
+      packed.events.map(([step, kind, words, character = 0, collider]) => ({step, kind, words, character, collider}));
   run.byStep = new Map(run.steps.map((step, i) => [step.step, i]));
   return run;
 }

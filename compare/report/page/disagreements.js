@@ -47,7 +47,7 @@ function disagreementCard(disagreement, names, goTo) {
                                      null;
   const card =
       el('div', {class: 'card'}, canvas, says, exact, el('p', {class: 'right'}, disagreement.whoIsRight),
-         el('button', {type: 'button', onclick: () => goTo(disagreement.step)}, `Go to step ${disagreement.step}`));
+         el('button', {type: 'button', onclick: () => goTo(disagreement)}, `Go to step ${disagreement.step}`));
   return {card, draw: () => drawDisagreement(canvas, disagreement, names)};
 }
 

@@ -1,7 +1,13 @@
 // Puts the page together: the list of scenes, one scene at a time, and what the address asks for:
-// #summary, or #scene=2&step=10&t=0.5&layout=side&view=follow&play=3 (playing, 3 seconds on).
+// #summary, or #scene=article_bullet&contender=wind_back&step=10&t=0.5&layout=side&view=follow&play=3 (playing, 3
+// seconds on). Without a step a replay opens at the event that matters.
 
 const INDEX = JSON.parse(document.getElementById('index').textContent);
+// Two files may call their scenes the same: the second one is called "name (2)" in addresses.
+INDEX.scenes.forEach((scene, i) => {
+  const before = INDEX.scenes.slice(0, i).filter((other) => other.name === scene.name).length;
+  scene.key = before === 0 ? scene.name : `${scene.name} (${before + 1})`;
+});
 const main = document.getElementById('main');
 let open = {scene: null, replay: null, pictures: null};
 
@@ -32,12 +38,16 @@ function replayNodes(index) {
   }
   const names = namesWith(replay.runs);
   open.replay = new Replay(replay, names, noteDrawn);
-  open.pictures = disagreementsSection(replay, names, (step) => open.replay.goTo(step));
+  open.pictures = disagreementsSection(replay, names, (one) => open.replay.jumpTo(disagreementFocus(one)));
   return {shown: [open.replay.root, ...open.pictures.nodes], details: [runDetails(replay)]};
 }
 
-/// For whoever looks from outside (tests, above all): which step was drawn, without error.
+/// For whoever looks from outside (tests, above all): which step was drawn, without error, and what the first view
+/// shows, as left, bottom, right and top [m].
 function noteDrawn(replay) {
+  const {painter} = replay.views[0];
+  document.documentElement.dataset.seen =
+      [painter.worldX(0), painter.worldY(painter.height), painter.worldX(painter.width), painter.worldY(0)].join(' ');
   document.documentElement.dataset.drawn = `scene ${open.scene} step ${replay.step} t ${replay.t}`;
 }
 
@@ -55,7 +65,7 @@ function showScene(index, wanted) {
   const replay = replayNodes(index);
   main.replaceChildren(
       ...[el('h2', {}, scene.name), scene.description ? el('p', {class: 'quiet'}, scene.description) : null,
-          scene.sentence ? el('p', {class: 'sentence'}, scene.sentence) : null, ...safetyTable(scene), ...replay.shown,
+          scene.sentence ? el('p', {class: 'sentence'}, scene.sentence) : null, ...replay.shown, ...safetyTable(scene),
           ...furtherTables(scene), ...replay.details]
           .filter(Boolean));
   document.title = `${scene.name} - paperproof report`;
@@ -64,11 +74,20 @@ function showScene(index, wanted) {
 }
 
 function startReplay(replay, wanted) {
+  const named = wanted.getAll('contender');
+  const alone = replay.runs.filter((run) => named.includes(run.contender) || named.includes(run.label));
+  if (alone.length) replay.setVisible(alone);
   if (wanted.get('layout') === 'side') replay.setTogether(false);
+  const focus = mainFocus(replay.chosen());
+  if (focus) replay.focusOn(focus);
   if (wanted.has('step')) replay.goTo(Number(wanted.get('step')));
   if (wanted.has('t')) replay.t = Math.max(0, Math.min(1, Number(wanted.get('t')) || 0));
-  replay.look(['fit', 'ways', 'follow'].includes(wanted.get('view')) ? wanted.get('view') : 'ways');
-  if (!wanted.has('step')) window.scrollTo(0, 0);
+  const usual = focus && !wanted.has('step') ? 'event' : 'ways';
+  replay.look(['event', 'fit', 'ways', 'follow'].includes(wanted.get('view')) ? wanted.get('view') : usual);
+  if (wanted.has('step'))
+    replay.root.scrollIntoView({block: 'start'});
+  else
+    window.scrollTo(0, 0);
   if (wanted.has('check')) countColours();
   if (wanted.has('play')) {
     replay.play();
@@ -88,8 +107,8 @@ function showSummary() {
 function route() {
   if (location.hash === '#main') return;
   const wanted = new URLSearchParams(location.hash.slice(1));
-  const index = wanted.has('scene') ? Number(wanted.get('scene')) : NaN;
-  const known = Number.isInteger(index) && index >= 0 && index < INDEX.scenes.length;
+  const index = INDEX.scenes.findIndex((scene) => scene.key === wanted.get('scene'));
+  const known = index >= 0;
   if (known)
     showScene(index, wanted);
   else
@@ -136,7 +155,7 @@ function buildList() {
   const items = INDEX.scenes.map(
       (scene, i) =>
           el('li', {},
-             el('a', {class: 'scene-link', id: `scene-link-${i}`, href: `#scene=${i}`},
+             el('a', {class: 'scene-link', id: `scene-link-${i}`, href: addressOf(scene.key)},
                 el('span', {}, breakable(scene.name)), markOf(scene))));
   list.replaceChildren(...items);
   const filter = () => {

@@ -6,6 +6,7 @@ const RECENT = 30;
 class Replay {
   constructor(data, names, onStep) {
     Object.assign(this, {data, names, onStep, playing: false, t: 1, at: 0, speed: 1, together: true, mode: 'fit'});
+    this.focus = null;  // what the mode 'event' shows
     this.runs = data.runs.filter((run) => run.steps.length > 0);
     this.visible = new Set(this.runs);
     this.timeline = [...new Set(this.runs.flatMap((run) => run.steps.map((step) => step.step)))].sort((a, b) => a - b);
@@ -91,6 +92,7 @@ class Replay {
       boxOf(run.scenery.box.filter(Number.isFinite), all);
       boxOf(run.movingBox.filter(Number.isFinite), all);
     }
+    if (mode === 'event' && this.focus) this.camera.fit(this.focus.box, width, height, 0.1);
     if (mode === 'ways') this.camera.fit(ways, width, height, 0.1);
     if (mode === 'fit') this.camera.fit(boxOf(ways, all), width, height);
     if (mode === 'follow' && this.runs.length > 0) {
@@ -166,10 +168,19 @@ class Replay {
   move(by) {
     this.seek(this.at + by);
   }
-  goTo(step) {
+  goTo(step, t = 1) {
     let at = 0;
     while (at + 1 < this.timeline.length && this.timeline[at + 1] <= step) ++at;
-    this.seek(at);
+    this.seek(at, t);
+  }
+  /// To a moment, with what matters then filling the view, and whoever else is near it.
+  focusOn(focus) {
+    this.goTo(focus.step, focus.t);
+    this.focus = {...focus, box: withNeighbours(this, focus.box)};
+    this.look('event');
+  }
+  jumpTo(focus) {
+    this.focusOn(focus);
     this.root.scrollIntoView({block: 'start'});
   }
 

@@ -197,16 +197,21 @@ function sum(rows, key) {
 /// Contenders over all scenes, in the order in which they first appear.
 function byContender(scenes) {
   const groups = new Map();
-  scenes.forEach((scene, index) => scene.rows.forEach((row) => {
+  scenes.forEach((scene) => scene.rows.forEach((row) => {
     const label = rowLabel(row);
     if (!groups.has(label)) groups.set(label, []);
-    groups.get(label).push({...row, index, sceneName: scene.name});
+    groups.get(label).push({...row, key: scene.key, sceneName: scene.name});
   }));
   return groups;
 }
 
+/// Where a scene is in this page, with one contender alone where that is named.
+function addressOf(key, contender) {
+  return `#scene=${encodeURIComponent(key)}` + (contender ? `&contender=${encodeURIComponent(contender)}` : '');
+}
+
 function sceneLinks(rows) {
-  const link = (row) => el('a', {href: `#scene=${row.index}`}, row.sceneName);
+  const link = (row) => el('a', {href: addressOf(row.key, row.contender)}, row.sceneName);
   const joined = (list) => list.flatMap((row, i) => (i === 0 ? [link(row)] : [', ', link(row)]));
   if (rows.length === 0) return [];
   if (rows.length <= 4) return joined(rows);
