@@ -82,13 +82,21 @@ DesiredVelocity<Scalar> desired_velocity(const CharacterDef& character, const Ve
 template <class Scalar>
 Controller<Scalar>::Controller(const Scenery<Scalar>& scenery, const CharacterDef& character,
                                const TechniqueDef& technique)
-    : scenery_(&scenery), character_(character), step_(variant_for(technique.stages)) {
+    : mover_count_(scenery.mover_count()), character_(character), step_(variant_for(technique.stages)) {
   character_.validate();
   if (!technique.stages.sensors && scenery.sensor_pieces().size() > 0)
     throw std::invalid_argument("stages: sensors cannot be left out: there is a sensor");
   technique_ = make_technique<Scalar>(technique, scenery, character_);
   if (scenery.sensor_pieces().size() > 0) sensors_ = std::make_shared<Sensors<Scalar>>(scenery, character_.shape);
   if (has_one_way_chains(scenery)) one_way_ = std::make_shared<OneWayChains<Scalar>>(scenery, character_.shape);
+}
+
+template <class Scalar>
+Scratch<Scalar> Controller<Scalar>::completed(Scratch<Scalar> scratch) const {
+  if (sensors_) scratch.sensors = sensors_->make_candidates();
+  if (one_way_) scratch.one_way = one_way_->make_candidates();
+  scratch.maker = technique_;
+  return scratch;
 }
 
 template <class Scalar>
@@ -106,7 +114,7 @@ template <bool has_jump, bool has_gravity>
 bool Controller<Scalar>::accepts(const CharacterState<Scalar>& state, const Input& input, const Vec2<Scalar>& gravity,
                                  Scalar dt, std::span<const MoverMotion<Scalar>> movers) const noexcept {
   const bool foreseen = (has_jump || !input.jump) && (has_gravity || (gravity.x() == 0 && gravity.y() == 0));
-  return foreseen && dt > 0 && movers.size() == scenery_->mover_count() && finite(state, input, gravity, dt, movers);
+  return foreseen && dt > 0 && movers.size() == mover_count_ && finite(state, input, gravity, dt, movers);
 }
 
 template <class Scalar>
@@ -140,10 +148,11 @@ MoveRequest<Scalar> Controller<Scalar>::begin_step(const Pressers<Scalar>& press
 template <class Scalar>
 template <bool has_sensors>
 void Controller<Scalar>::end_step(const Input& input, std::span<const MoverMotion<Scalar>> movers,
-                                  CharacterState<Scalar>& state, StepReport<Scalar>& report) const noexcept {
+                                  Scratch<Scalar>& scratch, CharacterState<Scalar>& state,
+                                  StepReport<Scalar>& report) const noexcept {
   if constexpr (has_sensors)
-    if (sensors_) sensors_->observe(report.move.path, movers, report.sensors);
-  if (input.drop && one_way_) one_way_->find_passed(report.move.path, movers, report.dropped_through);
+    if (sensors_) sensors_->observe(report.move.path, movers, scratch.sensors, report.sensors);
+  if (input.drop && one_way_) one_way_->find_passed(report.move.path, movers, scratch.one_way, report.dropped_through);
   adopt(character_, report.move, state);
 }
 
@@ -157,7 +166,7 @@ template <bool has_sensors, bool has_jump, bool has_gravity>
                                                           StepReport<Scalar>& report) const noexcept {
   report.sensors.clear();
   report.dropped_through.clear();
-  if (!accepts<has_jump, has_gravity>(state, input, gravity, dt, movers))
+  if (!is_made_by(technique_, scratch.maker) || !accepts<has_jump, has_gravity>(state, input, gravity, dt, movers))
     return report.status = StepStatus::invalid_input;
   const CharacterState<Scalar> before = state;
   // A request with a name, read again after the move, cost 46 instructions more per step (g++ 12).
@@ -168,7 +177,7 @@ template <bool has_sensors, bool has_jump, bool has_gravity>
     state = before;
     return report.status;
   }
-  end_step<has_sensors>(input, movers, state, report);
+  end_step<has_sensors>(input, movers, scratch, state, report);
   return report.status;
 }
 
@@ -185,9 +194,10 @@ bool Controller<Scalar>::begin_together(const CharacterState<Scalar>& before, co
 
 template <class Scalar>
 void Controller<Scalar>::end_together(const Input& input, std::span<const MoverMotion<Scalar>> movers,
-                                      CharacterState<Scalar>& state, StepReport<Scalar>& report) const noexcept {
+                                      Scratch<Scalar>& scratch, CharacterState<Scalar>& state,
+                                      StepReport<Scalar>& report) const noexcept {
   report.status = status_of(report.move.status);
-  end_step<true>(input, movers, state, report);
+  end_step<true>(input, movers, scratch, state, report);
 }
 
 template DesiredVelocity<float> desired_velocity(const CharacterDef&, const Vec2<float>&, const Input&, float,

@@ -12,6 +12,7 @@
 #include "crowd/parts.hpp"
 #include "crowd/stepper.hpp"
 #include "scenery_facts.hpp"
+#include "step_parts.hpp"
 
 namespace paperproof {
 namespace {
@@ -104,8 +105,8 @@ CrowdScratch Crowd<Scalar>::make_scratch(std::size_t most_characters) const {
   if (joint_ != nullptr) {
     memory->states.resize(most_characters);
     memory->requests.resize(most_characters);
-    memory->technique = joint_->make_joint_scratch(most_characters);
-    return {most_characters, std::move(memory)};
+    memory->technique = controller_.completed(joint_->make_joint_scratch(most_characters));
+    return {most_characters, std::move(memory), rules_};
   }
   if (rules_->surrounded) {
     memory->walking.walkers.resize(most_characters);
@@ -116,7 +117,7 @@ CrowdScratch Crowd<Scalar>::make_scratch(std::size_t most_characters) const {
     memory->standing.rows.resize(most_characters);
   }
   memory->technique = controller_.make_scratch();
-  return {most_characters, std::move(memory)};
+  return {most_characters, std::move(memory), rules_};
 }
 
 template <class Scalar>
@@ -125,7 +126,7 @@ StepStatus Crowd<Scalar>::step(std::span<CharacterState<Scalar>> states, std::sp
                                CrowdScratch& scratch, CrowdReport<Scalar>& report) const noexcept {
   const bool may_ride = joint_ != nullptr || rules_->surrounded != nullptr;
   const bool room = scratch.most_characters >= states.size() && report.members.size() >= states.size();
-  if (!room || movers.size() != rules_->movers ||
+  if (!room || !step_parts::is_made_by(rules_, scratch.maker) || movers.size() != rules_->movers ||
       !usable<Scalar>(rules_->stages, may_ride, states, inputs, gravity, dt))
     return report.status = StepStatus::invalid_input;
   if (joint_ != nullptr) return step_jointly(states, inputs, gravity, dt, movers, scratch, report);
@@ -167,7 +168,7 @@ StepStatus Crowd<Scalar>::step_jointly(std::span<CharacterState<Scalar>> states,
       return std::tie(a.fraction, a.other, a.side) < std::tie(b.fraction, b.other, b.side);
     };
     std::sort(member.met.begin(), member.met.end(), earlier);  // they were found round by round
-    controller_.end_together(inputs[i], movers, memory.states[i], member.step);
+    controller_.end_together(inputs[i], movers, memory.technique, memory.states[i], member.step);
     states[i] = memory.states[i];
   }
   return report.status = StepStatus::moved;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "geometry/overlap_time.hpp"
 
@@ -17,15 +19,26 @@ constexpr double margin_share = 1e-6;
 template <class Scalar>
 inline constexpr Scalar height_rounding = std::numeric_limits<Scalar>::epsilon() * 16;
 
+template <class Scalar>
+std::vector<PieceIndex> one_way_pieces(const Scenery<Scalar>& scenery) {
+  std::vector<PieceIndex> pieces;
+  for (PieceIndex piece = 0; piece < scenery.pieces().size(); ++piece)
+    if (scenery.pieces()[piece].one_way) pieces.push_back(piece);
+  return pieces;
+}
+
+/// Sorted in. A full vector keeps the first.
+template <std::size_t capacity>
+void add_in_order(ColliderIndex chain, FixedVector<ColliderIndex, capacity>& chains) noexcept {
+  if (!chains.push_back(chain)) chains.back() = std::min(chain, chains.back());
+  for (std::size_t i = chains.size() - 1; i > 0 && chains[i] < chains[i - 1]; --i) std::swap(chains[i], chains[i - 1]);
+}
+
 }  // namespace
 
 template <class Scalar>
-OneWayChains<Scalar>::OneWayChains(const Scenery<Scalar>& scenery, const CharacterShape& shape) : scenery_(&scenery) {
-  const std::span<const PieceInfo> pieces = scenery.pieces();
-  for (PieceIndex piece = 0; piece < pieces.size(); ++piece)
-    if (pieces[piece].one_way) segments_.push_back(piece);
-  std::stable_sort(segments_.begin(), segments_.end(),
-                   [&](PieceIndex a, PieceIndex b) { return pieces[a].collider < pieces[b].collider; });
+OneWayChains<Scalar>::OneWayChains(const Scenery<Scalar>& scenery, const CharacterShape& shape)
+    : scenery_(&scenery), finder_(scenery, shape, one_way_pieces(scenery)) {
   Vec2d middle = Vec2d::Zero();
   for (const Vec2d& corner : shape.hull()) middle += corner / static_cast<double>(shape.hull().size());
   for (const Vec2d& corner : shape.hull()) {
@@ -37,20 +50,21 @@ OneWayChains<Scalar>::OneWayChains(const Scenery<Scalar>& scenery, const Charact
 
 template <class Scalar>
 void OneWayChains<Scalar>::find_passed(std::span<const PathPoint<Scalar>> path,
-                                       std::span<const MoverMotion<Scalar>> movers, Passed& passed) const noexcept {
+                                       std::span<const MoverMotion<Scalar>> movers, Candidates<Scalar>& candidates,
+                                       Passed& passed) const noexcept {
   passed.clear();
-  for (const PieceIndex piece : segments_) {
-    const PieceInfo& info = scenery_->pieces()[piece];
-    if (!passed.empty() && passed.back() == info.collider) continue;
-    const MoverMotion<Scalar> motion = info.mover == no_mover ? MoverMotion<Scalar>{} : movers[info.mover];
+  const auto look_at = [&](PieceIndex piece, const MoverMotion<Scalar>& motion) {
+    const ColliderIndex chain = scenery_->pieces()[piece].collider;
+    if (std::binary_search(passed.begin(), passed.end(), chain)) return;
     for (std::size_t i = 1; i < path.size(); ++i) {
       const Vec2<Scalar> from = path[i - 1].position - motion.at(path[i - 1].fraction);
       const Vec2<Scalar> to = path[i].position - motion.at(path[i].fraction);
-      if (!passes(piece, from, to)) continue;
-      passed.push_back(info.collider);
-      break;
+      if (passes(piece, from, to)) return add_in_order(chain, passed);
     }
-  }
+  };
+  finder_.along(path, movers, candidates, [&](std::span<const PieceIndex> near, const MoverMotion<Scalar>& motion) {
+    for (const PieceIndex piece : near) look_at(piece, motion);
+  });
 }
 
 /// A segment runs so that its blocking normal is on its left.

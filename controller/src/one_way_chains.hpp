@@ -1,10 +1,11 @@
 /// One-way chains that a character drops through: which of them does it pass on the way?
 #pragma once
 
+#include "piece_finder.hpp"
+
 #include <paperproof/controller.hpp>
 
 #include <span>
-#include <vector>
 
 namespace paperproof {
 
@@ -18,18 +19,21 @@ class OneWayChains {
   /// `scenery` must outlive the chains.
   OneWayChains(const Scenery<Scalar>& scenery, const CharacterShape& shape);
 
+  [[nodiscard]] Candidates<Scalar> make_candidates() const { return finder_.make_candidates(); }
+
   /// The chains with a segment that a leg of the way passes against its normal, beginning wholly on the side that the
   /// normal points to; ascending. What is missed by less than a micrometre is named as well: so none that exact
-  /// arithmetic sees is left out. The cost grows with the number of segments.
+  /// arithmetic sees is left out. Where there are more than `passed` holds the first are kept, and it overflowed.
   /// @param path straight between its corners. @param movers one for each mover of the scenery.
+  /// @param candidates made by these chains, or by others of the same scenery and character.
   void find_passed(std::span<const PathPoint<Scalar>> path, std::span<const MoverMotion<Scalar>> movers,
-                   Passed& passed) const noexcept;
+                   Candidates<Scalar>& candidates, Passed& passed) const noexcept;
 
  private:
   [[nodiscard]] bool passes(PieceIndex piece, const Vec2<Scalar>& from, const Vec2<Scalar>& to) const noexcept;
 
   const Scenery<Scalar>* scenery_;
-  std::vector<PieceIndex> segments_;                               ///< By collider.
+  PieceFinder<Scalar> finder_;
   FixedVector<Vec2<Scalar>, CharacterShape::max_points> outline_;  ///< Of the character,
   FixedVector<Vec2<Scalar>, CharacterShape::max_points> grown_;    ///< and a little larger.
 };

@@ -2,8 +2,11 @@
 
 #include <paperproof/tolerances.hpp>
 
+#include <limits>
+#include <numeric>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "geometry/overlap_time.hpp"
 
@@ -17,14 +20,24 @@ using geometry::OverlapTime;
 template <class Scalar>
 inline constexpr Scalar one_instant = std::is_same_v<Scalar, float> ? Scalar(1e-5) : Scalar(1e-12);
 
-/// Sorted in. A full vector keeps the earliest.
+/// How deep an overlap is that no rounding can hide, this far from the origin [m]. Zero: a character that grazes would
+/// count as inside. Large: more than needed is calculated for each.
+template <class Scalar>
+Scalar beyond_rounding(Scalar furthest) {
+  return Tolerances<Scalar>{}.look + 64 * std::numeric_limits<Scalar>::epsilon() * furthest;
+}
+
+/// Sorted in, whichever sensor was looked at first. A full vector keeps the earliest.
 template <class Scalar, std::size_t capacity>
 void add_in_order(const SensorEvent<Scalar>& event, FixedVector<SensorEvent<Scalar>, capacity>& events) noexcept {
+  const auto comes_before = [&event](const SensorEvent<Scalar>& other) {
+    return event.fraction < other.fraction || (event.fraction == other.fraction && event.sensor < other.sensor);
+  };
   if (!events.push_back(event)) {
-    if (!(event.fraction < events.back().fraction)) return;
+    if (!comes_before(events.back())) return;
     events.back() = event;
   }
-  for (std::size_t i = events.size() - 1; i > 0 && event.fraction < events[i - 1].fraction; --i)
+  for (std::size_t i = events.size() - 1; i > 0 && comes_before(events[i - 1]); --i)
     std::swap(events[i], events[i - 1]);
 }
 
@@ -33,7 +46,7 @@ void add_in_order(const SensorEvent<Scalar>& event, FixedVector<SensorEvent<Scal
 template <class Scalar>
 class Stays {
  public:
-  Stays(const Scenery<Scalar>& scenery, PieceRange pieces, std::span<const Vec2<Scalar>> outline,
+  Stays(const Scenery<Scalar>& scenery, std::span<const PieceIndex> pieces, std::span<const Vec2<Scalar>> outline,
         const Vec2<Scalar>& from, const Vec2<Scalar>& to, const Box2<Scalar>& box) noexcept
       : scenery_(&scenery), pieces_(pieces), outline_(outline), from_(from), to_(to), box_(box) {}
 
@@ -43,7 +56,7 @@ class Stays {
     for_each([&](const OverlapTime<Scalar>& stay) {
       if (stay.begin > time && stay.begin < first.begin) first = stay;
     });
-    while (first.any() && extend(first)) {
+    while (pieces_.size() > 1 && first.any() && first.end != OverlapTime<Scalar>::after && extend(first)) {
     }
     return first;
   }
@@ -51,7 +64,7 @@ class Stays {
  private:
   template <class Look>
   void for_each(const Look& look) const noexcept {
-    for (PieceIndex piece = pieces_.first; piece < pieces_.end; ++piece) {
+    for (const PieceIndex piece : pieces_) {
       if (!scenery_->box(piece).overlaps(box_)) continue;
       const OverlapTime<Scalar> stay = geometry::overlap_time(outline_, scenery_->vertices_of(piece), from_, to_);
       if (stay.any()) look(stay);
@@ -68,27 +81,33 @@ class Stays {
   }
 
   const Scenery<Scalar>* scenery_;
-  PieceRange pieces_;
+  std::span<const PieceIndex> pieces_;
   std::span<const Vec2<Scalar>> outline_;
   Vec2<Scalar> from_;
   Vec2<Scalar> to_;
   Box2<Scalar> box_;
 };
 
+std::vector<PieceIndex> all_of(PieceRange range) {
+  std::vector<PieceIndex> pieces(range.size());
+  std::iota(pieces.begin(), pieces.end(), range.first);
+  return pieces;
+}
+
 }  // namespace
 
 template <class Scalar>
 Sensors<Scalar>::Sensors(const Scenery<Scalar>& scenery, const CharacterShape& shape)
-    : scenery_(&scenery), box_{shape.box().lower.cast<Scalar>(), shape.box().upper.cast<Scalar>()} {
+    : scenery_(&scenery),
+      finder_(scenery, shape, all_of(scenery.sensor_pieces())),
+      box_{shape.box().lower.cast<Scalar>(), shape.box().upper.cast<Scalar>()} {
   for (const Vec2d& corner : shape.hull()) outline_.push_back(corner.cast<Scalar>());
-  const PieceRange pieces = scenery.sensor_pieces();
-  for (PieceIndex piece = pieces.first; piece < pieces.end; ++piece) {
-    const PieceInfo& info = scenery.pieces()[piece];
-    if (sensors_.empty() || sensors_.back().collider != info.collider) {
-      sensors_.push_back({info.collider, info.mover, {piece, piece}, scenery.box(piece)});
-    }
-    sensors_.back().pieces.end = piece + 1;
-    sensors_.back().box = sensors_.back().box.merged(scenery.box(piece));
+  well_inside_.reserve(scenery.sensor_pieces().size());
+  for (const PieceIndex piece : all_of(scenery.sensor_pieces())) {
+    const Box2<Scalar>& box = scenery.box(piece);
+    const Scalar furthest = std::max(box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff());
+    well_inside_.push_back(geometry::deep_overlap<Scalar>({outline_.begin(), outline_.end()},
+                                                          scenery.vertices_of(piece), beyond_rounding(furthest)));
   }
 }
 
@@ -102,38 +121,56 @@ typename Sensors<Scalar>::Segment Sensors<Scalar>::seen_from(const Vec2<Scalar>&
   segment.to = end.position - offset_at_end;
   segment.begin = begin.fraction;
   segment.end = end.fraction;
+  segment.positions = {segment.from.cwiseMin(segment.to), segment.from.cwiseMax(segment.to)};
   // A little larger, so that rounding here cannot hide what the separations see.
-  const Box2<Scalar> exact{segment.from.cwiseMin(segment.to) + box_.lower,
-                           segment.from.cwiseMax(segment.to) + box_.upper};
+  const Box2<Scalar> exact{segment.positions.lower + box_.lower, segment.positions.upper + box_.upper};
   segment.box = exact.inflated(Tolerances<Scalar>{}.look);
   return segment;
 }
 
 template <class Scalar>
 void Sensors<Scalar>::observe(std::span<const PathPoint<Scalar>> path, std::span<const MoverMotion<Scalar>> movers,
-                              Events& events) const noexcept {
-  for (const Sensor& sensor : sensors_) {
-    const MoverMotion<Scalar> motion = sensor.mover == no_mover ? MoverMotion<Scalar>{} : movers[sensor.mover];
+                              Candidates<Scalar>& candidates, Events& events) const noexcept {
+  finder_.along(path, movers, candidates, [&](std::span<const PieceIndex> near, const MoverMotion<Scalar>& motion) {
     for (std::size_t i = 1; i < path.size(); ++i) {
       const PathPoint<Scalar>& begin = path[i - 1];
       const PathPoint<Scalar>& end = path[i];
       const Segment segment = seen_from(motion.at(begin.fraction), motion.at(end.fraction), begin, end);
-      if (segment.box.overlaps(sensor.box)) observe(sensor, segment, events);
+      // Who stays in one place, as the sensor sees it, enters and leaves nothing.
+      if (segment.from != segment.to) observe(near, segment, events);
     }
+  });
+}
+
+/// Pieces of one sensor stand side by side.
+template <class Scalar>
+void Sensors<Scalar>::observe(std::span<const PieceIndex> near, const Segment& segment, Events& events) const noexcept {
+  for (std::size_t i = 0; i < near.size(); ++i) {
+    if (!scenery_->box(near[i]).overlaps(segment.box)) continue;
+    const std::size_t first = i;
+    const ColliderIndex sensor = scenery_->pieces()[near[i]].collider;
+    while (i + 1 < near.size() && scenery_->pieces()[near[i + 1]].collider == sensor) ++i;
+    observe(sensor, near.subspan(first, i + 1 - first), segment, events);
   }
 }
 
 template <class Scalar>
-void Sensors<Scalar>::observe(const Sensor& sensor, const Segment& segment, Events& events) const noexcept {
+void Sensors<Scalar>::observe(ColliderIndex sensor, std::span<const PieceIndex> pieces, const Segment& segment,
+                              Events& events) const noexcept {
   using Change = typename SensorEvent<Scalar>::Change;
   using Time = OverlapTime<Scalar>;
-  const Stays<Scalar> stays(*scenery_, sensor.pieces, {outline_.begin(), outline_.end()}, segment.from, segment.to,
+  // Nearly all who are in a sensor are well inside.
+  const auto stays_inside = [&](PieceIndex piece) {
+    return well_inside_[piece - scenery_->sensor_pieces().first].contains(segment.positions);
+  };
+  if (std::any_of(pieces.begin(), pieces.end(), stays_inside)) return;
+  const Stays<Scalar> stays(*scenery_, pieces, {outline_.begin(), outline_.end()}, segment.from, segment.to,
                             segment.box);
   for (Time stay = stays.after(Time::before - 1); stay.any(); stay = stays.after(stay.end)) {
-    if (stay.begin != Time::before)
-      add_in_order({sensor.collider, Change::enter, segment.fraction(stay.begin)}, events);
+    if (stay.begin != Time::before) add_in_order({sensor, Change::enter, segment.fraction(stay.begin)}, events);
     if (stay.end == Time::after) return;
-    add_in_order({sensor.collider, Change::exit, segment.fraction(stay.end)}, events);
+    add_in_order({sensor, Change::exit, segment.fraction(stay.end)}, events);
+    if (pieces.size() == 1) return;  // convex: it is left once
   }
 }
 

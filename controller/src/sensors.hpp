@@ -1,6 +1,8 @@
 /// Colliders that block nothing: when does the character enter them, and when does it leave?
 #pragma once
 
+#include "piece_finder.hpp"
+
 #include <paperproof/controller.hpp>
 
 #include <span>
@@ -25,6 +27,8 @@ class Sensors {
   /// `scenery` must outlive the sensors.
   Sensors(const Scenery<Scalar>& scenery, const CharacterShape& shape);
 
+  [[nodiscard]] Candidates<Scalar> make_candidates() const { return finder_.make_candidates(); }
+
   /// Every event on the way, in order of time (ties: the lower sensor first). Where there are more than `events` holds
   /// the earliest are kept, and it says that it overflowed.
   ///
@@ -32,21 +36,17 @@ class Sensors {
   /// are left and entered within 1e-12 (`float`: 1e-5) of a segment count as one.
   /// @param path straight between its corners, fractions ascending.
   /// @param movers one for each mover of the scenery.
+  /// @param candidates made by these sensors, or by others of the same scenery and character.
   void observe(std::span<const PathPoint<Scalar>> path, std::span<const MoverMotion<Scalar>> movers,
-               Events& events) const noexcept;
+               Candidates<Scalar>& candidates, Events& events) const noexcept;
 
  private:
-  struct Sensor {
-    ColliderIndex collider = 0;
-    MoverIndex mover = no_mover;
-    PieceRange pieces;
-    Box2<Scalar> box;  ///< Around its pieces, at offset zero [m].
-  };
   /// A straight motion as seen from a sensor that stands still.
   struct Segment {
     Vec2<Scalar> from;
     Vec2<Scalar> to;
-    Box2<Scalar> box;  ///< Around the character on all of it [m].
+    Box2<Scalar> positions;  ///< Around both.
+    Box2<Scalar> box;        ///< Around the character on all of it [m].
     Scalar begin = 0;  ///< Fractions of the step.
     Scalar end = 1;
 
@@ -57,10 +57,14 @@ class Sensors {
 
   [[nodiscard]] Segment seen_from(const Vec2<Scalar>& offset_at_begin, const Vec2<Scalar>& offset_at_end,
                                   const PathPoint<Scalar>& begin, const PathPoint<Scalar>& end) const noexcept;
-  void observe(const Sensor& sensor, const Segment& segment, Events& events) const noexcept;
+  void observe(std::span<const PieceIndex> near, const Segment& segment, Events& events) const noexcept;
+  void observe(ColliderIndex sensor, std::span<const PieceIndex> pieces, const Segment& segment,
+               Events& events) const noexcept;
 
   const Scenery<Scalar>* scenery_;
-  std::vector<Sensor> sensors_;
+  PieceFinder<Scalar> finder_;
+  std::vector<Box2<Scalar>>
+      well_inside_;  ///< By piece: positions from which the character overlaps it for certain [m].
   FixedVector<Vec2<Scalar>, CharacterShape::max_points> outline_;
   Box2<Scalar> box_;
 };

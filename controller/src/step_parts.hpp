@@ -2,9 +2,12 @@
 #pragma once
 
 #include <paperproof/controller.hpp>
+#include <paperproof/tolerances.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <memory>
 #include <span>
 
 namespace paperproof::step_parts {
@@ -24,6 +27,24 @@ class FiniteCheck {
   Vec2<Scalar> zero_{Vec2<Scalar>::Zero()};
 };
 
+/// Positions and offsets [m]. Written so that NaN is out of range.
+template <class Scalar>
+[[nodiscard]] bool in_range(const Vec2<Scalar>& at) noexcept {
+  constexpr Scalar range = Tolerances<Scalar>{}.range;
+  return std::abs(at.x()) <= range && std::abs(at.y()) <= range;
+}
+
+/// Whether movers go within the range of positions, and at speeds that are numbers: what they carry gets them.
+template <class Scalar>
+[[nodiscard]] bool finite(std::span<const MoverMotion<Scalar>> movers, Scalar dt) noexcept {
+  return std::all_of(movers.begin(), movers.end(), [dt](const MoverMotion<Scalar>& mover) {
+    return in_range(mover.from) && in_range(mover.to) &&
+           FiniteCheck<Scalar>().add((mover.to - mover.from) / dt).passed();
+  });
+}
+
+/// Whether every number is one that a step can begin with.
+/// @param dt greater than zero.
 template <class Scalar>
 [[nodiscard]] bool finite(const CharacterState<Scalar>& state, const Input& input, const Vec2<Scalar>& gravity,
                           Scalar dt, std::span<const MoverMotion<Scalar>> movers) noexcept {
@@ -32,8 +53,14 @@ template <class Scalar>
   check.add(state.ride.place).add(state.ride.velocity);
   if (state.has_last_free) check.add(state.last_free);
   for (const Presser<Scalar>& presser : state.pressers) check.add(presser.from).add(presser.gone);
-  for (const MoverMotion<Scalar>& mover : movers) check.add(mover.from).add(mover.to);
-  return check.passed() && std::isfinite(dt) && std::isfinite(input.move.value_or(0));
+  return check.passed() && dt <= std::numeric_limits<Scalar>::max() && std::isfinite(input.move.value_or(0)) &&
+         (movers.empty() || finite(movers, dt));
+}
+
+/// Whether `maker` made the memory that is marked so.
+template <class Maker>
+[[nodiscard]] bool is_made_by(const std::shared_ptr<Maker>& maker, const std::weak_ptr<const void>& mark) noexcept {
+  return !mark.owner_before(maker) && !maker.owner_before(mark);
 }
 
 [[nodiscard]] inline StepStatus status_of(MoveStatus status) noexcept {

@@ -61,7 +61,8 @@ struct Flight {
 
 std::vector<Event> events_of(const Sensors<double>& sensors, const Path& path, const MoverMotion<double>& mover) {
   Sensors<double>::Events events;
-  sensors.observe(path, std::span(&mover, 1), events);
+  Candidates<double> candidates = sensors.make_candidates();
+  sensors.observe(path, std::span(&mover, 1), candidates, events);
   return {events.begin(), events.end()};
 }
 

@@ -23,14 +23,17 @@ ColliderDef sensor(ColliderDef def, MoverIndex mover = no_mover) {
 struct Watch {
   Scenery<double> scenery;
   Sensors<double> sensors;
+  Candidates<double> candidates;
   Sensors<double>::Events events;
 
   explicit Watch(std::vector<ColliderDef> colliders)
-      : scenery(SceneryDef{std::move(colliders)}), sensors(scenery, CharacterShape::article()) {}
+      : scenery(SceneryDef{std::move(colliders)}),
+        sensors(scenery, CharacterShape::article()),
+        candidates(sensors.make_candidates()) {}
 
   void observe(const std::vector<PathPoint<double>>& path, const std::vector<MoverMotion<double>>& movers = {}) {
     events.clear();
-    sensors.observe(path, movers, events);
+    sensors.observe(path, movers, candidates, events);
   }
   void fly(const Vec2d& from, const Vec2d& to, const std::vector<MoverMotion<double>>& movers = {}) {
     observe({{from, 0}, {to, 1}}, movers);

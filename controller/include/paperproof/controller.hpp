@@ -35,7 +35,9 @@ enum class StepStatus : std::uint8_t {
   crushed,          ///< See MoveStatus.
   out_of_range,     ///< Refused: the step would leave +-2e6 m. Position and velocity are unchanged.
   search_too_long,  ///< Refused: see MoveStatus. Position and velocity are unchanged.
-  invalid_input,    ///< Refused: NaN, infinity or dt <= 0. Nothing changed at all.
+  /// Refused: NaN, infinity, dt <= 0, a mover beyond +-2e6 m or too fast for a number, movers that are not one for each
+  /// of the scenery, scratch memory that another controller made. Nothing changed at all.
+  invalid_input,
 };
 
 /// What one step did. `move` is valid unless the status is `invalid_input`.
@@ -69,19 +71,20 @@ class Controller {
 
   /// One step of `dt` seconds under `gravity` [m/s²]. `state` is read and written; nothing else carries over.
   /// Never allocates, never throws.
+  /// @param scratch made by this controller; any other is invalid input.
   StepStatus step(CharacterState<Scalar>& state, const Input& input, const Vec2<Scalar>& gravity, Scalar dt,
                   Scratch<Scalar>& scratch, StepReport<Scalar>& report) const noexcept {
     return step(state, input, gravity, dt, {}, scratch, report);
   }
   /// The same among movers.
-  /// @param movers one for each mover of the scenery; another number of them is invalid input.
+  /// @param movers one for each mover of the scenery, within +-2e6 m; anything else is invalid input.
   StepStatus step(CharacterState<Scalar>& state, const Input& input, const Vec2<Scalar>& gravity, Scalar dt,
                   std::span<const MoverMotion<Scalar>> movers, Scratch<Scalar>& scratch,
                   StepReport<Scalar>& report) const noexcept {
     return (this->*step_)(state, input, gravity, dt, movers, scratch, report);
   }
 
-  [[nodiscard]] Scratch<Scalar> make_scratch() const { return technique_->make_scratch(); }
+  [[nodiscard]] Scratch<Scalar> make_scratch() const { return completed(technique_->make_scratch()); }
   [[nodiscard]] const CharacterDef& character() const noexcept { return character_; }
   [[nodiscard]] const Technique<Scalar>& technique() const noexcept { return *technique_; }
 
@@ -109,8 +112,10 @@ class Controller {
                                                StepReport<Scalar>& report) const noexcept;
   /// What it ends with, once `report.move` is made.
   template <bool has_sensors>
-  void end_step(const Input& input, std::span<const MoverMotion<Scalar>> movers, CharacterState<Scalar>& state,
-                StepReport<Scalar>& report) const noexcept;
+  void end_step(const Input& input, std::span<const MoverMotion<Scalar>> movers, Scratch<Scalar>& scratch,
+                CharacterState<Scalar>& state, StepReport<Scalar>& report) const noexcept;
+  /// What a technique made, with room for the rest of a step, and marked.
+  [[nodiscard]] Scratch<Scalar> completed(Scratch<Scalar> scratch) const;
 
   /// A crowd may move all its characters at once, between the beginnings of their steps and the ends; with all stages.
   /// @param before must outlive the request. @return false where it is not accepted.
@@ -118,13 +123,13 @@ class Controller {
   bool begin_together(const CharacterState<Scalar>& before, const Input& input, const Vec2<Scalar>& gravity, Scalar dt,
                       std::span<const MoverMotion<Scalar>> movers, CharacterState<Scalar>& state,
                       MoveRequest<Scalar>& request, StepReport<Scalar>& report) const noexcept;
-  void end_together(const Input& input, std::span<const MoverMotion<Scalar>> movers, CharacterState<Scalar>& state,
-                    StepReport<Scalar>& report) const noexcept;
+  void end_together(const Input& input, std::span<const MoverMotion<Scalar>> movers, Scratch<Scalar>& scratch,
+                    CharacterState<Scalar>& state, StepReport<Scalar>& report) const noexcept;
 
-  const Scenery<Scalar>* scenery_;
+  std::size_t mover_count_;
   CharacterDef character_;
   Step step_;
-  std::unique_ptr<Technique<Scalar>> technique_;
+  std::shared_ptr<const Technique<Scalar>> technique_;   ///< Shared with nobody: scratch memory refers to it.
   std::shared_ptr<const Sensors<Scalar>> sensors_;       ///< Null where the scenery has none.
   std::shared_ptr<const OneWayChains<Scalar>> one_way_;  ///< Null where the scenery has none.
 };

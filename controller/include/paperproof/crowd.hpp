@@ -56,6 +56,7 @@ class JointTechnique;
 struct CrowdScratch {
   std::size_t most_characters = 0;
   std::unique_ptr<OwnMemory> own;
+  std::weak_ptr<const void> maker;  ///< As `Scratch::maker`.
 };
 
 /// Steps characters of one kind through one scenery. Const and shareable between threads.
@@ -111,14 +112,14 @@ class Crowd {
   /// One step of `dt` seconds under `gravity` [m/s²] for all of them. Never allocates, never throws.
   /// @param states read and written; nothing else carries over.
   /// @param inputs one per state.
-  /// @param scratch,report made for at least as many characters. With fewer, or where one state, input or step is
-  ///   refused (see `StepStatus`), nothing changes for anybody.
+  /// @param scratch,report made for at least as many characters, the scratch by this crowd. Otherwise, or where one
+  ///   state, input or step is refused (see `StepStatus`), nothing changes for anybody.
   StepStatus step(std::span<CharacterState<Scalar>> states, std::span<const Input> inputs, const Vec2<Scalar>& gravity,
                   Scalar dt, CrowdScratch& scratch, CrowdReport<Scalar>& report) const noexcept {
     return step(states, inputs, gravity, dt, {}, scratch, report);
   }
   /// The same among movers.
-  /// @param movers one for each mover of the scenery; another number of them is invalid input.
+  /// @param movers one for each mover of the scenery, within +-2e6 m; anything else is invalid input.
   StepStatus step(std::span<CharacterState<Scalar>> states, std::span<const Input> inputs, const Vec2<Scalar>& gravity,
                   Scalar dt, std::span<const MoverMotion<Scalar>> movers, CrowdScratch& scratch,
                   CrowdReport<Scalar>& report) const noexcept;
@@ -134,7 +135,7 @@ class Crowd {
                           const Vec2<Scalar>& gravity, Scalar dt, std::span<const MoverMotion<Scalar>> movers,
                           CrowdScratch& scratch, CrowdReport<Scalar>& report) const noexcept;
 
-  std::unique_ptr<const Rules> rules_;
+  std::shared_ptr<const Rules> rules_;  ///< Shared with nobody: scratch memory refers to it.
   Controller<Scalar> controller_;
   const JointTechnique<Scalar>* joint_;  ///< The controller's technique, where it moves all at once; else null.
 };

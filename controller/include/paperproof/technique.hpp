@@ -109,15 +109,26 @@ struct OwnMemory {
   virtual ~OwnMemory() = default;
 };
 
-/// Memory that a technique may use while it works, one per thread. It belongs to the technique that made it and carries
-/// nothing from one call to the next that could change a result.
+/// Pieces near a character: what a broad phase answered, which holds for the next steps, too.
+template <class Scalar>
+struct Candidates {
+  std::vector<PieceIndex> pieces;  ///< Has room for all that there can be; never grows.
+  std::size_t count = 0;
+  Box2<Scalar> box;  ///< Positions of the character for which they are complete, where `valid`.
+  bool valid = false;
+};
+
+/// Memory of a step, one per thread. It belongs to the controller (or the technique) that made it and carries nothing
+/// from one step to the next that could change a result.
 template <class Scalar>
 struct Scratch {
-  std::vector<PieceIndex> candidates;  ///< Sized by `Technique::make_scratch`; never grows afterwards.
-  std::size_t candidate_count = 0;
-  Box2<Scalar> candidate_box;  ///< Positions for which the candidates are complete, where `valid`.
-  bool valid = false;
+  Candidates<Scalar> solids;       ///< Of the technique, as the next one.
   std::unique_ptr<OwnMemory> own;  ///< Null for most techniques.
+  Candidates<Scalar> sensors;      ///< Of the controller, as all that follows.
+  Candidates<Scalar> one_way;
+  /// Whose memory it is: a controller refuses what another made. It expires with the controller, and is not mistaken
+  /// for one that is built in the same place later.
+  std::weak_ptr<const void> maker;
 };
 
 /// A way to find out how far a character can move. Const and shareable between threads; each thread brings its scratch.
@@ -131,6 +142,7 @@ class Technique {
   /// What its own picture of the level takes [bytes]; 0 for a technique that keeps none and reads the scenery.
   [[nodiscard]] virtual std::size_t memory_bytes() const noexcept { return 0; }
   /// Never allocates and never throws.
+  /// @param scratch made by this technique: that is not looked at here.
   virtual void move(const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,
                     MoveResult<Scalar>& result) const noexcept = 0;
 };

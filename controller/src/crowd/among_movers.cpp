@@ -189,9 +189,9 @@ void AmongMovers<Scalar>::hand_out(std::size_t i, CharacterState<Scalar>& state)
   report.status = step_parts::status_of(move.status);
   const std::span<const PathPoint<Scalar>> path(move.path.begin(), move.path.size());
   set_motions({}, 0, 1);
-  if (surrounded_.sensors) surrounded_.sensors->observe(path, memory_.motions, report.sensors);
+  if (surrounded_.sensors) surrounded_.sensors->observe(path, memory_.motions, scratch_.sensors, report.sensors);
   if (walker.drops && surrounded_.one_way)
-    surrounded_.one_way->find_passed(path, memory_.motions, report.dropped_through);
+    surrounded_.one_way->find_passed(path, memory_.motions, scratch_.one_way, report.dropped_through);
   CharacterState<Scalar> next = walker.end.state;
   move.pressers = next.pressers;
   step_parts::adopt(controller_.character(), move, next);

@@ -1,5 +1,6 @@
 #include "geometry/overlap_time.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace paperproof::geometry {
@@ -27,13 +28,13 @@ struct Edge {
   }
 };
 
-/// Along an edge of the standing outline. What is nearest is subtracted first: positions are large, outlines small.
+/// How far an outline at the origin reaches to the outer side of an edge, at least. What is nearest is subtracted
+/// first: positions are large, outlines small.
 template <class Scalar>
-Scalar separation(const Edge<Scalar>& edge_of_standing, std::span<const Vec2<Scalar>> mover,
-                  const Vec2<Scalar>& at) noexcept {
+Scalar least_reach(const Edge<Scalar>& edge_of_standing, std::span<const Vec2<Scalar>> mover) noexcept {
   Scalar least = std::numeric_limits<Scalar>::infinity();
   for (const Vec2<Scalar>& point : mover) least = std::min(least, -cross(edge_of_standing.along, point));
-  return least + edge_of_standing.beyond(at);
+  return least;
 }
 
 /// Along an edge of the mover.
@@ -43,6 +44,13 @@ Scalar separation(std::span<const Vec2<Scalar>> standing, const Edge<Scalar>& ed
   Scalar least = std::numeric_limits<Scalar>::infinity();
   for (const Vec2<Scalar>& point : standing) least = std::min(least, edge_of_mover.beyond(point - at));
   return least;
+}
+
+template <class Scalar>
+Box2<Scalar> box_around(std::span<const Vec2<Scalar>> outline) noexcept {
+  Box2<Scalar> box{outline.front(), outline.front()};
+  for (const Vec2<Scalar>& point : outline) box = box.merged({point, point});
+  return box;
 }
 
 /// Narrows the time in which all separations so far were negative by one that changes linearly.
@@ -68,7 +76,8 @@ OverlapTime<Scalar> overlap_time(std::span<const Vec2<Scalar>> mover, std::span<
   OverlapTime<Scalar> time;
   for (std::size_t i = 0; i < standing.size() && time.any(); ++i) {
     const Edge<Scalar> edge(standing, i);
-    narrow(time, separation(edge, mover, from), separation(edge, mover, to));
+    const Scalar least = least_reach(edge, mover);
+    narrow(time, least + edge.beyond(from), least + edge.beyond(to));
   }
   for (std::size_t i = 0; i < mover.size() && time.any(); ++i) {
     const Edge<Scalar> edge(mover, i);
@@ -77,6 +86,32 @@ OverlapTime<Scalar> overlap_time(std::span<const Vec2<Scalar>> mover, std::span<
   return time;
 }
 
+template <class Scalar>
+Box2<Scalar> deep_overlap(std::span<const Vec2<Scalar>> mover, std::span<const Vec2<Scalar>> standing,
+                          Scalar depth) noexcept {
+  const Box2<Scalar> a = box_around(mover);
+  const Box2<Scalar> b = box_around(standing);
+  const Vec2<Scalar> middle = (b.lower + b.upper - a.lower - a.upper) / 2;
+  const Vec2<Scalar> half = (b.upper - b.lower + a.upper - a.lower) / 2;
+  Scalar share = 1;  // of the box around all positions that overlap
+  const auto narrow_by = [&](const Edge<Scalar>& edge, Scalar separation_at_middle) {
+    const Vec2<Scalar> along = edge.along.cwiseAbs();
+    share =
+        std::min(share, (-separation_at_middle - depth * along.sum()) / (along.x() * half.y() + along.y() * half.x()));
+  };
+  for (std::size_t i = 0; i < standing.size(); ++i) {
+    const Edge<Scalar> edge(standing, i);
+    narrow_by(edge, least_reach(edge, mover) + edge.beyond(middle));
+  }
+  for (std::size_t i = 0; i < mover.size(); ++i) {
+    const Edge<Scalar> edge(mover, i);
+    narrow_by(edge, separation(standing, edge, middle));
+  }
+  return {middle - share * half, middle + share * half};
+}
+
+template Box2<float> deep_overlap(std::span<const Vec2<float>>, std::span<const Vec2<float>>, float) noexcept;
+template Box2<double> deep_overlap(std::span<const Vec2<double>>, std::span<const Vec2<double>>, double) noexcept;
 template OverlapTime<float> overlap_time(std::span<const Vec2<float>>, std::span<const Vec2<float>>, const Vec2<float>&,
                                          const Vec2<float>&) noexcept;
 template OverlapTime<double> overlap_time(std::span<const Vec2<double>>, std::span<const Vec2<double>>,

@@ -34,4 +34,11 @@ template <class Scalar>
                                                std::span<const Vec2<Scalar>> standing, const Vec2<Scalar>& from,
                                                const Vec2<Scalar>& to) noexcept;
 
+/// Positions from which `mover` overlaps `standing` by more than `depth` in every direction [m]: a box around the
+/// middle of all that do, turned inside out (its lower corner above the upper one) where there is none.
+/// @param mover,standing as of `overlap_time`.
+template <class Scalar>
+[[nodiscard]] Box2<Scalar> deep_overlap(std::span<const Vec2<Scalar>> mover, std::span<const Vec2<Scalar>> standing,
+                                        Scalar depth) noexcept;
+
 }  // namespace paperproof::geometry

@@ -54,7 +54,7 @@ Parts<Scalar>::Parts(const TechniqueDef& def, const Scenery<Scalar>& where, cons
 template <class Scalar>
 Scratch<Scalar> Parts<Scalar>::make_scratch() const {
   Scratch<Scalar> scratch;
-  scratch.candidates.resize(scenery->pieces().size());
+  scratch.solids.pieces.resize(scenery->pieces().size());
   auto groups = std::make_unique<Groups<Scalar>>();
   groups->all.reserve(scenery->mover_count() + 1);
   scratch.own = std::move(groups);
@@ -65,9 +65,9 @@ template <class Scalar>
 NearbyScenery<Scalar> Parts<Scalar>::near(const Vec2<Scalar>& here, const Vec2<Scalar>& there,
                                           Scratch<Scalar>& scratch) const noexcept {
   const Box2<Scalar> total{here.cwiseMin(there) + points.box.lower, here.cwiseMax(there) + points.box.upper};
-  scratch.valid = false;  // found anew in every iteration: never valid for the next
-  scratch.candidate_count = broad_phase->query(total, scratch.candidates);
-  return {*scenery, std::span<const PieceIndex>(scratch.candidates).first(scratch.candidate_count)};
+  scratch.solids.valid = false;  // found anew in every iteration: never valid for the next
+  scratch.solids.count = broad_phase->query(total, scratch.solids.pieces);
+  return {*scenery, std::span<const PieceIndex>(scratch.solids.pieces).first(scratch.solids.count)};
 }
 
 template <class Scalar>
@@ -76,16 +76,16 @@ std::span<const PieceGroup<Scalar>> Parts<Scalar>::groups_near(const Box2<Scalar
                                                                Scratch<Scalar>& scratch) const noexcept {
   std::vector<PieceGroup<Scalar>>& groups = static_cast<Groups<Scalar>&>(*scratch.own).all;
   groups.clear();  // keeps its memory
-  const std::span<PieceIndex> found(scratch.candidates);
-  scratch.valid = false;  // found anew in every iteration: never valid for the next
-  scratch.candidate_count = 0;
+  const std::span<PieceIndex> found(scratch.solids.pieces);
+  scratch.solids.valid = false;  // found anew in every iteration: never valid for the next
+  scratch.solids.count = 0;
   const auto add = [&](MoverIndex mover, const auto& find) {
     const Vec2<Scalar> first = frame.shift_at_start(mover);
     const Vec2<Scalar> last = frame.shift_at_end(mover);
-    const std::span<PieceIndex> room = found.subspan(scratch.candidate_count);
+    const std::span<PieceIndex> room = found.subspan(scratch.solids.count);
     std::size_t count = find(Box2<Scalar>{box.lower + first.cwiseMin(last), box.upper + first.cwiseMax(last)}, room);
     if (frame.drops()) count = without_one_way(*scenery, room.first(count));
-    scratch.candidate_count += count;
+    scratch.solids.count += count;
     if (count > 0) groups.push_back({{*scenery, room.first(count)}, mover, first, last});
   };
   add(no_mover, [&](const Box2<Scalar>& seen, std::span<PieceIndex> room) { return broad_phase->query(seen, room); });

@@ -40,7 +40,7 @@ class BoundingBox final : public Technique<Scalar> {
   [[nodiscard]] std::string_view name() const noexcept override { return name_of(TechniqueKind::bounding_box); }
   [[nodiscard]] Scratch<Scalar> make_scratch() const override {
     Scratch<Scalar> scratch;
-    scratch.candidates.resize(grown_.size());
+    scratch.solids.pieces.resize(grown_.size());
     return scratch;
   }
   void move(const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,
@@ -73,7 +73,7 @@ void BoundingBox<Scalar>::move(const MoveRequest<Scalar>& request, Scratch<Scala
   result.velocity = request.velocity;
   Pieces nearby = near(request.position, request.position + request.displacement, scratch);
   if (request.drop)
-    nearby = nearby.first(without_one_way(*scenery_, std::span(scratch.candidates).first(nearby.size())));
+    nearby = nearby.first(without_one_way(*scenery_, std::span(scratch.solids.pieces).first(nearby.size())));
   for (const Eigen::Index component : {1, 0}) advance(nearby, component, request.displacement[component], result);
   push_out(scratch, result);
   result.path.push_back({request.position, 0});
@@ -84,9 +84,9 @@ template <class Scalar>
 typename BoundingBox<Scalar>::Pieces BoundingBox<Scalar>::near(const Vec2<Scalar>& here, const Vec2<Scalar>& there,
                                                                Scratch<Scalar>& scratch) const noexcept {
   const Box2<Scalar> total{here.cwiseMin(there), here.cwiseMax(there)};
-  scratch.valid = false;
-  scratch.candidate_count = broad_phase_->query(total, scratch.candidates);
-  return Pieces(scratch.candidates).first(scratch.candidate_count);
+  scratch.solids.valid = false;
+  scratch.solids.count = broad_phase_->query(total, scratch.solids.pieces);
+  return Pieces(scratch.solids.pieces).first(scratch.solids.count);
 }
 
 /// A one-way segment runs so that its blocking normal is on its left.

@@ -82,7 +82,7 @@ template <class Scalar>
 Scratch<Scalar> Discrete<Scalar>::make_joint_scratch(std::size_t most_characters) const {
   const std::size_t pieces = scenery_->pieces().size();
   Scratch<Scalar> scratch;
-  scratch.candidates.resize(pieces);
+  scratch.solids.pieces.resize(pieces);
   auto own = std::make_unique<Workplace<Scalar>>();
   own->frames.reserve(most_characters);
   own->bodies.reserve(pieces + most_characters);
@@ -193,8 +193,8 @@ std::span<Body<Scalar>> Discrete<Scalar>::gather(std::span<const Frame<Scalar>> 
   const PieceIndex movers_end = scenery_->sensor_pieces().first;
   for (const Frame<Scalar>& frame : frames) {
     const Box2<Scalar> total = frame.character.total_box();
-    const std::size_t found = broad_phase_->query(total, scratch.candidates);
-    for (const PieceIndex piece : std::span(scratch.candidates).first(found)) add(piece);
+    const std::size_t found = broad_phase_->query(total, scratch.solids.pieces);
+    for (const PieceIndex piece : std::span(scratch.solids.pieces).first(found)) add(piece);
     for (PieceIndex piece = scenery_->static_pieces().end; piece < movers_end; ++piece)
       if (body_of(piece, frame.place).total_box().overlaps(total)) add(piece);
   }

@@ -1,13 +1,13 @@
 /// Which pieces a step may have to look at.
 #pragma once
 
+#include "piece_finder.hpp"
 #include "techniques/octagon_sweep/configuration_space.hpp"
 #include "techniques/octagon_sweep/room.hpp"
 
 #include <paperproof/technique.hpp>
 #include <paperproof/tolerances.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
@@ -20,8 +20,8 @@ class Neighbourhood {
  public:
   /// @param look_ahead how far ahead of a motion candidates are collected at most [m].
   Neighbourhood(const ConfigurationSpace<Scalar>& space, const BroadPhase<Scalar>& broad_phase, Scalar look_ahead,
-                Scratch<Scalar>& scratch) noexcept
-      : space_(space), broad_phase_(broad_phase), look_ahead_(look_ahead), scratch_(scratch) {}
+                Candidates<Scalar>& candidates) noexcept
+      : space_(space), broad_phase_(broad_phase), look_ahead_(look_ahead), candidates_(candidates) {}
 
   /// Every piece that the octagon can touch while its reference point is in `box`, and perhaps more; ascending.
   /// @param way where it is going [m]: what is there will be wanted next.
@@ -29,31 +29,23 @@ class Neighbourhood {
                                                    const Vec2<Scalar>& way = Vec2<Scalar>::Zero()) noexcept;
 
   /// What comes next does not depend on what was collected before, not even in how much more it is.
-  void forget() noexcept { scratch_.valid = false; }
+  void forget() noexcept { candidates_.valid = false; }
 
  private:
-  /// Candidates are collected for this many further steps like the present one. None: every step asks the broad phase.
-  /// Many: every step looks at pieces it never meets.
-  static constexpr int steps_ahead = 8;
-  /// And this far to the sides, as a share of the reach ahead: for small turns.
-  static constexpr int sides = 32;
-
   const ConfigurationSpace<Scalar>& space_;
   const BroadPhase<Scalar>& broad_phase_;
   Scalar look_ahead_;
-  Scratch<Scalar>& scratch_;
+  Candidates<Scalar>& candidates_;
 };
 
 template <class Scalar>
 std::span<const PieceIndex> Neighbourhood<Scalar>::around(const Box2<Scalar>& box, const Vec2<Scalar>& way) noexcept {
-  if (!scratch_.valid || !scratch_.candidate_box.contains(box)) {
-    const Vec2<Scalar> most = Vec2<Scalar>::Constant(look_ahead_);
-    const Vec2<Scalar> ahead = (way * Scalar(steps_ahead)).cwiseMin(most).cwiseMax(-most);
-    scratch_.candidate_box = box.merged({box.lower + ahead, box.upper + ahead}).inflated(look_ahead_ / sides);
-    scratch_.candidate_count = broad_phase_.query(space_.touched_from(scratch_.candidate_box), scratch_.candidates);
-    scratch_.valid = true;
+  if (!candidates_.valid || !candidates_.box.contains(box)) {
+    candidates_.box = positions_ahead(box, way, look_ahead_);
+    candidates_.count = broad_phase_.query(space_.touched_from(candidates_.box), candidates_.pieces);
+    candidates_.valid = true;
   }
-  return {scratch_.candidates.data(), scratch_.candidate_count};
+  return {candidates_.pieces.data(), candidates_.count};
 }
 
 /// What a step among movers keeps in its scratch.

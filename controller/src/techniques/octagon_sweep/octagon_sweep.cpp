@@ -11,10 +11,6 @@ namespace {
 
 using namespace octagon_sweep;
 
-/// Candidates are collected at most this far ahead of a motion, in multiples of the character's larger extent. Zero:
-/// every step asks the broad phase. Large: a fast step looks at pieces it never meets.
-constexpr double look_ahead_share = 2;
-
 template <class Scalar>
 Settings<Scalar> settings_for(const TechniqueDef& def, const CharacterDef& character) {
   const double limit = character.max_climb_degrees * std::numbers::pi / 180;
@@ -70,7 +66,7 @@ class OctagonSweep : public Technique<Scalar> {
 
   [[nodiscard]] Scratch<Scalar> make_scratch() const override {
     Scratch<Scalar> scratch;
-    scratch.candidates.resize(broad_phase_->size());
+    scratch.solids.pieces.resize(broad_phase_->size());
     return scratch;
   }
 
@@ -85,7 +81,7 @@ class OctagonSweep : public Technique<Scalar> {
 
  protected:
   [[nodiscard]] Neighbourhood<Scalar> neighbourhood(Scratch<Scalar>& scratch) const noexcept {
-    return {space_, *broad_phase_, settings_.look_ahead, scratch};
+    return {space_, *broad_phase_, settings_.look_ahead, scratch.solids};
   }
 
   [[nodiscard]] static bool in_range(const MoveRequest<Scalar>& request) noexcept {

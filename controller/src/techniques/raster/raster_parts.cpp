@@ -24,7 +24,7 @@ RasterParts<Scalar>::RasterParts(const TechniqueDef& def, const Scenery<Scalar>&
 template <class Scalar>
 Scratch<Scalar> RasterParts<Scalar>::make_scratch() const {
   Scratch<Scalar> scratch;
-  scratch.candidates.resize(scenery_->pieces().size());
+  scratch.solids.pieces.resize(scenery_->pieces().size());
   return scratch;
 }
 
@@ -50,14 +50,14 @@ void RasterParts<Scalar>::look_around(const Pixel& placement, Scratch<Scalar>& s
   const Pixel upper = placement + Pixel{box.width, box.height};
   const Box2<Scalar> around{Vec2<Scalar>(metres(placement.x - 2), metres(placement.y - 2)),
                             Vec2<Scalar>(metres(upper.x + 2), metres(upper.y + 2))};
-  scratch.valid = false;
-  scratch.candidate_count = broad_phase_->query(around, scratch.candidates);
+  scratch.solids.valid = false;
+  scratch.solids.count = broad_phase_->query(around, scratch.solids.pieces);
 }
 
 template <class Scalar>
 void RasterParts<Scalar>::report(const Pixel& pixel, Side side, Scalar fraction, const Scratch<Scalar>& scratch,
                                  MoveResult<Scalar>& result) const noexcept {
-  const auto candidates = std::span<const PieceIndex>(scratch.candidates).first(scratch.candidate_count);
+  const auto candidates = std::span<const PieceIndex>(scratch.solids.pieces).first(scratch.solids.count);
   const auto found =
       std::find_if(candidates.begin(), candidates.end(), [&](PieceIndex piece) { return is_of(piece, pixel); });
   if (found == candidates.end()) return;

@@ -1,0 +1,93 @@
+#include "piece_finder.hpp"
+
+#include <paperproof/tolerances.hpp>
+
+namespace paperproof {
+namespace {
+
+/// Up to this many boxes are looked at one by one: any structure over so few costs more than it saves.
+constexpr std::size_t few_boxes = 8;
+
+/// How far beyond the character it looks, as a share of its size, so that rounding hides no piece. Far more than the
+/// rounding; far less than what would let it find pieces beside the way.
+constexpr double reach_share = 1e-5;
+
+}  // namespace
+
+template <class Scalar>
+PieceFinder<Scalar>::PieceFinder(const Scenery<Scalar>& scenery, const CharacterShape& shape,
+                                 std::span<const PieceIndex> pieces) {
+  const Box2<double>& box = shape.box();
+  const double size = (box.upper - box.lower).maxCoeff();
+  look_ahead_ = static_cast<Scalar>(look_ahead_share * size);
+  reach_ = Box2<Scalar>{box.lower.cast<Scalar>(), box.upper.cast<Scalar>()}.inflated(
+      Tolerances<Scalar>{}.look + static_cast<Scalar>(reach_share * size));
+  std::vector<Group> of_mover(scenery.mover_count());
+  for (const PieceIndex piece : pieces) {
+    const MoverIndex mover = scenery.pieces()[piece].mover;
+    (mover == no_mover ? standing_ : of_mover[mover]).pieces.push_back(piece);
+  }
+  const auto prepare = [&](Group& group) {
+    std::vector<Box2<Scalar>> boxes;
+    for (const PieceIndex piece : group.pieces) boxes.push_back(scenery.box(piece));
+    const BroadPhaseKind kind = boxes.size() <= few_boxes ? BroadPhaseKind::all_pairs : BroadPhaseKind::tree;
+    group.phase = make_broad_phase<Scalar>(kind, boxes);
+  };
+  prepare(standing_);
+  for (MoverIndex mover = 0; mover < of_mover.size(); ++mover) {
+    if (of_mover[mover].pieces.empty()) continue;
+    of_mover[mover].mover = mover;
+    prepare(of_mover[mover]);
+    moving_.push_back(std::move(of_mover[mover]));
+  }
+}
+
+template <class Scalar>
+Candidates<Scalar> PieceFinder<Scalar>::make_candidates() const {
+  std::size_t most_of_a_mover = 0;
+  for (const Group& group : moving_) most_of_a_mover = std::max(most_of_a_mover, group.pieces.size());
+  Candidates<Scalar> candidates;
+  candidates.pieces.resize(standing_.pieces.size() + most_of_a_mover);
+  return candidates;
+}
+
+template <class Scalar>
+std::span<const PieceIndex> PieceFinder<Scalar>::Group::query(const Box2<Scalar>& box,
+                                                              std::span<PieceIndex> found) const noexcept {
+  const std::size_t count = phase->query(box, found);
+  for (PieceIndex& piece : found.first(count)) piece = pieces[piece];
+  return found.first(count);
+}
+
+template <class Scalar>
+Box2<Scalar> PieceFinder<Scalar>::positions_seen(std::span<const PathPoint<Scalar>> path,
+                                                 const MoverMotion<Scalar>& motion) noexcept {
+  const Vec2<Scalar> first = path.front().position - motion.at(path.front().fraction);
+  Box2<Scalar> positions{first, first};
+  for (const PathPoint<Scalar>& corner : path.subspan(1)) {
+    const Vec2<Scalar> at = corner.position - motion.at(corner.fraction);
+    positions = positions.merged({at, at});
+  }
+  return positions;
+}
+
+template <class Scalar>
+std::span<const PieceIndex> PieceFinder<Scalar>::near_standing(std::span<const PathPoint<Scalar>> path,
+                                                               Candidates<Scalar>& candidates) const noexcept {
+  Box2<Scalar> positions{path.front().position, path.front().position};
+  for (const PathPoint<Scalar>& corner : path.subspan(1))
+    positions = positions.merged({corner.position, corner.position});
+  if (positions.lower == positions.upper) return {};
+  if (!candidates.valid || !candidates.box.contains(positions)) {
+    const Vec2<Scalar> way = path.back().position - path.front().position;
+    candidates.box = positions_ahead(positions, way, look_ahead_);
+    candidates.count = standing_.query(touched_from(candidates.box), candidates.pieces).size();
+    candidates.valid = true;
+  }
+  return std::span<const PieceIndex>(candidates.pieces).first(candidates.count);
+}
+
+template class PieceFinder<float>;
+template class PieceFinder<double>;
+
+}  // namespace paperproof

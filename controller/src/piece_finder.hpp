@@ -1,0 +1,90 @@
+/// Pieces that a character's way may touch.
+#pragma once
+
+#include <paperproof/broad_phase.hpp>
+#include <paperproof/scenery.hpp>
+#include <paperproof/technique.hpp>
+
+#include <algorithm>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace paperproof {
+
+/// Candidates are collected at most this far ahead of a motion, in multiples of the character's larger extent. Zero:
+/// every step asks the broad phase. Large: a fast step looks at pieces it never meets.
+inline constexpr double look_ahead_share = 2;
+
+/// The positions for which candidates are collected when a character in `box` goes by `way` in a step [m].
+/// @param most how far ahead at most [m].
+template <class Scalar>
+[[nodiscard]] Box2<Scalar> positions_ahead(const Box2<Scalar>& box, const Vec2<Scalar>& way, Scalar most) noexcept {
+  // For so many further steps like the present one. None: every step asks the broad phase. Many: every step looks at
+  // pieces it never meets.
+  constexpr int steps_ahead = 8;
+  // And this share of the reach to the sides: for small turns.
+  constexpr int sides = 32;
+  const Vec2<Scalar> limit = Vec2<Scalar>::Constant(most);
+  const Vec2<Scalar> ahead = (way * Scalar(steps_ahead)).cwiseMin(limit).cwiseMax(-limit);
+  return box.merged({box.lower + ahead, box.upper + ahead}).inflated(most / sides);
+}
+
+/// Finds, of some pieces of a scenery that hold nobody, those that a way comes near: through one broad phase over what
+/// stands still, whose answer is kept for the next steps, and one for each mover. Immutable; shareable between threads;
+/// never allocates while it looks.
+template <class Scalar>
+class PieceFinder {
+ public:
+  /// @param pieces ascending.
+  PieceFinder(const Scenery<Scalar>& scenery, const CharacterShape& shape, std::span<const PieceIndex> pieces);
+
+  [[nodiscard]] Candidates<Scalar> make_candidates() const;
+
+  /// Calls `look(pieces, motion)` for what stands still and for each mover: `pieces` (ascending) are all of it that the
+  /// character may touch on the way, and perhaps more. What is touched throughout may be missing where the character
+  /// stays in one place.
+  /// @param path straight between its corners. @param movers one for each mover of the scenery.
+  /// @param candidates made by this finder, or by one of the same pieces and shape.
+  template <class Look>
+  void along(std::span<const PathPoint<Scalar>> path, std::span<const MoverMotion<Scalar>> movers,
+             Candidates<Scalar>& candidates, const Look& look) const noexcept {
+    if (const std::span<const PieceIndex> near = near_standing(path, candidates); !near.empty())
+      look(near, MoverMotion<Scalar>{});
+    const std::span<PieceIndex> room = std::span(candidates.pieces).subspan(standing_.pieces.size());
+    for (const Group& group : moving_) {
+      const MoverMotion<Scalar>& motion = movers[group.mover];
+      const std::span<const PieceIndex> near = group.query(touched_from(positions_seen(path, motion)), room);
+      if (!near.empty()) look(near, motion);
+    }
+  }
+
+ private:
+  /// What stands still, or what one mover takes along.
+  struct Group {
+    MoverIndex mover = no_mover;
+    std::vector<PieceIndex> pieces;
+    std::unique_ptr<const BroadPhase<Scalar>> phase;  ///< Over their boxes at offset zero.
+
+    [[nodiscard]] std::span<const PieceIndex> query(const Box2<Scalar>& box,
+                                                    std::span<PieceIndex> found) const noexcept;
+  };
+
+  [[nodiscard]] static Box2<Scalar> positions_seen(std::span<const PathPoint<Scalar>> path,
+                                                   const MoverMotion<Scalar>& motion) noexcept;
+  [[nodiscard]] Box2<Scalar> touched_from(const Box2<Scalar>& positions) const noexcept {
+    return {positions.lower + reach_.lower, positions.upper + reach_.upper};
+  }
+  [[nodiscard]] std::span<const PieceIndex> near_standing(std::span<const PathPoint<Scalar>> path,
+                                                          Candidates<Scalar>& candidates) const noexcept;
+
+  Box2<Scalar> reach_;  ///< Around the character at the origin, and a little more [m].
+  Scalar look_ahead_;   ///< [m]
+  Group standing_;
+  std::vector<Group> moving_;  ///< Of movers that take such pieces along.
+};
+
+extern template class PieceFinder<float>;
+extern template class PieceFinder<double>;
+
+}  // namespace paperproof
