@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <numbers>
 #include <utility>
 
 namespace paperproof::box2d {
@@ -56,7 +55,7 @@ struct ReferenceWorld::Impl {
   Impl(const Scenery<double>& scenery, const CharacterDef& character, std::span<const Vec2d> positions,
        const ReferenceWorldDef& definition)
       : def(checked_definition(definition)),
-        least_up(std::cos(character.max_climb_degrees * std::numbers::pi / 180)),
+        least_up(static_cast<double>(character.walkable_cosine<float>())),
         stage(world, scenery, def.mode),
         looks_for_ground(any_ground_carries(stage.as_run)) {
     for (const Vec2d& corner : character.shape.hull()) points.push_back(widened(rounded(corner)));

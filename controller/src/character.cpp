@@ -2,6 +2,7 @@
 #include <paperproof/tolerances.hpp>
 
 #include <cmath>
+#include <numbers>
 
 #include "geometry/exact.hpp"
 
@@ -125,5 +126,13 @@ void CharacterDef::validate() const {
   require(max_climb_degrees >= 0 && max_climb_degrees <= 89, "max_climb_degrees", "from 0 to 89");
   require_not_negative(snap, "snap");
 }
+
+template <class Scalar>
+Scalar CharacterDef::walkable_cosine() const noexcept {
+  const double margin = static_cast<double>(Tolerances<Scalar>{}.climb);
+  return static_cast<Scalar>(std::cos(max_climb_degrees * std::numbers::pi / 180 + margin));
+}
+template float CharacterDef::walkable_cosine<float>() const noexcept;
+template double CharacterDef::walkable_cosine<double>() const noexcept;
 
 }  // namespace paperproof

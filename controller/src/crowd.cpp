@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 #include <tuple>
 #include <utility>
@@ -71,9 +70,8 @@ std::unique_ptr<const typename Crowd<Scalar>::Rules> Crowd<Scalar>::rules_for(co
                                                                               const CharacterDef& character,
                                                                               const TechniqueDef& technique) {
   require_several(technique);
-  const double limit = character.max_climb_degrees * std::numbers::pi / 180;
   auto rules =
-      std::make_unique<Rules>(Rules{{crowd::PairSpace<Scalar>(character.shape), static_cast<Scalar>(std::cos(limit)),
+      std::make_unique<Rules>(Rules{{crowd::PairSpace<Scalar>(character.shape), character.walkable_cosine<Scalar>(),
                                      technique.sweep_iterations, technique.stages},
                                     scenery.mover_count(),
                                     nullptr});

@@ -64,6 +64,11 @@ struct CharacterDef {
 
   /// @throws InvalidCharacter naming the value that is not finite or out of range.
   void validate() const;
+
+  /// Least upward component of the unit normal of ground that is walked on. The climb limit includes itself: by
+  /// `Tolerances::climb`, so that no rounding of a normal decides.
+  template <class Scalar>
+  [[nodiscard]] Scalar walkable_cosine() const noexcept;
 };
 
 /// What the player wants during one step.

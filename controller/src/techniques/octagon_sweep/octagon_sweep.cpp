@@ -16,7 +16,7 @@ Settings<Scalar> settings_for(const TechniqueDef& def, const CharacterDef& chara
   const double limit = character.max_climb_degrees * std::numbers::pi / 180;
   const Vec2d extent = character.shape.box().upper - character.shape.box().lower;
   return {
-      .walkable_cosine = static_cast<Scalar>(std::cos(limit)),
+      .walkable_cosine = character.walkable_cosine<Scalar>(),
       .walkable_tangent = static_cast<Scalar>(std::tan(limit)),
       .snap = static_cast<Scalar>(character.snap),
       .max_fall_speed = static_cast<Scalar>(character.max_fall_speed.value_or(std::numeric_limits<double>::infinity())),

@@ -1,33 +1,122 @@
 /// What becomes of a motion that met a surface.
+///
+/// Let u be the motion that a character has without this step's steering (momentum and gravity), s the change that
+/// steering makes in this step, braking included, and w = u + s. A surface with unit normal n holds w where w·n < 0.
+///
+/// **Walkable ground** (n.y >= c): the horizontal part is kept by following the surface: (x, -x n.x / n.y). A fall ends.
+///
+/// **Steep ground and walls** (0 <= n.y < c): steering never holds or slows a fall.
+///  1. Where s presses in (s·n < 0) all of it goes: w = u. The rest of the rule never sees s, so that y(t) on a steep
+///     slope is the same with the key uphill and without a key, at any dt. (Had only the part along n gone, the rest of
+///     a horizontal s would point up the slope, and hold the character on a platform's corner for good.)
+///  2. Where the horizontal part of w still presses in (w.x n.x < 0) it is zero: an impact. It does not become a climb.
+///     Speed that was gained by sliding points outward (x n.x > 0) and is not touched: it is momentum.
+///  3. What still enters is a fall: x n.x >= 0 and w·n < 0 give y < 0 (a wall, n.y = 0, is entered no more). It slides:
+///     w - (w·n) n. Its length does not grow, x stays outward, and it stays a fall: y' = y n.x² - (x n.x) n.y, where both
+///     terms are below zero.
+/// A rise goes on: after 2 it does not enter. But a climb that came only from following walkable ground ends with the
+/// walk: where 2 takes the horizontal part, and the ground was followed, an upward y is zero, too. A character that walks
+/// up a slope into a wall would otherwise leave the ground with the speed of its climb, land, and hop again, for ever.
+///
+/// **Ceilings** (n.y < 0): a rise slides, w - (w·n) n. A fall goes on: x shrinks to what follows the surface.
+///
+/// **Two surfaces** that both hold the motion: whether they are a wedge is decided by the fall of u alone. The nearest
+/// motion to it that all surfaces allow is taken, if that still falls; else the motion ends there. So steering into one
+/// side of a funnel does not hold a character that would slip through it.
+///
+/// Position and velocity are treated alike: each rule is homogeneous of degree one. u is carried through every contact
+/// beside w, since a later surface may take back what steering added before. A falling motion never comes to rise on
+/// anything but walkable ground and no motion grows: a step cannot go round in circles.
 #pragma once
+
+#include "techniques/octagon_sweep/half_planes.hpp"
 
 #include <paperproof/types.hpp>
 
 #include <algorithm>
+#include <limits>
 
 namespace paperproof::octagon_sweep {
 
-/// The part of `wanted` that remains at a surface with unit normal `n`, where `wanted` points into it.
-///
-/// - Walkable ground: the horizontal part is kept by following the surface; falling ends.
-/// - Steep ground and walls: a fall goes on along the surface and never turns into a climb; a rise goes on, and what is
-///   horizontal shrinks to what follows the surface.
-/// - Ceilings: a fall goes on (what is horizontal shrinks); a rise loses the part into the normal.
-///
-/// Homogeneous of degree one, so velocity and displacement can be treated alike. A falling motion never comes to rise
-/// on anything but walkable ground and its horizontal part never grows there: a step cannot go round in circles.
+/// Two unit normals of one plane. Zero: rounding would make two of it. Large: a crease would be taken for a plane.
 template <class Scalar>
-[[nodiscard, gnu::always_inline]] inline Vec2<Scalar> respond(const Vec2<Scalar>& wanted, const Vec2<Scalar>& n,
-                                                              Scalar walkable_cosine) noexcept {
-  const Scalar into = wanted.x() * n.x() + wanted.y() * n.y();
-  if (into >= 0) return wanted;
-  // Adding zero turns a negative zero into a positive one: rest has one pattern of bits.
-  if (n.y() >= walkable_cosine) return {wanted.x(), -wanted.x() * n.x() / n.y() + Scalar(0)};
-  const bool ceiling = n.y() < 0;
-  if (ceiling && wanted.y() > 0) return {wanted.x() - into * n.x(), wanted.y() - into * n.y()};
-  Scalar y = wanted.y();
-  if (!ceiling && y <= 0) y = std::min(Scalar(0), y - into * n.y());
-  return {-y * n.y() / n.x() + Scalar(0), y + Scalar(0)};
+inline constexpr Scalar same_plane = std::numeric_limits<Scalar>::epsilon() * 16;
+
+/// A way that points into a plane by less than this share of its length runs along it.
+template <class Scalar>
+inline constexpr Scalar along_plane = std::numeric_limits<Scalar>::epsilon() * 64;
+
+template <class Scalar>
+[[nodiscard, gnu::always_inline]] inline Scalar dot(const Vec2<Scalar>& a, const Vec2<Scalar>& b) noexcept {
+  return a.x() * b.x() + a.y() * b.y();
+}
+
+/// A motion [m] or velocity [m/s] that is wanted, and the part of it that is there without this step's steering.
+template <class Scalar>
+struct Wish {
+  Vec2<Scalar> wanted;
+  Vec2<Scalar> unsteered;
+};
+
+/// A surface, and how the character comes to it.
+template <class Scalar>
+struct Surface {
+  Vec2<Scalar> normal;
+  bool walkable;
+  bool after_walk;  ///< The character follows or followed walkable ground in this step: a rise is the climb of a walk.
+};
+
+/// Adding zero turns a negative zero into a positive one: rest has one pattern of bits.
+template <class Scalar>
+[[nodiscard, gnu::always_inline]] inline Vec2<Scalar> follow(Scalar x, const Vec2<Scalar>& n) noexcept {
+  return {x, -x * n.x() / n.y() + Scalar(0)};
+}
+
+template <class Scalar>
+[[nodiscard, gnu::always_inline]] inline Vec2<Scalar> slide(const Vec2<Scalar>& w, const Vec2<Scalar>& n) noexcept {
+  const Scalar into = dot(w, n);
+  return {w.x() - into * n.x() + Scalar(0), w.y() - into * n.y() + Scalar(0)};
+}
+
+/// The response on steep ground and walls, without steering: rules 2 and 3 above.
+template <class Scalar>
+[[nodiscard, gnu::always_inline]] inline Vec2<Scalar> impact(Vec2<Scalar> w, const Surface<Scalar>& at) noexcept {
+  if (w.x() * at.normal.x() < 0) {
+    w.x() = 0;
+    if (at.after_walk) w.y() = std::min(w.y(), Scalar(0));
+  }
+  return dot(w, at.normal) < 0 ? slide(w, at.normal) : w;
+}
+
+/// Under a ceiling.
+template <class Scalar>
+[[nodiscard, gnu::always_inline]] inline Vec2<Scalar> bump(const Vec2<Scalar>& w, const Vec2<Scalar>& n) noexcept {
+  if (w.y() > 0) return slide(w, n);
+  return {-w.y() * n.y() / n.x() + Scalar(0), w.y() + Scalar(0)};
+}
+
+/// The response without steering.
+template <class Scalar>
+[[nodiscard, gnu::always_inline]] inline Vec2<Scalar> respond(const Vec2<Scalar>& w,
+                                                              const Surface<Scalar>& at) noexcept {
+  if (dot(w, at.normal) >= 0) return w;
+  if (at.walkable) return follow(w.x(), at.normal);
+  return at.normal.y() < 0 ? bump(w, at.normal) : impact(w, at);
+}
+
+/// The response to a surface, of what is wanted and of what there is without steering.
+template <class Scalar>
+[[nodiscard, gnu::always_inline]] inline Wish<Scalar> respond(const Wish<Scalar>& wish,
+                                                              const Surface<Scalar>& at) noexcept {
+  const Vec2<Scalar> steering = wish.wanted - wish.unsteered;
+  if (steering.x() == 0 && steering.y() == 0) {
+    const Vec2<Scalar> result = respond(wish.wanted, at);
+    return {result, result};
+  }
+  const bool takes_steering = !at.walkable && at.normal.y() >= 0 && dot(steering, at.normal) < 0 &&
+                              dot(wish.wanted, at.normal) < 0;
+  const Vec2<Scalar> unsteered = respond(wish.unsteered, at);
+  return {takes_steering ? unsteered : respond(wish.wanted, at), unsteered};
 }
 
 }  // namespace paperproof::octagon_sweep

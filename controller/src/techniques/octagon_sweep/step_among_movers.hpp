@@ -54,36 +54,40 @@ template <Variant variant, class Scalar>
 void StepSolver<variant, Scalar>::travel_among_movers() noexcept {
   /// Impacts at one moment, and moments: the path has room for so many.
   constexpr int most_sweeps = 4 * MoveResult<Scalar>::max_corners;
-  Drive<Scalar> drive{motion_.way, velocity_};
-  V way = drive.way;  // with the aim back to the gap
+  Drive<Scalar> drive = this->drive();
+  V way = motion_.way;  // with the aim back to the gap
   bool may_aim = true;
   int impacts = 0;
   for (int sweeps = 0; sweeps < most_sweeps && result_.path.size() + 3 < result_.path.capacity(); ++sweeps) {
     if (sweeps > 0) look_along(way);
-    if (found_.hit && found_.stop == 0 && (way.x() != drive.way.x() || way.y() != drive.way.y())) {
+    if (found_.hit && found_.stop == 0 && (way.x() != drive.way.wanted.x() || way.y() != drive.way.wanted.y())) {
       // There is no room to restore the gap: give that up for this step.
-      way = drive.way;
+      way = drive.way.wanted;
       may_aim = false;
       continue;
     }
     const Scalar begin = time_;
-    if (!advance(found_.hit ? found_.stop : Scalar(1))) return stay(true);
+    if (!advance(found_.hit ? found_.stop : Scalar(1))) {
+      cut_short();
+      return stay(true);
+    }
     if (!found_.hit) return;
     report(begin);
     update_holds();
-    drive.way *= 1 - found_.stop;
+    const Scalar left = 1 - found_.stop;
+    drive.way = {drive.way.wanted * left, drive.way.unsteered * left};
     if (++impacts == settings_.iterations) {
       // What it wants itself is dropped; what moves into it goes on moving.
       if (result_.status == MoveStatus::moved) result_.status = MoveStatus::dropped;
-      drive = {V::Zero(), V::Zero()};
+      drive = Drive<Scalar>::plain(V::Zero(), V::Zero());
     }
     if (pinned() || !respond_to_holds(drive)) {
       if (gives_way()) return;
       if (!crush_what_presses() && pinned()) return stay(true);
-      drive = {V::Zero(), V::Zero()};
+      drive = Drive<Scalar>::plain(V::Zero(), V::Zero());
     }
-    velocity_ = drive.velocity;
-    way = may_aim ? aimed_back(drive.way, found_.stops[0]) : drive.way;
+    velocity_ = drive.velocity.wanted;
+    way = may_aim ? aimed_back(drive.way.wanted, found_.stops[0]) : drive.way.wanted;
   }
   last_resort(way);
 }
@@ -131,8 +135,8 @@ template <class Scalar>
 
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::allowed(const Drive<Scalar>& drive, const Hold<Scalar>& hold) const noexcept {
-  return behind(hold.normal, rest_of(hold)).allows(drive.way) &&
-         behind(hold.normal, velocity_of(hold)).allows(drive.velocity);
+  return behind(hold.normal, rest_of(hold)).allows(drive.way.wanted) &&
+         behind(hold.normal, velocity_of(hold)).allows(drive.velocity.wanted);
 }
 
 template <Variant variant, class Scalar>
@@ -146,12 +150,14 @@ bool StepSolver<variant, Scalar>::allowed(const Drive<Scalar>& drive) const noex
 template <Variant variant, class Scalar>
 Drive<Scalar> StepSolver<variant, Scalar>::response_to(const Hold<Scalar>& hold,
                                                        const Drive<Scalar>& drive) const noexcept {
-  const auto response = [&](const V& wanted, const V& surface) -> V {
+  const Surface<Scalar> at{hold.normal, walkable(hold.normal), after_walk_};
+  const auto response = [&](const Wish<Scalar>& wish, const V& surface) -> Wish<Scalar> {
     V frame = surface;
-    if (!walkable(hold.normal) || is_companion(hold.piece)) frame = hold.normal * behind(hold.normal, surface).least;
-    const V relative = wanted - frame;
-    if (relative.x() * hold.normal.x() + relative.y() * hold.normal.y() >= 0) return wanted;
-    return respond(relative, hold.normal, settings_.walkable_cosine) + frame;
+    if (!at.walkable || is_companion(hold.piece)) frame = hold.normal * behind(hold.normal, surface).least;
+    const Wish<Scalar> relative{wish.wanted - frame, wish.unsteered - frame};
+    if (dot(relative.wanted, hold.normal) >= 0) return wish;
+    const Wish<Scalar> result = respond(relative, at);
+    return {result.wanted + frame, result.unsteered + frame};
   };
   return {response(drive.way, rest_of(hold)), response(drive.velocity, velocity_of(hold))};
 }
@@ -175,49 +181,70 @@ bool StepSolver<variant, Scalar>::respond_one_by_one(Drive<Scalar>& drive) const
   return false;
 }
 
-/// Surfaces of one body that leave no way between them: the motion ends there, relative to that body.
+/// Surfaces of one body that leave no way between them: a fall may still slip through; else the motion ends there,
+/// relative to that body.
 template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::respond_in_crease(Drive<Scalar>& drive) const noexcept {
+bool StepSolver<variant, Scalar>::respond_in_crease(Drive<Scalar>& drive) noexcept {
   const Hold<Scalar>& first = moving_.holds[0];
   const Drive<Scalar> alone = response_to(first, drive);
   for (const Hold<Scalar>& hold : moving_.holds)
     if (!allowed(alone, hold) && rest_of(hold) != rest_of(first)) return false;
-  const Drive<Scalar> still{rest_of(first), velocity_of(first)};
+  const V rest = rest_of(first);
+  const V velocity = velocity_of(first);
+  const Drive<Scalar> still = Drive<Scalar>::plain(rest, velocity);
   if (!allowed(still)) return false;
-  drive = still;
+  const Scalar fall = drive.velocity.unsteered.y() - velocity.y();
+  const auto slipping = nearest_allowed_to({rest.x(), std::min(drive.way.unsteered.y(), rest.y())},
+                                           {velocity.x(), std::min(drive.velocity.unsteered.y(), velocity.y())});
+  const bool slips = slipping && fall < 0 &&
+                     slipping->velocity.wanted.y() - velocity.y() < along_plane<Scalar> * (fall - length_of(velocity));
+  wedged_ = fall < 0 && !slips;
+  drive = slips ? *slipping : still;
   return true;
 }
 
-/// The nearest motion that all surfaces allow.
+/// The nearest motion that all surfaces allow; with steering only where that does not hold a fall.
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::respond_together(Drive<Scalar>& drive) const noexcept {
+  const auto wanted = nearest_allowed_to(drive.way.wanted, drive.velocity.wanted);
+  if (!wanted) {
+    drive.velocity.wanted = drive.velocity.unsteered = V::Zero();
+    return false;
+  }
+  const auto unsteered = nearest_allowed_to(drive.way.unsteered, drive.velocity.unsteered);
+  drive = unsteered && unsteered->way.wanted.y() < wanted->way.wanted.y() ? *unsteered : *wanted;
+  return true;
+}
+
+/// Nothing where the surfaces have no motion in common.
+template <Variant variant, class Scalar>
+std::optional<Drive<Scalar>> StepSolver<variant, Scalar>::nearest_allowed_to(const V& way,
+                                                                             const V& velocity) const noexcept {
   FixedVector<HalfPlane<Scalar>, 32> ways;
   FixedVector<HalfPlane<Scalar>, 32> velocities;
   for (const Hold<Scalar>& hold : moving_.holds) {
     ways.push_back(behind(hold.normal, rest_of(hold)));
     velocities.push_back(behind(hold.normal, velocity_of(hold)));
   }
-  const auto nearest = [](const V& wanted, const auto& planes) {
-    return nearest_allowed<Scalar>(wanted, {planes.begin(), planes.end()});
-  };
-  drive.velocity = nearest(drive.velocity, velocities).value_or(V::Zero());
-  const std::optional<V> way = nearest(drive.way, ways);
-  if (way) drive.way = *way;
-  return way.has_value();
+  const auto allowed_way = nearest_allowed<Scalar>(way, {ways.begin(), ways.end()});
+  if (!allowed_way) return std::nullopt;
+  const auto allowed_velocity = nearest_allowed<Scalar>(velocity, {velocities.begin(), velocities.end()});
+  return Drive<Scalar>::plain(*allowed_way, allowed_velocity.value_or(V::Zero()));
 }
 
 /// False where the surfaces leave no motion.
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::respond_to_holds(Drive<Scalar>& drive) noexcept {
   const Hold<Scalar>& first = moving_.holds[0];
-  ended_in_crease_ = false;
-  if (drive.velocity.x() == 0 && takes_along(first)) {
+  wedged_ = false;
+  if (drive.velocity.wanted.x() == 0 && takes_along(first)) {
     mount(first);
-    drive = {ground_rest(first.piece, first.normal), moving_.ride.velocity};
+    drive = Drive<Scalar>::plain(ground_rest(first.piece, first.normal), moving_.ride.velocity);
   }
-  if (respond_one_by_one(drive)) return true;
-  ended_in_crease_ = respond_in_crease(drive);
-  return ended_in_crease_ || respond_together(drive);
+  const bool on_ground = walkable(first.normal);
+  const bool possible = respond_one_by_one(drive) || respond_in_crease(drive) || respond_together(drive);
+  after_walk_ = after_walk_ || on_ground;
+  return possible;
 }
 
 /// The path has no more corners: the last one is at the end of the step. With what it was doing, with what holds it, or

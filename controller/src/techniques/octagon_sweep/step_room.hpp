@@ -212,7 +212,7 @@ void StepSolver<variant, Scalar>::go_to(const V& end) noexcept {
   halt();
   position_ = end;
   time_ = 1;
-  on_ground_ = ended_in_crease_ = false;
+  on_ground_ = wedged_ = false;
   push_corner(time_);
 }
 

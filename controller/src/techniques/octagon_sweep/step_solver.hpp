@@ -11,6 +11,7 @@
 #include "techniques/octagon_sweep/narrow_phase.hpp"
 #include "techniques/octagon_sweep/neighbourhood.hpp"
 #include "techniques/octagon_sweep/one_way.hpp"
+#include "techniques/octagon_sweep/response.hpp"
 #include "techniques/octagon_sweep/variant.hpp"
 
 #include <paperproof/technique.hpp>
@@ -77,8 +78,20 @@ struct Hold {
 /// A motion of the character, and the velocity behind it. What happens to one happens to the other.
 template <class Scalar>
 struct Drive {
-  Vec2<Scalar> way;       ///< For the rest of the step [m].
-  Vec2<Scalar> velocity;  ///< [m/s]
+  Wish<Scalar> way;       ///< For the rest of the step [m].
+  Wish<Scalar> velocity;  ///< [m/s]
+
+  /// A motion that is not steered.
+  [[nodiscard]] static Drive plain(const Vec2<Scalar>& way, const Vec2<Scalar>& velocity) noexcept {
+    return {{way, way}, {velocity, velocity}};
+  }
+};
+
+/// How a motion falls without steering; not below zero where it does not.
+template <class Scalar>
+struct Fall {
+  Scalar way;       ///< For the rest of the step [m].
+  Scalar velocity;  ///< [m/s]
 };
 
 /// What the solver knows about what moves.
@@ -137,6 +150,8 @@ class StepSolver {
   void order_stops() noexcept;
   [[nodiscard]] bool advance(Scalar stop) noexcept;
   void report(Scalar begin) noexcept;
+  void report_contact(PieceIndex piece, std::size_t axis, Scalar fraction, std::size_t this_moment) noexcept;
+  [[gnu::cold, gnu::noinline]] void report_touched(PieceIndex piece) noexcept;
   [[nodiscard]] Scalar fraction_of(const Stop<Scalar>& stop, Scalar begin) noexcept;
   [[nodiscard]] Scalar impact_of(const Stop<Scalar>& stop, const LocalMotion& motion, const V& from) noexcept;
   [[nodiscard, gnu::noinline]] Scalar impact_with_another_piece(const Stop<Scalar>& stop, const LocalMotion& motion,
@@ -177,12 +192,20 @@ class StepSolver {
   [[nodiscard]] bool clear_way(PieceIndex piece, const V& from, const V& to) const noexcept;
 
   // step_travel.hpp
+  void begin_drive(const MoveRequest<Scalar>& request) noexcept;
+  [[nodiscard]] Drive<Scalar> drive() const noexcept;
   void travel() noexcept;
+  void respond_to(const V& normal, Drive<Scalar>& drive) noexcept;
+  [[nodiscard, gnu::cold, gnu::noinline]] bool slip(std::span<const V> held, const Fall<Scalar>& fall,
+                                             Drive<Scalar>& drive) noexcept;
   [[nodiscard]] V aimed_back(const V& way, const Stop<Scalar>& at) const noexcept;
   void halt() noexcept;
-  [[nodiscard]] bool stands() noexcept;
+  [[gnu::cold, gnu::noinline]] void cut_short() noexcept;
+  [[nodiscard]] bool stands(const MoveRequest<Scalar>& request) noexcept;
   [[nodiscard]] bool stands_on_any() noexcept;
+  [[gnu::cold, gnu::noinline]] void report_ground() noexcept;
   [[nodiscard]] bool stands_on(PieceIndex piece) const noexcept;
+  [[nodiscard]] bool touches_ground(PieceIndex piece) const noexcept;
   [[gnu::cold, gnu::noinline]] void keep_ground() noexcept;
   void follow_ground_down(const MoveRequest<Scalar>& request) noexcept;
   [[nodiscard]] bool walkable(const V& normal) const noexcept { return normal.y() >= settings_.walkable_cosine; }
@@ -218,8 +241,9 @@ class StepSolver {
   [[nodiscard]] bool allowed(const Drive<Scalar>& drive) const noexcept;
   [[nodiscard]] Drive<Scalar> response_to(const Hold<Scalar>& hold, const Drive<Scalar>& drive) const noexcept;
   [[nodiscard]] bool respond_one_by_one(Drive<Scalar>& drive) const noexcept;
-  [[nodiscard]] bool respond_in_crease(Drive<Scalar>& drive) const noexcept;
+  [[nodiscard]] bool respond_in_crease(Drive<Scalar>& drive) noexcept;
   [[nodiscard]] bool respond_together(Drive<Scalar>& drive) const noexcept;
+  [[nodiscard]] std::optional<Drive<Scalar>> nearest_allowed_to(const V& way, const V& velocity) const noexcept;
   [[nodiscard]] bool respond_to_holds(Drive<Scalar>& drive) noexcept;
   void last_resort(const V& way) noexcept;
 
@@ -276,12 +300,15 @@ class StepSolver {
   V start_{V::Zero()};         ///< Where the step began, before its gaps were restored: impacts count from there.
   V position_{V::Zero()};
   V velocity_{V::Zero()};
+  V unsteered_velocity_{V::Zero()};  ///< What `velocity_` would be without this step's steering.
+  V unsteered_way_{V::Zero()};       ///< What the wanted displacement would be without it [m].
   Scalar time_ = 0;       ///< Fraction of the step that is spent.
   bool drops_ = false;    ///< One-way segments hold nobody in this step.
   bool certify_ = false;  ///< Something is nearer than rounding: every motion needs an exact certificate.
-  bool ended_in_crease_ = false;
+  bool after_walk_ = false;  ///< See `Surface`.
+  bool wedged_ = false;      ///< A fall ended between the surfaces that were touched together.
   bool met_ground_ = false;  ///< Something walkable was in the way during this step,
-  bool on_ground_ = false;   ///< and nothing has moved since.
+  bool on_ground_ = false;   ///< and neither has anything moved since nor was anything else in the way.
   PieceIndex ground_ = 0;    ///< What that was, where `met_ground_`.
   [[no_unique_address]] std::conditional_t<variant.movers, MoverState<Scalar>, NoMoverState> moving_;
 };

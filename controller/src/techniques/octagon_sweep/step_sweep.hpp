@@ -118,40 +118,58 @@ bool StepSolver<variant, Scalar>::certified(const V& target) noexcept {
   return true;
 }
 
-/// Contacts of one moment, the earliest impact first; one per collider and side.
+/// Adds the contacts of one moment, the earliest impact first.
+/// @param begin when the motion of the last sweep began.
 template <Variant variant, class Scalar>
 void StepSolver<variant, Scalar>::report(Scalar begin) noexcept {
-  auto& contacts = result_.contacts;
-  const std::size_t before = contacts.size();
+  const std::size_t before = result_.contacts.size();
+  on_ground_ = false;
   for (const Stop<Scalar>& stop : found_.stops) {
-    Contact<Scalar> contact;
-    contact.collider = space_.scenery().pieces()[stop.piece].collider;
-    contact.normal = space_.normal(stop.piece, stop.axes.normal);
-    contact.side = side_of_normal(contact.normal.x(), contact.normal.y());
-    contact.fraction = fraction_of(stop, begin);
-    if (walkable(contact.normal)) {
+    const V normal = space_.normal(stop.piece, stop.axes.normal);
+    if (walkable(normal)) {
       met_ground_ = on_ground_ = true;
       ground_ = stop.piece;
     }
-    Contact<Scalar>* const known = std::find_if(contacts.begin(), contacts.end(), [&](const Contact<Scalar>& other) {
-      return other.collider == contact.collider && other.side == contact.side;
-    });
-    const bool of_an_earlier_moment = known < contacts.begin() + before;
-    if (known != contacts.end() && (of_an_earlier_moment || known->fraction <= contact.fraction)) continue;
-    const ContactPlace<Scalar> place =
-        contact_place(space_, stop.piece, stop.axes.normal, local(stop.piece, position_));
-    contact.point = place.point;
-    if constexpr (variant.movers) contact.point += offset(stop.piece);
-    contact.separation = place.separation;
-    if (known != contacts.end())
-      *known = contact;
-    else
-      contacts.push_back(contact);
+    report_contact(stop.piece, stop.axes.normal, fraction_of(stop, begin), before);
   }
-  if constexpr (variant.movers) moving_.contacts_at[result_.path.size() - 1] = contacts.size();
-  if (contacts.size() - before > 1)
-    std::sort(contacts.begin() + before, contacts.end(),
+  if constexpr (variant.movers) moving_.contacts_at[result_.path.size() - 1] = result_.contacts.size();
+  if (result_.contacts.size() - before > 1)
+    std::sort(result_.contacts.begin() + before, result_.contacts.end(),
               [](const Contact<Scalar>& a, const Contact<Scalar>& b) { return a.fraction < b.fraction; });
+}
+
+/// One contact for each collider and normal: a polygon may hold the character by its floor and by its wall. What is met
+/// later has no earlier fraction, although a motion stops a little before its time of impact.
+/// @param this_moment the first contact of the present moment: of those the earlier impact counts.
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::report_contact(PieceIndex piece, std::size_t axis, Scalar fraction,
+                                                 std::size_t this_moment) noexcept {
+  auto& contacts = result_.contacts;
+  for (std::size_t i = 0; i < this_moment; ++i) fraction = std::max(fraction, contacts[i].fraction);
+  const ColliderIndex collider = space_.scenery().pieces()[piece].collider;
+  const V normal = space_.normal(piece, axis);
+  Contact<Scalar>* const known = std::find_if(contacts.begin(), contacts.end(), [&](const Contact<Scalar>& other) {
+    return other.collider == collider && dot(other.normal, normal) > 1 - same_plane<Scalar>;
+  });
+  if (known != contacts.end() && (known < contacts.begin() + this_moment || known->fraction <= fraction)) return;
+  const ContactPlace<Scalar> place = contact_place(space_, piece, axis, local(piece, position_));
+  const Contact<Scalar> contact{.collider = collider,
+                                .point = place.point + offset(piece),
+                                .normal = normal,
+                                .fraction = fraction,
+                                .separation = place.separation,
+                                .side = side_of_normal(normal.x(), normal.y())};
+  if (known != contacts.end())
+    *known = contact;
+  else
+    contacts.push_back(contact);
+}
+
+/// A contact with a piece that holds the character where it is now.
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::report_touched(PieceIndex piece) noexcept {
+  const std::size_t axis = best_axis<variant>(space_, piece, local(piece, position_)).axis;
+  report_contact(piece, axis, time_, result_.contacts.size());
 }
 
 /// When the collider of a piece is met by the motion of the last sweep, as a fraction of the step.

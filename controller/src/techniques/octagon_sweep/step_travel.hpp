@@ -6,19 +6,6 @@
 
 namespace paperproof::octagon_sweep {
 
-/// Two unit normals of one plane. Zero: rounding would make two of it. Large: a crease would be taken for a plane.
-template <class Scalar>
-inline constexpr Scalar same_plane = std::numeric_limits<Scalar>::epsilon() * 16;
-
-/// A way that points into a plane by less than this share of its length runs along it.
-template <class Scalar>
-inline constexpr Scalar along_plane = std::numeric_limits<Scalar>::epsilon() * 64;
-
-template <class Scalar>
-[[nodiscard, gnu::always_inline]] inline Scalar dot(const Vec2<Scalar>& a, const Vec2<Scalar>& b) noexcept {
-  return a.x() * b.x() + a.y() * b.y();
-}
-
 /// Whether a way goes into a plane that it touches, rather than along it.
 template <class Scalar>
 [[nodiscard]] bool enters(const Vec2<Scalar>& way, const Vec2<Scalar>& normal) noexcept {
@@ -59,13 +46,15 @@ void StepSolver<variant, Scalar>::solve(const MoveRequest<Scalar>& request) noex
     }
     if (near) look_along(wanted);
     if (request.grounded && !found_.hit) keep_ground();
+    begin_drive(request);
     if constexpr (variant.movers) {
       travel_among_movers();
       take_back_crushes();
     } else {
       travel();
     }
-    result_.grounded = stands();
+    result_.grounded = stands(request);
+    if (result_.grounded && !met_ground_ && !wedged_) report_ground();
     if constexpr (variant.snap) follow_ground_down(request);
     if constexpr (variant.movers) end_ride();
   }
@@ -84,13 +73,15 @@ void StepSolver<variant, Scalar>::keep_ground() noexcept {
   const Scalar begin = time_;
   position_ += motion_.way;
   time_ = 1;
-  const bool ends_on_ground = stands_on_any();
+  bool ends_on_ground = false;
+  for_each_near({position_, position_},
+                [&](PieceIndex piece) { ends_on_ground = ends_on_ground || touches_ground(piece); });
   position_ = from;
   time_ = begin;
   if (!ends_on_ground) return;
   for_each_near({position_, position_}, [this](PieceIndex piece) {
     const BestAxis<Scalar> best = best_axis<variant>(space_, piece, local(piece, position_));
-    if (!stands_on(piece) || space_.covered(piece, best.axis)) return;
+    if (!touches_ground(piece) || space_.covered(piece, best.axis)) return;
     V way = motion_.way;
     if constexpr (variant.movers)
       if (mover_of(piece) != no_mover) way = moving_.around.relative(way, mover_of(piece), time_);
@@ -101,46 +92,105 @@ void StepSolver<variant, Scalar>::keep_ground() noexcept {
   order_stops();
 }
 
+/// What the step wants, and what it would want without steering.
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::begin_drive(const MoveRequest<Scalar>& request) noexcept {
+  unsteered_velocity_ = {velocity_.x() - request.steered, velocity_.y()};
+  unsteered_way_ = {motion_.way.x() - request.steered * request.dt, motion_.way.y()};
+  // A rise that is steeper than any ground comes from elsewhere.
+  after_walk_ = request.grounded &&
+                request.velocity.y() <= std::abs(request.velocity.x()) * settings_.walkable_tangent;
+}
+
+template <Variant variant, class Scalar>
+Drive<Scalar> StepSolver<variant, Scalar>::drive() const noexcept {
+  return {{motion_.way, unsteered_way_}, {velocity_, unsteered_velocity_}};
+}
+
 /// The way itself: stop at what the sweep found, respond, and sweep again with what is left. What is left only shrinks.
 template <Variant variant, class Scalar>
 void StepSolver<variant, Scalar>::travel() noexcept {
   constexpr Tolerances<Scalar> tolerances{};
   FixedVector<V, 16> held;  // normals met since the last progress
-  V way = motion_.way;
-  V plain_way = way;  // without the aim back to the gap
+  Drive<Scalar> drive = this->drive();
+  Fall<Scalar> fall{drive.way.unsteered.y(), drive.velocity.unsteered.y()};  // when the first of them was met
+  V way = motion_.way;  // with the aim back to the gap
   bool may_aim = true;
   for (int iteration = 0; iteration < settings_.iterations; ++iteration) {
     if (way.x() == 0 && way.y() == 0) return;
     if (iteration > 0) look_along(way);
-    const bool aimed = way.x() != plain_way.x() || way.y() != plain_way.y();
+    const bool aimed = way.x() != drive.way.wanted.x() || way.y() != drive.way.wanted.y();
     if (found_.hit && found_.stop == 0 && aimed) {
       // There is no room to restore the gap: give that up for this step.
-      way = plain_way;
+      way = drive.way.wanted;
       may_aim = false;
       continue;
     }
     const Scalar begin = time_;
-    if (!advance(found_.hit ? found_.stop : Scalar(1))) return halt();
+    if (!advance(found_.hit ? found_.stop : Scalar(1))) return cut_short();
     if (!found_.hit) return;
     report(begin);
 
     const Stop<Scalar>& stop = found_.stops[0];
     const V normal = space_.normal(stop.piece, stop.axes.normal);
-    if (found_.stop * motion_.length > tolerances.touch) held.clear();
+    const Scalar left = 1 - found_.stop;
+    fall.way *= left;
+    if (found_.stop * motion_.length > tolerances.touch) {
+      held.clear();
+      fall = {drive.way.unsteered.y() * left, drive.velocity.unsteered.y()};
+    }
     for (const V& other : held)
       if (dot(other, normal) > 1 - same_plane<Scalar>) return;  // the same plane again: no progress to be had
     held.push_back(normal);
 
-    plain_way = respond(V(plain_way * (1 - found_.stop)), normal, settings_.walkable_cosine);
-    velocity_ = respond(velocity_, normal, settings_.walkable_cosine);
+    drive.way = {drive.way.wanted * left, drive.way.unsteered * left};
+    respond_to(normal, drive);
     for (const V& other : held) {
-      if (!enters(plain_way, other) && !enters(velocity_, other)) continue;
-      ended_in_crease_ = true;
-      return halt();
+      if (!enters(drive.way.wanted, other) && !enters(drive.velocity.wanted, other)) continue;
+      if (!slip({held.begin(), held.size()}, fall, drive)) return halt();
+      break;
     }
-    way = may_aim ? aimed_back(plain_way, stop) : plain_way;
+    velocity_ = drive.velocity.wanted;
+    way = may_aim ? aimed_back(drive.way.wanted, stop) : drive.way.wanted;
   }
   result_.status = MoveStatus::dropped;
+}
+
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::respond_to(const V& normal, Drive<Scalar>& drive) noexcept {
+  const Surface<Scalar> at{normal, walkable(normal), after_walk_};
+  drive.way = respond(drive.way, at);
+  drive.velocity = respond(drive.velocity, at);
+  after_walk_ = after_walk_ || at.walkable;
+}
+
+/// Between surfaces that hold the motion together: whether a fall slips through them. False: they are a wedge, or there
+/// was no fall.
+/// @param held the normals of all that are touched.
+/// @param fall without steering, before the first of them was met.
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::slip(std::span<const V> held, const Fall<Scalar>& fall,
+                                       Drive<Scalar>& drive) noexcept {
+  FixedVector<HalfPlane<Scalar>, 16> planes;
+  for (const V& normal : held) planes.push_back({normal});
+  const auto nearest = [&](Scalar y) {
+    return nearest_allowed<Scalar>(V(0, std::min(y, Scalar(0))), {planes.begin(), planes.size()}).value_or(V::Zero());
+  };
+  const V velocity = nearest(fall.velocity);
+  const bool slips = velocity.y() < 0 && velocity.y() < along_plane<Scalar> * fall.velocity;
+  wedged_ = fall.velocity < 0 && !slips;
+  if (slips) drive = Drive<Scalar>::plain(nearest(fall.way), velocity);
+  return slips;
+}
+
+/// The exact certificate or the range forbids the motion: the step ends here, and names each piece that is in the way.
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::cut_short() noexcept {
+  if (result_.status == MoveStatus::moved) result_.status = MoveStatus::dropped;
+  const V target = motion_.from + motion_.way * found_.stop;
+  for (const PieceIndex piece : neighbourhood_.around({position_.cwiseMin(target), position_.cwiseMax(target)}))
+    if (!clear_way(piece, position_, target)) report_touched(piece);
+  halt();
 }
 
 /// A slide along a plane that is nearer than it should be ends at the right gap.
@@ -158,16 +208,22 @@ void StepSolver<variant, Scalar>::halt() noexcept {
   velocity_ = V::Zero();
 }
 
-/// Standing: something walkable is touched where the step ended and the motion went into it, or the motion was held by
-/// contacts that together block a fall.
+/// Standing: where the step ends something walkable is touched that the motion does not leave, or a fall ended in a
+/// wedge. A step that nothing stopped, and that did not begin on the ground, is in the air.
 template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::stands() noexcept {
-  if (on_ground_) return true;
-  if (ended_in_crease_)
-    return std::any_of(result_.contacts.begin(), result_.contacts.end(),
-                       [](const Contact<Scalar>& contact) { return contact.normal.y() > 0; });
-  if (!met_ground_) return false;
-  return stands_on(ground_) || stands_on_any();  // mostly the first
+bool StepSolver<variant, Scalar>::stands(const MoveRequest<Scalar>& request) noexcept {
+  if (on_ground_ || wedged_) return true;
+  if (met_ground_ && stands_on(ground_)) return true;  // mostly
+  return (request.grounded || !result_.contacts.empty()) && stands_on_any();
+}
+
+/// The ground that the character stands on is among the contacts, also where gravity presses onto it by less than the
+/// sweep sees.
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::report_ground() noexcept {
+  for_each_near({position_, position_}, [this](PieceIndex piece) {
+    if (stands_on(piece)) report_touched(piece);
+  });
 }
 
 template <Variant variant, class Scalar>
@@ -179,6 +235,17 @@ bool StepSolver<variant, Scalar>::stands_on_any() noexcept {
 
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::stands_on(PieceIndex piece) const noexcept {
+  if (!touches_ground(piece)) return false;
+  const V normal = space_.normal(piece, best_axis<variant>(space_, piece, local(piece, position_)).axis);
+  V ground = V::Zero();
+  if constexpr (variant.movers)
+    if (mover_of(piece) != no_mover) ground = moving_.around.course(mover_of(piece)) / moving_.around.dt;
+  const Scalar leaving = dot(V(velocity_ - ground), normal);
+  return leaving <= 0 || leaving <= along_plane<Scalar> * (length_of(velocity_) + length_of(ground));
+}
+
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::touches_ground(PieceIndex piece) const noexcept {
   if (dropped(piece)) return false;
   constexpr Scalar touch = Tolerances<Scalar>{}.touch;
   const BestAxis<Scalar> best = best_axis<variant>(space_, piece, local(piece, position_));
@@ -202,13 +269,14 @@ void StepSolver<variant, Scalar>::follow_ground_down(const MoveRequest<Scalar>& 
   look_along({0, -std::min(settings_.snap, steepest)});
   if (!found_.hit) return;
   const PieceIndex piece = found_.stops[0].piece;
-  const V normal = space_.normal(piece, found_.stops[0].axes.normal);
+  const std::size_t axis = found_.stops[0].axes.normal;
+  const V normal = space_.normal(piece, axis);
   if (!walkable(normal) || !advance(found_.stop)) return;
   result_.grounded = true;
+  report_contact(piece, axis, time_, result_.contacts.size());
   V velocity = velocity_;
   if constexpr (variant.movers) velocity -= ground_velocity(piece, normal);
-  const V pressed{velocity.x(), -std::abs(velocity.x()) * settings_.walkable_tangent - 1};
-  velocity_ = respond(pressed, normal, settings_.walkable_cosine);
+  velocity_ = follow(velocity.x(), normal);
   if constexpr (variant.movers) velocity_ += ground_velocity(piece, normal);
 }
 
