@@ -53,7 +53,7 @@ Metrics::Metrics(const TraceHeader& header, const Measured& measured)
   has_one_way_ = any([](const ColliderDef& def) { return def.one_way.has_value(); });
   if (any([](const ColliderDef& def) { return def.sensor; })) sums_.sensor_events = sums_.sensor_errors = 0;
   for (std::optional<int>* counter : {&sums_.tunnels, &sums_.corner_cuts, &sums_.steps_ending_inside,
-                                      &sums_.contact_steps, &sums_.stuck_steps, &sums_.dropped_steps}) {
+                                      &sums_.contact_steps, &sums_.hanging_steps, &sums_.stuck_steps, &sums_.dropped_steps}) {
     *counter = 0;
   }
   if (measured_.respawns) sums_.respawns = 0;
@@ -146,12 +146,21 @@ void Metrics::add_passings(const TraceStep& step, const StepJudgement& judgement
   count(sums_.steps_ending_inside, inside);
   if (has_one_way_) count(sums_.one_way_violations, !judgement.one_way_broken.empty());
   raise(sums_.max_penetration_m, judgement.max_penetration);
-  if (!judgement.passings.empty() && sums_.findings.empty()) {
+  if (sums_.first_tunnel) return;
+  if (!judgement.passings.empty()) {
     const Passing& passing = judgement.passings.front();
-    sums_.findings.push_back(sentence(step, passing, ids_[passing.collider]));
-  } else if (!company.passed.empty() && sums_.findings.empty()) {
-    sums_.findings.push_back("step " + std::to_string(step.step) + ": " + named(step.character) + " and " +
-                             named(company.passed.front()) + " passed through each other");
+    const std::string& id = ids_[passing.collider];
+    sums_.first_tunnel = {.step = step.step,
+                          .collider = id,
+                          .speed_m_s = passing.speed,
+                          .thickness_m = passing.thickness,
+                          .angle_deg = passing.angle,
+                          .words = sentence(step, passing, id)};
+  } else if (!company.passed.empty()) {
+    sums_.first_tunnel = {.step = step.step,
+                          .collider = {},
+                          .words = "step " + std::to_string(step.step) + ": " + named(step.character) + " and " +
+                                   named(company.passed.front()) + " passed through each other"};
   }
 }
 
@@ -177,6 +186,7 @@ void Metrics::add(const TraceStep& step, const StepJudgement& judgement) {
   if (measured_.rest) followers_[step.character].rest.add(step);
   count(sums_.contact_steps, !step.contacts.empty() || !step.met.empty());
   if (measured_.respawns) count(sums_.respawns, step.respawn);
+  count(sums_.hanging_steps, judgement.hangs);
   count(sums_.stuck_steps, step.stuck);
   count(sums_.dropped_steps, step.dropped);
   if (step.requested.x() != 0) raise(sums_.ghost_speed_loss, judgement.ghost_speed_loss);
@@ -203,11 +213,12 @@ void Metrics::write(Row& row) const {
   row.sensor_errors = sums_.sensor_errors;
   row.max_sensor_error = sums_.max_sensor_error;
   row.steps_inside_after_crush = sums_.steps_inside_after_crush;
+  row.hanging_steps = sums_.hanging_steps;
   row.stuck_steps = sums_.stuck_steps;
   row.dropped_steps = sums_.dropped_steps;
   row.toi_error_max = sums_.toi_error_max;
   row.ghost_speed_loss = sums_.ghost_speed_loss;
-  row.findings.insert(row.findings.begin(), sums_.findings.begin(), sums_.findings.end());
+  row.first_tunnel = sums_.first_tunnel;
   row.characters = sums_.characters;
 
   Matches matches = matches_;

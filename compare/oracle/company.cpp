@@ -74,6 +74,16 @@ Others CompanyJudge::others_of(CharacterIndex character, std::span<const TraceSt
       return !(pair_.separation(way.back().position, end_of(other)) >= least_clearance) || pair_.meet(way, other.path);
     });
   };
+  others.near = [this, steps, character](const PathPoint<double>& corner, double within) {
+    std::vector<NearPart> parts;
+    for (const TraceStep& other : steps) {
+      if (other.character == character) continue;
+      NearPart part{.moved = end_of(other) - start_of(other),
+                    .faces = pair_.near_faces(corner.position, place_at(other.path, corner.fraction), within)};
+      if (!part.faces.empty()) parts.push_back(std::move(part));
+    }
+    return parts;
+  };
   return others;
 }
 

@@ -8,8 +8,10 @@
 
 namespace paperproof::compare {
 
-/// What the other characters of a run mean for a crush of one of them.
+/// What the other characters of a run mean for one of them: where it has room, and what holds it.
 struct Others {
+  /// Those within so many metres when the step has come to a corner of the way. Empty where there are none.
+  std::function<std::vector<NearPart>(const PathPoint<double>& corner, double within)> near{};
   /// Whether they leave free a way of the whole step, from fraction 0 to 1, and the place where it ends. Empty where
   /// there are none.
   std::function<bool(std::span<const PathPoint<double>> way)> left_free{};

@@ -86,32 +86,68 @@ std::vector<Integer> scaled_separations(const ConvexPart& part, std::span<const 
   return separations;
 }
 
-Axis best_axis(const ConvexPart& part, std::span<const Vec2d> octagon, const FramePlace& place) {
-  const Vec2d position = place.rounded();
-  const std::vector<AxisEdge> axes = axis_edges(part, octagon);
-  std::vector<double> estimates;
-  estimates.reserve(axes.size());
+namespace {
+
+/// The axes of a place with separations as far as doubles know them.
+struct Estimates {
+  std::vector<AxisEdge> axes;
+  std::vector<double> separations;
   double best = -std::numeric_limits<double>::infinity();
+  double window = 0;  ///< More than an estimate can be off: among movers the place itself is rounded [m].
+};
+
+Estimates estimate(const ConvexPart& part, std::span<const Vec2d> octagon, const FramePlace& place) {
+  const Vec2d position = place.rounded();
+  Estimates estimates{.axes = axis_edges(part, octagon), .separations = {}};
+  estimates.separations.reserve(estimates.axes.size());
   double size = 0;
-  for (const AxisEdge& axis : axes) {
-    estimates.push_back(estimate_of(axis, part, octagon, position));
-    best = std::max(best, estimates.back());
+  for (const AxisEdge& axis : estimates.axes) {
+    estimates.separations.push_back(estimate_of(axis, part, octagon, position));
+    estimates.best = std::max(estimates.best, estimates.separations.back());
   }
   for (const Vec2d& vertex : part.points) size = std::max(size, (vertex - position).cwiseAbs().maxCoeff());
   for (const Vec2d& corner : octagon) size = std::max(size, corner.cwiseAbs().maxCoeff());
+  estimates.window = size * 0x1p-46 + (place.moved() ? place.size() * 0x1p-48 : 0);
+  return estimates;
+}
 
-  // More than the estimates can be off: among movers the place itself is rounded.
-  const double window = size * 0x1p-46 + (place.moved() ? place.size() * 0x1p-48 : 0);
+Vec2d normal_of(const AxisEdge& axis) {
+  const Vec2d edge = (axis.end - axis.start) / length_of(axis);
+  return {-edge.y(), edge.x()};
+}
+
+/// The first of the largest.
+Axis best_of(const Estimates& estimates, const ConvexPart& part, std::span<const Vec2d> octagon,
+             const FramePlace& place) {
   Axis result{-std::numeric_limits<double>::infinity(), Vec2d::Zero()};
-  for (std::size_t i = 0; i < axes.size(); ++i) {
-    if (estimates[i] < best - window) continue;
-    const AxisEdge& axis = axes[i];
-    const double separation = exact_separation(axis, part, octagon, place);
-    if (separation <= result.separation) continue;
-    const Vec2d edge = (axis.end - axis.start) / length_of(axis);
-    result = {separation, Vec2d(-edge.y(), edge.x())};
+  for (std::size_t i = 0; i < estimates.axes.size(); ++i) {
+    if (estimates.separations[i] < estimates.best - estimates.window) continue;
+    const double separation = exact_separation(estimates.axes[i], part, octagon, place);
+    if (separation > result.separation) result = {separation, normal_of(estimates.axes[i])};
   }
   return result;
+}
+
+}  // namespace
+
+Axis best_axis(const ConvexPart& part, std::span<const Vec2d> octagon, const FramePlace& place) {
+  return best_of(estimate(part, octagon, place), part, octagon, place);
+}
+
+std::vector<Axis> separating_axes(const ConvexPart& part, std::span<const Vec2d> octagon, const FramePlace& place,
+                                  double within) {
+  const Estimates estimates = estimate(part, octagon, place);
+  if (estimates.best > within + estimates.window) return {};
+  std::vector<Axis> apart;
+  for (std::size_t i = 0; i < estimates.axes.size(); ++i) {
+    if (estimates.separations[i] < -estimates.window) continue;
+    const double separation = exact_separation(estimates.axes[i], part, octagon, place);
+    if (separation >= 0) apart.push_back({separation, normal_of(estimates.axes[i])});
+  }
+  if (apart.empty()) apart.push_back(best_of(estimates, part, octagon, place));
+  std::stable_sort(apart.begin(), apart.end(), [](const Axis& a, const Axis& b) { return a.separation > b.separation; });
+  if (apart.front().separation > within) return {};
+  return apart;
 }
 
 }  // namespace paperproof::compare::detail

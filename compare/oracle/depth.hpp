@@ -19,6 +19,11 @@ struct Axis {
 /// @param place in the frame of the part.
 [[nodiscard]] Axis best_axis(const ConvexPart& part, std::span<const Vec2d> octagon, const FramePlace& place);
 
+/// All axes along which the two are apart, the best first; where they overlap, the best one alone. Empty where they are
+/// farther apart than `within` along the best one.
+[[nodiscard]] std::vector<Axis> separating_axes(const ConvexPart& part, std::span<const Vec2d> octagon,
+                                                const FramePlace& place, double within);
+
 /// An edge whose left normal points from the part towards the octagon: of the part, reversed, or of the octagon. The
 /// two are apart exactly if they are along one of these normals.
 struct AxisEdge {

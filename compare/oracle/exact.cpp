@@ -259,6 +259,24 @@ std::vector<ColliderIndex> ExactScenery::near(const Place& from, const Place& to
   return found;
 }
 
+std::vector<NearPart> ExactScenery::near_parts(const Place& at, double within) const {
+  std::vector<NearPart> found;
+  const double distance = within / impl_->share_of_distance;
+  for (const ColliderIndex collider : near(at, at, distance)) {
+    const detail::FramePlace place = impl_->seen_from(collider, at);
+    const Box2<double> around = impl_->world.box_of(Way::stay(place)).inflated(distance);
+    for (const detail::ConvexPart& part : impl_->parts[collider]) {
+      if (!part.box.overlaps(around)) continue;
+      NearPart near{.collider = collider, .moved = place.mover.to - place.mover.from, .faces = {}};
+      for (const detail::Axis& axis : detail::separating_axes(part, impl_->world.points(), place, within)) {
+        near.faces.push_back({axis.separation, axis.normal});
+      }
+      if (!near.faces.empty()) found.push_back(std::move(near));
+    }
+  }
+  return found;
+}
+
 std::vector<ExactSensorEvent> ExactScenery::sensor_events(std::span<const Place> path) const {
   std::vector<ExactSensorEvent> events;
   for (const detail::Group& group : impl_->world.groups()) {

@@ -58,6 +58,19 @@ struct ExactImpact {
   bool exposed = true;
 };
 
+/// One side of a convex obstacle along which the octagon is apart from it.
+struct NearFace {
+  double separation = 0;        ///< Along the normal [m]; negative where they overlap.
+  Vec2d normal{Vec2d::Zero()};  ///< Unit, from the obstacle towards the octagon, rounded.
+};
+
+/// A convex obstacle near the octagon: whatever moves against none of one face's normal keeps clear of it.
+struct NearPart {
+  ColliderIndex collider = 0;
+  Vec2d moved{Vec2d::Zero()};   ///< By its mover in the whole step [m].
+  std::vector<NearFace> faces;  ///< All along which they are apart, the farthest first; the best alone on overlap.
+};
+
 /// The octagon's interior came to overlap a sensor's, or ceased to.
 struct ExactSensorEvent {
   using Change = SensorEvent<double>::Change;
@@ -122,6 +135,10 @@ class ExactScenery {
   /// Colliders whose boxes come within `within` metres of the box of the octagon, wherever it is in the box of the two
   /// positions while they go from the one moment to the other.
   [[nodiscard]] std::vector<ColliderIndex> near(const Place& from, const Place& to, double within) const;
+
+  /// The convex parts of solids whose best axis leaves no more than `within` metres, with the faces that separate.
+  /// Polygons are cut into parts, chains are their segments, of which one-way ones count from both sides.
+  [[nodiscard]] std::vector<NearPart> near_parts(const Place& at, double within) const;
 
   /// What happens to the sensors on a way, corner by corner, in order of time (ties: sensor, exit first). A sensor that
   /// is overlapped where the way begins was entered before.

@@ -1,6 +1,7 @@
 #include "oracle/judge.hpp"
 
 #include "oracle/contacts.hpp"
+#include "oracle/hanging.hpp"
 #include "oracle/passing.hpp"
 #include "oracle/turning.hpp"
 
@@ -47,6 +48,9 @@ StepJudgement Judge::judge(const TraceStep& step, const Others& others) {
   if (!turning_->any()) return judge_exactly(step, others);
   StepJudgement judgement = judge_exactly(turning_->exact_part(step), others);
   turning_->judge(step, judgement);
+  const bool beside = turning_->is_near(step, detail::reach_of(header_).contact);
+  judgement.hangs = judgement.hangs && !beside;
+  judgement.hovers = judgement.hovers && !beside;
   return judgement;
 }
 
@@ -65,9 +69,11 @@ StepJudgement Judge::judge_exactly(const TraceStep& step, const Others& others) 
     detail::ContactJudge(header_, scenery_, step).judge(starts_free, judgement);
   }
   if (has_sensors_) judge_sensors(path, step, judgement);
+  judge_progress(step, others, judgement);
   last_end_.emplace(path.back());
   last_.reset();
-  if (path.size() == 1 && inside_.empty()) last_.emplace(step, judgement);
+  if (path.size() == 1 && inside_.empty() && step.remainder == remainder_before_) last_.emplace(step, judgement);
+  remainder_before_ = step.remainder;
   return judgement;
 }
 
@@ -104,7 +110,8 @@ bool Judge::repeats(const TraceStep& step) const {
   const auto same_contact = [](const Contact<double>& a, const Contact<double>& b) {
     return a.collider == b.collider && a.normal == b.normal;
   };
-  return step.dt == last.dt && step.requested == last.requested && step.velocity == last.velocity &&
+  return step.dt == last.dt && step.requested == last.requested && step.steered == last.steered &&
+         step.velocity == last.velocity && step.remainder == last.remainder &&
          step.crushed == last.crushed && step.dropped_through == last.dropped_through && step.sensors.empty() &&
          last.sensors.empty() &&
          std::equal(step.movers.begin(), step.movers.end(), last.movers.begin(), last.movers.end(), same_motion) &&
@@ -254,6 +261,17 @@ void Judge::judge_crushes(const Path& path, const TraceStep& step, const Touched
     (moves && (!judgement.room || others.touched) ? judgement.crushed : judgement.crushed_with_room)
         .push_back(collider);
   }
+}
+
+void Judge::judge_progress(const TraceStep& step, const Others& others, StepJudgement& judgement) const {
+  if (!judgement.crushed.empty()) return;
+  const detail::HangingJudge hanging(header_, scenery_, step, others);
+  const Vec2d before = step.respawn ? step.remainder : remainder_before_;
+  const Vec2d made = step.path.back().position - step.path.front().position + step.remainder - before;
+  const detail::Reach own = detail::reach_of(header_);
+  judgement.hangs = hanging.hangs(made, own);
+  judgement.hovers = own.contact > detail::exact_reach.contact && !judgement.hangs &&
+                     hanging.hangs(made, detail::exact_reach);
 }
 
 void Judge::judge_sensors(const Path& path, const TraceStep& step, StepJudgement& judgement) const {

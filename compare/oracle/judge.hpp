@@ -50,6 +50,8 @@ struct StepJudgement {
   std::vector<std::pair<ColliderIndex, Side>> ghosts;
   std::optional<double> first_impact;    ///< Exact fraction of the first impact of the requested motion, started free.
   bool first_impact_comparable = false;  ///< A reported fraction can be held against it: see `Judge`.
+  bool hangs = false;           ///< It could have fallen, and did not: see `Judge`.
+  bool hovers = false;          ///< It would hang, but for what is within the contender's own reach and not near.
   double ghost_speed_loss = 0;  ///< Share of the wanted horizontal speed that was lost to nothing exact, in [0, 1].
   std::vector<ExactSensorEvent> sensor_events;  ///< What should have been reported.
   int sensor_events_missing = 0;                ///< Of `sensor_events`.
@@ -131,6 +133,19 @@ struct StepJudgement {
 /// along the normal, and the approach against the normal is at least 1e-3 of the displacement: at rest, and where the
 /// motion grazes, a gap of a micrometre is much of the way. Who is stuck does not go as requested, and has none.
 ///
+/// **Hangs.** Let u be what is requested less what the step's steering added to it. C is the set of displacements that
+/// enter no solid and no other character that is within 1e-6 m (separation along the best axis) of a corner of the
+/// travelled way: of each convex part, those against none of the normals of one face that separates it there, relative
+/// to how far it moves in the step. (A one-way chain counts where it blocks the shortest way to it.) The projection of u
+/// onto C is the displacement of C that is nearest to u. A step hangs if the projection falls, u falls, each by more
+/// than 1e-9 m and an ulp of the largest coordinate, and the step falls less than half of both. Excepted are
+/// - a direction with less than 2e-7 m of room between what is left and right of it, which is not in C;
+/// - ground: a step with a part in reach one of whose faces is within `max_climb_degrees` (and 1e-6 rad) of level;
+/// - a step that touches a corner deeper than 1e-6 m inside a solid, a verified crush, and Box2D's cap: other answers say
+///   so; and one beside what turns.
+/// What a grid has taken up and not made yet (`remainder`) counts as made. A step hovers if it would hang, but for what
+/// is within the contender's own reach (`detail::reach_of`): Box2D's skin, a unit of the article's search.
+///
 /// **What turns** is judged apart, between bounds: see oracle/turning.hpp.
 ///
 /// **Ghost speed loss.** Horizontal speed was lost to nothing where the step began free and crushed nobody, and no
@@ -182,6 +197,7 @@ class Judge {
   void judge_crushes(const Path& path, const TraceStep& step, const Touched& touched, const Others& others,
                      StepJudgement& judgement) const;
   void judge_sensors(const Path& path, const TraceStep& step, StepJudgement& judgement) const;
+  void judge_progress(const TraceStep& step, const Others& others, StepJudgement& judgement) const;
 
   const TraceHeader header_;
   std::unique_ptr<detail::TurningJudge> turning_;
@@ -192,6 +208,7 @@ class Judge {
   double dt_ = 0;  ///< Of the step that is being judged [s].
   std::map<ColliderIndex, Episode> inside_;
   std::optional<Kept> last_end_;
+  Vec2d remainder_before_{Vec2d::Zero()};  ///< See `TraceStep::remainder`.
   std::optional<std::pair<TraceStep, StepJudgement>> last_;  ///< Where no episode was open.
 };
 

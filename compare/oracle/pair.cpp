@@ -158,6 +158,19 @@ double ExactPair::separation_of(const Vec2d& difference) const {
 
 double ExactPair::separation(const Vec2d& one, const Vec2d& other) const { return separation_of(one - other); }
 
+std::vector<NearFace> ExactPair::near_faces(const Vec2d& one, const Vec2d& other, double within) const {
+  std::vector<NearFace> faces;
+  for (const Side& side : sides_)
+    for (const double sign : {1.0, -1.0})
+      faces.push_back({sign * side.normal.dot(one - other) - side.width, sign * side.normal});
+  std::stable_sort(faces.begin(), faces.end(),
+                   [](const NearFace& a, const NearFace& b) { return a.separation > b.separation; });
+  if (faces.front().separation > within) return {};
+  faces.erase(std::find_if(faces.begin() + 1, faces.end(), [](const NearFace& face) { return face.separation < 0; }),
+              faces.end());
+  return faces;
+}
+
 /// On a straight way the separation is convex: there is one deepest place, closed in on by thirds.
 double ExactPair::deepest(Way one, Way other) const {
   double deepest = 0;

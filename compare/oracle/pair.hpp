@@ -1,6 +1,7 @@
 /// Two characters of one shape, exactly.
 #pragma once
 
+#include "oracle/exact.hpp"
 #include "oracle/number.hpp"
 
 #include <paperproof/technique.hpp>
@@ -48,6 +49,8 @@ class ExactPair {
 
   /// Along the best axis, rounded [m]; negative: how deep they overlap.
   [[nodiscard]] double separation(const Vec2d& one, const Vec2d& other) const;
+  /// The sides along which `one` is apart from `other`, as of a `NearPart`; none where they are farther than `within`.
+  [[nodiscard]] std::vector<NearFace> near_faces(const Vec2d& one, const Vec2d& other, double within) const;
 
   /// The largest depth at any moment of two ways, rounded [m]; 0 where they do not overlap.
   [[nodiscard]] double deepest(std::span<const PathPoint<double>> one, std::span<const PathPoint<double>> other) const;

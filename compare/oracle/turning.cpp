@@ -94,6 +94,14 @@ Axis TurningJudge::nearest_axis(const Solid& solid, const Pose& at, const Vec2d&
   return nearest;
 }
 
+bool TurningJudge::is_near(const TraceStep& step, double within) const {
+  return std::any_of(solids_.begin(), solids_.end(), [&](const Solid& solid) {
+    return std::any_of(step.path.begin(), step.path.end(), [&](const PathPoint<double>& corner) {
+      return nearest_axis(solid, pose(step, solid, corner.fraction), corner.position).separation <= within;
+    });
+  });
+}
+
 void TurningJudge::judge(const TraceStep& step, StepJudgement& judgement) {
   if (step.path.empty()) return;
   std::set<ColliderIndex> touched;

@@ -31,6 +31,8 @@ class TurningJudge {
   [[nodiscard]] static SceneryDef exact_part(const TraceHeader& header);
   /// The step without its contacts with and events of what turns.
   [[nodiscard]] TraceStep exact_part(const TraceStep& step) const;
+  /// Whether something that turns is within so many metres at a corner of the way.
+  [[nodiscard]] bool is_near(const TraceStep& step, double within) const;
   /// Adds what turns to the judgement of the rest.
   void judge(const TraceStep& step, StepJudgement& judgement);
 

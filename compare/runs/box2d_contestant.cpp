@@ -26,6 +26,7 @@ class Box2dContestant final : public Contestant {
     header_.dt = scene.dt;
     header_.characters = character_count(scene);
     header_.points = world_.points_as_run();
+    header_.max_climb_degrees = scene.character.max_climb_degrees;
     header_.scenery = world_.as_run();
     header_.ids = scene.ids;
     header_.box2d = box2d::box2d_version();

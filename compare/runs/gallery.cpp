@@ -96,7 +96,8 @@ std::optional<Failure> failure_of(const Row& row) {
       return Failure{Kind::tunnels, row.reason};
     case Verdict::flagged:
       if (row.steps_ending_inside.value_or(0) > 0) return Failure{Kind::inside, row.reason};
-      return Failure{row.one_way_violations.value_or(0) > 0 ? Kind::one_way : Kind::flagged, row.reason};
+      if (row.one_way_violations.value_or(0) > 0) return Failure{Kind::one_way, row.reason};
+      return Failure{row.hanging_steps.value_or(0) > 0 ? Kind::hangs : Kind::flagged, row.reason};
     case Verdict::holds:
       return mild_failure_of(row);
   }

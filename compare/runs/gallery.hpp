@@ -16,6 +16,7 @@ struct Failure {
     tunnels,      ///< It passed a solid.
     inside,       ///< It ended steps inside a solid.
     one_way,      ///< It passed a one-way chain against its normal.
+    hangs,        ///< It could have fallen, and did not.
     flagged,      ///< It met a limit of its own.
     missed,       ///< It did not report contacts that exact arithmetic has: more than one in ten.
     snag,         ///< It lost more than 1 % of its speed in one step to nothing.

@@ -1,5 +1,6 @@
 #include "runs/lane.hpp"
 
+#include "runs/verdict.hpp"
 #include "words.hpp"
 
 #include <fmt/format.h>
@@ -82,13 +83,8 @@ void Lane::fail(Verdict verdict, const std::string& reason) {
 /// What ran is scored; the row says that it ended before its time.
 void Lane::end_early(const std::string& reason) {
   metrics_->write(row_);
+  add_fault(row_, Axis::validity, Verdict::flagged, reason);
   conclude();
-  if (row_.verdict == Verdict::holds) {
-    row_.verdict = Verdict::flagged;
-    row_.reason = reason;
-  } else {
-    row_.findings.push_back(reason);
-  }
   contestant_.reset();
 }
 
@@ -125,8 +121,7 @@ void Lane::judge_step() {
     placed_[k] = false;
     record.start_overlap = inside_[k];
     if (company_) record.start_overlap_characters = company_->overlapped(starts, record.character);
-    const bool ask_others = company_ && !record.crushed.empty();
-    judgements_[k] = judges_[k]->judge(record, ask_others ? company_->others_of(record.character, records_) : Others{});
+    judgements_[k] = judges_[k]->judge(record, company_ ? company_->others_of(record.character, records_) : Others{});
   }
   if (records_.front().step == 0) note_start();
   if (company_) company_->judge(records_, judgements_);
@@ -222,37 +217,34 @@ bool Lane::guaranteed() const {
 }
 
 void Lane::conclude() {
-  const int inside = row_.steps_ending_inside.value_or(0);
-  const double gap = row_.max_contact_gap_m.value_or(0);
-  const bool wide_gap = gap > guaranteed_gap;
+  const bool promised = guaranteed();
+  conclude_safety(promised);
+  if (const int hanging = row_.hanging_steps.value_or(0); hanging > 0)
+    add_fault(row_, Axis::progress, promised ? Verdict::violates : Verdict::flagged,
+              fmt::format("hangs on {}", counted(hanging, "step")));
+  if (steps_capped_ > 0)
+    add_fault(row_, Axis::validity, Verdict::flagged,
+              fmt::format("{} beyond Box2D's travel cap of 2 m per step, not scored", counted(steps_capped_, "step")));
+  settle(row_);
+}
+
+void Lane::conclude_safety(bool promised) {
+  const auto fault = [&](Verdict usual, const std::string& words) {
+    add_fault(row_, Axis::safety, promised ? Verdict::violates : usual, words);
+  };
   const std::string solid = broke_company_ ? "a solid or another character" : "a solid";
-  const std::string miscalled = fmt::format("a crush with room to give way on {}", counted(steps_miscalled_, "step"));
-  if (guaranteed() && (steps_broken_ > 0 || steps_miscalled_ > 0 || wide_gap)) {
-    row_.verdict = Verdict::violates;
-    row_.reason = steps_broken_ > 0      ? fmt::format("{} into or through {}", counted(steps_broken_, "step"), solid)
-                  : steps_miscalled_ > 0 ? miscalled
-                                         : fmt::format("a contact is {:.3g} m away", gap);
-  } else if (steps_capped_ > 0) {
-    row_.verdict = Verdict::flagged;
-    row_.reason =
-        fmt::format("{} beyond Box2D's travel cap of 2 m per step, not scored", counted(steps_capped_, "step"));
-  } else if (row_.tunnels.value_or(0) > 0) {
-    row_.verdict = Verdict::tunnels;
-    row_.reason = fmt::format("{} through {}", counted(*row_.tunnels, "step"), solid);
-    if (!row_.findings.empty()) {  // the first passage in words says more
-      row_.reason = row_.findings.front();
-      row_.findings.erase(row_.findings.begin());
-    }
-  } else if (steps_broken_ > 0) {
-    row_.verdict = Verdict::flagged;
-    row_.reason = inside > 0
-                      ? fmt::format("ends {} inside {}, up to {:.3g} m deep", counted(inside, "step"), solid,
-                                    row_.max_penetration_m.value_or(0))
-                      : fmt::format("passes a one-way chain against its normal on {}", counted(steps_broken_, "step"));
-  } else if (steps_miscalled_ > 0) {
-    row_.verdict = Verdict::flagged;
-    row_.reason = miscalled;
-  }
+  const int inside = row_.steps_ending_inside.value_or(0);
+  if (row_.first_tunnel)  // the first passage in words says more than how many there are
+    fault(Verdict::tunnels, row_.first_tunnel->words);
+  if (inside > 0 && steps_broken_ > 0)
+    fault(Verdict::flagged, fmt::format("ends {} inside {}, up to {:.3g} m deep", counted(inside, "step"), solid,
+                                        row_.max_penetration_m.value_or(0)));
+  if (const int passed = row_.one_way_violations.value_or(0); passed > 0)
+    fault(Verdict::flagged, fmt::format("passes a one-way chain against its normal on {}", counted(passed, "step")));
+  if (steps_miscalled_ > 0)
+    fault(Verdict::flagged, fmt::format("a crush with room to give way on {}", counted(steps_miscalled_, "step")));
+  if (const double gap = row_.max_contact_gap_m.value_or(0); promised && gap > guaranteed_gap)
+    fault(Verdict::violates, fmt::format("a contact is {:.3g} m away", gap));
 }
 
 }  // namespace paperproof::compare

@@ -61,6 +61,7 @@ class Lane {
   void keep_for_replay();
   void note_events(std::size_t character);
   void conclude();
+  void conclude_safety(bool promised);
   [[nodiscard]] bool guaranteed() const;
 
   Row row_;

@@ -22,6 +22,20 @@ std::string_view name_of(Verdict verdict) noexcept {
   return "failed";
 }
 
+std::string_view name_of(Axis axis) noexcept {
+  switch (axis) {
+    case Axis::safety:
+      return "safety";
+    case Axis::progress:
+      return "progress";
+    case Axis::answer:
+      return "answer";
+    case Axis::validity:
+      return "validity";
+  }
+  return "validity";
+}
+
 std::string called(const Row& row) {
   std::string name = row.contender;
   if (!row.knob.empty()) name += " with " + row.knob;

@@ -11,6 +11,32 @@ namespace paperproof::compare {
 enum class Verdict { holds, tunnels, violates, not_applicable, flagged, failed };
 [[nodiscard]] std::string_view name_of(Verdict verdict) noexcept;
 
+/// A result is looked at along these, and none hides another.
+enum class Axis {
+  safety,    ///< Passes nothing, ends inside nothing.
+  progress,  ///< Gets where it can.
+  answer,    ///< Meets the scene's exact answer.
+  validity,  ///< The run is within the contender's limits.
+};
+[[nodiscard]] std::string_view name_of(Axis axis) noexcept;
+
+/// Where a run fell short: see runs/verdict.hpp.
+struct AxisFault {
+  Axis axis = Axis::safety;
+  Verdict verdict = Verdict::flagged;
+  std::string words;
+};
+
+/// The first passage through a solid, or through another character: then it has words alone.
+struct FirstTunnel {
+  int step = 0;
+  std::string collider;  ///< Empty for a character.
+  double speed_m_s = 0;
+  double thickness_m = 0;  ///< At the crossing.
+  double angle_deg = 0;    ///< Of the way to the face: 90 is head-on.
+  std::string words;
+};
+
 struct Row {
   std::string scene;
   std::string contender;
@@ -20,9 +46,11 @@ struct Row {
   int steps = 0;     ///< that ran
   Verdict verdict = Verdict::holds;
   std::string reason;  ///< empty for `holds` only
+  std::vector<AxisFault> faults;
 
   std::optional<int> characters;   ///< that the run had; absent for one
   std::optional<int> tunnels;      ///< steps that passed through a solid
+  std::optional<FirstTunnel> first_tunnel;
   std::optional<int> corner_cuts;  ///< passes shallower than the slop, counted apart
   std::optional<int> steps_ending_inside;
   std::optional<int> one_way_violations;
@@ -48,6 +76,7 @@ struct Row {
   std::optional<int> sensor_errors;        ///< events missed, and events that there were not
   std::optional<double> max_sensor_error;  ///< of the fraction of the step
   std::optional<int> steps_inside_after_crush;  ///< inside nothing but what a verified crush brought on
+  std::optional<int> hanging_steps;             ///< steps that could have fallen, and did not
   std::optional<int> stuck_steps;               ///< steps on which it said that it is stuck inside something
   std::optional<int> dropped_steps;             ///< steps with displacement dropped after the iterations
   std::optional<double> toi_error_max;          ///< in fractions of a step, first contact of each step
@@ -65,7 +94,7 @@ struct Row {
   std::optional<double> ns_per_step_max;     ///< the spread: the slowest of the repeats
   std::optional<double> ns_per_step_bare;    ///< Box2D's: minimum of the world alone, with nothing recorded
   std::optional<std::size_t> memory_bytes;   ///< of a contender's own picture of the level
-  std::vector<std::string> findings;         ///< sentences: first tunnel with speed and thickness, caps, labels
+  std::vector<std::string> findings;         ///< sentences: where the run began, what was not compared
 };
 
 /// The contender in words, with the number type where it could be another: Box2D's is always float.
@@ -100,6 +129,7 @@ void for_each_metric(const Row& row, const Visit& visit) {
   visit("sensor_errors", row.sensor_errors);
   visit("max_sensor_error", row.max_sensor_error);
   visit("steps_inside_after_crush", row.steps_inside_after_crush);
+  visit("hanging_steps", row.hanging_steps);
   visit("stuck_steps", row.stuck_steps);
   visit("dropped_steps", row.dropped_steps);
   visit("toi_error_max", row.toi_error_max);

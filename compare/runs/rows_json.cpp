@@ -21,6 +21,17 @@ std::string processor() {
   return "unknown";
 }
 
+nlohmann::ordered_json first_tunnel_json(const FirstTunnel& first) {
+  nlohmann::ordered_json object{{"step", first.step}};
+  if (!first.collider.empty()) {
+    object["collider"] = first.collider;
+    object["speed_m_s"] = first.speed_m_s;
+    object["thickness_m"] = first.thickness_m;
+    object["angle_deg"] = first.angle_deg;
+  }
+  return object;
+}
+
 nlohmann::ordered_json row_json(const Row& row) {
   nlohmann::ordered_json object;
   object["scene"] = row.scene;
@@ -34,6 +45,7 @@ nlohmann::ordered_json row_json(const Row& row) {
   for_each_metric(row, [&](const char* key, const auto& value) {
     if (value) object[key] = *value;
   });
+  if (row.first_tunnel) object["first_tunnel"] = first_tunnel_json(*row.first_tunnel);
   if (!row.first_difference_box2d.empty()) object["first_difference_box2d"] = row.first_difference_box2d;
   if (!row.findings.empty()) object["findings"] = row.findings;
   return object;

@@ -46,8 +46,8 @@ const char* solid_in(const std::vector<Row>& rows) {
 
 /// What a row's first tunnel was, in words.
 std::string passage(const Row& row) {
-  return row.verdict == Verdict::tunnels ? row.reason
-                                         : fmt::format("passes a solid on {}", counted(*row.tunnels, "step"));
+  return row.first_tunnel ? row.first_tunnel->words
+                          : fmt::format("passes a solid on {}", counted(*row.tunnels, "step"));
 }
 
 std::string about_tunnels(const std::vector<Row>& rows) {

@@ -54,6 +54,7 @@ const std::vector<Column>& columns() {
       {"inside", [](const Row& r) { return number(r.steps_ending_inside, "{}"); }},
       {"depth m", [](const Row& r) { return number(r.max_penetration_m, "{:.2g}"); }, true},
       {"in crush", [](const Row& r) { return number(r.steps_inside_after_crush, "{}"); }, true},
+      {"hanging", [](const Row& r) { return number(r.hanging_steps, "{}"); }, true},
       {"stuck", [](const Row& r) { return number(r.stuck_steps, "{}"); }, true},
       {"crushes", [](const Row& r) { return number(r.crushes, "{}"); }, true},
       {"false crush", [](const Row& r) { return number(r.crushes_with_room, "{}"); }, true},

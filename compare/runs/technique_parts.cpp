@@ -68,6 +68,38 @@ std::shared_ptr<const PixelTileSet> tiles_for(TechniqueKind kind, const Scene& s
   return scene.tile_level.tiles;
 }
 
+ArticleKnobs article_knobs(TechniqueKind kind, const Scene& scene, std::span<const KnobSetting> knobs) {
+  TechniqueDef def;
+  def.kind = kind;
+  def.article.unit = 1 / scene.pixels_per_metre;
+  def.article.raster_pixels_per_metre = std::min(scene.pixels_per_metre, finest_raster);
+  turn_knobs(knobs, def);
+  return def.article;
+}
+
+/// The steps in which the technique searches or moves [m]; 0 where it computes.
+double unit_of(TechniqueKind kind, const Scene& scene, std::span<const KnobSetting> knobs) {
+  const ArticleKnobs article = article_knobs(kind, scene, knobs);
+  switch (kind) {
+    case TechniqueKind::wind_back:
+    case TechniqueKind::penetration_resolution:
+    case TechniqueKind::speculative_march:
+    case TechniqueKind::speculative:
+      return article.unit;
+    case TechniqueKind::grid:
+      return article.square;
+    case TechniqueKind::pixel_colour:
+    case TechniqueKind::pixel_tile:
+    case TechniqueKind::mask:
+      return 1 / article.raster_pixels_per_metre;
+    case TechniqueKind::bounding_box:
+    case TechniqueKind::discrete:
+    case TechniqueKind::octagon_sweep:
+      return 0;
+  }
+  return 0;
+}
+
 }  // namespace
 
 TechniqueDef definition_of(TechniqueKind kind, const Scene& scene, const Plan& plan,
@@ -76,8 +108,7 @@ TechniqueDef definition_of(TechniqueKind kind, const Scene& scene, const Plan& p
   def.kind = kind;
   def.broad_phase = plan.broad_phase;
   def.stages = plan.stages;
-  def.article.unit = 1 / scene.pixels_per_metre;
-  def.article.raster_pixels_per_metre = std::min(scene.pixels_per_metre, finest_raster);
+  def.article = article_knobs(kind, scene, knobs);
   turn_knobs(knobs, def);
   refuse_coarser_drawing(kind, scene, knobs);
   def.pixel_tiles = tiles_for(kind, scene, knobs);
@@ -101,10 +132,12 @@ TraceHeader header_of(TechniqueKind kind, const Scenery<Scalar>& scenery, const 
   header.characters = character_count(scene);
   for (const Vec2d& point : scene.character.shape.hull())
     header.points.push_back(point.cast<Scalar>().template cast<double>());
+  header.max_climb_degrees = scene.character.max_climb_degrees;
   header.scenery = scenery.as_run();
   header.ids = scene.ids;
   header.plan = plan;
   header.tolerances = tolerances_of<Scalar>();
+  if (const double unit = unit_of(kind, scene, knobs); unit > 0) header.tolerances.push_back({"unit", unit});
   return header;
 }
 

@@ -30,6 +30,7 @@ struct TraceHeader {
   double dt = 0;                 ///< [s]; where the steps have lengths of their own it is only shown.
   std::size_t characters = 1;    ///< Each has one record in every step, in order.
   std::vector<Vec2d> points;     ///< Hull of the character, relative to its position [m], as run.
+  double max_climb_degrees = 50; ///< Steepest ground that the character walks on, from the horizontal.
   SceneryDef scenery;            ///< As run, world metres.
   std::vector<std::string> ids;  ///< One per collider.
   std::vector<bool> turning;     ///< By mover; empty where none turns.

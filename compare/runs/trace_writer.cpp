@@ -49,6 +49,7 @@ ordered_json header_json(const TraceHeader& header) {
   object["dt"] = header.dt;
   if (header.characters > 1) object["characters"] = header.characters;
   object["points"] = points_json(header.points);
+  object["max_climb_degrees"] = header.max_climb_degrees;
   object["colliders"] = ordered_json::array();
   for (std::size_t i = 0; i < header.ids.size(); ++i)
     object["colliders"].push_back(collider_json(header.ids[i], header.scenery.colliders[i]));
@@ -212,6 +213,8 @@ void TraceWriter::write(const TraceStep& step) {
   if (!path_exact_) put_text(out, ",\"path_exact\":false");
   put_text(out, ",\"requested\":");
   put(out, step.requested);
+  put_text(out, ",\"steered\":");
+  put(out, step.steered);
   put_text(out, ",\"velocity\":");
   put(out, step.velocity);
   fmt::format_to(std::back_inserter(out), ",\"grounded\":{},\"start_overlap\":", step.grounded);

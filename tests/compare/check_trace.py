@@ -19,6 +19,8 @@ For octagon_sweep in double, which promises more, also:
   at most 1e-6 m;
 - the fraction of the first contact is the time of impact of the exact motion, to 1e-6 m along the normal;
 - the sensors' events are those of the way, in order, with fractions that are right to 1e-6 m along it;
+- no step hangs: what is wanted, less what the step's steering added, may lead down beside all that is within 1e-6 m of a
+  corner of the way, and the step falls less than half of that (trace_hanging.py; not looked at beside what turns);
 - two characters that met say so both, with opposite normals and the same fraction, and come to within 1e-6 m along them;
   where both had met nothing before, the fraction is the time of impact of their requested motions, as above.
 
@@ -37,10 +39,11 @@ import sys
 from fractions import Fraction
 from functools import lru_cache
 
-from trace_company import Company, first_event, meets_at_once
+from trace_company import Company, first_event, meets_at_once, places_at
 from trace_geometry import (
     GAP, NEAR_DROP, NEAR_PASS, ROUNDING, SAME, ZERO, add, crossings, distance, dot, enters, exact, hull, inside, less,
     scaled, size, turn)
+from trace_hanging import hangs
 from trace_turning import SURE, Leg, comes_to_overlap, is_free, overlaps
 
 
@@ -102,6 +105,7 @@ class Checker:
         self.low = [float(min(corner[k] for corner in self.body)) for k in (0, 1)]
         self.high = [float(max(corner[k] for corner in self.body)) for k in (0, 1)]
         self.colliders = {entry["id"]: Collider(entry) for entry in header["colliders"]}
+        self.max_climb = header.get("max_climb_degrees")
         self.promises = header["contender"] == "octagon_sweep" and header["scalar"] == "double"
         self.too_close = 0  # ways past what turns of which nothing can be said
         self.meets = lru_cache(maxsize=4096)(self.meets)
@@ -291,6 +295,48 @@ class Checker:
 
         return any(is_near(name) for name, collider in self.colliders.items() if not collider.sensor)
 
+    def edges_near(self, step, motion, others):
+        """For `hangs`: edges whose box comes near the body at a corner, with how far they move in the step."""
+        reach = 4 * float(GAP)
+
+        def is_near(a, b, place):
+            return all(float(min(a[k], b[k])) <= float(place[k]) + self.high[k] + reach and
+                       float(max(a[k], b[k])) >= float(place[k]) + self.low[k] - reach for k in (0, 1))
+
+        def blocks(collider, edge, place):
+            if collider.one_way is None:
+                return True
+            body = [add(place, corner) for corner in self.body]
+            along = less(edge[1], edge[0])
+            sides = [(along[1], -along[0]), (-along[1], along[0])]
+            return any(set(edge) == set(held) for side in sides for held in collider.blocking_edges(body, side))
+
+        def edges(corner):
+            for name, collider in self.colliders.items():
+                if collider.sensor or name in step.get("drop", []):
+                    continue
+                place, offset = motion.seen(name, corner), motion.offset(name, corner[2])
+                moved = tuple(map(float, motion.change(name)))
+                for edge in collider.edges:
+                    if is_near(*edge, place) and blocks(collider, edge, place):
+                        yield tuple(add(end, offset) for end in edge), moved
+            for other in others:
+                way = exact(other["path"])
+                body = [add(places_at(way, corner[2])[-1], point) for point in self.body]
+                moved = tuple(map(float, less(way[-1][:2], way[0][:2])))
+                yield from ((edge, moved) for edge in zip(body, body[1:] + body[:1]) if is_near(*edge, corner))
+
+        return edges
+
+    def check_progress(self, step, others):
+        """Of octagon_sweep, which promises to fall where it can."""
+        motion, path = Motion(step), exact(step["path"])
+        told = "steered" in step and self.max_climb is not None and not step.get("crush")
+        if not self.promises or not told or any(motion.turns(name) for name in motion.ends):
+            return
+        if hangs(step, path, self.body, self.edges_near(step, motion, others), self.max_climb):
+            yield "hangs: it could have fallen"
+
     def check(self, records):
         """Yields (step, what is wrong)."""
         last, last_motion, together = {}, {}, []
@@ -308,6 +354,12 @@ class Checker:
                 for words in company.check(other, step, self.promises, self.is_in_the_way):
                     yield step, f"character {other['character']} {words}"
             together.append(step)
+            if len(together) == self.characters:
+                for one in together:
+                    told = f"character {one.get('character', 0)} " if self.characters > 1 else ""
+                    others = [other for other in together if other is not one]
+                    for words in self.check_progress(one, others):
+                        yield one, told + words
 
     def check_alone(self, step, last, last_motion):
         motion = Motion(step)

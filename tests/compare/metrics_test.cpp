@@ -30,6 +30,7 @@ TEST(Metrics, counts_what_the_judge_found) {
   run[8].judged.max_penetration = 0.125;
   run[4].step.respawn = true;
   run[9].step.dropped = true;
+  run[3].judged.hangs = run[9].judged.hangs = true;
   const Row row = row_of(run);
   EXPECT_EQ(row.tunnels, 2);
   EXPECT_EQ(row.corner_cuts, 1);
@@ -37,8 +38,11 @@ TEST(Metrics, counts_what_the_judge_found) {
   EXPECT_EQ(row.max_penetration_m, 0.25);
   EXPECT_EQ(row.respawns, 1);
   EXPECT_EQ(row.dropped_steps, 1);
-  ASSERT_EQ(row.findings.size(), 1U);
-  EXPECT_EQ(row.findings[0], "step 2: passed `paper` at 40.0 m/s, 0.01 m thick at the crossing, 90° to its face");
+  EXPECT_EQ(row.hanging_steps, 2);
+  ASSERT_TRUE(row.first_tunnel);
+  EXPECT_EQ(row.first_tunnel->step, 2);
+  EXPECT_EQ(row.first_tunnel->collider, "paper");
+  EXPECT_EQ(row.first_tunnel->words, "step 2: passed `paper` at 40.0 m/s, 0.01 m thick at the crossing, 90° to its face");
 }
 
 TEST(Metrics, steps_that_are_said_to_be_stuck_are_counted_and_miss_no_contact) {
@@ -82,8 +86,8 @@ TEST(Metrics, of_two_characters_every_step_of_each_counts_and_what_they_do_to_ea
   EXPECT_EQ(row.tunnels, 1);
   EXPECT_EQ(row.steps_ending_inside, 2);
   EXPECT_EQ(row.corner_cuts, 1);
-  ASSERT_FALSE(row.findings.empty());
-  EXPECT_EQ(row.findings[0], "step 1: character 0 and character 1 passed through each other");
+  ASSERT_TRUE(row.first_tunnel);
+  EXPECT_EQ(row.first_tunnel->words, "step 1: character 0 and character 1 passed through each other");
   EXPECT_FALSE(row_of({moment(0)}).characters);
 }
 

@@ -72,6 +72,7 @@ const QUALITY = [
     'steps_inside_after_crush', 'Inside after a crush', 'steps', count,
     'Steps that end inside nothing but what a crush brought on, verified by exact arithmetic'
   ],
+  ['hanging_steps', 'Hanging', 'steps', count, 'Steps that could have fallen, and did not'],
   [
     'stuck_steps', 'Stuck', 'steps', count,
     'Steps on which it said that it is stuck inside something; they do not count for recall'

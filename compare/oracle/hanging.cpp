@@ -1,0 +1,158 @@
+#include "oracle/hanging.hpp"
+
+#include "oracle/contacts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace paperproof::compare::detail {
+namespace {
+
+/// Less of a fall is none [m].
+constexpr double least_fall = 1e-9;
+/// The share of the possible fall that a step has to fall at least.
+constexpr double least_share = 0.5;
+/// A slope that is so much steeper than the climb limit is still the limit [rad]: vertices in float are as wrong.
+constexpr double climb_margin = 1e-6;
+/// Of a product of a normal and a displacement, relative: normals are rounded.
+constexpr double normal_rounding = 1e-12;
+
+double area_of(const Vec2d& a, const Vec2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+double tolerance_named(const TraceHeader& header, std::string_view name) {
+  for (const NamedTolerance& tolerance : header.tolerances)
+    if (tolerance.name == name) return tolerance.metres;
+  return 0;
+}
+
+/// Between the largest coordinate of a place and the next number, as the contender counts [m].
+double ulp_at(const TraceHeader& header, const Vec2d& position) {
+  const double largest = position.cwiseAbs().maxCoeff();
+  if (header.scalar != "float") return std::nextafter(largest, 2 * largest + 1) - largest;
+  const auto narrow = static_cast<float>(largest);
+  return static_cast<double>(std::nextafter(narrow, 2 * narrow + 1) - narrow);
+}
+
+}  // namespace
+
+Reach reach_of(const TraceHeader& header) {
+  if (!header.path_exact) return {skin, 2 * skin};
+  const double own = std::max(tolerance_named(header, "unit"), touch_of(header));
+  if (own <= exact_reach.contact) return exact_reach;
+  return {own, 2 * own};
+}
+
+HangingJudge::HangingJudge(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step,
+                           const Others& others)
+    : header_(header), scenery_(scenery), step_(step), others_(others) {}
+
+bool HangingJudge::HalfPlane::holds(const Vec2d& d) const {
+  return normal.dot(d) - bound >= -normal_rounding * (d.norm() + std::abs(bound));
+}
+
+/// How far the octagon can be shifted by the unit vector before the obstacle is met [m].
+double HangingJudge::HalfPlane::room(const Vec2d& aside) const {
+  const double approach = -normal.dot(aside);
+  return approach > normal_rounding ? separation / approach : std::numeric_limits<double>::infinity();
+}
+
+bool HangingJudge::hangs(const Vec2d& made, const Reach& reach) const {
+  const Vec2d unsteered = step_.requested - Vec2d(step_.steered, 0);
+  const double least = std::max(least_fall, ulp_at(header_, step_.path.front().position));
+  const double asked = -unsteered.y();
+  if (step_.capped || !(asked > least) || !(-made.y() < least_share * asked)) return false;
+  std::vector<Obstacle> obstacles;
+  for (std::size_t corner = 0; corner < step_.path.size(); ++corner) {
+    for (const NearPart& part : parts_near(corner, reach.contact)) {
+      if (part.faces.front().separation < -reach.contact || is_ground(part)) return false;
+      Obstacle obstacle;
+      for (const NearFace& face : part.faces) {
+        obstacle.push_back({face.normal, face.normal.dot(part.moved), face.separation});
+      }
+      obstacles.push_back(std::move(obstacle));
+    }
+  }
+  const std::optional<Vec2d> free = nearest_free(unsteered, obstacles, reach.opening);
+  const double fall = free ? std::min(-free->y(), asked) : 0;
+  return fall > least && -made.y() < least_share * fall;
+}
+
+std::vector<NearPart> HangingJudge::parts_near(std::size_t corner, double within) const {
+  const Place at(step_.path[corner], step_.movers);
+  std::vector<NearPart> parts = scenery_.near_parts(at, within);
+  std::erase_if(parts, [&](const NearPart& part) { return !blocks(at, part, within); });
+  if (others_.near) {
+    for (NearPart& other : others_.near(step_.path[corner], within)) parts.push_back(std::move(other));
+  }
+  return parts;
+}
+
+/// A one-way chain blocks where the shortest way to it is blocked, unless it is passed on purpose.
+bool HangingJudge::blocks(const Place& at, const NearPart& part, double within) const {
+  if (!scenery_.scenery().colliders[part.collider].one_way) return true;
+  const std::vector<ColliderIndex>& dropped = step_.dropped_through;
+  if (std::find(dropped.begin(), dropped.end(), part.collider) != dropped.end()) return false;
+  const Place beyond(at.position - 2 * within * part.faces.front().normal, at.movers, at.fraction);
+  return scenery_.meets(at, beyond, part.collider);
+}
+
+bool HangingJudge::is_ground(const NearPart& part) const {
+  const double steepest = std::cos(header_.max_climb_degrees * std::numbers::pi / 180 + climb_margin);
+  return std::any_of(part.faces.begin(), part.faces.end(),
+                     [&](const NearFace& face) { return face.normal.y() >= steepest; });
+}
+
+/// The displacement nearest to what is wanted that keeps clear of all obstacles: it is that itself, or on the border of
+/// one half plane, or where the borders of two cross.
+std::optional<Vec2d> HangingJudge::nearest_free(const Vec2d& wanted, const std::vector<Obstacle>& obstacles,
+                                                double opening) {
+  std::vector<HalfPlane> borders;
+  for (const Obstacle& obstacle : obstacles) {
+    for (const HalfPlane& plane : obstacle) {
+      const auto same = [&](const HalfPlane& known) {
+        return known.normal == plane.normal && known.bound == plane.bound;
+      };
+      if (std::none_of(borders.begin(), borders.end(), same)) borders.push_back(plane);
+    }
+  }
+  const auto is_free = [&](const Vec2d& d) {
+    return std::all_of(obstacles.begin(), obstacles.end(), [&](const Obstacle& obstacle) {
+      return std::any_of(obstacle.begin(), obstacle.end(), [&](const HalfPlane& plane) { return plane.holds(d); });
+    });
+  };
+  const auto room = [&](const Vec2d& d, const Vec2d& aside) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Obstacle& obstacle : obstacles) {
+      double most = 0;
+      for (const HalfPlane& plane : obstacle)
+        if (plane.holds(d)) most = std::max(most, plane.room(aside));
+      least = std::min(least, most);
+    }
+    return least;
+  };
+  const auto is_open = [&](const Vec2d& d) {
+    const Vec2d left = Vec2d(-d.y(), d.x()).normalized();
+    return d == Vec2d::Zero() || room(d, left) + room(d, -left) >= opening;
+  };
+  std::optional<Vec2d> nearest;
+  const auto look = [&](const Vec2d& d) {
+    if (nearest && (d - wanted).squaredNorm() >= (*nearest - wanted).squaredNorm()) return;
+    if (is_free(d) && is_open(d)) nearest = d;
+  };
+  look(wanted);
+  for (std::size_t i = 0; i < borders.size() && nearest != wanted; ++i) {
+    const HalfPlane& a = borders[i];
+    look(wanted - (a.normal.dot(wanted) - a.bound) * a.normal);
+    for (std::size_t j = 0; j < i; ++j) {
+      const HalfPlane& b = borders[j];
+      const double over = area_of(a.normal, b.normal);
+      if (std::abs(over) <= normal_rounding) continue;
+      look(Vec2d(a.bound * b.normal.y() - b.bound * a.normal.y(), b.bound * a.normal.x() - a.bound * b.normal.x()) /
+           over);
+    }
+  }
+  return nearest;
+}
+
+}  // namespace paperproof::compare::detail

@@ -1,0 +1,53 @@
+/// Whether a step hangs: it could have fallen, and did not.
+#pragma once
+
+#include "oracle/crush.hpp"
+#include "oracle/exact.hpp"
+#include "runs/trace.hpp"
+
+namespace paperproof::compare::detail {
+
+/// What counts as near, and as an opening.
+struct Reach {
+  double contact = 0;  ///< What is this near may hold a character [m].
+  double opening = 0;  ///< Narrower ones count as closed [m].
+};
+/// That of §6 of the guarantee.
+inline constexpr Reach exact_reach{1e-6, 2e-7};
+/// The contender's own: Box2D's skin of 20 mm, a unit of a technique that searches by units, what float still touches;
+/// none of them enters an opening without that much room on both sides. Else the exact one.
+[[nodiscard]] Reach reach_of(const TraceHeader& header);
+
+/// Asks of a step whether it hangs: see `Judge` for what that means. Lives for one step.
+class HangingJudge {
+ public:
+  HangingJudge(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step, const Others& others);
+
+  /// @param made what the step went [m].
+  [[nodiscard]] bool hangs(const Vec2d& made, const Reach& reach) const;
+
+ private:
+  /// What a displacement fulfils that keeps clear of an obstacle on one side of it: normal · d >= bound.
+  struct HalfPlane {
+    Vec2d normal;
+    double bound = 0;       ///< [m]
+    double separation = 0;  ///< [m]
+    [[nodiscard]] bool holds(const Vec2d& d) const;
+    [[nodiscard]] double room(const Vec2d& aside) const;
+  };
+  /// One of these has to hold.
+  using Obstacle = std::vector<HalfPlane>;
+
+  [[nodiscard]] std::vector<NearPart> parts_near(std::size_t corner, double within) const;
+  [[nodiscard]] bool blocks(const Place& at, const NearPart& part, double within) const;
+  [[nodiscard]] bool is_ground(const NearPart& part) const;
+  [[nodiscard]] static std::optional<Vec2d> nearest_free(const Vec2d& wanted, const std::vector<Obstacle>& obstacles,
+                                                         double opening);
+
+  const TraceHeader& header_;
+  const ExactScenery& scenery_;
+  const TraceStep& step_;
+  const Others& others_;
+};
+
+}  // namespace paperproof::compare::detail

@@ -1,0 +1,42 @@
+#include "runs/verdict.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace paperproof::compare {
+namespace {
+
+constexpr std::array worst_first{Verdict::failed,  Verdict::not_applicable, Verdict::violates,
+                                 Verdict::tunnels, Verdict::flagged,        Verdict::holds};
+
+bool is_worse(Verdict one, Verdict other) {
+  return std::find(worst_first.begin(), worst_first.end(), one) <
+         std::find(worst_first.begin(), worst_first.end(), other);
+}
+
+bool was_made(const Row& row) { return row.verdict != Verdict::failed && row.verdict != Verdict::not_applicable; }
+
+}  // namespace
+
+void add_fault(Row& row, Axis axis, Verdict verdict, std::string words) {
+  row.faults.push_back({axis, verdict, std::move(words)});
+}
+
+void settle(Row& row) {
+  if (!was_made(row)) return;
+  row.verdict = Verdict::holds;
+  row.reason.clear();
+  for (const Axis axis : {Axis::safety, Axis::progress, Axis::answer, Axis::validity}) {
+    bool named = false;
+    for (const AxisFault& fault : row.faults) {
+      if (fault.axis != axis) continue;
+      if (is_worse(fault.verdict, row.verdict)) row.verdict = fault.verdict;
+      if (!named && !row.reason.empty()) row.reason += "; ";
+      row.reason += named ? ", " : std::string(name_of(axis)) + ": ";
+      row.reason += fault.words;
+      named = true;
+    }
+  }
+}
+
+}  // namespace paperproof::compare
