@@ -1,5 +1,6 @@
 /// Starts inside a solid under octagon_sweep: the shortest way out that can be reached, or stuck.
 #include "controller/stepping.hpp"
+#include "support/allocations.hpp"
 
 #include <gtest/gtest.h>
 
@@ -87,6 +88,50 @@ TEST(StartInside, of_tiles_passes_the_tiles_it_is_inside_of) {
   EXPECT_EQ(stepper.step(), StepStatus::moved);
   EXPECT_NEAR(stepper.state.position.x(), 0.05, largest_gap);
   EXPECT_NEAR(stepper.state.position.y(), half_height, largest_gap);
+}
+
+TEST(StartInside, of_tiles_does_not_pass_tiles_it_is_not_inside_of) {
+  // Three deep in a field of them: every way out of its own two tiles leads into others.
+  std::vector<ColliderDef> tiles;
+  for (int i = -4; i < 4; ++i)
+    for (int j = -8; j < 0; ++j) tiles.push_back(rectangle(i, j, i + 1, j + 1));
+  Stepper<double> stepper = inside(tiles, 0.5, -4);
+  EXPECT_EQ(stepper.step(), StepStatus::stuck);
+  EXPECT_EQ(stepper.state.position, Vec2d(0.5, -4));
+}
+
+TEST(StartInside, goes_to_the_side_of_the_last_free_position_although_another_is_nearer) {
+  // Nearest is down. The last free position, above to the right, sees past the block's upper right corner.
+  Stepper<double> stepper = inside({rectangle(-2, -1, 2, 1)}, 1.5, -0.9);
+  stepper.state.last_free = {4, 2};
+  stepper.state.has_last_free = true;
+  EXPECT_EQ(stepper.step(), StepStatus::moved);
+  EXPECT_NEAR(stepper.state.position.x(), 2 + half_width, largest_gap);
+  EXPECT_NEAR(stepper.state.position.y(), -0.9, largest_gap);
+  // From the left nothing but the left is seen, and what is above or below the block.
+  stepper = inside({rectangle(-2, -50, 2, 50)}, 1.5, -0.9);
+  stepper.state.last_free = {-4, 2};
+  stepper.state.has_last_free = true;
+  EXPECT_EQ(stepper.step(), StepStatus::moved);
+  EXPECT_NEAR(stepper.state.position.x(), -2 - half_width, largest_gap);
+}
+
+TEST(StartInside, of_hundreds_of_solids_at_once_leaves_them_all_without_allocating) {
+  // Blocks around one place, each a little larger than the last, and a crate above.
+  std::vector<ColliderDef> colliders;
+  constexpr int blocks = 300;
+  for (int k = 0; k < blocks; ++k) {
+    const double r = 1 + k * 0.01;
+    colliders.push_back(rectangle(-r, -r, r, r));
+  }
+  colliders.push_back(rectangle(-8, 4.5, 8, 5));
+  Stepper<double> stepper = inside(colliders, 0.1, 0.3);
+  const std::size_t before = tests::allocations();
+  EXPECT_EQ(stepper.step(), StepStatus::moved);
+  EXPECT_EQ(tests::allocations(), before);
+  const double side = 1 + (blocks - 1) * 0.01;
+  EXPECT_NEAR(stepper.state.position.x(), side + half_width, largest_gap);
+  EXPECT_NEAR(stepper.state.position.y(), 0.3, largest_gap);
 }
 
 TEST(StartInside, deep_in_a_large_solid_goes_out_however_far_that_is) {

@@ -1,112 +1,303 @@
+/// The way out of a solid.
+///
+/// In configuration space the start p lies in the obstacles of some colliders. A way out may pass those, but must not
+/// end in them; of every other solid it must avoid the shadow that this has from p, and its obstacle with the gap. All
+/// of these regions are convex. Going outwards nobody leaves a shadow, and what may not be passed is met from outside:
+/// so the shortest way ends where it leaves the obstacle of a collider that it may pass. That is on a facet of one, at
+/// the foot of the perpendicular, or where the last of the regions stops to cover the facet. So along every such facet
+/// the nearest uncovered place is looked for on both sides of its foot.
+///
+/// Where the end must be seen from the last free position as well, the shadows of all pieces from there are further
+/// regions. Those can be left going outwards: their tangents, and the facets of one-way segments, are looked along in
+/// the same way.
 #include "techniques/octagon_sweep/escape.hpp"
 
 #include "techniques/octagon_sweep/certificate.hpp"
 #include "techniques/octagon_sweep/narrow_phase.hpp"
 #include "techniques/octagon_sweep/one_way.hpp"
-#include "techniques/octagon_sweep/open_facets.hpp"
+#include "techniques/octagon_sweep/shadow.hpp"
 
 #include <paperproof/tolerances.hpp>
 
 namespace paperproof::octagon_sweep {
 namespace {
 
-/// Pieces that the octagon is inside of at once; a start inside more of them looks at the first ones only.
-constexpr std::size_t max_inside = 64;
-
 template <std::size_t Lanes, class Scalar>
 class Escape {
  public:
-  Escape(const ConfigurationSpace<Scalar>& space, std::span<const PieceIndex> candidates,
-         const MoveRequest<Scalar>& request, const Vec2<Scalar>& from) noexcept
-      : space_(space),
-        candidates_(candidates),
-        movers_(request.movers),
-        from_(from),
-        last_free_(request.has_last_free ? &request.last_free : nullptr),
-        drops_(request.drop),
-        facets_(space, from, Tolerances<Scalar>{}.stop) {}
+  using V = Vec2<Scalar>;
 
-  std::optional<Vec2<Scalar>> find() noexcept {
-    collect_solids();
-    collect_facets();
-    facets_.for_each_position([this](const Vec2<Scalar>& q) { consider(q); });
-    if (same_side_) return same_side_;
-    return any_side_;
+  Escape(const ConfigurationSpace<Scalar>& space, std::span<PieceIndex> pieces,
+         const WayOutQuery<Scalar>& query) noexcept
+      : space_(space), pieces_(pieces), query_(query), nearest_(query.reach) {}
+
+  std::optional<V> find() noexcept {
+    put_colliders_inside_first();
+    if (query_.last_free && is_inside_something(*query_.last_free)) return std::nullopt;
+    for (const PieceIndex piece : pieces_.first(inside_)) look_along_facets(piece);
+    if (!query_.last_free) return best_;
+    for (const PieceIndex piece : pieces_) {
+      look_along_tangents(piece);
+      if (!solid(piece)) look_along_facets(piece);
+    }
+    return best_;
   }
 
  private:
-  void collect_solids() noexcept {
-    for (const PieceIndex piece : candidates_)
-      if (solid(piece) && near(piece, from_) && overlaps_exactly(space_, piece, local(piece, from_)))
-        inside_.push_back(piece);
-  }
+  /// Rounding stays below this: a position this little inside a region counts as outside [m].
+  static constexpr Scalar slack = Tolerances<Scalar>{}.certain;
+  /// A way keeps this many times more from the corners that it passes than what would stop it, which is measured along
+  /// axes: no two neighbouring ones are more than a right angle apart.
+  static constexpr Scalar margin = Scalar(1.5);
+  /// A line that an edge of a region leaves by less per metre does not leave it there.
+  static constexpr Scalar parallel = std::numeric_limits<Scalar>::epsilon() * 64;
+  /// Where rounding spoils a place, others beyond it are tried: first this far, then in strides that grow [m].
+  static constexpr Scalar first_stride = 2 * Tolerances<Scalar>{}.hit;
+  static constexpr Scalar stride_growth = 16;
+  static constexpr int most_strides = 5;
+
+  /// Ways w with normal · w = bound, from the start.
+  struct Line {
+    V foot;
+    V along;
+    [[nodiscard]] V at(Scalar place) const noexcept { return foot + along * place; }
+  };
+  struct Part {
+    Scalar from;
+    Scalar to;
+  };
+  /// A place on a line, and which way one goes along it.
+  struct Spot {
+    const Line& line;
+    Scalar direction;
+    V way;  ///< From the start.
+  };
+
+  // What there is.
 
   /// Where a piece is while its mover is at the step's start, relative to where it was built.
-  [[nodiscard]] Vec2<Scalar> offset(PieceIndex piece) const noexcept {
+  [[nodiscard]] V offset(PieceIndex piece) const noexcept {
     const MoverIndex mover = space_.scenery().pieces()[piece].mover;
-    if (mover == no_mover) return Vec2<Scalar>::Zero();
-    return movers_[mover].from;
+    if (mover == no_mover) return V::Zero();
+    return query_.movers[mover].from;
   }
   /// A position as a piece that has not moved would see it.
-  [[nodiscard]] Vec2<Scalar> local(PieceIndex piece, const Vec2<Scalar>& p) const noexcept { return p - offset(piece); }
-
+  [[nodiscard]] V local(PieceIndex piece, const V& p) const noexcept { return p - offset(piece); }
+  [[nodiscard]] ColliderIndex collider_of(PieceIndex piece) const noexcept {
+    return space_.scenery().pieces()[piece].collider;
+  }
   [[nodiscard]] bool solid(PieceIndex piece) const noexcept {
     return space_.info(piece).one_way_axis == ObstacleInfo::not_one_way;
   }
-
-  [[nodiscard]] bool near(PieceIndex piece, const Vec2<Scalar>& p) const noexcept {
-    return best_axis<everything>(space_, piece, local(piece, p)).separation < Tolerances<Scalar>{}.certain;
+  [[nodiscard]] BestAxis<Scalar> best(PieceIndex piece, const V& p) const noexcept {
+    return best_axis<everything>(space_, piece, local(piece, p));
+  }
+  [[nodiscard]] bool is_inside(PieceIndex piece, const V& p) const noexcept {
+    return solid(piece) && best(piece, p).separation < Tolerances<Scalar>{}.certain &&
+           overlaps_exactly(space_, piece, local(piece, p));
+  }
+  [[nodiscard]] bool is_inside_something(const V& p) const noexcept {
+    return std::any_of(pieces_.begin(), pieces_.end(), [&](PieceIndex piece) { return is_inside(piece, p); });
   }
 
-  /// Whether a piece belongs to a collider that the start is inside of: such a one may be passed on the way out.
-  [[nodiscard]] bool may_pass(PieceIndex piece) const noexcept {
-    const std::span<const PieceInfo> pieces = space_.scenery().pieces();
-    return std::any_of(inside_.begin(), inside_.end(),
-                       [&](PieceIndex other) { return pieces[other].collider == pieces[piece].collider; });
-  }
-
-  void collect_facets() noexcept {
-    for (const PieceIndex piece : candidates_)
-      if (solid(piece) && may_pass(piece)) facets_.add(piece, offset(piece));
-  }
-
-  void consider(const Vec2<Scalar>& q) noexcept {
-    const Scalar distance = length_of(Vec2<Scalar>(q - from_));
-    if (!(distance < same_side_distance_)) return;
-    const bool best_of_any = distance < any_side_distance_;
-    if (!best_of_any && last_free_ == nullptr) return;
-    if (!roomy(q) || !reachable(q)) return;
-    if (best_of_any) {
-      any_side_ = q;
-      any_side_distance_ = distance;
-    }
-    if (last_free_ != nullptr && clear(*last_free_, q, false)) {
-      same_side_ = q;
-      same_side_distance_ = distance;
+  /// The pieces of the colliders that the start is inside of: these may be passed.
+  void put_colliders_inside_first() noexcept {
+    for (std::size_t first = 0, end = 0; first < pieces_.size(); first = end) {
+      bool inside = false;
+      for (end = first; end < pieces_.size() && collider_of(pieces_[end]) == collider_of(pieces_[first]); ++end)
+        inside = inside || is_inside(pieces_[end], query_.from);
+      if (!inside) continue;
+      for (std::size_t k = first; k < end; ++k) std::swap(pieces_[inside_++], pieces_[k]);
     }
   }
 
-  [[nodiscard]] bool roomy(const Vec2<Scalar>& q) const noexcept {
-    for (const PieceIndex piece : candidates_)
-      if (solid(piece) && best_axis<everything>(space_, piece, local(piece, q)).separation < Tolerances<Scalar>{}.hit)
-        return false;
+  // Which lines are looked along.
+
+  void look_along_facets(PieceIndex piece) noexcept {
+    const V from = local(piece, query_.from);
+    for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis) {
+      const V n = space_.normal(piece, axis);
+      if (space_.covered(piece, axis) || (n.x() == 0 && n.y() == 0)) continue;
+      const Scalar bound = query_.gap - space_.separation(piece, axis, from);
+      if (!(std::abs(bound) < nearest_)) continue;
+      const Line line{n * bound, {-n.y(), n.x()}};
+      look_along(line, facet_on(line, piece, std::sqrt(nearest_ * nearest_ - bound * bound)));
+    }
+  }
+
+  /// The part of the line of a facet where it bounds the obstacle, as far as `half` from its foot.
+  [[nodiscard]] Part facet_on(const Line& line, PieceIndex piece, Scalar half) const noexcept {
+    const V foot = local(piece, query_.from) + line.foot;
+    Part part{-half, half};
+    for (std::size_t axis = 0; axis < space_.axis_count(piece) && part.from <= part.to; ++axis) {
+      const V n = space_.normal(piece, axis);
+      const Scalar rate = n.x() * line.along.x() + n.y() * line.along.y();
+      const Scalar depth = query_.gap - space_.separation(piece, axis, foot);
+      if (std::abs(rate) < parallel) {
+        if (depth < -slack) part.to = -2 * half;
+      } else if (rate > 0) {
+        part.to = std::min(part.to, depth / rate);
+      } else {
+        part.from = std::max(part.from, depth / rate);
+      }
+    }
+    return part;
+  }
+
+  void look_along_tangents(PieceIndex piece) noexcept {
+    const std::optional<Tangents<Scalar>> tangents = tangents_at(piece, *query_.last_free);
+    if (!tangents) return;
+    for (const V& n : {tangents->left, tangents->right}) {
+      if (n.x() == 0 && n.y() == 0) continue;
+      const V back = *query_.last_free - query_.from;
+      const Scalar bound = n.x() * back.x() + n.y() * back.y();
+      if (!(std::abs(bound) < nearest_)) continue;
+      const Scalar half = std::sqrt(nearest_ * nearest_ - bound * bound);
+      look_along({n * bound, {-n.y(), n.x()}}, {-half, half});
+    }
+  }
+
+  void look_along(const Line& line, const Part& part) noexcept {
+    if (!(part.from <= part.to)) return;
+    const Scalar begin = std::clamp(Scalar(0), part.from, part.to);
+    look_along(line, begin, part.to, Scalar(1));
+    look_along(line, begin, part.from, Scalar(-1));
+  }
+
+  /// Takes the first place on a line that is free and can be reached.
+  void look_along(const Line& line, Scalar place, Scalar end, Scalar direction) noexcept {
+    Scalar stride = first_stride;
+    for (int tried = 0; tried <= most_strides; ++tried) {
+      place = next_uncovered(line, place, end, direction);
+      if (place * direction > end * direction || consider(line.at(place))) return;
+      place += direction * stride;
+      stride *= stride_growth;
+    }
+  }
+
+  // What covers them.
+
+  /// The next place on a line that no region covers, or one beyond the end. Every region is convex, so that what has
+  /// been left is not entered again. The pieces are asked forwards and backwards in turns: mostly their order is that
+  /// of their places, from one side or the other.
+  [[nodiscard]] Scalar next_uncovered(const Line& line, Scalar place, Scalar end, Scalar direction) noexcept {
+    // What covers one line often covers the next.
+    place += direction * covered_from({line, direction, line.at(place)}, last_covering_);
+    if (place * direction > end * direction) return place;
+    for (bool forwards = true;; forwards = !forwards) {
+      const Scalar before = place;
+      for (std::size_t k = 0; k < pieces_.size(); ++k) {
+        const std::size_t index = forwards ? k : pieces_.size() - 1 - k;
+        const Scalar beyond = covered_from({line, direction, line.at(place)}, index);
+        if (!(beyond > 0)) continue;
+        last_covering_ = index;
+        place += direction * beyond;
+        if (place * direction > end * direction) return place;
+      }
+      if (place == before) return place;
+    }
+  }
+
+  /// How far on from a spot the regions of a piece reach; 0 where none covers it.
+  [[nodiscard]] Scalar covered_from(const Spot& spot, std::size_t index) const noexcept {
+    const PieceIndex piece = pieces_[index];
+    const bool is_solid = solid(piece);
+    if (!is_solid && query_.drops) return 0;
+    Scalar reach = is_solid ? obstacle_from(spot, piece) : Scalar(0);
+    if (index >= inside_) reach = std::max(reach, shadow_from(spot, piece, query_.from));
+    if (query_.last_free) reach = std::max(reach, shadow_from(spot, piece, *query_.last_free));
+    return reach;
+  }
+
+  /// The same, of the obstacle with the gap.
+  [[nodiscard]] Scalar obstacle_from(const Spot& spot, PieceIndex piece) const noexcept {
+    const V at = local(piece, query_.from) + spot.way;
+    if (best_axis<everything>(space_, piece, at).separation >= query_.gap - slack) return 0;
+    Scalar reach = std::numeric_limits<Scalar>::infinity();
+    for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis)
+      shorten(reach, spot, space_.normal(piece, axis), query_.gap - space_.separation(piece, axis, at));
+    return reach;
+  }
+
+  static void shorten(Scalar& reach, const Spot& spot, const V& normal, Scalar depth) noexcept {
+    const Scalar rate = (normal.x() * spot.line.along.x() + normal.y() * spot.line.along.y()) * spot.direction;
+    if (rate > parallel) reach = std::min(reach, depth / rate);
+  }
+
+  /// The same, of what it hides from a place.
+  [[nodiscard]] Scalar shadow_from(const Spot& spot, PieceIndex piece, const V& place) const noexcept {
+    if (!may_block(piece, place)) return 0;
+    const V from = local(piece, place);
+    const V at = local(piece, query_.from) + spot.way;
+    const Scalar start = best(piece, place).separation;
+    const Scalar level = std::min(Tolerances<Scalar>{}.hit, start);
+    const Scalar kept = solid(piece) ? level : query_.gap;
+    Scalar reach = std::numeric_limits<Scalar>::infinity();
+    for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis) {
+      if (space_.separation(piece, axis, from) < level) continue;
+      const Scalar depth = kept - space_.separation(piece, axis, at);
+      if (depth <= slack) return 0;
+      shorten(reach, spot, space_.normal(piece, axis), depth);
+    }
+    const V gone = at - from;
+    if (!solid(piece)) {  // it blocks motion against its normal only
+      const V n = space_.normal(piece, space_.info(piece).one_way_axis);
+      const Scalar depth = -(n.x() * gone.x() + n.y() * gone.y());
+      if (depth <= 0) return 0;
+      shorten(reach, spot, n, depth);
+    }
+    const std::optional<Tangents<Scalar>> tangents = tangents_at(piece, place);
+    if (!tangents) return reach;
+    for (const V& n : {tangents->left, tangents->right}) {
+      const Scalar depth = -(n.x() * gone.x() + n.y() * gone.y());
+      if ((n.x() != 0 || n.y() != 0) && depth <= slack) return 0;
+      shorten(reach, spot, n, depth);
+    }
+    return reach;
+  }
+
+  [[nodiscard]] bool may_block(PieceIndex piece, const V& from) const noexcept {
+    return solid(piece) || (!query_.drops && on_blocking_side_exactly(space_, piece, local(piece, from)));
+  }
+
+  [[nodiscard]] std::optional<Tangents<Scalar>> tangents_at(PieceIndex piece, const V& place) const noexcept {
+    if (!may_block(piece, place)) return std::nullopt;
+    const BestAxis<Scalar> facing = best(piece, place);
+    const Scalar kept = std::clamp(facing.separation, Scalar(0), Tolerances<Scalar>{}.hit) * margin + 2 * slack;
+    return tangents_from(space_, piece, local(piece, place), space_.normal(piece, facing.axis), kept);
+  }
+
+  // What is checked.
+
+  /// @return whether there is a way that ends there; nearer ones only are taken.
+  [[nodiscard]] bool consider(const V& way) noexcept {
+    const V q = query_.from + way;
+    const Scalar distance = length_of(V(q - query_.from));
+    if (!(distance < nearest_)) return true;
+    if (!(q.cwiseAbs().maxCoeff() <= Tolerances<Scalar>{}.range) || !roomy(q)) return false;
+    if (!clear(query_.from, q, pieces_.subspan(inside_))) return false;
+    if (query_.last_free && !clear(*query_.last_free, q, pieces_)) return false;
+    best_ = q;
+    nearest_ = distance;
     return true;
   }
 
-  [[nodiscard]] bool reachable(const Vec2<Scalar>& q) const noexcept { return clear(from_, q, true); }
-
-  /// Whether the straight way meets nothing but, where allowed, the solids that the start is inside of; and no one-way
-  /// segment against its normal, unless it drops.
-  [[nodiscard]] bool clear(const Vec2<Scalar>& from, const Vec2<Scalar>& to, bool leaving) const noexcept {
-    for (const PieceIndex piece : candidates_)
-      if (!(leaving && solid(piece) && may_pass(piece)) && !clear(piece, local(piece, from), local(piece, to)))
-        return false;
-    return true;
+  [[nodiscard]] bool roomy(const V& q) const noexcept {
+    return std::none_of(pieces_.begin(), pieces_.end(), [&](PieceIndex piece) {
+      return solid(piece) && best(piece, q).separation < Tolerances<Scalar>{}.hit;
+    });
   }
 
-  [[nodiscard]] bool clear(PieceIndex piece, const Vec2<Scalar>& from, const Vec2<Scalar>& to) const noexcept {
-    if (drops_ && !solid(piece)) return true;
-    const Motion<Lanes, Scalar> motion = make_motion<everything>(space_, from, Vec2<Scalar>(to - from));
+  /// Whether a straight way meets none of some pieces: no solid, and no one-way segment against its normal, unless it
+  /// drops.
+  [[nodiscard]] bool clear(const V& from, const V& to, std::span<const PieceIndex> pieces) const noexcept {
+    return std::all_of(pieces.begin(), pieces.end(),
+                       [&](PieceIndex piece) { return clear(piece, local(piece, from), local(piece, to)); });
+  }
+
+  [[nodiscard]] bool clear(PieceIndex piece, const V& from, const V& to) const noexcept {
+    if (query_.drops && !solid(piece)) return true;
+    const Motion<Lanes, Scalar> motion = make_motion<everything>(space_, from, V(to - from));
     if (!blocks<everything>(space_, motion, piece)) return true;
     for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis)
       if (space_.separation(piece, axis, from) >= Tolerances<Scalar>{}.certain &&
@@ -120,30 +311,25 @@ class Escape {
 
   static constexpr Variant everything{.lanes = Lanes};
   const ConfigurationSpace<Scalar>& space_;
-  std::span<const PieceIndex> candidates_;
-  std::span<const MoverMotion<Scalar>> movers_;
-  Vec2<Scalar> from_;
-  const Vec2<Scalar>* last_free_;
-  bool drops_;
-  FixedVector<PieceIndex, max_inside> inside_;
-  OpenFacets<Scalar> facets_;
-  std::optional<Vec2<Scalar>> any_side_;
-  std::optional<Vec2<Scalar>> same_side_;
-  Scalar any_side_distance_ = std::numeric_limits<Scalar>::infinity();
-  Scalar same_side_distance_ = std::numeric_limits<Scalar>::infinity();
+  std::span<PieceIndex> pieces_;
+  const WayOutQuery<Scalar>& query_;
+  std::size_t inside_ = 0;  ///< The first so many pieces may be passed.
+  std::size_t last_covering_ = 0;
+  Scalar nearest_;  ///< Longer ways are not looked for any more [m].
+  std::optional<V> best_;
 };
 
 }  // namespace
 
 template <std::size_t Lanes, class Scalar>
-std::optional<Vec2<Scalar>> way_out(const ConfigurationSpace<Scalar>& space, std::span<const PieceIndex> candidates,
-                                    const MoveRequest<Scalar>& request, const Vec2<Scalar>& from) noexcept {
-  return Escape<Lanes, Scalar>{space, candidates, request, from}.find();
+std::optional<Vec2<Scalar>> way_out(const ConfigurationSpace<Scalar>& space, std::span<PieceIndex> pieces,
+                                    const WayOutQuery<Scalar>& query) noexcept {
+  return Escape<Lanes, Scalar>{space, pieces, query}.find();
 }
 
-#define PAPERPROOF_INSTANTIATE(Lanes, Scalar)                                                                         \
-  template std::optional<Vec2<Scalar>> way_out<Lanes>(const ConfigurationSpace<Scalar>&, std::span<const PieceIndex>, \
-                                                      const MoveRequest<Scalar>&, const Vec2<Scalar>&) noexcept;
+#define PAPERPROOF_INSTANTIATE(Lanes, Scalar)                                                                   \
+  template std::optional<Vec2<Scalar>> way_out<Lanes>(const ConfigurationSpace<Scalar>&, std::span<PieceIndex>, \
+                                                      const WayOutQuery<Scalar>&) noexcept;
 PAPERPROOF_INSTANTIATE(8, float)
 PAPERPROOF_INSTANTIATE(8, double)
 PAPERPROOF_INSTANTIATE(12, float)

@@ -9,21 +9,27 @@
 
 namespace paperproof::octagon_sweep {
 
-/// The nearest position that is clear of everything and can be reached from `from` without passing a solid that the
-/// octagon is not inside of already, nor a one-way segment against its normal. Where there is a last free position,
-/// those that it could reach in a straight line come first: out to the side one came from. In a step that drops,
-/// one-way segments bar neither: they hold nobody then, and a way out that only they bar would else be none.
+/// Which way out is asked for.
+template <class Scalar>
+struct WayOutQuery {
+  Vec2<Scalar> from;                            ///< Inside of something [m].
+  std::optional<Vec2<Scalar>> last_free;        ///< A straight way from here to its end must be free, too [m].
+  std::span<const MoverMotion<Scalar>> movers;  ///< Taken where they are when the step begins.
+  bool drops;                                   ///< One-way segments bar nothing.
+  Scalar gap;                                   ///< Kept from all that is solid where it ends [m].
+  Scalar reach;                                 ///< It is shorter than this [m].
+};
+
+/// The end of the shortest straight way out of the colliders that the octagon is inside of: clear of everything, and
+/// reached without passing any other solid, nor a one-way segment that blocks.
 ///
-/// Slow (it looks at pairs of facets), and exact in its checks. Allocates nothing.
-/// Movers are taken where they are when the step begins.
-/// @param candidates every piece that may be met on the way. A result further from `from` than they are known to reach
-///   has to be asked for again with more.
-/// @param request says what moves, where the last free position was, and whether to drop.
-/// @return nothing where there is no such position.
+/// Nothing bounds the number of pieces, facets and colliders. It takes the time of (facets of the colliders that are
+/// left) × (pieces), exact in its checks. Allocates nothing.
+/// @param pieces every piece that may be met on the ways that are asked about; those of one collider in a row. Left in
+///   another order.
+/// @return nothing where there is no such way.
 template <std::size_t Lanes, class Scalar>
-[[nodiscard]] std::optional<Vec2<Scalar>> way_out(const ConfigurationSpace<Scalar>& space,
-                                                  std::span<const PieceIndex> candidates,
-                                                  const MoveRequest<Scalar>& request,
-                                                  const Vec2<Scalar>& from) noexcept;
+[[nodiscard]] std::optional<Vec2<Scalar>> way_out(const ConfigurationSpace<Scalar>& space, std::span<PieceIndex> pieces,
+                                                  const WayOutQuery<Scalar>& query) noexcept;
 
 }  // namespace paperproof::octagon_sweep

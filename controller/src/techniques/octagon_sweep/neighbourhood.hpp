@@ -28,6 +28,14 @@ class Neighbourhood {
   [[nodiscard]] std::span<const PieceIndex> around(const Box2<Scalar>& box,
                                                    const Vec2<Scalar>& way = Vec2<Scalar>::Zero()) noexcept;
 
+  /// The same without `way` and without what was collected before, for the caller to reorder. Nothing is kept.
+  [[nodiscard]] std::span<PieceIndex> take(const Box2<Scalar>& box) noexcept {
+    forget();
+    const std::size_t count = around(box).size();
+    forget();
+    return std::span(candidates_.pieces).first(count);
+  }
+
   /// What comes next does not depend on what was collected before, not even in how much more it is.
   void forget() noexcept { candidates_.valid = false; }
 

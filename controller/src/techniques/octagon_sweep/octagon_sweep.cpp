@@ -138,7 +138,7 @@ class OctagonSweepAmongMovers final : public OctagonSweep<Scalar> {
       return this->solve_(this->space_, this->settings_, neighbourhood, request, result);
     if (needs_no_mover && keeps_away({request.position, request.position}, request)) {
       this->solve_(this->space_, this->settings_, neighbourhood, request, result);
-      if (keeps_away(box_of(result.path), request) && !meets_conveyor(result)) return;
+      if (keeps_away(looked_at(request, result.path), request) && !meets_conveyor(result)) return;
       result.clear();
     }
     auto& memory = static_cast<MoverMemory<Scalar>&>(*scratch.own);
@@ -149,10 +149,13 @@ class OctagonSweepAmongMovers final : public OctagonSweep<Scalar> {
  private:
   [[nodiscard]] const MoverPhases<Scalar>& mover_phases() const noexcept { return this->mover_phases_; }
 
+  /// The positions on the way, and if it left a solid those from where the side was seen to which it did.
   template <class Path>
-  [[nodiscard]] static Box2<Scalar> box_of(const Path& path) noexcept {
+  [[nodiscard]] static Box2<Scalar> looked_at(const MoveRequest<Scalar>& request, const Path& path) noexcept {
     Box2<Scalar> box{path[0].position, path[0].position};
     for (const PathPoint<Scalar>& corner : path) box = box.merged({corner.position, corner.position});
+    const bool at_once = path.size() > 1 && path[1].fraction == 0;
+    if (at_once && request.has_last_free) box = box.merged({request.last_free, request.last_free});
     return box;
   }
 

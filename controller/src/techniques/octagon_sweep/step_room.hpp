@@ -23,9 +23,7 @@ bool StepSolver<variant, Scalar>::find_room(Scalar reach, std::size_t corners) n
   for (std::size_t i = 0; i < ignored_before.size(); ++i)
     (i < moving_.on_it ? moving_.lying : moving_.ignored).push_back(ignored_before[i]);
   constexpr Tolerances<Scalar> tolerances{};
-  /// Of the hit distance: room must be a little more than what counts as closed.
-  constexpr Scalar least_room = Scalar(1.25);
-  Room room = nearest_room(tolerances.hit * least_room, reach, corners);
+  Room room = nearest_room(tolerances.hit * Scalar(least_room), reach, corners);
   if (room.corner < corners) {
     // Where there is any, there mostly is as much as is kept everywhere else.
     const Room ample = nearest_room(tolerances.stop, reach, corners);

@@ -8,6 +8,7 @@
 /// (an eighth of its instructions), and what hardly any does is kept out of it (3 %, and a fifth of the compile time).
 #pragma once
 
+#include "techniques/octagon_sweep/escape.hpp"
 #include "techniques/octagon_sweep/narrow_phase.hpp"
 #include "techniques/octagon_sweep/neighbourhood.hpp"
 #include "techniques/octagon_sweep/one_way.hpp"
@@ -39,6 +40,9 @@ struct Settings {
   int iterations;
   ColliderIndex first_companion;  ///< See `TechniqueDef::first_companion`.
 };
+
+/// Kept where there is little room, of the hit distance: room must be a little more than what counts as closed.
+inline constexpr double least_room = 1.25;
 
 /// A piece that stops a motion.
 template <class Scalar>
@@ -182,7 +186,8 @@ class StepSolver {
   /// Makes room around a start that is nearer than `hit` to something, or inside it. False: stuck.
   [[nodiscard, gnu::cold, gnu::noinline]] bool prepare_start(const MoveRequest<Scalar>& request) noexcept;
   [[nodiscard]] std::optional<V> find_way_out(const MoveRequest<Scalar>& request) noexcept;
-  [[nodiscard]] std::span<const PieceIndex> all_near(const Box2<Scalar>& box) noexcept;
+  [[nodiscard]] std::optional<V> find_way_out(WayOutQuery<Scalar> query, Scalar whole) noexcept;
+  [[nodiscard]] std::span<PieceIndex> all_near(const Box2<Scalar>& box) noexcept;
   [[nodiscard]] Scalar reach_of_solids_inside() noexcept;
   [[nodiscard]] bool overlaps(const V& position) noexcept;
   [[nodiscard]] bool overlaps(PieceIndex piece, const V& position) const noexcept;

@@ -5,13 +5,12 @@
 #include "techniques/octagon_sweep/escape.hpp"
 #include "techniques/octagon_sweep/step_solver.hpp"
 
+#include <utility>
+
 namespace paperproof::octagon_sweep {
 
 /// How many pushes may be needed to restore the gaps of a start in a corner; what needs more has no room.
 inline constexpr int restore_rounds = 16;
-
-/// How far around itself a character looks for a way out first, in multiples of its larger extent.
-inline constexpr int escape_reach = 8;
 
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::prepare_start(const MoveRequest<Scalar>& request) noexcept {
@@ -51,29 +50,48 @@ bool StepSolver<variant, Scalar>::prepare_start(const MoveRequest<Scalar>& reque
   return true;
 }
 
-/// Looks near first. A large solid may only be left further away than that: then the same is asked again with all that
-/// is as near as the answer, or, where there was none, with more, until the whole of the solids has been looked at.
+/// To the side of the last free position first, if there was one; and where there is nothing with the gap that is kept
+/// everywhere else, with a little more than what counts as closed.
 template <Variant variant, class Scalar>
 std::optional<Vec2<Scalar>> StepSolver<variant, Scalar>::find_way_out(const MoveRequest<Scalar>& request) noexcept {
-  const V extent = space_.hull_box().upper - space_.hull_box().lower;
+  constexpr Tolerances<Scalar> tolerances{};
   const Scalar whole = reach_of_solids_inside();
-  Scalar reach = std::max(extent.x(), extent.y()) * escape_reach;
-  neighbourhood_.forget();  // more than what is asked for could give another answer
-  while (true) {
-    Box2<Scalar> box = Box2<Scalar>{position_, position_}.inflated(reach);
-    if (request.has_last_free) box = box.merged({request.last_free, request.last_free});
-    const std::optional<V> out = way_out<variant.lanes>(space_, all_near(box), request, position_);
-    if (!out && reach >= whole) return out;
-    const Scalar distance = out ? V(*out - position_).cwiseAbs().maxCoeff() : Scalar(0);
-    if (out && distance <= reach) return out;
-    reach = std::max(2 * reach, distance);
+  WayOutQuery<Scalar> query{.from = position_,
+                            .last_free = {},
+                            .movers = request.movers,
+                            .drops = request.drop,
+                            .gap = tolerances.stop,
+                            .reach = whole};
+  if (request.has_last_free) query.last_free = request.last_free;
+  do {
+    for (const Scalar gap : {tolerances.stop, tolerances.hit * Scalar(least_room)}) {
+      query.gap = gap;
+      if (const std::optional<V> out = find_way_out(query, whole)) return out;
+    }
+  } while (std::exchange(query.last_free, std::nullopt));
+  return std::nullopt;
+}
+
+/// Looks near first, then twice as far, and so on, until the whole of the solids has been looked at.
+template <Variant variant, class Scalar>
+std::optional<Vec2<Scalar>> StepSolver<variant, Scalar>::find_way_out(WayOutQuery<Scalar> query,
+                                                                      Scalar whole) noexcept {
+  const V extent = space_.hull_box().upper - space_.hull_box().lower;
+  for (query.reach = std::min(whole, extent.maxCoeff());; query.reach = std::min(whole, 2 * query.reach)) {
+    Box2<Scalar> box = Box2<Scalar>{query.from, query.from}.inflated(query.reach);
+    if (query.last_free) box = box.merged({*query.last_free, *query.last_free});
+    if (const std::optional<V> out = way_out<variant.lanes>(space_, all_near(box), query)) return out;
+    if (!(query.reach < whole)) return std::nullopt;
   }
 }
 
+/// Every piece that can be met in a box, where it is when the step begins; those of one collider in a row. What was
+/// collected before adds nothing, and the pieces may be reordered.
 template <Variant variant, class Scalar>
-std::span<const PieceIndex> StepSolver<variant, Scalar>::all_near(const Box2<Scalar>& box) noexcept {
-  if constexpr (!variant.movers) return neighbourhood_.around(box);
+std::span<PieceIndex> StepSolver<variant, Scalar>::all_near(const Box2<Scalar>& box) noexcept {
+  if constexpr (!variant.movers) return neighbourhood_.take(box);
   if constexpr (variant.movers) {
+    neighbourhood_.forget();
     std::vector<PieceIndex>& all = moving_.around.memory.all;
     std::size_t count = 0;
     for_each_near(box, [&](PieceIndex piece) { all[count++] = piece; });
@@ -81,7 +99,7 @@ std::span<const PieceIndex> StepSolver<variant, Scalar>::all_near(const Box2<Sca
   }
 }
 
-/// How far from the position all pieces of the colliders that are overlapped are within reach [m].
+/// No way out that leaves the colliders which are overlapped is longer [m]: they, and the octagon beside them.
 template <Variant variant, class Scalar>
 Scalar StepSolver<variant, Scalar>::reach_of_solids_inside() noexcept {
   const std::span<const PieceInfo> pieces = space_.scenery().pieces();
@@ -98,9 +116,8 @@ Scalar StepSolver<variant, Scalar>::reach_of_solids_inside() noexcept {
     for (PieceIndex k = piece; k > 0 && pieces[k - 1].collider == pieces[piece].collider; --k) add(k - 1);
     for (PieceIndex k = piece + 1; k < pieces.size() && pieces[k].collider == pieces[piece].collider; ++k) add(k);
   });
-  const V below = position_ - whole.lower;
-  const V above = whole.upper - position_;
-  return std::max(below.maxCoeff(), above.maxCoeff());
+  const V extent = space_.hull_box().upper - space_.hull_box().lower;
+  return length_of(V((position_ - whole.lower).cwiseMax(whole.upper - position_) + extent));
 }
 
 template <Variant variant, class Scalar>
