@@ -40,6 +40,7 @@ AmongMovers<Scalar>::AmongMovers(const Controller<Scalar>& controller, const Sur
     : controller_(controller),
       surrounded_(surrounded),
       space_(rules.space),
+      walkable_cosine_(rules.walkable_cosine),
       most_changes_(rules.most_impacts),
       memory_(memory),
       scratch_(scratch),
@@ -65,6 +66,7 @@ StepStatus AmongMovers<Scalar>::begin(std::span<const CharacterState<Scalar>> st
     walker.now.time = 0;
     const DesiredVelocity<Scalar> desired = desired_velocity(controller_.character(), gravity_, inputs[i], dt_, state);
     walker.now.own = desired.velocity;
+    walker.now.steered = desired.steered;
     walker.start = walker.now;
     walker.company.clear();
     walker.changes = 0;

@@ -50,6 +50,7 @@ struct Moment {
   Scalar time = 0;               ///< Fraction of the step.
   CharacterState<Scalar> state;  ///< Its velocity is not kept up.
   Vec2<Scalar> own;              ///< Velocity relative to what carries it [m/s].
+  Scalar steered = 0;            ///< The part of `own.x()` that this step's steering added [m/s].
 };
 
 /// One character during a step: what it has done, and what it is about to do.
@@ -150,6 +151,7 @@ class AmongMovers {
   const Controller<Scalar>& controller_;
   const Surrounded<Scalar>& surrounded_;
   const PairSpace<Scalar>& space_;
+  Scalar walkable_cosine_;
   int most_changes_;  ///< Of one way, before it gives up what it wants itself; after twice as many it stays.
   WalkerMemory<Scalar>& memory_;
   Scratch<Scalar>& scratch_;

@@ -85,10 +85,9 @@ void AmongMovers<Scalar>::meet(std::size_t i, std::size_t j, const Meeting<Scala
 template <class Scalar>
 void AmongMovers<Scalar>::slow_down(std::size_t i, const V& normal, Scalar limit) noexcept {
   Moment<Scalar>& now = walkers_[i].now;
-  V velocity = now.own;
-  if (now.state.ride.ground != Ride<Scalar>::none) velocity += now.state.ride.velocity;
-  const Scalar excess = -dot(velocity, normal) - limit;
-  if (excess > 0) now.own += normal * excess;
+  V ride = V::Zero();
+  if (now.state.ride.ground != Ride<Scalar>::none) ride = now.state.ride.velocity;
+  now.own = slowed(V(now.own + ride), normal, limit, walkable_cosine_) - ride;
 }
 
 /// There is no giving way within a part that takes no time. Following the ground down is left out instead; a way out,

@@ -77,6 +77,7 @@ MoveRequest<Scalar> AmongMovers<Scalar>::request_at(const Walker<Scalar>& walker
   return {.position = at.state.position,
           .displacement = at.own * duration,
           .velocity = at.own,
+          .steered = at.steered,
           .last_free = at.state.last_free,
           .has_last_free = at.state.has_last_free,
           .grounded = walker.walks && !walker.no_snap && end == 1,
@@ -137,6 +138,7 @@ void AmongMovers<Scalar>::pass_on(const MoveResult<Scalar>& part, Scalar end, Mo
   state.grounded = part.grounded;
   state.ride = part.ride;
   at.own = part.velocity;
+  at.steered = 0;  // from here on it is momentum
   if (state.ride.ground != Ride<Scalar>::none) at.own -= state.ride.velocity;
   // The ground took its weight, which holds it to the ground for the rest as well.
   if (part.grounded) at.own += gravity_ * dt_;

@@ -125,6 +125,23 @@ template <class Scalar>
   return moves;
 }
 
+/// A velocity that does not go into another character. On its steep sides and its walls the horizontal part ends first:
+/// whoever walks into another in the air falls on beside it.
+/// @param normal from the other towards this one. @param limit how fast the other gives way along it [m/s].
+template <class Scalar>
+[[nodiscard]] Vec2<Scalar> slowed(Vec2<Scalar> velocity, const Vec2<Scalar>& normal, Scalar limit,
+                                  Scalar walkable_cosine) noexcept {
+  Scalar excess = -dot(velocity, normal) - limit;
+  if (!(excess > 0)) return velocity;
+  const bool steep = normal.y() >= 0 && normal.y() < walkable_cosine;
+  if (steep && velocity.x() * normal.x() < 0) {
+    const Scalar taken = std::min(excess / std::abs(normal.x()), std::abs(velocity.x()));
+    velocity.x() += std::copysign(taken, normal.x());
+    excess -= taken * std::abs(normal.x());
+  }
+  return velocity + normal * std::max(excess, Scalar(0));
+}
+
 /// Where a move ended becomes where another did.
 template <class Scalar>
 void take_end(const MoveResult<Scalar>& from, MoveResult<Scalar>& to) noexcept {

@@ -191,10 +191,9 @@ void Stepper<Scalar>::respond(std::size_t i, const Meeting<Scalar>& meeting, con
   if (normal.y() >= rules_.walkable_cosine) runner.stands = true;
   runner.held.push_back({normal, limit / dt_});
   V& velocity = runner.state.velocity;
-  const Scalar excess = -dot(velocity, normal) - limit / dt_;
   // Scenery turns it into the other: it is between the two.
-  if (!(excess > 0)) return halt_between(i);
-  velocity += normal * excess;
+  if (!(-dot(velocity, normal) > limit / dt_)) return halt_between(i);
+  velocity = slowed(velocity, normal, limit / dt_, rules_.walkable_cosine);
   if (is_held(runner)) return halt_between(i);
   plan(i);
 }

@@ -80,11 +80,13 @@ void StepSolver<variant, Scalar>::travel_among_movers() noexcept {
       // What it wants itself is dropped; what moves into it goes on moving.
       if (result_.status == MoveStatus::moved) result_.status = MoveStatus::dropped;
       drive = Drive<Scalar>::plain(V::Zero(), V::Zero());
+      steered_ = 0;
     }
     if (pinned() || !respond_to_holds(drive)) {
       if (gives_way()) return;
       if (!crush_what_presses() && pinned()) return stay(true);
       drive = Drive<Scalar>::plain(V::Zero(), V::Zero());
+      steered_ = 0;
     }
     velocity_ = drive.velocity.wanted;
     way = may_aim ? aimed_back(drive.way.wanted, found_.stops[0]) : drive.way.wanted;
@@ -151,15 +153,16 @@ template <Variant variant, class Scalar>
 Drive<Scalar> StepSolver<variant, Scalar>::response_to(const Hold<Scalar>& hold,
                                                        const Drive<Scalar>& drive) const noexcept {
   const Surface<Scalar> at{hold.normal, walkable(hold.normal), after_walk_};
-  const auto response = [&](const Wish<Scalar>& wish, const V& surface) -> Wish<Scalar> {
+  const auto response = [&](const Wish<Scalar>& wish, const V& surface, Scalar steered) -> Wish<Scalar> {
     V frame = surface;
     if (!at.walkable || is_companion(hold.piece)) frame = hold.normal * behind(hold.normal, surface).least;
     const Wish<Scalar> relative{wish.wanted - frame, wish.unsteered - frame};
     if (dot(relative.wanted, hold.normal) >= 0) return wish;
-    const Wish<Scalar> result = respond(relative, at);
+    const Wish<Scalar> result = respond(relative, steered, at);
     return {result.wanted + frame, result.unsteered + frame};
   };
-  return {response(drive.way, rest_of(hold)), response(drive.velocity, velocity_of(hold))};
+  return {response(drive.way, rest_of(hold), steered_ * dt_ * (1 - time_)),
+          response(drive.velocity, velocity_of(hold), steered_)};
 }
 
 /// The first surface, and then another one that the answer would enter.
@@ -240,6 +243,7 @@ bool StepSolver<variant, Scalar>::respond_to_holds(Drive<Scalar>& drive) noexcep
   if (drive.velocity.wanted.x() == 0 && takes_along(first)) {
     mount(first);
     drive = Drive<Scalar>::plain(ground_rest(first.piece, first.normal), moving_.ride.velocity);
+    steered_ = 0;
   }
   const bool on_ground = walkable(first.normal);
   const bool possible = respond_one_by_one(drive) || respond_in_crease(drive) || respond_together(drive);

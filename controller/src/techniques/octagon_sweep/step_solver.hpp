@@ -91,13 +91,6 @@ struct Drive {
   }
 };
 
-/// How a motion falls without steering; not below zero where it does not.
-template <class Scalar>
-struct Fall {
-  Scalar way;       ///< For the rest of the step [m].
-  Scalar velocity;  ///< [m/s]
-};
-
 /// What the solver knows about what moves.
 template <class Scalar>
 struct MoverState {
@@ -153,7 +146,7 @@ class StepSolver {
   void keep(Stop<Scalar> stop, Scalar length) noexcept;
   void order_stops() noexcept;
   [[nodiscard]] bool advance(Scalar stop) noexcept;
-  void report(Scalar begin) noexcept;
+  [[gnu::flatten]] void report(Scalar begin) noexcept;
   void report_contact(PieceIndex piece, std::size_t axis, Scalar fraction, std::size_t this_moment) noexcept;
   [[gnu::cold, gnu::noinline]] void report_touched(PieceIndex piece) noexcept;
   [[nodiscard]] Scalar fraction_of(const Stop<Scalar>& stop, Scalar begin) noexcept;
@@ -200,9 +193,9 @@ class StepSolver {
   void begin_drive(const MoveRequest<Scalar>& request) noexcept;
   [[nodiscard]] Drive<Scalar> drive() const noexcept;
   void travel() noexcept;
-  void respond_to(const V& normal, Drive<Scalar>& drive) noexcept;
-  [[nodiscard, gnu::cold, gnu::noinline]] bool slip(std::span<const V> held, const Fall<Scalar>& fall,
-                                             Drive<Scalar>& drive) noexcept;
+  void respond_to(const V& normal, Scalar left, Drive<Scalar>& drive) noexcept;
+  [[nodiscard, gnu::cold, gnu::noinline]] bool slip(std::span<const V> held, Scalar fall,
+                                                     Drive<Scalar>& drive) noexcept;
   [[nodiscard]] V aimed_back(const V& way, const Stop<Scalar>& at) const noexcept;
   void halt() noexcept;
   [[gnu::cold, gnu::noinline]] void cut_short() noexcept;
@@ -210,7 +203,8 @@ class StepSolver {
   [[nodiscard]] bool stands_on_any() noexcept;
   [[gnu::cold, gnu::noinline]] void report_ground() noexcept;
   [[nodiscard]] bool stands_on(PieceIndex piece) const noexcept;
-  [[nodiscard]] bool touches_ground(PieceIndex piece) const noexcept;
+  /// The normal of walkable ground that is touched at the end of the step; nothing where it is not, or not touched.
+  [[nodiscard]] std::optional<V> touched_ground(PieceIndex piece) const noexcept;
   [[gnu::cold, gnu::noinline]] void keep_ground() noexcept;
   void follow_ground_down(const MoveRequest<Scalar>& request) noexcept;
   [[nodiscard]] bool walkable(const V& normal) const noexcept { return normal.y() >= settings_.walkable_cosine; }
@@ -305,9 +299,9 @@ class StepSolver {
   V start_{V::Zero()};         ///< Where the step began, before its gaps were restored: impacts count from there.
   V position_{V::Zero()};
   V velocity_{V::Zero()};
-  V unsteered_velocity_{V::Zero()};  ///< What `velocity_` would be without this step's steering.
-  V unsteered_way_{V::Zero()};       ///< What the wanted displacement would be without it [m].
   Scalar time_ = 0;       ///< Fraction of the step that is spent.
+  Scalar dt_ = 0;         ///< Of the step [s].
+  Scalar steered_ = 0;    ///< The part of the horizontal velocity that this step's steering added [m/s].
   bool drops_ = false;    ///< One-way segments hold nobody in this step.
   bool certify_ = false;  ///< Something is nearer than rounding: every motion needs an exact certificate.
   bool after_walk_ = false;  ///< See `Surface`.

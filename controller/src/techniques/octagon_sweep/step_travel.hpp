@@ -19,6 +19,7 @@ void StepSolver<variant, Scalar>::solve(const MoveRequest<Scalar>& request) noex
   velocity_ = request.velocity;
   start_ = position_;
   drops_ = request.drop;
+  begin_drive(request);
   V wanted = request.displacement;
   if constexpr (variant.movers) {
     if (request.stays) return keep_place(request);
@@ -41,12 +42,12 @@ void StepSolver<variant, Scalar>::solve(const MoveRequest<Scalar>& request) noex
       if (moving_.on_it > 0) {
         halt();
         wanted = V::Zero();
+        steered_ = 0;
         moving_.anchored = false;
       }
     }
     if (near) look_along(wanted);
     if (request.grounded && !found_.hit) keep_ground();
-    begin_drive(request);
     if constexpr (variant.movers) {
       travel_among_movers();
       take_back_crushes();
@@ -75,13 +76,13 @@ void StepSolver<variant, Scalar>::keep_ground() noexcept {
   time_ = 1;
   bool ends_on_ground = false;
   for_each_near({position_, position_},
-                [&](PieceIndex piece) { ends_on_ground = ends_on_ground || touches_ground(piece); });
+                [&](PieceIndex piece) { ends_on_ground = ends_on_ground || touched_ground(piece); });
   position_ = from;
   time_ = begin;
   if (!ends_on_ground) return;
   for_each_near({position_, position_}, [this](PieceIndex piece) {
     const BestAxis<Scalar> best = best_axis<variant>(space_, piece, local(piece, position_));
-    if (!touches_ground(piece) || space_.covered(piece, best.axis)) return;
+    if (!touched_ground(piece) || space_.covered(piece, best.axis)) return;
     V way = motion_.way;
     if constexpr (variant.movers)
       if (mover_of(piece) != no_mover) way = moving_.around.relative(way, mover_of(piece), time_);
@@ -95,8 +96,8 @@ void StepSolver<variant, Scalar>::keep_ground() noexcept {
 /// What the step wants, and what it would want without steering.
 template <Variant variant, class Scalar>
 void StepSolver<variant, Scalar>::begin_drive(const MoveRequest<Scalar>& request) noexcept {
-  unsteered_velocity_ = {velocity_.x() - request.steered, velocity_.y()};
-  unsteered_way_ = {motion_.way.x() - request.steered * request.dt, motion_.way.y()};
+  steered_ = request.steered;
+  dt_ = request.dt;
   // A rise that is steeper than any ground comes from elsewhere.
   after_walk_ = request.grounded &&
                 request.velocity.y() <= std::abs(request.velocity.x()) * settings_.walkable_tangent;
@@ -104,7 +105,8 @@ void StepSolver<variant, Scalar>::begin_drive(const MoveRequest<Scalar>& request
 
 template <Variant variant, class Scalar>
 Drive<Scalar> StepSolver<variant, Scalar>::drive() const noexcept {
-  return {{motion_.way, unsteered_way_}, {velocity_, unsteered_velocity_}};
+  return {{motion_.way, {motion_.way.x() - steered_ * dt_, motion_.way.y()}},
+          {velocity_, {velocity_.x() - steered_, velocity_.y()}}};
 }
 
 /// The way itself: stop at what the sweep found, respond, and sweep again with what is left. What is left only shrinks.
@@ -113,7 +115,7 @@ void StepSolver<variant, Scalar>::travel() noexcept {
   constexpr Tolerances<Scalar> tolerances{};
   FixedVector<V, 16> held;  // normals met since the last progress
   Drive<Scalar> drive = this->drive();
-  Fall<Scalar> fall{drive.way.unsteered.y(), drive.velocity.unsteered.y()};  // when the first of them was met
+  Scalar fall = drive.velocity.unsteered.y();  // without steering, when the first of them was met
   V way = motion_.way;  // with the aim back to the gap
   bool may_aim = true;
   for (int iteration = 0; iteration < settings_.iterations; ++iteration) {
@@ -134,17 +136,15 @@ void StepSolver<variant, Scalar>::travel() noexcept {
     const Stop<Scalar>& stop = found_.stops[0];
     const V normal = space_.normal(stop.piece, stop.axes.normal);
     const Scalar left = 1 - found_.stop;
-    fall.way *= left;
     if (found_.stop * motion_.length > tolerances.touch) {
       held.clear();
-      fall = {drive.way.unsteered.y() * left, drive.velocity.unsteered.y()};
+      fall = steered_ != 0 ? drive.velocity.unsteered.y() : drive.velocity.wanted.y();
     }
     for (const V& other : held)
       if (dot(other, normal) > 1 - same_plane<Scalar>) return;  // the same plane again: no progress to be had
     held.push_back(normal);
 
-    drive.way = {drive.way.wanted * left, drive.way.unsteered * left};
-    respond_to(normal, drive);
+    respond_to(normal, left, drive);
     for (const V& other : held) {
       if (!enters(drive.way.wanted, other) && !enters(drive.velocity.wanted, other)) continue;
       if (!slip({held.begin(), held.size()}, fall, drive)) return halt();
@@ -157,30 +157,37 @@ void StepSolver<variant, Scalar>::travel() noexcept {
 }
 
 template <Variant variant, class Scalar>
-void StepSolver<variant, Scalar>::respond_to(const V& normal, Drive<Scalar>& drive) noexcept {
+[[gnu::always_inline]] inline void StepSolver<variant, Scalar>::respond_to(const V& normal, Scalar left,
+                                                                           Drive<Scalar>& drive) noexcept {
   const Surface<Scalar> at{normal, walkable(normal), after_walk_};
-  drive.way = respond(drive.way, at);
-  drive.velocity = respond(drive.velocity, at);
+  const V way = drive.way.wanted * left;
+  if (steered_ != 0) {
+    drive.way = respond(Wish<Scalar>{way, drive.way.unsteered * left}, steered_ * dt_ * (1 - time_), at);
+    drive.velocity = respond(drive.velocity, steered_, at);
+  } else {
+    drive.way.wanted = respond(way, at);
+    drive.velocity.wanted = respond(drive.velocity.wanted, at);
+  }
   after_walk_ = after_walk_ || at.walkable;
 }
 
 /// Between surfaces that hold the motion together: whether a fall slips through them. False: they are a wedge, or there
-/// was no fall.
+/// was no fall, or walkable ground ended it.
 /// @param held the normals of all that are touched.
-/// @param fall without steering, before the first of them was met.
+/// @param fall the vertical velocity without steering, before the first of them was met [m/s].
 template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::slip(std::span<const V> held, const Fall<Scalar>& fall,
-                                       Drive<Scalar>& drive) noexcept {
+bool StepSolver<variant, Scalar>::slip(std::span<const V> held, Scalar fall, Drive<Scalar>& drive) noexcept {
+  if (!(fall < 0)) return false;
   FixedVector<HalfPlane<Scalar>, 16> planes;
-  for (const V& normal : held) planes.push_back({normal});
-  const auto nearest = [&](Scalar y) {
-    return nearest_allowed<Scalar>(V(0, std::min(y, Scalar(0))), {planes.begin(), planes.size()}).value_or(V::Zero());
-  };
-  const V velocity = nearest(fall.velocity);
-  const bool slips = velocity.y() < 0 && velocity.y() < along_plane<Scalar> * fall.velocity;
-  wedged_ = fall.velocity < 0 && !slips;
-  if (slips) drive = Drive<Scalar>::plain(nearest(fall.way), velocity);
-  return slips;
+  for (const V& normal : held) {
+    if (walkable(normal)) return false;
+    planes.push_back({normal});
+  }
+  const V velocity = nearest_allowed<Scalar>(V(0, fall), {planes.begin(), planes.size()}).value_or(V::Zero());
+  wedged_ = !(velocity.y() < along_plane<Scalar> * fall);
+  if (wedged_) return false;
+  drive = Drive<Scalar>::plain(velocity * (dt_ * (1 - time_)), velocity);
+  return true;
 }
 
 /// The exact certificate or the range forbids the motion: the step ends here, and names each piece that is in the way.
@@ -235,21 +242,22 @@ bool StepSolver<variant, Scalar>::stands_on_any() noexcept {
 
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::stands_on(PieceIndex piece) const noexcept {
-  if (!touches_ground(piece)) return false;
-  const V normal = space_.normal(piece, best_axis<variant>(space_, piece, local(piece, position_)).axis);
+  const std::optional<V> normal = touched_ground(piece);
+  if (!normal) return false;
   V ground = V::Zero();
   if constexpr (variant.movers)
     if (mover_of(piece) != no_mover) ground = moving_.around.course(mover_of(piece)) / moving_.around.dt;
-  const Scalar leaving = dot(V(velocity_ - ground), normal);
+  const Scalar leaving = dot(V(velocity_ - ground), *normal);
   return leaving <= 0 || leaving <= along_plane<Scalar> * (length_of(velocity_) + length_of(ground));
 }
 
 template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::touches_ground(PieceIndex piece) const noexcept {
-  if (dropped(piece)) return false;
-  constexpr Scalar touch = Tolerances<Scalar>{}.touch;
+std::optional<Vec2<Scalar>> StepSolver<variant, Scalar>::touched_ground(PieceIndex piece) const noexcept {
+  if (dropped(piece)) return std::nullopt;
   const BestAxis<Scalar> best = best_axis<variant>(space_, piece, local(piece, position_));
-  return std::abs(best.separation) <= touch && walkable(space_.normal(piece, best.axis));
+  if (!(std::abs(best.separation) <= Tolerances<Scalar>{}.touch)) return std::nullopt;
+  const V normal = space_.normal(piece, best.axis);
+  return walkable(normal) ? std::optional<V>(normal) : std::nullopt;
 }
 
 /// Where a walk left the ground, and there is ground not far below.
