@@ -46,4 +46,18 @@ class Dispatcher final : public b2ContactListener {
   std::deque<Character>& characters_;
 };
 
+/// The listener of a world in which nothing is recorded: one-way chains, and no more.
+class OneWayListener final : public b2ContactListener {
+ public:
+  explicit OneWayListener(std::deque<Character>& characters) : characters_(characters) {}
+
+  void PreSolve(b2Contact* contact, const b2Manifold*) override {
+    for (Character& who : characters_)
+      if (who.recorder.watches(*contact)) who.recorder.let_through(*contact);
+  }
+
+ private:
+  std::deque<Character>& characters_;
+};
+
 }  // namespace paperproof::box2d

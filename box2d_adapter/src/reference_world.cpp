@@ -38,6 +38,11 @@ bool any_ground_carries(const SceneryDef& scenery) {
   });
 }
 
+bool any_one_way(const SceneryDef& scenery) {
+  return std::any_of(scenery.colliders.begin(), scenery.colliders.end(),
+                     [](const ColliderDef& collider) { return collider.one_way.has_value(); });
+}
+
 const ReferenceWorldDef& checked_definition(const ReferenceWorldDef& def) {
   constexpr int most = 1000;
   if (def.velocity_iterations < 1 || def.velocity_iterations > most || def.position_iterations < 1 ||
@@ -50,6 +55,8 @@ const ReferenceWorldDef& checked_definition(const ReferenceWorldDef& def) {
 }  // namespace
 
 std::string box2d_version() { return PAPERPROOF_BOX2D_VERSION; }
+std::string box2d_build() { return PAPERPROOF_BOX2D_BUILD; }
+std::string box2d_asserts() { return PAPERPROOF_BOX2D_ASSERTS; }
 
 struct ReferenceWorld::Impl {
   Impl(const Scenery<double>& scenery, const CharacterDef& character, std::span<const Vec2d> positions,
@@ -57,7 +64,8 @@ struct ReferenceWorld::Impl {
       : def(checked_definition(definition)),
         least_up(static_cast<double>(character.walkable_cosine<float>())),
         stage(world, scenery, def.mode),
-        looks_for_ground(any_ground_carries(stage.as_run)) {
+        looks_for_ground(any_ground_carries(stage.as_run)),
+        has_one_way(any_one_way(stage.as_run)) {
     for (const Vec2d& corner : character.shape.hull()) points.push_back(widened(rounded(corner)));
     for (const Part& part : std::exchange(stage.parts, {})) lookups.emplace_back(part.solids, part.colliders);
     world.SetAllowSleeping(false);
@@ -75,6 +83,7 @@ struct ReferenceWorld::Impl {
   }
 
   void step(std::span<const TwinWish> wishes);
+  void step_bare(std::span<const TwinWish> wishes);
   void read(Character& who);
   void add_touching(Character& who);
   void add_begun(Character& who);
@@ -97,7 +106,10 @@ struct ReferenceWorld::Impl {
   std::deque<ColliderLookup> lookups;  ///< For what stands, then for each mover; they can neither be copied nor moved.
   std::deque<Character> characters;    ///< Their recorders are known to the dispatcher.
   Dispatcher dispatcher{characters};
+  OneWayListener one_way{characters};
+  b2ContactListener none;
   bool looks_for_ground;  ///< There is ground that carries.
+  bool has_one_way;
   std::vector<TwinStep> results;
 };
 
@@ -146,6 +158,21 @@ void ReferenceWorld::Impl::step(std::span<const TwinWish> wishes) {
     read(who);
     results.push_back(who.result);
   }
+}
+
+/// Where nothing is one-way the recorders are left alone: each would note where its step begins.
+void ReferenceWorld::Impl::step_bare(std::span<const TwinWish> wishes) {
+  world.SetContactListener(has_one_way ? static_cast<b2ContactListener*>(&one_way) : &none);
+  for (std::size_t k = 0; k < characters.size(); ++k) {
+    Character& who = characters[k];
+    const b2Vec2 velocity = rounded(wishes[k].velocity);
+    who.body->SetLinearVelocity(velocity);
+    if (has_one_way) who.recorder.begin_step(*who.body, widened(stage.dt * velocity), stage.offsets, wishes[k].drop);
+  }
+  stage.step(def);
+  if (has_one_way)
+    for (Character& who : characters) who.recorder.end_step();
+  world.SetContactListener(&dispatcher);
 }
 
 /// What the step did to a character.
@@ -320,6 +347,13 @@ std::span<const TwinStep> ReferenceWorld::step_all(std::span<const TwinWish> wis
   impl_->stage.send(dt, movers, turns);
   impl_->step(wishes);
   return impl_->results;
+}
+
+void ReferenceWorld::step_bare(std::span<const TwinWish> wishes, double dt, std::span<const MoverMotion<double>> movers,
+                               std::span<const MoverTurn> turns) {
+  if (wishes.size() != impl_->characters.size()) throw InvalidDefinition("a step takes one wish of each character");
+  impl_->stage.send(dt, movers, turns);
+  impl_->step_bare(wishes);
 }
 
 Vec2d ReferenceWorld::position(std::size_t character) const {

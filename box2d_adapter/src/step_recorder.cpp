@@ -113,10 +113,14 @@ void StepRecorder::begin_contact(const b2Contact& contact) {
   beginnings_.push_back({end, seen_.fraction, was_impact, touch_points(contact, *character_)});
 }
 
-/// A one-way segment lets through what is not wholly on the side that it blocks. The question is asked in every step,
-/// not once per contact: who rises through it and falls back before the contact has ended must land on it.
 void StepRecorder::pre_solve(b2Contact& contact) {
   look();
+  let_through(contact);
+}
+
+/// A one-way segment lets through what is not wholly on the side that it blocks. The question is asked in every step,
+/// not once per contact: who rises through it and falls back before the contact has ended must land on it.
+void StepRecorder::let_through(b2Contact& contact) const {
   if (!blocks(scenery_end(contact, *character_).source)) contact.SetEnabled(false);
 }
 

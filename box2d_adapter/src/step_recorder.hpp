@@ -69,6 +69,8 @@ class StepRecorder {
   // For contacts that it watches:
   void begin_contact(const b2Contact& contact);
   void pre_solve(b2Contact& contact);
+  /// The part of it that Box2D needs to know: what does not block is passed.
+  void let_through(b2Contact& contact) const;
   void post_solve();
 
  private:

@@ -66,6 +66,18 @@ class Box2dContestant final : public Contestant {
 
   void step_unrecorded(const StepInput& input) override { advance(input); }
 
+  bool keep_wishes(bool keep) override {
+    if (keep) kept_.clear();
+    keeps_ = keep;
+    return true;
+  }
+
+  void step_bare(const StepInput& input, std::size_t k) override {
+    const std::size_t count = twins_.size();
+    take_turns(input);
+    world_.step_bare(std::span(kept_).subspan(k * count, count), input.dt, input.movers, turns_);
+  }
+
   [[nodiscard]] Pose pose(std::size_t character) const override {
     Pose pose = pose_of(twins_[character].state);
     pose.position = world_.position(character);
@@ -110,11 +122,16 @@ class Box2dContestant final : public Contestant {
     dt_ = input.dt;
     for (std::size_t k = 0; k < twins_.size(); ++k)
       wishes_[k] = {wanted_by(twins_[k], input.players[k], input.movers), input.players[k].drop};
-    turns_.clear();
-    for (const TurnMotion& turn : input.turns) turns_.push_back({turn.from, turn.to});
+    if (keeps_) kept_.insert(kept_.end(), wishes_.begin(), wishes_.end());
+    take_turns(input);
     const std::span<const box2d::TwinStep> steps = step_world(input.movers);
     for (std::size_t k = 0; k < twins_.size(); ++k) take_over(steps[k], twins_[k]);
     return steps;
+  }
+
+  void take_turns(const StepInput& input) {
+    turns_.clear();
+    for (const TurnMotion& turn : input.turns) turns_.push_back({turn.from, turn.to});
   }
 
   /// On ground that carries the intent is relative to it, as it is for the controller.
@@ -175,6 +192,8 @@ class Box2dContestant final : public Contestant {
   std::vector<Twin> twins_;
   std::vector<box2d::MoverTurn> turns_;  ///< Of the present step.
   std::vector<box2d::TwinWish> wishes_;  ///< Of the present step.
+  std::vector<box2d::TwinWish> kept_;    ///< Of all steps since they are kept.
+  bool keeps_ = false;
 };
 
 }  // namespace

@@ -50,6 +50,11 @@ class Contestant {
   virtual void step(const StepInput& input, std::span<TraceStep> records) = 0;
   /// One step without a record, for timing.
   virtual void step_unrecorded(const StepInput& input) = 0;
+  /// From now on, or no longer, what is wanted in each step is kept for `step_bare`.
+  /// @return whether this is an engine that can be timed without what the harness does around it.
+  virtual bool keep_wishes(bool /*keep*/) { return false; }
+  /// The engine's part of the k-th step that was kept: what is wanted is known, and nothing is read.
+  virtual void step_bare(const StepInput& /*input*/, std::size_t /*k*/) {}
   [[nodiscard]] virtual Pose pose(std::size_t character = 0) const = 0;
   virtual void place(const Pose& pose, std::size_t character = 0) = 0;
   /// What its own picture of the level takes [bytes]; 0 where it keeps none.

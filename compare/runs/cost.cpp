@@ -3,7 +3,6 @@
 #include "runs/input_cursor.hpp"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 
 namespace paperproof::compare {
@@ -13,40 +12,118 @@ constexpr std::size_t repeats = 9;
 /// Enough for a clock that ticks every microsecond, few enough that a comparison of hundreds of levels stays short.
 constexpr int most_steps = 1000;
 
+using Clock = std::chrono::steady_clock;
+
+/// The input of every step, formed before anything is timed.
+class TimedSteps {
+ public:
+  TimedSteps(const Scene& scene, const Script& script, int steps) {
+    const std::size_t movers = scene.movers.size();
+    const std::size_t characters = script.size();
+    std::vector<double> lengths;
+    InputCursor cursor(scene, script);
+    for (int step = 0; step < std::min(steps, most_steps); ++step) {
+      const StepInput now = cursor.at(step);
+      lengths.push_back(now.dt);
+      players_.insert(players_.end(), now.players.begin(), now.players.end());
+      turns_.insert(turns_.end(), now.turns.begin(), now.turns.end());
+      motions_.insert(motions_.end(), now.movers.begin(), now.movers.end());
+    }
+    for (std::size_t step = 0; step < lengths.size(); ++step)
+      inputs_.push_back({lengths[step], std::span(players_).subspan(step * characters, characters),
+                         std::span(motions_).subspan(step * movers, movers),
+                         std::span(turns_).subspan(step * movers, movers)});
+  }
+  TimedSteps(const TimedSteps&) = delete;
+  TimedSteps& operator=(const TimedSteps&) = delete;
+  [[nodiscard]] std::span<const StepInput> inputs() const noexcept { return inputs_; }
+
+ private:
+  std::vector<MoverMotion<double>> motions_;
+  std::vector<TurnMotion> turns_;
+  std::vector<Input> players_;
+  std::vector<StepInput> inputs_;
+};
+
+/// All steps from the start, put back where the judged run was.
+/// @param step_at takes one step, by its number.
+/// @return nanoseconds per step; what is put somewhere is put there between two clock readings that do not count.
+template <class StepAt>
+double timed_pass(const TimedRun& run, const Scene& scene, std::size_t steps, const StepAt& step_at) {
+  place_at_start(*run.contestant, scene);
+  Clock::duration took{0};
+  auto next = run.respawns.begin();
+  for (std::size_t step = 0; step < steps;) {
+    for (; next != run.respawns.end() && static_cast<std::size_t>(next->step) <= step; ++next) {
+      const Start& start = start_of(scene, next->character);
+      run.contestant->place({.position = start.position, .velocity = start.velocity}, next->character);
+    }
+    const std::size_t end = next == run.respawns.end() ? steps : std::min(steps, static_cast<std::size_t>(next->step));
+    const Clock::time_point begin = Clock::now();
+    for (; step < end; ++step) step_at(step);
+    took += Clock::now() - begin;
+  }
+  return std::chrono::duration<double, std::nano>(took).count() / static_cast<double>(steps);
+}
+
+/// One contestant with what its passes took.
+class Timing {
+ public:
+  Timing(const TimedRun& run, const Scene& scene, std::span<const StepInput> inputs)
+      : run_(run), scene_(scene), inputs_(inputs) {}
+
+  /// The first pass: what is wanted in it is what an engine alone is given later.
+  void warm_up() {
+    has_bare_ = run_.contestant->keep_wishes(true);
+    (void)full_pass();
+    if (!has_bare_) return;
+    run_.contestant->keep_wishes(false);
+    (void)bare_pass();
+  }
+  void repeat() {
+    full_.push_back(full_pass());
+    if (has_bare_) bare_.push_back(bare_pass());
+  }
+  [[nodiscard]] Costs costs() {
+    Costs costs{cost_of(full_), {}};
+    if (has_bare_) costs.bare = cost_of(bare_);
+    return costs;
+  }
+
+ private:
+  [[nodiscard]] double full_pass() const {
+    return timed_pass(run_, scene_, inputs_.size(),
+                      [this](std::size_t step) { run_.contestant->step_unrecorded(inputs_[step]); });
+  }
+  [[nodiscard]] double bare_pass() const {
+    return timed_pass(run_, scene_, inputs_.size(),
+                      [this](std::size_t step) { run_.contestant->step_bare(inputs_[step], step); });
+  }
+  static Cost cost_of(std::vector<double>& passes) {
+    std::sort(passes.begin(), passes.end());
+    return {passes.front(), passes[passes.size() / 2], passes.back()};
+  }
+
+  TimedRun run_;
+  const Scene& scene_;
+  std::span<const StepInput> inputs_;
+  bool has_bare_ = false;
+  std::vector<double> full_;
+  std::vector<double> bare_;
+};
+
 }  // namespace
 
-Cost measure_cost(Contestant& contestant, const Scene& scene, const Script& script, int steps) {
-  const int timed = std::min(steps, most_steps);
-  const std::size_t movers = scene.movers.size();
-  std::vector<MoverMotion<double>> motions;
-  std::vector<TurnMotion> turns;
-  std::vector<Input> players;
-  std::vector<double> lengths;
-  InputCursor cursor(scene, script);
-  for (int step = 0; step < timed; ++step) {
-    const StepInput now = cursor.at(step);
-    lengths.push_back(now.dt);
-    players.insert(players.end(), now.players.begin(), now.players.end());
-    turns.insert(turns.end(), now.turns.begin(), now.turns.end());
-    motions.insert(motions.end(), now.movers.begin(), now.movers.end());
-  }
-  std::vector<StepInput> inputs;
-  const std::size_t characters = script.size();
-  for (std::size_t step = 0; step < lengths.size(); ++step)
-    inputs.push_back({lengths[step], std::span(players).subspan(step * characters, characters),
-                      std::span(motions).subspan(step * movers, movers),
-                      std::span(turns).subspan(step * movers, movers)});
-
-  std::array<double, repeats> costs{};
-  for (std::size_t run = 0; run <= repeats; ++run) {
-    place_at_start(contestant, scene);
-    const auto begin = std::chrono::steady_clock::now();
-    for (const StepInput& now : inputs) contestant.step_unrecorded(now);
-    const std::chrono::duration<double, std::nano> took = std::chrono::steady_clock::now() - begin;
-    if (run > 0) costs[run - 1] = took.count() / timed;
-  }
-  std::sort(costs.begin(), costs.end());
-  return {costs.front(), costs[repeats / 2], costs.back()};
+std::vector<Costs> measure_costs(std::span<const TimedRun> runs, const Scene& scene, const Script& script, int steps) {
+  const TimedSteps timed(scene, script, steps);
+  std::vector<Timing> timings;
+  for (const TimedRun& run : runs) timings.emplace_back(run, scene, timed.inputs());
+  for (Timing& timing : timings) timing.warm_up();
+  for (std::size_t repeat = 0; repeat < repeats; ++repeat)
+    for (Timing& timing : timings) timing.repeat();
+  std::vector<Costs> costs;
+  for (Timing& timing : timings) costs.push_back(timing.costs());
+  return costs;
 }
 
 }  // namespace paperproof::compare

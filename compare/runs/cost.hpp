@@ -3,6 +3,10 @@
 
 #include "runs/contestant.hpp"
 
+#include <optional>
+#include <span>
+#include <vector>
+
 namespace paperproof::compare {
 
 struct Cost {
@@ -11,8 +15,26 @@ struct Cost {
   double ns_per_step_max = 0;  ///< The spread.
 };
 
-/// Of all characters together. One untimed warm-up, then 9 timed runs of the same steps from the start, of which
-/// minimum, median and maximum are returned. Not for tests: machines are shared.
-[[nodiscard]] Cost measure_cost(Contestant& contestant, const Scene& scene, const Script& script, int steps);
+/// A character was put back to where the scene has it begin, before a step.
+struct Respawn {
+  int step = 0;
+  std::size_t character = 0;
+};
+
+struct TimedRun {
+  Contestant* contestant = nullptr;
+  std::span<const Respawn> respawns;  ///< Of the run that was judged, ascending: they are repeated, and not timed.
+};
+
+struct Costs {
+  Cost full;
+  std::optional<Cost> bare;  ///< Of an engine alone: see `Contestant::step_bare`.
+};
+
+/// Of all characters together. Each runs the same steps from the start, at most 1,000 of them: once untimed, as a
+/// warm-up, then 9 times. They take turns, so that whatever else the machine does disturbs all of them alike.
+/// @return one for each run. Not for tests: machines are shared.
+[[nodiscard]] std::vector<Costs> measure_costs(std::span<const TimedRun> runs, const Scene& scene, const Script& script,
+                                               int steps);
 
 }  // namespace paperproof::compare

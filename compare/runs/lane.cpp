@@ -93,6 +93,11 @@ void Lane::place(const Pose& pose, std::size_t character) {
   placed_[character] = true;
 }
 
+void Lane::respawn(const Start& start, const Respawn& when) {
+  place({.position = start.position, .velocity = start.velocity}, when.character);
+  respawns_.push_back(when);
+}
+
 bool Lane::is_free(const Vec2d& position, std::size_t character) const {
   if (!company_) return true;
   std::vector<Vec2d> positions;

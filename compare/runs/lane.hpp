@@ -6,6 +6,7 @@
 #include "oracle/judge.hpp"
 #include "report/report.hpp"
 #include "runs/contestant.hpp"
+#include "runs/cost.hpp"
 #include "runs/trace_writer.hpp"
 
 #include <memory>
@@ -43,6 +44,9 @@ class Lane {
 
   /// Puts a character somewhere; the next step begins a new story.
   void place(const Pose& pose, std::size_t character = 0);
+  /// Puts a character back to a start, before a step, and remembers it.
+  void respawn(const Start& start, const Respawn& when);
+  [[nodiscard]] const std::vector<Respawn>& respawns() const noexcept { return respawns_; }
   /// Whether no other character would be overlapped there.
   [[nodiscard]] bool is_free(const Vec2d& position, std::size_t character) const;
   /// The run cannot be made; its row is `not_applicable` and says why.
@@ -79,6 +83,7 @@ class Lane {
   std::vector<std::vector<ColliderIndex>> inside_;  ///< What the octagon overlaps now, exactly.
   std::vector<bool> placed_;                        ///< Since the last step.
   std::string begins_inside_;
+  std::vector<Respawn> respawns_;
   int steps_broken_ = 0;     ///< Steps that entered a solid, passed one, or passed a one-way chain backwards.
   int steps_miscalled_ = 0;  ///< Steps with a crush where there was room.
   int steps_capped_ = 0;

@@ -56,6 +56,8 @@ nlohmann::ordered_json row_json(const Row& row) {
 std::vector<std::pair<std::string, std::string>> environment() {
   return {{"paperproof", PAPERPROOF_VERSION},
           {"box2d", box2d::box2d_version()},
+          {"box2d_build", box2d::box2d_build()},
+          {"box2d_asserts", box2d::box2d_asserts()},
           {"eigen", std::to_string(EIGEN_WORLD_VERSION) + "." + std::to_string(EIGEN_MAJOR_VERSION) + "." +
                         std::to_string(EIGEN_MINOR_VERSION)},
           {"boost", BOOST_LIB_VERSION},

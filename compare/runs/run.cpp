@@ -110,20 +110,20 @@ class SceneRun {
       if (lane != *reference) pair_up(*lane, **reference);
   }
 
-  void respawn_if_lost(Lane& lane) const {
+  void respawn_if_lost(Lane& lane, int step) const {
     if (!scene_.respawn_box) return;
     for (std::size_t k = 0; k < lane.characters(); ++k) {
       const Vec2d position = lane.contestant().pose(k).position;
       if (scene_.respawn_box->inflated(lost).contains({position, position})) continue;
       const Start& start = start_of(scene_, k);
-      if (lane.is_free(start.position, k)) lane.place({.position = start.position, .velocity = start.velocity}, k);
+      if (lane.is_free(start.position, k)) lane.respawn(start, {step, k});
     }
   }
 
   void step_freely(int step, const StepInput& input) {
     for (const auto& lane : lanes_) {
       if (!lane->running()) continue;
-      respawn_if_lost(*lane);
+      respawn_if_lost(*lane, step);
       lane->step(step, input);
     }
     for (Pair& pair : pairs_)
@@ -136,7 +136,7 @@ class SceneRun {
   void step_in_lockstep(int step, const StepInput& input) {
     for (Pair& pair : pairs_) {
       if (!pair.mine->running() || !pair.reference->running()) continue;
-      respawn_if_lost(*pair.mine);
+      respawn_if_lost(*pair.mine, step);
       const TwinStart start = twin_start(*pair.mine, input);
       pair.mine->step(step, input);
       pair.reference->place(start.pose);
@@ -166,6 +166,8 @@ class SceneRun {
             fmt::format("{} not compared: no room for Box2D's skin", counted(pair.not_compared, "step")));
     }
     for (const auto& lane : twins_) lane->row().respawns.reset();  // it was placed anew before every step
+
+    if (options_.measure_cost) measure();
 
     ReportScene result;
     result.name = scene_.name;
@@ -202,14 +204,27 @@ class SceneRun {
                count(Right::both), count(Right::neither));
   }
 
-  void add(Lane& lane, ReportScene& result) {
-    const bool placed_every_step = options_.mode == Mode::lockstep && is_reference(lane.contender());
-    if (options_.measure_cost && lane.running() && !placed_every_step) {
-      const Cost cost = measure_cost(lane.contestant(), scene_, script_, steps_);
-      lane.row().ns_per_step = cost.ns_per_step_min;
-      lane.row().ns_per_step_median = cost.ns_per_step_median;
-      lane.row().ns_per_step_max = cost.ns_per_step_max;
+  /// Twins in lockstep are placed before every step, and not timed.
+  void measure() {
+    std::vector<Lane*> timed;
+    std::vector<TimedRun> runs;
+    for (const auto& lane : lanes_) {
+      if (!lane->running()) continue;
+      timed.push_back(lane.get());
+      runs.push_back({&lane->contestant(), lane->respawns()});
     }
+    if (runs.empty()) return;
+    const std::vector<Costs> costs = measure_costs(runs, scene_, script_, steps_);
+    for (std::size_t i = 0; i < timed.size(); ++i) {
+      Row& row = timed[i]->row();
+      row.ns_per_step = costs[i].full.ns_per_step_min;
+      row.ns_per_step_median = costs[i].full.ns_per_step_median;
+      row.ns_per_step_max = costs[i].full.ns_per_step_max;
+      if (costs[i].bare) row.ns_per_step_bare = costs[i].bare->ns_per_step_min;
+    }
+  }
+
+  void add(Lane& lane, ReportScene& result) {
     result.rows.push_back(lane.row());
     if (options_.max_replay_steps > 0 && lane.running()) result.runs.push_back(std::move(lane.replay()));
   }

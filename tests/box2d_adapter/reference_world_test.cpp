@@ -1,9 +1,13 @@
 #include "worlds.hpp"
 
+#include <box2d/b2_body.h>
+#include <box2d/b2_world.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
+#include <limits>
 
 namespace paperproof::box2d::test {
 namespace {
@@ -18,6 +22,24 @@ CharacterDef one_pixel_character() {
 }
 
 TEST(ReferenceWorld, cites_the_package_and_not_what_the_library_calls_itself) { EXPECT_EQ(box2d_version(), "2.4.1"); }
+
+TEST(ReferenceWorld, says_truly_whether_the_asserts_of_box2d_are_on) {
+  EXPECT_NE(box2d_build(), "");
+  const auto ask_for_nonsense = [] {
+    b2World world({0, 0});
+    b2BodyDef body;
+    body.position.x = std::numeric_limits<float>::quiet_NaN();
+    world.CreateBody(&body);
+    std::exit(0);
+  };
+  if (box2d_asserts() == "on") {
+    EXPECT_DEATH(ask_for_nonsense(), "Assert");
+  } else if (box2d_asserts() == "off") {
+    EXPECT_EXIT(ask_for_nonsense(), testing::ExitedWithCode(0), "");
+  } else {
+    EXPECT_EQ(box2d_asserts(), "unknown");
+  }
+}
 
 TEST(ReferenceWorld, free_flight_follows_the_wanted_velocity_to_rounding) {
   ReferenceWorld world(level({box(-5, -200, 5, -199)}), {}, {0, 0});

@@ -34,6 +34,11 @@ struct ReferenceWorldDef {
 
 /// Version of the Box2D in use, as it should be cited ("2.4.1": the packaged library calls itself 2.4.0).
 [[nodiscard]] std::string box2d_version();
+/// How the Box2D in use was built, as far as its package says: "shared, None" (Debian's: optimised, nothing defined).
+/// And whether its asserts are on, which costs time and aborts on definitions that it does not like: "on", "off" or
+/// "unknown".
+[[nodiscard]] std::string box2d_build();
+[[nodiscard]] std::string box2d_asserts();
 
 /// Travel cap of Box2D: a body moves at most this far in one step [m].
 inline constexpr double max_travel_per_step = 2.0;
@@ -121,6 +126,11 @@ class ReferenceWorld {
   std::span<const TwinStep> step_all(std::span<const TwinWish> wishes, double dt,
                                      std::span<const MoverMotion<double>> movers = {},
                                      std::span<const MoverTurn> turns = {});
+
+  /// The same step of the same world, for timing Box2D alone: nothing is recorded and nothing read. Where there are
+  /// one-way chains a listener lets through what they do not hold; elsewhere there is none.
+  void step_bare(std::span<const TwinWish> wishes, double dt, std::span<const MoverMotion<double>> movers = {},
+                 std::span<const MoverTurn> turns = {});
 
   [[nodiscard]] Vec2d position(std::size_t character = 0) const;
   /// The scenery as Box2D has it (float geometry): polygons as the original colliders rounded to float.

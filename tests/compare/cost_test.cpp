@@ -1,0 +1,97 @@
+/// What is timed: who steps when, and where from. The times themselves are no matter for tests.
+#include "runs/cost.hpp"
+#include "compare/scene_runs.hpp"
+#include "runs/input_cursor.hpp"
+#include "runs/lane.hpp"
+
+namespace paperproof::compare {
+namespace {
+
+/// Writes down what is done with it.
+class Scribe final : public Contestant {
+ public:
+  Scribe(char name, bool engine, std::string& log) : name_(name), engine_(engine), log_(log) {}
+  [[nodiscard]] const TraceHeader& header() const noexcept override { return header_; }
+  void step(const StepInput&, std::span<TraceStep>) override { log_ += '?'; }
+  void step_unrecorded(const StepInput&) override { log_ += name_; }
+  bool keep_wishes(bool) override { return engine_; }
+  void step_bare(const StepInput&, std::size_t k) override { log_ += std::to_string(k); }
+  [[nodiscard]] Pose pose(std::size_t) const override { return {}; }
+  void place(const Pose& pose, std::size_t) override {
+    EXPECT_EQ(pose.position, Vec2d(1, 2));
+    log_ += '<';
+  }
+
+ private:
+  char name_;
+  bool engine_;
+  std::string& log_;
+  TraceHeader header_;
+};
+
+TEST(Cost, contenders_take_turns_and_are_put_back_where_the_judged_run_was) {
+  Scene scene = empty_sky(4);
+  scene.start.position = {1, 2};
+  std::string log;
+  Scribe a('a', false, log);
+  Scribe b('b', true, log);
+  const std::vector<Respawn> respawns{{1, 0}, {3, 0}, {40, 0}};
+  const std::vector<TimedRun> runs{{&a, respawns}, {&b, {}}};
+  const std::vector<Costs> costs = measure_costs(runs, scene, script_of(scene), 4);
+  const std::string round = "<a<aa<a<bbbb<0123";
+  std::string expected;
+  for (int pass = 0; pass < 1 + 9; ++pass) expected += round;
+  EXPECT_EQ(log, expected) << "a warm-up and nine repeats";
+  ASSERT_EQ(costs.size(), 2U);
+  EXPECT_FALSE(costs[0].bare);
+  ASSERT_TRUE(costs[1].bare);
+  for (const Cost& cost : {costs[0].full, costs[1].full, *costs[1].bare}) {
+    EXPECT_GT(cost.ns_per_step_min, 0);
+    EXPECT_LE(cost.ns_per_step_min, cost.ns_per_step_median);
+    EXPECT_LE(cost.ns_per_step_median, cost.ns_per_step_max);
+  }
+}
+
+TEST(Cost, a_lane_remembers_when_it_was_put_back) {
+  const Scene scene = empty_sky(4);
+  const Scenery<double> scenery(scene.scenery);
+  Lane lane("octagon_sweep", ScalarKind::binary64, scene, scenery, {}, "free", "", {});
+  lane.respawn(scene.start, {.step = 7, .character = 0});
+  ASSERT_EQ(lane.respawns().size(), 1U);
+  EXPECT_EQ(lane.respawns()[0].step, 7);
+}
+
+TEST(Cost, box2d_alone_goes_the_way_of_the_run) {
+  for (const char* name : {"lift_up", "one_way_from_above", "flush_tiles"}) {
+    const Scene scene = built_in(name);
+    const Scenery<double> scenery(scene.scenery);
+    const auto twin = make_contestant("box2d", ScalarKind::binary64, scene, scenery);
+    const Script script = script_of(scene);
+    InputCursor cursor(scene, script);
+    std::vector<Vec2d> way;
+    ASSERT_TRUE(twin->keep_wishes(true));
+    for (int step = 0; step < scene.steps; ++step) {
+      twin->step_unrecorded(cursor.at(step));
+      way.push_back(twin->pose().position);
+    }
+    twin->keep_wishes(false);
+    place_at_start(*twin, scene);
+    InputCursor again(scene, script);
+    for (int step = 0; step < scene.steps; ++step) {
+      twin->step_bare(again.at(step), static_cast<std::size_t>(step));
+      ASSERT_EQ(twin->pose().position, way[static_cast<std::size_t>(step)]) << name << ", step " << step;
+    }
+  }
+}
+
+TEST(Cost, of_box2d_is_measured_with_the_recorder_and_without) {
+  RunOptions options;
+  options.contenders = {"octagon_sweep"};
+  const ReportScene result = run_scene(built_in("article_bullet"), options);
+  EXPECT_FALSE(row_of(result, "octagon_sweep").ns_per_step_bare);
+  EXPECT_GT(row_of(result, "box2d").ns_per_step_bare.value_or(0), 0);
+  EXPECT_GT(row_of(result, "box2d").ns_per_step.value_or(0), 0);
+}
+
+}  // namespace
+}  // namespace paperproof::compare
