@@ -39,6 +39,7 @@ std::string outcome_of(const Row& row) {
   if (row.verdict == Verdict::failed) return "failed";
   if (row.tunnels.value_or(0) > 0) return "through" + on_steps(*row.tunnels);
   if (row.steps_ending_inside.value_or(0) > 0) return "ends inside" + on_steps(*row.steps_ending_inside);
+  if (row.hanging_steps.value_or(0) > 0) return "hangs" + on_steps(*row.hanging_steps);
   if (!row.first_contact_step || !row.first_contact_fraction) return "meets nothing";
   return "stopped at " + moment(*row.first_contact_fraction, *row.first_contact_step);
 }

@@ -8,8 +8,8 @@
 
 namespace paperproof::compare {
 
-/// "through", "ends inside", "stopped at 0.600", "meets nothing", "cannot run" or "failed"; with the step where it is
-/// not the first one.
+/// "through", "ends inside", "hangs", "stopped at 0.600", "meets nothing", "cannot run" or "failed"; with the step
+/// where it is not the first one.
 [[nodiscard]] std::string outcome_of(const Row& row);
 
 /// What exact arithmetic has as the first impact, in one sentence; empty where no run has any.

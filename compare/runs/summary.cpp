@@ -98,7 +98,7 @@ const std::vector<SummaryColumn>& summary_columns() {
       {"violates", "", runs_with(Verdict::violates)},
       {"through", "steps that pass a solid", steps_of("tunnels")},
       {"inside", "steps that end in one", steps_of("steps_ending_inside")},
-      {"hanging", "steps held in the air by nothing", steps_of("hanging_steps")},
+      {"hanging", "steps that could have fallen, and did not", steps_of("hanging_steps")},
       {"answer met", "", answers_met},
       {"ns/step", "median over the scenes", median_of("ns_per_step")},
       {"bare", "Box2D with nothing recorded", median_of("ns_per_step_bare")},

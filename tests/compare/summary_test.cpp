@@ -41,6 +41,8 @@ TEST(Headline, says_the_worst_that_happened_in_plain_words) {
   EXPECT_EQ(outcome_of(one), "stopped at 0.600");
   one.first_contact_step = 12;
   EXPECT_EQ(outcome_of(one), "stopped at 0.600 of step 12");
+  one.hanging_steps = 7;
+  EXPECT_EQ(outcome_of(one), "hangs on 7 steps");
   one.steps_ending_inside = 3;
   EXPECT_EQ(outcome_of(one), "ends inside on 3 steps");
   one.tunnels = 1;
