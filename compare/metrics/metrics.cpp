@@ -52,8 +52,9 @@ Metrics::Metrics(const TraceHeader& header, const Measured& measured)
   const auto any = [&colliders](auto&& test) { return std::any_of(colliders.begin(), colliders.end(), test); };
   has_one_way_ = any([](const ColliderDef& def) { return def.one_way.has_value(); });
   if (any([](const ColliderDef& def) { return def.sensor; })) sums_.sensor_events = sums_.sensor_errors = 0;
-  for (std::optional<int>* counter : {&sums_.tunnels, &sums_.corner_cuts, &sums_.steps_ending_inside,
-                                      &sums_.contact_steps, &sums_.hanging_steps, &sums_.stuck_steps, &sums_.dropped_steps}) {
+  for (std::optional<int>* counter :
+       {&sums_.tunnels, &sums_.corner_cuts, &sums_.steps_ending_inside, &sums_.contact_steps, &sums_.hanging_steps,
+        &sums_.stuck_steps, &sums_.dropped_steps}) {
     *counter = 0;
   }
   if (measured_.respawns) sums_.respawns = 0;

@@ -82,10 +82,14 @@ void Lane::fail(Verdict verdict, const std::string& reason) {
 
 /// What ran is scored; the row says that it ended before its time.
 void Lane::end_early(const std::string& reason) {
-  metrics_->write(row_);
+  write_metrics();
   add_fault(row_, Axis::validity, Verdict::flagged, reason);
   conclude();
   contestant_.reset();
+}
+
+void Lane::expect(const std::vector<Answer>& answers) {
+  if (running()) answers_.emplace(answers, header());
 }
 
 void Lane::place(const Pose& pose, std::size_t character) {
@@ -131,6 +135,8 @@ void Lane::judge_step() {
   if (records_.front().step == 0) note_start();
   if (company_) company_->judge(records_, judgements_);
   for (std::size_t k = 0; k < records_.size(); ++k) metrics_->add(records_[k], judgements_[k]);
+  if (answers_)
+    for (const TraceStep& record : records_) answers_->add(record);
 }
 
 void Lane::step(int step, const StepInput& input) {
@@ -201,9 +207,14 @@ void Lane::note_events(std::size_t character) {
   note_company(ReportEvent::Kind::inside, judged.company.entered, "ends inside");
 }
 
+void Lane::write_metrics() {
+  metrics_->write(row_);
+  if (answers_) answers_->write(row_);
+}
+
 void Lane::finish() {
   if (running()) {
-    metrics_->write(row_);
+    write_metrics();
     if (const std::size_t bytes = contestant_->memory_bytes(); bytes > 0) row_.memory_bytes = bytes;
     conclude();
   }
@@ -227,6 +238,7 @@ void Lane::conclude() {
   if (const int hanging = row_.hanging_steps.value_or(0); hanging > 0)
     add_fault(row_, Axis::progress, promised ? Verdict::violates : Verdict::flagged,
               fmt::format("hangs on {}", counted(hanging, "step")));
+  if (!row_.answer_ok.value_or(true)) add_fault(row_, Axis::answer, Verdict::flagged, row_.answer);
   if (steps_capped_ > 0)
     add_fault(row_, Axis::validity, Verdict::flagged,
               fmt::format("{} beyond Box2D's travel cap of 2 m per step, not scored", counted(steps_capped_, "step")));

@@ -1,6 +1,7 @@
 /// One contestant with everything that watches it.
 #pragma once
 
+#include "metrics/answers.hpp"
 #include "metrics/metrics.hpp"
 #include "oracle/company.hpp"
 #include "oracle/judge.hpp"
@@ -42,6 +43,8 @@ class Lane {
   [[nodiscard]] const std::string& begins_inside() const noexcept { return begins_inside_; }
   [[nodiscard]] ReportRun& replay() noexcept { return replay_; }
 
+  /// What the run must come to.
+  void expect(const std::vector<Answer>& answers);
   /// Puts a character somewhere; the next step begins a new story.
   void place(const Pose& pose, std::size_t character = 0);
   /// Puts a character back to a start, before a step, and remembers it.
@@ -57,6 +60,7 @@ class Lane {
 
  private:
   [[nodiscard]] TraceHeader header_as_run() const;
+  void write_metrics();
   void note_start();
   void begin_records(int step, double dt);
   void judge_step();
@@ -75,6 +79,7 @@ class Lane {
   std::unique_ptr<Contestant> contestant_;
   std::unique_ptr<CompanyJudge> company_;  ///< Null for one character.
   std::unique_ptr<Metrics> metrics_;
+  std::optional<AnswerCheck> answers_;  ///< None where nothing is asked.
   std::unique_ptr<TraceWriter> trace_;
   // By character:
   std::vector<std::unique_ptr<Judge>> judges_;

@@ -79,7 +79,10 @@ struct Row {
   std::optional<int> hanging_steps;             ///< steps that could have fallen, and did not
   std::optional<int> stuck_steps;               ///< steps on which it said that it is stuck inside something
   std::optional<int> dropped_steps;             ///< steps with displacement dropped after the iterations
-  std::optional<double> toi_error_max;          ///< in fractions of a step, first contact of each step
+  std::optional<double> answer_error;   ///< of the scene's answer that is missed most, in its unit: see `AnswerCheck`
+  std::optional<bool> answer_ok;        ///< all of the scene's answers are met
+  std::string answer;                   ///< the one that is missed most, in words; empty where all are met
+  std::optional<double> toi_error_max;  ///< in fractions of a step, first contact of each step
   std::optional<double>
       ghost_speed_loss;  ///< largest share of the wanted horizontal speed lost in a step to nothing exact
   std::optional<double> rest_peak_to_peak_m;
@@ -132,6 +135,8 @@ void for_each_metric(const Row& row, const Visit& visit) {
   visit("hanging_steps", row.hanging_steps);
   visit("stuck_steps", row.stuck_steps);
   visit("dropped_steps", row.dropped_steps);
+  visit("answer_error", row.answer_error);
+  visit("answer_ok", row.answer_ok);
   visit("toi_error_max", row.toi_error_max);
   visit("ghost_speed_loss", row.ghost_speed_loss);
   visit("rest_peak_to_peak_m", row.rest_peak_to_peak_m);

@@ -48,6 +48,7 @@ class SceneRun {
             std::make_unique<Lane>(std::string(twin_name), scalar, scene, scenery_, planning_, mode, stem, replay));
         twins_.back()->row().findings.push_back("twin of " + name);
       }
+    for (const auto& lane : lanes_) lane->expect(answers());
     try {
       cursor_.emplace(scene_, script_);
     } catch (const NotApplicable& reason) {
@@ -91,6 +92,12 @@ class SceneRun {
       chosen.emplace_back(twin_name);
     if (lockstep) std::erase_if(chosen, [](const std::string& name) { return is_reference(name); });
     return chosen;
+  }
+
+  /// The scene's, where it is run as it is.
+  [[nodiscard]] std::vector<Answer> answers() const {
+    const bool as_it_is = steps_ == scene_.steps && !options_.random_input && options_.mode == Mode::free;
+    return as_it_is ? scene_.answers : std::vector<Answer>{};
   }
 
   void begin_agreements() {

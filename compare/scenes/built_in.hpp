@@ -17,12 +17,15 @@ namespace paperproof::compare {
 [[nodiscard]] std::vector<BuiltInScene> moving_scenes();   ///< Lifts, conveyors, papers, a ceiling.
 [[nodiscard]] std::vector<BuiltInScene> body_scenes();     ///< Stacks and crates that Box2D moves.
 [[nodiscard]] std::vector<BuiltInScene> crowd_scenes();    ///< Several characters.
+[[nodiscard]] std::vector<BuiltInScene> play_scenes();     ///< Ledges, gaps, ramps, kerbs, exact fits.
 [[nodiscard]] std::vector<BuiltInScene> extreme_scenes();  ///< Overlapping starts, far origins, other scales.
 
 /// Half the width, and the height below and above the position, of the article's character: 20 x 40 px at 32 px/m [m].
 inline constexpr double half_width = 10.0 / 32;
 inline constexpr double half_height = 20.0 / 32;
 inline constexpr double pixel = 1.0 / 32;              ///< [m]
+inline constexpr double foot = 5 * pixel;              ///< From the middle to each foot [m].
+inline constexpr double pi = 3.14159265358979;
 inline constexpr double tan_30 = 0.57735026918962576;  ///< Of 30 degrees.
 
 /// The jump button goes down, comes up.
@@ -45,5 +48,27 @@ void let_box2d_move_last(Scene& scene, const Body& body);
 void hold_jump(Scene& scene, int from, int to);
 /// The same for dropping through one-way chains.
 void hold_drop(Scene& scene, int from, int to);
+
+// What answers are derived from: design §4, in steps of the scene's own length.
+
+/// How far a body falls in n steps from rest [m].
+[[nodiscard]] double fallen(const Scene& scene, int steps);
+/// How high a jump is after n steps [m].
+[[nodiscard]] double risen(const Scene& scene, int steps);
+/// In how many steps a body falls so far. @param way [m]. @param speed downwards at the start [m/s].
+[[nodiscard]] double steps_to_fall(const Scene& scene, double way, double speed = 0);
+/// How far the character walks from rest in n steps of `move` 1 [m].
+[[nodiscard]] double walked(const Scene& scene, int steps);
+/// In how many steps it walks so far [m].
+[[nodiscard]] double steps_to_walk(const Scene& scene, double way);
+/// The place of a one-digit step in the numbers around `x` [m].
+[[nodiscard]] double ulp(double x);
+
+/// Ends at a place, at rest against what is there.
+void ends_at(Scene& scene, double x, double y);
+/// Stands on a mover from a step on, and goes where that goes. @param rounding of the larger coordinate [m].
+void carried_by(Scene& scene, const std::string& mover, int steps, double rounding);
+/// Neither moves nor changes `grounded` after so many steps.
+void rests_after(Scene& scene, int steps);
 
 }  // namespace paperproof::compare

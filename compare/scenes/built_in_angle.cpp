@@ -3,6 +3,7 @@
 /// Angles are written as their sines and tangents: the library's functions give other bits on other machines.
 #include "scenes/built_in.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -26,6 +27,9 @@ constexpr Angle degrees_80{.sin = 0.98480775301220802, .cos = 0.1736481776669303
 Scene grazing_at(const Angle& angle, double speed, double distance, int steps) {
   Scene scene = flight(0, 0, speed * angle.sin, speed * angle.cos, steps);
   add_box(scene, "wall", half_width + distance, -10, half_width + distance + 1, 1000);
+  const double approach = speed * angle.sin * scene.dt;
+  scene.answers = {contact(distance / approach, approach), x_is(distance),
+                   y_is(speed * angle.cos * scene.dt * steps).law()};
   return scene;
 }
 
@@ -36,6 +40,10 @@ Scene grazing_wall_0001() { return grazing_at(degrees_0_001, 100, 0.004, 240); }
 Scene parallel_at(double clearance) {
   Scene scene = flight(0, 0, 0, 10, 120);
   add_box(scene, "wall", half_width + clearance, -10, half_width + clearance + 1, 100);
+  scene.answers = {
+      clearance > 0 ? count(Answer::Of::contacts, 0).beyond(clearance) : count(Answer::Of::contacts, 0).law(),
+      is(Answer::Of::speed, 10, {0, 1})};
+  ends_at(scene, 0, 20);
   return scene;
 }
 
@@ -55,6 +63,11 @@ Scene rotated_by(const Angle& angle) {
   add_polygon(scene, "wall",
               {at(distance, -half_length), at(distance + thickness, -half_length),
                at(distance + thickness, half_length), at(distance, half_length)});
+  const Vec2d normal{angle.cos, angle.sin};
+  double support = 0;
+  for (const Vec2d& point : scene.character.shape.hull()) support = std::max(support, point.dot(normal));
+  const double approach = 50 * angle.cos * scene.dt;
+  scene.answers = {contact((distance - support) / approach, approach), farthest(normal, distance - support)};
   return scene;
 }
 
@@ -71,12 +84,33 @@ Scene corner_at(double top) {
   add_box(scene, "box", right - 2, top - 2, right, top);
   return scene;
 }
+
+/// Where the two only touch, give or take an ulp, who is stopped is as right as who passes.
+Scene corner_touched_at(double top) {
+  Scene scene = corner_at(top);
+  scene.answers = {x_is(-0.5).after(3), y_is(0.5).after(3), between(Answer::Of::place, -28, top + half_height, {0, 1})};
+  return scene;
+}
 constexpr double corner_top = -25.0 / 32 + 0.25;
 
-Scene corner_to_corner() { return corner_at(corner_top); }
-Scene corner_plus_ulp() { return corner_at(std::nextafter(corner_top, 0.0)); }
-Scene corner_minus_ulp() { return corner_at(std::nextafter(corner_top, -1.0)); }
-Scene corner_hit() { return corner_at(corner_top + 0.03125); }
+Scene corner_to_corner() { return corner_touched_at(corner_top); }
+Scene corner_minus_ulp() { return corner_touched_at(std::nextafter(corner_top, -1.0)); }
+
+/// Who keeps no gap meets the box; all others may.
+Scene corner_plus_ulp() {
+  Scene scene = corner_touched_at(std::nextafter(corner_top, 0.0));
+  scene.answers.push_back(contact((2 - half_height - corner_top) / 0.5, 0.5).beyond(1e-9));
+  return scene;
+}
+
+/// The foot comes onto the box, and the way goes on along it.
+Scene corner_hit() {
+  constexpr double top = corner_top + pixel;
+  Scene scene = corner_at(top);
+  scene.answers = {contact((2 - half_height - top) / 0.5, 0.5)};
+  ends_at(scene, 28, top + half_height);
+  return scene;
+}
 
 /// Falls from `height` into a V whose apex is the origin. @param tangent of half the angle. @param rim [m] above the
 /// apex.
@@ -86,6 +120,10 @@ Scene wedge_of(double tangent, double rim, double height, int steps) {
   const double half = rim * tangent;
   add_polygon(scene, "wedge",
               {{0, 0}, {half, rim}, {half + 1, rim}, {half + 1, -1}, {-half - 1, -1}, {-half - 1, rim}, {-half, rim}});
+  const double arms = 10 * pixel * (1 / tangent + 1);
+  const double feet = pixel * (5 / tangent + 20);
+  scene.answers = {x_is(0), y_is(std::max(arms, feet)).gaps(std::hypot(1, tangent) / tangent)};
+  rests_after(scene, steps * 2 / 3);
   return scene;
 }
 
@@ -98,6 +136,11 @@ Scene concave_corner() {
   scene.gravity = {0, -10};
   add_box(scene, "floor", -4, -1, 4, 0);
   add_box(scene, "wall", 3, 0, 4, 5);
+  const double step_x = 40 * scene.dt;
+  scene.answers = {contact(steps_to_fall(scene, 3 - half_height, 40), step_x).to("floor"),
+                   contact((3 - half_width) / step_x, step_x).to("wall").law()};
+  ends_at(scene, 3 - half_width, half_height);
+  rests_after(scene, 30);
   return scene;
 }
 
@@ -106,9 +149,10 @@ Scene concave_corner() {
 /// ceiling and is led down.
 Scene sawtooth_of(int teeth) {
   Scene scene = flight(0, 0, 12'000, 0, 1);
-  constexpr double foot = 5.0 / 32;
   Vec2d place{0, 0};
   double slope = 0;
+  double share = 1;  // of the speed that is left along x
+  double spent = 0;  // of the 200 m
   for (int k = 0; k < teeth; ++k) {
     const double up = k % 2 == 0 ? 1 : -1;
     place += Vec2d(0.5, 0.5 * slope);
@@ -116,6 +160,13 @@ Scene sawtooth_of(int teeth) {
     const Vec2d met = place + Vec2d(foot, -up * half_height);
     add_polygon(scene, "tooth" + std::to_string(k), {met - 0.05 * along, met + 0.2 * along, met + Vec2d(0.05, -up)});
     slope = up * tan_30;
+    // A tooth of the floor keeps what is horizontal: it is ground. One of the ceiling halves it: from (1, tan 30) it
+    // takes the part into its normal (-1/2, -cos 30), which is 1 long, and leaves (1/2, -tan(30)/2).
+    spent += 0.5 / share;
+    if (up < 0) share /= 2;
+    Answer time = contact(spent / 200, 200 * degrees_30.sin).to(scene.ids.back());
+    // Each is stopped at up to 2 gaps early, and what that shifts grows with the shares that follow.
+    scene.answers.push_back(k == 0 ? std::move(time) : std::move(time).within(1e-6).law());
   }
   return scene;
 }

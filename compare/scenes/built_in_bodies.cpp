@@ -22,6 +22,9 @@ Scene stack_under(double mass) {
     let_box2d_move_last(scene, {.mass = i == boxes ? mass : 1});
   }
   scene.start.position = {0, top + half_height + 5e-7};
+  // Where the boxes go is for Box2D to say; the character goes with the uppermost one, whatever that does.
+  scene.answers = {count(Answer::Of::in_the_air, 0), x_is(0)};
+  if (mass <= 100) scene.answers.push_back(y_is(top + half_height).to("box_5"));  // heavier ones sink away
   return scene;
 }
 
@@ -40,6 +43,8 @@ Scene falling_crate() {
   constexpr double bottom = 2 * half_height + way;
   add_box(scene, "crate", -0.5, bottom, 0.5, bottom + 1);
   let_box2d_move_last(scene, {.mass = 20});
+  scene.answers = {count(Answer::Of::crush, static_cast<int>(steps_to_fall(scene, way))).law(),
+                   farthest({0, -1}, -half_height)};
   return scene;
 }
 

@@ -1,6 +1,8 @@
 /// Several characters: none gets past another.
 #include "scenes/built_in.hpp"
 
+#include <limits>
+
 namespace paperproof::compare {
 
 namespace {
@@ -14,6 +16,10 @@ Scene characters_head_on() {
   Scene scene = flight(0, 0, 30, 0, 30);
   add_box(scene, "below", -4, -3, 8, -2);
   add_character(scene, 2 * half_width + 2, 0, -18);
+  const double step_x = 30 * scene.dt;
+  const double met = 2 / (step_x + 18 * scene.dt);
+  scene.answers = {contact(met, step_x), x_is(met * step_x).law(),
+                   x_is(met * step_x + 2 * half_width).of_character(1).law()};
   return scene;
 }
 
@@ -24,6 +30,11 @@ Scene three_in_a_row() {
   add_box(scene, "below", -4, -3, 8, -2);
   add_character(scene, 2 * half_width + 0.25, 0, 6);
   add_character(scene, 4 * half_width + 0.25 + 0.05, 0, 0);
+  const double gaps = 0.25 + 0.05;
+  scene.answers = {contact(gaps / (24 * scene.dt), 24 * scene.dt).law(),
+                   contact(0.05 / (6 * scene.dt), 6 * scene.dt).of_character(1), x_is(gaps).law(),
+                   x_is(2 * half_width + gaps).of_character(1).law(),
+                   x_is(4 * half_width + gaps).of_character(2).law()};
   return scene;
 }
 
@@ -37,6 +48,8 @@ Scene jump_onto_a_head() {
                 {{.step = 0, .move = 0, .jump = std::nullopt},
                  {.step = 30, .move = 0.75, .jump = true},
                  {.step = 54, .move = 0, .jump = false}});
+  scene.answers = {x_is(walked(scene, 120)), y_is(half_height),
+                   y_is(3 * half_height).of_character(1).after(150).gaps(2), y_is(half_height).of_character(1)};
   return scene;
 }
 
@@ -62,6 +75,12 @@ Scene crowd_of_16() {
     scene.start.position = {x, y};
     scene.input = std::move(input);
   }
+  const double none = std::numeric_limits<double>::infinity();
+  const auto none_beyond = [none](const Vec2d& along, double place) {
+    return between(Answer::Of::farthest, -none, place, along).of_character(Answer::all);
+  };
+  scene.answers = {none_beyond({1, 0}, width - half_width), none_beyond({-1, 0}, -half_width),
+                   none_beyond({0, 1}, height - half_height), none_beyond({0, -1}, -half_height)};
   return scene;
 }
 
@@ -76,6 +95,8 @@ Scene two_on_a_lift() {
   add_character(scene, 2 * half_width + 1, half_height + 5e-7, 0,
                 {{.step = 0, .move = 0, .jump = std::nullopt}, {.step = 60, .move = -0.5, .jump = std::nullopt}});
   scene.input.push_back({.step = 0, .move = 0, .jump = std::nullopt});
+  scene.answers = {is(Answer::Of::drift, 0).to("lift").within(ulp(5.2)), count(Answer::Of::in_the_air, 0),
+                   x_is(2 * half_width).of_character(1).to("lift"), y_is(half_height).of_character(1).to("lift")};
   return scene;
 }
 
@@ -92,6 +113,10 @@ Scene pressed_in_a_row() {
   add_box(scene, "press", face - 1, 0.01, face, 1.29);
   move_last(scene, {{.time = 0, .at = {0, 0}}, {.time = 2, .at = {2 * speed, 0}}});
   add_character(scene, 1.5, half_height + 5e-7, 0);
+  const double room = wall - face - 4 * half_width;
+  scene.answers = {count(Answer::Of::crush, static_cast<int>(room / (speed * scene.dt))).law(),
+                   count(Answer::Of::crush, scene.steps).of_character(1).law(),
+                   x_is(wall - half_width).of_character(1).law()};
   return scene;
 }
 

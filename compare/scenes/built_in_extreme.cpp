@@ -11,6 +11,10 @@ Scene sliver_drop() {
   Scene scene = flight(0, 3, 0, -30, 90);
   scene.gravity = {0, -30};
   add_polygon(scene, "sliver", {{-2, 0}, {2, -0.0005}, {2, 0.0005}});
+  constexpr double slope = 0.0005 / 4;
+  const double way = 3 - half_height - slope * (2 + foot);  // of the right foot, which stands
+  scene.answers = {contact(steps_to_fall(scene, way, 30), 30 * scene.dt)};
+  ends_at(scene, 0, half_height + slope * (2 + foot));
   return scene;
 }
 
@@ -20,6 +24,7 @@ Scene start_inside(double y) {
   scene.gravity = {0, -30};
   scene.start.resolve_overlap = true;
   add_box(scene, "floor", -4, -2, 4, 0);
+  ends_at(scene, 0, half_height);
   return scene;
 }
 
@@ -36,6 +41,9 @@ Scene far_from(double origin) {
   add_box(scene, "wall", x + 12, 0, x + 13, 4);
   scene.input.push_back({.step = 90, .move = std::nullopt, .jump = true});
   scene.input.push_back({.step = 100, .move = std::nullopt, .jump = false});
+  // It jumps over the wall.
+  scene.answers = {contact(steps_to_fall(scene, 1.0 / 32), 3 * fallen(scene, 1))};
+  ends_at(scene, x + 0.5 + walked(scene, scene.steps), half_height + risen(scene, scene.steps - 90));
   return scene;
 }
 
@@ -58,6 +66,9 @@ Scene scaled_by(double scale) {
   const auto at = [&](double x, double y) { return Vec2d{x * scale, y * scale}; };
   add_polygon(scene, "ground", {at(-2, -1), at(14, -1), at(14, 2), at(8, 2), at(4, 0), at(-2, 0)});
   add_polygon(scene, "wall", {at(12, 2), at(13, 2), at(13, 6), at(12, 6)});
+  scene.answers = {contact(steps_to_fall(scene, 0.25 * scale), 10 * fallen(scene, 1)).to("ground")};
+  ends_at(scene, (12 - half_width) * scale, (2 + half_height) * scale);
+  rests_after(scene, 150);
   return scene;
 }
 
@@ -69,6 +80,9 @@ Scene gravity_of(double gravity) {
   Scene scene = flight(0, half_height + 0.25, 0, 0, 120);
   scene.gravity = {0, -gravity};
   add_box(scene, "floor", -4, -1, 4, 0);
+  scene.answers = {contact(steps_to_fall(scene, 0.25), fallen(scene, 1))};
+  ends_at(scene, 0, half_height);
+  rests_after(scene, 60);
   return scene;
 }
 

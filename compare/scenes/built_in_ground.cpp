@@ -16,6 +16,8 @@ Scene flush_tiles_at(double speed) {
   scene.character.walk_speed = speed;
   scene.start.velocity = {speed, 0};
   for (int i = 0; i < 64; ++i) add_box(scene, "tile" + std::to_string(i), i - 1, -1, i, 0);
+  scene.answers = {is(Answer::Of::speed, speed, {1, 0})};
+  ends_at(scene, 0.5 + speed * scene.dt * scene.steps, half_height);
   return scene;
 }
 
@@ -40,28 +42,54 @@ Scene slope_joints_with(double snap) {
   add_polygon(
       scene, "hill",
       {{-5, -1}, {26, -1}, {26, 0}, {3 * run, 0}, {2 * run, run * tan_30}, {run, run * tan_30}, {0, 0}, {-5, 0}});
+  scene.answers = {x_is(-3 + walked(scene, scene.steps)).law(), y_is(half_height)};
   return scene;
 }
 
-Scene slope_joints() { return slope_joints_with(0.5); }
+/// Half-way down it stands with its left foot on the slope.
+Scene slope_joints() {
+  Scene scene = slope_joints_with(0.5);
+  constexpr int steps = 132;
+  const double x = -3 + walked(scene, steps);
+  scene.answers.push_back(y_is((12 - (x - foot)) * tan_30 + half_height).after(steps).law());
+  return scene;
+}
+
 Scene slope_joints_no_snap() { return slope_joints_with(0); }
 
 /// Stands on a slope, then walks down its 30 degrees and up another of 10.
 Scene skier_with(double snap) {
   constexpr double x = 1;
-  constexpr double left_foot = 5.0 / 32;  // stands on it while the slope falls to the right
-  Scene scene = walk(x, half_height - (x - left_foot) * tan_30 + 0.02, 0, 240);
-  scene.input.push_back({.step = 30, .move = 1, .jump = std::nullopt});
+  constexpr int begin = 30;
+  // The left foot stands on it while the slope falls to the right.
+  Scene scene = walk(x, half_height - (x - foot) * tan_30 + 0.02, 0, 240);
+  scene.input.push_back({.step = begin, .move = 1, .jump = std::nullopt});
   scene.character.walk_speed = 8;
   scene.character.snap = snap;
   constexpr double run = 10;
-  constexpr double foot = -run * tan_30;
-  add_polygon(scene, "piste", {{0, 0}, {0, -20}, {5 * run, -20}, {5 * run, foot + 4 * run * tan_10}, {run, foot}});
+  constexpr double low = -run * tan_30;
+  add_polygon(scene, "piste", {{0, 0}, {0, -20}, {5 * run, -20}, {5 * run, low + 4 * run * tan_10}, {run, low}});
+  const double end = x + walked(scene, scene.steps - begin);
+  scene.answers = {x_is(end).law(), y_is(low + (end + foot - run) * tan_10 + half_height).law(),
+                   count(Answer::Of::in_the_air, 0).after(120).law()};  // it is on the second slope then
   return scene;
 }
 
-Scene skier() { return skier_with(0.5); }
-Scene skier_no_snap() { return skier_with(0); }
+/// Walks down the first slope, too, without leaving it.
+Scene skier() {
+  Scene scene = skier_with(0.5);
+  constexpr int steps = 90;
+  const double x = 1 + walked(scene, steps - 30);
+  scene.answers.push_back(y_is((foot - x) * tan_30 + half_height).after(steps).law());
+  scene.answers.push_back(count(Answer::Of::in_the_air, 0).after(30).law());
+  return scene;
+}
+
+Scene skier_no_snap() {
+  Scene scene = skier_with(0);
+  scene.answers.push_back(between(Answer::Of::in_the_air, 1, scene.steps).after(30).law());
+  return scene;
+}
 
 /// Falls down a shaft onto its floor. @param half of the width between the walls [m].
 Scene shaft_of(double half) {
@@ -70,12 +98,20 @@ Scene shaft_of(double half) {
   add_box(scene, "left", -half - 1, -1, -half, 8);
   add_box(scene, "right", half, -1, half + 1, 8);
   add_box(scene, "floor", -half, -1, half, 0);
+  scene.answers = {x_is(0), between(Answer::Of::place, half_height, 5, {0, 1})};
   return scene;
 }
 
 Scene exact_fit_shaft() { return shaft_of(half_width); }
 Scene shaft_one_ulp_wider() { return shaft_of(std::nextafter(half_width, 1.0)); }
-Scene shaft_wider() { return shaft_of(half_width + 1e-6); }
+
+Scene shaft_wider() {
+  constexpr double room = 1e-6;
+  Scene scene = shaft_of(half_width + room);
+  scene.answers = {x_is(0).within(0), y_is(half_height).beyond(room),
+                   contact(steps_to_fall(scene, 5 - half_height), 9 * scene.dt).to("floor").beyond(room)};
+  return scene;
+}
 
 }  // namespace
 

@@ -2,6 +2,8 @@
 /// perturbed replicas: scenes 13, 26, 27, 32, 34 and 35.
 #include "scenes/built_in.hpp"
 
+#include <cmath>
+
 namespace paperproof::compare {
 
 namespace {
@@ -15,11 +17,26 @@ Scene ramp_of(double tangent) {
   return scene;
 }
 
+/// Ends on the plateau.
+Scene climbed(double tangent) {
+  Scene scene = ramp_of(tangent);
+  scene.answers = {x_is(-2 + walked(scene, scene.steps)).law(), y_is(3 * tangent + half_height).law()};
+  return scene;
+}
+
+/// Ends with its right foot where the ramp begins.
+Scene not_climbed(double tangent) {
+  Scene scene = ramp_of(tangent);
+  scene.answers = {x_is(-foot).gaps(std::hypot(1, tangent) / tangent + 1).law(), y_is(half_height).law(),
+                   farthest({0, 1}, half_height + 0.02).law()};
+  return scene;
+}
+
 // tan(50 degrees + the angle in the name)
-Scene climb_below() { return ramp_of(1.1917511723204688); }
-Scene climb_above() { return ramp_of(1.19175601287372); }
-Scene climb_far_below() { return ramp_of(1.0774552687432373); }
-Scene climb_far_above() { return ramp_of(1.3205494158674156); }
+Scene climb_below() { return climbed(1.1917511723204688); }
+Scene climb_above() { return not_climbed(1.19175601287372); }
+Scene climb_far_below() { return climbed(1.0774552687432373); }
+Scene climb_far_above() { return not_climbed(1.3205494158674156); }
 
 /// Falls for one second through empty air.
 Scene fall_with(double dt, int steps) {
@@ -27,6 +44,7 @@ Scene fall_with(double dt, int steps) {
   scene.gravity = {0, -10};
   scene.dt = dt;
   add_box(scene, "floor", -4, -30, 4, -29);
+  scene.answers = {x_is(0).within(0), y_is(-fallen(scene, steps)).within(1e-11 * steps)};
   return scene;
 }
 
@@ -51,6 +69,9 @@ Scene even_flight() {
   Scene scene = flight(0.1, 0.2, 3.7, -1.3, 128);
   scene.dt = 1.0 / 64;
   add_box(scene, "floor", -4, -30, 4, -29);
+  // The way of a step and the position after it are rounded once each.
+  const double rounding = 128 * ulp(7.5);
+  scene.answers = {x_is(0.1 + 2 * 3.7).within(rounding), y_is(0.2 - 2 * 1.3).within(rounding)};
   return scene;
 }
 
@@ -69,6 +90,9 @@ Scene uneven_lift() {
   move_last(scene, {{.time = 0, .at = {0, 0}}, {.time = 0.5, .at = {0, 0}}, {.time = 2.5, .at = {1, 3}}},
             MoverDef::Loop::ping_pong);
   add_box(scene, "ground", -10, -10, 10, -9);
+  // After 8 s it is on its way down again for half a second.
+  scene.answers = {x_is(0.75), y_is(2.25 + half_height), is(Answer::Of::drift, 0).to("lift").after(30).within(ulp(3.7)),
+                   count(Answer::Of::in_the_air, 0).after(30)};
   return scene;
 }
 
@@ -80,6 +104,8 @@ Scene tiles_of(int count) {
     const int row = i / 1000;
     add_box(scene, "tile" + std::to_string(i), column, -row - 1, column + 1, -row);
   }
+  scene.answers = {contact(steps_to_fall(scene, 0.02), fallen(scene, 1))};
+  ends_at(scene, 0.5 + walked(scene, scene.steps), half_height);
   return scene;
 }
 
@@ -95,6 +121,13 @@ Scene thin_sensor() {
   add_chain(scene, "line", {{40, -2}, {40, 2}});
   scene.scenery.colliders.back().sensor = true;
   add_box(scene, "wall", 150, -2, 151, 2);
+  constexpr double step_x = 100;
+  const auto after = [](Answer::Of of, double way) { return is(of, way / step_x).gaps(1 / step_x).within(1e-12); };
+  scene.answers = {
+      after(Answer::Of::enter, 20 - half_width).to("gate"), after(Answer::Of::leave, 20.01 + half_width).to("gate"),
+      after(Answer::Of::enter, 40 - half_width).to("line"), after(Answer::Of::leave, 40 + half_width).to("line"),
+      contact((150 - half_width) / step_x, step_x).to("wall")};
+  ends_at(scene, 150 - half_width, 0);
   return scene;
 }
 
@@ -104,6 +137,11 @@ Scene sensor_gate() {
   add_box(scene, "gate", 4, -1, 4.5, 3);
   scene.scenery.colliders.back().sensor = true;
   add_box(scene, "wall", 8, -1, 9, 3);
+  constexpr double step_x = 0.1;
+  scene.answers = {is(Answer::Of::enter, (3.5 - half_width) / step_x).gaps(1 / step_x).within(1e-9).to("gate"),
+                   is(Answer::Of::leave, (4 + half_width) / step_x).gaps(1 / step_x).within(1e-9).to("gate"),
+                   contact((7.5 - half_width) / step_x, step_x).to("wall"), count(Answer::Of::contacts, 0).to("gate")};
+  ends_at(scene, 8 - half_width, half_height);
   return scene;
 }
 
@@ -116,6 +154,11 @@ Scene replica_off_by(double distance) {
   add_box(scene, "block", 6, 0, 9, 1);
   add_box(scene, "wall", 14, 0, 15, 6);
   hold_jump(scene, 40, 60);
+  scene.answers = {contact(steps_to_fall(scene, 0.02 + distance), 2 * fallen(scene, 1)).to("floor"),
+                   contact(steps_to_walk(scene, 14 - half_width - distance), 0.1).to("wall"),
+                   farthest({0, 1}, half_height + risen(scene, 24))};  // 12 m/s less 0.5 m/s a step
+  ends_at(scene, 14 - half_width, half_height);
+  rests_after(scene, 200);
   return scene;
 }
 

@@ -1,6 +1,8 @@
 /// What moves: scenes 15 to 19.
 #include "scenes/built_in.hpp"
 
+#include <cmath>
+
 namespace paperproof::compare {
 
 namespace {
@@ -13,6 +15,9 @@ Scene lift_by(const Vec2d& way) {
   move_last(scene, {{.time = 0, .at = {0, 0}}, {.time = 0.5, .at = {0, 0}}, {.time = 2.5, .at = way}},
             MoverDef::Loop::ping_pong);
   add_box(scene, "ground", -10, -10, 10, -9);
+  carried_by(scene, "lift", 10, ulp(4));
+  scene.answers.push_back(x_is(way.x()).after(150));
+  scene.answers.push_back(y_is(way.y() + half_height).after(150));
   return scene;
 }
 
@@ -25,6 +30,9 @@ Scene conveyor() {
   scene.gravity = {0, -30};
   add_box(scene, "belt", -4, -1, 20, 0);
   scene.scenery.colliders.back().surface_speed = 2;
+  const double landed = steps_to_fall(scene, 0.02);
+  scene.answers = {x_is(2 * scene.dt * (scene.steps - landed)).law(), y_is(half_height),
+                   is(Answer::Of::speed, 2, {1, 0})};
   return scene;
 }
 
@@ -38,6 +46,9 @@ Scene closing_ceiling() {
   const double head = 2 * half_height;
   add_box(scene, "ceiling", -4, head + gap, 4, head + gap + 1);
   move_last(scene, {{.time = 0, .at = {0, 0}}, {.time = 1, .at = {0, -speed}}});
+  scene.answers = {count(Answer::Of::crush, static_cast<int>(gap / (speed * scene.dt))).law(),
+                   count(Answer::Of::crushers, 1).law(), farthest({0, 1}, half_height),
+                   farthest({0, -1}, -half_height)};
   return scene;
 }
 
@@ -49,6 +60,10 @@ Scene sweeping_paper() {
   constexpr double start = -half_width - 1.9;
   add_box(scene, "paper", start - 0.01, 0.1, start, 4);
   move_last(scene, {{.time = 0, .at = {0, 0}}, {.time = 0.5, .at = {10, 0}}});
+  // It takes the paper's speed along, and half a second later leaves it.
+  const double step_x = 20 * scene.dt;
+  scene.answers = {contact(1.9 / step_x, step_x).to("paper"), is(Answer::Of::speed, 20, {1, 0}), farthest({-1, 0}, 0)};
+  ends_at(scene, start + 10 + half_width + 20 * (scene.dt * scene.steps - 0.5), half_height);
   return scene;
 }
 
@@ -57,6 +72,9 @@ Scene head_on() {
   Scene scene = flight(0, 0, 30, 0, 30);
   add_chain(scene, "paper", {{half_width + 2, -2}, {half_width + 2, 2}});
   move_last(scene, {{.time = 0, .at = {0, 0}}, {.time = 0.5, .at = {-9, 0}}});
+  const double step_x = (30 + 18) * scene.dt;
+  scene.answers = {contact(2 / step_x, step_x), is(Answer::Of::speed, -18, {1, 0})};
+  ends_at(scene, 2 - 9, 0);
   return scene;
 }
 
@@ -67,6 +85,8 @@ Scene papers_swap() {
   move_last(scene, {{.time = 0, .at = {0, 0}}, {.time = 1, .at = {-4, 0}}});
   add_box(scene, "lower", -2.01, -3, -2, -1);
   move_last(scene, {{.time = 0, .at = {0, 0}}, {.time = 1, .at = {4, 0}}});
+  scene.answers = {count(Answer::Of::contacts, 0)};
+  ends_at(scene, 2, 0);
   return scene;
 }
 
@@ -77,7 +97,16 @@ Scene rotating_paper() {
   add_box(scene, "floor", -4, -1, 4, 0);
   add_box(scene, "paper", -1, -0.005, 1, 0.005);
   move_last(scene, {{.time = 0, .at = {1.2, 1.2}}});
-  scene.movers.back().turns = {{.time = 0, .at = 0}, {.time = 2, .at = 3.14159265358979}};
+  scene.movers.back().turns = {{.time = 0, .at = 0}, {.time = 2, .at = pi}};
+  // The tip that comes down on its left meets the line from head to arm. With the normal (2, 1) / √5 that line is
+  // `line` from the middle of the paper, or less by what a character that is still 0.02 m up has more.
+  const auto met = [&scene](double up) {
+    const double line = (2 * 1.2 + 1.2 - (2 * half_width + half_height + half_width + up)) / std::sqrt(5.0);
+    const double tip = std::hypot(1, 0.005);
+    const double angle = std::atan2(1, 2) - std::atan2(0.005, 1) - std::acos(line / tip);
+    return angle / (pi / 2 * scene.dt);
+  };
+  scene.answers = {between(Answer::Of::contact, met(0.02), met(0)).to("paper").gaps(1 / (0.4 * pi / 2 * scene.dt))};
   return scene;
 }
 
@@ -88,6 +117,7 @@ Scene turning_arm() {
   add_chain(scene, "arm", {{0, 0}, {1, 0}});
   move_last(scene, {{.time = 0, .at = {0, 0}}});
   scene.movers.back().turns = {{.time = 0, .at = 0}, {.time = 2, .at = 2}};
+  scene.answers = {contact(std::asin(0.8) / scene.dt, 0.6 * scene.dt)};  // the tip comes at cos(asin 0.8) m/s
   return scene;
 }
 

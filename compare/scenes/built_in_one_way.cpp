@@ -1,6 +1,8 @@
 /// What holds from one side only, as a truth table: scene 31.
 #include "scenes/built_in.hpp"
 
+#include <cmath>
+
 namespace paperproof::compare {
 
 namespace {
@@ -30,6 +32,14 @@ Scene on_a_ledge(int steps) {
 Scene one_way_from_below() {
   Scene scene = below_a_ledge(2, 180);
   hold_jump(scene, 30, 40);
+  // It is met once: on the way down.
+  int step = 30;
+  while (risen(scene, step - 29) < 2 || risen(scene, step - 29) > risen(scene, step - 30)) ++step;
+  while (risen(scene, step - 29) > 2) ++step;
+  const double high = risen(scene, step - 30);
+  const double approach = high - risen(scene, step - 29);
+  scene.answers = {contact(step + (high - 2) / approach, approach).to("ledge")};
+  ends_at(scene, 0, 2 + half_height);
   return scene;
 }
 
@@ -38,6 +48,8 @@ Scene one_way_from_above() {
   scene.gravity = {0, -30};
   add_box(scene, "floor", -4, -4, 4, -3);
   add_ledge(scene, -2, 2, 0);
+  scene.answers = {contact(steps_to_fall(scene, 2, 50), 50 * scene.dt).to("ledge")};
+  ends_at(scene, 0, half_height);
   return scene;
 }
 
@@ -45,6 +57,8 @@ Scene one_way_from_above() {
 Scene one_way_from_the_side() {
   Scene scene = flight(-3, 0, 6, 0, 60);
   add_ledge(scene, 0, 2, 0);
+  scene.answers = {count(Answer::Of::contacts, 0), is(Answer::Of::speed, 6, {1, 0})};
+  ends_at(scene, 3, 0);
   return scene;
 }
 
@@ -54,16 +68,26 @@ Scene one_way_from_within() {
   scene.gravity = {0, -30};
   add_box(scene, "floor", -4, -4, 4, -3);
   add_ledge(scene, -2, 2, 0);
+  scene.answers = {count(Answer::Of::contacts, 0).to("ledge"),
+                   contact(steps_to_fall(scene, 3 - half_height), 10 * scene.dt).to("floor")};
+  ends_at(scene, 0, -3 + half_height);
   return scene;
 }
 
-Scene one_way_at_rest() { return on_a_ledge(600); }
+Scene one_way_at_rest() {
+  Scene scene = on_a_ledge(600);
+  ends_at(scene, 0, 2 + half_height);
+  rests_after(scene, 60);
+  return scene;
+}
 
 /// Drops for 5 steps: 5 · 6 / 2 g h² = 0.125 m, more than Box2D's rest gap and less than to the next ledge.
 Scene one_way_drop() {
   Scene scene = on_a_ledge(180);
   add_ledge(scene, -4, 4, 0.5, "lower");
   hold_drop(scene, 60, 65);
+  scene.answers = {contact(60 + steps_to_fall(scene, 1.5), 9 * scene.dt).to("lower")};
+  ends_at(scene, 0, 0.5 + half_height);
   return scene;
 }
 
@@ -72,6 +96,9 @@ Scene one_way_drop_held() {
   Scene scene = on_a_ledge(180);
   add_ledge(scene, -4, 4, 0.5, "lower");
   hold_drop(scene, 60, 120);
+  scene.answers = {contact(60 + steps_to_fall(scene, 2), 10 * scene.dt).to("floor"),
+                   count(Answer::Of::contacts, 0).to("lower")};
+  ends_at(scene, 0, half_height);
   return scene;
 }
 
@@ -86,14 +113,25 @@ Scene one_way_lift_by(const Vec2d& way) {
   return scene;
 }
 
-Scene one_way_lift_up() { return one_way_lift_by({0, 3}); }
-Scene one_way_lift_down() { return one_way_lift_by({0, -3}); }
-Scene one_way_lift_sideways() { return one_way_lift_by({3, 0}); }
+Scene one_way_ride(const Vec2d& way) {
+  Scene scene = one_way_lift_by(way);
+  carried_by(scene, "ledge", 10, ulp(7.7));
+  scene.answers.push_back(x_is(way.x()).after(120));
+  scene.answers.push_back(y_is(4 + way.y() + half_height).after(120));
+  return scene;
+}
+
+Scene one_way_lift_up() { return one_way_ride({0, 3}); }
+Scene one_way_lift_down() { return one_way_ride({0, -3}); }
+Scene one_way_lift_sideways() { return one_way_ride({3, 0}); }
 
 /// Drops off a ledge that rises at 2 m/s, and takes that speed along: it comes down on the floor.
 Scene one_way_lift_drop() {
   Scene scene = one_way_lift_by({0, 3});
   hold_drop(scene, 60, 66);
+  // It rises at 2 m/s; gravity takes a sixtieth of itself off that in each step.
+  scene.answers = {is(Answer::Of::speed, 2 + scene.gravity.y() * scene.dt, {0, 1}).after(61)};
+  ends_at(scene, 0, half_height);
   return scene;
 }
 
@@ -102,6 +140,8 @@ Scene one_way_lift_from_below() {
   Scene scene = below_a_ledge(1.5, 180);
   move_last(scene, {{.time = 0, .at = {0, 0}}, {.time = 10, .at = {5, 5}}});
   hold_jump(scene, 20, 40);
+  scene.answers = {y_is(half_height + 1.5).to("ledge"), is(Answer::Of::speed, 0.5, {1, 0}),
+                   is(Answer::Of::speed, 0.5, {0, 1})};
   return scene;
 }
 
@@ -110,6 +150,8 @@ Scene one_way_turns_within() {
   Scene scene = below_a_ledge(2, 120);
   move_last(scene,
             {{.time = 0, .at = {0, 0}}, {.time = 0.75, .at = {0, half_height - 2}}, {.time = 1.5, .at = {0, 0}}});
+  scene.answers = {count(Answer::Of::contacts, 0).to("ledge")};
+  ends_at(scene, 0, half_height);
   return scene;
 }
 
@@ -120,6 +162,11 @@ Scene one_way_turns_below() {
   move_last(scene, {{.time = 0, .at = {0, 0}},
                     {.time = 0.75, .at = {0, -2 - half_height - 0.5}},
                     {.time = 1.72, .at = {0, -2 - half_height + 1}}});
+  // 0.5 m below the feet it turns, after 45 steps, and rises by 1.5 m in 0.97 s: it is there after a third of that.
+  const double speed = 1.5 / 0.97;
+  const double met = 45 + 0.97 / 3 / scene.dt;
+  scene.answers = {contact(met, speed * scene.dt), is(Answer::Of::speed, speed, {0, 1})};
+  ends_at(scene, 0, speed * (scene.steps - met) * scene.dt);
   return scene;
 }
 

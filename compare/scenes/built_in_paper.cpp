@@ -1,6 +1,8 @@
 /// Bullets and paper: scenes 1, 2, 3 and 30.
 #include "scenes/built_in.hpp"
 
+#include <cmath>
+
 namespace paperproof::compare {
 
 namespace {
@@ -13,6 +15,8 @@ Scene article_bullet_at(double pixels_per_frame) {
   const std::vector<Vec2d> square{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   scene.character.shape = CharacterShape::from_pixels(square, 1 / pixel);
   add_box(scene, "platform", -100 * pixel, -5 * pixel, 100 * pixel, 0);
+  scene.answers = {contact(30 / pixels_per_frame, pixels_per_frame * pixel)};
+  ends_at(scene, 0, 0.5 * pixel);
   return scene;
 }
 
@@ -21,6 +25,8 @@ Scene paper_of(double thickness) {
   Scene scene = flight(0, 3 + half_height, 0, -40, 60);
   scene.gravity = {0, -30};
   add_box(scene, "paper", -4, -thickness, 4, 0);
+  scene.answers = {contact(steps_to_fall(scene, 3, 40), 40 * scene.dt)};
+  ends_at(scene, 0, half_height);
   return scene;
 }
 
@@ -45,6 +51,10 @@ Scene long_rest() {
   Scene scene = flight(0, half_height + 0.25, 0, 0, 1'000'000);
   scene.gravity = {0, -30};
   add_box(scene, "floor", -4, -1, 4, 0);
+  const double landed = steps_to_fall(scene, 0.25);
+  scene.answers = {contact(landed, fallen(scene, 1)), is(Answer::Of::in_the_air, std::floor(landed)).within(0)};
+  ends_at(scene, 0, half_height);
+  rests_after(scene, 60);
   return scene;
 }
 

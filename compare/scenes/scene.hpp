@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "scenes/answer.hpp"
 #include "scenes/mover.hpp"
 
 namespace paperproof::compare {
@@ -64,6 +65,8 @@ struct Scene {
   std::vector<InputEvent> input;  ///< Sorted by step.
   /// Characters 1, 2, ...; character 0 begins at `start` and does what `input` says.
   std::vector<OtherCharacter> others;
+  /// What it must come to with its own input and number of steps. Whoever changes the scene clears them.
+  std::vector<Answer> answers{};
   /// Part of the scenery is made of pixels: who draws the level draws these, `pixels_per_metre` of them, or none.
   bool has_pixels = false;
   TileLevel tile_level{};

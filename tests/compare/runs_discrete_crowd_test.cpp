@@ -34,6 +34,7 @@ Scene head_on_at(double v1, double v2) {
   Scene scene = built_in("characters_head_on");
   scene.start.velocity.x() = v1;
   scene.others[0].start.velocity.x() = -v2;
+  scene.answers.clear();  // those are for other speeds
   return scene;
 }
 

@@ -171,9 +171,9 @@ TEST(Lockstep, compares_one_step_at_a_time) {
   EXPECT_EQ(twin.mode, "lockstep");
   EXPECT_EQ(mine.steps, 180);
   EXPECT_EQ(twin.steps, 180);
-  ASSERT_TRUE(mine.contact_agreement_box2d);
-  EXPECT_GE(*mine.contact_agreement_box2d, 0.95);
-  EXPECT_LE(*mine.contact_agreement_box2d, 1);
+  // From the same start a contact is at most shifted into a neighbouring step by Box2D's skin, which counts as the
+  // same.
+  EXPECT_EQ(mine.contact_agreement_box2d, 1);
   for (const ReportRun& run : result.runs) EXPECT_EQ(run.header.mode, "lockstep") << run.header.contender;
   // The controller does not notice that it is watched.
   options.mode = Mode::free;

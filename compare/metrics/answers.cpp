@@ -1,0 +1,242 @@
+#include "metrics/answers.hpp"
+
+#include "oracle/hanging.hpp"
+
+#include <paperproof/techniques.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <stdexcept>
+
+namespace paperproof::compare {
+namespace {
+
+using Of = Answer::Of;
+
+const Vec2d& end_of(const TraceStep& step) { return step.path.back().position; }
+
+/// The same by which a contender may hang.
+double own_reach(const TraceHeader& header) {
+  const double reach = detail::reach_of(header).contact;
+  return reach > detail::exact_reach.contact ? reach : 0;
+}
+
+bool is_time(Of of) { return of == Of::contact || of == Of::enter || of == Of::leave; }
+
+/// In words, with `number` as its value.
+std::string told(const Answer& answer, const std::string& number) {
+  const std::string to = answer.with.empty() ? "" : " `" + answer.with + "`";
+  std::ostringstream along;
+  along << "(" << answer.along.x() << ", " << answer.along.y() << ")";
+  const std::string axis = answer.along == Vec2d(1, 0) ? "x" : answer.along == Vec2d(0, 1) ? "y" : along.str();
+  const std::string when = answer.step == Answer::end ? "at the end" : "after step " + std::to_string(answer.step - 1);
+  switch (answer.of) {
+    case Of::place:
+      return "stands at " + axis + " = " + number + " m " + (to.empty() ? "" : "from" + to + " ") + when;
+    case Of::speed:
+      return "has the speed " + number + " m/s along " + axis + " " + when;
+    case Of::farthest:
+      return "comes to " + number + " m along " + axis;
+    case Of::setback:
+      return "goes back " + number + " m against " + axis;
+    case Of::drift:
+      return "drifts by " + number + " m on" + to;
+    case Of::contact:
+      return "meets" + (to.empty() ? " something" : to) + " after " + number + " steps";
+    case Of::contacts:
+      return "touches" + (to.empty() ? " something" : to) + " on " + number + " steps";
+    case Of::in_the_air:
+      return "is not grounded on " + number + " steps";
+    case Of::settled:
+      return "comes to rest after " + number + " steps";
+    case Of::crush:
+      return "is crushed in step " + number;
+    case Of::crushers:
+      return "is crushed by " + number + " colliders";
+    case Of::enter:
+      return "enters" + to + " after " + number + " steps";
+    case Of::leave:
+      return "leaves" + to + " after " + number + " steps";
+  }
+  return number;
+}
+
+}  // namespace
+
+AnswerCheck::AnswerCheck(const std::vector<Answer>& answers, const TraceHeader& header)
+    : reach_(own_reach(header)), late_(header.path_exact ? 0 : 1) {
+  const bool follows_law = header.contender == paperproof::name_of(TechniqueKind::octagon_sweep);
+  for (const Answer& answer : answers) {
+    if (answer.by_law && !follows_law) continue;
+    if (answer.clearance > 0 && reach_ > answer.clearance) continue;
+    Watch watch{.answer = answer};
+    if (!answer.with.empty()) {
+      const auto found = std::find(header.ids.begin(), header.ids.end(), answer.with);
+      if (found == header.ids.end()) throw std::invalid_argument("no collider has the id `" + answer.with + "`");
+      watch.collider = static_cast<ColliderIndex>(found - header.ids.begin());
+      watch.mover = header.scenery.colliders[watch.collider].mover;
+    }
+    watches_.push_back(std::move(watch));
+  }
+}
+
+/// Where a character ends, relative to the mover that is asked for.
+Vec2d AnswerCheck::place_of(const Watch& watch, const TraceStep& step) {
+  return watch.mover == no_mover ? end_of(step) : Vec2d(end_of(step) - step.movers[watch.mover].to);
+}
+
+std::optional<double> AnswerCheck::first_contact(const Watch& watch, const TraceStep& step) {
+  std::optional<double> earliest;
+  const auto take = [&earliest](double fraction) { earliest = std::min(earliest.value_or(fraction), fraction); };
+  const bool any = watch.collider == no_collider;
+  for (const Contact<double>& contact : step.contacts)
+    if (any || contact.collider == watch.collider) take(contact.fraction);
+  if (any)
+    for (const CrowdContact<double>& contact : step.met) take(contact.fraction);
+  return earliest;
+}
+
+void AnswerCheck::Watch::first(double when) {
+  if (seen) return;
+  seen = true;
+  value = when;
+}
+
+void AnswerCheck::Watch::largest(double at) {
+  value = seen ? std::max(value, at) : at;
+  seen = true;
+}
+
+void AnswerCheck::add(const TraceStep& step) {
+  steps_ = step.step + 1;
+  for (Watch& watch : watches_)
+    if (watch.answer.character == Answer::all || watch.answer.character == step.character) see(watch, step);
+}
+
+void AnswerCheck::see(Watch& watch, const TraceStep& step) const {
+  const Answer& answer = watch.answer;
+  const bool always = answer.step == Answer::end;
+  const bool until = always || step.step < answer.step;   // the steps asked for are not over
+  const bool since = always || step.step >= answer.step;  // they are
+  using Change = SensorEvent<double>::Change;
+  switch (answer.of) {
+    case Of::place:
+      if (until) watch.value = place_of(watch, step).dot(answer.along);
+      break;
+    case Of::speed:
+      if (until) watch.value = step.velocity.dot(answer.along);
+      break;
+    case Of::farthest:
+      for (const PathPoint<double>& corner : step.path) watch.largest(corner.position.dot(answer.along));
+      break;
+    case Of::setback:
+      if (since) watch.go_back(step);
+      break;
+    case Of::drift:
+      if (since && !until) watch.largest((place_of(watch, step) - watch.anchor).cwiseAbs().maxCoeff());
+      if (until && (!always || !watch.seen)) watch.anchor = place_of(watch, step);
+      if (always) watch.largest((place_of(watch, step) - watch.anchor).cwiseAbs().maxCoeff());
+      break;
+    case Of::contact:
+      if (const auto when = first_contact(watch, step)) watch.first(step.step + *when);
+      break;
+    case Of::contacts:
+      if (first_contact(watch, step)) ++watch.value;
+      break;
+    case Of::in_the_air:
+      if (since && !step.grounded) ++watch.value;
+      break;
+    case Of::settled:
+      watch.settle(step, reach_);
+      break;
+    case Of::crush:
+      if (!step.crushed.empty()) watch.first(step.step);
+      break;
+    case Of::crushers:
+      watch.named.insert(step.crushed.begin(), step.crushed.end());
+      watch.value = static_cast<double>(watch.named.size());
+      break;
+    case Of::enter:
+      watch.change(step, Change::enter);
+      break;
+    case Of::leave:
+      watch.change(step, Change::exit);
+      break;
+  }
+}
+
+void AnswerCheck::Watch::go_back(const TraceStep& step) {
+  for (const PathPoint<double>& corner : step.path) {
+    const double place = corner.position.dot(answer.along);
+    peak = seen ? std::max(peak, place) : place;
+    largest(peak - place);
+  }
+}
+
+void AnswerCheck::Watch::settle(const TraceStep& step, double reach) {
+  if (seen && step.grounded == grounded && (end_of(step) - anchor).norm() <= reach) return;
+  seen = true;
+  anchor = end_of(step);
+  grounded = step.grounded;
+  value = step.step + 1;
+}
+
+void AnswerCheck::Watch::change(const TraceStep& step, SensorEvent<double>::Change what) {
+  for (const SensorEvent<double>& event : step.sensors)
+    if (event.change == what && event.sensor == collider) first(step.step + event.fraction);
+}
+
+double AnswerCheck::value_of(const Watch& watch) const {
+  const Of of = watch.answer.of;
+  const bool may_never_come = is_time(of) || of == Of::crush;
+  return may_never_come && !watch.seen ? steps_ : watch.value;
+}
+
+double AnswerCheck::off(const Watch& watch) const {
+  const double value = value_of(watch);
+  const double error = std::max({0.0, watch.answer.at_least - value, value - watch.answer.at_most});
+  return std::isnan(value) ? std::numeric_limits<double>::infinity() : error;
+}
+
+double AnswerCheck::allowed(const Answer& answer) const {
+  return answer.tolerance + reach_ * answer.per_metre + (is_time(answer.of) ? late_ : 0);
+}
+
+std::string AnswerCheck::words(const Watch& watch) const {
+  const Answer& answer = watch.answer;
+  const auto number = [](double value) {
+    std::ostringstream text;
+    text.precision(9);
+    text << value;
+    return text.str();
+  };
+  std::string wanted = number(answer.at_least);
+  if (!std::isfinite(answer.at_least))
+    wanted = "at most " + number(answer.at_most);
+  else if (!std::isfinite(answer.at_most))
+    wanted = "at least " + wanted;
+  else if (answer.at_most > answer.at_least)
+    wanted += " to " + number(answer.at_most);
+  return told(answer, number(value_of(watch))) + " instead of " + wanted;
+}
+
+void AnswerCheck::write(Row& row) const {
+  if (watches_.empty()) return;
+  const Watch* worst = nullptr;
+  double most = -1;
+  for (const Watch& watch : watches_) {
+    const double error = off(watch);
+    const double many = error > 0 ? error / allowed(watch.answer) : 0;  // nothing allowed: infinitely many
+    if (many > most) {
+      most = many;
+      worst = &watch;
+    }
+  }
+  row.answer_error = off(*worst);
+  row.answer_ok = most <= 1;
+  if (!*row.answer_ok) row.answer = words(*worst);
+}
+
+}  // namespace paperproof::compare

@@ -1,0 +1,209 @@
+/// What a player meets, and what it comes to: ledges, gaps, steep ramps, slopes into walls, kerbs, ramps at the limit,
+/// one-way hills, exact fits, presses, ways out: scenes 41 to 51.
+#include "scenes/built_in.hpp"
+
+#include <cmath>
+
+namespace paperproof::compare {
+
+namespace {
+
+/// Under the usual gravity; what moves begins to walk with `move` at `step`.
+Scene play(double x, double y, int steps, double move = 0, int step = 0) {
+  Scene scene = flight(x, y, 0, 0, steps);
+  scene.gravity = {0, -30};
+  if (move != 0) scene.input = {{.step = step, .move = move, .jump = std::nullopt}};
+  return scene;
+}
+
+/// The same to the left.
+Scene mirrored(Scene scene) {
+  const auto turn = [](Vec2d& v) { v.x() = -v.x(); };
+  turn(scene.start.position);
+  for (ColliderDef& collider : scene.scenery.colliders)
+    for (Vec2d& point : collider.points) turn(point);
+  for (InputEvent& event : scene.input)
+    if (event.move) event.move = -*event.move;
+  for (Answer& answer : scene.answers) turn(answer.along);
+  return scene;
+}
+
+/// Two platforms, a gap between them, and a pit below it.
+Scene gap_of(double width, double far_side, int steps) {
+  Scene scene = play(-2, half_height + 5e-7, steps, 1);
+  add_box(scene, "near", -6, -4, 0, 0);
+  add_box(scene, "far", width, -4, 30, far_side);
+  add_box(scene, "pit", 0, -5, width, -4);
+  return scene;
+}
+
+/// 0.39 m are between the last hold of the left foot and the first of the right one: 4 steps, in which it falls
+/// 0.08 m.
+Scene gap_crossed() {
+  Scene scene = gap_of(0.7, -0.1, 120);
+  ends_at(scene, -2 + walked(scene, scene.steps), -0.1 + half_height);
+  return scene;
+}
+
+/// On the way it falls too far.
+Scene gap_fallen() {
+  Scene scene = gap_of(1, 0, 180);
+  ends_at(scene, 1 - half_width, -4 + half_height);
+  rests_after(scene, 150);
+  return scene;
+}
+
+Scene gap_higher() {
+  Scene scene = gap_of(1.5, 0.25, 180);
+  ends_at(scene, 1.5 - half_width, -4 + half_height);
+  rests_after(scene, 150);
+  return scene;
+}
+
+Scene gap_jumped() {
+  Scene scene = gap_of(3, 0.25, 120);
+  scene.input.push_back(press(20));
+  scene.input.push_back(release(30));
+  ends_at(scene, -2 + walked(scene, scene.steps), 0.25 + half_height);
+  return scene;
+}
+
+Scene gap_crossed_left() { return mirrored(gap_crossed()); }
+Scene gap_fallen_left() { return mirrored(gap_fallen()); }
+Scene gap_higher_left() { return mirrored(gap_higher()); }
+Scene gap_jumped_left() { return mirrored(gap_jumped()); }
+
+/// Touches a ramp that is too steep to walk on, 12 m above its foot. Whether it steers uphill or not at all, it slides
+/// as gravity alone would have it: g sin² downwards.
+Scene steep_ramp(double degrees, double move) {
+  const double sin = std::sin(degrees * pi / 180);
+  const double cos = std::cos(degrees * pi / 180);
+  constexpr double high = 12;
+  constexpr int steps = 45;
+  Scene scene = play(0, 0, steps, move);
+  const double x = high * cos / sin;
+  add_polygon(scene, "ramp", {{0, 0}, {2 * x, 0}, {2 * x, 2 * high}});
+  double support = 0;
+  for (const Vec2d& point : scene.character.shape.hull()) support = std::max(support, point.dot(Vec2d(sin, -cos)));
+  scene.start.position = Vec2d(x, high) + (support + 5e-7) * Vec2d(-sin, cos);
+  const double top = scene.start.position.y();
+  const double slid = top - sin * sin * fallen(scene, steps);
+  if (move < 0)
+    scene.answers = {between(Answer::Of::place, top - fallen(scene, steps), slid, {0, 1}).law()};
+  else
+    scene.answers = {y_is(slid).law(), x_is(scene.start.position.x() - sin * cos * fallen(scene, steps)).law()};
+  return scene;
+}
+
+Scene steep_ramp_51() { return steep_ramp(51, 0); }
+Scene steep_ramp_51_up() { return steep_ramp(51, 1); }
+Scene steep_ramp_51_down() { return steep_ramp(51, -1); }
+Scene steep_ramp_70() { return steep_ramp(70, 0); }
+Scene steep_ramp_70_up() { return steep_ramp(70, 1); }
+Scene steep_ramp_70_down() { return steep_ramp(70, -1); }
+Scene steep_ramp_89() { return steep_ramp(89, 0); }
+Scene steep_ramp_89_up() { return steep_ramp(89, 1); }
+Scene steep_ramp_89_down() { return steep_ramp(89, -1); }
+
+/// Up 45 degrees into a wall: it stands with its right side at the wall and its right foot on the slope.
+Scene slope_wall_hop() {
+  Scene scene = play(-3, -2, 300, 1, 30);
+  add_polygon(scene, "slope", {{-10, -12}, {0, -12}, {0, 0}, {-10, -10}});
+  add_box(scene, "wall", 0, -12, 1, 20);
+  scene.answers = {x_is(-half_width).law(), y_is(foot - half_width + half_height).gaps(2.5).law(),
+                   between(Answer::Of::settled, 0, 150).law(), count(Answer::Of::in_the_air, 0).after(150).law()};
+  return scene;
+}
+
+/// Up 30 degrees to where the slope becomes 60 degrees: the right foot stands where the two meet.
+Scene slope_into_steep() {
+  Scene scene = play(-3, -3 * tan_30 + half_height + 0.2, 300, 1, 30);
+  add_polygon(scene, "slope", {{-8, -8 * tan_30}, {-8, -9}, {3, -9}, {3, 3 / tan_30}, {0, 0}});
+  scene.answers = {x_is(-foot).gaps(4).law(), y_is(half_height).gaps(4).law(),
+                   between(Answer::Of::settled, 0, 150).law(), count(Answer::Of::in_the_air, 0).after(150).law()};
+  return scene;
+}
+
+/// Against a slope of exactly its limit of 45 degrees, `size` metres high and begun at `x`.
+Scene climb_45(double size, double x) {
+  Scene scene = play(x - 2, half_height + 0.075, 120, 1, 10);
+  scene.character.max_climb_degrees = 45;
+  add_polygon(scene, "ground", {{x - 10, -1}, {x + 20, -1}, {x + 20, size}, {x + size, size}, {x, 0}, {x - 10, 0}});
+  scene.answers = {x_is(x - 2 + walked(scene, 110)).law(), y_is(size + half_height).law()};
+  return scene;
+}
+
+Scene climb45_3m() { return climb_45(3, 0); }
+Scene climb45_5m() { return climb_45(5, 0); }
+Scene climb45_far() { return climb_45(1.7, 1000.1); }
+
+/// A kerb 1 m away: without a step height the side of its foot stays at the kerb's edge.
+Scene kerb_of(double height) {
+  Scene scene = play(0, half_height + 0.005, 60, 1, 10);
+  add_box(scene, "floor", -10, -1, 10, 0);
+  add_box(scene, "step", 1, 0, 4, height);
+  scene.answers = {x_is(1 - foot - height / 2).gaps(2).law(), y_is(half_height).law(),  // the side goes out 1 px in 2
+                   between(Answer::Of::settled, 0, 45).law()};
+  return scene;
+}
+
+Scene kerb_1mm() { return kerb_of(0.001); }
+Scene kerb_10cm() { return kerb_of(0.1); }
+Scene low_step() { return kerb_of(0.3); }
+
+void add_one_way(Scene& scene, std::string id, std::vector<Vec2d> points) {
+  add_chain(scene, std::move(id), std::move(points));
+  scene.scenery.colliders.back().one_way = Vec2d(0, 1);
+}
+
+/// Dropped onto a one-way hill, then over it, and off its end onto the floor.
+Scene oneway_hill() {
+  Scene scene = play(-1.5, 1.5, 120, 1, 20);
+  add_one_way(scene, "hill", {{-4, 0}, {0, 1}, {4, 0}});
+  add_box(scene, "floor", -9, -4, 9, -3);
+  const double way = 1.5 - half_height - (1 - (1.5 - foot) / 4);  // of the right foot, to the hill
+  constexpr int steps = 70;
+  const double x = -1.5 + walked(scene, steps - 20);
+  const double on_it = 1 - (x - foot) / 4 + half_height;
+  // On the way down it flies, never higher than what a fall at the slope's end takes back: v² tan² / 2g.
+  scene.answers = {contact(steps_to_fall(scene, way), 4 * scene.dt).to("hill"), x_is(x).after(steps).law(),
+                   between(Answer::Of::place, on_it, on_it + 36.0 / 16 / 60, {0, 1}).after(steps).law()};
+  scene.answers.push_back(x_is(-1.5 + walked(scene, 100)).law());
+  scene.answers.push_back(y_is(-3 + half_height));
+  return scene;
+}
+
+}  // namespace
+
+std::vector<BuiltInScene> play_scenes() {
+  return {
+      {"gap_crossed", "0.7 m to a platform 0.1 m lower, key held: crossed", gap_crossed},
+      {"gap_crossed_left", "the same to the left: the mirror image", gap_crossed_left},
+      {"gap_fallen", "1 m to a level platform, key held: falls down the far side, to the ground", gap_fallen},
+      {"gap_fallen_left", "the same to the left: the mirror image", gap_fallen_left},
+      {"gap_higher", "1.5 m to a platform 0.25 m higher, key held: falls down the far side", gap_higher},
+      {"gap_higher_left", "the same to the left: the mirror image", gap_higher_left},
+      {"gap_jumped", "3 m to a platform 0.25 m higher, with a jump: crossed", gap_jumped},
+      {"gap_jumped_left", "the same to the left: the mirror image", gap_jumped_left},
+      {"steep_ramp_51", "down a ramp of 51° with a limit of 50°: slides by g sin² t² / 2", steep_ramp_51},
+      {"steep_ramp_51_up", "the same with the key held uphill: the same y(t)", steep_ramp_51_up},
+      {"steep_ramp_51_down", "the same with the key held downhill: never slower", steep_ramp_51_down},
+      {"steep_ramp_70", "down a ramp of 70°: slides by g sin² t² / 2", steep_ramp_70},
+      {"steep_ramp_70_up", "the same with the key held uphill: the same y(t)", steep_ramp_70_up},
+      {"steep_ramp_70_down", "the same with the key held downhill: never slower", steep_ramp_70_down},
+      {"steep_ramp_89", "down a ramp of 89°: slides by g sin² t² / 2", steep_ramp_89},
+      {"steep_ramp_89_up", "the same with the key held uphill: the same y(t)", steep_ramp_89_up},
+      {"steep_ramp_89_down", "the same with the key held downhill: never slower", steep_ramp_89_down},
+      {"slope_wall_hop", "up 45° into a wall, key held: comes to rest in the corner, grounded", slope_wall_hop},
+      {"slope_into_steep", "up 30° to where it becomes 60°, key held: comes to rest there, grounded", slope_into_steep},
+      {"climb45_3m", "a slope of 45°, 3 m high, with a limit of 45°: is walked up", climb45_3m},
+      {"climb45_5m", "the same 5 m high: is walked up, too", climb45_5m},
+      {"climb45_far", "the same 1.7 m high, 1,000.1 m from the origin: is walked up, too", climb45_far},
+      {"kerb_1mm", "a kerb of 1 mm, without a step height: stops at its edge", kerb_1mm},
+      {"kerb_10cm", "a kerb of 10 cm: stops at its edge", kerb_10cm},
+      {"low_step", "a step of 30 cm: stops at its edge", low_step},
+      {"oneway_hill", "over a one-way hill: it holds everywhere, to its end", oneway_hill},
+  };
+}
+
+}  // namespace paperproof::compare

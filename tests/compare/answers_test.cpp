@@ -1,0 +1,155 @@
+/// Whether a run comes to what its scene must come to, on traces made by hand.
+#include "metrics/answers.hpp"
+
+#include "compare/moments.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace paperproof::compare {
+namespace {
+
+using Of = Answer::Of;
+
+struct Checked {
+  double error = 0;
+  bool ok = false;
+  std::string words;
+};
+
+Checked checked(const Answer& answer, const std::vector<TraceStep>& run, const TraceHeader& head = header()) {
+  AnswerCheck check({answer}, head);
+  for (const TraceStep& step : run) check.add(step);
+  Row row;
+  check.write(row);
+  EXPECT_TRUE(row.answer_error && row.answer_ok);
+  return {row.answer_error.value_or(-1), row.answer_ok.value_or(false), row.answer};
+}
+
+/// Steps that end grounded at these places, the first of which is also the start.
+std::vector<TraceStep> run_to(const std::vector<Vec2d>& places) {
+  std::vector<TraceStep> run;
+  Vec2d at = places.front();
+  for (const Vec2d& place : places) {
+    TraceStep step = moment(static_cast<int>(run.size())).step;
+    step.path = {{at, 0}, {place, 1}};
+    step.grounded = true;
+    run.push_back(step);
+    at = place;
+  }
+  return run;
+}
+
+TEST(Answers, of_a_place_are_about_the_end_or_the_step_that_is_asked_for) {
+  const std::vector<TraceStep> run = run_to({{0, 0}, {1, 2}, {3, 5}});
+  EXPECT_TRUE(checked(x_is(3), run).ok);
+  EXPECT_TRUE(checked(y_is(2).after(2), run).ok);
+  const Checked missed = checked(y_is(4), run);
+  EXPECT_FALSE(missed.ok);
+  EXPECT_EQ(missed.error, 1);
+  EXPECT_EQ(missed.words, "stands at y = 5 m at the end instead of 4");
+}
+
+TEST(Answers, that_are_a_range_are_missed_by_the_distance_to_it) {
+  const std::vector<TraceStep> run = run_to({{0, 0}, {1, 0}});
+  EXPECT_EQ(checked(between(Of::place, 0.5, 2, {1, 0}), run).error, 0);
+  EXPECT_EQ(checked(between(Of::place, 1.25, 2, {1, 0}), run).error, 0.25);
+  EXPECT_EQ(checked(between(Of::place, 0.25, 0.5, {1, 0}), run).error, 0.5);
+}
+
+TEST(Answers, of_the_farthest_place_and_of_going_back_look_at_the_whole_way) {
+  std::vector<TraceStep> run = run_to({{0, 0}, {1, 0}, {1, 0}});
+  run[1].path = {{{0, 0}, 0}, {{2, 0}, 0.5}, {{1, 0}, 1}};
+  EXPECT_EQ(checked(farthest({1, 0}, 1.5), run).error, 0.5);
+  EXPECT_TRUE(checked(is(Of::setback, 1, {1, 0}), run).ok);
+  EXPECT_TRUE(checked(is(Of::setback, 0, {1, 0}).after(2), run).ok);
+}
+
+TEST(Answers, of_rest_are_the_last_step_that_changes_place_or_ground) {
+  std::vector<TraceStep> run = run_to({{0, 0}, {1, 0}, {1, 0}, {1, 0}, {1, 0}});
+  EXPECT_TRUE(checked(count(Of::settled, 2), run).ok);
+  run[3].grounded = false;
+  EXPECT_TRUE(checked(count(Of::settled, 5), run).ok) << "it comes to the ground again in the fifth";
+  EXPECT_TRUE(checked(count(Of::in_the_air, 1), run).ok);
+  EXPECT_TRUE(checked(count(Of::in_the_air, 0).after(4), run).ok);
+}
+
+TEST(Answers, of_a_ride_are_relative_to_the_mover) {
+  TraceHeader head = header();
+  head.scenery.colliders[1].mover = 0;
+  std::vector<TraceStep> run = run_to({{0, 0}, {0, 1}, {0, 2}});
+  for (TraceStep& step : run) step.movers = {{{0, step.step - 1.0}, {0, static_cast<double>(step.step)}}};
+  EXPECT_TRUE(checked(y_is(0).to(head.ids[1]), run, head).ok);
+  EXPECT_TRUE(checked(is(Of::drift, 0).to(head.ids[1]).after(1).within(0), run, head).ok);
+  run[2].movers[0].to.x() = 0.25;
+  EXPECT_EQ(checked(is(Of::drift, 0).to(head.ids[1]).after(1), run, head).error, 0.25);
+}
+
+TEST(Answers, of_a_contact_are_its_first_time_and_the_end_where_it_never_comes) {
+  std::vector<TraceStep> run = run_to({{0, 0}, {1, 0}, {2, 0}, {3, 0}});
+  run[1].contacts = {contact(0, Side::bottom, 0.75), contact(1, Side::left, 0.5)};
+  run[2].contacts = {contact(0, Side::bottom, 0.125)};
+  EXPECT_TRUE(checked(is(Of::contact, 1.5), run).ok);
+  EXPECT_TRUE(checked(is(Of::contact, 1.75).to(header().ids[0]), run).ok);
+  EXPECT_TRUE(checked(count(Of::contacts, 2), run).ok);
+  EXPECT_TRUE(checked(count(Of::contacts, 1).to(header().ids[1]), run).ok);
+  run[1].contacts.clear();
+  EXPECT_EQ(checked(is(Of::contact, 1.5).to(header().ids[1]), run).error, 2.5);
+  EXPECT_TRUE(checked(count(Of::crush, 4), run).ok) << "never";
+  run[2].crushed = {1};
+  run[3].crushed = {0, 1};
+  EXPECT_TRUE(checked(count(Of::crush, 2), run).ok);
+  EXPECT_TRUE(checked(count(Of::crushers, 2), run).ok);
+}
+
+TEST(Answers, allow_a_contender_the_gap_that_it_keeps_and_no_more) {
+  TraceHeader skin = header();  // of 20 mm, and a contact is noticed a step late
+  skin.path_exact = false;
+  const std::vector<TraceStep> near = run_to({{0, 0}, {0, 0.015}});
+  EXPECT_FALSE(checked(y_is(0), near).ok);
+  EXPECT_TRUE(checked(y_is(0), near, skin).ok);
+  EXPECT_EQ(checked(y_is(0), near, skin).error, 0.015) << "which is told all the same";
+  EXPECT_FALSE(checked(y_is(0).gaps(0.5), near, skin).ok);
+  EXPECT_TRUE(checked(y_is(-0.03).gaps(3), near, skin).ok);
+  std::vector<TraceStep> late = run_to({{0, 0}, {0, 0}, {0, 0}});
+  late[1].contacts = {contact(0, Side::bottom, 0.5)};
+  EXPECT_TRUE(checked(is(Of::contact, 0.5).gaps(0), late, skin).ok);
+  EXPECT_FALSE(checked(is(Of::contact, 0.5).gaps(0), late).ok);
+}
+
+TEST(Answers, that_only_the_law_or_less_of_a_gap_can_give_are_not_asked_of_others) {
+  TraceHeader others = header();
+  others.tolerances = {{"unit", 0.02}};
+  TraceHeader ours = header();
+  ours.contender = "octagon_sweep";
+  const auto asked = [](const Answer& answer, const TraceHeader& head) {
+    Row row;
+    AnswerCheck({answer}, head).write(row);
+    return row.answer_ok.has_value();
+  };
+  EXPECT_TRUE(asked(x_is(0).law(), ours));
+  EXPECT_FALSE(asked(x_is(0).law(), others));
+  EXPECT_FALSE(asked(x_is(0).beyond(0.005), others));
+  EXPECT_TRUE(asked(x_is(0).beyond(0.03), others));
+}
+
+TEST(Answers, are_not_met_by_a_place_that_is_no_number) {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(checked(x_is(0), run_to({{0, 0}, {none, 0}})).ok);
+}
+
+TEST(Answers, about_a_collider_that_is_not_there_are_an_error) {
+  EXPECT_THROW(AnswerCheck({x_is(0).to("nothing")}, header()), std::invalid_argument);
+}
+
+TEST(Answers, tell_of_the_one_that_is_missed_by_most_of_its_tolerances) {
+  AnswerCheck check({x_is(0).within(1), y_is(0)}, header());
+  for (const TraceStep& step : run_to({{0, 0}, {1.5, 0.001}})) check.add(step);
+  Row row;
+  check.write(row);
+  EXPECT_EQ(row.answer_error, 0.001);
+}
+
+}  // namespace
+}  // namespace paperproof::compare
