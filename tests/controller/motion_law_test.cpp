@@ -1,0 +1,253 @@
+/// The law of motion: steering never holds or slows a fall, at any dt, and mirror images behave alike.
+#include "controller/stepping.hpp"
+#include "support/play_levels.hpp"
+#include "support/steps_wanted.hpp"
+
+#include <paperproof/tolerances.hpp>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+namespace paperproof::stepping {
+namespace {
+
+using test::PlayLevel;
+using test::Random;
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr double gravity = -30;
+
+ColliderDef mirrored(ColliderDef collider) {
+  for (Vec2d& point : collider.points) point.x() = -point.x();
+  return collider;
+}
+
+SceneryDef mirrored(const SceneryDef& scenery) {
+  SceneryDef image;
+  for (const ColliderDef& collider : scenery.colliders) image.colliders.push_back(mirrored(collider));
+  return image;
+}
+
+/// One character among scenery that stands still.
+class Player {
+ public:
+  Player(const SceneryDef& scenery, const CharacterDef& character)
+      : scenery_(scenery), controller_(scenery_, character), scratch_(controller_.make_scratch()) {}
+
+  /// @param move absent: no steering.
+  StepStatus step(std::optional<double> move, double dt, bool jump = false) {
+    return controller_.step(state, {.move = move, .jump = jump}, Vec2d{0, gravity}, dt, scratch_, report);
+  }
+
+  CharacterState<double> state;
+  StepReport<double> report;
+
+ private:
+  Scenery<double> scenery_;
+  Controller<double> controller_;
+  Scratch<double> scratch_;
+};
+
+CharacterDef character_for(Random& random) {
+  CharacterDef character;
+  character.shape = test::play_shape(random.integer(0, 2));
+  return character;
+}
+
+// Plays until something is touched in the air, then takes the same step with the key to the left, to the right, at 0
+// and without a key. Walkable ground ends a fall, and is no part of the promise.
+TEST(Steering, neither_holds_nor_slows_a_fall_from_any_touching_state) {
+  const int wanted = test::steps_wanted("PAPERPROOF_LAW_STATES", 20000);
+  int states = 0;
+  int falling = 0;
+  for (std::uint64_t seed = 1; states < wanted; ++seed) {
+    Random random(seed);
+    const auto level = test::all_play_levels[seed % test::all_play_levels.size()];
+    const SceneryDef scenery = test::play_level(level, random);
+    const double dt = 1 / std::array{60.0, 240.0, 1000.0, 10000.0}[seed % 4];
+    Player player(scenery, character_for(random));
+    player.state.position = {random.between(-25, 25), 12};
+    double move = 0;
+    for (int i = 0; i < 600 && states < wanted; ++i) {
+      if (random.chance(0.03)) move = random.integer(-1, 1);
+      player.step(move, std::max(dt, 1 / 240.0), random.chance(0.02));
+      if (player.state.grounded || player.report.move.contacts.empty()) continue;
+      ++states;
+      const CharacterState<double> touching = player.state;
+      player.step(std::nullopt, dt);
+      const double fall = player.state.position.y() - touching.position.y();
+      bool landed = player.state.grounded;
+      double highest = fall;
+      for (const double key : {-1.0, 0.0, 1.0}) {
+        player.state = touching;
+        player.step(key, dt);
+        landed = landed || player.state.grounded;
+        highest = std::max(highest, player.state.position.y() - touching.position.y());
+      }
+      player.state = touching;
+      if (landed || fall >= 0) continue;
+      ++falling;
+      // To the order of dt: what steering changes on the way to a surface, and the gap that is kept there.
+      const double allowed = 0.5 * std::abs(fall) + 2 * Tolerances<double>{}.touch;
+      ASSERT_LE(highest - fall, allowed) << test::name_of(level) << ", seed " << seed << ", step " << i << ": without a key "
+                                         << fall << " m, with one " << highest << " m";
+    }
+  }
+  std::printf("%d touching states, %d of them falling\n", states, falling);
+  EXPECT_GE(falling, states / 4);
+}
+
+TEST(SteepRamps, are_slid_down_alike_with_the_key_uphill_and_without_one) {
+  for (const double degrees : {51.0, 55.0, 63.5, 70.0, 80.0, 89.0}) {
+    for (const double rate : {60.0, 240.0, 1000.0, 10000.0}) {
+      Player slider({{polygon({{0, 0}, {-60 * std::cos(degrees * degree), 60 * std::sin(degrees * degree)},
+                               {-60 * std::cos(degrees * degree), 0}})}},
+                    CharacterDef{});
+      // Rest it on the ramp first: then only the slide is compared.
+      slider.state.position = {-10, 60};
+      for (int i = 0; i < 20000 && slider.report.move.contacts.empty(); ++i) slider.step(std::nullopt, 1.0 / 1000);
+      ASSERT_FALSE(slider.report.move.contacts.empty()) << degrees;
+      CharacterState<double> on_ramp = slider.state;
+      on_ramp.velocity.setZero();
+      const double seconds = 0.5;
+      const auto fallen = [&](std::optional<double> key) {
+        slider.state = on_ramp;
+        for (int i = 0; i < static_cast<int>(seconds * rate); ++i) slider.step(key, 1 / rate);
+        return on_ramp.position.y() - slider.state.position.y();
+      };
+      const double sine = std::sin(degrees * degree);
+      const double expected = 0.5 * -gravity * sine * sine * seconds * seconds;
+      const double alone = fallen(std::nullopt);
+      // Semi-implicit Euler is ahead of the parabola by one part in the number of steps.
+      EXPECT_NEAR(alone, expected * (1 + 1 / (seconds * rate)), 0.01 * expected) << degrees << " degrees, " << rate;
+      EXPECT_NEAR(fallen(-1.0), alone, 1e-5) << degrees << " degrees, uphill, " << rate;
+      EXPECT_NEAR(fallen(0.0), alone, 1e-5) << degrees << " degrees, braking, " << rate;
+      EXPECT_GE(fallen(1.0), alone - 1e-5) << degrees << " degrees, downhill, " << rate;
+    }
+  }
+}
+
+TEST(MirrorImages, of_scenery_and_key_behave_alike) {
+  int in_contact = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    Random random(seed);
+    const SceneryDef scenery = test::play_level(test::all_play_levels[seed % test::all_play_levels.size()], random);
+    const CharacterDef character = character_for(random);
+    Player one(scenery, character);
+    Player other(mirrored(scenery), character);
+    one.state.position = {random.between(-25, 25), 12};
+    double key = 0;
+    for (int i = 0; i < 400; ++i) {
+      if (random.chance(0.05)) key = random.integer(-1, 1);
+      const bool jump = random.chance(0.1);
+      other.state = one.state;
+      other.state.position.x() = -one.state.position.x();
+      other.state.velocity.x() = -one.state.velocity.x();
+      other.state.last_free.x() = -one.state.last_free.x();
+      one.step(key, 1.0 / 60, jump);
+      other.step(-key, 1.0 / 60, jump);
+      in_contact += !one.report.move.contacts.empty();
+      ASSERT_NEAR(one.state.position.x(), -other.state.position.x(), 1e-6) << "seed " << seed << ", step " << i;
+      ASSERT_NEAR(one.state.position.y(), other.state.position.y(), 1e-6) << "seed " << seed << ", step " << i;
+      ASSERT_EQ(one.state.grounded, other.state.grounded) << "seed " << seed << ", step " << i;
+    }
+  }
+  EXPECT_GE(in_contact, 1000);
+}
+
+/// Holds a key for five seconds, and tells after which step nothing changed any more.
+int comes_to_rest_after(Player& player, double key, double rate) {
+  const int steps = static_cast<int>(5 * rate);
+  int since = 0;
+  for (int i = 0; i < steps; ++i) {
+    const Vec2d before = player.state.position;
+    const bool grounded = player.state.grounded;
+    player.step(key, 1 / rate);
+    if (player.state.position != before || player.state.grounded != grounded) since = i + 1;
+  }
+  return since;
+}
+
+TEST(DeadEnds, bring_a_walk_to_rest) {
+  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+    Random random(seed);
+    const double rate = std::array{60.0, 240.0, 1000.0}[seed % 3];
+    const double slope = random.between(1, 49.9) * degree;
+    const double length = random.between(1, 4);
+    const double height = length * std::tan(slope);
+    const double lean = random.between(-35, 35) * degree;  // of the wall, over the slope or away from it
+    std::vector<ColliderDef> scenery{rectangle(-20, -2, length, 0), polygon({{0, 0}, {length, 0}, {length, height}}),
+                                     polygon({{length, -2}, {length + 9, -2}, {length + 9, 14},
+                                              {length + (14 - height) * std::tan(lean), 14}, {length, height}})};
+    if (random.chance(0.3)) scenery.push_back(rectangle(-20, height + 1.5, length + 3, height + 3));
+    CharacterDef character;
+    character.shape = test::play_shape(static_cast<int>(seed % 2));
+    if (random.chance(0.5)) character.snap = 0.3;
+    Player player({scenery}, character);
+    player.state.position = {-2, 0.7};
+    const int rest = comes_to_rest_after(player, 1, rate);
+    ASSERT_LT(rest, 4 * rate) << "seed " << seed << ", slope " << slope / degree << ", wall leans " << lean / degree;
+    ASSERT_TRUE(player.state.grounded) << "seed " << seed;
+  }
+}
+
+TEST(ClimbLimit, includes_itself_on_ramps_of_every_place_and_size) {
+  int climbed = 0;
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    Random random(seed);
+    const double size = random.log_between(0.5, 50);
+    const Vec2d foot{random.between(-1000, 1000), random.between(-1000, 1000)};
+    // Of a slope of 3 in 4 and of 1 in 1 the limit in degrees is what a designer computes.
+    const double rise = seed % 2 == 0 ? 1 : 0.75;
+    CharacterDef character;
+    character.max_climb_degrees = std::atan(rise) / degree;
+    if (rise == 1) character.max_climb_degrees = 45;
+    const double sign = random.chance(0.5) ? 1 : -1;
+    const Vec2d top = foot + Vec2d{sign * size, rise * size};
+    Player player({{polygon({foot, top, {top.x(), foot.y() - 1}, {foot.x() - sign * 20, foot.y() - 1},
+                             {foot.x() - sign * 20, foot.y()}})}},
+                  character);
+    player.state.position = foot + Vec2d{-sign, 0.7};
+    for (int i = 0; i < 60; ++i) player.step(sign, 1.0 / 60);
+    climbed += player.state.position.y() > foot.y() + half_height + 0.1;
+    ASSERT_GT(player.state.position.y(), foot.y() + half_height + 0.1) << "seed " << seed;
+  }
+  EXPECT_EQ(climbed, 300);
+}
+
+TEST(Grounded, is_decided_where_the_step_ends) {
+  // Up along a slope into a ceiling: both are touched, the jump rises, and then the ground holds.
+  Stepper<double> under({rectangle(-4, -1, 4, 0), rectangle(-4, 2 * half_height, 4, 3)});
+  under.gravity = {0, gravity};
+  under.at(0, half_height).steps(3);
+  ASSERT_TRUE(under.state.grounded);
+  under.step({.jump = true});
+  EXPECT_TRUE(under.state.grounded) << "the ceiling lets no jump begin";
+  // A jump off the ground beside a wall: the ground was touched in this step, and is left.
+  Stepper<double> beside({rectangle(-4, -1, 4, 0), rectangle(half_width, 0, 4, 9)});
+  beside.gravity = {0, gravity};
+  beside.at(0, half_height + 0.01).steps(10, {.move = 1});
+  ASSERT_TRUE(beside.state.grounded);
+  beside.step({.move = 1, .jump = true});
+  EXPECT_FALSE(beside.state.grounded);
+  EXPECT_TRUE(beside.state.jumping);
+  EXPECT_GT(beside.state.velocity.y(), 0);
+}
+
+TEST(TurningAroundAtAWall, does_not_tremble) {
+  for (const double rate : {60.0, 240.0, 1000.0}) {
+    Player player({{rectangle(-4, -1, 40, 0), rectangle(-5, -1, -4, 9)}}, CharacterDef{});
+    player.state.position = {-4 + half_width + 1e-6, half_height + 1e-6};
+    // Away from the wall with less speed than one step of steering takes away.
+    for (int i = 0; i < 3; ++i) player.step(std::nullopt, 1 / rate);
+    player.state.velocity.x() = 0.3 * 60 / rate;
+    const int rest = comes_to_rest_after(player, -1, rate);
+    EXPECT_LE(rest, 10) << rate;
+  }
+}
+
+}  // namespace
+}  // namespace paperproof::stepping
