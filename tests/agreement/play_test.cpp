@@ -124,10 +124,10 @@ class Game {
     if ((way - record.requested).norm() <= 1e-6) return false;
     if (record.contacts.empty()) return true;
     return std::any_of(judged.contacts.begin(), judged.contacts.end(), [&](const ExactContact& exact) {
-      const auto& either = judged.dont_care;  // such as what is reached just where the step ends
-      return std::find(either.begin(), either.end(), exact.collider) == either.end() &&
-             std::none_of(record.contacts.begin(), record.contacts.end(),
-                          [&](const Contact<double>& named) { return named.collider == exact.collider; });
+      // A flush neighbour of what is named, reached just where the step ends, holds nothing by itself.
+      return std::none_of(record.contacts.begin(), record.contacts.end(), [&](const Contact<double>& named) {
+        return named.collider == exact.collider || named.normal.dot(exact.normal) > 1 - 1e-12;
+      });
     });
   }
 

@@ -23,7 +23,8 @@
 /// walks up a slope into a wall would otherwise leave the ground with the speed of its climb, land, and hop again, for
 /// ever.
 ///
-/// **Ceilings** (n.y < 0): a rise slides, w - (w·n) n. A fall goes on: x shrinks to what follows the surface.
+/// **Ceilings** (n.y < 0): a rise slides, w - (w·n) n; the climb of a walk ends there, with the walk. A fall goes on: x
+/// shrinks to what follows the surface.
 ///
 /// **Two surfaces** that both hold the motion: whether they are a wedge is decided by the fall of u alone. The nearest
 /// motion to it that all surfaces allow is taken, if that still falls; else the motion ends there, as it does where one of
@@ -68,7 +69,7 @@ template <class Scalar>
 struct Surface {
   Vec2<Scalar> normal;
   bool walkable;
-  bool after_walk;  ///< The character follows or followed walkable ground in this step: a rise is the climb of a walk.
+  bool after_walk;  ///< The character follows walkable ground that it touches: a rise is the climb of a walk.
 };
 
 /// Adding zero turns a negative zero into a positive one: rest has one pattern of bits.
@@ -95,8 +96,9 @@ template <class Scalar>
 
 /// Under a ceiling.
 template <class Scalar>
-[[nodiscard, gnu::always_inline]] inline Vec2<Scalar> bump(const Vec2<Scalar>& w, const Vec2<Scalar>& n) noexcept {
-  if (w.y() > 0) return slide(w, n);
+[[nodiscard, gnu::always_inline]] inline Vec2<Scalar> bump(const Vec2<Scalar>& w, const Surface<Scalar>& at) noexcept {
+  const Vec2<Scalar>& n = at.normal;
+  if (w.y() > 0) return at.after_walk ? Vec2<Scalar>(Vec2<Scalar>::Zero()) : slide(w, n);
   return {-w.y() * n.y() / n.x() + Scalar(0), w.y() + Scalar(0)};
 }
 
@@ -106,7 +108,7 @@ template <class Scalar>
                                                               const Surface<Scalar>& at) noexcept {
   if (dot(w, at.normal) >= 0) return w;
   if (at.walkable) return follow(w.x(), at.normal);
-  return at.normal.y() < 0 ? bump(w, at.normal) : impact(w, at);
+  return at.normal.y() < 0 ? bump(w, at) : impact(w, at);
 }
 
 /// Rule 3: where steering presses in.

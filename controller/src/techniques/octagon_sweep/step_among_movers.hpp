@@ -246,6 +246,7 @@ bool StepSolver<variant, Scalar>::respond_to_holds(Drive<Scalar>& drive) noexcep
     steered_ = 0;
   }
   const bool on_ground = walkable(first.normal);
+  if (after_walk_ && !on_ground) after_walk_ = touches_ground();
   const bool possible = respond_one_by_one(drive) || respond_in_crease(drive) || respond_together(drive);
   after_walk_ = after_walk_ || on_ground;
   return possible;

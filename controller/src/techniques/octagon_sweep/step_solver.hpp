@@ -203,7 +203,8 @@ class StepSolver {
   [[nodiscard]] bool stands_on_any() noexcept;
   [[gnu::cold, gnu::noinline]] void report_ground() noexcept;
   [[nodiscard]] bool stands_on(PieceIndex piece) const noexcept;
-  /// The normal of walkable ground that is touched at the end of the step; nothing where it is not, or not touched.
+  [[nodiscard, gnu::cold, gnu::noinline]] bool touches_ground() noexcept;
+  /// The normal of a piece where it is touched now and is walkable ground.
   [[nodiscard]] std::optional<V> touched_ground(PieceIndex piece) const noexcept;
   [[gnu::cold, gnu::noinline]] void keep_ground() noexcept;
   void follow_ground_down(const MoveRequest<Scalar>& request) noexcept;

@@ -74,9 +74,7 @@ void StepSolver<variant, Scalar>::keep_ground() noexcept {
   const Scalar begin = time_;
   position_ += motion_.way;
   time_ = 1;
-  bool ends_on_ground = false;
-  for_each_near({position_, position_},
-                [&](PieceIndex piece) { ends_on_ground = ends_on_ground || touched_ground(piece); });
+  const bool ends_on_ground = touches_ground();
   position_ = from;
   time_ = begin;
   if (!ends_on_ground) return;
@@ -159,7 +157,9 @@ void StepSolver<variant, Scalar>::travel() noexcept {
 template <Variant variant, class Scalar>
 [[gnu::always_inline]] inline void StepSolver<variant, Scalar>::respond_to(const V& normal, Scalar left,
                                                                            Drive<Scalar>& drive) noexcept {
-  const Surface<Scalar> at{normal, walkable(normal), after_walk_};
+  const bool ground = walkable(normal);
+  if (after_walk_ && !ground && drive.velocity.wanted.y() > 0) after_walk_ = touches_ground();
+  const Surface<Scalar> at{normal, ground, after_walk_};
   const V way = drive.way.wanted * left;
   if (steered_ != 0) {
     drive.way = respond(Wish<Scalar>{way, drive.way.unsteered * left}, steered_ * dt_ * (1 - time_), at);
@@ -249,6 +249,13 @@ bool StepSolver<variant, Scalar>::stands_on(PieceIndex piece) const noexcept {
     if (mover_of(piece) != no_mover) ground = moving_.around.course(mover_of(piece)) / moving_.around.dt;
   const Scalar leaving = dot(V(velocity_ - ground), *normal);
   return leaving <= 0 || leaving <= along_plane<Scalar> * (length_of(velocity_) + length_of(ground));
+}
+
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::touches_ground() noexcept {
+  bool any = false;
+  for_each_near({position_, position_}, [&](PieceIndex piece) { any = any || touched_ground(piece); });
+  return any;
 }
 
 template <Variant variant, class Scalar>
