@@ -199,7 +199,7 @@ class StepSolver {
   [[nodiscard]] V aimed_back(const V& way, const Stop<Scalar>& at) const noexcept;
   void halt() noexcept;
   [[gnu::cold, gnu::noinline]] void cut_short() noexcept;
-  [[nodiscard]] bool stands(const MoveRequest<Scalar>& request) noexcept;
+  [[nodiscard]] bool stands() noexcept;
   [[nodiscard]] bool stands_on_any() noexcept;
   [[gnu::cold, gnu::noinline]] void report_ground() noexcept;
   [[nodiscard]] bool stands_on(PieceIndex piece) const noexcept;

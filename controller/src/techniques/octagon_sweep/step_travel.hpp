@@ -54,7 +54,7 @@ void StepSolver<variant, Scalar>::solve(const MoveRequest<Scalar>& request) noex
     } else {
       travel();
     }
-    result_.grounded = stands(request);
+    result_.grounded = stands();
     if (result_.grounded && !met_ground_ && !wedged_) report_ground();
     if constexpr (variant.snap) follow_ground_down(request);
     if constexpr (variant.movers) end_ride();
@@ -216,12 +216,12 @@ void StepSolver<variant, Scalar>::halt() noexcept {
 }
 
 /// Standing: where the step ends something walkable is touched that the motion does not leave, or a fall ended in a
-/// wedge. A step that nothing stopped, and that did not begin on the ground, is in the air.
+/// wedge. A step that nothing stopped is in the air: without gravity nothing holds a character to what it touches.
 template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::stands(const MoveRequest<Scalar>& request) noexcept {
+bool StepSolver<variant, Scalar>::stands() noexcept {
   if (on_ground_ || wedged_) return true;
   if (met_ground_ && stands_on(ground_)) return true;  // mostly
-  return (request.grounded || !result_.contacts.empty()) && stands_on_any();
+  return !result_.contacts.empty() && stands_on_any();
 }
 
 /// The ground that the character stands on is among the contacts, also where gravity presses onto it by less than the
