@@ -2,8 +2,9 @@
 
 #include "oracle/world.hpp"
 
-#include <map>
 #include <stdexcept>
+#include <unordered_map>
+#include <utility>
 
 namespace paperproof::compare::detail {
 namespace {
@@ -121,6 +122,7 @@ void join_holes(Polygon& polygon) {
 }
 
 bool in_closed_triangle(const Vec2d& a, const Vec2d& b, const Vec2d& c, const Vec2d& p) {
+  if (!Box2<double>{a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)}.overlaps({p, p})) return false;
   return turn(a, b, p) != Sign::negative && turn(b, c, p) != Sign::negative && turn(c, a, p) != Sign::negative;
 }
 
@@ -145,9 +147,16 @@ bool is_ear(const Polygon& polygon, const Ring& ring, std::size_t i) {
 std::vector<Ring> triangles(const Polygon& polygon) {
   Ring ring = polygon.rings[0];
   std::vector<Ring> found;
-  while (ring.size() > 3) {
-    std::size_t i = 0;
+  const auto next_to_cut = [&](std::size_t i) {
     while (i < ring.size() && turn_at(polygon, ring, i) != Sign::zero && !is_ear(polygon, ring, i)) ++i;
+    return i;
+  };
+  std::size_t i = 0;
+  while (ring.size() > 3) {
+    // A cut makes new ears of its neighbours alone, so that the search goes on before it. Where a corner touched the
+    // cut one that does not hold: then it begins anew.
+    i = next_to_cut(i == 0 ? 0 : i - 1);
+    if (i == ring.size()) i = next_to_cut(0);
     if (i == ring.size()) throw std::logic_error("a polygon cannot be cut: does it touch itself?");
     const std::size_t n = ring.size();
     if (turn_at(polygon, ring, i) == Sign::positive)
@@ -158,35 +167,70 @@ std::vector<Ring> triangles(const Polygon& polygon) {
   return found;
 }
 
-/// `left` with `right` in place of its edge number `at`; both contain it, in opposite directions.
-Ring merged(const Ring& left, std::size_t at, Ring right) {
-  const std::uint32_t end = left[(at + 1) % left.size()];
-  std::rotate(right.begin(), std::find(right.begin(), right.end(), left[at]), right.end());
-  Ring ring(left.begin(), left.begin() + static_cast<std::ptrdiff_t>(at) + 1);
-  for (std::size_t i = 1; i < right.size() && right[i] != end; ++i) ring.push_back(right[i]);
-  ring.insert(ring.end(), left.begin() + static_cast<std::ptrdiff_t>(at) + 1, left.end());
-  return ring;
-}
+/// The pieces of a cut polygon, which grow into their neighbours as long as they stay convex. Each knows its neighbours
+/// by the edges that both walk, in opposite directions: looking for them would take time with the cube of the corners.
+class Parts {
+ public:
+  Parts(const Polygon& polygon, std::vector<Ring> rings) : polygon_(polygon), rings_(std::move(rings)) {
+    for (std::size_t p = 0; p < rings_.size(); ++p) own(rings_[p], p);
+  }
 
-/// Merges one pair of neighbours around part `p`, if some pair stays convex.
-bool merge_one(const Polygon& polygon, std::vector<Ring>& parts, std::size_t p) {
-  for (std::size_t at = 0; at < parts[p].size(); ++at) {
-    const std::uint32_t a = parts[p][at];
-    const std::uint32_t b = parts[p][(at + 1) % parts[p].size()];
-    for (std::size_t q = p + 1; q < parts.size(); ++q) {
-      const Ring& other = parts[q];
-      for (std::size_t i = 0; i < other.size(); ++i) {
-        if (other[i] != b || other[(i + 1) % other.size()] != a) continue;
-        Ring ring = merged(parts[p], at, other);
-        if (!is_convex(polygon, ring)) break;
-        parts[p] = std::move(ring);
-        parts.erase(parts.begin() + static_cast<std::ptrdiff_t>(q));
-        return true;
+  [[nodiscard]] std::vector<Ring> merged() {
+    for (std::size_t p = 0; p < rings_.size(); ++p) grow(p);
+    std::erase_if(rings_, [](const Ring& ring) { return ring.empty(); });
+    return std::move(rings_);
+  }
+
+ private:
+  static std::uint64_t edge(std::uint32_t from, std::uint32_t to) { return std::uint64_t{from} << 32U | to; }
+
+  void own(const Ring& ring, std::size_t part) {
+    for (std::size_t i = 0; i < ring.size(); ++i) owners_[edge(ring[i], ring[(i + 1) % ring.size()])] = part;
+  }
+
+  /// Takes over the neighbours of a part, among those behind it, with which it stays convex. Growing makes no corner
+  /// sharper: a neighbour that did not fit never will.
+  void grow(std::size_t part) {
+    Ring& ring = rings_[part];
+    for (std::size_t at = 0; at < ring.size();) {
+      const auto neighbour = owners_.find(edge(ring[(at + 1) % ring.size()], ring[at]));
+      const bool behind = neighbour != owners_.end() && neighbour->second > part;
+      if (!behind || !stays_convex(ring, at, rings_[neighbour->second])) {
+        ++at;
+        continue;
       }
+      const Ring other = std::exchange(rings_[neighbour->second], {});
+      own(other, part);
+      ring = joined(ring, at, other);
     }
   }
-  return false;
-}
+
+  /// Both are convex: only the corners at the ends of the edge between them change.
+  [[nodiscard]] bool stays_convex(const Ring& left, std::size_t at, const Ring& right) const {
+    const std::size_t n = left.size();
+    const std::size_t m = right.size();
+    const auto start = static_cast<std::size_t>(std::find(right.begin(), right.end(), left[at]) - right.begin());
+    const auto corner = [this](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+      return turn(polygon_.vertices[a], polygon_.vertices[b], polygon_.vertices[c]) != Sign::negative;
+    };
+    return corner(left[(at + n - 1) % n], left[at], right[(start + 1) % m]) &&
+           corner(right[(start + m - 2) % m], left[(at + 1) % n], left[(at + 2) % n]);
+  }
+
+  /// `left` with `right` in place of its edge number `at`; both contain it, in opposite directions.
+  static Ring joined(const Ring& left, std::size_t at, Ring right) {
+    const std::uint32_t end = left[(at + 1) % left.size()];
+    std::rotate(right.begin(), std::find(right.begin(), right.end(), left[at]), right.end());
+    Ring ring(left.begin(), left.begin() + static_cast<std::ptrdiff_t>(at) + 1);
+    for (std::size_t i = 1; i < right.size() && right[i] != end; ++i) ring.push_back(right[i]);
+    ring.insert(ring.end(), left.begin() + static_cast<std::ptrdiff_t>(at) + 1, left.end());
+    return ring;
+  }
+
+  const Polygon& polygon_;
+  std::vector<Ring> rings_;  ///< Empty where another part has taken it over.
+  std::unordered_map<std::uint64_t, std::size_t> owners_;
+};
 
 ConvexPart make_part(std::vector<Vec2d> points) {
   Box2<double> box{points[0], points[0]};
@@ -210,11 +254,7 @@ std::vector<ConvexPart> convex_parts(const ColliderDef& def) {
     rings = polygon.rings;
   } else {
     join_holes(polygon);
-    rings = triangles(polygon);
-    for (std::size_t p = 0; p < rings.size(); ++p) {
-      while (merge_one(polygon, rings, p)) {
-      }
-    }
+    rings = Parts(polygon, triangles(polygon)).merged();
   }
   for (const Ring& ring : rings) {
     std::vector<Vec2d> points;
