@@ -108,7 +108,8 @@ std::string describe(const Scene& scene) {
                          point(start_of(scene, k).velocity), counted(scene.others[k - 1].input.size(), "input event")));
   line("run",
        fmt::format("{} of {}, gravity {} m/s²", counted(scene.steps, "step"), lengths(scene), point(scene.gravity)));
-  line("input", counted(scene.input.size(), "event"));
+  line("input", scene.moves_at_random ? fmt::format("random:{}, as a map has no script", *scene.moves_at_random)
+                                      : counted(scene.input.size(), "event"));
   line("movers", std::to_string(scene.movers.size()));
   for (MoverIndex i = 0; i < scene.movers.size(); ++i) line("", mover(scene, i));
   if (const PixelTileSet* tiles = scene.tile_level.tiles.get()) {

@@ -8,6 +8,7 @@
 #include "scenes/input_error.hpp"
 #include "scenes/json_scene.hpp"
 #include "scenes/json_text.hpp"
+#include "scenes/picture_map.hpp"
 #include "scenes/sets.hpp"
 #include "scenes/supertux.hpp"
 #include "scenes/tiled.hpp"
@@ -39,7 +40,7 @@ Scene load_json(const std::string& path) {
   for (const SceneSet& set : scene_sets()) known.push_back(set.name);
   refuse(shown(name),
          "expected the name of a built-in scene (see `paperproof list scenes`), or a file that ends in .json, .tmx, "
-         ".tmj or .stl" +
+         ".tmj, .stl or .png" +
              did_you_mean(name, known));
 }
 
@@ -57,6 +58,7 @@ std::vector<Scene> load_scenes(const std::string& name_or_path) {
   const std::string extension = std::filesystem::path(name_or_path).extension().string();
   if (extension == ".json") return {load_json(name_or_path)};
   if (extension == ".tmx" || extension == ".tmj") return {read_tiled(name_or_path, name_or_path)};
+  if (extension == ".png") return {read_picture_map(name_or_path, name_or_path)};
   if (extension == ".stl") return read_supertux(name_or_path, name_or_path);
   refuse_unknown(name_or_path);
 }

@@ -1,4 +1,4 @@
-/// Reads scenes: built-in names, JSON scenes, Tiled maps, SuperTux levels.
+/// Reads scenes: built-in names, JSON scenes, Tiled maps, SuperTux levels, pictures.
 #pragma once
 
 #include "scenes/scene.hpp"
@@ -16,7 +16,7 @@ class InputError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A built-in name, or a path that ends in .json (a scene or a Tiled map: told apart by content), .tmx, .tmj or .stl.
+/// A built-in name, or a path that ends in .json (a scene or a Tiled map: told apart by content), .tmx, .tmj, .stl or .png.
 /// The scene is complete and validated: its polygons are simple, its numbers finite, its start is free of solids
 /// (exactly) unless it asks to resolve that. A SuperTux level with several sectors gives one scene per sector that has
 /// solids and a spawn point, named `<level>` or `<level>/<sector>`.

@@ -33,7 +33,8 @@ class Random {
 
 }  // namespace
 
-Script script_of(const Scene& scene) {
+Script script_of(const Scene& scene, int steps) {
+  if (scene.moves_at_random) return random_script(scene, *scene.moves_at_random, steps);
   Script script{scene.input};
   for (const OtherCharacter& other : scene.others) script.push_back(other.input);
   return script;

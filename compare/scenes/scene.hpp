@@ -5,6 +5,7 @@
 #include <paperproof/pixel_tiles.hpp>
 #include <paperproof/scenery.hpp>
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -63,6 +64,8 @@ struct Scene {
   std::vector<std::string> ids;   ///< One per collider, unique.
   std::vector<MoverDef> movers;   ///< By `ColliderDef::mover`; each has a collider.
   std::vector<InputEvent> input;  ///< Sorted by step.
+  /// Maps only, which have no script: they move by `random_script` of this seed where nothing else is asked for.
+  std::optional<std::uint64_t> moves_at_random{};
   /// Characters 1, 2, ...; character 0 begins at `start` and does what `input` says.
   std::vector<OtherCharacter> others;
   /// What it must come to with its own input and number of steps. Whoever changes the scene clears them.
@@ -81,8 +84,9 @@ struct Scene {
 [[nodiscard]] inline const Start& start_of(const Scene& scene, std::size_t character) {
   return character == 0 ? scene.start : scene.others[character - 1].start;
 }
-/// What the scene's characters want by themselves.
-[[nodiscard]] Script script_of(const Scene& scene);
+/// What the scene's characters want by themselves, in as many steps.
+[[nodiscard]] Script script_of(const Scene& scene, int steps);
+[[nodiscard]] inline Script script_of(const Scene& scene) { return script_of(scene, scene.steps); }
 /// What they want with random input: character k as by `random_input(seed + k, steps)`.
 [[nodiscard]] Script random_script(const Scene& scene, std::uint64_t seed, int steps);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 
 #include "scenes/validate.hpp"
 
@@ -16,11 +17,9 @@ std::optional<Vec2d> first_ground(const Scene& scene, const Box2<double>& box, d
     const double x = box.lower.x() + (i + 0.5) * column;
     if (x > box.upper.x()) return std::nullopt;
     std::vector<double> grounds;
-    for (const ColliderDef& collider : scenery.colliders) {
-      if (collider.sensor) continue;
-      const Box2<double> bounds = box_of(collider);
-      if (bounds.lower.x() <= x && x <= bounds.upper.x()) grounds.push_back(bounds.upper.y());
-    }
+    constexpr double everywhere = std::numeric_limits<double>::infinity();
+    for (const ColliderIndex near : places.near({{x, -everywhere}, {x, everywhere}}))
+      grounds.push_back(box_of(scenery.colliders[near]).upper.y());
     std::sort(grounds.begin(), grounds.end(), std::greater<>());
     for (const double ground : grounds) {
       const Vec2d position{x, ground + above - body.lower.y()};

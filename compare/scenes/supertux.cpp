@@ -7,6 +7,7 @@
 #include <set>
 
 #include "scenes/input_error.hpp"
+#include "scenes/map_defaults.hpp"
 #include "scenes/spawn.hpp"
 #include "scenes/supertux_level.hpp"
 #include "scenes/validate.hpp"
@@ -60,10 +61,9 @@ class SectorBuilder {
   SectorBuilder(const SuperTuxLevel& level, const SuperTuxSector& sector, std::string name)
       : level_(level), sector_(sector) {
     scene_.name = std::move(name);
-    scene_.steps = 3600;
+    set_map_defaults(scene_);
     scene_.character.walk_speed = 7;
     scene_.character.jump_speed = 14;
-    scene_.character.max_fall_speed = 25;
   }
 
   /// None where the sector has no solids or no spawn point.
@@ -106,6 +106,7 @@ class SectorBuilder {
   std::size_t add_tiles(const SuperTuxTilemap& map, const std::string& prefix, const Vec2d& offset, MoverIndex mover) {
     const std::size_t before = scene_.ids.size();
     for_each_tile(map, [&](ColliderDef collider, int column, int row) {
+      check_collider_count(scene_.ids.size() + 1, sector_.where);
       for (Vec2d& point : collider.points) point += offset;
       collider.mover = mover;
       scene_.scenery.colliders.push_back(std::move(collider));

@@ -10,6 +10,7 @@
 
 #include "scenes/input_error.hpp"
 #include "scenes/json_text.hpp"
+#include "scenes/map_defaults.hpp"
 #include "scenes/spawn.hpp"
 #include "scenes/tiled_model.hpp"
 #include "scenes/tiled_rule.hpp"
@@ -55,9 +56,7 @@ class MapBuilder {
 
   Scene whole() {
     scene_ = part();
-    scene_.steps = 3600;
-    constexpr double fall_limit = 25;  // [m/s], of every map without a scene
-    scene_.character.max_fall_speed = fall_limit;
+    set_map_defaults(scene_);
     place_start();
     return std::move(scene_);
   }
@@ -98,6 +97,7 @@ class MapBuilder {
 
   void add_colliders(const std::vector<PixelShape>& shapes, bool one_way, const std::string& id, MoverIndex mover) {
     for (std::size_t i = 0; i < shapes.size(); ++i) {
+      check_collider_count(scene_.ids.size() + 1, given_);
       ColliderDef collider = collider_of(shapes[i], one_way);
       collider.mover = mover;
       scene_.scenery.colliders.push_back(std::move(collider));

@@ -157,7 +157,7 @@ class JsonReader {
     return out;
   }
 
-  static std::vector<TiledChunk> chunks(const JsonCursor& layer, bool infinite) {
+  std::vector<TiledChunk> chunks(const JsonCursor& layer, bool infinite) const {
     std::vector<TiledChunk> out;
     const auto list = layer.find("chunks");
     if (!list && infinite) return out;
@@ -180,8 +180,8 @@ class JsonReader {
   }
 
   /// @param layer says how the tiles are encoded.
-  static void fill(TiledChunk& chunk, const JsonCursor& layer, const JsonCursor& data) {
-    check_chunk_size(chunk, data.where());
+  void fill(TiledChunk& chunk, const JsonCursor& layer, const JsonCursor& data) const {
+    tiles_.spend(chunk, data.where());
     const auto count = static_cast<std::size_t>(chunk.width) * static_cast<std::size_t>(chunk.height);
     if (data.value().is_string()) {
       chunk.tiles =
@@ -240,6 +240,7 @@ class JsonReader {
   }
 
   std::string path_;
+  mutable TileBudget tiles_;  ///< Of the map that is read.
 };
 
 }  // namespace

@@ -37,11 +37,10 @@ void check_map(const TiledMap& map, const std::string& orientation, const std::s
   }
 }
 
-void check_chunk_size(const TiledChunk& chunk, const std::string& where) {
+void TileBudget::spend(const TiledChunk& chunk, const std::string& where) {
   if (chunk.width < 1 || chunk.height < 1) refuse(where, "expected a width and a height of at least one tile");
-  if (static_cast<double>(chunk.width) * chunk.height > most_tiles) {
-    refuse(where, fmt::format("expected at most {} tiles", most_tiles));
-  }
+  spent_ += static_cast<double>(chunk.width) * chunk.height;
+  if (spent_ > most_tiles) refuse(where, fmt::format("expected at most {} tiles in all layers", most_tiles));
 }
 
 }  // namespace paperproof::compare

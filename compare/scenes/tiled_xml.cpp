@@ -181,7 +181,7 @@ class XmlReader {
   /// @param data says how the tiles are encoded. @param node holds them.
   void fill(TiledChunk& chunk, const pugi::xml_node& data, const pugi::xml_node& node) const {
     const std::string where = file_.where(node);
-    check_chunk_size(chunk, where);
+    tiles_.spend(chunk, where);
     const auto count = static_cast<std::size_t>(chunk.width) * static_cast<std::size_t>(chunk.height);
     const std::string_view encoding = data.attribute("encoding").as_string();
     if (encoding == "csv") {
@@ -252,6 +252,7 @@ class XmlReader {
 
   std::string path_;
   XmlFile file_;
+  mutable TileBudget tiles_;  ///< Of the map that is read.
 };
 
 }  // namespace

@@ -19,9 +19,29 @@ void check_company(const Scene& scene, const std::string& where, std::size_t cha
                                 other, start_of(scene, other).position.x(), start_of(scene, other).position.y()));
 }
 
+std::size_t corner_count(const ColliderDef& collider) {
+  std::size_t count = collider.points.size();
+  for (const std::vector<Vec2d>& hole : collider.holes) count += hole.size();
+  return count;
+}
+
 }  // namespace
 
+void check_collider_count(std::size_t count, const std::string& where) {
+  if (count > most_colliders)
+    refuse(where, fmt::format("expected at most {} colliders, as all contenders keep them in memory; split the level",
+                              most_colliders));
+}
+
 void check_scenery(const SceneryDef& scenery, const std::vector<std::string>& ids, const WhereIs& where) {
+  if (!ids.empty()) check_collider_count(ids.size(), where(0));
+  for (ColliderIndex i = 0; i < ids.size(); ++i) {
+    const std::size_t corners = corner_count(scenery.colliders[i]);
+    if (scenery.colliders[i].shape == ColliderDef::Shape::polygon && corners > most_corners)
+      refuse(where(i), fmt::format("\"{}\": expected at most {} corners, as cutting a polygon takes time with their "
+                                   "square, not {}; split it",
+                                   ids[i], most_corners, corners));
+  }
   try {
     const Scenery<double> built(scenery);
   } catch (const InvalidScenery& error) {
@@ -37,8 +57,14 @@ Box2<double> box_of(const ColliderDef& collider) {
 
 FreePlaces::FreePlaces(const SceneryDef& scenery, const CharacterShape& shape)
     : scenery_(scenery), hull_(shape.hull().begin(), shape.hull().end()), character_box_(shape.box()) {
-  boxes_.reserve(scenery.colliders.size());
-  for (const ColliderDef& collider : scenery.colliders) boxes_.push_back(box_of(collider));
+  std::vector<Box2<double>> boxes;
+  std::vector<ColliderIndex> solids;
+  for (ColliderIndex i = 0; i < scenery.colliders.size(); ++i) {
+    if (scenery.colliders[i].sensor) continue;
+    boxes.push_back(box_of(scenery.colliders[i]));
+    solids.push_back(i);
+  }
+  if (!solids.empty()) solids_ = detail::BoxTree(std::move(boxes), std::move(solids));
 }
 
 std::vector<ColliderIndex> FreePlaces::overlapped(const Vec2d& position) const {
@@ -47,15 +73,11 @@ std::vector<ColliderIndex> FreePlaces::overlapped(const Vec2d& position) const {
   constexpr double margin = 1.0 / 1024;
   const Box2<double> box =
       Box2<double>{character_box_.lower + position, character_box_.upper + position}.inflated(margin);
-  SceneryDef near;
-  std::vector<ColliderIndex> original;
-  for (std::size_t i = 0; i < boxes_.size(); ++i) {
-    if (scenery_.colliders[i].sensor || !boxes_[i].overlaps(box)) continue;
-    near.colliders.push_back(scenery_.colliders[i]);
-    original.push_back(static_cast<ColliderIndex>(i));
-  }
+  const std::vector<ColliderIndex> original = near(box);
   if (original.empty()) return {};
-  std::vector<ColliderIndex> found = ExactScenery(near, hull_).overlapped(position);
+  SceneryDef nearby;
+  for (const ColliderIndex i : original) nearby.colliders.push_back(scenery_.colliders[i]);
+  std::vector<ColliderIndex> found = ExactScenery(nearby, hull_).overlapped(position);
   for (ColliderIndex& index : found) index = original[index];
   return found;
 }

@@ -1,6 +1,7 @@
 /// What every loader asks before it hands a scene out.
 #pragma once
 
+#include "oracle/box_tree.hpp"
 #include "scenes/scene.hpp"
 
 #include <functional>
@@ -12,11 +13,22 @@ namespace paperproof::compare {
 /// "file: /pointer" or "file:line" of a collider.
 using WhereIs = std::function<std::string(ColliderIndex)>;
 
+/// The most colliders of a scene. Small: large levels do not fit. Large: a packed map of a few kilobytes takes all the
+/// memory (each collider takes some kilobytes once all contenders and the judge have it).
+inline constexpr std::size_t most_colliders = 1'000'000;
+
+/// To be asked by what makes colliders out of a small file, before each. @throws InputError for more than that.
+void check_collider_count(std::size_t count, const std::string& where);
+
+/// The most corners of a polygon with its holes. Cutting it into convex pieces takes time with their square: seconds
+/// for these, minutes for five times as many.
+inline constexpr std::size_t most_corners = 10'000;
+
 /// Builds the scenery once, for its checks. @throws InputError with the place and the id of a collider that is
 /// unusable.
 void check_scenery(const SceneryDef& scenery, const std::vector<std::string>& ids, const WhereIs& where);
 
-/// Answers where a character can stand, exactly. Keeps the boxes of the colliders, so that many places can be asked.
+/// Answers where a character can stand, exactly. Keeps a tree of the colliders, so that many places can be asked.
 class FreePlaces {
  public:
   /// @param scenery must outlive this; all of it is taken as standing where its points are.
@@ -25,11 +37,13 @@ class FreePlaces {
   /// The colliders that the character overlaps at `position`, by exact arithmetic. One-way chains and sensors are
   /// never listed.
   [[nodiscard]] std::vector<ColliderIndex> overlapped(const Vec2d& position) const;
+  /// The colliders whose boxes meet this one; no sensors.
+  [[nodiscard]] std::vector<ColliderIndex> near(const Box2<double>& box) const { return solids_.meeting(box); }
   [[nodiscard]] bool is_free(const Vec2d& position) const { return overlapped(position).empty(); }
 
  private:
   const SceneryDef& scenery_;
-  std::vector<Box2<double>> boxes_;
+  detail::BoxTree solids_;
   std::vector<Vec2d> hull_;
   Box2<double> character_box_;
 };

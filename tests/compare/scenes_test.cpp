@@ -256,7 +256,7 @@ TEST(LoadScenes, an_unknown_name_is_refused_with_what_is_possible) {
   } catch (const InputError& error) {
     EXPECT_EQ(std::string(error.what()),
               "no_such_scene: expected the name of a built-in scene (see `paperproof list scenes`), or a file that "
-              "ends in .json, .tmx, .tmj or .stl");
+              "ends in .json, .tmx, .tmj, .stl or .png");
   }
 }
 
