@@ -1,21 +1,26 @@
 /// The command `paperproof`.
 #include "command/compare_command.hpp"
+#include "command/complain.hpp"
 #include "command/option_checks.hpp"
 #include "command/study_command.hpp"
+#include "runs/output_file.hpp"
 #include "runs/scene_plan.hpp"
 #include "scenes/describe.hpp"
 #include "scenes/load.hpp"
 #include "scenes/sets.hpp"
 #include "studies/scale.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <cstdio>
+#include <csignal>
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <optional>
+#include <sstream>
 
 namespace {
 
@@ -23,7 +28,7 @@ using namespace paperproof::compare;
 
 constexpr int unusable = 2;
 constexpr const char* scene_words =
-    "Built-in names (see `paperproof list scenes`), .json scenes, .tmx/.tmj maps, SuperTux .stl levels";
+    "Built-in names (see `paperproof list scenes`), .json scenes, .tmx/.tmj maps, SuperTux .stl levels, .png pictures";
 
 /// What stands on the command line, as it stands there.
 struct Words {
@@ -44,8 +49,8 @@ void add_input(CLI::App& command, Words& words) {
 }
 
 void add_outputs(CLI::App& command, std::string& rows, std::string& report) {
-  command.add_option("--rows", rows, "Write all rows as JSON to this file")
-      ->type_name("FILE.json")
+  command.add_option("--rows", rows, "Write all rows to this file; .jsonl grows line by line as results come")
+      ->type_name("FILE.json|.jsonl|.csv")
       ->check(expect_file_name());
   command.add_option("--report", report, "Write one self-contained HTML page to this file")
       ->type_name("FILE.html")
@@ -61,7 +66,12 @@ void add_flag(CLI::App& command, const std::string& name, Variable& variable, co
 CLI::App* add_compare(CLI::App& app, Words& words) {
   CompareArguments& arguments = words.compare;
   CLI::App* command = app.add_subcommand("compare", "Run scenes, judge every step exactly, say who is right");
-  command->add_option("SCENE", arguments.scenes, scene_words)->required();
+  command->add_option("SCENE", arguments.scenes, scene_words);
+  command->add_option("--files-from", arguments.files_from, "Read further SCENEs from this file, one per line")
+      ->type_name("FILE|-")
+      ->check(expect_file_name());
+  add_flag(*command, "--keep-going", arguments.keep_going,
+           "Run the others where a SCENE cannot be used; it is a failed row, and the status is 2");
   command
       ->add_option("--contender", arguments.run.contenders,
                    "Only these and the Box2D twin (see `paperproof list contenders`), each by its own option or with "
@@ -124,27 +134,28 @@ std::vector<std::string> without_repeats(const std::vector<std::string>& names) 
 }
 
 void print_list(const std::string& what) {
+  std::string text;
   if (what == "contenders") {
-    for (const std::string_view name : contender_names()) fmt::print("{}\n", name);
-    return;
+    for (const std::string_view name : contender_names()) text += fmt::format("{}\n", name);
+  } else if (what == "knobs") {
+    for (const std::string& line : describe_knobs()) text += line + '\n';
+  } else {
+    for (const BuiltInScene& scene : built_in_scenes())
+      text += fmt::format("{:<28} {}\n", scene.name, scene.description);
+    for (const SceneSet& set : scene_sets()) text += fmt::format("{:<28} {}\n", set.name, set.description);
   }
-  if (what == "knobs") {
-    for (const std::string& line : describe_knobs()) fmt::print("{}\n", line);
-    return;
-  }
-  for (const BuiltInScene& scene : built_in_scenes()) fmt::print("{:<28} {}\n", scene.name, scene.description);
-  for (const SceneSet& set : scene_sets()) fmt::print("{:<28} {}\n", set.name, set.description);
+  print_out(text);
 }
 
 void check(const std::vector<std::string>& scenes) {
   for (const std::string& name : scenes)
-    for (const Scene& scene : load_scenes(name)) fmt::print("{}\n", describe(scene));
+    for (const Scene& scene : load_scenes(name)) print_out(describe(scene) + '\n');
 }
 
 void print_plans(const std::vector<std::string>& scenes, const std::optional<std::uint64_t>& seed) {
   for (const std::string& name : scenes)
     for (const Scene& scene : load_scenes(name))
-      fmt::print("{}\n", describe_plan(scene, seed ? random_script(scene, *seed, scene.steps) : script_of(scene)));
+      print_out(describe_plan(scene, seed ? random_script(scene, *seed, scene.steps) : script_of(scene)) + '\n');
 }
 
 CompareArguments compare_arguments(const Words& words, const std::optional<std::uint64_t>& seed) {
@@ -177,12 +188,23 @@ std::string refusal(CLI::App& app, const CLI::ParseError& error) {
   return fmt::format("{}: expected one of {}; see {} --help", called, names, called);
 }
 
-/// In one line, whatever was typed.
-int complain(std::string reason) {
-  std::replace_if(
-      reason.begin(), reason.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
-  std::fputs((reason + '\n').c_str(), stderr);
+int refuse(const std::string& reason) {
+  complain(reason);
   return unusable;
+}
+
+/// What a file is opened as must not be what is printed to: a standard stream that the caller has closed takes the
+/// first descriptor that is free, and reads nothing and refuses what is written.
+void hold_standard_streams() {
+  for (int descriptor = 0; descriptor <= 2; ++descriptor)
+    if (fcntl(descriptor, F_GETFD) == -1 && open("/dev/null", O_RDONLY) != descriptor) std::abort();
+}
+
+/// Ends as everyone does whose pipe is closed, once nothing half-written is left behind.
+int end_quietly() {
+  std::signal(SIGPIPE, SIG_DFL);
+  std::raise(SIGPIPE);
+  return 128 + SIGPIPE;
 }
 
 int run(int argc, char** argv) {
@@ -206,10 +228,15 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& wanted) {
-    return app.exit(wanted);
+    std::ostringstream text;
+    const int status = app.exit(wanted, text, text);
+    print_out(text.str());
+    return status;
   } catch (const CLI::ParseError& error) {
-    return complain(refusal(app, error));
+    return refuse(refusal(app, error));
   }
+  if (comparing->parsed() && words.compare.scenes.empty() && words.compare.files_from.empty())
+    return refuse("paperproof: SCENE is required; see paperproof compare --help");
   std::optional<std::uint64_t> seed;
   if (words.input) seed = parse_random_input(*words.input);
   if (comparing->parsed()) return compare_scenes(compare_arguments(words, seed));
@@ -223,11 +250,15 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  hold_standard_streams();
+  std::signal(SIGPIPE, SIG_IGN);
   try {
     return run(argc, argv);
+  } catch (const ClosedPipe&) {
+    return end_quietly();
   } catch (const std::bad_alloc&) {
-    return complain("paperproof: there is not enough memory for what was asked");
+    return refuse("paperproof: there is not enough memory for what was asked");
   } catch (const std::exception& error) {
-    return complain(error.what());
+    return refuse(error.what());
   }
 }

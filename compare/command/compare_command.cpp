@@ -1,11 +1,17 @@
 #include "command/compare_command.hpp"
 
 #include "command/claimed_files.hpp"
+#include "command/complain.hpp"
+#include "command/forecast.hpp"
+#include "command/inputs.hpp"
 #include "command/progress.hpp"
+#include "command/totals.hpp"
 #include "near_names.hpp"
 #include "runs/gallery.hpp"
 #include "runs/headline.hpp"
 #include "runs/output_file.hpp"
+#include "runs/preparation.hpp"
+#include "runs/rows_file.hpp"
 #include "runs/rows_json.hpp"
 #include "runs/summary.hpp"
 #include "runs/table.hpp"
@@ -27,52 +33,10 @@
 namespace paperproof::compare {
 namespace {
 
-/// Up to this many arguments their scenes are kept in memory; more are read once to be checked and again to be run.
-constexpr std::size_t kept_in_memory = 16;
-
 constexpr const char* gallery_title = "Where each contender fails, and where it is the cheapest of those that do not";
 
-/// What was found over all scenes, for the closing line and the exit status.
-class Totals {
- public:
-  void add(const Row& row) {
-    failed_ += row.verdict == Verdict::failed;
-    if (row.contender != paperproof::name_of(TechniqueKind::octagon_sweep)) return;
-    Count& count = row.scalar == "double" ? in_double_ : in_float_;
-    const bool breaks =
-        row.verdict == Verdict::tunnels || (row.verdict == Verdict::flagged && row.steps_ending_inside.value_or(0) > 0);
-    count.steps += row.steps;
-    count.asked_for = true;
-    count.runs += row.verdict != Verdict::not_applicable;
-    count.broken += row.scalar == "double" ? row.verdict == Verdict::violates : breaks;
-  }
-  [[nodiscard]] bool trouble() const { return in_double_.broken > 0 || failed_ > 0; }
-  /// One line for each number type that ran.
-  [[nodiscard]] std::vector<std::string> lines() const {
-    std::vector<std::string> all;
-    if (in_double_.asked_for)
-      all.push_back(fmt::format("octagon_sweep in double: {}, {} with a violation of the guarantee",
-                                in_double_.extent(), counted(in_double_.broken, "run")));
-    if (in_float_.asked_for)
-      all.push_back(
-          fmt::format("octagon_sweep in float, for which nothing is guaranteed: {}, {} with a step through or "
-                      "into a solid",
-                      in_float_.extent(), counted(in_float_.broken, "run")));
-    return all;
-  }
-
- private:
-  struct Count {
-    long long steps = 0;
-    bool asked_for = false;
-    int runs = 0;
-    int broken = 0;
-    [[nodiscard]] std::string extent() const { return counted(steps, "step") + " in " + counted(runs, "run"); }
-  };
-  Count in_double_;
-  Count in_float_;
-  int failed_ = 0;
-};
+/// Exit status where an input could not be used, and no contender failed.
+constexpr int unusable_input = 2;
 
 std::vector<NamedTolerance> tolerances_of(const ReportScene& scene) {
   for (const ReportRun& run : scene.runs)
@@ -85,8 +49,12 @@ class Outputs {
  public:
   explicit Outputs(const CompareArguments& arguments) : arguments_(arguments) {}
 
+  void add_input(const std::string& given) {
+    std::error_code unknown;
+    if (std::filesystem::exists(given, unknown)) files_.claim(given, "the scene " + given);
+  }
+
   void add_scene(const std::string& given, const std::string& name) {
-    if (std::filesystem::exists(given)) files_.claim(given, "the scene " + given);
     if (arguments_.run.trace_stem.empty()) return;
     const auto claim_traces = [&](const std::string& stem, const std::string& contender) {
       for (const ScalarKind scalar : {ScalarKind::binary64, ScalarKind::binary32}) {
@@ -103,6 +71,7 @@ class Outputs {
   }
 
   void check() {
+    if (arguments_.files_from != "-") files_.claim_for_option("--files-from", arguments_.files_from);
     files_.claim_for_option("--rows", arguments_.rows_path);
     files_.claim_for_option("--report", arguments_.report_path);
   }
@@ -112,39 +81,66 @@ class Outputs {
   ClaimedFiles files_;
 };
 
+std::vector<std::string> names_in(const CompareArguments& arguments) {
+  std::vector<std::string> names = arguments.scenes;
+  if (!arguments.files_from.empty()) {
+    const std::vector<std::string> more = names_from(arguments.files_from);
+    names.insert(names.end(), more.begin(), more.end());
+  }
+  return names;
+}
+
 class Comparison {
  public:
   explicit Comparison(CompareArguments& arguments)
-      : arguments_(arguments), progress_(!arguments.quiet), outputs_(arguments) {
+      : arguments_(arguments), progress_(!arguments.quiet), inputs_(names_in(arguments)), outputs_(arguments) {
     check_contenders(arguments.run.contenders);
     check_lockstep();
-    const bool keep = arguments.scenes.size() <= kept_in_memory;
-    for (std::size_t i = 0; i < arguments.scenes.size(); ++i) {
-      progress_.show("checking " + arguments.scenes[i],
-                     static_cast<double>(i) / static_cast<double>(arguments.scenes.size()));
-      std::vector<Scene> scenes = load_scenes(arguments.scenes[i]);
-      shows_gallery_ = shows_gallery_ || find_set(arguments.scenes[i]) != nullptr;
-      for (const Scene& scene : scenes) outputs_.add_scene(arguments.scenes[i], scene.name);
-      scene_count_ += scenes.size();
-      if (keep) kept_.push_back(std::move(scenes));
-    }
-    progress_.clear();
+    for (const std::string& name : inputs_.names()) outputs_.add_input(name);
+    inputs_.check(
+        progress_, [this](const std::string& name, const Scene& scene) { look_at(name, scene); },
+        [this](const std::string& name, const InputError& error) { refuse(name, error); });
     outputs_.check();
     open_outputs();
   }
 
   int run() {
-    for (std::size_t i = 0; i < arguments_.scenes.size(); ++i) {
-      const std::vector<Scene> scenes = kept_.empty() ? load_scenes(arguments_.scenes[i]) : std::move(kept_[i]);
-      for (const Scene& scene : scenes)
-        run_one(scene, static_cast<double>(i) / static_cast<double>(arguments_.scenes.size()));
-    }
+    forecast_.emplace(!arguments_.quiet, steps_);
+    inputs_.run([this](const std::string&, const Scene& scene) { run_one(scene); },
+                [this](const std::string& name, const InputError& error) {
+                  refuse(name, error);
+                  if (rows_file_) rows_file_->add(refused_.back());
+                });
     progress_.clear();
     finish();
-    return totals_.trouble() ? 1 : 0;
+    if (totals_.trouble()) return 1;
+    return !refused_.empty() ? unusable_input : 0;
   }
 
  private:
+  [[nodiscard]] int steps_of(const Scene& scene) const { return arguments_.run.steps.value_or(scene.steps); }
+
+  void look_at(const std::string& name, const Scene& scene) {
+    outputs_.add_scene(name, scene.name);
+    shows_gallery_ = shows_gallery_ || find_set(name) != nullptr;
+    steps_ += steps_of(scene);
+    unscripted_ += scene.moves_at_random && !arguments_.run.random_input;
+    ++scene_count_;
+  }
+
+  /// It is said at once, --quiet or not, and stands in the rows.
+  void refuse(const std::string& name, const InputError& error) {
+    if (!arguments_.keep_going) throw InputError(error);
+    complain(error.what());
+    Row row;
+    row.scene = name;
+    row.scalar.clear();
+    row.mode.clear();
+    row.verdict = Verdict::failed;
+    row.reason = error.what();
+    refused_.push_back(std::move(row));
+  }
+
   void check_lockstep() const {
     if (arguments_.run.mode != Mode::lockstep) return;
     if (!arguments_.run.reference)
@@ -157,6 +153,8 @@ class Comparison {
   /// Everything is opened before the first step: who waited for an hour wants to be able to keep the result.
   void open_outputs() {
     if (!arguments_.rows_path.empty()) rows_file_.emplace(arguments_.rows_path);
+    for (const Row& refused : refused_)
+      if (rows_file_) rows_file_->add(refused);
     if (!arguments_.report_path.empty()) open_report();
     if (!arguments_.run.trace_stem.empty()) const OutputFile probe(arguments_.run.trace_stem + ".jsonl");
   }
@@ -164,24 +162,38 @@ class Comparison {
   void open_report() {
     const std::size_t contenders =
         arguments_.run.contenders.empty() ? contender_names().size() : arguments_.run.contenders.size() + 1;
-    report_options_ = options_for(arguments_.scenes.size() * contenders);
+    report_options_ = options_for(scene_count_ * contenders);
     arguments_.run.max_replay_steps = report_options_.max_replay_steps;
     report_.emplace(arguments_.report_path, report_options_);
   }
 
-  void run_one(const Scene& scene, double share) {
+  void run_one(const Scene& scene) {
+    announce_preparation(scene);
+    const double steps = steps_of(scene);
+    forecast_->begin_scene(steps);
     arguments_.run.progress = [&](double of_scene) {
-      progress_.show(fmt::format("{} ({:.0f} %),", scene.name, 100 * of_scene), share);
+      progress_.show(fmt::format("{} ({:.0f} %),", scene.name, 100 * of_scene),
+                     (steps_done_ + of_scene * steps) / steps_);
+      forecast_->done(of_scene);
     };
     const ReportScene result = run_scene(scene, arguments_.run);
+    steps_done_ += steps;
     progress_.clear();
     for (const Row& row : result.rows) {
       totals_.add(row);
       rows_.push_back(row);
+      if (rows_file_) rows_file_->add(row);
     }
     if (tolerances_.empty()) tolerances_ = tolerances_of(result);
     if (report_) report_->add(result);
     if (!arguments_.quiet && !arguments_.json) print(result);
+  }
+
+  void announce_preparation(const Scene& scene) const {
+    if (arguments_.quiet) return;
+    if (const auto expected = expected_preparation(scene, contenders_of(arguments_.run), arguments_.run.scalars))
+      forecast_->preparation(scene.name, expected->seconds,
+                             fmt::format("about {:.0f} pairs of its pieces are near each other", expected->pairs));
   }
 
   /// One scene, or each where all tables are asked for, as a table. Of several scenes the first in plain words, as soon
@@ -190,53 +202,62 @@ class Comparison {
     const bool first = !std::exchange(printed_, true);
     const bool whole = scene_count_ == 1 || arguments_.all_tables;
     if (!whole && !first) return;
-    fmt::print("{}\n", shortened(result.name + (result.description.empty() ? "" : ": " + result.description)));
+    const std::string title =
+        shortened(result.name + (result.description.empty() ? "" : ": " + result.description)) + '\n';
     if (whole) {
-      fmt::print("\n{}\n{}\n", table(result.rows), in_lines(result.sentence));
+      print_out(fmt::format("{}\n{}\n{}\n", title, table(result.rows), in_lines(result.sentence)));
     } else {
       const std::string exact = exact_answer(result.rows);
-      fmt::print("{}{}\n{}\n", exact, exact.empty() ? "" : "\n", headline(result.rows));
+      print_out(fmt::format("{}{}{}\n{}\n", title, exact, exact.empty() ? "" : "\n", headline(result.rows)));
     }
-    std::fflush(stdout);
   }
 
   void print_summary(const std::vector<ReportSection>& sections) const {
-    if (scene_count_ > 1) fmt::print("{}\n\n{}\n", counted(scene_count_, "scene"), summary_table(rows_));
+    std::string text;
+    if (scene_count_ > 1) text += fmt::format("{}\n\n{}\n", counted(scene_count_, "scene"), summary_table(rows_));
     for (const ReportSection& section : sections) {
-      fmt::print("{}\n\n", section.title);
-      for (const std::string& line : section.lines) fmt::print("- {}\n", shortened(line));
-      fmt::print("\n");
+      text += section.title + "\n\n";
+      for (const std::string& line : section.lines) text += "- " + shortened(line) + '\n';
+      text += '\n';
     }
-    for (const std::string& line : totals_.lines()) fmt::print("{}\n", line);
+    for (const std::string& line : totals_.lines()) text += line + '\n';
+    if (unscripted_ > 0 && scene_count_ > 1)
+      text += counted(unscripted_, "map") + " without a script: moved by random:1\n";
+    if (!refused_.empty())
+      text += fmt::format("{} of {} could not be used\n", refused_.size(), counted(inputs_.names().size(), "input"));
+    print_out(text);
   }
 
   void finish() {
-    nlohmann::ordered_json rows = rows_json(rows_);
+    std::vector<Row> all = refused_;
+    all.insert(all.end(), rows_.begin(), rows_.end());
+    nlohmann::ordered_json rows = rows_json(all);
     if (shows_gallery_) rows["gallery"] = gallery_json(gallery_of(rows_));
-    const auto text = [&rows] { return rows.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace); };
-    if (rows_file_) {
-      rows_file_->write(text() + '\n');
-      rows_file_->commit();
-    }
+    if (rows_file_) rows_file_->finish(rows);
     std::vector<ReportSection> sections;
     if (shows_gallery_) sections.push_back({gallery_title, gallery_lines(gallery_of(rows_))});
     if (report_) report_->finish(environment(), tolerances_, totals_.lines(), sections);
     if (arguments_.json)
-      fmt::print("{}\n", text());
+      print_out(rows.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n');
     else if (!arguments_.quiet)
       print_summary(sections);
-    if (report_ && !arguments_.quiet && !arguments_.json) fmt::print("report: {}\n", arguments_.report_path);
+    if (report_ && !arguments_.quiet && !arguments_.json) print_out("report: " + arguments_.report_path + '\n');
   }
 
   CompareArguments& arguments_;
   Progress progress_;
-  std::vector<std::vector<Scene>> kept_;
+  Inputs inputs_;
   Outputs outputs_;
   std::size_t scene_count_ = 0;
+  int unscripted_ = 0;  ///< Scenes that move by `Scene::moves_at_random`.
+  double steps_ = 0;    ///< Of all scenes.
+  double steps_done_ = 0;
+  std::optional<Forecast> forecast_;
   bool printed_ = false;        ///< A scene was printed.
   bool shows_gallery_ = false;  ///< A set of scenes was asked for.
-  std::optional<OutputFile> rows_file_;
-  std::vector<Row> rows_;
+  std::optional<RowsFile> rows_file_;
+  std::vector<Row> refused_;  ///< One for each input that cannot be used.
+  std::vector<Row> rows_;     ///< Of what ran.
   Totals totals_;
   ReportOptions report_options_;
   std::optional<ReportWriter> report_;

@@ -11,6 +11,8 @@ namespace paperproof::compare {
 struct CompareArguments {
   std::vector<std::string> scenes;  ///< Built-in names or files.
   RunOptions run;
+  std::string files_from;   ///< A file with more names, or "-" for standard input; empty: none.
+  bool keep_going = false;  ///< An input that cannot be used is a row, and the others run.
   std::string rows_path;    ///< Empty: none.
   std::string report_path;  ///< Empty: none.
   bool all_tables = false;  ///< Of every scene, where there are several.
@@ -30,7 +32,9 @@ struct CompareArguments {
 /// @throws InputError naming the contender and those there are.
 void check_contenders(const std::vector<std::string>& names);
 
-/// @return the exit status: 0, or 1 if octagon_sweep in double broke its guarantee or a contender failed.
+/// @return the exit status: 0; 1 if octagon_sweep in double broke its guarantee or a contender failed; else 2 if an
+/// input
+///   could not be used (`keep_going`).
 /// @throws InputError before any output file is touched; std::runtime_error if one cannot be written.
 int compare_scenes(CompareArguments arguments);
 

@@ -3,6 +3,7 @@
 #include "command/claimed_files.hpp"
 #include "command/progress.hpp"
 #include "runs/output_file.hpp"
+#include "runs/rows_file.hpp"
 #include "runs/rows_json.hpp"
 #include "studies/chart_page.hpp"
 #include "studies/scale.hpp"
@@ -92,7 +93,7 @@ int study_scale_command(const StudyArguments& arguments) {
   ClaimedFiles files;
   files.claim_for_option("--rows", arguments.rows_path);
   files.claim_for_option("--report", arguments.report_path);
-  std::optional<OutputFile> rows_file;
+  std::optional<RowsFile> rows_file;
   std::optional<OutputFile> report_file;
   if (!arguments.rows_path.empty()) rows_file.emplace(arguments.rows_path);
   if (!arguments.report_path.empty()) report_file.emplace(arguments.report_path);
@@ -106,17 +107,15 @@ int study_scale_command(const StudyArguments& arguments) {
   bool same = true;
   for (const ScalePoint& point : points) {
     rows.push_back(row_of(point));
+    if (rows_file) rows_file->add(rows.back());
     same = same && point.same_bits;
   }
   if (!arguments.quiet) {
     std::string text = line_of(heading);
     for (const ScalePoint& point : points) text += line_of(cells_of(point));
-    fmt::print("{}\n{}\n", text, growth_sentence(points));
+    print_out(fmt::format("{}\n{}\n", text, growth_sentence(points)));
   }
-  if (rows_file) {
-    rows_file->write(rows_json(rows).dump(2) + "\n");
-    rows_file->commit();
-  }
+  if (rows_file) rows_file->finish(rows_json(rows));
   if (report_file) {
     report_file->write(html_of(page_of(points)));
     report_file->commit();

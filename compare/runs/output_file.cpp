@@ -1,6 +1,7 @@
 #include "runs/output_file.hpp"
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <stdexcept>
 #include <system_error>
@@ -8,11 +9,12 @@
 
 namespace paperproof::compare {
 
-OutputFile::OutputFile(std::string path) : path_(std::move(path)), target_(path_) {
+OutputFile::OutputFile(std::string path, Appears appears) : path_(std::move(path)), target_(path_) {
   std::error_code none;
   const std::filesystem::file_status status = std::filesystem::status(target_, none);
   if (std::filesystem::is_directory(status)) throw std::runtime_error(path_ + ": cannot be written: it is a directory");
-  in_place_ = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
+  in_place_ =
+      appears == Appears::as_written || (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status));
   if (std::filesystem::is_regular_file(status)) target_ = std::filesystem::canonical(target_, none);
   beside_ = target_;
   if (!in_place_) beside_ += ".part";
@@ -32,6 +34,11 @@ void OutputFile::write(std::string_view text) {
   if (!stream_) fail("cannot be written whole");
 }
 
+void OutputFile::flush() {
+  stream_.flush();
+  if (!stream_) fail("cannot be written whole");
+}
+
 void OutputFile::commit() {
   stream_.close();
   if (!stream_) fail("cannot be written whole");
@@ -42,7 +49,16 @@ void OutputFile::commit() {
 }
 
 void OutputFile::fail(const std::string& what) const {
+  if (errno == EPIPE) throw ClosedPipe();
   throw std::runtime_error(path_ + ": " + what + ": " + std::strerror(errno));
+}
+
+void print_out(std::string_view text) {
+  errno = 0;
+  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  if (written && std::fflush(stdout) == 0) return;
+  if (errno == EPIPE) throw ClosedPipe();
+  throw std::runtime_error(std::string("standard output: cannot be written: ") + std::strerror(errno));
 }
 
 }  // namespace paperproof::compare

@@ -1,27 +1,39 @@
-/// A file that appears whole or not at all.
+/// Where results go: files, and standard output.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
 namespace paperproof::compare {
 
+/// Nobody reads the pipe that was written to: the work ends, and there is nothing to say.
+class ClosedPipe : public std::runtime_error {
+ public:
+  ClosedPipe() : std::runtime_error("nobody reads the pipe") {}
+};
+
 /// Writes beside the final name and renames on `commit`; what was never committed is removed. A link keeps pointing to
 /// where it points; a device or a pipe is written to directly, as nothing can stand beside it. Not thread-safe.
+/// Everything that fails throws ClosedPipe, or std::runtime_error naming the path and why it cannot be written.
 class OutputFile {
  public:
+  enum class Appears : std::uint8_t {
+    whole,       ///< At the end, or not at all.
+    as_written,  ///< From the first line on, and what is flushed stays when the command is killed.
+  };
   /// Opens at once, so that a path that cannot be written is known before the work that is to be written.
-  /// @throws std::runtime_error naming the path and why it cannot be written.
-  explicit OutputFile(std::string path);
+  explicit OutputFile(std::string path, Appears appears = Appears::whole);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  /// @throws std::runtime_error naming the path.
   void write(std::string_view text);
-  /// @throws std::runtime_error naming the path if anything could not be written.
+  /// What was written so far is in the file afterwards.
+  void flush();
   void commit();
 
  private:
@@ -34,5 +46,8 @@ class OutputFile {
   bool in_place_ = false;
   bool committed_ = false;
 };
+
+/// Prints and flushes. @throws ClosedPipe; std::runtime_error where standard output cannot be written (a full disk).
+void print_out(std::string_view text);
 
 }  // namespace paperproof::compare

@@ -32,6 +32,8 @@ nlohmann::ordered_json first_tunnel_json(const FirstTunnel& first) {
   return object;
 }
 
+}  // namespace
+
 nlohmann::ordered_json row_json(const Row& row) {
   nlohmann::ordered_json object;
   object["scene"] = row.scene;
@@ -50,8 +52,6 @@ nlohmann::ordered_json row_json(const Row& row) {
   if (!row.findings.empty()) object["findings"] = row.findings;
   return object;
 }
-
-}  // namespace
 
 std::vector<std::pair<std::string, std::string>> environment() {
   return {{"paperproof", PAPERPROOF_VERSION},

@@ -15,7 +15,10 @@ namespace paperproof::compare {
 /// Versions, compiler, flags, cpu and build of this executable, as name and value.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> environment();
 
-/// One object per row; what does not apply is absent.
+/// What does not apply is absent.
+[[nodiscard]] nlohmann::ordered_json row_json(const Row& row);
+
+/// The rows with their header.
 [[nodiscard]] nlohmann::ordered_json rows_json(const std::vector<Row>& rows);
 
 /// One object per contender: `fails_on` (scene, failure) and `cheapest_on` (scene, ns_per_step, and of the next one

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <optional>
 
 namespace paperproof::compare {
@@ -21,8 +22,8 @@ constexpr std::string_view default_lockstep = "octagon_sweep";
 constexpr std::string_view twin_name = "box2d";
 /// A character this far outside of its map has left it [m].
 constexpr double lost = 10;
-/// Steps between two calls of the progress callback.
-constexpr int progress_every = 64;
+/// Time between two calls of the progress callback. Small: the terminal is busy. Large: slow steps seem to hang.
+constexpr std::chrono::milliseconds progress_every{100};
 /// Disagreements kept per scene for the report.
 constexpr std::size_t most_disagreements = 24;
 
@@ -32,12 +33,12 @@ class SceneRun {
       : scene_(scene),
         options_(options),
         steps_(options.steps.value_or(scene.steps)),
-        script_(options.random_input ? random_script(scene, *options.random_input, steps_) : script_of(scene)),
+        script_(options.random_input ? random_script(scene, *options.random_input, steps_) : script_of(scene, steps_)),
         scenery_(scene.scenery),
         planning_{.full = options.full_plan, .foreseen = foreseen_in(scene, script_), .knobs = options.knobs} {
     const std::string mode = options.mode == Mode::lockstep ? "lockstep" : "free";
     const ReplayLimit replay{.steps = steps_, .most = options.max_replay_steps};
-    for (const std::string& name : names())
+    for (const std::string& name : contenders_of(options))
       for (const ScalarKind scalar : options.scalars) {
         if (is_reference(name) && scalar != options.scalars.front()) continue;
         lanes_.push_back(
@@ -59,14 +60,14 @@ class SceneRun {
   }
 
   ReportScene go() {
+    tell_progress(0);
     for (int step = 0; cursor_ && step < steps_; ++step) {
       const StepInput input = cursor_->at(step);
       if (options_.mode == Mode::lockstep)
         step_in_lockstep(step, input);
       else
         step_freely(step, input);
-      if (options_.progress && step % progress_every == 0)
-        options_.progress(static_cast<double>(step) / static_cast<double>(steps_));
+      tell_progress(step + 1);
     }
     return collect();
   }
@@ -80,18 +81,11 @@ class SceneRun {
     int not_compared = 0;               ///< Lockstep: steps without room for Box2D's skin.
   };
 
-  [[nodiscard]] std::vector<std::string> names() const {
-    std::vector<std::string> chosen = options_.contenders;
-    const bool lockstep = options_.mode == Mode::lockstep;
-    if (chosen.empty() && lockstep) chosen.emplace_back(default_lockstep);
-    if (chosen.empty())
-      for (const std::string_view name : contender_names())
-        if (!is_reference(name) || options_.reference) chosen.emplace_back(name);
-    if (!options_.contenders.empty() && options_.reference && !lockstep &&
-        std::find(chosen.begin(), chosen.end(), twin_name) == chosen.end())
-      chosen.emplace_back(twin_name);
-    if (lockstep) std::erase_if(chosen, [](const std::string& name) { return is_reference(name); });
-    return chosen;
+  void tell_progress(int done) {
+    const auto now = std::chrono::steady_clock::now();
+    if (!options_.progress || (done > 0 && now - told_ < progress_every)) return;
+    told_ = now;
+    options_.progress(static_cast<double>(done) / static_cast<double>(steps_));
   }
 
   /// The scene's, where it is run as it is.
@@ -179,6 +173,9 @@ class SceneRun {
     ReportScene result;
     result.name = scene_.name;
     result.description = scene_.description;
+    if (scene_.moves_at_random && !options_.random_input)
+      result.description += fmt::format("{}a map without a script, so it moves by random:{}",
+                                        result.description.empty() ? "" : "; ", *scene_.moves_at_random);
     result.dt_list = scene_.dt_list;
     for (const auto& lane : lanes_) add(*lane, result);
     for (const auto& lane : twins_) add(*lane, result);
@@ -272,9 +269,24 @@ class SceneRun {
   std::vector<std::unique_ptr<Lane>> lanes_;
   std::vector<std::unique_ptr<Lane>> twins_;
   std::vector<Pair> pairs_;
+  std::chrono::steady_clock::time_point told_;  ///< Of the last call of the progress callback.
 };
 
 }  // namespace
+
+std::vector<std::string> contenders_of(const RunOptions& options) {
+  std::vector<std::string> chosen = options.contenders;
+  const bool lockstep = options.mode == Mode::lockstep;
+  if (chosen.empty() && lockstep) chosen.emplace_back(default_lockstep);
+  if (chosen.empty())
+    for (const std::string_view name : contender_names())
+      if (!is_reference(name) || options.reference) chosen.emplace_back(name);
+  if (!options.contenders.empty() && options.reference && !lockstep &&
+      std::find(chosen.begin(), chosen.end(), twin_name) == chosen.end())
+    chosen.emplace_back(twin_name);
+  if (lockstep) std::erase_if(chosen, [](const std::string& name) { return is_reference(name); });
+  return chosen;
+}
 
 ReportScene run_scene(const Scene& scene, const RunOptions& options) { return SceneRun(scene, options).go(); }
 

@@ -28,10 +28,14 @@ struct RunOptions {
   bool full_plan = false;          ///< Nothing is left out of the techniques, whatever the scene can need.
   bool reference = true;           ///< Run the Box2D twin beside the contenders.
   bool measure_cost = true;
-  std::string trace_stem;                ///< Empty: no traces.
-  int max_replay_steps = 0;              ///< Kept per run for the report; 0: none.
-  std::function<void(double)> progress;  ///< Called now and then with the share that is done.
+  std::string trace_stem;    ///< Empty: no traces.
+  int max_replay_steps = 0;  ///< Kept per run for the report; 0: none.
+  /// Called with 0 before the first step, and then now and then with the share of the steps that is done.
+  std::function<void(double)> progress;
 };
+
+/// The contenders that run, the reference among them where it is wanted.
+[[nodiscard]] std::vector<std::string> contenders_of(const RunOptions& options);
 
 /// One scene with everything that was found: a row per run, failures included, and the sentence that says who is right.
 /// @throws std::runtime_error only where a trace cannot be written; what goes wrong inside a run is a row.

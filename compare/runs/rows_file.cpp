@@ -1,0 +1,109 @@
+#include "runs/rows_file.hpp"
+
+#include "runs/rows_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+#include <vector>
+
+namespace paperproof::compare {
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string line_of(const ordered_json& object) {
+  return object.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + '\n';
+}
+
+std::string text_of(const ordered_json& value) {
+  if (!value.is_array())
+    return value.is_string() ? value.get<std::string>()
+                             : value.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+  std::string joined;
+  for (const ordered_json& item : value) joined += (joined.empty() ? "" : "; ") + text_of(item);
+  return joined;
+}
+
+using Cells = std::vector<std::pair<std::string, std::string>>;  ///< By key.
+
+void flatten(const ordered_json& object, const std::string& prefix, Cells& cells) {
+  for (const auto& [key, value] : object.items()) {
+    if (value.is_object())
+      flatten(value, prefix + key + ".", cells);
+    else
+      cells.emplace_back(prefix + key, text_of(value));
+  }
+}
+
+/// A new key goes behind the one that it follows in its row.
+void add_columns(const Cells& cells, std::vector<std::string>& columns) {
+  auto next = columns.begin();
+  for (const auto& [key, text] : cells) {
+    const auto found = std::find(columns.begin(), columns.end(), key);
+    next = 1 + (found != columns.end() ? found : columns.insert(next, key));
+  }
+}
+
+std::string quoted(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + '"';
+}
+
+}  // namespace
+
+RowsFile::Format RowsFile::format_of(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  if (extension == ".jsonl") return Format::json_lines;
+  return extension == ".csv" ? Format::csv : Format::json;
+}
+
+RowsFile::RowsFile(const std::string& path)
+    : format_(format_of(path)),
+      file_(path, format_ == Format::json_lines ? OutputFile::Appears::as_written : OutputFile::Appears::whole) {
+  if (format_ != Format::json_lines) return;
+  ordered_json header = rows_json({});
+  header.erase("rows");
+  file_.write(line_of(header));
+  file_.flush();
+}
+
+void RowsFile::add(const Row& row) {
+  if (format_ != Format::json_lines) return;
+  file_.write(line_of(row_json(row)));
+  file_.flush();
+}
+
+void RowsFile::finish(const ordered_json& document) {
+  if (format_ == Format::csv) file_.write(rows_csv(document.at("rows")));
+  if (format_ == Format::json) file_.write(document.dump(1, ' ', false, ordered_json::error_handler_t::replace) + '\n');
+  file_.commit();
+}
+
+std::string rows_csv(const ordered_json& rows) {
+  std::vector<std::string> columns;
+  std::vector<Cells> lines;
+  for (const ordered_json& row : rows) {
+    flatten(row, "", lines.emplace_back());
+    add_columns(lines.back(), columns);
+  }
+  std::string text;
+  for (const std::string& column : columns) text += (text.empty() ? "" : ",") + quoted(column);
+  text += "\r\n";
+  for (const Cells& cells : lines) {
+    for (const std::string& column : columns) {
+      const auto cell =
+          std::find_if(cells.begin(), cells.end(), [&](const auto& each) { return each.first == column; });
+      if (column != columns.front()) text += ',';
+      if (cell != cells.end()) text += quoted(cell->second);
+    }
+    text += "\r\n";
+  }
+  return text;
+}
+
+}  // namespace paperproof::compare

@@ -1,0 +1,37 @@
+/// Rows in a file: JSON, JSON Lines or CSV, by its name.
+#pragma once
+
+#include "runs/output_file.hpp"
+#include "runs/row.hpp"
+
+#include <nlohmann/json_fwd.hpp>
+
+#include <cstdint>
+#include <string>
+
+namespace paperproof::compare {
+
+/// `.jsonl` grows in place: the header first, then a line for each row as soon as it is known, so that a kill keeps
+/// what is done. `.csv` and everything else (JSON) appear whole at the end. Not thread-safe. Throws what OutputFile
+/// throws.
+class RowsFile {
+ public:
+  explicit RowsFile(const std::string& path);
+  void add(const Row& row);
+  /// To be called once, last.
+  /// @param document with all the rows, as of `rows_json`.
+  void finish(const nlohmann::ordered_json& document);
+
+ private:
+  enum class Format : std::uint8_t { json, json_lines, csv };
+  [[nodiscard]] static Format format_of(const std::string& path);
+
+  Format format_;
+  OutputFile file_;
+};
+
+/// Rows as comma-separated values (RFC 4180), a line each below the line of keys. A column stands where its key first
+/// stands in a row; objects are laid out as `key.inner`, lists are joined by "; ", and what does not apply is empty.
+[[nodiscard]] std::string rows_csv(const nlohmann::ordered_json& rows);
+
+}  // namespace paperproof::compare

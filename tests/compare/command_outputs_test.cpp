@@ -1,0 +1,120 @@
+/// What the command writes: rows in three formats, full disks, closed pipes, and what is left of a run that was killed.
+#include "compare/command_workplace.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace paperproof::compare {
+namespace {
+
+TEST(CommandOutputs, rows_as_json_lines_are_those_of_the_json_file) {
+  const Workplace place;
+  const std::string run = "compare article_bullet wedge_60 --no-timing --quiet --contender octagon_sweep,grid --rows ";
+  EXPECT_EQ(place.run(run + "rows.json").status, 0);
+  EXPECT_EQ(place.run(run + "rows.jsonl").status, 0);
+  const nlohmann::json whole = nlohmann::json::parse(place.files().at("rows.json"));
+  ASSERT_EQ(whole.at("rows").size(), 6U);
+  std::istringstream lines(place.files().at("rows.jsonl"));
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(nlohmann::json::parse(line).at("environment"), whole.at("environment"));
+  for (const nlohmann::json& row : whole.at("rows")) {
+    ASSERT_TRUE(std::getline(lines, line));
+    EXPECT_EQ(nlohmann::json::parse(line), row);
+  }
+  EXPECT_FALSE(std::getline(lines, line));
+}
+
+TEST(CommandOutputs, rows_as_csv_are_flat) {
+  const Workplace place;
+  EXPECT_EQ(place.run("compare article_bullet --no-timing --quiet --contender mask --rows rows.csv").status, 0);
+  std::istringstream lines(place.files().at("rows.csv"));
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_TRUE(begins(line, "scene,contender,scalar,mode,steps,verdict,reason,")) << line;
+  EXPECT_TRUE(line.ends_with('\r'));
+  const auto commas = std::count(line.begin(), line.end(), ',');
+  std::getline(lines, line);
+  EXPECT_TRUE(begins(line, "article_bullet,mask,double,free,60,tunnels,\"safety: step 0: passed `platform` at "));
+  EXPECT_GE(std::count(line.begin(), line.end(), ','), commas) << "the reason has commas of its own, in quotes";
+  std::getline(lines, line);
+  EXPECT_TRUE(begins(line, "article_bullet,box2d,float,free,60,holds,,"));
+  EXPECT_EQ(std::count(line.begin(), line.end(), ','), commas);
+  EXPECT_FALSE(std::getline(lines, line));
+}
+
+TEST(CommandOutputs, json_lines_keep_what_is_done_when_the_command_is_interrupted) {
+  const Workplace place;
+  place.write("long.json", good_with("\"steps\": 20", "\"steps\": 1000000000"));
+  (void)place.run("compare article_bullet long.json --no-timing --quiet --contender octagon_sweep --rows rows.jsonl",
+                  "timeout -s INT 4");
+  std::istringstream lines(place.files().at("rows.jsonl"));
+  std::vector<nlohmann::json> read;
+  for (std::string line; std::getline(lines, line);) read.push_back(nlohmann::json::parse(line));
+  ASSERT_EQ(read.size(), 3U);
+  EXPECT_EQ(read[0].at("paperproof_rows"), 1);
+  for (const std::size_t i : {1, 2}) EXPECT_EQ(read[i].at("scene"), "article_bullet");
+}
+
+/// What is said and the status where standard output goes elsewhere.
+Finished run_into(const Workplace& place, const std::string& arguments, const std::string& output) {
+  const std::string said = place.write("said", "");
+  const std::string status = place.write("status", "");
+  (void)place.run(arguments + " " + output + " 2>'" + said + "'; echo $? >'" + status + "' #");
+  Finished finished{std::atoi(content(status).c_str()), "", content(said)};
+  std::filesystem::remove(said);
+  std::filesystem::remove(status);
+  return finished;
+}
+
+TEST(CommandOutputs, standard_output_that_cannot_be_written_is_an_error_of_every_subcommand) {
+  const Workplace place;
+  for (const std::string arguments :
+       {"compare article_bullet --no-timing", "compare article_bullet --no-timing --json", "list scenes",
+        "list contenders", "list knobs", "check article_bullet", "plan article_bullet", "study scale --grid 100",
+        "--help", "--version", "compare --help"}) {
+    const Finished full = run_into(place, arguments, ">/dev/full");
+    EXPECT_EQ(full.status, 2) << arguments;
+    EXPECT_EQ(full.err, "standard output: cannot be written: No space left on device\n") << arguments;
+    EXPECT_EQ(run_into(place, arguments, ">&-").status, 2) << arguments;
+  }
+  EXPECT_EQ(run_into(place, "compare article_bullet --no-timing --quiet", ">/dev/full").status, 0)
+      << "nothing is printed";
+}
+
+TEST(CommandOutputs, files_on_a_full_disk_are_an_error) {
+  const Workplace place;
+  std::filesystem::create_symlink("/dev/full", place.path("rows.jsonl"));
+  std::filesystem::create_symlink("/dev/full", place.path("rows.csv"));
+  for (const std::string option : {"--rows /dev/full", "--rows rows.jsonl", "--rows rows.csv", "--report /dev/full"}) {
+    const Finished finished = place.run("compare article_bullet --no-timing --quiet " + option);
+    EXPECT_EQ(finished.status, 2) << option;
+    EXPECT_TRUE(holds(finished.err, "cannot be written whole: No space left on device\n"));
+  }
+  EXPECT_EQ(place.run("study scale --grid 100 --quiet --rows /dev/full").status, 2);
+}
+
+TEST(CommandOutputs, a_closed_pipe_ends_the_command_quietly_and_leaves_nothing_behind) {
+  const Workplace place;
+  for (const std::string arguments : {"list scenes", "check technique_gallery",
+                                      "compare article_bullet --no-timing --rows rows.json --report r.html"}) {
+    const std::string said = place.write("said", "-");
+    const std::string status = place.write("status", "-");
+    // The reader is gone before the command begins.
+    (void)place.run(arguments + " 2>'" + said + "'; echo $? >'" + status + "'; } | true #", "{ sleep 0.5;");
+    EXPECT_EQ(content(said), "") << arguments;
+    EXPECT_EQ(content(status), "141\n") << arguments;
+    EXPECT_EQ(place.files().size(), 2U) << arguments << ": something is left behind";
+  }
+}
+
+TEST(CommandOutputs, a_closed_standard_output_is_not_what_a_file_is_opened_as) {
+  const Workplace place;
+  const Finished finished = run_into(place, "compare article_bullet --no-timing --quiet --rows rows.json", ">&-");
+  EXPECT_EQ(finished.status, 0) << finished.err;
+  EXPECT_EQ(nlohmann::json::parse(place.files().at("rows.json")).at("paperproof_rows"), 1);
+}
+
+}  // namespace
+}  // namespace paperproof::compare

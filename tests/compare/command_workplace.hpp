@@ -1,0 +1,69 @@
+/// The command as a user runs it, in a folder of the running test's own.
+#pragma once
+
+#include "compare/scene_files.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+
+namespace paperproof::compare {
+
+struct Finished {
+  int status = -1;
+  std::string out;
+  std::string err;
+};
+
+inline std::string content(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// A folder in which the command runs.
+class Workplace : public SceneFiles {
+ public:
+  /// @param arguments as typed in a shell. @param before what stands before the command there.
+  [[nodiscard]] Finished run(const std::string& arguments, const std::string& before = "") const {
+    const std::string out = path("") + "../" + unique() + ".out";
+    const std::string err = path("") + "../" + unique() + ".err";
+    const std::string line = "cd '" + path("") + "' && " + before + " '" PAPERPROOF_COMMAND "' </dev/null " +
+                             arguments + " >'" + out + "' 2>'" + err + "'";
+    const int raw = std::system(line.c_str());
+    Finished finished{WIFEXITED(raw) ? WEXITSTATUS(raw) : -1, content(out), content(err)};
+    std::filesystem::remove(out);
+    std::filesystem::remove(err);
+    return finished;
+  }
+  /// Every file with what is in it.
+  [[nodiscard]] std::map<std::string, std::string> files() const {
+    std::map<std::string, std::string> all;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(path("")))
+      if (entry.is_regular_file()) all[entry.path().filename()] = content(entry.path());
+    return all;
+  }
+
+ private:
+  static std::string unique() {
+    const testing::TestInfo* test = testing::UnitTest::GetInstance()->current_test_info();
+    return std::string("paperproof_") + test->test_suite_name() + "_" + test->name();
+  }
+};
+
+/// A scene that runs; the bad ones differ from it in one place.
+inline constexpr const char* good_scene = R"({
+  "paperproof_scene": 1, "name": "good", "gravity": [0, -30], "dt": 0.016, "steps": 20,
+  "character": { "position": [0, 3] },
+  "scenery": [ { "id": "floor", "polygon": [[-4,0],[4,0],[4,-1],[-4,-1]] } ]
+})";
+
+inline std::string good_with(std::string_view from, std::string_view to) { return with(good_scene, from, to); }
+
+}  // namespace paperproof::compare
