@@ -28,6 +28,22 @@ Scene mirrored(Scene scene) {
   return scene;
 }
 
+/// Begins with its lower right side at the corner of a ledge, and holds the key towards it.
+Scene ledge_corner() {
+  Scene scene = play(-0.25, 0.45, 90, 1);
+  add_box(scene, "ledge", 0, -6, 4, 0);
+  add_box(scene, "floor", -4, -6, 0, -5);
+  // Never faster than in free fall, never slower than down the whole of a slope as steep as its side: sin² is 4/5.
+  const double way = 0.45 + 5 - half_height;
+  Scene slower = scene;
+  slower.gravity *= 0.8;
+  scene.answers = {between(Answer::Of::contact, steps_to_fall(scene, way), steps_to_fall(slower, way))
+                       .gaps(1 / fallen(scene, 1))
+                       .to("floor")};
+  ends_at(scene, -half_width, -5 + half_height);
+  return scene;
+}
+
 /// Two platforms, a gap between them, and a pit below it.
 Scene gap_of(double width, double far_side, int steps) {
   Scene scene = play(-2, half_height + 5e-7, steps, 1);
@@ -115,6 +131,16 @@ Scene slope_wall_hop() {
   return scene;
 }
 
+/// Up 30 degrees under a level ceiling 2 m above the foot of the slope.
+Scene slope_into_ceiling() {
+  Scene scene = play(-2, half_height + 0.02, 180, 1);
+  add_polygon(scene, "slope", {{-6, -1}, {9, -1}, {9, 9 * tan_30}, {0, 0}, {-6, 0}});
+  add_box(scene, "ceiling", -6, 2, 9, 3);
+  scene.answers = {y_is(2 - half_height).law(), x_is((2 - 2 * half_height) / tan_30 - foot).gaps(5).law(),
+                   between(Answer::Of::settled, 0, 120).law(), count(Answer::Of::in_the_air, 0).after(120).law()};
+  return scene;
+}
+
 /// Up 30 degrees to where the slope becomes 60 degrees: the right foot stands where the two meet.
 Scene slope_into_steep() {
   Scene scene = play(-3, -3 * tan_30 + half_height + 0.2, 300, 1, 30);
@@ -173,10 +199,23 @@ Scene oneway_hill() {
   return scene;
 }
 
+/// Begins 2 m inside a block, below a crate in it. The shortest straight way out passes the crate's lower corner with
+/// the side of its head: its slope is that from the corner of the crate, grown by the octagon, to the start.
+Scene escape_not_shortest() {
+  Scene scene = flight(0, -2, 0, 0, 1);
+  scene.start.resolve_overlap = true;
+  add_box(scene, "block", -5, -10, 5, 0);
+  add_box(scene, "crate", -0.1, -0.9, 0.1, -0.8);
+  const double aside = (0.1 + foot) / (-0.9 - half_height + 2) * (2 + half_height);
+  scene.answers = {y_is(half_height).law(), between(Answer::Of::place, -aside, aside, {1, 0}).gaps(4).law()};
+  return scene;
+}
+
 }  // namespace
 
 std::vector<BuiltInScene> play_scenes() {
   return {
+      {"ledge_corner", "key held into the corner of a ledge: falls at once, as without the key", ledge_corner},
       {"gap_crossed", "0.7 m to a platform 0.1 m lower, key held: crossed", gap_crossed},
       {"gap_crossed_left", "the same to the left: the mirror image", gap_crossed_left},
       {"gap_fallen", "1 m to a level platform, key held: falls down the far side, to the ground", gap_fallen},
@@ -195,6 +234,8 @@ std::vector<BuiltInScene> play_scenes() {
       {"steep_ramp_89_up", "the same with the key held uphill: the same y(t)", steep_ramp_89_up},
       {"steep_ramp_89_down", "the same with the key held downhill: never slower", steep_ramp_89_down},
       {"slope_wall_hop", "up 45° into a wall, key held: comes to rest in the corner, grounded", slope_wall_hop},
+      {"slope_into_ceiling", "up 30° under a level ceiling, key held: comes to rest between the two, grounded",
+       slope_into_ceiling},
       {"slope_into_steep", "up 30° to where it becomes 60°, key held: comes to rest there, grounded", slope_into_steep},
       {"climb45_3m", "a slope of 45°, 3 m high, with a limit of 45°: is walked up", climb45_3m},
       {"climb45_5m", "the same 5 m high: is walked up, too", climb45_5m},
@@ -203,6 +244,8 @@ std::vector<BuiltInScene> play_scenes() {
       {"kerb_10cm", "a kerb of 10 cm: stops at its edge", kerb_10cm},
       {"low_step", "a step of 30 cm: stops at its edge", low_step},
       {"oneway_hill", "over a one-way hill: it holds everywhere, to its end", oneway_hill},
+      {"escape_not_shortest", "begins 2 m inside a block below a crate: comes out after 2.98 m, straight",
+       escape_not_shortest},
   };
 }
 
