@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -40,6 +41,13 @@ class Player {
   /// @param move absent: no steering.
   StepStatus step(std::optional<double> move, double dt, bool jump = false) {
     return controller_.step(state, {.move = move, .jump = jump}, Vec2d{0, gravity}, dt, scratch_, report);
+  }
+
+  /// The last step met ground that is walked on.
+  [[nodiscard]] bool landed() const {
+    const double least_up = controller_.character().walkable_cosine<double>();
+    return state.grounded || std::any_of(report.move.contacts.begin(), report.move.contacts.end(),
+                                         [&](const Contact<double>& met) { return met.normal.y() >= least_up; });
   }
 
   CharacterState<double> state;
@@ -79,16 +87,17 @@ TEST(Steering, neither_holds_nor_slows_a_fall_from_any_touching_state) {
       const CharacterState<double> touching = player.state;
       player.step(std::nullopt, dt);
       const double fall = player.state.position.y() - touching.position.y();
-      bool landed = player.state.grounded;
+      const bool falls = player.report.requested.y() < 0;
+      bool landed = player.landed();
       double highest = fall;
       for (const double key : {-1.0, 0.0, 1.0}) {
         player.state = touching;
         player.step(key, dt);
-        landed = landed || player.state.grounded;
+        landed = landed || player.landed();
         highest = std::max(highest, player.state.position.y() - touching.position.y());
       }
       player.state = touching;
-      if (landed || fall >= 0) continue;
+      if (landed || !falls || fall >= 0) continue;
       ++falling;
       // To the order of dt: what steering changes on the way to a surface, and the gap that is kept there.
       const double allowed = 0.5 * std::abs(fall) + 2 * Tolerances<double>{}.touch;
