@@ -94,7 +94,7 @@ TEST(CommandInputs, keep_going_runs_the_others_and_ends_with_status_2) {
   ASSERT_EQ(lines.size(), 4U) << "a header, two that failed, and the one that ran";
   EXPECT_EQ(lines[0].at("paperproof_rows"), 1);
   EXPECT_TRUE(lines[0].contains("environment"));
-  for (const std::size_t failed : {1, 2}) {
+  for (const std::size_t failed : {std::size_t{1}, std::size_t{2}}) {
     EXPECT_EQ(lines[failed].at("verdict"), "failed");
     EXPECT_TRUE(begins(lines[failed].at("reason"), lines[failed].at("scene").get<std::string>() + ": "));
   }

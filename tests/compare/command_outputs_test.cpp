@@ -54,7 +54,7 @@ TEST(CommandOutputs, json_lines_keep_what_is_done_when_the_command_is_interrupte
   for (std::string line; std::getline(lines, line);) read.push_back(nlohmann::json::parse(line));
   ASSERT_EQ(read.size(), 3U);
   EXPECT_EQ(read[0].at("paperproof_rows"), 1);
-  for (const std::size_t i : {1, 2}) EXPECT_EQ(read[i].at("scene"), "article_bullet");
+  for (const std::size_t i : {std::size_t{1}, std::size_t{2}}) EXPECT_EQ(read[i].at("scene"), "article_bullet");
 }
 
 /// What is said and the status where standard output goes elsewhere.
