@@ -61,8 +61,8 @@ TEST(Command, answers_on_the_first_screen_who_lets_the_bullet_through_and_what_a
                                                     {"pixel_tile", "stopped at 0.600"},
                                                     {"box2d", "stopped at 0.59"}};
   for (const auto& [contender, outcome] : expected) {
-    const auto line =
-        std::find_if(screen.begin(), screen.end(), [&](const auto& one) { return begins(one, contender + " "); });
+    const std::string first = contender + " ";
+    const auto line = std::find_if(screen.begin(), screen.end(), [&](const auto& one) { return begins(one, first); });
     ASSERT_NE(line, screen.end()) << contender;
     EXPECT_TRUE(holds(*line, "  " + outcome)) << contender;
     const std::string up_to_cost = line->substr(0, cost_end);
