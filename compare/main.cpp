@@ -108,6 +108,7 @@ CLI::App* add_compare(CLI::App& app, Words& words) {
   add_flag(*command, "--no-reference", words.no_reference, "Without the Box2D twin");
   add_flag(*command, "--no-timing", words.no_timing, "Without measuring the cost of a step");
   add_flag(*command, "--all-tables", arguments.all_tables, "The table of every scene, where there are several");
+  add_flag(*command, "--explain", arguments.explain, "Print what each contender is excused, and up to what size");
   add_flag(*command, "--quiet", arguments.quiet, "No tables, no progress");
   add_flag(*command, "--json", arguments.json, "Rows as JSON on standard output");
   return command;

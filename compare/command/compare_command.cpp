@@ -7,6 +7,7 @@
 #include "command/progress.hpp"
 #include "command/totals.hpp"
 #include "near_names.hpp"
+#include "oracle/exemptions.hpp"
 #include "runs/gallery.hpp"
 #include "runs/headline.hpp"
 #include "runs/output_file.hpp"
@@ -34,6 +35,9 @@ namespace paperproof::compare {
 namespace {
 
 constexpr const char* gallery_title = "Where each contender fails, and where it is the cheapest of those that do not";
+
+constexpr const char* exemptions_title =
+    "What is not held against a contender, counted as `exempted`, and up to what size";
 
 /// Exit status where an input could not be used, and no contender failed.
 constexpr int unusable_input = 2;
@@ -236,11 +240,13 @@ class Comparison {
     if (rows_file_) rows_file_->finish(rows);
     std::vector<ReportSection> sections;
     if (shows_gallery_) sections.push_back({gallery_title, gallery_lines(gallery_of(rows_))});
-    if (report_) report_->finish(environment(), tolerances_, totals_.lines(), sections);
+    std::vector<ReportSection> explained = sections;
+    explained.push_back({exemptions_title, exemptions_in_words()});
+    if (report_) report_->finish(environment(), tolerances_, totals_.lines(), explained);
     if (arguments_.json)
       print_out(rows.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n');
     else if (!arguments_.quiet)
-      print_summary(sections);
+      print_summary(arguments_.explain ? explained : sections);
     if (report_ && !arguments_.quiet && !arguments_.json) print_out("report: " + arguments_.report_path + '\n');
   }
 

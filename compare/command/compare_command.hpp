@@ -16,6 +16,7 @@ struct CompareArguments {
   std::string rows_path;    ///< Empty: none.
   std::string report_path;  ///< Empty: none.
   bool all_tables = false;  ///< Of every scene, where there are several.
+  bool explain = false;     ///< What each contender is excused, after the results.
   bool quiet = false;       ///< No table, no progress.
   bool json = false;        ///< Rows on standard output instead of tables.
 };

@@ -47,6 +47,8 @@ std::vector<std::pair<ColliderIndex, Side>> touches_of(const Contacts& contacts)
 
 Metrics::Metrics(const TraceHeader& header, const Measured& measured)
     : ids_(header.ids), measured_(measured), followers_(header.characters, Follower(header.scenery)) {
+  promises_ = party_of(header) == Party::promising;
+  sampled_ = party_of(header) == Party::sampled;
   if (header.characters > 1) sums_.characters = static_cast<int>(header.characters);
   const std::vector<ColliderDef>& colliders = header.scenery.colliders;
   const auto any = [&colliders](auto&& test) { return std::any_of(colliders.begin(), colliders.end(), test); };
@@ -54,7 +56,7 @@ Metrics::Metrics(const TraceHeader& header, const Measured& measured)
   if (any([](const ColliderDef& def) { return def.sensor; })) sums_.sensor_events = sums_.sensor_errors = 0;
   for (std::optional<int>* counter :
        {&sums_.tunnels, &sums_.corner_cuts, &sums_.steps_ending_inside, &sums_.contact_steps, &sums_.hanging_steps,
-        &sums_.stuck_steps, &sums_.dropped_steps}) {
+        &sums_.stuck_steps, &sums_.stuck_refuted, &sums_.dropped_steps}) {
     *counter = 0;
   }
   if (measured_.respawns) sums_.respawns = 0;
@@ -62,34 +64,64 @@ Metrics::Metrics(const TraceHeader& header, const Measured& measured)
   sums_.max_penetration_m = 0;
 }
 
-/// Both directions of the match of one step with its neighbours.
-void Metrics::match(const View& view, Matches& matches) {
+/// Both directions of the match of one step; of sampled paths with its neighbours.
+void Metrics::match(const View& view, Matches& matches) const {
   const Moment& now = view.now();
-  const auto anywhere = [&](auto&& test) { return std::any_of(view.around.begin(), view.around.end(), test); };
+  const auto anywhere = [&](auto&& test) {
+    return test(now) || (sampled_ && std::any_of(view.around.begin(), view.around.end(), test));
+  };
   for (const Touch& touch : now.reported) {
-    const bool right = anywhere([&](const Moment& moment) { return contains(moment.exact, touch); });
+    const bool in_time = contains(now.exact, touch) || contains(now.deflected, touch);
+    const bool right = in_time || anywhere([&](const Moment& moment) { return contains(moment.exact, touch); });
     const bool ghost = contains(now.ghosts, touch);
-    if (!right && !ghost && anywhere([&](const Moment& moment) { return contains(moment.dont_care, touch.first); }))
+    if (!right && contains(now.by_company, touch.first)) {
+      ++matches.by_company;
       continue;
+    }
+    const bool excused = !right && !ghost && anywhere([&](const Moment& moment) {
+      return contains(promises_ ? moment.band : moment.dont_care, touch.first);
+    });
+    if (excused) {
+      ++(promises_ ? matches.band : matches.reach);
+      continue;
+    }
     ++matches.counted;
     matches.right += right;
+    matches.late += right && !in_time;
   }
-  if (now.stuck) return;
+  match_wanted(view, matches);
+}
+
+void Metrics::match_wanted(const View& view, Matches& matches) const {
+  const Moment& now = view.now();
+  if (now.stuck) {
+    matches.stuck += !promises_ && !now.exact.empty();
+    return;
+  }
   for (const Side side : {Side::top, Side::bottom, Side::left, Side::right}) {
     const auto of_side = [&](const Touch& touch) { return touch.second == side; };
     if (std::none_of(now.exact.begin(), now.exact.end(), of_side)) continue;
-    ++matches.wanted;
-    matches.found += anywhere([&](const Moment& moment) {
+    const auto reports = [&](const Moment& moment) {
       return std::any_of(moment.reported.begin(), moment.reported.end(),
                          [&](const Touch& touch) { return of_side(touch) && contains(now.exact, touch); });
-    });
+    };
+    const bool in_time = reports(now);
+    const bool late = !in_time && sampled_ && std::any_of(view.around.begin(), view.around.end(), reports);
+    ++matches.wanted;
+    matches.found += in_time || late;
   }
 }
 
 void Metrics::add_contacts(const TraceStep& step, const StepJudgement& judgement) {
-  followers_[step.character].window.add(
-      {touches_of(step.contacts), touches_of(judgement.contacts), judgement.dont_care, judgement.ghosts, step.stuck},
-      [this](const View& view) { match(view, matches_); });
+  followers_[step.character].window.add({.reported = touches_of(step.contacts),
+                                         .exact = touches_of(judgement.contacts),
+                                         .dont_care = judgement.dont_care,
+                                         .ghosts = judgement.ghosts,
+                                         .stuck = step.stuck && !(promises_ && judgement.stuck_refuted),
+                                         .deflected = judgement.deflected,
+                                         .band = judgement.contact_band,
+                                         .by_company = judgement.excused_by_company},
+                                        [this](const View& view) { match(view, matches_); });
   for (const Contact<double>& contact : step.contacts) touched_.insert(contact.collider);
   if (!step.contacts.empty()) raise(sums_.max_contact_gap_m, judgement.max_contact_gap);
   if (!step.contacts.empty() || !step.met.empty()) add_first_contact(step, judgement);
@@ -140,7 +172,7 @@ void Metrics::add_passings(const TraceStep& step, const StepJudgement& judgement
   count(sums_.tunnels, !judgement.tunnelled.empty() || !company.passed.empty());
   count(sums_.corner_cuts, !judgement.corner_cut.empty() || !company.corner_cut.empty());
   const auto inside_on_its_own = [&judgement](ColliderIndex collider) {
-    return !contains(judgement.pressed, collider);
+    return !contains(judgement.pressed, collider) && !contains(judgement.rounded, collider);
   };
   const bool inside = !company.overlap.empty() ||
                       std::any_of(judgement.end_overlap.begin(), judgement.end_overlap.end(), inside_on_its_own);
@@ -168,7 +200,7 @@ void Metrics::add_passings(const TraceStep& step, const StepJudgement& judgement
 void Metrics::add_events(const TraceStep& step, const StepJudgement& judgement) {
   if (!step.movers.empty()) {
     count(sums_.crushes, !judgement.crushed.empty());
-    count(sums_.crushes_with_room, !judgement.crushed_with_room.empty());
+    count(sums_.crushes_refuted, !judgement.crushed_with_room.empty());
     const bool pressed_alone = !judgement.pressed.empty() && judgement.pressed.size() == judgement.end_overlap.size();
     count(sums_.steps_inside_after_crush, pressed_alone);
   }
@@ -179,6 +211,30 @@ void Metrics::add_events(const TraceStep& step, const StepJudgement& judgement) 
   if (matched) raise(sums_.max_sensor_error, judgement.max_sensor_error);
 }
 
+void Metrics::add_progress(const TraceStep& step, const StepJudgement& judgement) {
+  count(sums_.hanging_steps, judgement.hangs);
+  count(sums_.stuck_steps, step.stuck);
+  count(sums_.stuck_refuted, judgement.stuck_refuted);
+  count(sums_.dropped_steps, step.dropped);
+  motion_wanted_ += judgement.motion_wanted;
+  motion_lost_ += judgement.motion_lost;
+  double length = 0;
+  for (std::size_t i = 1; i < step.path.size(); ++i)
+    length += (step.path[i].position - step.path[i - 1].position).norm();
+  sums_.distance_m = sums_.distance_m.value_or(0) + length;
+  if (judgement.normal_error) raise(sums_.normal_error_max_deg, *judgement.normal_error);
+}
+
+void Metrics::add_exempted(const StepJudgement& judgement) {
+  if (!promises_) count(sums_.rounding, !judgement.rounded.empty() || !judgement.company.rounded.empty());
+  const auto exempt = [this](Exempt which, bool happened) {
+    if (happened) ++sums_.exempted[std::string(exemptions()[static_cast<std::size_t>(which)].name)];
+  };
+  exempt(Exempt::corner_cut, !judgement.corner_cut.empty() || !judgement.company.corner_cut.empty());
+  exempt(Exempt::hover, judgement.hovers);
+  exempt(Exempt::touched_crush, judgement.excused_crush);
+}
+
 void Metrics::add(const TraceStep& step, const StepJudgement& judgement) {
   add_contacts(step, judgement);
   add_exact_impact(step, judgement);
@@ -187,9 +243,8 @@ void Metrics::add(const TraceStep& step, const StepJudgement& judgement) {
   if (measured_.rest) followers_[step.character].rest.add(step);
   count(sums_.contact_steps, !step.contacts.empty() || !step.met.empty());
   if (measured_.respawns) count(sums_.respawns, step.respawn);
-  count(sums_.hanging_steps, judgement.hangs);
-  count(sums_.stuck_steps, step.stuck);
-  count(sums_.dropped_steps, step.dropped);
+  add_progress(step, judgement);
+  add_exempted(judgement);
   if (step.requested.x() != 0) raise(sums_.ghost_speed_loss, judgement.ghost_speed_loss);
 }
 
@@ -209,12 +264,17 @@ void Metrics::write(Row& row) const {
   row.colliders_touched = static_cast<int>(touched_.size());
   row.respawns = sums_.respawns;
   row.crushes = sums_.crushes;
-  row.crushes_with_room = sums_.crushes_with_room;
+  row.crushes_refuted = sums_.crushes_refuted;
   row.sensor_events = sums_.sensor_events;
   row.sensor_errors = sums_.sensor_errors;
   row.max_sensor_error = sums_.max_sensor_error;
   row.steps_inside_after_crush = sums_.steps_inside_after_crush;
   row.hanging_steps = sums_.hanging_steps;
+  row.stuck_refuted = sums_.stuck_refuted;
+  row.distance_m = sums_.distance_m;
+  row.normal_error_max_deg = sums_.normal_error_max_deg;
+  row.rounding = sums_.rounding;
+  if (motion_wanted_ > 0) row.wanted_motion_lost = motion_lost_ / motion_wanted_;
   row.stuck_steps = sums_.stuck_steps;
   row.dropped_steps = sums_.dropped_steps;
   row.toi_error_max = sums_.toi_error_max;
@@ -229,6 +289,13 @@ void Metrics::write(Row& row) const {
   }
   if (matches.counted > 0) row.contact_precision = share(matches.right, matches.counted);
   if (matches.wanted > 0) row.contact_recall = share(matches.found, matches.wanted);
+  if (promises_) row.contact_band = matches.band;
+  row.exempted = sums_.exempted;
+  for (const auto& [which, often] : {std::pair{Exempt::late_match, matches.late},
+                                     {Exempt::reach, matches.reach},
+                                     {Exempt::company, matches.by_company},
+                                     {Exempt::stuck, matches.stuck}})
+    if (often > 0) row.exempted[std::string(exemptions()[static_cast<std::size_t>(which)].name)] = often;
 }
 
 }  // namespace paperproof::compare

@@ -5,6 +5,7 @@
 #include "metrics/measured.hpp"
 #include "metrics/rest.hpp"
 #include "metrics/window.hpp"
+#include "oracle/exemptions.hpp"
 #include "oracle/judge.hpp"
 #include "runs/row.hpp"
 
@@ -21,15 +22,24 @@ namespace paperproof::compare {
 /// - `max_penetration_m`: deepest exact penetration at the end of a step. `max_contact_gap_m`: largest exact separation
 ///   at which a reported contact stopped the character.
 /// - `contact_precision`: the share of reported contacts (one per step, collider and side) for which exact arithmetic
-/// has
-///   one with the same collider and side within one step. Contacts that are don't-care within one step do not
-///   count, unless they are ghosts.
+///   has one with the same collider and side in the same step (Box2D: within one step, exempted), or an exact one
+///   deflected the motion there. Contacts that are don't-care do not count (exempted), unless they are ghosts; of
+///   octagon_sweep in double only those in `contact_band` do not.
 /// - `contact_recall`: the share of exact (step, side) for which a contact of that side with one of the colliders that
-///   exact arithmetic has there was reported within one step: a floor of two abutting tiles is one contact. Steps that
-///   are said to be stuck do not count: who is stuck inside something does not move and meets nothing.
+///   exact arithmetic has there was reported in the same step (Box2D: within one): a floor of two abutting tiles is one
+///   contact. Steps that are said to be stuck do not count (exempted; of octagon_sweep in double those that are right:
+///   who is stuck inside something does not move and meets nothing).
+/// - `normal_error_max_deg`: largest angle between the normal of a reported contact and the nearest exact one with that
+///   collider on that side.
+/// - `hanging_steps`, `stuck_refuted`: see `Judge`. `distance_m`: length of the ways. `wanted_motion_lost`: share of
+/// the
+///   wanted horizontal motion, over the run, that was lost to nothing exact.
+/// - `rounding`: steps ending inside by no more than rounding, of who promises nothing. `exempted`: what was not held
+///   against the contender, and how often: see oracle/exemptions.hpp.
 /// - `contact_steps`: steps with a reported contact. `colliders_touched`: how many different ones.
 /// - `first_contact_step`, `first_contact_fraction`: the earliest reported contact.
-/// - `exact_first_impact_step`, `exact_first_impact_fraction`: the first impact of the wanted motion that exact arithmetic
+/// - `exact_first_impact_step`, `exact_first_impact_fraction`: the first impact of the wanted motion that exact
+/// arithmetic
 ///   has, over the steps that began free.
 /// - `toi_error_max`: largest difference of the first reported fraction of a step and the exact first impact, over the
 ///   steps where the two are comparable (see `Judge`) and the reported collider is one of exact arithmetic's.
@@ -37,7 +47,7 @@ namespace paperproof::compare {
 ///   horizontal motion was wanted.
 /// - `rest_peak_to_peak_m`, `rest_rms_m`, `contact_toggles`: see `Rest`.
 /// - `crushes`: steps with a crush that exact arithmetic verified; what movers press the character into on them is not
-///   counted as inside, but in `steps_inside_after_crush` for as long as it lasts. `crushes_with_room`: steps with one
+///   counted as inside, but in `steps_inside_after_crush` for as long as it lasts. `crushes_refuted`: steps with one
 ///   that it refuted.
 /// - `sensor_events`: entries and exits that there were. `sensor_errors`: those that were not reported, and reports of
 ///   others. `max_sensor_error`: of the fractions of the rest.
@@ -63,12 +73,20 @@ class Metrics {
     std::vector<ColliderIndex> dont_care;
     std::vector<Touch> ghosts;
     bool stuck = false;
+    std::vector<Touch> deflected{};
+    std::vector<ColliderIndex> band{};
+    std::vector<ColliderIndex> by_company{};
   };
   struct Matches {
     int counted = 0;
     int right = 0;
     int wanted = 0;
     int found = 0;
+    int band = 0;
+    int late = 0;
+    int reach = 0;
+    int by_company = 0;
+    int stuck = 0;
   };
   using View = detail::Window<Moment>::View;
   /// What is matched from step to step.
@@ -77,7 +95,10 @@ class Metrics {
     detail::Window<Moment> window{};
     Rest rest;
   };
-  static void match(const View& view, Matches& matches);
+  void match(const View& view, Matches& matches) const;
+  void match_wanted(const View& view, Matches& matches) const;
+  void add_progress(const TraceStep& step, const StepJudgement& judgement);
+  void add_exempted(const StepJudgement& judgement);
   void add_first_contact(const TraceStep& step, const StepJudgement& judgement);
   void add_exact_impact(const TraceStep& step, const StepJudgement& judgement);
   void add_contacts(const TraceStep& step, const StepJudgement& judgement);
@@ -87,6 +108,10 @@ class Metrics {
   std::vector<std::string> ids_;
   Measured measured_;
   bool has_one_way_ = false;
+  bool promises_ = false;  ///< See `Party::promising`.
+  bool sampled_ = false;   ///< See `Party::sampled`.
+  double motion_wanted_ = 0;
+  double motion_lost_ = 0;
   std::vector<Follower> followers_;  ///< By character.
   Matches matches_;
   std::set<ColliderIndex> touched_;

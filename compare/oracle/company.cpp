@@ -1,6 +1,7 @@
 #include "oracle/company.hpp"
 
 #include "oracle/contacts.hpp"
+#include "oracle/exemptions.hpp"
 #include "oracle/passing.hpp"
 
 #include <algorithm>
@@ -52,7 +53,7 @@ CompanyJudge::CompanyJudge(const TraceHeader& header)
       pair_(header.points),
       box_(box_of(header.points)),
       slop_(detail::slop_of(header)),
-      reach_(header.path_exact ? std::max(detail::contact_reach, detail::touch_of(header)) : detail::skin) {}
+      reach_(header.path_exact ? std::max(detail::contact_reach, tolerance_named(header, "touch")) : detail::skin) {}
 
 std::vector<CharacterIndex> CompanyJudge::overlapped(std::span<const Vec2d> positions, CharacterIndex character) const {
   std::vector<CharacterIndex> found;
@@ -135,6 +136,11 @@ void CompanyJudge::judge_pair(const TraceStep& one, const TraceStep& other, Step
   if (!pair_.overlap(end_of(one), end_of(other))) return judge_apart(one, other, judgement);
   const bool is_new = inside_.try_emplace(key, std::pair(start_of(one), start_of(other))).second;
   const double depth = -pair_.separation(end_of(one), end_of(other));
+  if (is_new && party_of(header_) != Party::promising && depth <= ulp_at(header_, end_of(one))) {
+    inside_.erase(key);
+    judgement.company.rounded.push_back(other.character);
+    return;
+  }
   judgement.max_penetration = std::max(judgement.max_penetration, depth);
   judgement.company.overlap.push_back(other.character);
   if (is_new) judgement.company.entered.push_back(other.character);
@@ -157,7 +163,7 @@ void CompanyJudge::judge_apart(const TraceStep& one, const TraceStep& other, Ste
 void CompanyJudge::judge_ways(Way one, Way other, CharacterIndex whom, StepJudgement& judgement) const {
   if (!pair_.meet(one, other)) return;
   StepJudgement::Company& company = judgement.company;
-  (pair_.deepest(one, other) <= slop_ ? company.corner_cut : company.passed).push_back(whom);
+  (slop_ > 0 && pair_.deepest(one, other) <= slop_ ? company.corner_cut : company.passed).push_back(whom);
 }
 
 std::optional<CompanyJudge::Impact> CompanyJudge::first_impact(const TraceStep& one, const TraceStep& other) const {
@@ -212,21 +218,29 @@ void CompanyJudge::excuse(const TraceStep& one, const TraceStep& other, StepJudg
     return impact && impact->normal.x() * wanted.x() < 0;
   };
   const auto look = [&](const Vec2d& mine, const Vec2d& theirs) {
-    if (judgement.ghost_speed_loss == 0) return;
+    if (judgement.ghost_speed_loss == 0 && judgement.motion_lost == 0) return;
     opposed = opposed || pair_.meet_between(mine, theirs, mine + wanted, theirs) || is_pushed(mine, theirs);
   };
   for (const PathPoint<double>& corner : one.path) look(corner.position, place_at(other.path, corner.fraction));
   for (const PathPoint<double>& corner : other.path) look(place_at(one.path, corner.fraction), corner.position);
   const bool may_be_pushed = near && !header_.path_exact;
-  if (opposed || may_be_pushed) judgement.ghost_speed_loss = 0;
+  if (opposed || may_be_pushed) judgement.ghost_speed_loss = judgement.motion_lost = 0;
   if (!near) return;
+  const bool excused = allowed(Exempt::company, header_) > 0;
   for (const Contact<double>& contact : one.contacts) {
+    const std::pair touch(contact.collider, contact.side);
     const bool exact = std::any_of(judgement.contacts.begin(), judgement.contacts.end(), [&](const ExactContact& each) {
       return each.collider == contact.collider && each.side == contact.side;
     });
-    if (!exact) judgement.dont_care.push_back(contact.collider);
+    if (exact) continue;
+    judgement.dont_care.push_back(contact.collider);
+    if (excused) judgement.excused_by_company.push_back(contact.collider);
+    const bool faced = std::find(judgement.faced.begin(), judgement.faced.end(), touch) != judgement.faced.end();
+    if (!excused && faced) judgement.deflected.push_back(touch);
   }
-  std::erase_if(judgement.contacts, [&one](const ExactContact& exact) {
+  // What another turned aside before is not met by what was requested.
+  std::erase_if(judgement.contacts, [&](const ExactContact& exact) {
+    if (!excused) return exact.foreseen && judgement.first_met && exact.fraction > *judgement.first_impact;
     return std::none_of(one.contacts.begin(), one.contacts.end(), [&exact](const Contact<double>& contact) {
       return contact.collider == exact.collider && contact.side == exact.side;
     });

@@ -28,9 +28,10 @@ namespace paperproof::compare {
 /// **In company.** Who comes within 1e-6 m of another (float: within the gap at which it still touches; Box2D: its
 /// skin, 20 mm) at a corner of either's way may be turned aside there, so what was requested no longer says what
 /// scenery is met: on such a step contacts with scenery that were reported and are not exact, or are exact and were not
-/// reported, count neither way; and horizontal speed that the other opposes, where it is or where it wants to go
-/// (within the step and the skin beyond, as for solids), is not lost to nothing. In Box2D characters push each other,
-/// and whoever is in company may have been.
+/// reported, count neither way (exempted; of who is excused nothing a reported one is right where a face is there, and
+/// an exact one from the start of the step alone is none where the other was met first); and horizontal speed that the
+/// other opposes, where it is or where it wants to go (within the step and the skin beyond, as for solids), is not lost
+/// to nothing. In Box2D characters push each other, and whoever is in company may have been.
 class CompanyJudge {
  public:
   explicit CompanyJudge(const TraceHeader& header);

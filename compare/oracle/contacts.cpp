@@ -1,6 +1,11 @@
 #include "oracle/contacts.hpp"
 
+#include "oracle/exemptions.hpp"
+#include "oracle/hanging.hpp"
+
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace paperproof::compare::detail {
 namespace {
@@ -15,27 +20,32 @@ constexpr double same_face = 0.9;
 /// A smaller share of the speed is rounding: Box2D's floats have 24 bits.
 constexpr double least_loss = 1e-5;
 
-void add_contact(const ExactImpact& impact, double fraction, StepJudgement& judgement) {
+/// Of one collider and side there may be several normals: two slopes of one polygon.
+void add_contact(const ExactImpact& impact, double fraction, StepJudgement& judgement, bool foreseen = false) {
   const Side side = side_of_normal(impact.normal.x(), impact.normal.y());
   for (ExactContact& known : judgement.contacts) {
-    if (known.collider != impact.collider || known.side != side) continue;
+    if (known.collider != impact.collider || known.side != side || known.normal != impact.normal) continue;
     known.fraction = std::min(known.fraction, fraction);
+    known.foreseen = known.foreseen && foreseen;
     return;
   }
   judgement.contacts.push_back(
-      {.collider = impact.collider, .side = side, .normal = impact.normal, .fraction = fraction});
+      {.collider = impact.collider, .side = side, .normal = impact.normal, .fraction = fraction, .foreseen = foreseen});
+}
+
+double degrees_between(const Vec2d& a, const Vec2d& b) {
+  return std::atan2(std::abs(a.x() * b.y() - a.y() * b.x()), a.dot(b)) * 180 / std::numbers::pi;
 }
 
 }  // namespace
 
-double touch_of(const TraceHeader& header) {
-  for (const NamedTolerance& tolerance : header.tolerances)
-    if (tolerance.name == "touch") return tolerance.metres;
-  return 0;
-}
-
 ContactJudge::ContactJudge(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step)
-    : header_(header), scenery_(scenery), step_(step), touch_(touch_of(header)) {}
+    : header_(header),
+      scenery_(scenery),
+      step_(step),
+      promises_(party_of(header) == Party::promising),
+      touch_(promises_ ? tolerance_named(header, "touch") : own_reach(header)),
+      hit_(std::max(hit_reach, tolerance_named(header, "unit"))) {}
 
 Vec2d ContactJudge::wanted(ColliderIndex collider) const {
   const MoverIndex mover = scenery_.scenery().colliders[collider].mover;
@@ -67,6 +77,11 @@ void ContactJudge::judge(bool starts_free, StepJudgement& judgement) const {
   add_gaps(judgement);
   add_dont_care(judgement);
   add_ghosts(judgement);
+  add_normal_error(judgement);
+  if (header_.characters > 1)
+    for (const Contact<double>& contact : step_.contacts)
+      if (has_face(contact)) judgement.faced.emplace_back(contact.collider, contact.side);
+  measure_motion(starts_free, judgement);
   // What a crush stops is not stopped by nothing.
   if (judgement.crushed.empty()) judgement.ghost_speed_loss = ghost_speed_loss(starts_free);
 }
@@ -105,7 +120,7 @@ void ContactJudge::add_first_impacts(const std::vector<ExactImpact>& impacts, bo
   if (first == impacts.end()) return;
   for (const ExactImpact& impact : impacts) {
     if (impact.fraction != first->fraction || !impact.exposed) continue;
-    add_contact(impact, static_cast<double>(impact.fraction), judgement);
+    add_contact(impact, static_cast<double>(impact.fraction), judgement, true);
   }
   if (!starts_free) return;
   const double fraction = static_cast<double>(first->fraction);
@@ -137,15 +152,44 @@ double ContactJudge::ghost_speed_loss(bool starts_free) const {
   const double wanted = step_.requested.x() / length_of(step_, header_);
   if (wanted == 0) return 0;
   const double loss = std::clamp(1 - step_.velocity.x() / wanted, 0.0, 1.0);
-  if (loss < least_loss || !starts_free) return 0;
-  const double beyond = std::copysign(header_.path_exact ? contact_reach : skin, wanted);
+  return loss < least_loss || !starts_free || is_opposed(wanted) ? 0 : loss;
+}
+
+/// What is missing of the wanted horizontal displacement, and whether something exact is in the way of it.
+void ContactJudge::measure_motion(bool starts_free, StepJudgement& judgement) const {
+  const double wanted = step_.requested.x();
+  judgement.motion_wanted = std::abs(wanted);
+  if (wanted == 0 || !starts_free || !judgement.crushed.empty() || step_.capped) return;
+  const double made = step_.path.back().position.x() - step_.path.front().position.x() + judgement.remainder_made;
+  const double lost = std::clamp(std::abs(wanted) - std::copysign(1.0, wanted) * made, 0.0, std::abs(wanted));
+  const double rounding = ulp_at(header_, step_.path.front().position) + least_loss * std::abs(wanted);
+  if (lost > rounding && !is_opposed(wanted)) judgement.motion_lost = lost;
+}
+
+/// Whether a solid is in the way of the wanted horizontal motion, from any corner of the path.
+bool ContactJudge::is_opposed(double wanted) const {
+  const double beyond = std::copysign(promises_ ? contact_reach : own_reach(header_), wanted);
   for (std::size_t i = 0; i < step_.path.size(); ++i) {
     for (const ExactImpact& impact : scenery_.impacts(place(i), step_.requested + Vec2d(beyond, 0))) {
-      if (impact.exposed && impact.normal.x() * wanted < 0) return 0;
+      if (impact.exposed && impact.normal.x() * wanted < 0) return true;
     }
   }
-  if (!header_.path_exact && pushed_by_skin(wanted)) return 0;
-  return loss;
+  return !header_.path_exact && pushed_by_skin(wanted);
+}
+
+void ContactJudge::add_normal_error(StepJudgement& judgement) const {
+  for (const Contact<double>& contact : step_.contacts) {
+    std::optional<double> least;
+    for (const ExactContact& exact : judgement.contacts) {
+      if (exact.collider != contact.collider || exact.side != contact.side) continue;
+      const double error = degrees_between(exact.normal, contact.normal);
+      least = std::min(least.value_or(error), error);
+    }
+    if (!least) continue;
+    if (const std::optional<Vec2d> face = face_of(contact))
+      least = std::min(*least, degrees_between(*face, contact.normal));
+    judgement.normal_error = std::max(judgement.normal_error.value_or(0), *least);
+  }
 }
 
 /// Box2D pushes out of what is within its skin: whether a reported contact against the motion has a real face there.
@@ -155,15 +199,28 @@ bool ContactJudge::pushed_by_skin(double wanted) const {
   });
 }
 
-/// Whether a face of the solids taken together is there to be touched along the reported normal.
-bool ContactJudge::has_face(const Contact<double>& contact) const {
+/// The face of the solids taken together that is there to be touched along the reported normal: its own normal.
+std::optional<Vec2d> ContactJudge::face_of(const Contact<double>& contact) const {
   const double reach = header_.path_exact ? 2 * std::max(contact_reach, touch_) : skin;
+  std::optional<Vec2d> most_alike;
   for (std::size_t i = 0; i < step_.path.size(); ++i) {
     Place beyond = place(i);
     beyond.position -= contact.normal * reach;
     for (const ExactImpact& impact : scenery_.impacts_between(place(i), beyond)) {
-      if (impact.exposed && impact.normal.dot(contact.normal) > same_face) return true;
+      const double alike = impact.normal.dot(contact.normal);
+      if (!impact.exposed || !(alike > same_face)) continue;
+      if (!most_alike || alike > most_alike->dot(contact.normal)) most_alike = impact.normal;
     }
+  }
+  return most_alike;
+}
+
+/// Whether the way that was travelled leads against the reported normal, and stops there, on ground: it was followed.
+bool ContactJudge::ran_into(const Contact<double>& contact) const {
+  if (!is_walkable(contact.normal, header_)) return false;
+  for (std::size_t i = 1; i < step_.path.size(); ++i) {
+    const Vec2d leg = step_.path[i].position - step_.path[i - 1].position;
+    if (contact.normal.dot(leg) < 0 && scenery_.separation(place(i), contact.collider) <= contact_reach) return true;
   }
   return false;
 }
@@ -200,7 +257,7 @@ bool ContactJudge::comes_near(const Contact<double>& contact) const {
     const double gap = scenery_.separation(place(i), contact.collider);
     if (gap >= 0 && gap <= touch_) return true;
     Place nearer = place(i);
-    nearer.position -= contact.normal * hit_reach;
+    nearer.position -= contact.normal * hit_;
     const std::vector<ExactImpact> impacts = scenery_.impacts(nearer, step_.requested);
     if (std::any_of(impacts.begin(), impacts.end(), is_it)) return true;
   }
@@ -222,7 +279,11 @@ void ContactJudge::add_dont_care(StepJudgement& judgement) const {
   }
   for (const Contact<double>& contact : step_.contacts) {
     if (!header_.path_exact || exact(contact.collider)) continue;
-    if (met_after_another(contact, judgement) || comes_near(contact)) judgement.dont_care.push_back(contact.collider);
+    const bool deflected = met_after_another(contact, judgement) || ran_into(contact);
+    if (deflected && has_face(contact)) judgement.deflected.emplace_back(contact.collider, contact.side);
+    const bool near = comes_near(contact);
+    if (promises_ && near) judgement.contact_band.push_back(contact.collider);
+    if (deflected || near) judgement.dont_care.push_back(contact.collider);
   }
   std::sort(judgement.dont_care.begin(), judgement.dont_care.end());
   judgement.dont_care.erase(std::unique(judgement.dont_care.begin(), judgement.dont_care.end()),

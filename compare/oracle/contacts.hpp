@@ -10,15 +10,13 @@ inline constexpr double skin = 0.020;
 /// A contact is this near along its normal [m]: twice what the controller stops at.
 inline constexpr double contact_reach = 1e-6;
 
-/// Up to this gap the contender holds a contact that it has [m]; 0 where it does not say. In float that is more than
-/// `contact_reach`.
-[[nodiscard]] double touch_of(const TraceHeader& header);
-
 /// Judges the contacts of one step: see `Judge` for what each answer means. Lives for one step.
 class ContactJudge {
  public:
   ContactJudge(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step);
   void judge(bool starts_free, StepJudgement& judgement) const;
+  /// How much of the wanted horizontal motion was lost to nothing; `judge` asks it, too.
+  void measure_motion(bool starts_free, StepJudgement& judgement) const;
 
  private:
   [[nodiscard]] Place place(std::size_t corner) const { return {step_.path[corner], step_.movers}; }
@@ -32,8 +30,12 @@ class ContactJudge {
   void add_dont_care(StepJudgement& judgement) const;
   void add_ghosts(StepJudgement& judgement) const;
   [[nodiscard]] double ghost_speed_loss(bool starts_free) const;
+  [[nodiscard]] bool is_opposed(double wanted) const;
+  void add_normal_error(StepJudgement& judgement) const;
   [[nodiscard]] bool pushed_by_skin(double wanted) const;
-  [[nodiscard]] bool has_face(const Contact<double>& contact) const;
+  [[nodiscard]] std::optional<Vec2d> face_of(const Contact<double>& contact) const;
+  [[nodiscard]] bool has_face(const Contact<double>& contact) const { return face_of(contact).has_value(); }
+  [[nodiscard]] bool ran_into(const Contact<double>& contact) const;
   [[nodiscard]] bool met_after_another(const Contact<double>& contact, const StepJudgement& judgement) const;
   [[nodiscard]] bool comes_near(const Contact<double>& contact) const;
   [[nodiscard]] bool dropped_through(ColliderIndex collider) const;
@@ -42,7 +44,9 @@ class ContactJudge {
   const TraceHeader& header_;
   const ExactScenery& scenery_;
   const TraceStep& step_;
-  double touch_;  ///< See `touch_of`.
+  bool promises_;  ///< See `Party::promising`.
+  double touch_;   ///< Up to this gap the contender may hold a contact that it has [m].
+  double hit_;     ///< Below this gap at the end of the motion it may call it a contact already [m].
 };
 
 }  // namespace paperproof::compare::detail

@@ -1,6 +1,6 @@
 #include "oracle/hanging.hpp"
 
-#include "oracle/contacts.hpp"
+#include "oracle/exemptions.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,26 +20,15 @@ constexpr double normal_rounding = 1e-12;
 
 double area_of(const Vec2d& a, const Vec2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-double tolerance_named(const TraceHeader& header, std::string_view name) {
-  for (const NamedTolerance& tolerance : header.tolerances)
-    if (tolerance.name == name) return tolerance.metres;
-  return 0;
-}
-
-/// Between the largest coordinate of a place and the next number, as the contender counts [m].
-double ulp_at(const TraceHeader& header, const Vec2d& position) {
-  const double largest = position.cwiseAbs().maxCoeff();
-  if (header.scalar != "float") return std::nextafter(largest, 2 * largest + 1) - largest;
-  const auto narrow = static_cast<float>(largest);
-  return static_cast<double>(std::nextafter(narrow, 2 * narrow + 1) - narrow);
-}
-
 }  // namespace
 
+bool is_walkable(const Vec2d& normal, const TraceHeader& header) {
+  return normal.y() >= std::cos(header.max_climb_degrees * std::numbers::pi / 180 + climb_margin);
+}
+
 Reach reach_of(const TraceHeader& header) {
-  if (!header.path_exact) return {skin, 2 * skin};
-  const double own = std::max(tolerance_named(header, "unit"), touch_of(header));
-  if (own <= exact_reach.contact) return exact_reach;
+  const double own = std::max(exact_reach.contact, allowed(Exempt::hover, header));
+  if (own == exact_reach.contact) return exact_reach;
   return {own, 2 * own};
 }
 
@@ -98,9 +87,8 @@ bool HangingJudge::blocks(const Place& at, const NearPart& part, double within) 
 }
 
 bool HangingJudge::is_ground(const NearPart& part) const {
-  const double steepest = std::cos(header_.max_climb_degrees * std::numbers::pi / 180 + climb_margin);
   return std::any_of(part.faces.begin(), part.faces.end(),
-                     [&](const NearFace& face) { return face.normal.y() >= steepest; });
+                     [&](const NearFace& face) { return is_walkable(face.normal, header_); });
 }
 
 /// The displacement nearest to what is wanted that keeps clear of all obstacles: it is that itself, or on the border of

@@ -18,6 +18,9 @@ inline constexpr Reach exact_reach{1e-6, 2e-7};
 /// none of them enters an opening without that much room on both sides. Else the exact one.
 [[nodiscard]] Reach reach_of(const TraceHeader& header);
 
+/// Whether a surface with this unit normal is within the climb limit, and 1e-6 rad.
+[[nodiscard]] bool is_walkable(const Vec2d& normal, const TraceHeader& header);
+
 /// Asks of a step whether it hangs: see `Judge` for what that means. Lives for one step.
 class HangingJudge {
  public:

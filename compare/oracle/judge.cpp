@@ -1,6 +1,7 @@
 #include "oracle/judge.hpp"
 
 #include "oracle/contacts.hpp"
+#include "oracle/exemptions.hpp"
 #include "oracle/hanging.hpp"
 #include "oracle/passing.hpp"
 #include "oracle/turning.hpp"
@@ -15,6 +16,8 @@ namespace {
 /// Instants at which the depth of a passing is looked at first.
 constexpr int depth_samples = 32;
 constexpr int depth_refinements = 40;
+/// A way out of what the octagon is inside of is looked for this far [m].
+constexpr double farthest_way_out = 1e4;
 
 bool contains(const std::vector<ColliderIndex>& some, ColliderIndex collider) {
   return std::find(some.begin(), some.end(), collider) != some.end();
@@ -36,6 +39,7 @@ Judge::Judge(const TraceHeader& header)
       turning_(std::make_unique<detail::TurningJudge>(header_)),
       scenery_(detail::TurningJudge::exact_part(header), header.points) {
   slop_ = detail::slop_of(header);
+  promises_ = party_of(header) == Party::promising;
   for (const ColliderDef& def : header.scenery.colliders) {
     has_sensors_ = has_sensors_ || def.sensor;
     if (def.mover != no_mover) mover_count_ = std::max(mover_count_, std::size_t{def.mover} + 1);
@@ -63,10 +67,13 @@ StepJudgement Judge::judge_exactly(const TraceStep& step, const Others& others) 
   if (path.empty()) return judgement;
   if (!continues(step, path.front())) begin_episodes(path.front());
   const bool starts_free = inside_.empty();
+  if (!step.respawn) judgement.remainder_made = step.remainder.x() - remainder_before_.x();
   if (!starts_free || !step.contacts.empty() || !step.crushed.empty() || !alone(path, step)) {
     judgement.end_overlap = scenery_.overlapped(path.back());
     judge_way(path, step, others, judgement);
     detail::ContactJudge(header_, scenery_, step).judge(starts_free, judgement);
+  } else {
+    detail::ContactJudge(header_, scenery_, step).measure_motion(starts_free, judgement);
   }
   if (has_sensors_) judge_sensors(path, step, judgement);
   judge_progress(step, others, judgement);
@@ -111,9 +118,8 @@ bool Judge::repeats(const TraceStep& step) const {
     return a.collider == b.collider && a.normal == b.normal;
   };
   return step.dt == last.dt && step.requested == last.requested && step.steered == last.steered &&
-         step.velocity == last.velocity && step.remainder == last.remainder &&
-         step.crushed == last.crushed && step.dropped_through == last.dropped_through && step.sensors.empty() &&
-         last.sensors.empty() &&
+         step.velocity == last.velocity && step.remainder == last.remainder && step.crushed == last.crushed &&
+         step.dropped_through == last.dropped_through && step.sensors.empty() && last.sensors.empty() &&
          std::equal(step.movers.begin(), step.movers.end(), last.movers.begin(), last.movers.end(), same_motion) &&
          std::equal(step.path.begin(), step.path.end(), last.path.begin(), last.path.end(), same_corner) &&
          std::equal(step.contacts.begin(), step.contacts.end(), last.contacts.begin(), last.contacts.end(),
@@ -132,7 +138,7 @@ bool Judge::continues(const TraceStep& step, const Place& start) const {
 void Judge::begin_episodes(const Place& start) {
   inside_.clear();
   for (const ColliderIndex collider : scenery_.overlapped(start)) {
-    inside_[collider] = {std::nullopt, scenery_.penetration(start, collider), false};
+    inside_[collider] = {.free_from = {}, .depth = scenery_.penetration(start, collider)};
   }
 }
 
@@ -159,7 +165,7 @@ void Judge::judge_end(const Path& path, Touched& touched, StepJudgement& judgeme
   for (const ColliderIndex collider : judgement.end_overlap) {
     const auto entered = touched.find(collider);
     const auto [it, is_new] =
-        inside_.try_emplace(collider, Episode{Kept(path[entered != touched.end() ? entered->second : 0]), 0, false});
+        inside_.try_emplace(collider, Episode{.free_from = Kept(path[entered != touched.end() ? entered->second : 0])});
     Episode& episode = it->second;
     const double depth = scenery_.penetration(path.back(), collider);
     episode.depth = std::max(episode.depth, depth);
@@ -170,11 +176,15 @@ void Judge::judge_end(const Path& path, Touched& touched, StepJudgement& judgeme
       if (free != path.rend()) episode.free_from.emplace(*free);
     }
     episode.pressed = episode.pressed || contains(judgement.crushed, collider);
+    const bool was_rounded = episode.rounded;
+    episode.rounded = !promises_ && (is_new || was_rounded) && depth <= ulp_at(header_, path.back().position);
     if (episode.pressed) {
       judgement.pressed.push_back(collider);
+    } else if (episode.rounded) {
+      judgement.rounded.push_back(collider);
     } else {
       judgement.max_penetration = std::max(judgement.max_penetration, depth);
-      if (is_new) judgement.entered.push_back(collider);
+      if (is_new || was_rounded) judgement.entered.push_back(collider);
     }
     touched.erase(collider);
   }
@@ -200,7 +210,7 @@ bool Judge::went_through(const Vec2d& from, const Place& end, ColliderIndex coll
 /// @param from, to both free of the collider; the straight way between them meets it.
 void Judge::judge_passing(const Path& path, ColliderIndex collider, const Place& from, const Place& to, double depth,
                           StepJudgement& judgement) const {
-  if (std::max(depth, depth_of(path, collider)) <= slop_) {
+  if (slop_ > 0 && std::max(depth, depth_of(path, collider)) <= slop_) {
     judgement.corner_cut.push_back(collider);
     return;
   }
@@ -247,31 +257,89 @@ double Judge::depth_of(const Path& path, ColliderIndex collider) const {
   return deepest;
 }
 
+/// Overlapped where the step ends, deeper than by rounding, and in no earlier step.
+std::vector<ColliderIndex> Judge::newly_inside(const StepJudgement& judgement) const {
+  std::vector<ColliderIndex> entered = judgement.end_overlap;
+  std::erase_if(entered, [this](ColliderIndex collider) { return inside_.contains(collider); });
+  return entered;
+}
+
 void Judge::judge_crushes(const Path& path, const TraceStep& step, const Touched& touched, const Others& others,
                           StepJudgement& judgement) const {
-  if (step.crushed.empty()) return;
+  const auto goes = [&](ColliderIndex collider) {
+    const MoverIndex mover = header_.scenery.colliders[collider].mover;
+    return mover != no_mover && step.movers[mover].from != step.movers[mover].to;
+  };
+  const auto comes_closer = [&](ColliderIndex collider) {
+    if (!goes(collider)) return false;
+    const Place early(path.front().position, step.movers, 0);
+    const Place late(path.front().position, step.movers, 1);
+    return scenery_.meets(early, late, collider) ||
+           scenery_.separation(late, collider) < scenery_.separation(early, collider);
+  };
+  std::vector<ColliderIndex> pressing = step.crushed;
+  const std::vector<ColliderIndex> entered = promises_ ? std::vector<ColliderIndex>{} : newly_inside(judgement);
+  if (!entered.empty()) {
+    // Who promises nothing has no word for it, or not for all: what comes closer and is in reach is asked for.
+    for (const ColliderIndex collider : scenery_.near(path.front(), path.back(), own_reach(header_)))
+      if (!contains(pressing, collider) && comes_closer(collider)) pressing.push_back(collider);
+  }
+  if (pressing.empty()) return;
   detail::Meetings meetings{touched, {}};
   for (const auto& [collider, episode] : inside_) {
     std::optional<Place>& free = meetings.before[collider];
     if (episode.free_from) free = episode.free_from->place();
   }
-  judgement.room = detail::find_room(scenery_, path, step.crushed, meetings, others);
+  judgement.room = detail::find_room(scenery_, path, pressing, meetings, others);
+  // One mover may press the octagon after another that goes away more slowly.
+  const bool pressed = std::any_of(step.crushed.begin(), step.crushed.end(), comes_closer);
   for (const ColliderIndex collider : step.crushed) {
-    const bool moves = header_.scenery.colliders[collider].mover != no_mover;
-    (moves && (!judgement.room || others.touched) ? judgement.crushed : judgement.crushed_with_room)
-        .push_back(collider);
+    const bool moves = pressed && goes(collider);
+    const bool excused = moves && judgement.room && others.touched && allowed(Exempt::touched_crush, header_) > 0;
+    judgement.excused_crush = judgement.excused_crush || excused;
+    (moves && (!judgement.room || excused) ? judgement.crushed : judgement.crushed_with_room).push_back(collider);
   }
+  if (judgement.room) return;
+  for (const std::vector<ColliderIndex>& excused : {pressing, entered})
+    for (const ColliderIndex collider : excused)
+      if (!entered.empty() && !contains(judgement.crushed, collider) && !contains(step.crushed, collider))
+        judgement.crushed.push_back(collider);
 }
 
-void Judge::judge_progress(const TraceStep& step, const Others& others, StepJudgement& judgement) const {
+void Judge::judge_progress(const TraceStep& step, const Others& others, StepJudgement& judgement) {
+  if (step.stuck) {
+    const bool free = judgement.end_overlap.empty() && step.start_overlap.empty();
+    judgement.stuck_refuted = free || has_way_out({step.path.back(), step.movers}, others);
+  }
   if (!judgement.crushed.empty()) return;
   const detail::HangingJudge hanging(header_, scenery_, step, others);
   const Vec2d before = step.respawn ? step.remainder : remainder_before_;
   const Vec2d made = step.path.back().position - step.path.front().position + step.remainder - before;
   const detail::Reach own = detail::reach_of(header_);
   judgement.hangs = hanging.hangs(made, own);
-  judgement.hovers = own.contact > detail::exact_reach.contact && !judgement.hangs &&
-                     hanging.hangs(made, detail::exact_reach);
+  judgement.hovers =
+      own.contact > detail::exact_reach.contact && !judgement.hangs && hanging.hangs(made, detail::exact_reach);
+}
+
+/// Asked once for each place: it costs much, and whoever is stuck mostly stays.
+bool Judge::has_way_out(const Place& end, const Others& others) {
+  if (asked_way_out_) {
+    const Kept& asked = asked_way_out_->first;
+    const bool same =
+        asked.position == end.position && asked.fraction == end.fraction && !others.left_free &&
+        std::equal(asked.movers.begin(), asked.movers.end(), end.movers.begin(), end.movers.end(), same_motion);
+    if (same) return asked_way_out_->second;
+  }
+  const std::optional<Vec2d> out = scenery_.way_out(end, farthest_way_out);
+  const auto on_another_side = [&](const auto& stay) {
+    const std::optional<Kept>& free = stay.second.free_from;
+    return free && scenery_.meets(free->place(), Place(*out, end.movers, end.fraction), stay.first);
+  };
+  const bool found =
+      out && std::none_of(inside_.begin(), inside_.end(), on_another_side) &&
+      (!others.left_free || others.left_free(std::vector<PathPoint<double>>{{end.position, 0}, {*out, 1}}));
+  asked_way_out_.emplace(Kept(end), found);
+  return found;
 }
 
 void Judge::judge_sensors(const Path& path, const TraceStep& step, StepJudgement& judgement) const {

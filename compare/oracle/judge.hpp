@@ -19,6 +19,8 @@ struct ExactContact {
   Side side = Side::bottom;
   Vec2d normal{Vec2d::Zero()};  ///< Unit, from the obstacle towards the octagon.
   double fraction = 0;          ///< Of the step.
+  /// Met by the requested motion from the start of the step alone: what turns the motion before may prevent it.
+  bool foreseen = false;
 };
 
 /// How a solid was passed.
@@ -33,6 +35,7 @@ struct StepJudgement {
   std::vector<ColliderIndex> end_overlap;  ///< Solids that the octagon overlaps at the end of the step.
   std::vector<ColliderIndex> pressed;      ///< Of these, the ones that a verified crush brought on, now or before.
   std::vector<ColliderIndex> entered;      ///< Of these, the ones that are new and not pressed.
+  std::vector<ColliderIndex> rounded;      ///< Of these, the ones that are no deeper than rounding: see `Judge`.
   std::vector<ColliderIndex> tunnelled;    ///< Solids that were passed through: see `Judge`.
   std::vector<Passing> passings;           ///< One for each of `tunnelled`.
   std::vector<ColliderIndex> corner_cut;   ///< The same, but no deeper than the slop.
@@ -40,18 +43,32 @@ struct StepJudgement {
   std::vector<ColliderIndex> one_way_broken;
   std::vector<ColliderIndex> crushed;            ///< Reported as crushing, and there was no room: see `Judge`.
   std::vector<ColliderIndex> crushed_with_room;  ///< Reported as crushing, although there was room.
+  bool excused_crush = false;                    ///< Some of `crushed` had room, and touched another character.
   std::optional<Vec2d> room;                     ///< Where that was, if something was reported as crushing.
   double max_penetration = 0;                    ///< At the end of the step, apart from `pressed` [m].
   double max_contact_gap = 0;  ///< Over the reported contacts: exact separation where the contact stopped it [m].
   std::vector<ExactContact> contacts;  ///< What should have been reported.
   std::vector<ColliderIndex>
       dont_care;  ///< Within reach of what the contender calls touching: neither right nor wrong.
+  /// Of the `dont_care`, those that are between where §6 of the guarantee begins to hit and where it lets go.
+  std::vector<ColliderIndex> contact_band;
+  /// Reported contacts that no requested motion has, but what an exact contact leaves of it: right all the same.
+  std::vector<std::pair<ColliderIndex, Side>> deflected;
+  /// Reported contacts along whose normal a face is there to be touched; asked among several characters.
+  std::vector<std::pair<ColliderIndex, Side>> faced;
+  /// Not confirmed because another character was touched.
+  std::vector<ColliderIndex> excused_by_company;
+  std::optional<double> normal_error;  ///< Largest over the reported contacts that are exact [degrees].
   /// Reported contacts with a don't-care collider on a side where no face stands out: wrong all the same.
   std::vector<std::pair<ColliderIndex, Side>> ghosts;
   std::optional<double> first_impact;    ///< Exact fraction of the first impact of the requested motion, started free.
   bool first_impact_comparable = false;  ///< A reported fraction can be held against it: see `Judge`.
-  bool hangs = false;           ///< It could have fallen, and did not: see `Judge`.
+  bool hangs = false;                    ///< It could have fallen, and did not: see `Judge`.
   bool hovers = false;          ///< It would hang, but for what is within the contender's own reach and not near.
+  double remainder_made = 0;    ///< Horizontally, taken up by a grid to be made later [m].
+  double motion_wanted = 0;     ///< Horizontally [m].
+  double motion_lost = 0;       ///< Of that, to nothing exact [m]: see `Judge`.
+  bool stuck_refuted = false;   ///< It said that it is stuck, and there is a way out: see `Judge`.
   double ghost_speed_loss = 0;  ///< Share of the wanted horizontal speed that was lost to nothing exact, in [0, 1].
   std::vector<ExactSensorEvent> sensor_events;  ///< What should have been reported.
   int sensor_events_missing = 0;                ///< Of `sensor_events`.
@@ -64,6 +81,7 @@ struct StepJudgement {
     std::vector<CharacterIndex> entered;     ///< Of these, the ones that are new.
     std::vector<CharacterIndex> passed;      ///< Got past each other.
     std::vector<CharacterIndex> corner_cut;  ///< The same, but no deeper than the slop.
+    std::vector<CharacterIndex> rounded;     ///< Overlapped anew, by no more than rounding.
 
     [[nodiscard]] bool broke() const { return !entered.empty() || !passed.empty(); }
   };
@@ -106,16 +124,24 @@ struct StepJudgement {
 ///   of the step that meets no solid but what is overlapped at that corner; and no solid that was met before lies
 ///   between the last place free of it and there: on its far side there is no room;
 /// - and, among several characters, whose whole way meets none of the others on theirs, nor ends within 1e-7 m of one.
-/// Who touched another during the step is excused with room, too: what one does to the other is handled impact by
-/// impact, and may hide room that is there for both together. `room` says where it was.
-/// A collider that stands still never crushes. What a mover presses the octagon into besides itself is not excused.
+/// Who touched another during the step may be excused with room, too (exempted): what one does to the other is handled
+/// impact by impact, and may hide room that is there for both together. `room` says where it was.
+/// The same is asked for who promises nothing when a step ends inside something new: of the movers that come closer and
+/// are within its reach, named or not. Where they leave no room, all that it is pressed into is excused.
+/// A collider that stands still or rests never crushes, nor does anything where nothing that is named comes closer to
+/// where the octagon was when the step began. What a
+/// mover presses the octagon into besides itself is not excused.
 ///
 /// **Sensor events** are compared in order, for every sensor entering and leaving apart.
 ///
-/// **Corner cut.** The same, but nowhere deeper than the slop: 5 mm, or 20 mm where the path is sampled (Box2D), and
-/// never more than an eighth of the octagon's narrowest width. The depth is the octagon's, not the solid's: however
-/// thin a paper is, an octagon that passes it is half its own width deep at some instant. What a cut touches is
-/// therefore only a rim of the octagon; its core stays free all along.
+/// **Exemptions** are data, with their sizes: oracle/exemptions.hpp. octagon_sweep in double has none.
+///
+/// **Rounding.** Whoever promises nothing may end inside by one ulp of its largest coordinate: `rounded` is no overlap.
+///
+/// **Corner cut.** The same as tunnelling, but nowhere deeper than the slop (exempted), and never more than an eighth
+/// of the octagon's narrowest width. The depth is the octagon's, not the solid's: however thin a paper is, an octagon
+/// that passes it is half its own width deep at some instant. What a cut touches is therefore only a rim of the
+/// octagon; its core stays free all along.
 ///
 /// **Contact.** A collider that the requested displacement, from a corner of the path (for Box2D: from its start or
 /// end), enters after at most 1e-6 m along the contact normal, if it enters it in what is left of the step there, or
@@ -123,11 +149,15 @@ struct StepJudgement {
 /// Nearness without motion into it is none, nor is a normal that only a seam between abutting colliders has, nor a
 /// one-way chain that is passed on purpose.
 ///
-/// **Don't care.** A collider whose contact is a matter of the contender's stated skin: for Box2D within 20 mm of the
-/// start or the end of the path; else one that the requested motion leads against and comes within 1e-7 m of, or that
-/// is nearer than the gap up to which the contender says it holds a contact (`touch`); one that is near enough for a
-/// contact where the step ends, but not reported, as the motion, or that of a mover, may end there; and one that is
-/// near enough, but only behind a seam. A report of it is a ghost where no face stands out that its normal could be of.
+/// A reported contact with a face there to be touched is right, too (`deflected`), if what an exact contact leaves of
+/// the requested motion enters it, or if the way that was travelled runs into it (ground that is followed).
+///
+/// **Don't care.** A collider whose contact is a matter of the contender's own reach: for Box2D within 20 mm of the
+/// start or the end of the path; else one that the requested motion leads against and comes within 1e-7 m (who searches
+/// by units: a unit) of, or that is no farther than the reach; one that is near enough for a contact where the step
+/// ends, but not reported, as the motion, or that of a mover, may end there; and one that is near enough, but only
+/// behind a seam. A report of it is a ghost where no face stands out that its normal could be of. Of octagon_sweep in
+/// double only `contact_band` counts neither way: what comes within 1e-7 m, or is held up to 7e-7 m away.
 ///
 /// **Fraction.** A first impact is comparable where the octagon began farther than 1e-6 m (Box2D: its skin, 20 mm) away
 /// along the normal, and the approach against the normal is at least 1e-3 of the displacement: at rest, and where the
@@ -136,15 +166,27 @@ struct StepJudgement {
 /// **Hangs.** Let u be what is requested less what the step's steering added to it. C is the set of displacements that
 /// enter no solid and no other character that is within 1e-6 m (separation along the best axis) of a corner of the
 /// travelled way: of each convex part, those against none of the normals of one face that separates it there, relative
-/// to how far it moves in the step. (A one-way chain counts where it blocks the shortest way to it.) The projection of u
-/// onto C is the displacement of C that is nearest to u. A step hangs if the projection falls, u falls, each by more
+/// to how far it moves in the step. (A one-way chain counts where it blocks the shortest way to it.) The projection of
+/// u onto C is the displacement of C that is nearest to u. A step hangs if the projection falls, u falls, each by more
 /// than 1e-9 m and an ulp of the largest coordinate, and the step falls less than half of both. Excepted are
 /// - a direction with less than 2e-7 m of room between what is left and right of it, which is not in C;
 /// - ground: a step with a part in reach one of whose faces is within `max_climb_degrees` (and 1e-6 rad) of level;
-/// - a step that touches a corner deeper than 1e-6 m inside a solid, a verified crush, and Box2D's cap: other answers say
+/// - a step that touches a corner deeper than 1e-6 m inside a solid, a verified crush, and Box2D's cap: other answers
+/// say
 ///   so; and one beside what turns.
 /// What a grid has taken up and not made yet (`remainder`) counts as made. A step hovers if it would hang, but for what
 /// is within the contender's own reach (`detail::reach_of`): Box2D's skin, a unit of the article's search.
+///
+/// **Motion lost.** What is missing of the requested horizontal displacement is lost to nothing under the conditions of
+/// ghost speed loss, whether a contact was reported or not; but for a step that Box2D's cap cut short, or one that
+/// said it is stuck and was right.
+///
+/// **Stuck, refuted.** A step that says it is stuck is refuted if it ends free, or if the shortest straight way out
+/// (`ExactScenery::way_out`) leaves the other characters free and ends on the side of the last place that was free of
+/// what it is inside of.
+///
+/// **Normal error.** The angle between the normal of a reported contact and the nearest normal of the exact contacts
+/// with that collider on that side, and of the face that is touched along the reported normal.
 ///
 /// **What turns** is judged apart, between bounds: see oracle/turning.hpp.
 ///
@@ -175,6 +217,7 @@ class Judge {
     std::optional<Kept> free_from;  ///< Last place free of it; none where the run began inside.
     double depth = 0;               ///< Largest so far [m].
     bool pressed = false;           ///< By a verified crush.
+    bool rounded = false;           ///< No deeper than rounding so far.
   };
   using Path = std::vector<Place>;
   using Touched = std::map<ColliderIndex, std::size_t>;  ///< With the corner where the first leg that meets it begins.
@@ -197,7 +240,9 @@ class Judge {
   void judge_crushes(const Path& path, const TraceStep& step, const Touched& touched, const Others& others,
                      StepJudgement& judgement) const;
   void judge_sensors(const Path& path, const TraceStep& step, StepJudgement& judgement) const;
-  void judge_progress(const TraceStep& step, const Others& others, StepJudgement& judgement) const;
+  void judge_progress(const TraceStep& step, const Others& others, StepJudgement& judgement);
+  [[nodiscard]] std::vector<ColliderIndex> newly_inside(const StepJudgement& judgement) const;
+  [[nodiscard]] bool has_way_out(const Place& end, const Others& others);
 
   const TraceHeader header_;
   std::unique_ptr<detail::TurningJudge> turning_;
@@ -205,11 +250,14 @@ class Judge {
   std::size_t mover_count_ = 0;
   bool has_sensors_ = false;
   double slop_ = 0;
-  double dt_ = 0;  ///< Of the step that is being judged [s].
+  bool promises_ = false;  ///< See `Party::promising`.
+  double dt_ = 0;          ///< Of the step that is being judged [s].
   std::map<ColliderIndex, Episode> inside_;
   std::optional<Kept> last_end_;
-  Vec2d remainder_before_{Vec2d::Zero()};  ///< See `TraceStep::remainder`.
+  Vec2d remainder_before_{Vec2d::Zero()};                    ///< See `TraceStep::remainder`.
   std::optional<std::pair<TraceStep, StepJudgement>> last_;  ///< Where no episode was open.
+  /// The last place of which `has_way_out` was asked, and the answer.
+  std::optional<std::pair<Kept, bool>> asked_way_out_;
 };
 
 }  // namespace paperproof::compare

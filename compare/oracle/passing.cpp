@@ -1,5 +1,7 @@
 #include "oracle/passing.hpp"
 
+#include "oracle/exemptions.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -7,11 +9,6 @@ namespace paperproof::compare::detail {
 namespace {
 
 constexpr double degrees = 180 / 3.14159265358979323846;
-/// Passing a solid by no deeper than this is a corner cut [m]. Zero: a rounding error at a corner counts as tunnelling.
-/// Large: real passages are hidden.
-constexpr double slop_of_exact_path = 0.005;
-/// The same for a path that only holds samples: Box2D's skin.
-constexpr double slop_of_sampled_path = 0.020;
 /// So much of the octagon's narrowest width the slop may be at most: a character of a few millimetres that is passed by
 /// a paper is half a width deep, which must not be excused.
 constexpr double slop_of_width = 0.125;
@@ -74,8 +71,7 @@ double narrowest_width(const std::vector<Vec2d>& ring) {
 }
 
 double slop_of(const TraceHeader& header) {
-  return std::min(header.path_exact ? slop_of_exact_path : slop_of_sampled_path,
-                  slop_of_width * narrowest_width(header.points));
+  return std::min(allowed(Exempt::corner_cut, header), slop_of_width * narrowest_width(header.points));
 }
 
 }  // namespace paperproof::compare::detail

@@ -142,7 +142,7 @@ void TurningJudge::judge_way(const Solid& solid, const TraceStep& step, StepJudg
     }
   }
   if (depth <= 0) return;
-  if (depth <= slop_of(header_)) {
+  if (const double slop = slop_of(header_); slop > 0 && depth <= slop) {
     judgement.corner_cut.push_back(solid.collider);
     return;
   }

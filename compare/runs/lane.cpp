@@ -15,6 +15,8 @@ namespace {
 constexpr double guaranteed_range = 1e6;
 /// The largest gap that it may leave at a contact [m].
 constexpr double guaranteed_gap = 1e-6;
+/// A larger share of the wanted motion that is lost to nothing is a fault of who promises none.
+constexpr double most_motion_lost = 0.01;
 /// The first steps are kept for the replay one by one: a start is what people look at.
 constexpr int first_steps = 60;
 
@@ -40,6 +42,8 @@ Lane::Lane(std::string contender, ScalarKind scalar, const Scene& scene, const S
     for (std::size_t k = 0; k < records_.size(); ++k) judges_.push_back(std::make_unique<Judge>(header()));
     if (records_.size() > 1) company_ = std::make_unique<CompanyJudge>(header());
     metrics_ = std::make_unique<Metrics>(header(), metrics_for(scene, planning).measured);
+    if (is_reference(row_.contender)) bodies_ = std::make_unique<BodyJudge>(scene, header());
+    if (bodies_ && !bodies_->any()) bodies_.reset();
     if (limit_.most > 0) {
       replay_.header = header_as_run();
       replay_.others.resize(header().characters - 1);
@@ -137,6 +141,7 @@ void Lane::judge_step() {
   for (std::size_t k = 0; k < records_.size(); ++k) metrics_->add(records_[k], judgements_[k]);
   if (answers_)
     for (const TraceStep& record : records_) answers_->add(record);
+  if (bodies_) bodies_->add(records_.front());
 }
 
 void Lane::step(int step, const StepInput& input) {
@@ -235,14 +240,27 @@ bool Lane::guaranteed() const {
 void Lane::conclude() {
   const bool promised = guaranteed();
   conclude_safety(promised);
-  if (const int hanging = row_.hanging_steps.value_or(0); hanging > 0)
-    add_fault(row_, Axis::progress, promised ? Verdict::violates : Verdict::flagged,
-              fmt::format("hangs on {}", counted(hanging, "step")));
   if (!row_.answer_ok.value_or(true)) add_fault(row_, Axis::answer, Verdict::flagged, row_.answer);
+  if (bodies_) bodies_->write(row_);
+  conclude_progress(promised);
   if (steps_capped_ > 0)
     add_fault(row_, Axis::validity, Verdict::flagged,
               fmt::format("{} beyond Box2D's travel cap of 2 m per step, not scored", counted(steps_capped_, "step")));
   settle(row_);
+}
+
+void Lane::conclude_progress(bool promised) {
+  const Verdict broken = promised ? Verdict::violates : Verdict::flagged;
+  const auto fault = [&](const std::optional<int>& steps, Verdict verdict, const char* what) {
+    if (steps.value_or(0) > 0)
+      add_fault(row_, Axis::progress, verdict, fmt::format("{} on {}", what, counted(*steps, "step")));
+  };
+  fault(row_.hanging_steps, broken, "hangs");
+  fault(row_.stuck_refuted, broken, "says it is stuck beside a way out");
+  fault(row_.dropped_steps, Verdict::flagged, "drops displacement");
+  if (const double lost = row_.wanted_motion_lost.value_or(0); lost > (promised ? 0 : most_motion_lost))
+    add_fault(row_, Axis::progress, broken,
+              fmt::format("loses {:.3g} % of its horizontal motion to nothing", 100 * lost));
 }
 
 void Lane::conclude_safety(bool promised) {

@@ -6,6 +6,7 @@
 #include "oracle/company.hpp"
 #include "oracle/judge.hpp"
 #include "report/report.hpp"
+#include "runs/body_judge.hpp"
 #include "runs/contestant.hpp"
 #include "runs/cost.hpp"
 #include "runs/trace_writer.hpp"
@@ -70,6 +71,7 @@ class Lane {
   void note_events(std::size_t character);
   void conclude();
   void conclude_safety(bool promised);
+  void conclude_progress(bool promised);
   [[nodiscard]] bool guaranteed() const;
 
   Row row_;
@@ -80,6 +82,7 @@ class Lane {
   std::unique_ptr<CompanyJudge> company_;  ///< Null for one character.
   std::unique_ptr<Metrics> metrics_;
   std::optional<AnswerCheck> answers_;  ///< None where nothing is asked.
+  std::unique_ptr<BodyJudge> bodies_;   ///< Null where none are Box2D's own.
   std::unique_ptr<TraceWriter> trace_;
   // By character:
   std::vector<std::unique_ptr<Judge>> judges_;

@@ -1,6 +1,7 @@
 /// One result: a (scene, contender, scalar, mode) and its numbers. A metric that does not apply is absent.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -48,8 +49,8 @@ struct Row {
   std::string reason;  ///< empty for `holds` only
   std::vector<AxisFault> faults;
 
-  std::optional<int> characters;   ///< that the run had; absent for one
-  std::optional<int> tunnels;      ///< steps that passed through a solid
+  std::optional<int> characters;  ///< that the run had; absent for one
+  std::optional<int> tunnels;     ///< steps that passed through a solid
   std::optional<FirstTunnel> first_tunnel;
   std::optional<int> corner_cuts;  ///< passes shallower than the slop, counted apart
   std::optional<int> steps_ending_inside;
@@ -70,13 +71,23 @@ struct Row {
   std::optional<int> contact_steps;               ///< steps with any contact
   std::optional<int> colliders_touched;
   std::optional<int> respawns;
-  std::optional<int> crushes;              ///< steps on which movers left no room, verified; absent where nothing moves
-  std::optional<int> crushes_with_room;    ///< steps on which a crush was reported and there was room
-  std::optional<int> sensor_events;        ///< that there were, exactly; absent where there are no sensors
-  std::optional<int> sensor_errors;        ///< events missed, and events that there were not
-  std::optional<double> max_sensor_error;  ///< of the fraction of the step
+  std::optional<int> crushes;            ///< steps on which movers left no room, verified; absent where nothing moves
+  std::optional<int> crushes_refuted;    ///< steps on which a crush was reported and there was room
+  std::optional<int> body_tunnels;       ///< steps on which a body that Box2D moves passed a solid; in its own rows
+  std::optional<int> body_steps_inside;  ///< steps on which one ended inside something
+  std::optional<double> body_max_penetration_m;
+  std::optional<int> sensor_events;             ///< that there were, exactly; absent where there are no sensors
+  std::optional<int> sensor_errors;             ///< events missed, and events that there were not
+  std::optional<double> max_sensor_error;       ///< of the fraction of the step
   std::optional<int> steps_inside_after_crush;  ///< inside nothing but what a verified crush brought on
   std::optional<int> hanging_steps;             ///< steps that could have fallen, and did not
+  std::optional<int> stuck_refuted;             ///< steps on which it said so, and exact arithmetic has a way out
+  std::optional<double> distance_m;             ///< length of its ways
+  std::optional<double> wanted_motion_lost;     ///< share of the wanted horizontal motion, to nothing exact
+  std::optional<double> normal_error_max_deg;   ///< of reported contacts that are exact
+  std::optional<int> contact_band;              ///< contacts where the guarantee lets hit and hold be either
+  std::optional<int> rounding;                  ///< steps ending inside by no more than rounding
+  std::map<std::string, int> exempted;          ///< what was not held against it, how often: oracle/exemptions.hpp
   std::optional<int> stuck_steps;               ///< steps on which it said that it is stuck inside something
   std::optional<int> dropped_steps;             ///< steps with displacement dropped after the iterations
   std::optional<double> answer_error;   ///< of the scene's answer that is missed most, in its unit: see `AnswerCheck`
@@ -127,16 +138,25 @@ void for_each_metric(const Row& row, const Visit& visit) {
   visit("colliders_touched", row.colliders_touched);
   visit("respawns", row.respawns);
   visit("crushes", row.crushes);
-  visit("crushes_with_room", row.crushes_with_room);
+  visit("crushes_refuted", row.crushes_refuted);
+  visit("body_tunnels", row.body_tunnels);
+  visit("body_steps_inside", row.body_steps_inside);
+  visit("body_max_penetration_m", row.body_max_penetration_m);
   visit("sensor_events", row.sensor_events);
   visit("sensor_errors", row.sensor_errors);
   visit("max_sensor_error", row.max_sensor_error);
   visit("steps_inside_after_crush", row.steps_inside_after_crush);
   visit("hanging_steps", row.hanging_steps);
   visit("stuck_steps", row.stuck_steps);
+  visit("stuck_refuted", row.stuck_refuted);
   visit("dropped_steps", row.dropped_steps);
   visit("answer_error", row.answer_error);
   visit("answer_ok", row.answer_ok);
+  visit("wanted_motion_lost", row.wanted_motion_lost);
+  visit("distance_m", row.distance_m);
+  visit("contact_band", row.contact_band);
+  visit("rounding", row.rounding);
+  visit("normal_error_max_deg", row.normal_error_max_deg);
   visit("toi_error_max", row.toi_error_max);
   visit("ghost_speed_loss", row.ghost_speed_loss);
   visit("rest_peak_to_peak_m", row.rest_peak_to_peak_m);

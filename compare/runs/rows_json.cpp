@@ -47,6 +47,7 @@ nlohmann::ordered_json row_json(const Row& row) {
   for_each_metric(row, [&](const char* key, const auto& value) {
     if (value) object[key] = *value;
   });
+  if (row.steps > 0) object["exempted"] = row.exempted;
   if (row.first_tunnel) object["first_tunnel"] = first_tunnel_json(*row.first_tunnel);
   if (!row.first_difference_box2d.empty()) object["first_difference_box2d"] = row.first_difference_box2d;
   if (!row.findings.empty()) object["findings"] = row.findings;

@@ -117,7 +117,9 @@ std::string shared_reason(const Row& row) {
 
 std::string about_limits(const std::vector<Row>& rows) {
   const auto limited = [](const Row& row) {
-    const bool told = row.steps_ending_inside.value_or(0) > 0;  // by about_overlap
+    const bool told = row.steps_ending_inside.value_or(0) > 0 &&  // by about_overlap
+                      std::all_of(row.faults.begin(), row.faults.end(),
+                                  [](const AxisFault& fault) { return fault.axis == Axis::safety; });
     return (row.verdict == Verdict::flagged && !told) || !scored(row);
   };
   std::vector<std::string> told;

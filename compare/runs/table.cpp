@@ -34,6 +34,12 @@ Cell cost(const Row& row) {
   return fmt::format("{:.0f}..{:.0f}", *row.ns_per_step, row.ns_per_step_median.value_or(*row.ns_per_step));
 }
 
+Cell excused(const Row& row) {
+  int total = 0;
+  for (const auto& [exemption, often] : row.exempted) total += often;
+  return std::to_string(total);
+}
+
 Cell memory(const Row& row) {
   if (!row.memory_bytes) return std::nullopt;
   const auto bytes = static_cast<double>(*row.memory_bytes);
@@ -56,10 +62,14 @@ const std::vector<Column>& columns() {
       {"in crush", [](const Row& r) { return number(r.steps_inside_after_crush, "{}"); }, true},
       {"hanging", [](const Row& r) { return number(r.hanging_steps, "{}"); }, true},
       {"stuck", [](const Row& r) { return number(r.stuck_steps, "{}"); }, true},
+      {"refuted", [](const Row& r) { return number(r.stuck_refuted, "{}"); }, true},
+      {"dropped", [](const Row& r) { return number(r.dropped_steps, "{}"); }, true},
+      {"lost", [](const Row& r) { return number(r.wanted_motion_lost, "{:.2g}"); }, true},
       {"crushes", [](const Row& r) { return number(r.crushes, "{}"); }, true},
-      {"false crush", [](const Row& r) { return number(r.crushes_with_room, "{}"); }, true},
+      {"false crush", [](const Row& r) { return number(r.crushes_refuted, "{}"); }, true},
       {"sensor err.", [](const Row& r) { return number(r.sensor_errors, "{}"); }, true},
       {"gap m", [](const Row& r) { return number(r.max_contact_gap_m, "{:.2g}"); }},
+      {"excused", excused, true},
       {"prec. recall", [](const Row& r) { return shares(r.contact_precision, r.contact_recall); }},
       {"with Box2D", [](const Row& r) { return shares(r.contact_precision_box2d, r.contact_recall_box2d); }},
       {"TOI error", [](const Row& r) { return number(r.toi_error_max, "{:.1e}"); }},

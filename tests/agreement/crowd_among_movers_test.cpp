@@ -64,6 +64,8 @@ class RandomCrowd {
         motions_(scenery_.mover_count()),
         velocities_(scenery_.mover_count(), Vec2d::Zero()),
         until_turn_(scenery_.mover_count(), 0) {
+    header_.contender = "octagon_sweep";
+    header_.scalar = "double";
     header_.points = {character_.shape.hull().begin(), character_.shape.hull().end()};
     header_.scenery = scenery_.as_run();
     header_.dt = dt_;
@@ -204,9 +206,9 @@ class RandomCrowd {
       tally.stuck += member.step.status == StepStatus::stuck;
       tally.dropped += member.step.status == StepStatus::dropped;
       tally.stayed += member.stayed;
-      const StepJudgement judged =
-          judges_[i]->judge(records[i], company_->others_of(static_cast<CharacterIndex>(i), records));
-      count(judged, i, records[i], tally);
+      const compare::Others others = company_->others_of(static_cast<CharacterIndex>(i), records);
+      const StepJudgement judged = judges_[i]->judge(records[i], others);
+      count(judged, others.touched, i, records[i], tally);
       for (std::size_t j = i + 1; j < states_.size(); ++j) count_pair(records[i], records[j], tally);
       if (tally.broken() > before && before < most_described) describe(i, judged);
     }
@@ -224,11 +226,11 @@ class RandomCrowd {
     return record;
   }
 
-  void count(const StepJudgement& judged, std::size_t i, const TraceStep& record, Tally& tally) {
+  void count(const StepJudgement& judged, bool touched, std::size_t i, const TraceStep& record, Tally& tally) {
     tally.overlaps += !judged.entered.empty();
     tally.passages += !judged.tunnelled.empty() || !judged.corner_cut.empty() || !judged.one_way_broken.empty();
-    tally.room += !judged.crushed_with_room.empty();
-    tally.room_in_company += judged.room && !judged.crushed.empty();
+    tally.room += !judged.crushed_with_room.empty() && !touched;
+    tally.room_in_company += !judged.crushed_with_room.empty() && touched;
     const StepStatus status = report_.members[i].step.status;
     const bool named = judged.end_overlap.empty() || status == StepStatus::stuck || status == StepStatus::crushed;
     const bool whole = record.path.size() > 1 && record.path.front().fraction == 0 &&

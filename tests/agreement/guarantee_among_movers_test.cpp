@@ -87,6 +87,8 @@ class RandomRun {
     state_.position = (origin_ + Vec2d{random_.between(-4, 4), random_.between(-3, 5)}).cast<Scalar>();
     const double dt = random_.chance(0.7) ? 1.0 / 60 : random_.log_between(1e-3, 0.1);
     TraceHeader header;
+    header.contender = "octagon_sweep";
+    header.scalar = std::is_same_v<Scalar, float> ? "float" : "double";
     header.points = hull();
     header.scenery = scenery_.as_run();
     header.dt = static_cast<double>(static_cast<Scalar>(dt));

@@ -78,6 +78,8 @@ class Chamber {
     const double dt = 1.0 / steps_a_second[static_cast<std::size_t>(random_.integer(0, 3))];
     const Vec2d gravity(0, pulls[static_cast<std::size_t>(random_.integer(0, 2))]);
     TraceHeader header;
+    header.contender = "octagon_sweep";
+    header.scalar = "double";
     header.points.assign(controller.character().shape.hull().begin(), controller.character().shape.hull().end());
     header.scenery = scenery_.as_run();
     header.dt = dt;

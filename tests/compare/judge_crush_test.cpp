@@ -31,7 +31,7 @@ std::vector<ColliderDef> press() { return {box(-4, -1, 4, 0), moving(box(-4, 1.5
 const Vec2d standing(0, 0.625 + gap);
 
 TEST(JudgeCrush, without_room_it_is_verified_and_excused) {
-  Judge judge(header(press()));
+  Judge judge(promising(press()));
   const StepJudgement judged = judge.judge(staying(standing, {{0, 0}, {0, -0.5}}, {1}));
   EXPECT_EQ(judged.crushed, Colliders{1});
   EXPECT_TRUE(judged.crushed_with_room.empty());
@@ -42,7 +42,7 @@ TEST(JudgeCrush, without_room_it_is_verified_and_excused) {
 }
 
 TEST(JudgeCrush, unsaid_it_is_a_solid_entered) {
-  Judge judge(header(press()));
+  Judge judge(promising(press()));
   const StepJudgement judged = judge.judge(staying(standing, {{0, 0}, {0, -0.5}}, {}));
   EXPECT_TRUE(judged.crushed.empty());
   EXPECT_EQ(judged.entered, Colliders{1});
@@ -50,7 +50,7 @@ TEST(JudgeCrush, unsaid_it_is_a_solid_entered) {
 }
 
 TEST(JudgeCrush, with_room_below_it_is_none) {
-  Judge judge(header({box(-4, -3, 4, -2), moving(box(-4, 1.5, 4, 2))}));
+  Judge judge(promising({box(-4, -3, 4, -2), moving(box(-4, 1.5, 4, 2))}));
   const StepJudgement judged = judge.judge(staying(standing, {{0, 0}, {0, -0.5}}, {1}));
   EXPECT_TRUE(judged.crushed.empty());
   EXPECT_EQ(judged.crushed_with_room, Colliders{1});
@@ -62,7 +62,7 @@ TEST(JudgeCrush, an_opening_counts_from_two_tenths_of_a_micrometre_on) {
   // `more`.
   for (const double more : {-1e-3, 0.0, 1.9e-7, 2.1e-7, 1e-5, 0.1}) {
     const double wall = -0.1 + 0.625 + more;
-    Judge judge(header({box(wall, -4, 9, 4), moving(box(-2, -4, -0.5, 4))}));
+    Judge judge(promising({box(wall, -4, 9, 4), moving(box(-2, -4, -0.5, 4))}));
     const StepJudgement judged = judge.judge(staying({0, 0}, {{0, 0}, {0.4, 0}}, {1}));
     EXPECT_EQ(judged.crushed.empty(), more > 2e-7) << more;
     EXPECT_EQ(judged.crushed_with_room.empty(), !(more > 2e-7)) << more;
@@ -73,7 +73,7 @@ TEST(JudgeCrush, room_beyond_a_thin_wall_is_none) {
   for (const bool walled : {false, true}) {
     std::vector<ColliderDef> colliders{moving(box(-2, -4, -0.5, 4))};
     if (walled) colliders.push_back(chain({{0.4, -4}, {0.4, 4}}));
-    Judge judge(header(colliders));
+    Judge judge(promising(colliders));
     const StepJudgement judged = judge.judge(staying({0, 0}, {{0, 0}, {1.0, 0}}, {0}));
     EXPECT_EQ(judged.crushed, walled ? Colliders{0} : Colliders{}) << walled;
   }
@@ -87,7 +87,7 @@ TEST(JudgeCrush, room_that_only_a_way_from_after_it_reaches_is_none) {
   for (const bool blocked : {true, false}) {
     std::vector<ColliderDef> colliders{moving(box(half, 0, 1, 3))};
     if (blocked) colliders.push_back(box(-3, 0, -half, 1));
-    Judge judge(header(colliders));
+    Judge judge(promising(colliders));
     TraceStep lifted = step({{0, 0.625}, {0, 1.7}});
     lifted.movers = {{{0, 0}, {-0.8, 0}}};
     lifted.crushed = {0};
@@ -102,7 +102,7 @@ TEST(JudgeCrush, room_on_the_far_side_of_the_mover_is_none) {
   for (const bool walled : {false, true}) {
     std::vector<ColliderDef> colliders{moving(chain({{-0.5, -4}, {-0.5, 4}}))};
     if (walled) colliders.push_back(box(0.3125 + gap, -4, 1, 4));
-    Judge judge(header(colliders));
+    Judge judge(promising(colliders));
     const StepJudgement judged = judge.judge(staying({0, 0}, {{0, 0}, {1.1, 0}}, {0}));
     EXPECT_EQ(judged.crushed, walled ? Colliders{0} : Colliders{}) << walled;
     EXPECT_EQ(judged.tunnelled, walled ? Colliders{} : Colliders{0}) << walled;
@@ -111,7 +111,7 @@ TEST(JudgeCrush, room_on_the_far_side_of_the_mover_is_none) {
 }
 
 TEST(JudgeCrush, what_was_pressed_in_stays_excused_until_it_is_free) {
-  Judge judge(header(press()));
+  Judge judge(promising(press()));
   (void)judge.judge(staying(standing, {{0, 0}, {0, -0.5}}, {1}));
   const StepJudgement deeper = judge.judge(staying(standing, {{0, -0.5}, {0, -0.75}}, {}));
   EXPECT_EQ(deeper.pressed, Colliders{1});
@@ -125,7 +125,7 @@ TEST(JudgeCrush, what_was_pressed_in_stays_excused_until_it_is_free) {
 
 /// A slab 0.1 m thick that rises under an octagon below a ceiling: after 0.2 m it is 0.1 m deep in the octagon.
 struct Risen {
-  Judge judge{header({box(-4, 0.625 + gap, 4, 2), moving(box(-4, -0.825, 4, -0.725))})};
+  Judge judge{promising({box(-4, 0.625 + gap, 4, 2), moving(box(-4, -0.825, 4, -0.725))})};
 
   Risen() {
     const StepJudgement judged = judge.judge(staying({0, 0}, {{0, 0}, {0, 0.2}}, {1}));
@@ -167,7 +167,7 @@ TEST(JudgeCrush, whoever_moves_back_where_it_came_from_has_passed_nothing) {
 TEST(JudgeCrush, left_behind_in_the_step_of_the_crush_it_must_have_stayed_there_too) {
   // The slab goes up through the octagon and beyond it; the octagon then is below it, or went there itself.
   for (const bool goes : {false, true}) {
-    Judge judge(header({moving(box(-4, -0.825, 4, -0.725)), box(-4, 0.625 + gap, 4, 0.7)}));
+    Judge judge(promising({moving(box(-4, -0.825, 4, -0.725)), box(-4, 0.625 + gap, 4, 0.7)}));
     TraceStep passed = step({{0, 0}, {0, 0}, {0, goes ? -2.0 : 0.0}});
     passed.path[1].fraction = 0.05;
     passed.movers = {{{0, 0}, {0, goes ? 0.2 : 1.6}}};
@@ -179,7 +179,7 @@ TEST(JudgeCrush, left_behind_in_the_step_of_the_crush_it_must_have_stayed_there_
 }
 
 TEST(JudgeCrush, a_static_solid_never_crushes_and_being_pressed_into_one_is_not_excused) {
-  Judge judge(header(press()));
+  Judge judge(promising(press()));
   TraceStep sunk = staying(standing, {{0, 0}, {0, -0.5}}, {0, 1});
   sunk.path.back().position.y() -= 0.125;
   const StepJudgement judged = judge.judge(sunk);
@@ -189,7 +189,7 @@ TEST(JudgeCrush, a_static_solid_never_crushes_and_being_pressed_into_one_is_not_
 }
 
 TEST(JudgeCrush, a_ceiling_that_stops_short_by_less_than_an_opening_may_be_called_a_crush) {
-  Judge judge(header(press()));
+  Judge judge(promising(press()));
   const double down = 1.5 - 1.25 - gap - 1e-8;  // what is left is 1e-8 more than touching
   const StepJudgement judged = judge.judge(staying({0, 0.625 + 1e-7}, {{0, 0}, {0, -down - gap}}, {1}));
   EXPECT_EQ(judged.crushed, Colliders{1});
@@ -237,8 +237,9 @@ TEST(FreeSpace, a_place_that_is_found_keeps_the_clearance_and_none_is_missed) {
 }
 
 /// Pressed to the right by a face that goes from -0.5 to -0.1, with another character at some place all the time.
-StepJudgement pressed_beside(const Vec2d& other) {
-  const TraceHeader two = header({moving(box(-2, -4, -0.5, 4))});
+StepJudgement pressed_beside(const Vec2d& other, bool promises = true) {
+  const std::vector<ColliderDef> face{moving(box(-2, -4, -0.5, 4))};
+  const TraceHeader two = promises ? promising(face) : header(face);
   std::vector<TraceStep> steps{staying({0, 0}, {{0, 0}, {0.4, 0}}, {0}), staying(other, {{0, 0}, {0.4, 0}}, {})};
   steps[1].character = 1;
   return Judge(two).judge(steps[0], CompanyJudge(two).others_of(0, steps));
@@ -254,12 +255,40 @@ TEST(JudgeCrush, where_another_character_is_there_is_no_room) {
   }
 }
 
-TEST(JudgeCrush, who_touched_another_is_excused_with_room_and_the_room_is_told) {
-  const StepJudgement touched = pressed_beside({0, 1.25 + gap});
+TEST(JudgeCrush, who_touched_another_is_excused_with_room_unless_it_promises) {
+  const StepJudgement touched = pressed_beside({0, 1.25 + gap}, false);
   EXPECT_EQ(touched.crushed, Colliders{0});
+  EXPECT_TRUE(touched.excused_crush);
   EXPECT_TRUE(touched.room);
-  const StepJudgement alone = pressed_beside({0, 1.25 + 0.01});
+  const StepJudgement alone = pressed_beside({0, 1.25 + 0.01}, false);
   EXPECT_EQ(alone.crushed_with_room, Colliders{0});
+  EXPECT_FALSE(alone.excused_crush);
+  EXPECT_EQ(pressed_beside({0, 1.25 + gap}).crushed_with_room, Colliders{0});
+}
+
+TEST(JudgeCrush, by_what_rests_or_goes_away_is_refuted) {
+  for (const double lift : {0.0, 0.25}) {
+    Judge judge(promising({box(-4, -1, 4, 0), moving(box(-4, 1.25 + 2 * gap, 4, 2))}));
+    const StepJudgement judged = judge.judge(staying(standing, {{0, 0}, {0, lift}}, {1}));
+    EXPECT_TRUE(judged.crushed.empty()) << lift;
+    EXPECT_EQ(judged.crushed_with_room, Colliders{1}) << lift;
+  }
+}
+
+TEST(JudgeCrush, who_has_no_word_for_it_is_asked_for_room_all_the_same) {
+  for (const bool path_exact : {true, false}) {
+    Judge judge(header(press(), path_exact));
+    TraceStep sunk = staying(standing, {{0, 0}, {0, -0.5}}, {});
+    sunk.path.back().position.y() -= 0.125;
+    const StepJudgement judged = judge.judge(sunk);
+    EXPECT_EQ(judged.pressed, (Colliders{0, 1})) << "the press, and the floor into which it presses";
+    EXPECT_FALSE(judged.broke());
+    EXPECT_FALSE(judge.judge(staying(sunk.path.back().position, {{0, -0.5}, {0, -0.5}}, {})).broke());
+  }
+  Judge judge(header({box(-4, -3, 4, -2), moving(box(-4, 1.5, 4, 2))}));
+  const StepJudgement with_room = judge.judge(staying(standing, {{0, 0}, {0, -0.5}}, {}));
+  EXPECT_EQ(with_room.entered, Colliders{1});
+  EXPECT_TRUE(with_room.crushed_with_room.empty()) << "nobody said so";
 }
 
 }  // namespace

@@ -18,6 +18,14 @@ inline TraceHeader header(std::vector<ColliderDef> colliders, bool path_exact = 
   return header;
 }
 
+/// Of who is excused nothing.
+inline TraceHeader promising(std::vector<ColliderDef> colliders) {
+  TraceHeader promising = header(std::move(colliders));
+  promising.contender = "octagon_sweep";
+  promising.scalar = "double";
+  return promising;
+}
+
 inline TraceStep step(const std::vector<Vec2d>& path) {
   TraceStep step;
   for (std::size_t i = 0; i < path.size(); ++i) {

@@ -62,6 +62,76 @@ TEST(Judge, cutting_a_corner_shallower_than_the_slop_is_counted_apart) {
   }
 }
 
+TEST(Judge, who_promises_is_excused_no_corner) {
+  Judge judge(promising({box(0, -0.125, 1, 0.125)}));
+  const double x = 1 + 0.3125 - 1e-9;
+  const StepJudgement judged = judge.judge(step({{x, 2}, {x, -2}}));
+  EXPECT_EQ(judged.tunnelled, Colliders{0});
+  EXPECT_TRUE(judged.corner_cut.empty());
+}
+
+TEST(Judge, an_overlap_of_an_ulp_is_rounding_unless_it_is_promised_away) {
+  const double half = 0.3125;
+  for (const double ulps : {1.0, 3.0}) {
+    const double x = 4 + half - ulps * 0x1p-50;  // 4.3 m and an ulp of it
+    const auto judged = [&](TraceHeader head) { return Judge(std::move(head)).judge(step({{6, 0}, {x, 0}})); };
+    const StepJudgement rounded = judged(header({box(0, -1, 4, 1)}));
+    EXPECT_EQ(rounded.entered, ulps > 1 ? Colliders{0} : Colliders{}) << ulps;
+    EXPECT_EQ(rounded.rounded, ulps > 1 ? Colliders{} : Colliders{0}) << ulps;
+    EXPECT_EQ(rounded.max_penetration > 0, ulps > 1) << ulps;
+    EXPECT_EQ(judged(promising({box(0, -1, 4, 1)})).entered, Colliders{0});
+  }
+  Judge judge(header({box(0, -1, 4, 1)}));
+  EXPECT_TRUE(judge.judge(step({{6, 0}, {4 + half - 0x1p-50, 0}})).entered.empty());
+  EXPECT_EQ(judge.judge(step({{4 + half - 0x1p-50, 0}, {4, 0}})).entered, Colliders{0}) << "deeper afterwards";
+}
+
+TEST(Judge, stuck_is_refuted_where_a_straight_way_out_is_free) {
+  const auto says_stuck = [](std::vector<ColliderDef> colliders) {
+    TraceStep stuck = step({{0, 0}, {0, 0}});
+    stuck.stuck = true;
+    stuck.start_overlap = {0};
+    return Judge(promising(std::move(colliders))).judge(stuck).stuck_refuted;
+  };
+  const ColliderDef block = box(-0.5, -2, 2, 2);
+  EXPECT_TRUE(says_stuck({block}));
+  // Around it, nearer than the octagon is wide.
+  std::vector<ColliderDef> closed{block, box(-2, -4, -0.75, 4), box(2.25, -4, 4, 4), box(-2, 2.25, 4, 4),
+                                  box(-2, -4, 4, -2.25)};
+  EXPECT_FALSE(says_stuck(closed));
+  TraceStep free = step({{0, 0}, {0, 0}});
+  free.stuck = true;
+  EXPECT_TRUE(Judge(promising({box(4, 4, 5, 5)})).judge(free).stuck_refuted) << "it is inside of nothing";
+}
+
+TEST(Judge, motion_that_is_missing_was_lost_unless_something_is_in_its_way) {
+  const auto lost = [](double from, double to, double wanted) {
+    TraceStep went = step({{from, 0.625 + 5e-7}, {to, 0.625 + 5e-7}});
+    went.requested = {wanted, -1.0 / 128};
+    const StepJudgement judged = Judge(header({box(-4, -1, 4, 0), box(2, 0, 3, 2)})).judge(went);
+    EXPECT_EQ(judged.motion_wanted, std::abs(wanted));
+    return judged.motion_lost;
+  };
+  EXPECT_EQ(lost(-0.5, -0.5, 0.5), 0.5) << "no contact on that side, no velocity: lost all the same";
+  EXPECT_EQ(lost(-0.5, -0.25, 0.5), 0.25);
+  EXPECT_EQ(lost(-0.5, -0.625, 0.5), 0.5) << "backwards is no more than all of it";
+  EXPECT_EQ(lost(-0.5, 0, 0.5), 0);
+  EXPECT_EQ(lost(1.5, 2 - 0.3125 - 5e-7, 0.5), 0) << "the wall";
+  EXPECT_EQ(lost(2 - 0.3125 - 5e-7, 2 - 0.3125 - 5e-7, -0.5), 0.5) << "away from it";
+}
+
+TEST(Judge, the_normal_of_a_contact_is_held_against_the_exact_one_of_that_side) {
+  const auto error = [](const Vec2d& normal) {
+    TraceStep rest = step({{0, 0.625 + 5e-7}});
+    rest.requested = {0, -1.0 / 128};
+    rest.contacts = {{.collider = 0, .normal = normal, .side = Side::bottom}};
+    return Judge(promising({box(-4, -1, 4, 0)})).judge(rest).normal_error;
+  };
+  EXPECT_EQ(error({0, 1}), 0);
+  ASSERT_TRUE(error({0.6, 0.8}));
+  EXPECT_NEAR(*error({0.6, 0.8}), std::atan2(0.6, 0.8) * 180 / 3.14159265358979323846, 1e-12);
+}
+
 TEST(Judge, going_around_is_free) {
   Judge judge(header({box(-4, 0, 4, 0.125)}));
   const StepJudgement judged = judge.judge(step({{0, 1}, {5, 1}, {5, -1}, {0, -1}}));
@@ -260,7 +330,7 @@ TEST(Judge, box2d_may_touch_from_its_skin_without_being_right_or_wrong) {
 }
 
 TEST(Judge, a_contact_that_is_held_is_neither_right_nor_wrong_up_to_the_gap_that_the_contender_names) {
-  TraceHeader head = header({box(-4, -1, 4, 0)});
+  TraceHeader head = promising({box(-4, -1, 4, 0)});
   head.tolerances = {{"touch", 7e-7}};
   for (const auto& [gap, request, held] : {std::tuple{5e-7, 3e-7, true}, {9e-7, 3e-7, false}, {9e-7, 8.5e-7, true}}) {
     Judge judge(head);
@@ -270,6 +340,7 @@ TEST(Judge, a_contact_that_is_held_is_neither_right_nor_wrong_up_to_the_gap_that
     const StepJudgement judged = judge.judge(rest);
     EXPECT_TRUE(judged.contacts.empty()) << gap;
     EXPECT_EQ(judged.dont_care, held ? Colliders{0} : Colliders{}) << gap << " " << request;
+    EXPECT_EQ(judged.contact_band, judged.dont_care) << gap << " " << request;
     EXPECT_TRUE(judged.ghosts.empty()) << gap;
     rest.requested = {0, request};
     EXPECT_TRUE(Judge(head).judge(rest).dont_care.empty()) << "it leaves: " << gap;

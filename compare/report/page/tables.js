@@ -64,7 +64,7 @@ const QUALITY = [
   ],
   ['ghost_speed_loss', 'Snag', 'share', measure, 'Largest share of the wanted speed lost in one step to nothing exact'],
   ['crushes', 'Crushed', 'steps', count, 'Steps on which movers left no room, verified by exact arithmetic'],
-  ['crushes_with_room', 'Crushed with room', 'steps', count, 'Steps on which a crush was reported and there was room'],
+  ['crushes_refuted', 'Crushed with room', 'steps', count, 'Steps on which a crush was reported and there was room'],
   ['sensor_events', 'Sensor events', '', count, 'Entries and exits that there were, exactly'],
   ['sensor_errors', 'Sensor errors', '', count, 'Entries and exits that were missed, or reported and were not'],
   ['max_sensor_error', 'Sensor time error', 'of a step', measure, 'Largest error of the fraction of a step'],
@@ -77,6 +77,17 @@ const QUALITY = [
     'stuck_steps', 'Stuck', 'steps', count,
     'Steps on which it said that it is stuck inside something; they do not count for recall'
   ],
+  [
+    'stuck_refuted', 'Stuck, refuted', 'steps', count,
+    'Steps on which it said that it is stuck, and exact arithmetic has a straight way out'
+  ],
+  ['wanted_motion_lost', 'Motion lost', 'share', measure, 'Share of the wanted horizontal motion lost to nothing exact'],
+  ['distance_m', 'Distance', 'm', measure, 'Length of the way that was travelled'],
+  ['exempted', 'Exempted', '', count, 'What was not held against it, and how often; the sizes stand in the summary'],
+  ['rounding', 'Rounding', 'steps', count, 'Steps that end inside by no more than an ulp of the largest coordinate'],
+  ['body_tunnels', 'Bodies through', 'steps', count, 'Steps on which a body that Box2D moves passed a solid'],
+  ['body_steps_inside', 'Bodies inside', 'steps', count, 'Steps on which such a body ended inside something'],
+  ['body_max_penetration_m', 'Bodies\' depth', 'm', measure, 'Largest exact depth of such a body'],
   [
     'dropped_steps', 'Displacement left over', 'steps', count,
     'Steps on which a part of the displacement was left when the iterations ran out'
@@ -93,6 +104,8 @@ const QUALITY = [
 const CONTACTS = [
   ['contact_precision', 'Precision', '%, exact', share, 'Share of reported contacts that exact arithmetic confirms'],
   ['contact_recall', 'Recall', '%, exact', share, 'Share of the exact contacts that were reported'],
+  ['contact_band', 'In the band', '', count, 'Contacts between 1e-7 and 7e-7 m, where the guarantee lets hit and hold be either'],
+  ['normal_error_max_deg', 'Normal error', 'degrees', measure, 'Largest, of the reported contacts that are exact'],
   ['contact_precision_box2d', 'Precision', '%, Box2D', share, 'Share of reported contacts that Box2D reports too'],
   ['contact_recall_box2d', 'Recall', '%, Box2D', share, 'Share of Box2D\'s contacts that were reported'],
   [

@@ -1,0 +1,100 @@
+#include "oracle/exemptions.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace paperproof::compare {
+namespace {
+
+/// Box2D begins to report touching at this gap [m].
+constexpr double skin_of_box2d = 0.020;
+/// See `own_reach`.
+constexpr double least_reach = 1e-6;
+
+//                                                                 octagon_sweep  Box2D          by units  others
+constexpr std::array<Exemption, 7> all{{
+    {Exempt::corner_cut,
+     "corner_cut",
+     "passes a solid with a rim of the octagon no deeper than this (and an eighth of its width)",
+     "m",
+     {0, skin_of_box2d, 0.005, 0.005}},
+    {Exempt::late_match, "late_match", "reports a contact so many steps beside the exact one", "steps", {0, 1, 0, 0}},
+    {Exempt::reach,
+     "reach",
+     "reports a contact with what is no farther than this, and not met",
+     "m",
+     {0, skin_of_box2d, its_own, its_own}},
+    {Exempt::hover,
+     "hover",
+     "does not fall above, or beside, what is no farther than this",
+     "m",
+     {0, skin_of_box2d, its_own, its_own}},
+    {Exempt::company,
+     "company",
+     "touches another character, and reports or misses contacts with scenery",
+     "",
+     {0, 1, 1, 1}},
+    {Exempt::stuck, "stuck", "says that it is stuck, and misses contacts", "", {0, 1, 1, 1}},
+    {Exempt::touched_crush,
+     "touched_crush",
+     "says that it is crushed with room left, touched by another character",
+     "",
+     {0, 1, 1, 1}},
+}};
+
+std::string size_in_words(const Exemption& exemption, Party party) {
+  const double size = exemption.sizes[static_cast<std::size_t>(party)];
+  if (size == its_own) return party == Party::by_units ? "its unit" : "its touch gap";
+  if (exemption.unit.empty()) return size > 0 ? "yes" : "no";
+  if (size == 0) return "0";
+  char text[32];
+  std::snprintf(text, sizeof text, "%g ", size);
+  return text + std::string(exemption.unit);
+}
+
+}  // namespace
+
+Party party_of(const TraceHeader& header) {
+  if (!header.path_exact) return Party::sampled;
+  if (header.contender == "octagon_sweep" && header.scalar == "double") return Party::promising;
+  return tolerance_named(header, "unit") > 0 ? Party::by_units : Party::computing;
+}
+
+std::span<const Exemption> exemptions() { return all; }
+
+double allowed(Exempt which, const TraceHeader& header) {
+  const double size = all[static_cast<std::size_t>(which)].sizes[static_cast<std::size_t>(party_of(header))];
+  return size == its_own ? own_reach(header) : size;
+}
+
+double own_reach(const TraceHeader& header) {
+  if (!header.path_exact) return skin_of_box2d;
+  return std::max({least_reach, tolerance_named(header, "unit"), tolerance_named(header, "touch")});
+}
+
+double tolerance_named(const TraceHeader& header, std::string_view name) {
+  for (const NamedTolerance& tolerance : header.tolerances)
+    if (tolerance.name == name) return tolerance.metres;
+  return 0;
+}
+
+double ulp_at(const TraceHeader& header, const Vec2d& position) {
+  const double largest = position.cwiseAbs().maxCoeff();
+  if (header.scalar != "float") return std::nextafter(largest, 2 * largest + 1) - largest;
+  const auto narrow = static_cast<float>(largest);
+  return static_cast<double>(std::nextafter(narrow, 2 * narrow + 1) - narrow);
+}
+
+std::vector<std::string> exemptions_in_words() {
+  std::vector<std::string> lines;
+  for (const Exemption& exemption : all) {
+    lines.push_back(std::string(exemption.name) + ": " + std::string(exemption.meaning) + ". octagon_sweep in double " +
+                    size_in_words(exemption, Party::promising) + ", Box2D " + size_in_words(exemption, Party::sampled) +
+                    ", who searches by units " + size_in_words(exemption, Party::by_units) + ", others " +
+                    size_in_words(exemption, Party::computing));
+  }
+  return lines;
+}
+
+}  // namespace paperproof::compare

@@ -1,0 +1,48 @@
+/// What a contender is excused, and up to what size: one table for the judge, the rows, the command and the report.
+#pragma once
+
+#include "runs/trace.hpp"
+
+#include <array>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace paperproof::compare {
+
+/// Who is treated alike.
+enum class Party : std::uint8_t {
+  promising,  ///< octagon_sweep in double: it is excused nothing.
+  sampled,    ///< Its path is known by samples: Box2D.
+  by_units,   ///< It searches or moves by units.
+  computing,  ///< All others: bounding_box, discrete, float.
+};
+[[nodiscard]] Party party_of(const TraceHeader& header);
+
+enum class Exempt : std::uint8_t { corner_cut, late_match, reach, hover, company, stuck, touched_crush };
+
+struct Exemption {
+  Exempt which = Exempt::corner_cut;
+  std::string_view name;          ///< As rows have it in `exempted`.
+  std::string_view meaning;       ///< What happened that is not held against it.
+  std::string_view unit;          ///< "m" or "steps"; empty where there is no size, and 1 means that it applies.
+  std::array<double, 4> sizes{};  ///< By party; `its_own` for what its header says.
+};
+/// A unit of its search, or the gap up to which it holds a contact.
+inline constexpr double its_own = -1;
+
+/// In the order of `Exempt`.
+[[nodiscard]] std::span<const Exemption> exemptions();
+/// For this contender, in metres or steps; 0: it does not apply.
+[[nodiscard]] double allowed(Exempt which, const TraceHeader& header);
+/// What this contender calls near [m]: no less than 1e-6, at which §6 of the guarantee lets it stop.
+[[nodiscard]] double own_reach(const TraceHeader& header);
+/// In metres; 0 where it is not among the header's tolerances.
+[[nodiscard]] double tolerance_named(const TraceHeader& header, std::string_view name);
+/// Between the largest coordinate of a place and the next number, as this contender counts [m].
+[[nodiscard]] double ulp_at(const TraceHeader& header, const Vec2d& position);
+
+/// The table in words, a line for each exemption.
+[[nodiscard]] std::vector<std::string> exemptions_in_words();
+
+}  // namespace paperproof::compare
