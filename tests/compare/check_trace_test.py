@@ -33,6 +33,24 @@ class SpoiltTraces(Spoiling, unittest.TestCase):
 
         self.expect("ends inside platform", spoil)
 
+    def test_a_step_that_could_have_fallen(self):
+        def stay(ledge):
+            def spoil(header, steps):
+                x, y, _ = steps[0]["path"][0]
+                steps[0].update(path=[[x, y, 0], [x, y, 1]], contacts=[])
+                steps[1:] = []
+                right, low = (max(p[0] for p in header["points"]), min(p[1] for p in header["points"]))
+                if ledge == "wall":
+                    left = x + right + GAP
+                    header["colliders"].append({"id": "wall", "chain": [[left, y - 9], [left, y + 9]]})
+                elif ledge == "floor":
+                    header["colliders"].append({"id": "floor", "chain": [[x - 9, y + low - GAP], [x + 9, y + low - GAP]]})
+            return spoil
+
+        self.expect("hangs: it could have fallen", stay(None))
+        self.expect("hangs: it could have fallen", stay("wall"))
+        self.assertNotIn("hangs: it could have fallen", self.found(stay("floor")))
+
     def test_paper_of_no_thickness_in_the_way(self):
         def spoil(header, _):
             header["colliders"].append({"id": "paper", "chain": [[-1, 0.5], [1, 0.5]]})
