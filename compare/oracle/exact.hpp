@@ -100,8 +100,10 @@ class ExactScenery {
 
   /// The colliders that the open octagon meets anywhere on the way from `from` to `to`, which is straight in the frame
   /// of every mover: so it is within a step, and from a place in one step to a place in a later one it is the shortest.
-  /// A one-way segment counts where it blocks: the whole octagon on the side of its normal at `from`, and relative
-  /// motion against the normal.
+  /// A one-way segment counts where it blocks: for a way that begins above its surface. Chains of equal `one_way` that
+  /// go along with one mover, or stand, are joined where one ends and one begins, and cut where they do not go on
+  /// across `one_way`; the ends of each part are thought on straight. Above is an octagon whose open interior lies
+  /// wholly on the `one_way` side of that line.
   [[nodiscard]] std::vector<ColliderIndex> met(const Place& from, const Place& to) const;
 
   /// Whether the open octagon meets `collider` anywhere on the straight way, as `met`.

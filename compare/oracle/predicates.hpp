@@ -146,21 +146,4 @@ template <class Number>
   return (turn == Sign::positive) == above_b ? Answer::yes : Answer::no;
 }
 
-/// Whether a one-way segment, its blocking normal on the left of a→b, blocks a motion along `way`: the motion goes
-/// against the normal and the whole octagon starts on the side of the normal.
-template <class Number>
-[[nodiscard]] Answer one_way_blocks(const Octagon<Number>& octagon, const Point<Number>& way, const Point<Number>& a,
-                                    const Point<Number>& b) {
-  const Point<Number> along = b - a;
-  const Sign against = sign_of(cross(along, way));
-  if (against == Sign::positive || against == Sign::zero) return Answer::no;
-  bool unknown = against == Sign::unknown;
-  for (std::size_t k = 0; k < octagon.size; ++k) {
-    const Sign side = sign_of(cross(along, octagon.corners[k] - a));
-    if (side == Sign::negative) return Answer::no;
-    unknown = unknown || side == Sign::unknown;
-  }
-  return unknown ? Answer::unknown : Answer::yes;
-}
-
 }  // namespace paperproof::compare::detail

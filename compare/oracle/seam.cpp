@@ -98,7 +98,10 @@ bool Seams::pass(const Vec2d& vertex, std::uint32_t own, const Vec2d& start, con
         neighbour.group->edge_tree.meeting(Box2<double>{there, there}.inflated(neighbour.rounding));
     return std::any_of(edges.begin(), edges.end(), [&](std::uint32_t i) {
       const Edge& other = world_.edges()[i];
-      if (i == own || world_.solids()[other.collider].kind == Kind::one_way) return false;
+      if (i == own) return false;
+      // What may be let through passes no vertex but of its own surface, which is let through with it.
+      const bool one_way = world_.solids()[other.collider].kind == Kind::one_way;
+      if (one_way && other.surface != world_.edges()[own].surface) return false;
       if (side(neighbour, other.a, other.b, vertex, other.a) != Sign::zero) return false;
       return side(neighbour, start, end, vertex, other.a) == Sign::positive ||
              side(neighbour, start, end, vertex, other.b) == Sign::positive;

@@ -94,6 +94,7 @@ World::World(const SceneryDef& scenery, std::vector<Vec2d> points)
     if (def.mover != no_mover) mover_count_ = std::max(mover_count_, std::size_t{def.mover} + 1);
   }
   for (Group& group : groups_) build_trees(group);
+  surfaces_ = surface_finder_.find(edges_);
 }
 
 std::uint32_t World::find_group(const ColliderDef& def) {
@@ -152,6 +153,8 @@ void World::add_polygon(ColliderIndex index) {
 void World::add_chain(ColliderIndex index) {
   const ColliderDef& def = scenery_.colliders[index];
   solids_[index].kind = def.one_way ? Kind::one_way : Kind::two_sided;
+  const auto first_edge = static_cast<std::uint32_t>(edges_.size());
+  std::vector<Sign> sides;
   for (std::size_t i = 0; i + 1 < def.points.size(); ++i) {
     const Vec2d& a = def.points[i];
     const Vec2d& b = def.points[i + 1];
@@ -164,7 +167,9 @@ void World::add_chain(ColliderIndex index) {
     const Sign left = sign_of(cross(convert(number, b) - convert(number, a), convert(number, *def.one_way)));
     if (left == Sign::positive) add_edge(index, a, b);
     if (left == Sign::negative) add_edge(index, b, a);
+    sides.push_back(left);
   }
+  if (def.one_way) surface_finder_.add_chain(def, sides, first_edge);
 }
 
 Box2<double> World::box_of(const Way& way) const noexcept {
@@ -190,13 +195,49 @@ Passage::Frame<Number> Passage::frame(int unit) const {
 template <class Number>
 Answer Passage::enters(const Frame<Number>& frame, const Edge& edge) const {
   if (!frame.known) return Answer::unknown;
-  const Point<Number> a = frame.at(edge.a);
-  const Point<Number> b = frame.at(edge.b);
-  const Answer entered = segment_enters(frame.hull, a, b);
-  if (entered == Answer::no || world_.solids()[edge.collider].kind != Kind::one_way) return entered;
-  const Answer blocks = one_way_blocks(frame.octagon, frame.way, a, b);
-  if (blocks == Answer::no) return Answer::no;
-  return entered == Answer::yes && blocks == Answer::yes ? Answer::yes : Answer::unknown;
+  return segment_enters(frame.hull, frame.at(edge.a), frame.at(edge.b));
+}
+
+template <class Number>
+Answer Passage::above(const Frame<Number>& frame, const Surface& surface) const {
+  const Point<Number> up = convert(Convert<Number>{lowest_bit(surface.one_way)}, surface.one_way);
+  // Edges that are beside the octagon for certain say nothing.
+  const auto place_of = [&](const Vec2d& v) {
+    return (v.x() * surface.one_way.y() - v.y() * surface.one_way.x()) / surface.one_way.norm();
+  };
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (const Vec2d& point : world_.points()) {
+    const double place = place_of(way_.from.rounded() + point);
+    low = std::min(low, place);
+    high = std::max(high, place);
+  }
+  const double rounding =
+      (way_.from.size() + world_.points_box().upper.cwiseAbs().maxCoeff() + std::abs(low)) * 0x1p-44;
+  const auto beyond = std::lower_bound(surface.begins.begin() + 1, surface.begins.end(), low - rounding);
+  Answer above = Answer::yes;
+  for (auto i = static_cast<std::size_t>(beyond - surface.begins.begin()) - 1; i < surface.edges.size(); ++i) {
+    if (i > 0 && surface.begins[i] > high + rounding) break;
+    const bool last = i + 1 == surface.edges.size();
+    const Edge& edge = world_.edges()[surface.edges[i]];
+    const Point<Number> b = frame.at(edge.b);
+    above = both(above, is_not(corner_below(frame.octagon, up, frame.at(edge.a), b, i == 0, last)));
+    if (!last) above = both(above, is_not(vertex_above_rim(frame.octagon, up, b)));
+    if (above == Answer::no) break;
+  }
+  return above;
+}
+
+bool Passage::above(std::uint32_t surface) const {
+  if (known_above_ && known_above_->first == surface) return known_above_->second;
+  const Surface& asked = world_.surfaces()[surface];
+  Answer answer = above(quick_, asked);
+  if (answer == Answer::unknown) {
+    world_.count_exact();
+    answer = above(frame<Integer>(world_.unit_of(way_, asked)), asked);
+  }
+  known_above_.emplace(surface, answer == Answer::yes);
+  return known_above_->second;
 }
 
 template <class Number>
@@ -226,7 +267,7 @@ std::vector<std::uint32_t> Passage::entered(const std::vector<std::uint32_t>& ca
       if (!exact || exact->number.unit != unit) exact = frame<Integer>(unit);
       answer = enters(*exact, edge);
     }
-    if (answer == Answer::yes) found.push_back(i);
+    if (answer == Answer::yes && (edge.surface == Edge::no_surface || above(edge.surface))) found.push_back(i);
   }
   return found;
 }

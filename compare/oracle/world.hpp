@@ -2,6 +2,7 @@
 #pragma once
 
 #include "oracle/box_tree.hpp"
+#include "oracle/one_way.hpp"
 #include "oracle/predicates.hpp"
 #include "oracle/way.hpp"
 
@@ -20,6 +21,8 @@ struct Edge {
   Vec2d a;
   Vec2d b;
   ColliderIndex collider = 0;
+  static constexpr std::uint32_t no_surface = std::numeric_limits<std::uint32_t>::max();
+  std::uint32_t surface = no_surface;  ///< Of a one-way chain, into `World::surfaces()`.
 };
 
 enum class Kind : std::uint8_t { polygon, two_sided, one_way };
@@ -58,6 +61,7 @@ class World {
   }
   [[nodiscard]] std::span<const Solid> solids() const noexcept { return solids_; }
   [[nodiscard]] std::span<const Group> groups() const noexcept { return groups_; }
+  [[nodiscard]] std::span<const Surface> surfaces() const noexcept { return surfaces_; }
   /// One more than the highest mover that a collider goes along with.
   [[nodiscard]] std::size_t mover_count() const noexcept { return mover_count_; }
   [[nodiscard]] const Group& group_of(ColliderIndex collider) const noexcept {
@@ -70,6 +74,9 @@ class World {
   /// The unit in which everything about this way and this solid is an integer.
   [[nodiscard]] int unit_of(const Way& way, ColliderIndex collider) const noexcept {
     return std::min({solids_[collider].unit, points_unit_, way.unit()});
+  }
+  [[nodiscard]] int unit_of(const Way& way, const Surface& surface) const noexcept {
+    return std::min({surface.unit, points_unit_, way.unit()});
   }
 
   void count_exact() const noexcept { exact_decisions_.fetch_add(1, std::memory_order_relaxed); }
@@ -92,6 +99,8 @@ class World {
   std::vector<Edge> edges_;
   std::vector<Solid> solids_;
   std::vector<Group> groups_;
+  SurfaceFinder surface_finder_;
+  std::vector<Surface> surfaces_;
   std::size_t mover_count_ = 0;
   mutable std::atomic<std::uint64_t> exact_decisions_{0};
 };
@@ -135,15 +144,20 @@ class Passage {
   template <class Number>
   [[nodiscard]] Answer enters(const Frame<Number>& frame, const Edge& edge) const;
   template <class Number>
+  [[nodiscard]] Answer above(const Frame<Number>& frame, const Surface& surface) const;
+  template <class Number>
   [[nodiscard]] Answer inside(const Frame<Number>& frame, ColliderIndex collider) const;
   [[nodiscard]] std::vector<std::uint32_t> entered(const std::vector<std::uint32_t>& candidates) const;
   [[nodiscard]] bool inside(ColliderIndex collider) const;
+  /// Whether the way begins above a surface.
+  [[nodiscard]] bool above(std::uint32_t surface) const;
 
   const World& world_;
   const Group& group_;
   Way way_;
   Box2<double> box_;
   Frame<Approximate> quick_;
+  mutable std::optional<std::pair<std::uint32_t, bool>> known_above_;  ///< The surface asked about last.
 };
 
 }  // namespace paperproof::compare::detail

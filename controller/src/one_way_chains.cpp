@@ -17,7 +17,7 @@ constexpr double margin_share = 1e-6;
 
 /// Of the height over a segment, as a share of the coordinates.
 template <class Scalar>
-inline constexpr Scalar height_rounding = std::numeric_limits<Scalar>::epsilon() * 16;
+inline constexpr Scalar height_rounding = std::numeric_limits<Scalar>::epsilon() * 24;
 
 template <class Scalar>
 std::vector<PieceIndex> one_way_pieces(const Scenery<Scalar>& scenery) {
@@ -38,7 +38,7 @@ void add_in_order(ColliderIndex chain, FixedVector<ColliderIndex, capacity>& cha
 
 template <class Scalar>
 OneWayChains<Scalar>::OneWayChains(const Scenery<Scalar>& scenery, const CharacterShape& shape)
-    : scenery_(&scenery), finder_(scenery, shape, one_way_pieces(scenery)) {
+    : scenery_(&scenery), finder_(scenery, shape, one_way_pieces(scenery)), surfaces_(scenery, shape) {
   Vec2d middle = Vec2d::Zero();
   for (const Vec2d& corner : shape.hull()) middle += corner / static_cast<double>(shape.hull().size());
   for (const Vec2d& corner : shape.hull()) {
@@ -72,16 +72,15 @@ template <class Scalar>
 bool OneWayChains<Scalar>::passes(PieceIndex piece, const Vec2<Scalar>& from, const Vec2<Scalar>& to) const noexcept {
   const std::span<const Vec2<Scalar>> ends = scenery_->vertices_of(piece);
   const Vec2<Scalar> along = ends[1] - ends[0];
-  const Vec2<Scalar> normal{-along.y(), along.x()};
-  const Vec2<Scalar> way = to - from;
-  if (!(normal.dot(way) < 0)) return false;
+  const bool against = Vec2<Scalar>(-along.y(), along.x()).dot(to - from) < 0;
+  const typename OneWaySurfaces<Scalar>::Index surface = surfaces_.of(piece);
+  // What is above a straight surface does not pass it along its normal, but another part of a bent one may be in the
+  // way. Beside one that is not met against the normal none is said to be passed.
+  if (!against && surfaces_.is_straight(surface)) return false;
+  const auto& outline = against ? grown_ : outline_;
+  if (!geometry::overlap_time<Scalar>({outline.begin(), outline.end()}, ends, from, to).any()) return false;
   const Scalar size = from.cwiseAbs().maxCoeff() + ends[0].cwiseAbs().maxCoeff() + ends[1].cwiseAbs().maxCoeff();
-  const Scalar below = -height_rounding<Scalar> * size * (std::abs(normal.x()) + std::abs(normal.y()));
-  for (const Vec2<Scalar>& corner : outline_) {
-    const Vec2<Scalar> above = from + corner - ends[0];
-    if (!(normal.dot(above) >= below)) return false;
-  }
-  return geometry::overlap_time<Scalar>({grown_.begin(), grown_.end()}, ends, from, to).any();
+  return surfaces_.may_be_above(surface, from, height_rounding<Scalar> * size);
 }
 
 template class OneWayChains<float>;

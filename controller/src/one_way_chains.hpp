@@ -1,6 +1,7 @@
 /// One-way chains that a character drops through: which of them does it pass on the way?
 #pragma once
 
+#include "one_way_surfaces.hpp"
 #include "piece_finder.hpp"
 
 #include <paperproof/controller.hpp>
@@ -21,9 +22,9 @@ class OneWayChains {
 
   [[nodiscard]] Candidates<Scalar> make_candidates() const { return finder_.make_candidates(); }
 
-  /// The chains with a segment that a leg of the way passes against its normal, beginning wholly on the side that the
-  /// normal points to; ascending. What is missed by less than a micrometre is named as well: so none that exact
-  /// arithmetic sees is left out. Where there are more than `passed` holds the first are kept, and it overflowed.
+  /// The chains with a segment that a leg of the way passes, beginning above its surface; ascending. What is missed by
+  /// less than a micrometre is named as well: so none that exact arithmetic sees is left out. Where there are more than
+  /// `passed` holds the first are kept, and it overflowed.
   /// @param path straight between its corners. @param movers one for each mover of the scenery.
   /// @param candidates made by these chains, or by others of the same scenery and character.
   void find_passed(std::span<const PathPoint<Scalar>> path, std::span<const MoverMotion<Scalar>> movers,
@@ -34,6 +35,7 @@ class OneWayChains {
 
   const Scenery<Scalar>* scenery_;
   PieceFinder<Scalar> finder_;
+  OneWaySurfaces<Scalar> surfaces_;
   FixedVector<Vec2<Scalar>, CharacterShape::max_points> outline_;  ///< Of the character,
   FixedVector<Vec2<Scalar>, CharacterShape::max_points> grown_;    ///< and a little larger.
 };

@@ -65,17 +65,21 @@ bool Reported::drops_hold(std::span<const Place> path, std::span<const ColliderI
   return true;
 }
 
+/// Above a segment is where a way begins that is stopped by it: here, one to the middle of it, from a little higher.
 bool Reported::nearly_passes(const Place& from, const Place& to, ColliderIndex chain) const {
   if (!both_ways_.meets(from, to, chain)) return false;
   const ColliderDef& def = exact_.scenery().colliders[chain];
   const Vec2d start = from.position - from.offset(def.mover);
   const Vec2d end = to.position - to.offset(def.mover);
+  const Vec2d higher = from.position + rounding_ * def.one_way->normalized();
   for (std::size_t i = 1; i < def.points.size(); ++i) {
+    const Vec2d middle = (def.points[i] + def.points[i - 1]) / 2 + from.offset(def.mover);
+    const Place across(middle, from.movers, from.fraction);
     const Vec2d along = def.points[i] - def.points[i - 1];
     Vec2d normal = Vec2d(-along.y(), along.x()).normalized();
     if (normal.dot(*def.one_way) < 0) normal = -normal;
-    const double above = normal.dot(start - def.points[i]) + lowest_along(normal, hull_);
-    if (above >= -rounding_ && normal.dot(end - start) <= rounding_) return true;
+    if (!(normal.dot(end - start) <= rounding_)) continue;
+    if (exact_.meets(Place(higher, from.movers, from.fraction), across, chain)) return true;
   }
   return false;
 }

@@ -19,9 +19,8 @@ class Reported {
   /// than the exact gap (of a collider that is one convex part), and not negative unless the collider is overlapped.
   [[nodiscard]] bool contact_holds(std::span<const compare::Place> path, const Contact<double>& contact) const;
 
-  /// Each chain is named once, in order, is one-way, and is passed against its normal by some leg that begins wholly on
-  /// the side of the normal, or missed by no more than two micrometres. (That none is passed and not named is for a
-  /// judge to say.)
+  /// Each chain is named once, in order, is one-way, and is passed by some leg that begins above it, or missed by no
+  /// more than two micrometres. (That none is passed and not named is for a judge to say.)
   [[nodiscard]] bool drops_hold(std::span<const compare::Place> path, std::span<const ColliderIndex> named) const;
 
  private:

@@ -7,8 +7,8 @@ For every step:
 - the way that was travelled, corner by corner, enters no solid that the character was not already in, and the step does
   not end inside one; what the trace calls an overlap at the start of a step is one. What moves is looked at from where it
   is: its offset goes evenly from one end to the other while the fraction of the step goes from 0 to 1. Only a mover that
-  the step names in `crush` may come into the character, and one-way chains are passed against their normal only where
-  the step names them in `drop`;
+  the step names in `crush` may come into the character, and one-way chains are passed by a leg that begins above them
+  (see trace_one_way.py) only where the step names them in `drop`;
 - a step begins where the last one ended, unless the trace says that the character was put elsewhere; so does every mover,
   and every mover stands in every step;
 - of several characters each has a record in every step, in order; no two come to overlap at any moment of their ways
@@ -34,6 +34,7 @@ collides there.
 Every number of a trace is a double, and every double is a fraction: the answers are exact but where a tolerance is named.
 Exit status: 0 all holds, 1 something does not (one line each), 2 not a trace.
 """
+import itertools
 import json
 import sys
 from fractions import Fraction
@@ -42,8 +43,9 @@ from functools import lru_cache
 from trace_company import Company, first_event, meets_at_once, places_at
 from trace_geometry import (
     GAP, NEAR_DROP, NEAR_PASS, ROUNDING, SAME, ZERO, add, crossings, distance, dot, enters, exact, hull, inside, less,
-    scaled, size, turn)
+    scaled, size)
 from trace_hanging import hangs
+from trace_one_way import surfaces_of
 from trace_turning import SURE, Leg, comes_to_overlap, is_free, overlaps
 
 
@@ -53,22 +55,21 @@ class Collider:
         self.sensor = entry.get("sensor", False)
         self.one_way = tuple(map(Fraction, entry["one_way"])) if "one_way" in entry else None
         self.rings = [exact(ring) for ring in [entry["polygon"]] + entry.get("holes", [])] if "polygon" in entry else []
-        line = exact(entry.get("chain", []))
-        self.edges = list(zip(line, line[1:])) + [
+        self.line = exact(entry.get("chain", []))
+        self.edges = list(zip(self.line, self.line[1:])) + [
             edge for ring in self.rings for edge in zip(ring, ring[1:] + ring[:1])]
         points = [tuple(map(float, point)) for edge in self.edges for point in edge]
         self.low = [min(p[k] for p in points) for k in (0, 1)]
         self.high = [max(p[k] for p in points) for k in (0, 1)]
+        self.segments = []  # of a one-way chain, with their surfaces
 
-    def blocking_edges(self, body, way):
-        """Of a one-way chain, the segments that a body on this way may not pass."""
-        for a, b in self.edges:
-            n = (a[1] - b[1], b[0] - a[0])
-            facing = n[0] * self.one_way[0] + n[1] * self.one_way[1]
-            if facing < 0:
-                n, a, b = (-n[0], -n[1]), b, a
-            against = n[0] * way[0] + n[1] * way[1] < 0
-            if facing != 0 and against and all(turn(a, b, corner) >= 0 for corner in body):
+    def blocking_edges(self, body):
+        """Of a one-way chain, the segments that a body may not pass on its way from here."""
+        above = {}
+        for a, b, surface in self.segments:
+            if surface not in above:
+                above[surface] = surface.is_below(body)
+            if above[surface]:
                 yield a, b
 
 
@@ -124,7 +125,7 @@ class Checker:
         swept = body + [add(corner, way) for corner in body]
         edges = collider.edges
         if collider.one_way is not None:
-            edges = collider.blocking_edges([add(start, corner) for corner in self.body], way)
+            edges = collider.blocking_edges([add(start, corner) for corner in self.body])
         swept = hull(swept)
         if any(enters(a, b, swept) for a, b in edges):
             return True
@@ -307,9 +308,7 @@ class Checker:
             if collider.one_way is None:
                 return True
             body = [add(place, corner) for corner in self.body]
-            along = less(edge[1], edge[0])
-            sides = [(along[1], -along[0]), (-along[1], along[0])]
-            return any(set(edge) == set(held) for side in sides for held in collider.blocking_edges(body, side))
+            return any(set(edge) == set(held) for held in collider.blocking_edges(body))
 
         def edges(corner):
             for name, collider in self.colliders.items():
@@ -337,9 +336,21 @@ class Checker:
         if hangs(step, path, self.body, self.edges_near(step, motion, others), self.max_climb):
             yield "hangs: it could have fallen"
 
+    def find_surfaces(self, movers):
+        """Of the one-way chains. What moves alike in the first step is taken for one mover: a trace does not name them."""
+        chains = [(name, repr(movers[name]) if name in movers else None, collider.line, collider.one_way)
+                  for name, collider in self.colliders.items() if collider.one_way is not None]
+        for name, segments in surfaces_of(chains).items():
+            self.colliders[name].segments = segments
+
     def check(self, records):
         """Yields (step, what is wrong)."""
         last, last_motion, together = {}, {}, []
+        records = iter(records)
+        first = next(records, None)
+        if first is not None:
+            self.find_surfaces(first["movers"])
+            records = itertools.chain([first], records)
         company = Company(self.body)
         for number, step in enumerate(records):
             who = step.get("character", 0)

@@ -8,10 +8,44 @@ import json
 import sys
 import unittest
 
+from trace_geometry import exact
+from trace_one_way import surfaces_of
 from trace_spoiling import GAP, Spoiling
 
 with open(sys.argv.pop(), encoding="utf-8") as file:
     HEADER, *STEPS = map(json.loads, file)
+
+
+class Surfaces(unittest.TestCase):
+    """Of one-way chains, against a box of 1 m that has its lower left corner in a place."""
+
+    def found(self, *lines):
+        chains = [(number, None, exact(line), (0, 1)) for number, line in enumerate(lines)]
+        return [[surface for _, _, surface in segments] for segments in surfaces_of(chains).values()]
+
+    def is_above(self, surface, x, y):
+        return surface.is_below(exact([[x, y], [x + 1, y], [x + 1, y + 1], [x, y + 1]]))
+
+    def test_of_a_peak_is_one_and_goes_on_straight(self):
+        ((left, right),) = self.found([[-4, 0], [0, 1], [4, 0]])
+        self.assertIs(left, right)
+        for x, y, above in ((-0.5, 1, True), (-0.5, 0.999, False), (0, 1, True), (4, 0, True), (3.9, 0, False),
+                            (5, -0.25, True), (5, -0.26, False), (-8, -0.75, True), (-8, -0.76, False)):
+            self.assertEqual(self.is_above(left, x, y), above, (x, y))
+
+    def test_is_joined_from_chains_that_run_either_way(self):
+        (left,), (right,) = self.found([[-4, 0], [0, 1]], [[4, 0], [0, 1]])
+        self.assertIs(left, right)
+
+    def test_is_not_joined_where_three_meet(self):
+        surfaces = self.found([[-4, 0], [0, 1]], [[4, 0], [0, 1]], [[0, 1], [4, 4]])
+        self.assertEqual(len({surface for chain in surfaces for surface in chain}), 3)
+
+    def test_is_cut_where_a_chain_turns_back_or_goes_straight_up(self):
+        (first, second), = self.found([[0, 0], [4, 0], [1, 3]])
+        self.assertIsNot(first, second)
+        (first, second), = self.found([[0, 0], [4, 0], [4, 2], [6, 2]])
+        self.assertIsNot(first, second)
 
 
 class SpoiltTraces(Spoiling, unittest.TestCase):

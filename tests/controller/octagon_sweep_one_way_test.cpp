@@ -131,6 +131,82 @@ TEST(OneWay, a_segment_along_its_direction_blocks_nothing) {
   }
 }
 
+/// Holding right, until the character falls past the height `below`, for at most ten seconds.
+/// @return the lowest the middle of its bottom was above the line from the start until it was beyond `end`.
+double walk_to_the_end(Stepper<double>& walker, const std::vector<Vec2d>& line, double end) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (int n = 0; n < 600 && walker.state.position.x() < end; ++n) {
+    walker.step({.move = 1.0, .jump = false, .drop = false});
+    const double x = walker.state.position.x();
+    for (std::size_t i = 1; i < line.size(); ++i) {
+      if (x < line[i - 1].x() || x > line[i].x()) continue;
+      const double share = (x - line[i - 1].x()) / (line[i].x() - line[i - 1].x());
+      const double height = line[i - 1].y() + share * (line[i].y() - line[i - 1].y());
+      lowest = std::min(lowest, walker.state.position.y() - half_height - height);
+    }
+  }
+  return lowest;
+}
+
+TEST(OneWaySurface, with_a_peak_holds_who_is_dropped_on_it) {
+  Stepper<double> faller({chain({{-4, -1}, {0, 0}, {4, -1}}, Vec2d{0, 1})});
+  faller.gravity = {0, -30};
+  faller.at(0, 1).steps(60, {.move = 0.0});
+  EXPECT_TRUE(faller.state.grounded);
+  EXPECT_GT(faller.state.position.y(), half_height);
+  EXPECT_LE(faller.state.position.y(), half_height + 1e-6);
+  ASSERT_FALSE(faller.report.move.contacts.empty());
+  EXPECT_EQ(faller.report.move.contacts[0].normal, Vec2d(0, 1)) << "the octagon's bottom, on the vertex";
+}
+
+TEST(OneWaySurface, is_walked_over_to_its_end) {
+  std::vector<Vec2d> noise;
+  for (int i = 0; i <= 32; ++i) noise.emplace_back(-4 + i * 0.25, (i * 7 % 3 - 1) * 1e-6);
+  std::vector<Vec2d> arch;
+  for (int i = 0; i <= 16; ++i)
+    arch.emplace_back(-4 * std::cos(std::numbers::pi * i / 16), 1.5 * std::sin(std::numbers::pi * i / 16));
+  for (const std::vector<Vec2d>& line : {std::vector<Vec2d>{{-4, 0}, {0, 1}, {4, 0}}, noise, arch}) {
+    for (const bool in_parts : {false, true}) {
+      std::vector<ColliderDef> colliders{chain(line, Vec2d{0, 1})};
+      if (in_parts) {
+        colliders.clear();
+        for (std::size_t i = 1; i < line.size(); ++i)
+          colliders.push_back(i % 2 == 0 ? chain({line[i - 1], line[i]}, Vec2d{0, 1})
+                                         : chain({line[i], line[i - 1]}, Vec2d{0, 1}));
+      }
+      Stepper<double> walker(std::move(colliders));
+      walker.gravity = {0, -30};
+      walker.at(-2, 3).steps(30);
+      EXPECT_GT(walk_to_the_end(walker, line, 4), 0) << line.size() << " points, in parts: " << in_parts;
+      EXPECT_GE(walker.state.position.x(), 4);
+      EXPECT_LT(walker.state.position.y(), half_height + 0.5) << "and beyond it, down";
+    }
+  }
+}
+
+TEST(OneWaySurface, is_cut_where_it_turns_back_and_not_joined_where_three_chains_meet) {
+  // The lower run of a hairpin goes back under the upper one: who is below the upper one is held by the lower one.
+  Stepper<double> between({chain({{-2, 2}, {2, 2}, {2.5, 1}, {-2, 0}}, Vec2d{0, 1})});
+  between.gravity = {0, -30};
+  between.at(-1, 0.3 + half_height).steps(60);
+  EXPECT_GT(between.state.position.y() - half_height, 0);
+  EXPECT_LT(between.state.position.y() - half_height, 1);
+  // A peak of two chains holds. Where a third one begins in it none goes on from another, and each is thought on
+  // straight: upon the vertex the octagon is above none of them.
+  const ColliderDef left = chain({{-4, -1}, {0, 0}}, Vec2d{0, 1});
+  const ColliderDef right = chain({{0, 0}, {4, -1}}, Vec2d{0, 1});
+  const ColliderDef third = chain({{0, 0}, {4, -8}}, Vec2d{0, 1});
+  for (const bool three : {false, true}) {
+    std::vector<ColliderDef> colliders{left, right};
+    if (three) colliders.push_back(third);
+    Stepper<double> faller(std::move(colliders));
+    faller.gravity = {0, -30};
+    faller.at(0, 1).steps(60, {.move = 0.0});
+    EXPECT_EQ(faller.state.grounded, !three);
+    EXPECT_EQ(faller.state.position.y() > half_height, !three);
+  }
+}
+
 /// Steps of a character that stands on the platform, `drops` of them with the button down.
 template <class Scalar>
 void stand_and_drop(Stepper<Scalar>& character, int drops) {

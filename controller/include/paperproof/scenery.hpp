@@ -21,8 +21,8 @@ struct ColliderDef {
   Shape shape = Shape::polygon;
   std::vector<Vec2d> points;                ///< Outer ring (not closed: the first vertex is not repeated) or polyline.
   std::vector<std::vector<Vec2d>> holes{};  ///< Polygons only; each strictly inside the outer ring.
-  /// Chains only. A segment's blocking normal is the one of its two with `normal · one_way > 0`; a segment for which
-  /// neither holds (it runs along `one_way`) blocks nothing. The character passes against the normal freely.
+  /// Chains only: blocks who begins a move above it, which is the side this points to. A segment that runs along it
+  /// blocks nothing. Abutting chains of one `one_way` and mover are one surface, thought on straight beyond its ends.
   std::optional<Vec2d> one_way{};
   /// The mover it goes along with; `points` are then where it is while the mover's offset is zero.
   MoverIndex mover = no_mover;

@@ -69,34 +69,38 @@ class ExactSum {
   std::size_t size_ = 0;
 };
 
-ExactSum<3> sum_of(double a, double b, double c) noexcept {
-  ExactSum<3> sum;
+ExactSum<4> sum_of(double a, double b, double c, double d) noexcept {
+  ExactSum<4> sum;
   sum.add(a);
   sum.add(b);
   sum.add(c);
+  sum.add(d);
   return sum;
 }
 
-/// Sign of (to - from) x (a - b + c), exactly. Two parts times three parts, each product in two parts, twice: 24.
-int exact_cross_sign(const Vec2d& from, const Vec2d& to, const Vec2d& a, const Vec2d& b, const Vec2d& c) noexcept {
-  const ExactSum<3> arm_x = sum_of(a.x(), -b.x(), c.x());
-  const ExactSum<3> arm_y = sum_of(a.y(), -b.y(), c.y());
-  ExactSum<24> cross;
-  for (const double edge : sum_of(to.x(), -from.x(), 0)) {
+/// Sign of (to - from) x (a - b + c + d), exactly. Two parts times four parts, each product in two parts, twice: 32.
+int exact_cross_sign(const Vec2d& from, const Vec2d& to, const Vec2d& a, const Vec2d& b, const Vec2d& c,
+                     const Vec2d& d) noexcept {
+  const ExactSum<4> arm_x = sum_of(a.x(), -b.x(), c.x(), d.x());
+  const ExactSum<4> arm_y = sum_of(a.y(), -b.y(), c.y(), d.y());
+  ExactSum<32> cross;
+  for (const double edge : sum_of(to.x(), -from.x(), 0, 0)) {
     for (const double arm : arm_y) cross.add_product(edge, arm);
   }
-  for (const double edge : sum_of(to.y(), -from.y(), 0)) {
+  for (const double edge : sum_of(to.y(), -from.y(), 0, 0)) {
     for (const double arm : arm_x) cross.add_product(-edge, arm);
   }
   return cross.sign();
 }
 
-/// Sign of (to - from) x (a - b + c).
+/// Sign of (to - from) x (a - b + c + d), where d is a small rest or zero.
 ///
-/// The filter: with u = 2^-53 and t = fl(a - b), the arm f = fl(t + c) is off by at most u(|t| + |f|) and the edge e by
-/// u|e|. A product is then off by 3u|e|(|t| + |f|), and their difference by another u of both; terms of order u^2 and
-/// the rounding of the bound itself are covered by taking 5u for 4u.
-int cross_sign(const Vec2d& from, const Vec2d& to, const Vec2d& a, const Vec2d& b, const Vec2d& c) noexcept {
+/// The filter leaves d out and counts it among its errors. With u = 2^-53 and t = fl(a - b), the arm f = fl(t + c) is
+/// off by at most u(|t| + |f|) + |d| and the edge e by u|e|. A product is then off by |e|(3u(|t| + |f|) + |d|), and
+/// their difference by another u of both; terms of order u^2 and the rounding of the bound itself are covered by taking
+/// 5u for 4u, and twice |d|.
+int cross_sign(const Vec2d& from, const Vec2d& to, const Vec2d& a, const Vec2d& b, const Vec2d& c,
+               const Vec2d& d = Vec2d::Zero()) noexcept {
   const double edge_x = to.x() - from.x();
   const double edge_y = to.y() - from.y();
   const double between_x = a.x() - b.x();
@@ -104,13 +108,13 @@ int cross_sign(const Vec2d& from, const Vec2d& to, const Vec2d& a, const Vec2d& 
   const double arm_x = between_x + c.x();
   const double arm_y = between_y + c.y();
   const double cross = edge_x * arm_y - edge_y * arm_x;
-  const double bound = 5 * rounding *
-                       (std::abs(edge_x) * (std::abs(between_y) + std::abs(arm_y)) +
-                        std::abs(edge_y) * (std::abs(between_x) + std::abs(arm_x)));
+  const double bound =
+      std::abs(edge_x) * (5 * rounding * (std::abs(between_y) + std::abs(arm_y)) + 2 * std::abs(d.y())) +
+      std::abs(edge_y) * (5 * rounding * (std::abs(between_x) + std::abs(arm_x)) + 2 * std::abs(d.x()));
   if (cross > bound) return 1;
   if (cross < -bound) return -1;
   if (bound == 0) return 0;
-  return exact_cross_sign(from, to, a, b, c);
+  return exact_cross_sign(from, to, a, b, c, d);
 }
 
 }  // namespace
@@ -119,13 +123,23 @@ int orientation_sign(const Vec2d& a, const Vec2d& b, const Vec2d& c) noexcept {
   return cross_sign(a, b, c, a, Vec2d::Zero());
 }
 
-int orientation_sign_of_offset(const Vec2d& a, const Vec2d& b, const Vec2d& position, const Vec2d& offset) noexcept {
-  return cross_sign(a, b, position, a, offset);
+int orientation_sign_of_offset(const Vec2d& a, const Vec2d& b, const Vec2d& position, const Vec2d& offset,
+                               const Vec2d& rest) noexcept {
+  return cross_sign(a, b, position, a, offset, rest);
 }
 
-int orientation_sign_of_edge_offset(const Vec2d& position, const Vec2d& from, const Vec2d& to,
-                                    const Vec2d& v) noexcept {
-  return cross_sign(from, to, v, position, -from);
+int orientation_sign_of_edge_offset(const Vec2d& position, const Vec2d& from, const Vec2d& to, const Vec2d& v,
+                                    const Vec2d& rest) noexcept {
+  return cross_sign(from, to, v, position, -from, -rest);
+}
+
+int turn_sign(const Vec2d& a, const Vec2d& b, const Vec2d& c, const Vec2d& d) noexcept {
+  return cross_sign(a, b, d, c, Vec2d::Zero());
+}
+
+int turn_sign_of_offset(const Vec2d& direction, const Vec2d& through, const Vec2d& position, const Vec2d& offset,
+                        const Vec2d& rest) noexcept {
+  return cross_sign(Vec2d::Zero(), direction, position, through, offset, rest);
 }
 
 }  // namespace paperproof::geometry

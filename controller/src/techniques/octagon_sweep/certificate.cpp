@@ -60,20 +60,10 @@ bool clear_of_exactly(const ConfigurationSpace<Scalar>& space, PieceIndex piece,
   return some_line_separates(space, piece, from.template cast<double>(), to.template cast<double>());
 }
 
-template <class Scalar>
-bool on_blocking_side_exactly(const ConfigurationSpace<Scalar>& space, PieceIndex piece,
-                              const Vec2<Scalar>& position) noexcept {
-  const std::span<const Vec2<Scalar>> v = space.scenery().vertices_of(piece);
-  // The normal is on the left of v0 -> v1, hence on the right of the way back.
-  return octagon_right_of(space, v[1].template cast<double>(), v[0].template cast<double>(),
-                          position.template cast<double>());
-}
-
 #define PAPERPROOF_INSTANTIATE(Scalar)                                                                         \
   template bool overlaps_exactly(const ConfigurationSpace<Scalar>&, PieceIndex, const Vec2<Scalar>&) noexcept; \
   template bool clear_of_exactly(const ConfigurationSpace<Scalar>&, PieceIndex, const Vec2<Scalar>&,           \
-                                 const Vec2<Scalar>&) noexcept;                                                \
-  template bool on_blocking_side_exactly(const ConfigurationSpace<Scalar>&, PieceIndex, const Vec2<Scalar>&) noexcept;
+                                 const Vec2<Scalar>&) noexcept;
 PAPERPROOF_INSTANTIATE(float)
 PAPERPROOF_INSTANTIATE(double)
 #undef PAPERPROOF_INSTANTIATE

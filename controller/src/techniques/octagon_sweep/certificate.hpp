@@ -18,9 +18,4 @@ template <class Scalar>
 [[nodiscard]] bool clear_of_exactly(const ConfigurationSpace<Scalar>& space, PieceIndex piece, const Vec2<Scalar>& from,
                                     const Vec2<Scalar>& to) noexcept;
 
-/// Whether the whole octagon is on the side that the normal of a one-way segment points to, exactly.
-template <class Scalar>
-[[nodiscard]] bool on_blocking_side_exactly(const ConfigurationSpace<Scalar>& space, PieceIndex piece,
-                                            const Vec2<Scalar>& position) noexcept;
-
 }  // namespace paperproof::octagon_sweep

@@ -44,7 +44,7 @@ template <class Scalar>
 ConfigurationSpace<Scalar>::ConfigurationSpace(const Scenery<Scalar>& scenery, const CharacterShape& shape,
                                                const BroadPhase<Scalar>& broad_phase,
                                                const MoverPhases<Scalar>& mover_phases)
-    : scenery_(scenery) {
+    : scenery_(scenery), surfaces_(scenery, shape) {
   for (const Vec2d& point : shape.hull()) hull_.push_back(point.cast<Scalar>());
   hull_box_ = {shape.box().lower.cast<Scalar>(), shape.box().upper.cast<Scalar>()};
   build_shared_axes();
@@ -161,6 +161,10 @@ void ConfigurationSpace<Scalar>::build_obstacle(PieceIndex piece) {
     // The blocking normal of a one-way segment v0 v1 is on its left: the right-hand normal of the way back.
     if (source.one_way && j == 1) info.one_way_axis = static_cast<std::uint8_t>(axis);
   }
+  if (source.one_way) {
+    info.surface = surfaces_.of(piece);
+    info.bent_surface = !surfaces_.is_straight(info.surface);
+  }
   info_.push_back(info);
 }
 
@@ -188,13 +192,15 @@ typename ConfigurationSpace<Scalar>::Facet ConfigurationSpace<Scalar>::facet(Pie
   return {base + along * (of_piece.from + of_hull.from), base + along * (of_piece.to + of_hull.to)};
 }
 
-/// A one-way segment hides nothing from a solid: it may be passed. From another it hides what it abuts along one line:
-/// where the octagon is not wholly on the blocking side of the one it is not on that of the other.
+/// A one-way segment hides nothing from a solid: it may be passed. From another it hides what it abuts as a part of one
+/// surface, or along one line: who is not above the one is not above the other.
 template <class Scalar>
 bool ConfigurationSpace<Scalar>::may_cover(PieceIndex covering, PieceIndex piece) const noexcept {
   const std::uint8_t a = info_[covering].one_way_axis;
   const std::uint8_t b = info_[piece].one_way_axis;
   if (a == ObstacleInfo::not_one_way || b == ObstacleInfo::not_one_way) return a == b;
+  if (info_[covering].surface == info_[piece].surface) return true;
+  if (info_[covering].bent_surface || info_[piece].bent_surface) return false;
   return normal(covering, a) == normal(piece, b) &&
          std::abs(static_cast<double>(offset(covering, a) - offset(piece, b))) <= facet_noise_;
 }

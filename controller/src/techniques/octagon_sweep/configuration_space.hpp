@@ -11,6 +11,7 @@
 /// products with p and with the motion are formed once per motion, and a tile costs a handful of subtractions.
 #pragma once
 
+#include "one_way_surfaces.hpp"
 #include "techniques/octagon_sweep/mover_phases.hpp"
 
 #include <paperproof/broad_phase.hpp>
@@ -53,6 +54,8 @@ struct ObstacleInfo {
   std::uint64_t covered = 0;
   static constexpr std::uint8_t not_one_way = 255;
   std::uint8_t one_way_axis = not_one_way;  ///< The axis whose normal is the blocking normal of a one-way segment.
+  bool bent_surface = false;                ///< Its surface is more than one straight line.
+  std::uint32_t surface = 0;                ///< Of a one-way segment, into `surfaces()`.
 };
 
 /// Built once for a scenery and a character. Immutable; may be shared between threads.
@@ -71,6 +74,7 @@ class ConfigurationSpace {
                      const MoverPhases<Scalar>& mover_phases);
 
   [[nodiscard]] const Scenery<Scalar>& scenery() const noexcept { return scenery_; }
+  [[nodiscard]] const OneWaySurfaces<Scalar>& surfaces() const noexcept { return surfaces_; }
   /// Hull of the character, counter-clockwise, rounded to Scalar [m].
   [[nodiscard]] std::span<const Vec2<Scalar>> hull() const noexcept { return {hull_.begin(), hull_.end()}; }
   /// Box of the hull, around position zero.
@@ -132,6 +136,7 @@ class ConfigurationSpace {
 
   const Scenery<Scalar>& scenery_;
   FixedVector<Vec2<Scalar>, CharacterShape::max_points> hull_;
+  OneWaySurfaces<Scalar> surfaces_;
   Box2<Scalar> hull_box_;
   double facet_noise_ = 0;
   std::size_t lanes_ = 8;

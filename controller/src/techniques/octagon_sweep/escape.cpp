@@ -257,7 +257,7 @@ class Escape {
   }
 
   [[nodiscard]] bool may_block(PieceIndex piece, const V& from) const noexcept {
-    return solid(piece) || (!query_.drops && on_blocking_side_exactly(space_, piece, local(piece, from)));
+    return solid(piece) || (!query_.drops && is_above(space_, piece, local(piece, from), lost_by(from, offset(piece))));
   }
 
   [[nodiscard]] std::optional<Tangents<Scalar>> tangents_at(PieceIndex piece, const V& place) const noexcept {

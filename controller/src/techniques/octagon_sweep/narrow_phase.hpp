@@ -24,6 +24,10 @@ struct Motion {
   Vec2<Scalar> extended;         ///< That product [m].
   PerAxis<Lanes, Scalar> at;     ///< n·from
   PerAxis<Lanes, Scalar> along;  ///< n·extended
+  Vec2<Scalar> rest;             ///< Among movers: what `from` lost when the mover's offset was taken from it.
+  /// The bent one-way surface that was asked for last, and the answer: its pieces come one after the other.
+  mutable typename OneWaySurfaces<Scalar>::Index known_surface;
+  mutable bool above_known_surface;
 
   [[nodiscard]] Box2<Scalar> box() const noexcept {
     const Vec2<Scalar> to = from + extended;
@@ -61,6 +65,8 @@ template <Variant variant, class Scalar>
   motion.extended = way * motion.reach;
   motion.at = x * from.x() + y * from.y();
   motion.along = x * motion.extended.x() + y * motion.extended.y();
+  if constexpr (variant.one_way && variant.movers) motion.rest = Vec2<Scalar>::Zero();
+  if constexpr (variant.one_way) motion.known_surface = OneWaySurfaces<Scalar>::none;
   return motion;
 }
 

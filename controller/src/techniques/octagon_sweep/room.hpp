@@ -68,9 +68,9 @@ class TakenPositions {
   /// @param end the position that all others are relative to, as the piece sees it when the step ends.
   /// @return false where nothing can be reached from the corner, as it is inside the piece.
   [[nodiscard]] bool add(PieceIndex piece, const Vec2<Scalar>& from, const Vec2<Scalar>& end) noexcept {
-    const std::uint8_t one_way = space_.info(piece).one_way_axis;
-    const bool solid = one_way == ObstacleInfo::not_one_way;
-    if (!solid && space_.separation(piece, one_way, from) < -Tolerances<Scalar>{}.certain) return true;
+    const ObstacleInfo& info = space_.info(piece);
+    const bool solid = info.one_way_axis == ObstacleInfo::not_one_way;
+    if (!solid && !space_.surfaces().may_be_above(info.surface, from, Tolerances<Scalar>{}.certain)) return true;
     if (!has_room_for(piece)) return true;
     Scalar start = -std::numeric_limits<Scalar>::infinity();
     for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis)
@@ -145,7 +145,7 @@ class TakenPositions {
       if (space_.separation(piece, axis, from) >= level)
         add_line(space_.normal(piece, axis), (solid ? level : gap_) - space_.separation(piece, axis, end), !solid);
     if (!solid) {
-      // It blocks motion against its normal only.
+      // What is above its surface meets it against its normal, or another part of the surface first.
       const Vec2<Scalar> n = space_.normal(piece, one_way);
       add_line(n, -(n.x() * moved.x() + n.y() * moved.y()), true);
     }

@@ -18,12 +18,15 @@ void StepSolver<variant, Scalar>::look_at_movers() noexcept {
   // The sweep looks this far beyond the end of a motion (twice: it goes by the larger component).
   constexpr Scalar look = 2 * Tolerances<Scalar>{}.look;
   for (MoverIndex mover = 0; mover < around.phases.size(); ++mover) {
-    const V from = motion_.from - around.offset(mover, time_);
+    const V offset = around.offset(mover, time_);
+    const V from = motion_.from - offset;
     const V way = around.relative(motion_.way, mover, time_);
     const V to = from + way;
     const Box2<Scalar> box = space_.touched_from(Box2<Scalar>{from.cwiseMin(to), from.cwiseMax(to)}.inflated(look));
     if (!box.overlaps(around.phases.whole(mover))) continue;
-    sweep(make_motion<variant>(space_, from, way), around.phases.query(mover, box, around.memory.of_mover));
+    LocalMotion seen = make_motion<variant>(space_, from, way);
+    seen.rest = lost_by(motion_.from, offset);
+    sweep(seen, around.phases.query(mover, box, around.memory.of_mover));
   }
 }
 

@@ -56,7 +56,7 @@ std::optional<Hold<Scalar>> StepSolver<variant, Scalar>::ground_here(ColliderInd
     const BestAxis<Scalar> best = best_axis<variant>(space_, piece, local(piece, position_));
     const V normal = space_.normal(piece, best.axis);
     if (std::abs(best.separation) > Tolerances<Scalar>{}.touch || normal.y() <= 0) return;
-    if (walkable_only && !walkable(normal)) return;
+    if ((walkable_only && !walkable(normal)) || !may_block(piece, position_)) return;
     if (!carries(piece)) {
       stands_still = stands_still || walkable(normal);
       return;

@@ -150,9 +150,8 @@ bool StepSolver<variant, Scalar>::passes(const LocalMotion& motion, std::span<co
 
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::stopped_by(const LocalMotion& motion, PieceIndex piece) const noexcept {
-  if (!in_way(motion, piece)) return false;
   const Clearance<Scalar> clear = clearance<variant>(space_, motion, piece);
-  return !clear.clear() && sweep_piece<variant>(space_, motion, piece, clear).hit;
+  return !clear.clear() && in_way(motion, piece) && sweep_piece<variant>(space_, motion, piece, clear).hit;
 }
 
 /// What the step began inside of is not in the way while it is left, nor what is on the character.

@@ -135,11 +135,12 @@ bool StepSolver<variant, Scalar>::overlaps(PieceIndex piece, const V& position) 
          overlaps_exactly(space_, piece, at);
 }
 
-/// Whether a piece counts for a character at `position`: one-way segments do from one side only.
+/// Whether a piece counts for a character at `position`: one-way segments do from above their surface only.
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::may_block(PieceIndex piece, const V& position) const noexcept {
+  if constexpr (!variant.one_way) return true;
   return space_.info(piece).one_way_axis == ObstacleInfo::not_one_way ||
-         (!drops_ && on_blocking_side_exactly(space_, piece, local(piece, position)));
+         (!drops_ && is_above(space_, piece, local(piece, position), lost_by(position, offset(piece))));
 }
 
 /// Pushes out of the nearest piece, again and again, until every gap is at least `hit`; undone where there is no room.
@@ -151,9 +152,8 @@ void StepSolver<variant, Scalar>::restore_gap() noexcept {
     Scalar least = std::numeric_limits<Scalar>::infinity();
     V push = V::Zero();
     for_each_near({q.cwiseMin(position_), q.cwiseMax(position_)}, [&](PieceIndex piece) {
-      if (!may_block(piece, position_)) return;
       const BestAxis<Scalar> best = best_axis<variant>(space_, piece, local(piece, q));
-      if (best.separation >= least) return;
+      if (best.separation >= least || !may_block(piece, position_)) return;
       least = best.separation;
       push = space_.normal(piece, best.axis) * (tolerances.stop - best.separation);
     });
@@ -179,12 +179,11 @@ bool StepSolver<variant, Scalar>::clear_way(const V& from, const V& to) noexcept
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::clear_way(PieceIndex piece, const V& from, const V& to) const noexcept {
   constexpr Tolerances<Scalar> tolerances{};
-  if (!in_way(make_motion<variant>(space_, from, V(to - from)), piece)) return true;
   for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis)
     if (space_.separation(piece, axis, from) >= tolerances.certain &&
         space_.separation(piece, axis, to) >= tolerances.certain)
       return true;
-  return clear_of_exactly(space_, piece, from, to);
+  return !in_way(make_motion<variant>(space_, from, V(to - from)), piece) || clear_of_exactly(space_, piece, from, to);
 }
 
 }  // namespace paperproof::octagon_sweep

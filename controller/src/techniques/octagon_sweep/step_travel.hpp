@@ -264,7 +264,7 @@ std::optional<Vec2<Scalar>> StepSolver<variant, Scalar>::touched_ground(PieceInd
   const BestAxis<Scalar> best = best_axis<variant>(space_, piece, local(piece, position_));
   if (!(std::abs(best.separation) <= Tolerances<Scalar>{}.touch)) return std::nullopt;
   const V normal = space_.normal(piece, best.axis);
-  return walkable(normal) ? std::optional<V>(normal) : std::nullopt;
+  return walkable(normal) && may_block(piece, position_) ? std::optional<V>(normal) : std::nullopt;
 }
 
 /// Where a walk left the ground, and there is ground not far below.

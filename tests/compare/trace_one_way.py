@@ -1,0 +1,77 @@
+"""One-way chains as surfaces, for check_trace.py.
+
+Chains of equal `one_way` that stand, or are of one mover, are joined where one ends and one begins as their segments run
+(blocking normals on the left), and no more of them meet; they are cut where they do not go on across `one_way`. Each part
+is a surface: its end segments go on straight. A body is above where its open interior is wholly on the `one_way` side of
+that line; then, and only then, every real segment of the part is in its way.
+"""
+from bisect import bisect_left
+
+from trace_geometry import ZERO, hull, less, turn
+
+
+def across(v, one_way):
+    """Ascends along every segment of a chain whose blocking normal is on the left."""
+    return v[0] * one_way[1] - v[1] * one_way[0]
+
+
+class Surface:
+    def __init__(self, edges, one_way):
+        self.one_way = one_way
+        self.line = [edges[0][0]] + [b for _, b in edges]
+        self.places = [across(v, one_way) for v in self.line]
+
+    def edge_at(self, place):
+        """The one that is passed there; beyond the ends the first or the last."""
+        i = min(max(bisect_left(self.places, place), 1), len(self.line) - 1)
+        return self.line[i - 1], self.line[i]
+
+    def is_below(self, body):
+        """Of a convex body, by its corners. Between two vertices the line is straight, and so is the rim of a body."""
+        if any(turn(*self.edge_at(across(corner, self.one_way)), corner) < 0 for corner in body):
+            return False
+        body = hull(body)
+        sides = list(zip(body, body[1:] + body[:1]))
+        rim = [(a, b) for a, b in sides if across(less(b, a), self.one_way) > 0]
+        places = [across(corner, self.one_way) for corner in body]
+        first = bisect_left(self.places, min(places), 1, len(self.line) - 1)
+        for i in range(first, len(self.line) - 1):
+            if self.places[i] >= max(places):
+                break
+            if self.places[i] > min(places) and all(turn(a, b, self.line[i]) > 0 for a, b in rim):
+                return False
+        return True
+
+
+def surfaces_of(chains):
+    """For each of some colliders, by name, its segments that block with their surfaces: (a, b, surface).
+
+    `chains`: (name, mover, line, one_way); `mover` is the same for what goes along together, and None for what stands.
+    """
+    segments, after, ends = [], {}, {}  # a segment: [name, a, b, one_way]
+    for name, mover, line, one_way in chains:
+        before = ZERO
+        for i, (a, b) in enumerate(zip(line, line[1:])):
+            way = across(less(b, a), one_way)
+            forwards, number = way > 0, len(segments)
+            if way != 0:
+                segments.append([name, a, b, one_way] if forwards else [name, b, a, one_way])
+                if before * way > 0:
+                    after.update({number - 1: number} if forwards else {number: number - 1})
+                for at, is_end, begins in ((a, i == 0, forwards), (b, i == len(line) - 2, not forwards)):
+                    if is_end:
+                        ends.setdefault((mover, one_way, at), ([], []))[begins].append(number)
+            before = way
+    for ending, beginning in ends.values():
+        if len(ending) == len(beginning) == 1:
+            after[ending[0]] = beginning[0]
+    found = {name: [] for name, *_ in chains}
+    for first in set(range(len(segments))) - set(after.values()):
+        part = [first]
+        while part[-1] in after:
+            part.append(after[part[-1]])
+        surface = Surface([segments[i][1:3] for i in part], segments[first][3])
+        for i in part:
+            name, a, b, _ = segments[i]
+            found[name].append((a, b, surface))
+    return found
