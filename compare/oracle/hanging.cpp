@@ -70,20 +70,23 @@ bool HangingJudge::hangs(const Vec2d& made, const Reach& reach) const {
 std::vector<NearPart> HangingJudge::parts_near(std::size_t corner, double within) const {
   const Place at(step_.path[corner], step_.movers);
   std::vector<NearPart> parts = scenery_.near_parts(at, within);
-  std::erase_if(parts, [&](const NearPart& part) { return !blocks(at, part, within); });
+  std::erase_if(parts, [&](const NearPart& part) { return !blocks(corner, part, within); });
   if (others_.near) {
     for (NearPart& other : others_.near(step_.path[corner], within)) parts.push_back(std::move(other));
   }
   return parts;
 }
 
-/// A one-way chain blocks where the shortest way to it is blocked, unless it is passed on purpose.
-bool HangingJudge::blocks(const Place& at, const NearPart& part, double within) const {
+/// A one-way chain blocks where it blocks the shortest way to it, from the corner or from where the leg began that ended
+/// there, unless it is passed on purpose.
+bool HangingJudge::blocks(std::size_t corner, const NearPart& part, double within) const {
   if (!scenery_.scenery().colliders[part.collider].one_way) return true;
   const std::vector<ColliderIndex>& dropped = step_.dropped_through;
   if (std::find(dropped.begin(), dropped.end(), part.collider) != dropped.end()) return false;
+  const Place at(step_.path[corner], step_.movers);
   const Place beyond(at.position - 2 * within * part.faces.front().normal, at.movers, at.fraction);
-  return scenery_.meets(at, beyond, part.collider);
+  if (scenery_.meets(at, beyond, part.collider)) return true;
+  return corner > 0 && scenery_.meets(Place(step_.path[corner - 1], step_.movers), beyond, part.collider);
 }
 
 bool HangingJudge::is_ground(const NearPart& part) const {

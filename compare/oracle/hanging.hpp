@@ -42,7 +42,7 @@ class HangingJudge {
   using Obstacle = std::vector<HalfPlane>;
 
   [[nodiscard]] std::vector<NearPart> parts_near(std::size_t corner, double within) const;
-  [[nodiscard]] bool blocks(const Place& at, const NearPart& part, double within) const;
+  [[nodiscard]] bool blocks(std::size_t corner, const NearPart& part, double within) const;
   [[nodiscard]] bool is_ground(const NearPart& part) const;
   [[nodiscard]] static std::optional<Vec2d> nearest_free(const Vec2d& wanted, const std::vector<Obstacle>& obstacles,
                                                          double opening);

@@ -166,7 +166,8 @@ struct StepJudgement {
 /// **Hangs.** Let u be what is requested less what the step's steering added to it. C is the set of displacements that
 /// enter no solid and no other character that is within 1e-6 m (separation along the best axis) of a corner of the
 /// travelled way: of each convex part, those against none of the normals of one face that separates it there, relative
-/// to how far it moves in the step. (A one-way chain counts where it blocks the shortest way to it.) The projection of
+/// to how far it moves in the step. (A one-way chain counts where it blocks the shortest way to it, from there or from
+/// where the leg began that ended there.) The projection of
 /// u onto C is the displacement of C that is nearest to u. A step hangs if the projection falls, u falls, each by more
 /// than 1e-9 m and an ulp of the largest coordinate, and the step falls less than half of both. Excepted are
 /// - a direction with less than 2e-7 m of room between what is left and right of it, which is not in C;

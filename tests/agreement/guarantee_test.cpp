@@ -1,7 +1,9 @@
 /// Each guarantee of octagon_sweep against the exact oracle, over random scenery of every family, speeds from 1e-3 to
 /// 1e6 m per step, origins up to 1e6 m and paper down to zero thickness.
+#include "agreement/recorded.hpp"
 #include "agreement/reported.hpp"
 #include "oracle/exact.hpp"
+#include "oracle/hanging.hpp"
 #include "support/random_sceneries.hpp"
 #include "support/steps_wanted.hpp"
 
@@ -27,6 +29,7 @@ struct Tally {
   int launched = 0;
   int stuck = 0;
   int dropped = 0;
+  int falling = 0;  ///< Fell.
   int from_inside = 0;
   int passed_on_purpose = 0;  ///< One-way chains, with the button to drop down.
 };
@@ -49,7 +52,11 @@ class RandomRun {
         hull_(controller_.character().shape.hull().begin(), controller_.character().shape.hull().end()),
         oracle_(scenery_.as_run(), hull_),
         reported_(scenery_.as_run(), hull_, Tolerances<double>{}.certain),
-        scratch_(controller_.make_scratch()) {}
+        scratch_(controller_.make_scratch()) {
+    header_.points = hull_;
+    header_.scenery = scenery_.as_run();
+    header_.max_climb_degrees = controller_.character().max_climb_degrees;
+  }
 
   void go(Tally& tally) {
     state_.position = origin_ + Vec2d{random_.between(-4, 4), random_.between(-3, 5)};
@@ -109,6 +116,7 @@ class RandomRun {
     tally.passed_on_purpose += static_cast<int>(report_.dropped_through.size());
     check_path(start_overlap, status);
     check_what_is_said(input.drop);
+    check_progress(tally);
     if (start_overlap.empty()) check_contacts(before);
   }
 
@@ -146,6 +154,18 @@ class RandomRun {
     ASSERT_TRUE(reported_.drops_hold(path, report_.dropped_through)) << where();
   }
 
+  /// Who could fall falls, and the iterations are enough for all but the longest launches.
+  void check_progress(Tally& tally) {
+    ASSERT_FALSE(report_.status == StepStatus::dropped && report_.requested.norm() < 1000) << where();
+    const Vec2d made = report_.move.path.back().position - report_.move.path[0].position;
+    tally.falling += made.y() < 0;
+    const compare::TraceStep record = recorded<double>(report_, state_, {});
+    const compare::Others alone;
+    const bool hangs =
+        compare::detail::HangingJudge(header_, oracle_, record, alone).hangs(made, compare::detail::exact_reach);
+    ASSERT_FALSE(hangs) << "hangs" << where();
+  }
+
   void check_contacts(const CharacterState<double>& before) {
     if (report_.move.contacts.empty()) return;
     for (const Contact<double>& contact : report_.move.contacts) ASSERT_LE(contact.separation, 1e-6) << where();
@@ -172,6 +192,9 @@ class RandomRun {
          << ", requested " << report_.requested.transpose() << ", way";
     for (const PathPoint<double>& corner : report_.move.path)
       text << " (" << corner.position.x() << ", " << corner.position.y() << " @ " << corner.fraction << ")";
+    for (const Contact<double>& met : report_.move.contacts)
+      text << "\n    met " << met.collider << ", normal " << met.normal.transpose() << ", gap " << met.separation << " @ "
+           << met.fraction;
     for (const ColliderIndex chain : report_.dropped_through) text << ", drops through " << chain;
     return text.str();
   }
@@ -183,6 +206,7 @@ class RandomRun {
   Scenery<double> scenery_;
   Controller<double> controller_;
   std::vector<Vec2d> hull_;
+  compare::TraceHeader header_;
   ExactScenery oracle_;
   Reported reported_;
   Scratch<double> scratch_;
@@ -200,9 +224,11 @@ TEST_P(Guarantee, no_step_ends_inside_passes_a_solid_or_leaves_a_gap) {
     if (HasFailure()) return;
   }
   RecordProperty("steps", tally.steps);
-  std::printf("%s: %d steps, %d with contact, %d launches, %d from inside, %d stuck, %d dropped, %d chains passed\n",
-              name_of(GetParam()).c_str(), tally.steps, tally.with_contact, tally.launched, tally.from_inside,
-              tally.stuck, tally.dropped, tally.passed_on_purpose);
+  std::printf(
+      "%s: %d steps, %d with contact, %d launches, %d from inside, %d stuck, %d dropped, %d chains passed, %d fall\n",
+      name_of(GetParam()).c_str(), tally.steps, tally.with_contact, tally.launched, tally.from_inside, tally.stuck,
+      tally.dropped, tally.passed_on_purpose, tally.falling);
+  EXPECT_GE(tally.falling, tally.steps / 10) << "who never falls cannot hang";
   // The generators must really meet the solids, and also miss them.
   EXPECT_GE(tally.with_contact, tally.steps * 0.1);
   EXPECT_LE(tally.with_contact, tally.steps * 0.9);

@@ -196,6 +196,7 @@ class StepSolver {
   void respond_to(const V& normal, Scalar left, Drive<Scalar>& drive) noexcept;
   [[nodiscard, gnu::cold, gnu::noinline]] bool slip(std::span<const V> held, Scalar fall,
                                                      Drive<Scalar>& drive) noexcept;
+  [[nodiscard, gnu::cold, gnu::noinline]] bool falls_between(const V& way) noexcept;
   [[nodiscard]] V aimed_back(const V& way, const Stop<Scalar>& at) const noexcept;
   void halt() noexcept;
   [[gnu::cold, gnu::noinline]] void cut_short() noexcept;
@@ -305,6 +306,7 @@ class StepSolver {
   Scalar steered_ = 0;    ///< The part of the horizontal velocity that this step's steering added [m/s].
   bool drops_ = false;    ///< One-way segments hold nobody in this step.
   bool certify_ = false;  ///< Something is nearer than rounding: every motion needs an exact certificate.
+  bool climbs_ = false;      ///< It began on the ground, and no faster upwards than ground can be climbed.
   bool after_walk_ = false;  ///< See `Surface`.
   bool wedged_ = false;      ///< A fall ended between the surfaces that were touched together.
   bool met_ground_ = false;  ///< Something walkable was in the way during this step,

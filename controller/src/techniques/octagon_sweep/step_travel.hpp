@@ -97,8 +97,8 @@ void StepSolver<variant, Scalar>::begin_drive(const MoveRequest<Scalar>& request
   steered_ = request.steered;
   dt_ = request.dt;
   // A rise that is steeper than any ground comes from elsewhere.
-  after_walk_ = request.grounded &&
-                request.velocity.y() <= std::abs(request.velocity.x()) * settings_.walkable_tangent;
+  after_walk_ = climbs_ = request.grounded &&
+                          request.velocity.y() <= std::abs(request.velocity.x()) * settings_.walkable_tangent;
 }
 
 template <Variant variant, class Scalar>
@@ -131,7 +131,7 @@ void StepSolver<variant, Scalar>::travel() noexcept {
     if (!found_.hit) return;
     report(begin);
 
-    const Stop<Scalar>& stop = found_.stops[0];
+    const Stop<Scalar> stop = found_.stops[0];
     const V normal = space_.normal(stop.piece, stop.axes.normal);
     const Scalar left = 1 - found_.stop;
     if (found_.stop * motion_.length > tolerances.touch) {
@@ -183,11 +183,38 @@ bool StepSolver<variant, Scalar>::slip(std::span<const V> held, Scalar fall, Dri
     if (walkable(normal)) return false;
     planes.push_back({normal});
   }
-  const V velocity = nearest_allowed<Scalar>(V(0, fall), {planes.begin(), planes.size()}).value_or(V::Zero());
-  wedged_ = !(velocity.y() < along_plane<Scalar> * fall);
-  if (wedged_) return false;
-  drive = Drive<Scalar>::plain(velocity * (dt_ * (1 - time_)), velocity);
+  V velocity = nearest_allowed<Scalar>(V(0, fall), {planes.begin(), planes.size()}).value_or(V::Zero());
+  const Scalar left = dt_ * (1 - time_);
+  if (!(velocity.y() < along_plane<Scalar> * fall)) {
+    velocity = {0, fall};
+    wedged_ = !falls_between(velocity * left);
+    if (wedged_) return false;
+  }
+  drive = Drive<Scalar>::plain(velocity * left, velocity);
   return true;
+}
+
+/// Whether the character falls straight down between rims that it rests on: in a shaft that is a little wider than the
+/// character its walls keep it clear. Where it is off the middle it shifts by as much as the narrowest opening leaves.
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::falls_between(const V& way) noexcept {
+  constexpr Tolerances<Scalar> tolerances{};
+  const auto falls = [&] {
+    look_along(way);
+    return !found_.hit || found_.stop * motion_.length > tolerances.touch;
+  };
+  if (falls()) return true;
+  if (certify_) return false;
+  for (const Scalar aside : {tolerances.hit, -tolerances.hit, 2 * tolerances.hit, -2 * tolerances.hit}) {
+    const V here = position_;
+    position_.x() += aside;
+    if (clear_way(here, position_) && falls()) {
+      push_corner(time_);
+      return true;
+    }
+    position_ = here;
+  }
+  return false;
 }
 
 /// The exact certificate or the range forbids the motion: the step ends here, and names each piece that is in the way.
@@ -279,7 +306,8 @@ void StepSolver<variant, Scalar>::follow_ground_down(const MoveRequest<Scalar>& 
     left_ground = moving_.ride.velocity;
     travelled -= left_ground * request.dt;
   }
-  if (velocity_.y() > left_ground.y()) return;
+  // What rises has left the ground on purpose, unless it only climbs: over a crest a walk goes on.
+  if (velocity_.y() > left_ground.y() && !climbs_) return;
   const Scalar steepest = std::abs(travelled.x()) * settings_.walkable_tangent + Tolerances<Scalar>{}.touch;
   look_along({0, -std::min(settings_.snap, steepest)});
   if (!found_.hit) return;
