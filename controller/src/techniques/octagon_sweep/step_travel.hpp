@@ -217,13 +217,16 @@ bool StepSolver<variant, Scalar>::falls_between(const V& way) noexcept {
   return false;
 }
 
-/// The exact certificate or the range forbids the motion: the step ends here, and names each piece that is in the way.
+/// The exact certificate or the range forbids the motion: the step ends here, and names each piece that is touched and in
+/// the way.
 template <Variant variant, class Scalar>
 void StepSolver<variant, Scalar>::cut_short() noexcept {
   if (result_.status == MoveStatus::moved) result_.status = MoveStatus::dropped;
   const V target = motion_.from + motion_.way * found_.stop;
   for (const PieceIndex piece : neighbourhood_.around({position_.cwiseMin(target), position_.cwiseMax(target)}))
-    if (!clear_way(piece, position_, target)) report_touched(piece);
+    if (best_axis<variant>(space_, piece, position_).separation <= Tolerances<Scalar>{}.touch &&
+        !clear_way(piece, position_, target))
+      report_touched(piece);
   halt();
 }
 
