@@ -127,9 +127,17 @@ void ContactJudge::add_first_impacts(const std::vector<ExactImpact>& impacts, bo
   const Vec2d relative = wanted(first->collider);
   const double approach = std::abs(relative.dot(first->normal));
   judgement.first_impact = fraction;
-  judgement.first_impact_comparable = !step_.stuck &&
+  judgement.first_impact_comparable = !step_.stuck && !gives_way() &&
                                       fraction * approach > (header_.path_exact ? contact_reach : skin) &&
                                       approach >= least_approach * relative.norm();
+}
+
+/// Whether its way, from the start, is not the requested one: a mover would leave it no room there.
+bool ContactJudge::gives_way() const {
+  if (!header_.path_exact || step_.movers.empty() || step_.path.size() < 2) return false;
+  const PathPoint<double>& corner = step_.path[1];
+  const Vec2d expected = step_.path[0].position + step_.requested * corner.fraction;
+  return (corner.position - expected).cwiseAbs().maxCoeff() > contact_reach;
 }
 
 /// The smallest separation over the corners of the way [m].

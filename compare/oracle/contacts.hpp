@@ -39,6 +39,7 @@ class ContactJudge {
   [[nodiscard]] bool met_after_another(const Contact<double>& contact, const StepJudgement& judgement) const;
   [[nodiscard]] bool comes_near(const Contact<double>& contact) const;
   [[nodiscard]] bool dropped_through(ColliderIndex collider) const;
+  [[nodiscard]] bool gives_way() const;
   [[nodiscard]] double nearest(ColliderIndex collider) const;
 
   const TraceHeader& header_;

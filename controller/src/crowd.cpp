@@ -63,6 +63,19 @@ struct CrowdMemory final : OwnMemory {
   Scratch<Scalar> technique;
 };
 
+/// Any number of movers may crush one character.
+template <class Scalar>
+void reserve_names(const Scenery<Scalar>& scenery, crowd::WalkerMemory<Scalar>& memory) {
+  const std::vector<ColliderDef>& colliders = scenery.as_run().colliders;
+  const auto moves = [](const ColliderDef& each) { return each.mover != no_mover; };
+  const auto most = static_cast<std::size_t>(std::count_if(colliders.begin(), colliders.end(), moves));
+  memory.way.crushed.reserve(most);
+  for (crowd::Walker<Scalar>& walker : memory.walkers) {
+    walker.plan.crushed.reserve(most);
+    memory.crushed.emplace_back(most);
+  }
+}
+
 }  // namespace
 
 template <class Scalar>
@@ -110,6 +123,7 @@ CrowdScratch Crowd<Scalar>::make_scratch(std::size_t most_characters) const {
     memory->walking.walkers.resize(most_characters);
     memory->walking.rows.resize(most_characters);
     memory->walking.motions.resize(rules_->surrounded->scenery.mover_count());
+    reserve_names(rules_->surrounded->scenery, memory->walking);
   } else {
     memory->standing.runners.resize(most_characters);
     memory->standing.rows.resize(most_characters);

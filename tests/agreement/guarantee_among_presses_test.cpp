@@ -33,8 +33,10 @@ struct Pressed {
   int overlaps = 0;  ///< Ended inside what did not crush.
   int passages = 0;  ///< Came out on another side, or passed something, and be it with a rim.
   int room = 0;      ///< Were crushed where there was room.
+  int aside = 0;     ///< Went elsewhere than requested, and
+  int unnamed = 0;   ///< named nothing that was near the way.
 
-  [[nodiscard]] int broken() const { return overlaps + passages + room; }
+  [[nodiscard]] int broken() const { return overlaps + passages + room + unnamed; }
 };
 
 ColliderDef box(double left, double bottom, double right, double top) {
@@ -89,6 +91,7 @@ class Chamber {
       for (std::size_t k = 0; k < courses_.size(); ++k)
         motions[k] = {step == 0 ? courses_[k].at(0) : motions[k].to, courses_[k].at((step + 1) * dt)};
       const bool under = !state.pressers.empty();
+      const CharacterState<double> before = state;
       const StepStatus status = controller.step(state, input, gravity, dt, motions, scratch, report);
       ASSERT_NE(status, StepStatus::invalid_input);
       ++tally.steps;
@@ -100,11 +103,37 @@ class Chamber {
       tally.overlaps += !judgement.entered.empty();
       tally.passages += !judgement.tunnelled.empty() || !judgement.corner_cut.empty();
       tally.room += !judgement.crushed_with_room.empty();
+      if (status == StepStatus::moved && !under && goes_aside(before, report, motions)) {
+        ++tally.aside;
+        tally.unnamed += !names_what_is_near(judge.scenery(), report, motions);
+      }
       if (state.position.cwiseAbs().maxCoeff() > 9) return;
     }
   }
 
  private:
+  /// By more than gaps are restored.
+  [[nodiscard]] bool goes_aside(const CharacterState<double>& before, const StepReport<double>& report,
+                                std::span<const MoverMotion<double>> motions) const {
+    Vec2d expected = before.position + report.requested;
+    if (before.ride.ground != Ride<double>::none) {
+      const MoverIndex mover = colliders_[before.ride.ground].mover;
+      if (mover != no_mover) expected += motions[mover].to - motions[mover].from;
+    }
+    return (report.move.position - expected).cwiseAbs().maxCoeff() > 2e-6;
+  }
+  /// Within what a contact is, at some corner of the way.
+  [[nodiscard]] static bool names_what_is_near(const compare::ExactScenery& exact, const StepReport<double>& report,
+                                               std::span<const MoverMotion<double>> motions) {
+    const auto& contacts = report.move.contacts;
+    return std::any_of(contacts.begin(), contacts.end(), [&](const Contact<double>& contact) {
+      const auto near = [&](const PathPoint<double>& corner) {
+        return exact.separation({corner, motions}, contact.collider) <= 1e-6;
+      };
+      return std::any_of(report.move.path.begin(), report.move.path.end(), near);
+    });
+  }
+
   std::vector<ColliderDef> walls() {
     height_ = random_.between(1.4, 3);
     width_ = random_.between(0.8, 2.5);
@@ -160,14 +189,20 @@ TEST(AmongPresses, no_step_comes_out_on_another_side_of_what_crushed_nor_is_crus
     const Pressed before = all;
     Chamber(seed).go(all);
     if (all.broken() == before.broken()) continue;
-    std::printf("breaks: seed %d: %d overlaps, %d passages, %d with room\n", static_cast<int>(seed),
-                all.overlaps - before.overlaps, all.passages - before.passages, all.room - before.room);
+    std::printf("breaks: seed %d: %d overlaps, %d passages, %d with room, %d unnamed\n", static_cast<int>(seed),
+                all.overlaps - before.overlaps, all.passages - before.passages, all.room - before.room,
+                all.unnamed - before.unnamed);
   }
-  std::printf("%d steps, %d crushed, %d of them again, %d stuck, %d freed; %d overlaps, %d passages, %d with room\n",
-              all.steps, all.crushed, all.crushed_again, all.stuck, all.freed, all.overlaps, all.passages, all.room);
+  std::printf(
+      "%d steps, %d crushed, %d of them again, %d stuck, %d freed, %d aside; %d overlaps, %d passages, %d with room, "
+      "%d unnamed\n",
+      all.steps, all.crushed, all.crushed_again, all.stuck, all.freed, all.aside, all.overlaps, all.passages, all.room,
+      all.unnamed);
   EXPECT_EQ(all.overlaps, 0);
   EXPECT_EQ(all.passages, 0);
   EXPECT_EQ(all.room, 0);
+  EXPECT_EQ(all.unnamed, 0);
+  EXPECT_GE(all.aside, all.steps / 50);
   EXPECT_GE(all.crushed, all.steps / 200);
   EXPECT_GE(all.crushed_again, all.steps / 2000);
   EXPECT_GE(all.freed, all.steps / 500);

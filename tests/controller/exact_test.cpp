@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "exact_reference.hpp"
 
@@ -15,6 +16,7 @@ using geometry::orientation_sign_of_edge_offset;
 using geometry::orientation_sign_of_offset;
 using test::cross;
 using test::ExactPoint;
+using test::Rational;
 
 /// What plain doubles make of it, and whether they can be sure.
 struct InDoubles {
@@ -122,6 +124,31 @@ TEST_F(ExactSigns, orientation_of_an_offset_edge_does_not_round_the_sums) {
     coverage.count(exact, in_doubles(position + from, position + to, v));
   }
   coverage.expect_hard_cases();
+}
+
+/// As a mover sees a point of a character within a step: position + offset - (from + part of its way).
+TEST_F(ExactSigns, orientation_of_a_sum_of_many_terms_does_not_round_it) {
+  Coverage coverage;
+  for (int i = 0; i < cases; ++i) {
+    const Vec2d offset = point(1);
+    const Vec2d from = point(power_of_two(10));
+    const Vec2d to = from + point(power_of_two(6));
+    const double time = integer(0, 3) == 0 ? 0.5 * integer(0, 2) : uniform(0, 1);
+    const Vec2d moved = from + (to - from) * time;
+    const Vec2d a = point(power_of_two(10));
+    const Vec2d b = a + point(power_of_two(6));
+    const Vec2d position = near_line(a, b) - offset + moved;
+    std::vector<Vec2d> terms{position, offset, -from};
+    for (const Vec2d& part : geometry::part_of_way(from, to, time)) terms.push_back(-part);
+    ExactPoint sum(position, offset);
+    sum.x -= Rational(from.x()) + (Rational(to.x()) - Rational(from.x())) * Rational(time);
+    sum.y -= Rational(from.y()) + (Rational(to.y()) - Rational(from.y())) * Rational(time);
+    const int exact = cross(ExactPoint(a), ExactPoint(b), sum).sign();
+    ASSERT_EQ(geometry::orientation_sign_of_sum(a, b, terms), exact) << "seed " << seed << ", case " << i;
+    coverage.count(exact, in_doubles(a, b, position + offset - moved));
+  }
+  EXPECT_GE(coverage.undecided_in_doubles, coverage.cases / 10);
+  EXPECT_GE(coverage.wrong_in_doubles, coverage.cases / 100);
 }
 
 TEST_F(ExactSigns, signs_are_exact_for_every_mixture_of_magnitudes_in_range) {

@@ -105,9 +105,13 @@ struct Presser {
   /// and how far it has gone since that moment [m]: what is seen of it from there, moved on by so much, is the side
   /// from which the character came.
   Vec2<Scalar> gone{Vec2<Scalar>::Zero()};
+  bool has_side = true;  ///< False: which side that is was lost, as more were on the character than are remembered.
 
   friend bool operator==(const Presser&, const Presser&) = default;
 };
+/// Those that are on a character at once: a state stays a plain value, so only so many are remembered. With more the
+/// character stays where it is as long as any of the others is on it, also where there would be room: no way could be
+/// known to lead to the side from which it came. Whatever else runs into it meanwhile crushes it, too.
 template <class Scalar>
 using Pressers = FixedVector<Presser<Scalar>, 8>;
 
@@ -130,7 +134,7 @@ struct CharacterState {
   /// Movers left no room, and one of them is still on the character. It stays where it is: whatever else runs into it
   /// finds it room on the side from which it came, or crushes it, too.
   bool crushed = false;
-  Pressers<Scalar> pressers{};   ///< While `crushed`: the first so many.
+  Pressers<Scalar> pressers{};   ///< While `crushed`.
   std::uint8_t stuck_steps = 0;  ///< How many steps in a row ended inside something.
   Ride<Scalar> ride;             ///< None on ground that does not move.
 

@@ -7,6 +7,7 @@
 #include <paperproof/crowd.hpp>
 #include <paperproof/pixel_tiles.hpp>
 #include <paperproof/plan.hpp>
+#include <paperproof/report_vector.hpp>
 #include <paperproof/scenery.hpp>
 #include <paperproof/technique.hpp>
 #include <paperproof/techniques.hpp>

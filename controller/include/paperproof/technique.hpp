@@ -2,6 +2,7 @@
 #pragma once
 
 #include <paperproof/character.hpp>
+#include <paperproof/report_vector.hpp>
 
 #include <memory>
 #include <span>
@@ -43,9 +44,9 @@ struct MoveRequest {
   Vec2<Scalar> position{Vec2<Scalar>::Zero()};      ///< Where the step begins [m].
   Vec2<Scalar> displacement{Vec2<Scalar>::Zero()};  ///< Where it should go [m].
   Vec2<Scalar> velocity{Vec2<Scalar>::Zero()};      ///< The velocity behind the displacement [m/s].
-  Scalar steered = 0;  ///< The part of `velocity.x()` that this step's steering added [m/s].
-  Vec2<Scalar> last_free{Vec2<Scalar>::Zero()};     ///< See `CharacterState::last_free`.
-  Vec2<Scalar> remainder{Vec2<Scalar>::Zero()};     ///< See `CharacterState::remainder`.
+  Scalar steered = 0;                            ///< The part of `velocity.x()` that this step's steering added [m/s].
+  Vec2<Scalar> last_free{Vec2<Scalar>::Zero()};  ///< See `CharacterState::last_free`.
+  Vec2<Scalar> remainder{Vec2<Scalar>::Zero()};  ///< See `CharacterState::remainder`.
   bool has_last_free = false;
   bool grounded = false;  ///< The last step ended on the ground, and this one does not begin with a jump.
   bool crushed = false;   ///< See `CharacterState::crushed`.
@@ -72,6 +73,9 @@ enum class MoveStatus : std::uint8_t {
                     ///< step. Nothing moved.
 };
 
+/// What is reported of one move. `octagon_sweep` reports all there is, in memory of its scratch that the scenery sizes
+/// where there is more than mostly comes (see `ReportVector`); of other techniques, and in a `Crowd`, what exceeds
+/// the inline storage is left out, and the vector has `overflowed()`. Only of `crushed` a crowd leaves out nothing.
 template <class Scalar>
 struct MoveResult {
   static constexpr std::size_t max_corners = 64;
@@ -84,15 +88,18 @@ struct MoveResult {
   Vec2<Scalar> remainder{Vec2<Scalar>::Zero()};  ///< See `CharacterState::remainder`.
   bool grounded = false;
   /// From the start (fraction 0) to the end (fraction 1); linear between. A technique that only looks at where it
-  /// arrives has just these two.
-  FixedVector<PathPoint<Scalar>, max_corners> path;
-  FixedVector<Contact<Scalar>, max_contacts> contacts;
+  /// arrives has just these two. Impacts bound the number of corners: `sweep_iterations` of its own, and any number
+  /// among movers, where `octagon_sweep` has room for 4 corners more per moving piece; a step that needs still more is
+  /// `dropped`.
+  ReportVector<PathPoint<Scalar>, max_corners> path;
+  /// Bounded by the facets of all pieces that block.
+  ReportVector<Contact<Scalar>, max_contacts> contacts;
   Ride<Scalar> ride;  ///< For the next step. `velocity` above is in the world, the ride included.
-  /// Colliders of movers that ran into the character where it had no room to give way.
-  FixedVector<ColliderIndex, max_crushed> crushed;
+  /// Colliders of movers that ran into the character where it had no room to give way; each once.
+  ReportVector<ColliderIndex, max_crushed> crushed;
   Pressers<Scalar> pressers;  ///< See `CharacterState::pressers`.
 
-  void clear() noexcept {
+  [[gnu::always_inline]] void clear() noexcept {
     status = MoveStatus::moved;
     remainder.setZero();
     grounded = false;

@@ -77,6 +77,7 @@ struct WalkerMemory {
   std::vector<MoverMotion<Scalar>> motions;  ///< Of the scene's movers and of all places, during a part of a way.
   MoveResult<Scalar> part;                   ///< What the technique says about that part.
   MoveResult<Scalar> way;                    ///< Up to an impact.
+  std::vector<ReportMemory<ColliderIndex>> crushed;  ///< For what the report of each has no room for.
 };
 
 template <class Scalar>

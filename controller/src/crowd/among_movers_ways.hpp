@@ -238,7 +238,7 @@ void AmongMovers<Scalar>::make(std::size_t i, const MoveResult<Scalar>& way) noe
     note_meeting(member(other), i, V(-contact.normal), contact.fraction);
   }
   for (const ColliderIndex collider : way.crushed)
-    if (!is_companion(collider) && !names(made, collider)) made.crushed.push_back(collider);
+    if (!is_companion(collider) && !names(made, collider)) made.crushed.push_back(collider, memory_.crushed[i]);
   walker.dropped = walker.dropped || way.status == MoveStatus::dropped;
   made.status = way.status;
   take_end(way, made);

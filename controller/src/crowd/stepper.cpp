@@ -55,7 +55,9 @@ StepStatus Stepper<Scalar>::move(const Runner<Scalar>& runner, Scalar duration, 
   state = runner.state;
   state.grounded = runner.walks && follow_down && !runner.no_snap;
   const Input input{.move = std::nullopt, .jump = false, .drop = runner.drops};
-  return controller_.step(state, input, V::Zero(), duration, technique_, report);
+  const StepStatus status = controller_.step(state, input, V::Zero(), duration, technique_, report);
+  report.move.contacts.keep_own();  // the next of them uses the same scratch
+  return status;
 }
 
 /// A new way for the rest of the step.

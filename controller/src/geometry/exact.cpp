@@ -1,5 +1,8 @@
 #include "geometry/exact.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cassert>
 #include <cmath>
 
 namespace paperproof::geometry {
@@ -69,26 +72,20 @@ class ExactSum {
   std::size_t size_ = 0;
 };
 
-ExactSum<4> sum_of(double a, double b, double c, double d) noexcept {
-  ExactSum<4> sum;
-  sum.add(a);
-  sum.add(b);
-  sum.add(c);
-  sum.add(d);
-  return sum;
-}
-
-/// Sign of (to - from) x (a - b + c + d), exactly. Two parts times four parts, each product in two parts, twice: 32.
-int exact_cross_sign(const Vec2d& from, const Vec2d& to, const Vec2d& a, const Vec2d& b, const Vec2d& c,
-                     const Vec2d& d) noexcept {
-  const ExactSum<4> arm_x = sum_of(a.x(), -b.x(), c.x(), d.x());
-  const ExactSum<4> arm_y = sum_of(a.y(), -b.y(), c.y(), d.y());
-  ExactSum<32> cross;
-  for (const double edge : sum_of(to.x(), -from.x(), 0, 0)) {
-    for (const double arm : arm_y) cross.add_product(edge, arm);
-  }
-  for (const double edge : sum_of(to.y(), -from.y(), 0, 0)) {
-    for (const double arm : arm_x) cross.add_product(-edge, arm);
+/// Sign of (to - from) x (the unrounded sum of all terms). Two parts times as many as there are terms, each product in
+/// two parts, twice.
+template <std::size_t most_arms>
+int exact_cross_sign(const Vec2d& from, const Vec2d& to, std::span<const Vec2d> arm) noexcept {
+  ExactSum<8 * most_arms> cross;
+  for (const Eigen::Index i : {0, 1}) {
+    ExactSum<2> edge;
+    edge.add(to[i]);
+    edge.add(-from[i]);
+    ExactSum<most_arms> across;
+    for (const Vec2d& term : arm) across.add(term[1 - i]);
+    for (const double part : edge) {
+      for (const double other : across) cross.add_product(i == 0 ? part : -part, other);
+    }
   }
   return cross.sign();
 }
@@ -114,7 +111,7 @@ int cross_sign(const Vec2d& from, const Vec2d& to, const Vec2d& a, const Vec2d& 
   if (cross > bound) return 1;
   if (cross < -bound) return -1;
   if (bound == 0) return 0;
-  return exact_cross_sign(from, to, a, b, c, d);
+  return exact_cross_sign<4>(from, to, std::array<Vec2d, 4>{a, -b, c, d});
 }
 
 }  // namespace
@@ -140,6 +137,43 @@ int turn_sign(const Vec2d& a, const Vec2d& b, const Vec2d& c, const Vec2d& d) no
 int turn_sign_of_offset(const Vec2d& direction, const Vec2d& through, const Vec2d& position, const Vec2d& offset,
                         const Vec2d& rest) noexcept {
   return cross_sign(Vec2d::Zero(), direction, position, through, offset, rest);
+}
+
+/// The filter: n additions are off by at most n u times the sum of all magnitudes, the edge by u, and the products and
+/// their difference by two more; one is for terms of order u^2 and the rounding of the bound itself.
+int orientation_sign_of_sum(const Vec2d& a, const Vec2d& b, std::span<const Vec2d> terms) noexcept {
+  assert(terms.size() <= most_terms);
+  Vec2d arm = -a;
+  Vec2d size = a.cwiseAbs();
+  for (const Vec2d& term : terms) {
+    arm += term;
+    size += term.cwiseAbs();
+  }
+  const Vec2d edge = b - a;
+  const double cross = edge.x() * arm.y() - edge.y() * arm.x();
+  const double bound = (static_cast<double>(terms.size()) + 4) * rounding *
+                       (std::abs(edge.x()) * size.y() + std::abs(edge.y()) * size.x());
+  if (cross > bound) return 1;
+  if (cross < -bound) return -1;
+  if (bound == 0) return 0;
+  std::array<Vec2d, most_terms + 1> from_a;
+  std::copy(terms.begin(), terms.end(), from_a.begin());
+  from_a[terms.size()] = -a;
+  return exact_cross_sign<most_terms + 1>(a, b, std::span(from_a).first(terms.size() + 1));
+}
+
+std::array<Vec2d, 4> part_of_way(const Vec2d& from, const Vec2d& to, double factor) noexcept {
+  std::array<Vec2d, 4> terms;
+  for (Eigen::Index i = 0; i < 2; ++i) {
+    const TwoDoubles way = two_sum(to[i], -from[i]);
+    const TwoDoubles high = two_product(way.high, factor);
+    const TwoDoubles low = two_product(way.low, factor);
+    terms[0][i] = high.high;
+    terms[1][i] = high.low;
+    terms[2][i] = low.high;
+    terms[3][i] = low.low;
+  }
+  return terms;
 }
 
 }  // namespace paperproof::geometry

@@ -3,6 +3,8 @@
 
 #include <paperproof/types.hpp>
 
+#include <span>
+
 namespace paperproof::geometry {
 
 /// Smallest magnitude, other than zero, that the functions below are exact for. Its square is far above where doubles
@@ -43,5 +45,13 @@ inline constexpr double largest_exact = 0x1p300;
 /// not rounded: +1 to the left.
 [[nodiscard]] int turn_sign_of_offset(const Vec2d& direction, const Vec2d& through, const Vec2d& position,
                                       const Vec2d& offset, const Vec2d& rest = Vec2d::Zero()) noexcept;
+
+inline constexpr std::size_t most_terms = 7;
+
+/// `orientation_sign(a, b, c)` for the unrounded sum c of at most `most_terms` terms.
+[[nodiscard]] int orientation_sign_of_sum(const Vec2d& a, const Vec2d& b, std::span<const Vec2d> terms) noexcept;
+
+/// Terms whose unrounded sum is (to - from) * factor.
+[[nodiscard]] std::array<Vec2d, 4> part_of_way(const Vec2d& from, const Vec2d& to, double factor) noexcept;
 
 }  // namespace paperproof::geometry

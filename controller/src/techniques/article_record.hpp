@@ -10,7 +10,7 @@ namespace paperproof::article {
 template <class Scalar>
 class FrameRecord {
  public:
-  using Colliders = decltype(MoveResult<Scalar>::crushed);
+  using Colliders = FixedVector<ColliderIndex, MoveResult<Scalar>::max_crushed>;
 
   /// Begins `result`: its velocity, and the start of its path.
   FrameRecord(const Parts<Scalar>& parts, const MoveRequest<Scalar>& request, MoveResult<Scalar>& result) noexcept;

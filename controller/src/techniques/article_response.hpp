@@ -147,8 +147,8 @@ template <class Scalar>
 void stay_crushed(const MoveRequest<Scalar>& request, MoveResult<Scalar>& result) noexcept;
 
 /// What is there already is not added again.
-template <std::size_t capacity>
-void add_once(ColliderIndex collider, FixedVector<ColliderIndex, capacity>& all) noexcept {
+template <class Colliders>
+void add_once(ColliderIndex collider, Colliders& all) noexcept {
   if (std::find(all.begin(), all.end(), collider) == all.end()) all.push_back(collider);
 }
 

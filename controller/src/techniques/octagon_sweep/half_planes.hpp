@@ -3,10 +3,12 @@
 
 #include <paperproof/types.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace paperproof::octagon_sweep {
 
@@ -26,6 +28,17 @@ struct HalfPlane {
     return margin(w) >= -noise * (std::abs(w.x()) + std::abs(w.y()) + std::abs(least));
   }
 };
+
+/// Of surfaces with one normal only the one that leaves least counts: a handful are left, however many are touched.
+template <class Scalar>
+void add_plane(const HalfPlane<Scalar>& plane, std::vector<HalfPlane<Scalar>>& planes) noexcept {
+  for (HalfPlane<Scalar>& known : planes) {
+    if (known.normal != plane.normal) continue;
+    known.least = std::max(known.least, plane.least);
+    return;
+  }
+  planes.push_back(plane);
+}
 
 /// The point of the intersection of half planes that is nearest to `wanted`; nothing where they have none in common.
 /// In the plane it is `wanted` itself, its foot on one border, or a crossing of two borders. O(n³) for a handful.

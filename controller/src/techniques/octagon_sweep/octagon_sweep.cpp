@@ -67,6 +67,7 @@ class OctagonSweep : public Technique<Scalar> {
   [[nodiscard]] Scratch<Scalar> make_scratch() const override {
     Scratch<Scalar> scratch;
     scratch.solids.pieces.resize(broad_phase_->size());
+    scratch.own = std::make_unique<StepMemory<Scalar>>(space_);
     return scratch;
   }
 
@@ -81,7 +82,7 @@ class OctagonSweep : public Technique<Scalar> {
 
  protected:
   [[nodiscard]] Neighbourhood<Scalar> neighbourhood(Scratch<Scalar>& scratch) const noexcept {
-    return {space_, *broad_phase_, settings_.look_ahead, scratch.solids};
+    return {space_, *broad_phase_, settings_.look_ahead, scratch};
   }
 
   [[nodiscard]] static bool in_range(const MoveRequest<Scalar>& request) noexcept {

@@ -31,25 +31,31 @@ struct TakenRegion {
   std::uint32_t end = 0;
 };
 
-/// Memory for the lines and regions of all pieces that may be near at once.
+/// Part of a line, along (-normal.y, normal.x) from its foot [m].
+template <class Scalar>
+struct PartOfLine {
+  Scalar from;
+  Scalar to;
+};
+
+/// Memory for the lines and regions of all pieces of a scenery.
 template <class Scalar>
 struct RoomMemory {
-  /// A scenery of more pieces than fit is not kept as a whole: room among so many pieces at once is looked for as if
-  /// the rest of them were not there. What is found is checked with all of them, so it may only be missed.
-  static constexpr std::size_t most_lines = 1U << 15U;
-
   explicit RoomMemory(const ConfigurationSpace<Scalar>& space) {
     std::size_t needed = 0;
     const PieceIndex pieces = space.scenery().sensor_pieces().first;
     // Twice the axes, for the shadow and for the piece itself, and two tangents and the direction of a one-way chain.
     for (PieceIndex piece = 0; piece < pieces; ++piece) needed += 2 * space.axis_count(piece) + 3;
-    lines.reserve(std::min(needed, most_lines));
-    regions.reserve(std::min(std::size_t{2} * pieces, most_lines));
+    lines.reserve(needed);
+    regions.reserve(std::size_t{2} * pieces);
     order.reserve(regions.capacity());
+    parts.reserve(regions.capacity() + 1);
   }
   std::vector<TakenLine<Scalar>> lines;  ///< Never grows.
   std::vector<TakenRegion> regions;      ///< Never grows.
   std::vector<std::uint32_t> order;      ///< Never grows.
+  /// Never grows: it begins with one part, and each region cuts one in two at most.
+  std::vector<PartOfLine<Scalar>> parts;
 };
 
 /// The positions that cannot be reached from one corner of the way, and those that are not free.
@@ -58,7 +64,12 @@ class TakenPositions {
  public:
   /// @param gap that is left to what is solid when the step ends [m].
   TakenPositions(const ConfigurationSpace<Scalar>& space, RoomMemory<Scalar>& memory, Scalar gap) noexcept
-      : space_(space), lines_(memory.lines), regions_(memory.regions), order_(memory.order), gap_(gap) {
+      : space_(space),
+        lines_(memory.lines),
+        regions_(memory.regions),
+        order_(memory.order),
+        free_(memory.parts),
+        gap_(gap) {
     lines_.clear();
     regions_.clear();
     order_.clear();
@@ -71,7 +82,6 @@ class TakenPositions {
     const ObstacleInfo& info = space_.info(piece);
     const bool solid = info.one_way_axis == ObstacleInfo::not_one_way;
     if (!solid && !space_.surfaces().may_be_above(info.surface, from, Tolerances<Scalar>{}.certain)) return true;
-    if (!has_room_for(piece)) return true;
     Scalar start = -std::numeric_limits<Scalar>::infinity();
     for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis)
       start = std::max(start, space_.separation(piece, axis, from));
@@ -82,9 +92,7 @@ class TakenPositions {
   }
 
   /// Adds the piece itself and no shadow: it is not in the way.
-  void add_end(PieceIndex piece, const Vec2<Scalar>& end) noexcept {
-    if (has_room_for(piece)) add_piece(piece, end);
-  }
+  void add_end(PieceIndex piece, const Vec2<Scalar>& end) noexcept { add_piece(piece, end); }
 
   /// Calls `consider(w)` for positions that may be the nearest free one, relative to `end`, and less than `nearest`
   /// away.
@@ -105,17 +113,8 @@ class TakenPositions {
   /// Lines that differ by less in their direction are parallel.
   static constexpr Scalar parallel = std::numeric_limits<Scalar>::epsilon() * 64;
 
-  /// Part of a line, along (-normal.y, normal.x) from its foot [m].
-  struct Part {
-    Scalar from;
-    Scalar to;
-  };
-  using Parts = FixedVector<Part, 64>;
+  using Part = PartOfLine<Scalar>;
 
-  [[nodiscard]] bool has_room_for(PieceIndex piece) const noexcept {
-    return lines_.size() + 2 * space_.axis_count(piece) + 3 <= lines_.capacity() &&
-           regions_.size() + 2 <= regions_.capacity();
-  }
   void begin_region() noexcept {
     const auto first = static_cast<std::uint32_t>(lines_.size());
     regions_.push_back({first, first});
@@ -196,19 +195,18 @@ class TakenPositions {
     const Vec2<Scalar> foot = line.normal * line.bound;
     const Vec2<Scalar> along{-line.normal.y(), line.normal.x()};
     const Scalar half = std::sqrt(nearest * nearest - line.bound * line.bound);
-    Parts free;
-    free.push_back({-half, half});
+    free_.assign(1, {-half, half});
     for (std::uint32_t& region : order_) {
       if (region == own) continue;
       const Part covered = covered_by(regions_[region], foot, along, half);
       if (!(covered.from < covered.to)) continue;
-      take(covered, free);
-      if (!free.empty()) continue;
+      take(covered);
+      if (!free_.empty()) continue;
       // What covers one line often covers the next.
       std::swap(region, order_.front());
       return;
     }
-    for (const Part& part : free) {
+    for (const Part& part : free_) {
       consider(Vec2<Scalar>(foot + along * std::clamp(Scalar(0), part.from, part.to)));
       // Where rounding spoils the edge of it, its middle may do.
       consider(Vec2<Scalar>(foot + along * ((part.from + part.to) / 2)));
@@ -235,16 +233,16 @@ class TakenPositions {
     return part;
   }
 
-  static void take(const Part& covered, Parts& free) noexcept {
-    for (std::size_t i = 0; i < free.size();) {
-      Part& part = free[i];
+  void take(const Part& covered) noexcept {
+    for (std::size_t i = 0; i < free_.size();) {
+      Part& part = free_[i];
       if (covered.to <= part.from || covered.from >= part.to) {
         ++i;
         continue;
       }
       const bool before = covered.from > part.from;
       const bool after = covered.to < part.to;
-      if (before && after) free.push_back({covered.to, part.to});
+      if (before && after) free_.push_back({covered.to, part.to});
       if (before) {
         part.to = covered.from;
         ++i;
@@ -252,8 +250,8 @@ class TakenPositions {
         part.from = covered.to;
         ++i;
       } else {
-        part = free.back();
-        free.pop_back();
+        part = free_.back();
+        free_.pop_back();
       }
     }
   }
@@ -262,6 +260,7 @@ class TakenPositions {
   std::vector<TakenLine<Scalar>>& lines_;
   std::vector<TakenRegion>& regions_;
   std::vector<std::uint32_t>& order_;  ///< In which regions are asked what they cover.
+  std::vector<Part>& free_;            ///< Parts of the present line.
   Scalar gap_;
 };
 

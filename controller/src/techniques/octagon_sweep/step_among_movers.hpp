@@ -33,9 +33,7 @@ void StepSolver<variant, Scalar>::look_at_movers() noexcept {
 /// What has crushed the character, or is on it since an earlier step, goes through it for the rest of the step.
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::ignored(PieceIndex piece) const noexcept {
-  if (moving_.ignored.empty()) return false;
-  const ColliderIndex collider = space_.scenery().pieces()[piece].collider;
-  return contains(moving_.ignored, collider);
+  return memory().is(collider_of(piece), moving_.ignored);
 }
 
 /// Whether a motion keeps off a piece along the axis that holds it. The axis alone is then proof.
@@ -55,13 +53,13 @@ bool StepSolver<variant, Scalar>::kept_clear_by_hold(const LocalMotion& motion, 
 
 template <Variant variant, class Scalar>
 void StepSolver<variant, Scalar>::travel_among_movers() noexcept {
-  /// Impacts at one moment, and moments: the path has room for so many.
-  constexpr int most_sweeps = 4 * MoveResult<Scalar>::max_corners;
+  const std::size_t most_corners = memory().corners.capacity() - 3;
+  const std::size_t most_sweeps = 4 * most_corners;  // impacts at one moment, and moments
   Drive<Scalar> drive = this->drive();
   V way = motion_.way;  // with the aim back to the gap
   bool may_aim = true;
   int impacts = 0;
-  for (int sweeps = 0; sweeps < most_sweeps && result_.path.size() + 3 < result_.path.capacity(); ++sweeps) {
+  for (std::size_t sweeps = 0; sweeps < most_sweeps && result_.path.size() < most_corners; ++sweeps) {
     if (sweeps > 0) look_along(way);
     if (found_.hit && found_.stop == 0 && (way.x() != drive.way.wanted.x() || way.y() != drive.way.wanted.y())) {
       // There is no room to restore the gap: give that up for this step.
@@ -97,18 +95,16 @@ void StepSolver<variant, Scalar>::travel_among_movers() noexcept {
   last_resort(way);
 }
 
-/// Forgets surfaces that are no longer touched, and adds those of the last sweep. Where more are touched than there is
-/// memory for, those of the last sweep come first; what is forgotten meanwhile is met again by the next sweep, which
-/// looks at everything.
+/// Forgets surfaces that are no longer touched, and adds those of the last sweep, as far as it kept them.
 template <Variant variant, class Scalar>
 void StepSolver<variant, Scalar>::update_holds() noexcept {
   constexpr Scalar touch = Tolerances<Scalar>{}.touch;
   auto& holds = moving_.holds;
-  const FixedVector<Hold<Scalar>, 32> before = holds;
+  holds.swap(memory().holds_before);
   holds.clear();
   for (const Stop<Scalar>& stop : found_.stops)
     holds.push_back({stop.piece, stop.axes.normal, space_.normal(stop.piece, stop.axes.normal), mover_of(stop.piece)});
-  for (const Hold<Scalar>& hold : before) {
+  for (const Hold<Scalar>& hold : memory().holds_before) {
     const bool again = std::any_of(found_.stops.begin(), found_.stops.end(),
                                    [&hold](const Stop<Scalar>& stop) { return stop.piece == hold.piece; });
     if (again || ignored(hold.piece)) continue;
@@ -226,11 +222,13 @@ bool StepSolver<variant, Scalar>::respond_together(Drive<Scalar>& drive) const n
 template <Variant variant, class Scalar>
 std::optional<Drive<Scalar>> StepSolver<variant, Scalar>::nearest_allowed_to(const V& way,
                                                                              const V& velocity) const noexcept {
-  FixedVector<HalfPlane<Scalar>, 32> ways;
-  FixedVector<HalfPlane<Scalar>, 32> velocities;
+  std::vector<HalfPlane<Scalar>>& ways = memory().ways;
+  std::vector<HalfPlane<Scalar>>& velocities = memory().velocities;
+  ways.clear();
+  velocities.clear();
   for (const Hold<Scalar>& hold : moving_.holds) {
-    ways.push_back(behind(hold.normal, rest_of(hold)));
-    velocities.push_back(behind(hold.normal, velocity_of(hold)));
+    add_plane(behind(hold.normal, rest_of(hold)), ways);
+    add_plane(behind(hold.normal, velocity_of(hold)), velocities);
   }
   const auto allowed_way = nearest_allowed<Scalar>(way, {ways.begin(), ways.end()});
   if (!allowed_way) return std::nullopt;

@@ -23,34 +23,26 @@ bool StepSolver<variant, Scalar>::gives_way() noexcept {
   Scalar reach = 0;
   for (const Hold<Scalar>& hold : moving_.holds)
     if (hold.mover != no_mover) reach = std::max(reach, length_of(moving_.around.course(hold.mover)));
-  const FixedVector<Hold<Scalar>, 32> holds = moving_.holds;
+  if (!find_room(reach, result_.path.size())) return false;
   moving_.holds.clear();
-  if (find_room(reach, result_.path.size())) return true;
-  moving_.holds = holds;
-  return false;
+  return true;
 }
 
 /// One crush after the other may leave a way to go that none of them left alone: with all that crushed in its place
 /// again, and as far away as any of them goes.
 template <Variant variant, class Scalar>
 void StepSolver<variant, Scalar>::take_back_crushes() noexcept {
-  const auto& crushed = result_.crushed;
-  if (crushed.empty()) return;
-  const auto ignored_before = moving_.ignored;
-  moving_.ignored.clear();
-  for (const ColliderIndex collider : ignored_before)
-    if (!contains(crushed, collider)) moving_.ignored.push_back(collider);
+  if (result_.crushed.empty()) return;
+  moving_.ignored &= static_cast<std::uint8_t>(~crushes);
   Scalar reach = 0;
-  const std::vector<ColliderDef>& colliders = space_.scenery().as_run().colliders;
-  for (const ColliderIndex collider : crushed)
-    reach = std::max(reach, length_of(moving_.around.course(colliders[collider].mover)));
+  for (const ColliderIndex collider : result_.crushed) reach = std::max(reach, length_of(course_of(collider)));
   moving_.holds.clear();
   if (find_room(reach, moving_.corners_before_crush)) {
+    for (const ColliderIndex collider : result_.crushed) memory().unmark(collider, crushes);
     result_.crushed.clear();
     result_.status = moving_.status_before_crush == MoveStatus::dropped ? MoveStatus::dropped : MoveStatus::moved;
-  } else {
-    moving_.ignored = ignored_before;
   }
+  moving_.ignored = goes_through;
 }
 
 /// What runs into a character that stays where it is. False where nothing does.
@@ -66,8 +58,7 @@ template <Variant variant, class Scalar>
 void StepSolver<variant, Scalar>::crush(PieceIndex piece) noexcept {
   const MoverIndex mover = mover_of(piece);
   if (ignored(piece) || mover == no_mover) return;
-  const ColliderIndex collider = space_.scenery().pieces()[piece].collider;
-  moving_.ignored.push_back(collider);
+  const ColliderIndex collider = collider_of(piece);
   name_as_crushing(collider);
   remember({collider, position_, moving_.around.rest(mover, time_)});
 }
@@ -78,7 +69,8 @@ void StepSolver<variant, Scalar>::name_as_crushing(ColliderIndex collider) noexc
     moving_.corners_before_crush = result_.path.size();
     moving_.status_before_crush = result_.status;
   }
-  result_.crushed.push_back(collider);
+  memory().mark(collider, crushes);
+  result_.crushed.push_back(collider, memory().crushed);
   result_.status = MoveStatus::crushed;
 }
 
@@ -86,27 +78,35 @@ void StepSolver<variant, Scalar>::name_as_crushing(ColliderIndex collider) noexc
 template <Variant variant, class Scalar>
 template <class Condition>
 bool StepSolver<variant, Scalar>::let_through(const Condition& condition) noexcept {
-  const std::size_t before = moving_.ignored.size();
+  bool any = false;
   for_each_near({position_, position_}, [&](PieceIndex piece) {
-    if (mover_of(piece) != no_mover && !ignored(piece) && condition(piece))
-      moving_.ignored.push_back(space_.scenery().pieces()[piece].collider);
+    if (mover_of(piece) == no_mover || ignored(piece) || !condition(piece)) return;
+    memory().mark(collider_of(piece), lies_on);
+    any = true;
   });
-  return moving_.ignored.size() > before;
+  return any;
 }
 
 /// What the character remembers of it from the steps before is looked up: that may be of other scenery, and name what
-/// is not here. What it does not remember came over it at its last free position, as far as it has one.
+/// is not here. What it does not remember came over it at its last free position, as far as it has one; but where as
+/// much as it can remember came over it, the side of the rest is lost.
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::let_through_what_is_on_it(const MoveRequest<Scalar>& request) noexcept {
   const bool any = let_through([this](PieceIndex piece) { return overlaps(piece, position_); });
-  moving_.on_it = moving_.ignored.size();
-  for (const ColliderIndex collider : moving_.ignored) {
+  const bool full = request.pressers.size() == Pressers<Scalar>::capacity();
+  moving_.on_it = 0;
+  for (const ColliderIndex collider : memory().marked) {
+    if (!memory().is(collider, lies_on)) continue;
+    ++moving_.on_it;
+    Presser<Scalar> now{collider, request.last_free, course_of(collider), !full};
     const auto known = std::find_if(request.pressers.begin(), request.pressers.end(),
                                     [&](const Presser<Scalar>& before) { return before.collider == collider; });
     if (known != request.pressers.end())
-      remember({collider, known->from, known->gone + course_of(collider)});
-    else if (request.has_last_free)
-      remember({collider, request.last_free, course_of(collider)});
+      now = {collider, known->from, known->gone + now.gone, known->has_side};
+    else if (!request.has_last_free && !full)
+      continue;
+    remember(now);
+    moving_.side_lost = moving_.side_lost || !now.has_side;
   }
   return any;
 }
@@ -120,47 +120,52 @@ Vec2<Scalar> StepSolver<variant, Scalar>::course_of(ColliderIndex collider) cons
 /// @param now `gone` is by the end of the step.
 template <Variant variant, class Scalar>
 void StepSolver<variant, Scalar>::remember(const Presser<Scalar>& now) noexcept {
-  for (Presser<Scalar>& known : moving_.pressers) {
+  for (Presser<Scalar>& known : memory().pressers) {
     if (known.collider != now.collider) continue;
     known = now;
     return;
   }
-  moving_.pressers.push_back(now);
+  memory().pressers.push_back(now);
 }
 
 /// Null for what is not remembered.
 template <Variant variant, class Scalar>
 const Presser<Scalar>* StepSolver<variant, Scalar>::presser(ColliderIndex collider) const noexcept {
-  for (const Presser<Scalar>& known : moving_.pressers)
+  for (const Presser<Scalar>& known : memory().pressers)
     if (known.collider == collider) return &known;
   return nullptr;
 }
 
-/// What of all that was let through is on the character where the step ends. What was when it began has it stuck; what
-/// was only as near as that crushes it. Whatever is off again is forgotten.
+/// What of all that was let through is on the character where the step ends: it has it stuck. Whatever is off again is
+/// forgotten.
 template <Variant variant, class Scalar>
 void StepSolver<variant, Scalar>::end_wait() noexcept {
-  if (moving_.ignored.empty()) return;
-  const auto let_through = moving_.ignored;
-  moving_.ignored.clear();
-  FixedVector<ColliderIndex, MoveResult<Scalar>::max_crushed> still;
+  if (memory().marked.empty()) return;
+  moving_.ignored = 0;
   for_each_near({position_, position_}, [&](PieceIndex piece) {
-    const ColliderIndex collider = space_.scenery().pieces()[piece].collider;
-    if (contains(let_through, collider) && !contains(still, collider) && overlaps(piece, position_))
-      still.push_back(collider);
+    const ColliderIndex collider = collider_of(piece);
+    if (memory().is(collider, goes_through) && !memory().is(collider, still) && overlaps(piece, position_))
+      memory().mark(collider, still);
   });
-  for (std::size_t i = 0; i < let_through.size(); ++i) {
-    const ColliderIndex collider = let_through[i];
-    if (!contains(still, collider) || contains(result_.crushed, collider)) continue;
-    if (i >= moving_.on_it) {
-      name_as_crushing(collider);
-      remember({collider, start_, course_of(collider)});
-    } else if (result_.status != MoveStatus::crushed) {
-      result_.status = MoveStatus::stuck;
-    }
+  for (const ColliderIndex collider : memory().marked) {
+    const bool has_it_stuck = memory().is(collider, still) && !memory().is(collider, crushes);
+    if (has_it_stuck && result_.status != MoveStatus::crushed) result_.status = MoveStatus::stuck;
   }
-  for (const Presser<Scalar>& known : moving_.pressers)
-    if (contains(still, known.collider)) result_.pressers.push_back(known);
+  hand_on_pressers();
+}
+
+/// Those whose side is known come first: where not all find room in a state, it is only known of the others that they
+/// are there. Companions are others in the next step.
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::hand_on_pressers() noexcept {
+  const auto hand_on = [this](bool companions, bool has_side) {
+    for (const Presser<Scalar>& known : memory().pressers)
+      if (memory().is(known.collider, still) && known.has_side == has_side &&
+          (known.collider >= settings_.first_companion) == companions)
+        result_.pressers.push_back(known);
+  };
+  for (const bool companions : {false, true})
+    for (const bool has_side : {true, false}) hand_on(companions, has_side);
 }
 
 /// The character keeps its position for the rest of the step, and what runs into it crushes.
@@ -172,15 +177,28 @@ void StepSolver<variant, Scalar>::stay(bool may_give_way) noexcept {
   while (true) {
     look_along(V::Zero());
     update_holds();
-    const auto before = moving_.ignored.size();
+    const std::size_t before = result_.crushed.size();
     if (may_give_way && found_.hit && gives_way()) return;
     for (const Hold<Scalar>& hold : moving_.holds) crush(hold.piece);
     moving_.holds.clear();
-    if (moving_.ignored.size() == before) break;  // nothing more, or no room to name it
+    if (result_.crushed.size() == before) break;
   }
   moving_.anchored = false;
+  const Scalar since = time_;
   time_ = 1;
+  crush_what_came_in(since);
   push_corner(time_);
+}
+
+/// What was nearer than rounding may come in by no more than rounding, which no sweep sees.
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::crush_what_came_in(Scalar since) noexcept {
+  for_each_near({position_, position_}, [&](PieceIndex piece) {
+    const MoverIndex mover = mover_of(piece);
+    if (mover == no_mover || ignored(piece) || !overlaps(piece, position_)) return;
+    name_as_crushing(collider_of(piece));
+    remember({collider_of(piece), position_, moving_.around.rest(mover, since)});
+  });
 }
 
 /// The whole step, where that is asked for.

@@ -5,8 +5,11 @@
 /// there, to the side from which the character came; what is on the character since an earlier step likewise.
 #pragma once
 
+#include "techniques/octagon_sweep/contact_geometry.hpp"
 #include "techniques/octagon_sweep/room.hpp"
 #include "techniques/octagon_sweep/step_solver.hpp"
+
+#include <algorithm>
 
 namespace paperproof::octagon_sweep {
 
@@ -16,12 +19,12 @@ namespace paperproof::octagon_sweep {
 /// @param corners so many of the path may be where it leaves the way.
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::find_room(Scalar reach, std::size_t corners) noexcept {
+  if (moving_.side_lost) return false;
   neighbourhood_.forget();  // more than what is asked for could give another answer
   // What is on the character is not in the way, but there is no room where it still would be.
-  const auto ignored_before = moving_.ignored;
-  moving_.ignored.clear();
-  for (std::size_t i = 0; i < ignored_before.size(); ++i)
-    (i < moving_.on_it ? moving_.lying : moving_.ignored).push_back(ignored_before[i]);
+  const std::uint8_t ignored_before = moving_.ignored;
+  moving_.ignored &= static_cast<std::uint8_t>(~lies_on);
+  moving_.seeks_room = true;
   constexpr Tolerances<Scalar> tolerances{};
   Room room = nearest_room(tolerances.hit * Scalar(least_room), reach, corners);
   if (room.corner < corners) {
@@ -30,10 +33,11 @@ bool StepSolver<variant, Scalar>::find_room(Scalar reach, std::size_t corners) n
     if (ample.corner < corners) room = ample;
   }
   moving_.ignored = ignored_before;
-  moving_.lying.clear();
+  moving_.seeks_room = false;
   if (room.corner == corners) return false;
   go_back_to(room.corner);
   go_to(room.position);
+  report_room(room.corner);
   return true;
 }
 
@@ -81,9 +85,9 @@ void StepSolver<variant, Scalar>::find_room_from(std::size_t corner, Scalar gap,
     const V from = begin.position - around.offset(mover, begin.fraction);
     const V end = position_ - around.offset(mover, Scalar(1));
     Box2<Scalar> places = box_of(from, end);
-    for (const Presser<Scalar>& known : moving_.pressers) {
+    for (const Presser<Scalar>& known : memory().pressers) {
       const V side = known.from + (known.gone - around.offset(mover, Scalar(1)));
-      if (!moving_.lying.empty() && mover_of_collider(known.collider) == mover) places = places.merged({side, side});
+      if (moving_.on_it > 0 && mover_of_collider(known.collider) == mover) places = places.merged({side, side});
     }
     const Box2<Scalar> box = space_.touched_from(places);
     if (!box.overlaps(around.phases.whole(mover))) continue;
@@ -126,7 +130,7 @@ bool StepSolver<variant, Scalar>::goes_straight(std::size_t corner, const V& end
   const Surroundings<Scalar>& around = moving_.around;
   position_ = result_.path[corner].position;
   time_ = result_.path[corner].fraction;
-  if (!(time_ < 1) || (certify_ && !certified(end))) return false;
+  if (!(time_ < 1) || (certify_ && !certified(end, Scalar(1)))) return false;
   const V way = end - position_;
   const LocalMotion motion = make_motion<variant>(space_, position_, way, Scalar(0));
   if (!passes(motion, pieces_along(motion, no_mover))) return false;
@@ -157,21 +161,22 @@ bool StepSolver<variant, Scalar>::stopped_by(const LocalMotion& motion, PieceInd
 /// What the step began inside of is not in the way while it is left, nor what is on the character.
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::left_behind(PieceIndex piece) const noexcept {
-  const ColliderIndex collider = space_.scenery().pieces()[piece].collider;
-  return (moving_.leaving && contains(moving_.left, collider)) || is_lying(piece);
+  return (moving_.leaving && memory().is(collider_of(piece), left)) || is_lying(piece);
 }
 
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::is_lying(PieceIndex piece) const noexcept {
-  return contains(moving_.lying, space_.scenery().pieces()[piece].collider);
+  return moving_.seeks_room && memory().is(collider_of(piece), lies_on);
 }
 
 /// The colliders that a step begins inside of.
 template <Variant variant, class Scalar>
 void StepSolver<variant, Scalar>::note_what_is_left() noexcept {
   for_each_near({position_, position_}, [&](PieceIndex piece) {
-    const ColliderIndex collider = space_.scenery().pieces()[piece].collider;
-    if (!contains(moving_.left, collider) && overlaps(piece, position_)) moving_.left.push_back(collider);
+    const ColliderIndex collider = collider_of(piece);
+    if (memory().is(collider, left) || !overlaps(piece, position_)) return;
+    memory().mark(collider, left);
+    moving_.leaves_any = true;
   });
 }
 
@@ -191,7 +196,7 @@ std::optional<Vec2<Scalar>> StepSolver<variant, Scalar>::came_from(PieceIndex pi
 /// way there does not meet it.
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::stays_on_its_side(const V& end) noexcept {
-  if (moving_.left.empty() && moving_.lying.empty()) return true;
+  if (!moving_.leaves_any && moving_.on_it == 0) return true;
   for (PieceIndex piece = 0; piece < space_.scenery().sensor_pieces().first; ++piece) {
     if (!left_behind(piece)) continue;
     const std::optional<V> from = came_from(piece);
@@ -217,10 +222,95 @@ void StepSolver<variant, Scalar>::go_to(const V& end) noexcept {
 template <Variant variant, class Scalar>
 void StepSolver<variant, Scalar>::go_back_to(std::size_t corner) noexcept {
   while (result_.path.size() > corner + 1) result_.path.pop_back();
-  while (result_.contacts.size() > moving_.contacts_at[corner]) result_.contacts.pop_back();
+  while (result_.contacts.size() > memory().contacts_at[corner]) result_.contacts.pop_back();
   position_ = result_.path[corner].position;
   time_ = result_.path[corner].fraction;
   moving_.anchored = false;
+}
+
+/// The way to room is the nearest that is free: it is bounded by what it comes near to, and that is what holds or
+/// pushes the character. Each is a contact at the moment when it is nearest, which becomes a corner of the way.
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::report_room(std::size_t corner) noexcept {
+  const PathPoint<Scalar> from = result_.path[corner];
+  const PathPoint<Scalar> to = result_.path.back();
+  memory().near_the_way.clear();
+  add_near_pieces(from, to);
+  std::sort(memory().near_the_way.begin(), memory().near_the_way.end(),
+            [](const Nearest<Scalar>& a, const Nearest<Scalar>& b) { return a.when < b.when; });
+  result_.path.pop_back();
+  for (const Nearest<Scalar>& near : memory().near_the_way) {
+    const bool within = near.when < 1;
+    // No corner within a way that only an exact certificate allows: it could not be rounded.
+    if (within && (certify_ || result_.path.size() + 1 >= memory().corners.capacity())) continue;
+    position_ = within ? V(from.position + (to.position - from.position) * near.when) : to.position;
+    time_ = within ? from.fraction + (1 - from.fraction) * near.when : Scalar(1);
+    push_corner(time_);
+    report_contact(near.piece, near.axis, time_, result_.contacts.size());
+    memory().contacts_at[result_.path.size() - 1] = result_.contacts.size();
+  }
+  position_ = to.position;
+  time_ = 1;
+  push_corner(time_);
+}
+
+/// All that may block, pushes or comes nearer on the way, and is then as near as a contact.
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::add_near_pieces(const PathPoint<Scalar>& from, const PathPoint<Scalar>& to) noexcept {
+  const auto add = [&](const V& begin, const V& end, std::span<const PieceIndex> pieces) {
+    const LocalMotion motion = make_motion<variant>(space_, begin, V(end - begin), Scalar(0));
+    for (const PieceIndex piece : pieces) {
+      if (ignored(piece) || left_behind(piece) || !in_way(motion, piece)) continue;
+      const Nearest<Scalar> near = nearest_on_way(piece, begin, end);
+      const MoverIndex mover = mover_of(piece);
+      const V n = space_.normal(piece, near.axis);
+      V course = V::Zero();
+      if (mover != no_mover) course = moving_.around.course(mover);
+      const bool pushes = n.x() * course.x() + n.y() * course.y() > Tolerances<Scalar>{}.certain;
+      if ((near.when > 0 || pushes) && near.separation <= 2 * Tolerances<Scalar>{}.stop &&
+          !space_.covered(piece, near.axis))
+        memory().near_the_way.push_back(near);
+    }
+  };
+  const auto box_of = [&](const V& begin, const V& end) {
+    return Box2<Scalar>{begin.cwiseMin(end), begin.cwiseMax(end)}.inflated(Tolerances<Scalar>{}.look);
+  };
+  add(from.position, to.position, neighbourhood_.around(box_of(from.position, to.position)));
+  const Surroundings<Scalar>& around = moving_.around;
+  for (MoverIndex mover = 0; mover < around.phases.size(); ++mover) {
+    const V begin = from.position - around.offset(mover, from.fraction);
+    const V end = to.position - around.offset(mover, to.fraction);
+    const Box2<Scalar> box = space_.touched_from(box_of(begin, end));
+    if (box.overlaps(around.phases.whole(mover)))
+      add(begin, end, around.phases.query(mover, box, around.memory.of_mover));
+  }
+}
+
+/// The separation is the largest of some that are linear in time, hence convex: where it still falls it is nearest
+/// later.
+template <Variant variant, class Scalar>
+Nearest<Scalar> StepSolver<variant, Scalar>::nearest_on_way(PieceIndex piece, const V& from,
+                                                            const V& to) const noexcept {
+  const V way = to - from;
+  const auto at = [&](Scalar when) { return best_axis<variant>(space_, piece, V(from + way * when)); };
+  const auto falls = [&](const BestAxis<Scalar>& best) {
+    const V n = space_.normal(piece, best.axis);
+    return way.x() * n.x() + way.y() * n.y() < 0;
+  };
+  BestAxis<Scalar> best = at(1);
+  if (falls(best)) return {piece, best.axis, best.separation, 1};
+  Scalar low = 0;  // where it falls
+  Scalar high = 1;
+  best = at(0);
+  if (!falls(best)) return {piece, best.axis, best.separation, 0};
+  while ((high - low) * way.cwiseAbs().maxCoeff() > Tolerances<Scalar>{}.certain) {
+    const Scalar middle = (low + high) / 2;
+    if (!(middle > low && middle < high)) break;
+    const BestAxis<Scalar> there = at(middle);
+    (falls(there) ? low : high) = middle;
+    if (falls(there)) best = there;
+  }
+  return {piece, best.axis, best.separation, low};
 }
 
 }  // namespace paperproof::octagon_sweep

@@ -25,10 +25,6 @@
 
 namespace paperproof::octagon_sweep {
 
-[[nodiscard]] inline bool contains(std::span<const ColliderIndex> colliders, ColliderIndex collider) noexcept {
-  return std::find(colliders.begin(), colliders.end(), collider) != colliders.end();
-}
-
 /// What a technique knows before the first step.
 template <class Scalar>
 struct Settings {
@@ -44,15 +40,6 @@ struct Settings {
 /// Kept where there is little room, of the hit distance: room must be a little more than what counts as closed.
 inline constexpr double least_room = 1.25;
 
-/// A piece that stops a motion.
-template <class Scalar>
-struct Stop {
-  PieceIndex piece;
-  Scalar stop;      ///< Fraction of the motion.
-  Scalar together;  ///< Stops up to this much later or earlier are at the same time.
-  EntryAxes axes;
-};
-
 /// What a sweep over all pieces found.
 template <class Scalar>
 struct SweepResult {
@@ -60,7 +47,9 @@ struct SweepResult {
   Scalar stop = 1;              ///< Fraction of the motion that is free.
   Scalar least_separation = 0;  ///< Of all pieces that block, at the start of the motion [m]; any value above `hit`
                                 ///< where all are further away than that.
-  FixedVector<Stop<Scalar>, MoveResult<Scalar>::max_contacts> stops;  ///< All that stop it there; the first decides.
+  /// What stops it there; the first decides. Of more than mostly come at one moment the rest is only reported: the next
+  /// sweep meets it again.
+  FixedVector<Stop<Scalar>, MoveResult<Scalar>::max_contacts> stops;
 
   void clear() noexcept {
     hit = false;
@@ -68,15 +57,6 @@ struct SweepResult {
     least_separation = std::numeric_limits<Scalar>::infinity();
     stops.clear();
   }
-};
-
-/// A surface that is touched: no motion may go further into it.
-template <class Scalar>
-struct Hold {
-  PieceIndex piece;
-  std::size_t axis;
-  Vec2<Scalar> normal;
-  MoverIndex mover;
 };
 
 /// A motion of the character, and the velocity behind it. What happens to one happens to the other.
@@ -95,23 +75,17 @@ struct Drive {
 template <class Scalar>
 struct MoverState {
   const Surroundings<Scalar>& around;
-  FixedVector<Hold<Scalar>, 32> holds{};
-  Ride<Scalar> ride{};            ///< What carries the character in this step; `velocity` is that of this step.
-  MoverIndex carrier = no_mover;  ///< Its mover; none for a conveyor that stands still.
-  bool anchored = false;          ///< The character has not moved on what carries it.
-  /// Colliders that go through the character in this step: they crush it, or are on it since an earlier step.
-  FixedVector<ColliderIndex, MoveResult<Scalar>::max_crushed> ignored{};
-  std::size_t on_it = 0;  ///< The first so many of them were on it when the step began.
-  /// While room is looked for: colliders that the step began inside of,
-  FixedVector<ColliderIndex, MoveResult<Scalar>::max_crushed> left{};
-  bool leaving = false;  ///< and whether it is looked for from there;
-  /// those that are on the character since an earlier step;
-  FixedVector<ColliderIndex, MoveResult<Scalar>::max_crushed> lying{};
-  std::optional<Vec2<Scalar>> last_free{};  ///< and where it was before, if anywhere.
-  /// What came over the character, now or before, and how far it has gone by the end of the step.
-  Pressers<Scalar> pressers{};
-  /// How many contacts were known at each corner of the path.
-  std::array<std::size_t, MoveResult<Scalar>::max_corners> contacts_at{};
+  std::vector<Hold<Scalar>>& holds;     ///< What is touched.
+  Ride<Scalar> ride{};                  ///< What carries the character in this step; `velocity` is that of this step.
+  MoverIndex carrier = no_mover;        ///< Its mover; none for a conveyor that stands still.
+  bool anchored = false;                ///< The character has not moved on what carries it.
+  std::uint8_t ignored = goes_through;  ///< Colliders of these roles are not in the way.
+  std::size_t on_it = 0;                ///< How many lie on the character since an earlier step.
+  bool side_lost = false;               ///< One of them is not known to have come from any side.
+  bool leaves_any = false;              ///< The step began inside something.
+  bool seeks_room = false;              ///< Room is looked for; and
+  bool leaving = false;                 ///< it is from where the step began.
+  std::optional<Vec2<Scalar>> last_free{};             ///< Where the character was before, if anywhere.
   std::size_t corners_before_crush = 0;                ///< Of the path, where something crushes; and
   MoveStatus status_before_crush = MoveStatus::moved;  ///< how the step went until then.
 };
@@ -131,7 +105,9 @@ class StepSolver {
         settings_(settings),
         neighbourhood_(neighbourhood),
         result_(result),
-        moving_{.around = surroundings} {}
+        moving_{.around = surroundings, .holds = surroundings.memory.holds} {
+    surroundings.memory.clear();
+  }
 
   void solve(const MoveRequest<Scalar>& request) noexcept;
 
@@ -147,6 +123,7 @@ class StepSolver {
   void order_stops() noexcept;
   [[nodiscard]] bool advance(Scalar stop) noexcept;
   [[gnu::flatten]] void report(Scalar begin) noexcept;
+  [[gnu::cold, gnu::noinline]] void report_more(Scalar begin, std::size_t this_moment) noexcept;
   void report_contact(PieceIndex piece, std::size_t axis, Scalar fraction, std::size_t this_moment) noexcept;
   [[gnu::cold, gnu::noinline]] void report_touched(PieceIndex piece) noexcept;
   [[nodiscard]] Scalar fraction_of(const Stop<Scalar>& stop, Scalar begin) noexcept;
@@ -155,10 +132,15 @@ class StepSolver {
                                                                 const V& from) noexcept;
   [[nodiscard]] bool is_whole_collider(PieceIndex piece) const noexcept;
   [[nodiscard]] std::span<const PieceIndex> pieces_along(const LocalMotion& motion, MoverIndex mover) noexcept;
-  [[nodiscard, gnu::cold, gnu::noinline]] bool certified(const V& target) noexcept;
-  void push_corner(Scalar fraction) noexcept;
+  [[nodiscard]] ColliderIndex collider_of(PieceIndex piece) const noexcept {
+    return space_.scenery().pieces()[piece].collider;
+  }
+  [[nodiscard, gnu::cold, gnu::noinline]] bool certified(const V& target, Scalar end) noexcept;
+  [[nodiscard]] bool bars(PieceIndex piece, const V& target, Scalar end) const noexcept;
+  [[gnu::always_inline]] inline void push_corner(Scalar fraction) noexcept;
   /// Where the mover of a piece is now, at fraction `time_`; zero where nothing moves.
-  [[nodiscard]] V offset(PieceIndex piece) const noexcept;
+  [[nodiscard]] V offset(PieceIndex piece) const noexcept { return offset(piece, time_); }
+  [[nodiscard]] V offset(PieceIndex piece, Scalar time) const noexcept;
   /// A position as a piece sees it that is still at offset zero.
   [[nodiscard]] V local(PieceIndex piece, const V& p) const noexcept;
   /// Calls `visit(piece)` for everything near a box, where it is now.
@@ -187,7 +169,9 @@ class StepSolver {
   [[nodiscard]] bool may_block(PieceIndex piece, const V& position) const noexcept;
   void restore_gap() noexcept;
   [[nodiscard]] bool clear_way(const V& from, const V& to) noexcept;
-  [[nodiscard]] bool clear_way(PieceIndex piece, const V& from, const V& to) const noexcept;
+  [[nodiscard]] bool clear_way(PieceIndex piece, const V& from, const V& to, Scalar end) const noexcept;
+  void restore_gaps_to_movers() noexcept;
+  [[nodiscard]] bool keeps_gaps(const V& q) noexcept;
 
   // step_travel.hpp
   void begin_drive(const MoveRequest<Scalar>& request) noexcept;
@@ -195,7 +179,7 @@ class StepSolver {
   void travel() noexcept;
   void respond_to(const V& normal, Scalar left, Drive<Scalar>& drive) noexcept;
   [[nodiscard, gnu::cold, gnu::noinline]] bool slip(std::span<const V> held, Scalar fall,
-                                                     Drive<Scalar>& drive) noexcept;
+                                                    Drive<Scalar>& drive) noexcept;
   [[nodiscard, gnu::cold, gnu::noinline]] bool falls_between(const V& way) noexcept;
   [[nodiscard]] V aimed_back(const V& way, const Stop<Scalar>& at) const noexcept;
   void halt() noexcept;
@@ -210,6 +194,8 @@ class StepSolver {
   [[gnu::cold, gnu::noinline]] void keep_ground() noexcept;
   void follow_ground_down(const MoveRequest<Scalar>& request) noexcept;
   [[nodiscard]] bool walkable(const V& normal) const noexcept { return normal.y() >= settings_.walkable_cosine; }
+
+  [[nodiscard]] MoverMemory<Scalar>& memory() const noexcept { return moving_.around.memory; }
 
   // step_ride.hpp
   [[nodiscard]] MoverIndex mover_of(PieceIndex piece) const noexcept { return space_.scenery().pieces()[piece].mover; }
@@ -269,6 +255,9 @@ class StepSolver {
   void note_what_is_left() noexcept;
   [[nodiscard]] bool stays_on_its_side(const V& end) noexcept;
   void go_to(const V& end) noexcept;
+  void report_room(std::size_t corner) noexcept;
+  void add_near_pieces(const PathPoint<Scalar>& from, const PathPoint<Scalar>& to) noexcept;
+  [[nodiscard]] Nearest<Scalar> nearest_on_way(PieceIndex piece, const V& from, const V& to) const noexcept;
   void go_back_to(std::size_t corner) noexcept;
 
   // step_crush.hpp
@@ -287,8 +276,10 @@ class StepSolver {
   [[nodiscard]] V course_of(ColliderIndex collider) const noexcept;
   void remember(const Presser<Scalar>& now) noexcept;
   [[nodiscard]] const Presser<Scalar>* presser(ColliderIndex collider) const noexcept;
+  void hand_on_pressers() noexcept;
   void end_wait() noexcept;
   void stay(bool may_give_way) noexcept;
+  void crush_what_came_in(Scalar since) noexcept;
   void keep_place(const MoveRequest<Scalar>& request) noexcept;
 
   const ConfigurationSpace<Scalar>& space_;
@@ -301,11 +292,11 @@ class StepSolver {
   V start_{V::Zero()};         ///< Where the step began, before its gaps were restored: impacts count from there.
   V position_{V::Zero()};
   V velocity_{V::Zero()};
-  Scalar time_ = 0;       ///< Fraction of the step that is spent.
-  Scalar dt_ = 0;         ///< Of the step [s].
-  Scalar steered_ = 0;    ///< The part of the horizontal velocity that this step's steering added [m/s].
-  bool drops_ = false;    ///< One-way segments hold nobody in this step.
-  bool certify_ = false;  ///< Something is nearer than rounding: every motion needs an exact certificate.
+  Scalar time_ = 0;          ///< Fraction of the step that is spent.
+  Scalar dt_ = 0;            ///< Of the step [s].
+  Scalar steered_ = 0;       ///< The part of the horizontal velocity that this step's steering added [m/s].
+  bool drops_ = false;       ///< One-way segments hold nobody in this step.
+  bool certify_ = false;     ///< Something is nearer than rounding: every motion needs an exact certificate.
   bool climbs_ = false;      ///< It began on the ground, and no faster upwards than ground can be climbed.
   bool after_walk_ = false;  ///< See `Surface`.
   bool wedged_ = false;      ///< A fall ended between the surfaces that were touched together.

@@ -21,7 +21,7 @@ bool StepSolver<variant, Scalar>::prepare_start(const MoveRequest<Scalar>& reque
   while (overlaps(position_)) {
     if constexpr (variant.movers) {
       // Out of what stands still there may be a way, but it stays on its side of what has come over it.
-      if (!moving_.pressers.empty()) return false;
+      if (!memory().pressers.empty()) return false;
     }
     const std::optional<V> out = find_way_out(request);
     if (out) {
@@ -38,12 +38,10 @@ bool StepSolver<variant, Scalar>::prepare_start(const MoveRequest<Scalar>& reque
   }
   if constexpr (!variant.movers) restore_gap();
   if constexpr (variant.movers) {
-    if (!pinned()) restore_gap();
-    // Nearer than rounding, and it stayed so: closed.
-    let_through([this](PieceIndex piece) {
-      return best_axis<variant>(space_, piece, local(piece, position_)).separation < Tolerances<Scalar>{}.certain &&
-             may_block(piece, position_);
-    });
+    if (!pinned()) {
+      restore_gap();
+      restore_gaps_to_movers();
+    }
   }
   look_along(V::Zero());
   certify_ = found_.least_separation < Tolerances<Scalar>{}.certain;
@@ -92,7 +90,7 @@ std::span<PieceIndex> StepSolver<variant, Scalar>::all_near(const Box2<Scalar>& 
   if constexpr (!variant.movers) return neighbourhood_.take(box);
   if constexpr (variant.movers) {
     neighbourhood_.forget();
-    std::vector<PieceIndex>& all = moving_.around.memory.all;
+    std::vector<PieceIndex>& all = memory().all;
     std::size_t count = 0;
     for_each_near(box, [&](PieceIndex piece) { all[count++] = piece; });
     return {all.data(), count};
@@ -130,9 +128,15 @@ bool StepSolver<variant, Scalar>::overlaps(const V& position) noexcept {
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::overlaps(PieceIndex piece, const V& position) const noexcept {
   const V at = local(piece, position);
-  return space_.info(piece).one_way_axis == ObstacleInfo::not_one_way &&
-         best_axis<variant>(space_, piece, at).separation < Tolerances<Scalar>{}.certain &&
-         overlaps_exactly(space_, piece, at);
+  if (space_.info(piece).one_way_axis != ObstacleInfo::not_one_way ||
+      best_axis<variant>(space_, piece, at).separation >= Tolerances<Scalar>{}.certain)
+    return false;
+  if constexpr (variant.movers) {
+    const MoverIndex mover = mover_of(piece);
+    if (mover != no_mover)
+      return overlaps_exactly(space_, piece, ExactPosition(position, moving_.around.movers[mover], time_));
+  }
+  return overlaps_exactly(space_, piece, at);
 }
 
 /// Whether a piece counts for a character at `position`: one-way segments do from above their surface only.
@@ -172,18 +176,68 @@ template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::clear_way(const V& from, const V& to) noexcept {
   bool clear = true;
   for_each_near({from.cwiseMin(to), from.cwiseMax(to)},
-                [&](PieceIndex piece) { clear = clear && clear_way(piece, local(piece, from), local(piece, to)); });
+                [&](PieceIndex piece) { clear = clear && clear_way(piece, from, to, time_); });
   return clear;
 }
 
+/// The same for one piece, on a way from now up to a fraction of the step.
 template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::clear_way(PieceIndex piece, const V& from, const V& to) const noexcept {
+bool StepSolver<variant, Scalar>::clear_way(PieceIndex piece, const V& begin, const V& target,
+                                            Scalar end) const noexcept {
   constexpr Tolerances<Scalar> tolerances{};
+  const V from = local(piece, begin);
+  const V to = target - offset(piece, end);
   for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis)
     if (space_.separation(piece, axis, from) >= tolerances.certain &&
         space_.separation(piece, axis, to) >= tolerances.certain)
       return true;
-  return !in_way(make_motion<variant>(space_, from, V(to - from)), piece) || clear_of_exactly(space_, piece, from, to);
+  LocalMotion motion = make_motion<variant>(space_, from, V(to - from));
+  if constexpr (variant.movers) motion.rest = lost_by(begin, offset(piece));
+  if (!in_way(motion, piece)) return true;
+  if constexpr (variant.movers) {
+    const MoverIndex mover = mover_of(piece);
+    if (mover != no_mover) {
+      const MoverMotion<Scalar>& course = moving_.around.movers[mover];
+      return clear_of_exactly(space_, piece, ExactPosition(begin, course, time_), ExactPosition(target, course, end));
+    }
+  }
+  return clear_of_exactly(space_, piece, from, to);
+}
+
+/// Where there is no room for all gaps, those to what moves are restored as far as each has room alone: what carries
+/// the character would else end in it by rounding.
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::restore_gaps_to_movers() noexcept {
+  constexpr Tolerances<Scalar> tolerances{};
+  std::vector<HalfPlane<Scalar>>& pushes = memory().ways;
+  pushes.clear();
+  for_each_near({position_, position_}, [&](PieceIndex piece) {
+    const MoverIndex mover = mover_of(piece);
+    if (mover == no_mover || moving_.around.course(mover) == V::Zero() || !may_block(piece, position_)) return;
+    const BestAxis<Scalar> best = best_axis<variant>(space_, piece, local(piece, position_));
+    if (best.separation < tolerances.hit)
+      add_plane({space_.normal(piece, best.axis), tolerances.stop - best.separation}, pushes);
+  });
+  const V before = position_;
+  for (const HalfPlane<Scalar>& push : pushes) {
+    const V q = position_ + push.normal * push.least;
+    if (keeps_gaps(q) && clear_way(position_, q)) position_ = q;
+  }
+  if (position_ != before) push_corner(0);
+}
+
+/// Whether no gap that is less than it should be gets smaller, by more than rounding.
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::keeps_gaps(const V& q) noexcept {
+  constexpr Tolerances<Scalar> tolerances{};
+  bool kept = true;
+  for_each_near({q.cwiseMin(position_), q.cwiseMax(position_)}, [&](PieceIndex piece) {
+    if (!may_block(piece, position_)) return;
+    const Scalar now = best_axis<variant>(space_, piece, local(piece, position_)).separation;
+    const Scalar then = best_axis<variant>(space_, piece, local(piece, q)).separation;
+    kept = kept && then >= std::min(now, tolerances.hit) - tolerances.certain;
+  });
+  return kept;
 }
 
 }  // namespace paperproof::octagon_sweep

@@ -7,10 +7,10 @@
 namespace paperproof::octagon_sweep {
 
 template <Variant variant, class Scalar>
-Vec2<Scalar> StepSolver<variant, Scalar>::offset(PieceIndex piece) const noexcept {
+Vec2<Scalar> StepSolver<variant, Scalar>::offset(PieceIndex piece, Scalar time) const noexcept {
   if constexpr (variant.movers) {
     const MoverIndex mover = space_.scenery().pieces()[piece].mover;
-    if (mover != no_mover) return moving_.around.offset(mover, time_);
+    if (mover != no_mover) return moving_.around.offset(mover, time);
   }
   return V::Zero();
 }
@@ -101,7 +101,7 @@ bool StepSolver<variant, Scalar>::advance(Scalar stop) noexcept {
   }
   const Scalar furthest = std::max(std::abs(target.x()), std::abs(target.y()));
   if (!(furthest <= Tolerances<Scalar>{}.range)) return false;
-  if (certify_ && !certified(target)) return false;
+  if (certify_ && !certified(target, end)) return false;
   position_ = target;
   on_ground_ = false;
   time_ = end;
@@ -109,13 +109,19 @@ bool StepSolver<variant, Scalar>::advance(Scalar stop) noexcept {
   return true;
 }
 
-/// Whether the straight way meets nothing that stands still, without rounding where it is near.
+/// Whether the straight way up to a fraction of the step meets nothing that is nearer than rounding where it begins:
+/// for all else the sweep's word is enough.
 template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::certified(const V& target) noexcept {
-  const Box2<Scalar> box{position_.cwiseMin(target), position_.cwiseMax(target)};
-  for (const PieceIndex piece : neighbourhood_.around(box))
-    if (!clear_way(piece, position_, target)) return false;
-  return true;
+bool StepSolver<variant, Scalar>::certified(const V& target, Scalar end) noexcept {
+  bool clear = true;
+  for_each_near({position_, position_}, [&](PieceIndex piece) { clear = clear && !bars(piece, target, end); });
+  return clear;
+}
+
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::bars(PieceIndex piece, const V& target, Scalar end) const noexcept {
+  return best_axis<variant>(space_, piece, local(piece, position_)).separation < Tolerances<Scalar>{}.certain &&
+         !clear_way(piece, position_, target, end);
 }
 
 /// Adds the contacts of one moment, the earliest impact first.
@@ -132,7 +138,9 @@ void StepSolver<variant, Scalar>::report(Scalar begin) noexcept {
     }
     report_contact(stop.piece, stop.axes.normal, fraction_of(stop, begin), before);
   }
-  if constexpr (variant.movers) moving_.contacts_at[result_.path.size() - 1] = result_.contacts.size();
+  if (found_.stops.overflowed()) [[unlikely]]
+    report_more(begin, before);
+  if constexpr (variant.movers) memory().contacts_at[result_.path.size() - 1] = result_.contacts.size();
   if (result_.contacts.size() - before > 1)
     std::sort(result_.contacts.begin() + before, result_.contacts.end(),
               [](const Contact<Scalar>& a, const Contact<Scalar>& b) { return a.fraction < b.fraction; });
@@ -162,7 +170,38 @@ void StepSolver<variant, Scalar>::report_contact(PieceIndex piece, std::size_t a
   if (known != contacts.end())
     *known = contact;
   else
-    contacts.push_back(contact);
+    contacts.push_back(contact, neighbourhood_.memory().contacts);
+}
+
+/// All pieces that stopped the motion of the last sweep, where there were too many to keep.
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::report_more(Scalar begin, std::size_t this_moment) noexcept {
+  constexpr Tolerances<Scalar> tolerances{};
+  const auto report_all = [&](const LocalMotion& motion, std::span<const PieceIndex> pieces) {
+    const Scalar together = motion.length > 0 ? (tolerances.touch - tolerances.stop) / motion.length : Scalar(0);
+    for (const PieceIndex piece : pieces) {
+      if constexpr (variant.movers)
+        if (ignored(piece)) continue;
+      if (!in_way(motion, piece)) continue;
+      const Clearance<Scalar> clear = clearance<variant>(space_, motion, piece);
+      if (clear.clear()) continue;
+      const PieceHit<Scalar> hit = sweep_piece<variant>(space_, motion, piece, clear);
+      if (hit.hit && hit.stop <= found_.stop + together)
+        report_contact(piece, hit.axes.normal, fraction_of({piece, hit.stop, together, hit.axes}, begin), this_moment);
+    }
+  };
+  report_all(motion_, neighbourhood_.around(motion_.box(), motion_.way));
+  if constexpr (variant.movers) {
+    const Surroundings<Scalar>& around = moving_.around;
+    for (MoverIndex mover = 0; mover < around.phases.size(); ++mover) {
+      const V from = motion_.from - around.offset(mover, begin);
+      const LocalMotion motion = make_motion<variant>(space_, from, around.relative(motion_.way, mover, begin));
+      const std::span<const PieceIndex> found = pieces_along(motion, mover);
+      // Finding a fraction may ask again.
+      std::copy(found.begin(), found.end(), around.memory.all.begin());
+      report_all(motion, std::span(around.memory.all).first(found.size()));
+    }
+  }
 }
 
 /// A contact with a piece that holds the character where it is now.
@@ -240,8 +279,8 @@ template <Variant variant, class Scalar>
 void StepSolver<variant, Scalar>::push_corner(Scalar fraction) noexcept {
   if (!result_.path.empty() && result_.path.back().fraction == fraction && result_.path.back().position == position_)
     return;
-  result_.path.push_back({position_, fraction});
-  if constexpr (variant.movers) moving_.contacts_at[result_.path.size() - 1] = result_.contacts.size();
+  result_.path.push_back({position_, fraction}, neighbourhood_.memory().corners);
+  if constexpr (variant.movers) memory().contacts_at[result_.path.size() - 1] = result_.contacts.size();
 }
 
 }  // namespace paperproof::octagon_sweep

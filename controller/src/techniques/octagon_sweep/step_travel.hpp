@@ -24,8 +24,9 @@ void StepSolver<variant, Scalar>::solve(const MoveRequest<Scalar>& request) noex
   if constexpr (variant.movers) {
     if (request.stays) return keep_place(request);
     wanted = begin_ride(request);
+    memory().contacts_at[0] = 0;
   }
-  push_corner(0);
+  result_.path.push_back({position_, 0});
   look_along(wanted);
   const bool near = found_.least_separation < Tolerances<Scalar>{}.hit;
   if (near && !prepare_start(request)) {
@@ -97,8 +98,8 @@ void StepSolver<variant, Scalar>::begin_drive(const MoveRequest<Scalar>& request
   steered_ = request.steered;
   dt_ = request.dt;
   // A rise that is steeper than any ground comes from elsewhere.
-  after_walk_ = climbs_ = request.grounded &&
-                          request.velocity.y() <= std::abs(request.velocity.x()) * settings_.walkable_tangent;
+  after_walk_ = climbs_ =
+      request.grounded && request.velocity.y() <= std::abs(request.velocity.x()) * settings_.walkable_tangent;
 }
 
 template <Variant variant, class Scalar>
@@ -114,7 +115,7 @@ void StepSolver<variant, Scalar>::travel() noexcept {
   FixedVector<V, 16> held;  // normals met since the last progress
   Drive<Scalar> drive = this->drive();
   Scalar fall = drive.velocity.unsteered.y();  // without steering, when the first of them was met
-  V way = motion_.way;  // with the aim back to the gap
+  V way = motion_.way;                         // with the aim back to the gap
   bool may_aim = true;
   for (int iteration = 0; iteration < settings_.iterations; ++iteration) {
     if (way.x() == 0 && way.y() == 0) return;
@@ -217,16 +218,16 @@ bool StepSolver<variant, Scalar>::falls_between(const V& way) noexcept {
   return false;
 }
 
-/// The exact certificate or the range forbids the motion: the step ends here, and names each piece that is touched and in
-/// the way.
+/// The exact certificate or the range forbids the motion: the step ends here, and names each piece that is touched and
+/// in the way.
 template <Variant variant, class Scalar>
 void StepSolver<variant, Scalar>::cut_short() noexcept {
   if (result_.status == MoveStatus::moved) result_.status = MoveStatus::dropped;
   const V target = motion_.from + motion_.way * found_.stop;
-  for (const PieceIndex piece : neighbourhood_.around({position_.cwiseMin(target), position_.cwiseMax(target)}))
-    if (best_axis<variant>(space_, piece, position_).separation <= Tolerances<Scalar>{}.touch &&
-        !clear_way(piece, position_, target))
-      report_touched(piece);
+  const Scalar end = time_ + (1 - time_) * found_.stop;
+  for_each_near({position_, position_}, [&](PieceIndex piece) {
+    if (bars(piece, target, end)) report_touched(piece);
+  });
   halt();
 }
 

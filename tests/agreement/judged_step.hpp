@@ -1,0 +1,83 @@
+/// A character whose steps are judged one by one.
+#pragma once
+
+#include "agreement/recorded.hpp"
+#include "oracle/judge.hpp"
+
+#include <paperproof/controller.hpp>
+
+#include <set>
+#include <vector>
+
+namespace paperproof::test {
+
+inline constexpr double half_width = 0.3125;  ///< Of the article's character [m],
+inline constexpr double half_height = 0.625;  ///< and half of its height.
+
+inline ColliderDef box(double left, double bottom, double right, double top, MoverIndex mover = no_mover) {
+  ColliderDef collider{.points = {{left, bottom}, {right, bottom}, {right, top}, {left, top}}};
+  collider.mover = mover;
+  return collider;
+}
+
+/// No step enters or passes what is not named, or names what had left room or came no closer.
+inline bool holds(const compare::StepJudgement& judged) {
+  return judged.entered.empty() && judged.tunnelled.empty() && judged.corner_cut.empty() &&
+         judged.one_way_broken.empty() && judged.crushed_with_room.empty();
+}
+
+struct Judged {
+  Scenery<double> scenery;
+  Controller<double> controller;
+  Scratch<double> scratch = controller.make_scratch();
+  compare::Judge judge;
+  CharacterState<double> state;
+  StepReport<double> report;
+  std::vector<MoverMotion<double>> motions;  ///< Of the next step.
+  Vec2d gravity{0, 0};
+  double dt;
+  bool looks_for_room = true;  ///< The judge does, among all that crush: for minutes, where they are many.
+
+  Judged(const std::vector<ColliderDef>& colliders, const Vec2d& position, double length_of_step)
+      : scenery(SceneryDef{colliders}),
+        controller(scenery, {}),
+        judge(header(length_of_step)),
+        motions(scenery.mover_count()),
+        dt(length_of_step) {
+    state.position = position;
+  }
+  /// Every mover goes on by so far.
+  compare::StepJudgement step_by(const Vec2d& by, const Input& input = {}) {
+    for (MoverMotion<double>& motion : motions) motion = {motion.to, motion.to + by};
+    return step(input);
+  }
+  compare::StepJudgement step(const Input& input = {}) {
+    controller.step(state, input, gravity, dt, motions, scratch, report);
+    if (!looks_for_room) return {};
+    return judge.judge(recorded<double>(report, state, motions));
+  }
+  [[nodiscard]] std::set<ColliderIndex> crushed() const {
+    return {report.move.crushed.begin(), report.move.crushed.end()};
+  }
+  /// All that exact arithmetic finds on the way.
+  [[nodiscard]] std::set<ColliderIndex> gone_through() const {
+    std::set<ColliderIndex> all;
+    const auto& path = report.move.path;
+    for (std::size_t i = 0; i + 1 < path.size(); ++i)
+      for (const ColliderIndex collider : judge.scenery().met({path[i].position, motions, path[i].fraction},
+                                                              {path[i + 1].position, motions, path[i + 1].fraction}))
+        all.insert(collider);
+    return all;
+  }
+
+ private:
+  [[nodiscard]] compare::TraceHeader header(double length_of_step) const {
+    compare::TraceHeader header;
+    header.points.assign(controller.character().shape.hull().begin(), controller.character().shape.hull().end());
+    header.scenery = scenery.as_run();
+    header.dt = length_of_step;
+    return header;
+  }
+};
+
+}  // namespace paperproof::test
