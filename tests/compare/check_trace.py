@@ -16,7 +16,7 @@ For every step:
 For octagon_sweep in double, which promises more, also:
 - every contact is as it says at one corner of the way that is no later than its fraction: there its point lies on the
   collider and on the character, to 1e-6 m, and the gap between the two along its normal is its separation, above 0 and
-  at most 1e-6 m;
+  at most 1e-6 m; it may be 0 where the scene put the character so, and neither of the two has moved since;
 - the fraction of the first contact is the time of impact of the exact motion, to 1e-6 m along the normal;
 - the sensors' events are those of the way, in order, with fractions that are right to 1e-6 m along it;
 - no step hangs: what is wanted, less what the step's steering added, may lead down beside all that is within 1e-6 m of a
@@ -108,6 +108,7 @@ class Checker:
         self.colliders = {entry["id"]: Collider(entry) for entry in header["colliders"]}
         self.max_climb = header.get("max_climb_degrees")
         self.promises = header["contender"] == "octagon_sweep" and header["scalar"] == "double"
+        self.put = {}  # by character: its first place, or the one that it was put to since, and the movers' motion then
         self.too_close = 0  # ways past what turns of which nothing can be said
         self.meets = lru_cache(maxsize=4096)(self.meets)
 
@@ -240,7 +241,7 @@ class Checker:
             if motion.ends[name][0] != last.ends[name][1]:
                 yield f"has {name} begin at {show(motion.ends[name][0])}, not where it was"
 
-    def check_contact(self, contact, path, motion):
+    def check_contact(self, contact, path, motion, put):
         name, n = contact["collider"], tuple(map(Fraction, contact["normal"]))
         if abs(dot(n, n) - 1) > 1e-12:
             yield f"has a normal that is no unit vector at {name}"
@@ -249,9 +250,9 @@ class Checker:
         if not corners:
             yield f"has a contact with {name} at {contact['fraction']}, before the step"
             return
-        yield from min((list(self.faults(contact, corner, motion)) for corner in reversed(corners)), key=len)
+        yield from min((list(self.faults(contact, corner, motion, put)) for corner in reversed(corners)), key=len)
 
-    def faults(self, contact, corner, motion):
+    def faults(self, contact, corner, motion, put):
         """Of a contact, if this is the corner where the character stopped before it."""
         name, n = contact["collider"], tuple(map(Fraction, contact["normal"]))
         place, point = corner[:2], tuple(map(Fraction, contact["point"]))
@@ -264,7 +265,9 @@ class Checker:
         gap = dot(n, less(place, point)) + min(dot(n, corner) for corner in self.body)
         if not abs(gap - Fraction(contact["separation"])) <= ROUNDING:
             yield f"is nowhere {contact['separation']} m from {name}"
-        if not 0 < gap <= GAP:
+        first_place, first_motion = put
+        is_as_put = gap == 0 and motion.seen(name, corner) == first_motion.seen(name, first_place)
+        if not (0 < gap <= GAP or is_as_put):
             yield f"keeps a gap of {float(gap)} m at {name}"
 
     def check_impact(self, contact, start, requested, motion):
@@ -357,7 +360,9 @@ class Checker:
             told = f"character {who} " if self.characters > 1 else ""
             if who != number % self.characters:
                 yield step, f"has a record of character {who} where that of {number % self.characters} belongs"
-            for words in self.check_alone(step, last.get(who), last_motion.get(who)):
+            if who not in last or step.get("respawn"):
+                self.put[who] = exact(step["path"])[0], Motion(step)
+            for words in self.check_alone(step, last.get(who), last_motion.get(who), self.put[who]):
                 yield step, told + words
             last[who], last_motion[who] = exact(step["path"])[-1][:2], Motion(step)
             together = [other for other in together if other["step"] == step["step"]]
@@ -372,7 +377,7 @@ class Checker:
                     for words in self.check_progress(one, others):
                         yield one, told + words
 
-    def check_alone(self, step, last, last_motion):
+    def check_alone(self, step, last, last_motion, put):
         motion = Motion(step)
         path = exact(step["path"])
         fractions = [corner[2] for corner in step["path"]]
@@ -386,7 +391,7 @@ class Checker:
             return
         contacts = [contact for contact in step["contacts"] if not motion.turns(contact["collider"])]
         for contact in contacts:
-            yield from self.check_contact(contact, path, motion)
+            yield from self.check_contact(contact, path, motion, put)
         # Who met another before, or what turns, may have been turned aside; who is stuck does not go as requested.
         first = contacts and contacts[0]["fraction"] == first_event(step) and not meets_at_once(contacts[0], step)
         if first and not step["start_overlap"] and not step.get("crush") and not step.get("stuck"):

@@ -144,6 +144,22 @@ class SpoiltTraces(Spoiling, unittest.TestCase):
 
         self.expect("keeps a gap", lift)
 
+    def test_a_gap_of_zero_that_is_not_the_one_it_was_put_with(self):
+        def rest(_, steps):
+            contact = steps[0]["contacts"][0]
+            x, y, _ = steps[0]["path"][-1]
+            for step in steps:
+                step.update(requested=[0, -1], path=[[x, y - contact["separation"], t] for t in (0, 1)],
+                            contacts=[dict(contact, fraction=0, separation=0)])
+
+        def arrive(header, steps):
+            rest(header, steps)
+            steps[0]["path"][0][1] += 0.5
+            steps[0]["contacts"][0]["fraction"] = 0.5
+
+        self.assertEqual([words for words in self.found(rest) if "gap" in words], [])
+        self.expect("keeps a gap of 0.0 m", arrive)
+
     def test_a_contact_point_off_the_platform(self):
         self.expect("is not on platform", lambda _, steps: steps[0]["contacts"][0].update(point=[0, 1e-6]))
 
