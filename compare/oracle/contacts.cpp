@@ -194,7 +194,7 @@ void ContactJudge::add_normal_error(StepJudgement& judgement) const {
       least = std::min(least.value_or(error), error);
     }
     if (!least) continue;
-    if (const std::optional<Vec2d> face = face_of(contact))
+    if (const std::optional<Vec2d> face = *least > 0 ? face_of(contact) : std::nullopt)
       least = std::min(*least, degrees_between(*face, contact.normal));
     judgement.normal_error = std::max(judgement.normal_error.value_or(0), *least);
   }
