@@ -52,7 +52,7 @@ std::string told(const Answer& answer, const std::string& number) {
     case Of::settled:
       return "comes to rest after " + number + " steps";
     case Of::crush:
-      return "is crushed in step " + number;
+      return "is crushed" + (to.empty() ? "" : " by" + to) + " in step " + number;
     case Of::crushers:
       return "is crushed by " + number + " colliders";
     case Of::enter:
@@ -96,6 +96,12 @@ std::optional<double> AnswerCheck::first_contact(const Watch& watch, const Trace
   if (any)
     for (const CrowdContact<double>& contact : step.met) take(contact.fraction);
   return earliest;
+}
+
+bool AnswerCheck::crushed_by(const Watch& watch, const TraceStep& step) {
+  const std::vector<ColliderIndex>& crushed = step.crushed;
+  if (watch.collider == no_collider) return !crushed.empty();
+  return std::find(crushed.begin(), crushed.end(), watch.collider) != crushed.end();
 }
 
 void AnswerCheck::Watch::first(double when) {
@@ -152,7 +158,7 @@ void AnswerCheck::see(Watch& watch, const TraceStep& step) const {
       watch.settle(step, reach_);
       break;
     case Of::crush:
-      if (!step.crushed.empty()) watch.first(step.step);
+      if (crushed_by(watch, step)) watch.first(step.step);
       break;
     case Of::crushers:
       watch.named.insert(step.crushed.begin(), step.crushed.end());

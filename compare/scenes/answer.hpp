@@ -22,7 +22,7 @@ struct Answer {
     contacts,    ///< On how many steps there is a contact, with `with` where it is named [steps].
     in_the_air,  ///< How many steps after the first `after` do not end grounded [steps].
     settled,     ///< After how many steps neither the position nor `grounded` changes any more [steps].
-    crush,       ///< In which step, counted from 0, the character is first crushed [steps].
+    crush,       ///< In which step, from 0, the character is first crushed, by `with` where it is named [steps].
     crushers,    ///< How many colliders are ever named as crushing [colliders].
     enter,       ///< When the sensor `with` is first entered [steps, with the fraction].
     leave,       ///< When it is first left [steps, with the fraction].

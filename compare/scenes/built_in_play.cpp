@@ -1,7 +1,8 @@
 /// What a player meets, and what it comes to: ledges, gaps, steep ramps, slopes into walls, kerbs, ramps at the limit,
-/// one-way hills, exact fits, presses, ways out: scenes 41 to 51.
+/// one-way hills, exact fits, papers in a niche, ways out: scenes 41 to 51.
 #include "scenes/built_in.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace paperproof::compare {
@@ -199,6 +200,162 @@ Scene oneway_hill() {
   return scene;
 }
 
+/// Dropped onto the peak of a roof of 1 in 4, feet astride: it stands on the peak.
+Scene oneway_peak() {
+  Scene scene = play(0, half_height + 0.4, 90);
+  add_one_way(scene, "roof", {{-3, -0.75}, {0, 0}, {3, -0.75}});
+  scene.answers = {contact(steps_to_fall(scene, 0.4), 4 * scene.dt).to("roof"),
+                   count(Answer::Of::in_the_air, 0).after(30).law()};
+  ends_at(scene, 0, half_height);
+  rests_after(scene, 60);
+  return scene;
+}
+
+/// Over a platform that is level but for noise of 1e-6 m, and off its end, which is level, onto the floor.
+Scene oneway_noise() {
+  constexpr double noise = 1e-6;
+  constexpr int begin = 15;
+  constexpr double width = 4;
+  Scene scene = play(-width + 1, half_height + 0.1, 120, 1, begin);
+  std::vector<Vec2d> line;
+  for (int i = 0; i <= 32; ++i) line.emplace_back(-width + i * width / 16, (i * i + i / 5) % 3 * noise);
+  add_one_way(scene, "platform", std::move(line));
+  add_box(scene, "floor", width, -3, 30, -2);
+  const auto x_after = [&](int steps) { return -width + 1 + walked(scene, steps - begin); };
+  const double leaves = begin + steps_to_walk(scene, 2 * width - 1 + foot);  // the platform, with its left foot
+  const double falls = steps_to_fall(scene, 2);
+  // It begins to fall in the step in which it leaves the platform, or in the next one.
+  scene.answers = {is(Answer::Of::contact, steps_to_fall(scene, 0.1)).gaps(3 / (2 * scene.dt)).to("platform"),
+                   between(Answer::Of::contact, std::floor(leaves) + falls, std::ceil(leaves) + falls)
+                       .gaps(3 / (10 * scene.dt))
+                       .to("floor")
+                       .law()};
+  for (const int steps : {35, 60, 85}) {
+    scene.answers.push_back(x_is(x_after(steps)).after(steps).law());
+    scene.answers.push_back(
+        between(Answer::Of::place, half_height, half_height + 2 * noise, {0, 1}).after(steps).law());
+  }
+  ends_at(scene, x_after(scene.steps), -2 + half_height);
+  return scene;
+}
+
+/// How high a line leads somebody whose feet are on both sides of x: up to its highest point between them.
+double height_over(const std::vector<Vec2d>& line, double x) {
+  double highest = -HUGE_VAL;
+  const auto rise_to = [&](double y) { highest = std::max(highest, y); };
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    const Vec2d& from = line[i - 1];
+    const Vec2d& to = line[i];
+    for (const double at : {x - foot, x + foot})
+      if (from.x() <= at && at <= to.x())
+        rise_to(from.y() + (to.y() - from.y()) * (at - from.x()) / (to.x() - from.x()));
+    if (std::abs(to.x() - x) <= foot) rise_to(to.y());
+  }
+  return highest;
+}
+
+/// Over an arch of 60 segments of a circle, from 40 degrees on its left to 40 degrees on its right, following the
+/// ground, and off its end onto the floor.
+Scene oneway_arch() {
+  constexpr double radius = 6;
+  constexpr int segments = 60;
+  constexpr int begin = 30;
+  std::vector<Vec2d> line;
+  for (int i = 0; i <= segments; ++i) {
+    const double angle = (-40 + 80.0 * i / segments) * pi / 180;
+    line.emplace_back(radius * std::sin(angle), radius * (std::cos(angle) - 1));
+  }
+  Scene scene = play(-3, height_over(line, -3) + half_height + 0.2, 150, 1, begin);
+  scene.character.snap = 0.3;
+  add_one_way(scene, "arch", line);
+  add_box(scene, "floor", -9, -5, 15, -4);
+  const auto x_after = [&](int steps) { return -3 + walked(scene, steps - begin); };
+  const int half = begin + static_cast<int>(steps_to_walk(scene, 3));  // at the top
+  const int last = begin + static_cast<int>(steps_to_walk(scene, 3 + line.back().x()));
+  scene.answers = {contact(steps_to_fall(scene, 0.2), 3 * scene.dt).to("arch"), x_is(x_after(half)).after(half).law(),
+                   y_is(height_over(line, x_after(half)) + half_height).after(half).law(),
+                   y_is(height_over(line, x_after(last)) + half_height).gaps(2).after(last).law()};
+  ends_at(scene, x_after(scene.steps), -4 + half_height);
+  return scene;
+}
+
+/// A cabin as wide inside as the character, with a floor at y = 0.
+void add_cabin(Scene& scene, std::vector<MoverDef::Waypoint> path) {
+  add_polygon(
+      scene, "cabin",
+      {{-1, -1}, {1, -1}, {1, 2}, {half_width, 2}, {half_width, 0}, {-half_width, 0}, {-half_width, 2}, {-1, 2}});
+  move_last(scene, std::move(path));
+}
+
+/// It is never crushed.
+void is_spared(Scene& scene) { scene.answers.push_back(count(Answer::Of::crush, scene.steps).law()); }
+
+/// Stands on a floor; a plate that touches its head comes down 3 m in one step, past the floor, too.
+Scene exact_fit_lift_down() {
+  Scene scene = play(0, half_height, 30);
+  add_box(scene, "floor", -4, -1, 4, 0);
+  add_box(scene, "plate", -2, 2 * half_height, 2, 2 * half_height + 0.25);
+  move_last(scene, {{.time = 0, .at = {0, 0}}, {.time = scene.dt, .at = {0, -3}}});
+  scene.answers = {count(Answer::Of::crush, 0).to("plate").law(), count(Answer::Of::crushers, 1).law(), x_is(0).law(),
+                   y_is(half_height).law()};
+  return scene;
+}
+
+/// Falls towards the floor of a cabin, which comes up 5 m in each of 3 steps.
+Scene exact_fit_cabin_up() {
+  Scene scene = play(0, half_height + 0.375, 3);
+  add_cabin(scene, {{.time = 0, .at = {0, 0}}, {.time = 3 * scene.dt, .at = {0, 15}}});
+  scene.answers = {contact(0.375 / (5 + fallen(scene, 1)), 5).to("cabin").law(), x_is(0).law(),
+                   y_is(half_height).to("cabin").law(), count(Answer::Of::in_the_air, 0).after(0).law()};
+  is_spared(scene);
+  return scene;
+}
+
+/// Jumps against a lift that touches its head and never moves.
+Scene exact_fit_under_lift() {
+  Scene scene = play(0, half_height, 30);
+  constexpr int jumps = 5;
+  hold_jump(scene, jumps, scene.steps);
+  add_box(scene, "floor", -4, -1, 4, 0);
+  add_box(scene, "lift", -2, 2 * half_height, 2, 2 * half_height + 0.25);
+  move_last(scene, {{}});
+  scene.answers = {contact(jumps, scene.character.jump_speed * scene.dt).to("lift").law(),
+                   farthest({0, 1}, half_height).law(), farthest({0, -1}, -half_height).law(),
+                   count(Answer::Of::in_the_air, 0).law()};
+  is_spared(scene);
+  return scene;
+}
+
+/// Falls to the floor of a cabin that never moves.
+Scene exact_fit_cabin_still() {
+  Scene scene = play(0, half_height + 0.375, 60);
+  add_cabin(scene, {{}});
+  scene.answers = {contact(steps_to_fall(scene, 0.375), 4 * scene.dt).to("cabin").law(), x_is(0).law(),
+                   y_is(half_height).law(), between(Answer::Of::settled, 0, 20).law(),
+                   count(Answer::Of::in_the_air, 0).after(20).law()};
+  is_spared(scene);
+  return scene;
+}
+
+/// Stands in a niche; 70 papers, each by itself, come down from above its head into the floor in one step.
+Scene crush70() {
+  constexpr int papers = 70;
+  constexpr double thickness = 0.001;
+  Scene scene = play(0, half_height + 0.05, 1);
+  scene.dt = 1;
+  add_box(scene, "floor", -4, -9, 4, 0);
+  add_box(scene, "left", -4, 0, -0.4, 2);
+  add_box(scene, "right", 0.4, 0, 4, 2);
+  for (int i = 0; i < papers; ++i) {
+    const double bottom = 3 + 0.01 * i;
+    add_box(scene, "paper " + std::to_string(i), -0.36, bottom, 0.36, bottom + thickness);
+    move_last(scene, {{.time = 0, .at = {0, 0}}, {.time = scene.dt, .at = {0, -6}}});
+  }
+  scene.answers = {count(Answer::Of::crush, 0).law(), count(Answer::Of::crushers, papers).law(),
+                   y_is(half_height).law()};
+  return scene;
+}
+
 /// Begins 2 m inside a block, below a crate in it. The shortest straight way out passes the crate's lower corner with
 /// the side of its head: its slope is that from the corner of the crate, grown by the octagon, to the start.
 Scene escape_not_shortest() {
@@ -244,6 +401,17 @@ std::vector<BuiltInScene> play_scenes() {
       {"kerb_10cm", "a kerb of 10 cm: stops at its edge", kerb_10cm},
       {"low_step", "a step of 30 cm: stops at its edge", low_step},
       {"oneway_hill", "over a one-way hill: it holds everywhere, to its end", oneway_hill},
+      {"oneway_peak", "dropped onto the peak of a one-way roof: stands on it", oneway_peak},
+      {"oneway_noise", "over a one-way platform that is level but for 1e-6 m: it holds, to its end", oneway_noise},
+      {"oneway_arch", "over a one-way arch of 60 segments: it holds everywhere, to its end", oneway_arch},
+      {"exact_fit_lift_down", "a plate comes down on its head, without room: crushed by the plate alone, never passed",
+       exact_fit_lift_down},
+      {"exact_fit_cabin_up", "a cabin as wide as the character rises: carried up on its floor", exact_fit_cabin_up},
+      {"exact_fit_under_lift", "jumps under a lift that touches its head and rests: bumps its head, and stands",
+       exact_fit_under_lift},
+      {"exact_fit_cabin_still", "falls in a cabin as wide as the character that rests: stands on its floor",
+       exact_fit_cabin_still},
+      {"crush70", "70 papers come down on it in a niche, in one step: all 70 crush it, none passes", crush70},
       {"escape_not_shortest", "begins 2 m inside a block below a crate: comes out after 2.98 m, straight",
        escape_not_shortest},
   };
