@@ -1,8 +1,12 @@
 /// More of everything than a report or a state keeps inline: movers that crush, what lies on a character, contacts and
 /// corners of one step. No fixed number decides what is safe or what is named.
 #include "agreement/judged_step.hpp"
+#include "support/random.hpp"
+#include "support/steps_wanted.hpp"
 
 #include <gtest/gtest.h>
+
+#include <cstdio>
 
 namespace paperproof::test {
 namespace {
@@ -48,6 +52,97 @@ TEST_P(CrushInOneStep, all_are_named_and_none_is_passed) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(AnyNumber, CrushInOneStep, testing::Values(1, 8, 9, 64, 65, 70, 200));
+
+/// What happened in all cases.
+struct Tally {
+  int cases = 0;
+  int crushed = 0;
+  int by_many = 0;  ///< By more than a report keeps inline, at once.
+  int roomy = 0;    ///< There is room beside the papers,
+  int spared = 0;   ///< and nothing crushed although something came down past the head.
+  int judged = 0;   ///< The judge looked for room, too.
+};
+
+/// A niche, wide or narrow, and papers of any number, size and speed that come down into it.
+class Papers {
+ public:
+  explicit Papers(std::uint64_t seed) : random_(seed) {
+    const double wide = half_width + random_.log_between(1e-6, 0.2);
+    roomy_ = random_.chance(0.3);
+    const double right = roomy_ ? wide + random_.between(0.7, 3) : wide;
+    colliders_ = {box(-5, -40, 5, 0), box(-5, 0, -wide, random_.between(0.5, 4)),
+                  box(right, 0, 5, random_.between(0.5, 4))};
+    const bool at_one_speed = random_.chance(0.5);
+    const double speed = random_.log_between(0.1, 20);
+    double bottom = 2 * half_height + 0.1 + random_.log_between(1e-6, 1);
+    const int papers = static_cast<int>(random_.chance(0.3) ? random_.between(65, 151) : random_.log_between(1, 151));
+    for (int i = 0; i < papers; ++i) {
+      const double top = bottom + random_.log_between(1e-6, 0.05);
+      const double left_end = -random_.between(0.05, wide + 0.1);
+      colliders_.push_back(box(left_end, bottom, random_.between(0.05, wide + 0.1), top, static_cast<MoverIndex>(i)));
+      const double aside = random_.chance(0.2) ? random_.between(-0.05, 0.05) : 0;
+      ways_.emplace_back(aside, at_one_speed ? -speed : -random_.log_between(0.1, 20));
+      bottom = top + random_.log_between(1e-6, 0.02);
+    }
+  }
+
+  /// Down in one step, on in another, and back. @return what is wrong, or nothing.
+  std::string go(Tally& tally) {
+    const double above_floor = random_.log_between(1e-7, 0.1);
+    Judged run(colliders_, {0, half_height + above_floor}, random_.chance(0.5) ? 1 : 1.0 / 60);
+    if (random_.chance(0.5)) run.gravity = {0, -30};
+    run.looks_for_room = ways_.size() <= 3;
+    ++tally.cases;
+    tally.roomy += roomy_;
+    tally.judged += run.looks_for_room;
+    std::set<ColliderIndex> on_it;
+    for (const double share : {1.0, 0.3, -2.0}) {
+      for (std::size_t k = 0; k < run.motions.size(); ++k)
+        run.motions[k] = {run.motions[k].to, run.motions[k].to + share * ways_[k]};
+      const StepJudgement judged = run.step({.move = random_.integer(-1, 1)});
+      const std::set<ColliderIndex> named = run.crushed();
+      tally.crushed += !named.empty();
+      tally.by_many += named.size() > 64;
+      tally.spared += roomy_ && share == 1 && named.empty();
+      if (!holds(judged)) return "the judge says so";
+      if (run.report.move.crushed.overflowed() || named.size() != run.report.move.crushed.size())
+        return "not each is named once";
+      for (const ColliderIndex collider : named)
+        if (collider < first_paper) return "the niche is named";
+      const std::set<ColliderIndex> met = run.gone_through();
+      for (const ColliderIndex collider : met)
+        if (!named.contains(collider) && !on_it.contains(collider)) return "passed, unnamed";
+      for (const ColliderIndex collider : named)
+        if (!met.contains(collider)) return "named, but never there";
+      on_it = run.on_it();
+      for (const ColliderIndex collider : on_it)
+        if (!met.contains(collider)) return "inside, unmet";
+    }
+    return {};
+  }
+
+ private:
+  Random random_;
+  bool roomy_ = false;
+  std::vector<ColliderDef> colliders_;
+  std::vector<Vec2d> ways_;  ///< Of the papers, in a step.
+};
+
+TEST(AnyNumber, of_random_papers_are_named_where_they_crush_and_none_is_passed) {
+  const int cases = steps_wanted("PAPERPROOF_CRUSH_CASES", 400);
+  Tally all;
+  for (std::uint64_t seed = 1; all.cases < cases && !HasFailure(); ++seed) {
+    const std::string wrong = Papers(seed).go(all);
+    EXPECT_EQ(wrong, "") << "seed " << seed;
+  }
+  std::printf(
+      "%d cases, %d steps with a crush, %d by more than 64; %d with room beside, %d of them spared; %d judged\n",
+      all.cases, all.crushed, all.by_many, all.roomy, all.spared, all.judged);
+  EXPECT_GE(all.crushed, cases / 3);
+  EXPECT_GE(all.by_many, cases / 20);
+  EXPECT_GE(all.spared, cases / 100);
+  EXPECT_GE(all.judged, cases / 10);
+}
 
 /// How many more than a state remembers.
 class MoreOnIt : public testing::TestWithParam<int> {};

@@ -70,6 +70,12 @@ struct Judged {
     return all;
   }
 
+  /// What it overlaps where the step ends.
+  [[nodiscard]] std::set<ColliderIndex> on_it() const {
+    const std::vector<ColliderIndex> all = judge.scenery().overlapped({state.position, motions, 1});
+    return {all.begin(), all.end()};
+  }
+
  private:
   [[nodiscard]] compare::TraceHeader header(double length_of_step) const {
     compare::TraceHeader header;

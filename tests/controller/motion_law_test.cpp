@@ -101,8 +101,8 @@ TEST(Steering, neither_holds_nor_slows_a_fall_from_any_touching_state) {
       ++falling;
       // To the order of dt: what steering changes on the way to a surface, and the gap that is kept there.
       const double allowed = 0.5 * std::abs(fall) + 2 * Tolerances<double>{}.touch;
-      ASSERT_LE(highest - fall, allowed) << test::name_of(level) << ", seed " << seed << ", step " << i << ": without a key "
-                                         << fall << " m, with one " << highest << " m";
+      ASSERT_LE(highest - fall, allowed) << test::name_of(level) << ", seed " << seed << ", step " << i
+                                         << ": without a key " << fall << " m, with one " << highest << " m";
     }
   }
   std::printf("%d touching states, %d of them falling\n", states, falling);
@@ -112,7 +112,8 @@ TEST(Steering, neither_holds_nor_slows_a_fall_from_any_touching_state) {
 TEST(SteepRamps, are_slid_down_alike_with_the_key_uphill_and_without_one) {
   for (const double degrees : {51.0, 55.0, 63.5, 70.0, 80.0, 89.0}) {
     for (const double rate : {60.0, 240.0, 1000.0, 10000.0}) {
-      Player slider({{polygon({{0, 0}, {-60 * std::cos(degrees * degree), 60 * std::sin(degrees * degree)},
+      Player slider({{polygon({{0, 0},
+                               {-60 * std::cos(degrees * degree), 60 * std::sin(degrees * degree)},
                                {-60 * std::cos(degrees * degree), 0}})}},
                     CharacterDef{});
       // Rest it on the ramp first: then only the slide is compared.
@@ -205,28 +206,51 @@ TEST(DeadEnds, bring_a_walk_to_rest) {
   }
 }
 
-TEST(ClimbLimit, includes_itself_on_ramps_of_every_place_and_size) {
-  int climbed = 0;
-  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
-    Random random(seed);
-    const double size = random.log_between(5, 500);
-    const Vec2d foot{random.between(-1000, 1000), random.between(-1000, 1000)};
-    // Of a slope of 3 in 4 and of 1 in 1 the limit in degrees is what a designer computes.
-    const double rise = seed % 2 == 0 ? 1 : 0.75;
-    CharacterDef character;
-    character.max_climb_degrees = std::atan(rise) / degree;
-    if (rise == 1) character.max_climb_degrees = 45;
-    const double sign = random.chance(0.5) ? 1 : -1;
-    const Vec2d top = foot + Vec2d{sign * size, rise * size};
-    Player player({{polygon({foot, top, {top.x(), foot.y() - 1}, {foot.x() - sign * 20, foot.y() - 1},
-                             {foot.x() - sign * 20, foot.y()}})}},
-                  character);
-    player.state.position = foot + Vec2d{-sign, 0.7};
-    for (int i = 0; i < 60; ++i) player.step(sign, 1.0 / 60);
-    climbed += player.state.position.y() > foot.y() + half_height + 0.1;
-    ASSERT_GT(player.state.position.y(), foot.y() + half_height + 0.1) << "seed " << seed;
+/// A slope of a whole number in a whole number, whose limit in degrees is what a designer computes.
+class ExactSlope {
+ public:
+  explicit ExactSlope(std::uint64_t seed) : random_(seed) {
+    do {
+      along_ = {static_cast<double>(random_.integer(1, 64)), static_cast<double>(random_.integer(1, 64))};
+      if (random_.chance(0.2)) along_.y() = along_.x();
+    } while (along_.y() < 0.1 * along_.x() || along_.y() > 4 * along_.x());
+    sign_ = random_.chance(0.5) ? 1 : -1;
+    const double sixteenths = random_.integer(1, 400) / 16.0;
+    const Vec2d far{random_.integer(-16000, 16000) / 16.0, random_.integer(-16000, 16000) / 16.0};
+    foot_ = random_.chance(0.3) ? Vec2d(0, 0) : far;
+    // At least 6 m wide, and exact.
+    top_ = foot_ + (sixteenths + std::ceil(6 / along_.x())) * Vec2d(sign_ * along_.x(), along_.y());
   }
-  EXPECT_EQ(climbed, 300);
+
+  /// @param less of the limit than what it is exactly [radians].
+  [[nodiscard]] bool is_climbed(double less) const {
+    CharacterDef character;
+    character.max_climb_degrees = along_.x() == along_.y() && less == 0
+                                      ? 45
+                                      : (std::atan2(along_.y(), along_.x()) - less) * 180 / std::numbers::pi;
+    const double behind = foot_.x() - sign_ * 20;
+    Player player({{polygon({foot_, top_, {top_.x(), foot_.y() - 1}, {behind, foot_.y() - 1}, {behind, foot_.y()}})}},
+                  character);
+    player.state.position = foot_ + Vec2d{-sign_, 0.7};
+    for (int i = 0; i < 60; ++i) player.step(sign_, 1.0 / 60);
+    return player.state.position.y() > foot_.y() + half_height + 0.1;
+  }
+
+ private:
+  Random random_;
+  Vec2d along_;
+  double sign_ = 1;
+  Vec2d foot_;
+  Vec2d top_;
+};
+
+TEST(ClimbLimit, includes_itself_on_exact_slopes_of_every_place_and_size_and_nothing_steeper) {
+  constexpr double microradian = 1e-6;
+  for (std::uint64_t seed = 1; seed <= 10000; ++seed) {
+    const ExactSlope slope(seed);
+    ASSERT_TRUE(slope.is_climbed(0)) << "seed " << seed;
+    ASSERT_FALSE(slope.is_climbed(microradian)) << "seed " << seed;
+  }
 }
 
 TEST(Grounded, is_decided_where_the_step_ends) {
