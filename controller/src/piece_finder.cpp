@@ -77,7 +77,7 @@ std::span<const PieceIndex> PieceFinder<Scalar>::near_standing(std::span<const P
   Box2<Scalar> positions{path.front().position, path.front().position};
   for (const PathPoint<Scalar>& corner : path.subspan(1))
     positions = positions.merged({corner.position, corner.position});
-  if (positions.lower == positions.upper) return {};
+  if (positions.lower == positions.upper || candidates.quiet.contains(positions)) return {};
   if (!candidates.valid || !candidates.box.contains(positions)) {
     const Vec2<Scalar> way = path.back().position - path.front().position;
     candidates.box = positions_ahead(positions, way, look_ahead_);

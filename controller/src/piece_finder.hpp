@@ -51,6 +51,12 @@ class PieceFinder {
              Candidates<Scalar>& candidates, const Look& look) const noexcept {
     if (const std::span<const PieceIndex> near = near_standing(path, candidates); !near.empty())
       look(near, MoverMotion<Scalar>{});
+    along_movers(path, movers, candidates, look);
+  }
+  /// For each mover alone.
+  template <class Look>
+  void along_movers(std::span<const PathPoint<Scalar>> path, std::span<const MoverMotion<Scalar>> movers,
+                    Candidates<Scalar>& candidates, const Look& look) const noexcept {
     const std::span<PieceIndex> room = std::span(candidates.pieces).subspan(standing_.pieces.size());
     for (const Group& group : moving_) {
       const MoverMotion<Scalar>& motion = movers[group.mover];
@@ -58,6 +64,12 @@ class PieceFinder {
       if (!near.empty()) look(near, motion);
     }
   }
+  /// Of what stands still; none where all of the way is `candidates.quiet`.
+  [[nodiscard]] std::span<const PieceIndex> near_standing(std::span<const PathPoint<Scalar>> path,
+                                                          Candidates<Scalar>& candidates) const noexcept;
+  /// Around all corners of a path, as a mover sees them.
+  [[nodiscard]] static Box2<Scalar> positions_seen(std::span<const PathPoint<Scalar>> path,
+                                                   const MoverMotion<Scalar>& motion) noexcept;
 
  private:
   /// What stands still, or what one mover takes along.
@@ -70,13 +82,9 @@ class PieceFinder {
                                                     std::span<PieceIndex> found) const noexcept;
   };
 
-  [[nodiscard]] static Box2<Scalar> positions_seen(std::span<const PathPoint<Scalar>> path,
-                                                   const MoverMotion<Scalar>& motion) noexcept;
   [[nodiscard]] Box2<Scalar> touched_from(const Box2<Scalar>& positions) const noexcept {
     return {positions.lower + reach_.lower, positions.upper + reach_.upper};
   }
-  [[nodiscard]] std::span<const PieceIndex> near_standing(std::span<const PathPoint<Scalar>> path,
-                                                          Candidates<Scalar>& candidates) const noexcept;
 
   Box2<Scalar> reach_;  ///< Around the character at the origin, and a little more [m].
   Scalar look_ahead_;   ///< [m]

@@ -8,8 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/overlap_time.hpp"
-
 namespace paperproof {
 namespace {
 
@@ -43,49 +41,37 @@ void add_in_order(const SensorEvent<Scalar>& event, FixedVector<SensorEvent<Scal
 
 /// The stays of a character in the pieces of one sensor during one segment, joined where they overlap. They are worked
 /// out anew each time, so that any number of pieces needs no memory.
-template <class Scalar>
+/// @tparam StayIn called with a piece: the character's stay in it.
+template <class Scalar, class StayIn>
 class Stays {
  public:
-  Stays(const Scenery<Scalar>& scenery, std::span<const PieceIndex> pieces, std::span<const Vec2<Scalar>> outline,
-        const Vec2<Scalar>& from, const Vec2<Scalar>& to, const Box2<Scalar>& box) noexcept
-      : scenery_(&scenery), pieces_(pieces), outline_(outline), from_(from), to_(to), box_(box) {}
+  Stays(std::span<const PieceIndex> pieces, const StayIn& stay_in) noexcept : pieces_(pieces), stay_in_(stay_in) {}
 
   /// The first that begins later than `time`; empty where there is none.
   [[nodiscard]] OverlapTime<Scalar> after(Scalar time) const noexcept {
     OverlapTime<Scalar> first{.begin = OverlapTime<Scalar>::after, .end = OverlapTime<Scalar>::before};
-    for_each([&](const OverlapTime<Scalar>& stay) {
-      if (stay.begin > time && stay.begin < first.begin) first = stay;
-    });
+    for (const PieceIndex piece : pieces_) {
+      const OverlapTime<Scalar> stay = stay_in_(piece);
+      if (stay.any() && stay.begin > time && stay.begin < first.begin) first = stay;
+    }
     while (pieces_.size() > 1 && first.any() && first.end != OverlapTime<Scalar>::after && extend(first)) {
     }
     return first;
   }
 
  private:
-  template <class Look>
-  void for_each(const Look& look) const noexcept {
-    for (const PieceIndex piece : pieces_) {
-      if (!scenery_->box(piece).overlaps(box_)) continue;
-      const OverlapTime<Scalar> stay = geometry::overlap_time(outline_, scenery_->vertices_of(piece), from_, to_);
-      if (stay.any()) look(stay);
-    }
-  }
-
   /// By what goes on where it ends. @return whether anything did.
   [[nodiscard]] bool extend(OverlapTime<Scalar>& stay) const noexcept {
     const Scalar end = stay.end;
-    for_each([&](const OverlapTime<Scalar>& next) {
-      if (next.begin <= end + one_instant<Scalar>) stay.end = std::max(stay.end, next.end);
-    });
+    for (const PieceIndex piece : pieces_) {
+      const OverlapTime<Scalar> next = stay_in_(piece);
+      if (next.any() && next.begin <= end + one_instant<Scalar>) stay.end = std::max(stay.end, next.end);
+    }
     return stay.end > end;
   }
 
-  const Scenery<Scalar>* scenery_;
   std::span<const PieceIndex> pieces_;
-  std::span<const Vec2<Scalar>> outline_;
-  Vec2<Scalar> from_;
-  Vec2<Scalar> to_;
-  Box2<Scalar> box_;
+  const StayIn& stay_in_;
 };
 
 std::vector<PieceIndex> all_of(PieceRange range) {
@@ -98,60 +84,88 @@ std::vector<PieceIndex> all_of(PieceRange range) {
 
 template <class Scalar>
 Sensors<Scalar>::Sensors(const Scenery<Scalar>& scenery, const CharacterShape& shape)
-    : scenery_(&scenery),
-      finder_(scenery, shape, all_of(scenery.sensor_pieces())),
-      box_{shape.box().lower.cast<Scalar>(), shape.box().upper.cast<Scalar>()} {
-  for (const Vec2d& corner : shape.hull()) outline_.push_back(corner.cast<Scalar>());
-  well_inside_.reserve(scenery.sensor_pieces().size());
+    : scenery_(&scenery), finder_(scenery, shape, all_of(scenery.sensor_pieces())) {
+  const Vec2<Scalar> lower = shape.box().lower.cast<Scalar>();
+  const Vec2<Scalar> upper = shape.box().upper.cast<Scalar>();
+  std::vector<Vec2<Scalar>> outline;
+  for (const Vec2d& corner : shape.hull()) outline.push_back(corner.cast<Scalar>());
+  overlaps_.reserve(scenery.sensor_pieces().size());
   for (const PieceIndex piece : all_of(scenery.sensor_pieces())) {
+    const std::span<const Vec2<Scalar>> vertices = scenery.vertices_of(piece);
     const Box2<Scalar>& box = scenery.box(piece);
     const Scalar furthest = std::max(box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff());
-    well_inside_.push_back(geometry::deep_overlap<Scalar>({outline_.begin(), outline_.end()},
-                                                          scenery.vertices_of(piece), beyond_rounding(furthest)));
+    // A little larger, so that rounding here cannot hide what the separations see.
+    const Box2<Scalar> any = Box2<Scalar>{box.lower - upper, box.upper - lower}.inflated(Tolerances<Scalar>{}.look);
+    overlaps_.push_back({any, geometry::deep_overlap<Scalar>(outline, vertices, beyond_rounding(furthest)),
+                         geometry::separating_axes<Scalar>(outline, vertices)});
   }
 }
 
 template <class Scalar>
-typename Sensors<Scalar>::Segment Sensors<Scalar>::seen_from(const Vec2<Scalar>& offset_at_begin,
-                                                             const Vec2<Scalar>& offset_at_end,
-                                                             const PathPoint<Scalar>& begin,
-                                                             const PathPoint<Scalar>& end) const noexcept {
+typename Sensors<Scalar>::Segment Sensors<Scalar>::seen_by(const MoverMotion<Scalar>& motion,
+                                                           const PathPoint<Scalar>& begin,
+                                                           const PathPoint<Scalar>& end) noexcept {
   Segment segment;
-  segment.from = begin.position - offset_at_begin;
-  segment.to = end.position - offset_at_end;
+  segment.from = begin.position - motion.at(begin.fraction);
+  segment.to = end.position - motion.at(end.fraction);
   segment.begin = begin.fraction;
   segment.end = end.fraction;
   segment.positions = {segment.from.cwiseMin(segment.to), segment.from.cwiseMax(segment.to)};
-  // A little larger, so that rounding here cannot hide what the separations see.
-  const Box2<Scalar> exact{segment.positions.lower + box_.lower, segment.positions.upper + box_.upper};
-  segment.box = exact.inflated(Tolerances<Scalar>{}.look);
   return segment;
 }
 
 template <class Scalar>
 void Sensors<Scalar>::observe(std::span<const PathPoint<Scalar>> path, std::span<const MoverMotion<Scalar>> movers,
                               Candidates<Scalar>& candidates, Events& events) const noexcept {
-  finder_.along(path, movers, candidates, [&](std::span<const PieceIndex> near, const MoverMotion<Scalar>& motion) {
-    for (std::size_t i = 1; i < path.size(); ++i) {
-      const PathPoint<Scalar>& begin = path[i - 1];
-      const PathPoint<Scalar>& end = path[i];
-      const Segment segment = seen_from(motion.at(begin.fraction), motion.at(end.fraction), begin, end);
-      // Who stays in one place, as the sensor sees it, enters and leaves nothing.
-      if (segment.from != segment.to) observe(near, segment, events);
-    }
-  });
+  if (const std::span<const PieceIndex> near = finder_.near_standing(path, candidates); !near.empty())
+    candidates.quiet = observe(near, path, {}, candidates.box, events);
+  finder_.along_movers(path, movers, candidates,
+                       [&](std::span<const PieceIndex> near, const MoverMotion<Scalar>& motion) {
+                         observe(near, path, motion, {}, events);
+                       });
 }
 
 /// Pieces of one sensor stand side by side.
 template <class Scalar>
-void Sensors<Scalar>::observe(std::span<const PieceIndex> near, const Segment& segment, Events& events) const noexcept {
+Box2<Scalar> Sensors<Scalar>::observe(std::span<const PieceIndex> near, std::span<const PathPoint<Scalar>> path,
+                                      const MoverMotion<Scalar>& motion, Box2<Scalar> quiet,
+                                      Events& events) const noexcept {
+  const Box2<Scalar> way = PieceFinder<Scalar>::positions_seen(path, motion);
+  bool all_quiet = true;
   for (std::size_t i = 0; i < near.size(); ++i) {
-    if (!scenery_->box(near[i]).overlaps(segment.box)) continue;
     const std::size_t first = i;
     const ColliderIndex sensor = scenery_->pieces()[near[i]].collider;
-    while (i + 1 < near.size() && scenery_->pieces()[near[i + 1]].collider == sensor) ++i;
-    observe(sensor, near.subspan(first, i + 1 - first), segment, events);
+    bool is_quiet = keep_quiet(near[i], way, quiet);
+    while (i + 1 < near.size() && scenery_->pieces()[near[i + 1]].collider == sensor)
+      is_quiet = keep_quiet(near[++i], way, quiet) && is_quiet;
+    if (is_quiet) continue;
+    all_quiet = false;
+    for (std::size_t corner = 1; corner < path.size(); ++corner) {
+      const Segment segment = seen_by(motion, path[corner - 1], path[corner]);
+      // Who stays in one place, as the sensor sees it, enters and leaves nothing.
+      if (segment.from != segment.to) observe(sensor, near.subspan(first, i + 1 - first), segment, events);
+    }
   }
+  return all_quiet ? quiet : Candidates<Scalar>{}.quiet;
+}
+
+template <class Scalar>
+bool Sensors<Scalar>::keep_quiet(PieceIndex piece, const Box2<Scalar>& way, Box2<Scalar>& quiet) const noexcept {
+  const Box2<Scalar>& any = overlap_with(piece).any;
+  const Box2<Scalar>& well_inside = overlap_with(piece).well_inside;
+  if (way.upper.x() < any.lower.x()) {
+    quiet.upper.x() = std::min(quiet.upper.x(), any.lower.x());
+  } else if (way.lower.x() > any.upper.x()) {
+    quiet.lower.x() = std::max(quiet.lower.x(), any.upper.x());
+  } else if (way.upper.y() < any.lower.y()) {
+    quiet.upper.y() = std::min(quiet.upper.y(), any.lower.y());
+  } else if (way.lower.y() > any.upper.y()) {
+    quiet.lower.y() = std::max(quiet.lower.y(), any.upper.y());
+  } else {
+    quiet = {quiet.lower.cwiseMax(well_inside.lower), quiet.upper.cwiseMin(well_inside.upper)};
+    return well_inside.contains(way);
+  }
+  return true;
 }
 
 template <class Scalar>
@@ -160,12 +174,13 @@ void Sensors<Scalar>::observe(ColliderIndex sensor, std::span<const PieceIndex> 
   using Change = typename SensorEvent<Scalar>::Change;
   using Time = OverlapTime<Scalar>;
   // Nearly all who are in a sensor are well inside.
-  const auto stays_inside = [&](PieceIndex piece) {
-    return well_inside_[piece - scenery_->sensor_pieces().first].contains(segment.positions);
+  for (const PieceIndex piece : pieces)
+    if (overlap_with(piece).well_inside.contains(segment.positions)) return;
+  const auto stay_in = [&](PieceIndex piece) -> Time {
+    if (!overlap_with(piece).any.overlaps(segment.positions)) return {.begin = Time::after, .end = Time::before};
+    return geometry::overlap_time<Scalar>(overlap_with(piece).axes, segment.from, segment.to);
   };
-  if (std::any_of(pieces.begin(), pieces.end(), stays_inside)) return;
-  const Stays<Scalar> stays(*scenery_, pieces, {outline_.begin(), outline_.end()}, segment.from, segment.to,
-                            segment.box);
+  const Stays<Scalar, decltype(stay_in)> stays(pieces, stay_in);
   for (Time stay = stays.after(Time::before - 1); stay.any(); stay = stays.after(stay.end)) {
     if (stay.begin != Time::before) add_in_order({sensor, Change::enter, segment.fraction(stay.begin)}, events);
     if (stay.end == Time::after) return;

@@ -1,6 +1,7 @@
 /// Colliders that block nothing: when does the character enter them, and when does it leave?
 #pragma once
 
+#include "geometry/overlap_time.hpp"
 #include "piece_finder.hpp"
 
 #include <paperproof/controller.hpp>
@@ -46,8 +47,7 @@ class Sensors {
     Vec2<Scalar> from;
     Vec2<Scalar> to;
     Box2<Scalar> positions;  ///< Around both.
-    Box2<Scalar> box;        ///< Around the character on all of it [m].
-    Scalar begin = 0;  ///< Fractions of the step.
+    Scalar begin = 0;        ///< Fractions of the step.
     Scalar end = 1;
 
     [[nodiscard]] Scalar fraction(Scalar of_segment) const noexcept {
@@ -55,18 +55,31 @@ class Sensors {
     }
   };
 
-  [[nodiscard]] Segment seen_from(const Vec2<Scalar>& offset_at_begin, const Vec2<Scalar>& offset_at_end,
-                                  const PathPoint<Scalar>& begin, const PathPoint<Scalar>& end) const noexcept;
-  void observe(std::span<const PieceIndex> near, const Segment& segment, Events& events) const noexcept;
+  [[nodiscard]] static Segment seen_by(const MoverMotion<Scalar>& motion, const PathPoint<Scalar>& begin,
+                                       const PathPoint<Scalar>& end) noexcept;
+  /// @param near pieces that stand still, or go along with `motion`, ascending.
+  /// @return positions from which the character is in each of them, or out of it, as it is on all of the path.
+  Box2<Scalar> observe(std::span<const PieceIndex> near, std::span<const PathPoint<Scalar>> path,
+                       const MoverMotion<Scalar>& motion, Box2<Scalar> quiet, Events& events) const noexcept;
   void observe(ColliderIndex sensor, std::span<const PieceIndex> pieces, const Segment& segment,
                Events& events) const noexcept;
+  /// Leaves of `quiet` the positions from which the character is in a piece, or out of it, as it is on all of a way.
+  /// False where that may change on the way.
+  [[nodiscard]] bool keep_quiet(PieceIndex piece, const Box2<Scalar>& way, Box2<Scalar>& quiet) const noexcept;
 
   const Scenery<Scalar>* scenery_;
   PieceFinder<Scalar> finder_;
-  std::vector<Box2<Scalar>>
-      well_inside_;  ///< By piece: positions from which the character overlaps it for certain [m].
-  FixedVector<Vec2<Scalar>, CharacterShape::max_points> outline_;
-  Box2<Scalar> box_;
+  /// What a sensor's piece and the character make of each other.
+  struct Overlap {
+    Box2<Scalar> any;          ///< Positions from which they may overlap: from all others they do not [m].
+    Box2<Scalar> well_inside;  ///< Positions from which they overlap for certain [m].
+    std::vector<geometry::SeparatingAxis<Scalar>> axes;
+  };
+  [[nodiscard]] const Overlap& overlap_with(PieceIndex piece) const noexcept {
+    return overlaps_[piece - scenery_->sensor_pieces().first];
+  }
+
+  std::vector<Overlap> overlaps_;  ///< By piece.
 };
 
 extern template class Sensors<float>;

@@ -122,6 +122,7 @@ TEST(SensorsNearby, are_those_of_a_look_at_all_of_them) {
   int with_events = 0;
   int too_many = 0;
   int at_once = 0;
+  int quiet = 0;
   for (unsigned seed = 0; seed < 10'000; ++seed) {
     Random random(seed);
     SceneryDef def;
@@ -141,6 +142,7 @@ TEST(SensorsNearby, are_those_of_a_look_at_all_of_them) {
       const Path path = random_path(random, at);
       const Motions motions = random_motions(random, scenery->mover_count());
       at = path.back().position;
+      quiet += candidates.quiet.contains(PieceFinder<double>::positions_seen(path, {})) ? 1 : 0;
       Sensors<double>::Events events;
       sensors.observe(path, motions, candidates, events);
       const std::vector<Event> all = events_of_all(*scenery, path, motions);
@@ -159,6 +161,7 @@ TEST(SensorsNearby, are_those_of_a_look_at_all_of_them) {
   EXPECT_GT(with_events, steps * 3 / 10);
   EXPECT_LT(with_events, steps * 8 / 10);
   EXPECT_GT(too_many, 100);
+  EXPECT_GT(quiet, 1000) << "known to be so from the step before";
   EXPECT_GT(at_once, 1000) << "of two sensors at the same moment";
 }
 

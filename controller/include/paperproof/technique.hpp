@@ -123,6 +123,8 @@ struct Candidates {
   std::size_t count = 0;
   Box2<Scalar> box;  ///< Positions of the character for which they are complete, where `valid`.
   bool valid = false;
+  /// Positions among which nothing happens between the character and any of them, as far as is known.
+  Box2<Scalar> quiet{Vec2<Scalar>::Constant(1), Vec2<Scalar>::Constant(-1)};
 };
 
 /// Memory of a step, one per thread. It belongs to the controller (or the technique) that made it and carries nothing

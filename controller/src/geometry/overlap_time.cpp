@@ -6,44 +6,45 @@
 namespace paperproof::geometry {
 namespace {
 
-/// Twice the area that an edge spans with a vector: the component along the edge's left normal, times its length.
 template <class Scalar>
-Scalar cross(const Vec2<Scalar>& edge, const Vec2<Scalar>& vector) noexcept {
-  return edge.x() * vector.y() - edge.y() * vector.x();
+Scalar cross(const Vec2<Scalar>& a, const Vec2<Scalar>& b) noexcept {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+/// The edge that ends at vertex `i`.
+template <class Scalar>
+Vec2<Scalar> edge_to(std::span<const Vec2<Scalar>> outline, std::size_t i) noexcept {
+  return outline[i] - outline[i == 0 ? outline.size() - 1 : i - 1];
 }
 
 template <class Scalar>
-struct Edge {
-  Vec2<Scalar> end;
-  Vec2<Scalar> along;
-
-  /// The one that ends at vertex `i`.
-  Edge(std::span<const Vec2<Scalar>> outline, std::size_t i) noexcept
-      : end(outline[i]), along(outline[i] - outline[i == 0 ? outline.size() - 1 : i - 1]) {}
-
-  /// How far a point is on the outer side. In units of the edge's length: only the sign is used, and the ratio of two.
-  [[nodiscard]] Scalar beyond(const Vec2<Scalar>& point) const noexcept {
-    const Vec2<Scalar> from_end = point - end;
-    return -cross(along, from_end);
-  }
-};
-
-/// How far an outline at the origin reaches to the outer side of an edge, at least. What is nearest is subtracted
-/// first: positions are large, outlines small.
-template <class Scalar>
-Scalar least_reach(const Edge<Scalar>& edge_of_standing, std::span<const Vec2<Scalar>> mover) noexcept {
+SeparatingAxis<Scalar> axis_of_standing(std::span<const Vec2<Scalar>> mover, std::span<const Vec2<Scalar>> standing,
+                                        std::size_t i) noexcept {
+  const Vec2<Scalar> along = edge_to(standing, i);
   Scalar least = std::numeric_limits<Scalar>::infinity();
-  for (const Vec2<Scalar>& point : mover) least = std::min(least, -cross(edge_of_standing.along, point));
-  return least;
+  for (const Vec2<Scalar>& point : mover) least = std::min(least, -cross(along, point));
+  return {along, standing[i], Vec2<Scalar>::Zero(), least};
 }
 
-/// Along an edge of the mover.
+/// The vertex that the mover meets with its edge lies farthest to the edge's inner side.
 template <class Scalar>
-Scalar separation(std::span<const Vec2<Scalar>> standing, const Edge<Scalar>& edge_of_mover,
-                  const Vec2<Scalar>& at) noexcept {
-  Scalar least = std::numeric_limits<Scalar>::infinity();
-  for (const Vec2<Scalar>& point : standing) least = std::min(least, edge_of_mover.beyond(point - at));
-  return least;
+SeparatingAxis<Scalar> axis_of_mover(std::span<const Vec2<Scalar>> mover, std::span<const Vec2<Scalar>> standing,
+                                     std::size_t i) noexcept {
+  const Vec2<Scalar> along = edge_to(mover, i);
+  Vec2<Scalar> met = standing[0];
+  for (const Vec2<Scalar>& point : standing)
+    if (cross(along, Vec2<Scalar>(point - met)) > 0) met = point;
+  return {-along, met, mover[i], 0};
+}
+
+/// Calls `visit` with one axis after the other until it is false.
+template <class Scalar, class Visit>
+void for_each_axis(std::span<const Vec2<Scalar>> mover, std::span<const Vec2<Scalar>> standing,
+                   const Visit& visit) noexcept(noexcept(visit(SeparatingAxis<Scalar>{}))) {
+  for (std::size_t i = 0; i < standing.size(); ++i)
+    if (!visit(axis_of_standing(mover, standing, i))) return;
+  for (std::size_t i = 0; i < mover.size(); ++i)
+    if (!visit(axis_of_mover(mover, standing, i))) return;
 }
 
 template <class Scalar>
@@ -71,18 +72,36 @@ void narrow(OverlapTime<Scalar>& time, Scalar at_start, Scalar at_end) noexcept 
 }  // namespace
 
 template <class Scalar>
+std::vector<SeparatingAxis<Scalar>> separating_axes(std::span<const Vec2<Scalar>> mover,
+                                                    std::span<const Vec2<Scalar>> standing) {
+  std::vector<SeparatingAxis<Scalar>> axes;
+  axes.reserve(mover.size() + standing.size());
+  for_each_axis(mover, standing, [&](const SeparatingAxis<Scalar>& axis) {
+    axes.push_back(axis);
+    return true;
+  });
+  return axes;
+}
+
+template <class Scalar>
+OverlapTime<Scalar> overlap_time(std::span<const SeparatingAxis<Scalar>> axes, const Vec2<Scalar>& from,
+                                 const Vec2<Scalar>& to) noexcept {
+  OverlapTime<Scalar> time;
+  for (const SeparatingAxis<Scalar>& axis : axes) {
+    narrow(time, axis.separation(from), axis.separation(to));
+    if (!time.any()) break;
+  }
+  return time;
+}
+
+template <class Scalar>
 OverlapTime<Scalar> overlap_time(std::span<const Vec2<Scalar>> mover, std::span<const Vec2<Scalar>> standing,
                                  const Vec2<Scalar>& from, const Vec2<Scalar>& to) noexcept {
   OverlapTime<Scalar> time;
-  for (std::size_t i = 0; i < standing.size() && time.any(); ++i) {
-    const Edge<Scalar> edge(standing, i);
-    const Scalar least = least_reach(edge, mover);
-    narrow(time, least + edge.beyond(from), least + edge.beyond(to));
-  }
-  for (std::size_t i = 0; i < mover.size() && time.any(); ++i) {
-    const Edge<Scalar> edge(mover, i);
-    narrow(time, separation(standing, edge, from), separation(standing, edge, to));
-  }
+  for_each_axis(mover, standing, [&](const SeparatingAxis<Scalar>& axis) noexcept {
+    narrow(time, axis.separation(from), axis.separation(to));
+    return time.any();
+  });
   return time;
 }
 
@@ -94,27 +113,25 @@ Box2<Scalar> deep_overlap(std::span<const Vec2<Scalar>> mover, std::span<const V
   const Vec2<Scalar> middle = (b.lower + b.upper - a.lower - a.upper) / 2;
   const Vec2<Scalar> half = (b.upper - b.lower + a.upper - a.lower) / 2;
   Scalar share = 1;  // of the box around all positions that overlap
-  const auto narrow_by = [&](const Edge<Scalar>& edge, Scalar separation_at_middle) {
-    const Vec2<Scalar> along = edge.along.cwiseAbs();
-    share =
-        std::min(share, (-separation_at_middle - depth * along.sum()) / (along.x() * half.y() + along.y() * half.x()));
-  };
-  for (std::size_t i = 0; i < standing.size(); ++i) {
-    const Edge<Scalar> edge(standing, i);
-    narrow_by(edge, least_reach(edge, mover) + edge.beyond(middle));
-  }
-  for (std::size_t i = 0; i < mover.size(); ++i) {
-    const Edge<Scalar> edge(mover, i);
-    narrow_by(edge, separation(standing, edge, middle));
-  }
+  for_each_axis(mover, standing, [&](const SeparatingAxis<Scalar>& axis) noexcept {
+    const Vec2<Scalar> along = axis.along.cwiseAbs();
+    share = std::min(share,
+                     (-axis.separation(middle) - depth * along.sum()) / (along.x() * half.y() + along.y() * half.x()));
+    return true;
+  });
   return {middle - share * half, middle + share * half};
 }
 
-template Box2<float> deep_overlap(std::span<const Vec2<float>>, std::span<const Vec2<float>>, float) noexcept;
-template Box2<double> deep_overlap(std::span<const Vec2<double>>, std::span<const Vec2<double>>, double) noexcept;
-template OverlapTime<float> overlap_time(std::span<const Vec2<float>>, std::span<const Vec2<float>>, const Vec2<float>&,
-                                         const Vec2<float>&) noexcept;
-template OverlapTime<double> overlap_time(std::span<const Vec2<double>>, std::span<const Vec2<double>>,
-                                          const Vec2<double>&, const Vec2<double>&) noexcept;
+#define PAPERPROOF_INSTANTIATE(Scalar)                                                                    \
+  template std::vector<SeparatingAxis<Scalar>> separating_axes(std::span<const Vec2<Scalar>>,             \
+                                                               std::span<const Vec2<Scalar>>);            \
+  template OverlapTime<Scalar> overlap_time(std::span<const SeparatingAxis<Scalar>>, const Vec2<Scalar>&, \
+                                            const Vec2<Scalar>&) noexcept;                                \
+  template OverlapTime<Scalar> overlap_time(std::span<const Vec2<Scalar>>, std::span<const Vec2<Scalar>>, \
+                                            const Vec2<Scalar>&, const Vec2<Scalar>&) noexcept;           \
+  template Box2<Scalar> deep_overlap(std::span<const Vec2<Scalar>>, std::span<const Vec2<Scalar>>, Scalar) noexcept;
+PAPERPROOF_INSTANTIATE(float)
+PAPERPROOF_INSTANTIATE(double)
+#undef PAPERPROOF_INSTANTIATE
 
 }  // namespace paperproof::geometry

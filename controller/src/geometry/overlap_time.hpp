@@ -4,6 +4,7 @@
 #include <paperproof/types.hpp>
 
 #include <span>
+#include <vector>
 
 namespace paperproof::geometry {
 
@@ -32,6 +33,33 @@ struct OverlapTime {
 template <class Scalar>
 [[nodiscard]] OverlapTime<Scalar> overlap_time(std::span<const Vec2<Scalar>> mover,
                                                std::span<const Vec2<Scalar>> standing, const Vec2<Scalar>& from,
+                                               const Vec2<Scalar>& to) noexcept;
+
+/// A direction in which two outlines can be apart: the normal of an edge of one of them.
+template <class Scalar>
+struct SeparatingAxis {
+  Vec2<Scalar> along;  ///< The edge; the mover is apart on its right-hand side [m].
+  Vec2<Scalar> near;   ///< Subtracted first, as positions are large and outlines small [m].
+  Vec2<Scalar> shift;  ///< [m]
+  Scalar reach;        ///< Of the mover beyond the line, times the length of the edge [m²].
+
+  /// How far the mover at a position is apart, times the length of the edge: only the sign is used, and ratios [m²].
+  [[nodiscard]] Scalar separation(const Vec2<Scalar>& position) const noexcept {
+    const Vec2<Scalar> from_near = position - near;
+    const Vec2<Scalar> arm = from_near + shift;
+    return reach - (along.x() * arm.y() - along.y() * arm.x());
+  }
+};
+
+/// All of two outlines.
+/// @param mover,standing as of `overlap_time`.
+template <class Scalar>
+[[nodiscard]] std::vector<SeparatingAxis<Scalar>> separating_axes(std::span<const Vec2<Scalar>> mover,
+                                                                  std::span<const Vec2<Scalar>> standing);
+
+/// The same as the other `overlap_time`, with axes that are known before.
+template <class Scalar>
+[[nodiscard]] OverlapTime<Scalar> overlap_time(std::span<const SeparatingAxis<Scalar>> axes, const Vec2<Scalar>& from,
                                                const Vec2<Scalar>& to) noexcept;
 
 /// Positions from which `mover` overlaps `standing` by more than `depth` in every direction [m]: a box around the

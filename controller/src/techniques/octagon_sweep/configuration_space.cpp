@@ -165,6 +165,9 @@ void ConfigurationSpace<Scalar>::build_obstacle(PieceIndex piece) {
     info.surface = surfaces_.of(piece);
     info.bent_surface = !surfaces_.is_straight(info.surface);
   }
+  const std::span<const PieceInfo> pieces = scenery_.pieces();
+  const auto same = [&](PieceIndex other) { return pieces[other].collider == source.collider; };
+  info.whole_collider = !(piece > 0 && same(piece - 1)) && !(piece + 1 < pieces.size() && same(piece + 1));
   info_.push_back(info);
 }
 

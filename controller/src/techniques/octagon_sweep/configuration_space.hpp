@@ -55,6 +55,7 @@ struct ObstacleInfo {
   static constexpr std::uint8_t not_one_way = 255;
   std::uint8_t one_way_axis = not_one_way;  ///< The axis whose normal is the blocking normal of a one-way segment.
   bool bent_surface = false;                ///< Its surface is more than one straight line.
+  bool whole_collider = false;              ///< Its collider has no other piece.
   std::uint32_t surface = 0;                ///< Of a one-way segment, into `surfaces()`.
 };
 

@@ -130,7 +130,6 @@ class StepSolver {
   [[nodiscard]] Scalar impact_of(const Stop<Scalar>& stop, const LocalMotion& motion, const V& from) noexcept;
   [[nodiscard, gnu::noinline]] Scalar impact_with_another_piece(const Stop<Scalar>& stop, const LocalMotion& motion,
                                                                 const V& from) noexcept;
-  [[nodiscard]] bool is_whole_collider(PieceIndex piece) const noexcept;
   [[nodiscard]] std::span<const PieceIndex> pieces_along(const LocalMotion& motion, MoverIndex mover) noexcept;
   [[nodiscard]] ColliderIndex collider_of(PieceIndex piece) const noexcept {
     return space_.scenery().pieces()[piece].collider;
@@ -166,7 +165,7 @@ class StepSolver {
   [[nodiscard]] Scalar reach_of_solids_inside() noexcept;
   [[nodiscard]] bool overlaps(const V& position) noexcept;
   [[nodiscard]] bool overlaps(PieceIndex piece, const V& position) const noexcept;
-  [[nodiscard]] bool may_block(PieceIndex piece, const V& position) const noexcept;
+  [[nodiscard, gnu::always_inline]] inline bool may_block(PieceIndex piece, const V& position) const noexcept;
   void restore_gap() noexcept;
   [[nodiscard]] bool clear_way(const V& from, const V& to) noexcept;
   [[nodiscard]] bool clear_way(PieceIndex piece, const V& from, const V& to, Scalar end) const noexcept;
@@ -190,7 +189,7 @@ class StepSolver {
   [[nodiscard]] bool stands_on(PieceIndex piece) const noexcept;
   [[nodiscard, gnu::cold, gnu::noinline]] bool touches_ground() noexcept;
   /// The normal of a piece where it is touched now and is walkable ground.
-  [[nodiscard]] std::optional<V> touched_ground(PieceIndex piece) const noexcept;
+  [[nodiscard, gnu::always_inline]] inline std::optional<V> touched_ground(PieceIndex piece) const noexcept;
   [[gnu::cold, gnu::noinline]] void keep_ground() noexcept;
   void follow_ground_down(const MoveRequest<Scalar>& request) noexcept;
   [[nodiscard]] bool walkable(const V& normal) const noexcept { return normal.y() >= settings_.walkable_cosine; }

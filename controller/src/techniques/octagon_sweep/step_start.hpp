@@ -143,8 +143,11 @@ bool StepSolver<variant, Scalar>::overlaps(PieceIndex piece, const V& position) 
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::may_block(PieceIndex piece, const V& position) const noexcept {
   if constexpr (!variant.one_way) return true;
-  return space_.info(piece).one_way_axis == ObstacleInfo::not_one_way ||
-         (!drops_ && is_above(space_, piece, local(piece, position), lost_by(position, offset(piece))));
+  if (space_.info(piece).one_way_axis == ObstacleInfo::not_one_way) return true;
+  if (drops_) return false;
+  V rest = V::Zero();
+  if constexpr (variant.movers) rest = lost_by(position, offset(piece));
+  return is_above(space_, piece, local(piece, position), rest);
 }
 
 /// Pushes out of the nearest piece, again and again, until every gap is at least `hit`; undone where there is no room.

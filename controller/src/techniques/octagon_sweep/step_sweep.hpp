@@ -235,7 +235,8 @@ Scalar StepSolver<variant, Scalar>::impact_of(const Stop<Scalar>& stop, const Lo
                                               const V& from) noexcept {
   Scalar earliest = time_of_impact(space_, from, motion.way, stop.piece, stop.axes);
   if ((earliest - stop.stop) * motion.length <= 2 * Tolerances<Scalar>{}.stop) return earliest;
-  if (!is_whole_collider(stop.piece)) earliest = std::min(earliest, impact_with_another_piece(stop, motion, from));
+  if (!space_.info(stop.piece).whole_collider)
+    earliest = std::min(earliest, impact_with_another_piece(stop, motion, from));
   return earliest;
 }
 
@@ -254,14 +255,6 @@ Scalar StepSolver<variant, Scalar>::impact_with_another_piece(const Stop<Scalar>
     if (hit.hit) earliest = std::min(earliest, time_of_impact(space_, from, motion.way, other, hit.axes));
   }
   return earliest;
-}
-
-/// Whether a piece is all that its collider has: the pieces of a collider stand together.
-template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::is_whole_collider(PieceIndex piece) const noexcept {
-  const std::span<const PieceInfo> pieces = space_.scenery().pieces();
-  const auto same = [&](PieceIndex other) { return pieces[other].collider == pieces[piece].collider; };
-  return !(piece > 0 && same(piece - 1)) && !(piece + 1 < pieces.size() && same(piece + 1));
 }
 
 /// What a motion may meet, of what stands still or of one mover.

@@ -120,8 +120,7 @@ void StepSolver<variant, Scalar>::travel() noexcept {
   for (int iteration = 0; iteration < settings_.iterations; ++iteration) {
     if (way.x() == 0 && way.y() == 0) return;
     if (iteration > 0) look_along(way);
-    const bool aimed = way.x() != drive.way.wanted.x() || way.y() != drive.way.wanted.y();
-    if (found_.hit && found_.stop == 0 && aimed) {
+    if (found_.hit && found_.stop == 0 && (way.x() != drive.way.wanted.x() || way.y() != drive.way.wanted.y())) {
       // There is no room to restore the gap: give that up for this step.
       way = drive.way.wanted;
       may_aim = false;
@@ -144,7 +143,9 @@ void StepSolver<variant, Scalar>::travel() noexcept {
     held.push_back(normal);
 
     respond_to(normal, left, drive);
-    for (const V& other : held) {
+    // What follows ground does not enter it; a slide may, by what rounding leaves of a motion that ends.
+    const std::size_t others = held.size() - (walkable(normal) ? 1 : 0);
+    for (const V& other : std::span(held.begin(), others)) {
       if (!enters(drive.way.wanted, other) && !enters(drive.velocity.wanted, other)) continue;
       if (!slip({held.begin(), held.size()}, fall, drive)) return halt();
       break;
