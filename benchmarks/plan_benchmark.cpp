@@ -17,7 +17,7 @@ void plan_benchmark(benchmark::State& state, const Workload& workload) {
   const auto jumps = [](const Input& input) { return input.jump; };
   const Foreseen foreseen{.gravity = workload.scene.gravity != Vec2d(0, 0),
                           .jump = std::any_of(workload.inputs.begin(), workload.inputs.end(), jumps)};
-  const Plan plan = make_plan(workload.scenery, workload.scene.character, foreseen);
+  const Plan plan = make_plan(workload.scenery, foreseen);
   const auto planned = make_controller<double>(workload, {.broad_phase = plan.broad_phase, .stages = plan.stages});
   const auto full = make_controller<double>(workload, {});
   timed_pass(*full);

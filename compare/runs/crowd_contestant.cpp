@@ -13,7 +13,7 @@ class CrowdContestant final : public Contestant {
  public:
   CrowdContestant(TechniqueKind kind, const Scene& scene, const Scenery<double>& scenery, const Planning& planning)
       : scenery_(scenery),
-        plan_(plan_of(scenery_.get(), scene.character, planning)),
+        plan_(plan_of(scenery_.get(), planning)),
         crowd_(scenery_.get(), rules_for(kind, scene.character), definition_of(kind, scene, plan_, planning.knobs)),
         scratch_(crowd_.make_scratch(character_count(scene))),
         gravity_(scene.gravity.cast<Scalar>()),

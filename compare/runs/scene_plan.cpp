@@ -18,15 +18,15 @@ Foreseen foreseen_in(const Scene& scene, const Script& script) {
 }
 
 template <class Scalar>
-Plan plan_of(const Scenery<Scalar>& scenery, const CharacterDef& character, const Planning& planning) {
-  if (!planning.full) return make_plan(scenery, character, planning.foreseen);
+Plan plan_of(const Scenery<Scalar>& scenery, const Planning& planning) {
+  if (!planning.full) return make_plan(scenery, planning.foreseen);
   Plan full;
   full.broad_phase_reason = "as asked for: nothing is left out";
   return full;
 }
 
-template Plan plan_of(const Scenery<float>&, const CharacterDef&, const Planning&);
-template Plan plan_of(const Scenery<double>&, const CharacterDef&, const Planning&);
+template Plan plan_of(const Scenery<float>&, const Planning&);
+template Plan plan_of(const Scenery<double>&, const Planning&);
 
 MetricPlan metrics_for(const Scene& scene, const Planning& planning) {
   MetricPlan plan;
@@ -50,7 +50,7 @@ MetricPlan metrics_for(const Scene& scene, const Planning& planning) {
 
 std::string describe_plan(const Scene& scene, const Script& script) {
   const Planning planning{.foreseen = foreseen_in(scene, script)};
-  const Plan plan = plan_of(Scenery<double>(scene.scenery), scene.character, planning);
+  const Plan plan = plan_of(Scenery<double>(scene.scenery), planning);
   std::string out = scene.name + "\n";
   out += fmt::format("  broad phase  {}: {}\n", name_of(plan.broad_phase), plan.broad_phase_reason);
   for (const Omission& omission : plan.omitted)

@@ -25,7 +25,7 @@ struct Planning {
 
 /// The controller's plan, or with `Planning::full` one that omits nothing and finds pieces with a tree.
 template <class Scalar>
-[[nodiscard]] Plan plan_of(const Scenery<Scalar>& scenery, const CharacterDef& character, const Planning& planning);
+[[nodiscard]] Plan plan_of(const Scenery<Scalar>& scenery, const Planning& planning);
 
 struct MetricPlan {
   Measured measured;

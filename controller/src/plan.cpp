@@ -79,8 +79,6 @@ std::string_view name_of(Stage stage) noexcept {
       return "jump";
     case Stage::gravity:
       return "gravity";
-    case Stage::snap:
-      return "snap";
   }
   return "movers";
 }
@@ -98,7 +96,7 @@ std::string_view name_of(BroadPhaseKind kind) noexcept {
 }
 
 template <class Scalar>
-Plan make_plan(const Scenery<Scalar>& scenery, const CharacterDef& character, const Foreseen& foreseen) {
+Plan make_plan(const Scenery<Scalar>& scenery, const Foreseen& foreseen) {
   const std::vector<ColliderDef>& colliders = scenery.as_run().colliders;
   const auto any = [&colliders](auto&& test) { return std::any_of(colliders.begin(), colliders.end(), test); };
   Plan plan;
@@ -124,12 +122,10 @@ Plan make_plan(const Scenery<Scalar>& scenery, const CharacterDef& character, co
   leave_out(foreseen.jump, Stage::jump, &Stages::jump, "the jump button is never pressed, so no jump can begin");
   leave_out(foreseen.gravity, Stage::gravity, &Stages::gravity,
             "gravity is zero in every step, and adding zero changes no velocity");
-  leave_out(character.snap > 0, Stage::snap, &Stages::snap,
-            "the character's snap is zero, so it never follows the ground down");
   return plan;
 }
 
-template Plan make_plan(const Scenery<float>&, const CharacterDef&, const Foreseen&);
-template Plan make_plan(const Scenery<double>&, const CharacterDef&, const Foreseen&);
+template Plan make_plan(const Scenery<float>&, const Foreseen&);
+template Plan make_plan(const Scenery<double>&, const Foreseen&);
 
 }  // namespace paperproof

@@ -82,8 +82,7 @@ bool expect_same_bits(std::string_view name, ScalarKind scalar, const Scene& sce
 
 std::set<Stage> left_out(const std::string& name) {
   const Scene scene = built_in(name);
-  const Plan plan = plan_of(Scenery<double>(scene.scenery), scene.character,
-                            Planning{.foreseen = foreseen_in(scene, script_of(scene))});
+  const Plan plan = plan_of(Scenery<double>(scene.scenery), Planning{.foreseen = foreseen_in(scene, script_of(scene))});
   std::set<Stage> stages;
   for (const Omission& omission : plan.omitted) stages.insert(omission.stage);
   return stages;
@@ -91,19 +90,17 @@ std::set<Stage> left_out(const std::string& name) {
 
 TEST(PlanOfScenes, leaves_out_five_different_sets_of_five_scenes) {
   using enum Stage;
-  EXPECT_EQ(left_out("article_bullet"), (std::set{movers, one_way, sensors, slopes, jump, gravity, snap}));
-  EXPECT_EQ(left_out("flush_tiles"), (std::set{movers, one_way, sensors, slopes, jump, snap}));
+  EXPECT_EQ(left_out("article_bullet"), (std::set{movers, one_way, sensors, slopes, jump, gravity}));
+  EXPECT_EQ(left_out("flush_tiles"), (std::set{movers, one_way, sensors, slopes, jump}));
   EXPECT_EQ(left_out("skier"), (std::set{movers, one_way, sensors, jump}));
-  EXPECT_EQ(left_out("jump_into_wall"), (std::set{movers, one_way, sensors, slopes, snap}));
-  EXPECT_EQ(left_out("rotated_wall"), (std::set{movers, one_way, sensors, jump, gravity, snap}));
+  EXPECT_EQ(left_out("jump_into_wall"), (std::set{movers, one_way, sensors, slopes}));
+  EXPECT_EQ(left_out("rotated_wall"), (std::set{movers, one_way, sensors, jump, gravity}));
 }
 
 TEST(PlanOfScenes, takes_back_an_omission_when_the_scene_comes_to_need_it) {
   Scene scene = built_in("article_bullet");
   const auto stages = [&scene] {
-    return plan_of(Scenery<double>(scene.scenery), scene.character,
-                   Planning{.foreseen = foreseen_in(scene, script_of(scene))})
-        .stages;
+    return plan_of(Scenery<double>(scene.scenery), Planning{.foreseen = foreseen_in(scene, script_of(scene))}).stages;
   };
   EXPECT_FALSE(stages().one_way || stages().movers || stages().jump || stages().gravity);
   scene.scenery.colliders.push_back(
@@ -133,9 +130,9 @@ TEST(PlanOfScenes, among_movers_characters_are_slopes_to_each_other) {
   Foreseen foreseen = foreseen_in(scene, script_of(scene));
   EXPECT_TRUE(foreseen.company);
   const Scenery<double> scenery(scene.scenery);
-  EXPECT_TRUE(make_plan(scenery, scene.character, foreseen).stages.slopes);
+  EXPECT_TRUE(make_plan(scenery, foreseen).stages.slopes);
   foreseen.company = false;
-  EXPECT_FALSE(make_plan(scenery, scene.character, foreseen).stages.slopes);
+  EXPECT_FALSE(make_plan(scenery, foreseen).stages.slopes);
 }
 
 TEST(PlanOfScenes, random_input_may_jump) {

@@ -345,22 +345,19 @@ TEST(Crush, by_another_knows_from_which_side_of_what_lies_on_it_the_character_ca
 }
 
 TEST(Stages, that_the_scenery_needs_cannot_be_left_out) {
-  const auto make = [](std::vector<ColliderDef> colliders, const Stages& stages, double snap = 0) {
+  const auto make = [](std::vector<ColliderDef> colliders, const Stages& stages) {
     const Scenery<double> scenery(SceneryDef{std::move(colliders)});
-    CharacterDef character;
-    character.snap = snap;
-    const Controller<double> controller(scenery, character, {.stages = stages});
+    const Controller<double> controller(scenery, {}, {.stages = stages});
   };
   const ColliderDef floor = rectangle(-4, -1, 4, 0);
   ColliderDef belt = floor;
   belt.surface_speed = 1;
   const ColliderDef slope = polygon({{0, 0}, {4, 0}, {4, 3}});
-  EXPECT_NO_THROW(make({floor}, {.movers = false, .one_way = false, .slopes = false, .snap = false}));
+  EXPECT_NO_THROW(make({floor}, {.movers = false, .one_way = false, .slopes = false}));
   EXPECT_THROW(make({moving(floor)}, {.movers = false}), std::invalid_argument);
   EXPECT_THROW(make({belt}, {.movers = false}), std::invalid_argument);
   EXPECT_THROW(make({chain({{0, 0}, {1, 0}}, Vec2d{0, 1})}, {.one_way = false}), std::invalid_argument);
   EXPECT_THROW(make({slope}, {.slopes = false}), std::invalid_argument);
-  EXPECT_THROW(make({floor}, {.snap = false}, 0.5), std::invalid_argument);
 }
 
 }  // namespace

@@ -19,8 +19,8 @@ SceneryDef floor_only() { return {{rectangle(-10, -1, 10, 0)}}; }
 /// Nothing is known to happen.
 constexpr Foreseen nothing{.gravity = false, .jump = false};
 
-Plan plan_for(const SceneryDef& def, const CharacterDef& character = {}, const Foreseen& foreseen = nothing) {
-  return make_plan(Scenery<double>(def), character, foreseen);
+Plan plan_for(const SceneryDef& def, const Foreseen& foreseen = nothing) {
+  return make_plan(Scenery<double>(def), foreseen);
 }
 
 std::vector<Stage> left_out(const Plan& plan) {
@@ -38,12 +38,12 @@ std::vector<Stage> all_but(Stage kept) {
 TEST(Plan, of_a_floor_that_nothing_happens_on_leaves_out_every_stage_each_with_a_reason) {
   const Plan plan = plan_for(floor_only());
   EXPECT_EQ(left_out(plan), std::vector<Stage>(all_stages.begin(), all_stages.end()));
-  EXPECT_EQ(plan.stages, (Stages{false, false, false, false, false, false, false}));
+  EXPECT_EQ(plan.stages, (Stages{false, false, false, false, false, false}));
   for (const Omission& omission : plan.omitted) EXPECT_GT(omission.reason.size(), 20U) << name_of(omission.stage);
 }
 
 TEST(Plan, keeps_gravity_and_jumps_where_nothing_is_known_of_the_steps) {
-  const Plan plan = plan_for(floor_only(), {}, {});
+  const Plan plan = plan_for(floor_only(), {});
   EXPECT_TRUE(plan.stages.gravity);
   EXPECT_TRUE(plan.stages.jump);
 }
@@ -51,7 +51,7 @@ TEST(Plan, keeps_gravity_and_jumps_where_nothing_is_known_of_the_steps) {
 struct Kept {
   const char* name;
   Stage stage;
-  std::function<void(SceneryDef&, CharacterDef&, Foreseen&)> change;
+  std::function<void(SceneryDef&, Foreseen&)> change;
 };
 
 void PrintTo(const Kept& kept, std::ostream* stream) { *stream << kept.name; }
@@ -60,10 +60,9 @@ class PlanKeeps : public testing::TestWithParam<Kept> {};
 
 TEST_P(PlanKeeps, just_the_stage_that_the_change_needs) {
   SceneryDef def = floor_only();
-  CharacterDef character;
   Foreseen foreseen = nothing;
-  GetParam().change(def, character, foreseen);
-  EXPECT_EQ(left_out(plan_for(def, character, foreseen)), all_but(GetParam().stage));
+  GetParam().change(def, foreseen);
+  EXPECT_EQ(left_out(plan_for(def, foreseen)), all_but(GetParam().stage));
 }
 
 ColliderDef moving(ColliderDef def) {
@@ -75,29 +74,28 @@ INSTANTIATE_TEST_SUITE_P(
     Each, PlanKeeps,
     testing::Values(
         Kept{"a_mover", Stage::movers,
-             [](SceneryDef& def, auto&, auto&) { def.colliders.push_back(moving(rectangle(20, 0, 21, 1))); }},
-        Kept{"a_conveyor", Stage::movers, [](SceneryDef& def, auto&, auto&) { def.colliders[0].surface_speed = -1; }},
+             [](SceneryDef& def, auto&) { def.colliders.push_back(moving(rectangle(20, 0, 21, 1))); }},
+        Kept{"a_conveyor", Stage::movers, [](SceneryDef& def, auto&) { def.colliders[0].surface_speed = -1; }},
         Kept{"a_one_way_chain", Stage::one_way,
-             [](SceneryDef& def, auto&, auto&) {
+             [](SceneryDef& def, auto&) {
                def.colliders.push_back(
                    {.shape = ColliderDef::Shape::chain, .points = {{0, 2}, {1, 2}}, .one_way = Vec2d(0, 1)});
              }},
         Kept{"a_sensor", Stage::sensors,
-             [](SceneryDef& def, auto&, auto&) {
+             [](SceneryDef& def, auto&) {
                def.colliders.push_back(rectangle(0, 1, 1, 2));
                def.colliders.back().sensor = true;
              }},
         Kept{"a_slope", Stage::slopes,
-             [](SceneryDef& def, auto&, auto&) {
+             [](SceneryDef& def, auto&) {
                def.colliders.push_back({.points = {{0, 0}, {2, 0}, {2, 1}}});
              }},
         Kept{"a_sloping_chain_an_ulp_high", Stage::slopes,
-             [](SceneryDef& def, auto&, auto&) {
+             [](SceneryDef& def, auto&) {
                def.colliders.push_back({.shape = ColliderDef::Shape::chain, .points = {{0, 2}, {1, 2 + 0x1p-51}}});
              }},
-        Kept{"jumps", Stage::jump, [](SceneryDef&, auto&, Foreseen& foreseen) { foreseen.jump = true; }},
-        Kept{"gravity", Stage::gravity, [](SceneryDef&, auto&, Foreseen& foreseen) { foreseen.gravity = true; }},
-        Kept{"snap", Stage::snap, [](SceneryDef&, CharacterDef& character, auto&) { character.snap = 0.25; }}),
+        Kept{"jumps", Stage::jump, [](SceneryDef&, Foreseen& foreseen) { foreseen.jump = true; }},
+        Kept{"gravity", Stage::gravity, [](SceneryDef&, Foreseen& foreseen) { foreseen.gravity = true; }}),
     [](const testing::TestParamInfo<Kept>& kept) { return std::string(kept.param.name); });
 
 TEST(Plan, takes_the_diagonal_by_which_a_concave_polygon_is_cut_for_a_slope) {
@@ -112,7 +110,7 @@ TEST(Plan, takes_the_diagonal_by_which_a_concave_polygon_is_cut_for_a_slope) {
       diagonal = diagonal || (edge.x() != 0 && edge.y() != 0);
     }
   }
-  EXPECT_EQ(make_plan(ell, CharacterDef{}).stages.slopes, diagonal);
+  EXPECT_EQ(make_plan(ell).stages.slopes, diagonal);
 }
 
 TEST(Plan, looks_at_slopes_of_solids_only) {
@@ -142,17 +140,17 @@ TEST(Plan, chooses_the_broad_phase_by_number_and_spread_of_what_stands_still) {
 // --- what is built by it
 
 /// What building says about an omission, or nothing.
-std::string refusal(const SceneryDef& def, const Stages& stages, const CharacterDef& character = {}) {
+std::string refusal(const SceneryDef& def, const Stages& stages) {
   const Scenery<double> scenery(def);
   try {
-    const Controller<double> controller(scenery, character, {.stages = stages});
+    const Controller<double> controller(scenery, {}, {.stages = stages});
     return {};
   } catch (const std::invalid_argument& error) {
     return error.what();
   }
 }
 
-TEST(Stages, cannot_be_left_out_where_the_scenery_or_the_character_needs_them) {
+TEST(Stages, cannot_be_left_out_where_the_scenery_needs_them) {
   SceneryDef mover = floor_only();
   mover.colliders.push_back(moving(rectangle(20, 0, 21, 1)));
   EXPECT_NE(refusal(mover, {.movers = false}).find("movers"), std::string::npos);
@@ -166,9 +164,6 @@ TEST(Stages, cannot_be_left_out_where_the_scenery_or_the_character_needs_them) {
   SceneryDef slope = floor_only();
   slope.colliders.push_back({.points = {{0, 0}, {2, 0}, {2, 1}}});
   EXPECT_NE(refusal(slope, {.slopes = false}).find("slopes"), std::string::npos);
-  CharacterDef snapping;
-  snapping.snap = 0.1;
-  EXPECT_NE(refusal(floor_only(), {.snap = false}, snapping).find("snap"), std::string::npos);
   EXPECT_EQ(refusal(floor_only(), plan_for(floor_only()).stages), "");
 }
 
@@ -273,7 +268,7 @@ std::size_t run_both(const SceneryDef& def, const Play& run) {
   const Scenery<Scalar> scenery(def);
   CharacterDef character;
   character.snap = run.snap;
-  const Plan plan = make_plan(scenery, character, run.foreseen);
+  const Plan plan = make_plan(scenery, run.foreseen);
   const Controller<Scalar> planned(scenery, character, {.broad_phase = plan.broad_phase, .stages = plan.stages});
   const Controller<Scalar> full(scenery, character);
   Scratch<Scalar> planned_scratch = planned.make_scratch();

@@ -12,10 +12,10 @@
 
 namespace paperproof {
 
-/// Stages that a step is made of; `false` leaves one out. `octagon_sweep` is built without `movers`, `one_way`,
-/// `slopes` and `snap`, the controller without `sensors`, `jump` and `gravity`: the choice is made once, then, and the
-/// step does not ask again. Where an omission is safe the step gives the same bits without it; where the scenery or the
-/// character makes it unsafe, building refuses it (std::invalid_argument). Keeping everything is always safe.
+/// Stages that a step is made of; `false` leaves one out. `octagon_sweep` is built without `movers`, `one_way`
+/// and `slopes`, the controller without `sensors`, `jump` and `gravity`: the choice is made once, then, and the
+/// step does not ask again. Where an omission is safe the step gives the same bits without it; where the scenery makes
+/// it unsafe, building refuses it (std::invalid_argument). Keeping everything is always safe.
 struct Stages {
   bool movers = true;   ///< Moving scenery and conveyors. Safe to leave out where nothing moves.
   bool one_way = true;  ///< Chains that block from one side. Safe to leave out where there are none.
@@ -24,16 +24,15 @@ struct Stages {
   bool slopes = true;
   bool jump = true;     ///< Safe to leave out where the jump button is never pressed; a press is then invalid input.
   bool gravity = true;  ///< Safe to leave out where gravity is zero; another one is then invalid input.
-  bool snap = true;     ///< Following the ground downwards. Safe to leave out where `CharacterDef::snap` is zero.
 
   friend constexpr bool operator==(const Stages&, const Stages&) = default;
 };
 
 /// The members of `Stages`, in their order.
-enum class Stage : std::uint8_t { movers, one_way, sensors, slopes, jump, gravity, snap };
+enum class Stage : std::uint8_t { movers, one_way, sensors, slopes, jump, gravity };
 
-inline constexpr std::array all_stages{Stage::movers, Stage::one_way, Stage::sensors, Stage::slopes,
-                                       Stage::jump,   Stage::gravity, Stage::snap};
+inline constexpr std::array all_stages{Stage::movers, Stage::one_way, Stage::sensors,
+                                       Stage::slopes, Stage::jump,    Stage::gravity};
 
 [[nodiscard]] std::string_view name_of(Stage stage) noexcept;
 [[nodiscard]] std::string_view name_of(BroadPhaseKind kind) noexcept;
@@ -60,13 +59,12 @@ struct Plan {
   std::vector<Omission> omitted{};  ///< One for each stage that is false in `stages`, in the order of `Stages`.
 };
 
-/// Reads what a scenery and a character can need. Precision is never the plan's choice: a planned controller
+/// Reads what a scenery can need. Precision is never the plan's choice: a planned controller
 /// (`TechniqueDef::broad_phase` and `::stages` from here) gives the same bits as one with everything.
 ///
 /// Of the scenery the convex pieces count, diagonals of concave polygons included, and conveyors; a slope is what is
 /// parallel to neither axis.
 template <class Scalar>
-[[nodiscard]] Plan make_plan(const Scenery<Scalar>& scenery, const CharacterDef& character,
-                             const Foreseen& foreseen = {});
+[[nodiscard]] Plan make_plan(const Scenery<Scalar>& scenery, const Foreseen& foreseen = {});
 
 }  // namespace paperproof

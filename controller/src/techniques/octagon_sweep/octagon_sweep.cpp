@@ -30,14 +30,12 @@ void refuse_omission(bool unsafe, const char* stage, const char* reason) {
 }
 
 template <class Scalar>
-void check(const Stages& stages, const Scenery<Scalar>& scenery, const CharacterDef& character,
-           const ConfigurationSpace<Scalar>& space) {
+void check(const Stages& stages, const Scenery<Scalar>& scenery, const ConfigurationSpace<Scalar>& space) {
   refuse_omission(!stages.movers && scenery.mover_count() > 0, "movers", "something moves");
   refuse_omission(!stages.movers && has_conveyors(scenery), "movers", "there is a conveyor");
   refuse_omission(!stages.one_way && has_one_way_chains(scenery), "one_way", "there is a one-way chain");
   refuse_omission(!stages.slopes && space.has_own_axes(), "slopes",
                   "there is an edge that is parallel to no side of the character or of its box");
-  refuse_omission(!stages.snap && character.snap > 0, "snap", "the character follows the ground down");
 }
 
 /// Among scenery that stands still.
@@ -54,12 +52,9 @@ class OctagonSweep : public Technique<Scalar> {
                    : *broad_phase_,
                mover_phases_),
         settings_(settings_for<Scalar>(def, character)),
-        solve_(still_solver<Scalar>({.lanes = space_.lanes(),
-                                     .movers = false,
-                                     .one_way = def.stages.one_way,
-                                     .slopes = def.stages.slopes,
-                                     .snap = def.stages.snap})) {
-    check(def.stages, scenery, character, space_);
+        solve_(still_solver<Scalar>(
+            {.lanes = space_.lanes(), .movers = false, .one_way = def.stages.one_way, .slopes = def.stages.slopes})) {
+    check(def.stages, scenery, space_);
   }
 
   [[nodiscard]] std::string_view name() const noexcept override { return name_of(TechniqueKind::octagon_sweep); }

@@ -84,6 +84,13 @@ struct MoverMemory final : StepMemory<Scalar> {
     const auto moves = [](const ColliderDef& each) { return each.mover != no_mover; };
     const auto moving = static_cast<std::size_t>(std::count_if(colliders.begin(), colliders.end(), moves));
     roles.resize(colliders.size());
+    pieces_of.resize(colliders.size());
+    const std::span<const PieceInfo> all_pieces = space.scenery().pieces();
+    for (PieceIndex piece = 0; piece < this->pieces; ++piece) {
+      PieceRange& range = pieces_of[all_pieces[piece].collider];
+      if (range.size() == 0) range.first = piece;
+      range.end = piece + 1;
+    }
     marked.reserve(colliders.size());
     pressers.reserve(moving);
     for (auto* each : {&holds, &holds_before}) each->reserve(this->pieces);
@@ -115,6 +122,7 @@ struct MoverMemory final : StepMemory<Scalar> {
   std::vector<PieceIndex> all;       ///< and of all of them, with what stands still.
   RoomMemory<Scalar> room;
   std::vector<std::uint8_t> roles;         ///< Of each collider: see `Role`.
+  std::vector<PieceRange> pieces_of;       ///< Each collider: they stand together.
   std::vector<ColliderIndex> marked;       ///< Those that are `known`, in the order in which they came to be.
   std::vector<Hold<Scalar>> holds;         ///< What is touched, each piece once,
   std::vector<Hold<Scalar>> holds_before;  ///< and what was when the last sweep began.

@@ -197,13 +197,15 @@ std::optional<Vec2<Scalar>> StepSolver<variant, Scalar>::came_from(PieceIndex pi
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::stays_on_its_side(const V& end) noexcept {
   if (!moving_.leaves_any && moving_.on_it == 0) return true;
-  for (PieceIndex piece = 0; piece < space_.scenery().sensor_pieces().first; ++piece) {
-    if (!left_behind(piece)) continue;
+  const auto leads_through = [&](PieceIndex piece) {
     const std::optional<V> from = came_from(piece);
-    const MoverIndex mover = mover_of(piece);
-    V to = end;
-    if (mover != no_mover) to -= moving_.around.offset(mover, Scalar(1));
-    if (from && stopped_by(make_motion<variant>(space_, *from, V(to - *from), Scalar(0)), piece)) return false;
+    const V to = end - offset(piece, Scalar(1));
+    return from && stopped_by(make_motion<variant>(space_, *from, V(to - *from), Scalar(0)), piece);
+  };
+  for (const ColliderIndex collider : memory().marked) {
+    const PieceRange pieces = memory().pieces_of[collider];
+    for (PieceIndex piece = pieces.first; piece < pieces.end; ++piece)
+      if (left_behind(piece) && leads_through(piece)) return false;
   }
   return true;
 }

@@ -191,7 +191,7 @@ class StepSolver {
   /// The normal of a piece where it is touched now and is walkable ground.
   [[nodiscard, gnu::always_inline]] inline std::optional<V> touched_ground(PieceIndex piece) const noexcept;
   [[gnu::cold, gnu::noinline]] void keep_ground() noexcept;
-  void follow_ground_down(const MoveRequest<Scalar>& request) noexcept;
+  [[gnu::noinline]] void follow_ground_down(const MoveRequest<Scalar>& request) noexcept;
   [[nodiscard]] bool walkable(const V& normal) const noexcept { return normal.y() >= settings_.walkable_cosine; }
 
   [[nodiscard]] MoverMemory<Scalar>& memory() const noexcept { return moving_.around.memory; }

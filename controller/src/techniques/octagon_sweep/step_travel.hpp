@@ -57,7 +57,7 @@ void StepSolver<variant, Scalar>::solve(const MoveRequest<Scalar>& request) noex
     }
     result_.grounded = stands();
     if (result_.grounded && !met_ground_ && !wedged_) report_ground();
-    if constexpr (variant.snap) follow_ground_down(request);
+    if (settings_.snap > 0) follow_ground_down(request);
     if constexpr (variant.movers) end_ride();
   }
   if constexpr (variant.movers) end_wait();
@@ -302,7 +302,7 @@ std::optional<Vec2<Scalar>> StepSolver<variant, Scalar>::touched_ground(PieceInd
 /// Where a walk left the ground, and there is ground not far below.
 template <Variant variant, class Scalar>
 void StepSolver<variant, Scalar>::follow_ground_down(const MoveRequest<Scalar>& request) noexcept {
-  if (settings_.snap <= 0 || !request.grounded || result_.grounded) return;
+  if (!request.grounded || result_.grounded) return;
   if constexpr (variant.movers)
     if (pinned()) return;  // it stays where it was crushed
   V travelled = position_ - request.position;

@@ -17,23 +17,19 @@ void solve_still(const ConfigurationSpace<Scalar>& space, const Settings<Scalar>
   StepSolver<variant, Scalar>{space, settings, neighbourhood, result}.solve(request);
 }
 
-/// The bits of an index are the stages: 1 one_way, 2 slopes, 4 snap.
+/// The bits of an index are the stages: 1 one_way, 2 slopes.
 template <std::size_t Lanes, class Scalar, std::size_t... Index>
 [[nodiscard]] SolveStill<Scalar> entry(std::size_t index, std::index_sequence<Index...>) noexcept {
   static constexpr std::array<SolveStill<Scalar>, sizeof...(Index)> table{
-      solve_still<Variant{.lanes = Lanes,
-                          .movers = false,
-                          .one_way = (Index & 1U) != 0,
-                          .slopes = (Index & 2U) != 0,
-                          .snap = (Index & 4U) != 0},
+      solve_still<Variant{.lanes = Lanes, .movers = false, .one_way = (Index & 1U) != 0, .slopes = (Index & 2U) != 0},
                   Scalar>...};
   return table[index];
 }
 
 template <class Scalar>
 SolveStill<Scalar> still_solver(const Variant& variant) noexcept {
-  const std::size_t index = (variant.one_way ? 1U : 0U) + (variant.slopes ? 2U : 0U) + (variant.snap ? 4U : 0U);
-  constexpr auto all = std::make_index_sequence<8>();
+  const std::size_t index = (variant.one_way ? 1U : 0U) + (variant.slopes ? 2U : 0U);
+  constexpr auto all = std::make_index_sequence<4>();
   return variant.lanes == 8 ? entry<8, Scalar>(index, all) : entry<12, Scalar>(index, all);
 }
 

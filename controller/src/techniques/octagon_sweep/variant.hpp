@@ -11,7 +11,6 @@ struct Variant {
   bool movers = true;
   bool one_way = true;
   bool slopes = true;  ///< Pieces may have axes of their own.
-  bool snap = true;
 };
 
 }  // namespace paperproof::octagon_sweep
