@@ -206,6 +206,14 @@ TEST(Judge, a_one_way_chain_is_broken_against_its_normal_only) {
   EXPECT_TRUE(judge.judge(step({{0, 0.5}, {0, -1}})).one_way_broken.empty());
 }
 
+TEST(Judge, a_one_way_hill_is_broken_on_its_peak_and_its_sides_and_not_beside_it) {
+  Judge judge(header({chain({{-4, 0}, {0, 1}, {4, 0}}, Vec2d(0, 1))}));
+  // On the peak no octagon is above the straight line of either side.
+  for (const double x : {-4.0, -2.0, -0.1, 0.0, 0.1, 2.0, 4.0})
+    EXPECT_EQ(judge.judge(step({{x, 1.7}, {x, -2}})).one_way_broken, Colliders{0}) << x;
+  for (const double x : {-5.0, 5.0}) EXPECT_TRUE(judge.judge(step({{x, 1.7}, {x, -2}})).one_way_broken.empty()) << x;
+}
+
 TEST(Judge, what_is_dropped_through_is_excused_and_nothing_else) {
   const auto ledge = [](double y) { return chain({{-4, y}, {4, y}}, Vec2d(0, 1)); };
   Judge judge(header({ledge(0), ledge(-1), box(-4, -3, 4, -2.9)}));
