@@ -72,6 +72,8 @@ bool Seams::cover(const Edge& edge, const Vec2d& first, const Vec2d& last) const
     for (const std::uint32_t i : neighbour.group->edge_tree.meeting(box.inflated(neighbour.rounding))) {
       const Edge& other = world_.edges()[i];
       if (other.collider == edge.collider || world_.solids()[other.collider].kind != Kind::polygon) continue;
+      // Who lies on the same side, as a copy does, has the same outline there.
+      if ((other.b - other.a).dot(along) > 0) continue;
       if (side(neighbour, edge.a, edge.b, edge.a, other.a) != Sign::zero) continue;
       if (side(neighbour, edge.a, edge.b, edge.a, other.b) != Sign::zero) continue;
       const double a = place(other.a - shift);

@@ -118,6 +118,20 @@ TEST(ExactImpact, a_seam_is_not_exposed_from_either_direction) {
   EXPECT_FALSE(leftward->exposed);
 }
 
+TEST(ExactImpact, a_side_of_two_tiles_in_one_place_is_exposed_and_a_seam_of_them_is_not) {
+  const std::vector<Vec2d> square{{-0.25, -0.25}, {0.25, -0.25}, {0.25, 0.25}, {-0.25, 0.25}};
+  for (const bool before : {false, true}) {
+    SceneryDef tiles = scenery({box(2, -1, 3, 1), box(2, -1, 3, 1), box(2, -2, 3, 0.5)});
+    if (before) tiles.colliders.push_back(box(1, -1, 2, 1));
+    const ExactScenery world(tiles, square);
+    for (const ColliderIndex tile : {0U, 1U, 2U}) {
+      const std::optional<ExactImpact> side = world.time_of_impact({1.5, 0}, {0.5, 0}, tile);
+      ASSERT_TRUE(side);
+      EXPECT_EQ(side->exposed, !before) << tile;
+    }
+  }
+}
+
 TEST(ExactImpact, of_two_ledges_that_doubles_cannot_tell_apart_the_higher_one_is_met) {
   constexpr double step = 0x1p-60;
   const Vec2d from(0, 1.5);
