@@ -26,6 +26,8 @@ std::vector<ColliderDef> niche_with_papers(int papers) {
   return colliders;
 }
 constexpr ColliderIndex first_paper = 3;
+/// What comes nearer than this may be called a contact [m].
+constexpr double contact_reach = 1e-6;
 
 class CrushInOneStep : public testing::TestWithParam<int> {};
 
@@ -113,7 +115,7 @@ class Papers {
       for (const ColliderIndex collider : met)
         if (!named.contains(collider) && !on_it.contains(collider)) return "passed, unnamed";
       for (const ColliderIndex collider : named)
-        if (!met.contains(collider)) return "named, but never there";
+        if (!met.contains(collider) && run.gap_to(collider) > contact_reach) return "named, but never there";
       on_it = run.on_it();
       for (const ColliderIndex collider : on_it)
         if (!met.contains(collider)) return "inside, unmet";

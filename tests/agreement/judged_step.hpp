@@ -70,6 +70,10 @@ struct Judged {
     return all;
   }
 
+  /// Where the step ends [m].
+  [[nodiscard]] double gap_to(ColliderIndex collider) const {
+    return judge.scenery().separation({state.position, motions, 1}, collider);
+  }
   /// What it overlaps where the step ends.
   [[nodiscard]] std::set<ColliderIndex> on_it() const {
     const std::vector<ColliderIndex> all = judge.scenery().overlapped({state.position, motions, 1});

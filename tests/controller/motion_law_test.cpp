@@ -182,7 +182,8 @@ int comes_to_rest_after(Player& player, double key, double rate) {
 }
 
 TEST(DeadEnds, bring_a_walk_to_rest) {
-  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+  const int cases = test::steps_wanted("PAPERPROOF_DEAD_ENDS", 400);
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(cases); ++seed) {
     Random random(seed);
     const double rate = std::array{60.0, 240.0, 1000.0}[seed % 3];
     const double slope = random.between(1, 49.9) * degree;
@@ -203,6 +204,26 @@ TEST(DeadEnds, bring_a_walk_to_rest) {
     ASSERT_LT(rest, 4 * rate) << "seed " << seed << ", slope " << slope / degree << ", wall leans " << lean / degree;
     ASSERT_TRUE(player.state.grounded) << "seed " << seed << ", slope " << slope / degree << ", wall leans "
                                        << lean / degree;
+  }
+}
+
+TEST(Kerbs, of_any_height_stop_a_walk_at_their_edge) {
+  for (std::uint64_t seed = 1; seed <= 10000; ++seed) {
+    Random random(seed);
+    const double sign = random.chance(0.5) ? 1 : -1;
+    const double edge = random.between(0.5, 2);
+    const double height = random.log_between(1e-5, 2);
+    ColliderDef kerb = rectangle(edge, -1, edge + 20, height);
+    Player player({{rectangle(-20, -1, 20, 0), sign > 0 ? kerb : mirrored(kerb)}}, CharacterDef{});
+    player.state.position = {0, half_height + random.between(1e-6, 0.01)};
+    const double rate = std::array{60.0, 240.0}[seed % 2];
+    for (int i = 0; i < static_cast<int>(rate); ++i) player.step(sign, 1 / rate);
+    // The side of a foot goes out 1 px in 2, up to the arm.
+    const double foot = half_width / 2;
+    const double stops = edge - std::min(foot + height / 2, half_width);
+    ASSERT_NEAR(sign * player.state.position.x(), stops, 4e-6) << "seed " << seed << ", height " << height;
+    ASSERT_NEAR(player.state.position.y(), half_height, 1e-6) << "seed " << seed << ", height " << height;
+    ASSERT_TRUE(player.state.grounded) << "seed " << seed;
   }
 }
 
