@@ -2,6 +2,7 @@
 /// as what stands still, and only what comes closer crushes.
 #include "agreement/judged_step.hpp"
 #include "support/random.hpp"
+#include "support/steps_wanted.hpp"
 
 #include <gtest/gtest.h>
 
@@ -172,7 +173,7 @@ class Fit {
 };
 
 TEST(ExactFit, of_any_kind_is_neither_entered_nor_passed_and_only_what_comes_closer_crushes) {
-  constexpr int cases = 10000;
+  constexpr int cases = sampled(10000);
   Tally all;
   for (std::uint64_t seed = 1; all.cases < cases && all.broken < 20; ++seed) Fit(seed).go(all);
   std::printf("%d cases, %d steps, %d crushed, %d carried, %d stuck, %d bumped; %d broken\n", all.cases, all.steps,

@@ -356,7 +356,7 @@ class OneWaySurface : public ::testing::TestWithParam<Shape> {};
 
 TEST_P(OneWaySurface, holds_like_its_two_sided_twin_from_above_and_is_nothing_from_below) {
   Tally tally;
-  const int cases = steps_wanted("PAPERPROOF_ONE_WAY_CASES", 400);
+  const int cases = steps_wanted("PAPERPROOF_ONE_WAY_CASES", sampled(400));
   for (int i = 0; i < cases && !HasFailure(); ++i)
     Play(GetParam(), 1000003 * (static_cast<std::uint64_t>(GetParam()) + 1) + static_cast<std::uint64_t>(i)).go(tally);
   std::printf("%s: %d cases, %d steps, %d above (%d held), %d beneath (%d through), %d mixed, %d dropped through\n",

@@ -331,7 +331,7 @@ class Start {
 class WayOut : public ::testing::TestWithParam<Solids> {};
 
 TEST_P(WayOut, is_the_shortest_straight_one_or_there_is_none) {
-  const int cases = std::max(300, steps_per_family() / 20);  // fewer cover too little
+  const int cases = std::max(200, sampled(steps_per_family() / 20));  // fewer cover too little
   Tally tally;
   for (std::uint64_t run = 0; tally.cases < cases; ++run) {
     Start(GetParam(), 7000003 * (static_cast<std::uint64_t>(GetParam()) + 1) + run).go(tally);

@@ -1,4 +1,5 @@
 #include "support/allocations.hpp"
+#include "support/steps_wanted.hpp"
 
 #include <gtest/gtest.h>
 #include <paperproof/broad_phase.hpp>
@@ -75,7 +76,8 @@ TYPED_TEST(BroadPhases, buckets_and_tree_find_what_looking_at_every_box_finds_on
   int queries = 0;
   int not_empty = 0;
   int selective = 0;
-  for (unsigned seed = 0; seed < 10000; ++seed) {
+  constexpr unsigned scenes = test::sampled(10000);
+  for (unsigned seed = 0; seed < scenes; ++seed) {
     RandomScene<Scalar> scene(seed);
     const auto slow = make_broad_phase<Scalar>(BroadPhaseKind::all_pairs, scene.boxes);
     const auto buckets = make_broad_phase<Scalar>(BroadPhaseKind::buckets, scene.boxes);
@@ -157,7 +159,8 @@ TYPED_TEST(BroadPhases, find_the_same_boxes_in_the_same_order_on_10000_scenes_th
   using Scalar = TypeParam;
   int queries = 0;
   int not_empty = 0;
-  for (unsigned seed = 0; seed < 10000; ++seed) {
+  constexpr unsigned scenes = test::sampled(10000);
+  for (unsigned seed = 0; seed < scenes; ++seed) {
     MovingScene<Scalar> scene(seed);
     for (int step = 0; step < 2; ++step) {
       const Box2<Scalar> query = scene.query();

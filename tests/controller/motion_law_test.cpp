@@ -182,7 +182,7 @@ int comes_to_rest_after(Player& player, double key, double rate) {
 }
 
 TEST(DeadEnds, bring_a_walk_to_rest) {
-  const int cases = test::steps_wanted("PAPERPROOF_DEAD_ENDS", 400);
+  const int cases = test::steps_wanted("PAPERPROOF_DEAD_ENDS", test::sampled(400));
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(cases); ++seed) {
     Random random(seed);
     const double rate = std::array{60.0, 240.0, 1000.0}[seed % 3];
@@ -208,8 +208,8 @@ TEST(DeadEnds, bring_a_walk_to_rest) {
 }
 
 TEST(Kerbs, of_any_height_stop_a_walk_at_their_edge) {
-  for (std::uint64_t seed = 1; seed <= 10000; ++seed) {
-    Random random(seed);
+  for (int seed = 1; seed <= test::sampled(10000); ++seed) {
+    Random random(static_cast<std::uint64_t>(seed));
     const double sign = random.chance(0.5) ? 1 : -1;
     const double edge = random.between(0.5, 2);
     const double height = random.log_between(1e-5, 2);
@@ -267,8 +267,8 @@ class ExactSlope {
 
 TEST(ClimbLimit, includes_itself_on_exact_slopes_of_every_place_and_size_and_nothing_steeper) {
   constexpr double microradian = 1e-6;
-  for (std::uint64_t seed = 1; seed <= 10000; ++seed) {
-    const ExactSlope slope(seed);
+  for (int seed = 1; seed <= test::sampled(10000); ++seed) {
+    const ExactSlope slope(static_cast<std::uint64_t>(seed));
     ASSERT_TRUE(slope.is_climbed(0)) << "seed " << seed;
     ASSERT_FALSE(slope.is_climbed(microradian)) << "seed " << seed;
   }

@@ -1,5 +1,6 @@
 /// octagon_sweep at rest, far away, and at other scales: what must not change does not.
 #include "controller/stepping.hpp"
+#include "support/steps_wanted.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +11,7 @@ namespace paperproof::stepping {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
-constexpr int a_million = 1'000'000;
+constexpr int a_million = test::sampled(1'000'000);
 
 /// Steps until position and velocity repeat, then a given number of steps more, on which nothing may change.
 template <class Scalar>

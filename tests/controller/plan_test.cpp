@@ -1,6 +1,7 @@
 /// The plan: what may be left out, what may not, and that nothing comes of it but speed.
 #include "controller/stepping.hpp"
 #include "support/random_sceneries.hpp"
+#include "support/steps_wanted.hpp"
 
 #include <paperproof/plan.hpp>
 
@@ -297,14 +298,14 @@ std::size_t run_both(const SceneryDef& def, const Play& run) {
 TEST(Plan, planned_and_full_give_the_same_bits_in_10000_random_sceneries) {
   test::Random random(20);
   std::array<int, all_stages.size() + 1> omissions{};
-  for (int i = 0; i < 10'000 && !testing::Test::HasFailure(); ++i) {
+  for (int i = 0; i < test::sampled(10'000) && !testing::Test::HasFailure(); ++i) {
     const SceneryDef def = varied_scenery(random);
     const Play run = random_play(random);
     SCOPED_TRACE(i);
     ++omissions[i % 4 == 0 ? run_both<float>(def, run) : run_both<double>(def, run)];
   }
   // The sceneries differ in what they need: no number of omissions but none and all is rare.
-  for (std::size_t count = 1; count < all_stages.size(); ++count) EXPECT_GT(omissions[count], 20) << count;
+  for (std::size_t count = 1; count < all_stages.size(); ++count) EXPECT_GT(omissions[count], test::sampled(20)) << count;
 }
 
 }  // namespace
