@@ -68,6 +68,8 @@ StepJudgement Judge::judge_exactly(const TraceStep& step, const Others& others) 
   if (!continues(step, path.front())) begin_episodes(path.front());
   const bool starts_free = inside_.empty();
   if (!step.respawn) judgement.remainder_made = step.remainder.x() - remainder_before_.x();
+  // Before the way is judged: from which side it came into what it is inside of is known where the step begins.
+  if (step.stuck && !starts_free) judgement.stuck_refuted = has_way_out(path.front(), others);
   if (!starts_free || !step.contacts.empty() || !step.crushed.empty() || !alone(path, step)) {
     judgement.end_overlap = scenery_.overlapped(path.back());
     judge_way(path, step, others, judgement);
@@ -76,6 +78,8 @@ StepJudgement Judge::judge_exactly(const TraceStep& step, const Others& others) 
     detail::ContactJudge(header_, scenery_, step).measure_motion(starts_free, judgement);
   }
   if (has_sensors_) judge_sensors(path, step, judgement);
+  if (step.stuck && starts_free)
+    judgement.stuck_refuted = judgement.end_overlap.empty() || has_way_out(path.back(), others);
   judge_progress(step, others, judgement);
   last_end_.emplace(path.back());
   last_.reset();
@@ -118,8 +122,9 @@ bool Judge::repeats(const TraceStep& step) const {
     return a.collider == b.collider && a.normal == b.normal;
   };
   return step.dt == last.dt && step.requested == last.requested && step.steered == last.steered &&
-         step.velocity == last.velocity && step.remainder == last.remainder && step.crushed == last.crushed &&
-         step.dropped_through == last.dropped_through && step.sensors.empty() && last.sensors.empty() &&
+         step.velocity == last.velocity && step.remainder == last.remainder && step.stuck == last.stuck &&
+         step.crushed == last.crushed && step.dropped_through == last.dropped_through && step.sensors.empty() &&
+         last.sensors.empty() &&
          std::equal(step.movers.begin(), step.movers.end(), last.movers.begin(), last.movers.end(), same_motion) &&
          std::equal(step.path.begin(), step.path.end(), last.path.begin(), last.path.end(), same_corner) &&
          std::equal(step.contacts.begin(), step.contacts.end(), last.contacts.begin(), last.contacts.end(),
@@ -191,13 +196,20 @@ void Judge::judge_end(const Path& path, Touched& touched, StepJudgement& judgeme
   std::erase_if(inside_, [&](const auto& stay) {
     const auto& [collider, episode] = stay;
     if (contains(judgement.end_overlap, collider)) return false;
-    if (episode.free_from && scenery_.meets(episode.free_from->place(), path.back(), collider)) {
-      const bool excused = episode.pressed || contains(judgement.crushed, collider);
-      if (!excused || went_through(episode.free_from->position, path.back(), collider)) {
-        judge_passing(path, collider, episode.free_from->place(), path.back(), episode.depth, judgement);
-      }
-    }
+    const auto left = std::find_if(path.begin(), path.end(),
+                                   [&](const Place& corner) { return !scenery_.overlaps(corner, collider); });
+    const auto again = std::adjacent_find(
+        left, path.end(), [&](const Place& from, const Place& to) { return scenery_.meets(from, to, collider); });
     touched.erase(collider);
+    if (again != path.end()) touched.emplace(collider, again - path.begin());
+    const auto in_sight = [&](const Place& corner) {
+      return !scenery_.meets(episode.free_from->place(), corner, collider);
+    };
+    if (!episode.free_from || std::any_of(left, path.end(), in_sight)) return true;
+    const bool excused = episode.pressed || contains(judgement.crushed, collider);
+    if (!excused || went_through(episode.free_from->position, path.back(), collider)) {
+      judge_passing(path, collider, episode.free_from->place(), path.back(), episode.depth, judgement);
+    }
     return true;
   });
 }
@@ -307,10 +319,6 @@ void Judge::judge_crushes(const Path& path, const TraceStep& step, const Touched
 }
 
 void Judge::judge_progress(const TraceStep& step, const Others& others, StepJudgement& judgement) {
-  if (step.stuck) {
-    const bool free = judgement.end_overlap.empty() && step.start_overlap.empty();
-    judgement.stuck_refuted = free || has_way_out({step.path.back(), step.movers}, others);
-  }
   if (!judgement.crushed.empty()) return;
   const detail::HangingJudge hanging(header_, scenery_, step, others);
   const Vec2d before = step.respawn ? step.remainder : remainder_before_;
@@ -322,23 +330,23 @@ void Judge::judge_progress(const TraceStep& step, const Others& others, StepJudg
 }
 
 /// Asked once for each place: it costs much, and whoever is stuck mostly stays.
-bool Judge::has_way_out(const Place& end, const Others& others) {
+bool Judge::has_way_out(const Place& at, const Others& others) {
   if (asked_way_out_) {
     const Kept& asked = asked_way_out_->first;
     const bool same =
-        asked.position == end.position && asked.fraction == end.fraction && !others.left_free &&
-        std::equal(asked.movers.begin(), asked.movers.end(), end.movers.begin(), end.movers.end(), same_motion);
+        asked.position == at.position && asked.fraction == at.fraction && !others.left_free &&
+        std::equal(asked.movers.begin(), asked.movers.end(), at.movers.begin(), at.movers.end(), same_motion);
     if (same) return asked_way_out_->second;
   }
-  const std::optional<Vec2d> out = scenery_.way_out(end, farthest_way_out);
+  const std::optional<Vec2d> out = scenery_.way_out(at, farthest_way_out);
   const auto on_another_side = [&](const auto& stay) {
     const std::optional<Kept>& free = stay.second.free_from;
-    return free && scenery_.meets(free->place(), Place(*out, end.movers, end.fraction), stay.first);
+    return free && scenery_.meets(free->place(), Place(*out, at.movers, at.fraction), stay.first);
   };
   const bool found =
       out && std::none_of(inside_.begin(), inside_.end(), on_another_side) &&
-      (!others.left_free || others.left_free(std::vector<PathPoint<double>>{{end.position, 0}, {*out, 1}}));
-  asked_way_out_.emplace(Kept(end), found);
+      (!others.left_free || others.left_free(std::vector<PathPoint<double>>{{at.position, 0}, {*out, 1}}));
+  asked_way_out_.emplace(Kept(at), found);
   return found;
 }
 

@@ -106,9 +106,9 @@ struct StepJudgement {
 /// - the octagon was free of it when the step began, and its open interior meets the solid somewhere on the polyline
 /// that
 ///   was travelled; or
-/// - it was inside since an earlier step, and the straight way from its last position free of the solid to the end of
-///   this step meets the solid: it left on another side. Leaving a solid in which the run (or a respawn, or a placement
-///   of the twin) began is none.
+/// - it was inside since an earlier step, and the straight ways from its last position free of the solid to all corners
+///   of the way since it left meet the solid: it left on another side. Leaving a solid in which the run (or a respawn,
+///   or a placement of the twin) began is none; entering it again after that is.
 ///
 /// What a verified crush excuses may go through the octagon, but the octagon not through it: such a mover is tunnelled
 /// only if, standing still where this step leaves it, it also lies on the straight way from where the octagon was in
@@ -183,9 +183,10 @@ struct StepJudgement {
 /// ghost speed loss, whether a contact was reported or not; but for a step that Box2D's cap cut short, or one that
 /// said it is stuck and was right.
 ///
-/// **Stuck, refuted.** A step that says it is stuck is refuted if it ends free, or if the shortest straight way out
-/// (`ExactScenery::way_out`) leaves the other characters free and ends on the side of the last place that was free of
-/// what it is inside of.
+/// **Stuck, refuted.** A step that says it is stuck is refuted if it begins and ends free, or if the shortest straight
+/// way out (`ExactScenery::way_out`) leaves the other characters free and ends on the side of the last place that was
+/// free of what it is inside of. The way is asked for where the step begins, as things are then: what moves may open
+/// one later. Of a step that begins free and ends inside it is asked for where it ends.
 ///
 /// **Normal error.** The angle between the normal of a reported contact and the nearest normal of the exact contacts
 /// with that collider on that side, and of the face that is touched along the reported normal.
@@ -244,7 +245,7 @@ class Judge {
   void judge_sensors(const Path& path, const TraceStep& step, StepJudgement& judgement) const;
   void judge_progress(const TraceStep& step, const Others& others, StepJudgement& judgement);
   [[nodiscard]] std::vector<ColliderIndex> newly_inside(const StepJudgement& judgement) const;
-  [[nodiscard]] bool has_way_out(const Place& end, const Others& others);
+  [[nodiscard]] bool has_way_out(const Place& at, const Others& others);
 
   const TraceHeader header_;
   std::unique_ptr<detail::TurningJudge> turning_;

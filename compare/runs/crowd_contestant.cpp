@@ -34,7 +34,7 @@ class CrowdContestant final : public Contestant {
     for (std::size_t k = 0; k < states_.size(); ++k) {
       const CrowdMember<Scalar>& member = report_.members[k];
       write_report(member.step, states_[k], records[k]);
-      records[k].requested += movers_.carried_by(rides_[k]);
+      records[k].requested += movers_.carried_by(rides_[k], input.players[k].drop);
       movers_.write(records[k]);
       records[k].met.clear();
       for (const CrowdContact<Scalar>& contact : member.met)
@@ -46,7 +46,7 @@ class CrowdContestant final : public Contestant {
   }
 
   void step_unrecorded(const StepInput& input) override {
-    movers_.take(input);
+    movers_.take(input.movers, input.dt);
     crowd_.step(states_, input.players, gravity_, movers_.dt(), movers_.motions(), scratch_, report_);
   }
 

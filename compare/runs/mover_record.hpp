@@ -1,9 +1,8 @@
 /// How movers go, as a contestant of a technique runs them.
 #pragma once
 
-#include "runs/contestant.hpp"
-
 #include <paperproof/character.hpp>
+#include <paperproof/scenery.hpp>
 
 #include <span>
 #include <vector>
@@ -17,13 +16,14 @@ class MoverRecord {
   /// @param scenery as run; must outlive the record.
   MoverRecord(std::size_t movers, const SceneryDef& scenery) : scenery_(&scenery), now_(movers), last_(movers) {}
 
-  /// A step begins.
-  void take(const StepInput& input) {
+  /// A step begins. @param movers one for each, in whatever scalar they are known. @param dt [s]
+  template <class Motions>
+  void take(const Motions& movers, double dt) {
     std::swap(now_, last_);
     last_dt_ = dt_;
     for (std::size_t i = 0; i < now_.size(); ++i)
-      now_[i] = {input.movers[i].from.template cast<Scalar>(), input.movers[i].to.template cast<Scalar>()};
-    dt_ = static_cast<Scalar>(input.dt);
+      now_[i] = {movers[i].from.template cast<Scalar>(), movers[i].to.template cast<Scalar>()};
+    dt_ = static_cast<Scalar>(dt);
   }
   [[nodiscard]] std::span<const MoverMotion<Scalar>> motions() const noexcept { return now_; }
   [[nodiscard]] Scalar dt() const noexcept { return dt_; }
@@ -35,9 +35,12 @@ class MoverRecord {
   }
 
   /// What the ground adds to the displacement of a step that began with this ride [m]. A conveyor's part is what was
-  /// left of the ride's velocity in the step before, without its mover's.
-  [[nodiscard]] Vec2d carried_by(const Ride<Scalar>& ride) const {
+  /// left of the ride's velocity in the step before, without its mover's. Who drops through it goes on as fast as it
+  /// went.
+  [[nodiscard]] Vec2d carried_by(const Ride<Scalar>& ride, bool drops) const {
     if (ride.ground == Ride<Scalar>::none) return Vec2d::Zero();
+    if (drops && scenery_->colliders[ride.ground].one_way)
+      return ride.velocity.template cast<double>() * static_cast<double>(dt_);
     Vec2d carried = way_of(now_, ride.ground);
     if (scenery_->colliders[ride.ground].surface_speed != 0)
       carried += ride.velocity.template cast<double>() * static_cast<double>(dt_) -

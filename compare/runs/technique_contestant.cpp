@@ -32,13 +32,13 @@ class TechniqueContestant final : public Contestant {
     const Ride<Scalar> ride = state_.ride;
     step_unrecorded(input);
     write_report(report_, state_, record);
-    record.requested += movers_.carried_by(ride);
+    record.requested += movers_.carried_by(ride, input.players.front().drop);
     movers_.write(record);
     refuse_unusable(report_.status);
   }
 
   void step_unrecorded(const StepInput& input) override {
-    movers_.take(input);
+    movers_.take(input.movers, input.dt);
     controller_.step(state_, input.players.front(), gravity_, movers_.dt(), movers_.motions(), scratch_, report_);
   }
 

@@ -4,6 +4,7 @@
 #include "agreement/recorded.hpp"
 #include "agreement/reported.hpp"
 #include "oracle/judge.hpp"
+#include "runs/mover_record.hpp"
 #include "support/random_sceneries.hpp"
 #include "support/steps_wanted.hpp"
 
@@ -49,6 +50,7 @@ struct Tally {
   int riding = 0;
   int crushed = 0;
   int dropped = 0;
+  int in_wedges = 0;  ///< Of the dropped ones: they came to rest where surfaces close in on them from several sides.
   int stuck = 0;
   int overlaps = 0;        ///< Ended inside what they did not begin in, and what did not crush.
   int passages = 0;        ///< Passed a solid, and be it with a rim.
@@ -62,9 +64,12 @@ struct Tally {
   int on_purpose = 0;      ///< Dropped through one-way chains,
   int drops = 0;           ///< and named others, or without being asked to.
   int contacts = 0;        ///< Had a contact whose normal, point and gap are not what is there.
+  int hanging = 0;         ///< Could have fallen, and did not.
+  int stuck_refuted = 0;   ///< Said that they are stuck, and there was a straight way out.
 
   [[nodiscard]] int broken() const {
-    return overlaps + passages + one_way + gaps + fractions + room + unsound + drops + contacts;
+    return overlaps + passages + one_way + gaps + fractions + room + unsound + drops + contacts + hanging +
+           stuck_refuted + dropped - in_wedges;
   }
 };
 
@@ -80,7 +85,8 @@ class RandomRun {
         controller_(scenery_, character()),
         scratch_(controller_.make_scratch()),
         motions_(scenery_.mover_count()),
-        wanderers_(scenery_.mover_count()) {}
+        wanderers_(scenery_.mover_count()),
+        record_(scenery_.mover_count(), scenery_.as_run()) {}
 
   void go(Tally& tally) {
     state_.position = (origin_ + Vec2d{random_.between(-4, 4), random_.between(-3, 5)}).cast<Scalar>();
@@ -91,6 +97,7 @@ class RandomRun {
     header.points = hull();
     header.scenery = scenery_.as_run();
     header.dt = static_cast<double>(static_cast<Scalar>(dt));
+    header.max_climb_degrees = controller_.character().max_climb_degrees;
     judge_.emplace(header);
     reported_.emplace(header.scenery, header.points, Tolerances<Scalar>{}.certain);
     Input input;
@@ -99,7 +106,7 @@ class RandomRun {
       if (random_.chance(0.1)) input.jump = !input.jump;
       input.drop = random_.chance(input.drop ? 0.8 : 0.1);
       if (random_.chance(0.05)) launch(dt);
-      move_wanderers();
+      move_wanderers(dt);
       take(input, static_cast<Scalar>(dt), tally);
       const bool gone = (state_.position.template cast<double>() - origin_).cwiseAbs().maxCoeff() > 14;
       if (gone || ends_ || ::testing::Test::HasFatalFailure()) return;
@@ -137,18 +144,21 @@ class RandomRun {
     state_.velocity = Vec2d{std::cos(angle) * speed, std::sin(angle) * speed}.cast<Scalar>();
   }
 
-  void move_wanderers() {
+  void move_wanderers(double dt) {
     for (std::size_t i = 0; i < wanderers_.size(); ++i) {
       MoverMotion<Scalar>& motion = motions_[i];
       motion.from = motion.to;
       motion.to = next_offset(wanderers_[i], motion.from.template cast<double>(), random_).template cast<Scalar>();
     }
+    record_.take(motions_, static_cast<Scalar>(dt));
   }
 
   void take(const Input& input, Scalar dt, Tally& tally) {
     const Vec2<Scalar> gravity{0, -30};
-    const bool rides = state_.ride.ground != Ride<Scalar>::none;
+    const Ride<Scalar> ride = state_.ride;
+    const bool rides = ride.ground != Ride<Scalar>::none;
     const StepStatus status = controller_.step(state_, input, gravity, dt, motions_, scratch_, report_);
+    const Tally before = tally;
     ++tally.steps;
     ASSERT_NE(status, StepStatus::invalid_input) << where();
     if (status == StepStatus::out_of_range) {
@@ -166,8 +176,8 @@ class RandomRun {
     tally.far += far;
     ends_ = far;
     if (far && wanderers_.size() > few_movers && steps_wanted("PAPERPROOF_FAR_CRUSHES", 0) == 0) return;
-    const Tally before = tally;
     TraceStep record = recorded<Scalar>(report_, state_, motions_);
+    record.requested += record_.carried_by(ride, input.drop);
     record.respawn = begins_anew_;
     begins_anew_ = false;
     const StepJudgement judgement = judge_->judge(record);
@@ -192,6 +202,9 @@ class RandomRun {
     tally.passages += !judgement.tunnelled.empty() || !judgement.corner_cut.empty();
     tally.one_way += !judgement.one_way_broken.empty();
     tally.room += !judgement.crushed_with_room.empty();
+    tally.hanging += judgement.hangs;
+    tally.in_wedges += record.dropped && is_between_surfaces(record);
+    tally.stuck_refuted += judgement.stuck_refuted;
     const bool named =
         judgement.end_overlap.empty() || report_.status == StepStatus::stuck || report_.status == StepStatus::crushed;
     const bool ends = record.path.back().fraction == 1 && move.path.back().position == state_.position;
@@ -203,6 +216,18 @@ class RandomRun {
     // A contact with what was overlapped, or crushes later in the step, has no gap.
     const bool free = record.crushed.empty() && judgement.end_overlap.empty();
     tally.gaps += free && !(near && judgement.max_contact_gap <= contact_reach<Scalar>);
+  }
+
+  /// What closes in is met on one side and on the other, sooner and sooner: no number of iterations is enough.
+  [[nodiscard]] bool is_between_surfaces(const TraceStep& record) const {
+    const Place end(record.path.back(), record.movers);
+    const auto parts = judge_->scenery().near_parts(end, contact_reach<Scalar>);
+    const auto opposes = [](const Vec2d& one) {
+      return [one](const compare::NearPart& part) { return part.faces.front().normal.dot(one) < 0; };
+    };
+    return std::any_of(parts.begin(), parts.end(), [&](const compare::NearPart& part) {
+      return part.moved != Vec2d::Zero() && std::any_of(parts.begin(), parts.end(), opposes(part.faces.front().normal));
+    });
   }
 
   void count_what_is_said(const TraceStep& record, bool drops, Tally& tally) {
@@ -246,7 +271,8 @@ class RandomRun {
     text.precision(17);
     text << "enters " << names(judgement.entered) << "passes " << names(judgement.tunnelled)
          << names(judgement.corner_cut) << "against one-way " << names(judgement.one_way_broken) << "with room beside "
-         << names(judgement.crushed_with_room) << "gap " << judgement.max_contact_gap;
+         << names(judgement.crushed_with_room) << (judgement.hangs ? "hangs " : "")
+         << (judgement.stuck_refuted ? "is not stuck " : "") << "gap " << judgement.max_contact_gap;
     if (judgement.room) text << " room at " << judgement.room->transpose();
     if (judgement.first_impact) text << " exact fraction " << *judgement.first_impact;
     return text.str();
@@ -295,6 +321,7 @@ class RandomRun {
   StepReport<Scalar> report_;
   std::vector<MoverMotion<Scalar>> motions_;
   std::vector<Wanderer> wanderers_;
+  compare::MoverRecord<Scalar> record_;
   bool begins_anew_ = false;
   bool ends_ = false;
 };
@@ -314,13 +341,14 @@ Tally run_family(Family family, int steps) {
     if (::testing::Test::HasFatalFailure()) break;
   }
   std::printf(
-      "%s in %s: %d steps, %d with contact, %d riding, %d crushed, %d stuck, %d dropped; %d overlaps, %d passages, %d "
+      "%s in %s: %d steps, %d with contact, %d riding, %d crushed, %d stuck, %d dropped (%d between surfaces); %d "
+      "overlaps, %d passages, %d "
       "against one-way chains, %d gaps, %d of %d fractions, %d crushes with room, %d crushed from afar, %d unsound, "
-      "%d of %d drops, %d contacts\n",
+      "%d of %d drops, %d contacts, %d hanging, %d not stuck\n",
       name_of(family).c_str(), sizeof(Scalar) == 8 ? "double" : "float", tally.steps, tally.with_contact, tally.riding,
-      tally.crushed, tally.stuck, tally.dropped, tally.overlaps, tally.passages, tally.one_way, tally.gaps,
-      tally.fractions, tally.fractions_seen, tally.room, tally.far, tally.unsound, tally.drops, tally.on_purpose,
-      tally.contacts);
+      tally.crushed, tally.stuck, tally.dropped, tally.in_wedges, tally.overlaps, tally.passages, tally.one_way,
+      tally.gaps, tally.fractions, tally.fractions_seen, tally.room, tally.far, tally.unsound, tally.drops,
+      tally.on_purpose, tally.contacts, tally.hanging, tally.stuck_refuted);
   return tally;
 }
 
@@ -335,6 +363,9 @@ TEST_P(AmongMovers, no_step_breaks_the_guarantee) {
   EXPECT_EQ(tally.unsound, 0);
   EXPECT_EQ(tally.drops, 0);
   EXPECT_EQ(tally.contacts, 0);
+  EXPECT_EQ(tally.hanging, 0);
+  EXPECT_EQ(tally.stuck_refuted, 0);
+  EXPECT_EQ(tally.dropped, tally.in_wedges);
   // The generators must really meet the solids, and also miss them.
   EXPECT_GE(tally.with_contact, tally.steps * 0.1);
   EXPECT_LE(tally.with_contact, tally.steps * 0.9);

@@ -2,6 +2,7 @@
 /// out of a chamber about as large as the character, and come down on who is crushed already.
 #include "agreement/recorded.hpp"
 #include "oracle/judge.hpp"
+#include "runs/mover_record.hpp"
 #include "support/random.hpp"
 #include "support/steps_wanted.hpp"
 
@@ -19,6 +20,7 @@ namespace {
 using compare::Judge;
 using compare::StepJudgement;
 using compare::TraceHeader;
+using compare::TraceStep;
 
 constexpr int steps_per_run = 120;
 constexpr double half_height = 0.625;
@@ -35,8 +37,11 @@ struct Pressed {
   int room = 0;      ///< Were crushed where there was room.
   int aside = 0;     ///< Went elsewhere than requested, and
   int unnamed = 0;   ///< named nothing that was near the way.
+  int hanging = 0;   ///< Could have fallen, and did not.
+  int refuted = 0;   ///< Said that they are stuck beside a straight way out.
+  int dropped = 0;
 
-  [[nodiscard]] int broken() const { return overlaps + passages + room + unnamed; }
+  [[nodiscard]] int broken() const { return overlaps + passages + room + unnamed + hanging + refuted + dropped; }
 };
 
 ColliderDef box(double left, double bottom, double right, double top) {
@@ -85,11 +90,13 @@ class Chamber {
     header.dt = dt;
     Judge judge(header);
     std::vector<MoverMotion<double>> motions(courses_.size());
+    compare::MoverRecord<double> movers(courses_.size(), scenery_.as_run());
     Input input;
     for (int step = 0; step < steps_per_run; ++step) {
       if (step % 11 == 0) input = {.move = random_.integer(-1, 1), .jump = random_.chance(0.3)};
       for (std::size_t k = 0; k < courses_.size(); ++k)
         motions[k] = {step == 0 ? courses_[k].at(0) : motions[k].to, courses_[k].at((step + 1) * dt)};
+      movers.take(motions, dt);
       const bool under = !state.pressers.empty();
       const CharacterState<double> before = state;
       const StepStatus status = controller.step(state, input, gravity, dt, motions, scratch, report);
@@ -99,7 +106,12 @@ class Chamber {
       tally.crushed_again += under && status == StepStatus::crushed;
       tally.stuck += status == StepStatus::stuck;
       tally.freed += under && state.pressers.empty();
-      const StepJudgement judgement = judge.judge(recorded<double>(report, state, motions));
+      TraceStep record = recorded<double>(report, state, motions);
+      record.requested += movers.carried_by(before.ride, input.drop);
+      const StepJudgement judgement = judge.judge(record);
+      tally.hanging += judgement.hangs;
+      tally.refuted += judgement.stuck_refuted;
+      tally.dropped += record.dropped;
       tally.overlaps += !judgement.entered.empty();
       tally.passages += !judgement.tunnelled.empty() || !judgement.corner_cut.empty();
       tally.room += !judgement.crushed_with_room.empty();
@@ -189,19 +201,24 @@ TEST(AmongPresses, no_step_comes_out_on_another_side_of_what_crushed_nor_is_crus
     const Pressed before = all;
     Chamber(seed).go(all);
     if (all.broken() == before.broken()) continue;
-    std::printf("breaks: seed %d: %d overlaps, %d passages, %d with room, %d unnamed\n", static_cast<int>(seed),
-                all.overlaps - before.overlaps, all.passages - before.passages, all.room - before.room,
-                all.unnamed - before.unnamed);
+    std::printf(
+        "breaks: seed %d: %d overlaps, %d passages, %d with room, %d unnamed, %d hanging, %d not stuck, %d dropped\n",
+        static_cast<int>(seed), all.overlaps - before.overlaps, all.passages - before.passages, all.room - before.room,
+        all.unnamed - before.unnamed, all.hanging - before.hanging, all.refuted - before.refuted,
+        all.dropped - before.dropped);
   }
   std::printf(
       "%d steps, %d crushed, %d of them again, %d stuck, %d freed, %d aside; %d overlaps, %d passages, %d with room, "
-      "%d unnamed\n",
+      "%d unnamed, %d hanging, %d not stuck, %d dropped\n",
       all.steps, all.crushed, all.crushed_again, all.stuck, all.freed, all.aside, all.overlaps, all.passages, all.room,
-      all.unnamed);
+      all.unnamed, all.hanging, all.refuted, all.dropped);
   EXPECT_EQ(all.overlaps, 0);
   EXPECT_EQ(all.passages, 0);
   EXPECT_EQ(all.room, 0);
   EXPECT_EQ(all.unnamed, 0);
+  EXPECT_EQ(all.hanging, 0);
+  EXPECT_EQ(all.refuted, 0);
+  EXPECT_EQ(all.dropped, 0);
   EXPECT_GE(all.aside, all.steps / 50);
   EXPECT_GE(all.crushed, all.steps / 200);
   EXPECT_GE(all.crushed_again, all.steps / 2000);

@@ -29,6 +29,8 @@ template <class Scalar>
   for (const MoverMotion<Scalar>& m : motions)
     record.movers.push_back({m.from.template cast<double>(), m.to.template cast<double>()});
   record.crushed.assign(report.move.crushed.begin(), report.move.crushed.end());
+  record.stuck = report.status == StepStatus::stuck;
+  record.dropped = report.status == StepStatus::dropped;
   record.dropped_through.assign(report.dropped_through.begin(), report.dropped_through.end());
   return record;
 }

@@ -1,6 +1,7 @@
 /// Starts inside solids under octagon_sweep against the exact oracle: each is resolved by the shortest straight way out
 /// there is, or there is none. Blocks, gears, combs, tiles and stars, with crates, papers and one-way chains in the
 /// way, among movers too.
+#include "agreement/judged_step.hpp"
 #include "oracle/exact.hpp"
 #include "support/random.hpp"
 #include "support/steps_wanted.hpp"
@@ -17,6 +18,7 @@ namespace {
 
 using compare::ExactScenery;
 using compare::Place;
+using compare::StepJudgement;
 
 /// The oracle's way keeps a little more from what it passes, or a little less where it ends [m].
 constexpr double kept = 3e-6;
@@ -345,6 +347,23 @@ TEST_P(WayOut, is_the_shortest_straight_one_or_there_is_none) {
   EXPECT_GE(tally.passed_beside, cases * 0.02);
   EXPECT_GE(tally.among_movers, cases * 0.05);
   EXPECT_GE(tally.to_one_side, cases * 0.02);
+}
+
+TEST(WayOutOfWhatCrushed, is_taken_to_the_side_it_came_from_once_there_is_one) {
+  // Pressed from the left by 0.2 m more than there is room up to a wall at the right, which then goes away.
+  const double gap = 0.05;
+  Judged run({box(-4, -4, -half_width - gap, 4, 0), box(half_width + gap, -4, 4, 4, 1)}, {0, 0}, 1);
+  run.motions[0] = {{0, 0}, {0.3, 0}};
+  EXPECT_TRUE(holds(run.step()));
+  EXPECT_EQ(run.report.status, StepStatus::crushed);
+  run.motions = {{{0.3, 0}, {0.3, 0}}, {{0, 0}, {9, 0}}};
+  const StepJudgement still = run.step();
+  EXPECT_EQ(run.report.status, StepStatus::stuck);
+  EXPECT_FALSE(still.stuck_refuted);
+  run.motions[1].from = run.motions[1].to;
+  EXPECT_TRUE(holds(run.step()));
+  EXPECT_EQ(run.report.status, StepStatus::moved);
+  EXPECT_NEAR(run.state.position.x(), 0.3 - gap, 1e-6) << "beside what pressed it";
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryFamily, WayOut, ::testing::ValuesIn(all_solids),

@@ -104,6 +104,38 @@ TEST(Judge, stuck_is_refuted_where_a_straight_way_out_is_free) {
   EXPECT_TRUE(Judge(promising({box(4, 4, 5, 5)})).judge(free).stuck_refuted) << "it is inside of nothing";
 }
 
+TEST(Judge, stuck_is_refuted_by_a_way_out_that_is_free_where_the_step_begins) {
+  // Closed in, but for where a lid is: away above at one end of the step, upon all else at the other.
+  const auto says_stuck = [](const Vec2d& lid_from, const Vec2d& lid_to) {
+    std::vector<ColliderDef> colliders{box(-0.5, -2, 2, 2), box(-2, -4, -0.75, 4), box(2.25, -4, 4, 4),
+                                       box(-2, -4, 4, -2.25), box(-2, 2.25, 4, 4)};
+    colliders.back().mover = 0;
+    TraceStep stuck = step({{0, 0}, {0, 0}});
+    stuck.stuck = true;
+    stuck.start_overlap = {0};
+    stuck.movers = {{lid_from, lid_to}};
+    return Judge(promising(std::move(colliders))).judge(stuck).stuck_refuted;
+  };
+  const Vec2d away(0, 4);
+  EXPECT_FALSE(says_stuck({0, 0}, {0, 0}));
+  EXPECT_FALSE(says_stuck({0, 0}, away)) << "it opens too late";
+  EXPECT_TRUE(says_stuck(away, {0, 0})) << "it was open";
+}
+
+TEST(Judge, who_is_freed_by_what_it_was_stuck_in_was_stuck) {
+  // What it is inside of goes away during the step, from among walls that leave no way.
+  std::vector<ColliderDef> colliders{box(-0.25, -0.5, 0.25, 0.5), box(-2, -4, -0.375, 4), box(0.375, -4, 4, 4),
+                                     box(-2, -4, 4, -0.75), box(-2, 0.75, 4, 4)};
+  colliders.front().mover = 0;
+  TraceStep stuck = step({{0, 0}, {0, 0}});
+  stuck.stuck = true;
+  stuck.start_overlap = {0};
+  stuck.movers = {{{0, 0}, {0, 20}}};
+  const StepJudgement judged = Judge(promising(std::move(colliders))).judge(stuck);
+  EXPECT_TRUE(judged.end_overlap.empty());
+  EXPECT_FALSE(judged.stuck_refuted);
+}
+
 TEST(Judge, motion_that_is_missing_was_lost_unless_something_is_in_its_way) {
   const auto lost = [](double from, double to, double wanted) {
     TraceStep went = step({{from, 0.625 + 5e-7}, {to, 0.625 + 5e-7}});

@@ -297,13 +297,15 @@ TEST(OneWayLift, carries_from_above_and_is_passed_from_below) {
 }
 
 TEST(CoveredFacet, that_comes_up_while_its_cover_lies_on_the_character_gives_the_normal) {
-  // Two tiles that touch in a corner. The character is inside the upper one since a crush, which covers the bevel
+  // Two tiles that touch in a corner. The character is inside the upper one since a crush, from which side it does not
+  // know, so that it stays there, which covers the bevel
   // of the lower one with the normal n = (2, 1) / sqrt(5): that is (2 x + y - 3 m - 30 px) / sqrt(5) away from the
   // lower tile's corner at (1, 1). Its top is 0.1 m below the feet.
   const double slack = 0.4;  // of 2 x + y
   Stepper<double> character({moving(rectangle(0, 0, 1, 1)), moving(rectangle(1, 1, 2, 2))});
   const double y = 1 + half_height + 0.1;
   character.at((3 + 30 * px + slack - y) / 2, y).state.crushed = true;
+  character.state.pressers.push_back({.collider = 1, .has_side = false});
   character.gravity = {0, 0};
   ASSERT_EQ(character.step_with_mover_by(0, 1.5 * slack), StepStatus::crushed);
   const auto& contacts = character.report.move.contacts;

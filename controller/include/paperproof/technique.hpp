@@ -50,7 +50,9 @@ struct MoveRequest {
   bool has_last_free = false;
   bool grounded = false;  ///< The last step ended on the ground, and this one does not begin with a jump.
   bool crushed = false;   ///< See `CharacterState::crushed`.
-  bool drop = false;      ///< One-way chains hold nobody: see `Input::drop`.
+  /// It goes on within a step: no way is looked for out of what crushed the character, which may have been just now.
+  bool resumes = false;
+  bool drop = false;  ///< One-way chains hold nobody: see `Input::drop`.
   /// The character keeps its place in the world, and every mover that runs into it crushes it, room or not. Only
   /// `octagon_sweep` among movers knows this; `Crowd` asks for it where nothing else is safe.
   bool stays = false;

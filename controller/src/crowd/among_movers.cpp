@@ -186,6 +186,8 @@ void AmongMovers<Scalar>::hand_out(std::size_t i, CharacterState<Scalar>& state)
   MoveResult<Scalar>& move = report.move;
   if (!move.crushed.empty())
     move.status = MoveStatus::crushed;
+  else if (!walker.end.state.pressers.empty())
+    move.status = MoveStatus::stuck;  // also where another character came over it last, who is not named
   else if (move.status != MoveStatus::stuck)
     move.status = walker.dropped ? MoveStatus::dropped : MoveStatus::moved;
   report.status = step_parts::status_of(move.status);

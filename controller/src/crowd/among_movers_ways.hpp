@@ -82,6 +82,7 @@ MoveRequest<Scalar> AmongMovers<Scalar>::request_at(const Walker<Scalar>& walker
           .has_last_free = at.state.has_last_free,
           .grounded = walker.walks && !walker.no_snap && end == 1,
           .crushed = at.state.crushed,
+          .resumes = at.time > 0,
           .drop = walker.drops,
           .pressers = {at.state.pressers.begin(), at.state.pressers.end()},
           .movers = memory_.motions,

@@ -9,7 +9,7 @@
 ///
 /// Where the end must be seen from the last free position as well, the shadows of all pieces from there are further
 /// regions. Those can be left going outwards: their tangents, and the facets of one-way segments, are looked along in
-/// the same way.
+/// the same way. So are those of what lies on the character, from where it was when that came over it.
 #include "techniques/octagon_sweep/escape.hpp"
 
 #include "techniques/octagon_sweep/certificate.hpp"
@@ -34,10 +34,13 @@ class Escape {
   std::optional<V> find() noexcept {
     put_colliders_inside_first();
     if (query_.last_free && is_inside_something(*query_.last_free)) return std::nullopt;
-    for (const PieceIndex piece : pieces_.first(inside_)) look_along_facets(piece);
+    for (const PieceIndex piece : pieces_.first(inside_)) {
+      look_along_facets(piece);
+      if (const std::optional<V> side = side_of(piece)) look_along_tangents(piece, *side);
+    }
     if (!query_.last_free) return best_;
     for (const PieceIndex piece : pieces_) {
-      look_along_tangents(piece);
+      look_along_tangents(piece, *query_.last_free);
       if (!solid(piece)) look_along_facets(piece);
     }
     return best_;
@@ -85,6 +88,15 @@ class Escape {
   [[nodiscard]] V local(PieceIndex piece, const V& p) const noexcept { return p - offset(piece); }
   [[nodiscard]] ColliderIndex collider_of(PieceIndex piece) const noexcept {
     return space_.scenery().pieces()[piece].collider;
+  }
+  /// Where the character was when a piece came over it, as that is seen when the step begins: it moved on with it.
+  [[nodiscard]] std::optional<V> side_of(PieceIndex piece) const noexcept {
+    for (const Presser<Scalar>& presser : query_.pressers) {
+      if (presser.collider != collider_of(piece)) continue;
+      const MoverMotion<Scalar>& course = query_.movers[space_.scenery().pieces()[piece].mover];
+      return V(presser.from + (presser.gone - (course.to - course.from)));
+    }
+    return std::nullopt;
   }
   [[nodiscard]] bool solid(PieceIndex piece) const noexcept {
     return space_.info(piece).one_way_axis == ObstacleInfo::not_one_way;
@@ -144,12 +156,12 @@ class Escape {
     return part;
   }
 
-  void look_along_tangents(PieceIndex piece) noexcept {
-    const std::optional<Tangents<Scalar>> tangents = tangents_at(piece, *query_.last_free);
+  void look_along_tangents(PieceIndex piece, const V& place) noexcept {
+    const std::optional<Tangents<Scalar>> tangents = tangents_at(piece, place);
     if (!tangents) return;
     for (const V& n : {tangents->left, tangents->right}) {
       if (n.x() == 0 && n.y() == 0) continue;
-      const V back = *query_.last_free - query_.from;
+      const V back = place - query_.from;
       const Scalar bound = n.x() * back.x() + n.y() * back.y();
       if (!(std::abs(bound) < nearest_)) continue;
       const Scalar half = std::sqrt(nearest_ * nearest_ - bound * bound);
@@ -206,6 +218,7 @@ class Escape {
     Scalar reach = is_solid ? obstacle_from(spot, piece) : Scalar(0);
     if (index >= inside_) reach = std::max(reach, shadow_from(spot, piece, query_.from));
     if (query_.last_free) reach = std::max(reach, shadow_from(spot, piece, *query_.last_free));
+    if (const std::optional<V> side = side_of(piece)) reach = std::max(reach, shadow_from(spot, piece, *side));
     return reach;
   }
 
@@ -277,6 +290,7 @@ class Escape {
     if (!(q.cwiseAbs().maxCoeff() <= Tolerances<Scalar>{}.range) || !roomy(q)) return false;
     if (!clear(query_.from, q, pieces_.subspan(inside_))) return false;
     if (query_.last_free && !clear(*query_.last_free, q, pieces_)) return false;
+    if (!stays_on_its_side(q)) return false;
     best_ = q;
     nearest_ = distance;
     return true;
@@ -286,6 +300,22 @@ class Escape {
     return std::none_of(pieces_.begin(), pieces_.end(), [&](PieceIndex piece) {
       return solid(piece) && best(piece, q).separation < Tolerances<Scalar>{}.hit;
     });
+  }
+
+  [[nodiscard]] bool stays_on_its_side(const V& q) const noexcept {
+    return std::all_of(pieces_.begin(), pieces_.begin() + static_cast<std::ptrdiff_t>(inside_), [&](PieceIndex piece) {
+      const std::optional<V> side = side_of(piece);
+      return !side || leads_away(piece, local(piece, *side), local(piece, q));
+    });
+  }
+
+  /// Whether a straight way stays clear of a piece that it may touch where it begins, whatever rounding did to that
+  /// place.
+  [[nodiscard]] bool leads_away(PieceIndex piece, const V& from, const V& to) const noexcept {
+    constexpr Scalar certain = Tolerances<Scalar>{}.certain;
+    for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis)
+      if (space_.separation(piece, axis, from) > -certain && space_.separation(piece, axis, to) >= certain) return true;
+    return best(piece, from).separation >= certain && clear(piece, from, to);
   }
 
   /// Whether a straight way meets none of some pieces: no solid, and no one-way segment against its normal, unless it

@@ -12,8 +12,10 @@ namespace paperproof::octagon_sweep {
 /// Which way out is asked for.
 template <class Scalar>
 struct WayOutQuery {
-  Vec2<Scalar> from;                            ///< Inside of something [m].
-  std::optional<Vec2<Scalar>> last_free;        ///< A straight way from here to its end must be free, too [m].
+  Vec2<Scalar> from;                          ///< Inside of something [m].
+  std::optional<Vec2<Scalar>> last_free;      ///< A straight way from here to its end must be free, too [m].
+  std::span<const Presser<Scalar>> pressers;  ///< It ends on the side of each from which the character came; `gone` is
+                                              ///< by the end of the step.
   std::span<const MoverMotion<Scalar>> movers;  ///< Taken where they are when the step begins.
   bool drops;                                   ///< One-way segments bar nothing.
   Scalar gap;                                   ///< Kept from all that is solid where it ends [m].

@@ -85,7 +85,7 @@ void StepSolver<variant, Scalar>::travel_among_movers() noexcept {
     }
     if (pinned() || !respond_to_holds(drive)) {
       if (gives_way()) return;
-      if (!crush_what_presses() && pinned()) return stay(true);
+      if (!crush_what_presses()) return stay(true);
       drive = Drive<Scalar>::plain(V::Zero(), V::Zero());
       steered_ = 0;
     }

@@ -1,9 +1,10 @@
 /// StepSolver: movers that leave no room.
 ///
 /// Before that is said room is looked for (step_room.hpp). Where there is none the character stays where it is, which
-/// is free of everything that stands still, and what presses goes through it. As long as it is on the character, the
-/// character is stuck, and does not come out on another side: what else runs into it finds it room, free of all that
-/// and on the side from which it came, or crushes it as well.
+/// is free of everything that stands still, and what presses goes through it. As long as it is on the character when a
+/// step begins, a way out is looked for, as out of any solid, but not to another side than that from which the
+/// character came. Where there is none the character is stuck: what else runs into it finds it room, free of all that
+/// and on that side, or crushes it as well.
 #pragma once
 
 #include "techniques/octagon_sweep/step_room.hpp"
@@ -45,12 +46,18 @@ void StepSolver<variant, Scalar>::take_back_crushes() noexcept {
   moving_.ignored = goes_through;
 }
 
+/// Whether a surface comes closer to a character that stays where it is: by less than rounding it takes no room.
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::presses(const Hold<Scalar>& hold) const noexcept {
+  return dot(rest_of(hold), hold.normal) > Tolerances<Scalar>{}.certain;
+}
+
 /// What runs into a character that stays where it is. False where nothing does.
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::crush_what_presses() noexcept {
   const std::size_t before = result_.crushed.size();
   for (const Hold<Scalar>& hold : moving_.holds)
-    if (!behind(hold.normal, rest_of(hold)).allows(V::Zero())) crush(hold.piece);
+    if (presses(hold)) crush(hold.piece);
   return result_.crushed.size() > before;
 }
 
@@ -109,6 +116,23 @@ bool StepSolver<variant, Scalar>::let_through_what_is_on_it(const MoveRequest<Sc
     moving_.side_lost = moving_.side_lost || !now.has_side;
   }
   return any;
+}
+
+/// By a way out of it, as of any solid, to the side from which the character came.
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::leaves_what_is_on_it(const MoveRequest<Scalar>& request) noexcept {
+  if (moving_.side_lost) return false;
+  moving_.ignored &= static_cast<std::uint8_t>(~lies_on);
+  const std::optional<V> out = find_way_out(request);
+  if (out) {
+    note_what_is_left();
+    for (const ColliderIndex collider : memory().marked) memory().unmark(collider, lies_on);
+    moving_.on_it = 0;
+    start_ = position_ = *out;
+    push_corner(0);
+  }
+  moving_.ignored = goes_through;
+  return out.has_value();
 }
 
 /// How far the mover of a collider goes in the step [m].
@@ -179,7 +203,8 @@ void StepSolver<variant, Scalar>::stay(bool may_give_way) noexcept {
     update_holds();
     const std::size_t before = result_.crushed.size();
     if (may_give_way && found_.hit && gives_way()) return;
-    for (const Hold<Scalar>& hold : moving_.holds) crush(hold.piece);
+    for (const Hold<Scalar>& hold : moving_.holds)
+      if (presses(hold)) crush(hold.piece);
     moving_.holds.clear();
     if (result_.crushed.size() == before) break;
   }

@@ -263,12 +263,14 @@ class StepSolver {
   [[nodiscard]] bool pinned() const noexcept;
   [[nodiscard]] bool gives_way() noexcept;
   void take_back_crushes() noexcept;
+  [[nodiscard]] bool presses(const Hold<Scalar>& hold) const noexcept;
   bool crush_what_presses() noexcept;
   void crush(PieceIndex piece) noexcept;
   void name_as_crushing(ColliderIndex collider) noexcept;
   template <class Condition>
   bool let_through(const Condition& condition) noexcept;
   bool let_through_what_is_on_it(const MoveRequest<Scalar>& request) noexcept;
+  [[nodiscard]] bool leaves_what_is_on_it(const MoveRequest<Scalar>& request) noexcept;
   [[nodiscard]] MoverIndex mover_of_collider(ColliderIndex collider) const noexcept {
     return space_.scenery().as_run().colliders[collider].mover;
   }

@@ -16,7 +16,8 @@ template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::prepare_start(const MoveRequest<Scalar>& request) noexcept {
   if constexpr (variant.movers) {
     if (request.has_last_free) moving_.last_free = request.last_free;
-    if (request.crushed) let_through_what_is_on_it(request);
+    if (request.crushed && let_through_what_is_on_it(request) && !request.resumes && leaves_what_is_on_it(request))
+      return true;
   }
   while (overlaps(position_)) {
     if constexpr (variant.movers) {
@@ -56,11 +57,13 @@ std::optional<Vec2<Scalar>> StepSolver<variant, Scalar>::find_way_out(const Move
   const Scalar whole = reach_of_solids_inside();
   WayOutQuery<Scalar> query{.from = position_,
                             .last_free = {},
+                            .pressers = {},
                             .movers = request.movers,
                             .drops = request.drop,
                             .gap = tolerances.stop,
                             .reach = whole};
   if (request.has_last_free) query.last_free = request.last_free;
+  if constexpr (variant.movers) query.pressers = memory().pressers;
   do {
     for (const Scalar gap : {tolerances.stop, tolerances.hit * Scalar(least_room)}) {
       query.gap = gap;
