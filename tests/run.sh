@@ -13,10 +13,10 @@ mapfile -t optional < <(installable_packages "${optional_test_packages[@]}")
 
 jobs=$(build_jobs)
 
-# Configures, builds and tests one preset.
+# Configures, builds and tests one preset; what follows its name is handed to CMake.
 run_preset() {
   local preset=$1 log=build/$1/ctest.log
-  cmake --preset "$preset" "${whole_build[@]}" &&
+  cmake --preset "$preset" "${whole_build[@]}" "${@:2}" &&
     cmake --build --preset "$preset" --parallel "$jobs" &&
     ctest --preset "$preset" --parallel "$jobs" --no-tests=error 2>&1 | tee "$log"
 }
@@ -24,7 +24,8 @@ run_preset() {
 rm -f build/*/ctest.log
 status=0
 run_preset release </dev/null || status=1
-run_preset asan-ubsan </dev/null || status=1
+# Without line numbers, which take a sixth of the time to compile: the preset alone has them.
+run_preset asan-ubsan -DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 </dev/null || status=1
 
 for preset in asan-ubsan release; do
   echo

@@ -2,6 +2,7 @@
 #include "compare/scene_runs.hpp"
 #include "runs/input_cursor.hpp"
 #include "runs/scene_plan.hpp"
+#include "support/steps_wanted.hpp"
 
 #include <algorithm>
 #include <set>
@@ -162,12 +163,15 @@ TEST(PlanOfScenes, planned_and_full_give_the_same_bits_on_every_registered_scene
 }
 
 /// Every map under a folder, with random walking and jumping. @returns how many.
-int compare_maps(const std::filesystem::path& folder) {
+/// @param every of so many levels one is run.
+int compare_maps(const std::filesystem::path& folder, int every = 1) {
   int maps = 0;
+  int levels = 0;
   constexpr int steps = 300;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     const std::string extension = entry.path().extension();
     if (extension != ".tmx" && extension != ".tmj" && extension != ".json" && extension != ".stl") continue;
+    if (levels++ % every != 0) continue;
     std::vector<Scene> scenes;
     try {
       scenes = load_scenes(entry.path().string());
@@ -192,7 +196,8 @@ TEST(PlanOfMaps, planned_and_full_give_the_same_bits_on_the_maps_of_four_familie
 TEST(PlanOfMaps, planned_and_full_give_the_same_bits_on_every_supertux_level) {
   const std::filesystem::path folder = "/usr/share/games/supertux2/levels";
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "supertux-data is not installed";
-  EXPECT_GE(compare_maps(folder), 200);
+  const int every = test::sanitized ? 8 : 1;  // what a level's content needs is needed by many
+  EXPECT_GE(compare_maps(folder, every), 200 / every);
 }
 
 }  // namespace
