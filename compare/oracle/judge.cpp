@@ -194,7 +194,8 @@ void Judge::judge_end(const Path& path, Touched& touched, StepJudgement& judgeme
     touched.erase(collider);
   }
   std::erase_if(inside_, [&](const auto& stay) {
-    const auto& [collider, episode] = stay;
+    const ColliderIndex collider = stay.first;  // clang 14 captures no structured binding
+    const Episode& episode = stay.second;
     if (contains(judgement.end_overlap, collider)) return false;
     const auto left = std::find_if(path.begin(), path.end(),
                                    [&](const Place& corner) { return !scenery_.overlaps(corner, collider); });
