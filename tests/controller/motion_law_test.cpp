@@ -208,8 +208,9 @@ TEST(DeadEnds, bring_a_walk_to_rest) {
 }
 
 TEST(Kerbs, of_any_height_stop_a_walk_at_their_edge) {
-  for (int seed = 1; seed <= test::sampled(10000); ++seed) {
-    Random random(static_cast<std::uint64_t>(seed));
+  constexpr std::uint64_t cases = test::sampled(10000);
+  for (std::uint64_t seed = 1; seed <= cases; ++seed) {
+    Random random(seed);
     const double sign = random.chance(0.5) ? 1 : -1;
     const double edge = random.between(0.5, 2);
     const double height = random.log_between(1e-5, 2);
@@ -267,8 +268,9 @@ class ExactSlope {
 
 TEST(ClimbLimit, includes_itself_on_exact_slopes_of_every_place_and_size_and_nothing_steeper) {
   constexpr double microradian = 1e-6;
-  for (int seed = 1; seed <= test::sampled(10000); ++seed) {
-    const ExactSlope slope(static_cast<std::uint64_t>(seed));
+  constexpr std::uint64_t cases = test::sampled(10000);
+  for (std::uint64_t seed = 1; seed <= cases; ++seed) {
+    const ExactSlope slope(seed);
     ASSERT_TRUE(slope.is_climbed(0)) << "seed " << seed;
     ASSERT_FALSE(slope.is_climbed(microradian)) << "seed " << seed;
   }
