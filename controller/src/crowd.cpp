@@ -6,7 +6,6 @@
 #include <tuple>
 #include <utility>
 
-#include "crowd/among_movers.hpp"
 #include "crowd/joint_technique.hpp"
 #include "crowd/parts.hpp"
 #include "crowd/stepper.hpp"
@@ -24,7 +23,7 @@ void require_several(const TechniqueDef& technique) {
 /// With the stages that places for other characters need.
 TechniqueDef among_companions(TechniqueDef technique, ColliderIndex first_companion) {
   technique.first_companion = first_companion;
-  technique.stages.slopes = true;
+  technique.stages.movers = technique.stages.slopes = true;
   return technique;
 }
 
@@ -49,14 +48,14 @@ bool usable(const Stages& stages, bool may_ride, std::span<const CharacterState<
 template <class Scalar>
 struct Crowd<Scalar>::Rules : crowd::CrowdRules<Scalar> {
   std::size_t movers;
-  std::unique_ptr<const crowd::Surrounded<Scalar>> surrounded;  ///< Null where nothing moves.
+  bool may_ride;                                                ///< Something carries those who stand on it.
+  std::unique_ptr<const crowd::Surrounded<Scalar>> surrounded;  ///< Null for a joint technique.
 };
 
 namespace {
 
 template <class Scalar>
 struct CrowdMemory final : OwnMemory {
-  crowd::Memory<Scalar> standing;
   crowd::WalkerMemory<Scalar> walking;
   std::vector<CharacterState<Scalar>> states;  ///< Of those that are moved at once, as they will be.
   std::vector<MoveRequest<Scalar>> requests;   ///< What they want.
@@ -87,10 +86,10 @@ std::unique_ptr<const typename Crowd<Scalar>::Rules> Crowd<Scalar>::rules_for(co
       std::make_unique<Rules>(Rules{{crowd::PairSpace<Scalar>(character.shape), character.walkable_cosine<Scalar>(),
                                      technique.sweep_iterations, technique.stages},
                                     scenery.mover_count(),
+                                    scenery.mover_count() > 0 || has_conveyors(scenery),
                                     nullptr});
   const bool sweeps = technique.kind == TechniqueKind::octagon_sweep;
-  if (sweeps && (scenery.mover_count() > 0 || has_conveyors(scenery)))
-    rules->surrounded = std::make_unique<const crowd::Surrounded<Scalar>>(scenery, character.shape);
+  if (sweeps) rules->surrounded = std::make_unique<const crowd::Surrounded<Scalar>>(scenery, character.shape);
   return rules;
 }
 
@@ -119,15 +118,10 @@ CrowdScratch Crowd<Scalar>::make_scratch(std::size_t most_characters) const {
     memory->technique = controller_.completed(joint_->make_joint_scratch(most_characters));
     return {most_characters, std::move(memory), rules_};
   }
-  if (rules_->surrounded) {
-    memory->walking.walkers.resize(most_characters);
-    memory->walking.rows.resize(most_characters);
-    memory->walking.motions.resize(rules_->surrounded->scenery.mover_count());
-    reserve_names(rules_->surrounded->scenery, memory->walking);
-  } else {
-    memory->standing.runners.resize(most_characters);
-    memory->standing.rows.resize(most_characters);
-  }
+  memory->walking.walkers.resize(most_characters);
+  memory->walking.rows.resize(most_characters);
+  memory->walking.motions.resize(rules_->surrounded->scenery.mover_count());
+  reserve_names(rules_->surrounded->scenery, memory->walking);
   memory->technique = controller_.make_scratch();
   return {most_characters, std::move(memory), rules_};
 }
@@ -136,26 +130,20 @@ template <class Scalar>
 StepStatus Crowd<Scalar>::step(std::span<CharacterState<Scalar>> states, std::span<const Input> inputs,
                                const Vec2<Scalar>& gravity, Scalar dt, std::span<const MoverMotion<Scalar>> movers,
                                CrowdScratch& scratch, CrowdReport<Scalar>& report) const noexcept {
-  const bool may_ride = joint_ != nullptr || rules_->surrounded != nullptr;
   const bool room = scratch.most_characters >= states.size() && report.members.size() >= states.size();
   if (!room || !step_parts::is_made_by(rules_, scratch.maker) || movers.size() != rules_->movers ||
-      !usable<Scalar>(rules_->stages, may_ride, states, inputs, gravity, dt))
+      !usable<Scalar>(rules_->stages, joint_ != nullptr || rules_->may_ride, states, inputs, gravity, dt))
     return report.status = StepStatus::invalid_input;
   if (joint_ != nullptr) return step_jointly(states, inputs, gravity, dt, movers, scratch, report);
   for (std::size_t i = 0; i < states.size(); ++i) report.members[i].island = static_cast<CharacterIndex>(i);
   auto& memory = static_cast<CrowdMemory<Scalar>&>(*scratch.own);
-  const auto run = [&](auto&& stepper) {
-    report.status = stepper.begin(states, inputs);
-    if (report.status != StepStatus::moved) return report.status;
-    stepper.solve();
-    stepper.finish(states);
-    return report.status;
-  };
-  if (rules_->surrounded)
-    return run(crowd::AmongMovers<Scalar>(controller_, *rules_->surrounded, *rules_, memory.walking, memory.technique,
-                                          report, states.size(), gravity, dt, movers));
-  return run(crowd::Stepper<Scalar>(controller_, *rules_, memory.standing, memory.technique, report, states.size(),
-                                    gravity, dt));
+  crowd::Stepper<Scalar> step(controller_, *rules_->surrounded, *rules_, memory.walking, memory.technique, report,
+                              states.size(), gravity, dt, movers);
+  report.status = step.begin(states, inputs);
+  if (report.status != StepStatus::moved) return report.status;
+  step.solve();
+  step.finish(states);
+  return report.status;
 }
 
 /// Nobody's state is written before it is known that no step is refused.

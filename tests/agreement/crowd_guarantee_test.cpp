@@ -240,10 +240,10 @@ TEST(CrowdGuarantee, those_who_were_apart_never_overlap_or_pass_through_each_oth
   EXPECT_GE(share, 0.3);
   EXPECT_LE(share, 0.95);
   EXPECT_EQ(tally.stuck, 0U) << "who is inside of nothing is not stuck";
-  // A crowd does not promise this: who is between two others halts, where it may have been able to fall. Mostly it does
-  // so where neighbours began without a gap.
-  EXPECT_LE(static_cast<double>(tally.hanging), 1e-3 * static_cast<double>(tally.moves));
-  EXPECT_LE(static_cast<double>(tally.hanging_touching), 2e-2 * static_cast<double>(tally.moves));
+  // A crowd does not promise this: who is between two others may fall less than it could. Mostly that is so where
+  // neighbours began without a gap.
+  EXPECT_LE(static_cast<double>(tally.hanging), 2e-4 * static_cast<double>(tally.moves));
+  EXPECT_LE(static_cast<double>(tally.hanging_touching), 3e-3 * static_cast<double>(tally.moves));
   // The last resort is one.
   EXPECT_LE(static_cast<double>(tally.stayed), 1e-4 * static_cast<double>(tally.moves));
 }

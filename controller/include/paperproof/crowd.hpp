@@ -65,23 +65,21 @@ struct CrowdScratch {
 /// Dynamic Simulation of Rigid Body Systems", without the impulses). Each character first gets the way that
 /// `Controller` would give it: one that meets nobody moves as by `Controller`, bit for bit. Then, again and again, the
 /// earliest impact of any pair is looked for. Whoever of the two moves into the other, and faster than the other gives
-/// way, is stopped at that moment, keeps what does not go into the other, and gets a new way for the rest of the step.
-/// Neither pushes: the other goes on as it did. What comes down on a walkable part of another stands on it (and is not
-/// carried along). Of impacts at the same time the one with the lowest first index comes first, then the lowest second
-/// index.
+/// way, gets a new way from there on, with the other as an obstacle that goes its own way, like a mover that carries
+/// nobody. Where both do, both lose the speed with which they meet, and the upper one gives way (of two at one height
+/// the left one). Neither pushes. What comes down on a walkable part of another stands on it (and is not carried
+/// along). Of impacts at the same time the one with the lowest first index comes first, then the lowest second index.
+/// When the ways are made, whoever was held in the air looks once more for a way down beside all the others.
 ///
-/// Among movers and conveyors the motions of the movers are given, and each is carried, pushed and crushed as by
-/// `Controller`. Who moves into whom is judged relative to what carries both. Who gives way has the other as an
-/// obstacle that goes its own way, as a mover that carries nobody. Whoever is pushed into another, and has no room
-/// beside it, pushes it on; where that one has no room either, the one that the mover presses is crushed by it. When
-/// the step is made, whoever was crushed looks once more for room, over the whole step and beside all the others.
+/// Among movers each is carried, pushed and crushed as by `Controller`; who moves into whom is judged relative to what
+/// carries both. Whoever is pushed into another, and has no room beside it, pushes it on; where that one has no room
+/// either, the one that the mover presses is crushed by it, after it looked once more for room over the whole step.
 ///
 /// Its guarantee, beside that of `octagon_sweep` for each of them: characters that were apart stay apart, and do not
 /// pass through each other. What cannot be shown to be safe stays where it is (`dropped`); what a mover then does to it
-/// is reported as a crush. Characters that overlap are reported, and move only so that they do not get deeper into each
-/// other; where the separation is below 1e-8 m, in `double`, and a motion cannot be shown by exact arithmetic to be
-/// free, the same holds. Among movers they get out of each other, and restore their gaps, as out of solids. That there
-/// was no room for who is crushed is promised only where nobody touched it during the step.
+/// is reported as a crush. Characters that overlap are reported; they get out of each other, and restore their gaps, as
+/// out of solids. That there was no room for who is crushed, and that nobody hangs, is promised only where nobody
+/// touched it during the step.
 ///
 /// By `discrete`, which guarantees nothing: all are bodies of one joint solve, of the same mass. Only the start and the
 /// expected end of the step are looked at. Characters whose boxes around both overlap form islands; in each, those that
@@ -94,9 +92,9 @@ struct CrowdScratch {
 /// not looked at, and everybody is `dropped`.
 ///
 /// Cost of `octagon_sweep`: the ways are compared pair by pair, by their boxes first: n^2/2 box tests for n characters,
-/// then one row of them for each impact. Meant for up to a few hundred. Among movers a character gives way to at most
-/// 12 others in one step, and the crowd keeps a copy of the scenery with places for them. `discrete` sorts boxes: a
-/// little more than n.
+/// then one row of them for each impact. Meant for up to a few hundred. A character gives way to at most 12 others in
+/// one step, and the crowd keeps a copy of the scenery with places for them. `discrete` sorts boxes: a little more than
+/// n.
 template <class Scalar>
 class Crowd {
  public:

@@ -1,4 +1,4 @@
-/// What both steppers of a crowd do with reports and ways.
+/// What the step of a crowd does with reports and ways.
 #pragma once
 
 #include "crowd/timetable.hpp"

@@ -1,294 +1,249 @@
-#include "crowd/stepper.hpp"
-
-#include "crowd/parts.hpp"
+#include "crowd/stepper_impacts.hpp"
+#include "one_way_chains.hpp"
+#include "scenery_facts.hpp"
+#include "sensors.hpp"
 #include "step_parts.hpp"
 
 namespace paperproof::crowd {
-
-using step_parts::touches;
-
 namespace {
 
-/// Nothing but staying at a place.
 template <class Scalar>
-void report_stay(const Vec2<Scalar>& position, StepReport<Scalar>& report) noexcept {
-  clear(report);
-  report.move.path.push_back({position, 0});
-  report.move.path.push_back({position, 1});
+SceneryDef with_places_for_company(const Scenery<Scalar>& scene, const CharacterShape& shape) {
+  SceneryDef def = scene.as_run();
+  ColliderDef place{.points = {shape.hull().begin(), shape.hull().end()}};
+  for (std::size_t k = 0; k < most_company; ++k) {
+    place.mover = static_cast<MoverIndex>(scene.mover_count() + k);
+    def.colliders.push_back(place);
+  }
+  return def;
 }
 
 }  // namespace
 
 template <class Scalar>
+Surrounded<Scalar>::Surrounded(const Scenery<Scalar>& scene, const CharacterShape& shape)
+    : scenery(with_places_for_company(scene, shape)),
+      first_companion(static_cast<ColliderIndex>(scene.as_run().colliders.size())) {
+  if (scenery.sensor_pieces().size() > 0) sensors = std::make_unique<Sensors<Scalar>>(scenery, shape);
+  if (has_one_way_chains(scenery)) one_way = std::make_unique<OneWayChains<Scalar>>(scenery, shape);
+}
+
+template <class Scalar>
+Surrounded<Scalar>::~Surrounded() = default;
+
+template <class Scalar>
+Stepper<Scalar>::Stepper(const Controller<Scalar>& controller, const Surrounded<Scalar>& surrounded,
+                         const CrowdRules<Scalar>& rules, WalkerMemory<Scalar>& memory, Scratch<Scalar>& scratch,
+                         CrowdReport<Scalar>& report, std::size_t count, const Vec2<Scalar>& gravity, Scalar dt,
+                         std::span<const MoverMotion<Scalar>> movers) noexcept
+    : controller_(controller),
+      surrounded_(surrounded),
+      space_(rules.space),
+      walkable_cosine_(rules.walkable_cosine),
+      most_changes_(rules.most_impacts),
+      memory_(memory),
+      scratch_(scratch),
+      report_(report),
+      walkers_(std::span(memory.walkers).first(count)),
+      timetable_(std::span(memory.rows).first(count)),
+      gravity_(gravity),
+      dt_(dt),
+      movers_(movers) {}
+
+template <class Scalar>
 StepStatus Stepper<Scalar>::begin(std::span<const CharacterState<Scalar>> states,
                                   std::span<const Input> inputs) noexcept {
   report_.impacts = 0;
-  for (std::size_t i = 0; i < runners_.size(); ++i) {
-    Runner<Scalar>& runner = runners_[i];
-    runner.state = states[i];
-    const DesiredVelocity<Scalar> desired =
-        desired_velocity(controller_.character(), gravity_, inputs[i], dt_, runner.state);
-    runner.state.velocity = desired.velocity;
-    runner.jump_held = runner.state.jump_held;
-    runner.jump_pending = runner.state.jump_pending;
-    runner.begin = 0;
-    runner.impacts = 0;
-    runner.halted = runner.no_snap = runner.stands = runner.dropped = runner.stuck = false;
+  for (std::size_t i = 0; i < walkers_.size(); ++i) {
+    if (!step_parts::finite(states[i], inputs[i], gravity_, dt_, movers_)) return StepStatus::invalid_input;
+    Walker<Scalar>& walker = walkers_[i];
+    CharacterState<Scalar>& state = walker.now.state;
+    state = states[i];
+    remember(states[i].pressers, state);
+    // What is carried steers, jumps and falls relative to what carries it.
+    if (state.ride.ground != Ride<Scalar>::none) state.velocity -= state.ride.velocity;
+    walker.now.time = 0;
+    const DesiredVelocity<Scalar> desired = desired_velocity(controller_.character(), gravity_, inputs[i], dt_, state);
+    walker.now.own = desired.velocity;
+    walker.now.steered = desired.steered;
+    walker.start = walker.now;
+    walker.company.clear();
+    walker.changes = 0;
+    walker.stays = walker.no_snap = walker.dropped = false;
+    walker.walks = state.grounded;
+    walker.drops = inputs[i].drop;
     clear(member(i));
-    runner.walks = runner.state.grounded;
-    runner.drops = inputs[i].drop;
-    runner.held.clear();
-    const StepStatus status = move(runner, dt_, true, runner.after, runner.plan);
-    if (step_parts::is_refused(status)) return status;
-    member(i).step.requested = runner.plan.requested;
+    member(i).step.requested = walker.now.own * dt_;
     member(i).step.steered = desired.steered * dt_;
-    find_box(runner);
+    walker.end = walker.now;
+    if (!ask(i, 1, walker.plan, walker.end)) return StepStatus::out_of_range;
+    walker.is_stuck = walker.plan.status == MoveStatus::stuck;
+    walker.box = box_along(space_, walker.plan.path);
   }
-  note_overlaps(rules_.space, states, report_);
+  note_overlaps(space_, states, report_);
   return StepStatus::moved;
 }
 
-/// The intent is in the velocity already; of the input only whether to drop is left.
+/// Whether a way of the whole step meets nobody on theirs.
 template <class Scalar>
-StepStatus Stepper<Scalar>::move(const Runner<Scalar>& runner, Scalar duration, bool follow_down,
-                                 CharacterState<Scalar>& state, StepReport<Scalar>& report) noexcept {
-  state = runner.state;
-  state.grounded = runner.walks && follow_down && !runner.no_snap;
-  const Input input{.move = std::nullopt, .jump = false, .drop = runner.drops};
-  const StepStatus status = controller_.step(state, input, V::Zero(), duration, technique_, report);
-  report.move.contacts.keep_own();  // the next of them uses the same scratch
-  return status;
-}
-
-/// A new way for the rest of the step.
-template <class Scalar>
-void Stepper<Scalar>::plan(std::size_t i) noexcept {
-  Runner<Scalar>& runner = runners_[i];
-  const Scalar duration = dt_ * (1 - runner.begin);
-  if (!(duration > 0)) return stay(i);
-  const bool usable = !step_parts::is_refused(move(runner, duration, true, runner.after, runner.plan));
-  const auto& made = member(i).step.move.path;
-  if (!usable || made.size() + runner.plan.move.path.size() > made.capacity()) {
-    runner.dropped = true;
-    return halt(i);
+bool Stepper<Scalar>::is_clear(std::size_t i, const MoveResult<Scalar>& way) noexcept {
+  for (std::size_t j = 0; j < walkers_.size(); ++j) {
+    if (j == i) continue;
+    FixedVector<PathPoint<Scalar>, 2 * MoveResult<Scalar>::max_corners> whole;
+    for (const PathPoint<Scalar>& corner : member(j).step.move.path) whole.push_back(corner);
+    for (const PathPoint<Scalar>& corner : walkers_[j].plan.path) whole.push_back(corner);
+    const Way<Scalar> theirs{{whole.begin(), whole.size()}, 0, 1};
+    const bool meets = i < j ? first_meeting(space_, way_of(way), theirs, Scalar(0), Tolerances<Scalar>{}.hit).meets
+                             : first_meeting(space_, theirs, way_of(way), Scalar(0), Tolerances<Scalar>{}.hit).meets;
+    if (meets) return false;
   }
-  find_box(runner);
+  return true;
 }
 
+/// How far the movers go that crush it [m]; zero where none does, or where it began that way.
 template <class Scalar>
-void Stepper<Scalar>::stay(std::size_t i) noexcept {
-  Runner<Scalar>& runner = runners_[i];
-  runner.after = runner.state;
-  report_stay(runner.state.position, runner.plan);
-  find_box(runner);
-}
-
-template <class Scalar>
-void Stepper<Scalar>::halt(std::size_t i) noexcept {
-  runners_[i].halted = true;
-  runners_[i].state.velocity = V::Zero();
-  stay(i);
-}
-
-template <class Scalar>
-void Stepper<Scalar>::find_box(Runner<Scalar>& runner) noexcept {
-  runner.box = box_along(rules_.space, runner.plan.move.path);
-}
-
-/// Adds a part of the way, up to the fraction `end` of the step, to what was made.
-template <class Scalar>
-void Stepper<Scalar>::commit(std::size_t i, const StepReport<Scalar>& part, Scalar end) noexcept {
-  CrowdMember<Scalar>& made = member(i);
-  const Way<Scalar> way{{part.move.path.begin(), part.move.path.size()}, runners_[i].begin, end};
-  for (const PathPoint<Scalar>& corner : part.move.path)
-    add_corner(made.step.move, {corner.position, way.time_of(corner.fraction)});
-  for (Contact<Scalar> contact : part.move.contacts) {
-    contact.fraction = way.time_of(contact.fraction);
-    add_contact(made.step.move, contact);
-  }
-  for (SensorEvent<Scalar> event : part.sensors) {
-    event.fraction = way.time_of(event.fraction);
-    made.step.sensors.push_back(event);
-  }
-  for (const ColliderIndex chain : part.dropped_through) {
-    const auto& known = made.step.dropped_through;
-    if (std::find(known.begin(), known.end(), chain) == known.end()) made.step.dropped_through.push_back(chain);
-  }
-  runners_[i].stuck = part.status == StepStatus::stuck;
-  runners_[i].dropped = runners_[i].dropped || part.status == StepStatus::dropped;
-}
-
-/// Makes the planned way up to a time: the technique is asked again, with less to go. What it answers is a way with all
-/// its guarantees; a point between two corners, rounded, would not be.
-template <class Scalar>
-void Stepper<Scalar>::go_on_to(std::size_t i, Scalar time) noexcept {
-  Runner<Scalar>& runner = runners_[i];
-  const Scalar duration = dt_ * (time - runner.begin);
-  if (!(duration > 0)) return;
-  CharacterState<Scalar> state;
-  // The ground is followed at the end of the step only: here it may have been left for a head.
-  if (step_parts::is_refused(move(runner, duration, false, state, memory_.part))) {
-    runner.dropped = true;
-    return;
-  }
-  commit(i, memory_.part, time);
-  const V way = state.position - runner.state.position;
-  if (std::max(std::abs(way.x()), std::abs(way.y())) > Tolerances<Scalar>{}.touch) runner.held.clear();
-  runner.state = state;
-  runner.begin = time;
-  // The ground took its weight, which holds it to the ground for the rest as well.
-  if (state.grounded) runner.state.velocity += gravity_ * dt_;
-}
-
-template <class Scalar>
-Meeting<Scalar> Stepper<Scalar>::meeting(std::size_t i, std::size_t j) const noexcept {
-  const Runner<Scalar>& first = runners_[i];
-  const Runner<Scalar>& second = runners_[j];
-  if (!first.box.overlaps(second.box)) return {};
-  const auto way_of = [](const Runner<Scalar>& runner) {
-    return Way<Scalar>{{runner.plan.move.path.begin(), runner.plan.move.path.size()}, runner.begin, 1};
+Scalar Stepper<Scalar>::reach_of_crush(std::size_t i) noexcept {
+  const Walker<Scalar>& walker = walkers_[i];
+  if (walker.start.state.crushed) return 0;
+  const std::vector<ColliderDef>& colliders = surrounded_.scenery.as_run().colliders;
+  Scalar reach = 0;
+  const auto look_at = [&](const MoveResult<Scalar>& way) {
+    for (const ColliderIndex collider : way.crushed) {
+      if (is_companion(collider)) continue;
+      const MoverMotion<Scalar>& motion = movers_[colliders[collider].mover];
+      reach = std::max(reach, (motion.to - motion.from).cwiseAbs().maxCoeff());
+    }
   };
-  return first_meeting(rules_.space, way_of(first), way_of(second), now_, Tolerances<Scalar>{}.hit);
+  look_at(member(i).step.move);
+  look_at(walker.plan);
+  return reach;
 }
 
-/// Every impact halts somebody or counts for somebody who is halted after `most_impacts`; two that are halted do not
-/// meet. So it ends.
+/// How far it wanted to fall; zero where it did so at least by half, or stands [m].
 template <class Scalar>
-void Stepper<Scalar>::solve() noexcept {
-  const auto when = [this](std::size_t i, std::size_t j) { return meeting(i, j); };
-  timetable_.find_all(when);
-  while (const std::optional<NextMeeting<Scalar>> next = timetable_.earliest()) {
-    const auto& [i, j, meeting] = *next;
-    now_ = std::max(now_, meeting.time);
-    note_impact(*next, report_);
-    const MovesIn moves = who_moves_in(meeting.first_rate, meeting.second_rate, meeting.normal);
-    const Scalar first_limit = std::max(Scalar(0), -dot(meeting.second_rate, meeting.normal));
-    const Scalar second_limit = std::max(Scalar(0), dot(meeting.first_rate, meeting.normal));
-    if (moves.first) respond(i, meeting, meeting.normal, first_limit);
-    if (moves.second) respond(j, meeting, -meeting.normal, second_limit);
-    if (moves.first) timetable_.find_again(i, when);
-    if (moves.second) timetable_.find_again(j, when);
+Scalar Stepper<Scalar>::missed_fall(std::size_t i) const noexcept {
+  const Walker<Scalar>& walker = walkers_[i];
+  const bool held = walker.end.state.grounded || walker.end.state.crushed || walker.start.state.crushed;
+  if (held || walker.start.state.ride.ground != Ride<Scalar>::none) return 0;
+  const Scalar wanted = -walker.start.own.y() * dt_;
+  const Scalar made = walker.start.state.position.y() - walker.end.state.position.y();
+  return wanted > 0 && made < wanted / 2 ? wanted : Scalar(0);
+}
+
+/// Asks for a way of the whole step beside all the others, into `memory_.way`. False where something crushes it on that
+/// way, or it meets somebody.
+/// @param course of the others: straight from where they began to where they end, or as it is now.
+/// @param end becomes the moment in which the way ends.
+template <class Scalar>
+bool Stepper<Scalar>::goes_free(std::size_t i, Course course, Moment<Scalar>& end) noexcept {
+  const Walker<Scalar>& walker = walkers_[i];
+  MoveResult<Scalar>& way = memory_.way;
+  end = walker.start;
+  if (course == Course::straight) {
+    set_motions(walker.company, 0, 1);
+    controller_.technique().move(request_at(walker, walker.start, 1), scratch_, memory_.part);
+    way.clear();
+    append(memory_.part, 0, 1, way);
+    pass_on(memory_.part, 1, end);
+    if (way.status == MoveStatus::out_of_range || way.path.overflowed()) return false;
+  } else if (!ask(i, 1, way, end)) {
+    return false;
   }
+  return way.crushed.empty() && is_clear(i, way);
 }
 
-/// @param normal from the other towards this one.
-/// @param limit how fast it may go towards where the other is [m per step].
+/// What crushes a character between two impacts may have left it room over the whole step, and what held its fall may
+/// have gone on after that: the technique is asked once more, now that the ways of the others
+/// are known.
+/// @return whether it has another way now.
 template <class Scalar>
-void Stepper<Scalar>::respond(std::size_t i, const Meeting<Scalar>& meeting, const V& normal, Scalar limit) noexcept {
-  Runner<Scalar>& runner = runners_[i];
-  if (++runner.impacts > rules_.most_impacts) {
-    runner.dropped = true;
-    go_on_to(i, meeting.time);
-    return halt(i);
+bool Stepper<Scalar>::seek_room(std::size_t i) noexcept {
+  const Scalar crush = reach_of_crush(i);
+  Walker<Scalar>& walker = walkers_[i];
+  const Scalar reach = std::max(crush, missed_fall(i));
+  if (reach == 0) return false;
+  const Company company = walker.company;
+  walker.company.clear();
+  for (std::size_t j = 0; j < walkers_.size(); ++j)
+    if (j != i && walkers_[j].box.overlaps(walker.box.inflated(reach)))
+      walker.company.push_back(static_cast<CharacterIndex>(j));
+  Moment<Scalar> end = walker.start;
+  const bool found =
+      (crush > 0 && goes_free(i, Course::straight, end)) ||
+      (goes_free(i, Course::real, end) && (crush > 0 || end.state.position.y() < walker.end.state.position.y()));
+  if (!found) {
+    walker.company = company;
+    return false;
   }
-  if (meeting.at_once) {
-    // There is no halting within a part that takes no time. Following the ground down is left out instead; a way out
-    // at the beginning is not taken.
-    if (!(meeting.time > runner.begin) || runner.no_snap) return halt(i);
-    runner.no_snap = true;
-    return plan(i);
-  }
-  if (!(meeting.time > runner.begin)) note_touched_scenery(i, meeting.impact);
-  go_on_to(i, meeting.time);
-  if (normal.y() >= rules_.walkable_cosine) runner.stands = true;
-  runner.held.push_back({normal, limit / dt_});
-  V& velocity = runner.state.velocity;
-  // Scenery turns it into the other: it is between the two.
-  if (!(-dot(velocity, normal) > limit / dt_)) return halt_between(i);
-  velocity = slowed(velocity, normal, limit / dt_, rules_.walkable_cosine);
-  if (is_held(runner)) return halt_between(i);
-  plan(i);
-}
-
-/// Whether its velocity goes into somebody it touches, by more than rounding.
-template <class Scalar>
-bool Stepper<Scalar>::is_held(const Runner<Scalar>& runner) const noexcept {
-  const V& velocity = runner.state.velocity;
-  const Scalar noise = noise_of<Scalar>(velocity, V::Zero());
-  return runner.held.overflowed() ||
-         std::any_of(runner.held.begin(), runner.held.end(),
-                     [&](const HeldBy<Scalar>& other) { return -dot(velocity, other.normal) > other.limit + noise; });
-}
-
-/// What holds a fall from two sides is stood on.
-template <class Scalar>
-void Stepper<Scalar>::halt_between(std::size_t i) noexcept {
-  Runner<Scalar>& runner = runners_[i];
-  runner.stands = runner.stands || std::any_of(runner.held.begin(), runner.held.end(),
-                                               [](const HeldBy<Scalar>& other) { return other.normal.y() > 0; });
-  halt(i);
-}
-
-/// Of a way that ends where it begins nothing is committed: the scenery that was touched there, and turned it into the
-/// other, is a contact all the same.
-template <class Scalar>
-void Stepper<Scalar>::note_touched_scenery(std::size_t i, Scalar impact) noexcept {
-  const Runner<Scalar>& runner = runners_[i];
-  const MoveResult<Scalar>& planned = runner.plan.move;
-  const Way<Scalar> way{{planned.path.begin(), planned.path.size()}, runner.begin, 1};
-  const V& wanted = runner.plan.requested;
-  for (Contact<Scalar> contact : planned.contacts) {
-    const bool touched = contact.fraction * -dot(wanted, contact.normal) <= Tolerances<Scalar>{}.touch;
-    contact.fraction = way.time_of(contact.fraction);
-    if (touched && contact.fraction <= impact) add_contact(member(i).step.move, contact);
-  }
+  member(i).step.move.clear();
+  walker.now = walker.start;
+  walker.end = end;
+  walker.plan = memory_.way;
+  walker.stays = walker.dropped = false;
+  walker.box = box_along(space_, walker.plan.path);
+  return true;
 }
 
 template <class Scalar>
 void Stepper<Scalar>::finish(std::span<CharacterState<Scalar>> states) noexcept {
-  for (std::size_t i = 0; i < runners_.size(); ++i) {
-    commit(i, runners_[i].plan, 1);
-    runners_[i].state = runners_[i].after;
-    runners_[i].box = box_along(rules_.space, member(i).step.move.path);
+  // Where one falls on, others may that it held.
+  bool changed = true;
+  for (int round = 0; changed && round < most_changes_; ++round) {
+    changed = false;
+    for (std::size_t i = 0; i < walkers_.size(); ++i) changed = seek_room(i) || changed;
   }
-  const auto box_of = [this](std::size_t i) -> const Box2<Scalar>& { return runners_[i].box; };
-  keep_back_what_is_not_clear<Scalar>(rules_.space, std::span(report_.members).first(runners_.size()), box_of,
+  for (std::size_t i = 0; i < walkers_.size(); ++i) {
+    make(i, walkers_[i].plan);
+    walkers_[i].box = box_along(space_, member(i).step.move.path);
+  }
+  const auto box_of = [this](std::size_t i) -> const Box2<Scalar>& { return walkers_[i].box; };
+  keep_back_what_is_not_clear<Scalar>(space_, std::span(report_.members).first(walkers_.size()), box_of,
                                       [&](std::size_t i) { keep_back(i, states[i]); });
-  for (std::size_t i = 0; i < runners_.size(); ++i) hand_out(i, states[i]);
+  for (std::size_t i = 0; i < walkers_.size(); ++i) hand_out(i, states[i]);
 }
 
 template <class Scalar>
 void Stepper<Scalar>::keep_back(std::size_t i, const CharacterState<Scalar>& start) noexcept {
   CrowdMember<Scalar>& made = member(i);
+  Walker<Scalar>& walker = walkers_[i];
   made.stayed = true;
-  report_stay(start.position, made.step);
-  Runner<Scalar>& runner = runners_[i];
-  runner.state = start;
-  runner.state.velocity = V::Zero();
-  runner.stands = false;
-  runner.dropped = true;
-  runner.box = box_along(rules_.space, made.step.move.path);
-}
-
-template <class Scalar>
-StepStatus Stepper<Scalar>::status_of(std::size_t i) noexcept {
-  if (runners_[i].stuck) return StepStatus::stuck;
-  return runners_[i].dropped ? StepStatus::dropped : StepStatus::moved;
+  made.step.move.clear();
+  walker.dropped = true;
+  walker.now.time = 0;
+  const CharacterState<Scalar> flags = walker.now.state;
+  walker.now.state = start;
+  walker.now.state.jump_held = flags.jump_held;
+  walker.now.state.jump_pending = flags.jump_pending;
+  ask_to_stay(i);
+  make(i, walker.plan);
+  walker.box = box_along(space_, made.step.move.path);
 }
 
 template <class Scalar>
 void Stepper<Scalar>::hand_out(std::size_t i, CharacterState<Scalar>& state) noexcept {
-  Runner<Scalar>& runner = runners_[i];
+  Walker<Scalar>& walker = walkers_[i];
   StepReport<Scalar>& report = member(i).step;
-  CharacterState<Scalar> next = runner.state;
-  next.jump_held = runner.jump_held;
-  next.jump_pending = runner.jump_pending;
-  if (runner.stands) {
-    next.grounded = true;
-    next.jumping = false;
-  }
-  next.wall_left = touches(report.move, Side::left);
-  next.wall_right = touches(report.move, Side::right);
-  report.status = status_of(i);
-  const int stuck_steps = runner.stuck ? std::min(state.stuck_steps + 1, 255) : 0;
-  next.stuck_steps = static_cast<std::uint8_t>(stuck_steps);
-  report.move.status = runner.stuck ? MoveStatus::stuck : runner.dropped ? MoveStatus::dropped : MoveStatus::moved;
-  report.move.position = next.position;
-  report.move.velocity = next.velocity;
-  report.move.grounded = next.grounded;
+  MoveResult<Scalar>& move = report.move;
+  if (!move.crushed.empty())
+    move.status = MoveStatus::crushed;
+  else if (!walker.end.state.pressers.empty())
+    move.status = MoveStatus::stuck;  // also where another character came over it last, who is not named
+  else if (move.status != MoveStatus::stuck || !walker.is_stuck)  // who is inside somebody alone is not stuck
+    move.status = walker.dropped || move.status == MoveStatus::stuck ? MoveStatus::dropped : MoveStatus::moved;
+  report.status = step_parts::status_of(move.status);
+  const std::span<const PathPoint<Scalar>> path(move.path.begin(), move.path.size());
+  set_motions({}, 0, 1);
+  if (surrounded_.sensors) surrounded_.sensors->observe(path, memory_.motions, scratch_.sensors, report.sensors);
+  if (walker.drops && surrounded_.one_way)
+    surrounded_.one_way->find_passed(path, memory_.motions, scratch_.one_way, report.dropped_through);
+  CharacterState<Scalar> next = walker.end.state;
+  move.pressers = next.pressers;
+  step_parts::adopt(controller_.character(), move, next);
   state = next;
 }
 
+template struct Surrounded<float>;
+template struct Surrounded<double>;
 template class Stepper<float>;
 template class Stepper<double>;
 

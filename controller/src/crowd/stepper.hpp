@@ -1,4 +1,10 @@
 /// The working state of one step of a crowd.
+///
+/// Each character is moved by the same technique as if it were alone; those it gives way to are obstacles for it, which
+/// go their own ways: the scenery of a crowd has places for a few colliders of the character's shape, each with a mover
+/// of its own. Thus falling between others, being carried, pushed and crushed follow the laws that hold among movers.
+///
+/// The definitions are in stepper_ways.hpp, stepper_impacts.hpp and stepper.cpp.
 #pragma once
 
 #include "crowd/rules.hpp"
@@ -6,61 +12,80 @@
 
 #include <paperproof/crowd.hpp>
 
+#include <optional>
 #include <span>
 #include <vector>
 
+namespace paperproof {
+template <class Scalar>
+class OneWayChains;
+template <class Scalar>
+class Sensors;
+}  // namespace paperproof
+
 namespace paperproof::crowd {
 
-/// Another character that is touched: no faster than `limit` towards it [m/s].
+/// How many others a character can give way to in one step; whoever meets more stays where it is.
+inline constexpr std::size_t most_company = 12;
+
+using Company = FixedVector<CharacterIndex, most_company>;
+
+/// The scenery of a crowd: that of the scene, and places for other characters.
 template <class Scalar>
-struct HeldBy {
-  Vec2<Scalar> normal;
-  Scalar limit;
+struct Surrounded {
+  Surrounded(const Scenery<Scalar>& scene, const CharacterShape& shape);
+  Surrounded(Surrounded&&) = delete;
+  ~Surrounded();
+
+  Scenery<Scalar> scenery;
+  ColliderIndex first_companion;                        ///< The collider of the first place.
+  std::unique_ptr<const Sensors<Scalar>> sensors;       ///< Null where there are none.
+  std::unique_ptr<const OneWayChains<Scalar>> one_way;  ///< The same.
+};
+
+/// A moment of a step, with what one part of a way hands to the next.
+template <class Scalar>
+struct Moment {
+  Scalar time = 0;               ///< Fraction of the step.
+  CharacterState<Scalar> state;  ///< Its velocity is not kept up.
+  Vec2<Scalar> own;              ///< Velocity relative to what carries it [m/s].
+  Scalar steered = 0;            ///< The part of `own.x()` that this step's steering added [m/s].
 };
 
 /// One character during a step: what it has done, and what it is about to do.
 template <class Scalar>
-struct Runner {
-  CharacterState<Scalar> state;         ///< At `begin`.
-  CharacterState<Scalar> after;         ///< At the end of the step, if nothing comes in between.
-  StepReport<Scalar> plan;              ///< The way from `begin` to there.
-  Scalar begin = 0;                     ///< Fraction of the step.
-  Box2<Scalar> box;                     ///< Around the shape along the plan.
-  FixedVector<HeldBy<Scalar>, 8> held;  ///< Met since it moved last.
-  int impacts = 0;
-  bool halted = false;
+struct Walker {
+  Moment<Scalar> start;
+  Moment<Scalar> now;
+  Moment<Scalar> end;       ///< Of the plan.
+  MoveResult<Scalar> plan;  ///< From now to the end of the step; its fractions are those of the step.
+  Box2<Scalar> box;         ///< Around the shape along the plan.
+  Company company;          ///< Whom it gives way to; each has the place of its index here.
+  int changes = 0;
+  bool stays = false;    ///< It keeps its place for the rest of the step, and gives way to nobody.
   bool walks = false;    ///< It was on the ground and does not jump: its way follows the ground down.
   bool drops = false;    ///< One-way chains hold it not in this step.
   bool no_snap = false;  ///< Somebody stands where it would follow the ground down to.
-  bool stands = false;   ///< On somebody.
   bool dropped = false;
-  bool stuck = false;
-  bool jump_held = false;  ///< As this step's input leaves them.
-  bool jump_pending = false;
+  bool is_stuck = false;  ///< It begins inside scenery, and there is no way out.
 };
 
 template <class Scalar>
-struct Memory {
-  std::vector<Runner<Scalar>> runners;
+struct WalkerMemory {
+  std::vector<Walker<Scalar>> walkers;
   std::vector<RowBest<Scalar>> rows;
-  StepReport<Scalar> part;  ///< Of a way up to an impact.
+  std::vector<MoverMotion<Scalar>> motions;  ///< Of the scene's movers and of all places, during a part of a way.
+  MoveResult<Scalar> part;                   ///< What the technique says about that part.
+  MoveResult<Scalar> way;                    ///< Up to an impact.
+  std::vector<ReportMemory<ColliderIndex>> crushed;  ///< For what the report of each has no room for.
 };
 
 template <class Scalar>
 class Stepper {
  public:
-  Stepper(const Controller<Scalar>& controller, const CrowdRules<Scalar>& rules, Memory<Scalar>& memory,
-          Scratch<Scalar>& technique, CrowdReport<Scalar>& report, std::size_t count, const Vec2<Scalar>& gravity,
-          Scalar dt) noexcept
-      : controller_(controller),
-        rules_(rules),
-        memory_(memory),
-        technique_(technique),
-        report_(report),
-        runners_(std::span(memory.runners).first(count)),
-        timetable_(std::span(memory.rows).first(count)),
-        gravity_(gravity),
-        dt_(dt) {}
+  Stepper(const Controller<Scalar>& controller, const Surrounded<Scalar>& surrounded, const CrowdRules<Scalar>& rules,
+          WalkerMemory<Scalar>& memory, Scratch<Scalar>& scratch, CrowdReport<Scalar>& report, std::size_t count,
+          const Vec2<Scalar>& gravity, Scalar dt, std::span<const MoverMotion<Scalar>> movers) noexcept;
 
   /// The way of every character, as if it were alone. Anything but `moved`: refused.
   [[nodiscard]] StepStatus begin(std::span<const CharacterState<Scalar>> states,
@@ -73,36 +98,76 @@ class Stepper {
  private:
   using V = Vec2<Scalar>;
 
+  /// What a new way would do to a character.
+  struct Outcome {
+    bool run_over = false;  ///< Somebody whom it gives way to leaves it no room,
+    bool pressed = false;   ///< or a mover that did not crush it before.
+    [[nodiscard]] bool free() const noexcept { return !run_over && !pressed; }
+  };
+
   [[nodiscard]] CrowdMember<Scalar>& member(std::size_t i) noexcept { return report_.members[i]; }
-  [[nodiscard]] StepStatus move(const Runner<Scalar>& runner, Scalar duration, bool follow_down,
-                                CharacterState<Scalar>& state, StepReport<Scalar>& report) noexcept;
-  void plan(std::size_t i) noexcept;
+  [[nodiscard]] bool is_companion(ColliderIndex collider) const noexcept {
+    return collider >= surrounded_.first_companion;
+  }
+
+  // Ways
+  [[nodiscard]] V place(std::size_t i, Scalar time, bool after) noexcept;
+  [[nodiscard]] Scalar next_corner(const Walker<Scalar>& walker, Scalar time) noexcept;
+  void set_motions(const Company& company, Scalar begin, Scalar end) noexcept;
+  [[nodiscard]] MoveRequest<Scalar> request_at(const Walker<Scalar>& walker, const Moment<Scalar>& at,
+                                               Scalar end) noexcept;
+  [[nodiscard]] bool ask(std::size_t i, Scalar until, MoveResult<Scalar>& way, Moment<Scalar>& at) noexcept;
+  void append(const MoveResult<Scalar>& part, Scalar begin, Scalar end, MoveResult<Scalar>& way) const noexcept;
+  void pass_on(const MoveResult<Scalar>& part, Scalar end, Moment<Scalar>& at) const noexcept;
+  void remember(const Pressers<Scalar>& pressers, CharacterState<Scalar>& state) const noexcept;
+  [[nodiscard]] Outcome outcome_of(std::size_t i, const MoveResult<Scalar>& way) noexcept;
+  Outcome plan(std::size_t i) noexcept;
   void stay(std::size_t i) noexcept;
-  void halt(std::size_t i) noexcept;
-  void find_box(Runner<Scalar>& runner) noexcept;
-  void commit(std::size_t i, const StepReport<Scalar>& part, Scalar end) noexcept;
+  void ask_to_stay(std::size_t i) noexcept;
+  void make(std::size_t i, const MoveResult<Scalar>& way) noexcept;
   void go_on_to(std::size_t i, Scalar time) noexcept;
+  void cut_plan(std::size_t i, Scalar time, const V& there) noexcept;
 
-  [[nodiscard]] Meeting<Scalar> meeting(std::size_t i, std::size_t j) const noexcept;
-  void respond(std::size_t i, const Meeting<Scalar>& meeting, const V& normal, Scalar limit) noexcept;
-  [[nodiscard]] bool is_held(const Runner<Scalar>& runner) const noexcept;
-  void halt_between(std::size_t i) noexcept;
-  void note_touched_scenery(std::size_t i, Scalar impact) noexcept;
+  // Impacts
+  [[nodiscard]] bool gives_way_to(std::size_t i, std::size_t other) const noexcept;
+  [[nodiscard]] Meeting<Scalar> meeting(std::size_t i, std::size_t j) noexcept;
+  void keep_company_from_the_start() noexcept;
+  [[nodiscard]] V ride_of(std::size_t i) const noexcept;
+  void stand_still(std::size_t i, const V& ride) noexcept;
+  [[nodiscard]] bool is_above(std::size_t i, std::size_t j) const noexcept;
+  void meet(std::size_t i, std::size_t j, const Meeting<Scalar>& meeting) noexcept;
+  void meet_at_once(std::size_t i, std::size_t j, const Meeting<Scalar>& meeting) noexcept;
+  [[nodiscard]] bool may_go_on(std::size_t i) noexcept;
+  Outcome give_way(std::size_t i, std::size_t other) noexcept;
+  void one_gives_way(std::size_t i, std::size_t other) noexcept;
+  [[nodiscard]] bool is_clear(std::size_t i, const MoveResult<Scalar>& way) noexcept;
+  void take_back(std::size_t i, std::size_t other) noexcept;
+  void slow_down(std::size_t i, const V& normal, Scalar limit) noexcept;
+  [[nodiscard]] V common_ride(std::size_t i, std::size_t j) const noexcept;
 
+  // The end
+  [[nodiscard]] Scalar reach_of_crush(std::size_t i) noexcept;
+  [[nodiscard]] Scalar missed_fall(std::size_t i) const noexcept;
+  enum class Course : std::uint8_t { straight, real };
+  [[nodiscard]] bool goes_free(std::size_t i, Course course, Moment<Scalar>& end) noexcept;
+  [[nodiscard]] bool seek_room(std::size_t i) noexcept;
   void keep_back(std::size_t i, const CharacterState<Scalar>& start) noexcept;
-  [[nodiscard]] StepStatus status_of(std::size_t i) noexcept;
   void hand_out(std::size_t i, CharacterState<Scalar>& state) noexcept;
 
   const Controller<Scalar>& controller_;
-  const CrowdRules<Scalar>& rules_;
-  Memory<Scalar>& memory_;
-  Scratch<Scalar>& technique_;
+  const Surrounded<Scalar>& surrounded_;
+  const PairSpace<Scalar>& space_;
+  Scalar walkable_cosine_;
+  int most_changes_;  ///< Of one way, before it gives up what it wants itself; after twice as many it stays.
+  WalkerMemory<Scalar>& memory_;
+  Scratch<Scalar>& scratch_;
   CrowdReport<Scalar>& report_;
-  std::span<Runner<Scalar>> runners_;
+  std::span<Walker<Scalar>> walkers_;
   Timetable<Scalar> timetable_;
   V gravity_;
   Scalar dt_;
-  Scalar now_ = 0;
+  std::span<const MoverMotion<Scalar>> movers_;
+  Scalar time_ = 0;  ///< Of the present impact.
 };
 
 }  // namespace paperproof::crowd

@@ -1,18 +1,18 @@
-/// AmongMovers: what happens where two meet.
+/// Stepper: what happens where two meet.
 #pragma once
 
-#include "crowd/among_movers_ways.hpp"
+#include "crowd/stepper_ways.hpp"
 
 namespace paperproof::crowd {
 
 template <class Scalar>
-bool AmongMovers<Scalar>::gives_way_to(std::size_t i, std::size_t other) const noexcept {
+bool Stepper<Scalar>::gives_way_to(std::size_t i, std::size_t other) const noexcept {
   const auto& company = walkers_[i].company;
   return std::find(company.begin(), company.end(), other) != company.end();
 }
 
 template <class Scalar>
-Meeting<Scalar> AmongMovers<Scalar>::meeting(std::size_t i, std::size_t j) noexcept {
+Meeting<Scalar> Stepper<Scalar>::meeting(std::size_t i, std::size_t j) noexcept {
   constexpr Tolerances<Scalar> tolerances{};
   if (!walkers_[i].box.overlaps(walkers_[j].box)) return {};
   // Who gives way comes as near as the technique lets it.
@@ -22,7 +22,7 @@ Meeting<Scalar> AmongMovers<Scalar>::meeting(std::size_t i, std::size_t j) noexc
 
 /// Those who are nearer than they should be when the step begins: the technique restores their gap, as from solids.
 template <class Scalar>
-void AmongMovers<Scalar>::keep_company_from_the_start() noexcept {
+void Stepper<Scalar>::keep_company_from_the_start() noexcept {
   for (std::size_t i = 0; i < walkers_.size(); ++i) {
     Walker<Scalar>& walker = walkers_[i];
     for (std::size_t j = 0; j < walkers_.size(); ++j) {
@@ -37,7 +37,7 @@ void AmongMovers<Scalar>::keep_company_from_the_start() noexcept {
 /// Every impact changes the way of somebody who does not stay, and after so many changes it does; two that stay do not
 /// meet. So it ends.
 template <class Scalar>
-void AmongMovers<Scalar>::solve() noexcept {
+void Stepper<Scalar>::solve() noexcept {
   keep_company_from_the_start();
   const auto when = [this](std::size_t i, std::size_t j) { return meeting(i, j); };
   timetable_.find_all(when);
@@ -56,15 +56,13 @@ void AmongMovers<Scalar>::solve() noexcept {
 
 /// What carries both alike [m/s]: seen from there they go as they would on ground that stands.
 template <class Scalar>
-Vec2<Scalar> AmongMovers<Scalar>::common_ride(std::size_t i, std::size_t j) const noexcept {
-  const Ride<Scalar>& first = walkers_[i].plan.ride;
-  const Ride<Scalar>& second = walkers_[j].plan.ride;
-  const bool both = first.ground != Ride<Scalar>::none && second.ground != Ride<Scalar>::none;
-  return both && first.velocity == second.velocity ? first.velocity : V(V::Zero());
+Vec2<Scalar> Stepper<Scalar>::common_ride(std::size_t i, std::size_t j) const noexcept {
+  const V ride = ride_of(i);
+  return ride == ride_of(j) ? ride : V(V::Zero());
 }
 
 template <class Scalar>
-void AmongMovers<Scalar>::meet(std::size_t i, std::size_t j, const Meeting<Scalar>& meeting) noexcept {
+void Stepper<Scalar>::meet(std::size_t i, std::size_t j, const Meeting<Scalar>& meeting) noexcept {
   const V ride = common_ride(i, j);
   const V& normal = meeting.normal;
   const V first_rate = meeting.first_rate - ride * dt_;
@@ -77,13 +75,42 @@ void AmongMovers<Scalar>::meet(std::size_t i, std::size_t j, const Meeting<Scala
   const Scalar away = dot(ride, normal);
   slow_down(i, normal, std::max(Scalar(0), -dot(second_rate, normal)) / dt_ - away);
   slow_down(j, V(-normal), std::max(Scalar(0), dot(first_rate, normal)) / dt_ + away);
-  plan(j);
-  one_gives_way(i, j);
+  const auto [upper, lower] = is_above(i, j) ? std::pair(i, j) : std::pair(j, i);
+  // Were the upper one no obstacle, ground would turn what is left of the lower one's motion into it, and push it.
+  // But what a mover pushes is pushed on.
+  stand_still(upper, ride_of(lower));
+  if (!give_way(lower, upper).free()) take_back(lower, upper);
+  one_gives_way(upper, lower);
+}
+
+/// What carries it [m/s].
+template <class Scalar>
+Vec2<Scalar> Stepper<Scalar>::ride_of(std::size_t i) const noexcept {
+  const Ride<Scalar>& ride = walkers_[i].plan.ride;
+  return ride.ground != Ride<Scalar>::none ? ride.velocity : V(V::Zero());
+}
+
+/// Seen from what is carried like that [m/s], until it has a new way.
+template <class Scalar>
+void Stepper<Scalar>::stand_still(std::size_t i, const V& ride) noexcept {
+  Walker<Scalar>& walker = walkers_[i];
+  const Moment<Scalar>& now = walker.now;
+  walker.plan.path.clear();
+  walker.plan.path.push_back({now.state.position, now.time});
+  walker.plan.path.push_back({now.state.position + ride * (dt_ * (1 - now.time)), 1});
+}
+
+/// Of two at one height the left one: who gives way does not depend on the order in which they are given.
+template <class Scalar>
+bool Stepper<Scalar>::is_above(std::size_t i, std::size_t j) const noexcept {
+  const V& a = walkers_[i].start.state.position;
+  const V& b = walkers_[j].start.state.position;
+  return a.y() > b.y() || (a.y() == b.y() && a.x() <= b.x());
 }
 
 /// What it wants itself: no faster than `limit` against the normal, in the world [m/s].
 template <class Scalar>
-void AmongMovers<Scalar>::slow_down(std::size_t i, const V& normal, Scalar limit) noexcept {
+void Stepper<Scalar>::slow_down(std::size_t i, const V& normal, Scalar limit) noexcept {
   Moment<Scalar>& now = walkers_[i].now;
   V ride = V::Zero();
   if (now.state.ride.ground != Ride<Scalar>::none) ride = now.state.ride.velocity;
@@ -93,7 +120,7 @@ void AmongMovers<Scalar>::slow_down(std::size_t i, const V& normal, Scalar limit
 /// There is no giving way within a part that takes no time. Following the ground down is left out instead; a way out,
 /// or to the right gap, when the step begins is looked for anew, and then not taken.
 template <class Scalar>
-void AmongMovers<Scalar>::meet_at_once(std::size_t i, std::size_t j, const Meeting<Scalar>& meeting) noexcept {
+void Stepper<Scalar>::meet_at_once(std::size_t i, std::size_t j, const Meeting<Scalar>& meeting) noexcept {
   const std::size_t who = meeting.first_rate == V::Zero() ? j : i;
   const std::size_t whom = who == i ? j : i;
   Walker<Scalar>& walker = walkers_[who];
@@ -110,7 +137,7 @@ void AmongMovers<Scalar>::meet_at_once(std::size_t i, std::size_t j, const Meeti
 
 /// False where it met so many that it stays now. Before that it gives up what it wants itself.
 template <class Scalar>
-bool AmongMovers<Scalar>::may_go_on(std::size_t i) noexcept {
+bool Stepper<Scalar>::may_go_on(std::size_t i) noexcept {
   Walker<Scalar>& walker = walkers_[i];
   go_on_to(i, time_);
   if (++walker.changes == most_changes_) {
@@ -124,7 +151,7 @@ bool AmongMovers<Scalar>::may_go_on(std::size_t i) noexcept {
 
 /// A new way for one, to which the other is an obstacle.
 template <class Scalar>
-typename AmongMovers<Scalar>::Outcome AmongMovers<Scalar>::give_way(std::size_t i, std::size_t other) noexcept {
+typename Stepper<Scalar>::Outcome Stepper<Scalar>::give_way(std::size_t i, std::size_t other) noexcept {
   go_on_to(i, time_);
   if (gives_way_to(i, other) || walkers_[i].company.push_back(static_cast<CharacterIndex>(other))) return plan(i);
   stay(i);
@@ -133,7 +160,7 @@ typename AmongMovers<Scalar>::Outcome AmongMovers<Scalar>::give_way(std::size_t 
 
 /// As before it gave way.
 template <class Scalar>
-void AmongMovers<Scalar>::take_back(std::size_t i, std::size_t other) noexcept {
+void Stepper<Scalar>::take_back(std::size_t i, std::size_t other) noexcept {
   Walker<Scalar>& walker = walkers_[i];
   if (walker.stays) return;
   const Company company = walker.company;
@@ -146,7 +173,7 @@ void AmongMovers<Scalar>::take_back(std::size_t i, std::size_t other) noexcept {
 /// The one gives way. Where it is pushed, and has no room, the other gives way instead, and is pushed on; where that
 /// one has no room either, the first is between them: it heeds only the other, so that whoever pushed it heeds it.
 template <class Scalar>
-void AmongMovers<Scalar>::one_gives_way(std::size_t i, std::size_t other) noexcept {
+void Stepper<Scalar>::one_gives_way(std::size_t i, std::size_t other) noexcept {
   if (!may_go_on(i)) return;
   const Outcome first = give_way(i, other);
   if (first.free()) return;

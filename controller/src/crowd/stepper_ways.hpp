@@ -1,8 +1,8 @@
-/// AmongMovers: the way of one character, part by part.
+/// Stepper: the way of one character, part by part.
 #pragma once
 
-#include "crowd/among_movers.hpp"
 #include "crowd/parts.hpp"
+#include "crowd/stepper.hpp"
 #include "step_parts.hpp"
 
 namespace paperproof::crowd {
@@ -34,7 +34,7 @@ template <class Scalar>
 
 /// Where somebody is at a moment of the step, on the way made or the way planned.
 template <class Scalar>
-Vec2<Scalar> AmongMovers<Scalar>::place(std::size_t i, Scalar time, bool after) noexcept {
+Vec2<Scalar> Stepper<Scalar>::place(std::size_t i, Scalar time, bool after) noexcept {
   const Walker<Scalar>& walker = walkers_[i];
   const bool made = time < walker.now.time || (time == walker.now.time && !after);
   const auto& path = made && walker.now.time > 0 ? member(i).step.move.path : walker.plan.path;
@@ -43,7 +43,7 @@ Vec2<Scalar> AmongMovers<Scalar>::place(std::size_t i, Scalar time, bool after) 
 
 /// The next moment at which somebody to whom it gives way changes course, or the end of the step.
 template <class Scalar>
-Scalar AmongMovers<Scalar>::next_corner(const Walker<Scalar>& walker, Scalar time) noexcept {
+Scalar Stepper<Scalar>::next_corner(const Walker<Scalar>& walker, Scalar time) noexcept {
   Scalar next = 1;
   const auto look_at = [&](const auto& path) {
     for (const PathPoint<Scalar>& corner : path)
@@ -57,7 +57,7 @@ Scalar AmongMovers<Scalar>::next_corner(const Walker<Scalar>& walker, Scalar tim
 }
 
 template <class Scalar>
-void AmongMovers<Scalar>::set_motions(const Company& company, Scalar begin, Scalar end) noexcept {
+void Stepper<Scalar>::set_motions(const Company& company, Scalar begin, Scalar end) noexcept {
   std::vector<MoverMotion<Scalar>>& motions = memory_.motions;
   for (std::size_t k = 0; k < movers_.size(); ++k)
     motions[k] = {begin > 0 ? movers_[k].at(begin) : movers_[k].from, movers_[k].at(end)};
@@ -71,8 +71,8 @@ void AmongMovers<Scalar>::set_motions(const Company& company, Scalar begin, Scal
 }
 
 template <class Scalar>
-MoveRequest<Scalar> AmongMovers<Scalar>::request_at(const Walker<Scalar>& walker, const Moment<Scalar>& at,
-                                                    Scalar end) noexcept {
+MoveRequest<Scalar> Stepper<Scalar>::request_at(const Walker<Scalar>& walker, const Moment<Scalar>& at,
+                                                Scalar end) noexcept {
   const Scalar duration = dt_ * (end - at.time);
   return {.position = at.state.position,
           .displacement = at.own * duration,
@@ -94,7 +94,7 @@ MoveRequest<Scalar> AmongMovers<Scalar>::request_at(const Walker<Scalar>& walker
 /// the range, or takes no time.
 /// @param at becomes the moment in which the way ends.
 template <class Scalar>
-bool AmongMovers<Scalar>::ask(std::size_t i, Scalar until, MoveResult<Scalar>& way, Moment<Scalar>& at) noexcept {
+bool Stepper<Scalar>::ask(std::size_t i, Scalar until, MoveResult<Scalar>& way, Moment<Scalar>& at) noexcept {
   const Walker<Scalar>& walker = walkers_[i];
   way.clear();
   while (at.time < until) {
@@ -111,8 +111,8 @@ bool AmongMovers<Scalar>::ask(std::size_t i, Scalar until, MoveResult<Scalar>& w
 }
 
 template <class Scalar>
-void AmongMovers<Scalar>::append(const MoveResult<Scalar>& part, Scalar begin, Scalar end,
-                                 MoveResult<Scalar>& way) const noexcept {
+void Stepper<Scalar>::append(const MoveResult<Scalar>& part, Scalar begin, Scalar end,
+                             MoveResult<Scalar>& way) const noexcept {
   const Way<Scalar> when{{part.path.begin(), part.path.size()}, begin, end};
   for (const PathPoint<Scalar>& corner : part.path) add_corner(way, {corner.position, when.time_of(corner.fraction)});
   if (part.path.overflowed())
@@ -132,17 +132,18 @@ void AmongMovers<Scalar>::append(const MoveResult<Scalar>& part, Scalar begin, S
 }
 
 template <class Scalar>
-void AmongMovers<Scalar>::pass_on(const MoveResult<Scalar>& part, Scalar end, Moment<Scalar>& at) const noexcept {
+void Stepper<Scalar>::pass_on(const MoveResult<Scalar>& part, Scalar end, Moment<Scalar>& at) const noexcept {
   CharacterState<Scalar>& state = at.state;
   at.time = end;
   state.position = part.position;
   state.grounded = part.grounded;
   state.ride = part.ride;
+  const Scalar fall = at.own.y();
   at.own = part.velocity;
-  at.steered = 0;  // from here on it is momentum
+  if (!part.contacts.empty()) at.steered = 0;  // from here on it is momentum
   if (state.ride.ground != Ride<Scalar>::none) at.own -= state.ride.velocity;
-  // The ground took its weight, which holds it to the ground for the rest as well.
-  if (part.grounded) at.own += gravity_ * dt_;
+  // What held it took its weight, which goes on for the rest of the step.
+  if (part.grounded || (fall < 0 && at.own.y() > fall / 2)) at.own += gravity_ * dt_;
   step_parts::note_freedom(part, state);
   state.pressers.clear();
   if (state.crushed) remember(part.pressers, state);
@@ -150,15 +151,14 @@ void AmongMovers<Scalar>::pass_on(const MoveResult<Scalar>& part, Scalar end, Mo
 
 /// Places for company are taken by others in the next step.
 template <class Scalar>
-void AmongMovers<Scalar>::remember(const Pressers<Scalar>& pressers, CharacterState<Scalar>& state) const noexcept {
+void Stepper<Scalar>::remember(const Pressers<Scalar>& pressers, CharacterState<Scalar>& state) const noexcept {
   state.pressers.clear();
   for (const Presser<Scalar>& presser : pressers)
     if (!is_companion(presser.collider)) state.pressers.push_back(presser);
 }
 
 template <class Scalar>
-typename AmongMovers<Scalar>::Outcome AmongMovers<Scalar>::outcome_of(std::size_t i,
-                                                                      const MoveResult<Scalar>& way) noexcept {
+typename Stepper<Scalar>::Outcome Stepper<Scalar>::outcome_of(std::size_t i, const MoveResult<Scalar>& way) noexcept {
   Outcome outcome;
   for (const ColliderIndex collider : way.crushed) {
     if (is_companion(collider))
@@ -171,7 +171,7 @@ typename AmongMovers<Scalar>::Outcome AmongMovers<Scalar>::outcome_of(std::size_
 
 /// A new way for the rest of the step.
 template <class Scalar>
-typename AmongMovers<Scalar>::Outcome AmongMovers<Scalar>::plan(std::size_t i) noexcept {
+typename Stepper<Scalar>::Outcome Stepper<Scalar>::plan(std::size_t i) noexcept {
   Walker<Scalar>& walker = walkers_[i];
   Outcome outcome;
   if (walker.now.time < 1) {
@@ -192,7 +192,7 @@ typename AmongMovers<Scalar>::Outcome AmongMovers<Scalar>::plan(std::size_t i) n
 }
 
 template <class Scalar>
-void AmongMovers<Scalar>::ask_to_stay(std::size_t i) noexcept {
+void Stepper<Scalar>::ask_to_stay(std::size_t i) noexcept {
   Walker<Scalar>& walker = walkers_[i];
   const Moment<Scalar>& from = walker.now;
   MoveResult<Scalar>& way = walker.plan;
@@ -216,7 +216,7 @@ void AmongMovers<Scalar>::ask_to_stay(std::size_t i) noexcept {
 
 /// For the rest of the step, in the world.
 template <class Scalar>
-void AmongMovers<Scalar>::stay(std::size_t i) noexcept {
+void Stepper<Scalar>::stay(std::size_t i) noexcept {
   Walker<Scalar>& walker = walkers_[i];
   walker.stays = walker.dropped = true;
   ask_to_stay(i);
@@ -225,7 +225,7 @@ void AmongMovers<Scalar>::stay(std::size_t i) noexcept {
 
 /// Adds a part of the way to what was made.
 template <class Scalar>
-void AmongMovers<Scalar>::make(std::size_t i, const MoveResult<Scalar>& way) noexcept {
+void Stepper<Scalar>::make(std::size_t i, const MoveResult<Scalar>& way) noexcept {
   Walker<Scalar>& walker = walkers_[i];
   MoveResult<Scalar>& made = member(i).step.move;
   for (const PathPoint<Scalar>& corner : way.path) add_corner(made, corner);
@@ -247,7 +247,7 @@ void AmongMovers<Scalar>::make(std::size_t i, const MoveResult<Scalar>& way) noe
 
 /// Makes the planned way up to a time: the technique is asked again, with less to go.
 template <class Scalar>
-void AmongMovers<Scalar>::go_on_to(std::size_t i, Scalar time) noexcept {
+void Stepper<Scalar>::go_on_to(std::size_t i, Scalar time) noexcept {
   Walker<Scalar>& walker = walkers_[i];
   if (!(time > walker.now.time)) return;
   const V there = place(i, time, false);
@@ -265,7 +265,7 @@ void AmongMovers<Scalar>::go_on_to(std::size_t i, Scalar time) noexcept {
 /// With less to go the technique would take another way, as where it gives way to what comes later: the one that was
 /// planned is made as it is.
 template <class Scalar>
-void AmongMovers<Scalar>::cut_plan(std::size_t i, Scalar time, const V& there) noexcept {
+void Stepper<Scalar>::cut_plan(std::size_t i, Scalar time, const V& there) noexcept {
   Walker<Scalar>& walker = walkers_[i];
   const MoveResult<Scalar>& plan = walker.plan;
   MoveResult<Scalar>& way = memory_.way;
