@@ -283,12 +283,16 @@ void Judge::judge_crushes(const Path& path, const TraceStep& step, const Touched
     const MoverIndex mover = header_.scenery.colliders[collider].mover;
     return mover != no_mover && step.movers[mover].from != step.movers[mover].to;
   };
-  const auto comes_closer = [&](ColliderIndex collider) {
-    if (!goes(collider)) return false;
-    const Place early(path.front().position, step.movers, 0);
-    const Place late(path.front().position, step.movers, 1);
+  const auto comes_closer_to = [&](const Place& early, ColliderIndex collider) {
+    const Place late(early.position, step.movers, 1);
     return scenery_.meets(early, late, collider) ||
            scenery_.separation(late, collider) < scenery_.separation(early, collider);
+  };
+  // To where it began, or to where it was held: a mover that takes it along to there may go away from the former.
+  std::size_t held = path.size() - 1;
+  while (held > 0 && path[held - 1].position == path.back().position) --held;
+  const auto comes_closer = [&](ColliderIndex collider) {
+    return goes(collider) && (comes_closer_to(path.front(), collider) || comes_closer_to(path[held], collider));
   };
   std::vector<ColliderIndex> pressing = step.crushed;
   const std::vector<ColliderIndex> entered = promises_ ? std::vector<ColliderIndex>{} : newly_inside(judgement);

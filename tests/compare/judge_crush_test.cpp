@@ -275,6 +275,15 @@ TEST(JudgeCrush, by_what_rests_or_goes_away_is_refuted) {
   }
 }
 
+TEST(JudgeCrush, by_what_comes_closer_only_to_where_it_is_held_is_verified) {
+  // It goes to the right, under a ceiling, and is met from below there. From where it began the mover goes away.
+  Judge judge(promising({box(-4, 0.625 + gap, 6, 2), moving(box(2.1, -1.1, 2.9, -0.9))}));
+  TraceStep held = step({{0, 0}, {2.5, 0}, {2.5, 0}});
+  held.movers = {{{0, 0}, {0.1, 0.5}}};
+  held.crushed = {1};
+  EXPECT_EQ(judge.judge(held).crushed, Colliders{1});
+}
+
 TEST(JudgeCrush, who_has_no_word_for_it_is_asked_for_room_all_the_same) {
   for (const bool path_exact : {true, false}) {
     Judge judge(header(press(), path_exact));

@@ -53,6 +53,22 @@ struct Shaft {
 
 using Colliders = std::vector<ColliderIndex>;
 
+TEST(Crushed, by_what_passes_in_one_step_although_something_else_comes_closer_by_next_to_nothing) {
+  constexpr double top = 2 * half_height;
+  constexpr double aside = half_width + tolerances.stop;
+  Stepper<double> pressed{{rectangle(-5, -1, 5, -tolerances.stop), rectangle(aside, 0, 5, 3),
+                           moving(rectangle(-5, 0, -aside, 3), 0), moving(rectangle(-0.2, top + 1, 0.2, top + 1.2), 1),
+                           moving(rectangle(-50, 0.5, -49, 0.7), 2)}};
+  pressed.gravity = {0, 0};
+  pressed.at(0, half_height);
+  pressed.movers[1].to = {0, -1.1};
+  ASSERT_EQ(pressed.step(), StepStatus::crushed);
+  pressed.movers = {{{0, 0}, {1e-17, 0}}, {{0, -1.1}, {0, -1.1}}, {{0, 0}, {1e5, 0}}};
+  EXPECT_EQ(pressed.step(), StepStatus::crushed);
+  ASSERT_EQ(pressed.report.move.crushed.size(), 1U);
+  EXPECT_EQ(pressed.report.move.crushed[0], 4U);
+}
+
 TEST(CrushedTwice, from_below_and_then_from_above_it_stays_and_both_are_named) {
   Shaft shaft;
   const Vec2d stays = shaft.pressed.state.position;

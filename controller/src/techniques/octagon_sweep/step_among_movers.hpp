@@ -42,6 +42,7 @@ bool StepSolver<variant, Scalar>::kept_clear_by_hold(const LocalMotion& motion, 
   constexpr Scalar noise = std::numeric_limits<Scalar>::epsilon() * 32;
   for (const Hold<Scalar>& hold : moving_.holds) {
     if (hold.piece != piece) continue;
+    if (moving_.looks_past_holds) return true;
     const Scalar start = space_.separation(piece, hold.axis, motion.from);
     const Scalar out = hold.normal.x() * motion.way.x() + hold.normal.y() * motion.way.y();
     Scalar size = std::abs(motion_.way.x()) + std::abs(motion_.way.y());
@@ -109,9 +110,9 @@ void StepSolver<variant, Scalar>::update_holds() noexcept {
                                    [&hold](const Stop<Scalar>& stop) { return stop.piece == hold.piece; });
     if (again || ignored(hold.piece)) continue;
     const V at = local(hold.piece, position_);
-    if (best_axis<variant>(space_, hold.piece, at).separation <= touch &&
-        std::abs(space_.separation(hold.piece, hold.axis, at)) <= touch)
-      holds.push_back(hold);
+    const bool touched = best_axis<variant>(space_, hold.piece, at).separation <= touch &&
+                         std::abs(space_.separation(hold.piece, hold.axis, at)) <= touch;
+    if (touched || moving_.looks_past_holds) holds.push_back(hold);
   }
 }
 

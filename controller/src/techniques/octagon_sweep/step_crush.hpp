@@ -192,22 +192,25 @@ void StepSolver<variant, Scalar>::hand_on_pressers() noexcept {
     for (const bool has_side : {true, false}) hand_on(companions, has_side);
 }
 
-/// The character keeps its position for the rest of the step, and what runs into it crushes.
+/// The character keeps its position for the rest of the step, and what runs into it crushes. What is touched and does
+/// not come closer is looked past: what runs into the character later would be hidden behind it.
 /// @param may_give_way it goes where there is room instead.
 template <Variant variant, class Scalar>
 void StepSolver<variant, Scalar>::stay(bool may_give_way) noexcept {
   halt();
   moving_.holds.clear();
-  while (true) {
-    look_along(V::Zero());
+  moving_.looks_past_holds = true;
+  look_along(V::Zero());
+  while (found_.hit) {
     update_holds();
-    const std::size_t before = result_.crushed.size();
-    if (may_give_way && found_.hit && gives_way()) return;
-    for (const Hold<Scalar>& hold : moving_.holds)
-      if (presses(hold)) crush(hold.piece);
-    moving_.holds.clear();
-    if (result_.crushed.size() == before) break;
+    if (may_give_way && gives_way()) {
+      moving_.looks_past_holds = false;
+      return;
+    }
+    crush_what_presses();
+    look_along(V::Zero());
   }
+  moving_.looks_past_holds = false;
   moving_.anchored = false;
   const Scalar since = time_;
   time_ = 1;

@@ -79,6 +79,7 @@ struct MoverState {
   Ride<Scalar> ride{};                  ///< What carries the character in this step; `velocity` is that of this step.
   MoverIndex carrier = no_mover;        ///< Its mover; none for a conveyor that stands still.
   bool anchored = false;                ///< The character has not moved on what carries it.
+  bool looks_past_holds = false;        ///< See `stay`.
   std::uint8_t ignored = goes_through;  ///< Colliders of these roles are not in the way.
   std::size_t on_it = 0;                ///< How many lie on the character since an earlier step.
   bool side_lost = false;               ///< One of them is not known to have come from any side.
