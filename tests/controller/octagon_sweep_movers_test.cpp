@@ -283,6 +283,23 @@ TEST(Push, up_a_slope_follows_the_slope) {
   EXPECT_NEAR(pushed.state.position.y() - from.y(), (pushed.state.position.x() - from.x()) * rise, 1e-6);
 }
 
+TEST(Wedge, of_two_movers_ends_a_fall_and_is_not_climbed) {
+  CharacterDef steep_at_once;
+  steep_at_once.max_climb_degrees = 20;
+  for (const double side : {1.0, -1.0}) {
+    // It falls onto the steeper one, and what it slides with points up the other.
+    const ColliderDef flatter = polygon({{0, -1}, {-3 * side, -1}, {-3 * side, 0.7}});
+    const ColliderDef steeper = polygon({{0, -1}, {3 * side, -1}, {3 * side, 2.5}});
+    Stepper<double> fallen({moving(flatter, 0), moving(steeper, 1)}, steep_at_once);
+    fallen.movers = {{{0, 0}, {-8e-4 * side, 0}}, {{0, 0}, {0, -9e-4}}};
+    fallen.at(0.3 * side, 2).with_velocity(0, -300);
+    fallen.step();
+    EXPECT_LE(fallen.report.move.contacts.size(), 6U);
+    for (std::size_t k = 1; k < fallen.report.move.path.size(); ++k)
+      EXPECT_LE(fallen.report.move.path[k].position.y(), fallen.report.move.path[k - 1].position.y() + 1e-6) << side;
+  }
+}
+
 TEST(OneWayLift, carries_from_above_and_is_passed_from_below) {
   Stepper<double> rider({moving(chain({{-3, 0}, {3, 0}}, Vec2d{0, 1}))});
   rider.at(0, half_height + tolerances.stop);

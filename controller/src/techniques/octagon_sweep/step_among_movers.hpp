@@ -206,16 +206,24 @@ bool StepSolver<variant, Scalar>::respond_in_crease(Drive<Scalar>& drive) noexce
   return true;
 }
 
-/// The nearest motion that all surfaces allow; with steering only where that does not hold a fall.
+/// The nearest motion that all surfaces allow; with steering, and with what there is of horizontal momentum, only where
+/// that does not hold a fall: between two steep surfaces it would become a climb.
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::respond_together(Drive<Scalar>& drive) const noexcept {
-  const auto wanted = nearest_allowed_to(drive.way.wanted, drive.velocity.wanted);
+  const Wish<Scalar> way = drive.way;
+  const Wish<Scalar> velocity = drive.velocity;
+  const auto wanted = nearest_allowed_to(way.wanted, velocity.wanted);
   if (!wanted) {
     drive.velocity.wanted = drive.velocity.unsteered = V::Zero();
     return false;
   }
-  const auto unsteered = nearest_allowed_to(drive.way.unsteered, drive.velocity.unsteered);
-  drive = unsteered && unsteered->way.wanted.y() < wanted->way.wanted.y() ? *unsteered : *wanted;
+  drive = *wanted;
+  const auto falls_by = [&](const V& way_down, const V& velocity_down) {
+    const auto falling = nearest_allowed_to(way_down, velocity_down);
+    if (falling && falling->way.wanted.y() < drive.way.wanted.y()) drive = *falling;
+  };
+  falls_by(way.unsteered, velocity.unsteered);
+  if (way.unsteered.y() < 0) falls_by({0, way.unsteered.y()}, {0, velocity.unsteered.y()});
   return true;
 }
 
