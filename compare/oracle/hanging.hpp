@@ -30,7 +30,7 @@ class HangingJudge {
   [[nodiscard]] bool hangs(const Vec2d& made, const Reach& reach) const;
 
  private:
-  /// What a displacement fulfils that keeps clear of an obstacle on one side of it: normal · d >= bound.
+  /// The displacements that stay outside an obstacle, beyond one of its faces: normal · d >= bound.
   struct HalfPlane {
     Vec2d normal;
     double bound = 0;       ///< [m]

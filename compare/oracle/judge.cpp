@@ -60,7 +60,7 @@ StepJudgement Judge::judge(const TraceStep& step, const Others& others) {
 
 StepJudgement Judge::judge_exactly(const TraceStep& step, const Others& others) {
   if (step.movers.size() < mover_count_) throw std::invalid_argument("a step needs the motion of every mover");
-  if (repeats(step)) return last_->second;
+  if (!others.near && repeats(step)) return last_->second;  // others may have gone
   dt_ = length_of(step, header_);
   StepJudgement judgement;
   const Path path = path_of(step);
@@ -142,6 +142,7 @@ bool Judge::continues(const TraceStep& step, const Place& start) const {
 
 void Judge::begin_episodes(const Place& start) {
   inside_.clear();
+  asked_way_out_.reset();
   for (const ColliderIndex collider : scenery_.overlapped(start)) {
     inside_[collider] = {.free_from = {}, .depth = scenery_.penetration(start, collider)};
   }

@@ -46,7 +46,8 @@ struct StepJudgement {
   bool excused_crush = false;                    ///< Some of `crushed` had room, and touched another character.
   std::optional<Vec2d> room;                     ///< Where that was, if something was reported as crushing.
   double max_penetration = 0;                    ///< At the end of the step, apart from `pressed` [m].
-  double max_contact_gap = 0;  ///< Over the reported contacts: exact separation where the contact stopped it [m].
+  double max_contact_gap =
+      0;  ///< Over the reported contacts: the smallest exact separation at any corner of the way [m].
   std::vector<ExactContact> contacts;  ///< What should have been reported.
   std::vector<ColliderIndex>
       dont_care;  ///< Within reach of what the contender calls touching: neither right nor wrong.
@@ -64,7 +65,7 @@ struct StepJudgement {
   std::optional<double> first_impact;    ///< Exact fraction of the first impact of the requested motion, started free.
   bool first_impact_comparable = false;  ///< A reported fraction can be held against it: see `Judge`.
   bool hangs = false;                    ///< It could have fallen, and did not: see `Judge`.
-  bool hovers = false;          ///< It would hang, but for what is within the contender's own reach and not near.
+  bool hovers = false;          ///< It would hang if only what is within 1e-6 m counted: its own larger reach holds it.
   double remainder_made = 0;    ///< Horizontally, taken up by a grid to be made later [m].
   double motion_wanted = 0;     ///< Horizontally [m].
   double motion_lost = 0;       ///< Of that, to nothing exact [m]: see `Judge`.
@@ -194,8 +195,8 @@ struct StepJudgement {
 /// **What turns** is judged apart, between bounds: see oracle/turning.hpp.
 ///
 /// **Ghost speed loss.** Horizontal speed was lost to nothing where the step began free and crushed nobody, and no
-/// solid opposes the wanted horizontal motion within the step and the skin beyond (20 mm for Box2D), from any corner of
-/// the path.
+/// solid opposes the wanted horizontal motion within the step and the contender's reach beyond it (octagon_sweep in
+/// double: 1e-6 m; Box2D: 20 mm), from any corner of the path.
 class Judge {
  public:
   explicit Judge(const TraceHeader& header);

@@ -21,9 +21,10 @@ struct Barrier {
 /// are within `reach`; in doubles, so that each is still to be checked.
 ///
 /// In configuration space every obstacle is convex, and so is its shadow from `at`: what lies behind it, between its
-/// two tangents. Going outwards nobody leaves a shadow, and a solid that may not be passed is met from outside. So
-/// where the shortest way ends it leaves an obstacle that may be passed: on a facet of one of these, at the foot of the
-/// perpendicular or where another obstacle or a shadow begins. Every such facet is cut by all of them.
+/// two tangents. A straight way that has entered a shadow never leaves it, and a solid that may not be passed is
+/// entered from outside. So where the shortest way ends it leaves an obstacle that may be passed: on a facet of one of
+/// these, at the foot of the perpendicular or where another obstacle or a shadow begins. Every such facet is cut by all
+/// of them.
 /// @param clearance that the ends keep from every obstacle [m].
 /// @param beside that they keep from the edges of a shadow [m].
 [[nodiscard]] std::vector<Vec2d> ways_out(std::span<const Barrier> barriers, std::span<const Vec2d> octagon,

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <tuple>
 #include <utility>
 
 #include "crowd/joint_technique.hpp"
@@ -164,10 +163,7 @@ StepStatus Crowd<Scalar>::step_jointly(std::span<CharacterState<Scalar>> states,
     return report.status = StepStatus::out_of_range;
   for (std::size_t i = 0; i < states.size(); ++i) {
     CrowdMember<Scalar>& member = report.members[i];
-    const auto earlier = [](const CrowdContact<Scalar>& a, const CrowdContact<Scalar>& b) {
-      return std::tie(a.fraction, a.other, a.side) < std::tie(b.fraction, b.other, b.side);
-    };
-    std::sort(member.met.begin(), member.met.end(), earlier);  // they were found round by round
+    crowd::sort_by_time(member.met);
     controller_.end_together(inputs[i], movers, memory.technique, memory.states[i], member.step);
     states[i] = memory.states[i];
   }

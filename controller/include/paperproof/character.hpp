@@ -96,22 +96,21 @@ struct Ride {
   friend bool operator==(const Ride&, const Ride&) = default;
 };
 
-/// What has come over a crushed character, and is on it still.
+/// A collider that ran over a crushed character and still overlaps it.
 template <class Scalar>
 struct Presser {
   ColliderIndex collider = 0;
-  /// Where the character was when it came over it, free of it until then [m],
+  /// The character's position when the collider first ran over it; it was free of the collider until then [m].
   Vec2<Scalar> from{Vec2<Scalar>::Zero()};
-  /// and how far it has gone since that moment [m]: what is seen of it from there, moved on by so much, is the side
-  /// from which the character came.
+  /// How far the collider has moved since [m]. Seen from the collider, the character came from `from + gone`.
   Vec2<Scalar> gone{Vec2<Scalar>::Zero()};
   bool has_side = true;  ///< False: which side that is was lost, as more were on the character than are remembered.
 
   friend bool operator==(const Presser&, const Presser&) = default;
 };
-/// Those that are on a character at once: a state stays a plain value, so only so many are remembered. With more the
-/// character stays where it is as long as any of the others is on it, also where there would be room: no way could be
-/// known to lead to the side from which it came. Whatever else runs into it meanwhile crushes it, too.
+/// A state remembers at most eight. If more overlap the character, it stays where it is until the others are gone, even
+/// where there is room, because the side it came from is unknown. Other movers that run into it meanwhile crush it,
+/// too.
 template <class Scalar>
 using Pressers = FixedVector<Presser<Scalar>, 8>;
 

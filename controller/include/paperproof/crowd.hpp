@@ -78,8 +78,8 @@ struct CrowdScratch {
 /// Its guarantee, beside that of `octagon_sweep` for each of them: characters that were apart stay apart, and do not
 /// pass through each other. What cannot be shown to be safe stays where it is (`dropped`); what a mover then does to it
 /// is reported as a crush. Characters that overlap are reported; they get out of each other, and restore their gaps, as
-/// out of solids. That there was no room for who is crushed, and that nobody hangs, is promised only where nobody
-/// touched it during the step.
+/// out of solids. Two promises hold only for a character that no other touched during the step: reported crushed, it
+/// had no room; and it does not hang.
 ///
 /// By `discrete`, which guarantees nothing: all are bodies of one joint solve, of the same mass. Only the start and the
 /// expected end of the step are looked at. Characters whose boxes around both overlap form islands; in each, those that

@@ -50,7 +50,8 @@ struct MoveRequest {
   bool has_last_free = false;
   bool grounded = false;  ///< The last step ended on the ground, and this one does not begin with a jump.
   bool crushed = false;   ///< See `CharacterState::crushed`.
-  /// It goes on within a step: no way is looked for out of what crushed the character, which may have been just now.
+  /// This request continues a step that has begun. No way out of crushing movers is looked for: they may have run over
+  /// the character in this very step.
   bool resumes = false;
   bool drop = false;  ///< One-way chains hold nobody: see `Input::drop`.
   /// The character keeps its place in the world, and every mover that runs into it crushes it, room or not. Only

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace paperproof::crowd {
 
@@ -17,11 +18,11 @@ template <class Scalar>
   return a.x() * b.x() + a.y() * b.y();
 }
 
-/// One contact per collider and side, the earliest, as a technique reports them.
+/// One contact per collider and normal, the earliest, as a technique reports them.
 template <class Scalar>
 void add_contact(MoveResult<Scalar>& move, const Contact<Scalar>& contact) noexcept {
   const bool known = std::any_of(move.contacts.begin(), move.contacts.end(), [&](const Contact<Scalar>& other) {
-    return other.collider == contact.collider && other.side == contact.side;
+    return other.collider == contact.collider && other.normal == contact.normal;
   });
   if (!known) move.contacts.push_back(contact);
 }
@@ -59,6 +60,14 @@ void note_meeting(CrowdMember<Scalar>& member, std::size_t other, const Vec2<Sca
     return earlier.other == contact.other && earlier.side == contact.side;
   });
   if (!known) member.met.push_back(contact);
+}
+
+/// Impacts are not found in the order of their times.
+template <class Scalar>
+void sort_by_time(FixedVector<CrowdContact<Scalar>, 16>& met) noexcept {
+  std::sort(met.begin(), met.end(), [](const CrowdContact<Scalar>& a, const CrowdContact<Scalar>& b) {
+    return std::tie(a.fraction, a.other, a.side) < std::tie(b.fraction, b.other, b.side);
+  });
 }
 
 /// An impact is handled: both report it.
@@ -151,9 +160,8 @@ void take_end(const MoveResult<Scalar>& from, MoveResult<Scalar>& to) noexcept {
   to.ride = from.ride;
 }
 
-/// The parts of a way were made one by one, and each may be a little off what was planned. All pairs are looked at once
-/// more; whoever comes too near is kept back where the step began, which is free of the others and of what stands
-/// still; and so on with those who go through there.
+/// A way is made in parts, and rounding may shift each part. So all pairs are checked once more. Both of a pair that
+/// comes too near go back to where they began, which is free; this repeats until no pair meets.
 /// @param box_of(i) around the shape along the whole way of a member.
 /// @param keep_back(i) replaces its way, and notes that it stayed.
 template <class Scalar, class BoxOf, class KeepBack>

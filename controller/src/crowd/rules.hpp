@@ -11,7 +11,8 @@ template <class Scalar>
 struct CrowdRules {
   PairSpace<Scalar> space;
   Scalar walkable_cosine;  ///< Least upward component of a normal that is stood on.
-  int most_impacts;        ///< Of one character in one step, before it stays where it is.
+  int most_impacts;        ///< Of one character in one step before it gives up its own motion; after twice as many it
+                           ///< stays.
   Stages stages;           ///< What was not left out.
 };
 

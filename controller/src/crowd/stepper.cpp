@@ -76,7 +76,10 @@ StepStatus Stepper<Scalar>::begin(std::span<const CharacterState<Scalar>> states
     member(i).step.requested = walker.now.own * dt_;
     member(i).step.steered = desired.steered * dt_;
     walker.end = walker.now;
-    if (!ask(i, 1, walker.plan, walker.end)) return StepStatus::out_of_range;
+    if (!ask(i, 1, walker.plan, walker.end)) {
+      if (!walker.plan.path.overflowed()) return StepStatus::out_of_range;
+      stay(i);
+    }
     walker.is_stuck = walker.plan.status == MoveStatus::stuck;
     walker.box = box_along(space_, walker.plan.path);
   }
@@ -224,6 +227,7 @@ void Stepper<Scalar>::hand_out(std::size_t i, CharacterState<Scalar>& state) noe
   Walker<Scalar>& walker = walkers_[i];
   StepReport<Scalar>& report = member(i).step;
   MoveResult<Scalar>& move = report.move;
+  sort_by_time(member(i).met);
   if (!move.crushed.empty())
     move.status = MoveStatus::crushed;
   else if (!walker.end.state.pressers.empty())

@@ -76,7 +76,7 @@ struct WalkerMemory {
   std::vector<RowBest<Scalar>> rows;
   std::vector<MoverMotion<Scalar>> motions;  ///< Of the scene's movers and of all places, during a part of a way.
   MoveResult<Scalar> part;                   ///< What the technique says about that part.
-  MoveResult<Scalar> way;                    ///< Up to an impact.
+  MoveResult<Scalar> way;                    ///< The way that was asked for last: a part, a plan, or a second try.
   std::vector<ReportMemory<ColliderIndex>> crushed;  ///< For what the report of each has no room for.
 };
 

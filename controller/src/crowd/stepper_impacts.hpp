@@ -76,8 +76,8 @@ void Stepper<Scalar>::meet(std::size_t i, std::size_t j, const Meeting<Scalar>& 
   slow_down(i, normal, std::max(Scalar(0), -dot(second_rate, normal)) / dt_ - away);
   slow_down(j, V(-normal), std::max(Scalar(0), dot(first_rate, normal)) / dt_ + away);
   const auto [upper, lower] = is_above(i, j) ? std::pair(i, j) : std::pair(j, i);
-  // Were the upper one no obstacle, ground would turn what is left of the lower one's motion into it, and push it.
-  // But what a mover pushes is pushed on.
+  // The upper one stands still as an obstacle first. Otherwise the ground would deflect the lower one's motion into it
+  // and push it. A lower one that a mover pushes does push it on.
   stand_still(upper, ride_of(lower));
   if (!give_way(lower, upper).free()) take_back(lower, upper);
   one_gives_way(upper, lower);
@@ -170,8 +170,8 @@ void Stepper<Scalar>::take_back(std::size_t i, std::size_t other) noexcept {
   plan(i);
 }
 
-/// The one gives way. Where it is pushed, and has no room, the other gives way instead, and is pushed on; where that
-/// one has no room either, the first is between them: it heeds only the other, so that whoever pushed it heeds it.
+/// First `i` gives way. If it is pushed and has no room, `other` gives way. If neither has room, `i` is squeezed: it
+/// then heeds only `other`, so that whatever pushed `i` must heed `i`.
 template <class Scalar>
 void Stepper<Scalar>::one_gives_way(std::size_t i, std::size_t other) noexcept {
   if (!may_go_on(i)) return;

@@ -25,7 +25,7 @@ struct NextMeeting {
   Meeting<Scalar> meeting;
 };
 
-/// Knows of every character whom of a higher index it meets first. A view of its rows.
+/// For each character, its earliest meeting with a character of a higher index. Does not own its rows.
 ///
 /// `meeting(i, j)` answers when two meet, i < j, as their ways are now.
 template <class Scalar>

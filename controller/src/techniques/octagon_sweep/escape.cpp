@@ -2,10 +2,10 @@
 ///
 /// In configuration space the start p lies in the obstacles of some colliders. A way out may pass those, but must not
 /// end in them; of every other solid it must avoid the shadow that this has from p, and its obstacle with the gap. All
-/// of these regions are convex. Going outwards nobody leaves a shadow, and what may not be passed is met from outside:
-/// so the shortest way ends where it leaves the obstacle of a collider that it may pass. That is on a facet of one, at
-/// the foot of the perpendicular, or where the last of the regions stops to cover the facet. So along every such facet
-/// the nearest uncovered place is looked for on both sides of its foot.
+/// of these regions are convex. A straight way that has entered a shadow never leaves it, and a solid that may not be
+/// passed is entered from outside: so the shortest way ends where it leaves the obstacle of a collider that it may
+/// pass. That is on a facet of one, at the foot of the perpendicular, or where the last of the regions stops to cover
+/// the facet. So along every such facet the nearest uncovered place is looked for on both sides of its foot.
 ///
 /// Where the end must be seen from the last free position as well, the shadows of all pieces from there are further
 /// regions. Those can be left going outwards: their tangents, and the facets of one-way segments, are looked along in
@@ -282,7 +282,8 @@ class Escape {
 
   // What is checked.
 
-  /// @return whether there is a way that ends there; nearer ones only are taken.
+  /// @return true: the search along this line ends, as a way ends here or no place from here on is nearer than the
+  /// best.
   [[nodiscard]] bool consider(const V& way) noexcept {
     const V q = query_.from + way;
     const Scalar distance = length_of(V(q - query_.from));

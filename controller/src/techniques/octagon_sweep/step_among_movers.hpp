@@ -3,7 +3,8 @@
 /// Everything is swept in order of time of impact: a motion w over the rest of the step is, as a mover sees it that
 /// goes by d in that time, the motion w - d. Every surface that is touched holds the character: with normal n it allows
 /// what keeps n·w >= n·d. Where the response to one surface after the other does not satisfy all, the nearest allowed
-/// motion is taken; where there is none the character stays where it is and what moves into it is reported as a crush.
+/// motion is taken. Where there is none, room is looked for (step_room.hpp); without room the character stays, and what
+/// moves into it is reported as a crush.
 #pragma once
 
 #include "techniques/octagon_sweep/half_planes.hpp"

@@ -94,9 +94,9 @@ bool StepSolver<variant, Scalar>::let_through(const Condition& condition) noexce
   return any;
 }
 
-/// What the character remembers of it from the steps before is looked up: that may be of other scenery, and name what
-/// is not here. What it does not remember came over it at its last free position, as far as it has one; but where as
-/// much as it can remember came over it, the side of the rest is lost.
+/// Looks up each overlapping mover in the state's list. The list may come from other scenery, so unknown entries are
+/// skipped. A mover that is not in the list is taken to have come at the last free position; if the list is full, its
+/// side counts as lost.
 template <Variant variant, class Scalar>
 bool StepSolver<variant, Scalar>::let_through_what_is_on_it(const MoveRequest<Scalar>& request) noexcept {
   const bool any = let_through([this](PieceIndex piece) { return overlaps(piece, position_); });
@@ -160,8 +160,8 @@ const Presser<Scalar>* StepSolver<variant, Scalar>::presser(ColliderIndex collid
   return nullptr;
 }
 
-/// What of all that was let through is on the character where the step ends: it has it stuck. Whatever is off again is
-/// forgotten.
+/// Marks the colliders that were let through and still overlap the character at the end of the step; such a step is
+/// `stuck` unless it is `crushed`. Forgets the others.
 template <Variant variant, class Scalar>
 void StepSolver<variant, Scalar>::end_wait() noexcept {
   if (memory().marked.empty()) return;
@@ -178,8 +178,8 @@ void StepSolver<variant, Scalar>::end_wait() noexcept {
   hand_on_pressers();
 }
 
-/// Those whose side is known come first: where not all find room in a state, it is only known of the others that they
-/// are there. Companions are others in the next step.
+/// Hands on scene movers before companions (a companion's place belongs to another character in the next step), and
+/// within each those with a known side first.
 template <Variant variant, class Scalar>
 void StepSolver<variant, Scalar>::hand_on_pressers() noexcept {
   const auto hand_on = [this](bool companions, bool has_side) {

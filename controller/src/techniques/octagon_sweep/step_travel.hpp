@@ -92,7 +92,7 @@ void StepSolver<variant, Scalar>::keep_ground() noexcept {
   order_stops();
 }
 
-/// What the step wants, and what it would want without steering.
+/// Notes this step's steering and length, and whether it begins as a walk on the ground.
 template <Variant variant, class Scalar>
 void StepSolver<variant, Scalar>::begin_drive(const MoveRequest<Scalar>& request) noexcept {
   steered_ = request.steered;
@@ -102,6 +102,7 @@ void StepSolver<variant, Scalar>::begin_drive(const MoveRequest<Scalar>& request
       request.grounded && request.velocity.y() <= std::abs(request.velocity.x()) * settings_.walkable_tangent;
 }
 
+/// What the step wants, and what it would want without steering.
 template <Variant variant, class Scalar>
 Drive<Scalar> StepSolver<variant, Scalar>::drive() const noexcept {
   return {{motion_.way, {motion_.way.x() - steered_ * dt_, motion_.way.y()}},
