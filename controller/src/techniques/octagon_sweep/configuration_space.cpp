@@ -233,6 +233,7 @@ void ConfigurationSpace<Scalar>::build_covered(PieceIndex piece, std::span<const
           inside.to = -1;
       }
       if (inside.from < inside.to) covered.push_back(inside);
+      if (inside.from == 0 && inside.to == 1) break;  // nothing is left to be covered
     }
     const double length = std::sqrt(span.dot(span));
     if (!covered.empty() && open_share(covered) * length <= open_enough)
