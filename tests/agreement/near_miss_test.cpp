@@ -2,6 +2,7 @@
 /// for what comes nearer than the hit distance.
 #include "oracle/exact.hpp"
 #include "support/random.hpp"
+#include "support/steps_wanted.hpp"
 
 #include <paperproof/controller.hpp>
 
@@ -45,7 +46,7 @@ Flight past_a_corner(Random& random, double nearer) {
 
 TEST(NearMiss, is_told_from_a_hit_as_exact_arithmetic_does) {
   constexpr std::uint64_t seed = 71;
-  constexpr int flights = 20000;
+  constexpr int flights = sampled(20000);
   Random random(seed);
   int hits = 0;
   int too_near_to_tell = 0;

@@ -25,8 +25,8 @@ struct Played {
   int in_air = 0;
   int steering = 0;  ///< Against something, in the air.
   int hanging = 0;
-  int broken = 0;    ///< Ended inside, or passed something.
-  int unnamed = 0;   ///< Stopped by what exact arithmetic confirms, and the report does not name.
+  int broken = 0;   ///< Ended inside, or passed something.
+  int unnamed = 0;  ///< Stopped by what exact arithmetic confirms, and the report does not name.
   int dropped = 0;
   int stuck = 0;
 
@@ -146,7 +146,7 @@ class Game {
 class Play : public ::testing::TestWithParam<PlayLevel> {};
 
 TEST_P(Play, never_hangs_at_any_rate) {
-  const int wanted = steps_wanted("PAPERPROOF_PLAY_STEPS", 4000);
+  const int wanted = steps_wanted("PAPERPROOF_PLAY_STEPS", sampled(4000));
   Played played;
   for (const double rate : {60.0, 240.0, 1000.0}) {
     const int until = played.steps + wanted;

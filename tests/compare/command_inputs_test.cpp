@@ -2,6 +2,7 @@
 #include "compare/command_workplace.hpp"
 #include "compare/png_files.hpp"
 #include "one_line.hpp"
+#include "support/steps_wanted.hpp"
 
 #include <sys/stat.h>
 
@@ -157,7 +158,7 @@ TEST(CommandInputs, what_is_too_large_is_refused_with_the_bound) {
 
 TEST(CommandInputs, a_message_is_one_line_of_at_most_300_bytes_that_keeps_file_and_place) {
   const Workplace place;
-  const std::string digits(100'000, '9');
+  const std::string digits(paperproof::test::sampled(100'000), '9');
   place.write("digits.json", with(good_scene, "0.016", digits));
   place.write("line.tmj", "{\"layers\":[1,oops" + std::string(8000, '\'') + "]}");
   place.write("key.json", with(good_scene, "\"dt\"", "\"" + std::string(9000, 'k') + "\": 1, \"dt\""));

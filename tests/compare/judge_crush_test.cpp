@@ -1,5 +1,6 @@
 #include "compare/judge_steps.hpp"
 #include "oracle/company.hpp"
+#include "support/steps_wanted.hpp"
 
 #include <gtest/gtest.h>
 
@@ -201,7 +202,7 @@ TEST(FreeSpace, a_place_that_is_found_keeps_the_clearance_and_none_is_missed) {
   constexpr double clearance = 0.02;
   constexpr double reach = 0.75;
   int with_room = 0;
-  constexpr int rounds = 300;
+  constexpr int rounds = paperproof::test::sampled(300);
   for (int i = 0; i < rounds; ++i) {
     std::vector<ColliderDef> colliders;
     for (int k = 0; k < 14; ++k) {

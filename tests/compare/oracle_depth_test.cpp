@@ -1,4 +1,5 @@
 #include "compare/exact_shapes.hpp"
+#include "support/steps_wanted.hpp"
 
 #include <gtest/gtest.h>
 
@@ -23,7 +24,7 @@ TEST(ExactDepth, leaving_by_it_along_the_normal_of_an_overlap_frees) {
   constexpr std::uint64_t seed = 25;
   Random random(seed);
   int overlaps = 0;
-  constexpr int rounds = 1000;
+  constexpr int rounds = paperproof::test::sampled(1000);
   for (int i = 0; i < rounds; ++i) {
     std::vector<Vec2d> triangle{random.point(1), random.point(1), random.point(1)};
     const ExactScenery world(scenery({polygon(triangle)}), octagon());

@@ -1,4 +1,5 @@
 #include "compare/exact_shapes.hpp"
+#include "support/steps_wanted.hpp"
 
 #include <gtest/gtest.h>
 
@@ -57,7 +58,7 @@ TEST(ExactMovers, a_way_among_movers_agrees_with_clipping_in_rationals) {
   constexpr std::uint64_t seed = 41;
   Random random(seed);
   int met = 0;
-  constexpr int rounds = 2000;
+  constexpr int rounds = paperproof::test::sampled(2000);
   for (int i = 0; i < rounds; ++i) {
     const Vec2d centre = random.point(1);
     const std::vector<Vec2d> ring = star(random, centre, 0.8, 3 + random.below(6));

@@ -143,7 +143,7 @@ TEST(PlanOfScenes, random_input_may_jump) {
 }
 
 TEST(PlanOfScenes, planned_and_full_give_the_same_bits_on_every_registered_scene) {
-  for (const BuiltInScene& entry : built_in_scenes()) {
+  for (const BuiltInScene& entry : test::sampled_of(built_in_scenes())) {
     const Scene scene = built_in(entry.name);
     const Scenery<double> scenery(scene.scenery);
     const int steps = std::min(scene.steps, most_steps);

@@ -1,6 +1,7 @@
 /// Runs of several characters, and the exact answers of their scenes.
 #include "compare/scene_runs.hpp"
 #include "scenes/built_in.hpp"
+#include "support/steps_wanted.hpp"
 
 #include <algorithm>
 
@@ -16,21 +17,21 @@ struct CrowdRan {
   }
 };
 
-/// @param hangs some may: what is steered into others in the air cancels a fall.
-CrowdRan ran(const std::string& name) {
-  const Scene scene = built_in(name);
+CrowdRan ran(const Scene& scene) {
   RunOptions options = quick();
   options.contenders = {"octagon_sweep"};
   options.reference = false;
   options.max_replay_steps = scene.steps;
   const ReportScene result = run_scene(scene, options);
   CrowdRan all{row_of(result, "octagon_sweep"), run_of(result, "octagon_sweep")};
-  EXPECT_EQ(all.row.verdict, Verdict::holds) << name << ": " << all.row.reason;
-  EXPECT_EQ(all.row.tunnels, 0) << name;
-  EXPECT_EQ(all.row.steps_ending_inside, 0) << name;
-  EXPECT_EQ(all.row.characters, static_cast<int>(character_count(scene))) << name;
+  EXPECT_EQ(all.row.verdict, Verdict::holds) << scene.name << ": " << all.row.reason;
+  EXPECT_EQ(all.row.tunnels, 0) << scene.name;
+  EXPECT_EQ(all.row.steps_ending_inside, 0) << scene.name;
+  EXPECT_EQ(all.row.characters, static_cast<int>(character_count(scene))) << scene.name;
   return all;
 }
+
+CrowdRan ran(const std::string& name) { return ran(built_in(name)); }
 
 TEST(CharactersHeadOn, meet_after_distance_over_both_speeds_and_keep_none) {
   const CrowdRan run = ran("characters_head_on");
@@ -111,21 +112,25 @@ TEST(PressedInARow, the_first_is_crushed_where_there_is_no_more_room_for_two) {
 }
 
 TEST(CrowdOf16, everyone_meets_others_and_most_get_on) {
-  const CrowdRan run = ran("crowd_of_16");
+  Scene scene = built_in("crowd_of_16");
+  const int steps = scene.steps = test::sampled(scene.steps);
+  scene.answers.clear();  // those are for all steps
+  const CrowdRan run = ran(scene);
   int got_on = 0;
   for (std::size_t k = 0; k < 16; ++k) {
-    std::size_t met = 0;
+    int met = 0;
     double left = 1e9;
     double right = -1e9;
-    for (std::size_t step = 0; step < 600; ++step) {
-      met += run.at(step, k).met.size();
-      left = std::min(left, run.at(step, k).path.back().position.x());
-      right = std::max(right, run.at(step, k).path.back().position.x());
+    for (int step = 0; step < steps; ++step) {
+      const TraceStep& at = run.at(static_cast<std::size_t>(step), k);
+      met += static_cast<int>(at.met.size());
+      left = std::min(left, at.path.back().position.x());
+      right = std::max(right, at.path.back().position.x());
     }
-    EXPECT_GT(met, 60U) << k;
+    EXPECT_GT(met, steps / 10) << k;
     got_on += right - left > half_width;
   }
-  EXPECT_GT(got_on, 8);
+  EXPECT_GT(got_on, test::sanitized ? 0 : 8) << "in less than a second some do";
 }
 
 TEST(Crowd, is_told_record_by_record_in_the_order_of_its_characters) {

@@ -3,6 +3,7 @@
 #include "compare/scene_runs.hpp"
 
 #include "metrics/answers.hpp"
+#include "support/steps_wanted.hpp"
 
 #include <array>
 #include <cmath>
@@ -50,10 +51,13 @@ bool turns(const Scene& scene) {
                      [](const MoverDef& mover) { return !mover.turns.empty(); });
 }
 
+TEST(Answers, are_of_every_registered_scene) {
+  for (const BuiltInScene& entry : built_in_scenes()) EXPECT_FALSE(built_in(entry.name).answers.empty()) << entry.name;
+}
+
 TEST(Answers, are_met_by_octagon_sweep_in_every_registered_scene) {
-  for (const BuiltInScene& entry : built_in_scenes()) {
+  for (const BuiltInScene& entry : test::sampled_of(built_in_scenes())) {
     const Scene scene = shortened(entry.name);
-    ASSERT_FALSE(scene.answers.empty()) << entry.name << " has no exact answer";
     if (turns(scene)) continue;
     const Row row = ran(scene).row;
     ASSERT_TRUE(row.answer_ok && row.answer_error) << entry.name;
@@ -121,7 +125,7 @@ void toggle(std::vector<TraceStep>& steps) {
 }
 
 TEST(Answers, are_each_missed_by_a_run_that_does_something_else) {
-  for (const BuiltInScene& entry : built_in_scenes()) {
+  for (const BuiltInScene& entry : test::sampled_of(built_in_scenes())) {
     const Scene scene = shortened(entry.name);
     if (turns(scene) || scene.others.size() > 2) continue;
     const ReportRun run = ran(scene).run;
@@ -259,7 +263,7 @@ TEST(UnevenSteps, are_the_same_for_the_twin) {
 
 TEST(Tiles, far_away_change_nothing) {
   const Ran few = ran("tiles_1e2");
-  for (const char* name : {"tiles_1e3", "tiles_1e4"}) {
+  for (const char* name : {"tiles_1e3", test::sanitized ? "tiles_1e3" : "tiles_1e4"}) {
     const Ran more = ran(name);
     for (std::size_t i = 0; i < few.steps().size(); ++i)
       ASSERT_EQ(more.steps()[i].path.back().position, few.steps()[i].path.back().position) << name << ", step " << i;

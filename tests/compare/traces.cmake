@@ -23,8 +23,11 @@ set(checked_scenes article_bullet slope_joints jump_into_corner rotated_wall wed
     thin_sensor sensor_gate stack_1000 falling_crate
     ledge_corner slope_wall_hop climb45_3m climb45_5m low_step oneway_peak oneway_hill oneway_noise oneway_arch
     exact_fit_lift_down exact_fit_cabin_up exact_fit_under_lift exact_fit_cabin_still crush70 escape_not_shortest)
+if(PAPERPROOF_SANITIZE)
+  set(checked_scenes article_bullet three_in_a_row lift_up one_way_lift_drop thin_sensor falling_crate crush70)
+endif()
 add_test(NAME trace.write COMMAND paperproof compare ${checked_scenes} turning_arm rotating_paper --no-timing --quiet --trace "${traces}/t")
-set_tests_properties(trace.write PROPERTIES FIXTURES_SETUP traces TIMEOUT 300)
+set_tests_properties(trace.write PROPERTIES FIXTURES_SETUP traces TIMEOUT 300 COST 50)
 
 if(PAPERPROOF_SANITIZE)
   return()  # what sanitizers look at is the writing: the bytes are those that the other builds have checked
@@ -34,7 +37,7 @@ set(good)
 foreach(scene IN LISTS checked_scenes)
   list(APPEND good "${traces}/t.${scene}.octagon_sweep.double.jsonl")
 endforeach()
-paperproof_trace_test(of_octagon_sweep_hold COMMAND "${checker}" ${good})
+paperproof_trace_test(of_octagon_sweep_hold COMMAND "${checker}" ${good} PROPERTIES COST 50)
 
 # By discrete two that meet share their overlap, and are apart; with a third one rounds are too few for that.
 paperproof_trace_test(of_discrete_characters_hold_for_two_and_show_the_overlap_of_three

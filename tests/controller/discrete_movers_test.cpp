@@ -1,5 +1,6 @@
 /// The discrete technique among movers: they are bodies whose motion is given.
 #include "controller/passenger.hpp"
+#include "support/steps_wanted.hpp"
 
 #include <gtest/gtest.h>
 
@@ -41,7 +42,7 @@ TEST(DiscreteMovers, a_rider_keeps_its_place_and_its_contact_from_the_first_step
     Passenger passenger(TechniqueKind::discrete, {rectangle(-90, -9, 90, -5), of_mover(rectangle(-2, -1, 2, 0))});
     passenger.position = {0.25, 20 * px + gap};
     Vec2d place{0.25, 20 * px + gap};
-    for (int step = 0; step < 20000; ++step) {
+    for (int step = 0; step < test::sampled(20000); ++step) {
       const MoverMotion<double> motion{swing(reach, step), swing(reach, step + 1)};
       const MoveResult<double>& result = passenger.step({motion});
       ASSERT_TRUE(result.grounded) << "step " << step;

@@ -1,6 +1,7 @@
 /// Discrete collision detection: impacts, islands, their order, and the technique made of them.
 #include "controller/discrete_support.hpp"
 #include "support/allocations.hpp"
+#include "support/steps_wanted.hpp"
 
 #include <gtest/gtest.h>
 
@@ -300,7 +301,11 @@ double slowest_on_flush_tiles(double speed) {
 
 TEST(Discrete, does_not_snag_on_flush_tiles_because_the_tile_stood_on_is_met_first) {
   // Alone, the next tile would be hit from the side: gravity takes the feet below its top before they reach it.
-  for (int i = 1; i <= 100; ++i) EXPECT_NEAR(slowest_on_flush_tiles(0.2 * i - 0.05), 1, 1e-12) << "speed " << 0.2 * i;
+  constexpr int speeds = test::sampled(100);
+  for (int i = 1; i <= speeds; ++i) {
+    const double speed = 20.0 * i / speeds - 0.05;
+    EXPECT_NEAR(slowest_on_flush_tiles(speed), 1, 1e-12) << speed;
+  }
 }
 
 TEST(Discrete, may_snag_where_the_feet_have_left_the_tile_when_the_step_ends) {

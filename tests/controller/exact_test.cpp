@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "exact_reference.hpp"
+#include "support/steps_wanted.hpp"
 
 namespace paperproof {
 namespace {
@@ -54,7 +55,7 @@ struct Coverage {
 class ExactSigns : public testing::Test {
  protected:
   static constexpr unsigned seed = 20240607;
-  static constexpr int cases = 20000;
+  static constexpr int cases = test::sampled(20000);
 
   double uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
   int integer(int low, int high) { return std::uniform_int_distribution<int>(low, high)(random_); }

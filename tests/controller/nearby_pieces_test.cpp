@@ -3,6 +3,7 @@
 #include "geometry/overlap_time.hpp"
 #include "one_way_chains.hpp"
 #include "sensors.hpp"
+#include "support/steps_wanted.hpp"
 
 #include <gtest/gtest.h>
 
@@ -123,7 +124,8 @@ TEST(SensorsNearby, are_those_of_a_look_at_all_of_them) {
   int too_many = 0;
   int at_once = 0;
   int quiet = 0;
-  for (unsigned seed = 0; seed < 10'000; ++seed) {
+  constexpr int sceneries = sampled(10'000);
+  for (unsigned seed = 0; seed < sceneries; ++seed) {
     Random random(seed);
     SceneryDef def;
     const std::size_t count = 1 + random.index(40);
@@ -157,12 +159,12 @@ TEST(SensorsNearby, are_those_of_a_look_at_all_of_them) {
         at_once += events[i].fraction == events[i - 1].fraction && events[i].sensor != events[i - 1].sensor ? 1 : 0;
     }
   }
-  EXPECT_GT(steps, 50'000);
+  EXPECT_GT(steps, sceneries * 5);
   EXPECT_GT(with_events, steps * 3 / 10);
   EXPECT_LT(with_events, steps * 8 / 10);
-  EXPECT_GT(too_many, 100);
-  EXPECT_GT(quiet, 1000) << "known to be so from the step before";
-  EXPECT_GT(at_once, 1000) << "of two sensors at the same moment";
+  EXPECT_GT(too_many, sceneries / 100);
+  EXPECT_GT(quiet, sceneries / 10) << "known to be so from the step before";
+  EXPECT_GT(at_once, sceneries / 10) << "of two sensors at the same moment";
 }
 
 /// Chains that are nowhere near each other's ends, some of them upside down.
@@ -199,7 +201,8 @@ std::vector<ColliderIndex> passed_one_by_one(const SceneryDef& def, const Path& 
 TEST(OneWayChainsNearby, that_are_passed_are_those_of_a_look_at_each_alone) {
   int several = 0;
   int too_many = 0;
-  for (unsigned seed = 0; seed < 1'000; ++seed) {
+  constexpr int sceneries = sampled(1'000);
+  for (unsigned seed = 0; seed < sceneries; ++seed) {
     Random random(seed);
     SceneryDef def;
     const std::size_t count = 1 + random.index(random.index(10) == 0 ? 600 : 40);
@@ -223,14 +226,15 @@ TEST(OneWayChainsNearby, that_are_passed_are_those_of_a_look_at_each_alone) {
       too_many += passed.overflowed() ? 1 : 0;
     }
   }
-  EXPECT_GT(several, 200);
-  EXPECT_GT(too_many, 5);
+  EXPECT_GT(several, sceneries / 5);
+  EXPECT_GT(too_many, sceneries / 200);
 }
 
 TEST(DeepOverlap, is_found_by_the_separations_from_every_corner_of_the_box) {
   const CharacterShape shape = CharacterShape::article();
   int with_room = 0;
-  for (unsigned seed = 0; seed < 10'000; ++seed) {
+  constexpr int pieces = sampled(10'000);
+  for (unsigned seed = 0; seed < pieces; ++seed) {
     Random random(seed);
     Points piece = star_ring(random, 3 + random.index(3), random_place(random), 0.1, 3);
     if (random.index(4) == 0) piece.resize(2);
@@ -247,7 +251,7 @@ TEST(DeepOverlap, is_found_by_the_separations_from_every_corner_of_the_box) {
       }
     }
   }
-  EXPECT_GT(with_room, 5'000);
+  EXPECT_GT(with_room, pieces / 2);
 }
 
 }  // namespace

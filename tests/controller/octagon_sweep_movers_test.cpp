@@ -1,5 +1,6 @@
 /// octagon_sweep among movers: carried, pushed, met head-on, crushed.
 #include "controller/stepping.hpp"
+#include "support/steps_wanted.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,7 +12,7 @@ namespace paperproof::stepping {
 namespace {
 
 constexpr Tolerances<double> tolerances{};
-constexpr int an_hour = 216'000;
+constexpr int an_hour = test::sampled(216'000);
 
 ColliderDef moving(ColliderDef collider, MoverIndex mover = 0) {
   collider.mover = mover;

@@ -3,6 +3,7 @@
 
 #include "controller/article_support.hpp"
 #include "support/allocations.hpp"
+#include "support/steps_wanted.hpp"
 
 #include <gtest/gtest.h>
 
@@ -105,7 +106,7 @@ TEST(PixelColour, never_ends_in_a_solid_nor_leaves_a_room_of_paper) {
   Random random(seed);
   int hits = 0;
   constexpr int throws_per_room = 500;
-  constexpr int rooms = 20;
+  constexpr int rooms = test::sampled(20);
   for (int room = 0; room < rooms; ++room) {
     // Walls without thickness, none of them straight up or down, and things in between.
     const auto near = [&](double x, double y) { return Vec2d{x + random.between(-1, 1), y + random.between(-1, 1)}; };

@@ -5,6 +5,7 @@
 #include "controller/exact_reference.hpp"
 #include "controller/random_polygons.hpp"
 #include "sensors.hpp"
+#include "support/steps_wanted.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,12 +13,14 @@
 
 #include <cstdlib>
 #include <optional>
+#include <string>
 
 namespace paperproof::test {
 namespace {
 
 /// The same flights in every run, and more of them than RapidCheck's hundred; RC_PARAMS in the environment goes first.
-[[maybe_unused]] const int parameters = setenv("RC_PARAMS", "seed=34 max_success=2000", 0);
+[[maybe_unused]] const int parameters =
+    setenv("RC_PARAMS", ("seed=34 max_success=" + std::to_string(sampled(2000))).c_str(), 0);
 
 using Event = SensorEvent<double>;
 using Path = std::vector<PathPoint<double>>;
