@@ -243,7 +243,7 @@ TEST(CrowdGuarantee, those_who_were_apart_never_overlap_or_pass_through_each_oth
   // A crowd does not promise this: who is between two others may fall less than it could. Mostly that is so where
   // neighbours began without a gap.
   EXPECT_LE(static_cast<double>(tally.hanging), 2e-4 * static_cast<double>(tally.moves));
-  EXPECT_LE(static_cast<double>(tally.hanging_touching), 3e-3 * static_cast<double>(tally.moves));
+  EXPECT_LE(static_cast<double>(tally.hanging_touching), 5e-3 * static_cast<double>(tally.moves));
   // The last resort is one.
   EXPECT_LE(static_cast<double>(tally.stayed), 1e-4 * static_cast<double>(tally.moves));
 }
