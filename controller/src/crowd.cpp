@@ -47,7 +47,7 @@ bool usable(const Stages& stages, bool may_ride, std::span<const CharacterState<
 template <class Scalar>
 struct Crowd<Scalar>::Rules : crowd::CrowdRules<Scalar> {
   std::size_t movers;
-  bool may_ride;                                                ///< Something carries those who stand on it.
+  bool may_ride;                                                ///< Something may carry a character that stands on it.
   std::unique_ptr<const crowd::Surrounded<Scalar>> surrounded;  ///< Null for a joint technique.
 };
 
@@ -81,13 +81,13 @@ std::unique_ptr<const typename Crowd<Scalar>::Rules> Crowd<Scalar>::rules_for(co
                                                                               const CharacterDef& character,
                                                                               const TechniqueDef& technique) {
   require_several(technique);
+  const bool sweeps = technique.kind == TechniqueKind::octagon_sweep;
   auto rules =
       std::make_unique<Rules>(Rules{{crowd::PairSpace<Scalar>(character.shape), character.walkable_cosine<Scalar>(),
                                      technique.sweep_iterations, technique.stages},
                                     scenery.mover_count(),
-                                    scenery.mover_count() > 0 || has_conveyors(scenery),
+                                    !sweeps || scenery.mover_count() > 0 || has_conveyors(scenery),
                                     nullptr});
-  const bool sweeps = technique.kind == TechniqueKind::octagon_sweep;
   if (sweeps) rules->surrounded = std::make_unique<const crowd::Surrounded<Scalar>>(scenery, character.shape);
   return rules;
 }
@@ -131,7 +131,7 @@ StepStatus Crowd<Scalar>::step(std::span<CharacterState<Scalar>> states, std::sp
                                CrowdScratch& scratch, CrowdReport<Scalar>& report) const noexcept {
   const bool room = scratch.most_characters >= states.size() && report.members.size() >= states.size();
   if (!room || !step_parts::is_made_by(rules_, scratch.maker) || movers.size() != rules_->movers ||
-      !usable<Scalar>(rules_->stages, joint_ != nullptr || rules_->may_ride, states, inputs, gravity, dt))
+      !usable<Scalar>(rules_->stages, rules_->may_ride, states, inputs, gravity, dt))
     return report.status = StepStatus::invalid_input;
   if (joint_ != nullptr) return step_jointly(states, inputs, gravity, dt, movers, scratch, report);
   for (std::size_t i = 0; i < states.size(); ++i) report.members[i].island = static_cast<CharacterIndex>(i);

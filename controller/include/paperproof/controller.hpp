@@ -60,6 +60,10 @@ template <class Scalar>
 class OneWayChains;
 template <class Scalar>
 class Crowd;
+namespace crowd {
+template <class Scalar>
+class Stepper;
+}  // namespace crowd
 
 /// Steps characters of one kind through one scenery. Const and shareable between threads.
 template <class Scalar>
@@ -120,6 +124,7 @@ class Controller {
   /// A crowd may move all its characters at once, between the beginnings of their steps and the ends; with all stages.
   /// @param before must outlive the request. @return false where it is not accepted.
   friend class Crowd<Scalar>;
+  friend class crowd::Stepper<Scalar>;
   bool begin_together(const CharacterState<Scalar>& before, const Input& input, const Vec2<Scalar>& gravity, Scalar dt,
                       std::span<const MoverMotion<Scalar>> movers, CharacterState<Scalar>& state,
                       MoveRequest<Scalar>& request, StepReport<Scalar>& report) const noexcept;

@@ -69,11 +69,12 @@ struct CrowdScratch {
 /// nobody. Where both do, both lose the speed with which they meet, and the upper one gives way (of two at one height
 /// the left one). Neither pushes. What comes down on a walkable part of another stands on it (and is not carried
 /// along). Of impacts at the same time the one with the lowest first index comes first, then the lowest second index.
-/// When the ways are made, whoever was held in the air looks once more for a way down beside all the others.
+/// At the end each character that others held in the air looks once more for a way down beside them.
 ///
-/// Among movers each is carried, pushed and crushed as by `Controller`; who moves into whom is judged relative to what
-/// carries both. Whoever is pushed into another, and has no room beside it, pushes it on; where that one has no room
-/// either, the one that the mover presses is crushed by it, after it looked once more for room over the whole step.
+/// Among movers each character is carried, pushed and crushed as by `Controller`. Two that the same mover carries are
+/// compared relative to it. A character that is pushed into another, and has no room beside it, pushes the other on. If
+/// that one has no room either, the mover crushes the character it presses, after a last search for room over the whole
+/// step.
 ///
 /// Its guarantee, beside that of `octagon_sweep` for each of them: characters that were apart stay apart, and do not
 /// pass through each other. What cannot be shown to be safe stays where it is (`dropped`); what a mover then does to it

@@ -1,7 +1,4 @@
 #include "crowd/stepper_impacts.hpp"
-#include "one_way_chains.hpp"
-#include "scenery_facts.hpp"
-#include "sensors.hpp"
 #include "step_parts.hpp"
 
 namespace paperproof::crowd {
@@ -23,13 +20,7 @@ SceneryDef with_places_for_company(const Scenery<Scalar>& scene, const Character
 template <class Scalar>
 Surrounded<Scalar>::Surrounded(const Scenery<Scalar>& scene, const CharacterShape& shape)
     : scenery(with_places_for_company(scene, shape)),
-      first_companion(static_cast<ColliderIndex>(scene.as_run().colliders.size())) {
-  if (scenery.sensor_pieces().size() > 0) sensors = std::make_unique<Sensors<Scalar>>(scenery, shape);
-  if (has_one_way_chains(scenery)) one_way = std::make_unique<OneWayChains<Scalar>>(scenery, shape);
-}
-
-template <class Scalar>
-Surrounded<Scalar>::~Surrounded() = default;
+      first_companion(static_cast<ColliderIndex>(scene.as_run().colliders.size())) {}
 
 template <class Scalar>
 Stepper<Scalar>::Stepper(const Controller<Scalar>& controller, const Surrounded<Scalar>& surrounded,
@@ -60,7 +51,7 @@ StepStatus Stepper<Scalar>::begin(std::span<const CharacterState<Scalar>> states
     CharacterState<Scalar>& state = walker.now.state;
     state = states[i];
     remember(states[i].pressers, state);
-    // What is carried steers, jumps and falls relative to what carries it.
+    // A carried character steers, jumps and falls relative to its carrier.
     if (state.ride.ground != Ride<Scalar>::none) state.velocity -= state.ride.velocity;
     walker.now.time = 0;
     const DesiredVelocity<Scalar> desired = desired_velocity(controller_.character(), gravity_, inputs[i], dt_, state);
@@ -155,9 +146,8 @@ bool Stepper<Scalar>::goes_free(std::size_t i, Course course, Moment<Scalar>& en
   return way.crushed.empty() && is_clear(i, way);
 }
 
-/// What crushes a character between two impacts may have left it room over the whole step, and what held its fall may
-/// have gone on after that: the technique is asked once more, now that the ways of the others
-/// are known.
+/// What crushes a character between two impacts may have left it room over the whole step. What held its fall may have
+/// gone on after that. So the technique is asked once more, now that the ways of the others are known.
 /// @return whether it has another way now.
 template <class Scalar>
 bool Stepper<Scalar>::seek_room(std::size_t i) noexcept {
@@ -231,19 +221,15 @@ void Stepper<Scalar>::hand_out(std::size_t i, CharacterState<Scalar>& state) noe
   if (!move.crushed.empty())
     move.status = MoveStatus::crushed;
   else if (!walker.end.state.pressers.empty())
-    move.status = MoveStatus::stuck;  // also where another character came over it last, who is not named
-  else if (move.status != MoveStatus::stuck || !walker.is_stuck)  // who is inside somebody alone is not stuck
+    move.status = MoveStatus::stuck;  // a mover is still on it, even if the last part met another character alone
+  else if (move.status != MoveStatus::stuck || !walker.is_stuck)  // inside another character alone is not stuck
     move.status = walker.dropped || move.status == MoveStatus::stuck ? MoveStatus::dropped : MoveStatus::moved;
-  report.status = step_parts::status_of(move.status);
-  const std::span<const PathPoint<Scalar>> path(move.path.begin(), move.path.size());
   set_motions({}, 0, 1);
-  if (surrounded_.sensors) surrounded_.sensors->observe(path, memory_.motions, scratch_.sensors, report.sensors);
-  if (walker.drops && surrounded_.one_way)
-    surrounded_.one_way->find_passed(path, memory_.motions, scratch_.one_way, report.dropped_through);
-  CharacterState<Scalar> next = walker.end.state;
-  move.pressers = next.pressers;
-  step_parts::adopt(controller_.character(), move, next);
-  state = next;
+  move.pressers = walker.end.state.pressers;
+  Input input;
+  input.drop = walker.drops;
+  controller_.end_together(input, memory_.motions, scratch_, walker.end.state, report);
+  state = walker.end.state;
 }
 
 template struct Surrounded<float>;

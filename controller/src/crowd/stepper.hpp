@@ -16,16 +16,9 @@
 #include <span>
 #include <vector>
 
-namespace paperproof {
-template <class Scalar>
-class OneWayChains;
-template <class Scalar>
-class Sensors;
-}  // namespace paperproof
-
 namespace paperproof::crowd {
 
-/// How many others a character can give way to in one step; whoever meets more stays where it is.
+/// A character can give way to so many others in one step. If it meets more it stays where it is.
 inline constexpr std::size_t most_company = 12;
 
 using Company = FixedVector<CharacterIndex, most_company>;
@@ -34,13 +27,9 @@ using Company = FixedVector<CharacterIndex, most_company>;
 template <class Scalar>
 struct Surrounded {
   Surrounded(const Scenery<Scalar>& scene, const CharacterShape& shape);
-  Surrounded(Surrounded&&) = delete;
-  ~Surrounded();
 
   Scenery<Scalar> scenery;
-  ColliderIndex first_companion;                        ///< The collider of the first place.
-  std::unique_ptr<const Sensors<Scalar>> sensors;       ///< Null where there are none.
-  std::unique_ptr<const OneWayChains<Scalar>> one_way;  ///< The same.
+  ColliderIndex first_companion;  ///< The collider of the first place.
 };
 
 /// A moment of a step, with what one part of a way hands to the next.
@@ -60,13 +49,13 @@ struct Walker {
   Moment<Scalar> end;       ///< Of the plan.
   MoveResult<Scalar> plan;  ///< From now to the end of the step; its fractions are those of the step.
   Box2<Scalar> box;         ///< Around the shape along the plan.
-  Company company;          ///< Whom it gives way to; each has the place of its index here.
+  Company company;          ///< The others it gives way to. The k-th of them takes the k-th place of the scenery.
   int changes = 0;
-  bool stays = false;    ///< It keeps its place for the rest of the step, and gives way to nobody.
-  bool walks = false;    ///< It was on the ground and does not jump: its way follows the ground down.
-  bool drops = false;    ///< One-way chains hold it not in this step.
-  bool no_snap = false;  ///< Somebody stands where it would follow the ground down to.
-  bool dropped = false;
+  bool stays = false;     ///< It keeps its place for the rest of the step, and gives way to nobody.
+  bool walks = false;     ///< It was on the ground and does not jump: its way follows the ground down.
+  bool drops = false;     ///< One-way chains hold it not in this step.
+  bool no_snap = false;   ///< Somebody stands where it would follow the ground down to.
+  bool dropped = false;   ///< Its step was cut short.
   bool is_stuck = false;  ///< It begins inside scenery, and there is no way out.
 };
 
@@ -100,8 +89,8 @@ class Stepper {
 
   /// What a new way would do to a character.
   struct Outcome {
-    bool run_over = false;  ///< Somebody whom it gives way to leaves it no room,
-    bool pressed = false;   ///< or a mover that did not crush it before.
+    bool run_over = false;  ///< Another character, to which it gives way, leaves it no room.
+    bool pressed = false;   ///< A mover that did not crush it before leaves it no room.
     [[nodiscard]] bool free() const noexcept { return !run_over && !pressed; }
   };
 
@@ -132,7 +121,6 @@ class Stepper {
   [[nodiscard]] bool gives_way_to(std::size_t i, std::size_t other) const noexcept;
   [[nodiscard]] Meeting<Scalar> meeting(std::size_t i, std::size_t j) noexcept;
   void keep_company_from_the_start() noexcept;
-  [[nodiscard]] V ride_of(std::size_t i) const noexcept;
   void stand_still(std::size_t i, const V& ride) noexcept;
   [[nodiscard]] bool is_above(std::size_t i, std::size_t j) const noexcept;
   void meet(std::size_t i, std::size_t j, const Meeting<Scalar>& meeting) noexcept;
@@ -158,7 +146,7 @@ class Stepper {
   const Surrounded<Scalar>& surrounded_;
   const PairSpace<Scalar>& space_;
   Scalar walkable_cosine_;
-  int most_changes_;  ///< Of one way, before it gives up what it wants itself; after twice as many it stays.
+  int most_changes_;  ///< After so many changes of its way a character stops steering. After twice as many it stays.
   WalkerMemory<Scalar>& memory_;
   Scratch<Scalar>& scratch_;
   CrowdReport<Scalar>& report_;

@@ -54,11 +54,17 @@ void Stepper<Scalar>::solve() noexcept {
   }
 }
 
+/// What carries it [m/s].
+template <class Scalar>
+[[nodiscard]] Vec2<Scalar> velocity_of(const Ride<Scalar>& ride) noexcept {
+  return ride.ground != Ride<Scalar>::none ? ride.velocity : Vec2<Scalar>(Vec2<Scalar>::Zero());
+}
+
 /// What carries both alike [m/s]: seen from there they go as they would on ground that stands.
 template <class Scalar>
 Vec2<Scalar> Stepper<Scalar>::common_ride(std::size_t i, std::size_t j) const noexcept {
-  const V ride = ride_of(i);
-  return ride == ride_of(j) ? ride : V(V::Zero());
+  const V ride = velocity_of(walkers_[i].plan.ride);
+  return ride == velocity_of(walkers_[j].plan.ride) ? ride : V(V::Zero());
 }
 
 template <class Scalar>
@@ -78,16 +84,9 @@ void Stepper<Scalar>::meet(std::size_t i, std::size_t j, const Meeting<Scalar>& 
   const auto [upper, lower] = is_above(i, j) ? std::pair(i, j) : std::pair(j, i);
   // The upper one stands still as an obstacle first. Otherwise the ground would deflect the lower one's motion into it
   // and push it. A lower one that a mover pushes does push it on.
-  stand_still(upper, ride_of(lower));
+  stand_still(upper, velocity_of(walkers_[lower].plan.ride));
   if (!give_way(lower, upper).free()) take_back(lower, upper);
   one_gives_way(upper, lower);
-}
-
-/// What carries it [m/s].
-template <class Scalar>
-Vec2<Scalar> Stepper<Scalar>::ride_of(std::size_t i) const noexcept {
-  const Ride<Scalar>& ride = walkers_[i].plan.ride;
-  return ride.ground != Ride<Scalar>::none ? ride.velocity : V(V::Zero());
 }
 
 /// Seen from what is carried like that [m/s], until it has a new way.
@@ -112,8 +111,7 @@ bool Stepper<Scalar>::is_above(std::size_t i, std::size_t j) const noexcept {
 template <class Scalar>
 void Stepper<Scalar>::slow_down(std::size_t i, const V& normal, Scalar limit) noexcept {
   Moment<Scalar>& now = walkers_[i].now;
-  V ride = V::Zero();
-  if (now.state.ride.ground != Ride<Scalar>::none) ride = now.state.ride.velocity;
+  const V ride = velocity_of(now.state.ride);
   now.own = slowed(V(now.own + ride), normal, limit, walkable_cosine_) - ride;
 }
 

@@ -145,8 +145,10 @@ void Stepper<Scalar>::pass_on(const MoveResult<Scalar>& part, Scalar end, Moment
   // What held it took its weight, which goes on for the rest of the step.
   if (part.grounded || (fall < 0 && at.own.y() > fall / 2)) at.own += gravity_ * dt_;
   step_parts::note_freedom(part, state);
-  state.pressers.clear();
-  if (state.crushed) remember(part.pressers, state);
+  if (state.crushed)
+    remember(part.pressers, state);
+  else
+    state.pressers.clear();
 }
 
 /// Places for company are taken by others in the next step.
@@ -184,10 +186,10 @@ typename Stepper<Scalar>::Outcome Stepper<Scalar>::plan(std::size_t i) noexcept 
     outcome = outcome_of(i, way);
     walker.plan = way;
     walker.end = end;
+    walker.box = box_along(space_, walker.plan.path);
   } else {
     stay(i);
   }
-  walker.box = box_along(space_, walker.plan.path);
   return outcome;
 }
 
