@@ -64,7 +64,8 @@ template <class Scalar>
     to = std::max(to, place);
   }
   const OctagonFace<Scalar>& face = space.octagon_face(piece, axis);
-  const Scalar middle = (std::max(from, face.from) + std::min(to, face.to)) / 2;
+  // Corner to corner they have nothing face to face, by less than a contact's gap.
+  const Scalar middle = std::clamp((std::max(from, face.from) + std::min(to, face.to)) / 2, from, to);
   return {{p.x() + n.x() * high - n.y() * middle, p.y() + n.y() * high + n.x() * middle}, face.low - high};
 }
 

@@ -306,17 +306,19 @@ class Escape {
   [[nodiscard]] bool stays_on_its_side(const V& q) const noexcept {
     return std::all_of(pieces_.begin(), pieces_.begin() + static_cast<std::ptrdiff_t>(inside_), [&](PieceIndex piece) {
       const std::optional<V> side = side_of(piece);
-      return !side || leads_away(piece, local(piece, *side), local(piece, q));
+      return !side || leads_away(piece, *side, q);
     });
   }
 
   /// Whether a straight way stays clear of a piece that it may touch where it begins, whatever rounding did to that
   /// place.
-  [[nodiscard]] bool leads_away(PieceIndex piece, const V& from, const V& to) const noexcept {
+  [[nodiscard]] bool leads_away(PieceIndex piece, const V& place, const V& end) const noexcept {
     constexpr Scalar certain = Tolerances<Scalar>{}.certain;
+    const V from = local(piece, place);
+    const V to = local(piece, end);
     for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis)
       if (space_.separation(piece, axis, from) > -certain && space_.separation(piece, axis, to) >= certain) return true;
-    return best(piece, from).separation >= certain && clear(piece, from, to);
+    return best(piece, place).separation >= certain && clear(piece, from, to);
   }
 
   /// Whether a straight way meets none of some pieces: no solid, and no one-way segment against its normal, unless it

@@ -200,15 +200,13 @@ void StepSolver<variant, Scalar>::stay(bool may_give_way) noexcept {
   halt();
   moving_.holds.clear();
   moving_.looks_past_holds = true;
-  look_along(V::Zero());
-  while (found_.hit) {
+  for (look_along(V::Zero()); found_.hit; look_along(V::Zero())) {
     update_holds();
     if (may_give_way && gives_way()) {
       moving_.looks_past_holds = false;
       return;
     }
     crush_what_presses();
-    look_along(V::Zero());
   }
   moving_.looks_past_holds = false;
   moving_.anchored = false;

@@ -35,6 +35,7 @@ bool StepSolver<variant, Scalar>::find_room(Scalar reach, std::size_t corners) n
   moving_.ignored = ignored_before;
   moving_.seeks_room = false;
   if (room.corner == corners) return false;
+  go_on_until_bounded(room);
   go_back_to(room.corner);
   go_to(room.position);
   report_room(room.corner);
@@ -99,18 +100,42 @@ void StepSolver<variant, Scalar>::find_room_from(std::size_t corner, Scalar gap,
 /// Takes a position where there is room, nearer than what is known and reached from a corner.
 template <Variant variant, class Scalar>
 void StepSolver<variant, Scalar>::consider_room(std::size_t corner, const V& end, Room& room) noexcept {
+  const Scalar distance = length_of(V(end - position_));
+  if (!(distance < room.distance) || !leads_to_room(corner, end)) return;
+  room.distance = distance;
+  room.position = end;
+  room.corner = corner;
+}
+
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::leads_to_room(std::size_t corner, const V& end) noexcept {
+  if (!(end.cwiseAbs().maxCoeff() <= Tolerances<Scalar>{}.range)) return false;
   const V here = position_;
   const Scalar now = time_;
-  const Scalar distance = length_of(V(end - here));
-  if (!(distance < room.distance) || !(end.cwiseAbs().maxCoeff() <= Tolerances<Scalar>{}.range)) return;
   time_ = 1;
-  if (roomy(end) && goes_straight(corner, end) && stays_on_its_side(end)) {
-    room.distance = distance;
-    room.position = end;
-    room.corner = corner;
-  }
+  const bool leads = roomy(end) && goes_straight(corner, end) && stays_on_its_side(end);
   position_ = here;
   time_ = now;
+  return leads;
+}
+
+/// Who comes more slowly to where it was held may touch nothing there. Then it goes on in that direction, no faster
+/// than before, until something is as near as a contact.
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::go_on_until_bounded(Room& room) noexcept {
+  const PathPoint<Scalar> from = result_.path[room.corner];
+  memory().near_the_way.clear();
+  add_near_pieces(from, {room.position, 1});
+  if (!memory().near_the_way.empty() || !(time_ > from.fraction)) return;
+  const V way = room.position - from.position;
+  Scalar low = 1;
+  Scalar high = (1 - from.fraction) / (time_ - from.fraction);
+  while ((high - low) * length_of(way) > Tolerances<Scalar>{}.hit) {
+    const Scalar middle = (low + high) / 2;
+    if (!(middle > low && middle < high)) break;
+    (leads_to_room(room.corner, from.position + way * middle) ? low : high) = middle;
+  }
+  room.position = from.position + way * low;
 }
 
 /// Whether nothing is near a position, where it is now.

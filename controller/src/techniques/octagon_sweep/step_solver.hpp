@@ -245,6 +245,8 @@ class StepSolver {
   [[nodiscard]] Room nearest_room(Scalar gap, Scalar reach, std::size_t corners) noexcept;
   void find_room_from(std::size_t corner, Scalar gap, Scalar radius, Room& room) noexcept;
   void consider_room(std::size_t corner, const V& end, Room& room) noexcept;
+  [[nodiscard]] bool leads_to_room(std::size_t corner, const V& end) noexcept;
+  void go_on_until_bounded(Room& room) noexcept;
   [[nodiscard]] bool roomy(const V& q) noexcept;
   [[nodiscard]] bool goes_straight(std::size_t corner, const V& end) noexcept;
   [[nodiscard]] bool passes(const LocalMotion& motion, std::span<const PieceIndex> pieces) const noexcept;
