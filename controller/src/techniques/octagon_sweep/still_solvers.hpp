@@ -6,8 +6,6 @@
 #include "techniques/octagon_sweep/step_sweep.hpp"
 #include "techniques/octagon_sweep/step_travel.hpp"
 
-#include <utility>
-
 namespace paperproof::octagon_sweep {
 
 template <Variant variant, class Scalar>
@@ -17,20 +15,18 @@ void solve_still(const ConfigurationSpace<Scalar>& space, const Settings<Scalar>
   StepSolver<variant, Scalar>{space, settings, neighbourhood, result}.solve(request);
 }
 
-/// The bits of an index are the stages: 1 one_way, 2 slopes.
-template <std::size_t Lanes, class Scalar, std::size_t... Index>
-[[nodiscard]] SolveStill<Scalar> entry(std::size_t index, std::index_sequence<Index...>) noexcept {
-  static constexpr std::array<SolveStill<Scalar>, sizeof...(Index)> table{
-      solve_still<Variant{.lanes = Lanes, .movers = false, .one_way = (Index & 1U) != 0, .slopes = (Index & 2U) != 0},
-                  Scalar>...};
-  return table[index];
+/// Either without both stages or with both: what a stage costs that finds nothing to do is 1 %, and each solver takes
+/// seconds to compile.
+template <std::size_t Lanes, class Scalar>
+[[nodiscard]] SolveStill<Scalar> still_solver_with(bool stages) noexcept {
+  return stages ? solve_still<Variant{.lanes = Lanes, .movers = false}, Scalar>
+                : solve_still<Variant{.lanes = Lanes, .movers = false, .one_way = false, .slopes = false}, Scalar>;
 }
 
 template <class Scalar>
 SolveStill<Scalar> still_solver(const Variant& variant) noexcept {
-  const std::size_t index = (variant.one_way ? 1U : 0U) + (variant.slopes ? 2U : 0U);
-  constexpr auto all = std::make_index_sequence<4>();
-  return variant.lanes == 8 ? entry<8, Scalar>(index, all) : entry<12, Scalar>(index, all);
+  const bool stages = variant.one_way || variant.slopes;
+  return variant.lanes == 8 ? still_solver_with<8, Scalar>(stages) : still_solver_with<12, Scalar>(stages);
 }
 
 }  // namespace paperproof::octagon_sweep
