@@ -174,12 +174,17 @@ void ContactJudge::measure_motion(bool starts_free, StepJudgement& judgement) co
   if (lost > rounding && !is_opposed(wanted)) judgement.motion_lost = lost;
 }
 
-/// Whether a solid is in the way of the wanted horizontal motion, from any corner of the path.
+/// Whether a solid is in the way of the wanted horizontal motion, from any corner of the path: of the motion as
+/// requested, or at the height that it was left (ground may hold it).
 bool ContactJudge::is_opposed(double wanted) const {
   const double beyond = std::copysign(promises_ ? contact_reach : own_reach(header_), wanted);
-  for (std::size_t i = 0; i < step_.path.size(); ++i) {
-    for (const ExactImpact& impact : scenery_.impacts(place(i), step_.requested + Vec2d(beyond, 0))) {
-      if (impact.exposed && impact.normal.x() * wanted < 0) return true;
+  const double rise = step_.path.back().position.y() - step_.path.front().position.y();
+  for (const double up : {step_.requested.y(), rise}) {
+    const Vec2d motion(step_.requested.x() + beyond, up);
+    for (std::size_t i = 0; i < step_.path.size(); ++i) {
+      for (const ExactImpact& impact : scenery_.impacts(place(i), motion)) {
+        if (impact.exposed && impact.normal.x() * wanted < 0) return true;
+      }
     }
   }
   return !header_.path_exact && pushed_by_skin(wanted);

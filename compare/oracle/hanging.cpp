@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
+#include <optional>
 
 namespace paperproof::compare::detail {
 namespace {
@@ -51,20 +53,75 @@ bool HangingJudge::hangs(const Vec2d& made, const Reach& reach) const {
   const double least = std::max(least_fall, ulp_at(header_, step_.path.front().position));
   const double asked = -unsteered.y();
   if (step_.capped || !(asked > least) || !(-made.y() < least_share * asked)) return false;
-  std::vector<Obstacle> obstacles;
-  for (std::size_t corner = 0; corner < step_.path.size(); ++corner) {
+  const auto falls_short_of = [&](double fall) { return fall > least && -made.y() < least_share * fall; };
+  const std::vector<Nearby> corners = near_corners(reach);
+  Nearby all;
+  for (const Nearby& corner : corners) all.add(corner);
+  if (all.holds) return false;
+  const Vec2d free = nearest_free(unsteered, all.obstacles, reach.opening);
+  if (!falls_short_of(std::min(-free.y(), asked))) return false;
+  if (step_.movers.empty()) return true;
+  return falls_short_of(fall_leg_by_leg(unsteered, corners, reach)) && !is_run_into(reach);
+}
+
+void HangingJudge::Nearby::add(const Nearby& other) {
+  obstacles.insert(obstacles.end(), other.obstacles.begin(), other.obstacles.end());
+  holds = holds || other.holds;
+}
+
+/// What the octagon may touch at each corner of its way.
+std::vector<HangingJudge::Nearby> HangingJudge::near_corners(const Reach& reach) const {
+  std::vector<Nearby> corners(step_.path.size());
+  for (std::size_t corner = 0; corner < corners.size(); ++corner) {
     for (const NearPart& part : parts_near(corner, reach.contact)) {
-      if (part.faces.front().separation < -reach.contact || is_ground(part)) return false;
+      Nearby& nearby = corners[corner];
+      nearby.holds = nearby.holds || part.faces.front().separation < -reach.contact || is_ground(part);
       Obstacle obstacle;
-      for (const NearFace& face : part.faces) {
+      for (const NearFace& face : part.faces)
         obstacle.push_back({face.normal, face.normal.dot(part.moved), face.separation});
-      }
-      obstacles.push_back(std::move(obstacle));
+      nearby.obstacles.push_back(std::move(obstacle));
     }
   }
-  const std::optional<Vec2d> free = nearest_free(unsteered, obstacles, reach.opening);
-  const double fall = free ? std::min(-free->y(), asked) : 0;
-  return fall > least && -made.y() < least_share * fall;
+  return corners;
+}
+
+/// What moves may touch for a part of the step. A leg may fall as fast as what is near where it begins, where it ends,
+/// or both, lets it, whichever is least, and no faster than the leg before: what took its momentum took it for the rest
+/// of the step.
+double HangingJudge::fall_leg_by_leg(const Vec2d& wanted, const std::vector<Nearby>& corners,
+                                     const Reach& reach) const {
+  double fall = 0;
+  double rate = -wanted.y();
+  for (std::size_t corner = 0; corner + 1 < corners.size(); ++corner) {
+    Nearby both = corners[corner];
+    both.add(corners[corner + 1]);
+    for (const auto& nearby : {std::cref(corners[corner]), std::cref(corners[corner + 1]), std::cref(both)})
+      rate = std::min(rate, -nearest_free(wanted, nearby.get().obstacles, reach.opening).y());
+    fall += rate * (step_.path[corner + 1].fraction - step_.path[corner].fraction);
+  }
+  return fall;
+}
+
+/// Whether a mover that does not touch the octagon at some corner would run into it, if it stayed there or went on as
+/// requested.
+bool HangingJudge::is_run_into(const Reach& reach) const {
+  return std::any_of(step_.path.begin(), step_.path.end(), [&](const PathPoint<double>& corner) {
+    return is_run_into(corner, Vec2d::Zero(), reach) ||
+           is_run_into(corner, step_.requested * (1 - corner.fraction), reach);
+  });
+}
+
+bool HangingJudge::is_run_into(const PathPoint<double>& corner, const Vec2d& way, const Reach& reach) const {
+  const Place there(corner, step_.movers);
+  const std::vector<ExactImpact> impacts =
+      scenery_.impacts_between(there, Place(corner.position + way, step_.movers, 1));
+  return std::any_of(impacts.begin(), impacts.end(), [&](const ExactImpact& impact) {
+    const MoverIndex mover = scenery_.scenery().colliders[impact.collider].mover;
+    if (mover == no_mover || scenery_.separation(there, impact.collider) <= reach.contact) return false;
+    const MoverMotion<double>& motion = step_.movers[mover];
+    const double left = (1 - static_cast<double>(impact.fraction)) * (1 - corner.fraction);
+    return (motion.to - motion.from).dot(impact.normal) * left > exact_reach.contact;
+  });
 }
 
 std::vector<NearPart> HangingJudge::parts_near(std::size_t corner, double within) const {
@@ -77,8 +134,8 @@ std::vector<NearPart> HangingJudge::parts_near(std::size_t corner, double within
   return parts;
 }
 
-/// A one-way chain blocks where it blocks the shortest way to it, from the corner or from where the leg began that ended
-/// there, unless it is passed on purpose.
+/// A one-way chain blocks where it blocks the shortest way to it, from the corner or from where the leg began that
+/// ended there, unless it is passed on purpose.
 bool HangingJudge::blocks(std::size_t corner, const NearPart& part, double within) const {
   if (!scenery_.scenery().colliders[part.collider].one_way) return true;
   const std::vector<ColliderIndex>& dropped = step_.dropped_through;
@@ -95,9 +152,8 @@ bool HangingJudge::is_ground(const NearPart& part) const {
 }
 
 /// The displacement nearest to what is wanted that keeps clear of all obstacles: it is that itself, or on the border of
-/// one half plane, or where the borders of two cross.
-std::optional<Vec2d> HangingJudge::nearest_free(const Vec2d& wanted, const std::vector<Obstacle>& obstacles,
-                                                double opening) {
+/// one half plane, or where the borders of two cross. Zero where there is none.
+Vec2d HangingJudge::nearest_free(const Vec2d& wanted, const std::vector<Obstacle>& obstacles, double opening) {
   std::vector<HalfPlane> borders;
   for (const Obstacle& obstacle : obstacles) {
     for (const HalfPlane& plane : obstacle) {
@@ -143,7 +199,7 @@ std::optional<Vec2d> HangingJudge::nearest_free(const Vec2d& wanted, const std::
            over);
     }
   }
-  return nearest;
+  return nearest.value_or(Vec2d::Zero());
 }
 
 }  // namespace paperproof::compare::detail

@@ -40,12 +40,22 @@ class HangingJudge {
   };
   /// One of these has to hold.
   using Obstacle = std::vector<HalfPlane>;
+  struct Nearby {
+    std::vector<Obstacle> obstacles;
+    bool holds = false;  ///< Something of it is ground, or overlaps the octagon.
+    void add(const Nearby& other);
+  };
+
+  [[nodiscard]] std::vector<Nearby> near_corners(const Reach& reach) const;
+  [[nodiscard]] double fall_leg_by_leg(const Vec2d& wanted, const std::vector<Nearby>& corners,
+                                       const Reach& reach) const;
+  [[nodiscard]] bool is_run_into(const Reach& reach) const;
+  [[nodiscard]] bool is_run_into(const PathPoint<double>& corner, const Vec2d& way, const Reach& reach) const;
 
   [[nodiscard]] std::vector<NearPart> parts_near(std::size_t corner, double within) const;
   [[nodiscard]] bool blocks(std::size_t corner, const NearPart& part, double within) const;
   [[nodiscard]] bool is_ground(const NearPart& part) const;
-  [[nodiscard]] static std::optional<Vec2d> nearest_free(const Vec2d& wanted, const std::vector<Obstacle>& obstacles,
-                                                         double opening);
+  [[nodiscard]] static Vec2d nearest_free(const Vec2d& wanted, const std::vector<Obstacle>& obstacles, double opening);
 
   const TraceHeader& header_;
   const ExactScenery& scenery_;

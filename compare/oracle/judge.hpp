@@ -46,8 +46,8 @@ struct StepJudgement {
   bool excused_crush = false;                    ///< Some of `crushed` had room, and touched another character.
   std::optional<Vec2d> room;                     ///< Where that was, if something was reported as crushing.
   double max_penetration = 0;                    ///< At the end of the step, apart from `pressed` [m].
-  double max_contact_gap =
-      0;  ///< Over the reported contacts: the smallest exact separation at any corner of the way [m].
+  /// Over the reported contacts: the smallest exact separation at any corner of the way [m].
+  double max_contact_gap = 0;
   std::vector<ExactContact> contacts;  ///< What should have been reported.
   std::vector<ColliderIndex>
       dont_care;  ///< Within reach of what the contender calls touching: neither right nor wrong.
@@ -65,7 +65,7 @@ struct StepJudgement {
   std::optional<double> first_impact;    ///< Exact fraction of the first impact of the requested motion, started free.
   bool first_impact_comparable = false;  ///< A reported fraction can be held against it: see `Judge`.
   bool hangs = false;                    ///< It could have fallen, and did not: see `Judge`.
-  bool hovers = false;          ///< It would hang if only what is within 1e-6 m counted: its own larger reach holds it.
+  bool hovers = false;          ///< Only surfaces farther than 1e-6 m away, within the contender's own reach, hold it.
   double remainder_made = 0;    ///< Horizontally, taken up by a grid to be made later [m].
   double motion_wanted = 0;     ///< Horizontally [m].
   double motion_lost = 0;       ///< Of that, to nothing exact [m]: see `Judge`.
@@ -171,12 +171,19 @@ struct StepJudgement {
 /// to how far it moves in the step. (A one-way chain counts where it blocks the shortest way to it, from there or from
 /// where the leg began that ended there.) The projection of
 /// u onto C is the displacement of C that is nearest to u. A step hangs if the projection falls, u falls, each by more
-/// than 1e-9 m and an ulp of the largest coordinate, and the step falls less than half of both. Excepted are
+/// than 1e-9 m and an ulp of the largest coordinate, and the step falls less than half of both. Among movers
+/// two more things must hold, as what moves may touch for a part of the step only:
+/// - Leg by leg it could have fallen twice as far, too. The rate of a leg is that of the projection onto C of its first
+///   corner, of its last, or of both, whichever falls least, and no more than that of the leg before: what takes
+///   momentum takes it for the rest of the step.
+/// - No mover that does not touch the octagon at a corner runs into it from there, whether it stays or goes on as
+///   requested: a character may give way instead.
+/// Excepted are
 /// - a direction with less than 2e-7 m of room between what is left and right of it, which is not in C;
 /// - ground: a step with a part in reach one of whose faces is within `max_climb_degrees` (and 1e-6 rad) of level;
 /// - a step that touches a corner deeper than 1e-6 m inside a solid, a verified crush, and Box2D's cap: other answers
 /// say
-///   so; and one beside what turns.
+///   so; and one beside a rotating body.
 /// What a grid has taken up and not made yet (`remainder`) counts as made. A step hovers if it would hang, but for what
 /// is within the contender's own reach (`detail::reach_of`): Box2D's skin, a unit of the article's search.
 ///
@@ -195,7 +202,8 @@ struct StepJudgement {
 /// **What turns** is judged apart, between bounds: see oracle/turning.hpp.
 ///
 /// **Ghost speed loss.** Horizontal speed was lost to nothing where the step began free and crushed nobody, and no
-/// solid opposes the wanted horizontal motion within the step and the contender's reach beyond it (octagon_sweep in
+/// solid opposes the wanted horizontal motion, neither with the rise that was requested nor with the one that was made,
+/// within the step and the contender's reach beyond it (octagon_sweep in
 /// double: 1e-6 m; Box2D: 20 mm), from any corner of the path.
 class Judge {
  public:

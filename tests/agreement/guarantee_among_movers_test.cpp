@@ -379,6 +379,19 @@ TEST_P(AmongMovers, no_step_breaks_the_guarantee) {
   EXPECT_LT(tally.crushed, tally.steps / 5);
 }
 
+/// Each broke a promise once, or made the judge say so.
+TEST(AmongMoversFound, what_broke_once_holds) {
+  const std::vector<std::pair<Family, std::uint64_t>> found{{Family::slopes, 4001578},   {Family::papers, 8001016},
+                                                            {Family::papers, 8001922},   {Family::chains, 10000835},
+                                                            {Family::shafts, 18001570},  {Family::ceilings, 16001581},
+                                                            {Family::one_way, 24000858}, {Family::one_way, 24000897}};
+  for (const auto& [family, seed] : found) {
+    Tally tally;
+    RandomRun<double>(family, seed).go(tally);
+    EXPECT_EQ(tally.broken(), 0) << name_of(family) << ", seed " << seed;
+  }
+}
+
 TEST_P(AmongMovers, in_float_what_breaks_is_counted) {
   const Tally tally = run_family<float>(GetParam(), steps_per_family() / 9);
   EXPECT_GE(tally.steps, steps_per_family() / 9);

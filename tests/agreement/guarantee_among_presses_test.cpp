@@ -197,7 +197,9 @@ class Chamber {
 TEST(AmongPresses, no_step_comes_out_on_another_side_of_what_crushed_nor_is_crushed_with_room) {
   Pressed all;
   const int wanted = steps_per_family() / 3;
-  for (std::uint64_t seed = 1; all.steps < wanted && !HasFatalFailure(); ++seed) {
+  constexpr std::array<std::uint64_t, 2> found{148, 225};  // each broke a promise once, or made the judge say so
+  for (std::uint64_t run = 0; all.steps < wanted && !HasFatalFailure(); ++run) {
+    const std::uint64_t seed = run < found.size() ? found[run] : run - found.size() + 1;
     const Pressed before = all;
     Chamber(seed).go(all);
     if (all.broken() == before.broken()) continue;

@@ -23,7 +23,7 @@ ColliderDef ledge() {
 
 /// A step that was wanted to go `unsteered` and `steered` sideways, and went `made`.
 TraceStep wanting(const Vec2d& unsteered, double steered = 0, const Vec2d& made = Vec2d::Zero()) {
-  TraceStep wanting = made == Vec2d::Zero() ? step({{0, 0}}) : step({{0, 0}, made});
+  TraceStep wanting = step({{0, 0}, made});
   wanting.path.front().fraction = 0;
   wanting.path.back().fraction = 1;
   wanting.requested = unsteered + Vec2d(steered, 0);
@@ -108,6 +108,35 @@ TEST(JudgeHanging, in_company_of_movers_the_fall_is_the_one_beside_them) {
   EXPECT_TRUE(among({0, -0.5 * fall}));
   EXPECT_TRUE(among({1, 0})) << "it goes away";
   EXPECT_FALSE(among({0, 4 * fall})) << "it lifts";
+}
+
+TEST(JudgeHanging, whoever_a_mover_runs_into_may_give_way_instead) {
+  ColliderDef press = box(-1, -2, 1, -1);
+  press.mover = 0;
+  const auto among = [&](const Vec2d& by) {
+    TraceStep aside = wanting({0, -fall}, 0, {0.5, 0});
+    aside.movers = {{Vec2d::Zero(), by}};
+    return hangs(header({press}), aside);
+  };
+  EXPECT_FALSE(among({0, 1}));
+  EXPECT_TRUE(among({0, 0.3})) << "it does not reach the feet";
+  EXPECT_TRUE(among({12, 1})) << "it goes past";
+  EXPECT_TRUE(among({0, 0}));
+  EXPECT_TRUE(among({0, -1}));
+}
+
+TEST(JudgeHanging, what_moves_holds_for_as_long_as_it_touches) {
+  // A steep lift takes the character up for half of the step, and is gone.
+  ColliderDef moving = ledge();
+  moving.mover = 0;
+  const auto goes = [&](double after) {
+    TraceStep lifted = wanting({0, -fall});
+    lifted.movers = {{Vec2d::Zero(), {8, 16 * fall}}};
+    lifted.path = {{{0, 0}, 0}, {{0, 0}, 0.5}, {{0, after}, 1}};
+    return hangs(header({moving}), lifted);
+  };
+  EXPECT_TRUE(goes(0));
+  EXPECT_FALSE(goes(-0.6 * fall));
 }
 
 TEST(JudgeHanging, a_one_way_chain_holds_from_above_alone) {
