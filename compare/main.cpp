@@ -51,7 +51,8 @@ void add_input(CLI::App& command, Words& words) {
 void add_outputs(CLI::App& command, std::string& rows, std::string& report) {
   command.add_option("--rows", rows, "Write all rows to this file; .jsonl grows line by line as results come")
       ->type_name("FILE.json|.jsonl|.csv")
-      ->check(expect_file_name());
+      ->check(expect_file_name())
+      ->check(expect_rows_name());
   command.add_option("--report", report, "Write one self-contained HTML page to this file")
       ->type_name("FILE.html")
       ->check(expect_file_name());

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 
 namespace paperproof::compare {
 namespace {
@@ -40,6 +41,15 @@ CLI::Validator expect_whole_number(std::uint64_t most, std::uint64_t step) {
 CLI::Validator expect_file_name() {
   return unnamed([](const std::string& typed) {
     return typed.empty() ? std::string("expected a file name, not \"\"") : std::string{};
+  });
+}
+
+CLI::Validator expect_rows_name() {
+  return unnamed([](const std::string& typed) {
+    const std::string extension = std::filesystem::path(typed).extension().string();
+    const bool known = extension.empty() || extension == ".json" || extension == ".jsonl" || extension == ".csv";
+    return known ? std::string{}
+                 : fmt::format("expected a name that ends in .json, .jsonl or .csv, not {}", shown(typed));
   });
 }
 

@@ -17,6 +17,9 @@ namespace paperproof::compare {
 /// Anything but nothing: a script whose variable is empty wants to know.
 [[nodiscard]] CLI::Validator expect_file_name();
 
+/// A name for rows: its end says how they are written.
+[[nodiscard]] CLI::Validator expect_rows_name();
+
 /// Why the arguments cannot be used, in one sentence that begins with the option or argument where there is one.
 /// @param command the one whose arguments were parsed when it happened.
 [[nodiscard]] std::string reason_of(const CLI::ParseError& error, CLI::App& command);

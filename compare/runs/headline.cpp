@@ -56,7 +56,7 @@ std::string headline(const std::vector<Row>& rows) {
   TextColumn who{"contender", {}, true};
   TextColumn outcome{"what happens", {}, true};
   TextColumn cost{"ns per step", {}};
-  TextColumn bare{"nothing recorded", {}};
+  TextColumn bare{"bare", {}};
   for (const Row& row : rows) {
     who.cells.emplace_back(called(row));
     outcome.cells.emplace_back(outcome_of(row));

@@ -193,6 +193,9 @@ TEST(Command, refuses_an_output_that_cannot_be_written_before_it_runs_anything) 
     EXPECT_EQ(finished.status, 2) << option;
     EXPECT_EQ(finished.out, "") << option;
   }
+  const Finished text = place.run("compare article_bullet --rows out.txt");
+  EXPECT_EQ(text.status, 2);
+  EXPECT_TRUE(holds(text.err, "expected a name that ends in .json, .jsonl or .csv, not out.txt")) << text.err;
   const Finished directory = place.run("compare article_bullet --rows .");
   EXPECT_EQ(directory.status, 2);
   EXPECT_TRUE(begins(directory.err, ".: cannot be written: it is a directory"));
