@@ -2,8 +2,10 @@
 #include "command/compare_command.hpp"
 #include "command/complain.hpp"
 #include "command/option_checks.hpp"
+#include "command/precision_command.hpp"
 #include "command/study_command.hpp"
-#include "runs/output_file.hpp"
+#include "command/sweep_command.hpp"
+#include "records/output_file.hpp"
 #include "runs/scene_plan.hpp"
 #include "scenes/describe.hpp"
 #include "scenes/load.hpp"
@@ -40,6 +42,7 @@ struct Words {
   bool no_timing = false;
   std::vector<std::string> scalars;
   std::vector<std::string> knobs;
+  std::vector<std::string> settings;
   std::string what;                 ///< To list.
   std::vector<std::string> scenes;  ///< To check or to plan.
 };
@@ -95,6 +98,9 @@ CLI::App* add_compare(CLI::App& app, Words& words) {
                    "Turns a knob of the techniques that have it (see `paperproof list knobs`), each by its own option")
       ->type_name("NAME=VALUE")
       ->allow_extra_args(false);
+  command->add_option("--set", words.settings, "Turns a parameter of the scenes (see `paperproof list parameters`)")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
   command->add_option("--steps", arguments.run.steps, "Instead of the scene's")
       ->type_name("N")
       ->check(expect_whole_number(1'000'000'000));
@@ -128,11 +134,71 @@ CLI::App* add_study(CLI::App& app, StudyArguments& arguments) {
   return scale;
 }
 
+CLI::App* add_sweep(CLI::App& app, Words& words, SweepArguments& arguments) {
+  CLI::App* command = app.add_subcommand("sweep", "Run a scene or family over ranges of its parameters");
+  command->add_option("SCENE", arguments.scene, scene_words)->required();
+  command->add_option("--vary", arguments.vary, "An axis: a parameter of the scene (see `list parameters`) or a knob")
+      ->type_name("KEY=FIRST:LAST:logN|linN|a,b,c")
+      ->allow_extra_args(false);
+  command->add_option("--find-border", arguments.border, "Bisect this parameter to where a contender ceases to hold")
+      ->type_name("KEY");
+  command->add_option("--set", arguments.set, "A parameter that is the same in all cases")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command->add_option("--contender", arguments.contenders, "Only these, each by its own option or with commas")
+      ->type_name("NAME")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--scalar", arguments.scalars, "Number type of the techniques")
+      ->type_name("double|float")
+      ->check(expect_one_of({"double", "float"}))
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command->add_option("--knob", arguments.knobs, "Turns a knob of the techniques that have it")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);
+  command->add_option("--steps", arguments.steps, "Instead of the scene's")
+      ->type_name("N")
+      ->check(expect_whole_number(1'000'000'000));
+  add_input(*command, words);
+  add_outputs(*command, arguments.rows_path, arguments.report_path);
+  command->add_option("--jobs", arguments.jobs, "Processes at a time; one for each core where it is not given")
+      ->type_name("N")
+      ->check(expect_whole_number(1024));
+  command->add_option("--limit", arguments.limit_s, "A case that takes longer than this fails; 60 s where not given")
+      ->type_name("SECONDS")
+      ->check(expect_whole_number(1'000'000));
+  command->add_option("--shard", arguments.shard, "Every N-th case, from the K-th on; `merge` puts the parts together")
+      ->type_name("K/N");
+  add_flag(*command, "--resume", arguments.resume, "Go on behind the rows that the file of --rows has");
+  add_flag(*command, "--no-reference", words.no_reference, "Without Box2D, where no contender is named");
+  add_flag(*command, "--no-timing", words.no_timing, "A sweep measures no costs anyway");
+  add_flag(*command, "--quiet", arguments.quiet, "No table, no progress");
+  return command;
+}
+
+CLI::App* add_precision(CLI::App& app, const std::string& name, const std::string& help,
+                        PrecisionArguments& arguments) {
+  CLI::App* command = app.add_subcommand(name, help);
+  command->add_option("--contender", arguments.contenders, "Only these, each by its own option or with commas")
+      ->type_name("NAME")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  add_outputs(*command, arguments.rows_path, arguments.report_path);
+  add_flag(*command, "--quiet", arguments.quiet, "No table, no progress");
+  return command;
+}
+
 std::vector<std::string> without_repeats(const std::vector<std::string>& names) {
   std::vector<std::string> once;
   for (const std::string& name : names)
     if (std::find(once.begin(), once.end(), name) == once.end()) once.push_back(name);
   return once;
+}
+
+std::string parameter_line(const ParameterDef& def) {
+  return fmt::format("  {:<26} {} to {}{}{}: {}\n", def.key, def.least, def.most, def.unit.empty() ? "" : " ", def.unit,
+                     def.meaning);
 }
 
 void print_list(const std::string& what) {
@@ -141,9 +207,18 @@ void print_list(const std::string& what) {
     for (const std::string_view name : contender_names()) text += fmt::format("{}\n", name);
   } else if (what == "knobs") {
     for (const std::string& line : describe_knobs()) text += line + '\n';
+  } else if (what == "parameters") {
+    for (const SceneFamily& family : scene_families()) {
+      text += fmt::format("{:<28} {}\n", family.name, family.description);
+      for (const ParameterDef& def : family.parameters) text += parameter_line(def);
+    }
+    text += fmt::format("{:<28} {}\n", "*", "every scene");
+    for (const ParameterDef& def : common_parameters()) text += parameter_line(def);
   } else {
     for (const BuiltInScene& scene : built_in_scenes())
       text += fmt::format("{:<28} {}\n", scene.name, scene.description);
+    for (const SceneFamily& family : scene_families())
+      text += fmt::format("{:<28} {}\n", family.name, family.description);
     for (const SceneSet& set : scene_sets()) text += fmt::format("{:<28} {}\n", set.name, set.description);
   }
   print_out(text);
@@ -171,6 +246,7 @@ CompareArguments compare_arguments(const Words& words, const std::optional<std::
   for (const std::string& scalar : without_repeats(words.scalars))
     arguments.run.scalars.push_back(scalar == "float" ? ScalarKind::binary32 : ScalarKind::binary64);
   arguments.run.contenders = without_repeats(arguments.run.contenders);
+  for (const std::string& setting : words.settings) arguments.settings.push_back(parse_setting(setting));
   arguments.run.knobs = parse_knobs(words.knobs, arguments.run.contenders);
   return arguments;
 }
@@ -217,11 +293,27 @@ int run(int argc, char** argv) {
   const CLI::App* comparing = add_compare(app, words);
   StudyArguments study_arguments;
   const CLI::App* scale = add_study(app, study_arguments);
+  SweepArguments sweep_arguments;
+  const CLI::App* sweeping = add_sweep(app, words, sweep_arguments);
+  PrecisionArguments precision_arguments;
+  CLI::App* precision = add_precision(app, "work-precision", "Error against run time, for motions known in closed form",
+                                      precision_arguments);
+  precision->add_option("MOTION", precision_arguments.motions, "Only these (without any: all)");
+  CLI::App* stability = add_precision(app, "stability", "Stiff and extreme cases: where each side holds, and where not",
+                                      precision_arguments);
+  stability->add_option("--jobs", precision_arguments.jobs, "Processes at a time; one for each core where not given")
+      ->type_name("N")
+      ->check(expect_whole_number(1024));
+  CLI::App* merging = app.add_subcommand("merge", "Put rows of several files together: shards of a sweep, or any");
+  std::vector<std::string> merged;
+  std::string merged_path;
+  merging->add_option("ROWS", merged, "Files of rows, .jsonl")->required();
+  merging->add_option("--rows", merged_path, "Where they go")->required()->type_name("FILE.jsonl");
   CLI::App* list = app.add_subcommand("list", "Names, one per line");
   list->add_option("WHAT", words.what, "Which names")
       ->required()
-      ->type_name("scenes|contenders|knobs")
-      ->check(expect_one_of({"scenes", "contenders", "knobs"}));
+      ->type_name("scenes|contenders|knobs|parameters")
+      ->check(expect_one_of({"scenes", "contenders", "knobs", "parameters"}));
   CLI::App* checking = app.add_subcommand("check", "Validate scenes and say what is in them");
   checking->add_option("SCENE", words.scenes, scene_words)->required();
   CLI::App* planning = app.add_subcommand("plan", "Say what scenes cannot need and runs therefore leave out, and why");
@@ -243,6 +335,16 @@ int run(int argc, char** argv) {
   if (words.input) seed = parse_random_input(*words.input);
   if (comparing->parsed()) return compare_scenes(compare_arguments(words, seed));
   if (scale->parsed()) return study_scale_command(study_arguments);
+  if (sweeping->parsed()) {
+    sweep_arguments.seed = seed;
+    sweep_arguments.reference = !words.no_reference;
+    sweep_arguments.contenders = without_repeats(sweep_arguments.contenders);
+    sweep_arguments.scalars = without_repeats(sweep_arguments.scalars);
+    return sweep_command(sweep_arguments);
+  }
+  if (precision->parsed()) return work_precision_command(precision_arguments);
+  if (stability->parsed()) return stability_command(precision_arguments);
+  if (merging->parsed()) return merge_command(merged, merged_path);
   if (list->parsed()) print_list(words.what);
   if (checking->parsed()) check(words.scenes);
   if (planning->parsed()) print_plans(words.scenes, seed);

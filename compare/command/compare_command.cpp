@@ -8,15 +8,16 @@
 #include "command/totals.hpp"
 #include "near_names.hpp"
 #include "oracle/exemptions.hpp"
+#include "records/output_file.hpp"
+#include "records/rows_file.hpp"
+#include "records/trace_writer.hpp"
+#include "report/report.hpp"
+#include "runs/environment.hpp"
 #include "runs/gallery.hpp"
 #include "runs/headline.hpp"
-#include "runs/output_file.hpp"
 #include "runs/preparation.hpp"
-#include "runs/rows_file.hpp"
-#include "runs/rows_json.hpp"
 #include "runs/summary.hpp"
 #include "runs/table.hpp"
-#include "runs/trace_writer.hpp"
 #include "scenes/load.hpp"
 #include "scenes/sets.hpp"
 #include "words.hpp"
@@ -97,7 +98,10 @@ std::vector<std::string> names_in(const CompareArguments& arguments) {
 class Comparison {
  public:
   explicit Comparison(CompareArguments& arguments)
-      : arguments_(arguments), progress_(!arguments.quiet), inputs_(names_in(arguments)), outputs_(arguments) {
+      : arguments_(arguments),
+        progress_(!arguments.quiet),
+        inputs_(names_in(arguments), arguments.settings),
+        outputs_(arguments) {
     check_contenders(arguments.run.contenders);
     check_lockstep();
     for (const std::string& name : inputs_.names()) outputs_.add_input(name);
@@ -156,7 +160,7 @@ class Comparison {
 
   /// Everything is opened before the first step: who waited for an hour wants to be able to keep the result.
   void open_outputs() {
-    if (!arguments_.rows_path.empty()) rows_file_.emplace(arguments_.rows_path);
+    if (!arguments_.rows_path.empty()) rows_file_.emplace(arguments_.rows_path, environment());
     for (const Row& refused : refused_)
       if (rows_file_) rows_file_->add(refused);
     if (!arguments_.report_path.empty()) open_report();
@@ -235,7 +239,7 @@ class Comparison {
   void finish() {
     std::vector<Row> all = refused_;
     all.insert(all.end(), rows_.begin(), rows_.end());
-    nlohmann::ordered_json rows = rows_json(all);
+    nlohmann::ordered_json rows = rows_json(all, environment());
     if (shows_gallery_) rows["gallery"] = gallery_json(gallery_of(rows_));
     if (rows_file_) rows_file_->finish(rows);
     std::vector<ReportSection> sections;

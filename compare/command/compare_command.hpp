@@ -2,6 +2,7 @@
 #pragma once
 
 #include "runs/run.hpp"
+#include "scenes/parameters.hpp"
 
 #include <string>
 #include <vector>
@@ -9,7 +10,8 @@
 namespace paperproof::compare {
 
 struct CompareArguments {
-  std::vector<std::string> scenes;  ///< Built-in names or files.
+  std::vector<std::string> scenes;         ///< Built-in names or files.
+  std::vector<ParameterSetting> settings;  ///< Parameters that are turned, of each scene.
   RunOptions run;
   std::string files_from;   ///< A file with more names, or "-" for standard input; empty: none.
   bool keep_going = false;  ///< An input that cannot be used is a row, and the others run.

@@ -30,7 +30,7 @@ void Inputs::check(const Progress& progress, const Use& look, const Refuse& refu
   for (std::size_t i = 0; i < names_.size(); ++i) {
     progress.show("checking " + names_[i], static_cast<double>(i) / static_cast<double>(names_.size()));
     try {
-      std::vector<Scene> scenes = load_scenes(names_[i]);
+      std::vector<Scene> scenes = load_scenes(names_[i], settings_);
       for (const Scene& scene : scenes) look(names_[i], scene);
       if (keep) kept_[i] = std::move(scenes);
     } catch (const InputError& error) {
@@ -47,7 +47,7 @@ void Inputs::run(const Use& use, const Refuse& refuse) {
     if (!usable_[i]) continue;
     std::vector<Scene> scenes;
     try {
-      scenes = kept_.empty() ? load_scenes(names_[i]) : std::move(kept_[i]);
+      scenes = kept_.empty() ? load_scenes(names_[i], settings_) : std::move(kept_[i]);
     } catch (const InputError& error) {  // it changed since it was checked
       refuse(names_[i], error);
     }

@@ -21,7 +21,9 @@ class Inputs {
   using Refuse = std::function<void(const std::string& name, const InputError& error)>;
   using Use = std::function<void(const std::string& name, const Scene& scene)>;
 
-  explicit Inputs(std::vector<std::string> names) : names_(std::move(names)), usable_(names_.size(), true) {}
+  /// @param settings parameters that are turned, of each scene.
+  explicit Inputs(std::vector<std::string> names, std::vector<ParameterSetting> settings = {})
+      : names_(std::move(names)), settings_(std::move(settings)), usable_(names_.size(), true) {}
 
   [[nodiscard]] const std::vector<std::string>& names() const noexcept { return names_; }
   /// Loads every scene once. @param look may refuse it by throwing InputError, too.
@@ -31,6 +33,7 @@ class Inputs {
 
  private:
   std::vector<std::string> names_;
+  std::vector<ParameterSetting> settings_;
   std::vector<bool> usable_;
   std::vector<std::vector<Scene>> kept_;  ///< Empty where they are many.
 };

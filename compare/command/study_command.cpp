@@ -2,9 +2,9 @@
 
 #include "command/claimed_files.hpp"
 #include "command/progress.hpp"
-#include "runs/output_file.hpp"
-#include "runs/rows_file.hpp"
-#include "runs/rows_json.hpp"
+#include "records/output_file.hpp"
+#include "records/rows_file.hpp"
+#include "runs/environment.hpp"
 #include "studies/chart_page.hpp"
 #include "studies/scale.hpp"
 
@@ -73,13 +73,13 @@ ChartPage page_of(const std::vector<ScalePoint>& points) {
       "process.",
       growth_sentence(points),
       "The candidates of a step are kept for the next ones, so that the broad phase is asked only now and then."};
-  page.chart = {"octagon_sweep, walking and jumping", "pieces", "ns per step", {}};
+  Chart& chart = page.charts.emplace_back(Chart{"octagon_sweep, walking and jumping", "pieces", "ns per step", {}});
   for (const BroadPhaseKind kind : {BroadPhaseKind::all_pairs, BroadPhaseKind::buckets, BroadPhaseKind::tree}) {
     ChartSeries series{std::string(name_of(kind)), {}};
     for (const ScalePoint& point : points)
       if (point.broad_phase == kind)
         series.points.push_back({static_cast<double>(point.pieces), point.ns_per_step_min});
-    page.chart.series.push_back(std::move(series));
+    chart.series.push_back(std::move(series));
   }
   page.table.heading = heading;
   for (const ScalePoint& point : points) page.table.rows.push_back(cells_of(point));
@@ -95,7 +95,7 @@ int study_scale_command(const StudyArguments& arguments) {
   files.claim_for_option("--report", arguments.report_path);
   std::optional<RowsFile> rows_file;
   std::optional<OutputFile> report_file;
-  if (!arguments.rows_path.empty()) rows_file.emplace(arguments.rows_path);
+  if (!arguments.rows_path.empty()) rows_file.emplace(arguments.rows_path, environment());
   if (!arguments.report_path.empty()) report_file.emplace(arguments.report_path);
 
   const Progress progress(!arguments.quiet);
@@ -115,7 +115,7 @@ int study_scale_command(const StudyArguments& arguments) {
     for (const ScalePoint& point : points) text += line_of(cells_of(point));
     print_out(fmt::format("{}\n{}\n", text, growth_sentence(points)));
   }
-  if (rows_file) rows_file->finish(rows_json(rows));
+  if (rows_file) rows_file->finish(rows_json(rows, environment()));
   if (report_file) {
     report_file->write(html_of(page_of(points)));
     report_file->commit();

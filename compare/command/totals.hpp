@@ -1,7 +1,7 @@
 /// What is true of all runs of a comparison together.
 #pragma once
 
-#include "runs/row.hpp"
+#include "records/row.hpp"
 #include "words.hpp"
 
 #include <paperproof/techniques.hpp>

@@ -3,7 +3,7 @@
 
 #include "metrics/window.hpp"
 #include "oracle/judge.hpp"
-#include "runs/row.hpp"
+#include "records/row.hpp"
 
 #include <array>
 #include <optional>

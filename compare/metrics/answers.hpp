@@ -1,8 +1,8 @@
 /// Whether a run comes to what its scene must come to.
 #pragma once
 
-#include "runs/row.hpp"
-#include "runs/trace.hpp"
+#include "records/row.hpp"
+#include "records/trace.hpp"
 #include "scenes/answer.hpp"
 
 #include <optional>

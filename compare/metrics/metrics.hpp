@@ -7,7 +7,7 @@
 #include "metrics/window.hpp"
 #include "oracle/exemptions.hpp"
 #include "oracle/judge.hpp"
-#include "runs/row.hpp"
+#include "records/row.hpp"
 
 #include <set>
 #include <utility>

@@ -1,8 +1,8 @@
 /// What a character does that should do nothing.
 #pragma once
 
-#include "runs/row.hpp"
-#include "runs/trace.hpp"
+#include "records/row.hpp"
+#include "records/trace.hpp"
 
 #include <optional>
 

@@ -1,7 +1,7 @@
 /// What a contender is excused, and up to what size: one table for the judge, the rows, the command and the report.
 #pragma once
 
-#include "runs/trace.hpp"
+#include "records/trace.hpp"
 
 #include <array>
 #include <span>

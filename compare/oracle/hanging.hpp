@@ -3,7 +3,7 @@
 
 #include "oracle/crush.hpp"
 #include "oracle/exact.hpp"
-#include "runs/trace.hpp"
+#include "records/trace.hpp"
 
 namespace paperproof::compare::detail {
 

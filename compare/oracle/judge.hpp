@@ -2,7 +2,7 @@
 #pragma once
 
 #include "oracle/crush.hpp"
-#include "runs/trace.hpp"
+#include "records/trace.hpp"
 
 #include <map>
 #include <memory>

@@ -27,7 +27,7 @@ void put(nlohmann::json& object, const char* key, const std::optional<Number>& v
   }
 }
 
-nlohmann::json row_json(const Row& row) {
+nlohmann::json row_in_index(const Row& row) {
   nlohmann::json object{{"contender", row.contender}, {"scalar", row.scalar}, {"mode", row.mode},
                         {"steps", row.steps},         {"reason", row.reason}, {"findings", row.findings}};
   if (!row.first_difference_box2d.empty()) object["findings"].push_back(row.first_difference_box2d);
@@ -50,7 +50,7 @@ std::string scene_index_json(const ReportScene& scene) {
                         {"runs", scene.runs.size()},
                         {"disagreements", scene.disagreements.size()}};
   object["rows"] = nlohmann::json::array();
-  for (const Row& row : scene.rows) object["rows"].push_back(row_json(row));
+  for (const Row& row : scene.rows) object["rows"].push_back(row_in_index(row));
   return dumped(object);
 }
 

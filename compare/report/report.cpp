@@ -1,10 +1,10 @@
 #include "report/report.hpp"
 
+#include "records/output_file.hpp"
 #include "report/index_json.hpp"
 #include "report/json_text.hpp"
 #include "report/page_parts.hpp"
 #include "report/replay_json.hpp"
-#include "runs/output_file.hpp"
 
 #include <algorithm>
 #include <stdexcept>

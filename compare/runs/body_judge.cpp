@@ -1,7 +1,7 @@
 #include "runs/body_judge.hpp"
 
 #include "oracle/convex_parts.hpp"
-#include "runs/verdict.hpp"
+#include "records/verdict.hpp"
 #include "words.hpp"
 
 #include <fmt/format.h>

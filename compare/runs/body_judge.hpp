@@ -2,7 +2,7 @@
 #pragma once
 
 #include "oracle/judge.hpp"
-#include "runs/row.hpp"
+#include "records/row.hpp"
 #include "scenes/scene.hpp"
 
 #include <memory>

@@ -31,6 +31,12 @@ std::span<const std::string_view> contender_names() {
 
 bool is_reference(std::string_view contender) { return contender == box2d_name || contender == box2d_pieces_name; }
 
+std::optional<TechniqueKind> technique_kind(std::string_view contender) {
+  const auto kind = std::find_if(all_techniques.begin(), all_techniques.end(),
+                                 [&](TechniqueKind each) { return paperproof::name_of(each) == contender; });
+  return kind == all_techniques.end() ? std::nullopt : std::optional(*kind);
+}
+
 std::string_view name_of(ScalarKind scalar) noexcept { return scalar == ScalarKind::binary32 ? "float" : "double"; }
 
 void place_at_start(Contestant& contestant, const Scene& scene) {
@@ -52,9 +58,7 @@ std::unique_ptr<Contestant> make_contestant(std::string_view name, ScalarKind sc
                                     [](const MoverDef& mover) { return !mover.turns.empty(); });
   if (turning != scene.movers.end())
     throw NotApplicable(std::string(name) + " is for movers that do not turn, and \"" + turning->id + "\" does");
-  const auto kind = std::find_if(all_techniques.begin(), all_techniques.end(),
-                                 [&](TechniqueKind each) { return paperproof::name_of(each) == name; });
-  if (kind != all_techniques.end()) {
+  if (const std::optional<TechniqueKind> kind = technique_kind(name)) {
     const bool crowd = !scene.others.empty();
     if (crowd && moves_crowds(*kind)) return make_crowd_contestant(*kind, scalar, scene, scenery, planning);
     if (crowd)

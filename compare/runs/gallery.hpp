@@ -1,7 +1,9 @@
 /// The gallery: for each contender where it fails, and where it is the cheapest of those that do not.
 #pragma once
 
-#include "runs/row.hpp"
+#include "records/row.hpp"
+
+#include <nlohmann/json_fwd.hpp>
 
 #include <optional>
 #include <string>
@@ -50,6 +52,10 @@ struct GalleryEntry {
 
 /// @param rows of several scenes. In the order in which the contenders first appear.
 [[nodiscard]] std::vector<GalleryEntry> gallery_of(const std::vector<Row>& rows);
+
+/// One object per contender: `fails_on` (scene, failure) and `cheapest_on` (scene, ns_per_step, and of the next one
+/// contender and ns_per_step), each absent where the search found none.
+[[nodiscard]] nlohmann::ordered_json gallery_json(const std::vector<GalleryEntry>& gallery);
 
 /// One paragraph for each contender, without a heading, and one more where nothing was timed.
 [[nodiscard]] std::vector<std::string> gallery_lines(const std::vector<GalleryEntry>& gallery);

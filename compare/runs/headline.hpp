@@ -1,7 +1,7 @@
 /// A scene in one screen: what happens to each contender, in plain words, and what a step costs.
 #pragma once
 
-#include "runs/row.hpp"
+#include "records/row.hpp"
 
 #include <string>
 #include <vector>

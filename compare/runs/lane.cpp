@@ -1,6 +1,6 @@
 #include "runs/lane.hpp"
 
-#include "runs/verdict.hpp"
+#include "records/verdict.hpp"
 #include "words.hpp"
 
 #include <fmt/format.h>
@@ -29,6 +29,8 @@ Lane::Lane(std::string contender, ScalarKind scalar, const Scene& scene, const S
   row_.contender = std::move(contender);
   row_.scalar = is_reference(row_.contender) ? name_of(ScalarKind::binary32) : name_of(scalar);
   row_.mode = mode;
+  row_.source = scene.source;
+  row_.parameters = scene.parameters;
   try {
     if (mode == "lockstep" && !scene.others.empty())
       throw NotApplicable(
@@ -144,12 +146,22 @@ void Lane::judge_step() {
   if (bodies_) bodies_->add(records_.front());
 }
 
+bool Lane::is_finite() const {
+  return std::all_of(records_.begin(), records_.end(), [](const TraceStep& record) {
+    return record.velocity.allFinite() && std::all_of(record.path.begin(), record.path.end(),
+                                                      [](const auto& corner) { return corner.position.allFinite(); });
+  });
+}
+
 void Lane::step(int step, const StepInput& input) {
   try {
     begin_records(step, input.dt);
     contestant_->step(input, records_);
     for (std::size_t k = 0; k < records_.size(); ++k)
       if (!input.players[k].drop) records_[k].dropped_through.clear();  // nobody asked for it
+    row_.finite = is_finite();
+    if (!*row_.finite)
+      return fail(Verdict::failed, fmt::format("step {}: a position or velocity that is no number", step));
     judge_step();
   } catch (const StepRefused& reason) {
     return end_early(fmt::format("step {}: {}", step, reason.what()));

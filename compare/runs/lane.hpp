@@ -5,11 +5,11 @@
 #include "metrics/metrics.hpp"
 #include "oracle/company.hpp"
 #include "oracle/judge.hpp"
-#include "report/report.hpp"
+#include "records/scene_result.hpp"
+#include "records/trace_writer.hpp"
 #include "runs/body_judge.hpp"
 #include "runs/contestant.hpp"
 #include "runs/cost.hpp"
-#include "runs/trace_writer.hpp"
 
 #include <memory>
 #include <optional>
@@ -64,6 +64,7 @@ class Lane {
   void write_metrics();
   void note_start();
   void begin_records(int step, double dt);
+  [[nodiscard]] bool is_finite() const;
   void judge_step();
   void fail(Verdict verdict, const std::string& reason);
   void end_early(const std::string& reason);

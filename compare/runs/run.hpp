@@ -1,9 +1,9 @@
 /// Runs the contenders of a scene side by side and judges every step.
 #pragma once
 
-#include "report/report.hpp"
+#include "records/row.hpp"
+#include "records/scene_result.hpp"
 #include "runs/contestant.hpp"
-#include "runs/row.hpp"
 #include "scenes/scene.hpp"
 
 #include <functional>

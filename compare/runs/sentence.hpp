@@ -1,7 +1,7 @@
 /// The sentence under a table: who is right where the contenders differ.
 #pragma once
 
-#include "runs/row.hpp"
+#include "records/row.hpp"
 
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 /// All scenes in one table: what became of each contender.
 #pragma once
 
-#include "runs/row.hpp"
+#include "records/row.hpp"
 
 #include <string>
 #include <vector>

@@ -1,7 +1,7 @@
 /// Rows as a table for a terminal.
 #pragma once
 
-#include "runs/row.hpp"
+#include "records/row.hpp"
 
 #include <string>
 #include <vector>

@@ -20,11 +20,19 @@ namespace paperproof::compare {
 [[nodiscard]] std::vector<BuiltInScene> play_scenes();     ///< Ledges, gaps, ramps, kerbs, exact fits.
 [[nodiscard]] std::vector<BuiltInScene> extreme_scenes();  ///< Overlapping starts, far origins, other scales.
 
+[[nodiscard]] std::vector<SceneFamily> paper_families();    ///< Bullets and paper.
+[[nodiscard]] std::vector<SceneFamily> limit_families();    ///< Lengths of steps, perturbed starts.
+[[nodiscard]] std::vector<SceneFamily> ground_families();   ///< Tiles, shafts, slopes.
+[[nodiscard]] std::vector<SceneFamily> extreme_families();  ///< Far origins, other scales and gravities.
+[[nodiscard]] std::vector<SceneFamily> body_families();     ///< Stacks.
+[[nodiscard]] std::vector<SceneFamily> angle_families();    ///< Wedges.
+[[nodiscard]] std::vector<SceneFamily> play_families();     ///< Slopes.
+
 /// Half the width, and the height below and above the position, of the article's character: 20 x 40 px at 32 px/m [m].
 inline constexpr double half_width = 10.0 / 32;
 inline constexpr double half_height = 20.0 / 32;
-inline constexpr double pixel = 1.0 / 32;              ///< [m]
-inline constexpr double foot = 5 * pixel;              ///< From the middle to each foot [m].
+inline constexpr double pixel = 1.0 / 32;  ///< [m]
+inline constexpr double foot = 5 * pixel;  ///< From the middle to each foot [m].
 inline constexpr double pi = 3.14159265358979;
 inline constexpr double tan_30 = 0.57735026918962576;  ///< Of 30 degrees.
 

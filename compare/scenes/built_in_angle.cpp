@@ -177,6 +177,17 @@ Scene sawtooth_11() { return sawtooth_of(11); }
 
 }  // namespace
 
+std::vector<SceneFamily> angle_families() {
+  return {{"wedge",
+           "a fall into a V: rests between its walls",
+           {{"angle", "deg", 0.5, 120, 60, "of the V"}},
+           [](const ParameterValues& values) {
+             const double tangent = std::tan(values["angle"] / 2 * pi / 180);
+             const double height = std::max(10 * pixel * (1 / tangent + 1), pixel * (5 / tangent + 20)) + 1;
+             return wedge_of(tangent, height + 2, height, 180);
+           }}};
+}
+
 std::vector<BuiltInScene> angle_scenes() {
   return {
       {"grazing_wall", "into a wall at 10 degrees: t = d / (v sin 10°) = 0.25 / 1.736 s, in step 8", grazing_wall},

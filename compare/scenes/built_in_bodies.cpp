@@ -8,7 +8,8 @@ namespace {
 constexpr double rest_gap = 0.015;  ///< That Box2D leaves between polygons [m].
 
 /// Stands on four boxes of 1 kg and a fifth of `mass` [kg] on top of them.
-Scene stack_under(double mass) {
+Scene stack(const ParameterValues& values) {
+  const double mass = values["mass_ratio"];
   constexpr int boxes = 5;
   constexpr double height = 0.5;
   Scene scene = flight(0, 0, 0, 0, 600);
@@ -28,11 +29,7 @@ Scene stack_under(double mass) {
   return scene;
 }
 
-Scene stack_1() { return stack_under(1); }
-Scene stack_10() { return stack_under(10); }
-Scene stack_100() { return stack_under(100); }
-Scene stack_1000() { return stack_under(1000); }
-Scene stack_10000() { return stack_under(10000); }
+std::vector<ParameterSetting> under(double mass) { return {{"mass_ratio", mass}}; }
 
 /// A crate falls onto the head of who stands there, from `way` metres above it.
 Scene falling_crate() {
@@ -50,13 +47,23 @@ Scene falling_crate() {
 
 }  // namespace
 
+std::vector<SceneFamily> body_families() {
+  return {{"stack",
+           "stands on a heavy box on four light ones, all of them Box2D's",
+           {{"mass_ratio", "", 0.01, 1e6, 1, "of the heavy box to a light one of 1 kg"}},
+           stack}};
+}
+
 std::vector<BuiltInScene> body_scenes() {
   return {
-      {"stack_1", "stands on a stack of five boxes of the same mass: never inside, grounded without a toggle", stack_1},
-      {"stack_10", "the same with 10 times the mass in the uppermost box", stack_10},
-      {"stack_100", "the same with 100 times the mass: Box2D's stack gives way", stack_100},
-      {"stack_1000", "the same with 1,000 times the mass: the heavy box sinks through others", stack_1000},
-      {"stack_10000", "the same with 10,000 times the mass: light boxes are pressed through the floor", stack_10000},
+      {"stack_1", "stands on a stack of five boxes of the same mass: never inside, grounded without a toggle", nullptr,
+       "stack", under(1)},
+      {"stack_10", "the same with 10 times the mass in the uppermost box", nullptr, "stack", under(10)},
+      {"stack_100", "the same with 100 times the mass: Box2D's stack gives way", nullptr, "stack", under(100)},
+      {"stack_1000", "the same with 1,000 times the mass: the heavy box sinks through others", nullptr, "stack",
+       under(1000)},
+      {"stack_10000", "the same with 10,000 times the mass: light boxes are pressed through the floor", nullptr,
+       "stack", under(10000)},
       {"falling_crate",
        "a crate 2 m above its head falls: crushed in step 37, the first n with g h² (n + 1) (n + 2) / 2 > 2 m",
        falling_crate},

@@ -1,6 +1,7 @@
 /// Slivers, starts inside solids, far origins, other scales and other gravities: scenes 21 to 25.
 #include "scenes/built_in.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace paperproof::compare {
@@ -34,7 +35,8 @@ Scene start_overlapping_deep() { return start_inside(half_height - 0.4); }
 
 /// Walks over tiles and into a wall, all of it just below `origin` on the x axis. Everything is a multiple of 1/64 m,
 /// so that the scene is the same wherever it is.
-Scene far_from(double origin) {
+Scene far(const ParameterValues& values) {
+  const double origin = values["origin"];
   const double x = origin - 16;
   Scene scene = walk(x + 0.5, half_height + 1.0 / 32, 1, 240);
   for (int i = 0; i < 14; ++i) add_box(scene, "tile" + std::to_string(i), x + i - 1, -1, x + i, 0);
@@ -47,14 +49,11 @@ Scene far_from(double origin) {
   return scene;
 }
 
-Scene far_origin_0() { return far_from(16); }
-Scene far_origin_1e3() { return far_from(1e3); }
-Scene far_origin_1e4() { return far_from(1e4); }
-Scene far_origin_1e5() { return far_from(1e5); }
-Scene far_origin_1e6() { return far_from(1e6); }
+std::vector<ParameterSetting> at(double origin) { return {{"origin", origin}}; }
 
 /// Drops, walks up a ramp, meets a wall, with every length multiplied by a power of two.
-Scene scaled_by(double scale) {
+Scene scaled(const ParameterValues& values) {
+  const double scale = values["scale"];
   Scene scene = walk(0, (half_height + 0.25) * scale, 1, 180);
   scene.gravity *= scale;
   std::vector<Vec2d> points;
@@ -72,25 +71,38 @@ Scene scaled_by(double scale) {
   return scene;
 }
 
-Scene scaled_small() { return scaled_by(1.0 / 1024); }
-Scene scaled_one() { return scaled_by(1); }
-Scene scaled_large() { return scaled_by(1024); }
+std::vector<ParameterSetting> times(double scale) { return {{"scale", scale}}; }
 
-Scene gravity_of(double gravity) {
+Scene drop(const ParameterValues& values) {
   Scene scene = flight(0, half_height + 0.25, 0, 0, 120);
-  scene.gravity = {0, -gravity};
+  scene.gravity = {0, -values["gravity"]};
+  scene.dt = values["dt"];
+  scene.steps = static_cast<int>(std::ceil(std::max(2 / scene.dt, steps_to_fall(scene, 0.25) + 100)));
   add_box(scene, "floor", -4, -1, 4, 0);
   scene.answers = {contact(steps_to_fall(scene, 0.25), fallen(scene, 1))};
   ends_at(scene, 0, half_height);
-  rests_after(scene, 60);
+  rests_after(scene, scene.steps / 2);
   return scene;
 }
 
-Scene gravity_10() { return gravity_of(10); }
-Scene gravity_1e3() { return gravity_of(1e3); }
-Scene gravity_1e6() { return gravity_of(1e6); }
+std::vector<ParameterSetting> pulled(double gravity) { return {{"gravity", gravity}}; }
 
 }  // namespace
+
+std::vector<SceneFamily> extreme_families() {
+  return {{"far",
+           "walk, wall and jump, far from the origin: the same to a few ulp",
+           {{"origin", "m", 16, 1e7, 16, "where on the x axis it is"}},
+           far},
+          {"scaled",
+           "drop, ramp and wall in another size: the same result times the scale",
+           {{"scale", "", 1e-5, 1e5, 1, "of every length"}},
+           scaled},
+          {"drop",
+           "a drop of 0.25 m: rests",
+           {{"gravity", "m_s2", 0.1, 1e7, 30, "straight down"}, {"dt", "s", 1e-5, 1, 1.0 / 60, "length of a step"}},
+           drop}};
+}
 
 std::vector<BuiltInScene> extreme_scenes() {
   return {
@@ -98,17 +110,22 @@ std::vector<BuiltInScene> extreme_scenes() {
       {"start_overlapping_ulp", "begins one ulp inside a floor: comes out upwards", start_overlapping_ulp},
       {"start_overlapping_slop", "begins 5 mm inside a floor: comes out upwards", start_overlapping_slop},
       {"start_overlapping_deep", "begins 0.4 m inside a floor: comes out upwards", start_overlapping_deep},
-      {"far_origin_0", "walk, wall and jump at the origin: what the far ones are compared with", far_origin_0},
-      {"far_origin_1e3", "the same 1,000 m away: the same to a few ulp", far_origin_1e3},
-      {"far_origin_1e4", "the same 10,000 m away: the same to a few ulp", far_origin_1e4},
-      {"far_origin_1e5", "the same 100,000 m away: the same to a few ulp", far_origin_1e5},
-      {"far_origin_1e6", "the same 1,000,000 m away, the end of the guarantee: the same to a few ulp", far_origin_1e6},
-      {"scaled_1", "drop, ramp and wall: what the scaled ones are compared with", scaled_one},
-      {"scaled_1e-3", "all lengths divided by 1,024: the same result times the scale, the gap apart", scaled_small},
-      {"scaled_1e3", "all lengths times 1,024: the same result times the scale, the gap apart", scaled_large},
-      {"gravity_10", "drops 0.25 m under 10 m/s²: rests", gravity_10},
-      {"gravity_1e3", "the same under 1,000 m/s²: the same rest gap", gravity_1e3},
-      {"gravity_1e6", "the same under 1,000,000 m/s²: the same rest gap, nothing is passed", gravity_1e6},
+      {"far_origin_0", "walk, wall and jump at the origin: what the far ones are compared with", nullptr, "far",
+       at(16)},
+      {"far_origin_1e3", "the same 1,000 m away: the same to a few ulp", nullptr, "far", at(1e3)},
+      {"far_origin_1e4", "the same 10,000 m away: the same to a few ulp", nullptr, "far", at(1e4)},
+      {"far_origin_1e5", "the same 100,000 m away: the same to a few ulp", nullptr, "far", at(1e5)},
+      {"far_origin_1e6", "the same 1,000,000 m away, the end of the guarantee: the same to a few ulp", nullptr, "far",
+       at(1e6)},
+      {"scaled_1", "drop, ramp and wall: what the scaled ones are compared with", nullptr, "scaled", times(1)},
+      {"scaled_1e-3", "all lengths divided by 1,024: the same result times the scale, the gap apart", nullptr, "scaled",
+       times(1.0 / 1024)},
+      {"scaled_1e3", "all lengths times 1,024: the same result times the scale, the gap apart", nullptr, "scaled",
+       times(1024)},
+      {"gravity_10", "drops 0.25 m under 10 m/s²: rests", nullptr, "drop", pulled(10)},
+      {"gravity_1e3", "the same under 1,000 m/s²: the same rest gap", nullptr, "drop", pulled(1e3)},
+      {"gravity_1e6", "the same under 1,000,000 m/s²: the same rest gap, nothing is passed", nullptr, "drop",
+       pulled(1e6)},
   };
 }
 

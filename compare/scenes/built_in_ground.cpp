@@ -9,7 +9,8 @@ namespace {
 
 /// Walks along flush tiles of 1 m at a constant speed. The speed is there from the start, so that any change of it is
 /// the seams' doing.
-Scene flush_tiles_at(double speed) {
+Scene tiles(const ParameterValues& values) {
+  const double speed = values["speed"];
   // From a drop: put down 20 mm above the ground, Box2D comes to rest at the far end of its skin and never snags.
   Scene scene = walk(0.5, half_height + 0.3, 1, 300);
   scene.gravity = {0, -10};  // at 30 m/s² Box2D's pieces snag at fewer speeds
@@ -21,13 +22,17 @@ Scene flush_tiles_at(double speed) {
   return scene;
 }
 
-Scene flush_tiles() { return flush_tiles_at(7.3); }
-Scene flush_tiles_slow() { return flush_tiles_at(1.7); }
-Scene flush_tiles_fast() { return flush_tiles_at(11.3); }
+const std::vector<ParameterDef>& tile_parameters() {
+  static const std::vector<ParameterDef> all{{"speed", "m_s", 0.1, 12, 7.3, "along the tiles, from the start"}};
+  return all;
+}
+
+std::vector<ParameterSetting> walked_at(double speed) { return {{"speed", speed}}; }
 
 /// Nothing steers, so speed that is lost at a seam is lost for good.
 Scene flush_tiles_slide() {
-  Scene scene = flush_tiles_at(5);
+  const std::vector<ParameterSetting> slow = walked_at(5);
+  Scene scene = tiles(ParameterValues(tile_parameters(), slow));
   scene.input.clear();
   return scene;
 }
@@ -115,12 +120,21 @@ Scene shaft_wider() {
 
 }  // namespace
 
+std::vector<SceneFamily> ground_families() {
+  return {
+      {"tiles", "walk along flush tiles of 1 m: speed and height do not change at the seams", tile_parameters(), tiles},
+      {"shaft",
+       "a fall down a shaft onto its floor",
+       {{"clearance", "m", 0, 1, 1e-6, "between the character and each wall"}},
+       [](const ParameterValues& values) { return shaft_of(half_width + values["clearance"]); }}};
+}
+
 std::vector<BuiltInScene> ground_scenes() {
   return {
-      {"flush_tiles", "walk at 7.3 m/s over separate 1 m tiles: speed and height do not change at the seams",
-       flush_tiles},
-      {"flush_tiles_slow", "the same at 1.7 m/s: no change", flush_tiles_slow},
-      {"flush_tiles_fast", "the same at 11.3 m/s: no change", flush_tiles_fast},
+      {"flush_tiles", "walk at 7.3 m/s over separate 1 m tiles: speed and height do not change at the seams", nullptr,
+       "tiles", walked_at(7.3)},
+      {"flush_tiles_slow", "the same at 1.7 m/s: no change", nullptr, "tiles", walked_at(1.7)},
+      {"flush_tiles_fast", "the same at 11.3 m/s: no change", nullptr, "tiles", walked_at(11.3)},
       {"flush_tiles_slide", "slide at 5 m/s with nothing to steer: speed and height do not change at the seams",
        flush_tiles_slide},
       {"slope_joints", "walk over a hill of 30 degrees with snap: the path is the hill's offset curve", slope_joints},

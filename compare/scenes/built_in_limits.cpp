@@ -39,7 +39,9 @@ Scene climb_far_below() { return climbed(1.0774552687432373); }
 Scene climb_far_above() { return not_climbed(1.3205494158674156); }
 
 /// Falls for one second through empty air.
-Scene fall_with(double dt, int steps) {
+Scene fall(const ParameterValues& values) {
+  const double dt = values["dt"];
+  const int steps = static_cast<int>(std::lround(1 / dt));
   Scene scene = flight(0, 0, 0, 0, steps);
   scene.gravity = {0, -10};
   scene.dt = dt;
@@ -48,11 +50,7 @@ Scene fall_with(double dt, int steps) {
   return scene;
 }
 
-Scene fall_dt_1() { return fall_with(1, 1); }
-Scene fall_dt_01() { return fall_with(0.1, 10); }
-Scene fall_dt_001() { return fall_with(0.01, 100); }
-Scene fall_dt_0001() { return fall_with(0.001, 1000); }
-Scene fall_dt_00001() { return fall_with(0.0001, 10000); }
+std::vector<ParameterSetting> step_of(double dt) { return {{"dt", dt}}; }
 
 /// 64 lengths from 1/1024 to 31/1024 s in no order: each and the next make 32/1024 s, so all of them 1 s, exactly.
 std::vector<double> uneven_steps() {
@@ -147,7 +145,8 @@ Scene sensor_gate() {
 
 /// Walks, jumps onto a block, meets a wall. Every margin is far beyond a millimetre: of the jump over the block's
 /// corner, of the steps on which something is met.
-Scene replica_off_by(double distance) {
+Scene replica(const ParameterValues& values) {
+  const double distance = values["aside"];
   Scene scene = walk(distance, half_height + 0.02 + distance, 1, 240);
   scene.gravity = {0, -30};
   add_box(scene, "floor", -4, -1, 30, 0);
@@ -162,13 +161,18 @@ Scene replica_off_by(double distance) {
   return scene;
 }
 
-Scene replica() { return replica_off_by(0); }
-Scene replica_1e12() { return replica_off_by(1e-12); }
-Scene replica_1e9() { return replica_off_by(1e-9); }
-Scene replica_1e6() { return replica_off_by(1e-6); }
-Scene replica_1e3() { return replica_off_by(1e-3); }
+std::vector<ParameterSetting> aside(double distance) { return {{"aside", distance}}; }
 
 }  // namespace
+
+std::vector<SceneFamily> limit_families() {
+  return {
+      {"fall", "a fall of one second through empty air", {{"dt", "s", 1e-6, 1, 1.0 / 60, "length of a step"}}, fall},
+      {"replica_of",
+       "walk, jump, wall, begun a little aside: the same sequence of events",
+       {{"aside", "m", 0, 0.01, 0, "of where the walk begins, to the right and up"}},
+       replica}};
+}
 
 std::vector<BuiltInScene> limit_scenes() {
   return {
@@ -176,11 +180,11 @@ std::vector<BuiltInScene> limit_scenes() {
       {"climb_limit_+1e-6", "against a ramp of 50° + 1e-6 rad with a limit of 50°: is not", climb_above},
       {"climb_limit_-0.05", "against a ramp of 50° - 0.05 rad with a limit of 50°: is walked up", climb_far_below},
       {"climb_limit_+0.05", "against a ramp of 50° + 0.05 rad with a limit of 50°: is not", climb_far_above},
-      {"fall_dt_1", "a fall of one second in 1 step: g h² n (n + 1) / 2 = 10 m", fall_dt_1},
-      {"fall_dt_1e-1", "the same in 10 steps: 5.5 m", fall_dt_01},
-      {"fall_dt_1e-2", "the same in 100 steps: 5.05 m", fall_dt_001},
-      {"fall_dt_1e-3", "the same in 1,000 steps: 5.005 m", fall_dt_0001},
-      {"fall_dt_1e-4", "the same in 10,000 steps: 5.0005 m", fall_dt_00001},
+      {"fall_dt_1", "a fall of one second in 1 step: g h² n (n + 1) / 2 = 10 m", nullptr, "fall", step_of(1)},
+      {"fall_dt_1e-1", "the same in 10 steps: 5.5 m", nullptr, "fall", step_of(0.1)},
+      {"fall_dt_1e-2", "the same in 100 steps: 5.05 m", nullptr, "fall", step_of(0.01)},
+      {"fall_dt_1e-3", "the same in 1,000 steps: 5.005 m", nullptr, "fall", step_of(0.001)},
+      {"fall_dt_1e-4", "the same in 10,000 steps: 5.0005 m", nullptr, "fall", step_of(0.0001)},
       {"even_flight", "two seconds at a constant velocity in 128 steps of 1/64 s", even_flight},
       {"uneven_flight", "the same in 128 steps of 1/1024 to 31/1024 s: the same end, to an ulp per step",
        uneven_flight},
@@ -193,11 +197,13 @@ std::vector<BuiltInScene> limit_scenes() {
        thin_sensor},
       {"sensor_gate", "through a sensor in steps 31 to 43, into a wall in step 71: the sensor stops nobody",
        sensor_gate},
-      {"replica", "walk, jump, wall: the sequence of events that perturbed replicas share", replica},
-      {"replica_1e-12", "the same begun 1e-12 m aside: the same sequence of events", replica_1e12},
-      {"replica_1e-9", "the same begun 1e-9 m aside: the same sequence of events", replica_1e9},
-      {"replica_1e-6", "the same begun 1e-6 m aside: the same sequence of events", replica_1e6},
-      {"replica_1e-3", "the same begun 1e-3 m aside: the same sequence of events", replica_1e3},
+      {"replica", "walk, jump, wall: the sequence of events that perturbed replicas share", nullptr, "replica_of",
+       aside(0)},
+      {"replica_1e-12", "the same begun 1e-12 m aside: the same sequence of events", nullptr, "replica_of",
+       aside(1e-12)},
+      {"replica_1e-9", "the same begun 1e-9 m aside: the same sequence of events", nullptr, "replica_of", aside(1e-9)},
+      {"replica_1e-6", "the same begun 1e-6 m aside: the same sequence of events", nullptr, "replica_of", aside(1e-6)},
+      {"replica_1e-3", "the same begun 1e-3 m aside: the same sequence of events", nullptr, "replica_of", aside(1e-3)},
   };
 }
 

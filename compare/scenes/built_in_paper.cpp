@@ -1,6 +1,7 @@
 /// Bullets and paper: scenes 1, 2, 3 and 30.
 #include "scenes/built_in.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace paperproof::compare {
@@ -10,42 +11,57 @@ namespace {
 constexpr double frames_per_second = 60;
 
 /// The article's example: a character of one pixel, a platform 5 px thick that begins 30 px below it.
-Scene article_bullet_at(double pixels_per_frame) {
-  Scene scene = flight(0, 30.5 * pixel, 0, -pixels_per_frame * pixel * frames_per_second, 60);
+Scene bullet(const ParameterValues& values) {
+  const double pixels_per_frame = values["speed"] / (pixel * frames_per_second);
+  Scene scene = flight(0, 30.5 * pixel, 0, -values["speed"], 60);
   const std::vector<Vec2d> square{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   scene.character.shape = CharacterShape::from_pixels(square, 1 / pixel);
-  add_box(scene, "platform", -100 * pixel, -5 * pixel, 100 * pixel, 0);
+  add_box(scene, "platform", -100 * pixel, -values["thickness"], 100 * pixel, 0);
   scene.answers = {contact(30 / pixels_per_frame, pixels_per_frame * pixel)};
   ends_at(scene, 0, 0.5 * pixel);
   return scene;
 }
 
-/// A character falls at 40 m/s onto paper 3 m below its feet.
-Scene paper_of(double thickness) {
-  Scene scene = flight(0, 3 + half_height, 0, -40, 60);
-  scene.gravity = {0, -30};
-  add_box(scene, "paper", -4, -thickness, 4, 0);
-  scene.answers = {contact(steps_to_fall(scene, 3, 40), 40 * scene.dt)};
+/// A character falls onto paper 3 m below its feet, or a part of a step's way farther.
+Scene paper(const ParameterValues& values) {
+  const double speed = values["speed"];
+  Scene scene = flight(0, half_height, 0, -speed, 60);
+  scene.gravity = {0, -values["gravity"]};
+  scene.dt = values["dt"];
+  const double last = std::ceil(steps_to_fall(scene, 3, speed));
+  const double way = 3 + values["phase"] * (speed - scene.gravity.y() * scene.dt * last) * scene.dt;
+  scene.start.position.y() += way;
+  // A second, or half a second after the paper.
+  const double most = std::max(std::round(1 / scene.dt), std::ceil(steps_to_fall(scene, way, speed) + 0.5 / scene.dt));
+  scene.steps = static_cast<int>(std::clamp(most, 4.0, 1e7));
+  const double thickness = values["thickness"];
+  const double tilt = (90 - values["angle"]) * pi / 180;
+  const Vec2d along(std::cos(tilt), std::sin(tilt));
+  const Vec2d below(along.y() * thickness, -along.x() * thickness);
+  if (thickness > 0)
+    add_polygon(scene, "paper", {below - 4 * along, below + 4 * along, 4 * along, Vec2d::Zero() - 4 * along});
+  else
+    add_chain(scene, "paper", {Vec2d::Zero() - 4 * along, 4 * along});
+  if (tilt != 0) return scene;
+  scene.answers = {contact(steps_to_fall(scene, way, speed), speed * scene.dt)};
   ends_at(scene, 0, half_height);
   return scene;
 }
 
-Scene article_bullet() { return article_bullet_at(50); }
-Scene article_bullet_slow() { return article_bullet_at(1); }
-Scene article_bullet_fast() { return article_bullet_at(1000); }
-Scene article_bullet_extreme() { return article_bullet_at(1e5); }
-Scene thin_platform() { return paper_of(0.01); }
-Scene paper_tenth() { return paper_of(1e-1); }
-Scene paper_thousandth() { return paper_of(1e-3); }
-Scene paper_millionth() { return paper_of(1e-6); }
-
-Scene zero_thickness_paper() {
-  Scene scene = paper_of(1);
-  scene.scenery.colliders.clear();
-  scene.ids.clear();
-  add_chain(scene, "paper", {{-4, 0}, {4, 0}});
-  return scene;
+const std::vector<ParameterDef>& paper_parameters() {
+  static const std::vector<ParameterDef> all{{"speed", "m_s", 0.1, 1e5, 40, "downwards, at the start"},
+                                             {"thickness", "m", 0, 10, 0.01, "of the paper; 0 is a segment"},
+                                             {"angle", "deg", 1, 90, 90, "of the way to the paper; 90 is head-on"},
+                                             {"phase", "", 0, 1, 0, "share of a step's way by which it begins higher"},
+                                             {"gravity", "m_s2", 0, 1e6, 0, "straight down"},
+                                             {"dt", "s", 1e-5, 1, 1.0 / 60, "length of a step"}};
+  return all;
 }
+
+/// @param pixels per frame of a 60th of a second.
+std::vector<ParameterSetting> at(double pixels) { return {{"speed", pixels * pixel * frames_per_second}}; }
+/// Falls as well.
+std::vector<ParameterSetting> thick(double thickness) { return {{"thickness", thickness}, {"gravity", 30}}; }
 
 Scene long_rest() {
   Scene scene = flight(0, half_height + 0.25, 0, 0, 1'000'000);
@@ -60,20 +76,32 @@ Scene long_rest() {
 
 }  // namespace
 
+std::vector<SceneFamily> paper_families() {
+  return {{"paper", "a character falls onto paper: it is never passed", paper_parameters(), paper},
+          {"bullet",
+           "the article's: one pixel flies onto a platform 30 px below",
+           {{"speed", "m_s", 0.1, 1e6, 50 * pixel * frames_per_second, "downwards; 50 px per frame are 93.75 m/s"},
+            {"thickness", "m", 1e-6, 10, 5 * pixel, "of the platform; 5 px are 0.15625 m"}},
+           bullet}};
+}
+
 std::vector<BuiltInScene> paper_scenes() {
   return {
       {"article_bullet", "one pixel at 50 px per frame, platform 5 px thick 30 px below: first contact at t = 0.6",
-       article_bullet},
-      {"article_bullet_slow", "the same at 1 px per frame: touches after 30 frames, at t = 1 of step 29",
-       article_bullet_slow},
-      {"article_bullet_fast", "the same at 1,000 px per frame: first contact at t = 0.03", article_bullet_fast},
-      {"article_bullet_extreme", "the same at 100,000 px per frame: first contact at t = 0.0003",
-       article_bullet_extreme},
-      {"thin_platform", "fall at 40 m/s and more onto paper of 1 cm: it is never passed", thin_platform},
-      {"paper_1e-1", "fall at 40 m/s and more onto paper of 10 cm: it is never passed", paper_tenth},
-      {"paper_1e-3", "fall at 40 m/s and more onto paper of 1 mm: it is never passed", paper_thousandth},
-      {"paper_1e-6", "fall at 40 m/s and more onto paper of 1 micrometre: it is never passed", paper_millionth},
-      {"zero_thickness_paper", "fall at 40 m/s and more onto a segment: it is never passed", zero_thickness_paper},
+       nullptr, "bullet", at(50)},
+      {"article_bullet_slow", "the same at 1 px per frame: touches after 30 frames, at t = 1 of step 29", nullptr,
+       "bullet", at(1)},
+      {"article_bullet_fast", "the same at 1,000 px per frame: first contact at t = 0.03", nullptr, "bullet", at(1000)},
+      {"article_bullet_extreme", "the same at 100,000 px per frame: first contact at t = 0.0003", nullptr, "bullet",
+       at(1e5)},
+      {"thin_platform", "fall at 40 m/s and more onto paper of 1 cm: it is never passed", nullptr, "paper",
+       thick(0.01)},
+      {"paper_1e-1", "fall at 40 m/s and more onto paper of 10 cm: it is never passed", nullptr, "paper", thick(1e-1)},
+      {"paper_1e-3", "fall at 40 m/s and more onto paper of 1 mm: it is never passed", nullptr, "paper", thick(1e-3)},
+      {"paper_1e-6", "fall at 40 m/s and more onto paper of 1 micrometre: it is never passed", nullptr, "paper",
+       thick(1e-6)},
+      {"zero_thickness_paper", "fall at 40 m/s and more onto a segment: it is never passed", nullptr, "paper",
+       thick(0)},
       {"long_rest", "a million steps at rest on a floor: the position does not change, one contact begins", long_rest},
   };
 }

@@ -112,6 +112,13 @@ Scene steep_ramp(double degrees, double move) {
   return scene;
 }
 
+/// The same on any slope: up to the climb limit it stands.
+Scene begun_on_slope(double degrees, double move) {
+  Scene scene = steep_ramp(degrees, move);
+  if (degrees <= scene.character.max_climb_degrees) scene.answers.clear();
+  return scene;
+}
+
 Scene steep_ramp_51() { return steep_ramp(51, 0); }
 Scene steep_ramp_51_up() { return steep_ramp(51, 1); }
 Scene steep_ramp_51_down() { return steep_ramp(51, -1); }
@@ -369,6 +376,14 @@ Scene escape_not_shortest() {
 }
 
 }  // namespace
+
+std::vector<SceneFamily> play_families() {
+  return {{"ramp",
+           "begins on a slope: stands up to the climb limit of 50 degrees, slides down beyond it",
+           {{"angle", "deg", 1, 89.9, 60, "of the slope"},
+            {"move", "", -1, 1, 0, "what is steered; the slope rises to the right"}},
+           [](const ParameterValues& values) { return begun_on_slope(values["angle"], values["move"]); }}};
+}
 
 std::vector<BuiltInScene> play_scenes() {
   return {

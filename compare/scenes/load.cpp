@@ -18,13 +18,47 @@ namespace paperproof::compare {
 
 namespace {
 
-Scene load_built_in(const BuiltInScene& entry) {
-  Scene scene = entry.make();
+void check(const Scene& scene, const std::string& name) {
+  check_scenery(scene.scenery, scene.ids, [&](ColliderIndex) { return name; });
+  for (std::size_t k = 0; k < character_count(scene); ++k) check_start(scene, name, "", k);
+}
+
+const BuiltInScene* find_built_in(std::string_view name) {
+  const std::vector<BuiltInScene>& known = built_in_scenes();
+  const auto found = std::find_if(known.begin(), known.end(), [&](const auto& scene) { return scene.name == name; });
+  return found == known.end() ? nullptr : &*found;
+}
+
+/// @param own those of the member; the family's others have their usual values.
+Scene made_by(const SceneFamily& family, std::span<const ParameterSetting> own) {
+  const ParameterValues values(family.parameters, own);
+  Scene scene = family.make(values);
+  for (const ParameterDef& def : family.parameters) scene.parameters.emplace_back(row_key(def), values[def.key]);
+  return scene;
+}
+
+Scene load_built_in(const BuiltInScene& entry, std::span<const ParameterSetting> more = {}) {
+  std::vector<ParameterSetting> own = entry.settings;
+  own.insert(own.end(), more.begin(), more.end());
+  Scene scene = entry.make != nullptr ? entry.make() : made_by(*find_family(entry.family), own);
   scene.name = entry.name;
   scene.description = entry.description;
-  check_scenery(scene.scenery, scene.ids, [&](ColliderIndex) { return entry.name; });
-  for (std::size_t k = 0; k < character_count(scene); ++k) check_start(scene, entry.name, "", k);
   return scene;
+}
+
+/// What every scene has, behind its own.
+void note_parameters(Scene& scene) {
+  const auto note = [&](const std::string& key, double value) {
+    const auto known = std::find_if(scene.parameters.begin(), scene.parameters.end(),
+                                    [&](const auto& each) { return each.first == key; });
+    if (known == scene.parameters.end())
+      scene.parameters.emplace_back(key, value);
+    else
+      known->second = value;
+  };
+  note("dt_s", scene.dt);
+  note("gravity_m_s2", 0.0 - scene.gravity.y());
+  note("speed_m_s", scene.start.velocity.norm());
 }
 
 /// A scene and a Tiled map both end in .json.
@@ -37,6 +71,7 @@ Scene load_json(const std::string& path) {
 [[noreturn]] void refuse_unknown(const std::string& name) {
   std::vector<std::string> known;
   for (const BuiltInScene& scene : built_in_scenes()) known.push_back(scene.name);
+  for (const SceneFamily& family : scene_families()) known.emplace_back(family.name);
   for (const SceneSet& set : scene_sets()) known.push_back(set.name);
   refuse(shown(name),
          "expected the name of a built-in scene (see `paperproof list scenes`), or a file that ends in .json, .tmx, "
@@ -46,21 +81,57 @@ Scene load_json(const std::string& path) {
 
 }  // namespace
 
-std::vector<Scene> load_scenes(const std::string& name_or_path) {
-  const std::vector<BuiltInScene>& known = built_in_scenes();
-  const auto built_in = std::find_if(known.begin(), known.end(), [&](const auto& s) { return s.name == name_or_path; });
-  if (built_in != known.end()) return {load_built_in(*built_in)};
-  if (const SceneSet* set = find_set(name_or_path)) {
-    std::vector<Scene> scenes;
-    for (const std::string& name : set->scenes) scenes.push_back(load_scenes(name).front());
-    return scenes;
-  }
+namespace {
+
+std::vector<Scene> load_files(const std::string& name_or_path) {
   const std::string extension = std::filesystem::path(name_or_path).extension().string();
   if (extension == ".json") return {load_json(name_or_path)};
   if (extension == ".tmx" || extension == ".tmj") return {read_tiled(name_or_path, name_or_path)};
   if (extension == ".png") return {read_picture_map(name_or_path, name_or_path)};
   if (extension == ".stl") return read_supertux(name_or_path, name_or_path);
   refuse_unknown(name_or_path);
+}
+
+}  // namespace
+
+std::string_view family_of(std::string_view scene) {
+  const BuiltInScene* built_in = find_built_in(scene);
+  return built_in != nullptr ? built_in->family : scene;
+}
+
+std::vector<Scene> load_scenes(const std::string& name_or_path, std::span<const ParameterSetting> settings) {
+  for (const ParameterSetting& setting : settings) check_setting(name_or_path, setting);
+  std::vector<Scene> scenes;
+  if (const SceneSet* set = find_set(name_or_path)) {
+    for (const std::string& name : set->scenes) scenes.push_back(load_scene(name, settings));
+    return scenes;
+  }
+  const BuiltInScene* built_in = find_built_in(name_or_path);
+  const SceneFamily* family = find_family(family_of(name_or_path));
+  const bool is_ours = built_in != nullptr || family != nullptr;
+  if (built_in != nullptr) {
+    scenes.push_back(load_built_in(*built_in, settings));
+  } else if (family != nullptr) {
+    scenes.push_back(made_by(*family, settings));
+    scenes.back().name = name_or_path;
+    scenes.back().description = family->description;
+  } else {
+    scenes = load_files(name_or_path);
+  }
+  for (Scene& scene : scenes) {
+    scene.source = (is_ours ? "builtin:" : "") + name_or_path;
+    for (const ParameterSetting& setting : settings)
+      if (family == nullptr || find_parameter(family->parameters, setting.key) == nullptr) turn(scene, setting);
+    note_parameters(scene);
+    if (is_ours || !settings.empty()) check(scene, name_or_path);
+  }
+  return scenes;
+}
+
+Scene load_scene(const std::string& name_or_path, std::span<const ParameterSetting> settings) {
+  std::vector<Scene> scenes = load_scenes(name_or_path, settings);
+  if (scenes.size() != 1) refuse(name_or_path, "expected one scene, not " + std::to_string(scenes.size()));
+  return std::move(scenes.front());
 }
 
 }  // namespace paperproof::compare

@@ -1,6 +1,8 @@
 /// What moves in a scene: colliders that go along a path through time, or are bodies that Box2D moves.
 #pragma once
 
+#include "records/turn.hpp"
+
 #include <paperproof/types.hpp>
 
 #include <cstdint>
@@ -50,11 +52,7 @@ struct MoverDef {
 /// How far it is turned at that time [radians], in the same way.
 [[nodiscard]] double angle_at(const MoverDef& mover, double time);
 
-/// How a mover turns during one step: evenly, from one angle to another [radians], counter-clockwise.
-struct TurnMotion {
-  double from = 0;
-  double to = 0;
-};
+/// How far the mover turns between two absolute times [s].
 [[nodiscard]] TurnMotion turn_between(const MoverDef& mover, double begin, double end);
 
 /// How the mover goes in a step from one absolute time to another [s].

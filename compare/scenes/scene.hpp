@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scenes/answer.hpp"
@@ -75,6 +76,9 @@ struct Scene {
   TileLevel tile_level{};
   /// Maps only: their box [m]. A character that leaves it by more than 10 m is put back at the start.
   std::optional<Box2<double>> respawn_box;
+  /// Its numbers, by the keys that rows have (`dt_s`, `thickness_m`), in order.
+  std::vector<std::pair<std::string, double>> parameters{};
+  std::string source{};  ///< The file, or `builtin:NAME`.
   /// What a loader left out or could not place, in words (tiles unknown to the tileset, for instance).
   std::vector<std::string> notes;
 };

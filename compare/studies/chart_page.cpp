@@ -22,6 +22,18 @@ ordered_json json_of(const Chart& chart) {
   return json;
 }
 
+ordered_json json_of(const ChartGrid& grid) {
+  ordered_json json{{"title", grid.title}, {"x", grid.x_label}, {"y", grid.y_label}, {"xs", grid.xs}, {"ys", grid.ys}};
+  json["cells"] = ordered_json::array();
+  for (const auto& line : grid.cells) {
+    ordered_json cells = ordered_json::array();
+    for (const ChartGrid::Cell& cell : line)
+      cells.push_back({{"bad", cell.bad}, {"all", cell.all}, {"words", cell.words}});
+    json["cells"].push_back(std::move(cells));
+  }
+  return json;
+}
+
 void replace(std::string& text, std::string_view marker, std::string_view with) {
   const std::size_t at = text.find(marker);
   if (at == std::string::npos) throw std::runtime_error("the study's page lacks " + std::string(marker));
@@ -33,9 +45,12 @@ void replace(std::string& text, std::string_view marker, std::string_view with) 
 std::string html_of(const ChartPage& page) {
   ordered_json data{{"title", page.title},
                     {"paragraphs", page.paragraphs},
-                    {"chart", json_of(page.chart)},
                     {"heading", page.table.heading},
                     {"rows", page.table.rows}};
+  data["charts"] = ordered_json::array();
+  for (const Chart& chart : page.charts) data["charts"].push_back(json_of(chart));
+  data["grids"] = ordered_json::array();
+  for (const ChartGrid& grid : page.grids) data["grids"].push_back(json_of(grid));
   data["environment"] = page.environment;
   std::string text = data.dump();
   // A script of data ends at the first "</", wherever it stands.

@@ -25,6 +25,21 @@ struct Chart {
   std::vector<ChartSeries> series;
 };
 
+/// A share for each of two values: a picture of where something holds.
+struct ChartGrid {
+  struct Cell {
+    int bad = 0;        ///< Of so many
+    int all = 0;        ///< there were; 0: nothing ran.
+    std::string words;  ///< More about it.
+  };
+  std::string title;
+  std::string x_label;
+  std::string y_label;
+  std::vector<std::string> xs;
+  std::vector<std::string> ys;
+  std::vector<std::vector<Cell>> cells;  ///< By y, then by x.
+};
+
 struct ChartTable {
   std::vector<std::string> heading;
   std::vector<std::vector<std::string>> rows;
@@ -33,7 +48,8 @@ struct ChartTable {
 struct ChartPage {
   std::string title;
   std::vector<std::string> paragraphs;
-  Chart chart;
+  std::vector<Chart> charts;
+  std::vector<ChartGrid> grids;
   ChartTable table;
   std::vector<std::pair<std::string, std::string>> environment;  ///< (name, value), as in every report.
 };

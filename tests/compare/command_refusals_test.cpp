@@ -99,7 +99,7 @@ TEST(Command, points_to_the_names_there_are_and_says_which_is_near) {
   expect_refused(place, "article_bulet", "article_bulet" + scenes + "; did you mean article_bullet?\n");
   expect_refused(place, "Corner-Hit", "Corner-Hit" + scenes + "; did you mean corner_to_corner_hit?\n");
   expect_refused(place, "gallary", "gallary" + scenes + "; did you mean technique_gallery?\n");
-  expect_refused(place, "wedge", "wedge" + scenes + "; did you mean wedge_60, wedge_5 or wedge_1?\n");
+  expect_refused(place, "sawtooth", "sawtooth" + scenes + "; did you mean sawtooth_1, sawtooth_4 or sawtooth_11?\n");
   expect_refused(place, "nothing", "nothing" + scenes + "\n");
   expect_refused(place, "''", "\"\"" + scenes + "\n");
   const std::string contenders = ": expected grid, pixel_colour, ";
@@ -157,11 +157,15 @@ TEST(Command, complains_in_one_line_whatever_was_typed) {
 TEST(Command, names_what_could_stand_where_a_word_is_missing_or_unknown) {
   const Workplace place;
   for (const auto& [arguments, line] :
-       {std::pair{"", "paperproof: expected one of compare, study, list, check, plan; see paperproof --help\n"},
-        {"frobnicate", "paperproof: expected one of compare, study, list, check, plan; see paperproof --help\n"},
+       {std::pair{"",
+                  "paperproof: expected one of compare, study, sweep, work-precision, stability, merge, list, check, "
+                  "plan; see paperproof --help\n"},
+        {"frobnicate",
+         "paperproof: expected one of compare, study, sweep, work-precision, stability, merge, list, check, plan; see "
+         "paperproof --help\n"},
         {"study bullets", "paperproof study: expected one of scale; see paperproof study --help\n"},
         {"list scene",
-         "paperproof: WHAT: expected scenes, contenders or knobs, not scene; see paperproof list --help\n"},
+         "paperproof: WHAT: expected scenes, contenders, knobs or parameters, not scene; see paperproof list --help\n"},
         {"check", "paperproof: SCENE is required; see paperproof check --help\n"}}) {
     const Finished finished = place.run(arguments);
     EXPECT_EQ(finished.status, 2) << arguments;

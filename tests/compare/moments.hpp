@@ -2,7 +2,7 @@
 #pragma once
 
 #include "oracle/judge.hpp"
-#include "runs/trace.hpp"
+#include "records/trace.hpp"
 
 #include <utility>
 #include <vector>

@@ -1,9 +1,10 @@
 /// What a run leaves behind: traces, rows as JSON, tables, files.
 #include "compare/scene_runs.hpp"
-#include "runs/output_file.hpp"
-#include "runs/rows_json.hpp"
+#include "records/output_file.hpp"
+#include "records/rows_json.hpp"
+#include "records/trace_writer.hpp"
+#include "runs/environment.hpp"
 #include "runs/table.hpp"
-#include "runs/trace_writer.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -161,7 +162,7 @@ TEST(RowsJson, lacks_what_does_not_apply) {
   row.scene = "s";
   row.contender = "c";
   row.tunnels = 0;
-  const nlohmann::json sparse = nlohmann::json::parse(rows_json({row}).dump());
+  const nlohmann::json sparse = nlohmann::json::parse(rows_json({row}, environment()).dump());
   EXPECT_EQ(sparse.at("paperproof_rows"), 1);
   for (const char* key : {"compiler", "box2d", "box2d_build", "box2d_asserts"})
     EXPECT_TRUE(sparse.at("environment").contains(key)) << key;
@@ -173,7 +174,7 @@ TEST(RowsJson, lacks_what_does_not_apply) {
   row.reason = "no slopes";
   row.max_contact_gap_m = 5e-7;
   row.rest_peak_to_peak_m = 0;
-  const nlohmann::json more = nlohmann::json::parse(rows_json({row}).dump()).at("rows").at(0);
+  const nlohmann::json more = nlohmann::json::parse(rows_json({row}, {}).dump()).at("rows").at(0);
   EXPECT_EQ(more.at("verdict"), "not_applicable");
   EXPECT_EQ(more.at("reason"), "no slopes");
   EXPECT_TRUE(reads_back(more.at("max_contact_gap_m"), 5e-7));
@@ -185,13 +186,13 @@ TEST(RowsJson, of_a_run_has_no_rest_where_nothing_rests_and_no_time_where_none_w
   options.contenders = {"octagon_sweep"};
   const ReportScene flying = run_scene(empty_sky(50), options);
   for (const Row& row : flying.rows) {
-    const nlohmann::json object = nlohmann::json::parse(rows_json({row}).dump()).at("rows").at(0);
+    const nlohmann::json object = nlohmann::json::parse(rows_json({row}, {}).dump()).at("rows").at(0);
     for (const char* key : {"rest_peak_to_peak_m", "contact_toggles", "ns_per_step", "first_contact_fraction",
                             "contact_precision", "max_contact_gap_m", "reason"})
       EXPECT_FALSE(object.contains(key)) << row.contender << " " << key;
     EXPECT_EQ(object.at("tunnels"), 0);
   }
-  const nlohmann::json written = nlohmann::json::parse(rows_json(flying.rows).dump());
+  const nlohmann::json written = nlohmann::json::parse(rows_json(flying.rows, environment()).dump());
   for (const auto& [key, value] : written.at("rows").at(0).items()) EXPECT_FALSE(value.is_null()) << key;
 }
 

@@ -54,7 +54,7 @@ TEST(StudyScale, growth_is_from_the_fewest_pieces_to_the_most) {
 TEST(ChartPage, carries_its_data_its_library_and_no_way_out_of_the_script) {
   ChartPage page;
   page.title = "a </script><b>title";
-  page.chart = {"chart", "x", "y", {{"series", {{1, 2}, {10, 3.5}}}}};
+  page.charts = {{"chart", "x", "y", {{"series", {{1, 2}, {10, 3.5}}}}}};
   page.table = {{"x", "y"}, {{"1", "2"}}};
   const std::string html = html_of(page);
   EXPECT_EQ(html.find("</script><b>"), std::string::npos);

@@ -1,4 +1,4 @@
-#include "runs/verdict.hpp"
+#include "records/verdict.hpp"
 
 #include <gtest/gtest.h>
 

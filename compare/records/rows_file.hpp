@@ -1,10 +1,10 @@
 /// Rows in a file: JSON, JSON Lines or CSV, by its name.
 #pragma once
 
-#include "runs/output_file.hpp"
-#include "runs/row.hpp"
+#include "records/output_file.hpp"
+#include "records/rows_json.hpp"
 
-#include <nlohmann/json_fwd.hpp>
+#include <nlohmann/json.hpp>
 
 #include <cstdint>
 #include <string>
@@ -16,8 +16,10 @@ namespace paperproof::compare {
 /// throws.
 class RowsFile {
  public:
-  explicit RowsFile(const std::string& path);
-  void add(const Row& row);
+  RowsFile(const std::string& path, const Environment& environment);
+  void add(const Row& row) { add(json_line(row_json(row))); }
+  /// A row as it stands in a file, with its line feed.
+  void add(const std::string& line);
   /// To be called once, last.
   /// @param document with all the rows, as of `rows_json`.
   void finish(const nlohmann::ordered_json& document);

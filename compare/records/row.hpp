@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace paperproof::compare {
@@ -21,7 +22,7 @@ enum class Axis {
 };
 [[nodiscard]] std::string_view name_of(Axis axis) noexcept;
 
-/// Where a run fell short: see runs/verdict.hpp.
+/// Where a run fell short: see records/verdict.hpp.
 struct AxisFault {
   Axis axis = Axis::safety;
   Verdict verdict = Verdict::flagged;
@@ -49,6 +50,15 @@ struct Row {
   std::string reason;  ///< empty for `holds` only
   std::vector<AxisFault> faults;
 
+  std::string case_id;                                     ///< Of a run that is a Case: see records/case.hpp.
+  std::string command;                                     ///< That runs it alone.
+  std::string source;                                      ///< The file of the scene, or `builtin:NAME`.
+  std::vector<std::pair<std::string, double>> parameters;  ///< Of scene, input and knobs, by keys that end in units.
+  std::optional<std::string> border;  ///< Key of the parameter that was bisected to where the contender ceases to hold,
+  std::optional<double> border_low;   ///< the largest value known to hold below that,
+  std::optional<double> border_high;  ///< and the smallest known not to. One is absent where there is no border.
+
+  std::optional<bool> finite;     ///< Every position and velocity was a number.
   std::optional<int> characters;  ///< that the run had; absent for one
   std::optional<int> tunnels;     ///< steps that passed through a solid
   std::optional<FirstTunnel> first_tunnel;
@@ -102,7 +112,12 @@ struct Row {
   std::optional<double> max_position_difference_box2d_m;
   /// the first step on which it and the Box2D twin differ: see `Agreement::first_difference`
   std::optional<int> first_difference_box2d_step;
-  std::string first_difference_box2d;        ///< the same in words, with who is right
+  std::string first_difference_box2d;  ///< the same in words, with who is right
+  std::optional<double> error_max_m;   ///< From continuous motion: see studies/work_precision.hpp.
+  std::optional<double> error_rms_m;
+  std::string curve;                         ///< Key of the parameter that a curve of several runs is over,
+  std::optional<double> slope;               ///< and the slope of log error over its logarithm.
+  std::optional<bool> on_front;              ///< No other run has less error in less time.
   std::optional<double> ns_per_step;         ///< minimum
   std::optional<double> ns_per_step_median;  ///< of the repeats: on a busy machine the slowest says little
   std::optional<double> ns_per_step_max;     ///< the spread: the slowest of the repeats
@@ -118,6 +133,9 @@ struct Row {
 /// there. Written files and the report's page both take their numbers from here.
 template <class Visit>
 void for_each_metric(const Row& row, const Visit& visit) {
+  visit("finite", row.finite);
+  visit("border_low", row.border_low);
+  visit("border_high", row.border_high);
   visit("characters", row.characters);
   visit("tunnels", row.tunnels);
   visit("corner_cuts", row.corner_cuts);
@@ -164,6 +182,10 @@ void for_each_metric(const Row& row, const Visit& visit) {
   visit("contact_toggles", row.contact_toggles);
   visit("max_position_difference_box2d_m", row.max_position_difference_box2d_m);
   visit("first_difference_box2d_step", row.first_difference_box2d_step);
+  visit("error_max_m", row.error_max_m);
+  visit("error_rms_m", row.error_rms_m);
+  visit("slope", row.slope);
+  visit("on_front", row.on_front);
   visit("ns_per_step", row.ns_per_step);
   visit("ns_per_step_median", row.ns_per_step_median);
   visit("ns_per_step_max", row.ns_per_step_max);

@@ -1,4 +1,4 @@
-#include "report/report.hpp"
+#include "records/scene_result.hpp"
 
 #include <algorithm>
 #include <iterator>

@@ -1,4 +1,4 @@
-#include "runs/row.hpp"
+#include "records/row.hpp"
 
 #include <string_view>
 

@@ -1,6 +1,4 @@
-#include "runs/rows_file.hpp"
-
-#include "runs/rows_json.hpp"
+#include "records/rows_file.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -13,10 +11,6 @@ namespace paperproof::compare {
 namespace {
 
 using nlohmann::ordered_json;
-
-std::string line_of(const ordered_json& object) {
-  return object.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + '\n';
-}
 
 std::string text_of(const ordered_json& value) {
   if (!value.is_array())
@@ -62,19 +56,17 @@ RowsFile::Format RowsFile::format_of(const std::string& path) {
   return extension == ".csv" ? Format::csv : Format::json;
 }
 
-RowsFile::RowsFile(const std::string& path)
+RowsFile::RowsFile(const std::string& path, const Environment& environment)
     : format_(format_of(path)),
       file_(path, format_ == Format::json_lines ? OutputFile::Appears::as_written : OutputFile::Appears::whole) {
   if (format_ != Format::json_lines) return;
-  ordered_json header = rows_json({});
-  header.erase("rows");
-  file_.write(line_of(header));
+  file_.write(json_line(rows_header(environment)));
   file_.flush();
 }
 
-void RowsFile::add(const Row& row) {
+void RowsFile::add(const std::string& line) {
   if (format_ != Format::json_lines) return;
-  file_.write(line_of(row_json(row)));
+  file_.write(line);
   file_.flush();
 }
 
@@ -92,7 +84,10 @@ std::string rows_csv(const ordered_json& rows) {
     add_columns(lines.back(), columns);
   }
   std::string text;
-  for (const std::string& column : columns) text += (text.empty() ? "" : ",") + quoted(column);
+  for (const std::string& column : columns) {
+    if (!text.empty()) text += ',';
+    text += quoted(column);
+  }
   text += "\r\n";
   for (const Cells& cells : lines) {
     for (const std::string& column : columns) {

@@ -1,4 +1,4 @@
-#include "runs/output_file.hpp"
+#include "records/output_file.hpp"
 
 #include <cerrno>
 #include <cstdio>
@@ -14,11 +14,11 @@ OutputFile::OutputFile(std::string path, Appears appears) : path_(std::move(path
   const std::filesystem::file_status status = std::filesystem::status(target_, none);
   if (std::filesystem::is_directory(status)) throw std::runtime_error(path_ + ": cannot be written: it is a directory");
   in_place_ =
-      appears == Appears::as_written || (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status));
+      appears != Appears::whole || (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status));
   if (std::filesystem::is_regular_file(status)) target_ = std::filesystem::canonical(target_, none);
   beside_ = target_;
   if (!in_place_) beside_ += ".part";
-  stream_.open(beside_, std::ios::binary | std::ios::trunc);
+  stream_.open(beside_, std::ios::binary | (appears == Appears::continued ? std::ios::app : std::ios::trunc));
   if (!stream_) fail("cannot be written");
 }
 

@@ -1,4 +1,4 @@
-#include "runs/trace_writer.hpp"
+#include "records/trace_writer.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,9 +1,9 @@
 /// What a run leaves behind: a header and one record per step, in double (every float is one exactly).
 #pragma once
 
-#include <paperproof/crowd.hpp>
-#include "scenes/mover.hpp"
+#include "records/turn.hpp"
 
+#include <paperproof/crowd.hpp>
 #include <paperproof/plan.hpp>
 #include <paperproof/scenery.hpp>
 #include <paperproof/technique.hpp>
@@ -24,18 +24,18 @@ struct NamedTolerance {
 struct TraceHeader {
   std::string scene;
   std::string contender;
-  std::string scalar;            ///< "double" or "float"
-  std::string knob;              ///< As in a `Row`.
-  std::string mode = "free";     ///< "free" or "lockstep"
-  double dt = 0;                 ///< [s]; where the steps have lengths of their own it is only shown.
-  std::size_t characters = 1;    ///< Each has one record in every step, in order.
-  std::vector<Vec2d> points;     ///< Hull of the character, relative to its position [m], as run.
-  double max_climb_degrees = 50; ///< Steepest ground that the character walks on, from the horizontal.
-  SceneryDef scenery;            ///< As run, world metres.
-  std::vector<std::string> ids;  ///< One per collider.
-  std::vector<bool> turning;     ///< By mover; empty where none turns.
-  std::string box2d;             ///< Version of the Box2D in use.
-  std::optional<Plan> plan;      ///< None for Box2D, which has none.
+  std::string scalar;             ///< "double" or "float"
+  std::string knob;               ///< As in a `Row`.
+  std::string mode = "free";      ///< "free" or "lockstep"
+  double dt = 0;                  ///< [s]; where the steps have lengths of their own it is only shown.
+  std::size_t characters = 1;     ///< Each has one record in every step, in order.
+  std::vector<Vec2d> points;      ///< Hull of the character, relative to its position [m], as run.
+  double max_climb_degrees = 50;  ///< Steepest ground that the character walks on, from the horizontal.
+  SceneryDef scenery;             ///< As run, world metres.
+  std::vector<std::string> ids;   ///< One per collider.
+  std::vector<bool> turning;      ///< By mover; empty where none turns.
+  std::string box2d;              ///< Version of the Box2D in use.
+  std::optional<Plan> plan;       ///< None for Box2D, which has none.
   std::vector<NamedTolerance> tolerances;
   /// Box2D only: `path` holds sampled positions, and cuts under 20 mm are counted apart.
   bool path_exact = true;

@@ -1,8 +1,8 @@
 /// Writes a trace as JSON Lines: everything needed to check a run without this project's code.
 #pragma once
 
-#include "runs/output_file.hpp"
-#include "runs/trace.hpp"
+#include "records/output_file.hpp"
+#include "records/trace.hpp"
 
 namespace paperproof::compare {
 

@@ -1,0 +1,351 @@
+#include "command/sweep_command.hpp"
+
+#include "command/claimed_files.hpp"
+#include "command/compare_command.hpp"
+#include "command/forecast.hpp"
+#include "command/progress.hpp"
+#include "records/output_file.hpp"
+#include "records/rows_file.hpp"
+#include "records/rows_reader.hpp"
+#include "runs/contestant.hpp"
+#include "runs/environment.hpp"
+#include "runs/run_case.hpp"
+#include "runs/text_columns.hpp"
+#include "scenes/input_error.hpp"
+#include "scenes/load.hpp"
+#include "studies/grids.hpp"
+#include "studies/processes.hpp"
+#include "words.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <filesystem>
+#include <map>
+#include <set>
+#include <thread>
+
+namespace paperproof::compare {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// Rows that a page lists one by one.
+constexpr std::size_t most_listed = 2000;
+
+/// Which part of a sweep: every `of`-th case, from the `part`-th on.
+struct Shard {
+  std::size_t part = 1;
+  std::size_t of = 1;
+  [[nodiscard]] std::size_t size(std::size_t all) const { return all < part ? 0 : (all - part) / of + 1; }
+};
+
+Shard parse_shard(const std::string& text) {
+  Shard shard;
+  if (text.empty()) return shard;
+  const std::size_t slash = text.find('/');
+  const auto number = [](std::string_view digits, std::size_t& value) {
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    return error == std::errc{} && end == digits.data() + digits.size() && value >= 1;
+  };
+  const bool good = slash != std::string::npos && number(std::string_view(text).substr(0, slash), shard.part) &&
+                    number(std::string_view(text).substr(slash + 1), shard.of) && shard.part <= shard.of;
+  if (!good) refuse("--shard " + text, "expected K/N with K from 1 to N");
+  return shard;
+}
+
+std::vector<Case::Setting> settings_in(const std::vector<std::string>& typed) {
+  std::vector<Case::Setting> settings;
+  for (const std::string& text : typed) {
+    static_cast<void>(parse_setting(text));
+    const std::size_t equals = text.find('=');
+    settings.push_back({text.substr(0, equals), text.substr(equals + 1)});
+  }
+  return settings;
+}
+
+Sweep sweep_of(const SweepArguments& arguments) {
+  Sweep sweep;
+  sweep.scene = arguments.scene;
+  for (const std::string& text : arguments.vary) sweep.axes.push_back(parse_axis(text));
+  sweep.set = settings_in(arguments.set);
+  check_contenders(arguments.contenders);
+  sweep.contenders = arguments.contenders;
+  if (sweep.contenders.empty())
+    for (const std::string_view name : contender_names())
+      if (arguments.reference || !is_reference(name)) sweep.contenders.emplace_back(name);
+  if (!arguments.scalars.empty()) sweep.scalars = arguments.scalars;
+  for (const KnobSetting& knob : parse_knobs(arguments.knobs, arguments.contenders))
+    sweep.knobs.push_back({knob.name, knob.value});
+  sweep.seed = arguments.seed;
+  sweep.steps = arguments.steps;
+  sweep.border = arguments.border;
+  check(sweep);
+  return sweep;
+}
+
+/// What came of the cases of one contender.
+struct Score {
+  int cases = 0;
+  int holds = 0;
+  int through = 0;
+  int other = 0;  ///< Ends inside something, or is flagged or failed for another reason.
+  int cannot = 0;
+};
+
+class SweepRun {
+ public:
+  explicit SweepRun(const SweepArguments& arguments)
+      : arguments_(arguments),
+        sweep_(sweep_of(arguments)),
+        shard_(parse_shard(arguments.shard)),
+        count_(shard_.size(sweep_.size())) {
+    header_ = rows_header(environment());
+    header_["sweep"] = {{"id", id_of(sweep_)}, {"cases", sweep_.size()}, {"shard", {shard_.part, shard_.of}}};
+    ClaimedFiles files;
+    files.claim_for_option("--rows", arguments.rows_path);
+    files.claim_for_option("--report", arguments.report_path);
+    open_rows();
+    if (!arguments.report_path.empty()) report_.emplace(arguments.report_path);
+  }
+
+  int run() {
+    const Progress progress(!arguments_.quiet);
+    Forecast forecast(!arguments_.quiet, static_cast<double>(count_ - done_));
+    forecast.begin_scene(static_cast<double>(count_ - done_));
+    forecast.done(0);
+    const std::size_t before = done_;
+    Jobs jobs;
+    jobs.count = count_ - before;
+    jobs.run = [&](std::size_t job) { return json_line(row_json(run_at(sweep_, case_of(before + job)))); };
+    jobs.lost = [&](std::size_t job, const std::string& reason) {
+      return json_line(row_json(failed_row(sweep_.at(case_of(before + job)), reason)));
+    };
+    jobs.take = [&](std::size_t, const std::string& line) {
+      take(line);
+      const double share = static_cast<double>(done_ - before) / static_cast<double>(jobs.count);
+      forecast.done(share);
+      progress.show("sweep,", share);
+    };
+    const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    run_in_processes(jobs, {arguments_.jobs > 0 ? arguments_.jobs : cores, std::chrono::seconds(arguments_.limit_s)});
+    progress.clear();
+    finish();
+    return trouble_ ? 1 : 0;
+  }
+
+ private:
+  [[nodiscard]] std::size_t case_of(std::size_t job) const { return shard_.part - 1 + job * shard_.of; }
+  [[nodiscard]] bool as_lines() const { return arguments_.rows_path.ends_with(".jsonl"); }
+
+  void open_rows() {
+    const std::string& path = arguments_.rows_path;
+    if (arguments_.resume && !as_lines()) throw InputError("--resume: expected --rows FILE.jsonl to go on with");
+    if (path.empty()) return;
+    const bool goes_on = arguments_.resume && std::filesystem::exists(path) && std::filesystem::file_size(path) > 0;
+    if (goes_on) skip_what_is_done();
+    using Appears = OutputFile::Appears;
+    rows_.emplace(path, goes_on ? Appears::continued : as_lines() ? Appears::as_written : Appears::whole);
+    if (!as_lines() || goes_on) return;
+    rows_->write(json_line(header_));
+    rows_->flush();
+  }
+
+  void skip_what_is_done() {
+    RowsReader reader(arguments_.rows_path);
+    if (reader.header().value("sweep", ordered_json{}) != header_["sweep"])
+      throw InputError("--resume: " + arguments_.rows_path + " has rows of another sweep or shard");
+    while (const std::optional<std::string> line = reader.next()) note(*line);
+    std::filesystem::resize_file(arguments_.rows_path, reader.end());
+  }
+
+  void take(const std::string& line) {
+    note(line);
+    if (!rows_ || !as_lines()) return;
+    rows_->write(line);
+    rows_->flush();
+  }
+
+  void note(const std::string& line) {
+    ++done_;
+    ordered_json row = ordered_json::parse(line);
+    const std::string verdict = row.value("verdict", "");
+    const std::string contender = row.value("contender", "");
+    Score& score = scores_[contender];
+    ++score.cases;
+    const bool guaranteed = contender == "octagon_sweep" && row.value("scalar", "") == "double";
+    trouble_ = trouble_ || verdict == "failed" || (guaranteed && verdict == "violates");
+    if (verdict == "holds")
+      ++score.holds;
+    else if (verdict == "not_applicable")
+      ++score.cannot;
+    else if (row.value("tunnels", 0) > 0)
+      ++score.through;
+    else
+      ++score.other;
+    if (keeps_rows()) kept_.push_back(std::move(row));
+  }
+
+  [[nodiscard]] bool keeps_rows() const {
+    return (!as_lines() && !arguments_.rows_path.empty()) || !arguments_.report_path.empty() || sweep_.border;
+  }
+
+  void finish() {
+    if (rows_ && !as_lines()) {
+      const bool csv = arguments_.rows_path.ends_with(".csv");
+      ordered_json file = header_;
+      file["rows"] = kept_;
+      rows_->write(csv ? rows_csv(kept_) : file.dump(1, ' ', false, ordered_json::error_handler_t::replace) + '\n');
+    }
+    if (rows_) rows_->commit();
+    if (report_) {
+      report_->write(html_of(page()));
+      report_->commit();
+    }
+    if (!arguments_.quiet) print_out(sweep_.border ? borders() : scores());
+  }
+
+  [[nodiscard]] std::string scores() const {
+    std::vector<TextColumn> columns{{"contender", {}, true}, {"cases", {}},        {"hold", {}},
+                                    {"through", {}},         {"other faults", {}}, {"cannot run", {}}};
+    for (const std::string& name : sweep_.contenders) {
+      const auto found = scores_.find(name);
+      const Score score = found == scores_.end() ? Score{} : found->second;
+      columns[0].cells.emplace_back(name);
+      std::size_t column = 1;
+      for (const int number : {score.cases, score.holds, score.through, score.other, score.cannot})
+        columns[column++].cells.emplace_back(std::to_string(number));
+    }
+    return fmt::format("{}: {}\n\n{}", sweep_.scene, counted(done_, "case"), aligned(columns));
+  }
+
+  /// The keys in `parameters` of the axes that are parameters of the scene.
+  [[nodiscard]] std::vector<std::string> axis_keys() const {
+    std::vector<std::string> keys;
+    const std::vector<ParameterDef> defs = parameters_of(sweep_.scene);
+    for (const SweepAxis& axis : sweep_.axes)
+      if (const ParameterDef* def = find_parameter(defs, axis.key)) keys.push_back(row_key(*def));
+    return keys;
+  }
+
+  /// The values of the axes of a row, as `thickness_m=0.01`.
+  [[nodiscard]] std::string place_of(const ordered_json& row) const {
+    std::string text;
+    for (const ParameterDef& def : parameters_of(sweep_.scene))
+      for (const SweepAxis& axis : sweep_.axes)
+        if (axis.key == def.key && row.contains("parameters") && row["parameters"].contains(row_key(def)))
+          text += fmt::format("{}{}={:.4g}", text.empty() ? "" : " ", row_key(def),
+                              row["parameters"][row_key(def)].get<double>());
+    return text;
+  }
+
+  [[nodiscard]] std::string borders() const {
+    std::vector<TextColumn> columns{
+        {"contender", {}, true}, {"at", {}, true}, {"holds up to", {}}, {"does not hold from", {}}};
+    for (const ordered_json& row : kept_) {
+      const auto number = [&](const char* key) {
+        return row.contains(key) ? Cell(fmt::format("{:.6g}", row[key].get<double>())) : Cell{};
+      };
+      columns[0].cells.emplace_back(row.value("contender", ""));
+      columns[1].cells.emplace_back(place_of(row));
+      columns[2].cells.push_back(number("border_low"));
+      columns[3].cells.push_back(number("border_high"));
+    }
+    return fmt::format("{}: border of {}\n\n{}", sweep_.scene, *sweep_.border, aligned(columns));
+  }
+
+  [[nodiscard]] ChartPage page() const {
+    ChartPage page;
+    page.title = fmt::format("sweep of {}", sweep_.scene);
+    page.paragraphs = {
+        fmt::format("{}, each judged step by step by exact arithmetic. Every row has the command that "
+                    "runs its case alone.",
+                    counted(done_, "case"))};
+    page.environment = environment();
+    if (!axis_keys().empty() && !sweep_.border)
+      page.grids =
+          grids_of(kept_, "cases that do not hold", axis_keys().front(), axis_keys().size() > 1 ? axis_keys()[1] : "");
+    page.table.heading = {"contender", "at", "verdict", "tunnels", "inside", "command"};
+    for (const ordered_json& row : kept_) {
+      if (page.table.rows.size() == most_listed) break;
+      const auto number = [&](const char* key) { return row.contains(key) ? row[key].dump() : std::string(); };
+      page.table.rows.push_back({row.value("contender", ""), place_of(row), row.value("verdict", ""), number("tunnels"),
+                                 number("steps_ending_inside"), row.value("command", "")});
+    }
+    return page;
+  }
+
+  const SweepArguments& arguments_;
+  Sweep sweep_;
+  Shard shard_;
+  std::size_t count_;  ///< Cases of this shard.
+  std::size_t done_ = 0;
+  ordered_json header_;
+  std::optional<OutputFile> rows_;
+  std::optional<OutputFile> report_;
+  ordered_json kept_ = ordered_json::array();
+  std::map<std::string, Score> scores_;
+  bool trouble_ = false;
+};
+
+/// Where the files are the shards of one sweep: in their order. Empty where they are anything else.
+/// @throws InputError where some are missing, or there twice.
+std::vector<RowsReader*> in_order(const std::vector<std::unique_ptr<RowsReader>>& readers) {
+  const ordered_json first = readers.front()->header().value("sweep", ordered_json{});
+  if (!first.is_object() || first["shard"][1] == 1) return {};
+  std::vector<RowsReader*> ordered(first["shard"][1].get<std::size_t>());
+  for (const std::unique_ptr<RowsReader>& reader : readers) {
+    const ordered_json sweep = reader->header().value("sweep", ordered_json{});
+    if (!sweep.is_object() || sweep["id"] != first["id"] || sweep["shard"][1] != first["shard"][1]) return {};
+    ordered.at(sweep["shard"][0].get<std::size_t>() - 1) = reader.get();
+  }
+  if (readers.size() != ordered.size() || std::find(ordered.begin(), ordered.end(), nullptr) != ordered.end())
+    throw InputError(fmt::format("merge: expected the {} shards of the sweep, each once", ordered.size()));
+  return ordered;
+}
+
+}  // namespace
+
+int sweep_command(const SweepArguments& arguments) { return SweepRun(arguments).run(); }
+
+int merge_command(const std::vector<std::string>& files, const std::string& rows_path) {
+  ClaimedFiles claimed;
+  std::vector<std::unique_ptr<RowsReader>> readers;
+  for (const std::string& file : files) {
+    claimed.claim(file, "rows to merge");
+    readers.push_back(std::make_unique<RowsReader>(file));
+  }
+  claimed.claim_for_option("--rows", rows_path);
+  ordered_json header = readers.front()->header();
+  const std::vector<RowsReader*> shards = in_order(readers);
+  OutputFile out(rows_path);
+  if (!shards.empty()) {
+    const auto cases = header["sweep"]["cases"].get<std::size_t>();
+    header["sweep"]["shard"] = {1, 1};
+    out.write(json_line(header));
+    for (std::size_t row = 0; row < cases; ++row) {
+      const std::size_t part = row % shards.size();
+      const std::optional<std::string> line = shards[part]->next();
+      if (!line)
+        throw InputError(fmt::format("merge: shard {}/{} is not complete: row {} is missing; --resume it", part + 1,
+                                     shards.size(), row / shards.size() + 1));
+      out.write(*line);
+    }
+  } else {
+    header.erase("sweep");
+    out.write(json_line(header));
+    std::set<std::string> known;
+    for (const std::unique_ptr<RowsReader>& reader : readers)
+      while (const std::optional<std::string> line = reader->next()) {
+        const std::string id = ordered_json::parse(*line).value("case", "");
+        if (id.empty() || known.insert(id).second) out.write(*line);
+      }
+  }
+  out.commit();
+  return 0;
+}
+
+}  // namespace paperproof::compare

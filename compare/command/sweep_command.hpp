@@ -1,0 +1,41 @@
+/// `paperproof sweep` and `paperproof merge`: many Cases, on many cores and machines, and their rows.
+#pragma once
+
+#include "studies/sweep.hpp"
+
+#include <string>
+#include <vector>
+
+namespace paperproof::compare {
+
+struct SweepArguments {
+  std::string scene;
+  std::vector<std::string> vary;   ///< As typed.
+  std::vector<std::string> set;    ///< The same.
+  std::vector<std::string> knobs;  ///< The same.
+  std::vector<std::string> contenders;
+  std::vector<std::string> scalars;
+  std::optional<std::string> border;
+  std::optional<std::uint64_t> seed;
+  std::optional<int> steps;
+  bool reference = true;
+  std::string rows_path;    ///< Empty: none.
+  std::string report_path;  ///< The same.
+  int jobs = 0;             ///< 0: one for each core.
+  int limit_s = 60;         ///< Of one case.
+  std::string shard;        ///< `K/N`; empty: all.
+  bool resume = false;
+  bool quiet = false;
+};
+
+/// @return the exit status: 0, or 1 if octagon_sweep in double broke its guarantee or a case failed.
+/// @throws InputError before any output file is touched; std::runtime_error if one cannot be written.
+int sweep_command(const SweepArguments& arguments);
+
+/// Puts the rows of several files together: shards of one sweep in the order of the whole one, anything else file by
+/// file, each Case once.
+/// @return 0.
+/// @throws InputError for what is no file of rows, and for shards that are missing or not complete.
+int merge_command(const std::vector<std::string>& files, const std::string& rows_path);
+
+}  // namespace paperproof::compare

@@ -1,0 +1,67 @@
+#include "records/rows_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace paperproof::compare {
+namespace {
+
+nlohmann::ordered_json first_tunnel_json(const FirstTunnel& first) {
+  nlohmann::ordered_json object{{"step", first.step}};
+  if (!first.collider.empty()) {
+    object["collider"] = first.collider;
+    object["speed_m_s"] = first.speed_m_s;
+    object["thickness_m"] = first.thickness_m;
+    object["angle_deg"] = first.angle_deg;
+  }
+  return object;
+}
+
+}  // namespace
+
+nlohmann::ordered_json row_json(const Row& row) {
+  nlohmann::ordered_json object;
+  object["scene"] = row.scene;
+  object["contender"] = row.contender;
+  object["scalar"] = row.scalar;
+  object["mode"] = row.mode;
+  if (!row.knob.empty()) object["knob"] = row.knob;
+  if (row.border) object["border"] = *row.border;
+  if (!row.curve.empty()) object["curve"] = row.curve;
+  object["steps"] = row.steps;
+  object["verdict"] = name_of(row.verdict);
+  if (!row.reason.empty()) object["reason"] = row.reason;
+  if (!row.case_id.empty()) object["case"] = row.case_id;
+  if (!row.parameters.empty()) {
+    nlohmann::ordered_json& parameters = object["parameters"];
+    for (const auto& [key, value] : row.parameters) parameters[key] = value;
+  }
+  if (!row.source.empty()) object["source"] = row.source;
+  for_each_metric(row, [&](const char* key, const auto& value) {
+    if (value) object[key] = *value;
+  });
+  if (row.steps > 0) object["exempted"] = row.exempted;
+  if (row.first_tunnel) object["first_tunnel"] = first_tunnel_json(*row.first_tunnel);
+  if (!row.first_difference_box2d.empty()) object["first_difference_box2d"] = row.first_difference_box2d;
+  if (!row.findings.empty()) object["findings"] = row.findings;
+  if (!row.command.empty()) object["command"] = row.command;
+  return object;
+}
+
+nlohmann::ordered_json rows_header(const Environment& environment) {
+  nlohmann::ordered_json header{{"paperproof_rows", 1}};
+  for (const auto& [name, value] : environment) header["environment"][name] = value;
+  return header;
+}
+
+nlohmann::ordered_json rows_json(const std::vector<Row>& rows, const Environment& environment) {
+  nlohmann::ordered_json file = rows_header(environment);
+  file["rows"] = nlohmann::ordered_json::array();
+  for (const Row& row : rows) file["rows"].push_back(row_json(row));
+  return file;
+}
+
+std::string json_line(const nlohmann::ordered_json& object) {
+  return object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
+}
+
+}  // namespace paperproof::compare

@@ -1,0 +1,31 @@
+#include "records/rows_reader.hpp"
+
+#include <stdexcept>
+
+namespace paperproof::compare {
+
+RowsReader::RowsReader(const std::string& path) : path_(path), stream_(path, std::ios::binary) {
+  if (!stream_) throw std::runtime_error(path + ": cannot be read");
+  std::string line;
+  if (read_line(line)) header_ = nlohmann::ordered_json::parse(line, nullptr, false);
+  if (!header_.is_object() || header_.value("paperproof_rows", 0) != 1)
+    throw std::runtime_error(path + ": expected rows as JSON Lines (`\"paperproof_rows\": 1` in the first line)");
+}
+
+std::optional<std::string> RowsReader::next() {
+  std::string line;
+  if (!read_line(line)) return std::nullopt;
+  if (!nlohmann::ordered_json::accept(line) || line.front() != '{')
+    throw std::runtime_error(path_ + ":" + std::to_string(line_) + ": expected a row");
+  return line;
+}
+
+bool RowsReader::read_line(std::string& line) {
+  if (!std::getline(stream_, line) || stream_.eof()) return false;  // without its end it is not whole
+  line += '\n';
+  ++line_;
+  end_ += line.size();
+  return true;
+}
+
+}  // namespace paperproof::compare

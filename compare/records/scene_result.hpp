@@ -1,0 +1,61 @@
+/// What the runs of one scene leave behind: rows, and steps to look at.
+#pragma once
+
+#include "records/row.hpp"
+#include "records/trace.hpp"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace paperproof::compare {
+
+/// A step that a reader may want to jump to. The first contact needs none: the page finds it in the steps.
+struct ReportEvent {
+  enum class Kind : std::uint8_t { tunnel, corner_cut, inside, one_way, crush, drop, sensor, note };
+  int step = 0;
+  Kind kind = Kind::note;
+  std::string words;  ///< One sentence: what happened, how fast, through what. May be empty.
+  CharacterIndex character = 0;
+  std::optional<ColliderIndex> collider{};  ///< What it happened with.
+};
+
+/// One run, for drawing. The page shows numbers rounded for display; the bits stand in the trace.
+struct ReportRun {
+  TraceHeader header;
+  std::vector<TraceStep> steps;  ///< Ascending by `step`; there may be fewer than ran: see `thin_for_replay`.
+  /// Characters 1, 2, ...: the same steps of theirs.
+  std::vector<std::vector<TraceStep>> others{};
+  std::vector<ReportEvent> events;  ///< What the judgement found.
+  int every = 1;                    ///< Every how many steps one was kept, apart from those with an event.
+};
+
+/// A step on which two sides differ.
+struct Disagreement {
+  struct Statement {
+    std::size_t run = 0;        ///< Position in `ReportScene::runs`: gives the name, the octagon and the scenery.
+    Vec2d from{Vec2d::Zero()};  ///< Where the step began [m].
+    Vec2d to{Vec2d::Zero()};    ///< Where it ended [m].
+    std::vector<Contact<double>> contacts;
+  };
+  int step = 0;
+  std::vector<Statement> statements;                  ///< What each side says, usually controller and Box2D.
+  std::optional<std::vector<Contact<double>>> exact;  ///< What exact arithmetic says, where it was asked.
+  std::string who_is_right;                           ///< In words, with the reason.
+};
+
+struct ReportScene {
+  std::string name;
+  std::string description;                  ///< What is measured. May be empty.
+  std::string sentence;                     ///< Who is right where they differ.
+  std::vector<Row> rows;                    ///< Failures included.
+  std::vector<ReportRun> runs;              ///< May be fewer than rows; empty: no replay for this scene.
+  std::vector<Disagreement> disagreements;  ///< In the order in which they are to be drawn.
+  std::vector<double> dt_list{};  ///< Lengths of the steps [s], from the front again; empty: all of the runs' `dt`.
+};
+
+/// Drops steps until at most `max_steps` (at least 8) are left: every k-th stays, with the first, the last, those with
+/// an event, the first contact and their neighbours.
+void thin_for_replay(ReportRun& run, int max_steps);
+
+}  // namespace paperproof::compare

@@ -1,0 +1,202 @@
+#include "scenes/parameters.hpp"
+
+#include "near_names.hpp"
+#include "scenes/built_in.hpp"
+#include "scenes/input_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <iterator>
+#include <stdexcept>
+
+namespace paperproof::compare {
+namespace {
+
+constexpr std::array<ParameterDef, 5> common{{
+    {"dt", "s", 1e-9, 1e3, 1.0 / 60,
+     "length of a step; the scene lasts as long, and its input comes at the same times"},
+    {"gravity", "m_s2", 0, 1e9, 30, "straight down"},
+    {"speed", "m_s", 0, 1e9, 0, "at the start, in the scene's direction; down where it starts at rest"},
+    {"scale", "", 1e-6, 1e6, 1, "every length, speed and acceleration is multiplied by it"},
+    {"origin", "m", -1e9, 1e9, 0, "everything is shifted along x"},
+}};
+
+void check_range(std::string_view scene, const ParameterDef& def, double value) {
+  if (value >= def.least && value <= def.most) return;
+  refuse(std::string(scene), fmt::format("expected {} from {:g} to {:g}{}{}, not {:g}", def.key, def.least, def.most,
+                                         def.unit.empty() ? "" : " ", def.unit, value));
+}
+
+void set_dt(Scene& scene, double dt) {
+  const double ratio = scene.dt / dt;
+  const auto as_late = [ratio](int step) {
+    return static_cast<int>(std::min(std::llround(step * ratio), 1'000'000'000LL));
+  };
+  const auto stretch = [&](std::vector<InputEvent>& events) {
+    for (InputEvent& event : events) event.step = as_late(event.step);
+  };
+  stretch(scene.input);
+  for (OtherCharacter& other : scene.others) stretch(other.input);
+  scene.steps = std::max(1, as_late(scene.steps));
+  scene.dt = dt;
+  scene.dt_list.clear();
+}
+
+void set_speed(Start& start, double speed) {
+  const double before = start.velocity.norm();
+  start.velocity = before > 0 ? Vec2d(start.velocity * (speed / before)) : Vec2d(0, -speed);
+}
+
+template <class Change>
+void for_each_point(SceneryDef& scenery, const Change& change) {
+  for (ColliderDef& collider : scenery.colliders) {
+    for (Vec2d& point : collider.points) change(point);
+    for (std::vector<Vec2d>& hole : collider.holes)
+      for (Vec2d& point : hole) change(point);
+  }
+}
+
+void scale_character(CharacterDef& character, double scale) {
+  std::vector<Vec2d> points;
+  for (const Vec2d& point : character.shape.points()) points.push_back(point * scale);
+  character.shape = CharacterShape(points);
+  character.walk_speed *= scale;
+  character.acceleration *= scale;
+  character.jump_speed *= scale;
+  character.snap *= scale;
+  if (character.air_acceleration) *character.air_acceleration *= scale;
+  if (character.max_fall_speed) *character.max_fall_speed *= scale;
+}
+
+void scale_by(Scene& scene, double scale) {
+  scene.gravity *= scale;
+  scene.pixels_per_metre /= scale;
+  scale_character(scene.character, scale);
+  const auto scale_start = [scale](Start& start) {
+    start.position *= scale;
+    start.velocity *= scale;
+  };
+  scale_start(scene.start);
+  for (OtherCharacter& other : scene.others) scale_start(other.start);
+  for_each_point(scene.scenery, [scale](Vec2d& point) { point *= scale; });
+  for (ColliderDef& collider : scene.scenery.colliders) collider.surface_speed *= scale;
+  for (MoverDef& mover : scene.movers) {
+    for (MoverDef::Waypoint& waypoint : mover.path) waypoint.at *= scale;
+    if (mover.body) mover.body->velocity *= scale;
+  }
+  if (scene.respawn_box)
+    scene.respawn_box = Box2<double>{scene.respawn_box->lower * scale, scene.respawn_box->upper * scale};
+}
+
+void shift_by(Scene& scene, double along) {
+  const Vec2d way(along, 0);
+  scene.start.position += way;
+  for (OtherCharacter& other : scene.others) other.start.position += way;
+  // What turns does so about the point that it is written around: its path is shifted instead.
+  for (ColliderDef& collider : scene.scenery.colliders) {
+    const bool turns = collider.mover != no_mover && !scene.movers[collider.mover].turns.empty();
+    if (turns) continue;
+    for (Vec2d& point : collider.points) point += way;
+    for (std::vector<Vec2d>& hole : collider.holes)
+      for (Vec2d& point : hole) point += way;
+  }
+  for (MoverDef& mover : scene.movers)
+    if (!mover.turns.empty())
+      for (MoverDef::Waypoint& waypoint : mover.path) waypoint.at += way;
+  if (scene.respawn_box)
+    scene.respawn_box = Box2<double>{scene.respawn_box->lower + way, scene.respawn_box->upper + way};
+}
+
+}  // namespace
+
+const ParameterDef* find_parameter(std::span<const ParameterDef> defs, std::string_view key) {
+  const auto found = std::find_if(defs.begin(), defs.end(), [&](const ParameterDef& def) { return def.key == key; });
+  return found == defs.end() ? nullptr : &*found;
+}
+
+std::string row_key(const ParameterDef& parameter) {
+  return parameter.unit.empty() ? std::string(parameter.key) : fmt::format("{}_{}", parameter.key, parameter.unit);
+}
+
+ParameterValues::ParameterValues(std::span<const ParameterDef> defs, std::span<const ParameterSetting> settings)
+    : defs_(defs) {
+  for (const ParameterDef& def : defs) values_.push_back(def.usual);
+  for (const ParameterSetting& setting : settings)
+    if (const ParameterDef* def = find_parameter(defs, setting.key))
+      values_[static_cast<std::size_t>(def - defs.data())] = setting.value;
+}
+
+double ParameterValues::operator[](std::string_view key) const {
+  const ParameterDef* def = find_parameter(defs_, key);
+  if (def == nullptr) throw std::logic_error(fmt::format("no parameter {}", key));
+  return values_[static_cast<std::size_t>(def - defs_.data())];
+}
+
+const std::vector<SceneFamily>& scene_families() {
+  static const std::vector<SceneFamily> all = [] {
+    std::vector<SceneFamily> families;
+    for (auto theme : {paper_families(), limit_families(), ground_families(), extreme_families(), body_families(),
+                       angle_families(), play_families()})
+      families.insert(families.end(), std::make_move_iterator(theme.begin()), std::make_move_iterator(theme.end()));
+    return families;
+  }();
+  return all;
+}
+
+const SceneFamily* find_family(std::string_view name) {
+  const std::vector<SceneFamily>& all = scene_families();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const SceneFamily& each) { return each.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+std::span<const ParameterDef> common_parameters() { return common; }
+
+std::vector<ParameterDef> parameters_of(std::string_view scene) {
+  std::vector<ParameterDef> all;
+  const SceneFamily* family = find_family(family_of(scene));
+  if (family != nullptr) all = family->parameters;
+  for (const ParameterDef& def : common)
+    if (find_parameter(all, def.key) == nullptr) all.push_back(def);
+  return all;
+}
+
+void check_setting(std::string_view scene, const ParameterSetting& setting) {
+  const std::vector<ParameterDef> all = parameters_of(scene);
+  if (const ParameterDef* def = find_parameter(all, setting.key)) return check_range(scene, *def, setting.value);
+  std::vector<std::string> names;
+  for (const ParameterDef& def : all) names.emplace_back(def.key);
+  refuse(std::string(scene), fmt::format("expected a parameter of {}, not {}{}", fmt::join(names, ", "),
+                                         shown(setting.key), did_you_mean(setting.key, names)));
+}
+
+ParameterSetting parse_setting(std::string_view text) {
+  const std::size_t equals = text.find('=');
+  ParameterSetting setting{std::string(text.substr(0, equals)), 0};
+  if (equals != std::string_view::npos) {
+    const char* end = text.data() + text.size();
+    const auto [last, error] = std::from_chars(text.data() + equals + 1, end, setting.value);
+    if (error == std::errc{} && last == end && std::isfinite(setting.value) && !setting.key.empty()) return setting;
+  }
+  refuse("--set " + std::string(text), "expected KEY=NUMBER");
+}
+
+void turn(Scene& scene, const ParameterSetting& setting) {
+  scene.answers.clear();
+  if (const ParameterDef* def = find_parameter(common, setting.key); def->key == "scale" || def->key == "origin")
+    scene.parameters.emplace_back(row_key(*def), setting.value);
+  if (setting.key == "dt") return set_dt(scene, setting.value);
+  if (setting.key == "scale") return scale_by(scene, setting.value);
+  if (setting.key == "origin") return shift_by(scene, setting.value);
+  if (setting.key == "gravity") {
+    scene.gravity = {0, -setting.value};
+  } else if (setting.key == "speed") {
+    set_speed(scene.start, setting.value);
+    for (OtherCharacter& other : scene.others) set_speed(other.start, setting.value);
+  }
+}
+
+}  // namespace paperproof::compare

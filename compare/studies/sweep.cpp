@@ -1,0 +1,193 @@
+#include "studies/sweep.hpp"
+
+#include "near_names.hpp"
+#include "runs/knobs.hpp"
+#include "runs/run_case.hpp"
+#include "scenes/input_error.hpp"
+#include "scenes/load.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace paperproof::compare {
+namespace {
+
+constexpr std::size_t most_values = 1'000'000;
+constexpr int border_values = 64;
+constexpr double border_width = 1e-4;
+
+std::string text_of(double value) { return fmt::format("{}", value); }
+
+std::optional<double> number_in(std::string_view text) {
+  double value = 0;
+  const auto [last, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool whole = error == std::errc{} && last == text.data() + text.size() && std::isfinite(value);
+  return whole ? std::optional(value) : std::nullopt;
+}
+
+std::vector<std::string_view> parts_of(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (std::size_t begin = 0;;) {
+    const std::size_t end = text.find(separator, begin);
+    parts.push_back(text.substr(begin, end - begin));
+    if (end == std::string_view::npos) return parts;
+    begin = end + 1;
+  }
+}
+
+/// The `step`-th of `count` values from `first` to `last`; the ends exactly.
+double between(double first, double last, std::size_t step, std::size_t count, bool logarithmic) {
+  if (step == 0) return first;
+  if (step + 1 == count) return last;
+  const double share = static_cast<double>(step) / static_cast<double>(count - 1);
+  return logarithmic ? first * std::pow(last / first, share) : first + (last - first) * share;
+}
+
+std::optional<std::vector<std::string>> range_in(std::string_view text) {
+  const std::vector<std::string_view> parts = parts_of(text, ':');
+  if (parts.size() != 3 || parts[2].size() < 4) return std::nullopt;
+  const std::optional<double> first = number_in(parts[0]);
+  const std::optional<double> last = number_in(parts[1]);
+  const bool logarithmic = parts[2].starts_with("log");
+  std::size_t count = 0;
+  const std::string_view digits = parts[2].substr(3);
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), count);
+  const bool counted =
+      error == std::errc{} && end == digits.data() + digits.size() && count >= 1 && count <= most_values;
+  if (!first || !last || !counted || (!logarithmic && !parts[2].starts_with("lin"))) return std::nullopt;
+  if (logarithmic && !(*first > 0 && *last > 0)) return std::nullopt;
+  std::vector<std::string> values;
+  for (std::size_t step = 0; step < count; ++step)
+    values.push_back(text_of(between(*first, *last, step, count, logarithmic)));
+  return values;
+}
+
+bool is_parameter(const std::string& scene, std::string_view key) {
+  const std::vector<ParameterDef> all = parameters_of(scene);
+  return std::any_of(all.begin(), all.end(), [&](const ParameterDef& def) { return def.key == key; });
+}
+
+void check_value(const std::string& scene, const std::string& key, const std::string& value) {
+  if (is_parameter(scene, key)) {
+    const std::optional<double> number = number_in(value);
+    if (!number) refuse(fmt::format("{}={}", key, value), "expected a number");
+    return check_setting(scene, {key, *number});
+  }
+  try {
+    static_cast<void>(parse_knob(key + "=" + value));
+  } catch (const std::invalid_argument&) {
+    check_setting(scene, {key, 0});  // says what there is
+  }
+}
+
+bool holds(const Row& row) {
+  return row.verdict != Verdict::failed && row.verdict != Verdict::not_applicable && row.tunnels.value_or(0) == 0 &&
+         row.steps_ending_inside.value_or(0) == 0;
+}
+
+}  // namespace
+
+SweepAxis parse_axis(std::string_view text) {
+  const std::size_t equals = text.find('=');
+  SweepAxis axis{std::string(text.substr(0, equals)), {}};
+  if (equals != std::string_view::npos && equals > 0) {
+    const std::string_view values = text.substr(equals + 1);
+    if (std::optional<std::vector<std::string>> range = range_in(values))
+      axis.values = std::move(*range);
+    else if (values.find(':') == std::string_view::npos)
+      for (const std::string_view value : parts_of(values, ',')) axis.values.emplace_back(value);
+  }
+  const auto empty = [](const std::string& value) { return value.empty(); };
+  if (axis.values.empty() || std::any_of(axis.values.begin(), axis.values.end(), empty))
+    refuse("--vary " + std::string(text), "expected KEY=FIRST:LAST:logN, KEY=FIRST:LAST:linN or KEY=a,b,c");
+  return axis;
+}
+
+std::size_t Sweep::size() const {
+  std::size_t size = contenders.size() * scalars.size();
+  for (const SweepAxis& axis : axes) size *= axis.values.size();
+  return size;
+}
+
+Case Sweep::at(std::size_t index) const {
+  Case one;
+  one.scene = scene;
+  one.parameters = set;
+  one.knobs = knobs;
+  one.seed = seed;
+  one.steps = steps;
+  const auto take = [&index](const auto& values) {
+    const auto& value = values[index % values.size()];
+    index /= values.size();
+    return value;
+  };
+  one.contender = take(contenders);
+  one.scalar = take(scalars);
+  std::vector<Case::Setting> varied;
+  for (auto axis = axes.rbegin(); axis != axes.rend(); ++axis) varied.push_back({axis->key, take(axis->values)});
+  for (auto each = varied.rbegin(); each != varied.rend(); ++each)
+    (is_parameter(scene, each->key) ? one.parameters : one.knobs).push_back(*each);
+  return one;
+}
+
+void check(const Sweep& sweep) {
+  for (const SweepAxis& axis : sweep.axes)
+    for (const std::string& value : axis.values) check_value(sweep.scene, axis.key, value);
+  for (const Case::Setting& each : sweep.set) check_value(sweep.scene, each.key, each.value);
+  if (sweep.border && !is_parameter(sweep.scene, *sweep.border)) check_setting(sweep.scene, {*sweep.border, 0});
+  static_cast<void>(load_scene(sweep.scene, {}));
+}
+
+std::string id_of(const Sweep& sweep) {
+  Case all = sweep.at(0);
+  all.scene += sweep.border ? " border " + *sweep.border : "";
+  for (const SweepAxis& axis : sweep.axes) all.scene += fmt::format(" {}={}", axis.key, fmt::join(axis.values, ","));
+  all.contender = fmt::format("{}", fmt::join(sweep.contenders, ","));
+  all.scalar = fmt::format("{}", fmt::join(sweep.scalars, ","));
+  return id_of(all);
+}
+
+Row run_at(const Sweep& sweep, std::size_t index) {
+  const Case one = sweep.at(index);
+  if (!sweep.border) return run_case(one);
+  const std::vector<ParameterDef> all = parameters_of(sweep.scene);
+  const auto def =
+      std::find_if(all.begin(), all.end(), [&](const ParameterDef& each) { return each.key == *sweep.border; });
+  Row row = find_border(row_key(*def), def->least, def->most, [&](double value) {
+    Case at = one;
+    at.parameters.push_back({*sweep.border, text_of(value)});
+    return run_case(at);
+  });
+  std::erase_if(row.parameters, [&](const auto& each) { return each.first == row_key(*def); });
+  return row;
+}
+
+Row find_border(const std::string& key, double least, double most, const std::function<Row(double)>& run_with) {
+  const bool logarithmic = least > 0;
+  const auto value_at = [&](int step) {
+    return between(least, most, static_cast<std::size_t>(step), border_values + 1, logarithmic);
+  };
+  std::optional<double> low;
+  std::optional<double> high;
+  Row row;
+  for (int step = 0; step <= border_values && !high; ++step) {
+    row = run_with(value_at(step));
+    if (row.verdict == Verdict::not_applicable || row.verdict == Verdict::failed) break;
+    (holds(row) ? low : high) = value_at(step);
+  }
+  while (low && high && *high - *low > border_width * std::abs(*high)) {
+    const double middle = logarithmic ? std::sqrt(*low * *high) : (*low + *high) / 2;
+    Row there = run_with(middle);
+    (holds(there) ? low : high) = middle;
+    if (!holds(there)) row = std::move(there);
+  }
+  row.border = key;
+  row.border_low = low;
+  row.border_high = high;
+  return row;
+}
+
+}  // namespace paperproof::compare

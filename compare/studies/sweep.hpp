@@ -1,0 +1,61 @@
+/// Sweeps: one scene or family with parameters varied along axes, for several contenders. A sweep is a list of Cases.
+#pragma once
+
+#include "records/case.hpp"
+#include "records/row.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace paperproof::compare {
+
+/// A parameter of the scene, or a knob of the contenders, with the values that it takes.
+struct SweepAxis {
+  std::string key;
+  std::vector<std::string> values;
+};
+
+/// `speed=10:2000:log12` (12 values, each as many times the one before), `speed=0:1:lin5`, or `speed=1,2,4`.
+/// @throws InputError in words for anything else; at most 1,000,000 values.
+[[nodiscard]] SweepAxis parse_axis(std::string_view text);
+
+struct Sweep {
+  std::string scene;
+  std::vector<Case::Setting> set;  ///< The same for all.
+  std::vector<SweepAxis> axes;     ///< The last one varies fastest, behind it scalar and contender.
+  std::vector<std::string> contenders;
+  std::vector<std::string> scalars{"double"};
+  std::vector<Case::Setting> knobs;
+  std::optional<std::uint64_t> seed;
+  std::optional<int> steps;
+  /// Parameter that is bisected instead of varied, to where a contender ceases to hold: one row for each combination of
+  /// the others.
+  std::optional<std::string> border;
+
+  [[nodiscard]] std::size_t size() const;
+  [[nodiscard]] Case at(std::size_t index) const;
+};
+
+/// @throws InputError where an axis or a setting is no parameter of the scene and no knob, or out of its range, and
+/// where the scene cannot be used at all.
+void check(const Sweep& sweep);
+
+/// Tells two sweeps apart: 16 hexadecimal digits.
+[[nodiscard]] std::string id_of(const Sweep& sweep);
+
+/// The row of a Case; with a border, of its bisection.
+[[nodiscard]] Row run_at(const Sweep& sweep, std::size_t index);
+
+/// Looks for the border of a parameter between where a contender holds (passes nothing, ends inside nothing) and where
+/// it does not: upwards over its range at 65 values, equal steps of its logarithm where the range allows; from the
+/// first that does not hold back by bisection, until the two ends differ by a ten-thousandth of the larger.
+/// @param run_with the row at a value.
+/// @return the row at the upper end of the bracket, or at the end of the range where all hold.
+[[nodiscard]] Row find_border(const std::string& key, double least, double most,
+                              const std::function<Row(double)>& run_with);
+
+}  // namespace paperproof::compare

@@ -1,0 +1,105 @@
+/// `sweep` and `merge` as a user runs them.
+#include "compare/command_workplace.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+#include <sstream>
+
+namespace paperproof::compare {
+namespace {
+
+const std::string sweep =
+    "sweep paper --vary speed=10:2000:log12 --vary thickness=0.001,0.01,0.1 --contender penetration_resolution "
+    "--contender octagon_sweep --contender box2d --no-timing --quiet ";
+
+std::string written(const Workplace& place, const std::string& name) { return content(place.path(name)); }
+
+std::string rows_in(const std::string& text) { return text.substr(text.find('\n') + 1); }
+
+TEST(CommandSweep, gives_a_row_for_each_case_whatever_the_number_of_jobs) {
+  const Workplace place;
+  const Finished finished = place.run(sweep + "--rows r.jsonl --jobs 2");
+  EXPECT_EQ(finished.status, 0) << finished.err;
+  EXPECT_EQ(place.run(sweep + "--rows one.jsonl --jobs 1").status, 0);
+  EXPECT_EQ(written(place, "r.jsonl"), written(place, "one.jsonl"));
+  std::istringstream lines(rows_in(written(place, "r.jsonl")));
+  int rows = 0;
+  int through = 0;
+  for (std::string line; std::getline(lines, line); ++rows) {
+    const nlohmann::json row = nlohmann::json::parse(line);
+    EXPECT_TRUE(row.at("parameters").contains("speed_m_s"));
+    EXPECT_TRUE(row.at("parameters").contains("thickness_m"));
+    EXPECT_TRUE(row.contains("case"));
+    if (row.at("contender") == "octagon_sweep") {
+      EXPECT_EQ(row.at("verdict"), "holds") << line;
+    }
+    through += row.at("contender") == "penetration_resolution" && row.at("tunnels") > 0;
+  }
+  EXPECT_EQ(rows, 108);
+  EXPECT_GT(through, 20);
+}
+
+TEST(CommandSweep, shards_merged_are_the_whole) {
+  const Workplace place;
+  EXPECT_EQ(place.run(sweep + "--rows r.jsonl").status, 0);
+  for (const char* part : {"1", "2", "3"})
+    EXPECT_EQ(place.run(sweep + "--shard " + part + "/3 --rows s" + part + ".jsonl").status, 0);
+  EXPECT_EQ(place.run("merge s3.jsonl s1.jsonl s2.jsonl --rows m.jsonl").status, 0);
+  EXPECT_EQ(rows_in(written(place, "m.jsonl")), rows_in(written(place, "r.jsonl")));
+  EXPECT_EQ(place.run("merge s1.jsonl s2.jsonl s2.jsonl --rows n.jsonl").status, 2);
+  EXPECT_EQ(place.run(sweep + "--shard 4/3 --rows x.jsonl").status, 2);
+}
+
+TEST(CommandSweep, goes_on_behind_what_a_kill_left) {
+  const Workplace place;
+  EXPECT_EQ(place.run(sweep + "--rows r.jsonl").status, 0);
+  const std::string whole = written(place, "r.jsonl");
+  const std::size_t header = whole.find('\n') + 1;
+  for (const std::size_t kept : {header, header + 10, whole.size() / 3, whole.size() - 1, whole.size()}) {
+    std::ofstream(place.path("k.jsonl"), std::ios::binary) << whole.substr(0, kept);
+    EXPECT_EQ(place.run(sweep + "--rows k.jsonl --resume").status, 0);
+    EXPECT_EQ(written(place, "k.jsonl"), whole) << kept;
+  }
+  const Finished other = place.run("sweep paper --vary speed=1,2 --contender mask --rows k.jsonl --resume");
+  EXPECT_EQ(other.status, 2);
+  EXPECT_TRUE(holds(other.err, "has rows of another sweep")) << other.err;
+  EXPECT_EQ(place.run(sweep + "--rows k.csv --resume").status, 2);
+}
+
+TEST(CommandSweep, the_command_in_a_row_gives_its_case_again) {
+  const Workplace place;
+  EXPECT_EQ(place.run(sweep + "--rows r.jsonl").status, 0);
+  std::istringstream lines(rows_in(written(place, "r.jsonl")));
+  std::string line;
+  for (int skip = 0; skip < 50; ++skip) std::getline(lines, line);
+  const nlohmann::json row = nlohmann::json::parse(line);
+  const std::string command = row.at("command");
+  ASSERT_TRUE(begins(command, "paperproof "));
+  (void)place.run(command.substr(11) + " --no-timing --quiet --rows again.json");
+  const nlohmann::json again = nlohmann::json::parse(written(place, "again.json")).at("rows").at(0);
+  for (const char* key : {"verdict", "tunnels", "steps", "max_penetration_m"})
+    EXPECT_EQ(again.at(key), row.at(key)) << key;
+  EXPECT_EQ(again.at("parameters"), row.at("parameters"));
+}
+
+TEST(CommandSweep, finds_a_border_and_writes_csv_and_a_page) {
+  const Workplace place;
+  const Finished finished = place.run(
+      "sweep paper --find-border speed --vary thickness=0.01,0.1 --contender penetration_resolution --rows f.jsonl");
+  EXPECT_EQ(finished.status, 0) << finished.err;
+  std::istringstream lines(rows_in(written(place, "f.jsonl")));
+  int rows = 0;
+  for (std::string line; std::getline(lines, line); ++rows) {
+    const nlohmann::json row = nlohmann::json::parse(line);
+    EXPECT_LT(row.at("border_low"), row.at("border_high"));
+    EXPECT_EQ(row.at("border"), "speed_m_s");
+  }
+  EXPECT_EQ(rows, 2);
+  EXPECT_EQ(place.run("sweep paper --vary speed=10,100 --contender mask --rows f.csv --report f.html").status, 0);
+  EXPECT_TRUE(holds(written(place, "f.csv"), "parameters.speed_m_s"));
+  EXPECT_TRUE(holds(written(place, "f.html"), "cases that do not hold"));
+}
+
+}  // namespace
+}  // namespace paperproof::compare

@@ -1,0 +1,238 @@
+/// Sweeps: axes, Cases, borders, and jobs in child processes.
+#include "studies/sweep.hpp"
+#include "runs/run_case.hpp"
+#include "scenes/load.hpp"
+#include "studies/processes.hpp"
+#include "studies/stability.hpp"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <set>
+#include <thread>
+
+namespace paperproof::compare {
+namespace {
+
+using Values = std::vector<std::string>;
+
+TEST(SweepAxes, are_logarithmic_linear_or_listed_and_end_where_they_say) {
+  EXPECT_EQ(parse_axis("speed=10:1000:log3").values, (Values{"10", "100", "1000"}));
+  EXPECT_EQ(parse_axis("phase=0:1:lin5").values, (Values{"0", "0.25", "0.5", "0.75", "1"}));
+  EXPECT_EQ(parse_axis("thickness=0.001,0.01,0.1").values, (Values{"0.001", "0.01", "0.1"}));
+  EXPECT_EQ(parse_axis("speed=10:2000:log12").values.size(), 12U);
+  EXPECT_EQ(parse_axis("speed=10:2000:log12").values.back(), "2000");
+  EXPECT_EQ(parse_axis("speed=7:9:lin1").values, Values{"7"});
+}
+
+TEST(SweepAxes, refuse_what_is_none) {
+  for (const char* text : {"", "speed", "speed=", "=1", "speed=1,,2", "speed=1:2", "speed=1:2:3", "speed=1:2:log",
+                           "speed=0:2:log3", "speed=1:2:log0", "speed=1:2:lin9999999", "speed=1:x:lin3"})
+    EXPECT_THROW((void)parse_axis(text), InputError) << text;
+}
+
+Sweep paper_sweep() {
+  Sweep sweep;
+  sweep.scene = "paper";
+  sweep.axes = {parse_axis("speed=10,40"), parse_axis("thickness=0.001,0.01,0.1")};
+  sweep.contenders = {"mask", "octagon_sweep"};
+  return sweep;
+}
+
+TEST(Sweep, has_each_combination_once_with_the_contender_varying_fastest) {
+  const Sweep sweep = paper_sweep();
+  ASSERT_EQ(sweep.size(), 12U);
+  std::set<std::string> ids;
+  for (std::size_t i = 0; i < sweep.size(); ++i) ids.insert(id_of(sweep.at(i)));
+  EXPECT_EQ(ids.size(), 12U);
+  EXPECT_EQ(command_of(sweep.at(0)),
+            "paperproof compare paper --set speed=10 --set thickness=0.001 --contender mask --no-reference");
+  EXPECT_EQ(command_of(sweep.at(3)),
+            "paperproof compare paper --set speed=10 --set thickness=0.01 --contender octagon_sweep --no-reference");
+  EXPECT_EQ(id_of(sweep.at(0)), "a6e87314b7434c74") << "it changed: rows of earlier sweeps cannot be gone on with";
+}
+
+TEST(Sweep, refuses_keys_that_are_no_parameter_and_no_knob_and_values_out_of_range) {
+  for (const char* axis : {"sped=1,2", "thickness=-1", "speed=1e9", "speed=fast"}) {
+    Sweep sweep = paper_sweep();
+    sweep.axes = {parse_axis(axis)};
+    EXPECT_THROW(check(sweep), InputError) << axis;
+  }
+  Sweep border = paper_sweep();
+  border.border = "sped";
+  EXPECT_THROW(check(border), InputError);
+  Sweep knobs = paper_sweep();
+  knobs.axes = {parse_axis("iterations=1,2"), parse_axis("pairs=all,direction"), parse_axis("gravity=0,10")};
+  EXPECT_NO_THROW(check(knobs));
+}
+
+TEST(RunCase, gives_the_row_of_the_command_with_its_parameters) {
+  Case one;
+  one.scene = "paper";
+  one.parameters = {{"speed", "100"}, {"thickness", "0.001"}};
+  one.contender = "octagon_sweep";
+  const Row row = run_case(one);
+  EXPECT_EQ(row.verdict, Verdict::holds) << row.reason;
+  EXPECT_EQ(row.case_id, id_of(one));
+  EXPECT_EQ(row.finite, true);
+  const std::map<std::string, double> parameters(row.parameters.begin(), row.parameters.end());
+  EXPECT_EQ(parameters.at("speed_m_s"), 100);
+  EXPECT_EQ(parameters.at("thickness_m"), 0.001);
+  EXPECT_EQ(parameters.at("dt_s"), 1.0 / 60);
+  // 3 m at 100 m/s.
+  EXPECT_EQ(row.first_contact_step, 1);
+  EXPECT_NEAR(*row.first_contact_fraction, 0.8, 1e-6);
+}
+
+TEST(RunCase, of_what_there_is_not_is_a_failed_row) {
+  Case one;
+  one.scene = "papr";
+  one.contender = "octagon_sweep";
+  EXPECT_EQ(run_case(one).verdict, Verdict::failed);
+  one.scene = "paper";
+  one.parameters = {{"speed", "-3"}};
+  const Row row = run_case(one);
+  EXPECT_EQ(row.verdict, Verdict::failed);
+  EXPECT_NE(row.reason.find("expected speed from 0.1"), std::string::npos) << row.reason;
+}
+
+/// Without gravity: whoever only looks at where a step ends passes what is thinner than its step and misses the
+/// octagon.
+TEST(FindBorder, brackets_a_border_that_is_known) {
+  const auto row_at = [](double border) {
+    return [border](double value) {
+      Row row;
+      row.tunnels = value > border ? 1 : 0;
+      row.verdict = value > border ? Verdict::tunnels : Verdict::holds;
+      return row;
+    };
+  };
+  const Row found = find_border("speed_m_s", 0.1, 1e5, row_at(123.4));
+  ASSERT_TRUE(found.border_low && found.border_high);
+  EXPECT_LE(*found.border_low, 123.4);
+  EXPECT_GT(*found.border_high, 123.4);
+  EXPECT_LE(*found.border_high - *found.border_low, 1e-4 * *found.border_high);
+  EXPECT_EQ(found.verdict, Verdict::tunnels) << "the row is that of the upper end";
+  const Row never = find_border("speed_m_s", 0.1, 1e5, row_at(1e9));
+  EXPECT_EQ(never.border_low, 1e5);
+  EXPECT_FALSE(never.border_high);
+  const Row always = find_border("speed_m_s", 0.1, 1e5, row_at(0));
+  EXPECT_FALSE(always.border_low);
+  EXPECT_EQ(always.border_high, 0.1);
+  const Row linear = find_border("phase", 0, 1, row_at(0.3));
+  EXPECT_NEAR(*linear.border_low, 0.3, 1e-4);
+}
+
+/// A mask looks where a step ends: it first passes the article's platform where a step is longer than the platform and
+/// the bullet together, at a phase that it cannot hit.
+TEST(FindBorder, octagon_sweep_has_none_over_paper) {
+  Sweep sweep = paper_sweep();
+  sweep.axes = {parse_axis("thickness=0.1")};
+  sweep.border = "speed";
+  const Row mask = run_at(sweep, 0);
+  ASSERT_TRUE(mask.border_low && mask.border_high);
+  EXPECT_GT(*mask.border_low, 75) << "1.25 m of sprite in a 60th of a second";
+  EXPECT_EQ(mask.border, "speed_m_s");
+  const Row sweeping = run_at(sweep, 1);
+  EXPECT_EQ(sweeping.border_low, 1e5);
+  EXPECT_FALSE(sweeping.border_high);
+}
+
+Jobs squares(std::size_t count, Values& taken) {
+  Jobs jobs;
+  jobs.count = count;
+  jobs.run = [](std::size_t job) { return std::to_string(job * job); };
+  jobs.lost = [](std::size_t job, const std::string& reason) { return std::to_string(job) + " lost: " + reason; };
+  jobs.take = [&taken](std::size_t job, const std::string& text) {
+    EXPECT_EQ(job, taken.size()) << "in order";
+    taken.push_back(text);
+  };
+  return jobs;
+}
+
+TEST(Processes, give_the_same_in_the_same_order_however_many_there_are) {
+  Values one;
+  run_in_processes(squares(300, one), {.workers = 1});
+  ASSERT_EQ(one.size(), 300U);
+  EXPECT_EQ(one[299], "89401");
+  Values three;
+  run_in_processes(squares(300, three), {.workers = 3});
+  EXPECT_EQ(three, one);
+  Values none;
+  run_in_processes(squares(0, none), {.workers = 2});
+  EXPECT_TRUE(none.empty());
+}
+
+TEST(Processes, a_job_that_aborts_hangs_or_exits_is_a_result_and_the_others_run) {
+  Values taken;
+  Jobs jobs = squares(12, taken);
+  jobs.run = [](std::size_t job) -> std::string {
+    if (job == 3) {
+      std::fputs("first line\nAssertion failed: it is so\n", stderr);
+      std::signal(SIGABRT, SIG_DFL);
+      std::abort();
+    }
+    if (job == 5) std::this_thread::sleep_for(std::chrono::hours(1));
+    if (job == 8) std::_Exit(0);
+    return std::to_string(job * job);
+  };
+  run_in_processes(jobs, {.workers = 2, .limit = std::chrono::seconds(1)});
+  ASSERT_EQ(taken.size(), 12U);
+  for (std::size_t job = 0; job < taken.size(); ++job)
+    if (job != 3 && job != 5 && job != 8) {
+      EXPECT_EQ(taken[job], std::to_string(job * job));
+    }
+  EXPECT_NE(taken[3].find("Aborted: Assertion failed: it is so"), std::string::npos) << taken[3];
+  EXPECT_NE(taken[5].find("took too long"), std::string::npos) << taken[5];
+  EXPECT_NE(taken[8].find("ended unasked"), std::string::npos) << taken[8];
+}
+
+TEST(Stability, has_regions_whose_every_case_is_a_case) {
+  for (const StabilityRegion& region : stability_regions({})) {
+    EXPECT_NO_THROW(check(region.sweep)) << region.name;
+    EXPECT_EQ(region.sweep.axes.size(), 2U) << region.name;
+  }
+}
+
+TEST(Families, have_members_under_their_old_names_and_defaults_in_range) {
+  for (const SceneFamily& family : scene_families()) {
+    for (const ParameterDef& def : family.parameters) {
+      EXPECT_GE(def.usual, def.least) << family.name << " " << def.key;
+      EXPECT_LE(def.usual, def.most) << family.name << " " << def.key;
+    }
+    EXPECT_NO_THROW((void)load_scene(std::string(family.name), {})) << family.name;
+  }
+  const Scene paper = load_scene("paper_1e-3", {});
+  const std::map<std::string, double> parameters(paper.parameters.begin(), paper.parameters.end());
+  EXPECT_EQ(parameters.at("thickness_m"), 1e-3);
+  EXPECT_EQ(paper.source, "builtin:paper_1e-3");
+}
+
+TEST(CommonParameters, turn_any_scene) {
+  const auto turned = [](const std::string& key, double value) {
+    const std::vector<ParameterSetting> settings{{key, value}};
+    return load_scene("jump_into_wall", settings);
+  };
+  const Scene usual = load_scene("jump_into_wall", {});
+  const Scene slow = turned("dt", usual.dt / 4);
+  EXPECT_EQ(slow.steps, 4 * usual.steps) << "as long as before";
+  EXPECT_EQ(slow.input.back().step, 4 * usual.input.back().step) << "at the same time";
+  const Scene large = turned("scale", 8);
+  EXPECT_EQ(large.start.position, 8 * usual.start.position);
+  EXPECT_EQ(large.scenery.colliders.front().points.front(), 8 * usual.scenery.colliders.front().points.front());
+  EXPECT_EQ(large.character.jump_speed, 8 * usual.character.jump_speed);
+  const Scene far = turned("origin", 1024);
+  EXPECT_EQ(far.start.position, usual.start.position + Vec2d(1024, 0));
+  EXPECT_EQ(turned("gravity", 5).gravity, Vec2d(0, -5));
+  EXPECT_TRUE(far.answers.empty()) << "they are of the scene as it was";
+  EXPECT_THROW((void)turned("thickness", 1), InputError);
+  EXPECT_THROW((void)turned("dt", 0), InputError);
+}
+
+}  // namespace
+}  // namespace paperproof::compare
