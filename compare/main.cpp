@@ -1,8 +1,10 @@
 /// The command `paperproof`.
 #include "command/compare_command.hpp"
 #include "command/complain.hpp"
+#include "command/demo_command.hpp"
 #include "command/option_checks.hpp"
 #include "command/precision_command.hpp"
+#include "command/rows_command.hpp"
 #include "command/study_command.hpp"
 #include "command/sweep_command.hpp"
 #include "records/output_file.hpp"
@@ -59,6 +61,12 @@ void add_outputs(CLI::App& command, std::string& rows, std::string& report) {
   command.add_option("--report", report, "Write one self-contained HTML page to this file")
       ->type_name("FILE.html")
       ->check(expect_file_name());
+}
+
+void add_jobs(CLI::App& command, int& jobs) {
+  command.add_option("--jobs", jobs, "Processes at a time; one for each core where it is not given")
+      ->type_name("N")
+      ->check(expect_whole_number(1024));
 }
 
 /// It is given or not: a value behind it is refused.
@@ -121,7 +129,8 @@ CLI::App* add_compare(CLI::App& app, Words& words) {
   return command;
 }
 
-CLI::App* add_study(CLI::App& app, StudyArguments& arguments) {
+/// @param bullet becomes the subcommand of that name.
+CLI::App* add_study(CLI::App& app, StudyArguments& arguments, PrecisionArguments& bullets, CLI::App*& bullet) {
   CLI::App* command = app.add_subcommand("study", "One question over a range, as numbers and as a picture");
   command->require_subcommand(1);
   CLI::App* scale = command->add_subcommand("scale", "Cost of a step against the number of pieces, per broad phase");
@@ -131,6 +140,17 @@ CLI::App* add_study(CLI::App& app, StudyArguments& arguments) {
       ->delimiter(',');
   add_outputs(*scale, arguments.rows_path, arguments.report_path);
   add_flag(*scale, "--quiet", arguments.quiet, "No table, no progress");
+  bullet = command->add_subcommand("bullet", "Who gets through paper: rates, and the lowest speeds beside theory");
+  bullet->add_option("--grid", bullets.grid, "How many cases")
+      ->type_name("quick|standard|full")
+      ->check(expect_one_of({"quick", "standard", "full"}));
+  bullet->add_option("--contender", bullets.contenders, "Only these, each by its own option or with commas")
+      ->type_name("NAME")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  add_jobs(*bullet, bullets.jobs);
+  add_outputs(*bullet, bullets.rows_path, bullets.report_path);
+  add_flag(*bullet, "--quiet", bullets.quiet, "No table, no progress");
   return scale;
 }
 
@@ -162,9 +182,7 @@ CLI::App* add_sweep(CLI::App& app, Words& words, SweepArguments& arguments) {
       ->check(expect_whole_number(1'000'000'000));
   add_input(*command, words);
   add_outputs(*command, arguments.rows_path, arguments.report_path);
-  command->add_option("--jobs", arguments.jobs, "Processes at a time; one for each core where it is not given")
-      ->type_name("N")
-      ->check(expect_whole_number(1024));
+  add_jobs(*command, arguments.jobs);
   command->add_option("--limit", arguments.limit_s, "A case that takes longer than this fails; 60 s where not given")
       ->type_name("SECONDS")
       ->check(expect_whole_number(1'000'000));
@@ -292,7 +310,9 @@ int run(int argc, char** argv) {
   Words words;
   const CLI::App* comparing = add_compare(app, words);
   StudyArguments study_arguments;
-  const CLI::App* scale = add_study(app, study_arguments);
+  PrecisionArguments bullet_arguments;
+  CLI::App* bullet = nullptr;
+  const CLI::App* scale = add_study(app, study_arguments, bullet_arguments, bullet);
   SweepArguments sweep_arguments;
   const CLI::App* sweeping = add_sweep(app, words, sweep_arguments);
   PrecisionArguments precision_arguments;
@@ -301,14 +321,18 @@ int run(int argc, char** argv) {
   precision->add_option("MOTION", precision_arguments.motions, "Only these (without any: all)");
   CLI::App* stability = add_precision(app, "stability", "Stiff and extreme cases: where each side holds, and where not",
                                       precision_arguments);
-  stability->add_option("--jobs", precision_arguments.jobs, "Processes at a time; one for each core where not given")
-      ->type_name("N")
-      ->check(expect_whole_number(1024));
+  add_jobs(*stability, precision_arguments.jobs);
   CLI::App* merging = app.add_subcommand("merge", "Put rows of several files together: shards of a sweep, or any");
   std::vector<std::string> merged;
   std::string merged_path;
   merging->add_option("ROWS", merged, "Files of rows, .jsonl")->required();
   merging->add_option("--rows", merged_path, "Where they go")->required()->type_name("FILE.jsonl");
+  CLI::App* differing = app.add_subcommand("diff", "Name what changed between two files of rows, costs apart");
+  std::vector<std::string> differed;
+  differing->add_option("ROWS", differed, "Two files of rows, .jsonl: before and after")->required()->expected(2);
+  CLI::App* demo = app.add_subcommand("demo", "The article's bullet, one technique at a time, in the terminal");
+  std::string shown_technique;
+  demo->add_option("TECHNIQUE", shown_technique, "Only this one");
   CLI::App* list = app.add_subcommand("list", "Names, one per line");
   list->add_option("WHAT", words.what, "Which names")
       ->required()
@@ -334,6 +358,7 @@ int run(int argc, char** argv) {
   std::optional<std::uint64_t> seed;
   if (words.input) seed = parse_random_input(*words.input);
   if (comparing->parsed()) return compare_scenes(compare_arguments(words, seed));
+  if (bullet->parsed()) return study_bullet_command(bullet_arguments);
   if (scale->parsed()) return study_scale_command(study_arguments);
   if (sweeping->parsed()) {
     sweep_arguments.seed = seed;
@@ -344,6 +369,8 @@ int run(int argc, char** argv) {
   }
   if (precision->parsed()) return work_precision_command(precision_arguments);
   if (stability->parsed()) return stability_command(precision_arguments);
+  if (differing->parsed()) return diff_command(differed[0], differed[1]);
+  if (demo->parsed()) return demo_command(shown_technique);
   if (merging->parsed()) return merge_command(merged, merged_path);
   if (list->parsed()) print_list(words.what);
   if (checking->parsed()) check(words.scenes);

@@ -8,7 +8,7 @@ namespace paperproof::box2d {
 
 struct BodyWorld::Impl {
   Impl(const Scenery<double>& scenery, std::span<const std::optional<BodyDef>> bodies, const Vec2d& gravity)
-      : world(checked(gravity, "gravity")), stage(world, scenery, SceneryMode::chain_loops, bodies) {
+      : world(checked(gravity, "gravity")), stage(world, scenery, {}, bodies) {
     world.SetAllowSleeping(false);
     stage.parts.clear();
   }

@@ -63,12 +63,13 @@ struct ReferenceWorld::Impl {
        const ReferenceWorldDef& definition)
       : def(checked_definition(definition)),
         least_up(static_cast<double>(character.walkable_cosine<float>())),
-        stage(world, scenery, def.mode),
+        stage(world, scenery, def),
         looks_for_ground(any_ground_carries(stage.as_run)),
         has_one_way(any_one_way(stage.as_run)) {
     for (const Vec2d& corner : character.shape.hull()) points.push_back(widened(rounded(corner)));
     for (const Part& part : std::exchange(stage.parts, {})) lookups.emplace_back(part.solids, part.colliders);
     world.SetAllowSleeping(false);
+    world.SetContinuousPhysics(def.continuous);
     world.SetContactListener(&dispatcher);
     for (const Vec2d& position : positions) add_character(character, checked(position, "the character's position"));
   }
@@ -119,7 +120,7 @@ void ReferenceWorld::Impl::add_character(const CharacterDef& character, const b2
   body_def.type = b2_dynamicBody;
   body_def.position = position;
   body_def.fixedRotation = true;
-  body_def.bullet = true;
+  body_def.bullet = def.bullet;
   body_def.allowSleep = false;
   Character& who = characters.emplace_back(stage.fixtures, points);
   b2Body* body = who.body = world.CreateBody(&body_def);

@@ -54,9 +54,25 @@ void give_surface(b2Body& body, float friction, float restitution) {
   }
 }
 
-b2BodyDef body_of(const Part& part, const BodyDef* dynamic) {
+/// Of solids that stand and are dynamic for Box2D [kg].
+constexpr double standing_mass = 1e9;
+
+b2BodyType type_of(SolidBody solids) {
+  switch (solids) {
+    case SolidBody::fixed:
+      return b2_staticBody;
+    case SolidBody::kinematic:
+      return b2_kinematicBody;
+    case SolidBody::dynamic:
+      return b2_dynamicBody;
+  }
+  return b2_staticBody;
+}
+
+b2BodyDef body_of(const Part& part, SolidBody solids, const BodyDef* dynamic) {
   b2BodyDef def;
-  def.type = part.mover == no_mover ? b2_staticBody : b2_kinematicBody;
+  def.type = part.mover == no_mover ? type_of(solids) : b2_kinematicBody;
+  def.fixedRotation = def.type == b2_dynamicBody;
   def.allowSleep = false;
   if (dynamic != nullptr) {
     check_body(*dynamic);
@@ -70,19 +86,24 @@ b2BodyDef body_of(const Part& part, const BodyDef* dynamic) {
 
 }  // namespace
 
-SceneryBodies::SceneryBodies(b2World& world, const Scenery<double>& scenery, SceneryMode mode,
+SceneryBodies::SceneryBodies(b2World& world, const Scenery<double>& scenery, const ReferenceWorldDef& def,
                              std::span<const std::optional<BodyDef>> dynamic)
-    : as_run(rounded(scenery.as_run())), parts(parts_of(as_run, scenery.mover_count())), world_(world) {
+    : as_run(rounded(scenery.as_run())),
+      parts(parts_of(as_run, scenery.mover_count())),
+      world_(world),
+      drive_(def.drive) {
   if (!dynamic.empty() && dynamic.size() != scenery.mover_count())
     throw InvalidDefinition("bodies are given for each mover, or for none");
   std::vector<b2Body*> bodies;
   for (const Part& part : parts) {
     const BodyDef* body = nullptr;
     if (part.mover != no_mover && !dynamic.empty() && dynamic[part.mover]) body = &*dynamic[part.mover];
-    const b2BodyDef def = body_of(part, body);
-    bodies.push_back(world.CreateBody(&def));
+    const b2BodyDef body_def = body_of(part, def.solids, body);
+    bodies.push_back(world.CreateBody(&body_def));
     // Chains have no inside, and what is dynamic needs one to be hit by chains.
-    add_solids(*bodies.back(), scenery, part, body == nullptr ? mode : SceneryMode::pieces, fixtures);
+    const bool is_dynamic = body_def.type == b2_dynamicBody;
+    add_solids(*bodies.back(), scenery, part, is_dynamic ? SceneryMode::pieces : def.mode, fixtures);
+    if (is_dynamic && body == nullptr) give_mass(*bodies.back(), standing_mass);
     if (body != nullptr) {
       give_mass(*bodies.back(), body->mass);
       give_surface(*bodies.back(), static_cast<float>(body->friction), static_cast<float>(body->restitution));
@@ -105,9 +126,11 @@ void SceneryBodies::send(double length, std::span<const MoverMotion<double>> wan
   capped = false;
   for (std::size_t i = 0; i < movers.size(); ++i) {
     Mover& mover = movers[i];
+    const b2Vec2 before = mover.body->GetPosition();
     if (!mover.dynamic) send(mover, wanted[i], wanted_turns.empty() ? MoverTurn{} : wanted_turns[i]);
     turns[i].from = static_cast<double>(mover.body->GetAngle());
-    offsets[i] = widened(mover.body->GetPosition());
+    const bool was_put = drive_ == MoverDrive::transform && !mover.dynamic;
+    offsets[i] = was_put ? widened(before) : widened(mover.body->GetPosition());
   }
 }
 
@@ -118,6 +141,10 @@ void SceneryBodies::send(Mover& mover, const MoverMotion<double>& wanted, const 
   if (!(mover.goal == from) || mover.goal_angle != from_angle) mover.body->SetTransform(from, from_angle);
   mover.goal = rounded(wanted.to);
   mover.goal_angle = static_cast<float>(turn.to);
+  if (drive_ == MoverDrive::transform) {
+    mover.body->SetTransform(mover.goal, mover.goal_angle);
+    return;
+  }
   const b2Vec2 way = mover.goal - mover.body->GetPosition();
   const float angle = mover.goal_angle - mover.body->GetAngle();
   capped = capped || way.LengthSquared() > b2_maxTranslationSquared || angle * angle > b2_maxRotationSquared;

@@ -20,7 +20,7 @@ struct SceneryBodies {
   /// @param scenery judged and cut for the controller; its colliders are rounded to float here.
   /// @param dynamic which movers are dynamic bodies, one for each mover; or empty: none.
   /// @throws InvalidDefinition before Box2D sees what it would abort on.
-  SceneryBodies(b2World& world, const Scenery<double>& scenery, SceneryMode mode,
+  SceneryBodies(b2World& world, const Scenery<double>& scenery, const ReferenceWorldDef& def,
                 std::span<const std::optional<BodyDef>> dynamic = {});
 
   /// Begins a step: gives every kinematic body the velocity that takes it to where it is to be.
@@ -50,6 +50,7 @@ struct SceneryBodies {
   void send(Mover& mover, const MoverMotion<double>& wanted, const MoverTurn& turn);
 
   b2World& world_;
+  MoverDrive drive_;
   float last_dt_ = 0;
 };
 

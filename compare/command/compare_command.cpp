@@ -290,17 +290,17 @@ std::uint64_t parse_random_input(const std::string& text) {
 
 std::vector<KnobSetting> parse_knobs(const std::vector<std::string>& texts,
                                      const std::vector<std::string>& contenders) {
-  const auto asked_for = [&](TechniqueKind kind) {
-    return contenders.empty() || std::find(contenders.begin(), contenders.end(), name_of(kind)) != contenders.end();
+  const auto asked_for = [&](std::string_view name) {
+    return contenders.empty() || std::find(contenders.begin(), contenders.end(), name) != contenders.end();
   };
   std::vector<KnobSetting> settings;
   for (const std::string& text : texts) {
     bool anyones = false;
     try {
       settings.push_back(parse_knob(text));
-      for (const TechniqueKind kind : all_techniques) {
-        if (!asked_for(kind) || !has_knob(kind, settings.back().name)) continue;
-        check_knob(settings.back(), kind);
+      for (const std::string_view contender : contender_names()) {
+        if (!asked_for(contender) || !has_knob(contender, settings.back().name)) continue;
+        check_knob(settings.back(), contender);
         anyones = true;
       }
     } catch (const std::invalid_argument& reason) {

@@ -1,4 +1,4 @@
-/// `paperproof work-precision` and `paperproof stability`.
+/// `paperproof work-precision`, `paperproof stability` and `paperproof study bullet`.
 #pragma once
 
 #include <string>
@@ -11,7 +11,8 @@ struct PrecisionArguments {
   std::vector<std::string> contenders;  ///< Empty: all; of `stability` octagon_sweep and Box2D.
   std::string rows_path;                ///< Empty: none.
   std::string report_path;              ///< The same.
-  int jobs = 0;                         ///< Of `stability`; 0: one for each core.
+  int jobs = 0;                         ///< Not of `work-precision`; 0: one for each core.
+  std::string grid = "quick";           ///< Of `study bullet`: quick, standard or full.
   bool quiet = false;
 };
 
@@ -21,5 +22,9 @@ int work_precision_command(const PrecisionArguments& arguments);
 
 /// @return the exit status: 0, or 1 if octagon_sweep in double broke its guarantee.
 int stability_command(const PrecisionArguments& arguments);
+
+/// Who gets through paper: rates over a grid, and the lowest speeds beside theory.
+/// @return the exit status: 0, or 1 if octagon_sweep in double got through.
+int study_bullet_command(const PrecisionArguments& arguments);
 
 }  // namespace paperproof::compare

@@ -291,61 +291,8 @@ class SweepRun {
   bool trouble_ = false;
 };
 
-/// Where the files are the shards of one sweep: in their order. Empty where they are anything else.
-/// @throws InputError where some are missing, or there twice.
-std::vector<RowsReader*> in_order(const std::vector<std::unique_ptr<RowsReader>>& readers) {
-  const ordered_json first = readers.front()->header().value("sweep", ordered_json{});
-  if (!first.is_object() || first["shard"][1] == 1) return {};
-  std::vector<RowsReader*> ordered(first["shard"][1].get<std::size_t>());
-  for (const std::unique_ptr<RowsReader>& reader : readers) {
-    const ordered_json sweep = reader->header().value("sweep", ordered_json{});
-    if (!sweep.is_object() || sweep["id"] != first["id"] || sweep["shard"][1] != first["shard"][1]) return {};
-    ordered.at(sweep["shard"][0].get<std::size_t>() - 1) = reader.get();
-  }
-  if (readers.size() != ordered.size() || std::find(ordered.begin(), ordered.end(), nullptr) != ordered.end())
-    throw InputError(fmt::format("merge: expected the {} shards of the sweep, each once", ordered.size()));
-  return ordered;
-}
-
 }  // namespace
 
 int sweep_command(const SweepArguments& arguments) { return SweepRun(arguments).run(); }
-
-int merge_command(const std::vector<std::string>& files, const std::string& rows_path) {
-  ClaimedFiles claimed;
-  std::vector<std::unique_ptr<RowsReader>> readers;
-  for (const std::string& file : files) {
-    claimed.claim(file, "rows to merge");
-    readers.push_back(std::make_unique<RowsReader>(file));
-  }
-  claimed.claim_for_option("--rows", rows_path);
-  ordered_json header = readers.front()->header();
-  const std::vector<RowsReader*> shards = in_order(readers);
-  OutputFile out(rows_path);
-  if (!shards.empty()) {
-    const auto cases = header["sweep"]["cases"].get<std::size_t>();
-    header["sweep"]["shard"] = {1, 1};
-    out.write(json_line(header));
-    for (std::size_t row = 0; row < cases; ++row) {
-      const std::size_t part = row % shards.size();
-      const std::optional<std::string> line = shards[part]->next();
-      if (!line)
-        throw InputError(fmt::format("merge: shard {}/{} is not complete: row {} is missing; --resume it", part + 1,
-                                     shards.size(), row / shards.size() + 1));
-      out.write(*line);
-    }
-  } else {
-    header.erase("sweep");
-    out.write(json_line(header));
-    std::set<std::string> known;
-    for (const std::unique_ptr<RowsReader>& reader : readers)
-      while (const std::optional<std::string> line = reader->next()) {
-        const std::string id = ordered_json::parse(*line).value("case", "");
-        if (id.empty() || known.insert(id).second) out.write(*line);
-      }
-  }
-  out.commit();
-  return 0;
-}
 
 }  // namespace paperproof::compare

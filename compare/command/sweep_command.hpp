@@ -1,4 +1,4 @@
-/// `paperproof sweep` and `paperproof merge`: many Cases, on many cores and machines, and their rows.
+/// `paperproof sweep`: many Cases, on many cores and machines.
 #pragma once
 
 #include "studies/sweep.hpp"
@@ -31,11 +31,5 @@ struct SweepArguments {
 /// @return the exit status: 0, or 1 if octagon_sweep in double broke its guarantee or a case failed.
 /// @throws InputError before any output file is touched; std::runtime_error if one cannot be written.
 int sweep_command(const SweepArguments& arguments);
-
-/// Puts the rows of several files together: shards of one sweep in the order of the whole one, anything else file by
-/// file, each Case once.
-/// @return 0.
-/// @throws InputError for what is no file of rows, and for shards that are missing or not complete.
-int merge_command(const std::vector<std::string>& files, const std::string& rows_path);
 
 }  // namespace paperproof::compare

@@ -12,16 +12,18 @@ namespace {
 
 class Box2dContestant final : public Contestant {
  public:
-  Box2dContestant(box2d::SceneryMode mode, const Scene& scene, const Scenery<double>& scenery)
+  Box2dContestant(const box2d::ReferenceWorldDef& def, const Scene& scene, const Scenery<double>& scenery,
+                  std::span<const KnobSetting> knobs)
       : character_(scene.character),
         gravity_(scene.gravity),
-        world_(scenery, scene.character, starts_of(scene), {.mode = mode}),
+        world_(scenery, scene.character, starts_of(scene), def),
         twins_(character_count(scene)),
         wishes_(character_count(scene)) {
     if (!(StepTimes(scene).shortest() >= box2d::least_step))
       throw box2d::InvalidDefinition("Box2D takes no steps shorter than 1e-9 s");
     header_.scene = scene.name;
-    header_.contender = mode == box2d::SceneryMode::pieces ? "box2d_pieces" : "box2d";
+    header_.contender = def.mode == box2d::SceneryMode::pieces ? "box2d_pieces" : "box2d";
+    header_.knob = turned_knobs(knobs, header_.contender);
     header_.scalar = name_of(ScalarKind::binary32);
     header_.dt = scene.dt;
     header_.characters = character_count(scene);
@@ -199,8 +201,10 @@ class Box2dContestant final : public Contestant {
 }  // namespace
 
 std::unique_ptr<Contestant> make_box2d_contestant(box2d::SceneryMode mode, const Scene& scene,
-                                                  const Scenery<double>& scenery) {
-  return std::make_unique<Box2dContestant>(mode, scene, scenery);
+                                                  const Scenery<double>& scenery, std::span<const KnobSetting> knobs) {
+  box2d::ReferenceWorldDef def{.mode = mode};
+  turn_knobs(knobs, def);
+  return std::make_unique<Box2dContestant>(def, scene, scenery, knobs);
 }
 
 }  // namespace paperproof::compare

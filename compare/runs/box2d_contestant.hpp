@@ -8,6 +8,7 @@
 namespace paperproof::compare {
 
 [[nodiscard]] std::unique_ptr<Contestant> make_box2d_contestant(box2d::SceneryMode mode, const Scene& scene,
-                                                                const Scenery<double>& scenery);
+                                                                const Scenery<double>& scenery,
+                                                                std::span<const KnobSetting> knobs);
 
 }  // namespace paperproof::compare

@@ -49,7 +49,7 @@ std::unique_ptr<Contestant> make_contestant(std::string_view name, ScalarKind sc
   if (is_reference(name)) {
     const auto mode = name == box2d_name ? box2d::SceneryMode::chain_loops : box2d::SceneryMode::pieces;
     try {
-      return make_box2d_contestant(mode, scene, scenery);
+      return make_box2d_contestant(mode, scene, scenery, planning.knobs);
     } catch (const box2d::InvalidDefinition& error) {
       throw NotApplicable(error.what());
     }

@@ -1,5 +1,7 @@
 #include "runs/knobs.hpp"
 
+#include "runs/contestant.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -81,6 +83,53 @@ const std::vector<Knob>& all_knobs() {
   return all;
 }
 
+/// Of the Box2D twins.
+struct EngineKnob {
+  std::string_view name;
+  std::string_view meaning;
+  void (*turn)(const std::string& value, box2d::ReferenceWorldDef& def);
+};
+
+int iterations_in(const std::string& text) {
+  const int count = whole_in(text);
+  if (count < 1 || count > 1000) throw std::invalid_argument("expected a whole number from 1 to 1000");
+  return count;
+}
+
+const std::vector<EngineKnob>& engine_knobs() {
+  using Def = box2d::ReferenceWorldDef;
+  static const std::vector<EngineKnob> all{
+      {"bullet", "on, or off: continuous collision against dynamic bodies, too",
+       [](const std::string& value, Def& def) { def.bullet = second_of(value, "off", "on"); }},
+      {"continuous", "on, or off: no continuous collision at all",
+       [](const std::string& value, Def& def) { def.continuous = second_of(value, "off", "on"); }},
+      {"velocity_iterations", "of its solver, 8 where not turned",
+       [](const std::string& value, Def& def) { def.velocity_iterations = iterations_in(value); }},
+      {"position_iterations", "of its solver, 3 where not turned",
+       [](const std::string& value, Def& def) { def.position_iterations = iterations_in(value); }},
+      {"solids", "static, kinematic or dynamic: what the solids that stand are for it",
+       [](const std::string& value, Def& def) {
+         if (value != "static" && value != "kinematic" && value != "dynamic")
+           throw std::invalid_argument("expected static, kinematic or dynamic");
+         def.solids = value == "static"      ? box2d::SolidBody::fixed
+                      : value == "kinematic" ? box2d::SolidBody::kinematic
+                                             : box2d::SolidBody::dynamic;
+       }},
+      {"movers", "velocity, or transform: movers are put where they should be by SetTransform",
+       [](const std::string& value, Def& def) {
+         def.drive =
+             second_of(value, "velocity", "transform") ? box2d::MoverDrive::transform : box2d::MoverDrive::velocity;
+       }},
+  };
+  return all;
+}
+
+const EngineKnob* find_engine_knob(std::string_view name) {
+  const std::vector<EngineKnob>& all = engine_knobs();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const EngineKnob& knob) { return knob.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
 const Knob* find_knob(std::string_view name) {
   const auto found =
       std::find_if(all_knobs().begin(), all_knobs().end(), [&](const Knob& knob) { return knob.name == name; });
@@ -98,18 +147,24 @@ Scenery<double> a_square() { return Scenery<double>({{{.points = {{0, 0}, {1, 0}
 
 KnobSetting parse_knob(std::string_view text) {
   const std::size_t equals = text.find('=');
-  const Knob* knob = find_knob(text.substr(0, equals));
-  if (equals == std::string_view::npos || knob == nullptr) {
+  const std::string_view name = text.substr(0, equals);
+  if (equals == std::string_view::npos || (find_knob(name) == nullptr && find_engine_knob(name) == nullptr)) {
     std::vector<std::string_view> names;
     for (const Knob& each : all_knobs()) names.push_back(each.name);
+    for (const EngineKnob& each : engine_knobs()) names.push_back(each.name);
     throw std::invalid_argument(fmt::format("expected NAME=VALUE with a NAME of {}", fmt::join(names, ", ")));
   }
-  return {std::string(knob->name), std::string(text.substr(equals + 1))};
+  return {std::string(name), std::string(text.substr(equals + 1))};
 }
 
-void check_knob(const KnobSetting& setting, TechniqueKind kind) {
+void check_knob(const KnobSetting& setting, std::string_view contender) {
+  if (is_reference(contender)) {
+    box2d::ReferenceWorldDef def;
+    turn_knobs(std::span(&setting, 1), def);
+    return;
+  }
   TechniqueDef def;
-  def.kind = kind;
+  def.kind = *technique_kind(contender);
   turn_knobs(std::span(&setting, 1), def);
   const Scenery<double> scenery = a_square();
   try {
@@ -126,12 +181,21 @@ std::vector<std::string> describe_knobs() {
     for (const TechniqueKind kind : knob.kinds) names.push_back(paperproof::name_of(kind));
     lines.push_back(fmt::format("{:<24} {} ({})", knob.name, knob.meaning, fmt::join(names, ", ")));
   }
+  for (const EngineKnob& knob : engine_knobs())
+    lines.push_back(fmt::format("{:<24} {} (box2d, box2d_pieces)", knob.name, knob.meaning));
   return lines;
 }
 
-bool has_knob(TechniqueKind kind, std::string_view name) {
+bool has_knob(std::string_view contender, std::string_view name) {
+  if (is_reference(contender)) return find_engine_knob(name) != nullptr;
   const Knob* knob = find_knob(name);
-  return knob != nullptr && is_of(*knob, kind);
+  const std::optional<TechniqueKind> kind = technique_kind(contender);
+  return knob != nullptr && kind && is_of(*knob, *kind);
+}
+
+void turn_knobs(std::span<const KnobSetting> knobs, box2d::ReferenceWorldDef& def) {
+  for (const KnobSetting& setting : knobs)
+    if (const EngineKnob* knob = find_engine_knob(setting.name)) knob->turn(setting.value, def);
 }
 
 void turn_knobs(std::span<const KnobSetting> knobs, TechniqueDef& def) {
@@ -140,10 +204,10 @@ void turn_knobs(std::span<const KnobSetting> knobs, TechniqueDef& def) {
       knob->turn(setting.value, def);
 }
 
-std::string turned_knobs(std::span<const KnobSetting> knobs, TechniqueKind kind) {
+std::string turned_knobs(std::span<const KnobSetting> knobs, std::string_view contender) {
   std::string text;
   for (const KnobSetting& setting : knobs) {
-    if (!has_knob(kind, setting.name)) continue;
+    if (!has_knob(contender, setting.name)) continue;
     if (!text.empty()) text += ' ';
     text += setting.name + '=' + setting.value;
   }

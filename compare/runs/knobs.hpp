@@ -1,6 +1,7 @@
-/// Knobs of the techniques, as they stand on the command line.
+/// Knobs of the contenders, as they stand on the command line.
 #pragma once
 
+#include <paperproof/box2d/reference_world.hpp>
 #include <paperproof/techniques.hpp>
 
 #include <span>
@@ -10,7 +11,8 @@
 
 namespace paperproof::compare {
 
-/// `name=value`, the name that of the field in `ArticleKnobs`. `octagon_sweep` has `iterations`.
+/// `name=value`. A technique's is the field of `ArticleKnobs`, a twin's that of `ReferenceWorldDef`; `octagon_sweep` has
+/// `iterations`.
 struct KnobSetting {
   std::string name;
   std::string value;
@@ -19,18 +21,19 @@ struct KnobSetting {
 /// @throws std::invalid_argument in words where there is no such knob.
 [[nodiscard]] KnobSetting parse_knob(std::string_view text);
 
-/// @throws std::invalid_argument in words for a value that the technique cannot take.
-void check_knob(const KnobSetting& setting, TechniqueKind kind);
+/// @throws std::invalid_argument in words for a value that the contender, which has the knob, cannot take.
+void check_knob(const KnobSetting& setting, std::string_view contender);
 
 /// In words, one line for each knob: its name, what it is, and whose it is.
 [[nodiscard]] std::vector<std::string> describe_knobs();
 
-[[nodiscard]] bool has_knob(TechniqueKind kind, std::string_view name);
+[[nodiscard]] bool has_knob(std::string_view contender, std::string_view name);
 
-/// Turns those of the knobs that the technique has; of two of the same name the later holds.
+/// Turns those of the knobs that the technique or the twin has; of two of the same name the later holds.
 void turn_knobs(std::span<const KnobSetting> knobs, TechniqueDef& def);
+void turn_knobs(std::span<const KnobSetting> knobs, box2d::ReferenceWorldDef& def);
 
-/// Those of the knobs that the technique has, as `name=value name=value`; empty for none.
-[[nodiscard]] std::string turned_knobs(std::span<const KnobSetting> knobs, TechniqueKind kind);
+/// Those of the knobs that the contender has, as `name=value name=value`; empty for none.
+[[nodiscard]] std::string turned_knobs(std::span<const KnobSetting> knobs, std::string_view contender);
 
 }  // namespace paperproof::compare

@@ -127,7 +127,7 @@ TraceHeader header_of(TechniqueKind kind, const Scenery<Scalar>& scenery, const 
   header.scene = scene.name;
   header.contender = name_of(kind);
   header.scalar = name_of(std::is_same_v<Scalar, float> ? ScalarKind::binary32 : ScalarKind::binary64);
-  header.knob = turned_knobs(knobs, kind);
+  header.knob = turned_knobs(knobs, name_of(kind));
   header.dt = static_cast<double>(static_cast<Scalar>(scene.dt));
   header.characters = character_count(scene);
   for (const Vec2d& point : scene.character.shape.hull())

@@ -31,8 +31,9 @@ Scene paper(const ParameterValues& values) {
   const double last = std::ceil(steps_to_fall(scene, 3, speed));
   const double way = 3 + values["phase"] * (speed - scene.gravity.y() * scene.dt * last) * scene.dt;
   scene.start.position.y() += way;
-  // A second, or half a second after the paper.
-  const double most = std::max(std::round(1 / scene.dt), std::ceil(steps_to_fall(scene, way, speed) + 0.5 / scene.dt));
+  // A second; and time enough behind the paper to get 2 m beyond it.
+  const double behind = std::max(0.5, 2 / speed) / scene.dt;
+  const double most = std::max(std::round(1 / scene.dt), std::ceil(steps_to_fall(scene, way, speed) + behind));
   scene.steps = static_cast<int>(std::clamp(most, 4.0, 1e7));
   const double thickness = values["thickness"];
   const double tilt = (90 - values["angle"]) * pi / 180;

@@ -16,7 +16,6 @@ namespace paperproof::compare {
 namespace {
 
 constexpr std::size_t most_values = 1'000'000;
-constexpr int border_values = 64;
 constexpr double border_width = 1e-4;
 
 std::string text_of(double value) { return fmt::format("{}", value); }
@@ -165,15 +164,16 @@ Row run_at(const Sweep& sweep, std::size_t index) {
   return row;
 }
 
-Row find_border(const std::string& key, double least, double most, const std::function<Row(double)>& run_with) {
+Row find_border(const std::string& key, double least, double most, const std::function<Row(double)>& run_with,
+                int strides) {
   const bool logarithmic = least > 0;
   const auto value_at = [&](int step) {
-    return between(least, most, static_cast<std::size_t>(step), border_values + 1, logarithmic);
+    return between(least, most, static_cast<std::size_t>(step), static_cast<std::size_t>(strides) + 1, logarithmic);
   };
   std::optional<double> low;
   std::optional<double> high;
   Row row;
-  for (int step = 0; step <= border_values && !high; ++step) {
+  for (int step = 0; step <= strides && !high; ++step) {
     row = run_with(value_at(step));
     if (row.verdict == Verdict::not_applicable || row.verdict == Verdict::failed) break;
     (holds(row) ? low : high) = value_at(step);

@@ -51,11 +51,11 @@ void check(const Sweep& sweep);
 [[nodiscard]] Row run_at(const Sweep& sweep, std::size_t index);
 
 /// Looks for the border of a parameter between where a contender holds (passes nothing, ends inside nothing) and where
-/// it does not: upwards over its range at 65 values, equal steps of its logarithm where the range allows; from the
+/// it does not: upwards over its range in 64 strides, equal in its logarithm where the range allows; from the
 /// first that does not hold back by bisection, until the two ends differ by a ten-thousandth of the larger.
 /// @param run_with the row at a value.
 /// @return the row at the upper end of the bracket, or at the end of the range where all hold.
 [[nodiscard]] Row find_border(const std::string& key, double least, double most,
-                              const std::function<Row(double)>& run_with);
+                              const std::function<Row(double)>& run_with, int strides = 64);
 
 }  // namespace paperproof::compare

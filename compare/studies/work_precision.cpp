@@ -170,13 +170,11 @@ void add_curves(const Motion& motion, const std::string& contender, std::vector<
   for (const double dt : lengths) add(scalar, "dt_s", dt, dt, {});
   if (contender == "octagon_sweep")
     for (const double dt : lengths) add("float", "dt_s", dt, dt, {});
-  const auto kind = is_reference(contender) ? std::nullopt : technique_kind(contender);
-  if (!kind) return;
   for (const int parts : {8, 16, 64, 128, 256})
-    if (has_knob(*kind, "unit"))
+    if (has_knob(contender, "unit"))
       add(scalar, "unit_m", 1.0 / parts, usual_dt, {{"unit", fmt::format("{}", 1.0 / parts)}});
   for (const int pixels : {8, 16, 64, 128, 256})
-    if (has_knob(*kind, "raster_pixels_per_metre"))
+    if (has_knob(contender, "raster_pixels_per_metre"))
       add(scalar, "pixel_m", 1.0 / pixels, usual_dt, {{"raster_pixels_per_metre", std::to_string(pixels)}});
 }
 

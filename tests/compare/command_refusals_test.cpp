@@ -156,14 +156,14 @@ TEST(Command, complains_in_one_line_whatever_was_typed) {
 
 TEST(Command, names_what_could_stand_where_a_word_is_missing_or_unknown) {
   const Workplace place;
+  const std::string commands =
+      "paperproof: expected one of compare, study, sweep, work-precision, stability, merge, diff, demo, list, check, "
+      "plan; "
+      "see paperproof --help\n";
   for (const auto& [arguments, line] :
-       {std::pair{"",
-                  "paperproof: expected one of compare, study, sweep, work-precision, stability, merge, list, check, "
-                  "plan; see paperproof --help\n"},
-        {"frobnicate",
-         "paperproof: expected one of compare, study, sweep, work-precision, stability, merge, list, check, plan; see "
-         "paperproof --help\n"},
-        {"study bullets", "paperproof study: expected one of scale; see paperproof study --help\n"},
+       {std::pair<std::string, std::string>{"", commands},
+        {"frobnicate", commands},
+        {"study bullets", "paperproof study: expected one of scale, bullet; see paperproof study --help\n"},
         {"list scene",
          "paperproof: WHAT: expected scenes, contenders, knobs or parameters, not scene; see paperproof list --help\n"},
         {"check", "paperproof: SCENE is required; see paperproof check --help\n"}}) {

@@ -101,5 +101,37 @@ TEST(CommandSweep, finds_a_border_and_writes_csv_and_a_page) {
   EXPECT_TRUE(holds(written(place, "f.html"), "cases that do not hold"));
 }
 
+TEST(CommandDiff, names_what_changed_and_nothing_else) {
+  const Workplace place;
+  EXPECT_EQ(place.run(sweep + "--rows r.jsonl").status, 0);
+  std::string changed = written(place, "r.jsonl");
+  const std::size_t at = changed.find("\"tunnels\":1");
+  ASSERT_NE(at, std::string::npos);
+  changed.replace(at, 11, "\"tunnels\":2");
+  std::ofstream(place.path("s.jsonl"), std::ios::binary) << changed;
+  const Finished same = place.run("diff r.jsonl r.jsonl");
+  EXPECT_EQ(same.status, 0);
+  EXPECT_EQ(same.out, "0 rows differ, 108 the same, costs apart\n");
+  const Finished differs = place.run("diff r.jsonl s.jsonl");
+  EXPECT_EQ(differs.status, 1);
+  EXPECT_TRUE(holds(differs.out, "tunnels 1 -> 2\n1 row differs")) << differs.out;
+  std::ofstream(place.path("t.jsonl"), std::ios::binary) << changed.substr(0, changed.rfind('{'));
+  EXPECT_TRUE(holds(place.run("diff s.jsonl t.jsonl").out, "only in s.jsonl"));
+  EXPECT_EQ(place.run("diff r.jsonl nothing.jsonl").status, 2);
+}
+
+TEST(CommandDemo, shows_where_the_bullet_ends_technique_by_technique) {
+  const Workplace place;
+  const Finished all = place.run("demo");
+  EXPECT_EQ(all.status, 0) << all.err;
+  for (const char* part : {"\nmask: through\n", "\noctagon_sweep: stopped at 0.600\n", "\ngrid: cannot run\n",
+                           "\nspeculative_march: stopped at 0.600\n", "  end of step 1"})
+    EXPECT_TRUE(holds(all.out, part)) << part;
+  const Finished one = place.run("demo wind_back");
+  EXPECT_TRUE(holds(one.out, "wind_back: through"));
+  EXPECT_FALSE(holds(one.out, "octagon_sweep"));
+  EXPECT_EQ(place.run("demo windback").status, 2);
+}
+
 }  // namespace
 }  // namespace paperproof::compare

@@ -26,10 +26,27 @@ class InvalidDefinition : public std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
+/// What the solids that stand are for Box2D.
+enum class SolidBody : std::uint8_t {
+  fixed,      ///< Static bodies.
+  kinematic,  ///< Kinematic bodies that rest.
+  dynamic,    ///< Dynamic bodies of 1e9 kg that rest: continuous collision looks at them for bullets alone. In pieces.
+};
+
+/// How what moves gets to where it should be at the end of a step.
+enum class MoverDrive : std::uint8_t {
+  velocity,   ///< Box2D sweeps it there.
+  transform,  ///< It is put there before the step (`SetTransform`), and passes nothing on the way.
+};
+
 struct ReferenceWorldDef {
   SceneryMode mode = SceneryMode::chain_loops;
   int velocity_iterations = 8;
   int position_iterations = 3;
+  bool bullet = true;      ///< Of the characters.
+  bool continuous = true;  ///< Continuous collision at all.
+  SolidBody solids = SolidBody::fixed;
+  MoverDrive drive = MoverDrive::velocity;
 };
 
 /// Version of the Box2D in use, as it should be cited ("2.4.1": the packaged library calls itself 2.4.0).

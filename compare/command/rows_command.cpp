@@ -1,0 +1,146 @@
+#include "command/rows_command.hpp"
+
+#include "command/claimed_files.hpp"
+#include "records/output_file.hpp"
+#include "records/rows_reader.hpp"
+#include "scenes/load.hpp"
+#include "words.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <set>
+
+namespace paperproof::compare {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// Where the files are the shards of one sweep: in their order. Empty where they are anything else.
+/// @throws InputError where some are missing, or there twice.
+std::vector<RowsReader*> in_order(const std::vector<std::unique_ptr<RowsReader>>& readers) {
+  const ordered_json first = readers.front()->header().value("sweep", ordered_json{});
+  if (!first.is_object() || first["shard"][1] == 1) return {};
+  std::vector<RowsReader*> ordered(first["shard"][1].get<std::size_t>());
+  for (const std::unique_ptr<RowsReader>& reader : readers) {
+    const ordered_json sweep = reader->header().value("sweep", ordered_json{});
+    if (!sweep.is_object() || sweep["id"] != first["id"] || sweep["shard"][1] != first["shard"][1]) return {};
+    ordered.at(sweep["shard"][0].get<std::size_t>() - 1) = reader.get();
+  }
+  if (readers.size() != ordered.size() || std::find(ordered.begin(), ordered.end(), nullptr) != ordered.end())
+    throw InputError(fmt::format("merge: expected the {} shards of the sweep, each once", ordered.size()));
+  return ordered;
+}
+
+/// What tells a row from the others of its file.
+std::string name_of_row(const ordered_json& row) {
+  std::string name;
+  for (const char* key : {"scene", "contender", "scalar", "mode", "knob", "curve", "border"})
+    if (row.contains(key) && !(row[key] == "free" || row[key] == "double"))
+      name += (name.empty() ? "" : " ") + row[key].get<std::string>();
+  if (row.contains("case")) return name + " (case " + row["case"].get<std::string>() + ")";
+  if (row.contains("parameters")) name += " " + row["parameters"].dump();
+  return name;
+}
+
+using Rows = std::map<std::string, ordered_json>;
+
+Rows rows_of(const std::string& path) {
+  Rows rows;
+  RowsReader reader(path);
+  while (const std::optional<std::string> line = reader.next()) {
+    ordered_json row = ordered_json::parse(*line);
+    std::string name = name_of_row(row);
+    rows.insert_or_assign(std::move(name), std::move(row));
+  }
+  return rows;
+}
+
+bool is_cost(const std::string& key) { return key.starts_with("ns_per_step") || key == "on_front"; }
+
+/// As `tunnels 0 -> 1, max_penetration_m 0.0 -> 0.5`.
+std::string changes_between(const ordered_json& before, const ordered_json& after) {
+  std::string text;
+  const auto note = [&](const std::string& key, const std::string& was, const std::string& is) {
+    text += fmt::format("{}{} {} -> {}", text.empty() ? "" : ", ", key, was, is);
+  };
+  for (const auto& [key, value] : before.items()) {
+    if (is_cost(key)) continue;
+    if (!after.contains(key))
+      note(key, value.dump(), "nothing");
+    else if (after[key] != value)
+      note(key, value.dump(), after[key].dump());
+  }
+  for (const auto& [key, value] : after.items())
+    if (!before.contains(key) && !is_cost(key)) note(key, "nothing", value.dump());
+  return text;
+}
+
+}  // namespace
+
+int merge_command(const std::vector<std::string>& files, const std::string& rows_path) {
+  ClaimedFiles claimed;
+  std::vector<std::unique_ptr<RowsReader>> readers;
+  for (const std::string& file : files) {
+    claimed.claim(file, "rows to merge");
+    readers.push_back(std::make_unique<RowsReader>(file));
+  }
+  claimed.claim_for_option("--rows", rows_path);
+  ordered_json header = readers.front()->header();
+  const std::vector<RowsReader*> shards = in_order(readers);
+  OutputFile out(rows_path);
+  if (!shards.empty()) {
+    const auto cases = header["sweep"]["cases"].get<std::size_t>();
+    header["sweep"]["shard"] = {1, 1};
+    out.write(json_line(header));
+    for (std::size_t row = 0; row < cases; ++row) {
+      const std::size_t part = row % shards.size();
+      const std::optional<std::string> line = shards[part]->next();
+      if (!line)
+        throw InputError(fmt::format("merge: shard {}/{} is not complete: row {} is missing; --resume it", part + 1,
+                                     shards.size(), row / shards.size() + 1));
+      out.write(*line);
+    }
+  } else {
+    header.erase("sweep");
+    out.write(json_line(header));
+    std::set<std::string> known;
+    for (const std::unique_ptr<RowsReader>& reader : readers)
+      while (const std::optional<std::string> line = reader->next()) {
+        const std::string id = ordered_json::parse(*line).value("case", "");
+        if (id.empty() || known.insert(id).second) out.write(*line);
+      }
+  }
+  out.commit();
+  return 0;
+}
+
+int diff_command(const std::string& before, const std::string& after) {
+  const Rows old_rows = rows_of(before);
+  const Rows new_rows = rows_of(after);
+  std::size_t changed = 0;
+  std::size_t same = 0;
+  for (const auto& [name, row] : old_rows) {
+    const auto now = new_rows.find(name);
+    const std::string changes = now == new_rows.end() ? "only in " + before : changes_between(row, now->second);
+    if (changes.empty()) {
+      ++same;
+      continue;
+    }
+    ++changed;
+    print_out(name + ": " + changes + '\n');
+  }
+  for (const auto& [name, row] : new_rows) {
+    if (old_rows.contains(name)) continue;
+    ++changed;
+    print_out(name + ": only in " + after + '\n');
+  }
+  print_out(fmt::format("{} {}, {} the same, costs apart\n", counted(changed, "row"),
+                        changed == 1 ? "differs" : "differ", same));
+  return changed > 0 ? 1 : 0;
+}
+
+}  // namespace paperproof::compare

@@ -1,0 +1,65 @@
+/// The study of bullets and paper: who passes, at which speeds, and what theory says.
+#pragma once
+
+#include "studies/sweep.hpp"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace paperproof::compare {
+
+enum class GridSize : std::uint8_t { quick, standard, full };
+
+/// A contender with knobs of its own.
+struct BulletContender {
+  std::string name;
+  std::vector<Case::Setting> knobs{};
+  [[nodiscard]] std::string called() const;  ///< `box2d bullet=off solids=dynamic`
+};
+
+/// All contenders, and Box2D with continuous collision off, and with a non-bullet against dynamic paper.
+/// @param wanted names; empty: all of these.
+[[nodiscard]] std::vector<BulletContender> bullet_contenders(const std::vector<std::string>& wanted);
+
+/// Speed × thickness × angle × phase × length of a step. Whoever promises to let nothing through, octagon_sweep, is
+/// tried at more phases: over a million cases on the standard grid.
+[[nodiscard]] Sweep bullet_sweep(GridSize size, const BulletContender& contender);
+
+/// The thicknesses at which the lowest speed is looked for [m].
+[[nodiscard]] std::vector<double> bullet_thicknesses();
+
+/// The lowest speed at which it passes the paper head-on, over so many phases [m/s]: `border_low` and `border_high` of
+/// the row, as of `find_border`. It looks from 0.9 times the speed that goes through the paper's thickness in one step:
+/// in fine strides up to 1.6 times that, then in coarse ones up to 3,000 m/s. `border_high` alone: at any speed.
+[[nodiscard]] Row lowest_speed_through(const BulletContender& contender, double thickness, int phases);
+[[nodiscard]] int phases_of(GridSize size);
+
+/// What theory says about that speed, for the article's character (feet, arms and head at 0, 0.3125, 0.9375 and 1.25
+/// m), head-on, in steps of 1/60 s, over all phases. A way of s = speed · dt per step lets it through
+/// - `penetration_resolution`: s > thickness. Falling, it tests the feet alone, and only where a step ends.
+/// - `speculative_march`: the same where the paper is thinner than its unit; else never: it looks every unit.
+/// - `wind_back`: where none of its four rows of points ends a step in the paper, at some phase: the smallest s at
+/// which
+///   intervals as long as the thickness, one for each row, do not cover a circle of circumference s.
+/// - `mask`: s > height + thickness as drawn - one pixel: pixels are drawn whose middle is in the paper, and places are
+///   rounded to pixels, so that a way may be drawn longer than it is; at any speed where no pixel is drawn.
+/// - `pixel_colour`, `pixel_tile`: at any speed where no pixel is drawn, else never: they look at each pixel.
+/// - `bounding_box`, `discrete`: s > height + thickness: they look at where a step ends.
+/// - `speculative`, `octagon_sweep`, Box2D with continuous collision: never.
+struct BulletTheory {
+  bool known = false;
+  std::optional<double> lowest{};  ///< [m/s]; none: never. 0: at any speed.
+};
+[[nodiscard]] BulletTheory bullet_theory(const BulletContender& contender, double thickness);
+
+/// Wilson's interval of 95 % for a rate (Wilson 1927, "Probable inference, the law of succession, and statistical
+/// inference").
+struct Interval {
+  double low = 0;
+  double high = 1;
+};
+[[nodiscard]] Interval wilson(int bad, int all);
+
+}  // namespace paperproof::compare
