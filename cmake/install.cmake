@@ -21,7 +21,7 @@ if(TARGET paperproof_box2d_adapter)
 endif()
 if(TARGET paperproof)
   install(TARGETS paperproof RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
-  install(DIRECTORY "${PROJECT_SOURCE_DIR}/compare/scenes/" DESTINATION "${CMAKE_INSTALL_DATADIR}/paperproof"
+  install(DIRECTORY "${PROJECT_SOURCE_DIR}/compare/scenes/" "${PROJECT_SOURCE_DIR}/compare/records/" DESTINATION "${CMAKE_INSTALL_DATADIR}/paperproof"
           FILES_MATCHING PATTERN "*.schema.json")
 endif()
 

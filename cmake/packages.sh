@@ -15,6 +15,7 @@ test_packages=(
   clang          # the same bits from a second compiler
   supertux-data  # real levels
   python3        # the checker of traces that shares no code with the project
+  python3-jsonschema parallel  # schemas of what is written; shards over several processes
 )
 # Used by tests where the distribution has them: a browser, for the report (Ubuntu's is a snap), and the sanitizers' part
 # of clang (in older releases it comes with clang itself).

@@ -28,7 +28,8 @@ std::string named(CharacterIndex character) { return "character " + std::to_stri
 void write_the_least_quiet(const Rest& rest, Row& row) {
   Row other;
   rest.write(other);
-  for (const auto metric : {&Row::rest_peak_to_peak_m, &Row::rest_rms_m, &Row::contact_toggles})
+  for (const auto metric : {&Row::rest_peak_to_peak_m, &Row::rest_rms_m, &Row::contact_toggles, &Row::rest_sign_changes,
+                            &Row::rest_upper_band})
     if (other.*metric) raise(row.*metric, *(other.*metric));
 }
 
@@ -46,7 +47,7 @@ std::vector<std::pair<ColliderIndex, Side>> touches_of(const Contacts& contacts)
 }  // namespace
 
 Metrics::Metrics(const TraceHeader& header, const Measured& measured)
-    : ids_(header.ids), measured_(measured), followers_(header.characters, Follower(header.scenery)) {
+    : ids_(header.ids), dt_(header.dt), measured_(measured), followers_(header.characters, Follower(header.scenery)) {
   promises_ = party_of(header) == Party::promising;
   sampled_ = party_of(header) == Party::sampled;
   if (header.characters > 1) sums_.characters = static_cast<int>(header.characters);
@@ -241,6 +242,7 @@ void Metrics::add(const TraceStep& step, const StepJudgement& judgement) {
   add_passings(step, judgement);
   add_events(step, judgement);
   if (measured_.rest) followers_[step.character].rest.add(step);
+  followers_[step.character].smoothness.add(step, step.dt.value_or(dt_));
   count(sums_.contact_steps, !step.contacts.empty() || !step.met.empty());
   if (measured_.respawns) count(sums_.respawns, step.respawn);
   add_progress(step, judgement);
@@ -285,6 +287,7 @@ void Metrics::write(Row& row) const {
   Matches matches = matches_;
   for (const Follower& follower : followers_) {
     write_the_least_quiet(follower.rest, row);
+    follower.smoothness.write(row);
     follower.window.last([&](const View& view) { match(view, matches); });
   }
   if (matches.counted > 0) row.contact_precision = share(matches.right, matches.counted);

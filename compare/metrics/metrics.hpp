@@ -2,6 +2,7 @@
 #pragma once
 
 #include "metrics/agreement.hpp"
+#include "metrics/jitter.hpp"
 #include "metrics/measured.hpp"
 #include "metrics/rest.hpp"
 #include "metrics/window.hpp"
@@ -45,7 +46,8 @@ namespace paperproof::compare {
 ///   steps where the two are comparable (see `Judge`) and the reported collider is one of exact arithmetic's.
 /// - `ghost_speed_loss`: largest share of the wanted horizontal speed lost in one step to nothing exact; only where
 ///   horizontal motion was wanted.
-/// - `rest_peak_to_peak_m`, `rest_rms_m`, `contact_toggles`: see `Rest`.
+/// - `rest_peak_to_peak_m`, `rest_rms_m`, `contact_toggles`, `rest_sign_changes`, `rest_upper_band`: see `Rest`.
+/// - `log_dimensionless_jerk`, `seam_hop_share`, `seam_hop_m`: see `Smoothness`.
 /// - `crushes`: steps with a crush that exact arithmetic verified; what movers press the character into on them is not
 ///   counted as inside, but in `steps_inside_after_crush` for as long as it lasts. `crushes_refuted`: steps with one
 ///   that it refuted.
@@ -91,9 +93,10 @@ class Metrics {
   using View = detail::Window<Moment>::View;
   /// What is matched from step to step.
   struct Follower {
-    explicit Follower(const SceneryDef& scenery) : rest(scenery) {}
+    explicit Follower(const SceneryDef& scenery) : rest(scenery), smoothness(scenery) {}
     detail::Window<Moment> window{};
     Rest rest;
+    Smoothness smoothness;
   };
   void match(const View& view, Matches& matches) const;
   void match_wanted(const View& view, Matches& matches) const;
@@ -106,6 +109,7 @@ class Metrics {
   void add_passings(const TraceStep& step, const StepJudgement& judgement);
 
   std::vector<std::string> ids_;
+  double dt_;  ///< [s]
   Measured measured_;
   bool has_one_way_ = false;
   bool promises_ = false;  ///< See `Party::promising`.

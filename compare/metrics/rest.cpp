@@ -1,13 +1,18 @@
 #include "metrics/rest.hpp"
 
+#include "metrics/jitter.hpp"
+
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <utility>
 
 namespace paperproof::compare {
 namespace {
 
 constexpr int settling_steps = 30;
 constexpr int least_steps = 60;
+constexpr std::size_t spectrum_steps = 512;
 
 }  // namespace
 
@@ -24,6 +29,12 @@ void Rest::measure(const Vec2d& position, std::uint8_t sides) {
   now_.range = now_.range.merged({position, position});
   now_.sum += offset;
   now_.squares += offset.squaredNorm();
+  if (now_.xs.size() == 2 * spectrum_steps) {  // now and then, not in every step
+    now_.xs.erase(now_.xs.begin(), now_.xs.begin() + spectrum_steps);
+    now_.ys.erase(now_.ys.begin(), now_.ys.begin() + spectrum_steps);
+  }
+  now_.xs.push_back(offset.x());
+  now_.ys.push_back(offset.y());
 }
 
 Rest::Rest(const SceneryDef& scenery) {
@@ -47,27 +58,33 @@ void Rest::add(const TraceStep& step) {
     wanted -= carried.x() - step.movers[ground].from.x();
     if (std::abs(wanted) <= rounding) wanted = 0;
   }
-  if (!step.grounded || wanted != 0 || step.path.empty()) {
-    now_ = {};
-    return;
-  }
-  if (ground != now_.ground) {
+  const bool rests = step.grounded && wanted == 0 && !step.path.empty();
+  if (!rests || ground != now_.ground) {
+    if (now_.steps >= least_steps) last_ = std::move(now_);
     now_ = {};
     now_.ground = ground;
   }
+  if (!rests) return;
   if (++now_.steps > settling_steps)
     measure(step.path.back().position - carried,
             static_cast<std::uint8_t>(sides_of(step.contacts) | sides_of(step.met)));
-  if (now_.steps >= least_steps) last_ = now_;
 }
 
 void Rest::write(Row& row) const {
-  if (!last_) return;
-  const double count = last_->measured;
-  const Vec2d mean = last_->sum / count;
-  row.rest_peak_to_peak_m = (last_->range.upper - last_->range.lower).maxCoeff();
-  row.rest_rms_m = std::sqrt(std::max(0.0, last_->squares / count - mean.squaredNorm()));
-  row.contact_toggles = 1000 * last_->toggles / count;
+  if (now_.steps < least_steps && !last_) return;
+  const Phase& rest = now_.steps >= least_steps ? now_ : *last_;
+  const double count = rest.measured;
+  const Vec2d mean = rest.sum / count;
+  row.rest_peak_to_peak_m = (rest.range.upper - rest.range.lower).maxCoeff();
+  row.rest_rms_m = std::sqrt(std::max(0.0, rest.squares / count - mean.squaredNorm()));
+  row.contact_toggles = 1000 * rest.toggles / count;
+  const auto latest = [](const std::vector<double>& all) {
+    return std::span(all).last(std::min(all.size(), spectrum_steps));
+  };
+  row.rest_sign_changes = std::max(sign_changes(latest(rest.xs)), sign_changes(latest(rest.ys)));
+  for (const std::vector<double>* along : {&rest.xs, &rest.ys})
+    if (const std::optional<double> share = upper_band_share(latest(*along)))
+      row.rest_upper_band = std::max(row.rest_upper_band.value_or(0), *share);
 }
 
 }  // namespace paperproof::compare

@@ -5,6 +5,7 @@
 #include "records/trace.hpp"
 
 #include <optional>
+#include <vector>
 
 namespace paperproof::compare {
 
@@ -13,6 +14,7 @@ namespace paperproof::compare {
 /// to it: its motion is taken out of the wanted one and of the positions.
 /// - `rest_peak_to_peak_m`: the larger of the ranges of x and of y over the ends of the steps [m].
 /// - `rest_rms_m`: root mean square distance from the mean position [m].
+/// - `rest_sign_changes`, `rest_upper_band`: see metrics/jitter.hpp; the larger of x and y, over the last 512 steps.
 /// - `contact_toggles`: changes of the set of reported sides between successive steps, per 1,000 steps.
 class Rest {
  public:
@@ -32,6 +34,8 @@ class Rest {
     Box2<double> range;
     Vec2d sum{Vec2d::Zero()};
     double squares = 0;
+    std::vector<double> xs{};  ///< Offsets of the last steps, oldest first.
+    std::vector<double> ys{};
   };
   /// What the first contact at the feet goes along with.
   [[nodiscard]] MoverIndex carrying(const TraceStep& step) const;

@@ -108,7 +108,12 @@ struct Row {
       ghost_speed_loss;  ///< largest share of the wanted horizontal speed lost in a step to nothing exact
   std::optional<double> rest_peak_to_peak_m;
   std::optional<double> rest_rms_m;
-  std::optional<double> contact_toggles;  ///< per 1,000 resting steps
+  std::optional<double> contact_toggles;         ///< per 1,000 resting steps
+  std::optional<double> rest_sign_changes;       ///< of the velocity at rest, per 1,000 steps
+  std::optional<double> rest_upper_band;         ///< share of power in the upper half of the band, at rest
+  std::optional<double> log_dimensionless_jerk;  ///< of the last positions; larger is smoother
+  std::optional<double> seam_hop_share;          ///< largest change of speed on level ground, of the wanted one
+  std::optional<double> seam_hop_m;              ///< largest change of height there
   std::optional<double> max_position_difference_box2d_m;
   /// the first step on which it and the Box2D twin differ: see `Agreement::first_difference`
   std::optional<int> first_difference_box2d_step;
@@ -180,6 +185,11 @@ void for_each_metric(const Row& row, const Visit& visit) {
   visit("rest_peak_to_peak_m", row.rest_peak_to_peak_m);
   visit("rest_rms_m", row.rest_rms_m);
   visit("contact_toggles", row.contact_toggles);
+  visit("rest_sign_changes", row.rest_sign_changes);
+  visit("rest_upper_band", row.rest_upper_band);
+  visit("log_dimensionless_jerk", row.log_dimensionless_jerk);
+  visit("seam_hop_share", row.seam_hop_share);
+  visit("seam_hop_m", row.seam_hop_m);
   visit("max_position_difference_box2d_m", row.max_position_difference_box2d_m);
   visit("first_difference_box2d_step", row.first_difference_box2d_step);
   visit("error_max_m", row.error_max_m);

@@ -54,6 +54,11 @@ const QUALITY = [
   ['rest_peak_to_peak_m', 'Rest jitter', 'm, peak to peak', measure, 'Movement at rest after settling'],
   ['rest_rms_m', 'Rest jitter', 'm, RMS', measure, 'Movement at rest after settling'],
   ['contact_toggles', 'Contact toggles', 'per 1000 steps', measure, 'Contacts that come and go at rest'],
+  ['rest_sign_changes', 'Sign changes', 'per 1000 steps', measure, 'Of the velocity at rest: a tremble changes it in each step'],
+  ['rest_upper_band', 'Upper half band', 'share', measure, 'Of the power of the motion at rest, line taken out: 1 is a flutter from step to step'],
+  ['log_dimensionless_jerk', 'Smoothness', '', measure, 'Logarithm of the dimensionless jerk; larger is smoother'],
+  ['seam_hop_share', 'Seam hop', 'share of speed', measure, 'Largest change of speed between two steps on level ground'],
+  ['seam_hop_m', 'Seam hop', 'm', measure, 'Largest change of height between two steps on level ground'],
   [
     'max_position_difference_box2d_m', 'Max position difference to Box2D', 'm', measure,
     'Between the two runs at the same step'
