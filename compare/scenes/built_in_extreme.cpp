@@ -36,16 +36,19 @@ Scene start_overlapping_deep() { return start_inside(half_height - 0.4); }
 /// Walks over tiles and into a wall, all of it just below `origin` on the x axis. Everything is a multiple of 1/64 m,
 /// so that the scene is the same wherever it is.
 Scene far(const ParameterValues& values) {
-  const double origin = values["origin"];
-  const double x = origin - 16;
+  const double x = values["origin"] - 16;
   Scene scene = walk(x + 0.5, half_height + 1.0 / 32, 1, 240);
+  scene.dt = values["dt"];
+  const auto step_at = [&](double time) { return static_cast<int>(std::lround(time / scene.dt)); };
+  scene.steps = step_at(4);
   for (int i = 0; i < 14; ++i) add_box(scene, "tile" + std::to_string(i), x + i - 1, -1, x + i, 0);
   add_box(scene, "wall", x + 12, 0, x + 13, 4);
-  scene.input.push_back({.step = 90, .move = std::nullopt, .jump = true});
-  scene.input.push_back({.step = 100, .move = std::nullopt, .jump = false});
+  const int jump = step_at(1.5);
+  scene.input.push_back(press(jump));
+  scene.input.push_back(release(step_at(5.0 / 3)));
   // It jumps over the wall.
   scene.answers = {contact(steps_to_fall(scene, 1.0 / 32), 3 * fallen(scene, 1))};
-  ends_at(scene, x + 0.5 + walked(scene, scene.steps), half_height + risen(scene, scene.steps - 90));
+  ends_at(scene, x + 0.5 + walked(scene, scene.steps), half_height + risen(scene, scene.steps - jump));
   return scene;
 }
 
@@ -92,7 +95,8 @@ std::vector<ParameterSetting> pulled(double gravity) { return {{"gravity", gravi
 std::vector<SceneFamily> extreme_families() {
   return {{"far",
            "walk, wall and jump, far from the origin: the same to a few ulp",
-           {{"origin", "m", 16, 1e7, 16, "where on the x axis it is"}},
+           {{"origin", "m", 16, 1e7, 16, "where on the x axis it is"},
+            {"dt", "s", 1e-4, 0.1, 1.0 / 60, "length of a step"}},
            far},
           {"scaled",
            "drop, ramp and wall in another size: the same result times the scale",
