@@ -1,6 +1,7 @@
 /// The command `paperproof`.
 #include "command/compare_command.hpp"
 #include "command/complain.hpp"
+#include "command/convert_command.hpp"
 #include "command/demo_command.hpp"
 #include "command/option_checks.hpp"
 #include "command/precision_command.hpp"
@@ -333,6 +334,11 @@ int run(int argc, char** argv) {
   CLI::App* demo = app.add_subcommand("demo", "The article's bullet, one technique at a time, in the terminal");
   std::string shown_technique;
   demo->add_option("TECHNIQUE", shown_technique, "Only this one");
+  CLI::App* converting = app.add_subcommand("convert", "Write a map or a built-in scene as a JSON scene");
+  std::string converted_from;
+  std::string converted_to;
+  converting->add_option("SCENE", converted_from, scene_words)->required();
+  converting->add_option("OUT", converted_to, "Where it goes")->required()->type_name("OUT.json");
   CLI::App* list = app.add_subcommand("list", "Names, one per line");
   list->add_option("WHAT", words.what, "Which names")
       ->required()
@@ -370,6 +376,7 @@ int run(int argc, char** argv) {
   if (precision->parsed()) return work_precision_command(precision_arguments);
   if (stability->parsed()) return stability_command(precision_arguments);
   if (differing->parsed()) return diff_command(differed[0], differed[1]);
+  if (converting->parsed()) return convert_command(converted_from, converted_to);
   if (demo->parsed()) return demo_command(shown_technique);
   if (merging->parsed()) return merge_command(merged, merged_path);
   if (list->parsed()) print_list(words.what);

@@ -1,4 +1,7 @@
+#include "scenes/write_json.hpp"
+
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "good_json_scene.hpp"
 #include "scene_files.hpp"
@@ -213,6 +216,25 @@ TEST(JsonScene, motion_of_a_million_metres_in_a_step_is_the_most) {
   // dt is 1/128 s, so 1e6 m in a step are 1.28e8 m/s.
   EXPECT_NO_THROW((void)files.load("room.json", with(good, "[0, -40]", "[0, -1.28e8]")));
   EXPECT_TRUE(holds(files.complaint("room.json", with(good, "[0, -40]", "[0, -1.2800001e8]")), "/velocity"));
+}
+
+/// Written, read, and written again.
+TEST(WrittenScenes, read_back_as_they_were) {
+  for (const char* name : {"article_bullet", "slope_joints", "zero_thickness_paper", "lift_up", "conveyor",
+                           "sensor_gate", "one_way_drop", "stack_10", "characters_head_on", "uneven_lift",
+                           "turning_arm", "start_overlapping_deep", "crush70", "scaled_1e3", "jump_into_overhang"}) {
+    const SceneFiles files;
+    const Scene scene = load_scene(name, {});
+    const nlohmann::ordered_json written = scene_json(scene);
+    const Scene read = load_scene(files.write("scene.json", written.dump()), {});
+    EXPECT_EQ(scene_json(read).dump(), written.dump()) << name;
+    EXPECT_EQ(read.steps, scene.steps);
+    EXPECT_EQ(read.scenery.colliders.size(), scene.scenery.colliders.size());
+    EXPECT_EQ(read.start.position, scene.start.position);
+    EXPECT_TRUE(std::equal(read.character.shape.points().begin(), read.character.shape.points().end(),
+                           scene.character.shape.points().begin()))
+        << name;
+  }
 }
 
 }  // namespace
