@@ -22,14 +22,15 @@ Scene bullet(const ParameterValues& values) {
   return scene;
 }
 
-/// A character falls onto paper 3 m below its feet, or a part of a step's way farther.
+/// A character falls onto paper below its feet.
 Scene paper(const ParameterValues& values) {
   const double speed = values["speed"];
+  const double height = values["height"];
   Scene scene = flight(0, half_height, 0, -speed, 60);
   scene.gravity = {0, -values["gravity"]};
   scene.dt = values["dt"];
-  const double last = std::ceil(steps_to_fall(scene, 3, speed));
-  const double way = 3 + values["phase"] * (speed - scene.gravity.y() * scene.dt * last) * scene.dt;
+  const double last = std::ceil(steps_to_fall(scene, height, speed));
+  const double way = height + values["phase"] * (speed - scene.gravity.y() * scene.dt * last) * scene.dt;
   scene.start.position.y() += way;
   // A second; and time enough behind the paper to get 2 m beyond it.
   const double behind = std::max(0.5, 2 / speed) / scene.dt;
@@ -53,6 +54,7 @@ const std::vector<ParameterDef>& paper_parameters() {
   static const std::vector<ParameterDef> all{{"speed", "m_s", 0.1, 1e5, 40, "downwards, at the start"},
                                              {"thickness", "m", 0, 10, 0.01, "of the paper; 0 is a segment"},
                                              {"angle", "deg", 1, 90, 90, "of the way to the paper; 90 is head-on"},
+                                             {"height", "m", 0.01, 1e4, 3, "of its feet above the paper"},
                                              {"phase", "", 0, 1, 0, "share of a step's way by which it begins higher"},
                                              {"gravity", "m_s2", 0, 1e6, 0, "straight down"},
                                              {"dt", "s", 1e-5, 1, 1.0 / 60, "length of a step"}};

@@ -108,6 +108,7 @@ Row lowest_speed_through(const BulletContender& contender, double thickness, int
     for (int phase = 0; phase < phases; ++phase) {
       one.parameters = {{"speed", fmt::format("{}", speed)},
                         {"thickness", fmt::format("{}", thickness)},
+                        {"height", "0.1"},
                         {"phase", fmt::format("{}", static_cast<double>(phase) / phases)}};
       worst = run_case(one);
       worst.steps_ending_inside.reset();  // it is asked who gets through
