@@ -130,8 +130,89 @@ CLI::App* add_compare(CLI::App& app, Words& words) {
   return command;
 }
 
+/// What a sweep and a study prepared as one have alike.
+void add_sweep_options(CLI::App& command, SweepArguments& arguments) {
+  command.add_option("--contender", arguments.contenders, "Only these, each by its own option or with commas")
+      ->type_name("NAME")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command.add_option("--scalar", arguments.scalars, "Number type of the techniques")
+      ->type_name("double|float")
+      ->check(expect_one_of({"double", "float"}))
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  command.add_option("--knob", arguments.knobs, "Turns a knob of the contenders that have it")
+      ->type_name("NAME=VALUE")
+      ->allow_extra_args(false);
+  add_outputs(command, arguments.rows_path, arguments.report_path);
+  add_jobs(command, arguments.jobs);
+  command.add_option("--limit", arguments.limit_s, "A case that takes longer than this fails; 60 s where not given")
+      ->type_name("SECONDS")
+      ->check(expect_whole_number(1'000'000));
+  command.add_option("--shard", arguments.shard, "Every N-th case, from the K-th on; `merge` puts the parts together")
+      ->type_name("K/N");
+  add_flag(command, "--resume", arguments.resume, "Go on behind the rows that the file of --rows has");
+  add_flag(command, "--quiet", arguments.quiet, "No table, no progress");
+}
+
+CLI::App* add_sweep(CLI::App& app, Words& words, SweepArguments& arguments) {
+  CLI::App* command = app.add_subcommand("sweep", "Run a scene or family over ranges of its parameters");
+  command->add_option("SCENE", arguments.scene, scene_words)->required();
+  command->add_option("--vary", arguments.vary, "An axis: a parameter of the scene (see `list parameters`) or a knob")
+      ->type_name("KEY=FIRST:LAST:logN|linN|a,b,c")
+      ->allow_extra_args(false);
+  command->add_option("--find-border", arguments.border, "Bisect this parameter to where a contender ceases to hold")
+      ->type_name("KEY");
+  command->add_option("--set", arguments.set, "A parameter that is the same in all cases")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command->add_option("--steps", arguments.steps, "Instead of the scene's")
+      ->type_name("N")
+      ->check(expect_whole_number(1'000'000'000));
+  add_input(*command, words);
+  add_sweep_options(*command, arguments);
+  add_flag(*command, "--no-reference", words.no_reference, "Without Box2D, where no contender is named");
+  add_flag(*command, "--no-timing", words.no_timing, "A sweep measures no costs anyway");
+  return command;
+}
+
+/// A study that is a sweep prepared: a scene, with axes for each size of the grid.
+struct PreparedStudy {
+  const char* name;
+  const char* help;
+  const char* scene;
+  std::vector<std::string> quick;
+  std::vector<std::string> standard;
+  std::vector<std::string> full;
+};
+
+const std::vector<PreparedStudy>& prepared_studies() {
+  static const std::vector<PreparedStudy> all{
+      {"corner",
+       "Falls into wedges from 60 to 1 degrees: who ends inside",
+       "wedge",
+       {"angle=1:60:log8", "dt=0.016666666666666666"},
+       {"angle=1:60:log30", "dt=0.004166666666666667,0.008333333333333333,0.016666666666666666,0.03333333333333333"},
+       {"angle=1:120:log120", "dt=0.001:0.1:log12"}},
+      {"seam",
+       "Walks over flush tiles at many speeds: who snags at their seams",
+       "tiles",
+       {"speed=0.5:12:lin12"},
+       {"speed=0.12:12:lin100"},
+       {"speed=0.012:12:lin1000"}},
+      {"squeeze",
+       "Falls down shafts as wide as the character and a little more: who gets stuck or inside",
+       "shaft",
+       {"clearance=0,1e-9,1e-6,1e-3,0.05", "dt=0.016666666666666666"},
+       {"clearance=0,1e-12,1e-9,2e-7,1e-6,1e-5,1e-4,1e-3,0.01,0.02,0.05", "dt=0.001:0.1:log7"},
+       {"clearance=1e-9:0.1:log60", "dt=0.0001:0.1:log16"}}};
+  return all;
+}
+
 /// @param bullet becomes the subcommand of that name.
-CLI::App* add_study(CLI::App& app, StudyArguments& arguments, PrecisionArguments& bullets, CLI::App*& bullet) {
+/// @param prepared gets one subcommand for each of `prepared_studies`.
+CLI::App* add_study(CLI::App& app, StudyArguments& arguments, PrecisionArguments& bullets, CLI::App*& bullet,
+                    SweepArguments& sweep, std::vector<CLI::App*>& prepared) {
   CLI::App* command = app.add_subcommand("study", "One question over a range, as numbers and as a picture");
   command->require_subcommand(1);
   CLI::App* scale = command->add_subcommand("scale", "Cost of a step against the number of pieces, per broad phase");
@@ -152,48 +233,14 @@ CLI::App* add_study(CLI::App& app, StudyArguments& arguments, PrecisionArguments
   add_jobs(*bullet, bullets.jobs);
   add_outputs(*bullet, bullets.rows_path, bullets.report_path);
   add_flag(*bullet, "--quiet", bullets.quiet, "No table, no progress");
+  for (const PreparedStudy& study : prepared_studies()) {
+    CLI::App* one = prepared.emplace_back(command->add_subcommand(study.name, study.help));
+    one->add_option("--grid", bullets.grid, "How many cases")
+        ->type_name("quick|standard|full")
+        ->check(expect_one_of({"quick", "standard", "full"}));
+    add_sweep_options(*one, sweep);
+  }
   return scale;
-}
-
-CLI::App* add_sweep(CLI::App& app, Words& words, SweepArguments& arguments) {
-  CLI::App* command = app.add_subcommand("sweep", "Run a scene or family over ranges of its parameters");
-  command->add_option("SCENE", arguments.scene, scene_words)->required();
-  command->add_option("--vary", arguments.vary, "An axis: a parameter of the scene (see `list parameters`) or a knob")
-      ->type_name("KEY=FIRST:LAST:logN|linN|a,b,c")
-      ->allow_extra_args(false);
-  command->add_option("--find-border", arguments.border, "Bisect this parameter to where a contender ceases to hold")
-      ->type_name("KEY");
-  command->add_option("--set", arguments.set, "A parameter that is the same in all cases")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
-  command->add_option("--contender", arguments.contenders, "Only these, each by its own option or with commas")
-      ->type_name("NAME")
-      ->delimiter(',')
-      ->allow_extra_args(false);
-  command->add_option("--scalar", arguments.scalars, "Number type of the techniques")
-      ->type_name("double|float")
-      ->check(expect_one_of({"double", "float"}))
-      ->delimiter(',')
-      ->allow_extra_args(false);
-  command->add_option("--knob", arguments.knobs, "Turns a knob of the techniques that have it")
-      ->type_name("NAME=VALUE")
-      ->allow_extra_args(false);
-  command->add_option("--steps", arguments.steps, "Instead of the scene's")
-      ->type_name("N")
-      ->check(expect_whole_number(1'000'000'000));
-  add_input(*command, words);
-  add_outputs(*command, arguments.rows_path, arguments.report_path);
-  add_jobs(*command, arguments.jobs);
-  command->add_option("--limit", arguments.limit_s, "A case that takes longer than this fails; 60 s where not given")
-      ->type_name("SECONDS")
-      ->check(expect_whole_number(1'000'000));
-  command->add_option("--shard", arguments.shard, "Every N-th case, from the K-th on; `merge` puts the parts together")
-      ->type_name("K/N");
-  add_flag(*command, "--resume", arguments.resume, "Go on behind the rows that the file of --rows has");
-  add_flag(*command, "--no-reference", words.no_reference, "Without Box2D, where no contender is named");
-  add_flag(*command, "--no-timing", words.no_timing, "A sweep measures no costs anyway");
-  add_flag(*command, "--quiet", arguments.quiet, "No table, no progress");
-  return command;
 }
 
 CLI::App* add_precision(CLI::App& app, const std::string& name, const std::string& help,
@@ -206,6 +253,12 @@ CLI::App* add_precision(CLI::App& app, const std::string& name, const std::strin
   add_outputs(*command, arguments.rows_path, arguments.report_path);
   add_flag(*command, "--quiet", arguments.quiet, "No table, no progress");
   return command;
+}
+
+SweepArguments prepared_sweep(const PreparedStudy& study, const std::string& grid, SweepArguments arguments) {
+  arguments.scene = study.scene;
+  arguments.vary = grid == "full" ? study.full : grid == "standard" ? study.standard : study.quick;
+  return arguments;
 }
 
 std::vector<std::string> without_repeats(const std::vector<std::string>& names) {
@@ -313,7 +366,9 @@ int run(int argc, char** argv) {
   StudyArguments study_arguments;
   PrecisionArguments bullet_arguments;
   CLI::App* bullet = nullptr;
-  const CLI::App* scale = add_study(app, study_arguments, bullet_arguments, bullet);
+  SweepArguments prepared_arguments;
+  std::vector<CLI::App*> prepared;
+  const CLI::App* scale = add_study(app, study_arguments, bullet_arguments, bullet, prepared_arguments, prepared);
   SweepArguments sweep_arguments;
   const CLI::App* sweeping = add_sweep(app, words, sweep_arguments);
   PrecisionArguments precision_arguments;
@@ -364,6 +419,9 @@ int run(int argc, char** argv) {
   std::optional<std::uint64_t> seed;
   if (words.input) seed = parse_random_input(*words.input);
   if (comparing->parsed()) return compare_scenes(compare_arguments(words, seed));
+  for (std::size_t k = 0; k < prepared.size(); ++k)
+    if (prepared[k]->parsed())
+      return sweep_command(prepared_sweep(prepared_studies()[k], bullet_arguments.grid, prepared_arguments));
   if (bullet->parsed()) return study_bullet_command(bullet_arguments);
   if (scale->parsed()) return study_scale_command(study_arguments);
   if (sweeping->parsed()) {

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
@@ -99,6 +100,18 @@ TEST(CommandSweep, finds_a_border_and_writes_csv_and_a_page) {
   EXPECT_EQ(place.run("sweep paper --vary speed=10,100 --contender mask --rows f.csv --report f.html").status, 0);
   EXPECT_TRUE(holds(written(place, "f.csv"), "parameters.speed_m_s"));
   EXPECT_TRUE(holds(written(place, "f.html"), "cases that do not hold"));
+}
+
+TEST(CommandStudy, corner_seam_and_squeeze_are_sweeps_prepared) {
+  const Workplace place;
+  for (const auto& [study, rows] : {std::pair{"corner", 8}, {"seam", 12}, {"squeeze", 5}}) {
+    const Finished finished =
+        place.run(std::string("study ") + study + " --contender octagon_sweep --rows " + study + ".jsonl");
+    EXPECT_EQ(finished.status, 0) << finished.err;
+    const std::string text = written(place, std::string(study) + ".jsonl");
+    EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), rows + 1) << study;
+    EXPECT_FALSE(holds(text, "\"verdict\":\"violates\""));
+  }
 }
 
 TEST(CommandDiff, names_what_changed_and_nothing_else) {

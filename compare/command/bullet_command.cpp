@@ -1,0 +1,214 @@
+#include "command/compare_command.hpp"
+#include "command/precision_command.hpp"
+#include "command/progress.hpp"
+#include "command/study_outputs.hpp"
+#include "runs/run_case.hpp"
+#include "runs/text_columns.hpp"
+#include "studies/bullet.hpp"
+#include "studies/processes.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace paperproof::compare {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr const char* explanation =
+    "A character flies onto paper: how many of the cases at a speed and a thickness get through it, over angles, "
+    "phases "
+    "and lengths of a step. Below, the lowest speed at which each gets through head-on at 60 steps per second, found "
+    "by "
+    "bisection over all phases, beside what theory says. A click on a cell gives the command of a case that got "
+    "through, "
+    "or of one that did not where none did.";
+
+GridSize size_of(const std::string& grid) {
+  if (grid == "full") return GridSize::full;
+  return grid == "standard" ? GridSize::standard : GridSize::quick;
+}
+
+/// What the cases of a contender came to, counted as they come: nothing is kept of a million rows.
+class BulletPicture {
+ public:
+  BulletPicture(const BulletContender& contender, const Sweep& sweep) : contender_(contender) {
+    grid_.title = contender.called();
+    grid_.x_label = "speed_m_s";
+    grid_.y_label = "thickness_m";
+    for (const std::string& speed : sweep.axes[0].values) grid_.xs.push_back(fmt::format("{:.3g}", std::stod(speed)));
+    grid_.ys = sweep.axes[1].values;
+    grid_.cells.assign(grid_.ys.size(), std::vector<ChartGrid::Cell>(grid_.xs.size()));
+  }
+
+  void add(std::size_t speed, std::size_t thickness, const ordered_json& row) {
+    const std::string verdict = row.value("verdict", "");
+    if (verdict == "not_applicable") return;
+    ChartGrid::Cell& cell = grid_.cells[thickness][speed];
+    const bool through = row.value("tunnels", 0) > 0;
+    if (cell.all == 0 || (through && cell.bad == 0)) cell.words = row.value("command", "");
+    ++cell.all;
+    cell.bad += through;
+    ++all_;
+    bad_ += through;
+  }
+
+  [[nodiscard]] const BulletContender& contender() const { return contender_; }
+  [[nodiscard]] const ChartGrid& grid() const { return grid_; }
+  [[nodiscard]] int all() const { return all_; }
+  [[nodiscard]] int bad() const { return bad_; }
+
+ private:
+  BulletContender contender_;
+  ChartGrid grid_;
+  int all_ = 0;
+  int bad_ = 0;
+};
+
+std::string speed_in_words(const BulletTheory& theory) {
+  if (!theory.known) return "-";
+  if (!theory.lowest) return "never";
+  return *theory.lowest > 0 ? fmt::format("{:.4g}", *theory.lowest) : "any";
+}
+
+std::string speed_in_words(const Row& row) {
+  if (row.verdict == Verdict::not_applicable) return "-";
+  if (!row.border_high) return "never";
+  return row.border_low ? fmt::format("{:.4g}", *row.border_high) : "any";
+}
+
+class BulletRun {
+ public:
+  explicit BulletRun(const PrecisionArguments& arguments)
+      : arguments_(arguments),
+        size_(size_of(arguments.grid)),
+        contenders_(bullet_contenders(arguments.contenders)),
+        progress_(!arguments.quiet),
+        outputs_(arguments.rows_path, arguments.report_path) {}
+
+  int run() {
+    for (const BulletContender& contender : contenders_) shoot(contender);
+    find_lowest_speeds();
+    progress_.clear();
+    outputs_.finish(page());
+    if (!arguments_.quiet) print_out(table());
+    return broken_ ? 1 : 0;
+  }
+
+ private:
+  [[nodiscard]] ProcessOptions processes() const { return {processes_for(arguments_.jobs), std::chrono::seconds(600)}; }
+
+  void shoot(const BulletContender& contender) {
+    const Sweep sweep = bullet_sweep(size_, contender);
+    BulletPicture picture(contender, sweep);
+    const std::size_t thicknesses = sweep.axes[1].values.size();
+    const std::size_t each = sweep.size() / sweep.axes[0].values.size() / thicknesses;
+    Jobs jobs;
+    jobs.count = sweep.size();
+    jobs.run = [&](std::size_t job) { return json_line(row_json(run_at(sweep, job))); };
+    jobs.lost = [&](std::size_t job, const std::string& reason) {
+      return json_line(row_json(failed_row(sweep.at(job), reason)));
+    };
+    jobs.take = [&](std::size_t job, const std::string& line) {
+      const ordered_json row = ordered_json::parse(line);
+      picture.add(job / each / thicknesses, job / each % thicknesses, row);
+      broken_ = broken_ || (contender.name == "octagon_sweep" && row.value("verdict", "") == "violates");
+      outputs_.add(line);
+      progress_.show(contender.called() + ",", static_cast<double>(job) / static_cast<double>(sweep.size()));
+    };
+    run_in_processes(jobs, processes());
+    pictures_.push_back(std::move(picture));
+  }
+
+  void find_lowest_speeds() {
+    lowest_.resize(contenders_.size() * thicknesses_.size());
+    Jobs jobs;
+    jobs.count = lowest_.size();
+    const auto contender_of = [&](std::size_t job) { return contenders_[job / thicknesses_.size()]; };
+    jobs.run = [&](std::size_t job) {
+      const double thickness = thicknesses_[job % thicknesses_.size()];
+      return json_line(row_json(lowest_speed_through(contender_of(job), thickness, phases_of(size_))));
+    };
+    jobs.lost = [&](std::size_t job, const std::string& reason) {
+      Case one;
+      one.scene = "paper";
+      one.contender = contender_of(job).name;
+      return json_line(row_json(failed_row(one, reason)));
+    };
+    jobs.take = [&](std::size_t job, const std::string& line) {
+      const ordered_json row = ordered_json::parse(line);
+      if (row.contains("border_low")) lowest_[job].border_low = row["border_low"];
+      if (row.contains("border_high")) lowest_[job].border_high = row["border_high"];
+      if (row.value("verdict", "") == "not_applicable") lowest_[job].verdict = Verdict::not_applicable;
+      outputs_.add(line);
+      progress_.show("lowest speeds,", static_cast<double>(job) / static_cast<double>(lowest_.size()));
+    };
+    run_in_processes(jobs, processes());
+  }
+
+  /// One line for each contender.
+  [[nodiscard]] ChartTable numbers() const {
+    ChartTable table;
+    table.heading = {"contender", "cases", "through", "rate", "95 % from", "to"};
+    for (const double thickness : thicknesses_) {
+      table.heading.push_back(fmt::format("lowest at {:g} m", thickness));
+      table.heading.emplace_back("theory");
+    }
+    for (std::size_t c = 0; c < contenders_.size(); ++c) {
+      const BulletPicture& picture = pictures_[c];
+      const Interval interval = wilson(picture.bad(), picture.all());
+      const double rate = picture.all() > 0 ? static_cast<double>(picture.bad()) / picture.all() : 0;
+      std::vector<std::string> line{
+          contenders_[c].called(),     std::to_string(picture.all()),       std::to_string(picture.bad()),
+          fmt::format("{:.4f}", rate), fmt::format("{:.6f}", interval.low), fmt::format("{:.6f}", interval.high)};
+      for (std::size_t t = 0; t < thicknesses_.size(); ++t) {
+        line.push_back(speed_in_words(lowest_[c * thicknesses_.size() + t]));
+        line.push_back(speed_in_words(bullet_theory(contenders_[c], thicknesses_[t])));
+      }
+      table.rows.push_back(std::move(line));
+    }
+    return table;
+  }
+
+  [[nodiscard]] std::string table() const {
+    const ChartTable all = numbers();
+    std::vector<TextColumn> columns;
+    for (std::size_t k = 0; k < all.heading.size(); ++k) {
+      TextColumn column{all.heading[k], {}, k == 0};
+      for (const std::vector<std::string>& line : all.rows) column.cells.emplace_back(line[k]);
+      columns.push_back(std::move(column));
+    }
+    return aligned(columns) + "\nspeeds in m/s\n";
+  }
+
+  [[nodiscard]] ChartPage page() const {
+    ChartPage page;
+    page.title = "bullets and paper";
+    page.paragraphs = {explanation};
+    for (const BulletPicture& picture : pictures_)
+      if (picture.all() > 0) page.grids.push_back(picture.grid());
+    page.table = numbers();
+    page.environment = environment();
+    return page;
+  }
+
+  const PrecisionArguments& arguments_;
+  GridSize size_;
+  std::vector<BulletContender> contenders_;
+  std::vector<double> thicknesses_ = bullet_thicknesses();
+  Progress progress_;
+  StudyOutputs outputs_;
+  std::vector<BulletPicture> pictures_;
+  std::vector<Row> lowest_;  ///< By contender, then by thickness.
+  bool broken_ = false;
+};
+
+}  // namespace
+
+int study_bullet_command(const PrecisionArguments& arguments) {
+  check_contenders(arguments.contenders);
+  return BulletRun(arguments).run();
+}
+
+}  // namespace paperproof::compare
