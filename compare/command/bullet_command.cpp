@@ -1,6 +1,6 @@
 #include "command/compare_command.hpp"
-#include "command/precision_command.hpp"
 #include "command/progress.hpp"
+#include "command/study_command.hpp"
 #include "command/study_outputs.hpp"
 #include "runs/run_case.hpp"
 #include "runs/text_columns.hpp"
@@ -18,12 +18,9 @@ using nlohmann::ordered_json;
 
 constexpr const char* explanation =
     "A character flies onto paper: how many of the cases at a speed and a thickness get through it, over angles, "
-    "phases "
-    "and lengths of a step. Below, the lowest speed at which each gets through head-on at 60 steps per second, found "
-    "by "
-    "bisection over all phases, beside what theory says. A click on a cell gives the command of a case that got "
-    "through, "
-    "or of one that did not where none did.";
+    "phases and lengths of a step. Below, the lowest speed at which each gets through head-on at 60 steps per second, "
+    "found by bisection over all phases, beside what theory says. A click on a cell gives the command of a case that "
+    "got through, or of one that did not where none did.";
 
 GridSize size_of(const std::string& grid) {
   if (grid == "full") return GridSize::full;
@@ -33,7 +30,7 @@ GridSize size_of(const std::string& grid) {
 /// What the cases of a contender came to, counted as they come: nothing is kept of a million rows.
 class BulletPicture {
  public:
-  BulletPicture(const BulletContender& contender, const Sweep& sweep) : contender_(contender) {
+  BulletPicture(const BulletContender& contender, const Sweep& sweep) {
     grid_.title = contender.called();
     grid_.x_label = "speed_m_s";
     grid_.y_label = "thickness_m";
@@ -54,13 +51,11 @@ class BulletPicture {
     bad_ += through;
   }
 
-  [[nodiscard]] const BulletContender& contender() const { return contender_; }
   [[nodiscard]] const ChartGrid& grid() const { return grid_; }
   [[nodiscard]] int all() const { return all_; }
   [[nodiscard]] int bad() const { return bad_; }
 
  private:
-  BulletContender contender_;
   ChartGrid grid_;
   int all_ = 0;
   int bad_ = 0;
@@ -80,7 +75,7 @@ std::string speed_in_words(const Row& row) {
 
 class BulletRun {
  public:
-  explicit BulletRun(const PrecisionArguments& arguments)
+  explicit BulletRun(const StudyArguments& arguments)
       : arguments_(arguments),
         size_(size_of(arguments.grid)),
         contenders_(bullet_contenders(arguments.contenders)),
@@ -104,16 +99,11 @@ class BulletRun {
     BulletPicture picture(contender, sweep);
     const std::size_t thicknesses = sweep.axes[1].values.size();
     const std::size_t each = sweep.size() / sweep.axes[0].values.size() / thicknesses;
-    Jobs jobs;
-    jobs.count = sweep.size();
-    jobs.run = [&](std::size_t job) { return json_line(row_json(run_at(sweep, job))); };
-    jobs.lost = [&](std::size_t job, const std::string& reason) {
-      return json_line(row_json(failed_row(sweep.at(job), reason)));
-    };
+    Jobs jobs = jobs_of(sweep, sweep.size(), [](std::size_t job) { return job; });
     jobs.take = [&](std::size_t job, const std::string& line) {
       const ordered_json row = ordered_json::parse(line);
       picture.add(job / each / thicknesses, job / each % thicknesses, row);
-      broken_ = broken_ || (contender.name == "octagon_sweep" && row.value("verdict", "") == "violates");
+      broken_ = broken_ || (breaks_guarantee(row));
       outputs_.add(line);
       progress_.show(contender.called() + ",", static_cast<double>(job) / static_cast<double>(sweep.size()));
     };
@@ -193,7 +183,7 @@ class BulletRun {
     return page;
   }
 
-  const PrecisionArguments& arguments_;
+  const StudyArguments& arguments_;
   GridSize size_;
   std::vector<BulletContender> contenders_;
   std::vector<double> thicknesses_ = bullet_thicknesses();
@@ -206,7 +196,7 @@ class BulletRun {
 
 }  // namespace
 
-int study_bullet_command(const PrecisionArguments& arguments) {
+int study_bullet_command(const StudyArguments& arguments) {
   check_contenders(arguments.contenders);
   return BulletRun(arguments).run();
 }

@@ -7,6 +7,7 @@
 #include "command/progress.hpp"
 #include "command/totals.hpp"
 #include "near_names.hpp"
+#include "number_in.hpp"
 #include "oracle/exemptions.hpp"
 #include "records/output_file.hpp"
 #include "records/rows_file.hpp"
@@ -26,7 +27,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <limits>
@@ -278,12 +278,8 @@ class Comparison {
 
 std::uint64_t parse_random_input(const std::string& text) {
   constexpr std::string_view prefix = "random:";
-  std::uint64_t seed = 0;
-  const char* end = text.data() + text.size();
-  if (text.starts_with(prefix)) {
-    const auto [last, error] = std::from_chars(text.data() + prefix.size(), end, seed);
-    if (error == std::errc{} && last == end) return seed;
-  }
+  if (text.starts_with(prefix))
+    if (const auto seed = number_in<std::uint64_t>(std::string_view(text).substr(prefix.size()))) return *seed;
   throw InputError(fmt::format("--input {}: expected random:SEED with a whole number from 0 to {}, such as random:1",
                                shown(text), std::numeric_limits<std::uint64_t>::max()));
 }

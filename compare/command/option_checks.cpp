@@ -1,11 +1,11 @@
 #include "command/option_checks.hpp"
 
+#include "number_in.hpp"
 #include "words.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 
 namespace paperproof::compare {
@@ -15,10 +15,8 @@ namespace {
 CLI::Validator unnamed(std::function<std::string(std::string&)> check) { return CLI::Validator(std::move(check), ""); }
 
 bool is_multiple(const std::string& typed, std::uint64_t most, std::uint64_t step) {
-  std::uint64_t number = 0;
-  const char* end = typed.data() + typed.size();
-  const auto [last, error] = std::from_chars(typed.data(), end, number);
-  return error == std::errc{} && last == end && number >= step && number <= most && number % step == 0;
+  const std::optional<std::uint64_t> number = number_in<std::uint64_t>(typed);
+  return number && *number >= step && *number <= most && *number % step == 0;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include "command/claimed_files.hpp"
 #include "records/output_file.hpp"
+#include "records/rows_json.hpp"
 #include "records/rows_reader.hpp"
 #include "scenes/load.hpp"
 #include "words.hpp"
@@ -40,9 +41,9 @@ std::string name_of_row(const ordered_json& row) {
   std::string name;
   for (const char* key : {"scene", "contender", "scalar", "mode", "knob", "curve", "border"})
     if (row.contains(key) && !(row[key] == "free" || row[key] == "double"))
-      name += (name.empty() ? "" : " ") + row[key].get<std::string>();
-  if (row.contains("case")) return name + " (case " + row["case"].get<std::string>() + ")";
-  if (row.contains("parameters")) name += " " + row["parameters"].dump();
+      name += fmt::format("{}{}", name.empty() ? "" : " ", row[key].get<std::string>());
+  if (row.contains("case")) return fmt::format("{} (case {})", name, row["case"].get<std::string>());
+  if (row.contains("parameters")) return fmt::format("{} {}", name, row["parameters"].dump());
   return name;
 }
 
@@ -125,18 +126,18 @@ int diff_command(const std::string& before, const std::string& after) {
   std::size_t same = 0;
   for (const auto& [name, row] : old_rows) {
     const auto now = new_rows.find(name);
-    const std::string changes = now == new_rows.end() ? "only in " + before : changes_between(row, now->second);
+    const std::string changes = now == new_rows.end() ? fmt::format("only in {}", before) : changes_between(row, now->second);
     if (changes.empty()) {
       ++same;
       continue;
     }
     ++changed;
-    print_out(name + ": " + changes + '\n');
+    print_out(fmt::format("{}: {}\n", name, changes));
   }
   for (const auto& [name, row] : new_rows) {
     if (old_rows.contains(name)) continue;
     ++changed;
-    print_out(name + ": only in " + after + '\n');
+    print_out(fmt::format("{}: only in {}\n", name, after));
   }
   print_out(fmt::format("{} {}, {} the same, costs apart\n", counted(changed, "row"),
                         changed == 1 ? "differs" : "differ", same));

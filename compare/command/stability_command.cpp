@@ -1,12 +1,11 @@
 #include "command/compare_command.hpp"
-#include "command/precision_command.hpp"
 #include "command/progress.hpp"
+#include "command/study_command.hpp"
 #include "command/study_outputs.hpp"
 #include "runs/contestant.hpp"
 #include "runs/run_case.hpp"
 #include "scenes/parameters.hpp"
 #include "studies/grids.hpp"
-#include "studies/processes.hpp"
 #include "studies/stability.hpp"
 #include "words.hpp"
 
@@ -24,7 +23,7 @@ constexpr const char* explanation =
     "pass a solid, end inside one, hang, miss the scene's exact answer, or are no number any more. A click on it says "
     "why, and which command repeats it.";
 
-/// The cases of a region. Box2D computes in float whatever is asked for: once is enough.
+/// The cases of a region. Box2D always computes in float, so that it runs once.
 std::vector<std::size_t> cases_of(const Sweep& sweep) {
   std::vector<std::size_t> cases;
   for (std::size_t i = 0; i < sweep.size(); ++i) {
@@ -42,7 +41,7 @@ std::vector<ChartGrid> grids_of_region(const StabilityRegion& region, const orde
 
 class StabilityRun {
  public:
-  explicit StabilityRun(const PrecisionArguments& arguments)
+  explicit StabilityRun(const StudyArguments& arguments)
       : arguments_(arguments), progress_(!arguments.quiet), outputs_(arguments.rows_path, arguments.report_path) {
     page_.title = "stability";
     page_.paragraphs = {explanation};
@@ -67,9 +66,7 @@ class StabilityRun {
   [[nodiscard]] ordered_json rows_of(const StabilityRegion& region, double done, double share) {
     const std::vector<std::size_t> cases = cases_of(region.sweep);
     ordered_json rows = ordered_json::array();
-    Jobs jobs;
-    jobs.count = cases.size();
-    jobs.run = [&](std::size_t job) { return json_line(row_json(run_at(region.sweep, cases[job]))); };
+    Jobs jobs = jobs_of(region.sweep, cases.size(), [&](std::size_t job) { return cases[job]; });
     jobs.lost = [&](std::size_t job, const std::string& reason) {
       Row row = failed_row(region.sweep.at(cases[job]), reason);
       row.finite = false;
@@ -88,8 +85,7 @@ class StabilityRun {
   void note(const StabilityRegion& region, const ordered_json& rows) {
     for (const ordered_json& row : rows) {
       const std::string verdict = row.value("verdict", "");
-      const bool guaranteed = row.value("contender", "") == "octagon_sweep" && row.value("scalar", "") == "double";
-      broken_ = broken_ || (guaranteed && verdict == "violates");
+      broken_ = broken_ || breaks_guarantee(row);
       if (verdict != "holds")
         page_.table.rows.push_back(
             {row.value("scene", ""), row.value("contender", ""), verdict, shortened(row.value("reason", ""))});
@@ -108,7 +104,7 @@ class StabilityRun {
     }
   }
 
-  const PrecisionArguments& arguments_;
+  const StudyArguments& arguments_;
   Progress progress_;
   StudyOutputs outputs_;
   ChartPage page_;
@@ -118,7 +114,7 @@ class StabilityRun {
 
 }  // namespace
 
-int stability_command(const PrecisionArguments& arguments) {
+int stability_command(const StudyArguments& arguments) {
   check_contenders(arguments.contenders);
   return StabilityRun(arguments).run();
 }

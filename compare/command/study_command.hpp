@@ -1,4 +1,7 @@
-/// `paperproof study`: one question over a range, as numbers and as a picture.
+/// `paperproof work-precision`, `paperproof stability`, `paperproof study scale` and `paperproof study bullet`: one
+/// question over a range, as numbers and as a picture.
+///
+/// All throw InputError for arguments that cannot be used, and std::runtime_error where an output cannot be written.
 #pragma once
 
 #include <cstddef>
@@ -8,16 +11,37 @@
 namespace paperproof::compare {
 
 struct StudyArguments {
+  std::vector<std::string> motions;     ///< Of `work-precision`; empty: all.
+  std::vector<std::string> contenders;  ///< Empty: all; of `stability` octagon_sweep and Box2D.
+  std::string rows_path;                ///< Empty: none.
+  std::string report_path;              ///< Empty: none.
+  int jobs = 0;                         ///< Not of `work-precision`; 0: one for each core.
+  std::string grid = "quick";           ///< Of `study bullet`: quick, standard or full.
+  bool quiet = false;                   ///< No table, no progress.
+};
+
+/// Error against run time. Refuses a build with assertions, whose times mean nothing.
+/// @return the exit status: 0, or 1 if a run failed.
+int work_precision_command(const StudyArguments& arguments);
+
+/// Stiff and extreme cases.
+/// @return the exit status: 0, or 1 if octagon_sweep in double broke its guarantee.
+int stability_command(const StudyArguments& arguments);
+
+/// Bullets and paper: rates of tunnelling over a grid, and the lowest speeds beside theory.
+/// @return the exit status: 0, or 1 if octagon_sweep in double got through.
+int study_bullet_command(const StudyArguments& arguments);
+
+struct ScaleArguments {
   std::vector<std::size_t> grid{100, 1'000, 10'000, 100'000, 1'000'000};  ///< Numbers of pieces.
   std::string rows_path;                                                  ///< Empty: none.
   std::string report_path;                                                ///< Empty: none.
   bool quiet = false;                                                     ///< No table, no progress.
 };
 
-/// `study scale`: the cost of a step against the number of pieces, for each broad phase.
+/// The cost of a step against the number of pieces, for each broad phase.
 /// @return the exit status: 0, or 1 if two broad phases moved the character differently.
-/// @throws std::invalid_argument for a grid that cannot be; InputError for one file that is to be two;
-///   std::runtime_error if an output cannot be written.
-int study_scale_command(const StudyArguments& arguments);
+/// @throws std::invalid_argument for a grid that cannot be.
+int study_scale_command(const ScaleArguments& arguments);
 
 }  // namespace paperproof::compare

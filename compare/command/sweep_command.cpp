@@ -1,32 +1,23 @@
 #include "command/sweep_command.hpp"
 
-#include "command/claimed_files.hpp"
 #include "command/compare_command.hpp"
 #include "command/forecast.hpp"
 #include "command/progress.hpp"
-#include "records/output_file.hpp"
-#include "records/rows_file.hpp"
+#include "command/study_outputs.hpp"
+#include "number_in.hpp"
 #include "records/rows_reader.hpp"
 #include "runs/contestant.hpp"
-#include "runs/environment.hpp"
-#include "runs/run_case.hpp"
 #include "runs/text_columns.hpp"
 #include "scenes/input_error.hpp"
 #include "scenes/load.hpp"
 #include "studies/grids.hpp"
-#include "studies/processes.hpp"
 #include "words.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-#include <charconv>
-#include <chrono>
 #include <filesystem>
 #include <map>
-#include <set>
-#include <thread>
 
 namespace paperproof::compare {
 namespace {
@@ -47,14 +38,12 @@ Shard parse_shard(const std::string& text) {
   Shard shard;
   if (text.empty()) return shard;
   const std::size_t slash = text.find('/');
-  const auto number = [](std::string_view digits, std::size_t& value) {
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    return error == std::errc{} && end == digits.data() + digits.size() && value >= 1;
-  };
-  const bool good = slash != std::string::npos && number(std::string_view(text).substr(0, slash), shard.part) &&
-                    number(std::string_view(text).substr(slash + 1), shard.of) && shard.part <= shard.of;
-  if (!good) refuse("--shard " + text, "expected K/N with K from 1 to N");
-  return shard;
+  if (slash != std::string::npos) {
+    shard.part = number_in<std::size_t>(std::string_view(text).substr(0, slash)).value_or(0);
+    shard.of = number_in<std::size_t>(std::string_view(text).substr(slash + 1)).value_or(0);
+    if (shard.part >= 1 && shard.part <= shard.of) return shard;
+  }
+  refuse("--shard " + text, "expected K/N with K from 1 to N");
 }
 
 std::vector<Case::Setting> settings_in(const std::vector<std::string>& typed) {
@@ -87,6 +76,14 @@ Sweep sweep_of(const SweepArguments& arguments) {
   return sweep;
 }
 
+std::vector<std::string> axis_keys_of(const Sweep& sweep) {
+  std::vector<std::string> keys;
+  const std::vector<ParameterDef> defs = parameters_of(sweep.scene);
+  for (const SweepAxis& axis : sweep.axes)
+    if (const ParameterDef* def = find_parameter(defs, axis.key)) keys.push_back(row_key(*def));
+  return keys;
+}
+
 /// What came of the cases of one contender.
 struct Score {
   int cases = 0;
@@ -101,6 +98,7 @@ class SweepRun {
   explicit SweepRun(const SweepArguments& arguments)
       : arguments_(arguments),
         sweep_(sweep_of(arguments)),
+        axis_keys_(axis_keys_of(sweep_)),
         shard_(parse_shard(arguments.shard)),
         count_(shard_.size(sweep_.size())) {
     header_ = rows_header(environment());
@@ -118,20 +116,14 @@ class SweepRun {
     forecast.begin_scene(static_cast<double>(count_ - done_));
     forecast.done(0);
     const std::size_t before = done_;
-    Jobs jobs;
-    jobs.count = count_ - before;
-    jobs.run = [&](std::size_t job) { return json_line(row_json(run_at(sweep_, case_of(before + job)))); };
-    jobs.lost = [&](std::size_t job, const std::string& reason) {
-      return json_line(row_json(failed_row(sweep_.at(case_of(before + job)), reason)));
-    };
+    Jobs jobs = jobs_of(sweep_, count_ - before, [&](std::size_t job) { return case_of(before + job); });
     jobs.take = [&](std::size_t, const std::string& line) {
       take(line);
       const double share = static_cast<double>(done_ - before) / static_cast<double>(jobs.count);
       forecast.done(share);
       progress.show("sweep,", share);
     };
-    const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-    run_in_processes(jobs, {arguments_.jobs > 0 ? arguments_.jobs : cores, std::chrono::seconds(arguments_.limit_s)});
+    run_in_processes(jobs, {processes_for(arguments_.jobs), std::chrono::seconds(arguments_.limit_s)});
     progress.clear();
     finish();
     return trouble_ ? 1 : 0;
@@ -176,8 +168,7 @@ class SweepRun {
     const std::string contender = row.value("contender", "");
     Score& score = scores_[contender];
     ++score.cases;
-    const bool guaranteed = contender == "octagon_sweep" && row.value("scalar", "") == "double";
-    trouble_ = trouble_ || verdict == "failed" || (guaranteed && verdict == "violates");
+    trouble_ = trouble_ || verdict == "failed" || breaks_guarantee(row);
     if (verdict == "holds")
       ++score.holds;
     else if (verdict == "not_applicable")
@@ -222,23 +213,12 @@ class SweepRun {
     return fmt::format("{}: {}\n\n{}", sweep_.scene, counted(done_, "case"), aligned(columns));
   }
 
-  /// The keys in `parameters` of the axes that are parameters of the scene.
-  [[nodiscard]] std::vector<std::string> axis_keys() const {
-    std::vector<std::string> keys;
-    const std::vector<ParameterDef> defs = parameters_of(sweep_.scene);
-    for (const SweepAxis& axis : sweep_.axes)
-      if (const ParameterDef* def = find_parameter(defs, axis.key)) keys.push_back(row_key(*def));
-    return keys;
-  }
-
   /// The values of the axes of a row, as `thickness_m=0.01`.
   [[nodiscard]] std::string place_of(const ordered_json& row) const {
     std::string text;
-    for (const ParameterDef& def : parameters_of(sweep_.scene))
-      for (const SweepAxis& axis : sweep_.axes)
-        if (axis.key == def.key && row.contains("parameters") && row["parameters"].contains(row_key(def)))
-          text += fmt::format("{}{}={:.4g}", text.empty() ? "" : " ", row_key(def),
-                              row["parameters"][row_key(def)].get<double>());
+    for (const std::string& key : axis_keys_)
+      if (row.contains("parameters") && row["parameters"].contains(key))
+        text += fmt::format("{}{}={:.4g}", text.empty() ? "" : " ", key, row["parameters"][key].get<double>());
     return text;
   }
 
@@ -265,9 +245,9 @@ class SweepRun {
                     "runs its case alone.",
                     counted(done_, "case"))};
     page.environment = environment();
-    if (!axis_keys().empty() && !sweep_.border)
+    if (!axis_keys_.empty() && !sweep_.border)
       page.grids =
-          grids_of(kept_, "cases that do not hold", axis_keys().front(), axis_keys().size() > 1 ? axis_keys()[1] : "");
+          grids_of(kept_, "cases that do not hold", axis_keys_.front(), axis_keys_.size() > 1 ? axis_keys_[1] : "");
     page.table.heading = {"contender", "at", "verdict", "tunnels", "inside", "command"};
     for (const ordered_json& row : kept_) {
       if (page.table.rows.size() == most_listed) break;
@@ -280,6 +260,7 @@ class SweepRun {
 
   const SweepArguments& arguments_;
   Sweep sweep_;
+  std::vector<std::string> axis_keys_;  ///< In `parameters`, of the axes that are parameters of the scene.
   Shard shard_;
   std::size_t count_;  ///< Cases of this shard.
   std::size_t done_ = 0;

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 namespace paperproof::compare {
 namespace {
@@ -66,7 +66,7 @@ std::optional<double> upper_band_share(std::span<const double> positions) {
   double all = 0;
   double upper = 0;
   for (std::size_t frequency = 1; 2 * frequency <= left.size(); ++frequency) {
-    // Each but the highest stands for two: the transform of what is real is symmetric.
+    // The transform of real numbers is symmetric: every frequency but the highest occurs twice.
     const double power = power_at(left, frequency) * (2 * frequency < left.size() ? 2 : 1);
     all += power;
     if (4 * frequency > left.size()) upper += power;

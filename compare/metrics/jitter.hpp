@@ -11,12 +11,12 @@
 namespace paperproof::compare {
 
 /// How often the velocity changes its sign, per 1,000 steps. Moves of at most 1e-12 m are none: they neither have a
-/// sign nor end one. Zero for less than three positions.
+/// sign nor end one. Zero for fewer than three positions.
 [[nodiscard]] double sign_changes(std::span<const double> positions);
 
 /// The share of power at more than half of the highest frequency there is (half a cycle per step), after the straight
 /// line that fits best is taken out: 1 for a flutter from step to step, near 0 for a drift or a slow wave. The discrete
-/// Fourier transform, without a window. Nothing where what is left is below 1e-12 m (RMS), or for less than eight
+/// Fourier transform, without a window. Nothing where the rest is below 1e-12 m (RMS), or for fewer than eight
 /// positions.
 [[nodiscard]] std::optional<double> upper_band_share(std::span<const double> positions);
 

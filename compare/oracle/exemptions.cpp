@@ -1,5 +1,7 @@
 #include "oracle/exemptions.hpp"
 
+#include "records/row.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -57,7 +59,7 @@ std::string size_in_words(const Exemption& exemption, Party party) {
 
 Party party_of(const TraceHeader& header) {
   if (!header.path_exact) return Party::sampled;
-  if (header.contender == "octagon_sweep" && header.scalar == "double") return Party::promising;
+  if (is_guaranteed(header.contender, header.scalar)) return Party::promising;
   return tolerance_named(header, "unit") > 0 ? Party::by_units : Party::computing;
 }
 

@@ -85,9 +85,9 @@ std::vector<HangingJudge::Nearby> HangingJudge::near_corners(const Reach& reach)
   return corners;
 }
 
-/// What moves may touch for a part of the step. A leg may fall as fast as what is near where it begins, where it ends,
-/// or both, lets it, whichever is least, and no faster than the leg before: what took its momentum took it for the rest
-/// of the step.
+/// Among movers an obstacle may touch for a part of the step. Obstacles near the start of a leg, near its end and near
+/// both each allow a rate of fall: the leg takes the least of the three. It is no faster than the leg before, because
+/// lost momentum is lost for the rest of the step.
 double HangingJudge::fall_leg_by_leg(const Vec2d& wanted, const std::vector<Nearby>& corners,
                                      const Reach& reach) const {
   double fall = 0;

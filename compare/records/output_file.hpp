@@ -24,7 +24,7 @@ class OutputFile {
   enum class Appears : std::uint8_t {
     whole,       ///< At the end, or not at all.
     as_written,  ///< From the first line on, and what is flushed stays when the command is killed.
-    continued,   ///< The same, behind what is in the file.
+    continued,   ///< As `as_written`, but appended to what the file has.
   };
   /// Opens at once, so that a path that cannot be written is known before the work that is to be written.
   explicit OutputFile(std::string path, Appears appears = Appears::whole);

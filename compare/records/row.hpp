@@ -22,6 +22,11 @@ enum class Axis {
 };
 [[nodiscard]] std::string_view name_of(Axis axis) noexcept;
 
+/// Whether the guarantee of the README covers this contender: octagon_sweep in double.
+[[nodiscard]] constexpr bool is_guaranteed(std::string_view contender, std::string_view scalar) noexcept {
+  return contender == "octagon_sweep" && scalar == "double";
+}
+
 /// Where a run fell short: see records/verdict.hpp.
 struct AxisFault {
   Axis axis = Axis::safety;
@@ -117,7 +122,7 @@ struct Row {
   std::optional<double> max_position_difference_box2d_m;
   /// the first step on which it and the Box2D twin differ: see `Agreement::first_difference`
   std::optional<int> first_difference_box2d_step;
-  std::string first_difference_box2d;  ///< the same in words, with who is right
+  std::string first_difference_box2d;  ///< that step in words, and which side is right
   std::optional<double> error_max_m;   ///< From continuous motion: see studies/work_precision.hpp.
   std::optional<double> error_rms_m;
   std::string curve;                         ///< Key of the parameter that a curve of several runs is over,

@@ -60,6 +60,11 @@ nlohmann::ordered_json rows_json(const std::vector<Row>& rows, const Environment
   return file;
 }
 
+bool breaks_guarantee(const nlohmann::ordered_json& row) {
+  const std::string scalar = row.value("scalar", "");
+  return is_guaranteed(row.value("contender", ""), scalar) && row.value("verdict", "") == name_of(Verdict::violates);
+}
+
 std::string json_line(const nlohmann::ordered_json& object) {
   return object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
 }

@@ -23,7 +23,10 @@ using Environment = std::vector<std::pair<std::string, std::string>>;
 /// The rows with their header.
 [[nodiscard]] nlohmann::ordered_json rows_json(const std::vector<Row>& rows, const Environment& environment);
 
-/// On one line, with its end.
+/// Whether octagon_sweep in double broke its guarantee. @param row one of `row_json`.
+[[nodiscard]] bool breaks_guarantee(const nlohmann::ordered_json& row);
+
+/// On one line, with its line feed.
 [[nodiscard]] std::string json_line(const nlohmann::ordered_json& object);
 
 }  // namespace paperproof::compare

@@ -17,7 +17,7 @@ class RowsReader {
   explicit RowsReader(const std::string& path);
   [[nodiscard]] const nlohmann::ordered_json& header() const noexcept { return header_; }
   /// The next row as it stands there, with its line feed; nothing at the end.
-  /// @throws std::runtime_error naming file and line for what is no JSON object.
+  /// @throws std::runtime_error naming file and line where a line is no JSON object.
   [[nodiscard]] std::optional<std::string> next();
   /// Where the lines end that were read so far [bytes].
   [[nodiscard]] std::uintmax_t end() const noexcept { return end_; }

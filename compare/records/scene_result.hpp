@@ -17,7 +17,7 @@ struct ReportEvent {
   Kind kind = Kind::note;
   std::string words;  ///< One sentence: what happened, how fast, through what. May be empty.
   CharacterIndex character = 0;
-  std::optional<ColliderIndex> collider{};  ///< What it happened with.
+  std::optional<ColliderIndex> collider{};  ///< The collider of the event.
 };
 
 /// One run, for drawing. The page shows numbers rounded for display; the bits stand in the trace.
@@ -41,12 +41,12 @@ struct Disagreement {
   int step = 0;
   std::vector<Statement> statements;                  ///< What each side says, usually controller and Box2D.
   std::optional<std::vector<Contact<double>>> exact;  ///< What exact arithmetic says, where it was asked.
-  std::string who_is_right;                           ///< In words, with the reason.
+  std::string who_is_right;                           ///< One sentence with the reason.
 };
 
 struct ReportScene {
   std::string name;
-  std::string description;                  ///< What is measured. May be empty.
+  std::string description;                  ///< What the scene measures. May be empty.
   std::string sentence;                     ///< Who is right where they differ.
   std::vector<Row> rows;                    ///< Failures included.
   std::vector<ReportRun> runs;              ///< May be fewer than rows; empty: no replay for this scene.

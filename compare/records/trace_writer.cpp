@@ -1,5 +1,7 @@
 #include "records/trace_writer.hpp"
 
+#include "records/collider_json.hpp"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -10,23 +12,6 @@ namespace paperproof::compare {
 namespace {
 
 using nlohmann::ordered_json;
-
-ordered_json points_json(const std::vector<Vec2d>& points) {
-  ordered_json array = ordered_json::array();
-  for (const Vec2d& point : points) array.push_back({point.x(), point.y()});
-  return array;
-}
-
-ordered_json collider_json(const std::string& id, const ColliderDef& collider) {
-  ordered_json object;
-  object["id"] = id;
-  object[collider.shape == ColliderDef::Shape::polygon ? "polygon" : "chain"] = points_json(collider.points);
-  for (const std::vector<Vec2d>& hole : collider.holes) object["holes"].push_back(points_json(hole));
-  if (collider.one_way) object["one_way"] = {collider.one_way->x(), collider.one_way->y()};
-  if (collider.sensor) object["sensor"] = true;
-  if (collider.surface_speed != 0) object["surface_speed"] = collider.surface_speed;
-  return object;
-}
 
 ordered_json plan_json(const std::optional<Plan>& plan) {
   ordered_json object = ordered_json::object();

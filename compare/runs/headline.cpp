@@ -21,8 +21,7 @@ const Row* row_to_trust(const std::vector<Row>& rows) {
   const Row* best = nullptr;
   for (const Row& row : rows) {
     if (!row.exact_first_impact_step || !row.exact_first_impact_fraction) continue;
-    const bool guaranteed = row.contender == "octagon_sweep" && row.scalar == "double";
-    if (best == nullptr || guaranteed) best = &row;
+    if (best == nullptr || is_guaranteed(row.contender, row.scalar)) best = &row;
   }
   return best;
 }

@@ -1,11 +1,11 @@
 #include "runs/knobs.hpp"
 
+#include "number_in.hpp"
 #include "runs/contestant.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <stdexcept>
 
 namespace paperproof::compare {
@@ -18,18 +18,15 @@ struct Knob {
   void (*turn)(const std::string& value, TechniqueDef& def);
 };
 
-/// The whole text is a number.
-template <class Number>
-Number number_in(const std::string& text, std::string_view expected) {
-  Number number{};
-  const char* end = text.data() + text.size();
-  const auto [last, error] = std::from_chars(text.data(), end, number);
-  if (error != std::errc{} || last != end) throw std::invalid_argument(fmt::format("expected {}", expected));
-  return number;
+double real_in(const std::string& text) {
+  if (const std::optional<double> number = number_in<double>(text)) return *number;
+  throw std::invalid_argument("expected a number");
 }
 
-double real_in(const std::string& text) { return number_in<double>(text, "a number"); }
-int whole_in(const std::string& text) { return number_in<int>(text, "a whole number"); }
+int whole_in(const std::string& text) {
+  if (const std::optional<int> number = number_in<int>(text)) return *number;
+  throw std::invalid_argument("expected a whole number");
+}
 
 /// One of two words: false for the first.
 bool second_of(const std::string& text, std::string_view first, std::string_view second) {

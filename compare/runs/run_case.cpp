@@ -1,9 +1,9 @@
 #include "runs/run_case.hpp"
 
+#include "number_in.hpp"
 #include "runs/run.hpp"
 #include "scenes/load.hpp"
 
-#include <charconv>
 #include <exception>
 
 namespace paperproof::compare {
@@ -15,19 +15,12 @@ std::vector<ParameterSetting> settings_of(const Case& one) {
   return settings;
 }
 
-/// Numbers alone; a knob that is a word stands in `knob`.
-std::optional<double> number_in(const std::string& text) {
-  double value = 0;
-  const char* end = text.data() + text.size();
-  const auto [last, error] = std::from_chars(text.data(), end, value);
-  return error == std::errc{} && last == end ? std::optional(value) : std::nullopt;
-}
-
 void name_case(const Case& one, Row& row) {
   row.case_id = id_of(one);
   row.command = command_of(one);
-  for (const Case::Setting& each : one.knobs)
-    if (const std::optional<double> value = number_in(each.value)) row.parameters.emplace_back(each.key, *value);
+  for (const Case::Setting& each : one.knobs)  // one that is a word stands in `knob`
+    if (const std::optional<double> value = number_in<double>(each.value))
+      row.parameters.emplace_back(each.key, *value);
   if (one.seed) row.parameters.emplace_back("seed", static_cast<double>(*one.seed));
 }
 
@@ -64,7 +57,8 @@ Row failed_row(const Case& one, const std::string& reason) {
   for (const ParameterDef& def : parameters_of(one.scene))
     for (const Case::Setting& each : one.parameters)
       if (each.key == def.key)
-        if (const std::optional<double> value = number_in(each.value)) numbers.emplace_back(row_key(def), *value);
+        if (const std::optional<double> value = number_in<double>(each.value))
+          numbers.emplace_back(row_key(def), *value);
   row.parameters.insert(row.parameters.begin(), numbers.begin(), numbers.end());
   return row;
 }

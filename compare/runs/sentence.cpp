@@ -94,7 +94,7 @@ std::string about_snags(const std::vector<Row>& rows) {
 
 std::string about_agreement(const std::vector<Row>& rows) {
   for (const Row& row : rows) {
-    if (row.contender != "octagon_sweep" || row.scalar != "double") continue;
+    if (!is_guaranteed(row.contender, row.scalar)) continue;
     if (!row.max_position_difference_box2d_m) return "";
     std::string text;
     const double apart = *row.max_position_difference_box2d_m;

@@ -1,6 +1,7 @@
 #include "scenes/parameters.hpp"
 
 #include "near_names.hpp"
+#include "number_in.hpp"
 #include "scenes/built_in.hpp"
 #include "scenes/input_error.hpp"
 
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <iterator>
 #include <stdexcept>
@@ -175,27 +175,24 @@ void check_setting(std::string_view scene, const ParameterSetting& setting) {
 
 ParameterSetting parse_setting(std::string_view text) {
   const std::size_t equals = text.find('=');
-  ParameterSetting setting{std::string(text.substr(0, equals)), 0};
-  if (equals != std::string_view::npos) {
-    const char* end = text.data() + text.size();
-    const auto [last, error] = std::from_chars(text.data() + equals + 1, end, setting.value);
-    if (error == std::errc{} && last == end && std::isfinite(setting.value) && !setting.key.empty()) return setting;
-  }
+  if (equals != std::string_view::npos && equals > 0)
+    if (const std::optional<double> value = number_in<double>(text.substr(equals + 1)))
+      return {std::string(text.substr(0, equals)), *value};
   refuse("--set " + std::string(text), "expected KEY=NUMBER");
 }
 
 void turn(Scene& scene, const ParameterSetting& setting) {
   scene.answers.clear();
-  if (const ParameterDef* def = find_parameter(common, setting.key); def->key == "scale" || def->key == "origin")
-    scene.parameters.emplace_back(row_key(*def), setting.value);
-  if (setting.key == "dt") return set_dt(scene, setting.value);
-  if (setting.key == "scale") return scale_by(scene, setting.value);
-  if (setting.key == "origin") return shift_by(scene, setting.value);
-  if (setting.key == "gravity") {
+  const std::string_view key = setting.key;
+  if (key == "dt") return set_dt(scene, setting.value);
+  if (key == "gravity") {
     scene.gravity = {0, -setting.value};
-  } else if (setting.key == "speed") {
+  } else if (key == "speed") {
     set_speed(scene.start, setting.value);
     for (OtherCharacter& other : scene.others) set_speed(other.start, setting.value);
+  } else if (key == "scale" || key == "origin") {
+    scene.parameters.emplace_back(row_key(*find_parameter(common, key)), setting.value);
+    key == "scale" ? scale_by(scene, setting.value) : shift_by(scene, setting.value);
   }
 }
 

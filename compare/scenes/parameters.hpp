@@ -34,8 +34,8 @@ struct ParameterSetting {
 /// The parameters of a family with their values.
 class ParameterValues {
  public:
-  /// Those that are not set have their usual value.
-  /// @throws InputError as `check_setting`.
+  /// Parameters that are not set have their usual value.
+  /// @param settings as checked by `check_setting`.
   ParameterValues(std::span<const ParameterDef> defs, std::span<const ParameterSetting> settings);
   [[nodiscard]] double operator[](std::string_view key) const;
 

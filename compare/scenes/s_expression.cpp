@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <limits>
 
+#include "number_in.hpp"
 #include "scenes/input_error.hpp"
 
 namespace paperproof::compare {
@@ -85,13 +85,6 @@ class Parser {
   std::uint32_t line_ = 1;
 };
 
-std::optional<double> to_number(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
 }  // namespace
 
 std::string_view SExpression::head() const noexcept {
@@ -124,7 +117,7 @@ double SReader::number(const SExpression& list, std::string_view name, std::opti
     if (!otherwise) refuse(list, fmt::format("expected ({} NUMBER) in ({})", name, list.head()));
     return *otherwise;
   }
-  const std::optional<double> number = to_number(found->text);
+  const std::optional<double> number = number_in<double>(found->text);
   if (!number) refuse(*found, fmt::format("expected a finite number in ({})", name));
   return *number;
 }
@@ -157,12 +150,9 @@ std::vector<std::uint32_t> SReader::numbers(const SExpression& list, std::string
   out.reserve(entry->items.size());
   for (std::size_t i = 1; i < entry->items.size(); ++i) {
     const std::string_view text = entry->items[i].text;
-    std::uint32_t value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size()) {
-      refuse(entry->items[i], fmt::format("expected a number in ({}), not \"{}\"", name, text));
-    }
-    out.push_back(value);
+    const std::optional<std::uint32_t> value = number_in<std::uint32_t>(text);
+    if (!value) refuse(entry->items[i], fmt::format("expected a number in ({}), not \"{}\"", name, text));
+    out.push_back(*value);
   }
   return out;
 }

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "number_in.hpp"
 #include "scenes/input_error.hpp"
 #include "scenes/json_text.hpp"
 #include "scenes/map_defaults.hpp"
@@ -173,12 +173,8 @@ class MapBuilder {
   static std::optional<double> number_property(const TiledObject& object, const std::string& name) {
     const auto found = object.marks.properties.find(name);
     if (found == object.marks.properties.end()) return std::nullopt;
-    const std::string& text = found->second;
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size()) {
-      refuse(object.where, fmt::format("expected a number in the property \"{}\"", name));
-    }
+    const std::optional<double> value = number_in<double>(found->second);
+    if (!value) refuse(object.where, fmt::format("expected a number in the property \"{}\"", name));
     return value;
   }
 

@@ -2,11 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <pugixml.hpp>
 
+#include "number_in.hpp"
 #include "scenes/input_error.hpp"
 #include "scenes/tiled_model.hpp"
 
@@ -68,12 +68,9 @@ class XmlReader {
 
  private:
   double to_number(const pugi::xml_node& node, const char* what, std::string_view text) const {
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
-      refuse(file_.where(node), fmt::format("expected a finite number in \"{}\", not \"{}\"", what, text));
-    }
-    return value;
+    const std::optional<double> value = number_in<double>(text);
+    if (!value) refuse(file_.where(node), fmt::format("expected a finite number in \"{}\", not \"{}\"", what, text));
+    return *value;
   }
   double number(const pugi::xml_node& node, const char* name, double otherwise) const {
     const pugi::xml_attribute attribute = node.attribute(name);

@@ -1,23 +1,14 @@
 #include "scenes/write_json.hpp"
 
+#include "records/collider_json.hpp"
 #include "scenes/input_error.hpp"
-#include "scenes/json_scene.hpp"
 
 #include <nlohmann/json.hpp>
-
 
 namespace paperproof::compare {
 namespace {
 
 using nlohmann::ordered_json;
-
-ordered_json json_of(const Vec2d& v) { return ordered_json{v.x(), v.y()}; }
-
-ordered_json json_of(const std::vector<Vec2d>& points) {
-  ordered_json list = ordered_json::array();
-  for (const Vec2d& point : points) list.push_back(json_of(point));
-  return list;
-}
 
 /// From the middle of the box, y up, in metres, to the corner of the sprite, y down, in pixels.
 ordered_json pixels_of(const Scene& scene) {
@@ -32,8 +23,8 @@ ordered_json pixels_of(const Scene& scene) {
 }
 
 void put_start(const Start& start, ordered_json& object) {
-  object["position"] = json_of(start.position);
-  if (start.velocity != Vec2d::Zero()) object["velocity"] = json_of(start.velocity);
+  object["position"] = point_json(start.position);
+  if (start.velocity != Vec2d::Zero()) object["velocity"] = point_json(start.velocity);
   if (start.resolve_overlap) object["start_overlap"] = "resolve";
 }
 
@@ -64,19 +55,9 @@ ordered_json input_json(const std::vector<InputEvent>& events) {
   return list;
 }
 
-ordered_json collider_json(const std::string& id, const ColliderDef& collider) {
-  ordered_json object{{"id", id}};
-  object[collider.shape == ColliderDef::Shape::polygon ? "polygon" : "chain"] = json_of(collider.points);
-  for (const std::vector<Vec2d>& hole : collider.holes) object["holes"].push_back(json_of(hole));
-  if (collider.one_way) object["one_way"] = json_of(*collider.one_way);
-  if (collider.sensor) object["sensor"] = true;
-  if (collider.surface_speed != 0) object["surface_speed"] = collider.surface_speed;
-  return object;
-}
-
 void put_motion(const MoverDef& mover, ordered_json& object) {
   for (const MoverDef::Waypoint& waypoint : mover.path)
-    object["path"].push_back({{"t", waypoint.time}, {"at", json_of(waypoint.at)}});
+    object["path"].push_back({{"t", waypoint.time}, {"at", point_json(waypoint.at)}});
   for (const MoverDef::Turn& turn : mover.turns) object["angle"].push_back({{"t", turn.time}, {"at", turn.at}});
   if (mover.loop == MoverDef::Loop::loop) object["loop"] = "loop";
   if (mover.loop == MoverDef::Loop::ping_pong) object["loop"] = "ping_pong";
@@ -86,7 +67,7 @@ void put_body(const Body& body, ordered_json& object) {
   object["mass"] = body.mass;
   object["friction"] = body.friction;
   object["restitution"] = body.restitution;
-  object["velocity"] = json_of(body.velocity);
+  object["velocity"] = point_json(body.velocity);
 }
 
 void put_scenery(const Scene& scene, ordered_json& file) {
@@ -118,7 +99,7 @@ ordered_json scene_json(const Scene& scene) {
   ordered_json file{{"paperproof_scene", 1}, {"name", scene.name}};
   if (!scene.description.empty()) file["description"] = scene.description;
   file["pixels_per_metre"] = scene.pixels_per_metre;
-  file["gravity"] = json_of(scene.gravity);
+  file["gravity"] = point_json(scene.gravity);
   file["dt"] = scene.dt;
   if (!scene.dt_list.empty()) file["dt_list"] = scene.dt_list;
   file["steps"] = scene.steps;

@@ -39,8 +39,6 @@ std::string axis_of(std::size_t count, double first, double last, const char* ki
   return fmt::format("{}:{}:{}{}", first, last, kind, count);
 }
 
-bool promises(const BulletContender& contender) { return contender.name == "octagon_sweep"; }
-
 }  // namespace
 
 std::string BulletContender::called() const {
@@ -81,7 +79,7 @@ Sweep bullet_sweep(GridSize size, const BulletContender& contender) {
                         1000,
                         "dt=0.03333333333333333,0.016666666666666666,0.006944444444444444"};
   const Counts& counts = size == GridSize::quick ? quick : size == GridSize::standard ? standard : full;
-  const std::size_t phases = promises(contender) ? counts.promised_phases : counts.phases;
+  const std::size_t phases = is_guaranteed(contender.name, "double") ? counts.promised_phases : counts.phases;
   Sweep sweep;
   sweep.scene = "paper";
   const auto last = static_cast<double>(phases - 1) / static_cast<double>(phases);

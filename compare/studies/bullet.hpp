@@ -41,8 +41,7 @@ struct BulletContender {
 /// - `penetration_resolution`: s > thickness. Falling, it tests the feet alone, and only where a step ends.
 /// - `speculative_march`: the same where the paper is thinner than its unit; else never: it looks every unit.
 /// - `wind_back`: where none of its four rows of points ends a step in the paper, at some phase: the smallest s at
-/// which
-///   intervals as long as the thickness, one for each row, do not cover a circle of circumference s.
+///   which intervals as long as the thickness, one for each row, do not cover a circle of circumference s.
 /// - `mask`: s > height + thickness as drawn - one pixel: pixels are drawn whose middle is in the paper, and places are
 ///   rounded to pixels, so that a way may be drawn longer than it is; at any speed where no pixel is drawn.
 /// - `pixel_colour`, `pixel_tile`: at any speed where no pixel is drawn, else never: they look at each pixel.

@@ -1,15 +1,17 @@
 #include "studies/sweep.hpp"
 
 #include "near_names.hpp"
+#include "number_in.hpp"
+#include "records/rows_json.hpp"
 #include "runs/knobs.hpp"
 #include "runs/run_case.hpp"
 #include "scenes/input_error.hpp"
 #include "scenes/load.hpp"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
 namespace paperproof::compare {
@@ -19,13 +21,6 @@ constexpr std::size_t most_values = 1'000'000;
 constexpr double border_width = 1e-4;
 
 std::string text_of(double value) { return fmt::format("{}", value); }
-
-std::optional<double> number_in(std::string_view text) {
-  double value = 0;
-  const auto [last, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  const bool whole = error == std::errc{} && last == text.data() + text.size() && std::isfinite(value);
-  return whole ? std::optional(value) : std::nullopt;
-}
 
 std::vector<std::string_view> parts_of(std::string_view text, char separator) {
   std::vector<std::string_view> parts;
@@ -48,14 +43,11 @@ double between(double first, double last, std::size_t step, std::size_t count, b
 std::optional<std::vector<std::string>> range_in(std::string_view text) {
   const std::vector<std::string_view> parts = parts_of(text, ':');
   if (parts.size() != 3 || parts[2].size() < 4) return std::nullopt;
-  const std::optional<double> first = number_in(parts[0]);
-  const std::optional<double> last = number_in(parts[1]);
+  const std::optional<double> first = number_in<double>(parts[0]);
+  const std::optional<double> last = number_in<double>(parts[1]);
   const bool logarithmic = parts[2].starts_with("log");
-  std::size_t count = 0;
-  const std::string_view digits = parts[2].substr(3);
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), count);
-  const bool counted =
-      error == std::errc{} && end == digits.data() + digits.size() && count >= 1 && count <= most_values;
+  const std::size_t count = number_in<std::size_t>(parts[2].substr(3)).value_or(0);
+  const bool counted = count >= 1 && count <= most_values;
   if (!first || !last || !counted || (!logarithmic && !parts[2].starts_with("lin"))) return std::nullopt;
   if (logarithmic && !(*first > 0 && *last > 0)) return std::nullopt;
   std::vector<std::string> values;
@@ -66,12 +58,12 @@ std::optional<std::vector<std::string>> range_in(std::string_view text) {
 
 bool is_parameter(const std::string& scene, std::string_view key) {
   const std::vector<ParameterDef> all = parameters_of(scene);
-  return std::any_of(all.begin(), all.end(), [&](const ParameterDef& def) { return def.key == key; });
+  return find_parameter(all, key) != nullptr;
 }
 
 void check_value(const std::string& scene, const std::string& key, const std::string& value) {
   if (is_parameter(scene, key)) {
-    const std::optional<double> number = number_in(value);
+    const std::optional<double> number = number_in<double>(value);
     if (!number) refuse(fmt::format("{}={}", key, value), "expected a number");
     return check_setting(scene, {key, *number});
   }
@@ -153,8 +145,7 @@ Row run_at(const Sweep& sweep, std::size_t index) {
   const Case one = sweep.at(index);
   if (!sweep.border) return run_case(one);
   const std::vector<ParameterDef> all = parameters_of(sweep.scene);
-  const auto def =
-      std::find_if(all.begin(), all.end(), [&](const ParameterDef& each) { return each.key == *sweep.border; });
+  const ParameterDef* def = find_parameter(all, *sweep.border);
   Row row = find_border(row_key(*def), def->least, def->most, [&](double value) {
     Case at = one;
     at.parameters.push_back({*sweep.border, text_of(value)});
@@ -162,6 +153,16 @@ Row run_at(const Sweep& sweep, std::size_t index) {
   });
   std::erase_if(row.parameters, [&](const auto& each) { return each.first == row_key(*def); });
   return row;
+}
+
+Jobs jobs_of(const Sweep& sweep, std::size_t count, const std::function<std::size_t(std::size_t)>& case_of) {
+  Jobs jobs;
+  jobs.count = count;
+  jobs.run = [&sweep, case_of](std::size_t job) { return json_line(row_json(run_at(sweep, case_of(job)))); };
+  jobs.lost = [&sweep, case_of](std::size_t job, const std::string& reason) {
+    return json_line(row_json(failed_row(sweep.at(case_of(job)), reason)));
+  };
+  return jobs;
 }
 
 Row find_border(const std::string& key, double least, double most, const std::function<Row(double)>& run_with,

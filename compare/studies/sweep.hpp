@@ -3,6 +3,7 @@
 
 #include "records/case.hpp"
 #include "records/row.hpp"
+#include "studies/processes.hpp"
 
 #include <cstdint>
 #include <functional>
@@ -49,6 +50,12 @@ void check(const Sweep& sweep);
 
 /// The row of a Case; with a border, of its bisection.
 [[nodiscard]] Row run_at(const Sweep& sweep, std::size_t index);
+
+/// Cases of a sweep as jobs, each of which gives a line of JSON. `take` is still to be set.
+/// @param sweep is to live as long as the jobs.
+/// @param case_of the index in the sweep of a job.
+[[nodiscard]] Jobs jobs_of(const Sweep& sweep, std::size_t count,
+                           const std::function<std::size_t(std::size_t)>& case_of);
 
 /// Looks for the border of a parameter between where a contender holds (passes nothing, ends inside nothing) and where
 /// it does not: upwards over its range in 64 strides, equal in its logarithm where the range allows; from the

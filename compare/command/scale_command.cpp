@@ -89,7 +89,7 @@ ChartPage page_of(const std::vector<ScalePoint>& points) {
 
 }  // namespace
 
-int study_scale_command(const StudyArguments& arguments) {
+int study_scale_command(const ScaleArguments& arguments) {
   ClaimedFiles files;
   files.claim_for_option("--rows", arguments.rows_path);
   files.claim_for_option("--report", arguments.report_path);

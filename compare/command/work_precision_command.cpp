@@ -1,4 +1,4 @@
-#include "command/precision_command.hpp"
+#include "command/study_command.hpp"
 
 #include "command/compare_command.hpp"
 #include "command/progress.hpp"
@@ -95,7 +95,7 @@ std::string slopes(const WorkPrecision& found) {
 
 }  // namespace
 
-int work_precision_command(const PrecisionArguments& arguments) {
+int work_precision_command(const StudyArguments& arguments) {
 #ifndef NDEBUG
   throw InputError("work-precision: expected a build without assertions (NDEBUG): this one's times mean nothing");
 #endif

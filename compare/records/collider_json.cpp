@@ -1,0 +1,27 @@
+#include "records/collider_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace paperproof::compare {
+
+using nlohmann::ordered_json;
+
+ordered_json point_json(const Vec2d& point) { return ordered_json{point.x(), point.y()}; }
+
+ordered_json points_json(const std::vector<Vec2d>& points) {
+  ordered_json list = ordered_json::array();
+  for (const Vec2d& point : points) list.push_back(point_json(point));
+  return list;
+}
+
+ordered_json collider_json(const std::string& id, const ColliderDef& collider) {
+  ordered_json object{{"id", id}};
+  object[collider.shape == ColliderDef::Shape::polygon ? "polygon" : "chain"] = points_json(collider.points);
+  for (const std::vector<Vec2d>& hole : collider.holes) object["holes"].push_back(points_json(hole));
+  if (collider.one_way) object["one_way"] = point_json(*collider.one_way);
+  if (collider.sensor) object["sensor"] = true;
+  if (collider.surface_speed != 0) object["surface_speed"] = collider.surface_speed;
+  return object;
+}
+
+}  // namespace paperproof::compare
