@@ -295,8 +295,8 @@ void add_demo_and_list(CLI::App& app, int& status) {
   const auto what = std::make_shared<std::string>();
   list.add_option("WHAT", *what, "Which names")
       ->required()
-      ->type_name("scenes|contenders|knobs|parameters")
-      ->check(expect_one_of({"scenes", "contenders", "knobs", "parameters"}));
+      ->type_name("scenes|contenders|knobs|metrics|parameters")
+      ->check(expect_one_of({"scenes", "contenders", "knobs", "metrics", "parameters"}));
   on_parsed(list, status, what, list_command);
 }
 

@@ -1,5 +1,6 @@
 #include "command/list_command.hpp"
 
+#include "records/metric.hpp"
 #include "records/output_file.hpp"
 #include "runs/contestant.hpp"
 #include "runs/knobs.hpp"
@@ -25,6 +26,9 @@ int list_command(const std::string& what) {
   std::string text;
   if (what == "contenders") {
     for (const std::string_view name : contender_names()) text += fmt::format("{}\n", name);
+  } else if (what == "metrics") {
+    for (const Metric& metric : metrics())
+      text += fmt::format("{:<32} {:<15} {} ({})\n", metric.key, metric.unit, metric.meaning, name_of(metric.of));
   } else if (what == "knobs") {
     for (const std::string& line : describe_knobs()) text += line + '\n';
   } else if (what == "parameters") {

@@ -10,7 +10,7 @@
 
 namespace paperproof::compare {
 
-/// @param what scenes, contenders, knobs or parameters.
+/// @param what scenes, contenders, knobs, metrics or parameters.
 int list_command(const std::string& what);
 
 int check_command(const std::vector<std::string>& scenes);

@@ -1,6 +1,7 @@
 #include "command/rows_command.hpp"
 
 #include "command/claimed_files.hpp"
+#include "records/metric.hpp"
 #include "records/output_file.hpp"
 #include "records/rows_json.hpp"
 #include "records/rows_reader.hpp"
@@ -59,8 +60,6 @@ Rows rows_of(const std::string& path) {
   }
   return rows;
 }
-
-bool is_cost(const std::string& key) { return key.starts_with("ns_per_step") || key == "on_front"; }
 
 /// As `tunnels 0 -> 1, max_penetration_m 0.0 -> 0.5`.
 std::string changes_between(const ordered_json& before, const ordered_json& after) {

@@ -1,5 +1,7 @@
 #include "records/rows_json.hpp"
 
+#include "records/metric.hpp"
+
 #include <nlohmann/json.hpp>
 
 namespace paperproof::compare {
@@ -36,9 +38,7 @@ nlohmann::ordered_json row_json(const Row& row) {
     for (const auto& [key, value] : row.parameters) parameters[key] = value;
   }
   if (!row.source.empty()) object["source"] = row.source;
-  for_each_metric(row, [&](const char* key, const auto& value) {
-    if (value) object[key] = *value;
-  });
+  for_each_metric(row, [&](const Metric& metric, const auto& value) { object[std::string(metric.key)] = value; });
   if (row.steps > 0) object["exempted"] = row.exempted;
   if (row.first_tunnel) object["first_tunnel"] = first_tunnel_json(*row.first_tunnel);
   if (!row.first_difference_box2d.empty()) object["first_difference_box2d"] = row.first_difference_box2d;

@@ -1,5 +1,6 @@
 #include "report/index_json.hpp"
 
+#include "records/metric.hpp"
 #include "report/json_text.hpp"
 
 #include <nlohmann/json.hpp>
@@ -17,23 +18,17 @@ std::string words_for(Verdict verdict) {
   return words;
 }
 
-template <class Number>
-void put(nlohmann::json& object, const char* key, const std::optional<Number>& value) {
-  if (!value) return;
-  if (std::isfinite(static_cast<double>(*value))) {
-    object[key] = *value;
-  } else {
-    object[key] = "not finite";
-  }
-}
-
 nlohmann::json row_in_index(const Row& row) {
   nlohmann::json object{{"contender", row.contender}, {"scalar", row.scalar}, {"mode", row.mode},
                         {"steps", row.steps},         {"reason", row.reason}, {"findings", row.findings}};
   if (!row.first_difference_box2d.empty()) object["findings"].push_back(row.first_difference_box2d);
   if (!row.knob.empty()) object["knob"] = row.knob;
   object["verdict"] = words_for(row.verdict);
-  for_each_metric(row, [&](const char* key, const auto& value) { put(object, key, value); });
+  for_each_metric(row, [&](const Metric& metric, const auto& value) {
+    nlohmann::json& number = object[std::string(metric.key)];
+    number = value;
+    if (!std::isfinite(static_cast<double>(value))) number = "not finite";
+  });
   return object;
 }
 

@@ -1,5 +1,6 @@
 #include "runs/summary.hpp"
 
+#include "records/metric.hpp"
 #include "runs/text_columns.hpp"
 
 #include <fmt/format.h>
@@ -14,19 +15,10 @@ namespace {
 
 using Rows = std::vector<const Row*>;
 
-/// By the key that it has in files.
-std::optional<double> metric(const Row& row, std::string_view key) {
-  std::optional<double> found;
-  for_each_metric(row, [&](std::string_view name, const auto& value) {
-    if (name == key && value) found = static_cast<double>(*value);
-  });
-  return found;
-}
-
 std::vector<double> values(const Rows& rows, std::string_view key) {
   std::vector<double> all;
   for (const Row* row : rows)
-    if (const std::optional<double> value = metric(*row, key)) all.push_back(*value);
+    if (const std::optional<double> value = value_of(*find_metric(key), *row)) all.push_back(*value);
   return all;
 }
 

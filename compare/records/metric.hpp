@@ -1,0 +1,58 @@
+/// The numbers of a row, each described once: files, tables, pages and `paperproof list metrics` take them from here.
+#pragma once
+
+#include "records/row.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <variant>
+
+namespace paperproof::compare {
+
+struct Metric {
+  /// Where a page shows it.
+  enum class Group : std::uint8_t { safety, progress, contacts, jitter, cost, study };
+  /// How a row of several characters, or a summary of several rows, makes one number of many.
+  enum class Of : std::uint8_t { sum, most, first, share, one };
+  using Field = std::variant<std::optional<bool> Row::*, std::optional<int> Row::*, std::optional<double> Row::*,
+                             std::optional<std::size_t> Row::*>;
+
+  std::string_view key;    ///< In files; ends in its unit where it has one.
+  std::string_view title;  ///< Of a column.
+  std::string_view unit;   ///< In words: `m`, `steps`, `per 1000 steps`; empty for a pure number.
+  Group group = Group::safety;
+  Of of = Of::one;
+  std::string_view meaning;  ///< One sentence without its full stop.
+  Field field;
+};
+
+[[nodiscard]] std::string_view name_of(Metric::Group group) noexcept;
+[[nodiscard]] std::string_view name_of(Metric::Of of) noexcept;
+
+/// In the order in which they stand in files.
+[[nodiscard]] std::span<const Metric> metrics() noexcept;
+
+/// @return null where there is none of that key.
+[[nodiscard]] const Metric* find_metric(std::string_view key) noexcept;
+
+/// Costs differ from run to run, and are left out where rows are compared.
+[[nodiscard]] bool is_cost(std::string_view key) noexcept;
+
+/// @return nothing where the metric does not apply to the row; 0 or 1 for a truth value.
+[[nodiscard]] std::optional<double> value_of(const Metric& metric, const Row& row);
+
+/// Calls `visit(metric, value)` for each number that the row has.
+template <class Visit>
+void for_each_metric(const Row& row, const Visit& visit) {
+  for (const Metric& metric : metrics())
+    std::visit(
+        [&](const auto field) {
+          if (row.*field) visit(metric, *(row.*field));
+        },
+        metric.field);
+}
+
+}  // namespace paperproof::compare
