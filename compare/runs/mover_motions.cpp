@@ -7,6 +7,29 @@
 namespace paperproof::compare {
 namespace {
 
+box2d::JointDef definition_of(const Joint& joint) {
+  box2d::JointDef def{.body = joint.body,
+                      .other = joint.other,
+                      .point = joint.point,
+                      .end = joint.end,
+                      .axis = joint.axis,
+                      .length = joint.length,
+                      .stiffness = joint.stiffness,
+                      .damping = joint.damping};
+  switch (joint.kind) {
+    case Joint::Kind::distance:
+      def.kind = box2d::JointDef::Kind::distance;
+      break;
+    case Joint::Kind::revolute:
+      def.kind = box2d::JointDef::Kind::revolute;
+      break;
+    case Joint::Kind::prismatic:
+      def.kind = box2d::JointDef::Kind::prismatic;
+      break;
+  }
+  return def;
+}
+
 std::optional<box2d::BodyWorld> world_of_bodies(const Scene& scene) {
   std::vector<std::optional<box2d::BodyDef>> bodies;
   for (const MoverDef& mover : scene.movers) {
@@ -15,10 +38,12 @@ std::optional<box2d::BodyWorld> world_of_bodies(const Scene& scene) {
   }
   if (std::none_of(bodies.begin(), bodies.end(), [](const auto& body) { return body.has_value(); }))
     return std::nullopt;
+  std::vector<box2d::JointDef> joints;
+  for (const Joint& joint : scene.joints) joints.push_back(definition_of(joint));
   try {
     if (!(StepTimes(scene).shortest() >= box2d::least_step))
       throw box2d::InvalidDefinition("it takes no steps shorter than 1e-9 s");
-    return box2d::BodyWorld(Scenery<double>(scene.scenery), bodies, scene.gravity);
+    return box2d::BodyWorld(Scenery<double>(scene.scenery), bodies, scene.gravity, joints);
   } catch (const box2d::InvalidDefinition& error) {
     throw NotApplicable(std::string("the scene's bodies are moved by Box2D, and ") + error.what());
   }

@@ -24,9 +24,10 @@ namespace paperproof::compare {
 [[nodiscard]] std::vector<SceneFamily> limit_families();    ///< Lengths of steps, perturbed starts.
 [[nodiscard]] std::vector<SceneFamily> ground_families();   ///< Tiles, shafts, slopes.
 [[nodiscard]] std::vector<SceneFamily> extreme_families();  ///< Far origins, other scales and gravities.
-[[nodiscard]] std::vector<SceneFamily> body_families();     ///< Stacks.
+[[nodiscard]] std::vector<SceneFamily> body_families();     ///< Stacks, a plank on springs.
 [[nodiscard]] std::vector<SceneFamily> angle_families();    ///< Wedges.
 [[nodiscard]] std::vector<SceneFamily> play_families();     ///< Slopes.
+[[nodiscard]] std::vector<SceneFamily> crowd_families();    ///< Crowds, and long play.
 
 /// Half the width, and the height below and above the position, of the article's character: 20 x 40 px at 32 px/m [m].
 inline constexpr double half_width = 10.0 / 32;

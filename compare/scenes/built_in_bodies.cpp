@@ -1,5 +1,7 @@
-/// What Box2D moves: scene 28, and a crate that falls.
+/// What Box2D moves: scene 28, a crate that falls, a plank on springs.
 #include "scenes/built_in.hpp"
+
+#include <cmath>
 
 namespace paperproof::compare {
 
@@ -29,6 +31,49 @@ Scene stack(const ParameterValues& values) {
   return scene;
 }
 
+/// How far a mass on a spring is from where the spring is slack, after n steps from rest there [m]: the implicit Euler
+/// method, which is what Box2D's soft constraint is for one spring.
+double sunk(const Scene& scene, double mass, double stiffness, double damping) {
+  const double h = scene.dt;
+  double speed = 0;
+  double way = 0;
+  for (int step = 0; step < scene.steps; ++step) {
+    speed = (speed + h * scene.gravity.y() - h * stiffness / mass * way) /
+            (1 + h * damping / mass + h * h * stiffness / mass);
+    way += h * speed;
+  }
+  return way;
+}
+
+/// Stands on a plank that goes up and down on two springs, between rails.
+Scene plank_on_springs(const ParameterValues& values) {
+  constexpr double mass = 20;
+  constexpr double length = 2;
+  constexpr double height = 0.25;
+  constexpr double time = 4;  // [s]
+  Scene scene = flight(0, length + height + half_height + 5e-7, 0, 0, 1);
+  scene.gravity = {0, -10};
+  scene.dt = values["dt"];
+  scene.steps = static_cast<int>(std::ceil(time / scene.dt));
+  add_box(scene, "floor", -5, -1, 5, 0);
+  add_box(scene, "plank", -2, length, 2, length + height);
+  let_box2d_move_last(scene, {.mass = mass});
+  for (const double x : {-1.5, 1.5})
+    scene.joints.push_back({.id = x < 0 ? "left" : "right",
+                            .point = {x, length},
+                            .end = {x, 0},
+                            .length = length,
+                            .stiffness = values["stiffness"] / 2,
+                            .damping = values["damping"] / 2});
+  scene.joints.push_back({.id = "rails", .kind = Joint::Kind::prismatic, .axis = {0, 1}});
+  constexpr double box2ds_float = 1e-3;
+  const double way = sunk(scene, mass, values["stiffness"], values["damping"]);
+  scene.answers = {is(Answer::Of::drift, 0).to("plank").within(ulp(length + height + half_height)),
+                   count(Answer::Of::in_the_air, 0),
+                   y_is(scene.start.position.y() + way).gaps(1).within(box2ds_float)};
+  return scene;
+}
+
 std::vector<ParameterSetting> under(double mass) { return {{"mass_ratio", mass}}; }
 
 /// A crate falls onto the head of who stands there, from `way` metres above it.
@@ -51,7 +96,13 @@ std::vector<SceneFamily> body_families() {
   return {{"stack",
            "stands on a heavy box on four light ones, all of them Box2D's",
            {{"mass_ratio", "", 0.01, 1e6, 1, "of the heavy box to a light one of 1 kg"}},
-           stack}};
+           stack},
+          {"plank_on_springs",
+           "stands on a plank of 20 kg that two springs carry: never off it, wherever it goes",
+           {{"stiffness", "N_m", 250, 1e9, 2000, "of both springs together"},
+            {"damping", "N_s_m", 0, 1e9, 0, "the same"},
+            {"dt", "s", 1e-4, 0.1, 1.0 / 60, "length of a step"}},
+           plank_on_springs}};
 }
 
 std::vector<BuiltInScene> body_scenes() {

@@ -53,8 +53,9 @@ Scene jump_onto_a_head() {
   return scene;
 }
 
-/// Sixteen in a room as wide as ten of them and as high as three, each walking and jumping at random by itself.
-Scene crowd_of_16() {
+/// Up to sixteen in a room as wide as ten of them and as high as three, each walking and jumping at random by itself.
+Scene crowd(const ParameterValues& values) {
+  const int count = static_cast<int>(values["characters"]);
   constexpr int steps = 600;
   constexpr double width = 20 * half_width;
   constexpr double height = 6 * half_height;
@@ -64,7 +65,7 @@ Scene crowd_of_16() {
   add_box(scene, "ceiling", -1, height, width + 1, height + 1);
   add_box(scene, "left", -1, 0, 0, height);
   add_box(scene, "right", width, 0, width + 1, height);
-  for (int k = 0; k < 16; ++k) {
+  for (int k = 0; k < count; ++k) {
     const double x = (2 * (k % 8) + 1) * width / 16;
     const double y = half_height + 0.02 + (k / 8) * 1.5;
     std::vector<InputEvent> input = random_input(static_cast<std::uint64_t>(k) + 1, steps);
@@ -120,7 +121,45 @@ Scene pressed_in_a_row() {
   return scene;
 }
 
+/// Walks and jumps at random for as long as it is asked to: over a slope, a steep slope, kerbs, a ledge, a needle and a
+/// pit, between walls that nobody leaves.
+Scene playground(const ParameterValues& values) {
+  Scene scene = flight(0, half_height + 0.02, 0, 0, static_cast<int>(values["steps"]));
+  scene.gravity = {0, -30};
+  add_box(scene, "floor", -21, -3, 16, 0);
+  add_box(scene, "pit", 16, -3, 18, -2);
+  add_box(scene, "left", -21, 0, -20, 12);
+  add_box(scene, "right", 18, -3, 19, 12);
+  add_box(scene, "roof", -21, 12, 19, 13);
+  add_polygon(scene, "slope", {{-16, 0}, {-10, 0}, {-12, 2}});
+  add_polygon(scene, "steep", {{-20, 0}, {-18, 0}, {-20, 4}});
+  for (int k = 0; k < 4; ++k)
+    add_box(scene, "kerb" + std::to_string(k), 4 + k, 0, 5 + k, 0.1 * (k + 1));
+  add_polygon(scene, "needle", {{11, 0}, {11.2, 0}, {11.1, 1}});
+  add_chain(scene, "ledge", {{-6, 1.5}, {-2, 1.5}});
+  scene.scenery.colliders.back().one_way = Vec2d(0, 1);
+  scene.input = random_input(static_cast<std::uint64_t>(values["seed"]), scene.steps);
+  const double none = std::numeric_limits<double>::infinity();
+  scene.answers = {between(Answer::Of::farthest, -none, 18 - half_width, {1, 0}),
+                   between(Answer::Of::farthest, -none, 20 - half_width, {-1, 0}),
+                   between(Answer::Of::farthest, -none, 12 - half_height, {0, 1}),
+                   between(Answer::Of::farthest, -none, 2 - half_height, {0, -1})};
+  return scene;
+}
+
 }  // namespace
+
+std::vector<SceneFamily> crowd_families() {
+  return {{"crowd",
+           "several in a tight room, each at random by itself: none gets past another or into a wall",
+           {{"characters", "", 2, 16, 4, "in the room"}},
+           crowd},
+          {"playground",
+           "walks and jumps at random between walls: never inside, never out",
+           {{"steps", "", 100, 1e8, 3600, "that it lasts; a day of play are 5,184,000"},
+            {"seed", "", 1, 1e9, 1, "of the input"}},
+           playground}};
+}
 
 std::vector<BuiltInScene> crowd_scenes() {
   return {
@@ -131,7 +170,7 @@ std::vector<BuiltInScene> crowd_scenes() {
       {"jump_onto_a_head", "stands on another's head, 1.25 m up, until that walks off; then on the floor",
        jump_onto_a_head},
       {"crowd_of_16", "sixteen in a tight room, each at random by itself: none gets past another or into a wall",
-       crowd_of_16},
+       nullptr, "crowd", {{"characters", 16}}},
       {"two_on_a_lift", "two are carried without a lag, also where one walks against the other on the way",
        two_on_a_lift},
       {"pressed_in_a_row",

@@ -3,6 +3,7 @@
 #include "scenes/built_in.hpp"
 
 #include <cmath>
+#include <random>
 
 namespace paperproof::compare {
 
@@ -76,6 +77,27 @@ Scene even_flight() {
 Scene uneven_flight() {
   Scene scene = even_flight();
   scene.dt_list = uneven_steps();
+  return scene;
+}
+
+/// Drops, walks and meets a wall in steps of any length, which are drawn at random: as often from one decade as from
+/// another.
+Scene random_steps(const ParameterValues& values) {
+  constexpr double shortest = 1e-4;  // [s]
+  constexpr double time = 8;         // [s]
+  Scene scene = walk(0, half_height + 0.02, 1, 1);
+  scene.gravity = {0, -30};
+  std::mt19937_64 random(static_cast<std::uint64_t>(values["seed"]));
+  double sum = 0;
+  for (scene.steps = 0; sum < time; ++scene.steps) {
+    const double share = static_cast<double>(random() >> 11U) * 0x1p-53;
+    scene.dt_list.push_back(shortest * std::pow(values["longest"] / shortest, share));
+    sum += scene.dt_list.back();
+  }
+  scene.dt = sum / scene.steps;
+  add_box(scene, "floor", -4, -1, 30, 0);
+  add_box(scene, "wall", 14, 0, 15, 6);
+  ends_at(scene, 14 - half_width, half_height);
   return scene;
 }
 
@@ -171,7 +193,11 @@ std::vector<SceneFamily> limit_families() {
       {"replica_of",
        "walk, jump, wall, begun a little aside: the same sequence of events",
        {{"aside", "m", 0, 0.01, 0, "of where the walk begins, to the right and up"}},
-       replica}};
+       replica},
+      {"random_steps",
+       "walk and wall in steps of random lengths: ends at the wall",
+       {{"longest", "s", 1e-3, 1, 0.1, "step; the shortest is 1e-4 s"}, {"seed", "", 1, 1e9, 1, "of the lengths"}},
+       random_steps}};
 }
 
 std::vector<BuiltInScene> limit_scenes() {

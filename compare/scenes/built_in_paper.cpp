@@ -66,8 +66,8 @@ std::vector<ParameterSetting> at(double pixels) { return {{"speed", pixels * pix
 /// Falls as well.
 std::vector<ParameterSetting> thick(double thickness) { return {{"thickness", thickness}, {"gravity", 30}}; }
 
-Scene long_rest() {
-  Scene scene = flight(0, half_height + 0.25, 0, 0, 1'000'000);
+Scene rest(const ParameterValues& values) {
+  Scene scene = flight(0, half_height + 0.25, 0, 0, static_cast<int>(values["steps"]));
   scene.gravity = {0, -30};
   add_box(scene, "floor", -4, -1, 4, 0);
   const double landed = steps_to_fall(scene, 0.25);
@@ -85,7 +85,11 @@ std::vector<SceneFamily> paper_families() {
            "the article's: one pixel flies onto a platform 30 px below",
            {{"speed", "m_s", 0.1, 1e6, 50 * pixel * frames_per_second, "downwards; 50 px per frame are 93.75 m/s"},
             {"thickness", "m", 1e-6, 10, 5 * pixel, "of the platform; 5 px are 0.15625 m"}},
-           bullet}};
+           bullet},
+          {"rest",
+           "a drop onto a floor, and rest: the position does not change",
+           {{"steps", "", 100, 1e7, 1000, "that it lasts"}},
+           rest}};
 }
 
 std::vector<BuiltInScene> paper_scenes() {
@@ -105,7 +109,8 @@ std::vector<BuiltInScene> paper_scenes() {
        thick(1e-6)},
       {"zero_thickness_paper", "fall at 40 m/s and more onto a segment: it is never passed", nullptr, "paper",
        thick(0)},
-      {"long_rest", "a million steps at rest on a floor: the position does not change, one contact begins", long_rest},
+      {"long_rest", "a million steps at rest on a floor: the position does not change, one contact begins",
+       nullptr, "rest", {{"steps", 1e6}}},
   };
 }
 

@@ -66,6 +66,21 @@ std::string mover(const Scene& scene, MoverIndex index) {
   return out;
 }
 
+std::string joint(const Scene& scene, const Joint& def) {
+  const std::string other = def.other == no_mover ? "the ground" : scene.movers[def.other].id;
+  const std::string ends = fmt::format("{}: {} to {}", def.id, scene.movers[def.body].id, other);
+  switch (def.kind) {
+    case Joint::Kind::distance:
+      if (def.stiffness == 0) return fmt::format("{}, a rod of {} m", ends, def.length);
+      return fmt::format("{}, a spring of {} m, {} N/m, {} N s/m", ends, def.length, def.stiffness, def.damping);
+    case Joint::Kind::revolute:
+      return fmt::format("{}, a pin at {}: bodies do not turn, so it holds them in place", ends, point(def.point));
+    case Joint::Kind::prismatic:
+      return fmt::format("{}, a rail along {}", ends, point(def.axis));
+  }
+  return ends;
+}
+
 /// One-way chains with segments that run along `one_way`, which have no side to block from.
 std::vector<std::string> idle_segments(const Scene& scene, const Scenery<double>& built) {
   std::vector<std::size_t> blocking(scene.ids.size(), 0);
@@ -112,6 +127,8 @@ std::string describe(const Scene& scene) {
                                       : counted(scene.input.size(), "event"));
   line("movers", std::to_string(scene.movers.size()));
   for (MoverIndex i = 0; i < scene.movers.size(); ++i) line("", mover(scene, i));
+  if (!scene.joints.empty()) line("joints", std::to_string(scene.joints.size()));
+  for (const Joint& each : scene.joints) line("", joint(scene, each));
   if (const PixelTileSet* tiles = scene.tile_level.tiles.get()) {
     // The first of the types is no tile.
     line("tiles", fmt::format("{} of {} x {} px, {} x {} in the map", counted(tiles->types.size() - 1, "type"),

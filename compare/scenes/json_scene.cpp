@@ -146,7 +146,7 @@ void read_scenery(const JsonCursor& root, const std::string& path, double dt, Sc
   const bool empty = root.flag("empty");
   if (scenery.size() == 0 && !empty) scenery.refuse("expected at least one solid, or \"empty\": true beside it");
   if (scenery.size() > 0 && empty) root.require("empty").refuse("expected false, as \"scenery\" is not empty");
-  read_json_scenery({scenery, root.find("movers"), root.find("bodies"), dt}, path, scene);
+  read_json_scenery({scenery, root.find("movers"), root.find("bodies"), root.find("joints"), dt}, path, scene);
 }
 
 }  // namespace
@@ -157,7 +157,7 @@ Scene read_json_scene(const nlohmann::json& document, const std::string& path, c
   if (version.integer(0, most_steps) != 1) version.refuse("expected 1, the version of the format");
   root.refuse_other_keys({"$schema", "paperproof_scene", "name", "description", "pixels_per_metre", "gravity", "dt",
                           "dt_list", "steps", "character", "characters", "scenery", "empty", "movers", "bodies",
-                          "input"});
+                          "joints", "input"});
   Scene scene;
   scene.name = root.require("name").text();
   if (const auto description = root.find("description")) scene.description = description->text();

@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "scenes/input_error.hpp"
+#include "scenes/json_joint.hpp"
 #include "scenes/json_motion.hpp"
 #include "scenes/load.hpp"
 #include "scenes/picture.hpp"
@@ -95,6 +96,10 @@ class SceneryReader {
     for (std::size_t i = 0; i < lists.scenery.size(); ++i) read_entry(lists.scenery.element(i), i);
     for (std::size_t i = 0; lists.movers && i < lists.movers->size(); ++i) read_mover(lists.movers->element(i), i);
     for (std::size_t i = 0; lists.bodies && i < lists.bodies->size(); ++i) read_body(lists.bodies->element(i), i);
+    for (std::size_t i = 0; lists.joints && i < lists.joints->size(); ++i) {
+      const JsonCursor entry = lists.joints->element(i);
+      scene_.joints.push_back(read_joint(entry, take_id(entry, "joints", i), scene_));
+    }
     check_scenery(scene_.scenery, scene_.ids, [this](ColliderIndex index) { return where_[index]; });
   }
 

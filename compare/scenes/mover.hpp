@@ -3,7 +3,7 @@
 
 #include "records/turn.hpp"
 
-#include <paperproof/types.hpp>
+#include <paperproof/scenery.hpp>
 
 #include <cstdint>
 #include <optional>
@@ -43,6 +43,25 @@ struct MoverDef {
   std::vector<Turn> turns{};  ///< Empty: it does not turn.
   /// Where there is one, the path says only where it begins.
   std::optional<Body> body{};
+};
+
+/// Holds a body to the ground or to another body. Points are where they are at the start [m].
+struct Joint {
+  enum class Kind : std::uint8_t {
+    distance,   ///< Between two points: a rod, or with a stiffness a spring.
+    revolute,   ///< A pin through both: as bodies do not turn they keep their places to each other.
+    prismatic,  ///< A rail along `axis`.
+  };
+  std::string id;
+  Kind kind = Kind::distance;
+  MoverIndex body = 0;
+  MoverIndex other = no_mover;  ///< Another body, or the ground.
+  Vec2d point{Vec2d::Zero()};   ///< On `body`: of a distance or a pin.
+  Vec2d end{Vec2d::Zero()};     ///< On `other`: of a distance.
+  Vec2d axis{Vec2d::Zero()};    ///< Of a rail; its length does not matter.
+  double length = 0;            ///< Of a distance, where it neither pulls nor pushes [m].
+  double stiffness = 0;         ///< [N/m]; 0: a rod.
+  double damping = 0;           ///< [N s/m]; of a spring.
 };
 
 /// Where the mover is `time` seconds after the start of the scene [m]: linear between waypoints, at a waypoint exactly

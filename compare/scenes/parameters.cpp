@@ -88,6 +88,11 @@ void scale_by(Scene& scene, double scale) {
     for (MoverDef::Waypoint& waypoint : mover.path) waypoint.at *= scale;
     if (mover.body) mover.body->velocity *= scale;
   }
+  for (Joint& joint : scene.joints) {  // forces grow as lengths do, so that stiffness and damping stay
+    joint.point *= scale;
+    joint.end *= scale;
+    joint.length *= scale;
+  }
   if (scene.respawn_box)
     scene.respawn_box = Box2<double>{scene.respawn_box->lower * scale, scene.respawn_box->upper * scale};
 }
@@ -107,6 +112,10 @@ void shift_by(Scene& scene, double along) {
   for (MoverDef& mover : scene.movers)
     if (!mover.turns.empty())
       for (MoverDef::Waypoint& waypoint : mover.path) waypoint.at += way;
+  for (Joint& joint : scene.joints) {
+    joint.point += way;
+    joint.end += way;
+  }
   if (scene.respawn_box)
     scene.respawn_box = Box2<double>{scene.respawn_box->lower + way, scene.respawn_box->upper + way};
 }
@@ -140,7 +149,7 @@ const std::vector<SceneFamily>& scene_families() {
   static const std::vector<SceneFamily> all = [] {
     std::vector<SceneFamily> families;
     for (auto theme : {paper_families(), limit_families(), ground_families(), extreme_families(), body_families(),
-                       angle_families(), play_families()})
+                       angle_families(), play_families(), crowd_families()})
       families.insert(families.end(), std::make_move_iterator(theme.begin()), std::make_move_iterator(theme.end()));
     return families;
   }();

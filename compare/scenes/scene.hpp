@@ -64,6 +64,7 @@ struct Scene {
   SceneryDef scenery;             ///< What stands, what moves and what only notices.
   std::vector<std::string> ids;   ///< One per collider, unique.
   std::vector<MoverDef> movers;   ///< By `ColliderDef::mover`; each has a collider.
+  std::vector<Joint> joints{};    ///< Between bodies among the movers, and the ground.
   std::vector<InputEvent> input;  ///< Sorted by step.
   /// Maps only, which have no script: they move by `random_script` of this seed where nothing else is asked for.
   std::optional<std::uint64_t> moves_at_random{};

@@ -70,6 +70,27 @@ void put_body(const Body& body, ordered_json& object) {
   object["velocity"] = point_json(body.velocity);
 }
 
+ordered_json joint_json(const Scene& scene, const Joint& joint) {
+  ordered_json object{{"id", joint.id}};
+  object["bodies"].push_back(scene.movers[joint.body].id);
+  if (joint.other != no_mover) object["bodies"].push_back(scene.movers[joint.other].id);
+  switch (joint.kind) {
+    case Joint::Kind::distance:
+      object["distance"] = {point_json(joint.point), point_json(joint.end)};
+      object["length"] = joint.length;
+      if (joint.stiffness > 0) object["stiffness"] = joint.stiffness;
+      if (joint.damping > 0) object["damping"] = joint.damping;
+      break;
+    case Joint::Kind::revolute:
+      object["revolute"] = point_json(joint.point);
+      break;
+    case Joint::Kind::prismatic:
+      object["prismatic"] = point_json(joint.axis);
+      break;
+  }
+  return object;
+}
+
 void put_scenery(const Scene& scene, ordered_json& file) {
   file["scenery"] = ordered_json::array();
   std::vector<int> colliders(scene.movers.size(), 0);
@@ -91,6 +112,7 @@ void put_scenery(const Scene& scene, ordered_json& file) {
     file["bodies"].push_back(std::move(object));
   }
   if (file["scenery"].empty()) file["empty"] = true;
+  for (const Joint& joint : scene.joints) file["joints"].push_back(joint_json(scene, joint));
 }
 
 }  // namespace
