@@ -1,6 +1,8 @@
 /// Which metrics a scene can need.
 #pragma once
 
+#include <paperproof/types.hpp>
+
 #include <string>
 #include <vector>
 
@@ -12,6 +14,7 @@ namespace paperproof::compare {
 struct Measured {
   bool rest = true;      ///< Rest jitter and toggles: something can rest.
   bool respawns = true;  ///< A map is left and begun anew.
+  Vec2d gravity{Vec2d::Zero()};  ///< Of the scene [m/s²]: energy is measured in its field.
 
   friend bool operator==(const Measured&, const Measured&) = default;
 };

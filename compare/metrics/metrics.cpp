@@ -47,7 +47,9 @@ std::vector<std::pair<ColliderIndex, Side>> touches_of(const Contacts& contacts)
 }  // namespace
 
 Metrics::Metrics(const TraceHeader& header, const Measured& measured)
-    : ids_(header.ids), dt_(header.dt), measured_(measured), followers_(header.characters, Follower(header.scenery)) {
+    : ids_(header.ids), dt_(header.dt), measured_(measured), followers_(header.characters, Follower(header.scenery)),
+      energy_(header, measured.gravity),
+      events_(header.characters) {
   promises_ = party_of(header) == Party::promising;
   sampled_ = party_of(header) == Party::sampled;
   if (header.characters > 1) sums_.characters = static_cast<int>(header.characters);
@@ -243,6 +245,8 @@ void Metrics::add(const TraceStep& step, const StepJudgement& judgement) {
   add_events(step, judgement);
   if (measured_.rest) followers_[step.character].rest.add(step);
   followers_[step.character].smoothness.add(step, step.dt.value_or(dt_));
+  energy_.add(step, step.dt.value_or(dt_));
+  events_.add(step);
   count(sums_.contact_steps, !step.contacts.empty() || !step.met.empty());
   if (measured_.respawns) count(sums_.respawns, step.respawn);
   add_progress(step, judgement);
@@ -283,6 +287,8 @@ void Metrics::write(Row& row) const {
   row.ghost_speed_loss = sums_.ghost_speed_loss;
   row.first_tunnel = sums_.first_tunnel;
   row.characters = sums_.characters;
+  energy_.write(row);
+  events_.write(row);
 
   Matches matches = matches_;
   for (const Follower& follower : followers_) {

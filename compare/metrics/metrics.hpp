@@ -2,6 +2,8 @@
 #pragma once
 
 #include "metrics/agreement.hpp"
+#include "metrics/energy.hpp"
+#include "metrics/events.hpp"
 #include "metrics/jitter.hpp"
 #include "metrics/measured.hpp"
 #include "metrics/rest.hpp"
@@ -117,6 +119,8 @@ class Metrics {
   double motion_wanted_ = 0;
   double motion_lost_ = 0;
   std::vector<Follower> followers_;  ///< By character.
+  Energy energy_;
+  Events events_;
   Matches matches_;
   std::set<ColliderIndex> touched_;
   Row sums_;  ///< Counts and maxima so far, absent until something applies.

@@ -63,6 +63,11 @@ struct Row {
 
   // The numbers: records/metric.cpp says what each means. A number that does not apply is absent.
   std::optional<bool> finite;
+  std::optional<bool> penetration_ok;
+  std::optional<bool> drift_ok;
+  std::optional<bool> energy_ok;
+  std::optional<bool> hanging_ok;
+  std::optional<bool> events_ok;
   std::optional<double> border_low;
   std::optional<double> border_high;
   std::optional<int> characters;
@@ -89,6 +94,8 @@ struct Row {
   std::optional<int> body_tunnels;
   std::optional<int> body_steps_inside;
   std::optional<double> body_max_penetration_m;
+  std::optional<double> body_energy_gained_j;
+  std::optional<double> body_energy_bound_j;
   std::optional<int> sensor_events;
   std::optional<int> sensor_errors;
   std::optional<double> max_sensor_error;
@@ -106,6 +113,9 @@ struct Row {
   std::optional<double> normal_error_max_deg;
   std::optional<double> toi_error_max;
   std::optional<double> ghost_speed_loss;
+  std::optional<double> energy_gained_j_kg;
+  std::optional<double> energy_bound_j_kg;
+  std::optional<int> events;
   std::optional<double> rest_peak_to_peak_m;
   std::optional<double> rest_rms_m;
   std::optional<double> contact_toggles;
@@ -131,6 +141,7 @@ struct Row {
   std::string exact_first_impact;  ///< Collider of the exact first impact; empty where there is none, or only a seam.
   std::string answer;              ///< The answer that is missed most, in words; empty where all are met.
   std::string first_difference_box2d;  ///< The first difference to the twin in words, and which side is right.
+  std::string event_sequence;          ///< Which events there were: see metrics/events.hpp.
   std::string curve;                   ///< Key of the parameter that a curve of several runs is over.
   std::vector<std::string> findings;   ///< Sentences: where the run began, what was not compared.
 };

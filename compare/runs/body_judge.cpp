@@ -20,7 +20,7 @@ SceneryDef without(const SceneryDef& scenery, MoverIndex mover) {
 
 }  // namespace
 
-BodyJudge::BodyJudge(const Scene& scene, const TraceHeader& header) : ids_(header.ids) {
+BodyJudge::BodyJudge(const Scene& scene, const TraceHeader& header) : ids_(header.ids), energy_(scene) {
   for (ColliderIndex i = 0; i < header.scenery.colliders.size(); ++i) {
     const ColliderDef& def = header.scenery.colliders[i];
     if (def.mover == no_mover || def.sensor || !scene.movers[def.mover].body) continue;
@@ -53,6 +53,7 @@ void BodyJudge::add(const TraceStep& step) {
     if (first_tunnel_.empty() && !judged.tunnelled.empty())
       first_tunnel_ = fmt::format("step {}: body `{}` passed `{}`", step.step, body.id, ids_[judged.tunnelled.front()]);
   }
+  energy_.add(step);
   steps_inside_ += inside;
   tunnels_ += passed;
 }
@@ -61,6 +62,7 @@ void BodyJudge::write(Row& row) const {
   row.body_tunnels = tunnels_;
   row.body_steps_inside = steps_inside_;
   row.body_max_penetration_m = deepest_;
+  energy_.write(row);
   if (tunnels_ > 0) add_fault(row, Axis::safety, Verdict::tunnels, first_tunnel_);
   if (steps_inside_ > 0)
     add_fault(

@@ -3,6 +3,7 @@
 
 #include "oracle/judge.hpp"
 #include "records/row.hpp"
+#include "runs/body_energy.hpp"
 #include "scenes/scene.hpp"
 
 #include <memory>
@@ -13,7 +14,7 @@ namespace paperproof::compare {
 /// stands or moves. Feed it every step of one run in order. Not thread-safe.
 class BodyJudge {
  public:
-  /// @param header of a run in which Box2D moves the bodies.
+  /// @param scene must outlive this. @param header of a run in which Box2D moves the bodies.
   BodyJudge(const Scene& scene, const TraceHeader& header);
   [[nodiscard]] bool any() const noexcept { return !bodies_.empty(); }
   void add(const TraceStep& step);
@@ -28,6 +29,7 @@ class BodyJudge {
   };
   std::vector<std::string> ids_;
   std::vector<Body> bodies_;
+  BodyEnergy energy_;
   int steps_inside_ = 0;
   int tunnels_ = 0;
   double deepest_ = 0;

@@ -30,6 +30,7 @@ template Plan plan_of(const Scenery<double>&, const Planning&);
 
 MetricPlan metrics_for(const Scene& scene, const Planning& planning) {
   MetricPlan plan;
+  plan.measured.gravity = scene.gravity;
   if (planning.full) return plan;
   const std::vector<ColliderDef>& colliders = scene.scenery.colliders;
   const auto any = [&colliders](auto&& test) { return std::any_of(colliders.begin(), colliders.end(), test); };

@@ -1,0 +1,66 @@
+#include "runs/body_energy.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace paperproof::compare {
+namespace {
+
+constexpr double skin = 0.02;     ///< At which Box2D's polygons touch [m].
+constexpr double share = 0.01;    ///< Of what is turned over.
+constexpr double roundings = 2;   ///< Of a place, in ulp.
+
+}  // namespace
+
+BodyEnergy::BodyEnergy(const Scene& scene) : scene_(scene) {
+  const std::vector<MoverDef>& movers = scene.movers;
+  applies_ = !movers.empty() && std::all_of(movers.begin(), movers.end(), [](const auto& m) { return m.body; });
+  if (!applies_) return;
+  for (MoverIndex i = 0; i < movers.size(); ++i) {
+    const bool held = std::any_of(scene.joints.begin(), scene.joints.end(),
+                                  [i](const Joint& joint) { return joint.body == i || joint.other == i; });
+    if (!held) loose_mass_ += movers[i].body->mass;
+  }
+}
+
+double BodyEnergy::in_springs(const TraceStep& step) const {
+  double energy = 0;
+  for (const Joint& joint : scene_.joints) {
+    if (joint.stiffness == 0) continue;
+    const Vec2d point = joint.point + step.movers[joint.body].to;
+    const Vec2d end = joint.other == no_mover ? joint.end : Vec2d(joint.end + step.movers[joint.other].to);
+    const double stretched = (point - end).norm() - joint.length;
+    energy += joint.stiffness * stretched * stretched / 2;
+  }
+  return energy;
+}
+
+void BodyEnergy::add(const TraceStep& step) {
+  if (!applies_) return;
+  const double dt = step.dt.value_or(scene_.dt);
+  double turned_over = in_springs(step);
+  double height = 0;
+  for (MoverIndex i = 0; i < step.movers.size(); ++i) {
+    const MoverMotion<double>& motion = step.movers[i];
+    const double mass = scene_.movers[i].body->mass;
+    const Vec2d velocity = (motion.to - motion.from) / dt;
+    const double ulp = roundings * static_cast<double>(std::numeric_limits<float>::epsilon()) *
+                       motion.to.cwiseAbs().maxCoeff();
+    turned_over += mass * velocity.squaredNorm() / 2;
+    height -= mass * scene_.gravity.dot(motion.to);
+    rounding_ = std::max(rounding_, mass * (velocity.norm() * ulp / dt + scene_.gravity.norm() * ulp));
+  }
+  const double energy = turned_over + height;
+  if (any_) gained_ = std::max(gained_, energy - least_);
+  least_ = any_ ? std::min(least_, energy) : energy;
+  any_ = true;
+  most_turned_over_ = std::max(most_turned_over_, turned_over);
+}
+
+void BodyEnergy::write(Row& row) const {
+  if (!any_) return;
+  row.body_energy_gained_j = gained_;
+  row.body_energy_bound_j = share * most_turned_over_ + loose_mass_ * scene_.gravity.norm() * skin + rounding_;
+}
+
+}  // namespace paperproof::compare

@@ -1,0 +1,187 @@
+/// Energy and events on made-up traces with known answers.
+#include "metrics/energy.hpp"
+#include "metrics/events.hpp"
+
+#include <gtest/gtest.h>
+
+namespace paperproof::compare {
+namespace {
+
+constexpr double dt = 1.0 / 64;
+const Vec2d gravity(0, -10);
+
+TraceHeader header(const std::string& contender = "octagon_sweep") {
+  TraceHeader made;
+  made.contender = contender;
+  made.scalar = contender == "box2d" ? "float" : "double";
+  made.path_exact = contender != "box2d";
+  made.scenery.colliders.push_back({.points = {{0, 0}, {1, 0}, {1, 1}}});
+  made.ids = {"floor"};
+  if (contender == "box2d") made.tolerances = {{"touch_gap", 0.02}};
+  return made;
+}
+
+/// What happens to one character, by its positions and velocities.
+class Run {
+ public:
+  explicit Run(const TraceHeader& of = header()) : energy_(of, gravity) {}
+
+  /// As it is wanted without input, unless `wanted` is given.
+  Run& to(const Vec2d& position, const Vec2d& velocity, bool grounded = false, std::optional<Vec2d> wanted = {}) {
+    TraceStep step;
+    step.path = {{position_, 0}, {position, 1}};
+    step.requested = wanted.value_or(velocity_ + gravity * dt) * dt;
+    step.velocity = velocity;
+    step.grounded = grounded;
+    step.start_overlap = inside_;
+    energy_.add(step, dt);
+    position_ = position;
+    velocity_ = velocity;
+    return *this;
+  }
+  Run& falls(int steps) {
+    for (int n = 0; n < steps; ++n) {
+      const Vec2d velocity = velocity_ + gravity * dt;
+      to(position_ + velocity * dt, velocity);
+    }
+    return *this;
+  }
+  Run& inside(bool is) { return inside_ = is ? std::vector<ColliderIndex>{0} : std::vector<ColliderIndex>{}, *this; }
+  [[nodiscard]] Row row() const {
+    Row made;
+    energy_.write(made);
+    return made;
+  }
+  [[nodiscard]] double gained() const { return row().energy_gained_j_kg.value(); }
+
+ private:
+  Energy energy_;
+  Vec2d position_{0, 0};
+  Vec2d velocity_{0, 0};
+  std::vector<ColliderIndex> inside_;
+};
+
+TEST(EnergyGained, is_none_in_free_flight_which_loses_half_of_g_h_squared_a_step) {
+  EXPECT_EQ(Run().to({0, 0}, {3, 20}).falls(100).gained(), 0);
+}
+
+TEST(EnergyGained, is_the_rise_above_the_least_since_something_was_put_in) {
+  // 0.5 m up for nothing, 10 m/s² · 0.5 m; then down, and 1 m up.
+  EXPECT_DOUBLE_EQ(Run().to({0, 0}, {0, 0}).to({0, 0.5}, {0, 0}).gained(), 5);
+  EXPECT_DOUBLE_EQ(Run().to({0, 0}, {0, 0}).to({0, -2}, {0, 0}).to({0, -1}, {0, 0}).gained(), 10);
+  // From 0 to 3 m/s, 9/2.
+  EXPECT_DOUBLE_EQ(Run().to({0, 0}, {0, 0}).to({0, 0}, {3, 0}).gained(), 4.5);
+  // Little by little is no less.
+  Run creep;
+  creep.to({0, 0}, {0, 0});
+  for (int n = 1; n <= 100; ++n) creep.to({0, 0.001 * n}, {0, 0});
+  EXPECT_NEAR(creep.gained(), 1, 1e-12);
+}
+
+TEST(EnergyGained, counts_no_jump_and_no_steering_but_what_follows) {
+  const Vec2d jump(0, 8);
+  EXPECT_EQ(Run().to({0, 0}, {0, 0}, true).to(jump * dt, jump, false, jump).falls(30).gained(), 0);
+  EXPECT_DOUBLE_EQ(
+      Run().to({0, 0}, {0, 0}, true).to(jump * dt, jump, false, jump).to(jump * dt, {0, 9}).gained(), 81. / 2 - 64. / 2);
+  EXPECT_EQ(Run().to({0, 0}, {0, 0}, true).to({0.1, 0}, {6, 0}, true, Vec2d(6, -0.1)).gained(), 0);
+}
+
+TEST(EnergyGained, of_who_walks_uphill_is_what_the_horizontal_speed_grows_by) {
+  Run uphill;
+  uphill.to({0, 0}, {6, 0}, true, Vec2d(6, 0));
+  for (int n = 1; n <= 10; ++n) uphill.to({0.1 * n, 0.1 * n}, {6, 6}, true);
+  EXPECT_EQ(uphill.gained(), 0);
+  uphill.to({1.2, 1.1}, {7, 6}, true);
+  EXPECT_DOUBLE_EQ(uphill.gained(), 49. / 2 - 36. / 2);
+  // A frictionless slope turns a fall into horizontal speed, and takes energy: no gain.
+  EXPECT_EQ(Run().to({0, 0}, {0, -6}).to({0.05, -0.05}, {3, -3}, true).gained(), 0);
+}
+
+TEST(EnergyGained, counts_no_push_out_of_where_the_scene_put_it_but_one_out_of_what_it_sank_into) {
+  EXPECT_EQ(Run().inside(true).to({0, 0}, {0, 0}).to({0, 1}, {0, 0}).inside(false).to({0, 1}, {0, 0}).gained(), 0);
+  EXPECT_DOUBLE_EQ(Run().to({0, 0}, {0, 0}).to({0, -1}, {0, 0}).inside(true).to({0, 0}, {0, 0}).gained(), 10);
+}
+
+TEST(EnergyBound, is_reach_times_gravity_and_rounding) {
+  const double exact = *Run().to({0, 0}, {0, 0}).to({0, 0}, {0, 0}).row().energy_bound_j_kg;
+  EXPECT_NEAR(exact, 10 * 1e-6, 1e-12);
+  const double far = *Run().to({1e6, 0}, {1e3, 0}).to({1e6, 0}, {1e3, 0}).row().energy_bound_j_kg;
+  constexpr double epsilon = 0x1p-52;
+  EXPECT_NEAR(far, 10 * (1e-6 + 2 * epsilon * 1e6) + 8 * epsilon * 1e6, 1e-12);
+  EXPECT_NEAR(*Run(header("box2d")).to({0, 0}, {0, 0}).to({0, 0}, {0, 0}).row().energy_bound_j_kg, 10 * 0.02, 1e-4);
+}
+
+TEST(EnergyGained, is_absent_where_scenery_moves_or_conveys) {
+  TraceHeader moving = header();
+  moving.scenery.colliders.front().mover = 0;
+  EXPECT_FALSE(Run(moving).falls(3).row().energy_gained_j_kg);
+  TraceHeader conveying = header();
+  conveying.scenery.colliders.front().surface_speed = 1;
+  EXPECT_FALSE(Run(conveying).falls(3).row().energy_bound_j_kg);
+}
+
+TEST(EnergyGained, of_a_crowd_is_that_of_all_together) {
+  TraceHeader two = header();
+  two.characters = 2;
+  Energy energy(two, {0, 0});
+  const auto step = [&](CharacterIndex who, const Vec2d& before, const Vec2d& after) {
+    TraceStep made;
+    made.character = who;
+    made.path = {{{0, 0}, 0}, {{0, 0}, 1}};
+    made.requested = before * dt;
+    made.velocity = after;
+    energy.add(made, dt);
+  };
+  step(0, {4, 0}, {4, 0});
+  step(1, {0, 0}, {0, 0});
+  // Equal masses exchange their velocities.
+  step(0, {4, 0}, {0, 0});
+  step(1, {0, 0}, {4, 0});
+  Row row;
+  energy.write(row);
+  EXPECT_EQ(row.energy_gained_j_kg, 0);
+  step(0, {0, 0}, {1, 0});
+  step(1, {4, 0}, {4, 0});
+  energy.write(row);
+  EXPECT_DOUBLE_EQ(*row.energy_gained_j_kg, 0.5);
+}
+
+TraceStep ended(bool grounded, const std::vector<std::pair<ColliderIndex, Side>>& touches) {
+  TraceStep step;
+  step.grounded = grounded;
+  for (const auto& [collider, side] : touches) {
+    Contact<double> contact;
+    contact.collider = collider;
+    contact.side = side;
+    step.contacts.push_back(contact);
+  }
+  return step;
+}
+
+Row events_of(const std::vector<TraceStep>& steps) {
+  Events events(1);
+  for (const TraceStep& step : steps) events.add(step);
+  Row row;
+  events.write(row);
+  return row;
+}
+
+TEST(EventSequence, is_that_of_changes_whenever_they_come) {
+  const TraceStep air = ended(false, {});
+  const TraceStep floor = ended(true, {{0, Side::bottom}});
+  const TraceStep corner = ended(true, {{0, Side::bottom}, {1, Side::right}});
+  const TraceStep other_order = ended(true, {{1, Side::right}, {0, Side::bottom}, {0, Side::bottom}});
+  const Row one = events_of({air, air, floor, floor, corner});
+  EXPECT_EQ(one.events, 2);
+  EXPECT_EQ(one.event_sequence, events_of({air, floor, floor, floor, other_order}).event_sequence) << "later";
+  EXPECT_NE(one.event_sequence, events_of({air, floor}).event_sequence) << "one is missing";
+  EXPECT_NE(one.event_sequence, events_of({air, floor, air, floor, corner}).event_sequence) << "a toggle";
+  EXPECT_NE(one.event_sequence, events_of({air, corner, floor}).event_sequence) << "another order";
+  EXPECT_NE(one.event_sequence, events_of({air, floor, ended(true, {{0, Side::bottom}, {2, Side::right}})}).event_sequence)
+      << "another collider";
+  EXPECT_NE(one.event_sequence, events_of({air, floor, ended(true, {{0, Side::bottom}, {1, Side::left}})}).event_sequence)
+      << "another side";
+}
+
+}  // namespace
+}  // namespace paperproof::compare
