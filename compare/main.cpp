@@ -131,6 +131,7 @@ void add_sweep_options(CLI::App& command, SweepArguments& arguments) {
   add_scalars(command, arguments.scalars);
   add_knobs(command, arguments.knobs);
   add_outputs(command, arguments.rows_path, arguments.report_path);
+  add_log(command, arguments.log_path);
   add_jobs(command, arguments.jobs);
   command.add_option("--limit", arguments.limit_s, "A case that takes longer than this fails; 60 s where not given")
       ->type_name("SECONDS")
@@ -227,6 +228,7 @@ void add_studies(CLI::App& app, int& status) {
                                bullets, study_bullet_command, status);
   add_grid_size(bullet, bullets->grid);
   add_jobs(bullet, bullets->jobs);
+  add_log(bullet, bullets->log_path);
   for (const PreparedSweep& prepared : prepared_sweeps()) add_prepared_sweep(study, prepared, status);
 
   const auto precise = std::make_shared<StudyArguments>();
@@ -237,6 +239,7 @@ void add_studies(CLI::App& app, int& status) {
   CLI::App& stability = add_study(app, "stability", "Stiff and extreme cases: where each side holds, and where not",
                                   extreme, stability_command, status);
   add_jobs(stability, extreme->jobs);
+  add_log(stability, extreme->log_path);
 }
 
 struct RowsWords {

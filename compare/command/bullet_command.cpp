@@ -79,8 +79,8 @@ class BulletRun {
       : arguments_(arguments),
         size_(size_of(arguments.grid)),
         contenders_(bullet_contenders(arguments.contenders)),
-        progress_(!arguments.quiet),
-        outputs_(arguments.rows_path, arguments.report_path) {}
+        outputs_(arguments.rows_path, arguments.report_path, arguments.log_path),
+        progress_(!arguments.quiet, arguments.log_path) {}
 
   int run() {
     for (const BulletContender& contender : contenders_) shoot(contender);
@@ -105,7 +105,7 @@ class BulletRun {
       picture.add(job / each / thicknesses, job / each % thicknesses, row);
       broken_ = broken_ || (breaks_guarantee(row));
       outputs_.add(line);
-      progress_.show(contender.called() + ",", static_cast<double>(job) / static_cast<double>(sweep.size()));
+      progress_.show(contender.called() + ",", static_cast<double>(job + 1) / static_cast<double>(sweep.size()));
     };
     run_in_processes(jobs, processes());
     pictures_.push_back(std::move(picture));
@@ -132,7 +132,7 @@ class BulletRun {
       if (row.contains("border_high")) lowest_[job].border_high = row["border_high"];
       if (row.value("verdict", "") == "not_applicable") lowest_[job].verdict = Verdict::not_applicable;
       outputs_.add(line);
-      progress_.show("lowest speeds,", static_cast<double>(job) / static_cast<double>(lowest_.size()));
+      progress_.show("lowest speeds,", static_cast<double>(job + 1) / static_cast<double>(lowest_.size()));
     };
     run_in_processes(jobs, processes());
   }
@@ -187,8 +187,8 @@ class BulletRun {
   GridSize size_;
   std::vector<BulletContender> contenders_;
   std::vector<double> thicknesses_ = bullet_thicknesses();
-  Progress progress_;
   StudyOutputs outputs_;
+  Progress progress_;
   std::vector<BulletPicture> pictures_;
   std::vector<Row> lowest_;  ///< By contender, then by thickness.
   bool broken_ = false;

@@ -59,6 +59,12 @@ void add_outputs(CLI::App& command, std::string& rows, std::string& report) {
       ->check(expect_file_name());
 }
 
+void add_log(CLI::App& command, std::string& path) {
+  command.add_option("--log", path, "Write how far the work is to this file, a line every 5 s")
+      ->type_name("FILE")
+      ->check(expect_file_name());
+}
+
 void add_jobs(CLI::App& command, int& jobs) {
   command.add_option("--jobs", jobs, "Processes at a time; one for each core where it is not given")
       ->type_name("N")

@@ -17,6 +17,8 @@ void add_steps(CLI::App& command, std::optional<int>& steps);
 void add_input(CLI::App& command, std::optional<std::string>& input);
 void add_grid_size(CLI::App& command, std::string& grid);
 void add_jobs(CLI::App& command, int& jobs);
+/// `--log`: how far the work is, in a file.
+void add_log(CLI::App& command, std::string& path);
 /// `--rows` and `--report`.
 void add_outputs(CLI::App& command, std::string& rows, std::string& report);
 

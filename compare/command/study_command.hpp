@@ -15,6 +15,7 @@ struct StudyArguments {
   std::vector<std::string> contenders;  ///< Empty: all; of `stability` octagon_sweep and Box2D.
   std::string rows_path;                ///< Empty: none.
   std::string report_path;              ///< Empty: none.
+  std::string log_path;                 ///< Empty: none.
   int jobs = 0;                         ///< Not of `work-precision`; 0: one for each core.
   std::string grid = "quick";           ///< Of `study bullet`: quick, standard or full.
   bool quiet = false;                   ///< No table, no progress.

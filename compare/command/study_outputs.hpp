@@ -20,12 +20,13 @@ namespace paperproof::compare {
 /// end.
 class StudyOutputs {
  public:
-  /// @param rows_path,report_path empty: none.
-  StudyOutputs(const std::string& rows_path, const std::string& report_path)
+  /// @param rows_path,report_path empty: none. @param log_path that somebody else writes.
+  StudyOutputs(const std::string& rows_path, const std::string& report_path, const std::string& log_path = {})
       : as_lines_(rows_path.ends_with(".jsonl")) {
     ClaimedFiles files;
     files.claim_for_option("--rows", rows_path);
     files.claim_for_option("--report", report_path);
+    files.claim_for_option("--log", log_path);
     if (!rows_path.empty()) rows_.emplace(rows_path, environment());
     if (!report_path.empty()) report_.emplace(report_path);
   }

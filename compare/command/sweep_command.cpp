@@ -106,12 +106,13 @@ class SweepRun {
     ClaimedFiles files;
     files.claim_for_option("--rows", arguments.rows_path);
     files.claim_for_option("--report", arguments.report_path);
+    files.claim_for_option("--log", arguments.log_path);
     open_rows();
     if (!arguments.report_path.empty()) report_.emplace(arguments.report_path);
   }
 
   int run() {
-    const Progress progress(!arguments_.quiet);
+    const Progress progress(!arguments_.quiet, arguments_.log_path);
     Forecast forecast(!arguments_.quiet, static_cast<double>(count_ - done_));
     forecast.begin_scene(static_cast<double>(count_ - done_));
     forecast.done(0);
@@ -121,7 +122,7 @@ class SweepRun {
       take(line);
       const double share = static_cast<double>(done_ - before) / static_cast<double>(jobs.count);
       forecast.done(share);
-      progress.show("sweep,", share);
+      progress.show(fmt::format("sweep, {} of {} cases,", done_, count_), share);
     };
     run_in_processes(jobs, {processes_for(arguments_.jobs), std::chrono::seconds(arguments_.limit_s)});
     progress.clear();

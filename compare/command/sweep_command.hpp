@@ -21,6 +21,7 @@ struct SweepArguments {
   bool reference = true;
   std::string rows_path;    ///< Empty: none.
   std::string report_path;  ///< The same.
+  std::string log_path;     ///< Of the progress; the same.
   int jobs = 0;             ///< 0: one for each core.
   int limit_s = 60;         ///< Of one case.
   std::string shard;        ///< `K/N`; empty: all.

@@ -52,6 +52,15 @@ TEST(CommandSweep, shards_merged_are_the_whole) {
   EXPECT_EQ(place.run(sweep + "--shard 4/3 --rows x.jsonl").status, 2);
 }
 
+TEST(CommandSweep, logs_how_far_it_is_to_a_file_of_its_own) {
+  const Workplace place;
+  EXPECT_EQ(place.run(sweep + "--rows r.jsonl --log progress.txt").status, 0);
+  const std::string log = written(place, "progress.txt");
+  EXPECT_TRUE(holds(log, "sweep, 108 of 108 cases, 100.0 % in ")) << log;
+  EXPECT_EQ(place.run(sweep + "--rows r.jsonl --log r.jsonl").status, 2);
+  EXPECT_EQ(place.run(sweep + "--log nowhere/progress.txt").status, 2);
+}
+
 TEST(CommandSweep, goes_on_behind_what_a_kill_left) {
   const Workplace place;
   EXPECT_EQ(place.run(sweep + "--rows r.jsonl").status, 0);
