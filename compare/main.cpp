@@ -238,6 +238,8 @@ void add_studies(CLI::App& app, int& status) {
   const auto extreme = std::make_shared<StudyArguments>();
   CLI::App& stability = add_study(app, "stability", "Stiff and extreme cases: where each side holds, and where not",
                                   extreme, stability_command, status);
+  extreme->grid = "standard";
+  add_grid_size(stability, extreme->grid);
   add_jobs(stability, extreme->jobs);
   add_log(stability, extreme->log_path);
 }

@@ -17,7 +17,7 @@ struct StudyArguments {
   std::string report_path;              ///< Empty: none.
   std::string log_path;                 ///< Empty: none.
   int jobs = 0;                         ///< Not of `work-precision`; 0: one for each core.
-  std::string grid = "quick";           ///< Of `study bullet`: quick, standard or full.
+  std::string grid = "quick";           ///< Of `study bullet` and `stability`: quick, standard or full.
   bool quiet = false;                   ///< No table, no progress.
 };
 

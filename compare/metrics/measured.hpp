@@ -12,8 +12,8 @@ namespace paperproof::compare {
 /// than the trivial one. Metrics that appear only with their cause (contacts, one-way chains, crushes, sensors) need no
 /// choice.
 struct Measured {
-  bool rest = true;      ///< Rest jitter and toggles: something can rest.
-  bool respawns = true;  ///< A map is left and begun anew.
+  bool rest = true;              ///< Rest jitter and toggles: something can rest.
+  bool respawns = true;          ///< A map is left and begun anew.
   Vec2d gravity{Vec2d::Zero()};  ///< Of the scene [m/s²]: energy is measured in its field.
 
   friend bool operator==(const Measured&, const Measured&) = default;

@@ -47,7 +47,10 @@ std::vector<std::pair<ColliderIndex, Side>> touches_of(const Contacts& contacts)
 }  // namespace
 
 Metrics::Metrics(const TraceHeader& header, const Measured& measured)
-    : ids_(header.ids), dt_(header.dt), measured_(measured), followers_(header.characters, Follower(header.scenery)),
+    : ids_(header.ids),
+      dt_(header.dt),
+      measured_(measured),
+      followers_(header.characters, Follower(header.scenery)),
       energy_(header, measured.gravity),
       events_(header.characters) {
   promises_ = party_of(header) == Party::promising;

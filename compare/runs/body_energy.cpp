@@ -1,14 +1,16 @@
 #include "runs/body_energy.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace paperproof::compare {
 namespace {
 
-constexpr double skin = 0.02;     ///< At which Box2D's polygons touch [m].
-constexpr double share = 0.01;    ///< Of what is turned over.
-constexpr double roundings = 2;   ///< Of a place, in ulp.
+constexpr double skin = 0.02;    ///< At which Box2D's polygons touch [m].
+constexpr double share = 0.01;   ///< Of what is turned over.
+constexpr double roundings = 2;  ///< Of a place, in ulp.
+constexpr double epsilon = std::numeric_limits<float>::epsilon();
 
 }  // namespace
 
@@ -23,15 +25,19 @@ BodyEnergy::BodyEnergy(const Scene& scene) : scene_(scene) {
   }
 }
 
-double BodyEnergy::in_springs(const TraceStep& step) const {
+double BodyEnergy::in_springs(const TraceStep& step) {
   double energy = 0;
+  double rounding = 0;
   for (const Joint& joint : scene_.joints) {
     if (joint.stiffness == 0) continue;
     const Vec2d point = joint.point + step.movers[joint.body].to;
     const Vec2d end = joint.other == no_mover ? joint.end : Vec2d(joint.end + step.movers[joint.other].to);
     const double stretched = (point - end).norm() - joint.length;
     energy += joint.stiffness * stretched * stretched / 2;
+    const double ulp = roundings * epsilon * joint.length;
+    rounding += joint.stiffness * (std::abs(stretched) + ulp) * ulp;
   }
+  rounding_ = std::max(rounding_, rounding);
   return energy;
 }
 
@@ -44,8 +50,7 @@ void BodyEnergy::add(const TraceStep& step) {
     const MoverMotion<double>& motion = step.movers[i];
     const double mass = scene_.movers[i].body->mass;
     const Vec2d velocity = (motion.to - motion.from) / dt;
-    const double ulp = roundings * static_cast<double>(std::numeric_limits<float>::epsilon()) *
-                       motion.to.cwiseAbs().maxCoeff();
+    const double ulp = roundings * epsilon * motion.to.cwiseAbs().maxCoeff();
     turned_over += mass * velocity.squaredNorm() / 2;
     height -= mass * scene_.gravity.dot(motion.to);
     rounding_ = std::max(rounding_, mass * (velocity.norm() * ulp / dt + scene_.gravity.norm() * ulp));

@@ -13,8 +13,8 @@ namespace paperproof::compare {
 /// length.
 /// - `body_energy_gained_j`: how far it ever rises above the least value that it had before.
 /// - `body_energy_bound_j`: what is no gain: 1 % of the largest energy that was in motion and springs at once; the
-///   weight of what no joint holds times Box2D's skin of 20 mm; and rounding: two ulp of the largest offset as a way and
-///   as a speed.
+///   weight of what no joint holds times Box2D's skin of 20 mm; and rounding: two ulp of the largest offset as a way
+///   and as a speed.
 ///
 /// The implicit Euler method, which Box2D's soft constraint is, only loses energy. Absent where something goes along a
 /// path, which puts in what it wants. Feed it every step in order.
@@ -26,7 +26,7 @@ class BodyEnergy {
   void write(Row& row) const;
 
  private:
-  [[nodiscard]] double in_springs(const TraceStep& step) const;
+  [[nodiscard]] double in_springs(const TraceStep& step);
 
   const Scene& scene_;
   bool applies_ = false;

@@ -69,8 +69,7 @@ Scene plank_on_springs(const ParameterValues& values) {
   constexpr double box2ds_float = 1e-3;
   const double way = sunk(scene, mass, values["stiffness"], values["damping"]);
   scene.answers = {is(Answer::Of::drift, 0).to("plank").within(ulp(length + height + half_height)),
-                   count(Answer::Of::in_the_air, 0),
-                   y_is(scene.start.position.y() + way).gaps(1).within(box2ds_float)};
+                   count(Answer::Of::in_the_air, 0), y_is(scene.start.position.y() + way).gaps(1).within(box2ds_float)};
   return scene;
 }
 

@@ -133,8 +133,7 @@ Scene playground(const ParameterValues& values) {
   add_box(scene, "roof", -21, 12, 19, 13);
   add_polygon(scene, "slope", {{-16, 0}, {-10, 0}, {-12, 2}});
   add_polygon(scene, "steep", {{-20, 0}, {-18, 0}, {-20, 4}});
-  for (int k = 0; k < 4; ++k)
-    add_box(scene, "kerb" + std::to_string(k), 4 + k, 0, 5 + k, 0.1 * (k + 1));
+  for (int k = 0; k < 4; ++k) add_box(scene, "kerb" + std::to_string(k), 4 + k, 0, 5 + k, 0.1 * (k + 1));
   add_polygon(scene, "needle", {{11, 0}, {11.2, 0}, {11.1, 1}});
   add_chain(scene, "ledge", {{-6, 1.5}, {-2, 1.5}});
   scene.scenery.colliders.back().one_way = Vec2d(0, 1);
@@ -169,8 +168,11 @@ std::vector<BuiltInScene> crowd_scenes() {
        "the last two meet at t = 0.5 and stand, so the first is there at t = 0.75: in order of impact", three_in_a_row},
       {"jump_onto_a_head", "stands on another's head, 1.25 m up, until that walks off; then on the floor",
        jump_onto_a_head},
-      {"crowd_of_16", "sixteen in a tight room, each at random by itself: none gets past another or into a wall",
-       nullptr, "crowd", {{"characters", 16}}},
+      {"crowd_of_16",
+       "sixteen in a tight room, each at random by itself: none gets past another or into a wall",
+       nullptr,
+       "crowd",
+       {{"characters", 16}}},
       {"two_on_a_lift", "two are carried without a lag, also where one walks against the other on the way",
        two_on_a_lift},
       {"pressed_in_a_row",

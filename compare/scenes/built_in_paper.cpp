@@ -109,8 +109,11 @@ std::vector<BuiltInScene> paper_scenes() {
        thick(1e-6)},
       {"zero_thickness_paper", "fall at 40 m/s and more onto a segment: it is never passed", nullptr, "paper",
        thick(0)},
-      {"long_rest", "a million steps at rest on a floor: the position does not change, one contact begins",
-       nullptr, "rest", {{"steps", 1e6}}},
+      {"long_rest",
+       "a million steps at rest on a floor: the position does not change, one contact begins",
+       nullptr,
+       "rest",
+       {{"steps", 1e6}}},
   };
 }
 

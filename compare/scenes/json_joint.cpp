@@ -11,7 +11,7 @@ namespace {
 
 /// Box2D takes a shorter distance for as long [m], and nearer points have no direction.
 constexpr double least_length = 0.005;
-constexpr double longest = 2e6;  ///< [m]
+constexpr double longest = 2e6;    ///< [m]
 constexpr double stiffest = 1e12;  ///< [N/m], [N s/m]
 
 MoverIndex read_body(const JsonCursor& at, const Scene& scene) {

@@ -74,12 +74,17 @@ void check_value(const std::string& scene, const std::string& key, const std::st
   }
 }
 
-bool holds(const Row& row) {
-  return row.verdict != Verdict::failed && row.verdict != Verdict::not_applicable && row.tunnels.value_or(0) == 0 &&
-         row.steps_ending_inside.value_or(0) == 0;
+/// A run that ended because something was no number any more was made.
+bool was_made(const Row& row) {
+  return row.verdict != Verdict::not_applicable && (row.verdict != Verdict::failed || !row.finite.value_or(true));
 }
 
 }  // namespace
+
+bool is_safe(const Row& row) {
+  return row.verdict != Verdict::failed && row.verdict != Verdict::not_applicable && row.tunnels.value_or(0) == 0 &&
+         row.steps_ending_inside.value_or(0) == 0;
+}
 
 SweepAxis parse_axis(std::string_view text) {
   const std::size_t equals = text.find('=');
@@ -142,16 +147,22 @@ std::string id_of(const Sweep& sweep) {
 }
 
 Row run_at(const Sweep& sweep, std::size_t index) {
+  if (sweep.border) return border_at(sweep, index, {run_case, is_safe});
+  return run_case(sweep.at(index));
+}
+
+Row border_at(const Sweep& sweep, std::size_t index, const BorderSearch& search) {
   const Case one = sweep.at(index);
-  if (!sweep.border) return run_case(one);
   const std::vector<ParameterDef> all = parameters_of(sweep.scene);
-  const ParameterDef* def = find_parameter(all, *sweep.border);
-  Row row = find_border(row_key(*def), def->least, def->most, [&](double value) {
+  const ParameterDef& def = *find_parameter(all, *sweep.border);
+  const auto run_with = [&](double value) {
     Case at = one;
     at.parameters.push_back({*sweep.border, text_of(value)});
-    return run_case(at);
-  });
-  std::erase_if(row.parameters, [&](const auto& each) { return each.first == row_key(*def); });
+    return search.run(at);
+  };
+  Row row = find_border(row_key(def), search.least.value_or(def.least), search.most.value_or(def.most), run_with,
+                        search.strides, search.holds);
+  std::erase_if(row.parameters, [&](const auto& each) { return each.first == row_key(def); });
   return row;
 }
 
@@ -166,7 +177,7 @@ Jobs jobs_of(const Sweep& sweep, std::size_t count, const std::function<std::siz
 }
 
 Row find_border(const std::string& key, double least, double most, const std::function<Row(double)>& run_with,
-                int strides) {
+                int strides, const std::function<bool(const Row&)>& holds) {
   const bool logarithmic = least > 0;
   const auto value_at = [&](int step) {
     return between(least, most, static_cast<std::size_t>(step), static_cast<std::size_t>(strides) + 1, logarithmic);
@@ -176,7 +187,7 @@ Row find_border(const std::string& key, double least, double most, const std::fu
   Row row;
   for (int step = 0; step <= strides && !high; ++step) {
     row = run_with(value_at(step));
-    if (row.verdict == Verdict::not_applicable || row.verdict == Verdict::failed) break;
+    if (!was_made(row)) break;
     (holds(row) ? low : high) = value_at(step);
   }
   while (low && high && *high - *low > border_width * std::abs(*high)) {

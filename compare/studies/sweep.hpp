@@ -57,12 +57,27 @@ void check(const Sweep& sweep);
 [[nodiscard]] Jobs jobs_of(const Sweep& sweep, std::size_t count,
                            const std::function<std::size_t(std::size_t)>& case_of);
 
-/// Looks for the border of a parameter between where a contender holds (passes nothing, ends inside nothing) and where
-/// it does not: upwards over its range in 64 strides, equal in its logarithm where the range allows; from the
-/// first that does not hold back by bisection, until the two ends differ by a ten-thousandth of the larger.
-/// @param run_with the row at a value.
+/// How the border of a sweep is looked for.
+struct BorderSearch {
+  std::function<Row(const Case&)> run;    ///< As a rule `run_case`.
+  std::function<bool(const Row&)> holds;  ///< As a rule `is_safe`.
+  std::optional<double> least{};          ///< Absent: the least and the most that the parameter takes.
+  std::optional<double> most{};
+  int strides = 64;
+};
+/// The row of the bisection of a sweep's border.
+[[nodiscard]] Row border_at(const Sweep& sweep, std::size_t index, const BorderSearch& search);
+
+/// Passes nothing, and ends inside nothing.
+[[nodiscard]] bool is_safe(const Row& row);
+
+/// Looks for the border of a parameter between where a contender holds and where it does not: upwards over its range in
+/// strides, equal in its logarithm where the range allows; from the first that does not hold back by bisection, until
+/// the two ends differ by a ten-thousandth of the larger. A run that cannot be made ends the search.
+/// @param run_with the row at a value. @param holds of such a row.
 /// @return the row at the upper end of the bracket, or at the end of the range where all hold.
 [[nodiscard]] Row find_border(const std::string& key, double least, double most,
-                              const std::function<Row(double)>& run_with, int strides = 64);
+                              const std::function<Row(double)>& run_with, int strides = 64,
+                              const std::function<bool(const Row&)>& holds = is_safe);
 
 }  // namespace paperproof::compare

@@ -22,12 +22,12 @@ TraceHeader header(const std::string& contender = "octagon_sweep") {
 }
 
 /// What happens to one character, by its positions and velocities.
-class Run {
+class Motion {
  public:
-  explicit Run(const TraceHeader& of = header()) : energy_(of, gravity) {}
+  explicit Motion(const TraceHeader& of = header()) : energy_(of, gravity) {}
 
   /// As it is wanted without input, unless `wanted` is given.
-  Run& to(const Vec2d& position, const Vec2d& velocity, bool grounded = false, std::optional<Vec2d> wanted = {}) {
+  Motion& to(const Vec2d& position, const Vec2d& velocity, bool grounded = false, std::optional<Vec2d> wanted = {}) {
     TraceStep step;
     step.path = {{position_, 0}, {position, 1}};
     step.requested = wanted.value_or(velocity_ + gravity * dt) * dt;
@@ -39,14 +39,14 @@ class Run {
     velocity_ = velocity;
     return *this;
   }
-  Run& falls(int steps) {
+  Motion& falls(int steps) {
     for (int n = 0; n < steps; ++n) {
       const Vec2d velocity = velocity_ + gravity * dt;
       to(position_ + velocity * dt, velocity);
     }
     return *this;
   }
-  Run& inside(bool is) { return inside_ = is ? std::vector<ColliderIndex>{0} : std::vector<ColliderIndex>{}, *this; }
+  Motion& inside(bool is) { return inside_ = is ? std::vector<ColliderIndex>{0} : std::vector<ColliderIndex>{}, *this; }
   [[nodiscard]] Row row() const {
     Row made;
     energy_.write(made);
@@ -62,17 +62,17 @@ class Run {
 };
 
 TEST(EnergyGained, is_none_in_free_flight_which_loses_half_of_g_h_squared_a_step) {
-  EXPECT_EQ(Run().to({0, 0}, {3, 20}).falls(100).gained(), 0);
+  EXPECT_EQ(Motion().to({0, 0}, {3, 20}).falls(100).gained(), 0);
 }
 
 TEST(EnergyGained, is_the_rise_above_the_least_since_something_was_put_in) {
   // 0.5 m up for nothing, 10 m/s² · 0.5 m; then down, and 1 m up.
-  EXPECT_DOUBLE_EQ(Run().to({0, 0}, {0, 0}).to({0, 0.5}, {0, 0}).gained(), 5);
-  EXPECT_DOUBLE_EQ(Run().to({0, 0}, {0, 0}).to({0, -2}, {0, 0}).to({0, -1}, {0, 0}).gained(), 10);
+  EXPECT_DOUBLE_EQ(Motion().to({0, 0}, {0, 0}).to({0, 0.5}, {0, 0}).gained(), 5);
+  EXPECT_DOUBLE_EQ(Motion().to({0, 0}, {0, 0}).to({0, -2}, {0, 0}).to({0, -1}, {0, 0}).gained(), 10);
   // From 0 to 3 m/s, 9/2.
-  EXPECT_DOUBLE_EQ(Run().to({0, 0}, {0, 0}).to({0, 0}, {3, 0}).gained(), 4.5);
+  EXPECT_DOUBLE_EQ(Motion().to({0, 0}, {0, 0}).to({0, 0}, {3, 0}).gained(), 4.5);
   // Little by little is no less.
-  Run creep;
+  Motion creep;
   creep.to({0, 0}, {0, 0});
   for (int n = 1; n <= 100; ++n) creep.to({0, 0.001 * n}, {0, 0});
   EXPECT_NEAR(creep.gained(), 1, 1e-12);
@@ -80,44 +80,44 @@ TEST(EnergyGained, is_the_rise_above_the_least_since_something_was_put_in) {
 
 TEST(EnergyGained, counts_no_jump_and_no_steering_but_what_follows) {
   const Vec2d jump(0, 8);
-  EXPECT_EQ(Run().to({0, 0}, {0, 0}, true).to(jump * dt, jump, false, jump).falls(30).gained(), 0);
-  EXPECT_DOUBLE_EQ(
-      Run().to({0, 0}, {0, 0}, true).to(jump * dt, jump, false, jump).to(jump * dt, {0, 9}).gained(), 81. / 2 - 64. / 2);
-  EXPECT_EQ(Run().to({0, 0}, {0, 0}, true).to({0.1, 0}, {6, 0}, true, Vec2d(6, -0.1)).gained(), 0);
+  EXPECT_EQ(Motion().to({0, 0}, {0, 0}, true).to(jump * dt, jump, false, jump).falls(30).gained(), 0);
+  EXPECT_DOUBLE_EQ(Motion().to({0, 0}, {0, 0}, true).to(jump * dt, jump, false, jump).to(jump * dt, {0, 9}).gained(),
+                   81. / 2 - 64. / 2);
+  EXPECT_EQ(Motion().to({0, 0}, {0, 0}, true).to({0.1, 0}, {6, 0}, true, Vec2d(6, -0.1)).gained(), 0);
 }
 
 TEST(EnergyGained, of_who_walks_uphill_is_what_the_horizontal_speed_grows_by) {
-  Run uphill;
+  Motion uphill;
   uphill.to({0, 0}, {6, 0}, true, Vec2d(6, 0));
   for (int n = 1; n <= 10; ++n) uphill.to({0.1 * n, 0.1 * n}, {6, 6}, true);
   EXPECT_EQ(uphill.gained(), 0);
   uphill.to({1.2, 1.1}, {7, 6}, true);
   EXPECT_DOUBLE_EQ(uphill.gained(), 49. / 2 - 36. / 2);
   // A frictionless slope turns a fall into horizontal speed, and takes energy: no gain.
-  EXPECT_EQ(Run().to({0, 0}, {0, -6}).to({0.05, -0.05}, {3, -3}, true).gained(), 0);
+  EXPECT_EQ(Motion().to({0, 0}, {0, -6}).to({0.05, -0.05}, {3, -3}, true).gained(), 0);
 }
 
 TEST(EnergyGained, counts_no_push_out_of_where_the_scene_put_it_but_one_out_of_what_it_sank_into) {
-  EXPECT_EQ(Run().inside(true).to({0, 0}, {0, 0}).to({0, 1}, {0, 0}).inside(false).to({0, 1}, {0, 0}).gained(), 0);
-  EXPECT_DOUBLE_EQ(Run().to({0, 0}, {0, 0}).to({0, -1}, {0, 0}).inside(true).to({0, 0}, {0, 0}).gained(), 10);
+  EXPECT_EQ(Motion().inside(true).to({0, 0}, {0, 0}).to({0, 1}, {0, 0}).inside(false).to({0, 1}, {0, 0}).gained(), 0);
+  EXPECT_DOUBLE_EQ(Motion().to({0, 0}, {0, 0}).to({0, -1}, {0, 0}).inside(true).to({0, 0}, {0, 0}).gained(), 10);
 }
 
 TEST(EnergyBound, is_reach_times_gravity_and_rounding) {
-  const double exact = *Run().to({0, 0}, {0, 0}).to({0, 0}, {0, 0}).row().energy_bound_j_kg;
+  const double exact = *Motion().to({0, 0}, {0, 0}).to({0, 0}, {0, 0}).row().energy_bound_j_kg;
   EXPECT_NEAR(exact, 10 * 1e-6, 1e-12);
-  const double far = *Run().to({1e6, 0}, {1e3, 0}).to({1e6, 0}, {1e3, 0}).row().energy_bound_j_kg;
+  const double far = *Motion().to({1e6, 0}, {1e3, 0}).to({1e6, 0}, {1e3, 0}).row().energy_bound_j_kg;
   constexpr double epsilon = 0x1p-52;
   EXPECT_NEAR(far, 10 * (1e-6 + 2 * epsilon * 1e6) + 8 * epsilon * 1e6, 1e-12);
-  EXPECT_NEAR(*Run(header("box2d")).to({0, 0}, {0, 0}).to({0, 0}, {0, 0}).row().energy_bound_j_kg, 10 * 0.02, 1e-4);
+  EXPECT_NEAR(*Motion(header("box2d")).to({0, 0}, {0, 0}).to({0, 0}, {0, 0}).row().energy_bound_j_kg, 10 * 0.02, 1e-4);
 }
 
 TEST(EnergyGained, is_absent_where_scenery_moves_or_conveys) {
   TraceHeader moving = header();
   moving.scenery.colliders.front().mover = 0;
-  EXPECT_FALSE(Run(moving).falls(3).row().energy_gained_j_kg);
+  EXPECT_FALSE(Motion(moving).falls(3).row().energy_gained_j_kg);
   TraceHeader conveying = header();
   conveying.scenery.colliders.front().surface_speed = 1;
-  EXPECT_FALSE(Run(conveying).falls(3).row().energy_bound_j_kg);
+  EXPECT_FALSE(Motion(conveying).falls(3).row().energy_bound_j_kg);
 }
 
 TEST(EnergyGained, of_a_crowd_is_that_of_all_together) {
@@ -177,9 +177,11 @@ TEST(EventSequence, is_that_of_changes_whenever_they_come) {
   EXPECT_NE(one.event_sequence, events_of({air, floor}).event_sequence) << "one is missing";
   EXPECT_NE(one.event_sequence, events_of({air, floor, air, floor, corner}).event_sequence) << "a toggle";
   EXPECT_NE(one.event_sequence, events_of({air, corner, floor}).event_sequence) << "another order";
-  EXPECT_NE(one.event_sequence, events_of({air, floor, ended(true, {{0, Side::bottom}, {2, Side::right}})}).event_sequence)
+  EXPECT_NE(one.event_sequence,
+            events_of({air, floor, ended(true, {{0, Side::bottom}, {2, Side::right}})}).event_sequence)
       << "another collider";
-  EXPECT_NE(one.event_sequence, events_of({air, floor, ended(true, {{0, Side::bottom}, {1, Side::left}})}).event_sequence)
+  EXPECT_NE(one.event_sequence,
+            events_of({air, floor, ended(true, {{0, Side::bottom}, {1, Side::left}})}).event_sequence)
       << "another side";
 }
 

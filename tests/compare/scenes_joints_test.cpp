@@ -45,9 +45,9 @@ TEST(JsonJoints, are_read_with_what_they_say_and_what_they_leave_out) {
   EXPECT_EQ(scene.joints[3].body, 1U);
   EXPECT_EQ(scene.joints[3].point, Vec2d(2.5, 2));
   const std::string text = describe(scene);
-  for (const char* part : {"left: plank to the ground, a spring of 2 m, 1000 N/m, 2 N s/m",
-                           "joints/1: plank to crate, a rod of 1.5 m", "rail: plank to the ground, a rail along (0, 1)",
-                           "pin: crate to plank, a pin at (2.5, 2)"})
+  for (const char* part :
+       {"left: plank to the ground, a spring of 2 m, 1000 N/m, 2 N s/m", "joints/1: plank to crate, a rod of 1.5 m",
+        "rail: plank to the ground, a rail along (0, 1)", "pin: crate to plank, a pin at (2.5, 2)"})
     EXPECT_TRUE(holds(text, part));
 }
 
@@ -98,8 +98,8 @@ INSTANTIATE_TEST_SUITE_P(
     Each, BadJoint,
     testing::Values(
         Bad{"unknown_key", "\"damping\"", "\"dampening\"", ": /joints/0/dampening: unknown key; expected one of "},
-        Bad{"unknown_body", "[\"plank\"], \"pris", "[\"plnak\"], \"pris",
-            ": /joints/2/bodies/0: expected the id of one of \"bodies\"; \"plnak\" is none; did you mean plank?"},
+        Bad{"unknown_body", "[\"plank\"], \"pris", "[\"plonk\"], \"pris",
+            ": /joints/2/bodies/0: expected the id of one of \"bodies\"; \"plonk\" is none; did you mean plank?"},
         Bad{"a_solid_that_stands", "[\"plank\"], \"pris", "[\"floor\"], \"pris",
             ": /joints/2/bodies/0: expected the id of one of \"bodies\"; \"floor\" is none"},
         Bad{"the_same_body_twice", "[\"crate\", \"plank\"]", "[\"crate\", \"crate\"]",
@@ -119,7 +119,8 @@ INSTANTIATE_TEST_SUITE_P(
             ": /joints/1/damping: expected only beside \"stiffness\""},
         Bad{"no_stiffness", "1000", "0", ": /joints/0/stiffness: expected a number greater than 0"},
         Bad{"too_stiff", "1000", "2e12", ": /joints/0/stiffness: expected at most "},
-        Bad{"driving_damping", "\"damping\": 2", "\"damping\": -2", ": /joints/0/damping: expected a number from 0 to "},
+        Bad{"driving_damping", "\"damping\": 2", "\"damping\": -2",
+            ": /joints/0/damping: expected a number from 0 to "},
         Bad{"stiff_rail", "\"prismatic\": [0, 1]", "\"prismatic\": [0, 1], \"stiffness\": 3",
             ": /joints/2/stiffness: expected only beside \"distance\""},
         Bad{"no_direction", "\"prismatic\": [0, 1]", "\"prismatic\": [0, 0]",

@@ -220,9 +220,10 @@ TEST(JsonScene, motion_of_a_million_metres_in_a_step_is_the_most) {
 
 /// Written, read, and written again.
 TEST(WrittenScenes, read_back_as_they_were) {
-  for (const char* name : {"article_bullet", "slope_joints", "zero_thickness_paper", "lift_up", "conveyor",
-                           "sensor_gate", "one_way_drop", "stack_10", "plank_on_springs", "random_steps", "characters_head_on", "uneven_lift",
-                           "turning_arm", "start_overlapping_deep", "crush70", "scaled_1e3", "jump_into_overhang"}) {
+  for (const char* name :
+       {"article_bullet", "slope_joints", "zero_thickness_paper", "lift_up", "conveyor", "sensor_gate", "one_way_drop",
+        "stack_10", "plank_on_springs", "random_steps", "characters_head_on", "uneven_lift", "turning_arm",
+        "start_overlapping_deep", "crush70", "scaled_1e3", "jump_into_overhang"}) {
     const SceneFiles files;
     const Scene scene = load_scene(name, {});
     const nlohmann::ordered_json written = scene_json(scene);

@@ -3,7 +3,6 @@
 #include "runs/run_case.hpp"
 #include "scenes/load.hpp"
 #include "studies/processes.hpp"
-#include "studies/stability.hpp"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -124,6 +123,20 @@ TEST(FindBorder, brackets_a_border_that_is_known) {
   const Row always = find_border("speed_m_s", 0.1, 1e5, row_at(0));
   EXPECT_FALSE(always.border_low);
   EXPECT_EQ(always.border_high, 0.1);
+  const auto slow = [](const Row& row) { return row.distance_m.value_or(0) < 20; };
+  const auto moving = [](double value) {
+    Row row;
+    row.distance_m = value;
+    return row;
+  };
+  EXPECT_NEAR(*find_border("speed_m_s", 1, 100, moving, 8, slow).border_high, 20, 0.002) << "by another measure";
+  const auto explodes = [](double value) {
+    Row row;
+    row.verdict = value > 7 ? Verdict::failed : Verdict::holds;
+    row.finite = value <= 7;
+    return row;
+  };
+  EXPECT_NEAR(*find_border("speed_m_s", 1, 100, explodes).border_low, 7, 0.001) << "no number is no hold";
   const Row linear = find_border("phase", 0, 1, row_at(0.3));
   EXPECT_NEAR(*linear.border_low, 0.3, 1e-4);
 }
@@ -190,13 +203,6 @@ TEST(Processes, a_job_that_aborts_hangs_or_exits_is_a_result_and_the_others_run)
   EXPECT_NE(taken[3].find("Aborted: Assertion failed: it is so"), std::string::npos) << taken[3];
   EXPECT_NE(taken[5].find("took too long"), std::string::npos) << taken[5];
   EXPECT_NE(taken[8].find("ended unasked"), std::string::npos) << taken[8];
-}
-
-TEST(Stability, has_regions_whose_every_case_is_a_case) {
-  for (const StabilityRegion& region : stability_regions({})) {
-    EXPECT_NO_THROW(check(region.sweep)) << region.name;
-    EXPECT_EQ(region.sweep.axes.size(), 2U) << region.name;
-  }
 }
 
 TEST(Families, have_members_under_their_old_names_and_defaults_in_range) {

@@ -20,8 +20,8 @@ struct BodyDef {
   Vec2d velocity{Vec2d::Zero()};  ///< At the start [m/s].
 };
 
-/// Holds a body to the ground or to another body. Points are where they are at the start [m]. As bodies do not turn, two
-/// that are held by a pin keep their places to each other, and one that is pinned to the ground stays where it is.
+/// Holds a body to the ground or to another body. Points are where they are at the start [m]. As bodies do not turn,
+/// two that are held by a pin keep their places to each other, and one that is pinned to the ground stays where it is.
 struct JointDef {
   enum class Kind : std::uint8_t {
     distance,   ///< Between two points: a rod, or with a stiffness a spring (Box2D's implicit soft constraint).
@@ -30,13 +30,13 @@ struct JointDef {
   };
   Kind kind = Kind::distance;
   MoverIndex body = 0;
-  MoverIndex other = no_mover;    ///< Another body; absent: the ground.
-  Vec2d point{Vec2d::Zero()};     ///< On `body`: of a distance or a pin.
-  Vec2d end{Vec2d::Zero()};       ///< On `other`: of a distance.
-  Vec2d axis{0, 1};               ///< Of a prismatic joint.
-  double length = 1;              ///< Of a distance, where it pulls and pushes nothing [m]; from `least_length`.
-  double stiffness = 0;           ///< [N/m], up to `largest_stiffness`. 0: a rod.
-  double damping = 0;             ///< Of a spring [N s/m], up to `largest_stiffness`.
+  MoverIndex other = no_mover;  ///< Another body; absent: the ground.
+  Vec2d point{Vec2d::Zero()};   ///< On `body`: of a distance or a pin.
+  Vec2d end{Vec2d::Zero()};     ///< On `other`: of a distance.
+  Vec2d axis{0, 1};             ///< Of a prismatic joint.
+  double length = 1;            ///< Of a distance, where it pulls and pushes nothing [m]; from `least_length`.
+  double stiffness = 0;         ///< [N/m], up to `largest_stiffness`. 0: a rod.
+  double damping = 0;           ///< Of a spring [N s/m], up to `largest_stiffness`.
 };
 inline constexpr double least_length = 0.005;      ///< Box2D takes a shorter distance for as long [m].
 inline constexpr double largest_stiffness = 1e12;  ///< [N/m]
@@ -50,7 +50,8 @@ class BodyWorld {
   /// @param scenery all colliders of a body stand where the body begins, at offset (0, 0).
   /// @param bodies one for each mover of the scenery; absent for those that go along paths.
   /// @param gravity [m/s²].
-  /// @param joints between bodies and the ground, which is no collider: joints change no collision but of what is pinned.
+  /// @param joints between bodies and the ground, which is no collider: joints change no collision but of what is
+  /// pinned.
   /// @throws InvalidDefinition in words; never aborts inside Box2D.
   BodyWorld(const Scenery<double>& scenery, std::span<const std::optional<BodyDef>> bodies, const Vec2d& gravity,
             std::span<const JointDef> joints = {});
