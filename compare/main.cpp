@@ -266,16 +266,17 @@ void add_rows_commands(CLI::App& app, int& status) {
 struct SceneWords {
   std::vector<std::string> scenes;
   std::optional<std::string> input;  ///< Of `plan`.
-  std::string to;                    ///< Of `convert`.
+  std::string from;                  ///< Of `convert`.
+  std::string to;                    ///< The same.
 };
 
 void add_scene_commands(CLI::App& app, int& status) {
   CLI::App& convert = *app.add_subcommand("convert", "Write a map or a built-in scene as a JSON scene");
   const auto converted = std::make_shared<SceneWords>();
-  convert.add_option("SCENE", converted->scenes, scene_words)->required()->expected(1);
+  convert.add_option("SCENE", converted->from, scene_words)->required();
   convert.add_option("OUT", converted->to, "Where it goes")->required()->type_name("OUT.json");
   on_parsed(convert, status, converted,
-            [](const SceneWords& typed) { return convert_command(typed.scenes.front(), typed.to); });
+            [](const SceneWords& typed) { return convert_command(typed.from, typed.to); });
 
   CLI::App& check = *app.add_subcommand("check", "Validate scenes and say what is in them");
   const auto checked = std::make_shared<SceneWords>();

@@ -181,5 +181,16 @@ TEST(Command, says_what_a_scene_does_not_need_and_writes_it_into_traces) {
       << "the steps are the same to the last bit";
 }
 
+TEST(CommandConvert, writes_a_scene_that_reads_back_as_the_same) {
+  const Workplace place;
+  for (const char* scene : {"article_bullet", "plank_on_springs"}) {
+    EXPECT_EQ(place.run(std::string("convert ") + scene + " once.json").status, 0) << scene;
+    EXPECT_EQ(place.run("convert once.json twice.json").status, 0) << scene;
+    EXPECT_EQ(content(place.path("once.json")), content(place.path("twice.json"))) << scene;
+    EXPECT_EQ(place.run("check once.json").status, 0) << scene;
+  }
+  EXPECT_EQ(place.run("convert article_bullet").status, 2) << "where to";
+}
+
 }  // namespace
 }  // namespace paperproof::compare
