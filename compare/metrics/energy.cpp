@@ -3,7 +3,9 @@
 #include "oracle/exemptions.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace paperproof::compare {
 namespace {
@@ -19,7 +21,10 @@ bool stands_still(const ColliderDef& collider) { return collider.mover == no_mov
 }  // namespace
 
 Energy::Energy(const TraceHeader& header, const Vec2d& gravity)
-    : gravity_(gravity), reach_(own_reach(header)), characters_(header.characters) {
+    : gravity_(gravity),
+      least_up_(std::cos((header.max_climb_degrees + 1e-3) * std::numbers::pi / 180)),
+      reach_(own_reach(header)),
+      characters_(header.characters) {
   const std::vector<ColliderDef>& colliders = header.scenery.colliders;
   applies_ = std::all_of(colliders.begin(), colliders.end(), stands_still);
   epsilon_ = header.scalar == "float" ? static_cast<double>(std::numeric_limits<float>::epsilon())
@@ -32,6 +37,12 @@ bool Energy::is_pushed(const Character& who, const TraceStep& step, double dt) c
   return (step.requested / dt).squaredNorm() > steered_from * unsteered.squaredNorm();
 }
 
+bool Energy::is_on_foot(const Character& who, const TraceStep& step) const {
+  return who.grounded || step.grounded ||
+         std::any_of(step.contacts.begin(), step.contacts.end(),
+                     [this](const Contact<double>& contact) { return contact.normal.y() >= least_up_; });
+}
+
 void Energy::add(const TraceStep& step, double dt) {
   if (!applies_) return;
   Character& who = characters_[step.character];
@@ -40,7 +51,7 @@ void Energy::add(const TraceStep& step, double dt) {
   now_.put_in = now_.put_in || is_pushed(who, step, dt);
   const double after = step.velocity.squaredNorm() / 2 - gravity_.dot(to);
   const double forward = (step.velocity.x() * step.velocity.x() - who.velocity.x() * who.velocity.x()) / 2;
-  const bool walks = (who.grounded || step.grounded) && to.x() != from.x();
+  const bool walks = is_on_foot(who, step) && to.x() != from.x();
   now_.gain += walks ? std::min(after - who.energy, forward) : after - who.energy;
   now_.energy += after;
   now_.walks = now_.walks || walks;

@@ -11,8 +11,8 @@ namespace paperproof::compare {
 /// Energy of the characters per kilogram, E = v²/2 - g·x, the sum over all of them [J/kg].
 /// - `energy_gained_j_kg`: how far E ever rises above the least value that it had since something was last put in. A
 ///   step puts something in where the wanted motion is faster than the velocity before it with gravity: steering, a
-///   jump; and where somebody is put elsewhere. Whoever walks has legs: in a step that begins or ends grounded and goes
-///   sideways the gain is what both E and the horizontal part of v²/2 grow by, at most.
+///   jump; and where somebody is put elsewhere. Whoever walks has legs: in a step that goes sideways and begins or ends
+///   grounded, or touches what is walkable, the gain is what both E and the horizontal part of v²/2 grow by, at most.
 /// - `energy_bound_j_kg`: what is no gain: gravity times what the contender calls near (1e-6 m, Box2D's skin of 20 mm),
 ///   and rounding: 8 epsilon of the largest v², and two ulp of the largest coordinate in the field of gravity.
 ///
@@ -41,13 +41,15 @@ class Energy {
     bool put_in = false;
     bool walks = false;
   };
+  [[nodiscard]] bool is_on_foot(const Character& who, const TraceStep& step) const;
   [[nodiscard]] bool is_pushed(const Character& who, const TraceStep& step, double dt) const;
   void conclude(const Sum& sum);
 
   Vec2d gravity_;
   bool applies_ = false;
-  double reach_ = 0;    ///< What the contender calls near [m].
-  double epsilon_ = 0;  ///< Of its number type.
+  double least_up_ = 0;  ///< Of the normals of walkable ground.
+  double reach_ = 0;     ///< What the contender calls near [m].
+  double epsilon_ = 0;   ///< Of its number type.
   std::vector<Character> characters_;
   Sum now_;
   double least_ = 0;

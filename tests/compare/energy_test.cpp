@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace paperproof::compare {
 namespace {
 
@@ -27,13 +29,15 @@ class Motion {
   explicit Motion(const TraceHeader& of = header()) : energy_(of, gravity) {}
 
   /// As it is wanted without input, unless `wanted` is given.
-  Motion& to(const Vec2d& position, const Vec2d& velocity, bool grounded = false, std::optional<Vec2d> wanted = {}) {
+  Motion& to(const Vec2d& position, const Vec2d& velocity, bool grounded = false, std::optional<Vec2d> wanted = {},
+             const std::vector<Vec2d>& touched = {}) {
     TraceStep step;
     step.path = {{position_, 0}, {position, 1}};
     step.requested = wanted.value_or(velocity_ + gravity * dt) * dt;
     step.velocity = velocity;
     step.grounded = grounded;
     step.start_overlap = inside_;
+    for (const Vec2d& normal : touched) step.contacts.emplace_back().normal = normal;
     energy_.add(step, dt);
     position_ = position;
     velocity_ = velocity;
@@ -93,6 +97,12 @@ TEST(EnergyGained, of_who_walks_uphill_is_what_the_horizontal_speed_grows_by) {
   EXPECT_EQ(uphill.gained(), 0);
   uphill.to({1.2, 1.1}, {7, 6}, true);
   EXPECT_DOUBLE_EQ(uphill.gained(), 49. / 2 - 36. / 2);
+  // Over the top of a slope within a step: it is walked on, and neither the beginning nor the end is grounded.
+  const auto over = [](const Vec2d& normal) {
+    return Motion().to({0, 0}, {6, -3}).to({0.1, 0.1}, {6, 5}, false, {}, {normal}).gained();
+  };
+  EXPECT_EQ(over({-std::sqrt(0.5), std::sqrt(0.5)}), 0);
+  EXPECT_DOUBLE_EQ(over({-0.8, 0.6}), (25. - 9) / 2 + 1) << "steeper than 50 degrees";
   // A frictionless slope turns a fall into horizontal speed, and takes energy: no gain.
   EXPECT_EQ(Motion().to({0, 0}, {0, -6}).to({0.05, -0.05}, {3, -3}, true).gained(), 0);
 }
