@@ -62,7 +62,7 @@ Metrics::Metrics(const TraceHeader& header, const Measured& measured)
   if (any([](const ColliderDef& def) { return def.sensor; })) sums_.sensor_events = sums_.sensor_errors = 0;
   for (std::optional<int>* counter :
        {&sums_.tunnels, &sums_.corner_cuts, &sums_.steps_ending_inside, &sums_.contact_steps, &sums_.hanging_steps,
-        &sums_.stuck_steps, &sums_.stuck_refuted, &sums_.dropped_steps}) {
+        &sums_.stuck_steps, &sums_.stuck_refuted, &sums_.ground_refuted, &sums_.dropped_steps}) {
     *counter = 0;
   }
   if (measured_.respawns) sums_.respawns = 0;
@@ -178,7 +178,8 @@ void Metrics::add_passings(const TraceStep& step, const StepJudgement& judgement
   count(sums_.tunnels, !judgement.tunnelled.empty() || !company.passed.empty());
   count(sums_.corner_cuts, !judgement.corner_cut.empty() || !company.corner_cut.empty());
   const auto inside_on_its_own = [&judgement](ColliderIndex collider) {
-    return !contains(judgement.pressed, collider) && !contains(judgement.rounded, collider);
+    return !contains(judgement.pressed, collider) && !contains(judgement.rounded, collider) &&
+           !contains(judgement.drawn, collider);
   };
   const bool inside = !company.overlap.empty() ||
                       std::any_of(judgement.end_overlap.begin(), judgement.end_overlap.end(), inside_on_its_own);
@@ -221,6 +222,7 @@ void Metrics::add_progress(const TraceStep& step, const StepJudgement& judgement
   count(sums_.hanging_steps, judgement.hangs);
   count(sums_.stuck_steps, step.stuck);
   count(sums_.stuck_refuted, judgement.stuck_refuted);
+  count(sums_.ground_refuted, judgement.ground_refuted);
   count(sums_.dropped_steps, step.dropped);
   motion_wanted_ += judgement.motion_wanted;
   motion_lost_ += judgement.motion_lost;
@@ -238,6 +240,8 @@ void Metrics::add_exempted(const StepJudgement& judgement) {
   };
   exempt(Exempt::corner_cut, !judgement.corner_cut.empty() || !judgement.company.corner_cut.empty());
   exempt(Exempt::hover, judgement.hovers);
+  exempt(Exempt::drawn, !judgement.drawn.empty());
+  exempt(Exempt::late_ground, judgement.ground_late);
   exempt(Exempt::touched_crush, judgement.excused_crush);
 }
 
@@ -280,6 +284,7 @@ void Metrics::write(Row& row) const {
   row.steps_inside_after_crush = sums_.steps_inside_after_crush;
   row.hanging_steps = sums_.hanging_steps;
   row.stuck_refuted = sums_.stuck_refuted;
+  row.ground_refuted = sums_.ground_refuted;
   row.distance_m = sums_.distance_m;
   row.normal_error_max_deg = sums_.normal_error_max_deg;
   row.rounding = sums_.rounding;

@@ -15,7 +15,7 @@ constexpr double skin_of_box2d = 0.020;
 constexpr double least_reach = 1e-6;
 
 //                                                                 octagon_sweep  Box2D          by units  others
-constexpr std::array<Exemption, 7> all{{
+constexpr std::array<Exemption, 9> all{{
     {Exempt::corner_cut,
      "corner_cut",
      "passes a solid with a rim of the octagon no deeper than this (and an eighth of its width)",
@@ -43,10 +43,21 @@ constexpr std::array<Exemption, 7> all{{
      "says that it is crushed with room left, touched by another character",
      "",
      {0, 1, 1, 1}},
+    {Exempt::late_ground,
+     "late_ground",
+     "says that it is grounded by what was under it earlier in the step",
+     "",
+     {0, 1, 1, 1}},
+    {Exempt::drawn,
+     "drawn",
+     "is inside, or passes, pixels no deeper than this: it is drawn on whole pixels, and the octagon is not",
+     "m",
+     {0, 0, its_pixel, 0}},
 }};
 
 std::string size_in_words(const Exemption& exemption, Party party) {
   const double size = exemption.sizes[static_cast<std::size_t>(party)];
+  if (size == its_pixel) return "its pixel";
   if (size == its_own) return party == Party::by_units ? "its unit" : "its touch gap";
   if (exemption.unit.empty()) return size > 0 ? "yes" : "no";
   if (size == 0) return "0";
@@ -67,6 +78,7 @@ std::span<const Exemption> exemptions() { return all; }
 
 double allowed(Exempt which, const TraceHeader& header) {
   const double size = all[static_cast<std::size_t>(which)].sizes[static_cast<std::size_t>(party_of(header))];
+  if (size == its_pixel) return tolerance_named(header, "pixel");
   return size == its_own ? own_reach(header) : size;
 }
 

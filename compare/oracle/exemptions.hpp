@@ -19,7 +19,7 @@ enum class Party : std::uint8_t {
 };
 [[nodiscard]] Party party_of(const TraceHeader& header);
 
-enum class Exempt : std::uint8_t { corner_cut, late_match, reach, hover, company, stuck, touched_crush };
+enum class Exempt : std::uint8_t { corner_cut, late_match, reach, hover, company, stuck, touched_crush, late_ground, drawn };
 
 struct Exemption {
   Exempt which = Exempt::corner_cut;
@@ -30,6 +30,8 @@ struct Exemption {
 };
 /// A unit of its search, or the gap up to which it holds a contact.
 inline constexpr double its_own = -1;
+/// A pixel of the picture that it draws, where the scenery is made of these very pixels; elsewhere 0.
+inline constexpr double its_pixel = -2;
 
 /// In the order of `Exempt`.
 [[nodiscard]] std::span<const Exemption> exemptions();

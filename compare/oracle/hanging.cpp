@@ -64,6 +64,18 @@ bool HangingJudge::hangs(const Vec2d& made, const Reach& reach) const {
   return falls_short_of(fall_leg_by_leg(unsteered, corners, reach)) && !is_run_into(reach);
 }
 
+bool HangingJudge::has_support(std::size_t corner, double within) const {
+  std::vector<NearPart> parts = scenery_.near_parts(Place(step_.path[corner], step_.movers), within);
+  if (others_.near)
+    for (NearPart& other : others_.near(step_.path[corner], within)) parts.push_back(std::move(other));
+  const std::vector<ColliderIndex>& dropped = step_.dropped_through;
+  return std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
+    if (std::find(dropped.begin(), dropped.end(), part.collider) != dropped.end()) return false;
+    return part.faces.front().separation < 0 ||
+           std::any_of(part.faces.begin(), part.faces.end(), [](const NearFace& face) { return face.normal.y() > 0; });
+  });
+}
+
 void HangingJudge::Nearby::add(const Nearby& other) {
   obstacles.insert(obstacles.end(), other.obstacles.begin(), other.obstacles.end());
   holds = holds || other.holds;

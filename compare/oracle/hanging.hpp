@@ -21,13 +21,15 @@ inline constexpr Reach exact_reach{1e-6, 2e-7};
 /// Whether a surface with this unit normal is within the climb limit, and 1e-6 rad.
 [[nodiscard]] bool is_walkable(const Vec2d& normal, const TraceHeader& header);
 
-/// Asks of a step whether it hangs: see `Judge` for what that means. Lives for one step.
+/// Asks of a step whether it hangs, and what it stands on: see `Judge` for what that means. Lives for one step.
 class HangingJudge {
  public:
   HangingJudge(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step, const Others& others);
 
   /// @param made what the step went [m].
   [[nodiscard]] bool hangs(const Vec2d& made, const Reach& reach) const;
+  /// Whether a face that looks upwards is no farther away, or anything is overlapped, at a corner of the step's way.
+  [[nodiscard]] bool has_support(std::size_t corner, double within) const;
 
  private:
   /// The displacements that stay outside an obstacle, beyond one of its faces: normal · d >= bound.

@@ -55,6 +55,8 @@ StepJudgement Judge::judge(const TraceStep& step, const Others& others) {
   const bool beside = turning_->is_near(step, detail::reach_of(header_).contact);
   judgement.hangs = judgement.hangs && !beside;
   judgement.hovers = judgement.hovers && !beside;
+  judgement.ground_refuted = judgement.ground_refuted && !beside;
+  judgement.ground_late = judgement.ground_late && !beside;
   return judgement;
 }
 
@@ -183,11 +185,16 @@ void Judge::judge_end(const Path& path, Touched& touched, StepJudgement& judgeme
     }
     episode.pressed = episode.pressed || contains(judgement.crushed, collider);
     const bool was_rounded = episode.rounded;
-    episode.rounded = !promises_ && (is_new || was_rounded) && depth <= ulp_at(header_, path.back().position);
+    const double rounding = promises_ ? 0 : ulp_at(header_, path.back().position);
+    const double excused = std::max(rounding, allowed(Exempt::drawn, header_));
+    episode.rounded = (is_new || was_rounded) && depth <= excused;
     if (episode.pressed) {
       judgement.pressed.push_back(collider);
-    } else if (episode.rounded) {
+    } else if (episode.rounded && depth <= rounding) {
       judgement.rounded.push_back(collider);
+    } else if (episode.rounded) {
+      judgement.drawn.push_back(collider);
+      judgement.max_penetration = std::max(judgement.max_penetration, depth);
     } else {
       judgement.max_penetration = std::max(judgement.max_penetration, depth);
       if (is_new || was_rounded) judgement.entered.push_back(collider);
@@ -325,14 +332,25 @@ void Judge::judge_crushes(const Path& path, const TraceStep& step, const Touched
 }
 
 void Judge::judge_progress(const TraceStep& step, const Others& others, StepJudgement& judgement) {
-  if (!judgement.crushed.empty()) return;
   const detail::HangingJudge hanging(header_, scenery_, step, others);
+  if (step.grounded) judge_ground(hanging, step, judgement);
+  if (!judgement.crushed.empty()) return;
   const Vec2d before = step.respawn ? step.remainder : remainder_before_;
   const Vec2d made = step.path.back().position - step.path.front().position + step.remainder - before;
   const detail::Reach own = detail::reach_of(header_);
   judgement.hangs = hanging.hangs(made, own);
   judgement.hovers =
       own.contact > detail::exact_reach.contact && !judgement.hangs && hanging.hangs(made, detail::exact_reach);
+}
+
+void Judge::judge_ground(const detail::HangingJudge& hanging, const TraceStep& step, StepJudgement& judgement) const {
+  const std::size_t end = step.path.size() - 1;
+  const double rounding = promises_ ? 0 : ulp_at(header_, step.path[end].position);
+  const double within = detail::reach_of(header_).contact + rounding;
+  if (hanging.has_support(end, within)) return;
+  for (std::size_t corner = 0; corner < end && allowed(Exempt::late_ground, header_) > 0; ++corner)
+    judgement.ground_late = judgement.ground_late || hanging.has_support(corner, within);
+  judgement.ground_refuted = !judgement.ground_late;
 }
 
 /// Asked once for each place: it costs much, and whoever is stuck mostly stays.

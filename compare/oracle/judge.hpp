@@ -10,6 +10,7 @@
 namespace paperproof::compare {
 
 namespace detail {
+class HangingJudge;
 class TurningJudge;
 }
 
@@ -36,6 +37,7 @@ struct StepJudgement {
   std::vector<ColliderIndex> pressed;      ///< Of these, the ones that a verified crush brought on, now or before.
   std::vector<ColliderIndex> entered;      ///< Of these, the ones that are new and not pressed.
   std::vector<ColliderIndex> rounded;      ///< Of these, the ones that are no deeper than rounding: see `Judge`.
+  std::vector<ColliderIndex> drawn;        ///< Of these, the ones that are no deeper than a pixel: see `Judge`.
   std::vector<ColliderIndex> tunnelled;    ///< Solids that were passed through: see `Judge`.
   std::vector<Passing> passings;           ///< One for each of `tunnelled`.
   std::vector<ColliderIndex> corner_cut;   ///< The same, but no deeper than the slop.
@@ -70,6 +72,8 @@ struct StepJudgement {
   double motion_wanted = 0;     ///< Horizontally [m].
   double motion_lost = 0;       ///< Of that, to nothing exact [m]: see `Judge`.
   bool stuck_refuted = false;   ///< It said that it is stuck, and there is a way out: see `Judge`.
+  bool ground_refuted = false;  ///< It said that it is grounded, and nothing is under it: see `Judge`.
+  bool ground_late = false;     ///< The same, but something was under it earlier in the step: excused.
   double ghost_speed_loss = 0;  ///< Share of the wanted horizontal speed that was lost to nothing exact, in [0, 1].
   std::vector<ExactSensorEvent> sensor_events;  ///< What should have been reported.
   int sensor_events_missing = 0;                ///< Of `sensor_events`.
@@ -139,6 +143,9 @@ struct StepJudgement {
 ///
 /// **Rounding.** Whoever promises nothing may end inside by one ulp of its largest coordinate: `rounded` is no overlap.
 ///
+/// **Drawn.** Who draws a level that is made of pixels lays itself on whole pixels, up to one beside the octagon. Where it
+/// ends no deeper inside than that, it is `drawn` (exempted): no overlap, but its depth counts.
+///
 /// **Corner cut.** The same as tunnelling, but nowhere deeper than the slop (exempted), and never more than an eighth
 /// of the octagon's narrowest width. The depth is the octagon's, not the solid's: however thin a paper is, an octagon
 /// that passes it is half its own width deep at some instant. What a cut touches is therefore only a rim of the
@@ -196,6 +203,12 @@ struct StepJudgement {
 /// free of what it is inside of. The way is asked for where the step begins, as things are then: what moves may open
 /// one later. Of a step that begins free and ends inside it is asked for where it ends.
 ///
+/// **Ground, refuted.** A step that says it is grounded is refuted if at its end it overlaps nothing, and no solid and no
+/// other character has a face that looks upwards within the contender's reach (`detail::reach_of`; who promises nothing:
+/// and rounding). Whoever promises nothing may have stood on something earlier in the step (exempted): Box2D
+/// reads its contacts before it moves the bodies, and the article's techniques go on after they have met the ground.
+/// Nothing is asked beside what turns.
+///
 /// **Normal error.** The angle between the normal of a reported contact and the nearest normal of the exact contacts
 /// with that collider on that side, and of the face that is touched along the reported normal.
 ///
@@ -229,7 +242,7 @@ class Judge {
     std::optional<Kept> free_from;  ///< Last place free of it; none where the run began inside.
     double depth = 0;               ///< Largest so far [m].
     bool pressed = false;           ///< By a verified crush.
-    bool rounded = false;           ///< No deeper than rounding so far.
+    bool rounded = false;           ///< No deeper than rounding, or a drawn pixel, so far.
   };
   using Path = std::vector<Place>;
   using Touched = std::map<ColliderIndex, std::size_t>;  ///< With the corner where the first leg that meets it begins.
@@ -252,6 +265,7 @@ class Judge {
   void judge_crushes(const Path& path, const TraceStep& step, const Touched& touched, const Others& others,
                      StepJudgement& judgement) const;
   void judge_sensors(const Path& path, const TraceStep& step, StepJudgement& judgement) const;
+  void judge_ground(const detail::HangingJudge& hanging, const TraceStep& step, StepJudgement& judgement) const;
   void judge_progress(const TraceStep& step, const Others& others, StepJudgement& judgement);
   [[nodiscard]] std::vector<ColliderIndex> newly_inside(const StepJudgement& judgement) const;
   [[nodiscard]] bool has_way_out(const Place& at, const Others& others);

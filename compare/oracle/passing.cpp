@@ -71,7 +71,8 @@ double narrowest_width(const std::vector<Vec2d>& ring) {
 }
 
 double slop_of(const TraceHeader& header) {
-  return std::min(allowed(Exempt::corner_cut, header), slop_of_width * narrowest_width(header.points));
+  const double slop = std::max(allowed(Exempt::corner_cut, header), allowed(Exempt::drawn, header));
+  return std::min(slop, slop_of_width * narrowest_width(header.points));
 }
 
 }  // namespace paperproof::compare::detail

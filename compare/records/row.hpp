@@ -103,6 +103,7 @@ struct Row {
   std::optional<int> hanging_steps;
   std::optional<int> stuck_steps;
   std::optional<int> stuck_refuted;
+  std::optional<int> ground_refuted;
   std::optional<int> dropped_steps;
   std::optional<double> answer_error;
   std::optional<bool> answer_ok;

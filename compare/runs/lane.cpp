@@ -269,6 +269,7 @@ void Lane::conclude_progress(bool promised) {
   };
   fault(row_.hanging_steps, broken, "hangs");
   fault(row_.stuck_refuted, broken, "says it is stuck beside a way out");
+  fault(row_.ground_refuted, Verdict::flagged, "says it is grounded with nothing under it");
   fault(row_.dropped_steps, Verdict::flagged, "drops displacement");
   if (const double lost = row_.wanted_motion_lost.value_or(0); lost > (promised ? 0 : most_motion_lost))
     add_fault(row_, Axis::progress, broken,

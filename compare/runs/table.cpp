@@ -63,6 +63,7 @@ const std::vector<Column>& columns() {
       {"hanging", [](const Row& r) { return number(r.hanging_steps, "{}"); }, true},
       {"stuck", [](const Row& r) { return number(r.stuck_steps, "{}"); }, true},
       {"refuted", [](const Row& r) { return number(r.stuck_refuted, "{}"); }, true},
+      {"no ground", [](const Row& r) { return number(r.ground_refuted, "{}"); }, true},
       {"dropped", [](const Row& r) { return number(r.dropped_steps, "{}"); }, true},
       {"lost", [](const Row& r) { return number(r.wanted_motion_lost, "{:.2g}"); }, true},
       {"crushes", [](const Row& r) { return number(r.crushes, "{}"); }, true},

@@ -136,6 +136,61 @@ TEST(Judge, who_is_freed_by_what_it_was_stuck_in_was_stuck) {
   EXPECT_FALSE(judged.stuck_refuted);
 }
 
+constexpr double half_height = 0.625;  // of the octagon
+
+/// Of who stands at a height above a floor, and came from another.
+StepJudgement says_grounded(const TraceHeader& header, double from, double to) {
+  TraceStep stands = step({{0, half_height + from}, {0, half_height + to}});
+  stands.grounded = true;
+  return Judge(header).judge(stands);
+}
+
+TEST(Judge, ground_is_refuted_where_nothing_is_under_it) {
+  const std::vector<ColliderDef> floor{box(-4, -1, 4, 0)};
+  EXPECT_FALSE(says_grounded(promising(floor), 0, 0.9e-6).ground_refuted);
+  EXPECT_TRUE(says_grounded(promising(floor), 0, 1.1e-6).ground_refuted);
+  TraceStep silent = step({{0, 9}, {0, 9}});
+  EXPECT_FALSE(Judge(promising(floor)).judge(silent).ground_refuted) << "it says nothing";
+  const std::vector<ColliderDef> ceiling{box(-4, 2 * half_height, 4, 4)};
+  EXPECT_TRUE(says_grounded(promising(ceiling), 0, 0).ground_refuted) << "what it touches is above it";
+  const std::vector<ColliderDef> wall{box(0.3125, -4, 4, 4)};
+  EXPECT_TRUE(says_grounded(promising(wall), 0, 0).ground_refuted) << "what it touches is beside it";
+  EXPECT_FALSE(says_grounded(promising(floor), 0, -0.1).ground_refuted) << "inside of it: another answer says so";
+}
+
+TEST(Judge, ground_that_was_there_earlier_in_the_step_is_excused_only_who_promises_nothing) {
+  const std::vector<ColliderDef> floor{box(-4, -1, 4, 0)};
+  EXPECT_TRUE(says_grounded(promising(floor), 0, 0.1).ground_refuted);
+  for (const bool exact : {true, false}) {
+    const StepJudgement judged = says_grounded(header(floor, exact), 0, 0.1);
+    EXPECT_FALSE(judged.ground_refuted);
+    EXPECT_TRUE(judged.ground_late);
+    EXPECT_TRUE(says_grounded(header(floor, exact), 0.1, 0.1).ground_refuted) << "nor was it";
+  }
+  EXPECT_FALSE(says_grounded(header(floor, false), 0.0199, 0.0199).ground_refuted) << "Box2D's skin";
+  EXPECT_FALSE(says_grounded(header(floor, false), 0.0199, 0.0199).ground_late);
+  EXPECT_TRUE(says_grounded(header(floor, false), 0.0201, 0.0201).ground_refuted);
+  TraceHeader by_units = header(floor);
+  by_units.tolerances = {{"unit", 0.03}};
+  EXPECT_FALSE(says_grounded(by_units, 0.029, 0.029).ground_refuted);
+  EXPECT_TRUE(says_grounded(by_units, 0.031, 0.031).ground_refuted);
+}
+
+TEST(Judge, who_draws_pixels_may_be_as_deep_in_them_as_one) {
+  TraceHeader drawing = header({box(-4, -1, 4, 0)});
+  drawing.tolerances = {{"unit", 0.03}};
+  EXPECT_EQ(Judge(drawing).judge(step({{0, half_height}, {0, half_height - 0.02}})).entered, Colliders{0})
+      << "no level of pixels";
+  drawing.tolerances.push_back({"pixel", 0.03});
+  const StepJudgement within = Judge(drawing).judge(step({{0, half_height}, {0, half_height - 0.029}}));
+  EXPECT_EQ(within.drawn, Colliders{0});
+  EXPECT_TRUE(within.entered.empty());
+  EXPECT_NEAR(within.max_penetration, 0.029, 1e-12) << "how deep stays visible";
+  const StepJudgement deeper = Judge(drawing).judge(step({{0, half_height}, {0, half_height - 0.031}}));
+  EXPECT_EQ(deeper.entered, Colliders{0});
+  EXPECT_TRUE(deeper.drawn.empty());
+}
+
 TEST(Judge, motion_that_is_missing_was_lost_unless_something_is_in_its_way) {
   const auto lost = [](double from, double to, double wanted) {
     TraceStep went = step({{from, 0.625 + 5e-7}, {to, 0.625 + 5e-7}});

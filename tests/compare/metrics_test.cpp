@@ -66,9 +66,10 @@ TEST(Metrics, steps_that_are_said_to_be_stuck_are_counted_and_miss_no_contact) {
   EXPECT_EQ(row_of(run).stuck_steps, 4);
   EXPECT_EQ(row_of(run).contact_recall, 1.0);
   EXPECT_EQ(row_of(run).exempted.at("stuck"), 4);
-  run[5].judged.stuck_refuted = true;
+  run[5].judged.stuck_refuted = run[5].judged.ground_refuted = true;
   const Row promises = row_of(run, promising_header());
   EXPECT_EQ(promises.stuck_refuted, 1);
+  EXPECT_EQ(promises.ground_refuted, 1);
   EXPECT_EQ(promises.contact_recall, 2.0 / 3) << "three were right, and no exemption";
   EXPECT_TRUE(promises.exempted.empty());
 }
@@ -78,11 +79,14 @@ TEST(Metrics, what_is_not_held_against_a_contender_is_counted_by_name) {
   for (int i = 0; i < 5; ++i) run.push_back(moment(i));
   run[0].judged.corner_cut = {1};
   run[1].judged.hovers = run[2].judged.hovers = true;
-  run[3].judged.excused_crush = true;
+  run[3].judged.excused_crush = run[3].judged.ground_late = true;
+  run[3].judged.end_overlap = run[3].judged.drawn = {1};
   run[4].step.contacts = {contact(0, Side::bottom)};
   run[4].judged.excused_by_company = run[4].judged.dont_care = {0};
-  const std::map<std::string, int> expected{{"company", 1}, {"corner_cut", 1}, {"hover", 2}, {"touched_crush", 1}};
+  const std::map<std::string, int> expected{{"company", 1}, {"corner_cut", 1},  {"drawn", 1},
+                                            {"hover", 2},   {"late_ground", 1}, {"touched_crush", 1}};
   EXPECT_EQ(row_of(run).exempted, expected);
+  EXPECT_EQ(row_of(run).steps_ending_inside, 0);
 }
 
 TEST(Metrics, distance_and_motion_lost_are_sums_over_the_run) {

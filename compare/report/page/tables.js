@@ -86,6 +86,10 @@ const QUALITY = [
     'stuck_refuted', 'Stuck, refuted', 'steps', count,
     'Steps on which it said that it is stuck, and exact arithmetic has a straight way out'
   ],
+  [
+    'ground_refuted', 'Ground, refuted', 'steps', count,
+    'Steps on which it said that it stands, and exact arithmetic has nothing under it'
+  ],
   ['wanted_motion_lost', 'Motion lost', 'share', measure, 'Share of the wanted horizontal motion lost to nothing exact'],
   ['distance_m', 'Distance', 'm', measure, 'Length of the way that was travelled'],
   ['exempted', 'Exempted', '', count, 'What was not held against it, and how often; the sizes stand in the summary'],
