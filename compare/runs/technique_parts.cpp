@@ -68,6 +68,21 @@ std::shared_ptr<const PixelTileSet> tiles_for(TechniqueKind kind, const Scene& s
   return scene.tile_level.tiles;
 }
 
+std::shared_ptr<const SceneryDef> decoration_for(TechniqueKind kind, const Scene& scene) {
+  if (kind != TechniqueKind::pixel_colour || scene.decoration.empty()) return nullptr;
+  SceneryDef drawn;
+  for (const Decoration& each : scene.decoration) drawn.colliders.push_back({.points = each.polygon});
+  return std::make_shared<const SceneryDef>(std::move(drawn));
+}
+
+/// The picture of the character has the scene's pixels.
+std::vector<std::string> sprite_for(TechniqueKind kind, const Scene& scene, std::span<const KnobSetting> knobs) {
+  if (kind != TechniqueKind::mask || scene.sprite.empty()) return {};
+  if (is_turned(knobs, "raster_pixels_per_metre") || scene.pixels_per_metre > finest_raster)
+    throw NotApplicable("mask has the picture of the character from the scene, in the scene's pixels");
+  return scene.sprite;
+}
+
 ArticleKnobs article_knobs(TechniqueKind kind, const Scene& scene, std::span<const KnobSetting> knobs) {
   TechniqueDef def;
   def.kind = kind;
@@ -112,6 +127,8 @@ TechniqueDef definition_of(TechniqueKind kind, const Scene& scene, const Plan& p
   turn_knobs(knobs, def);
   refuse_coarser_drawing(kind, scene, knobs);
   def.pixel_tiles = tiles_for(kind, scene, knobs);
+  def.decoration = decoration_for(kind, scene);
+  def.sprite = sprite_for(kind, scene, knobs);
   return def;
 }
 
@@ -138,6 +155,8 @@ TraceHeader header_of(TechniqueKind kind, const Scenery<Scalar>& scenery, const 
   header.plan = plan;
   header.tolerances = tolerances_of<Scalar>();
   if (const double unit = unit_of(kind, scene, knobs); unit > 0) header.tolerances.push_back({"unit", unit});
+  if (is_drawn(kind) && scene.has_pixels && !is_turned(knobs, "raster_pixels_per_metre"))
+    header.tolerances.push_back({"pixel", 1 / scene.pixels_per_metre});
   return header;
 }
 

@@ -12,6 +12,7 @@ namespace paperproof::compare {
 [[nodiscard]] std::vector<BuiltInScene> angle_scenes();    ///< Grazing, rotated, corners and wedges.
 [[nodiscard]] std::vector<BuiltInScene> ground_scenes();   ///< Tiles, slopes, shafts, rest.
 [[nodiscard]] std::vector<BuiltInScene> article_scenes();  ///< Where the article's points and rules show.
+[[nodiscard]] std::vector<BuiltInScene> claim_scenes();    ///< What the article says of one technique.
 [[nodiscard]] std::vector<BuiltInScene> limit_scenes();    ///< Climb limit, dt, many tiles, sensors.
 [[nodiscard]] std::vector<BuiltInScene> one_way_scenes();  ///< One-way chains, standing, moving, dropped through.
 [[nodiscard]] std::vector<BuiltInScene> moving_scenes();   ///< Lifts, conveyors, papers, a ceiling.

@@ -135,6 +135,9 @@ std::string describe(const Scene& scene) {
                               tiles->pixels_per_tile, tiles->pixels_per_tile, tiles->columns,
                               tiles->map.size() / static_cast<std::size_t>(tiles->columns)));
   }
+  if (!scene.decoration.empty()) line("decoration", counted(scene.decoration.size(), "polygon"));
+  if (!scene.sprite.empty())
+    line("sprite", fmt::format("{} x {} px", scene.sprite.front().size(), scene.sprite.size()));
   if (scene.respawn_box) line("map", box(*scene.respawn_box));
   for (const std::string& note : scene.notes) line("note", note);
   for (const std::string& note : idle_segments(scene, built)) line("note", note);

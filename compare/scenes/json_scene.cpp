@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -59,12 +61,31 @@ double read_speed(const JsonCursor& object, std::string_view key, double otherwi
   return speed;
 }
 
+std::vector<std::string> read_sprite(const JsonCursor& at, const Scene& scene) {
+  const Box2<double>& box = scene.character.shape.box();
+  const Vec2d size = (box.upper - box.lower) * scene.pixels_per_metre;
+  const Vec2d whole(std::round(size.x()), std::round(size.y()));
+  if ((size - whole).cwiseAbs().maxCoeff() > 1e-6) at.refuse("expected a character as large as whole pixels");
+  if (static_cast<double>(at.size()) != whole.y())
+    at.refuse(fmt::format("expected {} rows, as high as the character, not {}", whole.y(), at.size()));
+  std::vector<std::string> rows;
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    rows.push_back(at.element(i).text());
+    if (static_cast<double>(rows.back().size()) != whole.x() ||
+        rows.back().find_first_not_of(".#") != std::string::npos)
+      at.element(i).refuse(fmt::format("expected {} pixels from . and #", whole.x()));
+  }
+  if (std::none_of(rows.begin(), rows.end(), [](const std::string& row) { return row.find('#') != row.npos; }))
+    at.refuse("expected a pixel that collides, #");
+  return rows;
+}
+
 /// @param dt of the longest step [s].
 void read_character(const JsonCursor& at, double dt, Scene& scene) {
   refuse_unsupported(at, "step_height", "stepping up");
   at.refuse_other_keys({"points_px", "position", "velocity", "start_overlap", "walk_speed", "acceleration",
                         "air_acceleration", "jump_speed", "max_fall_speed", "max_climb_degrees", "snap",
-                        "no_jump_toward_wall", "side_hit_ends_rise"});
+                        "no_jump_toward_wall", "side_hit_ends_rise", "sprite"});
   CharacterDef& character = scene.character;
   character.shape = read_shape(at, scene.pixels_per_metre);
   scene.start = read_start(at, dt);
@@ -82,6 +103,7 @@ void read_character(const JsonCursor& at, double dt, Scene& scene) {
   if (const auto snap = at.find("snap")) character.snap = snap->number_within(0, 1e6);
   character.no_jump_toward_wall = at.flag("no_jump_toward_wall");
   character.side_hit_ends_rise = at.flag("side_hit_ends_rise");
+  if (const auto sprite = at.find("sprite")) scene.sprite = read_sprite(*sprite, scene);
   try {
     character.validate();
   } catch (const InvalidCharacter& error) {
@@ -115,8 +137,9 @@ void read_others(const JsonCursor& at, double dt, Scene& scene) {
   if (at.size() > most) at.refuse(fmt::format("expected at most {} further characters", most));
   for (std::size_t i = 0; i < at.size(); ++i) {
     const JsonCursor entry = at.element(i);
-    for (const char* key : {"points_px", "walk_speed", "acceleration", "air_acceleration", "jump_speed",
-                            "max_fall_speed", "max_climb_degrees", "snap", "no_jump_toward_wall", "side_hit_ends_rise"})
+    for (const char* key :
+         {"points_px", "walk_speed", "acceleration", "air_acceleration", "jump_speed", "max_fall_speed",
+          "max_climb_degrees", "snap", "no_jump_toward_wall", "side_hit_ends_rise", "sprite"})
       if (const auto found = entry.find(key))
         found->refuse("expected only in \"character\": all characters of a scene are of one kind");
     entry.refuse_other_keys({"position", "velocity", "start_overlap", "input"});

@@ -119,6 +119,7 @@ class SceneryReader {
   }
 
   void read_entry(const JsonCursor& entry, std::size_t index) {
+    if (entry.find("decoration")) return read_decoration(entry, index);
     entry.refuse_other_keys({"id", "polygon", "holes", "chain", "one_way", "sensor", "surface_speed", "tiled",
                              "picture", "solid", "background", "pixel_tiles"});
     const std::string shape = only_shape(entry, {"polygon", "chain", "tiled", "picture", "pixel_tiles"});
@@ -141,6 +142,15 @@ class SceneryReader {
     } else {
       add(id, read_collider(entry, shape, step_seconds_), at.where());
     }
+  }
+
+  void read_decoration(const JsonCursor& entry, std::size_t index) {
+    entry.refuse_other_keys({"id", "decoration"});
+    const std::string id = take_id(entry, "scenery", index);
+    const JsonCursor at = entry.require("decoration");
+    const ColliderDef drawn{.points = at.points(3)};
+    check_scenery({{drawn}}, {id}, [&](ColliderIndex) { return at.where(); });
+    scene_.decoration.push_back({id, drawn.points});
   }
 
   void add_map(const std::string& id, const JsonCursor& at) {

@@ -47,6 +47,12 @@ struct TileLevel {
   std::size_t colliders = 0;                    ///< That its solid pixels are for everybody else.
 };
 
+/// Drawn in the colour of a platform, and in nobody's way but that of who reads colours.
+struct Decoration {
+  std::string id;
+  std::vector<Vec2d> polygon;  ///< [m]
+};
+
 /// What characters want: one list of events for each of them.
 using Script = std::vector<std::vector<InputEvent>>;
 
@@ -75,6 +81,10 @@ struct Scene {
   /// Part of the scenery is made of pixels: who draws the level draws these, `pixels_per_metre` of them, or none.
   bool has_pixels = false;
   TileLevel tile_level{};
+  std::vector<Decoration> decoration{};
+  /// The picture of the character, rows from the top, `#` for a pixel that collides: for who compares pictures. Its size
+  /// is that of the character's box, `pixels_per_metre` fine. Empty: the pixels of the hull.
+  std::vector<std::string> sprite{};
   /// Maps only: their box [m]. A character that leaves it by more than 10 m is put back at the start.
   std::optional<Box2<double>> respawn_box;
   /// Its numbers, by the keys that rows have (`dt_s`, `thickness_m`), in order.

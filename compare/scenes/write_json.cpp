@@ -41,6 +41,7 @@ ordered_json character_json(const Scene& scene) {
   if (character.snap > 0) object["snap"] = character.snap;
   if (character.no_jump_toward_wall) object["no_jump_toward_wall"] = true;
   if (character.side_hit_ends_rise) object["side_hit_ends_rise"] = true;
+  if (!scene.sprite.empty()) object["sprite"] = scene.sprite;
   return object;
 }
 
@@ -111,6 +112,8 @@ void put_scenery(const Scene& scene, ordered_json& file) {
     put_body(*mover.body, object);
     file["bodies"].push_back(std::move(object));
   }
+  for (const Decoration& each : scene.decoration)
+    file["scenery"].push_back(ordered_json{{"id", each.id}, {"decoration", points_json(each.polygon)}});
   if (file["scenery"].empty()) file["empty"] = true;
   for (const Joint& joint : scene.joints) file["joints"].push_back(joint_json(scene, joint));
 }

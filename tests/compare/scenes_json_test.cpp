@@ -223,7 +223,7 @@ TEST(WrittenScenes, read_back_as_they_were) {
   for (const char* name :
        {"article_bullet", "slope_joints", "zero_thickness_paper", "lift_up", "conveyor", "sensor_gate", "one_way_drop",
         "stack_10", "plank_on_springs", "random_steps", "characters_head_on", "uneven_lift", "turning_arm",
-        "start_overlapping_deep", "crush70", "scaled_1e3", "jump_into_overhang"}) {
+        "start_overlapping_deep", "crush70", "scaled_1e3", "jump_into_overhang", "painted_cloud", "legs_apart"}) {
     const SceneFiles files;
     const Scene scene = load_scene(name, {});
     const nlohmann::ordered_json written = scene_json(scene);
@@ -232,6 +232,8 @@ TEST(WrittenScenes, read_back_as_they_were) {
     EXPECT_EQ(read.steps, scene.steps);
     EXPECT_EQ(read.scenery.colliders.size(), scene.scenery.colliders.size());
     EXPECT_EQ(read.start.position, scene.start.position);
+    EXPECT_EQ(read.decoration.size(), scene.decoration.size());
+    EXPECT_EQ(read.sprite, scene.sprite);
     EXPECT_TRUE(std::equal(read.character.shape.points().begin(), read.character.shape.points().end(),
                            scene.character.shape.points().begin()))
         << name;

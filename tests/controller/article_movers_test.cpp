@@ -328,7 +328,7 @@ TEST(MovingRefusals, of_techniques_for_scenery_that_stands_still_say_so) {
   const Scenery<double> movers(SceneryDef{{of_mover(rectangle(0, 0, 1, 1))}});
   const Scenery<double> conveyors(SceneryDef{{conveyor(rectangle(0, 0, 1, 1), 1)}});
   for (const TechniqueKind kind : {TechniqueKind::grid, TechniqueKind::pixel_colour, TechniqueKind::pixel_tile,
-                                   TechniqueKind::mask, TechniqueKind::bounding_box, TechniqueKind::wind_back}) {
+                                   TechniqueKind::mask, TechniqueKind::wind_back}) {
     for (const Scenery<double>* scenery : {&movers, &conveyors}) {
       try {
         (void)make_technique<double>({.kind = kind}, *scenery, {});
@@ -338,6 +338,13 @@ TEST(MovingRefusals, of_techniques_for_scenery_that_stands_still_say_so) {
       }
     }
   }
+}
+
+TEST(MovingRefusals, of_bounding_boxes_are_for_conveyors_alone) {
+  const Scenery<double> movers(SceneryDef{{of_mover(rectangle(0, 0, 1, 1))}});
+  const Scenery<double> conveyors(SceneryDef{{conveyor(rectangle(0, 0, 1, 1), 1)}});
+  EXPECT_NO_THROW((void)make_technique<double>({.kind = TechniqueKind::bounding_box}, movers, {}));
+  EXPECT_THROW((void)make_technique<double>({.kind = TechniqueKind::bounding_box}, conveyors, {}), NotExpressible);
 }
 
 /// A box among others of which half move, with a character that flies and rides.

@@ -55,6 +55,34 @@ TYPED_TEST(BoundingBoxes, stop_on_each_of_the_four_sides) {
   }
 }
 
+TYPED_TEST(BoundingBoxes, of_enemies_are_where_they_will_be_at_the_end_of_the_frame) {
+  using Scalar = TypeParam;
+  ColliderDef enemy = rectangle(2, -1, 3, 1);
+  enemy.mover = 0;
+  Rig<Scalar> rig(kind, {enemy});
+  MoveRequest<Scalar> request;
+  const auto move = [&](const Vec2d& from, const Vec2d& by, const Vec2d& enemy_by) {
+    const std::array motions{MoverMotion<Scalar>{{0, 0}, enemy_by.template cast<Scalar>()}};
+    request.position = from.template cast<Scalar>();
+    request.displacement = request.velocity = by.template cast<Scalar>();
+    request.movers = motions;
+    rig.technique->move(request, rig.scratch, rig.result);
+    return rig.result.position;
+  };
+  // It walks into the box that has come nearer by a quarter.
+  EXPECT_EQ(move({1, 0}, {0.5, 0}, {-0.25, 0}), Vec2<Scalar>(Scalar(1.75 - half_width), 0));
+  ASSERT_EQ(rig.result.contacts.size(), 1U);
+  EXPECT_EQ(rig.result.contacts[0].side, Side::right);
+  EXPECT_EQ(rig.result.contacts[0].point.x(), Scalar(1.75));
+  // The box comes over it while it stands: out along the axis of least overlap.
+  EXPECT_EQ(move({1.5, 0}, {0, 0}, {-0.25, 0}), Vec2<Scalar>(Scalar(1.75 - half_width), 0));
+  // The box goes away.
+  EXPECT_EQ(move({1.5, 0}, {0.5, 0}, {1, 0}), Vec2<Scalar>(2, 0));
+  EXPECT_TRUE(rig.result.contacts.empty());
+  // Between start and end nothing is looked at: each may pass the other.
+  EXPECT_EQ(move({1, 0}, {0, 0}, {-4, 0}), Vec2<Scalar>(1, 0));
+}
+
 /// Exactly: doubles hold every sum of floats of these sizes.
 bool overlap(const Box2<float>& piece, const Vec2f& position, const Box2<double>& character) {
   const Vec2d at = position.cast<double>();

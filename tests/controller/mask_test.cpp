@@ -66,6 +66,34 @@ TYPED_TEST(MaskIn, is_stopped_on_a_whole_pixel_by_a_wall_on_any_side) {
   }
 }
 
+TEST(Mask, takes_the_vertical_movement_first_as_the_pairs_are) {
+  // Past the corner of a block, by as much down as to the right: down first, and then its fourth row of pixels, which
+  // is 7 px wide on the right of the middle, meets the block 3 px later. The other way round it would end at (4, -3).
+  Rig<double> rig(mask, {rectangle(half_width, -9, 9, -half_height)});
+  EXPECT_EQ(rig.move({0, 0}, {4 * px, -4 * px}).position, Vec2d(3 * px, -4 * px));
+  ASSERT_EQ(rig.result.contacts.size(), 1U);
+  EXPECT_EQ(rig.result.contacts[0].side, Side::right);
+}
+
+TEST(Mask, compares_only_the_white_pixels_of_its_picture) {
+  TechniqueDef def{.kind = mask};
+  for (int row = 0; row < 40; ++row) def.sprite.emplace_back(row < 30 ? 20 : 5, '#').resize(20, '.');
+  const Scenery<double> scenery(SceneryDef{{rectangle(0, -9, 9, -half_height - px)}});
+  const auto fall = [&](const TechniqueDef& as) {
+    const auto technique = make_technique<double>(as, scenery, CharacterDef{});
+    Scratch<double> scratch = technique->make_scratch();
+    MoveRequest<double> request;
+    request.displacement = request.velocity = Vec2d(0, -5 * px);
+    MoveResult<double> result;
+    technique->move(request, scratch, result);
+    return result.position.y();
+  };
+  EXPECT_EQ(fall({.kind = mask}), -px) << "the hull is stopped by what is under its right half";
+  EXPECT_EQ(fall(def), -5 * px) << "the picture has a leg on its left alone";
+  def.sprite.pop_back();
+  EXPECT_THROW((void)make_technique<double>(def, scenery, CharacterDef{}), std::invalid_argument);
+}
+
 TEST(Mask, passes_paper_that_lies_between_start_and_end) {
   const std::vector<ColliderDef> paper{rectangle(-2, -20 * px - half_height, 2, -17 * px - half_height)};
   Rig<double> fast(mask, paper);

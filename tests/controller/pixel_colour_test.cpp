@@ -37,6 +37,23 @@ TYPED_TEST(PixelColourIn, stops_the_articles_bullet_on_the_pixel_above_the_platf
   }
 }
 
+TEST(PixelColour, is_stopped_by_decoration_in_the_colour_of_a_platform) {
+  const Scenery<double> scenery(SceneryDef{{rectangle(-9, -9, 9, -half_height)}});
+  TechniqueDef def{.kind = pixel_colour};
+  SceneryDef cloud{{rectangle(half_width + 2 * px, 0, 3, 1)}};
+  for (const bool painted : {false, true}) {
+    if (painted) def.decoration = std::make_shared<const SceneryDef>(cloud);
+    const auto technique = make_technique<double>(def, scenery, CharacterDef{});
+    Scratch<double> scratch = technique->make_scratch();
+    MoveRequest<double> request;
+    request.displacement = request.velocity = Vec2d(8 * px, 0);
+    MoveResult<double> result;
+    technique->move(request, scratch, result);
+    EXPECT_EQ(result.position.x(), (painted ? 2 : 8) * px);
+    EXPECT_TRUE(result.contacts.empty()) << "it is no collider";
+  }
+}
+
 TYPED_TEST(PixelColourIn, keeps_the_component_that_is_free_and_records_the_corner) {
   Rig<TypeParam> rig(pixel_colour, {rectangle(-9, -9, 9, 0)});
   const MoveResult<TypeParam>& result = rig.move({0, 24 * px}, {10 * px, -10 * px});

@@ -10,6 +10,8 @@
 
 #include <memory>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 namespace paperproof {
 
@@ -78,10 +80,15 @@ struct TechniqueDef {
   /// `pixel_tile`: the level as tiles (pixel_tiles.hpp), `article.raster_pixels_per_metre` fine. None: they are made
   /// from the scenery, which is what contacts name in either case.
   std::shared_ptr<const PixelTileSet> pixel_tiles{};
+  /// `pixel_colour`: what is drawn in the colour of a platform and stops nobody else. None: nothing.
+  std::shared_ptr<const SceneryDef> decoration{};
+  /// `mask`: the picture of the character, rows from the top, `#` for white: a pixel that collides. As large as the box
+  /// of the character's shape, `article.raster_pixels_per_metre` fine. Empty: the pixels of the hull.
+  std::vector<std::string> sprite{};
 };
 
 /// Builds a technique for one scenery and one character. `scenery` must outlive it.
-/// @throws std::invalid_argument for a knob out of range, InvalidCharacter for an impossible character, NotExpressible
+/// @throws std::invalid_argument for a knob out of range, or a sprite of another size than the character, InvalidCharacter for an impossible character, NotExpressible
 ///   where the technique cannot express the scenery.
 template <class Scalar>
 [[nodiscard]] std::unique_ptr<Technique<Scalar>> make_technique(const TechniqueDef& def, const Scenery<Scalar>& scenery,

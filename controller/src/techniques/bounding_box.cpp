@@ -26,6 +26,17 @@ bool holds_inside(const Box2<Scalar>& box, const Vec2<Scalar>& position) noexcep
          position.y() < box.upper.y();
 }
 
+/// Along with a mover. Never smaller by rounding.
+template <class Scalar>
+Box2<Scalar> shifted(const Box2<Scalar>& box, const Vec2<Scalar>& by) noexcept {
+  Box2<Scalar> result;
+  for (const Eigen::Index i : {0, 1}) {
+    result.lower[i] = -difference_rounded_up(-box.lower[i], by[i]);
+    result.upper[i] = difference_rounded_up(box.upper[i], -by[i]);
+  }
+  return result;
+}
+
 template <class Scalar>
 class BoundingBox final : public Technique<Scalar> {
  public:
@@ -35,6 +46,8 @@ class BoundingBox final : public Technique<Scalar> {
         iterations_(def.article.iterations) {
     for (const Box2<Scalar>& box : scenery.static_boxes()) grown_.push_back(grown(box, character_));
     broad_phase_ = make_broad_phase<Scalar>(def.broad_phase, grown_);
+    for (PieceIndex piece = scenery.static_pieces().end; piece < moving_end(); ++piece)
+      grown_.push_back(grown(scenery.box(piece), character_));
   }
 
   [[nodiscard]] std::string_view name() const noexcept override { return name_of(TechniqueKind::bounding_box); }
@@ -48,19 +61,31 @@ class BoundingBox final : public Technique<Scalar> {
 
  private:
   using Pieces = std::span<const PieceIndex>;
+  using Movers = std::span<const MoverMotion<Scalar>>;
 
-  [[nodiscard]] Pieces near(const Vec2<Scalar>& here, const Vec2<Scalar>& there,
+  /// One past the last piece that goes along with a mover; they follow those that stand.
+  [[nodiscard]] PieceIndex moving_end() const noexcept { return scenery_->sensor_pieces().first; }
+  /// Where a piece is at the end of the step, relative to where it was defined [m].
+  [[nodiscard]] Vec2<Scalar> offset(PieceIndex piece, Movers movers) const noexcept {
+    const MoverIndex mover = scenery_->pieces()[piece].mover;
+    return mover == no_mover ? Vec2<Scalar>(Vec2<Scalar>::Zero()) : movers[mover].to;
+  }
+  [[nodiscard]] Box2<Scalar> box_of(PieceIndex piece, Movers movers) const noexcept {
+    return scenery_->pieces()[piece].mover == no_mover ? grown_[piece] : shifted(grown_[piece], offset(piece, movers));
+  }
+  [[nodiscard]] Pieces near(const Vec2<Scalar>& here, const Vec2<Scalar>& there, Movers movers,
                             Scratch<Scalar>& scratch) const noexcept;
   [[nodiscard]] bool blocks(PieceIndex piece, Side side) const noexcept;
-  [[nodiscard]] const PieceIndex* holding(Pieces nearby, const Vec2<Scalar>& position) const noexcept;
-  void advance(Pieces nearby, Eigen::Index component, Scalar by, MoveResult<Scalar>& result) const noexcept;
-  void push_out(Scratch<Scalar>& scratch, MoveResult<Scalar>& result) const noexcept;
-  void meet(PieceIndex piece, Side side, MoveResult<Scalar>& result) const noexcept;
+  [[nodiscard]] const PieceIndex* holding(Pieces nearby, const Vec2<Scalar>& position, Movers movers) const noexcept;
+  void advance(Pieces nearby, Eigen::Index component, const MoveRequest<Scalar>& request,
+               MoveResult<Scalar>& result) const noexcept;
+  void push_out(Movers movers, Scratch<Scalar>& scratch, MoveResult<Scalar>& result) const noexcept;
+  void meet(PieceIndex piece, Side side, Movers movers, MoveResult<Scalar>& result) const noexcept;
 
   const Scenery<Scalar>* scenery_;
   Box2<Scalar> character_;
   int iterations_;
-  std::vector<Box2<Scalar>> grown_;  ///< By piece.
+  std::vector<Box2<Scalar>> grown_;  ///< By piece; of what moves, where it is defined.
   std::unique_ptr<BroadPhase<Scalar>> broad_phase_;
 };
 
@@ -71,21 +96,23 @@ void BoundingBox<Scalar>::move(const MoveRequest<Scalar>& request, Scratch<Scala
   result.clear();
   result.position = request.position;
   result.velocity = request.velocity;
-  Pieces nearby = near(request.position, request.position + request.displacement, scratch);
+  Pieces nearby = near(request.position, request.position + request.displacement, request.movers, scratch);
   if (request.drop)
     nearby = nearby.first(without_one_way(*scenery_, std::span(scratch.solids.pieces).first(nearby.size())));
-  for (const Eigen::Index component : {1, 0}) advance(nearby, component, request.displacement[component], result);
-  push_out(scratch, result);
+  for (const Eigen::Index component : {1, 0}) advance(nearby, component, request, result);
+  push_out(request.movers, scratch, result);
   result.path.push_back({request.position, 0});
   result.path.push_back({result.position, 1});
 }
 
 template <class Scalar>
 typename BoundingBox<Scalar>::Pieces BoundingBox<Scalar>::near(const Vec2<Scalar>& here, const Vec2<Scalar>& there,
-                                                               Scratch<Scalar>& scratch) const noexcept {
+                                                               Movers movers, Scratch<Scalar>& scratch) const noexcept {
   const Box2<Scalar> total{here.cwiseMin(there), here.cwiseMax(there)};
   scratch.solids.valid = false;
   scratch.solids.count = broad_phase_->query(total, scratch.solids.pieces);
+  for (PieceIndex piece = scenery_->static_pieces().end; piece < moving_end(); ++piece)
+    if (box_of(piece, movers).overlaps(total)) scratch.solids.pieces[scratch.solids.count++] = piece;
   return Pieces(scratch.solids.pieces).first(scratch.solids.count);
 }
 
@@ -99,26 +126,30 @@ bool BoundingBox<Scalar>::blocks(PieceIndex piece, Side side) const noexcept {
 
 /// The first box that holds a position, other than one-way ones; null where there is none.
 template <class Scalar>
-const PieceIndex* BoundingBox<Scalar>::holding(Pieces nearby, const Vec2<Scalar>& position) const noexcept {
+const PieceIndex* BoundingBox<Scalar>::holding(Pieces nearby, const Vec2<Scalar>& position,
+                                               Movers movers) const noexcept {
   const auto found = std::find_if(nearby.begin(), nearby.end(), [&](PieceIndex piece) {
-    return !scenery_->pieces()[piece].one_way && holds_inside(grown_[piece], position);
+    return !scenery_->pieces()[piece].one_way && holds_inside(box_of(piece, movers), position);
   });
   return found == nearby.end() ? nullptr : &*found;
 }
 
-/// One component of the movement, stopped by the boxes that it has entered where it ends. Going back to the nearest of
-/// their faces may end in a thinner box, hence the iterations.
+/// One component of the movement, stopped by the boxes that it has entered where it, and they, end. Going back to the
+/// nearest of their faces may end in a thinner box, hence the iterations.
 template <class Scalar>
-void BoundingBox<Scalar>::advance(Pieces nearby, Eigen::Index component, Scalar by,
+void BoundingBox<Scalar>::advance(Pieces nearby, Eigen::Index component, const MoveRequest<Scalar>& request,
                                   MoveResult<Scalar>& result) const noexcept {
+  const Scalar by = request.displacement[component];
   const Vec2<Scalar> start = result.position;
   const bool forwards = by > 0;
   const Side side = article::side_ahead(component, forwards);
   const auto face_of = [&](PieceIndex piece) {
-    return forwards ? grown_[piece].lower[component] : grown_[piece].upper[component];
+    const Box2<Scalar> box = box_of(piece, request.movers);
+    return forwards ? box.lower[component] : box.upper[component];
   };
   const auto entered = [&](PieceIndex piece, const Vec2<Scalar>& end) {
-    return holds_inside(grown_[piece], end) && !holds_inside(grown_[piece], start) && blocks(piece, side);
+    const Box2<Scalar> box = box_of(piece, request.movers);
+    return holds_inside(box, end) && !holds_inside(box, start) && blocks(piece, side);
   };
   Vec2<Scalar> last_entered = start;
   result.position[component] += by;
@@ -139,17 +170,21 @@ void BoundingBox<Scalar>::advance(Pieces nearby, Eigen::Index component, Scalar 
   }
   if (!hit) return;
   for (const PieceIndex piece : nearby) {
-    if (entered(piece, last_entered) && face_of(piece) == result.position[component]) meet(piece, side, result);
+    if (entered(piece, last_entered) && face_of(piece) == result.position[component])
+      meet(piece, side, request.movers, result);
   }
 }
 
-/// Only where the step began inside something, or iterations were too few.
+/// Only where the step began inside something, what moves came over it, or iterations were too few.
 template <class Scalar>
-void BoundingBox<Scalar>::push_out(Scratch<Scalar>& scratch, MoveResult<Scalar>& result) const noexcept {
+void BoundingBox<Scalar>::push_out(Movers movers, Scratch<Scalar>& scratch, MoveResult<Scalar>& result) const noexcept {
+  const auto inside = [&] {
+    return holding(near(result.position, result.position, movers, scratch), result.position, movers);
+  };
   for (int iteration = 0; iteration < iterations_; ++iteration) {
-    const PieceIndex* const piece = holding(near(result.position, result.position, scratch), result.position);
+    const PieceIndex* const piece = inside();
     if (piece == nullptr) return;
-    const Box2<Scalar>& box = grown_[*piece];
+    const Box2<Scalar> box = box_of(*piece, movers);
     Scalar least = std::numeric_limits<Scalar>::infinity();
     Side side = Side::bottom;
     for (const Side each : article::all_sides) {
@@ -162,18 +197,18 @@ void BoundingBox<Scalar>::push_out(Scratch<Scalar>& scratch, MoveResult<Scalar>&
     }
     const Eigen::Index component = article::component_of(side);
     result.position[component] = article::outwards(side) < 0 ? box.upper[component] : box.lower[component];
-    meet(*piece, side, result);
+    meet(*piece, side, movers, result);
   }
-  const bool inside = holding(near(result.position, result.position, scratch), result.position) != nullptr;
-  if (inside) result.status = MoveStatus::stuck;
+  if (inside() != nullptr) result.status = MoveStatus::stuck;
 }
 
 template <class Scalar>
-void BoundingBox<Scalar>::meet(PieceIndex piece, Side side, MoveResult<Scalar>& result) const noexcept {
+void BoundingBox<Scalar>::meet(PieceIndex piece, Side side, Movers movers, MoveResult<Scalar>& result) const noexcept {
   const Eigen::Index component = article::component_of(side);
   const Eigen::Index along = 1 - component;
   const int outwards = article::outwards(side);
-  const Box2<Scalar>& box = scenery_->box(piece);
+  const Vec2<Scalar> by = offset(piece, movers);
+  const Box2<Scalar> box{scenery_->box(piece).lower + by, scenery_->box(piece).upper + by};
   PointHit<Scalar> hit{.piece = piece};
   hit.normal[component] = static_cast<Scalar>(-outwards);
   hit.point[component] = outwards < 0 ? box.upper[component] : box.lower[component];

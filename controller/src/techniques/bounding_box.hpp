@@ -7,6 +7,9 @@
 /// at, so paper is passed. A box that the character was in already pushes it out along the axis of least overlap, both
 /// repeated up to the knob `iterations`; the other knobs have no meaning here.
 ///
+/// Enemies are boxes, too: what moves is where it will be at the end of the frame, and pushes out whom it came over. It
+/// carries nobody. A conveyor is refused.
+///
 /// A chain is the boxes of its segments, which have no thickness where a segment is level or upright. A one-way
 /// segment stops only what comes from the side that its blocking normal mostly points to. A contact is only known at
 /// the end of the frame: its fraction is 1. Where it ended outside of all boxes, it did so exactly, whatever the
@@ -19,7 +22,7 @@
 
 namespace paperproof {
 
-/// @param def its article knobs are valid. `scenery` must outlive the technique.
+/// @param def its article knobs are valid. `scenery` must outlive the technique, and has no conveyor.
 template <class Scalar>
 [[nodiscard]] std::unique_ptr<Technique<Scalar>> make_bounding_box(const TechniqueDef& def,
                                                                    const Scenery<Scalar>& scenery,

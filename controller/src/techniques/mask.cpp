@@ -2,6 +2,11 @@
 
 #include "techniques/raster/raster_parts.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
 namespace paperproof {
 namespace {
 
@@ -9,26 +14,43 @@ using raster::Bitmap;
 using raster::Pixel;
 using raster::RasterParts;
 
+/// The picture of the character that is given.
+Bitmap figure_of(const TechniqueDef& def, const CharacterShape& shape) {
+  const std::vector<std::string>& rows = def.sprite;
+  const Vec2d size = (shape.box().upper - shape.box().lower) * def.article.raster_pixels_per_metre;
+  const auto width = static_cast<std::int64_t>(std::llround(size.x()));
+  const auto height = static_cast<std::int64_t>(std::llround(size.y()));
+  const auto fits = [&](const std::string& row) { return static_cast<std::int64_t>(row.size()) == width; };
+  if (static_cast<std::int64_t>(rows.size()) != height || !std::all_of(rows.begin(), rows.end(), fits))
+    throw std::invalid_argument("sprite: must have the size of the character's box, " + std::to_string(width) + " x " +
+                                std::to_string(height) + " pixels");
+  Bitmap figure({.lower = {}, .width = width, .height = height});
+  for (std::int64_t row = 0; row < height; ++row)
+    for (std::int64_t x = 0; x < width; ++x)
+      if (rows[static_cast<std::size_t>(height - 1 - row)][static_cast<std::size_t>(x)] == '#')
+        figure.make_white({.row = row, .first = x, .end = x + 1});
+  return figure;
+}
+
 template <class Scalar>
 class Mask final : public Technique<Scalar> {
  public:
   Mask(const TechniqueDef& def, const Scenery<Scalar>& scenery, const CharacterDef& character)
       : parts_(def, scenery, character),
+        figure_(def.sprite.empty() ? parts_.sprite().mask() : figure_of(def, character.shape)),
         level_(raster::rasterise(scenery.as_run(), def.article.raster_pixels_per_metre)),
         response_(def.article.response) {}
 
   [[nodiscard]] std::string_view name() const noexcept override { return name_of(TechniqueKind::mask); }
   [[nodiscard]] Scratch<Scalar> make_scratch() const override { return parts_.make_scratch(); }
   [[nodiscard]] std::size_t memory_bytes() const noexcept override {
-    return level_.memory_bytes() + parts_.sprite().mask().memory_bytes();
+    return level_.memory_bytes() + figure_.memory_bytes();
   }
   void move(const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,
             MoveResult<Scalar>& result) const noexcept override;
 
  private:
-  [[nodiscard]] bool is_free(const Pixel& placement) const noexcept {
-    return !level_.overlaps(parts_.sprite().mask(), placement);
-  }
+  [[nodiscard]] bool is_free(const Pixel& placement) const noexcept { return !level_.overlaps(figure_, placement); }
   [[nodiscard]] Pixel attempted(const Vec2<Scalar>& corner, const Vec2<Scalar>& way, const Pixel& start) const noexcept;
   void wind_back(Side side, const Pixel& start, const MoveRequest<Scalar>& request, Pixel& placement,
                  Scratch<Scalar>& scratch, MoveResult<Scalar>& result) const noexcept;
@@ -38,6 +60,7 @@ class Mask final : public Technique<Scalar> {
             MoveResult<Scalar>& result) const noexcept;
 
   RasterParts<Scalar> parts_;
+  Bitmap figure_;  ///< Of the character, with the lower left corner of its box on pixel (0, 0).
   Bitmap level_;
   ArticleKnobs::Response response_;
 };
@@ -107,7 +130,7 @@ void Mask<Scalar>::stop(Side side, const Pixel& collided, Scalar fraction, Scrat
   result.velocity[article::component_of(side)] = 0;
   if (side == Side::bottom) result.grounded = true;
   parts_.look_around(collided, scratch);
-  level_.for_each_overlap(parts_.sprite().mask(), collided,
+  level_.for_each_overlap(figure_, collided,
                           [&](const Pixel& pixel) { parts_.report(pixel, side, fraction, scratch, result); });
 }
 
@@ -126,13 +149,13 @@ void Mask<Scalar>::move(const MoveRequest<Scalar>& request, Scratch<Scalar>& scr
     if (response_ == ArticleKnobs::Response::shorten) {
       wind_back_whole(start, request, scratch, result);
     } else {
-      Pixel placement{end.x, start.y};
-      if (way.x() != 0 && !is_free(placement))
-        wind_back(way.x() < 0 ? Side::left : Side::right, start, request, placement, scratch, result);
-      const Pixel landing{placement.x, start.y};
-      placement.y = end.y;
+      Pixel placement{start.x, end.y};
       if (way.y() != 0 && !is_free(placement))
-        wind_back(way.y() < 0 ? Side::bottom : Side::top, landing, request, placement, scratch, result);
+        wind_back(way.y() < 0 ? Side::bottom : Side::top, start, request, placement, scratch, result);
+      const Pixel beside{start.x, placement.y};
+      placement.x = end.x;
+      if (way.x() != 0 && !is_free(placement))
+        wind_back(way.x() < 0 ? Side::left : Side::right, beside, request, placement, scratch, result);
     }
   }
   result.path.push_back({result.position, 1});

@@ -46,8 +46,11 @@ std::unique_ptr<Technique<Scalar>> make_pixel_colour(const TechniqueDef& def, co
                                                      const CharacterDef& character) {
   using Made = raster::PixelTechnique<Scalar, TechniqueKind::pixel_colour, ColourRules>;
   raster::RasterParts<Scalar> parts(def, scenery, character);
-  return std::make_unique<Made>(
-      std::move(parts), ColourRules(raster::ColourPicture(scenery.as_run(), def.article.raster_pixels_per_metre)));
+  SceneryDef drawn = scenery.as_run();
+  if (def.decoration)
+    drawn.colliders.insert(drawn.colliders.end(), def.decoration->colliders.begin(), def.decoration->colliders.end());
+  return std::make_unique<Made>(std::move(parts),
+                                ColourRules(raster::ColourPicture(drawn, def.article.raster_pixels_per_metre)));
 }
 
 template std::unique_ptr<Technique<float>> make_pixel_colour(const TechniqueDef&, const Scenery<float>&,

@@ -1,5 +1,6 @@
 #include <paperproof/techniques.hpp>
 
+#include "scenery_facts.hpp"
 #include "techniques/bounding_box.hpp"
 #include "techniques/discrete/discrete.hpp"
 #include "techniques/frame_of_reference.hpp"
@@ -82,9 +83,9 @@ std::string_view name_of(TechniqueKind kind) noexcept {
 
 namespace {
 
-/// Also of conveyors: what is carried.
 bool knows_movers(TechniqueKind kind) noexcept {
   switch (kind) {
+    case TechniqueKind::bounding_box:
     case TechniqueKind::discrete:
     case TechniqueKind::penetration_resolution:
     case TechniqueKind::speculative_march:
@@ -95,7 +96,6 @@ bool knows_movers(TechniqueKind kind) noexcept {
     case TechniqueKind::pixel_colour:
     case TechniqueKind::pixel_tile:
     case TechniqueKind::mask:
-    case TechniqueKind::bounding_box:
     case TechniqueKind::wind_back:
       break;
   }
@@ -114,6 +114,8 @@ std::unique_ptr<Technique<Scalar>> make_technique(const TechniqueDef& def, const
               std::to_string(def.sweep_iterations));
   if (!knows_movers(def.kind) && something_carries(scenery))
     throw NotExpressible(std::string(name_of(def.kind)) + " is for scenery that stands still");
+  if (def.kind == TechniqueKind::bounding_box && has_conveyors(scenery))
+    throw NotExpressible("bounding_box carries nobody: there is a conveyor");
   switch (def.kind) {
     case TechniqueKind::grid:
       return make_grid(def, scenery, character);
