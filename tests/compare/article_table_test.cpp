@@ -1,0 +1,217 @@
+/// Runs every row of the two tables in controller/src/techniques/README.md: the statements of the article, and its six
+/// demands by technique.
+///
+/// A check is a code span: `SCENE CONTENDER [KNOB=VALUE]... [full] => CONDITION, ...`, or two runs with `|` between
+/// them and `rows equal` or `rows differ`. A condition is `KEY = LOW..HIGH`, or `KEY = VALUE` with a whole number or a
+/// word.
+#include "compare/scene_runs.hpp"
+#include "records/metric.hpp"
+#include "runs/contestant.hpp"
+
+#include <charconv>
+#include <map>
+#include <set>
+#include <sstream>
+
+namespace paperproof::compare {
+namespace {
+
+constexpr const char* readme = PAPERPROOF_SOURCE_DIR "/controller/src/techniques/README.md";
+constexpr std::size_t statements = 73;
+constexpr std::size_t checks = 118;
+constexpr std::size_t demands = 6;
+
+std::string trimmed(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(' ');
+  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(' ') - first + 1);
+}
+
+/// The parts of a text between separators, trimmed.
+std::vector<std::string> split(const std::string& text, const std::string& separator) {
+  std::vector<std::string> parts;
+  std::size_t begin = 0;
+  for (std::size_t at = 0; (at = text.find(separator, begin)) != std::string::npos; begin = at + separator.size())
+    parts.push_back(trimmed(text.substr(begin, at - begin)));
+  parts.push_back(trimmed(text.substr(begin)));
+  return parts;
+}
+
+std::vector<std::string> code_spans(const std::string& text) {
+  std::vector<std::string> spans;
+  const std::vector<std::string> parts = split(text, "`");
+  for (std::size_t i = 1; i + 1 < parts.size(); i += 2) spans.push_back(parts[i]);
+  return spans;
+}
+
+using Cells = std::vector<std::string>;
+
+/// The rows of the table below a heading, its head first, without the line of dashes.
+std::vector<Cells> table_below(const std::string& heading) {
+  std::ifstream file(readme);
+  EXPECT_TRUE(file) << readme;
+  std::vector<Cells> rows;
+  bool below = false;
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("#")) below = line == heading;
+    if (!below || !line.starts_with("|") || line.starts_with("|-")) continue;
+    Cells cells;
+    // Two runs are separated by an escaped bar.
+    for (const std::string& cell : split(line.substr(1, line.rfind('|') - 1), " | ")) {
+      cells.push_back(cell);
+      for (std::size_t at = 0; (at = cells.back().find("\\|")) != std::string::npos;) cells.back().replace(at, 2, "|");
+    }
+    rows.push_back(std::move(cells));
+  }
+  EXPECT_FALSE(rows.empty()) << heading;
+  return rows;
+}
+
+/// Runs each scene with each contender once.
+class Runs {
+ public:
+  const Row& row(const std::string& text) {
+    const auto known = rows_.find(text);
+    return known != rows_.end() ? known->second : rows_.emplace(text, run(text)).first->second;
+  }
+
+ private:
+  static Row run(const std::string& text) {
+    const std::vector<std::string> words = split(text, " ");
+    RunOptions options = quick();
+    options.reference = false;
+    options.contenders = {words.at(1)};
+    for (std::size_t i = 2; i < words.size(); ++i) {
+      options.full_plan = options.full_plan || words[i] == "full";
+      if (words[i] == "full") continue;
+      options.knobs.push_back(parse_knob(words[i]));
+      EXPECT_TRUE(has_knob(words[1], options.knobs.back().name)) << text;
+    }
+    return run_scene(built_in(words.at(0)), options).rows.front();
+  }
+
+  std::map<std::string, Row> rows_;
+};
+
+/// By the key that it has in files; yes is 1, no is 0.
+std::map<std::string, double> numbers_of(const Row& row) {
+  std::map<std::string, double> numbers;
+  for_each_metric(row, [&](const Metric& metric, const auto& value) {
+    if (!is_cost(metric.key)) numbers[std::string(metric.key)] = static_cast<double>(value);
+  });
+  return numbers;
+}
+
+/// The first of the keys that two rows share by which they differ; empty where they are equal. A full plan measures more.
+std::string first_difference(const Row& one, const Row& other) {
+  const std::map<std::string, double> theirs = numbers_of(other);
+  for (const auto& [key, value] : numbers_of(one)) {
+    const auto same = theirs.find(key);
+    if (same != theirs.end() && same->second != value) return key;
+  }
+  return "";
+}
+
+double number_in(const std::string& text) {
+  double value = NAN;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size() ? value : NAN;
+}
+
+::testing::AssertionResult meets(const Row& row, const std::string& condition) {
+  const std::vector<std::string> sides = split(condition, " = ");
+  if (sides.size() != 2) return ::testing::AssertionFailure() << "no condition: " << condition;
+  const auto fails = [&](const auto& value) {
+    return ::testing::AssertionFailure() << sides[0] << " is " << value << ", not " << sides[1];
+  };
+  if (sides[0] == "verdict") {
+    if (name_of(row.verdict) == sides[1]) return ::testing::AssertionSuccess();
+    return fails(name_of(row.verdict)) << " (" << row.reason << ")";
+  }
+  const std::map<std::string, double> numbers = numbers_of(row);
+  const auto number = numbers.find(sides[0]);
+  if (number == numbers.end()) return fails("absent") << " (" << row.reason << ")";
+  if (sides[1] == "true" || sides[1] == "false")
+    return number->second == (sides[1] == "true" ? 1 : 0) ? ::testing::AssertionSuccess() : fails(number->second);
+  const std::vector<std::string> bounds = split(sides[1], "..");
+  const double low = number_in(bounds.front());
+  const double high = number_in(bounds.back());
+  return low <= number->second && number->second <= high ? ::testing::AssertionSuccess() : fails(number->second);
+}
+
+::testing::AssertionResult holds_true(const std::string& check, Runs& runs) {
+  const std::vector<std::string> sides = split(check, "=>");
+  if (sides.size() != 2) return ::testing::AssertionFailure() << "no check";
+  const std::vector<std::string> names = split(sides[0], "|");
+  if (names.size() == 2) {
+    const std::string difference = first_difference(runs.row(names[0]), runs.row(names[1]));
+    const bool equal = difference.empty();
+    if (sides[1] != "rows equal" && sides[1] != "rows differ") return ::testing::AssertionFailure() << "no comparison";
+    if (equal == (sides[1] == "rows equal")) return ::testing::AssertionSuccess();
+    return ::testing::AssertionFailure() << (equal ? "the rows are equal" : "the rows differ in " + difference);
+  }
+  for (const std::string& condition : split(sides[1], ", "))
+    if (const auto met = meets(runs.row(names[0]), condition); !met) return met;
+  return ::testing::AssertionSuccess();
+}
+
+TEST(ArticleTable, has_a_check_in_every_row_and_all_of_them_hold) {
+  Runs runs;
+  const std::vector<Cells> rows = table_below("## The statements");
+  std::size_t ran = 0;
+  std::size_t ran_checks = 0;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    ASSERT_EQ(rows[i].size(), 4U) << rows[i].front();
+    const std::string& result = rows[i][2];
+    EXPECT_TRUE(result == "shown" || result == "refuted" || result == "reading") << result << " in " << rows[i][1];
+    std::size_t here = 0;
+    for (const std::string& span : code_spans(rows[i][3])) {
+      if (span.find("=>") == std::string::npos) continue;
+      EXPECT_TRUE(holds_true(span, runs)) << rows[i][1] << "\n  " << span;
+      ++here;
+    }
+    EXPECT_GT(here, 0U) << "nothing is checked: " << rows[i][1];
+    ++ran;
+    ran_checks += here;
+  }
+  EXPECT_EQ(ran, statements);
+  EXPECT_EQ(ran_checks, checks);
+}
+
+TEST(ArticleTable, has_each_of_the_six_demands_for_each_technique) {
+  Runs runs;
+  const std::vector<Cells> rows = table_below("## The six demands");
+  ASSERT_EQ(rows.front().size(), 1 + demands);
+  std::set<std::string> techniques;
+  std::size_t ran = 0;
+  for (std::size_t i = 1; i < rows.size(); ++i) {
+    ASSERT_EQ(rows[i].size(), 1 + demands) << rows[i].front();
+    const std::string technique = code_spans(rows[i].front()).at(0);
+    techniques.insert(technique);
+    for (std::size_t k = 1; k <= demands; ++k) {
+      const std::string scene = code_spans(rows.front()[k]).at(0);
+      const std::string check = scene + " " + technique + " => " + code_spans(rows[i][k]).at(0);
+      EXPECT_TRUE(holds_true(check, runs)) << check;
+      ++ran;
+    }
+  }
+  EXPECT_EQ(techniques.size(), all_techniques.size());
+  EXPECT_EQ(ran, demands * all_techniques.size());
+}
+
+TEST(ArticleTable, would_notice_a_number_that_is_wrong) {
+  Runs runs;
+  EXPECT_TRUE(holds_true("article_bullet mask => tunnels = 1, verdict = tunnels", runs));
+  EXPECT_FALSE(holds_true("article_bullet mask => tunnels = 0", runs));
+  EXPECT_FALSE(holds_true("article_bullet mask => verdict = holds", runs));
+  EXPECT_FALSE(holds_true("article_bullet mask => tunnels = one", runs)) << "no number";
+  EXPECT_FALSE(holds_true("article_bullet mask => nothing = 1", runs)) << "no such key";
+  EXPECT_FALSE(holds_true("article_bullet mask => tunnels", runs)) << "no condition";
+  EXPECT_FALSE(holds_true("article_bullet mask", runs));
+  EXPECT_TRUE(holds_true("article_bullet speculative => first_contact_fraction = 0.599..0.601", runs));
+  EXPECT_FALSE(holds_true("article_bullet speculative => first_contact_fraction = 0.601..0.7", runs));
+  EXPECT_FALSE(holds_true("article_bullet mask | article_bullet speculative => rows equal", runs));
+  EXPECT_FALSE(holds_true("article_bullet mask | article_bullet mask => rows differ", runs));
+}
+
+}  // namespace
+}  // namespace paperproof::compare
