@@ -7,7 +7,8 @@ set(standard "<[a-z_0-9]+>")
 set(may_include_controller "${standard}|<Eigen/[A-Za-z]+>|<paperproof/[a-z_0-9]+[.]hpp>")
 set(may_include_box2d_adapter "${may_include_controller}|<paperproof/box2d/[a-z_0-9]+[.]hpp>|<box2d/[a-z_0-9]+[.]h>|<polyclipping/clipper[.]hpp>")
 set(may_include_compare "<.*>")
-# The oracle judges the controller: of it, it may know the values that both speak of, and no geometry.
+# The oracle judges the controller, and so does the continuous reference: of it, they may know the values that all speak
+# of, and no geometry.
 set(may_include_oracle "${standard}|<boost/.*>|<paperproof/(types|scenery|character|technique)[.]hpp>")
 
 set(seen 0)
@@ -42,15 +43,18 @@ check_part(controller "${may_include_controller}" controller/src)
 check_part(box2d_adapter "${may_include_box2d_adapter}" box2d_adapter/src)
 check_part(compare "${may_include_compare}" compare)
 check_part(compare/oracle "${may_include_oracle}" compare)
+check_part(compare/continuous "${may_include_oracle}" compare)
 
 # Inside `compare`, of its own folders each may include itself and those that are listed:
-#   records  <-  oracle  <-  scenes  <-  metrics  <-  runs  <-  studies  <-  command,  records  <-  report  <-  studies
-set(folders records oracle scenes metrics runs report studies command)
+#   records  <-  oracle  <-  scenes  <-  metrics  <-  runs  <-  studies  <-  command,  records  <-  report  <-  studies,
+#   scenes  <-  continuous  <-  runs
+set(folders records oracle scenes continuous metrics runs report studies command)
 set(records_may "")
 set(oracle_may records)
 set(scenes_may ${oracle_may} oracle)
+set(continuous_may ${scenes_may} scenes)
 set(metrics_may ${scenes_may} scenes)
-set(runs_may ${metrics_may} metrics)
+set(runs_may ${metrics_may} metrics continuous)
 set(report_may records)
 set(studies_may ${runs_may} runs report)
 set(command_may ${studies_may} studies)

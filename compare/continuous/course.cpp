@@ -1,0 +1,345 @@
+#include "continuous/course.hpp"
+
+#include "continuous/facets.hpp"
+#include "continuous/input_times.hpp"
+#include "continuous/mover_track.hpp"
+#include "continuous/roots.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace paperproof::compare::continuous {
+namespace {
+
+constexpr std::size_t most_events = 20000;
+/// How many impacts one moment may have.
+constexpr int most_at_once = 64;
+
+void require(bool covered, const char* what) {
+  if (!covered) throw NotCovered(std::string("the continuous reference has no law for ") + what);
+}
+
+void check(const Scene& scene, const std::vector<InputEvent>& input) {
+  const CharacterDef& character = scene.character;
+  require(character_count(scene) == 1, "several characters");
+  require(scene.gravity.x() == 0 && scene.gravity.y() <= 0, "gravity that is not straight down");
+  require(character.snap == 0, "ground that is followed down (snap)");
+  require(!character.no_jump_toward_wall && !character.side_hit_ends_rise, "the article's rules for jumps");
+  require(!scene.start.resolve_overlap, "a start inside a solid");
+  for (const ColliderDef& collider : scene.scenery.colliders) {
+    require(!collider.one_way, "one-way chains");
+    require(collider.surface_speed == 0, "conveyors");
+  }
+  for (const MoverDef& mover : scene.movers) {
+    require(!mover.body, "bodies that Box2D moves");
+    require(mover.turns.empty(), "movers that turn");
+  }
+  for (const InputEvent& event : input) require(!event.drop.value_or(false), "dropping through");
+}
+
+/// The extent of a facet or a way, in double and widened: what does not meet it is not looked at more closely.
+struct Extent {
+  Vec2d lower{Vec2d::Constant(std::numeric_limits<double>::infinity())};
+  Vec2d upper{Vec2d::Constant(-std::numeric_limits<double>::infinity())};
+
+  template <class Real>
+  void add(const Point<Real>& point) {
+    const Vec2d at(static_cast<double>(point.x), static_cast<double>(point.y));
+    const Vec2d margin = Vec2d::Constant(1e-9) + 1e-12 * at.cwiseAbs();
+    lower = lower.cwiseMin(at - margin);
+    upper = upper.cwiseMax(at + margin);
+  }
+  [[nodiscard]] bool meets(const Extent& other) const {
+    return lower.x() <= other.upper.x() && other.lower.x() <= upper.x() && lower.y() <= other.upper.y() &&
+           other.lower.y() <= upper.y();
+  }
+};
+
+template <class Real>
+class Solver {
+ public:
+  Solver(const Scene& scene, const std::vector<InputEvent>& input, Law law)
+      : scene_(scene), law_(law), inputs_(scene, input), facets_(facets_of<Real>(scene)), legs_(scene.movers.size()) {
+    for (const Facet<Real>& facet : facets_) {
+      extents_.emplace_back();
+      extents_.back().add(facet.begin);
+      extents_.back().add(facet.begin + facet.along * facet.length);
+    }
+    place_ = {Real(scene.start.position.x()), Real(scene.start.position.y())};
+    velocity_ = {Real(scene.start.velocity.x()), Real(scene.start.velocity.y())};
+  }
+
+  Course<Real> solve() {
+    while (now_ < inputs_.end()) {
+      if (course_.arcs.size() == most_events) throw NotCovered("more than 20,000 events");
+      begin_legs();
+      inputs_.take_until(now_);
+      settle();
+      course_.arcs.push_back({now_, place_, velocity_, hold_.acceleration, hold_.stands});
+      advance();
+      check_map();
+    }
+    return std::move(course_);
+  }
+
+ private:
+  using P = Point<Real>;
+
+  [[nodiscard]] P carried_by(MoverIndex mover) const { return mover == no_mover ? P{} : legs_[mover].velocity; }
+  [[nodiscard]] P offset_of(MoverIndex mover) const { return mover == no_mover ? P{} : legs_[mover].offset; }
+
+  /// What carries the character takes it along however suddenly it turns.
+  void begin_legs() {
+    const P before = carrier_velocity();
+    for (MoverIndex k = 0; k < legs_.size(); ++k) legs_[k] = leg_at<Real>(scene_.movers[k], now_);
+    if (hold_.stands) velocity_ += carrier_velocity() - before;
+    const std::optional<double>& fastest = scene_.character.max_fall_speed;
+    require(!hold_.stands || !fastest || carrier_velocity().y >= -*fastest,
+            "ground that falls faster than the character");
+  }
+  [[nodiscard]] P carrier_velocity() const { return carried_by(carrier_); }
+
+  /// All facets that the position is on, with what it leaves at once left out.
+  std::vector<Touch<Real>> touched() {
+    std::vector<Touch<Real>> touches;
+    Extent here;
+    here.add(place_);
+    for (std::size_t i = 0; i < facets_.size(); ++i) {
+      const Facet<Real>& facet = facets_[i];
+      if (facet.mover == no_mover && !here.meets(extents_[i])) continue;
+      const P from_begin = place_ - offset_of(facet.mover) - facet.begin;
+      const Real at = dot(from_begin, facet.along);
+      const Real& zero = same<Real>();
+      if (abs(dot(from_begin, facet.normal)) > zero || at < -zero || at > facet.length + zero) continue;
+      Touch<Real> touch{i, facet.normal, facet.walkable};
+      const std::size_t other = at <= zero ? facet.before : at >= facet.length - zero ? facet.after : facet.none;
+      if (other != facet.none) touch.corner = facets_[other].normal;
+      const P relative = velocity_ - carried_by(facet.mover);
+      if (dot(relative, touch.normal) <= zero * (1 + abs(relative.x) + abs(relative.y))) touches.push_back(touch);
+    }
+    return touches;
+  }
+
+  /// Takes the mover of what is touched as what carries. @throws NotCovered where that is not one.
+  void find_carrier(const std::vector<Touch<Real>>& touches) {
+    carrier_ = touches.empty() ? no_mover : facets_[touches.front().facet].mover;
+    for (const Touch<Real>& touch : touches) {
+      const MoverIndex mover = facets_[touch.facet].mover;
+      require(mover == carrier_, "what is between a mover and something else");
+      require(mover == no_mover || touch.walkable, "movers that are met by anything but their walkable side");
+    }
+  }
+
+  /// Impacts, until none is left; then what holds, and jumps.
+  void settle() {
+    for (int round = 0; round < most_at_once; ++round) {
+      if (jumped()) continue;  // off the ground that it stood on or fell upon, before steering leads it away
+      limit_fall();
+      const std::vector<Touch<Real>> touches = touched();
+      find_carrier(touches);
+      if (answer_impact(touches)) continue;
+      hold_ = acceleration_of<Real>(law_, forces(), touches);
+      require(!hold_.chatters, "ground that holds with the acceleration of the ground and not with that of the air");
+      if (!hold_.stands) carrier_ = no_mover;
+      if (jumped()) continue;
+      follow(touches);
+      return;
+    }
+    throw NotCovered("more than 64 impacts at one moment");
+  }
+
+  bool jumped() {
+    if (!hold_.stands || !inputs_.jump()) return false;
+    velocity_.y = carrier_velocity().y + scene_.character.jump_speed;
+    hold_.stands = false;
+    return true;
+  }
+
+  bool answer_impact(const std::vector<Touch<Real>>& touches) {
+    const P carried = carrier_velocity();
+    const P relative = velocity_ - carried;
+    P after = after_impact<Real>(law_, relative, touches, hold_.stands);
+    if (scene_.gravity.y() < 0) after = without_climb<Real>(law_, after, touches);
+    if (after.x == relative.x && after.y == relative.y) return false;
+    // Who comes from straight above is carried at once.
+    if (carrier_ != no_mover && !hold_.stands && velocity_.x == 0) after = {};
+    const auto less_into = [&](const Touch<Real>& a, const Touch<Real>& b) {
+      return dot(relative, a.normal) < dot(relative, b.normal);
+    };
+    const auto met = std::min_element(touches.begin(), touches.end(), less_into);
+    course_.impacts.push_back({now_, facets_[met->facet].collider, velocity_, carried + after});
+    velocity_ = carried + after;
+    hold_.stands = hold_.stands || std::any_of(touches.begin(), touches.end(), [&](const Touch<Real>& at) {
+                     return at.walkable && abs(dot(after, at.normal)) <= same<Real>() * (1 + abs(after.x));
+                   });
+    return true;
+  }
+
+  /// Takes out of the velocity what rounding left of it into what holds.
+  void follow(const std::vector<Touch<Real>>& touches) {
+    held_.clear();
+    for (const Touch<Real>& touch : touches) {
+      if (std::find(hold_.facets.begin(), hold_.facets.end(), touch.facet) == hold_.facets.end()) continue;
+      held_.push_back(touch.facet);
+      velocity_ -= touch.normal * dot(velocity_ - carrier_velocity(), touch.normal);
+    }
+  }
+
+  void limit_fall() {
+    falls_fastest_ = false;
+    if (!scene_.character.max_fall_speed) return;
+    const Real least = carrier_velocity().y - *scene_.character.max_fall_speed;
+    require(!hold_.stands || velocity_.y >= least, "walking down faster than the character may fall");
+    falls_fastest_ = velocity_.y <= least + same<Real>() * (1 + abs(least));
+    if (falls_fastest_) velocity_.y = least;
+  }
+
+  [[nodiscard]] Forces<Real> forces() const {
+    Forces<Real> forces;
+    forces.velocity = velocity_ - carrier_velocity();
+    forces.fall = falls_fastest_ ? Real(0) : Real(-scene_.gravity.y());
+    if (!inputs_.move()) return forces;
+    forces.missing = *inputs_.move() * scene_.character.walk_speed - forces.velocity.x;
+    forces.on_ground = scene_.character.acceleration;
+    forces.in_air = scene_.character.air_acceleration.value_or(scene_.character.acceleration);
+    return forces;
+  }
+
+  /// Goes to the next event.
+  void advance() {
+    const P& a = hold_.acceleration;
+    Real until = inputs_.next_after(now_) - now_;
+    const auto consider = [&](const std::optional<Real>& time) {
+      if (time && *time < until) until = *time;
+    };
+    for (const Leg<Real>& leg : legs_)
+      if (leg.until) consider(*leg.until - now_);
+    const Forces<Real> now = forces();
+    if (now.on_ground != 0 || now.in_air != 0) consider(time_to(now.missing, a.x));
+    if (scene_.character.max_fall_speed && !falls_fastest_)
+      consider(time_to(-*scene_.character.max_fall_speed - now.velocity.y, a.y));
+    consider(end_of_rise());
+    for (const std::size_t i : held_) consider(end_of(facets_[i]));
+    const Extent way = way_until(until);
+    for (std::size_t i = 0; i < facets_.size(); ++i)
+      if (facets_[i].mover != no_mover || way.meets(extents_[i])) consider(impact_with(facets_[i]));
+    const bool at_input = until == inputs_.next_after(now_) - now_;
+    place_ += velocity_ * until + a * (until * until / 2);
+    velocity_ += a * until;
+    now_ = at_input ? inputs_.next_after(now_) : now_ + until;
+    if (abs(forces().missing) <= same<Real>() && inputs_.move()) velocity_.x += forces().missing;
+  }
+
+  /// When something that changes evenly has changed by so much.
+  static std::optional<Real> time_to(const Real& change, const Real& rate) {
+    if (abs(change) <= same<Real>() || rate * change <= 0) return std::nullopt;
+    return Real(change / rate);
+  }
+
+  /// Under a ceiling that holds it: rises and falls follow it differently.
+  [[nodiscard]] std::optional<Real> end_of_rise() const {
+    const bool under = std::any_of(held_.begin(), held_.end(), [&](std::size_t i) { return facets_[i].normal.y < 0; });
+    return under && velocity_.y > 0 ? time_to(-velocity_.y, hold_.acceleration.y) : std::nullopt;
+  }
+
+  [[nodiscard]] P from_begin_of(const Facet<Real>& facet) const {
+    return place_ - offset_of(facet.mover) - facet.begin;
+  }
+
+  std::optional<Real> end_of(const Facet<Real>& facet) const {
+    const Real at = dot(from_begin_of(facet), facet.along);
+    const Real speed = dot(velocity_ - carried_by(facet.mover), facet.along);
+    const Real change = dot(hold_.acceleration, facet.along);
+    const std::optional<Real> back = falls_through_zero<Real>(at, speed, change);
+    const std::optional<Real> forth = falls_through_zero<Real>(facet.length - at, -speed, -change);
+    return !back || (forth && *forth < *back) ? forth : back;
+  }
+
+  std::optional<Real> impact_with(const Facet<Real>& facet) const {
+    const P from = from_begin_of(facet);
+    const P velocity = velocity_ - carried_by(facet.mover);
+    const std::optional<Real> time = falls_through_zero<Real>(dot(from, facet.normal), dot(velocity, facet.normal),
+                                                              dot(hold_.acceleration, facet.normal));
+    if (!time) return std::nullopt;
+    const P then = from + velocity * *time + hold_.acceleration * (*time * *time / 2);
+    const Real at = dot(then, facet.along);
+    return at >= -same<Real>() && at <= facet.length + same<Real>() ? time : std::nullopt;
+  }
+
+  /// Around the way up to a time from now: a parabola lies within the triangle of its ends and of where their tangents
+  /// cross.
+  [[nodiscard]] Extent way_until(const Real& until) const {
+    Extent way;
+    way.add(place_);
+    way.add(place_ + velocity_ * (until / 2));
+    way.add(place_ + velocity_ * until + hold_.acceleration * (until * until / 2));
+    return way;
+  }
+
+  /// A map that is left puts contenders back.
+  void check_map() const {
+    if (!scene_.respawn_box) return;
+    const Vec2d at(static_cast<double>(place_.x), static_cast<double>(place_.y));
+    const Vec2d outside = (scene_.respawn_box->lower - at).cwiseMax(at - scene_.respawn_box->upper);
+    require(outside.maxCoeff() <= 10, "a map that is left");
+  }
+
+  const Scene& scene_;
+  Law law_;
+  InputTimes<Real> inputs_;
+  std::vector<Facet<Real>> facets_;
+  std::vector<Extent> extents_;
+  std::vector<Leg<Real>> legs_;
+
+  Course<Real> course_;
+  Real now_{0};
+  P place_;
+  P velocity_;
+  Hold<Real> hold_;
+  std::vector<std::size_t> held_;  ///< Facets.
+  MoverIndex carrier_ = no_mover;
+  bool falls_fastest_ = false;
+};
+
+}  // namespace
+
+template <class Real>
+const Arc<Real>& Course<Real>::arc_at(const Real& time) const {
+  const auto after = std::upper_bound(arcs.begin(), arcs.end(), time,
+                                      [](const Real& wanted, const Arc<Real>& arc) { return wanted < arc.begin; });
+  return after == arcs.begin() ? arcs.front() : *(after - 1);
+}
+
+template <class Real>
+Point<Real> Course<Real>::place_at(const Real& time) const {
+  const Arc<Real>& arc = arc_at(time);
+  const Real t = time - arc.begin;
+  return arc.place + arc.velocity * t + arc.acceleration * (t * t / 2);
+}
+
+template <class Real>
+Point<Real> Course<Real>::velocity_at(const Real& time) const {
+  const Arc<Real>& arc = arc_at(time);
+  return arc.velocity + arc.acceleration * (time - arc.begin);
+}
+
+template <class Real>
+Vec2d Course<Real>::at(double time) const {
+  const Point<Real> place = place_at(Real(time));
+  return {static_cast<double>(place.x), static_cast<double>(place.y)};
+}
+
+template <class Real>
+Course<Real> course_of(const Scene& scene, const std::vector<InputEvent>& input, Law law) {
+  check(scene, input);
+  return Solver<Real>(scene, input, law).solve();
+}
+
+template class Course<Number<30>>;
+template class Course<Number<50>>;
+template class Course<Number<70>>;
+template Course<Number<30>> course_of(const Scene&, const std::vector<InputEvent>&, Law);
+template Course<Number<50>> course_of(const Scene&, const std::vector<InputEvent>&, Law);
+template Course<Number<70>> course_of(const Scene&, const std::vector<InputEvent>&, Law);
+
+}  // namespace paperproof::compare::continuous
