@@ -27,14 +27,16 @@ class InputTimes {
     return next == times_.end() ? end_ : std::min(*next, end_);
   }
 
+  /// Of the events of one step the last word holds.
   void take_until(const Real& time) {
+    bool down = down_;
     for (; taken_ < events_.size() && times_[taken_] <= time; ++taken_) {
       const InputEvent& event = events_[taken_];
       if (event.move) move_ = std::clamp(*event.move, -1.0, 1.0);
-      if (!event.jump) continue;
-      pending_ = *event.jump && (pending_ || !down_);
-      down_ = *event.jump;
+      down = event.jump.value_or(down);
     }
+    pending_ = down && (pending_ || !down_);
+    down_ = down;
   }
 
   [[nodiscard]] const std::optional<Real>& move() const { return move_; }

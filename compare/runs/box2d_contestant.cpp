@@ -10,19 +10,77 @@
 namespace paperproof::compare {
 namespace {
 
+/// Which of the world's steps it is that a step of the scene consists of.
+struct SubstepOf {
+  int number;
+  int count;
+  [[nodiscard]] double fraction(double of_substep) const {
+    return count == 1 ? of_substep : (number + of_substep) / count;
+  }
+};
+
+void begin(TraceStep& record) {
+  record.path.clear();
+  record.contacts.clear();
+  record.met.clear();
+  record.movers.clear();
+  record.turns.clear();
+  record.sensors.clear();
+  record.dropped_through.clear();
+  record.requested = Vec2d::Zero();
+  record.steered = 0;
+  record.stuck = record.dropped = record.capped = false;
+}
+
+/// Adds those that are not there yet, with their fractions of the whole step.
+template <class Event, class Same>
+void add_events(const std::vector<Event>& events, const SubstepOf& of, const Same& same, std::vector<Event>& all) {
+  for (Event event : events) {
+    event.fraction = of.fraction(event.fraction);
+    if (std::none_of(all.begin(), all.end(), [&](const Event& known) { return same(known, event); }))
+      all.push_back(event);
+  }
+}
+
+void add_substep(const box2d::TwinStep& twin, const SubstepOf& of, bool turns, TraceStep& record) {
+  for (std::size_t i = of.number == 0 ? 0 : 1; i < twin.path.size(); ++i)  // it begins where the one before ended
+    record.path.push_back({twin.path[i].position, of.fraction(twin.path[i].fraction)});
+  add_events(
+      twin.contacts, of, [](const auto& a, const auto& b) { return a.collider == b.collider && a.side == b.side; },
+      record.contacts);
+  add_events(
+      twin.met, of, [](const auto& a, const auto& b) { return a.other == b.other && a.side == b.side; }, record.met);
+  add_events(
+      twin.sensors, of, [](const auto&, const auto&) { return false; }, record.sensors);
+  for (const ColliderIndex passed : twin.dropped_through)
+    if (std::find(record.dropped_through.begin(), record.dropped_through.end(), passed) == record.dropped_through.end())
+      record.dropped_through.push_back(passed);
+  std::sort(record.dropped_through.begin(), record.dropped_through.end());
+  if (of.number == 0) record.movers = twin.movers;
+  for (std::size_t k = 0; k < twin.movers.size(); ++k) record.movers[k].to = twin.movers[k].to;
+  if (turns && of.number == 0)
+    for (const box2d::MoverTurn& turn : twin.turns) record.turns.push_back({turn.from, turn.to});
+  if (turns)
+    for (std::size_t k = 0; k < twin.turns.size(); ++k) record.turns[k].to = twin.turns[k].to;
+  record.velocity = twin.velocity;
+  record.grounded = twin.grounded;
+  record.capped = record.capped || twin.capped;
+}
+
 class Box2dContestant final : public Contestant {
  public:
-  Box2dContestant(const box2d::ReferenceWorldDef& def, const Scene& scene, const Scenery<double>& scenery,
+  Box2dContestant(const TwinDef& def, const Scene& scene, const Scenery<double>& scenery,
                   std::span<const KnobSetting> knobs)
       : character_(scene.character),
         gravity_(scene.gravity),
-        world_(scenery, scene.character, starts_of(scene), def),
+        substeps_(def.substeps),
+        world_(scenery, scene.character, starts_of(scene), def.world),
         twins_(character_count(scene)),
         wishes_(character_count(scene)) {
-    if (!(StepTimes(scene).shortest() >= box2d::least_step))
+    if (!(StepTimes(scene).shortest() / substeps_ >= box2d::least_step))
       throw box2d::InvalidDefinition("Box2D takes no steps shorter than 1e-9 s");
     header_.scene = scene.name;
-    header_.contender = def.mode == box2d::SceneryMode::pieces ? "box2d_pieces" : "box2d";
+    header_.contender = def.world.mode == box2d::SceneryMode::pieces ? "box2d_pieces" : "box2d";
     header_.knob = turned_knobs(knobs, header_.contender);
     header_.scalar = name_of(ScalarKind::binary32);
     header_.dt = scene.dt;
@@ -43,30 +101,22 @@ class Box2dContestant final : public Contestant {
   [[nodiscard]] const TraceHeader& header() const noexcept override { return header_; }
 
   void step(const StepInput& input, std::span<TraceStep> records) override {
-    const std::span<const box2d::TwinStep> steps = advance(input);
-    for (std::size_t k = 0; k < twins_.size(); ++k) {
-      const box2d::TwinStep& twin = steps[k];
-      TraceStep& record = records[k];
-      record.path = twin.path;
-      record.requested = wishes_[k].velocity * dt_;
-      record.steered = twins_[k].steered * dt_;
-      record.velocity = twin.velocity;
-      record.grounded = twin.grounded;
-      record.jumping = twins_[k].state.jumping;
-      record.contacts = twin.contacts;
-      record.met = twin.met;
-      record.movers = twin.movers;
-      record.turns.clear();
-      if (!header_.turning.empty())
-        for (const box2d::MoverTurn& turn : twin.turns) record.turns.push_back({turn.from, turn.to});
-      record.sensors = twin.sensors;
-      record.dropped_through = twin.dropped_through;
-      record.stuck = record.dropped = false;
-      record.capped = twin.capped;
+    for (TraceStep& record : records) begin(record);
+    for (int substep = 0; substep < substeps_; ++substep) {
+      const std::span<const box2d::TwinStep> steps = advance(part_of(input, substep));
+      for (std::size_t k = 0; k < twins_.size(); ++k) {
+        const SubstepOf of{substep, substeps_};
+        add_substep(steps[k], of, !header_.turning.empty(), records[k]);
+        records[k].requested += wishes_[k].velocity * dt_;
+        records[k].steered += twins_[k].steered * dt_;
+        records[k].jumping = twins_[k].state.jumping;
+      }
     }
   }
 
-  void step_unrecorded(const StepInput& input) override { advance(input); }
+  void step_unrecorded(const StepInput& input) override {
+    for (int substep = 0; substep < substeps_; ++substep) advance(part_of(input, substep));
+  }
 
   bool keep_wishes(bool keep) override {
     if (keep) kept_.clear();
@@ -76,8 +126,12 @@ class Box2dContestant final : public Contestant {
 
   void step_bare(const StepInput& input, std::size_t k) override {
     const std::size_t count = twins_.size();
-    take_turns(input);
-    world_.step_bare(std::span(kept_).subspan(k * count, count), input.dt, input.movers, turns_);
+    for (int substep = 0; substep < substeps_; ++substep) {
+      const StepInput part = part_of(input, substep);
+      take_turns(part);
+      const std::size_t wish = (k * static_cast<std::size_t>(substeps_) + static_cast<std::size_t>(substep)) * count;
+      world_.step_bare(std::span(kept_).subspan(wish, count), part.dt, part.movers, turns_);
+    }
   }
 
   [[nodiscard]] Pose pose(std::size_t character) const override {
@@ -118,6 +172,27 @@ class Box2dContestant final : public Contestant {
                             "\" does");
     }
     header_.turning = std::move(turning);
+  }
+
+  /// One of the world's steps. What is returned holds until the next call.
+  StepInput part_of(const StepInput& whole, int substep) {
+    if (substeps_ == 1) return whole;
+    part_movers_.clear();
+    for (const MoverMotion<double>& mover : whole.movers)
+      part_movers_.push_back({mover_at(mover, substep), mover_at(mover, substep + 1)});
+    part_turns_.clear();
+    for (const TurnMotion& turn : whole.turns)
+      part_turns_.push_back({turn_at(turn, substep), turn_at(turn, substep + 1)});
+    return {whole.dt / substeps_, whole.players, part_movers_, part_turns_};
+  }
+  [[nodiscard]] Vec2d mover_at(const MoverMotion<double>& mover, int substep) const {
+    if (substep == substeps_) return mover.to;
+    return mover.from + (mover.to - mover.from) * (static_cast<double>(substep) / substeps_);
+  }
+
+  [[nodiscard]] double turn_at(const TurnMotion& turn, int substep) const {
+    if (substep == substeps_) return turn.to;
+    return turn.from + (turn.to - turn.from) * (static_cast<double>(substep) / substeps_);
   }
 
   std::span<const box2d::TwinStep> advance(const StepInput& input) {
@@ -188,11 +263,14 @@ class Box2dContestant final : public Contestant {
 
   CharacterDef character_;
   Vec2d gravity_;
-  double dt_ = 0;  ///< Of the present step.
+  int substeps_;
+  double dt_ = 0;  ///< Of the present step of the world.
   box2d::ReferenceWorld world_;
   TraceHeader header_;
   std::vector<Twin> twins_;
-  std::vector<box2d::MoverTurn> turns_;  ///< Of the present step.
+  std::vector<box2d::MoverTurn> turns_;           ///< Of the present step.
+  std::vector<MoverMotion<double>> part_movers_;  ///< See `part_of`.
+  std::vector<TurnMotion> part_turns_;
   std::vector<box2d::TwinWish> wishes_;  ///< Of the present step.
   std::vector<box2d::TwinWish> kept_;    ///< Of all steps since they are kept.
   bool keeps_ = false;
@@ -202,7 +280,7 @@ class Box2dContestant final : public Contestant {
 
 std::unique_ptr<Contestant> make_box2d_contestant(box2d::SceneryMode mode, const Scene& scene,
                                                   const Scenery<double>& scenery, std::span<const KnobSetting> knobs) {
-  box2d::ReferenceWorldDef def{.mode = mode};
+  TwinDef def{.world = {.mode = mode}};
   turn_knobs(knobs, def);
   return std::make_unique<Box2dContestant>(def, scene, scenery, knobs);
 }

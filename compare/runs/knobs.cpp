@@ -84,7 +84,7 @@ const std::vector<Knob>& all_knobs() {
 struct EngineKnob {
   std::string_view name;
   std::string_view meaning;
-  void (*turn)(const std::string& value, box2d::ReferenceWorldDef& def);
+  void (*turn)(const std::string& value, TwinDef& def);
 };
 
 int iterations_in(const std::string& text) {
@@ -94,27 +94,29 @@ int iterations_in(const std::string& text) {
 }
 
 const std::vector<EngineKnob>& engine_knobs() {
-  using Def = box2d::ReferenceWorldDef;
+  using Def = TwinDef;
   static const std::vector<EngineKnob> all{
       {"bullet", "on, or off: continuous collision against dynamic bodies, too",
-       [](const std::string& value, Def& def) { def.bullet = second_of(value, "off", "on"); }},
+       [](const std::string& value, Def& def) { def.world.bullet = second_of(value, "off", "on"); }},
       {"continuous", "on, or off: no continuous collision at all",
-       [](const std::string& value, Def& def) { def.continuous = second_of(value, "off", "on"); }},
+       [](const std::string& value, Def& def) { def.world.continuous = second_of(value, "off", "on"); }},
       {"velocity_iterations", "of its solver, 8 where not turned",
-       [](const std::string& value, Def& def) { def.velocity_iterations = iterations_in(value); }},
+       [](const std::string& value, Def& def) { def.world.velocity_iterations = iterations_in(value); }},
       {"position_iterations", "of its solver, 3 where not turned",
-       [](const std::string& value, Def& def) { def.position_iterations = iterations_in(value); }},
+       [](const std::string& value, Def& def) { def.world.position_iterations = iterations_in(value); }},
+      {"substeps", "steps of its world in one step of the scene, each with its share of the time; 1 where not turned",
+       [](const std::string& value, Def& def) { def.substeps = iterations_in(value); }},
       {"solids", "static, kinematic or dynamic: what the solids that stand are for it",
        [](const std::string& value, Def& def) {
          if (value != "static" && value != "kinematic" && value != "dynamic")
            throw std::invalid_argument("expected static, kinematic or dynamic");
-         def.solids = value == "static"      ? box2d::SolidBody::fixed
-                      : value == "kinematic" ? box2d::SolidBody::kinematic
-                                             : box2d::SolidBody::dynamic;
+         def.world.solids = value == "static"      ? box2d::SolidBody::fixed
+                            : value == "kinematic" ? box2d::SolidBody::kinematic
+                                                   : box2d::SolidBody::dynamic;
        }},
       {"movers", "velocity, or transform: movers are put where they should be by SetTransform",
        [](const std::string& value, Def& def) {
-         def.drive =
+         def.world.drive =
              second_of(value, "velocity", "transform") ? box2d::MoverDrive::transform : box2d::MoverDrive::velocity;
        }},
   };
@@ -156,7 +158,7 @@ KnobSetting parse_knob(std::string_view text) {
 
 void check_knob(const KnobSetting& setting, std::string_view contender) {
   if (is_reference(contender)) {
-    box2d::ReferenceWorldDef def;
+    TwinDef def;
     turn_knobs(std::span(&setting, 1), def);
     return;
   }
@@ -190,7 +192,7 @@ bool has_knob(std::string_view contender, std::string_view name) {
   return knob != nullptr && kind && is_of(*knob, *kind);
 }
 
-void turn_knobs(std::span<const KnobSetting> knobs, box2d::ReferenceWorldDef& def) {
+void turn_knobs(std::span<const KnobSetting> knobs, TwinDef& def) {
   for (const KnobSetting& setting : knobs)
     if (const EngineKnob* knob = find_engine_knob(setting.name)) knob->turn(setting.value, def);
 }

@@ -11,7 +11,13 @@
 
 namespace paperproof::compare {
 
-/// `name=value`. A technique's is the field of `ArticleKnobs`, a twin's that of `ReferenceWorldDef`; `octagon_sweep` has
+/// Of a Box2D twin: its world, and how often that is stepped.
+struct TwinDef {
+  box2d::ReferenceWorldDef world;
+  int substeps = 1;  ///< Each step of the scene is so many of the world, of equal length, each as design §4 has a step.
+};
+
+/// `name=value`. A technique's is the field of `ArticleKnobs`, a twin's that of `TwinDef`; `octagon_sweep` has
 /// `iterations`.
 struct KnobSetting {
   std::string name;
@@ -31,7 +37,7 @@ void check_knob(const KnobSetting& setting, std::string_view contender);
 
 /// Turns those of the knobs that the technique or the twin has; of two of the same name the later holds.
 void turn_knobs(std::span<const KnobSetting> knobs, TechniqueDef& def);
-void turn_knobs(std::span<const KnobSetting> knobs, box2d::ReferenceWorldDef& def);
+void turn_knobs(std::span<const KnobSetting> knobs, TwinDef& def);
 
 /// Those of the knobs that the contender has, as `name=value name=value`; empty for none.
 [[nodiscard]] std::string turned_knobs(std::span<const KnobSetting> knobs, std::string_view contender);

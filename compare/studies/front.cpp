@@ -1,0 +1,105 @@
+#include "studies/front.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace paperproof::compare {
+namespace {
+
+std::optional<double> parameter(const Row& row, std::string_view key) {
+  for (const auto& [name, value] : row.parameters)
+    if (name == key) return value;
+  return std::nullopt;
+}
+
+bool counts(const Row& row) { return row.error_max_m && time_per_second(row); }
+
+bool is_ours(const Row& row) { return row.contender == "octagon_sweep" && row.scalar == "double"; }
+
+bool better(const Row& row, const Row& than) {
+  const double error = *row.error_max_m - *than.error_max_m;
+  const double time = *time_per_second(row) - *time_per_second(than);
+  return error <= 0 && time <= 0 && (error < 0 || time < 0);
+}
+
+/// Of those that are better than a row the one with the least time.
+const Row* cheapest_better(const std::vector<Row>& rows, const Row& than) {
+  const Row* found = nullptr;
+  for (const Row& row : rows)
+    if (counts(row) && better(row, than) && (found == nullptr || *time_per_second(row) < *time_per_second(*found)))
+      found = &row;
+  return found;
+}
+
+std::string reason(const Row& ours, const Row& other) {
+  const bool same_steps = parameter(ours, "dt_s") == parameter(other, "dt_s");
+  // Two that make the same motion differ by a gap or by rounding.
+  const bool same_error = *ours.error_max_m - *other.error_max_m <= 2e-6 + 1e-3 * *ours.error_max_m;
+  if (same_steps && same_error)
+    return fmt::format(
+        "Both make the same motion there, and a step without the sweep of the whole octagon costs less "
+        "({:.0f} ns against {:.0f} ns).",
+        *other.ns_per_step, *ours.ns_per_step);
+  if (same_error) return "Its error is as small with longer steps.";
+  return "Its error is smaller for the time.";
+}
+
+}  // namespace
+
+std::optional<double> slope_of(std::span<const std::pair<double, double>> log_points) {
+  if (log_points.size() < 2) return std::nullopt;
+  double x = 0;
+  double y = 0;
+  for (const auto& point : log_points) {
+    x += point.first / static_cast<double>(log_points.size());
+    y += point.second / static_cast<double>(log_points.size());
+  }
+  double above = 0;
+  double below = 0;
+  for (const auto& point : log_points) {
+    above += (point.first - x) * (point.second - y);
+    below += (point.first - x) * (point.first - x);
+  }
+  return below > 0 ? std::optional(above / below) : std::nullopt;
+}
+
+std::optional<double> time_per_second(const Row& row) {
+  const std::optional<double> dt = parameter(row, "dt_s");
+  if (!dt || !row.ns_per_step) return std::nullopt;
+  return *row.ns_per_step / *dt;
+}
+
+void mark_front(std::vector<Row>& rows) {
+  for (Row& row : rows)
+    if (counts(row))
+      row.on_front =
+          std::none_of(rows.begin(), rows.end(), [&](const Row& other) { return counts(other) && better(other, row); });
+}
+
+std::string words_of_front(const std::string& motion, const std::vector<Row>& rows) {
+  std::vector<std::string> front;
+  const Row* best = nullptr;
+  for (const Row& row : rows) {
+    if (is_ours(row) && counts(row) && (best == nullptr || *row.error_max_m < *best->error_max_m)) best = &row;
+    if (!row.on_front.value_or(false)) continue;
+    const std::string who =
+        row.contender + (row.scalar == "float" && !row.contender.starts_with("box2d") ? " (float)" : "");
+    if (std::find(front.begin(), front.end(), who) == front.end()) front.push_back(who);
+  }
+  std::string text = fmt::format("{}: on the front: {}.", motion, fmt::join(front, ", "));
+  if (best == nullptr || std::any_of(rows.begin(), rows.end(),
+                                     [](const Row& row) { return is_ours(row) && row.on_front.value_or(false); }))
+    return text;
+  const Row* other = cheapest_better(rows, *best);
+  if (other == nullptr) return text;
+  return text + fmt::format(
+                    " octagon_sweep is not: where its error is least, {:.2g} m, {} has {:.2g} m in {:.0f} % of "
+                    "the time. {}",
+                    *best->error_max_m, other->contender, *other->error_max_m,
+                    100 * *time_per_second(*other) / *time_per_second(*best), reason(*best, *other));
+}
+
+}  // namespace paperproof::compare

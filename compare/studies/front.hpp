@@ -1,0 +1,29 @@
+/// What rows of work and precision say: slopes, the Pareto front, and the front in words.
+#pragma once
+
+#include "records/row.hpp"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace paperproof::compare {
+
+/// Of a line through points, by least squares. Nothing for less than two points with different `x`.
+[[nodiscard]] std::optional<double> slope_of(std::span<const std::pair<double, double>> log_points);
+
+/// What a second of motion takes [ns]; nothing for a row without time or length of a step.
+[[nodiscard]] std::optional<double> time_per_second(const Row& row);
+
+/// Sets `on_front` of every row that has an error and a time: no other of the rows has less error for less time, or the
+/// same of one and less of the other.
+/// @param rows of one motion.
+void mark_front(std::vector<Row>& rows);
+
+/// Who is on the front; and where octagon_sweep in double is not, who has less error for less time there, and why.
+/// @param rows of one motion, with the front marked.
+[[nodiscard]] std::string words_of_front(const std::string& motion, const std::vector<Row>& rows);
+
+}  // namespace paperproof::compare

@@ -1,0 +1,32 @@
+/// The motions of `work-precision`: scenes whose continuous course is known.
+#pragma once
+
+#include "continuous/course.hpp"
+#include "scenes/scene.hpp"
+
+#include <string_view>
+#include <vector>
+
+namespace paperproof::compare {
+
+/// A scene that can be run with steps of any length that divides `longest_step`.
+struct Motion {
+  std::string_view name;
+  std::string_view description;  ///< With the formula where there is a short one.
+  double duration;               ///< [s]
+  Scene (*make)();               ///< Its input counts in steps of `longest_step`.
+  /// Where a body without friction goes another way than octagon_sweep's law has it: how. Empty: both go the same way.
+  std::string_view without_friction = "";
+};
+
+inline constexpr double longest_step = 1.0 / 15;  ///< [s]
+
+[[nodiscard]] const std::vector<Motion>& motions();
+
+/// The motion's scene with steps of a length that divides `longest_step` [s].
+[[nodiscard]] Scene scene_of(const Motion& motion, double dt);
+
+/// Where the character is at the end of every step of the scene, by the continuous reference.
+[[nodiscard]] std::vector<Vec2d> continuous_places(const Scene& scene, continuous::Law law);
+
+}  // namespace paperproof::compare
