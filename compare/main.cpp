@@ -108,6 +108,7 @@ int compare(const CompareWords& words) {
   arguments.run.full_plan = words.plan == "full";
   arguments.run.reference = !words.no_reference;
   arguments.run.measure_cost = !words.no_timing;
+  arguments.run.continuous = true;
   arguments.run.mode = words.mode == "lockstep" ? Mode::lockstep : Mode::free;
   if (!words.scalars.empty()) arguments.run.scalars.clear();
   for (const std::string& scalar : without_repeats(words.scalars))

@@ -335,6 +335,23 @@ Course<Real> course_of(const Scene& scene, const std::vector<InputEvent>& input,
   return Solver<Real>(scene, input, law).solve();
 }
 
+template <class Real>
+Course<double> rounded(const Course<Real>& course) {
+  const auto round = [](const Point<Real>& p) {
+    return Point<double>{static_cast<double>(p.x), static_cast<double>(p.y)};
+  };
+  Course<double> made;
+  for (const Arc<Real>& arc : course.arcs)
+    made.arcs.push_back(
+        {static_cast<double>(arc.begin), round(arc.place), round(arc.velocity), round(arc.acceleration), arc.stands});
+  for (const Impact<Real>& impact : course.impacts)
+    made.impacts.push_back(
+        {static_cast<double>(impact.time), impact.collider, round(impact.before), round(impact.after)});
+  return made;
+}
+
+template Course<double> rounded(const Course<Number<50>>&);
+template class Course<double>;
 template class Course<Number<30>>;
 template class Course<Number<50>>;
 template class Course<Number<70>>;

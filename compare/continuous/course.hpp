@@ -69,6 +69,11 @@ class Course {
 template <class Real>
 [[nodiscard]] Course<Real> course_of(const Scene& scene, const std::vector<InputEvent>& input, Law law);
 
+/// The same in double: places are within an ulp of their coordinates, times the number of roundings in a parabola.
+template <class Real>
+[[nodiscard]] Course<double> rounded(const Course<Real>& course);
+
+extern template class Course<double>;
 extern template class Course<Number<30>>;
 extern template class Course<Number<50>>;
 extern template class Course<Number<70>>;

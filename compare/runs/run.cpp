@@ -2,6 +2,7 @@
 
 #include "metrics/agreement.hpp"
 
+#include "runs/continuous_error.hpp"
 #include "runs/cost.hpp"
 #include "runs/input_cursor.hpp"
 #include "runs/lane.hpp"
@@ -57,6 +58,7 @@ class SceneRun {
       for (const auto& lane : twins_) lane->give_up(reason.what());
     }
     begin_agreements();
+    begin_errors();
   }
 
   ReportScene go() {
@@ -111,6 +113,14 @@ class SceneRun {
       if (lane != *reference) pair_up(*lane, **reference);
   }
 
+  /// Lockstep has no course of its own, nor have several characters.
+  void begin_errors() {
+    errors_.resize(lanes_.size());
+    if (!options_.continuous || options_.mode == Mode::lockstep || script_.size() != 1) return;
+    courses_.emplace(scene_, script_.front(), steps_);
+    for (std::size_t i = 0; i < lanes_.size(); ++i) errors_[i] = ContinuousError(courses_->of(lanes_[i]->contender()));
+  }
+
   void respawn_if_lost(Lane& lane, int step) const {
     if (!scene_.respawn_box) return;
     for (std::size_t k = 0; k < lane.characters(); ++k) {
@@ -122,10 +132,13 @@ class SceneRun {
   }
 
   void step_freely(int step, const StepInput& input) {
-    for (const auto& lane : lanes_) {
-      if (!lane->running()) continue;
-      respawn_if_lost(*lane, step);
-      lane->step(step, input);
+    for (std::size_t i = 0; i < lanes_.size(); ++i) {
+      Lane& lane = *lanes_[i];
+      if (!lane.running()) continue;
+      respawn_if_lost(lane, step);
+      lane.step(step, input);
+      if (courses_ && lane.running())
+        errors_[i].add(lane.record().path.back().position + lane.record().remainder, courses_->end(step));
     }
     for (Pair& pair : pairs_)
       if (pair.mine->running() && pair.reference->running())
@@ -156,6 +169,7 @@ class SceneRun {
   ReportScene collect() {
     for (const auto& lane : lanes_) lane->finish();
     for (const auto& lane : twins_) lane->finish();
+    for (std::size_t i = 0; i < lanes_.size(); ++i) errors_[i].write(lanes_[i]->row());
     for (Pair& pair : pairs_) {
       write_agreement(pair.agreements, pair.mine->row());
       if (options_.mode == Mode::lockstep) {  // every step is compared by itself there: none is the first
@@ -269,6 +283,8 @@ class SceneRun {
   std::vector<std::unique_ptr<Lane>> lanes_;
   std::vector<std::unique_ptr<Lane>> twins_;
   std::vector<Pair> pairs_;
+  std::optional<ContinuousCourses> courses_;    ///< None where they are not asked for.
+  std::vector<ContinuousError> errors_;         ///< By lane.
   std::chrono::steady_clock::time_point told_;  ///< Of the last call of the progress callback.
 };
 
