@@ -5,7 +5,7 @@
 #include "records/output_file.hpp"
 #include "records/rows_file.hpp"
 #include "runs/environment.hpp"
-#include "studies/chart_page.hpp"
+#include "report/report.hpp"
 #include "studies/scale.hpp"
 
 #include <paperproof/techniques.hpp>

@@ -10,7 +10,8 @@
 #include "runs/text_columns.hpp"
 #include "scenes/input_error.hpp"
 #include "scenes/load.hpp"
-#include "studies/grids.hpp"
+#include "report/report.hpp"
+#include "report/row_pictures.hpp"
 #include "words.hpp"
 
 #include <fmt/format.h>

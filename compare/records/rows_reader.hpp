@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <fstream>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -31,5 +32,11 @@ class RowsReader {
   std::uintmax_t end_ = 0;
   std::size_t line_ = 0;
 };
+
+/// Calls `visit(row)` for every row of a file, JSON or JSON Lines by its name.
+/// @return the header.
+/// @throws std::runtime_error as RowsReader does.
+nlohmann::ordered_json for_each_row(const std::string& path,
+                                    const std::function<void(nlohmann::ordered_json row)>& visit);
 
 }  // namespace paperproof::compare

@@ -12,28 +12,36 @@ namespace paperproof::compare {
 namespace {
 
 /// As the page shows it.
-std::string words_for(Verdict verdict) {
-  std::string words(name_of(verdict));
+std::string words_for(std::string words) {
   std::replace(words.begin(), words.end(), '_', ' ');
   return words;
 }
 
-nlohmann::json row_in_index(const Row& row) {
-  nlohmann::json object{{"contender", row.contender}, {"scalar", row.scalar}, {"mode", row.mode},
-                        {"steps", row.steps},         {"reason", row.reason}, {"findings", row.findings}};
-  if (!row.first_difference_box2d.empty()) object["findings"].push_back(row.first_difference_box2d);
-  if (!row.knob.empty()) object["knob"] = row.knob;
-  object["verdict"] = words_for(row.verdict);
-  for_each_metric(row, [&](const Metric& metric, const auto& value) {
-    nlohmann::json& number = object[std::string(metric.key)];
-    number = value;
-    if (!std::isfinite(static_cast<double>(value))) number = "not finite";
-  });
+nlohmann::json row_in_index(const nlohmann::ordered_json& row) {
+  nlohmann::json object(row);
+  for (auto& [key, value] : object.items())
+    if (value.is_null() || (value.is_number_float() && !std::isfinite(value.get<double>()))) value = "not finite";
+  object["verdict"] = words_for(row.value("verdict", ""));
+  if (!object.contains("reason")) object["reason"] = "";
+  if (!object.contains("findings")) object["findings"] = nlohmann::json::array();
+  if (object.contains("first_difference_box2d")) object["findings"].push_back(object["first_difference_box2d"]);
+  if (object.contains("exempted")) {
+    int all = 0;
+    for (const nlohmann::json& times : object["exempted"]) all += times.get<int>();
+    object["exempted"] = all;
+  }
+  for (const char* key : {"scene", "source", "parameters", "first_tunnel", "first_difference_box2d"}) object.erase(key);
   return object;
 }
 
 std::string dumped(const nlohmann::json& value) {
   return script_safe(value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+std::string list_of(const std::vector<std::string>& objects) {
+  JsonArray list;
+  for (const std::string& object : objects) list.add_raw(object);
+  return std::move(list).take();
 }
 
 }  // namespace
@@ -45,26 +53,33 @@ std::string scene_index_json(const ReportScene& scene) {
                         {"runs", scene.runs.size()},
                         {"disagreements", scene.disagreements.size()}};
   object["rows"] = nlohmann::json::array();
-  for (const Row& row : scene.rows) object["rows"].push_back(row_in_index(row));
+  for (const Row& row : scene.rows) object["rows"].push_back(row_in_index(row_json(row)));
+  return dumped(object);
+}
+
+std::string scene_index_json(const std::string& name, const std::vector<nlohmann::ordered_json>& rows) {
+  nlohmann::json object{{"name", name}, {"description", ""}, {"sentence", ""}, {"runs", 0}, {"disagreements", 0}};
+  object["rows"] = nlohmann::json::array();
+  for (const nlohmann::ordered_json& row : rows) object["rows"].push_back(row_in_index(row));
   return dumped(object);
 }
 
 std::string index_json(const Environment& environment, const std::vector<NamedTolerance>& tolerances,
                        const std::vector<std::string>& guarantee_notes, const std::vector<ReportSection>& sections,
-                       const std::vector<std::string>& scenes) {
+                       const std::vector<std::string>& scenes, const std::vector<std::string>& studies) {
   nlohmann::json names = nlohmann::json::array();
   for (const auto& [name, value] : environment) names.push_back({name, value});
   nlohmann::json lengths = nlohmann::json::array();
   for (const NamedTolerance& tolerance : tolerances) lengths.push_back({tolerance.name, tolerance.metres});
-  JsonArray list;
-  for (const std::string& scene : scenes) list.add_raw(scene);
   nlohmann::json titled = nlohmann::json::array();
-  for (const ReportSection& section : sections) titled.push_back({{"title", section.title}, {"lines", section.lines}});
+  for (const ReportSection& section : sections)
+    titled.push_back({{"title", section.title}, {"lines", section.lines}, {"table", section.table}});
   JsonObject object;
   object.put("environment", dumped(names)).put("tolerances", dumped(lengths));
   object.put("guarantee_notes", dumped(guarantee_notes))
       .put("sections", dumped(titled))
-      .put("scenes", std::move(list).take());
+      .put("scenes", list_of(scenes))
+      .put("studies", list_of(studies));
   return std::move(object).take();
 }
 

@@ -1,6 +1,7 @@
 #include "report/report.hpp"
 
 #include "records/output_file.hpp"
+#include "report/chart_json.hpp"
 #include "report/index_json.hpp"
 #include "report/json_text.hpp"
 #include "report/page_parts.hpp"
@@ -19,6 +20,32 @@ std::pair<std::string_view, std::string_view> split_at(std::string_view text, st
   return {text.substr(0, at), text.substr(at + marker.size())};
 }
 
+/// A scene of which there are only rows.
+const std::string no_replay = R"({"quantum":1,"sceneries":[],"runs":[],"disagreements":[],"disagreements_in_all":0})";
+
+std::string head_of_page() {
+  const auto [head, rest] = split_at(page::page_html, "/*STYLE*/");
+  return std::string(head).append(page::style_css).append(split_at(rest, "<!--DATA-->").first);
+}
+
+std::string data_element(const std::string& id, const std::string& json) {
+  return "<script type=\"application/json\" id=\"" + id + "\">" + json + "</script>\n";
+}
+
+/// @param charts the page needs the library that draws them.
+std::string tail_of_page(bool charts) {
+  std::string text;
+  if (charts) text.append("<script>").append(page::chart_min_js).append("</script>\n");
+  const auto [before, after] = split_at(split_at(page::page_html, "<!--DATA-->").second, "/*SCRIPT*/");
+  text += before;
+  for (const std::string_view part :
+       {page::time_js, page::decode_js, page::draw_js, page::tables_js, page::charts_js, page::grids_js,
+        page::disagreements_js, page::focus_js, page::controls_js, page::replay_js, page::first_js, page::main_js}) {
+    text += part;
+  }
+  return text.append(after);
+}
+
 ReportRun thinned(const ReportRun& run, int max_steps, const std::vector<Disagreement>& disagreements) {
   ReportRun copy = run;
   for (const Disagreement& disagreement : disagreements) copy.events.push_back({disagreement.step, {}, {}});
@@ -31,10 +58,7 @@ ReportRun thinned(const ReportRun& run, int max_steps, const std::vector<Disagre
 
 ReportWriter::ReportWriter(const std::string& path, const ReportOptions& options)
     : file_(std::make_unique<OutputFile>(path)), options_(options) {
-  const auto [head, rest] = split_at(page::page_html, "/*STYLE*/");
-  file_->write(head);
-  file_->write(page::style_css);
-  file_->write(split_at(rest, "<!--DATA-->").first);
+  file_->write(head_of_page());
 }
 
 ReportWriter::~ReportWriter() = default;
@@ -44,26 +68,25 @@ void ReportWriter::add(const ReportScene& scene) {
   for (const ReportRun& run : scene.runs) {
     copy.runs.push_back(thinned(run, options_.max_replay_steps, scene.disagreements));
   }
-  file_->write("<script type=\"application/json\" id=\"replay-" + std::to_string(index_.size()) + "\">");
-  file_->write(replay_json(copy, options_));
-  file_->write("</script>\n");
-  index_.push_back(scene_index_json(copy));
+  add_scene(scene_index_json(copy), replay_json(copy, options_));
+}
+
+void ReportWriter::add_scene(std::string index, const std::string& replay) {
+  file_->write(data_element("replay-" + std::to_string(index_.size()), replay.empty() ? no_replay : replay));
+  index_.push_back(std::move(index));
 }
 
 void ReportWriter::finish(const Environment& environment, const std::vector<NamedTolerance>& tolerances,
                           const std::vector<std::string>& guarantee_notes, const std::vector<ReportSection>& sections) {
-  file_->write("<script type=\"application/json\" id=\"index\">");
-  file_->write(index_json(environment, tolerances, guarantee_notes, sections, index_));
-  file_->write("</script>\n");
-  const auto [before, after] = split_at(split_at(page::page_html, "<!--DATA-->").second, "/*SCRIPT*/");
-  file_->write(before);
-  for (const std::string_view part :
-       {page::time_js, page::decode_js, page::draw_js, page::tables_js, page::disagreements_js, page::focus_js,
-        page::controls_js, page::replay_js, page::main_js}) {
-    file_->write(part);
-  }
-  file_->write(after);
+  file_->write(
+      data_element("index", index_json(environment, tolerances, guarantee_notes, sections, index_, studies_)));
+  file_->write(tail_of_page(!studies_.empty()));
   file_->commit();
+}
+
+std::string html_of(const ChartPage& page) {
+  return head_of_page() + data_element("index", index_json(page.environment, {}, {}, {}, {}, {chart_page_json(page)})) +
+         tail_of_page(true);
 }
 
 ReportOptions options_for(std::size_t runs) noexcept {

@@ -3,6 +3,7 @@
 
 #include "records/rows_json.hpp"
 #include "records/scene_result.hpp"
+#include "report/chart_page.hpp"
 
 #include <memory>
 #include <optional>
@@ -21,10 +22,11 @@ struct Report {
   std::vector<std::string> guarantee_notes;  ///< What is guaranteed, and the counts of violations, zero included.
 };
 
-/// Lines under a heading of their own in the summary.
+/// Under a heading of its own in the summary, opened by a click.
 struct ReportSection {
   std::string title;
   std::vector<std::string> lines;
+  std::vector<std::vector<std::string>> table{};  ///< The first row is the heading; may be empty.
 };
 
 /// How much of the runs goes into the file. A stored step takes about 30 bytes.
@@ -48,6 +50,11 @@ class ReportWriter {
 
   /// Scenes appear in the page in the order in which they are added.
   void add(const ReportScene& scene);
+  /// A scene as a page has it. @param index its object in `scenes` of the index; @param replay see `replay_json`; empty
+  /// for none.
+  void add_scene(std::string index, const std::string& replay);
+  /// A study, in the order in which they are added. @param json see `chart_page_json`.
+  void add_study(std::string json) { studies_.push_back(std::move(json)); }
   /// To be called once, last.
   void finish(const Environment& environment, const std::vector<NamedTolerance>& tolerances,
               const std::vector<std::string>& guarantee_notes, const std::vector<ReportSection>& sections = {});
@@ -56,10 +63,14 @@ class ReportWriter {
   std::unique_ptr<OutputFile> file_;
   ReportOptions options_;
   std::vector<std::string> index_;  ///< One JSON object per scene: what the summary and the tables need.
+  std::vector<std::string> studies_;
 };
 
 /// The whole report at once.
 /// @throws std::runtime_error that says in words which file could not be written and why.
 void write_report(const std::string& path, const Report& report, const ReportOptions& options = {});
+
+/// The page of a study alone.
+[[nodiscard]] std::string html_of(const ChartPage& page);
 
 }  // namespace paperproof::compare

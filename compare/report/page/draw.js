@@ -17,7 +17,8 @@ function theme() {
     grid: value('grid'),
     text: value('text'),
     quiet: value('quiet'),
-    bad: value('bad')
+    bad: value('bad'),
+    accent: value('accent')
   };
 }
 

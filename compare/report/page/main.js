@@ -9,6 +9,7 @@ INDEX.scenes.forEach((scene, i) => {
   scene.key = before === 0 ? scene.name : `${scene.name} (${before + 1})`;
 });
 const main = document.getElementById('main');
+/// `pictures` has a `draw`, as has the replay.
 let open = {scene: null, replay: null, pictures: null};
 
 /// Contenders and labels in an order that is the same for all scenes: the default and the reference first.
@@ -97,9 +98,11 @@ function startReplay(replay, wanted) {
 
 function showSummary() {
   if (open.replay) open.replay.pause();
-  open = {scene: null, replay: null, pictures: null};
-  main.replaceChildren(...summaryPage(INDEX));
-  document.title = 'paperproof report';
+  const pictures = summary();
+  open = {scene: null, replay: null, pictures};
+  main.replaceChildren(...pictures.nodes);
+  document.title = INDEX.scenes.length || INDEX.studies.length !== 1 ? 'paperproof report' : `paperproof: ${INDEX.studies[0].title}`;
+  pictures.draw();
   document.documentElement.dataset.drawn = 'summary';
   window.scrollTo(0, 0);
 }
@@ -177,6 +180,7 @@ function redraw() {
   if (open.pictures) open.pictures.draw();
 }
 
+if (INDEX.scenes.length === 0) document.querySelector('.filter').hidden = true;
 buildList();
 route();
 window.addEventListener('hashchange', route);
@@ -185,8 +189,5 @@ document.addEventListener('keydown', (event) => {
   if (open.replay) open.replay.key(event);
 });
 matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
-  if (open.scene !== null)
-    route();
-  else
-    redraw();
+  route();
 });

@@ -142,6 +142,12 @@ function verdictCell(row) {
   return el('td', {}, el('span', {class: `verdict ${row.verdict.replace(' ', '-')}`}, row.verdict));
 }
 
+/// A table that scrolls by itself where it is wider than the page.
+function tableBox(label, parts, kind = '') {
+  return el(
+      'div', {class: `table-box ${kind}`, tabindex: '0', role: 'region', 'aria-label': label || 'Table'}, el('table', {}, parts));
+}
+
 /// A table of the columns that anyone has; null if nobody has any.
 function metricTable(rows, columns, caption, withVerdict) {
   const used = columns.filter(([key]) => rows.some((row) => row[key] !== undefined));
@@ -157,10 +163,9 @@ function metricTable(rows, columns, caption, withVerdict) {
           'tr', {}, el('th', {scope: 'row'}, rowLabel(row)),
           withVerdict ? [verdictCell(row), el('td', {class: 'number'}, grouped(row.steps))] : [],
           used.map(([key, , , write]) => el('td', {class: 'number'}, row[key] === undefined ? '' : write(row[key])))));
-  return el(
-      'div', {class: 'table-box', tabindex: '0', role: 'region', 'aria-label': caption},
-      el('table', {}, el('caption', {}, caption), el('thead', {}, el('tr', {}, head, used.map(heading))),
-         el('tbody', {}, body)));
+  return tableBox(caption, [
+    el('caption', {}, caption), el('thead', {}, el('tr', {}, head, used.map(heading))), el('tbody', {}, body)
+  ]);
 }
 
 function withoutStop(sentence) {
@@ -270,11 +275,11 @@ function summaryTable(groups) {
     ['Max penetration', 'm'], ['Flagged', 'scenes'], ['Not applicable', 'scenes']
   ];
   const head = columns.map(([title, unit]) => heading([null, title, unit, null, null]));
-  return el(
-      'div', {class: 'table-box', tabindex: '0', role: 'region', 'aria-label': 'All contenders over all scenes'},
-      el('table', {}, el('caption', {}, 'All contenders over all scenes'),
-         el('thead', {}, el('tr', {}, el('th', {scope: 'col'}, 'Contender'), head)),
-         el('tbody', {}, [...groups].map(([label, rows]) => summaryRow(label, rows)))));
+  return tableBox('All contenders over all scenes', [
+    el('caption', {}, 'All contenders over all scenes'),
+    el('thead', {}, el('tr', {}, el('th', {scope: 'col'}, 'Contender'), head)),
+    el('tbody', {}, [...groups].map(([label, rows]) => summaryRow(label, rows)))
+  ]);
 }
 
 /// For each contender the scenes in which it did worse than to hold.
@@ -319,36 +324,50 @@ function definitions() {
             ].map(([, title, unit, , meaning]) => [unit ? `${title} (${unit})` : title, meaning])));
 }
 
-function summaryPage(index) {
-  const groups = byContender(index.scenes);
-  const steps = index.scenes.reduce((total, scene) => total + sum(scene.rows, 'steps'), 0);
-  const scenes = `${grouped(index.scenes.length)} ${index.scenes.length === 1 ? 'scene' : 'scenes'}`;
+/// A list that is opened by a click.
+function folded(title, nodes) {
+  return nodes.length === 0 ? [] : [el('details', {}, el('summary', {}, title), nodes)];
+}
+
+function bullets(lines) {
+  return lines.length === 0 ? [] : [el('ul', {class: 'findings'}, lines.map((line) => el('li', {}, line)))];
+}
+
+function inNumbers(index, groups) {
+  const listed = index.scenes.filter((scene) => !scene.unlisted);
+  const steps = listed.reduce((total, scene) => total + sum(scene.rows, 'steps'), 0);
+  const scenes = `${grouped(listed.length)} ${listed.length === 1 ? 'scene' : 'scenes'}`;
   return [
-    el('h2', {}, 'Summary'),
+    el('h3', {}, 'All scenes in numbers'),
     el('p', {},
        `${scenes}, ${groups.size} ${groups.size === 1 ? 'contender' : 'contenders'}, ${grouped(steps)} steps in all. ` +
            'A scene is held when no step passes through a solid and none ends inside one; ' +
            'both are decided in exact arithmetic from the trace.'),
     whoHeld(groups).map((words) => el('p', {}, words)),
     summaryTable(groups),
-    troubleList(groups),
-    index.guarantee_notes.length ?
-        [
-          el('h3', {}, 'The guarantee, and its violations counted'),
-          el('ul', {class: 'findings'}, index.guarantee_notes.map((note) => el('li', {}, note)))
-        ] :
-        [],
-    index.sections
-        .map(({title,
-               lines}) => [el('h3', {}, title), el('ul', {class: 'findings'}, lines.map((line) => el('li', {}, line)))])
-        .flat(),
+    ...troubleList(groups),
+  ].flat();
+}
+
+function sectionNodes({lines, table}) {
+  const [heading, ...rows] = table;
+  const drawn = !heading ? [] : [tableBox('', [
+    el('thead', {}, el('tr', {}, heading.map((words) => el('th', {scope: 'col'}, words)))),
+    el('tbody', {}, rows.map(([name, ...cells]) => el('tr', {}, el('th', {scope: 'row'}, name), cells.map((words) => el('td', {}, words)))))
+  ], 'words')];
+  return [...drawn, ...bullets(lines)];
+}
+
+/// Definitions, tolerances, exemptions, versions and flags: each one click away.
+function howItWasMeasured(index) {
+  return [
     el('h3', {}, 'How it was measured'),
-    index.environment.length ? pairs(index.environment) : [],
-    index.tolerances.length ? el('details', {}, el('summary', {}, 'Tolerances [m]'),
-                                 pairs(index.tolerances.map(([name, metres]) => [name, measure(metres)]))) :
-                              [],
+    ...folded('The guarantee, and its violations counted', bullets(index.guarantee_notes)),
+    ...index.sections.flatMap((section) => folded(section.title, sectionNodes(section))),
+    ...folded('Versions, flags and machine', index.environment.length ? [pairs(index.environment)] : []),
+    ...folded('Tolerances [m]', index.tolerances.length ? [pairs(index.tolerances.map(([name, metres]) => [name, measure(metres)]))] : []),
     definitions(),
     el('p', {class: 'quiet'},
        'Numbers in this page are rounded for display. The trace files hold every number to the last bit.'),
-  ].flat();
+  ];
 }

@@ -1,0 +1,105 @@
+#include "command/report_command.hpp"
+
+#include "command/claimed_files.hpp"
+#include "oracle/exemptions.hpp"
+#include "records/rows_reader.hpp"
+#include "report/chart_json.hpp"
+#include "report/index_json.hpp"
+#include "report/page_reader.hpp"
+#include "report/report.hpp"
+#include "report/row_pictures.hpp"
+#include "runs/fairness.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace paperproof::compare {
+namespace {
+
+using nlohmann::ordered_json;
+
+/// What stands beside the results: of the first input that has any.
+struct Facts {
+  Environment environment;
+  std::vector<NamedTolerance> tolerances;
+  std::vector<std::string> guarantee_notes;
+  std::vector<ReportSection> sections;
+};
+
+Facts facts_of_page(const ordered_json& index) {
+  Facts facts;
+  facts.environment = index["environment"].get<Environment>();
+  for (const ordered_json& tolerance : index["tolerances"])
+    facts.tolerances.push_back({tolerance[0], tolerance[1].is_number() ? tolerance[1].get<double>() : std::nan("")});
+  facts.guarantee_notes = index["guarantee_notes"].get<std::vector<std::string>>();
+  for (const ordered_json& section : index["sections"])
+    facts.sections.push_back({section["title"], section["lines"], section["table"]});
+  return facts;
+}
+
+class PageOfRecords {
+ public:
+  PageOfRecords(const std::string& path, const std::vector<std::string>& inputs) : writer_(path), inputs_(inputs) {}
+
+  void run() {
+    for (const std::string& input : inputs_)
+      if (input.ends_with(".html")) take_page(PageReader(input));
+    take_rows();
+    if (facts_.sections.empty()) facts_.sections = standing_sections();
+    writer_.finish(facts_.environment, facts_.tolerances, facts_.guarantee_notes, facts_.sections);
+  }
+
+ private:
+  void take_page(const PageReader& page) {
+    const ordered_json& index = page.index();
+    if (facts_.sections.empty()) {
+      Environment known = std::move(facts_.environment);
+      facts_ = facts_of_page(index);
+      if (facts_.environment.empty()) facts_.environment = std::move(known);
+    }
+    for (std::size_t scene = 0; scene < index["scenes"].size(); ++scene)
+      writer_.add_scene(safe(index["scenes"][scene]), page.replay(scene));
+    for (const ordered_json& study : index["studies"]) writer_.add_study(safe(study));
+  }
+
+  void take_rows() {
+    RowPictures pictures;
+    for (const bool looking : {true, false})
+      for (const std::string& input : inputs_) {
+        if (input.ends_with(".html")) continue;
+        const ordered_json header = for_each_row(input, [&](ordered_json row) {
+          if (looking)
+            pictures.look(row);
+          else
+            pictures.add(std::move(row));
+        });
+        if (facts_.environment.empty() && header.contains("environment"))
+          for (const auto& [name, value] : header["environment"].items())
+            facts_.environment.emplace_back(name, value.get<std::string>());
+      }
+    for (const auto& [scene, rows] : pictures.scenes()) writer_.add_scene(scene_index_json(scene, rows), "");
+    for (const ChartPage& page : pictures.pages()) writer_.add_study(chart_page_json(page));
+  }
+
+  /// As it stands in a page.
+  static std::string safe(const ordered_json& object) { return script_safe(object.dump()); }
+
+  ReportWriter writer_;
+  const std::vector<std::string>& inputs_;
+  Facts facts_;
+};
+
+}  // namespace
+
+int report_command(const std::string& path, const std::vector<std::string>& inputs) {
+  ClaimedFiles files;
+  for (const std::string& input : inputs) files.claim(input, "records");
+  files.claim_for_option("FILE.html", path);
+  PageOfRecords(path, inputs).run();
+  return 0;
+}
+
+}  // namespace paperproof::compare

@@ -1,0 +1,63 @@
+#include "report/chart_json.hpp"
+
+#include "report/json_text.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace paperproof::compare {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json json_of(const ChartPoint& point) {
+  ordered_json json{{"x", point.x}, {"y", point.y}};
+  if (!point.words.empty()) json["words"] = point.words;
+  if (point.front) json["front"] = true;
+  return json;
+}
+
+ordered_json json_of(const Chart& chart) {
+  ordered_json json{{"title", chart.title}, {"x", chart.x_label}, {"y", chart.y_label}};
+  json["series"] = ordered_json::array();
+  for (const ChartSeries& series : chart.series) {
+    ordered_json points = ordered_json::array();
+    for (const ChartPoint& point : series.points) points.push_back(json_of(point));
+    json["series"].push_back({{"name", series.name}, {"shown", series.shown}, {"points", std::move(points)}});
+  }
+  return json;
+}
+
+/// A cell is [bad, all, words, replay].
+ordered_json json_of(const ChartGrid& grid) {
+  ordered_json json{{"title", grid.title}, {"bad_words", grid.bad_words}, {"x", grid.x_label},
+                    {"y", grid.y_label},   {"xs", grid.xs},               {"ys", grid.ys}};
+  json["cells"] = ordered_json::array();
+  for (const auto& line : grid.cells) {
+    ordered_json cells = ordered_json::array();
+    for (const ChartGrid::Cell& cell : line)
+      cells.push_back(ordered_json::array({cell.bad, cell.all, cell.words, cell.replay}));
+    json["cells"].push_back(std::move(cells));
+  }
+  return json;
+}
+
+template <class Item>
+ordered_json list_of(const std::vector<Item>& items) {
+  ordered_json list = ordered_json::array();
+  for (const Item& item : items) list.push_back(json_of(item));
+  return list;
+}
+
+}  // namespace
+
+std::string chart_page_json(const ChartPage& page) {
+  const ordered_json data{{"title", page.title},
+                          {"paragraphs", page.paragraphs},
+                          {"charts", list_of(page.charts)},
+                          {"grids", list_of(page.grids)},
+                          {"heading", page.table.heading},
+                          {"rows", page.table.rows}};
+  return script_safe(data.dump(-1, ' ', false, ordered_json::error_handler_t::replace));
+}
+
+}  // namespace paperproof::compare

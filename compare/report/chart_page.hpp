@@ -1,0 +1,62 @@
+/// What a study found, as pictures and as numbers: what a page and the standalone pictures are made of.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace paperproof::compare {
+
+struct ChartPoint {
+  double x = 0;
+  double y = 0;
+  std::string words{};  ///< Shown while the point is pointed at: the value of the knob.
+  bool front = false;   ///< No other point of the chart is better along both axes; drawn larger.
+};
+
+struct ChartSeries {
+  std::string name;
+  std::vector<ChartPoint> points;
+  bool shown = true;  ///< At first; the page's legend shows and hides any.
+};
+
+/// Both axes are logarithmic; every number must be above zero.
+struct Chart {
+  std::string title;  ///< What the picture shows. A first word with a colon names it where there are several.
+  std::string x_label;
+  std::string y_label;
+  std::vector<ChartSeries> series;
+};
+
+/// A share for each of two values: a picture of where something holds.
+struct ChartGrid {
+  struct Cell {
+    int bad = 0;           ///< Of so many
+    int all = 0;           ///< there were; 0: nothing ran.
+    std::string words{};   ///< More about it.
+    std::string replay{};  ///< Name of the scene in the same page that shows it; empty: none.
+  };
+  std::string title;  ///< Who is tried, and in what.
+  std::string x_label;
+  std::string y_label;
+  std::vector<std::string> xs;
+  std::vector<std::string> ys;
+  std::vector<std::vector<Cell>> cells;  ///< By y, then by x.
+  std::string bad_words = "do not hold";  ///< What bad cases do.
+};
+
+struct ChartTable {
+  std::vector<std::string> heading;
+  std::vector<std::vector<std::string>> rows;
+};
+
+struct ChartPage {
+  std::string title;
+  std::vector<std::string> paragraphs;  ///< The first one says how to read the pictures.
+  std::vector<Chart> charts{};
+  std::vector<ChartGrid> grids{};
+  ChartTable table{};
+  std::vector<std::pair<std::string, std::string>> environment{};  ///< (name, value), as in every report.
+};
+
+}  // namespace paperproof::compare

@@ -1,0 +1,224 @@
+// The first screen: does it tunnel, and what does accuracy cost; below it every scene with every contender, and the
+// studies.
+
+/// What became of a run: a mark, a word, and how it is coloured. The same words as on the terminal.
+function outcomeOf(row) {
+  if (row.verdict === 'not applicable') return {mark: '\u2013', words: 'cannot run', kind: 'not-applicable'};
+  if (row.verdict === 'failed') return {mark: 'F', words: 'failed', kind: 'failed'};
+  if (row.tunnels > 0) return {mark: '\u2715', words: 'through', kind: 'tunnels'};
+  if (row.steps_ending_inside > 0) return {mark: 'I', words: 'ends inside', kind: 'flagged'};
+  if (row.hanging_steps > 0) return {mark: 'H', words: 'hangs', kind: 'flagged'};
+  if (row.first_contact_step === undefined) return {mark: '\u00b7', words: 'meets nothing', kind: 'flagged'};
+  const step = row.first_contact_step > 0 ? `, step ${row.first_contact_step}` : '';
+  return {mark: '\u2713', words: `stops at ${row.first_contact_fraction.toFixed(3)}${step}`, kind: 'holds'};
+}
+
+/// What a cell of the matrix shows.
+function verdictMark(row) {
+  if (row.verdict === 'holds') return {mark: '\u2713', words: 'holds', kind: 'holds'};
+  if (row.verdict === 'violates') return {mark: 'V', words: 'broke its guarantee', kind: 'violates'};
+  const {mark, words, kind} = outcomeOf(row);
+  return kind === 'holds' ? {mark: '!', words: 'flagged', kind: 'flagged'} : {mark, words, kind};
+}
+
+/// The scene that the first screen shows: the article's, else the first in which somebody tunnels.
+function firstScene() {
+  const drawable = INDEX.scenes.filter((scene) => scene.runs > 0 && !scene.unlisted);
+  return drawable.find((scene) => scene.name === 'article_bullet') ||
+      drawable.find((scene) => scene.rows.some((row) => row.tunnels > 0)) || drawable[0];
+}
+
+/// One small picture for each contender: the step that matters, at the same fraction for all.
+class Strip {
+  constructor(scene) {
+    this.replay = decodeReplay(document.getElementById(`replay-${INDEX.scenes.indexOf(scene)}`).textContent);
+    this.names = namesWith(this.replay.runs);
+    const focus = mainFocus(this.replay.runs);
+    this.step = focus ? focus.step : 0;
+    this.t = 1;
+    this.tiles = scene.rows.map((row) => this.tile(scene, row));
+    this.slider = el('input', {type: 'range', min: 0, max: 1, step: 0.001, value: 1, 'aria-label': 'Fraction of the step'});
+    this.slider.addEventListener('input', () => this.show(Number(this.slider.value)));
+    this.button = el('button', {type: 'button', onclick: () => this.play()}, 'Play');
+    this.clock = el('span', {class: 'clock'});
+    this.nodes = [
+      el('div', {class: 'strip'}, this.tiles.map((tile) => tile.root)),
+      el('div', {class: 'bar'}, this.button, el('label', {class: 'fraction'}, 'fraction of the step', this.slider), this.clock)
+    ];
+  }
+
+  tile(scene, row) {
+    const run = this.replay.runs.find((one) => one.label === rowLabel(row)), outcome = outcomeOf(row);
+    const canvas = run ? el('canvas', {'aria-hidden': 'true'}) : el('div', {class: 'no-picture', title: row.reason});
+    const name = el('span', {class: 'name'}, breakable(row.contender + (row.knob ? ` ${row.knob}` : '')));
+    const word = el('span', {class: `verdict ${outcome.kind}`}, `${outcome.mark} ${outcome.words}`);
+    const root = el(run ? 'a' : 'span', {class: 'tile', href: run ? addressOf(scene.key, row.contender) : null}, canvas, name, word);
+    return {run, root, painter: run ? new Painter(canvas) : null};
+  }
+
+  /// What all of them cover in this step, upright tiles being narrow.
+  box() {
+    const box = [Infinity, Infinity, -Infinity, -Infinity];
+    for (const {run} of this.tiles) {
+      if (!run) continue;
+      const hull = boxOf(run.hull), record = run.steps[Math.max(indexAt(run, this.step), 0)];
+      for (const p of record.path) boxOf([hull[0] + p.x, hull[1] + p.y, hull[2] + p.x, hull[3] + p.y], box);
+    }
+    return box;
+  }
+
+  show(t) {
+    this.playing = false;
+    this.button.textContent = 'Play';
+    this.t = t;
+    this.draw();
+  }
+
+  play() {
+    if (this.playing) return this.show(this.t);
+    this.playing = true;
+    this.button.textContent = 'Pause';
+    const from = this.t >= 1 ? 0 : this.t;
+    let begin = null;
+    const tick = (time) => {
+      if (!this.playing) return;
+      begin ??= time;
+      this.t = Math.min(1, from + (time - begin) / 2500);
+      if (this.t >= 1) this.show(1);
+      this.draw();
+      if (this.playing) requestAnimationFrame(tick);
+    };
+    requestAnimationFrame(tick);
+  }
+
+  draw() {
+    const colours = theme(), box = this.box();
+    for (const {run, painter} of this.tiles) {
+      if (!run) continue;
+      const camera = new Camera(), {canvas} = painter, ink = inkOf(run, this.names);
+      camera.fit(box, canvas.clientWidth, canvas.clientHeight, 0.05);
+      const record = run.steps[Math.max(indexAt(run, this.step), 0)], first = record.path[0];
+      const {x, y} = positionAt(record, this.t);
+      painter.begin(camera, colours);
+      painter.scenery(run.scenery, offsetsAt(record, this.t));
+      painter.trajectory([{...record, path: [...record.path.filter((p) => p.t < this.t), {x, y}]}], 0, 1, {colour: ink.colour, dash: [], alpha: 1});
+      painter.octagon(run.hull, first.x, first.y, {colour: ink.colour, dash: [2, 2], alpha: 0.6});
+      painter.octagon(run.hull, x, y, {colour: ink.colour, fill: true});
+      painter.dot(x, y, 4, ink.colour);
+    }
+    this.slider.value = this.t;
+    this.clock.textContent = `t = ${this.t.toFixed(3)}`;
+    document.documentElement.dataset.strip = `step ${this.step} t ${this.t}`;
+  }
+}
+
+/// What a step of the first scene costs, cheapest first.
+function costBars(scene) {
+  const timed = scene.rows.filter((row) => row.ns_per_step > 0).sort((a, b) => a.ns_per_step - b.ns_per_step);
+  if (timed.length === 0) return [];
+  const least = timed[0].ns_per_step / 2, most = timed[timed.length - 1].ns_per_step;
+  const length = (row) => 100 * Math.log(row.ns_per_step / least) / Math.log(most / least);
+  const sound = timed.find((row) => row.verdict === 'holds');
+  const bars = timed.map((row) => {
+    const {mark, kind} = outcomeOf(row);
+    return el(
+        'li', {}, el('span', {class: `verdict ${kind}`}, mark), el('span', {class: 'who'}, row.contender),
+        el('span', {class: 'bar-box'}, el('span', {class: `length ${kind}`, style: `width:${length(row)}%`})),
+        el('span', {class: 'number'}, grouped(Math.round(row.ns_per_step))));
+  });
+  return [
+    el('h3', {}, 'What does a step of this scene cost?'),
+    el('p', {class: 'chart-title'},
+       sound ? `The cheapest that is right is ${rowLabel(sound)}: ${measure(sound.ns_per_step)} ns per step.` :
+               'Nobody is right here.'),
+    el('ol', {class: 'costs'}, bars),
+    el('p', {class: 'quiet small'}, 'ns per step, bars on a logarithmic scale; \u2713 stops, \u2715 goes through')
+  ];
+}
+
+/// Every scene with every contender; a cell leads to the replay.
+function matrix(groups) {
+  const scenes = INDEX.scenes.filter((scene) => !scene.unlisted), labels = [...groups.keys()];
+  const cell = (scene, label) => {
+    const row = scene.rows.find((one) => rowLabel(one) === label);
+    if (!row) return el('td', {});
+    const {mark, words, kind} = verdictMark(row), about = `${scene.name}, ${label}: ${words}`;
+    return el(
+        'td', {class: `cell ${kind}`},
+        el('a', {href: addressOf(scene.key, row.contender), title: row.reason ? `${about}. ${row.reason}` : about, 'aria-label': about},
+           mark));
+  };
+  const head = labels.map((label) => el('th', {scope: 'col', class: 'upright'}, el('span', {}, label)));
+  const rows = scenes.map(
+      (scene) =>
+          el('tr', {}, el('th', {scope: 'row'}, el('a', {href: addressOf(scene.key)}, scene.name)), labels.map((label) => cell(scene, label))));
+  return [
+    el('h3', {}, 'Every scene, every contender'),
+    el('p', {class: 'quiet'},
+       'How to read this: \u2713 holds, \u2715 passed a solid, I ended inside one, H hung in the air, ! missed the exact ' +
+           'answer or met a limit of its own, V broke its guarantee, F failed, \u2013 cannot run. Choose a cell to see the replay.'),
+    tableBox('Every scene, every contender', [el('thead', {}, el('tr', {}, el('th', {scope: 'col'}, 'Scene'), head)), el('tbody', {}, rows)], 'matrix')
+  ];
+}
+
+/// Who goes through, in one sentence.
+function tunnelSentence(scene) {
+  const ran = scene.rows.filter((row) => row.verdict !== 'not applicable'), through = ran.filter((row) => row.tunnels > 0);
+  return `${through.length} of ${ran.length} contenders pass the solid` +
+      (through.length ? `: ${through.map(rowLabel).join(', ')}.` : '.');
+}
+
+/// The table of a study, and what it says in words.
+function studyTable(study) {
+  if (study.rows.length === 0) return [];
+  const isNumber = (text) => text !== '' && !Number.isNaN(Number(text));
+  const rows = study.rows.map(
+      (cells) => el('tr', {}, cells.map((text) => el('td', {class: isNumber(text) ? 'number' : null}, text))));
+  const head = study.heading.map((words) => el('th', {scope: 'col'}, words));
+  return [el('details', {open: study.charts.length + study.grids.length === 0}, el('summary', {}, 'In numbers'),
+             tableBox(study.title, [el('thead', {}, el('tr', {}, head)), el('tbody', {}, rows)]))];
+}
+
+/// @param withCharts  false where the first screen has them.
+function studySection(study, withCharts) {
+  const maps = heatMaps(study.grids), charts = withCharts && study.charts.length ? new ChartPicture(study.charts) : null;
+  const [reading, ...more] = study.paragraphs;
+  return {
+    nodes: [
+      el('h3', {}, study.title), reading ? el('p', {class: 'quiet'}, reading) : null, charts ? charts.root : null,
+      ...maps.nodes, more.length ? el('ul', {class: 'findings'}, more.map((words) => el('li', {}, words))) : null,
+      ...studyTable(study)
+    ].filter(Boolean),
+    draw: () => {
+      if (charts) charts.draw();
+      maps.draw();
+    }
+  };
+}
+
+/// The whole of the page without an address: what to put there, and what draws it once it is there.
+function summary() {
+  const scene = firstScene(), strip = scene ? new Strip(scene) : null, groups = byContender(INDEX.scenes.filter((one) => !one.unlisted));
+  const costly = INDEX.studies.find((study) => study.charts.length > 0);
+  const chart = scene && costly ? new ChartPicture(costly.charts, 'bullet') : null;
+  const studies = INDEX.studies.map((study) => studySection(study, !(chart && study === costly)));
+  const costs = scene ? costBars(scene) : [];
+  const first = scene ? [
+    el('h2', {}, 'Does it tunnel?'),
+    el('p', {}, `${scene.name}: ${scene.description}. `, el('strong', {}, tunnelSentence(scene))), ...strip.nodes,
+    el('div', {class: 'answers'},
+       chart ? el('section', {}, el('h3', {}, costly.title), chart.root) : null,
+       costs.length ? el('section', {}, costs) : null)
+  ] : [];
+  return {
+    nodes: [
+      ...first, ...(groups.size ? matrix(groups) : []), ...studies.flatMap((study) => study.nodes),
+      ...(groups.size ? inNumbers(INDEX, groups) : []), ...howItWasMeasured(INDEX)
+    ],
+    draw: () => {
+      if (strip) strip.draw();
+      if (chart) chart.draw();
+      studies.forEach((study) => study.draw());
+    }
+  };
+}

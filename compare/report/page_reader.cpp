@@ -1,0 +1,29 @@
+#include "report/page_reader.hpp"
+
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace paperproof::compare {
+
+PageReader::PageReader(const std::string& path) : path_(path) {
+  const std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::runtime_error(path + ": cannot be read");
+  std::ostringstream text;
+  text << file.rdbuf();
+  text_ = std::move(text).str();
+  index_ = nlohmann::ordered_json::parse(element("index"), nullptr, false);
+  if (!index_.is_object()) throw std::runtime_error(path + ": expected a page that paperproof wrote");
+}
+
+std::string PageReader::replay(std::size_t scene) const { return element("replay-" + std::to_string(scene)); }
+
+std::string PageReader::element(const std::string& id) const {
+  const std::string opening = "<script type=\"application/json\" id=\"" + id + "\">";
+  const std::size_t begin = text_.find(opening);
+  if (begin == std::string::npos) throw std::runtime_error(path_ + ": expected a page that paperproof wrote");
+  const std::size_t from = begin + opening.size();
+  return text_.substr(from, text_.find("</script>", from) - from);
+}
+
+}  // namespace paperproof::compare

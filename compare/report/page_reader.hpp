@@ -1,0 +1,28 @@
+/// Reads back the records that a page carries.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+
+namespace paperproof::compare {
+
+/// The data of a page that ReportWriter wrote.
+class PageReader {
+ public:
+  /// @throws std::runtime_error naming the file: it cannot be read, or is no such page.
+  explicit PageReader(const std::string& path);
+  /// The page's index: see `index_json`.
+  [[nodiscard]] const nlohmann::ordered_json& index() const noexcept { return index_; }
+  /// The replay of a scene, as it stands there.
+  [[nodiscard]] std::string replay(std::size_t scene) const;
+
+ private:
+  [[nodiscard]] std::string element(const std::string& id) const;
+
+  std::string path_;
+  std::string text_;
+  nlohmann::ordered_json index_;
+};
+
+}  // namespace paperproof::compare

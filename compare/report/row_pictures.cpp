@@ -1,0 +1,273 @@
+#include "report/row_pictures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+namespace paperproof::compare {
+namespace {
+
+using nlohmann::ordered_json;
+
+std::optional<double> value_of(const ordered_json& row, const std::string& key) {
+  if (!row.contains("parameters") || !row["parameters"].contains(key)) return std::nullopt;
+  return row["parameters"][key].get<double>();
+}
+
+/// Numbers that a file has as null are none.
+std::optional<double> number_in(const ordered_json& row, const char* key) {
+  if (!row.contains(key) || !row[key].is_number()) return std::nullopt;
+  return row[key].get<double>();
+}
+
+std::string who(const ordered_json& row) {
+  std::string name = row.value("contender", "");
+  const bool is_float = row.value("scalar", "") == "float" && !name.starts_with("box2d");
+  if (const std::string knob = row.value("knob", ""); !knob.empty()) name += ' ' + knob;
+  return is_float ? name + " in float" : name;
+}
+
+std::vector<std::string> texts_of(const std::set<double>& values) {
+  std::vector<std::string> texts;
+  for (const double value : values) texts.push_back(fmt::format("{:.4g}", value));
+  return texts;
+}
+
+std::size_t place_in(const std::set<double>& values, double value) {
+  return static_cast<std::size_t>(std::distance(values.begin(), values.find(value)));
+}
+
+bool is_bad(const ordered_json& row, Bad bad) {
+  return bad == Bad::tunnels ? number_in(row, "tunnels").value_or(0) > 0 : row.value("verdict", "") != "holds";
+}
+
+std::string reason_and_command(const ordered_json& row) {
+  const std::string reason = row.value("reason", "");
+  return fmt::format("{}{}{} — {}", row.value("verdict", ""), reason.empty() ? "" : ": ", reason,
+                     row.value("command", ""));
+}
+
+}  // namespace
+
+GridCounter::GridCounter(std::string title, std::string x, std::string y, Bad bad)
+    : title_(std::move(title)), x_(std::move(x)), y_(std::move(y)), bad_(bad) {}
+
+GridCounter::Counts& GridCounter::counts_of(const ordered_json& row) {
+  const std::string name = who(row);
+  const auto found = std::find_if(counts_.begin(), counts_.end(), [&](const Counts& one) { return one.who == name; });
+  return found != counts_.end() ? *found : counts_.emplace_back(Counts{name, {}});
+}
+
+void GridCounter::add(const ordered_json& row) {
+  const std::optional<double> across = value_of(row, x_);
+  const std::optional<double> up = y_.empty() ? std::optional(0.0) : value_of(row, y_);
+  if (!across || !up) return;
+  ChartGrid::Cell& cell = counts_of(row).cells[{*across, *up}];
+  if (row.value("verdict", "") == "not_applicable") return;
+  const bool bad = is_bad(row, bad_);
+  if (cell.all == 0 || (bad && cell.bad == 0)) cell.words = reason_and_command(row);
+  ++cell.all;
+  cell.bad += bad;
+}
+
+std::vector<ChartGrid> GridCounter::grids() const {
+  std::set<double> xs;
+  std::set<double> ys;
+  for (const Counts& counts : counts_)
+    for (const auto& [place, cell] : counts.cells) {
+      xs.insert(place.first);
+      ys.insert(place.second);
+    }
+  std::vector<ChartGrid> grids;
+  for (const Counts& counts : counts_) {
+    const auto ran = [](const auto& each) { return each.second.all > 0; };
+    if (std::none_of(counts.cells.begin(), counts.cells.end(), ran)) continue;
+    ChartGrid& grid = grids.emplace_back();
+    grid.title = title_ + (title_.empty() ? "" : ": ") + counts.who;
+    grid.bad_words = bad_ == Bad::tunnels ? "get through" : "do not hold";
+    grid.x_label = x_;
+    grid.y_label = y_;
+    grid.xs = texts_of(xs);
+    grid.ys = y_.empty() ? std::vector<std::string>{""} : texts_of(ys);
+    grid.cells.assign(ys.size(), std::vector<ChartGrid::Cell>(xs.size()));
+    for (const auto& [place, cell] : counts.cells)
+      grid.cells[place_in(ys, place.second)][place_in(xs, place.first)] = cell;
+  }
+  return grids;
+}
+
+std::vector<ChartGrid> grids_of(const ordered_json& rows, const std::string& title, const std::string& x,
+                                const std::string& y) {
+  GridCounter counter(title, x, y, Bad::does_not_hold);
+  for (const ordered_json& row : rows) counter.add(row);
+  return counter.grids();
+}
+
+namespace {
+
+bool same_side(const ordered_json& one, const ordered_json& other) {
+  const auto equal = [&](const char* key) { return one.value(key, "") == other.value(key, ""); };
+  return equal("scene") && equal("contender") && equal("scalar");
+}
+
+/// What the curves of a contender are over.
+std::set<std::string> knobs_of(const ordered_json& curve, const std::vector<ordered_json>& rows) {
+  std::set<std::string> keys;
+  for (const ordered_json& row : rows)
+    if (row.contains("curve") && same_side(row, curve)) keys.insert(row["curve"].get<std::string>());
+  return keys;
+}
+
+bool is_on(const ordered_json& point, const ordered_json& curve, const std::set<std::string>& knobs) {
+  const std::string over = curve["curve"].get<std::string>();
+  if (point.contains("curve") || !same_side(point, curve) || !value_of(point, over)) return false;
+  return over != "dt_s" || std::none_of(knobs.begin(), knobs.end(), [&](const std::string& knob) {
+           return knob != over && value_of(point, knob).has_value();
+         });
+}
+
+ChartSeries series_of(const ordered_json& curve, const std::vector<ordered_json>& rows) {
+  const std::string over = curve["curve"].get<std::string>();
+  ChartSeries series{who(curve) + (over == "dt_s" ? "" : " over " + over), {}, over == "dt_s"};
+  if (const std::optional<double> slope = number_in(curve, "slope"))
+    series.name += fmt::format(", slope {:.2f}", *slope);
+  const std::set<std::string> knobs = knobs_of(curve, rows);
+  for (const ordered_json& row : rows) {
+    if (!is_on(row, curve, knobs)) continue;
+    const std::optional<double> error = number_in(row, "error_max_m");
+    const std::optional<double> cost = number_in(row, "ns_per_step");
+    if (!error || !cost || !(*error > 0)) continue;
+    series.points.push_back({*cost / value_of(row, "dt_s").value_or(1), *error,
+                             fmt::format("{} = {:.4g}", over, *value_of(row, over)), row.value("on_front", false)});
+  }
+  return series;
+}
+
+}  // namespace
+
+std::vector<Chart> precision_charts(const std::vector<ordered_json>& rows) {
+  std::vector<Chart> charts;
+  for (const ordered_json& curve : rows) {
+    if (!curve.contains("curve")) continue;
+    const std::string title =
+        curve.value("scene", "") + ": how far from continuous motion, and how long a second of motion takes to compute";
+    auto chart = std::find_if(charts.begin(), charts.end(), [&](const Chart& one) { return one.title == title; });
+    if (chart == charts.end())
+      chart = charts.insert(charts.end(), {title, "run time [ns per second of motion]", "largest error [m]", {}});
+    ChartSeries series = series_of(curve, rows);
+    if (!series.points.empty()) chart->series.push_back(std::move(series));
+  }
+  std::erase_if(charts, [](const Chart& chart) { return chart.series.empty(); });
+  return charts;
+}
+
+namespace {
+
+bool is_precision(const ordered_json& row) { return row.contains("curve") || row.contains("error_max_m"); }
+bool is_swept(const ordered_json& row) { return row.contains("case") && row.contains("parameters"); }
+
+ChartPage precision_page(const std::vector<ordered_json>& rows) {
+  ChartPage page;
+  page.title = "What does accuracy cost?";
+  page.paragraphs = {
+      "How to read this: each point is one setting of a contender, each curve its settings from coarse to fine. Lower is "
+      "closer to continuous motion, further left is faster; so the best are below and to the left. Large points are on "
+      "the front: none is both faster and more exact. A slope of 1 means that half the knob halves the error. Curves "
+      "over a knob of a contender's own are hidden until their name is clicked."};
+  page.charts = precision_charts(rows);
+  page.table.heading = {"motion", "contender", "over", "slope"};
+  for (const ordered_json& row : rows) {
+    if (!row.contains("curve")) continue;
+    const std::optional<double> slope = number_in(row, "slope");
+    page.table.rows.push_back({row.value("scene", ""), who(row), row["curve"].get<std::string>(),
+                               slope ? fmt::format("{:.2f}", *slope) : row.value("reason", "")});
+  }
+  return page;
+}
+
+ChartTable borders_table(const std::vector<ordered_json>& borders) {
+  ChartTable table;
+  if (borders.empty()) return table;
+  table.heading = {"contender", "border of", "holds up to", "does not from", "command"};
+  for (const ordered_json& row : borders) {
+    const auto text = [&](const char* key) {
+      const std::optional<double> number = number_in(row, key);
+      return number ? fmt::format("{:.6g}", *number) : std::string("-");
+    };
+    table.rows.push_back(
+        {who(row), row.value("border", ""), text("border_low"), text("border_high"), row.value("command", "")});
+  }
+  return table;
+}
+
+}  // namespace
+
+RowPictures::Swept& RowPictures::swept(const std::string& scene) {
+  const auto found = std::find_if(swept_.begin(), swept_.end(), [&](const Swept& one) { return one.scene == scene; });
+  return found != swept_.end() ? *found : swept_.emplace_back(Swept{scene, {}, {}, {}});
+}
+
+void RowPictures::look(const ordered_json& row) {
+  if (is_precision(row) || !is_swept(row) || row.contains("border")) return;
+  auto& known = swept(row.value("scene", "")).parameters;
+  for (const auto& [key, json] : row["parameters"].items()) {
+    const double value = json.get<double>();
+    const auto found = std::find_if(known.begin(), known.end(), [&, &name = key](const auto& one) {
+      return one.first == name;
+    });
+    if (found == known.end())
+      known.push_back({key, {value, false}});
+    else
+      found->second.second = found->second.second || found->second.first != value;
+  }
+}
+
+void RowPictures::add(ordered_json row) {
+  const std::string scene = row.value("scene", "");
+  if (is_precision(row)) {
+    precision_.push_back(std::move(row));
+  } else if (!is_swept(row)) {
+    auto found = std::find_if(scenes_.begin(), scenes_.end(), [&](const auto& one) { return one.first == scene; });
+    if (found == scenes_.end()) found = scenes_.insert(scenes_.end(), {scene, {}});
+    found->second.push_back(std::move(row));
+  } else if (row.contains("border")) {
+    swept(scene).borders.push_back(std::move(row));
+  } else {
+    Swept& into = swept(scene);
+    if (into.counter.empty()) {
+      std::vector<std::string> axes;
+      for (const auto& [key, value] : into.parameters)
+        if (value.second) axes.push_back(key);
+      axes.resize(2);
+      const bool bullets = axes[0] == "speed_m_s" && axes[1] == "thickness_m";
+      into.counter.emplace_back("", axes[0], axes[1], bullets ? Bad::tunnels : Bad::does_not_hold);
+    }
+    into.counter.front().add(row);
+  }
+}
+
+ChartPage RowPictures::page_of(const Swept& swept) {
+  ChartPage page;
+  if (!swept.counter.empty()) page.grids = swept.counter.front().grids();
+  const bool bullets = !page.grids.empty() && page.grids.front().bad_words == "get through";
+  page.title = bullets ? "Where do bullets pass?" : fmt::format("Where does `{}` hold?", swept.scene);
+  page.paragraphs = {
+      "How to read this: one map for each contender. A cell is a place on both axes; it counts the cases there, such as "
+      "angles and phases, that are bad. Blue: none. Orange with a dot: some. Dark with a cross: all. The thick line is "
+      "the border between none and some. Point at a cell, or go there with the arrow keys, to read its numbers and the "
+      "command that runs one of its cases alone."};
+  page.table = borders_table(swept.borders);
+  return page;
+}
+
+std::vector<ChartPage> RowPictures::pages() const {
+  std::vector<ChartPage> pages;
+  if (!precision_.empty()) pages.push_back(precision_page(precision_));
+  for (const Swept& one : swept_) pages.push_back(page_of(one));
+  return pages;
+}
+
+}  // namespace paperproof::compare

@@ -1,0 +1,83 @@
+/// Rows as pictures: heat maps over two parameters, and error against run time.
+#pragma once
+
+#include "report/chart_page.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace paperproof::compare {
+
+/// What is bad about a row.
+enum class Bad : std::uint8_t {
+  does_not_hold,  ///< A verdict other than `holds`.
+  tunnels,        ///< It passed a solid.
+};
+
+/// Counts rows into one heat map for each contender, its knobs and number type; keeps no row. What cannot run counts
+/// for nothing. The words of a cell are the reason and the command of its first bad row, or of its first row.
+class GridCounter {
+ public:
+  /// @param x,y keys in `parameters`; an empty `y` gives one line.
+  GridCounter(std::string title, std::string x, std::string y, Bad bad);
+  /// A row without these parameters is left out.
+  void add(const nlohmann::ordered_json& row);
+  /// In the order in which the contenders came. Those that could run nowhere have none.
+  [[nodiscard]] std::vector<ChartGrid> grids() const;
+
+ private:
+  using Place = std::pair<double, double>;
+  struct Counts {
+    std::string who;
+    std::map<Place, ChartGrid::Cell> cells;
+  };
+  Counts& counts_of(const nlohmann::ordered_json& row);
+
+  std::string title_, x_, y_;
+  Bad bad_;
+  std::vector<Counts> counts_;
+};
+
+/// The same of rows that are all there, by their verdict.
+[[nodiscard]] std::vector<ChartGrid> grids_of(const nlohmann::ordered_json& rows, const std::string& title,
+                                              const std::string& x, const std::string& y);
+
+/// Error against run time from the rows of `work-precision`: one chart for each motion, one series for each row with a
+/// `curve`; its points are the rows that have this key in `parameters`, and of those over `dt_s` the ones without
+/// another knob. Points without an error above zero have no place on a logarithmic axis and are left out.
+[[nodiscard]] std::vector<Chart> precision_charts(const std::vector<nlohmann::ordered_json>& rows);
+
+/// Pages from rows of any kind, read twice: a heat map is over the first two parameters that take several values.
+/// Memory is taken by cells and by the rows of comparisons, not by the cases of a sweep.
+class RowPictures {
+ public:
+  /// To be called for every row, before the first `add`.
+  void look(const nlohmann::ordered_json& row);
+  void add(nlohmann::ordered_json row);
+  [[nodiscard]] std::vector<ChartPage> pages() const;
+
+  using ByScene = std::vector<std::pair<std::string, std::vector<nlohmann::ordered_json>>>;
+  /// Rows that are no part of a study, in the order in which they came.
+  [[nodiscard]] const ByScene& scenes() const { return scenes_; }
+
+ private:
+  struct Swept {
+    std::string scene;
+    /// Parameters with the value that came first, and whether another one came.
+    std::vector<std::pair<std::string, std::pair<double, bool>>> parameters;
+    std::vector<GridCounter> counter;  ///< One, as soon as rows are added.
+    std::vector<nlohmann::ordered_json> borders;
+  };
+  Swept& swept(const std::string& scene);
+  [[nodiscard]] static ChartPage page_of(const Swept& swept);
+
+  std::vector<nlohmann::ordered_json> precision_;
+  std::vector<Swept> swept_;
+  ByScene scenes_;
+};
+
+}  // namespace paperproof::compare
