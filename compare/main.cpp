@@ -6,6 +6,7 @@
 #include "command/list_command.hpp"
 #include "command/option_checks.hpp"
 #include "command/options.hpp"
+#include "command/report_command.hpp"
 #include "command/rows_command.hpp"
 #include "command/study_command.hpp"
 #include "command/sweep_command.hpp"
@@ -264,6 +265,18 @@ void add_rows_commands(CLI::App& app, int& status) {
             [](const RowsWords& typed) { return diff_command(typed.files[0], typed.files[1]); });
 }
 
+void add_report(CLI::App& app, int& status) {
+  struct Words {
+    std::string page;
+    std::vector<std::string> records;
+  };
+  CLI::App& command = *app.add_subcommand("report", "Put rows, and pages of --report, into one page");
+  const auto words = std::make_shared<Words>();
+  command.add_option("FILE", words->page, "Where the page goes")->required()->type_name("FILE.html")->check(expect_file_name());
+  command.add_option("ROWS", words->records, "Files of rows (.jsonl, .json), and pages (.html)")->required();
+  on_parsed(command, status, words, [](const Words& typed) { return report_command(typed.page, typed.records); });
+}
+
 struct SceneWords {
   std::vector<std::string> scenes;
   std::optional<std::string> input;  ///< Of `plan`.
@@ -350,6 +363,7 @@ int run(int argc, char** argv) {
   add_studies(app, status);
   add_sweep(app, status);
   add_rows_commands(app, status);
+  add_report(app, status);
   add_scene_commands(app, status);
   add_demo_and_list(app, status);
   try {

@@ -2,6 +2,7 @@
 #include "command/progress.hpp"
 #include "command/study_command.hpp"
 #include "command/study_outputs.hpp"
+#include "report/row_pictures.hpp"
 #include "runs/run_case.hpp"
 #include "runs/text_columns.hpp"
 #include "studies/bullet.hpp"
@@ -9,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace paperproof::compare {
@@ -17,49 +19,14 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr const char* explanation =
-    "A character flies onto paper: how many of the cases at a speed and a thickness get through it, over angles, "
-    "phases and lengths of a step. Below, the lowest speed at which each gets through head-on at 60 steps per second, "
-    "found by bisection over all phases, beside what theory says. A click on a cell gives the command of a case that "
-    "got through, or of one that did not where none did.";
+    "A character flies onto paper. The cases of a cell differ in angle, phase and length of a step. In numbers: the "
+    "lowest speed at which each gets through head-on at 60 steps per second, found by bisection over all phases, beside "
+    "what theory says.";
 
 GridSize size_of(const std::string& grid) {
   if (grid == "full") return GridSize::full;
   return grid == "standard" ? GridSize::standard : GridSize::quick;
 }
-
-/// What the cases of a contender came to, counted as they come: nothing is kept of a million rows.
-class BulletPicture {
- public:
-  BulletPicture(const BulletContender& contender, const Sweep& sweep) {
-    grid_.title = contender.called();
-    grid_.x_label = "speed_m_s";
-    grid_.y_label = "thickness_m";
-    for (const std::string& speed : sweep.axes[0].values) grid_.xs.push_back(fmt::format("{:.3g}", std::stod(speed)));
-    grid_.ys = sweep.axes[1].values;
-    grid_.cells.assign(grid_.ys.size(), std::vector<ChartGrid::Cell>(grid_.xs.size()));
-  }
-
-  void add(std::size_t speed, std::size_t thickness, const ordered_json& row) {
-    const std::string verdict = row.value("verdict", "");
-    if (verdict == "not_applicable") return;
-    ChartGrid::Cell& cell = grid_.cells[thickness][speed];
-    const bool through = row.value("tunnels", 0) > 0;
-    if (cell.all == 0 || (through && cell.bad == 0)) cell.words = row.value("command", "");
-    ++cell.all;
-    cell.bad += through;
-    ++all_;
-    bad_ += through;
-  }
-
-  [[nodiscard]] const ChartGrid& grid() const { return grid_; }
-  [[nodiscard]] int all() const { return all_; }
-  [[nodiscard]] int bad() const { return bad_; }
-
- private:
-  ChartGrid grid_;
-  int all_ = 0;
-  int bad_ = 0;
-};
 
 std::string speed_in_words(const BulletTheory& theory) {
   if (!theory.known) return "-";
@@ -96,19 +63,15 @@ class BulletRun {
 
   void shoot(const BulletContender& contender) {
     const Sweep sweep = bullet_sweep(size_, contender);
-    BulletPicture picture(contender, sweep);
-    const std::size_t thicknesses = sweep.axes[1].values.size();
-    const std::size_t each = sweep.size() / sweep.axes[0].values.size() / thicknesses;
     Jobs jobs = jobs_of(sweep, sweep.size(), [](std::size_t job) { return job; });
     jobs.take = [&](std::size_t job, const std::string& line) {
       const ordered_json row = ordered_json::parse(line);
-      picture.add(job / each / thicknesses, job / each % thicknesses, row);
-      broken_ = broken_ || (breaks_guarantee(row));
+      counter_.add(row);
+      broken_ = broken_ || breaks_guarantee(row);
       outputs_.add(line);
       progress_.show(contender.called() + ",", static_cast<double>(job + 1) / static_cast<double>(sweep.size()));
     };
     run_in_processes(jobs, processes());
-    pictures_.push_back(std::move(picture));
   }
 
   void find_lowest_speeds() {
@@ -145,12 +108,15 @@ class BulletRun {
       table.heading.push_back(fmt::format("lowest at {:g} m", thickness));
       table.heading.emplace_back("theory");
     }
+    const std::vector<ChartGrid> grids = counter_.grids();
     for (std::size_t c = 0; c < contenders_.size(); ++c) {
-      const BulletPicture& picture = pictures_[c];
-      const Interval interval = wilson(picture.bad(), picture.all());
-      const double rate = picture.all() > 0 ? static_cast<double>(picture.bad()) / picture.all() : 0;
+      const auto grid = std::find_if(grids.begin(), grids.end(),
+                                     [&](const ChartGrid& one) { return one.title == contenders_[c].called(); });
+      const ChartGrid::Cell sum = grid == grids.end() ? ChartGrid::Cell{} : total_of(*grid);
+      const Interval interval = wilson(sum.bad, sum.all);
+      const double rate = sum.all > 0 ? static_cast<double>(sum.bad) / sum.all : 0;
       std::vector<std::string> line{
-          contenders_[c].called(),     std::to_string(picture.all()),       std::to_string(picture.bad()),
+          contenders_[c].called(),     std::to_string(sum.all),       std::to_string(sum.bad),
           fmt::format("{:.4f}", rate), fmt::format("{:.6f}", interval.low), fmt::format("{:.6f}", interval.high)};
       for (std::size_t t = 0; t < thicknesses_.size(); ++t) {
         line.push_back(speed_in_words(lowest_[c * thicknesses_.size() + t]));
@@ -174,10 +140,9 @@ class BulletRun {
 
   [[nodiscard]] ChartPage page() const {
     ChartPage page;
-    page.title = "bullets and paper";
-    page.paragraphs = {explanation};
-    for (const BulletPicture& picture : pictures_)
-      if (picture.all() > 0) page.grids.push_back(picture.grid());
+    page.title = bullets_title;
+    page.paragraphs = {how_to_read_maps, explanation};
+    page.grids = counter_.grids();
     page.table = numbers();
     page.environment = environment();
     return page;
@@ -189,7 +154,7 @@ class BulletRun {
   std::vector<double> thicknesses_ = bullet_thicknesses();
   StudyOutputs outputs_;
   Progress progress_;
-  std::vector<BulletPicture> pictures_;
+  GridCounter counter_{"", "speed_m_s", "thickness_m", Bad::tunnels};
   std::vector<Row> lowest_;  ///< By contender, then by thickness.
   bool broken_ = false;
 };

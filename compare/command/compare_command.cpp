@@ -5,10 +5,10 @@
 #include "command/forecast.hpp"
 #include "command/inputs.hpp"
 #include "command/progress.hpp"
+#include "command/standing_sections.hpp"
 #include "command/totals.hpp"
 #include "near_names.hpp"
 #include "number_in.hpp"
-#include "oracle/exemptions.hpp"
 #include "records/output_file.hpp"
 #include "records/rows_file.hpp"
 #include "records/trace_writer.hpp"
@@ -36,9 +36,6 @@ namespace paperproof::compare {
 namespace {
 
 constexpr const char* gallery_title = "Where each contender fails, and where it is the cheapest of those that do not";
-
-constexpr const char* exemptions_title =
-    "What is not held against a contender, counted as `exempted`, and up to what size";
 
 /// Exit status where an input could not be used, and no contender failed.
 constexpr int unusable_input = 2;
@@ -244,13 +241,14 @@ class Comparison {
     if (rows_file_) rows_file_->finish(rows);
     std::vector<ReportSection> sections;
     if (shows_gallery_) sections.push_back({gallery_title, gallery_lines(gallery_of(rows_))});
-    std::vector<ReportSection> explained = sections;
-    explained.push_back({exemptions_title, exemptions_in_words()});
-    if (report_) report_->finish(environment(), tolerances_, totals_.lines(), explained);
+    std::vector<ReportSection> reported = sections;
+    for (ReportSection& standing : standing_sections()) reported.push_back(std::move(standing));
+    if (report_) report_->finish(environment(), tolerances_, totals_.lines(), reported);
+    if (arguments_.explain) sections.push_back(exemptions_section());
     if (arguments_.json)
       print_out(rows.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n');
     else if (!arguments_.quiet)
-      print_summary(arguments_.explain ? explained : sections);
+      print_summary(sections);
     if (report_ && !arguments_.quiet && !arguments_.json) print_out("report: " + arguments_.report_path + '\n');
   }
 

@@ -1,14 +1,14 @@
 #include "command/report_command.hpp"
 
 #include "command/claimed_files.hpp"
-#include "oracle/exemptions.hpp"
+#include "command/standing_sections.hpp"
 #include "records/rows_reader.hpp"
 #include "report/chart_json.hpp"
 #include "report/index_json.hpp"
+#include "report/json_text.hpp"
 #include "report/page_reader.hpp"
 #include "report/report.hpp"
 #include "report/row_pictures.hpp"
-#include "runs/fairness.hpp"
 
 #include <nlohmann/json.hpp>
 

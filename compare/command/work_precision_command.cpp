@@ -3,6 +3,7 @@
 #include "command/compare_command.hpp"
 #include "command/progress.hpp"
 #include "command/study_outputs.hpp"
+#include "report/row_pictures.hpp"
 #include "runs/contestant.hpp"
 #include "runs/text_columns.hpp"
 #include "scenes/load.hpp"
@@ -24,68 +25,12 @@ std::string name_of_curve(const Row& row) {
   return row.contender + (row.scalar == "float" && !is_reference(row.contender) ? " float" : "");
 }
 
-bool belongs_to(const Row& point, const Row& curve) {
-  const bool has = std::any_of(point.parameters.begin(), point.parameters.end(),
-                               [&](const auto& each) { return each.first == curve.curve; });
-  return point.scene == curve.scene && point.contender == curve.contender && point.scalar == curve.scalar && has &&
-         (curve.curve != "dt_s" || point.parameters.size() == 1);
-}
-
-/// One chart per motion: error over time, a curve for each contender and knob.
-Chart chart_of(const Motion& motion, const WorkPrecision& found) {
-  const std::string laws = motion.without_friction.empty() ? "" : fmt::format("; {}", motion.without_friction);
-  Chart chart{fmt::format("{}: {}{}", motion.name, motion.description, laws),
-              "ns per second of motion",
-              "largest distance [m]",
-              {}};
-  for (const Row& curve : found.curves) {
-    if (curve.scene != motion.name) continue;
-    ChartSeries series{name_of_curve(curve) + (curve.curve == "dt_s" ? "" : " over " + curve.curve), {}};
-    for (const Row& point : found.points) {
-      const std::optional<double> time = time_per_second(point);
-      if (!belongs_to(point, curve) || !point.error_max_m || !time || !(*point.error_max_m > 0)) continue;
-      series.points.push_back({*time, *point.error_max_m});
-    }
-    if (!series.points.empty()) chart.series.push_back(std::move(series));
-  }
-  return chart;
-}
-
-/// The values of the curve's knob there, each with its error.
-std::string points_on_front(const Row& curve, const WorkPrecision& found) {
-  std::vector<std::string> points;
-  for (const Row& point : found.points)
-    if (belongs_to(point, curve) && point.on_front.value_or(false))
-      points.push_back(fmt::format("{:.3g}: {:.2g} m", point.parameters.back().second, *point.error_max_m));
-  return fmt::format("{}", fmt::join(points, ", "));
-}
-
 ChartPage page_of(const WorkPrecision& found) {
-  ChartPage page;
-  page.title = "work and precision";
-  page.paragraphs = {
-      "How far each contender is from continuous motion against the time that a second of motion takes to compute. "
-      "Left "
-      "and down is better. Each curve goes over the length of a step, from 1/15 to 1/480 s, or over one of the "
-      "contender's own knobs at 1/60 s. Errors and times are measured apart; times are the minimum of nine runs after "
-      "a "
-      "warm-up, contenders taking turns.",
-      "The continuous motion is computed from event to event with 50 digits. Each side is compared with the motion of "
-      "its own law: Box2D with that of a body without friction, octagon_sweep with that of walking, and so are the "
-      "techniques of the article, which have no law of their own that steps could come to. Box2D stops 15 mm away from "
-      "what it meets: its curves end there.",
-      "A row of the table names the points of a curve that are on the front of its motion: no other has less error in "
-      "less time."};
-  for (const std::string& sentence : found.sentences) page.paragraphs.push_back(sentence);
-  for (const Motion& motion : motions()) {
-    Chart chart = chart_of(motion, found);
-    if (!chart.series.empty()) page.charts.push_back(std::move(chart));
-  }
-  page.table.heading = {"motion", "contender", "over", "slope", "on the front"};
-  for (const Row& curve : found.curves)
-    page.table.rows.push_back({curve.scene, name_of_curve(curve), curve.curve,
-                               curve.slope ? fmt::format("{:.2f}", *curve.slope) : curve.reason,
-                               points_on_front(curve, found)});
+  std::vector<nlohmann::ordered_json> rows;
+  for (const std::vector<Row>* part : {&found.points, &found.curves})
+    for (const Row& row : *part) rows.push_back(row_json(row));
+  ChartPage page = precision_page(rows);
+  page.paragraphs.insert(page.paragraphs.end(), found.sentences.begin(), found.sentences.end());
   page.environment = environment();
   return page;
 }

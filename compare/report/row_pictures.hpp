@@ -12,6 +12,13 @@
 
 namespace paperproof::compare {
 
+inline constexpr const char* bullets_title = "Where do bullets pass?";
+inline constexpr const char* how_to_read_maps =
+    "How to read this: one map for each contender. A cell stands for all cases with its two values, and counts those "
+    "that are bad. Blue: none. Orange with a dot: some. Dark with a cross: all. The thick line is the border between none "
+    "and some. Point at a cell, or go there with the arrow keys, to read its numbers and the command that runs one of "
+    "its cases alone.";
+
 /// What is bad about a row.
 enum class Bad : std::uint8_t {
   does_not_hold,  ///< A verdict other than `holds`.
@@ -42,14 +49,20 @@ class GridCounter {
   std::vector<Counts> counts_;
 };
 
-/// The same of rows that are all there, by their verdict.
+/// The heat maps of rows that are all there, by their verdict.
 [[nodiscard]] std::vector<ChartGrid> grids_of(const nlohmann::ordered_json& rows, const std::string& title,
                                               const std::string& x, const std::string& y);
 
+/// Of all its cells together.
+[[nodiscard]] ChartGrid::Cell total_of(const ChartGrid& grid);
+
 /// Error against run time from the rows of `work-precision`: one chart for each motion, one series for each row with a
 /// `curve`; its points are the rows that have this key in `parameters`, and of those over `dt_s` the ones without
-/// another knob. Points without an error above zero have no place on a logarithmic axis and are left out.
-[[nodiscard]] std::vector<Chart> precision_charts(const std::vector<nlohmann::ordered_json>& rows);
+/// another knob. Errors below 1e-9 m are drawn at 1e-9 m, as rounding has no order that a reader could use.
+[[nodiscard]] ChartPage precision_page(const std::vector<nlohmann::ordered_json>& rows);
+
+/// A key of `parameters` as it stands at an axis: `speed_m_s` is "speed [m/s]".
+[[nodiscard]] std::string axis_words(const std::string& key);
 
 /// Pages from rows of any kind, read twice: a heat map is over the first two parameters that take several values.
 /// Memory is taken by cells and by the rows of comparisons, not by the cases of a sweep.

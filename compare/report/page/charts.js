@@ -4,18 +4,27 @@
 const MARKS = ['circle', 'rect', 'triangle', 'rectRot', 'star', 'crossRot', 'cross', 'rectRounded'];
 const SHAPES = ['\u25cf', '\u25a0', '\u25b2', '\u25c6', '\u2731', '\u2715', '\u271a', '\u25a2'];
 
-/// Whole powers of ten carry a label; the rest only a line.
-function powers(value) {
-  const power = Math.round(Math.log10(value) * 1e9) / 1e9;
-  if (!Number.isInteger(power)) return '';
-  return Math.abs(power) > 4 ? `1e${power}` : value.toLocaleString('en', {maximumSignificantDigits: 1});
+/// Powers of ten alone carry a line and a label: 1e-4, 0.001, 1, 100, 1e5.
+function power(value) {
+  return Math.abs(Math.log10(value)) > 3.5 ? value.toExponential(0).replace('+', '') : String(value);
 }
 
-function logAxis(title, {text, grid}) {
+/// Ticks at whole powers of ten, no more than eight.
+function powersBetween(axis) {
+  const low = Math.ceil(Math.log10(axis.min) - 1e-9), high = Math.floor(Math.log10(axis.max) + 1e-9);
+  const every = Math.max(1, Math.ceil((high - low) / 8));
+  axis.ticks = [];
+  for (let n = low; n <= high; n += every) axis.ticks.push({value: Number(`1e${n}`)});
+}
+
+function logAxis(title, values, {text, grid}) {
   return {
     type: 'logarithmic',
+    min: 10 ** Math.floor(Math.log10(Math.min(...values) * 0.9)),
+    max: 10 ** Math.ceil(Math.log10(Math.max(...values) * 1.1)),
     title: {display: true, text: title, color: text},
-    ticks: {color: text, callback: powers, maxRotation: 0, autoSkip: false},
+    afterBuildTicks: powersBetween,
+    ticks: {color: text, callback: power, maxRotation: 0, autoSkip: false},
     grid: {color: grid},
   };
 }
@@ -37,6 +46,7 @@ function datasetOf(series, i) {
 }
 
 function chartSettings(chart, series, colours) {
+  const points = series.flatMap((one) => one.points);
   const words = ({dataset, raw}) =>
       [dataset.label, raw.words, `${chart.x}: ${measure(raw.x)}`, `${chart.y}: ${measure(raw.y)}`].filter(Boolean);
   return {
@@ -47,7 +57,7 @@ function chartSettings(chart, series, colours) {
       maintainAspectRatio: false,
       color: colours.text,
       plugins: {legend: {display: false}, tooltip: {callbacks: {title: () => '', label: words}}},
-      scales: {x: logAxis(chart.x, colours), y: logAxis(chart.y, colours)},
+      scales: {x: logAxis(chart.x, points.map(({x}) => x), colours), y: logAxis(chart.y, points.map(({y}) => y), colours)},
     },
   };
 }
@@ -69,7 +79,10 @@ function chartNumbers(chart) {
 class ChartPicture {
   /// @param charts of a study; @param first  name of the chart to begin with, if it is there.
   constructor(charts, first) {
-    this.charts = charts.map((chart) => ({...chart, name: chart.title.split(':')[0]}));
+    this.charts = charts.map((chart) => ({
+      ...chart, name: chart.title.split(':')[0],
+      series: chart.series.map((series) => ({...series, own: !series.shown}))
+    }));
     this.shown = this.charts.find((chart) => chart.name === first) || this.charts[0];
     this.select = el(
         'select', {}, this.charts.map((chart) => el('option', {selected: chart === this.shown}, chart.name)));
@@ -79,12 +92,24 @@ class ChartPicture {
     });
     this.caption = el('p', {class: 'chart-title'});
     this.frame = el('div', {class: 'chart'});
+    const own = el('input', {type: 'checkbox'});
+    own.addEventListener('change', () => this.showOwn(own.checked));
+    this.own = el('label', {class: 'quiet small'}, own, ' curves over knobs of their own, too');
     this.legend = el('div', {class: 'legend curves', role: 'group', 'aria-label': 'Curves shown'});
     this.numbers = el('div', {});
     this.root = el(
         'div', {class: 'picture'},
-        this.charts.length > 1 ? el('label', {class: 'quiet'}, 'Motion ', this.select) : null, this.caption,
+        el('div', {class: 'bar'}, this.charts.length > 1 ? el('label', {}, 'Motion ', this.select) : null,
+           charts.some((chart) => chart.series.some((series) => !series.shown)) ? this.own : null),
+        this.caption,
         el('div', {class: 'chart-and-legend'}, this.frame, this.legend), this.numbers);
+  }
+
+  showOwn(shown) {
+    for (const chart of this.charts)
+      for (const series of chart.series)
+        if (series.own) series.shown = shown;
+    this.draw();
   }
 
   draw() {
@@ -95,14 +120,16 @@ class ChartPicture {
     this.chart = new Chart(canvas, chartSettings(shown, shown.series, theme()));
     // For whoever looks from outside: how many points each curve has that is drawn.
     canvas.dataset.points = this.chart.data.datasets.map((dataset) => dataset.data.length).join(' ');
-    this.legend.replaceChildren(...shown.series.map((series, i) => this.legendButton(series, i)));
+    this.legend.replaceChildren(
+        ...shown.series.map((series, i) => (!series.own || series.shown) ? this.legendButton(series, i) : null)
+            .filter(Boolean));
     this.numbers.replaceChildren(chartNumbers(shown));
   }
 
   legendButton(series, i) {
     const {borderColor} = this.chart.data.datasets[i];
     const button =
-        el('button', {type: 'button', 'aria-pressed': String(series.shown)},
+        el('button', {type: 'button', title: 'Show or hide', 'aria-pressed': String(series.shown)},
            el('span', {style: `color:${borderColor}`, 'aria-hidden': 'true'}, `${SHAPES[i % SHAPES.length]} `),
            series.name);
     button.addEventListener('click', () => {

@@ -127,7 +127,7 @@ function costBars(scene) {
         el('span', {class: 'number'}, grouped(Math.round(row.ns_per_step))));
   });
   return [
-    el('h3', {}, 'What does a step of this scene cost?'),
+    el('h3', {}, 'What does a step cost here?'),
     el('p', {class: 'chart-title'},
        sound ? `The cheapest that is right is ${rowLabel(sound)}: ${measure(sound.ns_per_step)} ns per step.` :
                'Nobody is right here.'),
@@ -179,9 +179,8 @@ function studyTable(study) {
              tableBox(study.title, [el('thead', {}, el('tr', {}, head)), el('tbody', {}, rows)]))];
 }
 
-/// @param withCharts  false where the first screen has them.
-function studySection(study, withCharts) {
-  const maps = heatMaps(study.grids), charts = withCharts && study.charts.length ? new ChartPicture(study.charts) : null;
+function studySection(study) {
+  const maps = heatMaps(study.grids), charts = study.charts.length ? new ChartPicture(study.charts) : null;
   const [reading, ...more] = study.paragraphs;
   return {
     nodes: [
@@ -196,28 +195,42 @@ function studySection(study, withCharts) {
   };
 }
 
-/// The whole of the page without an address: what to put there, and what draws it once it is there.
-function summary() {
-  const scene = firstScene(), strip = scene ? new Strip(scene) : null, groups = byContender(INDEX.scenes.filter((one) => !one.unlisted));
-  const costly = INDEX.studies.find((study) => study.charts.length > 0);
-  const chart = scene && costly ? new ChartPicture(costly.charts, 'bullet') : null;
-  const studies = INDEX.studies.map((study) => studySection(study, !(chart && study === costly)));
-  const costs = scene ? costBars(scene) : [];
-  const first = scene ? [
-    el('h2', {}, 'Does it tunnel?'),
-    el('p', {}, `${scene.name}: ${scene.description}. `, el('strong', {}, tunnelSentence(scene))), ...strip.nodes,
-    el('div', {class: 'answers'},
-       chart ? el('section', {}, el('h3', {}, costly.title), chart.root) : null,
-       costs.length ? el('section', {}, costs) : null)
+/// What the first screen has: two questions, and their answers in pictures.
+function firstScreen(scene, costly) {
+  const strip = new Strip(scene), chart = costly ? new ChartPicture(costly.charts, 'bullet') : null;
+  const costs = costBars(scene);
+  const accuracy = chart ? [
+    el('h3', {}, costly.title), chart.root, ...folded('How to read this', costly.paragraphs.map((words) => el('p', {}, words))),
+    ...studyTable(costly)
   ] : [];
   return {
     nodes: [
-      ...first, ...(groups.size ? matrix(groups) : []), ...studies.flatMap((study) => study.nodes),
+      el('h2', {}, 'Does it tunnel?'),
+      el('p', {class: 'wide-text'}, `${scene.name}: ${scene.description}. `, el('strong', {}, tunnelSentence(scene))),
+      ...strip.nodes,
+      el('div', {class: 'answers'}, accuracy.length ? el('section', {}, accuracy) : null,
+         costs.length ? el('section', {}, costs) : null)
+    ],
+    draw: () => {
+      strip.draw();
+      if (chart) chart.draw();
+    }
+  };
+}
+
+/// The whole of the page without an address: what to put there, and what draws it once it is there.
+function summary() {
+  const scene = firstScene(), groups = byContender(INDEX.scenes.filter((one) => !one.unlisted));
+  const costly = scene && INDEX.studies.find((study) => study.charts.length > 0);
+  const first = scene ? firstScreen(scene, costly) : {nodes: [], draw: () => {}};
+  const studies = INDEX.studies.filter((study) => study !== costly).map(studySection);
+  return {
+    nodes: [
+      ...first.nodes, ...studies.flatMap((study) => study.nodes), ...(groups.size ? matrix(groups) : []),
       ...(groups.size ? inNumbers(INDEX, groups) : []), ...howItWasMeasured(INDEX)
     ],
     draw: () => {
-      if (strip) strip.draw();
-      if (chart) chart.draw();
+      first.draw();
       studies.forEach((study) => study.draw());
     }
   };
