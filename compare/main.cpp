@@ -89,7 +89,7 @@ void add_compare_options(CLI::App& command, CompareWords& words) {
   command.add_option("--trace", arguments.run.trace_stem, "Write STEM.<scene>.<contender>.<scalar>.jsonl")
       ->type_name("STEM")
       ->check(expect_file_name());
-  add_outputs(command, arguments.rows_path, arguments.report_path);
+  add_outputs(command, arguments.rows_path, arguments.pages);
   command.add_option("--plan", words.plan, "full: leave nothing out, whatever the scene can need")
       ->type_name("full")
       ->check(expect_one_of({"full"}));
@@ -132,7 +132,7 @@ void add_sweep_options(CLI::App& command, SweepArguments& arguments) {
   add_contenders(command, arguments.contenders);
   add_scalars(command, arguments.scalars);
   add_knobs(command, arguments.knobs);
-  add_outputs(command, arguments.rows_path, arguments.report_path);
+  add_outputs(command, arguments.rows_path, arguments.pages);
   add_log(command, arguments.log_path);
   add_jobs(command, arguments.jobs);
   command.add_option("--limit", arguments.limit_s, "A case that takes longer than this fails; 60 s where not given")
@@ -205,7 +205,7 @@ void add_scale(CLI::App& study, int& status) {
       ->type_name("N,...")
       ->check(expect_whole_number(most_tiles, tiles_per_floor))
       ->delimiter(',');
-  add_outputs(command, arguments->rows_path, arguments->report_path);
+  add_outputs(command, arguments->rows_path, arguments->pages);
   add_flag(command, "--quiet", arguments->quiet, "No table, no progress");
   on_parsed(command, status, arguments, study_scale_command);
 }
@@ -215,7 +215,7 @@ CLI::App& add_study(CLI::App& app, const std::string& name, const std::string& h
                     const std::shared_ptr<StudyArguments>& arguments, int (*run)(const StudyArguments&), int& status) {
   CLI::App& command = *app.add_subcommand(name, help);
   add_contenders(command, arguments->contenders);
-  add_outputs(command, arguments->rows_path, arguments->report_path);
+  add_outputs(command, arguments->rows_path, arguments->pages);
   add_flag(command, "--quiet", arguments->quiet, "No table, no progress");
   on_parsed(command, status, arguments, run);
   return command;

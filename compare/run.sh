@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds the command and runs the main comparison: the article's techniques side by side with
-# Box2D.
-#   compare/run.sh                     the main comparison
-#   compare/run.sh SCENE… [OPTION…]    `paperproof compare` with what you name instead
+# Box2D, with a study of bullets and paper and one of error against run time.
+#   compare/run.sh                     the main comparison and the two studies
+#   compare/run.sh SCENE… [OPTION…]    `paperproof compare` with what you name instead, and no study
 # It prints first what becomes of the article's bullet, by technique, and what a step costs; then one table over all scenes.
 # --all-tables prints the table of every scene, and the report holds them anyway.
-# Both write report.html and rows.json into the project's folder, unless --report or --rows name another place.
+# Both write report.html and rows.json into the project's folder, unless --report or --rows name another place. The rows
+# of the studies are in build/release/study.
 # What the command prints goes to stdout, everything else to stderr: of setting up and building a line each, the rest into
 # build/release/compare_build.log, which is shown where it fails. The exit status is the command's; 2 also means that
 # it could not be built.
@@ -60,7 +61,11 @@ if [[ ! -x $here/build/release/bin/paperproof ]]; then echo "building; it takes 
 build || exit 2
 
 arguments=("$@")
-((${#arguments[@]})) || arguments=("${main_comparison[@]}")
+with_studies=
+if ((${#arguments[@]} == 0)); then
+  arguments=("${main_comparison[@]}")
+  with_studies=yes
+fi
 outputs=()
 for output in report.html rows.json; do
   option=--${output%.*}
@@ -73,7 +78,19 @@ done
 started=$here/build/release/compare_started
 touch "$started"
 status=0
-"$here/build/release/bin/paperproof" compare "${arguments[@]}" || status=$?
+paperproof=$here/build/release/bin/paperproof
+"$paperproof" compare "${arguments[@]}" || status=$?
+
+# A study that fails leaves the page of the comparison as it is.
+add_studies() {
+  local folder=$here/build/release/study
+  mkdir -p "$folder"
+  "$paperproof" work-precision --rows "$folder/work_precision.jsonl" >"$folder/work_precision.txt" &&
+    "$paperproof" study bullet --rows "$folder/bullet.jsonl" --report "$folder/bullet.html" >"$folder/bullet.txt" &&
+    "$paperproof" report "$folder/report.html" "$here/report.html" "$folder/work_precision.jsonl" "$folder/bullet.html" &&
+    mv "$folder/report.html" "$here/report.html"
+}
+if [[ $with_studies && $status -le 1 ]]; then add_studies || status=$?; fi
 for output in "${outputs[@]}"; do
   if [[ $output -nt $started ]]; then echo "written: $output" >&2; fi
 done

@@ -46,7 +46,7 @@ class BulletRun {
       : arguments_(arguments),
         size_(size_of(arguments.grid)),
         contenders_(bullet_contenders(arguments.contenders)),
-        outputs_(arguments.rows_path, arguments.report_path, arguments.log_path),
+        outputs_(arguments.rows_path, arguments.pages, arguments.log_path),
         progress_(!arguments.quiet, arguments.log_path) {}
 
   int run() {

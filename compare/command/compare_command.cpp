@@ -75,7 +75,7 @@ class Outputs {
   void check() {
     if (arguments_.files_from != "-") files_.claim_for_option("--files-from", arguments_.files_from);
     files_.claim_for_option("--rows", arguments_.rows_path);
-    files_.claim_for_option("--report", arguments_.report_path);
+    files_.claim_for_option("--report", arguments_.pages.report);
   }
 
  private:
@@ -160,16 +160,17 @@ class Comparison {
     if (!arguments_.rows_path.empty()) rows_file_.emplace(arguments_.rows_path, environment());
     for (const Row& refused : refused_)
       if (rows_file_) rows_file_->add(refused);
-    if (!arguments_.report_path.empty()) open_report();
+    if (arguments_.pages.wanted()) open_pages();
     if (!arguments_.run.trace_stem.empty()) const OutputFile probe(arguments_.run.trace_stem + ".jsonl");
   }
 
-  void open_report() {
+  void open_pages() {
     const std::size_t contenders =
         arguments_.run.contenders.empty() ? contender_names().size() : arguments_.run.contenders.size() + 1;
     report_options_ = options_for(scene_count_ * contenders);
     arguments_.run.max_replay_steps = report_options_.max_replay_steps;
-    report_.emplace(arguments_.report_path, report_options_);
+    if (!arguments_.pages.report.empty()) report_.emplace(arguments_.pages.report, report_options_);
+    if (!arguments_.pages.svg.empty()) std::filesystem::create_directories(arguments_.pages.svg);
   }
 
   void run_one(const Scene& scene) {
@@ -191,7 +192,21 @@ class Comparison {
     }
     if (tolerances_.empty()) tolerances_ = tolerances_of(result);
     if (report_) report_->add(result);
+    if (!arguments_.pages.svg.empty()) write_strip(result);
     if (!arguments_.quiet && !arguments_.json) print(result);
+  }
+
+  void write_strip(const ReportScene& scene) const {
+    std::vector<StripPanel> panels;
+    for (const Row& row : scene.rows) {
+      const auto run = std::find_if(scene.runs.begin(), scene.runs.end(), [&](const ReportRun& one) {
+        return one.header.contender == row.contender && one.header.scalar == row.scalar && one.header.mode == row.mode;
+      });
+      const bool bad = row.tunnels.value_or(0) > 0 || row.steps_ending_inside.value_or(0) > 0;
+      panels.push_back({called(row), outcome_of(row), bad, run == scene.runs.end() ? nullptr : &*run});
+    }
+    const std::string title = scene.name + (scene.description.empty() ? "" : ": " + scene.description);
+    write_picture(scene.name, svg_of_strip(title, panels), arguments_.pages.svg);
   }
 
   void announce_preparation(const Scene& scene) const {
@@ -249,7 +264,7 @@ class Comparison {
       print_out(rows.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n');
     else if (!arguments_.quiet)
       print_summary(sections);
-    if (report_ && !arguments_.quiet && !arguments_.json) print_out("report: " + arguments_.report_path + '\n');
+    if (report_ && !arguments_.quiet && !arguments_.json) print_out("report: " + arguments_.pages.report + '\n');
   }
 
   CompareArguments& arguments_;

@@ -5,7 +5,6 @@
 #include "records/output_file.hpp"
 #include "records/rows_file.hpp"
 #include "runs/environment.hpp"
-#include "report/report.hpp"
 #include "studies/scale.hpp"
 
 #include <paperproof/techniques.hpp>
@@ -92,11 +91,10 @@ ChartPage page_of(const std::vector<ScalePoint>& points) {
 int study_scale_command(const ScaleArguments& arguments) {
   ClaimedFiles files;
   files.claim_for_option("--rows", arguments.rows_path);
-  files.claim_for_option("--report", arguments.report_path);
+  files.claim_for_option("--report", arguments.pages.report);
   std::optional<RowsFile> rows_file;
-  std::optional<OutputFile> report_file;
   if (!arguments.rows_path.empty()) rows_file.emplace(arguments.rows_path, environment());
-  if (!arguments.report_path.empty()) report_file.emplace(arguments.report_path);
+  PageOutputs pages(arguments.pages);
 
   const Progress progress(!arguments.quiet);
   const std::vector<ScalePoint> points =
@@ -116,10 +114,7 @@ int study_scale_command(const ScaleArguments& arguments) {
     print_out(fmt::format("{}\n{}\n", text, growth_sentence(points)));
   }
   if (rows_file) rows_file->finish(rows_json(rows, environment()));
-  if (report_file) {
-    report_file->write(html_of(page_of(points)));
-    report_file->commit();
-  }
+  pages.finish(page_of(points));
   return same ? 0 : 1;
 }
 

@@ -4,6 +4,8 @@
 /// All throw InputError for arguments that cannot be used, and std::runtime_error where an output cannot be written.
 #pragma once
 
+#include "command/page_outputs.hpp"
+
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -14,7 +16,7 @@ struct StudyArguments {
   std::vector<std::string> motions;     ///< Of `work-precision`; empty: all.
   std::vector<std::string> contenders;  ///< Empty: all; of `stability` octagon_sweep and Box2D.
   std::string rows_path;                ///< Empty: none.
-  std::string report_path;              ///< Empty: none.
+  PagePaths pages;
   std::string log_path;                 ///< Empty: none.
   int jobs = 0;                         ///< Not of `work-precision`; 0: one for each core.
   std::string grid = "quick";           ///< Of `study bullet` and `stability`: quick, standard or full.
@@ -36,7 +38,7 @@ int study_bullet_command(const StudyArguments& arguments);
 struct ScaleArguments {
   std::vector<std::size_t> grid{100, 1'000, 10'000, 100'000, 1'000'000};  ///< Numbers of pieces.
   std::string rows_path;                                                  ///< Empty: none.
-  std::string report_path;                                                ///< Empty: none.
+  PagePaths pages;
   bool quiet = false;                                                     ///< No table, no progress.
 };
 

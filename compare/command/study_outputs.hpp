@@ -2,10 +2,9 @@
 #pragma once
 
 #include "command/claimed_files.hpp"
-#include "records/output_file.hpp"
+#include "command/page_outputs.hpp"
 #include "records/rows_file.hpp"
 #include "runs/environment.hpp"
-#include "report/report.hpp"
 
 #include <nlohmann/json.hpp>
 
@@ -20,15 +19,10 @@ namespace paperproof::compare {
 /// end.
 class StudyOutputs {
  public:
-  /// @param rows_path,report_path empty: none. @param log_path that somebody else writes.
-  StudyOutputs(const std::string& rows_path, const std::string& report_path, const std::string& log_path = {})
-      : as_lines_(rows_path.ends_with(".jsonl")) {
-    ClaimedFiles files;
-    files.claim_for_option("--rows", rows_path);
-    files.claim_for_option("--report", report_path);
-    files.claim_for_option("--log", log_path);
+  /// @param rows_path empty: none. @param log_path that somebody else writes.
+  StudyOutputs(const std::string& rows_path, const PagePaths& pages, const std::string& log_path = {})
+      : as_lines_(rows_path.ends_with(".jsonl")), pages_((check(rows_path, pages, log_path), pages)) {
     if (!rows_path.empty()) rows_.emplace(rows_path, environment());
-    if (!report_path.empty()) report_.emplace(report_path);
   }
 
   void add(const Row& row) { add(json_line(row_json(row))); }
@@ -46,15 +40,21 @@ class StudyOutputs {
       document["rows"] = kept_;
       rows_->finish(document);
     }
-    if (!report_) return;
-    report_->write(html_of(page));
-    report_->commit();
+    pages_.finish(page);
   }
 
  private:
+  /// No two outputs may be one file.
+  static void check(const std::string& rows_path, const PagePaths& pages, const std::string& log_path) {
+    ClaimedFiles files;
+    files.claim_for_option("--rows", rows_path);
+    files.claim_for_option("--report", pages.report);
+    files.claim_for_option("--log", log_path);
+  }
+
   bool as_lines_;
   std::optional<RowsFile> rows_;
-  std::optional<OutputFile> report_;
+  PageOutputs pages_;
   nlohmann::ordered_json kept_ = nlohmann::ordered_json::array();
 };
 

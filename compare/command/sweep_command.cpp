@@ -10,7 +10,6 @@
 #include "runs/text_columns.hpp"
 #include "scenes/input_error.hpp"
 #include "scenes/load.hpp"
-#include "report/report.hpp"
 #include "report/row_pictures.hpp"
 #include "words.hpp"
 
@@ -106,10 +105,10 @@ class SweepRun {
     header_["sweep"] = {{"id", id_of(sweep_)}, {"cases", sweep_.size()}, {"shard", {shard_.part, shard_.of}}};
     ClaimedFiles files;
     files.claim_for_option("--rows", arguments.rows_path);
-    files.claim_for_option("--report", arguments.report_path);
+    files.claim_for_option("--report", arguments.pages.report);
     files.claim_for_option("--log", arguments.log_path);
     open_rows();
-    if (!arguments.report_path.empty()) report_.emplace(arguments.report_path);
+    pages_.emplace(arguments.pages);
   }
 
   int run() {
@@ -183,7 +182,7 @@ class SweepRun {
   }
 
   [[nodiscard]] bool keeps_rows() const {
-    return (!as_lines() && !arguments_.rows_path.empty()) || !arguments_.report_path.empty() || sweep_.border;
+    return (!as_lines() && !arguments_.rows_path.empty()) || arguments_.pages.wanted() || sweep_.border;
   }
 
   void finish() {
@@ -194,10 +193,7 @@ class SweepRun {
       rows_->write(csv ? rows_csv(kept_) : file.dump(1, ' ', false, ordered_json::error_handler_t::replace) + '\n');
     }
     if (rows_) rows_->commit();
-    if (report_) {
-      report_->write(html_of(page()));
-      report_->commit();
-    }
+    if (arguments_.pages.wanted()) pages_->finish(page());
     if (!arguments_.quiet) print_out(sweep_.border ? borders() : scores());
   }
 
@@ -243,13 +239,14 @@ class SweepRun {
     ChartPage page;
     page.title = fmt::format("sweep of {}", sweep_.scene);
     page.paragraphs = {
+        how_to_read_maps,
         fmt::format("{}, each judged step by step by exact arithmetic. Every row has the command that "
                     "runs its case alone.",
                     counted(done_, "case"))};
     page.environment = environment();
     if (!axis_keys_.empty() && !sweep_.border)
       page.grids =
-          grids_of(kept_, "cases that do not hold", axis_keys_.front(), axis_keys_.size() > 1 ? axis_keys_[1] : "");
+          grids_of(kept_, "", axis_keys_.front(), axis_keys_.size() > 1 ? axis_keys_[1] : "");
     page.table.heading = {"contender", "at", "verdict", "tunnels", "inside", "command"};
     for (const ordered_json& row : kept_) {
       if (page.table.rows.size() == most_listed) break;
@@ -268,7 +265,7 @@ class SweepRun {
   std::size_t done_ = 0;
   ordered_json header_;
   std::optional<OutputFile> rows_;
-  std::optional<OutputFile> report_;
+  std::optional<PageOutputs> pages_;
   ordered_json kept_ = ordered_json::array();
   std::map<std::string, Score> scores_;
   bool trouble_ = false;

@@ -3,6 +3,8 @@
 
 #include "studies/sweep.hpp"
 
+#include "command/page_outputs.hpp"
+
 #include <string>
 #include <vector>
 
@@ -20,7 +22,7 @@ struct SweepArguments {
   std::optional<int> steps;
   bool reference = true;
   std::string rows_path;    ///< Empty: none.
-  std::string report_path;  ///< The same.
+  PagePaths pages;
   std::string log_path;     ///< Of the progress; the same.
   int jobs = 0;             ///< 0: one for each core.
   int limit_s = 60;         ///< Of one case.

@@ -179,7 +179,7 @@ std::vector<Chart> charts_of(const std::vector<ordered_json>& rows) {
   std::vector<Chart> charts;
   for (const ordered_json& curve : rows) {
     if (!curve.contains("curve")) continue;
-    const std::string title = curve.value("scene", "") + ": who is closer to continuous motion takes longer";
+    const std::string title = curve.value("scene", "") + ": the error from continuous motion, against run time";
     auto chart = std::find_if(charts.begin(), charts.end(), [&](const Chart& one) { return one.title == title; });
     if (chart == charts.end())
       chart = charts.insert(charts.end(), {title, "run time [ns per second of motion]", "largest error [m]", {}});

@@ -44,6 +44,57 @@ TEST(CommandOutputs, rows_as_csv_are_flat) {
   EXPECT_FALSE(std::getline(lines, line));
 }
 
+/// The data of a page.
+nlohmann::json index_of(const std::string& page) {
+  const std::string opening = "id=\"index\">";
+  const std::size_t from = page.find(opening) + opening.size();
+  return nlohmann::json::parse(page.substr(from, page.find("</script>", from) - from));
+}
+
+TEST(CommandOutputs, report_puts_rows_and_pages_into_one_page) {
+  const Workplace place;
+  const std::string quiet = " --quiet --contender mask,octagon_sweep ";
+  EXPECT_EQ(place.run("compare article_bullet --no-timing" + quiet + "--report m.html --rows m.json").status, 0);
+  EXPECT_EQ(place.run("sweep paper --vary speed=10,2000 --vary thickness=0.01,0.1" + quiet + "--rows s.jsonl").status, 0);
+  EXPECT_EQ(place.run("work-precision rest" + quiet + "--rows w.jsonl").status, 0);
+  EXPECT_EQ(place.run("report all.html m.html s.jsonl w.jsonl").status, 0);
+  EXPECT_EQ(place.run("report rows.html m.json s.jsonl").status, 0);
+  const auto files = place.files();
+  const nlohmann::json compared = index_of(files.at("m.html"));
+  const nlohmann::json all = index_of(files.at("all.html"));
+  EXPECT_EQ(all.at("scenes"), compared.at("scenes"));
+  EXPECT_EQ(all.at("environment"), compared.at("environment"));
+  EXPECT_EQ(all.at("sections"), compared.at("sections"));
+  EXPECT_GE(all.at("sections").size(), 2U);  // exemptions, fairness
+  ASSERT_EQ(all.at("studies").size(), 2U);
+  EXPECT_EQ(all.at("studies")[0].at("charts").size(), 1U);
+  EXPECT_EQ(all.at("studies")[1].at("grids").size(), 2U);
+  const nlohmann::json of_rows = index_of(files.at("rows.html"));
+  ASSERT_EQ(of_rows.at("scenes").size(), 1U);
+  EXPECT_EQ(of_rows.at("scenes")[0].at("rows"), compared.at("scenes")[0].at("rows"));
+  EXPECT_EQ(of_rows.at("scenes")[0].at("runs"), 0);
+  place.write("no.jsonl", "{}\n");
+  const Finished refused = place.run("report x.html no.jsonl");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_TRUE(begins(refused.err, "no.jsonl: expected rows")) << refused.err;
+  EXPECT_EQ(place.run("report m.html m.html").status, 2) << "it would overwrite what it reads";
+}
+
+TEST(CommandOutputs, svg_writes_each_picture_to_a_file_of_its_own) {
+  const Workplace place;
+  const std::string quiet = " --quiet --contender mask --svg pictures";
+  EXPECT_EQ(place.run("compare article_bullet --no-timing" + quiet).status, 0);
+  EXPECT_EQ(place.run("sweep paper --vary speed=10,2000 --vary thickness=0.01,0.1" + quiet).status, 0);
+  EXPECT_EQ(place.run("work-precision rest" + quiet).status, 0);
+  const auto files = place.files();
+  for (const char* name : {"article_bullet.svg", "mask.svg", "rest.svg"}) {
+    ASSERT_TRUE(files.contains(name)) << name;
+    EXPECT_TRUE(begins(files.at(name), "<svg ")) << name;
+    EXPECT_TRUE(files.at(name).ends_with("</svg>\n")) << name;
+  }
+  EXPECT_EQ(place.run("compare article_bullet --quiet --svg /dev/null/x").status, 2);
+}
+
 TEST(CommandOutputs, json_lines_keep_what_is_done_when_the_command_is_interrupted) {
   const Workplace place;
   place.write("long.json", good_with("\"steps\": 20", "\"steps\": 1000000000"));

@@ -1,4 +1,3 @@
-#include "studies/chart_page.hpp"
 #include "studies/scale.hpp"
 
 #include <paperproof/plan.hpp>
@@ -49,19 +48,6 @@ TEST(StudyScale, growth_is_from_the_fewest_pieces_to_the_most) {
                                        {.broad_phase = BroadPhaseKind::tree, .pieces = 500, .ns_per_step_min = 900}};
   EXPECT_DOUBLE_EQ(growth(points, BroadPhaseKind::tree), 60.0 / 50);
   EXPECT_DOUBLE_EQ(growth(points, BroadPhaseKind::buckets), 1);
-}
-
-TEST(ChartPage, carries_its_data_its_library_and_no_way_out_of_the_script) {
-  ChartPage page;
-  page.title = "a </script><b>title";
-  page.charts = {{"chart", "x", "y", {{"series", {{1, 2}, {10, 3.5}}}}}};
-  page.table = {{"x", "y"}, {{"1", "2"}}};
-  const std::string html = html_of(page);
-  EXPECT_EQ(html.find("</script><b>"), std::string::npos);
-  EXPECT_NE(html.find(R"({"x":10.0,"y":3.5})"), std::string::npos);
-  EXPECT_NE(html.find("Chart.js v"), std::string::npos);
-  for (const char* marker : {"/*DATA*/", "/*LIBRARY*/", "/*STUDY*/", "src="})
-    EXPECT_EQ(html.find(marker), std::string::npos) << marker;
 }
 
 }  // namespace

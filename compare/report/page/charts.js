@@ -29,8 +29,15 @@ function logAxis(title, values, {text, grid}) {
   };
 }
 
-function datasetOf(series, i) {
-  const list = INKS[darkPreferred() ? 'dark' : 'light'], colour = list[i % list.length];
+/// A contender has the same colour in charts and replays.
+function colourOfSeries(series, all) {
+  const list = INKS[darkPreferred() ? 'dark' : 'light'], who = (name) => name.split(/[ ,]/)[0];
+  const {contenders} = namesWith(all.map((one) => ({contender: who(one.name), mode: 'free', scalar: 'double'})));
+  return list[contenders.indexOf(who(series.name)) % list.length];
+}
+
+function datasetOf(series, i, all) {
+  const colour = colourOfSeries(series, all);
   return {
     label: series.name,
     data: series.points,

@@ -1,0 +1,82 @@
+#!/usr/bin/env python3
+"""Rows as CSV are what the same rows are as JSON, read with nothing but Python's own csv.
+
+usage: check_csv.py COMMAND FOLDER_TO_WORK_IN
+"""
+import csv
+import json
+import math
+import os
+import subprocess
+import sys
+
+UNITS = ("_m", "_s", "_ns", "_deg", "_m_s", "_m_s2", "_bytes", "_kg", "_hz")
+LENGTHS = ("max_penetration_m", "max_contact_gap_m", "distance_m")
+
+
+def flat(value, prefix=""):
+    """The cells of a row by column, as the documentation of the format says."""
+    cells = {}
+    for key, inner in value.items():
+        if isinstance(inner, dict):
+            cells.update(flat(inner, prefix + key + "."))
+        elif isinstance(inner, list):
+            cells[prefix + key] = "; ".join(map(str, inner))
+        else:
+            cells[prefix + key] = inner
+    return cells
+
+
+def same(text, value):
+    if isinstance(value, bool):
+        return text == ("true" if value else "false")
+    if isinstance(value, (int, float)):
+        return float(text) == value  # to the last bit
+    return text == value
+
+
+def check(command, arguments):
+    for name in ("rows.csv", "rows.json"):
+        subprocess.run([command, *arguments, "--quiet", "--rows", name], check=True)
+    with open("rows.csv", newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file, strict=True))
+    with open("rows.json", encoding="utf-8") as file:
+        expected = [flat(row) for row in json.load(file)["rows"]]
+    assert len(rows) == len(expected) > 0, (len(rows), len(expected))
+    columns = list(rows[0])
+    assert len(set(columns)) == len(columns), "a column stands there twice"
+    numbers = 0
+    for row, wanted in zip(rows, expected):
+        assert None not in row and None not in row.values(), f"not as many cells as columns: {row}"
+        for column in columns:
+            if column in wanted:
+                assert same(row[column], wanted[column]), (column, row[column], wanted[column])
+                numbers += isinstance(wanted[column], (int, float))
+            else:
+                assert row[column] == "", f"{column} does not apply and has {row[column]!r}"
+        assert set(wanted) <= set(columns), set(wanted) - set(columns)
+    for column in columns:
+        kinds = {type(wanted[column]) for wanted in expected if column in wanted}
+        assert kinds <= {int, float} or len(kinds) == 1, f"{column} has cells of {kinds}"
+    return columns, numbers
+
+
+def main():
+    command, folder = os.path.abspath(sys.argv[1]), sys.argv[2]
+    os.makedirs(folder, exist_ok=True)
+    os.chdir(folder)
+    columns, numbers = check(command, ["compare", "article_bullet", "wedge_60", "--no-timing"])
+    assert numbers > 500, f"only {numbers} numbers were compared"
+    for column in LENGTHS:
+        assert column in columns, column
+    columns, _ = check(command, ["sweep", "paper", "--vary", "speed=10,100", "--vary", "angle=45,90",
+                                 "--contender", "mask,octagon_sweep"])
+    parameters = [column for column in columns if column.startswith("parameters.")]
+    assert {"parameters.speed_m_s", "parameters.thickness_m", "parameters.angle_deg"} <= set(parameters), parameters
+    without = [column for column in parameters if not column.endswith(UNITS)]
+    assert without == ["parameters.phase"], f"lengths and speeds without a unit: {without}"
+    print(f"{numbers} numbers are the same in both formats")
+
+
+if __name__ == "__main__":
+    main()

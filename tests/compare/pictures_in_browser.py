@@ -1,0 +1,188 @@
+#!/usr/bin/env python3
+"""Opens a page of rows in a headless Chromium: its pictures show what the rows say, whoever looks and however.
+
+usage: pictures_in_browser.py COMMAND FOLDER_TO_WORK_IN    (exit status 77: skipped, with the reason)
+"""
+import html
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+
+BROWSERS = ("chromium", "chromium-browser", "google-chrome")
+CONTENDERS = "mask,penetration_resolution,octagon_sweep"
+
+# Runs in the page once its own scripts have run, and leaves what it saw as JSON.
+PROBE = """
+const seen = {};
+const text = (selector) => [...document.querySelectorAll(selector)].map((one) => one.textContent);
+function pixels(canvas, columns, rows) {
+  const image = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height), ratio = canvas.width / canvas.clientWidth, width = (canvas.clientWidth - 50) / columns;
+  const at = (x, y) => {
+    const from = 4 * (Math.round(y * ratio) * canvas.width + Math.round(x * ratio));
+    return [...image.data.slice(from, from + 4)].join();
+  };
+  return Array.from({length: rows}, (_, row) =>
+    Array.from({length: columns}, (_, column) => at(46 + (column + 0.5) * width, 4 + (rows - 1 - row) * 24 + 4)));
+}
+function look() {
+  seen.error = document.documentElement.dataset.error || '';
+  seen.drawn = document.documentElement.dataset.drawn;
+  seen.strip = document.documentElement.dataset.strip;
+  seen.overflow = document.documentElement.scrollWidth - document.documentElement.clientWidth;
+  seen.background = getComputedStyle(document.body).backgroundColor;
+  seen.ink = getComputedStyle(document.body).color;
+  seen.above = [...document.querySelectorAll('.strip, .costs, .chart canvas')].map((one) => one.getBoundingClientRect().top);
+  seen.height = innerHeight;
+  seen.tiles = text('.tile');
+  seen.points = [...document.querySelectorAll('.chart canvas')].map((one) => one.dataset.points);
+  seen.numbers = document.querySelectorAll('.picture tbody tr').length;
+  seen.maps = [...document.querySelectorAll('.map')].map((map) => map.querySelector('figcaption').textContent);
+  seen.pixels = [...document.querySelectorAll('.map canvas')].map((canvas) => pixels(canvas, COLUMNS, ROWS));
+  seen.cells = [...document.querySelectorAll('.matrix td a')].map((a) => [a.getAttribute('aria-label'), a.textContent]);
+}
+function done() {
+  const pre = document.createElement('pre');
+  pre.id = 'probe';
+  pre.textContent = JSON.stringify(seen);
+  document.body.append(pre);
+}
+"""
+
+
+def run(*arguments):
+    subprocess.run(arguments, check=True, stdout=subprocess.DEVNULL)
+
+
+class Browser:
+    """Shows the page and brings back what a probe saw."""
+
+    def __init__(self, program, page):
+        self.program = program
+        with open(page, encoding="utf-8") as file:
+            self.page = file.read()
+
+    def look(self, act="", size=(1280, 800), dark=False, address=""):
+        probe = PROBE.replace("COLUMNS", "4").replace("ROWS", "3")
+        with open("probed.html", "w", encoding="utf-8") as file:
+            file.write(self.page + f"<script>{probe}look(); {act or 'done();'}</script>")
+        command = [self.program, "--headless", "--no-sandbox", "--disable-gpu", "--no-first-run",
+                   "--disable-background-networking", "--disable-component-update", "--disable-sync",
+                   "--disable-extensions", "--disable-dev-shm-usage", "--user-data-dir=" + os.path.abspath("profile"),
+                   f"--window-size={size[0]},{size[1]}", "--virtual-time-budget=4000", "--hide-scrollbars",
+                   f"--blink-settings=preferredColorScheme={0 if dark else 1}", "--enable-logging=stderr", "--dump-dom",
+                   "file://" + os.path.abspath("probed.html") + address]
+        for _ in range(2):  # a browser that does not come up is asked once more
+            shown = subprocess.run(command, capture_output=True, text=True, timeout=180, check=False)
+            found = re.search(r'<pre id="probe">(.*?)</pre>', shown.stdout, re.S)
+            if found:
+                break
+        assert found, f"the probe left nothing: {shown.stderr[-2000:]}"
+        # The probe reads canvases more than once, which the browser remarks on.
+        complaints = [line for line in shown.stderr.splitlines() if "CONSOLE" in line and "willReadFrequently" not in line]
+        assert not complaints, f"the console has errors: {complaints}"
+        seen = json.loads(html.unescape(found.group(1)))
+        assert seen["error"] == "", seen["error"]
+        return seen
+
+
+def rows_of(name):
+    with open(name, encoding="utf-8") as file:
+        return [json.loads(line) for line in file][1:]
+
+
+def check_pictures(seen, swept, precise):
+    """Charts and heat maps against the rows."""
+    curves = [row for row in precise if "curve" in row]
+    points = [row for row in precise if "curve" not in row and "error_max_m" in row and "ns_per_step" in row]
+    counts = [int(count) for count in seen["points"][0].split()]
+    assert sum(counts) == len(points) == seen["numbers"], (counts, len(points), seen["numbers"])
+    assert len(counts) <= len(curves)
+    for map_title, pixels in zip(seen["maps"], seen["pixels"]):
+        who = map_title.split(":")[0]
+        mine = [row for row in swept if row["contender"] == who]
+        bad = sum(row["tunnels"] > 0 for row in mine)
+        assert map_title == f"{who}: {bad} of {len(mine)} cases get through", map_title
+        cells = {}
+        for row in mine:
+            place = (row["parameters"]["thickness_m"], row["parameters"]["speed_m_s"])
+            cells.setdefault(place, []).append(row["tunnels"] > 0)
+        ys, xs = (sorted({place[k] for place in cells}) for k in (0, 1))
+        assert (len(xs), len(ys)) == (4, 3)
+        looks = {}
+        for (y, x), through in cells.items():
+            kind = "all" if all(through) else "some" if any(through) else "none"
+            looks.setdefault(kind if kind != "some" else ("some", sum(through)), set()).add(pixels[ys.index(y)][xs.index(x)])
+        assert all(len(colours) == 1 for colours in looks.values()), (who, looks)
+        assert len(set().union(*looks.values())) == len(looks), (who, looks)
+    assert len(seen["maps"]) == 3
+
+
+def main():
+    command, folder = os.path.abspath(sys.argv[1]), sys.argv[2]
+    program = next((name for name in BROWSERS if shutil.which(name)), None)
+    if program is None:
+        print("skipped: no chromium is installed (Debian: apt install chromium)")
+        return 77
+    shutil.rmtree(folder, ignore_errors=True)
+    os.makedirs(folder)
+    os.chdir(folder)
+    some = ("--quiet", "--contender", CONTENDERS)
+    run(command, "compare", "article_bullet", "thin_platform", *some, "--rows", "m.jsonl", "--report", "m.html")
+    run(command, "sweep", "paper", "--vary", "speed=5,50,200,2000", "--vary", "thickness=0.01,0.1,0.4", "--vary",
+        "phase=0,0.2,0.5", *some, "--rows", "s.jsonl")
+    run(command, "work-precision", "bullet", *some, "--rows", "w.jsonl")
+    run(command, "report", "all.html", "m.html", "s.jsonl", "w.jsonl")
+    compared, swept, precise = (rows_of(name) for name in ("m.jsonl", "s.jsonl", "w.jsonl"))
+    browser = Browser(program, "all.html")
+
+    seen = browser.look()
+    assert seen["drawn"] == "summary" and seen["strip"] == "step 0 t 1", seen
+    assert all(0 <= top < seen["height"] - 200 for top in seen["above"]) and len(seen["above"]) == 3, seen["above"]
+    assert len(seen["tiles"]) == len([row for row in compared if row["scene"] == "article_bullet"])
+    assert [("through" in tile) for tile in seen["tiles"]] == [
+        row["tunnels"] > 0 for row in compared if row["scene"] == "article_bullet"], seen["tiles"]
+    check_pictures(seen, swept, precise)
+    marks = {"holds": "\u2713", "tunnels": "\u2715"}
+    verdicts = {(row["scene"], row["contender"]): row["verdict"] for row in compared}
+    assert len(seen["cells"]) == len(compared)
+    for about, mark in seen["cells"]:
+        scene, who = re.match(r"(\w+), (\w+)", about).groups()
+        assert mark == marks.get(verdicts[scene, who], mark), (about, mark)
+
+    dark = browser.look(dark=True)
+    assert dark["background"] != seen["background"] and dark["ink"] != seen["ink"], dark
+    check_pictures(dark, swept, precise)
+    for page in ("", "#scene=article_bullet&contender=mask"):
+        phone = browser.look(size=(390, 844), address=page)
+        assert phone["overflow"] <= 0, f"the page is {phone['overflow']} px wider than a phone at {page or 'the summary'}"
+
+    # A cell leads to the replay of this case alone.
+    clicked = browser.look("""document.querySelector('.matrix a[aria-label^="thin_platform, mask"]').click();
+        setTimeout(() => { look(); seen.shown = text('.legend button[aria-pressed="true"]'); done(); }, 500);""")
+    assert clicked["drawn"].startswith("scene 1 "), clicked["drawn"]
+    assert clicked["shown"] == ["mask"], clicked["shown"]
+    # Without a mouse: the fraction of the step, a cell of a map, a curve of the chart.
+    keyed = browser.look("""const slider = document.querySelector('.fraction input');
+        slider.value = 0.5; slider.dispatchEvent(new Event('input'));
+        const map = document.querySelector('.map canvas');
+        for (const key of ['ArrowRight', 'ArrowRight', 'ArrowUp'])
+          map.dispatchEvent(new KeyboardEvent('keydown', {key, bubbles: true}));
+        const curve = document.querySelector('.curves button');
+        curve.click();
+        look(); seen.told = text('.told')[0]; seen.pressed = curve.getAttribute('aria-pressed');
+        seen.reachable = [slider, map, curve, document.querySelector('.tile[href]'), document.querySelector('.matrix a')]
+            .every((one) => one.tabIndex === 0);
+        done();""")
+    assert keyed["strip"] == "step 0 t 0.5", keyed["strip"]
+    assert "speed [m/s] = 50, thickness [m] = 0.1" in keyed["told"], keyed["told"]
+    assert "paperproof compare paper" in keyed["told"], keyed["told"]
+    assert keyed["pressed"] == "false" and keyed["reachable"], keyed
+    print("the pictures show what the rows say")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,173 @@
+/// Pictures: of rows, in pages and as SVG.
+#include "compare/report_pages.hpp"
+#include "report/page_reader.hpp"
+#include "report/row_pictures.hpp"
+#include "report/svg.hpp"
+
+#include <cmath>
+
+namespace paperproof::compare {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json shot(const std::string& contender, double speed, double thickness, int tunnels, double angle = 90) {
+  return {{"scene", "paper"},
+          {"contender", contender},
+          {"scalar", "double"},
+          {"verdict", tunnels > 0 ? "tunnels" : "holds"},
+          {"case", "x"},
+          {"parameters", {{"speed_m_s", speed}, {"thickness_m", thickness}, {"angle_deg", angle}}},
+          {"tunnels", tunnels},
+          {"command", "paperproof compare paper"}};
+}
+
+/// Two speeds and two thicknesses; at the higher speed the thin paper lets one of two through.
+std::vector<ordered_json> shots() {
+  std::vector<ordered_json> rows;
+  for (const double speed : {10.0, 2000.0})
+    for (const double thickness : {0.1, 0.01})
+      for (const double angle : {45.0, 90.0})
+        rows.push_back(shot("mask", speed, thickness, speed > 100 && thickness < 0.05 && angle > 60 ? 1 : 0, angle));
+  return rows;
+}
+
+ChartGrid grid_of_shots() {
+  GridCounter counter("", "speed_m_s", "thickness_m", Bad::tunnels);
+  for (const ordered_json& row : shots()) counter.add(row);
+  return counter.grids().at(0);
+}
+
+TEST(RowPictures, a_heat_map_counts_the_cases_of_each_cell) {
+  const ChartGrid grid = grid_of_shots();
+  EXPECT_EQ(grid.title, "mask");
+  EXPECT_EQ(grid.x_label, "speed [m/s]");
+  EXPECT_EQ(grid.y_label, "thickness [m]");
+  EXPECT_EQ(grid.xs, (std::vector<std::string>{"10", "2000"}));
+  EXPECT_EQ(grid.ys, (std::vector<std::string>{"0.01", "0.1"}));
+  for (std::size_t y = 0; y < 2; ++y)
+    for (std::size_t x = 0; x < 2; ++x) {
+      EXPECT_EQ(grid.cells[y][x].all, 2);
+      EXPECT_EQ(grid.cells[y][x].bad, y == 0 && x == 1 ? 1 : 0) << x << " " << y;
+    }
+  EXPECT_EQ(total_of(grid).bad, 1);
+  EXPECT_EQ(total_of(grid).all, 8);
+}
+
+TEST(RowPictures, what_cannot_run_counts_for_nothing) {
+  GridCounter counter("", "speed_m_s", "thickness_m", Bad::does_not_hold);
+  ordered_json row = shot("grid", 10, 0.1, 0);
+  row["verdict"] = "not_applicable";
+  counter.add(row);
+  EXPECT_TRUE(counter.grids().empty());
+  counter.add(shot("grid", 20, 0.1, 0));
+  ASSERT_EQ(counter.grids().size(), 1U);
+  EXPECT_EQ(counter.grids()[0].cells[0][0].all, 0);
+  EXPECT_EQ(counter.grids()[0].cells[0][1].all, 1);
+}
+
+TEST(RowPictures, the_axes_of_a_sweep_are_the_first_two_parameters_that_vary) {
+  RowPictures pictures;
+  for (const ordered_json& row : shots()) pictures.look(row);
+  for (const ordered_json& row : shots()) pictures.add(row);
+  const std::vector<ChartPage> pages = pictures.pages();
+  ASSERT_EQ(pages.size(), 1U);
+  EXPECT_EQ(pages[0].title, bullets_title);
+  ASSERT_EQ(pages[0].grids.size(), 1U);
+  EXPECT_EQ(pages[0].grids[0].cells[0][1].bad, 1);
+}
+
+ordered_json precise(double dt, double error, double ns, const std::string& knob = "", double value = 0) {
+  ordered_json row{{"scene", "rest"},         {"contender", "mask"},       {"scalar", "double"},
+                   {"mode", "work_precision"}, {"parameters", {{"dt_s", dt}}}, {"error_max_m", error},
+                   {"ns_per_step", ns}};
+  if (!knob.empty()) row["parameters"][knob] = value;
+  return row;
+}
+
+ordered_json curve_over(const std::string& key, double slope) {
+  return {{"scene", "rest"},           {"contender", "mask"}, {"scalar", "double"},
+          {"mode", "work_precision"}, {"curve", key},        {"slope", slope}};
+}
+
+TEST(RowPictures, a_curve_over_the_step_has_the_points_without_another_knob) {
+  const ChartPage page =
+      precision_page({precise(0.1, 1e-2, 50), precise(0.05, 0, 50), precise(0.1, 1e-3, 80, "pixel_m", 0.5),
+                      curve_over("dt_s", 1), curve_over("pixel_m", 2)});
+  ASSERT_EQ(page.charts.size(), 1U);
+  const std::vector<ChartSeries>& series = page.charts[0].series;
+  ASSERT_EQ(series.size(), 2U);
+  EXPECT_EQ(series[0].name, "mask, slope 1.00");
+  ASSERT_EQ(series[0].points.size(), 2U);
+  EXPECT_DOUBLE_EQ(series[0].points[0].x, 50 / 0.1);  // ns per second of motion
+  EXPECT_DOUBLE_EQ(series[0].points[0].y, 1e-2);
+  EXPECT_DOUBLE_EQ(series[0].points[1].y, 1e-9) << "an error of zero has a place, too";
+  EXPECT_EQ(series[1].name, "mask over pixel [m], slope 2.00");
+  EXPECT_FALSE(series[1].shown);
+  ASSERT_EQ(series[1].points.size(), 1U);
+}
+
+TEST(Svg, a_heat_map_has_its_border_where_bad_cells_begin) {
+  // The one bad cell, at the right below, has a good one above and one to the left: two pieces of border.
+  const std::string svg = svg_of(grid_of_shots());
+  EXPECT_EQ(count_of(svg, "class=\"border\""), 2U);
+  EXPECT_EQ(count_of(svg, "class=\"holds\""), 3U);
+  EXPECT_EQ(count_of(svg, "class=\"some\""), 1U);
+  EXPECT_NE(svg.find("mask: 1 of 8 cases get through"), std::string::npos);
+  EXPECT_NE(svg.find("prefers-color-scheme: dark"), std::string::npos);
+}
+
+TEST(Svg, points_of_a_chart_are_where_their_logarithms_are) {
+  Chart chart{"a < b: title", "x", "y", {{"one", {{1, 1}, {10, 100}}}, {"hidden", {{1e6, 1e6}}, false}}};
+  const std::string svg = svg_of(chart);
+  EXPECT_NE(svg.find("a &lt; b: title"), std::string::npos);
+  EXPECT_EQ(svg.find("hidden"), std::string::npos);
+  // Axes go from the power of ten below 0.9 times the least to the one above 1.1 times the largest: x from 0.1 to 100 on
+  // 70 to 560, y from 0.1 to 1000 on 430 to 70.
+  const double x0 = 70 + 490 / 3.0;
+  const double x1 = 70 + 490 * 2 / 3.0;
+  const double y0 = 430 - 360 / 4.0;
+  const double y1 = 430 - 360 * 3 / 4.0;
+  char points[100];
+  std::snprintf(points, sizeof points, "points=\"%.2f,%.2f %.2f,%.2f\"", x0, y0, x1, y1);
+  EXPECT_NE(svg.find(points), std::string::npos) << points;
+}
+
+TEST(Svg, a_strip_has_a_panel_for_each_contender_and_says_what_became_of_it) {
+  const ReportScene scene = sample_report().scenes[0];
+  const std::string svg = svg_of_strip("bullets", {{"penetration_resolution", "through", true, &scene.runs[1]},
+                                                   {"octagon_sweep", "stopped", false, scene.runs.data()},
+                                                   {"grid", "cannot run", false, nullptr}});
+  EXPECT_EQ(count_of(svg, "class=\"frame\""), 2U);
+  EXPECT_EQ(count_of(svg, "class=\"none\""), 1U);
+  EXPECT_EQ(count_of(svg, "class=\"bad\""), 1U);
+  EXPECT_EQ(count_of(svg, "class=\"good\""), 1U);
+}
+
+TEST(ChartPageHtml, carries_its_data_its_library_and_no_way_out_of_the_script) {
+  ChartPage page;
+  page.title = "a </script><b>title";
+  page.charts = {{"chart", "x", "y", {{"series", {{1, 2}, {10, 3.5}}}}}};
+  page.table = {{"x", "y"}, {{"1", "2"}}};
+  const std::string html = html_of(page);
+  EXPECT_EQ(html.find("</script><b>"), std::string::npos);
+  const json study = data(html, "index")["studies"][0];
+  EXPECT_EQ(study["title"], page.title);
+  EXPECT_EQ(study["charts"][0]["series"][0]["points"][1]["y"], 3.5);
+  EXPECT_NE(html.find("Chart.js v"), std::string::npos);
+  for (const char* marker : {"<!--DATA-->", "/*STYLE*/", "/*SCRIPT*/", "src="})
+    EXPECT_EQ(html.find(marker), std::string::npos) << marker;
+}
+
+TEST_F(ReportTest, a_page_is_read_back_as_it_was_written) {
+  const std::string text = page(sample_report());
+  const PageReader reader(path());
+  EXPECT_EQ(json(reader.index()), data(text, "index"));
+  for (std::size_t scene = 0; scene < reader.index()["scenes"].size(); ++scene)
+    EXPECT_EQ(json::parse(reader.replay(scene)), data(text, "replay-" + std::to_string(scene)));
+  std::ofstream(path()) << "<html></html>";
+  EXPECT_THROW(PageReader{path()}, std::runtime_error);
+}
+
+}  // namespace
+}  // namespace paperproof::compare
