@@ -272,7 +272,10 @@ void add_report(CLI::App& app, int& status) {
   };
   CLI::App& command = *app.add_subcommand("report", "Put rows, and pages of --report, into one page");
   const auto words = std::make_shared<Words>();
-  command.add_option("FILE", words->page, "Where the page goes")->required()->type_name("FILE.html")->check(expect_file_name());
+  command.add_option("FILE", words->page, "Where the page goes")
+      ->required()
+      ->type_name("FILE.html")
+      ->check(expect_file_name());
   command.add_option("ROWS", words->records, "Files of rows (.jsonl, .json), and pages (.html)")->required();
   on_parsed(command, status, words, [](const Words& typed) { return report_command(typed.page, typed.records); });
 }

@@ -20,7 +20,8 @@ using nlohmann::ordered_json;
 
 constexpr const char* explanation =
     "A character flies onto paper. The cases of a cell differ in angle, phase and length of a step. In numbers: the "
-    "lowest speed at which each gets through head-on at 60 steps per second, found by bisection over all phases, beside "
+    "lowest speed at which each gets through head-on at 60 steps per second, found by bisection over all phases, "
+    "beside "
     "what theory says.";
 
 GridSize size_of(const std::string& grid) {
@@ -115,9 +116,12 @@ class BulletRun {
       const ChartGrid::Cell sum = grid == grids.end() ? ChartGrid::Cell{} : total_of(*grid);
       const Interval interval = wilson(sum.bad, sum.all);
       const double rate = sum.all > 0 ? static_cast<double>(sum.bad) / sum.all : 0;
-      std::vector<std::string> line{
-          contenders_[c].called(),     std::to_string(sum.all),       std::to_string(sum.bad),
-          fmt::format("{:.4f}", rate), fmt::format("{:.6f}", interval.low), fmt::format("{:.6f}", interval.high)};
+      std::vector<std::string> line{contenders_[c].called(),
+                                    std::to_string(sum.all),
+                                    std::to_string(sum.bad),
+                                    fmt::format("{:.4f}", rate),
+                                    fmt::format("{:.6f}", interval.low),
+                                    fmt::format("{:.6f}", interval.high)};
       for (std::size_t t = 0; t < thicknesses_.size(); ++t) {
         line.push_back(speed_in_words(lowest_[c * thicknesses_.size() + t]));
         line.push_back(speed_in_words(bullet_theory(contenders_[c], thicknesses_[t])));

@@ -6,11 +6,11 @@
 #include "command/study_outputs.hpp"
 #include "number_in.hpp"
 #include "records/rows_reader.hpp"
+#include "report/row_pictures.hpp"
 #include "runs/contestant.hpp"
 #include "runs/text_columns.hpp"
 #include "scenes/input_error.hpp"
 #include "scenes/load.hpp"
-#include "report/row_pictures.hpp"
 #include "words.hpp"
 
 #include <fmt/format.h>
@@ -238,15 +238,13 @@ class SweepRun {
   [[nodiscard]] ChartPage page() const {
     ChartPage page;
     page.title = fmt::format("sweep of {}", sweep_.scene);
-    page.paragraphs = {
-        how_to_read_maps,
-        fmt::format("{}, each judged step by step by exact arithmetic. Every row has the command that "
-                    "runs its case alone.",
-                    counted(done_, "case"))};
+    page.paragraphs = {how_to_read_maps,
+                       fmt::format("{}, each judged step by step by exact arithmetic. Every row has the command that "
+                                   "runs its case alone.",
+                                   counted(done_, "case"))};
     page.environment = environment();
     if (!axis_keys_.empty() && !sweep_.border)
-      page.grids =
-          grids_of(kept_, "", axis_keys_.front(), axis_keys_.size() > 1 ? axis_keys_[1] : "");
+      page.grids = grids_of(kept_, "", axis_keys_.front(), axis_keys_.size() > 1 ? axis_keys_[1] : "");
     page.table.heading = {"contender", "at", "verdict", "tunnels", "inside", "command"};
     for (const ordered_json& row : kept_) {
       if (page.table.rows.size() == most_listed) break;

@@ -27,15 +27,15 @@ ordered_json json_of(const Chart& chart) {
   return json;
 }
 
-/// A cell is [bad, all, words, replay].
+/// A cell is [bad, all, words].
 ordered_json json_of(const ChartGrid& grid) {
-  ordered_json json{{"title", grid.title}, {"bad_words", grid.bad_words}, {"x", grid.x_label},
-                    {"y", grid.y_label},   {"xs", grid.xs},               {"ys", grid.ys}};
+  ordered_json json{{"title", grid.title}, {"bad_words", grid.bad_words},
+                    {"x", grid.x_label},   {"y", grid.y_label},
+                    {"xs", grid.xs},       {"ys", grid.ys}};
   json["cells"] = ordered_json::array();
   for (const auto& line : grid.cells) {
     ordered_json cells = ordered_json::array();
-    for (const ChartGrid::Cell& cell : line)
-      cells.push_back(ordered_json::array({cell.bad, cell.all, cell.words, cell.replay}));
+    for (const ChartGrid::Cell& cell : line) cells.push_back(ordered_json::array({cell.bad, cell.all, cell.words}));
     json["cells"].push_back(std::move(cells));
   }
   return json;
@@ -51,12 +51,9 @@ ordered_json list_of(const std::vector<Item>& items) {
 }  // namespace
 
 std::string chart_page_json(const ChartPage& page) {
-  const ordered_json data{{"title", page.title},
-                          {"paragraphs", page.paragraphs},
-                          {"charts", list_of(page.charts)},
-                          {"grids", list_of(page.grids)},
-                          {"heading", page.table.heading},
-                          {"rows", page.table.rows}};
+  const ordered_json data{
+      {"title", page.title},          {"paragraphs", page.paragraphs}, {"charts", list_of(page.charts)},
+      {"grids", list_of(page.grids)}, {"heading", page.table.heading}, {"rows", page.table.rows}};
   return script_safe(data.dump(-1, ' ', false, ordered_json::error_handler_t::replace));
 }
 

@@ -31,17 +31,16 @@ struct Chart {
 /// A share for each of two values: a picture of where something holds.
 struct ChartGrid {
   struct Cell {
-    int bad = 0;           ///< Of so many
-    int all = 0;           ///< there were; 0: nothing ran.
-    std::string words{};   ///< More about it.
-    std::string replay{};  ///< Name of the scene in the same page that shows it; empty: none.
+    int bad = 0;          ///< Of so many
+    int all = 0;          ///< there were; 0: nothing ran.
+    std::string words{};  ///< More about it.
   };
   std::string title;  ///< Who is tried, and in what.
   std::string x_label;
   std::string y_label;
   std::vector<std::string> xs;
   std::vector<std::string> ys;
-  std::vector<std::vector<Cell>> cells;  ///< By y, then by x.
+  std::vector<std::vector<Cell>> cells;   ///< By y, then by x.
   std::string bad_words = "do not hold";  ///< What bad cases do.
 };
 

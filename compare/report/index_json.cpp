@@ -1,6 +1,5 @@
 #include "report/index_json.hpp"
 
-#include "records/metric.hpp"
 #include "report/json_text.hpp"
 
 #include <nlohmann/json.hpp>

@@ -18,8 +18,7 @@ namespace paperproof::compare {
 /// @param scenes,studies one JSON object each: see `chart_page_json`.
 [[nodiscard]] std::string index_json(const Environment& environment, const std::vector<NamedTolerance>& tolerances,
                                      const std::vector<std::string>& guarantee_notes,
-                                     const std::vector<ReportSection>& sections,
-                                     const std::vector<std::string>& scenes,
+                                     const std::vector<ReportSection>& sections, const std::vector<std::string>& scenes,
                                      const std::vector<std::string>& studies);
 
 }  // namespace paperproof::compare

@@ -78,8 +78,7 @@ void ReportWriter::add_scene(std::string index, const std::string& replay) {
 
 void ReportWriter::finish(const Environment& environment, const std::vector<NamedTolerance>& tolerances,
                           const std::vector<std::string>& guarantee_notes, const std::vector<ReportSection>& sections) {
-  file_->write(
-      data_element("index", index_json(environment, tolerances, guarantee_notes, sections, index_, studies_)));
+  file_->write(data_element("index", index_json(environment, tolerances, guarantee_notes, sections, index_, studies_)));
   file_->write(tail_of_page(!studies_.empty()));
   file_->commit();
 }

@@ -214,9 +214,11 @@ ChartPage precision_page(const std::vector<ordered_json>& rows) {
   ChartPage page;
   page.title = "What does accuracy cost?";
   page.paragraphs = {
-      "How to read this: each point is one setting of a contender, and each curve goes over its settings from coarse to "
+      "How to read this: each point is one setting of a contender, and each curve goes over its settings from coarse "
+      "to "
       "fine: the length of a step, or a knob of its own. Lower is closer to continuous motion, further left is faster, "
-      "so that the best are below and to the left. Large points are on the front: no other is both faster and closer. A "
+      "so that the best are below and to the left. Large points are on the front: no other is both faster and closer. "
+      "A "
       "slope of 1 means that half the knob gives half the error. Errors below 1e-9 m are drawn there. Errors and times "
       "are measured apart; times are the minimum of nine runs after a warm-up, contenders taking turns.",
       "The continuous motion is computed from event to event with 50 digits. Each side is compared with the motion of "
@@ -243,9 +245,8 @@ void RowPictures::look(const ordered_json& row) {
   auto& known = swept(row.value("scene", "")).parameters;
   for (const auto& [key, json] : row["parameters"].items()) {
     const double value = json.get<double>();
-    const auto found = std::find_if(known.begin(), known.end(), [&, &name = key](const auto& one) {
-      return one.first == name;
-    });
+    const auto found =
+        std::find_if(known.begin(), known.end(), [&, &name = key](const auto& one) { return one.first == name; });
     if (found == known.end())
       known.push_back({key, {value, false}});
     else

@@ -15,7 +15,8 @@ namespace paperproof::compare {
 inline constexpr const char* bullets_title = "Where do bullets pass?";
 inline constexpr const char* how_to_read_maps =
     "How to read this: one map for each contender. A cell stands for all cases with its two values, and counts those "
-    "that are bad. Blue: none. Orange with a dot: some. Dark with a cross: all. The thick line is the border between none "
+    "that are bad. Blue: none. Orange with a dot: some. Dark with a cross: all. The thick line is the border between "
+    "none "
     "and some. Point at a cell, or go there with the arrow keys, to read its numbers and the command that runs one of "
     "its cases alone.";
 

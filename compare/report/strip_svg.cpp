@@ -136,9 +136,10 @@ std::string svg_of_strip(const std::string& title, const std::vector<StripPanel>
     const TraceStep* record = record_of(panel, step);
     if (record != nullptr) {
       const View view(box, left);
-      svg.raw(fmt::format("<clipPath id=\"p{}\"><rect x=\"{:.0f}\" y=\"{:.0f}\" width=\"{:.0f}\" height=\"{:.0f}\"/>"
-                          "</clipPath>\n<g clip-path=\"url(#p{})\">\n",
-                          i, left, top, panel_width, panel_height, i));
+      svg.raw(
+          fmt::format("<clipPath id=\"p{}\"><rect x=\"{:.0f}\" y=\"{:.0f}\" width=\"{:.0f}\" height=\"{:.0f}\"/>"
+                      "</clipPath>\n<g clip-path=\"url(#p{})\">\n",
+                      i, left, top, panel_width, panel_height, i));
       draw_scenery(svg, view, *panel.run, *record);
       draw_way(svg, view, *panel.run, *record, i);
       svg.raw("</g>\n");
@@ -146,7 +147,9 @@ std::string svg_of_strip(const std::string& title, const std::vector<StripPanel>
     svg.rectangle(left, top, panel_width, panel_height, record != nullptr ? "frame" : "none");
     write_below(svg, left + panel_width / 2, top + panel_height + 18, panel.name, "t");
     write_below(svg, left + panel_width / 2, top + panel_height + 52, panel.words,
-                record == nullptr ? "quiet" : panel.bad ? "bad" : "good");
+                record == nullptr ? "quiet"
+                : panel.bad       ? "bad"
+                                  : "good");
   }
   return svg.finish(title);
 }

@@ -132,7 +132,8 @@ std::string svg_of(const ChartGrid& grid) {
   svg.text(8, 44, "start", grid.y_label);
   for (std::size_t row = 0; row < rows; ++row) {
     svg.text(left - 6, y_of(row) + 16, "end", grid.ys[row], "quiet");
-    for (std::size_t column = 0; column < columns; ++column) draw_cell(svg, grid.cells[row][column], x_of(column), y_of(row));
+    for (std::size_t column = 0; column < columns; ++column)
+      draw_cell(svg, grid.cells[row][column], x_of(column), y_of(row));
   }
   for (std::size_t row = 0; row < rows; ++row)
     for (std::size_t column = 0; column < columns; ++column) {
@@ -146,15 +147,16 @@ std::string svg_of(const ChartGrid& grid) {
   for (std::size_t column = 0; column < columns; ++column)
     svg.text(x_of(column) + cell_width / 2, bottom + 16, "middle", grid.xs[column], "quiet");
   svg.text((left + right) / 2, bottom + 34, "middle", grid.x_label);
-  svg.text(8, bottom + 56, "start", fmt::format("blank: none {}, •: some, ✕: all; the line is the border", grid.bad_words),
-           "quiet");
+  svg.text(8, bottom + 56, "start",
+           fmt::format("blank: none {}, •: some, ✕: all; the line is the border", grid.bad_words), "quiet");
   return svg.finish(title);
 }
 
 std::string write_picture(const std::string& title, std::string_view svg, const std::string& folder) {
   std::string name;
   for (const char c : title)
-    name += (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.' ? c : '-';
+    name +=
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.' ? c : '-';
   std::filesystem::create_directories(folder);
   name += ".svg";
   OutputFile file((std::filesystem::path(folder) / name).string());

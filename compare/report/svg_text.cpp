@@ -46,26 +46,27 @@ std::string escaped(std::string_view words) {
 
 /// Marks other than the circle: corners around the middle, as multiples of the radius.
 const std::vector<std::vector<double>>& mark_shapes() {
-  static const std::vector<std::vector<double>> all{
-      {-1, -1, 1, -1, 1, 1, -1, 1},                                  // square
-      {0, -1.2, 1.1, 0.9, -1.1, 0.9},                                // triangle
-      {0, -1.3, 1.3, 0, 0, 1.3, -1.3, 0},                            // diamond
-      {0, 1.2, 1.1, -0.9, -1.1, -0.9},                               // triangle, point down
-      {-.4, -1.2, .4, -1.2, .4, -.4, 1.2, -.4, 1.2, .4, .4, .4, .4, 1.2, -.4, 1.2, -.4, .4, -1.2, .4, -1.2, -.4, -.4, -.4}};
+  static const std::vector<std::vector<double>> all{{-1, -1, 1, -1, 1, 1, -1, 1},        // square
+                                                    {0, -1.2, 1.1, 0.9, -1.1, 0.9},      // triangle
+                                                    {0, -1.3, 1.3, 0, 0, 1.3, -1.3, 0},  // diamond
+                                                    {0, 1.2, 1.1, -0.9, -1.1, -0.9},     // triangle, point down
+                                                    {-.4, -1.2, .4,  -1.2, .4,  -.4, 1.2,  -.4, 1.2,  .4,  .4,  .4,
+                                                     .4,  1.2,  -.4, 1.2,  -.4, .4,  -1.2, .4,  -1.2, -.4, -.4, -.4}};
   return all;
 }
 
 }  // namespace
 
 void Svg::line(double x0, double y0, double x1, double y1, std::string_view of_class) {
-  fmt::format_to(std::back_inserter(body_), "<line x1=\"{:.2f}\" y1=\"{:.2f}\" x2=\"{:.2f}\" y2=\"{:.2f}\" class=\"{}\"/>\n",
-                 x0, y0, x1, y1, of_class);
+  fmt::format_to(std::back_inserter(body_),
+                 "<line x1=\"{:.2f}\" y1=\"{:.2f}\" x2=\"{:.2f}\" y2=\"{:.2f}\" class=\"{}\"/>\n", x0, y0, x1, y1,
+                 of_class);
 }
 
 void Svg::rectangle(double x, double y, double width, double height, std::string_view of_class) {
   fmt::format_to(std::back_inserter(body_),
-                 "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" class=\"{}\"/>\n", x, y, width, height,
-                 of_class);
+                 "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" class=\"{}\"/>\n", x, y, width,
+                 height, of_class);
 }
 
 void Svg::polyline(const std::vector<double>& points, bool closed, std::string_view of_class) {
@@ -86,8 +87,9 @@ void Svg::rings(const std::vector<std::vector<double>>& all, std::string_view of
 }
 
 void Svg::text(double x, double y, std::string_view anchor, std::string_view words, std::string_view of_class) {
-  fmt::format_to(std::back_inserter(body_), "<text x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"{}\" class=\"{}\">{}</text>\n", x,
-                 y, anchor, of_class, escaped(words));
+  fmt::format_to(std::back_inserter(body_),
+                 "<text x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"{}\" class=\"{}\">{}</text>\n", x, y, anchor, of_class,
+                 escaped(words));
 }
 
 void Svg::mark(double x, double y, double radius, std::size_t kind, std::string_view of_class) {
@@ -104,7 +106,8 @@ void Svg::mark(double x, double y, double radius, std::size_t kind, std::string_
 
 std::string Svg::finish(std::string_view title) const {
   return fmt::format(
-             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
+             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} "
+             "{1:.0f}\" "
              "role=\"img\">\n<title>{2}</title>\n",
              width_, height_, escaped(title)) +
          std::string(style) + body_ + "</svg>\n";

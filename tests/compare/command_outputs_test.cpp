@@ -55,7 +55,8 @@ TEST(CommandOutputs, report_puts_rows_and_pages_into_one_page) {
   const Workplace place;
   const std::string quiet = " --quiet --contender mask,octagon_sweep ";
   EXPECT_EQ(place.run("compare article_bullet --no-timing" + quiet + "--report m.html --rows m.json").status, 0);
-  EXPECT_EQ(place.run("sweep paper --vary speed=10,2000 --vary thickness=0.01,0.1" + quiet + "--rows s.jsonl").status, 0);
+  EXPECT_EQ(place.run("sweep paper --vary speed=10,2000 --vary thickness=0.01,0.1" + quiet + "--rows s.jsonl").status,
+            0);
   EXPECT_EQ(place.run("work-precision rest" + quiet + "--rows w.jsonl").status, 0);
   EXPECT_EQ(place.run("report all.html m.html s.jsonl w.jsonl").status, 0);
   EXPECT_EQ(place.run("report rows.html m.json s.jsonl").status, 0);

@@ -12,14 +12,11 @@ namespace {
 using nlohmann::ordered_json;
 
 ordered_json shot(const std::string& contender, double speed, double thickness, int tunnels, double angle = 90) {
-  return {{"scene", "paper"},
-          {"contender", contender},
-          {"scalar", "double"},
-          {"verdict", tunnels > 0 ? "tunnels" : "holds"},
-          {"case", "x"},
-          {"parameters", {{"speed_m_s", speed}, {"thickness_m", thickness}, {"angle_deg", angle}}},
-          {"tunnels", tunnels},
-          {"command", "paperproof compare paper"}};
+  return {
+      {"scene", "paper"},   {"contender", contender},
+      {"scalar", "double"}, {"verdict", tunnels > 0 ? "tunnels" : "holds"},
+      {"case", "x"},        {"parameters", {{"speed_m_s", speed}, {"thickness_m", thickness}, {"angle_deg", angle}}},
+      {"tunnels", tunnels}, {"command", "paperproof compare paper"}};
 }
 
 /// Two speeds and two thicknesses; at the higher speed the thin paper lets one of two through.
@@ -78,7 +75,7 @@ TEST(RowPictures, the_axes_of_a_sweep_are_the_first_two_parameters_that_vary) {
 }
 
 ordered_json precise(double dt, double error, double ns, const std::string& knob = "", double value = 0) {
-  ordered_json row{{"scene", "rest"},         {"contender", "mask"},       {"scalar", "double"},
+  ordered_json row{{"scene", "rest"},          {"contender", "mask"},          {"scalar", "double"},
                    {"mode", "work_precision"}, {"parameters", {{"dt_s", dt}}}, {"error_max_m", error},
                    {"ns_per_step", ns}};
   if (!knob.empty()) row["parameters"][knob] = value;
@@ -86,7 +83,7 @@ ordered_json precise(double dt, double error, double ns, const std::string& knob
 }
 
 ordered_json curve_over(const std::string& key, double slope) {
-  return {{"scene", "rest"},           {"contender", "mask"}, {"scalar", "double"},
+  return {{"scene", "rest"},          {"contender", "mask"}, {"scalar", "double"},
           {"mode", "work_precision"}, {"curve", key},        {"slope", slope}};
 }
 
@@ -122,8 +119,8 @@ TEST(Svg, points_of_a_chart_are_where_their_logarithms_are) {
   const std::string svg = svg_of(chart);
   EXPECT_NE(svg.find("a &lt; b: title"), std::string::npos);
   EXPECT_EQ(svg.find("hidden"), std::string::npos);
-  // Axes go from the power of ten below 0.9 times the least to the one above 1.1 times the largest: x from 0.1 to 100 on
-  // 70 to 560, y from 0.1 to 1000 on 430 to 70.
+  // Axes go from the power of ten below 0.9 times the least to the one above 1.1 times the largest: x from 0.1 to 100
+  // on 70 to 560, y from 0.1 to 1000 on 430 to 70.
   const double x0 = 70 + 490 / 3.0;
   const double x1 = 70 + 490 * 2 / 3.0;
   const double y0 = 430 - 360 / 4.0;

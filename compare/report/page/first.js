@@ -23,7 +23,7 @@ function verdictMark(row) {
 
 /// The scene that the first screen shows: the article's, else the first in which somebody tunnels.
 function firstScene() {
-  const drawable = INDEX.scenes.filter((scene) => scene.runs > 0 && !scene.unlisted);
+  const drawable = INDEX.scenes.filter((scene) => scene.runs > 0);
   return drawable.find((scene) => scene.name === 'article_bullet') ||
       drawable.find((scene) => scene.rows.some((row) => row.tunnels > 0)) || drawable[0];
 }
@@ -138,7 +138,7 @@ function costBars(scene) {
 
 /// Every scene with every contender; a cell leads to the replay.
 function matrix(groups) {
-  const scenes = INDEX.scenes.filter((scene) => !scene.unlisted), labels = [...groups.keys()];
+  const {scenes} = INDEX, labels = [...groups.keys()];
   const cell = (scene, label) => {
     const row = scene.rows.find((one) => rowLabel(one) === label);
     if (!row) return el('td', {});
@@ -220,7 +220,7 @@ function firstScreen(scene, costly) {
 
 /// The whole of the page without an address: what to put there, and what draws it once it is there.
 function summary() {
-  const scene = firstScene(), groups = byContender(INDEX.scenes.filter((one) => !one.unlisted));
+  const scene = firstScene(), groups = byContender(INDEX.scenes);
   const costly = scene && INDEX.studies.find((study) => study.charts.length > 0);
   const first = scene ? firstScreen(scene, costly) : {nodes: [], draw: () => {}};
   const studies = INDEX.studies.filter((study) => study !== costly).map(studySection);

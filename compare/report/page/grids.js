@@ -27,10 +27,7 @@ class HeatMap {
     this.root = el('figure', {class: 'map'}, el('figcaption', {}, this.title), this.canvas);
     this.canvas.addEventListener('pointermove', (event) => this.point(event));
     this.canvas.addEventListener('pointerleave', () => this.go(null));
-    this.canvas.addEventListener('click', (event) => {
-      this.point(event);
-      this.openReplay();
-    });
+    this.canvas.addEventListener('click', (event) => this.point(event));
     this.canvas.addEventListener('keydown', (event) => this.key(event));
   }
 
@@ -57,7 +54,6 @@ class HeatMap {
 
   key(event) {
     const ways = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
-    if (event.key === 'Enter') return this.openReplay();
     const way = ways[event.key];
     if (!way) return;
     event.preventDefault();
@@ -72,15 +68,10 @@ class HeatMap {
     this.at = at;
     this.draw();
     if (!at) return;
-    const {grid} = this, [bad, all, words, replay] = grid.cells[at.row][at.column];
+    const {grid} = this, [bad, all, words] = grid.cells[at.row][at.column];
     const place = `${grid.x} = ${grid.xs[at.column]}${grid.y ? `, ${grid.y} = ${grid.ys[at.row]}` : ''}`;
     const counted = all === 0 ? 'nothing ran' : `${grouped(bad)} of ${grouped(all)} ${grid.bad_words}`;
-    this.tell(`${grid.title} at ${place}: ${counted}.`, words, replay);
-  }
-
-  openReplay() {
-    const replay = this.at && this.grid.cells[this.at.row][this.at.column][3];
-    if (replay) location.hash = replay;
+    this.tell(`${grid.title} at ${place}: ${counted}.`, words);
   }
 
   draw() {
@@ -151,12 +142,8 @@ class HeatMap {
 function heatMaps(grids) {
   if (grids.length === 0) return {nodes: [], draw: () => {}};
   const told = el('p', {class: 'told', role: 'status'}, 'Point at a cell to read about it.');
-  const maps = grids.map((grid) => new HeatMap(grid, (sentence, words, replay) => {
-                           told.replaceChildren(
-                               ...[el('strong', {}, sentence), ` ${words}`,
-                                   replay ? el('a', {href: `#${replay}`}, ' Replay') : null]
-                                   .filter(Boolean));
-                         }));
+  const maps = grids.map((grid) => new HeatMap(
+                   grid, (sentence, words) => told.replaceChildren(el('strong', {}, sentence), ` ${words}`)));
   const up = grids[0].y ? el('p', {class: 'quiet'}, `Upwards: ${grids[0].y}. Across: ${grids[0].x}.`) : null;
   return {
     nodes: [up, told, el('div', {class: 'maps'}, maps.map((map) => map.root))].filter(Boolean),

@@ -334,9 +334,8 @@ function bullets(lines) {
 }
 
 function inNumbers(index, groups) {
-  const listed = index.scenes.filter((scene) => !scene.unlisted);
-  const steps = listed.reduce((total, scene) => total + sum(scene.rows, 'steps'), 0);
-  const scenes = `${grouped(listed.length)} ${listed.length === 1 ? 'scene' : 'scenes'}`;
+  const steps = index.scenes.reduce((total, scene) => total + sum(scene.rows, 'steps'), 0);
+  const scenes = `${grouped(index.scenes.length)} ${index.scenes.length === 1 ? 'scene' : 'scenes'}`;
   return [
     el('h3', {}, 'All scenes in numbers'),
     el('p', {},
