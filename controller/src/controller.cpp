@@ -25,22 +25,23 @@ Scalar steered(const CharacterDef& character, const CharacterState<Scalar>& stat
 }
 
 template <class Scalar>
-bool may_jump(const CharacterDef& character, const CharacterState<Scalar>& state, const Input& input) noexcept {
+bool may_jump(const CharacterDef& character, const CharacterState<Scalar>& state, const Input& input,
+              bool wall_ahead) noexcept {
   if (!state.grounded || state.jumping) return false;
   if (!character.no_jump_toward_wall) return true;
   const double move = input.move.value_or(0);
-  return !(move < 0 && state.wall_left) && !(move > 0 && state.wall_right);
+  return !wall_ahead && !(move < 0 && state.wall_left) && !(move > 0 && state.wall_right);
 }
 
 template <class Scalar>
-void take_jump(const CharacterDef& character, const Input& input, CharacterState<Scalar>& state,
+void take_jump(const CharacterDef& character, const Input& input, bool wall_ahead, CharacterState<Scalar>& state,
                Scalar& upwards) noexcept {
   if (!input.jump)
     state.jump_pending = false;
   else if (!state.jump_held)
     state.jump_pending = true;
   state.jump_held = input.jump;
-  if (state.jump_pending && may_jump(character, state, input)) {
+  if (state.jump_pending && may_jump(character, state, input, wall_ahead)) {
     upwards = static_cast<Scalar>(character.jump_speed);
     state.jumping = true;
     state.grounded = false;
@@ -49,15 +50,16 @@ void take_jump(const CharacterDef& character, const Input& input, CharacterState
 }
 
 /// A stage that is left out still gives the bits of one that finds nothing to do.
+/// @param wall_ahead there is a wall to jump against, whatever the last step touched.
 template <bool has_jump, bool has_gravity, class Scalar>
 DesiredVelocity<Scalar> wanted_velocity(const CharacterDef& character, const Vec2<Scalar>& gravity, const Input& input,
-                                        Scalar dt, CharacterState<Scalar>& state) noexcept {
+                                        Scalar dt, bool wall_ahead, CharacterState<Scalar>& state) noexcept {
   // Component by component: a pair that is written as two numbers and read as one waits for the memory.
   Scalar x = input.move ? steered(character, state, *input.move, dt) : state.velocity.x();
   const Scalar change = x - state.velocity.x();
   Scalar y = state.velocity.y();
   if constexpr (has_jump)
-    take_jump(character, input, state, y);
+    take_jump(character, input, wall_ahead, state, y);
   else
     state.jump_pending = state.jump_held = false;
   if constexpr (has_gravity) {
@@ -104,13 +106,16 @@ class Undo {
 template <class Scalar>
 DesiredVelocity<Scalar> desired_velocity(const CharacterDef& character, const Vec2<Scalar>& gravity, const Input& input,
                                          Scalar dt, CharacterState<Scalar>& state) noexcept {
-  return wanted_velocity<true, true>(character, gravity, input, dt, state);
+  return wanted_velocity<true, true>(character, gravity, input, dt, false, state);
 }
 
 template <class Scalar>
 Controller<Scalar>::Controller(const Scenery<Scalar>& scenery, const CharacterDef& character,
                                const TechniqueDef& technique)
-    : mover_count_(scenery.mover_count()), character_(character), step_(variant_for(technique.stages)) {
+    : mover_count_(scenery.mover_count()),
+      character_(character),
+      wall_reach_(static_cast<Scalar>(technique.article.unit)),
+      step_(variant_for(technique.stages)) {
   character_.validate();
   if (!technique.stages.sensors && scenery.sensor_pieces().size() > 0)
     throw std::invalid_argument("stages: sensors cannot be left out: there is a sensor");
@@ -145,16 +150,38 @@ bool Controller<Scalar>::accepts(const CharacterState<Scalar>& state, const Inpu
   return foreseen && dt > 0 && movers.size() == mover_count_ && finite(state, input, gravity, dt, movers);
 }
 
+/// Tries a move towards it, which is not made. Kept out of the step: nearly no step asks.
+template <class Scalar>
+[[gnu::noinline]] bool Controller<Scalar>::has_wall_ahead(const CharacterState<Scalar>& state, double move, Scalar dt,
+                                                          std::span<const MoverMotion<Scalar>> movers,
+                                                          Scratch<Scalar>& scratch,
+                                                          MoveResult<Scalar>& tried) const noexcept {
+  const Vec2<Scalar> there{move < 0 ? -wall_reach_ : wall_reach_, 0};
+  technique_->move({.position = state.position,
+                    .displacement = there,
+                    .velocity = there / dt,
+                    .last_free = state.last_free,
+                    .remainder = state.remainder,
+                    .has_last_free = state.has_last_free,
+                    .grounded = state.grounded,
+                    .movers = movers,
+                    .dt = dt,
+                    .ride = state.ride},
+                   scratch, tried);
+  return touches(tried, move < 0 ? Side::left : Side::right);
+}
+
 template <class Scalar>
 template <bool has_jump, bool has_gravity>
 MoveRequest<Scalar> Controller<Scalar>::begin_step(const Pressers<Scalar>& pressers, const Input& input,
                                                    const Vec2<Scalar>& gravity, Scalar dt,
-                                                   std::span<const MoverMotion<Scalar>> movers,
+                                                   std::span<const MoverMotion<Scalar>> movers, bool wall_ahead,
                                                    CharacterState<Scalar>& state,
                                                    StepReport<Scalar>& report) const noexcept {
   // What is carried steers, jumps and falls relative to what carries it.
   if (state.ride.ground != Ride<Scalar>::none) state.velocity -= state.ride.velocity;
-  const auto [velocity, steered] = wanted_velocity<has_jump, has_gravity>(character_, gravity, input, dt, state);
+  const auto [velocity, steered] =
+      wanted_velocity<has_jump, has_gravity>(character_, gravity, input, dt, wall_ahead, state);
   report.requested = {velocity.x() * dt, velocity.y() * dt};
   report.steered = steered * dt;
   return {.position = state.position,
@@ -197,9 +224,14 @@ template <bool has_sensors, bool has_jump, bool has_gravity>
   if (!is_made_by(technique_, scratch.maker) || !accepts<has_jump, has_gravity>(state, input, gravity, dt, movers))
     return report.status = StepStatus::invalid_input;
   const Undo<Scalar> before(state);
+  bool wall_ahead = false;
+  if constexpr (has_jump)
+    if (character_.no_jump_toward_wall && input.jump && state.grounded && input.move.value_or(0) != 0)
+      wall_ahead = has_wall_ahead(state, *input.move, dt, movers, scratch, report.move);
   // A request with a name, read again after the move, cost 46 instructions more per step (g++ 12).
-  technique_->move(begin_step<has_jump, has_gravity>(state.pressers, input, gravity, dt, movers, state, report),
-                   scratch, report.move);
+  technique_->move(
+      begin_step<has_jump, has_gravity>(state.pressers, input, gravity, dt, movers, wall_ahead, state, report), scratch,
+      report.move);
   report.status = status_of(report.move.status);
   if (is_refused(report.status)) {
     before.restore(state);
@@ -216,7 +248,7 @@ bool Controller<Scalar>::begin_together(const CharacterState<Scalar>& before, co
                                         MoveRequest<Scalar>& request, StepReport<Scalar>& report) const noexcept {
   if (!accepts<true, true>(before, input, gravity, dt, movers)) return false;
   state = before;
-  request = begin_step<true, true>(before.pressers, input, gravity, dt, movers, state, report);
+  request = begin_step<true, true>(before.pressers, input, gravity, dt, movers, false, state, report);
   return true;
 }
 
@@ -229,9 +261,9 @@ void Controller<Scalar>::end_together(const Input& input, std::span<const MoverM
 }
 
 template DesiredVelocity<float> desired_velocity(const CharacterDef&, const Vec2<float>&, const Input&, float,
-                                      CharacterState<float>&) noexcept;
+                                                 CharacterState<float>&) noexcept;
 template DesiredVelocity<double> desired_velocity(const CharacterDef&, const Vec2<double>&, const Input&, double,
-                                       CharacterState<double>&) noexcept;
+                                                  CharacterState<double>&) noexcept;
 template class Controller<float>;
 template class Controller<double>;
 

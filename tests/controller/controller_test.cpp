@@ -186,6 +186,43 @@ TEST(JumpingRules, refuse_a_jump_toward_a_wall_one_stands_beside) {
   }
 }
 
+/// Beside a wall at x = 2, as far from it as it is said, at rest; with every technique.
+Stepper<double> beside_a_wall(TechniqueKind kind, double gap) {
+  CharacterDef character;
+  character.no_jump_toward_wall = true;
+  Stepper<double> jumper({rectangle(-100, -1, 100, 0), rectangle(2, 0, 3, 9)}, character, kind);
+  jumper.dt = dt;
+  jumper.gravity = {0, -gravity};
+  jumper.at(2 - half_width - gap, half_height).steps(40);
+  return jumper;
+}
+
+TEST(JumpingRules, refuse_a_jump_that_is_pressed_together_with_the_direction_after_standing_idle) {
+  for (const TechniqueKind kind : all_techniques) {
+    Stepper<double> toward = beside_a_wall(kind, px / 2);
+    ASSERT_FALSE(toward.state.wall_right) << name_of(kind) << ": nothing was wanted to the right";
+    EXPECT_EQ(take_offs(toward, 30, jumping(1)), 0) << name_of(kind);
+    Stepper<double> away = beside_a_wall(kind, px / 2);
+    EXPECT_EQ(take_offs(away, 30, jumping(-1)), 1) << name_of(kind);
+    Stepper<double> upwards = beside_a_wall(kind, px / 2);
+    EXPECT_EQ(take_offs(upwards, 30, jumping()), 1) << name_of(kind);
+    if (kind == TechniqueKind::grid) continue;  // beside is the next square, whole
+    Stepper<double> farther = beside_a_wall(kind, 3 * px);
+    EXPECT_EQ(take_offs(farther, 1, jumping(1)) + take_offs(farther, 3, jumping(1)), 1) << name_of(kind);
+  }
+}
+
+TEST(JumpingRules, refuse_a_jump_at_any_time_while_the_key_is_held_toward_the_wall) {
+  for (const TechniqueKind kind : all_techniques) {
+    if (kind == TechniqueKind::wind_back) continue;  // sticks to the floor before it comes to the wall
+    for (int waits = 60; waits < 80; ++waits) {
+      Stepper<double> jumper = beside_a_wall(kind, 0.4);
+      jumper.steps(waits, walking(1));
+      EXPECT_EQ(take_offs(jumper, 30, jumping(1)), 0) << name_of(kind) << ", pressed after " << waits << " steps";
+    }
+  }
+}
+
 TEST(JumpingRules, end_a_rise_at_the_side_of_something) {
   CharacterDef character;
   for (const bool rule : {false, true}) {

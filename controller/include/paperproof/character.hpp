@@ -59,7 +59,10 @@ struct CharacterDef {
   std::optional<double> max_fall_speed;    ///< [m/s]; no limit where absent.
   double max_climb_degrees = 50;           ///< Steepest ground that is walked on, from the horizontal; in [0, 89].
   double snap = 0;                         ///< How far down the ground is followed when walking [m]; 0: not at all.
-  bool no_jump_toward_wall = false;        ///< The article's rule: no jump while standing beside a wall, toward it.
+  /// The article's rule: no jump while standing beside a wall, toward it. A wall is beside the character where a move
+  /// of one unit (`ArticleKnobs::unit`) would meet it, or where the last step did. In a `Crowd` only the last step
+  /// counts.
+  bool no_jump_toward_wall = false;
   bool side_hit_ends_rise = false;  ///< The article's rule: hitting the side of something while rising ends the rise.
 
   /// @throws InvalidCharacter naming the value that is not finite or out of range.

@@ -106,12 +106,17 @@ class Controller {
   template <bool has_jump, bool has_gravity>
   [[nodiscard]] bool accepts(const CharacterState<Scalar>& state, const Input& input, const Vec2<Scalar>& gravity,
                              Scalar dt, std::span<const MoverMotion<Scalar>> movers) const noexcept;
+  /// There is a wall within a unit of the character, on the side that `move` (not zero) points to.
+  /// @param tried is overwritten.
+  [[nodiscard]] bool has_wall_ahead(const CharacterState<Scalar>& state, double move, Scalar dt,
+                                    std::span<const MoverMotion<Scalar>> movers, Scratch<Scalar>& scratch,
+                                    MoveResult<Scalar>& tried) const noexcept;
   /// What an accepted step begins with: the intent.
   /// @param pressers of the state as it was; must outlive the request.
   template <bool has_jump, bool has_gravity>
   [[nodiscard]] MoveRequest<Scalar> begin_step(const Pressers<Scalar>& pressers, const Input& input,
                                                const Vec2<Scalar>& gravity, Scalar dt,
-                                               std::span<const MoverMotion<Scalar>> movers,
+                                               std::span<const MoverMotion<Scalar>> movers, bool wall_ahead,
                                                CharacterState<Scalar>& state,
                                                StepReport<Scalar>& report) const noexcept;
   /// What it ends with, once `report.move` is made.
@@ -133,6 +138,7 @@ class Controller {
 
   std::size_t mover_count_;
   CharacterDef character_;
+  Scalar wall_reach_;  ///< How near a wall has to be that no jump is taken toward [m].
   Step step_;
   std::shared_ptr<const Technique<Scalar>> technique_;   ///< Shared with nobody: scratch memory refers to it.
   std::shared_ptr<const Sensors<Scalar>> sensors_;       ///< Null where the scenery has none.
