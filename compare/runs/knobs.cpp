@@ -57,6 +57,12 @@ const std::vector<Knob>& all_knobs() {
          def.article.pairs =
              second_of(value, "direction", "all") ? ArticleKnobs::Pairs::all : ArticleKnobs::Pairs::direction;
        }},
+      {"objects", "each, or all: penetration resolution looks at one object after the other, or at all at once",
+       searching,
+       [](const std::string& value, TechniqueDef& def) {
+         def.article.objects =
+             second_of(value, "each", "all") ? ArticleKnobs::Objects::all : ArticleKnobs::Objects::each;
+       }},
       {"response",
        "component, or shorten: a hit shortens the whole vector",
        {mask, penetration_resolution, speculative_march, speculative},

@@ -24,8 +24,20 @@ Scene plate_above_a_floor() {
   return scene;
 }
 
+/// The feet begin in the floor, an arm in a low wall that is looked at first. Lifted out of the floor it is above the
+/// wall.
+Scene low_wall_on_a_floor() {
+  Scene scene = built_in("flush_tiles");
+  constexpr double px = 1.0 / 32;
+  scene.scenery.colliders = {{.points = {{8 * px, -1}, {4, -1}, {4, 4 * px}, {8 * px, 4 * px}}},
+                             {.points = {{-4, -1}, {4, -1}, {4, 0}, {-4, 0}}}};
+  scene.start = {.position = {0, 8 * px}};
+  scene.steps = 3;
+  return scene;
+}
+
 std::vector<Scene> scenes() {
-  std::vector<Scene> all{plate_above_a_floor()};
+  std::vector<Scene> all{plate_above_a_floor(), low_wall_on_a_floor()};
   for (const char* name : {"article_bullet", "flush_tiles", "slope_joints", "stuck_points", "ledge_hang", "wedge_60",
                            "wedge_5", "jump_into_overhang", "jump_into_corner", "concave_corner", "exact_fit_shaft"})
     all.push_back(built_in(name));
@@ -91,6 +103,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Turn{"pairs=all", [](ArticleKnobs& knobs) { knobs.pairs = ArticleKnobs::Pairs::all; }},
                       Turn{"response=shorten",
                            [](ArticleKnobs& knobs) { knobs.response = ArticleKnobs::Response::shorten; }},
+                      Turn{"objects=all", [](ArticleKnobs& knobs) { knobs.objects = ArticleKnobs::Objects::all; }},
                       Turn{"square=0.5", [](ArticleKnobs& knobs) { knobs.square = 0.5; }},
                       Turn{"raster_pixels_per_metre=8", [](ArticleKnobs& knobs) { knobs.raster_pixels_per_metre = 8; }},
                       Turn{"pixels_per_tile=7", [](ArticleKnobs& knobs) { knobs.pixels_per_tile = 7; }}),

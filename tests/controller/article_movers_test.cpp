@@ -392,5 +392,41 @@ TEST(ManyMovers, leave_every_number_finite_and_nothing_pushed_into_what_stands_s
   }
 }
 
+TEST(FarMovers, change_no_bit_of_a_step_among_what_stands_still) {
+  constexpr std::uint64_t seed = 91;
+  Random random(seed);
+  std::vector<ColliderDef> standing{rectangle(-40, -1, 40, 0)};
+  for (int i = 0; i < 60; ++i) {
+    const double x = random.between(-30, 30);
+    const double y = random.between(0, 3);
+    standing.push_back({.points = {{x, y}, {x + random.between(1, 4), y}, {x, y + random.between(0.2, 2)}}});
+  }
+  std::vector<ColliderDef> with_mover = standing;
+  with_mover.push_back(of_mover(rectangle(500, 0, 501, 1)));
+  for (const TechniqueKind kind : moving_kinds) {
+    Passenger alone(kind, standing);
+    Passenger accompanied(kind, with_mover);
+    int hits = 0;
+    Motions motions(1);
+    for (int step = 0; step < 3000; ++step) {
+      if (step % 100 == 0) {
+        alone.position = accompanied.position = {random.between(-30, 30), random.between(2, 9)};
+        alone.velocity = accompanied.velocity = {random.between(-20, 20), random.between(-20, 20)};
+      }
+      if (step % 100 == 30) alone.velocity.x() = accompanied.velocity.x() = random.between(-8, 8);
+      motions[0] = {motions[0].to, {random.between(-3, 3), 0}};
+      const MoveResult<double>& expected = alone.step({});
+      const MoveResult<double>& result = accompanied.step(motions);
+      ASSERT_EQ(result.position, expected.position) << name_of(kind) << ", seed " << seed << ", step " << step;
+      ASSERT_EQ(result.velocity, expected.velocity) << name_of(kind) << ", step " << step;
+      ASSERT_EQ(result.status, expected.status) << name_of(kind) << ", step " << step;
+      ASSERT_EQ(result.contacts.size(), expected.contacts.size()) << name_of(kind) << ", step " << step;
+      hits += expected.contacts.empty() ? 0 : 1;
+    }
+    EXPECT_GT(hits, 600) << name_of(kind);
+    EXPECT_LT(hits, 2700) << name_of(kind);
+  }
+}
+
 }  // namespace
 }  // namespace paperproof::article_tests

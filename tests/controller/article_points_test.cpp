@@ -161,6 +161,34 @@ TEST(Iterations, a_second_one_takes_a_character_out_of_what_the_first_pushed_it_
   for (const int iterations : {2, 4, 8, 32}) EXPECT_EQ(Valley(iterations).ended_inside, 0) << iterations;
 }
 
+TEST(Objects, are_left_one_by_one_and_a_later_one_may_push_into_an_earlier_one) {
+  // The feet are 2 px deep in a floor whose top, at 1 px, is inside of a plate that comes first and reaches to 4 px.
+  const std::vector<ColliderDef> colliders{rectangle(-3, px / 2, 3, 4 * px), rectangle(-3, -3, 3, px)};
+  struct Case {
+    ArticleKnobs::Objects objects;
+    int iterations;
+    double feet;  ///< Where they end [px].
+  };
+  for (const Case& each : {Case{ArticleKnobs::Objects::each, 1, 1}, Case{ArticleKnobs::Objects::each, 2, 4},
+                           Case{ArticleKnobs::Objects::all, 1, 4}}) {
+    Rig<double> rig(TechniqueKind::penetration_resolution, colliders,
+                    {.iterations = each.iterations, .objects = each.objects});
+    const MoveResult<double>& result = rig.move({0, half_height + 8 * px}, {0, -9 * px});
+    EXPECT_EQ(result.position.y(), half_height + each.feet * px) << each.iterations;
+  }
+}
+
+TEST(Objects, that_abut_leave_no_seam_to_fall_through) {
+  const std::array diamond{Vec2d{0, -0.5}, Vec2d{0.5, 0}, Vec2d{0, 0.5}, Vec2d{-0.5, 0}};
+  for (const auto objects : {ArticleKnobs::Objects::each, ArticleKnobs::Objects::all}) {
+    Rig<double> rig(TechniqueKind::penetration_resolution, {rectangle(-1, -1, 0, 0), rectangle(0, -1, 1, 0)},
+                    {.objects = objects}, CharacterShape(diamond));
+    const MoveResult<double>& result = rig.move({0, 0.5}, {0, -2 * px});
+    EXPECT_TRUE(result.grounded);
+    EXPECT_EQ(result.position.y(), 0.5);
+  }
+}
+
 struct OneWayCase {
   const char* what;
   double start;   ///< Height of the feet above the ledge [px].

@@ -55,11 +55,16 @@ struct ArticleKnobs {
     component,  ///< Only the component of the direction under test changes, as the article says.
     shorten,    ///< The whole vector is shortened, to show how that sticks to the floor.
   };
+  enum class Objects : std::uint8_t {
+    each,  ///< Penetration resolution frees a pair of one object after the other, as the article says.
+    all,   ///< Of all that is near at once: less is left to the next iteration.
+  };
   double unit = 1.0 / 32;  ///< One pixel [m]: the step of every search.
   int iterations = 4;      ///< At least 1.
   int points = 8;          ///< 8: the character's points; 4: the corners of their bounding box.
   Pairs pairs = Pairs::direction;
   Response response = Response::component;
+  Objects objects = Objects::each;  ///< An object is a collider, whatever convex pieces it is made of.
   double square = 1;  ///< `grid`: the side of its squares [m]. Large: less can be expressed. Small: memory.
   double raster_pixels_per_metre = 32;  ///< Of the picture techniques, in (0, 1000]. Small: edges move by up to half a
                                         ///< pixel, and gaps close. Large: memory, with its square.

@@ -18,7 +18,8 @@ class Frame {
         record_(parts, request, result),
         position_(record_.frame().start()),
         movement_(record_.frame().wanted()) {
-    if (parts_.something_carries) measure_reach();
+    moves_ = parts_.something_carries && something_moves_near();
+    if (moves_) measure_reach();
   }
 
   void run(ImpactSearch<Scalar> search) noexcept {
@@ -26,8 +27,8 @@ class Frame {
       look_around();
       if (iteration == 0) see_where_it_begins();
       bool hit = false;
-      if (search != nullptr && !parts_.something_carries) hit = shorten_along(search);
-      if (search != nullptr && parts_.something_carries && iteration == 0) hit = meet_in_order_of_time(search);
+      if (search != nullptr && !moves_) hit = shorten_along(search);
+      if (search != nullptr && moves_ && iteration == 0) hit = meet_in_order_of_time(search);
       hit = resolve_penetration() || hit;
       position_ += movement_;
       if (!hit) break;
@@ -38,6 +39,31 @@ class Frame {
 
  private:
   using Group = PieceGroup<Scalar>;
+
+  /// Where the character may come during the frame by itself.
+  [[nodiscard]] Box2<Scalar> total_box() const noexcept {
+    const Box2<Scalar>& body = parts_.points.box;
+    const Vec2<Scalar> there = position_ + movement_;
+    return {position_.cwiseMin(there) + body.lower, position_.cwiseMax(there) + body.upper};
+  }
+
+  /// How far penetration resolution may push beyond it.
+  [[nodiscard]] Scalar most_push() const noexcept {
+    const Vec2<Scalar> extent = parts_.points.box.upper - parts_.points.box.lower;
+    return extent.maxCoeff() + parts_.unit;
+  }
+
+  /// What moves elsewhere changes nothing here: the frame is that of scenery that stands still.
+  [[nodiscard]] bool something_moves_near() noexcept {
+    if (request_.ride.ground != Ride<Scalar>::none) return true;
+    groups_ = parts_.groups_near(total_box().inflated(most_push()), record_.frame(), scratch_);
+    return std::any_of(groups_.begin(), groups_.end(), [&](const Group& group) {
+      const std::span<const PieceIndex> pieces = group.pieces.pieces();
+      return std::any_of(pieces.begin(), pieces.end(), [&](PieceIndex piece) {
+        return record_.frame().carries(parts_.scenery->pieces()[piece].collider);
+      });
+    });
+  }
 
   /// How far the movement can lead: each component is at any time the one that was wanted, or that of something hit.
   void measure_reach() noexcept {
@@ -55,15 +81,12 @@ class Frame {
   /// Finds the pieces near the total bounding box: anew in every iteration.
   void look_around() noexcept {
     const Box2<Scalar>& body = parts_.points.box;
-    const Vec2<Scalar> there = position_ + movement_;
-    Box2<Scalar> total{position_.cwiseMin(there) + body.lower, position_.cwiseMax(there) + body.upper};
-    if (parts_.something_carries) {
-      const Vec2<Scalar> extent = body.upper - body.lower;  // how far penetration resolution may push beyond
+    Box2<Scalar> total = total_box();
+    if (moves_)
       total = total
                   .merged({record_.frame().start() + reach_.lower + body.lower,
                            record_.frame().start() + reach_.upper + body.upper})
-                  .inflated(extent.maxCoeff() + parts_.unit);
-    }
+                  .inflated(most_push());
     groups_ = parts_.groups_near(total, record_.frame(), scratch_);
   }
 
@@ -130,22 +153,36 @@ class Frame {
   /// Penetration resolution: adjusts the movement, pair by pair, until the pair is free where it arrives.
   bool resolve_penetration() noexcept {
     bool hit = false;
-    for (const Side side : all_sides) {
-      for (const Group& group : groups_) {
-        if (!record_.is_tested(side, group)) continue;
-        const std::optional<PointHit<Scalar>> found = report_penetration(group, side);
-        if (!found) continue;
-        hit = true;
-        push_back(group, side, *found);
-        record_.stop(side, group, *found);
+    if (parts_.knobs.objects == ArticleKnobs::Objects::all) {
+      for (const Side side : all_sides)
+        for (const Group& group : groups_) hit = resolve_pair(group, side, groups_) || hit;
+      return hit;
+    }
+    for (const Group& group : groups_) {
+      for (std::span<const PieceIndex> rest = group.pieces.pieces(); !rest.empty();) {
+        Group object = group;
+        object.pieces = group.pieces.object_at_front(rest);
+        rest = rest.subspan(object.pieces.pieces().size());
+        for (const Side side : all_sides) hit = resolve_pair(object, side, std::span(&object, 1)) || hit;
       }
     }
     return hit;
   }
 
-  [[nodiscard]] bool pair_is_inside(Side side, const Vec2<Scalar>& position) const noexcept {
+  /// @param others what the pair is free of afterwards: the group among them.
+  bool resolve_pair(const Group& group, Side side, std::span<const Group> others) noexcept {
+    if (!record_.is_tested(side, group)) return false;
+    const std::optional<PointHit<Scalar>> found = report_penetration(group, side);
+    if (!found) return false;
+    push_back(group, side, *found, others);
+    record_.stop(side, group, *found);
+    return true;
+  }
+
+  [[nodiscard]] bool pair_is_inside(Side side, const Vec2<Scalar>& position,
+                                    std::span<const Group> groups) const noexcept {
     const std::span<const std::size_t> points = distinct(record_.pair(side));
-    return std::any_of(groups_.begin(), groups_.end(), [&](const Group& group) {
+    return std::any_of(groups.begin(), groups.end(), [&](const Group& group) {
       return std::any_of(points.begin(), points.end(), [&](std::size_t i) {
         return group.pieces.containing(group.seen(position, 1) + parts_.points.offsets[i]).has_value();
       });
@@ -170,7 +207,7 @@ class Frame {
 
   /// Unit by unit towards the start and, where needed, beyond it by as much as the character is long in that direction.
   /// What is not free then (something larger than the character is in the way) does not move in that direction at all.
-  void push_back(const Group& group, Side side, const PointHit<Scalar>& hit) noexcept {
+  void push_back(const Group& group, Side side, const PointHit<Scalar>& hit, std::span<const Group> others) noexcept {
     const Eigen::Index component = component_of(side);
     const Scalar extent = parts_.points.box.upper[component] - parts_.points.box.lower[component];
     const Vec2<Scalar> drift = group.drift();
@@ -186,8 +223,8 @@ class Frame {
         adjusted = adjusted * (1 - back / wanted) - drift * (back / wanted);
       else
         adjusted[component] -= static_cast<Scalar>(outwards(side)) * back;
-      if (pair_is_inside(side, position_ + adjusted)) continue;
-      if (parts_.something_carries && !may_push(group, side, adjusted, hit)) return;
+      if (pair_is_inside(side, position_ + adjusted, others)) continue;
+      if (moves_ && !may_push(group, side, adjusted, hit)) return;
       movement_ = adjusted;
       return;
     }
@@ -217,7 +254,7 @@ class Frame {
   }
 
   void finish() noexcept {
-    const bool in_static = (parts_.something_carries || began_inside_) && find_what_is_inside();
+    const bool in_static = (moves_ || began_inside_) && find_what_is_inside();
     if (in_static && !began_in_static_ && !record_.pushers().empty()) return stay_where_it_began();
     record_.measure_gaps(position_);
     record_.frame().arrive(position_, result_);
@@ -262,6 +299,7 @@ class Frame {
   std::span<const Group> groups_;
   Vec2<Scalar> position_;  ///< In the frame of reference.
   Vec2<Scalar> movement_;  ///< What is left of the frame's.
+  bool moves_ = false;     ///< Something that moves or carries is near.
   bool began_inside_ = false;
   bool began_in_static_ = false;
   bool inside_ = false;

@@ -8,11 +8,17 @@
 ///
 /// Among movers all of this is about motion relative to what is met: a pair is chosen where the movement relative to a
 /// mover faces that way, and a hit makes the component the mover's own, so that the mover pushes. The article asks for
-/// the order of time of impact where several things move: scenery with movers (or conveyors) is searched in that order,
-/// each hit along the rest of the movement from where the last one left it; scenery that stands still is searched pair
-/// by pair along the whole vector, as the article has it. What stands on a mover is carried: the frame is worked out in
-/// the mover's own frame of reference. What comes to rest on it is carried at once, unless it had a speed of its own
-/// along it. What a mover pushes against something that stands still is not pushed through it, but crushed.
+/// the order of time of impact where several things move: a step with a mover (or conveyor) near is searched in that
+/// order, each hit along the rest of the movement from where the last one left it; where all that is near stands still
+/// it is searched pair by pair along the whole vector, as the article has it. Near is what the total bounding box
+/// meets, and as far beyond as penetration resolution may push; a mover counts with all it sweeps during the step.
+///
+/// What stands on a mover is carried: the frame is worked out in the mover's own frame of reference. What comes to rest
+/// on it is carried at once, unless it had a speed of its own along it. What a mover pushes against something that
+/// stands still is not pushed through it, but crushed.
+///
+/// "We do nothing" where there is no collision: the movement is made, and the frame ends; no contact, no grounding.
+/// What hits "the side of something" is a pair of arms. Only a bottom pair's hit is ground.
 #pragma once
 
 #include "techniques/frame_of_reference.hpp"
@@ -65,7 +71,7 @@ struct Parts {
   std::unique_ptr<BroadPhase<Scalar>> broad_phase;
   CollisionPoints<Scalar> points;
   Scalar unit = 0;         ///< [m]
-  bool something_carries;  ///< See the function; scenery with movers is searched in order of time.
+  bool something_carries;  ///< See the function; near movers are searched in order of time.
   Scalar fastest_surface;  ///< Of all conveyors [m/s].
   ArticleKnobs knobs;
 

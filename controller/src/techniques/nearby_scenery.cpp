@@ -58,13 +58,19 @@ Place place_in(std::span<const Vec2<Scalar>> outline, const Vec2<Scalar>& point,
   return place;
 }
 
-/// The edges that hold a point, one per piece: two that run against each other are a seam.
+/// Two edges that hold the same point, each with its piece on the left, are a seam.
+template <class Scalar>
+bool run_against(const Vec2<Scalar>& along, const Vec2<Scalar>& other) noexcept {
+  return cross(along, other) == 0 && along.dot(other) < 0;
+}
+
+/// The edges that hold a point, one per piece.
 template <class Scalar>
 class Seams {
  public:
   [[nodiscard]] bool close_with(const Vec2<Scalar>& along) noexcept {
     for (const Vec2<Scalar>& other : edges_) {
-      if (cross(along, other) == 0 && along.dot(other) < 0) return true;
+      if (run_against(along, other)) return true;
     }
     edges_.push_back(along);
     return false;
@@ -144,9 +150,30 @@ std::optional<PieceIndex> NearbyScenery<Scalar>::containing(const Vec2<Scalar>& 
     if (is_chain(piece) || !holds(scenery_->box(piece), point)) continue;
     Vec2<Scalar> along{Vec2<Scalar>::Zero()};
     const Place place = place_in(scenery_->vertices_of(piece), point, along);
-    if (place == Place::inside || (place == Place::edge && seams.close_with(along))) return piece;
+    if (place == Place::inside) return piece;
+    if (place == Place::edge && (seams.close_with(along) || is_seam(point, along))) return piece;
   }
   return std::nullopt;
+}
+
+/// Another object's edge runs along this one where the point is.
+template <class Scalar>
+bool NearbyScenery<Scalar>::is_seam(const Vec2<Scalar>& point, const Vec2<Scalar>& along) const noexcept {
+  return std::any_of(around_.begin(), around_.end(), [&](PieceIndex piece) {
+    if (is_chain(piece) || !holds(scenery_->box(piece), point)) return false;
+    Vec2<Scalar> other{Vec2<Scalar>::Zero()};
+    return place_in(scenery_->vertices_of(piece), point, other) == Place::edge && run_against(along, other);
+  });
+}
+
+template <class Scalar>
+NearbyScenery<Scalar> NearbyScenery<Scalar>::object_at_front(std::span<const PieceIndex> rest) const noexcept {
+  const auto collider_of = [this](PieceIndex piece) { return scenery_->pieces()[piece].collider; };
+  const auto end = std::find_if(rest.begin(), rest.end(),
+                                [&](PieceIndex piece) { return collider_of(piece) != collider_of(rest.front()); });
+  NearbyScenery object(*scenery_, rest.first(static_cast<std::size_t>(end - rest.begin())));
+  object.around_ = pieces_;
+  return object;
 }
 
 template <class Scalar>

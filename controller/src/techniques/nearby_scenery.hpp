@@ -43,6 +43,11 @@ class NearbyScenery {
       : scenery_(&scenery), pieces_(pieces) {}
 
   [[nodiscard]] bool empty() const noexcept { return pieces_.empty(); }
+  [[nodiscard]] std::span<const PieceIndex> pieces() const noexcept { return pieces_; }
+
+  /// One object of several: the pieces of the collider that the first of `rest` belongs to. What abuts it still closes
+  /// its seams. @param rest of `pieces()`, the object's pieces at its front (the broad phase returns them in order).
+  [[nodiscard]] NearbyScenery object_at_front(std::span<const PieceIndex> rest) const noexcept;
 
   /// The first polygon piece that `point` is in.
   [[nodiscard]] std::optional<PieceIndex> containing(const Vec2<Scalar>& point) const noexcept;
@@ -65,11 +70,13 @@ class NearbyScenery {
                                           const Vec2<Scalar>& to) const noexcept;
 
  private:
+  [[nodiscard]] bool is_seam(const Vec2<Scalar>& point, const Vec2<Scalar>& along) const noexcept;
   [[nodiscard]] bool is_chain(PieceIndex piece) const noexcept { return scenery_->pieces()[piece].vertex_count == 2; }
   [[nodiscard]] bool crosses(PieceIndex piece, const Vec2<Scalar>& from, const Vec2<Scalar>& to) const noexcept;
 
   const Scenery<Scalar>* scenery_;
   std::span<const PieceIndex> pieces_;
+  std::span<const PieceIndex> around_{};  ///< Of one object: all that is near. Empty: it is everything itself.
 };
 
 extern template class NearbyScenery<float>;

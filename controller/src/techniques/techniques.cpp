@@ -42,6 +42,8 @@ void validate(const ArticleKnobs& knobs) {
           "pairs: must be direction or all");
   require(knobs.response == ArticleKnobs::Response::component || knobs.response == ArticleKnobs::Response::shorten,
           "response: must be component or shorten");
+  require(knobs.objects == ArticleKnobs::Objects::each || knobs.objects == ArticleKnobs::Objects::all,
+          "objects: must be each or all");
   require(std::isfinite(knobs.square) && knobs.square > static_cast<double>(Tolerances<Scalar>{}.touch),
           "square: must be longer than what counts as touching, not " + std::to_string(knobs.square));
   const double fineness = knobs.raster_pixels_per_metre;
