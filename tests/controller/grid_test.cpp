@@ -43,6 +43,7 @@ struct GridWalk {
   Rig<Scalar> rig;
   Vec2<Scalar> position{Vec2<Scalar>::Zero()};
   Vec2<Scalar> remainder{Vec2<Scalar>::Zero()};
+  Scalar dt = Scalar(1) / 64;
 
   GridWalk(std::vector<ColliderDef> colliders, const Vec2d& start, const CharacterShape& shape = unit_square())
       : rig(TechniqueKind::grid, std::move(colliders), {}, shape), position(start.cast<Scalar>()) {}
@@ -53,6 +54,7 @@ struct GridWalk {
     request.displacement = displacement.cast<Scalar>();
     request.velocity = request.displacement;
     request.remainder = remainder;
+    request.dt = dt;
     rig.technique->move(request, rig.scratch, rig.result);
     position = rig.result.position;
     remainder = rig.result.remainder;
@@ -121,6 +123,22 @@ TYPED_TEST(GridMoves, end_exactly_in_the_next_square_once_half_of_it_was_wanted)
     ASSERT_EQ(walk.position, centre_of(column, 0).template cast<TypeParam>()) << "step " << step;
     ASSERT_EQ(walk.remainder.x(), static_cast<TypeParam>(0.125 * step - static_cast<double>(column)));
   }
+}
+
+TYPED_TEST(GridMoves, are_drawn_to_the_end_where_nothing_more_is_wanted) {
+  GridWalk<TypeParam> walk({rectangle(-9, -1, 99, 0)}, centre_of(0, 0));
+  for (int step = 0; step < 11; ++step) walk.move({0.125, 0});
+  ASSERT_EQ(walk.position, centre_of(1, 0).template cast<TypeParam>());
+  ASSERT_EQ(walk.remainder.x(), TypeParam(0.375));
+  // 6 m/s, 64 steps per second: 3/32 m per step, 4 steps.
+  for (int step = 1; step <= 6; ++step) {
+    walk.move({0, 0});
+    EXPECT_EQ(walk.remainder.x(), std::max(TypeParam(0), TypeParam(0.375) - TypeParam(step) * 3 / 32));
+    EXPECT_EQ(walk.position, centre_of(1, 0).template cast<TypeParam>());
+  }
+  for (int step = 0; step < 5; ++step) walk.move({-0.0625, 0});
+  for (int step = 0; step < 2; ++step) walk.move({0, 0});
+  EXPECT_EQ(walk.remainder.x(), TypeParam(-0.3125 + 0.1875)) << "from the other side, too";
 }
 
 TYPED_TEST(GridMoves, into_a_solid_square_are_prevented_before_they_begin) {

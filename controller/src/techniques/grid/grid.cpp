@@ -4,6 +4,7 @@
 #include "techniques/grid/squares.hpp"
 #include "techniques/rounding.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace paperproof {
@@ -17,7 +18,8 @@ class Grid final : public Technique<Scalar> {
  public:
   Grid(const TechniqueDef& def, const Scenery<Scalar>& scenery, const CharacterDef& character)
       : squares_(scenery.as_run(), def.article.square, static_cast<double>(Tolerances<Scalar>{}.touch)),
-        box_(character.shape.box()) {}
+        box_(character.shape.box()),
+        glide_speed_(static_cast<Scalar>(std::max(character.walk_speed, def.article.square))) {}
 
   [[nodiscard]] std::string_view name() const noexcept override { return name_of(TechniqueKind::grid); }
   [[nodiscard]] Scratch<Scalar> make_scratch() const override { return {}; }
@@ -26,6 +28,7 @@ class Grid final : public Technique<Scalar> {
             MoveResult<Scalar>& result) const noexcept override;
 
  private:
+  [[nodiscard]] Vec2<Scalar> glided(const MoveRequest<Scalar>& request) const noexcept;
   [[nodiscard]] Square square_of(const Vec2<Scalar>& position) const noexcept;
   [[nodiscard]] Vec2<Scalar> position_in(const Square& square) const noexcept;
   void prevent(const Square& square, const MoveRequest<Scalar>& request, MoveResult<Scalar>& result) const noexcept;
@@ -33,7 +36,8 @@ class Grid final : public Technique<Scalar> {
   [[nodiscard]] Square step_from(const Square& square, MoveResult<Scalar>& result) const noexcept;
 
   Squares squares_;
-  Box2<double> box_;  ///< Of the character.
+  Box2<double> box_;    ///< Of the character.
+  Scalar glide_speed_;  ///< [m/s]
 };
 
 Square next_to(Square square, Eigen::Index component, bool forwards) noexcept {
@@ -47,7 +51,7 @@ void Grid<Scalar>::move(const MoveRequest<Scalar>& request, Scratch<Scalar>&,
   if (article::refuse_out_of_range(request, result)) return;
   result.clear();
   result.velocity = request.velocity;
-  result.remainder = request.remainder + request.displacement;
+  result.remainder = glided(request) + request.displacement;
   const Square start = square_of(request.position);
   result.position = position_in(start);
   prevent(start, request, result);
@@ -56,6 +60,16 @@ void Grid<Scalar>::move(const MoveRequest<Scalar>& request, Scratch<Scalar>&,
   if (squares_.collider_at(start) && squares_.collider_at(end)) result.status = MoveStatus::stuck;
   result.path.push_back({request.position, 0});
   result.path.push_back({result.position, 1});
+}
+
+/// What is left of the remainder: where nothing is wanted, what is drawn goes on to its square.
+template <class Scalar>
+Vec2<Scalar> Grid<Scalar>::glided(const MoveRequest<Scalar>& request) const noexcept {
+  const Scalar way = glide_speed_ * request.dt;
+  Vec2<Scalar> left = request.remainder;
+  for (const Eigen::Index i : {0, 1})
+    if (request.displacement[i] == 0) left[i] -= std::clamp(left[i], -way, way);
+  return left;
 }
 
 template <class Scalar>

@@ -5,7 +5,9 @@
 /// motion that way is prevented before it begins. Of what is left the larger component moves the character into the
 /// next square, in one of the four directions and by exactly one square, once half a square has been wanted. Until then
 /// the motion is kept in the state's `remainder`: a game draws its character at position + remainder, and nothing
-/// collides there. More than one square in a step cannot be made; what is over is dropped.
+/// collides there. Where no motion is wanted along a component what is drawn glides to the middle of the square, at the
+/// character's walking speed (or a square per second, if that is more): a move ends exactly in a square, for the eye
+/// too. More than one square in a step cannot be made; what is over is dropped.
 ///
 /// `position` puts the feet of the character on the lower edge of its square, and its box in the middle between left
 /// and right (for a character as large as its square: the centre). What sticks out of the square is drawn and not
