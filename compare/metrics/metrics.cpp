@@ -250,9 +250,10 @@ void Metrics::add(const TraceStep& step, const StepJudgement& judgement) {
   add_exact_impact(step, judgement);
   add_passings(step, judgement);
   add_events(step, judgement);
-  if (measured_.rest) followers_[step.character].rest.add(step);
-  followers_[step.character].smoothness.add(step, step.dt.value_or(dt_));
-  energy_.add(step, step.dt.value_or(dt_));
+  const double dt = step.dt.value_or(dt_);
+  if (measured_.rest) followers_[step.character].rest.add(step, dt);
+  followers_[step.character].smoothness.add(step, dt);
+  energy_.add(step, dt);
   events_.add(step);
   count(sums_.contact_steps, !step.contacts.empty() || !step.met.empty());
   if (measured_.respawns) count(sums_.respawns, step.respawn);

@@ -47,8 +47,25 @@ MoverIndex Rest::carrying(const TraceStep& step) const {
   return at_feet == step.contacts.end() ? no_mover : mover_of_[at_feet->collider];
 }
 
-void Rest::add(const TraceStep& step) {
-  const MoverIndex ground = carrying(step);
+void Rest::end(MoverIndex ground) {
+  if (now_.steps >= least_steps) last_ = std::move(now_);
+  now_ = {};
+  now_.ground = ground;
+  clear_gap();
+}
+
+void Rest::clear_gap() {
+  gap_.clear();
+  gap_lasts_ = 0;
+}
+
+void Rest::count(const Vec2d& position, std::uint8_t sides) {
+  if (++now_.steps > settling_steps) measure(position, sides);
+}
+
+void Rest::add(const TraceStep& step, double dt) {
+  // In the air it is still relative to what it stood on.
+  const MoverIndex ground = step.grounded ? carrying(step) : now_.ground;
   Vec2d carried = Vec2d::Zero();
   double wanted = step.requested.x();
   if (ground != no_mover) {
@@ -58,16 +75,21 @@ void Rest::add(const TraceStep& step) {
     wanted -= carried.x() - step.movers[ground].from.x();
     if (std::abs(wanted) <= rounding) wanted = 0;
   }
-  const bool rests = step.grounded && wanted == 0 && !step.path.empty();
-  if (!rests || ground != now_.ground) {
-    if (now_.steps >= least_steps) last_ = std::move(now_);
-    now_ = {};
-    now_.ground = ground;
+  const bool may_rest = wanted == 0 && !step.path.empty();
+  if (!may_rest || ground != now_.ground) end(ground);
+  if (!may_rest || (!step.grounded && now_.steps == 0)) return;
+  const Airborne here{step.path.back().position - carried,
+                      static_cast<std::uint8_t>(sides_of(step.contacts) | sides_of(step.met))};
+  if (!step.grounded) {
+    gap_.push_back(here);
+    gap_lasts_ += dt;
+    constexpr double rounding = 1e-9;
+    if (gap_lasts_ > longest_gap + rounding) end(no_mover);
+    return;
   }
-  if (!rests) return;
-  if (++now_.steps > settling_steps)
-    measure(step.path.back().position - carried,
-            static_cast<std::uint8_t>(sides_of(step.contacts) | sides_of(step.met)));
+  for (const Airborne& each : gap_) count(each.position, each.sides);
+  clear_gap();
+  count(here.position, here.sides);
 }
 
 void Rest::write(Row& row) const {

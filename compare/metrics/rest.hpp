@@ -9,17 +9,24 @@
 
 namespace paperproof::compare {
 
-/// Jitter at rest. A rest is a maximal run of at least 60 steps that end grounded and want no horizontal motion; the
-/// first 30 are for settling and are not measured. The last rest of a run counts. Who stands on a mover rests relative
-/// to it: its motion is taken out of the wanted one and of the positions.
+/// Jitter at rest. A rest is a maximal run of at least 60 steps that want no horizontal motion, begins and ends with a
+/// grounded step, and has no gap longer than `longest_gap` between two of them: who hops on its floor rests, and that
+/// is its jitter. (A jump is a longer gap. Without gaps a technique that is grounded in every fourth step never rests,
+/// and has no number.) The first 30 steps are for settling and are not measured. The last rest of a run counts. Who
+/// stands on a mover rests relative to it: its motion is taken out of the wanted one and of the positions.
 /// - `rest_peak_to_peak_m`: the larger of the ranges of x and of y over the ends of the steps [m].
 /// - `rest_rms_m`: root mean square distance from the mean position [m].
 /// - `rest_sign_changes`, `rest_upper_band`: see metrics/jitter.hpp; the larger of x and y, over the last 512 steps.
 /// - `contact_toggles`: changes of the set of reported sides between successive steps, per 1,000 steps.
 class Rest {
  public:
+  /// Without a grounded step [s]: the fall of 1.6 px under 10 m/s², of 4.8 px under 30. Shorter: a technique that
+  /// pushes out by a unit and falls back never rests. Longer: low jumps would be jitter.
+  static constexpr double longest_gap = 0.1;
+
   explicit Rest(const SceneryDef& scenery);
-  void add(const TraceStep& step);
+  /// @param dt of the step [s].
+  void add(const TraceStep& step, double dt);
   /// Leaves the row alone where nothing rested.
   void write(Row& row) const;
 
@@ -37,12 +44,22 @@ class Rest {
     std::vector<double> xs{};  ///< Offsets of the last steps, oldest first.
     std::vector<double> ys{};
   };
+  /// A step in the air that belongs to the rest if a grounded one comes soon.
+  struct Airborne {
+    Vec2d position{Vec2d::Zero()};
+    std::uint8_t sides = 0;
+  };
   /// What the first contact at the feet goes along with.
   [[nodiscard]] MoverIndex carrying(const TraceStep& step) const;
+  void count(const Vec2d& position, std::uint8_t sides);
   void measure(const Vec2d& position, std::uint8_t sides);
+  void end(MoverIndex ground);
+  void clear_gap();
 
   std::vector<MoverIndex> mover_of_;  ///< By collider.
   Phase now_;
+  std::vector<Airborne> gap_;  ///< Since the last grounded step of the present rest.
+  double gap_lasts_ = 0;       ///< [s]
   std::optional<Phase> last_;
 };
 

@@ -375,6 +375,40 @@ TEST(Metrics, a_rest_needs_sixty_steps_and_the_last_one_counts) {
   EXPECT_FALSE(row_of(run).rest_peak_to_peak_m) << "walking is no rest";
 }
 
+TEST(Metrics, who_hops_on_its_floor_rests_and_who_jumps_does_not) {
+  TraceHeader head = header();
+  head.dt = 1.0 / 60;
+  constexpr double hop = 1.0 / 32;
+  // Grounded on the floor in every `period`-th step, a hop above it in the others.
+  const auto hopping = [&](int period) {
+    std::vector<Moment> run;
+    for (int i = 0; i < 121; ++i) {
+      Moment one = moment(i);
+      one.step.grounded = i % period == 0;
+      if (one.step.grounded) one.step.contacts = {contact(0, Side::bottom)};
+      one.step.path.back().position = {0, one.step.grounded ? 0 : hop};
+      run.push_back(one);
+    }
+    return run;
+  };
+  for (const int period : {2, 4, 7}) {
+    const Row row = row_of(hopping(period), head);
+    EXPECT_EQ(row.rest_peak_to_peak_m, hop) << period << ": at most 6 steps of 1/60 s in the air";
+    // Lost and found once each per period, among the measured steps 30 to the last grounded one.
+    const int last = 120 / period * period;
+    int toggles = 0;
+    for (int i = 31; i <= last; ++i) toggles += (i % period == 0) != ((i - 1) % period == 0) ? 1 : 0;
+    EXPECT_DOUBLE_EQ(row.contact_toggles.value_or(0), 1000.0 * toggles / (last - 30 + 1)) << period;
+  }
+  EXPECT_FALSE(row_of(hopping(8), head).rest_peak_to_peak_m) << "7 steps in the air are no rest";
+  std::vector<Moment> jump = hopping(4);
+  for (std::size_t i = 101; i < jump.size(); ++i) {
+    jump[i].step.grounded = false;
+    jump[i].step.path.back().position = {0, 1};
+  }
+  EXPECT_EQ(row_of(jump, head).rest_peak_to_peak_m, hop) << "what does not come back is not part of the rest";
+}
+
 TEST(Metrics, ghost_speed_loss_is_the_largest_share_where_motion_was_wanted) {
   std::vector<Moment> run{moment(0), moment(1), moment(2)};
   run[0].judged.ghost_speed_loss = 0.25;
