@@ -71,7 +71,7 @@ class Box2dContestant final : public Contestant {
  public:
   Box2dContestant(const TwinDef& def, const Scene& scene, const Scenery<double>& scenery,
                   std::span<const KnobSetting> knobs)
-      : character_(scene.character),
+      : character_(rules_for_twin(scene)),
         gravity_(scene.gravity),
         substeps_(def.substeps),
         world_(scenery, scene.character, starts_of(scene), def.world),

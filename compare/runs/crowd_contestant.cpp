@@ -14,7 +14,8 @@ class CrowdContestant final : public Contestant {
   CrowdContestant(TechniqueKind kind, const Scene& scene, const Scenery<double>& scenery, const Planning& planning)
       : scenery_(scenery),
         plan_(plan_of(scenery_.get(), planning)),
-        crowd_(scenery_.get(), rules_for(kind, scene.character), definition_of(kind, scene, plan_, planning.knobs)),
+        crowd_(scenery_.get(), rules_for(kind, scene, planning.knobs),
+               definition_of(kind, scene, plan_, planning.knobs)),
         scratch_(crowd_.make_scratch(character_count(scene))),
         gravity_(scene.gravity.cast<Scalar>()),
         movers_(scene.movers.size(), scenery_.get().as_run()),

@@ -70,6 +70,9 @@ const std::vector<Knob>& all_knobs() {
          def.article.response = second_of(value, "component", "shorten") ? ArticleKnobs::Response::shorten
                                                                          : ArticleKnobs::Response::component;
        }},
+      {"jump_rules", "on, or off: the article's two rules; else what the scene says, else off for octagon_sweep alone",
+       std::vector<TechniqueKind>(all_techniques.begin(), all_techniques.end()),
+       [](const std::string& value, TechniqueDef&) { static_cast<void>(second_of(value, "off", "on")); }},
       {"square",
        "side of a square [m]",
        {grid},
@@ -207,6 +210,13 @@ void turn_knobs(std::span<const KnobSetting> knobs, TechniqueDef& def) {
   for (const KnobSetting& setting : knobs)
     if (const Knob* knob = find_knob(setting.name); knob != nullptr && is_of(*knob, def.kind))
       knob->turn(setting.value, def);
+}
+
+std::optional<bool> turned_jump_rules(std::span<const KnobSetting> knobs) {
+  std::optional<bool> turned;
+  for (const KnobSetting& setting : knobs)
+    if (setting.name == "jump_rules") turned = second_of(setting.value, "off", "on");
+  return turned;
 }
 
 std::string turned_knobs(std::span<const KnobSetting> knobs, std::string_view contender) {

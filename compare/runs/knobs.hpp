@@ -4,6 +4,7 @@
 #include <paperproof/box2d/reference_world.hpp>
 #include <paperproof/techniques.hpp>
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -38,6 +39,9 @@ void check_knob(const KnobSetting& setting, std::string_view contender);
 /// Turns those of the knobs that the technique or the twin has; of two of the same name the later holds.
 void turn_knobs(std::span<const KnobSetting> knobs, TechniqueDef& def);
 void turn_knobs(std::span<const KnobSetting> knobs, TwinDef& def);
+
+/// What the knob `jump_rules` says; nothing where it is not turned. It is of the character, whatever the technique.
+[[nodiscard]] std::optional<bool> turned_jump_rules(std::span<const KnobSetting> knobs);
 
 /// Those of the knobs that the contender has, as `name=value name=value`; empty for none.
 [[nodiscard]] std::string turned_knobs(std::span<const KnobSetting> knobs, std::string_view contender);

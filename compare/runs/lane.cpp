@@ -1,6 +1,7 @@
 #include "runs/lane.hpp"
 
 #include "records/verdict.hpp"
+#include "runs/technique_parts.hpp"
 #include "words.hpp"
 
 #include <fmt/format.h>
@@ -31,6 +32,9 @@ Lane::Lane(std::string contender, ScalarKind scalar, const Scene& scene, const S
   row_.mode = mode;
   row_.source = scene.source;
   row_.parameters = scene.parameters;
+  const std::optional<TechniqueKind> kind = technique_kind(row_.contender);
+  row_.parameters.emplace_back(
+      "jump_rules", jump_rules_in_force(kind ? rules_for(*kind, scene, planning.knobs) : rules_for_twin(scene)));
   try {
     if (mode == "lockstep" && !scene.others.empty())
       throw NotApplicable(

@@ -16,7 +16,7 @@ class TechniqueContestant final : public Contestant {
   TechniqueContestant(TechniqueKind kind, const Scene& scene, const Scenery<double>& scenery, const Planning& planning)
       : scenery_(scenery),
         plan_(plan_of(scenery_.get(), planning)),
-        controller_(scenery_.get(), rules_for(kind, scene.character),
+        controller_(scenery_.get(), rules_for(kind, scene, planning.knobs),
                     definition_of(kind, scene, plan_, planning.knobs)),
         scratch_(controller_.make_scratch()),
         gravity_(scene.gravity.cast<Scalar>()),

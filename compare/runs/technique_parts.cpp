@@ -132,9 +132,27 @@ TechniqueDef definition_of(TechniqueKind kind, const Scene& scene, const Plan& p
   return def;
 }
 
-CharacterDef rules_for(TechniqueKind kind, CharacterDef character) {
-  if (kind != TechniqueKind::octagon_sweep) character.no_jump_toward_wall = character.side_hit_ends_rise = true;
+namespace {
+
+CharacterDef with_rules(const Scene& scene, const JumpRules& turned, bool usual) {
+  CharacterDef character = scene.character;
+  const JumpRules& said = scene.jump_rules;
+  character.no_jump_toward_wall = turned.no_jump_toward_wall.value_or(said.no_jump_toward_wall.value_or(usual));
+  character.side_hit_ends_rise = turned.side_hit_ends_rise.value_or(said.side_hit_ends_rise.value_or(usual));
   return character;
+}
+
+}  // namespace
+
+CharacterDef rules_for(TechniqueKind kind, const Scene& scene, std::span<const KnobSetting> knobs) {
+  const std::optional<bool> turned = turned_jump_rules(knobs);
+  return with_rules(scene, {turned, turned}, kind != TechniqueKind::octagon_sweep);
+}
+
+CharacterDef rules_for_twin(const Scene& scene) { return with_rules(scene, {}, false); }
+
+double jump_rules_in_force(const CharacterDef& character) {
+  return (character.no_jump_toward_wall ? 0.5 : 0) + (character.side_hit_ends_rise ? 0.5 : 0);
 }
 
 template <class Scalar>

@@ -35,8 +35,14 @@ class OwnScenery<double> {
 [[nodiscard]] TechniqueDef definition_of(TechniqueKind kind, const Scene& scene, const Plan& plan,
                                          std::span<const KnobSetting> knobs);
 
-/// The article's jumping rules belong to the article's techniques; for octagon_sweep they are the scene's choice.
-[[nodiscard]] CharacterDef rules_for(TechniqueKind kind, CharacterDef character);
+/// The scene's character with the jumping rules in force. The knob `jump_rules` comes first, then the scene's own word,
+/// then what is usual: on for the article's techniques, off for octagon_sweep.
+[[nodiscard]] CharacterDef rules_for(TechniqueKind kind, const Scene& scene, std::span<const KnobSetting> knobs = {});
+/// The same for a twin, which has no such knob: the scene's own word, or off.
+[[nodiscard]] CharacterDef rules_for_twin(const Scene& scene);
+
+/// `jump_rules` as rows have it: 1 where both rules are in force, 0 for none, 0.5 for one of them.
+[[nodiscard]] double jump_rules_in_force(const CharacterDef& character);
 
 template <class Scalar>
 [[nodiscard]] TraceHeader header_of(TechniqueKind kind, const Scenery<Scalar>& scenery, const Scene& scene,

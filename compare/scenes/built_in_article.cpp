@@ -40,8 +40,7 @@ Scene sloped_paper_walk() {
 Scene jumper(double x, int steps) {
   Scene scene = walk(x, half_height + 0.02, 1, steps);
   scene.gravity = {0, -30};
-  scene.character.no_jump_toward_wall = true;
-  scene.character.side_hit_ends_rise = true;
+  scene.jump_rules = {.no_jump_toward_wall = true, .side_hit_ends_rise = true};
   add_box(scene, "floor", -6, -1, 8, 0);
   return scene;
 }

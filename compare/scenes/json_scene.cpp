@@ -101,8 +101,8 @@ void read_character(const JsonCursor& at, double dt, Scene& scene) {
     }
   }
   if (const auto snap = at.find("snap")) character.snap = snap->number_within(0, 1e6);
-  character.no_jump_toward_wall = at.flag("no_jump_toward_wall");
-  character.side_hit_ends_rise = at.flag("side_hit_ends_rise");
+  if (const auto rule = at.find("no_jump_toward_wall")) scene.jump_rules.no_jump_toward_wall = rule->boolean();
+  if (const auto rule = at.find("side_hit_ends_rise")) scene.jump_rules.side_hit_ends_rise = rule->boolean();
   if (const auto sprite = at.find("sprite")) scene.sprite = read_sprite(*sprite, scene);
   try {
     character.validate();

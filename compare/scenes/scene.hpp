@@ -47,6 +47,12 @@ struct TileLevel {
   std::size_t colliders = 0;                    ///< That its solid pixels are for everybody else.
 };
 
+/// The scene's own word on the article's two jumping rules. Where it has none, contender and knob decide.
+struct JumpRules {
+  std::optional<bool> no_jump_toward_wall{};  ///< See `CharacterDef`, both.
+  std::optional<bool> side_hit_ends_rise{};
+};
+
 /// Drawn in the colour of a platform, and in nobody's way but that of who reads colours.
 struct Decoration {
   std::string id;
@@ -65,7 +71,8 @@ struct Scene {
   /// Where it is not empty the lengths of the steps, again and again [s]; `dt` is only shown then.
   std::vector<double> dt_list{};
   int steps = 600;
-  CharacterDef character;
+  CharacterDef character;  ///< But for the jumping rules.
+  JumpRules jump_rules{};
   Start start;
   SceneryDef scenery;             ///< What stands, what moves and what only notices.
   std::vector<std::string> ids;   ///< One per collider, unique.

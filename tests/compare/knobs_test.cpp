@@ -49,7 +49,7 @@ Bits run(const TechniqueDef& def, const Scene& scene) {
   Bits bits;
   try {
     const Scenery<double> scenery(scene.scenery);
-    const Controller<double> controller(scenery, rules_for(def.kind, scene.character), def);
+    const Controller<double> controller(scenery, rules_for(def.kind, scene), def);
     Scratch<double> scratch = controller.make_scratch();
     CharacterState<double> state;
     state.position = scene.start.position;
@@ -108,6 +108,51 @@ INSTANTIATE_TEST_SUITE_P(
                       Turn{"raster_pixels_per_metre=8", [](ArticleKnobs& knobs) { knobs.raster_pixels_per_metre = 8; }},
                       Turn{"pixels_per_tile=7", [](ArticleKnobs& knobs) { knobs.pixels_per_tile = 7; }}),
     [](const ::testing::TestParamInfo<Turn>& turn) { return parse_knob(turn.param.text).name; });
+
+TEST(JumpRules, are_decided_by_the_knob_then_by_the_scene_then_by_who_it_is) {
+  const std::vector<KnobSetting> on{parse_knob("jump_rules=on")};
+  const std::vector<KnobSetting> off{parse_knob("jump_rules=off")};
+  Scene scene = built_in("article_bullet");
+  const auto in_force = [&](TechniqueKind kind, std::span<const KnobSetting> knobs) {
+    return jump_rules_in_force(rules_for(kind, scene, knobs));
+  };
+  using enum TechniqueKind;
+  for (const std::optional<bool> said : {std::optional<bool>(), std::optional(false), std::optional(true)}) {
+    scene.jump_rules = {said, said};
+    for (const TechniqueKind kind : all_techniques) {
+      EXPECT_EQ(in_force(kind, on), 1) << name_of(kind);
+      EXPECT_EQ(in_force(kind, off), 0) << name_of(kind);
+      EXPECT_EQ(in_force(kind, {}), said.value_or(kind != octagon_sweep) ? 1 : 0) << name_of(kind);
+      EXPECT_TRUE(has_knob(name_of(kind), "jump_rules"));
+    }
+    EXPECT_EQ(jump_rules_in_force(rules_for_twin(scene)), said.value_or(false) ? 1 : 0);
+  }
+  scene.jump_rules = {.no_jump_toward_wall = false};
+  EXPECT_EQ(in_force(speculative, {}), 0.5) << "the scene speaks of one of the two";
+  EXPECT_FALSE(rules_for(speculative, scene).no_jump_toward_wall);
+  EXPECT_THROW(check_knob(parse_knob("jump_rules=1"), "grid"), std::invalid_argument);
+}
+
+TEST(JumpRules, stand_in_every_row) {
+  RunOptions options = quick();
+  Scene scene = built_in("jump_into_overhang");
+  const auto value_in = [](const Row& row) {
+    const auto found = std::find_if(row.parameters.begin(), row.parameters.end(),
+                                    [](const auto& each) { return each.first == "jump_rules"; });
+    return found == row.parameters.end() ? -1 : found->second;
+  };
+  for (const Row& row : run_scene(scene, options).rows)
+    EXPECT_EQ(value_in(row), row.contender == "octagon_sweep" || is_reference(row.contender) ? 0 : 1) << row.contender;
+  options.knobs = {parse_knob("jump_rules=off")};
+  for (const Row& row : run_scene(scene, options).rows) {
+    EXPECT_EQ(value_in(row), 0) << row.contender;
+    if (row.verdict == Verdict::not_applicable) continue;
+    EXPECT_EQ(row.knob, is_reference(row.contender) ? "" : "jump_rules=off") << row.contender;
+  }
+  scene.jump_rules = {true, true};
+  options.knobs.clear();
+  for (const Row& row : run_scene(scene, options).rows) EXPECT_EQ(value_in(row), 1) << row.contender;
+}
 
 TEST(Knobs, of_all_that_are_turned_a_technique_names_its_own) {
   const std::vector<KnobSetting> knobs{parse_knob("unit=0.5"), parse_knob("square=2"), parse_knob("points=4")};

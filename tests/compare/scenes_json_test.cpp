@@ -144,8 +144,8 @@ TEST(JsonScene, the_characters_keys_arrive) {
   EXPECT_EQ(scene.character.max_fall_speed, 5);
   EXPECT_EQ(scene.character.max_climb_degrees, 6);
   EXPECT_EQ(scene.character.snap, 7);
-  EXPECT_TRUE(scene.character.no_jump_toward_wall);
-  EXPECT_TRUE(scene.character.side_hit_ends_rise);
+  EXPECT_EQ(scene.jump_rules.no_jump_toward_wall, true);
+  EXPECT_EQ(scene.jump_rules.side_hit_ends_rise, true);
   EXPECT_TRUE(scene.start.resolve_overlap);
 }
 
