@@ -1,5 +1,8 @@
-/// Where the article's points, its rules and its knobs show: scenes 20, 36, 37, 39 and 40.
+/// Where the article's points, rules, knobs, iterations and grid show.
 #include "scenes/built_in.hpp"
+
+#include <array>
+#include <cmath>
 
 namespace paperproof::compare {
 
@@ -60,19 +63,23 @@ Scene jump_into_wall() {
   return scene;
 }
 
+/// The overhang leans by 14 degrees, less than the flank from arm to head (27): the arm meets it, and is pushed back as
+/// long as the character rises. The rules are left to contender and knob.
 Scene jump_into_overhang() {
-  Scene scene = jumper(-2, 180);
-  add_polygon(scene, "overhang", {{0, 3}, {5, 1.5}, {5, 4}, {0, 4}});
-  for (const InputEvent& event : {press(20), release(30), press(100), release(110)}) scene.input.push_back(event);
-  // The right of its head meets y = 3 - 0.3 x.
-  const auto below = [&scene](int steps) {
-    const double head = half_height + risen(scene, steps - 20) + half_height;
-    return 3 - 0.3 * (-2 + walked(scene, steps) + foot) - head;
+  Scene scene = jumper(-2, 90);
+  scene.jump_rules = {};
+  constexpr double back_per_rise = 0.25;
+  add_polygon(scene, "overhang", {{1, 1.5}, {3, 1.5}, {3, 5.5}, {0, 5.5}});
+  hold_jump(scene, 20, 30);
+  const auto room = [&scene](int steps) {
+    const double arm = half_height + risen(scene, steps - 20) + 10 * pixel;
+    return 1 - back_per_rise * (arm - 1.5) - (-2 + walked(scene, steps) + half_width);
   };
   int step = 20;
-  while (below(step + 1) > 0) ++step;
-  const double approach = below(step) - below(step + 1);
-  scene.answers = {contact(step + below(step) / approach, approach).to("overhang"), is(Answer::Of::setback, 0, {1, 0})};
+  while (room(step + 1) > 0) ++step;
+  const double approach = room(step) - room(step + 1);
+  const double along_normal = approach / std::hypot(1, back_per_rise);
+  scene.answers = {contact(step + room(step) / approach, along_normal).to("overhang")};
   return scene;
 }
 
@@ -110,14 +117,55 @@ Scene false_ceiling() {
   return scene;
 }
 
-/// Walks left into a wall, then away from it, then jumps.
+/// Rises out of a floor that its feet are in. They do not face the movement: tested all the same, they end it. Who
+/// first puts the start right rises from the floor, anybody else from where it began.
 Scene stuck_points() {
-  Scene scene = walk(0, half_height + 0.02, -1, 200);
-  add_box(scene, "floor", -4, -1, 20, 0);
-  add_box(scene, "wall", -2, 0, -1, 4);
-  for (const InputEvent& event : {steer(60, 1), press(120), release(130)}) scene.input.push_back(event);
-  scene.answers = {contact(steps_to_walk(scene, 1 - half_width), 4 * scene.dt).to("wall")};
-  ends_at(scene, -1 + half_width + walked(scene, 140), half_height + risen(scene, 80));
+  constexpr double depth = 6 * pixel;
+  Scene scene = flight(0, half_height - depth, 0, 5, 120);
+  scene.gravity = {0, -10};
+  scene.start.resolve_overlap = true;
+  add_box(scene, "floor", -4, -1, 4, 0);
+  scene.character.jump_speed = scene.start.velocity.y();
+  const double apex = half_height + risen(scene, 30);  // v/g = 0.5 s
+  scene.answers = {between(Answer::Of::farthest, apex - depth, apex, {0, 1})};
+  ends_at(scene, 0, half_height);
+  return scene;
+}
+
+/// Walks down a slope of 45 degrees, y = -x, into a wall that leans over it: the wall pushes the walker back into the
+/// slope, the slope up into the wall again.
+Scene walk_down_to_wall(double lean) {
+  Scene scene = walk(-1, 1 + foot + half_height + 0.05, 1, 300);
+  scene.gravity = {0, -30};
+  add_polygon(scene, "slope", {{-8, 8}, {-8, -8}, {8, -8}});
+  add_polygon(scene, "wall", {{2, -2}, {9, -2}, {9, 8}, {2 - 10 * lean, 8}});
+  // The left foot stands on the slope, the right upper arm is at the wall.
+  constexpr double arm = 10 * pixel;
+  const double x = (2 - half_width - lean * (2 + half_height + foot + arm)) / (1 - lean);
+  scene.answers = {x_is(x).gaps(4), y_is(half_height + foot - x).gaps(4)};
+  return scene;
+}
+
+Scene valley() { return walk_down_to_wall(0); }
+
+Scene leaning_valley() {
+  constexpr double tan_20 = 0.36397023426620234;
+  return walk_down_to_wall(tan_20);
+}
+
+/// A character of one square, 3.4 squares along a passage that is two squares high, and a jump against its ceiling.
+Scene one_square() {
+  constexpr int released = 34;
+  Scene scene = walk(0.5, 0.5, 1, 150);
+  const std::array corners{Vec2d{0, 0}, Vec2d{32, 0}, Vec2d{0, 32}, Vec2d{32, 32}};
+  scene.character.shape = CharacterShape::from_pixels(corners, scene.pixels_per_metre);
+  add_box(scene, "floor", -4, -1, 8, 0);
+  add_box(scene, "ceiling", -4, 2, 8, 3);
+  scene.input.push_back(steer(released, 0));
+  hold_jump(scene, 90, 100);
+  // Braking takes as long as speeding up did: every step with the key counts once at full speed.
+  ends_at(scene, 0.5 + released * scene.character.walk_speed * scene.dt, 0.5);
+  scene.answers.push_back(farthest({0, 1}, 1.5));
   return scene;
 }
 
@@ -132,15 +180,21 @@ std::vector<BuiltInScene> article_scenes() {
        sloped_paper_walk},
       {"jump_into_wall", "jumps into a wall: the rise ends there, and no jump while beside the wall, toward it",
        jump_into_wall},
-      {"jump_into_overhang", "jumps into a sloping overhang: is not thrown back while rising", jump_into_overhang},
+      {"jump_into_overhang",
+       "jumps into a steep overhang: springs back while rising, unless the rule ends the rise (jump_rules=on)",
+       jump_into_overhang},
       {"jump_into_corner", "jumps into the corner of wall and ceiling: both are met, neither is entered",
        jump_into_corner},
       {"ledge_hang", "7 px beyond an edge: the eight points and the octagon let it fall or slip, four corners hold it",
        ledge_hang},
       {"false_ceiling",
        "jumps beside a block: four corners hit a ceiling that is none, eight points and octagon do not", false_ceiling},
-      {"stuck_points",
-       "into a wall, away, a jump: testing all points at once sticks to the wall, by direction does not", stuck_points},
+      {"stuck_points", "rises with its feet in a floor: with pairs=all they hold it there, by direction it rises 1 m",
+       stuck_points},
+      {"valley", "45 degrees down to a wall: one iteration ends inside the slope, two do not", valley},
+      {"leaning_valley", "the same, the wall leans over by 20 degrees: every iteration leaves less", leaning_valley},
+      {"one_square", "a character of one square: the grid tests all of it, and draws it in a square when it stops",
+       one_square},
   };
 }
 

@@ -2,8 +2,10 @@
 ///
 /// Every collision point is tested, at the positions it looks at and nowhere between: paper is passed, and a chain,
 /// which has no inside, is never met. There is one pass and no iteration; the knobs `pairs`, `response` and
-/// `iterations` have no meaning here. As the whole vector is shortened, a walker sticks to the floor that gravity pulls
-/// it into. A contact names the point that was inside last; its fraction is where the position was wound back to.
+/// `iterations` have no meaning here. A start that collides is where winding back ends: it stays there, and says that
+/// it is stuck. As the whole vector is shortened, a walker sticks to the floor that gravity pulls it into.
+///
+/// A contact names the point that was inside last; its fraction is where the position was wound back to.
 #pragma once
 
 #include <paperproof/techniques.hpp>
