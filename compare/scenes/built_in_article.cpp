@@ -63,6 +63,16 @@ Scene jump_into_wall() {
   return scene;
 }
 
+/// Stands idle half a pixel beside a wall; then jump and direction are pressed in the same step.
+Scene jump_beside_wall() {
+  Scene scene = jumper(3 - half_width - pixel / 2, 120);
+  add_box(scene, "wall", 3, 0, 4, 8);
+  scene.input = {{.step = 60, .move = 1, .jump = true}, release(70)};
+  scene.answers = {farthest({0, 1}, scene.start.position.y()), count(Answer::Of::in_the_air, 0).after(30).law()};
+  ends_at(scene, 3 - half_width, half_height);
+  return scene;
+}
+
 /// The overhang leans by 14 degrees, less than the flank from arm to head (27): the arm meets it, and is pushed back as
 /// long as the character rises. The rules are left to contender and knob.
 Scene jump_into_overhang() {
@@ -180,6 +190,8 @@ std::vector<BuiltInScene> article_scenes() {
        sloped_paper_walk},
       {"jump_into_wall", "jumps into a wall: the rise ends there, and no jump while beside the wall, toward it",
        jump_into_wall},
+      {"jump_beside_wall", "jump and direction at once beside a wall that nothing has touched: no jump",
+       jump_beside_wall},
       {"jump_into_overhang",
        "jumps into a steep overhang: springs back while rising, unless the rule ends the rise (jump_rules=on)",
        jump_into_overhang},
