@@ -292,8 +292,7 @@ void add_scene_commands(CLI::App& app, int& status) {
   const auto converted = std::make_shared<SceneWords>();
   convert.add_option("SCENE", converted->from, scene_words)->required();
   convert.add_option("OUT", converted->to, "Where it goes")->required()->type_name("OUT.json");
-  on_parsed(convert, status, converted,
-            [](const SceneWords& typed) { return convert_command(typed.from, typed.to); });
+  on_parsed(convert, status, converted, [](const SceneWords& typed) { return convert_command(typed.from, typed.to); });
 
   CLI::App& check = *app.add_subcommand("check", "Validate scenes and say what is in them");
   const auto checked = std::make_shared<SceneWords>();

@@ -17,10 +17,10 @@ struct StudyArguments {
   std::vector<std::string> contenders;  ///< Empty: all; of `stability` octagon_sweep and Box2D.
   std::string rows_path;                ///< Empty: none.
   PagePaths pages;
-  std::string log_path;                 ///< Empty: none.
-  int jobs = 0;                         ///< Not of `work-precision`; 0: one for each core.
-  std::string grid = "quick";           ///< Of `study bullet` and `stability`: quick, standard or full.
-  bool quiet = false;                   ///< No table, no progress.
+  std::string log_path;        ///< Empty: none.
+  int jobs = 0;                ///< Not of `work-precision`; 0: one for each core.
+  std::string grid = "quick";  ///< Of `study bullet` and `stability`: quick, standard or full.
+  bool quiet = false;          ///< No table, no progress.
 };
 
 /// Error against run time. Refuses a build with assertions, whose times mean nothing.
@@ -39,7 +39,7 @@ struct ScaleArguments {
   std::vector<std::size_t> grid{100, 1'000, 10'000, 100'000, 1'000'000};  ///< Numbers of pieces.
   std::string rows_path;                                                  ///< Empty: none.
   PagePaths pages;
-  bool quiet = false;                                                     ///< No table, no progress.
+  bool quiet = false;  ///< No table, no progress.
 };
 
 /// The cost of a step against the number of pieces, for each broad phase.

@@ -21,12 +21,12 @@ struct SweepArguments {
   std::optional<std::uint64_t> seed;
   std::optional<int> steps;
   bool reference = true;
-  std::string rows_path;    ///< Empty: none.
+  std::string rows_path;  ///< Empty: none.
   PagePaths pages;
-  std::string log_path;     ///< Of the progress; the same.
-  int jobs = 0;             ///< 0: one for each core.
-  int limit_s = 60;         ///< Of one case.
-  std::string shard;        ///< `K/N`; empty: all.
+  std::string log_path;  ///< Of the progress; the same.
+  int jobs = 0;          ///< 0: one for each core.
+  int limit_s = 60;      ///< Of one case.
+  std::string shard;     ///< `K/N`; empty: all.
   bool resume = false;
   bool quiet = false;
 };

@@ -34,8 +34,8 @@ namespace paperproof::compare {
 ///   who is stuck inside something does not move and meets nothing).
 /// - `normal_error_max_deg`: largest angle between the normal of a reported contact and the nearest exact one with that
 ///   collider on that side.
-/// - `hanging_steps`, `stuck_refuted`, `ground_refuted`: see `Judge`. `distance_m`: length of the ways. `wanted_motion_lost`: share of
-/// the
+/// - `hanging_steps`, `stuck_refuted`, `ground_refuted`: see `Judge`. `distance_m`: length of the ways.
+/// `wanted_motion_lost`: share of the
 ///   wanted horizontal motion, over the run, that was lost to nothing exact.
 /// - `rounding`: steps ending inside by no more than rounding, of who promises nothing. `exempted`: what was not held
 ///   against the contender, and how often: see oracle/exemptions.hpp.

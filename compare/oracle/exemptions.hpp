@@ -19,7 +19,17 @@ enum class Party : std::uint8_t {
 };
 [[nodiscard]] Party party_of(const TraceHeader& header);
 
-enum class Exempt : std::uint8_t { corner_cut, late_match, reach, hover, company, stuck, touched_crush, late_ground, drawn };
+enum class Exempt : std::uint8_t {
+  corner_cut,
+  late_match,
+  reach,
+  hover,
+  company,
+  stuck,
+  touched_crush,
+  late_ground,
+  drawn
+};
 
 struct Exemption {
   Exempt which = Exempt::corner_cut;

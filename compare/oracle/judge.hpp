@@ -12,7 +12,7 @@ namespace paperproof::compare {
 namespace detail {
 class HangingJudge;
 class TurningJudge;
-}
+}  // namespace detail
 
 /// A contact that the requested motion really had.
 struct ExactContact {
@@ -143,8 +143,8 @@ struct StepJudgement {
 ///
 /// **Rounding.** Whoever promises nothing may end inside by one ulp of its largest coordinate: `rounded` is no overlap.
 ///
-/// **Drawn.** Who draws a level that is made of pixels lays itself on whole pixels, up to one beside the octagon. Where it
-/// ends no deeper inside than that, it is `drawn` (exempted): no overlap, but its depth counts.
+/// **Drawn.** Who draws a level that is made of pixels lays itself on whole pixels, up to one beside the octagon. Where
+/// it ends no deeper inside than that, it is `drawn` (exempted): no overlap, but its depth counts.
 ///
 /// **Corner cut.** The same as tunnelling, but nowhere deeper than the slop (exempted), and never more than an eighth
 /// of the octagon's narrowest width. The depth is the octagon's, not the solid's: however thin a paper is, an octagon
@@ -203,9 +203,9 @@ struct StepJudgement {
 /// free of what it is inside of. The way is asked for where the step begins, as things are then: what moves may open
 /// one later. Of a step that begins free and ends inside it is asked for where it ends.
 ///
-/// **Ground, refuted.** A step that says it is grounded is refuted if at its end it overlaps nothing, and no solid and no
-/// other character has a face that looks upwards within the contender's reach (`detail::reach_of`; who promises nothing:
-/// and rounding). Whoever promises nothing may have stood on something earlier in the step (exempted): Box2D
+/// **Ground, refuted.** A step that says it is grounded is refuted if at its end it overlaps nothing, and no solid and
+/// no other character has a face that looks upwards within the contender's reach (`detail::reach_of`; who promises
+/// nothing: and rounding). Whoever promises nothing may have stood on something earlier in the step (exempted): Box2D
 /// reads its contacts before it moves the bodies, and the article's techniques go on after they have met the ground.
 /// Nothing is asked beside what turns.
 ///

@@ -10,8 +10,8 @@ const std::vector<BuiltInScene>& built_in_scenes() {
   static const std::vector<BuiltInScene> all = [] {
     std::vector<BuiltInScene> scenes;
     for (auto theme :
-         {paper_scenes(), angle_scenes(), ground_scenes(), article_scenes(), claim_scenes(), limit_scenes(), one_way_scenes(),
-          moving_scenes(), body_scenes(), crowd_scenes(), extreme_scenes(), play_scenes()}) {
+         {paper_scenes(), angle_scenes(), ground_scenes(), article_scenes(), claim_scenes(), limit_scenes(),
+          one_way_scenes(), moving_scenes(), body_scenes(), crowd_scenes(), extreme_scenes(), play_scenes()}) {
       scenes.insert(scenes.end(), std::make_move_iterator(theme.begin()), std::make_move_iterator(theme.end()));
     }
     return scenes;

@@ -18,10 +18,10 @@
 ///     }
 ///
 /// The article's own tile has 32 × 32 pixels and slopes down from its upper left corner; the built-in scenes
-/// `pixel_hill` and `pixel_hill_up` have it. Each of its columns is one pixel lower than the one on its left. There, "up"
-/// is written into the highest solid pixel of a column (`L`): a foot that moves left enters it, and is put one pixel up.
-/// "Down" is written into the second free pixel above a column (`r`): a foot that moves right stood on the higher column
-/// on its left, enters that pixel, and is put one pixel down onto this column.
+/// `pixel_hill` and `pixel_hill_up` have it. Each of its columns is one pixel lower than the one on its left. There,
+/// "up" is written into the highest solid pixel of a column (`L`): a foot that moves left enters it, and is put one
+/// pixel up. "Down" is written into the second free pixel above a column (`r`): a foot that moves right stood on the
+/// higher column on its left, enters that pixel, and is put one pixel down onto this column.
 ///
 /// A pixel is `.` (nothing) or `#` (blocks), a capital where it is solid and takes a foot one pixel up, or a small
 /// letter where it is free and takes a foot one pixel down: `L`, `l` when it moves left, `R`, `r` when it moves right,
@@ -31,9 +31,9 @@
 ///
 /// The solid pixels are the scenery of all contenders, as those of a picture are. Otherwise a level would have to be
 /// written twice, once for `pixel_tile` and once in polygons for all others, and where the two differ the judge would
-/// call `pixel_tile` wrong for what is only a mistake in a file. So everybody is judged against the pixels that are drawn.
-/// Who draws lies on whole pixels, and the octagon up to one beside that: no deeper in these pixels than one of them
-/// counts as `drawn` and not as inside (oracle/exemptions.hpp). What a tile says beyond that, up and down, is for
+/// call `pixel_tile` wrong for what is only a mistake in a file. So everybody is judged against the pixels that are
+/// drawn. Who draws lies on whole pixels, and the octagon up to one beside that: no deeper in these pixels than one of
+/// them counts as `drawn` and not as inside (oracle/exemptions.hpp). What a tile says beyond that, up and down, is for
 /// `pixel_tile` alone: the others see steps of one pixel.
 #pragma once
 

@@ -89,8 +89,8 @@ struct Scene {
   bool has_pixels = false;
   TileLevel tile_level{};
   std::vector<Decoration> decoration{};
-  /// The picture of the character, rows from the top, `#` for a pixel that collides: for who compares pictures. Its size
-  /// is that of the character's box, `pixels_per_metre` fine. Empty: the pixels of the hull.
+  /// The picture of the character, rows from the top, `#` for a pixel that collides: for who compares pictures. Its
+  /// size is that of the character's box, `pixels_per_metre` fine. Empty: the pixels of the hull.
   std::vector<std::string> sprite{};
   /// Maps only: their box [m]. A character that leaves it by more than 10 m is put back at the start.
   std::optional<Box2<double>> respawn_box;

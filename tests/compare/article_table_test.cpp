@@ -101,7 +101,8 @@ std::map<std::string, double> numbers_of(const Row& row) {
   return numbers;
 }
 
-/// The first of the keys that two rows share by which they differ; empty where they are equal. A full plan measures more.
+/// The first of the keys that two rows share by which they differ; empty where they are equal. A full plan measures
+/// more.
 std::string first_difference(const Row& one, const Row& other) {
   const std::map<std::string, double> theirs = numbers_of(other);
   for (const auto& [key, value] : numbers_of(one)) {

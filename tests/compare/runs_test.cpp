@@ -215,7 +215,8 @@ TEST(Failures, to_search_a_whole_step_are_told_from_leaving_the_range) {
     const ReportScene result = run_scene(scene, options);
     for (const char* contender : {"wind_back", "penetration_resolution", "speculative_march", "pixel_colour", "mask"}) {
       EXPECT_EQ(row_of(result, contender).verdict, Verdict::flagged) << contender;
-      EXPECT_TRUE(row_of(result, contender).reason.starts_with(std::string("validity: ") + reason)) << row_of(result, contender).reason;
+      EXPECT_TRUE(row_of(result, contender).reason.starts_with(std::string("validity: ") + reason))
+          << row_of(result, contender).reason;
     }
   }
 }

@@ -93,7 +93,8 @@ struct TechniqueDef {
 };
 
 /// Builds a technique for one scenery and one character. `scenery` must outlive it.
-/// @throws std::invalid_argument for a knob out of range, or a sprite of another size than the character, InvalidCharacter for an impossible character, NotExpressible
+/// @throws std::invalid_argument for a knob out of range, or a sprite of another size than the character,
+/// InvalidCharacter for an impossible character, NotExpressible
 ///   where the technique cannot express the scenery.
 template <class Scalar>
 [[nodiscard]] std::unique_ptr<Technique<Scalar>> make_technique(const TechniqueDef& def, const Scenery<Scalar>& scenery,
