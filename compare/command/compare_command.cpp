@@ -17,6 +17,7 @@
 #include "runs/gallery.hpp"
 #include "runs/headline.hpp"
 #include "runs/preparation.hpp"
+#include "runs/run_case.hpp"
 #include "runs/summary.hpp"
 #include "runs/table.hpp"
 #include "scenes/load.hpp"
@@ -182,7 +183,10 @@ class Comparison {
                      (steps_done_ + of_scene * steps) / steps_);
       forecast_->done(of_scene);
     };
-    const ReportScene result = run_scene(scene, arguments_.run);
+    ReportScene result = run_scene(scene, arguments_.run);
+    for (Row& row : result.rows)
+      if (const std::optional<Case> one = case_of(arguments_.run, scene.given, arguments_.settings, row))
+        put_case(*one, row);
     steps_done_ += steps;
     progress_.clear();
     for (const Row& row : result.rows) {

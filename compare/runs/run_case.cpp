@@ -1,8 +1,10 @@
 #include "runs/run_case.hpp"
 
 #include "number_in.hpp"
-#include "runs/run.hpp"
+#include "runs/contestant.hpp"
 #include "scenes/load.hpp"
+
+#include <fmt/format.h>
 
 #include <exception>
 
@@ -13,15 +15,6 @@ std::vector<ParameterSetting> settings_of(const Case& one) {
   std::vector<ParameterSetting> settings;
   for (const Case::Setting& each : one.parameters) settings.push_back(parse_setting(each.key + "=" + each.value));
   return settings;
-}
-
-void name_case(const Case& one, Row& row) {
-  row.case_id = id_of(one);
-  row.command = command_of(one);
-  for (const Case::Setting& each : one.knobs)  // one that is a word stands in `knob`
-    if (const std::optional<double> value = number_in<double>(each.value))
-      row.parameters.emplace_back(each.key, *value);
-  if (one.seed) row.parameters.emplace_back("seed", static_cast<double>(*one.seed));
 }
 
 }  // namespace
@@ -38,11 +31,29 @@ Row run_case(const Case& one) {
     options.reference = false;
     options.measure_cost = false;
     Row row = run_scene(scene, options).rows.front();
-    name_case(one, row);
+    put_case(one, row);
     return row;
   } catch (const std::exception& reason) {
     return failed_row(one, reason.what());
   }
+}
+
+std::optional<Case> case_of(const RunOptions& options, const std::string& scene,
+                            std::span<const ParameterSetting> settings, const Row& row) {
+  if (row.mode == "lockstep" && is_reference(row.contender)) return std::nullopt;
+  Case one;
+  one.scene = scene;
+  for (const ParameterSetting& each : settings) one.parameters.push_back({each.key, fmt::format("{}", each.value)});
+  one.contender = row.contender;
+  if (!is_reference(row.contender)) one.scalar = row.scalar;
+  for (const KnobSetting& each : options.knobs)
+    if (has_knob(row.contender, each.name)) one.knobs.push_back({each.name, each.value});
+  one.seed = options.random_input;
+  one.steps = options.steps;
+  one.mode = row.mode;
+  one.full_plan = options.full_plan;
+  one.reference = options.reference && !is_reference(row.contender);
+  return one;
 }
 
 Row failed_row(const Case& one, const std::string& reason) {
@@ -50,9 +61,10 @@ Row failed_row(const Case& one, const std::string& reason) {
   row.scene = one.scene;
   row.contender = one.contender;
   row.scalar = is_reference(one.contender) ? "float" : one.scalar;
+  row.mode = one.mode;
   row.verdict = Verdict::failed;
   row.reason = reason;
-  name_case(one, row);
+  put_case(one, row);
   std::vector<std::pair<std::string, double>> numbers;
   for (const ParameterDef& def : parameters_of(one.scene))
     for (const Case::Setting& each : one.parameters)

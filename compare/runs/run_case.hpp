@@ -1,14 +1,26 @@
-/// Runs one Case.
+/// Runs one Case, and tells the Case of a run.
 #pragma once
 
 #include "records/case.hpp"
 #include "records/row.hpp"
+#include "runs/run.hpp"
+#include "scenes/parameters.hpp"
+
+#include <optional>
+#include <span>
+#include <string>
 
 namespace paperproof::compare {
 
 /// A pure function of the Case and of the files it names. What goes wrong is a row that says so. Costs are not
 /// measured.
 [[nodiscard]] Row run_case(const Case& one);
+
+/// The Case of a row that `run_scene` gave.
+/// @param scene as it was typed. @param settings parameters of the scene that were turned.
+/// @return nothing for the twin of a contender in lockstep, which is no run of its own.
+[[nodiscard]] std::optional<Case> case_of(const RunOptions& options, const std::string& scene,
+                                          std::span<const ParameterSetting> settings, const Row& row);
 
 /// The row of a Case that gave none. @param reason in words.
 [[nodiscard]] Row failed_row(const Case& one, const std::string& reason);

@@ -1,10 +1,12 @@
 #include "scenes/load.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "near_names.hpp"
+#include "records/case.hpp"
 #include "scenes/input_error.hpp"
 #include "scenes/json_scene.hpp"
 #include "scenes/json_text.hpp"
@@ -13,6 +15,7 @@
 #include "scenes/supertux.hpp"
 #include "scenes/tiled.hpp"
 #include "scenes/validate.hpp"
+#include "scenes/write_json.hpp"
 
 namespace paperproof::compare {
 
@@ -79,9 +82,14 @@ Scene load_json(const std::string& path) {
              did_you_mean(name, known));
 }
 
-}  // namespace
-
-namespace {
+/// Of a built-in scene as JSON; of its name where the format cannot say it.
+std::string hash_of_scene(const Scene& scene) {
+  try {
+    return hash_of(scene_json(scene).dump());
+  } catch (const InputError&) {
+    return hash_of(scene.name);
+  }
+}
 
 std::vector<Scene> load_files(const std::string& name_or_path) {
   const std::string extension = std::filesystem::path(name_or_path).extension().string();
@@ -118,11 +126,14 @@ std::vector<Scene> load_scenes(const std::string& name_or_path, std::span<const 
   } else {
     scenes = load_files(name_or_path);
   }
+  const std::string file =
+      is_ours ? "" : fmt::format("{}#{}", name_or_path, hash_of(read_file(name_or_path, name_or_path)));
   for (Scene& scene : scenes) {
-    scene.source = (is_ours ? "builtin:" : "") + name_or_path;
+    scene.given = name_or_path;
     for (const ParameterSetting& setting : settings)
       if (family == nullptr || find_parameter(family->parameters, setting.key) == nullptr) turn(scene, setting);
     note_parameters(scene);
+    scene.source = is_ours ? fmt::format("builtin:{}#{}", name_or_path, hash_of_scene(scene)) : file;
     if (is_ours || !settings.empty()) check(scene, name_or_path);
   }
   return scenes;

@@ -96,7 +96,8 @@ struct Scene {
   std::optional<Box2<double>> respawn_box;
   /// Its numbers, by the keys that rows have (`dt_s`, `thickness_m`), in order.
   std::vector<std::pair<std::string, double>> parameters{};
-  std::string source{};  ///< The file, or `builtin:NAME`.
+  std::string given{};   ///< Name or file as it was asked for.
+  std::string source{};  ///< `FILE#HASH` of the file's bytes, or `builtin:NAME#HASH` of the scene as JSON.
   /// What a loader left out or could not place, in words (tiles unknown to the tileset, for instance).
   std::vector<std::string> notes;
 };
