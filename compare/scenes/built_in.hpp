@@ -27,6 +27,7 @@ namespace paperproof::compare {
 [[nodiscard]] std::vector<SceneFamily> extreme_families();  ///< Far origins, other scales and gravities.
 [[nodiscard]] std::vector<SceneFamily> body_families();     ///< Stacks, a plank on springs.
 [[nodiscard]] std::vector<SceneFamily> angle_families();    ///< Wedges.
+[[nodiscard]] std::vector<SceneFamily> tight_families();    ///< Spikes, corners, what closes in.
 [[nodiscard]] std::vector<SceneFamily> play_families();     ///< Slopes.
 [[nodiscard]] std::vector<SceneFamily> crowd_families();    ///< Crowds, and long play.
 

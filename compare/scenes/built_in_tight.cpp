@@ -99,16 +99,17 @@ std::vector<ParameterDef> closing_parameters() {
 }  // namespace
 
 std::vector<SceneFamily> tight_families() {
-  return {{"spike",
-           "a flight at 20 m/s onto the tip of a spike between the feet: met after 1 m",
-           {{"angle", "deg", 0.1, 60, 10, "of the tip"}, {"offset", "m", -0.15, 0.15, 0.05, "of the tip from the middle"}},
-           spike},
-          {"corner",
-           "a flight at 20 m/s past the corner of a block that is just met, after 1 m",
-           {{"overlap", "m", 1e-6, 0.3, 0.01, "of the feet and the block in height"}},
-           corner},
-          {"closing_walls", "stands between two walls that come together", closing_parameters(), closing_walls},
-          {"closing_lift", "rides a lift up to a ceiling", closing_parameters(), closing_lift}};
+  return {
+      {"spike",
+       "a flight at 20 m/s onto the tip of a spike between the feet: met after 1 m",
+       {{"angle", "deg", 0.1, 60, 10, "of the tip"}, {"offset", "m", -0.15, 0.15, 0.05, "of the tip from the middle"}},
+       spike},
+      {"corner",
+       "a flight at 20 m/s past the corner of a block that is just met, after 1 m",
+       {{"overlap", "m", 1e-6, 0.3, 0.01, "of the feet and the block in height"}},
+       corner},
+      {"closing_walls", "stands between two walls that come together", closing_parameters(), closing_walls},
+      {"closing_lift", "rides a lift up to a ceiling", closing_parameters(), closing_lift}};
 }
 
 }  // namespace paperproof::compare
