@@ -210,6 +210,18 @@ void add_scale(CLI::App& study, int& status) {
   on_parsed(command, status, arguments, study_scale_command);
 }
 
+void add_disagreement(CLI::App& study, int& status) {
+  CLI::App& command =
+      *study.add_subcommand("disagreement", "Every event on which octagon_sweep and Box2D differ, and its cause");
+  const auto arguments = std::make_shared<DisagreementArguments>();
+  command.add_option("SCENE", arguments->scenes, std::string(scene_words) + "; every registered one if none is given");
+  add_outputs(command, arguments->rows_path, arguments->pages);
+  add_jobs(command, arguments->jobs);
+  add_log(command, arguments->log_path);
+  add_flag(command, "--quiet", arguments->quiet, "No table, no progress");
+  on_parsed(command, status, arguments, study_disagreement_command);
+}
+
 /// A study that takes `StudyArguments`, with the options that all of them have.
 CLI::App& add_study(CLI::App& app, const std::string& name, const std::string& help,
                     const std::shared_ptr<StudyArguments>& arguments, int (*run)(const StudyArguments&), int& status) {
@@ -232,6 +244,7 @@ void add_studies(CLI::App& app, int& status) {
   add_jobs(bullet, bullets->jobs);
   add_log(bullet, bullets->log_path);
   for (const PreparedSweep& prepared : prepared_sweeps()) add_prepared_sweep(study, prepared, status);
+  add_disagreement(study, status);
 
   const auto precise = std::make_shared<StudyArguments>();
   add_study(app, "work-precision", "Error against run time, for motions known in closed form", precise,

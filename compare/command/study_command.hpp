@@ -1,5 +1,5 @@
-/// `paperproof work-precision`, `paperproof stability`, `paperproof study scale` and `paperproof study bullet`: one
-/// question over a range, as numbers and as a picture.
+/// `paperproof work-precision`, `paperproof stability`, `paperproof study scale`, `paperproof study bullet` and
+/// `paperproof study disagreement`: one question over a range, as numbers and as a picture.
 ///
 /// All throw InputError for arguments that cannot be used, and std::runtime_error where an output cannot be written.
 #pragma once
@@ -34,6 +34,19 @@ int stability_command(const StudyArguments& arguments);
 /// Bullets and paper: rates of tunnelling over a grid, and the lowest speeds beside theory.
 /// @return the exit status: 0, or 1 if octagon_sweep in double got through.
 int study_bullet_command(const StudyArguments& arguments);
+
+struct DisagreementArguments {
+  std::vector<std::string> scenes;  ///< Empty: every registered one.
+  std::string rows_path;            ///< Empty: none.
+  PagePaths pages;
+  std::string log_path;  ///< Empty: none.
+  int jobs = 0;          ///< 0: one for each core.
+  bool quiet = false;    ///< No table, no progress.
+};
+
+/// Every event on which octagon_sweep and Box2D differ, with its cause, in free runs and in lockstep.
+/// @return the exit status: 0, or 1 if an event is an error of ours, or a run failed.
+int study_disagreement_command(const DisagreementArguments& arguments);
 
 struct ScaleArguments {
   std::vector<std::size_t> grid{100, 1'000, 10'000, 100'000, 1'000'000};  ///< Numbers of pieces.

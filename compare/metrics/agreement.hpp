@@ -1,4 +1,5 @@
-/// Two runs of the same scene, step by step: where they differ about contacts, and who is right.
+/// Two runs of the same scene, step by step: how often they differ about contacts, and who is right. Why they differ,
+/// event by event, is in metrics/ledger.hpp.
 #pragma once
 
 #include "metrics/window.hpp"

@@ -290,10 +290,17 @@ void ContactJudge::add_dont_care(StepJudgement& judgement) const {
       if (gap <= skin) judgement.dont_care.push_back(collider);
     }
   }
+  // One collider may have an exact contact on one side and deflect the motion into another side of itself: a valley.
+  const auto exact_on_side = [&](const Contact<double>& reported) {
+    return std::any_of(judgement.contacts.begin(), judgement.contacts.end(), [&](const ExactContact& one) {
+      return one.collider == reported.collider && one.side == reported.side;
+    });
+  };
   for (const Contact<double>& contact : step_.contacts) {
-    if (!header_.path_exact || exact(contact.collider)) continue;
+    if (!header_.path_exact || exact_on_side(contact)) continue;
     const bool deflected = met_after_another(contact, judgement) || ran_into(contact);
     if (deflected && has_face(contact)) judgement.deflected.emplace_back(contact.collider, contact.side);
+    if (exact(contact.collider)) continue;
     const bool near = comes_near(contact);
     if (promises_ && near) judgement.contact_band.push_back(contact.collider);
     if (deflected || near) judgement.dont_care.push_back(contact.collider);

@@ -44,6 +44,13 @@ struct FirstTunnel {
   std::string words;
 };
 
+/// Events of one kind and cause on which a contender and Box2D differ.
+struct Disagreements {
+  int count = 0;
+  int first_step = 0;
+  std::string first;  ///< What each side says there.
+};
+
 struct Row {
   std::string scene;
   std::string contender;
@@ -139,6 +146,8 @@ struct Row {
 
   std::optional<FirstTunnel> first_tunnel;
   std::map<std::string, int> exempted;  ///< What was not held against it, how often: see oracle/exemptions.hpp.
+  /// Where a ledger was kept, by `cause.kind`: the events on which it and the Box2D twin differ. See `Ledger`.
+  std::map<std::string, Disagreements> disagreements;
   std::string exact_first_impact;  ///< Collider of the exact first impact; empty where there is none, or only a seam.
   std::string answer;              ///< The answer that is missed most, in words; empty where all are met.
   std::string first_difference_box2d;  ///< The first difference to the twin in words, and which side is right.

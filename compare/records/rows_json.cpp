@@ -41,6 +41,8 @@ nlohmann::ordered_json row_json(const Row& row) {
   for_each_metric(row, [&](const Metric& metric, const auto& value) { object[std::string(metric.key)] = value; });
   if (row.steps > 0) object["exempted"] = row.exempted;
   if (!row.event_sequence.empty()) object["event_sequence"] = row.event_sequence;
+  for (const auto& [name, some] : row.disagreements)
+    object["disagreements"][name] = {{"count", some.count}, {"first_step", some.first_step}, {"first", some.first}};
   if (row.first_tunnel) object["first_tunnel"] = first_tunnel_json(*row.first_tunnel);
   if (!row.first_difference_box2d.empty()) object["first_difference_box2d"] = row.first_difference_box2d;
   if (!row.findings.empty()) object["findings"] = row.findings;

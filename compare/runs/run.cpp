@@ -1,6 +1,7 @@
 #include "runs/run.hpp"
 
 #include "metrics/agreement.hpp"
+#include "metrics/ledger.hpp"
 
 #include "runs/continuous_error.hpp"
 #include "runs/cost.hpp"
@@ -81,6 +82,7 @@ class SceneRun {
     Lane* reference;
     std::vector<Agreement> agreements;  ///< By character.
     int not_compared = 0;               ///< Lockstep: steps without room for Box2D's skin.
+    std::vector<Ledger> ledgers{};      ///< By character; empty where none is kept.
   };
 
   void tell_progress(int done) {
@@ -98,9 +100,13 @@ class SceneRun {
 
   void begin_agreements() {
     const auto pair_up = [this](Lane& mine, Lane& reference) {
-      if (mine.running() && reference.running())
-        pairs_.push_back(
-            {&mine, &reference, std::vector(mine.characters(), Agreement(mine.header(), reference.header())), 0});
+      if (!mine.running() || !reference.running()) return;
+      pairs_.push_back(
+          {&mine, &reference, std::vector(mine.characters(), Agreement(mine.header(), reference.header())), 0});
+      if (options_.ledger)
+        pairs_.back().ledgers.assign(
+            mine.characters(), Ledger({&mine.header(), &mine.solids()}, {&reference.header(), &reference.solids()},
+                                      options_.mode == Mode::lockstep));
     };
     if (options_.mode == Mode::lockstep) {
       for (std::size_t i = 0; i < lanes_.size(); ++i) pair_up(*lanes_[i], *twins_[i]);
@@ -142,9 +148,7 @@ class SceneRun {
     }
     for (Pair& pair : pairs_)
       if (pair.mine->running() && pair.reference->running())
-        for (std::size_t k = 0; k < pair.agreements.size(); ++k)
-          pair.agreements[k].add(pair.mine->record(k), pair.mine->judgement(k), pair.reference->record(k),
-                                 pair.reference->judgement(k));
+        for (std::size_t k = 0; k < pair.agreements.size(); ++k) compare(pair, k, pair.reference->record(k));
   }
 
   void step_in_lockstep(int step, const StepInput& input) {
@@ -162,8 +166,33 @@ class SceneRun {
       }
       TraceStep unshifted = pair.reference->record();
       for (PathPoint<double>& corner : unshifted.path) corner.position -= start.shift;
-      pair.agreements.front().add(pair.mine->record(), pair.mine->judgement(), unshifted, pair.reference->judgement());
+      compare(pair, 0, unshifted);
     }
+  }
+
+  /// @param reference its step, as far as the agreement of positions goes.
+  static void compare(Pair& pair, std::size_t k, const TraceStep& reference) {
+    pair.agreements[k].add(pair.mine->record(k), pair.mine->judgement(k), reference, pair.reference->judgement(k));
+    if (!pair.ledgers.empty())
+      pair.ledgers[k].add(pair.mine->record(k), pair.mine->judgement(k), pair.reference->record(k),
+                          pair.reference->judgement(k),
+                          is_beside_another(*pair.mine, k) || is_beside_another(*pair.reference, k));
+  }
+
+  /// Whether the boxes of two characters come within Box2D's skin of each other, where the step begins or ends.
+  static bool is_beside_another(const Lane& lane, std::size_t k) {
+    Box2<double> hull{lane.header().points.front(), lane.header().points.front()};
+    for (const Vec2d& point : lane.header().points) hull = hull.merged({point, point});
+    const Vec2d reach = hull.upper - hull.lower + Vec2d::Constant(box2d_skin);
+    for (std::size_t other = 0; other < lane.characters(); ++other)
+      for (const bool end : {false, true}) {
+        const auto place = [end](const TraceStep& step) {
+          return end ? step.path.back().position : step.path.front().position;
+        };
+        const Vec2d apart = (place(lane.record(k)) - place(lane.record(other))).cwiseAbs();
+        if (other != k && (apart.array() <= reach.array()).all()) return true;
+      }
+    return false;
   }
 
   ReportScene collect() {
@@ -172,6 +201,10 @@ class SceneRun {
     for (std::size_t i = 0; i < lanes_.size(); ++i) errors_[i].write(lanes_[i]->row());
     for (Pair& pair : pairs_) {
       write_agreement(pair.agreements, pair.mine->row());
+      for (Ledger& ledger : pair.ledgers) {
+        ledger.finish();
+        ledger.write(pair.mine->row());
+      }
       if (options_.mode == Mode::lockstep) {  // every step is compared by itself there: none is the first
         pair.mine->row().first_difference_box2d_step.reset();
         pair.mine->row().first_difference_box2d.clear();

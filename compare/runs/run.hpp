@@ -29,6 +29,7 @@ struct RunOptions {
   bool reference = true;           ///< Run the Box2D twin beside the contenders.
   bool measure_cost = true;
   bool continuous = false;   ///< Rows say how far the run is from continuous motion, where the reference has a law.
+  bool ledger = false;       ///< Attribute every event on which a contender and the twin differ to a cause.
   std::string trace_stem;    ///< Empty: no traces.
   int max_replay_steps = 0;  ///< Kept per run for the report; 0: none.
   /// Called with 0 before the first step, and then now and then with the share of the steps that is done.

@@ -162,7 +162,7 @@ TEST(Command, names_what_could_stand_where_a_word_is_missing_or_unknown) {
   for (const auto& [arguments, line] :
        {std::pair<std::string, std::string>{"", commands},
         {"frobnicate", commands},
-        {"study bullets", "paperproof study: expected one of scale, bullet, corner, seam, squeeze; see paperproof study --help\n"},
+        {"study bullets", "paperproof study: expected one of scale, bullet, corner, seam, squeeze, disagreement; see paperproof study --help\n"},
         {"list scene",
          "paperproof: WHAT: expected scenes, contenders, knobs or parameters, not scene; see paperproof list --help\n"},
         {"check", "paperproof: SCENE is required; see paperproof check --help\n"}}) {

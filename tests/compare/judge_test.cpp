@@ -486,6 +486,27 @@ TEST(Judge, a_collider_behind_a_seam_is_neither_right_nor_wrong) {
   EXPECT_EQ(judge.judge(rest).ghosts.size(), 1U) << "a wall where no face stands out";
 }
 
+/// In a valley of one polygon, 30 and 60 degrees, the steep side is met first, and what is left leads into the other.
+TEST(Judge, one_collider_deflects_the_motion_into_another_side_of_itself) {
+  const double steep = std::sqrt(27.0);
+  const Vec2d flat(-0.5, std::sqrt(0.75));
+  const Vec2d wall(-std::sqrt(0.75), 0.5);
+  const Vec2d at = Vec2d(-0.15625, 0.625) + 5e-7 / (1 + flat.dot(wall)) * (flat + wall);
+  const auto judged_with = [&](const Vec2d& normal, double away) {
+    TraceHeader valley = promising({polygon({{-8, -8 / std::sqrt(3.0)}, {-8, -9}, {3, -9}, {3, steep}, {0, 0}})});
+    valley.tolerances = {{"touch", 7e-7}};
+    Judge judge(valley);
+    TraceStep held = step({at + away * flat, at + away * flat});
+    held.requested = {1.0 / 64, -1.0 / 128};
+    held.contacts = {{.normal = wall, .side = Side::right}, {.normal = normal, .side = Side::bottom}};
+    return judge.judge(held).deflected;
+  };
+  const std::pair<ColliderIndex, Side> bottom{0, Side::bottom};
+  EXPECT_EQ(judged_with(flat, 0), std::vector{bottom});
+  EXPECT_TRUE(judged_with({0.5, std::sqrt(0.75)}, 0).empty()) << "no face has that normal";
+  EXPECT_TRUE(judged_with(flat, 2e-6).empty()) << "it is not touched";
+}
+
 TEST(Judge, speed_lost_to_nothing_is_a_ghost_and_speed_lost_to_a_wall_is_none) {
   const std::vector<ColliderDef> floor{box(-4, -1, 0, 0), box(0, -1, 4, 0), box(2, 0, 3, 2)};
   TraceStep snag = step({{-0.5, 0.625 + 5e-7}, {-0.25, 0.625 + 5e-7}});

@@ -9,6 +9,7 @@ rm -rf "$3" && mkdir -p "$3" && cd "$3"
 "$command" compare technique_gallery --steps 60 --no-timing --quiet --rows gallery.json
 "$command" compare article_bullet --quiet --rows timed.jsonl
 "$command" compare flush_tiles --mode lockstep --no-timing --quiet --rows lockstep.jsonl
+"$command" study disagreement flush_tiles jump_into_wall --quiet --rows disagreement.jsonl
 "$command" sweep paper --vary speed=10,100 --knob unit=0.01 --quiet --rows sweep.jsonl
 "$command" sweep paper --find-border speed --contender mask --quiet --rows border.jsonl
 "$command" work-precision flight --contender mask,box2d --quiet --rows work.jsonl

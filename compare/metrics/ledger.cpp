@@ -1,0 +1,150 @@
+#include "metrics/ledger.hpp"
+
+#include "metrics/ledger_step.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace paperproof::compare {
+namespace {
+
+/// Box2D's least distance of two vertices of a chain: b2_linearSlop [m].
+constexpr double least_edge = 0.005;
+
+/// Whether a step wants no sideways motion, ends on the ground, and nothing else acts on the character.
+bool rests(const TraceStep& step, const StepJudgement& judged) {
+  return step.grounded && step.requested.x() == 0 && step.met.empty() && judged.crushed.empty() &&
+         judged.pressed.empty();
+}
+
+}  // namespace
+
+std::string_view name_of(EventKind kind) noexcept {
+  switch (kind) {
+    case EventKind::contact:
+      return "contact";
+    case EventKind::side:
+      return "side";
+    case EventKind::time:
+      return "time";
+    case EventKind::crossing:
+      return "crossing";
+    case EventKind::stop:
+      return "stop";
+    case EventKind::toggle_ours:
+      return "toggle_ours";
+    case EventKind::toggle_box2d:
+      return "toggle_box2d";
+  }
+  return "contact";
+}
+
+std::string_view name_of(Cause cause) noexcept {
+  switch (cause) {
+    case Cause::skin:
+      return "skin";
+    case Cause::travel_cap:
+      return "travel_cap";
+    case Cause::event_latency:
+      return "event_latency";
+    case Cause::response_law:
+      return "response_law";
+    case Cause::solver_iterations:
+      return "solver_iterations";
+    case Cause::outline:
+      return "outline";
+    case Cause::sampled_time:
+      return "sampled_time";
+    case Cause::intent:
+      return "intent";
+    case Cause::ghost_collision:
+      return "ghost_collision";
+    case Cause::float_rounding:
+      return "float";
+    case Cause::start_inside:
+      return "start_inside";
+    case Cause::crush:
+      return "crush";
+    case Cause::company:
+      return "company";
+    case Cause::error_of_box2d:
+      return "error_of_box2d";
+    case Cause::error_of_ours:
+      return "error_of_ours";
+    case Cause::unexplained:
+      return "unexplained";
+  }
+  return "unexplained";
+}
+
+Ledger::Ledger(const LedgerParty& mine, const LedgerParty& reference, bool lockstep)
+    : mine_(mine), reference_(reference), lockstep_(lockstep) {
+  for (const ColliderDef& collider : reference.header->scenery.colliders)
+    for (std::size_t i = 0; i < collider.points.size(); ++i) {
+      const std::size_t next = (i + 1) % collider.points.size();
+      const bool close = (collider.points[next] - collider.points[i]).norm() < least_edge;
+      has_close_vertices_ = has_close_vertices_ || (collider.points.size() > 1 && close);
+    }
+}
+
+void Ledger::add(const TraceStep& mine, const StepJudgement& mine_judged, const TraceStep& reference,
+                 const StepJudgement& reference_judged, bool beside_another) {
+  rests_mine_ = rests(mine, mine_judged) ? rests_mine_ + 1 : 0;
+  rests_reference_ = rests(reference, reference_judged) ? rests_reference_ + 1 : 0;
+  window_.add({{mine, mine_judged}, {reference, reference_judged}, rests_mine_, rests_reference_, beside_another},
+              [this](const View& view) { judge(view); });
+}
+
+void Ledger::finish() {
+  window_.last([this](const View& view) { judge(view); });
+}
+
+void Ledger::begin(const View& view, double apart, double rounding) {
+  if (apart <= rounding) {
+    origin_.reset();
+    apart_for_ = 0;
+  }
+  ++apart_for_;
+  // Rounding adds up, at most by as much in every step.
+  if (!origin_ && !lockstep_ && apart <= apart_for_ * rounding)
+    origin_ = Origin{view.now().mine.step.step, Cause::float_rounding, apart};
+  entered_ = entered_ && !view.now().reference.step.start_overlap.empty();
+}
+
+void Ledger::judge(const View& view) {
+  detail::StepLedger step(mine_, reference_, view,
+                          {.lockstep = lockstep_, .close_vertices = has_close_vertices_, .entered = entered_});
+  const int number = view.now().mine.step.step;
+  begin(view, step.apart(), step.rounding());
+  for (detail::StepLedger::Event& event : step.events()) {
+    LedgerEntry entry{
+        event.kind, event.cause.value_or(Cause::unexplained), false, number, number, std::move(event.words)};
+    if (!event.cause && event.both_right && origin_ && !lockstep_ && step.apart() > step.rounding()) {
+      entry.cause = origin_->cause;
+      entry.consequence = true;
+      entry.origin = origin_->step;
+    }
+    Sum& sum = sums_[{entry.consequence, entry.cause, entry.kind}];
+    if (sum.count++ == 0) sum.first = entry;
+    const bool crosses = event.kind == EventKind::crossing && entry.cause == Cause::error_of_box2d;
+    entered_ = entered_ || crosses;
+    if (lockstep_ || !event.cause || !(crosses || event.kind == EventKind::stop)) continue;
+    const double size = crosses ? std::numeric_limits<double>::infinity() : step.taken();
+    if (!origin_ || size > origin_->size) origin_ = Origin{number, entry.cause, size};
+  }
+}
+
+void Ledger::write(Row& row) const {
+  for (const auto& [key, sum] : sums_) {
+    const LedgerEntry& first = sum.first;
+    std::string name = first.consequence ? "consequence_of_" : "";
+    name += std::string(name_of(first.cause)) + "." + std::string(name_of(first.kind));
+    auto [at, is_new] = row.disagreements.try_emplace(name, Disagreements{0, first.step, first.words});
+    at->second.count += sum.count;
+    if (is_new || first.step >= at->second.first_step) continue;
+    at->second.first_step = first.step;
+    at->second.first = first.words;
+  }
+}
+
+}  // namespace paperproof::compare

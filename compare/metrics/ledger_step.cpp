@@ -1,0 +1,354 @@
+#include "metrics/ledger_step.hpp"
+
+#include "metrics/rest.hpp"
+#include "oracle/exemptions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace paperproof::compare::detail {
+namespace {
+
+/// Cosine of the angle between two normals of one face, as far as Box2D's rounded corners know it.
+constexpr double same_face = 0.9;
+constexpr double ulp_of_float = 0x1p-23;
+/// Steps at rest that are for settling: see `Rest`.
+constexpr int settling = 30;
+using Touch = Contact<double>;
+
+bool is_touch(const ExactContact& exact, const Touch& touch) {
+  return exact.collider == touch.collider && exact.side == touch.side;
+}
+
+bool is_exact(const StepJudgement& judged, const Touch& touch) {
+  return std::any_of(judged.contacts.begin(), judged.contacts.end(),
+                     [&](const ExactContact& exact) { return is_touch(exact, touch); });
+}
+
+/// Met by the motion from the start alone, which something else may have turned before.
+bool is_only_foreseen(const StepJudgement& judged, const Touch& touch) {
+  return std::all_of(judged.contacts.begin(), judged.contacts.end(),
+                     [&](const ExactContact& exact) { return !is_touch(exact, touch) || exact.foreseen; });
+}
+
+/// The smallest over the corners of the way [m].
+double gap_on_way(const LedgerParty& who, const TraceStep& step, ColliderIndex collider) {
+  double gap = std::numeric_limits<double>::infinity();
+  for (const PathPoint<double>& corner : step.path)
+    gap = std::min(gap, who.solids->separation(Place(corner, step.movers), collider));
+  return gap;
+}
+
+std::vector<ColliderIndex> crossed(const StepJudgement& judged) {
+  std::vector<ColliderIndex> all = judged.tunnelled;
+  for (const std::vector<ColliderIndex>* more : {&judged.entered, &judged.one_way_broken})
+    for (const ColliderIndex collider : *more)
+      if (!contains(all, collider)) all.push_back(collider);
+  return all;
+}
+
+std::string_view in_words(Side side) {
+  switch (side) {
+    case Side::bottom:
+      return "bottom";
+    case Side::top:
+      return "top";
+    case Side::left:
+      return "left";
+    case Side::right:
+      return "right";
+  }
+  return "";
+}
+
+}  // namespace
+
+StepLedger::StepLedger(const LedgerParty& mine, const LedgerParty& reference, const Ledger::View& view,
+                       const Known& known)
+    : mine_(mine),
+      reference_(reference),
+      known_(known),
+      now_(view.now()),
+      m_(now_.mine.step),
+      r_(now_.reference.step),
+      dt_(length_of(m_, *mine.header)) {
+  const auto at = [&](std::size_t k, int step) -> const Ledger::Moment* {
+    return k < view.around.size() && view.around[k].mine.step.step == step ? &view.around[k] : nullptr;
+  };
+  before_ = view.centre > 0 ? at(view.centre - 1, m_.step - 1) : nullptr;
+  after_ = at(view.centre + 1, m_.step + 1);
+  const Vec2d aside = r_.path.front().position - m_.path.front().position;
+  apart_ = std::max(aside.norm(), (r_.requested - m_.requested).norm());
+  double ulp = 0;
+  for (const TraceStep* step : {&m_, &r_})
+    for (const PathPoint<double>* end : {&step->path.front(), &step->path.back()})
+      ulp = std::max(ulp, ulp_at(*reference.header, end->position));
+  rounding_ = ulps * (ulp + ulp_of_float * r_.requested.norm());
+}
+
+std::vector<StepLedger::Event> StepLedger::events() {
+  match();
+  add_crossings();
+  add_contacts();
+  add_time();
+  add_toggle();
+  add_stop();
+  settle();
+  return std::move(events_);
+}
+
+bool StepLedger::same_surface(const Touch& a, const Touch& b) const {
+  if (!(a.normal.dot(b.normal) > same_face)) return false;
+  return a.collider == b.collider || std::abs((a.point - b.point).dot(b.normal)) <= skin + rounding_;
+}
+
+void StepLedger::match() {
+  std::vector<bool> taken(r_.contacts.size());
+  for (const Touch& touch : m_.contacts) {
+    bool found = false;
+    for (std::size_t i = 0; i < taken.size(); ++i) {
+      const Touch& other = r_.contacts[i];
+      if (!same_surface(touch, other)) continue;
+      found = taken[i] = true;
+      if (touch.collider == other.collider && touch.side == other.side) both_.emplace_back(&touch, &other);
+    }
+    if (!found) only_mine_.push_back(&touch);
+  }
+  for (std::size_t i = 0; i < taken.size(); ++i)
+    if (!taken[i]) only_reference_.push_back(&r_.contacts[i]);
+}
+
+std::string StepLedger::named(const Touch& touch) const {
+  return fmt::format("{} `{}`, normal ({:.3g}, {:.3g}), at {:.4g}", in_words(touch.side),
+                     mine_.header->ids[touch.collider], touch.normal.x(), touch.normal.y(), touch.fraction);
+}
+
+/// A gap that Box2D's skin explains, or its rounding.
+std::optional<Cause> StepLedger::within_skin(double gap) const {
+  if (gap > 0 && gap <= skin) return Cause::skin;
+  if (gap > -rounding_ && gap <= skin + rounding_) return Cause::float_rounding;
+  return std::nullopt;
+}
+
+/// As for the contender's recall: another collider of the same side stands for the same floor.
+bool StepLedger::is_missed_by_mine(const Touch& touch) const {
+  const StepJudgement& judged = now_.mine.judged;
+  if (m_.stuck || !is_exact(judged, touch) || is_only_foreseen(judged, touch)) return false;
+  return std::none_of(m_.contacts.begin(), m_.contacts.end(),
+                      [&](const Touch& reported) { return reported.side == touch.side && is_exact(judged, reported); });
+}
+
+bool StepLedger::is_right_of_mine(const Touch& touch) const {
+  const StepJudgement& judged = now_.mine.judged;
+  if (is_exact(judged, touch) || contains(judged.deflected, std::pair(touch.collider, touch.side))) return true;
+  return (contains(judged.dont_care, touch.collider) && !is_ghost(judged, touch)) ||
+         contains(judged.excused_by_company, touch.collider);
+}
+
+bool StepLedger::reports_next(const Touch& touch) const {
+  if (after_ == nullptr) return false;
+  const std::vector<Touch>& next = after_->reference.step.contacts;
+  return std::any_of(next.begin(), next.end(), [&](const Touch& later) { return same_surface(touch, later); });
+}
+
+/// Whether Box2D's cap ends its way before it comes to what exact arithmetic says it would meet.
+bool StepLedger::is_capped_before(const Touch& touch) const {
+  if (!r_.capped || !(r_.requested.norm() > longest_way)) return false;
+  const auto impact =
+      reference_.solids->time_of_impact(Place(r_.path.front(), r_.movers), r_.requested, touch.collider);
+  return impact && static_cast<double>(impact->fraction) * r_.requested.norm() > longest_way - skin;
+}
+
+StepLedger::Event StepLedger::of_reference(const Touch& touch, EventKind kind) const {
+  const StepJudgement& judged = now_.reference.judged;
+  const double gap = gap_on_way(reference_, r_, touch.collider);
+  const double mine = gap_on_way(mine_, m_, touch.collider);
+  Event event{kind,
+              {},
+              false,
+              fmt::format("only Box2D reports {}; it is {:.3g} m away, {} {:.3g} m", named(touch), gap,
+                          mine_.header->contender, mine)};
+  if (is_missed_by_mine(touch)) {
+    event.cause = Cause::error_of_ours;
+  } else if (is_ghost(judged, touch)) {
+    event.cause = Cause::ghost_collision;
+  } else if (is_exact(judged, touch) && (kind == EventKind::contact || apart_ > within_skins + rounding_)) {
+    event.both_right = true;
+  } else if (const std::optional<Cause> near = within_skin(gap)) {
+    // From the edge of the skin another surface of the same collider may be the nearest.
+    if (mine <= within_skins + rounding_) event.cause = near;
+    event.both_right = true;
+  } else if (!is_exact(judged, touch) && !is_crushed(judged) && !is_inside(r_)) {
+    event.cause = Cause::error_of_box2d;
+  } else {
+    event.both_right = true;
+  }
+  return event;
+}
+
+StepLedger::Event StepLedger::of_mine(const Touch& touch) const {
+  const StepJudgement& judged = now_.reference.judged;
+  const double gap = gap_on_way(reference_, r_, touch.collider);
+  Event event{EventKind::contact,
+              {},
+              false,
+              fmt::format("only {} reports {}; Box2D is {:.3g} m away", mine_.header->contender, named(touch), gap)};
+  const bool met = is_exact(judged, touch);
+  const bool inside = contains(r_.start_overlap, touch.collider);
+  const std::optional<Cause> near = within_skin(gap);
+  if (!is_right_of_mine(touch)) {
+    event.cause = Cause::error_of_ours;
+  } else if (is_capped_before(touch)) {
+    event.cause = Cause::travel_cap;
+  } else if (contains(crossed(judged), touch.collider)) {
+    event.cause = Cause::error_of_box2d;
+  } else if (met && near && reports_next(touch)) {
+    event.cause = Cause::event_latency;
+  } else if (near) {
+    event.cause = near;
+  } else {
+    // What Box2D foresaw from its start it need not meet if something turned it before, or if it is inside already.
+    event.both_right = !met || inside || (is_only_foreseen(judged, touch) && !r_.contacts.empty());
+  }
+  return event;
+}
+
+void StepLedger::add_contacts() {
+  const auto with = [](const std::vector<const Touch*>& some, const Touch& touch) {
+    const auto found =
+        std::find_if(some.begin(), some.end(), [&](const Touch* other) { return other->collider == touch.collider; });
+    return found == some.end() ? nullptr : *found;
+  };
+  for (const Touch* touch : only_reference_) {
+    const Touch* other = with(only_mine_, *touch);
+    Event event = of_reference(*touch, other != nullptr ? EventKind::side : EventKind::contact);
+    if (other != nullptr && !is_right_of_mine(*other)) event.cause = Cause::error_of_ours;
+    events_.push_back(std::move(event));
+  }
+  for (const Touch* touch : only_mine_)
+    if (with(only_reference_, *touch) == nullptr) events_.push_back(of_mine(*touch));
+}
+
+/// Relative to what the collider goes along with [m].
+Vec2d StepLedger::wanted_of_reference(const Touch& touch) const {
+  const MoverIndex mover = reference_.header->scenery.colliders[touch.collider].mover;
+  return mover == no_mover ? r_.requested : Vec2d(r_.requested - (r_.movers[mover].to - r_.movers[mover].from));
+}
+
+/// From where Box2D was at the time that it reports, to the collider [m].
+double StepLedger::gap_when_reported(const Touch& touch) const {
+  const auto next = std::find_if(r_.path.begin() + 1, r_.path.end() - 1,
+                                 [&](const PathPoint<double>& corner) { return corner.fraction >= touch.fraction; });
+  const PathPoint<double>& from = *(next - 1);
+  const double length = next->fraction - from.fraction;
+  const double share = length > 0 ? std::clamp((touch.fraction - from.fraction) / length, 0.0, 1.0) : 1;
+  return reference_.solids->separation(
+      Place(from.position + share * (next->position - from.position), r_.movers, touch.fraction), touch.collider);
+}
+
+/// Of the colliders and sides that both report, the one whose earliest times differ most.
+void StepLedger::add_time() {
+  double most = same_event;
+  const Touch* mine = nullptr;
+  const Touch* reference = nullptr;
+  for (const auto& [m, r] : both_) {
+    const auto is_it = [touch = r](const Touch& other) {
+      return other.collider == touch->collider && other.side == touch->side;
+    };
+    double first = m->fraction;
+    for (const Touch& other : m_.contacts)
+      if (is_it(other)) first = std::min(first, other.fraction);
+    const double apart = std::abs(first - r->fraction) * std::abs(wanted_of_reference(*r).dot(m->normal));
+    if (!(apart > most)) continue;
+    most = apart;
+    mine = m;
+    reference = r;
+  }
+  if (mine == nullptr) return;
+  Event event{EventKind::time,
+              {},
+              true,
+              fmt::format("{}: at {:.6g} for {}, at {:.6g} for Box2D, {:.3g} m apart", named(*mine), mine->fraction,
+                          mine_.header->contender, reference->fraction, most)};
+  const std::optional<Cause> near = within_skin(gap_when_reported(*reference));
+  if (most <= rounding_) {
+    event.cause = Cause::float_rounding;
+  } else if (is_crushed(now_.mine.judged) || is_crushed(now_.reference.judged)) {
+    event.cause = Cause::crush;
+  } else if (near && most <= within_skins + rounding_) {
+    event.cause = near;
+  } else if (!near && !is_inside(r_)) {
+    event.cause = Cause::sampled_time;
+  }
+  events_.push_back(std::move(event));
+}
+
+void StepLedger::add_crossings() {
+  for (const ColliderIndex collider : crossed(now_.mine.judged))
+    events_.push_back({EventKind::crossing, Cause::error_of_ours, false,
+                       fmt::format("{} passes or enters `{}`", mine_.header->contender, mine_.header->ids[collider])});
+  for (const ColliderIndex collider : crossed(now_.reference.judged)) {
+    const double depth = reference_.solids->penetration(Place(r_.path.back(), r_.movers), collider);
+    const bool rounded = depth > 0 && depth <= rounding_;
+    events_.push_back({EventKind::crossing, rounded ? Cause::float_rounding : Cause::error_of_box2d, false,
+                       fmt::format("Box2D passes or enters `{}`, {:.3g} m deep at the end of the step",
+                                   mine_.header->ids[collider], depth)});
+  }
+  for (const ColliderIndex collider : now_.reference.judged.corner_cut)
+    events_.push_back(
+        {EventKind::crossing, Cause::skin, false,
+         fmt::format("Box2D cuts a corner of `{}` no deeper than its skin", mine_.header->ids[collider])});
+}
+
+/// After settling, one changes the sides of its contacts. Exact arithmetic has a reason where its own sides change too.
+void StepLedger::add_toggle() {
+  if (before_ == nullptr) return;
+  const auto toggles = [](const Ledger::Says& before, const Ledger::Says& now, int rests) {
+    return rests > settling + 1 && sides_of(before.step.contacts) != sides_of(now.step.contacts);
+  };
+  const auto has_reason = [](const Ledger::Says& before, const Ledger::Says& now) {
+    return sides_of(before.judged.contacts) != sides_of(now.judged.contacts);
+  };
+  const bool mine = toggles(before_->mine, now_.mine, now_.rests_mine);
+  const bool reference = toggles(before_->reference, now_.reference, now_.rests_reference);
+  if (mine == reference) return;
+  const bool reason = mine ? has_reason(before_->mine, now_.mine) : has_reason(before_->reference, now_.reference);
+  Event event{mine ? EventKind::toggle_ours : EventKind::toggle_box2d,
+              {},
+              reason,
+              fmt::format("at rest {} changes the sides of its contacts, exact arithmetic has {} reason",
+                          mine ? mine_.header->contender : "Box2D", reason ? "a" : "no")};
+  if (mine && !reason) event.cause = Cause::error_of_ours;
+  if (reference && !reason) {
+    event.cause = Cause::skin;
+    for (const Ledger::Moment* moment : {before_, &now_})
+      for (const Touch& touch : moment->reference.step.contacts)
+        if (!within_skin(gap_on_way(reference_, moment->reference.step, touch.collider))) event.cause.reset();
+  }
+  events_.push_back(std::move(event));
+}
+
+/// What is left open because both are right: where they began alike, or no further apart than their skins, another
+/// event of this step made the difference, or in lockstep the start that the skin needs.
+void StepLedger::settle() {
+  const auto cause_of = [this](auto&& is_one) {
+    const auto found =
+        std::find_if(events_.begin(), events_.end(), [&](const Event& one) { return one.cause && is_one(one); });
+    return found == events_.end() ? std::nullopt : found->cause;
+  };
+  const std::optional<Cause> of_contact = cause_of([](const Event& one) {
+    return (one.kind == EventKind::contact || one.kind == EventKind::side) && one.cause != Cause::error_of_ours;
+  });
+  const std::optional<Cause> of_stop = cause_of([](const Event& one) { return one.kind == EventKind::stop; });
+  if (apart_ > within_skins + rounding_) return;
+  for (Event& event : events_) {
+    if (event.cause || !event.both_right) continue;
+    event.cause = event.kind == EventKind::stop ? of_contact : of_stop;
+    if (!event.cause && known_.lockstep && apart_ > rounding_) event.cause = Cause::skin;
+  }
+}
+
+}  // namespace paperproof::compare::detail

@@ -1,0 +1,112 @@
+/// The events of one step, for the ledger.
+#pragma once
+
+#include "metrics/ledger.hpp"
+#include "metrics/response_laws.hpp"
+#include "oracle/contacts.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace paperproof::compare::detail {
+
+/// Events that differ by less are the same [m]: what the guarantee allows for a time of impact.
+inline constexpr double same_event = 1e-6;
+/// Two sides that each keep to Box2D's skin are no further apart than this [m].
+inline constexpr double within_skins = 2 * skin;
+/// See `Cause::float_rounding`.
+inline constexpr double ulps = 4;
+/// The way of a step that Box2D travels at most [m].
+inline constexpr double longest_way = 2;
+
+template <class Range, class Value>
+[[nodiscard]] bool contains(const Range& range, const Value& value) {
+  return std::find(range.begin(), range.end(), value) != range.end();
+}
+
+[[nodiscard]] inline bool is_ghost(const StepJudgement& judged, const Contact<double>& touch) {
+  return contains(judged.ghosts, std::pair(touch.collider, touch.side));
+}
+
+/// By a crush that exact arithmetic verified.
+[[nodiscard]] inline bool is_crushed(const StepJudgement& judged) {
+  return !judged.crushed.empty() || !judged.pressed.empty();
+}
+
+[[nodiscard]] inline bool is_inside(const TraceStep& step) { return !step.start_overlap.empty(); }
+
+/// Finds what two sides differ about in one step, and why: see `Ledger`. Lives for one step.
+class StepLedger {
+ public:
+  struct Event {
+    EventKind kind = EventKind::contact;
+    std::optional<Cause> cause;
+    bool both_right = false;  ///< Without a cause in this step it may be a consequence.
+    std::string words;
+  };
+  /// What the ledger knows of the run.
+  struct Known {
+    bool lockstep = false;
+    bool close_vertices = false;  ///< Closer than Box2D can have them.
+    bool entered = false;         ///< Box2D is inside of something that it should not have entered.
+  };
+  StepLedger(const LedgerParty& mine, const LedgerParty& reference, const Ledger::View& view, const Known& known);
+
+  /// To be called once.
+  [[nodiscard]] std::vector<Event> events();
+  /// How far apart the two are in place and wish where the step begins [m].
+  [[nodiscard]] double apart() const noexcept { return apart_; }
+  /// What one place or way of Box2D can differ by from the double that it was made of [m].
+  [[nodiscard]] double rounding() const noexcept { return rounding_; }
+  /// What the step took more from one than from the other [m]; after `events`.
+  [[nodiscard]] double taken() const noexcept { return taken_; }
+
+ private:
+  using Touch = Contact<double>;
+  void match();
+  void add_contacts();
+  [[nodiscard]] Event of_reference(const Touch& touch, EventKind kind) const;
+  [[nodiscard]] Event of_mine(const Touch& touch) const;
+  void add_time();
+  void add_crossings();
+  void add_toggle();
+  void add_stop();
+  [[nodiscard]] std::optional<Cause> cause_of_stop(const Vec2d& way_apart, const Vec2d& speed_apart,
+                                                   Event& event) const;
+  void settle();
+
+  [[nodiscard]] bool same_surface(const Touch& a, const Touch& b) const;
+  [[nodiscard]] bool is_missed_by_mine(const Touch& touch) const;
+  [[nodiscard]] bool is_right_of_mine(const Touch& touch) const;
+  [[nodiscard]] bool reports_next(const Touch& touch) const;
+  [[nodiscard]] bool is_capped_before(const Touch& touch) const;
+  [[nodiscard]] std::optional<Cause> within_skin(double gap) const;
+  [[nodiscard]] std::vector<MetSurface> met_by_mine() const;
+  [[nodiscard]] std::vector<MetSurface> near_reference() const;
+  [[nodiscard]] bool is_turned_by_ghost() const;
+  [[nodiscard]] double gap_when_reported(const Touch& touch) const;
+  [[nodiscard]] Vec2d wanted_of_reference(const Touch& touch) const;
+  [[nodiscard]] bool follows_our_law() const;
+  /// Whether Box2D's velocity is what its own law makes, and if not, why.
+  [[nodiscard]] bool follows_box2ds_law(std::optional<Cause>& otherwise) const;
+  [[nodiscard]] std::string named(const Touch& touch) const;
+
+  const LedgerParty& mine_;
+  const LedgerParty& reference_;
+  Known known_;
+  const Ledger::Moment& now_;
+  const Ledger::Moment* before_ = nullptr;  ///< The step before, if that is there.
+  const Ledger::Moment* after_ = nullptr;
+  const TraceStep& m_;
+  const TraceStep& r_;
+  double dt_;  ///< [s]
+  double apart_ = 0;
+  double rounding_ = 0;
+  double taken_ = 0;
+  std::vector<std::pair<const Touch*, const Touch*>> both_;
+  std::vector<const Touch*> only_mine_;
+  std::vector<const Touch*> only_reference_;
+  std::vector<Event> events_;
+};
+
+}  // namespace paperproof::compare::detail

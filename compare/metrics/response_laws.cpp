@@ -1,0 +1,186 @@
+#include "metrics/response_laws.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace paperproof::compare {
+namespace {
+
+/// A velocity that enters a surface by no more than this share of its length runs along it.
+constexpr double along = 1e-9;
+/// Normals whose cross product is smaller are of one direction.
+constexpr double one_direction = 1e-9;
+/// Share of a velocity that is rounding in Box2D.
+constexpr double in_float = 1e-5;
+
+double cross(const Vec2d& a, const Vec2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+double entering(const Vec2d& v, const MetSurface& at) { return (v - at.velocity).dot(at.normal); }
+
+bool enters(const Vec2d& v, const MetSurface& at) {
+  return entering(v, at) < -along * std::max(1.0, (v - at.velocity).norm());
+}
+
+Vec2d slid(const Vec2d& v, const MetSurface& at) { return v - entering(v, at) * at.normal; }
+
+/// The velocity that neither enters nor leaves either of two surfaces.
+std::optional<Vec2d> held_by(const MetSurface& a, const MetSurface& b) {
+  const double determinant = cross(a.normal, b.normal);
+  if (std::abs(determinant) < one_direction) return std::nullopt;
+  const double of_a = a.velocity.dot(a.normal);
+  const double of_b = b.velocity.dot(b.normal);
+  return Vec2d((of_a * b.normal.y() - of_b * a.normal.y()) / determinant,
+               (of_b * a.normal.x() - of_a * b.normal.x()) / determinant);
+}
+
+/// The velocity nearest to `wanted` that enters none of the surfaces, if there is one.
+std::optional<Vec2d> nearest_allowed(const Vec2d& wanted, std::span<const MetSurface> surfaces) {
+  std::optional<Vec2d> best;
+  const auto consider = [&](const Vec2d& v) {
+    if (std::any_of(surfaces.begin(), surfaces.end(), [&](const MetSurface& at) { return enters(v, at); })) return;
+    if (!best || (v - wanted).squaredNorm() < (*best - wanted).squaredNorm()) best = v;
+  };
+  consider(wanted);
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    consider(slid(wanted, surfaces[i]));
+    for (std::size_t k = 0; k < i; ++k)
+      if (const std::optional<Vec2d> held = held_by(surfaces[i], surfaces[k])) consider(*held);
+  }
+  return best;
+}
+
+/// The impulses along both normals that make the change, per mass; none where the normals are of one direction.
+std::optional<Vec2d> impulses_of(const Vec2d& change, const MetSurface& a, const MetSurface& b) {
+  const double determinant = cross(a.normal, b.normal);
+  if (std::abs(determinant) < one_direction) return std::nullopt;
+  return Vec2d(cross(change, b.normal) / determinant, cross(a.normal, change) / determinant);
+}
+
+Vec2d follow(double x, const Vec2d& n) { return {x, -x * n.x() / n.y()}; }
+
+/// At one surface that rests, without steering.
+Vec2d respond(Vec2d v, const MetSurface& at, bool after_walk) {
+  const Vec2d& n = at.normal;
+  if (v.dot(n) >= 0) return v;
+  if (at.walkable) return follow(v.x(), n);
+  const auto slide = [&n](const Vec2d& w) { return Vec2d(w - w.dot(n) * n); };
+  if (n.y() < 0) {
+    if (v.y() > 0) return after_walk ? Vec2d(Vec2d::Zero()) : slide(v);
+    return {-v.y() * n.y() / n.x(), v.y()};
+  }
+  if (v.x() * n.x() < 0) v = {0, after_walk ? std::min(v.y(), 0.0) : v.y()};
+  return v.dot(n) < 0 ? slide(v) : v;
+}
+
+/// At one surface that rests. @param steering what steering added, horizontally.
+SteeredVelocity respond(const SteeredVelocity& v, double steering, const MetSurface& at, bool after_walk) {
+  const Vec2d& n = at.normal;
+  if (v.wanted.dot(n) >= 0) return v;
+  const Vec2d unsteered = respond(v.unsteered, at, after_walk);
+  if (at.walkable) return {follow(v.unsteered.x() + steering, n), unsteered};
+  const bool presses = n.y() >= 0 && (v.wanted - v.unsteered).dot(n) < 0;
+  if (!presses) return {respond(v.wanted, at, after_walk), unsteered};
+  if (v.unsteered.dot(n) < 0) return {unsteered, unsteered};
+  const double y = after_walk ? std::min(unsteered.y(), 0.0) : unsteered.y();
+  return {Vec2d(-y * n.y() / n.x(), y), unsteered};
+}
+
+/// What a trace does not say.
+struct Circumstances {
+  bool after_walk = false;   ///< A climb came from a walk.
+  bool met_at_end = false;   ///< What is touched where the step ends was met, by rounding.
+  bool left_behind = false;  ///< Each surface has been left when the next one is met.
+};
+
+Vec2d controlled(const SteeredVelocity& velocity, std::span<const MetSurface> surfaces, const Circumstances& here) {
+  SteeredVelocity now = velocity;
+  const double steering = (velocity.wanted - velocity.unsteered).x();
+  std::vector<MetSurface> held;
+  for (const MetSurface& at : surfaces) {
+    if ((at.at_end && !here.met_at_end) || !enters(now.wanted, at)) continue;
+    const Vec2d& carried = at.velocity;
+    now = respond({now.wanted - carried, now.unsteered - carried}, steering, at, here.after_walk);
+    now = {now.wanted + carried, now.unsteered + carried};
+    if (here.left_behind) continue;
+    held.push_back(at);
+    if (std::none_of(held.begin(), held.end(), [&](const MetSurface& one) { return enters(now.wanted, one); }))
+      continue;
+    const Vec2d fall = nearest_allowed(velocity.unsteered, held).value_or(carried);
+    const bool walked = std::any_of(held.begin(), held.end(), [](const MetSurface& one) { return one.walkable; });
+    const Vec2d end = held.size() > 1 ? held_by(held[held.size() - 2], at).value_or(carried) : carried;
+    now.wanted = now.unsteered = !walked && fall.y() < end.y() ? fall : end;
+  }
+  return now.wanted;
+}
+
+}  // namespace
+
+std::vector<Vec2d> frictionless_outcomes(const Vec2d& wanted, std::span<const MetSurface> surfaces) {
+  std::vector<Vec2d> outcomes{wanted};
+  const auto meet = [&](const Vec2d& v) {
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+      if (enters(v, surfaces[i])) outcomes.push_back(slid(v, surfaces[i]));
+      for (std::size_t k = 0; k < i; ++k)
+        if (const auto both = nearest_allowed(v, std::array{surfaces[i], surfaces[k]})) outcomes.push_back(*both);
+    }
+  };
+  meet(wanted);
+  const std::size_t once = outcomes.size();
+  for (std::size_t k = 1; k < once; ++k) meet(Vec2d(outcomes[k]));
+  return outcomes;
+}
+
+bool is_short_of_limit(const Vec2d& wanted, const Vec2d& velocity, std::span<const MetSurface> surfaces,
+                       const Vec2d& kept, int rounds) {
+  for (std::size_t i = 0; i < surfaces.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) {
+      const std::array both{surfaces[i], surfaces[k]};
+      const std::optional<Vec2d> limit = nearest_allowed(wanted, both);
+      const std::optional<Vec2d> pushes = impulses_of(velocity - wanted, both[0], both[1]);
+      if (!limit || !pushes || pushes->minCoeff() < -in_float * std::max(1.0, pushes->norm())) continue;
+      const double speed = wanted.norm() + impulses_of(kept, both[0], both[1])->lpNorm<1>();
+      const double left = std::pow(std::abs(both[0].normal.dot(both[1].normal)), 2 * rounds - 1);
+      if ((velocity - *limit).norm() <= left * speed + in_float) return true;
+    }
+  return false;
+}
+
+bool is_turned_by_tilt(const Vec2d& wanted, const Vec2d& velocity, std::span<const MetSurface> surfaces, double tilt) {
+  const Vec2d change = velocity - wanted;
+  const double slack = in_float * std::max(1.0, wanted.norm());
+  if (!(change.norm() > slack)) return false;
+  return std::any_of(surfaces.begin(), surfaces.end(), [&](const MetSurface& at) {
+    // What is left runs along the tilted surface, or there is nothing left.
+    const Vec2d along_it = velocity - at.velocity;
+    const bool ends = !(along_it.norm() > slack);
+    const Vec2d across = ends ? change : Vec2d(-along_it.y(), along_it.x());
+    const Vec2d normal = across.normalized() * (across.dot(at.normal) < 0 ? -1 : 1);
+    return std::abs(cross(normal, at.normal)) <= tilt && std::abs(cross(change, normal)) <= slack &&
+           change.dot(normal) > 0;
+  });
+}
+
+std::vector<Vec2d> controlled_outcomes(const SteeredVelocity& velocity, std::span<const MetSurface> surfaces) {
+  std::vector<Vec2d> outcomes;
+  for (const unsigned bits : {0U, 1U, 2U, 3U, 4U, 5U, 6U, 7U}) {
+    const Circumstances here{(bits & 1U) != 0, (bits & 2U) != 0, (bits & 4U) != 0};
+    const Vec2d met = outcomes.emplace_back(controlled(velocity, surfaces, here));
+    for (const MetSurface& at : surfaces) {
+      if (!at.walkable) continue;
+      outcomes.emplace_back(follow(met.x() - at.velocity.x(), at.normal) + at.velocity);
+      if (velocity.wanted.x() == 0) outcomes.push_back(at.velocity);
+    }
+  }
+  return outcomes;
+}
+
+double distance_from(std::span<const Vec2d> outcomes, const Vec2d& velocity) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Vec2d& outcome : outcomes) least = std::min(least, (outcome - velocity).norm());
+  return least;
+}
+
+}  // namespace paperproof::compare

@@ -1,0 +1,69 @@
+#include "studies/disagreement.hpp"
+
+#include "runs/run.hpp"
+#include "scenes/load.hpp"
+
+#include <fmt/format.h>
+
+#include <exception>
+
+namespace paperproof::compare {
+namespace {
+
+constexpr const char* contender = "octagon_sweep";
+
+/// What every row of the study has.
+Row named(Row row, const DisagreementCase& one) {
+  row.mode = one.lockstep ? "lockstep" : "free";
+  row.command = fmt::format("paperproof study disagreement {}", one.scene);
+  return row;
+}
+
+}  // namespace
+
+std::vector<std::string> registered_scenes() {
+  std::vector<std::string> names;
+  for (const BuiltInScene& scene : built_in_scenes()) names.push_back(scene.name);
+  for (const SceneFamily& family : scene_families()) names.emplace_back(family.name);
+  return names;
+}
+
+std::vector<DisagreementCase> disagreement_cases(const std::vector<std::string>& names) {
+  std::vector<DisagreementCase> cases;
+  for (const std::string& name : names) {
+    const std::size_t scenes = load_scenes(name).size();
+    for (std::size_t k = 0; k < scenes; ++k)
+      for (const bool lockstep : {false, true}) cases.push_back({name, k, lockstep});
+  }
+  return cases;
+}
+
+Row run_disagreement(const DisagreementCase& one) {
+  try {
+    const std::vector<Scene> scenes = load_scenes(one.scene);
+    RunOptions options;
+    options.contenders = {contender};
+    options.mode = one.lockstep ? Mode::lockstep : Mode::free;
+    options.measure_cost = false;
+    options.ledger = true;
+    return named(run_scene(scenes.at(one.index), options).rows.front(), one);
+  } catch (const std::exception& reason) {
+    return failed_row(one, reason.what());
+  }
+}
+
+Row failed_row(const DisagreementCase& one, const std::string& reason) {
+  Row row;
+  row.scene = one.scene;
+  row.contender = contender;
+  row.verdict = Verdict::failed;
+  row.reason = reason;
+  return named(row, one);
+}
+
+std::string replay_command(std::string_view scene, std::string_view mode, int step) {
+  return fmt::format("paperproof compare {} --contender {} --mode {} --steps {} --report page.html", scene, contender,
+                     mode, step + 1);
+}
+
+}  // namespace paperproof::compare
