@@ -34,7 +34,11 @@ Energy::Energy(const TraceHeader& header, const Vec2d& gravity)
 bool Energy::is_pushed(const Character& who, const TraceStep& step, double dt) const {
   if (!who.known || step.respawn || (!who.free && !step.start_overlap.empty())) return true;
   const Vec2d unsteered = who.velocity + gravity_ * dt;
-  return (step.requested / dt).squaredNorm() > steered_from * unsteered.squaredNorm();
+  const Vec2d wanted = step.requested / dt;
+  // A jump in the step after a landing that no contact slowed turns a fall into a rise of the same speed.
+  const double rounding = (steered_from - 1) * gravity_.norm() * wanted.norm();
+  const bool jumps = gravity_.dot(wanted) < 0 && gravity_.dot(wanted - unsteered) < -rounding;
+  return jumps || wanted.squaredNorm() > steered_from * unsteered.squaredNorm();
 }
 
 bool Energy::is_on_foot(const Character& who, const TraceStep& step) const {

@@ -88,6 +88,10 @@ TEST(EnergyGained, counts_no_jump_and_no_steering_but_what_follows) {
   EXPECT_DOUBLE_EQ(Motion().to({0, 0}, {0, 0}, true).to(jump * dt, jump, false, jump).to(jump * dt, {0, 9}).gained(),
                    81. / 2 - 64. / 2);
   EXPECT_EQ(Motion().to({0, 0}, {0, 0}, true).to({0.1, 0}, {6, 0}, true, Vec2d(6, -0.1)).gained(), 0);
+  // It ends a step on the ground, still falling; and jumps up less fast than it fell. Unasked it is a gain.
+  const Vec2d fall(0, -9);
+  EXPECT_EQ(Motion().to({0, 0}, fall, true).to(jump * dt, jump, false, jump).gained(), 0);
+  EXPECT_DOUBLE_EQ(Motion().to({0, 0}, fall, true).to({0, 1}, {0, 9}).gained(), 10);
 }
 
 TEST(EnergyGained, of_who_walks_uphill_is_what_the_horizontal_speed_grows_by) {
