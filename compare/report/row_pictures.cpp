@@ -191,7 +191,11 @@ std::vector<Chart> charts_of(const std::vector<ordered_json>& rows) {
 }
 
 bool is_precision(const ordered_json& row) { return row.value("mode", "") == "work_precision"; }
-bool is_swept(const ordered_json& row) { return row.contains("case") && row.contains("parameters"); }
+/// A case of a sweep runs alone and is not timed; `compare` gives the other rows.
+bool is_swept(const ordered_json& row) {
+  return row.contains("case") && row.contains("parameters") && !row.contains("ns_per_step") &&
+         row.value("command", "").ends_with("--no-reference");
+}
 
 ChartTable borders_table(const std::vector<ordered_json>& borders) {
   ChartTable table;

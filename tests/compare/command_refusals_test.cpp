@@ -157,15 +157,17 @@ TEST(Command, complains_in_one_line_whatever_was_typed) {
 TEST(Command, names_what_could_stand_where_a_word_is_missing_or_unknown) {
   const Workplace place;
   const std::string commands =
-      "paperproof: expected one of compare, study, sweep, work-precision, stability, merge, diff, demo, convert, list, "
-      "check, plan; see paperproof --help\n";
-  for (const auto& [arguments, line] :
-       {std::pair<std::string, std::string>{"", commands},
-        {"frobnicate", commands},
-        {"study bullets", "paperproof study: expected one of scale, bullet, corner, seam, squeeze, disagreement; see paperproof study --help\n"},
-        {"list scene",
-         "paperproof: WHAT: expected scenes, contenders, knobs or parameters, not scene; see paperproof list --help\n"},
-        {"check", "paperproof: SCENE is required; see paperproof check --help\n"}}) {
+      "paperproof: expected one of compare, study, work-precision, stability, sweep, merge, diff, report, convert, "
+      "check, plan, demo, list; see paperproof --help\n";
+  for (const auto& [arguments, line] : {std::pair<std::string, std::string>{"", commands},
+                                        {"frobnicate", commands},
+                                        {"study bullets",
+                                         "paperproof study: expected one of scale, bullet, corner, seam, squeeze, "
+                                         "disagreement; see paperproof study --help\n"},
+                                        {"list scene",
+                                         "paperproof: WHAT: expected scenes, contenders, knobs, metrics or parameters, "
+                                         "not scene; see paperproof list --help\n"},
+                                        {"check", "paperproof: SCENE is required; see paperproof check --help\n"}}) {
     const Finished finished = place.run(arguments);
     EXPECT_EQ(finished.status, 2) << arguments;
     EXPECT_EQ(finished.err, line);
