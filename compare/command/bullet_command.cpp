@@ -18,7 +18,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr const char* explanation =
+constexpr const char* about_bullets =
     "A character flies onto paper. The cases of a cell differ in angle, phase and length of a step. In numbers: the "
     "lowest speed at which each gets through head-on at 60 steps per second, found by bisection over all phases, "
     "beside "
@@ -145,7 +145,7 @@ class BulletRun {
   [[nodiscard]] ChartPage page() const {
     ChartPage page;
     page.title = bullets_title;
-    page.paragraphs = {how_to_read_maps, explanation};
+    page.paragraphs = {how_to_read_maps, about_bullets};
     page.grids = counter_.grids();
     page.table = numbers();
     page.environment = environment();

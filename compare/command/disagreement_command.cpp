@@ -16,7 +16,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr const char* explanation =
+constexpr const char* about_the_ledger =
     "Every event on which octagon_sweep and Box2D differ, with the one cause that exact arithmetic shows. In lockstep "
     "the twin is put to the controller before each step, and each event stands alone; in a free run what both are "
     "right about, once an event took them apart, is a consequence of that event.";
@@ -44,7 +44,7 @@ class DisagreementRun {
         outputs_(arguments.rows_path, arguments.pages, arguments.log_path),
         progress_(!arguments.quiet, arguments.log_path) {
     page_.title = "the ledger of disagreement";
-    page_.paragraphs = {explanation};
+    page_.paragraphs = {about_the_ledger};
     page_.table.heading = {"mode", "cause", "event", "events", "first", "step", "what each side says"};
     page_.environment = environment();
   }

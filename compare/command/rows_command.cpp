@@ -125,7 +125,8 @@ int diff_command(const std::string& before, const std::string& after) {
   std::size_t same = 0;
   for (const auto& [name, row] : old_rows) {
     const auto now = new_rows.find(name);
-    const std::string changes = now == new_rows.end() ? fmt::format("only in {}", before) : changes_between(row, now->second);
+    const std::string changes =
+        now == new_rows.end() ? fmt::format("only in {}", before) : changes_between(row, now->second);
     if (changes.empty()) {
       ++same;
       continue;

@@ -22,7 +22,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr const char* explanation =
+constexpr const char* about_stability =
     "Stiff and extreme cases, judged step by step by exact arithmetic. A cell says how many of its cases do not hold: "
     "one of the predicates below fails, the scene's exact answer is missed, or the contender's limits are passed. A "
     "click on it says why, and which command repeats it.";
@@ -94,7 +94,7 @@ class StabilityRun {
     for (std::size_t k = 0; k < borders_.size(); ++k)
       for (const std::size_t index : cases_of(borders_[k].sweep)) jobs_.push_back({true, k, index});
     page_.title = "stability";
-    page_.paragraphs = {explanation};
+    page_.paragraphs = {about_stability};
     for (const Predicate& predicate : stability_predicates())
       page_.paragraphs.push_back(predicate.name + ": " + predicate.meaning + ".");
     page_.table.heading = {"scene", "contender", "verdict", "reason"};

@@ -18,7 +18,7 @@ using Of = Answer::Of;
 const Vec2d& end_of(const TraceStep& step) { return step.path.back().position; }
 
 /// The same by which a contender may hang.
-double own_reach(const TraceHeader& header) {
+double reach_of_answers(const TraceHeader& header) {
   const double reach = detail::reach_of(header).contact;
   return reach > detail::exact_reach.contact ? reach : 0;
 }
@@ -66,7 +66,7 @@ std::string told(const Answer& answer, const std::string& number) {
 }  // namespace
 
 AnswerCheck::AnswerCheck(const std::vector<Answer>& answers, const TraceHeader& header)
-    : reach_(own_reach(header)), late_(header.path_exact ? 0 : 1) {
+    : reach_(reach_of_answers(header)), late_(header.path_exact ? 0 : 1) {
   const bool follows_law = header.contender == paperproof::name_of(TechniqueKind::octagon_sweep);
   for (const Answer& answer : answers) {
     if (answer.by_law && !follows_law) continue;

@@ -10,7 +10,7 @@ namespace paperproof::compare {
 namespace {
 
 /// A velocity that enters a surface by no more than this share of its length runs along it.
-constexpr double along = 1e-9;
+constexpr double grazing = 1e-9;
 /// Normals whose cross product is smaller are of one direction.
 constexpr double one_direction = 1e-9;
 /// Share of a velocity that is rounding in Box2D.
@@ -21,7 +21,7 @@ double cross(const Vec2d& a, const Vec2d& b) { return a.x() * b.y() - a.y() * b.
 double entering(const Vec2d& v, const MetSurface& at) { return (v - at.velocity).dot(at.normal); }
 
 bool enters(const Vec2d& v, const MetSurface& at) {
-  return entering(v, at) < -along * std::max(1.0, (v - at.velocity).norm());
+  return entering(v, at) < -grazing * std::max(1.0, (v - at.velocity).norm());
 }
 
 Vec2d slid(const Vec2d& v, const MetSurface& at) { return v - entering(v, at) * at.normal; }

@@ -8,7 +8,7 @@ namespace paperproof::compare {
 namespace {
 
 /// As one word of a shell.
-std::string quoted(const std::string& word) {
+std::string shell_word(const std::string& word) {
   constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./=:,+-";
   if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
   std::string text = "'";
@@ -19,7 +19,7 @@ std::string quoted(const std::string& word) {
 }  // namespace
 
 std::string command_of(const Case& one) {
-  std::string text = fmt::format("paperproof compare {}", quoted(one.scene));
+  std::string text = fmt::format("paperproof compare {}", shell_word(one.scene));
   for (const Case::Setting& each : one.parameters) text += fmt::format(" --set {}={}", each.key, each.value);
   text += fmt::format(" --contender {}", one.contender);
   if (one.scalar != "double") text += fmt::format(" --scalar {}", one.scalar);

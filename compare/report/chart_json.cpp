@@ -42,7 +42,7 @@ ordered_json json_of(const ChartGrid& grid) {
 }
 
 template <class Item>
-ordered_json list_of(const std::vector<Item>& items) {
+ordered_json list_in_json(const std::vector<Item>& items) {
   ordered_json list = ordered_json::array();
   for (const Item& item : items) list.push_back(json_of(item));
   return list;
@@ -51,9 +51,12 @@ ordered_json list_of(const std::vector<Item>& items) {
 }  // namespace
 
 std::string chart_page_json(const ChartPage& page) {
-  const ordered_json data{
-      {"title", page.title},          {"paragraphs", page.paragraphs}, {"charts", list_of(page.charts)},
-      {"grids", list_of(page.grids)}, {"heading", page.table.heading}, {"rows", page.table.rows}};
+  const ordered_json data{{"title", page.title},
+                          {"paragraphs", page.paragraphs},
+                          {"charts", list_in_json(page.charts)},
+                          {"grids", list_in_json(page.grids)},
+                          {"heading", page.table.heading},
+                          {"rows", page.table.rows}};
   return script_safe(data.dump(-1, ' ', false, ordered_json::error_handler_t::replace));
 }
 

@@ -37,12 +37,6 @@ std::string dumped(const nlohmann::json& value) {
   return script_safe(value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
-std::string list_of(const std::vector<std::string>& objects) {
-  JsonArray list;
-  for (const std::string& object : objects) list.add_raw(object);
-  return std::move(list).take();
-}
-
 }  // namespace
 
 std::string scene_index_json(const ReportScene& scene) {

@@ -81,4 +81,10 @@ std::int64_t Quantum::round(double metres) const noexcept {
   return std::isfinite(metres) ? std::llround(metres / metres_) : 0;
 }
 
+std::string list_of(const std::vector<std::string>& objects) {
+  JsonArray list;
+  for (const std::string& object : objects) list.add_raw(object);
+  return std::move(list).take();
+}
+
 }  // namespace paperproof::compare

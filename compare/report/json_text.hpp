@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace paperproof::compare {
 
@@ -66,5 +67,8 @@ class Quantum {
  private:
   double metres_ = 1;
 };
+
+/// A list of objects that are JSON already.
+[[nodiscard]] std::string list_of(const std::vector<std::string>& objects);
 
 }  // namespace paperproof::compare

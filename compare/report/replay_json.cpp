@@ -109,12 +109,6 @@ Sceneries sceneries_of(const ReportScene& scene, const Quantum& quantum) {
   return sceneries;
 }
 
-std::string list_of(const std::vector<std::string>& items) {
-  JsonArray list;
-  for (const std::string& item : items) list.add_raw(item);
-  return std::move(list).take();
-}
-
 std::string position_json(const Vec2d& position, const Quantum& quantum) {
   return std::move(JsonArray().add(quantum.round(position.x())).add(quantum.round(position.y()))).take();
 }

@@ -13,7 +13,7 @@ namespace {
 constexpr double panel_width = 84;
 constexpr double panel_height = 170;
 constexpr double gap = 8;
-constexpr double top = 40;
+constexpr double strip_top = 40;
 constexpr double margin = 8;
 
 struct Box {
@@ -69,7 +69,7 @@ class View {
     return left_ + panel_width / 2 + (point.x() - middle_.x()) * scale_;
   }
   [[nodiscard]] double y(const Vec2d& point) const {
-    return top + panel_height / 2 - (point.y() - middle_.y()) * scale_;
+    return strip_top + panel_height / 2 - (point.y() - middle_.y()) * scale_;
   }
   [[nodiscard]] std::vector<double> flat(const std::vector<Vec2d>& points, const Vec2d& offset) const {
     std::vector<double> pixels;
@@ -128,7 +128,7 @@ std::string svg_of_strip(const std::string& title, const std::vector<StripPanel>
     if (const TraceStep* record = record_of(panel, step))
       for (const PathPoint<double>& corner : record->path)
         for (const Vec2d& point : panel.run->header.points) box.grow(corner.position + point);
-  Svg svg(2 * margin + static_cast<double>(panels.size()) * (panel_width + gap) - gap, top + panel_height + 78);
+  Svg svg(2 * margin + static_cast<double>(panels.size()) * (panel_width + gap) - gap, strip_top + panel_height + 78);
   svg.text(margin, 24, "start", title, "title");
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const StripPanel& panel = panels[i];
@@ -139,14 +139,14 @@ std::string svg_of_strip(const std::string& title, const std::vector<StripPanel>
       svg.raw(
           fmt::format("<clipPath id=\"p{}\"><rect x=\"{:.0f}\" y=\"{:.0f}\" width=\"{:.0f}\" height=\"{:.0f}\"/>"
                       "</clipPath>\n<g clip-path=\"url(#p{})\">\n",
-                      i, left, top, panel_width, panel_height, i));
+                      i, left, strip_top, panel_width, panel_height, i));
       draw_scenery(svg, view, *panel.run, *record);
       draw_way(svg, view, *panel.run, *record, i);
       svg.raw("</g>\n");
     }
-    svg.rectangle(left, top, panel_width, panel_height, record != nullptr ? "frame" : "none");
-    write_below(svg, left + panel_width / 2, top + panel_height + 18, panel.name, "t");
-    write_below(svg, left + panel_width / 2, top + panel_height + 52, panel.words,
+    svg.rectangle(left, strip_top, panel_width, panel_height, record != nullptr ? "frame" : "none");
+    write_below(svg, left + panel_width / 2, strip_top + panel_height + 18, panel.name, "t");
+    write_below(svg, left + panel_width / 2, strip_top + panel_height + 52, panel.words,
                 record == nullptr ? "quiet"
                 : panel.bad       ? "bad"
                                   : "good");
