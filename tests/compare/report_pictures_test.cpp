@@ -16,7 +16,7 @@ ordered_json shot(const std::string& contender, double speed, double thickness, 
       {"scene", "paper"},   {"contender", contender},
       {"scalar", "double"}, {"verdict", tunnels > 0 ? "tunnels" : "holds"},
       {"case", "x"},        {"parameters", {{"speed_m_s", speed}, {"thickness_m", thickness}, {"angle_deg", angle}}},
-      {"tunnels", tunnels}, {"command", "paperproof compare paper"}};
+      {"tunnels", tunnels}, {"command", "paperproof compare paper --no-reference"}};
 }
 
 /// Two speeds and two thicknesses; at the higher speed the thin paper lets one of two through.
