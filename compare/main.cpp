@@ -12,7 +12,6 @@
 #include "command/sweep_command.hpp"
 #include "records/output_file.hpp"
 #include "scenes/load.hpp"
-#include "studies/prepared_sweeps.hpp"
 #include "studies/scale.hpp"
 
 #include <fcntl.h>
@@ -23,6 +22,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <exception>
+#include <functional>
 #include <memory>
 #include <new>
 #include <optional>
@@ -127,21 +127,26 @@ void add_compare(CLI::App& app, int& status) {
   on_parsed(command, status, words, compare);
 }
 
-/// The options that `sweep` and the prepared sweeps have alike.
-void add_sweep_options(CLI::App& command, SweepArguments& arguments) {
-  add_contenders(command, arguments.contenders);
-  add_scalars(command, arguments.scalars);
-  add_knobs(command, arguments.knobs);
-  add_outputs(command, arguments.rows_path, arguments.pages);
-  add_log(command, arguments.log_path);
-  add_jobs(command, arguments.jobs);
-  command.add_option("--limit", arguments.limit_s, "A case that takes longer than this fails; 60 s where not given")
+/// The options that `sweep` and the prepared studies have alike.
+void add_run_options(CLI::App& command, RunArguments& run, CaseArguments& cases) {
+  add_contenders(command, cases.contenders);
+  add_scalars(command, cases.scalars);
+  add_knobs(command, cases.knobs);
+  add_outputs(command, run.rows_path, run.pages);
+  add_log(command, run.log_path);
+  add_jobs(command, run.jobs);
+  command.add_option("--limit", run.limit_s, "A case that takes longer than this fails; 60 s where not given")
       ->type_name("SECONDS")
       ->check(expect_whole_number(1'000'000));
-  command.add_option("--shard", arguments.shard, "Every N-th case, from the K-th on; `merge` puts the parts together")
+  command.add_option("--shard", run.shard, "Every N-th case, from the K-th on; `merge` puts the parts together")
       ->type_name("K/N");
-  add_flag(command, "--resume", arguments.resume, "Go on behind the rows that the file of --rows has");
-  add_flag(command, "--quiet", arguments.quiet, "No table, no progress");
+  add_flag(command, "--resume", run.resume, "Go on behind the rows that the file of --rows has");
+  add_flag(command, "--quiet", run.quiet, "No table, no progress");
+}
+
+void forget_repeats(CaseArguments& cases) {
+  cases.contenders = without_repeats(cases.contenders);
+  cases.scalars = without_repeats(cases.scalars);
 }
 
 /// Options of `sweep` as typed.
@@ -156,8 +161,7 @@ int sweep(const SweepWords& words) {
   SweepArguments arguments = words.arguments;
   arguments.seed = seed_of(words.input);
   arguments.reference = !words.no_reference;
-  arguments.contenders = without_repeats(arguments.contenders);
-  arguments.scalars = without_repeats(arguments.scalars);
+  forget_repeats(arguments.cases);
   return sweep_command(arguments);
 }
 
@@ -169,32 +173,29 @@ void add_sweep(CLI::App& app, int& status) {
   command->add_option("--vary", arguments.vary, "An axis: a parameter of the scene (see `list parameters`) or a knob")
       ->type_name("KEY=FIRST:LAST:logN|linN|a,b,c")
       ->allow_extra_args(false);
-  command->add_option("--find-border", arguments.border, "Bisect this parameter to where a contender ceases to hold")
-      ->type_name("KEY");
+  command
+      ->add_option("--find-border", arguments.border,
+                   "Bisect this parameter, over its range or a part of it, to where a contender ceases to hold")
+      ->type_name("KEY[=FIRST:LAST]");
   add_settings(*command, arguments.set);
   add_steps(*command, arguments.steps);
   add_input(*command, words->input);
-  add_sweep_options(*command, arguments);
+  add_run_options(*command, arguments.run, arguments.cases);
   add_flag(*command, "--no-reference", words->no_reference, "Without Box2D, where no contender is named");
   add_flag(*command, "--no-timing", words->no_timing, "A sweep measures no costs anyway");
   on_parsed(*command, status, words, sweep);
 }
 
-void add_prepared_sweep(CLI::App& study, const PreparedSweep& prepared, int& status) {
-  struct Words {
-    std::string grid = "quick";
-    SweepArguments arguments;
-  };
-  CLI::App& command = *study.add_subcommand(prepared.name, prepared.help);
-  const auto words = std::make_shared<Words>();
-  add_grid_size(command, words->grid);
-  add_sweep_options(command, words->arguments);
-  on_parsed(command, status, words, [&prepared](Words& typed) {
-    typed.arguments.scene = prepared.scene;
-    typed.arguments.vary = typed.grid == "full"       ? prepared.full
-                           : typed.grid == "standard" ? prepared.standard
-                                                      : prepared.quick;
-    return sweep_command(typed.arguments);
+/// A study that is a list of sweeps.
+void add_swept_study(CLI::App& study, const char* name, const char* help, int& status,
+                     const std::function<int(const PreparedArguments&)>& run) {
+  CLI::App& command = *study.add_subcommand(name, help);
+  const auto arguments = std::make_shared<PreparedArguments>();
+  add_grid_size(command, arguments->grid);
+  add_run_options(command, arguments->run, arguments->cases);
+  on_parsed(command, status, arguments, [run](PreparedArguments& typed) {
+    forget_repeats(typed.cases);
+    return run(typed);
   });
 }
 
@@ -237,13 +238,12 @@ void add_studies(CLI::App& app, int& status) {
   CLI::App& study = *app.add_subcommand("study", "One question over a range, as numbers and as a picture");
   study.require_subcommand(1);
   add_scale(study, status);
-  const auto bullets = std::make_shared<StudyArguments>();
-  CLI::App& bullet = add_study(study, "bullet", "Who gets through paper: rates, and the lowest speeds beside theory",
-                               bullets, study_bullet_command, status);
-  add_grid_size(bullet, bullets->grid);
-  add_jobs(bullet, bullets->jobs);
-  add_log(bullet, bullets->log_path);
-  for (const PreparedSweep& prepared : prepared_sweeps()) add_prepared_sweep(study, prepared, status);
+  add_swept_study(study, "bullet", "Who gets through paper: rates, and the lowest speeds beside theory", status,
+                  study_bullet_command);
+  for (const PreparedStudy& prepared : prepared_studies())
+    add_swept_study(study, prepared.name, prepared.help, status, [&prepared](const PreparedArguments& arguments) {
+      return study_prepared_command(prepared, arguments);
+    });
   add_disagreement(study, status);
 
   const auto precise = std::make_shared<StudyArguments>();

@@ -115,7 +115,7 @@ class Comparison {
     inputs_.run([this](const std::string&, const Scene& scene) { run_one(scene); },
                 [this](const std::string& name, const InputError& error) {
                   refuse(name, error);
-                  if (rows_file_) rows_file_->add(refused_.back());
+                  rows_file_->add(refused_.back());
                 });
     progress_.clear();
     finish();
@@ -158,9 +158,8 @@ class Comparison {
 
   /// Everything is opened before the first step: who waited for an hour wants to be able to keep the result.
   void open_outputs() {
-    if (!arguments_.rows_path.empty()) rows_file_.emplace(arguments_.rows_path, environment());
-    for (const Row& refused : refused_)
-      if (rows_file_) rows_file_->add(refused);
+    rows_file_.emplace(arguments_.rows_path, rows_header(environment()));
+    for (const Row& refused : refused_) rows_file_->add(refused);
     if (arguments_.pages.wanted()) open_pages();
     if (!arguments_.run.trace_stem.empty()) const OutputFile probe(arguments_.run.trace_stem + ".jsonl");
   }
@@ -192,7 +191,7 @@ class Comparison {
     for (const Row& row : result.rows) {
       totals_.add(row);
       rows_.push_back(row);
-      if (rows_file_) rows_file_->add(row);
+      rows_file_->add(row);
     }
     if (tolerances_.empty()) tolerances_ = tolerances_of(result);
     if (report_) report_->add(result);
@@ -253,11 +252,9 @@ class Comparison {
   }
 
   void finish() {
-    std::vector<Row> all = refused_;
-    all.insert(all.end(), rows_.begin(), rows_.end());
-    nlohmann::ordered_json rows = rows_json(all, environment());
-    if (shows_gallery_) rows["gallery"] = gallery_json(gallery_of(rows_));
-    if (rows_file_) rows_file_->finish(rows);
+    nlohmann::ordered_json gallery = nlohmann::ordered_json::object();
+    if (shows_gallery_) gallery["gallery"] = gallery_json(gallery_of(rows_));
+    rows_file_->finish(gallery);
     std::vector<ReportSection> sections;
     if (shows_gallery_) sections.push_back({gallery_title, gallery_lines(gallery_of(rows_))});
     std::vector<ReportSection> reported = sections;
@@ -265,10 +262,18 @@ class Comparison {
     if (report_) report_->finish(environment(), tolerances_, totals_.lines(), reported);
     if (arguments_.explain) sections.push_back(exemptions_section());
     if (arguments_.json)
-      print_out(rows.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n');
+      print_json(gallery);
     else if (!arguments_.quiet)
       print_summary(sections);
     if (report_ && !arguments_.quiet && !arguments_.json) print_out("report: " + arguments_.pages.report + '\n');
+  }
+
+  void print_json(const nlohmann::ordered_json& more) const {
+    std::vector<Row> all = refused_;
+    all.insert(all.end(), rows_.begin(), rows_.end());
+    nlohmann::ordered_json rows = rows_json(all, environment());
+    rows.update(more);
+    print_out(rows.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n');
   }
 
   CompareArguments& arguments_;
@@ -280,11 +285,11 @@ class Comparison {
   double steps_ = 0;    ///< Of all scenes.
   double steps_done_ = 0;
   std::optional<Forecast> forecast_;
-  bool printed_ = false;        ///< A scene was printed.
-  bool shows_gallery_ = false;  ///< A set of scenes was asked for.
-  std::optional<RowsFile> rows_file_;
-  std::vector<Row> refused_;  ///< One for each input that cannot be used.
-  std::vector<Row> rows_;     ///< Of what ran.
+  bool printed_ = false;               ///< A scene was printed.
+  bool shows_gallery_ = false;         ///< A set of scenes was asked for.
+  std::optional<RowsFile> rows_file_;  ///< Opened with the other outputs.
+  std::vector<Row> refused_;           ///< One for each input that cannot be used.
+  std::vector<Row> rows_;              ///< Of what ran.
   Totals totals_;
   ReportOptions report_options_;
   std::optional<ReportWriter> report_;

@@ -1,19 +1,14 @@
-#include "command/study_command.hpp"
-
-#include "command/claimed_files.hpp"
 #include "command/progress.hpp"
+#include "command/study_command.hpp"
+#include "command/study_outputs.hpp"
 #include "records/output_file.hpp"
-#include "records/rows_file.hpp"
-#include "runs/environment.hpp"
 #include "studies/scale.hpp"
 
 #include <paperproof/techniques.hpp>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <cstdio>
-#include <optional>
 
 namespace paperproof::compare {
 namespace {
@@ -67,8 +62,7 @@ ChartPage page_of(const std::vector<ScalePoint>& points) {
   page.title = "cost of a step against the number of pieces";
   page.paragraphs = {
       "A character walks and jumps at random over tiles of 1 m, with octagon_sweep in double. What is near it stays "
-      "the "
-      "same; only the level around it grows. Minimum of nine runs after a warm-up, all kinds taking turns in one "
+      "the same; only the level around it grows. Minimum of nine runs after a warm-up, all kinds taking turns in one "
       "process.",
       growth_sentence(points),
       "The candidates of a step are kept for the next ones, so that the broad phase is asked only now and then."};
@@ -89,23 +83,15 @@ ChartPage page_of(const std::vector<ScalePoint>& points) {
 }  // namespace
 
 int study_scale_command(const ScaleArguments& arguments) {
-  ClaimedFiles files;
-  files.claim_for_option("--rows", arguments.rows_path);
-  files.claim_for_option("--report", arguments.pages.report);
-  std::optional<RowsFile> rows_file;
-  if (!arguments.rows_path.empty()) rows_file.emplace(arguments.rows_path, environment());
-  PageOutputs pages(arguments.pages);
-
+  StudyOutputs outputs(arguments.rows_path, arguments.pages);
   const Progress progress(!arguments.quiet);
   const std::vector<ScalePoint> points =
       study_scale(arguments.grid, [&](double share) { progress.show("study scale,", share); });
   progress.clear();
 
-  std::vector<Row> rows;
   bool same = true;
   for (const ScalePoint& point : points) {
-    rows.push_back(row_of(point));
-    if (rows_file) rows_file->add(rows.back());
+    outputs.add(row_of(point));
     same = same && point.same_bits;
   }
   if (!arguments.quiet) {
@@ -113,8 +99,7 @@ int study_scale_command(const ScaleArguments& arguments) {
     for (const ScalePoint& point : points) text += line_of(cells_of(point));
     print_out(fmt::format("{}\n{}\n", text, growth_sentence(points)));
   }
-  if (rows_file) rows_file->finish(rows_json(rows, environment()));
-  pages.finish(page_of(points));
+  outputs.finish(page_of(points));
   return same ? 0 : 1;
 }
 

@@ -184,7 +184,8 @@ class StabilityRun {
       const ordered_json& rows = rows_[regions_.size() + k];
       columns[0].cells.emplace_back(borders_[k].name);
       columns[1].cells.emplace_back(rows.front().value("border", *borders_[k].sweep.border));
-      columns[2].cells.emplace_back(fmt::format("{:g} to {:g}", borders_[k].least, borders_[k].most));
+      columns[2].cells.emplace_back(
+          fmt::format("{:g} to {:g}", borders_[k].sweep.border_range->first, borders_[k].sweep.border_range->second));
       std::vector<std::string> words;
       for (std::size_t n = 0; n < names.size(); ++n) {
         const auto row =

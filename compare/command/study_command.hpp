@@ -1,5 +1,5 @@
-/// `paperproof work-precision`, `paperproof stability`, `paperproof study scale`, `paperproof study bullet` and
-/// `paperproof study disagreement`: one question over a range, as numbers and as a picture.
+/// `paperproof work-precision`, `paperproof stability`, `paperproof study scale` and `paperproof study disagreement`:
+/// one question over a range, as numbers and as a picture.
 ///
 /// All throw InputError for arguments that cannot be used, and std::runtime_error where an output cannot be written.
 #pragma once
@@ -19,21 +19,17 @@ struct StudyArguments {
   PagePaths pages;
   std::string log_path;        ///< Empty: none.
   int jobs = 0;                ///< Not of `work-precision`; 0: one for each core.
-  std::string grid = "quick";  ///< Of `study bullet` and `stability`: quick, standard or full.
+  std::string grid = "quick";  ///< Of `stability`: quick, standard or full.
   bool quiet = false;          ///< No table, no progress.
 };
 
-/// Error against run time. Refuses a build with assertions, whose times mean nothing.
+/// Error against run time. Refuses a build with assertions, which take time of their own.
 /// @return the exit status: 0, or 1 if a run failed.
 int work_precision_command(const StudyArguments& arguments);
 
 /// Stiff and extreme cases.
 /// @return the exit status: 0, or 1 if octagon_sweep in double broke its guarantee.
 int stability_command(const StudyArguments& arguments);
-
-/// Bullets and paper: rates of tunnelling over a grid, and the lowest speeds beside theory.
-/// @return the exit status: 0, or 1 if octagon_sweep in double got through.
-int study_bullet_command(const StudyArguments& arguments);
 
 struct DisagreementArguments {
   std::vector<std::string> scenes;  ///< Empty: every registered one.

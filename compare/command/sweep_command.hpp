@@ -1,38 +1,51 @@
-/// `paperproof sweep`: many Cases, on many cores and machines.
+/// `paperproof sweep` and the prepared studies: many Cases, on many cores and machines.
 #pragma once
 
-#include "studies/sweep.hpp"
+#include "command/study_run.hpp"
+#include "studies/prepared_studies.hpp"
 
-#include "command/page_outputs.hpp"
-
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace paperproof::compare {
 
-struct SweepArguments {
-  std::string scene;
-  std::vector<std::string> vary;   ///< As typed.
-  std::vector<std::string> set;    ///< The same.
-  std::vector<std::string> knobs;  ///< The same.
+/// What the options say of the cases, as typed.
+struct CaseArguments {
   std::vector<std::string> contenders;
   std::vector<std::string> scalars;
-  std::optional<std::string> border;
+  std::vector<std::string> knobs;
+};
+
+struct SweepArguments {
+  RunArguments run;
+  CaseArguments cases;
+  std::string scene;
+  std::vector<std::string> vary;      ///< As typed.
+  std::vector<std::string> set;       ///< The same.
+  std::optional<std::string> border;  ///< The same.
   std::optional<std::uint64_t> seed;
   std::optional<int> steps;
   bool reference = true;
-  std::string rows_path;  ///< Empty: none.
-  PagePaths pages;
-  std::string log_path;  ///< Of the progress; the same.
-  int jobs = 0;          ///< 0: one for each core.
-  int limit_s = 60;      ///< Of one case.
-  std::string shard;     ///< `K/N`; empty: all.
-  bool resume = false;
-  bool quiet = false;
 };
 
 /// @return the exit status: 0, or 1 if octagon_sweep in double broke its guarantee or a case failed.
 /// @throws InputError before any output file is touched; std::runtime_error if one cannot be written.
 int sweep_command(const SweepArguments& arguments);
+
+struct PreparedArguments {
+  RunArguments run;
+  CaseArguments cases;
+  std::string grid = "quick";
+};
+/// `study corner`, `study seam`, `study squeeze`. As `sweep_command`.
+int study_prepared_command(const PreparedStudy& study, const PreparedArguments& arguments);
+
+/// `study bullet`: rates of tunnelling over grids, and the lowest speeds beside theory. As `sweep_command`.
+int study_bullet_command(const PreparedArguments& arguments);
+
+/// Turns the knobs and takes the number types that the options ask for, in every part; leaves contenders out that they
+/// do not name. @throws InputError where they name what there is not.
+void apply(const CaseArguments& arguments, std::vector<StudyPart>& parts);
 
 }  // namespace paperproof::compare

@@ -51,29 +51,43 @@ std::string quoted(const std::string& text) {
 }  // namespace
 
 RowsFile::Format RowsFile::format_of(const std::string& path) {
+  if (path.empty()) return Format::none;
   const std::string extension = std::filesystem::path(path).extension().string();
   if (extension == ".jsonl") return Format::json_lines;
   return extension == ".csv" ? Format::csv : Format::json;
 }
 
-RowsFile::RowsFile(const std::string& path, const Environment& environment)
-    : format_(format_of(path)),
-      file_(path, format_ == Format::json_lines ? OutputFile::Appears::as_written : OutputFile::Appears::whole) {
-  if (format_ != Format::json_lines) return;
-  file_.write(json_line(rows_header(environment)));
-  file_.flush();
+RowsFile::RowsFile(const std::string& path, ordered_json header, bool continued)
+    : format_(format_of(path)), header_(std::move(header)) {
+  using Appears = OutputFile::Appears;
+  if (format_ == Format::none) return;
+  if (format_ != Format::json_lines) {
+    file_.emplace(path, Appears::whole);
+    return;
+  }
+  file_.emplace(path, continued ? Appears::continued : Appears::as_written);
+  if (!continued) add(json_line(header_));
 }
 
 void RowsFile::add(const std::string& line) {
-  if (format_ != Format::json_lines) return;
-  file_.write(line);
-  file_.flush();
+  if (format_ == Format::none) return;
+  if (format_ != Format::json_lines) {
+    rows_.push_back(ordered_json::parse(line));
+    return;
+  }
+  file_->write(line);
+  file_->flush();
 }
 
-void RowsFile::finish(const ordered_json& document) {
-  if (format_ == Format::csv) file_.write(rows_csv(document.at("rows")));
-  if (format_ == Format::json) file_.write(document.dump(1, ' ', false, ordered_json::error_handler_t::replace) + '\n');
-  file_.commit();
+void RowsFile::finish(const ordered_json& more) {
+  if (format_ == Format::none) return;
+  if (format_ == Format::csv) file_->write(rows_csv(rows_));
+  if (format_ == Format::json) {
+    header_["rows"] = std::move(rows_);
+    header_.update(more);
+    file_->write(header_.dump(1, ' ', false, ordered_json::error_handler_t::replace) + '\n');
+  }
+  file_->commit();
 }
 
 std::string rows_csv(const ordered_json& rows) {

@@ -7,29 +7,33 @@
 #include <nlohmann/json.hpp>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 namespace paperproof::compare {
 
 /// `.jsonl` grows in place: the header first, then a line for each row as soon as it is known, so that a kill keeps
-/// what is done. `.csv` and everything else (JSON) appear whole at the end. Not thread-safe. Throws what OutputFile
-/// throws.
+/// what is done. `.csv` and everything else (JSON) keep their rows in memory and appear whole at the end. Not
+/// thread-safe. Throws what OutputFile throws.
 class RowsFile {
  public:
-  RowsFile(const std::string& path, const Environment& environment);
+  /// @param path empty: nothing is written. @param header see `rows_header`.
+  /// @param continued a file of JSON Lines that has its header and some rows: more are appended.
+  RowsFile(const std::string& path, nlohmann::ordered_json header, bool continued = false);
   void add(const Row& row) { add(json_line(row_json(row))); }
   /// A row as it stands in a file, with its line feed.
   void add(const std::string& line);
-  /// To be called once, last.
-  /// @param document with all the rows, as of `rows_json`.
-  void finish(const nlohmann::ordered_json& document);
+  /// To be called once, last. @param more of a JSON file, behind its rows.
+  void finish(const nlohmann::ordered_json& more = nlohmann::ordered_json::object());
 
  private:
-  enum class Format : std::uint8_t { json, json_lines, csv };
+  enum class Format : std::uint8_t { none, json, json_lines, csv };
   [[nodiscard]] static Format format_of(const std::string& path);
 
   Format format_;
-  OutputFile file_;
+  nlohmann::ordered_json header_;
+  nlohmann::ordered_json rows_ = nlohmann::ordered_json::array();  ///< Of JSON and CSV.
+  std::optional<OutputFile> file_;
 };
 
 /// Rows as comma-separated values (RFC 4180), a line each below the line of keys. A column stands where its key first

@@ -1,4 +1,5 @@
-/// The built-in scenes by theme, and what they are made from. Only the registry and the tests include this.
+/// The built-in scenes by theme, and what they are made from. The registry, the
+/// motions of work-precision and the tests include this.
 #pragma once
 
 #include "scenes/load.hpp"
@@ -28,6 +29,7 @@ namespace paperproof::compare {
 [[nodiscard]] std::vector<SceneFamily> body_families();     ///< Stacks, a plank on springs.
 [[nodiscard]] std::vector<SceneFamily> angle_families();    ///< Wedges.
 [[nodiscard]] std::vector<SceneFamily> tight_families();    ///< Spikes, corners, what closes in.
+[[nodiscard]] std::vector<SceneFamily> moving_families();   ///< Paper that comes.
 [[nodiscard]] std::vector<SceneFamily> play_families();     ///< Slopes.
 [[nodiscard]] std::vector<SceneFamily> crowd_families();    ///< Crowds, and long play.
 

@@ -1,6 +1,7 @@
 /// What moves: scenes 15 to 19.
 #include "scenes/built_in.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace paperproof::compare {
@@ -52,18 +53,26 @@ Scene closing_ceiling() {
   return scene;
 }
 
-/// A thin upright paper comes at 20 m/s to a character that stands; from its left arm it is 1.9 m away.
-Scene sweeping_paper() {
-  Scene scene = flight(0, half_height + 0.02, 0, 0, 90);
+/// A thin upright paper comes to a character that stands, 1.9 m from its left arm and a share of a step's way more. It
+/// goes 10 m, or four steps where these are longer, and stops.
+Scene moving_paper(const ParameterValues& values) {
+  const double speed = values["closing"];
+  const double thickness = values["thickness"];
+  Scene scene = flight(0, half_height + 0.02, 0, 0, 0);
   scene.gravity = {0, -30};
-  add_box(scene, "floor", -40, -1, 40, 0);
-  constexpr double start = -half_width - 1.9;
-  add_box(scene, "paper", start - 0.01, 0.1, start, 4);
-  move_last(scene, {{.time = 0, .at = {0, 0}}, {.time = 0.5, .at = {10, 0}}});
-  // It takes the paper's speed along, and half a second later leaves it.
-  const double step_x = 20 * scene.dt;
-  scene.answers = {contact(1.9 / step_x, step_x).to("paper"), is(Answer::Of::speed, 20, {1, 0}), farthest({-1, 0}, 0)};
-  ends_at(scene, start + 10 + half_width + 20 * (scene.dt * scene.steps - 0.5), half_height);
+  const double step_x = speed * scene.dt;
+  const double way = std::max(10.0, 4 * step_x);
+  const double lasts = way / speed;
+  scene.steps = static_cast<int>(std::ceil((lasts + 1) / scene.dt));
+  add_box(scene, "floor", -40, -1, std::max(40.0, way + 1.1 * speed), 0);
+  const double gap = 1.9 + values["phase"] * step_x;
+  const double start = -half_width - gap;
+  add_box(scene, "paper", start - thickness, 0.1, start, 4);
+  move_last(scene, {{.time = 0, .at = {0, 0}}, {.time = lasts, .at = {way, 0}}});
+  // It takes the paper's speed along, and leaves it where it stops.
+  scene.answers = {contact(gap / step_x, step_x).to("paper"), is(Answer::Of::speed, speed, {1, 0}),
+                   farthest({-1, 0}, 0)};
+  ends_at(scene, start + way + half_width + speed * (scene.dt * scene.steps - lasts), half_height);
   return scene;
 }
 
@@ -123,6 +132,15 @@ Scene turning_arm() {
 
 }  // namespace
 
+std::vector<SceneFamily> moving_families() {
+  return {{"moving_paper",
+           "a paper comes to a character that stands: met, then pushed along",
+           {{"closing", "m_s", 0.1, 1e5, 20, "speed of the paper"},
+            {"thickness", "m", 1e-6, 1, 0.01, "of the paper"},
+            {"phase", "", 0, 1, 0, "share of a step's way by which it begins farther away"}},
+           moving_paper}};
+}
+
 std::vector<BuiltInScene> moving_scenes() {
   return {
       {"lift_up", "stands on a lift up and down again: carried without a lag, one contact begins", lift_up},
@@ -132,8 +150,8 @@ std::vector<BuiltInScene> moving_scenes() {
       {"closing_ceiling",
        "a ceiling 1.07 m above its head comes down at 3 m/s: crushed in step 21, where gap / (v h) = 21.4 falls",
        closing_ceiling},
-      {"sweeping_paper", "a paper 1.9 m away comes at 20 m/s: met after 0.095 s, then pushed along, side kept",
-       sweeping_paper},
+      {"sweeping_paper", "a paper 1.9 m away comes at 20 m/s: met after 0.095 s, then pushed along, side kept", nullptr,
+       "moving_paper"},
       {"head_on", "30 m/s against a paper at 18 m/s, 2 m away: t = d / (v1 + v2), in step 2 at t = 0.5", head_on},
       {"papers_swap", "two papers pass each other around a character: neither is met", papers_swap},
       {"rotating_paper", "a paper turns beside a character: only who can turn what moves may run it", rotating_paper},

@@ -149,7 +149,7 @@ const std::vector<SceneFamily>& scene_families() {
   static const std::vector<SceneFamily> all = [] {
     std::vector<SceneFamily> families;
     for (auto theme : {paper_families(), limit_families(), ground_families(), extreme_families(), body_families(),
-                       angle_families(), tight_families(), play_families(), crowd_families()})
+                       angle_families(), tight_families(), moving_families(), play_families(), crowd_families()})
       families.insert(families.end(), std::make_move_iterator(theme.begin()), std::make_move_iterator(theme.end()));
     return families;
   }();

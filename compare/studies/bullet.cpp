@@ -1,7 +1,9 @@
 #include "studies/bullet.hpp"
 
+#include "oracle/exemptions.hpp"
 #include "runs/contestant.hpp"
 #include "runs/run_case.hpp"
+#include "scenes/built_in.hpp"
 
 #include <fmt/format.h>
 
@@ -13,8 +15,7 @@ namespace paperproof::compare {
 namespace {
 
 constexpr double usual_step = 1.0 / 60;  ///< [s]
-constexpr double pixel = 1.0 / 32;       ///< Unit and pixel of every technique that has one [m].
-constexpr double height = 1.25;          ///< Of the character [m].
+constexpr double height = 2 * half_height;
 constexpr std::array rows_of_points{0.0, 0.3125, 0.9375, 1.25};
 constexpr double fastest = 3000;  ///< [m/s]
 /// Where points are sparse the speeds that get through begin as windows, some of them narrower than 1 %.
@@ -35,38 +36,26 @@ bool leaves_a_gap(double circumference, double length) {
 
 double pixels_drawn(double thickness) { return std::max(0.0, std::ceil(thickness / pixel - 0.5)); }
 
-std::string axis_of(std::size_t count, double first, double last, const char* kind) {
-  return fmt::format("{}:{}:{}{}", first, last, kind, count);
+std::string axis_of(int count, double first, double last, const char* key, const char* kind) {
+  return fmt::format("{}{}:{}:{}{}", key, first, last, kind, count);
 }
 
 }  // namespace
 
-std::string BulletContender::called() const {
-  std::string text = name;
-  for (const Case::Setting& knob : knobs) text += fmt::format(" {}={}", knob.key, knob.value);
-  return text;
+std::vector<Contender> bullet_contenders() {
+  return all_contenders_and(
+      {{"box2d", {{"continuous", "off"}}}, {"box2d", {{"bullet", "off"}, {"solids", "dynamic"}}}});
 }
 
-std::vector<BulletContender> bullet_contenders(const std::vector<std::string>& wanted) {
-  std::vector<BulletContender> all;
-  const auto is_wanted = [&](std::string_view name) {
-    return wanted.empty() || std::find(wanted.begin(), wanted.end(), name) != wanted.end();
-  };
-  for (const std::string_view name : contender_names())
-    if (is_wanted(name)) all.push_back({std::string(name)});
-  if (!is_wanted("box2d")) return all;
-  all.push_back({"box2d", {{"continuous", "off"}}});
-  all.push_back({"box2d", {{"bullet", "off"}, {"solids", "dynamic"}}});
-  return all;
-}
+namespace {
 
-Sweep bullet_sweep(GridSize size, const BulletContender& contender) {
+Sweep bullet_sweep(GridSize size, const Contender& contender) {
   struct Counts {
-    std::size_t speeds;
+    int speeds;
     const char* thickness;
     const char* angles;
-    std::size_t phases;
-    std::size_t promised_phases;
+    int phases;
+    int promised_phases;
     const char* steps;
   };
   constexpr Counts quick{12, "thickness=0.001,0.01,0.1,0.5", "angle=90,45", 3, 12, "dt=0.016666666666666666"};
@@ -79,24 +68,69 @@ Sweep bullet_sweep(GridSize size, const BulletContender& contender) {
                         1000,
                         "dt=0.03333333333333333,0.016666666666666666,0.006944444444444444"};
   const Counts& counts = size == GridSize::quick ? quick : size == GridSize::standard ? standard : full;
-  const std::size_t phases = is_guaranteed(contender.name, "double") ? counts.promised_phases : counts.phases;
+  const int phases = is_guaranteed(contender.name, "double") ? counts.promised_phases : counts.phases;
   Sweep sweep;
   sweep.scene = "paper";
-  const auto last = static_cast<double>(phases - 1) / static_cast<double>(phases);
+  const double last = (phases - 1.0) / phases;
   for (const std::string& axis :
-       {"speed=" + axis_of(counts.speeds, 5, 5000, "log"), std::string(counts.thickness), std::string(counts.angles),
-        "phase=" + axis_of(phases, 0, last, "lin"), std::string(counts.steps)})
+       {axis_of(counts.speeds, 5, 5000, "speed=", "log"), std::string(counts.thickness), std::string(counts.angles),
+        axis_of(phases, 0, last, "phase=", "lin"), std::string(counts.steps)})
     sweep.axes.push_back(parse_axis(axis));
-  sweep.contenders = {contender.name};
-  sweep.knobs = contender.knobs;
+  sweep.contenders = {contender};
   return sweep;
 }
 
-std::vector<double> bullet_thicknesses() { return {0.01, 0.1}; }
+StudyPart moving_paper_part(GridSize size) {
+  constexpr std::array counts{std::pair{6, 2}, std::pair{24, 8}, std::pair{80, 32}};
+  const auto [speeds, phases] = counts[static_cast<std::size_t>(size)];
+  StudyPart part{moving_paper_title, {}, {}};
+  part.sweep.scene = "moving_paper";
+  for (const std::string& axis : {axis_of(speeds, 5, 5000, "closing=", "log"), std::string("thickness=0.001,0.1"),
+                                  axis_of(phases, 0, 1 - 1.0 / phases, "phase=", "lin")})
+    part.sweep.axes.push_back(parse_axis(axis));
+  part.sweep.contenders = all_contenders_and({{"box2d", {{"movers", "transform"}}}});
+  return part;
+}
+
+StudyPart far_part(GridSize size) {
+  StudyPart part{far_title, {}, {}};
+  part.sweep.scene = "far";
+  part.sweep.axes.push_back(parse_axis(axis_of(size == GridSize::quick ? 8 : 24, 100, 1e6, "origin=", "log")));
+  part.sweep.contenders = all_contenders_and({});
+  return part;
+}
 
 int phases_of(GridSize size) { return size == GridSize::quick ? 24 : size == GridSize::standard ? 160 : 400; }
 
-Row lowest_speed_through(const BulletContender& contender, double thickness, int phases) {
+StudyPart lowest_speeds_part(GridSize size) {
+  StudyPart part{lowest_speeds_title, {}, {}};
+  part.sweep.scene = "paper";
+  SweepAxis thickness{"thickness", {}};
+  for (const double value : bullet_thicknesses()) thickness.values.push_back(fmt::format("{}", value));
+  part.sweep.axes = {thickness};
+  part.sweep.contenders = bullet_contenders();
+  part.sweep.border = "speed";
+  part.run = [sweep = part.sweep, phases = phases_of(size)](std::size_t index) {
+    const std::size_t contenders = sweep.contenders.size();
+    return lowest_speed_through(sweep.contenders[index % contenders], bullet_thicknesses()[index / contenders], phases);
+  };
+  return part;
+}
+
+}  // namespace
+
+std::vector<double> bullet_thicknesses() { return {0.01, 0.1}; }
+
+std::vector<StudyPart> bullet_parts(GridSize size) {
+  std::vector<StudyPart> parts;
+  for (const Contender& contender : bullet_contenders()) parts.push_back({"", bullet_sweep(size, contender), {}});
+  parts.push_back(moving_paper_part(size));
+  parts.push_back(far_part(size));
+  parts.push_back(lowest_speeds_part(size));
+  return parts;
+}
+
+Row lowest_speed_through(const Contender& contender, double thickness, int phases) {
   Case one;
   one.scene = "paper";
   one.contender = contender.name;
@@ -120,9 +154,13 @@ Row lowest_speed_through(const BulletContender& contender, double thickness, int
   return find_border("speed_m_s", 1.6 * paper_per_step, fastest, over_phases);
 }
 
-BulletTheory bullet_theory(const BulletContender& contender, double thickness) {
+BulletTheory bullet_theory(const Contender& contender, double thickness) {
   const std::string& name = contender.name;
-  if (is_reference(name)) return contender.knobs.empty() ? BulletTheory{true} : BulletTheory{};
+  if (is_reference(name)) {
+    if (contender.knobs.empty()) return {true};
+    const double to_the_middle = contender.knobs.front().key == "continuous" ? 0 : thickness / 2;
+    return {true, (height / 2 + to_the_middle + box2d_skin) / usual_step};
+  }
   if (name == "octagon_sweep" || name == "speculative") return {true};
   const double drawn = pixels_drawn(thickness) * pixel;
   if (name == "penetration_resolution") return {true, thickness / usual_step};

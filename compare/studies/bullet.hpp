@@ -1,7 +1,7 @@
 /// The study of bullets and paper: who passes, at which speeds, and what theory says.
 #pragma once
 
-#include "studies/sweep.hpp"
+#include "studies/prepared_studies.hpp"
 
 #include <optional>
 #include <string>
@@ -10,22 +10,19 @@
 
 namespace paperproof::compare {
 
-enum class GridSize : std::uint8_t { quick, standard, full };
-
-/// A contender with knobs of its own.
-struct BulletContender {
-  std::string name;
-  std::vector<Case::Setting> knobs{};
-  [[nodiscard]] std::string called() const;  ///< `box2d bullet=off solids=dynamic`
-};
-
 /// All contenders, and Box2D with continuous collision off, and with a non-bullet against dynamic paper.
-/// @param wanted names; empty: all of these.
-[[nodiscard]] std::vector<BulletContender> bullet_contenders(const std::vector<std::string>& wanted);
+[[nodiscard]] std::vector<Contender> bullet_contenders();
 
-/// Speed × thickness × angle × phase × length of a step. Whoever promises to let nothing through, octagon_sweep, is
-/// tried at more phases: over a million cases on the standard grid.
-[[nodiscard]] Sweep bullet_sweep(GridSize size, const BulletContender& contender);
+/// The parts of the study, in this order:
+/// - without a title, one for each contender: speed × thickness × angle × phase × length of a step. Whoever promises to
+///   let nothing through, octagon_sweep, is tried at more phases: over a million cases on the standard grid;
+/// - `moving_paper_title`: paper that comes to a character that stands; for Box2D also put there by SetTransform;
+/// - `far_title`: a wall far from the origin;
+/// - `lowest_speeds_title`: for each contender and thickness `lowest_speed_through`.
+[[nodiscard]] std::vector<StudyPart> bullet_parts(GridSize size);
+inline constexpr const char* moving_paper_title = "paper that comes";
+inline constexpr const char* far_title = "a wall far from the origin";
+inline constexpr const char* lowest_speeds_title = "lowest speeds";
 
 /// The thicknesses at which the lowest speed is looked for [m].
 [[nodiscard]] std::vector<double> bullet_thicknesses();
@@ -33,8 +30,7 @@ struct BulletContender {
 /// The lowest speed at which it passes the paper head-on, over so many phases [m/s]: `border_low` and `border_high` of
 /// the row, as of `find_border`. It looks from 0.9 times the speed that goes through the paper's thickness in one step:
 /// in fine strides up to 1.6 times that, then in coarse ones up to 3,000 m/s. `border_high` alone: at any speed.
-[[nodiscard]] Row lowest_speed_through(const BulletContender& contender, double thickness, int phases);
-[[nodiscard]] int phases_of(GridSize size);
+[[nodiscard]] Row lowest_speed_through(const Contender& contender, double thickness, int phases);
 
 /// What theory says about that speed, for the article's character (feet, arms and head at 0, 0.3125, 0.9375 and 1.25
 /// m), head-on, in steps of 1/60 s, over all phases. A way of s = speed · dt per step lets it through
@@ -47,11 +43,15 @@ struct BulletContender {
 /// - `pixel_colour`, `pixel_tile`: at any speed where no pixel is drawn, else never: they look at each pixel.
 /// - `bounding_box`, `discrete`: s > height + thickness: they look at where a step ends.
 /// - `speculative`, `octagon_sweep`, Box2D with continuous collision: never.
+/// - Box2D with `continuous=off`: s > height / 2 + 20 mm. Its contacts begin at 20 mm, and its static solids are
+///   one-sided chains, which hold nobody whose middle is behind them.
+/// - Box2D with `bullet=off solids=dynamic`: s > (height + thickness) / 2 + 20 mm. Dynamic paper is a box, which pushes
+///   whoever overlaps it the shorter way out.
 struct BulletTheory {
   bool known = false;
   std::optional<double> lowest{};  ///< [m/s]; none: never. 0: at any speed.
 };
-[[nodiscard]] BulletTheory bullet_theory(const BulletContender& contender, double thickness);
+[[nodiscard]] BulletTheory bullet_theory(const Contender& contender, double thickness);
 
 /// Wilson's interval of 95 % for a rate (Wilson 1927, "Probable inference, the law of succession, and statistical
 /// inference").

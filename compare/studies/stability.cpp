@@ -165,34 +165,28 @@ SweepAxis thinned(SweepAxis axis) {
 Sweep sweep_of(const char* scene, const std::vector<std::string>& contenders) {
   Sweep sweep;
   sweep.scene = scene;
-  sweep.contenders = contenders.empty() ? std::vector<std::string>{"octagon_sweep", "box2d"} : contenders;
+  for (const std::string& name : contenders) sweep.contenders.push_back({name});
+  if (contenders.empty()) sweep.contenders = {{"octagon_sweep"}, {"box2d"}};
   sweep.scalars = {"double", "float"};
   return sweep;
 }
 
-double parameter_of(const Row& row, const char* key) {
-  const auto found =
-      std::find_if(row.parameters.begin(), row.parameters.end(), [&](const auto& each) { return each.first == key; });
-  return found == row.parameters.end() ? 0 : found->second;
-}
-
 /// How far apart numbers are at the place of a row [m].
 double ulp_of(const Row& row) {
-  const double place = std::abs(parameter_of(row, "origin_m")) + 1;
+  const double place = std::abs(parameter_of(row, "origin_m").value_or(0)) + 1;
   return place * (row.scalar == "float" ? static_cast<double>(std::numeric_limits<float>::epsilon())
                                         : std::numeric_limits<double>::epsilon());
 }
 
-bool promises(const Row& row) { return row.contender == "octagon_sweep" && row.scalar == "double"; }
-
 /// @param words of the fault. @param promised by §6 of the guarantee.
 void conclude(Row& row, bool holds, const std::string& words, bool promised = false) {
-  if (!holds) add_fault(row, Axis::answer, promised && promises(row) ? Verdict::violates : Verdict::flagged, words);
+  if (!holds)
+    add_fault(row, Axis::answer, promised && is_guaranteed(row) ? Verdict::violates : Verdict::flagged, words);
 }
 
 void judge_drift(Row& row) {
   if (!row.rest_peak_to_peak_m || row.characters) return;
-  const double bound = std::max(promises(row) ? promised_drift : visible_drift, roundings_of_place * ulp_of(row));
+  const double bound = std::max(is_guaranteed(row) ? promised_drift : visible_drift, roundings_of_place * ulp_of(row));
   row.drift_ok = *row.rest_peak_to_peak_m <= bound;
   conclude(row, *row.drift_ok, fmt::format("drifts by {:.3g} m at rest", *row.rest_peak_to_peak_m), true);
 }
@@ -207,8 +201,6 @@ void judge_energy(Row& row) {
   judge(row.energy_gained_j_kg, row.energy_bound_j_kg, "J/kg");
   judge(row.body_energy_gained_j, row.body_energy_bound_j, "J in bodies");
 }
-
-bool was_judged(const Row& row) { return row.verdict != Verdict::failed && row.verdict != Verdict::not_applicable; }
 
 void take_events_of(const Row& expected, Row& row) {
   if (row.event_sequence.empty() || expected.event_sequence.empty()) return;
@@ -287,7 +279,8 @@ std::vector<StabilityBorder> stability_borders(const std::vector<std::string>& c
     Sweep sweep = sweep_of(border.scene, contenders);
     sweep.set = border.set;
     sweep.border = border.key;
-    made.push_back({border.name, std::move(sweep), border.least, border.most, border.most_off});
+    sweep.border_range = {border.least, border.most};
+    made.push_back({border.name, std::move(sweep), border.most_off});
   }
   return made;
 }
@@ -302,7 +295,7 @@ Row run_at(const StabilityBorder& border, std::size_t index) {
     return border.most_off > 0 ? row.answer_error && *row.answer_error <= border.most_off
                                : row.verdict == Verdict::holds;
   };
-  return border_at(border.sweep, index, {run, holds, border.least, border.most, border_strides});
+  return border_at(border.sweep, index, {run, holds, border_strides});
 }
 
 }  // namespace paperproof::compare

@@ -42,8 +42,6 @@ void judge_stability(Row& row, bool has_slopes = false);
 struct StabilityBorder {
   std::string name;
   Sweep sweep;  ///< With a border.
-  double least = 0;
-  double most = 0;
   /// Only this is asked: that no answer of the scene is missed by more [in its unit]. 0: all predicates are, and the
   /// answers to the letter.
   double most_off = 0;

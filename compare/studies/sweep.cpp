@@ -82,8 +82,13 @@ bool was_made(const Row& row) {
 }  // namespace
 
 bool is_safe(const Row& row) {
-  return row.verdict != Verdict::failed && row.verdict != Verdict::not_applicable && row.tunnels.value_or(0) == 0 &&
-         row.steps_ending_inside.value_or(0) == 0;
+  return was_judged(row) && row.tunnels.value_or(0) == 0 && row.steps_ending_inside.value_or(0) == 0;
+}
+
+std::string Contender::called() const {
+  std::string text = name;
+  for (const Case::Setting& knob : knobs) text += fmt::format(" {}={}", knob.key, knob.value);
+  return text;
 }
 
 SweepAxis parse_axis(std::string_view text) {
@@ -102,6 +107,18 @@ SweepAxis parse_axis(std::string_view text) {
   return axis;
 }
 
+void parse_border(const std::string& text, Sweep& sweep) {
+  const std::size_t equals = text.find('=');
+  sweep.border = text.substr(0, equals);
+  if (equals == std::string::npos) return;
+  const std::vector<std::string_view> ends = parts_of(std::string_view(text).substr(equals + 1), ':');
+  const std::optional<double> first = number_in<double>(ends.front());
+  const std::optional<double> last = number_in<double>(ends.back());
+  if (ends.size() != 2 || !first || !last || *first >= *last)
+    refuse("--find-border " + text, "expected KEY or KEY=FIRST:LAST");
+  sweep.border_range = {*first, *last};
+}
+
 std::size_t Sweep::size() const {
   std::size_t size = contenders.size() * scalars.size();
   for (const SweepAxis& axis : axes) size *= axis.values.size();
@@ -112,7 +129,6 @@ Case Sweep::at(std::size_t index) const {
   Case one;
   one.scene = scene;
   one.parameters = set;
-  one.knobs = knobs;
   one.seed = seed;
   one.steps = steps;
   const auto take = [&index](const auto& values) {
@@ -120,7 +136,9 @@ Case Sweep::at(std::size_t index) const {
     index /= values.size();
     return value;
   };
-  one.contender = take(contenders);
+  const Contender who = take(contenders);
+  one.contender = who.name;
+  one.knobs = who.knobs;
   one.scalar = take(scalars);
   std::vector<Case::Setting> varied;
   for (auto axis = axes.rbegin(); axis != axes.rend(); ++axis) varied.push_back({axis->key, take(axis->values)});
@@ -133,17 +151,35 @@ void check(const Sweep& sweep) {
   for (const SweepAxis& axis : sweep.axes)
     for (const std::string& value : axis.values) check_value(sweep.scene, axis.key, value);
   for (const Case::Setting& each : sweep.set) check_value(sweep.scene, each.key, each.value);
-  if (sweep.border && !is_parameter(sweep.scene, *sweep.border)) check_setting(sweep.scene, {*sweep.border, 0});
+  if (sweep.border) {
+    const ParameterDef* def = nullptr;
+    const std::vector<ParameterDef> all = parameters_of(sweep.scene);
+    def = find_parameter(all, *sweep.border);
+    if (def == nullptr) check_setting(sweep.scene, {*sweep.border, 0});  // says what there is
+    const auto [least, most] = sweep.border_range.value_or(std::pair{def->least, def->most});
+    for (const double end : {least, most}) check_setting(sweep.scene, {*sweep.border, end});
+  }
   static_cast<void>(load_scene(sweep.scene, {}));
 }
 
-std::string id_of(const Sweep& sweep) {
-  Case all = sweep.at(0);
-  all.scene += sweep.border ? " border " + *sweep.border : "";
-  for (const SweepAxis& axis : sweep.axes) all.scene += fmt::format(" {}={}", axis.key, fmt::join(axis.values, ","));
-  all.contender = fmt::format("{}", fmt::join(sweep.contenders, ","));
-  all.scalar = fmt::format("{}", fmt::join(sweep.scalars, ","));
-  return id_of(all);
+std::string id_of(const std::vector<StudyPart>& parts) {
+  std::string text;
+  for (const StudyPart& part : parts) {
+    const Sweep& sweep = part.sweep;
+    text += command_of(sweep.at(0));
+    if (sweep.border) text += " border " + *sweep.border;
+    if (sweep.border_range) text += fmt::format(" {}:{}", sweep.border_range->first, sweep.border_range->second);
+    for (const SweepAxis& axis : sweep.axes) text += fmt::format(" {}={}", axis.key, fmt::join(axis.values, ","));
+    for (const Contender& who : sweep.contenders) text += ' ' + who.called();
+    text += fmt::format(" {}\n", fmt::join(sweep.scalars, ","));
+  }
+  return hash_of(text);
+}
+
+PartCase part_case(const std::vector<StudyPart>& parts, std::size_t index) {
+  PartCase place{0, index};
+  for (; place.index >= parts[place.part].sweep.size(); ++place.part) place.index -= parts[place.part].sweep.size();
+  return place;
 }
 
 Row run_at(const Sweep& sweep, std::size_t index) {
@@ -155,23 +191,29 @@ Row border_at(const Sweep& sweep, std::size_t index, const BorderSearch& search)
   const Case one = sweep.at(index);
   const std::vector<ParameterDef> all = parameters_of(sweep.scene);
   const ParameterDef& def = *find_parameter(all, *sweep.border);
+  const auto [least, most] = sweep.border_range.value_or(std::pair{def.least, def.most});
   const auto run_with = [&](double value) {
     Case at = one;
     at.parameters.push_back({*sweep.border, text_of(value)});
     return search.run(at);
   };
-  Row row = find_border(row_key(def), search.least.value_or(def.least), search.most.value_or(def.most), run_with,
-                        search.strides, search.holds);
+  Row row = find_border(row_key(def), least, most, run_with, search.strides, search.holds);
   std::erase_if(row.parameters, [&](const auto& each) { return each.first == row_key(def); });
   return row;
 }
 
-Jobs jobs_of(const Sweep& sweep, std::size_t count, const std::function<std::size_t(std::size_t)>& case_of) {
+Jobs jobs_of(const std::vector<StudyPart>& parts, std::size_t count,
+             const std::function<std::size_t(std::size_t)>& case_of) {
   Jobs jobs;
   jobs.count = count;
-  jobs.run = [&sweep, case_of](std::size_t job) { return json_line(row_json(run_at(sweep, case_of(job)))); };
-  jobs.lost = [&sweep, case_of](std::size_t job, const std::string& reason) {
-    return json_line(row_json(failed_row(sweep.at(case_of(job)), reason)));
+  jobs.run = [&parts, case_of](std::size_t job) {
+    const PartCase place = part_case(parts, case_of(job));
+    const StudyPart& part = parts[place.part];
+    return json_line(row_json(part.run ? part.run(place.index) : run_at(part.sweep, place.index)));
+  };
+  jobs.lost = [&parts, case_of](std::size_t job, const std::string& reason) {
+    const PartCase place = part_case(parts, case_of(job));
+    return json_line(row_json(failed_row(parts[place.part].sweep.at(place.index), reason)));
   };
   return jobs;
 }

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace paperproof::compare {
@@ -24,45 +25,68 @@ struct SweepAxis {
 /// @throws InputError in words for anything else; at most 1,000,000 values.
 [[nodiscard]] SweepAxis parse_axis(std::string_view text);
 
+/// Who runs: a contender with knobs of its own.
+struct Contender {
+  std::string name;
+  std::vector<Case::Setting> knobs{};
+  [[nodiscard]] std::string called() const;  ///< `box2d bullet=off solids=dynamic`
+};
+
 struct Sweep {
   std::string scene;
   std::vector<Case::Setting> set;  ///< The same for all.
   std::vector<SweepAxis> axes;     ///< The last one varies fastest, behind it scalar and contender.
-  std::vector<std::string> contenders;
+  std::vector<Contender> contenders;
   std::vector<std::string> scalars{"double"};
-  std::vector<Case::Setting> knobs;
   std::optional<std::uint64_t> seed;
   std::optional<int> steps;
   /// Parameter that is bisected instead of varied, to where a contender ceases to hold: one row for each combination of
   /// the others.
   std::optional<std::string> border;
+  std::optional<std::pair<double, double>> border_range;  ///< Looked over; absent: all that the parameter takes.
 
   [[nodiscard]] std::size_t size() const;
   [[nodiscard]] Case at(std::size_t index) const;
 };
 
+/// One of the sweeps of a study.
+struct StudyPart {
+  std::string title;  ///< Of its maps and its table; parts of one title are shown together.
+  Sweep sweep;
+  std::function<Row(std::size_t index)> run{};  ///< Of a case; none: `run_at`.
+};
+
+/// Reads `KEY`, or `KEY=FIRST:LAST`, as a sweep's border. @throws InputError in words for anything else.
+void parse_border(const std::string& text, Sweep& sweep);
+
 /// @throws InputError where an axis or a setting is no parameter of the scene and no knob, or out of its range, and
 /// where the scene cannot be used at all.
 void check(const Sweep& sweep);
 
-/// Tells two sweeps apart: 16 hexadecimal digits.
-[[nodiscard]] std::string id_of(const Sweep& sweep);
+/// Tells two studies apart: 16 hexadecimal digits.
+[[nodiscard]] std::string id_of(const std::vector<StudyPart>& parts);
 
 /// The row of a Case; with a border, of its bisection.
 [[nodiscard]] Row run_at(const Sweep& sweep, std::size_t index);
 
-/// Cases of a sweep as jobs, each of which gives a line of JSON. `take` is still to be set.
-/// @param sweep is to live as long as the jobs.
-/// @param case_of the index in the sweep of a job.
-[[nodiscard]] Jobs jobs_of(const Sweep& sweep, std::size_t count,
+/// A case of one of several sweeps.
+struct PartCase {
+  std::size_t part = 0;   ///< Which of the sweeps.
+  std::size_t index = 0;  ///< In it.
+};
+/// Where a case is in sweeps that stand one behind the other. @param index among all their cases.
+[[nodiscard]] PartCase part_case(const std::vector<StudyPart>& parts, std::size_t index);
+
+/// Cases of sweeps that stand one behind the other as jobs, each of which gives a line of JSON. `take` is still to be
+/// set.
+/// @param parts are to live as long as the jobs. @param case_of the index of a job among all cases.
+[[nodiscard]] Jobs jobs_of(const std::vector<StudyPart>& parts, std::size_t count,
                            const std::function<std::size_t(std::size_t)>& case_of);
 
 /// How the border of a sweep is looked for.
 struct BorderSearch {
   std::function<Row(const Case&)> run;    ///< As a rule `run_case`.
   std::function<bool(const Row&)> holds;  ///< As a rule `is_safe`.
-  std::optional<double> least{};          ///< Absent: the least and the most that the parameter takes.
-  std::optional<double> most{};
   int strides = 64;
 };
 /// The row of the bisection of a sweep's border.

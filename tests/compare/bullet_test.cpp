@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 namespace paperproof::compare {
 namespace {
 
@@ -26,24 +28,67 @@ TEST(BulletTheory, is_as_worked_out_by_hand) {
   // The rows 0, 0.3125, 0.9375, 1.25 leave a gap of circles from 0.10385 m on.
   EXPECT_NEAR(bullet_theory({"wind_back"}, 0.1).lowest.value(), 6.2308, 1e-3);
   EXPECT_TRUE(bullet_theory({"octagon_sweep"}, 0.01).known);
-  EXPECT_FALSE(bullet_theory({"box2d", {{"continuous", "off"}}}, 0.01).known);
+  EXPECT_NEAR(bullet_theory({"box2d", {{"continuous", "off"}}}, 0.1).lowest.value(), 38.7, 1e-9);
+  EXPECT_NEAR(bullet_theory({"box2d", {{"bullet", "off"}, {"solids", "dynamic"}}}, 0.1).lowest.value(), 41.7, 1e-9);
+  EXPECT_FALSE(bullet_theory({"box2d"}, 0.1).lowest);
 }
 
 TEST(LowestSpeed, measured_is_that_of_theory_as_near_as_the_phases_are) {
   constexpr int phases = 40;  // a window of a fortieth opens 2.5 % above the border
-  for (const char* name : {"penetration_resolution", "wind_back"}) {
-    const Row row = lowest_speed_through({name}, 0.1, phases);
-    const double theory = bullet_theory({name}, 0.1).lowest.value();
-    ASSERT_TRUE(row.border_high) << name;
-    EXPECT_GE(*row.border_high, theory) << name;
-    EXPECT_LE(*row.border_high, theory * 1.03) << name;
+  for (const Contender& contender :
+       {Contender{"penetration_resolution"}, Contender{"wind_back"}, Contender{"box2d", {{"continuous", "off"}}},
+        Contender{"box2d", {{"bullet", "off"}, {"solids", "dynamic"}}}}) {
+    const Row row = lowest_speed_through(contender, 0.1, phases);
+    const double theory = bullet_theory(contender, 0.1).lowest.value();
+    ASSERT_TRUE(row.border_high) << contender.called();
+    EXPECT_GE(*row.border_high, theory) << contender.called();
+    EXPECT_LE(*row.border_high, theory * 1.03) << contender.called();
   }
 }
 
-TEST(BulletSweep, tries_octagon_sweep_over_a_million_times_on_the_standard_grid) {
-  EXPECT_GE(bullet_sweep(GridSize::standard, {"octagon_sweep"}).size(), 1'000'000U);
-  for (const BulletContender& contender : bullet_contenders({}))
-    EXPECT_NO_THROW(check(bullet_sweep(GridSize::quick, contender))) << contender.called();
+TEST(BulletStudy, tries_octagon_sweep_over_a_million_times_on_the_standard_grid) {
+  for (const StudyPart& part : bullet_parts(GridSize::standard))
+    if (part.title.empty() && part.sweep.contenders.front().name == "octagon_sweep") {
+      EXPECT_GE(part.sweep.size(), 1'000'000U);
+    }
+}
+
+/// The cases of a part in which a contender passes a solid.
+int through_in(const std::vector<StudyPart>& parts, const std::string& title, const std::string& called) {
+  int through = 0;
+  for (const StudyPart& part : parts) {
+    if (part.title != title) continue;
+    Sweep sweep = part.sweep;
+    std::erase_if(sweep.contenders, [&](const Contender& one) { return one.called() != called; });
+    for (std::size_t index = 0; index < sweep.size(); ++index) through += run_at(sweep, index).tunnels.value_or(0) > 0;
+  }
+  return through;
+}
+
+TEST(PreparedStudies, find_the_holes_of_box2d_on_their_quick_grids) {
+  std::map<std::string, std::vector<StudyPart>> studies{{"bullet", bullet_parts(GridSize::quick)}};
+  for (const PreparedStudy& study : prepared_studies()) studies[study.name] = study.parts(GridSize::quick);
+  const std::string wedge = "a wedge hit at 100 m/s, by solver iterations";
+  EXPECT_GT(through_in(studies["corner"], wedge, "box2d"), 0);
+  EXPECT_GT(through_in(studies["squeeze"], "walls that close in", "box2d"), 0);
+  EXPECT_GT(through_in(studies["squeeze"], "a lift under a ceiling", "box2d movers=transform"), 0);
+  EXPECT_GT(through_in(studies["bullet"], moving_paper_title, "box2d movers=transform"), 0);
+  EXPECT_EQ(through_in(studies["bullet"], moving_paper_title, "box2d"), 0) << "moved by velocity";
+  EXPECT_GT(through_in(studies["bullet"], far_title, "box2d"), 0);
+  EXPECT_GT(through_in(studies["bullet"], "", "box2d bullet=off solids=dynamic"), 0);
+  for (auto& [name, parts] : studies)
+    for (const StudyPart& part : parts)
+      if (!part.title.empty()) {
+        EXPECT_EQ(through_in({part}, part.title, "octagon_sweep"), 0) << name << ": " << part.title;
+      }
+}
+
+TEST(PreparedStudies, ask_for_what_the_scenes_have_on_every_grid) {
+  std::vector<StudyPart> (*const makers[])(GridSize) = {bullet_parts, prepared_studies()[0].parts,
+                                                        prepared_studies()[1].parts, prepared_studies()[2].parts};
+  for (const auto& parts : makers)
+    for (const GridSize size : {GridSize::quick, GridSize::standard, GridSize::full})
+      for (const StudyPart& part : parts(size)) EXPECT_NO_THROW(check(part.sweep)) << part.title;
 }
 
 /// Of eight phases.

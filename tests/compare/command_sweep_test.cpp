@@ -56,7 +56,7 @@ TEST(CommandSweep, logs_how_far_it_is_to_a_file_of_its_own) {
   const Workplace place;
   EXPECT_EQ(place.run(sweep + "--rows r.jsonl --log progress.txt").status, 0);
   const std::string log = written(place, "progress.txt");
-  EXPECT_TRUE(holds(log, "sweep, 108 of 108 cases, 100.0 % in ")) << log;
+  EXPECT_TRUE(holds(log, "108 of 108 cases, 100.0 % in ")) << log;
   EXPECT_EQ(place.run(sweep + "--rows r.jsonl --log r.jsonl").status, 2);
   EXPECT_EQ(place.run(sweep + "--log nowhere/progress.txt").status, 2);
 }
@@ -113,7 +113,7 @@ TEST(CommandSweep, finds_a_border_and_writes_csv_and_a_page) {
 
 TEST(CommandStudy, corner_seam_and_squeeze_are_sweeps_prepared) {
   const Workplace place;
-  for (const auto& [study, rows] : {std::pair{"corner", 8}, {"seam", 12}, {"squeeze", 5}}) {
+  for (const auto& [study, rows] : {std::pair{"corner", 12 + 25 + 16}, {"seam", 100}, {"squeeze", 4 + 9 + 9}}) {
     const Finished finished =
         place.run(std::string("study ") + study + " --contender octagon_sweep --rows " + study + ".jsonl");
     EXPECT_EQ(finished.status, 0) << finished.err;
@@ -121,6 +121,36 @@ TEST(CommandStudy, corner_seam_and_squeeze_are_sweeps_prepared) {
     EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), rows + 1) << study;
     EXPECT_FALSE(holds(text, "\"verdict\":\"violates\""));
   }
+}
+
+TEST(CommandStudy, of_several_parts_is_sharded_merged_and_gone_on_with) {
+  const Workplace place;
+  const std::string study = "study squeeze --contender octagon_sweep,box2d --quiet --rows ";
+  EXPECT_EQ(place.run(study + "r.jsonl --report r.html").status, 0);
+  const std::string whole = written(place, "r.jsonl");
+  for (const char* part : {"1", "2"})
+    EXPECT_EQ(place.run(study + "s" + part + ".jsonl --shard " + part + "/2").status, 0);
+  EXPECT_EQ(place.run("merge s1.jsonl s2.jsonl --rows m.jsonl").status, 0);
+  EXPECT_EQ(rows_in(written(place, "m.jsonl")), rows_in(whole));
+  std::ofstream(place.path("k.jsonl"), std::ios::binary) << whole.substr(0, whole.size() / 2);
+  EXPECT_EQ(place.run(study + "k.jsonl --resume --report k.html").status, 0);
+  EXPECT_EQ(written(place, "k.jsonl"), whole);
+  EXPECT_EQ(written(place, "k.html"), written(place, "r.html")) << "rows from before the kill count in the maps";
+  for (const char* title : {"a fall down a shaft: ", "walls that close in: ", "a lift under a ceiling: "})
+    EXPECT_TRUE(holds(written(place, "r.html"), title)) << title;
+}
+
+TEST(CommandStudy, bullet_counts_gives_the_lowest_speeds_and_is_sharded) {
+  const Workplace place;
+  const std::string study = "study bullet --contender penetration_resolution,octagon_sweep ";
+  const Finished whole = place.run(study + "--rows r.jsonl");
+  EXPECT_EQ(whole.status, 0) << whole.err;
+  EXPECT_TRUE(holds(whole.out, "octagon_sweep            1152        0")) << whole.out;
+  EXPECT_TRUE(holds(whole.out, "paper that comes")) << whole.out;
+  for (const char* part : {"1", "2", "3"})
+    EXPECT_EQ(place.run(study + "--quiet --rows s" + part + ".jsonl --shard " + part + "/3").status, 0);
+  EXPECT_EQ(place.run("merge s1.jsonl s2.jsonl s3.jsonl --rows m.jsonl").status, 0);
+  EXPECT_EQ(rows_in(written(place, "m.jsonl")), rows_in(written(place, "r.jsonl")));
 }
 
 TEST(CommandDiff, names_what_changed_and_nothing_else) {

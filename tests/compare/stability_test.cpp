@@ -166,7 +166,7 @@ TEST(Plank, on_springs_gains_nothing_and_carries_up_to_the_nyquist_frequency) {
       StabilityRegion region;
       region.sweep.scene = one.scene;
       region.sweep.set = one.parameters;
-      region.sweep.contenders = {contender};
+      region.sweep.contenders = {{contender}};
       const Row row = run_at(region, 0);
       EXPECT_EQ(row.verdict, Verdict::holds) << stiffness << " " << contender << ": " << row.reason;
       EXPECT_EQ(row.body_energy_gained_j.has_value(), contender == std::string("box2d"));
@@ -206,7 +206,7 @@ TEST(StabilityRegions, tell_where_the_events_are_others) {
   StabilityRegion region;
   region.sweep.scene = "ramp";
   region.sweep.axes = {parse_axis("angle=10,70")};
-  region.sweep.contenders = {"octagon_sweep"};
+  region.sweep.contenders = {{"octagon_sweep"}};
   region.replicas_along = "angle";
   EXPECT_EQ(run_at(region, 0).events_ok, true);
   const Row other = run_at(region, 1);

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -39,7 +40,7 @@ Sweep paper_sweep() {
   Sweep sweep;
   sweep.scene = "paper";
   sweep.axes = {parse_axis("speed=10,40"), parse_axis("thickness=0.001,0.01,0.1")};
-  sweep.contenders = {"mask", "octagon_sweep"};
+  sweep.contenders = {{"mask"}, {"octagon_sweep"}};
   return sweep;
 }
 
@@ -54,6 +55,34 @@ TEST(Sweep, has_each_combination_once_with_the_contender_varying_fastest) {
   EXPECT_EQ(command_of(sweep.at(3)),
             "paperproof compare paper --set speed=10 --set thickness=0.01 --contender octagon_sweep --no-reference");
   EXPECT_EQ(id_of(sweep.at(0)), "a6e87314b7434c74") << "it changed: rows of earlier sweeps cannot be gone on with";
+}
+
+TEST(Sweep, of_several_each_has_its_cases_in_a_row) {
+  Sweep other = paper_sweep();
+  other.axes.pop_back();
+  const std::vector<StudyPart> parts{{"one", paper_sweep(), {}}, {"two", other, {}}, {"three", other, {}}};
+  const std::vector<std::array<std::size_t, 3>> places{{0, 0, 0}, {11, 0, 11}, {12, 1, 0}, {15, 1, 3}, {16, 2, 0}};
+  for (const auto& [index, part, in_part] : places) {
+    EXPECT_EQ(part_case(parts, index).part, part) << index;
+    EXPECT_EQ(part_case(parts, index).index, in_part) << index;
+  }
+  EXPECT_NE(id_of(parts), id_of({parts[1], parts[0], parts[2]}));
+}
+
+TEST(Sweep, reads_a_border_with_its_range) {
+  Sweep sweep;
+  parse_border("speed", sweep);
+  EXPECT_EQ(sweep.border, "speed");
+  EXPECT_FALSE(sweep.border_range);
+  parse_border("origin=-1e3:2e6", sweep);
+  EXPECT_EQ(sweep.border, "origin");
+  EXPECT_EQ(sweep.border_range, std::pair(-1e3, 2e6));
+  for (const char* wrong : {"speed=1", "speed=2:1", "speed=1:2:3", "speed=a:b", "speed="})
+    EXPECT_THROW(parse_border(wrong, sweep), InputError) << wrong;
+  sweep = paper_sweep();
+  sweep.border = "height";
+  sweep.border_range = {0.001, 1};
+  EXPECT_THROW(check(sweep), InputError) << "least is 0.01";
 }
 
 TEST(Sweep, refuses_keys_that_are_no_parameter_and_no_knob_and_values_out_of_range) {
