@@ -24,10 +24,9 @@ std::uint8_t only_excused(const std::vector<Contact<double>>& contacts, const St
 
 std::string named(std::uint8_t sides) {
   std::string text;
-  for (const auto& [side, name] : {std::pair{Side::bottom, "bottom"}, std::pair{Side::top, "top"},
-                                   std::pair{Side::left, "left"}, std::pair{Side::right, "right"}}) {
-    if ((sides >> static_cast<unsigned>(side) & 1U) != 0) text += (text.empty() ? "" : " and ") + std::string(name);
-  }
+  for (const Side side : {Side::bottom, Side::top, Side::left, Side::right})
+    if ((sides >> static_cast<unsigned>(side) & 1U) != 0)
+      text += (text.empty() ? "" : " and ") + std::string(name_of(side));
   return text.empty() ? "no contact" : text;
 }
 
@@ -132,7 +131,7 @@ void Agreement::note_positions(const TraceStep& mine, const StepJudgement& mine_
   if (!mine_broke_ && mine_judged.broke()) mine_broke_ = mine.step;
   if (!reference_broke_ && reference_judged.broke()) reference_broke_ = reference.step;
   if (!reference_capped_ && reference.capped) reference_capped_ = reference.step;
-  if (!(distance <= box2d_skin))
+  if (!(distance <= beyond_box2d_skin))
     apart_ = {mine.step, distance, !mine_judged.end_overlap.empty(), !reference_judged.end_overlap.empty()};
 }
 

@@ -26,8 +26,8 @@ struct SideDisagreement {
   std::string who_is_right;  ///< The same in words, with what each says.
 };
 
-/// Box2D keeps bodies this far apart by design: positions within it agree [m].
-inline constexpr double box2d_skin = 0.021;
+/// Positions that are nearer agree [m]: Box2D keeps bodies up to its skin apart by design.
+inline constexpr double beyond_box2d_skin = 0.021;
 
 /// Compares a contender with the reference (Box2D). Feed both runs' steps in order. Not thread-safe.
 ///

@@ -8,9 +8,6 @@
 namespace paperproof::compare {
 namespace {
 
-/// Box2D's least distance of two vertices of a chain: b2_linearSlop [m].
-constexpr double least_edge = 0.005;
-
 /// Whether a step wants no sideways motion, ends on the ground, and nothing else acts on the character.
 bool rests(const TraceStep& step, const StepJudgement& judged) {
   return step.grounded && step.requested.x() == 0 && step.met.empty() && judged.crushed.empty() &&
@@ -82,7 +79,7 @@ Ledger::Ledger(const LedgerParty& mine, const LedgerParty& reference, bool locks
   for (const ColliderDef& collider : reference.header->scenery.colliders)
     for (std::size_t i = 0; i < collider.points.size(); ++i) {
       const std::size_t next = (i + 1) % collider.points.size();
-      const bool close = (collider.points[next] - collider.points[i]).norm() < least_edge;
+      const bool close = (collider.points[next] - collider.points[i]).norm() < detail::least_edge;
       has_close_vertices_ = has_close_vertices_ || (collider.points.size() > 1 && close);
     }
 }

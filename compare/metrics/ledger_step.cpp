@@ -15,8 +15,6 @@ namespace {
 /// Cosine of the angle between two normals of one face, as far as Box2D's rounded corners know it.
 constexpr double same_face = 0.9;
 constexpr double ulp_of_float = 0x1p-23;
-/// Steps at rest that are for settling: see `Rest`.
-constexpr int settling = 30;
 using Touch = Contact<double>;
 
 bool is_touch(const ExactContact& exact, const Touch& touch) {
@@ -48,20 +46,6 @@ std::vector<ColliderIndex> crossed(const StepJudgement& judged) {
     for (const ColliderIndex collider : *more)
       if (!contains(all, collider)) all.push_back(collider);
   return all;
-}
-
-std::string_view in_words(Side side) {
-  switch (side) {
-    case Side::bottom:
-      return "bottom";
-    case Side::top:
-      return "top";
-    case Side::left:
-      return "left";
-    case Side::right:
-      return "right";
-  }
-  return "";
 }
 
 }  // namespace
@@ -102,7 +86,7 @@ std::vector<StepLedger::Event> StepLedger::events() {
 
 bool StepLedger::same_surface(const Touch& a, const Touch& b) const {
   if (!(a.normal.dot(b.normal) > same_face)) return false;
-  return a.collider == b.collider || std::abs((a.point - b.point).dot(b.normal)) <= skin + rounding_;
+  return a.collider == b.collider || std::abs((a.point - b.point).dot(b.normal)) <= box2d_skin + rounding_;
 }
 
 void StepLedger::match() {
@@ -122,14 +106,14 @@ void StepLedger::match() {
 }
 
 std::string StepLedger::named(const Touch& touch) const {
-  return fmt::format("{} `{}`, normal ({:.3g}, {:.3g}), at {:.4g}", in_words(touch.side),
+  return fmt::format("{} `{}`, normal ({:.3g}, {:.3g}), at {:.4g}", name_of(touch.side),
                      mine_.header->ids[touch.collider], touch.normal.x(), touch.normal.y(), touch.fraction);
 }
 
 /// A gap that Box2D's skin explains, or its rounding.
 std::optional<Cause> StepLedger::within_skin(double gap) const {
-  if (gap > 0 && gap <= skin) return Cause::skin;
-  if (gap > -rounding_ && gap <= skin + rounding_) return Cause::float_rounding;
+  if (gap > 0 && gap <= box2d_skin) return Cause::skin;
+  if (gap > -rounding_ && gap <= box2d_skin + rounding_) return Cause::float_rounding;
   return std::nullopt;
 }
 
@@ -159,7 +143,7 @@ bool StepLedger::is_capped_before(const Touch& touch) const {
   if (!r_.capped || !(r_.requested.norm() > longest_way)) return false;
   const auto impact =
       reference_.solids->time_of_impact(Place(r_.path.front(), r_.movers), r_.requested, touch.collider);
-  return impact && static_cast<double>(impact->fraction) * r_.requested.norm() > longest_way - skin;
+  return impact && static_cast<double>(impact->fraction) * r_.requested.norm() > longest_way - box2d_skin;
 }
 
 StepLedger::Event StepLedger::of_reference(const Touch& touch, EventKind kind) const {
@@ -307,7 +291,7 @@ void StepLedger::add_crossings() {
 void StepLedger::add_toggle() {
   if (before_ == nullptr) return;
   const auto toggles = [](const Ledger::Says& before, const Ledger::Says& now, int rests) {
-    return rests > settling + 1 && sides_of(before.step.contacts) != sides_of(now.step.contacts);
+    return rests > Rest::settling_steps + 1 && sides_of(before.step.contacts) != sides_of(now.step.contacts);
   };
   const auto has_reason = [](const Ledger::Says& before, const Ledger::Says& now) {
     return sides_of(before.judged.contacts) != sides_of(now.judged.contacts);

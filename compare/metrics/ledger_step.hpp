@@ -1,6 +1,7 @@
 /// The events of one step, for the ledger.
 #pragma once
 
+#include "contains.hpp"
 #include "metrics/ledger.hpp"
 #include "metrics/response_laws.hpp"
 #include "oracle/contacts.hpp"
@@ -13,16 +14,13 @@ namespace paperproof::compare::detail {
 /// Events that differ by less are the same [m]: what the guarantee allows for a time of impact.
 inline constexpr double same_event = 1e-6;
 /// Two sides that each keep to Box2D's skin are no further apart than this [m].
-inline constexpr double within_skins = 2 * skin;
+inline constexpr double within_skins = 2 * box2d_skin;
 /// See `Cause::float_rounding`.
 inline constexpr double ulps = 4;
+/// Box2D's least distance of two vertices of a chain (b2_linearSlop) [m]. Its twin's outlines are no further off.
+inline constexpr double least_edge = 0.005;
 /// The way of a step that Box2D travels at most [m].
 inline constexpr double longest_way = 2;
-
-template <class Range, class Value>
-[[nodiscard]] bool contains(const Range& range, const Value& value) {
-  return std::find(range.begin(), range.end(), value) != range.end();
-}
 
 [[nodiscard]] inline bool is_ghost(const StepJudgement& judged, const Contact<double>& touch) {
   return contains(judged.ghosts, std::pair(touch.collider, touch.side));

@@ -14,8 +14,6 @@ constexpr double same_velocity = 1e-9;
 constexpr double same_velocity_in_float = 1e-5;
 /// Rounds of Box2D's velocity solver.
 constexpr int solver_rounds = 8;
-/// The twin's loops are no further off than this: Box2D's least distance of two vertices [m].
-constexpr double moved_outline = 0.005;
 /// A ghost turns a velocity if it adds more than this along its normal [m/s].
 constexpr double turned = 1e-4;
 
@@ -62,9 +60,9 @@ std::vector<MetSurface> StepLedger::near_reference() const {
     if (!known) surfaces.push_back({.normal = normal, .velocity = velocity});
   };
   for (const PathPoint<double>& corner : r_.path)
-    for (const NearPart& part : reference_.solids->near_parts(Place(corner, r_.movers), skin + rounding_))
+    for (const NearPart& part : reference_.solids->near_parts(Place(corner, r_.movers), box2d_skin + rounding_))
       for (const NearFace& face : part.faces)
-        if (face.separation <= skin + rounding_) add(face.normal, part.moved / dt_);
+        if (face.separation <= box2d_skin + rounding_) add(face.normal, part.moved / dt_);
   return surfaces;
 }
 
@@ -117,7 +115,7 @@ bool StepLedger::follows_box2ds_law(std::optional<Cause>& otherwise) const {
       reported.push_back({.normal = touch.normal, .velocity = velocity_of(reference_, step, touch, dt_)});
     kept = step.velocity - step.requested / dt_;
   }
-  const double tilt = moved_outline / width_of(reference_.header->points);
+  const double tilt = least_edge / width_of(reference_.header->points);
   if (known_.close_vertices && (follows(reported) || is_turned_by_tilt(wanted, r_.velocity, near, tilt))) {
     otherwise = Cause::outline;
   } else if (is_short_of_limit(wanted, r_.velocity, near, kept, solver_rounds)) {

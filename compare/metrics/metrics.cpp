@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include "contains.hpp"
 
 namespace paperproof::compare {
 namespace {
@@ -10,11 +11,6 @@ namespace {
 void raise(std::optional<double>& maximum, double value) { maximum = std::max(maximum.value_or(value), value); }
 
 void count(std::optional<int>& counter, bool happened) { counter = counter.value_or(0) + (happened ? 1 : 0); }
-
-template <class Range, class Value>
-bool contains(const Range& range, const Value& value) {
-  return std::find(range.begin(), range.end(), value) != range.end();
-}
 
 std::string sentence(const TraceStep& step, const Passing& passing, const std::string& id) {
   char numbers[160];

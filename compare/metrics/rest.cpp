@@ -10,7 +10,6 @@
 namespace paperproof::compare {
 namespace {
 
-constexpr int settling_steps = 30;
 constexpr int least_steps = 60;
 constexpr std::size_t spectrum_steps = 512;
 

@@ -12,7 +12,7 @@ namespace paperproof::compare {
 /// Jitter at rest. A rest is a maximal run of at least 60 steps that want no horizontal motion, begins and ends with a
 /// grounded step, and has no gap longer than `longest_gap` between two of them: who hops on its floor rests, and that
 /// is its jitter. (A jump is a longer gap. Without gaps a technique that is grounded in every fourth step never rests,
-/// and has no number.) The first 30 steps are for settling and are not measured. The last rest of a run counts. Who
+/// and has no number.) The first `settling_steps` are not measured. The last rest of a run counts. Who
 /// stands on a mover rests relative to it: its motion is taken out of the wanted one and of the positions.
 /// - `rest_peak_to_peak_m`: the larger of the ranges of x and of y over the ends of the steps [m].
 /// - `rest_rms_m`: root mean square distance from the mean position [m].
@@ -23,6 +23,9 @@ class Rest {
   /// Without a grounded step [s]: the fall of 1.6 px under 10 m/s², of 4.8 px under 30. Shorter: a technique that
   /// pushes out by a unit and falls back never rests. Longer: low jumps would be jitter.
   static constexpr double longest_gap = 0.1;
+
+  /// Not measured [steps]. Shorter: a landing is jitter. Longer: short rests have no number.
+  static constexpr int settling_steps = 30;
 
   explicit Rest(const SceneryDef& scenery);
   /// @param dt of the step [s].

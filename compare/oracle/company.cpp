@@ -53,7 +53,7 @@ CompanyJudge::CompanyJudge(const TraceHeader& header)
       pair_(header.points),
       box_(box_of(header.points)),
       slop_(detail::slop_of(header)),
-      reach_(header.path_exact ? std::max(detail::contact_reach, tolerance_named(header, "touch")) : detail::skin) {}
+      reach_(header.path_exact ? std::max(detail::contact_reach, tolerance_named(header, "touch")) : box2d_skin) {}
 
 std::vector<CharacterIndex> CompanyJudge::overlapped(std::span<const Vec2d> positions, CharacterIndex character) const {
   std::vector<CharacterIndex> found;
@@ -108,7 +108,7 @@ bool CompanyJudge::may_meet(const TraceStep& one, const TraceStep& other) const 
   const auto covered = [this](const TraceStep& step) {
     const Box2<double> places = reach_of(step);
     const double size = std::max(places.lower.cwiseAbs().maxCoeff(), places.upper.cwiseAbs().maxCoeff());
-    return Box2<double>{places.lower + box_.lower, places.upper + box_.upper}.inflated(detail::skin + size * 0x1p-48);
+    return Box2<double>{places.lower + box_.lower, places.upper + box_.upper}.inflated(box2d_skin + size * 0x1p-48);
   };
   return covered(one).overlaps(covered(other));
 }

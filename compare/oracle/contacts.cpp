@@ -128,7 +128,7 @@ void ContactJudge::add_first_impacts(const std::vector<ExactImpact>& impacts, bo
   const double approach = std::abs(relative.dot(first->normal));
   judgement.first_impact = fraction;
   judgement.first_impact_comparable = !step_.stuck && !gives_way() &&
-                                      fraction * approach > (header_.path_exact ? contact_reach : skin) &&
+                                      fraction * approach > (header_.path_exact ? contact_reach : box2d_skin) &&
                                       approach >= least_approach * relative.norm();
 }
 
@@ -214,7 +214,7 @@ bool ContactJudge::pushed_by_skin(double wanted) const {
 
 /// The face of the solids taken together that is there to be touched along the reported normal: its own normal.
 std::optional<Vec2d> ContactJudge::face_of(const Contact<double>& contact) const {
-  const double reach = header_.path_exact ? 2 * std::max(contact_reach, touch_) : skin;
+  const double reach = header_.path_exact ? 2 * std::max(contact_reach, touch_) : box2d_skin;
   std::optional<Vec2d> most_alike;
   for (std::size_t i = 0; i < step_.path.size(); ++i) {
     Place beyond = place(i);
@@ -285,9 +285,9 @@ void ContactJudge::add_dont_care(StepJudgement& judgement) const {
   if (!header_.path_exact) {
     const Place start = place(0);
     const Place end = place(step_.path.size() - 1);
-    for (const ColliderIndex collider : scenery_.near(start, end, skin)) {
+    for (const ColliderIndex collider : scenery_.near(start, end, box2d_skin)) {
       const double gap = std::min(scenery_.separation(start, collider), scenery_.separation(end, collider));
-      if (gap <= skin) judgement.dont_care.push_back(collider);
+      if (gap <= box2d_skin) judgement.dont_care.push_back(collider);
     }
   }
   // One collider may have an exact contact on one side and deflect the motion into another side of itself: a valley.

@@ -1,12 +1,11 @@
 /// What a step should have reported as contacts, and what it lost to nothing.
 #pragma once
 
+#include "oracle/exemptions.hpp"
 #include "oracle/judge.hpp"
 
 namespace paperproof::compare::detail {
 
-/// Box2D begins to report touching at this gap [m].
-inline constexpr double skin = 0.020;
 /// A contact is this near along its normal [m]: twice what the controller stops at.
 inline constexpr double contact_reach = 1e-6;
 

@@ -10,7 +10,6 @@ namespace paperproof::compare {
 namespace {
 
 /// Box2D begins to report touching at this gap [m].
-constexpr double skin_of_box2d = 0.020;
 /// See `own_reach`.
 constexpr double least_reach = 1e-6;
 
@@ -20,18 +19,18 @@ constexpr std::array<Exemption, 9> all{{
      "corner_cut",
      "passes a solid with a rim of the octagon no deeper than this (and an eighth of its width)",
      "m",
-     {0, skin_of_box2d, 0.005, 0.005}},
+     {0, box2d_skin, 0.005, 0.005}},
     {Exempt::late_match, "late_match", "reports a contact so many steps beside the exact one", "steps", {0, 1, 0, 0}},
     {Exempt::reach,
      "reach",
      "reports a contact with what is no farther than this, and not met",
      "m",
-     {0, skin_of_box2d, its_own, its_own}},
+     {0, box2d_skin, its_own, its_own}},
     {Exempt::hover,
      "hover",
      "does not fall above, or beside, what is no farther than this",
      "m",
-     {0, skin_of_box2d, its_own, its_own}},
+     {0, box2d_skin, its_own, its_own}},
     {Exempt::company,
      "company",
      "touches another character, and reports or misses contacts with scenery",
@@ -83,7 +82,7 @@ double allowed(Exempt which, const TraceHeader& header) {
 }
 
 double own_reach(const TraceHeader& header) {
-  if (!header.path_exact) return skin_of_box2d;
+  if (!header.path_exact) return box2d_skin;
   return std::max({least_reach, tolerance_named(header, "unit"), tolerance_named(header, "touch")});
 }
 

@@ -10,6 +10,9 @@
 
 namespace paperproof::compare {
 
+/// Box2D reports touching from this gap on: two polygon radii [m].
+inline constexpr double box2d_skin = 0.020;
+
 /// Who is treated alike.
 enum class Party : std::uint8_t {
   promising,  ///< octagon_sweep in double: it is excused nothing.

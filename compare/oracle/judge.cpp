@@ -1,5 +1,6 @@
 #include "oracle/judge.hpp"
 
+#include "contains.hpp"
 #include "oracle/contacts.hpp"
 #include "oracle/exemptions.hpp"
 #include "oracle/hanging.hpp"
@@ -18,10 +19,6 @@ constexpr int depth_samples = 32;
 constexpr int depth_refinements = 40;
 /// A way out of what the octagon is inside of is looked for this far [m].
 constexpr double farthest_way_out = 1e4;
-
-bool contains(const std::vector<ColliderIndex>& some, ColliderIndex collider) {
-  return std::find(some.begin(), some.end(), collider) != some.end();
-}
 
 Place between(const Place& from, const Place& to, double share) {
   return {from.position + share * (to.position - from.position), from.movers,
@@ -111,7 +108,7 @@ bool Judge::alone(const Path& path, const TraceStep& step) const {
     reach = reach.merged({corner.position, corner.position}).merged({wanted, wanted});
   }
   // What is requested is looked at from every corner, for as long as a whole step.
-  return scenery_.near(Place(reach.lower, step.movers, 0), Place(reach.upper, step.movers, 2), detail::skin).empty();
+  return scenery_.near(Place(reach.lower, step.movers, 0), Place(reach.upper, step.movers, 2), box2d_skin).empty();
 }
 
 bool Judge::repeats(const TraceStep& step) const {

@@ -175,7 +175,8 @@ void TurningJudge::judge_contacts(const Solid& solid, const TraceStep& step, Ste
     const double gap = std::min(nearest_axis(solid, from, start.position).separation,
                                 nearest_axis(solid, to, step.path.back().position).separation);
     judgement.max_contact_gap = std::max(judgement.max_contact_gap, gap);
-    if (!within && gap <= (header_.path_exact ? contact_reach : skin)) judgement.dont_care.push_back(solid.collider);
+    if (!within && gap <= (header_.path_exact ? contact_reach : box2d_skin))
+      judgement.dont_care.push_back(solid.collider);
     if (touches && touched_.count(solid.collider) == 0)
       judgement.turning_toi_error =
           std::max(judgement.turning_toi_error.value_or(0), std::abs(contact.fraction - when));

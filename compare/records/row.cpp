@@ -36,6 +36,16 @@ std::string_view name_of(Axis axis) noexcept {
   return "validity";
 }
 
+bool was_judged(const Row& row) noexcept {
+  return row.verdict != Verdict::failed && row.verdict != Verdict::not_applicable;
+}
+
+std::optional<double> parameter_of(const Row& row, std::string_view key) {
+  for (const auto& [name, value] : row.parameters)
+    if (name == key) return value;
+  return std::nullopt;
+}
+
 std::string called(const Row& row) {
   std::string name = row.contender;
   if (!row.knob.empty()) name += " with " + row.knob;

@@ -156,6 +156,15 @@ struct Row {
   std::vector<std::string> findings;   ///< Sentences: where the run began, what was not compared.
 };
 
+/// Whether a run was made and judged: neither `failed` nor `not_applicable`.
+[[nodiscard]] bool was_judged(const Row& row) noexcept;
+
+/// See `is_guaranteed`.
+[[nodiscard]] inline bool is_guaranteed(const Row& row) noexcept { return is_guaranteed(row.contender, row.scalar); }
+
+/// One of its `parameters`; nothing where it has none of that key.
+[[nodiscard]] std::optional<double> parameter_of(const Row& row, std::string_view key);
+
 /// The contender in words, with the number type where it could be another: Box2D's is always float.
 [[nodiscard]] std::string called(const Row& row);
 

@@ -10,10 +10,26 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 namespace paperproof::compare {
+
+/// As a trace has it: `bottom`.
+[[nodiscard]] constexpr std::string_view name_of(Side side) noexcept {
+  switch (side) {
+    case Side::top:
+      return "top";
+    case Side::bottom:
+      return "bottom";
+    case Side::left:
+      return "left";
+    case Side::right:
+      return "right";
+  }
+  return "bottom";
+}
 
 /// Tolerances as (name, metres, why), printed with every result.
 struct NamedTolerance {

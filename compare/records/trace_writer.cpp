@@ -78,20 +78,6 @@ void put_path(Buffer& out, const std::vector<PathPoint<double>>& path) {
   out.push_back(']');
 }
 
-std::string_view name_of(Side side) {
-  switch (side) {
-    case Side::top:
-      return "top";
-    case Side::bottom:
-      return "bottom";
-    case Side::left:
-      return "left";
-    case Side::right:
-      return "right";
-  }
-  return "bottom";
-}
-
 void put_contact(Buffer& out, const Contact<double>& contact, const std::vector<std::string>& ids) {
   put_text(out, "{\"collider\":");
   put_text(out, ids[contact.collider]);

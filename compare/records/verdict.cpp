@@ -14,8 +14,6 @@ bool is_worse(Verdict one, Verdict other) {
          std::find(worst_first.begin(), worst_first.end(), other);
 }
 
-bool was_made(const Row& row) { return row.verdict != Verdict::failed && row.verdict != Verdict::not_applicable; }
-
 }  // namespace
 
 void add_fault(Row& row, Axis axis, Verdict verdict, std::string words) {
@@ -23,7 +21,7 @@ void add_fault(Row& row, Axis axis, Verdict verdict, std::string words) {
 }
 
 void settle(Row& row) {
-  if (!was_made(row)) return;
+  if (!was_judged(row)) return;
   row.verdict = Verdict::holds;
   row.reason.clear();
   for (const Axis axis : {Axis::safety, Axis::progress, Axis::answer, Axis::validity}) {

@@ -1,5 +1,7 @@
 #include "runs/body_energy.hpp"
 
+#include "oracle/exemptions.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,7 +9,6 @@
 namespace paperproof::compare {
 namespace {
 
-constexpr double skin = 0.02;    ///< At which Box2D's polygons touch [m].
 constexpr double share = 0.01;   ///< Of what is turned over.
 constexpr double roundings = 2;  ///< Of a place, in ulp.
 constexpr double epsilon = std::numeric_limits<float>::epsilon();
@@ -65,7 +66,7 @@ void BodyEnergy::add(const TraceStep& step) {
 void BodyEnergy::write(Row& row) const {
   if (!any_) return;
   row.body_energy_gained_j = gained_;
-  row.body_energy_bound_j = share * most_turned_over_ + loose_mass_ * scene_.gravity.norm() * skin + rounding_;
+  row.body_energy_bound_j = share * most_turned_over_ + loose_mass_ * scene_.gravity.norm() * box2d_skin + rounding_;
 }
 
 }  // namespace paperproof::compare

@@ -174,27 +174,27 @@ class Box2dContestant final : public Contestant {
     header_.turning = std::move(turning);
   }
 
-  /// One of the world's steps. What is returned holds until the next call.
+  /// A substep's share of a step. What is returned holds until the next call.
   StepInput part_of(const StepInput& whole, int substep) {
     if (substeps_ == 1) return whole;
     part_movers_.clear();
     for (const MoverMotion<double>& mover : whole.movers)
-      part_movers_.push_back({mover_at(mover, substep), mover_at(mover, substep + 1)});
+      part_movers_.push_back({place_at(mover, substep), place_at(mover, substep + 1)});
     part_turns_.clear();
     for (const TurnMotion& turn : whole.turns)
-      part_turns_.push_back({turn_at(turn, substep), turn_at(turn, substep + 1)});
+      part_turns_.push_back({place_at(turn, substep), place_at(turn, substep + 1)});
     return {whole.dt / substeps_, whole.players, part_movers_, part_turns_};
   }
-  [[nodiscard]] Vec2d mover_at(const MoverMotion<double>& mover, int substep) const {
-    if (substep == substeps_) return mover.to;
-    return mover.from + (mover.to - mover.from) * (static_cast<double>(substep) / substeps_);
+  /// Where a motion is when so many substeps are done. @param motion with `from` and `to`.
+  template <class Motion>
+  [[nodiscard]] decltype(Motion::to) place_at(const Motion& motion, int substeps) const {
+    decltype(Motion::to) place = motion.to;
+    if (substeps != substeps_)
+      place = motion.from + (motion.to - motion.from) * (static_cast<double>(substeps) / substeps_);
+    return place;
   }
 
-  [[nodiscard]] double turn_at(const TurnMotion& turn, int substep) const {
-    if (substep == substeps_) return turn.to;
-    return turn.from + (turn.to - turn.from) * (static_cast<double>(substep) / substeps_);
-  }
-
+  /// One step of the world.
   std::span<const box2d::TwinStep> advance(const StepInput& input) {
     dt_ = input.dt;
     for (std::size_t k = 0; k < twins_.size(); ++k)

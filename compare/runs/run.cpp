@@ -183,7 +183,7 @@ class SceneRun {
   static bool is_beside_another(const Lane& lane, std::size_t k) {
     Box2<double> hull{lane.header().points.front(), lane.header().points.front()};
     for (const Vec2d& point : lane.header().points) hull = hull.merged({point, point});
-    const Vec2d reach = hull.upper - hull.lower + Vec2d::Constant(box2d_skin);
+    const Vec2d reach = hull.upper - hull.lower + Vec2d::Constant(beyond_box2d_skin);
     for (std::size_t other = 0; other < lane.characters(); ++other)
       for (const bool end : {false, true}) {
         const auto place = [end](const TraceStep& step) {

@@ -27,8 +27,6 @@ std::vector<std::string> those(const std::vector<Row>& rows, const std::function
   return names;
 }
 
-bool scored(const Row& row) { return row.verdict != Verdict::not_applicable && row.verdict != Verdict::failed; }
-
 /// A horizontal speed loss in one step beyond which a run counts as snagged: Box2D's users call 1 % a ghost collision.
 constexpr double snagged = 0.01;
 /// Runs that are nearer to each other than this [m] are not held apart by Box2D's skin, whatever it rounds.
@@ -51,8 +49,8 @@ std::string passage(const Row& row) {
 }
 
 std::string about_tunnels(const std::vector<Row>& rows) {
-  const auto passes = [](const Row& row) { return scored(row) && row.tunnels.value_or(0) > 0; };
-  const auto firm = those(rows, [&](const Row& row) { return scored(row) && !passes(row); });
+  const auto passes = [](const Row& row) { return was_judged(row) && row.tunnels.value_or(0) > 0; };
+  const auto firm = those(rows, [&](const Row& row) { return was_judged(row) && !passes(row); });
   std::vector<std::string> told;
   std::string text;
   for (const Row& row : rows) {
@@ -74,8 +72,10 @@ std::string about_overlap(const std::vector<Row>& rows) {
   for (const Row& row : rows)
     if (ends_inside(row)) deepest = std::max(deepest, row.max_penetration_m.value_or(0));
   const auto crushed = [](const Row& row) { return row.steps_inside_after_crush.value_or(0) > 0; };
-  const auto outside = those(rows, [&](const Row& row) { return scored(row) && !ends_inside(row) && !crushed(row); });
-  const auto pressed = those(rows, [&](const Row& row) { return scored(row) && !ends_inside(row) && crushed(row); });
+  const auto outside =
+      those(rows, [&](const Row& row) { return was_judged(row) && !ends_inside(row) && !crushed(row); });
+  const auto pressed =
+      those(rows, [&](const Row& row) { return was_judged(row) && !ends_inside(row) && crushed(row); });
   std::string text = fmt::format("{} {} some steps inside {}, up to {:.2g} m deep", listed(inside),
                                  plural(inside, "ends", "end"), solid_in(rows), deepest);
   if (!pressed.empty())
@@ -98,7 +98,7 @@ std::string about_agreement(const std::vector<Row>& rows) {
     if (!row.max_position_difference_box2d_m) return "";
     std::string text;
     const double apart = *row.max_position_difference_box2d_m;
-    if (apart <= box2d_skin)
+    if (apart <= beyond_box2d_skin)
       text = fmt::format("octagon_sweep and Box2D agree to {:.3g} m, which is {}Box2D's skin. ", apart,
                          apart < nearer_than_skin ? "less than " : "");
     else
@@ -120,7 +120,7 @@ std::string about_limits(const std::vector<Row>& rows) {
     const bool told = row.steps_ending_inside.value_or(0) > 0 &&  // by about_overlap
                       std::all_of(row.faults.begin(), row.faults.end(),
                                   [](const AxisFault& fault) { return fault.axis == Axis::safety; });
-    return (row.verdict == Verdict::flagged && !told) || !scored(row);
+    return (row.verdict == Verdict::flagged && !told) || !was_judged(row);
   };
   std::vector<std::string> told;
   std::string text;

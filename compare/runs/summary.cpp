@@ -34,10 +34,8 @@ std::vector<std::pair<std::string, Rows>> by_contender(const std::vector<Row>& r
   return all;
 }
 
-bool ran(const Row& row) { return row.verdict != Verdict::not_applicable && row.verdict != Verdict::failed; }
-
 Cell scenes_run(const Rows& rows) {
-  return std::to_string(std::count_if(rows.begin(), rows.end(), [](const Row* row) { return ran(*row); }));
+  return std::to_string(std::count_if(rows.begin(), rows.end(), [](const Row* row) { return was_judged(*row); }));
 }
 
 /// Steps, and in how many scenes.

@@ -9,15 +9,7 @@
 namespace paperproof::compare {
 namespace {
 
-std::optional<double> parameter(const Row& row, std::string_view key) {
-  for (const auto& [name, value] : row.parameters)
-    if (name == key) return value;
-  return std::nullopt;
-}
-
 bool counts(const Row& row) { return row.error_max_m && time_per_second(row); }
-
-bool is_ours(const Row& row) { return row.contender == "octagon_sweep" && row.scalar == "double"; }
 
 bool better(const Row& row, const Row& than) {
   const double error = *row.error_max_m - *than.error_max_m;
@@ -35,7 +27,7 @@ const Row* cheapest_better(const std::vector<Row>& rows, const Row& than) {
 }
 
 std::string reason(const Row& ours, const Row& other) {
-  const bool same_steps = parameter(ours, "dt_s") == parameter(other, "dt_s");
+  const bool same_steps = parameter_of(ours, "dt_s") == parameter_of(other, "dt_s");
   // Two that make the same motion differ by a gap or by rounding.
   const bool same_error = *ours.error_max_m - *other.error_max_m <= 2e-6 + 1e-3 * *ours.error_max_m;
   if (same_steps && same_error)
@@ -67,7 +59,7 @@ std::optional<double> slope_of(std::span<const std::pair<double, double>> log_po
 }
 
 std::optional<double> time_per_second(const Row& row) {
-  const std::optional<double> dt = parameter(row, "dt_s");
+  const std::optional<double> dt = parameter_of(row, "dt_s");
   if (!dt || !row.ns_per_step) return std::nullopt;
   return *row.ns_per_step / *dt;
 }
@@ -83,7 +75,7 @@ std::string words_of_front(const std::string& motion, const std::vector<Row>& ro
   std::vector<std::string> front;
   const Row* best = nullptr;
   for (const Row& row : rows) {
-    if (is_ours(row) && counts(row) && (best == nullptr || *row.error_max_m < *best->error_max_m)) best = &row;
+    if (is_guaranteed(row) && counts(row) && (best == nullptr || *row.error_max_m < *best->error_max_m)) best = &row;
     if (!row.on_front.value_or(false)) continue;
     const std::string who =
         row.contender + (row.scalar == "float" && !row.contender.starts_with("box2d") ? " (float)" : "");
@@ -91,7 +83,7 @@ std::string words_of_front(const std::string& motion, const std::vector<Row>& ro
   }
   std::string text = fmt::format("{}: on the front: {}.", motion, fmt::join(front, ", "));
   if (best == nullptr || std::any_of(rows.begin(), rows.end(),
-                                     [](const Row& row) { return is_ours(row) && row.on_front.value_or(false); }))
+                                     [](const Row& row) { return is_guaranteed(row) && row.on_front.value_or(false); }))
     return text;
   const Row* other = cheapest_better(rows, *best);
   if (other == nullptr) return text;

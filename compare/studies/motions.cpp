@@ -1,13 +1,13 @@
 #include "studies/motions.hpp"
 
+#include "scenes/built_in.hpp"
+
 #include <array>
 #include <cmath>
 
 namespace paperproof::compare {
 namespace {
 
-constexpr double half_height = 0.625;
-constexpr double half_width = 0.3125;
 constexpr double root_3 = 1.7320508075688772;
 constexpr double start_gap = 1e-6;
 
@@ -19,16 +19,7 @@ Scene still(const Vec2d& position, const Vec2d& velocity, double gravity) {
   return scene;
 }
 
-void add(Scene& scene, std::string id, std::vector<Vec2d> points) {
-  scene.ids.push_back(std::move(id));
-  scene.scenery.colliders.push_back({.points = std::move(points)});
-}
-
-void add_box(Scene& scene, std::string id, double left, double bottom, double right, double top) {
-  add(scene, std::move(id), {{left, bottom}, {right, bottom}, {right, top}, {left, top}});
-}
-
-Scene flight() {
+Scene thrown() {
   Scene scene = still({0, 0}, {3, 8}, 10);
   add_box(scene, "floor", -5, -31, 5, -30);
   return scene;
@@ -44,7 +35,7 @@ Scene rest() {
 Scene slide() {
   constexpr double support = half_height / 4 * root_3 / 2 + half_height / 2;  // of the surface, along its normal
   Scene scene = still(Vec2d(root_3 / 2, 0.5) * (support + start_gap), {0, 0}, 10);
-  add(scene, "slope", {{-10, 10 * root_3}, {-10, -10 * root_3}, {10, -10 * root_3}});
+  add_polygon(scene, "slope", {{-10, 10 * root_3}, {-10, -10 * root_3}, {10, -10 * root_3}});
   return scene;
 }
 
@@ -53,11 +44,11 @@ Scene on_30_degrees() {
   constexpr double support = 5.0 / 32;
   Scene scene = still({0, half_height + support / root_3 + start_gap}, {4, 4 / root_3}, 10);
   scene.character.walk_speed = 4;
-  add(scene, "slope", {{-10, -10 / root_3}, {10, -10 / root_3}, {10, 10 / root_3}});
+  add_polygon(scene, "slope", {{-10, -10 / root_3}, {10, -10 / root_3}, {10, 10 / root_3}});
   return scene;
 }
 
-Scene walk() {
+Scene walked_up() {
   Scene scene = on_30_degrees();
   scene.input = {{.step = 0, .move = 1, .jump = std::nullopt}};
   return scene;
@@ -79,8 +70,7 @@ Scene bullet() {
 Scene lift() {
   Scene scene = still({0, half_height + start_gap / 2}, {0, 0}, 10);
   add_box(scene, "lift", -2, -0.5, 2, 0);
-  scene.scenery.colliders.back().mover = 0;
-  scene.movers.push_back({.id = "lift", .path = {{.time = 0, .at = {0, 0}}, {.time = 4, .at = {0, 6}}}});
+  move_last(scene, {{.time = 0, .at = {0, 0}}, {.time = 4, .at = {0, 6}}});
   return scene;
 }
 
@@ -102,8 +92,8 @@ constexpr std::array<std::string_view, 11> level_map{
 void add_tile(Scene& scene, char tile, double x, double y) {
   std::string id = "tile_" + std::to_string(scene.ids.size());
   if (tile == '#') add_box(scene, std::move(id), x, y, x + 1, y + 1);
-  if (tile == '/') add(scene, std::move(id), {{x, y}, {x + 1, y}, {x + 1, y + 1}});
-  if (tile == '\\') add(scene, std::move(id), {{x, y}, {x + 1, y}, {x, y + 1}});
+  if (tile == '/') add_polygon(scene, std::move(id), {{x, y}, {x + 1, y}, {x + 1, y + 1}});
+  if (tile == '\\') add_polygon(scene, std::move(id), {{x, y}, {x + 1, y}, {x, y + 1}});
 }
 
 /// Keys as `random_input` of a seed has them at 60 steps per second, at the next longest step before.
@@ -122,14 +112,14 @@ Scene level() {
 
 const std::vector<Motion>& motions() {
   static const std::vector<Motion> all{
-      {"flight", "thrown at (3, 8) m/s under 10 m/s²: x = 3 t, y = 8 t - 5 t²", 1.5, flight},
+      {"flight", "thrown at (3, 8) m/s under 10 m/s²: x = 3 t, y = 8 t - 5 t²", 1.5, thrown},
       {"rest", "falls 2 m under 10 m/s² and rests: y = max(2 - 5 t², 0) above the floor", 1.2, rest},
       {"slide", "slides down 60 degrees without friction from rest: 5 sin(60) t² along the slope", 1, slide},
       {"corridor", "flies at (6, 2) m/s without gravity into a wall 2 m away and along it: x = min(6 t, 2), y = 2 t",
        1.5, corridor},
       {"bullet", "flies down at 200 m/s onto a plate of 5 cm 10 m below: stops there", 0.3, bullet},
       {"lift", "stands on a lift that rises at 1.5 m/s: y = 1.5 t", 1.5, lift},
-      {"walk", "walks at 4 m/s up 30 degrees: x = 4 t, y = x tan(30)", 1, walk},
+      {"walk", "walks at 4 m/s up 30 degrees: x = 4 t, y = x tan(30)", 1, walked_up},
       {"uphill", "goes up 30 degrees at 4 m/s across, and nothing steers: x = 4 t", 1, on_30_degrees,
        "a body without friction slows down, x = 4 t - 5 sin(30) cos(30) t², and comes back"},
       {"level", "12 s of keys, as recorded, through a level of 122 tiles with slopes, kerbs and platforms", 12, level,
