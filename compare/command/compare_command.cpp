@@ -13,6 +13,7 @@
 #include "records/rows_file.hpp"
 #include "records/trace_writer.hpp"
 #include "report/report.hpp"
+#include "report/svg.hpp"
 #include "runs/environment.hpp"
 #include "runs/gallery.hpp"
 #include "runs/headline.hpp"
@@ -170,7 +171,7 @@ class Comparison {
     report_options_ = options_for(scene_count_ * contenders);
     arguments_.run.max_replay_steps = report_options_.max_replay_steps;
     if (!arguments_.pages.report.empty()) report_.emplace(arguments_.pages.report, report_options_);
-    if (!arguments_.pages.svg.empty()) std::filesystem::create_directories(arguments_.pages.svg);
+    if (!arguments_.pages.svg.empty()) pictures_.emplace(arguments_.pages.svg);
   }
 
   void run_one(const Scene& scene) {
@@ -195,11 +196,11 @@ class Comparison {
     }
     if (tolerances_.empty()) tolerances_ = tolerances_of(result);
     if (report_) report_->add(result);
-    if (!arguments_.pages.svg.empty()) write_strip(result);
+    if (pictures_) write_strip(result);
     if (!arguments_.quiet && !arguments_.json) print(result);
   }
 
-  void write_strip(const ReportScene& scene) const {
+  void write_strip(const ReportScene& scene) {
     std::vector<StripPanel> panels;
     for (const Row& row : scene.rows) {
       const auto run = std::find_if(scene.runs.begin(), scene.runs.end(), [&](const ReportRun& one) {
@@ -209,7 +210,7 @@ class Comparison {
       panels.push_back({called(row), outcome_of(row), bad, run == scene.runs.end() ? nullptr : &*run});
     }
     const std::string title = scene.name + (scene.description.empty() ? "" : ": " + scene.description);
-    write_picture(scene.name, svg_of_strip(title, panels), arguments_.pages.svg);
+    pictures_->write(scene.name, svg_of_strip(title, panels));
   }
 
   void announce_preparation(const Scene& scene) const {
@@ -293,6 +294,7 @@ class Comparison {
   Totals totals_;
   ReportOptions report_options_;
   std::optional<ReportWriter> report_;
+  std::optional<PictureFolder> pictures_;
   std::vector<NamedTolerance> tolerances_;
 };
 

@@ -1,12 +1,12 @@
 /// What every study shows: a page and standalone pictures.
 #pragma once
 
+#include "command/cell_replays.hpp"
 #include "command/claimed_files.hpp"
 #include "records/output_file.hpp"
 #include "report/report.hpp"
 #include "report/svg.hpp"
 
-#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -22,22 +22,24 @@ struct PagePaths {
 /// Opened before the work begins, so that what cannot be written is known before. Throws what OutputFile throws.
 class PageOutputs {
  public:
-  explicit PageOutputs(const PagePaths& paths) : folder_(paths.svg) {
+  explicit PageOutputs(const PagePaths& paths) {
     if (!paths.report.empty()) page_.emplace(paths.report);
-    if (!folder_.empty()) std::filesystem::create_directories(folder_);
+    if (!paths.svg.empty()) pictures_.emplace(paths.svg);
   }
 
-  /// To be called once, last.
-  void finish(const ChartPage& page) {
-    if (!folder_.empty()) write_pictures(page, folder_);
+  /// To be called once, last. The page gets replays of its cells. @param jobs processes that run their cases again; 0:
+  /// one for each core.
+  void finish(ChartPage page, int jobs = 0) {
+    if (pictures_) write_pictures(page, *pictures_);
     if (!page_) return;
+    add_cell_replays(page, jobs);
     page_->write(html_of(page));
     page_->commit();
   }
 
  private:
   std::optional<OutputFile> page_;
-  std::string folder_;
+  std::optional<PictureFolder> pictures_;
 };
 
 }  // namespace paperproof::compare

@@ -1,9 +1,9 @@
 #include "command/report_command.hpp"
 
+#include "command/cell_replays.hpp"
 #include "command/claimed_files.hpp"
 #include "command/standing_sections.hpp"
 #include "records/rows_reader.hpp"
-#include "report/chart_json.hpp"
 #include "report/index_json.hpp"
 #include "report/json_text.hpp"
 #include "report/page_reader.hpp"
@@ -62,7 +62,8 @@ class PageOfRecords {
     }
     for (std::size_t scene = 0; scene < index["scenes"].size(); ++scene)
       writer_.add_scene(safe(index["scenes"][scene]), page.replay(scene));
-    for (const ordered_json& study : index["studies"]) writer_.add_study(safe(study));
+    for (std::size_t study = 0; study < index["studies"].size(); ++study)
+      writer_.add_study(safe(index["studies"][study]), page.cells(study));
   }
 
   void take_rows() {
@@ -81,7 +82,10 @@ class PageOfRecords {
             facts_.environment.emplace_back(name, value.get<std::string>());
       }
     for (const auto& [scene, rows] : pictures.scenes()) writer_.add_scene(scene_index_json(scene, rows), "");
-    for (const ChartPage& page : pictures.pages()) writer_.add_study(chart_page_json(page));
+    for (ChartPage& page : pictures.pages()) {
+      add_cell_replays(page, 0);
+      writer_.add_study(page);
+    }
   }
 
   /// As it stands in a page.

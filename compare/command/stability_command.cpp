@@ -24,8 +24,9 @@ using nlohmann::ordered_json;
 
 constexpr const char* about_stability =
     "Stiff and extreme cases, judged step by step by exact arithmetic. A cell says how many of its cases do not hold: "
-    "one of the predicates below fails, the scene's exact answer is missed, or the contender's limits are passed. A "
-    "click on it says why, and which command repeats it.";
+    "one of the predicates below fails, the scene's exact answer is missed, or the contender's limits are passed. "
+    "Point "
+    "at it to read why; a click, or Enter, replays its first case that does not hold, and names the command.";
 
 /// Keys of a row that say whether a predicate holds, in the order of `stability_predicates`.
 constexpr std::array<const char*, 6> predicate_keys{"finite",    "penetration_ok", "drift_ok",
@@ -106,7 +107,7 @@ class StabilityRun {
     progress_.clear();
     for (std::size_t k = 0; k < regions_.size(); ++k) note(regions_[k], rows_[k]);
     text_ += borders_in_words();
-    outputs_.finish(page_);
+    outputs_.finish(page_, arguments_.jobs);
     if (!arguments_.quiet) print_out(text_);
     return broken_ ? 1 : 0;
   }

@@ -8,9 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <string>
-#include <thread>
 
 namespace paperproof::compare {
 
@@ -33,20 +31,15 @@ class StudyOutputs {
   /// @param line a row, with its line feed.
   void add(const std::string& line) { rows_.add(line); }
 
-  /// To be called once, last.
-  void finish(const ChartPage& page) {
+  /// To be called once, last. @param jobs see `PageOutputs::finish`.
+  void finish(const ChartPage& page, int jobs = 0) {
     rows_.finish();
-    pages_.finish(page);
+    pages_.finish(page, jobs);
   }
 
  private:
   RowsFile rows_;
   PageOutputs pages_;
 };
-
-/// @param wanted 0: one for each core.
-[[nodiscard]] inline int processes_for(int wanted) {
-  return wanted > 0 ? wanted : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-}
 
 }  // namespace paperproof::compare

@@ -101,7 +101,7 @@ void StudyRun::run() {
 
 int StudyRun::finish(const std::function<ChartPage()>& page, const std::string& text) {
   rows_->finish();
-  if (arguments_.pages.wanted()) pages_->finish(page());
+  if (arguments_.pages.wanted()) pages_->finish(page(), arguments_.jobs);
   if (!arguments_.quiet) print_out(text);
   return trouble_ ? 1 : 0;
 }

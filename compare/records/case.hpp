@@ -35,6 +35,10 @@ struct Case {
 /// The shell command that runs it alone: `paperproof compare paper --set speed=40 --contender mask --no-reference`.
 [[nodiscard]] std::string command_of(const Case& one);
 
+/// The Case that a command runs: the inverse of `command_of`.
+/// @return nothing where the text is no such command.
+[[nodiscard]] std::optional<Case> case_of_command(std::string_view command);
+
 /// Gives a row the id and the command of its Case, and those of the knobs and the seed that are numbers as parameters.
 void put_case(const Case& one, Row& row);
 

@@ -64,6 +64,7 @@ struct Row {
 
   std::string case_id;                                     ///< Of a run that is a Case: see records/case.hpp.
   std::string command;                                     ///< That runs it alone.
+  bool swept = false;                                      ///< One of many Cases: a cell of a heat map stands for it.
   std::string source;                                      ///< Of the scene: see `Scene::source`.
   std::vector<std::pair<std::string, double>> parameters;  ///< Of scene, input and knobs, by keys that end in units.
   std::optional<std::string> border;                       ///< Key of the parameter that was bisected.

@@ -33,6 +33,7 @@ nlohmann::ordered_json row_json(const Row& row) {
   object["verdict"] = name_of(row.verdict);
   if (!row.reason.empty()) object["reason"] = row.reason;
   if (!row.case_id.empty()) object["case"] = row.case_id;
+  if (row.swept) object["swept"] = true;
   if (!row.parameters.empty()) {
     nlohmann::ordered_json& parameters = object["parameters"];
     for (const auto& [key, value] : row.parameters) parameters[key] = value;

@@ -58,4 +58,8 @@ struct ReportScene {
 /// an event, the first contact and their neighbours.
 void thin_for_replay(ReportRun& run, int max_steps);
 
+/// Leaves the step that matters, and so many before and after it: the first passage of a solid, else of a one-way
+/// chain, else the first that ends inside something, else the first crush, else the first contact, else the first step.
+void cut_to_excerpt(ReportRun& run, int around);
+
 }  // namespace paperproof::compare

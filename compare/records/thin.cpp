@@ -1,6 +1,7 @@
 #include "records/scene_result.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <iterator>
 #include <set>
 
@@ -34,6 +35,16 @@ void keep_only(const std::vector<std::size_t>& kept, std::vector<TraceStep>& ste
   steps.resize(kept.size());
 }
 
+int step_that_matters(const ReportRun& run) {
+  using Kind = ReportEvent::Kind;
+  for (const Kind kind : {Kind::tunnel, Kind::one_way, Kind::inside, Kind::crush})
+    for (const ReportEvent& event : run.events)
+      if (event.kind == kind) return event.step;
+  for (const TraceStep& step : run.steps)
+    if (!step.contacts.empty()) return step.step;
+  return run.steps.front().step;
+}
+
 }  // namespace
 
 void thin_for_replay(ReportRun& run, int max_steps) {
@@ -49,6 +60,18 @@ void thin_for_replay(ReportRun& run, int max_steps) {
   keep_only(kept, run.steps);
   for (std::vector<TraceStep>& steps : run.others) keep_only(kept, steps);
   run.every *= static_cast<int>(stride);
+}
+
+void cut_to_excerpt(ReportRun& run, int around) {
+  if (run.steps.empty()) return;
+  const int middle = step_that_matters(run);
+  const auto is_near = [&](int step) { return std::abs(step - middle) <= around; };
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < run.steps.size(); ++i)
+    if (is_near(run.steps[i].step)) kept.push_back(i);
+  keep_only(kept, run.steps);
+  for (std::vector<TraceStep>& steps : run.others) keep_only(kept, steps);
+  std::erase_if(run.events, [&](const ReportEvent& event) { return !is_near(event.step); });
 }
 
 }  // namespace paperproof::compare

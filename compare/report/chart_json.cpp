@@ -27,7 +27,13 @@ ordered_json json_of(const Chart& chart) {
   return json;
 }
 
-/// A cell is [bad, all, words].
+/// A cell is [bad, all, words, command, replay]; the last one is absent where there is none.
+ordered_json json_of(const ChartGrid::Cell& cell) {
+  ordered_json json{cell.bad, cell.all, cell.words, cell.command};
+  if (cell.replay) json.push_back(*cell.replay);
+  return json;
+}
+
 ordered_json json_of(const ChartGrid& grid) {
   ordered_json json{{"title", grid.title}, {"bad_words", grid.bad_words},
                     {"x", grid.x_label},   {"y", grid.y_label},
@@ -35,7 +41,7 @@ ordered_json json_of(const ChartGrid& grid) {
   json["cells"] = ordered_json::array();
   for (const auto& line : grid.cells) {
     ordered_json cells = ordered_json::array();
-    for (const ChartGrid::Cell& cell : line) cells.push_back(ordered_json::array({cell.bad, cell.all, cell.words}));
+    for (const ChartGrid::Cell& cell : line) cells.push_back(json_of(cell));
     json["cells"].push_back(std::move(cells));
   }
   return json;

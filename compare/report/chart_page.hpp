@@ -1,6 +1,8 @@
 /// What a study found, as pictures and as numbers: what a page and the standalone pictures are made of.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,9 +33,13 @@ struct Chart {
 /// A share for each of two values: a picture of where something holds.
 struct ChartGrid {
   struct Cell {
-    int bad = 0;          ///< Of so many
-    int all = 0;          ///< there were; 0: nothing ran.
-    std::string words{};  ///< More about it.
+    int bad = 0;  ///< Of so many
+    int all = 0;  ///< there were; 0: nothing ran.
+    // Of its first bad case; where none is bad, of its first one:
+    std::string words{};                  ///< What came of it.
+    std::string command{};                ///< That runs it alone.
+    bool through = false;                 ///< It passed a solid.
+    std::optional<std::size_t> replay{};  ///< Position in `ChartPage::replays`; none: there is no replay of it.
   };
   std::string title;  ///< Who is tried, and in what.
   std::string x_label;
@@ -55,6 +61,7 @@ struct ChartPage {
   std::vector<Chart> charts{};
   std::vector<ChartGrid> grids{};
   ChartTable table{};
+  std::vector<std::string> replays{};  ///< Of cells; one JSON object each: see `cell_replay_json`.
   std::vector<std::pair<std::string, std::string>> environment{};  ///< (name, value), as in every report.
 };
 

@@ -17,6 +17,7 @@ extern const std::string_view controls_js;
 extern const std::string_view replay_js;
 extern const std::string_view charts_js;
 extern const std::string_view grids_js;
+extern const std::string_view cells_js;
 extern const std::string_view first_js;
 extern const std::string_view main_js;
 extern const std::string_view chart_min_js;  ///< Chart.js, MIT licence.

@@ -5,6 +5,11 @@
 #include <stdexcept>
 
 namespace paperproof::compare {
+namespace {
+
+std::string opening_of(const std::string& id) { return "<script type=\"application/json\" id=\"" + id + "\">"; }
+
+}  // namespace
 
 PageReader::PageReader(const std::string& path) : path_(path) {
   const std::ifstream file(path, std::ios::binary);
@@ -18,8 +23,13 @@ PageReader::PageReader(const std::string& path) : path_(path) {
 
 std::string PageReader::replay(std::size_t scene) const { return element("replay-" + std::to_string(scene)); }
 
+std::string PageReader::cells(std::size_t study) const {
+  const std::string id = "cells-" + std::to_string(study);
+  return text_.find(opening_of(id)) == std::string::npos ? "[]" : element(id);
+}
+
 std::string PageReader::element(const std::string& id) const {
-  const std::string opening = "<script type=\"application/json\" id=\"" + id + "\">";
+  const std::string opening = opening_of(id);
   const std::size_t begin = text_.find(opening);
   if (begin == std::string::npos) throw std::runtime_error(path_ + ": expected a page that paperproof wrote");
   const std::size_t from = begin + opening.size();

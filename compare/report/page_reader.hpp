@@ -16,6 +16,8 @@ class PageReader {
   [[nodiscard]] const nlohmann::ordered_json& index() const noexcept { return index_; }
   /// The replay of a scene, as it stands there.
   [[nodiscard]] std::string replay(std::size_t scene) const;
+  /// The replays of a study's cells, as they stand there; `[]` of a page from before there were any.
+  [[nodiscard]] std::string cells(std::size_t study) const;
 
  private:
   [[nodiscard]] std::string element(const std::string& id) const;

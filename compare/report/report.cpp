@@ -39,7 +39,7 @@ std::string tail_of_page(bool charts) {
   const auto [before, after] = split_at(split_at(page::page_html, "<!--DATA-->").second, "/*SCRIPT*/");
   text += before;
   for (const std::string_view part :
-       {page::time_js, page::decode_js, page::draw_js, page::tables_js, page::charts_js, page::grids_js,
+       {page::time_js, page::decode_js, page::draw_js, page::tables_js, page::charts_js, page::grids_js, page::cells_js,
         page::disagreements_js, page::focus_js, page::controls_js, page::replay_js, page::first_js, page::main_js}) {
     text += part;
   }
@@ -76,6 +76,13 @@ void ReportWriter::add_scene(std::string index, const std::string& replay) {
   index_.push_back(std::move(index));
 }
 
+void ReportWriter::add_study(const ChartPage& page) { add_study(chart_page_json(page), list_of(page.replays)); }
+
+void ReportWriter::add_study(std::string json, const std::string& replays) {
+  file_->write(data_element("cells-" + std::to_string(studies_.size()), replays));
+  studies_.push_back(std::move(json));
+}
+
 void ReportWriter::finish(const Environment& environment, const std::vector<NamedTolerance>& tolerances,
                           const std::vector<std::string>& guarantee_notes, const std::vector<ReportSection>& sections) {
   file_->write(data_element("index", index_json(environment, tolerances, guarantee_notes, sections, index_, studies_)));
@@ -84,7 +91,8 @@ void ReportWriter::finish(const Environment& environment, const std::vector<Name
 }
 
 std::string html_of(const ChartPage& page) {
-  return head_of_page() + data_element("index", index_json(page.environment, {}, {}, {}, {}, {chart_page_json(page)})) +
+  return head_of_page() + data_element("cells-0", list_of(page.replays)) +
+         data_element("index", index_json(page.environment, {}, {}, {}, {}, {chart_page_json(page)})) +
          tail_of_page(true);
 }
 

@@ -53,8 +53,11 @@ class ReportWriter {
   /// A scene as a page has it. @param index its object in `scenes` of the index; @param replay see `replay_json`; empty
   /// for none.
   void add_scene(std::string index, const std::string& replay);
-  /// A study, in the order in which they are added. @param json see `chart_page_json`.
-  void add_study(std::string json) { studies_.push_back(std::move(json)); }
+  /// A study, in the order in which they are added.
+  void add_study(const ChartPage& page);
+  /// A study as a page has it. @param json see `chart_page_json`; @param replays its
+  /// cells', as a JSON array.
+  void add_study(std::string json, const std::string& replays);
   /// To be called once, last.
   void finish(const Environment& environment, const std::vector<NamedTolerance>& tolerances,
               const std::vector<std::string>& guarantee_notes, const std::vector<ReportSection>& sections = {});

@@ -15,16 +15,19 @@ using nlohmann::ordered_json;
 
 constexpr double least_error = 1e-9;  ///< Drawn [m].
 
-std::optional<double> value_of(const ordered_json& row, const std::string& key) {
+std::optional<double> parameter_of(const ordered_json& row, const std::string& key) {
   if (!row.contains("parameters") || !row["parameters"].contains(key)) return std::nullopt;
   return row["parameters"][key].get<double>();
 }
 
 /// Numbers that a file has as null are none.
-std::optional<double> number_in(const ordered_json& row, const char* key) {
+std::optional<double> number_of(const ordered_json& row, const char* key) {
   if (!row.contains(key) || !row[key].is_number()) return std::nullopt;
   return row[key].get<double>();
 }
+
+/// Without a sign where nothing is left of the number.
+std::string in_hundredths(double number) { return fmt::format("{:.2f}", std::round(number * 100) / 100 + 0.0); }
 
 std::string who(const ordered_json& row) {
   std::string name = row.value("contender", "");
@@ -44,14 +47,15 @@ std::size_t place_in(const std::set<double>& values, double value) {
   return static_cast<std::size_t>(std::distance(values.begin(), values.find(value)));
 }
 
+bool goes_through(const ordered_json& row) { return number_of(row, "tunnels").value_or(0) > 0; }
+
 bool is_bad(const ordered_json& row, Bad bad) {
-  return bad == Bad::tunnels ? number_in(row, "tunnels").value_or(0) > 0 : row.value("verdict", "") != "holds";
+  return bad == Bad::tunnels ? goes_through(row) : row.value("verdict", "") != "holds";
 }
 
-std::string reason_and_command(const ordered_json& row) {
+std::string verdict_and_reason(const ordered_json& row) {
   const std::string reason = row.value("reason", "");
-  return fmt::format("{}{}{} — {}", row.value("verdict", ""), reason.empty() ? "" : ": ", reason,
-                     row.value("command", ""));
+  return row.value("verdict", "") + (reason.empty() ? "" : ": ") + reason;
 }
 
 }  // namespace
@@ -80,13 +84,17 @@ GridCounter::Counts& GridCounter::counts_of(const ordered_json& row) {
 }
 
 void GridCounter::add(const ordered_json& row) {
-  const std::optional<double> across = value_of(row, x_);
-  const std::optional<double> up = y_.empty() ? std::optional(0.0) : value_of(row, y_);
+  const std::optional<double> across = parameter_of(row, x_);
+  const std::optional<double> up = y_.empty() ? std::optional(0.0) : parameter_of(row, y_);
   if (!across || !up) return;
   ChartGrid::Cell& cell = counts_of(row).cells[{*across, *up}];
   if (row.value("verdict", "") == "not_applicable") return;
   const bool bad = is_bad(row, bad_);
-  if (cell.all == 0 || (bad && cell.bad == 0)) cell.words = reason_and_command(row);
+  if (cell.all == 0 || (bad && cell.bad == 0)) {
+    cell.words = verdict_and_reason(row);
+    cell.command = row.value("command", "");
+    cell.through = goes_through(row);
+  }
   ++cell.all;
   cell.bad += bad;
 }
@@ -134,6 +142,18 @@ ChartGrid::Cell total_of(const ChartGrid& grid) {
   return sum;
 }
 
+bool is_border(const ChartGrid::Cell& one, const ChartGrid::Cell& other) {
+  return one.all > 0 && other.all > 0 && (one.bad == 0) != (other.bad == 0);
+}
+
+bool is_at_border(const ChartGrid& grid, std::size_t column, std::size_t row) {
+  const ChartGrid::Cell& cell = grid.cells[row][column];
+  const auto differs = [&](std::size_t x, std::size_t y) {
+    return y < grid.cells.size() && x < grid.cells[y].size() && is_border(cell, grid.cells[y][x]);
+  };
+  return differs(column - 1, row) || differs(column + 1, row) || differs(column, row - 1) || differs(column, row + 1);
+}
+
 namespace {
 
 bool same_side(const ordered_json& one, const ordered_json& other) {
@@ -151,26 +171,26 @@ std::set<std::string> knobs_of(const ordered_json& curve, const std::vector<orde
 
 bool is_on(const ordered_json& point, const ordered_json& curve, const std::set<std::string>& knobs) {
   const std::string over = curve["curve"].get<std::string>();
-  if (point.contains("curve") || !same_side(point, curve) || !value_of(point, over)) return false;
+  if (point.contains("curve") || !same_side(point, curve) || !parameter_of(point, over)) return false;
   return over != "dt_s" || std::none_of(knobs.begin(), knobs.end(), [&](const std::string& knob) {
-           return knob != over && value_of(point, knob).has_value();
+           return knob != over && parameter_of(point, knob).has_value();
          });
 }
 
 ChartSeries series_of(const ordered_json& curve, const std::vector<ordered_json>& rows) {
   const std::string over = curve["curve"].get<std::string>();
   ChartSeries series{who(curve) + (over == "dt_s" ? "" : " over " + axis_words(over)), {}, over == "dt_s"};
-  if (const std::optional<double> slope = number_in(curve, "slope"))
-    series.name += fmt::format(", slope {:.2f}", *slope);
+  if (const std::optional<double> slope = number_of(curve, "slope")) series.name += ", slope " + in_hundredths(*slope);
   const std::set<std::string> knobs = knobs_of(curve, rows);
   for (const ordered_json& row : rows) {
     if (!is_on(row, curve, knobs)) continue;
-    const std::optional<double> error = number_in(row, "error_max_m");
-    const std::optional<double> cost = number_in(row, "ns_per_step");
+    const std::optional<double> error = number_of(row, "error_max_m");
+    const std::optional<double> cost = number_of(row, "ns_per_step");
     if (!error || !cost) continue;
-    series.points.push_back({*cost / value_of(row, "dt_s").value_or(1), std::max(*error, least_error),
-                             fmt::format("{} = {:.4g}, error {:.3g} m", axis_words(over), *value_of(row, over), *error),
-                             row.value("on_front", false)});
+    series.points.push_back(
+        {*cost / parameter_of(row, "dt_s").value_or(1), std::max(*error, least_error),
+         fmt::format("{} = {:.4g}, error {:.3g} m", axis_words(over), *parameter_of(row, over), *error),
+         row.value("on_front", false)});
   }
   return series;
 }
@@ -191,11 +211,7 @@ std::vector<Chart> charts_of(const std::vector<ordered_json>& rows) {
 }
 
 bool is_precision(const ordered_json& row) { return row.value("mode", "") == "work_precision"; }
-/// A case of a sweep runs alone and is not timed; `compare` gives the other rows.
-bool is_swept(const ordered_json& row) {
-  return row.contains("case") && row.contains("parameters") && !row.contains("ns_per_step") &&
-         row.value("command", "").ends_with("--no-reference");
-}
+bool is_swept(const ordered_json& row) { return row.value("swept", false) && row.contains("parameters"); }
 
 ChartTable borders_table(const std::vector<ordered_json>& borders) {
   ChartTable table;
@@ -203,7 +219,7 @@ ChartTable borders_table(const std::vector<ordered_json>& borders) {
   table.heading = {"contender", "border of", "holds up to", "does not from", "command"};
   for (const ordered_json& row : borders) {
     const auto text = [&](const char* key) {
-      const std::optional<double> number = number_in(row, key);
+      const std::optional<double> number = number_of(row, key);
       return number ? fmt::format("{:.6g}", *number) : std::string("-");
     };
     table.rows.push_back(
@@ -219,11 +235,10 @@ ChartPage precision_page(const std::vector<ordered_json>& rows) {
   page.title = "What does accuracy cost?";
   page.paragraphs = {
       "How to read this: each point is one setting of a contender, and each curve goes over its settings from coarse "
-      "to "
-      "fine: the length of a step, or a knob of its own. Lower is closer to continuous motion, further left is faster, "
-      "so that the best are below and to the left. Large points are on the front: no other is both faster and closer. "
-      "A "
-      "slope of 1 means that half the knob gives half the error. Errors below 1e-9 m are drawn there. Errors and times "
+      "to fine: the length of a step, or a knob of its own. Lower is closer to continuous motion, further left is "
+      "faster, so that the best are below and to the left. Large points are on the front: no other is both faster and "
+      "closer. A slope of 1 means that half the knob gives half the error. Errors below 1e-9 m are drawn there. Errors "
+      "and times "
       "are measured apart; times are the minimum of nine runs after a warm-up, contenders taking turns.",
       "The continuous motion is computed from event to event with 50 digits. Each side is compared with the motion of "
       "its own law: Box2D with that of a body without friction, octagon_sweep and the techniques of the article with "
@@ -232,9 +247,9 @@ ChartPage precision_page(const std::vector<ordered_json>& rows) {
   page.table.heading = {"motion", "contender", "over", "slope"};
   for (const ordered_json& row : rows) {
     if (!row.contains("curve")) continue;
-    const std::optional<double> slope = number_in(row, "slope");
+    const std::optional<double> slope = number_of(row, "slope");
     page.table.rows.push_back({row.value("scene", ""), who(row), row["curve"].get<std::string>(),
-                               slope ? fmt::format("{:.2f}", *slope) : row.value("reason", "")});
+                               slope ? in_hundredths(*slope) : row.value("reason", "")});
   }
   return page;
 }

@@ -16,9 +16,9 @@ inline constexpr const char* bullets_title = "Where do bullets pass?";
 inline constexpr const char* how_to_read_maps =
     "How to read this: one map for each contender. A cell stands for all cases with its two values, and counts those "
     "that are bad. Blue: none. Orange with a dot: some. Dark with a cross: all. The thick line is the border between "
-    "none "
-    "and some. Point at a cell, or go there with the arrow keys, to read its numbers and the command that runs one of "
-    "its cases alone.";
+    "none and some. Point at a cell, or go there with the arrow keys, to read its numbers. A click, or Enter, replays "
+    "one of its cases, and names the command that runs it alone; a large map has replays of up to 100 cells, those at "
+    "the border first.";
 
 /// What is bad about a row.
 enum class Bad : std::uint8_t {
@@ -27,7 +27,7 @@ enum class Bad : std::uint8_t {
 };
 
 /// Counts rows into one heat map for each contender, its knobs and number type; keeps no row. What cannot run counts
-/// for nothing. The words of a cell are the reason and the command of its first bad row, or of its first row.
+/// for nothing. A cell keeps the words and the command of its first bad row, or of its first row.
 class GridCounter {
  public:
   /// @param x,y keys in `parameters`; an empty `y` gives one line.
@@ -56,6 +56,11 @@ class GridCounter {
 
 /// Of all its cells together.
 [[nodiscard]] ChartGrid::Cell total_of(const ChartGrid& grid);
+
+/// Whether a border lies between two cells: both ran, and bad cases are on one side alone.
+[[nodiscard]] bool is_border(const ChartGrid::Cell& one, const ChartGrid::Cell& other);
+/// Whether one lies on a side of a cell.
+[[nodiscard]] bool is_at_border(const ChartGrid& grid, std::size_t column, std::size_t row);
 
 /// Error against run time from the rows of `work-precision`: one chart for each motion, one series for each row with a
 /// `curve`; its points are the rows that have this key in `parameters`, and of those over `dt_s` the ones without

@@ -65,13 +65,38 @@ std::string_view class_of(const ChartGrid::Cell& cell) {
   return cell.bad == cell.all ? "all" : "some";
 }
 
-/// Both ran, and bad cases are on one side alone.
-bool is_border(const ChartGrid::Cell& one, const ChartGrid::Cell& other) {
-  return one.all > 0 && other.all > 0 && (one.bad == 0) != (other.bad == 0);
+constexpr double cell_width = 28;
+constexpr double cell_height = 24;
+constexpr double left_of_cells = 64;
+/// Maps stand side by side up to this width: that of a README.
+constexpr double page_width = 900;
+
+struct Size {
+  double width, height;
+};
+
+std::string before_colon(const std::string& title) { return title.substr(0, title.find(':')); }
+
+double width_of_text(std::string_view words, double of_letter) {
+  return of_letter * static_cast<double>(words.size()) + 16;
 }
 
-constexpr double cell_width = 34;
-constexpr double cell_height = 24;
+std::string counted_in_words(const ChartGrid& grid) {
+  const ChartGrid::Cell sum = total_of(grid);
+  return fmt::format("{} of {} cases {}", sum.bad, sum.all, grid.bad_words);
+}
+
+std::string counted_title(const ChartGrid& grid) { return grid.title + ": " + counted_in_words(grid); }
+
+/// In a picture of several maps each is headed by its name and its count, without the question they share.
+double height_of_heading(bool headed) { return headed ? 38 : 0; }
+
+Size size_of(const ChartGrid& grid, bool headed) {
+  const double cells = left_of_cells + cell_width * static_cast<double>(grid.xs.size());
+  const double heading = headed ? width_of_text(grid.title, 7) : 0;
+  return {std::max(cells, heading) + 24,
+          height_of_heading(headed) + cell_height * static_cast<double>(grid.ys.size()) + 52};
+}
 
 void draw_cell(Svg& svg, const ChartGrid::Cell& cell, double x, double y) {
   svg.rectangle(x, y, cell_width - 1, cell_height - 1, class_of(cell));
@@ -79,6 +104,59 @@ void draw_cell(Svg& svg, const ChartGrid::Cell& cell, double x, double y) {
   if (cell.all == 0) svg.text(middle, y + 16, "middle", "–", "quiet");
   if (cell.all > 0 && cell.bad == cell.all) svg.text(middle, y + 16, "middle", "✕", "on-all");
   if (cell.bad > 0 && cell.bad < cell.all) svg.text(middle, y + 16, "middle", "•", "mark-t");
+}
+
+/// Labels that would touch are left out.
+std::size_t label_stride(const std::vector<std::string>& labels) {
+  std::size_t longest = 1;
+  for (const std::string& label : labels) longest = std::max(longest, label.size());
+  return static_cast<std::size_t>(std::ceil((7.0 * static_cast<double>(longest) + 8) / cell_width));
+}
+
+void draw_map(Svg& svg, const ChartGrid& grid, double x, double y, bool headed) {
+  if (headed) {
+    const std::size_t colon = grid.title.find(": ");
+    svg.text(x + 8, y + 14, "start", colon == std::string::npos ? grid.title : grid.title.substr(colon + 2), "name");
+    svg.text(x + 8, y + 30, "start", counted_in_words(grid), "quiet");
+  }
+  const std::size_t rows = grid.ys.size();
+  const std::size_t columns = grid.xs.size();
+  const double left = x + left_of_cells;
+  const double bottom = y + height_of_heading(headed) + cell_height * static_cast<double>(rows);
+  const auto x_of = [&](std::size_t column) { return left + cell_width * static_cast<double>(column); };
+  const auto y_of = [&](std::size_t row) { return bottom - cell_height * static_cast<double>(row + 1); };
+  for (std::size_t row = 0; row < rows; ++row) {
+    svg.text(left - 6, y_of(row) + 16, "end", grid.ys[row], "quiet");
+    for (std::size_t column = 0; column < columns; ++column)
+      draw_cell(svg, grid.cells[row][column], x_of(column), y_of(row));
+  }
+  for (std::size_t row = 0; row < rows; ++row)
+    for (std::size_t column = 0; column < columns; ++column) {
+      const ChartGrid::Cell& cell = grid.cells[row][column];
+      const double edge = x_of(column + 1) - 0.5;
+      if (column + 1 < columns && is_border(cell, grid.cells[row][column + 1]))
+        svg.line(edge, y_of(row), edge, y_of(row) + cell_height, "border");
+      if (row + 1 < rows && is_border(cell, grid.cells[row + 1][column]))
+        svg.line(x_of(column), y_of(row) - 0.5, x_of(column + 1), y_of(row) - 0.5, "border");
+    }
+  for (std::size_t column = 0; column < columns; column += label_stride(grid.xs))
+    svg.text(x_of(column) + cell_width / 2, bottom + 16, "middle", grid.xs[column], "quiet");
+  svg.text(left + cell_width * static_cast<double>(columns) / 2, bottom + 34, "middle", grid.x_label);
+}
+
+/// Letters and digits of a title, with one dash for what is between them.
+std::string file_words(std::string_view title) {
+  std::string words;
+  for (const char c : title) {
+    const bool plain =
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.';
+    if (plain)
+      words += c;
+    else if (!words.empty() && words.back() != '-')
+      words += '-';
+  }
+  if (words.ends_with('-')) words.pop_back();
+  return words.empty() ? "picture" : words;
 }
 
 }  // namespace
@@ -116,60 +194,63 @@ std::string svg_of(const Chart& chart) {
   return svg.finish(chart.title);
 }
 
-std::string svg_of(const ChartGrid& grid) {
-  constexpr double left = 70;
-  constexpr double top = 56;
-  const ChartGrid::Cell sum = total_of(grid);
-  const std::string title = fmt::format("{}: {} of {} cases {}", grid.title, sum.bad, sum.all, grid.bad_words);
-  const std::size_t rows = grid.ys.size();
-  const std::size_t columns = grid.xs.size();
-  const double bottom = top + cell_height * static_cast<double>(rows);
-  const double right = left + cell_width * static_cast<double>(columns);
-  const auto x_of = [&](std::size_t column) { return left + cell_width * static_cast<double>(column); };
-  const auto y_of = [&](std::size_t row) { return bottom - cell_height * static_cast<double>(row + 1); };
-  Svg svg(std::max(right + 20, 8.0 * static_cast<double>(title.size()) + 20), bottom + 66);
-  svg.text(8, 20, "start", title, "title");
-  svg.text(8, 44, "start", grid.y_label);
-  for (std::size_t row = 0; row < rows; ++row) {
-    svg.text(left - 6, y_of(row) + 16, "end", grid.ys[row], "quiet");
-    for (std::size_t column = 0; column < columns; ++column)
-      draw_cell(svg, grid.cells[row][column], x_of(column), y_of(row));
+std::string svg_of(const ChartGrid& grid) { return svg_of_maps(counted_title(grid), {&grid}); }
+
+std::string svg_of_maps(const std::string& title, const std::vector<const ChartGrid*>& maps) {
+  const bool headed = maps.size() > 1;
+  double width = 0;
+  double height = 0;
+  for (const ChartGrid* map : maps) {
+    const Size size = size_of(*map, headed);
+    width = std::max(width, size.width);
+    height = std::max(height, size.height);
   }
-  for (std::size_t row = 0; row < rows; ++row)
-    for (std::size_t column = 0; column < columns; ++column) {
-      const ChartGrid::Cell& cell = grid.cells[row][column];
-      const double edge = x_of(column + 1) - 0.5;
-      if (column + 1 < columns && is_border(cell, grid.cells[row][column + 1]))
-        svg.line(edge, y_of(row), edge, y_of(row) + cell_height, "border");
-      if (row + 1 < rows && is_border(cell, grid.cells[row + 1][column]))
-        svg.line(x_of(column), y_of(row) - 0.5, x_of(column + 1), y_of(row) - 0.5, "border");
-    }
-  for (std::size_t column = 0; column < columns; ++column)
-    svg.text(x_of(column) + cell_width / 2, bottom + 16, "middle", grid.xs[column], "quiet");
-  svg.text((left + right) / 2, bottom + 34, "middle", grid.x_label);
-  svg.text(8, bottom + 56, "start",
-           fmt::format("blank: none {}, •: some, ✕: all; the line is the border", grid.bad_words), "quiet");
+  const auto fitting = static_cast<std::size_t>(page_width / width);
+  const std::size_t columns = std::clamp<std::size_t>(fitting, 1, maps.size());
+  const std::size_t lines = (maps.size() + columns - 1) / columns;
+  constexpr double top = 52;
+  const double bottom = top + height * static_cast<double>(lines);
+  const ChartGrid& first = *maps.front();
+  const std::string key =
+      fmt::format("no mark: none {}, •: some, ✕: all, –: nothing ran; the line is the border", first.bad_words);
+  Svg svg(std::max({width * static_cast<double>(columns), width_of_text(title, 8), width_of_text(key, 6.5)}),
+          bottom + 24);
+  svg.text(8, 20, "start", title, "title");
+  if (!first.y_label.empty())
+    svg.text(8, 40, "start", fmt::format("Upwards: {}. Across: {}.", first.y_label, first.x_label), "quiet");
+  for (std::size_t k = 0; k < maps.size(); ++k)
+    draw_map(svg, *maps[k], width * static_cast<double>(k % columns), top + height * static_cast<double>(k / columns),
+             headed);
+  svg.text(8, bottom + 12, "start", key, "quiet");
   return svg.finish(title);
 }
 
-std::string write_picture(const std::string& title, std::string_view svg, const std::string& folder) {
-  std::string name;
-  for (const char c : title)
-    name +=
-        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.' ? c : '-';
-  std::filesystem::create_directories(folder);
+PictureFolder::PictureFolder(std::string path) : path_(std::move(path)) { std::filesystem::create_directories(path_); }
+
+std::string PictureFolder::write(std::string_view title, std::string_view svg) {
+  const std::string words = file_words(title);
+  std::string name = words;
+  for (int n = 2; !taken_.insert(name).second; ++n) name = fmt::format("{}-{}", words, n);
   name += ".svg";
-  OutputFile file((std::filesystem::path(folder) / name).string());
+  OutputFile file((std::filesystem::path(path_) / name).string());
   file.write(svg);
   file.commit();
   return name;
 }
 
-std::vector<std::string> write_pictures(const ChartPage& page, const std::string& folder) {
+std::vector<std::string> write_pictures(const ChartPage& page, PictureFolder& folder) {
   std::vector<std::string> names;
-  for (const Chart& chart : page.charts)
-    names.push_back(write_picture(chart.title.substr(0, chart.title.find(':')), svg_of(chart), folder));
-  for (const ChartGrid& grid : page.grids) names.push_back(write_picture(grid.title, svg_of(grid), folder));
+  for (const Chart& chart : page.charts) names.push_back(folder.write(before_colon(chart.title), svg_of(chart)));
+  std::vector<std::pair<std::string, std::vector<const ChartGrid*>>> questions;
+  for (const ChartGrid& grid : page.grids) {
+    names.push_back(folder.write(grid.title, svg_of(grid)));
+    const bool named = grid.title.find(':') != std::string::npos;
+    const std::string question = named ? before_colon(grid.title) : page.title;
+    if (questions.empty() || questions.back().first != question) questions.push_back({question, {}});
+    questions.back().second.push_back(&grid);
+  }
+  for (const auto& [question, maps] : questions)
+    if (maps.size() > 1) names.push_back(folder.write(question, svg_of_maps(question, maps)));
   return names;
 }
 

@@ -4,6 +4,7 @@
 #include "records/scene_result.hpp"
 #include "report/chart_page.hpp"
 
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -15,6 +16,8 @@ namespace paperproof::compare {
 [[nodiscard]] std::string svg_of(const Chart& chart);
 /// A heat map with the border between cells where none is bad and cells where some are.
 [[nodiscard]] std::string svg_of(const ChartGrid& grid);
+/// Maps over the same axes, side by side. @param maps at least one.
+[[nodiscard]] std::string svg_of_maps(const std::string& title, const std::vector<const ChartGrid*>& maps);
 
 /// One run, in a picture of its own: the whole of a step.
 struct StripPanel {
@@ -26,13 +29,24 @@ struct StripPanel {
 /// All of them side by side, at the step of the first tunnel, else of the first contact.
 [[nodiscard]] std::string svg_of_strip(const std::string& title, const std::vector<StripPanel>& panels);
 
-/// Writes a file for each chart and each heat map into the folder, which is made where it is missing.
-/// @return their names.
-/// @throws std::runtime_error that says in words which file could not be written and why.
-std::vector<std::string> write_pictures(const ChartPage& page, const std::string& folder);
+/// Where standalone pictures go.
+class PictureFolder {
+ public:
+  /// Makes the folder where it is missing. Throws std::filesystem::filesystem_error.
+  explicit PictureFolder(std::string path);
+  /// One file, named by the title; where an earlier picture has this name, with a number behind it.
+  /// @return the name.
+  /// @throws std::runtime_error that says in words which file could not be written and why.
+  std::string write(std::string_view title, std::string_view svg);
 
-/// One file. @param title words that become its name.
-/// @return the name.
-std::string write_picture(const std::string& title, std::string_view svg, const std::string& folder);
+ private:
+  std::string path_;
+  std::set<std::string> taken_;
+};
+
+/// A file for each chart and each heat map, and one for the heat maps of each question: those whose titles begin alike
+/// up to a colon, or all of a page. Throws as `PictureFolder::write`.
+/// @return their names.
+std::vector<std::string> write_pictures(const ChartPage& page, PictureFolder& folder);
 
 }  // namespace paperproof::compare

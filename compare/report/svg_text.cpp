@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::string_view style = R"(<style>
 text { font: 12px system-ui, "Segoe UI", Roboto, "Liberation Sans", sans-serif; }
-.t, .mark-t { fill: #1d2125; } .quiet { fill: #5c646c; } .title { fill: #1d2125; font-size: 14px; font-weight: 600; }
+.t, .mark-t { fill: #1d2125; } .quiet { fill: #5c646c; } .title { fill: #1d2125; font-size: 14px; font-weight: 600; } .name { fill: #1d2125; font-weight: 600; }
 .good { fill: #1d6b3a; font-weight: 600; } .bad { fill: #b3261e; font-weight: 600; }
 .grid { stroke: #d9dcdf; stroke-width: 1; } .border { stroke: #1d2125; stroke-width: 2.5; }
 .frame { fill: none; stroke: #b9bec3; } .solid { fill: #c9ced3; stroke: #7d868f; } .none { fill: #eef0f2; stroke: #b9bec3; }
@@ -20,7 +20,7 @@ text { font: 12px system-ui, "Segoe UI", Roboto, "Liberation Sans", sans-serif; 
 .i6 { stroke: #6a4fc4; fill: #6a4fc4; } .i7 { stroke: #c0304f; fill: #c0304f; }
 .curve.i0, .curve.i1, .curve.i2, .curve.i3, .curve.i4, .curve.i5, .curve.i6, .curve.i7 { fill: none; }
 @media (prefers-color-scheme: dark) {
-.t, .mark-t, .title { fill: #e3e6e8; } .quiet { fill: #a0a8b0; } .good { fill: #7fd19b; } .bad { fill: #ff8f85; }
+.t, .mark-t, .title, .name { fill: #e3e6e8; } .quiet { fill: #a0a8b0; } .good { fill: #7fd19b; } .bad { fill: #ff8f85; }
 .grid { stroke: #363d44; } .border { stroke: #e3e6e8; } .frame { stroke: #5a636c; }
 .solid { fill: #454d55; stroke: #7a858f; } .none { fill: #23282d; stroke: #5a636c; }
 .some { fill: #8f6a24; } .all { fill: #d9603b; } .holds { fill: #24506f; } .on-all { fill: #16181a; }
@@ -55,24 +55,31 @@ const std::vector<std::vector<double>>& mark_shapes() {
   return all;
 }
 
+/// To a hundredth of a pixel.
+std::string short_pixels(double at) {
+  std::string text = fmt::format("{:.2f}", at);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text == "-0" ? "0" : text;
+}
+
 }  // namespace
 
 void Svg::line(double x0, double y0, double x1, double y1, std::string_view of_class) {
-  fmt::format_to(std::back_inserter(body_),
-                 "<line x1=\"{:.2f}\" y1=\"{:.2f}\" x2=\"{:.2f}\" y2=\"{:.2f}\" class=\"{}\"/>\n", x0, y0, x1, y1,
-                 of_class);
+  fmt::format_to(std::back_inserter(body_), "<line x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\" class=\"{}\"/>\n",
+                 short_pixels(x0), short_pixels(y0), short_pixels(x1), short_pixels(y1), of_class);
 }
 
 void Svg::rectangle(double x, double y, double width, double height, std::string_view of_class) {
-  fmt::format_to(std::back_inserter(body_),
-                 "<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" class=\"{}\"/>\n", x, y, width,
-                 height, of_class);
+  fmt::format_to(std::back_inserter(body_), "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" class=\"{}\"/>\n",
+                 short_pixels(x), short_pixels(y), short_pixels(width), short_pixels(height), of_class);
 }
 
 void Svg::polyline(const std::vector<double>& points, bool closed, std::string_view of_class) {
   body_ += closed ? "<polygon points=\"" : "<polyline points=\"";
   for (std::size_t i = 0; i + 1 < points.size(); i += 2)
-    fmt::format_to(std::back_inserter(body_), "{}{:.2f},{:.2f}", i == 0 ? "" : " ", points[i], points[i + 1]);
+    fmt::format_to(std::back_inserter(body_), "{}{},{}", i == 0 ? "" : " ", short_pixels(points[i]),
+                   short_pixels(points[i + 1]));
   fmt::format_to(std::back_inserter(body_), "\" class=\"{}\"/>\n", of_class);
 }
 
@@ -80,23 +87,23 @@ void Svg::rings(const std::vector<std::vector<double>>& all, std::string_view of
   body_ += "<path fill-rule=\"evenodd\" d=\"";
   for (const std::vector<double>& points : all) {
     for (std::size_t i = 0; i + 1 < points.size(); i += 2)
-      fmt::format_to(std::back_inserter(body_), "{}{:.2f},{:.2f}", i == 0 ? "M" : " ", points[i], points[i + 1]);
+      fmt::format_to(std::back_inserter(body_), "{}{},{}", i == 0 ? "M" : " ", short_pixels(points[i]),
+                     short_pixels(points[i + 1]));
     body_ += 'Z';
   }
   fmt::format_to(std::back_inserter(body_), "\" class=\"{}\"/>\n", of_class);
 }
 
 void Svg::text(double x, double y, std::string_view anchor, std::string_view words, std::string_view of_class) {
-  fmt::format_to(std::back_inserter(body_),
-                 "<text x=\"{:.2f}\" y=\"{:.2f}\" text-anchor=\"{}\" class=\"{}\">{}</text>\n", x, y, anchor, of_class,
-                 escaped(words));
+  fmt::format_to(std::back_inserter(body_), "<text x=\"{}\" y=\"{}\" text-anchor=\"{}\" class=\"{}\">{}</text>\n",
+                 short_pixels(x), short_pixels(y), anchor, of_class, escaped(words));
 }
 
 void Svg::mark(double x, double y, double radius, std::size_t kind, std::string_view of_class) {
   const std::size_t shapes = mark_shapes().size() + 1;
   if (kind % shapes == 0) {
-    fmt::format_to(std::back_inserter(body_), "<circle cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"{:.2f}\" class=\"{}\"/>\n", x, y,
-                   radius, of_class);
+    fmt::format_to(std::back_inserter(body_), "<circle cx=\"{}\" cy=\"{}\" r=\"{}\" class=\"{}\"/>\n", short_pixels(x),
+                   short_pixels(y), short_pixels(radius), of_class);
     return;
   }
   std::vector<double> points = mark_shapes()[kind % shapes - 1];

@@ -6,10 +6,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <exception>
+#include <stdexcept>
 
 namespace paperproof::compare {
 namespace {
+
+/// A recorded step takes about a kilobyte of memory.
+constexpr int most_recorded_steps = 100'000;
 
 std::vector<ParameterSetting> settings_of(const Case& one) {
   std::vector<ParameterSetting> settings;
@@ -17,25 +22,48 @@ std::vector<ParameterSetting> settings_of(const Case& one) {
   return settings;
 }
 
-}  // namespace
+RunOptions options_of(const Case& one) {
+  RunOptions options;
+  options.contenders = {one.contender};
+  options.scalars = {one.scalar == "float" ? ScalarKind::binary32 : ScalarKind::binary64};
+  options.steps = one.steps;
+  options.random_input = one.seed;
+  for (const Case::Setting& each : one.knobs) options.knobs.push_back({each.key, each.value});
+  options.full_plan = one.full_plan;
+  options.reference = false;
+  options.measure_cost = false;
+  return options;
+}
 
-Row run_case(const Case& one) {
+ReportScene run_alone(const Case& one, bool record) {
+  ReportScene result;
   try {
     const Scene scene = load_scene(one.scene, settings_of(one));
-    RunOptions options;
-    options.contenders = {one.contender};
-    options.scalars = {one.scalar == "float" ? ScalarKind::binary32 : ScalarKind::binary64};
-    options.steps = one.steps;
-    options.random_input = one.seed;
-    for (const Case::Setting& each : one.knobs) options.knobs.push_back({each.key, each.value});
-    options.reference = false;
-    options.measure_cost = false;
-    Row row = run_scene(scene, options).rows.front();
-    put_case(one, row);
-    return row;
+    RunOptions options = options_of(one);
+    if (record) options.max_replay_steps = one.steps.value_or(scene.steps);
+    if (options.max_replay_steps > most_recorded_steps) throw std::length_error("too many steps to record");
+    result = run_scene(scene, options);
+    put_case(one, result.rows.front());
+    result.rows.front().swept = true;
   } catch (const std::exception& reason) {
-    return failed_row(one, reason.what());
+    result.rows = {failed_row(one, reason.what())};
   }
+  return result;
+}
+
+}  // namespace
+
+Row run_case(const Case& one) { return run_alone(one, false).rows.front(); }
+
+ReportScene excerpt_of(const Case& one, int around) {
+  ReportScene result = run_alone(one, true);
+  std::size_t told = 0;  // steps up to the last that is left
+  for (ReportRun& run : result.runs) {
+    cut_to_excerpt(run, around);
+    if (!run.steps.empty()) told = std::max(told, static_cast<std::size_t>(run.steps.back().step) + 1);
+  }
+  if (told < result.dt_list.size()) result.dt_list.resize(told);
+  return result;
 }
 
 std::optional<Case> case_of(const RunOptions& options, const std::string& scene,
@@ -64,6 +92,7 @@ Row failed_row(const Case& one, const std::string& reason) {
   row.mode = one.mode;
   row.verdict = Verdict::failed;
   row.reason = reason;
+  row.swept = true;
   put_case(one, row);
   std::vector<std::pair<std::string, double>> numbers;
   for (const ParameterDef& def : parameters_of(one.scene))

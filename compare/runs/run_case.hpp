@@ -16,6 +16,10 @@ namespace paperproof::compare {
 /// measured.
 [[nodiscard]] Row run_case(const Case& one);
 
+/// The same with its steps recorded, so many before and after the one that matters: see `cut_to_excerpt`. One row; no
+/// run where it could not be made to its end, or takes more than 100,000 steps.
+[[nodiscard]] ReportScene excerpt_of(const Case& one, int around);
+
 /// The Case of a row that `run_scene` gave.
 /// @param scene as it was typed. @param settings parameters of the scene that were turned.
 /// @return nothing for the twin of a contender in lockstep, which is no run of its own.

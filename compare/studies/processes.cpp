@@ -17,6 +17,7 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 namespace paperproof::compare {
@@ -223,6 +224,10 @@ class Pool {
 };
 
 }  // namespace
+
+int processes_for(int wanted) {
+  return wanted > 0 ? wanted : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
 
 void run_in_processes(const Jobs& jobs, const ProcessOptions& options) { Pool(jobs, options).run(); }
 

@@ -13,6 +13,9 @@ struct ProcessOptions {
   std::chrono::seconds limit{60};  ///< A job that takes longer is killed.
 };
 
+/// @param wanted 0: one for each core.
+[[nodiscard]] int processes_for(int wanted);
+
 /// What the jobs are, and who gets what they give.
 struct Jobs {
   std::size_t count = 0;

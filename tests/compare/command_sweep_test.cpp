@@ -4,7 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 
 namespace paperproof::compare {
@@ -75,6 +77,43 @@ TEST(CommandSweep, goes_on_behind_what_a_kill_left) {
   EXPECT_EQ(other.status, 2);
   EXPECT_TRUE(holds(other.err, "has rows of another sweep")) << other.err;
   EXPECT_EQ(place.run(sweep + "--rows k.csv --resume").status, 2);
+}
+
+nlohmann::json element(const std::string& page, const std::string& id) {
+  const std::string opening = "id=\"" + id + "\">";
+  const std::size_t from = page.find(opening) + opening.size();
+  return nlohmann::json::parse(page.substr(from, page.find("</script>", from) - from));
+}
+
+TEST(CommandSweep, its_page_has_replays_of_its_cells_and_so_has_a_page_of_its_rows) {
+  const Workplace place;
+  std::ofstream(place.path("good.json")) << good_scene;
+  const std::string of_file =
+      "sweep good.json --vary gravity=10,20 --contender mask --quiet --rows f.jsonl --report f.html";
+  EXPECT_EQ(place.run(sweep + "--rows r.jsonl --report p.html").status, 0);
+  EXPECT_EQ(place.run(of_file).status, 0);
+  EXPECT_EQ(element(written(place, "f.html"), "cells-0").size(), 2U);
+  std::filesystem::remove(place.path("good.json"));
+  EXPECT_EQ(place.run("report rows.html r.jsonl f.jsonl").status, 0);
+  EXPECT_EQ(place.run("report pages.html p.html f.html").status, 0);
+  const std::string of_rows = written(place, "rows.html");
+  const nlohmann::json replays = element(of_rows, "cells-0");
+  const nlohmann::json of_sweep = element(written(place, "p.html"), "cells-0");
+  EXPECT_EQ(replays.size(), 108U) << "each cell has one case";
+  // What counts as bad differs, and with it which cells come first.
+  EXPECT_TRUE(std::set(replays.begin(), replays.end()) == std::set(of_sweep.begin(), of_sweep.end()));
+  EXPECT_TRUE(element(of_rows, "cells-1").empty()) << "its scene is gone";
+  EXPECT_TRUE(element(written(place, "pages.html"), "cells-0") == of_sweep);
+  EXPECT_EQ(element(written(place, "pages.html"), "cells-1").size(), 2U);
+  for (const nlohmann::json& grid : element(of_rows, "index").at("studies")[0].at("grids"))
+    for (const nlohmann::json& line : grid.at("cells"))
+      for (const nlohmann::json& cell : line) {
+        const nlohmann::json& run = replays.at(cell.at(4).get<std::size_t>()).at("replay").at("runs").at(0);
+        EXPECT_EQ(run.at("contender"), grid.at("title"));
+        bool through = false;
+        for (const nlohmann::json& event : run.at("events")) through = through || event.at(1) == "tunnel";
+        EXPECT_EQ(through, cell.at(0) > 0) << cell;
+      }
 }
 
 TEST(CommandSweep, the_command_in_a_row_gives_its_case_again) {

@@ -1,10 +1,12 @@
 /// Pictures: of rows, in pages and as SVG.
 #include "compare/report_pages.hpp"
+#include "report/cell_replay.hpp"
 #include "report/page_reader.hpp"
 #include "report/row_pictures.hpp"
 #include "report/svg.hpp"
 
-#include <cmath>
+#include <array>
+#include <cstdio>
 
 namespace paperproof::compare {
 namespace {
@@ -15,7 +17,7 @@ ordered_json shot(const std::string& contender, double speed, double thickness, 
   return {
       {"scene", "paper"},   {"contender", contender},
       {"scalar", "double"}, {"verdict", tunnels > 0 ? "tunnels" : "holds"},
-      {"case", "x"},        {"parameters", {{"speed_m_s", speed}, {"thickness_m", thickness}, {"angle_deg", angle}}},
+      {"swept", true},      {"parameters", {{"speed_m_s", speed}, {"thickness_m", thickness}, {"angle_deg", angle}}},
       {"tunnels", tunnels}, {"command", "paperproof compare paper --no-reference"}};
 }
 
@@ -74,6 +76,64 @@ TEST(RowPictures, the_axes_of_a_sweep_are_the_first_two_parameters_that_vary) {
   EXPECT_EQ(pages[0].grids[0].cells[0][1].bad, 1);
 }
 
+/// A row of cells: how many of one case are bad; -1: nothing ran.
+ChartGrid line_of(const std::vector<int>& bad) {
+  ChartGrid grid;
+  grid.cells.resize(1);
+  for (const int each : bad) {
+    grid.xs.push_back(std::to_string(grid.xs.size()));
+    grid.cells[0].push_back({std::max(each, 0), each < 0 ? 0 : 1});
+  }
+  return grid;
+}
+
+TEST(CellReplays, are_of_the_border_first_then_of_bad_cells_then_of_the_rest) {
+  ChartGrid grid = line_of({0, 0, 1, 1, -1, 0, 1});
+  const auto places = [&grid](std::size_t most) {
+    std::vector<std::ptrdiff_t> all;
+    for (const ChartGrid::Cell* cell : cells_to_replay(grid, most)) all.push_back(cell - grid.cells[0].data());
+    return all;
+  };
+  EXPECT_EQ(places(100), (std::vector<std::ptrdiff_t>{1, 2, 5, 6, 3, 0}));
+  EXPECT_EQ(places(5), (std::vector<std::ptrdiff_t>{1, 2, 5, 6, 3}));
+  EXPECT_EQ(places(2), (std::vector<std::ptrdiff_t>{1, 5})) << "spread evenly";
+  EXPECT_TRUE(places(0).empty());
+}
+
+TEST_F(ReportTest, replays_of_cells_stand_in_the_page_and_are_read_back) {
+  ReportScene excerpt = sample_report().scenes[0];
+  excerpt.rows[0].parameters = {{"speed_m_s", 120}, {"phase", 0.25}};
+  ChartPage study;
+  study.title = "study";
+  study.grids = {grid_of_shots()};
+  study.replays = {cell_replay_json(excerpt)};
+  study.grids[0].cells[0][1].replay = 0;
+  ReportWriter writer(path());
+  writer.add_study(study);
+  writer.finish({}, {}, {});
+  const json cells = data(read(path()), "cells-0");
+  ASSERT_EQ(cells.size(), 1U);
+  EXPECT_EQ(cells[0]["parameters"], json::parse(R"([["speed [m/s]", "120"], ["phase", "0.25"]])"));
+  EXPECT_EQ(cells[0]["replay"]["runs"].size(), excerpt.runs.size());
+  const PageReader reader(path());
+  EXPECT_EQ(json::parse(reader.cells(0)), cells);
+  EXPECT_EQ(reader.cells(1), "[]");
+  const json row = reader.index()["studies"][0]["grids"][0]["cells"][0];
+  EXPECT_EQ(row[0].size(), 4U) << "no replay";
+  EXPECT_EQ(row[1][3], "paperproof compare paper --no-reference");
+  EXPECT_EQ(row[1][4], 0);
+}
+
+TEST(RowPictures, rows_of_a_comparison_are_no_sweep_though_nothing_ran_beside) {
+  RowPictures pictures;
+  ordered_json row = shot("mask", 10, 0.1, 0);
+  row.erase("swept");
+  pictures.look(row);
+  pictures.add(row);
+  EXPECT_TRUE(pictures.pages().empty());
+  EXPECT_EQ(pictures.scenes().size(), 1U);
+}
+
 ordered_json precise(double dt, double error, double ns, const std::string& knob = "", double value = 0) {
   ordered_json row{{"scene", "rest"},          {"contender", "mask"},          {"scalar", "double"},
                    {"mode", "work_precision"}, {"parameters", {{"dt_s", dt}}}, {"error_max_m", error},
@@ -125,9 +185,30 @@ TEST(Svg, points_of_a_chart_are_where_their_logarithms_are) {
   const double x1 = 70 + 490 * 2 / 3.0;
   const double y0 = 430 - 360 / 4.0;
   const double y1 = 430 - 360 * 3 / 4.0;
-  char points[100];
-  std::snprintf(points, sizeof points, "points=\"%.2f,%.2f %.2f,%.2f\"", x0, y0, x1, y1);
-  EXPECT_NE(svg.find(points), std::string::npos) << points;
+  const std::string mark = "<polyline points=\"";
+  const std::size_t begin = svg.find(mark);
+  ASSERT_NE(begin, std::string::npos);
+  std::array<double, 4> at{};
+  ASSERT_EQ(std::sscanf(svg.c_str() + begin + mark.size(), "%lf,%lf %lf,%lf", &at[0], &at[1], &at[2], &at[3]), 4);
+  const std::array<double, 4> expected{x0, y0, x1, y1};
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(at[i], expected[i], 0.005);
+}
+
+TEST_F(ReportTest, pictures_of_equal_titles_have_files_of_their_own_and_maps_of_one_question_share_one) {
+  ChartPage study;
+  study.title = "Where? And why?";
+  for (const char* title : {"rest: mask", "rest: discrete", "walk: mask", "mask", "mask"}) {
+    study.grids.push_back(grid_of_shots());
+    study.grids.back().title = title;
+  }
+  PictureFolder folder(path() + "/deep");
+  EXPECT_EQ(write_pictures(study, folder),
+            (std::vector<std::string>{"rest-mask.svg", "rest-discrete.svg", "walk-mask.svg", "mask.svg", "mask-2.svg",
+                                      "rest.svg", "Where-And-why.svg"}));
+  const std::string rest = read(path() + "/deep/rest.svg");
+  EXPECT_EQ(count_of(rest, "class=\"holds\""), 6U);
+  EXPECT_EQ(count_of(rest, "class=\"name\""), 2U);
+  EXPECT_EQ(count_of(rest, "Upwards: thickness [m]. Across: speed [m/s]."), 1U);
 }
 
 TEST(Svg, a_strip_has_a_panel_for_each_contender_and_says_what_became_of_it) {

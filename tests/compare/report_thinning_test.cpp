@@ -70,6 +70,27 @@ TEST(ThinForReplay, says_how_many_steps_one_stands_for) {
   EXPECT_GE(run.every, 20) << "thinning twice multiplies";
 }
 
+TEST(CutToExcerpt, leaves_the_step_that_matters_and_those_around_it) {
+  const auto steps_of = [](const std::vector<ReportEvent>& events, int around) {
+    ReportRun run = walk_of(100).runs[0];
+    for (TraceStep& step : run.steps)
+      if (step.step < 30) step.contacts.clear();
+    run.events = events;
+    cut_to_excerpt(run, around);
+    for (const ReportEvent& event : run.events) EXPECT_LE(std::abs(event.step - run.steps[0].step), 2 * around);
+    return std::pair(run.steps.front().step, run.steps.back().step);
+  };
+  using Kind = ReportEvent::Kind;
+  EXPECT_EQ(steps_of({}, 4), std::pair(26, 34)) << "the first contact";
+  EXPECT_EQ(steps_of({{50, Kind::inside, ""}, {70, Kind::tunnel, ""}, {90, Kind::tunnel, ""}}, 4), std::pair(66, 74));
+  EXPECT_EQ(steps_of({{20, Kind::note, ""}, {50, Kind::inside, ""}}, 3), std::pair(47, 53));
+  EXPECT_EQ(steps_of({{1, Kind::inside, ""}}, 4), std::pair(0, 5));
+  ReportRun pair = sample_report().scenes[4].runs[0];
+  cut_to_excerpt(pair, 2);
+  EXPECT_LE(pair.steps.size(), 5U);
+  EXPECT_EQ(pair.others[0].size(), pair.steps.size());
+}
+
 TEST(OptionsFor, many_runs_share_the_room) {
   EXPECT_EQ(options_for(1).max_replay_steps, ReportOptions{}.max_replay_steps);
   EXPECT_EQ(options_for(0).max_replay_steps, ReportOptions{}.max_replay_steps);

@@ -1,5 +1,6 @@
 /// Sweeps: axes, Cases, borders, and jobs in child processes.
 #include "studies/sweep.hpp"
+#include "records/rows_json.hpp"
 #include "runs/run_case.hpp"
 #include "scenes/load.hpp"
 #include "studies/processes.hpp"
@@ -115,6 +116,25 @@ TEST(RunCase, gives_the_row_of_the_command_with_its_parameters) {
   // 3 m at 100 m/s.
   EXPECT_EQ(row.first_contact_step, 1);
   EXPECT_NEAR(*row.first_contact_fraction, 0.8, 1e-6);
+}
+
+TEST(RunCase, run_again_for_a_replay_leaves_the_steps_around_the_passage) {
+  Case one;
+  one.scene = "paper";
+  one.parameters = {{"speed", "29"}, {"thickness", "0.001"}};
+  one.contender = "penetration_resolution";
+  const Row row = run_case(one);
+  ASSERT_GT(row.tunnels.value_or(0), 0);
+  const ReportScene excerpt = excerpt_of(one, 4);
+  ASSERT_EQ(excerpt.rows.size(), 1U);
+  EXPECT_EQ(json_line(row_json(excerpt.rows.front())), json_line(row_json(row)));
+  ASSERT_EQ(excerpt.runs.size(), 1U);
+  const std::vector<TraceStep>& steps = excerpt.runs.front().steps;
+  // 3 m at less than half a metre per step: more than four steps before it.
+  ASSERT_EQ(steps.size(), 9U);
+  EXPECT_EQ(steps[4].step, row.first_tunnel->step);
+  one.parameters = {{"speed", "-3"}};
+  EXPECT_TRUE(excerpt_of(one, 4).runs.empty());
 }
 
 TEST(RunCase, of_what_there_is_not_is_a_failed_row) {

@@ -2,6 +2,12 @@
 
 const SPEEDS = [[1 / 240, '1/240'], [1 / 60, '1/60'], [1 / 16, '1/16'], [1 / 4, '1/4'], [1, '1'], [4, '4'], [16, '16']];
 
+/// Real time, or as much slower as takes two seconds.
+function usualSpeed(replay) {
+  const {data: {times}, timeline} = replay, whole = times.at(timeline[timeline.length - 1] + 1) - times.at(timeline[0]);
+  return (SPEEDS.findLast(([speed]) => speed <= 1 && whole >= 2 * speed) || SPEEDS[0])[0];
+}
+
 function keptInWords(replay) {
   const first = replay.timeline[0], last = replay.timeline[replay.timeline.length - 1];
   const every = Math.max(...replay.runs.map((run) => run.every));
@@ -35,7 +41,7 @@ function legend(replay) {
   });
   return el(
       'div', {class: 'bar legend', role: 'group', 'aria-label': 'Contenders shown'}, toggles,
-      el('button', {type: 'button', onclick: () => replay.setVisible(replay.runs)}, 'All'));
+      replay.runs.length > 1 ? el('button', {type: 'button', onclick: () => replay.setVisible(replay.runs)}, 'All') : null);
 }
 
 function cameraBar(replay) {
@@ -62,7 +68,7 @@ function cameraBar(replay) {
       el('button', {type: 'button', 'aria-pressed': 'false', onclick: () => replay.setTogether(!replay.together)},
          'Side by side');
   return el(
-      'div', {class: 'bar', role: 'group', 'aria-label': 'View'}, replay.layoutButton, [...replay.modeButtons.values()],
+      'div', {class: 'bar', role: 'group', 'aria-label': 'View'}, replay.runs.length > 1 ? replay.layoutButton : null, [...replay.modeButtons.values()],
       el('button', {type: 'button', 'aria-label': 'Zoom in', onclick: () => replay.zoom(1.4)}, '+'),
       el('button', {type: 'button', 'aria-label': 'Zoom out', onclick: () => replay.zoom(1 / 1.4)}, '\u2212'),
       el('span', {class: 'gap'}), choice('trajectories', 'trajectories'), choice('start', 'start of step'),
@@ -91,7 +97,7 @@ function transport(replay) {
     replay.t = Number(replay.within.value);
     replay.draw();
   });
-  const speed = el('select', {}, SPEEDS.map(([value, words]) => el('option', {value, selected: value === 1}, words)));
+  const speed = el('select', {}, SPEEDS.map(([value, words]) => el('option', {value, selected: value === replay.speed}, words)));
   speed.addEventListener('change', () => {
     replay.speed = Number(speed.value);
   });

@@ -279,8 +279,7 @@ function decodeDisagreement(packed, runs, quantum) {
 }
 
 /// Everything about one scene's replay; parsed when the scene is opened, not before.
-function decodeReplay(text) {
-  const packed = JSON.parse(text);
+function decodeReplay(packed) {
   const sceneries = packed.sceneries.map((scenery) => decodeScenery(scenery, packed.quantum));
   const runs = packed.runs.map((run) => decodeRun(run, sceneries, packed.quantum));
   return {

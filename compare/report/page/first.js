@@ -31,7 +31,7 @@ function firstScene() {
 /// One small picture for each contender: the step that matters, at the same fraction for all.
 class Strip {
   constructor(scene) {
-    this.replay = decodeReplay(document.getElementById(`replay-${INDEX.scenes.indexOf(scene)}`).textContent);
+    this.replay = decodeReplay(dataOf(`replay-${INDEX.scenes.indexOf(scene)}`));
     this.names = namesWith(this.replay.runs);
     const focus = mainFocus(this.replay.runs);
     this.step = focus ? focus.step : 0;
@@ -180,7 +180,7 @@ function studyTable(study) {
 }
 
 function studySection(study) {
-  const maps = heatMaps(study.grids), charts = study.charts.length ? new ChartPicture(study.charts) : null;
+  const maps = heatMaps(study), charts = study.charts.length ? new ChartPicture(study.charts) : null;
   const [reading, ...more] = study.paragraphs;
   return {
     nodes: [
@@ -191,6 +191,9 @@ function studySection(study) {
     draw: () => {
       if (charts) charts.draw();
       maps.draw();
+    },
+    show: (wanted) => {
+      if (study.key === wanted.get('study')) maps.show(wanted);
     }
   };
 }
@@ -232,6 +235,8 @@ function summary() {
     draw: () => {
       first.draw();
       studies.forEach((study) => study.draw());
-    }
+    },
+    /// The map that an address asks for.
+    show: (wanted) => studies.forEach((study) => study.show(wanted))
   };
 }

@@ -1,7 +1,13 @@
 // Heat maps: how many of the cases at a place on two axes are bad. Blue: none; orange with a dot: some; dark with a
 // cross: all; so that nobody has to tell them apart by colour alone.
 
-const MAP = {left: 46, bottom: 34, top: 4, right: 4, row: 24};
+const MAP = {
+  left: 54,
+  bottom: 34,
+  top: 4,
+  right: 4,
+  row: 24
+};
 
 /// How a cell is filled and marked, by the share of its cases that are bad.
 function cellLook([bad, all], dark) {
@@ -12,22 +18,40 @@ function cellLook([bad, all], dark) {
   return {fill: `hsl(35 ${dark ? 60 : 90}% ${dark ? 34 + 14 * share : 82 - 20 * share}%)`, mark: '\u2022'};
 }
 
+/// Of a cell of a heat map: the address of its replay, or, as 'at', of the map with this cell marked.
+function addressOfCell(study, grid, {column, row}, as = 'cell') {
+  return `#${new URLSearchParams({study: study.key, map: grid.key, [as]: `${column},${row}`})}`;
+}
+
+/// A cell that an address asks for as 'cell' or 'at': null where it is none of the map.
+function cellIn(grid, wanted, as) {
+  const [column, row] = (wanted.get(as) || '').split(',').map(Number);
+  return (grid.cells[row] || [])[column] ? {column, row} : null;
+}
+
+function placeInWords(grid, {column, row}) {
+  return `${grid.x} = ${grid.xs[column]}${grid.y ? `, ${grid.y} = ${grid.ys[row]}` : ''}`;
+}
+
 class HeatMap {
-  constructor(grid, tell) {
-    Object.assign(this, {grid, tell, at: null});
+  constructor(study, grid, tell) {
+    Object.assign(this, {study, grid, tell, at: null});
     const cells = grid.cells.flat(), bad = cells.reduce((sum, cell) => sum + cell[0], 0),
           all = cells.reduce((sum, cell) => sum + cell[1], 0);
     this.title = `${grid.title}: ${grouped(bad)} of ${grouped(all)} cases ${grid.bad_words}`;
     this.canvas = el('canvas', {
       tabindex: '0',
       role: 'img',
-      'aria-label': `${this.title}. Arrow keys go from cell to cell.`,
+      'aria-label': `${this.title}. Arrow keys go from cell to cell, Enter replays one.`,
       style: `height:${MAP.top + MAP.bottom + MAP.row * grid.ys.length}px`
     });
     this.root = el('figure', {class: 'map'}, el('figcaption', {}, this.title), this.canvas);
     this.canvas.addEventListener('pointermove', (event) => this.point(event));
     this.canvas.addEventListener('pointerleave', () => this.go(null));
-    this.canvas.addEventListener('click', (event) => this.point(event));
+    this.canvas.addEventListener('click', (event) => {
+      this.point(event);
+      this.open();
+    });
     this.canvas.addEventListener('keydown', (event) => this.key(event));
   }
 
@@ -55,8 +79,9 @@ class HeatMap {
   key(event) {
     const ways = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
     const way = ways[event.key];
-    if (!way) return;
+    if (!way && event.key !== 'Enter') return;
     event.preventDefault();
+    if (!way) return this.open();
     const {column, row} = this.at || {column: -way[0], row: -way[1]};
     this.go({
       column: Math.max(0, Math.min(this.columns - 1, column + way[0])),
@@ -66,12 +91,29 @@ class HeatMap {
 
   go(at) {
     this.at = at;
+    this.canvas.style.cursor = at && this.replay !== undefined ? 'pointer' : '';
     this.draw();
     if (!at) return;
-    const {grid} = this, [bad, all, words] = grid.cells[at.row][at.column];
-    const place = `${grid.x} = ${grid.xs[at.column]}${grid.y ? `, ${grid.y} = ${grid.ys[at.row]}` : ''}`;
+    const {grid} = this, [bad, all, words, command] = grid.cells[at.row][at.column];
     const counted = all === 0 ? 'nothing ran' : `${grouped(bad)} of ${grouped(all)} ${grid.bad_words}`;
-    this.tell(`${grid.title} at ${place}: ${counted}.`, words);
+    const sentence = el('strong', {}, `${grid.title} at ${placeInWords(grid, at)}: ${counted}.`);
+    if (all === 0) return this.tell([sentence]);
+    const how = this.replay === undefined ?
+        ['No replay of it is in this page; in a terminal: ', el('code', {}, command)] :
+        ['Click or Enter: its replay.'];
+    this.tell([sentence, ` ${bad > 0 ? 'The first of them' : 'The first case'}: ${words}. `, ...how]);
+  }
+
+  /// Which of the study's replays the cell has that is pointed at.
+  get replay() {
+    return this.grid.cells[this.at.row][this.at.column][4];
+  }
+
+  /// Whoever comes back by the browser finds the cell marked.
+  open() {
+    if (!this.at || this.replay === undefined) return;
+    history.replaceState(null, '', addressOfCell(this.study, this.grid, this.at, 'at'));
+    location.hash = addressOfCell(this.study, this.grid, this.at);
   }
 
   draw() {
@@ -82,7 +124,8 @@ class HeatMap {
     c.font = '11px system-ui, sans-serif';
     c.textBaseline = 'middle';
     c.textAlign = 'center';
-    grid.cells.forEach((line, row) => line.forEach((cell, column) => this.drawCell(c, cell, column, row, dark, colours)));
+    grid.cells.forEach(
+        (line, row) => line.forEach((cell, column) => this.drawCell(c, cell, column, row, dark, colours)));
     this.drawBorder(c, colours);
     this.drawAxes(c, colours, width, height);
     if (!this.at) return;
@@ -139,14 +182,21 @@ class HeatMap {
 }
 
 /// All heat maps of a study, and one line that tells about the cell that is pointed at.
-function heatMaps(grids) {
-  if (grids.length === 0) return {nodes: [], draw: () => {}};
+function heatMaps(study) {
+  const {grids} = study;
+  if (grids.length === 0) return {nodes: [], draw: () => {}, show: () => {}};
   const told = el('p', {class: 'told', role: 'status'}, 'Point at a cell to read about it.');
-  const maps = grids.map((grid) => new HeatMap(
-                   grid, (sentence, words) => told.replaceChildren(el('strong', {}, sentence), ` ${words}`)));
+  const maps = grids.map((grid) => new HeatMap(study, grid, (words) => told.replaceChildren(...words)));
   const up = grids[0].y ? el('p', {class: 'quiet'}, `Upwards: ${grids[0].y}. Across: ${grids[0].x}.`) : null;
   return {
-    nodes: [up, told, el('div', {class: 'maps'}, maps.map((map) => map.root))].filter(Boolean),
-    draw: () => maps.forEach((map) => map.draw())
+    nodes: [el('div', {}, up, told, el('div', {class: 'maps'}, maps.map((map) => map.root)))],
+    draw: () => maps.forEach((map) => map.draw()),
+    show: (wanted) => {
+      const map = maps.find(({grid}) => grid.key === wanted.get('map'));
+      if (!map) return;
+      map.canvas.focus({preventScroll: true});
+      map.go(cellIn(map.grid, wanted, 'at'));
+      map.root.scrollIntoView({block: 'center'});
+    }
   };
 }

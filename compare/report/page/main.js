@@ -1,16 +1,23 @@
 // Puts the page together: the list of scenes, one scene at a time, and what the address asks for:
 // #summary, or #scene=article_bullet&contender=wind_back&step=10&t=0.5&layout=side&view=follow&play=3 (playing, 3
-// seconds on). Without a step a replay opens at the event that matters.
+// seconds on). Without a step a replay opens at the event that matters. #study=sweep+of+paper&map=mask&cell=5,2 is the
+// replay of a cell of a heat map, and with "at" instead of "cell" it is this cell in the map.
 
-const INDEX = JSON.parse(document.getElementById('index').textContent);
-// Two files may call their scenes the same: the second one is called "name (2)" in addresses.
-INDEX.scenes.forEach((scene, i) => {
-  const before = INDEX.scenes.slice(0, i).filter((other) => other.name === scene.name).length;
-  scene.key = before === 0 ? scene.name : `${scene.name} (${before + 1})`;
-});
+const dataOf = (id) => JSON.parse(document.getElementById(id).textContent);
+const INDEX = dataOf('index');
+/// Two may be called the same: the second one is called "name (2)" in addresses.
+function giveKeys(list, name) {
+  list.forEach((one, i) => {
+    const before = list.slice(0, i).filter((other) => name(other) === name(one)).length;
+    one.key = before === 0 ? name(one) : `${name(one)} (${before + 1})`;
+  });
+}
+giveKeys(INDEX.scenes, (scene) => scene.name);
+giveKeys(INDEX.studies, (study) => study.title);
+for (const study of INDEX.studies) giveKeys(study.grids, (grid) => grid.title);
 const main = document.getElementById('main');
-/// `pictures` has a `draw`, as has the replay.
-let open = {scene: null, replay: null, pictures: null};
+/// `what` is shown: `scene 3` or `cell`. `pictures` has a `draw`, as has the replay; `back` is where Escape leads.
+let open = {what: '', replay: null, pictures: null, back: null};
 
 /// Contenders and labels in an order that is the same for all scenes: the default and the reference first.
 function namesWith(runs) {
@@ -31,8 +38,7 @@ function runDetails(replay) {
 }
 
 function replayNodes(index) {
-  const source = document.getElementById(`replay-${index}`);
-  const replay = decodeReplay(source.textContent);
+  const replay = decodeReplay(dataOf(`replay-${index}`));
   if (!replay.runs.some((run) => run.steps.length > 0)) {
     open.replay = open.pictures = null;
     return {shown: [el('p', {class: 'quiet'}, 'No run of this scene was stored for replay.')], details: []};
@@ -49,7 +55,7 @@ function noteDrawn(replay) {
   const {painter} = replay.views[0];
   document.documentElement.dataset.seen =
       [painter.worldX(0), painter.worldY(painter.height), painter.worldX(painter.width), painter.worldY(0)].join(' ');
-  document.documentElement.dataset.drawn = `scene ${open.scene} step ${replay.step} t ${replay.t}`;
+  document.documentElement.dataset.drawn = `${open.what} step ${replay.step} t ${replay.t}`;
 }
 
 /// How many colours the first canvas has: one means that nothing was drawn. Asked for with #...&check=1.
@@ -59,10 +65,14 @@ function countColours() {
   document.documentElement.dataset.colours = String(new Set(data).size);
 }
 
-function showScene(index, wanted) {
+function begin(what) {
   if (open.replay) open.replay.pause();
+  open = {what, replay: null, pictures: null, back: null};
+}
+
+function showScene(index, wanted) {
   const scene = INDEX.scenes[index];
-  open = {scene: index, replay: null, pictures: null};
+  begin(`scene ${index}`);
   const replay = replayNodes(index);
   main.replaceChildren(
       ...[el('h2', {}, scene.name), scene.description ? el('p', {class: 'quiet'}, scene.description) : null,
@@ -96,26 +106,40 @@ function startReplay(replay, wanted) {
   }
 }
 
-function showSummary() {
-  if (open.replay) open.replay.pause();
+function showCell(cell, wanted) {
+  begin('cell');
+  const {parameters, replay} = dataOf(`cells-${cell.index}`)[cell.replay], decoded = decodeReplay(replay);
+  const {above, below} = cellNodes(cell, parameters);
+  open.back = addressOfCell(cell.study, cell.grid, cell.at, 'at');
+  open.replay = new Replay(decoded, namesWith(decoded.runs), noteDrawn);
+  main.replaceChildren(...above, open.replay.root, ...below, runDetails(decoded));
+  document.title = `${cell.grid.title} - ${cell.study.title}`;
+  startReplay(open.replay, wanted);
+}
+
+function showSummary(wanted) {
+  begin('summary');
   const pictures = summary();
-  open = {scene: null, replay: null, pictures};
+  open.pictures = pictures;
   main.replaceChildren(...pictures.nodes);
   document.title = INDEX.scenes.length || INDEX.studies.length !== 1 ? 'paperproof report' : `paperproof: ${INDEX.studies[0].title}`;
   pictures.draw();
   document.documentElement.dataset.drawn = 'summary';
   window.scrollTo(0, 0);
+  pictures.show(wanted);
 }
 
 function route() {
   if (location.hash === '#main') return;
   const wanted = new URLSearchParams(location.hash.slice(1));
   const index = INDEX.scenes.findIndex((scene) => scene.key === wanted.get('scene'));
-  const known = index >= 0;
+  const known = index >= 0, cell = wantedCell(wanted);
   if (known)
     showScene(index, wanted);
+  else if (cell)
+    showCell(cell, wanted);
   else
-    showSummary();
+    showSummary(wanted);
   for (const link of document.querySelectorAll('.scene-link')) {
     const current = link.id === (known ? `scene-link-${index}` : 'summary-link');
     if (current)
@@ -187,6 +211,7 @@ window.addEventListener('hashchange', route);
 window.addEventListener('resize', redraw);
 document.addEventListener('keydown', (event) => {
   if (open.replay) open.replay.key(event);
+  if (open.back && event.key === 'Escape' && event.target.tagName !== 'SELECT') location.hash = open.back;
 });
 matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
   route();

@@ -5,11 +5,12 @@ const RECENT = 30;
 
 class Replay {
   constructor(data, names, onStep) {
-    Object.assign(this, {data, names, onStep, playing: false, t: 1, at: 0, speed: 1, together: true, mode: 'fit'});
+    Object.assign(this, {data, names, onStep, playing: false, t: 1, at: 0, together: true, mode: 'fit'});
     this.focus = null;  // what the mode 'event' shows
     this.runs = data.runs.filter((run) => run.steps.length > 0);
     this.visible = new Set(this.runs);
     this.timeline = [...new Set(this.runs.flatMap((run) => run.steps.map((step) => step.step)))].sort((a, b) => a - b);
+    this.speed = usualSpeed(this);
     this.show = {trajectories: true, start: true, velocity: true};
     this.camera = new Camera();
     this.views = [];

@@ -1,0 +1,13 @@
+/// Replays of the Cases behind the cells of heat maps.
+#pragma once
+
+#include "report/chart_page.hpp"
+
+namespace paperproof::compare {
+
+/// Runs the Case of a cell again, in child processes, and gives the page a short replay of it: see `cells_to_replay`.
+/// Who cannot be run here, or passes a solid where the row says that it does not, or the other way round, has none.
+/// @param jobs processes; 0: one for each core.
+void add_cell_replays(ChartPage& page, int jobs);
+
+}  // namespace paperproof::compare
