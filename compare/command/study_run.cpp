@@ -27,12 +27,6 @@ std::size_t cases_in(const std::vector<StudyPart>& parts) {
   return cases;
 }
 
-/// `box2d movers=transform`
-std::string who_ran(const ordered_json& row) {
-  const std::string knob = row.value("knob", "");
-  return row.value("contender", "") + (knob.empty() ? "" : ' ' + knob);
-}
-
 }  // namespace
 
 StudyRun::Shard StudyRun::parse_shard(const std::string& text) {
@@ -124,7 +118,7 @@ void StudyScores::add(const StudyPart& part, const ordered_json& row) {
       std::find_if(titles_.begin(), titles_.end(), [&](const Title& one) { return one.title == part.title; });
   if (title == titles_.end()) return;
   if (title->grids) title->grids->add(row);
-  const std::string who = who_ran(row);
+  const std::string who = who_ran(row, title->keys);
   auto found =
       std::find_if(title->scores.begin(), title->scores.end(), [&](const auto& one) { return one.first == who; });
   if (found == title->scores.end()) found = title->scores.insert(found, {who, {}});

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 #include <set>
+#include <sstream>
 
 namespace paperproof::compare {
 namespace {
@@ -28,13 +29,6 @@ std::optional<double> number_of(const ordered_json& row, const char* key) {
 
 /// Without a sign where nothing is left of the number.
 std::string in_hundredths(double number) { return fmt::format("{:.2f}", std::round(number * 100) / 100 + 0.0); }
-
-std::string who(const ordered_json& row) {
-  std::string name = row.value("contender", "");
-  const bool is_float = row.value("scalar", "") == "float" && !name.starts_with("box2d");
-  if (const std::string knob = row.value("knob", ""); !knob.empty()) name += ' ' + knob;
-  return is_float ? name + " in float" : name;
-}
 
 std::vector<std::string> texts_of(const std::set<double>& values) {
   std::vector<std::string> texts;
@@ -60,6 +54,15 @@ std::string verdict_and_reason(const ordered_json& row) {
 
 }  // namespace
 
+std::string who_ran(const ordered_json& row, const std::vector<std::string>& varied) {
+  std::string name = row.value("contender", "");
+  const bool is_float = row.value("scalar", "") == "float" && !name.starts_with("box2d");
+  std::istringstream knobs(row.value("knob", ""));
+  for (std::string knob; knobs >> knob;)
+    if (std::find(varied.begin(), varied.end(), knob.substr(0, knob.find('='))) == varied.end()) name += ' ' + knob;
+  return is_float ? name + " in float" : name;
+}
+
 std::string axis_words(const std::string& key) {
   constexpr std::array<std::pair<std::string_view, std::string_view>, 8> units{{{"_m_s2", "m/s²"},
                                                                                 {"_m_s", "m/s"},
@@ -78,7 +81,7 @@ GridCounter::GridCounter(std::string title, std::string x, std::string y, Bad ba
     : title_(std::move(title)), x_(std::move(x)), y_(std::move(y)), bad_(bad) {}
 
 GridCounter::Counts& GridCounter::counts_of(const ordered_json& row) {
-  const std::string name = who(row);
+  const std::string name = who_ran(row, {x_, y_});
   const auto found = std::find_if(counts_.begin(), counts_.end(), [&](const Counts& one) { return one.who == name; });
   return found != counts_.end() ? *found : counts_.emplace_back(Counts{name, {}});
 }
@@ -179,7 +182,7 @@ bool is_on(const ordered_json& point, const ordered_json& curve, const std::set<
 
 ChartSeries series_of(const ordered_json& curve, const std::vector<ordered_json>& rows) {
   const std::string over = curve["curve"].get<std::string>();
-  ChartSeries series{who(curve) + (over == "dt_s" ? "" : " over " + axis_words(over)), {}, over == "dt_s"};
+  ChartSeries series{who_ran(curve) + (over == "dt_s" ? "" : " over " + axis_words(over)), {}, over == "dt_s"};
   if (const std::optional<double> slope = number_of(curve, "slope")) series.name += ", slope " + in_hundredths(*slope);
   const std::set<std::string> knobs = knobs_of(curve, rows);
   for (const ordered_json& row : rows) {
@@ -223,7 +226,7 @@ ChartTable borders_table(const std::vector<ordered_json>& borders) {
       return number ? fmt::format("{:.6g}", *number) : std::string("-");
     };
     table.rows.push_back(
-        {who(row), row.value("border", ""), text("border_low"), text("border_high"), row.value("command", "")});
+        {who_ran(row), row.value("border", ""), text("border_low"), text("border_high"), row.value("command", "")});
   }
   return table;
 }
@@ -248,7 +251,7 @@ ChartPage precision_page(const std::vector<ordered_json>& rows) {
   for (const ordered_json& row : rows) {
     if (!row.contains("curve")) continue;
     const std::optional<double> slope = number_of(row, "slope");
-    page.table.rows.push_back({row.value("scene", ""), who(row), row["curve"].get<std::string>(),
+    page.table.rows.push_back({row.value("scene", ""), who_ran(row), row["curve"].get<std::string>(),
                                slope ? in_hundredths(*slope) : row.value("reason", "")});
   }
   return page;

@@ -26,6 +26,10 @@ enum class Bad : std::uint8_t {
   tunnels,        ///< It passed a solid.
 };
 
+/// Who ran: the contender with its knobs, and its number type where it could be another.
+/// @param varied keys that are left out: an axis shows what they are.
+[[nodiscard]] std::string who_ran(const nlohmann::ordered_json& row, const std::vector<std::string>& varied = {});
+
 /// Counts rows into one heat map for each contender, its knobs and number type; keeps no row. What cannot run counts
 /// for nothing. A cell keeps the words and the command of its first bad row, or of its first row.
 class GridCounter {
