@@ -61,6 +61,9 @@ Rows rows_of(const std::string& path) {
   return rows;
 }
 
+/// Costs and the commit may be others in two files that say the same.
+bool is_compared(const std::string& key) { return !is_cost(key) && key != "commit"; }
+
 /// As `tunnels 0 -> 1, max_penetration_m 0.0 -> 0.5`.
 std::string changes_between(const ordered_json& before, const ordered_json& after) {
   std::string text;
@@ -68,14 +71,14 @@ std::string changes_between(const ordered_json& before, const ordered_json& afte
     text += fmt::format("{}{} {} -> {}", text.empty() ? "" : ", ", key, was, is);
   };
   for (const auto& [key, value] : before.items()) {
-    if (is_cost(key)) continue;
+    if (!is_compared(key)) continue;
     if (!after.contains(key))
       note(key, value.dump(), "nothing");
     else if (after[key] != value)
       note(key, value.dump(), after[key].dump());
   }
   for (const auto& [key, value] : after.items())
-    if (!before.contains(key) && !is_cost(key)) note(key, "nothing", value.dump());
+    if (!before.contains(key) && is_compared(key)) note(key, "nothing", value.dump());
   return text;
 }
 

@@ -1,5 +1,6 @@
 #include "records/rows_json.hpp"
 
+#include "records/commit.hpp"
 #include "records/metric.hpp"
 
 #include <nlohmann/json.hpp>
@@ -48,6 +49,7 @@ nlohmann::ordered_json row_json(const Row& row) {
   if (!row.first_difference_box2d.empty()) object["first_difference_box2d"] = row.first_difference_box2d;
   if (!row.findings.empty()) object["findings"] = row.findings;
   if (!row.command.empty()) object["command"] = row.command;
+  if (!built_commit().empty()) object["commit"] = built_commit();
   return object;
 }
 

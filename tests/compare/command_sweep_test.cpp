@@ -206,6 +206,11 @@ TEST(CommandDiff, names_what_changed_and_nothing_else) {
   const Finished differs = place.run("diff r.jsonl s.jsonl");
   EXPECT_EQ(differs.status, 1);
   EXPECT_TRUE(holds(differs.out, "tunnels 1 -> 2\n1 row differs")) << differs.out;
+  std::string older = written(place, "r.jsonl");
+  for (std::size_t at_commit = 0; (at_commit = older.find("\"commit\":\"", at_commit)) != std::string::npos;)
+    older.replace(at_commit += 10, 1, "x");
+  std::ofstream(place.path("o.jsonl"), std::ios::binary) << older;
+  EXPECT_EQ(place.run("diff r.jsonl o.jsonl").status, 0) << "the same rows of another commit";
   std::ofstream(place.path("t.jsonl"), std::ios::binary) << changed.substr(0, changed.rfind('{'));
   EXPECT_TRUE(holds(place.run("diff s.jsonl t.jsonl").out, "only in s.jsonl"));
   EXPECT_EQ(place.run("diff r.jsonl nothing.jsonl").status, 2);
