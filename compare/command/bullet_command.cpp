@@ -4,8 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <utility>
+#include <vector>
 
 namespace paperproof::compare {
 namespace {
@@ -23,9 +25,10 @@ std::string speed_in_words(const BulletTheory& theory) {
   return *theory.lowest > 0 ? fmt::format("{:.4g}", *theory.lowest) : "any";
 }
 
-/// Of a row of `lowest_speeds_part`.
+/// Of a row of the lowest speeds. `-`: it cannot run; `?`: the search failed.
 std::string lowest_in_words(const ordered_json& row) {
   if (row.value("verdict", "") == "not_applicable") return "-";
+  if (row.value("verdict", "") == "failed") return "?";
   if (!row.contains("border_high")) return "never";
   return row.contains("border_low") ? fmt::format("{:.4g}", row["border_high"].get<double>()) : "any";
 }
@@ -42,10 +45,14 @@ class BulletNumbers {
   }
 
   void add(const StudyPart& part, const ordered_json& row) {
-    Counts& counts = counts_[row.value("contender", "") + row.value("knob", "")];
+    const std::string verdict = row.value("verdict", "");
+    const std::string who = who_ran(row);
     if (part.title == lowest_speeds_title) {
-      counts.lowest.push_back(lowest_in_words(row));
-    } else if (part.title.empty() && row.value("verdict", "") != "not_applicable") {
+      const double thickness = row["parameters"].value("thickness_m", 0.0);
+      counts_of(who).lowest[thickness] = lowest_in_words(row);
+    } else if (part.title.empty()) {
+      Counts& counts = counts_of(who);
+      if (verdict == "not_applicable" || verdict == "failed") return;
       ++counts.cases;
       counts.through += row.value("tunnels", 0) > 0;
     }
@@ -53,13 +60,7 @@ class BulletNumbers {
 
   [[nodiscard]] ChartTable table() const {
     ChartTable table = table_;
-    for (const Contender& contender : bullet_contenders()) {
-      std::string key = contender.name;
-      for (std::size_t k = 0; k < contender.knobs.size(); ++k)
-        key += fmt::format("{}{}={}", k > 0 ? " " : "", contender.knobs[k].key, contender.knobs[k].value);
-      const auto found = counts_.find(key);
-      if (found != counts_.end()) table.rows.push_back(line_of(contender, found->second));
-    }
+    for (const auto& [who, counts] : counts_) table.rows.push_back(line_of(who, counts));
     return table;
   }
 
@@ -67,25 +68,40 @@ class BulletNumbers {
   struct Counts {
     int cases = 0;
     int through = 0;
-    std::vector<std::string> lowest;  ///< By thickness.
+    std::map<double, std::string> lowest;  ///< By thickness [m].
   };
 
-  static std::vector<std::string> line_of(const Contender& contender, const Counts& counts) {
+  Counts& counts_of(const std::string& who) {
+    const auto found = std::find_if(counts_.begin(), counts_.end(), [&](const auto& one) { return one.first == who; });
+    return found != counts_.end() ? found->second : counts_.emplace_back(who, Counts{}).second;
+  }
+
+  /// Of a contender as its rows call it; nothing for a number type of its own.
+  static BulletTheory theory_of(const std::string& who, double thickness) {
+    for (const Contender& contender : bullet_contenders())
+      if (contender.called() == who) return bullet_theory(contender, thickness);
+    return {};
+  }
+
+  static std::vector<std::string> line_of(const std::string& who, const Counts& counts) {
     const Interval interval = wilson(counts.through, counts.cases);
     const double rate = counts.cases > 0 ? static_cast<double>(counts.through) / counts.cases : 0;
-    std::vector<std::string> line{
-        contender.called(),          std::to_string(counts.cases),        std::to_string(counts.through),
-        fmt::format("{:.4f}", rate), fmt::format("{:.6f}", interval.low), fmt::format("{:.6f}", interval.high)};
-    const std::vector<double> thicknesses = bullet_thicknesses();
-    for (std::size_t k = 0; k < thicknesses.size(); ++k) {
-      line.push_back(k < counts.lowest.size() ? counts.lowest[k] : "-");
-      line.push_back(speed_in_words(bullet_theory(contender, thicknesses[k])));
+    std::vector<std::string> line{who,
+                                  std::to_string(counts.cases),
+                                  std::to_string(counts.through),
+                                  fmt::format("{:.4f}", rate),
+                                  fmt::format("{:.6f}", interval.low),
+                                  fmt::format("{:.6f}", interval.high)};
+    for (const double thickness : bullet_thicknesses()) {
+      const auto found = counts.lowest.find(thickness);
+      line.push_back(found != counts.lowest.end() ? found->second : "-");
+      line.push_back(speed_in_words(theory_of(who, thickness)));
     }
     return line;
   }
 
   ChartTable table_;
-  std::map<std::string, Counts> counts_;  ///< By contender with its knobs.
+  std::vector<std::pair<std::string, Counts>> counts_;  ///< By who ran, in the order in which they came.
 };
 
 }  // namespace
@@ -94,7 +110,7 @@ int study_bullet_command(const PreparedArguments& arguments) {
   std::vector<StudyPart> parts = bullet_parts(grid_size(arguments.grid));
   apply(arguments.cases, parts);
   BulletNumbers numbers;
-  StudyScores scores(parts, Bad::tunnels);
+  StudyScores scores(parts);
   StudyRun study(arguments.run, parts, [&](const StudyPart& part, const ordered_json& row) {
     numbers.add(part, row);
     scores.add(part, row);

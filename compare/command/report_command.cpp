@@ -31,12 +31,12 @@ struct Facts {
 
 Facts facts_of_page(const ordered_json& index) {
   Facts facts;
-  facts.environment = index["environment"].get<Environment>();
-  for (const ordered_json& tolerance : index["tolerances"])
+  facts.environment = index.at("environment").get<Environment>();
+  for (const ordered_json& tolerance : index.at("tolerances"))
     facts.tolerances.push_back({tolerance[0], tolerance[1].is_number() ? tolerance[1].get<double>() : std::nan("")});
-  facts.guarantee_notes = index["guarantee_notes"].get<std::vector<std::string>>();
-  for (const ordered_json& section : index["sections"])
-    facts.sections.push_back({section["title"], section["lines"], section["table"]});
+  facts.guarantee_notes = index.at("guarantee_notes").get<std::vector<std::string>>();
+  for (const ordered_json& section : index.at("sections"))
+    facts.sections.push_back({section.at("title"), section.at("lines"), section.at("table")});
   return facts;
 }
 
@@ -46,13 +46,22 @@ class PageOfRecords {
 
   void run() {
     for (const std::string& input : inputs_)
-      if (input.ends_with(".html")) take_page(PageReader(input));
+      if (input.ends_with(".html")) take_page(input);
     take_rows();
     if (facts_.sections.empty()) facts_.sections = standing_sections();
     writer_.finish(facts_.environment, facts_.tolerances, facts_.guarantee_notes, facts_.sections);
   }
 
  private:
+  void take_page(const std::string& input) {
+    const PageReader page(input);
+    try {
+      take_page(page);
+    } catch (const ordered_json::exception& reason) {
+      throw InputError(fmt::format("{}: {}", input, reason.what()));
+    }
+  }
+
   void take_page(const PageReader& page) {
     const ordered_json& index = page.index();
     if (facts_.sections.empty()) {
@@ -60,27 +69,27 @@ class PageOfRecords {
       facts_ = facts_of_page(index);
       if (facts_.environment.empty()) facts_.environment = std::move(known);
     }
-    for (std::size_t scene = 0; scene < index["scenes"].size(); ++scene)
-      writer_.add_scene(safe(index["scenes"][scene]), page.replay(scene));
-    for (std::size_t study = 0; study < index["studies"].size(); ++study)
-      writer_.add_study(safe(index["studies"][study]), page.cells(study));
+    const ordered_json& scenes = index.at("scenes");
+    for (std::size_t scene = 0; scene < scenes.size(); ++scene)
+      writer_.add_scene(safe(scenes[scene]), page.replay(scene));
+    const ordered_json& studies = index.at("studies");
+    for (std::size_t study = 0; study < studies.size(); ++study)
+      writer_.add_study(safe(studies[study]), page.cells(study));
   }
 
   void take_rows() {
     RowPictures pictures;
-    for (const bool looking : {true, false})
-      for (const std::string& input : inputs_) {
-        if (input.ends_with(".html")) continue;
-        const ordered_json header = for_each_row(input, [&](ordered_json row) {
-          if (looking)
-            pictures.look(row);
-          else
-            pictures.add(std::move(row));
-        });
+    for (const std::string& input : inputs_) {
+      if (input.ends_with(".html")) continue;
+      try {
+        const ordered_json header = for_each_row(input, [&](ordered_json row) { pictures.add(std::move(row)); });
         if (facts_.environment.empty() && header.contains("environment"))
           for (const auto& [name, value] : header["environment"].items())
             facts_.environment.emplace_back(name, value.get<std::string>());
+      } catch (const ordered_json::exception& reason) {
+        throw InputError(fmt::format("{}: {}", input, reason.what()));
       }
+    }
     for (const auto& [scene, rows] : pictures.scenes()) writer_.add_scene(scene_index_json(scene, rows), "");
     for (ChartPage& page : pictures.pages()) {
       add_cell_replays(page, 0);

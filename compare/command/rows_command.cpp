@@ -107,6 +107,8 @@ int merge_command(const std::vector<std::string>& files, const std::string& rows
                                      shards.size(), row / shards.size() + 1));
       out.write(*line);
     }
+    for (RowsReader* shard : shards)
+      if (shard->next()) throw InputError("merge: a shard has more rows than there are cases");
   } else {
     header.erase("sweep");
     out.write(json_line(header));

@@ -25,8 +25,7 @@ using nlohmann::ordered_json;
 constexpr const char* about_stability =
     "Stiff and extreme cases, judged step by step by exact arithmetic. A cell says how many of its cases do not hold: "
     "one of the predicates below fails, the scene's exact answer is missed, or the contender's limits are passed. "
-    "Point "
-    "at it to read why; a click, or Enter, replays its first case that does not hold, and names the command.";
+    "Point at it to read why; a click, or Enter, replays its first case that does not hold, and names the command.";
 
 /// Keys of a row that say whether a predicate holds, in the order of `stability_predicates`.
 constexpr std::array<const char*, 6> predicate_keys{"finite",    "penetration_ok", "drift_ok",
@@ -132,6 +131,7 @@ class StabilityRun {
     };
     jobs.take = [&](std::size_t job, const std::string& line) {
       outputs_.add(line);
+      broken_ = broken_ || breaks_guarantee(ordered_json::parse(line));
       rows_[jobs_[job].is_border ? regions_.size() + jobs_[job].of : jobs_[job].of].push_back(
           ordered_json::parse(line));
       progress_.show(fmt::format("stability, {} of {} cases,", job + 1, jobs.count),
@@ -144,7 +144,6 @@ class StabilityRun {
   void note(const StabilityRegion& region, const ordered_json& rows) {
     for (const ordered_json& row : rows) {
       const std::string verdict = row.value("verdict", "");
-      broken_ = broken_ || breaks_guarantee(row);
       if (verdict != "holds")
         page_.table.rows.push_back({row.value("scene", ""), who(row), verdict, shortened(row.value("reason", ""))});
     }
@@ -167,10 +166,11 @@ class StabilityRun {
   }
 
   /// `up to X` where it holds from the least value on, `all` where no border is in the range, `none` where it never
-  /// holds, `-` where it cannot run.
+  /// holds, `-` where it cannot run, `?` where the search failed.
   static std::string border_in_words(const ordered_json& row) {
     const bool low = row.contains("border_low");
     const bool high = row.contains("border_high");
+    if (row.value("verdict", "") == "failed") return "?";
     if (!low && !high) return "-";
     if (!low) return "none";
     return high ? fmt::format("{:.4g}", row["border_low"].get<double>()) : "all";

@@ -69,6 +69,7 @@ bool StudyRun::goes_on() {
 }
 
 void StudyRun::note(const std::string& line) {
+  if (done_ == count_) throw InputError("--resume: " + arguments_.rows_path + " has more rows than there are cases");
   const ordered_json row = ordered_json::parse(line);
   trouble_ = trouble_ || row.value("verdict", "") == "failed" || breaks_guarantee(row);
   visit_(parts_[part_case(parts_, shard_.case_of(done_)).part], row);
@@ -100,7 +101,7 @@ int StudyRun::finish(const std::function<ChartPage()>& page, const std::string& 
   return trouble_ ? 1 : 0;
 }
 
-StudyScores::StudyScores(const std::vector<StudyPart>& parts, Bad bad) {
+StudyScores::StudyScores(const std::vector<StudyPart>& parts) {
   for (const StudyPart& part : parts) {
     if (part.sweep.border) continue;
     const auto known =
@@ -109,7 +110,7 @@ StudyScores::StudyScores(const std::vector<StudyPart>& parts, Bad bad) {
     title.title = part.title;
     title.keys = axis_keys_of(part.sweep);
     if (!title.keys.empty() && !title.grids)
-      title.grids.emplace(part.title, title.keys.front(), title.keys.size() > 1 ? title.keys[1] : "", bad);
+      title.grids.emplace(part.title, title.keys.front(), title.keys.size() > 1 ? title.keys[1] : "", part.bad);
   }
 }
 
@@ -171,16 +172,6 @@ std::string text_of(const ChartTable& table) {
     columns.push_back(std::move(column));
   }
   return aligned(columns);
-}
-
-std::vector<std::string> axis_keys_of(const Sweep& sweep) {
-  std::vector<std::string> keys;
-  const std::vector<ParameterDef> defs = parameters_of(sweep.scene);
-  for (const SweepAxis& axis : sweep.axes) {
-    const ParameterDef* def = find_parameter(defs, axis.key);
-    keys.push_back(def != nullptr ? row_key(*def) : axis.key);
-  }
-  return keys;
 }
 
 std::string values_of(const ordered_json& row, const std::vector<std::string>& keys) {

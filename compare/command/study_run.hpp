@@ -1,4 +1,4 @@
-/// Runs the cases of a study: on many cores, on many machines, and on behind a kill.
+/// Runs the cases of a study: on many cores, on many machines, and resumed after a kill.
 #pragma once
 
 #include "command/page_outputs.hpp"
@@ -54,7 +54,7 @@ class StudyRun {
   };
   static Shard parse_shard(const std::string& text);
 
-  /// @return whether the file of rows has some to go on behind.
+  /// Takes over the rows of an earlier run. @return whether there was one.
   bool goes_on();
   void note(const std::string& line);
 
@@ -73,8 +73,7 @@ class StudyRun {
 /// What came of the cases of each part and contender, in words and as maps. Keeps no row.
 class StudyScores {
  public:
-  /// @param bad what the maps count.
-  StudyScores(const std::vector<StudyPart>& parts, Bad bad);
+  explicit StudyScores(const std::vector<StudyPart>& parts);
   void add(const StudyPart& part, const nlohmann::ordered_json& row);
   /// A table for each title.
   [[nodiscard]] std::string tables() const;
@@ -100,9 +99,6 @@ class StudyScores {
 
 /// A table for a terminal. A column is aligned to the right where a cell begins with a digit or a sign.
 [[nodiscard]] std::string text_of(const ChartTable& table);
-
-/// Keys that the axes of a sweep have in the `parameters` of rows.
-[[nodiscard]] std::vector<std::string> axis_keys_of(const Sweep& sweep);
 
 /// The values of such keys in a row: `speed_m_s=10 thickness_m=0.01`.
 [[nodiscard]] std::string values_of(const nlohmann::ordered_json& row, const std::vector<std::string>& keys);

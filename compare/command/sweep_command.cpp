@@ -45,7 +45,8 @@ std::vector<std::string> border_line(const ordered_json& row, const std::vector<
   const auto number = [&](const char* key) {
     return row.contains(key) ? fmt::format("{:.6g}", row[key].get<double>()) : std::string("-");
   };
-  const bool ran = row.contains("border_low") || row.contains("border_high");
+  const std::string verdict = row.value("verdict", "");
+  const bool ran = verdict != "failed" && verdict != "not_applicable";
   return {row.value("contender", ""), values_of(row, keys), number("border_low"), number("border_high"),
           ran ? "" : row.value("reason", "")};
 }
@@ -68,7 +69,7 @@ class Faults {
 
 /// @param title of the page.
 int run_parts(const RunArguments& arguments, const std::vector<StudyPart>& parts, const std::string& title) {
-  StudyScores scores(parts, Bad::does_not_hold);
+  StudyScores scores(parts);
   Faults faults;
   StudyRun study(arguments, parts, [&](const StudyPart& part, const ordered_json& row) {
     scores.add(part, row);
@@ -93,7 +94,7 @@ int find_borders(const RunArguments& arguments, const std::vector<StudyPart>& pa
   const Sweep& sweep = parts.front().sweep;
   ChartPage page;
   page.title = fmt::format("{}: border of {}", sweep.scene, *sweep.border);
-  page.table.heading = {"contender", "at", "holds up to", "does not hold from", "cannot run"};
+  page.table.heading = {"contender", "at", "holds up to", "does not hold from", "cannot run further"};
   StudyRun study(arguments, parts, [&, keys = axis_keys_of(sweep)](const StudyPart&, const ordered_json& row) {
     page.table.rows.push_back(border_line(row, keys));
   });

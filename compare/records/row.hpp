@@ -1,6 +1,7 @@
 /// One result: a (scene, contender, scalar, mode) and its numbers. A metric that does not apply is absent.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -51,6 +52,19 @@ struct Disagreements {
   std::string first;  ///< What each side says there.
 };
 
+/// What is counted as bad where many rows stand together.
+enum class Bad : std::uint8_t {
+  does_not_hold,  ///< A verdict other than `holds`.
+  tunnels,        ///< A solid was passed.
+};
+
+/// The sweep that a row is a case of: a cell of a heat map stands for it.
+struct SweptIn {
+  std::string question;           ///< Of a study that asks several; may be empty.
+  std::vector<std::string> axes;  ///< Keys in `parameters`.
+  Bad bad = Bad::does_not_hold;
+};
+
 struct Row {
   std::string scene;
   std::string contender;
@@ -62,9 +76,9 @@ struct Row {
   std::string reason;  ///< empty for `holds` only
   std::vector<AxisFault> faults;
 
-  std::string case_id;                                     ///< Of a run that is a Case: see records/case.hpp.
-  std::string command;                                     ///< That runs it alone.
-  bool swept = false;                                      ///< One of many Cases: a cell of a heat map stands for it.
+  std::string case_id;  ///< Of a run that is a Case: see records/case.hpp.
+  std::string command;  ///< That runs it alone; of a border, the case at the upper end of the bracket.
+  std::optional<SweptIn> swept;
   std::string source;                                      ///< Of the scene: see `Scene::source`.
   std::vector<std::pair<std::string, double>> parameters;  ///< Of scene, input and knobs, by keys that end in units.
   std::optional<std::string> border;                       ///< Key of the parameter that was bisected.

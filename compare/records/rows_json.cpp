@@ -34,7 +34,10 @@ nlohmann::ordered_json row_json(const Row& row) {
   object["verdict"] = name_of(row.verdict);
   if (!row.reason.empty()) object["reason"] = row.reason;
   if (!row.case_id.empty()) object["case"] = row.case_id;
-  if (row.swept) object["swept"] = true;
+  if (row.swept)
+    object["swept"] = {{"question", row.swept->question},
+                       {"axes", row.swept->axes},
+                       {"bad", row.swept->bad == Bad::tunnels ? "tunnels" : "does_not_hold"}};
   if (!row.parameters.empty()) {
     nlohmann::ordered_json& parameters = object["parameters"];
     for (const auto& [key, value] : row.parameters) parameters[key] = value;

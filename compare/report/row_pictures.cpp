@@ -214,7 +214,9 @@ std::vector<Chart> charts_of(const std::vector<ordered_json>& rows) {
 }
 
 bool is_precision(const ordered_json& row) { return row.value("mode", "") == "work_precision"; }
-bool is_swept(const ordered_json& row) { return row.value("swept", false) && row.contains("parameters"); }
+bool is_swept(const ordered_json& row) {
+  return row.contains("swept") && row["swept"].is_object() && row.contains("parameters");
+}
 
 ChartTable borders_table(const std::vector<ordered_json>& borders) {
   ChartTable table;
@@ -257,23 +259,19 @@ ChartPage precision_page(const std::vector<ordered_json>& rows) {
   return page;
 }
 
-RowPictures::Swept& RowPictures::swept(const std::string& scene) {
-  const auto found = std::find_if(swept_.begin(), swept_.end(), [&](const Swept& one) { return one.scene == scene; });
-  return found != swept_.end() ? *found : swept_.emplace_back(Swept{scene, {}, {}, {}});
-}
-
-void RowPictures::look(const ordered_json& row) {
-  if (is_precision(row) || !is_swept(row) || row.contains("border")) return;
-  auto& known = swept(row.value("scene", "")).parameters;
-  for (const auto& [key, json] : row["parameters"].items()) {
-    const double value = json.get<double>();
-    const auto found =
-        std::find_if(known.begin(), known.end(), [&, &name = key](const auto& one) { return one.first == name; });
-    if (found == known.end())
-      known.push_back({key, {value, false}});
-    else
-      found->second.second = found->second.second || found->second.first != value;
-  }
+RowPictures::Swept& RowPictures::swept(const ordered_json& row) {
+  const ordered_json& in = row["swept"];
+  const std::string question = in.value("question", "");
+  const std::string scene = row.value("scene", "");
+  const auto axes = in.value("axes", std::vector<std::string>{});
+  const auto found = std::find_if(swept_.begin(), swept_.end(), [&](const Swept& one) {
+    return one.question == question && one.scene == scene && one.axes == axes;
+  });
+  if (found != swept_.end()) return *found;
+  const Bad bad = in.value("bad", "") == "tunnels" ? Bad::tunnels : Bad::does_not_hold;
+  Swept& made = swept_.emplace_back(Swept{question, scene, axes, bad, {}, {}});
+  if (!axes.empty()) made.counter.emplace("", axes[0], axes.size() > 1 ? axes[1] : "", bad);
+  return made;
 }
 
 void RowPictures::add(ordered_json row) {
@@ -285,26 +283,19 @@ void RowPictures::add(ordered_json row) {
     if (found == scenes_.end()) found = scenes_.insert(scenes_.end(), {scene, {}});
     found->second.push_back(std::move(row));
   } else if (row.contains("border")) {
-    swept(scene).borders.push_back(std::move(row));
-  } else {
-    Swept& into = swept(scene);
-    if (into.counter.empty()) {
-      std::vector<std::string> axes;
-      for (const auto& [key, value] : into.parameters)
-        if (value.second) axes.push_back(key);
-      axes.resize(2);
-      const bool bullets = axes[0] == "speed_m_s" && axes[1] == "thickness_m";
-      into.counter.emplace_back("", axes[0], axes[1], bullets ? Bad::tunnels : Bad::does_not_hold);
-    }
-    into.counter.front().add(row);
+    swept(row).borders.push_back(std::move(row));
+  } else if (Swept& into = swept(row); into.counter) {
+    into.counter->add(row);
   }
 }
 
 ChartPage RowPictures::page_of(const Swept& swept) {
   ChartPage page;
-  if (!swept.counter.empty()) page.grids = swept.counter.front().grids();
-  const bool bullets = !page.grids.empty() && page.grids.front().bad_words == "get through";
-  page.title = bullets ? bullets_title : fmt::format("Where does `{}` hold?", swept.scene);
+  if (swept.counter) page.grids = swept.counter->grids();
+  if (!swept.question.empty())
+    page.title = swept.question;
+  else
+    page.title = swept.bad == Bad::tunnels ? bullets_title : fmt::format("Where does `{}` hold?", swept.scene);
   page.paragraphs = {how_to_read_maps};
   page.table = borders_table(swept.borders);
   return page;

@@ -1,11 +1,13 @@
 /// Rows as pictures: heat maps over two parameters, and error against run time.
 #pragma once
 
+#include "records/row.hpp"
 #include "report/chart_page.hpp"
 
 #include <nlohmann/json.hpp>
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,12 +21,6 @@ inline constexpr const char* how_to_read_maps =
     "none and some. Point at a cell, or go there with the arrow keys, to read its numbers. A click, or Enter, replays "
     "one of its cases, and names the command that runs it alone; a large map has replays of up to 100 cells, those at "
     "the border first.";
-
-/// What is bad about a row.
-enum class Bad : std::uint8_t {
-  does_not_hold,  ///< A verdict other than `holds`.
-  tunnels,        ///< It passed a solid.
-};
 
 /// Who ran: the contender with its knobs, and its number type where it could be another.
 /// @param varied keys that are left out: an axis shows what they are.
@@ -74,13 +70,11 @@ class GridCounter {
 /// A key of `parameters` as it stands at an axis: `speed_m_s` is "speed [m/s]".
 [[nodiscard]] std::string axis_words(const std::string& key);
 
-/// Pages from rows of any kind, read twice: a heat map is over the first two parameters that take several values.
-/// Memory is taken by cells and by the rows of comparisons, not by the cases of a sweep.
+/// Pages from rows of any kind. Memory is taken by cells and by the rows of comparisons, not by the cases of a sweep.
 class RowPictures {
  public:
-  /// To be called for every row, before the first `add`.
-  void look(const nlohmann::ordered_json& row);
   void add(nlohmann::ordered_json row);
+  /// One for each question that was swept: a heat map for each contender, over the first two axes.
   [[nodiscard]] std::vector<ChartPage> pages() const;
 
   using ByScene = std::vector<std::pair<std::string, std::vector<nlohmann::ordered_json>>>;
@@ -89,13 +83,14 @@ class RowPictures {
 
  private:
   struct Swept {
+    std::string question;
     std::string scene;
-    /// Parameters with the value that came first, and whether another one came.
-    std::vector<std::pair<std::string, std::pair<double, bool>>> parameters;
-    std::vector<GridCounter> counter;  ///< One, as soon as rows are added.
+    std::vector<std::string> axes;
+    Bad bad;
+    std::optional<GridCounter> counter;  ///< Where something is varied.
     std::vector<nlohmann::ordered_json> borders;
   };
-  Swept& swept(const std::string& scene);
+  Swept& swept(const nlohmann::ordered_json& row);
   [[nodiscard]] static ChartPage page_of(const Swept& swept);
 
   std::vector<nlohmann::ordered_json> precision_;

@@ -38,13 +38,13 @@ RunOptions options_of(const Case& one) {
 ReportScene run_alone(const Case& one, bool record) {
   ReportScene result;
   try {
+    if (one.mode != "free" || one.reference) throw std::invalid_argument("a Case runs free and by itself");
     const Scene scene = load_scene(one.scene, settings_of(one));
     RunOptions options = options_of(one);
     if (record) options.max_replay_steps = one.steps.value_or(scene.steps);
     if (options.max_replay_steps > most_recorded_steps) throw std::length_error("too many steps to record");
     result = run_scene(scene, options);
     put_case(one, result.rows.front());
-    result.rows.front().swept = true;
   } catch (const std::exception& reason) {
     result.rows = {failed_row(one, reason.what())};
   }
@@ -90,9 +90,11 @@ Row failed_row(const Case& one, const std::string& reason) {
   row.contender = one.contender;
   row.scalar = is_reference(one.contender) ? "float" : one.scalar;
   row.mode = one.mode;
+  std::vector<KnobSetting> knobs;
+  for (const Case::Setting& each : one.knobs) knobs.push_back({each.key, each.value});
+  row.knob = turned_knobs(knobs, one.contender);
   row.verdict = Verdict::failed;
   row.reason = reason;
-  row.swept = true;
   put_case(one, row);
   std::vector<std::pair<std::string, double>> numbers;
   for (const ParameterDef& def : parameters_of(one.scene))

@@ -12,8 +12,8 @@
 
 namespace paperproof::compare {
 
-/// A pure function of the Case and of the files it names. What goes wrong is a row that says so. Costs are not
-/// measured.
+/// A pure function of the Case, which is to be free and without the twin, and of the files it names. What goes wrong is
+/// a row that says so. Costs are not measured.
 [[nodiscard]] Row run_case(const Case& one);
 
 /// The same with its steps recorded, so many before and after the one that matters: see `cut_to_excerpt`. One row; no

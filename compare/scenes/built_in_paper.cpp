@@ -22,28 +22,39 @@ Scene bullet(const ParameterValues& values) {
   return scene;
 }
 
-/// A character falls onto paper below its feet.
+/// How high the middle of the article's character is over the origin where it touches a line through it from above.
+double height_over(const Vec2d& along) {
+  const Vec2d normal(-along.y(), along.x());
+  double reach = 0;
+  for (const Vec2d& point : CharacterDef{}.shape.points()) reach = std::max(reach, -normal.dot(point));
+  return reach / normal.y();
+}
+
+/// A character falls onto paper below it.
 Scene paper(const ParameterValues& values) {
   const double speed = values["speed"];
   const double height = values["height"];
-  Scene scene = flight(0, half_height, 0, -speed, 60);
+  const double tilt = (90 - values["angle"]) * pi / 180;
+  const Vec2d along(std::cos(tilt), std::sin(tilt));
+  const double touching = tilt == 0 ? half_height : height_over(along);
+  Scene scene = flight(0, touching, 0, -speed, 60);
   scene.gravity = {0, -values["gravity"]};
   scene.dt = values["dt"];
   const double last = std::ceil(steps_to_fall(scene, height, speed));
   const double way = height + values["phase"] * (speed - scene.gravity.y() * scene.dt * last) * scene.dt;
   scene.start.position.y() += way;
-  // A second; and time enough behind the paper to get 2 m beyond it.
-  const double behind = std::max(0.5, 2 / speed) / scene.dt;
+  // A second; and time enough behind the paper to get 2 m beyond it, or out of it where it is tilted.
+  const double thickness = values["thickness"];
+  const double beyond = tilt == 0 ? 2 : 2 * touching + (thickness + 0.1) / along.x();
+  const double behind = std::max(0.5, beyond / speed) / scene.dt;
   const double most = std::max(std::round(1 / scene.dt), std::ceil(steps_to_fall(scene, way, speed) + behind));
   scene.steps = static_cast<int>(std::clamp(most, 4.0, 1e7));
-  const double thickness = values["thickness"];
-  const double tilt = (90 - values["angle"]) * pi / 180;
-  const Vec2d along(std::cos(tilt), std::sin(tilt));
   const Vec2d below(along.y() * thickness, -along.x() * thickness);
+  const Vec2d half = std::max(4.0, 2 * touching) * along;
   if (thickness > 0)
-    add_polygon(scene, "paper", {below - 4 * along, below + 4 * along, 4 * along, Vec2d::Zero() - 4 * along});
+    add_polygon(scene, "paper", {below - half, below + half, half, Vec2d::Zero() - half});
   else
-    add_chain(scene, "paper", {Vec2d::Zero() - 4 * along, 4 * along});
+    add_chain(scene, "paper", {Vec2d::Zero() - half, half});
   if (tilt != 0) return scene;
   scene.answers = {contact(steps_to_fall(scene, way, speed), speed * scene.dt)};
   ends_at(scene, 0, half_height);
@@ -54,7 +65,7 @@ const std::vector<ParameterDef>& paper_parameters() {
   static const std::vector<ParameterDef> all{{"speed", "m_s", 0.1, 1e5, 40, "downwards, at the start"},
                                              {"thickness", "m", 0, 10, 0.01, "of the paper; 0 is a segment"},
                                              {"angle", "deg", 1, 90, 90, "of the way to the paper; 90 is head-on"},
-                                             {"height", "m", 0.01, 1e4, 3, "of its feet above the paper"},
+                                             {"height", "m", 0.01, 1e4, 3, "that it falls until it meets the paper"},
                                              {"phase", "", 0, 1, 0, "share of a step's way by which it begins higher"},
                                              {"gravity", "m_s2", 0, 1e6, 0, "straight down"},
                                              {"dt", "s", 1e-5, 1, 1.0 / 60, "length of a step"}};

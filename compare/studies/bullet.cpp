@@ -26,7 +26,7 @@ bool leaves_a_gap(double circumference, double length) {
   std::vector<double> begins;
   for (const double row : rows_of_points) begins.push_back(std::fmod(row, circumference));
   std::sort(begins.begin(), begins.end());
-  double covered = begins.front();  // the way round from the last one is looked at in the end
+  double covered = begins.front();  // the last line looks at the gap from the last interval round to the first
   for (const double begin : begins) {
     if (begin > covered) return true;
     covered = std::max(covered, begin + length);
@@ -83,7 +83,7 @@ Sweep bullet_sweep(GridSize size, const Contender& contender) {
 StudyPart moving_paper_part(GridSize size) {
   constexpr std::array counts{std::pair{6, 2}, std::pair{24, 8}, std::pair{80, 32}};
   const auto [speeds, phases] = counts[static_cast<std::size_t>(size)];
-  StudyPart part{moving_paper_title, {}, {}};
+  StudyPart part{moving_paper_title, {}, {}, Bad::tunnels};
   part.sweep.scene = "moving_paper";
   for (const std::string& axis : {axis_of(speeds, 5, 5000, "closing=", "log"), std::string("thickness=0.001,0.1"),
                                   axis_of(phases, 0, 1 - 1.0 / phases, "phase=", "lin")})
@@ -93,7 +93,7 @@ StudyPart moving_paper_part(GridSize size) {
 }
 
 StudyPart far_part(GridSize size) {
-  StudyPart part{far_title, {}, {}};
+  StudyPart part{far_title, {}, {}, Bad::tunnels};
   part.sweep.scene = "far";
   part.sweep.axes.push_back(parse_axis(axis_of(size == GridSize::quick ? 8 : 24, 100, 1e6, "origin=", "log")));
   part.sweep.contenders = all_contenders_and({});
@@ -103,16 +103,16 @@ StudyPart far_part(GridSize size) {
 int phases_of(GridSize size) { return size == GridSize::quick ? 24 : size == GridSize::standard ? 160 : 400; }
 
 StudyPart lowest_speeds_part(GridSize size) {
-  StudyPart part{lowest_speeds_title, {}, {}};
+  StudyPart part{lowest_speeds_title, {}, {}, Bad::tunnels};
   part.sweep.scene = "paper";
   SweepAxis thickness{"thickness", {}};
   for (const double value : bullet_thicknesses()) thickness.values.push_back(fmt::format("{}", value));
   part.sweep.axes = {thickness};
   part.sweep.contenders = bullet_contenders();
   part.sweep.border = "speed";
-  part.run = [sweep = part.sweep, phases = phases_of(size)](std::size_t index) {
-    const std::size_t contenders = sweep.contenders.size();
-    return lowest_speed_through(sweep.contenders[index % contenders], bullet_thicknesses()[index / contenders], phases);
+  part.run = [phases = phases_of(size)](const Sweep& sweep, std::size_t index) {
+    return lowest_speed_through(sweep.at(index),
+                                bullet_thicknesses()[index / (sweep.contenders.size() * sweep.scalars.size())], phases);
   };
   return part;
 }
@@ -123,35 +123,36 @@ std::vector<double> bullet_thicknesses() { return {0.01, 0.1}; }
 
 std::vector<StudyPart> bullet_parts(GridSize size) {
   std::vector<StudyPart> parts;
-  for (const Contender& contender : bullet_contenders()) parts.push_back({"", bullet_sweep(size, contender), {}});
+  for (const Contender& contender : bullet_contenders())
+    parts.push_back({"", bullet_sweep(size, contender), {}, Bad::tunnels});
   parts.push_back(moving_paper_part(size));
   parts.push_back(far_part(size));
   parts.push_back(lowest_speeds_part(size));
   return parts;
 }
 
-Row lowest_speed_through(const Contender& contender, double thickness, int phases) {
-  Case one;
-  one.scene = "paper";
-  one.contender = contender.name;
-  one.knobs = contender.knobs;
+Row lowest_speed_through(const Case& paper, double thickness, int phases) {
   const auto over_phases = [&](double speed) {
     Row worst;
     for (int phase = 0; phase < phases; ++phase) {
+      Case one = paper;
       one.parameters = {{"speed", fmt::format("{}", speed)},
                         {"thickness", fmt::format("{}", thickness)},
                         {"height", "0.1"},
                         {"phase", fmt::format("{}", static_cast<double>(phase) / phases)}};
       worst = run_case(one);
       worst.steps_ending_inside.reset();  // it is asked who gets through
-      if (worst.tunnels.value_or(0) > 0 || worst.verdict == Verdict::not_applicable) break;
+      if (worst.tunnels.value_or(0) > 0 || !was_judged(worst)) break;
     }
     return worst;
   };
   const double paper_per_step = thickness / usual_step;
-  const Row near = find_border("speed_m_s", 0.9 * paper_per_step, 1.6 * paper_per_step, over_phases, fine_values);
-  if (near.border_high || near.verdict == Verdict::not_applicable) return near;
-  return find_border("speed_m_s", 1.6 * paper_per_step, fastest, over_phases);
+  Row row = find_border("speed_m_s", 0.9 * paper_per_step, 1.6 * paper_per_step, over_phases, fine_values);
+  if (!row.border_high && was_judged(row)) row = find_border("speed_m_s", 1.6 * paper_per_step, fastest, over_phases);
+  std::erase_if(row.parameters, [](const auto& each) { return each.first == "speed_m_s" || each.first == "phase"; });
+  row.case_id =
+      hash_of(fmt::format("{} lowest speed through {} m over {} phases", command_of(paper), thickness, phases));
+  return row;
 }
 
 BulletTheory bullet_theory(const Contender& contender, double thickness) {
@@ -170,6 +171,7 @@ BulletTheory bullet_theory(const Contender& contender, double thickness) {
   if (name == "mask") return {true, drawn > 0 ? (height + drawn - pixel) / usual_step : 0};
   if (name == "pixel_colour" || name == "pixel_tile") return drawn > 0 ? BulletTheory{true} : BulletTheory{true, 0.0};
   if (name == "wind_back") {
+    if (thickness <= 0) return {true, 0.0};
     double way = thickness;
     while (!leaves_a_gap(way, thickness)) way *= 1 + 1e-5;
     return {true, way / usual_step};

@@ -30,7 +30,8 @@ inline constexpr const char* lowest_speeds_title = "lowest speeds";
 /// The lowest speed at which it passes the paper head-on, over so many phases [m/s]: `border_low` and `border_high` of
 /// the row, as of `find_border`. It looks from 0.9 times the speed that goes through the paper's thickness in one step:
 /// in fine strides up to 1.6 times that, then in coarse ones up to 3,000 m/s. `border_high` alone: at any speed.
-[[nodiscard]] Row lowest_speed_through(const Contender& contender, double thickness, int phases);
+/// @param paper who runs, in the family `paper`; its parameters are not read.
+[[nodiscard]] Row lowest_speed_through(const Case& paper, double thickness, int phases);
 
 /// What theory says about that speed, for the article's character (feet, arms and head at 0, 0.3125, 0.9375 and 1.25
 /// m), head-on, in steps of 1/60 s, over all phases. A way of s = speed · dt per step lets it through

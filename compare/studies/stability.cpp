@@ -262,6 +262,7 @@ void judge_stability(Row& row, bool has_slopes) {
 Row run_at(const StabilityRegion& region, std::size_t index) {
   const Case one = region.sweep.at(index);
   Row row = run_case(one);
+  row.swept = {region.name, axis_keys_of(region.sweep), Bad::does_not_hold};
   judge_stability(row, region.has_slopes);
   const auto along = std::find_if(region.sweep.axes.begin(), region.sweep.axes.end(),
                                   [&](const SweepAxis& axis) { return axis.key == region.replicas_along; });
@@ -295,7 +296,9 @@ Row run_at(const StabilityBorder& border, std::size_t index) {
     return border.most_off > 0 ? row.answer_error && *row.answer_error <= border.most_off
                                : row.verdict == Verdict::holds;
   };
-  return border_at(border.sweep, index, {run, holds, border_strides});
+  Row row = border_at(border.sweep, index, {run, holds, border_strides});
+  row.swept = {border.name, axis_keys_of(border.sweep), Bad::does_not_hold};
+  return row;
 }
 
 }  // namespace paperproof::compare

@@ -74,6 +74,12 @@ void check_value(const std::string& scene, const std::string& key, const std::st
   }
 }
 
+std::string border_key(const Sweep& sweep) {
+  const std::vector<ParameterDef> all = parameters_of(sweep.scene);
+  const ParameterDef* def = find_parameter(all, *sweep.border);
+  return def != nullptr ? row_key(*def) : *sweep.border;
+}
+
 /// A run that ended because something was no number any more was made.
 bool was_made(const Row& row) {
   return row.verdict != Verdict::not_applicable && (row.verdict != Verdict::failed || !row.finite.value_or(true));
@@ -152,9 +158,8 @@ void check(const Sweep& sweep) {
     for (const std::string& value : axis.values) check_value(sweep.scene, axis.key, value);
   for (const Case::Setting& each : sweep.set) check_value(sweep.scene, each.key, each.value);
   if (sweep.border) {
-    const ParameterDef* def = nullptr;
     const std::vector<ParameterDef> all = parameters_of(sweep.scene);
-    def = find_parameter(all, *sweep.border);
+    const ParameterDef* def = find_parameter(all, *sweep.border);
     if (def == nullptr) check_setting(sweep.scene, {*sweep.border, 0});  // says what there is
     const auto [least, most] = sweep.border_range.value_or(std::pair{def->least, def->most});
     for (const double end : {least, most}) check_setting(sweep.scene, {*sweep.border, end});
@@ -178,7 +183,8 @@ std::string id_of(const std::vector<StudyPart>& parts) {
 
 PartCase part_case(const std::vector<StudyPart>& parts, std::size_t index) {
   PartCase place{0, index};
-  for (; place.index >= parts[place.part].sweep.size(); ++place.part) place.index -= parts[place.part].sweep.size();
+  for (; place.part + 1 < parts.size() && place.index >= parts[place.part].sweep.size(); ++place.part)
+    place.index -= parts[place.part].sweep.size();
   return place;
 }
 
@@ -199,6 +205,7 @@ Row border_at(const Sweep& sweep, std::size_t index, const BorderSearch& search)
   };
   Row row = find_border(row_key(def), least, most, run_with, search.strides, search.holds);
   std::erase_if(row.parameters, [&](const auto& each) { return each.first == row_key(def); });
+  row.case_id = hash_of(fmt::format("{} border {} {}:{}", command_of(one), *sweep.border, least, most));
   return row;
 }
 
@@ -209,13 +216,29 @@ Jobs jobs_of(const std::vector<StudyPart>& parts, std::size_t count,
   jobs.run = [&parts, case_of](std::size_t job) {
     const PartCase place = part_case(parts, case_of(job));
     const StudyPart& part = parts[place.part];
-    return json_line(row_json(part.run ? part.run(place.index) : run_at(part.sweep, place.index)));
+    Row row = part.run ? part.run(part.sweep, place.index) : run_at(part.sweep, place.index);
+    row.swept = {part.title, axis_keys_of(part.sweep), part.bad};
+    return json_line(row_json(row));
   };
   jobs.lost = [&parts, case_of](std::size_t job, const std::string& reason) {
     const PartCase place = part_case(parts, case_of(job));
-    return json_line(row_json(failed_row(parts[place.part].sweep.at(place.index), reason)));
+    const StudyPart& part = parts[place.part];
+    Row row = failed_row(part.sweep.at(place.index), reason);
+    row.swept = {part.title, axis_keys_of(part.sweep), part.bad};
+    if (part.sweep.border) row.border = border_key(part.sweep);
+    return json_line(row_json(row));
   };
   return jobs;
+}
+
+std::vector<std::string> axis_keys_of(const Sweep& sweep) {
+  std::vector<std::string> keys;
+  const std::vector<ParameterDef> defs = parameters_of(sweep.scene);
+  for (const SweepAxis& axis : sweep.axes) {
+    const ParameterDef* def = find_parameter(defs, axis.key);
+    keys.push_back(def != nullptr ? row_key(*def) : axis.key);
+  }
+  return keys;
 }
 
 Row find_border(const std::string& key, double least, double most, const std::function<Row(double)>& run_with,
@@ -234,9 +257,13 @@ Row find_border(const std::string& key, double least, double most, const std::fu
   }
   while (low && high && *high - *low > border_width * std::abs(*high)) {
     const double middle = logarithmic ? std::sqrt(*low * *high) : (*low + *high) / 2;
+    if (middle == *low || middle == *high) break;
     Row there = run_with(middle);
-    (holds(there) ? low : high) = middle;
-    if (!holds(there)) row = std::move(there);
+    const bool made = was_made(there);
+    const bool safe = made && holds(there);
+    if (made) (safe ? low : high) = middle;
+    if (!safe) row = std::move(there);
+    if (!made) break;
   }
   row.border = key;
   row.border_low = low;

@@ -35,7 +35,7 @@ struct Contender {
 struct Sweep {
   std::string scene;
   std::vector<Case::Setting> set;  ///< The same for all.
-  std::vector<SweepAxis> axes;     ///< The last one varies fastest, behind it scalar and contender.
+  std::vector<SweepAxis> axes;     ///< The contender varies fastest, then the scalar, then the last axis.
   std::vector<Contender> contenders;
   std::vector<std::string> scalars{"double"};
   std::optional<std::uint64_t> seed;
@@ -53,7 +53,8 @@ struct Sweep {
 struct StudyPart {
   std::string title;  ///< Of its maps and its table; parts of one title are shown together.
   Sweep sweep;
-  std::function<Row(std::size_t index)> run{};  ///< Of a case; none: `run_at`.
+  std::function<Row(const Sweep& sweep, std::size_t index)> run{};  ///< Of a case; none: `run_at`.
+  Bad bad = Bad::does_not_hold;                                     ///< What its maps count.
 };
 
 /// Reads `KEY`, or `KEY=FIRST:LAST`, as a sweep's border. @throws InputError in words for anything else.
@@ -74,7 +75,7 @@ struct PartCase {
   std::size_t part = 0;   ///< Which of the sweeps.
   std::size_t index = 0;  ///< In it.
 };
-/// Where a case is in sweeps that stand one behind the other. @param index among all their cases.
+/// Where a case is in sweeps that stand one behind the other. @param index among all their cases, of which it is one.
 [[nodiscard]] PartCase part_case(const std::vector<StudyPart>& parts, std::size_t index);
 
 /// Cases of sweeps that stand one behind the other as jobs, each of which gives a line of JSON. `take` is still to be
@@ -95,11 +96,15 @@ struct BorderSearch {
 /// Passes nothing, and ends inside nothing.
 [[nodiscard]] bool is_safe(const Row& row);
 
+/// Keys that the axes of a sweep have in the `parameters` of rows.
+[[nodiscard]] std::vector<std::string> axis_keys_of(const Sweep& sweep);
+
 /// Looks for the border of a parameter between where a contender holds and where it does not: upwards over its range in
 /// strides, equal in its logarithm where the range allows; from the first that does not hold back by bisection, until
 /// the two ends differ by a ten-thousandth of the larger. A run that cannot be made ends the search.
 /// @param run_with the row at a value. @param holds of such a row.
-/// @return the row at the upper end of the bracket, or at the end of the range where all hold.
+/// @return the row at the upper end of the bracket, or at the end of the range where all hold; of a run that could not
+/// be made that run's row, with what is known of the border.
 [[nodiscard]] Row find_border(const std::string& key, double least, double most,
                               const std::function<Row(double)>& run_with, int strides = 64,
                               const std::function<bool(const Row&)>& holds = is_safe);

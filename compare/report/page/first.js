@@ -1,24 +1,26 @@
 // The first screen: does it tunnel, and what does accuracy cost; below it every scene with every contender, and the
 // studies.
 
-/// What became of a run: a mark, a word, and how it is coloured. The same words as on the terminal.
+/// What became of a run: a mark, words (as the terminal has them), and how it is coloured.
 function outcomeOf(row) {
   if (row.verdict === 'not applicable') return {mark: '\u2013', words: 'cannot run', kind: 'not-applicable'};
   if (row.verdict === 'failed') return {mark: 'F', words: 'failed', kind: 'failed'};
   if (row.tunnels > 0) return {mark: '\u2715', words: 'through', kind: 'tunnels'};
   if (row.steps_ending_inside > 0) return {mark: 'I', words: 'ends inside', kind: 'flagged'};
   if (row.hanging_steps > 0) return {mark: 'H', words: 'hangs', kind: 'flagged'};
-  if (row.first_contact_step === undefined) return {mark: '\u00b7', words: 'meets nothing', kind: 'flagged'};
-  const step = row.first_contact_step > 0 ? `, step ${row.first_contact_step}` : '';
-  return {mark: '\u2713', words: `stops at ${row.first_contact_fraction.toFixed(3)}${step}`, kind: 'holds'};
+  const met = row.first_contact_step !== undefined && typeof row.first_contact_fraction === 'number';
+  const step = row.first_contact_step > 0 ? ` of step ${row.first_contact_step}` : '';
+  const words = met ? `stopped at ${row.first_contact_fraction.toFixed(3)}${step}` : 'meets nothing';
+  if (row.verdict === 'violates') return {mark: 'V', words, kind: 'violates'};
+  if (row.verdict !== 'holds') return {mark: '!', words, kind: 'flagged'};
+  return met ? {mark: '\u2713', words, kind: 'holds'} : {mark: '\u00b7', words, kind: 'flagged'};
 }
 
 /// What a cell of the matrix shows.
 function verdictMark(row) {
   if (row.verdict === 'holds') return {mark: '\u2713', words: 'holds', kind: 'holds'};
-  if (row.verdict === 'violates') return {mark: 'V', words: 'broke its guarantee', kind: 'violates'};
   const {mark, words, kind} = outcomeOf(row);
-  return kind === 'holds' ? {mark: '!', words: 'flagged', kind: 'flagged'} : {mark, words, kind};
+  return {mark, words: kind === 'violates' ? 'broke its guarantee' : mark === '!' ? 'flagged' : words, kind};
 }
 
 /// The scene that the first screen shows: the article's, else the first in which somebody tunnels.
