@@ -6,7 +6,9 @@
 
 #include <paperproof/controller.hpp>
 
+#include <algorithm>
 #include <set>
+#include <utility>
 #include <vector>
 
 namespace paperproof::test {
@@ -24,6 +26,23 @@ inline ColliderDef box(double left, double bottom, double right, double top, Mov
 inline bool holds(const compare::StepJudgement& judged) {
   return judged.entered.empty() && judged.tunnelled.empty() && judged.corner_cut.empty() &&
          judged.one_way_broken.empty() && judged.crushed_with_room.empty();
+}
+
+/// Contacts that were reported, and that neither the requested motion has nor what an exact contact leaves of it. In
+/// the band where the guarantee lets a contact be held or not a face must be there.
+inline int unfounded(const compare::StepJudgement& judged, const MoveResult<double>& move) {
+  return static_cast<int>(
+      std::count_if(move.contacts.begin(), move.contacts.end(), [&judged](const Contact<double>& named) {
+        const std::pair touch(named.collider, named.side);
+        const auto has = [](const auto& range, const auto& value) {
+          return std::find(range.begin(), range.end(), value) != range.end();
+        };
+        const bool is_exact = std::any_of(
+            judged.contacts.begin(), judged.contacts.end(),
+            [&touch](const compare::ExactContact& exact) { return std::pair(exact.collider, exact.side) == touch; });
+        if (is_exact || has(judged.deflected, touch)) return false;
+        return !has(judged.contact_band, named.collider) || has(judged.ghosts, touch);
+      }));
 }
 
 struct Judged {
@@ -83,6 +102,8 @@ struct Judged {
  private:
   [[nodiscard]] compare::TraceHeader header(double length_of_step) const {
     compare::TraceHeader header;
+    header.contender = "octagon_sweep";
+    header.scalar = "double";
     header.points.assign(controller.character().shape.hull().begin(), controller.character().shape.hull().end());
     header.scenery = scenery.as_run();
     header.dt = length_of_step;

@@ -186,7 +186,7 @@ class StepSolver {
   [[gnu::cold, gnu::noinline]] void cut_short() noexcept;
   [[nodiscard]] bool stands() noexcept;
   [[nodiscard]] bool stands_on_any() noexcept;
-  [[gnu::cold, gnu::noinline]] void report_ground() noexcept;
+  [[gnu::cold, gnu::noinline]] void report_ground(const V& wanted) noexcept;
   [[nodiscard]] bool stands_on(PieceIndex piece) const noexcept;
   [[nodiscard, gnu::cold, gnu::noinline]] bool touches_ground() noexcept;
   /// The normal of a piece where it is touched now and is walkable ground.

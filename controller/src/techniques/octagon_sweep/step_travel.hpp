@@ -56,7 +56,7 @@ void StepSolver<variant, Scalar>::solve(const MoveRequest<Scalar>& request) noex
       travel();
     }
     result_.grounded = stands();
-    if (result_.grounded && !met_ground_ && !wedged_) report_ground();
+    if (result_.grounded && !met_ground_ && !wedged_) report_ground(wanted);
     if (settings_.snap > 0) follow_ground_down(request);
     if constexpr (variant.movers) end_ride();
   }
@@ -258,11 +258,16 @@ bool StepSolver<variant, Scalar>::stands() noexcept {
 }
 
 /// The ground that the character stands on is among the contacts, also where gravity presses onto it by less than the
-/// sweep sees.
+/// sweep sees. Ground that the motion of the step does not lead into is none of them: who jumps and bumps its head at
+/// once stands again, and met nothing but the ceiling.
 template <Variant variant, class Scalar>
-void StepSolver<variant, Scalar>::report_ground() noexcept {
-  for_each_near({position_, position_}, [this](PieceIndex piece) {
-    if (stands_on(piece)) report_touched(piece);
+void StepSolver<variant, Scalar>::report_ground(const V& wanted) noexcept {
+  for_each_near({position_, position_}, [&](PieceIndex piece) {
+    if (!stands_on(piece)) return;
+    V way = wanted;
+    if constexpr (variant.movers)
+      if (mover_of(piece) != no_mover) way = moving_.around.relative(wanted, mover_of(piece), Scalar(0));
+    if (enters(way, *touched_ground(piece))) report_touched(piece);
   });
 }
 
