@@ -57,9 +57,10 @@ struct Judged {
   double dt;
   bool looks_for_room = true;  ///< The judge does, among all that crush: for minutes, where they are many.
 
-  Judged(const std::vector<ColliderDef>& colliders, const Vec2d& position, double length_of_step)
+  Judged(const std::vector<ColliderDef>& colliders, const Vec2d& position, double length_of_step,
+         const CharacterDef& character = {})
       : scenery(SceneryDef{colliders}),
-        controller(scenery, {}),
+        controller(scenery, character),
         judge(header(length_of_step)),
         motions(scenery.mover_count()),
         dt(length_of_step) {

@@ -208,6 +208,23 @@ bool ConfigurationSpace<Scalar>::may_cover(PieceIndex covering, PieceIndex piece
          std::abs(static_cast<double>(offset(covering, a) - offset(piece, b))) <= facet_noise_;
 }
 
+/// An axis that bevels a corner has no facet but the corner itself. It is covered by what has the corner, too, and
+/// reaches further along the normal: then that is nearer to whoever comes from there.
+template <class Scalar>
+bool ConfigurationSpace<Scalar>::is_covered_corner(PieceIndex piece, std::size_t axis, const Vec2d& corner,
+                                                   std::span<const PieceIndex> neighbours) const noexcept {
+  const Vec2d n = normal(piece, axis).template cast<double>();
+  return std::any_of(neighbours.begin(), neighbours.end(), [&](PieceIndex other) {
+    if (other == piece || !may_cover(other, piece)) return false;
+    for (std::size_t k = 0; k < axis_count(other); ++k) {
+      if (k >= shared_count_ && k < lanes_) continue;
+      const double out = normal(other, k).template cast<double>().dot(corner) - static_cast<double>(offset(other, k));
+      if (out > facet_noise_) return false;
+    }
+    return static_cast<double>(support_offset(other, n)) > n.dot(corner) + facet_noise_;
+  });
+}
+
 template <class Scalar>
 void ConfigurationSpace<Scalar>::build_covered(PieceIndex piece, std::span<const PieceIndex> neighbours) {
   std::vector<Interval> covered;
@@ -215,6 +232,11 @@ void ConfigurationSpace<Scalar>::build_covered(PieceIndex piece, std::span<const
     if (axis < lanes_ && axis >= shared_count_) continue;
     const Facet f = facet(piece, axis);
     const Vec2d span = f.to - f.from;
+    const double length = std::sqrt(span.dot(span));
+    if (length <= open_enough) {
+      if (is_covered_corner(piece, axis, f.from, neighbours)) info_[piece].covered |= std::uint64_t{1} << axis;
+      continue;
+    }
     covered.clear();
     for (const PieceIndex other : neighbours) {
       if (other == piece || !may_cover(other, piece)) continue;
@@ -235,7 +257,6 @@ void ConfigurationSpace<Scalar>::build_covered(PieceIndex piece, std::span<const
       if (inside.from < inside.to) covered.push_back(inside);
       if (inside.from == 0 && inside.to == 1) break;  // nothing is left to be covered
     }
-    const double length = std::sqrt(span.dot(span));
     if (!covered.empty() && open_share(covered) * length <= open_enough)
       info_[piece].covered |= std::uint64_t{1} << axis;
   }

@@ -131,6 +131,8 @@ class ConfigurationSpace {
   void build_shared_axes();
   void build_obstacle(PieceIndex piece);
   [[nodiscard]] bool may_cover(PieceIndex covering, PieceIndex piece) const noexcept;
+  [[nodiscard]] bool is_covered_corner(PieceIndex piece, std::size_t axis, const Vec2d& corner,
+                                       std::span<const PieceIndex> neighbours) const noexcept;
   void build_covered(PieceIndex piece, std::span<const PieceIndex> neighbours);
   [[nodiscard]] Scalar support_offset(PieceIndex piece, const Vec2d& normal) const noexcept;
   [[nodiscard]] OctagonFace<Scalar> face_along(const Vec2<Scalar>& normal) const noexcept;

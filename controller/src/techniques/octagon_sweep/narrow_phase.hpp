@@ -9,8 +9,10 @@
 
 #include <paperproof/tolerances.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace paperproof::octagon_sweep {
 
@@ -145,6 +147,7 @@ struct EntryAxes {
   /// The piece itself is missed, by less than the hit distance: `impact` is then the axis along which it comes that
   /// near, covered or not.
   bool missed;
+  bool covered;  ///< `normal` is that of a covered facet.
 };
 
 /// What a motion does to a piece that it comes near to.
@@ -172,10 +175,10 @@ class LastEntry {
   /// where the motion is stopped: what covers it may be let through, or leave less of it open than counts.
   /// @param faced whether the piece is still apart there along an axis.
   template <class Faced>
-  [[nodiscard]] std::size_t axis(const Faced& faced) const noexcept {
-    if (open_.time < 0) return covered_.axis;
-    return covered_.time < 0 || faced(open_.axis) ? open_.axis : covered_.axis;
+  [[nodiscard]] bool is_covered(const Faced& faced) const noexcept {
+    return open_.time < 0 || (covered_.time >= 0 && !faced(open_.axis));
   }
+  [[nodiscard]] std::size_t axis(bool is_covered) const noexcept { return is_covered ? covered_.axis : open_.axis; }
 
  private:
   struct Entry {
@@ -192,13 +195,56 @@ class LastEntry {
   Entry covered_;
 };
 
+/// Of the distances at which an uncovered facet is hit, and stops: see `sweep_covered`.
+template <class Scalar>
+inline constexpr Scalar covered_share = Scalar(0.5);
+
+/// When all separations are below a level for the first time; nothing where they never are together.
+template <class Scalar>
+[[nodiscard]] std::optional<Scalar> entry_below(const AxisRanges<Scalar>& f, Scalar level) noexcept {
+  Scalar entry = 0;
+  Scalar exit = 1;
+  for (std::size_t axis = 0; axis < f.count; ++axis) {
+    const Scalar start = f.start[axis];
+    const Scalar end = f.end[axis];
+    if (start >= level && end >= level) return std::nullopt;
+    if (start >= level)
+      entry = std::max(entry, (start - level) / (start - end));
+    else if (end > level)
+      exit = std::min(exit, (level - start) / (end - start));
+  }
+  return entry < exit ? std::optional(entry) : std::nullopt;
+}
+
+/// Where a motion is stopped that enters by a covered facet alone; nothing where it passes.
+///
+/// Such a facet lies inside of what covers it. Near it what covers it is nearer than its distance to the facet, which
+/// is up to 1.42 times the separation: where two facets that stand at right angles meet. Were both to stop at the same
+/// separation, then a motion that just misses the one might still be stopped by the other, and by a normal that the
+/// surface has nowhere: who flies up a slope and over its crest would lose its speed to the side of the next tile. So
+/// the covered facet stops later, and only where nothing stops the motion that covers it.
+/// @param tau see `Clearance`.
+template <class Scalar>
+[[nodiscard, gnu::cold, gnu::noinline]] std::optional<Scalar> sweep_covered(const AxisRanges<Scalar>& f,
+                                                                            Scalar tau) noexcept {
+  constexpr Tolerances<Scalar> tolerances{};
+  if (!entry_below(f, std::min(tau, tolerances.hit * covered_share<Scalar>))) return std::nullopt;
+  const Scalar start = *std::max_element(f.start.begin(), f.start.begin() + f.count);
+  if (start <= tolerances.touch * covered_share<Scalar>) return Scalar(0);
+  return entry_below(f, tolerances.stop * covered_share<Scalar>);
+}
+
+/// Whether covered facets yield to what covers them. A sweep over many pieces asks that in a second round only, where
+/// one of them came first: behind the surface of a wall of tiles every facet is covered.
+enum class Covered : std::uint8_t { as_any, yields };
+
 /// Sweeps the reference point against one obstacle that may be in the way: no axis keeps it clear.
 ///
 /// Every separation is linear in time. The motion hits when, at some time, all of them are below tau: the latest entry
 /// below tau comes before the earliest exit above it. It is then stopped where it enters the larger region below
 /// `stop`. The obstacle is inflated instead of backing off along the motion: where the motion grazes, its time of
 /// impact is ill-conditioned, but the separations are not.
-template <Variant variant, class Scalar>
+template <Variant variant, Covered covered = Covered::yields, class Scalar>
 [[nodiscard, gnu::always_inline]] inline PieceHit<Scalar> sweep_piece(const ConfigurationSpace<Scalar>& space,
                                                                       const Motion<variant.lanes, Scalar>& motion,
                                                                       PieceIndex piece,
@@ -245,10 +291,18 @@ template <Variant variant, class Scalar>
   const auto faced = [&](std::size_t axis) {
     return f.start[axis] + (f.end[axis] - f.start[axis]) * stop >= std::min(tau, tolerances.certain);
   };
-  const std::size_t normal = last.axis(faced);
+  const bool is_covered = last.is_covered(faced);
+  bool hit = entry < exit;
+  if constexpr (covered == Covered::yields) {
+    if (hit && is_covered) {
+      const std::optional<Scalar> later = sweep_covered(f, tau);
+      hit = later.has_value();
+      stop = later.value_or(stop);
+    }
+  }
   stop *= motion.reach;
   const bool missed = impact_time > leaves;
-  return {entry < exit && stop <= 1, stop, {normal, missed ? near : impact, missed}};
+  return {hit && stop <= 1, stop, {last.axis(is_covered), missed ? near : impact, missed, is_covered}};
 }
 
 /// The axis of largest separation at a position, and that separation.

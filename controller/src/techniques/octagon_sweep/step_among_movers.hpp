@@ -14,6 +14,7 @@
 namespace paperproof::octagon_sweep {
 
 template <Variant variant, class Scalar>
+template <Covered covered>
 void StepSolver<variant, Scalar>::look_at_movers() noexcept {
   const Surroundings<Scalar>& around = moving_.around;
   // The sweep looks this far beyond the end of a motion (twice: it goes by the larger component).
@@ -27,7 +28,7 @@ void StepSolver<variant, Scalar>::look_at_movers() noexcept {
     if (!box.overlaps(around.phases.whole(mover))) continue;
     LocalMotion seen = make_motion<variant>(space_, from, way);
     seen.rest = lost_by(motion_.from, offset);
-    sweep(seen, around.phases.query(mover, box, around.memory.of_mover));
+    sweep<covered>(seen, around.phases.query(mover, box, around.memory.of_mover));
   }
 }
 

@@ -119,6 +119,9 @@ class StepSolver {
   // step_sweep.hpp
   /// Sweeps from the present position, and keeps motion and result.
   [[gnu::flatten]] void look_along(const V& way) noexcept;
+  [[gnu::cold, gnu::noinline]] void look_again() noexcept;
+  [[nodiscard]] bool stops_at_covered() const noexcept;
+  template <Covered covered>
   void sweep(const LocalMotion& motion, std::span<const PieceIndex> pieces) noexcept;
   void keep(Stop<Scalar> stop, Scalar length) noexcept;
   void order_stops() noexcept;
@@ -217,6 +220,7 @@ class StepSolver {
   void end_ride() noexcept;
 
   // step_among_movers.hpp
+  template <Covered covered>
   void look_at_movers() noexcept;
   [[nodiscard]] bool ignored(PieceIndex piece) const noexcept;
   [[nodiscard]] bool kept_clear_by_hold(const LocalMotion& motion, PieceIndex piece) const noexcept;

@@ -41,12 +41,32 @@ template <Variant variant, class Scalar>
 void StepSolver<variant, Scalar>::look_along(const V& way) noexcept {
   motion_ = make_motion<variant>(space_, position_, way);
   found_.clear();
-  sweep(motion_, neighbourhood_.around(motion_.box(), way));
-  if constexpr (variant.movers) look_at_movers();
+  sweep<Covered::as_any>(motion_, neighbourhood_.around(motion_.box(), way));
+  if constexpr (variant.movers) look_at_movers<Covered::as_any>();
+  if (stops_at_covered()) [[unlikely]]
+    look_again();
   order_stops();
 }
 
+/// Along the motion of the last sweep, where a covered facet came first.
 template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::look_again() noexcept {
+  found_.clear();
+  sweep<Covered::yields>(motion_, neighbourhood_.around(motion_.box(), motion_.way));
+  if constexpr (variant.movers) look_at_movers<Covered::yields>();
+}
+
+/// Whether a covered facet is the first to stop the motion of the last sweep.
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::stops_at_covered() const noexcept {
+  if (!found_.hit) return false;
+  if (found_.stops.size() == 1) return found_.stops[0].axes.covered;  // mostly
+  return std::any_of(found_.stops.begin(), found_.stops.end(),
+                     [](const Stop<Scalar>& stop) { return stop.axes.covered; });
+}
+
+template <Variant variant, class Scalar>
+template <Covered covered>
 void StepSolver<variant, Scalar>::sweep(const LocalMotion& motion, std::span<const PieceIndex> pieces) noexcept {
   for (const PieceIndex piece : pieces) {
     if constexpr (variant.movers)
@@ -55,7 +75,7 @@ void StepSolver<variant, Scalar>::sweep(const LocalMotion& motion, std::span<con
     const Clearance<Scalar> clear = clearance<variant>(space_, motion, piece);
     found_.least_separation = std::min(found_.least_separation, clear.start);
     if (clear.clear()) continue;
-    const PieceHit<Scalar> hit = sweep_piece<variant>(space_, motion, piece, clear);
+    const PieceHit<Scalar> hit = sweep_piece<variant, covered>(space_, motion, piece, clear);
     if (hit.hit) keep({piece, hit.stop, 0, hit.axes}, motion.length);
   }
 }

@@ -87,7 +87,7 @@ void StepSolver<variant, Scalar>::keep_ground() noexcept {
       if (mover_of(piece) != no_mover) way = moving_.around.relative(way, mover_of(piece), time_);
     const LocalMotion motion = make_motion<variant>(space_, local(piece, position_), way);
     if (!enters(way, space_.normal(piece, best.axis)) || !in_way(motion, piece)) return;
-    keep({piece, 0, 0, {best.axis, best.axis, false}}, motion.length);
+    keep({piece, 0, 0, {best.axis, best.axis, false, false}}, motion.length);
   });
   order_stops();
 }
