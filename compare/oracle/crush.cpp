@@ -1,20 +1,24 @@
 #include "oracle/crush.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace paperproof::compare::detail {
 namespace {
 
-/// Half of the narrowest opening that is asked for [m].
-constexpr double least_clearance = 1e-7;
 /// What the controller may keep from a contact on top of what the mover pushes [m].
 constexpr double beyond_travel = 1e-6;
 
 /// The ways from one corner to the end of the step.
 class Departure {
  public:
-  Departure(const ExactScenery& scenery, std::span<const Place> path, std::size_t corner, const Meetings& meetings)
-      : scenery_(scenery), from_(path[corner]), inside_(scenery.overlapped(from_)) {
+  Departure(const ExactScenery& scenery, const ExactScenery& grown_scenery, std::span<const Place> path,
+            std::size_t corner, const Meetings& meetings)
+      : scenery_(scenery),
+        grown_scenery_(grown_scenery),
+        from_(path[corner]),
+        inside_(scenery.overlapped(from_)),
+        near_(grown_scenery.overlapped(from_)) {
     for (const Place& place : path.first(corner + 1)) way_.push_back({place.position, place.fraction});
     for (const auto& [collider, free] : meetings.before) {
       if (free) sides_.emplace_back(collider, *free);
@@ -37,7 +41,7 @@ class Departure {
       last_met_ = collider;
       return false;
     }
-    return true;
+    return keeps_clear(there);
   }
 
   /// The whole way of the step, if it goes straight from here.
@@ -48,19 +52,50 @@ class Departure {
   }
 
  private:
+  /// Whether the way comes no nearer than `least_clearance` to what is farther away where it begins: what passes a rim
+  /// nearer than that may be stopped there.
+  [[nodiscard]] bool keeps_clear(const Place& there) const {
+    const std::vector<ColliderIndex> approached = grown_scenery_.met(from_, there);
+    return std::all_of(approached.begin(), approached.end(), [this](ColliderIndex collider) {
+      return std::find(near_.begin(), near_.end(), collider) != near_.end();
+    });
+  }
+
   const ExactScenery& scenery_;
+  const ExactScenery& grown_scenery_;
   const Place& from_;
   std::vector<PathPoint<double>> way_;  ///< Up to there.
   std::vector<ColliderIndex> inside_;
+  std::vector<ColliderIndex> near_;                     ///< Nearer than `least_clearance`.
   std::vector<std::pair<ColliderIndex, Place>> sides_;  ///< What was met, with the last place free of it.
   std::optional<ColliderIndex> last_met_;
 };
 
 }  // namespace
 
-std::optional<Vec2d> find_room(const ExactScenery& scenery, std::span<const Place> path,
-                               std::span<const ColliderIndex> crushed, const Meetings& meetings,
-                               const Others& characters) {
+std::vector<Vec2d> grown(std::span<const Vec2d> hull, double by) {
+  double twice_area = 0;
+  for (std::size_t k = 0; k < hull.size(); ++k) {
+    const Vec2d& next = hull[(k + 1) % hull.size()];
+    twice_area += hull[k].x() * next.y() - hull[k].y() * next.x();
+  }
+  const auto outward = [&](std::size_t k) -> Vec2d {
+    const Vec2d edge = hull[(k + 1) % hull.size()] - hull[k];
+    return Vec2d(edge.y(), -edge.x()).normalized() * std::copysign(1.0, twice_area);
+  };
+  std::vector<Vec2d> corners;
+  for (std::size_t k = 0; k < hull.size(); ++k) {
+    // Both sides that meet at the corner go out by as much.
+    const Vec2d a = outward((k + hull.size() - 1) % hull.size());
+    const Vec2d b = outward(k);
+    corners.emplace_back(hull[k] + (a + b) * (by / (1 + a.dot(b))));
+  }
+  return corners;
+}
+
+std::optional<Vec2d> find_room(const ExactScenery& scenery, const ExactScenery& grown_scenery,
+                               std::span<const Place> path, std::span<const ColliderIndex> crushed,
+                               const Meetings& meetings, const Others& characters) {
   const Place& end = path.back();
   double travel = 0;
   std::vector<Vec2d> others;
@@ -80,7 +115,7 @@ std::optional<Vec2d> find_room(const ExactScenery& scenery, std::span<const Plac
   }
   std::vector<Departure> departures;
   for (std::size_t corner = 0; corner < path.size() && corner <= last && path[corner].fraction < 1; ++corner) {
-    departures.emplace_back(scenery, path, corner, meetings);
+    departures.emplace_back(scenery, grown_scenery, path, corner, meetings);
   }
   const auto can_go_there = [&](const Vec2d& position) {
     const Place there(position, end.movers, end.fraction);

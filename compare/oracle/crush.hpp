@@ -30,11 +30,19 @@ struct Meetings {
   std::map<ColliderIndex, std::optional<Place>> before;
 };
 
+/// Half of the narrowest opening that is asked for [m].
+inline constexpr double least_clearance = 1e-7;
+
+/// A convex shape with every side moved out.
+/// @param hull its corners in order. @param by so far [m].
+[[nodiscard]] std::vector<Vec2d> grown(std::span<const Vec2d> hull, double by);
+
 /// A position at the end of the step that would have been free: see `Judge` for what counts as room. Or none.
+/// @param scenery for the octagon, and @param grown_scenery for one that is grown by `least_clearance`.
 /// @param path the way of the step, corner by corner, up to its end.
 /// @param crushed the colliders of movers that are said to crush.
-[[nodiscard]] std::optional<Vec2d> find_room(const ExactScenery& scenery, std::span<const Place> path,
-                                             std::span<const ColliderIndex> crushed, const Meetings& meetings,
-                                             const Others& characters = {});
+[[nodiscard]] std::optional<Vec2d> find_room(const ExactScenery& scenery, const ExactScenery& grown_scenery,
+                                             std::span<const Place> path, std::span<const ColliderIndex> crushed,
+                                             const Meetings& meetings, const Others& characters = {});
 
 }  // namespace paperproof::compare::detail

@@ -283,7 +283,7 @@ std::vector<ColliderIndex> Judge::newly_inside(const StepJudgement& judgement) c
 }
 
 void Judge::judge_crushes(const Path& path, const TraceStep& step, const Touched& touched, const Others& others,
-                          StepJudgement& judgement) const {
+                          StepJudgement& judgement) {
   const auto goes = [&](ColliderIndex collider) {
     const MoverIndex mover = header_.scenery.colliders[collider].mover;
     return mover != no_mover && step.movers[mover].from != step.movers[mover].to;
@@ -312,7 +312,10 @@ void Judge::judge_crushes(const Path& path, const TraceStep& step, const Touched
     std::optional<Place>& free = meetings.before[collider];
     if (episode.free_from) free = episode.free_from->place();
   }
-  judgement.room = detail::find_room(scenery_, path, pressing, meetings, others);
+  if (!grown_scenery_)
+    grown_scenery_ =
+        std::make_unique<ExactScenery>(scenery_.scenery(), detail::grown(header_.points, detail::least_clearance));
+  judgement.room = detail::find_room(scenery_, *grown_scenery_, path, pressing, meetings, others);
   // One mover may press the octagon after another that goes away more slowly.
   const bool pressed = std::any_of(step.crushed.begin(), step.crushed.end(), comes_closer);
   for (const ColliderIndex collider : step.crushed) {

@@ -126,8 +126,10 @@ struct StepJudgement {
 /// - with a clearance of at least 1e-7 m to every solid, so that no opening under 2e-7 m is asked for;
 /// - reached from a corner of the way that was travelled, no later than where the first leg begins that meets one of
 ///   those named (no way that leaves later undoes what has been pressed in), by a straight uniform motion until the end
-///   of the step that meets no solid but what is overlapped at that corner; and no solid that was met before lies
-///   between the last place free of it and there: on its far side there is no room;
+///   of the step that meets no solid but what is overlapped at that corner, and comes no nearer than 1e-7 m (each side
+///   of the octagon moved out by so much) to what is farther away there: who passes a rim nearer than that may be
+///   stopped at it. And no solid that was met before lies between the last place free of it and there: on its far side
+///   there is no room;
 /// - and, among several characters, whose whole way meets none of the others on theirs, nor ends within 1e-7 m of one.
 /// Who touched another during the step may be excused with room, too (exempted): what one does to the other is handled
 /// impact by impact, and may hide room that is there for both together. `room` says where it was.
@@ -263,7 +265,7 @@ class Judge {
                      StepJudgement& judgement) const;
   [[nodiscard]] double depth_of(const Path& path, ColliderIndex collider) const;
   void judge_crushes(const Path& path, const TraceStep& step, const Touched& touched, const Others& others,
-                     StepJudgement& judgement) const;
+                     StepJudgement& judgement);
   void judge_sensors(const Path& path, const TraceStep& step, StepJudgement& judgement) const;
   void judge_ground(const detail::HangingJudge& hanging, const TraceStep& step, StepJudgement& judgement) const;
   void judge_progress(const TraceStep& step, const Others& others, StepJudgement& judgement);
@@ -273,6 +275,7 @@ class Judge {
   const TraceHeader header_;
   std::unique_ptr<detail::TurningJudge> turning_;
   ExactScenery scenery_;
+  std::unique_ptr<ExactScenery> grown_scenery_;  ///< See `detail::find_room`; made when a crush is asked about.
   std::size_t mover_count_ = 0;
   bool has_sensors_ = false;
   double slop_ = 0;

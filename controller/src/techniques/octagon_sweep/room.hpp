@@ -17,6 +17,10 @@
 
 namespace paperproof::octagon_sweep {
 
+/// Kept where there is little room, of the hit distance: room must be a little more than what counts as closed. One:
+/// far from the origin, where 4e-9 m are rounding, none is found. Large: what would do is not seen.
+inline constexpr double least_room = 1.25;
+
 /// Of the plane of the positions when the step ends, relative to one of them.
 template <class Scalar>
 struct TakenLine {
@@ -109,7 +113,7 @@ class TakenPositions {
 
  private:
   /// A way keeps this many times more from what it passes than what would stop it: for its rounding.
-  static constexpr Scalar margin = Scalar(1.25);
+  static constexpr Scalar margin = Scalar(least_room);
   /// Lines that differ by less in their direction are parallel.
   static constexpr Scalar parallel = std::numeric_limits<Scalar>::epsilon() * 64;
 

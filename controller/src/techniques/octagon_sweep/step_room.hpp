@@ -155,7 +155,7 @@ bool StepSolver<variant, Scalar>::goes_straight(std::size_t corner, const V& end
   const Surroundings<Scalar>& around = moving_.around;
   position_ = result_.path[corner].position;
   time_ = result_.path[corner].fraction;
-  if (!(time_ < 1) || (certify_ && !certified(end, Scalar(1)))) return false;
+  if (!(time_ < 1) || !is_proved(end, Scalar(1))) return false;
   const V way = end - position_;
   const LocalMotion motion = make_motion<variant>(space_, position_, way, Scalar(0));
   if (!passes(motion, pieces_along(motion, no_mover))) return false;
@@ -255,6 +255,16 @@ void StepSolver<variant, Scalar>::go_back_to(std::size_t corner) noexcept {
   moving_.anchored = false;
 }
 
+/// Whether a straight way from here is proved clear of everything that is nearer than rounding here and is not left:
+/// the step may have begun so, and gone on from where its gaps were restored.
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::is_proved(const V& target, Scalar end) noexcept {
+  bool clear = true;
+  for_each_near({position_, position_},
+                [&](PieceIndex piece) { clear = clear && (left_behind(piece) || !bars(piece, target, end)); });
+  return clear;
+}
+
 /// The way to room is the nearest that is free: it is bounded by what it comes near to, and that is what holds or
 /// pushes the character. Each is a contact at the moment when it is nearest, which becomes a corner of the way.
 template <Variant variant, class Scalar>
@@ -266,12 +276,17 @@ void StepSolver<variant, Scalar>::report_room(std::size_t corner) noexcept {
   std::sort(memory().near_the_way.begin(), memory().near_the_way.end(),
             [](const Nearest<Scalar>& a, const Nearest<Scalar>& b) { return a.when < b.when; });
   result_.path.pop_back();
+  position_ = result_.path.back().position;
+  time_ = result_.path.back().fraction;
   for (const Nearest<Scalar>& near : memory().near_the_way) {
     const bool within = near.when < 1;
     // No corner within a way that only an exact certificate allows: it could not be rounded.
     if (within && (certify_ || result_.path.size() + 1 >= memory().corners.capacity())) continue;
-    position_ = within ? V(from.position + (to.position - from.position) * near.when) : to.position;
-    time_ = within ? from.fraction + (1 - from.fraction) * near.when : Scalar(1);
+    const V there = within ? V(from.position + (to.position - from.position) * near.when) : to.position;
+    const Scalar then = within ? from.fraction + (1 - from.fraction) * near.when : Scalar(1);
+    if (within && !is_proved(there, then)) continue;
+    position_ = there;
+    time_ = then;
     push_corner(time_);
     report_contact(near.piece, near.axis, time_, result_.contacts.size());
     memory().contacts_at[result_.path.size() - 1] = result_.contacts.size();

@@ -13,6 +13,7 @@
 #include "techniques/octagon_sweep/neighbourhood.hpp"
 #include "techniques/octagon_sweep/one_way.hpp"
 #include "techniques/octagon_sweep/response.hpp"
+#include "techniques/octagon_sweep/room.hpp"
 #include "techniques/octagon_sweep/variant.hpp"
 
 #include <paperproof/technique.hpp>
@@ -36,9 +37,6 @@ struct Settings {
   int iterations;
   ColliderIndex first_companion;  ///< See `TechniqueDef::first_companion`.
 };
-
-/// Kept where there is little room, of the hit distance: room must be a little more than what counts as closed.
-inline constexpr double least_room = 1.25;
 
 /// What a sweep over all pieces found.
 template <class Scalar>
@@ -252,6 +250,7 @@ class StepSolver {
   [[nodiscard]] bool leads_to_room(std::size_t corner, const V& end) noexcept;
   void go_on_until_bounded(Room& room) noexcept;
   [[nodiscard]] bool roomy(const V& q) noexcept;
+  [[nodiscard]] bool is_proved(const V& target, Scalar end) noexcept;
   [[nodiscard]] bool goes_straight(std::size_t corner, const V& end) noexcept;
   [[nodiscard]] bool passes(const LocalMotion& motion, std::span<const PieceIndex> pieces) const noexcept;
   [[nodiscard]] bool stopped_by(const LocalMotion& motion, PieceIndex piece) const noexcept;
