@@ -56,6 +56,8 @@ struct Tally {
   std::size_t dropped = 0;
   std::size_t stuck = 0;
   std::size_t moves = 0;
+  std::size_t grounded = 0;
+  std::size_t unsupported = 0;       ///< Grounded, with nothing under them where the step ends.
   std::size_t hanging = 0;           ///< Could have fallen, and did not.
   std::size_t hanging_touching = 0;  ///< The same, in runs where neighbours may start without a gap.
 };
@@ -166,8 +168,12 @@ class RandomCrowd {
   void count_hanging(std::size_t i, const std::vector<TraceStep>& records, Tally& tally) {
     const compare::Others others = company_->others_of(static_cast<CharacterIndex>(i), records);
     const Vec2d made = records[i].path.back().position - records[i].path.front().position;
-    const bool hangs =
-        compare::detail::HangingJudge(header_, oracle_, records[i], others).hangs(made, compare::detail::exact_reach);
+    const compare::detail::HangingJudge judge(header_, oracle_, records[i], others);
+    const bool hangs = judge.hangs(made, compare::detail::exact_reach);
+    tally.grounded += states_[i].grounded;
+    tally.unsupported += states_[i].grounded &&
+                         !judge.has_support(records[i].path.size() - 1, compare::detail::exact_reach.contact) &&
+                         oracle_.overlapped(states_[i].position).empty();
     (may_touch_ ? tally.hanging_touching : tally.hanging) += hangs;
   }
 
@@ -233,9 +239,10 @@ TEST(CrowdGuarantee, those_who_were_apart_never_overlap_or_pass_through_each_oth
   for (std::uint64_t seed = 1; tally.steps < wanted && !HasFatalFailure(); ++seed) RandomCrowd(seed).go(tally);
   std::printf(
       "%d steps, %zu moves, %zu steps with impacts, %zu impacts, %d launches; %zu kept back, %zu "
-      "more from no gap, %zu dropped, %zu stuck, %zu hanging, %zu more from no gap\n",
+      "more from no gap, %zu dropped, %zu stuck, %zu hanging, %zu more from no gap; %zu grounded, %zu without "
+      "support\n",
       tally.steps, tally.moves, tally.with_impact, tally.impacts, tally.launches, tally.stayed, tally.stayed_touching,
-      tally.dropped, tally.stuck, tally.hanging, tally.hanging_touching);
+      tally.dropped, tally.stuck, tally.hanging, tally.hanging_touching, tally.grounded, tally.unsupported);
   const double share = static_cast<double>(tally.with_impact) / tally.steps;
   EXPECT_GE(share, 0.3);
   EXPECT_LE(share, 0.95);
@@ -244,6 +251,8 @@ TEST(CrowdGuarantee, those_who_were_apart_never_overlap_or_pass_through_each_oth
   // neighbours began without a gap.
   EXPECT_LE(static_cast<double>(tally.hanging), 2e-4 * static_cast<double>(tally.moves));
   EXPECT_LE(static_cast<double>(tally.hanging_touching), 5e-3 * static_cast<double>(tally.moves));
+  EXPECT_EQ(tally.unsupported, 0U);
+  EXPECT_GE(tally.grounded, tally.moves / 20);
   // The last resort is one.
   EXPECT_LE(static_cast<double>(tally.stayed), 1e-4 * static_cast<double>(tally.moves));
 }

@@ -113,11 +113,41 @@ Scalar Stepper<Scalar>::reach_of_crush(std::size_t i) noexcept {
   return reach;
 }
 
+/// Whether it stood on others alone, and where the step ends nobody is under it: who gives way to somebody knows the
+/// way that was planned then, and that one may go on later.
+template <class Scalar>
+bool Stepper<Scalar>::lost_its_ground(std::size_t i) noexcept {
+  const Walker<Scalar>& walker = walkers_[i];
+  if (!walker.end.state.grounded) return false;
+  const MoveResult<Scalar>& made = member(i).step.move;
+  const auto holds = [](const auto& touch) { return touch.normal.y() > 0; };
+  bool stood_on_another = std::any_of(member(i).met.begin(), member(i).met.end(), holds);
+  for (const Contact<Scalar>& contact : walker.plan.contacts.empty() ? made.contacts : walker.plan.contacts) {
+    if (!holds(contact)) continue;
+    if (!is_companion(contact.collider)) return false;
+    stood_on_another = true;
+  }
+  return stood_on_another && !is_on_another(i);
+}
+
+/// Where the step ends: it touches somebody who is under it, and not beside it.
+template <class Scalar>
+bool Stepper<Scalar>::is_on_another(std::size_t i) const noexcept {
+  const V& at = walkers_[i].end.state.position;
+  const Scalar width = space_.box().upper.x() - space_.box().lower.x();
+  return std::any_of(walkers_.begin(), walkers_.end(), [&](const Walker<Scalar>& other) {
+    const V& there = other.end.state.position;
+    return there.y() < at.y() && std::abs(there.x() - at.x()) < width &&
+           space_.separation(at, there) <= Tolerances<Scalar>{}.touch;
+  });
+}
+
 /// How far it wanted to fall; zero where it did so at least by half, or stands [m].
 template <class Scalar>
-Scalar Stepper<Scalar>::missed_fall(std::size_t i) const noexcept {
+Scalar Stepper<Scalar>::missed_fall(std::size_t i) noexcept {
   const Walker<Scalar>& walker = walkers_[i];
-  const bool held = walker.end.state.grounded || walker.end.state.crushed || walker.start.state.crushed;
+  const bool stands = walker.end.state.grounded && !lost_its_ground(i);
+  const bool held = stands || walker.end.state.crushed || walker.start.state.crushed;
   if (held || walker.start.state.ride.ground != Ride<Scalar>::none) return 0;
   const Scalar wanted = -walker.start.own.y() * dt_;
   const Scalar made = walker.start.state.position.y() - walker.end.state.position.y();
@@ -185,6 +215,8 @@ void Stepper<Scalar>::finish(std::span<CharacterState<Scalar>> states) noexcept 
     changed = false;
     for (std::size_t i = 0; i < walkers_.size(); ++i) changed = seek_room(i) || changed;
   }
+  for (std::size_t i = 0; i < walkers_.size(); ++i)
+    if (lost_its_ground(i)) walkers_[i].plan.grounded = walkers_[i].end.state.grounded = false;
   for (std::size_t i = 0; i < walkers_.size(); ++i) {
     make(i, walkers_[i].plan);
     walkers_[i].box = box_along(space_, member(i).step.move.path);

@@ -135,7 +135,9 @@ class Stepper {
 
   // The end
   [[nodiscard]] Scalar reach_of_crush(std::size_t i) noexcept;
-  [[nodiscard]] Scalar missed_fall(std::size_t i) const noexcept;
+  [[nodiscard]] bool lost_its_ground(std::size_t i) noexcept;
+  [[nodiscard]] bool is_on_another(std::size_t i) const noexcept;
+  [[nodiscard]] Scalar missed_fall(std::size_t i) noexcept;
   enum class Course : std::uint8_t { straight, real };
   [[nodiscard]] bool goes_free(std::size_t i, Course course, Moment<Scalar>& end) noexcept;
   [[nodiscard]] bool seek_room(std::size_t i) noexcept;
