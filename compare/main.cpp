@@ -135,7 +135,9 @@ void add_run_options(CLI::App& command, RunArguments& run, CaseArguments& cases)
   add_outputs(command, run.rows_path, run.pages);
   add_log(command, run.log_path);
   add_jobs(command, run.jobs);
-  command.add_option("--limit", run.limit_s, "A case that takes longer than this fails; 60 s where not given")
+  command
+      .add_option("--limit", run.limit_s,
+                  "A case that takes longer than this fails; where not given 60 s, in a study an hour")
       ->type_name("SECONDS")
       ->check(expect_whole_number(1'000'000));
   command.add_option("--shard", run.shard, "Every N-th case, from the K-th on; `merge` puts the parts together")
@@ -191,6 +193,7 @@ void add_swept_study(CLI::App& study, const char* name, const char* help, int& s
                      const std::function<int(const PreparedArguments&)>& run) {
   CLI::App& command = *study.add_subcommand(name, help);
   const auto arguments = std::make_shared<PreparedArguments>();
+  arguments->run.limit_s = 3600;
   add_grid_size(command, arguments->grid);
   add_run_options(command, arguments->run, arguments->cases);
   on_parsed(command, status, arguments, [run](PreparedArguments& typed) {

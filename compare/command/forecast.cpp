@@ -42,8 +42,8 @@ void Forecast::done(double share) {
   const double left = (steps_ - steps_before_ - share * steps_of_scene_) * took / done;
   if (left < long_work) return;
   wanted_ = false;
-  complain(fmt::format("about {} for {:.0f} steps, as the first {:.0f} took {:.1f} s", duration_in_words(took + left),
-                       steps_, std::max(1.0, done), took));
+  complain(fmt::format("about {} for {:.0f} {}, as the first {:.0f} took {:.1f} s", duration_in_words(took + left),
+                       steps_, noun_, std::max(1.0, done), took));
 }
 
 std::string duration_in_words(double seconds) {

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <string>
+#include <utility>
 
 namespace paperproof::compare {
 
@@ -10,8 +11,9 @@ namespace paperproof::compare {
 /// or not: who waits for hours wants to know from the start.
 class Forecast {
  public:
-  /// @param steps of all scenes.
-  Forecast(bool wanted, double steps) : wanted_(wanted), steps_(steps), begin_(Clock::now()), scene_begin_(begin_) {}
+  /// @param steps of all scenes. @param noun what they are called.
+  Forecast(bool wanted, double steps, std::string noun = "steps")
+      : wanted_(wanted), steps_(steps), noun_(std::move(noun)), begin_(Clock::now()), scene_begin_(begin_) {}
 
   /// A scene whose preparation takes long. @param seconds that it takes. @param why in words.
   void preparation(const std::string& scene, double seconds, const std::string& why) const;
@@ -24,6 +26,7 @@ class Forecast {
 
   bool wanted_;
   double steps_;
+  std::string noun_;
   Clock::time_point begin_;
   Clock::time_point scene_begin_;  ///< Of its first step.
   double steps_before_ = 0;        ///< In scenes that are done.

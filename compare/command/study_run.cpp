@@ -21,6 +21,15 @@ using nlohmann::ordered_json;
 
 namespace {
 
+/// Whether it is flagged for nothing but its validity: Box2D's travel cap, for example.
+bool is_beyond_limits(const ordered_json& row) {
+  const std::string reason = row.value("reason", "");
+  if (row.value("verdict", "") != "flagged" || !reason.starts_with("validity: ")) return false;
+  for (const char* axis : {"safety: ", "progress: ", "answer: "})
+    if (reason.find(axis) != std::string::npos) return false;
+  return true;
+}
+
 std::size_t cases_in(const std::vector<StudyPart>& parts) {
   std::size_t cases = 0;
   for (const StudyPart& part : parts) cases += part.sweep.size();
@@ -63,6 +72,11 @@ bool StudyRun::goes_on() {
   RowsReader reader(path);
   if (reader.header().value("sweep", ordered_json{}) != header_["sweep"])
     throw InputError("--resume: " + path + " has rows of another sweep or shard");
+  for (const char* key : {"paperproof", "box2d", "compiler", "flags", "build"}) {
+    const ordered_json built = reader.header().value("environment", ordered_json::object());
+    if (built.value(key, "") != header_["environment"].value(key, ""))
+      throw InputError(fmt::format("--resume: {} has rows of another build: {} differs", path, key));
+  }
   while (const std::optional<std::string> line = reader.next()) note(*line);
   std::filesystem::resize_file(path, reader.end());
   return true;
@@ -71,8 +85,12 @@ bool StudyRun::goes_on() {
 void StudyRun::note(const std::string& line) {
   if (done_ == count_) throw InputError("--resume: " + arguments_.rows_path + " has more rows than there are cases");
   const ordered_json row = ordered_json::parse(line);
+  const PartCase place = part_case(parts_, shard_.case_of(done_));
+  const StudyPart& part = parts_[place.part];
+  if (!part.sweep.border && row.value("case", "") != id_of(part.sweep.at(place.index)))
+    throw InputError(fmt::format("{}: row {} is not the case that belongs there", arguments_.rows_path, done_ + 1));
   trouble_ = trouble_ || row.value("verdict", "") == "failed" || breaks_guarantee(row);
-  visit_(parts_[part_case(parts_, shard_.case_of(done_)).part], row);
+  visit_(part, row);
   ++done_;
 }
 
@@ -80,7 +98,7 @@ void StudyRun::run() {
   const Progress progress(!arguments_.quiet, arguments_.log_path);
   const std::size_t before = done_;
   Jobs jobs = jobs_of(parts_, count_ - before, [&](std::size_t job) { return shard_.case_of(before + job); });
-  Forecast forecast(!arguments_.quiet, static_cast<double>(jobs.count));
+  Forecast forecast(!arguments_.quiet, static_cast<double>(jobs.count), "cases");
   forecast.begin_scene(static_cast<double>(jobs.count));
   forecast.done(0);
   jobs.take = [&](std::size_t job, const std::string& line) {
@@ -134,6 +152,10 @@ void StudyScores::add(const StudyPart& part, const ordered_json& row) {
     ++score.cannot;
     return;
   }
+  if (is_beyond_limits(row)) {
+    ++score.beyond;
+    return;
+  }
   ++(row.value("tunnels", 0) > 0 ? score.through : score.other);
   if (score.first_bad.empty()) score.first_bad = values_of(row, title->keys);
 }
@@ -141,11 +163,12 @@ void StudyScores::add(const StudyPart& part, const ordered_json& row) {
 std::string StudyScores::tables() const {
   std::string text;
   for (const Title& title : titles_) {
-    ChartTable table{{"contender", "cases", "hold", "through", "other faults", "cannot run", "first fault at"}, {}};
+    ChartTable table{
+        {"contender", "cases", "hold", "through", "other faults", "beyond limits", "cannot run", "first fault at"}, {}};
     for (const auto& [who, score] : title.scores)
       table.rows.push_back({who, std::to_string(score.cases), std::to_string(score.holds),
-                            std::to_string(score.through), std::to_string(score.other), std::to_string(score.cannot),
-                            score.first_bad});
+                            std::to_string(score.through), std::to_string(score.other), std::to_string(score.beyond),
+                            std::to_string(score.cannot), score.first_bad});
     if (!title.title.empty()) text += fmt::format("{}{}\n\n", text.empty() ? "" : "\n", title.title);
     text += text_of(table);
   }

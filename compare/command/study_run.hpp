@@ -23,7 +23,7 @@ struct RunArguments {
   PagePaths pages;
   std::string log_path;  ///< Of the progress; empty: none.
   int jobs = 0;          ///< 0: one for each core.
-  int limit_s = 60;      ///< Of one case.
+  int limit_s = 60;      ///< Of one case. A search of lowest speeds is one.
   std::string shard;     ///< `K/N`; empty: all.
   bool resume = false;
   bool quiet = false;
@@ -84,7 +84,8 @@ class StudyScores {
     int cases = 0;
     int holds = 0;
     int through = 0;
-    int other = 0;  ///< Ends inside something, or is flagged or failed for another reason.
+    int beyond = 0;  ///< Beyond the contender's own limits, and nothing else.
+    int other = 0;   ///< Ends inside something, or is flagged or failed for another reason.
     int cannot = 0;
     std::string first_bad;  ///< Where the first case is that does not hold.
   };

@@ -3,6 +3,7 @@
 #include "command/compare_command.hpp"
 #include "runs/contestant.hpp"
 #include "runs/environment.hpp"
+#include "runs/knobs.hpp"
 #include "scenes/load.hpp"
 
 #include <fmt/format.h>
@@ -18,6 +19,14 @@ using nlohmann::ordered_json;
 /// Rows that a page lists one by one.
 constexpr std::size_t most_listed = 2000;
 
+/// Whether a contender has the knobs among the axes.
+bool has_knobs(std::string_view contender, const Sweep& sweep) {
+  const std::vector<ParameterDef> defs = parameters_of(sweep.scene);
+  return std::all_of(sweep.axes.begin(), sweep.axes.end(), [&](const SweepAxis& axis) {
+    return find_parameter(defs, axis.key) != nullptr || has_knob(contender, axis.key);
+  });
+}
+
 Sweep sweep_of(const SweepArguments& arguments) {
   Sweep sweep;
   sweep.scene = arguments.scene;
@@ -30,7 +39,8 @@ Sweep sweep_of(const SweepArguments& arguments) {
   for (const std::string& name : arguments.cases.contenders) sweep.contenders.push_back({name});
   if (sweep.contenders.empty())
     for (const std::string_view name : contender_names())
-      if (arguments.reference || !is_reference(name)) sweep.contenders.push_back({std::string(name)});
+      if ((arguments.reference || !is_reference(name)) && has_knobs(name, sweep))
+        sweep.contenders.push_back({std::string(name)});
   sweep.seed = arguments.seed;
   sweep.steps = arguments.steps;
   if (arguments.border) parse_border(*arguments.border, sweep);
@@ -94,7 +104,7 @@ int find_borders(const RunArguments& arguments, const std::vector<StudyPart>& pa
   const Sweep& sweep = parts.front().sweep;
   ChartPage page;
   page.title = fmt::format("{}: border of {}", sweep.scene, *sweep.border);
-  page.table.heading = {"contender", "at", "holds up to", "does not hold from", "cannot run further"};
+  page.table.heading = {"contender", "at", "safe at", "not safe at", "cannot run further"};
   StudyRun study(arguments, parts, [&, keys = axis_keys_of(sweep)](const StudyPart&, const ordered_json& row) {
     page.table.rows.push_back(border_line(row, keys));
   });

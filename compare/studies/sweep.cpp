@@ -61,17 +61,37 @@ bool is_parameter(const std::string& scene, std::string_view key) {
   return find_parameter(all, key) != nullptr;
 }
 
-void check_value(const std::string& scene, const std::string& key, const std::string& value) {
-  if (is_parameter(scene, key)) {
+void check_value(const Sweep& sweep, const std::string& key, const std::string& value) {
+  if (is_parameter(sweep.scene, key)) {
     const std::optional<double> number = number_in<double>(value);
     if (!number) refuse(fmt::format("{}={}", key, value), "expected a number");
-    return check_setting(scene, {key, *number});
+    return check_setting(sweep.scene, {key, *number});
   }
+  KnobSetting knob;
   try {
-    static_cast<void>(parse_knob(key + "=" + value));
+    knob = parse_knob(key + "=" + value);
   } catch (const std::invalid_argument&) {
-    check_setting(scene, {key, 0});  // says what there is
+    check_setting(sweep.scene, {key, 0});  // says what there is
   }
+  for (const Contender& contender : sweep.contenders) {
+    if (!has_knob(contender.name, key))
+      refuse(contender.name, fmt::format("expected a contender with the knob {}", key));
+    try {
+      check_knob(knob, contender.name);
+    } catch (const std::invalid_argument& reason) {
+      refuse(fmt::format("{}={}", key, value), reason.what());
+    }
+  }
+}
+
+void check_keys(const Sweep& sweep) {
+  std::vector<std::string> keys;
+  for (const SweepAxis& axis : sweep.axes) keys.push_back(axis.key);
+  for (const Case::Setting& each : sweep.set) keys.push_back(each.key);
+  if (sweep.border) keys.push_back(*sweep.border);
+  std::sort(keys.begin(), keys.end());
+  const auto twice = std::adjacent_find(keys.begin(), keys.end());
+  if (twice != keys.end()) refuse(*twice, "expected once among --vary, --set and --find-border");
 }
 
 std::string border_key(const Sweep& sweep) {
@@ -154,9 +174,10 @@ Case Sweep::at(std::size_t index) const {
 }
 
 void check(const Sweep& sweep) {
+  check_keys(sweep);
   for (const SweepAxis& axis : sweep.axes)
-    for (const std::string& value : axis.values) check_value(sweep.scene, axis.key, value);
-  for (const Case::Setting& each : sweep.set) check_value(sweep.scene, each.key, each.value);
+    for (const std::string& value : axis.values) check_value(sweep, axis.key, value);
+  for (const Case::Setting& each : sweep.set) check_value(sweep, each.key, each.value);
   if (sweep.border) {
     const std::vector<ParameterDef> all = parameters_of(sweep.scene);
     const ParameterDef* def = find_parameter(all, *sweep.border);

@@ -77,6 +77,12 @@ TEST(CommandSweep, goes_on_behind_what_a_kill_left) {
   EXPECT_EQ(other.status, 2);
   EXPECT_TRUE(holds(other.err, "has rows of another sweep")) << other.err;
   EXPECT_EQ(place.run(sweep + "--rows k.csv --resume").status, 2);
+  std::ofstream(place.path("k.jsonl"), std::ios::binary) << whole << whole.substr(whole.find('\n', header) + 1);
+  const Finished more = place.run(sweep + "--rows k.jsonl --resume");
+  EXPECT_EQ(more.status, 2) << "more rows than cases";
+  EXPECT_TRUE(holds(more.err, "more rows than there are cases")) << more.err;
+  std::ofstream(place.path("k.jsonl"), std::ios::binary) << whole.substr(0, header) << "{}\n";
+  EXPECT_EQ(place.run(sweep + "--rows k.jsonl --resume").status, 2) << "not a row of this sweep";
 }
 
 nlohmann::json element(const std::string& page, const std::string& id) {
@@ -150,6 +156,16 @@ TEST(CommandSweep, finds_a_border_and_writes_csv_and_a_page) {
   EXPECT_TRUE(holds(written(place, "f.html"), "do not hold"));
 }
 
+TEST(CommandSweep, merge_keeps_borders_beside_the_cases_that_they_end_at) {
+  const Workplace place;
+  const std::string sweep_of = "sweep paper --vary thickness=0.01 --contender octagon_sweep --quiet ";
+  EXPECT_EQ(place.run(sweep_of + "--find-border speed=1:100000 --rows e.jsonl").status, 0);
+  EXPECT_EQ(place.run(sweep_of + "--vary speed=1,100000 --rows f.jsonl").status, 0);
+  EXPECT_EQ(place.run("merge f.jsonl e.jsonl --rows m.jsonl").status, 0);
+  const std::string merged = written(place, "m.jsonl");
+  EXPECT_EQ(std::count(merged.begin(), merged.end(), '\n'), 4);
+}
+
 TEST(CommandStudy, corner_seam_and_squeeze_are_sweeps_prepared) {
   const Workplace place;
   for (const auto& [study, rows] : {std::pair{"corner", 12 + 25 + 16}, {"seam", 100}, {"squeeze", 4 + 9 + 9}}) {
@@ -185,6 +201,7 @@ TEST(CommandStudy, bullet_counts_gives_the_lowest_speeds_and_is_sharded) {
   const Finished whole = place.run(study + "--rows r.jsonl");
   EXPECT_EQ(whole.status, 0) << whole.err;
   EXPECT_TRUE(holds(whole.out, "octagon_sweep            1152        0")) << whole.out;
+  EXPECT_TRUE(holds(whole.out, "never   never            never   never")) << "of octagon_sweep: " << whole.out;
   EXPECT_TRUE(holds(whole.out, "paper that comes")) << whole.out;
   for (const char* part : {"1", "2", "3"})
     EXPECT_EQ(place.run(study + "--quiet --rows s" + part + ".jsonl --shard " + part + "/3").status, 0);

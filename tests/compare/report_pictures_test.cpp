@@ -14,11 +14,14 @@ namespace {
 using nlohmann::ordered_json;
 
 ordered_json shot(const std::string& contender, double speed, double thickness, int tunnels, double angle = 90) {
-  return {
-      {"scene", "paper"},   {"contender", contender},
-      {"scalar", "double"}, {"verdict", tunnels > 0 ? "tunnels" : "holds"},
-      {"swept", true},      {"parameters", {{"speed_m_s", speed}, {"thickness_m", thickness}, {"angle_deg", angle}}},
-      {"tunnels", tunnels}, {"command", "paperproof compare paper --no-reference"}};
+  return {{"scene", "paper"},
+          {"contender", contender},
+          {"scalar", "double"},
+          {"verdict", tunnels > 0 ? "tunnels" : "holds"},
+          {"swept", {{"question", ""}, {"axes", {"speed_m_s", "thickness_m", "angle_deg"}}, {"bad", "tunnels"}}},
+          {"parameters", {{"speed_m_s", speed}, {"thickness_m", thickness}, {"angle_deg", angle}}},
+          {"tunnels", tunnels},
+          {"command", "paperproof compare paper --no-reference"}};
 }
 
 /// Two speeds and two thicknesses; at the higher speed the thin paper lets one of two through.
@@ -65,9 +68,27 @@ TEST(RowPictures, what_cannot_run_counts_for_nothing) {
   EXPECT_EQ(counter.grids()[0].cells[0][1].all, 1);
 }
 
-TEST(RowPictures, the_axes_of_a_sweep_are_the_first_two_parameters_that_vary) {
+TEST(RowPictures, questions_of_one_scene_are_kept_apart_and_parameters_that_differ_by_contender_are_no_axis) {
   RowPictures pictures;
-  for (const ordered_json& row : shots()) pictures.look(row);
+  for (const char* question : {"a fall", "a hit"})
+    for (const char* contender : {"mask", "octagon_sweep"})
+      for (const double speed : {1.0, 2.0}) {
+        ordered_json row = shot(contender, speed, 0.1, 0);
+        row["swept"] = {{"question", question}, {"axes", {"speed_m_s"}}, {"bad", "does_not_hold"}};
+        row["parameters"]["jump_rules"] = contender == std::string("mask") ? 1 : 0;
+        pictures.add(row);
+      }
+  const std::vector<ChartPage> pages = pictures.pages();
+  ASSERT_EQ(pages.size(), 2U);
+  EXPECT_EQ(pages[0].title, "a fall");
+  EXPECT_EQ(pages[1].title, "a hit");
+  ASSERT_EQ(pages[0].grids.size(), 2U);
+  EXPECT_EQ(pages[0].grids[0].ys.size(), 1U);
+  EXPECT_EQ(pages[0].grids[0].xs.size(), 2U);
+}
+
+TEST(RowPictures, the_axes_of_a_map_are_the_first_two_of_the_sweep) {
+  RowPictures pictures;
   for (const ordered_json& row : shots()) pictures.add(row);
   const std::vector<ChartPage> pages = pictures.pages();
   ASSERT_EQ(pages.size(), 1U);
@@ -128,7 +149,6 @@ TEST(RowPictures, rows_of_a_comparison_are_no_sweep_though_nothing_ran_beside) {
   RowPictures pictures;
   ordered_json row = shot("mask", 10, 0.1, 0);
   row.erase("swept");
-  pictures.look(row);
   pictures.add(row);
   EXPECT_TRUE(pictures.pages().empty());
   EXPECT_EQ(pictures.scenes().size(), 1U);

@@ -70,6 +70,57 @@ TEST(Sweep, of_several_each_has_its_cases_in_a_row) {
   EXPECT_NE(id_of(parts), id_of({parts[1], parts[0], parts[2]}));
 }
 
+Row row_of(bool safe) {
+  Row row;
+  row.tunnels = safe ? 0 : 1;
+  return row;
+}
+
+TEST(FindBorder, ends_where_a_run_cannot_be_made_and_says_so) {
+  const auto cannot_from = [](double from) {
+    return [from](double value) {
+      Row row = row_of(true);
+      if (value >= from) row.verdict = Verdict::failed;
+      return row;
+    };
+  };
+  const Row row = find_border("x", 1, 100, cannot_from(50));
+  EXPECT_EQ(row.verdict, Verdict::failed);
+  EXPECT_GT(row.border_low.value(), 40);
+  EXPECT_FALSE(row.border_high);
+  const auto cannot_between = [](double value) {
+    Row made = row_of(value < 50);
+    if (value > 49 && value < 51) made.verdict = Verdict::failed;
+    return made;
+  };
+  EXPECT_EQ(find_border("x", 1, 100, cannot_between, 2).verdict, Verdict::failed) << "in the bisection";
+}
+
+TEST(FindBorder, ends_at_a_border_at_zero) {
+  const Row row = find_border("x", -1, 1, [](double value) { return row_of(value <= 0); });
+  EXPECT_EQ(row.border_low, 0);
+  EXPECT_LT(row.border_high.value(), 1e-300);
+}
+
+TEST(Sweep, refuses_a_key_that_is_given_twice_and_a_knob_that_a_contender_does_not_have) {
+  Sweep sweep = paper_sweep();
+  sweep.axes.push_back(parse_axis("speed=1,2"));
+  EXPECT_THROW(check(sweep), InputError);
+  sweep = paper_sweep();
+  sweep.set = {{"speed", "1"}};
+  EXPECT_THROW(check(sweep), InputError);
+  sweep = paper_sweep();
+  sweep.border = "speed";
+  EXPECT_THROW(check(sweep), InputError);
+  sweep = paper_sweep();
+  sweep.axes.push_back(parse_axis("unit=0.5,1"));
+  EXPECT_THROW(check(sweep), InputError) << "octagon_sweep and mask have none";
+  sweep.contenders = {{"wind_back"}};
+  EXPECT_NO_THROW(check(sweep));
+  sweep.axes.back() = parse_axis("unit=a,1");
+  EXPECT_THROW(check(sweep), InputError);
+}
+
 TEST(Sweep, reads_a_border_with_its_range) {
   Sweep sweep;
   parse_border("speed", sweep);
@@ -97,6 +148,7 @@ TEST(Sweep, refuses_keys_that_are_no_parameter_and_no_knob_and_values_out_of_ran
   EXPECT_THROW(check(border), InputError);
   Sweep knobs = paper_sweep();
   knobs.axes = {parse_axis("iterations=1,2"), parse_axis("pairs=all,direction"), parse_axis("gravity=0,10")};
+  knobs.contenders = {{"speculative"}};
   EXPECT_NO_THROW(check(knobs));
 }
 

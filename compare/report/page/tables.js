@@ -340,7 +340,7 @@ function inNumbers(index, groups) {
     el('h3', {}, 'All scenes in numbers'),
     el('p', {},
        `${scenes}, ${groups.size} ${groups.size === 1 ? 'contender' : 'contenders'}, ${grouped(steps)} steps in all. ` +
-           'A scene is held when no step passes through a solid and none ends inside one; ' +
+           'A scene is held where the verdict is holds: nothing is passed or entered, the exact answer is met, nothing hangs; ' +
            'both are decided in exact arithmetic from the trace.'),
     whoHeld(groups).map((words) => el('p', {}, words)),
     summaryTable(groups),

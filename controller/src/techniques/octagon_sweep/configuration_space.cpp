@@ -15,6 +15,8 @@ constexpr double least_noise = 1e-9;
 constexpr double noise_in_ulps = 16;
 /// A facet is covered when no more than this of it is open [m]: less than any motion can aim at.
 constexpr double open_enough = 1e-6;
+/// A facet is hidden when no more of it is open than what counts as closed [m].
+constexpr double hidden_enough = 2e-7;
 
 Vec2d unit_normal_right_of(const Vec2d& edge) {
   const double length = std::sqrt(edge.x() * edge.x() + edge.y() * edge.y());
@@ -234,7 +236,10 @@ void ConfigurationSpace<Scalar>::build_covered(PieceIndex piece, std::span<const
     const Vec2d span = f.to - f.from;
     const double length = std::sqrt(span.dot(span));
     if (length <= open_enough) {
-      if (is_covered_corner(piece, axis, f.from, neighbours)) info_[piece].covered |= std::uint64_t{1} << axis;
+      if (is_covered_corner(piece, axis, f.from, neighbours)) {
+        info_[piece].covered |= std::uint64_t{1} << axis;
+        info_[piece].hidden |= std::uint64_t{1} << axis;
+      }
       continue;
     }
     covered.clear();
@@ -257,8 +262,10 @@ void ConfigurationSpace<Scalar>::build_covered(PieceIndex piece, std::span<const
       if (inside.from < inside.to) covered.push_back(inside);
       if (inside.from == 0 && inside.to == 1) break;  // nothing is left to be covered
     }
-    if (!covered.empty() && open_share(covered) * length <= open_enough)
-      info_[piece].covered |= std::uint64_t{1} << axis;
+    if (covered.empty()) continue;
+    const double open = open_share(covered) * length;
+    if (open <= open_enough) info_[piece].covered |= std::uint64_t{1} << axis;
+    if (open <= hidden_enough) info_[piece].hidden |= std::uint64_t{1} << axis;
   }
 }
 

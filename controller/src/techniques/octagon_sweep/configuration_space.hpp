@@ -52,6 +52,7 @@ struct ObstacleInfo {
   /// touches it. An edge shared by two pieces or covered by an abutting tile is such a facet: no contact may have its
   /// normal.
   std::uint64_t covered = 0;
+  std::uint64_t hidden = 0;  ///< Of the covered ones those of which less is open than counts as closed.
   static constexpr std::uint8_t not_one_way = 255;
   std::uint8_t one_way_axis = not_one_way;  ///< The axis whose normal is the blocking normal of a one-way segment.
   bool bent_surface = false;                ///< Its surface is more than one straight line.
@@ -113,6 +114,9 @@ class ConfigurationSpace {
   }
   [[nodiscard]] bool covered(PieceIndex piece, std::size_t axis) const noexcept {
     return ((info_[piece].covered >> axis) & 1U) != 0;
+  }
+  [[nodiscard]] bool hidden(PieceIndex piece, std::size_t axis) const noexcept {
+    return ((info_[piece].hidden >> axis) & 1U) != 0;
   }
   /// Separation along one axis at p [m].
   [[nodiscard]] Scalar separation(PieceIndex piece, std::size_t axis, const Vec2<Scalar>& p) const noexcept {

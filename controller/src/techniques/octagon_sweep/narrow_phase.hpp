@@ -216,13 +216,13 @@ template <class Scalar>
   return entry < exit ? std::optional(entry) : std::nullopt;
 }
 
-/// Where a motion is stopped that enters by a covered facet alone; nothing where it passes.
+/// Where a motion is stopped that enters by a hidden facet alone; nothing where it passes.
 ///
 /// Such a facet lies inside of what covers it. Near it what covers it is nearer than its distance to the facet, which
 /// is up to 1.42 times the separation: where two facets that stand at right angles meet. Were both to stop at the same
 /// separation, then a motion that just misses the one might still be stopped by the other, and by a normal that the
 /// surface has nowhere: who flies up a slope and over its crest would lose its speed to the side of the next tile. So
-/// the covered facet stops later, and only where nothing stops the motion that covers it.
+/// the hidden facet stops later, and only where nothing stops the motion that covers it.
 /// @param tau see `Clearance`.
 template <class Scalar>
 [[nodiscard, gnu::cold, gnu::noinline]] std::optional<Scalar> sweep_covered(const AxisRanges<Scalar>& f,
@@ -234,7 +234,7 @@ template <class Scalar>
   return entry_below(f, tolerances.stop * covered_share<Scalar>);
 }
 
-/// Whether covered facets yield to what covers them. A sweep over many pieces asks that in a second round only, where
+/// Whether hidden facets yield to what covers them. A sweep over many pieces asks that in a second round only, where
 /// one of them came first: behind the surface of a wall of tiles every facet is covered.
 enum class Covered : std::uint8_t { as_any, yields };
 
@@ -294,7 +294,7 @@ template <Variant variant, Covered covered = Covered::yields, class Scalar>
   const bool is_covered = last.is_covered(faced);
   bool hit = entry < exit;
   if constexpr (covered == Covered::yields) {
-    if (hit && is_covered) {
+    if (hit && is_covered && space.hidden(piece, last.axis(true))) {
       const std::optional<Scalar> later = sweep_covered(f, tau);
       hit = later.has_value();
       stop = later.value_or(stop);
