@@ -1,5 +1,6 @@
 /// What a run leaves behind: traces, rows as JSON, tables, files.
 #include "compare/scene_runs.hpp"
+#include "records/commit.hpp"
 #include "records/output_file.hpp"
 #include "records/rows_json.hpp"
 #include "records/trace_writer.hpp"
@@ -166,8 +167,9 @@ TEST(RowsJson, lacks_what_does_not_apply) {
   EXPECT_EQ(sparse.at("paperproof_rows"), 1);
   for (const char* key : {"compiler", "box2d", "box2d_build", "box2d_asserts"})
     EXPECT_TRUE(sparse.at("environment").contains(key)) << key;
-  const nlohmann::json expected{{"scene", "s"}, {"contender", "c"},   {"scalar", "double"}, {"mode", "free"},
-                                {"steps", 0},   {"verdict", "holds"}, {"tunnels", 0}};
+  nlohmann::json expected{{"scene", "s"}, {"contender", "c"},   {"scalar", "double"}, {"mode", "free"},
+                          {"steps", 0},   {"verdict", "holds"}, {"tunnels", 0}};
+  if (!built_commit().empty()) expected["commit"] = built_commit();
   EXPECT_EQ(sparse.at("rows").at(0), expected);
 
   row.verdict = Verdict::not_applicable;
