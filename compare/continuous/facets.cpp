@@ -70,7 +70,7 @@ class Tracing {
   /// A chain's end turns back: that is convex.
   static bool turns_left(const Point<Real>& in, const Point<Real>& out) {
     const Real turn = cross(in, out);
-    return turn > 0 || turn == 0;
+    return turn >= 0;
   }
 
   /// The mirrored character's corner furthest to the right of a direction; of two the earlier.

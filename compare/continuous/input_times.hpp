@@ -40,7 +40,7 @@ class InputTimes {
   }
 
   [[nodiscard]] const std::optional<Real>& move() const { return move_; }
-  /// Whether a jump waits for ground; it waits no more then.
+  /// Takes a waiting jump: true once for each press.
   [[nodiscard]] bool jump() { return std::exchange(pending_, false); }
 
  private:

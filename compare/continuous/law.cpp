@@ -47,7 +47,7 @@ Point<Real> nearest_allowed(const Point<Real>& wanted, Touches<Real> touched) {
   return nearest.value_or(Point<Real>{});
 }
 
-/// Those that a motion enters, the one whose normal points up most; null where there is none.
+/// Of the surfaces that a motion enters the one whose normal points up most; null where there is none.
 template <class Real>
 const Touch<Real>* most_level_entered(const Point<Real>& v, Touches<Real> touched) {
   const Touch<Real>* found = nullptr;
@@ -170,7 +170,7 @@ Hold<Real> held_while_steering(Law law, const Forces<Real>& forces, int directio
   return chattering;
 }
 
-/// At the wanted speed: see Filippov above.
+/// At the wanted speed: see Filippov in law.hpp.
 template <class Real>
 Hold<Real> held_at_wanted_speed(Law law, const Forces<Real>& forces, Touches<Real> running) {
   const Hold<Real> led = held_while_steering(law, forces, 0, running);

@@ -52,7 +52,7 @@ class StepLedger {
 
   /// To be called once.
   [[nodiscard]] std::vector<Event> events();
-  /// How far apart the two are in place and wish where the step begins [m].
+  /// How far apart their places, or their wanted ways, are where the step begins [m]; the larger.
   [[nodiscard]] double apart() const noexcept { return apart_; }
   /// What one place or way of Box2D can differ by from the double that it was made of [m].
   [[nodiscard]] double rounding() const noexcept { return rounding_; }

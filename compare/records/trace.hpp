@@ -31,7 +31,7 @@ namespace paperproof::compare {
   return "bottom";
 }
 
-/// Tolerances as (name, metres, why), printed with every result.
+/// A tolerance by its name [m], printed with every result.
 struct NamedTolerance {
   std::string name;
   double metres = 0;

@@ -33,8 +33,8 @@ struct Chart {
 /// A share for each of two values: a picture of where something holds.
 struct ChartGrid {
   struct Cell {
-    int bad = 0;  ///< Of so many
-    int all = 0;  ///< there were; 0: nothing ran.
+    int bad = 0;  ///< Cases that are bad.
+    int all = 0;  ///< Cases that ran; 0: none.
     // Of its first bad case; where none is bad, of its first one:
     std::string words{};                  ///< What came of it.
     std::string command{};                ///< That runs it alone.

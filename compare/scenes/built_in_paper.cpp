@@ -25,8 +25,9 @@ Scene bullet(const ParameterValues& values) {
 /// How high the middle of the article's character is over the origin where it touches a line through it from above.
 double height_over(const Vec2d& along) {
   const Vec2d normal(-along.y(), along.x());
+  const CharacterDef character;
   double reach = 0;
-  for (const Vec2d& point : CharacterDef{}.shape.points()) reach = std::max(reach, -normal.dot(point));
+  for (const Vec2d& point : character.shape.points()) reach = std::max(reach, -normal.dot(point));
   return reach / normal.y();
 }
 
