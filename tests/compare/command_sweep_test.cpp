@@ -180,7 +180,7 @@ TEST(CommandStudy, corner_seam_and_squeeze_are_sweeps_prepared) {
 
 TEST(CommandStudy, of_several_parts_is_sharded_merged_and_gone_on_with) {
   const Workplace place;
-  const std::string study = "study squeeze --contender octagon_sweep,box2d --quiet --rows ";
+  const std::string study = "study squeeze --contender octagon_sweep --quiet --rows ";
   EXPECT_EQ(place.run(study + "r.jsonl --report r.html").status, 0);
   const std::string whole = written(place, "r.jsonl");
   for (const char* part : {"1", "2"})
