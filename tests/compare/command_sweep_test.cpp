@@ -111,7 +111,8 @@ TEST(CommandSweep, its_page_has_replays_of_its_cells_and_so_has_a_page_of_its_ro
   EXPECT_TRUE(element(of_rows, "cells-1").empty()) << "its scene is gone";
   EXPECT_TRUE(element(written(place, "pages.html"), "cells-0") == of_sweep);
   EXPECT_EQ(element(written(place, "pages.html"), "cells-1").size(), 2U);
-  for (const nlohmann::json& grid : element(of_rows, "index").at("studies")[0].at("grids"))
+  const nlohmann::json index = element(of_rows, "index");
+  for (const nlohmann::json& grid : index.at("studies")[0].at("grids"))
     for (const nlohmann::json& line : grid.at("cells"))
       for (const nlohmann::json& cell : line) {
         const nlohmann::json& run = replays.at(cell.at(4).get<std::size_t>()).at("replay").at("runs").at(0);
