@@ -119,7 +119,7 @@ TEST(CommandSweep, its_page_has_replays_of_its_cells_and_so_has_a_page_of_its_ro
         EXPECT_EQ(run.at("contender"), grid.at("title"));
         bool through = false;
         for (const nlohmann::json& event : run.at("events")) through = through || event.at(1) == "tunnel";
-        EXPECT_EQ(through, cell.at(0) > 0) << cell;
+        EXPECT_EQ(through, begins(cell.at(2).get<std::string>(), "tunnels")) << cell;
       }
 }
 
