@@ -131,9 +131,9 @@ class StabilityRun {
     };
     jobs.take = [&](std::size_t job, const std::string& line) {
       outputs_.add(line);
-      broken_ = broken_ || breaks_guarantee(ordered_json::parse(line));
-      rows_[jobs_[job].is_border ? regions_.size() + jobs_[job].of : jobs_[job].of].push_back(
-          ordered_json::parse(line));
+      ordered_json row = ordered_json::parse(line);
+      broken_ = broken_ || breaks_guarantee(row);
+      rows_[jobs_[job].is_border ? regions_.size() + jobs_[job].of : jobs_[job].of].push_back(std::move(row));
       progress_.show(fmt::format("stability, {} of {} cases,", job + 1, jobs.count),
                      static_cast<double>(job + 1) / static_cast<double>(jobs.count));
     };

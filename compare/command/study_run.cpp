@@ -72,25 +72,26 @@ bool StudyRun::goes_on() {
   RowsReader reader(path);
   if (reader.header().value("sweep", ordered_json{}) != header_["sweep"])
     throw InputError("--resume: " + path + " has rows of another sweep or shard");
-  for (const char* key : {"paperproof", "box2d", "compiler", "flags", "build"}) {
-    const ordered_json built = reader.header().value("environment", ordered_json::object());
+  const ordered_json built = reader.header().value("environment", ordered_json::object());
+  for (const char* key : {"paperproof", "box2d", "compiler", "flags", "build"})
     if (built.value(key, "") != header_["environment"].value(key, ""))
       throw InputError(fmt::format("--resume: {} has rows of another build: {} differs", path, key));
+  while (const std::optional<std::string> line = reader.next()) {
+    if (done_ == count_) throw InputError("--resume: " + path + " has more rows than there are cases");
+    const ordered_json row = ordered_json::parse(*line);
+    const PartCase place = part_case(parts_, shard_.case_of(done_));
+    const Sweep& sweep = parts_[place.part].sweep;
+    if (!sweep.border && row.value("case", "") != id_of(sweep.at(place.index)))
+      throw InputError(fmt::format("{}: row {} is not the case that belongs there", path, done_ + 1));
+    note(row);
   }
-  while (const std::optional<std::string> line = reader.next()) note(*line);
   std::filesystem::resize_file(path, reader.end());
   return true;
 }
 
-void StudyRun::note(const std::string& line) {
-  if (done_ == count_) throw InputError("--resume: " + arguments_.rows_path + " has more rows than there are cases");
-  const ordered_json row = ordered_json::parse(line);
-  const PartCase place = part_case(parts_, shard_.case_of(done_));
-  const StudyPart& part = parts_[place.part];
-  if (!part.sweep.border && row.value("case", "") != id_of(part.sweep.at(place.index)))
-    throw InputError(fmt::format("{}: row {} is not the case that belongs there", arguments_.rows_path, done_ + 1));
+void StudyRun::note(const ordered_json& row) {
   trouble_ = trouble_ || row.value("verdict", "") == "failed" || breaks_guarantee(row);
-  visit_(part, row);
+  visit_(parts_[part_case(parts_, shard_.case_of(done_)).part], row);
   ++done_;
 }
 
@@ -102,7 +103,7 @@ void StudyRun::run() {
   forecast.begin_scene(static_cast<double>(jobs.count));
   forecast.done(0);
   jobs.take = [&](std::size_t job, const std::string& line) {
-    note(line);
+    note(ordered_json::parse(line));
     rows_->add(line);
     const double share = static_cast<double>(job + 1) / static_cast<double>(jobs.count);
     forecast.done(share);

@@ -56,7 +56,8 @@ class StudyRun {
 
   /// Takes over the rows of an earlier run. @return whether there was one.
   bool goes_on();
-  void note(const std::string& line);
+  /// Counts and shows the row of the next case.
+  void note(const nlohmann::ordered_json& row);
 
   const RunArguments& arguments_;
   const std::vector<StudyPart>& parts_;
@@ -70,7 +71,7 @@ class StudyRun {
   std::optional<PageOutputs> pages_;
 };
 
-/// What came of the cases of each part and contender, in words and as maps. Keeps no row.
+/// Counts the verdicts of each part and contender, as tables and as heat maps. Keeps no row.
 class StudyScores {
  public:
   explicit StudyScores(const std::vector<StudyPart>& parts);

@@ -47,7 +47,7 @@ Point<Real> nearest_allowed(const Point<Real>& wanted, Touches<Real> touched) {
   return nearest.value_or(Point<Real>{});
 }
 
-/// Of the surfaces that a motion enters the one whose normal points up most; null where there is none.
+/// The surface that the motion enters and whose normal points up most; null if it enters none.
 template <class Real>
 const Touch<Real>* most_level_entered(const Point<Real>& v, Touches<Real> touched) {
   const Touch<Real>* found = nullptr;

@@ -1,9 +1,10 @@
 #include "metrics/metrics.hpp"
 
+#include "contains.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include "contains.hpp"
 
 namespace paperproof::compare {
 namespace {

@@ -37,7 +37,7 @@ inline constexpr double least_clearance = 1e-7;
 /// @param hull its corners in order. @param by so far [m].
 [[nodiscard]] std::vector<Vec2d> grown(std::span<const Vec2d> hull, double by);
 
-/// A position at the end of the step that would have been free: see `Judge` for what counts as room. Or none.
+/// A free position at the end of the step, or none. `Judge` states what counts as room.
 /// @param scenery for the octagon, and @param grown_scenery for one that is grown by `least_clearance`.
 /// @param path the way of the step, corner by corner, up to its end.
 /// @param crushed the colliders of movers that are said to crush.
