@@ -11,6 +11,7 @@ namespace paperproof::compare {
 namespace {
 
 void check_company(const Scene& scene, const std::string& where, std::size_t character) {
+  if (character == 0) return;  // a third of a short case otherwise
   const ExactPair pair(scene.character.shape.hull());
   for (std::size_t other = 0; other < character; ++other)
     if (pair.overlap(start_of(scene, character).position, start_of(scene, other).position))
