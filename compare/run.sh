@@ -13,8 +13,8 @@
 set -euo pipefail
 
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-# shellcheck source=cmake/packages.sh
-source "$here/cmake/packages.sh"
+# shellcheck source=compare/packages.sh
+source "$here/compare/packages.sh"
 
 # One scene for each thing the comparison shows; `paperproof list scenes` has all of them.
 main_comparison=(

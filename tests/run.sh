@@ -4,8 +4,8 @@
 set -euo pipefail
 
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-# shellcheck source=cmake/packages.sh
-source cmake/packages.sh
+# shellcheck source=compare/packages.sh
+source compare/packages.sh
 
 install_missing "${build_packages[@]}" "${test_packages[@]}"
 mapfile -t optional < <(installable_packages "${optional_test_packages[@]}")

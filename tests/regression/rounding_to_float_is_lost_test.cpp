@@ -1,7 +1,7 @@
 // Cause: g++ 12.2 from -O2 on. Two neighbouring doubles that are rounded to float and widened again are joined into one
 // vector by the SLP vectorizer, and the pair of conversions is then dropped as if it did nothing.
 // Seen as: other offsets of slopes in float (by one ulp, 2e-6 m at 20 m), so other bits at -O0 and at -O3.
-// Remedy: -fno-tree-slp-vectorize for every target of the project (cmake/compiler_options.cmake).
+// Remedy: -fno-tree-slp-vectorize for every target of the project (controller/compiler_options.cmake).
 #include <gtest/gtest.h>
 
 namespace {

@@ -1,5 +1,4 @@
-# What every target of this project is compiled with. The target is not exported: a consumer keeps its own flags, apart
-# from the floating-point contract, which the controller's target carries (see controller/CMakeLists.txt).
+# What every target of this project is compiled with. The target is not exported: a consumer keeps its own flags.
 add_library(paperproof_options INTERFACE)
 target_compile_options(paperproof_options INTERFACE
   -ffp-contract=off  # a fused multiply-add rounds once where two operations round twice: other bits

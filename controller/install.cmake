@@ -26,7 +26,7 @@ if(TARGET paperproof)
 endif()
 
 configure_package_config_file(
-  "${PROJECT_SOURCE_DIR}/cmake/paperproofConfig.cmake.in" "${PROJECT_BINARY_DIR}/paperproofConfig.cmake"
+  "${CMAKE_CURRENT_LIST_DIR}/paperproofConfig.cmake.in" "${PROJECT_BINARY_DIR}/paperproofConfig.cmake"
   INSTALL_DESTINATION "${PAPERPROOF_CONFIG_DIR}" NO_SET_AND_CHECK_MACRO)
 # Below 1.0 a minor version may change an interface.
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/paperproofConfigVersion.cmake"

@@ -1,4 +1,5 @@
-// Times the controller beside Box2D, as planned beside full, and the broad phases. Takes the options of Google Benchmark:
+// Times the controller beside Box2D, as planned beside full, and the broad phases. Takes the options of Google
+// Benchmark:
 //   --benchmark_filter=step/tiles       some of them
 //   --benchmark_out=FILE.json           keep the figures
 #include "broad_phase_benchmark.hpp"
