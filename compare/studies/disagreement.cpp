@@ -10,7 +10,7 @@
 namespace paperproof::compare {
 namespace {
 
-constexpr const char* contender = "octagon_sweep";
+constexpr const char* compared = "octagon_sweep";
 
 /// What every row of the study has.
 Row named(Row row, const DisagreementCase& one) {
@@ -42,7 +42,7 @@ Row run_disagreement(const DisagreementCase& one) {
   try {
     const std::vector<Scene> scenes = load_scenes(one.scene);
     RunOptions options;
-    options.contenders = {contender};
+    options.contenders = {compared};
     options.mode = one.lockstep ? Mode::lockstep : Mode::free;
     options.measure_cost = false;
     options.ledger = true;
@@ -55,14 +55,14 @@ Row run_disagreement(const DisagreementCase& one) {
 Row failed_row(const DisagreementCase& one, const std::string& reason) {
   Row row;
   row.scene = one.scene;
-  row.contender = contender;
+  row.contender = compared;
   row.verdict = Verdict::failed;
   row.reason = reason;
   return named(row, one);
 }
 
 std::string replay_command(std::string_view scene, std::string_view mode, int step) {
-  return fmt::format("paperproof compare {} --contender {} --mode {} --steps {} --report page.html", scene, contender,
+  return fmt::format("paperproof compare {} --contender {} --mode {} --steps {} --report page.html", scene, compared,
                      mode, step + 1);
 }
 

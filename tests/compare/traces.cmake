@@ -14,7 +14,7 @@ function(paperproof_trace_test name)
     add_test(NAME trace.${name} COMMAND "${CMAKE_COMMAND}" -E echo "skipped: there is no python3 here")
     set(ARG_PROPERTIES SKIP_REGULAR_EXPRESSION "skipped: ")
   endif()
-  set_tests_properties(trace.${name} PROPERTIES FIXTURES_REQUIRED traces TIMEOUT 300 ${ARG_PROPERTIES})
+  set_tests_properties(trace.${name} PROPERTIES LABELS slow FIXTURES_REQUIRED traces TIMEOUT 300 ${ARG_PROPERTIES})
 endfunction()
 
 set(checked_scenes article_bullet slope_joints jump_into_corner rotated_wall wedge_60 start_overlapping_deep
@@ -27,7 +27,7 @@ if(PAPERPROOF_SANITIZE)
   set(checked_scenes article_bullet three_in_a_row lift_up one_way_lift_drop thin_sensor falling_crate crush70)
 endif()
 add_test(NAME trace.write COMMAND paperproof compare ${checked_scenes} turning_arm rotating_paper --no-timing --quiet --trace "${traces}/t")
-set_tests_properties(trace.write PROPERTIES FIXTURES_SETUP traces TIMEOUT 300 COST 50)
+set_tests_properties(trace.write PROPERTIES LABELS slow FIXTURES_SETUP traces TIMEOUT 300 COST 50)
 
 if(PAPERPROOF_SANITIZE)
   return()  # what sanitizers look at is the writing: the bytes are those that the other builds have checked
