@@ -5,19 +5,20 @@ include(CMakePackageConfigHelpers)
 
 set(PAPERPROOF_CONFIG_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/paperproof")
 
-function(paperproof_install_library component)
+function(paperproof_install_library component folder)
   install(TARGETS paperproof_${component} EXPORT paperproof_${component}_export
           ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}"
           LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}")
-  install(DIRECTORY "${PROJECT_SOURCE_DIR}/${component}/include/" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
+  install(DIRECTORY "${PROJECT_SOURCE_DIR}/${folder}/include/" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}"
           FILES_MATCHING PATTERN "*.hpp")
   install(EXPORT paperproof_${component}_export NAMESPACE paperproof::
           FILE paperproof_${component}.cmake DESTINATION "${PAPERPROOF_CONFIG_DIR}")
 endfunction()
 
-paperproof_install_library(controller)
+paperproof_install_library(controller controller)
+paperproof_install_library(techniques controller/techniques)
 if(TARGET paperproof_box2d_adapter)
-  paperproof_install_library(box2d_adapter)
+  paperproof_install_library(box2d_adapter box2d_adapter)
 endif()
 if(TARGET paperproof)
   install(TARGETS paperproof RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")

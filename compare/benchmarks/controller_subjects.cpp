@@ -10,7 +10,7 @@ namespace {
 template <class Scalar>
 class ControllerSubject final : public Subject {
  public:
-  ControllerSubject(const Workload& workload, const TechniqueDef& technique)
+  ControllerSubject(const Workload& workload, const SweepDef& technique)
       : workload_(workload),
         scenery_(workload.scenery.as_run()),
         controller_(scenery_, workload.scene.character, technique),
@@ -43,10 +43,9 @@ class ControllerSubject final : public Subject {
 
 class ContenderSubject final : public Subject {
  public:
-  ContenderSubject(const Workload& workload, TechniqueKind kind)
+  ContenderSubject(const Workload& workload, std::string_view kind)
       : workload_(workload),
-        contestant_(
-            compare::make_contestant(name_of(kind), compare::ScalarKind::binary64, workload.scene, workload.scenery)) {}
+        contestant_(compare::make_contestant(kind, compare::ScalarKind::binary64, workload.scene, workload.scenery)) {}
 
   void restart() override {
     const compare::Start& start = workload_.scene.start;
@@ -66,14 +65,14 @@ class ContenderSubject final : public Subject {
 }  // namespace
 
 template <class Scalar>
-std::unique_ptr<Subject> make_controller(const Workload& workload, const TechniqueDef& technique) {
+std::unique_ptr<Subject> make_controller(const Workload& workload, const SweepDef& technique) {
   return std::make_unique<ControllerSubject<Scalar>>(workload, technique);
 }
 
-template std::unique_ptr<Subject> make_controller<float>(const Workload&, const TechniqueDef&);
-template std::unique_ptr<Subject> make_controller<double>(const Workload&, const TechniqueDef&);
+template std::unique_ptr<Subject> make_controller<float>(const Workload&, const SweepDef&);
+template std::unique_ptr<Subject> make_controller<double>(const Workload&, const SweepDef&);
 
-std::unique_ptr<Subject> make_contender(const Workload& workload, TechniqueKind kind) {
+std::unique_ptr<Subject> make_contender(const Workload& workload, std::string_view kind) {
   return std::make_unique<ContenderSubject>(workload, kind);
 }
 

@@ -44,9 +44,9 @@ struct NamedSubject {
 
 std::vector<NamedSubject> all_subjects() {
   std::vector<NamedSubject> all;
-  for (const TechniqueKind kind : all_techniques)
-    if (kind != TechniqueKind::octagon_sweep)
-      all.push_back({std::string(name_of(kind)), [kind](const Workload& w) { return make_contender(w, kind); }});
+  for (const std::string_view kind : technique_names())
+    if (kind != "octagon_sweep")
+      all.push_back({std::string(kind), [kind](const Workload& w) { return make_contender(w, kind); }});
   all.push_back({"octagon_sweep", [](const Workload& w) { return make_controller<double>(w); }});
   all.push_back({"octagon_sweep_float", [](const Workload& w) { return make_controller<float>(w); }});
   const auto add_box2d = [&all](const std::string& name, Box2dScenery scenery) {

@@ -22,11 +22,11 @@ class Subject {
 
 /// The controller alone, by default with octagon_sweep and every stage: intent, gravity, move and contacts.
 template <class Scalar>
-[[nodiscard]] std::unique_ptr<Subject> make_controller(const Workload& workload, const TechniqueDef& technique = {});
+[[nodiscard]] std::unique_ptr<Subject> make_controller(const Workload& workload, const SweepDef& technique = {});
 
 /// The controller with any technique and the knobs that `paperproof compare` gives it; one virtual call more.
 /// @throws compare::NotApplicable where the technique cannot express the level.
-[[nodiscard]] std::unique_ptr<Subject> make_contender(const Workload& workload, TechniqueKind kind);
+[[nodiscard]] std::unique_ptr<Subject> make_contender(const Workload& workload, std::string_view kind);
 
 enum class Box2dScenery { chain_loops, pieces };
 

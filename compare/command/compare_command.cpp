@@ -44,7 +44,7 @@ constexpr int unusable_input = 2;
 
 std::vector<NamedTolerance> tolerances_of(const ReportScene& scene) {
   for (const ReportRun& run : scene.runs)
-    if (run.header.contender == paperproof::name_of(TechniqueKind::octagon_sweep)) return run.header.tolerances;
+    if (run.header.contender == "octagon_sweep") return run.header.tolerances;
   return {};
 }
 

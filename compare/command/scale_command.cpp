@@ -34,7 +34,7 @@ std::string line_of(const std::vector<std::string>& cells) {
 Row row_of(const ScalePoint& point) {
   Row row;
   row.scene = "floors";
-  row.contender = paperproof::name_of(TechniqueKind::octagon_sweep);
+  row.contender = "octagon_sweep";
   row.knob = fmt::format("broad_phase={} pieces={}", name_of(point.broad_phase), point.pieces);
   row.steps = point.steps;
   if (!point.same_bits) {

@@ -18,7 +18,7 @@ class Totals {
  public:
   void add(const Row& row) {
     failed_ += row.verdict == Verdict::failed;
-    if (row.contender != paperproof::name_of(TechniqueKind::octagon_sweep)) return;
+    if (row.contender != "octagon_sweep") return;
     Count& count = row.scalar == "double" ? in_double_ : in_float_;
     const bool breaks =
         row.verdict == Verdict::tunnels || (row.verdict == Verdict::flagged && row.steps_ending_inside.value_or(0) > 0);

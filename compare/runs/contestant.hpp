@@ -18,8 +18,6 @@ namespace paperproof::compare {
 /// The names the command takes, in the order of the tables: the techniques, then Box2D.
 [[nodiscard]] std::span<const std::string_view> contender_names();
 [[nodiscard]] bool is_reference(std::string_view contender);
-/// Nothing for Box2D and for names that there are not.
-[[nodiscard]] std::optional<TechniqueKind> technique_kind(std::string_view contender);
 
 enum class ScalarKind : std::uint8_t { binary64, binary32 };
 [[nodiscard]] std::string_view name_of(ScalarKind scalar) noexcept;

@@ -11,15 +11,16 @@ namespace {
 template <class Scalar>
 class CrowdContestant final : public Contestant {
  public:
-  CrowdContestant(TechniqueKind kind, const Scene& scene, const Scenery<double>& scenery, const Planning& planning)
+  CrowdContestant(const TechniqueEntry& technique, const Scene& scene, const Scenery<double>& scenery,
+                  const Planning& planning)
       : scenery_(scenery),
         plan_(plan_of(scenery_.get(), planning)),
-        crowd_(scenery_.get(), rules_for(kind, scene, planning.knobs),
-               definition_of(kind, scene, plan_, planning.knobs)),
+        crowd_(make_crowd(scenery_.get(), rules_for(technique, scene, planning.knobs),
+                          definition_of(technique, scene, plan_, planning.knobs))),
         scratch_(crowd_.make_scratch(character_count(scene))),
         gravity_(scene.gravity.cast<Scalar>()),
         movers_(scene.movers.size(), scenery_.get().as_run()),
-        header_(header_of(kind, scenery_.get(), scene, plan_, planning.knobs)),
+        header_(header_of(technique, scenery_.get(), scene, plan_, planning.knobs)),
         states_(character_count(scene)),
         report_(character_count(scene)) {
     place_at_start(*this, scene);
@@ -69,11 +70,13 @@ class CrowdContestant final : public Contestant {
 
 }  // namespace
 
-std::unique_ptr<Contestant> make_crowd_contestant(TechniqueKind kind, ScalarKind scalar, const Scene& scene,
-                                                  const Scenery<double>& scenery, const Planning& planning) {
+std::unique_ptr<Contestant> make_crowd_contestant(const TechniqueEntry& technique, ScalarKind scalar,
+                                                  const Scene& scene, const Scenery<double>& scenery,
+                                                  const Planning& planning) {
   try {
-    if (scalar == ScalarKind::binary32) return std::make_unique<CrowdContestant<float>>(kind, scene, scenery, planning);
-    return std::make_unique<CrowdContestant<double>>(kind, scene, scenery, planning);
+    if (scalar == ScalarKind::binary32)
+      return std::make_unique<CrowdContestant<float>>(technique, scene, scenery, planning);
+    return std::make_unique<CrowdContestant<double>>(technique, scene, scenery, planning);
   } catch (const std::invalid_argument& error) {
     throw NotApplicable(error.what());
   }

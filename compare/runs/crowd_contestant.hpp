@@ -6,7 +6,7 @@
 namespace paperproof::compare {
 
 /// @throws NotApplicable in words where a crowd does not move by this technique, or cannot go through the scenery.
-[[nodiscard]] std::unique_ptr<Contestant> make_crowd_contestant(TechniqueKind kind, ScalarKind scalar,
+[[nodiscard]] std::unique_ptr<Contestant> make_crowd_contestant(const TechniqueEntry& technique, ScalarKind scalar,
                                                                 const Scene& scene, const Scenery<double>& scenery,
                                                                 const Planning& planning);
 

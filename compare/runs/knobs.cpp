@@ -11,83 +11,10 @@
 namespace paperproof::compare {
 namespace {
 
-struct Knob {
-  std::string_view name;
-  std::string_view meaning;
-  std::vector<TechniqueKind> kinds;  ///< Who has it.
-  void (*turn)(const std::string& value, TechniqueDef& def);
-};
-
-double real_in(const std::string& text) {
-  if (const std::optional<double> number = number_in<double>(text)) return *number;
-  throw std::invalid_argument("expected a number");
-}
-
-int whole_in(const std::string& text) {
-  if (const std::optional<int> number = number_in<int>(text)) return *number;
-  throw std::invalid_argument("expected a whole number");
-}
-
-/// One of two words: false for the first.
-bool second_of(const std::string& text, std::string_view first, std::string_view second) {
-  if (text != first && text != second) throw std::invalid_argument(fmt::format("expected {} or {}", first, second));
-  return text == second;
-}
-
-const std::vector<Knob>& all_knobs() {
-  using enum TechniqueKind;
-  static const std::vector<TechniqueKind> searching{penetration_resolution, speculative_march, speculative};
-  static const std::vector<Knob> all{
-      {"unit",
-       "step of every search [m]; without it a pixel of the scene",
-       {wind_back, penetration_resolution, speculative_march, speculative},
-       [](const std::string& value, TechniqueDef& def) { def.article.unit = real_in(value); }},
-      {"iterations",
-       "rounds per step, at least 1",
-       {bounding_box, discrete, penetration_resolution, speculative_march, speculative, octagon_sweep},
-       [](const std::string& value, TechniqueDef& def) {
-         (def.kind == octagon_sweep ? def.sweep_iterations : def.article.iterations) = whole_in(value);
-       }},
-      {"points",
-       "8, or 4: the corners of the bounding box",
-       {wind_back, penetration_resolution, speculative_march, speculative},
-       [](const std::string& value, TechniqueDef& def) { def.article.points = whole_in(value); }},
-      {"pairs", "direction, or all: points are tested whichever way it goes", searching,
-       [](const std::string& value, TechniqueDef& def) {
-         def.article.pairs =
-             second_of(value, "direction", "all") ? ArticleKnobs::Pairs::all : ArticleKnobs::Pairs::direction;
-       }},
-      {"objects", "each, or all: penetration resolution looks at one object after the other, or at all at once",
-       searching,
-       [](const std::string& value, TechniqueDef& def) {
-         def.article.objects =
-             second_of(value, "each", "all") ? ArticleKnobs::Objects::all : ArticleKnobs::Objects::each;
-       }},
-      {"response",
-       "component, or shorten: a hit shortens the whole vector",
-       {mask, penetration_resolution, speculative_march, speculative},
-       [](const std::string& value, TechniqueDef& def) {
-         def.article.response = second_of(value, "component", "shorten") ? ArticleKnobs::Response::shorten
-                                                                         : ArticleKnobs::Response::component;
-       }},
-      {"jump_rules", "on, or off: the article's two rules; else what the scene says, else off for octagon_sweep alone",
-       std::vector<TechniqueKind>(all_techniques.begin(), all_techniques.end()),
-       [](const std::string& value, TechniqueDef&) { static_cast<void>(second_of(value, "off", "on")); }},
-      {"square",
-       "side of a square [m]",
-       {grid},
-       [](const std::string& value, TechniqueDef& def) { def.article.square = real_in(value); }},
-      {"raster_pixels_per_metre",
-       "resolution of the level, at most 1000; without it the scene's",
-       {pixel_colour, pixel_tile, mask},
-       [](const std::string& value, TechniqueDef& def) { def.article.raster_pixels_per_metre = real_in(value); }},
-      {"pixels_per_tile",
-       "along a side of a tile: more take more memory, nothing else changes",
-       {pixel_tile},
-       [](const std::string& value, TechniqueDef& def) { def.article.pixels_per_tile = whole_in(value); }},
-  };
-  return all;
-}
+/// Everybody but the twins has it: it is of the character.
+const Knob jump_rules{
+    "jump_rules", "on, or off: the article's two rules; else what the scene says, else off for octagon_sweep alone",
+    [](const std::string& value, TechniqueDef&) { static_cast<void>(is_second(value, "off", "on")); }};
 
 /// Of the Box2D twins.
 struct EngineKnob {
@@ -106,9 +33,9 @@ const std::vector<EngineKnob>& engine_knobs() {
   using Def = TwinDef;
   static const std::vector<EngineKnob> all{
       {"bullet", "on, or off: continuous collision against dynamic bodies, too",
-       [](const std::string& value, Def& def) { def.world.bullet = second_of(value, "off", "on"); }},
+       [](const std::string& value, Def& def) { def.world.bullet = is_second(value, "off", "on"); }},
       {"continuous", "on, or off: no continuous collision at all",
-       [](const std::string& value, Def& def) { def.world.continuous = second_of(value, "off", "on"); }},
+       [](const std::string& value, Def& def) { def.world.continuous = is_second(value, "off", "on"); }},
       {"velocity_iterations", "of its solver, 8 where not turned",
        [](const std::string& value, Def& def) { def.world.velocity_iterations = iterations_in(value); }},
       {"position_iterations", "of its solver, 3 where not turned",
@@ -126,7 +53,7 @@ const std::vector<EngineKnob>& engine_knobs() {
       {"movers", "velocity, or transform: movers are put where they should be by SetTransform",
        [](const std::string& value, Def& def) {
          def.world.drive =
-             second_of(value, "velocity", "transform") ? box2d::MoverDrive::transform : box2d::MoverDrive::velocity;
+             is_second(value, "velocity", "transform") ? box2d::MoverDrive::transform : box2d::MoverDrive::velocity;
        }},
   };
   return all;
@@ -138,14 +65,31 @@ const EngineKnob* find_engine_knob(std::string_view name) {
   return found == all.end() ? nullptr : &*found;
 }
 
-const Knob* find_knob(std::string_view name) {
+const Knob* find_knob(const TechniqueEntry& technique, std::string_view name) {
+  if (name == jump_rules.name) return &jump_rules;
   const auto found =
-      std::find_if(all_knobs().begin(), all_knobs().end(), [&](const Knob& knob) { return knob.name == name; });
-  return found == all_knobs().end() ? nullptr : &*found;
+      std::find_if(technique.knobs.begin(), technique.knobs.end(), [&](const Knob& knob) { return knob.name == name; });
+  return found == technique.knobs.end() ? nullptr : &*found;
 }
 
-bool is_of(const Knob& knob, TechniqueKind kind) {
-  return std::find(knob.kinds.begin(), knob.kinds.end(), kind) != knob.kinds.end();
+/// A knob of techniques, and who has it.
+struct SharedKnob {
+  Knob knob;
+  std::vector<std::string_view> techniques;
+};
+
+/// Each name once, in the order of the techniques.
+std::vector<SharedKnob> technique_knobs() {
+  std::vector<SharedKnob> all;
+  for (const TechniqueEntry& technique : all_techniques()) {
+    for (const Knob& knob : technique.knobs) {
+      auto known = std::find_if(all.begin(), all.end(), [&](const auto& each) { return each.knob.name == knob.name; });
+      if (known == all.end()) known = all.insert(all.end(), {knob, {}});
+      known->techniques.push_back(technique.name);
+    }
+  }
+  all.push_back({jump_rules, technique_names()});
+  return all;
 }
 
 /// A level of one square metre: whatever a knob may be is tried on it.
@@ -156,12 +100,11 @@ Scenery<double> a_square() { return Scenery<double>({{{.points = {{0, 0}, {1, 0}
 KnobSetting parse_knob(std::string_view text) {
   const std::size_t equals = text.find('=');
   const std::string_view name = text.substr(0, equals);
-  if (equals == std::string_view::npos || (find_knob(name) == nullptr && find_engine_knob(name) == nullptr)) {
-    std::vector<std::string_view> names;
-    for (const Knob& each : all_knobs()) names.push_back(each.name);
-    for (const EngineKnob& each : engine_knobs()) names.push_back(each.name);
+  std::vector<std::string_view> names;
+  for (const SharedKnob& each : technique_knobs()) names.push_back(each.knob.name);
+  for (const EngineKnob& each : engine_knobs()) names.push_back(each.name);
+  if (equals == std::string_view::npos || std::find(names.begin(), names.end(), name) == names.end())
     throw std::invalid_argument(fmt::format("expected NAME=VALUE with a NAME of {}", fmt::join(names, ", ")));
-  }
   return {std::string(name), std::string(text.substr(equals + 1))};
 }
 
@@ -172,7 +115,7 @@ void check_knob(const KnobSetting& setting, std::string_view contender) {
     return;
   }
   TechniqueDef def;
-  def.kind = *technique_kind(contender);
+  def.name = contender;
   turn_knobs(std::span(&setting, 1), def);
   const Scenery<double> scenery = a_square();
   try {
@@ -184,11 +127,8 @@ void check_knob(const KnobSetting& setting, std::string_view contender) {
 
 std::vector<std::string> describe_knobs() {
   std::vector<std::string> lines;
-  for (const Knob& knob : all_knobs()) {
-    std::vector<std::string_view> names;
-    for (const TechniqueKind kind : knob.kinds) names.push_back(paperproof::name_of(kind));
-    lines.push_back(fmt::format("{:<24} {} ({})", knob.name, knob.meaning, fmt::join(names, ", ")));
-  }
+  for (const SharedKnob& each : technique_knobs())
+    lines.push_back(fmt::format("{:<24} {} ({})", each.knob.name, each.knob.meaning, fmt::join(each.techniques, ", ")));
   for (const EngineKnob& knob : engine_knobs())
     lines.push_back(fmt::format("{:<24} {} (box2d, box2d_pieces)", knob.name, knob.meaning));
   return lines;
@@ -196,9 +136,8 @@ std::vector<std::string> describe_knobs() {
 
 bool has_knob(std::string_view contender, std::string_view name) {
   if (is_reference(contender)) return find_engine_knob(name) != nullptr;
-  const Knob* knob = find_knob(name);
-  const std::optional<TechniqueKind> kind = technique_kind(contender);
-  return knob != nullptr && kind && is_of(*knob, *kind);
+  const TechniqueEntry* technique = find_technique(contender);
+  return technique != nullptr && find_knob(*technique, name) != nullptr;
 }
 
 void turn_knobs(std::span<const KnobSetting> knobs, TwinDef& def) {
@@ -207,15 +146,16 @@ void turn_knobs(std::span<const KnobSetting> knobs, TwinDef& def) {
 }
 
 void turn_knobs(std::span<const KnobSetting> knobs, TechniqueDef& def) {
+  const TechniqueEntry* technique = find_technique(def.name);
+  if (technique == nullptr) return;
   for (const KnobSetting& setting : knobs)
-    if (const Knob* knob = find_knob(setting.name); knob != nullptr && is_of(*knob, def.kind))
-      knob->turn(setting.value, def);
+    if (const Knob* knob = find_knob(*technique, setting.name)) knob->turn(setting.value, def);
 }
 
 std::optional<bool> turned_jump_rules(std::span<const KnobSetting> knobs) {
   std::optional<bool> turned;
   for (const KnobSetting& setting : knobs)
-    if (setting.name == "jump_rules") turned = second_of(setting.value, "off", "on");
+    if (setting.name == "jump_rules") turned = is_second(setting.value, "off", "on");
   return turned;
 }
 

@@ -18,8 +18,7 @@ struct TwinDef {
   int substeps = 1;  ///< Each step of the scene is so many of the world, of equal length, each as design §4 has a step.
 };
 
-/// `name=value`. A technique's is the field of `ArticleKnobs`, a twin's that of `TwinDef`; `octagon_sweep` has
-/// `iterations`.
+/// `name=value`. A technique's knobs are in its registry entry, a twin's are fields of `TwinDef`.
 struct KnobSetting {
   std::string name;
   std::string value;

@@ -32,9 +32,10 @@ Lane::Lane(std::string contender, ScalarKind scalar, const Scene& scene, const S
   row_.mode = mode;
   row_.source = scene.source;
   row_.parameters = scene.parameters;
-  const std::optional<TechniqueKind> kind = technique_kind(row_.contender);
-  row_.parameters.emplace_back(
-      "jump_rules", jump_rules_in_force(kind ? rules_for(*kind, scene, planning.knobs) : rules_for_twin(scene)));
+  const TechniqueEntry* technique = find_technique(row_.contender);
+  const CharacterDef character =
+      technique != nullptr ? rules_for(*technique, scene, planning.knobs) : rules_for_twin(scene);
+  row_.parameters.emplace_back("jump_rules", jump_rules_in_force(character));
   try {
     if (mode == "lockstep" && !scene.others.empty())
       throw NotApplicable(
@@ -243,9 +244,7 @@ void Lane::finish() {
 }
 
 bool Lane::guaranteed() const {
-  if (row_.contender != paperproof::name_of(TechniqueKind::octagon_sweep) ||
-      row_.scalar != name_of(ScalarKind::binary64))
-    return false;
+  if (row_.contender != "octagon_sweep" || row_.scalar != name_of(ScalarKind::binary64)) return false;
   const auto within = [](const Vec2d& p) { return p.cwiseAbs().maxCoeff() <= guaranteed_range; };
   const std::vector<ColliderDef>& colliders = header().scenery.colliders;
   return std::all_of(colliders.begin(), colliders.end(), [&](const ColliderDef& collider) {

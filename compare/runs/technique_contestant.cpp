@@ -13,15 +13,16 @@ namespace {
 template <class Scalar>
 class TechniqueContestant final : public Contestant {
  public:
-  TechniqueContestant(TechniqueKind kind, const Scene& scene, const Scenery<double>& scenery, const Planning& planning)
+  TechniqueContestant(const TechniqueEntry& technique, const Scene& scene, const Scenery<double>& scenery,
+                      const Planning& planning)
       : scenery_(scenery),
         plan_(plan_of(scenery_.get(), planning)),
-        controller_(scenery_.get(), rules_for(kind, scene, planning.knobs),
-                    definition_of(kind, scene, plan_, planning.knobs)),
+        controller_(make_controller(scenery_.get(), rules_for(technique, scene, planning.knobs),
+                                    definition_of(technique, scene, plan_, planning.knobs))),
         scratch_(controller_.make_scratch()),
         gravity_(scene.gravity.cast<Scalar>()),
         movers_(scene.movers.size(), scenery_.get().as_run()),
-        header_(header_of(kind, scenery_.get(), scene, plan_, planning.knobs)) {
+        header_(header_of(technique, scenery_.get(), scene, plan_, planning.knobs)) {
     place_at_start(*this, scene);
   }
 
@@ -34,7 +35,7 @@ class TechniqueContestant final : public Contestant {
     write_report(report_, state_, record);
     record.requested += movers_.carried_by(ride, input.players.front().drop);
     movers_.write(record);
-    refuse_unusable(report_.status);
+    refuse_unusable(report_.status, report_.move.refusal);
   }
 
   void step_unrecorded(const StepInput& input) override {
@@ -62,11 +63,12 @@ class TechniqueContestant final : public Contestant {
 
 }  // namespace
 
-std::unique_ptr<Contestant> make_technique_contestant(TechniqueKind kind, ScalarKind scalar, const Scene& scene,
-                                                      const Scenery<double>& scenery, const Planning& planning) {
+std::unique_ptr<Contestant> make_technique_contestant(const TechniqueEntry& technique, ScalarKind scalar,
+                                                      const Scene& scene, const Scenery<double>& scenery,
+                                                      const Planning& planning) {
   if (scalar == ScalarKind::binary32)
-    return std::make_unique<TechniqueContestant<float>>(kind, scene, scenery, planning);
-  return std::make_unique<TechniqueContestant<double>>(kind, scene, scenery, planning);
+    return std::make_unique<TechniqueContestant<float>>(technique, scene, scenery, planning);
+  return std::make_unique<TechniqueContestant<double>>(technique, scene, scenery, planning);
 }
 
 }  // namespace paperproof::compare

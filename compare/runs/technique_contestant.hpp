@@ -5,7 +5,7 @@
 
 namespace paperproof::compare {
 
-[[nodiscard]] std::unique_ptr<Contestant> make_technique_contestant(TechniqueKind kind, ScalarKind scalar,
+[[nodiscard]] std::unique_ptr<Contestant> make_technique_contestant(const TechniqueEntry& technique, ScalarKind scalar,
                                                                     const Scene& scene, const Scenery<double>& scenery,
                                                                     const Planning& planning);
 

@@ -1,5 +1,7 @@
 #include "runs/technique_parts.hpp"
 
+#include <paperproof/tolerances.hpp>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -39,23 +41,19 @@ bool is_turned(std::span<const KnobSetting> knobs, std::string_view name) {
   return std::any_of(knobs.begin(), knobs.end(), [name](const KnobSetting& each) { return each.name == name; });
 }
 
-bool is_drawn(TechniqueKind kind) {
-  return kind == TechniqueKind::pixel_colour || kind == TechniqueKind::pixel_tile || kind == TechniqueKind::mask;
-}
-
 /// Scenery of vectors is drawn as finely as can be, since there the resolution is a knob. A picture that is drawn
 /// with fewer pixels than it has is another level, and that is for who turns the knob to say.
-void refuse_coarser_drawing(TechniqueKind kind, const Scene& scene, std::span<const KnobSetting> knobs) {
-  if (!is_drawn(kind) || !scene.has_pixels || is_turned(knobs, "raster_pixels_per_metre")) return;
+void refuse_coarser_drawing(const TechniqueEntry& technique, const Scene& scene, std::span<const KnobSetting> knobs) {
+  if (!technique.draws_level || !scene.has_pixels || is_turned(knobs, "raster_pixels_per_metre")) return;
   if (scene.pixels_per_metre > finest_raster)
     throw NotApplicable(fmt::format("{} draws at most {} pixels per metre, and the scene's pixels are {} to the metre",
-                                    name_of(kind), finest_raster, scene.pixels_per_metre));
+                                    technique.name, finest_raster, scene.pixels_per_metre));
 }
 
 /// A level of tiles is complete, has pixels of its own, and is in nobody's way but through its tiles.
-std::shared_ptr<const PixelTileSet> tiles_for(TechniqueKind kind, const Scene& scene,
+std::shared_ptr<const PixelTileSet> tiles_for(const TechniqueEntry& technique, const Scene& scene,
                                               std::span<const KnobSetting> knobs) {
-  if (kind != TechniqueKind::pixel_tile || !scene.tile_level.tiles) return nullptr;
+  if (technique.name != "pixel_tile" || !scene.tile_level.tiles) return nullptr;
   for (const std::string_view knob : {"raster_pixels_per_metre", "pixels_per_tile"})
     if (is_turned(knobs, knob))
       throw NotApplicable(fmt::format("pixel_tile has its tiles from the scene's file, where {} is no knob", knob));
@@ -68,24 +66,25 @@ std::shared_ptr<const PixelTileSet> tiles_for(TechniqueKind kind, const Scene& s
   return scene.tile_level.tiles;
 }
 
-std::shared_ptr<const SceneryDef> decoration_for(TechniqueKind kind, const Scene& scene) {
-  if (kind != TechniqueKind::pixel_colour || scene.decoration.empty()) return nullptr;
+std::shared_ptr<const SceneryDef> decoration_for(const TechniqueEntry& technique, const Scene& scene) {
+  if (technique.name != "pixel_colour" || scene.decoration.empty()) return nullptr;
   SceneryDef drawn;
   for (const Decoration& each : scene.decoration) drawn.colliders.push_back({.points = each.polygon});
   return std::make_shared<const SceneryDef>(std::move(drawn));
 }
 
 /// The picture of the character has the scene's pixels.
-std::vector<std::string> sprite_for(TechniqueKind kind, const Scene& scene, std::span<const KnobSetting> knobs) {
-  if (kind != TechniqueKind::mask || scene.sprite.empty()) return {};
+std::vector<std::string> sprite_for(const TechniqueEntry& technique, const Scene& scene,
+                                    std::span<const KnobSetting> knobs) {
+  if (technique.name != "mask" || scene.sprite.empty()) return {};
   if (is_turned(knobs, "raster_pixels_per_metre") || scene.pixels_per_metre > finest_raster)
     throw NotApplicable("mask has the picture of the character from the scene, in the scene's pixels");
   return scene.sprite;
 }
 
-ArticleKnobs article_knobs(TechniqueKind kind, const Scene& scene, std::span<const KnobSetting> knobs) {
+ArticleKnobs article_knobs(const TechniqueEntry& technique, const Scene& scene, std::span<const KnobSetting> knobs) {
   TechniqueDef def;
-  def.kind = kind;
+  def.name = technique.name;
   def.article.unit = 1 / scene.pixels_per_metre;
   def.article.raster_pixels_per_metre = std::min(scene.pixels_per_metre, finest_raster);
   turn_knobs(knobs, def);
@@ -93,42 +92,24 @@ ArticleKnobs article_knobs(TechniqueKind kind, const Scene& scene, std::span<con
 }
 
 /// The steps in which the technique searches or moves [m]; 0 where it computes.
-double unit_of(TechniqueKind kind, const Scene& scene, std::span<const KnobSetting> knobs) {
-  const ArticleKnobs article = article_knobs(kind, scene, knobs);
-  switch (kind) {
-    case TechniqueKind::wind_back:
-    case TechniqueKind::penetration_resolution:
-    case TechniqueKind::speculative_march:
-    case TechniqueKind::speculative:
-      return article.unit;
-    case TechniqueKind::grid:
-      return article.square;
-    case TechniqueKind::pixel_colour:
-    case TechniqueKind::pixel_tile:
-    case TechniqueKind::mask:
-      return 1 / article.raster_pixels_per_metre;
-    case TechniqueKind::bounding_box:
-    case TechniqueKind::discrete:
-    case TechniqueKind::octagon_sweep:
-      return 0;
-  }
-  return 0;
+double unit_of(const TechniqueEntry& technique, const Scene& scene, std::span<const KnobSetting> knobs) {
+  return technique.unit == nullptr ? 0 : technique.unit(article_knobs(technique, scene, knobs));
 }
 
 }  // namespace
 
-TechniqueDef definition_of(TechniqueKind kind, const Scene& scene, const Plan& plan,
+TechniqueDef definition_of(const TechniqueEntry& technique, const Scene& scene, const Plan& plan,
                            std::span<const KnobSetting> knobs) {
   TechniqueDef def;
-  def.kind = kind;
+  def.name = technique.name;
   def.broad_phase = plan.broad_phase;
   def.stages = plan.stages;
-  def.article = article_knobs(kind, scene, knobs);
+  def.article = article_knobs(technique, scene, knobs);
   turn_knobs(knobs, def);
-  refuse_coarser_drawing(kind, scene, knobs);
-  def.pixel_tiles = tiles_for(kind, scene, knobs);
-  def.decoration = decoration_for(kind, scene);
-  def.sprite = sprite_for(kind, scene, knobs);
+  refuse_coarser_drawing(technique, scene, knobs);
+  def.pixel_tiles = tiles_for(technique, scene, knobs);
+  def.decoration = decoration_for(technique, scene);
+  def.sprite = sprite_for(technique, scene, knobs);
   return def;
 }
 
@@ -144,9 +125,9 @@ CharacterDef with_rules(const Scene& scene, const JumpRules& turned, bool usual)
 
 }  // namespace
 
-CharacterDef rules_for(TechniqueKind kind, const Scene& scene, std::span<const KnobSetting> knobs) {
+CharacterDef rules_for(const TechniqueEntry& technique, const Scene& scene, std::span<const KnobSetting> knobs) {
   const std::optional<bool> turned = turned_jump_rules(knobs);
-  return with_rules(scene, {turned, turned}, kind != TechniqueKind::octagon_sweep);
+  return with_rules(scene, {turned, turned}, technique.name != "octagon_sweep");
 }
 
 CharacterDef rules_for_twin(const Scene& scene) { return with_rules(scene, {}, false); }
@@ -156,13 +137,13 @@ double jump_rules_in_force(const CharacterDef& character) {
 }
 
 template <class Scalar>
-TraceHeader header_of(TechniqueKind kind, const Scenery<Scalar>& scenery, const Scene& scene, const Plan& plan,
-                      std::span<const KnobSetting> knobs) {
+TraceHeader header_of(const TechniqueEntry& technique, const Scenery<Scalar>& scenery, const Scene& scene,
+                      const Plan& plan, std::span<const KnobSetting> knobs) {
   TraceHeader header;
   header.scene = scene.name;
-  header.contender = name_of(kind);
+  header.contender = technique.name;
   header.scalar = name_of(std::is_same_v<Scalar, float> ? ScalarKind::binary32 : ScalarKind::binary64);
-  header.knob = turned_knobs(knobs, name_of(kind));
+  header.knob = turned_knobs(knobs, technique.name);
   header.dt = static_cast<double>(static_cast<Scalar>(scene.dt));
   header.characters = character_count(scene);
   for (const Vec2d& point : scene.character.shape.hull())
@@ -172,8 +153,8 @@ TraceHeader header_of(TechniqueKind kind, const Scenery<Scalar>& scenery, const 
   header.ids = scene.ids;
   header.plan = plan;
   header.tolerances = tolerances_of<Scalar>();
-  if (const double unit = unit_of(kind, scene, knobs); unit > 0) header.tolerances.push_back({"unit", unit});
-  if (is_drawn(kind) && scene.has_pixels && !is_turned(knobs, "raster_pixels_per_metre"))
+  if (const double unit = unit_of(technique, scene, knobs); unit > 0) header.tolerances.push_back({"unit", unit});
+  if (technique.draws_level && scene.has_pixels && !is_turned(knobs, "raster_pixels_per_metre"))
     header.tolerances.push_back({"pixel", 1 / scene.pixels_per_metre});
   return header;
 }
@@ -187,7 +168,7 @@ void write_report(const StepReport<Scalar>& report, const CharacterState<Scalar>
   record.requested = widened<Scalar>(report.requested);
   record.steered = static_cast<double>(report.steered);
   record.velocity = widened<Scalar>(state.velocity);
-  record.remainder = widened<Scalar>(state.remainder);
+  record.remainder = widened<Scalar>(state.technique_memory);
   record.grounded = state.grounded;
   record.jumping = state.jumping;
   record.stuck = report.status == StepStatus::stuck;
@@ -205,11 +186,10 @@ void write_report(const StepReport<Scalar>& report, const CharacterState<Scalar>
   for (const Contact<Scalar>& contact : move.contacts) record.contacts.push_back(recorded(contact));
 }
 
-void refuse_unusable(StepStatus status) {
+void refuse_unusable(StepStatus status, std::string_view refusal) {
   if (status == StepStatus::out_of_range)
     throw StepRefused("the motion would leave the range of +-2e6 m, and the run ends there");
-  if (status == StepStatus::search_too_long)
-    throw StepRefused("the motion needs more than 1,000,000 units of search in one step, and the run ends there");
+  if (status == StepStatus::refused) throw StepRefused(fmt::format("{}, and the run ends there", refusal));
   if (status == StepStatus::invalid_input) throw std::runtime_error("the motion is not finite");
 }
 
@@ -238,9 +218,9 @@ CharacterState<Scalar> state_at(const Pose& pose) {
   return state;
 }
 
-template TraceHeader header_of(TechniqueKind, const Scenery<float>&, const Scene&, const Plan&,
+template TraceHeader header_of(const TechniqueEntry&, const Scenery<float>&, const Scene&, const Plan&,
                                std::span<const KnobSetting>);
-template TraceHeader header_of(TechniqueKind, const Scenery<double>&, const Scene&, const Plan&,
+template TraceHeader header_of(const TechniqueEntry&, const Scenery<double>&, const Scene&, const Plan&,
                                std::span<const KnobSetting>);
 template void write_report(const StepReport<float>&, const CharacterState<float>&, TraceStep&);
 template void write_report(const StepReport<double>&, const CharacterState<double>&, TraceStep&);

@@ -4,7 +4,7 @@
 
 #include "runs/contestant.hpp"
 
-#include <paperproof/controller.hpp>
+#include <paperproof/techniques.hpp>
 
 #include <type_traits>
 
@@ -32,12 +32,13 @@ class OwnScenery<double> {
 
 /// @throws NotApplicable for a technique that would have to draw a picture coarser than it is, or pixel_tile where it
 ///   would see only the part of the scenery that is in a file of tiles, or with other pixels than those of the file.
-[[nodiscard]] TechniqueDef definition_of(TechniqueKind kind, const Scene& scene, const Plan& plan,
+[[nodiscard]] TechniqueDef definition_of(const TechniqueEntry& technique, const Scene& scene, const Plan& plan,
                                          std::span<const KnobSetting> knobs);
 
 /// The scene's character with the jumping rules in force. The knob `jump_rules` comes first, then the scene's own word,
 /// then what is usual: on for the article's techniques, off for octagon_sweep.
-[[nodiscard]] CharacterDef rules_for(TechniqueKind kind, const Scene& scene, std::span<const KnobSetting> knobs = {});
+[[nodiscard]] CharacterDef rules_for(const TechniqueEntry& technique, const Scene& scene,
+                                     std::span<const KnobSetting> knobs = {});
 /// The same for a twin, which has no such knob: the scene's own word, or off.
 [[nodiscard]] CharacterDef rules_for_twin(const Scene& scene);
 
@@ -45,7 +46,7 @@ class OwnScenery<double> {
 [[nodiscard]] double jump_rules_in_force(const CharacterDef& character);
 
 template <class Scalar>
-[[nodiscard]] TraceHeader header_of(TechniqueKind kind, const Scenery<Scalar>& scenery, const Scene& scene,
+[[nodiscard]] TraceHeader header_of(const TechniqueEntry& technique, const Scenery<Scalar>& scenery, const Scene& scene,
                                     const Plan& plan, std::span<const KnobSetting> knobs);
 
 /// Fills what a step report and the state after it say; not `movers`. `requested` is as the controller has it: relative
@@ -53,8 +54,9 @@ template <class Scalar>
 template <class Scalar>
 void write_report(const StepReport<Scalar>& report, const CharacterState<Scalar>& state, TraceStep& record);
 
+/// @param refusal the technique's own reason, where it refused.
 /// @throws StepRefused for a motion that is too far, std::runtime_error for one that is not finite.
-void refuse_unusable(StepStatus status);
+void refuse_unusable(StepStatus status, std::string_view refusal = {});
 
 template <class Scalar>
 [[nodiscard]] Pose pose_of(const CharacterState<Scalar>& state);

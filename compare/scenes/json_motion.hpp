@@ -3,6 +3,8 @@
 
 #include "scenes/json_text.hpp"
 
+#include <paperproof/tolerances.hpp>
+
 namespace paperproof::compare {
 
 /// A point within 2e6 m of the origin, the range of a sweep: see Tolerances<double>::range.

@@ -2,7 +2,7 @@
 
 #include "scenes/scene.hpp"
 
-#include <paperproof/controller.hpp>
+#include <paperproof/techniques.hpp>
 
 #include <algorithm>
 #include <array>
@@ -52,7 +52,7 @@ class Subject {
  public:
   Subject(BroadPhaseKind kind, const Scenery<double>& scenery) {
     const auto begin = Clock::now();
-    controller_ = std::make_unique<Controller<double>>(scenery, CharacterDef{}, TechniqueDef{.broad_phase = kind});
+    controller_ = std::make_unique<Controller<double>>(scenery, CharacterDef{}, SweepDef{.broad_phase = kind});
     point_.build_ms = milliseconds_since(begin);
     point_.broad_phase = kind;
     point_.pieces = scenery.pieces().size();

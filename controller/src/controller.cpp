@@ -5,8 +5,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <paperproof/scenery_facts.hpp>
 #include "one_way_chains.hpp"
-#include "scenery_facts.hpp"
 #include "sensors.hpp"
 #include "step_parts.hpp"
 
@@ -110,16 +110,19 @@ DesiredVelocity<Scalar> desired_velocity(const CharacterDef& character, const Ve
 }
 
 template <class Scalar>
+Controller<Scalar>::Controller(const Scenery<Scalar>& scenery, const CharacterDef& character, const SweepDef& sweep)
+    : Controller(scenery, character, make_octagon_sweep(sweep, scenery, character), sweep.stages) {}
+
+template <class Scalar>
 Controller<Scalar>::Controller(const Scenery<Scalar>& scenery, const CharacterDef& character,
-                               const TechniqueDef& technique)
+                               std::unique_ptr<const Technique<Scalar>> technique, const Stages& stages)
     : mover_count_(scenery.mover_count()),
       character_(character),
-      wall_reach_(static_cast<Scalar>(technique.article.unit)),
-      step_(variant_for(technique.stages)) {
+      step_(variant_for(stages)),
+      technique_(std::move(technique)) {
   character_.validate();
-  if (!technique.stages.sensors && scenery.sensor_pieces().size() > 0)
+  if (!stages.sensors && scenery.sensor_pieces().size() > 0)
     throw std::invalid_argument("stages: sensors cannot be left out: there is a sensor");
-  technique_ = make_technique<Scalar>(technique, scenery, character_);
   if (scenery.sensor_pieces().size() > 0) sensors_ = std::make_shared<Sensors<Scalar>>(scenery, character_.shape);
   if (has_one_way_chains(scenery)) one_way_ = std::make_shared<OneWayChains<Scalar>>(scenery, character_.shape);
 }
@@ -156,12 +159,13 @@ template <class Scalar>
                                                           std::span<const MoverMotion<Scalar>> movers,
                                                           Scratch<Scalar>& scratch,
                                                           MoveResult<Scalar>& tried) const noexcept {
-  const Vec2<Scalar> there{move < 0 ? -wall_reach_ : wall_reach_, 0};
+  const Scalar reach = static_cast<Scalar>(character_.wall_reach);
+  const Vec2<Scalar> there{move < 0 ? -reach : reach, 0};
   technique_->move({.position = state.position,
                     .displacement = there,
                     .velocity = there / dt,
                     .last_free = state.last_free,
-                    .remainder = state.remainder,
+                    .technique_memory = state.technique_memory,
                     .has_last_free = state.has_last_free,
                     .grounded = state.grounded,
                     .movers = movers,
@@ -189,7 +193,7 @@ MoveRequest<Scalar> Controller<Scalar>::begin_step(const Pressers<Scalar>& press
           .velocity = {velocity.x(), velocity.y()},
           .steered = steered,
           .last_free = state.last_free,
-          .remainder = state.remainder,
+          .technique_memory = state.technique_memory,
           .has_last_free = state.has_last_free,
           .grounded = state.grounded,
           .crushed = state.crushed,

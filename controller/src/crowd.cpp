@@ -5,25 +5,20 @@
 #include <stdexcept>
 #include <utility>
 
-#include "crowd/joint_technique.hpp"
+#include <paperproof/joint_technique.hpp>
+#include <paperproof/scenery_facts.hpp>
 #include "crowd/parts.hpp"
 #include "crowd/stepper.hpp"
-#include "scenery_facts.hpp"
+#include "step/octagon_sweep.hpp"
 #include "step_parts.hpp"
 
 namespace paperproof {
 namespace {
 
-void require_several(const TechniqueDef& technique) {
-  if (!moves_crowds(technique.kind))
-    throw std::invalid_argument("a crowd moves by octagon_sweep or discrete: the other techniques know one character");
-}
-
 /// With the stages that places for other characters need.
-TechniqueDef among_companions(TechniqueDef technique, ColliderIndex first_companion) {
-  technique.first_companion = first_companion;
-  technique.stages.movers = technique.stages.slopes = true;
-  return technique;
+SweepDef among_companions(SweepDef sweep) {
+  sweep.stages.movers = sweep.stages.slopes = true;
+  return sweep;
 }
 
 /// All that `Controller::step` does not look at in the form it is called here.
@@ -77,29 +72,37 @@ void reserve_names(const Scenery<Scalar>& scenery, crowd::WalkerMemory<Scalar>& 
 }  // namespace
 
 template <class Scalar>
-std::unique_ptr<const typename Crowd<Scalar>::Rules> Crowd<Scalar>::rules_for(const Scenery<Scalar>& scenery,
-                                                                              const CharacterDef& character,
-                                                                              const TechniqueDef& technique) {
-  require_several(technique);
-  const bool sweeps = technique.kind == TechniqueKind::octagon_sweep;
-  auto rules =
-      std::make_unique<Rules>(Rules{{crowd::PairSpace<Scalar>(character.shape), character.walkable_cosine<Scalar>(),
-                                     technique.sweep_iterations, technique.stages},
-                                    scenery.mover_count(),
-                                    !sweeps || scenery.mover_count() > 0 || has_conveyors(scenery),
-                                    nullptr});
-  if (sweeps) rules->surrounded = std::make_unique<const crowd::Surrounded<Scalar>>(scenery, character.shape);
-  return rules;
-}
+Crowd<Scalar>::Crowd(std::unique_ptr<const Rules> rules, Controller<Scalar> controller)
+    : rules_(std::move(rules)),
+      controller_(std::move(controller)),
+      joint_(dynamic_cast<const JointTechnique<Scalar>*>(&controller_.technique())) {}
 
 template <class Scalar>
-Crowd<Scalar>::Crowd(const Scenery<Scalar>& scenery, const CharacterDef& character, const TechniqueDef& technique)
-    : rules_(rules_for(scenery, character, technique)),
-      controller_(rules_->surrounded
-                      ? Controller<Scalar>(rules_->surrounded->scenery, character,
-                                           among_companions(technique, rules_->surrounded->first_companion))
-                      : Controller<Scalar>(scenery, character, technique)),
-      joint_(dynamic_cast<const JointTechnique<Scalar>*>(&controller_.technique())) {}
+Crowd<Scalar>::Crowd(const Scenery<Scalar>& scenery, const CharacterDef& character, const SweepDef& sweep)
+    : Crowd([&] {
+        auto surrounded = std::make_unique<const crowd::Surrounded<Scalar>>(scenery, character.shape);
+        const SweepDef def = among_companions(sweep);
+        Controller<Scalar> controller(
+            surrounded->scenery, character,
+            make_sweep_among_companions(def, surrounded->scenery, character, surrounded->first_companion), def.stages);
+        return Crowd(
+            std::make_unique<const Rules>(Rules{{crowd::PairSpace<Scalar>(character.shape),
+                                                 character.walkable_cosine<Scalar>(), sweep.iterations, sweep.stages},
+                                                scenery.mover_count(),
+                                                scenery.mover_count() > 0 || has_conveyors(scenery),
+                                                std::move(surrounded)}),
+            std::move(controller));
+      }()) {}
+
+template <class Scalar>
+Crowd<Scalar>::Crowd(const Scenery<Scalar>& scenery, const CharacterDef& character,
+                     std::unique_ptr<const JointTechnique<Scalar>> technique, const Stages& stages)
+    : Crowd(std::make_unique<const Rules>(Rules{{crowd::PairSpace<Scalar>(character.shape),
+                                                 character.walkable_cosine<Scalar>(), SweepDef{}.iterations, stages},
+                                                scenery.mover_count(),
+                                                true,
+                                                nullptr}),
+            Controller<Scalar>(scenery, character, std::move(technique), stages)) {}
 
 template <class Scalar>
 Crowd<Scalar>::~Crowd() = default;

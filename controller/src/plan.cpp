@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "scenery_facts.hpp"
+#include <paperproof/scenery_facts.hpp>
 
 namespace paperproof {
 namespace {

@@ -49,7 +49,7 @@ template <class Scalar>
 [[nodiscard]] bool finite(const CharacterState<Scalar>& state, const Input& input, const Vec2<Scalar>& gravity,
                           Scalar dt, std::span<const MoverMotion<Scalar>> movers) noexcept {
   FiniteCheck<Scalar> check;
-  check.add(state.position).add(state.velocity).add(state.remainder).add(gravity);
+  check.add(state.position).add(state.velocity).add(state.technique_memory).add(gravity);
   check.add(state.ride.place).add(state.ride.velocity);
   if (state.has_last_free) check.add(state.last_free);
   for (const Presser<Scalar>& presser : state.pressers) check.add(presser.from).add(presser.gone);
@@ -75,8 +75,8 @@ template <class Maker>
       return StepStatus::crushed;
     case MoveStatus::out_of_range:
       return StepStatus::out_of_range;
-    case MoveStatus::search_too_long:
-      return StepStatus::search_too_long;
+    case MoveStatus::refused:
+      return StepStatus::refused;
   }
   return StepStatus::moved;
 }
@@ -90,7 +90,7 @@ template <class Maker>
     case StepStatus::crushed:
       return false;
     case StepStatus::out_of_range:
-    case StepStatus::search_too_long:
+    case StepStatus::refused:
     case StepStatus::invalid_input:
       break;
   }
@@ -117,7 +117,7 @@ template <class Scalar>
 void adopt(const CharacterDef& character, const MoveResult<Scalar>& move, CharacterState<Scalar>& state) noexcept {
   state.position = move.position;
   state.velocity = move.velocity;
-  state.remainder = move.remainder;
+  state.technique_memory = move.technique_memory;
   state.grounded = move.grounded;
   state.ride = move.ride;
   note_freedom(move, state);

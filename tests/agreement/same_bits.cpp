@@ -6,7 +6,7 @@
 // Nothing here may depend on the compiler either: no distribution of the standard library, no libm beyond sqrt.
 #include "agreement/golden_scenes.hpp"
 
-#include <paperproof/crowd.hpp>
+#include <paperproof/techniques.hpp>
 
 #include <bit>
 #include <cstdio>
@@ -139,9 +139,9 @@ void set_motions(const Scene& scene, int step, std::vector<paperproof::MoverMoti
 
 /// Walks and jumps at random; now and then the character is put somewhere else and shot in some direction.
 template <class Scalar>
-RunResult run(const Scene& scene, paperproof::TechniqueKind kind, int steps) {
+RunResult run(const Scene& scene, std::string_view kind, int steps) {
   const paperproof::Scenery<Scalar> scenery(scene.scenery);
-  const paperproof::Controller<Scalar> controller(scenery, character_def(), {.kind = kind});
+  const auto controller = paperproof::make_controller(scenery, character_def(), {.name = kind});
   paperproof::Scratch<Scalar> scratch = controller.make_scratch();
   paperproof::StepReport<Scalar> report;
   paperproof::CharacterState<Scalar> state;
@@ -218,8 +218,8 @@ std::string line_of(const Run& run, int steps) {
 
 template <class Scalar>
 void add_lines(const Scene& scene, const std::string& scalar, int steps, Lines& lines) {
-  for (const paperproof::TechniqueKind kind : paperproof::all_techniques)
-    lines[scene.name + ' ' + std::string(paperproof::name_of(kind)) + ' ' + scalar] =
+  for (const std::string_view kind : paperproof::technique_names())
+    lines[scene.name + ' ' + std::string(kind) + ' ' + scalar] =
         line_of([&](int count) { return run<Scalar>(scene, kind, count); }, steps);
   lines[scene.name + " crowd " + scalar] = line_of([&](int count) { return run_crowd<Scalar>(scene, count); }, steps);
 }

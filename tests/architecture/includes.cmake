@@ -1,10 +1,13 @@
 # Reads every #include under ROOT and refuses those that point against the arrows of the architecture:
-#   controller  <-  box2d_adapter  <-  compare
+#   controller  <-  box2d_adapter  <-  compare,   controller  <-  controller/techniques  <-  compare
 # What a part may include is listed, so that a library nobody thought of is refused as well.
 cmake_minimum_required(VERSION 3.25)
 
 set(standard "<[a-z_0-9]+>")
-set(may_include_controller "${standard}|<Eigen/[A-Za-z]+>|<paperproof/[a-z_0-9]+[.]hpp>")
+set(core "types|tolerances|scenery|scenery_facts|broad_phase|character|plan|report_vector|technique|joint_technique|octagon_sweep|controller|crowd|paperproof")
+set(may_include_controller "${standard}|<Eigen/[A-Za-z]+>|<paperproof/(${core})[.]hpp>")
+# The techniques use the core as anybody would, but for two of its parts.
+set(may_include_techniques "${may_include_controller}|<paperproof/(techniques|pixel_tiles)[.]hpp>|\"(geometry/overlap_time|crowd/parts)[.]hpp\"")
 set(may_include_box2d_adapter "${may_include_controller}|<paperproof/box2d/[a-z_0-9]+[.]hpp>|<box2d/[a-z_0-9]+[.]h>|<polyclipping/clipper[.]hpp>")
 # A benchmark of Box2D without the adapter's recording needs the adapter's fixtures, which are no part of its interface.
 set(may_include_compare "<.*>|\"box2d_adapter/src/(fixtures|float_geometry)[.]hpp\"")
@@ -41,7 +44,9 @@ function(check_part folder allowed own)
   set(refused "${refused}" PARENT_SCOPE)
 endfunction()
 
-check_part(controller "${may_include_controller}" controller/src)
+check_part(controller/include "${may_include_controller}" controller/src)
+check_part(controller/src "${may_include_controller}" controller/src)
+check_part(controller/techniques "${may_include_techniques}" controller)
 check_part(box2d_adapter "${may_include_box2d_adapter}" box2d_adapter/src)
 check_part(compare "${may_include_compare}" compare)
 check_part(compare/oracle "${may_include_oracle}" compare)

@@ -1,4 +1,4 @@
-/// Runs every row of the two tables in controller/src/techniques/README.md: the statements of the article, and its six
+/// Runs every row of the two tables in controller/techniques/README.md: the statements of the article, and its six
 /// demands by technique.
 ///
 /// A check is a code span: `SCENE CONTENDER [KNOB=VALUE]... [full] => CONDITION, ...`, or two runs with `|` between
@@ -16,7 +16,7 @@
 namespace paperproof::compare {
 namespace {
 
-constexpr const char* readme = PAPERPROOF_SOURCE_DIR "/controller/src/techniques/README.md";
+constexpr const char* readme = PAPERPROOF_SOURCE_DIR "/controller/techniques/README.md";
 constexpr std::size_t statements = 83;
 constexpr std::size_t checks = 138;
 constexpr std::size_t demands = 6;
@@ -195,8 +195,8 @@ TEST(ArticleTable, has_each_of_the_six_demands_for_each_technique) {
       ++ran;
     }
   }
-  EXPECT_EQ(techniques.size(), all_techniques.size());
-  EXPECT_EQ(ran, demands * all_techniques.size());
+  EXPECT_EQ(techniques.size(), all_techniques().size());
+  EXPECT_EQ(ran, demands * all_techniques().size());
 }
 
 TEST(ArticleTable, would_notice_a_number_that_is_wrong) {

@@ -30,7 +30,7 @@ inline Scene refined(Scene scene, int halvings) {
 /// The largest distance between octagon_sweep's positions at the ends of steps and the course [m].
 inline double error_of(const Scene& scene, const Course<Number<50>>& course) {
   const Scenery<double> scenery(scene.scenery);
-  const Controller<double> controller(scenery, scene.character, {.kind = TechniqueKind::octagon_sweep});
+  const Controller<double> controller(scenery, scene.character);
   Scratch<double> scratch = controller.make_scratch();
   StepReport<double> report;
   CharacterState<double> state;

@@ -49,7 +49,7 @@ Bits run(const TechniqueDef& def, const Scene& scene) {
   Bits bits;
   try {
     const Scenery<double> scenery(scene.scenery);
-    const Controller<double> controller(scenery, rules_for(def.kind, scene), def);
+    const Controller<double> controller = make_controller(scenery, rules_for(*find_technique(def.name), scene), def);
     Scratch<double> scratch = controller.make_scratch();
     CharacterState<double> state;
     state.position = scene.start.position;
@@ -79,19 +79,19 @@ class EachKnob : public ::testing::TestWithParam<Turn> {};
 TEST_P(EachKnob, changes_those_techniques_that_have_it_and_no_other) {
   const KnobSetting setting = parse_knob(GetParam().text);
   const std::vector<Scene> all = scenes();
-  for (const TechniqueKind kind : all_techniques) {
+  for (const std::string_view kind : technique_names()) {
     bool changes = false;
     for (const Scene& scene : all) {
       TechniqueDef usual;
-      usual.kind = kind;
+      usual.name = kind;
       TechniqueDef turned = usual;
-      if (has_knob(name_of(kind), setting.name))
+      if (has_knob(kind, setting.name))
         turn_knobs(std::span(&setting, 1), turned);
       else
         GetParam().turn(turned.article);
       changes = changes || run(usual, scene) != run(turned, scene);
     }
-    EXPECT_EQ(changes, has_knob(name_of(kind), setting.name)) << name_of(kind);
+    EXPECT_EQ(changes, has_knob(kind, setting.name)) << kind;
   }
 }
 
@@ -113,23 +113,22 @@ TEST(JumpRules, are_decided_by_the_knob_then_by_the_scene_then_by_who_it_is) {
   const std::vector<KnobSetting> on{parse_knob("jump_rules=on")};
   const std::vector<KnobSetting> off{parse_knob("jump_rules=off")};
   Scene scene = built_in("article_bullet");
-  const auto in_force = [&](TechniqueKind kind, std::span<const KnobSetting> knobs) {
-    return jump_rules_in_force(rules_for(kind, scene, knobs));
+  const auto in_force = [&](std::string_view kind, std::span<const KnobSetting> knobs) {
+    return jump_rules_in_force(rules_for(*find_technique(kind), scene, knobs));
   };
-  using enum TechniqueKind;
   for (const std::optional<bool> said : {std::optional<bool>(), std::optional(false), std::optional(true)}) {
     scene.jump_rules = {said, said};
-    for (const TechniqueKind kind : all_techniques) {
-      EXPECT_EQ(in_force(kind, on), 1) << name_of(kind);
-      EXPECT_EQ(in_force(kind, off), 0) << name_of(kind);
-      EXPECT_EQ(in_force(kind, {}), said.value_or(kind != octagon_sweep) ? 1 : 0) << name_of(kind);
-      EXPECT_TRUE(has_knob(name_of(kind), "jump_rules"));
+    for (const std::string_view kind : technique_names()) {
+      EXPECT_EQ(in_force(kind, on), 1) << kind;
+      EXPECT_EQ(in_force(kind, off), 0) << kind;
+      EXPECT_EQ(in_force(kind, {}), said.value_or(kind != "octagon_sweep") ? 1 : 0) << kind;
+      EXPECT_TRUE(has_knob(kind, "jump_rules"));
     }
     EXPECT_EQ(jump_rules_in_force(rules_for_twin(scene)), said.value_or(false) ? 1 : 0);
   }
   scene.jump_rules = {.no_jump_toward_wall = false};
-  EXPECT_EQ(in_force(speculative, {}), 0.5) << "the scene speaks of one of the two";
-  EXPECT_FALSE(rules_for(speculative, scene).no_jump_toward_wall);
+  EXPECT_EQ(in_force("speculative", {}), 0.5) << "the scene speaks of one of the two";
+  EXPECT_FALSE(rules_for(*find_technique("speculative"), scene).no_jump_toward_wall);
   EXPECT_THROW(check_knob(parse_knob("jump_rules=1"), "grid"), std::invalid_argument);
 }
 

@@ -134,7 +134,7 @@ void expect_same(const TraceStep& a, const TraceStep& b, const std::string& wher
 }
 
 TEST(DiscreteCrowdOfOne, has_the_bits_of_the_run_of_one_character) {
-  constexpr auto discrete = TechniqueKind::discrete;
+  const TechniqueEntry& discrete = *find_technique("discrete");
   for (const char* name : {"article_bullet", "slope_joints", "jump_into_corner", "flush_tiles", "lift_sideways",
                            "closing_ceiling", "one_way_lift_drop", "thin_sensor", "sweeping_paper"}) {
     const Scene scene = built_in(name);

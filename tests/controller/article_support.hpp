@@ -14,9 +14,9 @@ namespace paperproof::article_tests {
 /// One pixel [m]. A power of two: whole pixels are exact in both scalars.
 inline constexpr double px = 1.0 / 32;
 
-inline constexpr std::array article_kinds{TechniqueKind::wind_back, TechniqueKind::penetration_resolution,
-                                          TechniqueKind::speculative_march, TechniqueKind::speculative};
-inline constexpr std::array speculative_kinds{TechniqueKind::speculative_march, TechniqueKind::speculative};
+inline constexpr std::array<std::string_view, 4> article_kinds{"wind_back", "penetration_resolution",
+                                                               "speculative_march", "speculative"};
+inline constexpr std::array<std::string_view, 2> speculative_kinds{"speculative_march", "speculative"};
 
 inline ColliderDef rectangle(double left, double bottom, double right, double top) {
   return {.points = {{left, bottom}, {right, bottom}, {right, top}, {left, top}}};
@@ -47,11 +47,11 @@ struct Rig {
   Scratch<Scalar> scratch;
   MoveResult<Scalar> result;
 
-  Rig(TechniqueKind kind, std::vector<ColliderDef> colliders, const ArticleKnobs& knobs = {},
+  Rig(std::string_view kind, std::vector<ColliderDef> colliders, const ArticleKnobs& knobs = {},
       const CharacterShape& shape = CharacterShape::article())
       : scenery(SceneryDef{std::move(colliders)}),
         character(of_shape(shape)),
-        technique(make_technique<Scalar>({.kind = kind, .article = knobs}, scenery, character)),
+        technique(make_technique<Scalar>({.name = kind, .article = knobs}, scenery, character)),
         scratch(technique->make_scratch()) {}
 
   /// One step of a second: velocity and displacement are the same numbers.

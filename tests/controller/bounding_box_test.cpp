@@ -9,7 +9,7 @@
 namespace paperproof::article_tests {
 namespace {
 
-constexpr TechniqueKind kind = TechniqueKind::bounding_box;
+constexpr std::string_view kind = "bounding_box";
 /// Half of the article's character [m].
 constexpr double half_width = 10 * px;
 constexpr double half_height = 20 * px;

@@ -209,9 +209,9 @@ TEST(Crowd, a_stage_that_is_left_out_is_not_asked_for) {
 }
 
 TEST(Crowd, a_technique_that_knows_one_character_is_refused) {
-  for (const TechniqueKind kind : all_techniques) {
-    if (moves_crowds(kind)) continue;
-    EXPECT_THROW(Together({{0, 5}}, {}, {}, {.kind = kind}), std::invalid_argument) << name_of(kind);
+  for (const std::string_view kind : technique_names()) {
+    if (find_technique(kind)->moves_crowds) continue;
+    EXPECT_THROW(Together({{0, 5}}, {}, {}, {.name = kind}), std::invalid_argument) << kind;
   }
 }
 

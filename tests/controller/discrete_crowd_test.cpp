@@ -16,7 +16,7 @@ using article_tests::Random;
 constexpr double gap = Tolerances<double>{}.stop;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-TechniqueDef discrete() { return {.kind = TechniqueKind::discrete}; }
+TechniqueDef discrete() { return {.name = "discrete"}; }
 
 /// A step takes a second and nothing pulls: velocities are displacements.
 Together flying(std::vector<Vec2d> positions, std::vector<ColliderDef> colliders = {}) {
@@ -164,7 +164,7 @@ TEST(DiscreteCrowd, of_one_has_the_bits_of_the_controller) {
     Together one({start}, a_level(), {}, discrete());
     one.gravity = {0, -30};
     one.dt = 1.0 / 60;
-    Stepper<double> alone(a_level(), {}, TechniqueKind::discrete);
+    Stepper<double> alone(a_level(), {}, "discrete");
     alone.gravity = one.gravity;
     alone.at(start.x(), start.y());
     for (int step = 0; step < 200; ++step) {
@@ -193,7 +193,7 @@ TEST(DiscreteCrowd, those_who_are_near_nobody_have_the_bits_of_the_controller_wh
                {rectangle(-200, -1, 200, 0), rectangle(100.8, 0, 102, 1)}, {}, discrete());
   all.gravity = {0, -30};
   all.dt = 1.0 / 60;
-  Stepper<double> alone({rectangle(-200, -1, 200, 0), rectangle(100.8, 0, 102, 1)}, {}, TechniqueKind::discrete);
+  Stepper<double> alone({rectangle(-200, -1, 200, 0), rectangle(100.8, 0, 102, 1)}, {}, "discrete");
   alone.gravity = all.gravity;
   alone.at(100, half_height);
   std::size_t impacts = 0;

@@ -12,7 +12,7 @@ constexpr double rounding = 1e-12;
 
 TEST(DiscreteMovers, a_block_that_arrives_over_a_resting_character_pushes_it_by_what_it_would_overlap) {
   // The face comes from -2 m to 1 m, and meets the arm at -10 px.
-  Passenger passenger(TechniqueKind::discrete, {of_mover(rectangle(-6, -2, -2, 2))});
+  Passenger passenger("discrete", {of_mover(rectangle(-6, -2, -2, 2))});
   const MoveResult<double>& result = passenger.fly({0, 0}, {0, 0}, {{{0, 0}, {3, 0}}});
   EXPECT_NEAR(result.position.x(), 1 + 10 * px + gap, rounding);
   EXPECT_EQ(result.position.y(), 0);
@@ -24,13 +24,13 @@ TEST(DiscreteMovers, a_block_that_arrives_over_a_resting_character_pushes_it_by_
 }
 
 TEST(DiscreteMovers, paper_that_has_passed_at_the_end_of_the_step_is_not_met) {
-  Passenger passenger(TechniqueKind::discrete, {of_mover(rectangle(-2.01, -2, -2, 2))});
+  Passenger passenger("discrete", {of_mover(rectangle(-2.01, -2, -2, 2))});
   EXPECT_TRUE(passenger.fly({0, 0}, {0, 0}, {{{0, 0}, {5, 0}}}).contacts.empty());
   EXPECT_EQ(passenger.position, Vec2d(0, 0));
 }
 
 TEST(DiscreteMovers, head_on_the_speeds_add_up) {
-  Passenger passenger(TechniqueKind::discrete, {of_mover(rectangle(4, -2, 40, 2))});
+  Passenger passenger("discrete", {of_mover(rectangle(4, -2, 40, 2))});
   const MoveResult<double>& result = passenger.fly({0, 0}, {3, 0}, {{{0, 0}, {-5, 0}}});
   EXPECT_NEAR(only_contact(result).fraction, (4 - 10 * px) / (3 + 5), rounding);
   EXPECT_NEAR(result.position.x(), 4 - 5 - 10 * px - gap, rounding);
@@ -39,7 +39,7 @@ TEST(DiscreteMovers, head_on_the_speeds_add_up) {
 
 TEST(DiscreteMovers, a_rider_keeps_its_place_and_its_contact_from_the_first_step_on) {
   for (const Vec2d& reach : {Vec2d{0, 3}, Vec2d{5, 0}, Vec2d{-4, 2.5}}) {
-    Passenger passenger(TechniqueKind::discrete, {rectangle(-90, -9, 90, -5), of_mover(rectangle(-2, -1, 2, 0))});
+    Passenger passenger("discrete", {rectangle(-90, -9, 90, -5), of_mover(rectangle(-2, -1, 2, 0))});
     passenger.position = {0.25, 20 * px + gap};
     Vec2d place{0.25, 20 * px + gap};
     for (int step = 0; step < test::sampled(20000); ++step) {
@@ -59,8 +59,7 @@ TEST(DiscreteMovers, a_rider_keeps_its_place_and_its_contact_from_the_first_step
 TEST(DiscreteMovers, closing_walls_crush_at_the_step_that_the_gap_gives) {
   // The ceiling comes down at 1/64 m per step. The gaps of rest at floor and ceiling are far below a tenth of a step.
   const double room = 10.4 / 64;
-  Passenger passenger(TechniqueKind::discrete,
-                      {rectangle(-9, -3, 9, 0), of_mover(rectangle(-9, 40 * px + room, 9, 9))});
+  Passenger passenger("discrete", {rectangle(-9, -3, 9, 0), of_mover(rectangle(-9, 40 * px + room, 9, 9))});
   passenger.position = {0, 20 * px + gap};
   for (int step = 1; step <= 30; ++step) {
     const MoveResult<double>& result = passenger.step({{{0, -(step - 1) / 64.0}, {0, -step / 64.0}}});
@@ -73,7 +72,7 @@ TEST(DiscreteMovers, closing_walls_crush_at_the_step_that_the_gap_gives) {
 }
 
 TEST(DiscreteMovers, a_push_through_paper_that_stands_still_is_none) {
-  Passenger passenger(TechniqueKind::discrete, {rectangle(0.5, -9, 0.501, 9), of_mover(rectangle(-6, -2, -2, 2))});
+  Passenger passenger("discrete", {rectangle(0.5, -9, 0.501, 9), of_mover(rectangle(-6, -2, -2, 2))});
   const MoveResult<double>& result = passenger.fly({0, 0}, {0, 0}, {{{0, 0}, {4, 0}}});
   EXPECT_EQ(result.status, MoveStatus::crushed);
   EXPECT_EQ(result.crushed[0], 1U);
@@ -82,7 +81,7 @@ TEST(DiscreteMovers, a_push_through_paper_that_stands_still_is_none) {
 }
 
 TEST(DiscreteMovers, a_conveyor_carries) {
-  Passenger passenger(TechniqueKind::discrete, {conveyor(rectangle(-9, -1, 9, 0), 2)});
+  Passenger passenger("discrete", {conveyor(rectangle(-9, -1, 9, 0), 2)});
   passenger.position = {0, 20 * px + gap};
   for (int step = 1; step <= 64; ++step) {
     passenger.step({});

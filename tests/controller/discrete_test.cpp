@@ -17,7 +17,7 @@ using discrete::find_impact;
 
 constexpr double gap = Tolerances<double>{}.stop;
 constexpr double touch = Tolerances<double>{}.touch;
-constexpr TechniqueKind kind = TechniqueKind::discrete;
+constexpr std::string_view kind = "discrete";
 constexpr double half_width = 10 * px;
 constexpr double half_height = 20 * px;
 

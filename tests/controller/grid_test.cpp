@@ -46,18 +46,18 @@ struct GridWalk {
   Scalar dt = Scalar(1) / 64;
 
   GridWalk(std::vector<ColliderDef> colliders, const Vec2d& start, const CharacterShape& shape = unit_square())
-      : rig(TechniqueKind::grid, std::move(colliders), {}, shape), position(start.cast<Scalar>()) {}
+      : rig("grid", std::move(colliders), {}, shape), position(start.cast<Scalar>()) {}
 
   const MoveResult<Scalar>& move(const Vec2d& displacement) {
     MoveRequest<Scalar> request;
     request.position = position;
     request.displacement = displacement.cast<Scalar>();
     request.velocity = request.displacement;
-    request.remainder = remainder;
+    request.technique_memory = remainder;
     request.dt = dt;
     rig.technique->move(request, rig.scratch, rig.result);
     position = rig.result.position;
-    remainder = rig.result.remainder;
+    remainder = rig.result.technique_memory;
     return rig.result;
   }
 };
@@ -106,7 +106,7 @@ TEST(Squares, are_refused_with_the_reason_where_scenery_is_not_made_of_them) {
 
 TEST(Squares, must_have_a_side_that_is_longer_than_a_touch) {
   for (const double side : {0.0, -1.0, 1e-9, std::nan(""), HUGE_VAL}) {
-    EXPECT_THROW(Rig<double>(TechniqueKind::grid, {rectangle(0, 0, 1, 1)}, {.square = side}), std::invalid_argument);
+    EXPECT_THROW(Rig<double>("grid", {rectangle(0, 0, 1, 1)}, {.square = side}), std::invalid_argument);
   }
 }
 
@@ -146,7 +146,7 @@ TYPED_TEST(GridMoves, into_a_solid_square_are_prevented_before_they_begin) {
   const MoveResult<TypeParam>& result = walk.move({0.125, -0.25});
   EXPECT_EQ(result.position, centre_of(0, 0).template cast<TypeParam>());
   EXPECT_EQ(result.velocity, Vec2<TypeParam>(0, 0));
-  EXPECT_EQ(result.remainder, Vec2<TypeParam>(0, 0));
+  EXPECT_EQ(result.technique_memory, Vec2<TypeParam>(0, 0));
   EXPECT_TRUE(result.grounded);
   ASSERT_EQ(result.contacts.size(), 2U);
   const Contact<TypeParam>& ground = result.contacts[0];
@@ -214,11 +214,11 @@ TYPED_TEST(GridMoves, are_by_one_square_however_fast_and_never_pass_paper_of_one
 }
 
 TEST(Grid, draws_a_fall_along_the_parabola) {
-  stepping::Stepper<double> faller({rectangle(50, -100, 51, 100)}, of_shape(unit_square()), TechniqueKind::grid);
+  stepping::Stepper<double> faller({rectangle(50, -100, 51, 100)}, of_shape(unit_square()), "grid");
   faller.at(0.5, 7.5).with_velocity(1.25, 0);
   for (int n = 1; n <= 80; ++n) {
     faller.step();
-    const Vec2d drawn = faller.state.position + faller.state.remainder;
+    const Vec2d drawn = faller.state.position + faller.state.technique_memory;
     EXPECT_NEAR(drawn.y(), 7.5 - 10.0 / 3600 * n * (n + 1) / 2, 1e-12) << "step " << n;
     EXPECT_NEAR(drawn.x(), 0.5 + 1.25 / 60 * n, 1e-12);
   }
@@ -227,7 +227,7 @@ TEST(Grid, draws_a_fall_along_the_parabola) {
 
 TEST(Grid, puts_the_feet_of_a_tall_character_on_the_edge_of_its_square) {
   // 20 by 40 px in squares of a metre: the head is in the square above, which is not looked at.
-  stepping::Stepper<double> walker({rectangle(-20, -1, 20, 0), rectangle(3, 1, 4, 2)}, {}, TechniqueKind::grid);
+  stepping::Stepper<double> walker({rectangle(-20, -1, 20, 0), rectangle(3, 1, 4, 2)}, {}, "grid");
   walker.at(0.3, 0.7).steps(1);
   EXPECT_EQ(walker.state.position, Vec2d(0.5, stepping::half_height));
   EXPECT_TRUE(walker.state.grounded);
@@ -256,11 +256,11 @@ TEST(Grid, refuses_what_leaves_the_range_and_changes_nothing) {
 
 TEST(Grid, carries_its_remainder_in_the_state_so_that_a_copy_replays) {
   const auto make = [] {
-    return stepping::Stepper<double>({rectangle(-50, -1, 50, 0)}, of_shape(unit_square()), TechniqueKind::grid);
+    return stepping::Stepper<double>({rectangle(-50, -1, 50, 0)}, of_shape(unit_square()), "grid");
   };
   stepping::Stepper<double> first = make();
   first.at(0.5, 0.5).steps(17, {.move = 1});
-  EXPECT_NE(first.state.remainder.x(), 0);
+  EXPECT_NE(first.state.technique_memory.x(), 0);
   stepping::Stepper<double> second = make();
   second.state = first.state;
   for (int step = 0; step < 100; ++step) {

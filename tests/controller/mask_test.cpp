@@ -11,7 +11,7 @@ namespace {
 
 constexpr double half_height = 20 * px;
 constexpr double half_width = 10 * px;
-constexpr TechniqueKind mask = TechniqueKind::mask;
+constexpr std::string_view mask = "mask";
 
 template <class Scalar>
 class MaskIn : public testing::Test {};
@@ -76,7 +76,7 @@ TEST(Mask, takes_the_vertical_movement_first_as_the_pairs_are) {
 }
 
 TEST(Mask, compares_only_the_white_pixels_of_its_picture) {
-  TechniqueDef def{.kind = mask};
+  TechniqueDef def{.name = mask};
   for (int row = 0; row < 40; ++row) def.sprite.emplace_back(row < 30 ? 20 : 5, '#').resize(20, '.');
   const Scenery<double> scenery(SceneryDef{{rectangle(0, -9, 9, -half_height - px)}});
   const auto fall = [&](const TechniqueDef& as) {
@@ -88,7 +88,7 @@ TEST(Mask, compares_only_the_white_pixels_of_its_picture) {
     technique->move(request, scratch, result);
     return result.position.y();
   };
-  EXPECT_EQ(fall({.kind = mask}), -px) << "the hull is stopped by what is under its right half";
+  EXPECT_EQ(fall({.name = mask}), -px) << "the hull is stopped by what is under its right half";
   EXPECT_EQ(fall(def), -5 * px) << "the picture has a leg on its left alone";
   def.sprite.pop_back();
   EXPECT_THROW((void)make_technique<double>(def, scenery, CharacterDef{}), std::invalid_argument);
@@ -151,7 +151,7 @@ TEST(Mask, reports_its_memory) {
     const double level = 500 * ppm * 75 * ppm / 8;  // bytes
     EXPECT_GE(double(rig.technique->memory_bytes()), level);
     EXPECT_LE(double(rig.technique->memory_bytes()), 1.02 * level) << "rows are filled up to words";
-    EXPECT_EQ(Rig<double>(TechniqueKind::speculative, {rectangle(0, 0, 500, 75)}).technique->memory_bytes(), 0U);
+    EXPECT_EQ(Rig<double>("speculative", {rectangle(0, 0, 500, 75)}).technique->memory_bytes(), 0U);
   }
 }
 

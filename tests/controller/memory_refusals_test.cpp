@@ -10,12 +10,12 @@ namespace paperproof::stepping {
 namespace {
 
 /// Some techniques are for scenery that stands still.
-bool knows_movers(TechniqueKind kind) {
+bool knows_movers(std::string_view kind) {
   ColliderDef lift = rectangle(0, 0, 1, 1);
   lift.mover = 0;
   const Scenery<double> scenery(SceneryDef{{lift}});
   try {
-    (void)Controller<double>(scenery, CharacterDef{}, {.kind = kind});
+    (void)make_controller(scenery, CharacterDef{}, {.name = kind});
   } catch (const NotExpressible&) {
     return false;
   }
@@ -23,7 +23,7 @@ bool knows_movers(TechniqueKind kind) {
 }
 
 /// A level of so many tiles with everything that takes scratch memory.
-std::vector<ColliderDef> level(int tiles, TechniqueKind kind = TechniqueKind::octagon_sweep) {
+std::vector<ColliderDef> level(int tiles, std::string_view kind = "octagon_sweep") {
   std::vector<ColliderDef> colliders;
   if (knows_movers(kind)) {
     colliders = {chain({{-2, 2}, {2, 2}}, Vec2d{0, 1}), rectangle(-2, 4, 2, 5)};
@@ -51,8 +51,8 @@ void expect_refused(Stepper<Scalar>& stepper, Scratch<Scalar>& scratch, const ch
 }
 
 template <class Scalar>
-void expect_only_its_own_is_taken(TechniqueKind kind) {
-  SCOPED_TRACE(name_of(kind));
+void expect_only_its_own_is_taken(std::string_view kind) {
+  SCOPED_TRACE(kind);
   Stepper<Scalar> small(level(3, kind), {}, kind);
   Stepper<Scalar> large(level(300, kind), {}, kind);
   large.at(250, 0.7).step();  // remembers candidates that the small level does not have
@@ -70,7 +70,7 @@ void expect_only_its_own_is_taken(TechniqueKind kind) {
 }
 
 TEST(ScratchMemory, of_anybody_else_is_refused_by_every_technique) {
-  for (const TechniqueKind kind : all_techniques) {
+  for (const std::string_view kind : technique_names()) {
     expect_only_its_own_is_taken<double>(kind);
     expect_only_its_own_is_taken<float>(kind);
   }
@@ -106,12 +106,12 @@ TEST(ScratchMemory, goes_along_with_a_controller_that_is_moved) {
 }
 
 /// @param technique by which the crowd moves; each has memory of its own.
-void expect_crowd_takes_only_its_own(TechniqueKind kind, const std::vector<ColliderDef>& colliders) {
-  SCOPED_TRACE(name_of(kind));
-  Together all({{-1, 1}, {1, 1}}, colliders, {}, {.kind = kind});
-  Together others({{-1, 1}, {1, 1}}, colliders, {}, {.kind = kind});
+void expect_crowd_takes_only_its_own(std::string_view kind, const std::vector<ColliderDef>& colliders) {
+  SCOPED_TRACE(kind);
+  Together all({{-1, 1}, {1, 1}}, colliders, {}, {.name = kind});
+  Together others({{-1, 1}, {1, 1}}, colliders, {}, {.name = kind});
   const Scenery<float> scenery(SceneryDef{colliders});
-  const Crowd<float> of_floats(scenery, CharacterDef{}, {.kind = kind});
+  const Crowd<float> of_floats = make_crowd(scenery, CharacterDef{}, {.name = kind});
   const auto expect_refused = [&](CrowdScratch& scratch, const char* whose) {
     const std::vector<CharacterState<double>> before = all.states;
     EXPECT_EQ(all.crowd.step(all.states, all.inputs, {0, -10}, 0.1, all.movers, scratch, all.report),
@@ -135,9 +135,9 @@ TEST(ScratchMemory, of_another_crowd_is_refused) {
   std::vector<ColliderDef> moving = still;
   moving.push_back(rectangle(20, 0, 21, 1));
   moving.back().mover = 0;
-  expect_crowd_takes_only_its_own(TechniqueKind::octagon_sweep, still);
-  expect_crowd_takes_only_its_own(TechniqueKind::octagon_sweep, moving);
-  expect_crowd_takes_only_its_own(TechniqueKind::discrete, moving);
+  expect_crowd_takes_only_its_own("octagon_sweep", still);
+  expect_crowd_takes_only_its_own("octagon_sweep", moving);
+  expect_crowd_takes_only_its_own("discrete", moving);
 }
 
 struct BadMover {
@@ -162,7 +162,7 @@ std::vector<BadMover> bad_movers() {
 TEST(MoversThatNoStepCanBeginWith, are_refused_by_every_technique) {
   std::vector<ColliderDef> colliders{rectangle(-9, -9, 9, 0), rectangle(-1, 3, 1, 4)};
   colliders[1].mover = 0;
-  for (const TechniqueKind kind : all_techniques) {
+  for (const std::string_view kind : technique_names()) {
     if (!knows_movers(kind)) continue;
     Stepper<double> stepper(colliders, {}, kind);
     for (const BadMover& bad : bad_movers()) {
@@ -170,9 +170,8 @@ TEST(MoversThatNoStepCanBeginWith, are_refused_by_every_technique) {
       stepper.movers = {bad.motion};
       stepper.dt = bad.dt;
       const CharacterState<double> before = stepper.state;
-      EXPECT_EQ(stepper.step({.move = 1.0, .jump = true}), StepStatus::invalid_input)
-          << name_of(kind) << ", " << bad.what;
-      EXPECT_TRUE(same_bits(stepper.state, before)) << name_of(kind) << ", " << bad.what;
+      EXPECT_EQ(stepper.step({.move = 1.0, .jump = true}), StepStatus::invalid_input) << kind << ", " << bad.what;
+      EXPECT_TRUE(same_bits(stepper.state, before)) << kind << ", " << bad.what;
     }
   }
 }
@@ -180,13 +179,13 @@ TEST(MoversThatNoStepCanBeginWith, are_refused_by_every_technique) {
 TEST(MoversThatNoStepCanBeginWith, are_refused_by_crowds) {
   std::vector<ColliderDef> colliders{rectangle(-9, -9, 9, 0), rectangle(-1, 3, 1, 4)};
   colliders[1].mover = 0;
-  for (const TechniqueKind kind : {TechniqueKind::octagon_sweep, TechniqueKind::discrete}) {
-    Together all({{-3, 1}, {3, 1}}, colliders, {}, {.kind = kind});
+  for (const std::string_view kind : {"octagon_sweep", "discrete"}) {
+    Together all({{-3, 1}, {3, 1}}, colliders, {}, {.name = kind});
     for (const BadMover& bad : bad_movers()) {
       all.movers = {bad.motion};
       all.dt = bad.dt;
       const std::vector<CharacterState<double>> before = all.states;
-      EXPECT_EQ(all.step(), StepStatus::invalid_input) << name_of(kind) << ", " << bad.what;
+      EXPECT_EQ(all.step(), StepStatus::invalid_input) << kind << ", " << bad.what;
       for (std::size_t i = 0; i < before.size(); ++i) EXPECT_TRUE(same_bits(all.states[i], before[i])) << bad.what;
     }
   }

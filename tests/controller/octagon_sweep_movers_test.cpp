@@ -189,7 +189,7 @@ TEST(SawtoothCorridor, of_k_teeth_crossed_in_one_step_gives_k_impacts_at_their_t
       if (!floor) share /= 2;
     }
     const Scenery<double> scenery(SceneryDef{colliders});
-    const Controller<double> controller(scenery, {}, {.sweep_iterations = teeth + 1});
+    const Controller<double> controller(scenery, {}, {.iterations = teeth + 1});
     Scratch<double> scratch = controller.make_scratch();
     StepReport<double> report;
     CharacterState<double> state;

@@ -30,7 +30,7 @@ struct Passenger {
   Vec2d velocity{Vec2d::Zero()};
   Ride<double> ride{};
 
-  Passenger(TechniqueKind kind, std::vector<ColliderDef> colliders, const ArticleKnobs& knobs = {})
+  Passenger(std::string_view kind, std::vector<ColliderDef> colliders, const ArticleKnobs& knobs = {})
       : rig(kind, std::move(colliders), knobs) {}
 
   const MoveResult<double>& step(const Motions& movers) {

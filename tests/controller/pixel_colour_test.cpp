@@ -14,7 +14,7 @@ using raster::Pixel;
 
 constexpr double half_height = 20 * px;
 constexpr double half_width = 10 * px;
-constexpr TechniqueKind pixel_colour = TechniqueKind::pixel_colour;
+constexpr std::string_view pixel_colour = "pixel_colour";
 
 template <class Scalar>
 class PixelColourIn : public testing::Test {};
@@ -39,7 +39,7 @@ TYPED_TEST(PixelColourIn, stops_the_articles_bullet_on_the_pixel_above_the_platf
 
 TEST(PixelColour, is_stopped_by_decoration_in_the_colour_of_a_platform) {
   const Scenery<double> scenery(SceneryDef{{rectangle(-9, -9, 9, -half_height)}});
-  TechniqueDef def{.kind = pixel_colour};
+  TechniqueDef def{.name = pixel_colour};
   SceneryDef cloud{{rectangle(half_width + 2 * px, 0, 3, 1)}};
   for (const bool painted : {false, true}) {
     if (painted) def.decoration = std::make_shared<const SceneryDef>(cloud);

@@ -15,7 +15,7 @@ namespace paperproof::article_tests {
 namespace {
 
 constexpr double half_height = 20 * px;
-constexpr TechniqueKind pixel_tile = TechniqueKind::pixel_tile;
+constexpr std::string_view pixel_tile = "pixel_tile";
 
 /// Up to the right by `rise` for each of `run`, from x = 0 to x = run, then level; level ground on the left.
 std::vector<ColliderDef> hill(double run, double rise) {
@@ -246,7 +246,7 @@ PixelTileSet by_hand() {
 
 TEST(PixelTiles, may_be_given_instead_of_being_made_from_the_scenery) {
   const Scenery<double> scenery(SceneryDef{{rectangle(-0.5, -0.25, 0.5, 0)}});
-  TechniqueDef def{.kind = pixel_tile, .pixel_tiles = std::make_shared<const PixelTileSet>(by_hand())};
+  TechniqueDef def{.name = pixel_tile, .pixel_tiles = std::make_shared<const PixelTileSet>(by_hand())};
   const auto technique = make_technique<double>(def, scenery, of_shape(single_pixel()));
   Scratch<double> scratch = technique->make_scratch();
   MoveResult<double> result;

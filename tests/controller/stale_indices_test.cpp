@@ -66,7 +66,7 @@ void walk(Stepper<Scalar>& walker, std::uint64_t seed) {
 template <class Scalar>
 void walk_by_every_technique() {
   int walked = 0;
-  for (const TechniqueKind kind : all_techniques) {
+  for (const std::string_view kind : technique_names()) {
     for (const bool moves : {true, false}) {
       std::vector<ColliderDef> colliders = level();
       if (!moves)

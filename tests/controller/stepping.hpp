@@ -3,7 +3,7 @@
 
 #include "controller/article_support.hpp"
 
-#include <paperproof/controller.hpp>
+#include <paperproof/techniques.hpp>
 
 #include <bit>
 #include <cstdint>
@@ -34,9 +34,9 @@ struct Stepper {
   Scalar dt = Scalar(1) / 60;
 
   explicit Stepper(std::vector<ColliderDef> colliders, const CharacterDef& character = {},
-                   TechniqueKind kind = TechniqueKind::octagon_sweep)
+                   std::string_view kind = "octagon_sweep")
       : scenery(std::make_unique<const Scenery<Scalar>>(SceneryDef{std::move(colliders)})),
-        controller(*scenery, character, {.kind = kind}),
+        controller(make_controller(*scenery, character, {.name = kind})),
         scratch(controller.make_scratch()),
         movers(scenery->mover_count()) {}
 
@@ -89,7 +89,7 @@ bool same_bits(const Vec2<Scalar>& a, const Vec2<Scalar>& b) {
 template <class Scalar>
 bool same_bits(const CharacterState<Scalar>& a, const CharacterState<Scalar>& b) {
   return same_bits(a.position, b.position) && same_bits(a.velocity, b.velocity) &&
-         same_bits(a.last_free, b.last_free) && same_bits(a.remainder, b.remainder) &&
+         same_bits(a.last_free, b.last_free) && same_bits(a.technique_memory, b.technique_memory) &&
          a.has_last_free == b.has_last_free && a.grounded == b.grounded && a.jumping == b.jumping &&
          a.jump_held == b.jump_held && a.jump_pending == b.jump_pending && a.wall_left == b.wall_left &&
          a.wall_right == b.wall_right && a.stuck_steps == b.stuck_steps;

@@ -32,7 +32,7 @@ struct Together {
   explicit Together(std::vector<Vec2d> positions, std::vector<ColliderDef> colliders = {},
                     const CharacterDef& character = {}, const TechniqueDef& technique = {})
       : scenery(std::make_unique<const Scenery<double>>(SceneryDef{std::move(colliders)})),
-        crowd(*scenery, character, technique),
+        crowd(make_crowd(*scenery, character, technique)),
         scratch(crowd.make_scratch(positions.size())),
         report(positions.size()),
         states(positions.size()),

@@ -60,9 +60,9 @@ struct CharacterDef {
   double max_climb_degrees = 50;           ///< Steepest ground that is walked on, from the horizontal; in [0, 89].
   double snap = 0;                         ///< How far down the ground is followed when walking [m]; 0: not at all.
   /// The article's rule: no jump while standing beside a wall, toward it. A wall is beside the character where a move
-  /// of one unit (`ArticleKnobs::unit`) would meet it, or where the last step did. In a `Crowd` only the last step
-  /// counts.
+  /// by `wall_reach` would meet it, or where the last step did. In a `Crowd` only the last step counts.
   bool no_jump_toward_wall = false;
+  double wall_reach = 1.0 / 32;     ///< For that rule: a pixel of the article [m].
   bool side_hit_ends_rise = false;  ///< The article's rule: hitting the side of something while rising ends the rise.
 
   /// @throws InvalidCharacter naming the value that is not finite or out of range.
@@ -123,9 +123,8 @@ struct CharacterState {
   Vec2<Scalar> position{Vec2<Scalar>::Zero()};   ///< [m]
   Vec2<Scalar> velocity{Vec2<Scalar>::Zero()};   ///< [m/s]
   Vec2<Scalar> last_free{Vec2<Scalar>::Zero()};  ///< Last position that overlapped nothing; valid with `has_last_free`.
-  /// Motion that was wanted and not made yet [m]: a technique that moves by whole squares makes it when there is enough
-  /// of it. Zero with all others.
-  Vec2<Scalar> remainder{Vec2<Scalar>::Zero()};
+  /// What the technique hands to its own next step. `octagon_sweep` needs none: zero.
+  Vec2<Scalar> technique_memory{Vec2<Scalar>::Zero()};
   bool has_last_free = false;
   bool grounded = false;
   bool jumping = false;       ///< The article's jumping flag: set by a jump, cleared by ground.

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <paperproof/character.hpp>
-#include <paperproof/techniques.hpp>
+#include <paperproof/octagon_sweep.hpp>
 
 #include <memory>
 
@@ -30,11 +30,11 @@ template <class Scalar>
 
 enum class StepStatus : std::uint8_t {
   moved,
-  dropped,          ///< See MoveStatus.
-  stuck,            ///< See MoveStatus.
-  crushed,          ///< See MoveStatus.
-  out_of_range,     ///< Refused: the step would leave +-2e6 m. Position and velocity are unchanged.
-  search_too_long,  ///< Refused: see MoveStatus. Position and velocity are unchanged.
+  dropped,       ///< See MoveStatus.
+  stuck,         ///< See MoveStatus.
+  crushed,       ///< See MoveStatus.
+  out_of_range,  ///< Refused: the step would leave +-2e6 m. Position and velocity are unchanged.
+  refused,       ///< Refused by the technique: see `MoveResult::refusal`. Position and velocity are unchanged.
   /// Refused: NaN, infinity, dt <= 0, a mover beyond +-2e6 m or too fast for a number, movers that are not one for each
   /// of the scenery, scratch memory that another controller made. Nothing changed at all.
   invalid_input,
@@ -69,9 +69,14 @@ class Stepper;
 template <class Scalar>
 class Controller {
  public:
-  /// @throws InvalidCharacter, std::invalid_argument as `make_technique`, and where `technique.stages` leaves out
-  /// sensors that there are. `scenery` must outlive the controller.
-  Controller(const Scenery<Scalar>& scenery, const CharacterDef& character, const TechniqueDef& technique = {});
+  /// Moves by `octagon_sweep`. `scenery` must outlive the controller.
+  /// @throws InvalidCharacter, std::invalid_argument as `make_octagon_sweep`, and where `sweep.stages` leaves out
+  /// sensors that there are.
+  Controller(const Scenery<Scalar>& scenery, const CharacterDef& character, const SweepDef& sweep = {});
+  /// Moves by another technique, made for the same scenery and character.
+  /// @param stages of the controller: those of the technique have no effect.
+  Controller(const Scenery<Scalar>& scenery, const CharacterDef& character,
+             std::unique_ptr<const Technique<Scalar>> technique, const Stages& stages = {});
 
   /// One step of `dt` seconds under `gravity` [m/s²]. `state` is read and written; nothing else carries over.
   /// Never allocates, never throws.
@@ -138,7 +143,6 @@ class Controller {
 
   std::size_t mover_count_;
   CharacterDef character_;
-  Scalar wall_reach_;  ///< How near a wall has to be that no jump is taken toward [m].
   Step step_;
   std::shared_ptr<const Technique<Scalar>> technique_;   ///< Shared with nobody: scratch memory refers to it.
   std::shared_ptr<const Sensors<Scalar>> sensors_;       ///< Null where the scenery has none.

@@ -12,11 +12,6 @@ namespace paperproof {
 /// Position of a character in the states handed to `Crowd::step`.
 using CharacterIndex = std::uint32_t;
 
-/// The technique can move several characters that are in each other's way: see `Crowd`.
-[[nodiscard]] constexpr bool moves_crowds(TechniqueKind kind) noexcept {
-  return kind == TechniqueKind::octagon_sweep || kind == TechniqueKind::discrete;
-}
-
 /// Another character was in the way. Both get one, with opposite normals.
 template <class Scalar>
 struct CrowdContact {
@@ -99,9 +94,11 @@ struct CrowdScratch {
 template <class Scalar>
 class Crowd {
  public:
-  /// @throws std::invalid_argument for a technique that knows one character (see `moves_crowds`); else as `Controller`.
-  ///   `scenery` must outlive the crowd.
-  Crowd(const Scenery<Scalar>& scenery, const CharacterDef& character, const TechniqueDef& technique = {});
+  /// Moves by `octagon_sweep`. `scenery` must outlive the crowd. @throws as `Controller`.
+  Crowd(const Scenery<Scalar>& scenery, const CharacterDef& character, const SweepDef& sweep = {});
+  /// Moves by a technique that moves all at once. @throws as `Controller`.
+  Crowd(const Scenery<Scalar>& scenery, const CharacterDef& character,
+        std::unique_ptr<const JointTechnique<Scalar>> technique, const Stages& stages = {});
   ~Crowd();
   Crowd(Crowd&&) noexcept;
   Crowd& operator=(Crowd&&) noexcept;
@@ -127,9 +124,7 @@ class Crowd {
 
  private:
   struct Rules;
-  [[nodiscard]] static std::unique_ptr<const Rules> rules_for(const Scenery<Scalar>& scenery,
-                                                              const CharacterDef& character,
-                                                              const TechniqueDef& technique);
+  Crowd(std::unique_ptr<const Rules> rules, Controller<Scalar> controller);
   StepStatus step_jointly(std::span<CharacterState<Scalar>> states, std::span<const Input> inputs,
                           const Vec2<Scalar>& gravity, Scalar dt, std::span<const MoverMotion<Scalar>> movers,
                           CrowdScratch& scratch, CrowdReport<Scalar>& report) const noexcept;

@@ -46,7 +46,7 @@ struct MoveRequest {
   Vec2<Scalar> velocity{Vec2<Scalar>::Zero()};      ///< The velocity behind the displacement [m/s].
   Scalar steered = 0;                            ///< The part of `velocity.x()` that this step's steering added [m/s].
   Vec2<Scalar> last_free{Vec2<Scalar>::Zero()};  ///< See `CharacterState::last_free`.
-  Vec2<Scalar> remainder{Vec2<Scalar>::Zero()};  ///< See `CharacterState::remainder`.
+  Vec2<Scalar> technique_memory{Vec2<Scalar>::Zero()};  ///< See `CharacterState::technique_memory`.
   bool has_last_free = false;
   bool grounded = false;  ///< The last step ended on the ground, and this one does not begin with a jump.
   bool crushed = false;   ///< See `CharacterState::crushed`.
@@ -67,13 +67,12 @@ struct MoveRequest {
 };
 
 enum class MoveStatus : std::uint8_t {
-  moved,            ///< The result holds. It may be shorter than requested: see `contacts`.
-  dropped,          ///< The result holds, but displacement was left when the iterations ran out and was dropped.
-  stuck,            ///< The step began inside something and still ends inside it.
-  crushed,          ///< The result holds, but movers left no free position: see `crushed`.
-  out_of_range,     ///< Refused: the step would leave the range the technique is made for. Nothing moved.
-  search_too_long,  ///< Refused: a technique that searches by units would need more than 1,000,000 of them in this
-                    ///< step. Nothing moved.
+  moved,         ///< The result holds. It may be shorter than requested: see `contacts`.
+  dropped,       ///< The result holds, but displacement was left when the iterations ran out and was dropped.
+  stuck,         ///< The step began inside something and still ends inside it.
+  crushed,       ///< The result holds, but movers left no free position: see `crushed`.
+  out_of_range,  ///< Refused: the step would leave the range the technique is made for. Nothing moved.
+  refused,       ///< Refused for a reason of the technique's own: see `refusal`. Nothing moved.
 };
 
 /// What is reported of one move. `octagon_sweep` reports all there is, in memory of its scratch that the scenery sizes
@@ -88,8 +87,9 @@ struct MoveResult {
   MoveStatus status = MoveStatus::moved;
   Vec2<Scalar> position{Vec2<Scalar>::Zero()};
   Vec2<Scalar> velocity{Vec2<Scalar>::Zero()};
-  Vec2<Scalar> remainder{Vec2<Scalar>::Zero()};  ///< See `CharacterState::remainder`.
+  Vec2<Scalar> technique_memory{Vec2<Scalar>::Zero()};  ///< See `CharacterState::technique_memory`.
   bool grounded = false;
+  std::string_view refusal{};  ///< Why, in words that live as long as the program. Valid where the status is `refused`.
   /// From the start (fraction 0) to the end (fraction 1); linear between. A technique that only looks at where it
   /// arrives has just these two. Impacts bound the number of corners: `sweep_iterations` of its own, and any number
   /// among movers, where `octagon_sweep` has room for 4 corners more per moving piece; a step that needs still more is
@@ -104,7 +104,7 @@ struct MoveResult {
 
   [[gnu::always_inline]] void clear() noexcept {
     status = MoveStatus::moved;
-    remainder.setZero();
+    technique_memory.setZero();
     grounded = false;
     path.clear();
     contacts.clear();

@@ -3,8 +3,8 @@
 
 namespace paperproof {
 
-/// In metres where nothing else is said. Each says what goes wrong at both extremes. The four lengths and their order were found against an
-/// exact oracle: one threshold alone makes a walker snag on abutting tiles, two do not.
+/// In metres where nothing else is said. Each says what goes wrong at both extremes. The four lengths and their order
+/// were found against an exact oracle: one threshold alone makes a walker snag on abutting tiles, two do not.
 template <class Scalar>
 struct Tolerances;
 
@@ -29,8 +29,9 @@ struct Tolerances<double> {
   double restore = 2e-7;
   /// Positions and steps beyond this are refused: rounding would reach `hit`.
   double range = 2e6;
-  /// Not a length: ground that is this much steeper than the climb limit is still walked on [rad]. Zero: whether a slope
-  /// of exactly the limit is climbed depends on how its normal was rounded. Large: the limit is not what was asked for.
+  /// Not a length: ground that is this much steeper than the climb limit is still walked on [rad]. Zero: whether a
+  /// slope of exactly the limit is climbed depends on how its normal was rounded. Large: the limit is not what was
+  /// asked for.
   double climb = 1e-8;
 };
 

@@ -1,0 +1,331 @@
+/// One piece against one straight motion.
+///
+/// The functions are always inlined: a step is short, and vectors handed over in memory cost as much as the arithmetic
+/// (a pair that is written as two numbers and read as one waits for the memory).
+#pragma once
+
+#include "step/configuration_space.hpp"
+#include "step/variant.hpp"
+
+#include <paperproof/tolerances.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace paperproof::octagon_sweep {
+
+/// A straight motion of the reference point, with all that is the same for every piece.
+template <std::size_t Lanes, class Scalar>
+struct Motion {
+  Vec2<Scalar> from;
+  Vec2<Scalar> way;              ///< What is to be travelled [m].
+  Scalar length;                 ///< Of `way` [m].
+  Scalar reach;                  ///< The sweep covers `way` times this: it looks a little beyond the end.
+  Vec2<Scalar> extended;         ///< That product [m].
+  PerAxis<Lanes, Scalar> at;     ///< n·from
+  PerAxis<Lanes, Scalar> along;  ///< n·extended
+  Vec2<Scalar> rest;             ///< Among movers: what `from` lost when the mover's offset was taken from it.
+  /// The bent one-way surface that was asked for last, and the answer: its pieces come one after the other.
+  mutable typename OneWaySurfaces<Scalar>::Index known_surface;
+  mutable bool above_known_surface;
+
+  [[nodiscard]] Box2<Scalar> box() const noexcept {
+    const Vec2<Scalar> to = from + extended;
+    return {from.cwiseMin(to), from.cwiseMax(to)};
+  }
+};
+
+/// Length without overflow or underflow in the squares; only correctly rounded operations, so that its bits are the
+/// same everywhere (std::hypot is not).
+template <class Scalar>
+[[nodiscard, gnu::always_inline]] inline Scalar length_of(const Vec2<Scalar>& v) noexcept {
+  const Scalar scale = std::max(std::abs(v.x()), std::abs(v.y()));
+  if (scale == 0) return 0;
+  const Scalar x = v.x() / scale;
+  const Scalar y = v.y() / scale;
+  return scale * std::sqrt(x * x + y * y);
+}
+
+/// @param look how far beyond the end of the way the sweep looks [m].
+template <Variant variant, class Scalar>
+[[nodiscard, gnu::always_inline]] inline Motion<variant.lanes, Scalar> make_motion(
+    const ConfigurationSpace<Scalar>& space, const Vec2<Scalar>& from, const Vec2<Scalar>& way,
+    Scalar look = Tolerances<Scalar>{}.look) noexcept {
+  // A shorter motion would make the reach infinite.
+  constexpr Scalar shortest = std::numeric_limits<Scalar>::min() * Scalar(1e8);
+  const PerAxis<variant.lanes, Scalar> x = PerAxis<variant.lanes, Scalar>::Map(space.shared_x().data());
+  const PerAxis<variant.lanes, Scalar> y = PerAxis<variant.lanes, Scalar>::Map(space.shared_y().data());
+  Motion<variant.lanes, Scalar> motion;
+  motion.from = from;
+  motion.way = way;
+  motion.length = length_of(way);
+  // By the larger component: a look up to 1.42 times as far is as good, and nothing waits for a square root.
+  const Scalar larger = std::max(std::abs(way.x()), std::abs(way.y()));
+  motion.reach = 1 + look / std::max(larger, shortest);
+  motion.extended = way * motion.reach;
+  motion.at = x * from.x() + y * from.y();
+  motion.along = x * motion.extended.x() + y * motion.extended.y();
+  if constexpr (variant.one_way && variant.movers) motion.rest = Vec2<Scalar>::Zero();
+  if constexpr (variant.one_way) motion.known_surface = OneWaySurfaces<Scalar>::none;
+  return motion;
+}
+
+/// Separations of a piece at the start and at the end of the extended motion [m], shared axes first.
+template <class Scalar>
+struct AxisRanges {
+  std::size_t count;
+  std::array<Scalar, ConfigurationSpace<Scalar>::max_axes> start;
+  std::array<Scalar, ConfigurationSpace<Scalar>::max_axes> end;
+};
+
+template <Variant variant, class Scalar>
+[[gnu::always_inline]] inline void find_ranges(const ConfigurationSpace<Scalar>& space,
+                                               const Motion<variant.lanes, Scalar>& motion, PieceIndex piece,
+                                               AxisRanges<Scalar>& f) noexcept {
+  using Shared = PerAxis<variant.lanes, Scalar>;
+  const Shared start = motion.at - Shared::Map(space.shared_offsets(piece));
+  Shared::Map(f.start.data()) = start;
+  Shared::Map(f.end.data()) = start + motion.along;
+  f.count = variant.lanes;
+  if constexpr (!variant.slopes) return;
+  for (const OwnAxis<Scalar>& own : space.own_axes(piece)) {
+    const Scalar at = own.normal.x() * motion.from.x() + own.normal.y() * motion.from.y() - own.offset;
+    f.start[f.count] = at;
+    f.end[f.count++] = at + (own.normal.x() * motion.extended.x() + own.normal.y() * motion.extended.y());
+  }
+}
+
+/// What the axes of a piece say together about a motion.
+template <class Scalar>
+struct Clearance {
+  Scalar start;  ///< Largest separation before the motion [m]; below zero: inside.
+  Scalar kept;   ///< Largest separation that one axis keeps over the whole motion [m].
+
+  /// What counts as a hit [m]: coming nearer than `hit`, or than at the start where that is nearer.
+  [[nodiscard]] Scalar tau() const noexcept { return std::min(Tolerances<Scalar>{}.hit, start); }
+  /// One axis keeps the motion clear.
+  [[nodiscard]] bool clear() const noexcept { return kept >= tau(); }
+};
+
+/// Whether one of the box directions alone, which are the first shared axes, keeps a piece further than `hit` away
+/// during the whole motion. So it is with most pieces: looking at these axes first saves half of a sweep.
+template <Variant variant, class Scalar>
+[[nodiscard, gnu::always_inline]] inline bool clear_of_box(const ConfigurationSpace<Scalar>& space,
+                                                           const Motion<variant.lanes, Scalar>& motion,
+                                                           PieceIndex piece) noexcept {
+  using BoxAxes = PerAxis<ConfigurationSpace<Scalar>::box_axes, Scalar>;
+  const BoxAxes start = BoxAxes::Map(motion.at.data()) - BoxAxes::Map(space.shared_offsets(piece));
+  const BoxAxes least = start.min(start + BoxAxes::Map(motion.along.data()));
+  return least.maxCoeff() >= Tolerances<Scalar>{}.hit;
+}
+
+template <Variant variant, class Scalar>
+[[nodiscard, gnu::always_inline]] inline Clearance<Scalar> clearance(const ConfigurationSpace<Scalar>& space,
+                                                                     const Motion<variant.lanes, Scalar>& motion,
+                                                                     PieceIndex piece) noexcept {
+  using Shared = PerAxis<variant.lanes, Scalar>;
+  const Shared start = motion.at - Shared::Map(space.shared_offsets(piece));
+  const Shared least = start.min(start + motion.along);
+  Clearance<Scalar> result{start.maxCoeff(), least.maxCoeff()};
+  if constexpr (!variant.slopes) return result;
+  if (space.info(piece).own_count == 0) return result;
+  for (const OwnAxis<Scalar>& own : space.own_axes(piece)) {
+    const Scalar at = own.normal.x() * motion.from.x() + own.normal.y() * motion.from.y() - own.offset;
+    const Scalar end = at + (own.normal.x() * motion.extended.x() + own.normal.y() * motion.extended.y());
+    result.start = std::max(result.start, at);
+    result.kept = std::max(result.kept, std::min(at, end));
+  }
+  return result;
+}
+
+/// The axes along which a piece is entered last.
+struct EntryAxes {
+  std::size_t normal;  ///< Its normal is the contact's: below the hit distance.
+  std::size_t impact;  ///< Its time is the time of impact: below zero. The number of axes where none is.
+  /// The piece itself is missed, by less than the hit distance: `impact` is then the axis along which it comes that
+  /// near, covered or not.
+  bool missed;
+  bool covered;  ///< `normal` is that of a covered facet.
+};
+
+/// What a motion does to a piece that it comes near to.
+template <class Scalar>
+struct PieceHit {
+  bool hit;
+  Scalar stop;     ///< Where to stop, as a fraction of `way`.
+  EntryAxes axes;  ///< Valid for a hit.
+};
+
+/// Finds the axis that is entered last; of times that are equal but for rounding the normal that points up most wins.
+template <class Scalar>
+class LastEntry {
+ public:
+  LastEntry(const ConfigurationSpace<Scalar>& space, PieceIndex piece) noexcept
+      : space_(space), piece_(piece), open_{space.axis_count(piece)}, covered_(open_) {}
+
+  void add(std::size_t axis, Scalar time) noexcept {
+    Entry& last = space_.covered(piece_, axis) ? covered_ : open_;
+    if (!(time > last.time + same) && !(time >= last.time - same && up(axis) > up(last.axis))) return;
+    last = {axis, time};
+  }
+
+  /// A facet that other obstacles cover gives no contact normal unless there is no other, or no other that is faced
+  /// where the motion is stopped: what covers it may be let through, or leave less of it open than counts.
+  /// @param faced whether the piece is still apart there along an axis.
+  template <class Faced>
+  [[nodiscard]] bool is_covered(const Faced& faced) const noexcept {
+    return open_.time < 0 || (covered_.time >= 0 && !faced(open_.axis));
+  }
+  [[nodiscard]] std::size_t axis(bool is_covered) const noexcept { return is_covered ? covered_.axis : open_.axis; }
+
+ private:
+  struct Entry {
+    std::size_t axis;
+    Scalar time = -1;  ///< Below zero: there is none, and the axis is their number.
+  };
+  /// Times closer than this are one corner, met with both facets at once.
+  static constexpr Scalar same = std::numeric_limits<Scalar>::epsilon() * 64;
+  [[nodiscard]] Scalar up(std::size_t axis) const noexcept { return space_.normal(piece_, axis).y(); }
+
+  const ConfigurationSpace<Scalar>& space_;
+  PieceIndex piece_;
+  Entry open_;
+  Entry covered_;
+};
+
+/// Of the distances at which an uncovered facet is hit, and stops: see `sweep_covered`.
+template <class Scalar>
+inline constexpr Scalar covered_share = Scalar(0.5);
+
+/// When all separations are below a level for the first time; nothing where they never are together.
+template <class Scalar>
+[[nodiscard]] std::optional<Scalar> entry_below(const AxisRanges<Scalar>& f, Scalar level) noexcept {
+  Scalar entry = 0;
+  Scalar exit = 1;
+  for (std::size_t axis = 0; axis < f.count; ++axis) {
+    const Scalar start = f.start[axis];
+    const Scalar end = f.end[axis];
+    if (start >= level && end >= level) return std::nullopt;
+    if (start >= level)
+      entry = std::max(entry, (start - level) / (start - end));
+    else if (end > level)
+      exit = std::min(exit, (level - start) / (end - start));
+  }
+  return entry < exit ? std::optional(entry) : std::nullopt;
+}
+
+/// Where a motion is stopped that enters by a hidden facet alone; nothing where it passes.
+///
+/// Such a facet lies inside of what covers it. Near it what covers it is nearer than its distance to the facet, which
+/// is up to 1.42 times the separation: where two facets that stand at right angles meet. Were both to stop at the same
+/// separation, then a motion that just misses the one might still be stopped by the other, and by a normal that the
+/// surface has nowhere: who flies up a slope and over its crest would lose its speed to the side of the next tile. So
+/// the hidden facet stops later, and only where nothing stops the motion that covers it.
+/// @param tau see `Clearance`.
+template <class Scalar>
+[[nodiscard, gnu::cold, gnu::noinline]] std::optional<Scalar> sweep_covered(const AxisRanges<Scalar>& f,
+                                                                            Scalar tau) noexcept {
+  constexpr Tolerances<Scalar> tolerances{};
+  if (!entry_below(f, std::min(tau, tolerances.hit * covered_share<Scalar>))) return std::nullopt;
+  const Scalar start = *std::max_element(f.start.begin(), f.start.begin() + f.count);
+  if (start <= tolerances.touch * covered_share<Scalar>) return Scalar(0);
+  return entry_below(f, tolerances.stop * covered_share<Scalar>);
+}
+
+/// Whether hidden facets yield to what covers them. A sweep over many pieces asks that in a second round only, where
+/// one of them came first: behind the surface of a wall of tiles every facet is covered.
+enum class Covered : std::uint8_t { as_any, yields };
+
+/// Sweeps the reference point against one obstacle that may be in the way: no axis keeps it clear.
+///
+/// Every separation is linear in time. The motion hits when, at some time, all of them are below tau: the latest entry
+/// below tau comes before the earliest exit above it. It is then stopped where it enters the larger region below
+/// `stop`. The obstacle is inflated instead of backing off along the motion: where the motion grazes, its time of
+/// impact is ill-conditioned, but the separations are not.
+template <Variant variant, Covered covered = Covered::yields, class Scalar>
+[[nodiscard, gnu::always_inline]] inline PieceHit<Scalar> sweep_piece(const ConfigurationSpace<Scalar>& space,
+                                                                      const Motion<variant.lanes, Scalar>& motion,
+                                                                      PieceIndex piece,
+                                                                      const Clearance<Scalar>& clear) noexcept {
+  constexpr Tolerances<Scalar> tolerances{};
+  AxisRanges<Scalar> f;
+  find_ranges<variant>(space, motion, piece, f);
+  const Scalar tau = clear.tau();
+  const Scalar inside = std::min(tau, Scalar(0));
+  const bool touching = clear.start <= tolerances.touch;
+  LastEntry<Scalar> last(space, piece);
+  Scalar entry = 0;
+  Scalar exit = 1;
+  Scalar stop = 0;
+  Scalar impact_time = -1;
+  Scalar leaves = 1;  // when some separation is above zero again
+  std::size_t impact = f.count;
+  std::size_t near = f.count;
+  for (std::size_t axis = 0; axis < f.count; ++axis) {
+    const Scalar start = f.start[axis];
+    const Scalar end = f.end[axis];
+    if (start < inside && end < inside) continue;  // most axes of a piece that is met: they say nothing
+    const Scalar approach = start - end;
+    if (start >= 0 && approach > 0 && start > impact_time * approach) {
+      impact_time = start / approach;
+      impact = axis;
+    }
+    if (start >= 0 && approach <= 0)
+      leaves = -1;  // this axis keeps the piece itself clear
+    else if (start < 0 && end > 0)
+      leaves = std::min(leaves, start / approach);
+    if (start >= tau) {  // end < tau then, or the axis would keep it clear
+      const Scalar time = (start - tau) / approach;
+      if (time >= entry) {
+        entry = time;
+        near = axis;
+      }
+      last.add(axis, time);
+    } else if (end > tau) {
+      exit = std::min(exit, (tau - start) / (end - start));
+    }
+    if (!touching && start > tolerances.stop) stop = std::max(stop, (start - tolerances.stop) / approach);
+  }
+  const auto faced = [&](std::size_t axis) {
+    return f.start[axis] + (f.end[axis] - f.start[axis]) * stop >= std::min(tau, tolerances.certain);
+  };
+  const bool is_covered = last.is_covered(faced);
+  bool hit = entry < exit;
+  if constexpr (covered == Covered::yields) {
+    if (hit && is_covered && space.hidden(piece, last.axis(true))) {
+      const std::optional<Scalar> later = sweep_covered(f, tau);
+      hit = later.has_value();
+      stop = later.value_or(stop);
+    }
+  }
+  stop *= motion.reach;
+  const bool missed = impact_time > leaves;
+  return {hit && stop <= 1, stop, {last.axis(is_covered), missed ? near : impact, missed, is_covered}};
+}
+
+/// The axis of largest separation at a position, and that separation.
+template <class Scalar>
+struct BestAxis {
+  std::size_t axis = 0;
+  Scalar separation = 0;
+};
+
+template <Variant variant, class Scalar>
+[[nodiscard, gnu::always_inline]] inline BestAxis<Scalar> best_axis(const ConfigurationSpace<Scalar>& space,
+                                                                    PieceIndex piece, const Vec2<Scalar>& p) noexcept {
+  using Shared = PerAxis<variant.lanes, Scalar>;
+  const Shared f = Shared::Map(space.shared_x().data()) * p.x() + Shared::Map(space.shared_y().data()) * p.y() -
+                   Shared::Map(space.shared_offsets(piece));
+  BestAxis<Scalar> best{0, f.maxCoeff()};
+  while (f[static_cast<Eigen::Index>(best.axis)] != best.separation) ++best.axis;
+  if constexpr (!variant.slopes) return best;
+  for (std::size_t axis = variant.lanes; axis < space.axis_count(piece); ++axis) {
+    const Scalar separation = space.separation(piece, axis, p);
+    if (separation > best.separation) best = {axis, separation};
+  }
+  return best;
+}
+
+}  // namespace paperproof::octagon_sweep

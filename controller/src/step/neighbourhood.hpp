@@ -1,0 +1,64 @@
+/// Which pieces a step may have to look at.
+#pragma once
+
+#include "piece_finder.hpp"
+#include "step/configuration_space.hpp"
+#include "step/step_memory.hpp"
+
+#include <paperproof/technique.hpp>
+#include <paperproof/tolerances.hpp>
+
+#include <cmath>
+#include <span>
+
+namespace paperproof::octagon_sweep {
+
+/// The pieces that stand still around a character. Superset of what meets a box; kept between steps.
+template <class Scalar>
+class Neighbourhood {
+ public:
+  /// @param look_ahead how far ahead of a motion candidates are collected at most [m].
+  Neighbourhood(const ConfigurationSpace<Scalar>& space, const BroadPhase<Scalar>& broad_phase, Scalar look_ahead,
+                Scratch<Scalar>& scratch) noexcept
+      : space_(space), broad_phase_(broad_phase), look_ahead_(look_ahead), scratch_(scratch) {}
+
+  /// Every piece that the octagon can touch while its reference point is in `box`, and perhaps more; ascending.
+  /// @param way where it is going [m]: what is there will be wanted next.
+  [[nodiscard]] std::span<const PieceIndex> around(const Box2<Scalar>& box,
+                                                   const Vec2<Scalar>& way = Vec2<Scalar>::Zero()) noexcept;
+
+  /// The same without `way` and without what was collected before, for the caller to reorder. Nothing is kept.
+  [[nodiscard]] std::span<PieceIndex> take(const Box2<Scalar>& box) noexcept {
+    forget();
+    const std::size_t count = around(box).size();
+    forget();
+    return std::span(scratch_.solids.pieces).first(count);
+  }
+
+  /// What comes next does not depend on what was collected before, not even in how much more it is.
+  void forget() noexcept { scratch_.solids.valid = false; }
+
+  /// For what exceeds the inline storage of a step.
+  [[nodiscard]] const StepMemory<Scalar>& memory() const noexcept {
+    return static_cast<const StepMemory<Scalar>&>(*scratch_.own);
+  }
+
+ private:
+  const ConfigurationSpace<Scalar>& space_;
+  const BroadPhase<Scalar>& broad_phase_;
+  Scalar look_ahead_;
+  Scratch<Scalar>& scratch_;
+};
+
+template <class Scalar>
+std::span<const PieceIndex> Neighbourhood<Scalar>::around(const Box2<Scalar>& box, const Vec2<Scalar>& way) noexcept {
+  Candidates<Scalar>& known = scratch_.solids;
+  if (!known.valid || !known.box.contains(box)) {
+    known.box = positions_ahead(box, way, look_ahead_);
+    known.count = broad_phase_.query(space_.touched_from(known.box), known.pieces);
+    known.valid = true;
+  }
+  return {known.pieces.data(), known.count};
+}
+
+}  // namespace paperproof::octagon_sweep

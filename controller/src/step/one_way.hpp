@@ -1,0 +1,50 @@
+/// When a one-way segment is in the way.
+#pragma once
+
+#include "step/narrow_phase.hpp"
+
+namespace paperproof::octagon_sweep {
+
+/// Whether the octagon at p + rest, as its mover sees it, is above the surface of a one-way segment. Near the line of a
+/// straight one that is decided exactly; elsewhere a product tells.
+template <class Scalar>
+[[nodiscard, gnu::always_inline]] inline bool is_above(const ConfigurationSpace<Scalar>& space, PieceIndex piece,
+                                                       const Vec2<Scalar>& p, const Vec2<Scalar>& rest) noexcept {
+  constexpr Scalar certain = Tolerances<Scalar>{}.certain;
+  const ObstacleInfo& info = space.info(piece);
+  if (!info.bent_surface) {
+    const Scalar apart = space.separation(piece, info.one_way_axis, p);
+    if (apart >= certain) return true;
+    if (apart <= -certain) return false;
+  }
+  return space.surfaces().is_above(info.surface, p, rest);
+}
+
+/// Whether a piece can stop a motion at all. A solid always can. A one-way segment can stop a motion that begins above
+/// its surface. From a gap on, what does not go against a straight one is clear of it and need not be looked at; nearer
+/// than that it must be known to be near, whichever way it goes.
+template <Variant variant, class Scalar>
+[[nodiscard, gnu::always_inline]] inline bool blocks(const ConfigurationSpace<Scalar>& space,
+                                                     const Motion<variant.lanes, Scalar>& motion,
+                                                     PieceIndex piece) noexcept {
+  if constexpr (!variant.one_way) return true;
+  const ObstacleInfo& info = space.info(piece);
+  if (info.one_way_axis == ObstacleInfo::not_one_way) return true;
+  const auto begins_above = [&] {
+    if constexpr (variant.movers) return is_above(space, piece, motion.from, motion.rest);
+    return is_above(space, piece, motion.from, Vec2<Scalar>(Vec2<Scalar>::Zero()));
+  };
+  if (!info.bent_surface) {
+    const Vec2<Scalar> n = space.normal(piece, info.one_way_axis);
+    if (space.separation(piece, info.one_way_axis, motion.from) >= Tolerances<Scalar>{}.hit)
+      return n.x() * motion.way.x() + n.y() * motion.way.y() < 0;
+    return begins_above();
+  }
+  if (motion.known_surface != info.surface) {
+    motion.known_surface = info.surface;
+    motion.above_known_surface = begins_above();
+  }
+  return motion.above_known_surface;
+}
+
+}  // namespace paperproof::octagon_sweep

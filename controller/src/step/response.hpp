@@ -1,0 +1,137 @@
+/// What becomes of a motion that met a surface.
+///
+/// Let u be the motion that a character has without this step's steering (momentum and gravity), s the change that
+/// steering makes in this step, braking included, and w = u + s. A surface with unit normal n holds w where w·n < 0.
+///
+/// **Walkable ground** (n.y >= c): the horizontal part is kept by following the surface: (x, -x n.x / n.y). A fall
+/// ends. Steering that a steep surface took is there again: x = u.x + s.
+///
+/// **Steep ground and walls** (0 <= n.y < c): steering never holds or slows a fall.
+///  1. Of u, the horizontal part that presses in (x n.x < 0) is zero: an impact. It does not become a climb. Speed that
+///     was gained by sliding points outward (x n.x > 0) and is not touched: it is momentum.
+///  2. If it still enters, it is a fall: x n.x >= 0 and u·n < 0 give y < 0 (a wall, n.y = 0, is entered no more). It
+///     slides: u - (u·n) n. Its length does not grow, x stays outward, and it stays a fall: y' = y n.x² - (x n.x) n.y,
+///     where both terms are below zero.
+///  3. Steering that presses in (s·n < 0) does not change y: of all motions along the surface w is the one with the y
+///  of
+///     u, (-y n.y / n.x, y). Where u entered that is u itself, slid. So y(t) on a steep slope is the same with the key
+///     uphill and without a key, at any dt. (Had only the part of s along n gone, the rest would point up the slope,
+///     and hold the character on a platform's corner for good. Were all of it gone, a character that turns around at a
+///     wall would be thrown back by its own momentum, and tremble there.) Steering that does not press in is treated
+///     with u: 1 and 2 apply to w.
+/// A rise goes on: after 1 it does not enter. But a climb that came only from following walkable ground ends with the
+/// walk: where 1 or 3 takes the horizontal part, and the ground was followed, an upward y is zero, too. A character
+/// that walks up a slope into a wall would otherwise leave the ground with the speed of its climb, land, and hop again,
+/// for ever.
+///
+/// **Ceilings** (n.y < 0): a rise slides, w - (w·n) n; the climb of a walk ends there, with the walk. A fall goes on: x
+/// shrinks to what follows the surface.
+///
+/// **Two surfaces** that both hold the motion: whether they are a wedge is decided by the fall of u alone. The nearest
+/// motion to it that all surfaces allow is taken, if that still falls; else the motion ends there, as it does where one
+/// of them is walkable. So steering into one side of a funnel does not hold a character that would slip through it.
+///
+/// Position and velocity are treated alike: each rule is homogeneous of degree one. u is carried through every contact
+/// beside w. A falling motion never comes to rise on
+/// anything but walkable ground and no motion grows: a step cannot go round in circles.
+#pragma once
+
+#include "step/half_planes.hpp"
+
+#include <paperproof/types.hpp>
+
+#include <algorithm>
+#include <limits>
+
+namespace paperproof::octagon_sweep {
+
+/// Two unit normals of one plane. Zero: rounding would make two of it. Large: a crease would be taken for a plane.
+template <class Scalar>
+inline constexpr Scalar same_plane = std::numeric_limits<Scalar>::epsilon() * 16;
+
+/// A way that points into a plane by less than this share of its length runs along it.
+template <class Scalar>
+inline constexpr Scalar along_plane = std::numeric_limits<Scalar>::epsilon() * 64;
+
+template <class Scalar>
+[[nodiscard, gnu::always_inline]] inline Scalar dot(const Vec2<Scalar>& a, const Vec2<Scalar>& b) noexcept {
+  return a.x() * b.x() + a.y() * b.y();
+}
+
+/// A motion [m] or velocity [m/s] that is wanted, and the part of it that is there without this step's steering.
+template <class Scalar>
+struct Wish {
+  Vec2<Scalar> wanted;
+  Vec2<Scalar> unsteered;
+};
+
+/// A surface, and how the character comes to it.
+template <class Scalar>
+struct Surface {
+  Vec2<Scalar> normal;
+  bool walkable;
+  bool after_walk;  ///< The character follows walkable ground that it touches: a rise is the climb of a walk.
+};
+
+/// Adding zero turns a negative zero into a positive one: rest has one pattern of bits.
+template <class Scalar>
+[[nodiscard, gnu::always_inline]] inline Vec2<Scalar> follow(Scalar x, const Vec2<Scalar>& n) noexcept {
+  return {x, -x * n.x() / n.y() + Scalar(0)};
+}
+
+template <class Scalar>
+[[nodiscard, gnu::always_inline]] inline Vec2<Scalar> slide(const Vec2<Scalar>& w, const Vec2<Scalar>& n) noexcept {
+  const Scalar into = dot(w, n);
+  return {w.x() - into * n.x() + Scalar(0), w.y() - into * n.y() + Scalar(0)};
+}
+
+/// The response on steep ground and walls, without steering: rules 1 and 2 above.
+template <class Scalar>
+[[nodiscard, gnu::always_inline]] inline Vec2<Scalar> impact(Vec2<Scalar> w, const Surface<Scalar>& at) noexcept {
+  if (w.x() * at.normal.x() < 0) {
+    w.x() = 0;
+    if (at.after_walk) w.y() = std::min(w.y(), Scalar(0));
+  }
+  return dot(w, at.normal) < 0 ? slide(w, at.normal) : w;
+}
+
+/// Under a ceiling.
+template <class Scalar>
+[[nodiscard, gnu::always_inline]] inline Vec2<Scalar> bump(const Vec2<Scalar>& w, const Surface<Scalar>& at) noexcept {
+  const Vec2<Scalar>& n = at.normal;
+  if (w.y() > 0) return at.after_walk ? Vec2<Scalar>(Vec2<Scalar>::Zero()) : slide(w, n);
+  return {-w.y() * n.y() / n.x() + Scalar(0), w.y() + Scalar(0)};
+}
+
+/// The response without steering.
+template <class Scalar>
+[[nodiscard, gnu::always_inline]] inline Vec2<Scalar> respond(const Vec2<Scalar>& w,
+                                                              const Surface<Scalar>& at) noexcept {
+  if (dot(w, at.normal) >= 0) return w;
+  if (at.walkable) return follow(w.x(), at.normal);
+  return at.normal.y() < 0 ? bump(w, at) : impact(w, at);
+}
+
+/// Rule 3: where steering presses in.
+/// @param unsteered the motion without steering, and @param result what became of it at this surface.
+template <class Scalar>
+[[nodiscard, gnu::always_inline]] inline Vec2<Scalar> press(const Vec2<Scalar>& unsteered, const Vec2<Scalar>& result,
+                                                            const Surface<Scalar>& at) noexcept {
+  if (dot(unsteered, at.normal) < 0) return result;
+  const Scalar y = at.after_walk ? std::min(result.y(), Scalar(0)) : result.y();
+  return {-y * at.normal.y() / at.normal.x() + Scalar(0), y + Scalar(0)};
+}
+
+/// The response to a surface that is entered, of what is wanted and of what there is without steering.
+/// @param steered the horizontal part that this step's steering added to what was wanted.
+template <class Scalar>
+[[nodiscard, gnu::always_inline]] inline Wish<Scalar> respond(const Wish<Scalar>& wish, Scalar steered,
+                                                              const Surface<Scalar>& at) noexcept {
+  if (dot(wish.wanted, at.normal) >= 0) return wish;
+  const Vec2<Scalar> unsteered = respond(wish.unsteered, at);
+  if (at.walkable) return {follow(wish.unsteered.x() + steered, at.normal), unsteered};
+  const bool presses = at.normal.y() >= 0 && dot(Vec2<Scalar>(wish.wanted - wish.unsteered), at.normal) < 0;
+  return {presses ? press(wish.unsteered, unsteered, at) : respond(wish.wanted, at), unsteered};
+}
+
+}  // namespace paperproof::octagon_sweep

@@ -1,0 +1,284 @@
+/// StepSolver: the way among movers.
+///
+/// Everything is swept in order of time of impact: a motion w over the rest of the step is, as a mover sees it that
+/// goes by d in that time, the motion w - d. Every surface that is touched holds the character: with normal n it allows
+/// what keeps n·w >= n·d. Where the response to one surface after the other does not satisfy all, the nearest allowed
+/// motion is taken. Where there is none, room is looked for (step_room.hpp); without room the character stays, and what
+/// moves into it is reported as a crush.
+#pragma once
+
+#include "step/half_planes.hpp"
+#include "step/response.hpp"
+#include "step/step_solver.hpp"
+
+namespace paperproof::octagon_sweep {
+
+template <Variant variant, class Scalar>
+template <Covered covered>
+void StepSolver<variant, Scalar>::look_at_movers() noexcept {
+  const Surroundings<Scalar>& around = moving_.around;
+  // The sweep looks this far beyond the end of a motion (twice: it goes by the larger component).
+  constexpr Scalar look = 2 * Tolerances<Scalar>{}.look;
+  for (MoverIndex mover = 0; mover < around.phases.size(); ++mover) {
+    const V offset = around.offset(mover, time_);
+    const V from = motion_.from - offset;
+    const V way = around.relative(motion_.way, mover, time_);
+    const V to = from + way;
+    const Box2<Scalar> box = space_.touched_from(Box2<Scalar>{from.cwiseMin(to), from.cwiseMax(to)}.inflated(look));
+    if (!box.overlaps(around.phases.whole(mover))) continue;
+    LocalMotion seen = make_motion<variant>(space_, from, way);
+    seen.rest = lost_by(motion_.from, offset);
+    sweep<covered>(seen, around.phases.query(mover, box, around.memory.of_mover));
+  }
+}
+
+/// What has crushed the character, or is on it since an earlier step, goes through it for the rest of the step.
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::ignored(PieceIndex piece) const noexcept {
+  return memory().is(collider_of(piece), moving_.ignored);
+}
+
+/// Whether a motion keeps off a piece along the axis that holds it. The axis alone is then proof.
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::kept_clear_by_hold(const LocalMotion& motion, PieceIndex piece) const noexcept {
+  constexpr Scalar noise = std::numeric_limits<Scalar>::epsilon() * 32;
+  for (const Hold<Scalar>& hold : moving_.holds) {
+    if (hold.piece != piece) continue;
+    if (moving_.looks_past_holds) return true;
+    const Scalar start = space_.separation(piece, hold.axis, motion.from);
+    const Scalar out = hold.normal.x() * motion.way.x() + hold.normal.y() * motion.way.y();
+    Scalar size = std::abs(motion_.way.x()) + std::abs(motion_.way.y());
+    if (hold.mover != no_mover) size += moving_.around.course(hold.mover).cwiseAbs().sum();
+    return start >= Tolerances<Scalar>{}.certain && (out >= -noise * size || start + out >= Tolerances<Scalar>{}.hit);
+  }
+  return false;
+}
+
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::travel_among_movers() noexcept {
+  const std::size_t most_corners = memory().corners.capacity() - 3;
+  const std::size_t most_sweeps = 4 * most_corners;  // impacts at one moment, and moments
+  Drive<Scalar> drive = this->drive();
+  V way = motion_.way;  // with the aim back to the gap
+  bool may_aim = true;
+  int impacts = 0;
+  for (std::size_t sweeps = 0; sweeps < most_sweeps && result_.path.size() < most_corners; ++sweeps) {
+    if (sweeps > 0) look_along(way);
+    if (found_.hit && found_.stop == 0 && (way.x() != drive.way.wanted.x() || way.y() != drive.way.wanted.y())) {
+      // There is no room to restore the gap: give that up for this step.
+      way = drive.way.wanted;
+      may_aim = false;
+      continue;
+    }
+    const Scalar begin = time_;
+    if (!advance(found_.hit ? found_.stop : Scalar(1))) {
+      cut_short();
+      return stay(true);
+    }
+    if (!found_.hit) return;
+    report(begin);
+    update_holds();
+    const Scalar left = 1 - found_.stop;
+    drive.way = {drive.way.wanted * left, drive.way.unsteered * left};
+    if (++impacts == settings_.iterations) {
+      // What it wants itself is dropped; what moves into it goes on moving.
+      if (result_.status == MoveStatus::moved) result_.status = MoveStatus::dropped;
+      drive = Drive<Scalar>::plain(V::Zero(), V::Zero());
+      steered_ = 0;
+    }
+    if (pinned() || !respond_to_holds(drive)) {
+      if (gives_way()) return;
+      if (!crush_what_presses()) return stay(true);
+      drive = Drive<Scalar>::plain(V::Zero(), V::Zero());
+      steered_ = 0;
+    }
+    velocity_ = drive.velocity.wanted;
+    way = may_aim ? aimed_back(drive.way.wanted, found_.stops[0]) : drive.way.wanted;
+  }
+  last_resort(way);
+}
+
+/// Forgets surfaces that are no longer touched, and adds those of the last sweep, as far as it kept them.
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::update_holds() noexcept {
+  constexpr Scalar touch = Tolerances<Scalar>{}.touch;
+  auto& holds = moving_.holds;
+  holds.swap(memory().holds_before);
+  holds.clear();
+  for (const Stop<Scalar>& stop : found_.stops)
+    holds.push_back({stop.piece, stop.axes.normal, space_.normal(stop.piece, stop.axes.normal), mover_of(stop.piece)});
+  for (const Hold<Scalar>& hold : memory().holds_before) {
+    const bool again = std::any_of(found_.stops.begin(), found_.stops.end(),
+                                   [&hold](const Stop<Scalar>& stop) { return stop.piece == hold.piece; });
+    if (again || ignored(hold.piece)) continue;
+    const V at = local(hold.piece, position_);
+    const bool touched = best_axis<variant>(space_, hold.piece, at).separation <= touch &&
+                         std::abs(space_.separation(hold.piece, hold.axis, at)) <= touch;
+    if (touched || moving_.looks_past_holds) holds.push_back(hold);
+  }
+}
+
+/// How far the surface still goes in this step [m].
+template <Variant variant, class Scalar>
+Vec2<Scalar> StepSolver<variant, Scalar>::rest_of(const Hold<Scalar>& hold) const noexcept {
+  if (hold.mover == no_mover) return V::Zero();
+  return moving_.around.rest(hold.mover, time_);
+}
+
+/// [m/s]
+template <Variant variant, class Scalar>
+Vec2<Scalar> StepSolver<variant, Scalar>::velocity_of(const Hold<Scalar>& hold) const noexcept {
+  if (hold.mover == no_mover) return V::Zero();
+  return moving_.around.course(hold.mover) / moving_.around.dt;
+}
+
+template <class Scalar>
+[[nodiscard]] HalfPlane<Scalar> behind(const Vec2<Scalar>& normal, const Vec2<Scalar>& motion) noexcept {
+  return {normal, normal.x() * motion.x() + normal.y() * motion.y()};
+}
+
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::allowed(const Drive<Scalar>& drive, const Hold<Scalar>& hold) const noexcept {
+  return behind(hold.normal, rest_of(hold)).allows(drive.way.wanted) &&
+         behind(hold.normal, velocity_of(hold)).allows(drive.velocity.wanted);
+}
+
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::allowed(const Drive<Scalar>& drive) const noexcept {
+  return std::all_of(moving_.holds.begin(), moving_.holds.end(),
+                     [&](const Hold<Scalar>& hold) { return allowed(drive, hold); });
+}
+
+/// The response to a surface, as it is seen from there: ground one stands on takes one along; from any other surface
+/// only its motion along its normal is felt, and so from another character.
+template <Variant variant, class Scalar>
+Drive<Scalar> StepSolver<variant, Scalar>::response_to(const Hold<Scalar>& hold,
+                                                       const Drive<Scalar>& drive) const noexcept {
+  const Surface<Scalar> at{hold.normal, walkable(hold.normal), after_walk_};
+  const auto response = [&](const Wish<Scalar>& wish, const V& surface, Scalar steered) -> Wish<Scalar> {
+    V frame = surface;
+    if (!at.walkable || is_companion(hold.piece)) frame = hold.normal * behind(hold.normal, surface).least;
+    const Wish<Scalar> relative{wish.wanted - frame, wish.unsteered - frame};
+    if (dot(relative.wanted, hold.normal) >= 0) return wish;
+    const Wish<Scalar> result = respond(relative, steered, at);
+    return {result.wanted + frame, result.unsteered + frame};
+  };
+  return {response(drive.way, rest_of(hold), steered_ * dt_ * (1 - time_)),
+          response(drive.velocity, velocity_of(hold), steered_)};
+}
+
+/// The first surface, and then another one that the answer would enter.
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::respond_one_by_one(Drive<Scalar>& drive) const noexcept {
+  const Drive<Scalar> wanted = drive;
+  const Hold<Scalar>& first = moving_.holds[0];
+  const Drive<Scalar> alone = response_to(first, wanted);
+  drive = alone;
+  if (allowed(drive)) return true;
+  for (const Hold<Scalar>& hold : moving_.holds) {
+    if (allowed(alone, hold)) continue;
+    drive = response_to(hold, alone);
+    if (allowed(drive)) return true;
+    drive = response_to(first, response_to(hold, wanted));
+    if (allowed(drive)) return true;
+  }
+  drive = wanted;
+  return false;
+}
+
+/// Surfaces of one body that leave no way between them: a fall may still slip through; else the motion ends there,
+/// relative to that body.
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::respond_in_crease(Drive<Scalar>& drive) noexcept {
+  const Hold<Scalar>& first = moving_.holds[0];
+  const Drive<Scalar> alone = response_to(first, drive);
+  for (const Hold<Scalar>& hold : moving_.holds)
+    if (!allowed(alone, hold) && rest_of(hold) != rest_of(first)) return false;
+  const V rest = rest_of(first);
+  const V velocity = velocity_of(first);
+  const Drive<Scalar> still = Drive<Scalar>::plain(rest, velocity);
+  if (!allowed(still)) return false;
+  const Scalar fall = drive.velocity.unsteered.y() - velocity.y();
+  const auto slipping = nearest_allowed_to({rest.x(), std::min(drive.way.unsteered.y(), rest.y())},
+                                           {velocity.x(), std::min(drive.velocity.unsteered.y(), velocity.y())});
+  const bool slips = slipping && fall < 0 &&
+                     slipping->velocity.wanted.y() - velocity.y() < along_plane<Scalar> * (fall - length_of(velocity));
+  wedged_ = fall < 0 && !slips;
+  drive = slips ? *slipping : still;
+  return true;
+}
+
+/// The nearest motion that all surfaces allow; with steering, and with what there is of horizontal momentum, only where
+/// that does not hold a fall: between two steep surfaces it would become a climb.
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::respond_together(Drive<Scalar>& drive) const noexcept {
+  const Wish<Scalar> way = drive.way;
+  const Wish<Scalar> velocity = drive.velocity;
+  const auto wanted = nearest_allowed_to(way.wanted, velocity.wanted);
+  if (!wanted) {
+    drive.velocity.wanted = drive.velocity.unsteered = V::Zero();
+    return false;
+  }
+  drive = *wanted;
+  const auto falls_by = [&](const V& way_down, const V& velocity_down) {
+    const auto falling = nearest_allowed_to(way_down, velocity_down);
+    if (falling && falling->way.wanted.y() < drive.way.wanted.y()) drive = *falling;
+  };
+  falls_by(way.unsteered, velocity.unsteered);
+  if (way.unsteered.y() < 0) falls_by({0, way.unsteered.y()}, {0, velocity.unsteered.y()});
+  return true;
+}
+
+/// Nothing where the surfaces have no motion in common.
+template <Variant variant, class Scalar>
+std::optional<Drive<Scalar>> StepSolver<variant, Scalar>::nearest_allowed_to(const V& way,
+                                                                             const V& velocity) const noexcept {
+  std::vector<HalfPlane<Scalar>>& ways = memory().ways;
+  std::vector<HalfPlane<Scalar>>& velocities = memory().velocities;
+  ways.clear();
+  velocities.clear();
+  for (const Hold<Scalar>& hold : moving_.holds) {
+    add_plane(behind(hold.normal, rest_of(hold)), ways);
+    add_plane(behind(hold.normal, velocity_of(hold)), velocities);
+  }
+  const auto allowed_way = nearest_allowed<Scalar>(way, {ways.begin(), ways.end()});
+  if (!allowed_way) return std::nullopt;
+  const auto allowed_velocity = nearest_allowed<Scalar>(velocity, {velocities.begin(), velocities.end()});
+  return Drive<Scalar>::plain(*allowed_way, allowed_velocity.value_or(V::Zero()));
+}
+
+/// False where the surfaces leave no motion.
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::respond_to_holds(Drive<Scalar>& drive) noexcept {
+  const Hold<Scalar>& first = moving_.holds[0];
+  wedged_ = false;
+  if (drive.velocity.wanted.x() == 0 && takes_along(first)) {
+    mount(first);
+    drive = Drive<Scalar>::plain(ground_rest(first.piece, first.normal), moving_.ride.velocity);
+    steered_ = 0;
+  }
+  const bool on_ground = walkable(first.normal);
+  if (after_walk_ && !on_ground) after_walk_ = touches_ground();
+  const bool possible = respond_one_by_one(drive) || respond_in_crease(drive) || respond_together(drive);
+  after_walk_ = after_walk_ || on_ground;
+  return possible;
+}
+
+/// The path has no more corners: the last one is at the end of the step. With what it was doing, with what holds it, or
+/// wherever there is room.
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::last_resort(const V& way) noexcept {
+  if (result_.status == MoveStatus::moved) result_.status = MoveStatus::dropped;
+  const auto goes = [this](const V& last) {
+    look_along(last);
+    return !found_.hit && advance(1);
+  };
+  if (goes(way)) return;
+  if (!pinned()) {
+    for (const Hold<Scalar>& hold : moving_.holds)
+      if (goes(rest_of(hold))) return;
+  }
+  stay(true);
+}
+
+}  // namespace paperproof::octagon_sweep

@@ -1,0 +1,249 @@
+/// StepSolver: a start that is nearer than it should be.
+#pragma once
+
+#include "step/certificate.hpp"
+#include "step/escape.hpp"
+#include "step/step_solver.hpp"
+
+#include <utility>
+
+namespace paperproof::octagon_sweep {
+
+/// How many pushes may be needed to restore the gaps of a start in a corner; what needs more has no room.
+inline constexpr int restore_rounds = 16;
+
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::prepare_start(const MoveRequest<Scalar>& request) noexcept {
+  if constexpr (variant.movers) {
+    if (request.has_last_free) moving_.last_free = request.last_free;
+    if (request.crushed && let_through_what_is_on_it(request) && !request.resumes && leaves_what_is_on_it(request))
+      return true;
+  }
+  while (overlaps(position_)) {
+    if constexpr (variant.movers) {
+      // Out of what stands still there may be a way, but it stays on its side of what has come over it.
+      if (!memory().pressers.empty()) return false;
+    }
+    const std::optional<V> out = find_way_out(request);
+    if (out) {
+      if constexpr (variant.movers) note_what_is_left();
+      start_ = position_ = *out;
+      push_corner(0);
+      return true;
+    }
+    if constexpr (variant.movers) {
+      // There is no room beside what moves: without it there may be.
+      if (let_through_what_is_on_it(request)) continue;
+    }
+    return false;
+  }
+  if constexpr (!variant.movers) restore_gap();
+  if constexpr (variant.movers) {
+    if (!pinned()) {
+      restore_gap();
+      restore_gaps_to_movers();
+    }
+  }
+  look_along(V::Zero());
+  certify_ = found_.least_separation < Tolerances<Scalar>{}.certain;
+  return true;
+}
+
+/// To the side of the last free position first, if there was one; and where there is nothing with the gap that is kept
+/// everywhere else, with a little more than what counts as closed.
+template <Variant variant, class Scalar>
+std::optional<Vec2<Scalar>> StepSolver<variant, Scalar>::find_way_out(const MoveRequest<Scalar>& request) noexcept {
+  constexpr Tolerances<Scalar> tolerances{};
+  const Scalar whole = reach_of_solids_inside();
+  WayOutQuery<Scalar> query{.from = position_,
+                            .last_free = {},
+                            .pressers = {},
+                            .movers = request.movers,
+                            .drops = request.drop,
+                            .gap = tolerances.stop,
+                            .reach = whole};
+  if (request.has_last_free) query.last_free = request.last_free;
+  if constexpr (variant.movers) query.pressers = memory().pressers;
+  do {
+    for (const Scalar gap : {tolerances.stop, tolerances.hit * Scalar(least_room)}) {
+      query.gap = gap;
+      if (const std::optional<V> out = find_way_out(query, whole)) return out;
+    }
+  } while (std::exchange(query.last_free, std::nullopt));
+  return std::nullopt;
+}
+
+/// Looks near first, then twice as far, and so on, until the whole of the solids has been looked at.
+template <Variant variant, class Scalar>
+std::optional<Vec2<Scalar>> StepSolver<variant, Scalar>::find_way_out(WayOutQuery<Scalar> query,
+                                                                      Scalar whole) noexcept {
+  const V extent = space_.hull_box().upper - space_.hull_box().lower;
+  for (query.reach = std::min(whole, extent.maxCoeff());; query.reach = std::min(whole, 2 * query.reach)) {
+    Box2<Scalar> box = Box2<Scalar>{query.from, query.from}.inflated(query.reach);
+    if (query.last_free) box = box.merged({*query.last_free, *query.last_free});
+    if (const std::optional<V> out = way_out<variant.lanes>(space_, all_near(box), query)) return out;
+    if (!(query.reach < whole)) return std::nullopt;
+  }
+}
+
+/// Every piece that can be met in a box, where it is when the step begins; those of one collider in a row. What was
+/// collected before adds nothing, and the pieces may be reordered.
+template <Variant variant, class Scalar>
+std::span<PieceIndex> StepSolver<variant, Scalar>::all_near(const Box2<Scalar>& box) noexcept {
+  if constexpr (!variant.movers) return neighbourhood_.take(box);
+  if constexpr (variant.movers) {
+    neighbourhood_.forget();
+    std::vector<PieceIndex>& all = memory().all;
+    std::size_t count = 0;
+    for_each_near(box, [&](PieceIndex piece) { all[count++] = piece; });
+    return {all.data(), count};
+  }
+}
+
+/// No way out that leaves the colliders which are overlapped is longer [m]: they, and the octagon beside them.
+template <Variant variant, class Scalar>
+Scalar StepSolver<variant, Scalar>::reach_of_solids_inside() noexcept {
+  const std::span<const PieceInfo> pieces = space_.scenery().pieces();
+  Box2<Scalar> whole{position_, position_};
+  for_each_near({position_, position_}, [&](PieceIndex piece) {
+    if (!overlaps(piece, position_)) return;
+    const V shift = offset(piece);
+    const auto add = [&](PieceIndex other) {
+      const Box2<Scalar>& box = space_.scenery().box(other);
+      whole = whole.merged({box.lower + shift, box.upper + shift});
+    };
+    add(piece);
+    // The pieces of a collider stand together.
+    for (PieceIndex k = piece; k > 0 && pieces[k - 1].collider == pieces[piece].collider; --k) add(k - 1);
+    for (PieceIndex k = piece + 1; k < pieces.size() && pieces[k].collider == pieces[piece].collider; ++k) add(k);
+  });
+  const V extent = space_.hull_box().upper - space_.hull_box().lower;
+  return length_of(V((position_ - whole.lower).cwiseMax(whole.upper - position_) + extent));
+}
+
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::overlaps(const V& position) noexcept {
+  bool any = false;
+  for_each_near({position, position}, [&](PieceIndex piece) { any = any || overlaps(piece, position); });
+  return any;
+}
+
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::overlaps(PieceIndex piece, const V& position) const noexcept {
+  const V at = local(piece, position);
+  if (space_.info(piece).one_way_axis != ObstacleInfo::not_one_way ||
+      best_axis<variant>(space_, piece, at).separation >= Tolerances<Scalar>{}.certain)
+    return false;
+  if constexpr (variant.movers) {
+    const MoverIndex mover = mover_of(piece);
+    if (mover != no_mover)
+      return overlaps_exactly(space_, piece, ExactPosition(position, moving_.around.movers[mover], time_));
+  }
+  return overlaps_exactly(space_, piece, at);
+}
+
+/// Whether a piece counts for a character at `position`: one-way segments do from above their surface only.
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::may_block(PieceIndex piece, const V& position) const noexcept {
+  if constexpr (!variant.one_way) return true;
+  if (space_.info(piece).one_way_axis == ObstacleInfo::not_one_way) return true;
+  if (drops_) return false;
+  V rest = V::Zero();
+  if constexpr (variant.movers) rest = lost_by(position, offset(piece));
+  return is_above(space_, piece, local(piece, position), rest);
+}
+
+/// Pushes out of the nearest piece, again and again, until every gap is at least `hit`; undone where there is no room.
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::restore_gap() noexcept {
+  constexpr Tolerances<Scalar> tolerances{};
+  V q = position_;
+  for (int round = 0; round < restore_rounds; ++round) {
+    Scalar least = std::numeric_limits<Scalar>::infinity();
+    V push = V::Zero();
+    for_each_near({q.cwiseMin(position_), q.cwiseMax(position_)}, [&](PieceIndex piece) {
+      const BestAxis<Scalar> best = best_axis<variant>(space_, piece, local(piece, q));
+      if (best.separation >= least || !may_block(piece, position_)) return;
+      least = best.separation;
+      push = space_.normal(piece, best.axis) * (tolerances.stop - best.separation);
+    });
+    if (least >= tolerances.hit) {
+      if (!clear_way(position_, q)) return;
+      position_ = q;
+      push_corner(0);
+      return;
+    }
+    q += push;
+  }
+}
+
+/// Whether a straight way, made in no time, meets nothing, without rounding where it is near.
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::clear_way(const V& from, const V& to) noexcept {
+  bool clear = true;
+  for_each_near({from.cwiseMin(to), from.cwiseMax(to)},
+                [&](PieceIndex piece) { clear = clear && clear_way(piece, from, to, time_); });
+  return clear;
+}
+
+/// The same for one piece, on a way from now up to a fraction of the step.
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::clear_way(PieceIndex piece, const V& begin, const V& target,
+                                            Scalar end) const noexcept {
+  constexpr Tolerances<Scalar> tolerances{};
+  const V from = local(piece, begin);
+  const V to = target - offset(piece, end);
+  for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis)
+    if (space_.separation(piece, axis, from) >= tolerances.certain &&
+        space_.separation(piece, axis, to) >= tolerances.certain)
+      return true;
+  LocalMotion motion = make_motion<variant>(space_, from, V(to - from));
+  if constexpr (variant.movers) motion.rest = lost_by(begin, offset(piece));
+  if (!in_way(motion, piece)) return true;
+  if constexpr (variant.movers) {
+    const MoverIndex mover = mover_of(piece);
+    if (mover != no_mover) {
+      const MoverMotion<Scalar>& course = moving_.around.movers[mover];
+      return clear_of_exactly(space_, piece, ExactPosition(begin, course, time_), ExactPosition(target, course, end));
+    }
+  }
+  return clear_of_exactly(space_, piece, from, to);
+}
+
+/// Where there is no room for all gaps, those to what moves are restored as far as each has room alone: what carries
+/// the character would else end in it by rounding.
+template <Variant variant, class Scalar>
+void StepSolver<variant, Scalar>::restore_gaps_to_movers() noexcept {
+  constexpr Tolerances<Scalar> tolerances{};
+  std::vector<HalfPlane<Scalar>>& pushes = memory().ways;
+  pushes.clear();
+  for_each_near({position_, position_}, [&](PieceIndex piece) {
+    const MoverIndex mover = mover_of(piece);
+    if (mover == no_mover || moving_.around.course(mover) == V::Zero() || !may_block(piece, position_)) return;
+    const BestAxis<Scalar> best = best_axis<variant>(space_, piece, local(piece, position_));
+    if (best.separation < tolerances.hit)
+      add_plane({space_.normal(piece, best.axis), tolerances.stop - best.separation}, pushes);
+  });
+  const V before = position_;
+  for (const HalfPlane<Scalar>& push : pushes) {
+    const V q = position_ + push.normal * push.least;
+    if (keeps_gaps(q) && clear_way(position_, q)) position_ = q;
+  }
+  if (position_ != before) push_corner(0);
+}
+
+/// Whether no gap that is less than it should be gets smaller, by more than rounding.
+template <Variant variant, class Scalar>
+bool StepSolver<variant, Scalar>::keeps_gaps(const V& q) noexcept {
+  constexpr Tolerances<Scalar> tolerances{};
+  bool kept = true;
+  for_each_near({q.cwiseMin(position_), q.cwiseMax(position_)}, [&](PieceIndex piece) {
+    if (!may_block(piece, position_)) return;
+    const Scalar now = best_axis<variant>(space_, piece, local(piece, position_)).separation;
+    const Scalar then = best_axis<variant>(space_, piece, local(piece, q)).separation;
+    kept = kept && then >= std::min(now, tolerances.hit) - tolerances.certain;
+  });
+  return kept;
+}
+
+}  // namespace paperproof::octagon_sweep

@@ -1,7 +1,0 @@
-#include "techniques/octagon_sweep/still_solvers.hpp"
-
-namespace paperproof::octagon_sweep {
-
-template SolveStill<float> still_solver<float>(const Variant&) noexcept;
-
-}  // namespace paperproof::octagon_sweep

@@ -1,0 +1,210 @@
+/// What the article's techniques share: their collision points, and what happens to a movement that hits something.
+///
+/// The method is the article's (its part "A possibly optimum collision detection approach"): points in pairs, chosen by
+/// the direction of movement; pieces near the total bounding box of current and desired position, found anew in every
+/// iteration; first the search along the movement vector, where a technique has one, then penetration resolution; a
+/// pair that hits changes only the component of its own direction; the position is updated at once, nothing is left of
+/// the frame's movement, and the test is repeated.
+///
+/// Among movers all of this is about motion relative to what is met: a pair is chosen where the movement relative to a
+/// mover faces that way, and a hit makes the component the mover's own, so that the mover pushes. The article asks for
+/// the order of time of impact where several things move: a step with a mover (or conveyor) near is searched in that
+/// order, each hit along the rest of the movement from where the last one left it; where all that is near stands still
+/// it is searched pair by pair along the whole vector, as the article has it. Near is what the total bounding box
+/// meets, and as far beyond as penetration resolution may push; a mover counts with all it sweeps during the step.
+///
+/// What stands on a mover is carried: the frame is worked out in the mover's own frame of reference. What comes to rest
+/// on it is carried at once, unless it had a speed of its own along it. What a mover pushes against something that
+/// stands still is not pushed through it, but crushed.
+///
+/// "We do nothing" where there is no collision: the movement is made, and the frame ends; no contact, no grounding.
+/// What hits "the side of something" is a pair of arms. Only a bottom pair's hit is ground.
+#pragma once
+
+#include "techniques/frame_of_reference.hpp"
+#include "techniques/nearby_scenery.hpp"
+
+#include <paperproof/broad_phase.hpp>
+#include <paperproof/character.hpp>
+#include <paperproof/technique.hpp>
+#include <paperproof/techniques.hpp>
+
+#include <memory>
+#include <span>
+#include <string_view>
+
+namespace paperproof::article {
+
+inline constexpr std::array all_sides{Side::top, Side::bottom, Side::left, Side::right};
+
+/// How many units a search may take. Below 1e5 the bullets of the comparison would be refused; without any limit one
+/// step over a million metres would take seconds. Longer movements are refused.
+inline constexpr int max_search_steps = 1'000'000;
+inline constexpr std::string_view too_many_units = "the motion needs more than 1,000,000 units of search in one step";
+
+/// Where the collision points are, and which of them belong to a side.
+template <class Scalar>
+struct CollisionPoints {
+  FixedVector<Vec2<Scalar>, CharacterShape::max_points> offsets;  ///< Relative to the character's position [m].
+  std::array<CharacterShape::Pair, 4> pairs{};                    ///< By Side; a corner has the same index twice.
+  Box2<Scalar> box;                                               ///< Around the offsets [m].
+};
+
+/// Pieces near a character that go the same way during a step: those that stand still, or those of one mover.
+template <class Scalar>
+struct PieceGroup {
+  NearbyScenery<Scalar> pieces;
+  MoverIndex mover = no_mover;
+  Vec2<Scalar> shift_at_start;  ///< See `FrameOfReference`.
+  Vec2<Scalar> shift_at_end;
+
+  [[nodiscard]] Vec2<Scalar> drift() const noexcept { return shift_at_end - shift_at_start; }
+  /// A position of the frame of reference, at a fraction of the step, as the pieces see it.
+  [[nodiscard]] Vec2<Scalar> seen(const Vec2<Scalar>& position, Scalar fraction) const noexcept {
+    if (!(fraction < 1)) return position + shift_at_end;
+    return position + (shift_at_start + drift() * fraction);
+  }
+};
+
+/// Everything that a technique of the article knows before the first step. Immutable; shareable between threads.
+template <class Scalar>
+struct Parts {
+  const Scenery<Scalar>* scenery = nullptr;
+  std::unique_ptr<BroadPhase<Scalar>> broad_phase;
+  CollisionPoints<Scalar> points;
+  Scalar unit = 0;         ///< [m]
+  bool something_carries;  ///< See the function; near movers are searched in order of time.
+  Scalar fastest_surface;  ///< Of all conveyors [m/s].
+  ArticleKnobs knobs;
+
+  /// @param def its article knobs are valid. `scenery` must outlive the parts.
+  Parts(const TechniqueDef& def, const Scenery<Scalar>& scenery, const CharacterDef& character);
+
+  [[nodiscard]] Scratch<Scalar> make_scratch() const;
+  /// The static pieces near the total bounding box of a character here and there.
+  [[nodiscard]] NearbyScenery<Scalar> near(const Vec2<Scalar>& here, const Vec2<Scalar>& there,
+                                           Scratch<Scalar>& scratch) const noexcept;
+  /// All pieces near the box, by what they go with: first what stands still, then mover by mover. A mover of which
+  /// nothing is near has no group.
+  /// @param box around the character wherever it may come during the step, in the frame of reference.
+  [[nodiscard]] std::span<const PieceGroup<Scalar>> groups_near(const Box2<Scalar>& box,
+                                                                const FrameOfReference<Scalar>& frame,
+                                                                Scratch<Scalar>& scratch) const noexcept;
+  /// Any of the points is in a polygon.
+  [[nodiscard]] bool inside(const NearbyScenery<Scalar>& nearby, const Vec2<Scalar>& position) const noexcept;
+};
+
+/// One of a pair's points ran into something.
+template <class Scalar>
+struct CollisionPointHit {
+  PointHit<Scalar> on;
+  std::size_t collision_point = 0;
+};
+
+/// How far along a movement a pair can go. Without hits the whole movement is free, as far as the search can see, and
+/// the other fields are not valid.
+template <class Scalar>
+struct PairImpact {
+  Scalar fraction = 1;                         ///< Of the movement, up to where the pair is free.
+  Vec2<Scalar> reached{Vec2<Scalar>::Zero()};  ///< The part of the movement that is free [m]. Zero where the
+                                               ///< pair is in something from the start.
+  FixedVector<CollisionPointHit<Scalar>, 2> hits;
+};
+
+/// Some point of the pair would be in something at `to`, or run across a chain on the way.
+/// @param from, to positions of the character as the pieces see it.
+template <class Scalar>
+[[nodiscard]] bool collides(const Parts<Scalar>& parts, const NearbyScenery<Scalar>& nearby,
+                            const CharacterShape::Pair& pair, const Vec2<Scalar>& from,
+                            const Vec2<Scalar>& to) noexcept;
+
+/// Searches along `movement` (not zero) of a character at `position`, for one pair.
+template <class Scalar>
+using ImpactSearch = PairImpact<Scalar> (*)(const Parts<Scalar>& parts, const NearbyScenery<Scalar>& nearby,
+                                            const CharacterShape::Pair& pair, const Vec2<Scalar>& position,
+                                            const Vec2<Scalar>& movement) noexcept;
+
+/// One frame of the article's method.
+/// @param search null: penetration resolution alone, which looks only at where the character arrives.
+template <class Scalar>
+void move(const Parts<Scalar>& parts, ImpactSearch<Scalar> search, const MoveRequest<Scalar>& request,
+          Scratch<Scalar>& scratch, MoveResult<Scalar>& result) noexcept;
+
+/// Fills `result` as a refusal and returns true where the movement leaves the range of the tolerances.
+template <class Scalar>
+[[nodiscard]] bool refuse_out_of_range(const MoveRequest<Scalar>& request, MoveResult<Scalar>& result) noexcept;
+
+/// The step would lead beyond the range of the tolerances, alone, carried or pushed; or is no number.
+template <class Scalar>
+[[nodiscard]] bool leaves_range(const Scenery<Scalar>& scenery, Scalar fastest_surface,
+                                const MoveRequest<Scalar>& request) noexcept;
+
+/// Fills `result` as a refusal and returns true where the movement leaves the range of the tolerances, or would take
+/// more than `max_search_steps` units to search and `searches_by_units`.
+template <class Scalar>
+[[nodiscard]] bool refuse(const Parts<Scalar>& parts, bool searches_by_units, const MoveRequest<Scalar>& request,
+                          MoveResult<Scalar>& result) noexcept;
+
+/// Fills `result` as a refusal: nothing moved.
+template <class Scalar>
+void refuse(const MoveRequest<Scalar>& request, MoveResult<Scalar>& result,
+            MoveStatus why = MoveStatus::out_of_range) noexcept;
+
+/// Makes `result`, whose `crushed` is filled in, that of a character that stays where the step began.
+template <class Scalar>
+void stay_crushed(const MoveRequest<Scalar>& request, MoveResult<Scalar>& result) noexcept;
+
+/// What is there already is not added again.
+template <class Colliders>
+void add_once(ColliderIndex collider, Colliders& all) noexcept {
+  if (std::find(all.begin(), all.end(), collider) == all.end()) all.push_back(collider);
+}
+
+/// NaN is not.
+template <class Scalar>
+[[nodiscard]] bool in_range(const Vec2<Scalar>& position) noexcept;
+
+/// Adds a contact with the collider that was hit, once for each collider and side; its separation is left at zero.
+/// @return false where it was there already, or nothing more fits.
+template <class Scalar>
+bool add_contact(const Scenery<Scalar>& scenery, const PointHit<Scalar>& hit, Side side, Scalar fraction,
+                 MoveResult<Scalar>& result) noexcept;
+
+/// The points of a pair, or its one point where the side is a corner.
+[[nodiscard]] inline std::span<const std::size_t> distinct(const CharacterShape::Pair& pair) noexcept {
+  return std::span(pair).first(pair[0] == pair[1] ? 1U : 2U);
+}
+
+/// The component of a vector that belongs to a side: 0 for left and right, 1 for top and bottom.
+[[nodiscard]] constexpr Eigen::Index component_of(Side side) noexcept {
+  return side == Side::left || side == Side::right ? 0 : 1;
+}
+
+/// Out of the character through that side: -1 for left and bottom, 1 for right and top.
+[[nodiscard]] constexpr int outwards(Side side) noexcept { return side == Side::left || side == Side::bottom ? -1 : 1; }
+
+[[nodiscard]] constexpr Side opposite(Side side) noexcept {
+  switch (side) {
+    case Side::top:
+      return Side::bottom;
+    case Side::bottom:
+      return Side::top;
+    case Side::left:
+      return Side::right;
+    case Side::right:
+      break;
+  }
+  return Side::left;
+}
+
+/// The side of the character that meets something when it moves along a component.
+[[nodiscard]] constexpr Side side_ahead(Eigen::Index component, bool forwards) noexcept {
+  if (component == 0) return forwards ? Side::right : Side::left;
+  return forwards ? Side::top : Side::bottom;
+}
+
+/// Length by the theorem of Pythagoras [m].
+template <class Scalar>
+[[nodiscard]] Scalar length(const Vec2<Scalar>& vector) noexcept;
+
+}  // namespace paperproof::article

@@ -1,0 +1,435 @@
+/// The article's discrete collision detection: see `discrete::Solver`. The character is a body, and so are others that
+/// move with it in a `Crowd`, all in one solve (this is a `JointTechnique`). Movers are bodies that nothing can move.
+///
+/// The knob `iterations` is the number of rounds, each with its own search for nearby pieces; the others have no
+/// meaning here. Here the article's "more iterations" shows: where two surfaces push into each other every round leaves
+/// a share of the depth that it found (`wedge_60`, `valley`, `leaning_valley`).
+///
+/// The response is the solver's: the part of the motion into a normal is taken away. The corners of the
+/// character are one convex body, whichever `points` are chosen, so nothing slips between two of them; but only the
+/// start and the end of a step are looked at, so paper is passed. A one-way segment stops what begins on its side of
+/// the normal. Stopped motion leaves a gap of `Tolerances::stop`. A contact's fraction is its time of impact.
+///
+/// What stands on a mover is carried: the frame is worked out in the mover's frame of reference. What comes to rest on
+/// it is carried at once, unless it had a speed of its own along it. A mover's push that leads through something that
+/// stands still, or ends in it, is none: the character stays where it was, and is crushed.
+#include "crowd/parts.hpp"
+#include "geometry/overlap_time.hpp"
+#include "techniques/article_response.hpp"
+#include "techniques/discrete/frame.hpp"
+#include "techniques/knobs.hpp"
+#include "techniques/registry.hpp"
+
+#include <paperproof/joint_technique.hpp>
+#include <paperproof/tolerances.hpp>
+
+namespace paperproof {
+namespace {
+
+using discrete::Body;
+using discrete::BodyIndex;
+using discrete::Frame;
+using discrete::SolvedImpact;
+using discrete::Workplace;
+
+template <class Scalar>
+class Discrete final : public JointTechnique<Scalar> {
+ public:
+  Discrete(const TechniqueDef& def, const Scenery<Scalar>& scenery, const CharacterDef& character)
+      : scenery_(&scenery),
+        broad_phase_(make_broad_phase<Scalar>(def.broad_phase, scenery.static_boxes())),
+        box_{character.shape.box().lower.cast<Scalar>(), character.shape.box().upper.cast<Scalar>()},
+        iterations_(def.article.iterations),
+        fastest_surface_(fastest_surface(scenery)) {
+    for (const Vec2d& corner : character.shape.hull()) outline_.push_back(corner.cast<Scalar>());
+  }
+
+  [[nodiscard]] std::string_view name() const noexcept override { return "discrete"; }
+  [[nodiscard]] Scratch<Scalar> make_scratch() const override { return make_joint_scratch(1); }
+  [[nodiscard]] Scratch<Scalar> make_joint_scratch(std::size_t most_characters) const override;
+  void move(const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,
+            MoveResult<Scalar>& result) const noexcept override;
+  bool move_together(std::span<const MoveRequest<Scalar>> requests, Scratch<Scalar>& scratch,
+                     CrowdReport<Scalar>& report) const noexcept override;
+
+ private:
+  using Frames = std::span<Frame<Scalar>>;
+
+  /// What the character overlaps.
+  struct Inside {
+    bool anything = false;
+    bool what_stands_still = false;                  ///< By however little: a push must not lead into it.
+    decltype(MoveResult<Scalar>::crushed) movers{};  ///< Colliders of those that move in this step.
+  };
+
+  void add_frame(const MoveRequest<Scalar>& request, MoveResult<Scalar>& result, CrowdMember<Scalar>* member,
+                 std::vector<Frame<Scalar>>& frames) const noexcept;
+  [[nodiscard]] std::size_t move_all(Scratch<Scalar>& scratch) const noexcept;
+  [[nodiscard]] Body<Scalar> body_of(PieceIndex piece, const FrameOfReference<Scalar>& place) const noexcept;
+  [[nodiscard]] std::span<Body<Scalar>> gather(std::span<const Frame<Scalar>> frames,
+                                               Scratch<Scalar>& scratch) const noexcept;
+  void note_company(Frames frames, const Workplace<Scalar>& work) const noexcept;
+  [[nodiscard]] std::size_t report(Frames frames, const Workplace<Scalar>& work) const noexcept;
+  void report_piece(Frame<Scalar>& frame, const discrete::Impact<Scalar>& impact, PieceIndex piece) const noexcept;
+  void report_meeting(Frames frames, const SolvedImpact<Scalar>& solved) const noexcept;
+  [[nodiscard]] bool take_along(Frame<Scalar>& frame, ColliderIndex ground, Scalar time) const noexcept;
+  [[nodiscard]] bool pushed_through(Frames frames, BodyIndex character, Scratch<Scalar>& scratch) const noexcept;
+  [[nodiscard]] bool passes_static(const Vec2<Scalar>& from, const Vec2<Scalar>& to,
+                                   Scratch<Scalar>& scratch) const noexcept;
+  [[nodiscard]] Inside find_inside(const Frame<Scalar>& frame, bool at_end, Scratch<Scalar>& scratch) const noexcept;
+  void stay(Frame<Scalar>& frame) const noexcept;
+  void finish(Frame<Scalar>& frame, Scratch<Scalar>& scratch) const noexcept;
+  void arrive(Frame<Scalar>& frame) const noexcept;
+  void measure_gaps(const Vec2<Scalar>& position, MoveResult<Scalar>& result) const noexcept;
+
+  const Scenery<Scalar>* scenery_;
+  std::unique_ptr<BroadPhase<Scalar>> broad_phase_;
+  FixedVector<Vec2<Scalar>, CharacterShape::max_points> outline_;
+  Box2<Scalar> box_;
+  int iterations_;
+  Scalar fastest_surface_;
+};
+
+template <class Scalar>
+Workplace<Scalar>& workplace_of(Scratch<Scalar>& scratch) noexcept {
+  return static_cast<Workplace<Scalar>&>(*scratch.own);
+}
+
+template <class Scalar>
+Scratch<Scalar> Discrete<Scalar>::make_joint_scratch(std::size_t most_characters) const {
+  const std::size_t pieces = scenery_->pieces().size();
+  Scratch<Scalar> scratch;
+  scratch.solids.pieces.resize(pieces);
+  auto own = std::make_unique<Workplace<Scalar>>();
+  own->frames.reserve(most_characters);
+  own->bodies.reserve(pieces + most_characters);
+  own->near.reserve(pieces);
+  own->gathered.resize(pieces);
+  own->in_way.resize(pieces);
+  // Each character with each piece and each other one; pieces do not meet each other.
+  const std::size_t all_pairs = most_characters * pieces + most_characters * (most_characters - 1) / 2;
+  own->solver.reserve(pieces + most_characters,
+                      std::min(all_pairs, pieces + discrete::most_pairs_each * most_characters));
+  scratch.own = std::move(own);
+  return scratch;
+}
+
+template <class Scalar>
+void Discrete<Scalar>::move(const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,
+                            MoveResult<Scalar>& result) const noexcept {
+  if (article::leaves_range(*scenery_, fastest_surface_, request)) return article::refuse(request, result);
+  std::vector<Frame<Scalar>>& frames = workplace_of(scratch).frames;
+  frames.clear();
+  add_frame(request, result, nullptr, frames);
+  (void)move_all(scratch);
+}
+
+template <class Scalar>
+bool Discrete<Scalar>::move_together(std::span<const MoveRequest<Scalar>> requests, Scratch<Scalar>& scratch,
+                                     CrowdReport<Scalar>& report) const noexcept {
+  const auto leaves = [&](const MoveRequest<Scalar>& request) {
+    return article::leaves_range(*scenery_, fastest_surface_, request);
+  };
+  if (std::any_of(requests.begin(), requests.end(), leaves)) return false;
+  std::vector<Frame<Scalar>>& frames = workplace_of(scratch).frames;
+  frames.clear();
+  for (std::size_t i = 0; i < requests.size(); ++i)
+    add_frame(requests[i], report.members[i].step.move, &report.members[i], frames);
+  report.impacts = move_all(scratch);
+  return true;
+}
+
+/// The character as it wants to move.
+template <class Scalar>
+void Discrete<Scalar>::add_frame(const MoveRequest<Scalar>& request, MoveResult<Scalar>& result,
+                                 CrowdMember<Scalar>* member, std::vector<Frame<Scalar>>& frames) const noexcept {
+  result.clear();
+  Frame<Scalar>& frame =
+      frames.emplace_back(Frame<Scalar>{request, FrameOfReference<Scalar>(*scenery_, request), result, member});
+  frame.character.outline = {outline_.begin(), outline_.end()};
+  frame.character.box = box_;
+  frame.character.base = frame.place.motion_of(frame.place.mover());
+  frame.character.position = frame.place.start();
+  frame.character.movement = frame.place.wanted();
+  frame.character.velocity = frame.place.velocity();
+  frame.character.drops = request.drop;
+}
+
+/// All frames of the workplace. @return how many impacts between characters were solved.
+template <class Scalar>
+std::size_t Discrete<Scalar>::move_all(Scratch<Scalar>& scratch) const noexcept {
+  Workplace<Scalar>& work = workplace_of(scratch);
+  const Frames frames = work.frames;
+  std::size_t impacts = 0;
+  bool left_over = true;
+  bool overflowed = false;
+  for (int iteration = 0; left_over && iteration < iterations_; ++iteration) {
+    for (Frame<Scalar>& frame : frames) frame.expected = frame.character.expected();
+    const std::span<Body<Scalar>> bodies = gather(frames, scratch);
+    work.solver.solve_once(bodies);
+    for (std::size_t i = 0; i < frames.size(); ++i) frames[i].character = bodies[i];
+    if (iteration == 0) note_company(frames, work);
+    overflowed = overflowed || work.solver.overflowed();
+    impacts += report(frames, work);
+    for (BodyIndex i = 0; i < frames.size(); ++i)
+      if (pushed_through(frames, i, scratch)) stay(frames[i]);
+    left_over = std::any_of(frames.begin(), frames.end(), [](const Frame<Scalar>& frame) { return frame.left_over; });
+  }
+  for (Frame<Scalar>& frame : frames) {
+    if (overflowed && !frame.stays) frame.result.status = MoveStatus::dropped;
+    finish(frame, scratch);
+  }
+  return impacts;
+}
+
+/// A piece as it goes, in the frame of reference of its mover.
+template <class Scalar>
+Body<Scalar> Discrete<Scalar>::body_of(PieceIndex piece, const FrameOfReference<Scalar>& place) const noexcept {
+  const PieceInfo& info = scenery_->pieces()[piece];
+  Body<Scalar> body;
+  body.outline = scenery_->vertices_of(piece);
+  body.box = scenery_->box(piece);
+  body.base = place.motion_of(info.mover);
+  body.velocity = place.velocity(info.mover);
+  body.inverse_mass = 0;
+  body.one_way = info.one_way;
+  return body;
+}
+
+/// The characters and all pieces near the total box of any of them.
+template <class Scalar>
+std::span<Body<Scalar>> Discrete<Scalar>::gather(std::span<const Frame<Scalar>> frames,
+                                                 Scratch<Scalar>& scratch) const noexcept {
+  Workplace<Scalar>& work = workplace_of(scratch);
+  work.near.clear();  // keeps its memory, as all of them
+  const auto add = [&work](PieceIndex piece) {
+    if (work.gathered[piece] != 0) return;
+    work.gathered[piece] = 1;
+    work.near.push_back(piece);
+  };
+  const PieceIndex movers_end = scenery_->sensor_pieces().first;
+  for (const Frame<Scalar>& frame : frames) {
+    const Box2<Scalar> total = frame.character.total_box();
+    const std::size_t found = broad_phase_->query(total, scratch.solids.pieces);
+    for (const PieceIndex piece : std::span(scratch.solids.pieces).first(found)) add(piece);
+    for (PieceIndex piece = scenery_->static_pieces().end; piece < movers_end; ++piece)
+      if (body_of(piece, frame.place).total_box().overlaps(total)) add(piece);
+  }
+  for (const PieceIndex piece : work.near) work.gathered[piece] = 0;
+  if (frames.size() > 1) std::sort(work.near.begin(), work.near.end());
+  work.bodies.clear();
+  for (const Frame<Scalar>& frame : frames) work.bodies.push_back(frame.character);
+  for (const PieceIndex piece : work.near) work.bodies.push_back(body_of(piece, frames.front().place));
+  return work.bodies;
+}
+
+/// Who is at risk of colliding with whom when the step begins, and who overlaps.
+template <class Scalar>
+void Discrete<Scalar>::note_company(Frames frames, const Workplace<Scalar>& work) const noexcept {
+  for (BodyIndex i = 0; i < frames.size(); ++i)
+    if (frames[i].member != nullptr) frames[i].member->island = work.solver.island_of(i);
+  for (const discrete::Pair& pair : work.solver.pairs()) {
+    if (pair.second >= frames.size()) continue;
+    const Body<Scalar>& first = frames[pair.first].character;
+    const Body<Scalar>& second = frames[pair.second].character;
+    if (!discrete::began_overlapping<Scalar>(first, second, Tolerances<Scalar>{}.certain)) continue;
+    frames[pair.first].member->started_overlapping.push_back(pair.second);
+    frames[pair.second].member->started_overlapping.push_back(pair.first);
+  }
+  for (Frame<Scalar>& frame : frames)
+    if (frame.member != nullptr)
+      std::sort(frame.member->started_overlapping.begin(), frame.member->started_overlapping.end());
+}
+
+/// What the last round pushed apart. @return how many of these were two characters.
+template <class Scalar>
+std::size_t Discrete<Scalar>::report(Frames frames, const Workplace<Scalar>& work) const noexcept {
+  std::size_t meetings = 0;
+  for (Frame<Scalar>& frame : frames) frame.left_over = false;
+  for (const SolvedImpact<Scalar>& each : work.solver.solved()) {
+    frames[each.bodies.first].left_over = true;
+    if (each.bodies.second < frames.size()) {
+      report_meeting(frames, each);
+      ++meetings;
+    } else {
+      report_piece(frames[each.bodies.first], each.impact, work.near[each.bodies.second - frames.size()]);
+    }
+  }
+  return meetings;
+}
+
+template <class Scalar>
+void Discrete<Scalar>::report_piece(Frame<Scalar>& frame, const discrete::Impact<Scalar>& impact,
+                                    PieceIndex piece) const noexcept {
+  const PieceInfo& info = scenery_->pieces()[piece];
+  const Side side = side_of_normal(impact.normal.x(), impact.normal.y());
+  article::add_contact(*scenery_, {piece, impact.point, impact.normal, impact.time}, side, impact.time, frame.result);
+  if (info.mover != no_mover && !frame.place.motion(info.mover).isZero(0))
+    article::add_once(info.collider, frame.pushers);
+  if (side != Side::bottom) return;
+  frame.result.grounded = true;
+  frame.result.ride.ground = frame.place.carries(info.collider) ? info.collider : Ride<Scalar>::none;
+  frame.left_over = take_along(frame, info.collider, impact.time) || frame.left_over;
+}
+
+/// Who comes down on another stands on it, and is not carried along.
+template <class Scalar>
+void Discrete<Scalar>::report_meeting(Frames frames, const SolvedImpact<Scalar>& solved) const noexcept {
+  const auto note = [&](BodyIndex one, BodyIndex other, const Vec2<Scalar>& normal) {
+    Frame<Scalar>& frame = frames[one];
+    crowd::note_meeting(*frame.member, other, normal, solved.impact.time);
+    if (frame.stays) return;
+    frame.left_over = true;
+    if (side_of_normal(normal.x(), normal.y()) == Side::bottom) frame.result.grounded = true;
+  };
+  note(solved.bodies.first, solved.bodies.second, solved.impact.normal);
+  note(solved.bodies.second, solved.bodies.first, -solved.impact.normal);
+}
+
+/// What comes to rest on moving ground is carried for the rest of the frame, unless it had a speed of its own along it.
+template <class Scalar>
+bool Discrete<Scalar>::take_along(Frame<Scalar>& frame, ColliderIndex ground, Scalar time) const noexcept {
+  if (!frame.place.carries(ground) || frame.request.ride.ground != Ride<Scalar>::none) return false;
+  if (frame.request.velocity.x() != 0 || frame.character.velocity.x() != 0) return false;
+  const Vec2<Scalar> motion = frame.place.motion(frame.place.mover_of(ground)) + frame.place.surface_motion(ground);
+  frame.character.movement.x() += motion.x() * (1 - time);
+  frame.character.velocity.x() = frame.place.velocity_of(ground).x();
+  return motion.x() != 0;
+}
+
+/// One of the last round's pushes by a mover led through something that stands still.
+template <class Scalar>
+bool Discrete<Scalar>::pushed_through(Frames frames, BodyIndex character, Scratch<Scalar>& scratch) const noexcept {
+  const Frame<Scalar>& frame = frames[character];
+  if (frame.pushers.empty() || frame.stays) return false;
+  const Workplace<Scalar>& work = workplace_of(scratch);
+  const Vec2<Scalar> shift = frame.place.shift_at_end(no_mover);
+  Vec2<Scalar> expected = frame.expected;
+  for (const SolvedImpact<Scalar>& each : work.solver.solved()) {
+    const Vec2<Scalar> from = expected;
+    if (each.bodies.second == character) expected += each.second_push;
+    if (each.bodies.first != character) continue;
+    expected += each.first_push;
+    const bool by_another = each.bodies.second < frames.size();
+    if (by_another || scenery_->pieces()[work.near[each.bodies.second - frames.size()]].mover == no_mover) continue;
+    if (passes_static(from + shift, expected + shift, scratch)) return true;
+  }
+  return false;
+}
+
+/// A push leads through a piece that stands still, from one side of it to another.
+template <class Scalar>
+bool Discrete<Scalar>::passes_static(const Vec2<Scalar>& from, const Vec2<Scalar>& to,
+                                     Scratch<Scalar>& scratch) const noexcept {
+  using Time = geometry::OverlapTime<Scalar>;
+  std::vector<PieceIndex>& in_way = workplace_of(scratch).in_way;
+  const std::size_t count =
+      broad_phase_->query({from.cwiseMin(to) + box_.lower, from.cwiseMax(to) + box_.upper}, in_way);
+  return std::any_of(in_way.begin(), in_way.begin() + static_cast<std::ptrdiff_t>(count), [&](PieceIndex piece) {
+    if (scenery_->pieces()[piece].one_way) return false;
+    const Time time =
+        geometry::overlap_time<Scalar>({outline_.begin(), outline_.end()}, scenery_->vertices_of(piece), from, to);
+    return time.any() && time.begin != Time::before && time.end != Time::after;
+  });
+}
+
+/// Where the step begins, or where the character is expected to end.
+template <class Scalar>
+typename Discrete<Scalar>::Inside Discrete<Scalar>::find_inside(const Frame<Scalar>& frame, bool at_end,
+                                                                Scratch<Scalar>& scratch) const noexcept {
+  const auto placed = [&](Body<Scalar> body) {
+    if (at_end) body.position = body.expected();
+    body.base =
+        at_end ? MoverMotion<Scalar>{body.base.to, body.base.to} : MoverMotion<Scalar>{body.base.from, body.base.from};
+    body.movement.setZero();
+    return body;
+  };
+  Inside inside;
+  const std::span<const Body<Scalar>> bodies = gather({&frame, 1}, scratch);
+  const Body<Scalar> character = placed(bodies.front());
+  for (std::size_t i = 1; i < bodies.size(); ++i) {
+    const Body<Scalar> body = placed(bodies[i]);
+    const PieceInfo& info = scenery_->pieces()[workplace_of(scratch).near[i - 1]];
+    if (info.mover == no_mover && discrete::began_overlapping<Scalar>(character, body, 0))
+      inside.what_stands_still = true;
+    if (!discrete::began_overlapping<Scalar>(character, body, Tolerances<Scalar>{}.touch)) continue;
+    inside.anything = true;
+    if (info.mover != no_mover && !frame.place.motion(info.mover).isZero(0))
+      article::add_once(info.collider, inside.movers);
+  }
+  return inside;
+}
+
+/// Nothing is pushed into what stands still, or through it. For others it is in the way there, and nothing moves it.
+template <class Scalar>
+void Discrete<Scalar>::stay(Frame<Scalar>& frame) const noexcept {
+  frame.result.crushed = frame.pushers;
+  article::stay_crushed(frame.request, frame.result);
+  frame.stays = true;
+  frame.left_over = false;
+  frame.character.base = {};
+  frame.character.position = frame.request.position;
+  frame.character.movement.setZero();
+  frame.character.velocity.setZero();
+  frame.character.inverse_mass = 0;
+}
+
+/// After the last round.
+template <class Scalar>
+void Discrete<Scalar>::finish(Frame<Scalar>& frame, Scratch<Scalar>& scratch) const noexcept {
+  if (frame.stays) return;
+  if (frame.left_over || scenery_->mover_count() > 0) {
+    const Inside begin = find_inside(frame, false, scratch);
+    const Inside end = find_inside(frame, true, scratch);
+    if (end.what_stands_still && !begin.what_stands_still && !frame.pushers.empty()) return stay(frame);
+    frame.result.crushed = end.movers;
+    if (frame.left_over && begin.anything && end.anything) frame.result.status = MoveStatus::stuck;
+    if (!frame.result.crushed.empty()) frame.result.status = MoveStatus::crushed;
+  }
+  arrive(frame);
+}
+
+/// In the world, and on what carries the character.
+template <class Scalar>
+void Discrete<Scalar>::arrive(Frame<Scalar>& frame) const noexcept {
+  MoveResult<Scalar>& result = frame.result;
+  const Vec2<Scalar> position = frame.character.expected();
+  measure_gaps(position, result);
+  for (Contact<Scalar>& contact : result.contacts) contact.point = frame.place.in_world(contact.point, 1);
+  result.velocity = frame.character.velocity;
+  frame.place.arrive(position, result);
+  result.path.push_back({frame.request.position, 0});
+  result.path.push_back({result.position, 1});
+}
+
+/// Along each contact's normal, from the obstacle to the nearest corner of the character where it ended.
+template <class Scalar>
+void Discrete<Scalar>::measure_gaps(const Vec2<Scalar>& position, MoveResult<Scalar>& result) const noexcept {
+  for (Contact<Scalar>& contact : result.contacts) {
+    const auto height_of = [&](const Vec2<Scalar>& corner) {
+      const Vec2<Scalar> from_point = position + corner - contact.point;
+      return from_point.dot(contact.normal);
+    };
+    contact.separation = height_of(outline_[0]);
+    for (const Vec2<Scalar>& corner : outline_) contact.separation = std::min(contact.separation, height_of(corner));
+  }
+}
+
+template <class Scalar>
+std::unique_ptr<Technique<Scalar>> make_discrete(const TechniqueDef& def, const Scenery<Scalar>& scenery,
+                                                 const CharacterDef& character) {
+  return std::make_unique<Discrete<Scalar>>(def, scenery, character);
+}
+
+}  // namespace
+
+TechniqueEntry discrete_entry() {
+  return {.name = "discrete",
+          .make_float = make_discrete<float>,
+          .make_double = make_discrete<double>,
+          .knobs = {knob::iterations},
+          .knows_movers = true,
+          .moves_crowds = true};
+}
+
+}  // namespace paperproof

@@ -1,0 +1,133 @@
+#include "techniques/registry.hpp"
+
+#include <paperproof/joint_technique.hpp>
+#include <paperproof/scenery_facts.hpp>
+#include <paperproof/tolerances.hpp>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <type_traits>
+
+namespace paperproof {
+namespace {
+
+void require(bool holds, const std::string& what) {
+  if (!holds) throw std::invalid_argument(what);
+}
+
+/// Finer, and the whole range of positions would no longer have whole pixels in a double.
+constexpr double max_raster_pixels_per_metre = 1000;
+/// Larger, and one type of tile takes half of the memory that a level may.
+constexpr int max_pixels_per_tile = 4096;
+
+/// @tparam Scalar in which the unit has to be a positive number too.
+template <class Scalar>
+void validate(const ArticleKnobs& knobs) {
+  const Scalar unit = static_cast<Scalar>(knobs.unit);
+  require(std::isfinite(unit) && unit > 0, "unit: must be a positive length, not " + std::to_string(knobs.unit));
+  require(knobs.iterations >= 1, "iterations: must be at least 1, not " + std::to_string(knobs.iterations));
+  require(knobs.points == 8 || knobs.points == 4, "points: must be 8 or 4, not " + std::to_string(knobs.points));
+  require(knobs.pairs == ArticleKnobs::Pairs::direction || knobs.pairs == ArticleKnobs::Pairs::all,
+          "pairs: must be direction or all");
+  require(knobs.response == ArticleKnobs::Response::component || knobs.response == ArticleKnobs::Response::shorten,
+          "response: must be component or shorten");
+  require(knobs.objects == ArticleKnobs::Objects::each || knobs.objects == ArticleKnobs::Objects::all,
+          "objects: must be each or all");
+  require(std::isfinite(knobs.square) && knobs.square > static_cast<double>(Tolerances<Scalar>{}.touch),
+          "square: must be longer than what counts as touching, not " + std::to_string(knobs.square));
+  const double fineness = knobs.raster_pixels_per_metre;
+  require(fineness > 0 && fineness <= max_raster_pixels_per_metre,
+          "raster_pixels_per_metre: must be above 0 and at most 1000, not " + std::to_string(fineness));
+  require(knobs.pixels_per_tile >= 1 && knobs.pixels_per_tile <= max_pixels_per_tile,
+          "pixels_per_tile: must be from 1 to 4096, not " + std::to_string(knobs.pixels_per_tile));
+}
+
+template <class Number>
+Number number_in(const std::string& text, const char* expected) {
+  Number number{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  require(error == std::errc{} && end == text.data() + text.size(), expected);
+  return number;
+}
+
+std::vector<TechniqueEntry>& registry() {
+#define PAPERPROOF_ENTRY(name) name##_entry(),
+  static std::vector<TechniqueEntry> all{PAPERPROOF_TECHNIQUES(PAPERPROOF_ENTRY)};
+#undef PAPERPROOF_ENTRY
+  return all;
+}
+
+}  // namespace
+
+double real_in(const std::string& text) { return number_in<double>(text, "expected a number"); }
+
+int whole_in(const std::string& text) { return number_in<int>(text, "expected a whole number"); }
+
+bool is_second(const std::string& text, std::string_view first, std::string_view second) {
+  require(text == first || text == second, "expected " + std::string(first) + " or " + std::string(second));
+  return text == second;
+}
+
+const std::vector<TechniqueEntry>& all_techniques() { return registry(); }
+
+std::vector<std::string_view> technique_names() {
+  std::vector<std::string_view> names;
+  for (const TechniqueEntry& entry : all_techniques()) names.push_back(entry.name);
+  return names;
+}
+
+const TechniqueEntry* find_technique(std::string_view name) {
+  const std::vector<TechniqueEntry>& all = all_techniques();
+  const auto found = std::find_if(all.begin(), all.end(), [name](const auto& entry) { return entry.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+bool register_technique(TechniqueEntry entry) {
+  require(find_technique(entry.name) == nullptr, "technique: the name " + std::string(entry.name) + " is taken");
+  registry().push_back(std::move(entry));
+  return true;
+}
+
+template <class Scalar>
+std::unique_ptr<Technique<Scalar>> make_technique(const TechniqueDef& def, const Scenery<Scalar>& scenery,
+                                                  const CharacterDef& character) {
+  character.validate();
+  validate<Scalar>(def.article);
+  const TechniqueEntry* entry = find_technique(def.name);
+  require(entry != nullptr, "technique: there is none with the name " + std::string(def.name));
+  if (!entry->knows_movers && (has_moving_solids(scenery) || has_conveyors(scenery)))
+    throw NotExpressible(std::string(def.name) + " is for scenery that stands still");
+  if constexpr (std::is_same_v<Scalar, float>) return entry->make_float(def, scenery, character);
+  if constexpr (std::is_same_v<Scalar, double>) return entry->make_double(def, scenery, character);
+}
+
+template <class Scalar>
+Controller<Scalar> make_controller(const Scenery<Scalar>& scenery, const CharacterDef& character,
+                                   const TechniqueDef& def) {
+  CharacterDef with_reach = character;
+  with_reach.wall_reach = def.article.unit;
+  return Controller<Scalar>(scenery, with_reach, make_technique(def, scenery, with_reach), def.stages);
+}
+
+template <class Scalar>
+Crowd<Scalar> make_crowd(const Scenery<Scalar>& scenery, const CharacterDef& character, const TechniqueDef& def) {
+  if (def.name == octagon_sweep_entry().name)
+    return Crowd<Scalar>(scenery, character, SweepDef{def.broad_phase, def.stages, def.sweep_iterations});
+  std::unique_ptr<const Technique<Scalar>> made = make_technique(def, scenery, character);
+  const auto* joint = dynamic_cast<const JointTechnique<Scalar>*>(made.get());
+  require(joint != nullptr, "a crowd does not move by " + std::string(def.name) + ", which knows one character");
+  static_cast<void>(made.release());
+  return Crowd<Scalar>(scenery, character, std::unique_ptr<const JointTechnique<Scalar>>(joint), def.stages);
+}
+
+#define PAPERPROOF_INSTANTIATE(Scalar)                                                                           \
+  template std::unique_ptr<Technique<Scalar>> make_technique(const TechniqueDef&, const Scenery<Scalar>&,        \
+                                                             const CharacterDef&);                               \
+  template Controller<Scalar> make_controller(const Scenery<Scalar>&, const CharacterDef&, const TechniqueDef&); \
+  template Crowd<Scalar> make_crowd(const Scenery<Scalar>&, const CharacterDef&, const TechniqueDef&)
+PAPERPROOF_INSTANTIATE(float);
+PAPERPROOF_INSTANTIATE(double);
+#undef PAPERPROOF_INSTANTIATE
+
+}  // namespace paperproof

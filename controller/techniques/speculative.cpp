@@ -1,0 +1,77 @@
+/// The article's speculative contacts with the time of impact of each point computed instead of searched: the pair
+/// lands just at the edge of what it would enter. Then penetration resolution; all iterated.
+///
+/// The knob `unit` is left to penetration resolution. A contact's fraction is the time of impact of its point.
+#include "techniques/article_technique.hpp"
+#include "techniques/knobs.hpp"
+#include "techniques/registry.hpp"
+
+#include <paperproof/tolerances.hpp>
+
+#include <limits>
+
+namespace paperproof {
+namespace {
+
+using article::distinct;
+using article::PairImpact;
+using article::Parts;
+
+/// The time of impact is rounded, and so is the position that it leads to: without this the next frame would find the
+/// point an ulp inside, and penetration resolution would push it out by a whole unit. Doubling reaches any rounding
+/// error in a few tests.
+template <class Scalar>
+Scalar just_outside(const Parts<Scalar>& parts, const NearbyScenery<Scalar>& nearby, const CharacterShape::Pair& pair,
+                    const Vec2<Scalar>& position, const Vec2<Scalar>& movement, Scalar fraction) noexcept {
+  const Scalar scale = position.cwiseAbs().maxCoeff() / movement.cwiseAbs().maxCoeff();
+  Scalar back = std::numeric_limits<Scalar>::epsilon() * std::max(scale, fraction);
+  while (fraction > 0 && collides<Scalar>(parts, nearby, pair, position, position + movement * fraction)) {
+    fraction = std::max(Scalar(0), fraction - back);
+    back *= 2;
+  }
+  return fraction;
+}
+
+template <class Scalar>
+PairImpact<Scalar> time_of_impact(const Parts<Scalar>& parts, const NearbyScenery<Scalar>& nearby,
+                                  const CharacterShape::Pair& pair, const Vec2<Scalar>& position,
+                                  const Vec2<Scalar>& movement) noexcept {
+  PairImpact<Scalar> impact;
+  for (const std::size_t i : distinct(pair)) {
+    const auto entry = nearby.first_entry(position + parts.points.offsets[i], movement);
+    if (!entry) continue;
+    impact.fraction = std::min(impact.fraction, entry->fraction);
+    impact.hits.push_back({*entry, i});
+  }
+  if (impact.hits.empty()) return impact;
+  // Both points touch where one landing brings both to an edge.
+  const Scalar touching = impact.fraction + Tolerances<Scalar>{}.touch / article::length(movement);
+  if (impact.hits.size() == 2 && impact.hits[1].on.fraction > touching) impact.hits.pop_back();
+  if (impact.hits.size() == 2 && impact.hits[0].on.fraction > touching) {
+    impact.hits[0] = impact.hits[1];
+    impact.hits.pop_back();
+  }
+  impact.fraction = just_outside(parts, nearby, pair, position, movement, impact.fraction);
+  impact.reached = movement * impact.fraction;
+  return impact;
+}
+
+template <class Scalar>
+std::unique_ptr<Technique<Scalar>> make_speculative(const TechniqueDef& def, const Scenery<Scalar>& scenery,
+                                                    const CharacterDef& character) {
+  using Made = article::SearchingTechnique<Scalar, &time_of_impact<Scalar>>;
+  return std::make_unique<Made>(false, def, scenery, character);
+}
+
+}  // namespace
+
+TechniqueEntry speculative_entry() {
+  return {.name = "speculative",
+          .make_float = make_speculative<float>,
+          .make_double = make_speculative<double>,
+          .knobs = knob::of_search(),
+          .knows_movers = true,
+          .unit = knob::unit_of_search};
+}
+
+}  // namespace paperproof

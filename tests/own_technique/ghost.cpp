@@ -1,0 +1,35 @@
+// A technique of somebody's own, in one file and one line: nothing is in its way. The command runs it as any other.
+#include <paperproof/techniques.hpp>
+
+namespace {
+
+using namespace paperproof;
+
+template <class Scalar>
+class Ghost final : public Technique<Scalar> {
+ public:
+  Ghost(const TechniqueDef& def, const Scenery<Scalar>&, const CharacterDef&) {
+    if (const auto turned = def.own.find("share"); turned != def.own.end())
+      share_ = static_cast<Scalar>(real_in(turned->second));
+  }
+
+  [[nodiscard]] std::string_view name() const noexcept override { return "ghost"; }
+  [[nodiscard]] Scratch<Scalar> make_scratch() const override { return {}; }
+
+  void move(const MoveRequest<Scalar>& request, Scratch<Scalar>&, MoveResult<Scalar>& result) const noexcept override {
+    result.clear();
+    result.position = request.position + request.displacement * share_;
+    result.velocity = request.velocity;
+    result.path.push_back({request.position, 0});
+    result.path.push_back({result.position, 1});
+  }
+
+ private:
+  Scalar share_ = 1;  ///< Share of what is wanted that it goes.
+};
+
+const bool is_known = register_technique(
+    entry_of<Ghost>("ghost", {{"share", "share of the wanted way that it goes; 1 where not turned",
+                               [](const std::string& value, TechniqueDef& def) { def.own["share"] = value; }}}));
+
+}  // namespace
