@@ -13,5 +13,5 @@ rm -rf "$3" && mkdir -p "$3" && cd "$3"
 "$command" sweep paper --vary speed=10,100 --knob unit=0.01 --quiet --rows sweep.jsonl
 "$command" sweep paper --find-border speed --contender mask --quiet --rows border.jsonl
 "$command" work-precision flight --contender mask,box2d --quiet --rows work.jsonl
-"$command" stability --grid quick --contender mask --quiet --rows stability.jsonl
+"$command" stability --grid quick --quiet --rows stability.jsonl
 exec python3 -B "$here/check_schemas.py" "$schemas" ./*.json ./*.jsonl
