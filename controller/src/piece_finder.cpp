@@ -28,10 +28,10 @@ PieceFinder<Scalar>::PieceFinder(const Scenery<Scalar>& scenery, const Character
     (mover == no_mover ? standing_ : of_mover[mover]).pieces.push_back(piece);
   }
   const auto prepare = [&](Group& group) {
-    std::vector<Box2<Scalar>> boxes;
-    for (const PieceIndex piece : group.pieces) boxes.push_back(scenery.box(piece));
-    const BroadPhaseKind kind = boxes.size() <= few_boxes ? BroadPhaseKind::all_pairs : BroadPhaseKind::tree;
-    group.phase = make_broad_phase<Scalar>(kind, boxes);
+    group.boxes.reserve(group.pieces.size());
+    for (const PieceIndex piece : group.pieces) group.boxes.push_back(scenery.box(piece));
+    const BroadPhaseKind kind = group.boxes.size() <= few_boxes ? BroadPhaseKind::all_pairs : BroadPhaseKind::tree;
+    group.phase = make_broad_phase<Scalar>(kind, group.boxes);
   };
   prepare(standing_);
   for (MoverIndex mover = 0; mover < of_mover.size(); ++mover) {

@@ -76,7 +76,8 @@ class PieceFinder {
   struct Group {
     MoverIndex mover = no_mover;
     std::vector<PieceIndex> pieces;
-    std::unique_ptr<const BroadPhase<Scalar>> phase;  ///< Over their boxes at offset zero.
+    std::vector<Box2<Scalar>> boxes;                  ///< Theirs at offset zero,
+    std::unique_ptr<const BroadPhase<Scalar>> phase;  ///< and what finds them.
 
     [[nodiscard]] std::span<const PieceIndex> query(const Box2<Scalar>& box,
                                                     std::span<PieceIndex> found) const noexcept;

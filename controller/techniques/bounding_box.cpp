@@ -62,6 +62,7 @@ class BoundingBox final : public Technique<Scalar> {
       : scenery_(&scenery),
         character_{character.shape.box().lower.cast<Scalar>(), character.shape.box().upper.cast<Scalar>()},
         iterations_(def.article.iterations) {
+    grown_.reserve(scenery.pieces().size());  // the broad phase looks at them where they are
     for (const Box2<Scalar>& box : scenery.static_boxes()) grown_.push_back(grown(box, character_));
     broad_phase_ = make_broad_phase<Scalar>(def.broad_phase, grown_);
     for (PieceIndex piece = scenery.static_pieces().end; piece < moving_end(); ++piece)
@@ -138,7 +139,7 @@ typename BoundingBox<Scalar>::Pieces BoundingBox<Scalar>::near(const Vec2<Scalar
 template <class Scalar>
 bool BoundingBox<Scalar>::blocks(PieceIndex piece, Side side) const noexcept {
   if (!scenery_->pieces()[piece].one_way) return true;
-  const std::span<const Vec2<Scalar>> ends = scenery_->vertices_of(piece);
+  const PieceVertices<Scalar> ends = scenery_->vertices_of(piece);
   return side_of_normal(ends[0].y() - ends[1].y(), ends[1].x() - ends[0].x()) == side;
 }
 

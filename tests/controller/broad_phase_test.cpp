@@ -1,3 +1,4 @@
+#include "broad_phase/most_at_once.hpp"
 #include "support/allocations.hpp"
 #include "support/steps_wanted.hpp"
 
@@ -281,6 +282,26 @@ TYPED_TEST(BroadPhases, one_box_as_wide_as_the_world_lies_among_small_ones) {
                                    square_at<Scalar>(1e9F, 0, 1),
                                    {{most / 2, 0}, {most / 2, 1}},
                                    square_at<Scalar>(3, 2, 1)});
+}
+
+TYPED_TEST(BroadPhases, no_box_meets_more_than_most_at_once_and_of_many_that_is_few) {
+  using Scalar = TypeParam;
+  for (unsigned seed = 0; seed < test::sampled(2000); ++seed) {
+    RandomScene<Scalar> scene(seed);
+    if (scene.boxes.empty()) continue;
+    const auto broad_phase = make_broad_phase<Scalar>(BroadPhaseKind::all_pairs, scene.boxes);
+    for (int i = 0; i < 10; ++i) {
+      const Box2<Scalar> query = scene.query();
+      const Vec2<Scalar> size = query.upper - query.lower;
+      if (!(size.maxCoeff() > 0)) continue;
+      EXPECT_LE(all_found(*broad_phase, query).size(), broad_phase::most_at_once<Scalar>(scene.boxes, size))
+          << "seed " << seed;
+    }
+  }
+  Boxes<Scalar> tiles;
+  for (int i = 0; i < 10'000; ++i)
+    tiles.push_back(square_at<Scalar>(static_cast<Scalar>(i % 100), Scalar(i / 100), 1));  // NOLINT(*-integer-division)
+  EXPECT_LE(broad_phase::most_at_once<Scalar>(tiles, {Scalar(0.6), Scalar(1.2)}), 144U);
 }
 
 TYPED_TEST(BroadPhases, a_query_takes_no_memory) {

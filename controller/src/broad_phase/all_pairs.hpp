@@ -9,7 +9,7 @@ namespace paperproof::broad_phase {
 template <class Scalar>
 class AllPairs final : public BroadPhase<Scalar> {
  public:
-  explicit AllPairs(std::span<const Box2<Scalar>> boxes) : boxes_(boxes.begin(), boxes.end()) {}
+  explicit AllPairs(std::span<const Box2<Scalar>> boxes) : boxes_(boxes) {}
 
   [[nodiscard]] std::size_t query(const Box2<Scalar>& query, std::span<PieceIndex> found) const noexcept override {
     std::size_t count = 0;
@@ -23,7 +23,7 @@ class AllPairs final : public BroadPhase<Scalar> {
   [[nodiscard]] std::size_t size() const noexcept override { return boxes_.size(); }
 
  private:
-  std::vector<Box2<Scalar>> boxes_;
+  std::span<const Box2<Scalar>> boxes_;
 };
 
 }  // namespace paperproof::broad_phase

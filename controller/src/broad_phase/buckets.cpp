@@ -59,7 +59,7 @@ Scalar cells_per_metre(std::span<const Box2<Scalar>> boxes) {
 
 template <class Scalar>
 Buckets<Scalar>::Buckets(std::span<const Box2<Scalar>> boxes)
-    : boxes_(boxes.begin(), boxes.end()), cells_per_metre_(cells_per_metre(boxes)) {
+    : boxes_(boxes), cells_per_metre_(cells_per_metre(boxes)) {
   fill();
 }
 

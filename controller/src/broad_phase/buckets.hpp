@@ -46,7 +46,7 @@ class Buckets final : public BroadPhase<Scalar> {
   [[nodiscard]] bool is_first_cell(const Cell& cell, const Cells& cells, const Box2<Scalar>& box) const noexcept;
   void fill();
 
-  std::vector<Box2<Scalar>> boxes_;
+  std::span<const Box2<Scalar>> boxes_;
   Scalar cells_per_metre_ = 1;
   std::vector<PieceIndex> large_;           ///< Boxes that are not in the grid.
   std::vector<std::uint32_t> first_entry_;  ///< By bucket, and one more: where the last one ends.

@@ -1,88 +1,93 @@
 #include "broad_phase/tree.hpp"
 
+#include <cmath>
+#include <limits>
+
+#include "broad_phase/hilbert_order.hpp"
+
 namespace paperproof::broad_phase {
 namespace {
 
-/// Boxes per leaf. One: twice the nodes to walk. Many: boxes are tested that the node above could have ruled out.
-constexpr std::size_t leaf_size = 4;
+constexpr std::size_t fan = 4;
+constexpr float most = std::numeric_limits<float>::max();
 
-/// Halved before adding, so that huge boxes do not overflow.
-template <class Scalar>
-Vec2<Scalar> centre(const Box2<Scalar>& box) {
-  return Scalar(0.5) * box.lower + Scalar(0.5) * box.upper;
+/// A float that is not above a number, and one that is not below it: a few times further away than the nearest, as
+/// finding the next one takes as long as the rest of a small query.
+float rounded_down(double value) noexcept {
+  const auto near = static_cast<float>(std::clamp(value, -double{most}, double{most}));
+  return near - (std::abs(near) * 0x1p-22F + std::numeric_limits<float>::min());
 }
+float rounded_up(double value) noexcept { return -rounded_down(-value); }
 
-/// 0 (x) or 1 (y): the direction in which the centres are spread wider.
 template <class Scalar>
-Eigen::Index longer_axis(std::span<const Box2<Scalar>> boxes, std::span<const PieceIndex> pieces) {
-  Vec2<Scalar> lower = centre(boxes[pieces[0]]);
-  Vec2<Scalar> upper = lower;
-  for (const PieceIndex piece : pieces) {
-    const Vec2<Scalar> at = centre(boxes[piece]);
-    lower = lower.cwiseMin(at);
-    upper = upper.cwiseMax(at);
-  }
-  const Vec2<Scalar> halves = Scalar(0.5) * upper - Scalar(0.5) * lower;
-  return halves.x() >= halves.y() ? 0 : 1;
+Box2<float> rounded_outwards(const Box2<Scalar>& box) noexcept {
+  return {{rounded_down(box.lower.x()), rounded_down(box.lower.y())},
+          {rounded_up(box.upper.x()), rounded_up(box.upper.y())}};
 }
 
 }  // namespace
 
 template <class Scalar>
-Tree<Scalar>::Tree(std::span<const Box2<Scalar>> boxes) {
-  std::vector<PieceIndex> pieces(boxes.size());
-  for (std::size_t i = 0; i < pieces.size(); ++i) pieces[i] = static_cast<PieceIndex>(i);
-  leaf_boxes_.reserve(boxes.size());
-  leaf_pieces_.reserve(boxes.size());
-  if (!pieces.empty()) build(boxes, pieces);
+Tree<Scalar>::Tree(std::span<const Box2<Scalar>> boxes) : boxes_(boxes), order_(hilbert_order(boxes)) {
+  std::vector<Box2<float>> below;
+  below.reserve(boxes.size());
+  for (const PieceIndex piece : order_) below.push_back(rounded_outwards(boxes[piece]));
+  nodes_.reserve(boxes.size() / (fan - 1) + most_levels);
+  while (!below.empty() && (levels_.empty() || below.size() > 1)) add_level(below);
+  nodes_.shrink_to_fit();
 }
 
-/// Appends the subtree over `pieces`, which is reordered. Halving keeps the recursion at most 32 deep.
+/// @param boxes of what is below; becomes those of the nodes that are added.
 template <class Scalar>
-void Tree<Scalar>::build(std::span<const Box2<Scalar>> boxes, std::span<PieceIndex> pieces) {
-  const std::size_t self = nodes_.size();
-  Node node;
-  node.box = boxes[pieces[0]];
-  for (const PieceIndex piece : pieces) node.box = node.box.merged(boxes[piece]);
-  nodes_.push_back(node);
-
-  if (pieces.size() <= leaf_size) {
-    nodes_[self].first = static_cast<std::uint32_t>(leaf_boxes_.size());
-    nodes_[self].count = static_cast<std::uint32_t>(pieces.size());
-    for (const PieceIndex piece : pieces) {
-      leaf_boxes_.push_back(boxes[piece]);
-      leaf_pieces_.push_back(piece);
+void Tree<Scalar>::add_level(std::vector<Box2<float>>& boxes) {
+  levels_.push_back(static_cast<std::uint32_t>(nodes_.size()));
+  std::size_t made = 0;
+  for (std::size_t first = 0; first < boxes.size(); first += fan) {
+    const Four nothing = std::numeric_limits<float>::quiet_NaN() - Four{};
+    Node node{nothing, nothing, nothing, nothing};
+    Box2<float> around = boxes[first];
+    for (std::size_t k = 0; k < std::min(fan, boxes.size() - first); ++k) {
+      const Box2<float>& box = boxes[first + k];
+      node.lower_x[k] = box.lower.x();
+      node.lower_y[k] = box.lower.y();
+      node.upper_x[k] = box.upper.x();
+      node.upper_y[k] = box.upper.y();
+      around = around.merged(box);
     }
-  } else {
-    const Eigen::Index axis = longer_axis<Scalar>(boxes, pieces);
-    const std::size_t half = pieces.size() / 2;
-    std::nth_element(pieces.begin(), pieces.begin() + static_cast<std::ptrdiff_t>(half), pieces.end(),
-                     [&](PieceIndex a, PieceIndex b) {
-                       const Scalar at_a = centre(boxes[a])[axis];
-                       const Scalar at_b = centre(boxes[b])[axis];
-                       return at_a != at_b ? at_a < at_b : a < b;
-                     });
-    build(boxes, pieces.first(half));
-    build(boxes, pieces.subspan(half));
+    nodes_.push_back(node);
+    boxes[made++] = around;
   }
-  nodes_[self].skip = static_cast<std::uint32_t>(nodes_.size());
+  boxes.resize(made);
 }
 
 template <class Scalar>
 std::size_t Tree<Scalar>::query(const Box2<Scalar>& query, std::span<PieceIndex> found) const noexcept {
+  if (levels_.empty()) return 0;
+  struct Place {
+    std::size_t level;
+    std::size_t node;  ///< Of its level.
+  };
+  // Each level leaves three nodes for later at most.
+  FixedVector<Place, (fan - 1) * most_levels + 1> open;
+  open.push_back({levels_.size() - 1, 0});
+  const Box2<float> wanted = rounded_outwards(query);
   std::size_t count = 0;
-  for (std::size_t at = 0; at < nodes_.size();) {
-    const Node& node = nodes_[at];
-    if (!node.box.overlaps(query)) {
-      at = node.skip;
-      continue;
+  while (!open.empty()) {
+    const Place place = open.back();
+    open.pop_back();
+    const Node& node = nodes_[levels_[place.level] + place.node];
+    const auto met = (node.lower_x <= wanted.upper.x()) & (node.upper_x >= wanted.lower.x()) &
+                     (node.lower_y <= wanted.upper.y()) & (node.upper_y >= wanted.lower.y());
+    for (std::size_t k = 0; k < fan; ++k) {
+      if (met[k] == 0) continue;
+      const std::size_t below = place.node * fan + k;
+      if (place.level > 0) {
+        open.push_back({place.level - 1, below});
+      } else if (boxes_[order_[below]].overlaps(query)) {
+        if (count < found.size()) found[count] = order_[below];
+        ++count;
+      }
     }
-    for (std::size_t i = node.first; i < node.first + node.count; ++i) {
-      if (!leaf_boxes_[i].overlaps(query)) continue;
-      if (count < found.size()) found[count] = leaf_pieces_[i];
-      ++count;
-    }
-    ++at;
   }
   if (count <= found.size()) std::sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(count));
   return count;

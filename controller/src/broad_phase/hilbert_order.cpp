@@ -1,0 +1,84 @@
+#include "broad_phase/hilbert_order.hpp"
+
+#include <algorithm>
+
+namespace paperproof::broad_phase {
+namespace {
+
+constexpr unsigned bits = 16;
+
+/// Halved before adding, so that huge boxes do not overflow.
+template <class Scalar>
+Vec2<Scalar> centre(const Box2<Scalar>& box) noexcept {
+  return Scalar(0.5) * box.lower + Scalar(0.5) * box.upper;
+}
+
+/// How far along the curve a cell is: quarter by quarter, the square being turned for each so that the curve goes on
+/// where it was (D. Hilbert 1891).
+std::uint32_t place_on_curve(std::uint32_t x, std::uint32_t y) noexcept {
+  std::uint32_t place = 0;
+  for (unsigned bit = bits; bit-- > 0;) {
+    const std::uint32_t right = (x >> bit) & 1U;
+    const std::uint32_t up = (y >> bit) & 1U;
+    place = place << 2U | ((3 * right) ^ up);
+    // The lower quarters are seen with x and y exchanged, the right one of them from the other end.
+    const std::uint32_t turned = 0U - (right & ~up);
+    x ^= turned;
+    y ^= turned;
+    const std::uint32_t exchanged = (x ^ y) & (up - 1U);
+    x ^= exchanged;
+    y ^= exchanged;
+  }
+  return place;
+}
+
+/// A place on the curve above, the index of a box below: sorting needs nothing else.
+using Key = std::uint64_t;
+std::uint32_t place_of(Key key) noexcept { return static_cast<std::uint32_t>(key >> 32U); }
+PieceIndex index_of(Key key) noexcept { return static_cast<PieceIndex>(key); }
+
+template <class Scalar>
+void sort_along_curve(std::span<const Box2<Scalar>> boxes, std::span<Key> keys) {
+  Vec2<Scalar> lower = centre(boxes[index_of(keys.front())]);
+  Vec2<Scalar> upper = lower;
+  for (const Key key : keys) {
+    const Vec2<Scalar> at = centre(boxes[index_of(key)]);
+    lower = lower.cwiseMin(at);
+    upper = upper.cwiseMax(at);
+  }
+  if (lower == upper) return;
+  constexpr auto cells = static_cast<Scalar>((1U << bits) - 1);
+  const Vec2<Scalar> half = Scalar(0.5) * upper - Scalar(0.5) * lower;
+  const auto cell = [&](const Vec2<Scalar>& at, Eigen::Index axis) {
+    if (!(half[axis] > 0)) return 0U;
+    return static_cast<std::uint32_t>((Scalar(0.5) * at[axis] - Scalar(0.5) * lower[axis]) / half[axis] * cells);
+  };
+  for (Key& key : keys) {
+    const PieceIndex index = index_of(key);
+    const Vec2<Scalar> at = centre(boxes[index]);
+    key = Key{place_on_curve(cell(at, 0), cell(at, 1))} << 32U | index;
+  }
+  std::sort(keys.begin(), keys.end());
+  for (auto first = keys.begin(); first != keys.end();) {
+    const auto end = std::find_if(first, keys.end(), [&](Key key) { return place_of(key) != place_of(*first); });
+    if (end - first > 4) sort_along_curve(boxes, {first, end});
+    first = end;
+  }
+}
+
+}  // namespace
+
+template <class Scalar>
+std::vector<PieceIndex> hilbert_order(std::span<const Box2<Scalar>> boxes) {
+  std::vector<Key> keys(boxes.size());
+  for (std::size_t i = 0; i < keys.size(); ++i) keys[i] = i;
+  if (!keys.empty()) sort_along_curve<Scalar>(boxes, keys);
+  std::vector<PieceIndex> order(keys.size());
+  std::transform(keys.begin(), keys.end(), order.begin(), index_of);
+  return order;
+}
+
+template std::vector<PieceIndex> hilbert_order(std::span<const Box2<float>>);
+template std::vector<PieceIndex> hilbert_order(std::span<const Box2<double>>);
+
+}  // namespace paperproof::broad_phase

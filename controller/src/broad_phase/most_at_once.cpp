@@ -1,0 +1,57 @@
+#include "broad_phase/most_at_once.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+namespace paperproof::broad_phase {
+namespace {
+
+/// Boxes are told apart by the power of two that exceeds their longer side, in so many classes; the last holds all that
+/// are larger still.
+constexpr std::size_t classes = 48;
+/// Where a box ends that one of the size begins at the end of is a matter of rounding.
+constexpr double spare = 1.01;
+
+/// What is farther out is in the last cell.
+constexpr double outermost = 0x1p60;
+
+std::size_t mixed(std::int64_t x, std::int64_t y, std::size_t size_class) noexcept {
+  const std::uint64_t of_x = static_cast<std::uint64_t>(x) * 0x9e3779b97f4a7c15U + size_class;
+  const std::uint64_t both = (of_x ^ (of_x >> 32U) ^ static_cast<std::uint64_t>(y)) * 0xd6e8feb86659fd93U;
+  return static_cast<std::size_t>(both ^ (both >> 32U));
+}
+
+}  // namespace
+
+/// Of one class, the lower corners of all boxes that meet a box at once lie in a rectangle that is larger than it by
+/// the longest side of the class: in four cells of that size at most. Cells that share a counter make the bound larger.
+template <class Scalar>
+std::size_t most_at_once(std::span<const Box2<Scalar>> boxes, const Vec2<Scalar>& size) {
+  std::vector<std::uint32_t> counters(std::bit_ceil(boxes.size() + 1));
+  std::array<std::size_t, classes> fullest{};
+  const int least = std::ilogb(static_cast<double>(size.maxCoeff()));
+  for (const Box2<Scalar>& box : boxes) {
+    const auto side = static_cast<double>((box.upper - box.lower).maxCoeff());
+    const int exponent = side > 0 ? std::max(std::ilogb(side) + 1, least) : least;
+    const auto size_class = std::min(static_cast<std::size_t>(exponent - least), classes - 1);
+    const double longest = std::ldexp(1.0, exponent);
+    const auto cell = [&](Eigen::Index axis) {
+      const double width = (static_cast<double>(size[axis]) + longest) * spare;
+      const double place = std::floor(static_cast<double>(box.lower[axis]) / width);
+      return static_cast<std::int64_t>(std::clamp(place, -outermost, outermost));
+    };
+    const bool fits = size_class + 1 < classes;
+    std::uint32_t& counter =
+        counters[(fits ? mixed(cell(0), cell(1), size_class) : size_class) & (counters.size() - 1)];
+    fullest[size_class] = std::max<std::size_t>(fullest[size_class], ++counter);
+  }
+  return std::min(boxes.size(), 4 * std::accumulate(fullest.begin(), fullest.end(), std::size_t{0}));
+}
+
+template std::size_t most_at_once(std::span<const Box2<float>>, const Vec2<float>&);
+template std::size_t most_at_once(std::span<const Box2<double>>, const Vec2<double>&);
+
+}  // namespace paperproof::broad_phase
