@@ -252,7 +252,7 @@ void add_sensors(std::span<b2Body* const> bodies, const Scenery<double>& scenery
     const MoverIndex mover = as_run.colliders[piece.collider].mover;
     b2Body& body = *bodies[mover == no_mover ? 0 : mover + 1];
     const FixtureSource source{.collider = piece.collider, .mover = mover, .sensor = true};
-    const std::span<const Vec2d> vertices = scenery.vertices_of(i);
+    const PieceVertices<double> vertices = scenery.vertices_of(i);
     if (is_chain(piece)) {
       add_two_sided_edge(body, rounded(vertices[0]), rounded(vertices[1]), source, made);
     } else {

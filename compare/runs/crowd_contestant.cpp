@@ -19,7 +19,7 @@ class CrowdContestant final : public Contestant {
                           definition_of(technique, scene, plan_, planning.knobs))),
         scratch_(crowd_.make_scratch(character_count(scene))),
         gravity_(scene.gravity.cast<Scalar>()),
-        movers_(scene.movers.size(), scenery_.get().as_run()),
+        movers_(scene.movers.size(), scenery_.get()),
         header_(header_of(technique, scenery_.get(), scene, plan_, planning.knobs)),
         states_(character_count(scene)),
         report_(character_count(scene)) {

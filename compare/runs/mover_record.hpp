@@ -13,8 +13,8 @@ namespace paperproof::compare {
 template <class Scalar>
 class MoverRecord {
  public:
-  /// @param scenery as run; must outlive the record.
-  MoverRecord(std::size_t movers, const SceneryDef& scenery) : scenery_(&scenery), now_(movers), last_(movers) {}
+  /// @param scenery must outlive the record.
+  MoverRecord(std::size_t movers, const Scenery<Scalar>& scenery) : scenery_(&scenery), now_(movers), last_(movers) {}
 
   /// A step begins. @param movers one for each, in whatever scalar they are known. @param dt [s]
   template <class Motions>
@@ -39,10 +39,10 @@ class MoverRecord {
   /// went.
   [[nodiscard]] Vec2d carried_by(const Ride<Scalar>& ride, bool drops) const {
     if (ride.ground == Ride<Scalar>::none) return Vec2d::Zero();
-    if (drops && scenery_->colliders[ride.ground].one_way)
+    if (drops && scenery_->collider(ride.ground).one_way)
       return ride.velocity.template cast<double>() * static_cast<double>(dt_);
     Vec2d carried = way_of(now_, ride.ground);
-    if (scenery_->colliders[ride.ground].surface_speed != 0)
+    if (scenery_->collider(ride.ground).surface_speed != 0)
       carried += ride.velocity.template cast<double>() * static_cast<double>(dt_) -
                  way_of(last_, ride.ground) * static_cast<double>(dt_ / last_dt_);
     return carried;
@@ -51,12 +51,12 @@ class MoverRecord {
  private:
   /// Of the mover that a collider goes along with [m].
   [[nodiscard]] Vec2d way_of(const std::vector<MoverMotion<Scalar>>& motions, ColliderIndex ground) const {
-    const MoverIndex mover = scenery_->colliders[ground].mover;
+    const MoverIndex mover = scenery_->collider(ground).mover;
     if (mover == no_mover) return Vec2d::Zero();
     return (motions[mover].to - motions[mover].from).template cast<double>();
   }
 
-  const SceneryDef* scenery_;
+  const Scenery<Scalar>* scenery_;
   std::vector<MoverMotion<Scalar>> now_;
   std::vector<MoverMotion<Scalar>> last_;
   Scalar dt_ = 0;       ///< Of the present step [s].

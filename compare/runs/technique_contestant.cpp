@@ -21,7 +21,7 @@ class TechniqueContestant final : public Contestant {
                                     definition_of(technique, scene, plan_, planning.knobs))),
         scratch_(controller_.make_scratch()),
         gravity_(scene.gravity.cast<Scalar>()),
-        movers_(scene.movers.size(), scenery_.get().as_run()),
+        movers_(scene.movers.size(), scenery_.get()),
         header_(header_of(technique, scenery_.get(), scene, plan_, planning.knobs)) {
     place_at_start(*this, scene);
   }

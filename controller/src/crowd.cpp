@@ -59,9 +59,7 @@ struct CrowdMemory final : OwnMemory {
 /// Any number of movers may crush one character.
 template <class Scalar>
 void reserve_names(const Scenery<Scalar>& scenery, crowd::WalkerMemory<Scalar>& memory) {
-  const std::vector<ColliderDef>& colliders = scenery.as_run().colliders;
-  const auto moves = [](const ColliderDef& each) { return each.mover != no_mover; };
-  const auto most = static_cast<std::size_t>(std::count_if(colliders.begin(), colliders.end(), moves));
+  const std::size_t most = count_moving_colliders(scenery);
   memory.way.crushed.reserve(most);
   for (crowd::Walker<Scalar>& walker : memory.walkers) {
     walker.plan.crushed.reserve(most);

@@ -70,7 +70,7 @@ void OneWayChains<Scalar>::find_passed(std::span<const PathPoint<Scalar>> path,
 /// A segment runs so that its blocking normal is on its left.
 template <class Scalar>
 bool OneWayChains<Scalar>::passes(PieceIndex piece, const Vec2<Scalar>& from, const Vec2<Scalar>& to) const noexcept {
-  const std::span<const Vec2<Scalar>> ends = scenery_->vertices_of(piece);
+  const PieceVertices<Scalar> ends = scenery_->vertices_of(piece);
   const Vec2<Scalar> along = ends[1] - ends[0];
   const bool against = Vec2<Scalar>(-along.y(), along.x()).dot(to - from) < 0;
   const typename OneWaySurfaces<Scalar>::Index surface = surfaces_.of(piece);

@@ -54,11 +54,11 @@ class Joints {
   /// @return one past the last piece of the collider.
   PieceIndex add_collider(PieceIndex piece) {
     const PieceInfo& info = scenery_.pieces()[piece];
-    const ColliderDef& def = scenery_.as_run().colliders[info.collider];
     if (!info.one_way) {
       while (piece < scenery_.pieces().size() && scenery_.pieces()[piece].collider == info.collider) ++piece;
       return piece;
     }
+    const ColliderDef def = scenery_.as_run(info.collider);
     int side_before = 0;
     for (std::size_t i = 1; i < def.points.size(); ++i) {
       const int side = turn_sign(def.points[i - 1], def.points[i], Vec2d::Zero(), *def.one_way);
@@ -113,7 +113,7 @@ OneWaySurfaces<Scalar>::OneWaySurfaces(const Scenery<Scalar>& scenery, const Cha
       line.push_back(end);
       of_piece_[piece] = static_cast<Index>(surfaces_.size());
     }
-    add_surface(line, *scenery.as_run().colliders[pieces[first].collider].one_way);
+    add_surface(line, *scenery.collider(pieces[first].collider).one_way);
   }
 }
 

@@ -47,7 +47,7 @@ void choose_broad_phase(std::span<const Box2<Scalar>> boxes, Plan& plan) {
 }
 
 template <class Scalar>
-bool has_slope(std::span<const Vec2<Scalar>> vertices) {
+bool has_slope(const PieceVertices<Scalar>& vertices) {
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const Vec2<Scalar>& next = vertices[(i + 1) % vertices.size()];
     if (vertices[i].x() != next.x() && vertices[i].y() != next.y()) return true;
@@ -59,7 +59,7 @@ template <class Scalar>
 bool has_slope(const Scenery<Scalar>& scenery) {
   const PieceIndex solid = scenery.sensor_pieces().first;
   for (PieceIndex piece = 0; piece < solid; ++piece)
-    if (has_slope(scenery.vertices_of(piece))) return true;
+    if (!scenery.pieces()[piece].is_rectangle() && has_slope(scenery.vertices_of(piece))) return true;
   return false;
 }
 
@@ -97,8 +97,6 @@ std::string_view name_of(BroadPhaseKind kind) noexcept {
 
 template <class Scalar>
 Plan make_plan(const Scenery<Scalar>& scenery, const Foreseen& foreseen) {
-  const std::vector<ColliderDef>& colliders = scenery.as_run().colliders;
-  const auto any = [&colliders](auto&& test) { return std::any_of(colliders.begin(), colliders.end(), test); };
   Plan plan;
   choose_broad_phase(scenery.static_boxes(), plan);
   const auto leave_out = [&plan](bool needed, Stage stage, bool Stages::*member, const char* reason) {
@@ -111,7 +109,10 @@ Plan make_plan(const Scenery<Scalar>& scenery, const Foreseen& foreseen) {
       foreseen.company
           ? "no scenery moves or conveys: characters meet in order of impact, but each moves in an order of its own"
           : "nothing moves and nothing conveys, so impacts have no order in time but the character's own way");
-  leave_out(any([](const ColliderDef& def) { return def.one_way.has_value(); }), Stage::one_way, &Stages::one_way,
+  const std::span<const ColliderInfo> kinds = scenery.collider_kinds();
+  const bool has_one_way =
+      std::any_of(kinds.begin(), kinds.end(), [](const ColliderInfo& kind) { return kind.one_way.has_value(); });
+  leave_out(has_one_way, Stage::one_way, &Stages::one_way,
             "there is no one-way chain, so no impact depends on the side from which it comes");
   leave_out(scenery.sensor_pieces().size() > 0, Stage::sensors, &Stages::sensors,
             "there is no sensor, so nothing can be entered without being met");

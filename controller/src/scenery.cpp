@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <type_traits>
+#include <utility>
 
 #include "geometry/convex_pieces.hpp"
 #include "geometry/exact.hpp"
@@ -21,6 +22,7 @@ class Refused : public std::invalid_argument {
 /// the way to `float` and back: the doubles came out as they went in.
 template <class Scalar>
 double rounded_coordinate(double value) noexcept {
+  if constexpr (std::is_same_v<Scalar, double>) return geometry::without_traces(value);
   const volatile Scalar rounded = static_cast<Scalar>(value);
   return geometry::without_traces(static_cast<double>(rounded));
 }
@@ -36,20 +38,17 @@ Vec2d rounded_point(const Vec2d& point, const Name& name) {
   return {rounded_coordinate<Scalar>(point.x()), rounded_coordinate<Scalar>(point.y())};
 }
 
+/// The definition as it runs, in memory that is used for one collider after the other.
 template <class Scalar>
-ColliderDef rounded(const ColliderDef& def) {
-  ColliderDef result = def;
-  for (std::size_t i = 0; i < result.points.size(); ++i) {
+void round_to(const ColliderDef& def, ColliderDef& result) {
+  result = def;
+  for (std::size_t i = 0; i < def.points.size(); ++i)
     result.points[i] = rounded_point<Scalar>(def.points[i], [&] { return "point " + std::to_string(i); });
-  }
-  for (std::size_t hole = 0; hole < result.holes.size(); ++hole) {
-    for (std::size_t i = 0; i < result.holes[hole].size(); ++i) {
+  for (std::size_t hole = 0; hole < def.holes.size(); ++hole)
+    for (std::size_t i = 0; i < def.holes[hole].size(); ++i)
       result.holes[hole][i] = rounded_point<Scalar>(
           def.holes[hole][i], [&] { return "point " + std::to_string(i) + " of hole " + std::to_string(hole); });
-    }
-  }
   if (def.one_way) result.one_way = rounded_point<Scalar>(*def.one_way, [] { return std::string("one_way"); });
-  return result;
 }
 
 void check_chain(const ColliderDef& chain) {
@@ -82,32 +81,54 @@ std::optional<Segment> blocking_segment(const Segment& segment, const Vec2d& one
   return side > 0 ? segment : Segment{segment.to, segment.from};
 }
 
+/// Four corners of a box, one after the other, either way round.
+bool is_upright_rectangle(std::span<const Vec2d> ring) {
+  if (ring.size() != 4 || ring[0].x() == ring[2].x() || ring[0].y() == ring[2].y()) return false;
+  const auto upright = [&](std::size_t i, std::size_t j) { return ring[i].x() == ring[j].x(); };
+  const auto level = [&](std::size_t i, std::size_t j) { return ring[i].y() == ring[j].y(); };
+  return (level(0, 1) && upright(1, 2) && level(2, 3) && upright(3, 0)) ||
+         (upright(0, 1) && level(1, 2) && upright(2, 3) && level(3, 0));
+}
+
+/// Counted counter-clockwise from the lower left one.
+std::uint8_t corner_of(const Box2<double>& box, const Vec2d& corner) {
+  const bool right = corner.x() == box.upper.x();
+  return corner.y() == box.lower.y() ? (right ? 1 : 0) : (right ? 2 : 3);
+}
+
 /// Where the pieces of all colliders are collected.
 template <class Scalar>
 struct Pieces {
   std::vector<PieceInfo>& infos;
   std::vector<Vec2<Scalar>>& vertices;
   std::vector<Box2<Scalar>>& boxes;
-  MoverIndex mover = no_mover;  ///< Of what is being added.
 
   /// Casting back is exact: the vertices were rounded before.
-  void add(ColliderIndex collider, std::span<const Vec2d> outline, bool one_way) {
-    infos.push_back({collider, static_cast<std::uint32_t>(vertices.size()), static_cast<std::uint32_t>(outline.size()),
-                     one_way, mover});
+  void add(ColliderIndex collider, const ColliderDef& def, std::span<const Vec2d> outline) {
+    PieceInfo info{.collider = collider,
+                   .mover = def.mover,
+                   .first_vertex = static_cast<std::uint32_t>(vertices.size()),
+                   .vertex_count = static_cast<std::uint8_t>(outline.size()),
+                   .one_way = def.one_way.has_value()};
     const Box2<double> box = geometry::box_of(outline);
     boxes.push_back({box.lower.template cast<Scalar>(), box.upper.template cast<Scalar>()});
-    for (const Vec2d& vertex : outline) vertices.push_back(vertex.template cast<Scalar>());
+    if (is_upright_rectangle(outline))
+      info.rectangle_corner = corner_of(box, outline[0]);
+    else
+      for (const Vec2d& vertex : outline) vertices.push_back(vertex.template cast<Scalar>());
+    infos.push_back(info);
   }
 
   /// In a fan of parts that all have the first vertex, where there are more vertices than a piece may have.
-  void add_convex(ColliderIndex collider, std::span<const Vec2d> ring) {
+  void add_convex(ColliderIndex collider, const ColliderDef& def, std::span<const Vec2d> ring) {
+    if (ring.size() <= max_piece_vertices) return add(collider, def, ring);
     std::vector<Vec2d> part;
     for (std::size_t next = 1; next + 1 < ring.size();) {
       const std::size_t count = std::min(max_piece_vertices - 1, ring.size() - next);
       part.assign(1, ring.front());
       part.insert(part.end(), ring.begin() + static_cast<std::ptrdiff_t>(next),
                   ring.begin() + static_cast<std::ptrdiff_t>(next + count));
-      add(collider, part, false);
+      add(collider, def, part);
       next += count - 1;
     }
   }
@@ -123,12 +144,20 @@ struct Pieces {
 
   void add_polygon(ColliderIndex collider, const ColliderDef& def) {
     if (def.one_way) throw Refused("one_way is for chains: a polygon blocks from all sides");
+    if (def.holes.empty() && is_upright_rectangle(def.points)) return add_rectangle(collider, def);
     const geometry::ConvexPieces convex = geometry::cut_into_convex_pieces(def.points, def.holes);
     std::span<const Vec2d> rest = convex.vertices;
     for (const std::uint32_t size : convex.sizes) {
-      add_convex(collider, rest.first(size));
+      add_convex(collider, def, rest.first(size));
       rest = rest.subspan(size);
     }
+  }
+
+  /// Most of a level.
+  void add_rectangle(ColliderIndex collider, const ColliderDef& def) {
+    std::array<Vec2d, 4> outline{def.points[0], def.points[1], def.points[2], def.points[3]};
+    if (geometry::winding(outline) < 0) std::reverse(outline.begin(), outline.end());
+    add(collider, def, outline);
   }
 
   void add_chain(ColliderIndex collider, const ColliderDef& def) {
@@ -136,10 +165,18 @@ struct Pieces {
     for (std::size_t i = 1; i < def.points.size(); ++i) {
       std::optional<Segment> segment = Segment{def.points[i - 1], def.points[i]};
       if (def.one_way) segment = blocking_segment(*segment, *def.one_way);
-      if (segment) add(collider, std::array{segment->from, segment->to}, def.one_way.has_value());
+      if (segment) add(collider, def, std::array{segment->from, segment->to});
     }
   }
 };
+
+template <class To, class Points>
+std::vector<Vec2<To>> cast_points(const Points& points) {
+  std::vector<Vec2<To>> result;
+  result.reserve(points.size());
+  for (const auto& point : points) result.push_back(point.template cast<To>());
+  return result;
+}
 
 void check_role(const ColliderDef& def, std::size_t colliders) {
   if (def.mover != no_mover && def.mover >= colliders)
@@ -147,18 +184,6 @@ void check_role(const ColliderDef& def, std::size_t colliders) {
                   std::to_string(colliders) + " colliders");
   if (!std::isfinite(def.surface_speed)) throw Refused("surface_speed is not a finite number");
   if (def.sensor && def.one_way) throw Refused("a sensor cannot be one-way");
-}
-
-/// What stands, what moves, mover by mover, and what only watches; colliders of one kind as they came.
-std::vector<ColliderIndex> by_role(std::span<const ColliderDef> colliders) {
-  const auto role = [&](ColliderIndex i) {
-    const ColliderDef& collider = colliders[i];
-    return std::pair(collider.sensor, collider.sensor ? 0 : collider.mover + 1);  // no_mover + 1 is 0
-  };
-  std::vector<ColliderIndex> order(colliders.size());
-  std::iota(order.begin(), order.end(), ColliderIndex{0});
-  std::stable_sort(order.begin(), order.end(), [&](ColliderIndex a, ColliderIndex b) { return role(a) < role(b); });
-  return order;
 }
 
 /// Rounding to `float` can make neighbours one point, or a thin polygon cross itself.
@@ -171,39 +196,119 @@ std::string explained(const std::string& reason, const ColliderDef& given, const
 
 template <class Scalar>
 Scenery<Scalar>::Scenery(const SceneryDef& def) {
-  as_run_.colliders.reserve(def.colliders.size());
-  MoverIndex movers = 0;
-  for (const ColliderDef& given : def.colliders) {
-    const auto collider = static_cast<ColliderIndex>(as_run_.colliders.size());
+  colliders_.resize(def.colliders.size());
+  pieces_.reserve(def.colliders.size());
+  boxes_.reserve(def.colliders.size());
+  ColliderDef rounded;
+  const auto add = [&](ColliderIndex i) {
+    const ColliderDef& given = def.colliders[i];
     try {
       check_role(given, def.colliders.size());
-      as_run_.colliders.push_back(rounded<Scalar>(given));
+      round_to<Scalar>(given, rounded);
     } catch (const Refused& refused) {
-      throw InvalidScenery(collider, refused.what());
+      throw InvalidScenery(i, refused.what());
     }
-    if (given.mover != no_mover) movers = std::max(movers, given.mover + 1);
-  }
-  mover_begin_.assign(movers + std::size_t{1}, 0);
-  Pieces<Scalar> pieces{pieces_, vertices_, boxes_};
-  for (const ColliderIndex collider : by_role(as_run_.colliders)) {
-    const ColliderDef& as_run = as_run_.colliders[collider];
-    pieces.mover = as_run.mover;
     try {
-      pieces.add(collider, as_run);
+      this->add(i, rounded);
     } catch (const std::invalid_argument& refused) {
-      throw InvalidScenery(collider, explained(refused.what(), def.colliders[collider], as_run));
+      throw InvalidScenery(i, explained(refused.what(), given, rounded));
     }
-    const auto count = static_cast<PieceIndex>(pieces_.size());
-    if (as_run.sensor) continue;
-    if (as_run.mover == no_mover)
-      static_count_ = count;
+    return static_cast<PieceIndex>(pieces_.size());
+  };
+  // What stands, what moves, mover by mover, and what only watches; colliders of one kind as they came.
+  std::vector<ColliderIndex> others;
+  for (ColliderIndex i = 0; i < colliders_.size(); ++i) {
+    const ColliderDef& given = def.colliders[i];
+    if (given.sensor || given.mover != no_mover)
+      others.push_back(i);
     else
-      mover_begin_[as_run.mover + 1] = count;
+      static_count_ = add(i);
   }
-  // A mover that only sensors go along with has no pieces of its own.
-  mover_begin_.front() = static_count_;
-  for (std::size_t i = 1; i < mover_begin_.size(); ++i)
-    mover_begin_[i] = std::max(mover_begin_[i], mover_begin_[i - 1]);
+  const auto role = [&](ColliderIndex i) {
+    const ColliderDef& given = def.colliders[i];
+    return std::pair(given.sensor, given.sensor ? 0 : given.mover);
+  };
+  std::stable_sort(others.begin(), others.end(), [&](ColliderIndex a, ColliderIndex b) { return role(a) < role(b); });
+  mover_begin_.assign(1, static_count_);
+  for (const ColliderIndex i : others) {
+    const PieceIndex count = add(i);
+    const ColliderDef& given = def.colliders[i];
+    // A mover that only sensors go along with has no pieces of its own.
+    if (given.mover != no_mover && given.mover + std::size_t{2} > mover_begin_.size())
+      mover_begin_.resize(given.mover + std::size_t{2}, mover_begin_.back());
+    if (!given.sensor) mover_begin_.back() = count;
+  }
+  pieces_.shrink_to_fit();
+  boxes_.shrink_to_fit();
+  vertices_.shrink_to_fit();
+}
+
+template <class Scalar>
+void Scenery<Scalar>::add(ColliderIndex collider, const ColliderDef& def) {
+  const ColliderInfo info{.shape = def.shape,
+                          .sensor = def.sensor,
+                          .mover = def.mover,
+                          .surface_speed = def.surface_speed,
+                          .one_way = def.one_way};
+  if (infos_.empty() || infos_.back() != info) infos_.push_back(info);
+  colliders_[collider].info = static_cast<std::uint32_t>(infos_.size() - 1);
+  colliders_[collider].first_piece = static_cast<PieceIndex>(pieces_.size());
+  Pieces<Scalar>{pieces_, vertices_, boxes_}.add(collider, def);
+  colliders_[collider].shape = shape_of(collider, def);
+}
+
+/// How the points of a collider are kept whose pieces are there.
+template <class Scalar>
+std::uint32_t Scenery<Scalar>::shape_of(ColliderIndex collider, const ColliderDef& def) {
+  const auto same = [](const Vec2<Scalar>& vertex, const Vec2d& point) {
+    return vertex.template cast<double>() == point;
+  };
+  if (const PieceRange range = pieces_of(collider); range.size() == 1 && def.holes.empty()) {
+    const PieceVertices<Scalar> vertices = vertices_of(range.first);
+    if (std::equal(vertices.begin(), vertices.end(), def.points.begin(), def.points.end(), same))
+      return Collider::piece;
+    if (std::equal(vertices.begin(), vertices.end(), def.points.rbegin(), def.points.rend(), same))
+      return Collider::piece_backwards;
+  }
+  shapes_.push_back({cast_points<Scalar>(def.points), {}});
+  for (const std::vector<Vec2d>& hole : def.holes) shapes_.back().holes.push_back(cast_points<Scalar>(hole));
+  return static_cast<std::uint32_t>(shapes_.size() - 1);
+}
+
+template <class Scalar>
+PieceRange Scenery<Scalar>::pieces_of(ColliderIndex collider) const noexcept {
+  PieceRange range{colliders_[collider].first_piece, colliders_[collider].first_piece};
+  while (range.end < pieces_.size() && pieces_[range.end].collider == collider) ++range.end;
+  return range;
+}
+
+template <class Scalar>
+ColliderDef Scenery<Scalar>::as_run(ColliderIndex collider) const {
+  const Collider& kept = colliders_[collider];
+  const ColliderInfo& info = infos_[kept.info];
+  ColliderDef def{.shape = info.shape,
+                  .points = {},
+                  .one_way = info.one_way,
+                  .mover = info.mover,
+                  .sensor = info.sensor,
+                  .surface_speed = info.surface_speed};
+  if (kept.shape == Collider::piece || kept.shape == Collider::piece_backwards) {
+    def.points = cast_points<double>(vertices_of(kept.first_piece));
+    if (kept.shape == Collider::piece_backwards) std::reverse(def.points.begin(), def.points.end());
+    return def;
+  }
+  const Shape& shape = shapes_[kept.shape];
+  def.points = cast_points<double>(shape.points);
+  for (const std::vector<Vec2<Scalar>>& hole : shape.holes) def.holes.push_back(cast_points<double>(hole));
+  return def;
+}
+
+template <class Scalar>
+SceneryDef Scenery<Scalar>::as_run() const {
+  SceneryDef def;
+  def.colliders.reserve(colliders_.size());
+  for (ColliderIndex i = 0; i < colliders_.size(); ++i) def.colliders.push_back(as_run(i));
+  return def;
 }
 
 template class Scenery<float>;

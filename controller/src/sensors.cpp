@@ -91,7 +91,7 @@ Sensors<Scalar>::Sensors(const Scenery<Scalar>& scenery, const CharacterShape& s
   for (const Vec2d& corner : shape.hull()) outline.push_back(corner.cast<Scalar>());
   overlaps_.reserve(scenery.sensor_pieces().size());
   for (const PieceIndex piece : all_of(scenery.sensor_pieces())) {
-    const std::span<const Vec2<Scalar>> vertices = scenery.vertices_of(piece);
+    const PieceVertices<Scalar> vertices = scenery.vertices_of(piece);
     const Box2<Scalar>& box = scenery.box(piece);
     const Scalar furthest = std::max(box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff());
     // A little larger, so that rounding here cannot hide what the separations see.

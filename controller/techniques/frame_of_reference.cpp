@@ -11,7 +11,7 @@ namespace paperproof {
 template <class Scalar>
 void FrameOfReference<Scalar>::go_along(const MoveRequest<Scalar>& request) noexcept {
   const ColliderIndex ground = request.ride.ground;
-  if (ground >= scenery_->as_run().colliders.size()) return;
+  if (ground >= scenery_->collider_count()) return;
   mover_ = mover_of(ground);
   wanted_ += surface_motion(ground);
   velocity_ += velocity_of(ground);
@@ -37,7 +37,7 @@ Vec2<Scalar> FrameOfReference<Scalar>::velocity(MoverIndex mover) const noexcept
 
 template <class Scalar>
 Vec2<Scalar> FrameOfReference<Scalar>::velocity_of(ColliderIndex ground) const noexcept {
-  const ColliderDef& collider = scenery_->as_run().colliders[ground];
+  const ColliderInfo& collider = scenery_->collider(ground);
   Vec2<Scalar> result = velocity(collider.mover);
   result.x() += static_cast<Scalar>(collider.surface_speed);
   return result;
@@ -56,7 +56,7 @@ Vec2<Scalar> FrameOfReference<Scalar>::in_world(const Vec2<Scalar>& position, Sc
 
 template <class Scalar>
 Vec2<Scalar> FrameOfReference<Scalar>::surface_motion(ColliderIndex ground) const noexcept {
-  return {static_cast<Scalar>(scenery_->as_run().colliders[ground].surface_speed) * dt_, 0};
+  return {static_cast<Scalar>(scenery_->collider(ground).surface_speed) * dt_, 0};
 }
 
 template <class Scalar>
@@ -74,7 +74,7 @@ void FrameOfReference<Scalar>::arrive(const Vec2<Scalar>& position, MoveResult<S
 
 template <class Scalar>
 bool FrameOfReference<Scalar>::carries(ColliderIndex ground) const noexcept {
-  const ColliderDef& collider = scenery_->as_run().colliders[ground];
+  const ColliderInfo& collider = scenery_->collider(ground);
   return collider.mover != no_mover || collider.surface_speed != 0;
 }
 
@@ -86,7 +86,7 @@ bool something_carries(const Scenery<Scalar>& scenery) noexcept {
 template <class Scalar>
 Scalar fastest_surface(const Scenery<Scalar>& scenery) noexcept {
   Scalar fastest = 0;
-  for (const ColliderDef& collider : scenery.as_run().colliders)
+  for (const ColliderInfo& collider : scenery.collider_kinds())
     if (!collider.sensor) fastest = std::max(fastest, std::abs(static_cast<Scalar>(collider.surface_speed)));
   return fastest;
 }

@@ -67,7 +67,7 @@ class FrameOfReference {
   /// What stands on it is carried.
   [[nodiscard]] bool carries(ColliderIndex ground) const noexcept;
   [[nodiscard]] MoverIndex mover_of(ColliderIndex collider) const noexcept {
-    return scenery_->as_run().colliders[collider].mover;
+    return scenery_->collider(collider).mover;
   }
   /// The mover whose frame this is; `no_mover` for the world's.
   [[nodiscard]] MoverIndex mover() const noexcept { return mover_; }

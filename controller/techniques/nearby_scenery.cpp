@@ -149,7 +149,7 @@ std::optional<PieceIndex> NearbyScenery<Scalar>::containing(const Vec2<Scalar>& 
   for (const PieceIndex piece : pieces_) {
     if (is_chain(piece) || !holds(scenery_->box(piece), point)) continue;
     Vec2<Scalar> along{Vec2<Scalar>::Zero()};
-    const Place place = place_in(scenery_->vertices_of(piece), point, along);
+    const Place place = place_in<Scalar>(scenery_->vertices_of(piece), point, along);
     if (place == Place::inside) return piece;
     if (place == Place::edge && (seams.close_with(along) || is_seam(point, along))) return piece;
   }
@@ -162,7 +162,7 @@ bool NearbyScenery<Scalar>::is_seam(const Vec2<Scalar>& point, const Vec2<Scalar
   return std::any_of(around_.begin(), around_.end(), [&](PieceIndex piece) {
     if (is_chain(piece) || !holds(scenery_->box(piece), point)) return false;
     Vec2<Scalar> other{Vec2<Scalar>::Zero()};
-    return place_in(scenery_->vertices_of(piece), point, other) == Place::edge && run_against(along, other);
+    return place_in<Scalar>(scenery_->vertices_of(piece), point, other) == Place::edge && run_against(along, other);
   });
 }
 
@@ -178,7 +178,7 @@ NearbyScenery<Scalar> NearbyScenery<Scalar>::object_at_front(std::span<const Pie
 
 template <class Scalar>
 bool NearbyScenery<Scalar>::crosses(PieceIndex piece, const Vec2<Scalar>& from, const Vec2<Scalar>& to) const noexcept {
-  const std::span<const Vec2<Scalar>> ends = scenery_->vertices_of(piece);
+  const PieceVertices<Scalar> ends = scenery_->vertices_of(piece);
   const Edge<Scalar> segment(ends, 1);
   const Scalar before = segment.inside(from);  // positive on the left, where a one-way segment's normal points
   const Scalar after = segment.inside(to);
@@ -207,7 +207,8 @@ std::optional<PieceIndex> NearbyScenery<Scalar>::crossed(const Vec2<Scalar>& fro
 template <class Scalar>
 PointHit<Scalar> NearbyScenery<Scalar>::crossing(PieceIndex piece, const Vec2<Scalar>& from,
                                                  const Vec2<Scalar>& to) const noexcept {
-  const Edge<Scalar> segment(scenery_->vertices_of(piece), 1);
+  const PieceVertices<Scalar> ends = scenery_->vertices_of(piece);
+  const Edge<Scalar> segment(ends, 1);
   const Scalar before = segment.inside(from);
   const Scalar after = segment.inside(to);
   PointHit<Scalar> hit{.piece = piece};
@@ -221,7 +222,7 @@ PointHit<Scalar> NearbyScenery<Scalar>::crossing(PieceIndex piece, const Vec2<Sc
 template <class Scalar>
 PointHit<Scalar> NearbyScenery<Scalar>::way_out(PieceIndex piece, const Vec2<Scalar>& point,
                                                 const Vec2<Scalar>& direction) const noexcept {
-  const std::span<const Vec2<Scalar>> outline = scenery_->vertices_of(piece);
+  const PieceVertices<Scalar> outline = scenery_->vertices_of(piece);
   Scalar nearest = std::numeric_limits<Scalar>::infinity();
   PointHit<Scalar> hit{.piece = piece, .point = point};
   for (std::size_t i = 0; i < outline.size(); ++i) {
@@ -250,8 +251,8 @@ std::optional<PointHit<Scalar>> NearbyScenery<Scalar>::first_entry(const Vec2<Sc
       if (crosses(piece, from, to)) take(crossing(piece, from, to));
       continue;
     }
-    const std::span<const Vec2<Scalar>> outline = scenery_->vertices_of(piece);
-    const Stay<Scalar> stay = stay_in(outline, from, displacement);
+    const PieceVertices<Scalar> outline = scenery_->vertices_of(piece);
+    const Stay<Scalar> stay = stay_in<Scalar>(outline, from, displacement);
     if (stay.kind == Kind::never) continue;
     const Scalar fraction = stay.kind == Kind::inside ? std::max(Scalar(0), stay.enter) : seams.close_with(stay);
     if (!(fraction < 1)) continue;

@@ -67,7 +67,7 @@ class RandomCrowd {
         motions_(scenery_.mover_count()),
         velocities_(scenery_.mover_count(), Vec2d::Zero()),
         until_turn_(scenery_.mover_count(), 0),
-        record_(scenery_.mover_count(), scenery_.as_run()) {
+        record_(scenery_.mover_count(), scenery_) {
     header_.contender = "octagon_sweep";
     header_.scalar = "double";
     header_.points = {character_.shape.hull().begin(), character_.shape.hull().end()};
@@ -284,8 +284,8 @@ class RandomCrowd {
       for (const ColliderIndex collider : member.step.move.crushed) text << " crushed by " << collider;
       for (const CrowdContact<double>& met : member.met) text << " met " << met.other << " @ " << met.fraction;
     }
-    for (std::size_t c = 4; c < scenery_.as_run().colliders.size(); ++c) {
-      const ColliderDef& def = scenery_.as_run().colliders[c];
+    for (std::size_t c = 4; c < scenery_.collider_count(); ++c) {
+      const ColliderDef def = scenery_.as_run(static_cast<ColliderIndex>(c));
       const MoverMotion<double>& motion = motions_[def.mover];
       text << "\n  collider " << c << " by " << (motion.to - motion.from).transpose() << ", now";
       for (const Vec2d& point : def.points) text << " (" << (point + motion.to).transpose() << ")";

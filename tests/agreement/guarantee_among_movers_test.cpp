@@ -86,7 +86,7 @@ class RandomRun {
         scratch_(controller_.make_scratch()),
         motions_(scenery_.mover_count()),
         wanderers_(scenery_.mover_count()),
-        record_(scenery_.mover_count(), scenery_.as_run()) {}
+        record_(scenery_.mover_count(), scenery_) {}
 
   void go(Tally& tally) {
     state_.position = (origin_ + Vec2d{random_.between(-4, 4), random_.between(-3, 5)}).cast<Scalar>();
@@ -191,7 +191,7 @@ class RandomRun {
   [[nodiscard]] bool crushed_from_afar() const {
     const auto& crushed = report_.move.crushed;
     return std::any_of(crushed.begin(), crushed.end(), [&](ColliderIndex collider) {
-      const MoverMotion<Scalar>& motion = motions_[scenery_.as_run().colliders[collider].mover];
+      const MoverMotion<Scalar>& motion = motions_[scenery_.collider(collider).mover];
       return static_cast<double>((motion.to - motion.from).norm()) > far_crush;
     });
   }
@@ -253,7 +253,7 @@ class RandomRun {
     ++tally.fractions_seen;
     const Contact<double>& first = record.contacts[0];
     const auto exact = oracle.time_of_impact(start, wanted, first.collider);
-    const MoverIndex mover = scenery_.as_run().colliders[first.collider].mover;
+    const MoverIndex mover = scenery_.collider(first.collider).mover;
     Vec2d relative = wanted;
     if (mover != no_mover) relative -= record.movers[mover].to - record.movers[mover].from;
     if (exact &&
@@ -294,14 +294,14 @@ class RandomRun {
     text << ", contacts";
     for (const Contact<Scalar>& c : report_.move.contacts) {
       text << "\n    " << c.collider << " n " << c.normal.transpose() << " @ " << c.fraction << " gap " << c.separation;
-      const MoverIndex mover = scenery_.as_run().colliders[c.collider].mover;
+      const MoverIndex mover = scenery_.collider(c.collider).mover;
       if (mover != no_mover) text << " mover by " << (motions_[mover].to - motions_[mover].from).transpose();
     }
     text << "\n  drops through";
     for (const ColliderIndex chain : report_.dropped_through) text << " " << chain;
     text << "\n  crushed";
     for (const ColliderIndex c : report_.move.crushed) {
-      const MoverIndex mover = scenery_.as_run().colliders[c].mover;
+      const MoverIndex mover = scenery_.collider(c).mover;
       text << " " << c << " by " << (motions_[mover].to - motions_[mover].from).transpose();
     }
     return text.str();

@@ -90,7 +90,7 @@ class Chamber {
     header.dt = dt;
     Judge judge(header);
     std::vector<MoverMotion<double>> motions(courses_.size());
-    compare::MoverRecord<double> movers(courses_.size(), scenery_.as_run());
+    compare::MoverRecord<double> movers(courses_.size(), scenery_);
     Input input;
     for (int step = 0; step < steps_per_run; ++step) {
       if (step % 11 == 0) input = {.move = random_.integer(-1, 1), .jump = random_.chance(0.3)};

@@ -139,7 +139,7 @@ class RandomRun {
   }
 
   [[nodiscard]] bool passed_on_purpose(ColliderIndex collider) const {
-    return scenery_.as_run().colliders[collider].one_way && contains(report_.dropped_through, collider);
+    return scenery_.collider(collider).one_way && contains(report_.dropped_through, collider);
   }
 
   void check_what_is_said(bool drops) {
@@ -193,8 +193,8 @@ class RandomRun {
     for (const PathPoint<double>& corner : report_.move.path)
       text << " (" << corner.position.x() << ", " << corner.position.y() << " @ " << corner.fraction << ")";
     for (const Contact<double>& met : report_.move.contacts)
-      text << "\n    met " << met.collider << ", normal " << met.normal.transpose() << ", gap " << met.separation << " @ "
-           << met.fraction;
+      text << "\n    met " << met.collider << ", normal " << met.normal.transpose() << ", gap " << met.separation
+           << " @ " << met.fraction;
     for (const ColliderIndex chain : report_.dropped_through) text << ", drops through " << chain;
     return text.str();
   }

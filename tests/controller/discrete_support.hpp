@@ -18,7 +18,7 @@ class Bodies {
   Body& add(std::vector<Vec2<Scalar>> outline, const Vec2<Scalar>& position, const Vec2<Scalar>& movement = {0, 0}) {
     outlines_.push_back(std::move(outline));
     Body body;
-    body.outline = outlines_.back();
+    body.outline = std::span<const Vec2<Scalar>>(outlines_.back());
     body.box = {outlines_.back().front(), outlines_.back().front()};
     for (const Vec2<Scalar>& vertex : outlines_.back()) body.box = body.box.merged({vertex, vertex});
     body.position = position;

@@ -84,8 +84,8 @@ Path random_path(Random& random, const Vec2d& from) {
 std::vector<Event> events_of_all(const Scenery<double>& scenery, const Path& path, const Motions& motions) {
   const CharacterShape shape = CharacterShape::article();
   std::vector<Event> events;
-  for (ColliderIndex sensor = 0; sensor < scenery.as_run().colliders.size(); ++sensor) {
-    const MoverIndex mover = scenery.as_run().colliders[sensor].mover;
+  for (ColliderIndex sensor = 0; sensor < scenery.collider_count(); ++sensor) {
+    const MoverIndex mover = scenery.collider(sensor).mover;
     const MoverMotion<double> motion = mover == no_mover ? MoverMotion<double>{} : motions[mover];
     for (std::size_t i = 1; i < path.size(); ++i) {
       const Vec2d from = path[i - 1].position - motion.at(path[i - 1].fraction);
@@ -93,7 +93,7 @@ std::vector<Event> events_of_all(const Scenery<double>& scenery, const Path& pat
       std::vector<Stay> stays;
       for (PieceIndex piece = scenery.sensor_pieces().first; piece < scenery.sensor_pieces().end; ++piece) {
         if (scenery.pieces()[piece].collider != sensor) continue;
-        const Stay stay = geometry::overlap_time(shape.hull(), scenery.vertices_of(piece), from, to);
+        const Stay stay = geometry::overlap_time<double>(shape.hull(), scenery.vertices_of(piece), from, to);
         if (stay.any()) stays.push_back(stay);
       }
       std::sort(stays.begin(), stays.end(), [](const Stay& a, const Stay& b) { return a.begin < b.begin; });

@@ -185,19 +185,15 @@ TEST(Cutting, the_pieces_of_several_colliders_keep_their_collider_and_their_orde
   def.colliders.push_back({.points = {{9, 9}, {10, 9}, {9, 10}}});
   const Scenery<double> scenery(def);
   std::vector<ColliderIndex> colliders;
-  std::uint32_t next_vertex = 0;
   for (std::size_t i = 0; i < scenery.pieces().size(); ++i) {
     const PieceInfo& piece = scenery.pieces()[i];
     colliders.push_back(piece.collider);
-    EXPECT_EQ(piece.first_vertex, next_vertex);
     EXPECT_FALSE(piece.one_way);
-    next_vertex += piece.vertex_count;
     for (const Vec2d& vertex : scenery.vertices_of(static_cast<PieceIndex>(i))) {
       EXPECT_TRUE(scenery.box(static_cast<PieceIndex>(i)).overlaps({vertex, vertex}));
     }
   }
   EXPECT_EQ(colliders, (std::vector<ColliderIndex>{0, 0, 1, 1, 2}));
-  EXPECT_EQ(scenery.vertices().size(), next_vertex);
   EXPECT_EQ(scenery.boxes().size(), scenery.pieces().size());
 }
 
@@ -241,13 +237,13 @@ TEST(FloatScenery, vertices_are_rounded_first_and_the_definition_as_run_says_to_
   for (std::size_t i = 0; i < 3; ++i) {
     for (const Eigen::Index axis : {0, 1}) {
       const float rounded = static_cast<float>(polygon.outer[i][axis]);
-      EXPECT_EQ(scenery.vertices()[i][axis], rounded);
-      const double as_run = scenery.as_run().colliders[0].points[i][axis];
+      EXPECT_EQ(scenery.vertices_of(0)[i][axis], rounded);
+      const double as_run = scenery.as_run(0).points[i][axis];
       EXPECT_EQ(as_run, rounded);
       EXPECT_NE(as_run, polygon.outer[i][axis]);
     }
   }
-  EXPECT_EQ(Scenery<double>(scenery_of(polygon)).as_run().colliders[0].points, polygon.outer);
+  EXPECT_EQ(Scenery<double>(scenery_of(polygon)).as_run(0).points, polygon.outer);
 }
 
 TEST(FloatScenery, a_polygon_that_rounding_destroys_is_refused_with_the_reason) {
@@ -264,7 +260,7 @@ TEST(FloatScenery, pieces_of_random_polygons_tile_what_runs) {
     const SceneryDef def = scenery_of(test::holed(random));
     if (refusal_of<float>(def) != "accepted") continue;
     const Scenery<float> scenery(def);
-    const ColliderDef& as_run = scenery.as_run().colliders[0];
+    const ColliderDef as_run = scenery.as_run(0);
     ASSERT_NO_FATAL_FAILURE(expect_exact_tiling({as_run.points, as_run.holes}, pieces_of(scenery), random))
         << "seed " << seed;
     ++cut;
@@ -274,7 +270,57 @@ TEST(FloatScenery, pieces_of_random_polygons_tile_what_runs) {
 
 TEST(Scenery, traces_of_a_length_become_zero_and_the_definition_as_run_says_so) {
   const Scenery<double> scenery(scenery_of(Polygon{{{1e-200, 0}, {1, -5e-324}, {0, 1}}, {}}));
-  EXPECT_EQ(scenery.as_run().colliders[0].points, (Points{{0, 0}, {1, 0}, {0, 1}}));
+  EXPECT_EQ(scenery.as_run(0).points, (Points{{0, 0}, {1, 0}, {0, 1}}));
+}
+
+TEST(Scenery, the_definition_as_run_is_the_one_that_was_given_whatever_is_kept_of_it) {
+  const auto chain = ColliderDef::Shape::chain;
+  SceneryDef def;
+  Points square{{1, 2}, {4, 2}, {4, 7}, {1, 7}};
+  for (const bool clockwise : {false, true}) {
+    if (clockwise) std::reverse(square.begin(), square.end());
+    for (int corner = 0; corner < 4; ++corner) {
+      def.colliders.push_back({.points = square});
+      std::rotate(square.begin(), square.begin() + 1, square.end());
+    }
+  }
+  def.colliders.push_back({.points = {{0, 0}, {1, 0}, {2, 0}, {2, 2}, {0, 2}}});          // a vertex on a side
+  def.colliders.push_back({.points = {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}}});  // two pieces
+  def.colliders.push_back(
+      {.points = {{0, 0}, {3, 0}, {3, 3}, {0, 3}}, .holes = {{{1, 1}, {2, 1}, {2, 2}, {1, 2}}}, .mover = 1});
+  def.colliders.push_back({.points = {{0, 0}, {1, 1}, {0.5, 3}}, .surface_speed = -2});
+  def.colliders.push_back({.points = {{0.5, 3}, {1, 1}, {0, 0}}, .sensor = true});
+  def.colliders.push_back({.shape = chain, .points = {{0, 0}, {1, 0}}});
+  def.colliders.push_back({.shape = chain, .points = {{1, 0}, {0, 0}}, .one_way = Vec2d(0, 1)});
+  def.colliders.push_back({.shape = chain, .points = {{1, 0}, {1, 5}}, .one_way = Vec2d(0, 1)});  // no piece at all
+  def.colliders.push_back({.shape = chain, .points = {{0, 0}, {1, 0}, {2, 1}}, .one_way = Vec2d(0, 1), .mover = 0});
+  const Scenery<double> scenery(def);
+  const SceneryDef as_run = scenery.as_run();
+  ASSERT_EQ(as_run.colliders.size(), def.colliders.size());
+  for (ColliderIndex i = 0; i < def.colliders.size(); ++i) {
+    const ColliderDef& given = def.colliders[i];
+    const ColliderDef& back = as_run.colliders[i];
+    EXPECT_EQ(back.shape, given.shape) << i;
+    EXPECT_EQ(back.points, given.points) << i;
+    EXPECT_EQ(back.holes, given.holes) << i;
+    EXPECT_EQ(back.one_way, given.one_way) << i;
+    EXPECT_EQ(back.mover, given.mover) << i;
+    EXPECT_EQ(back.sensor, given.sensor) << i;
+    EXPECT_EQ(back.surface_speed, given.surface_speed) << i;
+    const PieceRange pieces = scenery.pieces_of(i);
+    for (PieceIndex piece = 0; piece < scenery.pieces().size(); ++piece)
+      EXPECT_EQ(scenery.pieces()[piece].collider == i, pieces.first <= piece && piece < pieces.end) << i;
+  }
+}
+
+TEST(Scenery, a_rectangle_has_its_vertices_counter_clockwise_from_the_first_that_was_given) {
+  Points square{{1, 2}, {4, 2}, {4, 7}, {1, 7}};
+  for (int corner = 0; corner < 4; ++corner) {
+    const Scenery<float> scenery(SceneryDef{{{.points = square}}});
+    EXPECT_TRUE(scenery.pieces()[0].is_rectangle());
+    EXPECT_EQ(piece_of(scenery, 0), square);
+    std::rotate(square.begin(), square.begin() + 1, square.end());
+  }
 }
 
 TEST(Scenery, no_colliders_at_all_are_a_scenery) {

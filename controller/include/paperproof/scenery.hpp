@@ -3,6 +3,7 @@
 
 #include <paperproof/types.hpp>
 
+#include <array>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -49,15 +50,59 @@ class InvalidScenery : public std::invalid_argument {
   ColliderIndex collider_;
 };
 
+/// What a collider is, apart from its shape.
+struct ColliderInfo {
+  ColliderDef::Shape shape = ColliderDef::Shape::polygon;
+  bool sensor = false;
+  MoverIndex mover = no_mover;
+  double surface_speed = 0;  ///< [m/s]
+  std::optional<Vec2d> one_way{};
+  friend bool operator==(const ColliderInfo&, const ColliderInfo&) = default;
+};
+
 /// A convex part of a collider. Polygons: counter-clockwise vertices, strictly convex, 3 to 32, taken from the
 /// collider's own vertices. Chains: the 2 end points of a segment, zero thickness; for a one-way segment in the order
 /// that has its blocking normal on the left.
 struct PieceInfo {
+  static constexpr std::uint8_t no_rectangle = 4;
+
   ColliderIndex collider = 0;
-  std::uint32_t first_vertex = 0;  ///< Into `Scenery::vertices()`.
-  std::uint32_t vertex_count = 0;
+  MoverIndex mover = no_mover;     ///< Of its collider.
+  std::uint32_t first_vertex = 0;  ///< Of what is no rectangle: where its vertices are stored.
+  std::uint8_t vertex_count = 0;
+  /// The first vertex of an upright rectangle, counted counter-clockwise from the lower left one: its box is all that
+  /// is stored of it.
+  std::uint8_t rectangle_corner = no_rectangle;
   bool one_way = false;
-  MoverIndex mover = no_mover;  ///< Of its collider.
+
+  [[nodiscard]] bool is_rectangle() const noexcept { return rectangle_corner != no_rectangle; }
+};
+
+/// The vertices of a piece, as a range. They stand in the scenery, which must outlive this; those of a rectangle stand
+/// here, so that a span of them must not outlive this.
+template <class Scalar>
+class PieceVertices {
+ public:
+  // NOLINTNEXTLINE(*-explicit-*): a span of vertices is one of their two forms
+  PieceVertices(std::span<const Vec2<Scalar>> stored) noexcept : stored_(stored.data()), size_(stored.size()) {}
+  PieceVertices(const Box2<Scalar>& box, std::size_t first_corner) noexcept : stored_(nullptr), size_(4) {
+    const auto at = [&](std::size_t corner) -> Vec2<Scalar>& { return corners_[(corner - first_corner) % 4]; };
+    at(0) = box.lower;
+    at(1) = {box.upper.x(), box.lower.y()};
+    at(2) = box.upper;
+    at(3) = {box.lower.x(), box.upper.y()};
+  }
+
+  [[nodiscard]] const Vec2<Scalar>* data() const noexcept { return stored_ != nullptr ? stored_ : corners_.data(); }
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  [[nodiscard]] const Vec2<Scalar>* begin() const noexcept { return data(); }
+  [[nodiscard]] const Vec2<Scalar>* end() const noexcept { return data() + size_; }
+  [[nodiscard]] const Vec2<Scalar>& operator[](std::size_t i) const noexcept { return data()[i]; }
+
+ private:
+  const Vec2<Scalar>* stored_;  ///< Null: they stand in `corners_`.
+  std::size_t size_;
+  std::array<Vec2<Scalar>, 4> corners_;
 };
 
 /// Some consecutive pieces.
@@ -80,9 +125,10 @@ class Scenery {
   explicit Scenery(const SceneryDef& def);
 
   [[nodiscard]] std::span<const PieceInfo> pieces() const noexcept { return pieces_; }
-  [[nodiscard]] std::span<const Vec2<Scalar>> vertices() const noexcept { return vertices_; }
-  [[nodiscard]] std::span<const Vec2<Scalar>> vertices_of(PieceIndex piece) const noexcept {
-    return std::span(vertices_).subspan(pieces_[piece].first_vertex, pieces_[piece].vertex_count);
+  [[nodiscard]] PieceVertices<Scalar> vertices_of(PieceIndex piece) const noexcept {
+    const PieceInfo& info = pieces_[piece];
+    if (info.is_rectangle()) return {boxes_[piece], info.rectangle_corner};
+    return std::span(vertices_).subspan(info.first_vertex, info.vertex_count);
   }
   /// Pieces stand in this order: the solid ones that do not move, the solid ones of mover 0, of mover 1, …, sensors.
   [[nodiscard]] PieceRange static_pieces() const noexcept { return {0, static_count_}; }
@@ -100,13 +146,43 @@ class Scenery {
   [[nodiscard]] std::span<const Box2<Scalar>> boxes() const noexcept { return boxes_; }
   [[nodiscard]] std::span<const Box2<Scalar>> static_boxes() const noexcept { return boxes().first(static_count_); }
 
-  /// The definition as it runs: every coordinate rounded to `Scalar`. An exact judge reads this one.
-  [[nodiscard]] const SceneryDef& as_run() const noexcept { return as_run_; }
+  [[nodiscard]] std::size_t collider_count() const noexcept { return colliders_.size(); }
+  [[nodiscard]] const ColliderInfo& collider(ColliderIndex collider) const noexcept {
+    return infos_[colliders_[collider].info];
+  }
+  /// What there is of colliders: each is like one of these.
+  [[nodiscard]] std::span<const ColliderInfo> collider_kinds() const noexcept { return infos_; }
+  /// Those of a collider stand together. A one-way chain may have none.
+  [[nodiscard]] PieceRange pieces_of(ColliderIndex collider) const noexcept;
+
+  /// The definition as it runs: every coordinate rounded to `Scalar`. An exact judge reads this one. It is put together
+  /// from what is kept, for each caller anew.
+  [[nodiscard]] SceneryDef as_run() const;
+  [[nodiscard]] ColliderDef as_run(ColliderIndex collider) const;
 
  private:
-  SceneryDef as_run_;
+  /// Points of a collider that are not those of one piece.
+  struct Shape {
+    std::vector<Vec2<Scalar>> points;
+    std::vector<std::vector<Vec2<Scalar>>> holes;
+  };
+  /// What gives a collider's definition back.
+  struct Collider {
+    static constexpr std::uint32_t piece = ~std::uint32_t{0};    ///< Its points are the vertices of its only piece,
+    static constexpr std::uint32_t piece_backwards = piece - 1;  ///< or those from the last to the first.
+    std::uint32_t info = 0;                                      ///< Into `infos_`.
+    PieceIndex first_piece = 0;
+    std::uint32_t shape = piece;  ///< Or into `shapes_`.
+  };
+
+  void add(ColliderIndex collider, const ColliderDef& def);
+  [[nodiscard]] std::uint32_t shape_of(ColliderIndex collider, const ColliderDef& rounded);
+
+  std::vector<ColliderInfo> infos_;  ///< Colliders that are alike and follow each other share one.
+  std::vector<Collider> colliders_;
+  std::vector<Shape> shapes_;
   std::vector<PieceInfo> pieces_;
-  std::vector<Vec2<Scalar>> vertices_;
+  std::vector<Vec2<Scalar>> vertices_;  ///< Of all pieces that are no rectangles.
   std::vector<Box2<Scalar>> boxes_;
   PieceIndex static_count_ = 0;
   std::vector<PieceIndex> mover_begin_;  ///< First piece of each mover, and one past the last of the last.

@@ -27,9 +27,18 @@ template <class Scalar>
 /// A surface moves what stands on it.
 template <class Scalar>
 [[nodiscard]] bool has_conveyors(const Scenery<Scalar>& scenery) noexcept {
-  const std::vector<ColliderDef>& colliders = scenery.as_run().colliders;
-  return std::any_of(colliders.begin(), colliders.end(),
-                     [](const ColliderDef& c) { return !c.sensor && c.surface_speed != 0; });
+  const std::span<const ColliderInfo> kinds = scenery.collider_kinds();
+  return std::any_of(kinds.begin(), kinds.end(),
+                     [](const ColliderInfo& c) { return !c.sensor && c.surface_speed != 0; });
+}
+
+/// How many colliders go along with movers, sensors among them.
+template <class Scalar>
+[[nodiscard]] std::size_t count_moving_colliders(const Scenery<Scalar>& scenery) noexcept {
+  std::size_t count = 0;
+  for (ColliderIndex i = 0; i < scenery.collider_count(); ++i)
+    if (scenery.collider(i).mover != no_mover) ++count;
+  return count;
 }
 
 /// A segment blocks from one side.

@@ -20,7 +20,7 @@ SceneryDef with_places_for_company(const Scenery<Scalar>& scene, const Character
 template <class Scalar>
 Surrounded<Scalar>::Surrounded(const Scenery<Scalar>& scene, const CharacterShape& shape)
     : scenery(with_places_for_company(scene, shape)),
-      first_companion(static_cast<ColliderIndex>(scene.as_run().colliders.size())) {}
+      first_companion(static_cast<ColliderIndex>(scene.collider_count())) {}
 
 template <class Scalar>
 Stepper<Scalar>::Stepper(const Controller<Scalar>& controller, const Surrounded<Scalar>& surrounded,
@@ -99,12 +99,11 @@ template <class Scalar>
 Scalar Stepper<Scalar>::reach_of_crush(std::size_t i) noexcept {
   const Walker<Scalar>& walker = walkers_[i];
   if (walker.start.state.crushed) return 0;
-  const std::vector<ColliderDef>& colliders = surrounded_.scenery.as_run().colliders;
   Scalar reach = 0;
   const auto look_at = [&](const MoveResult<Scalar>& way) {
     for (const ColliderIndex collider : way.crushed) {
       if (is_companion(collider)) continue;
-      const MoverMotion<Scalar>& motion = movers_[colliders[collider].mover];
+      const MoverMotion<Scalar>& motion = movers_[surrounded_.scenery.collider(collider).mover];
       reach = std::max(reach, (motion.to - motion.from).cwiseAbs().maxCoeff());
     }
   };

@@ -36,7 +36,7 @@ bool octagon_right_of(const ConfigurationSpace<Scalar>& space, const Vec2d& a, c
 
 /// All vertices of the piece on the right-hand side of the octagon's edge o0 -> o1 at `p`, or on its line.
 template <class Scalar, class Position>
-bool piece_right_of(std::span<const Vec2<Scalar>> vertices, const Vec2d& o0, const Vec2d& o1,
+bool piece_right_of(const PieceVertices<Scalar>& vertices, const Vec2d& o0, const Vec2d& o1,
                     const Position& p) noexcept {
   for (const Vec2<Scalar>& v : vertices)
     if (side_of_vertex(o0, o1, p, v.template cast<double>()) > 0) return false;
@@ -48,7 +48,7 @@ bool piece_right_of(std::span<const Vec2<Scalar>> vertices, const Vec2d& o0, con
 template <class Scalar, class Position>
 bool some_line_separates(const ConfigurationSpace<Scalar>& space, PieceIndex piece, const Position& from,
                          const Position& to) noexcept {
-  const std::span<const Vec2<Scalar>> vertices = space.scenery().vertices_of(piece);
+  const PieceVertices<Scalar> vertices = space.scenery().vertices_of(piece);
   for (std::size_t j = 0; j < vertices.size(); ++j) {
     const Vec2d a = vertices[j].template cast<double>();
     const Vec2d b = vertices[(j + 1) % vertices.size()].template cast<double>();

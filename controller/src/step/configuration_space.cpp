@@ -18,29 +18,47 @@ constexpr double open_enough = 1e-6;
 /// A facet is hidden when no more of it is open than what counts as closed [m].
 constexpr double hidden_enough = 2e-7;
 
+/// The least n·q of some points.
+template <class Points>
+double least_along(const Points& points, const Vec2d& n) noexcept {
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& q : points)
+    least = std::min(least, n.x() * static_cast<double>(q.x()) + n.y() * static_cast<double>(q.y()));
+  return least;
+}
+
 Vec2d unit_normal_right_of(const Vec2d& edge) {
   const double length = std::sqrt(edge.x() * edge.x() + edge.y() * edge.y());
   return {edge.y() / length, -edge.x() / length};
 }
 
-/// Part of a facet, as parameters in [0, 1].
-struct Interval {
-  double from;
-  double to;
-};
-
-double open_share(std::vector<Interval>& covered) {
-  std::sort(covered.begin(), covered.end(), [](const Interval& a, const Interval& b) { return a.from < b.from; });
-  double open = 0;
-  double reached = 0;
-  for (const Interval& part : covered) {
-    open += std::max(0.0, part.from - reached);
-    reached = std::max(reached, part.to);
-  }
-  return open + std::max(0.0, 1 - reached);
-}
-
 }  // namespace
+
+template <class Scalar>
+struct ConfigurationSpace<Scalar>::CoverSearch {
+  /// For each axis, how far in the order of pieces the one was that covered such a facet last: in a level of tiles the
+  /// next facet is mostly covered by the one that is as far.
+  std::array<PieceIndex, max_axes> guesses{};
+  /// What may cover a facet of the present piece, with its sides along the box directions.
+  struct Near {
+    PieceIndex piece;
+    PerAxis<box_axes, double> sides;
+  };
+  std::vector<Near> near;
+  std::vector<Interval> covered;  ///< Of the present facet.
+
+  /// Which share of the present facet nothing covers.
+  [[nodiscard]] double open_share() {
+    std::sort(covered.begin(), covered.end(), [](const Interval& a, const Interval& b) { return a.from < b.from; });
+    double open = 0;
+    double reached = 0;
+    for (const Interval& part : covered) {
+      open += std::max(0.0, part.from - reached);
+      reached = std::max(reached, part.to);
+    }
+    return open + std::max(0.0, 1 - reached);
+  }
+};
 
 template <class Scalar>
 ConfigurationSpace<Scalar>::ConfigurationSpace(const Scenery<Scalar>& scenery, const CharacterShape& shape,
@@ -49,7 +67,6 @@ ConfigurationSpace<Scalar>::ConfigurationSpace(const Scenery<Scalar>& scenery, c
     : scenery_(scenery), surfaces_(scenery, shape) {
   for (const Vec2d& point : shape.hull()) hull_.push_back(point.cast<Scalar>());
   hull_box_ = {shape.box().lower.cast<Scalar>(), shape.box().upper.cast<Scalar>()};
-  build_shared_axes();
   facet_noise_ = least_noise;
   for (const Box2<Scalar>& box : scenery.boxes()) {
     const Scalar furthest = std::max(box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff());
@@ -57,27 +74,17 @@ ConfigurationSpace<Scalar>::ConfigurationSpace(const Scenery<Scalar>& scenery, c
                                               static_cast<double>(std::numeric_limits<Scalar>::epsilon()));
   }
 
+  build_shared_axes();
+
   const std::size_t count = scenery.pieces().size();
-  shared_offsets_.reserve(count * lanes_);
   info_.reserve(count);
   for (PieceIndex piece = 0; piece < count; ++piece) build_obstacle(piece);
-
-  // Only what keeps its place relative to a piece can cover its facets: the pieces that go with the same mover, or
-  // none.
-  const Vec2<Scalar> reach = hull_box_.upper - hull_box_.lower;
-  std::vector<PieceIndex> neighbours(count);
-  const auto around = [&](PieceIndex piece) -> Box2<Scalar> {
-    return {scenery.box(piece).lower - reach, scenery.box(piece).upper + reach};
-  };
-  for (PieceIndex piece = 0; piece < scenery.static_pieces().end; ++piece) {
-    const std::size_t found = broad_phase.query(around(piece), neighbours);
-    build_covered(piece, {neighbours.data(), found});
-  }
-  for (MoverIndex mover = 0; mover < mover_phases.size(); ++mover) {
-    const PieceRange pieces = scenery.pieces_of_mover(mover);
-    for (PieceIndex piece = pieces.first; piece < pieces.end; ++piece)
-      build_covered(piece, mover_phases.query(mover, around(piece), neighbours));
-  }
+  shared_offsets_.shrink_to_fit();
+  own_axes_.shrink_to_fit();
+  if (lanes_ == 8)
+    build_covered<8>(broad_phase, mover_phases);
+  else
+    build_covered<max_shared>(broad_phase, mover_phases);
 }
 
 template <class Scalar>
@@ -105,7 +112,20 @@ void ConfigurationSpace<Scalar>::build_shared_axes() {
     add(-unit_normal_right_of(edge));
   }
   lanes_ = shared_count_ <= 8 ? 8 : max_shared;
-  for (std::size_t k = 0; k < shared_count_; ++k) shared_faces_[k] = face_along({shared_x_[k], shared_y_[k]});
+  for (std::size_t k = 0; k < max_shared; ++k) {
+    const std::size_t pair = k / 2;
+    const std::size_t half = k % 2;
+    // An unused lane is "inside" for ever: never the largest separation, never left.
+    shared_low_[pair][half] = -static_cast<double>(std::numeric_limits<Scalar>::max() / 4);
+    if (k >= shared_count_) continue;
+    shared_low_[pair][half] = least_along(hull_, {shared_x_[k], shared_y_[k]});
+    rightward_[pair][half] = std::max(shared_x_[k], Scalar(0));
+    leftward_[pair][half] = std::min(shared_x_[k], Scalar(0));
+    upward_[pair][half] = std::max(shared_y_[k], Scalar(0));
+    downward_[pair][half] = std::min(shared_y_[k], Scalar(0));
+    shared_faces_[k] = face_along({shared_x_[k], shared_y_[k]});
+    hull_faces_[k] = face_of(hull_, {-shared_x_[k], -shared_y_[k]});
+  }
 }
 
 template <class Scalar>
@@ -126,27 +146,35 @@ OctagonFace<Scalar> ConfigurationSpace<Scalar>::face_along(const Vec2<Scalar>& n
 
 template <class Scalar>
 Scalar ConfigurationSpace<Scalar>::support_offset(PieceIndex piece, const Vec2d& normal) const noexcept {
-  double furthest = -std::numeric_limits<double>::infinity();
-  for (const Vec2<Scalar>& v : scenery_.vertices_of(piece))
-    furthest = std::max(furthest, normal.x() * static_cast<double>(v.x()) + normal.y() * static_cast<double>(v.y()));
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const Vec2<Scalar>& o : hull_)
-    nearest = std::min(nearest, normal.x() * static_cast<double>(o.x()) + normal.y() * static_cast<double>(o.y()));
-  return static_cast<Scalar>(furthest - nearest);
+  return static_cast<Scalar>(-least_along(scenery_.vertices_of(piece), -normal) - least_along(hull_, normal));
 }
 
 template <class Scalar>
 void ConfigurationSpace<Scalar>::build_obstacle(PieceIndex piece) {
+  const std::span<const PieceInfo> pieces = scenery_.pieces();
+  const PieceInfo& source = pieces[piece];
   ObstacleInfo info;
   info.first_own = static_cast<std::uint32_t>(own_axes_.size());
-  const PieceInfo& source = scenery_.pieces()[piece];
-  const std::span<const Vec2<Scalar>> vertices = scenery_.vertices_of(piece);
-  for (std::size_t k = 0; k < lanes_; ++k) {
-    const bool used = k < shared_count_;
-    const Vec2d normal{static_cast<double>(shared_x_[k]), static_cast<double>(shared_y_[k])};
-    // An unused lane is "inside" for ever: never the largest separation, never left.
-    shared_offsets_.push_back(used ? support_offset(piece, normal) : std::numeric_limits<Scalar>::max() / 4);
+  // The normals of a rectangle are all shared.
+  if (!source.is_rectangle()) build_own_axes(piece, info);
+  if (source.one_way) {
+    info.surface = surfaces_.of(piece);
+    info.bent_surface = !surfaces_.is_straight(info.surface);
   }
+  const auto same = [&](PieceIndex other) { return pieces[other].collider == source.collider; };
+  info.whole_collider = !(piece > 0 && same(piece - 1)) && !(piece + 1 < pieces.size() && same(piece + 1));
+  info_.push_back(info);
+}
+
+/// And the offsets along shared axes that do not follow from the piece's box.
+template <class Scalar>
+void ConfigurationSpace<Scalar>::build_own_axes(PieceIndex piece, ObstacleInfo& info) {
+  const PieceInfo& source = scenery_.pieces()[piece];
+  const PieceVertices<Scalar> vertices = scenery_.vertices_of(piece);
+  info.first_offset = static_cast<std::uint32_t>(shared_offsets_.size());
+  for (std::size_t k = box_axes; k < lanes_; ++k)
+    shared_offsets_.push_back(k < shared_count_ ? support_offset(piece, {shared_x_[k], shared_y_[k]})
+                                                : static_cast<Scalar>(-low(k)));
   const auto axis_of = [&](const Vec2d& normal) -> std::size_t {
     const Vec2<Scalar> n = normal.template cast<Scalar>();
     for (std::size_t k = 0; k < shared_count_; ++k)
@@ -163,14 +191,42 @@ void ConfigurationSpace<Scalar>::build_obstacle(PieceIndex piece) {
     // The blocking normal of a one-way segment v0 v1 is on its left: the right-hand normal of the way back.
     if (source.one_way && j == 1) info.one_way_axis = static_cast<std::uint8_t>(axis);
   }
-  if (source.one_way) {
-    info.surface = surfaces_.of(piece);
-    info.bent_surface = !surfaces_.is_straight(info.surface);
+}
+
+/// Of the points that reach furthest along a normal, the first and the last across it.
+template <class Scalar>
+template <class Points>
+typename ConfigurationSpace<Scalar>::Interval ConfigurationSpace<Scalar>::face_of(const Points& points,
+                                                                                  const Vec2d& normal) const noexcept {
+  const Vec2d along{-normal.y(), normal.x()};
+  const double least = -least_along(points, -normal) - facet_noise_;
+  Interval range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (const Vec2<Scalar>& q : points) {
+    const Vec2d point = q.template cast<double>();
+    if (normal.dot(point) < least) continue;
+    range.from = std::min(range.from, along.dot(point));
+    range.to = std::max(range.to, along.dot(point));
   }
-  const std::span<const PieceInfo> pieces = scenery_.pieces();
-  const auto same = [&](PieceIndex other) { return pieces[other].collider == source.collider; };
-  info.whole_collider = !(piece > 0 && same(piece - 1)) && !(piece + 1 < pieces.size() && same(piece + 1));
-  info_.push_back(info);
+  return range;
+}
+
+/// The same for a rectangle, of which a normal alone tells the corner; both on a side that it is upright to.
+template <class Scalar>
+typename ConfigurationSpace<Scalar>::Interval ConfigurationSpace<Scalar>::face_of_rectangle(
+    const Box2<Scalar>& box, const Vec2d& normal) const noexcept {
+  const Vec2d lower = box.lower.template cast<double>();
+  const Vec2d upper = box.upper.template cast<double>();
+  const auto clear = [&](Eigen::Index i) { return std::abs(normal[i]) * (upper[i] - lower[i]) > facet_noise_; };
+  const auto ends = [&](Eigen::Index i) -> std::pair<double, double> {
+    if (!clear(i)) return {lower[i], upper[i]};
+    return normal[i] > 0 ? std::pair(upper[i], upper[i]) : std::pair(lower[i], lower[i]);
+  };
+  const auto [left, right] = ends(0);
+  const auto [low, high] = ends(1);
+  const double x = -normal.y();
+  const double y = normal.x();
+  return {std::min(x * left, x * right) + std::min(y * low, y * high),
+          std::max(x * left, x * right) + std::max(y * low, y * high)};
 }
 
 template <class Scalar>
@@ -178,23 +234,18 @@ typename ConfigurationSpace<Scalar>::Facet ConfigurationSpace<Scalar>::facet(Pie
                                                                              std::size_t axis) const noexcept {
   const Vec2d n = normal(piece, axis).template cast<double>();
   const Vec2d along{-n.y(), n.x()};
-  // Of the points that reach furthest along n, the first and the last along the facet.
-  const auto extremes = [&](std::span<const Vec2<Scalar>> points, double sign) {
-    double best = -std::numeric_limits<double>::infinity();
-    for (const Vec2<Scalar>& q : points) best = std::max(best, sign * n.dot(q.template cast<double>()));
-    Interval range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
-    for (const Vec2<Scalar>& q : points) {
-      const Vec2d point = q.template cast<double>();
-      if (sign * n.dot(point) < best - facet_noise_) continue;
-      range.from = std::min(range.from, sign * along.dot(point));
-      range.to = std::max(range.to, sign * along.dot(point));
-    }
-    return range;
+  const Interval of_piece = info_[piece].first_offset == ObstacleInfo::rectangle
+                                ? face_of_rectangle(scenery_.box(piece), n)
+                                : face_of(scenery_.vertices_of(piece), n);
+  const Interval of_hull = axis < lanes_ ? hull_faces_[axis] : face_of(hull_, Vec2d(-n));
+  // Number by number: what is put into a vector so and read from it as a whole waits for the memory.
+  const auto base = static_cast<double>(offset(piece, axis));
+  const auto point = [&](double place) -> Vec2d {
+    return {n.x() * base + along.x() * place, n.y() * base + along.y() * place};
   };
-  const Interval of_piece = extremes(scenery_.vertices_of(piece), 1);
-  const Interval of_hull = extremes(hull(), -1);
-  const Vec2d base = n * static_cast<double>(offset(piece, axis));
-  return {base + along * (of_piece.from + of_hull.from), base + along * (of_piece.to + of_hull.to)};
+  const double from = of_piece.from + of_hull.from;
+  const double to = of_piece.to + of_hull.to;
+  return {.axis = axis, .from = point(from), .to = point(to), .along = along, .length = to - from};
 }
 
 /// A one-way segment hides nothing from a solid: it may be passed. From another it hides what it abuts as a part of one
@@ -227,46 +278,146 @@ bool ConfigurationSpace<Scalar>::is_covered_corner(PieceIndex piece, std::size_t
   });
 }
 
+/// Only what keeps its place relative to a piece can cover its facets: the pieces that go with the same mover, or none.
 template <class Scalar>
-void ConfigurationSpace<Scalar>::build_covered(PieceIndex piece, std::span<const PieceIndex> neighbours) {
-  std::vector<Interval> covered;
+template <std::size_t Lanes>
+void ConfigurationSpace<Scalar>::build_covered(const BroadPhase<Scalar>& broad_phase,
+                                               const MoverPhases<Scalar>& mover_phases) {
+  const Vec2<Scalar> reach = hull_box_.upper - hull_box_.lower;
+  const auto around = [&](PieceIndex piece) -> Box2<Scalar> {
+    return {scenery_.box(piece).lower - reach, scenery_.box(piece).upper + reach};
+  };
+  CoverSearch search;
+  std::vector<PieceIndex> found(scenery_.pieces().size());
+  const auto standing = [&](PieceIndex piece) -> std::span<const PieceIndex> {
+    return {found.data(), broad_phase.query(around(piece), found)};
+  };
+  for (PieceIndex piece = 0; piece < scenery_.static_pieces().end; ++piece)
+    build_covered<Lanes>(piece, scenery_.static_pieces(), standing, search);
+  for (MoverIndex mover = 0; mover < mover_phases.size(); ++mover) {
+    const auto of_mover = [&](PieceIndex piece) { return mover_phases.query(mover, around(piece), found); };
+    const PieceRange pieces = scenery_.pieces_of_mover(mover);
+    for (PieceIndex piece = pieces.first; piece < pieces.end; ++piece)
+      build_covered<Lanes>(piece, pieces, of_mover, search);
+  }
+}
+
+/// @param neighbours asked for what is near, only where a guess at what covers a facet fails.
+template <class Scalar>
+template <std::size_t Lanes, class Neighbours>
+void ConfigurationSpace<Scalar>::build_covered(PieceIndex piece, PieceRange together, const Neighbours& neighbours,
+                                               CoverSearch& search) {
+  std::span<const PieceIndex> found;  // at least the piece itself, once it was asked for
   for (std::size_t axis = 0; axis < axis_count(piece); ++axis) {
     if (axis < lanes_ && axis >= shared_count_) continue;
     const Facet f = facet(piece, axis);
-    const Vec2d span = f.to - f.from;
-    const double length = std::sqrt(span.dot(span));
-    if (length <= open_enough) {
-      if (is_covered_corner(piece, axis, f.from, neighbours)) {
-        info_[piece].covered |= std::uint64_t{1} << axis;
-        info_[piece].hidden |= std::uint64_t{1} << axis;
-      }
+    const PieceIndex guess = piece + search.guesses[axis];
+    if (guess != piece && guess >= together.first && guess < together.end && may_cover(guess, piece) &&
+        lies_in<Lanes>(f, guess)) {
+      set_covered(piece, axis, 0);
       continue;
     }
-    covered.clear();
-    for (const PieceIndex other : neighbours) {
-      if (other == piece || !may_cover(other, piece)) continue;
-      Interval inside{0, 1};
-      for (std::size_t k = 0; k < axis_count(other) && inside.from < inside.to; ++k) {
-        if (k < lanes_ && k >= shared_count_) continue;
-        const Vec2d n = normal(other, k).template cast<double>();
-        const double start = n.dot(f.from) - static_cast<double>(offset(other, k)) + facet_noise_;
-        const double rate = n.dot(span);
-        // Inside where start + rate t < 0.
-        if (rate > 0)
-          inside.to = std::min(inside.to, -start / rate);
-        else if (rate < 0)
-          inside.from = std::max(inside.from, -start / rate);
-        else if (start >= 0)
-          inside.to = -1;
-      }
-      if (inside.from < inside.to) covered.push_back(inside);
-      if (inside.from == 0 && inside.to == 1) break;  // nothing is left to be covered
+    if (found.empty()) {
+      found = neighbours(piece);
+      find_near(piece, found, search);
     }
-    if (covered.empty()) continue;
-    const double open = open_share(covered) * length;
-    if (open <= open_enough) info_[piece].covered |= std::uint64_t{1} << axis;
-    if (open <= hidden_enough) info_[piece].hidden |= std::uint64_t{1} << axis;
+    if (f.length > open_enough)
+      set_covered(piece, axis, open_part<Lanes>(piece, f, search));
+    else if (is_covered_corner(piece, axis, f.from, found))
+      set_covered(piece, axis, 0);
   }
+}
+
+template <class Scalar>
+void ConfigurationSpace<Scalar>::set_covered(PieceIndex piece, std::size_t axis, double open) noexcept {
+  const bool covered = open <= open_enough;
+  const bool hidden = open <= hidden_enough;
+  if (axis >= lanes_) {
+    OwnAxis<Scalar>& own = own_axes_[info_[piece].first_own + axis - lanes_];
+    own.covered = covered;
+    own.hidden = hidden;
+    return;
+  }
+  ObstacleInfo& info = info_[piece];
+  info.covered = static_cast<std::uint16_t>(info.covered | unsigned{covered} << axis);
+  info.hidden = static_cast<std::uint16_t>(info.hidden | unsigned{hidden} << axis);
+}
+
+/// Whether so little of a facet is outside of one other obstacle that it is hidden. Its own axes are not looked at: a
+/// piece that has some gives no answer.
+template <class Scalar>
+template <std::size_t Lanes>
+bool ConfigurationSpace<Scalar>::lies_in(const Facet& facet, PieceIndex other) const noexcept {
+  using Each = PerAxis<Lanes, double>;
+  if (facet.length <= open_enough || info_[other].own_count > 0) return false;
+  const double left_out = hidden_enough / 4;  // at either end
+  const Each x = PerAxis<Lanes, Scalar>::Map(shared_x_.data()).template cast<double>();
+  const Each y = PerAxis<Lanes, Scalar>::Map(shared_y_.data()).template cast<double>();
+  const Each from =
+      x * (facet.from.x() + facet.along.x() * left_out) + y * (facet.from.y() + facet.along.y() * left_out);
+  const Each to = x * (facet.to.x() - facet.along.x() * left_out) + y * (facet.to.y() - facet.along.y() * left_out);
+  const Each furthest = from.max(to);
+  const Each offsets = shared_offsets<Lanes>(other).template cast<double>();
+  return (furthest - offsets).maxCoeff() + facet_noise_ < 0;
+}
+
+template <class Scalar>
+void ConfigurationSpace<Scalar>::find_near(PieceIndex piece, std::span<const PieceIndex> found,
+                                           CoverSearch& search) const {
+  search.near.clear();
+  for (const PieceIndex other : found)
+    if (other != piece && may_cover(other, piece))
+      search.near.push_back({other, box_offsets(other).template cast<double>()});
+}
+
+/// How much of a facet is in no other obstacle [m].
+template <class Scalar>
+template <std::size_t Lanes>
+double ConfigurationSpace<Scalar>::open_part(PieceIndex piece, const Facet& facet, CoverSearch& search) const {
+  search.covered.clear();
+  const PerAxis<box_axes, double> nearest{
+      std::min(facet.from.y(), facet.to.y()) + facet_noise_, std::min(facet.from.x(), facet.to.x()) + facet_noise_,
+      facet_noise_ - std::max(facet.from.x(), facet.to.x()), facet_noise_ - std::max(facet.from.y(), facet.to.y())};
+  for (const auto& [other, sides] : search.near) {
+    // Most are apart along a box direction.
+    if ((nearest - sides).maxCoeff() >= 0) continue;
+    const Interval part = inside<Lanes>(facet, other);
+    if (!(part.from < part.to)) continue;
+    if ((part.from + (1 - part.to)) * facet.length <= hidden_enough) {
+      search.guesses[facet.axis] = other - piece;
+      return 0;
+    }
+    search.covered.push_back(part);
+  }
+  return search.open_share() * facet.length;
+}
+
+/// Which part of a facet is in another obstacle; empty where none is.
+template <class Scalar>
+template <std::size_t Lanes>
+typename ConfigurationSpace<Scalar>::Interval ConfigurationSpace<Scalar>::inside(const Facet& facet,
+                                                                                 PieceIndex other) const noexcept {
+  Interval inside{0, 1};
+  const double span_x = facet.to.x() - facet.from.x();
+  const double span_y = facet.to.y() - facet.from.y();
+  const auto cut = [&](double x, double y, double offset) {
+    const double start = x * facet.from.x() + y * facet.from.y() - offset + facet_noise_;
+    const double rate = x * span_x + y * span_y;
+    // Inside where start + rate t < 0.
+    if (rate > 0)
+      inside.to = std::min(inside.to, -start / rate);
+    else if (rate < 0)
+      inside.from = std::max(inside.from, -start / rate);
+    else if (start >= 0)
+      inside.to = -1;
+    return inside.from < inside.to;
+  };
+  const PerAxis<Lanes, Scalar> offsets = shared_offsets<Lanes>(other);
+  for (std::size_t k = 0; k < shared_count_; ++k)
+    if (!cut(shared_x_[k], shared_y_[k], offsets[static_cast<Eigen::Index>(k)])) return inside;
+  for (const OwnAxis<Scalar>& own : own_axes(other))
+    if (!cut(own.normal.x(), own.normal.y(), own.offset)) return inside;
+  return inside;
 }
 
 template class ConfigurationSpace<float>;

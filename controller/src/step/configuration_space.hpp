@@ -19,7 +19,10 @@
 #include <paperproof/scenery.hpp>
 #include <paperproof/tolerances.hpp>
 
+#include <algorithm>
+#include <cstring>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 namespace paperproof::octagon_sweep {
@@ -42,18 +45,22 @@ struct OwnAxis {
   Vec2<Scalar> normal;
   Scalar offset;
   OctagonFace<Scalar> face;
+  bool covered = false;  ///< See `ObstacleInfo::covered`.
+  bool hidden = false;
 };
 
 /// Everything about a piece but its shared offsets.
 struct ObstacleInfo {
-  std::uint32_t first_own = 0;  ///< Into `own_axes()`.
-  std::uint16_t own_count = 0;
-  /// Bit per axis (shared ones first, then its own): the facet lies inside other obstacles, so nothing free ever
-  /// touches it. An edge shared by two pieces or covered by an abutting tile is such a facet: no contact may have its
-  /// normal.
-  std::uint64_t covered = 0;
-  std::uint64_t hidden = 0;  ///< Of the covered ones those of which less is open than counts as closed.
   static constexpr std::uint8_t not_one_way = 255;
+  static constexpr std::uint32_t rectangle = ~std::uint32_t{0};
+  std::uint32_t first_own = 0;  ///< Of its own axes.
+  /// Of its offsets along shared axes, which of a rectangle follow from its box.
+  std::uint32_t first_offset = rectangle;
+  /// Bit per shared axis: the facet lies inside other obstacles, so nothing free ever touches it. An edge shared by two
+  /// pieces or covered by an abutting tile is such a facet: no contact may have its normal.
+  std::uint16_t covered = 0;
+  std::uint16_t hidden = 0;  ///< Of the covered ones those of which less is open than counts as closed.
+  std::uint8_t own_count = 0;
   std::uint8_t one_way_axis = not_one_way;  ///< The axis whose normal is the blocking normal of a one-way segment.
   bool bent_surface = false;                ///< Its surface is more than one straight line.
   bool whole_collider = false;              ///< Its collider has no other piece.
@@ -67,7 +74,7 @@ class ConfigurationSpace {
   /// Edges of the octagon, and the four box directions where they are not among them: they bevel sharp corners.
   static constexpr std::size_t max_shared = 12;
   static constexpr std::size_t box_axes = 4;   ///< The first shared axes: up, right, left, down.
-  static constexpr std::size_t max_axes = 64;  ///< Of one piece; the covered mask has as many bits.
+  static constexpr std::size_t max_axes = 64;  ///< Of one piece.
 
   /// `scenery` must outlive it.
   /// @param broad_phase over what stands still, asked once for the neighbours of every piece.
@@ -87,13 +94,36 @@ class ConfigurationSpace {
     return Box2<Scalar>{box.lower + hull_box_.lower, box.upper + hull_box_.upper}.inflated(Tolerances<Scalar>{}.touch);
   }
 
+  /// Of the box of what it covers or touches in one place [m].
+  [[nodiscard]] Vec2<Scalar> touched_size() const noexcept {
+    const Box2<Scalar> touched = touched_from({Vec2<Scalar>::Zero(), Vec2<Scalar>::Zero()});
+    return touched.upper - touched.lower;
+  }
+
   /// Shared axes per piece: 8 or 12. Unused ones have a zero normal and an offset that is never the largest.
   [[nodiscard]] std::size_t lanes() const noexcept { return lanes_; }
   [[nodiscard]] const std::array<Scalar, max_shared>& shared_x() const noexcept { return shared_x_; }
   [[nodiscard]] const std::array<Scalar, max_shared>& shared_y() const noexcept { return shared_y_; }
 
-  [[nodiscard]] const Scalar* shared_offsets(PieceIndex piece) const noexcept {
-    return shared_offsets_.data() + piece * lanes_;
+  /// Offsets along the box directions alone: those of the piece's box.
+  [[nodiscard, gnu::always_inline]] inline PerAxis<box_axes, Scalar> box_offsets(PieceIndex piece) const noexcept {
+    PerAxis<box_axes, Scalar> offsets;
+    write_box_offsets(scenery_.box(piece), offsets.data());
+    return offsets;
+  }
+  /// Along all shared axes. @tparam Lanes as `lanes()`.
+  template <std::size_t Lanes>
+  [[nodiscard, gnu::always_inline]] inline PerAxis<Lanes, Scalar> shared_offsets(PieceIndex piece) const noexcept {
+    const Box2<Scalar>& box = scenery_.box(piece);
+    const std::uint32_t stored = info_[piece].first_offset;
+    PerAxis<Lanes, Scalar> offsets;
+    write_box_offsets(box, offsets.data());
+    for (std::size_t k = box_axes; k < Lanes; k += box_axes)
+      if (stored == ObstacleInfo::rectangle)
+        write_rectangle_offsets(box, k, offsets.data() + k);
+      else
+        std::copy_n(shared_offsets_.data() + stored + k - box_axes, box_axes, offsets.data() + k);
+    return offsets;
   }
   [[nodiscard]] const ObstacleInfo& info(PieceIndex piece) const noexcept { return info_[piece]; }
   [[nodiscard]] std::span<const OwnAxis<Scalar>> own_axes(PieceIndex piece) const noexcept {
@@ -107,15 +137,20 @@ class ConfigurationSpace {
     return own_axes(piece)[axis - lanes_].normal;
   }
   [[nodiscard]] Scalar offset(PieceIndex piece, std::size_t axis) const noexcept {
-    return axis < lanes_ ? shared_offsets(piece)[axis] : own_axes(piece)[axis - lanes_].offset;
+    if (axis >= lanes_) return own_axes(piece)[axis - lanes_].offset;
+    if (info_[piece].first_offset == ObstacleInfo::rectangle) return rectangle_offset(piece, axis);
+    return axis < box_axes ? box_offsets(piece)[static_cast<Eigen::Index>(axis)]
+                           : shared_offsets_[info_[piece].first_offset + axis - box_axes];
   }
   [[nodiscard]] const OctagonFace<Scalar>& octagon_face(PieceIndex piece, std::size_t axis) const noexcept {
     return axis < lanes_ ? shared_faces_[axis] : own_axes(piece)[axis - lanes_].face;
   }
   [[nodiscard]] bool covered(PieceIndex piece, std::size_t axis) const noexcept {
+    if (axis >= lanes_) return own_axes(piece)[axis - lanes_].covered;
     return ((info_[piece].covered >> axis) & 1U) != 0;
   }
   [[nodiscard]] bool hidden(PieceIndex piece, std::size_t axis) const noexcept {
+    if (axis >= lanes_) return own_axes(piece)[axis - lanes_].hidden;
     return ((info_[piece].hidden >> axis) & 1U) != 0;
   }
   /// Separation along one axis at p [m].
@@ -124,20 +159,91 @@ class ConfigurationSpace {
     return n.x() * p.x() + n.y() * p.y() - offset(piece, axis);
   }
 
-  /// End points of a facet of a piece's obstacle [m].
-  struct Facet {
-    Vec2d from;
-    Vec2d to;
-  };
-  [[nodiscard]] Facet facet(PieceIndex piece, std::size_t axis) const noexcept;
-
  private:
+  /// Part of a line [m], or of a facet, in [0, 1].
+  struct Interval {
+    double from;
+    double to;
+  };
+  /// A facet of a piece's obstacle.
+  struct Facet {
+    std::size_t axis;
+    Vec2d from;  ///< Its end points [m],
+    Vec2d to;
+    Vec2d along;    ///< and from one to the other, unit.
+    double length;  ///< [m]
+  };
+  /// What the search for covered facets keeps from piece to piece.
+  struct CoverSearch;
+
+  /// Two numbers in one register. Offsets are worked out for each piece that is met: numbers that are put into a vector
+  /// one by one wait for the memory, and vectors that a library assembles are not always inlined.
+  using Pair [[gnu::vector_size(2 * sizeof(double))]] = double;
+
+  [[nodiscard, gnu::always_inline]] static inline Pair load(const Scalar* numbers) noexcept {
+    return Pair{double{numbers[0]}, double{numbers[1]}};
+  }
+  [[gnu::always_inline]] static inline void write(const Pair& first, const Pair& second, Scalar* four) noexcept {
+    using Four [[gnu::vector_size(4 * sizeof(float))]] = float;
+    if constexpr (std::is_same_v<Scalar, float>) {
+      const Four all{static_cast<float>(first[0]), static_cast<float>(first[1]), static_cast<float>(second[0]),
+                     static_cast<float>(second[1])};
+      std::memcpy(four, &all, sizeof all);
+    } else {
+      std::memcpy(four, &first, sizeof first);
+      std::memcpy(four + 2, &second, sizeof second);
+    }
+  }
+  [[gnu::always_inline]] inline void write_box_offsets(const Box2<Scalar>& box, Scalar* four) const noexcept {
+    const Pair lower = load(box.lower.data());
+    const Pair upper = load(box.upper.data());
+    write(Pair{upper[1], upper[0]} - shared_low_[0], -lower - shared_low_[1], four);
+  }
+  /// Along shared axes that are no box directions: furthest along a normal is the corner on its side.
+  [[gnu::always_inline]] inline void write_rectangle_offsets(const Box2<Scalar>& box, std::size_t axis,
+                                                             Scalar* four) const noexcept {
+    const Pair lower = load(box.lower.data());
+    const Pair upper = load(box.upper.data());
+    const auto pair = [&](std::size_t k) {
+      const Pair x = rightward_[k] * upper[0] + leftward_[k] * lower[0];
+      const Pair y = upward_[k] * upper[1] + downward_[k] * lower[1];
+      return (x + y) - shared_low_[k];
+    };
+    write(pair(axis / 2), pair(axis / 2 + 1), four);
+  }
+  [[nodiscard]] Scalar rectangle_offset(PieceIndex piece, std::size_t axis) const noexcept {
+    const Box2<Scalar>& box = scenery_.box(piece);
+    const double x = shared_x_[axis];
+    const double y = shared_y_[axis];
+    const double furthest = std::max(x * double{box.lower.x()}, x * double{box.upper.x()}) +
+                            std::max(y * double{box.lower.y()}, y * double{box.upper.y()});
+    return static_cast<Scalar>(furthest - low(axis));
+  }
+
+  [[nodiscard]] double low(std::size_t axis) const noexcept { return shared_low_[axis / 2][axis % 2]; }
+
   void build_shared_axes();
   void build_obstacle(PieceIndex piece);
+  void build_own_axes(PieceIndex piece, ObstacleInfo& info);
+  template <std::size_t Lanes>
+  void build_covered(const BroadPhase<Scalar>& broad_phase, const MoverPhases<Scalar>& mover_phases);
+  template <std::size_t Lanes, class Neighbours>
+  void build_covered(PieceIndex piece, PieceRange together, const Neighbours& neighbours, CoverSearch& search);
+  template <std::size_t Lanes>
+  [[nodiscard]] bool lies_in(const Facet& facet, PieceIndex other) const noexcept;
+  void find_near(PieceIndex piece, std::span<const PieceIndex> found, CoverSearch& search) const;
+  template <std::size_t Lanes>
+  [[nodiscard]] double open_part(PieceIndex piece, const Facet& facet, CoverSearch& search) const;
+  template <std::size_t Lanes>
+  [[nodiscard]] Interval inside(const Facet& facet, PieceIndex other) const noexcept;
+  void set_covered(PieceIndex piece, std::size_t axis, double open) noexcept;
+  [[nodiscard]] Facet facet(PieceIndex piece, std::size_t axis) const noexcept;
+  template <class Points>
+  [[nodiscard]] Interval face_of(const Points& points, const Vec2d& normal) const noexcept;
+  [[nodiscard]] Interval face_of_rectangle(const Box2<Scalar>& box, const Vec2d& normal) const noexcept;
   [[nodiscard]] bool may_cover(PieceIndex covering, PieceIndex piece) const noexcept;
   [[nodiscard]] bool is_covered_corner(PieceIndex piece, std::size_t axis, const Vec2d& corner,
                                        std::span<const PieceIndex> neighbours) const noexcept;
-  void build_covered(PieceIndex piece, std::span<const PieceIndex> neighbours);
   [[nodiscard]] Scalar support_offset(PieceIndex piece, const Vec2d& normal) const noexcept;
   [[nodiscard]] OctagonFace<Scalar> face_along(const Vec2<Scalar>& normal) const noexcept;
 
@@ -150,8 +256,12 @@ class ConfigurationSpace {
   std::size_t shared_count_ = 0;
   std::array<Scalar, max_shared> shared_x_{};
   std::array<Scalar, max_shared> shared_y_{};
+  /// By two axes, for offsets: the components of the normals that are above zero, and those below,
+  std::array<Pair, max_shared / 2> rightward_{}, leftward_{}, upward_{}, downward_{};
+  std::array<Pair, max_shared / 2> shared_low_{};  ///< and the least n·o over the octagon.
   std::array<OctagonFace<Scalar>, max_shared> shared_faces_{};
-  std::vector<Scalar> shared_offsets_;
+  std::array<Interval, max_shared> hull_faces_{};  ///< What of the octagon faces a piece, as `face_of` counts.
+  std::vector<Scalar> shared_offsets_;             ///< Of what is no rectangle, but for the box directions.
   std::vector<OwnAxis<Scalar>> own_axes_;
   std::vector<ObstacleInfo> info_;
 };

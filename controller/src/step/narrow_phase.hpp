@@ -72,6 +72,20 @@ template <Variant variant, class Scalar>
   return motion;
 }
 
+/// What the axes of a piece say together about a motion.
+template <class Scalar>
+struct Clearance {
+  Scalar start;  ///< Largest separation before the motion [m]; below zero: inside.
+  Scalar kept;   ///< Largest separation that one axis keeps over the whole motion [m].
+  /// Separation before the motion along each shared axis [m].
+  std::array<Scalar, ConfigurationSpace<Scalar>::max_shared> shared_starts;
+
+  /// What counts as a hit [m]: coming nearer than `hit`, or than at the start where that is nearer.
+  [[nodiscard]] Scalar tau() const noexcept { return std::min(Tolerances<Scalar>{}.hit, start); }
+  /// One axis keeps the motion clear.
+  [[nodiscard]] bool clear() const noexcept { return kept >= tau(); }
+};
+
 /// Separations of a piece at the start and at the end of the extended motion [m], shared axes first.
 template <class Scalar>
 struct AxisRanges {
@@ -83,9 +97,9 @@ struct AxisRanges {
 template <Variant variant, class Scalar>
 [[gnu::always_inline]] inline void find_ranges(const ConfigurationSpace<Scalar>& space,
                                                const Motion<variant.lanes, Scalar>& motion, PieceIndex piece,
-                                               AxisRanges<Scalar>& f) noexcept {
+                                               const Clearance<Scalar>& clear, AxisRanges<Scalar>& f) noexcept {
   using Shared = PerAxis<variant.lanes, Scalar>;
-  const Shared start = motion.at - Shared::Map(space.shared_offsets(piece));
+  const Shared start = Shared::Map(clear.shared_starts.data());
   Shared::Map(f.start.data()) = start;
   Shared::Map(f.end.data()) = start + motion.along;
   f.count = variant.lanes;
@@ -97,18 +111,6 @@ template <Variant variant, class Scalar>
   }
 }
 
-/// What the axes of a piece say together about a motion.
-template <class Scalar>
-struct Clearance {
-  Scalar start;  ///< Largest separation before the motion [m]; below zero: inside.
-  Scalar kept;   ///< Largest separation that one axis keeps over the whole motion [m].
-
-  /// What counts as a hit [m]: coming nearer than `hit`, or than at the start where that is nearer.
-  [[nodiscard]] Scalar tau() const noexcept { return std::min(Tolerances<Scalar>{}.hit, start); }
-  /// One axis keeps the motion clear.
-  [[nodiscard]] bool clear() const noexcept { return kept >= tau(); }
-};
-
 /// Whether one of the box directions alone, which are the first shared axes, keeps a piece further than `hit` away
 /// during the whole motion. So it is with most pieces: looking at these axes first saves half of a sweep.
 template <Variant variant, class Scalar>
@@ -116,7 +118,7 @@ template <Variant variant, class Scalar>
                                                            const Motion<variant.lanes, Scalar>& motion,
                                                            PieceIndex piece) noexcept {
   using BoxAxes = PerAxis<ConfigurationSpace<Scalar>::box_axes, Scalar>;
-  const BoxAxes start = BoxAxes::Map(motion.at.data()) - BoxAxes::Map(space.shared_offsets(piece));
+  const BoxAxes start = BoxAxes::Map(motion.at.data()) - space.box_offsets(piece);
   const BoxAxes least = start.min(start + BoxAxes::Map(motion.along.data()));
   return least.maxCoeff() >= Tolerances<Scalar>{}.hit;
 }
@@ -126,9 +128,12 @@ template <Variant variant, class Scalar>
                                                                      const Motion<variant.lanes, Scalar>& motion,
                                                                      PieceIndex piece) noexcept {
   using Shared = PerAxis<variant.lanes, Scalar>;
-  const Shared start = motion.at - Shared::Map(space.shared_offsets(piece));
+  const Shared start = motion.at - space.template shared_offsets<variant.lanes>(piece);
   const Shared least = start.min(start + motion.along);
-  Clearance<Scalar> result{start.maxCoeff(), least.maxCoeff()};
+  Clearance<Scalar> result;
+  result.start = start.maxCoeff();
+  result.kept = least.maxCoeff();
+  Shared::Map(result.shared_starts.data()) = start;
   if constexpr (!variant.slopes) return result;
   if (space.info(piece).own_count == 0) return result;
   for (const OwnAxis<Scalar>& own : space.own_axes(piece)) {
@@ -251,7 +256,7 @@ template <Variant variant, Covered covered = Covered::yields, class Scalar>
                                                                       const Clearance<Scalar>& clear) noexcept {
   constexpr Tolerances<Scalar> tolerances{};
   AxisRanges<Scalar> f;
-  find_ranges<variant>(space, motion, piece, f);
+  find_ranges<variant>(space, motion, piece, clear, f);
   const Scalar tau = clear.tau();
   const Scalar inside = std::min(tau, Scalar(0));
   const bool touching = clear.start <= tolerances.touch;
@@ -317,7 +322,7 @@ template <Variant variant, class Scalar>
                                                                     PieceIndex piece, const Vec2<Scalar>& p) noexcept {
   using Shared = PerAxis<variant.lanes, Scalar>;
   const Shared f = Shared::Map(space.shared_x().data()) * p.x() + Shared::Map(space.shared_y().data()) * p.y() -
-                   Shared::Map(space.shared_offsets(piece));
+                   space.template shared_offsets<variant.lanes>(piece);
   BestAxis<Scalar> best{0, f.maxCoeff()};
   while (f[static_cast<Eigen::Index>(best.axis)] != best.separation) ++best.axis;
   if constexpr (!variant.slopes) return best;

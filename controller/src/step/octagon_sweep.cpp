@@ -1,7 +1,9 @@
 #include "step/octagon_sweep.hpp"
 
-#include <paperproof/scenery_facts.hpp>
+#include "broad_phase/most_at_once.hpp"
 #include "step/solvers.hpp"
+
+#include <paperproof/scenery_facts.hpp>
 
 #include <cmath>
 #include <numbers>
@@ -56,6 +58,7 @@ class OctagonSweep : public Technique<Scalar> {
                    : *broad_phase_,
                mover_phases_),
         settings_(settings_for<Scalar>(def, first_companion, character)),
+        touched_at_once_(broad_phase::most_at_once<Scalar>(scenery.static_boxes(), space_.touched_size())),
         solve_(still_solver<Scalar>(
             {.lanes = space_.lanes(), .movers = false, .one_way = def.stages.one_way, .slopes = def.stages.slopes})) {
     check(def.stages, scenery, space_);
@@ -66,7 +69,7 @@ class OctagonSweep : public Technique<Scalar> {
   [[nodiscard]] Scratch<Scalar> make_scratch() const override {
     Scratch<Scalar> scratch;
     scratch.solids.pieces.resize(broad_phase_->size());
-    scratch.own = std::make_unique<StepMemory<Scalar>>(space_);
+    scratch.own = std::make_unique<StepMemory<Scalar>>(space_, touched_at_once_, settings_.iterations);
     return scratch;
   }
 
@@ -106,6 +109,7 @@ class OctagonSweep : public Technique<Scalar> {
   MoverPhases<Scalar> mover_phases_;
   ConfigurationSpace<Scalar> space_;
   Settings<Scalar> settings_;
+  std::size_t touched_at_once_;
   SolveStill<Scalar> solve_;
 };
 
@@ -121,7 +125,8 @@ class OctagonSweepAmongMovers final : public OctagonSweep<Scalar> {
 
   [[nodiscard]] Scratch<Scalar> make_scratch() const override {
     Scratch<Scalar> scratch = OctagonSweep<Scalar>::make_scratch();
-    scratch.own = std::make_unique<MoverMemory<Scalar>>(this->space_);
+    scratch.own =
+        std::make_unique<MoverMemory<Scalar>>(this->space_, this->touched_at_once_, this->settings_.iterations);
     return scratch;
   }
 
@@ -176,9 +181,9 @@ class OctagonSweepAmongMovers final : public OctagonSweep<Scalar> {
 
   [[nodiscard]] bool meets_conveyor(const MoveResult<Scalar>& result) const noexcept {
     if (!has_conveyors_) return false;
-    const std::vector<ColliderDef>& colliders = this->space_.scenery().as_run().colliders;
-    return std::any_of(result.contacts.begin(), result.contacts.end(),
-                       [&](const Contact<Scalar>& contact) { return colliders[contact.collider].surface_speed != 0; });
+    return std::any_of(result.contacts.begin(), result.contacts.end(), [&](const Contact<Scalar>& contact) {
+      return this->space_.scenery().collider(contact.collider).surface_speed != 0;
+    });
   }
 
   SolveMoving<Scalar> solve_moving_;
@@ -195,7 +200,8 @@ std::unique_ptr<Technique<Scalar>> make_sweep_among_companions(const SweepDef& d
   if (def.iterations < 1 || def.iterations > most_iterations)
     throw std::invalid_argument("sweep_iterations: must be from 1 to " + std::to_string(most_iterations) + ", not " +
                                 std::to_string(def.iterations));
-  if (def.stages.movers)
+  // A conveyor or a mover is needed for anything but a step without movers.
+  if (def.stages.movers && (scenery.mover_count() > 0 || has_conveyors(scenery)))
     return std::make_unique<OctagonSweepAmongMovers<Scalar>>(def, scenery, character, first_companion);
   return std::make_unique<OctagonSweep<Scalar>>(def, scenery, character, first_companion);
 }

@@ -5,6 +5,7 @@
 #include "step/narrow_phase.hpp"
 #include "step/room.hpp"
 
+#include <paperproof/scenery_facts.hpp>
 #include <paperproof/technique.hpp>
 
 #include <algorithm>
@@ -43,9 +44,11 @@ struct Nearest {
 /// What every step may need.
 template <class Scalar>
 struct StepMemory : OwnMemory {
-  explicit StepMemory(const ConfigurationSpace<Scalar>& space)
+  /// @param contacts_at_once of a step among pieces that stand still: no more can be touched in one place.
+  /// @param iterations of the sweep.
+  StepMemory(const ConfigurationSpace<Scalar>& space, std::size_t contacts_at_once, int iterations)
       : pieces(space.scenery().sensor_pieces().first),
-        contacts(axes_of(space)),
+        contacts(most_contacts(space, contacts_at_once, iterations)),
         corners(2 * MoveResult<Scalar>::max_corners + 4 * moving_pieces(space)) {}
 
   std::size_t pieces;                       ///< That block.
@@ -57,6 +60,14 @@ struct StepMemory : OwnMemory {
     const std::span<const PieceInfo> all = space.scenery().pieces();
     const auto moves = [](const PieceInfo& each) { return each.mover != no_mover; };
     return static_cast<std::size_t>(std::count_if(all.begin(), all.end(), moves));
+  }
+  /// Each impact reports each piece once at most, and so does the end of the step, for the ground and for what it
+  /// follows.
+  [[nodiscard]] std::size_t most_contacts(const ConfigurationSpace<Scalar>& space, std::size_t at_once,
+                                          int iterations) const {
+    const std::size_t all = axes_of(space);
+    if (moving_pieces(space) > 0) return all;
+    return std::min(all, at_once * (static_cast<std::size_t>(iterations) + 3));
   }
   [[nodiscard]] std::size_t axes_of(const ConfigurationSpace<Scalar>& space) const {
     std::size_t axes = 0;
@@ -78,20 +89,15 @@ inline constexpr std::uint8_t goes_through = lies_on | crushes;
 /// What a step among movers may need besides.
 template <class Scalar>
 struct MoverMemory final : StepMemory<Scalar> {
-  explicit MoverMemory(const ConfigurationSpace<Scalar>& space)
-      : StepMemory<Scalar>(space), of_mover(space.scenery().pieces().size()), all(of_mover.size()), room(space) {
-    const std::vector<ColliderDef>& colliders = space.scenery().as_run().colliders;
-    const auto moves = [](const ColliderDef& each) { return each.mover != no_mover; };
-    const auto moving = static_cast<std::size_t>(std::count_if(colliders.begin(), colliders.end(), moves));
-    roles.resize(colliders.size());
-    pieces_of.resize(colliders.size());
-    const std::span<const PieceInfo> all_pieces = space.scenery().pieces();
-    for (PieceIndex piece = 0; piece < this->pieces; ++piece) {
-      PieceRange& range = pieces_of[all_pieces[piece].collider];
-      if (range.size() == 0) range.first = piece;
-      range.end = piece + 1;
-    }
-    marked.reserve(colliders.size());
+  MoverMemory(const ConfigurationSpace<Scalar>& space, std::size_t contacts_at_once, int iterations)
+      : StepMemory<Scalar>(space, contacts_at_once, iterations),
+        of_mover(space.scenery().pieces().size()),
+        all(of_mover.size()),
+        room(space) {
+    const std::size_t colliders = space.scenery().collider_count();
+    const std::size_t moving = count_moving_colliders(space.scenery());
+    roles.resize(colliders);
+    marked.reserve(colliders);
     pressers.reserve(moving);
     for (auto* each : {&holds, &holds_before}) each->reserve(this->pieces);
     for (auto* each : {&ways, &velocities}) each->reserve(this->pieces);
@@ -122,7 +128,6 @@ struct MoverMemory final : StepMemory<Scalar> {
   std::vector<PieceIndex> all;       ///< and of all of them, with what stands still.
   RoomMemory<Scalar> room;
   std::vector<std::uint8_t> roles;         ///< Of each collider: see `Role`.
-  std::vector<PieceRange> pieces_of;       ///< Each collider: they stand together.
   std::vector<ColliderIndex> marked;       ///< Those that are `known`, in the order in which they came to be.
   std::vector<Hold<Scalar>> holds;         ///< What is touched, each piece once,
   std::vector<Hold<Scalar>> holds_before;  ///< and what was when the last sweep began.

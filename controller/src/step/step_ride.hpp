@@ -16,7 +16,7 @@ namespace paperproof::octagon_sweep {
 template <Variant variant, class Scalar>
 Scalar StepSolver<variant, Scalar>::surface_speed(PieceIndex piece) const noexcept {
   const Scenery<Scalar>& scenery = space_.scenery();
-  return static_cast<Scalar>(scenery.as_run().colliders[scenery.pieces()[piece].collider].surface_speed);
+  return static_cast<Scalar>(scenery.collider(scenery.pieces()[piece].collider).surface_speed);
 }
 
 template <Variant variant, class Scalar>

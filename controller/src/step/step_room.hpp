@@ -228,7 +228,7 @@ bool StepSolver<variant, Scalar>::stays_on_its_side(const V& end) noexcept {
     return from && stopped_by(make_motion<variant>(space_, *from, V(to - *from), Scalar(0)), piece);
   };
   for (const ColliderIndex collider : memory().marked) {
-    const PieceRange pieces = memory().pieces_of[collider];
+    const PieceRange pieces = space_.scenery().pieces_of(collider);
     for (PieceIndex piece = pieces.first; piece < pieces.end; ++piece)
       if (left_behind(piece) && leads_through(piece)) return false;
   }

@@ -278,7 +278,7 @@ class StepSolver {
   bool let_through_what_is_on_it(const MoveRequest<Scalar>& request) noexcept;
   [[nodiscard]] bool leaves_what_is_on_it(const MoveRequest<Scalar>& request) noexcept;
   [[nodiscard]] MoverIndex mover_of_collider(ColliderIndex collider) const noexcept {
-    return space_.scenery().as_run().colliders[collider].mover;
+    return space_.scenery().collider(collider).mover;
   }
   [[nodiscard]] V course_of(ColliderIndex collider) const noexcept;
   void remember(const Presser<Scalar>& now) noexcept;

@@ -1,7 +1,7 @@
 /// A convex body in one frame, and how two of them meet when only the frame's start and its end are looked at.
 #pragma once
 
-#include <paperproof/types.hpp>
+#include <paperproof/scenery.hpp>
 
 #include <optional>
 #include <span>
@@ -13,7 +13,7 @@ template <class Scalar>
 struct Body {
   /// Convex, counter-clockwise, relative to the position [m]; two points are a segment, without an inside. Must outlive
   /// the body.
-  std::span<const Vec2<Scalar>> outline;
+  PieceVertices<Scalar> outline{std::span<const Vec2<Scalar>>{}};
   Box2<Scalar> box;  ///< Around the outline, relative to the position [m].
   /// How what the body goes along with moves during the frame: `position` and `movement` are seen from there. What
   /// stands on it does not move, so no rounding can add up.

@@ -146,7 +146,7 @@ void Discrete<Scalar>::add_frame(const MoveRequest<Scalar>& request, MoveResult<
   result.clear();
   Frame<Scalar>& frame =
       frames.emplace_back(Frame<Scalar>{request, FrameOfReference<Scalar>(*scenery_, request), result, member});
-  frame.character.outline = {outline_.begin(), outline_.end()};
+  frame.character.outline = std::span<const Vec2<Scalar>>(outline_.begin(), outline_.end());
   frame.character.box = box_;
   frame.character.base = frame.place.motion_of(frame.place.mover());
   frame.character.position = frame.place.start();
