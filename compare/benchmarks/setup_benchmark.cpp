@@ -25,11 +25,11 @@ namespace {
 /// A level is made of sections, side by side and one above the other, as nearly square as may be.
 constexpr int section_width = 16;    ///< [m]
 constexpr int section_height = 24;   ///< From one storey to the next [m].
-constexpr int ground_depth = 6;      ///< Rows of tiles.
+constexpr int tile_rows = 6;         ///< Rows of tiles.
 constexpr int section_pieces = 108;  ///< 96 tiles of ground, 2 on a hill, 4 slopes and 6 platforms.
-constexpr int steps = 2000;
-constexpr double dt = 1.0 / 60;
-constexpr double half_height = 20.0 / 32;
+constexpr int walked_steps = 2000;
+constexpr double frame = 1.0 / 60;
+constexpr double half_of_a_character = 20.0 / 32;
 
 ColliderDef rectangle(double left, double bottom, double width, double height) {
   return {.points = {{left, bottom}, {left + width, bottom}, {left + width, bottom + height}, {left, bottom + height}}};
@@ -43,7 +43,7 @@ ColliderDef falling_slope(double left, double bottom) {
 
 /// The surface of the ground is at `y`.
 void add_section(double x, double y, std::vector<ColliderDef>& colliders) {
-  for (int row = 1; row <= ground_depth; ++row)
+  for (int row = 1; row <= tile_rows; ++row)
     for (int column = 0; column < section_width; ++column) colliders.push_back(rectangle(x + column, y - row, 1, 1));
   colliders.push_back(rising_slope(x + 2, y));
   colliders.push_back(rectangle(x + 3, y, 1, 1));
@@ -67,7 +67,7 @@ Level make_level(std::int64_t pieces) {
   Level level;
   for (int i = 0; i < sections; ++i)
     add_section(i % per_storey * section_width, i / per_storey * section_height, level.scenery.colliders);
-  level.start = {per_storey / 2 * section_width + 0.25, storeys / 2 * section_height + half_height + 0.02};
+  level.start = {per_storey / 2 * section_width + 0.25, storeys / 2 * section_height + half_of_a_character + 0.02};
   return level;
 }
 
@@ -164,9 +164,9 @@ void step(benchmark::State& state) {
   const Scenery<Scalar> scenery(level.scenery);
   const Controller<Scalar> controller(scenery, CharacterDef{});
   Scratch<Scalar> scratch = controller.make_scratch();
-  const std::vector<compare::InputEvent> events = compare::random_input(1, steps);
+  const std::vector<compare::InputEvent> events = compare::random_input(1, walked_steps);
   std::vector<Input> inputs;
-  for (int i = 0; i < steps; ++i) inputs.push_back(compare::input_at(events, i));
+  for (int i = 0; i < walked_steps; ++i) inputs.push_back(compare::input_at(events, i));
   StepReport<Scalar> report;
   double least = std::numeric_limits<double>::infinity();
   Vec2d end = level.start;
@@ -174,10 +174,10 @@ void step(benchmark::State& state) {
     CharacterState<Scalar> character;
     character.position = level.start.cast<Scalar>();
     const auto begin = std::chrono::steady_clock::now();
-    for (const Input& input : inputs) controller.step(character, input, {0, -30}, Scalar(dt), scratch, report);
+    for (const Input& input : inputs) controller.step(character, input, {0, -30}, Scalar(frame), scratch, report);
     const double seconds = seconds_since(begin);
     state.SetIterationTime(seconds);
-    least = std::min(least, seconds * 1e9 / steps);
+    least = std::min(least, seconds * 1e9 / walked_steps);
     end = character.position.template cast<double>() - level.start;
   }
   state.counters["ns_min"] = least;
