@@ -85,7 +85,7 @@ class StabilityRun {
   explicit StabilityRun(const StudyArguments& arguments)
       : arguments_(arguments),
         regions_(stability_regions(arguments.contenders, arguments.grid)),
-        borders_(stability_borders(arguments.contenders)),
+        borders_(stability_borders(arguments.contenders, arguments.grid)),
         outputs_(arguments.rows_path, arguments.pages, arguments.log_path),
         progress_(!arguments.quiet, arguments.log_path),
         rows_(regions_.size() + borders_.size(), ordered_json::array()) {

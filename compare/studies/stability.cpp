@@ -21,6 +21,7 @@ constexpr double roundings_of_place = 2;  ///< In ulp: a place is kept to one, a
 constexpr double deepest_body = 0.005;    ///< Box2D lets its bodies overlap by this much [m].
 /// Strides in which a border is looked for before it is bisected.
 constexpr int border_strides = 24;
+constexpr int quick_border_strides = 6;
 
 struct Region {
   const char* name;
@@ -277,14 +278,15 @@ Row run_at(const StabilityRegion& region, std::size_t index) {
   return row;
 }
 
-std::vector<StabilityBorder> stability_borders(const std::vector<std::string>& contenders) {
+std::vector<StabilityBorder> stability_borders(const std::vector<std::string>& contenders, const std::string& grid) {
   std::vector<StabilityBorder> made;
   for (const Border& border : borders()) {
     Sweep sweep = sweep_of(border.scene, contenders);
     sweep.set = border.set;
     sweep.border = border.key;
     sweep.border_range = {border.least, border.most};
-    made.push_back({border.name, std::move(sweep), border.most_off});
+    made.push_back(
+        {border.name, std::move(sweep), border.most_off, grid == "quick" ? quick_border_strides : border_strides});
   }
   return made;
 }
@@ -299,7 +301,7 @@ Row run_at(const StabilityBorder& border, std::size_t index) {
     return border.most_off > 0 ? row.answer_error && *row.answer_error <= border.most_off
                                : row.verdict == Verdict::holds;
   };
-  Row row = border_at(border.sweep, index, {run, holds, border_strides});
+  Row row = border_at(border.sweep, index, {run, holds, border.strides});
   row.swept = {border.name, axis_keys_of(border.sweep), Bad::does_not_hold};
   return row;
 }

@@ -45,8 +45,11 @@ struct StabilityBorder {
   /// Only this is asked: that no answer of the scene is missed by more [in its unit]. 0: all predicates are, and the
   /// answers to the letter.
   double most_off = 0;
+  int strides = 0;  ///< In which the border is looked for before it is bisected.
 };
-[[nodiscard]] std::vector<StabilityBorder> stability_borders(const std::vector<std::string>& contenders);
+/// @param grid as of `stability_regions`: `quick` looks in fewer strides.
+[[nodiscard]] std::vector<StabilityBorder> stability_borders(const std::vector<std::string>& contenders,
+                                                             const std::string& grid = "standard");
 [[nodiscard]] Row run_at(const StabilityBorder& border, std::size_t index);
 
 }  // namespace paperproof::compare

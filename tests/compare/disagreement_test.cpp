@@ -3,6 +3,7 @@
 
 #include "metrics/ledger.hpp"
 #include "scenes/load.hpp"
+#include "support/steps_wanted.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,7 +21,7 @@ using Counts = std::map<std::string, int>;  ///< By cause, consequences apart.
 /// @param ours every error of ours, as `scene mode kind`.
 Counts count_over_scenes(std::string& ours, std::string& unexplained) {
   Counts counts;
-  for (const DisagreementCase& one : disagreement_cases(registered_scenes())) {
+  for (const DisagreementCase& one : test::sampled_of(disagreement_cases(registered_scenes()))) {
     if (load_scenes(one.scene).at(one.index).steps > most_steps) continue;
     const Row row = run_disagreement(one);
     EXPECT_NE(row.verdict, Verdict::failed) << one.scene << ": " << row.reason;
@@ -40,6 +41,8 @@ TEST(Disagreement, has_one_cause_on_every_registered_scene) {
   const Counts counts = count_over_scenes(ours, unexplained);
   EXPECT_EQ(unexplained, "");
   EXPECT_EQ(ours, "");
+  EXPECT_FALSE(counts.empty());
+  if (test::sanitized) return;  // a sixteenth of the scenes does not have every cause
   for (const Cause cause :
        {Cause::skin, Cause::travel_cap, Cause::event_latency, Cause::response_law, Cause::solver_iterations,
         Cause::outline, Cause::sampled_time, Cause::intent, Cause::ghost_collision, Cause::float_rounding,
