@@ -71,7 +71,7 @@ Level make_level(std::int64_t pieces) {
   return level;
 }
 
-/// Bytes that are allocated now, by whomever, whether they were written to or not.
+/// The bytes that the process has allocated now, untouched ones included.
 std::size_t allocated() noexcept {
   const struct mallinfo2 info = mallinfo2();
   return info.uordblks + info.hblkhd;
