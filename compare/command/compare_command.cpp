@@ -8,7 +8,6 @@
 #include "command/standing_sections.hpp"
 #include "command/totals.hpp"
 #include "near_names.hpp"
-#include "number_in.hpp"
 #include "records/output_file.hpp"
 #include "records/rows_file.hpp"
 #include "records/trace_writer.hpp"
@@ -24,6 +23,8 @@
 #include "scenes/load.hpp"
 #include "scenes/sets.hpp"
 #include "words.hpp"
+
+#include <paperproof/number_in.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

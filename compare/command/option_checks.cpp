@@ -1,7 +1,8 @@
 #include "command/option_checks.hpp"
 
-#include "number_in.hpp"
 #include "words.hpp"
+
+#include <paperproof/number_in.hpp>
 
 #include <fmt/format.h>
 

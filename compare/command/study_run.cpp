@@ -2,13 +2,14 @@
 
 #include "command/forecast.hpp"
 #include "command/study_outputs.hpp"
-#include "number_in.hpp"
 #include "records/rows_reader.hpp"
 #include "runs/environment.hpp"
 #include "runs/text_columns.hpp"
 #include "scenes/input_error.hpp"
 #include "scenes/load.hpp"
 #include "scenes/parameters.hpp"
+
+#include <paperproof/number_in.hpp>
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "records/case.hpp"
 
-#include "number_in.hpp"
+#include <paperproof/number_in.hpp>
 
 #include <fmt/format.h>
 

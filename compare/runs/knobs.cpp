@@ -1,6 +1,5 @@
 #include "runs/knobs.hpp"
 
-#include "number_in.hpp"
 #include "runs/contestant.hpp"
 
 #include <fmt/format.h>
@@ -100,11 +99,17 @@ Scenery<double> a_square() { return Scenery<double>({{{.points = {{0, 0}, {1, 0}
 KnobSetting parse_knob(std::string_view text) {
   const std::size_t equals = text.find('=');
   const std::string_view name = text.substr(0, equals);
-  std::vector<std::string_view> names;
-  for (const SharedKnob& each : technique_knobs()) names.push_back(each.knob.name);
-  for (const EngineKnob& each : engine_knobs()) names.push_back(each.name);
-  if (equals == std::string_view::npos || std::find(names.begin(), names.end(), name) == names.end())
+  const auto& techniques = all_techniques();
+  const bool known = find_engine_knob(name) != nullptr ||
+                     std::any_of(techniques.begin(), techniques.end(), [name](const TechniqueEntry& technique) {
+                       return find_knob(technique, name) != nullptr;
+                     });
+  if (equals == std::string_view::npos || !known) {
+    std::vector<std::string_view> names;
+    for (const SharedKnob& each : technique_knobs()) names.push_back(each.knob.name);
+    for (const EngineKnob& each : engine_knobs()) names.push_back(each.name);
     throw std::invalid_argument(fmt::format("expected NAME=VALUE with a NAME of {}", fmt::join(names, ", ")));
+  }
   return {std::string(name), std::string(text.substr(equals + 1))};
 }
 

@@ -244,7 +244,7 @@ void Lane::finish() {
 }
 
 bool Lane::guaranteed() const {
-  if (row_.contender != "octagon_sweep" || row_.scalar != name_of(ScalarKind::binary64)) return false;
+  if (!is_guaranteed(row_)) return false;
   const auto within = [](const Vec2d& p) { return p.cwiseAbs().maxCoeff() <= guaranteed_range; };
   const std::vector<ColliderDef>& colliders = header().scenery.colliders;
   return std::all_of(colliders.begin(), colliders.end(), [&](const ColliderDef& collider) {

@@ -1,8 +1,9 @@
 #include "runs/run_case.hpp"
 
-#include "number_in.hpp"
 #include "runs/contestant.hpp"
 #include "scenes/load.hpp"
+
+#include <paperproof/number_in.hpp>
 
 #include <fmt/format.h>
 

@@ -1,9 +1,10 @@
 #include "scenes/parameters.hpp"
 
 #include "near_names.hpp"
-#include "number_in.hpp"
 #include "scenes/built_in.hpp"
 #include "scenes/input_error.hpp"
+
+#include <paperproof/number_in.hpp>
 
 #include <fmt/format.h>
 

@@ -5,8 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "number_in.hpp"
 #include "scenes/input_error.hpp"
+
+#include <paperproof/number_in.hpp>
 
 namespace paperproof::compare {
 

@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "number_in.hpp"
 #include "scenes/input_error.hpp"
 #include "scenes/json_text.hpp"
 #include "scenes/map_defaults.hpp"
@@ -16,6 +15,8 @@
 #include "scenes/tiled_rule.hpp"
 #include "scenes/tiled_shapes.hpp"
 #include "scenes/validate.hpp"
+
+#include <paperproof/number_in.hpp>
 
 namespace paperproof::compare {
 

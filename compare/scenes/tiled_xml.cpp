@@ -6,9 +6,10 @@
 #include <limits>
 #include <pugixml.hpp>
 
-#include "number_in.hpp"
 #include "scenes/input_error.hpp"
 #include "scenes/tiled_model.hpp"
+
+#include <paperproof/number_in.hpp>
 
 namespace paperproof::compare {
 

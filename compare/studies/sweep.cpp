@@ -1,12 +1,13 @@
 #include "studies/sweep.hpp"
 
 #include "near_names.hpp"
-#include "number_in.hpp"
 #include "records/rows_json.hpp"
 #include "runs/knobs.hpp"
 #include "runs/run_case.hpp"
 #include "scenes/input_error.hpp"
 #include "scenes/load.hpp"
+
+#include <paperproof/number_in.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,11 +1,11 @@
 #include <paperproof/controller.hpp>
+#include <paperproof/scenery_facts.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>
 
-#include <paperproof/scenery_facts.hpp>
 #include "one_way_chains.hpp"
 #include "sensors.hpp"
 #include "step_parts.hpp"

@@ -1,12 +1,12 @@
 #include <paperproof/crowd.hpp>
+#include <paperproof/joint_technique.hpp>
+#include <paperproof/scenery_facts.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
-#include <paperproof/joint_technique.hpp>
-#include <paperproof/scenery_facts.hpp>
 #include "crowd/parts.hpp"
 #include "crowd/stepper.hpp"
 #include "step/octagon_sweep.hpp"

@@ -54,10 +54,7 @@ class Joints {
   /// @return one past the last piece of the collider.
   PieceIndex add_collider(PieceIndex piece) {
     const PieceInfo& info = scenery_.pieces()[piece];
-    if (!info.one_way) {
-      while (piece < scenery_.pieces().size() && scenery_.pieces()[piece].collider == info.collider) ++piece;
-      return piece;
-    }
+    if (!info.one_way) return scenery_.pieces_of(info.collider).end;
     const ColliderDef def = scenery_.as_run(info.collider);
     int side_before = 0;
     for (std::size_t i = 1; i < def.points.size(); ++i) {

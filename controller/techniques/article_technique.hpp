@@ -2,33 +2,39 @@
 #pragma once
 
 #include "techniques/article_response.hpp"
+#include "techniques/knobs.hpp"
 
 #include <string_view>
 
 namespace paperproof::article {
 
-/// @tparam search as for `move`.
-template <class Scalar, ImpactSearch<Scalar> search>
+/// @tparam search as for `move`. @tparam by_units it searches by units, and refuses a movement of too many.
+template <class Scalar, ImpactSearch<Scalar> search, bool by_units>
 class SearchingTechnique final : public Technique<Scalar> {
  public:
-  /// @param by_units it searches by units, and refuses a movement of too many.
-  SearchingTechnique(bool by_units, const TechniqueDef& def, const Scenery<Scalar>& scenery,
-                     const CharacterDef& character)
-      : name_(find_technique(def.name)->name), by_units_(by_units), parts_(def, scenery, character) {}
+  SearchingTechnique(const TechniqueDef& def, const Scenery<Scalar>& scenery, const CharacterDef& character)
+      : name_(find_technique(def.name)->name), parts_(def, scenery, character) {}
 
   [[nodiscard]] std::string_view name() const noexcept override { return name_; }
   [[nodiscard]] Scratch<Scalar> make_scratch() const override { return parts_.make_scratch(); }
 
   void move(const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,
             MoveResult<Scalar>& result) const noexcept override {
-    if (refuse(parts_, by_units_, request, result)) return;
+    if (refuse(parts_, by_units, request, result)) return;
     article::move(parts_, search, request, scratch, result);
   }
 
  private:
   std::string_view name_;
-  bool by_units_;
   Parts<Scalar> parts_;
 };
+
+template <template <class> class Made>
+[[nodiscard]] TechniqueEntry entry_of_search(std::string_view name) {
+  TechniqueEntry entry = entry_of<Made>(name, knob::of_search());
+  entry.knows_movers = true;
+  entry.unit = knob::unit_of_search;
+  return entry;
+}
 
 }  // namespace paperproof::article

@@ -175,21 +175,13 @@ void Mask<Scalar>::move(const MoveRequest<Scalar>& request, Scratch<Scalar>& scr
   if (ends_inside) result.status = MoveStatus::stuck;
 }
 
-template <class Scalar>
-std::unique_ptr<Technique<Scalar>> make_mask(const TechniqueDef& def, const Scenery<Scalar>& scenery,
-                                             const CharacterDef& character) {
-  return std::make_unique<Mask<Scalar>>(def, scenery, character);
-}
-
 }  // namespace
 
 TechniqueEntry mask_entry() {
-  return {.name = "mask",
-          .make_float = make_mask<float>,
-          .make_double = make_mask<double>,
-          .knobs = {knob::response, knob::raster_pixels_per_metre},
-          .draws_level = true,
-          .unit = knob::pixel};
+  TechniqueEntry entry = entry_of<Mask>("mask", {knob::response, knob::raster_pixels_per_metre});
+  entry.draws_level = true;
+  entry.unit = knob::pixel;
+  return entry;
 }
 
 }  // namespace paperproof

@@ -11,7 +11,6 @@
 /// then is larger than the character: the component is zero. "The object currently being tested" is one collider, in
 /// the order of the scenery, and its four pairs in the order top, bottom, left, right (the knob `objects`).
 #include "techniques/article_technique.hpp"
-#include "techniques/knobs.hpp"
 #include "techniques/registry.hpp"
 
 namespace paperproof {
@@ -19,21 +18,12 @@ namespace paperproof {
 namespace {
 
 template <class Scalar>
-std::unique_ptr<Technique<Scalar>> make_penetration_resolution(const TechniqueDef& def, const Scenery<Scalar>& scenery,
-                                                               const CharacterDef& character) {
-  using Made = article::SearchingTechnique<Scalar, nullptr>;
-  return std::make_unique<Made>(true, def, scenery, character);
-}
+using PenetrationResolution = article::SearchingTechnique<Scalar, nullptr, true>;
 
 }  // namespace
 
 TechniqueEntry penetration_resolution_entry() {
-  return {.name = "penetration_resolution",
-          .make_float = make_penetration_resolution<float>,
-          .make_double = make_penetration_resolution<double>,
-          .knobs = knob::of_search(),
-          .knows_movers = true,
-          .unit = knob::unit_of_search};
+  return article::entry_of_search<PenetrationResolution>("penetration_resolution");
 }
 
 }  // namespace paperproof

@@ -1,11 +1,11 @@
 #include "techniques/registry.hpp"
 
 #include <paperproof/joint_technique.hpp>
+#include <paperproof/number_in.hpp>
 #include <paperproof/scenery_facts.hpp>
 #include <paperproof/tolerances.hpp>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <type_traits>
 
@@ -43,14 +43,6 @@ void validate(const ArticleKnobs& knobs) {
           "pixels_per_tile: must be from 1 to 4096, not " + std::to_string(knobs.pixels_per_tile));
 }
 
-template <class Number>
-Number number_in(const std::string& text, const char* expected) {
-  Number number{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  require(error == std::errc{} && end == text.data() + text.size(), expected);
-  return number;
-}
-
 std::vector<TechniqueEntry>& registry() {
 #define PAPERPROOF_ENTRY(name) name##_entry(),
   static std::vector<TechniqueEntry> all{PAPERPROOF_TECHNIQUES(PAPERPROOF_ENTRY)};
@@ -60,9 +52,15 @@ std::vector<TechniqueEntry>& registry() {
 
 }  // namespace
 
-double real_in(const std::string& text) { return number_in<double>(text, "expected a number"); }
+double real_in(const std::string& text) {
+  if (const std::optional<double> number = number_in<double>(text)) return *number;
+  throw std::invalid_argument("expected a number");
+}
 
-int whole_in(const std::string& text) { return number_in<int>(text, "expected a whole number"); }
+int whole_in(const std::string& text) {
+  if (const std::optional<int> number = number_in<int>(text)) return *number;
+  throw std::invalid_argument("expected a whole number");
+}
 
 bool is_second(const std::string& text, std::string_view first, std::string_view second) {
   require(text == first || text == second, "expected " + std::string(first) + " or " + std::string(second));
@@ -112,7 +110,7 @@ Controller<Scalar> make_controller(const Scenery<Scalar>& scenery, const Charact
 
 template <class Scalar>
 Crowd<Scalar> make_crowd(const Scenery<Scalar>& scenery, const CharacterDef& character, const TechniqueDef& def) {
-  if (def.name == octagon_sweep_entry().name)
+  if (def.name == "octagon_sweep")
     return Crowd<Scalar>(scenery, character, SweepDef{def.broad_phase, def.stages, def.sweep_iterations});
   std::unique_ptr<const Technique<Scalar>> made = make_technique(def, scenery, character);
   const auto* joint = dynamic_cast<const JointTechnique<Scalar>*>(made.get());

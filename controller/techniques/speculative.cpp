@@ -3,7 +3,6 @@
 ///
 /// The knob `unit` is left to penetration resolution. A contact's fraction is the time of impact of its point.
 #include "techniques/article_technique.hpp"
-#include "techniques/knobs.hpp"
 #include "techniques/registry.hpp"
 
 #include <paperproof/tolerances.hpp>
@@ -57,21 +56,10 @@ PairImpact<Scalar> time_of_impact(const Parts<Scalar>& parts, const NearbyScener
 }
 
 template <class Scalar>
-std::unique_ptr<Technique<Scalar>> make_speculative(const TechniqueDef& def, const Scenery<Scalar>& scenery,
-                                                    const CharacterDef& character) {
-  using Made = article::SearchingTechnique<Scalar, &time_of_impact<Scalar>>;
-  return std::make_unique<Made>(false, def, scenery, character);
-}
+using Speculative = article::SearchingTechnique<Scalar, &time_of_impact<Scalar>, false>;
 
 }  // namespace
 
-TechniqueEntry speculative_entry() {
-  return {.name = "speculative",
-          .make_float = make_speculative<float>,
-          .make_double = make_speculative<double>,
-          .knobs = knob::of_search(),
-          .knows_movers = true,
-          .unit = knob::unit_of_search};
-}
+TechniqueEntry speculative_entry() { return article::entry_of_search<Speculative>("speculative"); }
 
 }  // namespace paperproof

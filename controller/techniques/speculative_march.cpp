@@ -11,7 +11,6 @@
 /// A polygon is met where a point is inside it after a step: what is thinner than a unit can be missed. A chain is met
 /// where a step of a point crosses it. A contact's fraction is where the pair was last free: up to a unit too early.
 #include "techniques/article_technique.hpp"
-#include "techniques/knobs.hpp"
 #include "techniques/registry.hpp"
 
 #include <cmath>
@@ -64,21 +63,10 @@ PairImpact<Scalar> march(const Parts<Scalar>& parts, const NearbyScenery<Scalar>
 }
 
 template <class Scalar>
-std::unique_ptr<Technique<Scalar>> make_speculative_march(const TechniqueDef& def, const Scenery<Scalar>& scenery,
-                                                          const CharacterDef& character) {
-  using Made = article::SearchingTechnique<Scalar, &march<Scalar>>;
-  return std::make_unique<Made>(true, def, scenery, character);
-}
+using SpeculativeMarch = article::SearchingTechnique<Scalar, &march<Scalar>, true>;
 
 }  // namespace
 
-TechniqueEntry speculative_march_entry() {
-  return {.name = "speculative_march",
-          .make_float = make_speculative_march<float>,
-          .make_double = make_speculative_march<double>,
-          .knobs = knob::of_search(),
-          .knows_movers = true,
-          .unit = knob::unit_of_search};
-}
+TechniqueEntry speculative_march_entry() { return article::entry_of_search<SpeculativeMarch>("speculative_march"); }
 
 }  // namespace paperproof

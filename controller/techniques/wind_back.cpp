@@ -81,20 +81,12 @@ void WindBack<Scalar>::report(const NearbyScenery<Scalar>& nearby, const MoveReq
   }
 }
 
-template <class Scalar>
-std::unique_ptr<Technique<Scalar>> make_wind_back(const TechniqueDef& def, const Scenery<Scalar>& scenery,
-                                                  const CharacterDef& character) {
-  return std::make_unique<WindBack<Scalar>>(def, scenery, character);
-}
-
 }  // namespace
 
 TechniqueEntry wind_back_entry() {
-  return {.name = "wind_back",
-          .make_float = make_wind_back<float>,
-          .make_double = make_wind_back<double>,
-          .knobs = {knob::unit, knob::points},
-          .unit = knob::unit_of_search};
+  TechniqueEntry entry = entry_of<WindBack>("wind_back", {knob::unit, knob::points});
+  entry.unit = knob::unit_of_search;
+  return entry;
 }
 
 }  // namespace paperproof

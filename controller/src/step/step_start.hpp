@@ -103,19 +103,15 @@ std::span<PieceIndex> StepSolver<variant, Scalar>::all_near(const Box2<Scalar>& 
 /// No way out that leaves the colliders which are overlapped is longer [m]: they, and the octagon beside them.
 template <Variant variant, class Scalar>
 Scalar StepSolver<variant, Scalar>::reach_of_solids_inside() noexcept {
-  const std::span<const PieceInfo> pieces = space_.scenery().pieces();
   Box2<Scalar> whole{position_, position_};
   for_each_near({position_, position_}, [&](PieceIndex piece) {
     if (!overlaps(piece, position_)) return;
     const V shift = offset(piece);
-    const auto add = [&](PieceIndex other) {
-      const Box2<Scalar>& box = space_.scenery().box(other);
+    const PieceRange solid = space_.scenery().pieces_of(collider_of(piece));
+    for (PieceIndex part = solid.first; part < solid.end; ++part) {
+      const Box2<Scalar>& box = space_.scenery().box(part);
       whole = whole.merged({box.lower + shift, box.upper + shift});
-    };
-    add(piece);
-    // The pieces of a collider stand together.
-    for (PieceIndex k = piece; k > 0 && pieces[k - 1].collider == pieces[piece].collider; --k) add(k - 1);
-    for (PieceIndex k = piece + 1; k < pieces.size() && pieces[k].collider == pieces[piece].collider; ++k) add(k);
+    }
   });
   const V extent = space_.hull_box().upper - space_.hull_box().lower;
   return length_of(V((position_ - whole.lower).cwiseMax(whole.upper - position_) + extent));

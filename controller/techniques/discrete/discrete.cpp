@@ -415,21 +415,12 @@ void Discrete<Scalar>::measure_gaps(const Vec2<Scalar>& position, MoveResult<Sca
   }
 }
 
-template <class Scalar>
-std::unique_ptr<Technique<Scalar>> make_discrete(const TechniqueDef& def, const Scenery<Scalar>& scenery,
-                                                 const CharacterDef& character) {
-  return std::make_unique<Discrete<Scalar>>(def, scenery, character);
-}
-
 }  // namespace
 
 TechniqueEntry discrete_entry() {
-  return {.name = "discrete",
-          .make_float = make_discrete<float>,
-          .make_double = make_discrete<double>,
-          .knobs = {knob::iterations},
-          .knows_movers = true,
-          .moves_crowds = true};
+  TechniqueEntry entry = entry_of<Discrete>("discrete", {knob::iterations});
+  entry.knows_movers = entry.moves_crowds = true;
+  return entry;
 }
 
 }  // namespace paperproof

@@ -163,21 +163,14 @@ Square Grid<Scalar>::step_from(const Square& square, MoveResult<Scalar>& result)
   return end;
 }
 
-template <class Scalar>
-std::unique_ptr<Technique<Scalar>> make_grid(const TechniqueDef& def, const Scenery<Scalar>& scenery,
-                                             const CharacterDef& character) {
-  return std::make_unique<Grid<Scalar>>(def, scenery, character);
-}
-
 }  // namespace
 
 TechniqueEntry grid_entry() {
-  return {.name = "grid",
-          .make_float = make_grid<float>,
-          .make_double = make_grid<double>,
-          .knobs = {{"square", "side of a square [m]",
-                     [](const std::string& value, TechniqueDef& def) { def.article.square = real_in(value); }}},
-          .unit = [](const ArticleKnobs& knobs) { return knobs.square; }};
+  TechniqueEntry entry = entry_of<Grid>(
+      "grid", {{"square", "side of a square [m]",
+                [](const std::string& value, TechniqueDef& def) { def.article.square = real_in(value); }}});
+  entry.unit = [](const ArticleKnobs& knobs) { return knobs.square; };
+  return entry;
 }
 
 }  // namespace paperproof

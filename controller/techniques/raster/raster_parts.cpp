@@ -3,17 +3,6 @@
 #include <paperproof/tolerances.hpp>
 
 namespace paperproof::raster {
-namespace {
-
-/// NaN is not.
-template <class Scalar>
-bool in_range(const Vec2<Scalar>& position) noexcept {
-  const Scalar range = Tolerances<Scalar>{}.range;
-  return std::abs(position.x()) <= range && std::abs(position.y()) <= range;
-}
-
-}  // namespace
-
 template <class Scalar>
 RasterParts<Scalar>::RasterParts(const TechniqueDef& def, const Scenery<Scalar>& scenery, const CharacterDef& character)
     : scenery_(&scenery),
@@ -38,7 +27,7 @@ bool RasterParts<Scalar>::refuse(const MoveRequest<Scalar>& request, MoveResult<
   result.position = request.position;
   result.velocity = request.velocity;
   result.path.push_back({request.position, 0});
-  const bool stays = in_range(request.position) && in_range(end);
+  const bool stays = article::in_range<Scalar>(request.position) && article::in_range<Scalar>(end);
   if (stays && pixels <= Scalar(article::max_search_steps)) return false;
   result.status = stays ? MoveStatus::refused : MoveStatus::out_of_range;
   if (stays) result.refusal = article::too_many_units;

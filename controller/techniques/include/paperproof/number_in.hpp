@@ -8,7 +8,7 @@
 #include <string_view>
 #include <system_error>
 
-namespace paperproof::compare {
+namespace paperproof {
 
 /// @return nothing unless the whole text is one number: no space, no sign before it but a minus, not out of range.
 /// Infinity and NaN are no numbers here.
@@ -23,4 +23,4 @@ template <class Number>
   return number;
 }
 
-}  // namespace paperproof::compare
+}  // namespace paperproof
