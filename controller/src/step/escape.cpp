@@ -102,7 +102,7 @@ class Escape {
     return space_.info(piece).one_way_axis == ObstacleInfo::not_one_way;
   }
   [[nodiscard]] BestAxis<Scalar> best(PieceIndex piece, const V& p) const noexcept {
-    return best_axis<everything>(space_, piece, local(piece, p));
+    return best_axis<Lanes>(space_, piece, local(piece, p));
   }
   [[nodiscard]] bool is_inside(PieceIndex piece, const V& p) const noexcept {
     return solid(piece) && best(piece, p).separation < Tolerances<Scalar>{}.certain &&
@@ -225,7 +225,7 @@ class Escape {
   /// The same, of the obstacle with the gap.
   [[nodiscard]] Scalar obstacle_from(const Spot& spot, PieceIndex piece) const noexcept {
     const V at = local(piece, query_.from) + spot.way;
-    if (best_axis<everything>(space_, piece, at).separation >= query_.gap - slack) return 0;
+    if (best_axis<Lanes>(space_, piece, at).separation >= query_.gap - slack) return 0;
     Scalar reach = std::numeric_limits<Scalar>::infinity();
     for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis)
       shorten(reach, spot, space_.normal(piece, axis), query_.gap - space_.separation(piece, axis, at));
@@ -330,19 +330,18 @@ class Escape {
 
   [[nodiscard]] bool clear(PieceIndex piece, const V& from, const V& to) const noexcept {
     if (query_.drops && !solid(piece)) return true;
-    const Motion<Lanes, Scalar> motion = make_motion<everything>(space_, from, V(to - from));
-    if (!blocks<everything>(space_, motion, piece)) return true;
+    const Motion<Lanes, Scalar> motion = make_motion<Lanes>(space_, from, V(to - from));
+    if (!blocks(space_, motion, piece)) return true;
     for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis)
       if (space_.separation(piece, axis, from) >= Tolerances<Scalar>{}.certain &&
           space_.separation(piece, axis, to) >= Tolerances<Scalar>{}.certain)
         return true;
     if (clear_of_exactly(space_, piece, from, to)) return true;
-    const Clearance<Scalar> room = clearance<everything>(space_, motion, piece);
+    const Clearance<Scalar> room = clearance(space_, motion, piece);
     if (room.start < Tolerances<Scalar>{}.certain) return false;
-    return room.clear() || !sweep_piece<everything>(space_, motion, piece, room).hit;
+    return room.clear() || !sweep_piece(space_, motion, piece, room).hit;
   }
 
-  static constexpr Variant everything{.lanes = Lanes};
   const ConfigurationSpace<Scalar>& space_;
   std::span<PieceIndex> pieces_;
   const WayOutQuery<Scalar>& query_;

@@ -5,7 +5,6 @@
 #pragma once
 
 #include "step/configuration_space.hpp"
-#include "step/variant.hpp"
 
 #include <paperproof/tolerances.hpp>
 
@@ -26,7 +25,7 @@ struct Motion {
   Vec2<Scalar> extended;         ///< That product [m].
   PerAxis<Lanes, Scalar> at;     ///< n·from
   PerAxis<Lanes, Scalar> along;  ///< n·extended
-  Vec2<Scalar> rest;             ///< Among movers: what `from` lost when the mover's offset was taken from it.
+  Vec2<Scalar> rest;             ///< What `from` lost when the offset of the piece's mover was taken from it [m].
   /// The bent one-way surface that was asked for last, and the answer: its pieces come one after the other.
   mutable typename OneWaySurfaces<Scalar>::Index known_surface;
   mutable bool above_known_surface;
@@ -49,15 +48,15 @@ template <class Scalar>
 }
 
 /// @param look how far beyond the end of the way the sweep looks [m].
-template <Variant variant, class Scalar>
-[[nodiscard, gnu::always_inline]] inline Motion<variant.lanes, Scalar> make_motion(
+template <std::size_t Lanes, class Scalar>
+[[nodiscard, gnu::always_inline]] inline Motion<Lanes, Scalar> make_motion(
     const ConfigurationSpace<Scalar>& space, const Vec2<Scalar>& from, const Vec2<Scalar>& way,
     Scalar look = Tolerances<Scalar>{}.look) noexcept {
   // A shorter motion would make the reach infinite.
   constexpr Scalar shortest = std::numeric_limits<Scalar>::min() * Scalar(1e8);
-  const PerAxis<variant.lanes, Scalar> x = PerAxis<variant.lanes, Scalar>::Map(space.shared_x().data());
-  const PerAxis<variant.lanes, Scalar> y = PerAxis<variant.lanes, Scalar>::Map(space.shared_y().data());
-  Motion<variant.lanes, Scalar> motion;
+  const PerAxis<Lanes, Scalar> x = PerAxis<Lanes, Scalar>::Map(space.shared_x().data());
+  const PerAxis<Lanes, Scalar> y = PerAxis<Lanes, Scalar>::Map(space.shared_y().data());
+  Motion<Lanes, Scalar> motion;
   motion.from = from;
   motion.way = way;
   motion.length = length_of(way);
@@ -67,8 +66,8 @@ template <Variant variant, class Scalar>
   motion.extended = way * motion.reach;
   motion.at = x * from.x() + y * from.y();
   motion.along = x * motion.extended.x() + y * motion.extended.y();
-  if constexpr (variant.one_way && variant.movers) motion.rest = Vec2<Scalar>::Zero();
-  if constexpr (variant.one_way) motion.known_surface = OneWaySurfaces<Scalar>::none;
+  motion.rest = Vec2<Scalar>::Zero();
+  motion.known_surface = OneWaySurfaces<Scalar>::none;
   return motion;
 }
 
@@ -94,16 +93,15 @@ struct AxisRanges {
   std::array<Scalar, ConfigurationSpace<Scalar>::max_axes> end;
 };
 
-template <Variant variant, class Scalar>
+template <std::size_t Lanes, class Scalar>
 [[gnu::always_inline]] inline void find_ranges(const ConfigurationSpace<Scalar>& space,
-                                               const Motion<variant.lanes, Scalar>& motion, PieceIndex piece,
+                                               const Motion<Lanes, Scalar>& motion, PieceIndex piece,
                                                const Clearance<Scalar>& clear, AxisRanges<Scalar>& f) noexcept {
-  using Shared = PerAxis<variant.lanes, Scalar>;
+  using Shared = PerAxis<Lanes, Scalar>;
   const Shared start = Shared::Map(clear.shared_starts.data());
   Shared::Map(f.start.data()) = start;
   Shared::Map(f.end.data()) = start + motion.along;
-  f.count = variant.lanes;
-  if constexpr (!variant.slopes) return;
+  f.count = Lanes;
   for (const OwnAxis<Scalar>& own : space.own_axes(piece)) {
     const Scalar at = own.normal.x() * motion.from.x() + own.normal.y() * motion.from.y() - own.offset;
     f.start[f.count] = at;
@@ -113,9 +111,9 @@ template <Variant variant, class Scalar>
 
 /// Whether one of the box directions alone, which are the first shared axes, keeps a piece further than `hit` away
 /// during the whole motion. So it is with most pieces: looking at these axes first saves half of a sweep.
-template <Variant variant, class Scalar>
+template <std::size_t Lanes, class Scalar>
 [[nodiscard, gnu::always_inline]] inline bool clear_of_box(const ConfigurationSpace<Scalar>& space,
-                                                           const Motion<variant.lanes, Scalar>& motion,
+                                                           const Motion<Lanes, Scalar>& motion,
                                                            PieceIndex piece) noexcept {
   using BoxAxes = PerAxis<ConfigurationSpace<Scalar>::box_axes, Scalar>;
   const BoxAxes start = BoxAxes::Map(motion.at.data()) - space.box_offsets(piece);
@@ -123,18 +121,17 @@ template <Variant variant, class Scalar>
   return least.maxCoeff() >= Tolerances<Scalar>{}.hit;
 }
 
-template <Variant variant, class Scalar>
+template <std::size_t Lanes, class Scalar>
 [[nodiscard, gnu::always_inline]] inline Clearance<Scalar> clearance(const ConfigurationSpace<Scalar>& space,
-                                                                     const Motion<variant.lanes, Scalar>& motion,
+                                                                     const Motion<Lanes, Scalar>& motion,
                                                                      PieceIndex piece) noexcept {
-  using Shared = PerAxis<variant.lanes, Scalar>;
-  const Shared start = motion.at - space.template shared_offsets<variant.lanes>(piece);
+  using Shared = PerAxis<Lanes, Scalar>;
+  const Shared start = motion.at - space.template shared_offsets<Lanes>(piece);
   const Shared least = start.min(start + motion.along);
   Clearance<Scalar> result;
   result.start = start.maxCoeff();
   result.kept = least.maxCoeff();
   Shared::Map(result.shared_starts.data()) = start;
-  if constexpr (!variant.slopes) return result;
   if (space.info(piece).own_count == 0) return result;
   for (const OwnAxis<Scalar>& own : space.own_axes(piece)) {
     const Scalar at = own.normal.x() * motion.from.x() + own.normal.y() * motion.from.y() - own.offset;
@@ -249,14 +246,14 @@ enum class Covered : std::uint8_t { as_any, yields };
 /// below tau comes before the earliest exit above it. It is then stopped where it enters the larger region below
 /// `stop`. The obstacle is inflated instead of backing off along the motion: where the motion grazes, its time of
 /// impact is ill-conditioned, but the separations are not.
-template <Variant variant, Covered covered = Covered::yields, class Scalar>
+template <Covered covered = Covered::yields, std::size_t Lanes, class Scalar>
 [[nodiscard, gnu::always_inline]] inline PieceHit<Scalar> sweep_piece(const ConfigurationSpace<Scalar>& space,
-                                                                      const Motion<variant.lanes, Scalar>& motion,
+                                                                      const Motion<Lanes, Scalar>& motion,
                                                                       PieceIndex piece,
                                                                       const Clearance<Scalar>& clear) noexcept {
   constexpr Tolerances<Scalar> tolerances{};
   AxisRanges<Scalar> f;
-  find_ranges<variant>(space, motion, piece, clear, f);
+  find_ranges(space, motion, piece, clear, f);
   const Scalar tau = clear.tau();
   const Scalar inside = std::min(tau, Scalar(0));
   const bool touching = clear.start <= tolerances.touch;
@@ -317,16 +314,15 @@ struct BestAxis {
   Scalar separation = 0;
 };
 
-template <Variant variant, class Scalar>
+template <std::size_t Lanes, class Scalar>
 [[nodiscard, gnu::always_inline]] inline BestAxis<Scalar> best_axis(const ConfigurationSpace<Scalar>& space,
                                                                     PieceIndex piece, const Vec2<Scalar>& p) noexcept {
-  using Shared = PerAxis<variant.lanes, Scalar>;
+  using Shared = PerAxis<Lanes, Scalar>;
   const Shared f = Shared::Map(space.shared_x().data()) * p.x() + Shared::Map(space.shared_y().data()) * p.y() -
-                   space.template shared_offsets<variant.lanes>(piece);
+                   space.template shared_offsets<Lanes>(piece);
   BestAxis<Scalar> best{0, f.maxCoeff()};
   while (f[static_cast<Eigen::Index>(best.axis)] != best.separation) ++best.axis;
-  if constexpr (!variant.slopes) return best;
-  for (std::size_t axis = variant.lanes; axis < space.axis_count(piece); ++axis) {
+  for (std::size_t axis = Lanes; axis < space.axis_count(piece); ++axis) {
     const Scalar separation = space.separation(piece, axis, p);
     if (separation > best.separation) best = {axis, separation};
   }

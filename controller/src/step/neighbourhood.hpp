@@ -10,6 +10,7 @@
 
 #include <cmath>
 #include <span>
+#include <utility>
 
 namespace paperproof::octagon_sweep {
 
@@ -28,19 +29,20 @@ class Neighbourhood {
                                                    const Vec2<Scalar>& way = Vec2<Scalar>::Zero()) noexcept;
 
   /// The same without `way` and without what was collected before, for the caller to reorder. Nothing is kept.
-  [[nodiscard]] std::span<PieceIndex> take(const Box2<Scalar>& box) noexcept {
+  /// @return memory for all pieces of the scenery, and how many were written.
+  [[nodiscard]] std::pair<std::span<PieceIndex>, std::size_t> take(const Box2<Scalar>& box) noexcept {
     forget();
     const std::size_t count = around(box).size();
     forget();
-    return std::span(scratch_.solids.pieces).first(count);
+    return {scratch_.solids.pieces, count};
   }
 
   /// What comes next does not depend on what was collected before, not even in how much more it is.
   void forget() noexcept { scratch_.solids.valid = false; }
 
   /// For what exceeds the inline storage of a step.
-  [[nodiscard]] const StepMemory<Scalar>& memory() const noexcept {
-    return static_cast<const StepMemory<Scalar>&>(*scratch_.own);
+  [[nodiscard]] StepMemory<Scalar>& memory() const noexcept {
+    return static_cast<StepMemory<Scalar>&>(*scratch_.own);
   }
 
  private:

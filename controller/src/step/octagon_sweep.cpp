@@ -1,7 +1,7 @@
 #include "step/octagon_sweep.hpp"
 
 #include "broad_phase/most_at_once.hpp"
-#include "step/solvers.hpp"
+#include "step/solve.hpp"
 
 #include <paperproof/scenery_facts.hpp>
 
@@ -43,9 +43,8 @@ void check(const Stages& stages, const Scenery<Scalar>& scenery, const Configura
                   "there is an edge that is parallel to no side of the character or of its box");
 }
 
-/// Among scenery that stands still.
 template <class Scalar>
-class OctagonSweep : public Technique<Scalar> {
+class OctagonSweep final : public Technique<Scalar> {
  public:
   OctagonSweep(const SweepDef& def, const Scenery<Scalar>& scenery, const CharacterDef& character,
                ColliderIndex first_companion)
@@ -59,8 +58,8 @@ class OctagonSweep : public Technique<Scalar> {
                mover_phases_),
         settings_(settings_for<Scalar>(def, first_companion, character)),
         touched_at_once_(broad_phase::most_at_once<Scalar>(scenery.static_boxes(), space_.touched_size())),
-        solve_(still_solver<Scalar>(
-            {.lanes = space_.lanes(), .movers = false, .one_way = def.stages.one_way, .slopes = def.stages.slopes})) {
+        has_conveyors_(has_conveyors(scenery)),
+        solve_(solver_for<Scalar>(space_.lanes())) {
     check(def.stages, scenery, space_);
   }
 
@@ -68,7 +67,7 @@ class OctagonSweep : public Technique<Scalar> {
 
   [[nodiscard]] Scratch<Scalar> make_scratch() const override {
     Scratch<Scalar> scratch;
-    scratch.solids.pieces.resize(broad_phase_->size());
+    scratch.solids.pieces.resize(space_.scenery().sensor_pieces().first);
     scratch.own = std::make_unique<StepMemory<Scalar>>(space_, touched_at_once_, settings_.iterations);
     return scratch;
   }
@@ -76,17 +75,23 @@ class OctagonSweep : public Technique<Scalar> {
   void move(const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,
             MoveResult<Scalar>& result) const noexcept override {
     result.clear();
-    if (in_range(request))
-      solve_(space_, settings_, neighbourhood(scratch), request, result);
-    else
-      refuse(request, result);
+    if (!in_range(request) || request.movers.size() != mover_phases_.size() ||
+        (!request.movers.empty() && !(request.dt > 0)))
+      return refuse(request, result);
+    const Neighbourhood<Scalar> neighbourhood(space_, *broad_phase_, settings_.look_ahead, scratch);
+    const bool rides = request.ride.ground != Ride<Scalar>::none;
+    Surroundings<Scalar> surroundings{mover_phases_, request.movers, request.dt, 0, false};
+    if (!rides && !request.stays && keeps_away({request.position, request.position}, request)) {
+      solve_(space_, settings_, neighbourhood, surroundings, request, result);
+      if (keeps_away(looked_at(request, result.path), request) && !meets_conveyor(result)) return;
+      result.clear();
+    }
+    surroundings.near = mover_phases_.size();
+    surroundings.active = true;
+    solve_(space_, settings_, neighbourhood, surroundings, request, result);
   }
 
- protected:
-  [[nodiscard]] Neighbourhood<Scalar> neighbourhood(Scratch<Scalar>& scratch) const noexcept {
-    return {space_, *broad_phase_, settings_.look_ahead, scratch};
-  }
-
+ private:
   [[nodiscard]] static bool in_range(const MoveRequest<Scalar>& request) noexcept {
     constexpr Scalar range = Tolerances<Scalar>{}.range;
     // Written so that NaN is out of range, and by component: see `wanted_velocity`.
@@ -105,56 +110,6 @@ class OctagonSweep : public Technique<Scalar> {
     result.path.push_back({request.position, 1});
   }
 
-  std::unique_ptr<BroadPhase<Scalar>> broad_phase_;
-  MoverPhases<Scalar> mover_phases_;
-  ConfigurationSpace<Scalar> space_;
-  Settings<Scalar> settings_;
-  std::size_t touched_at_once_;
-  SolveStill<Scalar> solve_;
-};
-
-/// Among movers and conveyors.
-template <class Scalar>
-class OctagonSweepAmongMovers final : public OctagonSweep<Scalar> {
- public:
-  OctagonSweepAmongMovers(const SweepDef& def, const Scenery<Scalar>& scenery, const CharacterDef& character,
-                          ColliderIndex first_companion)
-      : OctagonSweep<Scalar>(def, scenery, character, first_companion),
-        solve_moving_(moving_solver<Scalar>(this->space_.lanes())),
-        has_conveyors_(has_conveyors(scenery)) {}
-
-  [[nodiscard]] Scratch<Scalar> make_scratch() const override {
-    Scratch<Scalar> scratch = OctagonSweep<Scalar>::make_scratch();
-    scratch.own =
-        std::make_unique<MoverMemory<Scalar>>(this->space_, this->touched_at_once_, this->settings_.iterations);
-    return scratch;
-  }
-
-  /// A step that keeps away from everything that moves is one without movers, and costs no more.
-  void move(const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,
-            MoveResult<Scalar>& result) const noexcept override {
-    result.clear();
-    if (!this->in_range(request) || request.movers.size() != mover_phases().size() ||
-        (!request.movers.empty() && !(request.dt > 0)))
-      return this->refuse(request, result);
-    const Neighbourhood<Scalar> neighbourhood = this->neighbourhood(scratch);
-    const bool rides = request.ride.ground != Ride<Scalar>::none;
-    const bool needs_no_mover = !rides && !request.stays;
-    if (needs_no_mover && request.movers.empty() && !has_conveyors_)
-      return this->solve_(this->space_, this->settings_, neighbourhood, request, result);
-    if (needs_no_mover && keeps_away({request.position, request.position}, request)) {
-      this->solve_(this->space_, this->settings_, neighbourhood, request, result);
-      if (keeps_away(looked_at(request, result.path), request) && !meets_conveyor(result)) return;
-      result.clear();
-    }
-    auto& memory = static_cast<MoverMemory<Scalar>&>(*scratch.own);
-    const Surroundings<Scalar> surroundings{mover_phases(), request.movers, request.dt, memory};
-    solve_moving_(this->space_, this->settings_, neighbourhood, surroundings, request, result);
-  }
-
- private:
-  [[nodiscard]] const MoverPhases<Scalar>& mover_phases() const noexcept { return this->mover_phases_; }
-
   /// The positions on the way, and if it left a solid those from where the side was seen to which it did.
   template <class Path>
   [[nodiscard]] static Box2<Scalar> looked_at(const MoveRequest<Scalar>& request, const Path& path) noexcept {
@@ -168,9 +123,9 @@ class OctagonSweepAmongMovers final : public OctagonSweep<Scalar> {
   /// Whether no mover comes near a character that is anywhere in a box, during the whole step.
   [[nodiscard]] bool keeps_away(const Box2<Scalar>& positions, const MoveRequest<Scalar>& request) const noexcept {
     if (request.movers.empty()) return true;
-    const Box2<Scalar> touched = this->space_.touched_from(positions.inflated(Tolerances<Scalar>{}.look));
-    for (MoverIndex mover = 0; mover < mover_phases().size(); ++mover) {
-      const Box2<Scalar>& whole = mover_phases().whole(mover);
+    const Box2<Scalar> touched = space_.touched_from(positions.inflated(Tolerances<Scalar>{}.look));
+    for (MoverIndex mover = 0; mover < mover_phases_.size(); ++mover) {
+      const Box2<Scalar>& whole = mover_phases_.whole(mover);
       const MoverMotion<Scalar>& motion = request.movers[mover];
       const Box2<Scalar> swept{whole.lower + motion.from.cwiseMin(motion.to),
                                whole.upper + motion.from.cwiseMax(motion.to)};
@@ -182,12 +137,17 @@ class OctagonSweepAmongMovers final : public OctagonSweep<Scalar> {
   [[nodiscard]] bool meets_conveyor(const MoveResult<Scalar>& result) const noexcept {
     if (!has_conveyors_) return false;
     return std::any_of(result.contacts.begin(), result.contacts.end(), [&](const Contact<Scalar>& contact) {
-      return this->space_.scenery().collider(contact.collider).surface_speed != 0;
+      return space_.scenery().collider(contact.collider).surface_speed != 0;
     });
   }
 
-  SolveMoving<Scalar> solve_moving_;
+  std::unique_ptr<BroadPhase<Scalar>> broad_phase_;
+  MoverPhases<Scalar> mover_phases_;
+  ConfigurationSpace<Scalar> space_;
+  Settings<Scalar> settings_;
+  std::size_t touched_at_once_;
   bool has_conveyors_;
+  Solve<Scalar> solve_;
 };
 
 }  // namespace
@@ -200,9 +160,6 @@ std::unique_ptr<Technique<Scalar>> make_sweep_among_companions(const SweepDef& d
   if (def.iterations < 1 || def.iterations > most_iterations)
     throw std::invalid_argument("sweep_iterations: must be from 1 to " + std::to_string(most_iterations) + ", not " +
                                 std::to_string(def.iterations));
-  // A conveyor or a mover is needed for anything but a step without movers.
-  if (def.stages.movers && (scenery.mover_count() > 0 || has_conveyors(scenery)))
-    return std::make_unique<OctagonSweepAmongMovers<Scalar>>(def, scenery, character, first_companion);
   return std::make_unique<OctagonSweep<Scalar>>(def, scenery, character, first_companion);
 }
 

@@ -23,17 +23,13 @@ template <class Scalar>
 /// Whether a piece can stop a motion at all. A solid always can. A one-way segment can stop a motion that begins above
 /// its surface. From a gap on, what does not go against a straight one is clear of it and need not be looked at; nearer
 /// than that it must be known to be near, whichever way it goes.
-template <Variant variant, class Scalar>
+template <std::size_t Lanes, class Scalar>
 [[nodiscard, gnu::always_inline]] inline bool blocks(const ConfigurationSpace<Scalar>& space,
-                                                     const Motion<variant.lanes, Scalar>& motion,
+                                                     const Motion<Lanes, Scalar>& motion,
                                                      PieceIndex piece) noexcept {
-  if constexpr (!variant.one_way) return true;
   const ObstacleInfo& info = space.info(piece);
   if (info.one_way_axis == ObstacleInfo::not_one_way) return true;
-  const auto begins_above = [&] {
-    if constexpr (variant.movers) return is_above(space, piece, motion.from, motion.rest);
-    return is_above(space, piece, motion.from, Vec2<Scalar>(Vec2<Scalar>::Zero()));
-  };
+  const auto begins_above = [&] { return is_above(space, piece, motion.from, motion.rest); };
   if (!info.bent_surface) {
     const Vec2<Scalar> n = space.normal(piece, info.one_way_axis);
     if (space.separation(piece, info.one_way_axis, motion.from) >= Tolerances<Scalar>{}.hit)

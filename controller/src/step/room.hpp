@@ -45,6 +45,7 @@ struct PartOfLine {
 /// Memory for the lines and regions of all pieces of a scenery.
 template <class Scalar>
 struct RoomMemory {
+  RoomMemory() = default;
   explicit RoomMemory(const ConfigurationSpace<Scalar>& space) {
     std::size_t needed = 0;
     const PieceIndex pieces = space.scenery().sensor_pieces().first;

@@ -13,50 +13,49 @@
 
 namespace paperproof::octagon_sweep {
 
-template <Variant variant, class Scalar>
+template <std::size_t Lanes, class Scalar>
 template <Covered covered>
-void StepSolver<variant, Scalar>::look_at_movers() noexcept {
-  const Surroundings<Scalar>& around = moving_.around;
+void StepSolver<Lanes, Scalar>::look_at_movers() noexcept {
   // The sweep looks this far beyond the end of a motion (twice: it goes by the larger component).
   constexpr Scalar look = 2 * Tolerances<Scalar>{}.look;
-  for (MoverIndex mover = 0; mover < around.phases.size(); ++mover) {
-    const V offset = around.offset(mover, time_);
+  for (MoverIndex mover = 0; mover < around_.near; ++mover) {
+    const V offset = around_.offset(mover, time_);
     const V from = motion_.from - offset;
-    const V way = around.relative(motion_.way, mover, time_);
+    const V way = around_.relative(motion_.way, mover, time_);
     const V to = from + way;
     const Box2<Scalar> box = space_.touched_from(Box2<Scalar>{from.cwiseMin(to), from.cwiseMax(to)}.inflated(look));
-    if (!box.overlaps(around.phases.whole(mover))) continue;
-    LocalMotion seen = make_motion<variant>(space_, from, way);
+    if (!box.overlaps(around_.phases.whole(mover))) continue;
+    LocalMotion seen = make_motion<Lanes>(space_, from, way);
     seen.rest = lost_by(motion_.from, offset);
-    sweep<covered>(seen, around.phases.query(mover, box, around.memory.of_mover));
+    sweep<covered>(seen, around_.phases.query(mover, box, memory_.of_mover));
   }
 }
 
 /// What has crushed the character, or is on it since an earlier step, goes through it for the rest of the step.
-template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::ignored(PieceIndex piece) const noexcept {
-  return memory().is(collider_of(piece), moving_.ignored);
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::ignored(PieceIndex piece) const noexcept {
+  return memory_.is(collider_of(piece), moving_.ignored);
 }
 
 /// Whether a motion keeps off a piece along the axis that holds it. The axis alone is then proof.
-template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::kept_clear_by_hold(const LocalMotion& motion, PieceIndex piece) const noexcept {
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::kept_clear_by_hold(const LocalMotion& motion, PieceIndex piece) const noexcept {
   constexpr Scalar noise = std::numeric_limits<Scalar>::epsilon() * 32;
-  for (const Hold<Scalar>& hold : moving_.holds) {
+  for (const Hold<Scalar>& hold : memory_.holds) {
     if (hold.piece != piece) continue;
     if (moving_.looks_past_holds) return true;
     const Scalar start = space_.separation(piece, hold.axis, motion.from);
     const Scalar out = hold.normal.x() * motion.way.x() + hold.normal.y() * motion.way.y();
     Scalar size = std::abs(motion_.way.x()) + std::abs(motion_.way.y());
-    if (hold.mover != no_mover) size += moving_.around.course(hold.mover).cwiseAbs().sum();
+    if (hold.mover != no_mover) size += around_.course(hold.mover).cwiseAbs().sum();
     return start >= Tolerances<Scalar>{}.certain && (out >= -noise * size || start + out >= Tolerances<Scalar>{}.hit);
   }
   return false;
 }
 
-template <Variant variant, class Scalar>
-void StepSolver<variant, Scalar>::travel_among_movers() noexcept {
-  const std::size_t most_corners = memory().corners.capacity() - 3;
+template <std::size_t Lanes, class Scalar>
+void StepSolver<Lanes, Scalar>::travel_among_movers() noexcept {
+  const std::size_t most_corners = memory_.corners.capacity() - 3;
   const std::size_t most_sweeps = 4 * most_corners;  // impacts at one moment, and moments
   Drive<Scalar> drive = this->drive();
   V way = motion_.way;  // with the aim back to the gap
@@ -99,37 +98,37 @@ void StepSolver<variant, Scalar>::travel_among_movers() noexcept {
 }
 
 /// Forgets surfaces that are no longer touched, and adds those of the last sweep, as far as it kept them.
-template <Variant variant, class Scalar>
-void StepSolver<variant, Scalar>::update_holds() noexcept {
+template <std::size_t Lanes, class Scalar>
+void StepSolver<Lanes, Scalar>::update_holds() noexcept {
   constexpr Scalar touch = Tolerances<Scalar>{}.touch;
-  auto& holds = moving_.holds;
-  holds.swap(memory().holds_before);
+  auto& holds = memory_.holds;
+  holds.swap(memory_.holds_before);
   holds.clear();
   for (const Stop<Scalar>& stop : found_.stops)
     holds.push_back({stop.piece, stop.axes.normal, space_.normal(stop.piece, stop.axes.normal), mover_of(stop.piece)});
-  for (const Hold<Scalar>& hold : memory().holds_before) {
+  for (const Hold<Scalar>& hold : memory_.holds_before) {
     const bool again = std::any_of(found_.stops.begin(), found_.stops.end(),
                                    [&hold](const Stop<Scalar>& stop) { return stop.piece == hold.piece; });
     if (again || ignored(hold.piece)) continue;
     const V at = local(hold.piece, position_);
-    const bool touched = best_axis<variant>(space_, hold.piece, at).separation <= touch &&
+    const bool touched = best_axis<Lanes>(space_, hold.piece, at).separation <= touch &&
                          std::abs(space_.separation(hold.piece, hold.axis, at)) <= touch;
     if (touched || moving_.looks_past_holds) holds.push_back(hold);
   }
 }
 
 /// How far the surface still goes in this step [m].
-template <Variant variant, class Scalar>
-Vec2<Scalar> StepSolver<variant, Scalar>::rest_of(const Hold<Scalar>& hold) const noexcept {
+template <std::size_t Lanes, class Scalar>
+Vec2<Scalar> StepSolver<Lanes, Scalar>::rest_of(const Hold<Scalar>& hold) const noexcept {
   if (hold.mover == no_mover) return V::Zero();
-  return moving_.around.rest(hold.mover, time_);
+  return around_.rest(hold.mover, time_);
 }
 
 /// [m/s]
-template <Variant variant, class Scalar>
-Vec2<Scalar> StepSolver<variant, Scalar>::velocity_of(const Hold<Scalar>& hold) const noexcept {
+template <std::size_t Lanes, class Scalar>
+Vec2<Scalar> StepSolver<Lanes, Scalar>::velocity_of(const Hold<Scalar>& hold) const noexcept {
   if (hold.mover == no_mover) return V::Zero();
-  return moving_.around.course(hold.mover) / moving_.around.dt;
+  return around_.course(hold.mover) / around_.dt;
 }
 
 template <class Scalar>
@@ -137,22 +136,22 @@ template <class Scalar>
   return {normal, normal.x() * motion.x() + normal.y() * motion.y()};
 }
 
-template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::allowed(const Drive<Scalar>& drive, const Hold<Scalar>& hold) const noexcept {
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::allowed(const Drive<Scalar>& drive, const Hold<Scalar>& hold) const noexcept {
   return behind(hold.normal, rest_of(hold)).allows(drive.way.wanted) &&
          behind(hold.normal, velocity_of(hold)).allows(drive.velocity.wanted);
 }
 
-template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::allowed(const Drive<Scalar>& drive) const noexcept {
-  return std::all_of(moving_.holds.begin(), moving_.holds.end(),
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::allowed(const Drive<Scalar>& drive) const noexcept {
+  return std::all_of(memory_.holds.begin(), memory_.holds.end(),
                      [&](const Hold<Scalar>& hold) { return allowed(drive, hold); });
 }
 
 /// The response to a surface, as it is seen from there: ground one stands on takes one along; from any other surface
 /// only its motion along its normal is felt, and so from another character.
-template <Variant variant, class Scalar>
-Drive<Scalar> StepSolver<variant, Scalar>::response_to(const Hold<Scalar>& hold,
+template <std::size_t Lanes, class Scalar>
+Drive<Scalar> StepSolver<Lanes, Scalar>::response_to(const Hold<Scalar>& hold,
                                                        const Drive<Scalar>& drive) const noexcept {
   const Surface<Scalar> at{hold.normal, walkable(hold.normal), after_walk_};
   const auto response = [&](const Wish<Scalar>& wish, const V& surface, Scalar steered) -> Wish<Scalar> {
@@ -168,14 +167,14 @@ Drive<Scalar> StepSolver<variant, Scalar>::response_to(const Hold<Scalar>& hold,
 }
 
 /// The first surface, and then another one that the answer would enter.
-template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::respond_one_by_one(Drive<Scalar>& drive) const noexcept {
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::respond_one_by_one(Drive<Scalar>& drive) const noexcept {
   const Drive<Scalar> wanted = drive;
-  const Hold<Scalar>& first = moving_.holds[0];
+  const Hold<Scalar>& first = memory_.holds[0];
   const Drive<Scalar> alone = response_to(first, wanted);
   drive = alone;
   if (allowed(drive)) return true;
-  for (const Hold<Scalar>& hold : moving_.holds) {
+  for (const Hold<Scalar>& hold : memory_.holds) {
     if (allowed(alone, hold)) continue;
     drive = response_to(hold, alone);
     if (allowed(drive)) return true;
@@ -188,11 +187,11 @@ bool StepSolver<variant, Scalar>::respond_one_by_one(Drive<Scalar>& drive) const
 
 /// Surfaces of one body that leave no way between them: a fall may still slip through; else the motion ends there,
 /// relative to that body.
-template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::respond_in_crease(Drive<Scalar>& drive) noexcept {
-  const Hold<Scalar>& first = moving_.holds[0];
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::respond_in_crease(Drive<Scalar>& drive) noexcept {
+  const Hold<Scalar>& first = memory_.holds[0];
   const Drive<Scalar> alone = response_to(first, drive);
-  for (const Hold<Scalar>& hold : moving_.holds)
+  for (const Hold<Scalar>& hold : memory_.holds)
     if (!allowed(alone, hold) && rest_of(hold) != rest_of(first)) return false;
   const V rest = rest_of(first);
   const V velocity = velocity_of(first);
@@ -210,8 +209,8 @@ bool StepSolver<variant, Scalar>::respond_in_crease(Drive<Scalar>& drive) noexce
 
 /// The nearest motion that all surfaces allow; with steering, and with what there is of horizontal momentum, only where
 /// that does not hold a fall: between two steep surfaces it would become a climb.
-template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::respond_together(Drive<Scalar>& drive) const noexcept {
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::respond_together(Drive<Scalar>& drive) const noexcept {
   const Wish<Scalar> way = drive.way;
   const Wish<Scalar> velocity = drive.velocity;
   const auto wanted = nearest_allowed_to(way.wanted, velocity.wanted);
@@ -230,14 +229,14 @@ bool StepSolver<variant, Scalar>::respond_together(Drive<Scalar>& drive) const n
 }
 
 /// Nothing where the surfaces have no motion in common.
-template <Variant variant, class Scalar>
-std::optional<Drive<Scalar>> StepSolver<variant, Scalar>::nearest_allowed_to(const V& way,
+template <std::size_t Lanes, class Scalar>
+std::optional<Drive<Scalar>> StepSolver<Lanes, Scalar>::nearest_allowed_to(const V& way,
                                                                              const V& velocity) const noexcept {
-  std::vector<HalfPlane<Scalar>>& ways = memory().ways;
-  std::vector<HalfPlane<Scalar>>& velocities = memory().velocities;
+  std::vector<HalfPlane<Scalar>>& ways = memory_.ways;
+  std::vector<HalfPlane<Scalar>>& velocities = memory_.velocities;
   ways.clear();
   velocities.clear();
-  for (const Hold<Scalar>& hold : moving_.holds) {
+  for (const Hold<Scalar>& hold : memory_.holds) {
     add_plane(behind(hold.normal, rest_of(hold)), ways);
     add_plane(behind(hold.normal, velocity_of(hold)), velocities);
   }
@@ -248,9 +247,9 @@ std::optional<Drive<Scalar>> StepSolver<variant, Scalar>::nearest_allowed_to(con
 }
 
 /// False where the surfaces leave no motion.
-template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::respond_to_holds(Drive<Scalar>& drive) noexcept {
-  const Hold<Scalar>& first = moving_.holds[0];
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::respond_to_holds(Drive<Scalar>& drive) noexcept {
+  const Hold<Scalar>& first = memory_.holds[0];
   wedged_ = false;
   if (drive.velocity.wanted.x() == 0 && takes_along(first)) {
     mount(first);
@@ -266,8 +265,8 @@ bool StepSolver<variant, Scalar>::respond_to_holds(Drive<Scalar>& drive) noexcep
 
 /// The path has no more corners: the last one is at the end of the step. With what it was doing, with what holds it, or
 /// wherever there is room.
-template <Variant variant, class Scalar>
-void StepSolver<variant, Scalar>::last_resort(const V& way) noexcept {
+template <std::size_t Lanes, class Scalar>
+void StepSolver<Lanes, Scalar>::last_resort(const V& way) noexcept {
   if (result_.status == MoveStatus::moved) result_.status = MoveStatus::dropped;
   const auto goes = [this](const V& last) {
     look_along(last);
@@ -275,7 +274,7 @@ void StepSolver<variant, Scalar>::last_resort(const V& way) noexcept {
   };
   if (goes(way)) return;
   if (!pinned()) {
-    for (const Hold<Scalar>& hold : moving_.holds)
+    for (const Hold<Scalar>& hold : memory_.holds)
       if (goes(rest_of(hold))) return;
   }
   stay(true);

@@ -12,34 +12,34 @@
 namespace paperproof::octagon_sweep {
 
 /// Whether something goes through the character: nothing but room moves it then.
-template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::pinned() const noexcept {
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::pinned() const noexcept {
   return moving_.on_it > 0 || !result_.crushed.empty();
 }
 
 /// Room beside what holds the character, before it is crushed: later it is looked for beside all that crushed it.
-template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::gives_way() noexcept {
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::gives_way() noexcept {
   if (!result_.crushed.empty()) return false;
   Scalar reach = 0;
-  for (const Hold<Scalar>& hold : moving_.holds)
-    if (hold.mover != no_mover) reach = std::max(reach, length_of(moving_.around.course(hold.mover)));
+  for (const Hold<Scalar>& hold : memory_.holds)
+    if (hold.mover != no_mover) reach = std::max(reach, length_of(around_.course(hold.mover)));
   if (!find_room(reach, result_.path.size())) return false;
-  moving_.holds.clear();
+  memory_.holds.clear();
   return true;
 }
 
 /// One crush after the other may leave a way to go that none of them left alone: with all that crushed in its place
 /// again, and as far away as any of them goes.
-template <Variant variant, class Scalar>
-void StepSolver<variant, Scalar>::take_back_crushes() noexcept {
+template <std::size_t Lanes, class Scalar>
+void StepSolver<Lanes, Scalar>::take_back_crushes() noexcept {
   if (result_.crushed.empty()) return;
   moving_.ignored &= static_cast<std::uint8_t>(~crushes);
   Scalar reach = 0;
   for (const ColliderIndex collider : result_.crushed) reach = std::max(reach, length_of(course_of(collider)));
-  moving_.holds.clear();
+  memory_.holds.clear();
   if (find_room(reach, moving_.corners_before_crush)) {
-    for (const ColliderIndex collider : result_.crushed) memory().unmark(collider, crushes);
+    for (const ColliderIndex collider : result_.crushed) memory_.unmark(collider, crushes);
     result_.crushed.clear();
     result_.status = moving_.status_before_crush == MoveStatus::dropped ? MoveStatus::dropped : MoveStatus::moved;
   }
@@ -47,48 +47,48 @@ void StepSolver<variant, Scalar>::take_back_crushes() noexcept {
 }
 
 /// Whether a surface comes closer to a character that stays where it is: by less than rounding it takes no room.
-template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::presses(const Hold<Scalar>& hold) const noexcept {
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::presses(const Hold<Scalar>& hold) const noexcept {
   return dot(rest_of(hold), hold.normal) > Tolerances<Scalar>{}.certain;
 }
 
 /// What runs into a character that stays where it is. False where nothing does.
-template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::crush_what_presses() noexcept {
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::crush_what_presses() noexcept {
   const std::size_t before = result_.crushed.size();
-  for (const Hold<Scalar>& hold : moving_.holds)
+  for (const Hold<Scalar>& hold : memory_.holds)
     if (presses(hold)) crush(hold.piece);
   return result_.crushed.size() > before;
 }
 
-template <Variant variant, class Scalar>
-void StepSolver<variant, Scalar>::crush(PieceIndex piece) noexcept {
+template <std::size_t Lanes, class Scalar>
+void StepSolver<Lanes, Scalar>::crush(PieceIndex piece) noexcept {
   const MoverIndex mover = mover_of(piece);
   if (ignored(piece) || mover == no_mover) return;
   const ColliderIndex collider = collider_of(piece);
   name_as_crushing(collider);
-  remember({collider, position_, moving_.around.rest(mover, time_)});
+  remember({collider, position_, around_.rest(mover, time_)});
 }
 
-template <Variant variant, class Scalar>
-void StepSolver<variant, Scalar>::name_as_crushing(ColliderIndex collider) noexcept {
+template <std::size_t Lanes, class Scalar>
+void StepSolver<Lanes, Scalar>::name_as_crushing(ColliderIndex collider) noexcept {
   if (result_.crushed.empty()) {
     moving_.corners_before_crush = result_.path.size();
     moving_.status_before_crush = result_.status;
   }
-  memory().mark(collider, crushes);
-  result_.crushed.push_back(collider, memory().crushed);
+  memory_.mark(collider, crushes);
+  result_.crushed.push_back(collider, memory_.crushed);
   result_.status = MoveStatus::crushed;
 }
 
 /// Lets every mover near the position through for whose pieces the condition holds. True if there was one.
-template <Variant variant, class Scalar>
+template <std::size_t Lanes, class Scalar>
 template <class Condition>
-bool StepSolver<variant, Scalar>::let_through(const Condition& condition) noexcept {
+bool StepSolver<Lanes, Scalar>::let_through(const Condition& condition) noexcept {
   bool any = false;
   for_each_near({position_, position_}, [&](PieceIndex piece) {
     if (mover_of(piece) == no_mover || ignored(piece) || !condition(piece)) return;
-    memory().mark(collider_of(piece), lies_on);
+    memory_.mark(collider_of(piece), lies_on);
     any = true;
   });
   return any;
@@ -97,13 +97,13 @@ bool StepSolver<variant, Scalar>::let_through(const Condition& condition) noexce
 /// Looks up each overlapping mover in the state's list. The list may come from other scenery, so unknown entries are
 /// skipped. A mover that is not in the list is taken to have come at the last free position; if the list is full, its
 /// side counts as lost.
-template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::let_through_what_is_on_it(const MoveRequest<Scalar>& request) noexcept {
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::let_through_what_is_on_it(const MoveRequest<Scalar>& request) noexcept {
   const bool any = let_through([this](PieceIndex piece) { return overlaps(piece, position_); });
   const bool full = request.pressers.size() == Pressers<Scalar>::capacity();
   moving_.on_it = 0;
-  for (const ColliderIndex collider : memory().marked) {
-    if (!memory().is(collider, lies_on)) continue;
+  for (const ColliderIndex collider : memory_.marked) {
+    if (!memory_.is(collider, lies_on)) continue;
     ++moving_.on_it;
     Presser<Scalar> now{collider, request.last_free, course_of(collider), !full};
     const auto known = std::find_if(request.pressers.begin(), request.pressers.end(),
@@ -119,14 +119,14 @@ bool StepSolver<variant, Scalar>::let_through_what_is_on_it(const MoveRequest<Sc
 }
 
 /// By a way out of it, as of any solid, to the side from which the character came.
-template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::leaves_what_is_on_it(const MoveRequest<Scalar>& request) noexcept {
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::leaves_what_is_on_it(const MoveRequest<Scalar>& request) noexcept {
   if (moving_.side_lost) return false;
   moving_.ignored &= static_cast<std::uint8_t>(~lies_on);
   const std::optional<V> out = find_way_out(request);
   if (out) {
     note_what_is_left();
-    for (const ColliderIndex collider : memory().marked) memory().unmark(collider, lies_on);
+    for (const ColliderIndex collider : memory_.marked) memory_.unmark(collider, lies_on);
     moving_.on_it = 0;
     start_ = position_ = *out;
     push_corner(0);
@@ -136,43 +136,43 @@ bool StepSolver<variant, Scalar>::leaves_what_is_on_it(const MoveRequest<Scalar>
 }
 
 /// How far the mover of a collider goes in the step [m].
-template <Variant variant, class Scalar>
-Vec2<Scalar> StepSolver<variant, Scalar>::course_of(ColliderIndex collider) const noexcept {
-  return moving_.around.course(mover_of_collider(collider));
+template <std::size_t Lanes, class Scalar>
+Vec2<Scalar> StepSolver<Lanes, Scalar>::course_of(ColliderIndex collider) const noexcept {
+  return around_.course(mover_of_collider(collider));
 }
 
 /// @param now `gone` is by the end of the step.
-template <Variant variant, class Scalar>
-void StepSolver<variant, Scalar>::remember(const Presser<Scalar>& now) noexcept {
-  for (Presser<Scalar>& known : memory().pressers) {
+template <std::size_t Lanes, class Scalar>
+void StepSolver<Lanes, Scalar>::remember(const Presser<Scalar>& now) noexcept {
+  for (Presser<Scalar>& known : memory_.pressers) {
     if (known.collider != now.collider) continue;
     known = now;
     return;
   }
-  memory().pressers.push_back(now);
+  memory_.pressers.push_back(now);
 }
 
 /// Null for what is not remembered.
-template <Variant variant, class Scalar>
-const Presser<Scalar>* StepSolver<variant, Scalar>::presser(ColliderIndex collider) const noexcept {
-  for (const Presser<Scalar>& known : memory().pressers)
+template <std::size_t Lanes, class Scalar>
+const Presser<Scalar>* StepSolver<Lanes, Scalar>::presser(ColliderIndex collider) const noexcept {
+  for (const Presser<Scalar>& known : memory_.pressers)
     if (known.collider == collider) return &known;
   return nullptr;
 }
 
 /// Marks the colliders that were let through and still overlap the character at the end of the step; such a step is
 /// `stuck` unless it is `crushed`. Forgets the others.
-template <Variant variant, class Scalar>
-void StepSolver<variant, Scalar>::end_wait() noexcept {
-  if (memory().marked.empty()) return;
+template <std::size_t Lanes, class Scalar>
+void StepSolver<Lanes, Scalar>::end_wait() noexcept {
+  if (memory_.marked.empty()) return;
   moving_.ignored = 0;
   for_each_near({position_, position_}, [&](PieceIndex piece) {
     const ColliderIndex collider = collider_of(piece);
-    if (memory().is(collider, goes_through) && !memory().is(collider, still) && overlaps(piece, position_))
-      memory().mark(collider, still);
+    if (memory_.is(collider, goes_through) && !memory_.is(collider, still) && overlaps(piece, position_))
+      memory_.mark(collider, still);
   });
-  for (const ColliderIndex collider : memory().marked) {
-    const bool has_it_stuck = memory().is(collider, still) && !memory().is(collider, crushes);
+  for (const ColliderIndex collider : memory_.marked) {
+    const bool has_it_stuck = memory_.is(collider, still) && !memory_.is(collider, crushes);
     if (has_it_stuck && result_.status != MoveStatus::crushed) result_.status = MoveStatus::stuck;
   }
   hand_on_pressers();
@@ -180,11 +180,11 @@ void StepSolver<variant, Scalar>::end_wait() noexcept {
 
 /// Hands on scene movers before companions (a companion's place belongs to another character in the next step), and
 /// within each those with a known side first.
-template <Variant variant, class Scalar>
-void StepSolver<variant, Scalar>::hand_on_pressers() noexcept {
+template <std::size_t Lanes, class Scalar>
+void StepSolver<Lanes, Scalar>::hand_on_pressers() noexcept {
   const auto hand_on = [this](bool companions, bool has_side) {
-    for (const Presser<Scalar>& known : memory().pressers)
-      if (memory().is(known.collider, still) && known.has_side == has_side &&
+    for (const Presser<Scalar>& known : memory_.pressers)
+      if (memory_.is(known.collider, still) && known.has_side == has_side &&
           (known.collider >= settings_.first_companion) == companions)
         result_.pressers.push_back(known);
   };
@@ -195,10 +195,10 @@ void StepSolver<variant, Scalar>::hand_on_pressers() noexcept {
 /// The character keeps its position for the rest of the step, and what runs into it crushes. What is touched and does
 /// not come closer is looked past: what runs into the character later would be hidden behind it.
 /// @param may_give_way it goes where there is room instead.
-template <Variant variant, class Scalar>
-void StepSolver<variant, Scalar>::stay(bool may_give_way) noexcept {
+template <std::size_t Lanes, class Scalar>
+void StepSolver<Lanes, Scalar>::stay(bool may_give_way) noexcept {
   halt();
-  moving_.holds.clear();
+  memory_.holds.clear();
   moving_.looks_past_holds = true;
   for (look_along(V::Zero()); found_.hit; look_along(V::Zero())) {
     update_holds();
@@ -217,19 +217,19 @@ void StepSolver<variant, Scalar>::stay(bool may_give_way) noexcept {
 }
 
 /// What was nearer than rounding may come in by no more than rounding, which no sweep sees.
-template <Variant variant, class Scalar>
-void StepSolver<variant, Scalar>::crush_what_came_in(Scalar since) noexcept {
+template <std::size_t Lanes, class Scalar>
+void StepSolver<Lanes, Scalar>::crush_what_came_in(Scalar since) noexcept {
   for_each_near({position_, position_}, [&](PieceIndex piece) {
     const MoverIndex mover = mover_of(piece);
     if (mover == no_mover || ignored(piece) || !overlaps(piece, position_)) return;
     name_as_crushing(collider_of(piece));
-    remember({collider_of(piece), position_, moving_.around.rest(mover, since)});
+    remember({collider_of(piece), position_, around_.rest(mover, since)});
   });
 }
 
 /// The whole step, where that is asked for.
-template <Variant variant, class Scalar>
-void StepSolver<variant, Scalar>::keep_place(const MoveRequest<Scalar>& request) noexcept {
+template <std::size_t Lanes, class Scalar>
+void StepSolver<Lanes, Scalar>::keep_place(const MoveRequest<Scalar>& request) noexcept {
   push_corner(0);
   let_through_what_is_on_it(request);
   stay(false);

@@ -41,40 +41,6 @@ struct Nearest {
   Scalar when;        ///< Fraction of the way.
 };
 
-/// What every step may need.
-template <class Scalar>
-struct StepMemory : OwnMemory {
-  /// @param contacts_at_once of a step among pieces that stand still: no more can be touched in one place.
-  /// @param iterations of the sweep.
-  StepMemory(const ConfigurationSpace<Scalar>& space, std::size_t contacts_at_once, int iterations)
-      : pieces(space.scenery().sensor_pieces().first),
-        contacts(most_contacts(space, contacts_at_once, iterations)),
-        corners(2 * MoveResult<Scalar>::max_corners + 4 * moving_pieces(space)) {}
-
-  std::size_t pieces;                       ///< That block.
-  ReportMemory<Contact<Scalar>> contacts;   ///< Of one step, which reports each facet once at most.
-  ReportMemory<PathPoint<Scalar>> corners;  ///< Of its path.
-
- private:
-  [[nodiscard]] static std::size_t moving_pieces(const ConfigurationSpace<Scalar>& space) {
-    const std::span<const PieceInfo> all = space.scenery().pieces();
-    const auto moves = [](const PieceInfo& each) { return each.mover != no_mover; };
-    return static_cast<std::size_t>(std::count_if(all.begin(), all.end(), moves));
-  }
-  /// Each impact reports each piece once at most, and so does the end of the step, for the ground and for what it
-  /// follows.
-  [[nodiscard]] std::size_t most_contacts(const ConfigurationSpace<Scalar>& space, std::size_t at_once,
-                                          int iterations) const {
-    const std::size_t all = axes_of(space);
-    if (moving_pieces(space) > 0) return all;
-    return std::min(all, at_once * (static_cast<std::size_t>(iterations) + 3));
-  }
-  [[nodiscard]] std::size_t axes_of(const ConfigurationSpace<Scalar>& space) const {
-    std::size_t axes = 0;
-    for (PieceIndex piece = 0; piece < pieces; ++piece) axes += space.axis_count(piece);
-    return axes;
-  }
-};
 
 /// What a collider is to a character during a step; several may hold.
 enum Role : std::uint8_t {
@@ -86,24 +52,26 @@ enum Role : std::uint8_t {
 };
 inline constexpr std::uint8_t goes_through = lies_on | crushes;
 
-/// What a step among movers may need besides.
+/// What a step may need besides its state.
 template <class Scalar>
-struct MoverMemory final : StepMemory<Scalar> {
-  MoverMemory(const ConfigurationSpace<Scalar>& space, std::size_t contacts_at_once, int iterations)
-      : StepMemory<Scalar>(space, contacts_at_once, iterations),
-        of_mover(space.scenery().pieces().size()),
-        all(of_mover.size()),
-        room(space) {
-    const std::size_t colliders = space.scenery().collider_count();
-    const std::size_t moving = count_moving_colliders(space.scenery());
-    roles.resize(colliders);
-    marked.reserve(colliders);
-    pressers.reserve(moving);
-    for (auto* each : {&holds, &holds_before}) each->reserve(this->pieces);
-    for (auto* each : {&ways, &velocities}) each->reserve(this->pieces);
-    near_the_way.reserve(this->pieces);
-    crushed = ReportMemory<ColliderIndex>(moving);
-    contacts_at.resize(this->corners.capacity());
+struct StepMemory final : OwnMemory {
+  /// @param touched_at_once so many pieces that stand still can be touched in one place.
+  /// @param iterations of the sweep.
+  StepMemory(const ConfigurationSpace<Scalar>& space, std::size_t touched_at_once, int iterations)
+      : corners(2 * MoveResult<Scalar>::max_corners + 4 * moving_pieces(space)),
+        contacts(most_contacts(space, touched_at_once + moving_pieces(space), iterations)),
+        crushed(count_moving_colliders(space.scenery())),
+        contacts_at(corners.capacity()),
+        of_mover(moving_pieces(space)) {
+    const std::size_t touched = touched_at_once + of_mover.size();
+    for (auto* each : {&holds, &holds_before}) each->reserve(touched);
+    for (auto* each : {&ways, &velocities}) each->reserve(touched);
+    roles.resize(space.scenery().collider_count());
+    if (of_mover.empty()) return;
+    room = RoomMemory<Scalar>(space);
+    marked.reserve(roles.size());
+    pressers.reserve(crushed.capacity());
+    near_the_way.reserve(space.scenery().sensor_pieces().first);
   }
 
   /// What the last step left.
@@ -124,8 +92,11 @@ struct MoverMemory final : StepMemory<Scalar> {
     return (roles[collider] & any_of) != 0;
   }
 
-  std::vector<PieceIndex> of_mover;  ///< Answers of one mover's broad phase,
-  std::vector<PieceIndex> all;       ///< and of all of them, with what stands still.
+  ReportMemory<PathPoint<Scalar>> corners;  ///< Of the path.
+  ReportMemory<Contact<Scalar>> contacts;   ///< Of one step, which reports each facet once at most.
+  ReportMemory<ColliderIndex> crushed;
+  std::vector<std::size_t> contacts_at;  ///< How many contacts were known at each corner of the path.
+  std::vector<PieceIndex> of_mover;      ///< Answers of one mover's broad phase.
   RoomMemory<Scalar> room;
   std::vector<std::uint8_t> roles;         ///< Of each collider: see `Role`.
   std::vector<ColliderIndex> marked;       ///< Those that are `known`, in the order in which they came to be.
@@ -136,8 +107,22 @@ struct MoverMemory final : StepMemory<Scalar> {
   std::vector<Nearest<Scalar>> near_the_way;  ///< Into room.
   /// What came over the character, now or before, and how far it has gone by the end of the step.
   std::vector<Presser<Scalar>> pressers;
-  ReportMemory<ColliderIndex> crushed;
-  std::vector<std::size_t> contacts_at;  ///< How many contacts were known at each corner of the path.
+
+ private:
+  [[nodiscard]] static std::size_t moving_pieces(const ConfigurationSpace<Scalar>& space) {
+    const std::span<const PieceInfo> all = space.scenery().pieces();
+    const auto moves = [](const PieceInfo& each) { return each.mover != no_mover; };
+    return static_cast<std::size_t>(std::count_if(all.begin(), all.end(), moves));
+  }
+  /// Each impact reports each piece once at most, and so does the end of the step, for the ground and for what it
+  /// follows.
+  [[nodiscard]] std::size_t most_contacts(const ConfigurationSpace<Scalar>& space, std::size_t touched,
+                                          int iterations) const {
+    std::size_t axes = 0;
+    for (PieceIndex piece = 0; piece < space.scenery().sensor_pieces().first; ++piece) axes += space.axis_count(piece);
+    const std::size_t impacts = moving_pieces(space) > 0 ? corners.capacity() : static_cast<std::size_t>(iterations);
+    return std::min(axes, touched * (impacts + 3));
+  }
 };
 
 /// Everything that moves during one step.
@@ -145,8 +130,9 @@ template <class Scalar>
 struct Surroundings {
   const MoverPhases<Scalar>& phases;
   std::span<const MoverMotion<Scalar>> movers;
-  Scalar dt;  ///< [s]
-  MoverMemory<Scalar>& memory;
+  Scalar dt;             ///< [s]
+  MoverIndex near;       ///< Movers to look at: all, or none where none comes near the step.
+  bool active;           ///< A mover comes near the step, or there may be a conveyor.
 
   /// How far a mover goes in the step [m].
   [[nodiscard]] Vec2<Scalar> course(MoverIndex mover) const noexcept { return movers[mover].to - movers[mover].from; }

@@ -13,47 +13,47 @@
 
 namespace paperproof::octagon_sweep {
 
-template <Variant variant, class Scalar>
-Scalar StepSolver<variant, Scalar>::surface_speed(PieceIndex piece) const noexcept {
+template <std::size_t Lanes, class Scalar>
+Scalar StepSolver<Lanes, Scalar>::surface_speed(PieceIndex piece) const noexcept {
   const Scenery<Scalar>& scenery = space_.scenery();
   return static_cast<Scalar>(scenery.collider(scenery.pieces()[piece].collider).surface_speed);
 }
 
-template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::carries(PieceIndex piece) const noexcept {
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::carries(PieceIndex piece) const noexcept {
   return (mover_of(piece) != no_mover && !is_companion(piece)) || surface_speed(piece) != 0;
 }
 
 /// Of what stands on a piece at a surface with this normal [m/s].
-template <Variant variant, class Scalar>
-Vec2<Scalar> StepSolver<variant, Scalar>::ground_velocity(PieceIndex piece, const V& normal) const noexcept {
+template <std::size_t Lanes, class Scalar>
+Vec2<Scalar> StepSolver<Lanes, Scalar>::ground_velocity(PieceIndex piece, const V& normal) const noexcept {
   const MoverIndex mover = mover_of(piece);
   V velocity = V{normal.y(), -normal.x()} * surface_speed(piece);
-  if (mover != no_mover) velocity += moving_.around.course(mover) / moving_.around.dt;
+  if (mover != no_mover) velocity += around_.course(mover) / around_.dt;
   return velocity;
 }
 
 /// How far it takes what stands on it in the rest of the step [m].
-template <Variant variant, class Scalar>
-Vec2<Scalar> StepSolver<variant, Scalar>::ground_rest(PieceIndex piece, const V& normal) const noexcept {
+template <std::size_t Lanes, class Scalar>
+Vec2<Scalar> StepSolver<Lanes, Scalar>::ground_rest(PieceIndex piece, const V& normal) const noexcept {
   const MoverIndex mover = mover_of(piece);
-  const Scalar along = surface_speed(piece) * moving_.around.dt * (1 - time_);
+  const Scalar along = surface_speed(piece) * around_.dt * (1 - time_);
   V rest = V{normal.y(), -normal.x()} * along;
-  if (mover != no_mover) rest += moving_.around.rest(mover, time_);
+  if (mover != no_mover) rest += around_.rest(mover, time_);
   return rest;
 }
 
 /// What carries the character where it is now: the collider that it rides already, or, where it does not stand on
 /// anything else, what is steepest up of the others.
-template <Variant variant, class Scalar>
-std::optional<Hold<Scalar>> StepSolver<variant, Scalar>::ground_here(ColliderIndex ridden,
+template <std::size_t Lanes, class Scalar>
+std::optional<Hold<Scalar>> StepSolver<Lanes, Scalar>::ground_here(ColliderIndex ridden,
                                                                      bool walkable_only) noexcept {
   std::optional<Hold<Scalar>> carrier;
   bool rides = false;
   bool stands_still = false;
   for_each_near({position_, position_}, [&](PieceIndex piece) {
     if (dropped(piece)) return;
-    const BestAxis<Scalar> best = best_axis<variant>(space_, piece, local(piece, position_));
+    const BestAxis<Scalar> best = best_axis<Lanes>(space_, piece, local(piece, position_));
     const V normal = space_.normal(piece, best.axis);
     if (std::abs(best.separation) > Tolerances<Scalar>{}.touch || normal.y() <= 0) return;
     if ((walkable_only && !walkable(normal)) || !may_block(piece, position_)) return;
@@ -71,8 +71,8 @@ std::optional<Hold<Scalar>> StepSolver<variant, Scalar>::ground_here(ColliderInd
 }
 
 /// Where the step would go if nothing were in the way [m]: with the ground, for a rider. Sets the velocity.
-template <Variant variant, class Scalar>
-Vec2<Scalar> StepSolver<variant, Scalar>::begin_ride(const MoveRequest<Scalar>& request) noexcept {
+template <std::size_t Lanes, class Scalar>
+Vec2<Scalar> StepSolver<Lanes, Scalar>::begin_ride(const MoveRequest<Scalar>& request) noexcept {
   constexpr Scalar noise = std::numeric_limits<Scalar>::epsilon() * 4;
   const bool riding = request.ride.ground != Ride<Scalar>::none;
   const bool at_rest = request.velocity.x() == 0 && request.velocity.y() <= 0;
@@ -96,15 +96,15 @@ Vec2<Scalar> StepSolver<variant, Scalar>::begin_ride(const MoveRequest<Scalar>& 
 }
 
 /// Whether ground that is met, with nothing sideways, carries the character from then on.
-template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::takes_along(const Hold<Scalar>& ground) const noexcept {
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::takes_along(const Hold<Scalar>& ground) const noexcept {
   return walkable(ground.normal) && carries(ground.piece) && moving_.ride.ground == Ride<Scalar>::none &&
          !falls_away(ground_velocity(ground.piece, ground.normal));
 }
 
 /// From here on the character goes with this ground.
-template <Variant variant, class Scalar>
-void StepSolver<variant, Scalar>::mount(const Hold<Scalar>& ground) noexcept {
+template <std::size_t Lanes, class Scalar>
+void StepSolver<Lanes, Scalar>::mount(const Hold<Scalar>& ground) noexcept {
   moving_.ride.ground = space_.scenery().pieces()[ground.piece].collider;
   moving_.ride.velocity = ground_velocity(ground.piece, ground.normal);
   moving_.ride.place = position_ - offset(ground.piece);
@@ -112,23 +112,23 @@ void StepSolver<variant, Scalar>::mount(const Hold<Scalar>& ground) noexcept {
   moving_.anchored = true;
 }
 
-template <Variant variant, class Scalar>
-void StepSolver<variant, Scalar>::note_motion_on_ground() noexcept {
+template <std::size_t Lanes, class Scalar>
+void StepSolver<Lanes, Scalar>::note_motion_on_ground() noexcept {
   if (!moving_.anchored) return;
   V relative = motion_.way;
-  if (moving_.carrier != no_mover) relative = moving_.around.relative(motion_.way, moving_.carrier, time_);
+  if (moving_.carrier != no_mover) relative = around_.relative(motion_.way, moving_.carrier, time_);
   moving_.anchored = relative.x() == 0 && relative.y() == 0;
 }
 
 /// Where an anchored rider is at a fraction of the step.
-template <Variant variant, class Scalar>
-Vec2<Scalar> StepSolver<variant, Scalar>::anchor(Scalar time) const noexcept {
+template <std::size_t Lanes, class Scalar>
+Vec2<Scalar> StepSolver<Lanes, Scalar>::anchor(Scalar time) const noexcept {
   if (moving_.carrier == no_mover) return position_;
-  return moving_.around.offset(moving_.carrier, time) + moving_.ride.place;
+  return around_.offset(moving_.carrier, time) + moving_.ride.place;
 }
 
-template <Variant variant, class Scalar>
-void StepSolver<variant, Scalar>::end_ride() noexcept {
+template <std::size_t Lanes, class Scalar>
+void StepSolver<Lanes, Scalar>::end_ride() noexcept {
   if (!result_.grounded) return;
   const std::optional<Hold<Scalar>> ground = ground_here(moving_.ride.ground, false);
   if (!ground) return;

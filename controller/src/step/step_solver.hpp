@@ -14,7 +14,6 @@
 #include "step/one_way.hpp"
 #include "step/response.hpp"
 #include "step/room.hpp"
-#include "step/variant.hpp"
 
 #include <paperproof/technique.hpp>
 #include <paperproof/tolerances.hpp>
@@ -22,7 +21,6 @@
 #include <algorithm>
 #include <optional>
 #include <span>
-#include <type_traits>
 
 namespace paperproof::octagon_sweep {
 
@@ -72,8 +70,6 @@ struct Drive {
 /// What the solver knows about what moves.
 template <class Scalar>
 struct MoverState {
-  const Surroundings<Scalar>& around;
-  std::vector<Hold<Scalar>>& holds;     ///< What is touched.
   Ride<Scalar> ride{};                  ///< What carries the character in this step; `velocity` is that of this step.
   MoverIndex carrier = no_mover;        ///< Its mover; none for a conveyor that stands still.
   bool anchored = false;                ///< The character has not moved on what carries it.
@@ -89,30 +85,26 @@ struct MoverState {
   MoveStatus status_before_crush = MoveStatus::moved;  ///< how the step went until then.
 };
 
-struct NoMoverState {};
-
-template <Variant variant, class Scalar>
+template <std::size_t Lanes, class Scalar>
 class StepSolver {
  public:
   StepSolver(const ConfigurationSpace<Scalar>& space, const Settings<Scalar>& settings,
-             Neighbourhood<Scalar> neighbourhood, MoveResult<Scalar>& result) noexcept requires(!variant.movers)
-      : space_(space), settings_(settings), neighbourhood_(neighbourhood), result_(result) {}
-  StepSolver(const ConfigurationSpace<Scalar>& space, const Settings<Scalar>& settings,
              Neighbourhood<Scalar> neighbourhood, const Surroundings<Scalar>& surroundings,
-             MoveResult<Scalar>& result) noexcept requires(variant.movers)
+             MoveResult<Scalar>& result) noexcept
       : space_(space),
         settings_(settings),
         neighbourhood_(neighbourhood),
-        result_(result),
-        moving_{.around = surroundings, .holds = surroundings.memory.holds} {
-    surroundings.memory.clear();
+        around_(surroundings),
+        memory_(neighbourhood.memory()),
+        result_(result) {
+    memory_.clear();
   }
 
   void solve(const MoveRequest<Scalar>& request) noexcept;
 
  private:
   using V = Vec2<Scalar>;
-  using LocalMotion = Motion<variant.lanes, Scalar>;
+  using LocalMotion = Motion<Lanes, Scalar>;
 
   // step_sweep.hpp
   /// Sweeps from the present position, and keeps motion and result.
@@ -147,14 +139,16 @@ class StepSolver {
   /// Calls `visit(piece)` for everything near a box, where it is now.
   template <class Visit>
   void for_each_near(const Box2<Scalar>& box, const Visit& visit) noexcept;
+  /// The same for pieces of movers alone.
+  template <class Visit>
+  void for_each_moving_near(const Box2<Scalar>& box, const Visit& visit) noexcept;
 
   /// Whether a piece can stop a motion at all.
   [[nodiscard]] bool in_way(const LocalMotion& motion, PieceIndex piece) const noexcept {
-    return blocks<variant>(space_, motion, piece) && !dropped(piece);
+    return blocks(space_, motion, piece) && !dropped(piece);
   }
   /// A one-way segment in a step that drops through them.
   [[nodiscard]] bool dropped(PieceIndex piece) const noexcept {
-    if constexpr (!variant.one_way) return false;
     return drops_ && space_.info(piece).one_way_axis != ObstacleInfo::not_one_way;
   }
 
@@ -195,8 +189,6 @@ class StepSolver {
   [[gnu::cold, gnu::noinline]] void keep_ground() noexcept;
   [[gnu::noinline]] void follow_ground_down(const MoveRequest<Scalar>& request) noexcept;
   [[nodiscard]] bool walkable(const V& normal) const noexcept { return normal.y() >= settings_.walkable_cosine; }
-
-  [[nodiscard]] MoverMemory<Scalar>& memory() const noexcept { return moving_.around.memory; }
 
   // step_ride.hpp
   [[nodiscard]] MoverIndex mover_of(PieceIndex piece) const noexcept { return space_.scenery().pieces()[piece].mover; }
@@ -292,6 +284,8 @@ class StepSolver {
   const ConfigurationSpace<Scalar>& space_;
   const Settings<Scalar>& settings_;
   Neighbourhood<Scalar> neighbourhood_;
+  const Surroundings<Scalar>& around_;
+  StepMemory<Scalar>& memory_;
   MoveResult<Scalar>& result_;
 
   LocalMotion motion_;         ///< Of the last sweep,
@@ -310,7 +304,7 @@ class StepSolver {
   bool met_ground_ = false;  ///< Something walkable was in the way during this step,
   bool on_ground_ = false;   ///< and neither has anything moved since nor was anything else in the way.
   PieceIndex ground_ = 0;    ///< What that was, where `met_ground_`.
-  [[no_unique_address]] std::conditional_t<variant.movers, MoverState<Scalar>, NoMoverState> moving_;
+  MoverState<Scalar> moving_;
 };
 
 }  // namespace paperproof::octagon_sweep

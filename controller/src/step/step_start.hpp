@@ -12,37 +12,27 @@ namespace paperproof::octagon_sweep {
 /// How many pushes may be needed to restore the gaps of a start in a corner; what needs more has no room.
 inline constexpr int restore_rounds = 16;
 
-template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::prepare_start(const MoveRequest<Scalar>& request) noexcept {
-  if constexpr (variant.movers) {
-    if (request.has_last_free) moving_.last_free = request.last_free;
-    if (request.crushed && let_through_what_is_on_it(request) && !request.resumes && leaves_what_is_on_it(request))
-      return true;
-  }
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::prepare_start(const MoveRequest<Scalar>& request) noexcept {
+  if (request.has_last_free) moving_.last_free = request.last_free;
+  if (request.crushed && let_through_what_is_on_it(request) && !request.resumes && leaves_what_is_on_it(request))
+    return true;
   while (overlaps(position_)) {
-    if constexpr (variant.movers) {
-      // Out of what stands still there may be a way, but it stays on its side of what has come over it.
-      if (!memory().pressers.empty()) return false;
-    }
+    // Out of what stands still there may be a way, but it stays on its side of what has come over it.
+    if (!memory_.pressers.empty()) return false;
     const std::optional<V> out = find_way_out(request);
     if (out) {
-      if constexpr (variant.movers) note_what_is_left();
+      if (around_.active) note_what_is_left();
       start_ = position_ = *out;
       push_corner(0);
       return true;
     }
-    if constexpr (variant.movers) {
-      // There is no room beside what moves: without it there may be.
-      if (let_through_what_is_on_it(request)) continue;
-    }
-    return false;
+    // There is no room beside what moves: without it there may be.
+    if (!let_through_what_is_on_it(request)) return false;
   }
-  if constexpr (!variant.movers) restore_gap();
-  if constexpr (variant.movers) {
-    if (!pinned()) {
-      restore_gap();
-      restore_gaps_to_movers();
-    }
+  if (!pinned()) {
+    restore_gap();
+    if (around_.near > 0) restore_gaps_to_movers();
   }
   look_along(V::Zero());
   certify_ = found_.least_separation < Tolerances<Scalar>{}.certain;
@@ -51,8 +41,8 @@ bool StepSolver<variant, Scalar>::prepare_start(const MoveRequest<Scalar>& reque
 
 /// To the side of the last free position first, if there was one; and where there is nothing with the gap that is kept
 /// everywhere else, with a little more than what counts as closed.
-template <Variant variant, class Scalar>
-std::optional<Vec2<Scalar>> StepSolver<variant, Scalar>::find_way_out(const MoveRequest<Scalar>& request) noexcept {
+template <std::size_t Lanes, class Scalar>
+std::optional<Vec2<Scalar>> StepSolver<Lanes, Scalar>::find_way_out(const MoveRequest<Scalar>& request) noexcept {
   constexpr Tolerances<Scalar> tolerances{};
   const Scalar whole = reach_of_solids_inside();
   WayOutQuery<Scalar> query{.from = position_,
@@ -63,7 +53,7 @@ std::optional<Vec2<Scalar>> StepSolver<variant, Scalar>::find_way_out(const Move
                             .gap = tolerances.stop,
                             .reach = whole};
   if (request.has_last_free) query.last_free = request.last_free;
-  if constexpr (variant.movers) query.pressers = memory().pressers;
+  query.pressers = memory_.pressers;
   do {
     for (const Scalar gap : {tolerances.stop, tolerances.hit * Scalar(least_room)}) {
       query.gap = gap;
@@ -74,35 +64,30 @@ std::optional<Vec2<Scalar>> StepSolver<variant, Scalar>::find_way_out(const Move
 }
 
 /// Looks near first, then twice as far, and so on, until the whole of the solids has been looked at.
-template <Variant variant, class Scalar>
-std::optional<Vec2<Scalar>> StepSolver<variant, Scalar>::find_way_out(WayOutQuery<Scalar> query,
+template <std::size_t Lanes, class Scalar>
+std::optional<Vec2<Scalar>> StepSolver<Lanes, Scalar>::find_way_out(WayOutQuery<Scalar> query,
                                                                       Scalar whole) noexcept {
   const V extent = space_.hull_box().upper - space_.hull_box().lower;
   for (query.reach = std::min(whole, extent.maxCoeff());; query.reach = std::min(whole, 2 * query.reach)) {
     Box2<Scalar> box = Box2<Scalar>{query.from, query.from}.inflated(query.reach);
     if (query.last_free) box = box.merged({*query.last_free, *query.last_free});
-    if (const std::optional<V> out = way_out<variant.lanes>(space_, all_near(box), query)) return out;
+    if (const std::optional<V> out = way_out<Lanes>(space_, all_near(box), query)) return out;
     if (!(query.reach < whole)) return std::nullopt;
   }
 }
 
 /// Every piece that can be met in a box, where it is when the step begins; those of one collider in a row. What was
 /// collected before adds nothing, and the pieces may be reordered.
-template <Variant variant, class Scalar>
-std::span<PieceIndex> StepSolver<variant, Scalar>::all_near(const Box2<Scalar>& box) noexcept {
-  if constexpr (!variant.movers) return neighbourhood_.take(box);
-  if constexpr (variant.movers) {
-    neighbourhood_.forget();
-    std::vector<PieceIndex>& all = memory().all;
-    std::size_t count = 0;
-    for_each_near(box, [&](PieceIndex piece) { all[count++] = piece; });
-    return {all.data(), count};
-  }
+template <std::size_t Lanes, class Scalar>
+std::span<PieceIndex> StepSolver<Lanes, Scalar>::all_near(const Box2<Scalar>& box) noexcept {
+  auto [pieces, count] = neighbourhood_.take(box);
+  for_each_moving_near(box, [&, all = pieces, end = &count](PieceIndex piece) { all[(*end)++] = piece; });
+  return pieces.first(count);
 }
 
 /// No way out that leaves the colliders which are overlapped is longer [m]: they, and the octagon beside them.
-template <Variant variant, class Scalar>
-Scalar StepSolver<variant, Scalar>::reach_of_solids_inside() noexcept {
+template <std::size_t Lanes, class Scalar>
+Scalar StepSolver<Lanes, Scalar>::reach_of_solids_inside() noexcept {
   Box2<Scalar> whole{position_, position_};
   for_each_near({position_, position_}, [&](PieceIndex piece) {
     if (!overlaps(piece, position_)) return;
@@ -117,48 +102,42 @@ Scalar StepSolver<variant, Scalar>::reach_of_solids_inside() noexcept {
   return length_of(V((position_ - whole.lower).cwiseMax(whole.upper - position_) + extent));
 }
 
-template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::overlaps(const V& position) noexcept {
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::overlaps(const V& position) noexcept {
   bool any = false;
   for_each_near({position, position}, [&](PieceIndex piece) { any = any || overlaps(piece, position); });
   return any;
 }
 
-template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::overlaps(PieceIndex piece, const V& position) const noexcept {
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::overlaps(PieceIndex piece, const V& position) const noexcept {
   const V at = local(piece, position);
   if (space_.info(piece).one_way_axis != ObstacleInfo::not_one_way ||
-      best_axis<variant>(space_, piece, at).separation >= Tolerances<Scalar>{}.certain)
+      best_axis<Lanes>(space_, piece, at).separation >= Tolerances<Scalar>{}.certain)
     return false;
-  if constexpr (variant.movers) {
-    const MoverIndex mover = mover_of(piece);
-    if (mover != no_mover)
-      return overlaps_exactly(space_, piece, ExactPosition(position, moving_.around.movers[mover], time_));
-  }
+  const MoverIndex mover = mover_of(piece);
+  if (mover != no_mover) return overlaps_exactly(space_, piece, ExactPosition(position, around_.movers[mover], time_));
   return overlaps_exactly(space_, piece, at);
 }
 
 /// Whether a piece counts for a character at `position`: one-way segments do from above their surface only.
-template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::may_block(PieceIndex piece, const V& position) const noexcept {
-  if constexpr (!variant.one_way) return true;
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::may_block(PieceIndex piece, const V& position) const noexcept {
   if (space_.info(piece).one_way_axis == ObstacleInfo::not_one_way) return true;
   if (drops_) return false;
-  V rest = V::Zero();
-  if constexpr (variant.movers) rest = lost_by(position, offset(piece));
-  return is_above(space_, piece, local(piece, position), rest);
+  return is_above(space_, piece, local(piece, position), lost_by(position, offset(piece)));
 }
 
 /// Pushes out of the nearest piece, again and again, until every gap is at least `hit`; undone where there is no room.
-template <Variant variant, class Scalar>
-void StepSolver<variant, Scalar>::restore_gap() noexcept {
+template <std::size_t Lanes, class Scalar>
+void StepSolver<Lanes, Scalar>::restore_gap() noexcept {
   constexpr Tolerances<Scalar> tolerances{};
   V q = position_;
   for (int round = 0; round < restore_rounds; ++round) {
     Scalar least = std::numeric_limits<Scalar>::infinity();
     V push = V::Zero();
     for_each_near({q.cwiseMin(position_), q.cwiseMax(position_)}, [&](PieceIndex piece) {
-      const BestAxis<Scalar> best = best_axis<variant>(space_, piece, local(piece, q));
+      const BestAxis<Scalar> best = best_axis<Lanes>(space_, piece, local(piece, q));
       if (best.separation >= least || !may_block(piece, position_)) return;
       least = best.separation;
       push = space_.normal(piece, best.axis) * (tolerances.stop - best.separation);
@@ -174,8 +153,8 @@ void StepSolver<variant, Scalar>::restore_gap() noexcept {
 }
 
 /// Whether a straight way, made in no time, meets nothing, without rounding where it is near.
-template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::clear_way(const V& from, const V& to) noexcept {
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::clear_way(const V& from, const V& to) noexcept {
   bool clear = true;
   for_each_near({from.cwiseMin(to), from.cwiseMax(to)},
                 [&](PieceIndex piece) { clear = clear && clear_way(piece, from, to, time_); });
@@ -183,8 +162,8 @@ bool StepSolver<variant, Scalar>::clear_way(const V& from, const V& to) noexcept
 }
 
 /// The same for one piece, on a way from now up to a fraction of the step.
-template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::clear_way(PieceIndex piece, const V& begin, const V& target,
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::clear_way(PieceIndex piece, const V& begin, const V& target,
                                             Scalar end) const noexcept {
   constexpr Tolerances<Scalar> tolerances{};
   const V from = local(piece, begin);
@@ -193,30 +172,28 @@ bool StepSolver<variant, Scalar>::clear_way(PieceIndex piece, const V& begin, co
     if (space_.separation(piece, axis, from) >= tolerances.certain &&
         space_.separation(piece, axis, to) >= tolerances.certain)
       return true;
-  LocalMotion motion = make_motion<variant>(space_, from, V(to - from));
-  if constexpr (variant.movers) motion.rest = lost_by(begin, offset(piece));
+  LocalMotion motion = make_motion<Lanes>(space_, from, V(to - from));
+  motion.rest = lost_by(begin, offset(piece));
   if (!in_way(motion, piece)) return true;
-  if constexpr (variant.movers) {
-    const MoverIndex mover = mover_of(piece);
-    if (mover != no_mover) {
-      const MoverMotion<Scalar>& course = moving_.around.movers[mover];
-      return clear_of_exactly(space_, piece, ExactPosition(begin, course, time_), ExactPosition(target, course, end));
-    }
+  const MoverIndex mover = mover_of(piece);
+  if (mover != no_mover) {
+    const MoverMotion<Scalar>& course = around_.movers[mover];
+    return clear_of_exactly(space_, piece, ExactPosition(begin, course, time_), ExactPosition(target, course, end));
   }
   return clear_of_exactly(space_, piece, from, to);
 }
 
 /// Where there is no room for all gaps, those to what moves are restored as far as each has room alone: what carries
 /// the character would else end in it by rounding.
-template <Variant variant, class Scalar>
-void StepSolver<variant, Scalar>::restore_gaps_to_movers() noexcept {
+template <std::size_t Lanes, class Scalar>
+void StepSolver<Lanes, Scalar>::restore_gaps_to_movers() noexcept {
   constexpr Tolerances<Scalar> tolerances{};
-  std::vector<HalfPlane<Scalar>>& pushes = memory().ways;
+  std::vector<HalfPlane<Scalar>>& pushes = memory_.ways;
   pushes.clear();
   for_each_near({position_, position_}, [&](PieceIndex piece) {
     const MoverIndex mover = mover_of(piece);
-    if (mover == no_mover || moving_.around.course(mover) == V::Zero() || !may_block(piece, position_)) return;
-    const BestAxis<Scalar> best = best_axis<variant>(space_, piece, local(piece, position_));
+    if (mover == no_mover || around_.course(mover) == V::Zero() || !may_block(piece, position_)) return;
+    const BestAxis<Scalar> best = best_axis<Lanes>(space_, piece, local(piece, position_));
     if (best.separation < tolerances.hit)
       add_plane({space_.normal(piece, best.axis), tolerances.stop - best.separation}, pushes);
   });
@@ -229,14 +206,14 @@ void StepSolver<variant, Scalar>::restore_gaps_to_movers() noexcept {
 }
 
 /// Whether no gap that is less than it should be gets smaller, by more than rounding.
-template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::keeps_gaps(const V& q) noexcept {
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::keeps_gaps(const V& q) noexcept {
   constexpr Tolerances<Scalar> tolerances{};
   bool kept = true;
   for_each_near({q.cwiseMin(position_), q.cwiseMax(position_)}, [&](PieceIndex piece) {
     if (!may_block(piece, position_)) return;
-    const Scalar now = best_axis<variant>(space_, piece, local(piece, position_)).separation;
-    const Scalar then = best_axis<variant>(space_, piece, local(piece, q)).separation;
+    const Scalar now = best_axis<Lanes>(space_, piece, local(piece, position_)).separation;
+    const Scalar then = best_axis<Lanes>(space_, piece, local(piece, q)).separation;
     kept = kept && then >= std::min(now, tolerances.hit) - tolerances.certain;
   });
   return kept;

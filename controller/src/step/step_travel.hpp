@@ -13,32 +13,30 @@ template <class Scalar>
   return out < 0 && out < -along_plane<Scalar> * length_of(way);
 }
 
-template <Variant variant, class Scalar>
-void StepSolver<variant, Scalar>::solve(const MoveRequest<Scalar>& request) noexcept {
+template <std::size_t Lanes, class Scalar>
+void StepSolver<Lanes, Scalar>::solve(const MoveRequest<Scalar>& request) noexcept {
   position_ = request.position;
   velocity_ = request.velocity;
   start_ = position_;
   drops_ = request.drop;
   begin_drive(request);
   V wanted = request.displacement;
-  if constexpr (variant.movers) {
-    if (request.stays) return keep_place(request);
-    wanted = begin_ride(request);
-    memory().contacts_at[0] = 0;
-  }
+  if (request.stays) return keep_place(request);
+  if (around_.active) wanted = begin_ride(request);
+  memory_.contacts_at[0] = 0;
   result_.path.push_back({position_, 0});
   look_along(wanted);
   const bool near = found_.least_separation < Tolerances<Scalar>{}.hit;
   if (near && !prepare_start(request)) {
     result_.status = MoveStatus::stuck;
     halt();
-    if constexpr (variant.movers) {
+    if (around_.active) {
       note_what_is_left();
       stay(false);
       take_back_crushes();
     }
   } else {
-    if constexpr (variant.movers) {
+    if (around_.active) {
       if (near) moving_.ride.place += position_ - request.position;  // it rests where its gaps were restored
       if (moving_.on_it > 0) {
         halt();
@@ -49,7 +47,7 @@ void StepSolver<variant, Scalar>::solve(const MoveRequest<Scalar>& request) noex
     }
     if (near) look_along(wanted);
     if (request.grounded && !found_.hit) keep_ground();
-    if constexpr (variant.movers) {
+    if (around_.active) {
       travel_among_movers();
       take_back_crushes();
     } else {
@@ -58,9 +56,9 @@ void StepSolver<variant, Scalar>::solve(const MoveRequest<Scalar>& request) noex
     result_.grounded = stands();
     if (result_.grounded && !met_ground_ && !wedged_) report_ground(wanted);
     if (settings_.snap > 0) follow_ground_down(request);
-    if constexpr (variant.movers) end_ride();
+    if (around_.active) end_ride();
   }
-  if constexpr (variant.movers) end_wait();
+  end_wait();
   push_corner(1);
   result_.position = position_;
   result_.velocity = velocity_;
@@ -69,8 +67,8 @@ void StepSolver<variant, Scalar>::solve(const MoveRequest<Scalar>& request) noex
 /// Ground that was touched and is still touched where the motion ends stops a motion into it, as it stops one that is
 /// straight down. A walk goes into its ground by less than the sweep sees where gravity is tiny: it would leave the
 /// ground, sink until it is met, and be put back, over and over.
-template <Variant variant, class Scalar>
-void StepSolver<variant, Scalar>::keep_ground() noexcept {
+template <std::size_t Lanes, class Scalar>
+void StepSolver<Lanes, Scalar>::keep_ground() noexcept {
   const V from = position_;
   const Scalar begin = time_;
   position_ += motion_.way;
@@ -80,12 +78,11 @@ void StepSolver<variant, Scalar>::keep_ground() noexcept {
   time_ = begin;
   if (!ends_on_ground) return;
   for_each_near({position_, position_}, [this](PieceIndex piece) {
-    const BestAxis<Scalar> best = best_axis<variant>(space_, piece, local(piece, position_));
+    const BestAxis<Scalar> best = best_axis<Lanes>(space_, piece, local(piece, position_));
     if (!touched_ground(piece) || space_.covered(piece, best.axis)) return;
     V way = motion_.way;
-    if constexpr (variant.movers)
-      if (mover_of(piece) != no_mover) way = moving_.around.relative(way, mover_of(piece), time_);
-    const LocalMotion motion = make_motion<variant>(space_, local(piece, position_), way);
+    if (mover_of(piece) != no_mover) way = around_.relative(way, mover_of(piece), time_);
+    const LocalMotion motion = make_motion<Lanes>(space_, local(piece, position_), way);
     if (!enters(way, space_.normal(piece, best.axis)) || !in_way(motion, piece)) return;
     keep({piece, 0, 0, {best.axis, best.axis, false, false}}, motion.length);
   });
@@ -93,8 +90,8 @@ void StepSolver<variant, Scalar>::keep_ground() noexcept {
 }
 
 /// Notes this step's steering and length, and whether it begins as a walk on the ground.
-template <Variant variant, class Scalar>
-void StepSolver<variant, Scalar>::begin_drive(const MoveRequest<Scalar>& request) noexcept {
+template <std::size_t Lanes, class Scalar>
+void StepSolver<Lanes, Scalar>::begin_drive(const MoveRequest<Scalar>& request) noexcept {
   steered_ = request.steered;
   dt_ = request.dt;
   // A rise that is steeper than any ground comes from elsewhere.
@@ -103,15 +100,15 @@ void StepSolver<variant, Scalar>::begin_drive(const MoveRequest<Scalar>& request
 }
 
 /// What the step wants, and what it would want without steering.
-template <Variant variant, class Scalar>
-Drive<Scalar> StepSolver<variant, Scalar>::drive() const noexcept {
+template <std::size_t Lanes, class Scalar>
+Drive<Scalar> StepSolver<Lanes, Scalar>::drive() const noexcept {
   return {{motion_.way, {motion_.way.x() - steered_ * dt_, motion_.way.y()}},
           {velocity_, {velocity_.x() - steered_, velocity_.y()}}};
 }
 
 /// The way itself: stop at what the sweep found, respond, and sweep again with what is left. What is left only shrinks.
-template <Variant variant, class Scalar>
-void StepSolver<variant, Scalar>::travel() noexcept {
+template <std::size_t Lanes, class Scalar>
+void StepSolver<Lanes, Scalar>::travel() noexcept {
   constexpr Tolerances<Scalar> tolerances{};
   FixedVector<V, 16> held;  // normals met since the last progress
   Drive<Scalar> drive = this->drive();
@@ -157,8 +154,8 @@ void StepSolver<variant, Scalar>::travel() noexcept {
   result_.status = MoveStatus::dropped;
 }
 
-template <Variant variant, class Scalar>
-[[gnu::always_inline]] inline void StepSolver<variant, Scalar>::respond_to(const V& normal, Scalar left,
+template <std::size_t Lanes, class Scalar>
+[[gnu::always_inline]] inline void StepSolver<Lanes, Scalar>::respond_to(const V& normal, Scalar left,
                                                                            Drive<Scalar>& drive) noexcept {
   const bool ground = walkable(normal);
   if (after_walk_ && !ground && drive.velocity.wanted.y() > 0) after_walk_ = touches_ground();
@@ -178,8 +175,8 @@ template <Variant variant, class Scalar>
 /// was no fall, or walkable ground ended it.
 /// @param held the normals of all that are touched.
 /// @param fall the vertical velocity without steering, before the first of them was met [m/s].
-template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::slip(std::span<const V> held, Scalar fall, Drive<Scalar>& drive) noexcept {
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::slip(std::span<const V> held, Scalar fall, Drive<Scalar>& drive) noexcept {
   if (!(fall < 0)) return false;
   FixedVector<HalfPlane<Scalar>, 16> planes;
   for (const V& normal : held) {
@@ -199,8 +196,8 @@ bool StepSolver<variant, Scalar>::slip(std::span<const V> held, Scalar fall, Dri
 
 /// Whether the character falls straight down between rims that it rests on: in a shaft that is a little wider than the
 /// character its walls keep it clear. Where it is off the middle it shifts by as much as the narrowest opening leaves.
-template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::falls_between(const V& way) noexcept {
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::falls_between(const V& way) noexcept {
   constexpr Tolerances<Scalar> tolerances{};
   const auto falls = [&] {
     look_along(way);
@@ -222,8 +219,8 @@ bool StepSolver<variant, Scalar>::falls_between(const V& way) noexcept {
 
 /// The exact certificate or the range forbids the motion: the step ends here, and names each piece that is touched and
 /// in the way.
-template <Variant variant, class Scalar>
-void StepSolver<variant, Scalar>::cut_short() noexcept {
+template <std::size_t Lanes, class Scalar>
+void StepSolver<Lanes, Scalar>::cut_short() noexcept {
   if (result_.status == MoveStatus::moved) result_.status = MoveStatus::dropped;
   const V target = motion_.from + motion_.way * found_.stop;
   const Scalar end = time_ + (1 - time_) * found_.stop;
@@ -234,8 +231,8 @@ void StepSolver<variant, Scalar>::cut_short() noexcept {
 }
 
 /// A slide along a plane that is nearer than it should be ends at the right gap.
-template <Variant variant, class Scalar>
-Vec2<Scalar> StepSolver<variant, Scalar>::aimed_back(const V& way, const Stop<Scalar>& at) const noexcept {
+template <std::size_t Lanes, class Scalar>
+Vec2<Scalar> StepSolver<Lanes, Scalar>::aimed_back(const V& way, const Stop<Scalar>& at) const noexcept {
   constexpr Tolerances<Scalar> tolerances{};
   if (way.x() == 0 && way.y() == 0) return way;
   const Scalar gap = space_.separation(at.piece, at.axes.normal, local(at.piece, position_));
@@ -243,15 +240,15 @@ Vec2<Scalar> StepSolver<variant, Scalar>::aimed_back(const V& way, const Stop<Sc
   return way + space_.normal(at.piece, at.axes.normal) * (tolerances.stop - gap);
 }
 
-template <Variant variant, class Scalar>
-void StepSolver<variant, Scalar>::halt() noexcept {
+template <std::size_t Lanes, class Scalar>
+void StepSolver<Lanes, Scalar>::halt() noexcept {
   velocity_ = V::Zero();
 }
 
 /// Standing: where the step ends something walkable is touched that the motion does not leave, or a fall ended in a
 /// wedge. A step that nothing stopped is in the air: without gravity nothing holds a character to what it touches.
-template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::stands() noexcept {
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::stands() noexcept {
   if (on_ground_ || wedged_) return true;
   if (met_ground_ && stands_on(ground_)) return true;  // mostly
   return !result_.contacts.empty() && stands_on_any();
@@ -260,63 +257,57 @@ bool StepSolver<variant, Scalar>::stands() noexcept {
 /// The ground that the character stands on is among the contacts, also where gravity presses onto it by less than the
 /// sweep sees. Ground that the motion of the step does not lead into is none of them: who jumps and bumps its head at
 /// once stands again, and met nothing but the ceiling.
-template <Variant variant, class Scalar>
-void StepSolver<variant, Scalar>::report_ground(const V& wanted) noexcept {
+template <std::size_t Lanes, class Scalar>
+void StepSolver<Lanes, Scalar>::report_ground(const V& wanted) noexcept {
   for_each_near({position_, position_}, [&](PieceIndex piece) {
     if (!stands_on(piece)) return;
     V way = wanted;
-    if constexpr (variant.movers)
-      if (mover_of(piece) != no_mover) way = moving_.around.relative(wanted, mover_of(piece), Scalar(0));
+    if (mover_of(piece) != no_mover) way = around_.relative(wanted, mover_of(piece), Scalar(0));
     if (enters(way, *touched_ground(piece))) report_touched(piece);
   });
 }
 
-template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::stands_on_any() noexcept {
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::stands_on_any() noexcept {
   bool any = false;
   for_each_near({position_, position_}, [&](PieceIndex piece) { any = any || stands_on(piece); });
   return any;
 }
 
-template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::stands_on(PieceIndex piece) const noexcept {
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::stands_on(PieceIndex piece) const noexcept {
   const std::optional<V> normal = touched_ground(piece);
   if (!normal) return false;
   V ground = V::Zero();
-  if constexpr (variant.movers)
-    if (mover_of(piece) != no_mover) ground = moving_.around.course(mover_of(piece)) / moving_.around.dt;
+  if (mover_of(piece) != no_mover) ground = around_.course(mover_of(piece)) / around_.dt;
   const Scalar leaving = dot(V(velocity_ - ground), *normal);
   return leaving <= 0 || leaving <= along_plane<Scalar> * (length_of(velocity_) + length_of(ground));
 }
 
-template <Variant variant, class Scalar>
-bool StepSolver<variant, Scalar>::touches_ground() noexcept {
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::touches_ground() noexcept {
   bool any = false;
   for_each_near({position_, position_}, [&](PieceIndex piece) { any = any || touched_ground(piece); });
   return any;
 }
 
-template <Variant variant, class Scalar>
-std::optional<Vec2<Scalar>> StepSolver<variant, Scalar>::touched_ground(PieceIndex piece) const noexcept {
+template <std::size_t Lanes, class Scalar>
+std::optional<Vec2<Scalar>> StepSolver<Lanes, Scalar>::touched_ground(PieceIndex piece) const noexcept {
   if (dropped(piece)) return std::nullopt;
-  const BestAxis<Scalar> best = best_axis<variant>(space_, piece, local(piece, position_));
+  const BestAxis<Scalar> best = best_axis<Lanes>(space_, piece, local(piece, position_));
   if (!(std::abs(best.separation) <= Tolerances<Scalar>{}.touch)) return std::nullopt;
   const V normal = space_.normal(piece, best.axis);
   return walkable(normal) && may_block(piece, position_) ? std::optional<V>(normal) : std::nullopt;
 }
 
 /// Where a walk left the ground, and there is ground not far below.
-template <Variant variant, class Scalar>
-void StepSolver<variant, Scalar>::follow_ground_down(const MoveRequest<Scalar>& request) noexcept {
+template <std::size_t Lanes, class Scalar>
+void StepSolver<Lanes, Scalar>::follow_ground_down(const MoveRequest<Scalar>& request) noexcept {
   if (!request.grounded || result_.grounded) return;
-  if constexpr (variant.movers)
-    if (pinned()) return;  // it stays where it was crushed
+  if (pinned()) return;  // it stays where it was crushed
   V travelled = position_ - request.position;
-  V left_ground = V::Zero();  // velocity of what was walked on
-  if constexpr (variant.movers) {
-    left_ground = moving_.ride.velocity;
-    travelled -= left_ground * request.dt;
-  }
+  const V left_ground = moving_.ride.velocity;  // of what was walked on
+  travelled -= left_ground * request.dt;
   // What rises has left the ground on purpose, unless it only climbs: over a crest a walk goes on.
   if (velocity_.y() > left_ground.y() && !climbs_) return;
   const Scalar steepest = std::abs(travelled.x()) * settings_.walkable_tangent + Tolerances<Scalar>{}.touch;
@@ -328,10 +319,8 @@ void StepSolver<variant, Scalar>::follow_ground_down(const MoveRequest<Scalar>& 
   if (!walkable(normal) || !advance(found_.stop)) return;
   result_.grounded = true;
   report_contact(piece, axis, time_, result_.contacts.size());
-  V velocity = velocity_;
-  if constexpr (variant.movers) velocity -= ground_velocity(piece, normal);
-  velocity_ = follow(velocity.x(), normal);
-  if constexpr (variant.movers) velocity_ += ground_velocity(piece, normal);
+  const V ground = ground_velocity(piece, normal);
+  velocity_ = follow(velocity_.x() - ground.x(), normal) + ground;
 }
 
 }  // namespace paperproof::octagon_sweep

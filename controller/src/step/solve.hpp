@@ -1,0 +1,19 @@
+/// One step of the octagon sweep, compiled apart from the technique that asks for it.
+#pragma once
+
+#include "step/step_solver.hpp"
+
+namespace paperproof::octagon_sweep {
+
+template <class Scalar>
+using Solve = void (*)(const ConfigurationSpace<Scalar>&, const Settings<Scalar>&, const Neighbourhood<Scalar>&,
+                       const Surroundings<Scalar>&, const MoveRequest<Scalar>&, MoveResult<Scalar>&) noexcept;
+
+/// @param lanes of the configuration space: 8 or 12.
+template <class Scalar>
+[[nodiscard]] Solve<Scalar> solver_for(std::size_t lanes) noexcept;
+
+extern template Solve<float> solver_for(std::size_t) noexcept;
+extern template Solve<double> solver_for(std::size_t) noexcept;
+
+}  // namespace paperproof::octagon_sweep
