@@ -80,26 +80,27 @@ Crowd<Scalar>::Crowd(const Scenery<Scalar>& scenery, const CharacterDef& charact
     : Crowd([&] {
         auto surrounded = std::make_unique<const crowd::Surrounded<Scalar>>(scenery, character.shape);
         const SweepDef def = among_companions(sweep);
-        Controller<Scalar> controller(
-            surrounded->scenery, character,
-            make_sweep_among_companions(def, surrounded->scenery, character, surrounded->first_companion), def.stages);
-        return Crowd(
-            std::make_unique<const Rules>(Rules{{crowd::PairSpace<Scalar>(character.shape),
-                                                 character.walkable_cosine<Scalar>(), sweep.iterations, sweep.stages},
-                                                scenery.mover_count(),
-                                                scenery.mover_count() > 0 || has_conveyors(scenery),
-                                                std::move(surrounded)}),
-            std::move(controller));
+        auto technique = octagon_sweep::make_sweep_in_parts(def, surrounded->scenery, character);
+        const auto* const sweep_in_parts = technique.get();
+        Controller<Scalar> controller(surrounded->scenery, character, std::move(technique), def.stages);
+        return Crowd(std::make_unique<const Rules>(
+                         Rules{{crowd::PairSpace<Scalar>(character.shape), character.walkable_cosine<Scalar>(),
+                                sweep.iterations, sweep.stages, sweep_in_parts},
+                               scenery.mover_count(),
+                               scenery.mover_count() > 0 || has_conveyors(scenery),
+                               std::move(surrounded)}),
+                     std::move(controller));
       }()) {}
 
 template <class Scalar>
 Crowd<Scalar>::Crowd(const Scenery<Scalar>& scenery, const CharacterDef& character,
                      std::unique_ptr<const JointTechnique<Scalar>> technique, const Stages& stages)
-    : Crowd(std::make_unique<const Rules>(Rules{{crowd::PairSpace<Scalar>(character.shape),
-                                                 character.walkable_cosine<Scalar>(), SweepDef{}.iterations, stages},
-                                                scenery.mover_count(),
-                                                true,
-                                                nullptr}),
+    : Crowd(std::make_unique<const Rules>(
+                Rules{{crowd::PairSpace<Scalar>(character.shape), character.walkable_cosine<Scalar>(),
+                       SweepDef{}.iterations, stages, nullptr},
+                      scenery.mover_count(),
+                      true,
+                      nullptr}),
             Controller<Scalar>(scenery, character, std::move(technique), stages)) {}
 
 template <class Scalar>

@@ -31,6 +31,8 @@ struct ColliderDef {
   bool sensor = false;
   /// A conveyor: what stands on it is carried along the surface, to the right for a positive speed [m/s].
   double surface_speed = 0;
+  /// Whether a mover takes along what stands on it. Otherwise it pushes only, as another character does.
+  bool carries = true;
 };
 
 /// Everything that can be met, standing or moving.
@@ -56,6 +58,7 @@ struct ColliderInfo {
   bool sensor = false;
   MoverIndex mover = no_mover;
   double surface_speed = 0;  ///< [m/s]
+  bool carries = true;
   std::optional<Vec2d> one_way{};
   friend bool operator==(const ColliderInfo&, const ColliderInfo&) = default;
 };

@@ -50,13 +50,7 @@ struct MoveRequest {
   bool has_last_free = false;
   bool grounded = false;  ///< The last step ended on the ground, and this one does not begin with a jump.
   bool crushed = false;   ///< See `CharacterState::crushed`.
-  /// This request continues a step that has begun. No way out of crushing movers is looked for: they may have run over
-  /// the character in this very step.
-  bool resumes = false;
-  bool drop = false;  ///< One-way chains hold nobody: see `Input::drop`.
-  /// The character keeps its place in the world, and every mover that runs into it crushes it, room or not. Only
-  /// `octagon_sweep` among movers knows this; `Crowd` asks for it where nothing else is safe.
-  bool stays = false;
+  bool drop = false;      ///< One-way chains hold nobody: see `Input::drop`.
   std::span<const Presser<Scalar>> pressers{};  ///< See `CharacterState::pressers`.
   /// One for each mover of the scenery.
   std::span<const MoverMotion<Scalar>> movers{};

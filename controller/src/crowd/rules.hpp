@@ -2,6 +2,7 @@
 #pragma once
 
 #include "crowd/pair_space.hpp"
+#include "step/octagon_sweep.hpp"
 
 #include <paperproof/plan.hpp>
 
@@ -14,6 +15,7 @@ struct CrowdRules {
   int most_impacts;        ///< Of one character in one step before it gives up its own motion; after twice as many it
                            ///< stays.
   Stages stages;           ///< What was not left out.
+  const octagon_sweep::SweepInParts<Scalar>* sweep;  ///< Null for a joint technique.
 };
 
 }  // namespace paperproof::crowd

@@ -7,7 +7,7 @@ namespace {
 template <class Scalar>
 SceneryDef with_places_for_company(const Scenery<Scalar>& scene, const CharacterShape& shape) {
   SceneryDef def = scene.as_run();
-  ColliderDef place{.points = {shape.hull().begin(), shape.hull().end()}};
+  ColliderDef place{.points = {shape.hull().begin(), shape.hull().end()}, .carries = false};
   for (std::size_t k = 0; k < most_company; ++k) {
     place.mover = static_cast<MoverIndex>(scene.mover_count() + k);
     def.colliders.push_back(place);
@@ -28,6 +28,7 @@ Stepper<Scalar>::Stepper(const Controller<Scalar>& controller, const Surrounded<
                          CrowdReport<Scalar>& report, std::size_t count, const Vec2<Scalar>& gravity, Scalar dt,
                          std::span<const MoverMotion<Scalar>> movers) noexcept
     : controller_(controller),
+      sweep_(*rules.sweep),
       surrounded_(surrounded),
       space_(rules.space),
       walkable_cosine_(rules.walkable_cosine),

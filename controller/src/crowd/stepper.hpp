@@ -9,6 +9,7 @@
 
 #include "crowd/rules.hpp"
 #include "crowd/timetable.hpp"
+#include "step/octagon_sweep.hpp"
 
 #include <paperproof/crowd.hpp>
 
@@ -86,6 +87,7 @@ class Stepper {
 
  private:
   using V = Vec2<Scalar>;
+  using Part = octagon_sweep::Part;
 
   /// What a new way would do to a character.
   struct Outcome {
@@ -145,6 +147,7 @@ class Stepper {
   void hand_out(std::size_t i, CharacterState<Scalar>& state) noexcept;
 
   const Controller<Scalar>& controller_;
+  const octagon_sweep::SweepInParts<Scalar>& sweep_;
   const Surrounded<Scalar>& surrounded_;
   const PairSpace<Scalar>& space_;
   Scalar walkable_cosine_;

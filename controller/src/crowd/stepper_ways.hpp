@@ -82,7 +82,6 @@ MoveRequest<Scalar> Stepper<Scalar>::request_at(const Walker<Scalar>& walker, co
           .has_last_free = at.state.has_last_free,
           .grounded = walker.walks && !walker.no_snap && end == 1,
           .crushed = at.state.crushed,
-          .resumes = at.time > 0,
           .drop = walker.drops,
           .pressers = {at.state.pressers.begin(), at.state.pressers.end()},
           .movers = memory_.motions,
@@ -102,7 +101,7 @@ bool Stepper<Scalar>::ask(std::size_t i, Scalar until, MoveResult<Scalar>& way, 
     set_motions(walker.company, at.time, end);
     const MoveRequest<Scalar> request = request_at(walker, at, end);
     if (!(request.dt > 0)) return false;
-    controller_.technique().move(request, scratch_, memory_.part);
+    sweep_.move_part(at.time > 0 ? Part::rest : Part::whole, request, scratch_, memory_.part);
     if (memory_.part.status == MoveStatus::out_of_range) return false;
     append(memory_.part, at.time, end, way);
     pass_on(memory_.part, end, at);
@@ -205,8 +204,7 @@ void Stepper<Scalar>::ask_to_stay(std::size_t i) noexcept {
     MoveRequest<Scalar> request = request_at(walker, from, 1);
     request.displacement = request.velocity = V::Zero();
     request.ride = {};
-    request.stays = true;
-    controller_.technique().move(request, scratch_, memory_.part);
+    sweep_.move_part(Part::stay, request, scratch_, memory_.part);
     append(memory_.part, from.time, 1, way);
     pass_on(memory_.part, 1, walker.end);
   } else {

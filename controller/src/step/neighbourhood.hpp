@@ -41,9 +41,7 @@ class Neighbourhood {
   void forget() noexcept { scratch_.solids.valid = false; }
 
   /// For what exceeds the inline storage of a step.
-  [[nodiscard]] StepMemory<Scalar>& memory() const noexcept {
-    return static_cast<StepMemory<Scalar>&>(*scratch_.own);
-  }
+  [[nodiscard]] StepMemory<Scalar>& memory() const noexcept { return static_cast<StepMemory<Scalar>&>(*scratch_.own); }
 
  private:
   const ConfigurationSpace<Scalar>& space_;

@@ -17,7 +17,7 @@ using namespace octagon_sweep;
 constexpr int most_iterations = static_cast<int>(MoveResult<double>::max_corners) - 4;
 
 template <class Scalar>
-Settings<Scalar> settings_for(const SweepDef& def, ColliderIndex first_companion, const CharacterDef& character) {
+Settings<Scalar> settings_for(const SweepDef& def, const CharacterDef& character) {
   const double limit = character.max_climb_degrees * std::numbers::pi / 180;
   const Vec2d extent = character.shape.box().upper - character.shape.box().lower;
   return {
@@ -26,8 +26,7 @@ Settings<Scalar> settings_for(const SweepDef& def, ColliderIndex first_companion
       .snap = static_cast<Scalar>(character.snap),
       .max_fall_speed = static_cast<Scalar>(character.max_fall_speed.value_or(std::numeric_limits<double>::infinity())),
       .look_ahead = static_cast<Scalar>(look_ahead_share * std::max(extent.x(), extent.y())),
-      .iterations = def.iterations,
-      .first_companion = first_companion};
+      .iterations = def.iterations};
 }
 
 void refuse_omission(bool unsafe, const char* stage, const char* reason) {
@@ -44,10 +43,9 @@ void check(const Stages& stages, const Scenery<Scalar>& scenery, const Configura
 }
 
 template <class Scalar>
-class OctagonSweep final : public Technique<Scalar> {
+class OctagonSweep final : public SweepInParts<Scalar> {
  public:
-  OctagonSweep(const SweepDef& def, const Scenery<Scalar>& scenery, const CharacterDef& character,
-               ColliderIndex first_companion)
+  OctagonSweep(const SweepDef& def, const Scenery<Scalar>& scenery, const CharacterDef& character)
       : broad_phase_(make_broad_phase<Scalar>(def.broad_phase, scenery.static_boxes())),
         mover_phases_(def.broad_phase, scenery),
         // Every piece asks for its neighbours once, which would take all_pairs the square of their number.
@@ -56,7 +54,7 @@ class OctagonSweep final : public Technique<Scalar> {
                    ? *make_broad_phase<Scalar>(BroadPhaseKind::tree, scenery.static_boxes())
                    : *broad_phase_,
                mover_phases_),
-        settings_(settings_for<Scalar>(def, first_companion, character)),
+        settings_(settings_for<Scalar>(def, character)),
         touched_at_once_(broad_phase::most_at_once<Scalar>(scenery.static_boxes(), space_.touched_size())),
         has_conveyors_(has_conveyors(scenery)),
         solve_(solver_for<Scalar>(space_.lanes())) {
@@ -74,21 +72,19 @@ class OctagonSweep final : public Technique<Scalar> {
 
   void move(const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,
             MoveResult<Scalar>& result) const noexcept override {
+    move_part(Part::whole, request, scratch, result);
+  }
+
+  void move_part(Part part, const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,
+                 MoveResult<Scalar>& result) const noexcept override {
     result.clear();
     if (!in_range(request) || request.movers.size() != mover_phases_.size() ||
         (!request.movers.empty() && !(request.dt > 0)))
       return refuse(request, result);
     const Neighbourhood<Scalar> neighbourhood(space_, *broad_phase_, settings_.look_ahead, scratch);
-    const bool rides = request.ride.ground != Ride<Scalar>::none;
-    Surroundings<Scalar> surroundings{mover_phases_, request.movers, request.dt, 0, false};
-    if (!rides && !request.stays && keeps_away({request.position, request.position}, request)) {
-      solve_(space_, settings_, neighbourhood, surroundings, request, result);
-      if (keeps_away(looked_at(request, result.path), request) && !meets_conveyor(result)) return;
-      result.clear();
-    }
-    surroundings.near = mover_phases_.size();
-    surroundings.active = true;
-    solve_(space_, settings_, neighbourhood, surroundings, request, result);
+    Surroundings<Scalar> around{mover_phases_, request.movers, request.dt, 0, has_conveyors_};
+    if (!request.movers.empty() && (part == Part::stay || comes_near_a_mover(request))) around.look_at_movers();
+    solve_(space_, settings_, neighbourhood, around, part, request, result);
   }
 
  private:
@@ -110,35 +106,21 @@ class OctagonSweep final : public Technique<Scalar> {
     result.path.push_back({request.position, 1});
   }
 
-  /// The positions on the way, and if it left a solid those from where the side was seen to which it did.
-  template <class Path>
-  [[nodiscard]] static Box2<Scalar> looked_at(const MoveRequest<Scalar>& request, const Path& path) noexcept {
-    Box2<Scalar> box{path[0].position, path[0].position};
-    for (const PathPoint<Scalar>& corner : path) box = box.merged({corner.position, corner.position});
-    const bool at_once = path.size() > 1 && path[1].fraction == 0;
-    if (at_once && request.has_last_free) box = box.merged({request.last_free, request.last_free});
-    return box;
-  }
-
-  /// Whether no mover comes near a character that is anywhere in a box, during the whole step.
-  [[nodiscard]] bool keeps_away(const Box2<Scalar>& positions, const MoveRequest<Scalar>& request) const noexcept {
-    if (request.movers.empty()) return true;
-    const Box2<Scalar> touched = space_.touched_from(positions.inflated(Tolerances<Scalar>{}.look));
+  /// Whether a mover may come near the character during the step. A step that no mover pushes ends no further away than
+  /// its displacement is long, and the snap.
+  [[nodiscard]] bool comes_near_a_mover(const MoveRequest<Scalar>& request) const noexcept {
+    if (request.ride.ground != Ride<Scalar>::none || request.crushed) return true;
+    const Vec2<Scalar>& at = request.position;
+    const Scalar reach = request.displacement.cwiseAbs().sum() + settings_.snap + 2 * Tolerances<Scalar>{}.look;
+    const Box2<Scalar> touched = space_.touched_from(Box2<Scalar>{at, at}.inflated(reach));
     for (MoverIndex mover = 0; mover < mover_phases_.size(); ++mover) {
       const Box2<Scalar>& whole = mover_phases_.whole(mover);
       const MoverMotion<Scalar>& motion = request.movers[mover];
-      const Box2<Scalar> swept{whole.lower + motion.from.cwiseMin(motion.to),
-                               whole.upper + motion.from.cwiseMax(motion.to)};
-      if (touched.overlaps(swept)) return false;
+      if (touched.overlaps(
+              {whole.lower + motion.from.cwiseMin(motion.to), whole.upper + motion.from.cwiseMax(motion.to)}))
+        return true;
     }
-    return true;
-  }
-
-  [[nodiscard]] bool meets_conveyor(const MoveResult<Scalar>& result) const noexcept {
-    if (!has_conveyors_) return false;
-    return std::any_of(result.contacts.begin(), result.contacts.end(), [&](const Contact<Scalar>& contact) {
-      return space_.scenery().collider(contact.collider).surface_speed != 0;
-    });
+    return false;
   }
 
   std::unique_ptr<BroadPhase<Scalar>> broad_phase_;
@@ -153,27 +135,27 @@ class OctagonSweep final : public Technique<Scalar> {
 }  // namespace
 
 template <class Scalar>
-std::unique_ptr<Technique<Scalar>> make_sweep_among_companions(const SweepDef& def, const Scenery<Scalar>& scenery,
-                                                               const CharacterDef& character,
-                                                               ColliderIndex first_companion) {
+std::unique_ptr<SweepInParts<Scalar>> octagon_sweep::make_sweep_in_parts(const SweepDef& def,
+                                                                         const Scenery<Scalar>& scenery,
+                                                                         const CharacterDef& character) {
   character.validate();
   if (def.iterations < 1 || def.iterations > most_iterations)
     throw std::invalid_argument("sweep_iterations: must be from 1 to " + std::to_string(most_iterations) + ", not " +
                                 std::to_string(def.iterations));
-  return std::make_unique<OctagonSweep<Scalar>>(def, scenery, character, first_companion);
+  return std::make_unique<OctagonSweep<Scalar>>(def, scenery, character);
 }
 
 template <class Scalar>
 std::unique_ptr<Technique<Scalar>> make_octagon_sweep(const SweepDef& def, const Scenery<Scalar>& scenery,
                                                       const CharacterDef& character) {
-  return make_sweep_among_companions(def, scenery, character, ~ColliderIndex{0});
+  return octagon_sweep::make_sweep_in_parts(def, scenery, character);
 }
 
-#define PAPERPROOF_INSTANTIATE(Scalar)                                                                             \
-  template std::unique_ptr<Technique<Scalar>> make_octagon_sweep(const SweepDef&, const Scenery<Scalar>&,          \
-                                                                 const CharacterDef&);                             \
-  template std::unique_ptr<Technique<Scalar>> make_sweep_among_companions(const SweepDef&, const Scenery<Scalar>&, \
-                                                                          const CharacterDef&, ColliderIndex)
+#define PAPERPROOF_INSTANTIATE(Scalar)                                                                    \
+  template std::unique_ptr<Technique<Scalar>> make_octagon_sweep(const SweepDef&, const Scenery<Scalar>&, \
+                                                                 const CharacterDef&);                    \
+  template std::unique_ptr<octagon_sweep::SweepInParts<Scalar>> octagon_sweep::make_sweep_in_parts(       \
+      const SweepDef&, const Scenery<Scalar>&, const CharacterDef&)
 PAPERPROOF_INSTANTIATE(float);
 PAPERPROOF_INSTANTIATE(double);
 #undef PAPERPROOF_INSTANTIATE

@@ -1,16 +1,29 @@
-/// For the crowd, which moves each character by `octagon_sweep` among the others.
+/// What a crowd asks of `octagon_sweep` beside a whole step.
 #pragma once
 
 #include <paperproof/octagon_sweep.hpp>
 
-namespace paperproof {
+namespace paperproof::octagon_sweep {
+
+/// What a move is of a step.
+enum class Part : std::uint8_t {
+  whole,  ///< All of it, or its beginning.
+  rest,   ///< The step has begun. No way out of crushing movers is looked for: they may have come in this very step.
+  stay,   ///< The character keeps its position in the world. Every mover that runs into it crushes it.
+};
+
+template <class Scalar>
+class SweepInParts : public Technique<Scalar> {
+ public:
+  /// As `move`, which is a whole step.
+  virtual void move_part(Part part, const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,
+                         MoveResult<Scalar>& result) const noexcept = 0;
+};
 
 /// As `make_octagon_sweep`.
-/// @param first_companion colliders from here on are other characters: they are in the way and push, and carry nobody.
 template <class Scalar>
-[[nodiscard]] std::unique_ptr<Technique<Scalar>> make_sweep_among_companions(const SweepDef& def,
-                                                                             const Scenery<Scalar>& scenery,
-                                                                             const CharacterDef& character,
-                                                                             ColliderIndex first_companion);
+[[nodiscard]] std::unique_ptr<SweepInParts<Scalar>> make_sweep_in_parts(const SweepDef& def,
+                                                                        const Scenery<Scalar>& scenery,
+                                                                        const CharacterDef& character);
 
-}  // namespace paperproof
+}  // namespace paperproof::octagon_sweep

@@ -25,8 +25,7 @@ template <class Scalar>
 /// than that it must be known to be near, whichever way it goes.
 template <std::size_t Lanes, class Scalar>
 [[nodiscard, gnu::always_inline]] inline bool blocks(const ConfigurationSpace<Scalar>& space,
-                                                     const Motion<Lanes, Scalar>& motion,
-                                                     PieceIndex piece) noexcept {
+                                                     const Motion<Lanes, Scalar>& motion, PieceIndex piece) noexcept {
   const ObstacleInfo& info = space.info(piece);
   if (info.one_way_axis == ObstacleInfo::not_one_way) return true;
   const auto begins_above = [&] { return is_above(space, piece, motion.from, motion.rest); };

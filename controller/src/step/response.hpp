@@ -58,6 +58,13 @@ template <class Scalar>
   return a.x() * b.x() + a.y() * b.y();
 }
 
+/// Whether a way goes into a plane that it touches, rather than along it.
+template <class Scalar>
+[[nodiscard]] bool enters(const Vec2<Scalar>& way, const Vec2<Scalar>& normal) noexcept {
+  const Scalar out = dot(way, normal);
+  return out < 0 && out < -along_plane<Scalar> * length_of(way);
+}
+
 /// A motion [m] or velocity [m/s] that is wanted, and the part of it that is there without this step's steering.
 template <class Scalar>
 struct Wish {
@@ -129,6 +136,7 @@ template <class Scalar>
                                                               const Surface<Scalar>& at) noexcept {
   if (dot(wish.wanted, at.normal) >= 0) return wish;
   const Vec2<Scalar> unsteered = respond(wish.unsteered, at);
+  if (steered == 0) return {unsteered, unsteered};
   if (at.walkable) return {follow(wish.unsteered.x() + steered, at.normal), unsteered};
   const bool presses = at.normal.y() >= 0 && dot(Vec2<Scalar>(wish.wanted - wish.unsteered), at.normal) < 0;
   return {presses ? press(wish.unsteered, unsteered, at) : respond(wish.wanted, at), unsteered};

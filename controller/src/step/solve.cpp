@@ -12,9 +12,9 @@ namespace {
 
 template <std::size_t Lanes, class Scalar>
 void solve(const ConfigurationSpace<Scalar>& space, const Settings<Scalar>& settings,
-           const Neighbourhood<Scalar>& neighbourhood, const Surroundings<Scalar>& surroundings,
+           const Neighbourhood<Scalar>& neighbourhood, Surroundings<Scalar>& surroundings, Part part,
            const MoveRequest<Scalar>& request, MoveResult<Scalar>& result) noexcept {
-  StepSolver<Lanes, Scalar>{space, settings, neighbourhood, surroundings, result}.solve(request);
+  StepSolver<Lanes, Scalar>{space, settings, neighbourhood, surroundings, result}.solve(part, request);
 }
 
 }  // namespace

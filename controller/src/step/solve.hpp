@@ -1,13 +1,14 @@
 /// One step of the octagon sweep, compiled apart from the technique that asks for it.
 #pragma once
 
+#include "step/octagon_sweep.hpp"
 #include "step/step_solver.hpp"
 
 namespace paperproof::octagon_sweep {
 
 template <class Scalar>
 using Solve = void (*)(const ConfigurationSpace<Scalar>&, const Settings<Scalar>&, const Neighbourhood<Scalar>&,
-                       const Surroundings<Scalar>&, const MoveRequest<Scalar>&, MoveResult<Scalar>&) noexcept;
+                       Surroundings<Scalar>&, Part, const MoveRequest<Scalar>&, MoveResult<Scalar>&) noexcept;
 
 /// @param lanes of the configuration space: 8 or 12.
 template <class Scalar>

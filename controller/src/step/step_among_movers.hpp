@@ -34,7 +34,7 @@ void StepSolver<Lanes, Scalar>::look_at_movers() noexcept {
 /// What has crushed the character, or is on it since an earlier step, goes through it for the rest of the step.
 template <std::size_t Lanes, class Scalar>
 bool StepSolver<Lanes, Scalar>::ignored(PieceIndex piece) const noexcept {
-  return memory_.is(collider_of(piece), moving_.ignored);
+  return !memory_.marked.empty() && memory_.is(collider_of(piece), moving_.ignored);
 }
 
 /// Whether a motion keeps off a piece along the axis that holds it. The axis alone is then proof.
@@ -53,54 +53,11 @@ bool StepSolver<Lanes, Scalar>::kept_clear_by_hold(const LocalMotion& motion, Pi
   return false;
 }
 
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::travel_among_movers() noexcept {
-  const std::size_t most_corners = memory_.corners.capacity() - 3;
-  const std::size_t most_sweeps = 4 * most_corners;  // impacts at one moment, and moments
-  Drive<Scalar> drive = this->drive();
-  V way = motion_.way;  // with the aim back to the gap
-  bool may_aim = true;
-  int impacts = 0;
-  for (std::size_t sweeps = 0; sweeps < most_sweeps && result_.path.size() < most_corners; ++sweeps) {
-    if (sweeps > 0) look_along(way);
-    if (found_.hit && found_.stop == 0 && (way.x() != drive.way.wanted.x() || way.y() != drive.way.wanted.y())) {
-      // There is no room to restore the gap: give that up for this step.
-      way = drive.way.wanted;
-      may_aim = false;
-      continue;
-    }
-    const Scalar begin = time_;
-    if (!advance(found_.hit ? found_.stop : Scalar(1))) {
-      cut_short();
-      return stay(true);
-    }
-    if (!found_.hit) return;
-    report(begin);
-    update_holds();
-    const Scalar left = 1 - found_.stop;
-    drive.way = {drive.way.wanted * left, drive.way.unsteered * left};
-    if (++impacts == settings_.iterations) {
-      // What it wants itself is dropped; what moves into it goes on moving.
-      if (result_.status == MoveStatus::moved) result_.status = MoveStatus::dropped;
-      drive = Drive<Scalar>::plain(V::Zero(), V::Zero());
-      steered_ = 0;
-    }
-    if (pinned() || !respond_to_holds(drive)) {
-      if (gives_way()) return;
-      if (!crush_what_presses()) return stay(true);
-      drive = Drive<Scalar>::plain(V::Zero(), V::Zero());
-      steered_ = 0;
-    }
-    velocity_ = drive.velocity.wanted;
-    way = may_aim ? aimed_back(drive.way.wanted, found_.stops[0]) : drive.way.wanted;
-  }
-  last_resort(way);
-}
-
 /// Forgets surfaces that are no longer touched, and adds those of the last sweep, as far as it kept them.
 template <std::size_t Lanes, class Scalar>
 void StepSolver<Lanes, Scalar>::update_holds() noexcept {
   constexpr Scalar touch = Tolerances<Scalar>{}.touch;
+  const auto less_up = [](const Hold<Scalar>& a, const Hold<Scalar>& b) { return a.normal.y() < b.normal.y(); };
   auto& holds = memory_.holds;
   holds.swap(memory_.holds_before);
   holds.clear();
@@ -115,6 +72,7 @@ void StepSolver<Lanes, Scalar>::update_holds() noexcept {
                          std::abs(space_.separation(hold.piece, hold.axis, at)) <= touch;
     if (touched || moving_.looks_past_holds) holds.push_back(hold);
   }
+  if (holds.size() > 1) std::swap(holds[0], *std::max_element(holds.begin(), holds.end(), less_up));
 }
 
 /// How far the surface still goes in this step [m].
@@ -151,12 +109,12 @@ bool StepSolver<Lanes, Scalar>::allowed(const Drive<Scalar>& drive) const noexce
 /// The response to a surface, as it is seen from there: ground one stands on takes one along; from any other surface
 /// only its motion along its normal is felt, and so from another character.
 template <std::size_t Lanes, class Scalar>
-Drive<Scalar> StepSolver<Lanes, Scalar>::response_to(const Hold<Scalar>& hold,
-                                                       const Drive<Scalar>& drive) const noexcept {
-  const Surface<Scalar> at{hold.normal, walkable(hold.normal), after_walk_};
+Drive<Scalar> StepSolver<Lanes, Scalar>::response_to(const Hold<Scalar>& hold, const Drive<Scalar>& drive,
+                                                     bool after_walk) const noexcept {
+  const Surface<Scalar> at{hold.normal, walkable(hold.normal), after_walk};
   const auto response = [&](const Wish<Scalar>& wish, const V& surface, Scalar steered) -> Wish<Scalar> {
     V frame = surface;
-    if (!at.walkable || is_companion(hold.piece)) frame = hold.normal * behind(hold.normal, surface).least;
+    if (!at.walkable || !carries(hold.piece)) frame = hold.normal * behind(hold.normal, surface).least;
     const Wish<Scalar> relative{wish.wanted - frame, wish.unsteered - frame};
     if (dot(relative.wanted, hold.normal) >= 0) return wish;
     const Wish<Scalar> result = respond(relative, steered, at);
@@ -171,39 +129,49 @@ template <std::size_t Lanes, class Scalar>
 bool StepSolver<Lanes, Scalar>::respond_one_by_one(Drive<Scalar>& drive) const noexcept {
   const Drive<Scalar> wanted = drive;
   const Hold<Scalar>& first = memory_.holds[0];
-  const Drive<Scalar> alone = response_to(first, wanted);
+  const Drive<Scalar> alone = response_to(first, wanted, after_walk_);
   drive = alone;
   if (allowed(drive)) return true;
   for (const Hold<Scalar>& hold : memory_.holds) {
     if (allowed(alone, hold)) continue;
-    drive = response_to(hold, alone);
+    drive = response_to(hold, alone, after_walk_ || walkable(first.normal));
     if (allowed(drive)) return true;
-    drive = response_to(first, response_to(hold, wanted));
+    drive = response_to(first, response_to(hold, wanted, after_walk_), after_walk_ || walkable(hold.normal));
     if (allowed(drive)) return true;
   }
   drive = wanted;
   return false;
 }
 
-/// Surfaces of one body that leave no way between them: a fall may still slip through; else the motion ends there,
+/// Surfaces of one body that leave no way between them: a fall may still slip through them; else the motion ends there,
 /// relative to that body.
 template <std::size_t Lanes, class Scalar>
 bool StepSolver<Lanes, Scalar>::respond_in_crease(Drive<Scalar>& drive) noexcept {
   const Hold<Scalar>& first = memory_.holds[0];
-  const Drive<Scalar> alone = response_to(first, drive);
+  const Drive<Scalar> alone = response_to(first, drive, after_walk_);
   for (const Hold<Scalar>& hold : memory_.holds)
     if (!allowed(alone, hold) && rest_of(hold) != rest_of(first)) return false;
-  const V rest = rest_of(first);
   const V velocity = velocity_of(first);
-  const Drive<Scalar> still = Drive<Scalar>::plain(rest, velocity);
+  const Drive<Scalar> still = Drive<Scalar>::plain(rest_of(first), velocity);
   if (!allowed(still)) return false;
-  const Scalar fall = drive.velocity.unsteered.y() - velocity.y();
-  const auto slipping = nearest_allowed_to({rest.x(), std::min(drive.way.unsteered.y(), rest.y())},
-                                           {velocity.x(), std::min(drive.velocity.unsteered.y(), velocity.y())});
-  const bool slips = slipping && fall < 0 &&
-                     slipping->velocity.wanted.y() - velocity.y() < along_plane<Scalar> * (fall - length_of(velocity));
-  wedged_ = fall < 0 && !slips;
-  drive = slips ? *slipping : still;
+  const Scalar fall = fall_ - velocity.y();
+  const bool on_ground = std::any_of(memory_.holds.begin(), memory_.holds.end(),
+                                     [this](const Hold<Scalar>& hold) { return walkable(hold.normal); });
+  drive = still;
+  wedged_ = fall < 0;
+  if (fall >= 0 || on_ground) return true;
+  const V way{0, fall * dt_ * (1 - time_)};
+  const std::optional<Drive<Scalar>> falling = nearest_allowed_to(still.way.wanted + way, velocity + V(0, fall));
+  const auto slips = [&] {
+    return falling->velocity.wanted.y() - velocity.y() < along_plane<Scalar> * (fall - length_of(velocity));
+  };
+  if (falling && slips())
+    drive = *falling;
+  else if (velocity == V::Zero() && falls_between(way))
+    drive = Drive<Scalar>::plain(way, {0, fall});
+  else
+    return true;
+  wedged_ = false;
   return true;
 }
 
@@ -231,7 +199,7 @@ bool StepSolver<Lanes, Scalar>::respond_together(Drive<Scalar>& drive) const noe
 /// Nothing where the surfaces have no motion in common.
 template <std::size_t Lanes, class Scalar>
 std::optional<Drive<Scalar>> StepSolver<Lanes, Scalar>::nearest_allowed_to(const V& way,
-                                                                             const V& velocity) const noexcept {
+                                                                           const V& velocity) const noexcept {
   std::vector<HalfPlane<Scalar>>& ways = memory_.ways;
   std::vector<HalfPlane<Scalar>>& velocities = memory_.velocities;
   ways.clear();
@@ -246,19 +214,44 @@ std::optional<Drive<Scalar>> StepSolver<Lanes, Scalar>::nearest_allowed_to(const
   return Drive<Scalar>::plain(*allowed_way, allowed_velocity.value_or(V::Zero()));
 }
 
+/// To one surface that stands still.
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::respond_to_surface(const V& normal, Drive<Scalar>& drive) const noexcept {
+  const Surface<Scalar> at{normal, walkable(normal), after_walk_};
+  if (steered_ != 0) {
+    drive.way = respond(drive.way, steered_ * dt_ * (1 - time_), at);
+    drive.velocity = respond(drive.velocity, steered_, at);
+  } else {
+    drive.way.wanted = respond(drive.way.wanted, at);
+    drive.velocity.wanted = respond(drive.velocity.wanted, at);
+  }
+  // What follows ground does not enter it; a slide may, by what rounding leaves of a motion that ends.
+  if (!at.walkable && (enters(drive.way.wanted, normal) || enters(drive.velocity.wanted, normal)))
+    drive = Drive<Scalar>::plain(V::Zero(), V::Zero());
+  return true;
+}
+
+/// To several surfaces, or to one that moves.
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::respond_to_all(Drive<Scalar>& drive) noexcept {
+  if (steered_ == 0) drive = Drive<Scalar>::plain(drive.way.wanted, drive.velocity.wanted);
+  return respond_one_by_one(drive) || respond_in_crease(drive) || respond_together(drive);
+}
+
 /// False where the surfaces leave no motion.
 template <std::size_t Lanes, class Scalar>
 bool StepSolver<Lanes, Scalar>::respond_to_holds(Drive<Scalar>& drive) noexcept {
   const Hold<Scalar>& first = memory_.holds[0];
   wedged_ = false;
-  if (drive.velocity.wanted.x() == 0 && takes_along(first)) {
+  if (around_.active && drive.velocity.wanted.x() == 0 && takes_along(first)) {
     mount(first);
     drive = Drive<Scalar>::plain(ground_rest(first.piece, first.normal), moving_.ride.velocity);
     steered_ = 0;
   }
   const bool on_ground = walkable(first.normal);
-  if (after_walk_ && !on_ground) after_walk_ = touches_ground();
-  const bool possible = respond_one_by_one(drive) || respond_in_crease(drive) || respond_together(drive);
+  if (after_walk_ && !on_ground && drive.velocity.wanted.y() > 0) after_walk_ = touches_ground();
+  const bool possible = memory_.holds.size() == 1 && first.mover == no_mover ? respond_to_surface(first.normal, drive)
+                                                                             : respond_to_all(drive);
   after_walk_ = after_walk_ || on_ground;
   return possible;
 }
@@ -268,6 +261,7 @@ bool StepSolver<Lanes, Scalar>::respond_to_holds(Drive<Scalar>& drive) noexcept 
 template <std::size_t Lanes, class Scalar>
 void StepSolver<Lanes, Scalar>::last_resort(const V& way) noexcept {
   if (result_.status == MoveStatus::moved) result_.status = MoveStatus::dropped;
+  if (!around_.active) return;
   const auto goes = [this](const V& last) {
     look_along(last);
     return !found_.hit && advance(1);

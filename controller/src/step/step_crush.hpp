@@ -152,14 +152,6 @@ void StepSolver<Lanes, Scalar>::remember(const Presser<Scalar>& now) noexcept {
   memory_.pressers.push_back(now);
 }
 
-/// Null for what is not remembered.
-template <std::size_t Lanes, class Scalar>
-const Presser<Scalar>* StepSolver<Lanes, Scalar>::presser(ColliderIndex collider) const noexcept {
-  for (const Presser<Scalar>& known : memory_.pressers)
-    if (known.collider == collider) return &known;
-  return nullptr;
-}
-
 /// Marks the colliders that were let through and still overlap the character at the end of the step; such a step is
 /// `stuck` unless it is `crushed`. Forgets the others.
 template <std::size_t Lanes, class Scalar>
@@ -178,18 +170,18 @@ void StepSolver<Lanes, Scalar>::end_wait() noexcept {
   hand_on_pressers();
 }
 
-/// Hands on scene movers before companions (a companion's place belongs to another character in the next step), and
-/// within each those with a known side first.
+/// Hands on movers that carry before others (which in a crowd may be another character in the next step), and within
+/// each those with a known side first.
 template <std::size_t Lanes, class Scalar>
 void StepSolver<Lanes, Scalar>::hand_on_pressers() noexcept {
-  const auto hand_on = [this](bool companions, bool has_side) {
+  const auto hand_on = [this](bool carries, bool has_side) {
     for (const Presser<Scalar>& known : memory_.pressers)
       if (memory_.is(known.collider, still) && known.has_side == has_side &&
-          (known.collider >= settings_.first_companion) == companions)
+          space_.scenery().collider(known.collider).carries == carries)
         result_.pressers.push_back(known);
   };
-  for (const bool companions : {false, true})
-    for (const bool has_side : {true, false}) hand_on(companions, has_side);
+  for (const bool carries : {true, false})
+    for (const bool has_side : {true, false}) hand_on(carries, has_side);
 }
 
 /// The character keeps its position for the rest of the step, and what runs into it crushes. What is touched and does

@@ -3,7 +3,6 @@
 
 #include "step/half_planes.hpp"
 #include "step/narrow_phase.hpp"
-#include "step/room.hpp"
 
 #include <paperproof/scenery_facts.hpp>
 #include <paperproof/technique.hpp>
@@ -41,7 +40,6 @@ struct Nearest {
   Scalar when;        ///< Fraction of the way.
 };
 
-
 /// What a collider is to a character during a step; several may hold.
 enum Role : std::uint8_t {
   lies_on = 1,  ///< It is on the character since an earlier step, or
@@ -68,7 +66,6 @@ struct StepMemory final : OwnMemory {
     for (auto* each : {&ways, &velocities}) each->reserve(touched);
     roles.resize(space.scenery().collider_count());
     if (of_mover.empty()) return;
-    room = RoomMemory<Scalar>(space);
     marked.reserve(roles.size());
     pressers.reserve(crushed.capacity());
     near_the_way.reserve(space.scenery().sensor_pieces().first);
@@ -95,9 +92,8 @@ struct StepMemory final : OwnMemory {
   ReportMemory<PathPoint<Scalar>> corners;  ///< Of the path.
   ReportMemory<Contact<Scalar>> contacts;   ///< Of one step, which reports each facet once at most.
   ReportMemory<ColliderIndex> crushed;
-  std::vector<std::size_t> contacts_at;  ///< How many contacts were known at each corner of the path.
-  std::vector<PieceIndex> of_mover;      ///< Answers of one mover's broad phase.
-  RoomMemory<Scalar> room;
+  std::vector<std::size_t> contacts_at;    ///< How many contacts were known at each corner of the path.
+  std::vector<PieceIndex> of_mover;        ///< Answers of one mover's broad phase.
   std::vector<std::uint8_t> roles;         ///< Of each collider: see `Role`.
   std::vector<ColliderIndex> marked;       ///< Those that are `known`, in the order in which they came to be.
   std::vector<Hold<Scalar>> holds;         ///< What is touched, each piece once,
@@ -130,9 +126,14 @@ template <class Scalar>
 struct Surroundings {
   const MoverPhases<Scalar>& phases;
   std::span<const MoverMotion<Scalar>> movers;
-  Scalar dt;             ///< [s]
-  MoverIndex near;       ///< Movers to look at: all, or none where none comes near the step.
-  bool active;           ///< A mover comes near the step, or there may be a conveyor.
+  Scalar dt;        ///< [s]
+  MoverIndex near;  ///< Movers to look at: all, or none where none comes near the step.
+  bool active;      ///< A mover comes near the step, or there may be a conveyor.
+
+  void look_at_movers() noexcept {
+    near = phases.size();
+    active = active || near > 0;
+  }
 
   /// How far a mover goes in the step [m].
   [[nodiscard]] Vec2<Scalar> course(MoverIndex mover) const noexcept { return movers[mover].to - movers[mover].from; }

@@ -21,7 +21,8 @@ Scalar StepSolver<Lanes, Scalar>::surface_speed(PieceIndex piece) const noexcept
 
 template <std::size_t Lanes, class Scalar>
 bool StepSolver<Lanes, Scalar>::carries(PieceIndex piece) const noexcept {
-  return (mover_of(piece) != no_mover && !is_companion(piece)) || surface_speed(piece) != 0;
+  const ColliderInfo& info = space_.scenery().collider(collider_of(piece));
+  return (info.mover != no_mover && info.carries) || info.surface_speed != 0;
 }
 
 /// Of what stands on a piece at a surface with this normal [m/s].
@@ -46,8 +47,7 @@ Vec2<Scalar> StepSolver<Lanes, Scalar>::ground_rest(PieceIndex piece, const V& n
 /// What carries the character where it is now: the collider that it rides already, or, where it does not stand on
 /// anything else, what is steepest up of the others.
 template <std::size_t Lanes, class Scalar>
-std::optional<Hold<Scalar>> StepSolver<Lanes, Scalar>::ground_here(ColliderIndex ridden,
-                                                                     bool walkable_only) noexcept {
+std::optional<Hold<Scalar>> StepSolver<Lanes, Scalar>::ground_here(ColliderIndex ridden, bool walkable_only) noexcept {
   std::optional<Hold<Scalar>> carrier;
   bool rides = false;
   bool stands_still = false;
@@ -61,7 +61,7 @@ std::optional<Hold<Scalar>> StepSolver<Lanes, Scalar>::ground_here(ColliderIndex
       stands_still = stands_still || walkable(normal);
       return;
     }
-    const bool known = space_.scenery().pieces()[piece].collider == ridden;
+    const bool known = collider_of(piece) == ridden;
     if (carrier && (known < rides || (known == rides && normal.y() <= carrier->normal.y()))) return;
     carrier = Hold<Scalar>{piece, best.axis, normal, mover_of(piece)};
     rides = known;
@@ -78,7 +78,7 @@ Vec2<Scalar> StepSolver<Lanes, Scalar>::begin_ride(const MoveRequest<Scalar>& re
   const bool at_rest = request.velocity.x() == 0 && request.velocity.y() <= 0;
   std::optional<Hold<Scalar>> ground;
   if (riding || at_rest) ground = ground_here(request.ride.ground, !riding);
-  if (riding && ground && space_.scenery().pieces()[ground->piece].collider != request.ride.ground) ground.reset();
+  if (riding && ground && collider_of(ground->piece) != request.ride.ground) ground.reset();
   V carried = V::Zero();
   if (ground) carried = ground_velocity(ground->piece, ground->normal);
   if (!ground || falls_away(carried)) {
@@ -105,7 +105,7 @@ bool StepSolver<Lanes, Scalar>::takes_along(const Hold<Scalar>& ground) const no
 /// From here on the character goes with this ground.
 template <std::size_t Lanes, class Scalar>
 void StepSolver<Lanes, Scalar>::mount(const Hold<Scalar>& ground) noexcept {
-  moving_.ride.ground = space_.scenery().pieces()[ground.piece].collider;
+  moving_.ride.ground = collider_of(ground.piece);
   moving_.ride.velocity = ground_velocity(ground.piece, ground.normal);
   moving_.ride.place = position_ - offset(ground.piece);
   moving_.carrier = ground.mover;
@@ -132,7 +132,7 @@ void StepSolver<Lanes, Scalar>::end_ride() noexcept {
   if (!result_.grounded) return;
   const std::optional<Hold<Scalar>> ground = ground_here(moving_.ride.ground, false);
   if (!ground) return;
-  const ColliderIndex collider = space_.scenery().pieces()[ground->piece].collider;
+  const ColliderIndex collider = collider_of(ground->piece);
   result_.ride.ground = collider;
   result_.ride.velocity = ground_velocity(ground->piece, ground->normal);
   const bool stayed = moving_.anchored && moving_.ride.ground == collider;

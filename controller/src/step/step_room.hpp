@@ -6,7 +6,7 @@
 #pragma once
 
 #include "step/contact_geometry.hpp"
-#include "step/room.hpp"
+#include "step/free_position.hpp"
 #include "step/step_solver.hpp"
 
 #include <algorithm>
@@ -20,11 +20,9 @@ namespace paperproof::octagon_sweep {
 template <std::size_t Lanes, class Scalar>
 bool StepSolver<Lanes, Scalar>::find_room(Scalar reach, std::size_t corners) noexcept {
   if (moving_.side_lost) return false;
-  neighbourhood_.forget();  // more than what is asked for could give another answer
   // What is on the character is not in the way, but there is no room where it still would be.
   const std::uint8_t ignored_before = moving_.ignored;
   moving_.ignored &= static_cast<std::uint8_t>(~lies_on);
-  moving_.seeks_room = true;
   constexpr Tolerances<Scalar> tolerances{};
   Room room = nearest_room(tolerances.hit * Scalar(least_room), reach, corners);
   if (room.corner < corners) {
@@ -33,7 +31,6 @@ bool StepSolver<Lanes, Scalar>::find_room(Scalar reach, std::size_t corners) noe
     if (ample.corner < corners) room = ample;
   }
   moving_.ignored = ignored_before;
-  moving_.seeks_room = false;
   if (room.corner == corners) return false;
   go_on_until_bounded(room);
   go_back_to(room.corner);
@@ -46,7 +43,7 @@ bool StepSolver<Lanes, Scalar>::find_room(Scalar reach, std::size_t corners) noe
 /// @param gap that is left around the character [m].
 template <std::size_t Lanes, class Scalar>
 typename StepSolver<Lanes, Scalar>::Room StepSolver<Lanes, Scalar>::nearest_room(Scalar gap, Scalar reach,
-                                                                                     std::size_t corners) noexcept {
+                                                                                 std::size_t corners) noexcept {
   /// What is kept from a mover comes on top of what the mover goes.
   constexpr Scalar beyond = 16 * Tolerances<Scalar>{}.stop;
   const Scalar whole = reach + beyond;
@@ -55,67 +52,39 @@ typename StepSolver<Lanes, Scalar>::Room StepSolver<Lanes, Scalar>::nearest_room
   Room room{0, V::Zero(), corners};
   for (const Scalar radius : {near, whole}) {
     room.distance = radius;
-    for (std::size_t corner = corners; corner-- > 0;) find_room_from(corner, gap, radius, room);
+    for (std::size_t corner = corners; corner-- > 0;) find_room_from(corner, gap, room);
     if (room.corner < corners || near == whole) break;
   }
   return room;
 }
 
-/// @param radius around the present position in which room is looked for [m].
+/// @param gap that is left around the character [m].
 template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::find_room_from(std::size_t corner, Scalar gap, Scalar radius, Room& room) noexcept {
-  const PathPoint<Scalar> begin = result_.path[corner];
-  if (!(begin.fraction < 1)) return;
-  moving_.leaving = corner == 0;
-  TakenPositions<Scalar> positions(space_, memory_.room, gap);
-  const auto add = [&](std::span<const PieceIndex> pieces, const V& from, const V& end) {
-    return std::all_of(pieces.begin(), pieces.end(), [&](PieceIndex piece) {
-      if (ignored(piece) || dropped(piece)) return true;
-      if (!left_behind(piece)) return positions.add(piece, from, end);
-      const std::optional<V> side = is_lying(piece) ? came_from(piece) : std::nullopt;
-      if (!side || !positions.add(piece, *side, end)) positions.add_end(piece, end);
-      return true;
-    });
-  };
-  const auto box_of = [&](const V& from, const V& end) {
-    return Box2<Scalar>{end, end}.inflated(radius).merged({from, from});
-  };
-  if (!add(neighbourhood_.around(box_of(begin.position, position_)), begin.position, position_)) return;
-  for (MoverIndex mover = 0; mover < around_.near; ++mover) {
-    const V from = begin.position - around_.offset(mover, begin.fraction);
-    const V end = position_ - around_.offset(mover, Scalar(1));
-    Box2<Scalar> places = box_of(from, end);
-    for (const Presser<Scalar>& known : memory_.pressers) {
-      const V side = known.from + (known.gone - around_.offset(mover, Scalar(1)));
-      if (moving_.on_it > 0 && mover_of_collider(known.collider) == mover) places = places.merged({side, side});
-    }
-    const Box2<Scalar> box = space_.touched_from(places);
-    if (!box.overlaps(around_.phases.whole(mover))) continue;
-    if (!add(around_.phases.query(mover, box, memory_.of_mover), from, end)) return;
-  }
-  positions.for_each_position(room.distance, [&](const V& w) { consider_room(corner, position_ + w, room); });
+FreePositionQuery<Scalar> StepSolver<Lanes, Scalar>::query_for_room(std::size_t corner, Scalar gap) const noexcept {
+  const PathPoint<Scalar>& begin = result_.path[corner];
+  return {.from = begin.position,
+          .begin = begin.fraction,
+          .near = position_,
+          .end = 1,
+          .last_free = {},
+          .pressers = memory_.pressers,
+          .entered_from = moving_.last_free,
+          .movers = around_.movers,
+          .drops = drops_,
+          .gap = gap,
+          .reach = 0};
 }
 
-/// Takes a position where there is room, nearer than what is known and reached from a corner.
+/// Takes a position where there is room, if it is nearer than what is known.
 template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::consider_room(std::size_t corner, const V& end, Room& room) noexcept {
-  const Scalar distance = length_of(V(end - position_));
-  if (!(distance < room.distance) || !leads_to_room(corner, end)) return;
-  room.distance = distance;
-  room.position = end;
-  room.corner = corner;
-}
-
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::leads_to_room(std::size_t corner, const V& end) noexcept {
-  if (!(end.cwiseAbs().maxCoeff() <= Tolerances<Scalar>{}.range)) return false;
-  const V here = position_;
-  const Scalar now = time_;
-  time_ = 1;
-  const bool leads = roomy(end) && goes_straight(corner, end) && stays_on_its_side(end);
-  position_ = here;
-  time_ = now;
-  return leads;
+void StepSolver<Lanes, Scalar>::find_room_from(std::size_t corner, Scalar gap, Room& room) noexcept {
+  FreePositionQuery<Scalar> query = query_for_room(corner, gap);
+  if (!(query.begin < 1)) return;
+  query.reach = room.distance;
+  const std::span<PieceIndex> pieces = pieces_for(query, room.distance);
+  query.passable = put_first(pieces, [&](PieceIndex piece) { return may_pass(piece, corner); });
+  if (const std::optional<V> found = nearest_free<Lanes>(space_, pieces, query))
+    room = {length_of(V(*found - position_)), *found, corner};
 }
 
 /// Who comes more slowly to where it was held may touch nothing there. Then it goes on in that direction, no faster
@@ -124,72 +93,26 @@ template <std::size_t Lanes, class Scalar>
 void StepSolver<Lanes, Scalar>::go_on_until_bounded(Room& room) noexcept {
   const PathPoint<Scalar> from = result_.path[room.corner];
   memory_.near_the_way.clear();
-  add_near_pieces(from, {room.position, 1});
+  add_near_pieces(room.corner, {room.position, 1});
   if (!memory_.near_the_way.empty() || !(time_ > from.fraction)) return;
   const V way = room.position - from.position;
   Scalar low = 1;
   Scalar high = (1 - from.fraction) / (time_ - from.fraction);
+  FreePositionQuery<Scalar> query = query_for_room(room.corner, Scalar(0));
+  const std::span<PieceIndex> pieces = pieces_for(query, length_of(V(from.position + way * high - position_)));
+  query.passable = put_first(pieces, [&](PieceIndex piece) { return may_pass(piece, room.corner); });
   while ((high - low) * length_of(way) > Tolerances<Scalar>{}.hit) {
     const Scalar middle = (low + high) / 2;
     if (!(middle > low && middle < high)) break;
-    (leads_to_room(room.corner, from.position + way * middle) ? low : high) = middle;
+    (reaches<Lanes>(space_, pieces, query, V(from.position + way * middle)) ? low : high) = middle;
   }
   room.position = from.position + way * low;
 }
 
-/// Whether nothing is near a position, where it is now.
+/// What the step began inside of may be passed on the way from there, and what is on the character on any.
 template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::roomy(const V& q) noexcept {
-  bool free = true;
-  for_each_near({q, q}, [&](PieceIndex piece) {
-    free = free && (space_.info(piece).one_way_axis != ObstacleInfo::not_one_way || ignored(piece) ||
-                    best_axis<Lanes>(space_, piece, local(piece, q)).separation >= Tolerances<Scalar>{}.hit);
-  });
-  return free;
-}
-
-/// Whether the rest of the step can be one straight motion from a corner of the path.
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::goes_straight(std::size_t corner, const V& end) noexcept {
-  position_ = result_.path[corner].position;
-  time_ = result_.path[corner].fraction;
-  if (!(time_ < 1) || !is_proved(end, Scalar(1))) return false;
-  const V way = end - position_;
-  const LocalMotion motion = make_motion<Lanes>(space_, position_, way, Scalar(0));
-  if (!passes(motion, pieces_along(motion, no_mover))) return false;
-  for (MoverIndex mover = 0; mover < around_.near; ++mover) {
-    const V from = position_ - around_.offset(mover, time_);
-    const LocalMotion seen = make_motion<Lanes>(space_, from, around_.relative(way, mover, time_), Scalar(0));
-    if (space_.touched_from(seen.box()).overlaps(around_.phases.whole(mover)) &&
-        !passes(seen, pieces_along(seen, mover)))
-      return false;
-  }
-  return true;
-}
-
-/// Whether a motion comes to its end.
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::passes(const LocalMotion& motion, std::span<const PieceIndex> pieces) const noexcept {
-  return std::none_of(pieces.begin(), pieces.end(), [&](PieceIndex piece) {
-    return !ignored(piece) && !left_behind(piece) && stopped_by(motion, piece);
-  });
-}
-
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::stopped_by(const LocalMotion& motion, PieceIndex piece) const noexcept {
-  const Clearance<Scalar> clear = clearance(space_, motion, piece);
-  return !clear.clear() && in_way(motion, piece) && sweep_piece(space_, motion, piece, clear).hit;
-}
-
-/// What the step began inside of is not in the way while it is left, nor what is on the character.
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::left_behind(PieceIndex piece) const noexcept {
-  return (moving_.leaving && memory_.is(collider_of(piece), left)) || is_lying(piece);
-}
-
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::is_lying(PieceIndex piece) const noexcept {
-  return moving_.seeks_room && memory_.is(collider_of(piece), lies_on);
+bool StepSolver<Lanes, Scalar>::may_pass(PieceIndex piece, std::size_t corner) const noexcept {
+  return memory_.is(collider_of(piece), corner == 0 ? left | lies_on : lies_on);
 }
 
 /// The colliders that a step begins inside of.
@@ -201,36 +124,6 @@ void StepSolver<Lanes, Scalar>::note_what_is_left() noexcept {
     memory_.mark(collider, left);
     moving_.leaves_any = true;
   });
-}
-
-/// Where the character was last free of what is left, as a piece of it sees that when the step ends: it moves on with
-/// it.
-template <std::size_t Lanes, class Scalar>
-std::optional<Vec2<Scalar>> StepSolver<Lanes, Scalar>::came_from(PieceIndex piece) const noexcept {
-  const PieceInfo& info = space_.scenery().pieces()[piece];
-  if (info.mover == no_mover) return moving_.last_free;
-  const V shift = around_.offset(info.mover, Scalar(1));
-  if (const Presser<Scalar>* const known = presser(info.collider)) return V(known->from + (known->gone - shift));
-  if (!moving_.last_free) return std::nullopt;
-  return V(*moving_.last_free + (around_.course(info.mover) - shift));
-}
-
-/// Whether a position at the end of the step is on the side of what is left from which the character came: the straight
-/// way there does not meet it.
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::stays_on_its_side(const V& end) noexcept {
-  if (!moving_.leaves_any && moving_.on_it == 0) return true;
-  const auto leads_through = [&](PieceIndex piece) {
-    const std::optional<V> from = came_from(piece);
-    const V to = end - offset(piece, Scalar(1));
-    return from && stopped_by(make_motion<Lanes>(space_, *from, V(to - *from), Scalar(0)), piece);
-  };
-  for (const ColliderIndex collider : memory_.marked) {
-    const PieceRange pieces = space_.scenery().pieces_of(collider);
-    for (PieceIndex piece = pieces.first; piece < pieces.end; ++piece)
-      if (left_behind(piece) && leads_through(piece)) return false;
-  }
-  return true;
 }
 
 /// In one motion for the rest of the step, that is known to be clear.
@@ -253,13 +146,13 @@ void StepSolver<Lanes, Scalar>::go_back_to(std::size_t corner) noexcept {
   moving_.anchored = false;
 }
 
-/// Whether a straight way from here is proved clear of everything that is nearer than rounding here and is not left:
-/// the step may have begun so, and gone on from where its gaps were restored.
+/// Whether a straight way from a corner, where the character is, is proved clear of everything that is nearer than
+/// rounding there and may not be passed: the step may have begun so, and gone on from where its gaps were restored.
 template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::is_proved(const V& target, Scalar end) noexcept {
+bool StepSolver<Lanes, Scalar>::is_proved(std::size_t corner, const V& target, Scalar end) noexcept {
   bool clear = true;
   for_each_near({position_, position_},
-                [&](PieceIndex piece) { clear = clear && (left_behind(piece) || !bars(piece, target, end)); });
+                [&](PieceIndex piece) { clear = clear && (may_pass(piece, corner) || !bars(piece, target, end)); });
   return clear;
 }
 
@@ -270,7 +163,7 @@ void StepSolver<Lanes, Scalar>::report_room(std::size_t corner) noexcept {
   const PathPoint<Scalar> from = result_.path[corner];
   const PathPoint<Scalar> to = result_.path.back();
   memory_.near_the_way.clear();
-  add_near_pieces(from, to);
+  add_near_pieces(corner, to);
   std::sort(memory_.near_the_way.begin(), memory_.near_the_way.end(),
             [](const Nearest<Scalar>& a, const Nearest<Scalar>& b) { return a.when < b.when; });
   result_.path.pop_back();
@@ -282,7 +175,7 @@ void StepSolver<Lanes, Scalar>::report_room(std::size_t corner) noexcept {
     if (within && (certify_ || result_.path.size() + 1 >= memory_.corners.capacity())) continue;
     const V there = within ? V(from.position + (to.position - from.position) * near.when) : to.position;
     const Scalar then = within ? from.fraction + (1 - from.fraction) * near.when : Scalar(1);
-    if (within && !is_proved(there, then)) continue;
+    if (within && !is_proved(corner, there, then)) continue;
     position_ = there;
     time_ = then;
     push_corner(time_);
@@ -296,11 +189,12 @@ void StepSolver<Lanes, Scalar>::report_room(std::size_t corner) noexcept {
 
 /// All that may block, pushes or comes nearer on the way, and is then as near as a contact.
 template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::add_near_pieces(const PathPoint<Scalar>& from, const PathPoint<Scalar>& to) noexcept {
+void StepSolver<Lanes, Scalar>::add_near_pieces(std::size_t corner, const PathPoint<Scalar>& to) noexcept {
+  const PathPoint<Scalar> from = result_.path[corner];
   const auto add = [&](const V& begin, const V& end, std::span<const PieceIndex> pieces) {
     const LocalMotion motion = make_motion<Lanes>(space_, begin, V(end - begin), Scalar(0));
     for (const PieceIndex piece : pieces) {
-      if (ignored(piece) || left_behind(piece) || !in_way(motion, piece)) continue;
+      if (ignored(piece) || may_pass(piece, corner) || !in_way(motion, piece)) continue;
       const Nearest<Scalar> near = nearest_on_way(piece, begin, end);
       const MoverIndex mover = mover_of(piece);
       const V n = space_.normal(piece, near.axis);
@@ -320,16 +214,14 @@ void StepSolver<Lanes, Scalar>::add_near_pieces(const PathPoint<Scalar>& from, c
     const V begin = from.position - around_.offset(mover, from.fraction);
     const V end = to.position - around_.offset(mover, to.fraction);
     const Box2<Scalar> box = space_.touched_from(box_of(begin, end));
-    if (box.overlaps(around_.phases.whole(mover)))
-      add(begin, end, around_.phases.query(mover, box, memory_.of_mover));
+    if (box.overlaps(around_.phases.whole(mover))) add(begin, end, around_.phases.query(mover, box, memory_.of_mover));
   }
 }
 
 /// The separation is the largest of some that are linear in time, hence convex: where it still falls it is nearest
 /// later.
 template <std::size_t Lanes, class Scalar>
-Nearest<Scalar> StepSolver<Lanes, Scalar>::nearest_on_way(PieceIndex piece, const V& from,
-                                                            const V& to) const noexcept {
+Nearest<Scalar> StepSolver<Lanes, Scalar>::nearest_on_way(PieceIndex piece, const V& from, const V& to) const noexcept {
   const V way = to - from;
   const auto at = [&](Scalar when) { return best_axis<Lanes>(space_, piece, V(from + way * when)); };
   const auto falls = [&](const BestAxis<Scalar>& best) {

@@ -8,12 +8,12 @@
 /// (an eighth of its instructions), and what hardly any does is kept out of it (3 %, and a fifth of the compile time).
 #pragma once
 
-#include "step/escape.hpp"
+#include "step/free_position.hpp"
 #include "step/narrow_phase.hpp"
 #include "step/neighbourhood.hpp"
+#include "step/octagon_sweep.hpp"
 #include "step/one_way.hpp"
 #include "step/response.hpp"
-#include "step/room.hpp"
 
 #include <paperproof/technique.hpp>
 #include <paperproof/tolerances.hpp>
@@ -33,7 +33,6 @@ struct Settings {
   Scalar max_fall_speed;    ///< Ground that falls faster leaves its rider behind [m/s]; infinite: none does.
   Scalar look_ahead;        ///< How far ahead of a motion candidates are collected at most [m].
   int iterations;
-  ColliderIndex first_companion;  ///< See `make_sweep_among_companions`.
 };
 
 /// What a sweep over all pieces found.
@@ -78,8 +77,6 @@ struct MoverState {
   std::size_t on_it = 0;                ///< How many lie on the character since an earlier step.
   bool side_lost = false;               ///< One of them is not known to have come from any side.
   bool leaves_any = false;              ///< The step began inside something.
-  bool seeks_room = false;              ///< Room is looked for; and
-  bool leaving = false;                 ///< it is from where the step began.
   std::optional<Vec2<Scalar>> last_free{};             ///< Where the character was before, if anywhere.
   std::size_t corners_before_crush = 0;                ///< Of the path, where something crushes; and
   MoveStatus status_before_crush = MoveStatus::moved;  ///< how the step went until then.
@@ -89,9 +86,10 @@ template <std::size_t Lanes, class Scalar>
 class StepSolver {
  public:
   StepSolver(const ConfigurationSpace<Scalar>& space, const Settings<Scalar>& settings,
-             Neighbourhood<Scalar> neighbourhood, const Surroundings<Scalar>& surroundings,
+             Neighbourhood<Scalar> neighbourhood, Surroundings<Scalar>& surroundings,
              MoveResult<Scalar>& result) noexcept
       : space_(space),
+        pieces_(space.scenery().pieces().data()),
         settings_(settings),
         neighbourhood_(neighbourhood),
         around_(surroundings),
@@ -100,7 +98,7 @@ class StepSolver {
     memory_.clear();
   }
 
-  void solve(const MoveRequest<Scalar>& request) noexcept;
+  void solve(Part part, const MoveRequest<Scalar>& request) noexcept;
 
  private:
   using V = Vec2<Scalar>;
@@ -125,9 +123,7 @@ class StepSolver {
   [[nodiscard, gnu::noinline]] Scalar impact_with_another_piece(const Stop<Scalar>& stop, const LocalMotion& motion,
                                                                 const V& from) noexcept;
   [[nodiscard]] std::span<const PieceIndex> pieces_along(const LocalMotion& motion, MoverIndex mover) noexcept;
-  [[nodiscard]] ColliderIndex collider_of(PieceIndex piece) const noexcept {
-    return space_.scenery().pieces()[piece].collider;
-  }
+  [[nodiscard]] ColliderIndex collider_of(PieceIndex piece) const noexcept { return pieces_[piece].collider; }
   [[nodiscard, gnu::cold, gnu::noinline]] bool certified(const V& target, Scalar end) noexcept;
   [[nodiscard]] bool bars(PieceIndex piece, const V& target, Scalar end) const noexcept;
   [[gnu::always_inline]] inline void push_corner(Scalar fraction) noexcept;
@@ -139,9 +135,6 @@ class StepSolver {
   /// Calls `visit(piece)` for everything near a box, where it is now.
   template <class Visit>
   void for_each_near(const Box2<Scalar>& box, const Visit& visit) noexcept;
-  /// The same for pieces of movers alone.
-  template <class Visit>
-  void for_each_moving_near(const Box2<Scalar>& box, const Visit& visit) noexcept;
 
   /// Whether a piece can stop a motion at all.
   [[nodiscard]] bool in_way(const LocalMotion& motion, PieceIndex piece) const noexcept {
@@ -154,10 +147,12 @@ class StepSolver {
 
   // step_start.hpp
   /// Makes room around a start that is nearer than `hit` to something, or inside it. False: stuck.
-  [[nodiscard, gnu::cold, gnu::noinline]] bool prepare_start(const MoveRequest<Scalar>& request) noexcept;
+  [[nodiscard, gnu::cold, gnu::noinline]] bool prepare_start(Part part, const MoveRequest<Scalar>& request) noexcept;
   [[nodiscard]] std::optional<V> find_way_out(const MoveRequest<Scalar>& request) noexcept;
-  [[nodiscard]] std::optional<V> find_way_out(WayOutQuery<Scalar> query, Scalar whole) noexcept;
-  [[nodiscard]] std::span<PieceIndex> all_near(const Box2<Scalar>& box) noexcept;
+  [[nodiscard]] std::optional<V> find_way_out(FreePositionQuery<Scalar> query, Scalar whole) noexcept;
+  [[nodiscard]] std::span<PieceIndex> pieces_for(const FreePositionQuery<Scalar>& query, Scalar radius) noexcept;
+  template <class Condition>
+  [[nodiscard]] std::size_t put_first(std::span<PieceIndex> pieces, const Condition& condition) const noexcept;
   [[nodiscard]] Scalar reach_of_solids_inside() noexcept;
   [[nodiscard]] bool overlaps(const V& position) noexcept;
   [[nodiscard]] bool overlaps(PieceIndex piece, const V& position) const noexcept;
@@ -171,10 +166,7 @@ class StepSolver {
   // step_travel.hpp
   void begin_drive(const MoveRequest<Scalar>& request) noexcept;
   [[nodiscard]] Drive<Scalar> drive() const noexcept;
-  void travel() noexcept;
-  void respond_to(const V& normal, Scalar left, Drive<Scalar>& drive) noexcept;
-  [[nodiscard, gnu::cold, gnu::noinline]] bool slip(std::span<const V> held, Scalar fall,
-                                                    Drive<Scalar>& drive) noexcept;
+  [[gnu::flatten]] void travel() noexcept;
   [[nodiscard, gnu::cold, gnu::noinline]] bool falls_between(const V& way) noexcept;
   [[nodiscard]] V aimed_back(const V& way, const Stop<Scalar>& at) const noexcept;
   void halt() noexcept;
@@ -191,42 +183,42 @@ class StepSolver {
   [[nodiscard]] bool walkable(const V& normal) const noexcept { return normal.y() >= settings_.walkable_cosine; }
 
   // step_ride.hpp
-  [[nodiscard]] MoverIndex mover_of(PieceIndex piece) const noexcept { return space_.scenery().pieces()[piece].mover; }
-  [[nodiscard]] bool is_companion(PieceIndex piece) const noexcept {
-    return space_.scenery().pieces()[piece].collider >= settings_.first_companion;
-  }
+  [[nodiscard]] MoverIndex mover_of(PieceIndex piece) const noexcept { return pieces_[piece].mover; }
   [[nodiscard]] bool carries(PieceIndex piece) const noexcept;
   [[nodiscard]] Scalar surface_speed(PieceIndex piece) const noexcept;
   [[nodiscard]] V ground_velocity(PieceIndex piece, const V& normal) const noexcept;
   [[nodiscard]] V ground_rest(PieceIndex piece, const V& normal) const noexcept;
   [[nodiscard]] std::optional<Hold<Scalar>> ground_here(ColliderIndex ridden, bool walkable_only) noexcept;
-  [[nodiscard]] V begin_ride(const MoveRequest<Scalar>& request) noexcept;
+  [[nodiscard, gnu::cold, gnu::noinline]] V begin_ride(const MoveRequest<Scalar>& request) noexcept;
   /// Ground that falls faster than the character may.
   [[nodiscard]] bool falls_away(const V& ground) const noexcept { return ground.y() < -settings_.max_fall_speed; }
-  [[nodiscard]] bool takes_along(const Hold<Scalar>& ground) const noexcept;
-  void mount(const Hold<Scalar>& ground) noexcept;
-  [[nodiscard]] V anchor(Scalar time) const noexcept;
-  void note_motion_on_ground() noexcept;
-  void end_ride() noexcept;
+  [[nodiscard, gnu::cold, gnu::noinline]] bool takes_along(const Hold<Scalar>& ground) const noexcept;
+  [[gnu::cold, gnu::noinline]] void mount(const Hold<Scalar>& ground) noexcept;
+  [[nodiscard, gnu::cold, gnu::noinline]] V anchor(Scalar time) const noexcept;
+  [[gnu::cold, gnu::noinline]] void note_motion_on_ground() noexcept;
+  [[gnu::cold, gnu::noinline]] void end_ride() noexcept;
 
   // step_among_movers.hpp
   template <Covered covered>
   void look_at_movers() noexcept;
   [[nodiscard]] bool ignored(PieceIndex piece) const noexcept;
   [[nodiscard]] bool kept_clear_by_hold(const LocalMotion& motion, PieceIndex piece) const noexcept;
-  void travel_among_movers() noexcept;
   void update_holds() noexcept;
   [[nodiscard]] V rest_of(const Hold<Scalar>& hold) const noexcept;
   [[nodiscard]] V velocity_of(const Hold<Scalar>& hold) const noexcept;
   [[nodiscard]] bool allowed(const Drive<Scalar>& drive, const Hold<Scalar>& hold) const noexcept;
   [[nodiscard]] bool allowed(const Drive<Scalar>& drive) const noexcept;
-  [[nodiscard]] Drive<Scalar> response_to(const Hold<Scalar>& hold, const Drive<Scalar>& drive) const noexcept;
+  [[nodiscard]] Drive<Scalar> response_to(const Hold<Scalar>& hold, const Drive<Scalar>& drive,
+                                          bool after_walk) const noexcept;
+  [[nodiscard, gnu::always_inline]] inline bool respond_to_surface(const V& normal,
+                                                                   Drive<Scalar>& drive) const noexcept;
+  [[nodiscard, gnu::noinline]] bool respond_to_all(Drive<Scalar>& drive) noexcept;
   [[nodiscard]] bool respond_one_by_one(Drive<Scalar>& drive) const noexcept;
   [[nodiscard]] bool respond_in_crease(Drive<Scalar>& drive) noexcept;
   [[nodiscard]] bool respond_together(Drive<Scalar>& drive) const noexcept;
   [[nodiscard]] std::optional<Drive<Scalar>> nearest_allowed_to(const V& way, const V& velocity) const noexcept;
   [[nodiscard]] bool respond_to_holds(Drive<Scalar>& drive) noexcept;
-  void last_resort(const V& way) noexcept;
+  [[gnu::cold, gnu::noinline]] void last_resort(const V& way) noexcept;
 
   // step_room.hpp
   /// A position where there is room, and the corner of the path to reach it from.
@@ -237,32 +229,24 @@ class StepSolver {
   };
   [[nodiscard]] bool find_room(Scalar reach, std::size_t corners) noexcept;
   [[nodiscard]] Room nearest_room(Scalar gap, Scalar reach, std::size_t corners) noexcept;
-  void find_room_from(std::size_t corner, Scalar gap, Scalar radius, Room& room) noexcept;
-  void consider_room(std::size_t corner, const V& end, Room& room) noexcept;
-  [[nodiscard]] bool leads_to_room(std::size_t corner, const V& end) noexcept;
+  [[nodiscard]] FreePositionQuery<Scalar> query_for_room(std::size_t corner, Scalar gap) const noexcept;
+  void find_room_from(std::size_t corner, Scalar gap, Room& room) noexcept;
   void go_on_until_bounded(Room& room) noexcept;
-  [[nodiscard]] bool roomy(const V& q) noexcept;
-  [[nodiscard]] bool is_proved(const V& target, Scalar end) noexcept;
-  [[nodiscard]] bool goes_straight(std::size_t corner, const V& end) noexcept;
-  [[nodiscard]] bool passes(const LocalMotion& motion, std::span<const PieceIndex> pieces) const noexcept;
-  [[nodiscard]] bool stopped_by(const LocalMotion& motion, PieceIndex piece) const noexcept;
-  [[nodiscard]] bool left_behind(PieceIndex piece) const noexcept;
-  [[nodiscard]] bool is_lying(PieceIndex piece) const noexcept;
-  [[nodiscard]] std::optional<V> came_from(PieceIndex piece) const noexcept;
+  [[nodiscard]] bool may_pass(PieceIndex piece, std::size_t corner) const noexcept;
+  [[nodiscard]] bool is_proved(std::size_t corner, const V& target, Scalar end) noexcept;
   void note_what_is_left() noexcept;
-  [[nodiscard]] bool stays_on_its_side(const V& end) noexcept;
   void go_to(const V& end) noexcept;
   void report_room(std::size_t corner) noexcept;
-  void add_near_pieces(const PathPoint<Scalar>& from, const PathPoint<Scalar>& to) noexcept;
+  void add_near_pieces(std::size_t corner, const PathPoint<Scalar>& to) noexcept;
   [[nodiscard]] Nearest<Scalar> nearest_on_way(PieceIndex piece, const V& from, const V& to) const noexcept;
   void go_back_to(std::size_t corner) noexcept;
 
   // step_crush.hpp
   [[nodiscard]] bool pinned() const noexcept;
-  [[nodiscard]] bool gives_way() noexcept;
-  void take_back_crushes() noexcept;
+  [[nodiscard, gnu::cold, gnu::noinline]] bool gives_way() noexcept;
+  [[gnu::cold, gnu::noinline]] void take_back_crushes() noexcept;
   [[nodiscard]] bool presses(const Hold<Scalar>& hold) const noexcept;
-  bool crush_what_presses() noexcept;
+  [[gnu::cold, gnu::noinline]] bool crush_what_presses() noexcept;
   void crush(PieceIndex piece) noexcept;
   void name_as_crushing(ColliderIndex collider) noexcept;
   template <class Condition>
@@ -274,17 +258,17 @@ class StepSolver {
   }
   [[nodiscard]] V course_of(ColliderIndex collider) const noexcept;
   void remember(const Presser<Scalar>& now) noexcept;
-  [[nodiscard]] const Presser<Scalar>* presser(ColliderIndex collider) const noexcept;
   void hand_on_pressers() noexcept;
-  void end_wait() noexcept;
-  void stay(bool may_give_way) noexcept;
+  [[gnu::cold, gnu::noinline]] void end_wait() noexcept;
+  [[gnu::cold, gnu::noinline]] void stay(bool may_give_way) noexcept;
   void crush_what_came_in(Scalar since) noexcept;
-  void keep_place(const MoveRequest<Scalar>& request) noexcept;
+  [[gnu::cold, gnu::noinline]] void keep_place(const MoveRequest<Scalar>& request) noexcept;
 
   const ConfigurationSpace<Scalar>& space_;
+  const PieceInfo* pieces_;
   const Settings<Scalar>& settings_;
   Neighbourhood<Scalar> neighbourhood_;
-  const Surroundings<Scalar>& around_;
+  Surroundings<Scalar>& around_;
   StepMemory<Scalar>& memory_;
   MoveResult<Scalar>& result_;
 
@@ -295,6 +279,7 @@ class StepSolver {
   V velocity_{V::Zero()};
   Scalar time_ = 0;          ///< Fraction of the step that is spent.
   Scalar dt_ = 0;            ///< Of the step [s].
+  Scalar fall_ = 0;          ///< Vertical velocity without steering, before what is touched now was met [m/s].
   Scalar steered_ = 0;       ///< The part of the horizontal velocity that this step's steering added [m/s].
   bool drops_ = false;       ///< One-way segments hold nobody in this step.
   bool certify_ = false;     ///< Something is nearer than rounding: every motion needs an exact certificate.

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "step/certificate.hpp"
-#include "step/escape.hpp"
 #include "step/step_solver.hpp"
 
 #include <utility>
@@ -13,9 +12,9 @@ namespace paperproof::octagon_sweep {
 inline constexpr int restore_rounds = 16;
 
 template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::prepare_start(const MoveRequest<Scalar>& request) noexcept {
+bool StepSolver<Lanes, Scalar>::prepare_start(Part part, const MoveRequest<Scalar>& request) noexcept {
   if (request.has_last_free) moving_.last_free = request.last_free;
-  if (request.crushed && let_through_what_is_on_it(request) && !request.resumes && leaves_what_is_on_it(request))
+  if (request.crushed && let_through_what_is_on_it(request) && part == Part::whole && leaves_what_is_on_it(request))
     return true;
   while (overlaps(position_)) {
     // Out of what stands still there may be a way, but it stays on its side of what has come over it.
@@ -45,15 +44,16 @@ template <std::size_t Lanes, class Scalar>
 std::optional<Vec2<Scalar>> StepSolver<Lanes, Scalar>::find_way_out(const MoveRequest<Scalar>& request) noexcept {
   constexpr Tolerances<Scalar> tolerances{};
   const Scalar whole = reach_of_solids_inside();
-  WayOutQuery<Scalar> query{.from = position_,
-                            .last_free = {},
-                            .pressers = {},
-                            .movers = request.movers,
-                            .drops = request.drop,
-                            .gap = tolerances.stop,
-                            .reach = whole};
+  FreePositionQuery<Scalar> query{.from = position_,
+                                  .near = position_,
+                                  .last_free = {},
+                                  .pressers = memory_.pressers,
+                                  .entered_from = {},
+                                  .movers = request.movers,
+                                  .drops = request.drop,
+                                  .gap = tolerances.stop,
+                                  .reach = whole};
   if (request.has_last_free) query.last_free = request.last_free;
-  query.pressers = memory_.pressers;
   do {
     for (const Scalar gap : {tolerances.stop, tolerances.hit * Scalar(least_room)}) {
       query.gap = gap;
@@ -65,24 +65,54 @@ std::optional<Vec2<Scalar>> StepSolver<Lanes, Scalar>::find_way_out(const MoveRe
 
 /// Looks near first, then twice as far, and so on, until the whole of the solids has been looked at.
 template <std::size_t Lanes, class Scalar>
-std::optional<Vec2<Scalar>> StepSolver<Lanes, Scalar>::find_way_out(WayOutQuery<Scalar> query,
-                                                                      Scalar whole) noexcept {
+std::optional<Vec2<Scalar>> StepSolver<Lanes, Scalar>::find_way_out(FreePositionQuery<Scalar> query,
+                                                                    Scalar whole) noexcept {
   const V extent = space_.hull_box().upper - space_.hull_box().lower;
   for (query.reach = std::min(whole, extent.maxCoeff());; query.reach = std::min(whole, 2 * query.reach)) {
-    Box2<Scalar> box = Box2<Scalar>{query.from, query.from}.inflated(query.reach);
-    if (query.last_free) box = box.merged({*query.last_free, *query.last_free});
-    if (const std::optional<V> out = way_out<Lanes>(space_, all_near(box), query)) return out;
+    const std::span<PieceIndex> pieces = pieces_for(query, query.reach);
+    query.passable = put_first(pieces, [this](PieceIndex piece) { return overlaps(piece, position_); });
+    if (const std::optional<V> out = nearest_free<Lanes>(space_, pieces, query)) return out;
     if (!(query.reach < whole)) return std::nullopt;
   }
 }
 
-/// Every piece that can be met in a box, where it is when the step begins; those of one collider in a row. What was
-/// collected before adds nothing, and the pieces may be reordered.
+/// Every piece that may be met on a way to a position that is less than `radius` away from where it shall end near;
+/// those of one collider in a row. What was collected before adds nothing, and the pieces may be reordered.
 template <std::size_t Lanes, class Scalar>
-std::span<PieceIndex> StepSolver<Lanes, Scalar>::all_near(const Box2<Scalar>& box) noexcept {
-  auto [pieces, count] = neighbourhood_.take(box);
-  for_each_moving_near(box, [&, all = pieces, end = &count](PieceIndex piece) { all[(*end)++] = piece; });
-  return pieces.first(count);
+std::span<PieceIndex> StepSolver<Lanes, Scalar>::pieces_for(const FreePositionQuery<Scalar>& query,
+                                                            Scalar radius) noexcept {
+  Box2<Scalar> box = Box2<Scalar>{query.near, query.near}.inflated(radius).merged({query.from, query.from});
+  const auto add = [&box](const V& p) { box = box.merged({p, p}); };
+  if (query.last_free) add(*query.last_free);
+  if (query.entered_from) add(*query.entered_from);
+  for (const Presser<Scalar>& presser : query.pressers) add(presser.from + presser.gone);
+  auto [storage, count] = neighbourhood_.take(box);
+  const Box2<Scalar> touched = space_.touched_from(box);
+  for (MoverIndex mover = 0; mover < around_.near; ++mover) {
+    const V begin = around_.offset(mover, query.begin);
+    const V end = around_.offset(mover, query.end);
+    const Box2<Scalar> seen{touched.lower - begin.cwiseMax(end), touched.upper - begin.cwiseMin(end)};
+    if (!seen.overlaps(around_.phases.whole(mover))) continue;
+    for (const PieceIndex piece : around_.phases.query(mover, seen, memory_.of_mover))
+      if (!ignored(piece)) storage[count++] = piece;
+  }
+  return storage.first(count);
+}
+
+/// Puts the pieces of those colliders first of which one fulfils the condition.
+/// @return how many they are.
+template <std::size_t Lanes, class Scalar>
+template <class Condition>
+std::size_t StepSolver<Lanes, Scalar>::put_first(std::span<PieceIndex> pieces,
+                                                 const Condition& condition) const noexcept {
+  std::size_t count = 0;
+  for (std::size_t first = 0, end = 0; first < pieces.size(); first = end) {
+    bool fulfilled = false;
+    for (end = first; end < pieces.size() && collider_of(pieces[end]) == collider_of(pieces[first]); ++end)
+      fulfilled = fulfilled || condition(pieces[end]);
+    for (std::size_t k = first; fulfilled && k < end; ++k) std::swap(pieces[count++], pieces[k]);
+  }
+  return count;
 }
 
 /// No way out that leaves the colliders which are overlapped is longer [m]: they, and the octagon beside them.
@@ -164,7 +194,7 @@ bool StepSolver<Lanes, Scalar>::clear_way(const V& from, const V& to) noexcept {
 /// The same for one piece, on a way from now up to a fraction of the step.
 template <std::size_t Lanes, class Scalar>
 bool StepSolver<Lanes, Scalar>::clear_way(PieceIndex piece, const V& begin, const V& target,
-                                            Scalar end) const noexcept {
+                                          Scalar end) const noexcept {
   constexpr Tolerances<Scalar> tolerances{};
   const V from = local(piece, begin);
   const V to = target - offset(piece, end);

@@ -23,12 +23,6 @@ template <std::size_t Lanes, class Scalar>
 template <class Visit>
 void StepSolver<Lanes, Scalar>::for_each_near(const Box2<Scalar>& box, const Visit& visit) noexcept {
   for (const PieceIndex piece : neighbourhood_.around(box)) visit(piece);
-  for_each_moving_near(box, visit);
-}
-
-template <std::size_t Lanes, class Scalar>
-template <class Visit>
-void StepSolver<Lanes, Scalar>::for_each_moving_near(const Box2<Scalar>& box, const Visit& visit) noexcept {
   const Box2<Scalar> world = space_.touched_from(box);
   for (MoverIndex mover = 0; mover < around_.near; ++mover) {
     const V shift = around_.offset(mover, time_);
@@ -71,8 +65,8 @@ template <std::size_t Lanes, class Scalar>
 template <Covered covered>
 void StepSolver<Lanes, Scalar>::sweep(const LocalMotion& motion, std::span<const PieceIndex> pieces) noexcept {
   for (const PieceIndex piece : pieces) {
-    if (ignored(piece) || kept_clear_by_hold(motion, piece)) continue;
     if (clear_of_box(space_, motion, piece) || !in_way(motion, piece)) continue;
+    if (ignored(piece) || kept_clear_by_hold(motion, piece)) continue;
     const Clearance<Scalar> clear = clearance(space_, motion, piece);
     found_.least_separation = std::min(found_.least_separation, clear.start);
     if (clear.clear()) continue;
@@ -170,10 +164,10 @@ void StepSolver<Lanes, Scalar>::report(Scalar begin) noexcept {
 /// @param this_moment the first contact of the present moment: of those the earlier impact counts.
 template <std::size_t Lanes, class Scalar>
 void StepSolver<Lanes, Scalar>::report_contact(PieceIndex piece, std::size_t axis, Scalar fraction,
-                                                 std::size_t this_moment) noexcept {
+                                               std::size_t this_moment) noexcept {
   auto& contacts = result_.contacts;
   for (std::size_t i = 0; i < this_moment; ++i) fraction = std::max(fraction, contacts[i].fraction);
-  const ColliderIndex collider = space_.scenery().pieces()[piece].collider;
+  const ColliderIndex collider = collider_of(piece);
   const V normal = space_.normal(piece, axis);
   Contact<Scalar>* const known = std::find_if(contacts.begin(), contacts.end(), [&](const Contact<Scalar>& other) {
     return other.collider == collider && dot(other.normal, normal) > 1 - same_plane<Scalar>;
@@ -242,7 +236,7 @@ Scalar StepSolver<Lanes, Scalar>::fraction_of(const Stop<Scalar>& stop, Scalar b
 /// at, as a rim that is grazed, another piece of the same collider may be met in between.
 template <std::size_t Lanes, class Scalar>
 Scalar StepSolver<Lanes, Scalar>::impact_of(const Stop<Scalar>& stop, const LocalMotion& motion,
-                                              const V& from) noexcept {
+                                            const V& from) noexcept {
   Scalar earliest = time_of_impact(space_, from, motion.way, stop.piece, stop.axes);
   if ((earliest - stop.stop) * motion.length <= 2 * Tolerances<Scalar>{}.stop) return earliest;
   if (!space_.info(stop.piece).whole_collider)
@@ -253,7 +247,7 @@ Scalar StepSolver<Lanes, Scalar>::impact_of(const Stop<Scalar>& stop, const Loca
 /// The earliest time of impact of the other pieces of a collider; infinite where none is met.
 template <std::size_t Lanes, class Scalar>
 Scalar StepSolver<Lanes, Scalar>::impact_with_another_piece(const Stop<Scalar>& stop, const LocalMotion& motion,
-                                                              const V& from) noexcept {
+                                                            const V& from) noexcept {
   Scalar earliest = std::numeric_limits<Scalar>::infinity();
   const std::span<const PieceInfo> pieces = space_.scenery().pieces();
   for (const PieceIndex other : pieces_along(motion, pieces[stop.piece].mover)) {
@@ -270,7 +264,7 @@ Scalar StepSolver<Lanes, Scalar>::impact_with_another_piece(const Stop<Scalar>& 
 /// What a motion may meet, of what stands still or of one mover.
 template <std::size_t Lanes, class Scalar>
 std::span<const PieceIndex> StepSolver<Lanes, Scalar>::pieces_along(const LocalMotion& motion,
-                                                                      MoverIndex mover) noexcept {
+                                                                    MoverIndex mover) noexcept {
   if (mover != no_mover) return around_.phases.query(mover, space_.touched_from(motion.box()), memory_.of_mover);
   return neighbourhood_.around(motion.box(), motion.way);
 }

@@ -6,28 +6,22 @@
 
 namespace paperproof::octagon_sweep {
 
-/// Whether a way goes into a plane that it touches, rather than along it.
-template <class Scalar>
-[[nodiscard]] bool enters(const Vec2<Scalar>& way, const Vec2<Scalar>& normal) noexcept {
-  const Scalar out = dot(way, normal);
-  return out < 0 && out < -along_plane<Scalar> * length_of(way);
-}
-
 template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::solve(const MoveRequest<Scalar>& request) noexcept {
+void StepSolver<Lanes, Scalar>::solve(Part part, const MoveRequest<Scalar>& request) noexcept {
   position_ = request.position;
   velocity_ = request.velocity;
   start_ = position_;
   drops_ = request.drop;
   begin_drive(request);
   V wanted = request.displacement;
-  if (request.stays) return keep_place(request);
+  if (part == Part::stay) return keep_place(request);
   if (around_.active) wanted = begin_ride(request);
   memory_.contacts_at[0] = 0;
   result_.path.push_back({position_, 0});
   look_along(wanted);
   const bool near = found_.least_separation < Tolerances<Scalar>{}.hit;
-  if (near && !prepare_start(request)) {
+  if (near) around_.look_at_movers();  // a way out may be longer than the step
+  if (near && !prepare_start(part, request)) {
     result_.status = MoveStatus::stuck;
     halt();
     if (around_.active) {
@@ -47,18 +41,14 @@ void StepSolver<Lanes, Scalar>::solve(const MoveRequest<Scalar>& request) noexce
     }
     if (near) look_along(wanted);
     if (request.grounded && !found_.hit) keep_ground();
-    if (around_.active) {
-      travel_among_movers();
-      take_back_crushes();
-    } else {
-      travel();
-    }
+    travel();
+    if (!result_.crushed.empty()) take_back_crushes();
     result_.grounded = stands();
     if (result_.grounded && !met_ground_ && !wedged_) report_ground(wanted);
     if (settings_.snap > 0) follow_ground_down(request);
     if (around_.active) end_ride();
   }
-  end_wait();
+  if (!memory_.marked.empty()) end_wait();
   push_corner(1);
   result_.position = position_;
   result_.velocity = velocity_;
@@ -106,18 +96,20 @@ Drive<Scalar> StepSolver<Lanes, Scalar>::drive() const noexcept {
           {velocity_, {velocity_.x() - steered_, velocity_.y()}}};
 }
 
-/// The way itself: stop at what the sweep found, respond, and sweep again with what is left. What is left only shrinks.
+/// The way itself: stop at what the sweep found, respond to all surfaces that are touched, and sweep again with what is
+/// left.
 template <std::size_t Lanes, class Scalar>
 void StepSolver<Lanes, Scalar>::travel() noexcept {
-  constexpr Tolerances<Scalar> tolerances{};
-  FixedVector<V, 16> held;  // normals met since the last progress
+  const std::size_t most_corners = memory_.corners.capacity() - 3;
+  const std::size_t most_sweeps = 4 * most_corners;  // impacts at one moment, and moments
   Drive<Scalar> drive = this->drive();
-  Scalar fall = drive.velocity.unsteered.y();  // without steering, when the first of them was met
-  V way = motion_.way;                         // with the aim back to the gap
+  fall_ = drive.velocity.unsteered.y();
+  V way = motion_.way;  // with the aim back to the gap
   bool may_aim = true;
-  for (int iteration = 0; iteration < settings_.iterations; ++iteration) {
-    if (way.x() == 0 && way.y() == 0) return;
-    if (iteration > 0) look_along(way);
+  int impacts = 0;
+  for (std::size_t sweeps = 0; sweeps < most_sweeps && result_.path.size() < most_corners; ++sweeps) {
+    if (!around_.active && way.x() == 0 && way.y() == 0) return;
+    if (sweeps > 0) look_along(way);
     if (found_.hit && found_.stop == 0 && (way.x() != drive.way.wanted.x() || way.y() != drive.way.wanted.y())) {
       // There is no room to restore the gap: give that up for this step.
       way = drive.way.wanted;
@@ -128,70 +120,29 @@ void StepSolver<Lanes, Scalar>::travel() noexcept {
     if (!advance(found_.hit ? found_.stop : Scalar(1))) return cut_short();
     if (!found_.hit) return;
     report(begin);
-
-    const Stop<Scalar> stop = found_.stops[0];
-    const V normal = space_.normal(stop.piece, stop.axes.normal);
+    if (found_.stop * motion_.length > Tolerances<Scalar>{}.touch)
+      fall_ = steered_ != 0 ? drive.velocity.unsteered.y() : drive.velocity.wanted.y();
+    update_holds();
     const Scalar left = 1 - found_.stop;
-    if (found_.stop * motion_.length > tolerances.touch) {
-      held.clear();
-      fall = steered_ != 0 ? drive.velocity.unsteered.y() : drive.velocity.wanted.y();
+    drive.way.wanted *= left;
+    if (steered_ != 0) drive.way.unsteered *= left;
+    if (++impacts == settings_.iterations) {
+      if (result_.status == MoveStatus::moved) result_.status = MoveStatus::dropped;
+      if (!around_.active) return;
+      // What it wants itself is dropped; what moves into it goes on moving.
+      drive = Drive<Scalar>::plain(V::Zero(), V::Zero());
+      steered_ = 0;
     }
-    for (const V& other : held)
-      if (dot(other, normal) > 1 - same_plane<Scalar>) return;  // the same plane again: no progress to be had
-    held.push_back(normal);
-
-    respond_to(normal, left, drive);
-    // What follows ground does not enter it; a slide may, by what rounding leaves of a motion that ends.
-    const std::size_t others = held.size() - (walkable(normal) ? 1 : 0);
-    for (const V& other : std::span(held.begin(), others)) {
-      if (!enters(drive.way.wanted, other) && !enters(drive.velocity.wanted, other)) continue;
-      if (!slip({held.begin(), held.size()}, fall, drive)) return halt();
-      break;
+    if (pinned() || !respond_to_holds(drive)) {
+      if (gives_way()) return;
+      if (!crush_what_presses()) return stay(true);
+      drive = Drive<Scalar>::plain(V::Zero(), V::Zero());
+      steered_ = 0;
     }
     velocity_ = drive.velocity.wanted;
-    way = may_aim ? aimed_back(drive.way.wanted, stop) : drive.way.wanted;
+    way = may_aim ? aimed_back(drive.way.wanted, found_.stops[0]) : drive.way.wanted;
   }
-  result_.status = MoveStatus::dropped;
-}
-
-template <std::size_t Lanes, class Scalar>
-[[gnu::always_inline]] inline void StepSolver<Lanes, Scalar>::respond_to(const V& normal, Scalar left,
-                                                                           Drive<Scalar>& drive) noexcept {
-  const bool ground = walkable(normal);
-  if (after_walk_ && !ground && drive.velocity.wanted.y() > 0) after_walk_ = touches_ground();
-  const Surface<Scalar> at{normal, ground, after_walk_};
-  const V way = drive.way.wanted * left;
-  if (steered_ != 0) {
-    drive.way = respond(Wish<Scalar>{way, drive.way.unsteered * left}, steered_ * dt_ * (1 - time_), at);
-    drive.velocity = respond(drive.velocity, steered_, at);
-  } else {
-    drive.way.wanted = respond(way, at);
-    drive.velocity.wanted = respond(drive.velocity.wanted, at);
-  }
-  after_walk_ = after_walk_ || at.walkable;
-}
-
-/// Between surfaces that hold the motion together: whether a fall slips through them. False: they are a wedge, or there
-/// was no fall, or walkable ground ended it.
-/// @param held the normals of all that are touched.
-/// @param fall the vertical velocity without steering, before the first of them was met [m/s].
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::slip(std::span<const V> held, Scalar fall, Drive<Scalar>& drive) noexcept {
-  if (!(fall < 0)) return false;
-  FixedVector<HalfPlane<Scalar>, 16> planes;
-  for (const V& normal : held) {
-    if (walkable(normal)) return false;
-    planes.push_back({normal});
-  }
-  V velocity = nearest_allowed<Scalar>(V(0, fall), {planes.begin(), planes.size()}).value_or(V::Zero());
-  const Scalar left = dt_ * (1 - time_);
-  if (!(velocity.y() < along_plane<Scalar> * fall)) {
-    velocity = {0, fall};
-    wedged_ = !falls_between(velocity * left);
-    if (wedged_) return false;
-  }
-  drive = Drive<Scalar>::plain(velocity * left, velocity);
-  return true;
+  last_resort(way);
 }
 
 /// Whether the character falls straight down between rims that it rests on: in a shaft that is a little wider than the
@@ -228,6 +179,7 @@ void StepSolver<Lanes, Scalar>::cut_short() noexcept {
     if (bars(piece, target, end)) report_touched(piece);
   });
   halt();
+  if (around_.active) stay(true);
 }
 
 /// A slide along a plane that is nearer than it should be ends at the right gap.

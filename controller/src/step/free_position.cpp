@@ -1,0 +1,422 @@
+/// The nearest free position that a straight way reaches.
+///
+/// In configuration space a piece is convex, and so are its obstacle with a gap around it and its shadow from where the
+/// way begins: what no straight way from there reaches without meeting the piece. A way that takes time is straight for
+/// a moving piece, too: from where the piece sees it begin to where it sees it end. What is outside all obstacles and
+/// all shadows is free and can be reached. The nearest such position lies on a line that bounds one of them: at the
+/// foot of the perpendicular, or where the last of the others stops to cover the line. So each line is looked along on
+/// both sides of its foot for the nearest place that nothing covers.
+///
+/// A way that takes no time begins where it shall end near. Of shadows from there it crosses no border: it ends on a
+/// facet of a piece that it may pass. Where the end must be seen from the last free position as well, the shadows from
+/// there are further regions, and their tangents further lines. So are those of movers that are on the character, from
+/// where it was when they came over it.
+#include "step/free_position.hpp"
+
+#include "step/certificate.hpp"
+#include "step/narrow_phase.hpp"
+#include "step/one_way.hpp"
+#include "step/shadow.hpp"
+
+#include <paperproof/tolerances.hpp>
+
+namespace paperproof::octagon_sweep {
+namespace {
+
+template <std::size_t Lanes, class Scalar>
+class Search {
+ public:
+  using V = Vec2<Scalar>;
+
+  Search(const ConfigurationSpace<Scalar>& space, std::span<const PieceIndex> pieces,
+         const FreePositionQuery<Scalar>& query) noexcept
+      : space_(space),
+        pieces_(pieces),
+        passable_(pieces.first(query.passable)),
+        query_(query),
+        takes_time_(query.begin < query.end),
+        nearest_(query.reach) {}
+
+  [[nodiscard]] std::optional<V> find() noexcept {
+    if (query_.last_free && is_inside_something(*query_.last_free)) return std::nullopt;
+    if (takes_time_) {
+      if (starts_inside()) return std::nullopt;
+      consider(V::Zero());
+    }
+    for (const PieceIndex piece : passable_) {
+      look_along_facets(piece);
+      look_along_tangents(piece, Place::side);
+    }
+    if (!takes_time_ && !query_.last_free) return best_;
+    for (const PieceIndex piece : pieces_) {
+      if (takes_time_) look_along_tangents(piece, Place::from);
+      if (query_.last_free) look_along_tangents(piece, Place::last_free);
+      if (takes_time_ || !solid(piece)) look_along_facets(piece);
+    }
+    return best_;
+  }
+
+  /// Whether a straight way to a position is free, and the position itself.
+  [[nodiscard]] bool reaches(const V& q) const noexcept {
+    const auto clear_from = [&](const V& place, Scalar time) {
+      return [&, time](PieceIndex piece) { return clear(piece, place, time, q); };
+    };
+    if (!(q.cwiseAbs().maxCoeff() <= Tolerances<Scalar>{}.range) || !has_gaps(q)) return false;
+    const std::span<const PieceIndex> others = pieces_.subspan(passable_.size());
+    return std::all_of(others.begin(), others.end(), clear_from(query_.from, query_.begin)) &&
+           (!query_.last_free ||
+            std::all_of(pieces_.begin(), pieces_.end(), clear_from(*query_.last_free, query_.begin))) &&
+           std::all_of(passable_.begin(), passable_.end(), [&](PieceIndex piece) { return keeps_side(piece, q); });
+  }
+
+ private:
+  /// Rounding stays below this: a position this little inside a region counts as outside [m].
+  static constexpr Scalar slack = Tolerances<Scalar>{}.certain;
+  /// A way keeps this many times more from the corners that it passes than what would stop it, which is measured along
+  /// axes: no two neighbouring ones are more than a right angle apart.
+  static constexpr Scalar margin = Scalar(1.5);
+  /// A line that an edge of a region leaves by less per metre does not leave it there.
+  static constexpr Scalar parallel = std::numeric_limits<Scalar>::epsilon() * 64;
+  /// Where rounding spoils a place, others beyond it are tried: first this far, then in strides that grow [m].
+  static constexpr Scalar first_stride = 2 * Tolerances<Scalar>{}.hit;
+  static constexpr Scalar stride_growth = 16;
+  static constexpr int most_strides = 5;
+
+  /// Positions w with normal · w = bound, relative to where the way shall end near.
+  struct Line {
+    V foot;
+    V along;
+    [[nodiscard]] V at(Scalar place) const noexcept { return foot + along * place; }
+  };
+  struct Part {
+    Scalar from;
+    Scalar to;
+  };
+  /// A place on a line, and which way one goes along it.
+  struct Spot {
+    const Line& line;
+    Scalar direction;
+    V way;  ///< Relative to where the way shall end near.
+  };
+
+  /// From where a way must be clear of a piece.
+  enum class Place : std::uint8_t { from, last_free, side };
+  /// What a piece hides from a place.
+  struct View {
+    bool blocks = false;  ///< The piece hides anything.
+    V place;              ///< As the piece sees it.
+    Scalar level;         ///< Gap that a way from there keeps from the piece [m].
+    Tangents<Scalar> tangents;
+  };
+
+  // What there is.
+
+  /// Where the mover of a piece is at a fraction of the step; zero for what stands still.
+  [[nodiscard]] V offset(PieceIndex piece, Scalar time) const noexcept {
+    const MoverIndex mover = space_.scenery().pieces()[piece].mover;
+    return mover == no_mover ? V(V::Zero()) : query_.movers[mover].at(time);
+  }
+  /// A position as a piece sees it that has not moved.
+  [[nodiscard]] V seen(PieceIndex piece, const V& p, Scalar time) const noexcept { return p - offset(piece, time); }
+  [[nodiscard]] V seen_at_end(PieceIndex piece, const V& p) const noexcept { return seen(piece, p, query_.end); }
+  [[nodiscard]] bool solid(PieceIndex piece) const noexcept {
+    return space_.info(piece).one_way_axis == ObstacleInfo::not_one_way;
+  }
+  [[nodiscard]] BestAxis<Scalar> best(PieceIndex piece, const V& at) const noexcept {
+    return best_axis<Lanes>(space_, piece, at);
+  }
+  /// From which side the character came to a piece that may be passed, as the piece sees it.
+  [[nodiscard]] std::optional<V> side_of(PieceIndex piece) const noexcept {
+    const PieceInfo& info = space_.scenery().pieces()[piece];
+    for (const Presser<Scalar>& presser : query_.pressers)
+      if (presser.collider == info.collider) return V(presser.from + (presser.gone - query_.movers[info.mover].to));
+    if (!query_.entered_from) return std::nullopt;
+    return seen(piece, *query_.entered_from, Scalar(0));
+  }
+  [[nodiscard]] bool is_inside_something(const V& p) const noexcept {
+    return std::any_of(pieces_.begin(), pieces_.end(), [&](PieceIndex piece) {
+      const V at = seen(piece, p, query_.begin);
+      return solid(piece) && best(piece, at).separation < Tolerances<Scalar>{}.certain &&
+             overlaps_exactly(space_, piece, at);
+    });
+  }
+  [[nodiscard]] bool starts_inside() const noexcept {
+    return std::any_of(pieces_.begin() + static_cast<std::ptrdiff_t>(passable_.size()), pieces_.end(),
+                       [&](PieceIndex piece) {
+                         return solid(piece) && best(piece, seen(piece, query_.from, query_.begin)).separation < 0;
+                       });
+  }
+
+  /// Each piece is asked for on many lines, and the tangents are dear: the last answers are kept.
+  [[nodiscard]] const View& view(PieceIndex piece, Place place) noexcept {
+    Kept& kept = kept_[(3 * std::size_t{piece} + static_cast<std::size_t>(place)) % kept_.size()];
+    if (kept.piece != piece || kept.place != place) kept = {piece, place, view_from(piece, place)};
+    return kept.view;
+  }
+  [[nodiscard]] View view_from(PieceIndex piece, Place place) const noexcept {
+    const std::optional<V> at = place == Place::from        ? seen(piece, query_.from, query_.begin)
+                                : place == Place::last_free ? seen(piece, *query_.last_free, query_.begin)
+                                                            : side_of(piece);
+    View view;
+    if (!at || !may_block(piece, *at)) return view;
+    const BestAxis<Scalar> facing = best(piece, *at);
+    if (facing.separation < -slack) return view;
+    const Scalar kept = std::clamp(facing.separation, Scalar(0), Tolerances<Scalar>{}.hit);
+    const Scalar width = takes_time_ ? kept * Scalar(least_room) : kept * margin + 2 * slack;
+    view.blocks = true;
+    view.place = *at;
+    view.level = std::min(Tolerances<Scalar>{}.hit, facing.separation);
+    view.tangents = tangents_from(space_, piece, *at, space_.normal(piece, facing.axis), width);
+    return view;
+  }
+  /// @param at as the piece sees it.
+  [[nodiscard]] bool may_block(PieceIndex piece, const V& at) const noexcept {
+    return solid(piece) || (!query_.drops && is_above(space_, piece, at, V(V::Zero())));
+  }
+
+  // Which lines are looked along.
+
+  void look_along_facets(PieceIndex piece) noexcept {
+    const V at = seen_at_end(piece, query_.near);
+    for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis) {
+      const V n = space_.normal(piece, axis);
+      if (space_.covered(piece, axis) || (n.x() == 0 && n.y() == 0)) continue;
+      const Scalar bound = query_.gap - space_.separation(piece, axis, at);
+      if (!(std::abs(bound) < nearest_)) continue;
+      const Line line{n * bound, {-n.y(), n.x()}};
+      look_along(line, facet_on(line, piece, std::sqrt(nearest_ * nearest_ - bound * bound)));
+    }
+  }
+
+  /// The part of the line of a facet where it bounds the obstacle, as far as `half` from its foot.
+  [[nodiscard]] Part facet_on(const Line& line, PieceIndex piece, Scalar half) const noexcept {
+    const V foot = seen_at_end(piece, query_.near) + line.foot;
+    Part part{-half, half};
+    for (std::size_t axis = 0; axis < space_.axis_count(piece) && part.from <= part.to; ++axis) {
+      const V n = space_.normal(piece, axis);
+      const Scalar rate = n.x() * line.along.x() + n.y() * line.along.y();
+      const Scalar depth = query_.gap - space_.separation(piece, axis, foot);
+      if (std::abs(rate) < parallel) {
+        if (depth < -slack) part.to = -2 * half;
+      } else if (rate > 0) {
+        part.to = std::min(part.to, depth / rate);
+      } else {
+        part.from = std::max(part.from, depth / rate);
+      }
+    }
+    return part;
+  }
+
+  void look_along_tangents(PieceIndex piece, Place place) noexcept {
+    const View view = this->view(piece, place);
+    if (!view.blocks) return;
+    const V back = view.place - seen_at_end(piece, query_.near);
+    for (const V& n : {view.tangents.left, view.tangents.right}) {
+      if (n.x() == 0 && n.y() == 0) continue;
+      const Scalar bound = n.x() * back.x() + n.y() * back.y();
+      if (!(std::abs(bound) < nearest_)) continue;
+      const Scalar half = std::sqrt(nearest_ * nearest_ - bound * bound);
+      look_along({n * bound, {-n.y(), n.x()}}, {-half, half});
+    }
+  }
+
+  void look_along(const Line& line, const Part& part) noexcept {
+    if (!(part.from <= part.to)) return;
+    const Scalar begin = std::clamp(Scalar(0), part.from, part.to);
+    look_along(line, begin, part.to, Scalar(1));
+    look_along(line, begin, part.from, Scalar(-1));
+  }
+
+  /// Takes the first place on a line that is free and can be reached.
+  void look_along(const Line& line, Scalar place, Scalar end, Scalar direction) noexcept {
+    Scalar stride = first_stride;
+    for (int tried = 0; tried <= most_strides; ++tried) {
+      place = next_uncovered(line, place, end, direction);
+      if (place * direction > end * direction || consider(line.at(place))) return;
+      place += direction * stride;
+      stride *= stride_growth;
+    }
+  }
+
+  // What covers them.
+
+  /// The next place on a line that no region covers, or one beyond the end. Every region is convex, so that what has
+  /// been left is not entered again. The pieces are asked forwards and backwards in turns: mostly their order is that
+  /// of their places, from one side or the other.
+  [[nodiscard]] Scalar next_uncovered(const Line& line, Scalar place, Scalar end, Scalar direction) noexcept {
+    // What covers one line often covers the next.
+    place += direction * covered_from({line, direction, line.at(place)}, last_covering_);
+    if (place * direction > end * direction) return place;
+    for (bool forwards = true;; forwards = !forwards) {
+      const Scalar before = place;
+      for (std::size_t k = 0; k < pieces_.size(); ++k) {
+        const std::size_t index = forwards ? k : pieces_.size() - 1 - k;
+        const Scalar beyond = covered_from({line, direction, line.at(place)}, index);
+        if (!(beyond > 0)) continue;
+        last_covering_ = index;
+        place += direction * beyond;
+        if (place * direction > end * direction) return place;
+      }
+      if (place == before) return place;
+    }
+  }
+
+  /// How far on from a spot the regions of a piece reach; 0 where none covers it.
+  [[nodiscard]] Scalar covered_from(const Spot& spot, std::size_t index) noexcept {
+    const PieceIndex piece = pieces_[index];
+    const bool is_solid = solid(piece);
+    if (!is_solid && query_.drops) return 0;
+    Scalar reach = is_solid ? obstacle_from(spot, piece) : Scalar(0);
+    if (index >= passable_.size()) reach = std::max(reach, shadow_from(spot, piece, Place::from));
+    if (query_.last_free) reach = std::max(reach, shadow_from(spot, piece, Place::last_free));
+    if (index < passable_.size()) reach = std::max(reach, shadow_from(spot, piece, Place::side));
+    return reach;
+  }
+
+  /// The same, of the obstacle with the gap.
+  [[nodiscard]] Scalar obstacle_from(const Spot& spot, PieceIndex piece) const noexcept {
+    const V at = seen_at_end(piece, query_.near) + spot.way;
+    if (best(piece, at).separation >= query_.gap - slack) return 0;
+    Scalar reach = std::numeric_limits<Scalar>::infinity();
+    for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis)
+      shorten(reach, spot, space_.normal(piece, axis), query_.gap - space_.separation(piece, axis, at));
+    return reach;
+  }
+
+  static void shorten(Scalar& reach, const Spot& spot, const V& normal, Scalar depth) noexcept {
+    const Scalar rate = (normal.x() * spot.line.along.x() + normal.y() * spot.line.along.y()) * spot.direction;
+    if (rate > parallel) reach = std::min(reach, depth / rate);
+  }
+
+  /// The same, of what it hides from a place.
+  [[nodiscard]] Scalar shadow_from(const Spot& spot, PieceIndex piece, Place place) noexcept {
+    const View& view = this->view(piece, place);
+    if (!view.blocks) return 0;
+    const V at = seen_at_end(piece, query_.near) + spot.way;
+    const V gone = at - view.place;
+    const Scalar kept = solid(piece) ? view.level : query_.gap;
+    Scalar reach = std::numeric_limits<Scalar>::infinity();
+    for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis) {
+      if (space_.separation(piece, axis, view.place) < view.level) continue;
+      const Scalar depth = kept - space_.separation(piece, axis, at);
+      if (depth <= slack) return 0;
+      shorten(reach, spot, space_.normal(piece, axis), depth);
+    }
+    if (!solid(piece)) {  // it blocks motion against its normal only
+      const V n = space_.normal(piece, space_.info(piece).one_way_axis);
+      const Scalar depth = -(n.x() * gone.x() + n.y() * gone.y());
+      if (depth <= 0) return 0;
+      shorten(reach, spot, n, depth);
+    }
+    for (const V& n : {view.tangents.left, view.tangents.right}) {
+      const Scalar depth = -(n.x() * gone.x() + n.y() * gone.y());
+      if ((n.x() != 0 || n.y() != 0) && depth <= slack) return 0;
+      shorten(reach, spot, n, depth);
+    }
+    return reach;
+  }
+
+  // What is checked.
+
+  /// @return true: the search along this line ends, as a way ends here or no place from here on is nearer than the
+  /// best.
+  bool consider(const V& way) noexcept {
+    const V q = query_.near + way;
+    const Scalar distance = length_of(V(q - query_.near));
+    if (!(distance < nearest_)) return true;
+    if (!reaches(q)) return false;
+    best_ = q;
+    nearest_ = distance;
+    return true;
+  }
+
+  [[nodiscard]] bool has_gaps(const V& q) const noexcept {
+    return std::none_of(pieces_.begin(), pieces_.end(), [&](PieceIndex piece) {
+      return solid(piece) && best(piece, seen_at_end(piece, q)).separation < Tolerances<Scalar>{}.hit;
+    });
+  }
+
+  /// Whether the straight way from the side of a piece that may be passed stays clear of it, whatever rounding did to
+  /// where it begins.
+  [[nodiscard]] bool keeps_side(PieceIndex piece, const V& q) const noexcept {
+    constexpr Scalar certain = Tolerances<Scalar>{}.certain;
+    const std::optional<V> from = side_of(piece);
+    if (!from) return true;
+    const V to = seen_at_end(piece, q);
+    for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis)
+      if (space_.separation(piece, axis, *from) > -certain && space_.separation(piece, axis, to) >= certain)
+        return true;
+    return best(piece, *from).separation >= certain && passes(make_motion<Lanes>(space_, *from, V(to - *from)), piece);
+  }
+
+  /// Whether a straight way to a position meets a piece: a solid, or a one-way segment against its normal.
+  /// @param time when it begins.
+  [[nodiscard]] bool clear(PieceIndex piece, const V& place, Scalar time, const V& q) const noexcept {
+    constexpr Scalar certain = Tolerances<Scalar>{}.certain;
+    if (query_.drops && !solid(piece)) return true;
+    const V from = seen(piece, place, time);
+    const V to = seen_at_end(piece, q);
+    Motion<Lanes, Scalar> motion = make_motion<Lanes>(space_, from, V(to - from));
+    motion.rest = lost_by(place, offset(piece, time));
+    if (!blocks(space_, motion, piece)) return true;
+    for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis)
+      if (space_.separation(piece, axis, from) >= certain && space_.separation(piece, axis, to) >= certain) return true;
+    if (exactly_clear(piece, place, time, q)) return true;
+    return best(piece, from).separation >= certain && passes(motion, piece);
+  }
+
+  [[nodiscard]] bool exactly_clear(PieceIndex piece, const V& place, Scalar time, const V& q) const noexcept {
+    const MoverIndex mover = space_.scenery().pieces()[piece].mover;
+    if (mover == no_mover) return clear_of_exactly(space_, piece, place, q);
+    const MoverMotion<Scalar>& motion = query_.movers[mover];
+    return clear_of_exactly(space_, piece, ExactPosition(place, motion, time), ExactPosition(q, motion, query_.end));
+  }
+
+  [[nodiscard]] bool passes(const Motion<Lanes, Scalar>& motion, PieceIndex piece) const noexcept {
+    const Clearance<Scalar> room = clearance(space_, motion, piece);
+    return room.clear() || !sweep_piece(space_, motion, piece, room).hit;
+  }
+
+  struct Kept {
+    PieceIndex piece = ~PieceIndex{0};
+    Place place = Place::from;
+    View view{};
+  };
+
+  const ConfigurationSpace<Scalar>& space_;
+  std::span<const PieceIndex> pieces_;
+  std::span<const PieceIndex> passable_;
+  const FreePositionQuery<Scalar>& query_;
+  bool takes_time_;
+  std::array<Kept, 64> kept_{};
+  std::size_t last_covering_ = 0;
+  Scalar nearest_;  ///< Farther positions are not looked for any more [m].
+  std::optional<V> best_;
+};
+
+}  // namespace
+
+template <std::size_t Lanes, class Scalar>
+std::optional<Vec2<Scalar>> nearest_free(const ConfigurationSpace<Scalar>& space, std::span<const PieceIndex> pieces,
+                                         const FreePositionQuery<Scalar>& query) noexcept {
+  return Search<Lanes, Scalar>{space, pieces, query}.find();
+}
+
+template <std::size_t Lanes, class Scalar>
+bool reaches(const ConfigurationSpace<Scalar>& space, std::span<const PieceIndex> pieces,
+             const FreePositionQuery<Scalar>& query, const Vec2<Scalar>& q) noexcept {
+  return Search<Lanes, Scalar>{space, pieces, query}.reaches(q);
+}
+
+#define PAPERPROOF_INSTANTIATE(Lanes, Scalar)                                                                     \
+  template std::optional<Vec2<Scalar>> nearest_free<Lanes>(                                                       \
+      const ConfigurationSpace<Scalar>&, std::span<const PieceIndex>, const FreePositionQuery<Scalar>&) noexcept; \
+  template bool reaches<Lanes>(const ConfigurationSpace<Scalar>&, std::span<const PieceIndex>,                    \
+                               const FreePositionQuery<Scalar>&, const Vec2<Scalar>&) noexcept;
+PAPERPROOF_INSTANTIATE(8, float)
+PAPERPROOF_INSTANTIATE(8, double)
+PAPERPROOF_INSTANTIATE(12, float)
+PAPERPROOF_INSTANTIATE(12, double)
+#undef PAPERPROOF_INSTANTIATE
+
+}  // namespace paperproof::octagon_sweep
