@@ -177,7 +177,7 @@ template <class Scalar>
 
 template <class Scalar>
 template <bool has_jump, bool has_gravity>
-MoveRequest<Scalar> Controller<Scalar>::begin_step(const Pressers<Scalar>& pressers, const Input& input,
+MoveRequest<Scalar> Controller<Scalar>::begin_step(const Crushers<Scalar>& crushers, const Input& input,
                                                    const Vec2<Scalar>& gravity, Scalar dt,
                                                    std::span<const MoverMotion<Scalar>> movers, bool wall_ahead,
                                                    CharacterState<Scalar>& state,
@@ -198,7 +198,7 @@ MoveRequest<Scalar> Controller<Scalar>::begin_step(const Pressers<Scalar>& press
           .grounded = state.grounded,
           .crushed = state.crushed,
           .drop = input.drop,
-          .pressers = {pressers.begin(), pressers.end()},
+          .crushers = {crushers.begin(), crushers.end()},
           .movers = movers,
           .dt = dt,
           .ride = state.ride};
@@ -234,7 +234,7 @@ template <bool has_sensors, bool has_jump, bool has_gravity>
       wall_ahead = has_wall_ahead(state, *input.move, dt, movers, scratch, report.move);
   // A request with a name, read again after the move, cost 46 instructions more per step (g++ 12).
   technique_->move(
-      begin_step<has_jump, has_gravity>(state.pressers, input, gravity, dt, movers, wall_ahead, state, report), scratch,
+      begin_step<has_jump, has_gravity>(state.crushers, input, gravity, dt, movers, wall_ahead, state, report), scratch,
       report.move);
   report.status = status_of(report.move.status);
   if (is_refused(report.status)) {
@@ -252,7 +252,7 @@ bool Controller<Scalar>::begin_together(const CharacterState<Scalar>& before, co
                                         MoveRequest<Scalar>& request, StepReport<Scalar>& report) const noexcept {
   if (!accepts<true, true>(before, input, gravity, dt, movers)) return false;
   state = before;
-  request = begin_step<true, true>(before.pressers, input, gravity, dt, movers, false, state, report);
+  request = begin_step<true, true>(before.crushers, input, gravity, dt, movers, false, state, report);
   return true;
 }
 

@@ -52,7 +52,7 @@ template <class Scalar>
   check.add(state.position).add(state.velocity).add(state.technique_memory).add(gravity);
   check.add(state.ride.place).add(state.ride.velocity);
   if (state.has_last_free) check.add(state.last_free);
-  for (const Presser<Scalar>& presser : state.pressers) check.add(presser.from).add(presser.gone);
+  for (const Crusher<Scalar>& crusher : state.crushers) check.add(crusher.last_free).add(crusher.displacement);
   return check.passed() && dt <= std::numeric_limits<Scalar>::max() && std::isfinite(input.move.value_or(0)) &&
          (movers.empty() || finite(movers, dt));
 }
@@ -121,8 +121,8 @@ void adopt(const CharacterDef& character, const MoveResult<Scalar>& move, Charac
   state.grounded = move.grounded;
   state.ride = move.ride;
   note_freedom(move, state);
-  state.pressers.clear();
-  if (state.crushed) state.pressers = move.pressers;
+  state.crushers.clear();
+  if (state.crushed) state.crushers = move.crushers;
   if (move.grounded) state.jumping = false;
   state.wall_left = touches(move, Side::left);
   state.wall_right = touches(move, Side::right);

@@ -150,12 +150,12 @@ TEST(AnyNumber, of_random_papers_are_named_where_they_crush_and_none_is_passed) 
 class MoreOnIt : public testing::TestWithParam<int> {};
 
 TEST_P(MoreOnIt, than_is_remembered_keep_it_where_it_is_until_they_have_gone_back) {
-  const int papers = static_cast<int>(Pressers<double>::capacity()) + GetParam();
+  const int papers = static_cast<int>(Crushers<double>::capacity()) + GetParam();
   Judged run(niche_with_papers(papers), {0, half_height + 1e-6}, 1);
   run.looks_for_room = papers < 20;
   StepJudgement judged = run.step_by({0, -1.9});
   ASSERT_EQ(run.crushed().size(), static_cast<std::size_t>(papers));
-  EXPECT_EQ(run.state.pressers.size(), Pressers<double>::capacity());
+  EXPECT_EQ(run.state.crushers.size(), Crushers<double>::capacity());
   const Vec2d stays = run.state.position;
   for (int step = 0; step < 20; ++step) {
     judged = run.step_by({0, step < 10 ? -0.01 : 0.01});
@@ -165,21 +165,21 @@ TEST_P(MoreOnIt, than_is_remembered_keep_it_where_it_is_until_they_have_gone_bac
     EXPECT_TRUE(judged.tunnelled.empty() && judged.entered.empty() && judged.corner_cut.empty()) << step;
   }
   // The remembered ones are off before the others: it still does not know where the others came from.
-  for (int k = 0; k < static_cast<int>(Pressers<double>::capacity()); ++k) {
+  for (int k = 0; k < static_cast<int>(Crushers<double>::capacity()); ++k) {
     MoverMotion<double>& motion = run.motions[static_cast<std::size_t>(k)];
     motion = {motion.to, motion.to + Vec2d(0, 1.9)};
   }
-  for (std::size_t k = Pressers<double>::capacity(); k < run.motions.size(); ++k)
+  for (std::size_t k = Crushers<double>::capacity(); k < run.motions.size(); ++k)
     run.motions[k].from = run.motions[k].to;
   judged = run.step();
   EXPECT_EQ(run.report.status, StepStatus::stuck);
   EXPECT_EQ(run.state.position, stays);
-  ASSERT_EQ(run.state.pressers.size(), static_cast<std::size_t>(std::min(GetParam(), 8)));
-  EXPECT_FALSE(run.state.pressers[0].has_side);
+  ASSERT_EQ(run.state.crushers.size(), static_cast<std::size_t>(std::min(GetParam(), 8)));
+  EXPECT_FALSE(run.state.crushers[0].has_side);
   judged = run.step_by({0, 3});
   EXPECT_EQ(run.report.status, StepStatus::moved);
   EXPECT_TRUE(judged.tunnelled.empty() && judged.entered.empty() && judged.corner_cut.empty());
-  EXPECT_TRUE(run.state.pressers.empty());
+  EXPECT_TRUE(run.state.crushers.empty());
   EXPECT_EQ(run.state.position, stays);
 }
 INSTANTIATE_TEST_SUITE_P(AnyNumber, MoreOnIt, testing::Values(1, 5, 60));
@@ -203,7 +203,7 @@ TEST(AnyNumber, with_more_on_it_than_is_remembered_it_gives_way_to_nothing_and_i
       run.motions[k] = {run.motions[k].to, run.motions[k].to + (k < ram ? Vec2d(0, 0) : Vec2d(0.3, 0))};
     judged = run.step();
     EXPECT_TRUE(judged.tunnelled.empty() && judged.entered.empty() && judged.corner_cut.empty());
-    if (papers <= static_cast<int>(Pressers<double>::capacity())) continue;
+    if (papers <= static_cast<int>(Crushers<double>::capacity())) continue;
     EXPECT_EQ(run.state.position, stays);
     EXPECT_EQ(run.crushed(), std::set<ColliderIndex>{static_cast<ColliderIndex>(2 + papers - 1)});
   }

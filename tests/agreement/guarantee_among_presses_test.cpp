@@ -97,7 +97,7 @@ class Chamber {
       for (std::size_t k = 0; k < courses_.size(); ++k)
         motions[k] = {step == 0 ? courses_[k].at(0) : motions[k].to, courses_[k].at((step + 1) * dt)};
       movers.take(motions, dt);
-      const bool under = !state.pressers.empty();
+      const bool under = !state.crushers.empty();
       const CharacterState<double> before = state;
       const StepStatus status = controller.step(state, input, gravity, dt, motions, scratch, report);
       ASSERT_NE(status, StepStatus::invalid_input);
@@ -105,7 +105,7 @@ class Chamber {
       tally.crushed += status == StepStatus::crushed;
       tally.crushed_again += under && status == StepStatus::crushed;
       tally.stuck += status == StepStatus::stuck;
-      tally.freed += under && state.pressers.empty();
+      tally.freed += under && state.crushers.empty();
       TraceStep record = recorded<double>(report, state, motions);
       record.requested += movers.carried_by(before.ride, input.drop);
       const StepJudgement judgement = judge.judge(record);

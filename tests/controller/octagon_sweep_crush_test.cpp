@@ -46,7 +46,7 @@ struct Shaft {
   }
   [[nodiscard]] std::vector<ColliderIndex> on_it() const {
     std::vector<ColliderIndex> colliders;
-    for (const Presser<double>& each : pressed.state.pressers) colliders.push_back(each.collider);
+    for (const Crusher<double>& each : pressed.state.crushers) colliders.push_back(each.collider);
     return colliders;
   }
 };
@@ -86,7 +86,7 @@ TEST(CrushedTwice, from_below_and_then_from_above_it_stays_and_both_are_named) {
   }
   EXPECT_EQ(shaft.on_it(), Colliders{Shaft::platform}) << "the press is forgotten";
   EXPECT_EQ(shaft.step(-0.15, 0), StepStatus::moved) << "free again";
-  EXPECT_TRUE(shaft.pressed.state.pressers.empty());
+  EXPECT_TRUE(shaft.pressed.state.crushers.empty());
   EXPECT_EQ(shaft.pressed.state.position, stays);
 }
 
@@ -106,9 +106,10 @@ TEST(CrushedTwice, within_one_step_the_second_does_not_move_it_either) {
   EXPECT_EQ(shaft.step(0.15, -0.6), StepStatus::crushed);
   EXPECT_EQ(shaft.crushed(), (Colliders{Shaft::platform, Shaft::press}));
   EXPECT_EQ(shaft.pressed.state.position, stays);
-  for (const Presser<double>& each : shaft.pressed.state.pressers) {
-    EXPECT_EQ(each.from, stays);
-    EXPECT_NEAR(each.gone.y(), each.collider == Shaft::platform ? 0.1 : -0.1, 1e-6) << "what was left after the impact";
+  for (const Crusher<double>& each : shaft.pressed.state.crushers) {
+    EXPECT_EQ(each.last_free, stays);
+    EXPECT_NEAR(each.displacement.y(), each.collider == Shaft::platform ? 0.1 : -0.1, 1e-6)
+        << "what was left after the impact";
   }
 }
 

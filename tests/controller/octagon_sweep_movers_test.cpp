@@ -323,7 +323,7 @@ TEST(CoveredFacet, that_comes_up_while_its_cover_lies_on_the_character_gives_the
   Stepper<double> character({moving(rectangle(0, 0, 1, 1)), moving(rectangle(1, 1, 2, 2))});
   const double y = 1 + half_height + 0.1;
   character.at((3 + 30 * px + slack - y) / 2, y).state.crushed = true;
-  character.state.pressers.push_back({.collider = 1, .has_side = false});
+  character.state.crushers.push_back({.collider = 1, .has_side = false});
   character.gravity = {0, 0};
   ASSERT_EQ(character.step_with_mover_by(0, 1.5 * slack), StepStatus::crushed);
   const auto& contacts = character.report.move.contacts;
@@ -350,11 +350,12 @@ TEST(Crush, by_another_knows_from_which_side_of_what_lies_on_it_the_character_ca
     pressed.movers[0] = {pressed.movers[0].to, {0, -down}};
     pressed.step();
     ASSERT_TRUE(pressed.state.crushed);
-    ASSERT_EQ(pressed.state.pressers.size(), 1U);
-    EXPECT_EQ(pressed.state.pressers[0].collider, 2U);
-    EXPECT_EQ(pressed.state.pressers[0].from, pressed.state.position);
+    ASSERT_EQ(pressed.state.crushers.size(), 1U);
+    EXPECT_EQ(pressed.state.crushers[0].collider, 2U);
+    EXPECT_EQ(pressed.state.crushers[0].from, pressed.state.position);
     // It met the head at a height of 1.25 m.
-    EXPECT_NEAR(pressed.state.pressers[0].gone.y(), 0.25 - down, 1e-5) << "since the character was free below it";
+    EXPECT_NEAR(pressed.state.crushers[0].displacement.y(), 0.25 - down, 1e-5)
+        << "since the character was free below it";
   }
   pressed.movers[0].from = pressed.movers[0].to;
   pressed.movers[1].to = {2, 0};

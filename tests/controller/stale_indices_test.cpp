@@ -31,13 +31,13 @@ template <class Scalar>
 void garble(CharacterState<Scalar>& state, Random& random) {
   state.ride.ground = any_index(random);
   state.crushed = random.chance(0.8);
-  state.pressers.clear();
+  state.crushers.clear();
   for (int i = random.integer(0, 8); i > 0; --i) {
-    Presser<Scalar> presser;
-    presser.collider = any_index(random);
-    presser.from.x() = static_cast<Scalar>(random.between(-2, 2));
-    presser.gone.y() = static_cast<Scalar>(random.between(-2, 2));
-    state.pressers.push_back(presser);
+    Crusher<Scalar> crusher;
+    crusher.collider = any_index(random);
+    crusher.last_free.x() = static_cast<Scalar>(random.between(-2, 2));
+    crusher.displacement.y() = static_cast<Scalar>(random.between(-2, 2));
+    state.crushers.push_back(crusher);
   }
 }
 
@@ -128,8 +128,8 @@ Stepper<double> crushed_by_the_press() {
     pressed.movers[1] = {pressed.movers[1].to, {0, -down}};
     EXPECT_EQ(pressed.step(), down > 1.75 ? StepStatus::crushed : StepStatus::moved);
   }
-  EXPECT_EQ(pressed.state.pressers.size(), 1U);
-  EXPECT_EQ(pressed.state.pressers[0].collider, press);
+  EXPECT_EQ(pressed.state.crushers.size(), 1U);
+  EXPECT_EQ(pressed.state.crushers[0].collider, press);
   pressed.movers[1].from = pressed.movers[1].to;
   return pressed;
 }
@@ -140,9 +140,9 @@ TEST(StaleIndices, of_what_does_not_move_here_are_forgotten) {
   for (const ColliderIndex stale : {ColliderIndex{0}, ColliderIndex{3}, ColliderIndex{4}, ColliderIndex{1} << 31,
                                     std::numeric_limits<ColliderIndex>::max()}) {
     Stepper<double> pressed = crushed_by_the_press();
-    Presser<double> presser;
-    presser.collider = stale;
-    pressed.state.pressers.push_back(presser);
+    Crusher<double> crusher;
+    crusher.collider = stale;
+    pressed.state.crushers.push_back(crusher);
     pressed.step();
     EXPECT_EQ(pressed.state, clean.state) << stale;
   }

@@ -99,23 +99,24 @@ struct Ride {
   friend bool operator==(const Ride&, const Ride&) = default;
 };
 
-/// A collider that ran over a crushed character and still overlaps it.
+/// A mover that crushed the character and still overlaps it.
 template <class Scalar>
-struct Presser {
+struct Crusher {
   ColliderIndex collider = 0;
-  /// The character's position when the collider first ran over it; it was free of the collider until then [m].
-  Vec2<Scalar> from{Vec2<Scalar>::Zero()};
-  /// How far the collider has moved since [m]. Seen from the collider, the character came from `from + gone`.
-  Vec2<Scalar> gone{Vec2<Scalar>::Zero()};
-  bool has_side = true;  ///< False: which side that is was lost, as more were on the character than are remembered.
+  /// Where the character was when it was last free of the collider [m].
+  Vec2<Scalar> last_free{Vec2<Scalar>::Zero()};
+  /// How far the collider has moved since [m]. Seen from the collider, the character came from
+  /// `last_free + displacement`.
+  Vec2<Scalar> displacement{Vec2<Scalar>::Zero()};
+  bool has_side = true;  ///< False: the side the character came from is not known, as the list was full.
 
-  friend bool operator==(const Presser&, const Presser&) = default;
+  friend bool operator==(const Crusher&, const Crusher&) = default;
 };
-/// A state remembers at most eight. If more overlap the character, it stays where it is until the others are gone, even
+/// A state remembers at most eight. If more overlap the character, it does not move until the others have left, even
 /// where there is room, because the side it came from is unknown. Other movers that run into it meanwhile crush it,
 /// too.
 template <class Scalar>
-using Pressers = FixedVector<Presser<Scalar>, 8>;
+using Crushers = FixedVector<Crusher<Scalar>, 8>;
 
 /// Everything that one step hands to the next. A plain value: copy it to save a game or to roll back.
 template <class Scalar>
@@ -135,7 +136,7 @@ struct CharacterState {
   /// Movers left no room, and one of them is still on the character. It stays where it is: whatever else runs into it
   /// finds it room on the side from which it came, or crushes it, too.
   bool crushed = false;
-  Pressers<Scalar> pressers{};   ///< While `crushed`.
+  Crushers<Scalar> crushers{};   ///< While `crushed`.
   std::uint8_t stuck_steps = 0;  ///< How many steps in a row ended inside something.
   Ride<Scalar> ride;             ///< None on ground that does not move.
 

@@ -117,9 +117,9 @@ class Controller {
                                     std::span<const MoverMotion<Scalar>> movers, Scratch<Scalar>& scratch,
                                     MoveResult<Scalar>& tried) const noexcept;
   /// What an accepted step begins with: the intent.
-  /// @param pressers of the state as it was; must outlive the request.
+  /// @param crushers of the state as it was; must outlive the request.
   template <bool has_jump, bool has_gravity>
-  [[nodiscard]] MoveRequest<Scalar> begin_step(const Pressers<Scalar>& pressers, const Input& input,
+  [[nodiscard]] MoveRequest<Scalar> begin_step(const Crushers<Scalar>& crushers, const Input& input,
                                                const Vec2<Scalar>& gravity, Scalar dt,
                                                std::span<const MoverMotion<Scalar>> movers, bool wall_ahead,
                                                CharacterState<Scalar>& state,

@@ -51,7 +51,7 @@ struct MoveRequest {
   bool grounded = false;  ///< The last step ended on the ground, and this one does not begin with a jump.
   bool crushed = false;   ///< See `CharacterState::crushed`.
   bool drop = false;      ///< One-way chains hold nobody: see `Input::drop`.
-  std::span<const Presser<Scalar>> pressers{};  ///< See `CharacterState::pressers`.
+  std::span<const Crusher<Scalar>> crushers{};  ///< See `CharacterState::crushers`.
   /// One for each mover of the scenery.
   std::span<const MoverMotion<Scalar>> movers{};
   Scalar dt = 0;  ///< [s]
@@ -94,7 +94,7 @@ struct MoveResult {
   Ride<Scalar> ride;  ///< For the next step. `velocity` above is in the world, the ride included.
   /// Colliders of movers that ran into the character where it had no room to give way; each once.
   ReportVector<ColliderIndex, max_crushed> crushed;
-  Pressers<Scalar> pressers;  ///< See `CharacterState::pressers`.
+  Crushers<Scalar> crushers;  ///< See `CharacterState::crushers`.
 
   [[gnu::always_inline]] void clear() noexcept {
     status = MoveStatus::moved;
@@ -104,7 +104,7 @@ struct MoveResult {
     contacts.clear();
     ride = {};
     crushed.clear();
-    pressers.clear();
+    crushers.clear();
   }
 };
 

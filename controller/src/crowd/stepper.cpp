@@ -51,7 +51,7 @@ StepStatus Stepper<Scalar>::begin(std::span<const CharacterState<Scalar>> states
     Walker<Scalar>& walker = walkers_[i];
     CharacterState<Scalar>& state = walker.now.state;
     state = states[i];
-    remember(states[i].pressers, state);
+    remember(states[i].crushers, state);
     // A carried character steers, jumps and falls relative to its carrier.
     if (state.ride.ground != Ride<Scalar>::none) state.velocity -= state.ride.velocity;
     walker.now.time = 0;
@@ -252,12 +252,12 @@ void Stepper<Scalar>::hand_out(std::size_t i, CharacterState<Scalar>& state) noe
   sort_by_time(member(i).met);
   if (!move.crushed.empty())
     move.status = MoveStatus::crushed;
-  else if (!walker.end.state.pressers.empty())
+  else if (!walker.end.state.crushers.empty())
     move.status = MoveStatus::stuck;  // a mover is still on it, even if the last part met another character alone
   else if (move.status != MoveStatus::stuck || !walker.is_stuck)  // inside another character alone is not stuck
     move.status = walker.dropped || move.status == MoveStatus::stuck ? MoveStatus::dropped : MoveStatus::moved;
   set_motions({}, 0, 1);
-  move.pressers = walker.end.state.pressers;
+  move.crushers = walker.end.state.crushers;
   Input input;
   input.drop = walker.drops;
   controller_.end_together(input, memory_.motions, scratch_, walker.end.state, report);

@@ -110,7 +110,7 @@ class Stepper {
   [[nodiscard]] bool ask(std::size_t i, Scalar until, MoveResult<Scalar>& way, Moment<Scalar>& at) noexcept;
   void append(const MoveResult<Scalar>& part, Scalar begin, Scalar end, MoveResult<Scalar>& way) const noexcept;
   void pass_on(const MoveResult<Scalar>& part, Scalar end, Moment<Scalar>& at) const noexcept;
-  void remember(const Pressers<Scalar>& pressers, CharacterState<Scalar>& state) const noexcept;
+  void remember(const Crushers<Scalar>& crushers, CharacterState<Scalar>& state) const noexcept;
   [[nodiscard]] Outcome outcome_of(std::size_t i, const MoveResult<Scalar>& way) noexcept;
   Outcome plan(std::size_t i) noexcept;
   void stay(std::size_t i) noexcept;

@@ -83,7 +83,7 @@ MoveRequest<Scalar> Stepper<Scalar>::request_at(const Walker<Scalar>& walker, co
           .grounded = walker.walks && !walker.no_snap && end == 1,
           .crushed = at.state.crushed,
           .drop = walker.drops,
-          .pressers = {at.state.pressers.begin(), at.state.pressers.end()},
+          .crushers = {at.state.crushers.begin(), at.state.crushers.end()},
           .movers = memory_.motions,
           .dt = duration,
           .ride = at.state.ride};
@@ -145,17 +145,17 @@ void Stepper<Scalar>::pass_on(const MoveResult<Scalar>& part, Scalar end, Moment
   if (part.grounded || (fall < 0 && at.own.y() > fall / 2)) at.own += gravity_ * dt_;
   step_parts::note_freedom(part, state);
   if (state.crushed)
-    remember(part.pressers, state);
+    remember(part.crushers, state);
   else
-    state.pressers.clear();
+    state.crushers.clear();
 }
 
 /// Places for company are taken by others in the next step.
 template <class Scalar>
-void Stepper<Scalar>::remember(const Pressers<Scalar>& pressers, CharacterState<Scalar>& state) const noexcept {
-  state.pressers.clear();
-  for (const Presser<Scalar>& presser : pressers)
-    if (!is_companion(presser.collider)) state.pressers.push_back(presser);
+void Stepper<Scalar>::remember(const Crushers<Scalar>& crushers, CharacterState<Scalar>& state) const noexcept {
+  state.crushers.clear();
+  for (const Crusher<Scalar>& crusher : crushers)
+    if (!is_companion(crusher.collider)) state.crushers.push_back(crusher);
 }
 
 template <class Scalar>

@@ -128,8 +128,9 @@ class Search {
   /// From which side the character came to a piece that may be passed, as the piece sees it.
   [[nodiscard]] std::optional<V> side_of(PieceIndex piece) const noexcept {
     const PieceInfo& info = space_.scenery().pieces()[piece];
-    for (const Presser<Scalar>& presser : query_.pressers)
-      if (presser.collider == info.collider) return V(presser.from + (presser.gone - query_.movers[info.mover].to));
+    for (const Crusher<Scalar>& crusher : query_.crushers)
+      if (crusher.collider == info.collider)
+        return V(crusher.last_free + (crusher.displacement - query_.movers[info.mover].to));
     if (!query_.entered_from) return std::nullopt;
     return seen(piece, *query_.entered_from, Scalar(0));
   }

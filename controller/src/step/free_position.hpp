@@ -22,8 +22,8 @@ struct FreePositionQuery {
   Scalar end = 0;                         ///< when. At once: `near` is `from`, inside the pieces that may be passed.
   std::size_t passable = 0;               ///< The way may pass so many pieces, the first ones.
   std::optional<Vec2<Scalar>> last_free;  ///< The straight way from here to its end must be free, too [m].
-  /// It ends on the side of each from which the character came; `gone` is by the end of the step.
-  std::span<const Presser<Scalar>> pressers;
+  /// It ends on the side of each from which the character came; `displacement` is by the end of the step.
+  std::span<const Crusher<Scalar>> crushers;
   /// The same for the other pieces that may be passed: where the character was before it came into them [m].
   std::optional<Vec2<Scalar>> entered_from;
   std::span<const MoverMotion<Scalar>> movers;

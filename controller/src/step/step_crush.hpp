@@ -100,16 +100,16 @@ bool StepSolver<Lanes, Scalar>::let_through(const Condition& condition) noexcept
 template <std::size_t Lanes, class Scalar>
 bool StepSolver<Lanes, Scalar>::let_through_what_is_on_it(const MoveRequest<Scalar>& request) noexcept {
   const bool any = let_through([this](PieceIndex piece) { return overlaps(piece, position_); });
-  const bool full = request.pressers.size() == Pressers<Scalar>::capacity();
+  const bool full = request.crushers.size() == Crushers<Scalar>::capacity();
   moving_.on_it = 0;
   for (const ColliderIndex collider : memory_.marked) {
     if (!memory_.is(collider, lies_on)) continue;
     ++moving_.on_it;
-    Presser<Scalar> now{collider, request.last_free, course_of(collider), !full};
-    const auto known = std::find_if(request.pressers.begin(), request.pressers.end(),
-                                    [&](const Presser<Scalar>& before) { return before.collider == collider; });
-    if (known != request.pressers.end())
-      now = {collider, known->from, known->gone + now.gone, known->has_side};
+    Crusher<Scalar> now{collider, request.last_free, course_of(collider), !full};
+    const auto known = std::find_if(request.crushers.begin(), request.crushers.end(),
+                                    [&](const Crusher<Scalar>& before) { return before.collider == collider; });
+    if (known != request.crushers.end())
+      now = {collider, known->last_free, known->displacement + now.displacement, known->has_side};
     else if (!request.has_last_free && !full)
       continue;
     remember(now);
@@ -141,15 +141,15 @@ Vec2<Scalar> StepSolver<Lanes, Scalar>::course_of(ColliderIndex collider) const 
   return around_.course(mover_of_collider(collider));
 }
 
-/// @param now `gone` is by the end of the step.
+/// @param now `displacement` is by the end of the step.
 template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::remember(const Presser<Scalar>& now) noexcept {
-  for (Presser<Scalar>& known : memory_.pressers) {
+void StepSolver<Lanes, Scalar>::remember(const Crusher<Scalar>& now) noexcept {
+  for (Crusher<Scalar>& known : memory_.crushers) {
     if (known.collider != now.collider) continue;
     known = now;
     return;
   }
-  memory_.pressers.push_back(now);
+  memory_.crushers.push_back(now);
 }
 
 /// Marks the colliders that were let through and still overlap the character at the end of the step; such a step is
@@ -167,18 +167,18 @@ void StepSolver<Lanes, Scalar>::end_wait() noexcept {
     const bool has_it_stuck = memory_.is(collider, still) && !memory_.is(collider, crushes);
     if (has_it_stuck && result_.status != MoveStatus::crushed) result_.status = MoveStatus::stuck;
   }
-  hand_on_pressers();
+  hand_on_crushers();
 }
 
 /// Hands on movers that carry before others (which in a crowd may be another character in the next step), and within
 /// each those with a known side first.
 template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::hand_on_pressers() noexcept {
+void StepSolver<Lanes, Scalar>::hand_on_crushers() noexcept {
   const auto hand_on = [this](bool carries, bool has_side) {
-    for (const Presser<Scalar>& known : memory_.pressers)
+    for (const Crusher<Scalar>& known : memory_.crushers)
       if (memory_.is(known.collider, still) && known.has_side == has_side &&
           space_.scenery().collider(known.collider).carries == carries)
-        result_.pressers.push_back(known);
+        result_.crushers.push_back(known);
   };
   for (const bool carries : {true, false})
     for (const bool has_side : {true, false}) hand_on(carries, has_side);

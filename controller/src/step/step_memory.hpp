@@ -67,7 +67,7 @@ struct StepMemory final : OwnMemory {
     roles.resize(space.scenery().collider_count());
     if (of_mover.empty()) return;
     marked.reserve(roles.size());
-    pressers.reserve(crushed.capacity());
+    crushers.reserve(crushed.capacity());
     near_the_way.reserve(space.scenery().sensor_pieces().first);
   }
 
@@ -76,7 +76,7 @@ struct StepMemory final : OwnMemory {
     for (const ColliderIndex collider : marked) roles[collider] = 0;
     marked.clear();
     holds.clear();
-    pressers.clear();
+    crushers.clear();
   }
   void mark(ColliderIndex collider, Role role) noexcept {
     if (roles[collider] == 0) marked.push_back(collider);
@@ -102,7 +102,7 @@ struct StepMemory final : OwnMemory {
   std::vector<HalfPlane<Scalar>> velocities;
   std::vector<Nearest<Scalar>> near_the_way;  ///< Into room.
   /// What came over the character, now or before, and how far it has gone by the end of the step.
-  std::vector<Presser<Scalar>> pressers;
+  std::vector<Crusher<Scalar>> crushers;
 
  private:
   [[nodiscard]] static std::size_t moving_pieces(const ConfigurationSpace<Scalar>& space) {

@@ -67,7 +67,7 @@ FreePositionQuery<Scalar> StepSolver<Lanes, Scalar>::query_for_room(std::size_t 
           .near = position_,
           .end = 1,
           .last_free = {},
-          .pressers = memory_.pressers,
+          .crushers = memory_.crushers,
           .entered_from = moving_.last_free,
           .movers = around_.movers,
           .drops = drops_,

@@ -257,8 +257,8 @@ class StepSolver {
     return space_.scenery().collider(collider).mover;
   }
   [[nodiscard]] V course_of(ColliderIndex collider) const noexcept;
-  void remember(const Presser<Scalar>& now) noexcept;
-  void hand_on_pressers() noexcept;
+  void remember(const Crusher<Scalar>& now) noexcept;
+  void hand_on_crushers() noexcept;
   [[gnu::cold, gnu::noinline]] void end_wait() noexcept;
   [[gnu::cold, gnu::noinline]] void stay(bool may_give_way) noexcept;
   void crush_what_came_in(Scalar since) noexcept;

@@ -18,7 +18,7 @@ bool StepSolver<Lanes, Scalar>::prepare_start(Part part, const MoveRequest<Scala
     return true;
   while (overlaps(position_)) {
     // Out of what stands still there may be a way, but it stays on its side of what has come over it.
-    if (!memory_.pressers.empty()) return false;
+    if (!memory_.crushers.empty()) return false;
     const std::optional<V> out = find_way_out(request);
     if (out) {
       if (around_.active) note_what_is_left();
@@ -47,7 +47,7 @@ std::optional<Vec2<Scalar>> StepSolver<Lanes, Scalar>::find_way_out(const MoveRe
   FreePositionQuery<Scalar> query{.from = position_,
                                   .near = position_,
                                   .last_free = {},
-                                  .pressers = memory_.pressers,
+                                  .crushers = memory_.crushers,
                                   .entered_from = {},
                                   .movers = request.movers,
                                   .drops = request.drop,
@@ -85,7 +85,7 @@ std::span<PieceIndex> StepSolver<Lanes, Scalar>::pieces_for(const FreePositionQu
   const auto add = [&box](const V& p) { box = box.merged({p, p}); };
   if (query.last_free) add(*query.last_free);
   if (query.entered_from) add(*query.entered_from);
-  for (const Presser<Scalar>& presser : query.pressers) add(presser.from + presser.gone);
+  for (const Crusher<Scalar>& crusher : query.crushers) add(crusher.last_free + crusher.displacement);
   auto [storage, count] = neighbourhood_.take(box);
   const Box2<Scalar> touched = space_.touched_from(box);
   for (MoverIndex mover = 0; mover < around_.near; ++mover) {
