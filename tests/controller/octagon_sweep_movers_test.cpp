@@ -352,7 +352,7 @@ TEST(Crush, by_another_knows_from_which_side_of_what_lies_on_it_the_character_ca
     ASSERT_TRUE(pressed.state.crushed);
     ASSERT_EQ(pressed.state.crushers.size(), 1U);
     EXPECT_EQ(pressed.state.crushers[0].collider, 2U);
-    EXPECT_EQ(pressed.state.crushers[0].from, pressed.state.position);
+    EXPECT_EQ(pressed.state.crushers[0].last_free, pressed.state.position);
     // It met the head at a height of 1.25 m.
     EXPECT_NEAR(pressed.state.crushers[0].displacement.y(), 0.25 - down, 1e-5)
         << "since the character was free below it";

@@ -42,13 +42,13 @@ template <class Scalar>
 [[nodiscard]] bool overlaps_exactly(const ConfigurationSpace<Scalar>& space, PieceIndex piece,
                                     const ExactPosition& position) noexcept;
 
-/// Whether one line separates octagon and piece at both ends of a straight way, exactly. Separations are linear, so the
-/// whole way is then clear. (That no single line does so does not prove an overlap: the answer is then `false` all the
-/// same.)
+/// Whether one line separates octagon and piece at both ends of a straight motion, exactly. Separations are linear, so
+/// the whole motion is then clear. (That no single line does so does not prove an overlap: the answer is then `false`
+/// all the same.)
 template <class Scalar>
 [[nodiscard]] bool clear_of_exactly(const ConfigurationSpace<Scalar>& space, PieceIndex piece, const Vec2<Scalar>& from,
                                     const Vec2<Scalar>& to) noexcept;
-/// The same on a way that is straight as the piece sees it.
+/// The same on a motion that is straight as the piece sees it.
 template <class Scalar>
 [[nodiscard]] bool clear_of_exactly(const ConfigurationSpace<Scalar>& space, PieceIndex piece,
                                     const ExactPosition& from, const ExactPosition& to) noexcept;

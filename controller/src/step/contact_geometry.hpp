@@ -23,12 +23,13 @@ template <class Scalar>
 /// the axis that is entered last becomes zero; or, where the piece itself is missed, when it comes within `hit`.
 template <class Scalar>
 [[nodiscard, gnu::always_inline]] inline Scalar time_of_impact(const ConfigurationSpace<Scalar>& space,
-                                                               const Vec2<Scalar>& from, const Vec2<Scalar>& way,
-                                                               PieceIndex piece, const EntryAxes& axes) noexcept {
+                                                               const Vec2<Scalar>& from,
+                                                               const Vec2<Scalar>& displacement, PieceIndex piece,
+                                                               const EntryAxes& axes) noexcept {
   if (axes.impact == space.axis_count(piece)) return 0;  // inside from the start
   const Scalar level = axes.missed ? Tolerances<Scalar>{}.hit : Scalar(0);
   const Vec2<Scalar> n = space.normal(piece, axes.impact);
-  const Scalar approach = -(n.x() * way.x() + n.y() * way.y());
+  const Scalar approach = -(n.x() * displacement.x() + n.y() * displacement.y());
   return std::clamp((accurate_separation(space, piece, axes.impact, from) - level) / approach, Scalar(0), Scalar(1));
 }
 

@@ -1,16 +1,16 @@
-/// The nearest free position that a straight way reaches.
+/// The search for the nearest free position that a straight motion reaches.
 ///
-/// In configuration space a piece is convex, and so are its obstacle with a gap around it and its shadow from where the
-/// way begins: what no straight way from there reaches without meeting the piece. A way that takes time is straight for
-/// a moving piece, too: from where the piece sees it begin to where it sees it end. What is outside all obstacles and
-/// all shadows is free and can be reached. The nearest such position lies on a line that bounds one of them: at the
-/// foot of the perpendicular, or where the last of the others stops to cover the line. So each line is looked along on
-/// both sides of its foot for the nearest place that nothing covers.
+/// In configuration space a piece is a convex obstacle; with a gap around it that is convex, too. So is its shadow: the
+/// positions that a straight motion from a given start cannot reach without hitting the piece. A motion that takes time
+/// is straight also as a moving piece sees it, from where the piece is at its begin to where the piece is at its end.
+/// A position outside all obstacles and all shadows is free, and is reached. The nearest one lies on a line that bounds
+/// one of these regions: at the foot of the perpendicular, or where the last of the other regions ends that cover the
+/// line. So each line is searched from its foot to both sides for the first place that no region covers.
 ///
-/// A way that takes no time begins where it shall end near. Of shadows from there it crosses no border: it ends on a
-/// facet of a piece that it may pass. Where the end must be seen from the last free position as well, the shadows from
-/// there are further regions, and their tangents further lines. So are those of movers that are on the character, from
-/// where it was when they came over it.
+/// A motion that takes no time starts where the nearest position is wanted, inside the pieces that it may pass. It
+/// never ends on the border of a shadow from there: only the facets of these pieces are searched. Where a straight
+/// motion from the last free position must reach the end as well, the shadows from there are further regions, and their
+/// tangents are searched, too. The same holds for pieces that must be left to a known side.
 #include "step/free_position.hpp"
 
 #include "step/certificate.hpp"
@@ -44,19 +44,19 @@ class Search {
       consider(V::Zero());
     }
     for (const PieceIndex piece : passable_) {
-      look_along_facets(piece);
-      look_along_tangents(piece, Place::side);
+      search_facets(piece);
+      search_tangents(piece, Place::side);
     }
     if (!takes_time_ && !query_.last_free) return best_;
     for (const PieceIndex piece : pieces_) {
-      if (takes_time_) look_along_tangents(piece, Place::from);
-      if (query_.last_free) look_along_tangents(piece, Place::last_free);
-      if (takes_time_ || !solid(piece)) look_along_facets(piece);
+      if (takes_time_) search_tangents(piece, Place::from);
+      if (query_.last_free) search_tangents(piece, Place::last_free);
+      if (takes_time_ || !solid(piece)) search_facets(piece);
     }
     return best_;
   }
 
-  /// Whether a straight way to a position is free, and the position itself.
+  /// Whether a position is free, and the straight motion to it.
   [[nodiscard]] bool reaches(const V& q) const noexcept {
     const auto clear_from = [&](const V& place, Scalar time) {
       return [&, time](PieceIndex piece) { return clear(piece, place, time, q); };
@@ -72,8 +72,8 @@ class Search {
  private:
   /// Rounding stays below this: a position this little inside a region counts as outside [m].
   static constexpr Scalar slack = Tolerances<Scalar>{}.certain;
-  /// A way keeps this many times more from the corners that it passes than what would stop it, which is measured along
-  /// axes: no two neighbouring ones are more than a right angle apart.
+  /// A motion keeps this many times more from the corners that it passes than what would stop it, which is measured
+  /// along axes: no two neighbouring ones are more than a right angle apart.
   static constexpr Scalar margin = Scalar(1.5);
   /// A line that an edge of a region leaves by less per metre does not leave it there.
   static constexpr Scalar parallel = std::numeric_limits<Scalar>::epsilon() * 64;
@@ -82,7 +82,7 @@ class Search {
   static constexpr Scalar stride_growth = 16;
   static constexpr int most_strides = 5;
 
-  /// Positions w with normal · w = bound, relative to where the way shall end near.
+  /// Positions w with normal · w = bound, relative to where the motion shall end near.
   struct Line {
     V foot;
     V along;
@@ -96,27 +96,27 @@ class Search {
   struct Spot {
     const Line& line;
     Scalar direction;
-    V way;  ///< Relative to where the way shall end near.
+    V position;  ///< Relative to where the motion shall end near.
   };
 
-  /// From where a way must be clear of a piece.
+  /// Where a motion starts that must be clear of a piece.
   enum class Place : std::uint8_t { from, last_free, side };
-  /// What a piece hides from a place.
+  /// The shadow of a piece.
   struct View {
-    bool blocks = false;  ///< The piece hides anything.
-    V place;              ///< As the piece sees it.
-    Scalar level;         ///< Gap that a way from there keeps from the piece [m].
+    bool blocks = false;  ///< There is one.
+    V place;              ///< Where the motion starts, as the piece sees it.
+    Scalar level;         ///< Gap that the motion keeps from the piece [m].
     Tangents<Scalar> tangents;
   };
 
-  // What there is.
+  // Pieces and shadows.
 
-  /// Where the mover of a piece is at a fraction of the step; zero for what stands still.
+  /// Offset of the mover of a piece at a fraction of the step; zero for a piece that stands still.
   [[nodiscard]] V offset(PieceIndex piece, Scalar time) const noexcept {
     const MoverIndex mover = space_.scenery().pieces()[piece].mover;
     return mover == no_mover ? V(V::Zero()) : query_.movers[mover].at(time);
   }
-  /// A position as a piece sees it that has not moved.
+  /// A position relative to the mover of a piece.
   [[nodiscard]] V seen(PieceIndex piece, const V& p, Scalar time) const noexcept { return p - offset(piece, time); }
   [[nodiscard]] V seen_at_end(PieceIndex piece, const V& p) const noexcept { return seen(piece, p, query_.end); }
   [[nodiscard]] bool solid(PieceIndex piece) const noexcept {
@@ -125,7 +125,7 @@ class Search {
   [[nodiscard]] BestAxis<Scalar> best(PieceIndex piece, const V& at) const noexcept {
     return best_axis<Lanes>(space_, piece, at);
   }
-  /// From which side the character came to a piece that may be passed, as the piece sees it.
+  /// Where the character was before it overlapped a piece that may be passed, as the piece sees it.
   [[nodiscard]] std::optional<V> side_of(PieceIndex piece) const noexcept {
     const PieceInfo& info = space_.scenery().pieces()[piece];
     for (const Crusher<Scalar>& crusher : query_.crushers)
@@ -148,7 +148,7 @@ class Search {
                        });
   }
 
-  /// Each piece is asked for on many lines, and the tangents are dear: the last answers are kept.
+  /// The same shadows are needed on many lines, and tangents are expensive: the last ones are kept.
   [[nodiscard]] const View& view(PieceIndex piece, Place place) noexcept {
     Kept& kept = kept_[(3 * std::size_t{piece} + static_cast<std::size_t>(place)) % kept_.size()];
     if (kept.piece != piece || kept.place != place) kept = {piece, place, view_from(piece, place)};
@@ -163,7 +163,7 @@ class Search {
     const BestAxis<Scalar> facing = best(piece, *at);
     if (facing.separation < -slack) return view;
     const Scalar kept = std::clamp(facing.separation, Scalar(0), Tolerances<Scalar>{}.hit);
-    const Scalar width = takes_time_ ? kept * Scalar(least_room) : kept * margin + 2 * slack;
+    const Scalar width = takes_time_ ? kept * Scalar(least_gap) : kept * margin + 2 * slack;
     view.blocks = true;
     view.place = *at;
     view.level = std::min(Tolerances<Scalar>{}.hit, facing.separation);
@@ -175,9 +175,9 @@ class Search {
     return solid(piece) || (!query_.drops && is_above(space_, piece, at, V(V::Zero())));
   }
 
-  // Which lines are looked along.
+  // The lines that are searched.
 
-  void look_along_facets(PieceIndex piece) noexcept {
+  void search_facets(PieceIndex piece) noexcept {
     const V at = seen_at_end(piece, query_.near);
     for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis) {
       const V n = space_.normal(piece, axis);
@@ -185,11 +185,11 @@ class Search {
       const Scalar bound = query_.gap - space_.separation(piece, axis, at);
       if (!(std::abs(bound) < nearest_)) continue;
       const Line line{n * bound, {-n.y(), n.x()}};
-      look_along(line, facet_on(line, piece, std::sqrt(nearest_ * nearest_ - bound * bound)));
+      sweep_along(line, facet_on(line, piece, std::sqrt(nearest_ * nearest_ - bound * bound)));
     }
   }
 
-  /// The part of the line of a facet where it bounds the obstacle, as far as `half` from its foot.
+  /// The part of a facet's line that bounds the obstacle, at most `half` from its foot.
   [[nodiscard]] Part facet_on(const Line& line, PieceIndex piece, Scalar half) const noexcept {
     const V foot = seen_at_end(piece, query_.near) + line.foot;
     Part part{-half, half};
@@ -208,7 +208,7 @@ class Search {
     return part;
   }
 
-  void look_along_tangents(PieceIndex piece, Place place) noexcept {
+  void search_tangents(PieceIndex piece, Place place) noexcept {
     const View view = this->view(piece, place);
     if (!view.blocks) return;
     const V back = view.place - seen_at_end(piece, query_.near);
@@ -217,19 +217,19 @@ class Search {
       const Scalar bound = n.x() * back.x() + n.y() * back.y();
       if (!(std::abs(bound) < nearest_)) continue;
       const Scalar half = std::sqrt(nearest_ * nearest_ - bound * bound);
-      look_along({n * bound, {-n.y(), n.x()}}, {-half, half});
+      sweep_along({n * bound, {-n.y(), n.x()}}, {-half, half});
     }
   }
 
-  void look_along(const Line& line, const Part& part) noexcept {
+  void sweep_along(const Line& line, const Part& part) noexcept {
     if (!(part.from <= part.to)) return;
     const Scalar begin = std::clamp(Scalar(0), part.from, part.to);
-    look_along(line, begin, part.to, Scalar(1));
-    look_along(line, begin, part.from, Scalar(-1));
+    sweep_along(line, begin, part.to, Scalar(1));
+    sweep_along(line, begin, part.from, Scalar(-1));
   }
 
-  /// Takes the first place on a line that is free and can be reached.
-  void look_along(const Line& line, Scalar place, Scalar end, Scalar direction) noexcept {
+  /// Takes the first place on a line that is free and reached.
+  void sweep_along(const Line& line, Scalar place, Scalar end, Scalar direction) noexcept {
     Scalar stride = first_stride;
     for (int tried = 0; tried <= most_strides; ++tried) {
       place = next_uncovered(line, place, end, direction);
@@ -239,13 +239,12 @@ class Search {
     }
   }
 
-  // What covers them.
+  // The regions that cover them.
 
-  /// The next place on a line that no region covers, or one beyond the end. Every region is convex, so that what has
-  /// been left is not entered again. The pieces are asked forwards and backwards in turns: mostly their order is that
-  /// of their places, from one side or the other.
+  /// The next place on a line that no region covers, or one beyond the end. A region is convex: once left, it is not
+  /// entered again. The pieces are looked at forwards and backwards in turns, as they are mostly in order of place.
   [[nodiscard]] Scalar next_uncovered(const Line& line, Scalar place, Scalar end, Scalar direction) noexcept {
-    // What covers one line often covers the next.
+    // A piece that covers one line often covers the next.
     place += direction * covered_from({line, direction, line.at(place)}, last_covering_);
     if (place * direction > end * direction) return place;
     for (bool forwards = true;; forwards = !forwards) {
@@ -262,7 +261,7 @@ class Search {
     }
   }
 
-  /// How far on from a spot the regions of a piece reach; 0 where none covers it.
+  /// How far the regions of a piece reach from a spot; 0 if none covers it.
   [[nodiscard]] Scalar covered_from(const Spot& spot, std::size_t index) noexcept {
     const PieceIndex piece = pieces_[index];
     const bool is_solid = solid(piece);
@@ -274,9 +273,9 @@ class Search {
     return reach;
   }
 
-  /// The same, of the obstacle with the gap.
+  /// How far the obstacle reaches, with the gap.
   [[nodiscard]] Scalar obstacle_from(const Spot& spot, PieceIndex piece) const noexcept {
-    const V at = seen_at_end(piece, query_.near) + spot.way;
+    const V at = seen_at_end(piece, query_.near) + spot.position;
     if (best(piece, at).separation >= query_.gap - slack) return 0;
     Scalar reach = std::numeric_limits<Scalar>::infinity();
     for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis)
@@ -289,12 +288,12 @@ class Search {
     if (rate > parallel) reach = std::min(reach, depth / rate);
   }
 
-  /// The same, of what it hides from a place.
+  /// How far a shadow reaches.
   [[nodiscard]] Scalar shadow_from(const Spot& spot, PieceIndex piece, Place place) noexcept {
     const View& view = this->view(piece, place);
     if (!view.blocks) return 0;
-    const V at = seen_at_end(piece, query_.near) + spot.way;
-    const V gone = at - view.place;
+    const V at = seen_at_end(piece, query_.near) + spot.position;
+    const V travelled = at - view.place;
     const Scalar kept = solid(piece) ? view.level : query_.gap;
     Scalar reach = std::numeric_limits<Scalar>::infinity();
     for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis) {
@@ -303,26 +302,25 @@ class Search {
       if (depth <= slack) return 0;
       shorten(reach, spot, space_.normal(piece, axis), depth);
     }
-    if (!solid(piece)) {  // it blocks motion against its normal only
+    if (!solid(piece)) {  // it blocks only motion against its normal
       const V n = space_.normal(piece, space_.info(piece).one_way_axis);
-      const Scalar depth = -(n.x() * gone.x() + n.y() * gone.y());
+      const Scalar depth = -(n.x() * travelled.x() + n.y() * travelled.y());
       if (depth <= 0) return 0;
       shorten(reach, spot, n, depth);
     }
     for (const V& n : {view.tangents.left, view.tangents.right}) {
-      const Scalar depth = -(n.x() * gone.x() + n.y() * gone.y());
+      const Scalar depth = -(n.x() * travelled.x() + n.y() * travelled.y());
       if ((n.x() != 0 || n.y() != 0) && depth <= slack) return 0;
       shorten(reach, spot, n, depth);
     }
     return reach;
   }
 
-  // What is checked.
+  // The checks of a position.
 
-  /// @return true: the search along this line ends, as a way ends here or no place from here on is nearer than the
-  /// best.
-  bool consider(const V& way) noexcept {
-    const V q = query_.near + way;
+  /// @return true where the search along this line ends: a position was taken, or all others on it are further away.
+  bool consider(const V& w) noexcept {
+    const V q = query_.near + w;
     const Scalar distance = length_of(V(q - query_.near));
     if (!(distance < nearest_)) return true;
     if (!reaches(q)) return false;
@@ -337,8 +335,8 @@ class Search {
     });
   }
 
-  /// Whether the straight way from the side of a piece that may be passed stays clear of it, whatever rounding did to
-  /// where it begins.
+  /// Whether a position is on the side of a piece from which the character came: the straight motion from there is
+  /// clear of the piece. It may touch the piece at its start, by rounding.
   [[nodiscard]] bool keeps_side(PieceIndex piece, const V& q) const noexcept {
     constexpr Scalar certain = Tolerances<Scalar>{}.certain;
     const std::optional<V> from = side_of(piece);
@@ -350,7 +348,7 @@ class Search {
     return best(piece, *from).separation >= certain && passes(make_motion<Lanes>(space_, *from, V(to - *from)), piece);
   }
 
-  /// Whether a straight way to a position meets a piece: a solid, or a one-way segment against its normal.
+  /// Whether a straight motion to a position hits no solid, and no one-way segment against its normal.
   /// @param time when it begins.
   [[nodiscard]] bool clear(PieceIndex piece, const V& place, Scalar time, const V& q) const noexcept {
     constexpr Scalar certain = Tolerances<Scalar>{}.certain;
@@ -358,7 +356,7 @@ class Search {
     const V from = seen(piece, place, time);
     const V to = seen_at_end(piece, q);
     Motion<Lanes, Scalar> motion = make_motion<Lanes>(space_, from, V(to - from));
-    motion.rest = lost_by(place, offset(piece, time));
+    motion.lost = lost_by(place, offset(piece, time));
     if (!blocks(space_, motion, piece)) return true;
     for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis)
       if (space_.separation(piece, axis, from) >= certain && space_.separation(piece, axis, to) >= certain) return true;
@@ -391,7 +389,7 @@ class Search {
   bool takes_time_;
   std::array<Kept, 64> kept_{};
   std::size_t last_covering_ = 0;
-  Scalar nearest_;  ///< Farther positions are not looked for any more [m].
+  Scalar nearest_;  ///< Distance of the best position so far [m].
   std::optional<V> best_;
 };
 

@@ -19,13 +19,13 @@ namespace paperproof::octagon_sweep {
 template <std::size_t Lanes, class Scalar>
 struct Motion {
   Vec2<Scalar> from;
-  Vec2<Scalar> way;              ///< What is to be travelled [m].
-  Scalar length;                 ///< Of `way` [m].
-  Scalar reach;                  ///< The sweep covers `way` times this: it looks a little beyond the end.
+  Vec2<Scalar> displacement;     ///< What is to be travelled [m].
+  Scalar length;                 ///< Of `displacement` [m].
+  Scalar reach;                  ///< The sweep covers `displacement` times this: it looks a little beyond the end.
   Vec2<Scalar> extended;         ///< That product [m].
   PerAxis<Lanes, Scalar> at;     ///< n·from
   PerAxis<Lanes, Scalar> along;  ///< n·extended
-  Vec2<Scalar> rest;             ///< What `from` lost when the offset of the piece's mover was taken from it [m].
+  Vec2<Scalar> lost;             ///< What `from` lost when the offset of the piece's mover was taken from it [m].
   /// The bent one-way surface that was asked for last, and the answer: its pieces come one after the other.
   mutable typename OneWaySurfaces<Scalar>::Index known_surface;
   mutable bool above_known_surface;
@@ -47,10 +47,10 @@ template <class Scalar>
   return scale * std::sqrt(x * x + y * y);
 }
 
-/// @param look how far beyond the end of the way the sweep looks [m].
+/// @param look how far beyond the end of the motion the sweep looks [m].
 template <std::size_t Lanes, class Scalar>
 [[nodiscard, gnu::always_inline]] inline Motion<Lanes, Scalar> make_motion(
-    const ConfigurationSpace<Scalar>& space, const Vec2<Scalar>& from, const Vec2<Scalar>& way,
+    const ConfigurationSpace<Scalar>& space, const Vec2<Scalar>& from, const Vec2<Scalar>& displacement,
     Scalar look = Tolerances<Scalar>{}.look) noexcept {
   // A shorter motion would make the reach infinite.
   constexpr Scalar shortest = std::numeric_limits<Scalar>::min() * Scalar(1e8);
@@ -58,15 +58,15 @@ template <std::size_t Lanes, class Scalar>
   const PerAxis<Lanes, Scalar> y = PerAxis<Lanes, Scalar>::Map(space.shared_y().data());
   Motion<Lanes, Scalar> motion;
   motion.from = from;
-  motion.way = way;
-  motion.length = length_of(way);
+  motion.displacement = displacement;
+  motion.length = length_of(displacement);
   // By the larger component: a look up to 1.42 times as far is as good, and nothing waits for a square root.
-  const Scalar larger = std::max(std::abs(way.x()), std::abs(way.y()));
+  const Scalar larger = std::max(std::abs(displacement.x()), std::abs(displacement.y()));
   motion.reach = 1 + look / std::max(larger, shortest);
-  motion.extended = way * motion.reach;
+  motion.extended = displacement * motion.reach;
   motion.at = x * from.x() + y * from.y();
   motion.along = x * motion.extended.x() + y * motion.extended.y();
-  motion.rest = Vec2<Scalar>::Zero();
+  motion.lost = Vec2<Scalar>::Zero();
   motion.known_surface = OneWaySurfaces<Scalar>::none;
   return motion;
 }
@@ -156,7 +156,7 @@ struct EntryAxes {
 template <class Scalar>
 struct PieceHit {
   bool hit;
-  Scalar stop;     ///< Where to stop, as a fraction of `way`.
+  Scalar stop;     ///< Where to stop, as a fraction of `displacement`.
   EntryAxes axes;  ///< Valid for a hit.
 };
 
@@ -240,7 +240,7 @@ template <class Scalar>
 /// one of them came first: behind the surface of a wall of tiles every facet is covered.
 enum class Covered : std::uint8_t { as_any, yields };
 
-/// Sweeps the reference point against one obstacle that may be in the way: no axis keeps it clear.
+/// Sweeps the reference point against one obstacle that may block it: no axis keeps it clear.
 ///
 /// Every separation is linear in time. The motion hits when, at some time, all of them are below tau: the latest entry
 /// below tau comes before the earliest exit above it. It is then stopped where it enters the larger region below
@@ -265,10 +265,10 @@ template <Covered covered = Covered::yields, std::size_t Lanes, class Scalar>
   Scalar leaves = 1;  // when some separation is above zero again
   std::size_t impact = f.count;
   std::size_t near = f.count;
-  for (std::size_t axis = 0; axis < f.count; ++axis) {
+  const auto look_at = [&](std::size_t axis) {
     const Scalar start = f.start[axis];
     const Scalar end = f.end[axis];
-    if (start < inside && end < inside) continue;  // most axes of a piece that is met: they say nothing
+    if (start < inside && end < inside) return;  // most axes of a piece that is met: they say nothing
     const Scalar approach = start - end;
     if (start >= 0 && approach > 0 && start > impact_time * approach) {
       impact_time = start / approach;
@@ -289,7 +289,9 @@ template <Covered covered = Covered::yields, std::size_t Lanes, class Scalar>
       exit = std::min(exit, (tau - start) / (end - start));
     }
     if (!touching && start > tolerances.stop) stop = std::max(stop, (start - tolerances.stop) / approach);
-  }
+  };
+  for (std::size_t axis = 0; axis < Lanes; ++axis) look_at(axis);
+  for (std::size_t axis = Lanes; axis < f.count; ++axis) look_at(axis);
   const auto faced = [&](std::size_t axis) {
     return f.start[axis] + (f.end[axis] - f.start[axis]) * stop >= std::min(tau, tolerances.certain);
   };

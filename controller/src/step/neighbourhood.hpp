@@ -26,7 +26,7 @@ class Neighbourhood {
   /// Every piece that the octagon can touch while its reference point is in `box`, and perhaps more; ascending.
   /// @param way where it is going [m]: what is there will be wanted next.
   [[nodiscard]] std::span<const PieceIndex> around(const Box2<Scalar>& box,
-                                                   const Vec2<Scalar>& way = Vec2<Scalar>::Zero()) noexcept;
+                                                   const Vec2<Scalar>& displacement = Vec2<Scalar>::Zero()) noexcept;
 
   /// The same without `way` and without what was collected before, for the caller to reorder. Nothing is kept.
   /// @return memory for all pieces of the scenery, and how many were written.
@@ -51,10 +51,11 @@ class Neighbourhood {
 };
 
 template <class Scalar>
-std::span<const PieceIndex> Neighbourhood<Scalar>::around(const Box2<Scalar>& box, const Vec2<Scalar>& way) noexcept {
+std::span<const PieceIndex> Neighbourhood<Scalar>::around(const Box2<Scalar>& box,
+                                                          const Vec2<Scalar>& displacement) noexcept {
   Candidates<Scalar>& known = scratch_.solids;
   if (!known.valid || !known.box.contains(box)) {
-    known.box = positions_ahead(box, way, look_ahead_);
+    known.box = positions_ahead(box, displacement, look_ahead_);
     known.count = broad_phase_.query(space_.touched_from(known.box), known.pieces);
     known.valid = true;
   }

@@ -1,4 +1,4 @@
-/// When a one-way segment is in the way.
+/// When a one-way segment blocks.
 #pragma once
 
 #include "step/narrow_phase.hpp"
@@ -22,22 +22,21 @@ template <class Scalar>
 
 /// Whether a piece can stop a motion at all. A solid always can. A one-way segment can stop a motion that begins above
 /// its surface. From a gap on, what does not go against a straight one is clear of it and need not be looked at; nearer
-/// than that it must be known to be near, whichever way it goes.
+/// than that it must be known to be near, whatever its direction.
 template <std::size_t Lanes, class Scalar>
 [[nodiscard, gnu::always_inline]] inline bool blocks(const ConfigurationSpace<Scalar>& space,
                                                      const Motion<Lanes, Scalar>& motion, PieceIndex piece) noexcept {
   const ObstacleInfo& info = space.info(piece);
   if (info.one_way_axis == ObstacleInfo::not_one_way) return true;
-  const auto begins_above = [&] { return is_above(space, piece, motion.from, motion.rest); };
   if (!info.bent_surface) {
     const Vec2<Scalar> n = space.normal(piece, info.one_way_axis);
     if (space.separation(piece, info.one_way_axis, motion.from) >= Tolerances<Scalar>{}.hit)
-      return n.x() * motion.way.x() + n.y() * motion.way.y() < 0;
-    return begins_above();
+      return n.x() * motion.displacement.x() + n.y() * motion.displacement.y() < 0;
+    return is_above(space, piece, motion.from, motion.lost);
   }
   if (motion.known_surface != info.surface) {
     motion.known_surface = info.surface;
-    motion.above_known_surface = begins_above();
+    motion.above_known_surface = is_above(space, piece, motion.from, motion.lost);
   }
   return motion.above_known_surface;
 }

@@ -49,7 +49,7 @@ namespace paperproof::octagon_sweep {
 template <class Scalar>
 inline constexpr Scalar same_plane = std::numeric_limits<Scalar>::epsilon() * 16;
 
-/// A way that points into a plane by less than this share of its length runs along it.
+/// A motion that points into a plane by less than this share of its length runs along it.
 template <class Scalar>
 inline constexpr Scalar along_plane = std::numeric_limits<Scalar>::epsilon() * 64;
 
@@ -58,16 +58,16 @@ template <class Scalar>
   return a.x() * b.x() + a.y() * b.y();
 }
 
-/// Whether a way goes into a plane that it touches, rather than along it.
+/// Whether a motion goes into a plane that it touches, rather than along it.
 template <class Scalar>
-[[nodiscard]] bool enters(const Vec2<Scalar>& way, const Vec2<Scalar>& normal) noexcept {
-  const Scalar out = dot(way, normal);
-  return out < 0 && out < -along_plane<Scalar> * length_of(way);
+[[nodiscard]] bool enters(const Vec2<Scalar>& displacement, const Vec2<Scalar>& normal) noexcept {
+  const Scalar out = dot(displacement, normal);
+  return out < 0 && out < -along_plane<Scalar> * length_of(displacement);
 }
 
 /// A motion [m] or velocity [m/s] that is wanted, and the part of it that is there without this step's steering.
 template <class Scalar>
-struct Wish {
+struct Desired {
   Vec2<Scalar> wanted;
   Vec2<Scalar> unsteered;
 };
@@ -132,14 +132,14 @@ template <class Scalar>
 /// The response to a surface that is entered, of what is wanted and of what there is without steering.
 /// @param steered the horizontal part that this step's steering added to what was wanted.
 template <class Scalar>
-[[nodiscard, gnu::always_inline]] inline Wish<Scalar> respond(const Wish<Scalar>& wish, Scalar steered,
-                                                              const Surface<Scalar>& at) noexcept {
-  if (dot(wish.wanted, at.normal) >= 0) return wish;
-  const Vec2<Scalar> unsteered = respond(wish.unsteered, at);
+[[nodiscard, gnu::always_inline]] inline Desired<Scalar> respond(const Desired<Scalar>& desired, Scalar steered,
+                                                                 const Surface<Scalar>& at) noexcept {
+  if (dot(desired.wanted, at.normal) >= 0) return desired;
+  const Vec2<Scalar> unsteered = respond(desired.unsteered, at);
   if (steered == 0) return {unsteered, unsteered};
-  if (at.walkable) return {follow(wish.unsteered.x() + steered, at.normal), unsteered};
-  const bool presses = at.normal.y() >= 0 && dot(Vec2<Scalar>(wish.wanted - wish.unsteered), at.normal) < 0;
-  return {presses ? press(wish.unsteered, unsteered, at) : respond(wish.wanted, at), unsteered};
+  if (at.walkable) return {follow(desired.unsteered.x() + steered, at.normal), unsteered};
+  const bool moves_in = at.normal.y() >= 0 && dot(Vec2<Scalar>(desired.wanted - desired.unsteered), at.normal) < 0;
+  return {moves_in ? press(desired.unsteered, unsteered, at) : respond(desired.wanted, at), unsteered};
 }
 
 }  // namespace paperproof::octagon_sweep

@@ -1,4 +1,4 @@
-/// What a piece hides from a place: what no straight way from there reaches without meeting the piece.
+/// What a piece hides from a place: what no straight motion from there reaches without meeting the piece.
 ///
 /// In configuration space a piece is convex, and so is its shadow: what lies behind those of its facets that face the
 /// place, between the two tangents from there.

@@ -1,20 +1,20 @@
 #include "step/solve.hpp"
 
-#include "step/step_among_movers.hpp"
 #include "step/step_crush.hpp"
+#include "step/step_response.hpp"
 #include "step/step_ride.hpp"
+#include "step/step_solve.hpp"
 #include "step/step_start.hpp"
 #include "step/step_sweep.hpp"
-#include "step/step_travel.hpp"
 
 namespace paperproof::octagon_sweep {
 namespace {
 
 template <std::size_t Lanes, class Scalar>
 void solve(const ConfigurationSpace<Scalar>& space, const Settings<Scalar>& settings,
-           const Neighbourhood<Scalar>& neighbourhood, Surroundings<Scalar>& surroundings, Part part,
+           const Neighbourhood<Scalar>& neighbourhood, MoversInStep<Scalar>& movers, Part part,
            const MoveRequest<Scalar>& request, MoveResult<Scalar>& result) noexcept {
-  StepSolver<Lanes, Scalar>{space, settings, neighbourhood, surroundings, result}.solve(part, request);
+  StepSolver<Lanes, Scalar>{space, settings, neighbourhood, movers, result}.solve(part, request);
 }
 
 }  // namespace

@@ -8,7 +8,7 @@ namespace paperproof::octagon_sweep {
 
 template <class Scalar>
 using Solve = void (*)(const ConfigurationSpace<Scalar>&, const Settings<Scalar>&, const Neighbourhood<Scalar>&,
-                       Surroundings<Scalar>&, Part, const MoveRequest<Scalar>&, MoveResult<Scalar>&) noexcept;
+                       MoversInStep<Scalar>&, Part, const MoveRequest<Scalar>&, MoveResult<Scalar>&) noexcept;
 
 /// @param lanes of the configuration space: 8 or 12.
 template <class Scalar>

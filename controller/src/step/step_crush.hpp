@@ -1,63 +1,64 @@
-/// StepSolver: movers that leave no room.
+/// StepSolver: movers that crush.
 ///
-/// Before that is said room is looked for (step_room.hpp). Where there is none the character stays where it is, which
-/// is free of everything that stands still, and what presses goes through it. As long as it is on the character when a
-/// step begins, a way out is looked for, as out of any solid, but not to another side than that from which the
-/// character came. Where there is none the character is stuck: what else runs into it finds it room, free of all that
-/// and on that side, or crushes it as well.
+/// A mover crushes the character where it leaves no free position (step_free_position.hpp). The character then stays
+/// where it is, which is free of everything that stands still, and the mover passes through it: it is ignored for the
+/// rest of the step. While it overlaps the character at the start of a later step, a way out is looked for, as out of
+/// any solid, but only to the side from which the character came. Where there is none, the character is stuck. Another
+/// mover that runs into it then moves it to a free position on that side, or crushes it, too.
 #pragma once
 
-#include "step/step_room.hpp"
+#include "step/step_free_position.hpp"
 
 namespace paperproof::octagon_sweep {
 
-/// Whether something goes through the character: nothing but room moves it then.
+/// Whether a mover passes through the character. It then moves only to a free position.
 template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::pinned() const noexcept {
-  return moving_.on_it > 0 || !result_.crushed.empty();
+bool StepSolver<Lanes, Scalar>::is_overlapped() const noexcept {
+  return moving_.overlapping > 0 || !result_.crushed.empty();
 }
 
-/// Room beside what holds the character, before it is crushed: later it is looked for beside all that crushed it.
+/// Moves to a free position beside the movers that are touched, if there is one and nothing has crushed the character
+/// yet. After a crush `undo_crushes` does that at the end of the step.
 template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::gives_way() noexcept {
+bool StepSolver<Lanes, Scalar>::goes_to_free_position() noexcept {
   if (!result_.crushed.empty()) return false;
   Scalar reach = 0;
-  for (const Hold<Scalar>& hold : memory_.holds)
-    if (hold.mover != no_mover) reach = std::max(reach, length_of(around_.course(hold.mover)));
-  if (!find_room(reach, result_.path.size())) return false;
-  memory_.holds.clear();
+  for (const TouchedSurface<Scalar>& surface : memory_.surfaces)
+    if (surface.mover != no_mover) reach = std::max(reach, length_of(movers_.displacement(surface.mover)));
+  if (!find_free_position(reach, result_.path.size())) return false;
+  memory_.surfaces.clear();
   return true;
 }
 
-/// One crush after the other may leave a way to go that none of them left alone: with all that crushed in its place
-/// again, and as far away as any of them goes.
+/// After several crushes there may be a free position that was not there after the first one. Looks for it beside all
+/// movers that crushed, no further away than one of them moves; then nothing was crushed.
 template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::take_back_crushes() noexcept {
+void StepSolver<Lanes, Scalar>::undo_crushes() noexcept {
   if (result_.crushed.empty()) return;
   moving_.ignored &= static_cast<std::uint8_t>(~crushes);
   Scalar reach = 0;
-  for (const ColliderIndex collider : result_.crushed) reach = std::max(reach, length_of(course_of(collider)));
-  memory_.holds.clear();
-  if (find_room(reach, moving_.corners_before_crush)) {
+  for (const ColliderIndex collider : result_.crushed) reach = std::max(reach, length_of(displacement_of(collider)));
+  memory_.surfaces.clear();
+  if (find_free_position(reach, moving_.corners_before_crush)) {
     for (const ColliderIndex collider : result_.crushed) memory_.unmark(collider, crushes);
     result_.crushed.clear();
     result_.status = moving_.status_before_crush == MoveStatus::dropped ? MoveStatus::dropped : MoveStatus::moved;
   }
-  moving_.ignored = goes_through;
+  moving_.ignored = passes_through;
 }
 
-/// Whether a surface comes closer to a character that stays where it is: by less than rounding it takes no room.
+/// Whether a surface moves into a character that stays where it is, by more than rounding.
 template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::presses(const Hold<Scalar>& hold) const noexcept {
-  return dot(rest_of(hold), hold.normal) > Tolerances<Scalar>{}.certain;
+bool StepSolver<Lanes, Scalar>::moves_in(const TouchedSurface<Scalar>& surface) const noexcept {
+  return dot(remaining_of(surface), surface.normal) > Tolerances<Scalar>{}.certain;
 }
 
-/// What runs into a character that stays where it is. False where nothing does.
+/// Lets every touched surface crush that moves into the character. False if there is none.
 template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::crush_what_presses() noexcept {
+bool StepSolver<Lanes, Scalar>::note_crushers() noexcept {
   const std::size_t before = result_.crushed.size();
-  for (const Hold<Scalar>& hold : memory_.holds)
-    if (presses(hold)) crush(hold.piece);
+  for (const TouchedSurface<Scalar>& surface : memory_.surfaces)
+    if (moves_in(surface)) crush(surface.piece);
   return result_.crushed.size() > before;
 }
 
@@ -66,12 +67,12 @@ void StepSolver<Lanes, Scalar>::crush(PieceIndex piece) noexcept {
   const MoverIndex mover = mover_of(piece);
   if (ignored(piece) || mover == no_mover) return;
   const ColliderIndex collider = collider_of(piece);
-  name_as_crushing(collider);
-  remember({collider, position_, around_.rest(mover, time_)});
+  add_to_crushed(collider);
+  remember({collider, position_, movers_.remaining(mover, time_)});
 }
 
 template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::name_as_crushing(ColliderIndex collider) noexcept {
+void StepSolver<Lanes, Scalar>::add_to_crushed(ColliderIndex collider) noexcept {
   if (result_.crushed.empty()) {
     moving_.corners_before_crush = result_.path.size();
     moving_.status_before_crush = result_.status;
@@ -81,31 +82,31 @@ void StepSolver<Lanes, Scalar>::name_as_crushing(ColliderIndex collider) noexcep
   result_.status = MoveStatus::crushed;
 }
 
-/// Lets every mover near the position through for whose pieces the condition holds. True if there was one.
+/// Ignores every mover near the position that has a piece for which the condition holds. True if there is one.
 template <std::size_t Lanes, class Scalar>
 template <class Condition>
-bool StepSolver<Lanes, Scalar>::let_through(const Condition& condition) noexcept {
+bool StepSolver<Lanes, Scalar>::ignore_movers(const Condition& condition) noexcept {
   bool any = false;
   for_each_near({position_, position_}, [&](PieceIndex piece) {
     if (mover_of(piece) == no_mover || ignored(piece) || !condition(piece)) return;
-    memory_.mark(collider_of(piece), lies_on);
+    memory_.mark(collider_of(piece), overlaps_since_start);
     any = true;
   });
   return any;
 }
 
-/// Looks up each overlapping mover in the state's list. The list may come from other scenery, so unknown entries are
-/// skipped. A mover that is not in the list is taken to have come at the last free position; if the list is full, its
-/// side counts as lost.
+/// Ignores the movers that overlap the character, and finds each of them in the list of the state. The list may come
+/// from another scenery: unknown entries are skipped. A mover that is not in the list came at the last free position;
+/// if the list is full, its side is not known.
 template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::let_through_what_is_on_it(const MoveRequest<Scalar>& request) noexcept {
-  const bool any = let_through([this](PieceIndex piece) { return overlaps(piece, position_); });
+bool StepSolver<Lanes, Scalar>::ignore_overlapping_movers(const MoveRequest<Scalar>& request) noexcept {
+  const bool any = ignore_movers([this](PieceIndex piece) { return overlaps(piece, position_); });
   const bool full = request.crushers.size() == Crushers<Scalar>::capacity();
-  moving_.on_it = 0;
+  moving_.overlapping = 0;
   for (const ColliderIndex collider : memory_.marked) {
-    if (!memory_.is(collider, lies_on)) continue;
-    ++moving_.on_it;
-    Crusher<Scalar> now{collider, request.last_free, course_of(collider), !full};
+    if (!memory_.is(collider, overlaps_since_start)) continue;
+    ++moving_.overlapping;
+    Crusher<Scalar> now{collider, request.last_free, displacement_of(collider), !full};
     const auto known = std::find_if(request.crushers.begin(), request.crushers.end(),
                                     [&](const Crusher<Scalar>& before) { return before.collider == collider; });
     if (known != request.crushers.end())
@@ -118,30 +119,31 @@ bool StepSolver<Lanes, Scalar>::let_through_what_is_on_it(const MoveRequest<Scal
   return any;
 }
 
-/// By a way out of it, as of any solid, to the side from which the character came.
+/// Leaves the movers that overlap, as any solid, to the side from which the character came. False if there is no way
+/// out.
 template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::leaves_what_is_on_it(const MoveRequest<Scalar>& request) noexcept {
+bool StepSolver<Lanes, Scalar>::leaves_overlapping_movers(const MoveRequest<Scalar>& request) noexcept {
   if (moving_.side_lost) return false;
-  moving_.ignored &= static_cast<std::uint8_t>(~lies_on);
+  moving_.ignored &= static_cast<std::uint8_t>(~overlaps_since_start);
   const std::optional<V> out = find_way_out(request);
   if (out) {
-    note_what_is_left();
-    for (const ColliderIndex collider : memory_.marked) memory_.unmark(collider, lies_on);
-    moving_.on_it = 0;
+    note_colliders_left();
+    for (const ColliderIndex collider : memory_.marked) memory_.unmark(collider, overlaps_since_start);
+    moving_.overlapping = 0;
     start_ = position_ = *out;
     push_corner(0);
   }
-  moving_.ignored = goes_through;
+  moving_.ignored = passes_through;
   return out.has_value();
 }
 
-/// How far the mover of a collider goes in the step [m].
+/// Displacement of the mover of a collider in the step [m].
 template <std::size_t Lanes, class Scalar>
-Vec2<Scalar> StepSolver<Lanes, Scalar>::course_of(ColliderIndex collider) const noexcept {
-  return around_.course(mover_of_collider(collider));
+Vec2<Scalar> StepSolver<Lanes, Scalar>::displacement_of(ColliderIndex collider) const noexcept {
+  return movers_.displacement(mover_of_collider(collider));
 }
 
-/// @param now `displacement` is by the end of the step.
+/// @param now its displacement is that at the end of the step.
 template <std::size_t Lanes, class Scalar>
 void StepSolver<Lanes, Scalar>::remember(const Crusher<Scalar>& now) noexcept {
   for (Crusher<Scalar>& known : memory_.crushers) {
@@ -152,31 +154,31 @@ void StepSolver<Lanes, Scalar>::remember(const Crusher<Scalar>& now) noexcept {
   memory_.crushers.push_back(now);
 }
 
-/// Marks the colliders that were let through and still overlap the character at the end of the step; such a step is
-/// `stuck` unless it is `crushed`. Forgets the others.
+/// Finds the movers that were ignored in this step and still overlap the character. If one of them overlapped at the
+/// start, the character is stuck, unless it was crushed in this step. Hands the list to the next step.
 template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::end_wait() noexcept {
+void StepSolver<Lanes, Scalar>::find_movers_that_still_overlap() noexcept {
   if (memory_.marked.empty()) return;
   moving_.ignored = 0;
   for_each_near({position_, position_}, [&](PieceIndex piece) {
     const ColliderIndex collider = collider_of(piece);
-    if (memory_.is(collider, goes_through) && !memory_.is(collider, still) && overlaps(piece, position_))
-      memory_.mark(collider, still);
+    if (memory_.is(collider, passes_through) && !memory_.is(collider, overlaps_at_end) && overlaps(piece, position_))
+      memory_.mark(collider, overlaps_at_end);
   });
   for (const ColliderIndex collider : memory_.marked) {
-    const bool has_it_stuck = memory_.is(collider, still) && !memory_.is(collider, crushes);
+    const bool has_it_stuck = memory_.is(collider, overlaps_at_end) && !memory_.is(collider, crushes);
     if (has_it_stuck && result_.status != MoveStatus::crushed) result_.status = MoveStatus::stuck;
   }
   hand_on_crushers();
 }
 
-/// Hands on movers that carry before others (which in a crowd may be another character in the next step), and within
-/// each those with a known side first.
+/// Movers that carry come first, as the others may be other characters of a crowd, which change from step to step. Of
+/// each kind those come first whose side is known.
 template <std::size_t Lanes, class Scalar>
 void StepSolver<Lanes, Scalar>::hand_on_crushers() noexcept {
   const auto hand_on = [this](bool carries, bool has_side) {
     for (const Crusher<Scalar>& known : memory_.crushers)
-      if (memory_.is(known.collider, still) && known.has_side == has_side &&
+      if (memory_.is(known.collider, overlaps_at_end) && known.has_side == has_side &&
           space_.scenery().collider(known.collider).carries == carries)
         result_.crushers.push_back(known);
   };
@@ -184,48 +186,48 @@ void StepSolver<Lanes, Scalar>::hand_on_crushers() noexcept {
     for (const bool has_side : {true, false}) hand_on(carries, has_side);
 }
 
-/// The character keeps its position for the rest of the step, and what runs into it crushes. What is touched and does
-/// not come closer is looked past: what runs into the character later would be hidden behind it.
-/// @param may_give_way it goes where there is room instead.
+/// The character stays where it is for the rest of the step, and movers that run into it crush it. Sweeps do not look
+/// at surfaces that are touched and do not come closer: they would hide a mover that comes later.
+/// @param may_move it moves to a free position instead, if there is one.
 template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::stay(bool may_give_way) noexcept {
+void StepSolver<Lanes, Scalar>::wait(bool may_move) noexcept {
   halt();
-  memory_.holds.clear();
-  moving_.looks_past_holds = true;
-  for (look_along(V::Zero()); found_.hit; look_along(V::Zero())) {
-    update_holds();
-    if (may_give_way && gives_way()) {
-      moving_.looks_past_holds = false;
+  memory_.surfaces.clear();
+  moving_.waits = true;
+  for (sweep_along(V::Zero()); found_.hit; sweep_along(V::Zero())) {
+    update_surfaces();
+    if (may_move && goes_to_free_position()) {
+      moving_.waits = false;
       return;
     }
-    crush_what_presses();
+    note_crushers();
   }
-  moving_.looks_past_holds = false;
+  moving_.waits = false;
   moving_.anchored = false;
   const Scalar since = time_;
   time_ = 1;
-  crush_what_came_in(since);
+  note_crushers_by_rounding(since);
   push_corner(time_);
 }
 
-/// What was nearer than rounding may come in by no more than rounding, which no sweep sees.
+/// Lets movers crush that overlap by no more than rounding, which no sweep sees.
 template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::crush_what_came_in(Scalar since) noexcept {
+void StepSolver<Lanes, Scalar>::note_crushers_by_rounding(Scalar since) noexcept {
   for_each_near({position_, position_}, [&](PieceIndex piece) {
     const MoverIndex mover = mover_of(piece);
     if (mover == no_mover || ignored(piece) || !overlaps(piece, position_)) return;
-    name_as_crushing(collider_of(piece));
-    remember({collider_of(piece), position_, around_.rest(mover, since)});
+    add_to_crushed(collider_of(piece));
+    remember({collider_of(piece), position_, movers_.remaining(mover, since)});
   });
 }
 
-/// The whole step, where that is asked for.
+/// The whole step of `Part::stay`.
 template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::keep_place(const MoveRequest<Scalar>& request) noexcept {
+void StepSolver<Lanes, Scalar>::stay_in_place(const MoveRequest<Scalar>& request) noexcept {
   push_corner(0);
-  let_through_what_is_on_it(request);
-  stay(false);
-  end_wait();
+  ignore_overlapping_movers(request);
+  wait(false);
+  find_movers_that_still_overlap();
   if (result_.status == MoveStatus::moved && overlaps(position_)) result_.status = MoveStatus::stuck;
   result_.position = position_;
   result_.velocity = velocity_;

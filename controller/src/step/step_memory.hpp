@@ -1,4 +1,4 @@
-/// Memory of a step: sized by the scenery, so that no fixed number decides what a step does or names.
+/// Memory of a step. The scenery sizes it, so that no fixed number decides what a step does or reports.
 #pragma once
 
 #include "step/half_planes.hpp"
@@ -18,42 +18,42 @@ template <class Scalar>
 struct Stop {
   PieceIndex piece;
   Scalar stop;      ///< Fraction of the motion.
-  Scalar together;  ///< Stops up to this much later or earlier are at the same time.
+  Scalar together;  ///< Stops that are no further apart than this are one impact.
   EntryAxes axes;
 };
 
-/// A surface that is touched: no motion may go further into it.
+/// A surface that the character touches. No motion may enter it.
 template <class Scalar>
-struct Hold {
+struct TouchedSurface {
   PieceIndex piece;
   std::size_t axis;
   Vec2<Scalar> normal;
   MoverIndex mover;
 };
 
-/// A piece at the moment of a straight way when it is nearest.
+/// Where a straight motion is nearest to a piece.
 template <class Scalar>
 struct Nearest {
   PieceIndex piece;
   std::size_t axis;
   Scalar separation;  ///< [m]
-  Scalar when;        ///< Fraction of the way.
+  Scalar when;        ///< Fraction of the motion.
 };
 
-/// What a collider is to a character during a step; several may hold.
+/// What a collider is for the character during a step; it may have several roles.
 enum Role : std::uint8_t {
-  lies_on = 1,  ///< It is on the character since an earlier step, or
-  crushes = 2,  ///< crushes it: it goes through the character.
-  left = 4,     ///< The step began inside it, and leaves it.
-  still = 8,    ///< It goes through the character, and is on it where the step ends.
-  known = 16,   ///< It is or was one of these.
+  overlaps_since_start = 1,  ///< It overlaps the character since an earlier step, and is ignored.
+  crushes = 2,               ///< It crushed the character in this step, and is ignored since.
+  leaving = 4,               ///< The step began inside it, and left it.
+  overlaps_at_end = 8,       ///< It was ignored, and overlaps the character at the end of the step.
+  known = 16,                ///< It has or had one of these.
 };
-inline constexpr std::uint8_t goes_through = lies_on | crushes;
+inline constexpr std::uint8_t passes_through = overlaps_since_start | crushes;
 
-/// What a step may need besides its state.
+/// One per thread; a step leaves nothing in it that the next one uses.
 template <class Scalar>
 struct StepMemory final : OwnMemory {
-  /// @param touched_at_once so many pieces that stand still can be touched in one place.
+  /// @param touched_at_once how many pieces that stand still can be touched in one place, at most.
   /// @param iterations of the sweep.
   StepMemory(const ConfigurationSpace<Scalar>& space, std::size_t touched_at_once, int iterations)
       : corners(2 * MoveResult<Scalar>::max_corners + 4 * moving_pieces(space)),
@@ -62,20 +62,19 @@ struct StepMemory final : OwnMemory {
         contacts_at(corners.capacity()),
         of_mover(moving_pieces(space)) {
     const std::size_t touched = touched_at_once + of_mover.size();
-    for (auto* each : {&holds, &holds_before}) each->reserve(touched);
-    for (auto* each : {&ways, &velocities}) each->reserve(touched);
+    for (auto* each : {&surfaces, &surfaces_before}) each->reserve(touched);
+    for (auto* each : {&displacement_planes, &velocity_planes}) each->reserve(touched);
+    if (of_mover.empty() && !has_conveyors(space.scenery())) return;
     roles.resize(space.scenery().collider_count());
-    if (of_mover.empty()) return;
-    marked.reserve(roles.size());
+    marked.reserve(touched);
     crushers.reserve(crushed.capacity());
-    near_the_way.reserve(space.scenery().sensor_pieces().first);
   }
 
-  /// What the last step left.
+  /// Forgets the last step.
   void clear() noexcept {
     for (const ColliderIndex collider : marked) roles[collider] = 0;
     marked.clear();
-    holds.clear();
+    surfaces.clear();
     crushers.clear();
   }
   void mark(ColliderIndex collider, Role role) noexcept {
@@ -86,22 +85,21 @@ struct StepMemory final : OwnMemory {
     roles[collider] = static_cast<std::uint8_t>(roles[collider] & ~role);
   }
   [[nodiscard]] bool is(ColliderIndex collider, std::uint8_t any_of) const noexcept {
-    return (roles[collider] & any_of) != 0;
+    return !marked.empty() && (roles[collider] & any_of) != 0;
   }
 
   ReportMemory<PathPoint<Scalar>> corners;  ///< Of the path.
   ReportMemory<Contact<Scalar>> contacts;   ///< Of one step, which reports each facet once at most.
   ReportMemory<ColliderIndex> crushed;
-  std::vector<std::size_t> contacts_at;    ///< How many contacts were known at each corner of the path.
-  std::vector<PieceIndex> of_mover;        ///< Answers of one mover's broad phase.
-  std::vector<std::uint8_t> roles;         ///< Of each collider: see `Role`.
-  std::vector<ColliderIndex> marked;       ///< Those that are `known`, in the order in which they came to be.
-  std::vector<Hold<Scalar>> holds;         ///< What is touched, each piece once,
-  std::vector<Hold<Scalar>> holds_before;  ///< and what was when the last sweep began.
-  std::vector<HalfPlane<Scalar>> ways;     ///< Those that the holds allow,
-  std::vector<HalfPlane<Scalar>> velocities;
-  std::vector<Nearest<Scalar>> near_the_way;  ///< Into room.
-  /// What came over the character, now or before, and how far it has gone by the end of the step.
+  std::vector<std::size_t> contacts_at;                 ///< How many contacts were known at each corner of the path.
+  std::vector<PieceIndex> of_mover;                     ///< Result of a query of one mover's broad phase.
+  std::vector<std::uint8_t> roles;                      ///< Of each collider, where anything moves: bits of `Role`.
+  std::vector<ColliderIndex> marked;                    ///< Colliders with a role, in the order in which they got one.
+  std::vector<TouchedSurface<Scalar>> surfaces;         ///< Those that are touched now, one per piece,
+  std::vector<TouchedSurface<Scalar>> surfaces_before;  ///< and before the last sweep.
+  std::vector<HalfPlane<Scalar>> displacement_planes;   ///< What the touched surfaces allow.
+  std::vector<HalfPlane<Scalar>> velocity_planes;
+  /// Movers that crushed, now or before, with their displacement at the end of the step.
   std::vector<Crusher<Scalar>> crushers;
 
  private:
@@ -110,8 +108,7 @@ struct StepMemory final : OwnMemory {
     const auto moves = [](const PieceInfo& each) { return each.mover != no_mover; };
     return static_cast<std::size_t>(std::count_if(all.begin(), all.end(), moves));
   }
-  /// Each impact reports each piece once at most, and so does the end of the step, for the ground and for what it
-  /// follows.
+  /// Each impact reports each touched piece at most once. So do the ground at the end of the step and the snap.
   [[nodiscard]] std::size_t most_contacts(const ConfigurationSpace<Scalar>& space, std::size_t touched,
                                           int iterations) const {
     std::size_t axes = 0;
@@ -121,37 +118,42 @@ struct StepMemory final : OwnMemory {
   }
 };
 
-/// Everything that moves during one step.
+/// The movers of one step.
 template <class Scalar>
-struct Surroundings {
+struct MoversInStep {
   const MoverPhases<Scalar>& phases;
-  std::span<const MoverMotion<Scalar>> movers;
-  Scalar dt;        ///< [s]
-  MoverIndex near;  ///< Movers to look at: all, or none where none comes near the step.
-  bool active;      ///< A mover comes near the step, or there may be a conveyor.
+  std::span<const MoverMotion<Scalar>> motions;
+  Scalar dt;         ///< [s]
+  MoverIndex count;  ///< How many are looked at: all, or none where none comes near the character.
+  bool active;       ///< A mover comes near the step, or there may be a conveyor.
 
-  void look_at_movers() noexcept {
-    near = phases.size();
-    active = active || near > 0;
+  void look_at_all() noexcept {
+    count = phases.size();
+    active = active || count > 0;
   }
 
-  /// How far a mover goes in the step [m].
-  [[nodiscard]] Vec2<Scalar> course(MoverIndex mover) const noexcept { return movers[mover].to - movers[mover].from; }
-  /// Where it is at a fraction of the step [m].
-  [[nodiscard]] Vec2<Scalar> offset(MoverIndex mover, Scalar time) const noexcept { return movers[mover].at(time); }
-  /// How far it still goes after a fraction of the step [m].
-  [[nodiscard]] Vec2<Scalar> rest(MoverIndex mover, Scalar time) const noexcept { return course(mover) * (1 - time); }
+  /// Displacement of a mover in the step [m].
+  [[nodiscard]] Vec2<Scalar> displacement(MoverIndex mover) const noexcept {
+    return motions[mover].to - motions[mover].from;
+  }
+  /// Its offset at a fraction of the step [m].
+  [[nodiscard]] Vec2<Scalar> offset(MoverIndex mover, Scalar time) const noexcept { return motions[mover].at(time); }
+  /// Its displacement after a fraction of the step [m].
+  [[nodiscard]] Vec2<Scalar> remaining(MoverIndex mover, Scalar time) const noexcept {
+    return displacement(mover) * (1 - time);
+  }
 
-  /// A motion for the rest of the step as the mover sees it [m]. What is nothing but rounding becomes zero: a rider at
+  /// A motion for the rest of the step, relative to a mover [m]. What is nothing but rounding becomes zero: a rider at
   /// rest rests, and a sweep that looks ahead does not take noise for a direction.
-  [[nodiscard]] Vec2<Scalar> relative(const Vec2<Scalar>& way, MoverIndex mover, Scalar time) const noexcept {
+  [[nodiscard]] Vec2<Scalar> relative(const Vec2<Scalar>& motion, MoverIndex mover, Scalar time) const noexcept {
     constexpr Scalar noise = std::numeric_limits<Scalar>::epsilon() * 8;
-    const Vec2<Scalar> whole = course(mover);
-    // Each offset is rounded on its own: a mover at one speed goes an ulp more or less from step to step.
-    const Vec2<Scalar> furthest = movers[mover].from.cwiseAbs().cwiseMax(movers[mover].to.cwiseAbs());
-    Vec2<Scalar> result = way - rest(mover, time);
+    const Vec2<Scalar> whole = displacement(mover);
+    // Each offset is rounded: at a constant speed the displacement of a mover differs by an ulp from step to step.
+    const Vec2<Scalar> furthest = motions[mover].from.cwiseAbs().cwiseMax(motions[mover].to.cwiseAbs());
+    Vec2<Scalar> result = motion - remaining(mover, time);
     for (Eigen::Index i = 0; i < 2; ++i)
-      if (std::abs(result[i]) <= noise * std::max({std::abs(way[i]), std::abs(whole[i]), furthest[i]})) result[i] = 0;
+      if (std::abs(result[i]) <= noise * std::max({std::abs(motion[i]), std::abs(whole[i]), furthest[i]}))
+        result[i] = 0;
     return result;
   }
 };

@@ -30,7 +30,7 @@ template <std::size_t Lanes, class Scalar>
 Vec2<Scalar> StepSolver<Lanes, Scalar>::ground_velocity(PieceIndex piece, const V& normal) const noexcept {
   const MoverIndex mover = mover_of(piece);
   V velocity = V{normal.y(), -normal.x()} * surface_speed(piece);
-  if (mover != no_mover) velocity += around_.course(mover) / around_.dt;
+  if (mover != no_mover) velocity += movers_.displacement(mover) / movers_.dt;
   return velocity;
 }
 
@@ -38,17 +38,18 @@ Vec2<Scalar> StepSolver<Lanes, Scalar>::ground_velocity(PieceIndex piece, const 
 template <std::size_t Lanes, class Scalar>
 Vec2<Scalar> StepSolver<Lanes, Scalar>::ground_rest(PieceIndex piece, const V& normal) const noexcept {
   const MoverIndex mover = mover_of(piece);
-  const Scalar along = surface_speed(piece) * around_.dt * (1 - time_);
+  const Scalar along = surface_speed(piece) * movers_.dt * (1 - time_);
   V rest = V{normal.y(), -normal.x()} * along;
-  if (mover != no_mover) rest += around_.rest(mover, time_);
+  if (mover != no_mover) rest += movers_.remaining(mover, time_);
   return rest;
 }
 
 /// What carries the character where it is now: the collider that it rides already, or, where it does not stand on
 /// anything else, what is steepest up of the others.
 template <std::size_t Lanes, class Scalar>
-std::optional<Hold<Scalar>> StepSolver<Lanes, Scalar>::ground_here(ColliderIndex ridden, bool walkable_only) noexcept {
-  std::optional<Hold<Scalar>> carrier;
+std::optional<TouchedSurface<Scalar>> StepSolver<Lanes, Scalar>::carrier_here(ColliderIndex ridden,
+                                                                              bool walkable_only) noexcept {
+  std::optional<TouchedSurface<Scalar>> carrier;
   bool rides = false;
   bool stands_still = false;
   for_each_near({position_, position_}, [&](PieceIndex piece) {
@@ -63,21 +64,21 @@ std::optional<Hold<Scalar>> StepSolver<Lanes, Scalar>::ground_here(ColliderIndex
     }
     const bool known = collider_of(piece) == ridden;
     if (carrier && (known < rides || (known == rides && normal.y() <= carrier->normal.y()))) return;
-    carrier = Hold<Scalar>{piece, best.axis, normal, mover_of(piece)};
+    carrier = TouchedSurface<Scalar>{piece, best.axis, normal, mover_of(piece)};
     rides = known;
   });
   if (!rides && stands_still) return std::nullopt;
   return carrier;
 }
 
-/// Where the step would go if nothing were in the way [m]: with the ground, for a rider. Sets the velocity.
+/// The desired displacement in the world [m]; that of a rider includes the motion of its ground. Sets the velocity.
 template <std::size_t Lanes, class Scalar>
 Vec2<Scalar> StepSolver<Lanes, Scalar>::begin_ride(const MoveRequest<Scalar>& request) noexcept {
   constexpr Scalar noise = std::numeric_limits<Scalar>::epsilon() * 4;
   const bool riding = request.ride.ground != Ride<Scalar>::none;
   const bool at_rest = request.velocity.x() == 0 && request.velocity.y() <= 0;
-  std::optional<Hold<Scalar>> ground;
-  if (riding || at_rest) ground = ground_here(request.ride.ground, !riding);
+  std::optional<TouchedSurface<Scalar>> ground;
+  if (riding || at_rest) ground = carrier_here(request.ride.ground, !riding);
   if (riding && ground && collider_of(ground->piece) != request.ride.ground) ground.reset();
   V carried = V::Zero();
   if (ground) carried = ground_velocity(ground->piece, ground->normal);
@@ -85,7 +86,7 @@ Vec2<Scalar> StepSolver<Lanes, Scalar>::begin_ride(const MoveRequest<Scalar>& re
     velocity_ += request.ride.velocity;
     return request.displacement + request.ride.velocity * request.dt;
   }
-  mount(*ground);
+  begin_to_ride(*ground);
   if (riding) {
     const V there = offset(ground->piece) + request.ride.place;
     const Scalar size = std::max(there.cwiseAbs().maxCoeff(), offset(ground->piece).cwiseAbs().maxCoeff());
@@ -95,16 +96,16 @@ Vec2<Scalar> StepSolver<Lanes, Scalar>::begin_ride(const MoveRequest<Scalar>& re
   return request.displacement + ground_rest(ground->piece, ground->normal);
 }
 
-/// Whether ground that is met, with nothing sideways, carries the character from then on.
+/// Whether ground that the character lands on without horizontal speed carries it from now on.
 template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::takes_along(const Hold<Scalar>& ground) const noexcept {
+bool StepSolver<Lanes, Scalar>::carries_from_now(const TouchedSurface<Scalar>& ground) const noexcept {
   return walkable(ground.normal) && carries(ground.piece) && moving_.ride.ground == Ride<Scalar>::none &&
          !falls_away(ground_velocity(ground.piece, ground.normal));
 }
 
-/// From here on the character goes with this ground.
+/// From now on this ground carries the character.
 template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::mount(const Hold<Scalar>& ground) noexcept {
+void StepSolver<Lanes, Scalar>::begin_to_ride(const TouchedSurface<Scalar>& ground) noexcept {
   moving_.ride.ground = collider_of(ground.piece);
   moving_.ride.velocity = ground_velocity(ground.piece, ground.normal);
   moving_.ride.place = position_ - offset(ground.piece);
@@ -115,22 +116,22 @@ void StepSolver<Lanes, Scalar>::mount(const Hold<Scalar>& ground) noexcept {
 template <std::size_t Lanes, class Scalar>
 void StepSolver<Lanes, Scalar>::note_motion_on_ground() noexcept {
   if (!moving_.anchored) return;
-  V relative = motion_.way;
-  if (moving_.carrier != no_mover) relative = around_.relative(motion_.way, moving_.carrier, time_);
+  V relative = motion_.displacement;
+  if (moving_.carrier != no_mover) relative = movers_.relative(motion_.displacement, moving_.carrier, time_);
   moving_.anchored = relative.x() == 0 && relative.y() == 0;
 }
 
-/// Where an anchored rider is at a fraction of the step.
+/// Position of an anchored rider at a fraction of the step.
 template <std::size_t Lanes, class Scalar>
 Vec2<Scalar> StepSolver<Lanes, Scalar>::anchor(Scalar time) const noexcept {
   if (moving_.carrier == no_mover) return position_;
-  return around_.offset(moving_.carrier, time) + moving_.ride.place;
+  return movers_.offset(moving_.carrier, time) + moving_.ride.place;
 }
 
 template <std::size_t Lanes, class Scalar>
 void StepSolver<Lanes, Scalar>::end_ride() noexcept {
   if (!result_.grounded) return;
-  const std::optional<Hold<Scalar>> ground = ground_here(moving_.ride.ground, false);
+  const std::optional<TouchedSurface<Scalar>> ground = carrier_here(moving_.ride.ground, false);
   if (!ground) return;
   const ColliderIndex collider = collider_of(ground->piece);
   result_.ride.ground = collider;

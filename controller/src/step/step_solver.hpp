@@ -1,11 +1,19 @@
-/// The working state of one step of the octagon sweep.
+/// One step of the octagon sweep.
 ///
-/// The definitions are in step_sweep.hpp, step_start.hpp, step_travel.hpp and, where something moves, step_ride.hpp,
-/// step_among_movers.hpp, step_room.hpp and step_crush.hpp: each instance is compiled as a whole, so that what is
-/// called from one place is inlined.
+/// A step goes this way (step_solve.hpp):
+///   1. step_ride.hpp: a rider adds the motion of its ground to the desired displacement.
+///   2. step_start.hpp: a start that overlaps something, or is nearer than it should be, is made free.
+///   3. step_sweep.hpp: the octagon is swept to the earliest time of impact. Every obstacle has its own motion; what
+///      stands still has none.
+///   4. step_response.hpp: the desired motion becomes one that all touched surfaces allow. Back to 3 with what is left.
+///   5. step_free_position.hpp, step_crush.hpp: where movers leave no motion at all, the nearest free position is
+///   looked
+///      for; where there is none, the movers crush the character.
+///   6. step_solve.hpp: does the character stand on ground? Is there ground to follow a little below?
 ///
-/// There are many instances, and g++ stops inlining where a unit grows: hence what nearly every step does is flattened
-/// (an eighth of its instructions), and what hardly any does is kept out of it (3 %, and a fifth of the compile time).
+/// The definitions are in headers, and one source includes them all: a function that is called from one place is
+/// inlined. What nearly every step does is flattened (an eighth of its instructions), and what hardly any does is kept
+/// out of it (3 %, and a fifth of the compile time).
 #pragma once
 
 #include "step/free_position.hpp"
@@ -40,10 +48,10 @@ template <class Scalar>
 struct SweepResult {
   bool hit = false;
   Scalar stop = 1;              ///< Fraction of the motion that is free.
-  Scalar least_separation = 0;  ///< Of all pieces that block, at the start of the motion [m]; any value above `hit`
-                                ///< where all are further away than that.
-  /// What stops it there; the first decides. Of more than mostly come at one moment the rest is only reported: the next
-  /// sweep meets it again.
+  Scalar least_separation = 0;  ///< Of all pieces that block, at the start of the motion [m]. Any value above `hit`
+                                ///< where all of them are further away than that.
+  /// The pieces that stop it there. If there are more than fit, the others are reported too, and the next sweep meets
+  /// them again.
   FixedVector<Stop<Scalar>, MoveResult<Scalar>::max_contacts> stops;
 
   void clear() noexcept {
@@ -54,45 +62,43 @@ struct SweepResult {
   }
 };
 
-/// A motion of the character, and the velocity behind it. What happens to one happens to the other.
+/// The displacement that is wanted, and the velocity behind it. Each response changes both alike.
 template <class Scalar>
-struct Drive {
-  Wish<Scalar> way;       ///< For the rest of the step [m].
-  Wish<Scalar> velocity;  ///< [m/s]
+struct DesiredMotion {
+  Desired<Scalar> displacement;  ///< For the rest of the step [m].
+  Desired<Scalar> velocity;      ///< [m/s]
 
-  /// A motion that is not steered.
-  [[nodiscard]] static Drive plain(const Vec2<Scalar>& way, const Vec2<Scalar>& velocity) noexcept {
-    return {{way, way}, {velocity, velocity}};
+  /// Without steering.
+  [[nodiscard]] static DesiredMotion plain(const Vec2<Scalar>& displacement, const Vec2<Scalar>& velocity) noexcept {
+    return {{displacement, displacement}, {velocity, velocity}};
   }
 };
 
-/// What the solver knows about what moves.
+/// What a step knows about its ride and about movers that crush.
 template <class Scalar>
 struct MoverState {
-  Ride<Scalar> ride{};                  ///< What carries the character in this step; `velocity` is that of this step.
-  MoverIndex carrier = no_mover;        ///< Its mover; none for a conveyor that stands still.
-  bool anchored = false;                ///< The character has not moved on what carries it.
-  bool looks_past_holds = false;        ///< See `stay`.
-  std::uint8_t ignored = goes_through;  ///< Colliders of these roles are not in the way.
-  std::size_t on_it = 0;                ///< How many lie on the character since an earlier step.
-  bool side_lost = false;               ///< One of them is not known to have come from any side.
-  bool leaves_any = false;              ///< The step began inside something.
-  std::optional<Vec2<Scalar>> last_free{};             ///< Where the character was before, if anywhere.
-  std::size_t corners_before_crush = 0;                ///< Of the path, where something crushes; and
-  MoveStatus status_before_crush = MoveStatus::moved;  ///< how the step went until then.
+  Ride<Scalar> ride{};                    ///< What carries the character in this step, with its velocity in this step.
+  MoverIndex carrier = no_mover;          ///< The mover of that; none for a conveyor that stands still.
+  bool anchored = false;                  ///< The character has not moved relative to what carries it.
+  bool waits = false;                     ///< See `wait`.
+  std::uint8_t ignored = passes_through;  ///< Colliders with one of these roles do not block.
+  std::size_t overlapping = 0;            ///< How many movers overlap the character since an earlier step.
+  bool side_lost = false;                 ///< The side one of them came from is not known.
+  std::optional<Vec2<Scalar>> last_free{};             ///< The last free position before the step, if there was one.
+  std::size_t corners_before_crush = 0;                ///< Of the path, when the first mover crushed; and
+  MoveStatus status_before_crush = MoveStatus::moved;  ///< the status until then.
 };
 
 template <std::size_t Lanes, class Scalar>
 class StepSolver {
  public:
   StepSolver(const ConfigurationSpace<Scalar>& space, const Settings<Scalar>& settings,
-             Neighbourhood<Scalar> neighbourhood, Surroundings<Scalar>& surroundings,
-             MoveResult<Scalar>& result) noexcept
+             Neighbourhood<Scalar> neighbourhood, MoversInStep<Scalar>& movers, MoveResult<Scalar>& result) noexcept
       : space_(space),
         pieces_(space.scenery().pieces().data()),
         settings_(settings),
         neighbourhood_(neighbourhood),
-        around_(surroundings),
+        movers_(movers),
         memory_(neighbourhood.memory()),
         result_(result) {
     memory_.clear();
@@ -105,13 +111,15 @@ class StepSolver {
   using LocalMotion = Motion<Lanes, Scalar>;
 
   // step_sweep.hpp
-  /// Sweeps from the present position, and keeps motion and result.
-  [[gnu::flatten]] void look_along(const V& way) noexcept;
-  [[gnu::cold, gnu::noinline]] void look_again() noexcept;
+  /// Sweeps from the present position. Motion and result are in `motion_` and `found_`.
+  [[gnu::flatten]] void sweep_along(const V& displacement) noexcept;
+  [[gnu::cold, gnu::noinline]] void sweep_again() noexcept;
   [[nodiscard]] bool stops_at_covered() const noexcept;
   template <Covered covered>
   void sweep(const LocalMotion& motion, std::span<const PieceIndex> pieces) noexcept;
-  void keep(Stop<Scalar> stop, Scalar length) noexcept;
+  template <Covered covered>
+  void sweep_movers() noexcept;
+  void keep_stop(Stop<Scalar> stop, Scalar length) noexcept;
   void order_stops() noexcept;
   [[nodiscard]] bool advance(Scalar stop) noexcept;
   [[gnu::flatten]] void report(Scalar begin) noexcept;
@@ -125,14 +133,14 @@ class StepSolver {
   [[nodiscard]] std::span<const PieceIndex> pieces_along(const LocalMotion& motion, MoverIndex mover) noexcept;
   [[nodiscard]] ColliderIndex collider_of(PieceIndex piece) const noexcept { return pieces_[piece].collider; }
   [[nodiscard, gnu::cold, gnu::noinline]] bool certified(const V& target, Scalar end) noexcept;
-  [[nodiscard]] bool bars(PieceIndex piece, const V& target, Scalar end) const noexcept;
+  [[nodiscard]] bool blocks_exactly(PieceIndex piece, const V& target, Scalar end) const noexcept;
   [[gnu::always_inline]] inline void push_corner(Scalar fraction) noexcept;
-  /// Where the mover of a piece is now, at fraction `time_`; zero where nothing moves.
+  /// Offset of the mover of a piece now, at fraction `time_`; zero for a piece that stands still.
   [[nodiscard]] V offset(PieceIndex piece) const noexcept { return offset(piece, time_); }
   [[nodiscard]] V offset(PieceIndex piece, Scalar time) const noexcept;
-  /// A position as a piece sees it that is still at offset zero.
+  /// A position relative to the mover of a piece: the piece itself is stored at offset zero.
   [[nodiscard]] V local(PieceIndex piece, const V& p) const noexcept;
-  /// Calls `visit(piece)` for everything near a box, where it is now.
+  /// Calls `visit(piece)` for every piece that may be touched from positions in a box, now.
   template <class Visit>
   void for_each_near(const Box2<Scalar>& box, const Visit& visit) noexcept;
 
@@ -146,7 +154,7 @@ class StepSolver {
   }
 
   // step_start.hpp
-  /// Makes room around a start that is nearer than `hit` to something, or inside it. False: stuck.
+  /// Makes a start free that overlaps something, or is nearer than `hit` to it. False: the character is stuck.
   [[nodiscard, gnu::cold, gnu::noinline]] bool prepare_start(Part part, const MoveRequest<Scalar>& request) noexcept;
   [[nodiscard]] std::optional<V> find_way_out(const MoveRequest<Scalar>& request) noexcept;
   [[nodiscard]] std::optional<V> find_way_out(FreePositionQuery<Scalar> query, Scalar whole) noexcept;
@@ -158,17 +166,17 @@ class StepSolver {
   [[nodiscard]] bool overlaps(PieceIndex piece, const V& position) const noexcept;
   [[nodiscard, gnu::always_inline]] inline bool may_block(PieceIndex piece, const V& position) const noexcept;
   void restore_gap() noexcept;
-  [[nodiscard]] bool clear_way(const V& from, const V& to) noexcept;
-  [[nodiscard]] bool clear_way(PieceIndex piece, const V& from, const V& to, Scalar end) const noexcept;
+  [[nodiscard]] bool exactly_clear(const V& from, const V& to) noexcept;
+  [[nodiscard]] bool exactly_clear(PieceIndex piece, const V& from, const V& to, Scalar end) const noexcept;
   void restore_gaps_to_movers() noexcept;
   [[nodiscard]] bool keeps_gaps(const V& q) noexcept;
 
-  // step_travel.hpp
-  void begin_drive(const MoveRequest<Scalar>& request) noexcept;
-  [[nodiscard]] Drive<Scalar> drive() const noexcept;
+  // step_solve.hpp
+  void begin_motion(const MoveRequest<Scalar>& request) noexcept;
+  [[nodiscard]] DesiredMotion<Scalar> desired() const noexcept;
   [[gnu::flatten]] void travel() noexcept;
-  [[nodiscard, gnu::cold, gnu::noinline]] bool falls_between(const V& way) noexcept;
-  [[nodiscard]] V aimed_back(const V& way, const Stop<Scalar>& at) const noexcept;
+  [[nodiscard, gnu::cold, gnu::noinline]] bool falls_between(const V& displacement) noexcept;
+  [[nodiscard]] V with_gap_restored(const V& displacement, const Stop<Scalar>& at) const noexcept;
   void halt() noexcept;
   [[gnu::cold, gnu::noinline]] void cut_short() noexcept;
   [[nodiscard]] bool stands() noexcept;
@@ -176,9 +184,9 @@ class StepSolver {
   [[gnu::cold, gnu::noinline]] void report_ground(const V& wanted) noexcept;
   [[nodiscard]] bool stands_on(PieceIndex piece) const noexcept;
   [[nodiscard, gnu::cold, gnu::noinline]] bool touches_ground() noexcept;
-  /// The normal of a piece where it is touched now and is walkable ground.
+  /// The normal of a piece, if the character touches it now and it is walkable ground.
   [[nodiscard, gnu::always_inline]] inline std::optional<V> touched_ground(PieceIndex piece) const noexcept;
-  [[gnu::cold, gnu::noinline]] void keep_ground() noexcept;
+  [[gnu::cold, gnu::noinline]] void stop_at_touched_ground() noexcept;
   [[gnu::noinline]] void follow_ground_down(const MoveRequest<Scalar>& request) noexcept;
   [[nodiscard]] bool walkable(const V& normal) const noexcept { return normal.y() >= settings_.walkable_cosine; }
 
@@ -188,107 +196,109 @@ class StepSolver {
   [[nodiscard]] Scalar surface_speed(PieceIndex piece) const noexcept;
   [[nodiscard]] V ground_velocity(PieceIndex piece, const V& normal) const noexcept;
   [[nodiscard]] V ground_rest(PieceIndex piece, const V& normal) const noexcept;
-  [[nodiscard]] std::optional<Hold<Scalar>> ground_here(ColliderIndex ridden, bool walkable_only) noexcept;
+  [[nodiscard]] std::optional<TouchedSurface<Scalar>> carrier_here(ColliderIndex ridden, bool walkable_only) noexcept;
   [[nodiscard, gnu::cold, gnu::noinline]] V begin_ride(const MoveRequest<Scalar>& request) noexcept;
   /// Ground that falls faster than the character may.
   [[nodiscard]] bool falls_away(const V& ground) const noexcept { return ground.y() < -settings_.max_fall_speed; }
-  [[nodiscard, gnu::cold, gnu::noinline]] bool takes_along(const Hold<Scalar>& ground) const noexcept;
-  [[gnu::cold, gnu::noinline]] void mount(const Hold<Scalar>& ground) noexcept;
+  [[nodiscard, gnu::cold, gnu::noinline]] bool carries_from_now(const TouchedSurface<Scalar>& ground) const noexcept;
+  [[gnu::cold, gnu::noinline]] void begin_to_ride(const TouchedSurface<Scalar>& ground) noexcept;
   [[nodiscard, gnu::cold, gnu::noinline]] V anchor(Scalar time) const noexcept;
   [[gnu::cold, gnu::noinline]] void note_motion_on_ground() noexcept;
   [[gnu::cold, gnu::noinline]] void end_ride() noexcept;
 
-  // step_among_movers.hpp
-  template <Covered covered>
-  void look_at_movers() noexcept;
+  // step_response.hpp
   [[nodiscard]] bool ignored(PieceIndex piece) const noexcept;
-  [[nodiscard]] bool kept_clear_by_hold(const LocalMotion& motion, PieceIndex piece) const noexcept;
-  void update_holds() noexcept;
-  [[nodiscard]] V rest_of(const Hold<Scalar>& hold) const noexcept;
-  [[nodiscard]] V velocity_of(const Hold<Scalar>& hold) const noexcept;
-  [[nodiscard]] bool allowed(const Drive<Scalar>& drive, const Hold<Scalar>& hold) const noexcept;
-  [[nodiscard]] bool allowed(const Drive<Scalar>& drive) const noexcept;
-  [[nodiscard]] Drive<Scalar> response_to(const Hold<Scalar>& hold, const Drive<Scalar>& drive,
-                                          bool after_walk) const noexcept;
+  [[nodiscard]] bool slides_along_touched(const LocalMotion& motion, PieceIndex piece) const noexcept;
+  void update_surfaces() noexcept;
+  [[nodiscard]] V remaining_of(const TouchedSurface<Scalar>& surface) const noexcept;
+  [[nodiscard]] V velocity_of(const TouchedSurface<Scalar>& surface) const noexcept;
+  [[nodiscard]] bool allowed(const DesiredMotion<Scalar>& desired,
+                             const TouchedSurface<Scalar>& surface) const noexcept;
+  [[nodiscard]] bool allowed(const DesiredMotion<Scalar>& desired) const noexcept;
+  [[nodiscard]] DesiredMotion<Scalar> response_to(const TouchedSurface<Scalar>& surface,
+                                                  const DesiredMotion<Scalar>& desired, bool after_walk) const noexcept;
   [[nodiscard, gnu::always_inline]] inline bool respond_to_surface(const V& normal,
-                                                                   Drive<Scalar>& drive) const noexcept;
-  [[nodiscard, gnu::noinline]] bool respond_to_all(Drive<Scalar>& drive) noexcept;
-  [[nodiscard]] bool respond_one_by_one(Drive<Scalar>& drive) const noexcept;
-  [[nodiscard]] bool respond_in_crease(Drive<Scalar>& drive) noexcept;
-  [[nodiscard]] bool respond_together(Drive<Scalar>& drive) const noexcept;
-  [[nodiscard]] std::optional<Drive<Scalar>> nearest_allowed_to(const V& way, const V& velocity) const noexcept;
-  [[nodiscard]] bool respond_to_holds(Drive<Scalar>& drive) noexcept;
-  [[gnu::cold, gnu::noinline]] void last_resort(const V& way) noexcept;
+                                                                   DesiredMotion<Scalar>& desired) const noexcept;
+  [[nodiscard, gnu::noinline]] bool respond_to_all(DesiredMotion<Scalar>& desired) noexcept;
+  [[nodiscard]] bool respond_one_by_one(DesiredMotion<Scalar>& desired) const noexcept;
+  [[nodiscard]] bool respond_in_crease(DesiredMotion<Scalar>& desired) noexcept;
+  [[nodiscard]] bool respond_together(DesiredMotion<Scalar>& desired) const noexcept;
+  [[nodiscard]] std::optional<DesiredMotion<Scalar>> nearest_allowed_to(const V& displacement,
+                                                                        const V& velocity) const noexcept;
+  [[nodiscard]] bool respond_to_surfaces(DesiredMotion<Scalar>& desired) noexcept;
+  [[gnu::cold, gnu::noinline]] void last_resort(const V& displacement) noexcept;
 
-  // step_room.hpp
-  /// A position where there is room, and the corner of the path to reach it from.
-  struct Room {
+  // step_free_position.hpp
+  /// A free position, and the corner of the path from which it is reached.
+  struct FreePosition {
     Scalar distance;  ///< From where the character is [m].
     V position;
     std::size_t corner;
   };
-  [[nodiscard]] bool find_room(Scalar reach, std::size_t corners) noexcept;
-  [[nodiscard]] Room nearest_room(Scalar gap, Scalar reach, std::size_t corners) noexcept;
-  [[nodiscard]] FreePositionQuery<Scalar> query_for_room(std::size_t corner, Scalar gap) const noexcept;
-  void find_room_from(std::size_t corner, Scalar gap, Room& room) noexcept;
-  void go_on_until_bounded(Room& room) noexcept;
+  [[nodiscard]] bool find_free_position(Scalar reach, std::size_t corners) noexcept;
+  [[nodiscard]] FreePosition nearest_free_position(Scalar gap, Scalar reach, std::size_t corners) noexcept;
+  [[nodiscard]] FreePositionQuery<Scalar> query_from(std::size_t corner, Scalar gap) const noexcept;
+  void search_from(std::size_t corner, Scalar gap, FreePosition& room) noexcept;
+  void extend_until_contact(FreePosition& room) noexcept;
   [[nodiscard]] bool may_pass(PieceIndex piece, std::size_t corner) const noexcept;
   [[nodiscard]] bool is_proved(std::size_t corner, const V& target, Scalar end) noexcept;
-  void note_what_is_left() noexcept;
+  void note_colliders_left() noexcept;
   void go_to(const V& end) noexcept;
-  void report_room(std::size_t corner) noexcept;
-  void add_near_pieces(std::size_t corner, const PathPoint<Scalar>& to) noexcept;
+  void report_free_position(std::size_t corner) noexcept;
+  [[nodiscard]] std::optional<Nearest<Scalar>> next_near(std::size_t corner, const PathPoint<Scalar>& to,
+                                                         const std::optional<Nearest<Scalar>>& last) noexcept;
+  [[nodiscard]] bool is_contact(const Nearest<Scalar>& near) const noexcept;
   [[nodiscard]] Nearest<Scalar> nearest_on_way(PieceIndex piece, const V& from, const V& to) const noexcept;
   void go_back_to(std::size_t corner) noexcept;
 
   // step_crush.hpp
-  [[nodiscard]] bool pinned() const noexcept;
-  [[nodiscard, gnu::cold, gnu::noinline]] bool gives_way() noexcept;
-  [[gnu::cold, gnu::noinline]] void take_back_crushes() noexcept;
-  [[nodiscard]] bool presses(const Hold<Scalar>& hold) const noexcept;
-  [[gnu::cold, gnu::noinline]] bool crush_what_presses() noexcept;
+  [[nodiscard]] bool is_overlapped() const noexcept;
+  [[nodiscard, gnu::cold, gnu::noinline]] bool goes_to_free_position() noexcept;
+  [[gnu::cold, gnu::noinline]] void undo_crushes() noexcept;
+  [[nodiscard]] bool moves_in(const TouchedSurface<Scalar>& surface) const noexcept;
+  [[gnu::cold, gnu::noinline]] bool note_crushers() noexcept;
   void crush(PieceIndex piece) noexcept;
-  void name_as_crushing(ColliderIndex collider) noexcept;
+  void add_to_crushed(ColliderIndex collider) noexcept;
   template <class Condition>
-  bool let_through(const Condition& condition) noexcept;
-  bool let_through_what_is_on_it(const MoveRequest<Scalar>& request) noexcept;
-  [[nodiscard]] bool leaves_what_is_on_it(const MoveRequest<Scalar>& request) noexcept;
+  bool ignore_movers(const Condition& condition) noexcept;
+  bool ignore_overlapping_movers(const MoveRequest<Scalar>& request) noexcept;
+  [[nodiscard]] bool leaves_overlapping_movers(const MoveRequest<Scalar>& request) noexcept;
   [[nodiscard]] MoverIndex mover_of_collider(ColliderIndex collider) const noexcept {
     return space_.scenery().collider(collider).mover;
   }
-  [[nodiscard]] V course_of(ColliderIndex collider) const noexcept;
+  [[nodiscard]] V displacement_of(ColliderIndex collider) const noexcept;
   void remember(const Crusher<Scalar>& now) noexcept;
   void hand_on_crushers() noexcept;
-  [[gnu::cold, gnu::noinline]] void end_wait() noexcept;
-  [[gnu::cold, gnu::noinline]] void stay(bool may_give_way) noexcept;
-  void crush_what_came_in(Scalar since) noexcept;
-  [[gnu::cold, gnu::noinline]] void keep_place(const MoveRequest<Scalar>& request) noexcept;
+  [[gnu::cold, gnu::noinline]] void find_movers_that_still_overlap() noexcept;
+  [[gnu::cold, gnu::noinline]] void wait(bool may_move) noexcept;
+  void note_crushers_by_rounding(Scalar since) noexcept;
+  [[gnu::cold, gnu::noinline]] void stay_in_place(const MoveRequest<Scalar>& request) noexcept;
 
   const ConfigurationSpace<Scalar>& space_;
   const PieceInfo* pieces_;
   const Settings<Scalar>& settings_;
   Neighbourhood<Scalar> neighbourhood_;
-  Surroundings<Scalar>& around_;
+  MoversInStep<Scalar>& movers_;
   StepMemory<Scalar>& memory_;
   MoveResult<Scalar>& result_;
 
   LocalMotion motion_;         ///< Of the last sweep,
   SweepResult<Scalar> found_;  ///< and what it met.
-  V start_{V::Zero()};         ///< Where the step began, before its gaps were restored: impacts count from there.
+  V start_{V::Zero()};         ///< Where the step began, before gaps were restored. Times of impact count from there.
   V position_{V::Zero()};
   V velocity_{V::Zero()};
-  Scalar time_ = 0;          ///< Fraction of the step that is spent.
-  Scalar dt_ = 0;            ///< Of the step [s].
-  Scalar fall_ = 0;          ///< Vertical velocity without steering, before what is touched now was met [m/s].
+  Scalar time_ = 0;  ///< Fraction of the step that is spent.
+  Scalar dt_ = 0;    ///< Of the step [s].
+  Scalar fall_ = 0;  ///< Vertical velocity without steering, before the surfaces that are touched now were met [m/s].
   Scalar steered_ = 0;       ///< The part of the horizontal velocity that this step's steering added [m/s].
-  bool drops_ = false;       ///< One-way segments hold nobody in this step.
+  bool drops_ = false;       ///< One-way segments do not block in this step.
   bool certify_ = false;     ///< Something is nearer than rounding: every motion needs an exact certificate.
-  bool climbs_ = false;      ///< It began on the ground, and no faster upwards than ground can be climbed.
+  bool climbs_ = false;      ///< The step began on ground, with no more upward speed than climbing gives.
   bool after_walk_ = false;  ///< See `Surface`.
-  bool wedged_ = false;      ///< A fall ended between the surfaces that were touched together.
-  bool met_ground_ = false;  ///< Something walkable was in the way during this step,
-  bool on_ground_ = false;   ///< and neither has anything moved since nor was anything else in the way.
-  PieceIndex ground_ = 0;    ///< What that was, where `met_ground_`.
+  bool wedged_ = false;      ///< A fall ended between surfaces that are touched together.
+  bool met_ground_ = false;  ///< Walkable ground was hit in this step,
+  bool on_ground_ = false;   ///< and the character has not moved since, nor hit anything else.
+  PieceIndex ground_ = 0;    ///< That ground, where `met_ground_`.
   MoverState<Scalar> moving_;
 };
 

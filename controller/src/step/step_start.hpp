@@ -1,4 +1,4 @@
-/// StepSolver: a start that is nearer than it should be.
+/// StepSolver: depenetration. A start that overlaps something, or is nearer than `hit` to it, is made free.
 #pragma once
 
 #include "step/certificate.hpp"
@@ -8,38 +8,39 @@
 
 namespace paperproof::octagon_sweep {
 
-/// How many pushes may be needed to restore the gaps of a start in a corner; what needs more has no room.
+/// Pushes that restore the gaps of a start in a corner. If that many are not enough, there is no room.
 inline constexpr int restore_rounds = 16;
 
 template <std::size_t Lanes, class Scalar>
 bool StepSolver<Lanes, Scalar>::prepare_start(Part part, const MoveRequest<Scalar>& request) noexcept {
   if (request.has_last_free) moving_.last_free = request.last_free;
-  if (request.crushed && let_through_what_is_on_it(request) && part == Part::whole && leaves_what_is_on_it(request))
+  if (request.crushed && ignore_overlapping_movers(request) && part == Part::whole &&
+      leaves_overlapping_movers(request))
     return true;
   while (overlaps(position_)) {
-    // Out of what stands still there may be a way, but it stays on its side of what has come over it.
+    // Movers overlap the character, too: it must not leave to another side of them than it came from.
     if (!memory_.crushers.empty()) return false;
     const std::optional<V> out = find_way_out(request);
     if (out) {
-      if (around_.active) note_what_is_left();
+      if (movers_.active) note_colliders_left();
       start_ = position_ = *out;
       push_corner(0);
       return true;
     }
-    // There is no room beside what moves: without it there may be.
-    if (!let_through_what_is_on_it(request)) return false;
+    // There is no free position beside the movers. Without those that overlap there may be one.
+    if (!ignore_overlapping_movers(request)) return false;
   }
-  if (!pinned()) {
+  if (!is_overlapped()) {
     restore_gap();
-    if (around_.near > 0) restore_gaps_to_movers();
+    if (movers_.count > 0) restore_gaps_to_movers();
   }
-  look_along(V::Zero());
+  sweep_along(V::Zero());
   certify_ = found_.least_separation < Tolerances<Scalar>{}.certain;
   return true;
 }
 
-/// To the side of the last free position first, if there was one; and where there is nothing with the gap that is kept
-/// everywhere else, with a little more than what counts as closed.
+/// The nearest free position on the side of the last free position; where there is none, on any side. First with the
+/// gap that is kept everywhere else, then with a little more than the gap of an opening that counts as closed.
 template <std::size_t Lanes, class Scalar>
 std::optional<Vec2<Scalar>> StepSolver<Lanes, Scalar>::find_way_out(const MoveRequest<Scalar>& request) noexcept {
   constexpr Tolerances<Scalar> tolerances{};
@@ -55,7 +56,7 @@ std::optional<Vec2<Scalar>> StepSolver<Lanes, Scalar>::find_way_out(const MoveRe
                                   .reach = whole};
   if (request.has_last_free) query.last_free = request.last_free;
   do {
-    for (const Scalar gap : {tolerances.stop, tolerances.hit * Scalar(least_room)}) {
+    for (const Scalar gap : {tolerances.stop, tolerances.hit * Scalar(least_gap)}) {
       query.gap = gap;
       if (const std::optional<V> out = find_way_out(query, whole)) return out;
     }
@@ -63,7 +64,7 @@ std::optional<Vec2<Scalar>> StepSolver<Lanes, Scalar>::find_way_out(const MoveRe
   return std::nullopt;
 }
 
-/// Looks near first, then twice as far, and so on, until the whole of the solids has been looked at.
+/// Searches near first, then twice as far, and so on, until the solids that are overlapped are searched as a whole.
 template <std::size_t Lanes, class Scalar>
 std::optional<Vec2<Scalar>> StepSolver<Lanes, Scalar>::find_way_out(FreePositionQuery<Scalar> query,
                                                                     Scalar whole) noexcept {
@@ -76,8 +77,8 @@ std::optional<Vec2<Scalar>> StepSolver<Lanes, Scalar>::find_way_out(FreePosition
   }
 }
 
-/// Every piece that may be met on a way to a position that is less than `radius` away from where it shall end near;
-/// those of one collider in a row. What was collected before adds nothing, and the pieces may be reordered.
+/// Every piece that may be hit on a straight motion to a position less than `radius` away from `query.near`. The pieces
+/// of one collider are in a row. The span may be reordered.
 template <std::size_t Lanes, class Scalar>
 std::span<PieceIndex> StepSolver<Lanes, Scalar>::pieces_for(const FreePositionQuery<Scalar>& query,
                                                             Scalar radius) noexcept {
@@ -88,18 +89,18 @@ std::span<PieceIndex> StepSolver<Lanes, Scalar>::pieces_for(const FreePositionQu
   for (const Crusher<Scalar>& crusher : query.crushers) add(crusher.last_free + crusher.displacement);
   auto [storage, count] = neighbourhood_.take(box);
   const Box2<Scalar> touched = space_.touched_from(box);
-  for (MoverIndex mover = 0; mover < around_.near; ++mover) {
-    const V begin = around_.offset(mover, query.begin);
-    const V end = around_.offset(mover, query.end);
+  for (MoverIndex mover = 0; mover < movers_.count; ++mover) {
+    const V begin = movers_.offset(mover, query.begin);
+    const V end = movers_.offset(mover, query.end);
     const Box2<Scalar> seen{touched.lower - begin.cwiseMax(end), touched.upper - begin.cwiseMin(end)};
-    if (!seen.overlaps(around_.phases.whole(mover))) continue;
-    for (const PieceIndex piece : around_.phases.query(mover, seen, memory_.of_mover))
+    if (!seen.overlaps(movers_.phases.whole(mover))) continue;
+    for (const PieceIndex piece : movers_.phases.query(mover, seen, memory_.of_mover))
       if (!ignored(piece)) storage[count++] = piece;
   }
   return storage.first(count);
 }
 
-/// Puts the pieces of those colliders first of which one fulfils the condition.
+/// Puts all pieces of those colliders first that have a piece for which the condition holds.
 /// @return how many they are.
 template <std::size_t Lanes, class Scalar>
 template <class Condition>
@@ -115,7 +116,7 @@ std::size_t StepSolver<Lanes, Scalar>::put_first(std::span<PieceIndex> pieces,
   return count;
 }
 
-/// No way out that leaves the colliders which are overlapped is longer [m]: they, and the octagon beside them.
+/// An upper bound for the way out of the colliders that are overlapped: their extent and that of the octagon [m].
 template <std::size_t Lanes, class Scalar>
 Scalar StepSolver<Lanes, Scalar>::reach_of_solids_inside() noexcept {
   Box2<Scalar> whole{position_, position_};
@@ -146,11 +147,11 @@ bool StepSolver<Lanes, Scalar>::overlaps(PieceIndex piece, const V& position) co
       best_axis<Lanes>(space_, piece, at).separation >= Tolerances<Scalar>{}.certain)
     return false;
   const MoverIndex mover = mover_of(piece);
-  if (mover != no_mover) return overlaps_exactly(space_, piece, ExactPosition(position, around_.movers[mover], time_));
+  if (mover != no_mover) return overlaps_exactly(space_, piece, ExactPosition(position, movers_.motions[mover], time_));
   return overlaps_exactly(space_, piece, at);
 }
 
-/// Whether a piece counts for a character at `position`: one-way segments do from above their surface only.
+/// Whether a piece blocks a character at `position`. A one-way segment blocks only from above its surface.
 template <std::size_t Lanes, class Scalar>
 bool StepSolver<Lanes, Scalar>::may_block(PieceIndex piece, const V& position) const noexcept {
   if (space_.info(piece).one_way_axis == ObstacleInfo::not_one_way) return true;
@@ -158,7 +159,8 @@ bool StepSolver<Lanes, Scalar>::may_block(PieceIndex piece, const V& position) c
   return is_above(space_, piece, local(piece, position), lost_by(position, offset(piece)));
 }
 
-/// Pushes out of the nearest piece, again and again, until every gap is at least `hit`; undone where there is no room.
+/// Pushes the character off the nearest piece, again and again, until every gap is at least `hit`. Without success the
+/// position does not change.
 template <std::size_t Lanes, class Scalar>
 void StepSolver<Lanes, Scalar>::restore_gap() noexcept {
   constexpr Tolerances<Scalar> tolerances{};
@@ -173,7 +175,7 @@ void StepSolver<Lanes, Scalar>::restore_gap() noexcept {
       push = space_.normal(piece, best.axis) * (tolerances.stop - best.separation);
     });
     if (least >= tolerances.hit) {
-      if (!clear_way(position_, q)) return;
+      if (!exactly_clear(position_, q)) return;
       position_ = q;
       push_corner(0);
       return;
@@ -182,19 +184,19 @@ void StepSolver<Lanes, Scalar>::restore_gap() noexcept {
   }
 }
 
-/// Whether a straight way, made in no time, meets nothing, without rounding where it is near.
+/// Whether a straight motion that takes no time is clear of every piece, exactly.
 template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::clear_way(const V& from, const V& to) noexcept {
+bool StepSolver<Lanes, Scalar>::exactly_clear(const V& from, const V& to) noexcept {
   bool clear = true;
   for_each_near({from.cwiseMin(to), from.cwiseMax(to)},
-                [&](PieceIndex piece) { clear = clear && clear_way(piece, from, to, time_); });
+                [&](PieceIndex piece) { clear = clear && exactly_clear(piece, from, to, time_); });
   return clear;
 }
 
-/// The same for one piece, on a way from now up to a fraction of the step.
+/// The same for one piece, and a motion from now to a fraction of the step.
 template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::clear_way(PieceIndex piece, const V& begin, const V& target,
-                                          Scalar end) const noexcept {
+bool StepSolver<Lanes, Scalar>::exactly_clear(PieceIndex piece, const V& begin, const V& target,
+                                              Scalar end) const noexcept {
   constexpr Tolerances<Scalar> tolerances{};
   const V from = local(piece, begin);
   const V to = target - offset(piece, end);
@@ -203,26 +205,27 @@ bool StepSolver<Lanes, Scalar>::clear_way(PieceIndex piece, const V& begin, cons
         space_.separation(piece, axis, to) >= tolerances.certain)
       return true;
   LocalMotion motion = make_motion<Lanes>(space_, from, V(to - from));
-  motion.rest = lost_by(begin, offset(piece));
+  motion.lost = lost_by(begin, offset(piece));
   if (!in_way(motion, piece)) return true;
   const MoverIndex mover = mover_of(piece);
   if (mover != no_mover) {
-    const MoverMotion<Scalar>& course = around_.movers[mover];
-    return clear_of_exactly(space_, piece, ExactPosition(begin, course, time_), ExactPosition(target, course, end));
+    const MoverMotion<Scalar>& motion_of_mover = movers_.motions[mover];
+    return clear_of_exactly(space_, piece, ExactPosition(begin, motion_of_mover, time_),
+                            ExactPosition(target, motion_of_mover, end));
   }
   return clear_of_exactly(space_, piece, from, to);
 }
 
-/// Where there is no room for all gaps, those to what moves are restored as far as each has room alone: what carries
-/// the character would else end in it by rounding.
+/// Where not all gaps can be restored, restores those to moving pieces one by one, as far as each leaves the others
+/// alone. Otherwise rounding could let a mover that carries the character overlap it.
 template <std::size_t Lanes, class Scalar>
 void StepSolver<Lanes, Scalar>::restore_gaps_to_movers() noexcept {
   constexpr Tolerances<Scalar> tolerances{};
-  std::vector<HalfPlane<Scalar>>& pushes = memory_.ways;
+  std::vector<HalfPlane<Scalar>>& pushes = memory_.displacement_planes;
   pushes.clear();
   for_each_near({position_, position_}, [&](PieceIndex piece) {
     const MoverIndex mover = mover_of(piece);
-    if (mover == no_mover || around_.course(mover) == V::Zero() || !may_block(piece, position_)) return;
+    if (mover == no_mover || movers_.displacement(mover) == V::Zero() || !may_block(piece, position_)) return;
     const BestAxis<Scalar> best = best_axis<Lanes>(space_, piece, local(piece, position_));
     if (best.separation < tolerances.hit)
       add_plane({space_.normal(piece, best.axis), tolerances.stop - best.separation}, pushes);
@@ -230,12 +233,12 @@ void StepSolver<Lanes, Scalar>::restore_gaps_to_movers() noexcept {
   const V before = position_;
   for (const HalfPlane<Scalar>& push : pushes) {
     const V q = position_ + push.normal * push.least;
-    if (keeps_gaps(q) && clear_way(position_, q)) position_ = q;
+    if (keeps_gaps(q) && exactly_clear(position_, q)) position_ = q;
   }
   if (position_ != before) push_corner(0);
 }
 
-/// Whether no gap that is less than it should be gets smaller, by more than rounding.
+/// Whether a position makes no gap smaller, by more than rounding, that is below `hit`.
 template <std::size_t Lanes, class Scalar>
 bool StepSolver<Lanes, Scalar>::keeps_gaps(const V& q) noexcept {
   constexpr Tolerances<Scalar> tolerances{};

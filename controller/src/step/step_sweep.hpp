@@ -1,4 +1,4 @@
-/// StepSolver: what is in the way, and going up to it.
+/// StepSolver: the sweep to the earliest impact, and the contacts there.
 #pragma once
 
 #include "step/contact_geometry.hpp"
@@ -11,7 +11,7 @@ namespace paperproof::octagon_sweep {
 template <std::size_t Lanes, class Scalar>
 Vec2<Scalar> StepSolver<Lanes, Scalar>::offset(PieceIndex piece, Scalar time) const noexcept {
   const MoverIndex mover = mover_of(piece);
-  return mover == no_mover ? V(V::Zero()) : around_.offset(mover, time);
+  return mover == no_mover ? V(V::Zero()) : movers_.offset(mover, time);
 }
 
 template <std::size_t Lanes, class Scalar>
@@ -24,39 +24,39 @@ template <class Visit>
 void StepSolver<Lanes, Scalar>::for_each_near(const Box2<Scalar>& box, const Visit& visit) noexcept {
   for (const PieceIndex piece : neighbourhood_.around(box)) visit(piece);
   const Box2<Scalar> world = space_.touched_from(box);
-  for (MoverIndex mover = 0; mover < around_.near; ++mover) {
-    const V shift = around_.offset(mover, time_);
+  for (MoverIndex mover = 0; mover < movers_.count; ++mover) {
+    const V shift = movers_.offset(mover, time_);
     const Box2<Scalar> shifted{world.lower - shift, world.upper - shift};
-    if (!shifted.overlaps(around_.phases.whole(mover))) continue;
-    for (const PieceIndex piece : around_.phases.query(mover, shifted, memory_.of_mover))
+    if (!shifted.overlaps(movers_.phases.whole(mover))) continue;
+    for (const PieceIndex piece : movers_.phases.query(mover, shifted, memory_.of_mover))
       if (!ignored(piece)) visit(piece);
   }
 }
 
 template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::look_along(const V& way) noexcept {
-  motion_ = make_motion<Lanes>(space_, position_, way);
+void StepSolver<Lanes, Scalar>::sweep_along(const V& displacement) noexcept {
+  motion_ = make_motion<Lanes>(space_, position_, displacement);
   found_.clear();
-  sweep<Covered::as_any>(motion_, neighbourhood_.around(motion_.box(), way));
-  look_at_movers<Covered::as_any>();
+  sweep<Covered::as_any>(motion_, neighbourhood_.around(motion_.box(), displacement));
+  sweep_movers<Covered::as_any>();
   if (stops_at_covered()) [[unlikely]]
-    look_again();
+    sweep_again();
   order_stops();
 }
 
-/// Along the motion of the last sweep, where a covered facet came first.
+/// Repeats the last sweep after a covered facet came first. Covered facets yield to those that cover them.
 template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::look_again() noexcept {
+void StepSolver<Lanes, Scalar>::sweep_again() noexcept {
   found_.clear();
-  sweep<Covered::yields>(motion_, neighbourhood_.around(motion_.box(), motion_.way));
-  look_at_movers<Covered::yields>();
+  sweep<Covered::yields>(motion_, neighbourhood_.around(motion_.box(), motion_.displacement));
+  sweep_movers<Covered::yields>();
 }
 
-/// Whether a covered facet is the first to stop the motion of the last sweep.
+/// Whether a covered facet stopped the last sweep.
 template <std::size_t Lanes, class Scalar>
 bool StepSolver<Lanes, Scalar>::stops_at_covered() const noexcept {
   if (!found_.hit) return false;
-  if (found_.stops.size() == 1) return found_.stops[0].axes.covered;  // mostly
+  if (found_.stops.size() == 1) return found_.stops[0].axes.covered;  // the usual case
   return std::any_of(found_.stops.begin(), found_.stops.end(),
                      [](const Stop<Scalar>& stop) { return stop.axes.covered; });
 }
@@ -66,19 +66,38 @@ template <Covered covered>
 void StepSolver<Lanes, Scalar>::sweep(const LocalMotion& motion, std::span<const PieceIndex> pieces) noexcept {
   for (const PieceIndex piece : pieces) {
     if (clear_of_box(space_, motion, piece) || !in_way(motion, piece)) continue;
-    if (ignored(piece) || kept_clear_by_hold(motion, piece)) continue;
+    if (ignored(piece) || slides_along_touched(motion, piece)) continue;
     const Clearance<Scalar> clear = clearance(space_, motion, piece);
     found_.least_separation = std::min(found_.least_separation, clear.start);
     if (clear.clear()) continue;
     const PieceHit<Scalar> hit = sweep_piece<covered>(space_, motion, piece, clear);
-    if (hit.hit) keep({piece, hit.stop, 0, hit.axes}, motion.length);
+    if (hit.hit) keep_stop({piece, hit.stop, 0, hit.axes}, motion.length);
   }
 }
 
-/// Pieces that stop the motion together with the first are met together with it.
+/// Sweeps the last motion against every mover, relative to it.
+template <std::size_t Lanes, class Scalar>
+template <Covered covered>
+void StepSolver<Lanes, Scalar>::sweep_movers() noexcept {
+  // A sweep looks this far beyond the end of a motion, at most (it measures by the larger component).
+  constexpr Scalar look = 2 * Tolerances<Scalar>{}.look;
+  for (MoverIndex mover = 0; mover < movers_.count; ++mover) {
+    const V offset = movers_.offset(mover, time_);
+    const V from = motion_.from - offset;
+    const V displacement = movers_.relative(motion_.displacement, mover, time_);
+    const V to = from + displacement;
+    const Box2<Scalar> box = space_.touched_from(Box2<Scalar>{from.cwiseMin(to), from.cwiseMax(to)}.inflated(look));
+    if (!box.overlaps(movers_.phases.whole(mover))) continue;
+    LocalMotion seen = make_motion<Lanes>(space_, from, displacement);
+    seen.lost = lost_by(motion_.from, offset);
+    sweep<covered>(seen, movers_.phases.query(mover, box, memory_.of_mover));
+  }
+}
+
+/// Keeps a stop if it is among the first; stops at almost the same time count as one impact.
 /// @param length of the motion, as the piece sees it [m].
 template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::keep(Stop<Scalar> stop, Scalar length) noexcept {
+void StepSolver<Lanes, Scalar>::keep_stop(Stop<Scalar> stop, Scalar length) noexcept {
   constexpr Tolerances<Scalar> tolerances{};
   stop.together = length > 0 ? (tolerances.touch - tolerances.stop) / length : Scalar(0);
   if (found_.hit && stop.stop > found_.stop + stop.together) return;
@@ -93,7 +112,7 @@ void StepSolver<Lanes, Scalar>::keep(Stop<Scalar> stop, Scalar length) noexcept 
   found_.stops.push_back(stop);
 }
 
-/// Puts first the stop whose normal points up most (of equals the lowest index).
+/// Puts the stop first whose normal points up most; of equals the one with the lowest index.
 template <std::size_t Lanes, class Scalar>
 void StepSolver<Lanes, Scalar>::order_stops() noexcept {
   if (found_.stops.size() < 2) return;
@@ -103,11 +122,12 @@ void StepSolver<Lanes, Scalar>::order_stops() noexcept {
   std::swap(found_.stops[0], *std::max_element(found_.stops.begin(), found_.stops.end(), less_up));
 }
 
-/// Moves along the motion up to `stop`. False where that cannot be certified or leaves the range: then nothing moved.
+/// Advances along the motion of the last sweep up to fraction `stop`. False where that cannot be certified, or leaves
+/// the range: then nothing has changed.
 template <std::size_t Lanes, class Scalar>
 bool StepSolver<Lanes, Scalar>::advance(Scalar stop) noexcept {
   if (stop == 0) return true;
-  V target = motion_.from + motion_.way * stop;
+  V target = motion_.from + motion_.displacement * stop;
   Scalar end = time_ + (1 - time_) * stop;
   if (stop == 1) end = 1;
   if (moving_.anchored) note_motion_on_ground();
@@ -122,22 +142,23 @@ bool StepSolver<Lanes, Scalar>::advance(Scalar stop) noexcept {
   return true;
 }
 
-/// Whether the straight way up to a fraction of the step meets nothing that is nearer than rounding where it begins:
-/// for all else the sweep's word is enough.
+/// Whether the straight motion to `target` is proved clear of every piece that is nearer than rounding at its start.
+/// For pieces that are further away the sweep is proof enough.
 template <std::size_t Lanes, class Scalar>
 bool StepSolver<Lanes, Scalar>::certified(const V& target, Scalar end) noexcept {
   bool clear = true;
-  for_each_near({position_, position_}, [&](PieceIndex piece) { clear = clear && !bars(piece, target, end); });
+  for_each_near({position_, position_},
+                [&](PieceIndex piece) { clear = clear && !blocks_exactly(piece, target, end); });
   return clear;
 }
 
 template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::bars(PieceIndex piece, const V& target, Scalar end) const noexcept {
+bool StepSolver<Lanes, Scalar>::blocks_exactly(PieceIndex piece, const V& target, Scalar end) const noexcept {
   return best_axis<Lanes>(space_, piece, local(piece, position_)).separation < Tolerances<Scalar>{}.certain &&
-         !clear_way(piece, position_, target, end);
+         !exactly_clear(piece, position_, target, end);
 }
 
-/// Adds the contacts of one moment, the earliest impact first.
+/// Reports the contacts of one moment, the earliest impact first.
 /// @param begin when the motion of the last sweep began.
 template <std::size_t Lanes, class Scalar>
 void StepSolver<Lanes, Scalar>::report(Scalar begin) noexcept {
@@ -159,9 +180,9 @@ void StepSolver<Lanes, Scalar>::report(Scalar begin) noexcept {
               [](const Contact<Scalar>& a, const Contact<Scalar>& b) { return a.fraction < b.fraction; });
 }
 
-/// One contact for each collider and normal: a polygon may hold the character by its floor and by its wall. What is met
-/// later has no earlier fraction, although a motion stops a little before its time of impact.
-/// @param this_moment the first contact of the present moment: of those the earlier impact counts.
+/// Reports one contact for each collider and normal: the same polygon may be floor and wall. A later contact never gets
+/// an earlier fraction, although a motion stops a little before its time of impact.
+/// @param this_moment index of the first contact of the present moment. Among those the earlier impact counts.
 template <std::size_t Lanes, class Scalar>
 void StepSolver<Lanes, Scalar>::report_contact(PieceIndex piece, std::size_t axis, Scalar fraction,
                                                std::size_t this_moment) noexcept {
@@ -186,7 +207,7 @@ void StepSolver<Lanes, Scalar>::report_contact(PieceIndex piece, std::size_t axi
     contacts.push_back(contact, memory_.contacts);
 }
 
-/// All pieces that stopped the motion of the last sweep, where there were too many to keep.
+/// Reports all pieces that stopped the last sweep, where there were too many to keep.
 template <std::size_t Lanes, class Scalar>
 void StepSolver<Lanes, Scalar>::report_more(Scalar begin, std::size_t this_moment) noexcept {
   const auto report_all = [&](const LocalMotion& motion, const auto& pieces) {
@@ -201,50 +222,50 @@ void StepSolver<Lanes, Scalar>::report_more(Scalar begin, std::size_t this_momen
         report_contact(piece, hit.axes.normal, fraction_of({piece, hit.stop, together, hit.axes}, begin), this_moment);
     }
   };
-  report_all(motion_, neighbourhood_.around(motion_.box(), motion_.way));
-  for (MoverIndex mover = 0; mover < around_.near; ++mover) {
-    const V from = motion_.from - around_.offset(mover, begin);
-    const LocalMotion motion = make_motion<Lanes>(space_, from, around_.relative(motion_.way, mover, begin));
+  report_all(motion_, neighbourhood_.around(motion_.box(), motion_.displacement));
+  for (MoverIndex mover = 0; mover < movers_.count; ++mover) {
+    const V from = motion_.from - movers_.offset(mover, begin);
+    const LocalMotion motion = make_motion<Lanes>(space_, from, movers_.relative(motion_.displacement, mover, begin));
     const PieceRange pieces = space_.scenery().pieces_of_mover(mover);
     report_all(motion, std::views::iota(pieces.first, pieces.end));
   }
 }
 
-/// A contact with a piece that holds the character where it is now.
+/// Reports a contact with a piece that is touched now.
 template <std::size_t Lanes, class Scalar>
 void StepSolver<Lanes, Scalar>::report_touched(PieceIndex piece) noexcept {
   const std::size_t axis = best_axis<Lanes>(space_, piece, local(piece, position_)).axis;
   report_contact(piece, axis, time_, result_.contacts.size());
 }
 
-/// When the collider of a piece is met by the motion of the last sweep, as a fraction of the step.
+/// Time of impact with the collider of a piece in the last sweep, as a fraction of the step.
 /// @param begin when that motion began.
 template <std::size_t Lanes, class Scalar>
 Scalar StepSolver<Lanes, Scalar>::fraction_of(const Stop<Scalar>& stop, Scalar begin) noexcept {
   const V& from = begin == 0 ? start_ : motion_.from;
   const MoverIndex mover = mover_of(stop.piece);
   if (mover != no_mover) {
-    const V shift = around_.offset(mover, begin);
-    const V way = around_.relative(motion_.way, mover, begin);
-    const LocalMotion motion = make_motion<Lanes>(space_, V(motion_.from - shift), way);
+    const V shift = movers_.offset(mover, begin);
+    const V displacement = movers_.relative(motion_.displacement, mover, begin);
+    const LocalMotion motion = make_motion<Lanes>(space_, V(motion_.from - shift), displacement);
     return begin + (1 - begin) * impact_of(stop, motion, V(from - shift));
   }
   return begin + (1 - begin) * impact_of(stop, motion_, from);
 }
 
-/// The time of impact of the collider, as a fraction of the motion. Where its piece is met long after it was stopped
-/// at, as a rim that is grazed, another piece of the same collider may be met in between.
+/// Time of impact with the collider of a piece, as a fraction of the motion. A motion that grazes a rim stops long
+/// before its time of impact: another piece of the same collider may be hit in between.
 template <std::size_t Lanes, class Scalar>
 Scalar StepSolver<Lanes, Scalar>::impact_of(const Stop<Scalar>& stop, const LocalMotion& motion,
                                             const V& from) noexcept {
-  Scalar earliest = time_of_impact(space_, from, motion.way, stop.piece, stop.axes);
+  Scalar earliest = time_of_impact(space_, from, motion.displacement, stop.piece, stop.axes);
   if ((earliest - stop.stop) * motion.length <= 2 * Tolerances<Scalar>{}.stop) return earliest;
   if (!space_.info(stop.piece).whole_collider)
     earliest = std::min(earliest, impact_with_another_piece(stop, motion, from));
   return earliest;
 }
 
-/// The earliest time of impact of the other pieces of a collider; infinite where none is met.
+/// The earliest time of impact with the other pieces of a collider; infinite where none is hit.
 template <std::size_t Lanes, class Scalar>
 Scalar StepSolver<Lanes, Scalar>::impact_with_another_piece(const Stop<Scalar>& stop, const LocalMotion& motion,
                                                             const V& from) noexcept {
@@ -256,17 +277,17 @@ Scalar StepSolver<Lanes, Scalar>::impact_with_another_piece(const Stop<Scalar>& 
     const Clearance<Scalar> clear = clearance(space_, motion, other);
     if (clear.clear()) continue;
     const PieceHit<Scalar> hit = sweep_piece(space_, motion, other, clear);
-    if (hit.hit) earliest = std::min(earliest, time_of_impact(space_, from, motion.way, other, hit.axes));
+    if (hit.hit) earliest = std::min(earliest, time_of_impact(space_, from, motion.displacement, other, hit.axes));
   }
   return earliest;
 }
 
-/// What a motion may meet, of what stands still or of one mover.
+/// Pieces that a motion may hit, of one mover or, for `no_mover`, of the scenery that stands still.
 template <std::size_t Lanes, class Scalar>
 std::span<const PieceIndex> StepSolver<Lanes, Scalar>::pieces_along(const LocalMotion& motion,
                                                                     MoverIndex mover) noexcept {
-  if (mover != no_mover) return around_.phases.query(mover, space_.touched_from(motion.box()), memory_.of_mover);
-  return neighbourhood_.around(motion.box(), motion.way);
+  if (mover != no_mover) return movers_.phases.query(mover, space_.touched_from(motion.box()), memory_.of_mover);
+  return neighbourhood_.around(motion.box(), motion.displacement);
 }
 
 template <std::size_t Lanes, class Scalar>

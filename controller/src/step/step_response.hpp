@@ -1,0 +1,271 @@
+/// StepSolver: the response to the surfaces that are touched.
+///
+/// A surface with normal n whose mover is displaced by d in the rest of the step allows the displacements w with
+/// n·w >= n·d; d is zero where nothing moves. The response to one surface is that of response.hpp, relative to its
+/// mover. If it enters another surface, the two are answered one after the other; then surfaces of one body together;
+/// and last the nearest motion is taken that all surfaces allow.
+#pragma once
+
+#include "step/half_planes.hpp"
+#include "step/response.hpp"
+#include "step/step_solver.hpp"
+
+namespace paperproof::octagon_sweep {
+
+/// Whether a mover crushed the character, or overlaps it since an earlier step: it is ignored for the rest of the step.
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::ignored(PieceIndex piece) const noexcept {
+  return memory_.is(collider_of(piece), moving_.ignored);
+}
+
+/// Whether a motion does not enter the surface of a piece that is touched. Its axis alone is then proof that the motion
+/// is clear of the piece.
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::slides_along_touched(const LocalMotion& motion, PieceIndex piece) const noexcept {
+  constexpr Scalar noise = std::numeric_limits<Scalar>::epsilon() * 32;
+  for (const TouchedSurface<Scalar>& surface : memory_.surfaces) {
+    if (surface.piece != piece) continue;
+    if (moving_.waits) return true;
+    const Scalar start = space_.separation(piece, surface.axis, motion.from);
+    const Scalar out = surface.normal.x() * motion.displacement.x() + surface.normal.y() * motion.displacement.y();
+    Scalar size = std::abs(motion_.displacement.x()) + std::abs(motion_.displacement.y());
+    if (surface.mover != no_mover) size += movers_.displacement(surface.mover).cwiseAbs().sum();
+    return start >= Tolerances<Scalar>{}.certain && (out >= -noise * size || start + out >= Tolerances<Scalar>{}.hit);
+  }
+  return false;
+}
+
+/// Adds the surfaces that stopped the last sweep, and drops those that are no longer touched. The first of them is the
+/// one that points up most.
+template <std::size_t Lanes, class Scalar>
+void StepSolver<Lanes, Scalar>::update_surfaces() noexcept {
+  constexpr Scalar touch = Tolerances<Scalar>{}.touch;
+  const auto less_up = [](const TouchedSurface<Scalar>& a, const TouchedSurface<Scalar>& b) {
+    return a.normal.y() < b.normal.y();
+  };
+  auto& surfaces = memory_.surfaces;
+  surfaces.swap(memory_.surfaces_before);
+  surfaces.clear();
+  for (const Stop<Scalar>& stop : found_.stops)
+    surfaces.push_back(
+        {stop.piece, stop.axes.normal, space_.normal(stop.piece, stop.axes.normal), mover_of(stop.piece)});
+  for (const TouchedSurface<Scalar>& surface : memory_.surfaces_before) {
+    const bool again = std::any_of(found_.stops.begin(), found_.stops.end(),
+                                   [&surface](const Stop<Scalar>& stop) { return stop.piece == surface.piece; });
+    if (again || ignored(surface.piece)) continue;
+    const V at = local(surface.piece, position_);
+    const bool touched = best_axis<Lanes>(space_, surface.piece, at).separation <= touch &&
+                         std::abs(space_.separation(surface.piece, surface.axis, at)) <= touch;
+    if (touched || moving_.waits) surfaces.push_back(surface);
+  }
+  if (surfaces.size() > 1) std::swap(surfaces[0], *std::max_element(surfaces.begin(), surfaces.end(), less_up));
+}
+
+/// Displacement of a surface in the rest of the step [m].
+template <std::size_t Lanes, class Scalar>
+Vec2<Scalar> StepSolver<Lanes, Scalar>::remaining_of(const TouchedSurface<Scalar>& surface) const noexcept {
+  if (surface.mover == no_mover) return V::Zero();
+  return movers_.remaining(surface.mover, time_);
+}
+
+/// Velocity of a surface [m/s].
+template <std::size_t Lanes, class Scalar>
+Vec2<Scalar> StepSolver<Lanes, Scalar>::velocity_of(const TouchedSurface<Scalar>& surface) const noexcept {
+  if (surface.mover == no_mover) return V::Zero();
+  return movers_.displacement(surface.mover) / movers_.dt;
+}
+
+template <class Scalar>
+[[nodiscard]] HalfPlane<Scalar> half_plane_of(const Vec2<Scalar>& normal, const Vec2<Scalar>& motion) noexcept {
+  return {normal, normal.x() * motion.x() + normal.y() * motion.y()};
+}
+
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::allowed(const DesiredMotion<Scalar>& desired,
+                                        const TouchedSurface<Scalar>& surface) const noexcept {
+  return half_plane_of(surface.normal, remaining_of(surface)).allows(desired.displacement.wanted) &&
+         half_plane_of(surface.normal, velocity_of(surface)).allows(desired.velocity.wanted);
+}
+
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::allowed(const DesiredMotion<Scalar>& desired) const noexcept {
+  return std::all_of(memory_.surfaces.begin(), memory_.surfaces.end(),
+                     [&](const TouchedSurface<Scalar>& surface) { return allowed(desired, surface); });
+}
+
+/// The response to one surface, relative to its motion. Walkable ground that carries counts with its whole motion; any
+/// other surface only with its motion along its normal.
+/// @param after_walk see `Surface`.
+template <std::size_t Lanes, class Scalar>
+DesiredMotion<Scalar> StepSolver<Lanes, Scalar>::response_to(const TouchedSurface<Scalar>& surface,
+                                                             const DesiredMotion<Scalar>& desired,
+                                                             bool after_walk) const noexcept {
+  const Surface<Scalar> at{surface.normal, walkable(surface.normal), after_walk};
+  const auto response = [&](const Desired<Scalar>& given, const V& motion_of_surface,
+                            Scalar steered) -> Desired<Scalar> {
+    V frame = motion_of_surface;
+    if (!at.walkable || !carries(surface.piece))
+      frame = surface.normal * half_plane_of(surface.normal, motion_of_surface).least;
+    const Desired<Scalar> relative{given.wanted - frame, given.unsteered - frame};
+    if (dot(relative.wanted, surface.normal) >= 0) return given;
+    const Desired<Scalar> result = respond(relative, steered, at);
+    return {result.wanted + frame, result.unsteered + frame};
+  };
+  return {response(desired.displacement, remaining_of(surface), steered_ * dt_ * (1 - time_)),
+          response(desired.velocity, velocity_of(surface), steered_)};
+}
+
+/// The response to the first surface, and to a second one that the first response enters. False if that enters a third.
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::respond_one_by_one(DesiredMotion<Scalar>& desired) const noexcept {
+  const DesiredMotion<Scalar> wanted = desired;
+  const TouchedSurface<Scalar>& first = memory_.surfaces[0];
+  const DesiredMotion<Scalar> alone = response_to(first, wanted, after_walk_);
+  desired = alone;
+  if (allowed(desired)) return true;
+  for (const TouchedSurface<Scalar>& surface : memory_.surfaces) {
+    if (allowed(alone, surface)) continue;
+    desired = response_to(surface, alone, after_walk_ || walkable(first.normal));
+    if (allowed(desired)) return true;
+    desired = response_to(first, response_to(surface, wanted, after_walk_), after_walk_ || walkable(surface.normal));
+    if (allowed(desired)) return true;
+  }
+  desired = wanted;
+  return false;
+}
+
+/// Surfaces of one body that stop the motion together: a fall may still slip down between them. Otherwise the motion
+/// ends there, relative to that body. False if they belong to bodies with different motions.
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::respond_in_crease(DesiredMotion<Scalar>& desired) noexcept {
+  const TouchedSurface<Scalar>& first = memory_.surfaces[0];
+  const DesiredMotion<Scalar> alone = response_to(first, desired, after_walk_);
+  for (const TouchedSurface<Scalar>& surface : memory_.surfaces)
+    if (!allowed(alone, surface) && remaining_of(surface) != remaining_of(first)) return false;
+  const V velocity = velocity_of(first);
+  const DesiredMotion<Scalar> with_body = DesiredMotion<Scalar>::plain(remaining_of(first), velocity);
+  if (!allowed(with_body)) return false;
+  const Scalar fall = fall_ - velocity.y();
+  const bool on_ground =
+      std::any_of(memory_.surfaces.begin(), memory_.surfaces.end(),
+                  [this](const TouchedSurface<Scalar>& surface) { return walkable(surface.normal); });
+  desired = with_body;
+  wedged_ = fall < 0;
+  if (fall >= 0 || on_ground) return true;
+  const V displacement{0, fall * dt_ * (1 - time_)};
+  const std::optional<DesiredMotion<Scalar>> falling =
+      nearest_allowed_to(with_body.displacement.wanted + displacement, velocity + V(0, fall));
+  const auto slips = [&] {
+    return falling->velocity.wanted.y() - velocity.y() < along_plane<Scalar> * (fall - length_of(velocity));
+  };
+  if (falling && slips())
+    desired = *falling;
+  else if (velocity == V::Zero() && falls_between(displacement))
+    desired = DesiredMotion<Scalar>::plain(displacement, {0, fall});
+  else
+    return true;
+  wedged_ = false;
+  return true;
+}
+
+/// The nearest motion that all surfaces allow. Steering and horizontal momentum count only where they do not slow a
+/// fall: between two steep surfaces they would become a climb. False if the surfaces leave no motion.
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::respond_together(DesiredMotion<Scalar>& desired) const noexcept {
+  const Desired<Scalar> displacement = desired.displacement;
+  const Desired<Scalar> velocity = desired.velocity;
+  const auto wanted = nearest_allowed_to(displacement.wanted, velocity.wanted);
+  if (!wanted) {
+    desired.velocity.wanted = desired.velocity.unsteered = V::Zero();
+    return false;
+  }
+  desired = *wanted;
+  const auto falls_by = [&](const V& down, const V& velocity_of_fall) {
+    const auto falling = nearest_allowed_to(down, velocity_of_fall);
+    if (falling && falling->displacement.wanted.y() < desired.displacement.wanted.y()) desired = *falling;
+  };
+  falls_by(displacement.unsteered, velocity.unsteered);
+  if (displacement.unsteered.y() < 0) falls_by({0, displacement.unsteered.y()}, {0, velocity.unsteered.y()});
+  return true;
+}
+
+/// Nothing if there is no motion that all surfaces allow.
+template <std::size_t Lanes, class Scalar>
+std::optional<DesiredMotion<Scalar>> StepSolver<Lanes, Scalar>::nearest_allowed_to(const V& displacement,
+                                                                                   const V& velocity) const noexcept {
+  std::vector<HalfPlane<Scalar>>& displacements = memory_.displacement_planes;
+  std::vector<HalfPlane<Scalar>>& velocities = memory_.velocity_planes;
+  displacements.clear();
+  velocities.clear();
+  for (const TouchedSurface<Scalar>& surface : memory_.surfaces) {
+    add_plane(half_plane_of(surface.normal, remaining_of(surface)), displacements);
+    add_plane(half_plane_of(surface.normal, velocity_of(surface)), velocities);
+  }
+  const auto allowed_displacement = nearest_allowed<Scalar>(displacement, {displacements.begin(), displacements.end()});
+  if (!allowed_displacement) return std::nullopt;
+  const auto allowed_velocity = nearest_allowed<Scalar>(velocity, {velocities.begin(), velocities.end()});
+  return DesiredMotion<Scalar>::plain(*allowed_displacement, allowed_velocity.value_or(V::Zero()));
+}
+
+/// The response to one surface that stands still: the usual case.
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::respond_to_surface(const V& normal, DesiredMotion<Scalar>& desired) const noexcept {
+  const Surface<Scalar> at{normal, walkable(normal), after_walk_};
+  if (steered_ != 0) {
+    desired.displacement = respond(desired.displacement, steered_ * dt_ * (1 - time_), at);
+    desired.velocity = respond(desired.velocity, steered_, at);
+  } else {
+    desired.displacement.wanted = respond(desired.displacement.wanted, at);
+    desired.velocity.wanted = respond(desired.velocity.wanted, at);
+  }
+  // A slide that ends may still enter the surface by rounding. A motion along walkable ground does not.
+  if (!at.walkable && (enters(desired.displacement.wanted, normal) || enters(desired.velocity.wanted, normal)))
+    desired = DesiredMotion<Scalar>::plain(V::Zero(), V::Zero());
+  return true;
+}
+
+/// The response to several surfaces, or to one that moves.
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::respond_to_all(DesiredMotion<Scalar>& desired) noexcept {
+  if (steered_ == 0) desired = DesiredMotion<Scalar>::plain(desired.displacement.wanted, desired.velocity.wanted);
+  return respond_one_by_one(desired) || respond_in_crease(desired) || respond_together(desired);
+}
+
+/// False where the surfaces leave no motion.
+template <std::size_t Lanes, class Scalar>
+bool StepSolver<Lanes, Scalar>::respond_to_surfaces(DesiredMotion<Scalar>& desired) noexcept {
+  const TouchedSurface<Scalar>& first = memory_.surfaces[0];
+  wedged_ = false;
+  if (movers_.active && desired.velocity.wanted.x() == 0 && carries_from_now(first)) {
+    begin_to_ride(first);
+    desired = DesiredMotion<Scalar>::plain(ground_rest(first.piece, first.normal), moving_.ride.velocity);
+    steered_ = 0;
+  }
+  const bool on_ground = walkable(first.normal);
+  if (after_walk_ && !on_ground && desired.velocity.wanted.y() > 0) after_walk_ = touches_ground();
+  const bool possible = memory_.surfaces.size() == 1 && first.mover == no_mover
+                            ? respond_to_surface(first.normal, desired)
+                            : respond_to_all(desired);
+  after_walk_ = after_walk_ || on_ground;
+  return possible;
+}
+
+/// The path has no room for more corners but the last. Tries to end the step with the present motion, with the motion
+/// of a touched surface, or at a free position.
+template <std::size_t Lanes, class Scalar>
+void StepSolver<Lanes, Scalar>::last_resort(const V& displacement) noexcept {
+  if (result_.status == MoveStatus::moved) result_.status = MoveStatus::dropped;
+  if (!movers_.active) return;
+  const auto goes = [this](const V& last) {
+    sweep_along(last);
+    return !found_.hit && advance(1);
+  };
+  if (goes(displacement)) return;
+  if (!is_overlapped()) {
+    for (const TouchedSurface<Scalar>& surface : memory_.surfaces)
+      if (goes(remaining_of(surface))) return;
+  }
+  wait(true);
+}
+
+}  // namespace paperproof::octagon_sweep
