@@ -21,7 +21,7 @@ constexpr const char* about_the_ledger =
     "the twin is put to the controller before each step, and each event stands alone; in a free run what both are "
     "right about, once an event took them apart, is a consequence of that event.";
 /// A real level may take this long.
-constexpr std::chrono::seconds limit{600};
+constexpr std::chrono::seconds part_limit{600};
 constexpr std::array kinds{EventKind::contact, EventKind::side,        EventKind::time,        EventKind::crossing,
                            EventKind::stop,    EventKind::toggle_ours, EventKind::toggle_box2d};
 
@@ -63,7 +63,7 @@ class DisagreementRun {
       note(ordered_json::parse(line), cases[job].scene);
       progress_.show("study disagreement,", static_cast<double>(job) / static_cast<double>(cases.size()));
     };
-    run_in_processes(jobs, {.workers = processes_for(arguments_.jobs), .limit = limit});
+    run_in_processes(jobs, {.workers = processes_for(arguments_.jobs), .limit = part_limit});
     progress_.clear();
     for (const char* mode : {"free", "lockstep"}) tell(mode);
     outputs_.finish(page_);

@@ -14,7 +14,7 @@ namespace {
 constexpr double least_reach = 1e-6;
 
 //                                                                 octagon_sweep  Box2D          by units  others
-constexpr std::array<Exemption, 9> all{{
+constexpr std::array<Exemption, 9> all_exemptions{{
     {Exempt::corner_cut,
      "corner_cut",
      "passes a solid with a rim of the octagon no deeper than this (and an eighth of its width)",
@@ -73,10 +73,10 @@ Party party_of(const TraceHeader& header) {
   return tolerance_named(header, "unit") > 0 ? Party::by_units : Party::computing;
 }
 
-std::span<const Exemption> exemptions() { return all; }
+std::span<const Exemption> exemptions() { return all_exemptions; }
 
 double allowed(Exempt which, const TraceHeader& header) {
-  const double size = all[static_cast<std::size_t>(which)].sizes[static_cast<std::size_t>(party_of(header))];
+  const double size = all_exemptions[static_cast<std::size_t>(which)].sizes[static_cast<std::size_t>(party_of(header))];
   if (size == its_pixel) return tolerance_named(header, "pixel");
   return size == its_own ? own_reach(header) : size;
 }
@@ -101,7 +101,7 @@ double ulp_at(const TraceHeader& header, const Vec2d& position) {
 
 std::vector<std::string> exemptions_in_words() {
   std::vector<std::string> lines;
-  for (const Exemption& exemption : all) {
+  for (const Exemption& exemption : all_exemptions) {
     lines.push_back(std::string(exemption.name) + ": " + std::string(exemption.meaning) + ". octagon_sweep in double " +
                     size_in_words(exemption, Party::promising) + ", Box2D " + size_in_words(exemption, Party::sampled) +
                     ", who searches by units " + size_in_words(exemption, Party::by_units) + ", others " +

@@ -80,8 +80,8 @@ Region hidden_by(const Obstacle& obstacle, std::span<const Vec2d> octagon, doubl
 }
 
 /// A line of which every point is looked at: normal · w = bound.
-struct Line {
-  explicit Line(const HalfPlane& edge) : foot(edge.normal * edge.bound), along(left_of(edge.normal)) {}
+struct EdgeLine {
+  explicit EdgeLine(const HalfPlane& edge) : foot(edge.normal * edge.bound), along(left_of(edge.normal)) {}
   Vec2d foot;
   Vec2d along;
 
@@ -151,7 +151,7 @@ class Plane {
  private:
   void add_ends_on(const HalfPlane& edge, std::size_t own, double reach, std::vector<Vec2d>& ends) const {
     if (!(std::abs(edge.bound) < reach)) return;
-    const Line line(edge);
+    const EdgeLine line(edge);
     const double half = std::sqrt(reach * reach - edge.bound * edge.bound);
     const Interval facet = line.within(covered_[own], {-half, half}, true);
     if (!(facet.from < facet.to)) return;

@@ -47,10 +47,10 @@ class JsonObject {
 };
 
 /// A point in display units.
-struct Cell {
+struct DisplayPoint {
   std::int64_t x = 0;
   std::int64_t y = 0;
-  friend bool operator==(const Cell&, const Cell&) = default;
+  friend bool operator==(const DisplayPoint&, const DisplayPoint&) = default;
 };
 
 /// Rounds metres to a whole number of display units, the same for all coordinates of a scene.
@@ -62,7 +62,7 @@ class Quantum {
   Quantum(double extent, double farthest);
   [[nodiscard]] double metres() const noexcept { return metres_; }
   [[nodiscard]] std::int64_t round(double metres) const noexcept;
-  [[nodiscard]] Cell round(const Vec2d& point) const noexcept { return {round(point.x()), round(point.y())}; }
+  [[nodiscard]] DisplayPoint round(const Vec2d& point) const noexcept { return {round(point.x()), round(point.y())}; }
 
  private:
   double metres_ = 1;

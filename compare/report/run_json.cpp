@@ -51,8 +51,8 @@ class Columns {
   using Kind = std::array<std::int64_t, 4>;
   /// Where a mover ended a step, and how it got there.
   struct Place {
-    Cell at;
-    Cell way;
+    DisplayPoint at;
+    DisplayPoint way;
   };
 
   void add_flags(const TraceStep& step) {
@@ -61,7 +61,7 @@ class Columns {
     flags_ += static_cast<char>('0' + bits);
   }
 
-  void add_corner(const Cell& corner) {
+  void add_corner(const DisplayPoint& corner) {
     path_.add(corner.x - position_.x).add(corner.y - position_.y);
     position_ = corner;
   }
@@ -82,7 +82,7 @@ class Columns {
   }
 
   void add_velocity(const Vec2d& velocity) {
-    const Cell now{quantum_.round(velocity.x() / 10), quantum_.round(velocity.y() / 10)};
+    const DisplayPoint now{quantum_.round(velocity.x() / 10), quantum_.round(velocity.y() / 10)};
     velocity_.add(now.x - last_velocity_.x).add(now.y - last_velocity_.y);
     last_velocity_ = now;
   }
@@ -101,9 +101,9 @@ class Columns {
     for (const Contact<double>& contact : contacts) {
       const std::size_t kind = index_of({contact.collider, static_cast<std::int64_t>(contact.side),
                                          in_parts(contact.normal.x()), in_parts(contact.normal.y())});
-      const Cell point = quantum_.round(contact.point);
-      const Cell relative{point.x - position_.x, point.y - position_.y};
-      Cell& last = last_points_[kind];
+      const DisplayPoint point = quantum_.round(contact.point);
+      const DisplayPoint relative{point.x - position_.x, point.y - position_.y};
+      DisplayPoint& last = last_points_[kind];
       contacts_.add(static_cast<std::int64_t>(kind)).add(relative.x - last.x).add(relative.y - last.y);
       contacts_.add(in_parts(contact.fraction)).add_short(contact.separation);
       last = relative;
@@ -143,10 +143,10 @@ class Columns {
     if (!places_.empty()) movers_.add(jumped ? 1 : 0);
     for (std::size_t i = 0; i < places_.size(); ++i) {
       Place& place = places_[i];
-      const Cell from = i < known ? quantum_.round(movers[i].from) : place.at;
-      const Cell to = i < known ? quantum_.round(movers[i].to) : place.at;
+      const DisplayPoint from = i < known ? quantum_.round(movers[i].from) : place.at;
+      const DisplayPoint to = i < known ? quantum_.round(movers[i].to) : place.at;
       if (jumped) movers_.add(from.x - place.at.x).add(from.y - place.at.y);
-      const Cell way{to.x - from.x, to.y - from.y};
+      const DisplayPoint way{to.x - from.x, to.y - from.y};
       movers_.add(way.x - place.way.x).add(way.y - place.way.y);
       place = {to, way};
     }
@@ -159,8 +159,8 @@ class Columns {
   JsonObject overlaps_, crushed_, dropped_through_, met_, remainders_;
   std::vector<Place> places_;
   std::map<Kind, std::size_t> known_kinds_;
-  std::vector<Cell> last_points_;
-  Cell position_, last_velocity_;
+  std::vector<DisplayPoint> last_points_;
+  DisplayPoint position_, last_velocity_;
   std::int64_t last_step_ = 0;
   std::size_t count_ = 0;
 };

@@ -7,17 +7,17 @@
 namespace paperproof::compare {
 namespace {
 
-std::string ring_json(const std::vector<Vec2d>& points, Cell last, const Quantum& quantum) {
+std::string ring_json(const std::vector<Vec2d>& points, DisplayPoint last, const Quantum& quantum) {
   JsonArray ring;
   for (const Vec2d& point : points) {
-    const Cell cell = quantum.round(point);
+    const DisplayPoint cell = quantum.round(point);
     ring.add(cell.x - last.x).add(cell.y - last.y);
     last = cell;
   }
   return std::move(ring).take();
 }
 
-std::string shape_json(const ColliderDef& collider, Cell origin, const Quantum& quantum) {
+std::string shape_json(const ColliderDef& collider, DisplayPoint origin, const Quantum& quantum) {
   JsonArray rings;
   rings.add_raw(ring_json(collider.points, origin, quantum));
   for (const std::vector<Vec2d>& hole : collider.holes) rings.add_raw(ring_json(hole, origin, quantum));
@@ -66,15 +66,15 @@ std::string ids_json(const std::vector<std::string>& ids, const std::set<Collide
 }
 
 /// Tiles stand on a lattice: with its unit taken out, most differences are one digit.
-std::string places_json(const std::vector<Cell>& steps, std::int64_t unit) {
+std::string places_json(const std::vector<DisplayPoint>& steps, std::int64_t unit) {
   JsonArray at;
-  for (const Cell& step : steps) at.add(step.x / unit).add(step.y / unit);
+  for (const DisplayPoint& step : steps) at.add(step.x / unit).add(step.y / unit);
   return std::move(at).take();
 }
 
-std::int64_t lattice_unit(const std::vector<Cell>& steps) {
+std::int64_t lattice_unit(const std::vector<DisplayPoint>& steps) {
   std::int64_t unit = 0;
-  for (const Cell& step : steps) unit = std::gcd(unit, std::gcd(step.x, step.y));
+  for (const DisplayPoint& step : steps) unit = std::gcd(unit, std::gcd(step.x, step.y));
   return unit == 0 ? 1 : unit;
 }
 
@@ -87,10 +87,10 @@ std::string scenery_json(const SceneryDef& scenery, const std::vector<std::strin
   Order order;
   Order movers;
   JsonArray sensors;
-  std::vector<Cell> steps;
-  Cell last;
+  std::vector<DisplayPoint> steps;
+  DisplayPoint last;
   for (const ColliderDef& collider : scenery.colliders) {
-    const Cell origin = collider.points.empty() ? last : quantum.round(collider.points.front());
+    const DisplayPoint origin = collider.points.empty() ? last : quantum.round(collider.points.front());
     const std::string shape = shape_json(collider, origin, quantum);
     const auto [entry, is_new] = known.try_emplace(shape, static_cast<std::int64_t>(known.size()));
     if (is_new) shapes.add_raw(shape);

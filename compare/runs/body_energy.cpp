@@ -9,8 +9,8 @@
 namespace paperproof::compare {
 namespace {
 
-constexpr double share = 0.01;   ///< Of what is turned over.
-constexpr double roundings = 2;  ///< Of a place, in ulp.
+constexpr double turnover_share = 0.01;  ///< Of what is turned over.
+constexpr double roundings = 2;          ///< Of a place, in ulp.
 constexpr double epsilon = std::numeric_limits<float>::epsilon();
 
 }  // namespace
@@ -66,7 +66,8 @@ void BodyEnergy::add(const TraceStep& step) {
 void BodyEnergy::write(Row& row) const {
   if (!any_) return;
   row.body_energy_gained_j = gained_;
-  row.body_energy_bound_j = share * most_turned_over_ + loose_mass_ * scene_.gravity.norm() * box2d_skin + rounding_;
+  row.body_energy_bound_j =
+      turnover_share * most_turned_over_ + loose_mass_ * scene_.gravity.norm() * box2d_skin + rounding_;
 }
 
 }  // namespace paperproof::compare

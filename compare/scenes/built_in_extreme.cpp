@@ -52,7 +52,7 @@ Scene far(const ParameterValues& values) {
   return scene;
 }
 
-std::vector<ParameterSetting> at(double origin) { return {{"origin", origin}}; }
+std::vector<ParameterSetting> origin_at(double origin) { return {{"origin", origin}}; }
 
 /// Drops, walks up a ramp, meets a wall, with every length multiplied by a power of two.
 Scene scaled(const ParameterValues& values) {
@@ -115,12 +115,12 @@ std::vector<BuiltInScene> extreme_scenes() {
       {"start_overlapping_slop", "begins 5 mm inside a floor: comes out upwards", start_overlapping_slop},
       {"start_overlapping_deep", "begins 0.4 m inside a floor: comes out upwards", start_overlapping_deep},
       {"far_origin_0", "walk, wall and jump at the origin: what the far ones are compared with", nullptr, "far",
-       at(16)},
-      {"far_origin_1e3", "the same 1,000 m away: the same to a few ulp", nullptr, "far", at(1e3)},
-      {"far_origin_1e4", "the same 10,000 m away: the same to a few ulp", nullptr, "far", at(1e4)},
-      {"far_origin_1e5", "the same 100,000 m away: the same to a few ulp", nullptr, "far", at(1e5)},
+       origin_at(16)},
+      {"far_origin_1e3", "the same 1,000 m away: the same to a few ulp", nullptr, "far", origin_at(1e3)},
+      {"far_origin_1e4", "the same 10,000 m away: the same to a few ulp", nullptr, "far", origin_at(1e4)},
+      {"far_origin_1e5", "the same 100,000 m away: the same to a few ulp", nullptr, "far", origin_at(1e5)},
       {"far_origin_1e6", "the same 1,000,000 m away, the end of the guarantee: the same to a few ulp", nullptr, "far",
-       at(1e6)},
+       origin_at(1e6)},
       {"scaled_1", "drop, ramp and wall: what the scaled ones are compared with", nullptr, "scaled", times(1)},
       {"scaled_1e-3", "all lengths divided by 1,024: the same result times the scale, the gap apart", nullptr, "scaled",
        times(1.0 / 1024)},

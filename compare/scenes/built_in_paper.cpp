@@ -74,7 +74,9 @@ const std::vector<ParameterDef>& paper_parameters() {
 }
 
 /// @param pixels per frame of a 60th of a second.
-std::vector<ParameterSetting> at(double pixels) { return {{"speed", pixels * pixel * frames_per_second}}; }
+std::vector<ParameterSetting> at_pixels_per_frame(double pixels) {
+  return {{"speed", pixels * pixel * frames_per_second}};
+}
 /// Falls as well.
 std::vector<ParameterSetting> thick(double thickness) { return {{"thickness", thickness}, {"gravity", 30}}; }
 
@@ -107,12 +109,13 @@ std::vector<SceneFamily> paper_families() {
 std::vector<BuiltInScene> paper_scenes() {
   return {
       {"article_bullet", "one pixel at 50 px per frame, platform 5 px thick 30 px below: first contact at t = 0.6",
-       nullptr, "bullet", at(50)},
+       nullptr, "bullet", at_pixels_per_frame(50)},
       {"article_bullet_slow", "the same at 1 px per frame: touches after 30 frames, at t = 1 of step 29", nullptr,
-       "bullet", at(1)},
-      {"article_bullet_fast", "the same at 1,000 px per frame: first contact at t = 0.03", nullptr, "bullet", at(1000)},
+       "bullet", at_pixels_per_frame(1)},
+      {"article_bullet_fast", "the same at 1,000 px per frame: first contact at t = 0.03", nullptr, "bullet",
+       at_pixels_per_frame(1000)},
       {"article_bullet_extreme", "the same at 100,000 px per frame: first contact at t = 0.0003", nullptr, "bullet",
-       at(1e5)},
+       at_pixels_per_frame(1e5)},
       {"thin_platform", "fall at 40 m/s and more onto paper of 1 cm: it is never passed", nullptr, "paper",
        thick(0.01)},
       {"paper_1e-1", "fall at 40 m/s and more onto paper of 10 cm: it is never passed", nullptr, "paper", thick(1e-1)},
