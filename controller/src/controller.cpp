@@ -3,8 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
+#include <exception>
+#include <optional>
 #include <stdexcept>
+#include <thread>
 
 #include "one_way_chains.hpp"
 #include "sensors.hpp"
@@ -100,6 +104,32 @@ class Undo {
   bool jump_held_;
   bool jump_pending_;
 };
+
+/// The scratch is for others next.
+template <class Scalar>
+void leave_scratch(MoveResult<Scalar>& move) noexcept {
+  move.path.keep_own();
+  move.contacts.keep_own();
+  move.crushed.keep_own();
+}
+
+/// Characters that a thread takes at a time. One: threads wait for each other's counter. Many: one of them ends late.
+constexpr std::size_t taken_at_once = 64;
+
+/// Calls `work(scratch)` in a thread for each scratch; the last one in this thread. Threads lie on the stack, one call
+/// deeper each, so that nothing is allocated for them here.
+template <class Scalar, class Work>
+void work_together(std::span<Scratch<Scalar>> scratches, const Work& work) noexcept {
+  if (scratches.size() == 1) return work(scratches.front());
+  std::optional<std::thread> other;
+  try {
+    other.emplace([&] { work(scratches.front()); });
+  } catch (const std::exception&) {
+    // There is no thread to be had. Those that there are take all the work.
+  }
+  work_together(scratches.subspan(1), work);
+  if (other) other->join();
+}
 
 }  // namespace
 
@@ -243,6 +273,30 @@ template <bool has_sensors, bool has_jump, bool has_gravity>
   }
   end_step<has_sensors>(input, movers, scratch, state, report);
   return report.status;
+}
+
+template <class Scalar>
+BatchStatus Controller<Scalar>::step_all(std::span<CharacterState<Scalar>> states, std::span<const Input> inputs,
+                                         const Vec2<Scalar>& gravity, Scalar dt,
+                                         std::span<const MoverMotion<Scalar>> movers,
+                                         std::span<Scratch<Scalar>> scratches,
+                                         std::span<StepReport<Scalar>> reports) const noexcept {
+  const std::size_t count = states.size();
+  const auto is_own = [&](const Scratch<Scalar>& scratch) { return is_made_by(technique_, scratch.maker); };
+  if (inputs.size() != count || reports.size() != count || scratches.empty() ||
+      !std::all_of(scratches.begin(), scratches.end(), is_own))
+    return BatchStatus::invalid_input;
+  // No more threads than have work.
+  const std::size_t shares = std::max<std::size_t>(1, (count + taken_at_once - 1) / taken_at_once);
+  std::atomic<std::size_t> next = 0;
+  work_together(scratches.first(std::min(scratches.size(), shares)), [&](Scratch<Scalar>& scratch) {
+    for (std::size_t first = next.fetch_add(taken_at_once); first < count; first = next.fetch_add(taken_at_once))
+      for (std::size_t i = first; i < std::min(count, first + taken_at_once); ++i) {
+        step(states[i], inputs[i], gravity, dt, movers, scratch, reports[i]);
+        leave_scratch(reports[i].move);
+      }
+  });
+  return BatchStatus::stepped;
 }
 
 template <class Scalar>

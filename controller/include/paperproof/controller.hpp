@@ -40,6 +40,14 @@ enum class StepStatus : std::uint8_t {
   invalid_input,
 };
 
+/// What became of a call that steps many characters.
+enum class BatchStatus : std::uint8_t {
+  stepped,  ///< Each character was stepped, or refused in a report of its own.
+  /// Refused: the spans do not have one entry for each character, there is no scratch memory, or another controller
+  /// made some of it. Nothing changed at all.
+  invalid_input,
+};
+
 /// What one step did. `move` is valid unless the status is `invalid_input`.
 template <class Scalar>
 struct StepReport {
@@ -92,6 +100,21 @@ class Controller {
                   StepReport<Scalar>& report) const noexcept {
     return (this->*step_)(state, input, gravity, dt, movers, scratch, report);
   }
+
+  /// One step of many characters that do not see each other. Each is stepped as by `step`, with the same bits for any
+  /// number of scratches; what `step` would refuse is refused in that character's report, and the others go on.
+  ///
+  /// One thread for each scratch, the calling one included: with a single scratch no thread is made. A thread takes
+  /// some ten microseconds to start, as long as a hundred characters. Where the system has no thread to give, the
+  /// others do its share. Allocates nothing but what `std::thread` needs, and never throws.
+  ///
+  /// Of a report that exceeds its inline storage, or what was reserved for it, the rest is left out, and the vector has
+  /// `overflowed()`: the scratch where a single step keeps it is used again at once.
+  /// @param inputs one for each state, as `reports`. @param movers as of `step`, the same for all.
+  /// @param scratches at least one, each made by this controller.
+  BatchStatus step_all(std::span<CharacterState<Scalar>> states, std::span<const Input> inputs,
+                       const Vec2<Scalar>& gravity, Scalar dt, std::span<const MoverMotion<Scalar>> movers,
+                       std::span<Scratch<Scalar>> scratches, std::span<StepReport<Scalar>> reports) const noexcept;
 
   [[nodiscard]] Scratch<Scalar> make_scratch() const { return completed(technique_->make_scratch()); }
   [[nodiscard]] const CharacterDef& character() const noexcept { return character_; }
