@@ -1,6 +1,9 @@
 #include "broad_phase/hilbert_order.hpp"
 
 #include <algorithm>
+#include <array>
+#include <numeric>
+#include <utility>
 
 namespace paperproof::broad_phase {
 namespace {
@@ -37,8 +40,28 @@ using Key = std::uint64_t;
 std::uint32_t place_of(Key key) noexcept { return static_cast<std::uint32_t>(key >> 32U); }
 PieceIndex index_of(Key key) noexcept { return static_cast<PieceIndex>(key); }
 
+/// By their places, digit by digit from the last; those in one place stay as they came (D. Knuth, "The Art of Computer
+/// Programming" 3, 5.2.5). Keys come with indices ascending.
+void sort_by_place(std::span<Key> keys, std::vector<Key>& room) {
+  constexpr unsigned digit_bits = 8;
+  constexpr std::size_t digits = std::size_t{1} << digit_bits;
+  // Below so many a sort by comparison is faster than counting.
+  if (keys.size() < digits) return std::sort(keys.begin(), keys.end());
+  room.resize(std::max(room.size(), keys.size()));
+  std::span<Key> from = keys;
+  std::span<Key> to = std::span(room).first(keys.size());
+  for (unsigned shift = 32; shift < 64; shift += digit_bits) {
+    const auto digit = [&](Key key) { return (key >> shift) % digits; };
+    std::array<std::size_t, digits> next{};
+    for (const Key key : from) ++next[digit(key)];
+    std::exclusive_scan(next.begin(), next.end(), next.begin(), std::size_t{0});
+    for (const Key key : from) to[next[digit(key)]++] = key;
+    std::swap(from, to);
+  }
+}
+
 template <class Scalar>
-void sort_along_curve(std::span<const Box2<Scalar>> boxes, std::span<Key> keys) {
+void sort_along_curve(std::span<const Box2<Scalar>> boxes, std::span<Key> keys, std::vector<Key>& room) {
   Vec2<Scalar> lower = centre(boxes[index_of(keys.front())]);
   Vec2<Scalar> upper = lower;
   for (const Key key : keys) {
@@ -58,10 +81,10 @@ void sort_along_curve(std::span<const Box2<Scalar>> boxes, std::span<Key> keys) 
     const Vec2<Scalar> at = centre(boxes[index]);
     key = Key{place_on_curve(cell(at, 0), cell(at, 1))} << 32U | index;
   }
-  std::sort(keys.begin(), keys.end());
+  sort_by_place(keys, room);
   for (auto first = keys.begin(); first != keys.end();) {
     const auto end = std::find_if(first, keys.end(), [&](Key key) { return place_of(key) != place_of(*first); });
-    if (end - first > 4) sort_along_curve(boxes, {first, end});
+    if (end - first > 4) sort_along_curve(boxes, {first, end}, room);
     first = end;
   }
 }
@@ -72,7 +95,8 @@ template <class Scalar>
 std::vector<PieceIndex> hilbert_order(std::span<const Box2<Scalar>> boxes) {
   std::vector<Key> keys(boxes.size());
   for (std::size_t i = 0; i < keys.size(); ++i) keys[i] = i;
-  if (!keys.empty()) sort_along_curve<Scalar>(boxes, keys);
+  std::vector<Key> room;
+  if (!keys.empty()) sort_along_curve<Scalar>(boxes, keys, room);
   std::vector<PieceIndex> order(keys.size());
   std::transform(keys.begin(), keys.end(), order.begin(), index_of);
   return order;

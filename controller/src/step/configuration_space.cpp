@@ -39,6 +39,8 @@ struct ConfigurationSpace<Scalar>::CoverSearch {
   /// For each axis, how far in the order of pieces the one was that covered such a facet last: in a level of tiles the
   /// next facet is mostly covered by the one that is as far.
   std::array<PieceIndex, max_axes> guesses{};
+  /// For each shared axis, how a rectangle lay to the one that covered such a facet last. Not a number: none did.
+  std::array<Placement, max_shared> known;
   /// What may cover a facet of the present piece, with its sides along the box directions.
   struct Near {
     PieceIndex piece;
@@ -46,6 +48,11 @@ struct ConfigurationSpace<Scalar>::CoverSearch {
   };
   std::vector<Near> near;
   std::vector<Interval> covered;  ///< Of the present facet.
+
+  CoverSearch() {
+    const Vec2<Scalar> nowhere = Vec2<Scalar>::Constant(std::numeric_limits<Scalar>::quiet_NaN());
+    known.fill({nowhere, nowhere, nowhere});
+  }
 
   /// Which share of the present facet nothing covers.
   [[nodiscard]] double open_share() {
@@ -254,7 +261,8 @@ template <class Scalar>
 bool ConfigurationSpace<Scalar>::may_cover(PieceIndex covering, PieceIndex piece) const noexcept {
   const std::uint8_t a = info_[covering].one_way_axis;
   const std::uint8_t b = info_[piece].one_way_axis;
-  if (a == ObstacleInfo::not_one_way || b == ObstacleInfo::not_one_way) return a == b;
+  if (a == ObstacleInfo::not_one_way || b == ObstacleInfo::not_one_way) [[likely]]
+    return a == b;
   if (info_[covering].surface == info_[piece].surface) return true;
   if (info_[covering].bent_surface || info_[piece].bent_surface) return false;
   return normal(covering, a) == normal(piece, b) &&
@@ -278,19 +286,34 @@ bool ConfigurationSpace<Scalar>::is_covered_corner(PieceIndex piece, std::size_t
   });
 }
 
+/// Whatever can cover a facet of a piece meets this box.
+template <class Scalar>
+Box2<Scalar> ConfigurationSpace<Scalar>::around(PieceIndex piece) const noexcept {
+  const Vec2<Scalar> reach = hull_box_.upper - hull_box_.lower;
+  return {scenery_.box(piece).lower - reach, scenery_.box(piece).upper + reach};
+}
+
 /// Only what keeps its place relative to a piece can cover its facets: the pieces that go with the same mover, or none.
 template <class Scalar>
 template <std::size_t Lanes>
 void ConfigurationSpace<Scalar>::build_covered(const BroadPhase<Scalar>& broad_phase,
                                                const MoverPhases<Scalar>& mover_phases) {
   const Vec2<Scalar> reach = hull_box_.upper - hull_box_.lower;
-  const auto around = [&](PieceIndex piece) -> Box2<Scalar> {
-    return {scenery_.box(piece).lower - reach, scenery_.box(piece).upper + reach};
-  };
   CoverSearch search;
   std::vector<PieceIndex> found(scenery_.pieces().size());
+  // Pieces that follow each other mostly stand side by side: one query answers for the next three as well.
+  constexpr Scalar pieces_ahead = 3;
+  Box2<Scalar> asked{reach, -reach};
+  std::size_t count = 0;
   const auto standing = [&](PieceIndex piece) -> std::span<const PieceIndex> {
-    return {found.data(), broad_phase.query(around(piece), found)};
+    const Box2<Scalar> wanted = around(piece);
+    if (!asked.contains(wanted)) {
+      const Vec2<Scalar> stride = scenery_.box(piece).lower - scenery_.box(piece > 0 ? piece - 1 : piece).lower;
+      const Vec2<Scalar> ahead = (stride * pieces_ahead).cwiseMax(-2 * reach).cwiseMin(2 * reach);
+      asked = wanted.merged({wanted.lower + ahead, wanted.upper + ahead});
+      count = broad_phase.query(asked, found);
+    }
+    return {found.data(), count};
   };
   for (PieceIndex piece = 0; piece < scenery_.static_pieces().end; ++piece)
     build_covered<Lanes>(piece, scenery_.static_pieces(), standing, search);
@@ -310,11 +333,18 @@ void ConfigurationSpace<Scalar>::build_covered(PieceIndex piece, PieceRange toge
   std::span<const PieceIndex> found;  // at least the piece itself, once it was asked for
   for (std::size_t axis = 0; axis < axis_count(piece); ++axis) {
     if (axis < lanes_ && axis >= shared_count_) continue;
-    const Facet f = facet(piece, axis);
     const PieceIndex guess = piece + search.guesses[axis];
-    if (guess != piece && guess >= together.first && guess < together.end && may_cover(guess, piece) &&
-        lies_in<Lanes>(f, guess)) {
+    const bool may_guess = guess != piece && guess >= together.first && guess < together.end;
+    const bool rectangles = may_guess && info_[piece].first_offset == ObstacleInfo::rectangle &&
+                            info_[guess].first_offset == ObstacleInfo::rectangle;
+    if (rectangles && placement(piece, guess) == search.known[axis]) {
       set_covered(piece, axis, 0);
+      continue;
+    }
+    const Facet f = facet(piece, axis);
+    if (may_guess && may_cover(guess, piece) && lies_in<Lanes>(f, guess)) {
+      set_covered(piece, axis, 0);
+      if (rectangles) search.known[axis] = placement(piece, guess);
       continue;
     }
     if (found.empty()) {
@@ -362,11 +392,20 @@ bool ConfigurationSpace<Scalar>::lies_in(const Facet& facet, PieceIndex other) c
 }
 
 template <class Scalar>
+typename ConfigurationSpace<Scalar>::Placement ConfigurationSpace<Scalar>::placement(PieceIndex piece,
+                                                                                     PieceIndex other) const noexcept {
+  const Box2<Scalar>& box = scenery_.box(piece);
+  const Box2<Scalar>& beside = scenery_.box(other);
+  return {box.upper - box.lower, beside.lower - box.lower, beside.upper - box.lower};
+}
+
+template <class Scalar>
 void ConfigurationSpace<Scalar>::find_near(PieceIndex piece, std::span<const PieceIndex> found,
                                            CoverSearch& search) const {
+  const Box2<Scalar> near = around(piece);
   search.near.clear();
   for (const PieceIndex other : found)
-    if (other != piece && may_cover(other, piece))
+    if (other != piece && near.overlaps(scenery_.box(other)) && may_cover(other, piece))
       search.near.push_back({other, box_offsets(other).template cast<double>()});
 }
 

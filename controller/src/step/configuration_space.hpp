@@ -173,6 +173,13 @@ class ConfigurationSpace {
     Vec2d along;    ///< and from one to the other, unit.
     double length;  ///< [m]
   };
+  /// How large a rectangle is, and where another lies that it is beside [m].
+  struct Placement {
+    Vec2<Scalar> size;
+    Vec2<Scalar> lower;  ///< Both from the lower corner of the one.
+    Vec2<Scalar> upper;
+    friend bool operator==(const Placement&, const Placement&) = default;
+  };
   /// What the search for covered facets keeps from piece to piece.
   struct CoverSearch;
 
@@ -231,6 +238,8 @@ class ConfigurationSpace {
   void build_covered(PieceIndex piece, PieceRange together, const Neighbours& neighbours, CoverSearch& search);
   template <std::size_t Lanes>
   [[nodiscard]] bool lies_in(const Facet& facet, PieceIndex other) const noexcept;
+  [[nodiscard]] Placement placement(PieceIndex piece, PieceIndex other) const noexcept;
+  [[nodiscard]] Box2<Scalar> around(PieceIndex piece) const noexcept;
   void find_near(PieceIndex piece, std::span<const PieceIndex> found, CoverSearch& search) const;
   template <std::size_t Lanes>
   [[nodiscard]] double open_part(PieceIndex piece, const Facet& facet, CoverSearch& search) const;
