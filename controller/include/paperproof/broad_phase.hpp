@@ -31,7 +31,7 @@ enum class BroadPhaseKind : std::uint8_t { all_pairs, buckets, tree };
 ///
 /// - `all_pairs` looks at every box: the slow, honest twin.
 /// - `buckets` is a grid of uniform squares, kept in a hash table: constant where boxes are alike and queries small.
-/// - `tree` is a packed tree of boxes, four to a node: logarithmic in the number of boxes.
+/// - `tree` is a packed tree of boxes, sixteen to a node: logarithmic in the number of boxes.
 template <class Scalar>
 [[nodiscard]] std::unique_ptr<BroadPhase<Scalar>> make_broad_phase(BroadPhaseKind kind,
                                                                    std::span<const Box2<Scalar>> boxes);

@@ -11,7 +11,6 @@
 namespace paperproof::broad_phase {
 namespace {
 
-constexpr std::size_t fan = 4;
 constexpr float most = std::numeric_limits<float>::max();
 
 /// A float that is not above a number, and one that is not below it: a few times further away than the nearest, as
@@ -27,12 +26,6 @@ template <class Scalar>
   return {{rounded_down(box.lower.x()), rounded_down(box.lower.y())},
           {rounded_up(box.upper.x()), rounded_up(box.upper.y())}};
 }
-
-/// A node: its level in the upper half, and which one of that level it is in the lower.
-using Place = std::uint64_t;
-constexpr Place place_of(std::uint64_t level, std::uint64_t node) noexcept { return level << 32U | node; }
-constexpr std::uint64_t level_of(Place place) noexcept { return place >> 32U; }
-constexpr std::uint64_t node_of(Place place) noexcept { return place & 0xffffffffU; }
 
 /// A query finds some ten pieces, in any order: each goes to its place, which is the number of those before it, and
 /// nothing branches on which is less.
@@ -68,15 +61,16 @@ void Tree<Scalar>::add_level(std::vector<Box2<float>>& boxes) {
   levels_.push_back(static_cast<std::uint32_t>(nodes_.size()));
   std::size_t made = 0;
   for (std::size_t first = 0; first < boxes.size(); first += fan) {
-    const Four nothing = std::numeric_limits<float>::quiet_NaN() - Four{};
+    Each nothing;
+    nothing.fill(std::numeric_limits<float>::quiet_NaN() - Four{});
     Node node{nothing, nothing, nothing, nothing};
     Box2<float> around = boxes[first];
     for (std::size_t k = 0; k < std::min(fan, boxes.size() - first); ++k) {
       const Box2<float>& box = boxes[first + k];
-      node.lower_x[k] = box.lower.x();
-      node.lower_y[k] = box.lower.y();
-      node.upper_x[k] = box.upper.x();
-      node.upper_y[k] = box.upper.y();
+      node.lower_x[k / 4][k % 4] = box.lower.x();
+      node.lower_y[k / 4][k % 4] = box.lower.y();
+      node.upper_x[k / 4][k % 4] = box.upper.x();
+      node.upper_y[k / 4][k % 4] = box.upper.y();
       around = around.merged(box);
     }
     nodes_.push_back(node);
@@ -85,35 +79,45 @@ void Tree<Scalar>::add_level(std::vector<Box2<float>>& boxes) {
   boxes.resize(made);
 }
 
+/// One bit for each child.
+template <class Scalar>
+[[gnu::always_inline]] inline unsigned Tree<Scalar>::met_by(const Node& node, const Box2<float>& box) noexcept {
+  using Flags [[gnu::vector_size(4 * sizeof(int))]] = int;
+  Flags bits{};
+  Flags bit_of_each{1, 2, 4, 8};
+  for (std::size_t i = 0; i < fan / 4; ++i) {
+    const Flags met = (node.lower_x[i] <= box.upper.x()) & (node.upper_x[i] >= box.lower.x()) &
+                      (node.lower_y[i] <= box.upper.y()) & (node.upper_y[i] >= box.lower.y());
+    bits |= met & bit_of_each;
+    bit_of_each <<= 4;
+  }
+  return static_cast<unsigned>(bits[0] | bits[1] | bits[2] | bits[3]);
+}
+
 template <class Scalar>
 std::size_t Tree<Scalar>::query(const Box2<Scalar>& query, std::span<PieceIndex> found) const noexcept {
   if (levels_.empty()) return 0;
-  // Each level leaves three nodes for later at most; and a place is written for each child, met or not.
-  std::array<Place, (fan - 1) * most_levels + 1 + fan> open;
-  open[0] = place_of(levels_.size() - 1, 0);
+  struct Place {
+    std::size_t level;
+    std::size_t node;  ///< Of its level.
+  };
+  // Each level leaves all nodes but one for later at most.
+  FixedVector<Place, (fan - 1) * most_levels + 1> open;
+  open.push_back({levels_.size() - 1, 0});
   const Box2<float> wanted = rounded_outwards(query);
   std::size_t count = 0;
-  for (std::size_t left = 1; left > 0;) {
-    const Place place = open[--left];
-    const std::uint64_t level = level_of(place);
-    const Node& node = nodes_[levels_[level] + node_of(place)];
-    const auto met = (node.lower_x <= wanted.upper.x()) & (node.upper_x >= wanted.lower.x()) &
-                     (node.lower_y <= wanted.upper.y()) & (node.upper_y >= wanted.lower.y());
-    const std::uint64_t below = node_of(place) * fan;
-    if (level > 0) {
-      // Nothing branches on which children are met: no processor foresees that, and it cost more than all arithmetic.
-      const Place first = place_of(level - 1, below);
-      const auto each = std::bit_cast<std::array<std::uint32_t, fan>>(met);
-      for (std::size_t k = 0; k < fan; ++k) {
-        open[left] = first + k;
-        left += each[k] & 1U;
+  while (!open.empty()) {
+    const Place place = open.back();
+    open.pop_back();
+    const Node& node = nodes_[levels_[place.level] + place.node];
+    for (unsigned left = met_by(node, wanted); left != 0; left &= left - 1) {
+      const std::size_t below = place.node * fan + static_cast<std::size_t>(std::countr_zero(left));
+      if (place.level > 0) {
+        open.push_back({place.level - 1, below});
+      } else if (boxes_[order_[below]].overlaps(query)) {
+        if (count < found.size()) found[count] = order_[below];
+        ++count;
       }
-      continue;
-    }
-    for (std::size_t k = 0; k < fan; ++k) {
-      if (met[k] == 0 || !boxes_[order_[below + k]].overlaps(query)) continue;
-      if (count < found.size()) found[count] = order_[below + k];
-      ++count;
     }
   }
   if (count <= found.size()) sort_few(found.first(count));

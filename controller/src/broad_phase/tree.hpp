@@ -3,13 +3,17 @@
 
 #include <paperproof/broad_phase.hpp>
 
+#include <array>
+
 namespace paperproof::broad_phase {
 
-/// A tree of boxes with four children to a node, packed (I. Kamel and C. Faloutsos 1993, "On packing R-trees"): boxes
-/// in the order of a Hilbert curve through their centres, each four of them in a node, each four nodes in one above.
+/// A tree of boxes with sixteen children to a node, packed (I. Kamel and C. Faloutsos 1993, "On packing R-trees"):
+/// boxes in the order of a Hilbert curve through their centres, each sixteen of them in a node, each sixteen nodes in
+/// one above. With fewer to a node a query waits more often for the memory of the next level; with more it looks at
+/// boxes far away.
 ///
-/// Which nodes are below one follows from its place, so that a node is four boxes and nothing else: in `float`, rounded
-/// outwards, they fill one cache line. A box that is found so is looked at again as it was given.
+/// Which nodes are below one follows from its place, so that a node is its boxes and nothing else: in `float`, rounded
+/// outwards. A box that is found so is looked at again as it was given.
 template <class Scalar>
 class Tree final : public BroadPhase<Scalar> {
  public:
@@ -19,21 +23,25 @@ class Tree final : public BroadPhase<Scalar> {
   [[nodiscard]] std::size_t size() const noexcept override { return boxes_.size(); }
 
  private:
-  static constexpr std::size_t most_levels = 16;  ///< Of 2^32 boxes.
+  static constexpr std::size_t fan = 16;
+  static constexpr std::size_t most_levels = 8;  ///< Of 2^32 boxes.
   using Four [[gnu::vector_size(4 * sizeof(float))]] = float;
+  /// A coordinate of all boxes of a node.
+  using Each = std::array<Four, fan / 4>;
   /// Not a number where there is no box: that overlaps nothing.
   struct Node {
-    Four lower_x;
-    Four lower_y;
-    Four upper_x;
-    Four upper_y;
+    Each lower_x;
+    Each lower_y;
+    Each upper_x;
+    Each upper_y;
   };
 
+  [[nodiscard]] static unsigned met_by(const Node& node, const Box2<float>& box) noexcept;
   void add_level(std::vector<Box2<float>>& boxes);
 
   std::span<const Box2<Scalar>> boxes_;
   std::vector<PieceIndex> order_;  ///< Along the curve.
-  std::vector<Node> nodes_;        ///< Level by level: those of four boxes, those of four such nodes, …, the root.
+  std::vector<Node> nodes_;        ///< Level by level: those of boxes, those of such nodes, …, the root.
   FixedVector<std::uint32_t, most_levels> levels_;  ///< The first node of each.
 };
 
