@@ -9,40 +9,19 @@ namespace {
 
 /// Up to this many pieces a look at each costs no more than the way down a tree: 1.4 ns a piece against 20 to 30 ns.
 constexpr std::size_t few = 16;
-/// From this many pieces on a grid of equal squares is cheaper than a tree (by a fifth at 10,000), if they are alike.
-constexpr std::size_t many = 1000;
-/// Pieces are alike if none is larger than this many times the mean: a larger one would lie in very many squares.
-constexpr double alike = 4;
 
-template <class Scalar>
-double extent_of(const Box2<Scalar>& box) {
-  return static_cast<double>((box.upper - box.lower).maxCoeff());
-}
-
-template <class Scalar>
-bool are_alike(std::span<const Box2<Scalar>> boxes) {
-  double sum = 0;
-  double largest = 0;
-  for (const Box2<Scalar>& box : boxes) {
-    sum += extent_of(box);
-    largest = std::max(largest, extent_of(box));
-  }
-  return largest <= alike * sum / static_cast<double>(boxes.size());
-}
-
+/// Buckets are never chosen. Where they are at their best, on 1,000 tiles of one size, a query takes a tenth less time
+/// than one of the tree, which a step asks once in eight steps; on 10,000 it takes as long, on 100,000 twice as long.
+/// And they take 24 bytes for each cell of each piece, where the tree takes 21 for each piece.
 template <class Scalar>
 void choose_broad_phase(std::span<const Box2<Scalar>> boxes, Plan& plan) {
   const std::string count = std::to_string(boxes.size()) + (boxes.size() == 1 ? " piece" : " pieces");
   if (boxes.size() <= few) {
     plan.broad_phase = BroadPhaseKind::all_pairs;
     plan.broad_phase_reason = count + ": a look at each costs no more than a search";
-  } else if (boxes.size() >= many && are_alike(boxes)) {
-    plan.broad_phase = BroadPhaseKind::buckets;
-    plan.broad_phase_reason = count + " of much the same size: each lies in few squares of a grid";
   } else {
     plan.broad_phase = BroadPhaseKind::tree;
-    plan.broad_phase_reason = count + (boxes.size() >= many ? " of very different sizes" : "") +
-                              ": a tree finds those that are near in a few comparisons";
+    plan.broad_phase_reason = count + ": a tree finds those that are near in a few comparisons";
   }
 }
 
