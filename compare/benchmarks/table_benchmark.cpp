@@ -1,0 +1,261 @@
+#include "table_benchmark.hpp"
+
+#include "level.hpp"
+
+#include "box2d_adapter/src/float_geometry.hpp"
+
+#include <paperproof/controller.hpp>
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+#include <random>
+#include <string>
+
+namespace paperproof::benchmarks {
+namespace {
+
+constexpr int walked_steps = 2000;
+constexpr std::size_t many = 10'000;
+constexpr int frames_to_land = 20;
+constexpr std::int64_t pieces_of_many = 10'000;
+constexpr std::int64_t pieces_of_large = 1'000'000;
+/// As `paperproof compare` and Box2D's manual have them.
+constexpr int velocity_iterations = 8;
+constexpr int position_iterations = 3;
+
+template <class Run>
+double nanoseconds_of(const Run& run) {
+  const auto begin = std::chrono::steady_clock::now();
+  run();
+  return std::chrono::duration<double, std::nano>(std::chrono::steady_clock::now() - begin).count();
+}
+
+/// The fastest pass.
+struct Least {
+  double nanoseconds = std::numeric_limits<double>::infinity();
+  void note(double other) { nanoseconds = std::min(nanoseconds, other); }
+};
+
+void report(benchmark::State& state, const Least& paperproof, const Least& box2d, double steps) {
+  state.counters["paperproof"] = paperproof.nanoseconds / steps;
+  state.counters["box2d"] = box2d.nanoseconds / steps;
+  state.counters["ratio"] = box2d.nanoseconds / paperproof.nanoseconds;
+}
+
+/// One character with the controller alone.
+template <class Scalar>
+class Walk {
+ public:
+  Walk(const Level& level, const std::vector<Input>& inputs)
+      : inputs_(inputs), start_(level.start().cast<Scalar>()), scenery_(level.scenery) {}
+
+  /// @param look called after each step with its report.
+  template <class Look>
+  void run(const Look& look) {
+    CharacterState<Scalar> character;
+    character.position = start_;
+    for (const Input& input : inputs_) {
+      controller_.step(character, input, {0, Scalar(gravity_y)}, Scalar(frame), scratch_, report_);
+      look(report_);
+    }
+  }
+  void run() {
+    run([](const StepReport<Scalar>&) {});
+  }
+
+ private:
+  const std::vector<Input>& inputs_;
+  Vec2<Scalar> start_;
+  Scenery<Scalar> scenery_;
+  Controller<Scalar> controller_{scenery_, CharacterDef{}};
+  Scratch<Scalar> scratch_ = controller_.make_scratch();
+  StepReport<Scalar> report_;
+};
+
+/// One character with Box2D alone, given the velocities that the controller wanted.
+class Box2dWalk {
+ public:
+  Box2dWalk(const Level& level, Walk<double>& walk)
+      : start_(box2d::rounded(level.start())),
+        world_(make_box2d_level(level)),
+        body_(add_box2d_character(*world_, CharacterDef{}, level.start())) {
+    walk.run([&](const StepReport<double>& step) { velocities_.push_back(box2d::rounded(step.requested / frame)); });
+  }
+  void run() {
+    body_.SetEnabled(false);  // drops its contacts
+    body_.SetTransform(start_, 0);
+    body_.SetEnabled(true);
+    for (const b2Vec2& velocity : velocities_) {
+      body_.SetLinearVelocity(velocity);
+      world_->Step(static_cast<float>(frame), velocity_iterations, position_iterations);
+    }
+  }
+
+ private:
+  b2Vec2 start_;
+  std::unique_ptr<b2World> world_;
+  b2Body& body_;
+  std::vector<b2Vec2> velocities_;
+};
+
+void one_character(benchmark::State& state, const Level& level) {
+  const std::vector<Input> inputs = random_walk(1, walked_steps);
+  Walk<double> walk(level, inputs);
+  Walk<float> walk_in_float(level, inputs);
+  Box2dWalk box2d_walk(level, walk);
+  Least paperproof;
+  Least in_float;
+  Least box2d;
+  for ([[maybe_unused]] auto _ : state) {
+    paperproof.note(nanoseconds_of([&] { walk.run(); }));
+    in_float.note(nanoseconds_of([&] { walk_in_float.run(); }));
+    box2d.note(nanoseconds_of([&] { box2d_walk.run(); }));
+  }
+  report(state, paperproof, box2d, walked_steps);
+  state.counters["paperproof_float"] = in_float.nanoseconds / walked_steps;
+}
+
+/// Above the ground of a section, wherever its hills are, and below its platforms.
+Vec2d place_above_ground(const Level& level, std::mt19937_64& random) {
+  const Vec2d start = level.start(static_cast<int>(random() % static_cast<std::uint64_t>(level.sections)));
+  return start + Vec2d(static_cast<double>(random() % 15), 1);
+}
+
+/// Many characters that do not see each other.
+class Characters {
+ public:
+  Characters(const Level& level, std::size_t scratches) : scenery_(level.scenery) {
+    std::mt19937_64 random(1);
+    for (CharacterState<double>& state : states) state.position = place_above_ground(level, random);
+    for (std::size_t i = 0; i < scratches; ++i) scratches_.push_back(controller_.make_scratch());
+  }
+  /// What all of them want in the next frame.
+  void press() {
+    for (std::size_t i = 0; i < many; ++i) inputs_[i] = walk_[(7 * i + frame_) % walk_.size()];
+    ++frame_;
+  }
+  /// One after the other.
+  void step_each() {
+    for (std::size_t i = 0; i < many; ++i)
+      controller_.step(states[i], inputs_[i], {0, gravity_y}, frame, scratches_[i % scratches_.size()], reports_[0]);
+  }
+  void step_all() { controller_.step_all(states, inputs_, {0, gravity_y}, frame, {}, scratches_, reports_); }
+
+  std::vector<CharacterState<double>> states = std::vector<CharacterState<double>>(many);
+
+ private:
+  Scenery<double> scenery_;
+  Controller<double> controller_{scenery_, CharacterDef{}};
+  std::vector<Scratch<double>> scratches_;
+  std::vector<StepReport<double>> reports_ = std::vector<StepReport<double>>(many);
+  std::vector<Input> walk_ = random_walk(1, walked_steps);
+  std::vector<Input> inputs_ = std::vector<Input>(many);
+  std::size_t frame_ = 0;
+};
+
+/// As many bodies, which go where the characters do.
+class Box2dCharacters {
+ public:
+  Box2dCharacters(const Level& level, const Characters& characters) : world_(make_box2d_level(level)) {
+    for (const CharacterState<double>& state : characters.states)
+      bodies_.push_back(&add_box2d_character(*world_, CharacterDef{}, state.position));
+  }
+  void follow(const Characters& characters) {
+    for (std::size_t i = 0; i < many; ++i)
+      velocities_[i] = box2d::rounded(Vec2d(characters.states[i].velocity + Vec2d(0, gravity_y * frame)));
+  }
+  void step() {
+    for (std::size_t i = 0; i < many; ++i) bodies_[i]->SetLinearVelocity(velocities_[i]);
+    world_->Step(static_cast<float>(frame), velocity_iterations, position_iterations);
+  }
+
+ private:
+  std::unique_ptr<b2World> world_;
+  std::vector<b2Body*> bodies_;
+  std::vector<b2Vec2> velocities_ = std::vector<b2Vec2>(many);
+};
+
+void many_characters(benchmark::State& state, std::size_t scratches, void (Characters::*step)()) {
+  const Level level = make_level(pieces_of_many);
+  Characters characters(level, scratches);
+  Box2dCharacters bodies(level, characters);
+  Least paperproof;
+  Least box2d;
+  const auto turn = [&] {
+    characters.press();
+    bodies.follow(characters);
+    paperproof.note(nanoseconds_of([&] { (characters.*step)(); }));
+    box2d.note(nanoseconds_of([&] { bodies.step(); }));
+  };
+  for (int i = 0; i < frames_to_land; ++i) turn();
+  paperproof = box2d = {};
+  for ([[maybe_unused]] auto _ : state) turn();
+  report(state, paperproof, box2d, many);
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// @param depth of the character's feet below the ground [m]. @param expected what becomes of such a start.
+void start_inside(benchmark::State& state, double depth, StepStatus expected) {
+  const Level level = make_level(pieces_of_large);
+  const Scenery<double> scenery(level.scenery);
+  const Controller<double> controller(scenery, CharacterDef{});
+  Scratch<double> scratch = controller.make_scratch();
+  StepReport<double> report;
+  const std::unique_ptr<b2World> world = make_box2d_level(level);
+  b2Body& body = add_box2d_character(*world, CharacterDef{}, level.start());
+  std::mt19937_64 random(1);
+  std::vector<double> paperproof;
+  std::vector<double> box2d;
+  for ([[maybe_unused]] auto _ : state) {
+    const int section = static_cast<int>(random() % static_cast<std::uint64_t>(level.sections));
+    CharacterState<double> character;
+    character.position = level.start(section) + Vec2d(0.75, -depth - 0.02);
+    body.SetTransform(box2d::rounded(character.position), 0);
+    body.SetLinearVelocity({0, static_cast<float>(gravity_y * frame)});
+    paperproof.push_back(nanoseconds_of([&] {
+      controller.step(character, {}, {0, gravity_y}, frame, scratch, report);
+    }));
+    if (report.status != expected) return state.SkipWithError("the start ends otherwise");
+    box2d.push_back(
+        nanoseconds_of([&] { world->Step(static_cast<float>(frame), velocity_iterations, position_iterations); }));
+  }
+  state.counters["paperproof"] = median(paperproof);
+  state.counters["paperproof_most"] = *std::max_element(paperproof.begin(), paperproof.end());
+  state.counters["box2d"] = median(box2d);
+  state.counters["ratio"] = median(box2d) / median(paperproof);
+}
+
+template <class Body>
+void add(const std::string& name, int passes, const Body& body) {
+  benchmark::RegisterBenchmark(("table/" + name).c_str(), body)->Iterations(passes)->Unit(benchmark::kMillisecond);
+}
+
+}  // namespace
+
+void register_table_benchmarks() {
+  for (std::int64_t pieces = 100; pieces <= pieces_of_large; pieces *= 10)
+    add("pieces/" + std::to_string(pieces), 50,
+        [=](benchmark::State& state) { one_character(state, make_level(pieces)); });
+  add("sensors/10000", 50,
+      [](benchmark::State& state) { one_character(state, make_level_with_sensors(pieces_of_many, 10'000)); });
+  const auto add_characters = [](const char* how, std::size_t scratches, void (Characters::*step)()) {
+    add(std::string("characters/") + how, 40,
+        [=](benchmark::State& state) { many_characters(state, scratches, step); });
+  };
+  add_characters("own_scratch", many, &Characters::step_each);
+  add_characters("shared_scratch", 1, &Characters::step_each);
+  add_characters("step_all_1_thread", 1, &Characters::step_all);
+  add_characters("step_all_2_threads", 2, &Characters::step_all);
+  add("start_inside/surface", 200, [](benchmark::State& state) { start_inside(state, 0.1, StepStatus::moved); });
+  add("start_inside/deep", 200, [](benchmark::State& state) { start_inside(state, 3, StepStatus::stuck); });
+}
+
+}  // namespace paperproof::benchmarks
