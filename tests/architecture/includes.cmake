@@ -6,8 +6,8 @@ cmake_minimum_required(VERSION 3.25)
 set(standard "<[a-z_0-9]+>")
 set(core "types|tolerances|scenery|scenery_facts|broad_phase|character|plan|report_vector|technique|joint_technique|octagon_sweep|controller|crowd|paperproof")
 set(may_include_controller "${standard}|<Eigen/[A-Za-z]+>|<paperproof/(${core})[.]hpp>")
-# The techniques use the core as anybody would, but for two of its parts.
-set(may_include_techniques "${may_include_controller}|<paperproof/(techniques|pixel_tiles|number_in)[.]hpp>|\"(geometry/overlap_time|crowd/parts)[.]hpp\"")
+# The techniques use the core as anybody would, but for one of its parts.
+set(may_include_techniques "${may_include_controller}|<paperproof/(techniques|pixel_tiles|number_in)[.]hpp>|\"geometry/overlap_time[.]hpp\"")
 set(may_include_box2d_adapter "${may_include_controller}|<paperproof/box2d/[a-z_0-9]+[.]hpp>|<box2d/[a-z_0-9]+[.]h>|<polyclipping/clipper[.]hpp>")
 # A benchmark of Box2D without the adapter's recording needs the adapter's fixtures, which are no part of its interface.
 set(may_include_compare "<.*>|\"box2d_adapter/src/(fixtures|float_geometry)[.]hpp\"")

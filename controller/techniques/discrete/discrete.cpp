@@ -13,7 +13,6 @@
 /// What stands on a mover is carried: the frame is worked out in the mover's frame of reference. What comes to rest on
 /// it is carried at once, unless it had a speed of its own along it. A mover's push that leads through something that
 /// stands still, or ends in it, is none: the character stays where it was, and is crushed.
-#include "crowd/parts.hpp"
 #include "geometry/overlap_time.hpp"
 #include "techniques/article_response.hpp"
 #include "techniques/discrete/frame.hpp"
@@ -99,7 +98,7 @@ template <class Scalar>
 Scratch<Scalar> Discrete<Scalar>::make_joint_scratch(std::size_t most_characters) const {
   const std::size_t pieces = scenery_->pieces().size();
   Scratch<Scalar> scratch;
-  scratch.solids.pieces.resize(pieces);
+  scratch.solids.pieces = PieceBuffer(pieces);
   auto own = std::make_unique<Workplace<Scalar>>();
   own->frames.reserve(most_characters);
   own->bodies.reserve(pieces + most_characters);
@@ -277,7 +276,7 @@ template <class Scalar>
 void Discrete<Scalar>::report_meeting(Frames frames, const SolvedImpact<Scalar>& solved) const noexcept {
   const auto note = [&](BodyIndex one, BodyIndex other, const Vec2<Scalar>& normal) {
     Frame<Scalar>& frame = frames[one];
-    crowd::note_meeting(*frame.member, other, normal, solved.impact.time);
+    frame.member->add_contact(other, normal, solved.impact.time);
     if (frame.stays) return;
     frame.left_over = true;
     if (side_of_normal(normal.x(), normal.y()) == Side::bottom) frame.result.grounded = true;

@@ -1,0 +1,203 @@
+/// Plans the path of one character past obstacles that move on paths of their own.
+#pragma once
+
+#include "crowd/member.hpp"
+#include "step_parts.hpp"
+
+namespace paperproof::crowd {
+
+/// Where a slot of the scenery is that no character takes [m]: out of reach of everything.
+inline constexpr double nowhere = 1e9;
+
+/// Where the obstacles of a path are: where their own paths lead, or straight between where they begin and end the
+/// step.
+enum class ObstaclePaths : std::uint8_t { planned, straight };
+
+[[nodiscard]] inline bool contains(const auto& colliders, ColliderIndex collider) noexcept {
+  return std::find(colliders.begin(), colliders.end(), collider) != colliders.end();
+}
+
+/// Unless it is there already.
+template <class Scalar>
+void add_corner(MoveResult<Scalar>& move, const PathPoint<Scalar>& corner) noexcept {
+  const bool known = !move.path.empty() && move.path.back().position == corner.position &&
+                     move.path.back().fraction == corner.fraction;
+  if (!known) move.path.push_back(corner);
+}
+
+/// Unless there is an earlier one with the same collider and normal.
+template <class Scalar>
+void add_contact(MoveResult<Scalar>& move, const Contact<Scalar>& contact) noexcept {
+  const bool known = std::any_of(move.contacts.begin(), move.contacts.end(), [&](const Contact<Scalar>& other) {
+    return other.collider == contact.collider && other.normal == contact.normal;
+  });
+  if (!known) move.contacts.push_back(contact);
+}
+
+/// Appends the path of `next` to that of `move`, which then ends as `next` does.
+template <class Scalar>
+void append_path(const MoveResult<Scalar>& next, MoveResult<Scalar>& move) noexcept {
+  for (const PathPoint<Scalar>& corner : next.path) add_corner(move, corner);
+  move.position = next.position;
+  move.velocity = next.velocity;
+  move.grounded = next.grounded;
+  move.ride = next.ride;
+}
+
+/// Forgets the slots among the crushers: other characters may take them in the next step.
+template <class Scalar>
+void set_crushers(const auto& crushers, const SweepRules<Scalar>& rules, CharacterState<Scalar>& state) noexcept {
+  state.crushers.clear();
+  for (const Crusher<Scalar>& crusher : crushers)
+    if (!rules.is_character(crusher.collider)) state.crushers.push_back(crusher);
+}
+
+/// Plans paths in parts: `octagon_sweep` moves every obstacle straight, so each corner of an obstacle begins a new
+/// part.
+template <class Scalar>
+class PathPlanner {
+ public:
+  explicit PathPlanner(CrowdStep<Scalar>& step) noexcept : step_(step) {}
+
+  /// Plans the path of a character from a moment on.
+  /// @param at where the path begins; becomes the moment in which it ends.
+  /// @return false where the path takes no time, has too many corners, or would leave the range.
+  [[nodiscard]] bool plan_until(CharacterIndex i, Scalar until, ObstaclePaths obstacles, MoveResult<Scalar>& path,
+                                Moment<Scalar>& at) noexcept {
+    const Member<Scalar>& member = step_.members[i];
+    path.clear();
+    while (at.time < until) {
+      const Scalar end = obstacles == ObstaclePaths::straight ? until : std::min(until, next_corner(member, at.time));
+      set_motions(member.obstacles, at.time, end);
+      const MoveRequest<Scalar> request = request_at(member, at, end);
+      if (!(request.dt > 0)) return false;
+      move_part(at.time > 0 ? octagon_sweep::Part::rest : octagon_sweep::Part::whole, request);
+      if (step_.memory.part.status == MoveStatus::out_of_range) return false;
+      take_part(end, path, at);
+    }
+    return !path.path.overflowed() && !path.path.empty();
+  }
+
+  /// The same until the end of the step, for a character that keeps its position in the world.
+  void plan_to_hold_position(const Member<Scalar>& member, MoveResult<Scalar>& path, Moment<Scalar>& at) noexcept {
+    path.clear();
+    set_motions({}, at.time, 1);
+    MoveRequest<Scalar> request = request_at(member, at, 1);
+    request.displacement = request.velocity = V::Zero();
+    request.ride = {};
+    move_part(octagon_sweep::Part::stay, request);
+    take_part(1, path, at);
+  }
+
+  /// Where a character is at a time of the step, on the path that it made or the one that it plans [m].
+  /// @param after after the legs that take no time then; else before them.
+  [[nodiscard]] Vec2<Scalar> position(CharacterIndex i, Scalar time, bool after) noexcept {
+    const Moment<Scalar>& now = step_.members[i].now;
+    const bool is_made = now.time > 0 && (time < now.time || (time == now.time && !after));
+    const Path<Scalar> path = is_made ? step_.made(i).path : step_.members[i].plan.path;
+    std::size_t k = 0;
+    while (k + 1 < path.size() && (after ? path[k + 1].fraction <= time : path[k + 1].fraction < time)) ++k;
+    return position_on_leg(path, k, time);
+  }
+
+ private:
+  using V = Vec2<Scalar>;
+
+  /// The next time at which an obstacle changes its course, or the end of the step.
+  [[nodiscard]] Scalar next_corner(const Member<Scalar>& member, Scalar time) noexcept {
+    Scalar next = 1;
+    const auto look_at = [&](Path<Scalar> path) {
+      for (const PathPoint<Scalar>& corner : path)
+        if (corner.fraction > time && corner.fraction < next) next = corner.fraction;
+    };
+    for (const CharacterIndex other : member.obstacles) {
+      if (step_.members[other].now.time > time) look_at(step_.made(other).path);
+      look_at(step_.members[other].plan.path);
+    }
+    return next;
+  }
+
+  void set_motions(const Obstacles& obstacles, Scalar begin, Scalar end) noexcept {
+    const std::span<MoverMotion<Scalar>> motions(step_.memory.motions);
+    for (std::size_t k = 0; k < step_.movers.size(); ++k)
+      motions[k] = {begin > 0 ? step_.movers[k].at(begin) : step_.movers[k].from, step_.movers[k].at(end)};
+    const std::span<MoverMotion<Scalar>> slots = motions.subspan(step_.movers.size());
+    for (std::size_t k = 0; k < slots.size(); ++k) {
+      if (k < obstacles.size())
+        slots[k] = {position(obstacles[k], begin, true), position(obstacles[k], end, false)};
+      else
+        slots[k].from = slots[k].to = V::Constant(static_cast<Scalar>(nowhere));
+    }
+  }
+
+  [[nodiscard]] MoveRequest<Scalar> request_at(const Member<Scalar>& member, const Moment<Scalar>& at,
+                                               Scalar end) noexcept {
+    const Scalar duration = step_.dt * (end - at.time);
+    return {.position = at.state.position,
+            .displacement = at.own_velocity * duration,
+            .velocity = at.own_velocity,
+            .steered = at.steered,
+            .last_free = at.state.last_free,
+            .has_last_free = at.state.has_last_free,
+            .grounded = member.follows_ground && !member.ground_taken && end == 1,
+            .crushed = at.state.crushed,
+            .drop = member.drops,
+            .crushers = {at.state.crushers.begin(), at.state.crushers.end()},
+            .movers = step_.memory.motions,
+            .dt = duration,
+            .ride = at.state.ride};
+  }
+
+  void move_part(octagon_sweep::Part part, const MoveRequest<Scalar>& request) noexcept {
+    step_.rules.sweep->move_part(part, request, step_.memory.scratch, step_.memory.part);
+  }
+
+  /// Appends the part that was moved last to a path.
+  /// @param end when the part ends, as a fraction of the step. @param at when it began; becomes the moment in which it
+  ///   ends.
+  void take_part(Scalar end, MoveResult<Scalar>& path, Moment<Scalar>& at) noexcept {
+    MoveResult<Scalar>& part = step_.memory.part;
+    const auto time_of = [begin = at.time, end](Scalar fraction) {
+      return fraction == 1 ? end : begin + fraction * (end - begin);
+    };
+    for (PathPoint<Scalar>& corner : part.path) corner.fraction = time_of(corner.fraction);
+    append_path(part, path);
+    if (part.path.overflowed())
+      while (!path.path.overflowed()) path.path.push_back(part.path.back());
+    for (Contact<Scalar>& contact : part.contacts) {
+      contact.fraction = time_of(contact.fraction);
+      add_contact(path, contact);
+    }
+    for (const ColliderIndex collider : part.crushed)
+      if (!contains(path.crushed, collider)) path.crushed.push_back(collider);
+    const bool was_dropped = path.status == MoveStatus::dropped && part.status == MoveStatus::moved;
+    if (!path.crushed.empty())
+      path.status = MoveStatus::crushed;
+    else if (!was_dropped)
+      path.status = part.status;
+    finish_part(part, end, at);
+  }
+
+  void finish_part(const MoveResult<Scalar>& part, Scalar end, Moment<Scalar>& at) const noexcept {
+    CharacterState<Scalar>& state = at.state;
+    at.time = end;
+    state.position = part.position;
+    state.grounded = part.grounded;
+    state.ride = part.ride;
+    const Scalar fall = at.own_velocity.y();
+    at.own_velocity = part.velocity;
+    if (!part.contacts.empty()) at.steered = 0;  // from here on it is momentum
+    if (state.ride.ground != Ride<Scalar>::none) at.own_velocity -= state.ride.velocity;
+    // An obstacle that held the character took its weight, which goes on for the rest of the step.
+    if (part.grounded || (fall < 0 && at.own_velocity.y() > fall / 2)) at.own_velocity += step_.gravity * step_.dt;
+    step_parts::note_freedom(part, state);
+    if (state.crushed)
+      set_crushers(part.crushers, step_.rules, state);
+    else
+      state.crushers.clear();
+  }
+
+  CrowdStep<Scalar>& step_;
+};
+
+}  // namespace paperproof::crowd

@@ -1,0 +1,133 @@
+/// The path of each character through one step: planned, cut at an impact, and made, part by part.
+#pragma once
+
+#include "crowd/path_planner.hpp"
+
+namespace paperproof::crowd {
+
+/// Whether a new path leaves a character no room.
+struct Crush {
+  bool by_character = false;  ///< One of its obstacles runs into it.
+  bool by_mover = false;      ///< A mover runs into it that did not on its path up to now.
+  [[nodiscard]] bool any() const noexcept { return by_character || by_mover; }
+};
+
+/// The paths of all characters. What a character has done stands in the report, what it plans in its `Member`.
+template <class Scalar>
+class Paths {
+ public:
+  explicit Paths(CrowdStep<Scalar>& step) noexcept : step_(step), planner_(step) {}
+
+  /// Around the shape along a whole path, and a little more.
+  [[nodiscard]] Box2<Scalar> box_along(Path<Scalar> path) const noexcept {
+    Box2<Scalar> box{path[0].position, path[0].position};
+    for (const PathPoint<Scalar>& corner : path) box = box.merged({corner.position, corner.position});
+    const Box2<Scalar>& shape = step_.rules.space.box();
+    return Box2<Scalar>{box.lower + shape.lower, box.upper + shape.upper}.inflated(Tolerances<Scalar>{}.touch);
+  }
+
+  /// Plans a new path for the rest of the step. Where there is none the character holds its position.
+  Crush replan(CharacterIndex i) noexcept {
+    Member<Scalar>& member = step_.members[i];
+    Moment<Scalar> end = member.now;
+    if (!(end.time < 1) || !planner_.plan_until(i, 1, ObstaclePaths::planned, step_.memory.path, end)) {
+      hold_position(i);
+      return {};
+    }
+    Crush crush;
+    for (const ColliderIndex collider : step_.memory.path.crushed) {
+      if (step_.rules.is_character(collider))
+        crush.by_character = true;
+      else if (!contains(member.plan.crushed, collider) && !contains(step_.made(i).crushed, collider))
+        crush.by_mover = true;
+    }
+    follow(i, end);
+    return crush;
+  }
+
+  /// Makes the path in `CrowdMemory::path` the plan.
+  void follow(CharacterIndex i, const Moment<Scalar>& end) noexcept {
+    Member<Scalar>& member = step_.members[i];
+    member.plan = step_.memory.path;
+    member.end = end;
+    member.box = box_along(member.plan.path);
+  }
+
+  /// Plans to stay in the same place of the world for the rest of the step. Movers that run into the character crush
+  /// it.
+  void hold_position(CharacterIndex i) noexcept {
+    Member<Scalar>& member = step_.members[i];
+    const Moment<Scalar>& now = member.now;
+    member.holds_position = member.dropped = true;
+    member.end = now;
+    if (now.time < 1) {
+      planner_.plan_to_hold_position(member, member.plan, member.end);
+    } else {
+      member.plan.clear();
+      member.plan.path.push_back({now.state.position, 1});
+    }
+    member.plan.position = now.state.position;
+    member.plan.velocity = V::Zero();
+    member.box = box_along(member.plan.path);
+  }
+
+  /// Moves a character along its plan up to a time. Until it is planned anew, the plan still begins earlier.
+  void advance_to(CharacterIndex i, Scalar time) noexcept {
+    Member<Scalar>& member = step_.members[i];
+    if (!(time > member.now.time)) return;
+    const V planned = planner_.position(i, time, false);
+    Moment<Scalar> at = member.now;
+    const bool found = planner_.plan_until(i, time, ObstaclePaths::planned, step_.memory.path, at);
+    if (found) member.now = at;
+    // With less to go the technique may take another path: the one that was planned is made as it is.
+    if (!found || !((at.state.position - planned).cwiseAbs().maxCoeff() <= Tolerances<Scalar>{}.certain))
+      cut_plan(i, time, planned);
+    make(i, step_.memory.path);
+  }
+
+  /// Adds the next part of a path, and what it meets, to the report.
+  void make(CharacterIndex i, const MoveResult<Scalar>& path) noexcept {
+    Member<Scalar>& member = step_.members[i];
+    append_path(path, step_.made(i));
+    for (const Contact<Scalar>& contact : path.contacts) {
+      if (step_.rules.is_character(contact.collider)) {
+        const CharacterIndex other = member.obstacles[contact.collider - step_.rules.first_slot];
+        step_.report.add_contact(i, other, contact.normal, contact.fraction);
+      } else {
+        add_contact(step_.made(i), contact);
+      }
+    }
+    for (const ColliderIndex collider : path.crushed)
+      if (!step_.rules.is_character(collider) && !contains(step_.made(i).crushed, collider))
+        step_.made(i).crushed.push_back(collider, member.crushed_memory);
+    member.dropped = member.dropped || path.status == MoveStatus::dropped;
+    step_.made(i).status = path.status;
+  }
+
+ private:
+  using V = Vec2<Scalar>;
+
+  /// Cuts the plan at a time, into `CrowdMemory::path`.
+  void cut_plan(CharacterIndex i, Scalar time, const V& position) noexcept {
+    Member<Scalar>& member = step_.members[i];
+    const MoveResult<Scalar>& plan = member.plan;
+    MoveResult<Scalar>& path = step_.memory.path;
+    path.clear();
+    for (const PathPoint<Scalar>& corner : plan.path)
+      if (corner.fraction < time) add_corner(path, corner);
+    add_corner(path, {position, time});
+    for (const Contact<Scalar>& contact : plan.contacts)
+      if (contact.fraction <= time) add_contact(path, contact);
+    path.crushed = plan.crushed;
+    path.status = plan.status;
+    path.position = position;
+    member.now.time = time;
+    member.now.state.position = position;
+    member.now.state.crushed = member.now.state.crushed || !plan.crushed.empty();
+  }
+
+  CrowdStep<Scalar>& step_;
+  PathPlanner<Scalar> planner_;
+};
+
+}  // namespace paperproof::crowd

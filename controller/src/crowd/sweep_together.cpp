@@ -1,0 +1,255 @@
+#include "crowd/sweep_together.hpp"
+
+#include "crowd/avoidance.hpp"
+
+namespace paperproof::crowd {
+namespace {
+
+/// The order of a step: paths as if each were alone, impacts, a last search for room, a check of all paths.
+template <class Scalar>
+class SweepTogether {
+ public:
+  explicit SweepTogether(CrowdStep<Scalar>& step) noexcept : step_(step), planner_(step), paths_(step) {}
+
+  [[nodiscard]] bool move_all(std::span<const CharacterState<Scalar>> before) noexcept {
+    step_.report.impacts = 0;
+    for (CharacterIndex i = 0; i < step_.members.size(); ++i)
+      if (!plan_alone(i)) return false;
+    note_overlaps();
+    Avoidance<Scalar>(step_, paths_).handle_impacts();
+    find_room_for_all();
+    for (CharacterIndex i = 0; i < step_.members.size(); ++i)
+      if (has_lost_ground(i)) step_.members[i].plan.grounded = step_.members[i].end.state.grounded = false;
+    for (CharacterIndex i = 0; i < step_.members.size(); ++i) {
+      paths_.make(i, step_.members[i].plan);
+      step_.members[i].box = paths_.box_along(step_.made(i).path);
+    }
+    check_paths(before);
+    for (CharacterIndex i = 0; i < step_.members.size(); ++i) end(i);
+    return true;
+  }
+
+ private:
+  using V = Vec2<Scalar>;
+
+  /// The path that a character would take if it were alone. False where it would leave the range.
+  [[nodiscard]] bool plan_alone(CharacterIndex i) noexcept {
+    const MoveRequest<Scalar>& request = step_.memory.requests[i];
+    Member<Scalar>& member = step_.members[i];
+    member.now.time = 0;
+    member.now.state = step_.memory.states[i];
+    set_crushers(request.crushers, step_.rules, member.now.state);
+    member.now.own_velocity = request.velocity;
+    member.now.steered = request.steered;
+    member.start = member.now;
+    member.obstacles.clear();
+    member.replans = 0;
+    member.holds_position = member.ground_taken = member.dropped = false;
+    member.follows_ground = request.grounded;
+    member.drops = request.drop;
+    Moment<Scalar> end = member.now;
+    if (planner_.plan_until(i, 1, ObstaclePaths::planned, step_.memory.path, end))
+      paths_.follow(i, end);
+    else if (step_.memory.path.path.overflowed())
+      paths_.hold_position(i);
+    else
+      return false;
+    member.starts_stuck = member.plan.status == MoveStatus::stuck;
+    return true;
+  }
+
+  /// Reports the pairs that overlap by more than rounding.
+  void note_overlaps() noexcept {
+    const V extent = step_.rules.space.box().upper - step_.rules.space.box().lower;
+    for (CharacterIndex i = 0; i < step_.members.size(); ++i) {
+      for (CharacterIndex j = i + 1; j < step_.members.size(); ++j) {
+        const V& first = step_.members[i].now.state.position;
+        const V& second = step_.members[j].now.state.position;
+        const V between = second - first;
+        if (std::abs(between.x()) > extent.x() || std::abs(between.y()) > extent.y()) continue;
+        if (step_.rules.space.separation(first, second) >= -Tolerances<Scalar>{}.certain) continue;
+        step_.report.members[i].started_overlapping.push_back(j);
+        step_.report.members[j].started_overlapping.push_back(i);
+      }
+    }
+  }
+
+  /// Where one character falls on, others that it held may fall, too: so this is repeated.
+  void find_room_for_all() noexcept {
+    bool changed = true;
+    for (int round = 0; changed && round < step_.rules.max_replans; ++round) {
+      changed = false;
+      for (CharacterIndex i = 0; i < step_.members.size(); ++i) changed = find_room(i) || changed;
+    }
+  }
+
+  /// A character that was crushed between two impacts may have room over the whole step, and one that was held may fall
+  /// once its obstacle has gone on. So its path is planned once more, now that the paths of all others are known.
+  /// @return whether it has a new path.
+  bool find_room(CharacterIndex i) noexcept {
+    Member<Scalar>& member = step_.members[i];
+    const Scalar crush = crush_distance(i);
+    const Scalar reach = std::max(crush, missed_fall(i));
+    if (reach == 0) return false;
+    const Obstacles obstacles = member.obstacles;
+    member.obstacles.clear();
+    for (CharacterIndex j = 0; j < step_.members.size(); ++j)
+      if (j != i && step_.members[j].box.overlaps(member.box.inflated(reach))) member.obstacles.push_back(j);
+    Moment<Scalar> end;
+    const bool found = (crush > 0 && plan_free(i, ObstaclePaths::straight, end)) ||
+                       (plan_free(i, ObstaclePaths::planned, end) &&
+                        (crush > 0 || end.state.position.y() < member.end.state.position.y()));
+    if (!found) {
+      member.obstacles = obstacles;
+      return false;
+    }
+    step_.made(i).clear();
+    member.now = member.start;
+    member.holds_position = member.dropped = false;
+    paths_.follow(i, end);
+    return true;
+  }
+
+  /// How far the movers go that crush a character [m]. Zero where there is none, or where it began the step crushed.
+  [[nodiscard]] Scalar crush_distance(CharacterIndex i) const noexcept {
+    const Member<Scalar>& member = step_.members[i];
+    if (member.start.state.crushed) return 0;
+    Scalar distance = 0;
+    const auto look_at = [&](const MoveResult<Scalar>& move) {
+      for (const ColliderIndex collider : move.crushed) {
+        if (step_.rules.is_character(collider)) continue;
+        const MoverMotion<Scalar>& motion = step_.movers[step_.rules.scenery.collider(collider).mover];
+        distance = std::max(distance, (motion.to - motion.from).cwiseAbs().maxCoeff());
+      }
+    };
+    look_at(step_.made(i));
+    look_at(member.plan);
+    return distance;
+  }
+
+  /// How far a character wanted to fall [m]. Zero where it fell at least half of that, or stands.
+  [[nodiscard]] Scalar missed_fall(CharacterIndex i) const noexcept {
+    const Member<Scalar>& member = step_.members[i];
+    const CharacterState<Scalar>& start = member.start.state;
+    const CharacterState<Scalar>& end = member.end.state;
+    const bool stands = end.grounded && !has_lost_ground(i);
+    if (stands || end.crushed || start.crushed || start.ride.ground != Ride<Scalar>::none) return 0;
+    const Scalar wanted = -member.start.own_velocity.y() * step_.dt;
+    return wanted > 0 && start.position.y() - end.position.y() < wanted / 2 ? wanted : Scalar(0);
+  }
+
+  /// Whether a character stood on others alone, and none of them is under it at the end of the step: it avoided the
+  /// path that the other planned then, and that one may have gone on later.
+  [[nodiscard]] bool has_lost_ground(CharacterIndex i) const noexcept {
+    const Member<Scalar>& member = step_.members[i];
+    if (!member.end.state.grounded) return false;
+    const auto holds = [](const auto& contact) { return contact.normal.y() > 0; };
+    const auto& met = step_.report.members[i].met;
+    const auto& contacts = member.plan.contacts.empty() ? step_.made(i).contacts : member.plan.contacts;
+    bool stood_on_another = std::any_of(met.begin(), met.end(), holds);
+    for (const Contact<Scalar>& contact : contacts) {
+      if (!holds(contact)) continue;
+      if (!step_.rules.is_character(contact.collider)) return false;
+      stood_on_another = true;
+    }
+    return stood_on_another && !ends_on_another(member);
+  }
+
+  /// Whether it touches a character that is under it, and not beside it, at the end of the step.
+  [[nodiscard]] bool ends_on_another(const Member<Scalar>& member) const noexcept {
+    const V& position = member.end.state.position;
+    const Scalar width = step_.rules.space.box().upper.x() - step_.rules.space.box().lower.x();
+    return std::any_of(step_.members.begin(), step_.members.end(), [&](const Member<Scalar>& other) {
+      const V& below = other.end.state.position;
+      return below.y() < position.y() && std::abs(below.x() - position.x()) < width &&
+             step_.rules.space.separation(position, below) <= Tolerances<Scalar>{}.touch;
+    });
+  }
+
+  /// Plans a path of the whole step into `CrowdMemory::path`.
+  /// @return whether nothing crushes the character on it, and it has no impact with another.
+  [[nodiscard]] bool plan_free(CharacterIndex i, ObstaclePaths obstacles, Moment<Scalar>& end) noexcept {
+    const MoveResult<Scalar>& planned = step_.memory.path;
+    end = step_.members[i].start;
+    if (!planner_.plan_until(i, 1, obstacles, step_.memory.path, end) || !planned.crushed.empty()) return false;
+    for (CharacterIndex j = 0; j < step_.members.size(); ++j) {
+      if (j == i) continue;
+      FixedVector<PathPoint<Scalar>, 2 * MoveResult<Scalar>::max_corners> whole;
+      for (const PathPoint<Scalar>& corner : step_.made(j).path) whole.push_back(corner);
+      for (const PathPoint<Scalar>& corner : step_.members[j].plan.path) whole.push_back(corner);
+      const Path<Scalar> own = planned.path;
+      const Path<Scalar> other = whole;
+      if (has_impact(i < j ? own : other, i < j ? other : own, Tolerances<Scalar>{}.hit)) return false;
+    }
+    return true;
+  }
+
+  [[nodiscard]] bool has_impact(Path<Scalar> first, Path<Scalar> second, Scalar hit_distance) const noexcept {
+    return first_impact<Scalar>(step_.rules.space, first, second, 0, hit_distance).happens;
+  }
+
+  /// A path is made in parts, and rounding may shift each part. So all pairs are checked once more. Both of a pair that
+  /// comes too near go back to where they began, which is free; this repeats until no pair has an impact.
+  void check_paths(std::span<const CharacterState<Scalar>> before) noexcept {
+    const auto& members = step_.report.members;
+    for (CharacterIndex i = 0; i < step_.members.size(); ++i)
+      if (step_.made(i).path.overflowed()) return_to_start(i, before[i]);
+    bool changed = true;
+    while (changed) {
+      changed = false;
+      for (CharacterIndex i = 0; i < step_.members.size(); ++i) {
+        for (CharacterIndex j = i + 1; j < step_.members.size(); ++j) {
+          if ((members[i].stayed && members[j].stayed) || !step_.members[i].box.overlaps(step_.members[j].box))
+            continue;
+          if (!has_impact(step_.made(i).path, step_.made(j).path, Tolerances<Scalar>{}.certain)) continue;
+          return_to_start(i, before[i]);
+          return_to_start(j, before[j]);
+          changed = true;
+        }
+      }
+    }
+  }
+
+  /// Undoes the step of a character: it holds the position where it began.
+  void return_to_start(CharacterIndex i, const CharacterState<Scalar>& before) noexcept {
+    Member<Scalar>& member = step_.members[i];
+    step_.report.members[i].stayed = true;
+    step_.made(i).clear();
+    member.now.time = 0;
+    member.now.state = member.start.state;
+    member.now.state.jumping = before.jumping;  // a press of the button is used up, but there was no jump
+    paths_.hold_position(i);
+    paths_.make(i, member.plan);
+    member.box = paths_.box_along(step_.made(i).path);
+  }
+
+  /// Sets the status of the whole move, and the state that the controller completes.
+  void end(CharacterIndex i) noexcept {
+    const Member<Scalar>& member = step_.members[i];
+    MoveResult<Scalar>& move = step_.made(i);
+    if (!move.crushed.empty())
+      move.status = MoveStatus::crushed;
+    else if (!member.end.state.crushers.empty())
+      move.status = MoveStatus::stuck;  // a mover still overlaps it, even if the last part met a character alone
+    else if (move.status != MoveStatus::stuck || !member.starts_stuck)  // to overlap a character alone is not stuck
+      move.status = member.dropped || move.status == MoveStatus::stuck ? MoveStatus::dropped : MoveStatus::moved;
+    move.crushers = member.end.state.crushers;
+    step_.memory.states[i] = member.end.state;
+  }
+
+  CrowdStep<Scalar>& step_;
+  PathPlanner<Scalar> planner_;
+  Paths<Scalar> paths_;
+};
+
+}  // namespace
+
+template <class Scalar>
+bool sweep_together(CrowdStep<Scalar> step, std::span<const CharacterState<Scalar>> before) noexcept {
+  return SweepTogether<Scalar>(step).move_all(before);
+}
+
+template bool sweep_together(CrowdStep<float>, std::span<const CharacterState<float>>) noexcept;
+template bool sweep_together(CrowdStep<double>, std::span<const CharacterState<double>>) noexcept;
+
+}  // namespace paperproof::crowd

@@ -1,0 +1,17 @@
+/// Moves a crowd by `octagon_sweep`.
+#pragma once
+
+#include "crowd/member.hpp"
+
+namespace paperproof::crowd {
+
+/// Moves all characters that have a request in `step.memory`. Never allocates, never throws.
+/// @param step its members are overwritten; of each member of the report `step.move`, `met`, `started_overlapping` and
+///   `stayed` are filled in, and of the report its `impacts`. `memory.states` become those after the move, but for what
+///   the controller makes of it.
+/// @param before the states when the step began.
+/// @return false where the step of one would leave the range: then no move is valid.
+template <class Scalar>
+[[nodiscard]] bool sweep_together(CrowdStep<Scalar> step, std::span<const CharacterState<Scalar>> before) noexcept;
+
+}  // namespace paperproof::crowd
