@@ -2,7 +2,6 @@
 #include <paperproof/scenery_facts.hpp>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cmath>
 #include <exception>
@@ -53,26 +52,17 @@ void take_jump(const CharacterDef& character, const Input& input, bool wall_ahea
   }
 }
 
-/// A stage that is left out still gives the bits of one that finds nothing to do.
 /// @param wall_ahead there is a wall to jump against, whatever the last step touched.
-template <bool has_jump, bool has_gravity, class Scalar>
+template <class Scalar>
 DesiredVelocity<Scalar> wanted_velocity(const CharacterDef& character, const Vec2<Scalar>& gravity, const Input& input,
                                         Scalar dt, bool wall_ahead, CharacterState<Scalar>& state) noexcept {
   // Component by component: a pair that is written as two numbers and read as one waits for the memory.
   Scalar x = input.move ? steered(character, state, *input.move, dt) : state.velocity.x();
   const Scalar change = x - state.velocity.x();
   Scalar y = state.velocity.y();
-  if constexpr (has_jump)
-    take_jump(character, input, wall_ahead, state, y);
-  else
-    state.jump_pending = state.jump_held = false;
-  if constexpr (has_gravity) {
-    x += gravity.x() * dt;
-    y += gravity.y() * dt;
-  } else {
-    x += 0;  // a negative zero becomes a positive one
-    y += 0;
-  }
+  take_jump(character, input, wall_ahead, state, y);
+  x += gravity.x() * dt;
+  y += gravity.y() * dt;
   if (character.max_fall_speed) y = std::max(y, static_cast<Scalar>(-*character.max_fall_speed));
   return {{x, y}, change};
 }
@@ -136,7 +126,7 @@ void work_together(std::span<Scratch<Scalar>> scratches, const Work& work) noexc
 template <class Scalar>
 DesiredVelocity<Scalar> desired_velocity(const CharacterDef& character, const Vec2<Scalar>& gravity, const Input& input,
                                          Scalar dt, CharacterState<Scalar>& state) noexcept {
-  return wanted_velocity<true, true>(character, gravity, input, dt, false, state);
+  return wanted_velocity(character, gravity, input, dt, false, state);
 }
 
 template <class Scalar>
@@ -147,8 +137,9 @@ template <class Scalar>
 Controller<Scalar>::Controller(const Scenery<Scalar>& scenery, const CharacterDef& character,
                                std::unique_ptr<const Technique<Scalar>> technique, const Stages& stages)
     : mover_count_(scenery.mover_count()),
+      may_jump_(stages.jump),
+      may_fall_(stages.gravity),
       character_(character),
-      step_(variant_for(stages)),
       technique_(std::move(technique)) {
   character_.validate();
   if (!stages.sensors && scenery.sensor_pieces().size() > 0)
@@ -166,20 +157,9 @@ Scratch<Scalar> Controller<Scalar>::completed(Scratch<Scalar> scratch) const {
 }
 
 template <class Scalar>
-typename Controller<Scalar>::Step Controller<Scalar>::variant_for(const Stages& stages) noexcept {
-  static constexpr std::array<Step, 8> all{
-      &Controller::step_with<false, false, false>, &Controller::step_with<false, false, true>,
-      &Controller::step_with<false, true, false>,  &Controller::step_with<false, true, true>,
-      &Controller::step_with<true, false, false>,  &Controller::step_with<true, false, true>,
-      &Controller::step_with<true, true, false>,   &Controller::step_with<true, true, true>};
-  return all[(stages.sensors ? 4U : 0U) + (stages.jump ? 2U : 0U) + (stages.gravity ? 1U : 0U)];
-}
-
-template <class Scalar>
-template <bool has_jump, bool has_gravity>
-bool Controller<Scalar>::accepts(const CharacterState<Scalar>& state, const Input& input, const Vec2<Scalar>& gravity,
+[[gnu::always_inline]] inline bool Controller<Scalar>::accepts(const CharacterState<Scalar>& state, const Input& input, const Vec2<Scalar>& gravity,
                                  Scalar dt, std::span<const MoverMotion<Scalar>> movers) const noexcept {
-  const bool foreseen = (has_jump || !input.jump) && (has_gravity || (gravity.x() == 0 && gravity.y() == 0));
+  const bool foreseen = (may_jump_ || !input.jump) && (may_fall_ || (gravity.x() == 0 && gravity.y() == 0));
   return foreseen && dt > 0 && movers.size() == mover_count_ && finite(state, input, gravity, dt, movers);
 }
 
@@ -206,16 +186,14 @@ template <class Scalar>
 }
 
 template <class Scalar>
-template <bool has_jump, bool has_gravity>
-MoveRequest<Scalar> Controller<Scalar>::begin_step(const Crushers<Scalar>& crushers, const Input& input,
+[[gnu::always_inline]] inline MoveRequest<Scalar> Controller<Scalar>::begin_step(const Crushers<Scalar>& crushers, const Input& input,
                                                    const Vec2<Scalar>& gravity, Scalar dt,
                                                    std::span<const MoverMotion<Scalar>> movers, bool wall_ahead,
                                                    CharacterState<Scalar>& state,
                                                    StepReport<Scalar>& report) const noexcept {
   // What is carried steers, jumps and falls relative to what carries it.
   if (state.ride.ground != Ride<Scalar>::none) state.velocity -= state.ride.velocity;
-  const auto [velocity, steered] =
-      wanted_velocity<has_jump, has_gravity>(character_, gravity, input, dt, wall_ahead, state);
+  const auto [velocity, steered] = wanted_velocity(character_, gravity, input, dt, wall_ahead, state);
   report.requested = {velocity.x() * dt, velocity.y() * dt};
   report.steered = steered * dt;
   return {.position = state.position,
@@ -235,43 +213,37 @@ MoveRequest<Scalar> Controller<Scalar>::begin_step(const Crushers<Scalar>& crush
 }
 
 template <class Scalar>
-template <bool has_sensors>
-void Controller<Scalar>::end_step(const Input& input, std::span<const MoverMotion<Scalar>> movers,
+[[gnu::always_inline]] inline void Controller<Scalar>::end_step(const Input& input, std::span<const MoverMotion<Scalar>> movers,
                                   Scratch<Scalar>& scratch, CharacterState<Scalar>& state,
                                   StepReport<Scalar>& report) const noexcept {
-  if constexpr (has_sensors)
-    if (sensors_) sensors_->observe(report.move.path, movers, scratch.sensors, report.sensors);
+  if (sensors_) sensors_->observe(report.move.path, movers, scratch.sensors, report.sensors);
   if (input.drop && one_way_) one_way_->find_passed(report.move.path, movers, scratch.one_way, report.dropped_through);
   adopt(character_, report.move, state);
 }
 
 template <class Scalar>
-template <bool has_sensors, bool has_jump, bool has_gravity>
-// g++ leaves calls in what is instantiated eight times; without them a step takes 3 % fewer instructions.
-[[gnu::flatten]] StepStatus Controller<Scalar>::step_with(CharacterState<Scalar>& state, const Input& input,
-                                                          const Vec2<Scalar>& gravity, Scalar dt,
-                                                          std::span<const MoverMotion<Scalar>> movers,
-                                                          Scratch<Scalar>& scratch,
-                                                          StepReport<Scalar>& report) const noexcept {
+[[gnu::flatten]] StepStatus Controller<Scalar>::step(CharacterState<Scalar>& state, const Input& input,
+                                                     const Vec2<Scalar>& gravity, Scalar dt,
+                                                     std::span<const MoverMotion<Scalar>> movers,
+                                                     Scratch<Scalar>& scratch,
+                                                     StepReport<Scalar>& report) const noexcept {
   report.sensors.clear();
   report.dropped_through.clear();
-  if (!is_made_by(technique_, scratch.maker) || !accepts<has_jump, has_gravity>(state, input, gravity, dt, movers))
+  if (!is_made_by(technique_, scratch.maker) || !accepts(state, input, gravity, dt, movers))
     return report.status = StepStatus::invalid_input;
   const Undo<Scalar> before(state);
   bool wall_ahead = false;
-  if constexpr (has_jump)
-    if (character_.no_jump_toward_wall && input.jump && state.grounded && input.move.value_or(0) != 0)
-      wall_ahead = has_wall_ahead(state, *input.move, dt, movers, scratch, report.move);
+  if (character_.no_jump_toward_wall && input.jump && state.grounded && input.move.value_or(0) != 0)
+    wall_ahead = has_wall_ahead(state, *input.move, dt, movers, scratch, report.move);
   // A request with a name, read again after the move, cost 46 instructions more per step (g++ 12).
-  technique_->move(
-      begin_step<has_jump, has_gravity>(state.crushers, input, gravity, dt, movers, wall_ahead, state, report), scratch,
-      report.move);
+  technique_->move(begin_step(state.crushers, input, gravity, dt, movers, wall_ahead, state, report), scratch,
+                   report.move);
   report.status = status_of(report.move.status);
   if (is_refused(report.status)) {
     before.restore(state);
     return report.status;
   }
-  end_step<has_sensors>(input, movers, scratch, state, report);
+  end_step(input, movers, scratch, state, report);
   return report.status;
 }
 
@@ -304,9 +276,9 @@ bool Controller<Scalar>::begin_together(const CharacterState<Scalar>& before, co
                                         const Vec2<Scalar>& gravity, Scalar dt,
                                         std::span<const MoverMotion<Scalar>> movers, CharacterState<Scalar>& state,
                                         MoveRequest<Scalar>& request, StepReport<Scalar>& report) const noexcept {
-  if (!accepts<true, true>(before, input, gravity, dt, movers)) return false;
+  if (!accepts(before, input, gravity, dt, movers)) return false;
   state = before;
-  request = begin_step<true, true>(before.crushers, input, gravity, dt, movers, false, state, report);
+  request = begin_step(before.crushers, input, gravity, dt, movers, false, state, report);
   return true;
 }
 
@@ -315,7 +287,7 @@ void Controller<Scalar>::end_together(const Input& input, std::span<const MoverM
                                       Scratch<Scalar>& scratch, CharacterState<Scalar>& state,
                                       StepReport<Scalar>& report) const noexcept {
   report.status = status_of(report.move.status);
-  end_step<true>(input, movers, scratch, state, report);
+  end_step(input, movers, scratch, state, report);
 }
 
 template DesiredVelocity<float> desired_velocity(const CharacterDef&, const Vec2<float>&, const Input&, float,

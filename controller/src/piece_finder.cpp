@@ -47,7 +47,7 @@ Candidates<Scalar> PieceFinder<Scalar>::make_candidates() const {
   std::size_t most_of_a_mover = 0;
   for (const Group& group : moving_) most_of_a_mover = std::max(most_of_a_mover, group.pieces.size());
   Candidates<Scalar> candidates;
-  candidates.pieces.resize(standing_.pieces.size() + most_of_a_mover);
+  candidates.pieces = PieceBuffer(standing_.pieces.size() + most_of_a_mover);
   return candidates;
 }
 

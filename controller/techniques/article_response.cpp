@@ -56,7 +56,7 @@ Parts<Scalar>::Parts(const TechniqueDef& def, const Scenery<Scalar>& where, cons
 template <class Scalar>
 Scratch<Scalar> Parts<Scalar>::make_scratch() const {
   Scratch<Scalar> scratch;
-  scratch.solids.pieces.resize(scenery->pieces().size());
+  scratch.solids.pieces = PieceBuffer(scenery->pieces().size());
   auto groups = std::make_unique<Groups<Scalar>>();
   groups->all.reserve(scenery->mover_count() + 1);
   scratch.own = std::move(groups);

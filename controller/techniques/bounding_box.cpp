@@ -72,7 +72,7 @@ class BoundingBox final : public Technique<Scalar> {
   [[nodiscard]] std::string_view name() const noexcept override { return "bounding_box"; }
   [[nodiscard]] Scratch<Scalar> make_scratch() const override {
     Scratch<Scalar> scratch;
-    scratch.solids.pieces.resize(grown_.size());
+    scratch.solids.pieces = PieceBuffer(grown_.size());
     return scratch;
   }
   void move(const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,

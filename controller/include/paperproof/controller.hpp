@@ -68,10 +68,6 @@ template <class Scalar>
 class OneWayChains;
 template <class Scalar>
 class Crowd;
-namespace crowd {
-template <class Scalar>
-class Stepper;
-}  // namespace crowd
 
 /// Steps characters of one kind through one scenery. Const and shareable between threads.
 template <class Scalar>
@@ -97,9 +93,7 @@ class Controller {
   /// @param movers one for each mover of the scenery, within +-2e6 m; anything else is invalid input.
   StepStatus step(CharacterState<Scalar>& state, const Input& input, const Vec2<Scalar>& gravity, Scalar dt,
                   std::span<const MoverMotion<Scalar>> movers, Scratch<Scalar>& scratch,
-                  StepReport<Scalar>& report) const noexcept {
-    return (this->*step_)(state, input, gravity, dt, movers, scratch, report);
-  }
+                  StepReport<Scalar>& report) const noexcept;
 
   /// One step of many characters that do not see each other. Each is stepped as by `step`, with the same bits for any
   /// number of scratches; what `step` would refuse is refused in that character's report, and the others go on.
@@ -121,17 +115,6 @@ class Controller {
   [[nodiscard]] const Technique<Scalar>& technique() const noexcept { return *technique_; }
 
  private:
-  using Step = StepStatus (Controller::*)(CharacterState<Scalar>&, const Input&, const Vec2<Scalar>&, Scalar,
-                                          std::span<const MoverMotion<Scalar>>, Scratch<Scalar>&,
-                                          StepReport<Scalar>&) const noexcept;
-  /// A step without the stages that are left out: they are no code.
-  template <bool has_sensors, bool has_jump, bool has_gravity>
-  StepStatus step_with(CharacterState<Scalar>& state, const Input& input, const Vec2<Scalar>& gravity, Scalar dt,
-                       std::span<const MoverMotion<Scalar>> movers, Scratch<Scalar>& scratch,
-                       StepReport<Scalar>& report) const noexcept;
-  [[nodiscard]] static Step variant_for(const Stages& stages) noexcept;
-
-  template <bool has_jump, bool has_gravity>
   [[nodiscard]] bool accepts(const CharacterState<Scalar>& state, const Input& input, const Vec2<Scalar>& gravity,
                              Scalar dt, std::span<const MoverMotion<Scalar>> movers) const noexcept;
   /// There is a wall within a unit of the character, on the side that `move` (not zero) points to.
@@ -141,14 +124,12 @@ class Controller {
                                     MoveResult<Scalar>& tried) const noexcept;
   /// What an accepted step begins with: the intent.
   /// @param crushers of the state as it was; must outlive the request.
-  template <bool has_jump, bool has_gravity>
   [[nodiscard]] MoveRequest<Scalar> begin_step(const Crushers<Scalar>& crushers, const Input& input,
                                                const Vec2<Scalar>& gravity, Scalar dt,
                                                std::span<const MoverMotion<Scalar>> movers, bool wall_ahead,
                                                CharacterState<Scalar>& state,
                                                StepReport<Scalar>& report) const noexcept;
   /// What it ends with, once `report.move` is made.
-  template <bool has_sensors>
   void end_step(const Input& input, std::span<const MoverMotion<Scalar>> movers, Scratch<Scalar>& scratch,
                 CharacterState<Scalar>& state, StepReport<Scalar>& report) const noexcept;
   /// What a technique made, with room for the rest of a step, and marked.
@@ -157,7 +138,6 @@ class Controller {
   /// A crowd may move all its characters at once, between the beginnings of their steps and the ends; with all stages.
   /// @param before must outlive the request. @return false where it is not accepted.
   friend class Crowd<Scalar>;
-  friend class crowd::Stepper<Scalar>;
   bool begin_together(const CharacterState<Scalar>& before, const Input& input, const Vec2<Scalar>& gravity, Scalar dt,
                       std::span<const MoverMotion<Scalar>> movers, CharacterState<Scalar>& state,
                       MoveRequest<Scalar>& request, StepReport<Scalar>& report) const noexcept;
@@ -165,8 +145,9 @@ class Controller {
                     CharacterState<Scalar>& state, StepReport<Scalar>& report) const noexcept;
 
   std::size_t mover_count_;
+  bool may_jump_;  ///< Jumps were not left out,
+  bool may_fall_;  ///< nor was gravity.
   CharacterDef character_;
-  Step step_;
   std::shared_ptr<const Technique<Scalar>> technique_;   ///< Shared with nobody: scratch memory refers to it.
   std::shared_ptr<const Sensors<Scalar>> sensors_;       ///< Null where the scenery has none.
   std::shared_ptr<const OneWayChains<Scalar>> one_way_;  ///< Null where the scenery has none.

@@ -113,10 +113,28 @@ struct OwnMemory {
   virtual ~OwnMemory() = default;
 };
 
+/// Memory for the answer of a query that may find every piece of a level. It is not touched before, so that a large
+/// level takes up no memory for answers that are small.
+class PieceBuffer {
+ public:
+  PieceBuffer() = default;
+  explicit PieceBuffer(std::size_t size) : pieces_(std::make_unique_for_overwrite<PieceIndex[]>(size)), size_(size) {}
+
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  [[nodiscard]] PieceIndex* data() const noexcept { return pieces_.get(); }
+  [[nodiscard]] PieceIndex& operator[](std::size_t i) const noexcept { return pieces_[i]; }
+  [[nodiscard]] PieceIndex* begin() const noexcept { return data(); }
+  [[nodiscard]] PieceIndex* end() const noexcept { return data() + size_; }
+
+ private:
+  std::unique_ptr<PieceIndex[]> pieces_;
+  std::size_t size_ = 0;
+};
+
 /// Pieces near a character: what a broad phase answered, which holds for the next steps, too.
 template <class Scalar>
 struct Candidates {
-  std::vector<PieceIndex> pieces;  ///< Has room for all that there can be; never grows.
+  PieceBuffer pieces;  ///< Has room for all that there can be.
   std::size_t count = 0;
   Box2<Scalar> box;  ///< Positions of the character for which they are complete, where `valid`.
   bool valid = false;

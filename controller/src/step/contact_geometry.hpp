@@ -6,17 +6,49 @@
 
 namespace paperproof::octagon_sweep {
 
-/// Separation along an axis [m], from differences: relative accuracy of a few ulp also where the offset of the axis has
-/// lost its last digits.
+/// What of a piece faces the octagon along an axis with normal n: its highest points along n.
 template <class Scalar>
-[[nodiscard, gnu::always_inline]] inline Scalar accurate_separation(const ConfigurationSpace<Scalar>& space,
-                                                                    PieceIndex piece, std::size_t axis,
-                                                                    const Vec2<Scalar>& p) noexcept {
+struct PieceFace {
+  Scalar high;  ///< max n·(v - p) [m]
+  Scalar from;  ///< Where they begin along (-n.y, n.x), relative to p [m],
+  Scalar to;    ///< and where they end [m]; equal to `from` for a corner.
+};
+
+/// Along a box direction, of a rectangle: three of four contacts.
+template <class Scalar>
+[[nodiscard, gnu::always_inline]] inline PieceFace<Scalar> rectangle_face(const Box2<Scalar>& box,
+                                                                          const Vec2<Scalar>& n,
+                                                                          const Vec2<Scalar>& p) noexcept {
+  const Vec2<Scalar>& corner = n.x() + n.y() > 0 ? box.upper : box.lower;
+  const bool upright = n.x() == 0;
+  const Scalar high = upright ? n.y() * (corner.y() - p.y()) : n.x() * (corner.x() - p.x());
+  const Scalar a = upright ? -n.y() * (box.lower.x() - p.x()) : n.x() * (box.lower.y() - p.y());
+  const Scalar b = upright ? -n.y() * (box.upper.x() - p.x()) : n.x() * (box.upper.y() - p.y());
+  return {high, std::min(a, b), std::max(a, b)};
+}
+
+/// From differences of coordinates: relative accuracy of a few ulp, also where the offset of the axis has lost its last
+/// digits far from the origin.
+template <class Scalar>
+[[nodiscard, gnu::always_inline]] inline PieceFace<Scalar> piece_face(const ConfigurationSpace<Scalar>& space,
+                                                                      PieceIndex piece, std::size_t axis,
+                                                                      const Vec2<Scalar>& p) noexcept {
+  constexpr Scalar flat = Tolerances<Scalar>{}.hit;  // points this close to the highest belong to the face
+  const Scenery<Scalar>& scenery = space.scenery();
   const Vec2<Scalar> n = space.normal(piece, axis);
-  Scalar nearest = std::numeric_limits<Scalar>::infinity();
-  for (const Vec2<Scalar>& v : space.scenery().vertices_of(piece))
-    nearest = std::min(nearest, n.x() * (p.x() - v.x()) + n.y() * (p.y() - v.y()));
-  return nearest + space.octagon_face(piece, axis).low;
+  if (axis < ConfigurationSpace<Scalar>::box_axes && scenery.pieces()[piece].is_rectangle())
+    return rectangle_face(scenery.box(piece), n, p);
+  PieceFace<Scalar> face{-std::numeric_limits<Scalar>::infinity(), 0, 0};
+  for (const Vec2<Scalar>& v : scenery.vertices_of(piece)) {
+    const Scalar x = v.x() - p.x();
+    const Scalar y = v.y() - p.y();
+    const Scalar height = n.x() * x + n.y() * y;
+    const Scalar place = n.x() * y - n.y() * x;
+    if (height > face.high + flat) face = {height, place, place};
+    if (height < face.high - flat) continue;
+    face = {std::max(face.high, height), std::min(face.from, place), std::max(face.to, place)};
+  }
+  return face;
 }
 
 /// Time of impact of a motion with a piece it hits, as a fraction of the motion, in [0, 1]: when the separation along
@@ -30,7 +62,9 @@ template <class Scalar>
   const Scalar level = axes.missed ? Tolerances<Scalar>{}.hit : Scalar(0);
   const Vec2<Scalar> n = space.normal(piece, axes.impact);
   const Scalar approach = -(n.x() * displacement.x() + n.y() * displacement.y());
-  return std::clamp((accurate_separation(space, piece, axes.impact, from) - level) / approach, Scalar(0), Scalar(1));
+  const Scalar separation =
+      space.octagon_face(piece, axes.impact).low - piece_face(space, piece, axes.impact, from).high;
+  return std::clamp((separation - level) / approach, Scalar(0), Scalar(1));
 }
 
 /// Where a contact is, and the gap there.
@@ -44,30 +78,14 @@ template <class Scalar>
 [[nodiscard, gnu::always_inline]] inline ContactPlace<Scalar> contact_place(const ConfigurationSpace<Scalar>& space,
                                                                             PieceIndex piece, std::size_t axis,
                                                                             const Vec2<Scalar>& p) noexcept {
-  constexpr Scalar flat = Tolerances<Scalar>{}.hit;  // points this close to the highest belong to the face
   const Vec2<Scalar> n = space.normal(piece, axis);
-  // Relative to the octagon, so that nothing cancels far from the origin.
-  Scalar high = -std::numeric_limits<Scalar>::infinity();
-  Scalar from = 0;
-  Scalar to = 0;
-  for (const Vec2<Scalar>& v : space.scenery().vertices_of(piece)) {
-    const Scalar x = v.x() - p.x();
-    const Scalar y = v.y() - p.y();
-    const Scalar height = n.x() * x + n.y() * y;
-    const Scalar place = n.x() * y - n.y() * x;
-    if (height > high + flat) {
-      high = height;
-      from = to = place;
-    }
-    if (height < high - flat) continue;
-    high = std::max(high, height);
-    from = std::min(from, place);
-    to = std::max(to, place);
-  }
+  const PieceFace<Scalar> there = piece_face(space, piece, axis, p);
   const OctagonFace<Scalar>& face = space.octagon_face(piece, axis);
   // Corner to corner they have nothing face to face, by less than a contact's gap.
-  const Scalar middle = std::clamp((std::max(from, face.from) + std::min(to, face.to)) / 2, from, to);
-  return {{p.x() + n.x() * high - n.y() * middle, p.y() + n.y() * high + n.x() * middle}, face.low - high};
+  const Scalar middle =
+      std::clamp((std::max(there.from, face.from) + std::min(there.to, face.to)) / 2, there.from, there.to);
+  return {{p.x() + n.x() * there.high - n.y() * middle, p.y() + n.y() * there.high + n.x() * middle},
+          face.low - there.high};
 }
 
 }  // namespace paperproof::octagon_sweep

@@ -55,8 +55,8 @@ std::span<const PieceIndex> Neighbourhood<Scalar>::around(const Box2<Scalar>& bo
                                                           const Vec2<Scalar>& displacement) noexcept {
   Candidates<Scalar>& known = scratch_.solids;
   if (!known.valid || !known.box.contains(box)) {
-    // A step that begins elsewhere is one of another character, and the next step will be, too: pieces ahead of this one
-    // are not needed.
+    // A step that begins elsewhere is one of another character, and the next step will be, too: pieces ahead of this
+    // one are not needed.
     const bool goes_on = !known.valid || known.box.overlaps(box);
     known.box = positions_ahead(box, goes_on ? displacement : Vec2<Scalar>(Vec2<Scalar>::Zero()), look_ahead_);
     known.count = broad_phase_.query(space_.touched_from(known.box), known.pieces);

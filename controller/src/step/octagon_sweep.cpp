@@ -65,7 +65,7 @@ class OctagonSweep final : public SweepInParts<Scalar> {
 
   [[nodiscard]] Scratch<Scalar> make_scratch() const override {
     Scratch<Scalar> scratch;
-    scratch.solids.pieces.resize(space_.scenery().sensor_pieces().first);
+    scratch.solids.pieces = PieceBuffer(space_.scenery().sensor_pieces().first);
     scratch.own = std::make_unique<StepMemory<Scalar>>(space_, touched_at_once_, settings_.iterations);
     return scratch;
   }

@@ -20,14 +20,14 @@ template <class Scalar>
   return space.surfaces().is_above(info.surface, p, rest);
 }
 
-/// Whether a piece can stop a motion at all. A solid always can. A one-way segment can stop a motion that begins above
-/// its surface. From a gap on, what does not go against a straight one is clear of it and need not be looked at; nearer
-/// than that it must be known to be near, whatever its direction.
+/// Whether a one-way segment can stop a motion: one that begins above its surface. From a gap on, a motion that does
+/// not go against a straight segment is clear of it. Nearer than that the segment is looked at, whatever the direction:
+/// its separation counts.
 template <std::size_t Lanes, class Scalar>
-[[nodiscard, gnu::always_inline]] inline bool blocks(const ConfigurationSpace<Scalar>& space,
-                                                     const Motion<Lanes, Scalar>& motion, PieceIndex piece) noexcept {
+[[nodiscard, gnu::noinline]] inline bool one_way_blocks(const ConfigurationSpace<Scalar>& space,
+                                                        const Motion<Lanes, Scalar>& motion,
+                                                        PieceIndex piece) noexcept {
   const ObstacleInfo& info = space.info(piece);
-  if (info.one_way_axis == ObstacleInfo::not_one_way) return true;
   if (!info.bent_surface) {
     const Vec2<Scalar> n = space.normal(piece, info.one_way_axis);
     if (space.separation(piece, info.one_way_axis, motion.from) >= Tolerances<Scalar>{}.hit)
@@ -39,6 +39,13 @@ template <std::size_t Lanes, class Scalar>
     motion.above_known_surface = is_above(space, piece, motion.from, motion.lost);
   }
   return motion.above_known_surface;
+}
+
+/// Whether a piece can stop a motion at all. A solid always can.
+template <std::size_t Lanes, class Scalar>
+[[nodiscard, gnu::always_inline]] inline bool blocks(const ConfigurationSpace<Scalar>& space,
+                                                     const Motion<Lanes, Scalar>& motion, PieceIndex piece) noexcept {
+  return space.info(piece).one_way_axis == ObstacleInfo::not_one_way || one_way_blocks(space, motion, piece);
 }
 
 }  // namespace paperproof::octagon_sweep

@@ -26,9 +26,10 @@ struct Stop {
 template <class Scalar>
 struct TouchedSurface {
   PieceIndex piece;
+  MoverIndex mover;
   std::size_t axis;
   Vec2<Scalar> normal;
-  MoverIndex mover;
+  Scalar offset;  ///< Of the surface along its normal [m].
 };
 
 /// Where a straight motion is nearest to a piece.

@@ -26,7 +26,7 @@ bool StepSolver<Lanes, Scalar>::slides_along_touched(const LocalMotion& motion, 
   for (const TouchedSurface<Scalar>& surface : memory_.surfaces) {
     if (surface.piece != piece) continue;
     if (moving_.waits) return true;
-    const Scalar start = space_.separation(piece, surface.axis, motion.from);
+    const Scalar start = dot(surface.normal, motion.from) - surface.offset;
     const Scalar out = surface.normal.x() * motion.displacement.x() + surface.normal.y() * motion.displacement.y();
     Scalar size = std::abs(motion_.displacement.x()) + std::abs(motion_.displacement.y());
     if (surface.mover != no_mover) size += movers_.displacement(surface.mover).cwiseAbs().sum();
@@ -46,9 +46,7 @@ void StepSolver<Lanes, Scalar>::update_surfaces() noexcept {
   auto& surfaces = memory_.surfaces;
   surfaces.swap(memory_.surfaces_before);
   surfaces.clear();
-  for (const Stop<Scalar>& stop : found_.stops)
-    surfaces.push_back(
-        {stop.piece, stop.axes.normal, space_.normal(stop.piece, stop.axes.normal), mover_of(stop.piece)});
+  for (const Stop<Scalar>& stop : found_.stops) surfaces.push_back(surface_at(stop.piece, stop.axes.normal));
   for (const TouchedSurface<Scalar>& surface : memory_.surfaces_before) {
     const bool again = std::any_of(found_.stops.begin(), found_.stops.end(),
                                    [&surface](const Stop<Scalar>& stop) { return stop.piece == surface.piece; });

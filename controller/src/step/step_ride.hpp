@@ -64,7 +64,7 @@ std::optional<TouchedSurface<Scalar>> StepSolver<Lanes, Scalar>::carrier_here(Co
     }
     const bool known = collider_of(piece) == ridden;
     if (carrier && (known < rides || (known == rides && normal.y() <= carrier->normal.y()))) return;
-    carrier = TouchedSurface<Scalar>{piece, best.axis, normal, mover_of(piece)};
+    carrier = surface_at(piece, best.axis);
     rides = known;
   });
   if (!rides && stands_still) return std::nullopt;

@@ -209,6 +209,9 @@ class StepSolver {
   // step_response.hpp
   [[nodiscard]] bool ignored(PieceIndex piece) const noexcept;
   [[nodiscard]] bool slides_along_touched(const LocalMotion& motion, PieceIndex piece) const noexcept;
+  [[nodiscard]] TouchedSurface<Scalar> surface_at(PieceIndex piece, std::size_t axis) const noexcept {
+    return {piece, mover_of(piece), axis, space_.normal(piece, axis), space_.offset(piece, axis)};
+  }
   void update_surfaces() noexcept;
   [[nodiscard]] V remaining_of(const TouchedSurface<Scalar>& surface) const noexcept;
   [[nodiscard]] V velocity_of(const TouchedSurface<Scalar>& surface) const noexcept;

@@ -15,7 +15,7 @@ RasterParts<Scalar>::RasterParts(const TechniqueDef& def, const Scenery<Scalar>&
 template <class Scalar>
 Scratch<Scalar> RasterParts<Scalar>::make_scratch() const {
   Scratch<Scalar> scratch;
-  scratch.solids.pieces.resize(scenery_->pieces().size());
+  scratch.solids.pieces = PieceBuffer(scenery_->pieces().size());
   return scratch;
 }
 
