@@ -83,15 +83,15 @@ void Tree<Scalar>::add_level(std::vector<Box2<float>>& boxes) {
 template <class Scalar>
 [[gnu::always_inline]] inline unsigned Tree<Scalar>::met_by(const Node& node, const Box2<float>& box) noexcept {
   using Flags [[gnu::vector_size(4 * sizeof(int))]] = int;
-  Flags bits{};
+  Flags overlapped{};
   Flags bit_of_each{1, 2, 4, 8};
   for (std::size_t i = 0; i < fan / 4; ++i) {
     const Flags met = (node.lower_x[i] <= box.upper.x()) & (node.upper_x[i] >= box.lower.x()) &
                       (node.lower_y[i] <= box.upper.y()) & (node.upper_y[i] >= box.lower.y());
-    bits |= met & bit_of_each;
+    overlapped |= met & bit_of_each;
     bit_of_each <<= 4;
   }
-  return static_cast<unsigned>(bits[0] | bits[1] | bits[2] | bits[3]);
+  return static_cast<unsigned>(overlapped[0] | overlapped[1] | overlapped[2] | overlapped[3]);
 }
 
 template <class Scalar>

@@ -4,8 +4,6 @@
 #include "step/contact_geometry.hpp"
 #include "step/step_solver.hpp"
 
-#include <ranges>
-
 namespace paperproof::octagon_sweep {
 
 template <std::size_t Lanes, class Scalar>
@@ -210,24 +208,22 @@ void StepSolver<Lanes, Scalar>::report_contact(PieceIndex piece, std::size_t axi
 /// Reports all pieces that stopped the last sweep, where there were too many to keep.
 template <std::size_t Lanes, class Scalar>
 void StepSolver<Lanes, Scalar>::report_more(Scalar begin, std::size_t this_moment) noexcept {
-  const auto report_all = [&](const LocalMotion& motion, const auto& pieces) {
+  const auto report_hit = [&](const LocalMotion& motion, PieceIndex piece) {
     constexpr Tolerances<Scalar> tolerances{};
+    if (ignored(piece) || !in_way(motion, piece)) return;
+    const Clearance<Scalar> clear = clearance(space_, motion, piece);
+    if (clear.clear()) return;
     const Scalar together = motion.length > 0 ? (tolerances.touch - tolerances.stop) / motion.length : Scalar(0);
-    for (const PieceIndex piece : pieces) {
-      if (ignored(piece) || !in_way(motion, piece)) continue;
-      const Clearance<Scalar> clear = clearance(space_, motion, piece);
-      if (clear.clear()) continue;
-      const PieceHit<Scalar> hit = sweep_piece(space_, motion, piece, clear);
-      if (hit.hit && hit.stop <= found_.stop + together)
-        report_contact(piece, hit.axes.normal, fraction_of({piece, hit.stop, together, hit.axes}, begin), this_moment);
-    }
+    const PieceHit<Scalar> hit = sweep_piece(space_, motion, piece, clear);
+    if (hit.hit && hit.stop <= found_.stop + together)
+      report_contact(piece, hit.axes.normal, fraction_of({piece, hit.stop, together, hit.axes}, begin), this_moment);
   };
-  report_all(motion_, neighbourhood_.around(motion_.box(), motion_.displacement));
+  for (const PieceIndex piece : neighbourhood_.around(motion_.box(), motion_.displacement)) report_hit(motion_, piece);
   for (MoverIndex mover = 0; mover < movers_.count; ++mover) {
     const V from = motion_.from - movers_.offset(mover, begin);
     const LocalMotion motion = make_motion<Lanes>(space_, from, movers_.relative(motion_.displacement, mover, begin));
     const PieceRange pieces = space_.scenery().pieces_of_mover(mover);
-    report_all(motion, std::views::iota(pieces.first, pieces.end));
+    for (PieceIndex piece = pieces.first; piece < pieces.end; ++piece) report_hit(motion, piece);
   }
 }
 
