@@ -55,7 +55,8 @@ Points outline_of(const Points& points) {
   return hull;
 }
 
-/// A point inside the hull, or on a side of it, shows as a turn that is not to the left: there, or at its neighbour.
+/// A point inside the hull, or on a side of it, causes a turn that is not to the left: at this point or at its
+/// neighbour.
 void check_all_corners(const Points& hull) {
   for (std::size_t i = 0; i < hull.size(); ++i) {
     const Vec2d& next = hull[(i + 1) % hull.size()];

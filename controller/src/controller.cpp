@@ -56,7 +56,7 @@ void take_jump(const CharacterDef& character, const Input& input, bool wall_ahea
 template <class Scalar>
 DesiredVelocity<Scalar> wanted_velocity(const CharacterDef& character, const Vec2<Scalar>& gravity, const Input& input,
                                         Scalar dt, bool wall_ahead, CharacterState<Scalar>& state) noexcept {
-  // Component by component: a pair that is written as two numbers and read as one waits for the memory.
+  // Component by component: a pair that is written as two numbers and read as one vector waits for the memory.
   Scalar x = input.move ? steered(character, state, *input.move, dt) : state.velocity.x();
   const Scalar change = x - state.velocity.x();
   Scalar y = state.velocity.y();
@@ -67,8 +67,8 @@ DesiredVelocity<Scalar> wanted_velocity(const CharacterDef& character, const Vec
   return {{x, y}, change};
 }
 
-/// What the intent changes of a state, for a step that is refused after all. (A copy of the whole state is a tenth of a
-/// step.)
+/// Restores the members of a state that the intent changes, if the step is refused later. (A copy of the whole state
+/// costs a tenth of a step.)
 template <class Scalar>
 class Undo {
  public:
@@ -95,7 +95,7 @@ class Undo {
   bool jump_pending_;
 };
 
-/// The scratch is for others next.
+/// Other characters use the scratch next: the report keeps only its own memory.
 template <class Scalar>
 void leave_scratch(MoveResult<Scalar>& move) noexcept {
   move.path.keep_own();
@@ -103,7 +103,8 @@ void leave_scratch(MoveResult<Scalar>& move) noexcept {
   move.crushed.keep_own();
 }
 
-/// Characters that a thread takes at a time. One: threads wait for each other's counter. Many: one of them ends late.
+/// Number of characters that a thread takes at a time. One: threads wait for each other's counter. Many: one of them
+/// ends late.
 constexpr std::size_t taken_at_once = 64;
 
 /// Calls `work(scratch)` in a thread for each scratch; the last one in this thread. Threads lie on the stack, one call
@@ -115,7 +116,7 @@ void work_together(std::span<Scratch<Scalar>> scratches, const Work& work) noexc
   try {
     other.emplace([&] { work(scratches.front()); });
   } catch (const std::exception&) {
-    // There is no thread to be had. Those that there are take all the work.
+    // The system has no thread left. The other threads take all the work.
   }
   work_together(scratches.subspan(1), work);
   if (other) other->join();
@@ -157,13 +158,14 @@ Scratch<Scalar> Controller<Scalar>::completed(Scratch<Scalar> scratch) const {
 }
 
 template <class Scalar>
-[[gnu::always_inline]] inline bool Controller<Scalar>::accepts(const CharacterState<Scalar>& state, const Input& input, const Vec2<Scalar>& gravity,
-                                 Scalar dt, std::span<const MoverMotion<Scalar>> movers) const noexcept {
+[[gnu::always_inline]] inline bool Controller<Scalar>::accepts(
+    const CharacterState<Scalar>& state, const Input& input, const Vec2<Scalar>& gravity, Scalar dt,
+    std::span<const MoverMotion<Scalar>> movers) const noexcept {
   const bool foreseen = (may_jump_ || !input.jump) && (may_fall_ || (gravity.x() == 0 && gravity.y() == 0));
   return foreseen && dt > 0 && movers.size() == mover_count_ && finite(state, input, gravity, dt, movers);
 }
 
-/// Tries a move towards it, which is not made. Kept out of the step: nearly no step asks.
+/// Tries a move towards the wall, without making it. Kept out of `step`: nearly no step needs it.
 template <class Scalar>
 [[gnu::noinline]] bool Controller<Scalar>::has_wall_ahead(const CharacterState<Scalar>& state, double move, Scalar dt,
                                                           std::span<const MoverMotion<Scalar>> movers,
@@ -186,12 +188,11 @@ template <class Scalar>
 }
 
 template <class Scalar>
-[[gnu::always_inline]] inline MoveRequest<Scalar> Controller<Scalar>::begin_step(const Crushers<Scalar>& crushers, const Input& input,
-                                                   const Vec2<Scalar>& gravity, Scalar dt,
-                                                   std::span<const MoverMotion<Scalar>> movers, bool wall_ahead,
-                                                   CharacterState<Scalar>& state,
-                                                   StepReport<Scalar>& report) const noexcept {
-  // What is carried steers, jumps and falls relative to what carries it.
+[[gnu::always_inline]] inline MoveRequest<Scalar> Controller<Scalar>::begin_step(
+    const Crushers<Scalar>& crushers, const Input& input, const Vec2<Scalar>& gravity, Scalar dt,
+    std::span<const MoverMotion<Scalar>> movers, bool wall_ahead, CharacterState<Scalar>& state,
+    StepReport<Scalar>& report) const noexcept {
+  // A carried character steers, jumps and falls relative to its ground.
   if (state.ride.ground != Ride<Scalar>::none) state.velocity -= state.ride.velocity;
   const auto [velocity, steered] = wanted_velocity(character_, gravity, input, dt, wall_ahead, state);
   report.requested = {velocity.x() * dt, velocity.y() * dt};
@@ -213,9 +214,10 @@ template <class Scalar>
 }
 
 template <class Scalar>
-[[gnu::always_inline]] inline void Controller<Scalar>::end_step(const Input& input, std::span<const MoverMotion<Scalar>> movers,
-                                  Scratch<Scalar>& scratch, CharacterState<Scalar>& state,
-                                  StepReport<Scalar>& report) const noexcept {
+[[gnu::always_inline]] inline void Controller<Scalar>::end_step(const Input& input,
+                                                                std::span<const MoverMotion<Scalar>> movers,
+                                                                Scratch<Scalar>& scratch, CharacterState<Scalar>& state,
+                                                                StepReport<Scalar>& report) const noexcept {
   if (sensors_) sensors_->observe(report.move.path, movers, scratch.sensors, report.sensors);
   if (input.drop && one_way_) one_way_->find_passed(report.move.path, movers, scratch.one_way, report.dropped_through);
   adopt(character_, report.move, state);
@@ -258,7 +260,7 @@ BatchStatus Controller<Scalar>::step_all(std::span<CharacterState<Scalar>> state
   if (inputs.size() != count || reports.size() != count || scratches.empty() ||
       !std::all_of(scratches.begin(), scratches.end(), is_own))
     return BatchStatus::invalid_input;
-  // No more threads than have work.
+  // Threads without work are not started.
   const std::size_t shares = std::max<std::size_t>(1, (count + taken_at_once - 1) / taken_at_once);
   std::atomic<std::size_t> next = 0;
   work_together(scratches.first(std::min(scratches.size(), shares)), [&](Scratch<Scalar>& scratch) {

@@ -13,8 +13,8 @@ namespace paperproof {
 
 template <class Scalar>
 struct Crowd<Scalar>::Rules {
-  Stages stages;  ///< That were not left out.
-  bool may_ride;  ///< Something may carry a character that stands on it.
+  Stages stages;  ///< The stages that were not left out.
+  bool may_ride;  ///< Some ground may carry a character.
   /// What `octagon_sweep` needs to move several characters. Null: the controller has a joint technique.
   std::unique_ptr<crowd::SweepRules<Scalar>> sweep{};
 };
@@ -57,7 +57,7 @@ Crowd<Scalar>::Crowd(const Scenery<Scalar>& scenery, const CharacterDef& charact
         Rules rules{.stages = sweep.stages, .may_ride = scenery.mover_count() > 0 || has_conveyors(scenery)};
         rules.sweep = std::make_unique<crowd::SweepRules<Scalar>>(scenery, character, sweep.iterations);
         SweepDef def = sweep;
-        def.stages.movers = def.stages.slopes = true;  // as other characters need them
+        def.stages.movers = def.stages.slopes = true;  // characters are moving obstacles with slopes
         auto technique = octagon_sweep::make_sweep_in_parts(def, rules.sweep->scenery, character);
         rules.sweep->sweep = technique.get();
         return Crowd(std::make_unique<const Rules>(std::move(rules)),
@@ -94,7 +94,7 @@ CrowdScratch Crowd<Scalar>::make_scratch(std::size_t most_characters) const {
   return {most_characters, std::move(memory), rules_};
 }
 
-/// What the controller does not look at.
+/// What is refused for all of them at once.
 template <class Scalar>
 bool Crowd<Scalar>::accepts(const CharacterState<Scalar>& state, const Input& input,
                             const Vec2<Scalar>& gravity) const noexcept {
@@ -103,7 +103,7 @@ bool Crowd<Scalar>::accepts(const CharacterState<Scalar>& state, const Input& in
          (rules_->may_ride || state.ride.ground == Ride<Scalar>::none);
 }
 
-/// No state is written before it is known that none is refused.
+/// Writes no state before it is certain that no state is refused.
 template <class Scalar>
 StepStatus Crowd<Scalar>::step(std::span<CharacterState<Scalar>> states, std::span<const Input> inputs,
                                const Vec2<Scalar>& gravity, Scalar dt, std::span<const MoverMotion<Scalar>> movers,

@@ -11,11 +11,11 @@
 namespace paperproof {
 namespace {
 
-/// How far beyond the character what it passes is looked for, as a share of its size. Zero: rounding hides a chain
-/// whose tip is grazed. Large: chains beside the way are named.
+/// Margin around the character in which passed chains are looked for, as a share of its size. Zero: rounding hides a
+/// chain whose tip the character grazes. Large: chains beside the way are named.
 constexpr double margin_share = 1e-6;
 
-/// Of the height over a segment, as a share of the coordinates.
+/// Rounding error of the height over a segment, as a share of the coordinates.
 template <class Scalar>
 inline constexpr Scalar height_rounding = std::numeric_limits<Scalar>::epsilon() * 24;
 
@@ -27,7 +27,7 @@ std::vector<PieceIndex> one_way_pieces(const Scenery<Scalar>& scenery) {
   return pieces;
 }
 
-/// Sorted in. A full vector keeps the first.
+/// Inserts in ascending order. A full vector keeps the lowest indices.
 template <std::size_t capacity>
 void add_in_order(ColliderIndex chain, FixedVector<ColliderIndex, capacity>& chains) noexcept {
   if (!chains.push_back(chain)) chains.back() = std::min(chain, chains.back());
@@ -74,8 +74,8 @@ bool OneWayChains<Scalar>::passes(PieceIndex piece, const Vec2<Scalar>& from, co
   const Vec2<Scalar> along = ends[1] - ends[0];
   const bool against = Vec2<Scalar>(-along.y(), along.x()).dot(to - from) < 0;
   const typename OneWaySurfaces<Scalar>::Index surface = surfaces_.of(piece);
-  // What is above a straight surface does not pass it along its normal, but another part of a bent one may be in the
-  // way. Beside one that is not met against the normal none is said to be passed.
+  // A character above a straight surface does not pass it along the normal, but another part of a bent surface may be
+  // in the way. A segment that is not met against its normal is tested without the margin.
   if (!against && surfaces_.is_straight(surface)) return false;
   const auto& outline = against ? grown_ : outline_;
   if (!geometry::overlap_time<Scalar>({outline.begin(), outline.end()}, ends, from, to).any()) return false;

@@ -1,4 +1,4 @@
-/// One-way chains that a character drops through: which of them does it pass on the way?
+/// Finds the one-way chains that a character passes when it drops through.
 #pragma once
 
 #include "one_way_surfaces.hpp"
@@ -10,8 +10,8 @@
 
 namespace paperproof {
 
-/// The one-way chains of one scenery, for one character. Immutable; shareable between threads; never allocates while it
-/// looks.
+/// The one-way chains of one scenery, for one character. Immutable; shareable between threads; a search never
+/// allocates.
 template <class Scalar>
 class OneWayChains {
  public:
@@ -22,9 +22,9 @@ class OneWayChains {
 
   [[nodiscard]] Candidates<Scalar> make_candidates() const { return finder_.make_candidates(); }
 
-  /// The chains with a segment that a leg of the way passes, beginning above its surface; ascending. What is missed by
-  /// less than a micrometre is named as well: so none that exact arithmetic sees is left out. Where there are more than
-  /// `passed` holds the first are kept, and it overflowed.
+  /// Finds the chains with a segment that a leg of the path passes, if this leg begins above the chain's surface;
+  /// ascending. A chain that is missed by less than a micrometre is named as well, so no chain that exact arithmetic
+  /// finds is left out. If `passed` is full, it keeps the first chains and has overflowed.
   /// @param path straight between its corners. @param movers one for each mover of the scenery.
   /// @param candidates made by these chains, or by others of the same scenery and character.
   void find_passed(std::span<const PathPoint<Scalar>> path, std::span<const MoverMotion<Scalar>> movers,
@@ -36,8 +36,8 @@ class OneWayChains {
   const Scenery<Scalar>* scenery_;
   PieceFinder<Scalar> finder_;
   OneWaySurfaces<Scalar> surfaces_;
-  FixedVector<Vec2<Scalar>, CharacterShape::max_points> outline_;  ///< Of the character,
-  FixedVector<Vec2<Scalar>, CharacterShape::max_points> grown_;    ///< and a little larger.
+  FixedVector<Vec2<Scalar>, CharacterShape::max_points> outline_;  ///< The character's outline,
+  FixedVector<Vec2<Scalar>, CharacterShape::max_points> grown_;    ///< and a slightly larger one.
 };
 
 extern template class OneWayChains<float>;

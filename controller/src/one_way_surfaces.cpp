@@ -19,7 +19,7 @@ using geometry::turn_sign_of_offset;
 
 constexpr PieceIndex no_piece = std::numeric_limits<PieceIndex>::max();
 
-/// Where the first or the last segment of a chain begins or ends a line.
+/// An end of a chain's first or last segment, at which a line begins or ends.
 struct OpenEnd {
   MoverIndex mover;
   Vec2d one_way;
@@ -30,7 +30,7 @@ struct OpenEnd {
   [[nodiscard]] auto place() const noexcept { return std::tuple(mover, one_way.x(), one_way.y(), at.x(), at.y()); }
 };
 
-/// Which segment goes on where another one ends.
+/// Which segment continues the line where another segment ends.
 template <class Scalar>
 class Joints {
  public:
@@ -50,7 +50,7 @@ class Joints {
     has_previous_[after] = true;
   }
 
-  /// The pieces of a collider stand together, those of a chain in order.
+  /// The pieces of a collider are consecutive, and those of a chain are in order.
   /// @return one past the last piece of the collider.
   PieceIndex add_collider(PieceIndex piece) {
     const PieceInfo& info = scenery_.pieces()[piece];
@@ -105,7 +105,7 @@ OneWaySurfaces<Scalar>::OneWaySurfaces(const Scenery<Scalar>& scenery, const Cha
     line.assign(1, scenery.vertices_of(first)[0].template cast<double>());
     for (PieceIndex piece = first; piece != no_piece; piece = joints.next(piece)) {
       const Vec2d end = scenery.vertices_of(piece)[1].template cast<double>();
-      // What goes on in the same line is one edge.
+      // Segments on the same line are one edge.
       if (line.size() > 1 && orientation_sign(line[line.size() - 2], line.back(), end) == 0) line.pop_back();
       line.push_back(end);
       of_piece_[piece] = static_cast<Index>(surfaces_.size());
@@ -127,7 +127,7 @@ void OneWaySurfaces<Scalar>::add_surface(std::span<const Vec2d> line, const Vec2
       const Vec2d along = line[i + 1] - line[i];
       const Vec2d normal = Vec2d{-along.y(), along.x()} / std::sqrt(along.dot(along));
       edge.normal = normal.template cast<Scalar>();
-      // Of the rounded normal, as the positions are multiplied with that one.
+      // The offset belongs to the rounded normal, because positions are multiplied with that normal.
       const Vec2d rounded = edge.normal.template cast<double>();
       double lowest = std::numeric_limits<double>::infinity();
       for (const Vec2<Scalar>& o : hull_) lowest = std::min(lowest, rounded.dot(o.template cast<double>()));
@@ -165,7 +165,7 @@ std::uint32_t OneWaySurfaces<Scalar>::find_frame(const Vec2d& one_way) {
   return static_cast<std::uint32_t>(frames_.size() - 1);
 }
 
-/// Asks about every edge that the octagon covers across `one_way`; the others are beside it.
+/// Tests every edge that the octagon covers across `one_way`; the other edges are beside the octagon.
 template <class Scalar>
 template <class Visit>
 bool OneWaySurfaces<Scalar>::all_edges_below(const Surface& surface, const Vec2<Scalar>& position,
@@ -187,9 +187,9 @@ bool OneWaySurfaces<Scalar>::all_edges_below(const Surface& surface, const Vec2<
   return true;
 }
 
-/// The largest separation of an edge from the octagon and all that lies above it [m], or the first that is certainly
-/// above zero; negative where it comes into them. An axis is of use for an end that is thought on to infinity only if
-/// it does not come nearer there.
+/// The largest separation of an edge from the octagon and all that lies above it [m], or the first separation that is
+/// certainly above zero; negative where the edge overlaps them. For an end that is extended to infinity, only an axis
+/// along which the extension does not come nearer can separate.
 template <class Scalar>
 Scalar OneWaySurfaces<Scalar>::separation(const Surface& surface, std::uint32_t index,
                                           const Vec2<Scalar>& position) const noexcept {

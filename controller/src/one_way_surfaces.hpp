@@ -1,10 +1,11 @@
 /// One-way chains as surfaces: is a character above one?
 ///
-/// Chains of equal `one_way` that go along with the same mover, or stand, are joined where exactly one ends in the
-/// vertex where exactly one other begins (as their segments run: the blocking normal on the left). They are cut where
-/// they do not go on across `one_way`. Each part is a surface: its two end segments are thought on straight to
-/// infinity. The octagon is above when its open interior is wholly on the `one_way` side of that line. Whoever is above
-/// when it sets out is blocked by every real segment of the part, and by none of them otherwise.
+/// Chains with equal `one_way` and the same mover (or none) are joined where exactly one chain ends in the vertex in
+/// which exactly one other chain begins. (A segment runs so that its blocking normal is on its left.) Chains are cut
+/// where they turn back across `one_way` or run along it. Each part is a surface: its two end segments are extended
+/// straight to infinity. The octagon is above a surface when its open interior is wholly on the `one_way` side of this
+/// line. Every real segment of the surface blocks a character that begins its move above the surface; no segment blocks
+/// any other character.
 #pragma once
 
 #include <paperproof/character.hpp>
@@ -16,7 +17,7 @@
 
 namespace paperproof {
 
-/// Immutable after construction; may be shared between threads; never allocates while it answers.
+/// Immutable after construction; may be shared between threads; a query never allocates.
 template <class Scalar>
 class OneWaySurfaces {
  public:
@@ -25,34 +26,34 @@ class OneWaySurfaces {
 
   OneWaySurfaces(const Scenery<Scalar>& scenery, const CharacterShape& shape);
 
-  /// The surface that a piece is part of; none for what blocks both ways.
+  /// The surface that a piece is part of; `none` for a piece that blocks from both sides.
   [[nodiscard]] Index of(PieceIndex piece) const noexcept { return of_piece_.empty() ? none : of_piece_[piece]; }
   /// A surface that is one straight line.
   [[nodiscard]] bool is_straight(Index surface) const noexcept { return surfaces_[surface].edge_count == 1; }
 
-  /// Whether the octagon at `position`, as the mover of the surface sees it, is above; exact for position + rest. Looks
-  /// at the edges that the octagon covers across `one_way`, after a binary search.
-  /// @param rest what the position lost when the mover's offset was taken from it: see `lost_by`.
+  /// Whether the octagon at `position` (relative to the offset of the surface's mover) is above the surface; exact for
+  /// position + rest. A binary search finds the edges that the octagon covers across `one_way`; only these are tested.
+  /// @param rest the rounding error of the subtraction of the mover's offset: see `lost_by`.
   [[nodiscard, gnu::noinline]] bool is_above(Index surface, const Vec2<Scalar>& position,
                                              const Vec2<Scalar>& rest = Vec2<Scalar>::Zero()) const noexcept;
   /// The same for a position that may be wrong by `slack` [m]: true wherever it could be above.
   [[nodiscard]] bool may_be_above(Index surface, const Vec2<Scalar>& position, Scalar slack) const noexcept;
 
  private:
-  /// A direction along which the octagon can lie clear of an edge and above or beside it.
+  /// A direction in which the octagon can be separated from an edge, above or beside it.
   struct Axis {
     Vec2<Scalar> normal;  ///< Unit, towards the octagon.
     Scalar low;           ///< Least of normal · o over the octagon [m].
   };
-  /// What depends on `one_way` and the octagon alone. Of the octagon and all that lies above it, open, these are the
-  /// edges: the octagon's own that face down, and the two sides.
+  /// Data that depends on `one_way` and the octagon alone. The octagon and the open region above it are bounded by the
+  /// octagon's edges that face down and by two sides along `one_way`.
   struct Frame {
     Vec2d one_way;
     Vec2<Scalar> across;  ///< Unit: a coordinate across `one_way`, in which every segment ascends.
     FixedVector<Axis, CharacterShape::max_points + 2> axes;
     FixedVector<std::uint8_t, CharacterShape::max_points> lower;  ///< Edges k -> k + 1 of the hull that face down.
-    Scalar first;                                                 ///< What the octagon covers across `one_way` [m],
-    Scalar last;                                                  ///< from here to there.
+    Scalar first;                                                 ///< The octagon covers, across `one_way` [m],
+    Scalar last;                                                  ///< from `first` to `last`.
   };
   struct Surface {
     std::uint32_t frame = 0;
@@ -85,8 +86,9 @@ class OneWaySurfaces {
   std::vector<Index> of_piece_;
 };
 
-/// What rounding takes from the difference `position - offset`: both together are it exactly (D. E. Knuth). Without it
-/// who touches a mover to the last bit would now be above it and now not.
+/// The rounding error of `position - offset`: the rounded difference plus this error is the exact difference (D. E.
+/// Knuth). Without the error, a character that touches a mover to the last bit would be above it in one step and not in
+/// the next.
 template <class Scalar>
 [[nodiscard]] Vec2<Scalar> lost_by(const Vec2<Scalar>& position, const Vec2<Scalar>& offset) noexcept {
   const auto lost = [](Scalar a, Scalar b) {

@@ -5,11 +5,11 @@
 namespace paperproof {
 namespace {
 
-/// Up to this many boxes are looked at one by one: any structure over so few costs more than it saves.
+/// Up to this many boxes are tested one by one: a tree over so few boxes costs more than it saves.
 constexpr std::size_t few_boxes = 8;
 
-/// How far beyond the character it looks, as a share of its size, so that rounding hides no piece. Far more than the
-/// rounding; far less than what would let it find pieces beside the way.
+/// Margin around the character, as a share of its size, so that rounding hides no piece. It is far larger than the
+/// rounding error, and too small to find pieces beside the way.
 constexpr double reach_share = 1e-5;
 
 }  // namespace

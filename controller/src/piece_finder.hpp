@@ -13,26 +13,26 @@
 namespace paperproof {
 
 /// Candidates are collected at most this far ahead of a motion, in multiples of the character's larger extent. Zero:
-/// every step asks the broad phase. Large: a fast step looks at pieces it never meets.
+/// every step asks the broad phase. Large: a fast step tests pieces that it never meets.
 inline constexpr double look_ahead_share = 2;
 
 /// The positions for which candidates are collected when a character in `box` goes by `way` in a step [m].
 /// @param most how far ahead at most [m].
 template <class Scalar>
 [[nodiscard]] Box2<Scalar> positions_ahead(const Box2<Scalar>& box, const Vec2<Scalar>& way, Scalar most) noexcept {
-  // For so many further steps like the present one. None: every step asks the broad phase. Many: every step looks at
-  // pieces it never meets.
+  // Number of further steps like the present one. None: every step asks the broad phase. Many: every step tests pieces
+  // that it never meets.
   constexpr int steps_ahead = 8;
-  // And this share of the reach to the sides: for small turns.
+  // The box also grows by this fraction of `most` on every side: for small turns.
   constexpr int sides = 32;
   const Vec2<Scalar> limit = Vec2<Scalar>::Constant(most);
   const Vec2<Scalar> ahead = (way * Scalar(steps_ahead)).cwiseMin(limit).cwiseMax(-limit);
   return box.merged({box.lower + ahead, box.upper + ahead}).inflated(most / sides);
 }
 
-/// Finds, of some pieces of a scenery that hold nobody, those that a way comes near: through one broad phase over what
-/// stands still, whose answer is kept for the next steps, and one for each mover. Immutable; shareable between threads;
-/// never allocates while it looks.
+/// Finds the pieces near a path, among given pieces of a scenery. It has one broad phase for the standing pieces, whose
+/// answer is kept for the next steps, and one for each mover. Immutable; shareable between threads; a search never
+/// allocates.
 template <class Scalar>
 class PieceFinder {
  public:
@@ -41,9 +41,9 @@ class PieceFinder {
 
   [[nodiscard]] Candidates<Scalar> make_candidates() const;
 
-  /// Calls `look(pieces, motion)` for what stands still and for each mover: `pieces` (ascending) are all of it that the
-  /// character may touch on the way, and perhaps more. What is touched throughout may be missing where the character
-  /// stays in one place.
+  /// Calls `look(pieces, motion)` for the standing pieces and for each mover. `pieces` (ascending) are all those that
+  /// the character may touch on the path, and perhaps more. If the character stays in one place, pieces that it touches
+  /// throughout may be missing.
   /// @param path straight between its corners. @param movers one for each mover of the scenery.
   /// @param candidates made by this finder, or by one of the same pieces and shape.
   template <class Look>
@@ -64,20 +64,20 @@ class PieceFinder {
       if (!near.empty()) look(near, motion);
     }
   }
-  /// Of what stands still; none where all of the way is `candidates.quiet`.
+  /// The standing pieces; none if the whole path is inside `candidates.quiet`.
   [[nodiscard]] std::span<const PieceIndex> near_standing(std::span<const PathPoint<Scalar>> path,
                                                           Candidates<Scalar>& candidates) const noexcept;
-  /// Around all corners of a path, as a mover sees them.
+  /// Box around all corners of a path, relative to a mover.
   [[nodiscard]] static Box2<Scalar> positions_seen(std::span<const PathPoint<Scalar>> path,
                                                    const MoverMotion<Scalar>& motion) noexcept;
 
  private:
-  /// What stands still, or what one mover takes along.
+  /// The standing pieces, or the pieces of one mover.
   struct Group {
     MoverIndex mover = no_mover;
     std::vector<PieceIndex> pieces;
-    std::vector<Box2<Scalar>> boxes;                  ///< Theirs at offset zero,
-    std::unique_ptr<const BroadPhase<Scalar>> phase;  ///< and what finds them.
+    std::vector<Box2<Scalar>> boxes;                  ///< Of the pieces, at offset zero,
+    std::unique_ptr<const BroadPhase<Scalar>> phase;  ///< and the broad phase over them.
 
     [[nodiscard]] std::span<const PieceIndex> query(const Box2<Scalar>& box,
                                                     std::span<PieceIndex> found) const noexcept;
@@ -90,7 +90,7 @@ class PieceFinder {
   Box2<Scalar> reach_;  ///< Around the character at the origin, and a little more [m].
   Scalar look_ahead_;   ///< [m]
   Group standing_;
-  std::vector<Group> moving_;  ///< Of movers that take such pieces along.
+  std::vector<Group> moving_;  ///< One for each mover that has such pieces.
 };
 
 extern template class PieceFinder<float>;

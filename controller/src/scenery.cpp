@@ -12,14 +12,14 @@
 namespace paperproof {
 namespace {
 
-/// A reason to refuse a collider, on its way to the place that knows which one.
+/// A reason to refuse a collider; the constructor of `Scenery` adds the index of the collider.
 class Refused : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;
 };
 
 /// Volatile, because g++ 12 takes two coordinates that are rounded side by side for one vector of them, and then drops
-/// the way to `float` and back: the doubles came out as they went in.
+/// the way to `float` and back: the doubles were not rounded.
 template <class Scalar>
 double rounded_coordinate(double value) noexcept {
   if constexpr (std::is_same_v<Scalar, double>) return geometry::without_traces(value);
@@ -27,7 +27,7 @@ double rounded_coordinate(double value) noexcept {
   return geometry::without_traces(static_cast<double>(rounded));
 }
 
-/// @param name called only to refuse: a level has hundreds of thousands of points.
+/// @param name called only if the point is refused: a level has hundreds of thousands of points.
 template <class Scalar, class Name>
 Vec2d rounded_point(const Vec2d& point, const Name& name) {
   const double range = Tolerances<double>{}.range;
@@ -65,8 +65,8 @@ void check_chain(const ColliderDef& chain) {
   if (chain.one_way && *chain.one_way == Vec2d::Zero()) throw Refused("one_way is zero: it must point somewhere");
 }
 
-/// Of a convex piece. Few: a round shape becomes many pieces. Many: a character near it tests edges that are far away,
-/// and a technique may have room for a few dozen only.
+/// Most vertices of a convex piece. Few: a round shape becomes many pieces. Many: a character near it tests edges that
+/// are far away, and a technique may have room for only a few dozen vertices.
 constexpr std::size_t max_piece_vertices = 32;
 
 struct Segment {
@@ -74,7 +74,8 @@ struct Segment {
   Vec2d to;
 };
 
-/// The segment with its blocking normal on the left, which is where `one_way` then points; nothing if it points along.
+/// The segment, directed so that `one_way` points to its left, the side of its blocking normal; nothing if `one_way`
+/// points along the segment.
 std::optional<Segment> blocking_segment(const Segment& segment, const Vec2d& one_way) {
   const int side = geometry::orientation_sign_of_offset(segment.from, segment.to, segment.from, one_way);
   if (side == 0) return std::nullopt;
@@ -90,13 +91,13 @@ bool is_upright_rectangle(std::span<const Vec2d> ring) {
          (upright(0, 1) && level(1, 2) && upright(2, 3) && level(3, 0));
 }
 
-/// Counted counter-clockwise from the lower left one.
+/// Index of a corner of the box, counter-clockwise from the lower left one.
 std::uint8_t corner_of(const Box2<double>& box, const Vec2d& corner) {
   const bool right = corner.x() == box.upper.x();
   return corner.y() == box.lower.y() ? (right ? 1 : 0) : (right ? 2 : 3);
 }
 
-/// Where the pieces of all colliders are collected.
+/// The collected pieces of all colliders.
 template <class Scalar>
 struct Pieces {
   std::vector<PieceInfo>& infos;
@@ -119,7 +120,7 @@ struct Pieces {
     infos.push_back(info);
   }
 
-  /// In a fan of parts that all have the first vertex, where there are more vertices than a piece may have.
+  /// A ring with more vertices than a piece may have becomes a fan of parts that share the first vertex.
   void add_convex(ColliderIndex collider, const ColliderDef& def, std::span<const Vec2d> ring) {
     if (ring.size() <= max_piece_vertices) return add(collider, def, ring);
     std::vector<Vec2d> part;
@@ -153,7 +154,7 @@ struct Pieces {
     }
   }
 
-  /// Most of a level.
+  /// Rectangles are most of a level.
   void add_rectangle(ColliderIndex collider, const ColliderDef& def) {
     std::array<Vec2d, 4> outline{def.points[0], def.points[1], def.points[2], def.points[3]};
     if (geometry::winding(outline) < 0) std::reverse(outline.begin(), outline.end());
@@ -180,7 +181,7 @@ std::vector<Vec2<To>> cast_points(const Points& points) {
 
 void check_role(const ColliderDef& def, std::size_t colliders) {
   if (def.mover != no_mover && def.mover >= colliders)
-    throw Refused("its mover has the number " + std::to_string(def.mover) + ", and there are only " +
+    throw Refused("the number of its mover is  " + std::to_string(def.mover) + ", and there are only " +
                   std::to_string(colliders) + " colliders");
   if (!std::isfinite(def.surface_speed)) throw Refused("surface_speed is not a finite number");
   if (def.sensor && def.one_way) throw Refused("a sensor cannot be one-way");
@@ -215,7 +216,7 @@ Scenery<Scalar>::Scenery(const SceneryDef& def) {
     }
     return static_cast<PieceIndex>(pieces_.size());
   };
-  // What stands, what moves, mover by mover, and what only watches; colliders of one kind as they came.
+  // Order: standing colliders, moving colliders by mover, sensors; colliders of one kind keep their order.
   std::vector<ColliderIndex> others;
   for (ColliderIndex i = 0; i < colliders_.size(); ++i) {
     const ColliderDef& given = def.colliders[i];
@@ -233,7 +234,7 @@ Scenery<Scalar>::Scenery(const SceneryDef& def) {
   for (const ColliderIndex i : others) {
     const PieceIndex count = add(i);
     const ColliderDef& given = def.colliders[i];
-    // A mover that only sensors go along with has no pieces of its own.
+    // A mover that moves only sensors has no solid pieces.
     if (given.mover != no_mover && given.mover + std::size_t{2} > mover_begin_.size())
       mover_begin_.resize(given.mover + std::size_t{2}, mover_begin_.back());
     if (!given.sensor) mover_begin_.back() = count;
@@ -258,7 +259,7 @@ void Scenery<Scalar>::add(ColliderIndex collider, const ColliderDef& def) {
   colliders_[collider].shape = shape_of(collider, def);
 }
 
-/// How the points of a collider are kept whose pieces are there.
+/// Decides how the points of a collider are stored, once its pieces exist.
 template <class Scalar>
 std::uint32_t Scenery<Scalar>::shape_of(ColliderIndex collider, const ColliderDef& def) {
   const auto same = [](const Vec2<Scalar>& vertex, const Vec2d& point) {

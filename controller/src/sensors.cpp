@@ -18,14 +18,14 @@ using geometry::OverlapTime;
 template <class Scalar>
 inline constexpr Scalar one_instant = std::is_same_v<Scalar, float> ? Scalar(1e-5) : Scalar(1e-12);
 
-/// How deep an overlap is that no rounding can hide, this far from the origin [m]. Zero: a character that grazes would
-/// count as inside. Large: more than needed is calculated for each.
+/// Depth of an overlap that no rounding can hide, at the distance `furthest` from the origin [m]. Zero: a character
+/// that grazes a sensor would count as inside. Large: more overlaps than necessary are calculated.
 template <class Scalar>
 Scalar beyond_rounding(Scalar furthest) {
   return Tolerances<Scalar>{}.look + 64 * std::numeric_limits<Scalar>::epsilon() * furthest;
 }
 
-/// Sorted in, whichever sensor was looked at first. A full vector keeps the earliest.
+/// Inserts in order of time, in whichever order the sensors are tested. A full vector keeps the earliest events.
 template <class Scalar, std::size_t capacity>
 void add_in_order(const SensorEvent<Scalar>& event, FixedVector<SensorEvent<Scalar>, capacity>& events) noexcept {
   const auto comes_before = [&event](const SensorEvent<Scalar>& other) {
@@ -39,15 +39,15 @@ void add_in_order(const SensorEvent<Scalar>& event, FixedVector<SensorEvent<Scal
     std::swap(events[i], events[i - 1]);
 }
 
-/// The stays of a character in the pieces of one sensor during one segment, joined where they overlap. They are worked
-/// out anew each time, so that any number of pieces needs no memory.
+/// The stays of a character in the pieces of one sensor during one segment, joined where they overlap. Each call
+/// calculates the stays anew, so that any number of pieces needs no memory.
 /// @tparam StayIn called with a piece: the character's stay in it.
 template <class Scalar, class StayIn>
 class Stays {
  public:
   Stays(std::span<const PieceIndex> pieces, const StayIn& stay_in) noexcept : pieces_(pieces), stay_in_(stay_in) {}
 
-  /// The first that begins later than `time`; empty where there is none.
+  /// The first stay that begins later than `time`; empty if there is none.
   [[nodiscard]] OverlapTime<Scalar> after(Scalar time) const noexcept {
     OverlapTime<Scalar> first{.begin = OverlapTime<Scalar>::after, .end = OverlapTime<Scalar>::before};
     for (const PieceIndex piece : pieces_) {
@@ -60,7 +60,7 @@ class Stays {
   }
 
  private:
-  /// By what goes on where it ends. @return whether anything did.
+  /// Extends a stay by the stays that continue it. @return whether there were any.
   [[nodiscard]] bool extend(OverlapTime<Scalar>& stay) const noexcept {
     const Scalar end = stay.end;
     for (const PieceIndex piece : pieces_) {
@@ -94,7 +94,7 @@ Sensors<Scalar>::Sensors(const Scenery<Scalar>& scenery, const CharacterShape& s
     const PieceVertices<Scalar> vertices = scenery.vertices_of(piece);
     const Box2<Scalar>& box = scenery.box(piece);
     const Scalar furthest = std::max(box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff());
-    // A little larger, so that rounding here cannot hide what the separations see.
+    // A little larger, so that rounding here cannot hide an overlap that the separations show.
     const Box2<Scalar> any = Box2<Scalar>{box.lower - upper, box.upper - lower}.inflated(Tolerances<Scalar>{}.look);
     overlaps_.push_back({any, geometry::deep_overlap<Scalar>(outline, vertices, beyond_rounding(furthest)),
                          geometry::separating_axes<Scalar>(outline, vertices)});
@@ -125,7 +125,7 @@ void Sensors<Scalar>::observe(std::span<const PathPoint<Scalar>> path, std::span
                        });
 }
 
-/// Pieces of one sensor stand side by side.
+/// The pieces of one sensor are consecutive.
 template <class Scalar>
 Box2<Scalar> Sensors<Scalar>::observe(std::span<const PieceIndex> near, std::span<const PathPoint<Scalar>> path,
                                       const MoverMotion<Scalar>& motion, Box2<Scalar> quiet,
@@ -142,7 +142,7 @@ Box2<Scalar> Sensors<Scalar>::observe(std::span<const PieceIndex> near, std::spa
     all_quiet = false;
     for (std::size_t corner = 1; corner < path.size(); ++corner) {
       const Segment segment = seen_by(motion, path[corner - 1], path[corner]);
-      // Who stays in one place, as the sensor sees it, enters and leaves nothing.
+      // A character that does not move relative to the sensor neither enters nor leaves it.
       if (segment.from != segment.to) observe(sensor, near.subspan(first, i + 1 - first), segment, events);
     }
   }
@@ -173,7 +173,7 @@ void Sensors<Scalar>::observe(ColliderIndex sensor, std::span<const PieceIndex> 
                               Events& events) const noexcept {
   using Change = typename SensorEvent<Scalar>::Change;
   using Time = OverlapTime<Scalar>;
-  // Nearly all who are in a sensor are well inside.
+  // Nearly all characters in a sensor are well inside.
   for (const PieceIndex piece : pieces)
     if (overlap_with(piece).well_inside.contains(segment.positions)) return;
   const auto stay_in = [&](PieceIndex piece) -> Time {

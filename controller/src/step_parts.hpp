@@ -1,4 +1,4 @@
-/// What every step begins and ends with, of one character or of several.
+/// The beginning and the end of every step, for one character or several.
 #pragma once
 
 #include <paperproof/controller.hpp>
@@ -12,8 +12,8 @@
 
 namespace paperproof::step_parts {
 
-/// Every number that is given, together: x - x is zero for a finite number and NaN for any other, so that one branch
-/// tells what would take one per number (a twentieth of a step).
+/// Tests all given numbers together: x - x is zero for a finite number and NaN for any other. So one branch replaces a
+/// branch for each number (a twentieth of a step).
 template <class Scalar>
 class FiniteCheck {
  public:
@@ -34,7 +34,8 @@ template <class Scalar>
   return std::abs(at.x()) <= range && std::abs(at.y()) <= range;
 }
 
-/// Whether movers go within the range of positions, and at speeds that are numbers: what they carry gets them.
+/// Whether movers stay within the range of positions and have finite speeds, which they hand on to the characters that
+/// they carry.
 template <class Scalar>
 [[nodiscard]] bool finite(std::span<const MoverMotion<Scalar>> movers, Scalar dt) noexcept {
   return std::all_of(movers.begin(), movers.end(), [dt](const MoverMotion<Scalar>& mover) {
@@ -43,7 +44,7 @@ template <class Scalar>
   });
 }
 
-/// Whether every number is one that a step can begin with.
+/// Whether a step can begin with these numbers.
 /// @param dt greater than zero.
 template <class Scalar>
 [[nodiscard]] bool finite(const CharacterState<Scalar>& state, const Input& input, const Vec2<Scalar>& gravity,
@@ -103,7 +104,7 @@ template <class Scalar>
                      [side](const Contact<Scalar>& contact) { return contact.side == side; });
 }
 
-/// Whether something is on it after a move; where nothing is, that is where it was free last.
+/// Notes whether a solid still overlaps the character after a move. If none does, the position is its last free one.
 template <class Scalar>
 void note_freedom(const MoveResult<Scalar>& move, CharacterState<Scalar>& state) noexcept {
   state.crushed = move.status == MoveStatus::crushed || (state.crushed && move.status == MoveStatus::stuck);
@@ -112,7 +113,7 @@ void note_freedom(const MoveResult<Scalar>& move, CharacterState<Scalar>& state)
   state.has_last_free = true;
 }
 
-/// What the move means for the next step.
+/// Writes the result of the move into the state for the next step.
 template <class Scalar>
 void adopt(const CharacterDef& character, const MoveResult<Scalar>& move, CharacterState<Scalar>& state) noexcept {
   state.position = move.position;

@@ -293,7 +293,8 @@ TEST(Scenery, the_definition_as_run_is_the_one_that_was_given_whatever_is_kept_o
   def.colliders.push_back({.shape = chain, .points = {{0, 0}, {1, 0}}});
   def.colliders.push_back({.shape = chain, .points = {{1, 0}, {0, 0}}, .one_way = Vec2d(0, 1)});
   def.colliders.push_back({.shape = chain, .points = {{1, 0}, {1, 5}}, .one_way = Vec2d(0, 1)});  // no piece at all
-  def.colliders.push_back({.shape = chain, .points = {{0, 0}, {1, 0}, {2, 1}}, .one_way = Vec2d(0, 1), .mover = 0});
+  def.colliders.push_back(
+      {.shape = chain, .points = {{0, 0}, {1, 0}, {2, 1}}, .one_way = Vec2d(0, 1), .mover = 0, .carries = false});
   const Scenery<double> scenery(def);
   const SceneryDef as_run = scenery.as_run();
   ASSERT_EQ(as_run.colliders.size(), def.colliders.size());
@@ -307,6 +308,7 @@ TEST(Scenery, the_definition_as_run_is_the_one_that_was_given_whatever_is_kept_o
     EXPECT_EQ(back.mover, given.mover) << i;
     EXPECT_EQ(back.sensor, given.sensor) << i;
     EXPECT_EQ(back.surface_speed, given.surface_speed) << i;
+    EXPECT_EQ(back.carries, given.carries) << i;
     const PieceRange pieces = scenery.pieces_of(i);
     for (PieceIndex piece = 0; piece < scenery.pieces().size(); ++piece)
       EXPECT_EQ(scenery.pieces()[piece].collider == i, pieces.first <= piece && piece < pieces.end) << i;

@@ -148,5 +148,25 @@ TEST(StaleIndices, of_what_does_not_move_here_are_forgotten) {
   }
 }
 
+TEST(StaleIndices, a_ride_into_a_level_where_nothing_moves_keeps_its_speed) {
+  for (const bool has_mover : {false, true}) {
+    SceneryDef def{.colliders = {rectangle(-40, -1, 40, 0)}};
+    if (has_mover) def.colliders.push_back(of_mover(rectangle(100, 0, 101, 1), 0));
+    const Scenery<double> scenery(def);
+    const Controller<double> controller(scenery, CharacterDef{});
+    Scratch<double> scratch = controller.make_scratch();
+    StepReport<double> report;
+    CharacterState<double> state;
+    state.position = {0, 5};
+    state.velocity = state.ride.velocity = {3, 0};
+    state.ride.ground = 7;
+    const std::vector<MoverMotion<double>> movers(scenery.mover_count());
+    ASSERT_EQ(controller.step(state, Input{}, {0, -10}, 0.1, movers, scratch, report), StepStatus::moved);
+    EXPECT_EQ(state.velocity, Vec2d(3, -1)) << has_mover;
+    EXPECT_NEAR(state.position.x(), 0.3, 1e-12) << has_mover;
+    EXPECT_EQ(state.ride.ground, Ride<double>::none);
+  }
+}
+
 }  // namespace
 }  // namespace paperproof

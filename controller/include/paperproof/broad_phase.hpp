@@ -11,16 +11,16 @@ namespace paperproof {
 
 /// The pieces whose bounding boxes meet a query box.
 ///
-/// Every implementation returns the same pieces in the same order (ascending index): they differ in cost only.
-/// Immutable after construction; may be shared between threads.
+/// Every implementation returns the same pieces in the same order (ascending index): implementations differ in cost
+/// only. Immutable after construction; may be shared between threads.
 template <class Scalar>
 class BroadPhase {
  public:
   virtual ~BroadPhase() = default;
 
   /// Writes the indices of all boxes that meet `query` (closed: touching counts) to `found`, ascending.
-  /// @return how many there are. Where that is more than `found` holds, the first `found.size()` written are
-  ///   unspecified: call again with more room.
+  /// @return the number of these boxes. If it exceeds `found.size()`, the contents of `found` are unspecified: call
+  ///   again with more room.
   [[nodiscard]] virtual std::size_t query(const Box2<Scalar>& query, std::span<PieceIndex> found) const noexcept = 0;
   [[nodiscard]] virtual std::size_t size() const noexcept = 0;
 };
@@ -30,8 +30,9 @@ enum class BroadPhaseKind : std::uint8_t { all_pairs, buckets, tree };
 /// Builds a broad phase over `boxes` (finite), which must outlive it and stay as they are.
 ///
 /// - `all_pairs` looks at every box: the slow, honest twin.
-/// - `buckets` is a grid of uniform squares, kept in a hash table: constant where boxes are alike and queries small.
-/// - `tree` is a packed tree of boxes, sixteen to a node: logarithmic in the number of boxes.
+/// - `buckets` is a grid of uniform squares, kept in a hash table: constant cost where boxes are alike and queries are
+///   small.
+/// - `tree` is a packed tree of boxes, sixteen to a node: the cost is logarithmic in the number of boxes.
 template <class Scalar>
 [[nodiscard]] std::unique_ptr<BroadPhase<Scalar>> make_broad_phase(BroadPhaseKind kind,
                                                                    std::span<const Box2<Scalar>> boxes);

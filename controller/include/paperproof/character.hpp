@@ -49,7 +49,7 @@ class CharacterShape {
   Box2<double> box_;
 };
 
-/// How a character wants to move. Defaults are those of a scene that does not say.
+/// How a character wants to move. The defaults are the values for a scene that gives none.
 struct CharacterDef {
   CharacterShape shape = CharacterShape::article();
   double walk_speed = 6;                   ///< [m/s]
@@ -57,10 +57,11 @@ struct CharacterDef {
   std::optional<double> air_acceleration;  ///< The same in the air [m/s²]; `acceleration` where absent.
   double jump_speed = 12;                  ///< Upward speed that a jump sets [m/s].
   std::optional<double> max_fall_speed;    ///< [m/s]; no limit where absent.
-  double max_climb_degrees = 50;           ///< Steepest ground that is walked on, from the horizontal; in [0, 89].
-  double snap = 0;                         ///< How far down the ground is followed when walking [m]; 0: not at all.
-  /// The article's rule: no jump while standing beside a wall, toward it. A wall is beside the character where a move
-  /// by `wall_reach` would meet it, or where the last step did. In a `Crowd` only the last step counts.
+  double max_climb_degrees = 50;           ///< Steepest walkable ground, from the horizontal; in [0, 89].
+  double snap = 0;                         ///< How far down a walker follows the ground [m]; 0: not at all.
+  /// The article's rule: a character that stands beside a wall cannot jump toward this wall. A wall is beside the
+  /// character if a move by `wall_reach` would meet the wall, or if the last step met it. In a `Crowd` only the last
+  /// step counts.
   bool no_jump_toward_wall = false;
   double wall_reach = 1.0 / 32;     ///< For that rule: a pixel of the article [m].
   bool side_hit_ends_rise = false;  ///< The article's rule: hitting the side of something while rising ends the rise.
@@ -68,31 +69,32 @@ struct CharacterDef {
   /// @throws InvalidCharacter naming the value that is not finite or out of range.
   void validate() const;
 
-  /// Least upward component of the unit normal of ground that is walked on. The climb limit includes itself: by
-  /// `Tolerances::climb`, so that no rounding of a normal decides.
+  /// Least upward component of the unit normal of walkable ground. Ground of exactly the climb limit is walkable: the
+  /// limit is widened by `Tolerances::climb`, so that the rounding of a normal decides nothing.
   template <class Scalar>
   [[nodiscard]] Scalar walkable_cosine() const noexcept;
 };
 
-/// What the player wants during one step.
+/// The player's wishes for one step.
 struct Input {
   /// Horizontal direction in [-1, 1]: the speed approaches `move * walk_speed`. Absent: nothing steers, and the
   /// horizontal speed stays as it is.
   std::optional<double> move;
   /// The jump button is down. One press gives at most one jump; a press that cannot jump yet stays pending while held.
   bool jump = false;
-  /// One-way chains hold nobody while this is given: what stands on one drops through it. A character that has come
-  /// partly below a chain goes on without it; one step is enough to leave a chain that it touches.
+  /// One-way chains do not block while this is true: a character that stands on a chain drops through it. One step with
+  /// `drop` is enough to leave a chain that the character touches: from partly below a chain the character goes on
+  /// without `drop`.
   bool drop = false;
 };
 
-/// What a character stands on that carries it: a mover, a conveyor.
+/// The ground that carries a character: a mover or a conveyor.
 template <class Scalar>
 struct Ride {
   static constexpr ColliderIndex none = ~ColliderIndex{0};
   ColliderIndex ground = none;
   /// Where the character stands relative to the mover's offset [m]. It changes only when the character moves relative
-  /// to what carries it, so errors do not add up however long the ride is.
+  /// to the ground that carries it, so errors do not add up, however long the ride is.
   Vec2<Scalar> place{Vec2<Scalar>::Zero()};
   Vec2<Scalar> velocity{Vec2<Scalar>::Zero()};  ///< Of the ground in the last step, conveyor included [m/s].
 
@@ -105,16 +107,16 @@ struct Crusher {
   ColliderIndex collider = 0;
   /// Where the character was when it was last free of the collider [m].
   Vec2<Scalar> last_free{Vec2<Scalar>::Zero()};
-  /// How far the collider has moved since [m]. Seen from the collider, the character came from
+  /// How far the collider has moved since then [m]. Seen from the collider, the character came from
   /// `last_free + displacement`.
   Vec2<Scalar> displacement{Vec2<Scalar>::Zero()};
-  bool has_side = true;  ///< False: the side the character came from is not known, as the list was full.
+  bool has_side = true;  ///< False: the list was full, so the side from which the character came is unknown.
 
   friend bool operator==(const Crusher&, const Crusher&) = default;
 };
-/// A state remembers at most eight. If more overlap the character, it does not move until the others have left, even
-/// where there is room, because the side it came from is unknown. Other movers that run into it meanwhile crush it,
-/// too.
+/// A state remembers at most eight crushers. If more overlap the character, it does not move until the others have
+/// left, even where there is room, because the side from which it came is unknown. Other movers that run into the
+/// character meanwhile crush it as well.
 template <class Scalar>
 using Crushers = FixedVector<Crusher<Scalar>, 8>;
 
@@ -124,7 +126,7 @@ struct CharacterState {
   Vec2<Scalar> position{Vec2<Scalar>::Zero()};   ///< [m]
   Vec2<Scalar> velocity{Vec2<Scalar>::Zero()};   ///< [m/s]
   Vec2<Scalar> last_free{Vec2<Scalar>::Zero()};  ///< Last position that overlapped nothing; valid with `has_last_free`.
-  /// What the technique hands to its own next step. `octagon_sweep` needs none: zero.
+  /// Value that the technique hands to its own next step. `octagon_sweep` needs none: zero.
   Vec2<Scalar> technique_memory{Vec2<Scalar>::Zero()};
   bool has_last_free = false;
   bool grounded = false;
@@ -133,11 +135,11 @@ struct CharacterState {
   bool jump_pending = false;  ///< A press that has not become a jump yet.
   bool wall_left = false;     ///< The last step ended against something on the left.
   bool wall_right = false;
-  /// Movers left no room, and one of them is still on the character. It stays where it is: whatever else runs into it
-  /// finds it room on the side from which it came, or crushes it, too.
+  /// Movers left no room, and one of them still overlaps the character. The character stays in place. Another mover
+  /// that runs into it leaves it room on the side from which the character came, or crushes it as well.
   bool crushed = false;
   Crushers<Scalar> crushers{};   ///< While `crushed`.
-  std::uint8_t stuck_steps = 0;  ///< How many steps in a row ended inside something.
+  std::uint8_t stuck_steps = 0;  ///< Number of consecutive steps that ended inside a solid.
   Ride<Scalar> ride;             ///< None on ground that does not move.
 
   friend bool operator==(const CharacterState&, const CharacterState&) = default;

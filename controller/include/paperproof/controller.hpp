@@ -8,7 +8,7 @@
 
 namespace paperproof {
 
-/// What a character wants in one step, before anything is in the way.
+/// The velocity that a character wants in one step, before any obstacle changes it.
 template <class Scalar>
 struct DesiredVelocity {
   Vec2<Scalar> velocity{Vec2<Scalar>::Zero()};  ///< [m/s]
@@ -17,10 +17,10 @@ struct DesiredVelocity {
   Scalar steered = 0;
 };
 
-/// The velocity that a character wants in this step, before anything is in the way, and the jump bookkeeping.
-/// Common to every contender, the Box2D twin included:
-/// horizontal speed approaches `move * walk_speed`; a jump that is allowed sets the upward speed once; then gravity,
-/// with the fall speed limited (semi-implicit Euler: the displacement of the step is this velocity times dt).
+/// Computes the velocity that a character wants in this step, before any obstacle changes it, and updates the jump
+/// flags. Common to every contender, the Box2D twin included: horizontal speed approaches `move * walk_speed`; a jump
+/// that is allowed sets the upward speed once; then gravity, with the fall speed limited (semi-implicit Euler: the
+/// displacement of the step is this velocity times dt).
 /// @param state its flags `jump_held`, `jump_pending`, `jumping`, `grounded` are updated; position and velocity are
 /// not.
 template <class Scalar>
@@ -35,12 +35,12 @@ enum class StepStatus : std::uint8_t {
   crushed,       ///< See MoveStatus.
   out_of_range,  ///< Refused: the step would leave +-2e6 m. Position and velocity are unchanged.
   refused,       ///< Refused by the technique: see `MoveResult::refusal`. Position and velocity are unchanged.
-  /// Refused: NaN, infinity, dt <= 0, a mover beyond +-2e6 m or too fast for a number, movers that are not one for each
-  /// of the scenery, scratch memory that another controller made. Nothing changed at all.
+  /// Refused: NaN, infinity, dt <= 0, a mover beyond +-2e6 m or with a speed that is not finite, a number of movers
+  /// that differs from the scenery's, scratch memory that another controller made. Nothing changed at all.
   invalid_input,
 };
 
-/// What became of a call that steps many characters.
+/// Outcome of a call that steps many characters.
 enum class BatchStatus : std::uint8_t {
   stepped,  ///< Each character was stepped, or refused in a report of its own.
   /// Refused: the spans do not have one entry for each character, there is no scratch memory, or another controller
@@ -48,17 +48,18 @@ enum class BatchStatus : std::uint8_t {
   invalid_input,
 };
 
-/// What one step did. `move` is valid unless the status is `invalid_input`.
+/// The report of one step. `move` is valid unless the status is `invalid_input`.
 template <class Scalar>
 struct StepReport {
   StepStatus status = StepStatus::moved;
-  Vec2<Scalar> requested{Vec2<Scalar>::Zero()};  ///< Displacement that was wanted [m].
+  Vec2<Scalar> requested{Vec2<Scalar>::Zero()};  ///< Wanted displacement [m].
   Scalar steered = 0;                            ///< The part of `requested.x()` that this step's steering added [m].
   MoveResult<Scalar> move;
-  /// In order of time: see `SensorEvent`. Where more happened than fits the latest are missing, and it `overflowed`.
+  /// In order of time: see `SensorEvent`. If there are more events than it holds, the latest are missing, and it
+  /// `overflowed()`.
   FixedVector<SensorEvent<Scalar>, 32> sensors;
-  /// One-way chains that the character passed against their normal, or by less than a micrometre did not, in a step
-  /// whose input asked to drop. Each once, in the order of their indices.
+  /// One-way chains that the character passed against their normal, or missed by less than a micrometre, in a step
+  /// whose input asked to drop. Each chain is listed once, in the order of the indices.
   FixedVector<ColliderIndex, 32> dropped_through;
 };
 
@@ -74,11 +75,11 @@ template <class Scalar>
 class Controller {
  public:
   /// Moves by `octagon_sweep`. `scenery` must outlive the controller.
-  /// @throws InvalidCharacter, std::invalid_argument as `make_octagon_sweep`, and where `sweep.stages` leaves out
-  /// sensors that there are.
+  /// @throws InvalidCharacter, std::invalid_argument as `make_octagon_sweep`, and if `sweep.stages` leaves out sensors
+  /// although the scenery has some.
   Controller(const Scenery<Scalar>& scenery, const CharacterDef& character, const SweepDef& sweep = {});
   /// Moves by another technique, made for the same scenery and character.
-  /// @param stages of the controller: those of the technique have no effect.
+  /// @param stages of the controller: members that belong to the technique have no effect here.
   Controller(const Scenery<Scalar>& scenery, const CharacterDef& character,
              std::unique_ptr<const Technique<Scalar>> technique, const Stages& stages = {});
 
@@ -95,15 +96,16 @@ class Controller {
                   std::span<const MoverMotion<Scalar>> movers, Scratch<Scalar>& scratch,
                   StepReport<Scalar>& report) const noexcept;
 
-  /// One step of many characters that do not see each other. Each is stepped as by `step`, with the same bits for any
-  /// number of scratches; what `step` would refuse is refused in that character's report, and the others go on.
+  /// One step of many characters that do not block each other. Each character moves as by `step`, with the same bits
+  /// for any number of scratches. If `step` would refuse a character, its report says so, and the other characters are
+  /// stepped.
   ///
   /// One thread for each scratch, the calling one included: with a single scratch no thread is made. A thread takes
-  /// some ten microseconds to start, as long as a hundred characters. Where the system has no thread to give, the
-  /// others do its share. Allocates nothing but what `std::thread` needs, and never throws.
+  /// some ten microseconds to start, as long as the steps of a hundred characters. If the system cannot start a thread,
+  /// the other threads do its share. Allocates nothing but what `std::thread` needs, and never throws.
   ///
-  /// Of a report that exceeds its inline storage, or what was reserved for it, the rest is left out, and the vector has
-  /// `overflowed()`: the scratch where a single step keeps it is used again at once.
+  /// A report keeps only what fits into its inline storage or its reserved memory; the rest is left out, and the vector
+  /// has `overflowed()`. A single step keeps this rest in its scratch, but here the scratch is used again at once.
   /// @param inputs one for each state, as `reports`. @param movers as of `step`, the same for all.
   /// @param scratches at least one, each made by this controller.
   BatchStatus step_all(std::span<CharacterState<Scalar>> states, std::span<const Input> inputs,
@@ -117,26 +119,26 @@ class Controller {
  private:
   [[nodiscard]] bool accepts(const CharacterState<Scalar>& state, const Input& input, const Vec2<Scalar>& gravity,
                              Scalar dt, std::span<const MoverMotion<Scalar>> movers) const noexcept;
-  /// There is a wall within a unit of the character, on the side that `move` (not zero) points to.
+  /// Whether a wall is within `wall_reach` of the character, on the side that `move` (not zero) points to.
   /// @param tried is overwritten.
   [[nodiscard]] bool has_wall_ahead(const CharacterState<Scalar>& state, double move, Scalar dt,
                                     std::span<const MoverMotion<Scalar>> movers, Scratch<Scalar>& scratch,
                                     MoveResult<Scalar>& tried) const noexcept;
-  /// What an accepted step begins with: the intent.
+  /// Begins an accepted step: turns the intent into a request.
   /// @param crushers of the state as it was; must outlive the request.
   [[nodiscard]] MoveRequest<Scalar> begin_step(const Crushers<Scalar>& crushers, const Input& input,
                                                const Vec2<Scalar>& gravity, Scalar dt,
                                                std::span<const MoverMotion<Scalar>> movers, bool wall_ahead,
                                                CharacterState<Scalar>& state,
                                                StepReport<Scalar>& report) const noexcept;
-  /// What it ends with, once `report.move` is made.
+  /// Ends the step, after the move has filled `report.move`.
   void end_step(const Input& input, std::span<const MoverMotion<Scalar>> movers, Scratch<Scalar>& scratch,
                 CharacterState<Scalar>& state, StepReport<Scalar>& report) const noexcept;
-  /// What a technique made, with room for the rest of a step, and marked.
+  /// A technique's scratch, with room for the rest of a step added, and marked with its maker.
   [[nodiscard]] Scratch<Scalar> completed(Scratch<Scalar> scratch) const;
 
-  /// A crowd may move all its characters at once, between the beginnings of their steps and the ends; with all stages.
-  /// @param before must outlive the request. @return false where it is not accepted.
+  /// A crowd begins the steps of all its characters, moves them all at once, and then ends their steps.
+  /// @param before must outlive the request. @return false if the input is not accepted.
   friend class Crowd<Scalar>;
   bool begin_together(const CharacterState<Scalar>& before, const Input& input, const Vec2<Scalar>& gravity, Scalar dt,
                       std::span<const MoverMotion<Scalar>> movers, CharacterState<Scalar>& state,
@@ -148,7 +150,7 @@ class Controller {
   bool may_jump_;  ///< Jumps were not left out,
   bool may_fall_;  ///< nor was gravity.
   CharacterDef character_;
-  std::shared_ptr<const Technique<Scalar>> technique_;   ///< Shared with nobody: scratch memory refers to it.
+  std::shared_ptr<const Technique<Scalar>> technique_;   ///< Has no other owner: scratch memory refers to it.
   std::shared_ptr<const Sensors<Scalar>> sensors_;       ///< Null where the scenery has none.
   std::shared_ptr<const OneWayChains<Scalar>> one_way_;  ///< Null where the scenery has none.
 };

@@ -22,15 +22,16 @@ struct CrowdContact {
   Side side = Side::bottom;                   ///< Of this character.
 };
 
-/// What one step did to one character. Contacts with scenery are in `step.move`, those with characters here.
+/// The report of one step for one character. Contacts with scenery are in `step.move`, those with characters here.
 template <class Scalar>
 struct CrowdMember {
   StepReport<Scalar> step;
   FixedVector<CrowdContact<Scalar>, 16> met;            ///< One per other character and side, in order of time.
-  FixedVector<CharacterIndex, 16> started_overlapping;  ///< The characters that it overlapped when the step began.
-  /// No path could be shown to be safe: it is where the step began, with velocity zero.
+  FixedVector<CharacterIndex, 16> started_overlapping;  ///< The characters that it overlapped at the beginning.
+  /// No path could be shown to be safe: the character is where its step began, with velocity zero.
   bool stayed = false;
-  /// `discrete`: the lowest index in its time-of-impact island at the beginning of the step. Otherwise its own index.
+  /// `discrete`: the lowest index in the character's time-of-impact island at the beginning of the step. Otherwise the
+  /// character's own index.
   CharacterIndex island = 0;
 
   /// Adds a contact with another, unless there is one on the same side.
@@ -73,39 +74,42 @@ struct CrowdScratch {
 ///
 /// **By `octagon_sweep`.** All characters move at once, and impacts are handled in the order of their times (Mirtich
 /// 1996, "Impulse-based Dynamic Simulation of Rigid Body Systems", without the impulses):
-/// 1. Each character gets the path that `Controller` would give it. One that has no impact with another keeps it, bit
-///    for bit.
-/// 2. The earliest impact of any pair is handled, again and again. Where one of the two moves into the other, faster
-///    than that one recedes, it gets a new path from there on, on which the other is an obstacle like a mover that
-///    carries nothing. Where both do, both lose the speed with which they approach, and the upper one gets the new path
-///    (of two at one height the left one). Of impacts at the same time the one with the lowest first index comes first,
-///    then the lowest second index.
-/// 3. A character that others held in the air, or that is crushed, is planned once more past the final paths of all.
+/// 1. Each character gets the path that `Controller` would give it. A character that has no impact with another keeps
+///    this path, bit for bit.
+/// 2. The earliest impact of any pair is handled, again and again. If one of the two moves into the other, faster than
+///    the other recedes, the first gets a new path from the impact on. For this path the other is an obstacle, like a
+///    mover that carries nothing. If both move into each other, both lose their approach speed, and the upper one gets
+///    the new path (at equal height, the left one). Of impacts at the same time the one with the lowest first index
+///    comes first, then the lowest second index.
+/// 3. A character that others held in the air, or that is crushed, gets one more new path, past the final paths of all
+///    others.
 ///
-/// Characters that walk or fall do not push each other. One that lands on a walkable part of another stands on it, and
-/// is not carried along. Movers carry, push and crush each one as by `Controller`; the velocities of two that the same
-/// mover carries are compared relative to it. A character that is pushed into another, and has no room beside it,
-/// pushes the other on. If that one has no room either, the mover crushes the character that it pushes.
+/// Characters that walk or fall do not push each other. A character that lands on a walkable part of another stands on
+/// it, and is not carried along. Movers carry, push and crush each character as by `Controller`. If one mover carries
+/// both characters of a pair, their velocities are compared relative to this mover. A character that a mover pushes
+/// into another, and that has no room beside it, pushes the other on. If the other has no room either, the mover
+/// crushes the character that it pushes.
 ///
 /// The guarantee, beside that of `octagon_sweep` for each character: two that do not overlap at the beginning of a step
 /// do not overlap at its end, and do not pass through each other. A character without a path that is shown to be safe
-/// stays where it is (`dropped`); movers that run into it then are reported to crush it. Two that overlap are reported;
-/// they leave each other, and restore their gap, as they leave a solid. Two promises hold only for a character that had
-/// no contact with another in the step: it had no room if it is reported crushed; and it does not hang.
+/// stays where it is (`dropped`); a mover that then runs into it is reported as crushing it. An overlap of two
+/// characters is reported; they leave each other, and restore their gap, as a character leaves a solid. Two promises
+/// hold only for a character that had no contact with another in the step: if it is reported crushed, it had no room;
+/// and it does not hang.
 ///
 /// Cost: n²/2 box tests for n characters, then n for each new path; meant for up to a few hundred. One character avoids
-/// at most 12 others in a step. The crowd keeps a copy of the scenery, with 12 colliders for these.
+/// at most 12 others in a step. The crowd keeps a copy of the scenery, with 12 more colliders for these characters.
 ///
-/// **By `discrete`**, which guarantees nothing: all characters are bodies of one joint solve, of the same mass. Only
-/// the beginning and the expected end of the step are looked at. Characters whose boxes around both overlap form
-/// islands. In each island, those that are expected to end overlapping are pushed apart in order of time of impact,
-/// each by half of the overlap, and both go on with the mean of their velocities along the normal. This is repeated
-/// `iterations` times, with all pieces nearby. So characters push each other, also into and through solids; a fast one
-/// passes another; and stacks sink into themselves. One that is alone moves as by `Controller`, bit for bit. A
-/// character that lands on another stands on it, and is not carried along. A character that a mover would push through
-/// a standing solid stays where it was, crushed, and is in the way. Where more than 256 bodies on average are near each
-/// character, those beyond that are ignored, and every character is `dropped`. Cost: sorting boxes, a little more than
-/// n.
+/// **By `discrete`**, which guarantees nothing: one joint solve moves all characters, as bodies of the same mass. It
+/// tests only the beginning and the expected end of the step. Each character has a box around these two positions;
+/// characters with overlapping boxes form an island. In each island, characters that are expected to overlap at the end
+/// are pushed apart in order of time of impact, each by half of the overlap, and both go on with the mean of their
+/// velocities along the normal. This is repeated `iterations` times, with all pieces nearby. So characters push each
+/// other, also into and through solids; a fast one passes another; and stacks sink into themselves. A character that is
+/// alone moves as by `Controller`, bit for bit. A character that lands on another stands on it, and is not carried
+/// along. A character that a mover would push through a standing solid stays where it was, crushed, and blocks the
+/// others. If on average more than 256 bodies are near each character, the bodies beyond this number are ignored, and
+/// every character is `dropped`. Cost: sorting boxes, a little more than n.
 template <class Scalar>
 class Crowd {
  public:
@@ -123,8 +127,8 @@ class Crowd {
   /// One step of `dt` seconds under `gravity` [m/s²] for all characters. Never allocates, never throws.
   /// @param states read and written; nothing else carries over.
   /// @param inputs one per state.
-  /// @param scratch,report made for at least as many characters, the scratch by this crowd. Otherwise, or where one
-  ///   state, input or step is refused (see `StepStatus`), no state changes.
+  /// @param scratch,report made for at least as many characters, the scratch by this crowd. Otherwise, or if one state,
+  ///   input or step is refused (see `StepStatus`), no state changes.
   StepStatus step(std::span<CharacterState<Scalar>> states, std::span<const Input> inputs, const Vec2<Scalar>& gravity,
                   Scalar dt, CrowdScratch& scratch, CrowdReport<Scalar>& report) const noexcept {
     return step(states, inputs, gravity, dt, {}, scratch, report);

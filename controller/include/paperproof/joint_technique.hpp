@@ -11,14 +11,14 @@ namespace paperproof {
 template <class Scalar>
 class JointTechnique : public Technique<Scalar> {
  public:
-  /// Memory for so many characters. For one it is that of `make_scratch`.
+  /// Memory for up to `most_characters`. For one character it is the memory of `make_scratch`.
   [[nodiscard]] virtual Scratch<Scalar> make_joint_scratch(std::size_t most_characters) const = 0;
 
   /// Never allocates and never throws.
   /// @param requests one for each character, all with the same movers; at most as many as the scratch was made for.
   /// @param report has at least as many members, cleared. The technique sets `step.move`, `met` (see
   ///   `CrowdReport::add_contact`), `started_overlapping` and `island` of each, and the `impacts` of the report.
-  /// @return false where a step would leave the range the technique is made for: nothing was moved.
+  /// @return false if a step would leave the range that the technique is made for: then nothing moved.
   virtual bool move_together(std::span<const MoveRequest<Scalar>> requests, Scratch<Scalar>& scratch,
                              CrowdReport<Scalar>& report) const noexcept = 0;
 };

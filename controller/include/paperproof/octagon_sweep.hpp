@@ -10,7 +10,7 @@
 
 namespace paperproof {
 
-/// What may be chosen. `make_plan` chooses broad phase and stages for a scenery.
+/// Choices for `octagon_sweep`. `make_plan` chooses the broad phase and the stages for a scenery.
 struct SweepDef {
   BroadPhaseKind broad_phase = BroadPhaseKind::tree;
   Stages stages{};

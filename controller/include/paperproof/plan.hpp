@@ -1,4 +1,4 @@
-/// Which stages of a step exist: what a scenery cannot need is left out before the first step.
+/// The stages of a step, and which of them a scenery cannot need.
 #pragma once
 
 #include <paperproof/broad_phase.hpp>
@@ -12,10 +12,9 @@
 
 namespace paperproof {
 
-/// Stages that a step is made of; `false` leaves one out. `octagon_sweep` is built without `movers`, `one_way`
-/// and `slopes`, the controller without `sensors`, `jump` and `gravity`: the choice is made once, then, and the
-/// step does not ask again. Where an omission is safe the step gives the same bits without it; where the scenery makes
-/// it unsafe, building refuses it (std::invalid_argument). Keeping everything is always safe.
+/// What a scenery and its input may need; `false` says that they never do. Building `octagon_sweep` or the controller
+/// refuses scenery that needs a stage which was left out (std::invalid_argument), and a step refuses such input. A step
+/// gives the same bits without a stage that is not needed. It is always safe to keep every stage.
 struct Stages {
   bool movers = true;   ///< Moving scenery and conveyors. Safe to leave out where nothing moves.
   bool one_way = true;  ///< Chains that block from one side. Safe to leave out where there are none.
@@ -37,16 +36,16 @@ inline constexpr std::array all_stages{Stage::movers, Stage::one_way, Stage::sen
 [[nodiscard]] std::string_view name_of(Stage stage) noexcept;
 [[nodiscard]] std::string_view name_of(BroadPhaseKind kind) noexcept;
 
-/// A stage that is left out, and what makes that safe: that the scenery, the character or the input cannot need it. How
-/// fast the character is and how thick the scenery plays no part.
+/// A stage that is left out, and the reason why that is safe: the scenery, the character or the input cannot need the
+/// stage. The speed of the character and the thickness of the scenery play no part.
 struct Omission {
   Stage stage = Stage::movers;
   std::string reason;
 };
 
-/// What is known of the steps before the first one. Where nothing is known the stage is kept.
+/// Facts about all steps, known before the first one. A stage is kept if nothing is known about it.
 struct Foreseen {
-  bool gravity = true;   ///< False: gravity is zero in every step. Minus zero counts as some: it leaves another bit.
+  bool gravity = true;   ///< False: gravity is zero in every step. Minus zero counts as gravity: it gives other bits.
   bool jump = true;      ///< False: the jump button is never pressed.
   bool company = false;  ///< True: several characters are stepped as a `Crowd`.
 };
@@ -59,11 +58,11 @@ struct Plan {
   std::vector<Omission> omitted{};  ///< One for each stage that is false in `stages`, in the order of `Stages`.
 };
 
-/// Reads what a scenery can need. Precision is never the plan's choice: a planned controller
-/// (`TechniqueDef::broad_phase` and `::stages` from here) gives the same bits as one with everything.
+/// Finds the stages that a scenery can need. A plan never changes the precision: a planned controller
+/// (`SweepDef::broad_phase` and `::stages` from here) gives the same bits as a controller with every stage.
 ///
-/// Of the scenery the convex pieces count, diagonals of concave polygons included, and conveyors; a slope is what is
-/// parallel to neither axis.
+/// The plan looks at the convex pieces (diagonals of concave polygons included) and at the conveyors. A slope is an
+/// edge that is parallel to neither axis.
 template <class Scalar>
 [[nodiscard]] Plan make_plan(const Scenery<Scalar>& scenery, const Foreseen& foreseen = {});
 

@@ -1,4 +1,4 @@
-/// What a step reports: mostly a handful, but nothing bounds it save the scenery.
+/// Vectors for the report of a step: mostly a handful of elements, but only the scenery bounds their number.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,8 @@
 
 namespace paperproof {
 
-/// Memory for a `ReportVector` to go on in. It is set aside, and not touched before it is needed.
+/// Memory in which a `ReportVector` continues when its inline storage is full. It is reserved, and not touched before
+/// it is needed.
 template <class T>
 class ReportMemory {
  public:
@@ -26,10 +27,11 @@ class ReportMemory {
   std::size_t capacity_ = 0;
 };
 
-/// A vector with inline storage for what mostly comes, that goes on in memory set aside for all that can come: so a
-/// step never allocates, and nothing is left out. Elements past `size()` are not initialised.
+/// A vector with inline storage for the usual number of elements. It continues in memory that is reserved for the
+/// largest possible number, so a step never allocates, and no element is left out. Elements past `size()` are not
+/// initialised.
 ///
-/// What each step does is inlined, and what hardly any does is kept out of it: 2 % of a step at rest.
+/// Operations of every step are inlined; rare operations are kept out of line. This saves 2 % of a step at rest.
 template <class T, std::size_t Inline>
 class SpillVector {
  public:
@@ -38,7 +40,7 @@ class SpillVector {
   SpillVector(const SpillVector&) = delete;
   SpillVector& operator=(const SpillVector&) = delete;
 
-  /// False, and remembered, where it is full.
+  /// Returns false if the vector is full, and remembers the refusal.
   [[gnu::always_inline]] bool push_back(const T& value) noexcept {
     if (size_ == capacity_) [[unlikely]] {
       state_ |= overflow;
@@ -47,7 +49,7 @@ class SpillVector {
     std::construct_at(items_ + size_++, value);
     return true;
   }
-  /// Where it is full, it first moves to `more`.
+  /// If the vector is full, it first moves to `more`.
   [[gnu::always_inline]] bool push_back(const T& value, const ReportMemory<T>& more) noexcept {
     if (size_ == capacity_) [[unlikely]]
       go_on_in(more);
@@ -65,7 +67,7 @@ class SpillVector {
 
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
   [[nodiscard]] bool empty() const noexcept { return size_ == 0; }
-  /// Something was refused: it is not complete.
+  /// An element was refused: the vector is not complete.
   [[nodiscard]] bool overflowed() const noexcept { return (state_ & overflow) != 0; }
   [[nodiscard]] std::size_t capacity() const noexcept { return capacity_; }
   [[nodiscard]] T& operator[](std::size_t i) noexcept { return items_[i]; }
@@ -81,14 +83,14 @@ class SpillVector {
   static_assert(std::is_trivially_destructible_v<T>);
   enum State : std::uint8_t { overflow = 1, borrows = 2, owns = 4 };
 
-  /// @param memory its elements are in that memory from here on, as far as there are any.
+  /// @param memory holds the elements (if any) from here on.
   void move_to(T* memory, std::size_t capacity, State kind) noexcept {
     std::uninitialized_copy(begin(), end(), memory);
     items_ = memory;
     capacity_ = capacity;
     state_ |= kind;
   }
-  /// Leaves borrowed memory. What is in it is forgotten.
+  /// Leaves borrowed memory. Its elements are forgotten.
   [[gnu::cold, gnu::noinline]] void go_home() noexcept {
     items_ = inline_.data();
     capacity_ = Inline;
@@ -109,8 +111,8 @@ class SpillVector {
   };
 };
 
-/// What a step wrote beyond the inline storage is in the scratch of the step: read it before that scratch is used
-/// again. A copy keeps its elements itself, for which it may allocate.
+/// Elements beyond the inline storage are in the scratch of the step: read them before that scratch is used again. A
+/// copy keeps all its elements itself, and may allocate for them.
 template <class T, std::size_t Inline>
 class ReportVector : public SpillVector<T, Inline> {
   using Base = SpillVector<T, Inline>;
@@ -132,15 +134,15 @@ class ReportVector : public SpillVector<T, Inline> {
       go_home();
     this->size_ = 0;
   }
-  /// Memory of its own for so many: what is copied to it, or added, allocates nothing up to there.
+  /// Reserves own memory for `capacity` elements: up to this number, copies and additions allocate nothing.
   void reserve(std::size_t capacity) {
     if (capacity <= this->capacity_) return;
     ReportMemory<T> own(capacity);
     this->move_to(own.data(), capacity, Base::owns);
     own_ = std::move(own);
   }
-  /// Leaves memory that others will use, with as many elements as its own has room for; `overflowed` if that is not
-  /// all of them.
+  /// Leaves borrowed memory, because others will use it. Keeps as many elements as its own memory holds; `overflowed()`
+  /// if these are not all.
   void keep_own() noexcept {
     if ((this->state_ & Base::borrows) == 0) return;
     const T* const borrowed = this->items_;

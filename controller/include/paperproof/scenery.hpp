@@ -1,4 +1,4 @@
-/// What the character can bump into: polygons and chains, cut once into convex pieces.
+/// The scenery around a character: polygons and chains, cut once into convex pieces.
 #pragma once
 
 #include <paperproof/types.hpp>
@@ -22,25 +22,26 @@ struct ColliderDef {
   Shape shape = Shape::polygon;
   std::vector<Vec2d> points;                ///< Outer ring (not closed: the first vertex is not repeated) or polyline.
   std::vector<std::vector<Vec2d>> holes{};  ///< Polygons only; each strictly inside the outer ring.
-  /// Chains only: blocks who begins a move above it, which is the side this points to. A segment that runs along it
-  /// blocks nothing. Abutting chains of one `one_way` and mover are one surface, thought on straight beyond its ends.
+  /// Chains only: the chain blocks a character that begins a move above it, which is the side that this vector points
+  /// to. A segment that runs along this vector blocks nothing. Abutting chains with the same `one_way` and mover are
+  /// one surface, extended straight beyond its ends.
   std::optional<Vec2d> one_way{};
-  /// The mover it goes along with; `points` are then where it is while the mover's offset is zero.
+  /// The mover that moves this collider; `points` then hold while the mover's offset is zero.
   MoverIndex mover = no_mover;
   /// Blocks nothing: the controller reports when the character enters and leaves it. Not for one-way chains.
   bool sensor = false;
-  /// A conveyor: what stands on it is carried along the surface, to the right for a positive speed [m/s].
+  /// A conveyor: it carries a character that stands on it along the surface, to the right for a positive speed [m/s].
   double surface_speed = 0;
-  /// Whether a mover takes along what stands on it. Otherwise it pushes only, as another character does.
+  /// Whether a mover carries a character that stands on it. Otherwise the mover only pushes, as another character does.
   bool carries = true;
 };
 
-/// Everything that can be met, standing or moving.
+/// All colliders, standing or moving.
 struct SceneryDef {
   std::vector<ColliderDef> colliders;
 };
 
-/// A collider that cannot be used; `what()` says why in words a level designer understands.
+/// A collider that cannot be used; `what()` gives the reason in words that a level designer understands.
 class InvalidScenery : public std::invalid_argument {
  public:
   InvalidScenery(ColliderIndex collider, const std::string& reason)
@@ -52,7 +53,7 @@ class InvalidScenery : public std::invalid_argument {
   ColliderIndex collider_;
 };
 
-/// What a collider is, apart from its shape.
+/// The properties of a collider, apart from its points.
 struct ColliderInfo {
   ColliderDef::Shape shape = ColliderDef::Shape::polygon;
   bool sensor = false;
@@ -71,18 +72,18 @@ struct PieceInfo {
 
   ColliderIndex collider = 0;
   MoverIndex mover = no_mover;     ///< Of its collider.
-  std::uint32_t first_vertex = 0;  ///< Of what is no rectangle: where its vertices are stored.
+  std::uint32_t first_vertex = 0;  ///< Not for rectangles: where the vertices are stored.
   std::uint8_t vertex_count = 0;
-  /// The first vertex of an upright rectangle, counted counter-clockwise from the lower left one: its box is all that
-  /// is stored of it.
+  /// The first vertex of an upright rectangle, counted counter-clockwise from the lower left one: only its box is
+  /// stored.
   std::uint8_t rectangle_corner = no_rectangle;
   bool one_way = false;
 
   [[nodiscard]] bool is_rectangle() const noexcept { return rectangle_corner != no_rectangle; }
 };
 
-/// The vertices of a piece, as a range. They stand in the scenery, which must outlive this; those of a rectangle stand
-/// here, so that a span of them must not outlive this.
+/// The vertices of a piece, as a range. They are stored in the scenery, which must outlive this range. The vertices of
+/// a rectangle are stored in the range itself, so a span of them must not outlive the range.
 template <class Scalar>
 class PieceVertices {
  public:
@@ -103,7 +104,7 @@ class PieceVertices {
   [[nodiscard]] const Vec2<Scalar>& operator[](std::size_t i) const noexcept { return data()[i]; }
 
  private:
-  const Vec2<Scalar>* stored_;  ///< Null: they stand in `corners_`.
+  const Vec2<Scalar>* stored_;  ///< Null: they are in `corners_`.
   std::size_t size_;
   std::array<Vec2<Scalar>, 4> corners_;
 };
@@ -141,10 +142,10 @@ class Scenery {
   [[nodiscard]] PieceRange sensor_pieces() const noexcept {
     return {mover_begin_.back(), static_cast<PieceIndex>(pieces_.size())};
   }
-  /// One more than the highest mover that a collider goes along with.
+  /// One more than the highest index of a mover that moves a collider.
   [[nodiscard]] std::size_t mover_count() const noexcept { return mover_begin_.size() - 1; }
 
-  /// Smallest box around a piece, at offset zero where it moves [m].
+  /// Smallest box around a piece; for a piece of a mover, at offset zero [m].
   [[nodiscard]] const Box2<Scalar>& box(PieceIndex piece) const noexcept { return boxes_[piece]; }
   [[nodiscard]] std::span<const Box2<Scalar>> boxes() const noexcept { return boxes_; }
   [[nodiscard]] std::span<const Box2<Scalar>> static_boxes() const noexcept { return boxes().first(static_count_); }
@@ -153,13 +154,13 @@ class Scenery {
   [[nodiscard]] const ColliderInfo& collider(ColliderIndex collider) const noexcept {
     return infos_[colliders_[collider].info];
   }
-  /// What there is of colliders: each is like one of these.
+  /// The kinds of colliders: each collider is of one of these kinds.
   [[nodiscard]] std::span<const ColliderInfo> collider_kinds() const noexcept { return infos_; }
-  /// Those of a collider stand together. A one-way chain may have none.
+  /// The pieces of a collider are consecutive. A one-way chain may have none.
   [[nodiscard]] PieceRange pieces_of(ColliderIndex collider) const noexcept;
 
-  /// The definition as it runs: every coordinate rounded to `Scalar`. An exact judge reads this one. It is put together
-  /// from what is kept, for each caller anew.
+  /// The definition as it runs: every coordinate rounded to `Scalar`. An exact judge reads this definition. Each call
+  /// builds it anew from the stored data.
   [[nodiscard]] SceneryDef as_run() const;
   [[nodiscard]] ColliderDef as_run(ColliderIndex collider) const;
 
@@ -169,7 +170,7 @@ class Scenery {
     std::vector<Vec2<Scalar>> points;
     std::vector<std::vector<Vec2<Scalar>>> holes;
   };
-  /// What gives a collider's definition back.
+  /// The data from which a collider's definition is rebuilt.
   struct Collider {
     static constexpr std::uint32_t piece = ~std::uint32_t{0};    ///< Its points are the vertices of its only piece,
     static constexpr std::uint32_t piece_backwards = piece - 1;  ///< or those from the last to the first.
@@ -185,7 +186,7 @@ class Scenery {
   std::vector<Collider> colliders_;
   std::vector<Shape> shapes_;
   std::vector<PieceInfo> pieces_;
-  std::vector<Vec2<Scalar>> vertices_;  ///< Of all pieces that are no rectangles.
+  std::vector<Vec2<Scalar>> vertices_;  ///< Of all pieces that are not rectangles.
   std::vector<Box2<Scalar>> boxes_;
   PieceIndex static_count_ = 0;
   std::vector<PieceIndex> mover_begin_;  ///< First piece of each mover, and one past the last of the last.

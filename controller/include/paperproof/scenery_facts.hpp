@@ -1,4 +1,4 @@
-/// What a scenery has at all, which decides before the first step what has to be looked at.
+/// Facts about a scenery. They decide before the first step which stages it needs.
 #pragma once
 
 #include <paperproof/scenery.hpp>
@@ -9,8 +9,8 @@
 
 namespace paperproof {
 
-/// What blocks and stands still, in order: a level that is drawn once, as squares or as a picture, is made of these.
-/// Sensors block nothing, whatever their shape.
+/// The colliders that block and stand still, in order. A level that is drawn once, as squares or as a picture, consists
+/// of these. Sensors block nothing, whatever their shape.
 [[nodiscard]] inline std::vector<ColliderIndex> standing_solids(const SceneryDef& scenery) {
   std::vector<ColliderIndex> solids;
   for (ColliderIndex i = 0; i < scenery.colliders.size(); ++i)
@@ -18,13 +18,13 @@ namespace paperproof {
   return solids;
 }
 
-/// Something that blocks moves; a sensor that does is in nobody's way.
+/// Some collider that blocks moves. A moving sensor does not count: it blocks nothing.
 template <class Scalar>
 [[nodiscard]] bool has_moving_solids(const Scenery<Scalar>& scenery) noexcept {
   return scenery.sensor_pieces().first > scenery.static_pieces().end;
 }
 
-/// A surface moves what stands on it.
+/// Some surface is a conveyor.
 template <class Scalar>
 [[nodiscard]] bool has_conveyors(const Scenery<Scalar>& scenery) noexcept {
   const std::span<const ColliderInfo> kinds = scenery.collider_kinds();
@@ -32,7 +32,7 @@ template <class Scalar>
                      [](const ColliderInfo& c) { return !c.sensor && c.surface_speed != 0; });
 }
 
-/// How many colliders go along with movers, sensors among them.
+/// Number of colliders that movers move, sensors included.
 template <class Scalar>
 [[nodiscard]] std::size_t count_moving_colliders(const Scenery<Scalar>& scenery) noexcept {
   std::size_t count = 0;
@@ -41,7 +41,7 @@ template <class Scalar>
   return count;
 }
 
-/// A segment blocks from one side.
+/// Some segment blocks from one side only.
 template <class Scalar>
 [[nodiscard]] bool has_one_way_chains(const Scenery<Scalar>& scenery) noexcept {
   const std::span<const PieceInfo> pieces = scenery.pieces();

@@ -1,4 +1,4 @@
-/// The one interface of all techniques: a move that is wanted goes in, the move that is possible comes out.
+/// The one interface of all techniques: the wanted move goes in, the possible move comes out.
 #pragma once
 
 #include <paperproof/character.hpp>
@@ -11,7 +11,7 @@
 
 namespace paperproof {
 
-/// Something was in the way of the requested motion.
+/// A collider was in the way of the requested motion.
 template <class Scalar>
 struct Contact {
   ColliderIndex collider = 0;
@@ -32,7 +32,7 @@ struct SensorEvent {
   Scalar fraction = 0;  ///< Of the step, in [0, 1].
 };
 
-/// A corner of the way that was travelled.
+/// A corner of the path.
 template <class Scalar>
 struct PathPoint {
   Vec2<Scalar> position{Vec2<Scalar>::Zero()};  ///< [m]
@@ -42,7 +42,7 @@ struct PathPoint {
 template <class Scalar>
 struct MoveRequest {
   Vec2<Scalar> position{Vec2<Scalar>::Zero()};      ///< Where the step begins [m].
-  Vec2<Scalar> displacement{Vec2<Scalar>::Zero()};  ///< Where it should go [m].
+  Vec2<Scalar> displacement{Vec2<Scalar>::Zero()};  ///< The wanted displacement [m].
   Vec2<Scalar> velocity{Vec2<Scalar>::Zero()};      ///< The velocity behind the displacement [m/s].
   Scalar steered = 0;                            ///< The part of `velocity.x()` that this step's steering added [m/s].
   Vec2<Scalar> last_free{Vec2<Scalar>::Zero()};  ///< See `CharacterState::last_free`.
@@ -50,28 +50,29 @@ struct MoveRequest {
   bool has_last_free = false;
   bool grounded = false;  ///< The last step ended on the ground, and this one does not begin with a jump.
   bool crushed = false;   ///< See `CharacterState::crushed`.
-  bool drop = false;      ///< One-way chains hold nobody: see `Input::drop`.
+  bool drop = false;      ///< One-way chains do not block: see `Input::drop`.
   std::span<const Crusher<Scalar>> crushers{};  ///< See `CharacterState::crushers`.
   /// One for each mover of the scenery.
   std::span<const MoverMotion<Scalar>> movers{};
   Scalar dt = 0;  ///< [s]
-  /// What carries the character, if anything: `displacement` and `velocity` are then relative to it, and the technique
-  /// adds its motion.
+  /// The ground that carries the character, if any: `displacement` and `velocity` are then relative to this ground, and
+  /// the technique adds the ground's motion.
   Ride<Scalar> ride{};
 };
 
 enum class MoveStatus : std::uint8_t {
-  moved,         ///< The result holds. It may be shorter than requested: see `contacts`.
-  dropped,       ///< The result holds, but displacement was left when the iterations ran out and was dropped.
-  stuck,         ///< The step began inside something and still ends inside it.
-  crushed,       ///< The result holds, but movers left no free position: see `crushed`.
-  out_of_range,  ///< Refused: the step would leave the range the technique is made for. Nothing moved.
+  moved,    ///< The result holds. It may be shorter than requested: see `contacts`.
+  dropped,  ///< The result holds, but displacement was left and was dropped: the iterations ran out, or no exact proof
+            ///< was found.
+  stuck,    ///< The step began inside a solid and still ends inside it.
+  crushed,  ///< The result holds, but movers left no free position: see `crushed`.
+  out_of_range,  ///< Refused: the step would leave the range of the technique. Nothing moved.
   refused,       ///< Refused for a reason of the technique's own: see `refusal`. Nothing moved.
 };
 
-/// What is reported of one move. `octagon_sweep` reports all there is, in memory of its scratch that the scenery sizes
-/// where there is more than mostly comes (see `ReportVector`); of other techniques, and in a `Crowd`, what exceeds
-/// the inline storage is left out, and the vector has `overflowed()`. Only of `crushed` a crowd leaves out nothing.
+/// The report of one move. `octagon_sweep` reports everything: elements beyond the inline storage go to memory of its
+/// scratch, which is sized by the scenery (see `ReportVector`). Other techniques, and a `Crowd`, leave out the elements
+/// beyond the inline storage, and the vector has `overflowed()`. A crowd's `crushed` alone is always complete.
 template <class Scalar>
 struct MoveResult {
   static constexpr std::size_t max_corners = 64;
@@ -83,16 +84,16 @@ struct MoveResult {
   Vec2<Scalar> velocity{Vec2<Scalar>::Zero()};
   Vec2<Scalar> technique_memory{Vec2<Scalar>::Zero()};  ///< See `CharacterState::technique_memory`.
   bool grounded = false;
-  std::string_view refusal{};  ///< Why, in words that live as long as the program. Valid where the status is `refused`.
-  /// From the start (fraction 0) to the end (fraction 1); linear between. A technique that only looks at where it
-  /// arrives has just these two. Impacts bound the number of corners: `sweep_iterations` of its own, and any number
-  /// among movers, where `octagon_sweep` has room for 4 corners more per moving piece; a step that needs still more is
-  /// `dropped`.
+  std::string_view refusal{};  ///< The reason, in static memory. Valid where the status is `refused`.
+  /// From the start (fraction 0) to the end (fraction 1); linear between. A technique that tests only the end of the
+  /// move has just these two corners. Impacts bound the number of corners. The character's own motion has at most
+  /// `SweepDef::iterations` impacts. Movers may add any number: `octagon_sweep` has room for 4 more corners per moving
+  /// piece, and a step that needs more is `dropped`.
   ReportVector<PathPoint<Scalar>, max_corners> path;
   /// Bounded by the facets of all pieces that block.
   ReportVector<Contact<Scalar>, max_contacts> contacts;
   Ride<Scalar> ride;  ///< For the next step. `velocity` above is in the world, the ride included.
-  /// Colliders of movers that ran into the character where it had no room to give way; each once.
+  /// Colliders of movers that ran into the character when it had no room to give way; each once.
   ReportVector<ColliderIndex, max_crushed> crushed;
   Crushers<Scalar> crushers;  ///< See `CharacterState::crushers`.
 
@@ -113,8 +114,8 @@ struct OwnMemory {
   virtual ~OwnMemory() = default;
 };
 
-/// Memory for the answer of a query that may find every piece of a level. It is not touched before, so that a large
-/// level takes up no memory for answers that are small.
+/// Memory for the answer of a query that may find every piece of a level. It is not touched before it is needed, so
+/// small answers take little memory, even in a large level.
 class PieceBuffer {
  public:
   PieceBuffer() = default;
@@ -131,14 +132,14 @@ class PieceBuffer {
   std::size_t size_ = 0;
 };
 
-/// Pieces near a character: what a broad phase answered, which holds for the next steps, too.
+/// Pieces near a character: the answer of a broad phase, which holds for the next steps as well.
 template <class Scalar>
 struct Candidates {
-  PieceBuffer pieces;  ///< Has room for all that there can be.
+  PieceBuffer pieces;  ///< Has room for the largest possible answer.
   std::size_t count = 0;
-  Box2<Scalar> box;  ///< Positions of the character for which they are complete, where `valid`.
+  Box2<Scalar> box;  ///< Positions of the character for which the pieces are complete, if `valid`.
   bool valid = false;
-  /// Positions among which nothing happens between the character and any of them, as far as is known.
+  /// Positions known to be quiet: while the character moves among them, nothing happens between it and any piece.
   Box2<Scalar> quiet{Vec2<Scalar>::Constant(1), Vec2<Scalar>::Constant(-1)};
 };
 
@@ -146,12 +147,12 @@ struct Candidates {
 /// from one step to the next that could change a result.
 template <class Scalar>
 struct Scratch {
-  Candidates<Scalar> solids;       ///< Of the technique, as the next one.
+  Candidates<Scalar> solids;       ///< Belongs to the technique, as the next member does.
   std::unique_ptr<OwnMemory> own;  ///< Null for most techniques.
-  Candidates<Scalar> sensors;      ///< Of the controller, as all that follows.
+  Candidates<Scalar> sensors;      ///< Belongs to the controller, as all that follows.
   Candidates<Scalar> one_way;
-  /// Whose memory it is: a controller refuses what another made. It expires with the controller, and is not mistaken
-  /// for one that is built in the same place later.
+  /// The maker of this memory: a controller refuses memory that another controller made. The mark expires with its
+  /// controller, so it never matches a later controller at the same address.
   std::weak_ptr<const void> maker;
 };
 
@@ -160,13 +161,13 @@ template <class Scalar>
 class Technique {
  public:
   virtual ~Technique() = default;
-  /// The name the command takes.
+  /// The technique's name on the command line.
   [[nodiscard]] virtual std::string_view name() const noexcept = 0;
   [[nodiscard]] virtual Scratch<Scalar> make_scratch() const = 0;
-  /// What its own picture of the level takes [bytes]; 0 for a technique that keeps none and reads the scenery.
+  /// Size of the technique's own copy of the level [bytes]; 0 for a technique that reads the scenery.
   [[nodiscard]] virtual std::size_t memory_bytes() const noexcept { return 0; }
   /// Never allocates and never throws.
-  /// @param scratch made by this technique: that is not looked at here.
+  /// @param scratch made by this technique, which is not checked here.
   virtual void move(const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,
                     MoveResult<Scalar>& result) const noexcept = 0;
 };

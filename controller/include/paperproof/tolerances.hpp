@@ -3,39 +3,39 @@
 
 namespace paperproof {
 
-/// In metres where nothing else is said. Each says what goes wrong at both extremes. The four lengths and their order
-/// were found against an exact oracle: one threshold alone makes a walker snag on abutting tiles, two do not.
+/// In metres, unless stated otherwise. Each comment gives the effect of both extremes. The four lengths and their order
+/// were found against an exact oracle: with one threshold alone a walker snags on abutting tiles, with two it does not.
 template <class Scalar>
 struct Tolerances;
 
 template <>
 struct Tolerances<double> {
-  /// A motion hits where it would come nearer than this. Zero: rounding (about 4e-9 at 1e6 m) lets it overlap.
-  /// Large: narrow openings count as closed; they do below twice this.
+  /// A motion hits where it would come nearer than this. Zero: rounding (about 4e-9 at 1e6 m) lets the character
+  /// overlap a solid. Large: narrow openings count as closed. (An opening counts as closed if its clearance is less
+  /// than twice this.)
   double hit = 1e-7;
-  /// Gap at which a motion is stopped. Below `hit` it would hit again while sliding. Large: visible hover.
+  /// Gap at which a motion is stopped. Below `hit`: the motion hits again while it slides. Large: visible hover.
   double stop = 5e-7;
-  /// Up to this gap a stopped character still touches. Equal to `stop`: rounding makes it creep for ever. Large: it
-  /// touches from afar.
+  /// Up to this gap a stopped character still touches. Equal to `stop`: rounding makes the character creep for ever.
+  /// Large: the character touches from afar.
   double touch = 7e-7;
   /// How far beyond the displacement the sweep looks. Zero: a slow approach stops short of `hit` in several steps.
   /// Large: more candidates.
   double look = 1e-3;
-  /// A gap below this is within reach of rounding: motion then needs an exact certificate. Zero: overlaps by rounding.
-  /// Large: slow. 4e-9 is the error at 1e6 m.
+  /// Rounding could hide an overlap in a gap below this: the motion then needs an exact certificate. Zero: overlaps by
+  /// rounding. Large: slow. 4e-9 is the error at 1e6 m.
   double certain = 1e-8;
-  /// A sliding character this much below `stop` is aimed back to it. Zero: it never slides straight. Beyond
+  /// A sliding character this much below `stop` is aimed back to it. Zero: the character never slides straight. Beyond
   /// `stop - hit`: the gap drifts away far from the origin.
   double restore = 2e-7;
   /// Positions and steps beyond this are refused: rounding would reach `hit`.
   double range = 2e6;
-  /// Not a length: ground that is this much steeper than the climb limit is still walked on [rad]. Zero: whether a
-  /// slope of exactly the limit is climbed depends on how its normal was rounded. Large: the limit is not what was
-  /// asked for.
+  /// Not a length: ground that is this much steeper than the climb limit is still walkable [rad]. Zero: the rounding of
+  /// its normal decides whether a slope of exactly the limit is climbed. Large: the limit is not the requested one.
   double climb = 1e-8;
 };
 
-/// `float` keeps 24 bits: at 100 m a position is known to 4e-6 m. Nothing is guaranteed; the harness counts.
+/// `float` keeps 24 bits: at 100 m a position is known to 4e-6 m. Nothing is guaranteed; the harness counts violations.
 template <>
 struct Tolerances<float> {
   float hit = 1e-4F;

@@ -1,4 +1,4 @@
-/// Vectors, boxes, identifiers and the other small values that every part shares.
+/// Vectors, boxes, identifiers and other small values that all parts share.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,18 +23,18 @@ using ColliderIndex = std::uint32_t;
 /// Position of a convex piece in `Scenery::pieces()`. A collider has one or more pieces.
 using PieceIndex = std::uint32_t;
 
-/// Which of the movers a collider goes along with: they are counted from 0, and several colliders may share one.
+/// Index of a mover, counted from 0. Several colliders may share one mover.
 using MoverIndex = std::uint32_t;
 inline constexpr MoverIndex no_mover = ~MoverIndex{0};
 
-/// How a mover goes during one step: linearly, from one offset to another, each relative to where its colliders were
-/// defined [m].
+/// The motion of a mover during one step: linear, from one offset to another. Offsets are relative to the place where
+/// the mover's colliders were defined [m].
 template <class Scalar>
 struct MoverMotion {
   Vec2<Scalar> from{Vec2<Scalar>::Zero()};  ///< When the step begins: `to` of the step before, bit for bit.
   Vec2<Scalar> to{Vec2<Scalar>::Zero()};    ///< When it ends.
 
-  /// At a fraction of the step; at its end without rounding, as the next one begins there.
+  /// The offset at a fraction of the step. It is not rounded at the end, because the next step begins there.
   [[nodiscard]] Vec2<Scalar> at(Scalar fraction) const noexcept {
     if (!(fraction < 1)) return to;
     return from + (to - from) * fraction;
@@ -76,12 +76,12 @@ struct Box2 {
   }
 };
 
-/// A vector with inline storage: what a step reports is stored without allocating. Elements past `size()` are not
-/// initialised. `push_back` on a full vector is refused and remembered: see `overflowed()`.
+/// A vector with inline storage, so that a step stores its report without allocating. Elements past `size()` are not
+/// initialised. A full vector refuses `push_back` and remembers the refusal: see `overflowed()`.
 template <class T, std::size_t Capacity>
 class FixedVector {
  public:
-  // The union is what keeps elements from being initialised before they are there: a step makes many short vectors.
+  // The union keeps elements uninitialised until they are added: a step makes many short vectors.
   FixedVector() noexcept {}
   FixedVector(const FixedVector& other) noexcept { copy(other); }
   FixedVector& operator=(const FixedVector& other) noexcept {

@@ -5,7 +5,7 @@
 
 namespace paperproof::broad_phase {
 
-/// The slow, honest twin of the others: nothing here can go wrong but the overlap test itself.
+/// The slow, honest twin of the others: only the overlap test itself can be wrong here.
 template <class Scalar>
 class AllPairs final : public BroadPhase<Scalar> {
  public:

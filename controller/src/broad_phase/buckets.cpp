@@ -6,10 +6,10 @@
 namespace paperproof::broad_phase {
 namespace {
 
-/// Most cells that one box is entered into. Few: wide platforms are looked at by every query. Many: memory.
+/// Most cells that one box is entered into. Few: every query tests wide platforms. Many: more memory.
 constexpr std::int64_t most_cells_of_a_box = 64;
 
-/// Cells are numbered from minus this to this; what is farther out is in the last one. Beyond 2^31 the number of cells
+/// Cells are numbered from minus this to this; boxes farther out are in the last one. Beyond 2^31 the number of cells
 /// of a box would not fit into 64 bits.
 constexpr double last_cell = 0x1p30;
 
@@ -21,7 +21,7 @@ Scalar quantile(std::vector<Scalar>& values, std::size_t quarters) {
   return *at;
 }
 
-/// How widely the middle half of the boxes is spread along an axis [m].
+/// Spread of the middle half of the boxes along an axis [m].
 template <class Scalar>
 Scalar middle_spread(std::span<const Box2<Scalar>> boxes, Eigen::Index axis) {
   std::vector<Scalar> lower;
@@ -35,7 +35,7 @@ Scalar spacing(std::span<const Box2<Scalar>> boxes) {
   const auto count = static_cast<Scalar>(boxes.size());
   const Scalar width = 2 * middle_spread(boxes, 0);
   const Scalar height = 2 * middle_spread(boxes, 1);
-  // By roots, as the product could be too large a number. Along a line the other side is zero.
+  // Two roots, because the product could overflow. Along a line the other side is zero.
   return std::max(std::sqrt(width) * std::sqrt(height) / std::sqrt(count), std::max(width, height) / count);
 }
 
@@ -63,7 +63,7 @@ Buckets<Scalar>::Buckets(std::span<const Box2<Scalar>> boxes)
   fill();
 }
 
-/// Never falls as the coordinate rises, whatever the rounding: boxes that overlap share a cell.
+/// The cell number never falls as the coordinate rises, with any rounding, so boxes that overlap share a cell.
 template <class Scalar>
 std::int64_t Buckets<Scalar>::cell_of(Scalar coordinate) const noexcept {
   const double cell = std::floor(static_cast<double>(coordinate * cells_per_metre_));
@@ -97,7 +97,7 @@ void Buckets<Scalar>::fill() {
       for (std::int64_t x = cells.lower.x; x <= cells.upper.x; ++x) unsorted.push_back({{x, y}, piece});
     }
   }
-  // A power of two of buckets, so that the remainder is a mask, and the end of the last.
+  // The number of buckets is a power of two, so that a mask gives the remainder. One more entry ends the last bucket.
   first_entry_.assign(std::bit_ceil(unsorted.size() + 1) + 1, 0);
   for (const Entry& entry : unsorted) ++first_entry_[bucket_of(entry.cell) + 1];
   for (std::size_t i = 1; i < first_entry_.size(); ++i) first_entry_[i] += first_entry_[i - 1];
@@ -106,7 +106,7 @@ void Buckets<Scalar>::fill() {
   for (const Entry& entry : unsorted) entries_[next[bucket_of(entry.cell)]++] = entry;
 }
 
-/// A box may be in several of the query's cells and counts in one: the first that both are in.
+/// A box may be in several of the query's cells. It counts only in the first cell that both share.
 template <class Scalar>
 bool Buckets<Scalar>::is_first_cell(const Cell& cell, const Cells& cells, const Box2<Scalar>& box) const noexcept {
   return cell.x == std::max(cells.lower.x, cell_of(box.lower.x())) &&

@@ -9,8 +9,8 @@ namespace paperproof::broad_phase {
 /// memory grows with the boxes and not with the world (Teschner et al. 2003, "Optimized spatial hashing for collision
 /// detection of deformable objects").
 ///
-/// The side of a cell is the median of the boxes' longer sides, and no less than what gives one box to a cell where
-/// they lie densest: half of them, in the middle. Smaller cells: a box is in many of them. Larger: a cell is full of
+/// The side of a cell is the median of the boxes' longer sides, or more: in the densest region, the middle half of the
+/// boxes, a cell has one box on average at least. Smaller cells: a box is in many of them. Larger: a cell is full of
 /// boxes that are nowhere near.
 ///
 /// A box that would fill more than 64 cells is not in the grid; every query looks at it. A query that covers more cells

@@ -16,8 +16,8 @@ Vec2<Scalar> centre(const Box2<Scalar>& box) noexcept {
   return Scalar(0.5) * box.lower + Scalar(0.5) * box.upper;
 }
 
-/// How far along the curve a cell is: quarter by quarter, the square being turned for each so that the curve goes on
-/// where it was (D. Hilbert 1891).
+/// Place of a cell along the curve, found quarter by quarter. The square is turned for each quarter, so that the curve
+/// is continuous (D. Hilbert 1891).
 std::uint32_t place_on_curve(std::uint32_t x, std::uint32_t y) noexcept {
   std::uint32_t place = 0;
   for (unsigned bit = bits; bit-- > 0;) {
@@ -35,17 +35,17 @@ std::uint32_t place_on_curve(std::uint32_t x, std::uint32_t y) noexcept {
   return place;
 }
 
-/// A place on the curve above, the index of a box below: sorting needs nothing else.
+/// The upper bits are a place on the curve, the lower bits the index of a box: sorting needs nothing else.
 using Key = std::uint64_t;
 std::uint32_t place_of(Key key) noexcept { return static_cast<std::uint32_t>(key >> 32U); }
 PieceIndex index_of(Key key) noexcept { return static_cast<PieceIndex>(key); }
 
-/// By their places, digit by digit from the last; those in one place stay as they came (D. Knuth, "The Art of Computer
-/// Programming" 3, 5.2.5). Keys come with indices ascending.
+/// Sorts keys by place, digit by digit from the last; keys with the same place keep their order (D. Knuth, "The Art of
+/// Computer Programming" 3, 5.2.5). Keys come with indices ascending.
 void sort_by_place(std::span<Key> keys, std::vector<Key>& room) {
   constexpr unsigned digit_bits = 8;
   constexpr std::size_t digits = std::size_t{1} << digit_bits;
-  // Below so many a sort by comparison is faster than counting.
+  // Below this number a sort by comparison is faster than counting.
   if (keys.size() < digits) return std::sort(keys.begin(), keys.end());
   room.resize(std::max(room.size(), keys.size()));
   std::span<Key> from = keys;

@@ -9,13 +9,13 @@
 namespace paperproof::broad_phase {
 namespace {
 
-/// Boxes are told apart by the power of two that exceeds their longer side, in so many classes; the last holds all that
-/// are larger still.
+/// Number of size classes. The class of a box is the power of two that exceeds its longer side; the last class holds
+/// all larger boxes.
 constexpr std::size_t classes = 48;
-/// Where a box ends that one of the size begins at the end of is a matter of rounding.
+/// Factor by which cells are widened: rounding may decide whether two boxes touch at their ends.
 constexpr double spare = 1.01;
 
-/// What is farther out is in the last cell.
+/// Boxes farther out are in the last cell.
 constexpr double outermost = 0x1p60;
 
 std::size_t mixed(std::int64_t x, std::int64_t y, std::size_t size_class) noexcept {
@@ -26,8 +26,9 @@ std::size_t mixed(std::int64_t x, std::int64_t y, std::size_t size_class) noexce
 
 }  // namespace
 
-/// Of one class, the lower corners of all boxes that meet a box at once lie in a rectangle that is larger than it by
-/// the longest side of the class: in four cells of that size at most. Cells that share a counter make the bound larger.
+/// Take all boxes of one class that meet a query box. Their lower corners lie in a rectangle that is larger than the
+/// query box by the longest side of the class, so they lie in at most four cells of the size of this rectangle. Cells
+/// that share a counter make the bound larger.
 template <class Scalar>
 std::size_t most_at_once(std::span<const Box2<Scalar>> boxes, const Vec2<Scalar>& size) {
   std::vector<std::uint32_t> counters(std::bit_ceil(boxes.size() + 1));

@@ -1,4 +1,4 @@
-/// How crowded a level can be.
+/// The largest number of boxes near one place of a level.
 #pragma once
 
 #include <paperproof/types.hpp>
@@ -7,8 +7,8 @@
 
 namespace paperproof::broad_phase {
 
-/// No box of a size meets more of `boxes` than this, wherever it is. The bound is a few times what there is: memory is
-/// sized by it. Linear in the number of boxes.
+/// Upper bound for the number of `boxes` that a box of the given size meets, at any place. The bound is a few times the
+/// true number; memory is sized by it. Linear in the number of boxes.
 /// @param size [m]
 template <class Scalar>
 [[nodiscard]] std::size_t most_at_once(std::span<const Box2<Scalar>> boxes, const Vec2<Scalar>& size);

@@ -13,8 +13,8 @@ namespace {
 
 constexpr float most = std::numeric_limits<float>::max();
 
-/// A float that is not above a number, and one that is not below it: a few times further away than the nearest, as
-/// finding the next one takes as long as the rest of a small query.
+/// A float not above a number, and a float not below it. They are a few times further away than the nearest such float,
+/// because finding the nearest takes as long as the rest of a small query.
 [[gnu::always_inline]] inline float rounded_down(double value) noexcept {
   const auto near = static_cast<float>(std::clamp(value, -double{most}, double{most}));
   return near - (std::abs(near) * 0x1p-22F + std::numeric_limits<float>::min());
@@ -27,8 +27,8 @@ template <class Scalar>
           {rounded_up(box.upper.x()), rounded_up(box.upper.y())}};
 }
 
-/// A query finds some ten pieces, in any order: each goes to its place, which is the number of those before it, and
-/// nothing branches on which is less.
+/// Sorts the ten or so pieces that a query finds. The place of a piece is the number of smaller pieces, so the
+/// comparison needs no branch.
 void sort_few(std::span<PieceIndex> pieces) noexcept {
   constexpr std::size_t few = 16;
   if (pieces.size() > few) return std::sort(pieces.begin(), pieces.end());
@@ -55,7 +55,7 @@ Tree<Scalar>::Tree(std::span<const Box2<Scalar>> boxes) : boxes_(boxes), order_(
   nodes_.shrink_to_fit();
 }
 
-/// @param boxes of what is below; becomes those of the nodes that are added.
+/// @param boxes of the level below; replaced by the boxes of the added nodes.
 template <class Scalar>
 void Tree<Scalar>::add_level(std::vector<Box2<float>>& boxes) {
   levels_.push_back(static_cast<std::uint32_t>(nodes_.size()));
@@ -101,7 +101,7 @@ std::size_t Tree<Scalar>::query(const Box2<Scalar>& query, std::span<PieceIndex>
     std::size_t level;
     std::size_t node;  ///< Of its level.
   };
-  // Each level leaves all nodes but one for later at most.
+  // Each level leaves at most all its nodes but one for later.
   FixedVector<Place, (fan - 1) * most_levels + 1> open;
   open.push_back({levels_.size() - 1, 0});
   const Box2<float> wanted = rounded_outwards(query);

@@ -12,8 +12,8 @@ namespace paperproof::broad_phase {
 /// one above. With fewer to a node a query waits more often for the memory of the next level; with more it looks at
 /// boxes far away.
 ///
-/// Which nodes are below one follows from its place, so that a node is its boxes and nothing else: in `float`, rounded
-/// outwards. A box that is found so is looked at again as it was given.
+/// The place of a node determines its children, so a node stores only its boxes, in `float`, rounded outwards. A box
+/// that a query finds this way is tested again with its given coordinates.
 template <class Scalar>
 class Tree final : public BroadPhase<Scalar> {
  public:
@@ -28,7 +28,7 @@ class Tree final : public BroadPhase<Scalar> {
   using Four [[gnu::vector_size(4 * sizeof(float))]] = float;
   /// A coordinate of all boxes of a node.
   using Each = std::array<Four, fan / 4>;
-  /// Not a number where there is no box: that overlaps nothing.
+  /// Not a number if there is no box: NaN overlaps nothing.
   struct Node {
     Each lower_x;
     Each lower_y;
@@ -41,7 +41,7 @@ class Tree final : public BroadPhase<Scalar> {
 
   std::span<const Box2<Scalar>> boxes_;
   std::vector<PieceIndex> order_;  ///< Along the curve.
-  std::vector<Node> nodes_;        ///< Level by level: those of boxes, those of such nodes, …, the root.
+  std::vector<Node> nodes_;        ///< Level by level: nodes of boxes, nodes of these nodes, …, the root.
   FixedVector<std::uint32_t, most_levels> levels_;  ///< The first node of each.
 };
 

@@ -9,7 +9,7 @@
 namespace paperproof::geometry {
 namespace {
 
-/// Vertices on a straight side say nothing about the piece; those of its pieces beside it keep them.
+/// A convex piece does not need its vertices on a straight side; pieces beside it that need them keep them.
 void append_piece(const std::vector<Vec2d>& outline, ConvexPieces& pieces) {
   const std::size_t before = pieces.vertices.size();
   const std::size_t size = outline.size();
@@ -41,7 +41,7 @@ class Tiling {
     }
   }
 
-  /// Takes away every diagonal that both ends can do without.
+  /// Removes every diagonal that neither of its ends needs.
   void merge() {
     for (const auto& [side, twin] : diagonals()) {
       if (!stays_convex(side, twin) || !stays_convex(twin, side)) continue;
@@ -72,10 +72,10 @@ class Tiling {
     std::uint32_t vertex;  ///< Where it begins.
     SideIndex previous;
     SideIndex next;
-    bool used;  ///< Taken away, or already part of a piece that was handed out.
+    bool used;  ///< Removed, or already part of a finished piece.
   };
 
-  /// The sides that are walked both ways, each with the one back.
+  /// Pairs each side that is walked both ways with its opposite.
   [[nodiscard]] std::vector<std::pair<SideIndex, SideIndex>> diagonals() const {
     struct Named {
       std::uint32_t low, high;

@@ -33,7 +33,7 @@ TwoDoubles split(double a) noexcept {
   return {high, a - high};
 }
 
-/// Dekker's product. A fused multiply-add would be shorter, and other bits where it is emulated badly.
+/// Dekker's product. A fused multiply-add would be shorter, but would give other bits where it is emulated badly.
 TwoDoubles two_product(double a, double b) noexcept {
   const double product = a * b;
   const TwoDoubles x = split(a);
@@ -62,7 +62,7 @@ class ExactSum {
     add(product.low);
     add(product.high);
   }
-  /// That of the largest part: all others together are smaller.
+  /// Sign of the largest part: all other parts together are smaller.
   [[nodiscard]] int sign() const noexcept { return size_ == 0 ? 0 : parts_[size_ - 1] > 0 ? 1 : -1; }
   [[nodiscard]] const double* begin() const noexcept { return parts_.data(); }
   [[nodiscard]] const double* end() const noexcept { return parts_.data() + size_; }

@@ -20,16 +20,16 @@ inline constexpr double largest_exact = 0x1p300;
 
 /// On which side of the directed line a->b does c lie?
 ///
-/// All functions of this header take every coordinate for exactly the number it is, and are exact while coordinates are
-/// zero or have a magnitude in [`smallest_exact`, `largest_exact`]. They never allocate, hold no state (any thread),
-/// and give the same answer on every target with IEEE 754 doubles. A floating-point filter answers first; what it
-/// leaves open goes to expansions of doubles: J. R. Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast
-/// Robust Geometric Predicates", 1997.
+/// All functions of this header read every coordinate as the exact number that it stores. They are exact while
+/// coordinates are zero or have a magnitude in [`smallest_exact`, `largest_exact`]. They never allocate, hold no state
+/// (any thread), and give the same answer on every target with IEEE 754 doubles. A floating-point filter decides most
+/// cases; expansions of doubles decide the others: J. R. Shewchuk, "Adaptive Precision Floating-Point Arithmetic and
+/// Fast Robust Geometric Predicates", 1997.
 /// @return +1: to the left (a, b, c turn counter-clockwise), -1: to the right, 0: on the line, or a equals b.
 [[nodiscard]] int orientation_sign(const Vec2d& a, const Vec2d& b, const Vec2d& c) noexcept;
 
-/// `orientation_sign(a, b, position + rest + offset)`, where the sum is not rounded. `rest` is for a position that is
-/// more than a double can hold, here and below.
+/// `orientation_sign(a, b, position + rest + offset)`, where the sum is not rounded. Here and below, `rest` is the part
+/// of a position that a double cannot hold.
 [[nodiscard]] int orientation_sign_of_offset(const Vec2d& a, const Vec2d& b, const Vec2d& position, const Vec2d& offset,
                                              const Vec2d& rest = Vec2d::Zero()) noexcept;
 

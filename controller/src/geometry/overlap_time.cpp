@@ -37,7 +37,7 @@ SeparatingAxis<Scalar> axis_of_mover(std::span<const Vec2<Scalar>> mover, std::s
   return {-along, met, mover[i], 0};
 }
 
-/// Calls `visit` with one axis after the other until it is false.
+/// Calls `visit` with one axis after the other until it returns false.
 template <class Scalar, class Visit>
 void for_each_axis(std::span<const Vec2<Scalar>> mover, std::span<const Vec2<Scalar>> standing,
                    const Visit& visit) noexcept(noexcept(visit(SeparatingAxis<Scalar>{}))) {
@@ -54,7 +54,7 @@ Box2<Scalar> box_around(std::span<const Vec2<Scalar>> outline) noexcept {
   return box;
 }
 
-/// Narrows the time in which all separations so far were negative by one that changes linearly.
+/// Narrows `time`, in which all separations so far are negative, by one more separation that changes linearly.
 template <class Scalar>
 void narrow(OverlapTime<Scalar>& time, Scalar at_start, Scalar at_end) noexcept {
   const bool apart_at_start = !(at_start < 0);

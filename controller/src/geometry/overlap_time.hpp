@@ -1,4 +1,4 @@
-/// While two convex outlines overlap, when one of them moves straight.
+/// The time during which two convex outlines overlap while one of them moves straight.
 #pragma once
 
 #include <paperproof/types.hpp>
@@ -9,8 +9,8 @@
 namespace paperproof::geometry {
 
 /// The open interval of a straight motion, whose fractions run from 0 to 1, in which two outlines overlap. Empty where
-/// `begin >= end`. Where they overlap at the start already `begin` is `before`, where they still do at the end `end` is
-/// `after`: the other values are fractions in [0, 1].
+/// `begin >= end`. If they overlap at the start already, `begin` is `before`. If they still overlap at the end, `end`
+/// is `after`. The other values are fractions in [0, 1].
 template <class Scalar>
 struct OverlapTime {
   static constexpr Scalar before = -1;
@@ -21,13 +21,13 @@ struct OverlapTime {
   [[nodiscard]] bool any() const noexcept { return begin < end; }
 };
 
-/// When does the open interior of the convex `mover`, at a position that goes straight from `from` to `to`, meet the
-/// interior of the convex `standing`, or the segment that it is with two points?
+/// Finds when the open interior of the convex `mover` meets the interior of the convex `standing`, or a segment if
+/// `standing` has two points. The position of `mover` goes straight from `from` to `to`.
 ///
 /// The separation along each edge normal of the two (separating axes, which are the edges of their Minkowski sum) is
 /// linear in time; they overlap while all of them are negative. Whether they overlap at an end of the motion depends
-/// on the bits of that position alone, so that motions which share it agree. A fraction is exact but for the rounding
-/// of two separations, a few ulp of the distance between the outlines over the length of the motion.
+/// on the bits of that position alone, so motions that share this position agree. A fraction is exact but for the
+/// rounding of two separations, a few ulp of the distance between the outlines over the length of the motion.
 /// @param mover 3 points or more, counter-clockwise, relative to its position [m].
 /// @param standing the same, or the two ends of a segment [m].
 template <class Scalar>
@@ -43,7 +43,7 @@ struct SeparatingAxis {
   Vec2<Scalar> shift;  ///< [m]
   Scalar reach;        ///< Of the mover beyond the line, times the length of the edge [m²].
 
-  /// How far the mover at a position is apart, times the length of the edge: only the sign is used, and ratios [m²].
+  /// Separation of the mover at a position, times the length of the edge: only its sign and ratios are used [m²].
   [[nodiscard]] Scalar separation(const Vec2<Scalar>& position) const noexcept {
     const Vec2<Scalar> from_near = position - near;
     const Vec2<Scalar> arm = from_near + shift;
@@ -51,19 +51,20 @@ struct SeparatingAxis {
   }
 };
 
-/// All of two outlines.
+/// All separating axes of two outlines.
 /// @param mover,standing as of `overlap_time`.
 template <class Scalar>
 [[nodiscard]] std::vector<SeparatingAxis<Scalar>> separating_axes(std::span<const Vec2<Scalar>> mover,
                                                                   std::span<const Vec2<Scalar>> standing);
 
-/// The same as the other `overlap_time`, with axes that are known before.
+/// The same as the other `overlap_time`, with axes that are already known.
 template <class Scalar>
 [[nodiscard]] OverlapTime<Scalar> overlap_time(std::span<const SeparatingAxis<Scalar>> axes, const Vec2<Scalar>& from,
                                                const Vec2<Scalar>& to) noexcept;
 
-/// Positions from which `mover` overlaps `standing` by more than `depth` in every direction [m]: a box around the
-/// middle of all that do, turned inside out (its lower corner above the upper one) where there is none.
+/// Positions at which `mover` overlaps `standing` by more than `depth` in every direction [m]. They are a box around
+/// the middle of all overlapping positions, or an inverted box (its lower corner above the upper one) if there are
+/// none.
 /// @param mover,standing as of `overlap_time`.
 template <class Scalar>
 [[nodiscard]] Box2<Scalar> deep_overlap(std::span<const Vec2<Scalar>> mover, std::span<const Vec2<Scalar>> standing,

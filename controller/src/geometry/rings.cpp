@@ -86,7 +86,7 @@ bool is_inside(const Vec2d& point, Ring ring) {
   return inside;
 }
 
-/// The rings do not meet, so that one vertex speaks for all of its ring.
+/// The rings do not meet, so one vertex decides for its whole ring.
 void check_nesting(std::span<const Ring> rings) {
   std::vector<Box2<double>> boxes;
   for (const Ring ring : rings) boxes.push_back(box_of(ring));
@@ -114,7 +114,7 @@ Box2<double> box_of(Ring ring) noexcept {
   return box;
 }
 
-/// All turns go the same way, and the outline goes once around: it runs to the right once and to the left once.
+/// A convex outline turns to one side only and goes around once: it runs to the right once and to the left once.
 bool is_convex(Ring ring) noexcept {
   const std::size_t size = ring.size();
   if (size < 3) return false;

@@ -1,4 +1,4 @@
-/// The closed outlines of a polygon: are they what a polygon needs?
+/// Checks of the closed outlines of a polygon.
 #pragma once
 
 #include <paperproof/types.hpp>
@@ -13,14 +13,14 @@ namespace paperproof::geometry {
 /// The vertices of a closed outline, in order; the first is not repeated at the end.
 using Ring = std::span<const Vec2d>;
 
-/// Rings that bound no polygon; `what()` says why in words a level designer understands.
+/// Rings that bound no polygon; `what()` gives the reason in words that a level designer understands.
 class InvalidRings : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;
 };
 
-/// Order of sweeps: by x, and by y where x is the same. As if the plane were turned by less than any angle that
-/// matters, so that nothing is vertical.
+/// Order of sweeps: by x, and by y where x is the same. This order works as if the plane were turned by a very small
+/// angle, so that no side is vertical.
 [[nodiscard]] inline bool left_of(const Vec2d& a, const Vec2d& b) noexcept {
   return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
 }
@@ -31,15 +31,15 @@ class InvalidRings : public std::invalid_argument {
 /// Smallest box around a ring.
 [[nodiscard]] Box2<double> box_of(Ring ring) noexcept;
 
-/// Is the ring the outline of a convex polygon with an area? Vertices on a straight side are allowed. A ring that is
-/// convex needs no other check. Exact; linear in the number of vertices.
+/// Whether the ring is the outline of a convex polygon with an area. Vertices on a straight side are allowed. A convex
+/// ring needs no other check. Exact; linear in the number of vertices.
 [[nodiscard]] bool is_convex(Ring ring) noexcept;
 
 /// +1: counter-clockwise, -1: clockwise. Exact. `ring` must not touch itself and must have an area.
 [[nodiscard]] int winding(Ring ring) noexcept;
 
 /// Checks that a ring alone could bound something.
-/// @param name what to call the ring in a message: "the outline".
+/// @param name the ring's name in a message: "the outline".
 /// @throws InvalidRings on fewer than 3 vertices, a vertex that repeats its neighbour, no area, a side that folds back
 ///   onto the side before it.
 void check_ring(Ring ring, const std::string& name);

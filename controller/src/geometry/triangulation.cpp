@@ -7,7 +7,7 @@ namespace {
 
 using NodeIndex = std::uint32_t;
 
-/// One visit of the outline to a vertex. A vertex that a bridge ends at is visited more than once.
+/// One visit of the outline to a vertex. A vertex at the end of a bridge is visited more than once.
 struct Node {
   std::uint32_t vertex;
   NodeIndex previous;
@@ -37,7 +37,7 @@ class Outline {
   /// +1: a corner that sticks out, 0: straight, -1: reflex.
   [[nodiscard]] int turn(NodeIndex i) const noexcept { return orientation_sign(at_previous(i), at(i), at_next(i)); }
 
-  /// Walks from `from` to `to` and back between what comes before and after each: the two rings become one.
+  /// Adds a bridge from `from` to `to` and back: the two rings become one.
   void bridge(NodeIndex from, NodeIndex to) {
     const auto from_again = static_cast<NodeIndex>(nodes_.size());
     const NodeIndex to_again = from_again + 1;
@@ -84,8 +84,8 @@ bool looks_inwards(const Outline& outline, NodeIndex node, const Vec2d& target) 
 }
 
 /// The node of the ring around `start` that `hole_vertex` can be bridged to: the one furthest to the right among those
-/// left of it, between the side directly above it and the one directly below. Nothing can be in the way, for it would
-/// have a vertex further to the right, or cross one of the two sides. (The step of the sweep that splits a polygon into
+/// left of it, between the side directly above it and the one directly below. No side can be in the way: it would have
+/// a vertex further to the right, or cross one of the two sides. (The step of the sweep that splits a polygon into
 /// monotone ones; it needs orientations only, no coordinates of intersections.)
 NodeIndex bridge_end(const Outline& outline, NodeIndex start, const Vec2d& hole_vertex) {
   Passing above;
@@ -121,7 +121,7 @@ NodeIndex bridge_end(const Outline& outline, NodeIndex start, const Vec2d& hole_
   return best;
 }
 
-/// From left to right, so that every hole finds what is left of it already in one piece.
+/// Joins holes from left to right, so that everything on the left of a hole is one ring already.
 void bridge_holes(Outline& outline, const DirectedRings& rings) {
   std::vector<NodeIndex> leftmost;
   for (std::size_t hole = 1; hole < rings.first_vertex.size(); ++hole) {
@@ -148,7 +148,7 @@ class EarClipper {
     }
   }
 
-  /// A node is looked at once, and again when a neighbour was clipped: nothing else can make it an ear.
+  /// A node is tested once, and again when a neighbour is clipped: no other change can make it an ear.
   std::vector<Triangle> clip_all() {
     std::vector<Triangle> triangles;
     std::size_t left = outline_.size();
@@ -169,16 +169,16 @@ class EarClipper {
   }
 
  private:
-  /// Does it stick out, with no vertex in its triangle? Where any vertex is, a reflex or straight one is too. Visits to
-  /// the triangle's own corners do not count: a side that left them into the triangle would have to end in it or cross
-  /// it.
+  /// Whether the node sticks out, with no vertex in its triangle. If any vertex is in the triangle, a reflex or
+  /// straight one is as well. Visits to the triangle's own corners do not count: a side that runs from a corner into
+  /// the triangle would have to end in the triangle or cross it.
   bool is_ear(NodeIndex tip) {
     if (is_reflex_[tip]) return false;
     const Vec2d& a = outline_.at_previous(tip);
     const Vec2d& b = outline_.at(tip);
     const Vec2d& c = outline_.at_next(tip);
     const Box2<double> box{a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
-    // Clipping makes no node reflex: what is left out here stays out.
+    // Clipping makes no node reflex: a node that is left out here stays out.
     std::erase_if(reflex_, [&](NodeIndex i) { return !is_reflex_[i]; });
     return std::none_of(reflex_.begin(), reflex_.end(), [&](NodeIndex i) {
       const Vec2d& p = outline_.at(i);

@@ -23,9 +23,9 @@ struct DirectedRings {
 /// Triangles that tile the polygon exactly: no gap, no overlap, and no vertex of one on the side of another. Their
 /// number is vertices - 2 + 2 * holes.
 ///
-/// Each hole is joined to what is left of it by a bridge (a diagonal that is walked both ways), then ears are clipped:
-/// G. H. Meisters, "Polygons have ears", 1975; M. Held, "FIST: fast industrial-strength triangulation of polygons",
-/// 2001. Every decision is exact. Time is vertices * (reflex vertices + holes).
+/// Each hole is joined to the outline on its left by a bridge (a diagonal that is walked both ways), then ears are
+/// clipped: G. H. Meisters, "Polygons have ears", 1975; M. Held, "FIST: fast industrial-strength triangulation of
+/// polygons", 2001. Every decision is exact. Time is vertices * (reflex vertices + holes).
 /// @param rings passed `check_rings`.
 [[nodiscard]] std::vector<Triangle> triangulate(const DirectedRings& rings);
 

@@ -43,8 +43,8 @@ bool piece_right_of(const PieceVertices<Scalar>& vertices, const Vec2d& o0, cons
   return true;
 }
 
-/// Calls `separated(index, at)` for each candidate line until `accept` is true; both rings are counter-clockwise, so
-/// that the outside of an edge is on its right.
+/// Whether the line of an edge of the piece or of the octagon has the two on different sides, at `from` and at `to`.
+/// Both rings are counter-clockwise: the outside of an edge is on its right.
 template <class Scalar, class Position>
 bool some_line_separates(const ConfigurationSpace<Scalar>& space, PieceIndex piece, const Position& from,
                          const Position& to) noexcept {

@@ -82,7 +82,7 @@ class Search {
   static constexpr Scalar stride_growth = 16;
   static constexpr int most_strides = 5;
 
-  /// Positions w with normal · w = bound, relative to where the motion shall end near.
+  /// Positions w with normal · w = bound, relative to `query.near`.
   struct Line {
     V foot;
     V along;
@@ -96,7 +96,7 @@ class Search {
   struct Spot {
     const Line& line;
     Scalar direction;
-    V position;  ///< Relative to where the motion shall end near.
+    V position;  ///< Relative to `query.near`.
   };
 
   /// Where a motion starts that must be clear of a piece.

@@ -23,7 +23,7 @@ class MoverPhases {
   [[nodiscard]] const Box2<Scalar>& whole(MoverIndex mover) const noexcept { return movers_[mover].whole; }
 
   /// The pieces whose boxes at offset zero meet `box`, ascending.
-  /// @param found has room for all pieces of the scenery.
+  /// @param found has room for all pieces of the mover.
   /// @return the part of `found` that was written.
   [[nodiscard]] std::span<const PieceIndex> query(MoverIndex mover, const Box2<Scalar>& box,
                                                   std::span<PieceIndex> found) const noexcept;

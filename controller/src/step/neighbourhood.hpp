@@ -24,11 +24,11 @@ class Neighbourhood {
       : space_(space), broad_phase_(broad_phase), look_ahead_(look_ahead), scratch_(scratch) {}
 
   /// Every piece that the octagon can touch while its reference point is in `box`, and perhaps more; ascending.
-  /// @param way where it is going [m]: what is there will be wanted next.
+  /// @param displacement where the character goes [m]: the next steps will need the pieces there.
   [[nodiscard]] std::span<const PieceIndex> around(const Box2<Scalar>& box,
                                                    const Vec2<Scalar>& displacement = Vec2<Scalar>::Zero()) noexcept;
 
-  /// The same without `way` and without what was collected before, for the caller to reorder. Nothing is kept.
+  /// The same without `displacement` and without what was collected before, for the caller to reorder. Nothing is kept.
   /// @return memory for all pieces of the scenery, and how many were written.
   [[nodiscard]] std::pair<std::span<PieceIndex>, std::size_t> take(const Box2<Scalar>& box) noexcept {
     forget();
@@ -37,7 +37,7 @@ class Neighbourhood {
     return {scratch_.solids.pieces, count};
   }
 
-  /// What comes next does not depend on what was collected before, not even in how much more it is.
+  /// Forgets the cached candidates: the next answer is the same after any history.
   void forget() noexcept { scratch_.solids.valid = false; }
 
   /// For what exceeds the inline storage of a step.

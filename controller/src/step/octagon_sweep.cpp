@@ -37,7 +37,7 @@ template <class Scalar>
 void check(const Stages& stages, const Scenery<Scalar>& scenery, const ConfigurationSpace<Scalar>& space) {
   refuse_omission(!stages.movers && scenery.mover_count() > 0, "movers", "something moves");
   refuse_omission(!stages.movers && has_conveyors(scenery), "movers", "there is a conveyor");
-  refuse_omission(!stages.one_way && has_one_way_chains(scenery), "one_way", "there is a one-displacement chain");
+  refuse_omission(!stages.one_way && has_one_way_chains(scenery), "one_way", "there is a one-way chain");
   refuse_omission(!stages.slopes && space.has_own_axes(), "slopes",
                   "there is an edge that is parallel to no side of the character or of its box");
 }
@@ -82,9 +82,10 @@ class OctagonSweep final : public SweepInParts<Scalar> {
         (!request.movers.empty() && !(request.dt > 0)))
       return refuse(request, result);
     const Neighbourhood<Scalar> neighbourhood(space_, *broad_phase_, settings_.look_ahead, scratch);
-    MoversInStep<Scalar> around{mover_phases_, request.movers, request.dt, 0, has_conveyors_};
-    if (!request.movers.empty() && (part == Part::stay || comes_near_a_mover(request))) around.look_at_all();
-    solve_(space_, settings_, neighbourhood, around, part, request, result);
+    const bool rides = request.ride.ground != Ride<Scalar>::none;
+    MoversInStep<Scalar> movers{mover_phases_, request.movers, request.dt, 0, has_conveyors_ || rides};
+    if (!request.movers.empty() && (part == Part::stay || comes_near_a_mover(request))) movers.look_at_all();
+    solve_(space_, settings_, neighbourhood, movers, part, request, result);
   }
 
  private:

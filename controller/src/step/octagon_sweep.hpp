@@ -5,7 +5,7 @@
 
 namespace paperproof::octagon_sweep {
 
-/// What a move is of a step.
+/// Which part of a step a move makes.
 enum class Part : std::uint8_t {
   whole,  ///< All of it, or its beginning.
   rest,   ///< The step has begun. No way out of crushing movers is looked for: they may have come in this very step.

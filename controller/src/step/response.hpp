@@ -32,8 +32,8 @@
 /// of them is walkable. So steering into one side of a funnel does not hold a character that would slip through it.
 ///
 /// Position and velocity are treated alike: each rule is homogeneous of degree one. u is carried through every contact
-/// beside w. A falling motion never comes to rise on
-/// anything but walkable ground and no motion grows: a step cannot go round in circles.
+/// beside w. A falling motion comes to rise on
+/// nothing but walkable ground. The loop ends after a given number of impacts.
 #pragma once
 
 #include "step/half_planes.hpp"

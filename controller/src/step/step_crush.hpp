@@ -13,7 +13,7 @@ namespace paperproof::octagon_sweep {
 
 /// Whether a mover passes through the character. It then moves only to a free position.
 template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::is_overlapped() const noexcept {
+bool StepSolver<Lanes, Scalar>::is_passed_through() const noexcept {
   return moving_.overlapping > 0 || !result_.crushed.empty();
 }
 

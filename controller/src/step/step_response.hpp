@@ -132,8 +132,8 @@ bool StepSolver<Lanes, Scalar>::respond_one_by_one(DesiredMotion<Scalar>& desire
   return false;
 }
 
-/// Surfaces of one body that stop the motion together: a fall may still slip down between them. Otherwise the motion
-/// ends there, relative to that body. False if they belong to bodies with different motions.
+/// Surfaces with one motion that stop the character together: a fall may still slip down between them. Otherwise the
+/// motion ends there, relative to them. False if their motions differ.
 template <std::size_t Lanes, class Scalar>
 bool StepSolver<Lanes, Scalar>::respond_in_crease(DesiredMotion<Scalar>& desired) noexcept {
   const TouchedSurface<Scalar>& first = memory_.surfaces[0];
@@ -158,7 +158,7 @@ bool StepSolver<Lanes, Scalar>::respond_in_crease(DesiredMotion<Scalar>& desired
   };
   if (falling && slips())
     desired = *falling;
-  else if (velocity == V::Zero() && falls_between(displacement))
+  else if (velocity == V::Zero() && shift_to_fall(displacement))
     desired = DesiredMotion<Scalar>::plain(displacement, {0, fall});
   else
     return true;
@@ -207,7 +207,7 @@ std::optional<DesiredMotion<Scalar>> StepSolver<Lanes, Scalar>::nearest_allowed_
 
 /// The response to one surface that stands still: the usual case.
 template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::respond_to_surface(const V& normal, DesiredMotion<Scalar>& desired) const noexcept {
+void StepSolver<Lanes, Scalar>::respond_to_surface(const V& normal, DesiredMotion<Scalar>& desired) const noexcept {
   const Surface<Scalar> at{normal, walkable(normal), after_walk_};
   if (steered_ != 0) {
     desired.displacement = respond(desired.displacement, steered_ * dt_ * (1 - time_), at);
@@ -219,7 +219,6 @@ bool StepSolver<Lanes, Scalar>::respond_to_surface(const V& normal, DesiredMotio
   // A slide that ends may still enter the surface by rounding. A motion along walkable ground does not.
   if (!at.walkable && (enters(desired.displacement.wanted, normal) || enters(desired.velocity.wanted, normal)))
     desired = DesiredMotion<Scalar>::plain(V::Zero(), V::Zero());
-  return true;
 }
 
 /// The response to several surfaces, or to one that moves.
@@ -241,15 +240,17 @@ bool StepSolver<Lanes, Scalar>::respond_to_surfaces(DesiredMotion<Scalar>& desir
   }
   const bool on_ground = walkable(first.normal);
   if (after_walk_ && !on_ground && desired.velocity.wanted.y() > 0) after_walk_ = touches_ground();
-  const bool possible = memory_.surfaces.size() == 1 && first.mover == no_mover
-                            ? respond_to_surface(first.normal, desired)
-                            : respond_to_all(desired);
+  bool possible = true;
+  if (memory_.surfaces.size() == 1 && first.mover == no_mover)
+    respond_to_surface(first.normal, desired);
+  else
+    possible = respond_to_all(desired);
   after_walk_ = after_walk_ || on_ground;
   return possible;
 }
 
-/// The path has no room for more corners but the last. Tries to end the step with the present motion, with the motion
-/// of a touched surface, or at a free position.
+/// There were too many sweeps, or the path has no room for more corners but the last. Tries to end the step with the
+/// present motion, with the motion of a touched surface, or at a free position.
 template <std::size_t Lanes, class Scalar>
 void StepSolver<Lanes, Scalar>::last_resort(const V& displacement) noexcept {
   if (result_.status == MoveStatus::moved) result_.status = MoveStatus::dropped;
@@ -259,7 +260,7 @@ void StepSolver<Lanes, Scalar>::last_resort(const V& displacement) noexcept {
     return !found_.hit && advance(1);
   };
   if (goes(displacement)) return;
-  if (!is_overlapped()) {
+  if (!is_passed_through()) {
     for (const TouchedSurface<Scalar>& surface : memory_.surfaces)
       if (goes(remaining_of(surface))) return;
   }

@@ -53,7 +53,7 @@ std::optional<TouchedSurface<Scalar>> StepSolver<Lanes, Scalar>::carrier_here(Co
   bool rides = false;
   bool stands_still = false;
   for_each_near({position_, position_}, [&](PieceIndex piece) {
-    if (dropped(piece)) return;
+    if (passes_one_way(piece)) return;
     const BestAxis<Scalar> best = best_axis<Lanes>(space_, piece, local(piece, position_));
     const V normal = space_.normal(piece, best.axis);
     if (std::abs(best.separation) > Tolerances<Scalar>{}.touch || normal.y() <= 0) return;

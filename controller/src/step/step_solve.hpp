@@ -79,7 +79,7 @@ void StepSolver<Lanes, Scalar>::stop_at_touched_ground() noexcept {
   order_stops();
 }
 
-/// Reads from the request what stays the same for the whole step.
+/// Reads this step's steering, its length, and whether it begins as a walk on the ground.
 template <std::size_t Lanes, class Scalar>
 void StepSolver<Lanes, Scalar>::begin_motion(const MoveRequest<Scalar>& request) noexcept {
   steered_ = request.steered;
@@ -120,6 +120,7 @@ void StepSolver<Lanes, Scalar>::travel() noexcept {
     const Scalar begin = time_;
     if (!advance(found_.hit ? found_.stop : Scalar(1))) return cut_short();
     if (!found_.hit) return;
+    const Stop<Scalar> first = found_.stops[0];  // the response may sweep again
     report(begin);
     if (found_.stop * motion_.length > Tolerances<Scalar>{}.touch)
       fall_ = steered_ != 0 ? desired.velocity.unsteered.y() : desired.velocity.wanted.y();
@@ -134,15 +135,14 @@ void StepSolver<Lanes, Scalar>::travel() noexcept {
       desired = DesiredMotion<Scalar>::plain(V::Zero(), V::Zero());
       steered_ = 0;
     }
-    if (is_overlapped() || !respond_to_surfaces(desired)) {
+    if (is_passed_through() || !respond_to_surfaces(desired)) {
       if (goes_to_free_position()) return;
       if (!note_crushers()) return wait(true);
       desired = DesiredMotion<Scalar>::plain(V::Zero(), V::Zero());
       steered_ = 0;
     }
     velocity_ = desired.velocity.wanted;
-    displacement =
-        may_aim ? with_gap_restored(desired.displacement.wanted, found_.stops[0]) : desired.displacement.wanted;
+    displacement = may_aim ? with_gap_restored(desired.displacement.wanted, first) : desired.displacement.wanted;
   }
   last_resort(displacement);
 }
@@ -151,7 +151,7 @@ void StepSolver<Lanes, Scalar>::travel() noexcept {
 /// the character. If it is off the middle, it shifts sideways by at most the clearance of the narrowest opening that
 /// counts.
 template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::falls_between(const V& displacement) noexcept {
+bool StepSolver<Lanes, Scalar>::shift_to_fall(const V& displacement) noexcept {
   constexpr Tolerances<Scalar> tolerances{};
   const auto falls = [&] {
     sweep_along(displacement);
@@ -249,7 +249,7 @@ bool StepSolver<Lanes, Scalar>::touches_ground() noexcept {
 
 template <std::size_t Lanes, class Scalar>
 std::optional<Vec2<Scalar>> StepSolver<Lanes, Scalar>::touched_ground(PieceIndex piece) const noexcept {
-  if (dropped(piece)) return std::nullopt;
+  if (passes_one_way(piece)) return std::nullopt;
   const BestAxis<Scalar> best = best_axis<Lanes>(space_, piece, local(piece, position_));
   if (!(std::abs(best.separation) <= Tolerances<Scalar>{}.touch)) return std::nullopt;
   const V normal = space_.normal(piece, best.axis);
@@ -260,7 +260,7 @@ std::optional<Vec2<Scalar>> StepSolver<Lanes, Scalar>::touched_ground(PieceIndex
 template <std::size_t Lanes, class Scalar>
 void StepSolver<Lanes, Scalar>::follow_ground_down(const MoveRequest<Scalar>& request) noexcept {
   if (!request.grounded || result_.grounded) return;
-  if (is_overlapped()) return;  // a crushed character does not move
+  if (is_passed_through()) return;  // a crushed character does not move
   V travelled = position_ - request.position;
   const V left_ground = moving_.ride.velocity;  // of the ground that was walked on
   travelled -= left_ground * request.dt;

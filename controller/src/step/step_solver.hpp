@@ -83,7 +83,7 @@ struct MoverState {
   bool waits = false;                     ///< See `wait`.
   std::uint8_t ignored = passes_through;  ///< Colliders with one of these roles do not block.
   std::size_t overlapping = 0;            ///< How many movers overlap the character since an earlier step.
-  bool side_lost = false;                 ///< The side one of them came from is not known.
+  bool side_lost = false;                 ///< From which side of one of them the character came is not known.
   std::optional<Vec2<Scalar>> last_free{};             ///< The last free position before the step, if there was one.
   std::size_t corners_before_crush = 0;                ///< Of the path, when the first mover crushed; and
   MoveStatus status_before_crush = MoveStatus::moved;  ///< the status until then.
@@ -117,6 +117,7 @@ class StepSolver {
   [[nodiscard]] bool stops_at_covered() const noexcept;
   template <Covered covered>
   void sweep(const LocalMotion& motion, std::span<const PieceIndex> pieces) noexcept;
+  [[nodiscard]] LocalMotion motion_seen_by(MoverIndex mover, Scalar begin) const noexcept;
   template <Covered covered>
   void sweep_movers() noexcept;
   void keep_stop(Stop<Scalar> stop, Scalar length) noexcept;
@@ -140,16 +141,17 @@ class StepSolver {
   [[nodiscard]] V offset(PieceIndex piece, Scalar time) const noexcept;
   /// A position relative to the mover of a piece: the piece itself is stored at offset zero.
   [[nodiscard]] V local(PieceIndex piece, const V& p) const noexcept;
-  /// Calls `visit(piece)` for every piece that may be touched from positions in a box, now.
+  /// Calls `visit(piece)` for every piece that may be touched from positions in a box, now. `visit` must not query the
+  /// pieces of movers.
   template <class Visit>
   void for_each_near(const Box2<Scalar>& box, const Visit& visit) noexcept;
 
   /// Whether a piece can stop a motion at all.
   [[nodiscard]] bool in_way(const LocalMotion& motion, PieceIndex piece) const noexcept {
-    return blocks(space_, motion, piece) && !dropped(piece);
+    return blocks(space_, motion, piece) && !passes_one_way(piece);
   }
   /// A one-way segment in a step that drops through them.
-  [[nodiscard]] bool dropped(PieceIndex piece) const noexcept {
+  [[nodiscard]] bool passes_one_way(PieceIndex piece) const noexcept {
     return drops_ && space_.info(piece).one_way_axis != ObstacleInfo::not_one_way;
   }
 
@@ -175,7 +177,7 @@ class StepSolver {
   void begin_motion(const MoveRequest<Scalar>& request) noexcept;
   [[nodiscard]] DesiredMotion<Scalar> desired() const noexcept;
   [[gnu::flatten]] void travel() noexcept;
-  [[nodiscard, gnu::cold, gnu::noinline]] bool falls_between(const V& displacement) noexcept;
+  [[nodiscard, gnu::cold, gnu::noinline]] bool shift_to_fall(const V& displacement) noexcept;
   [[nodiscard]] V with_gap_restored(const V& displacement, const Stop<Scalar>& at) const noexcept;
   void halt() noexcept;
   [[gnu::cold, gnu::noinline]] void cut_short() noexcept;
@@ -220,8 +222,7 @@ class StepSolver {
   [[nodiscard]] bool allowed(const DesiredMotion<Scalar>& desired) const noexcept;
   [[nodiscard]] DesiredMotion<Scalar> response_to(const TouchedSurface<Scalar>& surface,
                                                   const DesiredMotion<Scalar>& desired, bool after_walk) const noexcept;
-  [[nodiscard, gnu::always_inline]] inline bool respond_to_surface(const V& normal,
-                                                                   DesiredMotion<Scalar>& desired) const noexcept;
+  [[gnu::always_inline]] inline void respond_to_surface(const V& normal, DesiredMotion<Scalar>& desired) const noexcept;
   [[nodiscard, gnu::noinline]] bool respond_to_all(DesiredMotion<Scalar>& desired) noexcept;
   [[nodiscard]] bool respond_one_by_one(DesiredMotion<Scalar>& desired) const noexcept;
   [[nodiscard]] bool respond_in_crease(DesiredMotion<Scalar>& desired) noexcept;
@@ -255,7 +256,7 @@ class StepSolver {
   void go_back_to(std::size_t corner) noexcept;
 
   // step_crush.hpp
-  [[nodiscard]] bool is_overlapped() const noexcept;
+  [[nodiscard]] bool is_passed_through() const noexcept;
   [[nodiscard, gnu::cold, gnu::noinline]] bool goes_to_free_position() noexcept;
   [[gnu::cold, gnu::noinline]] void undo_crushes() noexcept;
   [[nodiscard]] bool moves_in(const TouchedSurface<Scalar>& surface) const noexcept;
@@ -287,7 +288,8 @@ class StepSolver {
 
   LocalMotion motion_;         ///< Of the last sweep,
   SweepResult<Scalar> found_;  ///< and what it met.
-  V start_{V::Zero()};         ///< Where the step began, before gaps were restored. Times of impact count from there.
+  V start_{V::Zero()};  ///< Where the step began, or the way out of a solid ended, before gaps were restored. Times of
+                        ///< impact count from there.
   V position_{V::Zero()};
   V velocity_{V::Zero()};
   Scalar time_ = 0;  ///< Fraction of the step that is spent.

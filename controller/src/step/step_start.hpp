@@ -30,7 +30,7 @@ bool StepSolver<Lanes, Scalar>::prepare_start(Part part, const MoveRequest<Scala
     // There is no free position beside the movers. Without those that overlap there may be one.
     if (!ignore_overlapping_movers(request)) return false;
   }
-  if (!is_overlapped()) {
+  if (!is_passed_through()) {
     restore_gap();
     if (movers_.count > 0) restore_gaps_to_movers();
   }
@@ -52,8 +52,8 @@ std::optional<Vec2<Scalar>> StepSolver<Lanes, Scalar>::find_way_out(const MoveRe
                                   .entered_from = {},
                                   .movers = request.movers,
                                   .drops = request.drop,
-                                  .gap = tolerances.stop,
-                                  .reach = whole};
+                                  .gap = {},
+                                  .reach = {}};
   if (request.has_last_free) query.last_free = request.last_free;
   do {
     for (const Scalar gap : {tolerances.stop, tolerances.hit * Scalar(least_gap)}) {

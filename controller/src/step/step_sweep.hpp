@@ -73,6 +73,18 @@ void StepSolver<Lanes, Scalar>::sweep(const LocalMotion& motion, std::span<const
   }
 }
 
+/// The motion of the last sweep, relative to a mover.
+/// @param begin when the motion began.
+template <std::size_t Lanes, class Scalar>
+typename StepSolver<Lanes, Scalar>::LocalMotion StepSolver<Lanes, Scalar>::motion_seen_by(MoverIndex mover,
+                                                                                          Scalar begin) const noexcept {
+  const V offset = movers_.offset(mover, begin);
+  LocalMotion seen =
+      make_motion<Lanes>(space_, V(motion_.from - offset), movers_.relative(motion_.displacement, mover, begin));
+  seen.lost = lost_by(motion_.from, offset);
+  return seen;
+}
+
 /// Sweeps the last motion against every mover, relative to it.
 template <std::size_t Lanes, class Scalar>
 template <Covered covered>
@@ -86,9 +98,7 @@ void StepSolver<Lanes, Scalar>::sweep_movers() noexcept {
     const V to = from + displacement;
     const Box2<Scalar> box = space_.touched_from(Box2<Scalar>{from.cwiseMin(to), from.cwiseMax(to)}.inflated(look));
     if (!box.overlaps(movers_.phases.whole(mover))) continue;
-    LocalMotion seen = make_motion<Lanes>(space_, from, displacement);
-    seen.lost = lost_by(motion_.from, offset);
-    sweep<covered>(seen, movers_.phases.query(mover, box, memory_.of_mover));
+    sweep<covered>(motion_seen_by(mover, time_), movers_.phases.query(mover, box, memory_.of_mover));
   }
 }
 
@@ -220,8 +230,7 @@ void StepSolver<Lanes, Scalar>::report_more(Scalar begin, std::size_t this_momen
   };
   for (const PieceIndex piece : neighbourhood_.around(motion_.box(), motion_.displacement)) report_hit(motion_, piece);
   for (MoverIndex mover = 0; mover < movers_.count; ++mover) {
-    const V from = motion_.from - movers_.offset(mover, begin);
-    const LocalMotion motion = make_motion<Lanes>(space_, from, movers_.relative(motion_.displacement, mover, begin));
+    const LocalMotion motion = motion_seen_by(mover, begin);
     const PieceRange pieces = space_.scenery().pieces_of_mover(mover);
     for (PieceIndex piece = pieces.first; piece < pieces.end; ++piece) report_hit(motion, piece);
   }
@@ -242,9 +251,7 @@ Scalar StepSolver<Lanes, Scalar>::fraction_of(const Stop<Scalar>& stop, Scalar b
   const MoverIndex mover = mover_of(stop.piece);
   if (mover != no_mover) {
     const V shift = movers_.offset(mover, begin);
-    const V displacement = movers_.relative(motion_.displacement, mover, begin);
-    const LocalMotion motion = make_motion<Lanes>(space_, V(motion_.from - shift), displacement);
-    return begin + (1 - begin) * impact_of(stop, motion, V(from - shift));
+    return begin + (1 - begin) * impact_of(stop, motion_seen_by(mover, begin), V(from - shift));
   }
   return begin + (1 - begin) * impact_of(stop, motion_, from);
 }
