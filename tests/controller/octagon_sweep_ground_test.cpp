@@ -20,6 +20,20 @@ constexpr double half_foot = 5 * px;
 
 Input walking(double move) { return {.move = move}; }
 
+TEST(FewIterations, let_no_velocity_grow_into_what_stops_it) {
+  const Scenery<double> scenery(SceneryDef{{rectangle(-4, -1, 4, 0)}});
+  for (const int iterations : {1, 2, 3}) {
+    const Controller<double> controller(scenery, CharacterDef{}, SweepDef{.iterations = iterations});
+    Scratch<double> scratch = controller.make_scratch();
+    StepReport<double> report;
+    CharacterState<double> state;
+    state.position = {0, 2};
+    for (int step = 0; step < 200; ++step) controller.step(state, Input{}, {0, -30}, 1.0 / 60, scratch, report);
+    EXPECT_EQ(state.velocity.y(), 0) << iterations;
+    EXPECT_TRUE(state.grounded) << iterations;
+  }
+}
+
 TEST(Wedge, holds_the_octagon_on_both_sides_without_velocity) {
   for (const double angle : {60.0, 45.0, 30.0, 10.0, 5.0, 2.0, 1.0}) {
     const double half = angle / 2 * degree;

@@ -130,7 +130,7 @@ void StepSolver<Lanes, Scalar>::travel() noexcept {
     if (steered_ != 0) desired.displacement.unsteered *= left;
     if (++impacts == settings_.iterations) {
       if (result_.status == MoveStatus::moved) result_.status = MoveStatus::dropped;
-      if (!movers_.active) return;
+      if (!movers_.active) return end_at_surfaces(desired);
       // The rest of the displacement is dropped. Movers still push the character.
       desired = DesiredMotion<Scalar>::plain(V::Zero(), V::Zero());
       steered_ = 0;
@@ -145,6 +145,16 @@ void StepSolver<Lanes, Scalar>::travel() noexcept {
     displacement = may_aim ? with_gap_restored(desired.displacement.wanted, first) : desired.displacement.wanted;
   }
   last_resort(displacement);
+}
+
+/// Ends the step here. The velocity still becomes one that the touched surfaces allow: otherwise it would grow from
+/// step to step.
+template <std::size_t Lanes, class Scalar>
+void StepSolver<Lanes, Scalar>::end_at_surfaces(DesiredMotion<Scalar>& desired) noexcept {
+  if (respond_to_surfaces(desired))
+    velocity_ = desired.velocity.wanted;
+  else
+    halt();
 }
 
 /// Whether the character can fall straight down between two rims that it touches: a shaft may be a little wider than

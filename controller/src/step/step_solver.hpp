@@ -177,6 +177,7 @@ class StepSolver {
   void begin_motion(const MoveRequest<Scalar>& request) noexcept;
   [[nodiscard]] DesiredMotion<Scalar> desired() const noexcept;
   [[gnu::flatten]] void travel() noexcept;
+  [[gnu::cold, gnu::noinline]] void end_at_surfaces(DesiredMotion<Scalar>& desired) noexcept;
   [[nodiscard, gnu::cold, gnu::noinline]] bool shift_to_fall(const V& displacement) noexcept;
   [[nodiscard]] V with_gap_restored(const V& displacement, const Stop<Scalar>& at) const noexcept;
   void halt() noexcept;
