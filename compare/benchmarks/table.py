@@ -61,37 +61,42 @@ def markdown(rows):
 
 STYLE = """text { font: 12px system-ui, "Segoe UI", Roboto, "Liberation Sans", sans-serif; fill: #1d2125; }
 .title { font-size: 14px; font-weight: 600; } .quiet { fill: #5c646c; }
-.grid { stroke: #d9dcdf; } .one { stroke: #1d2125; stroke-width: 2; } .bar { fill: #0b5cad; }
+.grid { stroke: #d9dcdf; } .one { stroke: #1d2125; stroke-width: 2; } .bar { fill: #0b5cad; } .slower { fill: #b4540a; }
 @media (prefers-color-scheme: dark) {
-text { fill: #e3e6e8; } .quiet { fill: #a0a8b0; } .grid { stroke: #3a4046; } .one { stroke: #e3e6e8; } .bar { fill: #6cb2f2; }
+text { fill: #e3e6e8; } .quiet { fill: #a0a8b0; } .grid { stroke: #3a4046; } .one { stroke: #e3e6e8; } .bar { fill: #6cb2f2; } .slower { fill: #f0a35e; }
 }"""
 
 
+TICKS = (0.2, 0.5, 1, 2, 5, 10, 20, 50, 100)
+
+
 def picture(rows):
-    """How many times Box2D's figure is the controller's, as bars along a logarithmic axis."""
-    left, width, top, height = 250, 330, 62, 24
-    decades = max(1, math.ceil(math.log10(max(theirs / ours for _, ours, theirs, _, _ in rows))))
+    """How many times Box2D's figure is the controller's, as bars along a logarithmic axis; to the left where Box2D's is
+    the smaller one."""
+    left, width, top, height = 280, 380, 62, 24
+    ratios = [theirs / ours for _, ours, theirs, _, _ in rows]
+    least = max([tick for tick in TICKS if tick <= min(ratios)], default=TICKS[0])
+    most = min([tick for tick in TICKS if tick >= max(ratios)], default=TICKS[-1])
     bottom = top + height * len(rows)
 
     def x(ratio):
-        return left + width * math.log10(max(ratio, 1)) / decades
+        return left + width * math.log(ratio / least) / math.log(most / least)
 
     out = [f'<svg xmlns="http://www.w3.org/2000/svg" width="860" height="{bottom + 34}" viewBox="0 0 860 {bottom + 34}" '
            'role="img">', "<title>paperproof and Box2D 2.4.1: time and memory</title>", f"<style>\n{STYLE}\n</style>",
            '<text class="title" x="16" y="24">How many times faster or smaller than Box2D 2.4.1</text>',
            '<text class="quiet" x="16" y="42">one process, the same level, 60 Hz; paperproof, Box2D beside each bar</text>']
-    for decade in range(decades + 1):
-        for step in (1, 2, 5) if decade < decades else (1,):
-            ratio = step * 10 ** decade
-            out.append(f'<line class="{"one" if ratio == 1 else "grid"}" x1="{x(ratio):.1f}" y1="{top}" '
-                       f'x2="{x(ratio):.1f}" y2="{bottom}"/>')
-            out.append(f'<text class="quiet" x="{x(ratio):.1f}" y="{bottom + 18}" text-anchor="middle">{ratio}</text>')
-    for i, (words, ours, theirs, unit, digits) in enumerate(rows):
+    for ratio in [tick for tick in TICKS if least <= tick <= most]:
+        out.append(f'<line class="{"one" if ratio == 1 else "grid"}" x1="{x(ratio):.1f}" y1="{top}" '
+                   f'x2="{x(ratio):.1f}" y2="{bottom}"/>')
+        out.append(f'<text class="quiet" x="{x(ratio):.1f}" y="{bottom + 18}" text-anchor="middle">{ratio}</text>')
+    for i, ((words, ours, theirs, unit, digits), ratio) in enumerate(zip(rows, ratios)):
         y = top + height * i
-        end = x(theirs / ours)
+        begin, end = sorted((x(1), x(ratio)))
         out.append(f'<text x="{left - 10}" y="{y + 16}" text-anchor="end">{words}</text>')
-        out.append(f'<rect class="bar" x="{left}" y="{y + 5}" width="{max(1, end - left):.1f}" height="{height - 10}"/>')
-        out.append(f'<text class="quiet" x="{max(end, left) + 6:.1f}" y="{y + 16}">{theirs / ours:.1f} × '
+        out.append(f'<rect class="{"bar" if ratio >= 1 else "slower"}" x="{begin:.1f}" y="{y + 5}" '
+                   f'width="{max(1, end - begin):.1f}" height="{height - 10}"/>')
+        out.append(f'<text class="quiet" x="{end + 6:.1f}" y="{y + 16}">{ratio:.1f} × '
                    f'({ours:,.{digits}f} {unit}, {theirs:,.{digits}f} {unit})</text>')
     return "\n".join([*out, "</svg>", ""])
 
