@@ -13,7 +13,6 @@ namespace paperproof {
 
 template <class Scalar>
 struct Crowd<Scalar>::Rules {
-  Stages stages;  ///< The stages that were not left out.
   bool may_ride;  ///< Some ground may carry a character.
   /// What `octagon_sweep` needs to move several characters. Null: the controller has a joint technique.
   std::unique_ptr<crowd::SweepRules<Scalar>> sweep{};
@@ -54,7 +53,7 @@ Crowd<Scalar>::Crowd(std::unique_ptr<const Rules> rules, Controller<Scalar> cont
 template <class Scalar>
 Crowd<Scalar>::Crowd(const Scenery<Scalar>& scenery, const CharacterDef& character, const SweepDef& sweep)
     : Crowd([&] {
-        Rules rules{.stages = sweep.stages, .may_ride = scenery.mover_count() > 0 || has_conveyors(scenery)};
+        Rules rules{.may_ride = scenery.mover_count() > 0 || has_conveyors(scenery)};
         rules.sweep = std::make_unique<crowd::SweepRules<Scalar>>(scenery, character, sweep.iterations);
         SweepDef def = sweep;
         def.stages.movers = def.stages.slopes = true;  // characters are moving obstacles with slopes
@@ -67,7 +66,7 @@ Crowd<Scalar>::Crowd(const Scenery<Scalar>& scenery, const CharacterDef& charact
 template <class Scalar>
 Crowd<Scalar>::Crowd(const Scenery<Scalar>& scenery, const CharacterDef& character,
                      std::unique_ptr<const JointTechnique<Scalar>> technique, const Stages& stages)
-    : Crowd(std::make_unique<const Rules>(Rules{.stages = stages, .may_ride = true}),
+    : Crowd(std::make_unique<const Rules>(Rules{.may_ride = true}),
             Controller<Scalar>(scenery, character, std::move(technique), stages)) {}
 
 template <class Scalar>
@@ -94,15 +93,6 @@ CrowdScratch Crowd<Scalar>::make_scratch(std::size_t most_characters) const {
   return {most_characters, std::move(memory), rules_};
 }
 
-/// What is refused for all of them at once.
-template <class Scalar>
-bool Crowd<Scalar>::accepts(const CharacterState<Scalar>& state, const Input& input,
-                            const Vec2<Scalar>& gravity) const noexcept {
-  const Stages& stages = rules_->stages;
-  return (stages.jump || !input.jump) && (stages.gravity || (gravity.x() == 0 && gravity.y() == 0)) &&
-         (rules_->may_ride || state.ride.ground == Ride<Scalar>::none);
-}
-
 /// Writes no state before it is certain that no state is refused.
 template <class Scalar>
 StepStatus Crowd<Scalar>::step(std::span<CharacterState<Scalar>> states, std::span<const Input> inputs,
@@ -116,7 +106,8 @@ StepStatus Crowd<Scalar>::step(std::span<CharacterState<Scalar>> states, std::sp
   for (std::size_t i = 0; i < count; ++i) {
     report.members[i] = {};
     report.members[i].island = static_cast<CharacterIndex>(i);
-    if (!accepts(states[i], inputs[i], gravity) ||
+    const bool rides = states[i].ride.ground != Ride<Scalar>::none;
+    if ((rides && !rules_->may_ride) ||
         !controller_.begin_together(states[i], inputs[i], gravity, dt, movers, memory.states[i], memory.requests[i],
                                     report.members[i].step))
       return report.status = StepStatus::invalid_input;

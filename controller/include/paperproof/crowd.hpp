@@ -144,8 +144,6 @@ class Crowd {
  private:
   struct Rules;
   Crowd(std::unique_ptr<const Rules> rules, Controller<Scalar> controller);
-  [[nodiscard]] bool accepts(const CharacterState<Scalar>& state, const Input& input,
-                             const Vec2<Scalar>& gravity) const noexcept;
 
   std::shared_ptr<const Rules> rules_;  ///< Has no other owner: scratch memory refers to it.
   Controller<Scalar> controller_;

@@ -85,18 +85,22 @@ bool overlaps_exactly(const ConfigurationSpace<Scalar>& space, PieceIndex piece,
 }
 
 template <class Scalar>
-bool clear_of_exactly(const ConfigurationSpace<Scalar>& space, PieceIndex piece, const ExactPosition& from,
-                      const ExactPosition& to) noexcept {
-  return some_line_separates(space, piece, from, to);
+bool clear_of_exactly(const ConfigurationSpace<Scalar>& space, PieceIndex piece,
+                      std::span<const MoverMotion<Scalar>> movers, const Vec2<Scalar>& from, Scalar begin,
+                      const Vec2<Scalar>& to, Scalar end) noexcept {
+  const MoverIndex mover = space.scenery().pieces()[piece].mover;
+  if (mover == no_mover) return clear_of_exactly(space, piece, from, to);
+  return some_line_separates(space, piece, ExactPosition(from, movers[mover], begin),
+                             ExactPosition(to, movers[mover], end));
 }
 
-#define PAPERPROOF_INSTANTIATE(Scalar)                                                                          \
-  template bool overlaps_exactly(const ConfigurationSpace<Scalar>&, PieceIndex, const Vec2<Scalar>&) noexcept;  \
-  template bool clear_of_exactly(const ConfigurationSpace<Scalar>&, PieceIndex, const Vec2<Scalar>&,            \
-                                 const Vec2<Scalar>&) noexcept;                                                 \
-  template bool overlaps_exactly(const ConfigurationSpace<Scalar>&, PieceIndex, const ExactPosition&) noexcept; \
-  template bool clear_of_exactly(const ConfigurationSpace<Scalar>&, PieceIndex, const ExactPosition&,           \
-                                 const ExactPosition&) noexcept;
+#define PAPERPROOF_INSTANTIATE(Scalar)                                                                                \
+  template bool overlaps_exactly(const ConfigurationSpace<Scalar>&, PieceIndex, const Vec2<Scalar>&) noexcept;        \
+  template bool overlaps_exactly(const ConfigurationSpace<Scalar>&, PieceIndex, const ExactPosition&) noexcept;       \
+  template bool clear_of_exactly(const ConfigurationSpace<Scalar>&, PieceIndex, const Vec2<Scalar>&,                  \
+                                 const Vec2<Scalar>&) noexcept;                                                       \
+  template bool clear_of_exactly(const ConfigurationSpace<Scalar>&, PieceIndex, std::span<const MoverMotion<Scalar>>, \
+                                 const Vec2<Scalar>&, Scalar, const Vec2<Scalar>&, Scalar) noexcept;
 PAPERPROOF_INSTANTIATE(float)
 PAPERPROOF_INSTANTIATE(double)
 #undef PAPERPROOF_INSTANTIATE

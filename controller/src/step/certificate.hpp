@@ -48,9 +48,11 @@ template <class Scalar>
 template <class Scalar>
 [[nodiscard]] bool clear_of_exactly(const ConfigurationSpace<Scalar>& space, PieceIndex piece, const Vec2<Scalar>& from,
                                     const Vec2<Scalar>& to) noexcept;
-/// The same on a motion that is straight as the piece sees it.
+/// The same on a motion in the world during a part of the step, also beside a piece that moves.
+/// @param movers motions in the whole step. @param begin,end of that part, as fractions of the step.
 template <class Scalar>
 [[nodiscard]] bool clear_of_exactly(const ConfigurationSpace<Scalar>& space, PieceIndex piece,
-                                    const ExactPosition& from, const ExactPosition& to) noexcept;
+                                    std::span<const MoverMotion<Scalar>> movers, const Vec2<Scalar>& from, Scalar begin,
+                                    const Vec2<Scalar>& to, Scalar end) noexcept;
 
 }  // namespace paperproof::octagon_sweep

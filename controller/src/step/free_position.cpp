@@ -351,24 +351,15 @@ class Search {
   /// Whether a straight motion to a position hits no solid, and no one-way segment against its normal.
   /// @param time when it begins.
   [[nodiscard]] bool clear(PieceIndex piece, const V& place, Scalar time, const V& q) const noexcept {
-    constexpr Scalar certain = Tolerances<Scalar>{}.certain;
     if (query_.drops && !solid(piece)) return true;
     const V from = seen(piece, place, time);
     const V to = seen_at_end(piece, q);
     Motion<Lanes, Scalar> motion = make_motion<Lanes>(space_, from, V(to - from));
     motion.lost = lost_by(place, offset(piece, time));
     if (!blocks(space_, motion, piece)) return true;
-    for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis)
-      if (space_.separation(piece, axis, from) >= certain && space_.separation(piece, axis, to) >= certain) return true;
-    if (exactly_clear(piece, place, time, q)) return true;
-    return best(piece, from).separation >= certain && passes(motion, piece);
-  }
-
-  [[nodiscard]] bool exactly_clear(PieceIndex piece, const V& place, Scalar time, const V& q) const noexcept {
-    const MoverIndex mover = space_.scenery().pieces()[piece].mover;
-    if (mover == no_mover) return clear_of_exactly(space_, piece, place, q);
-    const MoverMotion<Scalar>& motion = query_.movers[mover];
-    return clear_of_exactly(space_, piece, ExactPosition(place, motion, time), ExactPosition(q, motion, query_.end));
+    if (one_axis_separates(space_, piece, from, to)) return true;
+    if (clear_of_exactly(space_, piece, query_.movers, place, time, q, query_.end)) return true;
+    return best(piece, from).separation >= Tolerances<Scalar>{}.certain && passes(motion, piece);
   }
 
   [[nodiscard]] bool passes(const Motion<Lanes, Scalar>& motion, PieceIndex piece) const noexcept {

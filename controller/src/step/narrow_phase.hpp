@@ -309,6 +309,17 @@ template <Covered covered = Covered::yields, std::size_t Lanes, class Scalar>
   return {hit && stop <= 1, stop, {last.axis(is_covered), missed ? near : impact, missed, is_covered}};
 }
 
+/// Whether one axis, by more than rounding, separates a piece from both ends of a straight motion: proof that the
+/// motion is clear of it.
+template <class Scalar>
+[[nodiscard]] bool one_axis_separates(const ConfigurationSpace<Scalar>& space, PieceIndex piece,
+                                      const Vec2<Scalar>& from, const Vec2<Scalar>& to) noexcept {
+  constexpr Scalar certain = Tolerances<Scalar>{}.certain;
+  for (std::size_t axis = 0; axis < space.axis_count(piece); ++axis)
+    if (space.separation(piece, axis, from) >= certain && space.separation(piece, axis, to) >= certain) return true;
+  return false;
+}
+
 /// The axis of largest separation at a position, and that separation.
 template <class Scalar>
 struct BestAxis {

@@ -34,7 +34,6 @@ bool StepSolver<Lanes, Scalar>::goes_to_free_position() noexcept {
 /// movers that crushed, no further away than one of them moves; then nothing was crushed.
 template <std::size_t Lanes, class Scalar>
 void StepSolver<Lanes, Scalar>::undo_crushes() noexcept {
-  if (result_.crushed.empty()) return;
   moving_.ignored &= static_cast<std::uint8_t>(~crushes);
   Scalar reach = 0;
   for (const ColliderIndex collider : result_.crushed) reach = std::max(reach, length_of(displacement_of(collider)));
@@ -58,49 +57,38 @@ template <std::size_t Lanes, class Scalar>
 bool StepSolver<Lanes, Scalar>::note_crushers() noexcept {
   const std::size_t before = result_.crushed.size();
   for (const TouchedSurface<Scalar>& surface : memory_.surfaces)
-    if (moves_in(surface)) crush(surface.piece);
+    if (moves_in(surface)) crush(surface.piece, time_);
   return result_.crushed.size() > before;
 }
 
+/// Notes that the mover of a piece crushes the character.
+/// @param since the character was free of the mover at this fraction of the step.
 template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::crush(PieceIndex piece) noexcept {
+void StepSolver<Lanes, Scalar>::crush(PieceIndex piece, Scalar since) noexcept {
   const MoverIndex mover = mover_of(piece);
   if (ignored(piece) || mover == no_mover) return;
-  const ColliderIndex collider = collider_of(piece);
-  add_to_crushed(collider);
-  remember({collider, position_, movers_.remaining(mover, time_)});
-}
-
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::add_to_crushed(ColliderIndex collider) noexcept {
   if (result_.crushed.empty()) {
     moving_.corners_before_crush = result_.path.size();
     moving_.status_before_crush = result_.status;
   }
+  const ColliderIndex collider = collider_of(piece);
   memory_.mark(collider, crushes);
   result_.crushed.push_back(collider, memory_.crushed);
   result_.status = MoveStatus::crushed;
-}
-
-/// Ignores every mover near the position that has a piece for which the condition holds. True if there is one.
-template <std::size_t Lanes, class Scalar>
-template <class Condition>
-bool StepSolver<Lanes, Scalar>::ignore_movers(const Condition& condition) noexcept {
-  bool any = false;
-  for_each_near({position_, position_}, [&](PieceIndex piece) {
-    if (mover_of(piece) == no_mover || ignored(piece) || !condition(piece)) return;
-    memory_.mark(collider_of(piece), overlaps_since_start);
-    any = true;
-  });
-  return any;
+  remember({collider, position_, movers_.remaining(mover, since)});
 }
 
 /// Ignores the movers that overlap the character, and finds each of them in the list of the state. The list may come
 /// from another scenery: unknown entries are skipped. A mover that is not in the list came at the last free position;
-/// if the list is full, its side is not known.
+/// if the list is full, its side is not known. True if there is a mover that was not ignored yet.
 template <std::size_t Lanes, class Scalar>
 bool StepSolver<Lanes, Scalar>::ignore_overlapping_movers(const MoveRequest<Scalar>& request) noexcept {
-  const bool any = ignore_movers([this](PieceIndex piece) { return overlaps(piece, position_); });
+  bool any = false;
+  for_each_near({position_, position_}, [&](PieceIndex piece) {
+    if (mover_of(piece) == no_mover || ignored(piece) || !overlaps(piece, position_)) return;
+    memory_.mark(collider_of(piece), overlaps_since_start);
+    any = true;
+  });
   const bool full = request.crushers.size() == Crushers<Scalar>::capacity();
   moving_.overlapping = 0;
   for (const ColliderIndex collider : memory_.marked) {
@@ -158,7 +146,6 @@ void StepSolver<Lanes, Scalar>::remember(const Crusher<Scalar>& now) noexcept {
 /// start, the character is stuck, unless it was crushed in this step. Hands the list to the next step.
 template <std::size_t Lanes, class Scalar>
 void StepSolver<Lanes, Scalar>::find_movers_that_still_overlap() noexcept {
-  if (memory_.marked.empty()) return;
   moving_.ignored = 0;
   for_each_near({position_, position_}, [&](PieceIndex piece) {
     const ColliderIndex collider = collider_of(piece);
@@ -206,19 +193,11 @@ void StepSolver<Lanes, Scalar>::wait(bool may_move) noexcept {
   moving_.anchored = false;
   const Scalar since = time_;
   time_ = 1;
-  note_crushers_by_rounding(since);
-  push_corner(time_);
-}
-
-/// Lets movers crush that overlap by no more than rounding, which no sweep sees.
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::note_crushers_by_rounding(Scalar since) noexcept {
+  // Movers that overlap by no more than rounding, which no sweep sees, crush, too.
   for_each_near({position_, position_}, [&](PieceIndex piece) {
-    const MoverIndex mover = mover_of(piece);
-    if (mover == no_mover || ignored(piece) || !overlaps(piece, position_)) return;
-    add_to_crushed(collider_of(piece));
-    remember({collider_of(piece), position_, movers_.remaining(mover, since)});
+    if (overlaps(piece, position_)) crush(piece, since);
   });
+  push_corner(time_);
 }
 
 /// The whole step of `Part::stay`.
@@ -227,7 +206,7 @@ void StepSolver<Lanes, Scalar>::stay_in_place(const MoveRequest<Scalar>& request
   push_corner(0);
   ignore_overlapping_movers(request);
   wait(false);
-  find_movers_that_still_overlap();
+  if (!memory_.marked.empty()) find_movers_that_still_overlap();
   if (result_.status == MoveStatus::moved && overlaps(position_)) result_.status = MoveStatus::stuck;
   result_.position = position_;
   result_.velocity = velocity_;

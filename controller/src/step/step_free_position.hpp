@@ -142,17 +142,6 @@ void StepSolver<Lanes, Scalar>::go_back_to(std::size_t corner) noexcept {
   moving_.anchored = false;
 }
 
-/// Whether a straight motion from a corner, where the character is, is proved clear of every piece that is nearer than
-/// rounding there and may not be passed.
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::is_proved(std::size_t corner, const V& target, Scalar end) noexcept {
-  bool clear = true;
-  for_each_near({position_, position_}, [&](PieceIndex piece) {
-    clear = clear && (may_pass(piece, corner) || !blocks_exactly(piece, target, end));
-  });
-  return clear;
-}
-
 /// Reports what the motion to the free position comes near to: that is what stops or pushes the character. Each piece
 /// is a contact at the moment when it is nearest, and that moment becomes a corner of the path.
 template <std::size_t Lanes, class Scalar>
@@ -170,7 +159,10 @@ void StepSolver<Lanes, Scalar>::report_free_position(std::size_t corner) noexcep
     if (within && (certify_ || result_.path.size() + 1 >= memory_.corners.capacity())) continue;
     const V there = within ? V(from.position + (to.position - from.position) * near.when) : to.position;
     const Scalar then = within ? from.fraction + (1 - from.fraction) * near.when : Scalar(1);
-    if (within && !is_proved(corner, there, then)) continue;
+    const auto blocked = [&](PieceIndex piece) {
+      return !may_pass(piece, corner) && blocks_exactly(piece, there, then);
+    };
+    if (within && any_near({position_, position_}, blocked)) continue;
     position_ = there;
     time_ = then;
     push_corner(time_);

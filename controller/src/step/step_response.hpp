@@ -173,10 +173,7 @@ bool StepSolver<Lanes, Scalar>::respond_together(DesiredMotion<Scalar>& desired)
   const Desired<Scalar> displacement = desired.displacement;
   const Desired<Scalar> velocity = desired.velocity;
   const auto wanted = nearest_allowed_to(displacement.wanted, velocity.wanted);
-  if (!wanted) {
-    desired.velocity.wanted = desired.velocity.unsteered = V::Zero();
-    return false;
-  }
+  if (!wanted) return false;
   desired = *wanted;
   const auto falls_by = [&](const V& down, const V& velocity_of_fall) {
     const auto falling = nearest_allowed_to(down, velocity_of_fall);

@@ -27,7 +27,7 @@ void StepSolver<Lanes, Scalar>::solve(Part part, const MoveRequest<Scalar>& requ
     if (movers_.active) {
       note_colliders_left();
       wait(false);
-      undo_crushes();
+      if (!result_.crushed.empty()) undo_crushes();
     }
   } else {
     if (movers_.active) {
@@ -217,7 +217,8 @@ template <std::size_t Lanes, class Scalar>
 bool StepSolver<Lanes, Scalar>::stands() noexcept {
   if (on_ground_ || wedged_) return true;
   if (met_ground_ && stands_on(ground_)) return true;  // the usual case
-  return !result_.contacts.empty() && stands_on_any();
+  return !result_.contacts.empty() &&
+         any_near({position_, position_}, [this](PieceIndex piece) { return stands_on(piece); });
 }
 
 /// Reports the ground that the character stands on, also where gravity presses onto it by less than the sweep sees.
@@ -234,13 +235,6 @@ void StepSolver<Lanes, Scalar>::report_ground(const V& wanted) noexcept {
 }
 
 template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::stands_on_any() noexcept {
-  bool any = false;
-  for_each_near({position_, position_}, [&](PieceIndex piece) { any = any || stands_on(piece); });
-  return any;
-}
-
-template <std::size_t Lanes, class Scalar>
 bool StepSolver<Lanes, Scalar>::stands_on(PieceIndex piece) const noexcept {
   const std::optional<V> normal = touched_ground(piece);
   if (!normal) return false;
@@ -252,9 +246,7 @@ bool StepSolver<Lanes, Scalar>::stands_on(PieceIndex piece) const noexcept {
 
 template <std::size_t Lanes, class Scalar>
 bool StepSolver<Lanes, Scalar>::touches_ground() noexcept {
-  bool any = false;
-  for_each_near({position_, position_}, [&](PieceIndex piece) { any = any || touched_ground(piece); });
-  return any;
+  return any_near({position_, position_}, [this](PieceIndex piece) { return touched_ground(piece).has_value(); });
 }
 
 template <std::size_t Lanes, class Scalar>

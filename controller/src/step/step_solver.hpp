@@ -6,9 +6,9 @@
 ///   3. step_sweep.hpp: the octagon is swept to the earliest time of impact. Every obstacle has its own motion; what
 ///      stands still has none.
 ///   4. step_response.hpp: the desired motion becomes one that all touched surfaces allow. Back to 3 with what is left.
-///   5. step_free_position.hpp, step_crush.hpp: where movers leave no motion at all, the nearest free position is
-///   looked
-///      for; where there is none, the movers crush the character.
+///   5. step_free_position.hpp, step_crush.hpp: where movers leave no motion at all, the step looks for the nearest
+///   free
+///      position; where there is none, the movers crush the character.
 ///   6. step_solve.hpp: does the character stand on ground? Is there ground to follow a little below?
 ///
 /// The definitions are in headers, and one source includes them all: a function that is called from one place is
@@ -117,7 +117,10 @@ class StepSolver {
   [[nodiscard]] bool stops_at_covered() const noexcept;
   template <Covered covered>
   void sweep(const LocalMotion& motion, std::span<const PieceIndex> pieces) noexcept;
-  [[nodiscard]] LocalMotion motion_seen_by(MoverIndex mover, Scalar begin) const noexcept;
+  [[nodiscard]] LocalMotion motion_seen_by(MoverIndex mover, Scalar begin) const noexcept {
+    return motion_relative_to(movers_.offset(mover, begin), movers_.relative(motion_.displacement, mover, begin));
+  }
+  [[nodiscard]] LocalMotion motion_relative_to(const V& offset, const V& displacement) const noexcept;
   template <Covered covered>
   void sweep_movers() noexcept;
   void keep_stop(Stop<Scalar> stop, Scalar length) noexcept;
@@ -145,6 +148,9 @@ class StepSolver {
   /// pieces of movers.
   template <class Visit>
   void for_each_near(const Box2<Scalar>& box, const Visit& visit) noexcept;
+  /// Whether `condition(piece)` holds for one of them.
+  template <class Condition>
+  [[nodiscard]] bool any_near(const Box2<Scalar>& box, const Condition& condition) noexcept;
 
   /// Whether a piece can stop a motion at all.
   [[nodiscard]] bool in_way(const LocalMotion& motion, PieceIndex piece) const noexcept {
@@ -171,7 +177,6 @@ class StepSolver {
   [[nodiscard]] bool exactly_clear(const V& from, const V& to) noexcept;
   [[nodiscard]] bool exactly_clear(PieceIndex piece, const V& from, const V& to, Scalar end) const noexcept;
   void restore_gaps_to_movers() noexcept;
-  [[nodiscard]] bool keeps_gaps(const V& q) noexcept;
 
   // step_solve.hpp
   void begin_motion(const MoveRequest<Scalar>& request) noexcept;
@@ -183,7 +188,6 @@ class StepSolver {
   void halt() noexcept;
   [[gnu::cold, gnu::noinline]] void cut_short() noexcept;
   [[nodiscard]] bool stands() noexcept;
-  [[nodiscard]] bool stands_on_any() noexcept;
   [[gnu::cold, gnu::noinline]] void report_ground(const V& wanted) noexcept;
   [[nodiscard]] bool stands_on(PieceIndex piece) const noexcept;
   [[nodiscard, gnu::cold, gnu::noinline]] bool touches_ground() noexcept;
@@ -246,7 +250,6 @@ class StepSolver {
   void search_from(std::size_t corner, Scalar gap, FreePosition& room) noexcept;
   void extend_until_contact(FreePosition& room) noexcept;
   [[nodiscard]] bool may_pass(PieceIndex piece, std::size_t corner) const noexcept;
-  [[nodiscard]] bool is_proved(std::size_t corner, const V& target, Scalar end) noexcept;
   void note_colliders_left() noexcept;
   void go_to(const V& end) noexcept;
   void report_free_position(std::size_t corner) noexcept;
@@ -262,10 +265,7 @@ class StepSolver {
   [[gnu::cold, gnu::noinline]] void undo_crushes() noexcept;
   [[nodiscard]] bool moves_in(const TouchedSurface<Scalar>& surface) const noexcept;
   [[gnu::cold, gnu::noinline]] bool note_crushers() noexcept;
-  void crush(PieceIndex piece) noexcept;
-  void add_to_crushed(ColliderIndex collider) noexcept;
-  template <class Condition>
-  bool ignore_movers(const Condition& condition) noexcept;
+  void crush(PieceIndex piece, Scalar since) noexcept;
   bool ignore_overlapping_movers(const MoveRequest<Scalar>& request) noexcept;
   [[nodiscard]] bool leaves_overlapping_movers(const MoveRequest<Scalar>& request) noexcept;
   [[nodiscard]] MoverIndex mover_of_collider(ColliderIndex collider) const noexcept {
@@ -276,7 +276,6 @@ class StepSolver {
   void hand_on_crushers() noexcept;
   [[gnu::cold, gnu::noinline]] void find_movers_that_still_overlap() noexcept;
   [[gnu::cold, gnu::noinline]] void wait(bool may_move) noexcept;
-  void note_crushers_by_rounding(Scalar since) noexcept;
   [[gnu::cold, gnu::noinline]] void stay_in_place(const MoveRequest<Scalar>& request) noexcept;
 
   const ConfigurationSpace<Scalar>& space_;

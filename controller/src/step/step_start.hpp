@@ -135,9 +135,7 @@ Scalar StepSolver<Lanes, Scalar>::reach_of_solids_inside() noexcept {
 
 template <std::size_t Lanes, class Scalar>
 bool StepSolver<Lanes, Scalar>::overlaps(const V& position) noexcept {
-  bool any = false;
-  for_each_near({position, position}, [&](PieceIndex piece) { any = any || overlaps(piece, position); });
-  return any;
+  return any_near({position, position}, [&](PieceIndex piece) { return overlaps(piece, position); });
 }
 
 template <std::size_t Lanes, class Scalar>
@@ -187,37 +185,25 @@ void StepSolver<Lanes, Scalar>::restore_gap() noexcept {
 /// Whether a straight motion that takes no time is clear of every piece, exactly.
 template <std::size_t Lanes, class Scalar>
 bool StepSolver<Lanes, Scalar>::exactly_clear(const V& from, const V& to) noexcept {
-  bool clear = true;
-  for_each_near({from.cwiseMin(to), from.cwiseMax(to)},
-                [&](PieceIndex piece) { clear = clear && exactly_clear(piece, from, to, time_); });
-  return clear;
+  return !any_near({from.cwiseMin(to), from.cwiseMax(to)},
+                   [&](PieceIndex piece) { return !exactly_clear(piece, from, to, time_); });
 }
 
 /// The same for one piece, and a motion from now to a fraction of the step.
 template <std::size_t Lanes, class Scalar>
 bool StepSolver<Lanes, Scalar>::exactly_clear(PieceIndex piece, const V& begin, const V& target,
                                               Scalar end) const noexcept {
-  constexpr Tolerances<Scalar> tolerances{};
   const V from = local(piece, begin);
   const V to = target - offset(piece, end);
-  for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis)
-    if (space_.separation(piece, axis, from) >= tolerances.certain &&
-        space_.separation(piece, axis, to) >= tolerances.certain)
-      return true;
+  if (one_axis_separates(space_, piece, from, to)) return true;
   LocalMotion motion = make_motion<Lanes>(space_, from, V(to - from));
   motion.lost = lost_by(begin, offset(piece));
   if (!in_way(motion, piece)) return true;
-  const MoverIndex mover = mover_of(piece);
-  if (mover != no_mover) {
-    const MoverMotion<Scalar>& motion_of_mover = movers_.motions[mover];
-    return clear_of_exactly(space_, piece, ExactPosition(begin, motion_of_mover, time_),
-                            ExactPosition(target, motion_of_mover, end));
-  }
-  return clear_of_exactly(space_, piece, from, to);
+  return clear_of_exactly(space_, piece, movers_.motions, begin, time_, target, end);
 }
 
-/// Where not all gaps can be restored, restores those to moving pieces one by one, as far as each leaves the others
-/// alone. Otherwise rounding could let a mover that carries the character overlap it.
+/// Where not all gaps can be restored, restores those to moving pieces one by one. Each push must make no gap smaller
+/// that is below `hit`. Otherwise rounding could let a mover that carries the character overlap it.
 template <std::size_t Lanes, class Scalar>
 void StepSolver<Lanes, Scalar>::restore_gaps_to_movers() noexcept {
   constexpr Tolerances<Scalar> tolerances{};
@@ -233,23 +219,15 @@ void StepSolver<Lanes, Scalar>::restore_gaps_to_movers() noexcept {
   const V before = position_;
   for (const HalfPlane<Scalar>& push : pushes) {
     const V q = position_ + push.normal * push.least;
-    if (keeps_gaps(q) && exactly_clear(position_, q)) position_ = q;
+    const bool narrows = any_near({q.cwiseMin(position_), q.cwiseMax(position_)}, [&](PieceIndex piece) {
+      if (!may_block(piece, position_)) return false;
+      const Scalar now = best_axis<Lanes>(space_, piece, local(piece, position_)).separation;
+      const Scalar then = best_axis<Lanes>(space_, piece, local(piece, q)).separation;
+      return then < std::min(now, tolerances.hit) - tolerances.certain;
+    });
+    if (!narrows && exactly_clear(position_, q)) position_ = q;
   }
   if (position_ != before) push_corner(0);
-}
-
-/// Whether a position makes no gap smaller, by more than rounding, that is below `hit`.
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::keeps_gaps(const V& q) noexcept {
-  constexpr Tolerances<Scalar> tolerances{};
-  bool kept = true;
-  for_each_near({q.cwiseMin(position_), q.cwiseMax(position_)}, [&](PieceIndex piece) {
-    if (!may_block(piece, position_)) return;
-    const Scalar now = best_axis<Lanes>(space_, piece, local(piece, position_)).separation;
-    const Scalar then = best_axis<Lanes>(space_, piece, local(piece, q)).separation;
-    kept = kept && then >= std::min(now, tolerances.hit) - tolerances.certain;
-  });
-  return kept;
 }
 
 }  // namespace paperproof::octagon_sweep

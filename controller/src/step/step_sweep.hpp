@@ -32,6 +32,14 @@ void StepSolver<Lanes, Scalar>::for_each_near(const Box2<Scalar>& box, const Vis
 }
 
 template <std::size_t Lanes, class Scalar>
+template <class Condition>
+bool StepSolver<Lanes, Scalar>::any_near(const Box2<Scalar>& box, const Condition& condition) noexcept {
+  bool any = false;
+  for_each_near(box, [&](PieceIndex piece) { any = any || condition(piece); });
+  return any;
+}
+
+template <std::size_t Lanes, class Scalar>
 void StepSolver<Lanes, Scalar>::sweep_along(const V& displacement) noexcept {
   motion_ = make_motion<Lanes>(space_, position_, displacement);
   found_.clear();
@@ -74,13 +82,11 @@ void StepSolver<Lanes, Scalar>::sweep(const LocalMotion& motion, std::span<const
 }
 
 /// The motion of the last sweep, relative to a mover.
-/// @param begin when the motion began.
+/// @param offset of the mover when the motion began. @param displacement relative to it.
 template <std::size_t Lanes, class Scalar>
-typename StepSolver<Lanes, Scalar>::LocalMotion StepSolver<Lanes, Scalar>::motion_seen_by(MoverIndex mover,
-                                                                                          Scalar begin) const noexcept {
-  const V offset = movers_.offset(mover, begin);
-  LocalMotion seen =
-      make_motion<Lanes>(space_, V(motion_.from - offset), movers_.relative(motion_.displacement, mover, begin));
+typename StepSolver<Lanes, Scalar>::LocalMotion StepSolver<Lanes, Scalar>::motion_relative_to(
+    const V& offset, const V& displacement) const noexcept {
+  LocalMotion seen = make_motion<Lanes>(space_, V(motion_.from - offset), displacement);
   seen.lost = lost_by(motion_.from, offset);
   return seen;
 }
@@ -98,7 +104,7 @@ void StepSolver<Lanes, Scalar>::sweep_movers() noexcept {
     const V to = from + displacement;
     const Box2<Scalar> box = space_.touched_from(Box2<Scalar>{from.cwiseMin(to), from.cwiseMax(to)}.inflated(look));
     if (!box.overlaps(movers_.phases.whole(mover))) continue;
-    sweep<covered>(motion_seen_by(mover, time_), movers_.phases.query(mover, box, memory_.of_mover));
+    sweep<covered>(motion_relative_to(offset, displacement), movers_.phases.query(mover, box, memory_.of_mover));
   }
 }
 
@@ -154,10 +160,7 @@ bool StepSolver<Lanes, Scalar>::advance(Scalar stop) noexcept {
 /// For pieces that are further away the sweep is proof enough.
 template <std::size_t Lanes, class Scalar>
 bool StepSolver<Lanes, Scalar>::certified(const V& target, Scalar end) noexcept {
-  bool clear = true;
-  for_each_near({position_, position_},
-                [&](PieceIndex piece) { clear = clear && !blocks_exactly(piece, target, end); });
-  return clear;
+  return !any_near({position_, position_}, [&](PieceIndex piece) { return blocks_exactly(piece, target, end); });
 }
 
 template <std::size_t Lanes, class Scalar>
