@@ -1,5 +1,6 @@
 /// Play, judged: keys held and jumps at random, on levels as players meet them, at 60, 240 and 1,000 steps a second.
-/// Nobody hangs, ends inside, passes anything, or is stopped by what it does not name.
+/// Nobody hangs, ends inside, passes anything, is stopped by what it does not name, or stands on what it does not
+/// touch.
 #include "agreement/recorded.hpp"
 #include "oracle/judge.hpp"
 #include "support/play_levels.hpp"
@@ -29,8 +30,9 @@ struct Played {
   int unnamed = 0;  ///< Stopped by what exact arithmetic confirms, and the report does not name.
   int dropped = 0;
   int stuck = 0;
+  int misnamed_ground = 0;  ///< Not named where it is grounded, or named and not touched.
 
-  [[nodiscard]] int wrong() const { return hanging + broken + unnamed + dropped + stuck; }
+  [[nodiscard]] int wrong() const { return hanging + broken + unnamed + dropped + stuck + misnamed_ground; }
 };
 
 class Game {
@@ -41,7 +43,8 @@ class Game {
         scenery_(play_level(level, random_)),
         controller_(scenery_, character()),
         scratch_(controller_.make_scratch()),
-        judge_(header()) {
+        judge_(header()),
+        oracle_(scenery_.as_run(), header().points) {
     state_.position = {random_.between(-25, 25), 12};
   }
 
@@ -97,6 +100,9 @@ class Game {
     played.broken += judged.broke();
     played.dropped += record.dropped;
     played.stuck += record.stuck;
+    const ColliderIndex ground = report_.move.ground;
+    played.misnamed_ground += state_.grounded != (ground != no_collider) ||
+                              (state_.grounded && oracle_.separation(state_.position, ground) > 1e-6);
     played.unnamed += stopped_by_what_is_not_named(record, judged);
     if (played.wrong() > 0) describe(record, judged);
   }
@@ -137,6 +143,7 @@ class Game {
   Controller<double> controller_;
   Scratch<double> scratch_;
   Judge judge_;
+  compare::ExactScenery oracle_;
   CharacterState<double> state_;
   StepReport<double> report_;
   Input input_;
@@ -155,7 +162,8 @@ TEST_P(Play, never_hangs_at_any_rate) {
       ASSERT_EQ(played.wrong(), 0) << name_of(GetParam()) << " at " << rate << " Hz, seed " << seed << ", step "
                                    << played.steps << ": " << played.hanging << " hang, " << played.broken
                                    << " broken, " << played.unnamed << " stopped by what is not named, "
-                                   << played.dropped << " dropped, " << played.stuck << " stuck";
+                                   << played.dropped << " dropped, " << played.stuck << " stuck, "
+                                   << played.misnamed_ground << " misnamed ground";
     }
   }
   std::printf("%s: %d steps, %d in the air, %d of them steering against something\n", name_of(GetParam()).c_str(),

@@ -34,6 +34,27 @@ TEST(FewIterations, let_no_velocity_grow_into_what_stops_it) {
   }
 }
 
+TEST(Ground, names_the_collider_that_is_stood_on) {
+  CharacterDef character;
+  character.snap = 0.5;
+  // Two floors, and a step down to a third one.
+  Stepper<double> walker({rectangle(-4, -1, 0, 0), rectangle(0, -1, 2, 0), rectangle(2, -1, 9, -0.05)}, character);
+  walker.gravity = {0, -30};
+  walker.at(-1, half_height + 1).step();
+  EXPECT_EQ(walker.report.move.ground, no_collider) << "in the air";
+  walker.steps(60);
+  EXPECT_EQ(walker.report.move.ground, ColliderIndex{0});
+  std::vector<ColliderIndex> grounds;
+  for (int step = 0; step < 50; ++step) {
+    walker.step(walking(1));
+    ASSERT_TRUE(walker.state.grounded) << step;
+    if (grounds.empty() || grounds.back() != walker.report.move.ground) grounds.push_back(walker.report.move.ground);
+  }
+  EXPECT_EQ(grounds, (std::vector<ColliderIndex>{0, 1, 2}));
+  walker.step({.move = {}, .jump = true});
+  EXPECT_EQ(walker.report.move.ground, no_collider);
+}
+
 TEST(Wedge, holds_the_octagon_on_both_sides_without_velocity) {
   for (const double angle : {60.0, 45.0, 30.0, 10.0, 5.0, 2.0, 1.0}) {
     const double half = angle / 2 * degree;
@@ -53,6 +74,7 @@ TEST(Wedge, holds_the_octagon_on_both_sides_without_velocity) {
     faller.at(0.001, height + 1).steps(240);
     EXPECT_EQ(faller.state.velocity, Vec2d(0, 0)) << angle << " degrees";
     EXPECT_TRUE(faller.state.grounded) << angle << " degrees";
+    EXPECT_EQ(faller.report.move.ground, ColliderIndex{0}) << angle << " degrees";
     // The sides' gaps add up to twice the lift times sin(half the angle); each is in (0, 1e-6] m.
     const double lift = faller.state.position.y() - height;
     EXPECT_GT(lift, 0) << angle << " degrees";

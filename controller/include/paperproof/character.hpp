@@ -91,7 +91,7 @@ struct Input {
 /// The ground that carries a character: a mover or a conveyor.
 template <class Scalar>
 struct Ride {
-  static constexpr ColliderIndex none = ~ColliderIndex{0};
+  static constexpr ColliderIndex none = no_collider;
   ColliderIndex ground = none;
   /// Where the character stands relative to the mover's offset [m]. It changes only when the character moves relative
   /// to the ground that carries it, so errors do not add up, however long the ride is.

@@ -84,6 +84,9 @@ struct MoveResult {
   Vec2<Scalar> velocity{Vec2<Scalar>::Zero()};
   Vec2<Scalar> technique_memory{Vec2<Scalar>::Zero()};  ///< See `CharacterState::technique_memory`.
   bool grounded = false;
+  /// What the character stands on, where it is `grounded`: of several touched surfaces one that points up most. None
+  /// where it stands on another character of a `Crowd`, or the technique does not tell.
+  ColliderIndex ground = no_collider;
   std::string_view refusal{};  ///< The reason, in static memory. Valid where the status is `refused`.
   /// From the start (fraction 0) to the end (fraction 1); linear between. A technique that tests only the end of the
   /// move has just these two corners. Impacts bound the number of corners. The character's own motion has at most
@@ -101,6 +104,7 @@ struct MoveResult {
     status = MoveStatus::moved;
     technique_memory.setZero();
     grounded = false;
+    ground = no_collider;
     path.clear();
     contacts.clear();
     ride = {};

@@ -26,6 +26,7 @@ using PieceIndex = std::uint32_t;
 /// Index of a mover, counted from 0. Several colliders may share one mover.
 using MoverIndex = std::uint32_t;
 inline constexpr MoverIndex no_mover = ~MoverIndex{0};
+inline constexpr ColliderIndex no_collider = ~ColliderIndex{0};
 
 /// The motion of a mover during one step: linear, from one offset to another. Offsets are relative to the place where
 /// the mover's colliders were defined [m].

@@ -29,7 +29,9 @@ struct SweepRules {
         walkable_cosine(character.walkable_cosine<Scalar>()),
         max_replans(iterations) {}
 
-  [[nodiscard]] bool is_character(ColliderIndex collider) const noexcept { return collider >= first_slot; }
+  [[nodiscard]] bool is_character(ColliderIndex collider) const noexcept {
+    return collider >= first_slot && collider != no_collider;
+  }
 
   Scenery<Scalar> scenery;   ///< That of the scene, and the slots.
   ColliderIndex first_slot;  ///< The collider of the first slot.
@@ -58,6 +60,7 @@ struct Moment {
   CharacterState<Scalar> state;  ///< Its velocity is not kept up to date.
   Vec2<Scalar> own_velocity;     ///< Relative to what carries it [m/s].
   Scalar steered = 0;            ///< The part of `own_velocity.x()` that this step's steering added [m/s].
+  Scalar crushed_at = 1;         ///< The end of the first part that crushed the character.
 };
 
 /// One character during a step. What it has done up to now stands in its report, what it is about to do here.

@@ -91,7 +91,8 @@ class PairSpace {
   /// nearer still.
   [[nodiscard]] PairSweep<Scalar> sweep(const Leg<Scalar>& first, const Leg<Scalar>& second,
                                         Scalar hit_distance) const noexcept {
-    if (first.from == first.to && second.from == second.to) return {};
+    // A rounded leg may be so short that its ends are equal: it moves all the same.
+    if (first.from == first.to && second.from == second.to && !first.rounded && !second.rounded) return {};
     const Separations s = separations(first, second);
     if (s.start[s.best] >= Tolerances<Scalar>{}.certain) return sweep_apart(s, hit_distance);
     if (comes_no_nearer(s) || passes_exactly(first, second)) return {};

@@ -9,10 +9,6 @@ namespace paperproof::crowd {
 /// Where a slot of the scenery is that no character takes [m]: out of reach of everything.
 inline constexpr double nowhere = 1e9;
 
-/// Where the obstacles of a path are: where their own paths lead, or straight between where they begin and end the
-/// step.
-enum class ObstaclePaths : std::uint8_t { planned, straight };
-
 [[nodiscard]] inline bool contains(const auto& colliders, ColliderIndex collider) noexcept {
   return std::find(colliders.begin(), colliders.end(), collider) != colliders.end();
 }
@@ -41,6 +37,7 @@ void append_path(const MoveResult<Scalar>& next, MoveResult<Scalar>& move) noexc
   move.position = next.position;
   move.velocity = next.velocity;
   move.grounded = next.grounded;
+  move.ground = next.ground;
   move.ride = next.ride;
 }
 
@@ -62,31 +59,49 @@ class PathPlanner {
   /// Plans the path of a character from a moment on.
   /// @param at where the path begins; becomes the moment in which it ends.
   /// @return false where the path takes no time, has too many corners, or would leave the range.
-  [[nodiscard]] bool plan_until(CharacterIndex i, Scalar until, ObstaclePaths obstacles, MoveResult<Scalar>& path,
-                                Moment<Scalar>& at) noexcept {
+  [[nodiscard]] bool plan_until(CharacterIndex i, Scalar until, MoveResult<Scalar>& path, Moment<Scalar>& at) noexcept {
     const Member<Scalar>& member = step_.members[i];
     path.clear();
     while (at.time < until) {
-      const Scalar end = obstacles == ObstaclePaths::straight ? until : std::min(until, next_corner(member, at.time));
+      const Scalar end = std::min(until, next_corner(member, at.time));
       set_motions(member.obstacles, at.time, end);
-      const MoveRequest<Scalar> request = request_at(member, at, end);
-      if (!(request.dt > 0)) return false;
-      move_part(at.time > 0 ? octagon_sweep::Part::rest : octagon_sweep::Part::whole, request);
-      if (step_.memory.part.status == MoveStatus::out_of_range) return false;
-      take_part(end, path, at);
+      if (!plan_part(member, end, path, at)) return false;
     }
     return !path.path.overflowed() && !path.path.empty();
   }
 
-  /// The same until the end of the step, for a character that keeps its position in the world.
-  void plan_to_hold_position(const Member<Scalar>& member, MoveResult<Scalar>& path, Moment<Scalar>& at) noexcept {
+  /// The same until the end of the step, past obstacles that move straight.
+  /// @param legs when the leg of each obstacle's path begins that counts, made longer to the whole time.
+  [[nodiscard]] bool plan_past(CharacterIndex i, std::span<const Scalar> legs, MoveResult<Scalar>& path,
+                               Moment<Scalar>& at) noexcept {
+    const Member<Scalar>& member = step_.members[i];
     path.clear();
-    set_motions({}, at.time, 1);
-    MoveRequest<Scalar> request = request_at(member, at, 1);
+    if (!(at.time < 1)) return false;
+    set_motions(member.obstacles, at.time, 1);
+    for (std::size_t k = 0; k < legs.size(); ++k)
+      step_.memory.motions[step_.movers.size() + k] = leg_of(member.obstacles[k], legs[k], at.time);
+    return plan_part(member, 1, path, at) && !path.path.overflowed();
+  }
+
+  /// The same for a character that keeps its position in the world.
+  void plan_to_hold_position(const Member<Scalar>& member, Scalar until, MoveResult<Scalar>& path,
+                             Moment<Scalar>& at) noexcept {
+    path.clear();
+    set_motions({}, at.time, until);
+    MoveRequest<Scalar> request = request_at(member, at, until);
     request.displacement = request.velocity = V::Zero();
     request.ride = {};
     move_part(octagon_sweep::Part::stay, request);
-    take_part(1, path, at);
+    take_part(until, path, at);
+  }
+
+  /// The corner of the path of a character that it passes last up to a time of the step, as a fraction of the step.
+  [[nodiscard]] Scalar last_corner(CharacterIndex i, Scalar time) const noexcept {
+    Scalar last = 0;
+    for_each_corner(i, [&](Scalar corner) {
+      if (corner <= time) last = std::max(last, corner);
+    });
+    return last;
   }
 
   /// Where a character is at a time of the step, on the path that it made or the one that it plans [m].
@@ -103,18 +118,33 @@ class PathPlanner {
  private:
   using V = Vec2<Scalar>;
 
-  /// The next time at which an obstacle changes its course, or the end of the step.
-  [[nodiscard]] Scalar next_corner(const Member<Scalar>& member, Scalar time) noexcept {
+  template <class Visit>
+  void for_each_corner(CharacterIndex i, const Visit& visit) const noexcept {
+    for (const PathPoint<Scalar>& corner : step_.made(i).path) visit(corner.fraction);
+    for (const PathPoint<Scalar>& corner : step_.members[i].plan.path) visit(corner.fraction);
+  }
+
+  /// The next corner of the path of a character after a time of the step, or the end of the step.
+  [[nodiscard]] Scalar next_corner(CharacterIndex i, Scalar time) const noexcept {
     Scalar next = 1;
-    const auto look_at = [&](Path<Scalar> path) {
-      for (const PathPoint<Scalar>& corner : path)
-        if (corner.fraction > time && corner.fraction < next) next = corner.fraction;
-    };
-    for (const CharacterIndex other : member.obstacles) {
-      if (step_.members[other].now.time > time) look_at(step_.made(other).path);
-      look_at(step_.members[other].plan.path);
-    }
+    for_each_corner(i, [&](Scalar corner) {
+      if (corner > time) next = std::min(next, corner);
+    });
     return next;
+  }
+  /// The next time at which an obstacle changes its course, or the end of the step.
+  [[nodiscard]] Scalar next_corner(const Member<Scalar>& member, Scalar time) const noexcept {
+    Scalar next = 1;
+    for (const CharacterIndex other : member.obstacles) next = std::min(next, next_corner(other, time));
+    return next;
+  }
+
+  /// One leg of a path, made longer to [time, 1].
+  [[nodiscard]] MoverMotion<Scalar> leg_of(CharacterIndex i, Scalar begin, Scalar time) noexcept {
+    const Scalar end = next_corner(i, begin);
+    const V from = position(i, begin, true);
+    const V rate = (position(i, end, false) - from) / (end - begin);
+    return {from + rate * (time - begin), from + rate * (1 - begin)};
   }
 
   void set_motions(const Obstacles& obstacles, Scalar begin, Scalar end) noexcept {
@@ -146,6 +176,16 @@ class PathPlanner {
             .movers = step_.memory.motions,
             .dt = duration,
             .ride = at.state.ride};
+  }
+
+  [[nodiscard]] bool plan_part(const Member<Scalar>& member, Scalar end, MoveResult<Scalar>& path,
+                               Moment<Scalar>& at) noexcept {
+    const MoveRequest<Scalar> request = request_at(member, at, end);
+    if (!(request.dt > 0)) return false;
+    move_part(at.time > 0 ? octagon_sweep::Part::rest : octagon_sweep::Part::whole, request);
+    if (step_.memory.part.status == MoveStatus::out_of_range) return false;
+    take_part(end, path, at);
+    return true;
   }
 
   void move_part(octagon_sweep::Part part, const MoveRequest<Scalar>& request) noexcept {
@@ -191,6 +231,7 @@ class PathPlanner {
     // An obstacle that held the character took its weight, which goes on for the rest of the step.
     if (part.grounded || (fall < 0 && at.own_velocity.y() > fall / 2)) at.own_velocity += step_.gravity * step_.dt;
     step_parts::note_freedom(part, state);
+    if (!part.crushed.empty()) at.crushed_at = std::min(at.crushed_at, end);
     if (state.crushed)
       set_crushers(part.crushers, step_.rules, state);
     else

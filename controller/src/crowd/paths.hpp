@@ -30,7 +30,7 @@ class Paths {
   Crush replan(CharacterIndex i) noexcept {
     Member<Scalar>& member = step_.members[i];
     Moment<Scalar> end = member.now;
-    if (!(end.time < 1) || !planner_.plan_until(i, 1, ObstaclePaths::planned, step_.memory.path, end)) {
+    if (!(end.time < 1) || !planner_.plan_until(i, 1, step_.memory.path, end)) {
       hold_position(i);
       return {};
     }
@@ -61,7 +61,7 @@ class Paths {
     member.holds_position = member.dropped = true;
     member.end = now;
     if (now.time < 1) {
-      planner_.plan_to_hold_position(member, member.plan, member.end);
+      planner_.plan_to_hold_position(member, 1, member.plan, member.end);
     } else {
       member.plan.clear();
       member.plan.path.push_back({now.state.position, 1});
@@ -77,12 +77,34 @@ class Paths {
     if (!(time > member.now.time)) return;
     const V planned = planner_.position(i, time, false);
     Moment<Scalar> at = member.now;
-    const bool found = planner_.plan_until(i, time, ObstaclePaths::planned, step_.memory.path, at);
-    if (found) member.now = at;
-    // With less to go the technique may take another path: the one that was planned is made as it is.
-    if (!found || !((at.state.position - planned).cwiseAbs().maxCoeff() <= Tolerances<Scalar>{}.certain))
-      cut_plan(i, time, planned);
+    const bool found = planner_.plan_until(i, time, step_.memory.path, at);
+    // With less to go the technique may take another path: the one that was planned is made as it is. But half of a way
+    // out of a mover may end on its wrong side: the character stays instead.
+    const bool as_planned =
+        found && (at.state.position - planned).cwiseAbs().maxCoeff() <= Tolerances<Scalar>{}.certain;
+    if (!as_planned && !member.now.state.crushers.empty()) {
+      planner_.plan_to_hold_position(member, time, step_.memory.path, member.now);
+    } else {
+      if (found) member.now = at;
+      if (!as_planned) cut_plan(i, time, planned);
+    }
     make(i, step_.memory.path);
+  }
+
+  /// Takes a part of its path for what a character has done, instead of all that it did and plans.
+  /// @param kept from the start of the step; ends before anything crushed the character.
+  void go_back_to_end_of(Path<Scalar> kept, CharacterIndex i) noexcept {
+    MoveResult<Scalar>& made = step_.made(i);
+    made.path.clear();
+    for (const PathPoint<Scalar>& corner : kept) add_corner(made, corner);
+    std::size_t count = 0;
+    for (const Contact<Scalar>& contact : made.contacts)
+      if (contact.fraction <= kept.back().fraction) made.contacts[count++] = contact;
+    while (made.contacts.size() > count) made.contacts.pop_back();
+    for (const Contact<Scalar>& contact : step_.members[i].plan.contacts)
+      if (contact.fraction <= kept.back().fraction && !step_.rules.is_character(contact.collider))
+        add_contact(made, contact);
+    made.crushed.clear();
   }
 
   /// Adds the next part of a path, and what it meets, to the report.

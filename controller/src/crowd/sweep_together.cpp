@@ -2,6 +2,8 @@
 
 #include "crowd/avoidance.hpp"
 
+#include <optional>
+
 namespace paperproof::crowd {
 namespace {
 
@@ -48,7 +50,7 @@ class SweepTogether {
     member.follows_ground = request.grounded;
     member.drops = request.drop;
     Moment<Scalar> end = member.now;
-    if (planner_.plan_until(i, 1, ObstaclePaths::planned, step_.memory.path, end))
+    if (planner_.plan_until(i, 1, step_.memory.path, end))
       paths_.follow(i, end);
     else if (step_.memory.path.path.overflowed())
       paths_.hold_position(i);
@@ -96,24 +98,62 @@ class SweepTogether {
     for (CharacterIndex j = 0; j < step_.members.size(); ++j)
       if (j != i && step_.members[j].box.overlaps(member.box.inflated(reach))) member.obstacles.push_back(j);
     Moment<Scalar> end;
-    const bool found = (crush > 0 && plan_free(i, ObstaclePaths::straight, end)) ||
-                       (plan_free(i, ObstaclePaths::planned, end) &&
-                        (crush > 0 || end.state.position.y() < member.end.state.position.y()));
-    if (!found) {
+    const bool found = (plan_free(i, end) && (crush > 0 || end.state.position.y() < member.end.state.position.y())) ||
+                       (crush > 0 && plan_past_all(i, member.start, end));
+    if (found) {
+      step_.made(i).clear();
+      member.now = member.start;
+    } else if (crush == 0 || !find_room_from_corners(i, end)) {
       member.obstacles = obstacles;
       return false;
     }
-    step_.made(i).clear();
-    member.now = member.start;
     member.holds_position = member.dropped = false;
     paths_.follow(i, end);
     return true;
   }
 
-  /// How far the movers go that crush a character [m]. Zero where there is none, or where it began the step crushed.
+  /// What a character has done, and what it plans.
+  using WholePath = FixedVector<PathPoint<Scalar>, 2 * MoveResult<Scalar>::max_corners>;
+
+  [[nodiscard]] WholePath whole_path(CharacterIndex i) const noexcept {
+    WholePath whole;
+    for (const PathPoint<Scalar>& corner : step_.made(i).path) whole.push_back(corner);
+    for (const PathPoint<Scalar>& corner : step_.members[i].plan.path) whole.push_back(corner);
+    return whole;
+  }
+
+  /// The same from a corner of the path on, where the character waits until something pushes it: a straight motion from
+  /// there may lead past all others.
+  bool find_room_from_corners(CharacterIndex i, Moment<Scalar>& end) noexcept {
+    Member<Scalar>& member = step_.members[i];
+    const Obstacles obstacles = member.obstacles;
+    const WholePath whole = whole_path(i);
+    // A character that begins inside a mover must have left it to the right side.
+    const bool starts_inside = !member.start.state.crushers.empty();
+    if (starts_inside && (whole.size() < 2 || whole[1].fraction > 0)) return false;
+    for (std::size_t k = whole.size(); k-- > (starts_inside ? 1U : 0U);) {
+      const bool stays = k > 0 && whole[k - 1].position == whole[k].position;
+      if (stays || !(whole[k].fraction < 1) || whole[k].fraction > member.end.crushed_at) continue;
+      Moment<Scalar> at = member.start;
+      at.time = whole[k].fraction;
+      at.own_velocity = V::Zero();
+      at.steered = 0;
+      at.state.position = whole[k].position;
+      at.state.grounded = at.state.crushed = false;
+      at.state.ride = {};
+      at.state.crushers.clear();
+      if (!plan_past_all(i, at, end)) continue;
+      paths_.go_back_to_end_of({whole.begin(), k + 1}, i);
+      member.now = at;
+      return true;
+    }
+    member.obstacles = obstacles;
+    return false;
+  }
+
+  /// How far the movers go that crush a character [m]. Zero where there is none.
   [[nodiscard]] Scalar crush_distance(CharacterIndex i) const noexcept {
     const Member<Scalar>& member = step_.members[i];
-    if (member.start.state.crushed) return 0;
     Scalar distance = 0;
     const auto look_at = [&](const MoveResult<Scalar>& move) {
       for (const ColliderIndex collider : move.crushed) {
@@ -138,21 +178,11 @@ class SweepTogether {
     return wanted > 0 && start.position.y() - end.position.y() < wanted / 2 ? wanted : Scalar(0);
   }
 
-  /// Whether a character stood on others alone, and none of them is under it at the end of the step: it avoided the
-  /// path that the other planned then, and that one may have gone on later.
+  /// Whether a character stands on another that is not under it at the end of the step: the other may have gone on
+  /// after the character planned its path.
   [[nodiscard]] bool has_lost_ground(CharacterIndex i) const noexcept {
-    const Member<Scalar>& member = step_.members[i];
-    if (!member.end.state.grounded) return false;
-    const auto holds = [](const auto& contact) { return contact.normal.y() > 0; };
-    const auto& met = step_.report.members[i].met;
-    const auto& contacts = member.plan.contacts.empty() ? step_.made(i).contacts : member.plan.contacts;
-    bool stood_on_another = std::any_of(met.begin(), met.end(), holds);
-    for (const Contact<Scalar>& contact : contacts) {
-      if (!holds(contact)) continue;
-      if (!step_.rules.is_character(contact.collider)) return false;
-      stood_on_another = true;
-    }
-    return stood_on_another && !ends_on_another(member);
+    const MoveResult<Scalar>& plan = step_.members[i].plan;
+    return plan.grounded && step_.rules.is_character(plan.ground) && !ends_on_another(step_.members[i]);
   }
 
   /// Whether it touches a character that is under it, and not beside it, at the end of the step.
@@ -168,24 +198,47 @@ class SweepTogether {
 
   /// Plans a path of the whole step into `CrowdMemory::path`.
   /// @return whether nothing crushes the character on it, and it has no impact with another.
-  [[nodiscard]] bool plan_free(CharacterIndex i, ObstaclePaths obstacles, Moment<Scalar>& end) noexcept {
-    const MoveResult<Scalar>& planned = step_.memory.path;
+  [[nodiscard]] bool plan_free(CharacterIndex i, Moment<Scalar>& end) noexcept {
     end = step_.members[i].start;
-    if (!planner_.plan_until(i, 1, obstacles, step_.memory.path, end) || !planned.crushed.empty()) return false;
-    for (CharacterIndex j = 0; j < step_.members.size(); ++j) {
-      if (j == i) continue;
-      FixedVector<PathPoint<Scalar>, 2 * MoveResult<Scalar>::max_corners> whole;
-      for (const PathPoint<Scalar>& corner : step_.made(j).path) whole.push_back(corner);
-      for (const PathPoint<Scalar>& corner : step_.members[j].plan.path) whole.push_back(corner);
-      const Path<Scalar> own = planned.path;
-      const Path<Scalar> other = whole;
-      if (has_impact(i < j ? own : other, i < j ? other : own, Tolerances<Scalar>{}.hit)) return false;
-    }
-    return true;
+    return planner_.plan_until(i, 1, step_.memory.path, end) && step_.memory.path.crushed.empty() &&
+           !impact_on_path(i, 0);
   }
 
-  [[nodiscard]] bool has_impact(Path<Scalar> first, Path<Scalar> second, Scalar hit_distance) const noexcept {
-    return first_impact<Scalar>(step_.rules.space, first, second, 0, hit_distance).happens;
+  /// The same from a moment on, in one part. Nobody is an obstacle at first. A leg of another's path that the planned
+  /// path meets becomes one, made longer to the whole time, and another path is planned.
+  [[nodiscard]] bool plan_past_all(CharacterIndex i, const Moment<Scalar>& at, Moment<Scalar>& end) noexcept {
+    Obstacles& obstacles = step_.members[i].obstacles;
+    FixedVector<Scalar, max_obstacles> legs;
+    obstacles.clear();
+    for (;;) {
+      end = at;
+      if (!planner_.plan_past(i, {legs.begin(), legs.end()}, step_.memory.path, end) ||
+          !step_.memory.path.crushed.empty())
+        return false;
+      const std::optional<Hit> hit = impact_on_path(i, at.time);
+      if (!hit) return true;
+      if (!obstacles.push_back(hit->other)) return false;
+      legs.push_back(planner_.last_corner(hit->other, hit->time));
+    }
+  }
+
+  struct Hit {
+    CharacterIndex other;
+    Scalar time;
+  };
+  /// An impact of a character on the path in `CrowdMemory::path` with one of the others.
+  /// @param from when that path begins.
+  [[nodiscard]] std::optional<Hit> impact_on_path(CharacterIndex i, Scalar from) const noexcept {
+    const Path<Scalar> own = step_.memory.path.path;
+    for (CharacterIndex j = 0; j < step_.members.size(); ++j) {
+      if (j == i) continue;
+      const WholePath whole = whole_path(j);
+      const Path<Scalar> other = whole;
+      const Impact<Scalar> impact = first_impact<Scalar>(step_.rules.space, i < j ? own : other, i < j ? other : own,
+                                                         from, Tolerances<Scalar>{}.hit);
+      if (impact.happens) return Hit{j, impact.stop};
+    }
+    return std::nullopt;
   }
 
   /// A path is made in parts, and rounding may shift each part. So all pairs are checked once more. Both of a pair that
@@ -201,7 +254,10 @@ class SweepTogether {
         for (CharacterIndex j = i + 1; j < step_.members.size(); ++j) {
           if ((members[i].stayed && members[j].stayed) || !step_.members[i].box.overlaps(step_.members[j].box))
             continue;
-          if (!has_impact(step_.made(i).path, step_.made(j).path, Tolerances<Scalar>{}.certain)) continue;
+          if (!first_impact<Scalar>(step_.rules.space, step_.made(i).path, step_.made(j).path, 0,
+                                    Tolerances<Scalar>{}.certain)
+                   .happens)
+            continue;
           return_to_start(i, before[i]);
           return_to_start(j, before[j]);
           changed = true;
@@ -233,6 +289,7 @@ class SweepTogether {
       move.status = MoveStatus::stuck;  // a mover still overlaps it, even if the last part met a character alone
     else if (move.status != MoveStatus::stuck || !member.starts_stuck)  // to overlap a character alone is not stuck
       move.status = member.dropped || move.status == MoveStatus::stuck ? MoveStatus::dropped : MoveStatus::moved;
+    if (!move.grounded || step_.rules.is_character(move.ground)) move.ground = no_collider;
     move.crushers = member.end.state.crushers;
     step_.memory.states[i] = member.end.state;
   }

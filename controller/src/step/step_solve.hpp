@@ -43,7 +43,8 @@ void StepSolver<Lanes, Scalar>::solve(Part part, const MoveRequest<Scalar>& requ
     if (request.grounded && !found_.hit) stop_at_touched_ground();
     travel();
     if (!result_.crushed.empty()) undo_crushes();
-    result_.grounded = stands();
+    result_.ground = stood_on();
+    result_.grounded = result_.ground != no_collider;
     if (result_.grounded && !met_ground_ && !wedged_) report_ground(wanted);
     if (settings_.snap > 0) follow_ground_down(request);
     if (movers_.active) end_ride();
@@ -210,15 +211,18 @@ void StepSolver<Lanes, Scalar>::halt() noexcept {
   velocity_ = V::Zero();
 }
 
-/// Whether the character stands at the end of the step: it touches walkable ground that its motion does not leave, or a
-/// fall ended in a wedge. A step that hit nothing ends in the air: without gravity nothing holds the character to
-/// ground that it touches.
+/// What the character stands on at the end of the step: walkable ground that it touches and that its motion does not
+/// leave, or a wedge that ended its fall. Nothing in a step that hit nothing: without gravity nothing holds the
+/// character to ground that it touches.
 template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::stands() noexcept {
-  if (on_ground_ || wedged_) return true;
-  if (met_ground_ && stands_on(ground_)) return true;  // the usual case
-  return !result_.contacts.empty() &&
-         any_near({position_, position_}, [this](PieceIndex piece) { return stands_on(piece); });
+ColliderIndex StepSolver<Lanes, Scalar>::stood_on() noexcept {
+  if (on_ground_ || wedged_ || (met_ground_ && stands_on(ground_))) return collider_of(ground_);  // the usual case
+  ColliderIndex ground = no_collider;
+  if (result_.contacts.empty()) return ground;
+  for_each_near({position_, position_}, [&](PieceIndex piece) {
+    if (ground == no_collider && stands_on(piece)) ground = collider_of(piece);
+  });
+  return ground;
 }
 
 /// Reports the ground that the character stands on, also where gravity presses onto it by less than the sweep sees.
@@ -276,6 +280,7 @@ void StepSolver<Lanes, Scalar>::follow_ground_down(const MoveRequest<Scalar>& re
   const V normal = space_.normal(piece, axis);
   if (!walkable(normal) || !advance(found_.stop)) return;
   result_.grounded = true;
+  result_.ground = collider_of(piece);
   report_contact(piece, axis, time_, result_.contacts.size());
   const V ground = ground_velocity(piece, normal);
   velocity_ = follow(velocity_.x() - ground.x(), normal) + ground;

@@ -187,7 +187,7 @@ class StepSolver {
   [[nodiscard]] V with_gap_restored(const V& displacement, const Stop<Scalar>& at) const noexcept;
   void halt() noexcept;
   [[gnu::cold, gnu::noinline]] void cut_short() noexcept;
-  [[nodiscard]] bool stands() noexcept;
+  [[nodiscard]] ColliderIndex stood_on() noexcept;
   [[gnu::cold, gnu::noinline]] void report_ground(const V& wanted) noexcept;
   [[nodiscard]] bool stands_on(PieceIndex piece) const noexcept;
   [[nodiscard, gnu::cold, gnu::noinline]] bool touches_ground() noexcept;
@@ -303,7 +303,7 @@ class StepSolver {
   bool wedged_ = false;      ///< A fall ended between surfaces that are touched together.
   bool met_ground_ = false;  ///< Walkable ground was hit in this step,
   bool on_ground_ = false;   ///< and the character has not moved since, nor hit anything else.
-  PieceIndex ground_ = 0;    ///< That ground, where `met_ground_`.
+  PieceIndex ground_ = 0;    ///< That ground, where `met_ground_`; the surface that points up most, where `wedged_`.
   MoverState<Scalar> moving_;
 };
 

@@ -177,7 +177,7 @@ void StepSolver<Lanes, Scalar>::report(Scalar begin) noexcept {
   on_ground_ = false;
   for (const Stop<Scalar>& stop : found_.stops) {
     const V normal = space_.normal(stop.piece, stop.axes.normal);
-    if (walkable(normal)) {
+    if (walkable(normal) && !on_ground_) {
       met_ground_ = on_ground_ = true;
       ground_ = stop.piece;
     }
