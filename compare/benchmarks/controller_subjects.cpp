@@ -27,7 +27,7 @@ class ControllerSubject final : public Subject {
   void run() override {
     const Vec2<Scalar> gravity = workload_.scene.gravity.cast<Scalar>();
     const auto dt = static_cast<Scalar>(workload_.scene.dt);
-    for (const Input& input : workload_.inputs) controller_.step(state_, input, gravity, dt, scratch_, report_);
+    for (const Input& input : workload_.inputs) controller_.step(state_, input, {gravity, dt}, scratch_, report_);
   }
 
   [[nodiscard]] Vec2d position() const override { return state_.position.template cast<double>(); }

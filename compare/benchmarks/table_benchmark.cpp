@@ -58,7 +58,7 @@ class Walk {
     CharacterState<Scalar> character;
     character.position = start_;
     for (const Input& input : inputs_) {
-      controller_.step(character, input, {0, Scalar(gravity_y)}, Scalar(frame), scratch_, report_);
+      controller_.step(character, input, {{0, Scalar(gravity_y)}, Scalar(frame)}, scratch_, report_);
       look(report_);
     }
   }
@@ -140,9 +140,9 @@ class Characters {
   /// One after the other.
   void step_each() {
     for (std::size_t i = 0; i < many; ++i)
-      controller_.step(states[i], inputs_[i], {0, gravity_y}, frame, scratches_[i % scratches_.size()], reports_[0]);
+      controller_.step(states[i], inputs_[i], {{0, gravity_y}, frame}, scratches_[i % scratches_.size()], reports_[0]);
   }
-  void step_all() { controller_.step_all(states, inputs_, {0, gravity_y}, frame, {}, scratches_, reports_); }
+  void step_all() { controller_.step_all(states, inputs_, {{0, gravity_y}, frame, {}}, scratches_, reports_); }
 
   std::vector<CharacterState<double>> states = std::vector<CharacterState<double>>(many);
 
@@ -221,7 +221,7 @@ void start_inside(benchmark::State& state, double depth, StepStatus expected) {
     body.SetTransform(box2d::rounded(character.position), 0);
     body.SetLinearVelocity({0, static_cast<float>(gravity_y * frame)});
     paperproof.push_back(nanoseconds_of([&] {
-      controller.step(character, {}, {0, gravity_y}, frame, scratch, report);
+      controller.step(character, {}, {{0, gravity_y}, frame}, scratch, report);
     }));
     if (report.status != expected) return state.SkipWithError("the start ends otherwise");
     box2d.push_back(

@@ -49,7 +49,7 @@ class CrowdContestant final : public Contestant {
 
   void step_unrecorded(const StepInput& input) override {
     movers_.take(input.movers, input.dt);
-    crowd_.step(states_, input.players, gravity_, movers_.dt(), movers_.motions(), scratch_, report_);
+    crowd_.step(states_, input.players, {gravity_, movers_.dt(), movers_.motions()}, scratch_, report_);
   }
 
   [[nodiscard]] Pose pose(std::size_t character) const override { return pose_of(states_[character]); }

@@ -40,7 +40,7 @@ class TechniqueContestant final : public Contestant {
 
   void step_unrecorded(const StepInput& input) override {
     movers_.take(input.movers, input.dt);
-    controller_.step(state_, input.players.front(), gravity_, movers_.dt(), movers_.motions(), scratch_, report_);
+    controller_.step(state_, input.players.front(), {gravity_, movers_.dt(), movers_.motions()}, scratch_, report_);
   }
 
   [[nodiscard]] Pose pose(std::size_t) const override { return pose_of(state_); }

@@ -94,7 +94,7 @@ class Subject {
     return hero;
   }
   void step(CharacterState<double>& hero, const Input& input) {
-    controller_->step(hero, input, {0, -30}, 1.0 / 60, scratch_, report_);
+    controller_->step(hero, input, {{0, -30}, 1.0 / 60}, scratch_, report_);
   }
 
   std::unique_ptr<Controller<double>> controller_;

@@ -95,6 +95,13 @@ class Undo {
   bool jump_pending_;
 };
 
+/// Leaves out elements for which the condition holds.
+template <class Vector, class Condition>
+[[gnu::cold, gnu::noinline]] void leave_out(Vector& elements, const Condition& condition) noexcept {
+  const auto end = std::remove_if(elements.begin(), elements.end(), condition);
+  while (elements.end() != end) elements.pop_back();
+}
+
 /// Other characters use the scratch next: the report keeps only its own memory.
 template <class Scalar>
 void leave_scratch(MoveResult<Scalar>& move) noexcept {
@@ -137,12 +144,17 @@ Controller<Scalar>::Controller(const Scenery<Scalar>& scenery, const CharacterDe
 template <class Scalar>
 Controller<Scalar>::Controller(const Scenery<Scalar>& scenery, const CharacterDef& character,
                                std::unique_ptr<const Technique<Scalar>> technique, const Stages& stages)
-    : mover_count_(scenery.mover_count()),
+    : scenery_(&scenery),
+      mover_count_(scenery.mover_count()),
+      has_filters_(has_filters(scenery)),
       may_jump_(stages.jump),
       may_fall_(stages.gravity),
       character_(character),
       technique_(std::move(technique)) {
   character_.validate();
+  if (has_filters_ && !technique_->filters())
+    throw std::invalid_argument("the technique " + std::string(technique_->name()) +
+                                " has no filter, and there is a collider with one");
   if (!stages.sensors && scenery.sensor_pieces().size() > 0)
     throw std::invalid_argument("stages: sensors cannot be left out: there is a sensor");
   if (scenery.sensor_pieces().size() > 0) sensors_ = std::make_shared<Sensors<Scalar>>(scenery, character_.shape);
@@ -158,47 +170,35 @@ Scratch<Scalar> Controller<Scalar>::completed(Scratch<Scalar> scratch) const {
 }
 
 template <class Scalar>
-[[gnu::always_inline]] inline bool Controller<Scalar>::accepts(
-    const CharacterState<Scalar>& state, const Input& input, const Vec2<Scalar>& gravity, Scalar dt,
-    std::span<const MoverMotion<Scalar>> movers) const noexcept {
+[[gnu::always_inline]] inline bool Controller<Scalar>::accepts(const CharacterState<Scalar>& state, const Input& input,
+                                                               const StepContext<Scalar>& context) const noexcept {
+  const Vec2<Scalar>& gravity = context.gravity;
   const bool foreseen = (may_jump_ || !input.jump) && (may_fall_ || (gravity.x() == 0 && gravity.y() == 0));
-  return foreseen && dt > 0 && movers.size() == mover_count_ && finite(state, input, gravity, dt, movers);
+  return foreseen && context.dt > 0 && context.movers.size() == mover_count_ &&
+         (context.filter.is_default() || technique_->filters()) &&
+         finite(state, input, gravity, context.dt, context.movers);
 }
 
 /// Tries a move towards the wall, without making it. Kept out of `step`: nearly no step needs it.
 template <class Scalar>
-[[gnu::noinline]] bool Controller<Scalar>::has_wall_ahead(const CharacterState<Scalar>& state, double move, Scalar dt,
-                                                          std::span<const MoverMotion<Scalar>> movers,
-                                                          Scratch<Scalar>& scratch,
+[[gnu::noinline]] bool Controller<Scalar>::has_wall_ahead(const CharacterState<Scalar>& state, double move,
+                                                          const StepContext<Scalar>& context, Scratch<Scalar>& scratch,
                                                           MoveResult<Scalar>& tried) const noexcept {
   const Scalar reach = static_cast<Scalar>(character_.wall_reach);
   const Vec2<Scalar> there{move < 0 ? -reach : reach, 0};
-  technique_->move({.position = state.position,
-                    .displacement = there,
-                    .velocity = there / dt,
-                    .last_free = state.last_free,
-                    .technique_memory = state.technique_memory,
-                    .has_last_free = state.has_last_free,
-                    .grounded = state.grounded,
-                    .movers = movers,
-                    .dt = dt,
-                    .ride = state.ride},
-                   scratch, tried);
+  MoveRequest<Scalar> request = request_of(state, state.crushers, there, there / context.dt, 0, false, context);
+  request.crushed = false;
+  request.crushers = {};
+  technique_->move(request, scratch, tried);
   return touches(tried, move < 0 ? Side::left : Side::right);
 }
 
 template <class Scalar>
-[[gnu::always_inline]] inline MoveRequest<Scalar> Controller<Scalar>::begin_step(
-    const Crushers<Scalar>& crushers, const Input& input, const Vec2<Scalar>& gravity, Scalar dt,
-    std::span<const MoverMotion<Scalar>> movers, bool wall_ahead, CharacterState<Scalar>& state,
-    StepReport<Scalar>& report) const noexcept {
-  // A carried character steers, jumps and falls relative to its ground.
-  if (state.ride.ground != Ride<Scalar>::none) state.velocity -= state.ride.velocity;
-  const auto [velocity, steered] = wanted_velocity(character_, gravity, input, dt, wall_ahead, state);
-  report.requested = {velocity.x() * dt, velocity.y() * dt};
-  report.steered = steered * dt;
+[[gnu::always_inline]] inline MoveRequest<Scalar> Controller<Scalar>::request_of(
+    const CharacterState<Scalar>& state, const Crushers<Scalar>& crushers, const Vec2<Scalar>& displacement,
+    const Vec2<Scalar>& velocity, Scalar steered, bool drop, const StepContext<Scalar>& context) const noexcept {
   return {.position = state.position,
-          .displacement = {velocity.x() * dt, velocity.y() * dt},
+          .displacement = {displacement.x(), displacement.y()},
           .velocity = {velocity.x(), velocity.y()},
           .steered = steered,
           .last_free = state.last_free,
@@ -206,54 +206,89 @@ template <class Scalar>
           .has_last_free = state.has_last_free,
           .grounded = state.grounded,
           .crushed = state.crushed,
-          .drop = input.drop,
+          .drop = drop,
           .crushers = {crushers.begin(), crushers.end()},
-          .movers = movers,
-          .dt = dt,
+          .movers = context.movers,
+          .filter = filter_of(context),
+          .dt = context.dt,
           .ride = state.ride};
 }
 
 template <class Scalar>
-[[gnu::always_inline]] inline void Controller<Scalar>::end_step(const Input& input,
-                                                                std::span<const MoverMotion<Scalar>> movers,
+[[gnu::always_inline]] inline MoveRequest<Scalar> Controller<Scalar>::begin_step(
+    const Crushers<Scalar>& crushers, const Input& input, const StepContext<Scalar>& context, bool wall_ahead,
+    CharacterState<Scalar>& state, StepReport<Scalar>& report) const noexcept {
+  // A carried character steers, jumps and falls relative to its ground.
+  if (state.ride.ground != Ride<Scalar>::none) state.velocity -= state.ride.velocity;
+  const Scalar dt = context.dt;
+  const auto [velocity, steered] = wanted_velocity(character_, context.gravity, input, dt, wall_ahead, state);
+  report.requested = {velocity.x() * dt, velocity.y() * dt};
+  report.steered = steered * dt;
+  return request_of(state, crushers, {velocity.x() * dt, velocity.y() * dt}, velocity, steered, input.drop, context);
+}
+
+template <class Scalar>
+[[gnu::always_inline]] inline void Controller<Scalar>::end_step(bool drop, const StepContext<Scalar>& context,
                                                                 Scratch<Scalar>& scratch, CharacterState<Scalar>& state,
                                                                 StepReport<Scalar>& report) const noexcept {
-  if (sensors_) sensors_->observe(report.move.path, movers, scratch.sensors, report.sensors);
-  if (input.drop && one_way_) one_way_->find_passed(report.move.path, movers, scratch.one_way, report.dropped_through);
+  const ColliderFilter* filter = filter_of(context);
+  if (sensors_) {
+    sensors_->observe(report.move.path, context.movers, scratch.sensors, report.sensors);
+    if (filter != nullptr)
+      leave_out(report.sensors, [&](const auto& event) { return !(*filter)(*scenery_, event.sensor); });
+  }
+  if (drop && one_way_) {
+    one_way_->find_passed(report.move.path, context.movers, scratch.one_way, report.dropped_through);
+    if (filter != nullptr)
+      leave_out(report.dropped_through, [&](ColliderIndex chain) { return !(*filter)(*scenery_, chain); });
+  }
   adopt(character_, report.move, state);
 }
 
 template <class Scalar>
 [[gnu::flatten]] StepStatus Controller<Scalar>::step(CharacterState<Scalar>& state, const Input& input,
-                                                     const Vec2<Scalar>& gravity, Scalar dt,
-                                                     std::span<const MoverMotion<Scalar>> movers,
-                                                     Scratch<Scalar>& scratch,
+                                                     const StepContext<Scalar>& context, Scratch<Scalar>& scratch,
                                                      StepReport<Scalar>& report) const noexcept {
   report.sensors.clear();
   report.dropped_through.clear();
-  if (!is_made_by(technique_, scratch.maker) || !accepts(state, input, gravity, dt, movers))
+  if (!is_made_by(technique_, scratch.maker) || !accepts(state, input, context))
     return report.status = StepStatus::invalid_input;
   const Undo<Scalar> before(state);
   bool wall_ahead = false;
   if (character_.no_jump_toward_wall && input.jump && state.grounded && input.move.value_or(0) != 0)
-    wall_ahead = has_wall_ahead(state, *input.move, dt, movers, scratch, report.move);
+    wall_ahead = has_wall_ahead(state, *input.move, context, scratch, report.move);
   // A request with a name, read again after the move, cost 46 instructions more per step (g++ 12).
-  technique_->move(begin_step(state.crushers, input, gravity, dt, movers, wall_ahead, state, report), scratch,
-                   report.move);
+  technique_->move(begin_step(state.crushers, input, context, wall_ahead, state, report), scratch, report.move);
   report.status = status_of(report.move.status);
   if (is_refused(report.status)) {
     before.restore(state);
     return report.status;
   }
-  end_step(input, movers, scratch, state, report);
+  end_step(input.drop, context, scratch, state, report);
+  return report.status;
+}
+
+template <class Scalar>
+StepStatus Controller<Scalar>::move(CharacterState<Scalar>& state, const Vec2<Scalar>& displacement,
+                                    const StepContext<Scalar>& context, Scratch<Scalar>& scratch,
+                                    StepReport<Scalar>& report) const noexcept {
+  report.sensors.clear();
+  report.dropped_through.clear();
+  const Vec2<Scalar> velocity = displacement / context.dt;
+  if (!is_made_by(technique_, scratch.maker) || !accepts(state, {}, context) ||
+      !FiniteCheck<Scalar>().add(displacement).add(velocity).passed())
+    return report.status = StepStatus::invalid_input;
+  report.requested = displacement;
+  report.steered = 0;
+  technique_->move(request_of(state, state.crushers, displacement, velocity, 0, false, context), scratch, report.move);
+  report.status = status_of(report.move.status);
+  if (!is_refused(report.status)) end_step(false, context, scratch, state, report);
   return report.status;
 }
 
 template <class Scalar>
 BatchStatus Controller<Scalar>::step_all(std::span<CharacterState<Scalar>> states, std::span<const Input> inputs,
-                                         const Vec2<Scalar>& gravity, Scalar dt,
-                                         std::span<const MoverMotion<Scalar>> movers,
-                                         std::span<Scratch<Scalar>> scratches,
+                                         const StepContext<Scalar>& context, std::span<Scratch<Scalar>> scratches,
                                          std::span<StepReport<Scalar>> reports) const noexcept {
   const std::size_t count = states.size();
   const auto is_own = [&](const Scratch<Scalar>& scratch) { return is_made_by(technique_, scratch.maker); };
@@ -266,7 +301,7 @@ BatchStatus Controller<Scalar>::step_all(std::span<CharacterState<Scalar>> state
   work_together(scratches.first(std::min(scratches.size(), shares)), [&](Scratch<Scalar>& scratch) {
     for (std::size_t first = next.fetch_add(taken_at_once); first < count; first = next.fetch_add(taken_at_once))
       for (std::size_t i = first; i < std::min(count, first + taken_at_once); ++i) {
-        step(states[i], inputs[i], gravity, dt, movers, scratch, reports[i]);
+        step(states[i], inputs[i], context, scratch, reports[i]);
         leave_scratch(reports[i].move);
       }
   });
@@ -275,21 +310,19 @@ BatchStatus Controller<Scalar>::step_all(std::span<CharacterState<Scalar>> state
 
 template <class Scalar>
 bool Controller<Scalar>::begin_together(const CharacterState<Scalar>& before, const Input& input,
-                                        const Vec2<Scalar>& gravity, Scalar dt,
-                                        std::span<const MoverMotion<Scalar>> movers, CharacterState<Scalar>& state,
+                                        const StepContext<Scalar>& context, CharacterState<Scalar>& state,
                                         MoveRequest<Scalar>& request, StepReport<Scalar>& report) const noexcept {
-  if (!accepts(before, input, gravity, dt, movers)) return false;
+  if (!accepts(before, input, context)) return false;
   state = before;
-  request = begin_step(before.crushers, input, gravity, dt, movers, false, state, report);
+  request = begin_step(before.crushers, input, context, false, state, report);
   return true;
 }
 
 template <class Scalar>
-void Controller<Scalar>::end_together(const Input& input, std::span<const MoverMotion<Scalar>> movers,
-                                      Scratch<Scalar>& scratch, CharacterState<Scalar>& state,
-                                      StepReport<Scalar>& report) const noexcept {
+void Controller<Scalar>::end_together(const Input& input, const StepContext<Scalar>& context, Scratch<Scalar>& scratch,
+                                      CharacterState<Scalar>& state, StepReport<Scalar>& report) const noexcept {
   report.status = status_of(report.move.status);
-  end_step(input, movers, scratch, state, report);
+  end_step(input.drop, context, scratch, state, report);
 }
 
 template DesiredVelocity<float> desired_velocity(const CharacterDef&, const Vec2<float>&, const Input&, float,

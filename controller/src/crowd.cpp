@@ -96,31 +96,34 @@ CrowdScratch Crowd<Scalar>::make_scratch(std::size_t most_characters) const {
 /// Writes no state before it is certain that no state is refused.
 template <class Scalar>
 StepStatus Crowd<Scalar>::step(std::span<CharacterState<Scalar>> states, std::span<const Input> inputs,
-                               const Vec2<Scalar>& gravity, Scalar dt, std::span<const MoverMotion<Scalar>> movers,
-                               CrowdScratch& scratch, CrowdReport<Scalar>& report) const noexcept {
+                               const StepContext<Scalar>& given, CrowdScratch& scratch,
+                               CrowdReport<Scalar>& report) const noexcept {
   const std::size_t count = states.size();
   if (scratch.most_characters < count || report.members.size() < count || inputs.size() != count ||
       !step_parts::is_made_by(rules_, scratch.maker))
     return report.status = StepStatus::invalid_input;
+  StepContext<Scalar> context = given;
+  if (rules_->sweep != nullptr) context.filter.end = rules_->sweep->first_slot;
   auto& memory = static_cast<crowd::CrowdMemory<Scalar>&>(*scratch.own);
   for (std::size_t i = 0; i < count; ++i) {
     report.members[i] = {};
     report.members[i].island = static_cast<CharacterIndex>(i);
     const bool rides = states[i].ride.ground != Ride<Scalar>::none;
-    if ((rides && !rules_->may_ride) ||
-        !controller_.begin_together(states[i], inputs[i], gravity, dt, movers, memory.states[i], memory.requests[i],
-                                    report.members[i].step))
+    if ((rides && !rules_->may_ride) || !controller_.begin_together(states[i], inputs[i], context, memory.states[i],
+                                                                    memory.requests[i], report.members[i].step))
       return report.status = StepStatus::invalid_input;
   }
+  const ColliderFilter* filter = count > 0 ? memory.requests[0].filter : nullptr;
   const bool in_range =
       rules_->sweep != nullptr
-          ? crowd::sweep_together<Scalar>(
-                {*rules_->sweep, memory, report, std::span(memory.members).first(count), gravity, dt, movers}, states)
+          ? crowd::sweep_together<Scalar>({*rules_->sweep, memory, report, std::span(memory.members).first(count),
+                                           context.gravity, context.dt, context.movers, filter},
+                                          states)
           : joint_technique(controller_).move_together(std::span(memory.requests).first(count), memory.scratch, report);
   if (!in_range) return report.status = StepStatus::out_of_range;
   for (std::size_t i = 0; i < count; ++i) {
     sort_by_time(report.members[i].met);
-    controller_.end_together(inputs[i], movers, memory.scratch, memory.states[i], report.members[i].step);
+    controller_.end_together(inputs[i], context, memory.scratch, memory.states[i], report.members[i].step);
     states[i] = memory.states[i];
   }
   return report.status = StepStatus::moved;

@@ -22,12 +22,15 @@ constexpr PieceIndex no_piece = std::numeric_limits<PieceIndex>::max();
 /// An end of a chain's first or last segment, at which a line begins or ends.
 struct OpenEnd {
   MoverIndex mover;
+  Filter filter;
   Vec2d one_way;
   Vec2d at;
   bool begins;
   PieceIndex piece;
 
-  [[nodiscard]] auto place() const noexcept { return std::tuple(mover, one_way.x(), one_way.y(), at.x(), at.y()); }
+  [[nodiscard]] auto place() const noexcept {
+    return std::tuple(mover, filter.category, filter.mask, filter.group, one_way.x(), one_way.y(), at.x(), at.y());
+  }
 };
 
 /// Which segment continues the line where another segment ends.
@@ -60,9 +63,10 @@ class Joints {
     for (std::size_t i = 1; i < def.points.size(); ++i) {
       const int side = turn_sign(def.points[i - 1], def.points[i], Vec2d::Zero(), *def.one_way);
       if (side != 0) {
-        if (i == 1) ends_.push_back({def.mover, *def.one_way, def.points[0], side > 0, piece});
+        if (i == 1) ends_.push_back({def.mover, def.filter, *def.one_way, def.points[0], side > 0, piece});
         if (side == side_before) side > 0 ? join(piece - 1, piece) : join(piece, piece - 1);
-        if (i + 1 == def.points.size()) ends_.push_back({def.mover, *def.one_way, def.points[i], side < 0, piece});
+        if (i + 1 == def.points.size())
+          ends_.push_back({def.mover, def.filter, *def.one_way, def.points[i], side < 0, piece});
         ++piece;
       }
       side_before = side;

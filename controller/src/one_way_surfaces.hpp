@@ -1,11 +1,11 @@
 /// One-way chains as surfaces: is a character above one?
 ///
-/// Chains with equal `one_way` and the same mover (or none) are joined where exactly one chain ends in the vertex in
-/// which exactly one other chain begins. (A segment runs so that its blocking normal is on its left.) Chains are cut
-/// where they turn back across `one_way` or run along it. Each part is a surface: its two end segments are extended
-/// straight to infinity. The octagon is above a surface when its open interior is wholly on the `one_way` side of this
-/// line. Every real segment of the surface blocks a character that begins its move above the surface; no segment blocks
-/// any other character.
+/// Chains with equal `one_way` and filter and the same mover (or none) are joined where exactly one chain ends in the
+/// vertex in which exactly one other chain begins. (A segment runs so that its blocking normal is on its left.) Chains
+/// are cut where they turn back across `one_way` or run along it. Each part is a surface: its two end segments are
+/// extended straight to infinity. The octagon is above a surface when its open interior is wholly on the `one_way` side
+/// of this line. Every real segment of the surface blocks a character that begins its move above the surface; no
+/// segment blocks any other character.
 #pragma once
 
 #include <paperproof/character.hpp>

@@ -251,6 +251,7 @@ void Scenery<Scalar>::add(ColliderIndex collider, const ColliderDef& def) {
                           .mover = def.mover,
                           .surface_speed = def.surface_speed,
                           .carries = def.carries,
+                          .filter = def.filter,
                           .one_way = def.one_way};
   if (infos_.empty() || infos_.back() != info) infos_.push_back(info);
   colliders_[collider].info = static_cast<std::uint32_t>(infos_.size() - 1);
@@ -294,7 +295,8 @@ ColliderDef Scenery<Scalar>::as_run(ColliderIndex collider) const {
                   .mover = info.mover,
                   .sensor = info.sensor,
                   .surface_speed = info.surface_speed,
-                  .carries = info.carries};
+                  .carries = info.carries,
+                  .filter = info.filter};
   if (kept.shape == Collider::piece || kept.shape == Collider::piece_backwards) {
     def.points = cast_points<double>(vertices_of(kept.first_piece));
     if (kept.shape == Collider::piece_backwards) std::reverse(def.points.begin(), def.points.end());

@@ -199,7 +199,7 @@ class RandomCrowd {
   void take(Tally& tally) {
     rides_.clear();
     for (const CharacterState<double>& state : states_) rides_.push_back(state.ride);
-    const StepStatus status = crowd_.step(states_, inputs_, {0, -30}, dt_, motions_, scratch_, report_);
+    const StepStatus status = crowd_.step(states_, inputs_, {{0, -30}, dt_, motions_}, scratch_, report_);
     ASSERT_EQ(status, StepStatus::moved) << where();
     ++tally.steps;
     tally.with_impact += report_.impacts > 0;

@@ -135,7 +135,7 @@ class RandomCrowd {
 
   void take(const Vec2d& gravity, double dt, Tally& tally) {
     before_ = states_;
-    ASSERT_EQ(crowd_.step(states_, inputs_, gravity, dt, scratch_, report_), StepStatus::moved) << where();
+    ASSERT_EQ(crowd_.step(states_, inputs_, {gravity, dt}, scratch_, report_), StepStatus::moved) << where();
     ++tally.steps;
     tally.with_impact += report_.impacts > 0;
     tally.impacts += report_.impacts;

@@ -157,7 +157,7 @@ class RandomRun {
     const Vec2<Scalar> gravity{0, -30};
     const Ride<Scalar> ride = state_.ride;
     const bool rides = ride.ground != Ride<Scalar>::none;
-    const StepStatus status = controller_.step(state_, input, gravity, dt, motions_, scratch_, report_);
+    const StepStatus status = controller_.step(state_, input, {gravity, dt, motions_}, scratch_, report_);
     const Tally before = tally;
     ++tally.steps;
     ASSERT_NE(status, StepStatus::invalid_input) << where();

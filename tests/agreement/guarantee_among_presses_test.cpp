@@ -99,7 +99,7 @@ class Chamber {
       movers.take(motions, dt);
       const bool under = !state.crushers.empty();
       const CharacterState<double> before = state;
-      const StepStatus status = controller.step(state, input, gravity, dt, motions, scratch, report);
+      const StepStatus status = controller.step(state, input, {gravity, dt, motions}, scratch, report);
       ASSERT_NE(status, StepStatus::invalid_input);
       ++tally.steps;
       tally.crushed += status == StepStatus::crushed;

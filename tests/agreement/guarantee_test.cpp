@@ -101,7 +101,7 @@ class RandomRun {
   void take(const Input& input, const Vec2d& gravity, double dt, Tally& tally) {
     const CharacterState<double> before = state_;
     const std::vector<ColliderIndex> start_overlap = oracle_.overlapped(before.position);
-    const StepStatus status = controller_.step(state_, input, gravity, dt, scratch_, report_);
+    const StepStatus status = controller_.step(state_, input, {gravity, dt}, scratch_, report_);
     ++tally.steps;
     if (status == StepStatus::out_of_range) {
       EXPECT_TRUE(state_ == before) << where();

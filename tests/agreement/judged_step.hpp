@@ -72,7 +72,7 @@ struct Judged {
     return step(input);
   }
   compare::StepJudgement step(const Input& input = {}) {
-    controller.step(state, input, gravity, dt, motions, scratch, report);
+    controller.step(state, input, {gravity, dt, motions}, scratch, report);
     if (!looks_for_room) return {};
     return judge.judge(recorded<double>(report, state, motions));
   }

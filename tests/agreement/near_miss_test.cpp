@@ -62,7 +62,7 @@ TEST(NearMiss, is_told_from_a_hit_as_exact_arithmetic_does) {
     CharacterState<double> state;
     state.position = flight.from;
     state.velocity = flight.way;
-    ASSERT_EQ(controller.step(state, {}, {0, 0}, 1, scratch, report), StepStatus::moved);
+    ASSERT_EQ(controller.step(state, {}, {{0, 0}, 1}, scratch, report), StepStatus::moved);
 
     const auto exact = oracle.time_of_impact(flight.from, flight.way, 0);
     const bool contact = !report.move.contacts.empty();

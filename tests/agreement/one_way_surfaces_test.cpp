@@ -249,7 +249,7 @@ class Play {
   [[nodiscard]] CharacterState<double> step(Player& player, const Input& input, double dt) const {
     CharacterState<double> state = state_;
     std::vector<MoverMotion<double>> movers(player.scenery.mover_count(), motion_);
-    player.controller.step(state, input, {0, -30}, dt, movers, player.scratch, player.report);
+    player.controller.step(state, input, {{0, -30}, dt, movers}, player.scratch, player.report);
     return state;
   }
 

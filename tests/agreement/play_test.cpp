@@ -86,7 +86,7 @@ class Game {
   }
 
   void take(int step, Played& played) {
-    const StepStatus status = controller_.step(state_, input_, {0, -30}, 1 / rate_, scratch_, report_);
+    const StepStatus status = controller_.step(state_, input_, {{0, -30}, 1 / rate_}, scratch_, report_);
     TraceStep record = recorded<double>(report_, state_, {});
     record.step = step;
     record.grounded = state_.grounded;

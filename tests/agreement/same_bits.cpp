@@ -155,7 +155,7 @@ RunResult run(const Scene& scene, std::string_view kind, int steps) {
     if (step % steps_between_shots == 0) state = shot<Scalar>(random, scene);
     if (step % 20 == 0) input = any_input(random);
     set_motions(scene, step, motions);
-    controller.step(state, input, gravity<Scalar>(), Scalar(dt), motions, scratch, report);
+    controller.step(state, input, {gravity<Scalar>(), Scalar(dt), motions}, scratch, report);
     add_step(hash, state, report);
     if (!report.move.contacts.empty()) ++result.steps_with_contact;
   }
@@ -184,7 +184,7 @@ RunResult run_crowd(const Scene& scene, int steps) {
       if (step % 20 == 0) inputs[i] = any_input(random);
     }
     set_motions(scene, step, motions);
-    crowd.step(states, inputs, gravity<Scalar>(), Scalar(dt), motions, scratch, report);
+    crowd.step(states, inputs, {gravity<Scalar>(), Scalar(dt), motions}, scratch, report);
     hash.add(report.impacts);
     for (const paperproof::CharacterState<Scalar>& state : states) {
       hash.add(state.position);

@@ -86,7 +86,7 @@ class Start {
       }
       last_free_ = state.has_last_free ? std::optional(state.last_free) : std::nullopt;
       const CharacterState<double> before = state;
-      controller.step(state, {}, Vec2d{0, 0}, 1.0 / 60, movers_, scratch, report_);
+      controller.step(state, {}, {Vec2d{0, 0}, 1.0 / 60, movers_}, scratch, report_);
       ++tally.cases;
       tally.among_movers += !movers_.empty();
       check(oracle, from, inside, before, tally);

@@ -84,7 +84,7 @@ TEST(WorldMovers, carry_the_games_hero) {
     const double angle = 0.02 * i;
     lift->SetLinearVelocity({2 * static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle))});
     ASSERT_TRUE(motions_of<double>(borrowed, dt, motions));
-    controller.step(hero, {.move = 0.0, .jump = false}, {0, -10}, static_cast<double>(dt), motions, scratch, report);
+    controller.step(hero, {.move = 0.0, .jump = false}, {{0, -10}, static_cast<double>(dt), motions}, scratch, report);
     world.Step(dt, 8, 3);
     const Vec2d place = hero.position - widened(lift->GetPosition());
     if (i < 60) continue;  // it falls, and is taken along
@@ -120,7 +120,7 @@ TEST(WorldMovers, that_are_dynamic_carry_the_games_hero_after_the_world_has_step
     places_of(borrowed, places);
     world.Step(dt, 8, 3);
     ASSERT_TRUE(motions_since<double>(borrowed, places, motions));
-    controller.step(hero, {.move = 0.0, .jump = false}, {0, -10}, static_cast<double>(dt), motions, scratch, report);
+    controller.step(hero, {.move = 0.0, .jump = false}, {{0, -10}, static_cast<double>(dt), motions}, scratch, report);
     if (i < 30) continue;                                                                  // all of them fall
     if (i == 200) crates[2]->ApplyLinearImpulseToCenter({crates[2]->GetMass(), 0}, true);  // 1 m/s, a kick
     EXPECT_TRUE(hero.grounded) << i;
@@ -235,8 +235,8 @@ TEST(WorldMovers, that_turn_are_named_and_the_hero_goes_on_without_them) {
       ASSERT_TRUE(motions_of<double>(level->borrowed, dt, level->motions)) << i;
     }
     EXPECT_EQ(level->borrowed.movers.size(), i >= 60 && i < 120 ? 1U : 2U) << i;
-    const StepStatus status = level->controller.step(hero, {.move = 0.0}, {0, -10}, static_cast<double>(dt),
-                                                     level->motions, level->scratch, report);
+    const StepStatus status = level->controller.step(
+        hero, {.move = 0.0}, {{0, -10}, static_cast<double>(dt), level->motions}, level->scratch, report);
     EXPECT_EQ(status, StepStatus::moved) << i;
     world.Step(dt, 8, 3);
     if (i < 30) continue;  // it falls, and is taken along
@@ -264,7 +264,7 @@ TEST(WorldMovers, that_are_put_elsewhere_take_nobody_along_before_places_of_and_
       world.Step(static_cast<float>(frame), 8, 3);
       if (i == 9 && !before) lift->SetTransform({20, -0.5F}, 0);
       ASSERT_TRUE(motions_since<double>(level.borrowed, places, level.motions));
-      level.controller.step(hero, {.move = 0.0}, {0, -10}, frame, level.motions, level.scratch, report);
+      level.controller.step(hero, {.move = 0.0}, {{0, -10}, frame, level.motions}, level.scratch, report);
     }
     EXPECT_NEAR(hero.position.x(), before ? 0 : 20, 1e-9);
     EXPECT_NEAR(hero.velocity.x(), before ? 0 : 20 / frame, 1e-6);
@@ -304,7 +304,7 @@ struct CrateGame {
       places_of(borrowed, places);
       world.Step(static_cast<float>(frame), 8, 3);
       EXPECT_TRUE(motions_since<double>(borrowed, places, motions));
-      controller.step(hero, {.move = move}, {0, -10}, frame, motions, scratch, report);
+      controller.step(hero, {.move = move}, {{0, -10}, frame, motions}, scratch, report);
       crushes += report.move.crushed.empty() ? 0 : 1;
       const Vec2d way = hero.position - widened(hero_body->GetPosition());
       hero_body->SetLinearVelocity({static_cast<float>(way.x() / frame), static_cast<float>(way.y() / frame)});

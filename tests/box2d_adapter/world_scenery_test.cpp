@@ -26,7 +26,7 @@ TEST(WorldScenery, ten_lines_put_the_controller_into_a_box2d_game) {
   CharacterState<double> hero;
   hero.position = {0, 2};
   for (int i = 0; i < 240; ++i) {  // every frame, before world.Step
-    controller.step(hero, {.move = 1.0, .jump = false}, {0, -10}, dt, scratch, report);
+    controller.step(hero, {.move = 1.0, .jump = false}, {{0, -10}, dt}, scratch, report);
     const Vec2d way = hero.position - Vec2d(hero_body->GetPosition().x, hero_body->GetPosition().y);
     hero_body->SetLinearVelocity({static_cast<float>(way.x() / dt), static_cast<float>(way.y() / dt)});
     for (const Contact<double>& contact : report.move.contacts) touched.push_back(borrowed.fixtures[contact.collider]);

@@ -41,7 +41,7 @@ inline double error_of(const Scene& scene, const Course<Number<50>>& course) {
   auto next = scene.input.begin();
   for (int step = 0; step < scene.steps; ++step) {
     for (; next != scene.input.end() && next->step == step; ++next) apply(*next, input);
-    controller.step(state, input, scene.gravity, scene.dt, scratch, report);
+    controller.step(state, input, {scene.gravity, scene.dt}, scratch, report);
     largest = std::max(largest, (state.position - course.at((step + 1) * scene.dt)).norm());
   }
   return largest;

@@ -59,7 +59,7 @@ Bits run(const TechniqueDef& def, const Scene& scene) {
     for (int step = 0; step < std::min(scene.steps, 60); ++step) {
       const Input input{.move = scene.gravity.y() != 0 ? std::optional<double>(1) : std::nullopt,
                         .jump = step % 20 > 10};
-      static_cast<void>(controller.step(state, input, scene.gravity, scene.dt, scratch, report));
+      static_cast<void>(controller.step(state, input, {scene.gravity, scene.dt}, scratch, report));
       bits.push_back(std::bit_cast<std::uint64_t>(state.position.x()));
       bits.push_back(std::bit_cast<std::uint64_t>(state.position.y()));
     }

@@ -291,7 +291,7 @@ TEST(Refusals, change_nothing_for_input_that_is_no_number) {
     Stepper<double> stepper({rectangle(-9, -9, 9, 0)}, {}, kind);
     for (std::size_t i = 0; i < cases.size(); ++i) {
       CharacterState<double> state = cases[i].state;
-      const StepStatus status = stepper.controller.step(state, cases[i].input, cases[i].gravity, cases[i].dt,
+      const StepStatus status = stepper.controller.step(state, cases[i].input, {cases[i].gravity, cases[i].dt},
                                                         stepper.scratch, stepper.report);
       EXPECT_EQ(status, StepStatus::invalid_input) << kind << ", case " << i;
       EXPECT_EQ(stepper.report.status, StepStatus::invalid_input);
@@ -326,7 +326,7 @@ TEST(Refusals, change_nothing_for_a_step_that_leaves_the_range) {
       state.velocity = velocity;
       const CharacterState<double> before = state;
       EXPECT_EQ(
-          stepper.controller.step(state, {.move = {}, .jump = true}, Vec2d{0, 0}, 1, stepper.scratch, stepper.report),
+          stepper.controller.step(state, {.move = {}, .jump = true}, {Vec2d{0, 0}, 1}, stepper.scratch, stepper.report),
           StepStatus::out_of_range)
           << kind;
       EXPECT_TRUE(same_bits(state, before)) << kind;

@@ -244,7 +244,7 @@ TEST(CrowdAmongMovers, who_meets_nobody_moves_as_by_the_controller_to_the_last_b
     }
     all.step_with_movers_by({there_and_back({0.1, 0.05}, step) * 0.5, {0.03, 0}});
     for (std::size_t i = 0; i < 3; ++i) {
-      controller.step(alone[i], all.inputs[i], all.gravity, all.dt, all.movers, scratch, report);
+      controller.step(alone[i], all.inputs[i], {all.gravity, all.dt, all.movers}, scratch, report);
       ASSERT_TRUE(same_bits(all.states[i], alone[i])) << i << " in step " << step;
       ASSERT_EQ(all.states[i].ride, alone[i].ride) << i << " in step " << step;
       ASSERT_EQ(all.report.members[i].step.move.contacts.size(), report.move.contacts.size());
@@ -273,7 +273,7 @@ TEST(CrowdAmongMovers, motions_that_are_missing_or_not_finite_are_refused_and_ch
     EXPECT_EQ(status, StepStatus::invalid_input);
     EXPECT_EQ(all.states, before);
   };
-  refused(all.crowd.step(all.states, all.inputs, all.gravity, all.dt, all.scratch, all.report));
+  refused(all.crowd.step(all.states, all.inputs, {all.gravity, all.dt}, all.scratch, all.report));
   all.movers[0].to.x() = std::numeric_limits<double>::quiet_NaN();
   refused(all.step());
   all.movers[0].to.x() = std::numeric_limits<double>::infinity();

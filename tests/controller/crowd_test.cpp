@@ -245,7 +245,7 @@ TEST(Crowd, floats_keep_apart_as_well) {
   states[0].position = {0, 1};
   states[1].position = {2, 1};
   const std::vector<Input> inputs{{.move = 1}, {.move = -1}};
-  for (int step = 0; step < 120; ++step) crowd.step(states, inputs, {0, -30}, 1.0F / 60, scratch, report);
+  for (int step = 0; step < 120; ++step) crowd.step(states, inputs, {{0, -30}, 1.0F / 60}, scratch, report);
   const float gap = states[1].position.x() - states[0].position.x() - static_cast<float>(2 * half_width);
   EXPECT_GT(gap, 0);
   EXPECT_LT(gap, 1e-3F);

@@ -47,7 +47,7 @@ double steps(int count, int of_characters) {
   StepReport<double> report;
   for (int step = 0; step < count; ++step)
     controller.step(states[static_cast<std::size_t>(step) % states.size()], input_of_step(step / of_characters),
-                    {0, -30}, 1.0 / 60, scratch, report);
+                    {{0, -30}, 1.0 / 60}, scratch, report);
   return states[0].position.x();
 }
 

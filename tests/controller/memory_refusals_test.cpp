@@ -43,7 +43,7 @@ void expect_refused(Stepper<Scalar>& stepper, Scratch<Scalar>& scratch, const ch
   stepper.at(-1, 1.5).with_velocity(300, -20);
   const CharacterState<Scalar> before = stepper.state;
   const Input input{.move = 1.0, .jump = true, .drop = true};
-  const StepStatus status = stepper.controller.step(stepper.state, input, stepper.gravity, stepper.dt, stepper.movers,
+  const StepStatus status = stepper.controller.step(stepper.state, input, {stepper.gravity, stepper.dt, stepper.movers},
                                                     scratch, stepper.report);
   EXPECT_EQ(status, StepStatus::invalid_input) << whose;
   EXPECT_EQ(stepper.report.status, StepStatus::invalid_input) << whose;
@@ -64,7 +64,7 @@ void expect_only_its_own_is_taken(std::string_view kind) {
   expect_refused(small, technique_only, "the technique's alone");
   Scratch<Scalar> taken = std::move(small.scratch);
   expect_refused(small, small.scratch, "moved from");
-  EXPECT_EQ(small.controller.step(small.state, {}, small.gravity, small.dt, small.movers, taken, small.report),
+  EXPECT_EQ(small.controller.step(small.state, {}, {small.gravity, small.dt, small.movers}, taken, small.report),
             small.report.status);
   EXPECT_NE(small.report.status, StepStatus::invalid_input) << "its own, moved";
 }
@@ -87,9 +87,9 @@ TEST(ScratchMemory, of_a_controller_that_is_gone_is_not_the_next_ones_in_the_sam
     Scratch<double> scratch = controller->make_scratch();
     CharacterState<double> state;
     state.position = {250, 0.7};
-    ASSERT_EQ(controller->step(state, {}, {0, -10}, 1.0 / 60, movers, scratch, report), StepStatus::moved);
+    ASSERT_EQ(controller->step(state, {}, {{0, -10}, 1.0 / 60, movers}, scratch, report), StepStatus::moved);
     controller.emplace(small, CharacterDef{});
-    ASSERT_EQ(controller->step(state, {}, {0, -10}, 1.0 / 60, movers, scratch, report), StepStatus::invalid_input);
+    ASSERT_EQ(controller->step(state, {}, {{0, -10}, 1.0 / 60, movers}, scratch, report), StepStatus::invalid_input);
   }
 }
 
@@ -102,7 +102,7 @@ TEST(ScratchMemory, goes_along_with_a_controller_that_is_moved) {
   CharacterState<double> state;
   state.position = {0, 0.7};
   StepReport<double> report;
-  EXPECT_EQ(second.step(state, {}, {0, -10}, 1.0 / 60, movers, scratch, report), StepStatus::moved);
+  EXPECT_EQ(second.step(state, {}, {{0, -10}, 1.0 / 60, movers}, scratch, report), StepStatus::moved);
 }
 
 /// @param technique by which the crowd moves; each has memory of its own.
@@ -114,7 +114,7 @@ void expect_crowd_takes_only_its_own(std::string_view kind, const std::vector<Co
   const Crowd<float> of_floats = make_crowd(scenery, CharacterDef{}, {.name = kind});
   const auto expect_refused = [&](CrowdScratch& scratch, const char* whose) {
     const std::vector<CharacterState<double>> before = all.states;
-    EXPECT_EQ(all.crowd.step(all.states, all.inputs, {0, -10}, 0.1, all.movers, scratch, all.report),
+    EXPECT_EQ(all.crowd.step(all.states, all.inputs, {{0, -10}, 0.1, all.movers}, scratch, all.report),
               StepStatus::invalid_input)
         << whose;
     for (std::size_t i = 0; i < before.size(); ++i) EXPECT_TRUE(same_bits(all.states[i], before[i])) << whose;
@@ -127,7 +127,7 @@ void expect_crowd_takes_only_its_own(std::string_view kind, const std::vector<Co
   expect_refused(floats, "of another scalar");
   CrowdScratch taken = std::move(all.scratch);
   expect_refused(all.scratch, "moved from");
-  EXPECT_EQ(all.crowd.step(all.states, all.inputs, {0, -10}, 0.1, all.movers, taken, all.report), StepStatus::moved);
+  EXPECT_EQ(all.crowd.step(all.states, all.inputs, {{0, -10}, 0.1, all.movers}, taken, all.report), StepStatus::moved);
 }
 
 TEST(ScratchMemory, of_another_crowd_is_refused) {

@@ -40,7 +40,7 @@ class Player {
 
   /// @param move absent: no steering.
   StepStatus step(std::optional<double> move, double dt, bool jump = false) {
-    return controller_.step(state, {.move = move, .jump = jump}, Vec2d{0, gravity}, dt, scratch_, report);
+    return controller_.step(state, {.move = move, .jump = jump}, {Vec2d{0, gravity}, dt}, scratch_, report);
   }
 
   /// The last step met ground that is walked on.

@@ -28,7 +28,7 @@ TEST(FewIterations, let_no_velocity_grow_into_what_stops_it) {
     StepReport<double> report;
     CharacterState<double> state;
     state.position = {0, 2};
-    for (int step = 0; step < 200; ++step) controller.step(state, Input{}, {0, -30}, 1.0 / 60, scratch, report);
+    for (int step = 0; step < 200; ++step) controller.step(state, Input{}, {{0, -30}, 1.0 / 60}, scratch, report);
     EXPECT_EQ(state.velocity.y(), 0) << iterations;
     EXPECT_TRUE(state.grounded) << iterations;
   }

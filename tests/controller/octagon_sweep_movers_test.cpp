@@ -194,7 +194,7 @@ TEST(SawtoothCorridor, of_k_teeth_crossed_in_one_step_gives_k_impacts_at_their_t
     StepReport<double> report;
     CharacterState<double> state;
     state.velocity = {wanted, 0};
-    EXPECT_EQ(controller.step(state, {}, {0, 0}, 1.0, scratch, report), StepStatus::moved) << teeth;
+    EXPECT_EQ(controller.step(state, {}, {{0, 0}, 1.0}, scratch, report), StepStatus::moved) << teeth;
     ASSERT_EQ(report.move.contacts.size(), static_cast<std::size_t>(teeth));
     for (std::size_t k = 0; k < fractions.size(); ++k) {
       EXPECT_EQ(report.move.contacts[k].collider, k);

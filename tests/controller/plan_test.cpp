@@ -173,13 +173,13 @@ TEST(Stages, that_were_left_out_make_what_they_were_for_invalid_input) {
   state.position = {0, 3};
   const CharacterState<double> before = state;
   StepReport<double> report;
-  EXPECT_EQ(controller.step(state, {.move = 0.0, .jump = true}, {0, 0}, 0.1, scratch, report),
+  EXPECT_EQ(controller.step(state, {.move = 0.0, .jump = true}, {{0, 0}, 0.1}, scratch, report),
             StepStatus::invalid_input);
-  EXPECT_EQ(controller.step(state, {}, {0, -1e-300}, 0.1, scratch, report), StepStatus::invalid_input);
-  EXPECT_EQ(controller.step(state, {}, {0, std::numeric_limits<double>::quiet_NaN()}, 0.1, scratch, report),
+  EXPECT_EQ(controller.step(state, {}, {{0, -1e-300}, 0.1}, scratch, report), StepStatus::invalid_input);
+  EXPECT_EQ(controller.step(state, {}, {{0, std::numeric_limits<double>::quiet_NaN()}, 0.1}, scratch, report),
             StepStatus::invalid_input);
   EXPECT_EQ(state, before);
-  EXPECT_EQ(controller.step(state, {}, {0, 0}, 0.1, scratch, report), StepStatus::moved);
+  EXPECT_EQ(controller.step(state, {}, {{0, 0}, 0.1}, scratch, report), StepStatus::moved);
 }
 
 // --- planned and full, bit for bit
@@ -283,8 +283,8 @@ std::size_t run_both(const SceneryDef& def, const Play& run) {
     motion.from = motion.to;
     motion.to += run.mover_way.cast<Scalar>();
     const std::span<const MoverMotion<Scalar>> movers(&motion, scenery.mover_count());
-    planned.step(a, input, gravity, Scalar(1) / 60, movers, planned_scratch, one);
-    full.step(b, input, gravity, Scalar(1) / 60, movers, full_scratch, two);
+    planned.step(a, input, {gravity, Scalar(1) / 60, movers}, planned_scratch, one);
+    full.step(b, input, {gravity, Scalar(1) / 60, movers}, full_scratch, two);
     const testing::AssertionResult equal = same_bits(a, one, b, two);
     EXPECT_TRUE(equal);
     if (!equal) break;

@@ -58,7 +58,7 @@ struct Walk {
     if (step.launch) state.velocity = step.launch->template cast<Scalar>();
     // What fell out of the level comes in again.
     if (state.position.cwiseAbs().maxCoeff() > 12) state.position = start().position;
-    controller.step(state, step.input, {0, -30}, Scalar(1) / 60, scratch, report);
+    controller.step(state, step.input, {{0, -30}, Scalar(1) / 60}, scratch, report);
   }
 
   [[nodiscard]] std::vector<CharacterState<Scalar>> states(const std::vector<Step>& steps, bool fresh_scratch) const {

@@ -161,7 +161,7 @@ TEST(StaleIndices, a_ride_into_a_level_where_nothing_moves_keeps_its_speed) {
     state.velocity = state.ride.velocity = {3, 0};
     state.ride.ground = 7;
     const std::vector<MoverMotion<double>> movers(scenery.mover_count());
-    ASSERT_EQ(controller.step(state, Input{}, {0, -10}, 0.1, movers, scratch, report), StepStatus::moved);
+    ASSERT_EQ(controller.step(state, Input{}, {{0, -10}, 0.1, movers}, scratch, report), StepStatus::moved);
     EXPECT_EQ(state.velocity, Vec2d(3, -1)) << has_mover;
     EXPECT_NEAR(state.position.x(), 0.3, 1e-12) << has_mover;
     EXPECT_EQ(state.ride.ground, Ride<double>::none);

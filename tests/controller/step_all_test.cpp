@@ -61,7 +61,7 @@ struct Many {
   }
   BatchStatus step_all(int step, std::span<Scratch<Scalar>> scratches) {
     press(step);
-    return controller.step_all(states, inputs, gravity, dt, movers_of_step<Scalar>(step), scratches, reports);
+    return controller.step_all(states, inputs, {gravity, dt, movers_of_step<Scalar>(step)}, scratches, reports);
   }
   [[nodiscard]] std::vector<Scratch<Scalar>> scratches(std::size_t wanted) const {
     std::vector<Scratch<Scalar>> made;
@@ -103,8 +103,8 @@ void expect_the_bits_of_single_steps(std::size_t threads) {
     each.press(step);
     for (std::size_t i = 0; i < count; ++i) {
       StepReport<Scalar>& report = each.reports[i];
-      each.controller.step(each.states[i], each.inputs[i], each.gravity, each.dt, movers_of_step<Scalar>(step), scratch,
-                           report);
+      each.controller.step(each.states[i], each.inputs[i], {each.gravity, each.dt, movers_of_step<Scalar>(step)},
+                           scratch, report);
       ASSERT_TRUE(same_bits(all.states[i], each.states[i])) << "character " << i << ", step " << step;
       ASSERT_TRUE(same_report(all.reports[i], report)) << "character " << i << ", step " << step;
       contacts += report.move.contacts.size();
@@ -132,14 +132,14 @@ TEST(StepAll, with_one_scratch_allocates_nothing) {
   const std::vector<MoverMotion<double>> movers = movers_of_step<double>(0);
   many.press(0);
   const std::size_t before = tests::allocations();
-  many.controller.step_all(many.states, many.inputs, many.gravity, many.dt, movers, scratches, many.reports);
+  many.controller.step_all(many.states, many.inputs, {many.gravity, many.dt, movers}, scratches, many.reports);
   EXPECT_EQ(tests::allocations(), before);
 }
 
 TEST(StepAll, of_nobody_changes_nothing) {
   Many<double> many;
   std::vector<Scratch<double>> scratches = many.scratches(2);
-  EXPECT_EQ(many.controller.step_all({}, {}, many.gravity, many.dt, movers_of_step<double>(0), scratches, {}),
+  EXPECT_EQ(many.controller.step_all({}, {}, {many.gravity, many.dt, movers_of_step<double>(0)}, scratches, {}),
             BatchStatus::stepped);
 }
 
@@ -161,7 +161,7 @@ TEST(StepAll, leaves_out_of_a_report_what_has_no_room_beside_the_scratch) {
   const std::vector<Input> inputs(2);
   std::vector<StepReport<double>> reports(2);
   reports[1].move.contacts.reserve(100);
-  controller.step_all(states, inputs, {0, -20}, 1.0 / 60, {}, scratches, reports);
+  controller.step_all(states, inputs, {{0, -20}, 1.0 / 60, {}}, scratches, reports);
   EXPECT_TRUE(reports[0].move.contacts.overflowed());
   EXPECT_EQ(reports[0].move.contacts.size(), MoveResult<double>::max_contacts);
   EXPECT_FALSE(reports[1].move.contacts.overflowed());
@@ -181,7 +181,7 @@ TEST(StepAll, refuses_spans_of_different_sizes_and_foreign_scratch) {
   const auto refused = [&](std::size_t states, std::size_t inputs, std::span<Scratch<double>> scratches,
                            std::size_t reports) {
     return many.controller.step_all(std::span(many.states).first(states), std::span(many.inputs).first(inputs),
-                                    many.gravity, many.dt, movers, scratches,
+                                    {many.gravity, many.dt, movers}, scratches,
                                     std::span(many.reports).first(reports)) == BatchStatus::invalid_input;
   };
   EXPECT_TRUE(refused(count - 1, count, own, count));
@@ -200,7 +200,7 @@ TEST(StepAll, refuses_each_character_where_the_movers_are_not_those_of_the_scene
   Many<double> many;
   std::vector<Scratch<double>> scratches = many.scratches(2);
   many.press(0);
-  EXPECT_EQ(many.controller.step_all(many.states, many.inputs, many.gravity, many.dt, {}, scratches, many.reports),
+  EXPECT_EQ(many.controller.step_all(many.states, many.inputs, {many.gravity, many.dt, {}}, scratches, many.reports),
             BatchStatus::stepped);
   for (const StepReport<double>& report : many.reports) EXPECT_EQ(report.status, StepStatus::invalid_input);
 }

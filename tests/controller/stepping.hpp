@@ -49,7 +49,7 @@ struct Stepper {
     return *this;
   }
   StepStatus step(const Input& input = {}) {
-    return controller.step(state, input, gravity, dt, movers, scratch, report);
+    return controller.step(state, input, {gravity, dt, movers}, scratch, report);
   }
   /// The mover goes on from where it is.
   StepStatus step_with_mover_by(double x, double y, const Input& input = {}) {

@@ -40,7 +40,7 @@ struct Together {
         movers(scenery->mover_count()) {
     for (std::size_t i = 0; i < positions.size(); ++i) states[i].position = positions[i];
   }
-  StepStatus step() { return crowd.step(states, inputs, gravity, dt, movers, scratch, report); }
+  StepStatus step() { return crowd.step(states, inputs, {gravity, dt, movers}, scratch, report); }
   /// The movers go on from where they are, each by its way.
   StepStatus step_with_movers_by(const std::vector<Vec2d>& ways) {
     for (std::size_t k = 0; k < movers.size(); ++k) movers[k] = {movers[k].to, movers[k].to + ways[k]};

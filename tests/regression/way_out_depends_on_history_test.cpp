@@ -34,7 +34,7 @@ TEST(Regression, a_way_out_does_not_depend_on_earlier_steps) {
     CharacterState<double> state;
     state.position = {0.2, 0.3};
     StepReport<double> report;
-    EXPECT_EQ(controller.step(state, {}, {0, 0}, 1.0 / 60, scratch, report), StepStatus::moved);
+    EXPECT_EQ(controller.step(state, {}, {{0, 0}, 1.0 / 60}, scratch, report), StepStatus::moved);
     return state.position;
   };
   Scratch<double> fresh = controller.make_scratch();
@@ -48,7 +48,7 @@ TEST(Regression, a_way_out_does_not_depend_on_earlier_steps) {
   flyer.position = {-200, -12};
   flyer.velocity = {212, 212};
   StepReport<double> report;
-  controller.step(flyer, {}, {0, 0}, 1, used, report);
+  controller.step(flyer, {}, {{0, 0}, 1}, used, report);
   ASSERT_TRUE(report.move.contacts.empty());
   EXPECT_EQ(from_the_middle(used), out);
 }

@@ -25,7 +25,7 @@ TEST(Regression, a_way_out_further_than_ten_metres_does_not_end_in_another_solid
   CharacterState<double> state;
   state.position = {1, 2};
   StepReport<double> report;
-  ASSERT_EQ(controller.step(state, {}, {0, 0}, 1.0 / 60, scratch, report), StepStatus::moved);
+  ASSERT_EQ(controller.step(state, {}, {{0, 0}, 1.0 / 60}, scratch, report), StepStatus::moved);
   const Vec2d p = state.position.cwiseAbs();
   EXPECT_TRUE(p.x() >= block + half.x() || p.y() >= block + half.y()) << "out of the block, at " << p.transpose();
   EXPECT_TRUE(p.x() >= beam + half.x() || state.position.y() < block) << "beside the beam, at " << p.transpose();

@@ -29,7 +29,7 @@ Out out_of(std::vector<ColliderDef> colliders, const Vec2d& from) {
   CharacterState<double> state;
   state.position = from;
   StepReport<double> report;
-  const StepStatus status = controller.step(state, {}, {0, 0}, 1.0 / 60, scratch, report);
+  const StepStatus status = controller.step(state, {}, {{0, 0}, 1.0 / 60}, scratch, report);
   return {status, state.position - from};
 }
 

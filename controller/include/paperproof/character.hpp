@@ -121,7 +121,7 @@ template <class Scalar>
 using Crushers = FixedVector<Crusher<Scalar>, 8>;
 
 /// Everything that one step hands to the next. A plain value: copy it to save a game or to roll back.
-template <class Scalar>
+template <class Scalar = double>
 struct CharacterState {
   Vec2<Scalar> position{Vec2<Scalar>::Zero()};   ///< [m]
   Vec2<Scalar> velocity{Vec2<Scalar>::Zero()};   ///< [m/s]

@@ -17,6 +17,18 @@ struct DesiredVelocity {
   Scalar steered = 0;
 };
 
+/// What is the same for all characters of a step.
+template <class Scalar = double>
+struct StepContext {
+  Vec2<Scalar> gravity{Vec2<Scalar>::Zero()};  ///< [m/s²]
+  Scalar dt = 0;                               ///< Duration of the step, above zero [s].
+  /// One for each mover of the scenery, within +-2e6 m.
+  std::span<const MoverMotion<Scalar>> movers{};
+  /// Of the characters: for colliders that do not collide with it, a step is as if they were not in the scenery. They
+  /// give no contact and no event. `octagon_sweep` alone filters; with another technique a filter is invalid input.
+  ColliderFilter filter{};
+};
+
 /// Computes the velocity that a character wants in this step, before any obstacle changes it, and updates the jump
 /// flags. Common to every contender, the Box2D twin included: horizontal speed approaches `move * walk_speed`; a jump
 /// that is allowed sets the upward speed once; then gravity, with the fall speed limited (semi-implicit Euler: the
@@ -36,7 +48,8 @@ enum class StepStatus : std::uint8_t {
   out_of_range,  ///< Refused: the step would leave +-2e6 m. Position and velocity are unchanged.
   refused,       ///< Refused by the technique: see `MoveResult::refusal`. Position and velocity are unchanged.
   /// Refused: NaN, infinity, dt <= 0, a mover beyond +-2e6 m or with a speed that is not finite, a number of movers
-  /// that differs from the scenery's, scratch memory that another controller made. Nothing changed at all.
+  /// that differs from the scenery's, a filter for a technique that has none, scratch memory that another controller
+  /// made. Nothing changed at all.
   invalid_input,
 };
 
@@ -49,7 +62,7 @@ enum class BatchStatus : std::uint8_t {
 };
 
 /// The report of one step. `move` is valid unless the status is `invalid_input`.
-template <class Scalar>
+template <class Scalar = double>
 struct StepReport {
   StepStatus status = StepStatus::moved;
   Vec2<Scalar> requested{Vec2<Scalar>::Zero()};  ///< Wanted displacement [m].
@@ -71,7 +84,7 @@ template <class Scalar>
 class Crowd;
 
 /// Steps characters of one kind through one scenery. Const and shareable between threads.
-template <class Scalar>
+template <class Scalar = double>
 class Controller {
  public:
   /// Moves by `octagon_sweep`. `scenery` must outlive the controller.
@@ -83,18 +96,18 @@ class Controller {
   Controller(const Scenery<Scalar>& scenery, const CharacterDef& character,
              std::unique_ptr<const Technique<Scalar>> technique, const Stages& stages = {});
 
-  /// One step of `dt` seconds under `gravity` [m/s²]. `state` is read and written; nothing else carries over.
-  /// Never allocates, never throws.
+  /// One step: the input and gravity become a velocity, and the character moves by it. `state` is read and written;
+  /// nothing else carries over. Never allocates, never throws.
   /// @param scratch made by this controller; any other is invalid input.
-  StepStatus step(CharacterState<Scalar>& state, const Input& input, const Vec2<Scalar>& gravity, Scalar dt,
-                  Scratch<Scalar>& scratch, StepReport<Scalar>& report) const noexcept {
-    return step(state, input, gravity, dt, {}, scratch, report);
-  }
-  /// The same among movers.
-  /// @param movers one for each mover of the scenery, within +-2e6 m; anything else is invalid input.
-  StepStatus step(CharacterState<Scalar>& state, const Input& input, const Vec2<Scalar>& gravity, Scalar dt,
-                  std::span<const MoverMotion<Scalar>> movers, Scratch<Scalar>& scratch,
-                  StepReport<Scalar>& report) const noexcept;
+  StepStatus step(CharacterState<Scalar>& state, const Input& input, const StepContext<Scalar>& context,
+                  Scratch<Scalar>& scratch, StepReport<Scalar>& report) const noexcept;
+
+  /// One step of a game that owns its velocities: the character moves by a displacement, as far as obstacles let it,
+  /// and slides along them. No input, jump or gravity is added. Ground that carries the character adds its motion.
+  /// Otherwise as `step`; `state.velocity` becomes what obstacles leave of displacement / dt, and is not read.
+  /// @param displacement in the step [m]; relative to what carries the character.
+  StepStatus move(CharacterState<Scalar>& state, const Vec2<Scalar>& displacement, const StepContext<Scalar>& context,
+                  Scratch<Scalar>& scratch, StepReport<Scalar>& report) const noexcept;
 
   /// One step of many characters that do not block each other. Each character moves as by `step`, with the same bits
   /// for any number of scratches. If `step` would refuse a character, its report says so, and the other characters are
@@ -106,49 +119,57 @@ class Controller {
   ///
   /// A report keeps only what fits into its inline storage or its reserved memory; the rest is left out, and the vector
   /// has `overflowed()`. A single step keeps this rest in its scratch, but here the scratch is used again at once.
-  /// @param inputs one for each state, as `reports`. @param movers as of `step`, the same for all.
-  /// @param scratches at least one, each made by this controller.
+  /// @param inputs one for each state, as `reports`. @param scratches at least one, each made by this controller.
   BatchStatus step_all(std::span<CharacterState<Scalar>> states, std::span<const Input> inputs,
-                       const Vec2<Scalar>& gravity, Scalar dt, std::span<const MoverMotion<Scalar>> movers,
-                       std::span<Scratch<Scalar>> scratches, std::span<StepReport<Scalar>> reports) const noexcept;
+                       const StepContext<Scalar>& context, std::span<Scratch<Scalar>> scratches,
+                       std::span<StepReport<Scalar>> reports) const noexcept;
 
   [[nodiscard]] Scratch<Scalar> make_scratch() const { return completed(technique_->make_scratch()); }
   [[nodiscard]] const CharacterDef& character() const noexcept { return character_; }
   [[nodiscard]] const Technique<Scalar>& technique() const noexcept { return *technique_; }
 
  private:
-  [[nodiscard]] bool accepts(const CharacterState<Scalar>& state, const Input& input, const Vec2<Scalar>& gravity,
-                             Scalar dt, std::span<const MoverMotion<Scalar>> movers) const noexcept;
+  [[nodiscard]] bool accepts(const CharacterState<Scalar>& state, const Input& input,
+                             const StepContext<Scalar>& context) const noexcept;
   /// Whether a wall is within `wall_reach` of the character, on the side that `move` (not zero) points to.
   /// @param tried is overwritten.
-  [[nodiscard]] bool has_wall_ahead(const CharacterState<Scalar>& state, double move, Scalar dt,
-                                    std::span<const MoverMotion<Scalar>> movers, Scratch<Scalar>& scratch,
+  [[nodiscard]] bool has_wall_ahead(const CharacterState<Scalar>& state, double move,
+                                    const StepContext<Scalar>& context, Scratch<Scalar>& scratch,
                                     MoveResult<Scalar>& tried) const noexcept;
+  /// @param crushers of the state as it was; must outlive the request, as `context`.
+  [[nodiscard]] MoveRequest<Scalar> request_of(const CharacterState<Scalar>& state, const Crushers<Scalar>& crushers,
+                                               const Vec2<Scalar>& displacement, const Vec2<Scalar>& velocity,
+                                               Scalar steered, bool drop,
+                                               const StepContext<Scalar>& context) const noexcept;
   /// Begins an accepted step: turns the intent into a request.
-  /// @param crushers of the state as it was; must outlive the request.
   [[nodiscard]] MoveRequest<Scalar> begin_step(const Crushers<Scalar>& crushers, const Input& input,
-                                               const Vec2<Scalar>& gravity, Scalar dt,
-                                               std::span<const MoverMotion<Scalar>> movers, bool wall_ahead,
+                                               const StepContext<Scalar>& context, bool wall_ahead,
                                                CharacterState<Scalar>& state,
                                                StepReport<Scalar>& report) const noexcept;
   /// Ends the step, after the move has filled `report.move`.
-  void end_step(const Input& input, std::span<const MoverMotion<Scalar>> movers, Scratch<Scalar>& scratch,
-                CharacterState<Scalar>& state, StepReport<Scalar>& report) const noexcept;
+  void end_step(bool drop, const StepContext<Scalar>& context, Scratch<Scalar>& scratch, CharacterState<Scalar>& state,
+                StepReport<Scalar>& report) const noexcept;
+  /// Null: all colliders are there.
+  [[nodiscard]] const ColliderFilter* filter_of(const StepContext<Scalar>& context) const noexcept {
+    return has_filters_ || !context.filter.is_default() ? &context.filter : nullptr;
+  }
   /// A technique's scratch, with room for the rest of a step added, and marked with its maker.
   [[nodiscard]] Scratch<Scalar> completed(Scratch<Scalar> scratch) const;
 
   /// A crowd begins the steps of all its characters, moves them all at once, and then ends their steps.
   /// @param before must outlive the request. @return false if the input is not accepted.
   friend class Crowd<Scalar>;
-  bool begin_together(const CharacterState<Scalar>& before, const Input& input, const Vec2<Scalar>& gravity, Scalar dt,
-                      std::span<const MoverMotion<Scalar>> movers, CharacterState<Scalar>& state,
-                      MoveRequest<Scalar>& request, StepReport<Scalar>& report) const noexcept;
-  void end_together(const Input& input, std::span<const MoverMotion<Scalar>> movers, Scratch<Scalar>& scratch,
+  bool begin_together(const CharacterState<Scalar>& before, const Input& input, const StepContext<Scalar>& context,
+                      CharacterState<Scalar>& state, MoveRequest<Scalar>& request,
+                      StepReport<Scalar>& report) const noexcept;
+  void end_together(const Input& input, const StepContext<Scalar>& context, Scratch<Scalar>& scratch,
                     CharacterState<Scalar>& state, StepReport<Scalar>& report) const noexcept;
 
+  const Scenery<Scalar>* scenery_;
   std::size_t mover_count_;
-  bool may_jump_;  ///< Jumps were not left out,
-  bool may_fall_;  ///< nor was gravity.
+  bool has_filters_;  ///< Some collider is not there for every character.
+  bool may_jump_;     ///< Jumps were not left out,
+  bool may_fall_;     ///< nor was gravity.
   CharacterDef character_;
   std::shared_ptr<const Technique<Scalar>> technique_;   ///< Has no other owner: scratch memory refers to it.
   std::shared_ptr<const Sensors<Scalar>> sensors_;       ///< Null where the scenery has none.

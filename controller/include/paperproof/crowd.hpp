@@ -44,7 +44,7 @@ struct CrowdMember {
   }
 };
 
-template <class Scalar>
+template <class Scalar = double>
 struct CrowdReport {
   explicit CrowdReport(std::size_t most_characters) : members(most_characters) {}
 
@@ -110,7 +110,7 @@ struct CrowdScratch {
 /// along. A character that a mover would push through a standing solid stays where it was, crushed, and blocks the
 /// others. If on average more than 256 bodies are near each character, the bodies beyond this number are ignored, and
 /// every character is `dropped`. Cost: sorting boxes, a little more than n.
-template <class Scalar>
+template <class Scalar = double>
 class Crowd {
  public:
   /// Moves by `octagon_sweep`. `scenery` must outlive the crowd. @throws as `Controller`.
@@ -124,19 +124,14 @@ class Crowd {
 
   [[nodiscard]] CrowdScratch make_scratch(std::size_t most_characters) const;
 
-  /// One step of `dt` seconds under `gravity` [m/s²] for all characters. Never allocates, never throws.
+  /// One step for all characters. Never allocates, never throws.
   /// @param states read and written; nothing else carries over.
-  /// @param inputs one per state.
+  /// @param inputs one per state. @param context its filter is not for the characters themselves, which block each
+  ///   other always.
   /// @param scratch,report made for at least as many characters, the scratch by this crowd. Otherwise, or if one state,
   ///   input or step is refused (see `StepStatus`), no state changes.
-  StepStatus step(std::span<CharacterState<Scalar>> states, std::span<const Input> inputs, const Vec2<Scalar>& gravity,
-                  Scalar dt, CrowdScratch& scratch, CrowdReport<Scalar>& report) const noexcept {
-    return step(states, inputs, gravity, dt, {}, scratch, report);
-  }
-  /// The same among movers.
-  /// @param movers one for each mover of the scenery, within +-2e6 m; anything else is invalid input.
-  StepStatus step(std::span<CharacterState<Scalar>> states, std::span<const Input> inputs, const Vec2<Scalar>& gravity,
-                  Scalar dt, std::span<const MoverMotion<Scalar>> movers, CrowdScratch& scratch,
+  StepStatus step(std::span<CharacterState<Scalar>> states, std::span<const Input> inputs,
+                  const StepContext<Scalar>& context, CrowdScratch& scratch,
                   CrowdReport<Scalar>& report) const noexcept;
 
   [[nodiscard]] const CharacterDef& character() const noexcept { return controller_.character(); }

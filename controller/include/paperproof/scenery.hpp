@@ -1,6 +1,7 @@
 /// The scenery around a character: polygons and chains, cut once into convex pieces.
 #pragma once
 
+#include <paperproof/filter.hpp>
 #include <paperproof/types.hpp>
 
 #include <array>
@@ -34,6 +35,8 @@ struct ColliderDef {
   double surface_speed = 0;
   /// Whether a mover carries a character that stands on it. Otherwise the mover only pushes, as another character does.
   bool carries = true;
+  /// Which characters it is there for: see `StepContext::filter`. Seams vanish only between colliders of equal filters.
+  Filter filter{};
 };
 
 /// All colliders, standing or moving.
@@ -60,6 +63,7 @@ struct ColliderInfo {
   MoverIndex mover = no_mover;
   double surface_speed = 0;  ///< [m/s]
   bool carries = true;
+  Filter filter{};
   std::optional<Vec2d> one_way{};
   friend bool operator==(const ColliderInfo&, const ColliderInfo&) = default;
 };
@@ -117,7 +121,7 @@ struct PieceRange {
 };
 
 /// Immutable after construction; may be shared between threads.
-template <class Scalar>
+template <class Scalar = double>
 class Scenery {
  public:
   /// Rounds every vertex to `Scalar` (and magnitudes below 1e-90 m to zero: their products would underflow), checks

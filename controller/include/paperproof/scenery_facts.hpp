@@ -32,6 +32,13 @@ template <class Scalar>
                      [](const ColliderInfo& c) { return !c.sensor && c.surface_speed != 0; });
 }
 
+/// Some collider is not there for every character.
+template <class Scalar>
+[[nodiscard]] bool has_filters(const Scenery<Scalar>& scenery) noexcept {
+  const std::span<const ColliderInfo> kinds = scenery.collider_kinds();
+  return std::any_of(kinds.begin(), kinds.end(), [](const ColliderInfo& c) { return c.filter != Filter{}; });
+}
+
 /// Number of colliders that movers move, sensors included.
 template <class Scalar>
 [[nodiscard]] std::size_t count_moving_colliders(const Scenery<Scalar>& scenery) noexcept {

@@ -3,6 +3,7 @@
 
 #include <paperproof/character.hpp>
 #include <paperproof/report_vector.hpp>
+#include <paperproof/scenery.hpp>
 
 #include <memory>
 #include <span>
@@ -11,8 +12,26 @@
 
 namespace paperproof {
 
+/// Which colliders are there for a character in one step: those that collide by the filters, and by a predicate.
+struct ColliderFilter : Filter {
+  /// If set, it is asked for each collider that collides by the filters: false if the collider is not there. During a
+  /// step it must give the same answers; it must not throw. It may be called from any thread that steps.
+  bool (*is_there)(ColliderIndex collider, const void* user) = nullptr;
+  const void* user = nullptr;       ///< Handed to `is_there`.
+  ColliderIndex end = no_collider;  ///< From this index on all are there: a `Crowd` has colliders of its own.
+
+  /// Whether the filter itself leaves nothing out.
+  [[nodiscard]] bool is_default() const noexcept { return is_there == nullptr && Filter(*this) == Filter{}; }
+
+  template <class Scalar>
+  [[nodiscard]] bool operator()(const Scenery<Scalar>& scenery, ColliderIndex collider) const noexcept {
+    if (collider >= end) return true;
+    return collide(*this, scenery.collider(collider).filter) && (is_there == nullptr || is_there(collider, user));
+  }
+};
+
 /// A collider was in the way of the requested motion.
-template <class Scalar>
+template <class Scalar = double>
 struct Contact {
   ColliderIndex collider = 0;
   Vec2<Scalar> point{Vec2<Scalar>::Zero()};   ///< On the obstacle [m].
@@ -54,7 +73,8 @@ struct MoveRequest {
   std::span<const Crusher<Scalar>> crushers{};  ///< See `CharacterState::crushers`.
   /// One for each mover of the scenery.
   std::span<const MoverMotion<Scalar>> movers{};
-  Scalar dt = 0;  ///< [s]
+  const ColliderFilter* filter = nullptr;  ///< Null: all colliders are there.
+  Scalar dt = 0;                           ///< [s]
   /// The ground that carries the character, if any: `displacement` and `velocity` are then relative to this ground, and
   /// the technique adds the ground's motion.
   Ride<Scalar> ride{};
@@ -73,7 +93,7 @@ enum class MoveStatus : std::uint8_t {
 /// The report of one move. `octagon_sweep` reports everything: elements beyond the inline storage go to memory of its
 /// scratch, which is sized by the scenery (see `ReportVector`). Other techniques, and a `Crowd`, leave out the elements
 /// beyond the inline storage, and the vector has `overflowed()`. A crowd's `crushed` alone is always complete.
-template <class Scalar>
+template <class Scalar = double>
 struct MoveResult {
   static constexpr std::size_t max_corners = 64;
   static constexpr std::size_t max_contacts = 32;
@@ -145,11 +165,13 @@ struct Candidates {
   bool valid = false;
   /// Positions known to be quiet: while the character moves among them, nothing happens between it and any piece.
   Box2<Scalar> quiet{Vec2<Scalar>::Constant(1), Vec2<Scalar>::Constant(-1)};
+  bool filtered = false;  ///< Pieces that are not there are missing,
+  Filter filter{};        ///< for a character of this filter.
 };
 
 /// Memory of a step, one per thread. It belongs to the controller (or the technique) that made it and carries nothing
 /// from one step to the next that could change a result.
-template <class Scalar>
+template <class Scalar = double>
 struct Scratch {
   Candidates<Scalar> solids;       ///< Belongs to the technique, as the next member does.
   std::unique_ptr<OwnMemory> own;  ///< Null for most techniques.
@@ -170,6 +192,8 @@ class Technique {
   [[nodiscard]] virtual Scratch<Scalar> make_scratch() const = 0;
   /// Size of the technique's own copy of the level [bytes]; 0 for a technique that reads the scenery.
   [[nodiscard]] virtual std::size_t memory_bytes() const noexcept { return 0; }
+  /// Whether `MoveRequest::filter` has an effect.
+  [[nodiscard]] virtual bool filters() const noexcept { return false; }
   /// Never allocates and never throws.
   /// @param scratch made by this technique, which is not checked here.
   virtual void move(const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,

@@ -30,7 +30,7 @@ inline constexpr ColliderIndex no_collider = ~ColliderIndex{0};
 
 /// The motion of a mover during one step: linear, from one offset to another. Offsets are relative to the place where
 /// the mover's colliders were defined [m].
-template <class Scalar>
+template <class Scalar = double>
 struct MoverMotion {
   Vec2<Scalar> from{Vec2<Scalar>::Zero()};  ///< When the step begins: `to` of the step before, bit for bit.
   Vec2<Scalar> to{Vec2<Scalar>::Zero()};    ///< When it ends.

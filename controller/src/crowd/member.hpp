@@ -106,6 +106,7 @@ struct CrowdStep {
   Vec2<Scalar> gravity;  ///< [m/s²]
   Scalar dt;             ///< [s]
   std::span<const MoverMotion<Scalar>> movers;
+  const ColliderFilter* filter;  ///< See `MoveRequest`.
 
   /// What a character has done up to now.
   [[nodiscard]] MoveResult<Scalar>& made(CharacterIndex i) const noexcept { return report.members[i].step.move; }

@@ -174,6 +174,7 @@ class PathPlanner {
             .drop = member.drops,
             .crushers = {at.state.crushers.begin(), at.state.crushers.end()},
             .movers = step_.memory.motions,
+            .filter = step_.filter,
             .dt = duration,
             .ride = at.state.ride};
   }

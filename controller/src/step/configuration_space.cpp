@@ -74,6 +74,9 @@ ConfigurationSpace<Scalar>::ConfigurationSpace(const Scenery<Scalar>& scenery, c
     : scenery_(scenery), surfaces_(scenery, shape) {
   for (const Vec2d& point : shape.hull()) hull_.push_back(point.cast<Scalar>());
   hull_box_ = {shape.box().lower.cast<Scalar>(), shape.box().upper.cast<Scalar>()};
+  const std::span<const ColliderInfo> kinds = scenery.collider_kinds();
+  filters_differ_ = std::any_of(kinds.begin(), kinds.end(),
+                                [&](const ColliderInfo& kind) { return kind.filter != kinds.front().filter; });
   facet_noise_ = least_noise;
   for (const Box2<Scalar>& box : scenery.boxes()) {
     const Scalar furthest = std::max(box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff());
@@ -259,6 +262,7 @@ typename ConfigurationSpace<Scalar>::Facet ConfigurationSpace<Scalar>::facet(Pie
 /// surface, or along one line: who is not above the one is not above the other.
 template <class Scalar>
 bool ConfigurationSpace<Scalar>::may_cover(PieceIndex covering, PieceIndex piece) const noexcept {
+  if (!have_equal_filters(covering, piece)) return false;
   const std::uint8_t a = info_[covering].one_way_axis;
   const std::uint8_t b = info_[piece].one_way_axis;
   if (a == ObstacleInfo::not_one_way || b == ObstacleInfo::not_one_way) [[likely]]
@@ -337,7 +341,7 @@ void ConfigurationSpace<Scalar>::build_covered(PieceIndex piece, PieceRange toge
     const bool may_guess = guess != piece && guess >= together.first && guess < together.end;
     const bool rectangles = may_guess && info_[piece].first_offset == ObstacleInfo::rectangle &&
                             info_[guess].first_offset == ObstacleInfo::rectangle;
-    if (rectangles && placement(piece, guess) == search.known[axis]) {
+    if (rectangles && placement(piece, guess) == search.known[axis] && have_equal_filters(piece, guess)) {
       set_covered(piece, axis, 0);
       continue;
     }

@@ -251,6 +251,13 @@ class ConfigurationSpace {
   [[nodiscard]] Interval face_of(const Points& points, const Vec2d& normal) const noexcept;
   [[nodiscard]] Interval face_of_rectangle(const Box2<Scalar>& box, const Vec2d& normal) const noexcept;
   [[nodiscard]] bool may_cover(PieceIndex covering, PieceIndex piece) const noexcept;
+  /// A piece that is not there for some characters hides nothing of one that is.
+  [[nodiscard]] bool have_equal_filters(PieceIndex a, PieceIndex b) const noexcept {
+    const auto filter = [this](PieceIndex piece) {
+      return scenery_.collider(scenery_.pieces()[piece].collider).filter;
+    };
+    return !filters_differ_ || filter(a) == filter(b);
+  }
   [[nodiscard]] bool is_covered_corner(PieceIndex piece, std::size_t axis, const Vec2d& corner,
                                        std::span<const PieceIndex> neighbours) const noexcept;
   [[nodiscard]] Scalar support_offset(PieceIndex piece, const Vec2d& normal) const noexcept;
@@ -260,6 +267,7 @@ class ConfigurationSpace {
   FixedVector<Vec2<Scalar>, CharacterShape::max_points> hull_;
   OneWaySurfaces<Scalar> surfaces_;
   Box2<Scalar> hull_box_;
+  bool filters_differ_ = false;
   double facet_noise_ = 0;
   std::size_t lanes_ = 8;
   std::size_t shared_count_ = 0;

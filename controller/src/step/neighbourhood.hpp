@@ -8,6 +8,7 @@
 #include <paperproof/technique.hpp>
 #include <paperproof/tolerances.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 #include <utility>
@@ -19,9 +20,13 @@ template <class Scalar>
 class Neighbourhood {
  public:
   /// @param look_ahead how far ahead of a motion candidates are collected at most [m].
+  /// @param filter null: all colliders are there.
   Neighbourhood(const ConfigurationSpace<Scalar>& space, const BroadPhase<Scalar>& broad_phase, Scalar look_ahead,
-                Scratch<Scalar>& scratch) noexcept
-      : space_(space), broad_phase_(broad_phase), look_ahead_(look_ahead), scratch_(scratch) {}
+                const ColliderFilter* filter, Scratch<Scalar>& scratch) noexcept
+      : space_(space), broad_phase_(broad_phase), look_ahead_(look_ahead), filter_(filter), scratch_(scratch) {
+    if (filter != nullptr || scratch.solids.filtered) [[unlikely]]
+      forget_others();
+  }
 
   /// Every piece that the octagon can touch while its reference point is in `box`, and perhaps more; ascending.
   /// @param displacement where the character goes [m]: the next steps will need the pieces there.
@@ -44,9 +49,29 @@ class Neighbourhood {
   [[nodiscard]] StepMemory<Scalar>& memory() const noexcept { return static_cast<StepMemory<Scalar>&>(*scratch_.own); }
 
  private:
+  /// Forgets what was collected with another filter.
+  [[gnu::cold, gnu::noinline]] void forget_others() noexcept {
+    Candidates<Scalar>& known = scratch_.solids;
+    const bool filtered = filter_ != nullptr;
+    if (filtered != known.filtered || (filtered && (filter_->is_there != nullptr || Filter(*filter_) != known.filter)))
+      forget();
+    known.filtered = filtered;
+    if (filtered) known.filter = *filter_;
+  }
+  [[gnu::cold, gnu::noinline]] void leave_out_filtered() noexcept {
+    Candidates<Scalar>& known = scratch_.solids;
+    const Scenery<Scalar>& scenery = space_.scenery();
+    const std::span<PieceIndex> pieces = std::span(known.pieces.data(), known.count);
+    const auto end = std::remove_if(pieces.begin(), pieces.end(), [&](PieceIndex piece) {
+      return !(*filter_)(scenery, scenery.pieces()[piece].collider);
+    });
+    known.count = static_cast<std::size_t>(end - pieces.begin());
+  }
+
   const ConfigurationSpace<Scalar>& space_;
   const BroadPhase<Scalar>& broad_phase_;
   Scalar look_ahead_;
+  const ColliderFilter* filter_;
   Scratch<Scalar>& scratch_;
 };
 
@@ -60,6 +85,8 @@ std::span<const PieceIndex> Neighbourhood<Scalar>::around(const Box2<Scalar>& bo
     const bool goes_on = !known.valid || known.box.overlaps(box);
     known.box = positions_ahead(box, goes_on ? displacement : Vec2<Scalar>(Vec2<Scalar>::Zero()), look_ahead_);
     known.count = broad_phase_.query(space_.touched_from(known.box), known.pieces);
+    if (filter_ != nullptr) [[unlikely]]
+      leave_out_filtered();
     known.valid = true;
   }
   return {known.pieces.data(), known.count};

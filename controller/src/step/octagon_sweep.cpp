@@ -62,6 +62,7 @@ class OctagonSweep final : public SweepInParts<Scalar> {
   }
 
   [[nodiscard]] std::string_view name() const noexcept override { return "octagon_sweep"; }
+  [[nodiscard]] bool filters() const noexcept override { return true; }
 
   [[nodiscard]] Scratch<Scalar> make_scratch() const override {
     Scratch<Scalar> scratch;
@@ -81,7 +82,7 @@ class OctagonSweep final : public SweepInParts<Scalar> {
     if (!in_range(request) || request.movers.size() != mover_phases_.size() ||
         (!request.movers.empty() && !(request.dt > 0)))
       return refuse(request, result);
-    const Neighbourhood<Scalar> neighbourhood(space_, *broad_phase_, settings_.look_ahead, scratch);
+    const Neighbourhood<Scalar> neighbourhood(space_, *broad_phase_, settings_.look_ahead, request.filter, scratch);
     const bool rides = request.ride.ground != Ride<Scalar>::none;
     MoversInStep<Scalar> movers{mover_phases_, request.movers, request.dt, 0, has_conveyors_ || rides};
     if (!request.movers.empty() && (part == Part::stay || comes_near_a_mover(request))) movers.look_at_all();

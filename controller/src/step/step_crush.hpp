@@ -43,7 +43,7 @@ void StepSolver<Lanes, Scalar>::undo_crushes() noexcept {
     result_.crushed.clear();
     result_.status = moving_.status_before_crush == MoveStatus::dropped ? MoveStatus::dropped : MoveStatus::moved;
   }
-  moving_.ignored = passes_through;
+  moving_.ignored = does_not_block;
 }
 
 /// Whether a surface moves into a character that stays where it is, by more than rounding.
@@ -121,7 +121,7 @@ bool StepSolver<Lanes, Scalar>::leaves_overlapping_movers(const MoveRequest<Scal
     start_ = position_ = *out;
     push_corner(0);
   }
-  moving_.ignored = passes_through;
+  moving_.ignored = does_not_block;
   return out.has_value();
 }
 

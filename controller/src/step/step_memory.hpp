@@ -47,9 +47,11 @@ enum Role : std::uint8_t {
   crushes = 2,               ///< It crushed the character in this step, and is ignored since.
   leaving = 4,               ///< The step began inside it, and left it.
   overlaps_at_end = 8,       ///< It was ignored, and overlaps the character at the end of the step.
-  known = 16,                ///< It has or had one of these.
+  filtered = 16,             ///< It is not there for this character.
+  known = 32,                ///< It has or had one of these.
 };
 inline constexpr std::uint8_t passes_through = overlaps_since_start | crushes;
+inline constexpr std::uint8_t does_not_block = passes_through | filtered;
 
 /// One per thread; a step leaves nothing in it that the next one uses.
 template <class Scalar>

@@ -13,6 +13,8 @@ void StepSolver<Lanes, Scalar>::solve(Part part, const MoveRequest<Scalar>& requ
   start_ = position_;
   drops_ = request.drop;
   begin_motion(request);
+  if (request.filter != nullptr && movers_.phases.size() > 0) [[unlikely]]
+    ignore_filtered(*request.filter);
   V wanted = request.displacement;
   if (part == Part::stay) return stay_in_place(request);
   if (movers_.active) wanted = begin_ride(request);
@@ -78,6 +80,17 @@ void StepSolver<Lanes, Scalar>::stop_at_touched_ground() noexcept {
     keep_stop({piece, 0, 0, {best.axis, best.axis, false, false}}, motion.length);
   });
   order_stops();
+}
+
+/// Of movers. What stands still is left out of the candidates.
+template <std::size_t Lanes, class Scalar>
+void StepSolver<Lanes, Scalar>::ignore_filtered(const ColliderFilter& filter) noexcept {
+  const Scenery<Scalar>& scenery = space_.scenery();
+  for (MoverIndex mover = 0; mover < movers_.phases.size(); ++mover) {
+    const PieceRange pieces = scenery.pieces_of_mover(mover);
+    for (PieceIndex piece = pieces.first; piece < pieces.end; ++piece)
+      if (!filter(scenery, collider_of(piece))) memory_.mark(collider_of(piece), filtered);
+  }
 }
 
 /// Reads this step's steering, its length, and whether it begins as a walk on the ground.

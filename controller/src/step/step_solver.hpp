@@ -81,7 +81,7 @@ struct MoverState {
   MoverIndex carrier = no_mover;          ///< The mover of that; none for a conveyor that stands still.
   bool anchored = false;                  ///< The character has not moved relative to what carries it.
   bool waits = false;                     ///< See `wait`.
-  std::uint8_t ignored = passes_through;  ///< Colliders with one of these roles do not block.
+  std::uint8_t ignored = does_not_block;  ///< Colliders with one of these roles do not block.
   std::size_t overlapping = 0;            ///< How many movers overlap the character since an earlier step.
   bool side_lost = false;                 ///< From which side of one of them the character came is not known.
   std::optional<Vec2<Scalar>> last_free{};             ///< The last free position before the step, if there was one.
@@ -180,6 +180,7 @@ class StepSolver {
 
   // step_solve.hpp
   void begin_motion(const MoveRequest<Scalar>& request) noexcept;
+  [[gnu::cold, gnu::noinline]] void ignore_filtered(const ColliderFilter& filter) noexcept;
   [[nodiscard]] DesiredMotion<Scalar> desired() const noexcept;
   [[gnu::flatten]] void travel() noexcept;
   [[gnu::cold, gnu::noinline]] void end_at_surfaces(DesiredMotion<Scalar>& desired) noexcept;

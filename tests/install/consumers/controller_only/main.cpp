@@ -17,7 +17,7 @@ bool lands_on_the_floor() {
   paperproof::CharacterState<Scalar> state;
   state.position = {Scalar(0), Scalar(3)};
   const paperproof::Vec2<Scalar> gravity(Scalar(0), Scalar(-30));
-  for (int step = 0; step < 120; ++step) controller.step(state, {}, gravity, Scalar(1) / Scalar(64), scratch, report);
+  for (int step = 0; step < 120; ++step) controller.step(state, {}, {gravity, Scalar(1) / Scalar(64)}, scratch, report);
 
   const double gap = static_cast<double>(state.position.y()) + character.shape.box().lower.y();
   const double highest = static_cast<double>(paperproof::Tolerances<Scalar>{}.touch);

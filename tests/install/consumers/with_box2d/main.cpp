@@ -20,7 +20,7 @@ int main() {
   const double dt = 1.0 / 64;
   paperproof::Vec2d velocity = paperproof::Vec2d::Zero();
   for (int step = 0; step < 120; ++step) {
-    controller.step(state, {}, gravity, dt, scratch, report);
+    controller.step(state, {}, {gravity, dt}, scratch, report);
     velocity = world.step(velocity + gravity * dt, dt).velocity;
   }
 
