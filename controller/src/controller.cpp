@@ -175,7 +175,7 @@ template <class Scalar>
   const Vec2<Scalar>& gravity = context.gravity;
   const bool foreseen = (may_jump_ || !input.jump) && (may_fall_ || (gravity.x() == 0 && gravity.y() == 0));
   return foreseen && context.dt > 0 && context.movers.size() == mover_count_ &&
-         (context.filter.is_default() || technique_->filters()) &&
+         (context.filter == nullptr || technique_->filters()) &&
          finite(state, input, gravity, context.dt, context.movers);
 }
 

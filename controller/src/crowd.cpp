@@ -13,7 +13,8 @@ namespace paperproof {
 
 template <class Scalar>
 struct Crowd<Scalar>::Rules {
-  bool may_ride;  ///< Some ground may carry a character.
+  bool may_ride;             ///< Some ground may carry a character.
+  bool has_filters = false;  ///< Some collider is not there for every character.
   /// What `octagon_sweep` needs to move several characters. Null: the controller has a joint technique.
   std::unique_ptr<crowd::SweepRules<Scalar>> sweep{};
 };
@@ -53,7 +54,8 @@ Crowd<Scalar>::Crowd(std::unique_ptr<const Rules> rules, Controller<Scalar> cont
 template <class Scalar>
 Crowd<Scalar>::Crowd(const Scenery<Scalar>& scenery, const CharacterDef& character, const SweepDef& sweep)
     : Crowd([&] {
-        Rules rules{.may_ride = scenery.mover_count() > 0 || has_conveyors(scenery)};
+        Rules rules{.may_ride = scenery.mover_count() > 0 || has_conveyors(scenery),
+                    .has_filters = has_filters(scenery)};
         rules.sweep = std::make_unique<crowd::SweepRules<Scalar>>(scenery, character, sweep.iterations);
         SweepDef def = sweep;
         def.stages.movers = def.stages.slopes = true;  // characters are moving obstacles with slopes
@@ -103,7 +105,9 @@ StepStatus Crowd<Scalar>::step(std::span<CharacterState<Scalar>> states, std::sp
       !step_parts::is_made_by(rules_, scratch.maker))
     return report.status = StepStatus::invalid_input;
   StepContext<Scalar> context = given;
-  if (rules_->sweep != nullptr) context.filter.end = rules_->sweep->first_slot;
+  ColliderFilter filter = given.filter != nullptr ? *given.filter : ColliderFilter{};
+  if (rules_->sweep != nullptr) filter.end = rules_->sweep->first_slot;
+  if (given.filter != nullptr || rules_->has_filters) context.filter = &filter;
   auto& memory = static_cast<crowd::CrowdMemory<Scalar>&>(*scratch.own);
   for (std::size_t i = 0; i < count; ++i) {
     report.members[i] = {};
@@ -113,11 +117,10 @@ StepStatus Crowd<Scalar>::step(std::span<CharacterState<Scalar>> states, std::sp
                                                                     memory.requests[i], report.members[i].step))
       return report.status = StepStatus::invalid_input;
   }
-  const ColliderFilter* filter = count > 0 ? memory.requests[0].filter : nullptr;
   const bool in_range =
       rules_->sweep != nullptr
           ? crowd::sweep_together<Scalar>({*rules_->sweep, memory, report, std::span(memory.members).first(count),
-                                           context.gravity, context.dt, context.movers, filter},
+                                           context.gravity, context.dt, context.movers, context.filter},
                                           states)
           : joint_technique(controller_).move_together(std::span(memory.requests).first(count), memory.scratch, report);
   if (!in_range) return report.status = StepStatus::out_of_range;

@@ -24,9 +24,10 @@ struct StepContext {
   Scalar dt = 0;                               ///< Duration of the step, above zero [s].
   /// One for each mover of the scenery, within +-2e6 m.
   std::span<const MoverMotion<Scalar>> movers{};
-  /// Of the characters: for colliders that do not collide with it, a step is as if they were not in the scenery. They
-  /// give no contact and no event. `octagon_sweep` alone filters; with another technique a filter is invalid input.
-  ColliderFilter filter{};
+  /// Of the characters; null: a default one. For colliders that do not collide with it, a step is as if they were not
+  /// in the scenery: they give no contact and no event. `octagon_sweep` alone filters; with another technique a filter
+  /// is invalid input.
+  const ColliderFilter* filter = nullptr;
 };
 
 /// Computes the velocity that a character wants in this step, before any obstacle changes it, and updates the jump
@@ -151,7 +152,8 @@ class Controller {
                 StepReport<Scalar>& report) const noexcept;
   /// Null: all colliders are there.
   [[nodiscard]] const ColliderFilter* filter_of(const StepContext<Scalar>& context) const noexcept {
-    return has_filters_ || !context.filter.is_default() ? &context.filter : nullptr;
+    static constexpr ColliderFilter usual{};
+    return context.filter == nullptr && has_filters_ ? &usual : context.filter;
   }
   /// A technique's scratch, with room for the rest of a step added, and marked with its maker.
   [[nodiscard]] Scratch<Scalar> completed(Scratch<Scalar> scratch) const;

@@ -20,9 +20,6 @@ struct ColliderFilter : Filter {
   const void* user = nullptr;       ///< Handed to `is_there`.
   ColliderIndex end = no_collider;  ///< From this index on all are there: a `Crowd` has colliders of its own.
 
-  /// Whether the filter itself leaves nothing out.
-  [[nodiscard]] bool is_default() const noexcept { return is_there == nullptr && Filter(*this) == Filter{}; }
-
   template <class Scalar>
   [[nodiscard]] bool operator()(const Scenery<Scalar>& scenery, ColliderIndex collider) const noexcept {
     if (collider >= end) return true;
