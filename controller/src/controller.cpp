@@ -11,6 +11,7 @@
 
 #include "one_way_chains.hpp"
 #include "sensors.hpp"
+#include "step/octagon_sweep.hpp"
 #include "step_parts.hpp"
 
 namespace paperproof {
@@ -150,7 +151,8 @@ Controller<Scalar>::Controller(const Scenery<Scalar>& scenery, const CharacterDe
       may_jump_(stages.jump),
       may_fall_(stages.gravity),
       character_(character),
-      technique_(std::move(technique)) {
+      technique_(std::move(technique)),
+      sweep_(dynamic_cast<const octagon_sweep::SweepInParts<Scalar>*>(technique_.get())) {
   character_.validate();
   if (has_filters_ && !technique_->filters())
     throw std::invalid_argument("the technique " + std::string(technique_->name()) +
@@ -306,6 +308,39 @@ BatchStatus Controller<Scalar>::step_all(std::span<CharacterState<Scalar>> state
       }
   });
   return BatchStatus::stepped;
+}
+
+template <class Scalar>
+bool Controller<Scalar>::accepts(const Vec2<Scalar>& position, const Vec2<Scalar>& displacement,
+                                 const StepContext<Scalar>& context, const Scratch<Scalar>& scratch) const noexcept {
+  return sweep_ != nullptr && is_made_by(technique_, scratch.maker) && in_range(position) &&
+         in_range(Vec2<Scalar>(position + displacement)) && context.movers.size() == mover_count_ &&
+         (context.movers.empty() || finite(context.movers, Scalar(1)));
+}
+
+template <class Scalar>
+std::optional<Contact<Scalar>> Controller<Scalar>::cast(const Vec2<Scalar>& position, const Vec2<Scalar>& displacement,
+                                                        const StepContext<Scalar>& context,
+                                                        Scratch<Scalar>& scratch) const noexcept {
+  if (!accepts(position, displacement, context, scratch)) return std::nullopt;
+  return sweep_->cast(question(position, displacement, context), scratch);
+}
+
+template <class Scalar>
+std::size_t Controller<Scalar>::overlaps(const Vec2<Scalar>& position, const StepContext<Scalar>& context,
+                                         Scratch<Scalar>& scratch, std::span<ColliderIndex> found) const noexcept {
+  const Vec2<Scalar> nowhere{0, 0};
+  if (!accepts(position, nowhere, context, scratch)) return 0;
+  return sweep_->overlaps(question(position, nowhere, context), scratch, found);
+}
+
+template <class Scalar>
+std::size_t Controller<Scalar>::contacts_at(const Vec2<Scalar>& position, Scalar within,
+                                            const StepContext<Scalar>& context, Scratch<Scalar>& scratch,
+                                            std::span<Contact<Scalar>> found) const noexcept {
+  const Vec2<Scalar> nowhere{0, 0};
+  if (!accepts(position, nowhere, context, scratch) || !(within <= Tolerances<Scalar>{}.range)) return 0;
+  return sweep_->contacts_at(question(position, nowhere, context), within, scratch, found);
 }
 
 template <class Scalar>

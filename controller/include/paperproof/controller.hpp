@@ -4,7 +4,9 @@
 #include <paperproof/character.hpp>
 #include <paperproof/octagon_sweep.hpp>
 
+#include <array>
 #include <memory>
+#include <optional>
 
 namespace paperproof {
 
@@ -77,6 +79,10 @@ struct StepReport {
   FixedVector<ColliderIndex, 32> dropped_through;
 };
 
+namespace octagon_sweep {
+template <class Scalar>
+class SweepInParts;
+}
 template <class Scalar>
 class Sensors;
 template <class Scalar>
@@ -125,6 +131,43 @@ class Controller {
                        const StepContext<Scalar>& context, std::span<Scratch<Scalar>> scratches,
                        std::span<StepReport<Scalar>> reports) const noexcept;
 
+  // Questions about the surroundings of a character of this kind. They move nothing and allocate nothing. A controller
+  // that does not move by `octagon_sweep` finds nothing, as does one that is asked with a scratch of another
+  // controller, another number of movers than the scenery's, or numbers that are out of range. Of the context the
+  // movers and the filter count.
+
+  /// The first contact of a straight displacement, if there is one: where the character would touch, with the exact
+  /// normal and the time of impact as a fraction of the displacement. Movers move at the same time, as in a step; for
+  /// movers that stand, each motion must end where it begins. What the character overlaps at the start counts, with
+  /// fraction 0, if the displacement leads deeper.
+  /// @param position,displacement [m]
+  [[nodiscard]] std::optional<Contact<Scalar>> cast(const Vec2<Scalar>& position, const Vec2<Scalar>& displacement,
+                                                    const StepContext<Scalar>& context,
+                                                    Scratch<Scalar>& scratch) const noexcept;
+
+  /// How many solid colliders the character would overlap at a position, exactly; 0: it fits there. Movers are where
+  /// their motions begin. One-way chains do not count.
+  /// @param found as many of the colliders as it has room for.
+  [[nodiscard]] std::size_t overlaps(const Vec2<Scalar>& position, const StepContext<Scalar>& context,
+                                     Scratch<Scalar>& scratch, std::span<ColliderIndex> found = {}) const noexcept;
+
+  /// The surfaces that the character would have beside it at a position, nearest first; overlaps are nearest of all and
+  /// have a negative separation. The separation is that along the best axis: from corner to corner the distance is up
+  /// to 1.42 times as large. Movers are where their motions begin. One-way chains count from above.
+  /// @param within the largest separation [m].
+  /// @param found at most as many as it has room for. @return how many were written.
+  [[nodiscard]] std::size_t contacts_at(const Vec2<Scalar>& position, Scalar within, const StepContext<Scalar>& context,
+                                        Scratch<Scalar>& scratch, std::span<Contact<Scalar>> found) const noexcept;
+
+  /// The first of these.
+  [[nodiscard]] std::optional<Contact<Scalar>> nearest(const Vec2<Scalar>& position, Scalar within,
+                                                       const StepContext<Scalar>& context,
+                                                       Scratch<Scalar>& scratch) const noexcept {
+    std::array<Contact<Scalar>, 1> found;
+    if (contacts_at(position, within, context, scratch, found) == 0) return std::nullopt;
+    return found[0];
+  }
+
   [[nodiscard]] Scratch<Scalar> make_scratch() const { return completed(technique_->make_scratch()); }
   [[nodiscard]] const CharacterDef& character() const noexcept { return character_; }
   [[nodiscard]] const Technique<Scalar>& technique() const noexcept { return *technique_; }
@@ -167,6 +210,14 @@ class Controller {
   void end_together(const Input& input, const StepContext<Scalar>& context, Scratch<Scalar>& scratch,
                     CharacterState<Scalar>& state, StepReport<Scalar>& report) const noexcept;
 
+  /// Whether a question about a position can be answered.
+  [[nodiscard]] bool accepts(const Vec2<Scalar>& position, const Vec2<Scalar>& displacement,
+                             const StepContext<Scalar>& context, const Scratch<Scalar>& scratch) const noexcept;
+  [[nodiscard]] MoveRequest<Scalar> question(const Vec2<Scalar>& position, const Vec2<Scalar>& displacement,
+                                             const StepContext<Scalar>& context) const noexcept {
+    return {.position = position, .displacement = displacement, .movers = context.movers, .filter = filter_of(context)};
+  }
+
   const Scenery<Scalar>* scenery_;
   std::size_t mover_count_;
   bool has_filters_;  ///< Some collider is not there for every character.
@@ -174,6 +225,7 @@ class Controller {
   bool may_fall_;     ///< nor was gravity.
   CharacterDef character_;
   std::shared_ptr<const Technique<Scalar>> technique_;   ///< Has no other owner: scratch memory refers to it.
+  const octagon_sweep::SweepInParts<Scalar>* sweep_;     ///< The same, if it is `octagon_sweep`; else null.
   std::shared_ptr<const Sensors<Scalar>> sensors_;       ///< Null where the scenery has none.
   std::shared_ptr<const OneWayChains<Scalar>> one_way_;  ///< Null where the scenery has none.
 };

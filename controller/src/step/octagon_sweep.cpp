@@ -1,6 +1,7 @@
 #include "step/octagon_sweep.hpp"
 
 #include "broad_phase/most_at_once.hpp"
+#include "step/query.hpp"
 #include "step/solve.hpp"
 
 #include <paperproof/scenery_facts.hpp>
@@ -89,7 +90,31 @@ class OctagonSweep final : public SweepInParts<Scalar> {
     solve_(space_, settings_, neighbourhood, movers, part, request, result);
   }
 
+  [[nodiscard]] std::optional<Contact<Scalar>> cast(const MoveRequest<Scalar>& at,
+                                                    Scratch<Scalar>& scratch) const noexcept override {
+    Surroundings<Scalar> around = surroundings(at, scratch);
+    return space_.lanes() == 8 ? octagon_sweep::cast<8>(around, at.position, at.displacement)
+                               : octagon_sweep::cast<12>(around, at.position, at.displacement);
+  }
+  [[nodiscard]] std::size_t overlaps(const MoveRequest<Scalar>& at, Scratch<Scalar>& scratch,
+                                     std::span<ColliderIndex> found) const noexcept override {
+    Surroundings<Scalar> around = surroundings(at, scratch);
+    return space_.lanes() == 8 ? octagon_sweep::overlaps<8>(around, at.position, found)
+                               : octagon_sweep::overlaps<12>(around, at.position, found);
+  }
+  [[nodiscard]] std::size_t contacts_at(const MoveRequest<Scalar>& at, Scalar within, Scratch<Scalar>& scratch,
+                                        std::span<Contact<Scalar>> found) const noexcept override {
+    Surroundings<Scalar> around = surroundings(at, scratch);
+    return space_.lanes() == 8 ? octagon_sweep::contacts_at<8>(around, at.position, within, found)
+                               : octagon_sweep::contacts_at<12>(around, at.position, within, found);
+  }
+
  private:
+  [[nodiscard]] Surroundings<Scalar> surroundings(const MoveRequest<Scalar>& at,
+                                                  Scratch<Scalar>& scratch) const noexcept {
+    return {
+        space_, {space_, *broad_phase_, settings_.look_ahead, at.filter, scratch}, mover_phases_, at.movers, at.filter};
+  }
   [[nodiscard]] static bool in_range(const MoveRequest<Scalar>& request) noexcept {
     constexpr Scalar range = Tolerances<Scalar>{}.range;
     // Written so that NaN is out of range, and by component: see `wanted_velocity`.

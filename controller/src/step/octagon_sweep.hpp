@@ -1,7 +1,9 @@
-/// What a crowd asks of `octagon_sweep` beside a whole step.
+/// What is asked of `octagon_sweep` beside a whole step.
 #pragma once
 
 #include <paperproof/octagon_sweep.hpp>
+
+#include <optional>
 
 namespace paperproof::octagon_sweep {
 
@@ -18,6 +20,15 @@ class SweepInParts : public Technique<Scalar> {
   /// As `move`, which is a whole step.
   virtual void move_part(Part part, const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,
                          MoveResult<Scalar>& result) const noexcept = 0;
+
+  /// See the calls of these names in `Controller`.
+  /// @param at its position and displacement, its movers and filter count.
+  [[nodiscard]] virtual std::optional<Contact<Scalar>> cast(const MoveRequest<Scalar>& at,
+                                                            Scratch<Scalar>& scratch) const noexcept = 0;
+  [[nodiscard]] virtual std::size_t overlaps(const MoveRequest<Scalar>& at, Scratch<Scalar>& scratch,
+                                             std::span<ColliderIndex> found) const noexcept = 0;
+  [[nodiscard]] virtual std::size_t contacts_at(const MoveRequest<Scalar>& at, Scalar within, Scratch<Scalar>& scratch,
+                                                std::span<Contact<Scalar>> found) const noexcept = 0;
 };
 
 /// As `make_octagon_sweep`.
