@@ -95,6 +95,13 @@ b2Vec2 position_after_step(const b2Body& body, float dt) {
 
 }  // namespace
 
+Filter filter_of(const b2Fixture& fixture) noexcept {
+  const b2Filter& bits = fixture.GetFilterData();
+  Filter filter{.category = bits.categoryBits, .mask = bits.maskBits, .group = bits.groupIndex};
+  if (bits.maskBits == b2Filter().maskBits) filter.mask = Filter{}.mask;  // all kinds
+  return filter;
+}
+
 WorldScenery scenery_of(b2World& world, const WorldSceneryDef& def) {
   if (def.circle_corners < 3) throw InvalidDefinition("a polygon around a circle has at least 3 corners");
   const auto& wanted = def.filter ? def.filter : is_solid;
@@ -110,6 +117,7 @@ WorldScenery scenery_of(b2World& world, const WorldSceneryDef& def) {
       if (!wanted(*fixture)) continue;
       ColliderDef collider = collider_of(*fixture->GetShape(), transform, def.circle_corners);
       collider.sensor = fixture->IsSensor();
+      collider.filter = filter_of(*fixture);
       if (is_mover) collider.mover = static_cast<MoverIndex>(result.movers.size());
       result.scenery.colliders.push_back(std::move(collider));
       result.fixtures.push_back(fixture);

@@ -100,10 +100,10 @@ class Game {
     played.broken += judged.broke();
     played.dropped += record.dropped;
     played.stuck += record.stuck;
-    const ColliderIndex ground = report_.move.ground;
-    played.misnamed_ground += state_.grounded != (ground != no_collider) ||
-                              (state_.grounded && oracle_.separation(state_.position, ground) > 1e-6);
-    played.unnamed += stopped_by_what_is_not_named(record, judged);
+    const Ground<double>& ground = report_.move.ground;
+    const bool holds = ground.state == GroundState::walkable || ground.state == GroundState::wedge;
+    played.misnamed_ground += state_.grounded != holds || (ground.state != GroundState::air &&
+                                                           oracle_.separation(state_.position, ground.collider) > 1e-6);
     if (played.wrong() > 0) describe(record, judged);
   }
 

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 namespace paperproof::box2d::test {
 namespace {
 
@@ -55,6 +57,62 @@ TEST(WorldScenery, fixtures_come_in_order_of_creation_and_only_the_static_solid_
   EXPECT_EQ(scenery_of(world).fixtures, (std::vector<b2Fixture*>{a, b, c}));
   const auto only_b = [b](const b2Fixture& fixture) { return &fixture == b; };
   EXPECT_EQ(scenery_of(world, {.filter = only_b}).fixtures, std::vector<b2Fixture*>{b});
+}
+
+TEST(WorldScenery, filters_let_collide_what_box2d_lets_collide) {
+  b2World world({0, 0});
+  b2Fixture* const a = add_box(new_body(world, b2_staticBody), 1, 1);
+  b2Fixture* const b = add_box(new_body(world, b2_dynamicBody), 1, 1);
+  std::mt19937 random(1);  // seed 1
+  const auto bits = [&]() -> std::uint16_t {
+    const auto few = static_cast<std::uint16_t>(random() & random());
+    return random() % 3 == 0 ? 0xFFFF : few;
+  };
+  b2ContactFilter rule;
+  int collisions = 0;
+  for (int round = 0; round < 10000; ++round) {
+    for (b2Fixture* fixture : {a, b}) {
+      b2Filter filter;
+      filter.categoryBits = bits();
+      filter.maskBits = bits();
+      filter.groupIndex = static_cast<std::int16_t>(static_cast<int>(random() % 5) - 2);
+      fixture->SetFilterData(filter);
+    }
+    const bool expected = rule.ShouldCollide(a, b);
+    ASSERT_EQ(collide(filter_of(*a), filter_of(*b)), expected) << "round " << round;
+    collisions += expected;
+  }
+  EXPECT_GT(collisions, 2000);
+  EXPECT_LT(collisions, 8000);
+  a->SetFilterData({});
+  EXPECT_EQ(filter_of(*a), Filter{}) << "steps without filters stay fast";
+}
+
+TEST(WorldScenery, a_hero_goes_through_what_its_fixture_does_not_collide_with) {
+  b2World world({0, -10});
+  add_box(new_body(world, b2_staticBody, {0, -1}), 20, 1);
+  b2Fixture* const wall = add_box(new_body(world, b2_staticBody, {4, 2}), 0.5F, 2);
+  b2Filter of_wall;
+  of_wall.categoryBits = 8;
+  wall->SetFilterData(of_wall);
+  b2Fixture* const hero_fixture = add_box(new_body(world, b2_kinematicBody, {0, 2}), 0.3F, 0.6F);
+  const WorldScenery borrowed = scenery_of(world);
+  const Scenery scenery(borrowed.scenery);
+  const Controller controller(scenery, CharacterDef{});
+  Scratch<> scratch = controller.make_scratch();
+  StepReport<> report;
+  for (const bool is_ghost : {false, true}) {
+    b2Filter of_hero;
+    if (is_ghost) of_hero.maskBits = static_cast<std::uint16_t>(~8);
+    hero_fixture->SetFilterData(of_hero);
+    const ColliderFilter filter{filter_of(*hero_fixture)};
+    CharacterState<> hero;
+    hero.position = {0, 2};
+    for (int step = 0; step < 120; ++step)
+      controller.step(hero, {.move = 1.0}, {{0, -10}, frame, {}, &filter}, scratch, report);
+    EXPECT_EQ(hero.position.x() > 5, is_ghost);
+    EXPECT_TRUE(hero.grounded);
+  }
 }
 
 TEST(WorldScenery, shapes_arrive_in_world_coordinates) {

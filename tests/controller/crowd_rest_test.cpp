@@ -50,8 +50,8 @@ TEST(Crowd, standing_on_a_head_with_snap_is_not_pulled_through) {
     ASSERT_TRUE(two.states[1].grounded || step == 0) << step;
     ASSERT_NEAR(two.states[1].position.y() - two.states[0].position.y(), 2 * half_height, 1.1e-3) << step;
     ASSERT_FALSE(two.report.members[1].stayed) << step;
-    ASSERT_EQ(two.report.members[0].step.move.ground, ColliderIndex{0}) << step;
-    ASSERT_EQ(two.report.members[1].step.move.ground, no_collider) << "a character is no collider";
+    ASSERT_EQ(two.report.members[0].step.move.ground.collider, ColliderIndex{0}) << step;
+    ASSERT_EQ(two.report.members[1].step.move.ground.collider, no_collider) << "a character is no collider";
   }
 }
 

@@ -41,18 +41,52 @@ TEST(Ground, names_the_collider_that_is_stood_on) {
   Stepper<double> walker({rectangle(-4, -1, 0, 0), rectangle(0, -1, 2, 0), rectangle(2, -1, 9, -0.05)}, character);
   walker.gravity = {0, -30};
   walker.at(-1, half_height + 1).step();
-  EXPECT_EQ(walker.report.move.ground, no_collider) << "in the air";
+  EXPECT_EQ(walker.report.move.ground.state, GroundState::air);
   walker.steps(60);
-  EXPECT_EQ(walker.report.move.ground, ColliderIndex{0});
+  EXPECT_EQ(walker.report.move.ground.collider, ColliderIndex{0});
   std::vector<ColliderIndex> grounds;
   for (int step = 0; step < 50; ++step) {
     walker.step(walking(1));
     ASSERT_TRUE(walker.state.grounded) << step;
-    if (grounds.empty() || grounds.back() != walker.report.move.ground) grounds.push_back(walker.report.move.ground);
+    if (grounds.empty() || grounds.back() != walker.report.move.ground.collider)
+      grounds.push_back(walker.report.move.ground.collider);
   }
   EXPECT_EQ(grounds, (std::vector<ColliderIndex>{0, 1, 2}));
   walker.step({.move = {}, .jump = true});
-  EXPECT_EQ(walker.report.move.ground, no_collider);
+  EXPECT_EQ(walker.report.move.ground.state, GroundState::air);
+}
+
+TEST(Ground, is_air_walkable_steep_or_a_wedge) {
+  // A slope of 60 degrees that ends on a floor.
+  const double rise = 4 * std::tan(60 * degree);
+  Stepper<double> faller({rectangle(-1, -1, 20, 0), rectangle(-1, 0, 0, rise), polygon({{0, rise}, {0, 0}, {4, 0}})});
+  faller.gravity = {0, -30};
+  faller.at(2, rise).step();
+  EXPECT_EQ(faller.report.move.ground.state, GroundState::air);
+  int slides = 0;
+  for (int step = 0; step < 200 && !faller.state.grounded; ++step) {
+    faller.step();
+    if (faller.report.move.ground.state != GroundState::steep) continue;
+    ++slides;
+    ASSERT_EQ(faller.report.move.ground.collider, ColliderIndex{2});
+    ASSERT_NEAR(faller.report.move.ground.normal.y(), 0.5, 1e-12);
+  }
+  EXPECT_GT(slides, 5);
+  EXPECT_EQ(faller.report.move.ground.state, GroundState::walkable);
+  EXPECT_EQ(faller.report.move.ground.normal, Vec2d(0, 1));
+  EXPECT_EQ(faller.report.move.ground.velocity, Vec2d(0, 0));
+}
+
+TEST(Ground, has_the_velocity_of_a_mover_and_a_conveyor) {
+  ColliderDef lift = rectangle(-2, -1, 2, 0);
+  lift.mover = 0;
+  lift.surface_speed = 3;
+  Stepper<double> rider({lift});
+  rider.at(0, half_height + 1e-3);
+  for (int step = 0; step < 20; ++step) rider.step_with_mover_by(0, 0.01);
+  ASSERT_TRUE(rider.state.grounded);
+  EXPECT_NEAR(rider.report.move.ground.velocity.x(), 3, 1e-9);
+  EXPECT_NEAR(rider.report.move.ground.velocity.y(), 0.01 * 60, 1e-9);
 }
 
 TEST(Wedge, holds_the_octagon_on_both_sides_without_velocity) {
@@ -74,7 +108,8 @@ TEST(Wedge, holds_the_octagon_on_both_sides_without_velocity) {
     faller.at(0.001, height + 1).steps(240);
     EXPECT_EQ(faller.state.velocity, Vec2d(0, 0)) << angle << " degrees";
     EXPECT_TRUE(faller.state.grounded) << angle << " degrees";
-    EXPECT_EQ(faller.report.move.ground, ColliderIndex{0}) << angle << " degrees";
+    EXPECT_EQ(faller.report.move.ground.collider, ColliderIndex{0}) << angle << " degrees";
+    EXPECT_EQ(faller.report.move.ground.state, GroundState::wedge) << angle << " degrees";
     // The sides' gaps add up to twice the lift times sin(half the angle); each is in (0, 1e-6] m.
     const double lift = faller.state.position.y() - height;
     EXPECT_GT(lift, 0) << angle << " degrees";

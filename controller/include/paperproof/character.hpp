@@ -88,6 +88,14 @@ struct Input {
   bool drop = false;
 };
 
+/// What holds a character from below at the end of a step.
+enum class GroundState : std::uint8_t {
+  air,       ///< Nothing.
+  walkable,  ///< Ground that it stands on.
+  steep,     ///< A surface that it touches and slides down: too steep to stand on.
+  wedge,     ///< It stands between surfaces that are too steep, and that hold it together.
+};
+
 /// The ground that carries a character: a mover or a conveyor.
 template <class Scalar>
 struct Ride {
@@ -129,7 +137,7 @@ struct CharacterState {
   /// Value that the technique hands to its own next step. `octagon_sweep` needs none: zero.
   Vec2<Scalar> technique_memory{Vec2<Scalar>::Zero()};
   bool has_last_free = false;
-  bool grounded = false;
+  bool grounded = false;      ///< It stands: on walkable ground, or in a wedge.
   bool jumping = false;       ///< The article's jumping flag: set by a jump, cleared by ground.
   bool jump_held = false;     ///< The jump button was down in the last step.
   bool jump_pending = false;  ///< A press that has not become a jump yet.

@@ -48,6 +48,16 @@ struct SensorEvent {
   Scalar fraction = 0;  ///< Of the step, in [0, 1].
 };
 
+/// What a character stands on or slides down at the end of a step. The rest is valid where the state is not `air`.
+/// `octagon_sweep` tells it; other techniques always say `air`.
+template <class Scalar>
+struct Ground {
+  GroundState state = GroundState::air;
+  ColliderIndex collider = no_collider;         ///< None also for another character of a `Crowd`.
+  Vec2<Scalar> normal{Vec2<Scalar>::Zero()};    ///< Of the surface; of several one that points up most.
+  Vec2<Scalar> velocity{Vec2<Scalar>::Zero()};  ///< Of the surface, conveyor included [m/s].
+};
+
 /// A corner of the path.
 template <class Scalar>
 struct PathPoint {
@@ -101,9 +111,7 @@ struct MoveResult {
   Vec2<Scalar> velocity{Vec2<Scalar>::Zero()};
   Vec2<Scalar> technique_memory{Vec2<Scalar>::Zero()};  ///< See `CharacterState::technique_memory`.
   bool grounded = false;
-  /// What the character stands on, where it is `grounded`: of several touched surfaces one that points up most. None
-  /// where it stands on another character of a `Crowd`, or the technique does not tell.
-  ColliderIndex ground = no_collider;
+  Ground<Scalar> ground;
   std::string_view refusal{};  ///< The reason, in static memory. Valid where the status is `refused`.
   /// From the start (fraction 0) to the end (fraction 1); linear between. A technique that tests only the end of the
   /// move has just these two corners. Impacts bound the number of corners. The character's own motion has at most
@@ -121,7 +129,7 @@ struct MoveResult {
     status = MoveStatus::moved;
     technique_memory.setZero();
     grounded = false;
-    ground = no_collider;
+    ground.state = GroundState::air;
     path.clear();
     contacts.clear();
     ride = {};

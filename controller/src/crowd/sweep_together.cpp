@@ -182,7 +182,7 @@ class SweepTogether {
   /// after the character planned its path.
   [[nodiscard]] bool has_lost_ground(CharacterIndex i) const noexcept {
     const MoveResult<Scalar>& plan = step_.members[i].plan;
-    return plan.grounded && step_.rules.is_character(plan.ground) && !ends_on_another(step_.members[i]);
+    return plan.grounded && step_.rules.is_character(plan.ground.collider) && !ends_on_another(step_.members[i]);
   }
 
   /// Whether it touches a character that is under it, and not beside it, at the end of the step.
@@ -289,7 +289,8 @@ class SweepTogether {
       move.status = MoveStatus::stuck;  // a mover still overlaps it, even if the last part met a character alone
     else if (move.status != MoveStatus::stuck || !member.starts_stuck)  // to overlap a character alone is not stuck
       move.status = member.dropped || move.status == MoveStatus::stuck ? MoveStatus::dropped : MoveStatus::moved;
-    if (!move.grounded || step_.rules.is_character(move.ground)) move.ground = no_collider;
+    if (step_.rules.is_character(move.ground.collider)) move.ground.collider = no_collider;
+    if (!move.grounded && move.ground.state != GroundState::steep) move.ground.state = GroundState::air;
     move.crushers = member.end.state.crushers;
     step_.memory.states[i] = member.end.state;
   }

@@ -149,7 +149,10 @@ bool StepSolver<Lanes, Scalar>::respond_in_crease(DesiredMotion<Scalar>& desired
                   [this](const TouchedSurface<Scalar>& surface) { return walkable(surface.normal); });
   desired = with_body;
   wedged_ = fall < 0;
-  if (wedged_) ground_ = first.piece;
+  if (wedged_) {
+    ground_ = first.piece;
+    ground_axis_ = first.axis;
+  }
   if (fall >= 0 || on_ground) return true;
   const V displacement{0, fall * dt_ * (1 - time_)};
   const std::optional<DesiredMotion<Scalar>> falling =

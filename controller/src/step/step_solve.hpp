@@ -45,8 +45,7 @@ void StepSolver<Lanes, Scalar>::solve(Part part, const MoveRequest<Scalar>& requ
     if (request.grounded && !found_.hit) stop_at_touched_ground();
     travel();
     if (!result_.crushed.empty()) undo_crushes();
-    result_.ground = stood_on();
-    result_.grounded = result_.ground != no_collider;
+    find_ground();
     if (result_.grounded && !met_ground_ && !wedged_) report_ground(wanted);
     if (settings_.snap > 0) follow_ground_down(request);
     if (movers_.active) end_ride();
@@ -225,17 +224,51 @@ void StepSolver<Lanes, Scalar>::halt() noexcept {
 }
 
 /// What the character stands on at the end of the step: walkable ground that it touches and that its motion does not
-/// leave, or a wedge that ended its fall. Nothing in a step that hit nothing: without gravity nothing holds the
-/// character to ground that it touches.
+/// leave, or a wedge that ended its fall; or what it slides down. Nothing in a step that hit nothing: without gravity
+/// nothing holds the character to ground that it touches.
 template <std::size_t Lanes, class Scalar>
-ColliderIndex StepSolver<Lanes, Scalar>::stood_on() noexcept {
-  if (on_ground_ || wedged_ || (met_ground_ && stands_on(ground_))) return collider_of(ground_);  // the usual case
-  ColliderIndex ground = no_collider;
-  if (result_.contacts.empty()) return ground;
+void StepSolver<Lanes, Scalar>::find_ground() noexcept {
+  if (on_ground_ || wedged_ || (met_ground_ && stands_on(ground_))) {  // the usual case
+    const V normal = space_.normal(ground_, ground_axis_);
+    note_ground(walkable(normal) ? GroundState::walkable : GroundState::wedge, ground_, normal);
+  } else if (!result_.contacts.empty()) {
+    look_for_ground();
+  }
+}
+
+template <std::size_t Lanes, class Scalar>
+void StepSolver<Lanes, Scalar>::look_for_ground() noexcept {
   for_each_near({position_, position_}, [&](PieceIndex piece) {
-    if (ground == no_collider && stands_on(piece)) ground = collider_of(piece);
+    if (!result_.grounded && stands_on(piece)) note_ground(GroundState::walkable, piece, *touched_ground(piece));
   });
-  return ground;
+  const auto is_steep = [this](const V& normal) { return normal.y() > 0 && !walkable(normal); };
+  if (result_.grounded || std::none_of(result_.contacts.begin(), result_.contacts.end(),
+                                       [&](const Contact<Scalar>& contact) { return is_steep(contact.normal); }))
+    return;
+  for_each_near({position_, position_}, [&](PieceIndex piece) {
+    const BestAxis<Scalar> best = best_axis<Lanes>(space_, piece, local(piece, position_));
+    const V normal = space_.normal(piece, best.axis);
+    const bool touched = std::abs(best.separation) <= Tolerances<Scalar>{}.touch && !space_.covered(piece, best.axis);
+    if (!touched || !is_steep(normal) || passes_one_way(piece) || !may_block(piece, position_)) return;
+    const bool first = result_.ground.state == GroundState::air;
+    if (first || normal.y() > result_.ground.normal.y()) note_ground(GroundState::steep, piece, normal);
+  });
+}
+
+template <std::size_t Lanes, class Scalar>
+void StepSolver<Lanes, Scalar>::note_ground_velocity(PieceIndex piece) noexcept {
+  result_.ground.velocity = ground_velocity(piece, result_.ground.normal);
+}
+
+template <std::size_t Lanes, class Scalar>
+void StepSolver<Lanes, Scalar>::note_ground(GroundState state, PieceIndex piece, const V& normal) noexcept {
+  result_.grounded = state != GroundState::steep;
+  result_.ground.state = state;
+  result_.ground.collider = collider_of(piece);
+  result_.ground.normal = normal;
+  result_.ground.velocity = V::Zero();
+  if (movers_.active) [[unlikely]]
+    note_ground_velocity(piece);
 }
 
 /// Reports the ground that the character stands on, also where gravity presses onto it by less than the sweep sees.
@@ -292,8 +325,7 @@ void StepSolver<Lanes, Scalar>::follow_ground_down(const MoveRequest<Scalar>& re
   const std::size_t axis = found_.stops[0].axes.normal;
   const V normal = space_.normal(piece, axis);
   if (!walkable(normal) || !advance(found_.stop)) return;
-  result_.grounded = true;
-  result_.ground = collider_of(piece);
+  note_ground(GroundState::walkable, piece, normal);
   report_contact(piece, axis, time_, result_.contacts.size());
   const V ground = ground_velocity(piece, normal);
   velocity_ = follow(velocity_.x() - ground.x(), normal) + ground;

@@ -188,9 +188,12 @@ class StepSolver {
   [[nodiscard]] V with_gap_restored(const V& displacement, const Stop<Scalar>& at) const noexcept;
   void halt() noexcept;
   [[gnu::cold, gnu::noinline]] void cut_short() noexcept;
-  [[nodiscard]] ColliderIndex stood_on() noexcept;
+  [[gnu::always_inline]] inline void find_ground() noexcept;
+  [[gnu::cold, gnu::noinline]] void look_for_ground() noexcept;
+  [[gnu::always_inline]] inline void note_ground(GroundState state, PieceIndex piece, const V& normal) noexcept;
+  [[gnu::cold, gnu::noinline]] void note_ground_velocity(PieceIndex piece) noexcept;
   [[gnu::cold, gnu::noinline]] void report_ground(const V& wanted) noexcept;
-  [[nodiscard]] bool stands_on(PieceIndex piece) const noexcept;
+  [[nodiscard, gnu::always_inline]] inline bool stands_on(PieceIndex piece) const noexcept;
   [[nodiscard, gnu::cold, gnu::noinline]] bool touches_ground() noexcept;
   /// The normal of a piece, if the character touches it now and it is walkable ground.
   [[nodiscard, gnu::always_inline]] inline std::optional<V> touched_ground(PieceIndex piece) const noexcept;
@@ -304,7 +307,8 @@ class StepSolver {
   bool wedged_ = false;      ///< A fall ended between surfaces that are touched together.
   bool met_ground_ = false;  ///< Walkable ground was hit in this step,
   bool on_ground_ = false;   ///< and the character has not moved since, nor hit anything else.
-  PieceIndex ground_ = 0;    ///< That ground, where `met_ground_`; the surface that points up most, where `wedged_`.
+  PieceIndex ground_ = 0;    ///< That ground, where `met_ground_`; the surface that points up most, where `wedged_`;
+  std::size_t ground_axis_ = 0;  ///< and the axis of its normal.
   MoverState<Scalar> moving_;
 };
 

@@ -180,6 +180,7 @@ void StepSolver<Lanes, Scalar>::report(Scalar begin) noexcept {
     if (walkable(normal) && !on_ground_) {
       met_ground_ = on_ground_ = true;
       ground_ = stop.piece;
+      ground_axis_ = stop.axes.normal;
     }
     report_contact(stop.piece, stop.axes.normal, fraction_of(stop, begin), before);
   }

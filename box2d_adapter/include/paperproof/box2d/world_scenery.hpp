@@ -41,6 +41,7 @@ struct WorldSceneryDef {
 ///   one-sided: a loop blocks as it does in Box2D from the side that faces the game, and what is behind it is out of
 ///   reach.
 /// - A circle becomes the polygon of `circle_corners` corners around it.
+/// - Category, mask and group of a fixture are those of its collider: see `filter_of`.
 /// - A body that moves becomes a mover: its fixtures as it is turned now, around its own origin, which is the mover's
 ///   offset.
 ///
@@ -54,6 +55,11 @@ struct WorldSceneryDef {
 /// @throws InvalidDefinition for `circle_corners` below 3. Shapes that the controller refuses (points that coincide,
 ///   zero area) throw `InvalidScenery` when the `Scenery` is built.
 [[nodiscard]] WorldScenery scenery_of(b2World& world, const WorldSceneryDef& def = {});
+
+/// Who collides with a fixture. For a character whose body has this fixture it is the filter of a step
+/// (`StepContext::filter`): the character then collides with those fixtures with which Box2D's own filter lets the body
+/// collide. A mask of all of Box2D's 16 kinds becomes one of all kinds.
+[[nodiscard]] Filter filter_of(const b2Fixture& fixture) noexcept;
 
 /// How kinematic movers will go in the world's next step: from where their bodies are, with the velocities they have,
 /// as Box2D will move them (at most 2 m; who is asleep or disabled stays). Call it before `world.Step` with the same
