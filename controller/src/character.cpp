@@ -123,6 +123,9 @@ void CharacterDef::validate() const {
   require_not_negative(acceleration, "acceleration");
   if (air_acceleration) require_not_negative(*air_acceleration, "air_acceleration");
   require_not_negative(jump_speed, "jump_speed");
+  require_not_negative(coyote_time, "coyote_time");
+  if (jump_buffer) require_not_negative(*jump_buffer, "jump_buffer");
+  require(jump_cut >= 0 && jump_cut <= 1, "jump_cut", "from 0 to 1");
   if (max_fall_speed) require_not_negative(*max_fall_speed, "max_fall_speed");
   require(max_climb_degrees >= 0 && max_climb_degrees <= 89, "max_climb_degrees", "from 0 to 89");
   require_not_negative(snap, "snap");

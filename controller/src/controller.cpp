@@ -31,26 +31,41 @@ Scalar steered(const CharacterDef& character, const CharacterState<Scalar>& stat
 template <class Scalar>
 bool may_jump(const CharacterDef& character, const CharacterState<Scalar>& state, const Input& input,
               bool wall_ahead) noexcept {
-  if (!state.grounded || state.jumping) return false;
+  if (!(state.grounded || state.coyote_left > 0) || state.jumping) return false;
   if (!character.no_jump_toward_wall) return true;
   const double move = input.move.value_or(0);
   return !wall_ahead && !(move < 0 && state.wall_left) && !(move > 0 && state.wall_right);
 }
 
+/// Notes a press of the jump button, and ends one that has been pending for too long.
 template <class Scalar>
-void take_jump(const CharacterDef& character, const Input& input, bool wall_ahead, CharacterState<Scalar>& state,
-               Scalar& upwards) noexcept {
-  if (!input.jump)
-    state.jump_pending = false;
-  else if (!state.jump_held)
+void note_press(const CharacterDef& character, bool pressed, Scalar dt, CharacterState<Scalar>& state) noexcept {
+  if (pressed && !state.jump_held) {
     state.jump_pending = true;
+    if (character.jump_buffer) state.pending_left = static_cast<Scalar>(*character.jump_buffer);
+  } else if (character.jump_buffer) {
+    state.pending_left = std::max(state.pending_left - dt, Scalar(0));
+    state.jump_pending = state.jump_pending && state.pending_left > 0;
+  } else if (!pressed) {
+    state.jump_pending = false;
+  }
+}
+
+/// The upward speed after the button was pressed or released, or a press is pending. Kept out of most steps.
+template <class Scalar>
+[[gnu::cold, gnu::noinline]] Scalar use_button(const CharacterDef& character, const Input& input, bool wall_ahead,
+                                               Scalar dt, CharacterState<Scalar>& state, Scalar upwards) noexcept {
+  note_press(character, input.jump, dt, state);
+  const bool released = state.jump_held && !input.jump;
+  if (released && state.jumping && upwards > 0) upwards *= static_cast<Scalar>(character.jump_cut);
   state.jump_held = input.jump;
   if (state.jump_pending && may_jump(character, state, input, wall_ahead)) {
     upwards = static_cast<Scalar>(character.jump_speed);
     state.jumping = true;
-    state.grounded = false;
-    state.jump_pending = false;
+    state.grounded = state.jump_pending = false;
+    state.coyote_left = 0;
   }
+  return upwards;
 }
 
 /// @param wall_ahead there is a wall to jump against, whatever the last step touched.
@@ -61,7 +76,12 @@ DesiredVelocity<Scalar> wanted_velocity(const CharacterDef& character, const Vec
   Scalar x = input.move ? steered(character, state, *input.move, dt) : state.velocity.x();
   const Scalar change = x - state.velocity.x();
   Scalar y = state.velocity.y();
-  take_jump(character, input, wall_ahead, state, y);
+  if (input.jump != state.jump_held || state.jump_pending) [[unlikely]]
+    y = use_button(character, input, wall_ahead, dt, state, y);
+  // Counted from the first step that begins in the air.
+  if (character.coyote_time > 0)
+    state.coyote_left =
+        state.grounded ? static_cast<Scalar>(character.coyote_time) : std::max(state.coyote_left - dt, Scalar(0));
   x += gravity.x() * dt;
   y += gravity.y() * dt;
   if (character.max_fall_speed) y = std::max(y, static_cast<Scalar>(-*character.max_fall_speed));
@@ -78,7 +98,9 @@ class Undo {
         grounded_(state.grounded),
         jumping_(state.jumping),
         jump_held_(state.jump_held),
-        jump_pending_(state.jump_pending) {}
+        jump_pending_(state.jump_pending),
+        coyote_left_(state.coyote_left),
+        pending_left_(state.pending_left) {}
 
   void restore(CharacterState<Scalar>& state) const noexcept {
     state.velocity = velocity_;
@@ -86,6 +108,8 @@ class Undo {
     state.jumping = jumping_;
     state.jump_held = jump_held_;
     state.jump_pending = jump_pending_;
+    state.coyote_left = coyote_left_;
+    state.pending_left = pending_left_;
   }
 
  private:
@@ -94,6 +118,8 @@ class Undo {
   bool jumping_;
   bool jump_held_;
   bool jump_pending_;
+  Scalar coyote_left_;
+  Scalar pending_left_;
 };
 
 /// Leaves out elements for which the condition holds.

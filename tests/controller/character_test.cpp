@@ -179,6 +179,9 @@ TEST(CharacterDef, every_value_out_of_range_is_named) {
        {0, 50, 89},
        {-1, 89.5, nan, infinity}},
       {"snap", [](CharacterDef& def, double value) { def.snap = value; }, zero_or_more, not_zero_or_more},
+      {"coyote_time", [](CharacterDef& def, double value) { def.coyote_time = value; }, zero_or_more, not_zero_or_more},
+      {"jump_buffer", [](CharacterDef& def, double value) { def.jump_buffer = value; }, zero_or_more, not_zero_or_more},
+      {"jump_cut", [](CharacterDef& def, double value) { def.jump_cut = value; }, {0, 0.5, 1}, {-0.1, 1.1, nan}},
   };
   for (const Field& field : fields) {
     for (const double value : field.good) {

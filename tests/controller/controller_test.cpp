@@ -142,6 +142,66 @@ TEST(Jumping, gives_one_jump_for_one_press) {
   EXPECT_EQ(take_offs(jumper, 300, jumping()), 1) << "pressed anew";
 }
 
+TEST(Jumping, is_allowed_for_a_while_after_the_edge) {
+  for (const int late : {0, 1, 6, 7}) {
+    CharacterDef character;
+    character.coyote_time = 6.5 * dt;
+    Stepper<double> walker({rectangle(-9, -1, 0, 0)}, character);
+    walker.dt = dt;
+    walker.gravity = {0, -gravity};
+    walker.at(-1, half_height + px).steps(20);
+    ASSERT_TRUE(walker.state.grounded);
+    while (walker.state.grounded) walker.step(walking(1));
+    walker.steps(late, walking(1));
+    walker.step(jumping(1));
+    EXPECT_EQ(walker.state.jumping, late < 7) << late;
+    EXPECT_EQ(walker.state.velocity.y() > 0, late < 7) << late;
+    walker.steps(2, walking(1));
+    EXPECT_EQ(take_offs(walker, 20, jumping(1)), 0) << "one jump, not two";
+  }
+  CharacterDef character;
+  character.coyote_time = 1;
+  Stepper<double> faller({rectangle(-9, -1, 0, 0)}, character);
+  EXPECT_EQ(take_offs(faller.at(0, 5), 5, jumping()), 0) << "a character that never stood may not jump";
+}
+
+TEST(Jumping, waits_for_the_ground_as_long_as_its_buffer) {
+  for (const bool held : {false, true}) {
+    for (const int early : {1, 6, 7}) {
+      CharacterDef character;
+      character.jump_buffer = 6.5 * dt;
+      Stepper<double> twin = standing(character);
+      const CharacterState<double> in_air = twin.at(0, 2).with_velocity(0, 0).state;
+      int steps_to_land = 0;
+      for (twin.state.grounded = false; !twin.state.grounded; ++steps_to_land) twin.step();
+      Stepper<double> faller = standing(character);
+      faller.state = in_air;
+      faller.state.grounded = false;
+      faller.steps(steps_to_land - early);
+      faller.step(jumping());
+      EXPECT_EQ(take_offs(faller, early + 1, held ? jumping() : Input{}), early < 7 ? 1 : 0) << early << " steps early";
+    }
+  }
+}
+
+TEST(Jumping, is_lower_when_the_button_is_released) {
+  CharacterDef character;
+  character.jump_cut = 0.5;
+  Stepper<double> jumper = standing(character);
+  jumper.step(jumping());
+  const double rising = jumper.state.velocity.y();
+  jumper.step();
+  EXPECT_EQ(jumper.state.velocity.y(), 0.5 * rising - gravity * dt);
+  jumper.step();
+  EXPECT_EQ(jumper.state.velocity.y(), 0.5 * rising - 2 * gravity * dt) << "once for a release";
+  Stepper<double> thrown = standing(character);
+  thrown.with_velocity(0, 8).step(jumping());
+  thrown.state.jumping = false;
+  const double thrown_up = thrown.state.velocity.y();
+  thrown.step();
+  EXPECT_EQ(thrown.state.velocity.y(), thrown_up - gravity * dt) << "a rise that is no jump";
+}
+
 TEST(Jumping, waits_for_the_ground_while_the_button_is_held) {
   Stepper<double> jumper = standing();
   jumper.at(0, 3).with_velocity(0, 0).step();

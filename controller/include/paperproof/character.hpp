@@ -56,9 +56,16 @@ struct CharacterDef {
   double acceleration = 60;                ///< Of the horizontal speed on the ground [m/s²].
   std::optional<double> air_acceleration;  ///< The same in the air [m/s²]; `acceleration` where absent.
   double jump_speed = 12;                  ///< Upward speed that a jump sets [m/s].
-  std::optional<double> max_fall_speed;    ///< [m/s]; no limit where absent.
-  double max_climb_degrees = 50;           ///< Steepest walkable ground, from the horizontal; in [0, 89].
-  double snap = 0;                         ///< How far down a walker follows the ground [m]; 0: not at all.
+  /// For how long a character that has left the ground without a jump may still jump [s].
+  double coyote_time = 0;
+  /// For how long a press of the button that cannot jump yet stays pending, released or not [s]. Absent: while the
+  /// button is held.
+  std::optional<double> jump_buffer;
+  /// The share of its upward speed that a jump keeps when the button is released during the rise, in [0, 1].
+  double jump_cut = 1;
+  std::optional<double> max_fall_speed;  ///< [m/s]; no limit where absent.
+  double max_climb_degrees = 50;         ///< Steepest walkable ground, from the horizontal; in [0, 89].
+  double snap = 0;                       ///< How far down a walker follows the ground [m]; 0: not at all.
   /// The article's rule: a character that stands beside a wall cannot jump toward this wall. A wall is beside the
   /// character if a move by `wall_reach` would meet the wall, or if the last step met it. In a `Crowd` only the last
   /// step counts.
@@ -80,7 +87,8 @@ struct Input {
   /// Horizontal direction in [-1, 1]: the speed approaches `move * walk_speed`. Absent: nothing steers, and the
   /// horizontal speed stays as it is.
   std::optional<double> move;
-  /// The jump button is down. One press gives at most one jump; a press that cannot jump yet stays pending while held.
+  /// The jump button is down. One press gives at most one jump; a press that cannot jump yet stays pending while held,
+  /// or for `CharacterDef::jump_buffer`.
   bool jump = false;
   /// One-way chains do not block while this is true: a character that stands on a chain drops through it. One step with
   /// `drop` is enough to leave a chain that the character touches: from partly below a chain the character goes on
@@ -141,6 +149,8 @@ struct CharacterState {
   bool jumping = false;       ///< The article's jumping flag: set by a jump, cleared by ground.
   bool jump_held = false;     ///< The jump button was down in the last step.
   bool jump_pending = false;  ///< A press that has not become a jump yet.
+  Scalar coyote_left = 0;     ///< For how long the character may still jump in the air [s]: see `coyote_time`.
+  Scalar pending_left = 0;    ///< For how long a press stays pending [s]: see `jump_buffer`.
   bool wall_left = false;     ///< The last step ended against something on the left.
   bool wall_right = false;
   /// Movers left no room, and one of them still overlaps the character. The character stays in place. Another mover

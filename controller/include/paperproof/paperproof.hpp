@@ -5,6 +5,7 @@
 #include <paperproof/character.hpp>
 #include <paperproof/controller.hpp>
 #include <paperproof/crowd.hpp>
+#include <paperproof/filter.hpp>
 #include <paperproof/octagon_sweep.hpp>
 #include <paperproof/plan.hpp>
 #include <paperproof/report_vector.hpp>
