@@ -128,7 +128,7 @@ class SweepTogether {
     Member<Scalar>& member = step_.members[i];
     const Obstacles obstacles = member.obstacles;
     const WholePath whole = whole_path(i);
-    // A character that begins inside a mover must have left it to the right side.
+    // A character that begins inside a mover must have left it, on the side from which it came.
     const bool starts_inside = !member.start.state.crushers.empty();
     if (starts_inside && (whole.size() < 2 || whole[1].fraction > 0)) return false;
     for (std::size_t k = whole.size(); k-- > (starts_inside ? 1U : 0U);) {
