@@ -31,7 +31,7 @@ Scalar steered(const CharacterDef& character, const CharacterState<Scalar>& stat
 template <class Scalar>
 bool may_jump(const CharacterDef& character, const CharacterState<Scalar>& state, const Input& input,
               bool wall_ahead) noexcept {
-  if (!(state.grounded || state.coyote_left > 0) || state.jumping) return false;
+  if (state.crushed || state.jumping || !(state.grounded || state.coyote_left > 0)) return false;
   if (!character.no_jump_toward_wall) return true;
   const double move = input.move.value_or(0);
   return !wall_ahead && !(move < 0 && state.wall_left) && !(move > 0 && state.wall_right);
@@ -64,8 +64,17 @@ template <class Scalar>
     state.jumping = true;
     state.grounded = state.jump_pending = false;
     state.coyote_left = 0;
+    if (!input.jump) upwards *= static_cast<Scalar>(character.jump_cut);
   }
   return upwards;
+}
+
+/// Counted from the first step that begins in the air.
+template <class Scalar>
+void count_down_coyote(const CharacterDef& character, Scalar dt, CharacterState<Scalar>& state) noexcept {
+  if (character.coyote_time > 0)
+    state.coyote_left =
+        state.grounded ? static_cast<Scalar>(character.coyote_time) : std::max(state.coyote_left - dt, Scalar(0));
 }
 
 /// @param wall_ahead there is a wall to jump against, whatever the last step touched.
@@ -78,10 +87,7 @@ DesiredVelocity<Scalar> wanted_velocity(const CharacterDef& character, const Vec
   Scalar y = state.velocity.y();
   if (input.jump != state.jump_held || state.jump_pending) [[unlikely]]
     y = use_button(character, input, wall_ahead, dt, state, y);
-  // Counted from the first step that begins in the air.
-  if (character.coyote_time > 0)
-    state.coyote_left =
-        state.grounded ? static_cast<Scalar>(character.coyote_time) : std::max(state.coyote_left - dt, Scalar(0));
+  count_down_coyote(character, dt, state);
   x += gravity.x() * dt;
   y += gravity.y() * dt;
   if (character.max_fall_speed) y = std::max(y, static_cast<Scalar>(-*character.max_fall_speed));
@@ -121,13 +127,6 @@ class Undo {
   Scalar coyote_left_;
   Scalar pending_left_;
 };
-
-/// Leaves out elements for which the condition holds.
-template <class Vector, class Condition>
-[[gnu::cold, gnu::noinline]] void leave_out(Vector& elements, const Condition& condition) noexcept {
-  const auto end = std::remove_if(elements.begin(), elements.end(), condition);
-  while (elements.end() != end) elements.pop_back();
-}
 
 /// Other characters use the scratch next: the report keeps only its own memory.
 template <class Scalar>
@@ -259,17 +258,10 @@ template <class Scalar>
 [[gnu::always_inline]] inline void Controller<Scalar>::end_step(bool drop, const StepContext<Scalar>& context,
                                                                 Scratch<Scalar>& scratch, CharacterState<Scalar>& state,
                                                                 StepReport<Scalar>& report) const noexcept {
-  const ColliderFilter* filter = filter_of(context);
-  if (sensors_) {
-    sensors_->observe(report.move.path, context.movers, scratch.sensors, report.sensors);
-    if (filter != nullptr)
-      leave_out(report.sensors, [&](const auto& event) { return !(*filter)(*scenery_, event.sensor); });
-  }
-  if (drop && one_way_) {
-    one_way_->find_passed(report.move.path, context.movers, scratch.one_way, report.dropped_through);
-    if (filter != nullptr)
-      leave_out(report.dropped_through, [&](ColliderIndex chain) { return !(*filter)(*scenery_, chain); });
-  }
+  const std::span<const PathPoint<Scalar>> path = report.move.path;
+  if (sensors_) sensors_->observe(path, context.movers, scratch.sensors, report.sensors, filter_of(context));
+  if (drop && one_way_)
+    one_way_->find_passed(path, context.movers, scratch.one_way, report.dropped_through, filter_of(context));
   adopt(character_, report.move, state);
 }
 
@@ -283,7 +275,8 @@ template <class Scalar>
     return report.status = StepStatus::invalid_input;
   const Undo<Scalar> before(state);
   bool wall_ahead = false;
-  if (character_.no_jump_toward_wall && input.jump && state.grounded && input.move.value_or(0) != 0)
+  const bool may_press = input.jump || state.jump_pending;
+  if (character_.no_jump_toward_wall && may_press && state.grounded && input.move.value_or(0) != 0)
     wall_ahead = has_wall_ahead(state, *input.move, context, scratch, report.move);
   // A request with a name, read again after the move, cost 46 instructions more per step (g++ 12).
   technique_->move(begin_step(state.crushers, input, context, wall_ahead, state, report), scratch, report.move);
@@ -310,7 +303,10 @@ StepStatus Controller<Scalar>::move(CharacterState<Scalar>& state, const Vec2<Sc
   report.steered = 0;
   technique_->move(request_of(state, state.crushers, displacement, velocity, 0, false, context), scratch, report.move);
   report.status = status_of(report.move.status);
-  if (!is_refused(report.status)) end_step(false, context, scratch, state, report);
+  if (is_refused(report.status)) return report.status;
+  note_press(character_, state.jump_held, context.dt, state);  // as it was: time alone passes
+  count_down_coyote(character_, context.dt, state);
+  end_step(false, context, scratch, state, report);
   return report.status;
 }
 
@@ -353,10 +349,11 @@ std::optional<Contact<Scalar>> Controller<Scalar>::cast(const Vec2<Scalar>& posi
 }
 
 template <class Scalar>
-std::size_t Controller<Scalar>::overlaps(const Vec2<Scalar>& position, const StepContext<Scalar>& context,
-                                         Scratch<Scalar>& scratch, std::span<ColliderIndex> found) const noexcept {
+std::optional<std::size_t> Controller<Scalar>::overlaps(const Vec2<Scalar>& position,
+                                                        const StepContext<Scalar>& context, Scratch<Scalar>& scratch,
+                                                        std::span<ColliderIndex> found) const noexcept {
   const Vec2<Scalar> nowhere{0, 0};
-  if (!accepts(position, nowhere, context, scratch)) return 0;
+  if (!accepts(position, nowhere, context, scratch)) return std::nullopt;
   return sweep_->overlaps(question(position, nowhere, context), scratch, found);
 }
 

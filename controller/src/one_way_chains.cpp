@@ -51,11 +51,12 @@ OneWayChains<Scalar>::OneWayChains(const Scenery<Scalar>& scenery, const Charact
 template <class Scalar>
 void OneWayChains<Scalar>::find_passed(std::span<const PathPoint<Scalar>> path,
                                        std::span<const MoverMotion<Scalar>> movers, Candidates<Scalar>& candidates,
-                                       Passed& passed) const noexcept {
+                                       Passed& passed, const ColliderFilter* filter) const noexcept {
   passed.clear();
   const auto look_at = [&](PieceIndex piece, const MoverMotion<Scalar>& motion) {
     const ColliderIndex chain = scenery_->pieces()[piece].collider;
     if (std::binary_search(passed.begin(), passed.end(), chain)) return;
+    if (filter != nullptr && !(*filter)(*scenery_, chain)) return;
     for (std::size_t i = 1; i < path.size(); ++i) {
       const Vec2<Scalar> from = path[i - 1].position - motion.at(path[i - 1].fraction);
       const Vec2<Scalar> to = path[i].position - motion.at(path[i].fraction);

@@ -27,8 +27,10 @@ class OneWayChains {
   /// finds is left out. If `passed` is full, it keeps the first chains and has overflowed.
   /// @param path straight between its corners. @param movers one for each mover of the scenery.
   /// @param candidates made by these chains, or by others of the same scenery and character.
+  /// @param filter null: all chains are there.
   void find_passed(std::span<const PathPoint<Scalar>> path, std::span<const MoverMotion<Scalar>> movers,
-                   Candidates<Scalar>& candidates, Passed& passed) const noexcept;
+                   Candidates<Scalar>& candidates, Passed& passed,
+                   const ColliderFilter* filter = nullptr) const noexcept;
 
  private:
   [[nodiscard]] bool passes(PieceIndex piece, const Vec2<Scalar>& from, const Vec2<Scalar>& to) const noexcept;

@@ -116,12 +116,13 @@ typename Sensors<Scalar>::Segment Sensors<Scalar>::seen_by(const MoverMotion<Sca
 
 template <class Scalar>
 void Sensors<Scalar>::observe(std::span<const PathPoint<Scalar>> path, std::span<const MoverMotion<Scalar>> movers,
-                              Candidates<Scalar>& candidates, Events& events) const noexcept {
+                              Candidates<Scalar>& candidates, Events& events,
+                              const ColliderFilter* filter) const noexcept {
   if (const std::span<const PieceIndex> near = finder_.near_standing(path, candidates); !near.empty())
-    candidates.quiet = observe(near, path, {}, candidates.box, events);
+    candidates.quiet = observe(near, path, {}, candidates.box, filter, events);
   finder_.along_movers(path, movers, candidates,
                        [&](std::span<const PieceIndex> near, const MoverMotion<Scalar>& motion) {
-                         observe(near, path, motion, {}, events);
+                         observe(near, path, motion, {}, filter, events);
                        });
 }
 
@@ -129,7 +130,7 @@ void Sensors<Scalar>::observe(std::span<const PathPoint<Scalar>> path, std::span
 template <class Scalar>
 Box2<Scalar> Sensors<Scalar>::observe(std::span<const PieceIndex> near, std::span<const PathPoint<Scalar>> path,
                                       const MoverMotion<Scalar>& motion, Box2<Scalar> quiet,
-                                      Events& events) const noexcept {
+                                      const ColliderFilter* filter, Events& events) const noexcept {
   const Box2<Scalar> way = PieceFinder<Scalar>::positions_seen(path, motion);
   bool all_quiet = true;
   for (std::size_t i = 0; i < near.size(); ++i) {
@@ -140,6 +141,7 @@ Box2<Scalar> Sensors<Scalar>::observe(std::span<const PieceIndex> near, std::spa
       is_quiet = keep_quiet(near[++i], way, quiet) && is_quiet;
     if (is_quiet) continue;
     all_quiet = false;
+    if (filter != nullptr && !(*filter)(*scenery_, sensor)) continue;
     for (std::size_t corner = 1; corner < path.size(); ++corner) {
       const Segment segment = seen_by(motion, path[corner - 1], path[corner]);
       // A character that does not move relative to the sensor neither enters nor leaves it.

@@ -36,10 +36,10 @@ class Sensors {
   /// A fraction is exact but for a few ulp of the distance over the length of the segment; regions of one sensor that
   /// are left and entered within 1e-12 (`float`: 1e-5) of a segment count as one.
   /// @param path straight between its corners, fractions ascending.
-  /// @param movers one for each mover of the scenery.
+  /// @param movers one for each mover of the scenery. @param filter null: all sensors are there.
   /// @param candidates made by these sensors, or by others of the same scenery and character.
   void observe(std::span<const PathPoint<Scalar>> path, std::span<const MoverMotion<Scalar>> movers,
-               Candidates<Scalar>& candidates, Events& events) const noexcept;
+               Candidates<Scalar>& candidates, Events& events, const ColliderFilter* filter = nullptr) const noexcept;
 
  private:
   /// A straight motion as seen from a sensor that stands still.
@@ -60,7 +60,8 @@ class Sensors {
   /// @param near pieces that stand still, or go along with `motion`, ascending.
   /// @return positions at which the character is in, or out of, each of these pieces just as on the whole path.
   Box2<Scalar> observe(std::span<const PieceIndex> near, std::span<const PathPoint<Scalar>> path,
-                       const MoverMotion<Scalar>& motion, Box2<Scalar> quiet, Events& events) const noexcept;
+                       const MoverMotion<Scalar>& motion, Box2<Scalar> quiet, const ColliderFilter* filter,
+                       Events& events) const noexcept;
   void observe(ColliderIndex sensor, std::span<const PieceIndex> pieces, const Segment& segment,
                Events& events) const noexcept;
   /// Reduces `quiet` to the positions at which the character is in, or out of, a piece just as on the whole way.

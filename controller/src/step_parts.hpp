@@ -51,7 +51,7 @@ template <class Scalar>
                           Scalar dt, std::span<const MoverMotion<Scalar>> movers) noexcept {
   FiniteCheck<Scalar> check;
   check.add(state.position).add(state.velocity).add(state.technique_memory).add(gravity);
-  check.add(state.ride.place).add(state.ride.velocity);
+  check.add(state.ride.place).add(state.ride.velocity).add({state.coyote_left, state.pending_left});
   if (state.has_last_free) check.add(state.last_free);
   for (const Crusher<Scalar>& crusher : state.crushers) check.add(crusher.last_free).add(crusher.displacement);
   return check.passed() && dt <= std::numeric_limits<Scalar>::max() && std::isfinite(input.move.value_or(0)) &&

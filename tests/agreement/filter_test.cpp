@@ -40,6 +40,7 @@ class FilteredRun {
     int differences = 0;
     for (int step = 0; step < steps_of_a_filter; ++step) {
       go_on();
+      if (random_.chance(0.3)) disturb();
       controller_.step(state_, input_, {{0, -30}, dt, motions_, &filter_}, scratch_, report_);
       const std::span<const MoverMotion<double>> of_few(motions_.data(), few.mover_count());
       twin.step(twin_state, input_, {{0, -30}, dt, of_few}, twin_scratch, twin_report);
@@ -90,6 +91,7 @@ class FilteredRun {
   void turn() { steer(); }
 
   int contacts = 0;
+  int asked = 0;  ///< Questions of others that found something.
 
  private:
   /// What is of this category is always there.
@@ -123,6 +125,23 @@ class FilteredRun {
     ColliderIndex index = 0;
     for (ColliderIndex i = 0; i < collider; ++i) index += is_there(i);
     return index;
+  }
+  /// Another character uses the same scratch, with a predicate of its own or without a filter; or something is asked.
+  void disturb() {
+    ColliderFilter ghost;
+    ghost.mask = static_cast<std::uint32_t>(random_.integer(0, 15));
+    if (random_.chance(0.5))
+      ghost.is_there = [](ColliderIndex collider, const void* /*user*/) { return collider % 2 == 0; };
+    const StepContext<double> context{{0, -30}, dt, motions_, random_.chance(0.7) ? &ghost : nullptr};
+    CharacterState<double> other;
+    other.position = state_.position;
+    StepReport<double> report;
+    if (random_.chance(0.5)) {
+      controller_.step(other, {}, context, scratch_, report);
+    } else {
+      asked += controller_.overlaps(other.position, context, scratch_).value() > 0;
+      asked += controller_.cast(other.position, {1, -1}, context, scratch_).has_value();
+    }
   }
   /// Indices are others in the twin.
   void forget_colliders() {
@@ -171,14 +190,17 @@ class Filtered : public ::testing::TestWithParam<Family> {};
 TEST_P(Filtered, steps_have_the_bits_of_a_scenery_without_what_is_not_there) {
   const int wanted = steps_wanted("PAPERPROOF_FILTER_STEPS", sampled(2000));
   int contacts = 0;
+  int asked = 0;
   int steps = 0;
   for (std::uint64_t seed = 1; steps < wanted; ++seed) {
     FilteredRun run(GetParam(), seed);
     for (int turn = 0; turn < 5; ++turn, run.turn(), steps += steps_of_a_filter)
       ASSERT_EQ(run.go_beside_twin(), 0) << "seed " << seed << ", turn " << turn;
     contacts += run.contacts;
+    asked += run.asked;
   }
   EXPECT_GE(contacts, steps / 20);
+  EXPECT_GE(asked, steps / 100);
 }
 
 TEST_P(Filtered, steps_by_a_predicate_hold_the_guarantee) {

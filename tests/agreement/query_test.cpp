@@ -50,7 +50,7 @@ class Questions {
       const double angle = random_.chance(0.3) ? random_.integer(0, 7) * std::numbers::pi / 4 : random_.angle();
       const StepContext<double> context{.dt = 1, .movers = motions};
       const Place from(at, motions, 0);
-      overlaps(controller.overlaps(at, context, scratch, found_), oracle.overlapped(from), tally);
+      overlaps(controller.overlaps(at, context, scratch, found_).value(), oracle.overlapped(from), tally);
       near(controller, context, scratch, oracle, from, tally);
       if (oracle.overlapped(from).empty())
         cast(controller, context, scratch, oracle, at, Vec2d{std::cos(angle), std::sin(angle)} * length, tally);

@@ -87,6 +87,41 @@ TEST(Filter, asks_a_predicate_for_movers_and_sensors_too) {
   }
 }
 
+TEST(Filter, with_a_predicate_leaves_nothing_in_the_scratch) {
+  Stepper<double> standing({rectangle(-9, -1, 9, 0)});
+  standing.at(0, half_height + 1e-3).steps(20);
+  ASSERT_TRUE(standing.state.grounded);
+  ColliderFilter nothing;
+  nothing.is_there = [](ColliderIndex /*collider*/, const void* /*user*/) { return false; };
+  const ColliderFilter plain;
+  CharacterState<double> ghost = standing.state;
+  for (const ColliderFilter* filter : {&plain, static_cast<const ColliderFilter*>(nullptr)}) {
+    standing.controller.step(ghost, {}, {{0, -30}, frame, {}, &nothing}, standing.scratch, standing.report);
+    const Vec2d before = standing.state.position;
+    standing.controller.step(standing.state, {}, {{0, -30}, frame, {}, filter}, standing.scratch, standing.report);
+    EXPECT_EQ(standing.state.position, before);
+    EXPECT_EQ(standing.controller.overlaps({0, 0}, {.filter = &nothing}, standing.scratch), 0U);
+    EXPECT_EQ(standing.controller.overlaps({0, 0}, {.filter = filter}, standing.scratch), 1U);
+  }
+}
+
+TEST(Filter, leaves_room_for_the_events_of_what_is_there) {
+  std::vector<ColliderDef> many;
+  for (int i = 0; i < 80; ++i) {
+    many.push_back(rectangle(1 + 0.01 * i, -1, 1.005 + 0.01 * i, 1));
+    many.back().sensor = true;
+    many.back().filter.category = 2;
+  }
+  many.push_back(rectangle(3, -1, 3.5, 1));
+  many.back().sensor = true;
+  Stepper<double> flyer(many);
+  ColliderFilter light;
+  light.mask = 1;
+  flyer.controller.move(flyer.state, {6, 0}, {{}, 1, {}, &light}, flyer.scratch, flyer.report);
+  EXPECT_EQ(flyer.report.sensors.size(), 2U);
+  EXPECT_FALSE(flyer.report.sensors.overflowed());
+}
+
 TEST(Filter, that_a_technique_does_not_have_is_refused) {
   ColliderDef floor = rectangle(-9, -1, 9, 0);
   const ColliderFilter ghost{{.category = 2}};
@@ -137,6 +172,24 @@ TEST(Move, is_carried_in_the_same_step) {
   EXPECT_NEAR(rider.state.position.y(), before.y() + 0.25, 1e-12);
 }
 
+TEST(Move, lets_the_time_of_a_jump_pass) {
+  CharacterDef character;
+  character.coyote_time = 0.1;
+  character.jump_buffer = 0.1;
+  Stepper<double> climber({rectangle(-9, -1, 9, 0)}, character);
+  climber.at(0, half_height + 1e-3).steps(5);
+  for (int step = 0; step < 60; ++step)
+    climber.controller.move(climber.state, {0.01, 0.1}, {{}, frame}, climber.scratch, climber.report);
+  EXPECT_EQ(climber.state.coyote_left, 0);
+  climber.step({.move = {}, .jump = true});
+  EXPECT_FALSE(climber.state.jumping) << "in the air";
+  climber.step();
+  EXPECT_TRUE(climber.state.jump_pending);
+  for (int step = 0; step < 10; ++step)
+    climber.controller.move(climber.state, {0, 0}, {{}, frame}, climber.scratch, climber.report);
+  EXPECT_FALSE(climber.state.jump_pending);
+}
+
 TEST(Move, refuses_what_a_step_refuses_and_changes_nothing) {
   Stepper<double> stepper({rectangle(-9, -1, 9, 0)});
   stepper.at(0, 3);
@@ -150,6 +203,11 @@ TEST(Move, refuses_what_a_step_refuses_and_changes_nothing) {
   EXPECT_EQ(move({1e300, 0}, 1e-300), StepStatus::invalid_input) << "no finite velocity";
   EXPECT_EQ(move({3e6, 0}, frame), StepStatus::out_of_range);
   EXPECT_EQ(stepper.state, before);
+  for (double CharacterState<>::*left : {&CharacterState<>::coyote_left, &CharacterState<>::pending_left}) {
+    stepper.state.*left = nan;
+    EXPECT_EQ(move({0, 0}, frame), StepStatus::invalid_input);
+    stepper.state.*left = 0;
+  }
 }
 
 TEST(Query, tells_whether_a_taller_shape_fits) {
@@ -165,6 +223,24 @@ TEST(Query, tells_whether_a_taller_shape_fits) {
   EXPECT_EQ(standing.overlaps({3, 0.5}, {}, scratch), 2U);
 }
 
+TEST(Query, finds_the_tiles_that_it_is_deep_inside_of) {
+  const Scenery scenery(SceneryDef{{rectangle(0, -5, 1, 1), rectangle(1, -5, 2, 1)}});
+  const Controller controller(scenery, CharacterDef{});
+  Scratch<> scratch = controller.make_scratch();
+  std::array<Contact<>, 8> found;
+  EXPECT_EQ(controller.overlaps({1, -2}, {}, scratch), 2U);
+  EXPECT_EQ(controller.contacts_at({1, -2}, 0.5, {}, scratch, found), 2U);
+  EXPECT_LT(found[0].separation, 0);
+}
+
+TEST(Query, leaves_nothing_in_the_scratch) {
+  Stepper<double> walker({rectangle(-9, -1, 9, 0)});
+  walker.at(0, half_height + 1e-3).steps(5);
+  std::array<Contact<>, 8> found;
+  EXPECT_EQ(walker.controller.contacts_at({0, 5}, 1e5, {}, walker.scratch, found), 1U);
+  EXPECT_FALSE(walker.scratch.solids.valid) << "a wide question would make the next steps slow";
+}
+
 TEST(Query, finds_nothing_where_it_may_not_be_asked) {
   const Scenery scenery(SceneryDef{{rectangle(-9, -1, 9, 0)}});
   const Controller controller(scenery, CharacterDef{});
@@ -177,6 +253,8 @@ TEST(Query, finds_nothing_where_it_may_not_be_asked) {
   EXPECT_FALSE(controller.cast({0, 2}, {0, -5e6}, {}, own));
   const std::vector<MoverMotion<>> one(1);
   EXPECT_FALSE(controller.cast({0, 2}, {0, -5}, {.movers = one}, own)) << "the scenery has no mover";
+  EXPECT_FALSE(controller.overlaps({0, 0}, {.movers = one}, own));
+  EXPECT_FALSE(controller.overlaps({0, std::numeric_limits<double>::quiet_NaN()}, {}, own));
   EXPECT_FALSE(controller.nearest({0, 2}, 1, {}, own)) << "nothing is that near";
   EXPECT_NEAR(controller.nearest({0, 2}, 2, {}, own)->separation, 2 - half_height, 1e-12);
 }

@@ -165,6 +165,21 @@ TEST(Jumping, is_allowed_for_a_while_after_the_edge) {
   EXPECT_EQ(take_offs(faller.at(0, 5), 5, jumping()), 0) << "a character that never stood may not jump";
 }
 
+TEST(Jumping, does_not_use_up_a_press_while_crushed) {
+  CharacterDef character;
+  character.coyote_time = 0.2;
+  ColliderDef press = rectangle(-1, 2, 1, 3);
+  press.mover = 0;
+  Stepper<double> crushed({rectangle(-9, -1, 9, 0), press}, character);
+  crushed.at(0, half_height + 1e-3).steps(5);
+  for (int step = 0; step < 4; ++step) crushed.step_with_mover_by(0, -0.3, {.move = {}, .jump = step > 2});
+  ASSERT_TRUE(crushed.state.crushed);
+  EXPECT_FALSE(crushed.state.jumping);
+  EXPECT_TRUE(crushed.state.jump_pending);
+  for (int step = 0; step < 4; ++step) crushed.step_with_mover_by(0, 2, {.move = {}, .jump = true});
+  EXPECT_TRUE(crushed.state.jumping);
+}
+
 TEST(Jumping, waits_for_the_ground_as_long_as_its_buffer) {
   for (const bool held : {false, true}) {
     for (const int early : {1, 6, 7}) {
@@ -194,6 +209,13 @@ TEST(Jumping, is_lower_when_the_button_is_released) {
   EXPECT_EQ(jumper.state.velocity.y(), 0.5 * rising - gravity * dt);
   jumper.step();
   EXPECT_EQ(jumper.state.velocity.y(), 0.5 * rising - 2 * gravity * dt) << "once for a release";
+  character.jump_buffer = 1;
+  Stepper<double> early = standing(character);
+  early.state.grounded = false;
+  early.step(jumping());
+  ASSERT_TRUE(early.state.grounded && early.state.jump_pending);
+  early.step();
+  EXPECT_EQ(early.state.velocity.y(), 0.5 * character.jump_speed - gravity * dt) << "released before the jump";
   Stepper<double> thrown = standing(character);
   thrown.with_velocity(0, 8).step(jumping());
   thrown.state.jumping = false;

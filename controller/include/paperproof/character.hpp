@@ -58,10 +58,11 @@ struct CharacterDef {
   double jump_speed = 12;                  ///< Upward speed that a jump sets [m/s].
   /// For how long a character that has left the ground without a jump may still jump [s].
   double coyote_time = 0;
-  /// For how long a press of the button that cannot jump yet stays pending, released or not [s]. Absent: while the
-  /// button is held.
+  /// For how long a press of the button that cannot jump yet stays pending, whether the button is held or not [s].
+  /// Absent: as long as the button is held.
   std::optional<double> jump_buffer;
-  /// The share of its upward speed that a jump keeps when the button is released during the rise, in [0, 1].
+  /// The share of its upward speed that a jump keeps if the button is released during the rise, or before it, in
+  /// [0, 1]. On a mover it is a share of the speed in the world.
   double jump_cut = 1;
   std::optional<double> max_fall_speed;  ///< [m/s]; no limit where absent.
   double max_climb_degrees = 50;         ///< Steepest walkable ground, from the horizontal; in [0, 89].
@@ -87,8 +88,8 @@ struct Input {
   /// Horizontal direction in [-1, 1]: the speed approaches `move * walk_speed`. Absent: nothing steers, and the
   /// horizontal speed stays as it is.
   std::optional<double> move;
-  /// The jump button is down. One press gives at most one jump; a press that cannot jump yet stays pending while held,
-  /// or for `CharacterDef::jump_buffer`.
+  /// The jump button is down. One press gives at most one jump; a press that cannot jump yet stays pending while held;
+  /// or, if there is a `CharacterDef::jump_buffer`, for that long.
   bool jump = false;
   /// One-way chains do not block while this is true: a character that stands on a chain drops through it. One step with
   /// `drop` is enough to leave a chain that the character touches: from partly below a chain the character goes on

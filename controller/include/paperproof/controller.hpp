@@ -26,9 +26,9 @@ struct StepContext {
   Scalar dt = 0;                               ///< Duration of the step, above zero [s].
   /// One for each mover of the scenery, within +-2e6 m.
   std::span<const MoverMotion<Scalar>> movers{};
-  /// Of the characters; null: a default one. For colliders that do not collide with it, a step is as if they were not
-  /// in the scenery: they give no contact and no event. `octagon_sweep` alone filters; with another technique a filter
-  /// is invalid input.
+  /// The filter of the characters. If it is null, a default filter is used. A step is as if the colliders that the
+  /// filter leaves out were not in the scenery (but see `ColliderFilter` for seams): they give no contact and no event.
+  /// `octagon_sweep` alone filters; with another technique a filter is invalid input.
   const ColliderFilter* filter = nullptr;
 };
 
@@ -110,8 +110,12 @@ class Controller {
                   Scratch<Scalar>& scratch, StepReport<Scalar>& report) const noexcept;
 
   /// One step of a game that owns its velocities: the character moves by a displacement, as far as obstacles let it,
-  /// and slides along them. No input, jump or gravity is added. Ground that carries the character adds its motion.
-  /// Otherwise as `step`; `state.velocity` becomes what obstacles leave of displacement / dt, and is not read.
+  /// and slides along them. No input, jump or gravity is added; gravity is checked, but not used.
+  ///
+  /// To stay on the ground, and to ride, the character must press on it: give the displacement a part downwards, or the
+  /// character a `snap`. With `snap`, clear `state.grounded` to leave the ground by less than the climb limit. Ground
+  /// that carries the character adds its motion. `state.velocity` is not read; it becomes what obstacles leave of
+  /// displacement / dt, the motion of the ground included. A jump that is pending stays so; time passes for it.
   /// @param displacement in the step [m]; relative to what carries the character.
   StepStatus move(CharacterState<Scalar>& state, const Vec2<Scalar>& displacement, const StepContext<Scalar>& context,
                   Scratch<Scalar>& scratch, StepReport<Scalar>& report) const noexcept;
@@ -131,10 +135,10 @@ class Controller {
                        const StepContext<Scalar>& context, std::span<Scratch<Scalar>> scratches,
                        std::span<StepReport<Scalar>> reports) const noexcept;
 
-  // Questions about the surroundings of a character of this kind. They move nothing and allocate nothing. A controller
-  // that does not move by `octagon_sweep` finds nothing, as does one that is asked with a scratch of another
-  // controller, another number of movers than the scenery's, or numbers that are out of range. Of the context the
-  // movers and the filter count.
+  // Questions about the surroundings of a character of this kind. They move nothing and allocate nothing. They read
+  // only the movers and the filter of the context. No question is answered by a controller that does not move by
+  // `octagon_sweep`, with a scratch of another controller, with another number of movers than the scenery's, or about
+  // numbers that are out of range.
 
   /// The first contact of a straight displacement, if there is one: where the character would touch, with the exact
   /// normal and the time of impact as a fraction of the displacement. Movers move at the same time, as in a step; for
@@ -145,21 +149,23 @@ class Controller {
                                                     const StepContext<Scalar>& context,
                                                     Scratch<Scalar>& scratch) const noexcept;
 
-  /// How many solid colliders the character would overlap at a position, exactly; 0: it fits there. Movers are where
-  /// their motions begin. One-way chains do not count.
-  /// @param found as many of the colliders as it has room for.
-  [[nodiscard]] std::size_t overlaps(const Vec2<Scalar>& position, const StepContext<Scalar>& context,
-                                     Scratch<Scalar>& scratch, std::span<ColliderIndex> found = {}) const noexcept;
+  /// How many solid colliders the character would overlap at a position, exactly. If it is 0, the character fits there.
+  /// Movers are where their motions begin. One-way chains do not count.
+  /// @param found as many of the colliders as it has room for. @return nothing if the question cannot be answered.
+  [[nodiscard]] std::optional<std::size_t> overlaps(const Vec2<Scalar>& position, const StepContext<Scalar>& context,
+                                                    Scratch<Scalar>& scratch,
+                                                    std::span<ColliderIndex> found = {}) const noexcept;
 
   /// The surfaces that the character would have beside it at a position, nearest first; overlaps are nearest of all and
   /// have a negative separation. The separation is that along the best axis: from corner to corner the distance is up
-  /// to 1.42 times as large. Movers are where their motions begin. One-way chains count from above.
-  /// @param within the largest separation [m].
+  /// to 1.42 times as large. Each convex piece gives one contact at most. Movers are where their motions begin. A
+  /// one-way chain counts if the character is above it.
+  /// @param within the largest separation [m]; below zero: only overlaps that are deeper.
   /// @param found at most as many as it has room for. @return how many were written.
   [[nodiscard]] std::size_t contacts_at(const Vec2<Scalar>& position, Scalar within, const StepContext<Scalar>& context,
                                         Scratch<Scalar>& scratch, std::span<Contact<Scalar>> found) const noexcept;
 
-  /// The first of these.
+  /// The nearest of `contacts_at`.
   [[nodiscard]] std::optional<Contact<Scalar>> nearest(const Vec2<Scalar>& position, Scalar within,
                                                        const StepContext<Scalar>& context,
                                                        Scratch<Scalar>& scratch) const noexcept {

@@ -13,12 +13,17 @@
 namespace paperproof {
 
 /// Which colliders are there for a character in one step: those that collide by the filters, and by a predicate.
+///
+/// A predicate does not take seams away. Of two tiles that abut, the sides between them stay covered if one is left
+/// out: the character is stopped at half the usual gap there. Chains that are one surface stay one. Give such colliders
+/// different filters instead: see `ColliderDef::filter`.
 struct ColliderFilter : Filter {
   /// If set, it is asked for each collider that collides by the filters: false if the collider is not there. During a
-  /// step it must give the same answers; it must not throw. It may be called from any thread that steps.
+  /// step it must give the same answers, and between steps it may change them. It must not throw. It may be called from
+  /// any thread that steps.
   bool (*is_there)(ColliderIndex collider, const void* user) = nullptr;
   const void* user = nullptr;       ///< Handed to `is_there`.
-  ColliderIndex end = no_collider;  ///< From this index on all are there: a `Crowd` has colliders of its own.
+  ColliderIndex end = no_collider;  ///< A `Crowd` sets it: its own colliders begin here.
 
   template <class Scalar>
   [[nodiscard]] bool operator()(const Scenery<Scalar>& scenery, ColliderIndex collider) const noexcept {
@@ -39,7 +44,7 @@ struct Contact {
 };
 
 /// The character's open interior came to overlap a sensor (of a chain: its line), or ceased to. Events of one sensor
-/// alternate, also over steps; a character that begins inside does not enter.
+/// alternate, also over steps, as long as the filter stays the same; a character that begins inside does not enter.
 template <class Scalar>
 struct SensorEvent {
   enum class Change : std::uint8_t { enter, exit };
@@ -170,8 +175,8 @@ struct Candidates {
   bool valid = false;
   /// Positions known to be quiet: while the character moves among them, nothing happens between it and any piece.
   Box2<Scalar> quiet{Vec2<Scalar>::Constant(1), Vec2<Scalar>::Constant(-1)};
-  bool filtered = false;  ///< Pieces that are not there are missing,
-  Filter filter{};        ///< for a character of this filter.
+  bool filtered = false;    ///< Pieces that are not there are missing,
+  ColliderFilter filter{};  ///< by this filter.
 };
 
 /// Memory of a step, one per thread. It belongs to the controller (or the technique) that made it and carries nothing

@@ -52,11 +52,13 @@ class Neighbourhood {
   /// Forgets what was collected with another filter.
   [[gnu::cold, gnu::noinline]] void forget_others() noexcept {
     Candidates<Scalar>& known = scratch_.solids;
-    const bool filtered = filter_ != nullptr;
-    if (filtered != known.filtered || (filtered && (filter_->is_there != nullptr || Filter(*filter_) != known.filter)))
-      forget();
-    known.filtered = filtered;
-    if (filtered) known.filter = *filter_;
+    const ColliderFilter filter = filter_ != nullptr ? *filter_ : ColliderFilter{};
+    const bool by_predicate =
+        filter.is_there != nullptr || known.filter.is_there != nullptr;  // it may say otherwise now
+    const bool same = Filter(filter) == Filter(known.filter) && filter.end == known.filter.end;
+    if ((filter_ != nullptr) != known.filtered || by_predicate || !same) forget();
+    known.filtered = filter_ != nullptr;
+    known.filter = filter;
   }
   [[gnu::cold, gnu::noinline]] void leave_out_filtered() noexcept {
     Candidates<Scalar>& known = scratch_.solids;

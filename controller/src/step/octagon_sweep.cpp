@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <type_traits>
 
 namespace paperproof {
 namespace {
@@ -92,28 +93,33 @@ class OctagonSweep final : public SweepInParts<Scalar> {
 
   [[nodiscard]] std::optional<Contact<Scalar>> cast(const MoveRequest<Scalar>& at,
                                                     Scratch<Scalar>& scratch) const noexcept override {
-    Surroundings<Scalar> around = surroundings(at, scratch);
-    return space_.lanes() == 8 ? octagon_sweep::cast<8>(around, at.position, at.displacement)
-                               : octagon_sweep::cast<12>(around, at.position, at.displacement);
+    return ask(at, scratch, [&](Surroundings<Scalar>& around, auto lanes) {
+      return octagon_sweep::cast<lanes>(around, at.position, at.displacement);
+    });
   }
   [[nodiscard]] std::size_t overlaps(const MoveRequest<Scalar>& at, Scratch<Scalar>& scratch,
                                      std::span<ColliderIndex> found) const noexcept override {
-    Surroundings<Scalar> around = surroundings(at, scratch);
-    return space_.lanes() == 8 ? octagon_sweep::overlaps<8>(around, at.position, found)
-                               : octagon_sweep::overlaps<12>(around, at.position, found);
+    return ask(at, scratch, [&](Surroundings<Scalar>& around, auto lanes) {
+      return octagon_sweep::overlaps<lanes>(around, at.position, found);
+    });
   }
   [[nodiscard]] std::size_t contacts_at(const MoveRequest<Scalar>& at, Scalar within, Scratch<Scalar>& scratch,
                                         std::span<Contact<Scalar>> found) const noexcept override {
-    Surroundings<Scalar> around = surroundings(at, scratch);
-    return space_.lanes() == 8 ? octagon_sweep::contacts_at<8>(around, at.position, within, found)
-                               : octagon_sweep::contacts_at<12>(around, at.position, within, found);
+    return ask(at, scratch, [&](Surroundings<Scalar>& around, auto lanes) {
+      return octagon_sweep::contacts_at<lanes>(around, at.position, within, found);
+    });
   }
 
  private:
-  [[nodiscard]] Surroundings<Scalar> surroundings(const MoveRequest<Scalar>& at,
-                                                  Scratch<Scalar>& scratch) const noexcept {
-    return {
+  template <class Question>
+  [[nodiscard]] auto ask(const MoveRequest<Scalar>& at, Scratch<Scalar>& scratch,
+                         const Question& question) const noexcept {
+    Surroundings<Scalar> around{
         space_, {space_, *broad_phase_, settings_.look_ahead, at.filter, scratch}, mover_phases_, at.movers, at.filter};
+    const auto answer = space_.lanes() == 8 ? question(around, std::integral_constant<std::size_t, 8>{})
+                                            : question(around, std::integral_constant<std::size_t, 12>{});
+    around.neighbourhood.forget();  // a wide question would make the next steps slow
+    return answer;
   }
   [[nodiscard]] static bool in_range(const MoveRequest<Scalar>& request) noexcept {
     constexpr Scalar range = Tolerances<Scalar>{}.range;

@@ -118,7 +118,7 @@ std::size_t contacts_at(Surroundings<Scalar>& around, const Vec2<Scalar>& positi
         const BestAxis<Scalar> best = best_axis<Lanes>(space, piece, at);
         if (best.separation > within) return;
         // No contact has the normal of a seam. From further away the side of one piece may hide that of another.
-        if (best.separation <= Tolerances<Scalar>{}.touch && space.covered(piece, best.axis)) return;
+        if (std::abs(best.separation) <= Tolerances<Scalar>{}.touch && space.covered(piece, best.axis)) return;
         if (space.scenery().pieces()[piece].one_way && !is_above(space, piece, at, lost_by(position, mover.from)))
           return;
         const Contact<Scalar> contact = contact_with(space, piece, best.axis, position, mover.from, Scalar(0));
