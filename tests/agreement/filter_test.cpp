@@ -188,7 +188,7 @@ class FilteredRun {
 class Filtered : public ::testing::TestWithParam<Family> {};
 
 TEST_P(Filtered, steps_have_the_bits_of_a_scenery_without_what_is_not_there) {
-  const int wanted = steps_wanted("PAPERPROOF_FILTER_STEPS", sampled(2000));
+  const int wanted = steps_wanted("PAPERPROOF_FILTER_STEPS", 2000);
   int contacts = 0;
   int asked = 0;
   int steps = 0;
@@ -204,7 +204,7 @@ TEST_P(Filtered, steps_have_the_bits_of_a_scenery_without_what_is_not_there) {
 }
 
 TEST_P(Filtered, steps_by_a_predicate_hold_the_guarantee) {
-  const int wanted = steps_wanted("PAPERPROOF_FILTER_STEPS", sampled(2000));
+  const int wanted = steps_wanted("PAPERPROOF_FILTER_STEPS", 2000);
   int contacts = 0;
   int steps = 0;
   for (std::uint64_t seed = 1; steps < wanted; ++seed) {

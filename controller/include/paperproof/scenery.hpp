@@ -24,8 +24,8 @@ struct ColliderDef {
   std::vector<Vec2d> points;                ///< Outer ring (not closed: the first vertex is not repeated) or polyline.
   std::vector<std::vector<Vec2d>> holes{};  ///< Polygons only; each strictly inside the outer ring.
   /// Chains only: the chain blocks a character that begins a move above it, which is the side that this vector points
-  /// to. A segment that runs along this vector blocks nothing. Abutting chains with the same `one_way` and mover are
-  /// one surface, extended straight beyond its ends.
+  /// to. A segment that runs along this vector blocks nothing. Abutting chains with the same `one_way`, filter and
+  /// mover are one surface, extended straight beyond its ends.
   std::optional<Vec2d> one_way{};
   /// The mover that moves this collider; `points` then hold while the mover's offset is zero.
   MoverIndex mover = no_mover;
