@@ -171,7 +171,6 @@ template <class Scalar>
 Controller<Scalar>::Controller(const Scenery<Scalar>& scenery, const CharacterDef& character,
                                std::unique_ptr<const Technique<Scalar>> technique, const Stages& stages)
     : scenery_(&scenery),
-      mover_count_(scenery.mover_count()),
       has_filters_(has_filters(scenery)),
       may_jump_(stages.jump),
       may_fall_(stages.gravity),
@@ -201,7 +200,7 @@ template <class Scalar>
                                                                const StepContext<Scalar>& context) const noexcept {
   const Vec2<Scalar>& gravity = context.gravity;
   const bool foreseen = (may_jump_ || !input.jump) && (may_fall_ || (gravity.x() == 0 && gravity.y() == 0));
-  return foreseen && context.dt > 0 && context.movers.size() == mover_count_ &&
+  return foreseen && context.dt > 0 && context.movers.size() == scenery_->mover_count() &&
          (context.filter == nullptr || technique_->filters()) &&
          finite(state, input, gravity, context.dt, context.movers);
 }
@@ -333,10 +332,10 @@ BatchStatus Controller<Scalar>::step_all(std::span<CharacterState<Scalar>> state
 }
 
 template <class Scalar>
-bool Controller<Scalar>::accepts(const Vec2<Scalar>& position, const Vec2<Scalar>& displacement,
-                                 const StepContext<Scalar>& context, const Scratch<Scalar>& scratch) const noexcept {
+bool Controller<Scalar>::can_answer(const Vec2<Scalar>& position, const Vec2<Scalar>& displacement,
+                                    const StepContext<Scalar>& context, const Scratch<Scalar>& scratch) const noexcept {
   return sweep_ != nullptr && is_made_by(technique_, scratch.maker) && in_range(position) &&
-         in_range(Vec2<Scalar>(position + displacement)) && context.movers.size() == mover_count_ &&
+         in_range(Vec2<Scalar>(position + displacement)) && context.movers.size() == scenery_->mover_count() &&
          (context.movers.empty() || finite(context.movers, Scalar(1)));
 }
 
@@ -344,7 +343,7 @@ template <class Scalar>
 std::optional<Contact<Scalar>> Controller<Scalar>::cast(const Vec2<Scalar>& position, const Vec2<Scalar>& displacement,
                                                         const StepContext<Scalar>& context,
                                                         Scratch<Scalar>& scratch) const noexcept {
-  if (!accepts(position, displacement, context, scratch)) return std::nullopt;
+  if (!can_answer(position, displacement, context, scratch)) return std::nullopt;
   return sweep_->cast(question(position, displacement, context), scratch);
 }
 
@@ -353,7 +352,7 @@ std::optional<std::size_t> Controller<Scalar>::overlaps(const Vec2<Scalar>& posi
                                                         const StepContext<Scalar>& context, Scratch<Scalar>& scratch,
                                                         std::span<ColliderIndex> found) const noexcept {
   const Vec2<Scalar> nowhere{0, 0};
-  if (!accepts(position, nowhere, context, scratch)) return std::nullopt;
+  if (!can_answer(position, nowhere, context, scratch)) return std::nullopt;
   return sweep_->overlaps(question(position, nowhere, context), scratch, found);
 }
 
@@ -362,7 +361,7 @@ std::size_t Controller<Scalar>::contacts_at(const Vec2<Scalar>& position, Scalar
                                             const StepContext<Scalar>& context, Scratch<Scalar>& scratch,
                                             std::span<Contact<Scalar>> found) const noexcept {
   const Vec2<Scalar> nowhere{0, 0};
-  if (!accepts(position, nowhere, context, scratch) || !(within <= Tolerances<Scalar>{}.range)) return 0;
+  if (!can_answer(position, nowhere, context, scratch) || !(within <= Tolerances<Scalar>{}.range)) return 0;
   return sweep_->contacts_at(question(position, nowhere, context), within, scratch, found);
 }
 

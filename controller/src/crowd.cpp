@@ -13,8 +13,7 @@ namespace paperproof {
 
 template <class Scalar>
 struct Crowd<Scalar>::Rules {
-  bool may_ride;             ///< Some ground may carry a character.
-  bool has_filters = false;  ///< Some collider is not there for every character.
+  bool may_ride;  ///< Some ground may carry a character.
   /// What `octagon_sweep` needs to move several characters. Null: the controller has a joint technique.
   std::unique_ptr<crowd::SweepRules<Scalar>> sweep{};
 };
@@ -54,8 +53,7 @@ Crowd<Scalar>::Crowd(std::unique_ptr<const Rules> rules, Controller<Scalar> cont
 template <class Scalar>
 Crowd<Scalar>::Crowd(const Scenery<Scalar>& scenery, const CharacterDef& character, const SweepDef& sweep)
     : Crowd([&] {
-        Rules rules{.may_ride = scenery.mover_count() > 0 || has_conveyors(scenery),
-                    .has_filters = has_filters(scenery)};
+        Rules rules{.may_ride = scenery.mover_count() > 0 || has_conveyors(scenery)};
         rules.sweep = std::make_unique<crowd::SweepRules<Scalar>>(scenery, character, sweep.iterations);
         SweepDef def = sweep;
         def.stages.movers = def.stages.slopes = true;  // characters are moving obstacles with slopes
@@ -105,9 +103,12 @@ StepStatus Crowd<Scalar>::step(std::span<CharacterState<Scalar>> states, std::sp
       !step_parts::is_made_by(rules_, scratch.maker))
     return report.status = StepStatus::invalid_input;
   StepContext<Scalar> context = given;
-  ColliderFilter filter = given.filter != nullptr ? *given.filter : ColliderFilter{};
-  if (rules_->sweep != nullptr) filter.end = rules_->sweep->first_slot;
-  if (given.filter != nullptr || rules_->has_filters) context.filter = &filter;
+  ColliderFilter filter;
+  if (const ColliderFilter* used = controller_.filter_of(given)) {
+    filter = *used;
+    if (rules_->sweep != nullptr) filter.end = rules_->sweep->first_slot;
+    context.filter = &filter;
+  }
   auto& memory = static_cast<crowd::CrowdMemory<Scalar>&>(*scratch.own);
   for (std::size_t i = 0; i < count; ++i) {
     report.members[i] = {};

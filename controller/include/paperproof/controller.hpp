@@ -19,7 +19,7 @@ struct DesiredVelocity {
   Scalar steered = 0;
 };
 
-/// What is the same for all characters of a step.
+/// The surroundings of a step. All characters of a step share them.
 template <class Scalar = double>
 struct StepContext {
   Vec2<Scalar> gravity{Vec2<Scalar>::Zero()};  ///< [m/s²]
@@ -217,15 +217,14 @@ class Controller {
                     CharacterState<Scalar>& state, StepReport<Scalar>& report) const noexcept;
 
   /// Whether a question about a position can be answered.
-  [[nodiscard]] bool accepts(const Vec2<Scalar>& position, const Vec2<Scalar>& displacement,
-                             const StepContext<Scalar>& context, const Scratch<Scalar>& scratch) const noexcept;
+  [[nodiscard]] bool can_answer(const Vec2<Scalar>& position, const Vec2<Scalar>& displacement,
+                                const StepContext<Scalar>& context, const Scratch<Scalar>& scratch) const noexcept;
   [[nodiscard]] MoveRequest<Scalar> question(const Vec2<Scalar>& position, const Vec2<Scalar>& displacement,
                                              const StepContext<Scalar>& context) const noexcept {
     return {.position = position, .displacement = displacement, .movers = context.movers, .filter = filter_of(context)};
   }
 
   const Scenery<Scalar>* scenery_;
-  std::size_t mover_count_;
   bool has_filters_;  ///< Some collider is not there for every character.
   bool may_jump_;     ///< Jumps were not left out,
   bool may_fall_;     ///< nor was gravity.

@@ -1,4 +1,4 @@
-/// Who collides with whom.
+/// Filters: which characters collide with which colliders.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@ namespace paperproof {
 
 /// The rule of Box2D's `b2Filter`, with more bits.
 struct Filter {
-  std::uint32_t category = 1;              ///< The kinds that it is of.
+  std::uint32_t category = 1;              ///< Its own kinds, one bit each.
   std::uint32_t mask = ~std::uint32_t{0};  ///< The kinds that it collides with.
   std::int32_t group = 0;                  ///< See `collide`.
 

@@ -33,6 +33,7 @@ class SweepTogether {
 
  private:
   using V = Vec2<Scalar>;
+  using WholePath = FixedVector<PathPoint<Scalar>, 2 * MoveResult<Scalar>::max_corners>;
 
   /// The path that a character would take if it were alone. False where it would leave the range.
   [[nodiscard]] bool plan_alone(CharacterIndex i) noexcept {
@@ -112,9 +113,7 @@ class SweepTogether {
     return true;
   }
 
-  /// What a character has done, and what it plans.
-  using WholePath = FixedVector<PathPoint<Scalar>, 2 * MoveResult<Scalar>::max_corners>;
-
+  /// The path that a character has made, and then the one that it plans.
   [[nodiscard]] WholePath whole_path(CharacterIndex i) const noexcept {
     WholePath whole;
     for (const PathPoint<Scalar>& corner : step_.made(i).path) whole.push_back(corner);
@@ -126,7 +125,6 @@ class SweepTogether {
   /// there may lead past all others.
   bool find_room_from_corners(CharacterIndex i, Moment<Scalar>& end) noexcept {
     Member<Scalar>& member = step_.members[i];
-    const Obstacles obstacles = member.obstacles;
     const WholePath whole = whole_path(i);
     // A character that begins inside a mover must have left it, on the side from which it came.
     const bool starts_inside = !member.start.state.crushers.empty();
@@ -147,7 +145,6 @@ class SweepTogether {
       member.now = at;
       return true;
     }
-    member.obstacles = obstacles;
     return false;
   }
 

@@ -49,7 +49,7 @@ class Neighbourhood {
   [[nodiscard]] StepMemory<Scalar>& memory() const noexcept { return static_cast<StepMemory<Scalar>&>(*scratch_.own); }
 
  private:
-  /// Forgets what was collected with another filter.
+  /// Forgets the pieces that were collected with another filter.
   [[gnu::cold, gnu::noinline]] void forget_others() noexcept {
     Candidates<Scalar>& known = scratch_.solids;
     const ColliderFilter filter = filter_ != nullptr ? *filter_ : ColliderFilter{};

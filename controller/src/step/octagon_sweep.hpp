@@ -1,4 +1,4 @@
-/// What is asked of `octagon_sweep` beside a whole step.
+/// The calls of `octagon_sweep` beside a whole step: parts of a step, for crowds, and questions.
 #pragma once
 
 #include <paperproof/octagon_sweep.hpp>

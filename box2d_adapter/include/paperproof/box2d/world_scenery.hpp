@@ -56,9 +56,9 @@ struct WorldSceneryDef {
 ///   zero area) throw `InvalidScenery` when the `Scenery` is built.
 [[nodiscard]] WorldScenery scenery_of(b2World& world, const WorldSceneryDef& def = {});
 
-/// Who collides with a fixture. For a character whose body has this fixture it is the filter of a step
-/// (`StepContext::filter`): the character then collides with those fixtures with which Box2D's own filter lets the body
-/// collide. A mask of all of Box2D's 16 kinds becomes one of all kinds.
+/// The filter of a fixture. Used as the filter of a step (`StepContext::filter`), it lets a character collide with
+/// those fixtures with which Box2D lets this fixture collide. A mask of all of Box2D's 16 kinds becomes one of all
+/// kinds.
 [[nodiscard]] Filter filter_of(const b2Fixture& fixture) noexcept;
 
 /// How kinematic movers will go in the world's next step: from where their bodies are, with the velocities they have,
