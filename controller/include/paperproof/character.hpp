@@ -54,17 +54,17 @@ struct CharacterDef {
   CharacterShape shape = CharacterShape::article();
   double walk_speed = 6;                   ///< [m/s]
   double acceleration = 60;                ///< Of the horizontal speed on the ground [m/s²].
-  std::optional<double> air_acceleration;  ///< The same in the air [m/s²]; `acceleration` where absent.
+  std::optional<double> air_acceleration{}; ///< The same in the air [m/s²]; `acceleration` where absent.
   double jump_speed = 12;                  ///< Upward speed that a jump sets [m/s].
   /// For how long a character that has left the ground without a jump may still jump [s].
   double coyote_time = 0;
   /// For how long a press of the button that cannot jump yet stays pending, whether the button is held or not [s].
   /// Absent: as long as the button is held.
-  std::optional<double> jump_buffer;
+  std::optional<double> jump_buffer{};
   /// The share of its upward speed that a jump keeps if the button is released during the rise, or before it, in
   /// [0, 1]. On a mover it is a share of the speed in the world.
   double jump_cut = 1;
-  std::optional<double> max_fall_speed;  ///< [m/s]; no limit where absent.
+  std::optional<double> max_fall_speed{}; ///< [m/s]; no limit where absent.
   double max_climb_degrees = 50;         ///< Steepest walkable ground, from the horizontal; in [0, 89].
   double snap = 0;                       ///< How far down a walker follows the ground [m]; 0: not at all.
   /// The article's rule: a character that stands beside a wall cannot jump toward this wall. A wall is beside the
@@ -87,7 +87,7 @@ struct CharacterDef {
 struct Input {
   /// Horizontal direction in [-1, 1]: the speed approaches `move * walk_speed`. Absent: nothing steers, and the
   /// horizontal speed stays as it is.
-  std::optional<double> move;
+  std::optional<double> move{};
   /// The jump button is down. One press gives at most one jump; a press that cannot jump yet stays pending while held;
   /// or, if there is a `CharacterDef::jump_buffer`, for that long.
   bool jump = false;

@@ -1,0 +1,174 @@
+/// A character in a game's own `b2World`.
+#pragma once
+
+#include <paperproof/controller.hpp>
+
+#include <box2d/b2_fixture.h>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+class b2Body;
+class b2World;
+
+namespace paperproof::box2d {
+
+/// From where a fixture blocks a hero.
+enum class Blocking : std::uint8_t {
+  from_everywhere,
+  from_above,  ///< A ledge: the hero jumps up through it and lands on it. `Input::drop` lets the hero fall through.
+  not_at_all,
+};
+
+/// What a fixture is for a hero.
+struct Surface {
+  Blocking blocks = Blocking::from_everywhere;
+  double speed = 0;  ///< Of a conveyor, to the right for a positive speed [m/s].
+  friend bool operator==(const Surface&, const Surface&) = default;
+};
+
+struct HeroDef {
+  CharacterDef character{};
+  Vec2d position{Vec2d::Zero()};  ///< Of the middle of the character's box, within 1e6 m [m].
+  b2Filter filter{};              ///< Of the hero's fixture: with which fixtures it collides.
+  /// With which it pushes dynamic bodies, weighs on them, and takes their impacts [kg]; from 1e-6 to 1e9. Absent: that
+  /// of its shape, of density 1.
+  std::optional<double> mass{};
+  /// The largest force with which its steering pushes dynamic bodies [N]. Absent: that with which it accelerates
+  /// itself.
+  std::optional<double> push_force{};
+  /// If set, it is asked in every step for each solid fixture near the hero that passes the filter: the place for what
+  /// a game would decide in `PreSolve`. It may read the fixture's user data, and the hero, as after its last step.
+  std::function<Surface(b2Fixture&)> surface_of{};
+  /// Corners of the polygon that stands for a circle, at least 3. It encloses the circle, and reaches beyond it by
+  /// 0.5 % of the radius at 32 corners.
+  int circle_corners = 32;
+};
+
+/// A surface that was in the hero's way in its last step, or that was so in the step before.
+struct HeroContact {
+  enum class Change : std::uint8_t { added, persisted, removed };
+  /// One that is `removed` may have been destroyed by the game: compare the pointer, do not follow it.
+  b2Fixture* fixture = nullptr;
+  Change change = Change::added;
+  Contact<double> contact;  ///< Of a `removed` one: the last.
+};
+
+/// The hero's open interior came to overlap a sensor fixture, or ceased to.
+struct HeroSensorEvent {
+  b2Fixture* sensor = nullptr;
+  SensorEvent<double>::Change change = SensorEvent<double>::Change::enter;
+  double fraction = 0;  ///< Of the step, in [0, 1].
+};
+
+/// Where a body was at the end of a step of the hero.
+struct BodyPose {
+  const b2Body* body = nullptr;
+  Vec2d position{Vec2d::Zero()};  ///< Of its origin [m].
+  double angle = 0;               ///< [radians]
+};
+
+/// A hero at one time, to save or to roll back. Restore it together with the world.
+struct HeroSave {
+  CharacterState<double> state;
+  Vec2d ground_normal{0, 1};
+  b2Fixture* ride = nullptr;           ///< What `state.ride` is on.
+  std::vector<b2Fixture*> crushers{};  ///< What `state.crushers` are.
+  std::vector<BodyPose> poses{};       ///< Of the bodies near it.
+  std::vector<HeroContact> contacts{};
+};
+
+/// A character in a game's own `b2World`, moved by a `Controller`. Each frame the world steps, then the hero:
+///
+///     world.Step(dt, 8, 3);
+///     hero.step({.move = 1.0}, dt);
+///
+/// The hero reads the fixtures near it anew in each step, so the game tells it nothing: it may make, destroy, move,
+/// turn, enable and filter bodies and fixtures as it likes. While nothing near the hero changes, what was read is used
+/// again.
+///
+/// - Static bodies stand. Kinematic and dynamic bodies move from where they were in the hero's last step to where they
+///   are now, and carry, push and crush it on this way. A body that went farther than Box2D moves a body in a step (2
+///   m) was put there by the game.
+/// - A body that turns has its new angle from the beginning of the step, turned about its point nearest to the hero; of
+///   a body on which the hero stands, about the point under its foot. Among bodies that do not turn, the guarantees of
+///   the controller hold (see controller/README.md). A body that turns may come to overlap the hero; the hero then goes
+///   the shortest way out, in the same step.
+/// - Polygons, edges and chains are exact, without Box2D's skin; a circle is a polygon around it. Edges and chains
+///   block from both sides, unless `HeroDef::surface_of` says otherwise.
+///
+/// The world has a dynamic body for the hero, of the same shape and without gravity, friction and restitution. Box2D
+/// reports contacts of its fixture to the game's listener, also with static bodies and sensors, as for each dynamic
+/// body: in the next `world.Step`, of what the hero then touches within 2.5 mm. Dynamic bodies feel the hero through
+/// this body: its mass, its weight and its push. The hero takes the impacts that its body took from them.
+///
+/// Not thread-safe, as the world is not.
+class Hero {
+ public:
+  /// Makes the body. The world must outlive the hero.
+  /// @throws InvalidCharacter, or InvalidDefinition in words for another member of `def`.
+  Hero(b2World& world, const HeroDef& def = {});
+  /// Destroys the body.
+  ~Hero();
+  Hero(Hero&&) noexcept;
+  Hero& operator=(Hero&&) noexcept;
+
+  /// One step, after `world.Step` with the same `dt`. The hero steers, jumps and falls as in `Controller::step`, by the
+  /// gravity of the world.
+  /// @return as `Controller::step`. `invalid_input`, if the world is locked, too: nothing changed.
+  StepStatus step(const Input& input, double dt);
+  /// One step of a game that owns the hero's velocity: see `Controller::move`.
+  StepStatus move(const Vec2d& displacement, double dt);
+
+  [[nodiscard]] const Vec2d& position() const noexcept { return state().position; }
+  [[nodiscard]] const Vec2d& velocity() const noexcept { return state().velocity; }
+  [[nodiscard]] bool grounded() const noexcept { return state().grounded; }
+  [[nodiscard]] const CharacterState<double>& state() const noexcept;
+  /// The last step. Its colliders are those of this step: see `fixture_of`. Valid until the next step.
+  [[nodiscard]] const StepReport<double>& report() const noexcept;
+  /// @param collider of `report()`. @return null for `no_collider`.
+  [[nodiscard]] b2Fixture* fixture_of(ColliderIndex collider) const noexcept;
+  /// What the hero stands on or slides down: see `MoveResult::ground`. Null in the air.
+  [[nodiscard]] b2Fixture* ground() const noexcept { return fixture_of(report().move.ground.collider); }
+  /// Contacts of the last step by fixture: each fixture once, with its first contact; then those removed.
+  [[nodiscard]] std::span<const HeroContact> contacts() const noexcept;
+  /// Sensors that the hero entered and left in the last step, however fast it passed them, in order of time.
+  [[nodiscard]] std::span<const HeroSensorEvent> sensors() const noexcept;
+  /// Fixtures of moving bodies that left the hero no room in the last step.
+  [[nodiscard]] std::span<b2Fixture* const> crushed_by() const noexcept;
+  /// Fixtures near the hero that are no scenery, as they have no extent: an edge of zero length, for example.
+  [[nodiscard]] std::span<b2Fixture* const> skipped() const noexcept;
+  /// The hero's body, of one fixture. The game may read it, set user data, and change the filter of its fixture, which
+  /// is the filter of the hero. It must not move or destroy it.
+  [[nodiscard]] b2Body& body() const noexcept;
+
+  /// Puts the hero elsewhere, without a way between: it forgets ground, contacts, crushes and what carried it. Nothing
+  /// is dragged along.
+  /// @throws InvalidDefinition for numbers that are not finite or beyond 1e6.
+  void place(const Vec2d& position, const Vec2d& velocity = {0, 0});
+  /// Adds to the velocity: a knock-back, a spring, wind. A hero that it lifts leaves its ground, as by a jump.
+  /// @param velocity [m/s] @throws InvalidDefinition for numbers that are not finite or beyond 1e6.
+  void push(const Vec2d& velocity);
+  /// Lets the hero move by `velocity` from now on: a dash. @throws as `push`.
+  void set_velocity(const Vec2d& velocity);
+  /// Another shape, or another way to move: to crouch, to stand up, to swim. The lowest points of both shapes are at
+  /// one height, and their boxes have one middle.
+  /// @return false if the new shape would overlap a solid; then nothing changed.
+  /// @throws InvalidCharacter
+  bool change(const CharacterDef& character);
+  /// After `b2World::ShiftOrigin`: the hero's body has moved with the world, and the hero follows.
+  void shift_origin(const Vec2d& new_origin);
+
+  [[nodiscard]] HeroSave save() const;
+  /// Call it after the world is as it was: what the save names must be there again.
+  void restore(const HeroSave& save);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace paperproof::box2d

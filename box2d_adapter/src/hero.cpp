@@ -1,0 +1,445 @@
+#include <paperproof/box2d/hero.hpp>
+
+#include "float_geometry.hpp"
+#include "level.hpp"
+
+#include <paperproof/box2d/reference_world.hpp>
+
+#include <box2d/b2_body.h>
+#include <box2d/b2_contact.h>
+#include <box2d/b2_polygon_shape.h>
+#include <box2d/b2_world.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace paperproof::box2d {
+namespace {
+
+/// How much smaller than a fixture without a skin the hero's fixture is for Box2D [m]. A polygon's skin is 1 cm: so the
+/// two touch within 2.5 mm, but overlap by less than the 5 mm from which on Box2D pushes bodies apart.
+constexpr float inset = 0.0075F;
+
+/// What a mover may carry or push the hero beyond its own motion in a step: Box2D's cap, twice [m].
+constexpr double most_carried = 4.2;
+
+/// Largest position [m] and speed [m/s] that a call may set.
+constexpr double largest = 1e6;
+
+/// The scenery of a step, and what steps through it.
+struct Stage {
+  Stage(const SceneryDef& def, const CharacterDef& character)
+      : scenery(def), controller(scenery, character, {.broad_phase = BroadPhaseKind::all_pairs}) {}
+
+  Scenery<double> scenery;
+  Controller<double> controller;
+  Scratch<double> scratch = controller.make_scratch();
+};
+
+void require(bool holds, const char* words) {
+  if (!holds) throw InvalidDefinition(words);
+}
+
+void require_number(const Vec2d& value, const char* words) {
+  require(std::abs(value.x()) <= largest && std::abs(value.y()) <= largest, words);
+}
+
+b2PolygonShape polygon_of(const CharacterShape& shape) {
+  std::array<b2Vec2, CharacterShape::max_points> points;
+  const std::span<const Vec2d> hull = shape.hull();
+  std::transform(hull.begin(), hull.end(), points.begin(), [](const Vec2d& point) { return rounded(point); });
+  b2PolygonShape polygon;
+  polygon.Set(points.data(), static_cast<int>(hull.size()));
+  polygon.m_radius = -inset;
+  return polygon;
+}
+
+b2Body& make_body(b2World& world, const HeroDef& def) {
+  require_number(def.position, "position of a hero: must be within 1e6 m");
+  const double mass = def.mass.value_or(1);
+  const double push_force = def.push_force.value_or(0);
+  require(mass >= 1e-6 && mass <= 1e9, "mass of a hero: must be from 1e-6 to 1e9 kg");
+  require(push_force >= 0 && push_force <= 1e15, "push_force of a hero: must be from 0 to 1e15 N");
+  require(def.circle_corners >= 3, "circle_corners of a hero: a polygon around a circle has at least 3 corners");
+  require(!world.IsLocked(), "a hero cannot be made during a step of the world");
+  def.character.validate();
+  b2BodyDef body;
+  body.type = b2_dynamicBody;
+  body.position = rounded(def.position);
+  body.fixedRotation = true;
+  body.allowSleep = false;
+  body.bullet = true;  // what is thrown at it must not get into it before Box2D sees the impact
+  body.gravityScale = 0;
+  return *world.CreateBody(&body);
+}
+
+void make_fixture(b2Body& body, const HeroDef& def, const b2Filter& filter) {
+  const b2PolygonShape shape = polygon_of(def.character.shape);
+  b2FixtureDef fixture;
+  fixture.shape = &shape;
+  fixture.friction = 0;
+  fixture.filter = filter;
+  fixture.density = 1;
+  body.CreateFixture(&fixture);
+  if (!def.mass) return;
+  const b2MassData mass{.mass = static_cast<float>(*def.mass), .center = {0, 0}, .I = 0};
+  body.SetMassData(&mass);
+}
+
+/// Makes a stage of what was read of a level. Fixtures that cannot be scenery are left out.
+void fill(std::optional<Stage>& stage, Level& level, const CharacterDef& character) {
+  for (;;) {
+    try {
+      stage.emplace(level.scenery(), character);
+      return;
+    } catch (const InvalidScenery& unusable) {
+      level.skip(unusable.collider());
+    }
+  }
+}
+
+/// Where the world pulls, as a unit vector the other way.
+Vec2d up_of(const Vec2d& gravity) {
+  const double size = gravity.norm();
+  return size > 0 ? Vec2d(-gravity / size) : Vec2d(0, 1);
+}
+
+}  // namespace
+
+struct Hero::Impl {
+  Impl(b2World& in, const HeroDef& from) : world(&in), def(from), body(&make_body(in, from)), level(in, *body) {
+    make_fixture(*body, def, def.filter);
+    state.position = def.position;
+    report.move.position = def.position;
+  }
+  ~Impl() { world->DestroyBody(body); }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  [[nodiscard]] Vec2d gravity() const { return widened(world->GetGravity()); }
+
+  template <class Go>
+  StepStatus advance(double dt, const Go& go);
+  [[nodiscard]] Box2<double> box_needed(double dt) const;
+  void prepare(const Box2<double>& box, double dt);
+  [[nodiscard]] bool fits(const CharacterDef& character, const Vec2d& position) const;
+  void find_colliders_again(bool rebuilt);
+  void take_impacts();
+  void limit_speed(const Vec2d& wanted, const Vec2d& body_velocity);
+  void note_step();
+  void note_contacts();
+  void lead_body(double dt);
+  [[nodiscard]] Stance stance() const {
+    return {.position = state.position,
+            .hull = def.character.shape.hull(),
+            .ground = ground_body(),
+            .normal = ground_normal,
+            .up = up_of(gravity())};
+  }
+  [[nodiscard]] const b2Body* ground_body() const { return ride != nullptr ? ride->GetBody() : nullptr; }
+  void forget();
+
+  b2World* world;
+  HeroDef def;
+  b2Body* body;
+  Level level;
+  std::optional<Stage> stage;
+  CharacterState<double> state;
+  Vec2d ground_normal{0, 1};
+  b2Fixture* ride = nullptr;         ///< What `state.ride` is on.
+  std::vector<b2Fixture*> crushers;  ///< What `state.crushers` are.
+  StepReport<double> report;
+  std::vector<HeroContact> contacts;
+  std::vector<HeroContact> contacts_before;
+  std::vector<HeroSensorEvent> sensors;
+  std::vector<b2Fixture*> crushed_by;
+};
+
+/// Everything that this step can reach, but a way out of solids.
+Box2<double> Hero::Impl::box_needed(double dt) const {
+  const CharacterDef& character = def.character;
+  const double speed_up = character.acceleration + character.jump_speed / dt + gravity().norm();
+  const double reach = (state.velocity.norm() + speed_up * dt) * dt + character.snap + most_carried;
+  const Box2<double>& box = character.shape.box();
+  return Box2<double>{state.position + box.lower, state.position + box.upper}.inflated(reach);
+}
+
+void Hero::Impl::prepare(const Box2<double>& box, double dt) {
+  const bool rebuilt = level.follow(box, def, stance(), dt);
+  if (rebuilt || !stage) fill(stage, level, def.character);
+  find_colliders_again(rebuilt);
+}
+
+/// The state names colliders by their index, which is another in another scenery. A fixture that is gone carries and
+/// crushes no more.
+void Hero::Impl::find_colliders_again(bool rebuilt) {
+  if (ride != nullptr) {
+    const ColliderIndex collider = level.collider_of(ride);
+    if (collider == no_collider) {
+      state.ride = {};
+    } else {
+      state.ride.ground = collider;
+      const MoverIndex mover = stage->scenery.collider(collider).mover;
+      if (rebuilt && mover != no_mover && level.has_turned(collider))
+        state.ride.place = state.position - level.motions()[mover].from;
+    }
+  }
+  const Crushers<double> known = state.crushers;
+  state.crushers.clear();
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    const ColliderIndex collider = level.collider_of(crushers[i]);
+    if (collider == no_collider) continue;
+    state.crushers.push_back(known[i]);
+    state.crushers.back().collider = collider;
+  }
+  state.crushed = state.crushed && !state.crushers.empty();
+}
+
+/// Whether a shape would overlap nothing at a position, where all bodies are now.
+bool Hero::Impl::fits(const CharacterDef& character, const Vec2d& position) const {
+  const Box2<double>& extent = character.shape.box();
+  Level around(*world, *body);
+  around.follow({position + extent.lower, position + extent.upper}, def, stance(), 1);
+  std::optional<Stage> there;
+  fill(there, around, character);
+  std::vector<MoverMotion<double>> standing;
+  for (const MoverMotion<double>& motion : around.motions().first(there->scenery.mover_count()))
+    standing.push_back({motion.to, motion.to});
+  return there->controller.overlaps(position, {{0, 0}, 1, standing}, there->scratch) == 0U;
+}
+
+template <class Go>
+StepStatus Hero::Impl::advance(double dt, const Go& go) {
+  if (world->IsLocked() || !(dt > 0 && dt <= largest)) return StepStatus::invalid_input;
+  const CharacterState<double> before = state;
+  const Vec2d body_velocity = widened(body->GetLinearVelocity());
+  Box2<double> box = box_needed(dt);
+  StepStatus status{};
+  for (bool complete = false; !complete;) {
+    state = before;
+    take_impacts();
+    prepare(box, dt);
+    const std::span<const MoverMotion<double>> motions = level.motions().first(stage->scenery.mover_count());
+    status = go(StepContext<double>{gravity(), dt, motions});
+    // A way out of solids may lead farther than what was read.
+    complete = true;
+    for (const PathPoint<double>& corner : report.move.path) {
+      const Box2<double> at{corner.position, corner.position};
+      const double size = (def.character.shape.box().upper - def.character.shape.box().lower).maxCoeff() + 0.1;
+      if (status == StepStatus::invalid_input || level.box().contains(at.inflated(size))) continue;
+      complete = false;
+      box = box.merged(at.inflated(2 * size));
+    }
+  }
+  if (status == StepStatus::invalid_input) {
+    state = before;
+    return status;
+  }
+  limit_speed(report.requested / dt + before.ride.velocity, body_velocity);
+  note_step();
+  level.note_poses();
+  lead_body(dt);
+  return status;
+}
+
+/// Dynamic bodies that ran into the hero's body in the last step of the world change the hero's velocity as they
+/// changed that of its body, but not more than to their own, as after an impact without bounce.
+void Hero::Impl::take_impacts() {
+  const Vec2d after = widened(body->GetLinearVelocity());
+  for (const b2ContactEdge* edge = body->GetContactList(); edge != nullptr; edge = edge->next) {
+    const b2Contact& contact = *edge->contact;
+    const b2Body& other = *edge->other;
+    if (!contact.IsTouching() || !contact.IsEnabled() || other.GetType() != b2_dynamicBody || &other == ground_body())
+      continue;
+    b2WorldManifold manifold;
+    contact.GetWorldManifold(&manifold);
+    const double side = contact.GetFixtureB()->GetBody() == body ? 1 : -1;
+    const Vec2d normal = side * widened(manifold.normal);
+    for (int i = 0; i < contact.GetManifold()->pointCount; ++i) {
+      const Vec2d its = widened(other.GetLinearVelocityFromWorldPoint(manifold.points[i]));
+      const double most = std::max(0.0, (after - state.velocity).dot(normal));
+      state.velocity += normal * std::clamp((its - state.velocity).dot(normal), 0.0, most);
+    }
+  }
+}
+
+/// A body with a mass takes the hero along, but gives it no energy that Box2D did not give the hero's body: that body
+/// may squeeze it out sideways, faster than it goes itself.
+void Hero::Impl::limit_speed(const Vec2d& wanted, const Vec2d& body_velocity) {
+  const auto is_pushed_by = [&](const Contact<double>& contact) {
+    const b2Body* other = level.fixture(contact.collider)->GetBody();
+    return other->GetType() == b2_dynamicBody && contact.collider != state.ride.ground;
+  };
+  const auto& touched = report.move.contacts;
+  if (!std::any_of(touched.begin(), touched.end(), is_pushed_by)) return;
+  const double most = std::max({wanted.norm(), body_velocity.norm(), state.ride.velocity.norm()});
+  const double speed = state.velocity.norm();
+  if (speed > most) state.velocity *= most / speed;
+}
+
+void Hero::Impl::note_step() {
+  ground_normal = report.move.ground.normal;
+  ride = state.ride.ground == Ride<double>::none ? nullptr : level.fixture(state.ride.ground);
+  crushers.clear();
+  for (const Crusher<double>& crusher : state.crushers) crushers.push_back(level.fixture(crusher.collider));
+  crushed_by.clear();
+  for (const ColliderIndex collider : report.move.crushed) crushed_by.push_back(level.fixture(collider));
+  sensors.clear();
+  for (const SensorEvent<double>& event : report.sensors)
+    sensors.push_back({level.fixture(event.sensor), event.change, event.fraction});
+  note_contacts();
+}
+
+void Hero::Impl::note_contacts() {
+  contacts.swap(contacts_before);
+  contacts.clear();
+  const auto of = [](const std::vector<HeroContact>& list, const b2Fixture* fixture) {
+    return std::find_if(list.begin(), list.end(), [&](const HeroContact& contact) {
+      return contact.fixture == fixture && contact.change != HeroContact::Change::removed;
+    });
+  };
+  for (const Contact<double>& contact : report.move.contacts) {
+    b2Fixture* fixture = level.fixture(contact.collider);
+    if (of(contacts, fixture) != contacts.end()) continue;
+    const bool is_new = of(contacts_before, fixture) == contacts_before.end();
+    contacts.push_back({fixture, is_new ? HeroContact::Change::added : HeroContact::Change::persisted, contact});
+  }
+  for (const HeroContact& contact : contacts_before)
+    if (contact.change != HeroContact::Change::removed && of(contacts, contact.fixture) == contacts.end())
+      contacts.push_back({contact.fixture, HeroContact::Change::removed, contact.contact});
+}
+
+/// Puts the body where the hero is. In the next step of the world it goes on as the hero does, and presses on what is
+/// in the way: with the hero's weight downwards, and with at most `push_force` across.
+void Hero::Impl::lead_body(double dt) {
+  const Vec2d down = -up_of(gravity());
+  const Vec2d stopped = report.requested / dt + state.ride.velocity - state.velocity;
+  const double weight = std::clamp(stopped.dot(down), 0.0, gravity().norm() * dt);
+  Vec2d push = stopped - down * stopped.dot(down);
+  const double acceleration =
+      def.push_force ? *def.push_force / static_cast<double>(body->GetMass()) : def.character.acceleration;
+  const double most = acceleration * dt;
+  if (push.norm() > most) push *= most / push.norm();
+  const bool presses = !report.move.contacts.empty();
+  body->SetTransform(rounded(state.position), 0);
+  body->SetLinearVelocity(rounded(presses ? Vec2d(state.velocity + push + down * weight) : state.velocity));
+}
+
+void Hero::Impl::forget() {
+  state.grounded = state.crushed = state.jumping = state.has_last_free = state.wall_left = state.wall_right = false;
+  state.coyote_left = 0;
+  state.stuck_steps = 0;
+  state.ride = {};
+  state.crushers.clear();
+  ride = nullptr;
+  crushers.clear();
+}
+
+Hero::Hero(b2World& world, const HeroDef& def) : impl_(std::make_unique<Impl>(world, def)) {}
+Hero::~Hero() = default;
+Hero::Hero(Hero&&) noexcept = default;
+Hero& Hero::operator=(Hero&&) noexcept = default;
+
+StepStatus Hero::step(const Input& input, double dt) {
+  Impl& hero = *impl_;
+  return hero.advance(dt, [&](const StepContext<double>& context) {
+    return hero.stage->controller.step(hero.state, input, context, hero.stage->scratch, hero.report);
+  });
+}
+
+StepStatus Hero::move(const Vec2d& displacement, double dt) {
+  Impl& hero = *impl_;
+  return hero.advance(dt, [&](const StepContext<double>& context) {
+    return hero.stage->controller.move(hero.state, displacement, context, hero.stage->scratch, hero.report);
+  });
+}
+
+const CharacterState<double>& Hero::state() const noexcept { return impl_->state; }
+const StepReport<double>& Hero::report() const noexcept { return impl_->report; }
+std::span<const HeroContact> Hero::contacts() const noexcept { return impl_->contacts; }
+std::span<const HeroSensorEvent> Hero::sensors() const noexcept { return impl_->sensors; }
+std::span<b2Fixture* const> Hero::crushed_by() const noexcept { return impl_->crushed_by; }
+std::span<b2Fixture* const> Hero::skipped() const noexcept { return impl_->level.skipped(); }
+b2Body& Hero::body() const noexcept { return *impl_->body; }
+b2Fixture* Hero::fixture_of(ColliderIndex collider) const noexcept {
+  return collider == no_collider ? nullptr : impl_->level.fixture(collider);
+}
+
+void Hero::place(const Vec2d& position, const Vec2d& velocity) {
+  require_number(position, "position of a hero: must be within 1e6 m");
+  require_number(velocity, "velocity of a hero: must be below 1e6 m/s");
+  impl_->forget();
+  impl_->state.position = position;
+  impl_->state.velocity = velocity;
+  impl_->body->SetTransform(rounded(position), 0);
+  impl_->body->SetLinearVelocity(rounded(velocity));
+}
+
+void Hero::push(const Vec2d& velocity) { set_velocity(impl_->state.velocity + velocity); }
+
+void Hero::set_velocity(const Vec2d& velocity) {
+  require_number(velocity, "velocity of a hero: must be below 1e6 m/s");
+  CharacterState<double>& state = impl_->state;
+  const Vec2d up = up_of(impl_->gravity());
+  if ((velocity - state.ride.velocity).dot(up) > 0) {
+    state.grounded = false;
+    state.ride = {};
+    impl_->ride = nullptr;
+  }
+  state.velocity = velocity;
+}
+
+bool Hero::change(const CharacterDef& character) {
+  character.validate();
+  Impl& hero = *impl_;
+  require(!hero.world->IsLocked(), "a hero cannot change during a step of the world");
+  const Box2<double>& old_box = hero.def.character.shape.box();
+  const Box2<double>& box = character.shape.box();
+  const double sideways = (old_box.lower.x() + old_box.upper.x() - box.lower.x() - box.upper.x()) / 2;
+  const Vec2d by{sideways, old_box.lower.y() - box.lower.y()};
+  const Vec2d position = hero.state.position + by;
+  if (!hero.fits(character, position)) return false;
+  hero.def.character = character;
+  hero.stage.reset();
+  hero.state.position = position;
+  hero.state.last_free += by;
+  hero.state.ride.place += by;
+  const b2Filter filter = hero.body->GetFixtureList()->GetFilterData();
+  hero.body->DestroyFixture(hero.body->GetFixtureList());
+  make_fixture(*hero.body, hero.def, filter);
+  hero.body->SetTransform(rounded(position), 0);
+  return true;
+}
+
+void Hero::shift_origin(const Vec2d& new_origin) {
+  require_number(new_origin, "the new origin: must be within 1e6 m");
+  Impl& hero = *impl_;
+  hero.state.position -= new_origin;
+  hero.state.last_free -= new_origin;
+  for (Crusher<double>& crusher : hero.state.crushers) crusher.last_free -= new_origin;
+  hero.level.shift_origin(new_origin);
+  hero.body->SetTransform(rounded(hero.state.position), 0);
+}
+
+HeroSave Hero::save() const {
+  const Impl& hero = *impl_;
+  const std::span<const BodyPose> poses = hero.level.poses();
+  return {hero.state, hero.ground_normal, hero.ride, hero.crushers, {poses.begin(), poses.end()}, hero.contacts};
+}
+
+void Hero::restore(const HeroSave& save) {
+  Impl& hero = *impl_;
+  hero.state = save.state;
+  hero.ground_normal = save.ground_normal;
+  hero.ride = save.ride;
+  hero.crushers = save.crushers;
+  hero.contacts = save.contacts;
+  hero.level.restore_poses(save.poses);
+  hero.body->SetTransform(rounded(hero.state.position), 0);
+  hero.body->SetLinearVelocity(rounded(hero.state.velocity));
+}
+
+}  // namespace paperproof::box2d

@@ -1,0 +1,165 @@
+/// The recipes of box2d_adapter/recipes.md, as printed: recipes.inc holds its blocks of code.
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "recipes.inc"
+
+#include "hero_world.hpp"
+
+#include <gtest/gtest.h>
+
+namespace paperproof::box2d::hero_test {
+namespace {
+
+constexpr double floor_height = half_height + 1e-6;
+
+TEST(Recipe, marks_the_body) {
+  Game game;
+  Player player;
+  mark(game.hero, player);
+  EXPECT_EQ(player_of(*game.hero.body().GetFixtureList()), &player);
+}
+
+TEST(Recipe, takes_coins) {
+  Game game({.position = {0, floor_height}});
+  game.floor();
+  for (const float x : {1.0F, 2.0F, 3.0F}) game.box(b2_staticBody, {x, 0.5F}, 0.1F, 0.1F).SetSensor(true);
+  int taken = 0;
+  for (int i = 0; i < 60; ++i) {
+    game.go({.move = 1.0});
+    taken += take_coins(game.world, game.hero);
+  }
+  EXPECT_EQ(taken, 3);
+  EXPECT_EQ(game.world.GetBodyCount(), 2);
+}
+
+TEST(Recipe, decides_what_a_fixture_is) {
+  b2World world({0, -10});
+  Hero hero = make_hero(world);
+  b2BodyDef def;
+  b2PolygonShape shape;
+  shape.SetAsBox(100, 1, {0, -1}, 0);
+  b2Fixture* floor = world.CreateBody(&def)->CreateFixture(&shape, 0);
+  shape.SetAsBox(0.1F, 2, {3, 2}, 0);
+  b2Fixture* door = world.CreateBody(&def)->CreateFixture(&shape, 0);
+  const auto go = [&](int frames, const Input& input) {
+    for (int i = 0; i < frames; ++i) {
+      world.Step(static_cast<float>(frame), 8, 3);
+      hero.step(input, frame);
+    }
+  };
+  go(90, {.move = 1.0});
+  EXPECT_LT(hero.position().x(), 3);
+  door->GetUserData().pointer = open_door;
+  go(60, {.move = 1.0});
+  EXPECT_GT(hero.position().x(), 3);
+  floor->GetUserData().pointer = conveyor;
+  go(30, {.move = 0.0});
+  EXPECT_NEAR(hero.velocity().x(), 1.5, 1e-9);
+  floor->GetUserData().pointer = ledge;
+  go(1, {.drop = true});
+  go(60, {});
+  EXPECT_LT(hero.position().y(), -2);
+}
+
+TEST(Recipe, dashes) {
+  Game game({.position = {0, floor_height}});
+  game.floor();
+  dash(game.hero, 1);
+  game.run(6, Input{});
+  EXPECT_NEAR(game.hero.position().x(), 25 * 6 * frame, 1e-9);
+}
+
+TEST(Recipe, knocks_back) {
+  Game game({.position = {0, floor_height}});
+  game.floor();
+  game.run(5);
+  knock_back(game.hero, {1, 0});
+  game.run(12, Input{});
+  EXPECT_FALSE(game.hero.grounded());
+  EXPECT_NEAR(game.hero.position().x(), -6 * 12 * frame, 1e-6);
+}
+
+TEST(Recipe, respawns) {
+  Game game({.position = {0, 5}});
+  game.floor();
+  game.run(10, {.move = 1.0});
+  respawn(game.hero, {-20, floor_height});
+  game.go();
+  EXPECT_NEAR(game.hero.position().x(), -20, 1e-9);
+  EXPECT_TRUE(game.hero.grounded());
+}
+
+TEST(Recipe, crouches_under_a_ceiling) {
+  Game game({.position = {0, floor_height}});
+  game.floor();
+  game.box(b2_staticBody, {3, 1.7F}, 2, 0.5F);
+  bool is_low = crouch(game.hero, true, false);
+  ASSERT_TRUE(is_low);
+  game.run(60, {.move = 1.0});
+  ASSERT_NEAR(game.hero.position().x(), 2, 0.4);
+  is_low = crouch(game.hero, false, is_low);
+  EXPECT_TRUE(is_low) << "it stood up in a ceiling";
+  game.run(180, {.move = 1.0});
+  is_low = crouch(game.hero, false, is_low);
+  EXPECT_FALSE(is_low);
+}
+
+TEST(Recipe, climbs_a_ladder) {
+  Game game({.position = {0, floor_height}});
+  game.floor();
+  game.box(b2_staticBody, {0, 6}, 1, 0.5F);
+  for (int i = 0; i < 120; ++i) {
+    game.world.Step(static_cast<float>(frame), 8, 3);
+    climb(game.hero, 0, 1, frame);
+  }
+  EXPECT_NEAR(game.hero.position().y(), 5.5 - half_height, 1e-6);
+}
+
+TEST(Recipe, steps_two_heroes) {
+  b2World world({0, -10});
+  b2BodyDef def;
+  b2PolygonShape shape;
+  shape.SetAsBox(100, 1, {0, -1}, 0);
+  world.CreateBody(&def)->CreateFixture(&shape, 0);
+  Hero first(world, {.position = {0, floor_height}});
+  Hero second(world, {.position = {3, floor_height}});
+  for (int i = 0; i < 120; ++i) frame_of_two(world, first, {.move = 1.0}, second, {.move = -1.0}, 1.0F / 60);
+  EXPECT_NEAR(second.position().x() - first.position().x(), 0.625, 1e-4);
+}
+
+TEST(Recipe, rolls_back) {
+  Game game({.position = {0, 1.8}});
+  b2Body* lift = game.box(b2_kinematicBody, {0, 1}, 5, 0.1F).GetBody();
+  lift->SetLinearVelocity({0.3F, 0.2F});
+  game.run(40, {.move = 1.0});
+  const Saved saved = save(game.hero, *lift);
+  game.run(40, {.move = -1.0, .jump = true});
+  const CharacterState<double> first = game.hero.state();
+  restore(game.hero, *lift, saved);
+  game.run(40, {.move = -1.0, .jump = true});
+  EXPECT_EQ(game.hero.state(), first);
+}
+
+TEST(Recipe, knows_its_ground) {
+  Game game({.position = {0, floor_height}});
+  b2Fixture& floor = game.floor();
+  b2Fixture& other = game.box(b2_staticBody, {9, 9}, 1, 1);
+  game.run(3);
+  EXPECT_TRUE(is_on(game.hero, *floor.GetBody()));
+  EXPECT_FALSE(is_on(game.hero, *other.GetBody()));
+}
+
+TEST(Recipe, shifts_the_origin) {
+  Game game({.position = {60, floor_height}});
+  game.floor();
+  game.run(5);
+  recentre(game.world, game.hero);
+  game.run(5);
+  EXPECT_NEAR(game.hero.position().x(), 0, 0.5);
+  EXPECT_TRUE(game.hero.grounded());
+}
+
+}  // namespace
+}  // namespace paperproof::box2d::hero_test
