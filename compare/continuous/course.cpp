@@ -24,6 +24,7 @@ void check(const Scene& scene, const std::vector<InputEvent>& input) {
   require(character_count(scene) == 1, "several characters");
   require(scene.gravity.x() == 0 && scene.gravity.y() <= 0, "gravity that is not straight down");
   require(character.snap == 0, "ground that is followed down (snap)");
+  require(character.step_height == 0, "stairs that are climbed (step_height)");
   require(!character.no_jump_toward_wall && !character.side_hit_ends_rise, "the article's rules for jumps");
   require(!scene.start.resolve_overlap, "a start inside a solid");
   for (const ColliderDef& collider : scene.scenery.colliders) {

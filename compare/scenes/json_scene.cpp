@@ -19,13 +19,6 @@ namespace {
 
 constexpr int most_steps = std::numeric_limits<int>::max();
 
-/// A key of the format that this version does not run. Refused in words: ignoring it would run another scene.
-void refuse_unsupported(const JsonCursor& object, std::string_view key, const char* needs) {
-  if (const auto found = object.find(key)) {
-    found->refuse(fmt::format("\"{}\" needs {}, which this version does not have", key, needs));
-  }
-}
-
 double read_not_negative(const JsonCursor& object, std::string_view key, double otherwise) {
   const auto found = object.find(key);
   return found ? found->not_negative() : otherwise;
@@ -82,9 +75,8 @@ std::vector<std::string> read_sprite(const JsonCursor& at, const Scene& scene) {
 
 /// @param dt of the longest step [s].
 void read_character(const JsonCursor& at, double dt, Scene& scene) {
-  refuse_unsupported(at, "step_height", "stepping up");
   at.refuse_other_keys({"points_px", "position", "velocity", "start_overlap", "walk_speed", "acceleration",
-                        "air_acceleration", "jump_speed", "max_fall_speed", "max_climb_degrees", "snap",
+                        "air_acceleration", "jump_speed", "max_fall_speed", "max_climb_degrees", "snap", "step_height",
                         "no_jump_toward_wall", "side_hit_ends_rise", "sprite"});
   CharacterDef& character = scene.character;
   character.shape = read_shape(at, scene.pixels_per_metre);
@@ -101,6 +93,7 @@ void read_character(const JsonCursor& at, double dt, Scene& scene) {
     }
   }
   if (const auto snap = at.find("snap")) character.snap = snap->number_within(0, 1e6);
+  if (const auto height = at.find("step_height")) character.step_height = height->number_within(0, 1e6);
   if (const auto rule = at.find("no_jump_toward_wall")) scene.jump_rules.no_jump_toward_wall = rule->boolean();
   if (const auto rule = at.find("side_hit_ends_rise")) scene.jump_rules.side_hit_ends_rise = rule->boolean();
   if (const auto sprite = at.find("sprite")) scene.sprite = read_sprite(*sprite, scene);
@@ -139,7 +132,7 @@ void read_others(const JsonCursor& at, double dt, Scene& scene) {
     const JsonCursor entry = at.element(i);
     for (const char* key :
          {"points_px", "walk_speed", "acceleration", "air_acceleration", "jump_speed", "max_fall_speed",
-          "max_climb_degrees", "snap", "no_jump_toward_wall", "side_hit_ends_rise", "sprite"})
+          "max_climb_degrees", "snap", "step_height", "no_jump_toward_wall", "side_hit_ends_rise", "sprite"})
       if (const auto found = entry.find(key))
         found->refuse("expected only in \"character\": all characters of a scene are of one kind");
     entry.refuse_other_keys({"position", "velocity", "start_overlap", "input"});

@@ -69,6 +69,7 @@ void scale_character(CharacterDef& character, double scale) {
   character.acceleration *= scale;
   character.jump_speed *= scale;
   character.snap *= scale;
+  character.step_height *= scale;
   if (character.air_acceleration) *character.air_acceleration *= scale;
   if (character.max_fall_speed) *character.max_fall_speed *= scale;
 }

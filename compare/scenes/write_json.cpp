@@ -39,6 +39,7 @@ ordered_json character_json(const Scene& scene) {
   if (character.max_fall_speed) object["max_fall_speed"] = *character.max_fall_speed;
   object["max_climb_degrees"] = character.max_climb_degrees;
   if (character.snap > 0) object["snap"] = character.snap;
+  if (character.step_height > 0) object["step_height"] = character.step_height;
   const JumpRules& rules = scene.jump_rules;
   if (rules.no_jump_toward_wall) object["no_jump_toward_wall"] = *rules.no_jump_toward_wall;
   if (rules.side_hit_ends_rise) object["side_hit_ends_rise"] = *rules.side_hit_ends_rise;

@@ -129,6 +129,7 @@ void CharacterDef::validate() const {
   if (max_fall_speed) require_not_negative(*max_fall_speed, "max_fall_speed");
   require(max_climb_degrees >= 0 && max_climb_degrees <= 89, "max_climb_degrees", "from 0 to 89");
   require_not_negative(snap, "snap");
+  require_not_negative(step_height, "step_height");
   require_not_negative(wall_reach, "wall_reach");
 }
 

@@ -105,6 +105,7 @@ TEST(Hero, tilts_a_see_saw_and_rides_it) {
 TEST(Hero, crosses_a_bridge_of_20_links) {
   CharacterDef character;
   character.snap = 0.2;
+  character.step_height = 0.2;  // links are kerbs for each other
   Game game({.character = character, .position = {-11, 1.7}});
   b2Fixture& left = game.box(b2_staticBody, {-12, 0}, 2, 1);
   b2Fixture& right = game.box(b2_staticBody, {12, 0}, 2, 1);
@@ -121,17 +122,16 @@ TEST(Hero, crosses_a_bridge_of_20_links) {
   std::set<b2Fixture*> stood_on;
   int frames = 0;
   for (; game.hero.position().x() < 11 && frames < 900; ++frames) {
-    const bool is_stopped = std::abs(game.hero.velocity().x()) < 0.5;  // links are kerbs for each other
-    game.go({.move = 0.6, .jump = is_stopped && frames % 20 == 0});
+    game.go({.move = 0.6});
     if (game.hero.grounded()) stood_on.insert(game.hero.ground());
     ASSERT_GT(game.hero.position().y(), -2);
   }
   EXPECT_LT(frames, 900) << "stopped at " << game.hero.position().x();
-  EXPECT_GE(stood_on.size(), 15U);
+  EXPECT_GE(stood_on.size(), 10U);
   std::size_t seen = 0;
   for (b2Fixture* link : links)
     seen += std::find(game.listener.begun.begin(), game.listener.begun.end(), link) != game.listener.begun.end();
-  EXPECT_GE(seen, 15U);
+  EXPECT_GE(seen, 10U);
 }
 
 /// By the ratio of the masses, crate to hero.
@@ -329,9 +329,9 @@ TEST(Hero, is_carried_by_what_turns_and_moves_without_a_toggle) {
     bool wheel;
     b2Vec2 velocity;
   };
-  for (const Ground& ground :
-       {Ground{"plank", 0.2F, false, {0, 0}}, Ground{"plank back", -0.2F, false, {0, 0}},
-        Ground{"lift", 0, false, {0.3F, -0.5F}}, Ground{"turning lift", 0.1F, false, {0.3F, 0.5F}}}) {
+  for (const Ground& ground : {Ground{"plank", 0.2F, false, {0, 0}}, Ground{"plank back", -0.2F, false, {0, 0}},
+                               Ground{"wheel", 0.2F, true, {0, 0}}, Ground{"lift", 0, false, {0.3F, -0.5F}},
+                               Ground{"turning lift", 0.1F, false, {0.3F, 0.5F}}}) {
     CharacterDef character;
     if (ground.wheel) character.snap = 0.1;  // over the corners of the polygon that stands for it
     Game game({.character = character, .position = {0.5, ground.wheel ? 2.75 : 0.75}});

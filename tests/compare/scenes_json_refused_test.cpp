@@ -125,7 +125,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"loop_that_jumps", "\"ping_pong\"", "\"loop\"",
             ": /movers/0/path/1/at: expected the place where the path begins"},
         Bad{"far_path", "\"at\": [6,3]", "\"at\": [6,3e6]", ": /movers/0/path/1/at: expected coordinates within 2e6 m"},
-        Bad{"step_height", "\"velocity\"", "\"step_height\": 1, \"velocity\"", ": /character/step_height: "},
+        Bad{"step_height", "\"velocity\"", "\"step_height\": -1, \"velocity\"", ": /character/step_height: "},
         Bad{"sprite_too_low", "\"velocity\"", "\"sprite\": [\"#\"], \"velocity\"",
             ": /character/sprite: expected 40 rows, as high as the character, not 1"},
         Bad{"solid_decoration", "\"chain\": [[5,0],[5,4]]",

@@ -135,7 +135,7 @@ TEST(JsonScene, the_characters_keys_arrive) {
       "room.json",
       with(good, "\"velocity\": [0, -40]",
            R"("walk_speed": 1, "acceleration": 2, "air_acceleration": 3, "jump_speed": 4, "max_fall_speed": 5,
-                           "max_climb_degrees": 6, "snap": 7, "no_jump_toward_wall": true, "side_hit_ends_rise": true,
+                           "max_climb_degrees": 6, "snap": 7, "step_height": 8, "no_jump_toward_wall": true, "side_hit_ends_rise": true,
                            "start_overlap": "resolve")"));
   EXPECT_EQ(scene.character.walk_speed, 1);
   EXPECT_EQ(scene.character.acceleration, 2);
@@ -144,6 +144,7 @@ TEST(JsonScene, the_characters_keys_arrive) {
   EXPECT_EQ(scene.character.max_fall_speed, 5);
   EXPECT_EQ(scene.character.max_climb_degrees, 6);
   EXPECT_EQ(scene.character.snap, 7);
+  EXPECT_EQ(scene.character.step_height, 8);
   EXPECT_EQ(scene.jump_rules.no_jump_toward_wall, true);
   EXPECT_EQ(scene.jump_rules.side_hit_ends_rise, true);
   EXPECT_TRUE(scene.start.resolve_overlap);

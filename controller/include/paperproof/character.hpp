@@ -66,7 +66,11 @@ struct CharacterDef {
   double jump_cut = 1;
   std::optional<double> max_fall_speed{}; ///< [m/s]; no limit where absent.
   double max_climb_degrees = 50;         ///< Steepest walkable ground, from the horizontal; in [0, 89].
-  double snap = 0;                       ///< How far down a walker follows the ground [m]; 0: not at all.
+  /// How far down a walker follows its ground, over crests and down stairs [m]; 0: not at all. A jump leaves the ground.
+  double snap = 0;
+  /// How high a walker climbs a kerb or a stair that stops it, if there is room above and walkable ground behind the
+  /// edge [m]; 0: not at all. It keeps its speed sideways, and gains none.
+  double step_height = 0;
   /// The article's rule: a character that stands beside a wall cannot jump toward this wall. A wall is beside the
   /// character if a move by `wall_reach` would meet the wall, or if the last step met it. In a `Crowd` only the last
   /// step counts.

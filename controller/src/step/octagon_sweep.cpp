@@ -18,6 +18,13 @@ using namespace octagon_sweep;
 /// Each impact is a corner of the path; the start, the end, a start that is put right and a snap are corners too.
 constexpr int most_iterations = static_cast<int>(MoveResult<double>::max_corners) - 4;
 
+/// How far a shape reaches sideways beyond its lowest points [m].
+double overhang(const CharacterShape& shape) {
+  const CharacterShape::Pair foot = shape.pair(Side::bottom);
+  return std::max(shape.points()[foot[0]].x() - shape.box().lower.x(),
+                  shape.box().upper.x() - shape.points()[foot[1]].x());
+}
+
 template <class Scalar>
 Settings<Scalar> settings_for(const SweepDef& def, const CharacterDef& character) {
   const double limit = character.max_climb_degrees * std::numbers::pi / 180;
@@ -26,6 +33,8 @@ Settings<Scalar> settings_for(const SweepDef& def, const CharacterDef& character
       .walkable_cosine = character.walkable_cosine<Scalar>(),
       .walkable_tangent = static_cast<Scalar>(std::tan(limit)),
       .snap = static_cast<Scalar>(character.snap),
+      .step_height = static_cast<Scalar>(character.step_height),
+      .overhang = static_cast<Scalar>(overhang(character.shape)),
       .max_fall_speed = static_cast<Scalar>(character.max_fall_speed.value_or(std::numeric_limits<double>::infinity())),
       .look_ahead = static_cast<Scalar>(look_ahead_share * std::max(extent.x(), extent.y())),
       .iterations = def.iterations};
@@ -144,7 +153,8 @@ class OctagonSweep final : public SweepInParts<Scalar> {
   [[nodiscard]] bool comes_near_a_mover(const MoveRequest<Scalar>& request) const noexcept {
     if (request.ride.ground != Ride<Scalar>::none || request.crushed) return true;
     const Vec2<Scalar>& at = request.position;
-    const Scalar reach = request.displacement.cwiseAbs().sum() + settings_.snap + 2 * Tolerances<Scalar>{}.look;
+    const Scalar reach =
+        request.displacement.cwiseAbs().sum() + settings_.snap + settings_.step_height + 2 * Tolerances<Scalar>{}.look;
     const Box2<Scalar> touched = space_.touched_from(Box2<Scalar>{at, at}.inflated(reach));
     for (MoverIndex mover = 0; mover < mover_phases_.size(); ++mover) {
       const Box2<Scalar>& whole = mover_phases_.whole(mover);

@@ -4,6 +4,7 @@
 #include "step/step_response.hpp"
 #include "step/step_ride.hpp"
 #include "step/step_solve.hpp"
+#include "step/step_stairs.hpp"
 #include "step/step_start.hpp"
 #include "step/step_sweep.hpp"
 

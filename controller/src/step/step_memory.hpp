@@ -53,6 +53,9 @@ enum Role : std::uint8_t {
 inline constexpr std::uint8_t passes_through = overlaps_since_start | crushes;
 inline constexpr std::uint8_t does_not_block = passes_through | filtered;
 
+/// Stairs that a walker climbs in one step, at most.
+inline constexpr int most_stairs = 4;
+
 /// One per thread; a step leaves nothing in it that the next one uses.
 template <class Scalar>
 struct StepMemory final : OwnMemory {
@@ -111,13 +114,14 @@ struct StepMemory final : OwnMemory {
     const auto moves = [](const PieceInfo& each) { return each.mover != no_mover; };
     return static_cast<std::size_t>(std::count_if(all.begin(), all.end(), moves));
   }
-  /// Each impact reports each touched piece at most once. So do the ground at the end of the step and the snap.
+  /// Each impact reports each touched piece at most once. So do the ground at the end of the step, each
+  /// stair, and the snap.
   [[nodiscard]] std::size_t most_contacts(const ConfigurationSpace<Scalar>& space, std::size_t touched,
                                           int iterations) const {
     std::size_t axes = 0;
     for (PieceIndex piece = 0; piece < space.scenery().sensor_pieces().first; ++piece) axes += space.axis_count(piece);
     const std::size_t impacts = moving_pieces(space) > 0 ? corners.capacity() : static_cast<std::size_t>(iterations);
-    return std::min(axes, touched * (impacts + 3));
+    return std::min(axes, touched * (impacts + 3 + most_stairs));
   }
 };
 

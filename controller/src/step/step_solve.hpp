@@ -18,6 +18,7 @@ void StepSolver<Lanes, Scalar>::solve(Part part, const MoveRequest<Scalar>& requ
   V wanted = request.displacement;
   if (part == Part::stay) return stay_in_place(request);
   if (movers_.active) wanted = begin_ride(request);
+  const Scalar walk = velocity_.x();
   memory_.contacts_at[0] = 0;
   result_.path.push_back({position_, 0});
   sweep_along(wanted);
@@ -47,6 +48,7 @@ void StepSolver<Lanes, Scalar>::solve(Part part, const MoveRequest<Scalar>& requ
     if (!result_.crushed.empty()) undo_crushes();
     find_ground();
     if (result_.grounded && !met_ground_ && !wedged_) report_ground(wanted);
+    if (settings_.step_height > 0) climb_stairs(request, wanted, walk);
     if (settings_.snap > 0) follow_ground_down(request);
     if (movers_.active) end_ride();
   }
@@ -306,29 +308,6 @@ std::optional<Vec2<Scalar>> StepSolver<Lanes, Scalar>::touched_ground(PieceIndex
   if (!(std::abs(best.separation) <= Tolerances<Scalar>{}.touch)) return std::nullopt;
   const V normal = space_.normal(piece, best.axis);
   return walkable(normal) && may_block(piece, position_) ? std::optional<V>(normal) : std::nullopt;
-}
-
-/// Follows the ground down where a walk has left it, and there is ground at most `snap` below.
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::follow_ground_down(const MoveRequest<Scalar>& request) noexcept {
-  if (!request.grounded || result_.grounded) return;
-  if (is_passed_through()) return;  // a crushed character does not move
-  V travelled = position_ - request.position;
-  const V left_ground = moving_.ride.velocity;  // of the ground that was walked on
-  travelled -= left_ground * request.dt;
-  // A character that rises has left the ground on purpose, unless it only climbs: a walk goes on over a crest.
-  if (velocity_.y() > left_ground.y() && !climbs_) return;
-  const Scalar steepest = std::abs(travelled.x()) * settings_.walkable_tangent + Tolerances<Scalar>{}.touch;
-  sweep_along({0, -std::min(settings_.snap, steepest)});
-  if (!found_.hit) return;
-  const PieceIndex piece = found_.stops[0].piece;
-  const std::size_t axis = found_.stops[0].axes.normal;
-  const V normal = space_.normal(piece, axis);
-  if (!walkable(normal) || !advance(found_.stop)) return;
-  note_ground(GroundState::walkable, piece, normal);
-  report_contact(piece, axis, time_, result_.contacts.size());
-  const V ground = ground_velocity(piece, normal);
-  velocity_ = follow(velocity_.x() - ground.x(), normal) + ground;
 }
 
 }  // namespace paperproof::octagon_sweep

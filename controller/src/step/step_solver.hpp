@@ -38,6 +38,8 @@ struct Settings {
   Scalar walkable_cosine;   ///< Least upward component of a normal that is walked on.
   Scalar walkable_tangent;  ///< Steepest walkable slope, as rise over run.
   Scalar snap;              ///< How far down ground is followed [m].
+  Scalar step_height;       ///< How high a walker climbs [m].
+  Scalar overhang;          ///< How far the hull reaches sideways beyond its foot [m].
   Scalar max_fall_speed;    ///< Ground that falls faster leaves its rider behind [m/s]; infinite: none does.
   Scalar look_ahead;        ///< How far ahead of a motion candidates are collected at most [m].
   int iterations;
@@ -198,8 +200,15 @@ class StepSolver {
   /// The normal of a piece, if the character touches it now and it is walkable ground.
   [[nodiscard, gnu::always_inline]] inline std::optional<V> touched_ground(PieceIndex piece) const noexcept;
   [[gnu::cold, gnu::noinline]] void stop_at_touched_ground() noexcept;
-  [[gnu::noinline]] void follow_ground_down(const MoveRequest<Scalar>& request) noexcept;
   [[nodiscard]] bool walkable(const V& normal) const noexcept { return normal.y() >= settings_.walkable_cosine; }
+
+  // step_stairs.hpp
+  [[nodiscard]] bool go_along(const V& displacement) noexcept;
+  [[nodiscard]] std::optional<TouchedSurface<Scalar>> ground_below(Scalar ahead, Scalar down) noexcept;
+  bool step_down_to(const TouchedSurface<Scalar>& ground, Scalar speed) noexcept;
+  [[gnu::cold, gnu::noinline]] void climb_stairs(const MoveRequest<Scalar>& request, const V& wanted,
+                                                 Scalar speed) noexcept;
+  [[gnu::noinline]] void follow_ground_down(const MoveRequest<Scalar>& request) noexcept;
 
   // step_ride.hpp
   [[nodiscard]] MoverIndex mover_of(PieceIndex piece) const noexcept { return pieces_[piece].mover; }
