@@ -2,8 +2,6 @@
 
 #include "float_geometry.hpp"
 
-#include <paperproof/box2d/reference_world.hpp>
-
 #include <box2d/b2_body.h>
 #include <box2d/b2_chain_shape.h>
 #include <box2d/b2_circle_shape.h>

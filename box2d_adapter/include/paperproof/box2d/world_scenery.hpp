@@ -2,6 +2,7 @@
 /// scenery.
 #pragma once
 
+#include <paperproof/box2d/invalid_definition.hpp>
 #include <paperproof/scenery.hpp>
 
 #include <functional>
