@@ -5,7 +5,8 @@
 build_packages=(
   build-essential cmake ninja-build pkg-config
   libeigen3-dev                                        # controller
-  libbox2d-dev libpolyclipping-dev                     # box2d_adapter
+  libbox2d-dev                                         # box2d_adapter
+  libpolyclipping-dev                                  # box2d_adapter/twin
   libboost-dev libcli11-dev libfmt-dev libpugixml-dev  # compare
   nlohmann-json3-dev zlib1g-dev libzstd-dev libpng-dev libjs-chart.js
   libgtest-dev librapidcheck-dev libbenchmark-dev      # tests and benchmarks

@@ -3,7 +3,7 @@
 #include "float_geometry.hpp"
 #include "level.hpp"
 
-#include <paperproof/box2d/reference_world.hpp>
+#include <paperproof/box2d/invalid_definition.hpp>
 
 #include <box2d/b2_body.h>
 #include <box2d/b2_contact.h>

@@ -2,7 +2,7 @@
 
 #include "float_geometry.hpp"
 
-#include <paperproof/box2d/reference_world.hpp>
+#include <paperproof/box2d/invalid_definition.hpp>
 
 #include <box2d/b2_chain_shape.h>
 #include <box2d/b2_circle_shape.h>

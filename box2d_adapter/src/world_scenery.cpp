@@ -2,8 +2,6 @@
 
 #include "shapes.hpp"
 
-#include <paperproof/box2d/reference_world.hpp>
-
 #include <box2d/b2_body.h>
 #include <box2d/b2_fixture.h>
 #include <box2d/b2_world.h>

@@ -1,7 +1,6 @@
 #include "subject.hpp"
 
-#include "box2d_adapter/src/fixtures.hpp"
-#include "box2d_adapter/src/float_geometry.hpp"
+#include "box2d_adapter/twin/src/fixtures.hpp"
 
 #include <paperproof/box2d/reference_world.hpp>
 #include <paperproof/controller.hpp>

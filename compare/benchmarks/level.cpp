@@ -1,7 +1,6 @@
 #include "level.hpp"
 
-#include "box2d_adapter/src/fixtures.hpp"
-#include "box2d_adapter/src/float_geometry.hpp"
+#include "box2d_adapter/twin/src/fixtures.hpp"
 #include "scenes/scene.hpp"
 
 #include <box2d/b2_fixture.h>

@@ -1,5 +1,5 @@
 # Reads every #include under ROOT and refuses those that point against the arrows of the architecture:
-#   controller  <-  box2d_adapter  <-  compare,   controller  <-  controller/techniques  <-  compare
+#   controller  <-  box2d_adapter  <-  box2d_adapter/twin  <-  compare,   controller  <-  controller/techniques  <-  compare
 # What a part may include is listed, so that a library nobody thought of is refused as well.
 cmake_minimum_required(VERSION 3.25)
 
@@ -8,9 +8,13 @@ set(core "types|tolerances|filter|scenery|scenery_facts|broad_phase|character|pl
 set(may_include_controller "${standard}|<Eigen/[A-Za-z]+>|<paperproof/(${core})[.]hpp>")
 # The techniques use the core as anybody would, but for one of its parts.
 set(may_include_techniques "${may_include_controller}|<paperproof/(techniques|pixel_tiles|number_in)[.]hpp>|\"geometry/overlap_time[.]hpp\"")
-set(may_include_box2d_adapter "${may_include_controller}|<paperproof/box2d/[a-z_0-9]+[.]hpp>|<box2d/[a-z_0-9]+[.]h>|<polyclipping/clipper[.]hpp>")
-# A benchmark of Box2D without the adapter's recording needs the adapter's fixtures, which are no part of its interface.
-set(may_include_compare "<.*>|\"box2d_adapter/src/(fixtures|float_geometry)[.]hpp\"")
+# The twin's headers have the adapter's folder in their names, and are not the adapter's.
+file(GLOB adapter_headers RELATIVE "${ROOT}/box2d_adapter/include" "${ROOT}/box2d_adapter/include/paperproof/box2d/*.hpp")
+list(JOIN adapter_headers ">|<" adapter_headers)
+set(may_include_box2d_adapter "${may_include_controller}|<${adapter_headers}>|<box2d/[a-z_0-9]+[.]h>")
+set(may_include_twin "${may_include_box2d_adapter}|<paperproof/box2d/[a-z_0-9]+[.]hpp>|<polyclipping/clipper[.]hpp>|\"float_geometry[.]hpp\"")
+# A benchmark of Box2D without the twin's recording needs the twin's fixtures, which are no part of its interface.
+set(may_include_compare "<.*>|\"box2d_adapter/(twin/src/fixtures|src/float_geometry)[.]hpp\"")
 # The oracle judges the controller, and so does the continuous reference: of it, they may know the values that all speak
 # of, and no geometry.
 set(may_include_oracle "${standard}|<boost/.*>|<paperproof/(types|scenery|character|technique)[.]hpp>")
@@ -47,7 +51,9 @@ endfunction()
 check_part(controller/include "${may_include_controller}" controller/src)
 check_part(controller/src "${may_include_controller}" controller/src)
 check_part(controller/techniques "${may_include_techniques}" controller)
-check_part(box2d_adapter "${may_include_box2d_adapter}" box2d_adapter/src)
+check_part(box2d_adapter/include "${may_include_box2d_adapter}" box2d_adapter/src)
+check_part(box2d_adapter/src "${may_include_box2d_adapter}" box2d_adapter/src)
+check_part(box2d_adapter/twin "${may_include_twin}" box2d_adapter/twin/src)
 check_part(compare "${may_include_compare}" compare)
 check_part(compare/oracle "${may_include_oracle}" compare)
 check_part(compare/continuous "${may_include_oracle}" compare)

@@ -1,7 +1,7 @@
 /// A hero in a game: what it meets there, and how the game's own contact listener sees it.
 #include "hero_world.hpp"
 
-#include <paperproof/box2d/reference_world.hpp>
+#include <paperproof/box2d/invalid_definition.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 /// The level of a `b2World` that stands, as the controller's scenery: for characters that are no `Hero`, and for many.
 #pragma once
 
+#include <paperproof/box2d/invalid_definition.hpp>
 #include <paperproof/scenery.hpp>
 
 #include <functional>

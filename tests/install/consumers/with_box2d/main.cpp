@@ -1,30 +1,46 @@
-// The same fall twice: the controller, and a Box2D world beside it. Exit status 0 when both rest on the same floor.
-#include <paperproof/box2d/reference_world.hpp>
+// A game that has its level in a b2World: the character falls onto the floor, and a kinematic body follows it. Exit
+// status 0 when both are there and the contact leads to the floor's fixture.
+#include <paperproof/box2d/world_scenery.hpp>
 #include <paperproof/paperproof.hpp>
+
+#include <box2d/box2d.h>
 
 #include <cmath>
 #include <cstdio>
 
-int main() {
-  const paperproof::SceneryDef level{{{.points = {{-5, -1}, {5, -1}, {5, 0}, {-5, 0}}}}};
-  const paperproof::Scenery<double> scenery(level);
-  const paperproof::CharacterDef character;
-  const paperproof::Controller<double> controller(scenery, character);
-  paperproof::Scratch<double> scratch = controller.make_scratch();
-  paperproof::StepReport<double> report;
-  paperproof::CharacterState<double> state;
-  state.position = {0, 3};
-  paperproof::box2d::ReferenceWorld world(scenery, character, state.position);
+using namespace paperproof;
+using namespace paperproof::box2d;
 
-  const paperproof::Vec2d gravity(0, -30);
+int main() {
+  b2World world({0, -10});
+  b2BodyDef floor_def;
+  b2PolygonShape floor_shape;
+  floor_shape.SetAsBox(5, 0.5F, {0, -0.5F}, 0);
+  const b2Fixture* const floor = world.CreateBody(&floor_def)->CreateFixture(&floor_shape, 0);
+  b2BodyDef hero_def;
+  hero_def.type = b2_kinematicBody;
+  hero_def.position = {0, 3};
+  b2Body* const hero_body = world.CreateBody(&hero_def);
+
+  const WorldScenery borrowed = scenery_of(world);
+  const Scenery<double> scenery(borrowed.scenery);
+  const CharacterDef character;
+  const Controller<double> controller(scenery, character);
+  Scratch<double> scratch = controller.make_scratch();
+  StepReport<double> report;
+  CharacterState<double> hero;
+  hero.position = {0, 3};
   const double dt = 1.0 / 64;
-  paperproof::Vec2d velocity = paperproof::Vec2d::Zero();
   for (int step = 0; step < 120; ++step) {
-    controller.step(state, {}, {gravity, dt}, scratch, report);
-    velocity = world.step(velocity + gravity * dt, dt).velocity;
+    controller.step(hero, {}, {{0, -10}, dt}, scratch, report);
+    const Vec2d way = hero.position - Vec2d(hero_body->GetPosition().x, hero_body->GetPosition().y);
+    hero_body->SetLinearVelocity({static_cast<float>(way.x() / dt), static_cast<float>(way.y() / dt)});
+    world.Step(static_cast<float>(dt), 8, 3);
   }
 
-  const double apart = std::abs(state.position.y() - world.position().y());
-  std::printf("controller %.9g m, Box2D %.9g m\n", state.position.y(), world.position().y());
-  return state.grounded && apart <= paperproof::box2d::touch_gap ? 0 : 1;
+  const double gap = hero.position.y() + character.shape.box().lower.y();
+  const double behind = std::abs(hero.position.y() - static_cast<double>(hero_body->GetPosition().y));
+  const bool on_floor = !report.move.contacts.empty() && borrowed.fixtures[report.move.contacts[0].collider] == floor;
+  std::printf("grounded %d, %g m above the floor, its body %g m behind\n", hero.grounded, gap, behind);
+  return hero.grounded && on_floor && gap > 0 && gap <= Tolerances<double>{}.touch && behind < 1e-5 ? 0 : 1;
 }

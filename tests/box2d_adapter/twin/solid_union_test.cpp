@@ -1,6 +1,6 @@
 #include "solid_union.hpp"
 
-#include "worlds.hpp"
+#include "levels.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 /// The outline of everything solid, for one-sided chain loops.
 #pragma once
 
-#include "float_geometry.hpp"
+#include "float_scenery.hpp"
 
 #include <box2d/b2_common.h>
 

@@ -1,5 +1,5 @@
 /// Flush tiles: what ghost collisions do to fixtures per piece, and what chain loops are for.
-#include "worlds.hpp"
+#include "levels.hpp"
 
 #include <gtest/gtest.h>
 

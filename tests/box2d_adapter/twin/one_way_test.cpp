@@ -1,5 +1,5 @@
 /// One-way chains: from behind they are not there, from the front they hold.
-#include "worlds.hpp"
+#include "levels.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,7 @@
 /// A Box2D world beside the controller: the same scenery, the same octagon, the same wanted velocity.
 #pragma once
 
+#include <paperproof/box2d/invalid_definition.hpp>
 #include <paperproof/controller.hpp>
 #include <paperproof/crowd.hpp>
 #include <paperproof/scenery.hpp>
@@ -8,7 +9,6 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -18,12 +18,6 @@ namespace paperproof::box2d {
 enum class SceneryMode : std::uint8_t {
   chain_loops,  ///< One-sided chain loops around the union of the solids: the way Box2D recommends. Contender `box2d`.
   pieces,       ///< One fixture per convex piece: shows ghost collisions. Contender `box2d_pieces`.
-};
-
-/// A definition that Box2D must not see: it would abort, or build something else.
-class InvalidDefinition : public std::invalid_argument {
- public:
-  using std::invalid_argument::invalid_argument;
 };
 
 /// What the solids that stand are for Box2D.

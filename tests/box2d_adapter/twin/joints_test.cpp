@@ -1,5 +1,5 @@
 /// Joints between bodies and the ground, against closed forms.
-#include "worlds.hpp"
+#include "levels.hpp"
 
 #include <paperproof/box2d/body_world.hpp>
 

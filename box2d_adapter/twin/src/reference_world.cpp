@@ -2,7 +2,7 @@
 
 #include "characters.hpp"
 #include "collider_lookup.hpp"
-#include "float_geometry.hpp"
+#include "float_scenery.hpp"
 #include "scenery_bodies.hpp"
 
 #include <box2d/b2_fixture.h>

@@ -1,6 +1,6 @@
 #include "collider_lookup.hpp"
 
-#include "float_geometry.hpp"
+#include "float_scenery.hpp"
 
 #include <algorithm>
 #include <limits>

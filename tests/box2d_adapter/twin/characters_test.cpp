@@ -1,5 +1,5 @@
 /// Several characters in one world.
-#include "box2d_adapter/worlds.hpp"
+#include "levels.hpp"
 
 #include <gtest/gtest.h>
 

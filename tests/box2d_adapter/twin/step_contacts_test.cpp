@@ -1,6 +1,6 @@
 /// What a step of the twin reports: which collider, which side, when, and the way that was travelled.
 #include "collider_lookup.hpp"
-#include "worlds.hpp"
+#include "levels.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 /// Bodies that Box2D moves: they fall, rest, are lifted and hit as Box2D has it, and bad definitions never reach it.
-#include "worlds.hpp"
+#include "levels.hpp"
 
 #include <paperproof/box2d/body_world.hpp>
 

@@ -1,6 +1,6 @@
 /// What moves in the twin's world: kinematic bodies that go by velocity, sensors, ground that carries.
 #include "float_geometry.hpp"
-#include "worlds.hpp"
+#include "levels.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 /// What Box2D would answer with an abort (the package's asserts are on) or with NaN is refused before it gets there.
 #include "fixtures.hpp"
+#include "levels.hpp"
 #include "support/steps_wanted.hpp"
-#include "worlds.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 /// Nothing fast gets through what the twin was given, whatever its thickness.
 #include "fixtures.hpp"
+#include "levels.hpp"
 #include "solid_union.hpp"
-#include "worlds.hpp"
 
 #include <box2d/b2_chain_shape.h>
 #include <box2d/b2_circle_shape.h>

@@ -1,4 +1,4 @@
-#include "worlds.hpp"
+#include "levels.hpp"
 
 #include <box2d/b2_body.h>
 #include <box2d/b2_world.h>

@@ -1,7 +1,7 @@
 /// Scenery as fixtures of static and kinematic bodies, every shape checked before Box2D sees it.
 #pragma once
 
-#include "float_geometry.hpp"
+#include "float_scenery.hpp"
 
 #include <paperproof/box2d/reference_world.hpp>
 

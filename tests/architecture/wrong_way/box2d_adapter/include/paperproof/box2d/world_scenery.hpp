@@ -1,0 +1,1 @@
+#include <box2d/b2_math.h>

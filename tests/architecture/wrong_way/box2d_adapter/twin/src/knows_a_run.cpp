@@ -1,0 +1,3 @@
+#include "runs/run.hpp"
+#include <paperproof/box2d/reference_world.hpp>
+#include <polyclipping/clipper.hpp>

@@ -1,0 +1,1 @@
+// Nothing: the code is in the library of the system.
