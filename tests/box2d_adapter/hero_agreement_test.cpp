@@ -4,6 +4,7 @@
 #include <paperproof/box2d/world_scenery.hpp>
 
 #include "shapes.hpp"
+#include "support/box2d_level.hpp"
 #include "support/play_levels.hpp"
 #include "support/random.hpp"
 #include "support/steps_wanted.hpp"
@@ -28,25 +29,6 @@ using paperproof::test::PlayLevel;
 using paperproof::test::Random;
 using paperproof::test::steps_wanted;
 
-/// The pieces of a level as static fixtures: convex polygons, and chains of one segment each.
-void build(b2World& world, const SceneryDef& def) {
-  const Scenery<double> scenery(def);
-  b2Body* body = world.CreateBody(std::make_unique<b2BodyDef>().get());
-  for (PieceIndex piece = 0; piece < scenery.pieces().size(); ++piece) {
-    std::vector<b2Vec2> points;
-    for (const Vec2d& point : scenery.vertices_of(piece))
-      points.emplace_back(static_cast<float>(point.x()), static_cast<float>(point.y()));
-    if (points.size() > b2_maxPolygonVertices) points.resize(b2_maxPolygonVertices);
-    b2PolygonShape polygon;
-    b2ChainShape chain;
-    if (points.size() >= 3)
-      polygon.Set(points.data(), static_cast<int>(points.size()));
-    else
-      chain.CreateChain(points.data(), 2, points[0], points[1]);
-    body->CreateFixture(points.size() >= 3 ? static_cast<b2Shape*>(&polygon) : &chain, 0);
-  }
-}
-
 Input random_input(Random& random) {
   return {.move = static_cast<double>(random.integer(-1, 1)), .jump = random.chance(0.4)};
 }
@@ -62,7 +44,7 @@ TEST_P(HeroInPlay, steps_have_the_bits_of_the_controller_over_the_whole_scenery)
     CharacterDef character;
     character.snap = random.chance(0.5) ? 0.2 : 0;
     b2World world({0, -30});
-    build(world, play_level(GetParam(), random));
+    paperproof::test::build_level(world, Scenery<double>(play_level(GetParam(), random)));
     const Vec2d start(random.between(-25, 25), 12);
     const WorldScenery borrowed = scenery_of(world);
     const Scenery<double> scenery(borrowed.scenery);
@@ -136,7 +118,7 @@ TEST_P(HeroInPlay, never_gets_into_what_stands_among_bodies_that_turn) {
   for (std::uint64_t seed = 1; steps < wanted; ++seed) {
     Random random(seed);
     b2World world({0, -10});
-    build(world, play_level(GetParam(), random));
+    paperproof::test::build_level(world, Scenery<double>(play_level(GetParam(), random)));
     const WorldScenery borrowed = scenery_of(world);
     const Scenery<double> scenery(borrowed.scenery);
     const Controller<double> standing(scenery, {});

@@ -1,0 +1,95 @@
+/// A hero in a Box2D world made of a map steps as the controller over the whole map.
+#include "scenes/load.hpp"
+#include "support/box2d_level.hpp"
+#include "support/random.hpp"
+#include "support/steps_wanted.hpp"
+
+#include <paperproof/box2d/hero.hpp>
+#include <paperproof/box2d/world_scenery.hpp>
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace paperproof::compare {
+namespace {
+
+using paperproof::box2d::Hero;
+using paperproof::box2d::scenery_of;
+using paperproof::box2d::WorldScenery;
+
+/// @return how many steps the hero touched something in.
+int expect_same_bits(const Scene& scene, const std::string& name) {
+  constexpr double dt = 1.0 / 60;
+  test::Random random(1);
+  b2World world({0, -30});
+  test::build_level(world, Scenery<double>(scene.scenery));
+  const WorldScenery borrowed = scenery_of(world);
+  const Scenery<double> scenery(borrowed.scenery);
+  const Controller<double> controller(scenery, scene.character);
+  Scratch<double> scratch = controller.make_scratch();
+  StepReport<double> report;
+  CharacterState<double> state;
+  state.position = scene.start.position;
+  Hero hero(world, {.character = scene.character, .position = state.position});
+  Input input;
+  int touching = 0;
+  for (int i = 0; i < 200; ++i) {
+    if (i % 20 == 0) input = {.move = static_cast<double>(random.integer(-1, 1)), .jump = random.chance(0.4)};
+    world.Step(static_cast<float>(dt), 8, 3);
+    hero.step(input, dt);
+    controller.step(state, input, {{0, -30}, dt}, scratch, report);
+    EXPECT_EQ(hero.position(), state.position) << name << ", step " << i;
+    EXPECT_EQ(hero.velocity(), state.velocity) << name << ", step " << i;
+    EXPECT_EQ(hero.grounded(), state.grounded) << name << ", step " << i;
+    touching += !hero.contacts().empty();
+    if (hero.position() != state.position) break;
+  }
+  return touching;
+}
+
+struct Maps {
+  int count = 0;
+  int touching = 0;
+};
+
+Maps compare_maps(const std::filesystem::path& folder, int every) {
+  Maps maps;
+  int levels = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    const std::string extension = entry.path().extension();
+    if (extension != ".tmx" && extension != ".tmj" && extension != ".json" && extension != ".stl") continue;
+    if (levels++ % every != 0) continue;
+    std::vector<Scene> scenes;
+    try {
+      scenes = load_scenes(entry.path().string());
+    } catch (const InputError&) {
+      continue;  // a tileset, a world map: no level
+    }
+    for (const Scene& scene : scenes) {
+      maps.touching += expect_same_bits(scene, entry.path().string());
+      ++maps.count;
+    }
+  }
+  return maps;
+}
+
+TEST(HeroInMaps, steps_as_the_controller_over_the_maps_of_four_families) {
+  const std::filesystem::path folder = std::filesystem::path(PAPERPROOF_SOURCE_DIR) / ".." / "shared" / "levels";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is missing";
+  const Maps maps = compare_maps(folder, 1);
+  EXPECT_GE(maps.count, 10);
+  EXPECT_GE(maps.touching, 50 * maps.count);
+}
+
+TEST(HeroInMaps, steps_as_the_controller_over_supertux_levels) {
+  const std::filesystem::path folder = "/usr/share/games/supertux2/levels";
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "supertux-data is not installed";
+  const int every = test::steps_wanted("PAPERPROOF_EVERY_LEVEL", 0) > 0 ? 1 : 8;
+  const Maps maps = compare_maps(folder, every);
+  EXPECT_GE(maps.count, 200 / every);
+  EXPECT_GE(maps.touching, 50 * maps.count);
+}
+
+}  // namespace
+}  // namespace paperproof::compare
