@@ -116,24 +116,6 @@ Box2<double> box_around(std::span<const Vec2d> points) {
   return box;
 }
 
-/// The sides of a convex polygon (counter-clockwise) that face a direction, from right to left as seen from there: they
-/// follow each other.
-std::vector<Vec2d> sides_facing(std::span<const Vec2d> polygon, const Vec2d& direction) {
-  const std::size_t n = polygon.size();
-  const auto faces = [&](std::size_t i) {
-    const Vec2d side = polygon[(i + 1) % n] - polygon[i % n];
-    return side.y() * direction.x() - side.x() * direction.y() > 0;
-  };
-  std::size_t first = 0;
-  while (first < n && !(faces(first) && !faces(first + n - 1))) ++first;
-  std::vector<Vec2d> points;
-  for (std::size_t i = first; i < first + n && faces(i); ++i) {
-    if (points.empty()) points.push_back(polygon[i % n]);
-    points.push_back(polygon[(i + 1) % n]);
-  }
-  return points;
-}
-
 /// The runs of segments of a chain that are near a box.
 std::vector<ColliderDef> cut_to(const Box2<double>& box, const ColliderDef& chain) {
   std::vector<ColliderDef> runs;
@@ -252,11 +234,7 @@ void Level::add(const Seen& seen, ColliderDef collider, const Vec2d& up) {
     collider.surface_speed -= static_cast<double>(seen.spin) * static_cast<double>(radius);
   }
   if (seen.moves) collider.mover = mover_of(seen);
-  if (seen.surface.blocks == Blocking::from_above) {
-    if (collider.shape == ColliderDef::Shape::polygon) collider.points = sides_facing(collider.points, up);
-    collider.shape = ColliderDef::Shape::chain;
-    collider.one_way = up;
-  }
+  if (seen.surface.blocks == Blocking::from_above) collider.one_way = up;
   scenery_.colliders.push_back(std::move(collider));
   fixtures_.push_back(seen.fixture);
 }

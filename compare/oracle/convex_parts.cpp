@@ -242,10 +242,17 @@ ConvexPart make_part(std::vector<Vec2d> points) {
 
 std::vector<ConvexPart> convex_parts(const ColliderDef& def) {
   std::vector<ConvexPart> parts;
-  if (def.shape == ColliderDef::Shape::chain) {
-    for (std::size_t i = 0; i + 1 < def.points.size(); ++i) {
-      if (def.points[i] != def.points[i + 1]) parts.push_back(make_part({def.points[i], def.points[i + 1]}));
+  const auto add_segments = [&parts](const std::vector<Vec2d>& line) {
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+      if (line[i] != line[i + 1]) parts.push_back(make_part({line[i], line[i + 1]}));
     }
+  };
+  if (def.shape == ColliderDef::Shape::chain) {
+    add_segments(def.points);
+    return parts;
+  }
+  if (def.one_way) {
+    for (const std::vector<Vec2d>& line : one_way_lines_of(def)) add_segments(line);
     return parts;
   }
   Polygon polygon = with_windings(def);

@@ -13,7 +13,8 @@ struct ConvexPart {
   Box2<double> box;
 };
 
-/// The parts of one collider: a convex polygon is its own only part; a chain has its segments; a concave polygon is cut
+/// The parts of one collider: a convex polygon is its own only part; a chain has its segments, and a one-way polygon
+/// those of its lines; a concave polygon is cut
 /// into triangles by clipping ears (G. Meisters 1975; holes are first joined to the outer ring), which are then merged
 /// greedily while they stay convex (S. Hertel, K. Mehlhorn 1983). Only the collider's own vertices are used, and every
 /// turn is decided exactly.

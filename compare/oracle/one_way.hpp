@@ -26,13 +26,21 @@ struct Surface {
   int unit = 0;                      ///< Lowest bit of the vertices.
 };
 
+/// Whether `one_way` points to the left (positive) or to the right of the way from a to b, exact.
+[[nodiscard]] Sign side_of(const Vec2d& a, const Vec2d& b, const Vec2d& one_way);
+
+/// The chains that a one-way collider is. A polygon has one for each run of edges of its outer ring that face where
+/// `one_way` points; the others, and those of holes, block nothing.
+[[nodiscard]] std::vector<std::vector<Vec2d>> one_way_lines_of(const ColliderDef& def);
+
 /// Finds the surfaces of all one-way chains. The segments of one chain are joined where both go the same way across
 /// `one_way`; chains of equal `one_way` and of one mover are, in a point where one ends and one begins, and no more.
 class SurfaceFinder {
  public:
-  /// @param sides of each segment: whether `one_way` points to its left, to its right, or along it (zero).
+  /// @param def whose line it is. @param sides of each segment: see `side_of`.
   /// @param first_edge of the segments that block, which stand together.
-  void add_chain(const ColliderDef& chain, std::span<const Sign> sides, std::uint32_t first_edge);
+  void add_line(const ColliderDef& def, std::span<const Vec2d> line, std::span<const Sign> sides,
+                std::uint32_t first_edge);
   /// Sets `Edge::surface`, too.
   [[nodiscard]] std::vector<Surface> find(std::vector<Edge>& edges) const;
 

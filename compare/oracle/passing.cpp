@@ -30,7 +30,7 @@ void add_crossings(const std::vector<Vec2d>& ring, const Vec2d& point, const Vec
 
 /// Of the solid, from where it was entered against the normal to where that line leaves it.
 double thickness_at(const ColliderDef& def, const Vec2d& point, const Vec2d& normal) {
-  if (def.shape == ColliderDef::Shape::chain) return 0;
+  if (def.shape == ColliderDef::Shape::chain || def.one_way) return 0;
   std::vector<double> crossings;
   const Vec2d way = -normal;
   add_crossings(def.points, point, way, crossings);

@@ -89,7 +89,10 @@ World::World(const SceneryDef& scenery, std::vector<Vec2d> points)
                        .edge_count = 0,
                        .unit = std::numeric_limits<int>::max(),
                        .box = box_around(def.points)});
-    def.shape == ColliderDef::Shape::polygon ? add_polygon(i) : add_chain(i);
+    if (def.one_way)
+      add_one_way(i);
+    else
+      def.shape == ColliderDef::Shape::polygon ? add_polygon(i) : add_chain(i);
     groups_[solids_.back().group].colliders.push_back(i);
     if (def.mover != no_mover) mover_count_ = std::max(mover_count_, std::size_t{def.mover} + 1);
   }
@@ -151,25 +154,25 @@ void World::add_polygon(ColliderIndex index) {
 }
 
 void World::add_chain(ColliderIndex index) {
+  const std::vector<Vec2d>& points = scenery_.colliders[index].points;
+  solids_[index].kind = Kind::two_sided;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) add_edge(index, points[i], points[i + 1]);
+}
+
+void World::add_one_way(ColliderIndex index) {
   const ColliderDef& def = scenery_.colliders[index];
-  solids_[index].kind = def.one_way ? Kind::one_way : Kind::two_sided;
-  const auto first_edge = static_cast<std::uint32_t>(edges_.size());
-  std::vector<Sign> sides;
-  for (std::size_t i = 0; i + 1 < def.points.size(); ++i) {
-    const Vec2d& a = def.points[i];
-    const Vec2d& b = def.points[i + 1];
-    if (!def.one_way) {
-      add_edge(index, a, b);
-      continue;
+  solids_[index].kind = Kind::one_way;
+  for (const std::vector<Vec2d>& line : one_way_lines_of(def)) {
+    const auto first_edge = static_cast<std::uint32_t>(edges_.size());
+    std::vector<Sign> sides;
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+      const Sign left = side_of(line[i], line[i + 1], *def.one_way);
+      if (left == Sign::positive) add_edge(index, line[i], line[i + 1]);
+      if (left == Sign::negative) add_edge(index, line[i + 1], line[i]);
+      sides.push_back(left);
     }
-    const Convert<Integer> number{
-        std::min({detail::lowest_bit(a), detail::lowest_bit(b), detail::lowest_bit(*def.one_way)})};
-    const Sign left = sign_of(cross(convert(number, b) - convert(number, a), convert(number, *def.one_way)));
-    if (left == Sign::positive) add_edge(index, a, b);
-    if (left == Sign::negative) add_edge(index, b, a);
-    sides.push_back(left);
+    surface_finder_.add_line(def, line, sides, first_edge);
   }
-  if (def.one_way) surface_finder_.add_chain(def, sides, first_edge);
 }
 
 Box2<double> World::box_of(const Way& way) const noexcept {

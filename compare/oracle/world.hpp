@@ -15,14 +15,14 @@
 
 namespace paperproof::compare::detail {
 
-/// A boundary edge of a polygon, its interior on the left, or a segment of a chain; of a one-way chain with its
+/// A boundary edge of a polygon, its interior on the left, or a segment of a chain; of what is one-way with its
 /// blocking normal on the left (segments that block nothing are not kept).
 struct Edge {
   Vec2d a;
   Vec2d b;
   ColliderIndex collider = 0;
   static constexpr std::uint32_t no_surface = std::numeric_limits<std::uint32_t>::max();
-  std::uint32_t surface = no_surface;  ///< Of a one-way chain, into `World::surfaces()`.
+  std::uint32_t surface = no_surface;  ///< Of a one-way segment, into `World::surfaces()`.
 };
 
 enum class Kind : std::uint8_t { polygon, two_sided, one_way };
@@ -87,6 +87,7 @@ class World {
  private:
   void add_polygon(ColliderIndex index);
   void add_chain(ColliderIndex index);
+  void add_one_way(ColliderIndex index);
   void add_edge(ColliderIndex index, const Vec2d& a, const Vec2d& b);
   [[nodiscard]] std::uint32_t find_group(const ColliderDef& def);
   void build_trees(Group& group) const;

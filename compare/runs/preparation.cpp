@@ -42,9 +42,9 @@ Scene sample_of(const Scene& scene, const Scenery<double>& scenery, std::size_t 
     const ColliderDef& whole = scene.scenery.colliders[scenery.pieces()[piece].collider];
     const auto vertices = scenery.vertices_of(piece);
     ColliderDef part;
-    part.shape = whole.shape;
+    part.shape = vertices.size() == 2 ? ColliderDef::Shape::chain : ColliderDef::Shape::polygon;
     part.points.assign(vertices.begin(), vertices.end());
-    if (part.shape == ColliderDef::Shape::chain) part.one_way = whole.one_way;
+    part.one_way = whole.one_way;
     part.sensor = whole.sensor;
     sample.scenery.colliders.push_back(std::move(part));
     sample.ids.push_back(std::to_string(piece));

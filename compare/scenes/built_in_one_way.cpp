@@ -43,6 +43,13 @@ Scene one_way_from_below() {
   return scene;
 }
 
+/// The same through a platform of half a metre, of which only the top blocks.
+Scene one_way_solid() {
+  Scene scene = one_way_from_below();
+  scene.scenery.colliders.back() = {.points = {{-4, 1.5}, {4, 1.5}, {4, 2}, {-4, 2}}, .one_way = Vec2d(0, 1)};
+  return scene;
+}
+
 Scene one_way_from_above() {
   Scene scene = flight(0, 2 + half_height, 0, -50, 120);
   scene.gravity = {0, -30};
@@ -175,6 +182,8 @@ Scene one_way_turns_below() {
 std::vector<BuiltInScene> one_way_scenes() {
   return {
       {"one_way_from_below", "jumps through a one-way ledge and lands on it: met once, from above", one_way_from_below},
+      {"one_way_solid", "jumps through a platform of half a metre that is one-way, and lands on its top",
+       one_way_solid},
       {"one_way_from_above", "falls onto a one-way ledge at 50 m/s and more: it is never passed", one_way_from_above},
       {"one_way_from_the_side", "flies through the tip of a one-way ledge: no contact, no loss of speed",
        one_way_from_the_side},

@@ -28,6 +28,7 @@ std::string colliders(const SceneryDef& scenery) {
   std::size_t holes = 0;
   std::size_t chains = 0;
   std::size_t one_way = 0;
+  std::size_t one_way_polygons = 0;
   std::size_t moving = 0;
   std::size_t sensors = 0;
   for (const ColliderDef& collider : scenery.colliders) {
@@ -35,6 +36,7 @@ std::string colliders(const SceneryDef& scenery) {
     if (collider.sensor) ++sensors;
     if (collider.shape == ColliderDef::Shape::polygon) {
       ++polygons;
+      if (collider.one_way) ++one_way_polygons;
       holes += collider.holes.size();
     } else {
       ++(collider.one_way ? one_way : chains);
@@ -42,6 +44,7 @@ std::string colliders(const SceneryDef& scenery) {
   }
   std::string out = fmt::format("{} ({}), {}, {}", counted(polygons, "polygon"), counted(holes, "hole"),
                                 counted(chains, "two-sided chain"), counted(one_way, "one-way chain"));
+  if (one_way_polygons > 0) out += fmt::format("; one-way polygons: {}", one_way_polygons);
   if (moving > 0) out += fmt::format("; moving: {}", moving);
   if (sensors > 0) out += fmt::format("; sensors: {}", sensors);
   return out;
@@ -88,7 +91,8 @@ std::vector<std::string> idle_segments(const Scene& scene, const Scenery<double>
   std::vector<std::string> notes;
   for (std::size_t i = 0; i < scene.ids.size(); ++i) {
     const ColliderDef& collider = scene.scenery.colliders[i];
-    if (!collider.one_way || blocking[i] + 1 == collider.points.size()) continue;
+    if (!collider.one_way || collider.shape == ColliderDef::Shape::polygon) continue;
+    if (blocking[i] + 1 == collider.points.size()) continue;
     const std::size_t idle = collider.points.size() - 1 - blocking[i];
     notes.push_back(
         fmt::format("\"{}\": {} along its one_way, where nothing is blocked", scene.ids[i], counted(idle, "segment")));

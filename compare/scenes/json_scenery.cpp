@@ -40,8 +40,8 @@ void refuse_key_beside(const JsonCursor& entry, std::string_view key, const std:
 /// @param step_seconds of the scene's longest step.
 ColliderDef read_collider(const JsonCursor& entry, const std::string& shape, double step_seconds) {
   refuse_key_beside(entry, "holes", shape, "polygon");
-  refuse_key_beside(entry, "one_way", shape, "chain");
   ColliderDef collider;
+  if (const auto one_way = entry.find("one_way")) collider.one_way = one_way->point();
   collider.sensor = entry.flag("sensor");
   if (const auto speed = entry.find("surface_speed")) {
     if (collider.sensor) speed->refuse("expected only beside what blocks: nothing stands on a sensor");
@@ -51,7 +51,6 @@ ColliderDef read_collider(const JsonCursor& entry, const std::string& shape, dou
   if (shape == "chain") {
     collider.shape = ColliderDef::Shape::chain;
     collider.points = entry.require("chain").points(2);
-    if (const auto one_way = entry.find("one_way")) collider.one_way = one_way->point();
     return collider;
   }
   collider.points = entry.require("polygon").points(3);
@@ -129,8 +128,7 @@ class SceneryReader {
     const JsonCursor at = entry.require(shape);
     if (shape != "polygon" && shape != "chain") {
       refuse_key_beside(entry, "holes", shape, "polygon");
-      refuse_key_beside(entry, "one_way", shape, "chain");
-      for (const char* key : {"sensor", "surface_speed"}) {
+      for (const char* key : {"one_way", "sensor", "surface_speed"}) {
         if (const auto found = entry.find(key)) found->refuse("expected only beside \"polygon\" or \"chain\"");
       }
       if (shape == "tiled")

@@ -53,20 +53,24 @@ class Joints {
     has_previous_[after] = true;
   }
 
-  /// The pieces of a collider are consecutive, and those of a chain are in order.
+  /// The pieces of a collider are consecutive, and those of its lines are in order.
   /// @return one past the last piece of the collider.
   PieceIndex add_collider(PieceIndex piece) {
     const PieceInfo& info = scenery_.pieces()[piece];
     if (!info.one_way) return scenery_.pieces_of(info.collider).end;
     const ColliderDef def = scenery_.as_run(info.collider);
+    for (const std::vector<Vec2d>& line : one_way_lines(def)) piece = add_line(line, def, piece);
+    return piece;
+  }
+
+  PieceIndex add_line(const std::vector<Vec2d>& line, const ColliderDef& def, PieceIndex piece) {
     int side_before = 0;
-    for (std::size_t i = 1; i < def.points.size(); ++i) {
-      const int side = turn_sign(def.points[i - 1], def.points[i], Vec2d::Zero(), *def.one_way);
+    for (std::size_t i = 1; i < line.size(); ++i) {
+      const int side = turn_sign(line[i - 1], line[i], Vec2d::Zero(), *def.one_way);
       if (side != 0) {
-        if (i == 1) ends_.push_back({def.mover, def.filter, *def.one_way, def.points[0], side > 0, piece});
+        if (i == 1) ends_.push_back({def.mover, def.filter, *def.one_way, line[0], side > 0, piece});
         if (side == side_before) side > 0 ? join(piece - 1, piece) : join(piece, piece - 1);
-        if (i + 1 == def.points.size())
-          ends_.push_back({def.mover, def.filter, *def.one_way, def.points[i], side < 0, piece});
+        if (i + 1 == line.size()) ends_.push_back({def.mover, def.filter, *def.one_way, line[i], side < 0, piece});
         ++piece;
       }
       side_before = side;

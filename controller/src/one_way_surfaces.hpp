@@ -1,4 +1,4 @@
-/// One-way chains as surfaces: is a character above one?
+/// One-way chains as surfaces: is a character above one? The lines of a one-way polygon are such chains.
 ///
 /// Chains with equal `one_way` and filter and the same mover (or none) are joined where exactly one chain ends in the
 /// vertex in which exactly one other chain begins. (A segment runs so that its blocking normal is on its left.) Chains

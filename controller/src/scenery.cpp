@@ -62,7 +62,6 @@ void check_chain(const ColliderDef& chain) {
                     std::to_string(i) + " (counted from 0) are both " + geometry::text_of(chain.points[i]));
     }
   }
-  if (chain.one_way && *chain.one_way == Vec2d::Zero()) throw Refused("one_way is zero: it must point somewhere");
 }
 
 /// Most vertices of a convex piece. Few: a round shape becomes many pieces. Many: a character near it tests edges that
@@ -135,6 +134,7 @@ struct Pieces {
   }
 
   void add(ColliderIndex collider, const ColliderDef& def) {
+    if (def.one_way && *def.one_way == Vec2d::Zero()) throw Refused("one_way is zero: it must point somewhere");
     switch (def.shape) {
       case ColliderDef::Shape::polygon:
         return add_polygon(collider, def);
@@ -144,9 +144,9 @@ struct Pieces {
   }
 
   void add_polygon(ColliderIndex collider, const ColliderDef& def) {
-    if (def.one_way) throw Refused("one_way is for chains: a polygon blocks from all sides");
-    if (def.holes.empty() && is_upright_rectangle(def.points)) return add_rectangle(collider, def);
+    if (!def.one_way && def.holes.empty() && is_upright_rectangle(def.points)) return add_rectangle(collider, def);
     const geometry::ConvexPieces convex = geometry::cut_into_convex_pieces(def.points, def.holes);
+    if (def.one_way) return add_one_way(collider, def);
     std::span<const Vec2d> rest = convex.vertices;
     for (const std::uint32_t size : convex.sizes) {
       add_convex(collider, def, rest.first(size));
@@ -163,11 +163,16 @@ struct Pieces {
 
   void add_chain(ColliderIndex collider, const ColliderDef& def) {
     check_chain(def);
-    for (std::size_t i = 1; i < def.points.size(); ++i) {
-      std::optional<Segment> segment = Segment{def.points[i - 1], def.points[i]};
-      if (def.one_way) segment = blocking_segment(*segment, *def.one_way);
-      if (segment) add(collider, def, std::array{segment->from, segment->to});
-    }
+    if (def.one_way) return add_one_way(collider, def);
+    for (std::size_t i = 1; i < def.points.size(); ++i)
+      add(collider, def, std::array{def.points[i - 1], def.points[i]});
+  }
+
+  void add_one_way(ColliderIndex collider, const ColliderDef& def) {
+    for (const std::vector<Vec2d>& line : one_way_lines(def))
+      for (std::size_t i = 1; i < line.size(); ++i)
+        if (const auto segment = blocking_segment({line[i - 1], line[i]}, *def.one_way))
+          add(collider, def, std::array{segment->from, segment->to});
   }
 };
 
@@ -194,6 +199,28 @@ std::string explained(const std::string& reason, const ColliderDef& given, const
 }
 
 }  // namespace
+
+std::vector<std::vector<Vec2d>> one_way_lines(const ColliderDef& def) {
+  if (def.shape == ColliderDef::Shape::chain) return {def.points};
+  const std::vector<Vec2d>& ring = def.points;
+  const int outside = -geometry::winding(ring);  // 1 where it is on the left of the edges
+  const auto blocks = [&](std::size_t i) {
+    return geometry::orientation_sign_of_offset(ring[i], ring[(i + 1) % ring.size()], ring[i], *def.one_way) == outside;
+  };
+  // Not all edges of a ring face one way: it is read from one that does not.
+  std::size_t first = 0;
+  while (first < ring.size() && blocks(first)) ++first;
+  std::vector<std::vector<Vec2d>> lines;
+  bool goes_on = false;
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    const std::size_t i = (first + k) % ring.size();
+    const bool is_part = blocks(i);
+    if (is_part && !goes_on) lines.push_back({ring[i]});
+    if (is_part) lines.back().push_back(ring[(i + 1) % ring.size()]);
+    goes_on = is_part;
+  }
+  return lines;
+}
 
 template <class Scalar>
 Scenery<Scalar>::Scenery(const SceneryDef& def) {

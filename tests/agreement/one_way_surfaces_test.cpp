@@ -1,6 +1,6 @@
 /// A one-way chain is one surface: who sets out above it is held as by its two-sided twin, and who does not passes as
 /// if it were not there. Peaks, arches, hills, sawteeth and platforms that are flat but for noise, whole or in several
-/// colliders, at rest and moving; and exact ties on a lattice, where two implementations must agree.
+/// colliders, chains and solids, at rest and moving; and exact ties on a lattice, where two implementations must agree.
 #include "agreement/recorded.hpp"
 #include "oracle/judge.hpp"
 #include "support/random.hpp"
@@ -222,6 +222,17 @@ class Play {
     StepReport<double> report;
   };
 
+  /// A solid with the chain as its top, sides along `one_way` and a bottom: it must do as the chain alone.
+  [[nodiscard]] static ColliderDef solid_below(ColliderDef chain) {
+    double bottom = chain.points[0].y();
+    for (const Vec2d& vertex : chain.points) bottom = std::min(bottom, vertex.y() - 0.5);
+    const double first = chain.points.front().x();
+    chain.shape = ColliderDef::Shape::polygon;
+    chain.points.emplace_back(chain.points.back().x(), bottom);
+    chain.points.emplace_back(first, bottom);
+    return chain;
+  }
+
   [[nodiscard]] std::vector<Vec2d> placed(std::vector<Vec2d> line) const {
     for (Vec2d& vertex : line) vertex += origin_;
     return line;
@@ -231,7 +242,10 @@ class Play {
     const auto corner = [&](double x, double y) { return Vec2d(origin_ + Vec2d(x, y)); };
     SceneryDef def;
     def.colliders.push_back({.points = {corner(-20, -9), corner(20, -9), corner(20, -8), corner(-20, -8)}});
+    Random solid(seed_ + 1);
     for (ColliderDef chain : chains_) {
+      const bool is_solid = solid.chance(0.3);
+      if (sides == Sides::one && is_solid) chain = solid_below(chain);
       if (sides == Sides::two) chain.one_way.reset();
       if (sides == Sides::none)
         for (Vec2d& vertex : chain.points) vertex.x() += 1e4;

@@ -72,10 +72,10 @@ bool Reported::nearly_passes(const Place& from, const Place& to, ColliderIndex c
   const Vec2d start = from.position - from.offset(def.mover);
   const Vec2d end = to.position - to.offset(def.mover);
   const Vec2d higher = from.position + rounding_ * def.one_way->normalized();
-  for (std::size_t i = 1; i < def.points.size(); ++i) {
-    const Vec2d middle = (def.points[i] + def.points[i - 1]) / 2 + from.offset(def.mover);
+  for (const compare::detail::ConvexPart& segment : compare::detail::convex_parts(def)) {
+    const Vec2d middle = (segment.points[1] + segment.points[0]) / 2 + from.offset(def.mover);
     const Place across(middle, from.movers, from.fraction);
-    const Vec2d along = def.points[i] - def.points[i - 1];
+    const Vec2d along = segment.points[1] - segment.points[0];
     Vec2d normal = Vec2d(-along.y(), along.x()).normalized();
     if (normal.dot(*def.one_way) < 0) normal = -normal;
     if (!(normal.dot(end - start) <= rounding_)) continue;

@@ -45,7 +45,7 @@ from trace_geometry import (
     GAP, NEAR_DROP, NEAR_PASS, ROUNDING, SAME, ZERO, add, crossings, distance, dot, enters, exact, hull, inside, less,
     scaled, size)
 from trace_hanging import hangs
-from trace_one_way import surfaces_of
+from trace_one_way import lines_of, surfaces_of
 from trace_turning import SURE, Leg, comes_to_overlap, is_free, overlaps
 
 
@@ -55,8 +55,10 @@ class Collider:
         self.sensor = entry.get("sensor", False)
         self.one_way = tuple(map(Fraction, entry["one_way"])) if "one_way" in entry else None
         self.rings = [exact(ring) for ring in [entry["polygon"]] + entry.get("holes", [])] if "polygon" in entry else []
-        self.line = exact(entry.get("chain", []))
-        self.edges = list(zip(self.line, self.line[1:])) + [
+        self.lines = [exact(entry["chain"])] if "chain" in entry else []
+        if self.rings and self.one_way is not None:  # it has no inside
+            self.lines, self.rings = lines_of(self.rings[0], self.one_way), []
+        self.edges = [edge for line in self.lines for edge in zip(line, line[1:])] + [
             edge for ring in self.rings for edge in zip(ring, ring[1:] + ring[:1])]
         points = [tuple(map(float, point)) for edge in self.edges for point in edge]
         self.low = [min(p[k] for p in points) for k in (0, 1)]
@@ -341,8 +343,9 @@ class Checker:
 
     def find_surfaces(self, movers):
         """Of the one-way chains. What moves alike in the first step is taken for one mover: a trace does not name them."""
-        chains = [(name, repr(movers[name]) if name in movers else None, collider.line, collider.one_way)
-                  for name, collider in self.colliders.items() if collider.one_way is not None]
+        chains = [(name, repr(movers[name]) if name in movers else None, line, collider.one_way)
+                  for name, collider in self.colliders.items() if collider.one_way is not None
+                  for line in collider.lines]
         for name, segments in surfaces_of(chains).items():
             self.colliders[name].segments = segments
 

@@ -9,7 +9,7 @@ import sys
 import unittest
 
 from trace_geometry import exact
-from trace_one_way import surfaces_of
+from trace_one_way import lines_of, surfaces_of
 from trace_spoiling import GAP, Spoiling
 
 with open(sys.argv.pop(), encoding="utf-8") as file:
@@ -46,6 +46,15 @@ class Surfaces(unittest.TestCase):
         self.assertIsNot(first, second)
         (first, second), = self.found([[0, 0], [4, 0], [4, 2], [6, 2]])
         self.assertIsNot(first, second)
+
+
+class Lines(unittest.TestCase):
+    def test_of_a_polygon_are_the_runs_of_edges_that_face_one_way(self):
+        bowl = [[0, 0], [6, 0], [6, 3], [5, 3], [5, 1], [1, 1], [1, 3], [0, 3]]
+        lines = [exact([[6, 3], [5, 3]]), exact([[5, 1], [1, 1]]), exact([[1, 3], [0, 3]])]
+        self.assertEqual(lines_of(exact(bowl), (0, 1)), lines)
+        self.assertEqual(len(lines_of(exact(bowl[::-1]), (0, 1))), 3)
+        self.assertEqual(lines_of(exact([[0, 0], [4, 0], [2, 2]]), (0, 1)), [exact([[4, 0], [2, 2], [0, 0]])])
 
 
 class SpoiltTraces(Spoiling, unittest.TestCase):

@@ -205,5 +205,32 @@ TEST(ExactPassage, a_one_way_segment_blocks_only_from_its_side_and_against_its_n
   EXPECT_TRUE(along.met({-1, 0}, {1, 0}).empty()) << "a segment along one_way blocks nothing";
 }
 
+TEST(ExactPassage, a_one_way_polygon_blocks_as_the_lines_that_face_one_way_and_is_never_overlapped) {
+  const std::vector<Vec2d> bowl{{-4, -1}, {4, -1}, {4, 2}, {3, 2.5}, {2, 0}, {-2, 0}, {-3, 2}, {-4, 2}};
+  std::vector<Vec2d> clockwise = bowl;
+  std::reverse(clockwise.begin(), clockwise.end());
+  // The right rim slopes, and so do the sides inside: all of those face up, from the right to the left.
+  const ExactScenery lines(scenery({chain({{4, 2}, {3, 2.5}, {2, 0}, {-2, 0}, {-3, 2}, {-4, 2}}, Vec2d(0, 1))}),
+                           octagon());
+  const ExactScenery there(scenery({{.points = bowl, .one_way = Vec2d(0, 1)}}), octagon());
+  const ExactScenery back(scenery({{.points = clockwise, .one_way = Vec2d(0, 1)}}), octagon());
+  int met = 0;
+  int count = 0;
+  for (double x = -6; x <= 6; x += 0.5)
+    for (double y = -4; y <= 4; y += 0.5) {
+      EXPECT_TRUE(there.overlapped({x, y}).empty());
+      for (const Vec2d& way : {Vec2d{0, -5}, Vec2d{0, 5}, Vec2d{4, 0}, Vec2d{-4, -1}, Vec2d{3, -3}}) {
+        const Place to(Vec2d(Vec2d(x, y) + way));
+        const bool expected = lines.meets({x, y}, to, 0);
+        EXPECT_EQ(there.meets({x, y}, to, 0), expected) << x << " " << y << " by " << way.transpose();
+        EXPECT_EQ(back.meets({x, y}, to, 0), expected) << x << " " << y << " by " << way.transpose();
+        met += expected;
+        ++count;
+      }
+    }
+  EXPECT_GT(met, count / 10);
+  EXPECT_LT(met, count * 9 / 10);
+}
+
 }  // namespace
 }  // namespace paperproof::compare

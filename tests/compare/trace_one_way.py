@@ -43,6 +43,22 @@ class Surface:
         return True
 
 
+def lines_of(ring, one_way):
+    """The lines of a one-way polygon: the runs of its edges that face where `one_way` points, by their corners."""
+    doubled_area = sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(ring, ring[1:] + ring[:1]))
+    if doubled_area < 0:
+        ring = ring[::-1]
+    # Counter-clockwise a face is on the right: `across` descends where it faces along `one_way`.
+    edges = [(a, b, across(less(b, a), one_way) < 0) for a, b in zip(ring, ring[1:] + ring[:1])]
+    start = next(i for i, (*_, faces) in enumerate(edges) if not faces)
+    lines, before = [], False
+    for a, b, faces in edges[start:] + edges[:start]:
+        if faces:
+            lines[-1:] = [lines[-1] + [b]] if before else lines[-1:] + [[a, b]]
+        before = faces
+    return lines
+
+
 def surfaces_of(chains):
     """For each of some colliders, by name, its segments that block with their surfaces: (a, b, surface).
 

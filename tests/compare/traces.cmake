@@ -19,7 +19,7 @@ endfunction()
 
 set(checked_scenes article_bullet slope_joints jump_into_corner rotated_wall wedge_60 start_overlapping_deep
   characters_head_on three_in_a_row jump_onto_a_head two_on_a_lift pressed_in_a_row
-    lift_up lift_sideways closing_ceiling sweeping_paper head_on one_way_drop one_way_lift_drop one_way_turns_within
+    lift_up lift_sideways closing_ceiling sweeping_paper head_on one_way_drop one_way_solid one_way_lift_drop one_way_turns_within
     thin_sensor sensor_gate stack_1000 falling_crate
     ledge_corner slope_wall_hop climb45_3m climb45_5m low_step oneway_peak oneway_hill oneway_noise oneway_arch
     exact_fit_lift_down exact_fit_cabin_up exact_fit_under_lift exact_fit_cabin_still crush70 escape_not_shortest)

@@ -131,6 +131,135 @@ TEST(OneWay, a_segment_along_its_direction_blocks_nothing) {
   }
 }
 
+/// A platform of half a metre with its top at y = 0.
+ColliderDef slab() {
+  ColliderDef slab = rectangle(-2, -0.5, 2, 0);
+  slab.one_way = Vec2d{0, 1};
+  return slab;
+}
+
+/// As `Stepper::fly`, over a solid and over its top as a chain: the same bits.
+void expect_flies_as_over_a_chain(const ColliderDef& solid, const ColliderDef& top, const Vec2d& from,
+                                  const Vec2d& way) {
+  Stepper<double> over_solid({solid});
+  Stepper<double> over_chain({top});
+  const MoveResult<double>& a = over_solid.at(from.x(), from.y()).fly(way.x(), way.y());
+  const MoveResult<double>& b = over_chain.at(from.x(), from.y()).fly(way.x(), way.y());
+  EXPECT_EQ(a.position, b.position) << from.transpose() << " by " << way.transpose();
+  EXPECT_EQ(a.contacts.size(), b.contacts.size()) << from.transpose() << " by " << way.transpose();
+  EXPECT_EQ(a.grounded, b.grounded);
+}
+
+TEST(OneWaySolid, blocks_as_its_top_does_and_nowhere_else) {
+  int held = 0;
+  for (double x = -4; x <= 4; x += 0.25)
+    for (double y = -3; y <= 3; y += 0.25)
+      for (const Vec2d& way : {Vec2d{0, -4}, Vec2d{0, 4}, Vec2d{4, 0}, Vec2d{-4, 0}, Vec2d{3, -3}, Vec2d{-3, 2}}) {
+        expect_flies_as_over_a_chain(slab(), platform(), {x, y}, way);
+        Stepper<double> mover({slab()});
+        held += !mover.at(x, y).fly(way.x(), way.y()).contacts.empty();
+      }
+  EXPECT_GT(held, 200);
+  Stepper<double> walker({slab()});
+  EXPECT_TRUE(walker.at(-4, 0).fly(8, 0).contacts.empty()) << "through its side";
+  EXPECT_EQ(walker.state.position, Vec2d(4, 0));
+}
+
+TEST(OneWaySolid, is_jumped_through_and_landed_on) {
+  Stepper<double> jumper({rectangle(-9, -4, 9, -3), slab()});
+  jumper.gravity = {0, -30};
+  jumper.at(0, -3 + half_height + 0.01).steps(20);
+  jumper.with_velocity(0, 17).state.grounded = false;
+  for (int n = 0; n < 240; ++n) {
+    const double rising = jumper.state.velocity.y();
+    jumper.step();
+    if (rising > 0.5) {
+      ASSERT_TRUE(jumper.report.move.contacts.empty()) << n;
+    }
+  }
+  EXPECT_TRUE(jumper.state.grounded);
+  EXPECT_EQ(jumper.report.move.ground.collider, 1U);
+  EXPECT_NEAR(jumper.state.position.y(), half_height + 5e-7, 5e-7);
+  const Vec2d rest = jumper.state.position;
+  jumper.steps(600);
+  EXPECT_EQ(jumper.state.position, rest);
+  jumper.step({.move = std::nullopt, .jump = false, .drop = true});
+  ASSERT_EQ(jumper.report.dropped_through.size(), 1U);
+  EXPECT_EQ(jumper.report.dropped_through[0], 1U);
+  jumper.steps(100);
+  EXPECT_NEAR(jumper.state.position.y(), -3 + half_height + 5e-7, 5e-7) << "on the floor";
+}
+
+TEST(OneWaySolid, that_is_concave_holds_on_each_of_its_tops) {
+  // A table upside down: two rims at y = 2, a floor at y = 0, 4 m wide.
+  const auto bowl = [] {
+    ColliderDef def = polygon({{-3, -1}, {3, -1}, {3, 2}, {2, 2}, {2, 0}, {-2, 0}, {-2, 2}, {-3, 2}});
+    def.one_way = Vec2d{0, 1};
+    return def;
+  };
+  for (const auto& [x, top] : {std::pair{0.0, 0.0}, {-2.5, 2.0}, {2.5, 2.0}}) {
+    Stepper<double> faller({bowl()});
+    faller.at(x, 5).steps(200);
+    EXPECT_TRUE(faller.state.grounded);
+    EXPECT_NEAR(faller.state.position.y(), top + half_height + 5e-7, 5e-7);
+  }
+  Stepper<double> walker({bowl()});
+  walker.at(0, 3).steps(100);
+  walker.steps(60, {.move = 1.0});
+  EXPECT_GT(walker.state.position.x(), 3) << "the inner sides of the rims hold nobody";
+}
+
+TEST(OneWaySolid, whose_top_bends_is_one_surface_and_its_hole_is_nothing) {
+  ColliderDef roof = polygon({{-3, -2}, {3, -2}, {3, -0.75}, {0, 0}, {-3, -0.75}});
+  roof.holes = {{{-1, -1.5}, {1, -1.5}, {1, -1}, {-1, -1}}};
+  roof.one_way = Vec2d{0, 1};
+  const ColliderDef top = chain({{-3, -0.75}, {0, 0}, {3, -0.75}}, Vec2d{0, 1});
+  for (double x = -4; x <= 4; x += 0.25)
+    for (double y = -3; y <= 3; y += 0.25)
+      for (const Vec2d& way : {Vec2d{0, -4}, Vec2d{0, 4}, Vec2d{3, -1}, Vec2d{-3, -1}})
+        expect_flies_as_over_a_chain(roof, top, {x, y}, way);
+}
+
+TEST(OneWaySolid, beside_another_is_walked_over_like_one_and_dropped_through) {
+  ColliderDef left = rectangle(-2, -0.5, 0, 0);
+  ColliderDef right = rectangle(0, -0.5, 2, 0);
+  left.one_way = right.one_way = Vec2d{0, 1};
+  Stepper<double> walker({left, right});
+  walker.gravity = {0, -30};
+  walker.at(-1.5, half_height + 0.01).steps(20);
+  walker.steps(30, {.move = 1.0});
+  EXPECT_GT(walker.state.position.x(), 0.5);
+  EXPECT_EQ(walker.state.velocity.x(), CharacterDef{}.walk_speed);
+  EXPECT_TRUE(walker.state.grounded);
+  walker.at(0, half_height + 5e-7).with_velocity(0, 0);
+  walker.steps(10);
+  walker.step({.move = std::nullopt, .jump = false, .drop = true});
+  EXPECT_EQ(walker.report.dropped_through.size(), 2U);
+}
+
+TEST(OneWaySolid, that_moves_carries_who_stands_on_it_and_passes_who_is_beneath) {
+  ColliderDef lift = slab();
+  lift.mover = 0;
+  Stepper<double> rider({lift});
+  rider.gravity = {0, -30};
+  rider.at(0, half_height + 0.01).steps(20);
+  for (int n = 0; n < 60; ++n) {
+    rider.step_with_mover_by(0.01, 0.02);
+    ASSERT_TRUE(rider.state.grounded) << n;
+  }
+  EXPECT_NEAR(rider.state.position.x(), 0.6, 1e-6);
+  EXPECT_NEAR(rider.state.position.y(), 1.2 + half_height, 2e-6);
+  // It comes down over who stands below: nobody is crushed, and it is not in the way.
+  Stepper<double> below({rectangle(-9, -4, 9, -3), lift});
+  below.gravity = {0, -30};
+  below.at(0, -3 + half_height + 0.01).steps(20);
+  const Vec2d rest = below.state.position;
+  for (int n = 0; n < 100; ++n) {
+    ASSERT_EQ(below.step_with_mover_by(0, -0.02), StepStatus::moved) << n;
+    ASSERT_EQ(below.state.position, rest) << n;
+  }
+}
+
 /// Holding right, until the character falls past the height `below`, for at most ten seconds.
 /// @return the lowest the middle of its bottom was above the line from the start until it was beyond `end`.
 double walk_to_the_end(Stepper<double>& walker, const std::vector<Vec2d>& line, double end) {
@@ -245,6 +374,15 @@ TEST_P(Dropping, goes_through_every_ledge_while_the_button_is_down_and_through_n
   }
   EXPECT_EQ(passed, (std::vector<ColliderIndex>{0, 1}));
   EXPECT_TRUE(character.state.grounded) << "on the floor";
+  EXPECT_NEAR(character.state.position.y(), -4 + half_height, 0.04);
+}
+
+TEST_P(Dropping, goes_through_a_solid_ledge_to_the_floor) {
+  Stepper<double> character({slab(), rectangle(-9, -5, 9, -4)}, {}, GetParam());
+  stand_and_drop(character, 1);
+  ASSERT_EQ(character.report.dropped_through.size(), 1U);
+  character.steps(100);
+  EXPECT_TRUE(character.state.grounded);
   EXPECT_NEAR(character.state.position.y(), -4 + half_height, 0.04);
 }
 

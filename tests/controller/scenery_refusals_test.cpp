@@ -127,8 +127,10 @@ TEST(Refusals, reasons_are_words_a_level_designer_understands) {
   EXPECT_EQ(with_holes({{{1, 1}, {3, 1}, {1, 3}}, {{1.25, 1.25}, {1.5, 1.25}, {1.25, 1.5}}}),
             "hole 1 is inside hole 0");
   EXPECT_EQ(with_holes({{{1, 1}, {3, 1}, {1, 3}}, {{2, 0.5}, {2, 1.5}, {3, 0.5}}}).find("hole 1 crosses hole 0: "), 0U);
-  EXPECT_EQ(refusal_of({{{.points = square, .one_way = Vec2d(0, 1)}}}),
-            "one_way is for chains: a polygon blocks from all sides");
+  EXPECT_EQ(refusal_of({{{.points = square, .one_way = Vec2d(0, 0)}}}), "one_way is zero: it must point somewhere");
+  EXPECT_EQ(refusal_of({{{.points = square, .one_way = Vec2d(0, 1), .sensor = true}}}), "a sensor cannot be one-way");
+  EXPECT_EQ(refusal_of({{{.points = {{0, 0}, {2, 2}, {2, 0}, {0, 2}}, .one_way = Vec2d(0, 1)}}}),
+            "the outline crosses itself: the side from (0, 0) to (2, 2) meets the side from (2, 0) to (0, 2)");
   EXPECT_EQ(refusal_of(scenery_of({{0, 0}}, {})), "a chain needs at least 2 points, it has 1");
   EXPECT_EQ(refusal_of(scenery_of({{0, 0}, {0, 0}}, {})),
             "the chain has the same point twice in a row: points 0 and 1 (counted from 0) are both (0, 0)");

@@ -231,6 +231,44 @@ TEST(Chains, a_one_way_segment_along_its_direction_blocks_nothing) {
   EXPECT_EQ(piece_of(stairs, 1), (Points{{1, 1}, {2, 1}}));
 }
 
+/// Pairs of end points, sorted.
+std::vector<Points> pieces_of(const Scenery<double>& scenery) {
+  std::vector<Points> pieces;
+  for (std::size_t i = 0; i < scenery.pieces().size(); ++i) pieces.push_back(piece_of(scenery, i));
+  std::sort(pieces.begin(), pieces.end(), [](const Points& a, const Points& b) { return a[0].x() < b[0].x(); });
+  return pieces;
+}
+
+TEST(OneWayPolygons, have_their_outer_edges_that_face_where_one_way_points_as_pieces) {
+  const Points house{{0, 0}, {4, 0}, {4, 2}, {2, 3}, {0, 2}};
+  for (const bool clockwise : {false, true}) {
+    for (std::size_t begin = 0; begin < house.size(); ++begin) {
+      ColliderDef def{.points = house, .holes = {{{1, 1}, {2, 1}, {1, 1.5}}}, .one_way = Vec2d(0, 2)};
+      std::rotate(def.points.begin(), def.points.begin() + static_cast<std::ptrdiff_t>(begin), def.points.end());
+      if (clockwise) std::reverse(def.points.begin(), def.points.end());
+      const Scenery<double> scenery(SceneryDef{{def}});
+      EXPECT_EQ(pieces_of(scenery), (std::vector<Points>{{{0, 2}, {2, 3}}, {{2, 3}, {4, 2}}})) << begin;
+      EXPECT_TRUE(scenery.pieces()[0].one_way && scenery.pieces()[1].one_way);
+      EXPECT_EQ(one_way_lines(def).size(), 1U);
+      const ColliderDef as_run = scenery.as_run(0);
+      EXPECT_EQ(as_run.shape, ColliderDef::Shape::polygon);
+      EXPECT_EQ(as_run.points, def.points);
+      EXPECT_EQ(as_run.holes, def.holes);
+      EXPECT_EQ(as_run.one_way, def.one_way);
+    }
+  }
+}
+
+TEST(OneWayPolygons, have_a_line_for_each_run_of_such_edges) {
+  const ColliderDef bowl{.points = {{0, 0}, {6, 0}, {6, 3}, {5, 3}, {5, 1}, {1, 1}, {1, 3}, {0, 3}},
+                         .one_way = Vec2d(0, 1)};
+  EXPECT_EQ(one_way_lines(bowl), (std::vector<Points>{{{6, 3}, {5, 3}}, {{5, 1}, {1, 1}}, {{1, 3}, {0, 3}}}));
+  EXPECT_EQ(pieces_of(Scenery<double>(SceneryDef{{bowl}})),
+            (std::vector<Points>{{{0, 3}, {1, 3}}, {{1, 1}, {5, 1}}, {{5, 3}, {6, 3}}}));
+  const ColliderDef ledge{.shape = ColliderDef::Shape::chain, .points = {{0, 0}, {2, 0}}, .one_way = Vec2d(0, 1)};
+  EXPECT_EQ(one_way_lines(ledge), std::vector<Points>{ledge.points});
+}
+
 TEST(FloatScenery, vertices_are_rounded_first_and_the_definition_as_run_says_to_what) {
   const Polygon polygon{{{0.1, 0.2}, {1.1, 0.3}, {0.7, 1.3}}, {}};
   const Scenery<float> scenery(scenery_of(polygon));

@@ -173,6 +173,30 @@ void lattice(Builder& b, Random& r) {
   }
 }
 
+void one_way_solids(Builder& b, Random& r) {
+  b.floor();
+  for (int i = 0; i < 7; ++i) {
+    const Vec2d a{r.between(-5, 4), r.between(-1.5, 3)};
+    const double width = r.between(0.3, 2);
+    const double deep = r.log_between(0.01, 1);
+    switch (r.integer(0, 3)) {
+      case 0:
+        b.box(a.x(), a.y() - deep, a.x() + width, a.y());
+        break;
+      case 1:
+        b.strip(a, width, deep, r.between(-0.8, 0.8));
+        break;
+      case 2:  // a roof
+        b.polygon({a, a + Vec2d{width, 0}, a + Vec2d{width * r.between(0.2, 0.8), deep}});
+        break;
+      default:  // a bowl
+        b.polygon({a + Vec2d{0, -deep}, a + Vec2d{width, -deep}, a + Vec2d{width, 0.3}, a + Vec2d{0.8 * width, 0},
+                   a + Vec2d{0.2 * width, 0}, a + Vec2d{0, r.between(0.05, 0.5)}});
+    }
+    b.def.colliders.back().one_way = r.chance(0.8) ? Vec2d{0, 1} : Vec2d{r.between(-1, 1), r.between(0.1, 1)};
+  }
+}
+
 }  // namespace
 
 std::string name_of(Family family) {
@@ -203,6 +227,8 @@ std::string name_of(Family family) {
       return "one_way";
     case Family::lattice:
       return "lattice";
+    case Family::one_way_solids:
+      return "one_way_solids";
   }
   return "";
 }
@@ -248,6 +274,9 @@ SceneryDef random_scenery(Family family, Random& random, const Vec2d& origin) {
       break;
     case Family::lattice:
       lattice(builder, random);
+      break;
+    case Family::one_way_solids:
+      one_way_solids(builder, random);
       break;
   }
   return builder.def;

@@ -24,11 +24,13 @@ enum class Family {
   concave,
   one_way,
   lattice,
+  one_way_solids,
 };
 
-inline constexpr std::array all_families{
-    Family::tiles,    Family::slopes, Family::spikes,  Family::papers,  Family::chains,  Family::wedges, Family::stairs,
-    Family::ceilings, Family::shafts, Family::needles, Family::concave, Family::one_way, Family::lattice};
+inline constexpr std::array all_families{Family::tiles,   Family::slopes,        Family::spikes,  Family::papers,
+                                         Family::chains,  Family::wedges,        Family::stairs,  Family::ceilings,
+                                         Family::shafts,  Family::needles,       Family::concave, Family::one_way,
+                                         Family::lattice, Family::one_way_solids};
 
 std::string name_of(Family family);
 

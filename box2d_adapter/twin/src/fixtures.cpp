@@ -221,8 +221,19 @@ std::vector<Part> parts_of(const SceneryDef& as_run, std::size_t mover_count) {
     const ColliderDef& collider = as_run.colliders[i];
     if (collider.sensor) continue;
     Part& part = parts[collider.mover == no_mover ? 0 : collider.mover + 1];
-    part.solids.colliders.push_back(collider);
-    part.colliders.push_back(i);
+    const auto add = [&](const ColliderDef& solid) {
+      part.solids.colliders.push_back(solid);
+      part.colliders.push_back(i);
+    };
+    if (collider.shape == ColliderDef::Shape::chain || !collider.one_way) {
+      add(collider);
+      continue;
+    }
+    for (std::vector<Vec2d>& line : one_way_lines(collider)) {
+      ColliderDef chain{.shape = ColliderDef::Shape::chain, .points = std::move(line), .one_way = collider.one_way};
+      chain.mover = collider.mover;
+      add(chain);
+    }
   }
   return parts;
 }

@@ -33,7 +33,7 @@ struct FixtureSource {
 /// What goes along with one mover, or stands. It has a body of its own, whose position is the mover's offset.
 struct Part {
   MoverIndex mover = no_mover;
-  SceneryDef solids;                     ///< As run; chains are among them, sensors are not.
+  SceneryDef solids;  ///< As run; chains are among them, sensors are not. A one-way polygon is one chain or more.
   std::vector<ColliderIndex> colliders;  ///< Which those are.
 };
 

@@ -143,8 +143,10 @@ class Painter {
     c.strokeStyle = this.colours.edge;
     c.lineWidth = 0.75;
     c.stroke();
-    for (const collider of visible)
+    for (const collider of visible) {
       if (collider.chain) this.chain(collider);
+      else if (collider.oneWay) this.blockingSides(collider);
+    }
   }
 
   /// Blocks nothing: an outline that lets see through.
@@ -170,6 +172,19 @@ class Painter {
     c.lineWidth = 1;
     c.beginPath();
     for (let i = 0; i + 3 < flat.length; i += 2) this.ticks(flat.slice(i, i + 4), collider.oneWay);
+    c.stroke();
+  }
+
+  /// Of a one-way polygon: its outer ring is counter-clockwise, so that an edge faces to its right.
+  blockingSides(collider) {
+    const c = this.context, flat = [...collider.rings[0], ...collider.rings[0].slice(0, 2)];
+    c.strokeStyle = this.colours.chain;
+    c.lineWidth = 1;
+    c.beginPath();
+    for (let i = 0; i + 3 < flat.length; i += 2) {
+      const [x0, y0, x1, y1] = flat.slice(i, i + 4);
+      if ((y1 - y0) * collider.oneWay[0] - (x1 - x0) * collider.oneWay[1] > 0) this.ticks([x0, y0, x1, y1], collider.oneWay);
+    }
     c.stroke();
   }
 

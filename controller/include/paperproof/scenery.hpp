@@ -23,13 +23,15 @@ struct ColliderDef {
   Shape shape = Shape::polygon;
   std::vector<Vec2d> points;                ///< Outer ring (not closed: the first vertex is not repeated) or polyline.
   std::vector<std::vector<Vec2d>> holes{};  ///< Polygons only; each strictly inside the outer ring.
-  /// Chains only: the chain blocks a character that begins a move above it, which is the side that this vector points
-  /// to. A segment that runs along this vector blocks nothing. Abutting chains with the same `one_way`, filter and
-  /// mover are one surface, extended straight beyond its ends.
+  /// A chain blocks a character that begins a move above it, which is the side that this vector points to. A segment
+  /// that runs along this vector blocks nothing. Abutting chains with the same `one_way`, filter and mover are one
+  /// surface, extended straight beyond its ends.
+  /// A polygon blocks as one-way chains do, which are made of its outer edges that face where this vector points: see
+  /// `one_way_lines`. Nothing else of it blocks, so a character jumps up through a platform and lands on its top.
   std::optional<Vec2d> one_way{};
   /// The mover that moves this collider; `points` then hold while the mover's offset is zero.
   MoverIndex mover = no_mover;
-  /// Blocks nothing: the controller reports when the character enters and leaves it. Not for one-way chains.
+  /// Blocks nothing: the controller reports when the character enters and leaves it. Not with `one_way`.
   bool sensor = false;
   /// A conveyor: it carries a character that stands on it along the surface, to the right for a positive speed [m/s].
   double surface_speed = 0;
@@ -38,6 +40,11 @@ struct ColliderDef {
   /// Which characters it is there for: see `StepContext::filter`. Seams vanish only between colliders of equal filters.
   Filter filter{};
 };
+
+/// The chains of a collider that has a `one_way`. A chain is its own only line. Of a polygon they are the edges of its
+/// outer ring whose outward normal has a positive product with `one_way` (decided exactly); edges that follow each
+/// other are one line.
+[[nodiscard]] std::vector<std::vector<Vec2d>> one_way_lines(const ColliderDef& def);
 
 /// All colliders, standing or moving.
 struct SceneryDef {
@@ -69,8 +76,8 @@ struct ColliderInfo {
 };
 
 /// A convex part of a collider. Polygons: counter-clockwise vertices, strictly convex, 3 to 32, taken from the
-/// collider's own vertices. Chains: the 2 end points of a segment, zero thickness; for a one-way segment in the order
-/// that has its blocking normal on the left.
+/// collider's own vertices. Chains, and polygons that are one-way: the 2 end points of a segment, zero thickness; for a
+/// one-way segment in the order that has its blocking normal on the left.
 struct PieceInfo {
   static constexpr std::uint8_t no_rectangle = 4;
 
@@ -128,8 +135,8 @@ class Scenery {
   /// every collider and cuts polygons into convex pieces.
   /// @throws InvalidScenery on: fewer than 3 (polygon) or 2 (chain) points, a coordinate that is not finite or beyond
   ///   2e6 m, repeated neighbouring points, zero area, a ring that crosses or touches itself or another ring of its
-  ///   polygon, a hole that is not inside, a `one_way` that is zero, not finite or on a polygon, a sensor that is
-  ///   one-way, a `surface_speed` that is not finite, a `mover` beyond the number of colliders.
+  ///   polygon, a hole that is not inside, a `one_way` that is zero or not finite, a sensor that is one-way, a
+  ///   `surface_speed` that is not finite, a `mover` beyond the number of colliders.
   explicit Scenery(const SceneryDef& def);
 
   [[nodiscard]] std::span<const PieceInfo> pieces() const noexcept { return pieces_; }

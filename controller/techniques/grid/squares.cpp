@@ -69,6 +69,7 @@ using Rings = std::vector<std::vector<Square>>;
 
 Rings rings_of(const ColliderDef& def, ColliderIndex collider, const Reader& reader) {
   if (def.shape == ColliderDef::Shape::chain) reader.refuse("a chain", collider);
+  if (def.one_way) reader.refuse("a one-way polygon", collider);
   Rings rings{reader.corners_of(def.points, collider)};
   for (const std::vector<Vec2d>& hole : def.holes) rings.push_back(reader.corners_of(hole, collider));
   return rings;

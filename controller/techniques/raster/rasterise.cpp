@@ -116,9 +116,9 @@ void add_chain(const ColliderDef& chain, double pixels_per_metre, std::vector<Sp
 
 void spans_of(const ColliderDef& collider, double pixels_per_metre, std::vector<Span>& spans) {
   spans.clear();
-  if (collider.shape == ColliderDef::Shape::polygon) return add_polygon(collider, pixels_per_metre, spans);
   if (collider.one_way)
     throw NotExpressible("a picture cannot express a one-way chain: a pixel is solid from all sides");
+  if (collider.shape == ColliderDef::Shape::polygon) return add_polygon(collider, pixels_per_metre, spans);
   add_chain(collider, pixels_per_metre, spans);
 }
 

@@ -100,6 +100,47 @@ TEST_P(OneWay, who_drops_goes_through_it_and_says_so) {
   EXPECT_NEAR(world.position().y(), half_height() + rest_gap - 10 * frame * frame * 60 * 61 / 2, 0.01);
 }
 
+/// A platform with its top at y = 0, and ground far below.
+Scenery<double> slab() {
+  ColliderDef solid = box(-4, -0.5, 4, 0);
+  solid.one_way = up;
+  return level({box(-10, -11, 10, -10), solid});
+}
+
+TEST(OneWaySolid, is_jumped_through_stood_on_and_dropped_through) {
+  for (const SceneryMode mode : {SceneryMode::chain_loops, SceneryMode::pieces}) {
+    ReferenceWorld world(slab(), {}, {0.3, -half_height() - 0.7}, {.mode = mode});
+    Vec2d velocity{0, std::sqrt(2 * 10 * 3.0)};
+    const auto step = [&](bool drop) -> const TwinStep& {
+      velocity += gravity * frame;
+      const TwinStep& done = world.step(velocity, frame, {}, drop);
+      velocity = done.velocity;
+      return done;
+    };
+    for (int k = 0; k < 180; ++k) {
+      const bool rises = velocity.y() > 0.5;
+      const TwinStep& done = step(false);
+      if (rises) {
+        ASSERT_TRUE(done.contacts.empty()) << k;
+      }
+    }
+    EXPECT_NEAR(world.position().y(), half_height() + rest_gap, 0.007);
+    EXPECT_EQ(step(false).contacts.at(0).collider, 1U);
+    std::vector<ColliderIndex> passed;
+    for (int k = 0; k < 180; ++k) {
+      const TwinStep& done = step(k < 8);
+      passed.insert(passed.end(), done.dropped_through.begin(), done.dropped_through.end());
+    }
+    EXPECT_EQ(passed, std::vector<ColliderIndex>{1});
+    EXPECT_NEAR(world.position().y(), -10 + half_height() + rest_gap, 0.007) << "on the ground";
+  }
+}
+
+TEST(OneWaySolid, is_passed_through_its_side) {
+  ReferenceWorld world(slab(), {}, {-6, 0});
+  for (int k = 0; k < 120; ++k) ASSERT_EQ(world.step({6, 0}, frame).velocity, Vec2d(6, 0));
+}
+
 TEST(OneWayDirections, a_segment_that_runs_along_one_way_blocks_nothing) {
   ReferenceWorld world(level({chain({{0, -4}, {0, 4}}, up)}), {}, {-2, 0});
   for (int k = 0; k < 60; ++k) world.step({10, 0}, frame);
