@@ -79,7 +79,7 @@ TEST(HeroInMaps, steps_as_the_controller_over_the_maps_of_four_families) {
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is missing";
   const Maps maps = compare_maps(folder, 1);
   EXPECT_GE(maps.count, 10);
-  EXPECT_GE(maps.touching, 50 * maps.count);
+  EXPECT_GE(maps.touching, 20 * maps.count);
 }
 
 TEST(HeroInMaps, steps_as_the_controller_over_supertux_levels) {
@@ -88,7 +88,7 @@ TEST(HeroInMaps, steps_as_the_controller_over_supertux_levels) {
   const int every = test::steps_wanted("PAPERPROOF_EVERY_LEVEL", 0) > 0 ? 1 : 8;
   const Maps maps = compare_maps(folder, every);
   EXPECT_GE(maps.count, 200 / every);
-  EXPECT_GE(maps.touching, 50 * maps.count);
+  EXPECT_GE(maps.touching, 20 * maps.count);
 }
 
 }  // namespace
