@@ -79,8 +79,10 @@ void count_down_coyote(const CharacterDef& character, Scalar dt, CharacterState<
 
 /// @param wall_ahead there is a wall to jump against, whatever the last step touched.
 template <class Scalar>
-DesiredVelocity<Scalar> wanted_velocity(const CharacterDef& character, const Vec2<Scalar>& gravity, const Input& input,
-                                        Scalar dt, bool wall_ahead, CharacterState<Scalar>& state) noexcept {
+[[gnu::always_inline]] inline DesiredVelocity<Scalar> wanted_velocity(const CharacterDef& character,
+                                                                      const Vec2<Scalar>& gravity, const Input& input,
+                                                                      Scalar dt, bool wall_ahead,
+                                                                      CharacterState<Scalar>& state) noexcept {
   // Component by component: a pair that is written as two numbers and read as one vector waits for the memory.
   Scalar x = input.move ? steered(character, state, *input.move, dt) : state.velocity.x();
   const Scalar change = x - state.velocity.x();
@@ -93,6 +95,7 @@ DesiredVelocity<Scalar> wanted_velocity(const CharacterDef& character, const Vec
   if (character.max_fall_speed) y = std::max(y, static_cast<Scalar>(-*character.max_fall_speed));
   return {{x, y}, change};
 }
+
 
 /// Restores the members of a state that the intent changes, if the step is refused later. (A copy of the whole state
 /// costs a tenth of a step.)
@@ -179,7 +182,7 @@ Controller<Scalar>::Controller(const Scenery<Scalar>& scenery, const CharacterDe
       technique_(std::move(technique)),
       sweep_(dynamic_cast<const octagon_sweep::SweepInParts<Scalar>*>(technique_.get())) {
   character_.validate();
-  if (has_filters_ && !technique_->filters())
+  if (has_filters_ && !technique_->abilities().filter)
     throw std::invalid_argument("the technique " + std::string(technique_->name()) +
                                 " has no filter, and there is a collider with one");
   if (!stages.sensors && scenery.sensor_pieces().size() > 0)
@@ -202,8 +205,13 @@ template <class Scalar>
   const Vec2<Scalar>& gravity = context.gravity;
   const bool foreseen = (may_jump_ || !input.jump) && (may_fall_ || (gravity.x() == 0 && gravity.y() == 0));
   return foreseen && context.dt > 0 && context.movers.size() == mover_count_ &&
-         (context.filter == nullptr || technique_->filters()) &&
+         (context.filter == nullptr || technique_->abilities().filter) && accepts(context.up) &&
          finite(state, input, gravity, context.dt, context.movers);
+}
+
+template <class Scalar>
+[[gnu::cold, gnu::noinline]] bool Controller<Scalar>::accepts_turned(const Vec2<Scalar>& up) const noexcept {
+  return is_unit(up) && technique_->abilities().up;
 }
 
 /// Tries a move towards the wall, without making it. Kept out of `step`: nearly no step needs it.
@@ -212,8 +220,10 @@ template <class Scalar>
                                                           const StepContext<Scalar>& context, Scratch<Scalar>& scratch,
                                                           MoveResult<Scalar>& tried) const noexcept {
   const Scalar reach = static_cast<Scalar>(character_.wall_reach);
-  const Vec2<Scalar> there{move < 0 ? -reach : reach, 0};
+  const UpFrame<Scalar> up = context.up;
+  const Vec2<Scalar> there = up.in_world({move < 0 ? -reach : reach, 0});
   MoveRequest<Scalar> request = request_of(state, state.crushers, there, there / context.dt, 0, false, context);
+  request.up = up;
   request.crushed = false;
   request.crushers = {};
   technique_->move(request, scratch, tried);
@@ -248,10 +258,30 @@ template <class Scalar>
   // A carried character steers, jumps and falls relative to its ground.
   if (state.ride.ground != Ride<Scalar>::none) state.velocity -= state.ride.velocity;
   const Scalar dt = context.dt;
+  if (!is_upright(context.up)) [[unlikely]]
+    return begin_turned_step(crushers, input, context, wall_ahead, state, report);
   const auto [velocity, steered] = wanted_velocity(character_, context.gravity, input, dt, wall_ahead, state);
   report.requested = {velocity.x() * dt, velocity.y() * dt};
   report.steered = steered * dt;
   return request_of(state, crushers, {velocity.x() * dt, velocity.y() * dt}, velocity, steered, input.drop, context);
+}
+
+/// The same for a character that is not upright, after the velocity of its ride is gone. Kept out of most steps.
+template <class Scalar>
+[[gnu::cold, gnu::noinline]] MoveRequest<Scalar> Controller<Scalar>::begin_turned_step(
+    const Crushers<Scalar>& crushers, const Input& input, const StepContext<Scalar>& context, bool wall_ahead,
+    CharacterState<Scalar>& state, StepReport<Scalar>& report) const noexcept {
+  const UpFrame<Scalar> up = context.up;
+  const Scalar dt = context.dt;
+  state.velocity = up.seen(state.velocity);
+  const auto [seen, steered] = wanted_velocity(character_, up.seen(context.gravity), input, dt, wall_ahead, state);
+  const Vec2<Scalar> velocity = up.in_world(seen);
+  report.requested = velocity * dt;
+  report.steered = steered * dt;
+  MoveRequest<Scalar> request =
+      request_of(state, crushers, report.requested, velocity, steered, input.drop, context);
+  request.up = up;
+  return request;
 }
 
 template <class Scalar>
@@ -262,7 +292,7 @@ template <class Scalar>
   if (sensors_) sensors_->observe(path, context.movers, scratch.sensors, report.sensors, filter_of(context));
   if (drop && one_way_)
     one_way_->find_passed(path, context.movers, scratch.one_way, report.dropped_through, filter_of(context));
-  adopt(character_, report.move, state);
+  adopt(character_, context.up, report.move, state);
 }
 
 template <class Scalar>
@@ -301,7 +331,9 @@ StepStatus Controller<Scalar>::move(CharacterState<Scalar>& state, const Vec2<Sc
     return report.status = StepStatus::invalid_input;
   report.requested = displacement;
   report.steered = 0;
-  technique_->move(request_of(state, state.crushers, displacement, velocity, 0, false, context), scratch, report.move);
+  MoveRequest<Scalar> request = request_of(state, state.crushers, displacement, velocity, 0, false, context);
+  request.up = context.up;
+  technique_->move(request, scratch, report.move);
   report.status = status_of(report.move.status);
   if (is_refused(report.status)) return report.status;
   note_press(character_, state.jump_held, context.dt, state);  // as it was: time alone passes
@@ -337,6 +369,7 @@ bool Controller<Scalar>::accepts(const Vec2<Scalar>& position, const Vec2<Scalar
                                  const StepContext<Scalar>& context, const Scratch<Scalar>& scratch) const noexcept {
   return sweep_ != nullptr && is_made_by(technique_, scratch.maker) && in_range(position) &&
          in_range(Vec2<Scalar>(position + displacement)) && context.movers.size() == mover_count_ &&
+         accepts(context.up) &&
          (context.movers.empty() || finite(context.movers, Scalar(1)));
 }
 

@@ -30,10 +30,17 @@ struct StepContext {
   /// filter leaves out were not in the scenery (but see `ColliderFilter` for seams): they give no contact and no event.
   /// `octagon_sweep` alone filters; with another technique a filter is invalid input.
   const ColliderFilter* filter = nullptr;
+  /// Up of the characters: any unit vector, which may differ from step to step. It decides what is horizontal (a
+  /// positive `Input::move` goes along (up.y, -up.x)), where a jump goes, what `max_fall_speed` limits, which surfaces
+  /// are ground, walls and ceilings, how far down `snap` looks, and the sides of contacts. Gravity is a vector of the
+  /// world: turn it as well. The shape does not turn, and whether a motion is free does not depend on up. Invalid input:
+  /// an up that is not finite, or whose length differs from 1 by more than the rounding of `Scalar`; and any other than
+  /// (0, 1) with another technique than `octagon_sweep`.
+  Vec2<Scalar> up{0, 1};
 };
 
 /// Computes the velocity that a character wants in this step, before any obstacle changes it, and updates the jump
-/// flags. Common to every contender, the Box2D twin included: horizontal speed approaches `move * walk_speed`; a jump
+/// flags. Up is (0, 1). Common to every contender, the Box2D twin included: horizontal speed approaches `move * walk_speed`; a jump
 /// that is allowed sets the upward speed once; then gravity, with the fall speed limited (semi-implicit Euler: the
 /// displacement of the step is this velocity times dt).
 /// @param state its flags `jump_held`, `jump_pending`, `jumping`, `grounded` are updated; position and velocity are
@@ -51,8 +58,8 @@ enum class StepStatus : std::uint8_t {
   out_of_range,  ///< Refused: the step would leave +-2e6 m. Position and velocity are unchanged.
   refused,       ///< Refused by the technique: see `MoveResult::refusal`. Position and velocity are unchanged.
   /// Refused: NaN, infinity, dt <= 0, a mover beyond +-2e6 m or with a speed that is not finite, a number of movers
-  /// that differs from the scenery's, a filter for a technique that has none, scratch memory that another controller
-  /// made. Nothing changed at all.
+  /// that differs from the scenery's, a filter or an up that the technique does not read (see `Abilities`), an up that
+  /// is no unit vector, scratch memory that another controller made. Nothing changed at all.
   invalid_input,
 };
 
@@ -69,7 +76,7 @@ template <class Scalar = double>
 struct StepReport {
   StepStatus status = StepStatus::moved;
   Vec2<Scalar> requested{Vec2<Scalar>::Zero()};  ///< Wanted displacement [m].
-  Scalar steered = 0;                            ///< The part of `requested.x()` that this step's steering added [m].
+  Scalar steered = 0;  ///< The part of `requested` across up that this step's steering added [m].
   MoveResult<Scalar> move;
   /// In order of time: see `SensorEvent`. If there are more events than it holds, the latest are missing, and it
   /// `overflowed()`.
@@ -136,7 +143,7 @@ class Controller {
                        std::span<StepReport<Scalar>> reports) const noexcept;
 
   // Questions about the surroundings of a character of this kind. They move nothing and allocate nothing. They read
-  // only the movers and the filter of the context. No question is answered by a controller that does not move by
+  // only the movers, the filter and up of the context. No question is answered by a controller that does not move by
   // `octagon_sweep`, with a scratch of another controller, with another number of movers than the scenery's, or about
   // numbers that are out of range.
 
@@ -186,6 +193,10 @@ class Controller {
   [[nodiscard]] bool has_wall_ahead(const CharacterState<Scalar>& state, double move,
                                     const StepContext<Scalar>& context, Scratch<Scalar>& scratch,
                                     MoveResult<Scalar>& tried) const noexcept;
+  /// Whether a step or a question may have this up.
+  [[nodiscard]] bool accepts(const Vec2<Scalar>& up) const noexcept { return is_upright(up) || accepts_turned(up); }
+  [[nodiscard]] bool accepts_turned(const Vec2<Scalar>& up) const noexcept;
+  /// Without up, which is (0, 1) if nothing else is said.
   /// @param crushers of the state as it was; must outlive the request, as `context`.
   [[nodiscard]] MoveRequest<Scalar> request_of(const CharacterState<Scalar>& state, const Crushers<Scalar>& crushers,
                                                const Vec2<Scalar>& displacement, const Vec2<Scalar>& velocity,
@@ -196,6 +207,10 @@ class Controller {
                                                const StepContext<Scalar>& context, bool wall_ahead,
                                                CharacterState<Scalar>& state,
                                                StepReport<Scalar>& report) const noexcept;
+  [[nodiscard]] MoveRequest<Scalar> begin_turned_step(const Crushers<Scalar>& crushers, const Input& input,
+                                                      const StepContext<Scalar>& context, bool wall_ahead,
+                                                      CharacterState<Scalar>& state,
+                                                      StepReport<Scalar>& report) const noexcept;
   /// Ends the step, after the move has filled `report.move`.
   void end_step(bool drop, const StepContext<Scalar>& context, Scratch<Scalar>& scratch, CharacterState<Scalar>& state,
                 StepReport<Scalar>& report) const noexcept;
@@ -221,7 +236,11 @@ class Controller {
                              const StepContext<Scalar>& context, const Scratch<Scalar>& scratch) const noexcept;
   [[nodiscard]] MoveRequest<Scalar> question(const Vec2<Scalar>& position, const Vec2<Scalar>& displacement,
                                              const StepContext<Scalar>& context) const noexcept {
-    return {.position = position, .displacement = displacement, .movers = context.movers, .filter = filter_of(context)};
+    return {.position = position,
+            .displacement = displacement,
+            .movers = context.movers,
+            .filter = filter_of(context),
+            .up = context.up};
   }
 
   const Scenery<Scalar>* scenery_;

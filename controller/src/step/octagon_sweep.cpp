@@ -59,12 +59,13 @@ class OctagonSweep final : public SweepInParts<Scalar> {
         settings_(settings_for<Scalar>(def, character)),
         touched_at_once_(broad_phase::most_at_once<Scalar>(scenery.static_boxes(), space_.touched_size())),
         has_conveyors_(has_conveyors(scenery)),
-        solve_(solver_for<Scalar>(space_.lanes())) {
+        solve_(solver_for<Scalar>(space_.lanes(), false)),
+        solve_turned_(solver_for<Scalar>(space_.lanes(), true)) {
     check(def.stages, scenery, space_);
   }
 
   [[nodiscard]] std::string_view name() const noexcept override { return "octagon_sweep"; }
-  [[nodiscard]] bool filters() const noexcept override { return true; }
+  [[nodiscard]] Abilities abilities() const noexcept override { return {.filter = true, .up = true}; }
 
   [[nodiscard]] Scratch<Scalar> make_scratch() const override {
     Scratch<Scalar> scratch;
@@ -88,7 +89,8 @@ class OctagonSweep final : public SweepInParts<Scalar> {
     const bool rides = request.ride.ground != Ride<Scalar>::none;
     MoversInStep<Scalar> movers{mover_phases_, request.movers, request.dt, 0, has_conveyors_ || rides};
     if (!request.movers.empty() && (part == Part::stay || comes_near_a_mover(request))) movers.look_at_all();
-    solve_(space_, settings_, neighbourhood, movers, part, request, result);
+    const Solve<Scalar> solve = request.up.is_turned() ? solve_turned_ : solve_;
+    solve(space_, settings_, neighbourhood, movers, part, request, result);
   }
 
   [[nodiscard]] std::optional<Contact<Scalar>> cast(const MoveRequest<Scalar>& at,
@@ -115,7 +117,9 @@ class OctagonSweep final : public SweepInParts<Scalar> {
   [[nodiscard]] auto ask(const MoveRequest<Scalar>& at, Scratch<Scalar>& scratch,
                          const Question& question) const noexcept {
     Surroundings<Scalar> around{
-        space_, {space_, *broad_phase_, settings_.look_ahead, at.filter, scratch}, mover_phases_, at.movers, at.filter};
+        space_,    {space_, *broad_phase_, settings_.look_ahead, at.filter, scratch},
+        mover_phases_, at.movers,
+        at.filter, at.up};
     const auto answer = space_.lanes() == 8 ? question(around, std::integral_constant<std::size_t, 8>{})
                                             : question(around, std::integral_constant<std::size_t, 12>{});
     around.neighbourhood.forget();  // a wide question would make the next steps slow
@@ -162,7 +166,8 @@ class OctagonSweep final : public SweepInParts<Scalar> {
   Settings<Scalar> settings_;
   std::size_t touched_at_once_;
   bool has_conveyors_;
-  Solve<Scalar> solve_;
+  Solve<Scalar> solve_;         ///< For upright characters,
+  Solve<Scalar> solve_turned_;  ///< and for others.
 };
 
 }  // namespace

@@ -16,6 +16,7 @@ struct Surroundings {
   const MoverPhases<Scalar>& phases;
   std::span<const MoverMotion<Scalar>> movers;  ///< One for each mover.
   const ColliderFilter* filter;                 ///< Null: all colliders are there.
+  UpFrame<Scalar> up;                           ///< See `StepContext::up`.
 };
 
 /// See `Controller::cast`.

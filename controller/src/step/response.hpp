@@ -31,6 +31,8 @@
 /// motion to it that all surfaces allow is taken, if that still falls; else the motion ends there, as it does where one
 /// of them is walkable. So steering into one side of a funnel does not hold a character that would slip through it.
 ///
+/// All of this is as the character sees it: x is across it, and y is up (see `UpFrame`).
+///
 /// Position and velocity are treated alike: each rule is homogeneous of degree one. u is carried through every contact
 /// beside w. A falling motion comes to rise on
 /// nothing but walkable ground. The loop ends after a given number of impacts.
@@ -38,7 +40,7 @@
 
 #include "step/half_planes.hpp"
 
-#include <paperproof/types.hpp>
+#include <paperproof/up_frame.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -70,6 +72,11 @@ template <class Scalar>
 struct Desired {
   Vec2<Scalar> wanted;
   Vec2<Scalar> unsteered;
+
+  [[nodiscard]] Desired seen(const auto& up) const noexcept { return {up.seen(wanted), up.seen(unsteered)}; }
+  [[nodiscard]] Desired in_world(const auto& up) const noexcept {
+    return {up.in_world(wanted), up.in_world(unsteered)};
+  }
 };
 
 /// A surface, and how the character comes to it.
@@ -78,6 +85,8 @@ struct Surface {
   Vec2<Scalar> normal;
   bool walkable;
   bool after_walk;  ///< The character follows walkable ground that it touches: a rise is the climb of a walk.
+
+  [[nodiscard]] Surface seen(const auto& up) const noexcept { return {up.seen(normal), walkable, after_walk}; }
 };
 
 /// Adding zero turns a negative zero into a positive one: rest has one pattern of bits.

@@ -89,17 +89,21 @@ struct MoverState {
   MoveStatus status_before_crush = MoveStatus::moved;  ///< the status until then.
 };
 
-template <std::size_t Lanes, class Scalar>
+/// @tparam Up of the character: `Upright` or `UpFrame`. With one class for both a step of an upright character took 2 %
+/// more instructions.
+template <std::size_t Lanes, class Scalar, class Up>
 class StepSolver {
  public:
   StepSolver(const ConfigurationSpace<Scalar>& space, const Settings<Scalar>& settings,
-             Neighbourhood<Scalar> neighbourhood, MoversInStep<Scalar>& movers, MoveResult<Scalar>& result) noexcept
+             Neighbourhood<Scalar> neighbourhood, MoversInStep<Scalar>& movers, const Up& up,
+             MoveResult<Scalar>& result) noexcept
       : space_(space),
         pieces_(space.scenery().pieces().data()),
         settings_(settings),
         neighbourhood_(neighbourhood),
         movers_(movers),
         memory_(neighbourhood.memory()),
+        up_(up),
         result_(result) {
     memory_.clear();
   }
@@ -199,7 +203,7 @@ class StepSolver {
   [[nodiscard, gnu::always_inline]] inline std::optional<V> touched_ground(PieceIndex piece) const noexcept;
   [[gnu::cold, gnu::noinline]] void stop_at_touched_ground() noexcept;
   [[gnu::noinline]] void follow_ground_down(const MoveRequest<Scalar>& request) noexcept;
-  [[nodiscard]] bool walkable(const V& normal) const noexcept { return normal.y() >= settings_.walkable_cosine; }
+  [[nodiscard]] bool walkable(const V& normal) const noexcept { return up_.up_of(normal) >= settings_.walkable_cosine; }
 
   // step_ride.hpp
   [[nodiscard]] MoverIndex mover_of(PieceIndex piece) const noexcept { return pieces_[piece].mover; }
@@ -210,7 +214,7 @@ class StepSolver {
   [[nodiscard]] std::optional<TouchedSurface<Scalar>> carrier_here(ColliderIndex ridden, bool walkable_only) noexcept;
   [[nodiscard, gnu::cold, gnu::noinline]] V begin_ride(const MoveRequest<Scalar>& request) noexcept;
   /// Ground that falls faster than the character may.
-  [[nodiscard]] bool falls_away(const V& ground) const noexcept { return ground.y() < -settings_.max_fall_speed; }
+  [[nodiscard]] bool falls_away(const V& ground) const noexcept { return up_.up_of(ground) < -settings_.max_fall_speed; }
   [[nodiscard, gnu::cold, gnu::noinline]] bool carries_from_now(const TouchedSurface<Scalar>& ground) const noexcept;
   [[gnu::cold, gnu::noinline]] void begin_to_ride(const TouchedSurface<Scalar>& ground) noexcept;
   [[nodiscard, gnu::cold, gnu::noinline]] V anchor(Scalar time) const noexcept;
@@ -288,6 +292,7 @@ class StepSolver {
   Neighbourhood<Scalar> neighbourhood_;
   MoversInStep<Scalar>& movers_;
   StepMemory<Scalar>& memory_;
+  [[no_unique_address]] Up up_;
   MoveResult<Scalar>& result_;
 
   LocalMotion motion_;         ///< Of the last sweep,
@@ -298,7 +303,7 @@ class StepSolver {
   V velocity_{V::Zero()};
   Scalar time_ = 0;  ///< Fraction of the step that is spent.
   Scalar dt_ = 0;    ///< Of the step [s].
-  Scalar fall_ = 0;  ///< Vertical velocity without steering, before the surfaces that are touched now were met [m/s].
+  Scalar fall_ = 0;  ///< Velocity upwards without steering, before the surfaces that are touched now were met [m/s].
   Scalar steered_ = 0;       ///< The part of the horizontal velocity that this step's steering added [m/s].
   bool drops_ = false;       ///< One-way segments do not block in this step.
   bool certify_ = false;     ///< Something is nearer than rounding: every motion needs an exact certificate.
