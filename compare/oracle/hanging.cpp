@@ -73,7 +73,8 @@ bool HangingJudge::has_support(std::size_t corner, double within) const {
   return std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
     if (std::find(dropped.begin(), dropped.end(), part.collider) != dropped.end()) return false;
     return part.faces.front().separation < 0 ||
-           std::any_of(part.faces.begin(), part.faces.end(), [this](const NearFace& face) { return face.normal.dot(up_) > 0; });
+           std::any_of(part.faces.begin(), part.faces.end(),
+                       [this](const NearFace& face) { return face.normal.dot(up_) > 0; });
   });
 }
 

@@ -20,7 +20,8 @@ namespace {
 using namespace step_parts;
 
 template <class Scalar>
-Scalar steered(const CharacterDef& character, const CharacterState<Scalar>& state, double move, Scalar dt) noexcept {
+[[gnu::always_inline]] inline Scalar steered(const CharacterDef& character, const CharacterState<Scalar>& state,
+                                             double move, Scalar dt) noexcept {
   const double acceleration =
       state.grounded ? character.acceleration : character.air_acceleration.value_or(character.acceleration);
   const Scalar target = static_cast<Scalar>(std::clamp(move, -1.0, 1.0) * character.walk_speed);
@@ -95,7 +96,6 @@ template <class Scalar>
   if (character.max_fall_speed) y = std::max(y, static_cast<Scalar>(-*character.max_fall_speed));
   return {{x, y}, change};
 }
-
 
 /// Restores the members of a state that the intent changes, if the step is refused later. (A copy of the whole state
 /// costs a tenth of a step.)
@@ -202,16 +202,23 @@ Scratch<Scalar> Controller<Scalar>::completed(Scratch<Scalar> scratch) const {
 template <class Scalar>
 [[gnu::always_inline]] inline bool Controller<Scalar>::accepts(const CharacterState<Scalar>& state, const Input& input,
                                                                const StepContext<Scalar>& context) const noexcept {
+  if (!is_upright(context.up)) [[unlikely]]
+    return accepts_turned(state, input, context);
   const Vec2<Scalar>& gravity = context.gravity;
   const bool foreseen = (may_jump_ || !input.jump) && (may_fall_ || (gravity.x() == 0 && gravity.y() == 0));
   return foreseen && context.dt > 0 && context.movers.size() == mover_count_ &&
-         (context.filter == nullptr || technique_->abilities().filter) && accepts(context.up) &&
+         (context.filter == nullptr || technique_->abilities().filter) &&
          finite(state, input, gravity, context.dt, context.movers);
 }
 
+/// With an up that is not (0, 1).
 template <class Scalar>
-[[gnu::cold, gnu::noinline]] bool Controller<Scalar>::accepts_turned(const Vec2<Scalar>& up) const noexcept {
-  return is_unit(up) && technique_->abilities().up;
+[[gnu::cold, gnu::noinline]] bool Controller<Scalar>::accepts_turned(const CharacterState<Scalar>& state,
+                                                                     const Input& input,
+                                                                     StepContext<Scalar> context) const noexcept {
+  if (!accepts(context.up)) return false;
+  context.up = {0, 1};
+  return accepts(state, input, context);
 }
 
 /// Tries a move towards the wall, without making it. Kept out of `step`: nearly no step needs it.
@@ -258,19 +265,18 @@ template <class Scalar>
   // A carried character steers, jumps and falls relative to its ground.
   if (state.ride.ground != Ride<Scalar>::none) state.velocity -= state.ride.velocity;
   const Scalar dt = context.dt;
-  if (!is_upright(context.up)) [[unlikely]]
-    return begin_turned_step(crushers, input, context, wall_ahead, state, report);
   const auto [velocity, steered] = wanted_velocity(character_, context.gravity, input, dt, wall_ahead, state);
   report.requested = {velocity.x() * dt, velocity.y() * dt};
   report.steered = steered * dt;
   return request_of(state, crushers, {velocity.x() * dt, velocity.y() * dt}, velocity, steered, input.drop, context);
 }
 
-/// The same for a character that is not upright, after the velocity of its ride is gone. Kept out of most steps.
+/// The same for a character that is not upright. Kept out of most steps.
 template <class Scalar>
 [[gnu::cold, gnu::noinline]] MoveRequest<Scalar> Controller<Scalar>::begin_turned_step(
     const Crushers<Scalar>& crushers, const Input& input, const StepContext<Scalar>& context, bool wall_ahead,
     CharacterState<Scalar>& state, StepReport<Scalar>& report) const noexcept {
+  if (state.ride.ground != Ride<Scalar>::none) state.velocity -= state.ride.velocity;
   const UpFrame<Scalar> up = context.up;
   const Scalar dt = context.dt;
   state.velocity = up.seen(state.velocity);
@@ -278,8 +284,7 @@ template <class Scalar>
   const Vec2<Scalar> velocity = up.in_world(seen);
   report.requested = velocity * dt;
   report.steered = steered * dt;
-  MoveRequest<Scalar> request =
-      request_of(state, crushers, report.requested, velocity, steered, input.drop, context);
+  MoveRequest<Scalar> request = request_of(state, crushers, report.requested, velocity, steered, input.drop, context);
   request.up = up;
   return request;
 }
@@ -309,7 +314,11 @@ template <class Scalar>
   if (character_.no_jump_toward_wall && may_press && state.grounded && input.move.value_or(0) != 0)
     wall_ahead = has_wall_ahead(state, *input.move, context, scratch, report.move);
   // A request with a name, read again after the move, cost 46 instructions more per step (g++ 12).
-  technique_->move(begin_step(state.crushers, input, context, wall_ahead, state, report), scratch, report.move);
+  if (is_upright(context.up)) [[likely]]
+    technique_->move(begin_step(state.crushers, input, context, wall_ahead, state, report), scratch, report.move);
+  else
+    technique_->move(begin_turned_step(state.crushers, input, context, wall_ahead, state, report), scratch,
+                     report.move);
   report.status = status_of(report.move.status);
   if (is_refused(report.status)) {
     before.restore(state);
@@ -369,8 +378,7 @@ bool Controller<Scalar>::accepts(const Vec2<Scalar>& position, const Vec2<Scalar
                                  const StepContext<Scalar>& context, const Scratch<Scalar>& scratch) const noexcept {
   return sweep_ != nullptr && is_made_by(technique_, scratch.maker) && in_range(position) &&
          in_range(Vec2<Scalar>(position + displacement)) && context.movers.size() == mover_count_ &&
-         accepts(context.up) &&
-         (context.movers.empty() || finite(context.movers, Scalar(1)));
+         accepts(context.up) && (context.movers.empty() || finite(context.movers, Scalar(1)));
 }
 
 template <class Scalar>
@@ -405,7 +413,8 @@ bool Controller<Scalar>::begin_together(const CharacterState<Scalar>& before, co
                                         MoveRequest<Scalar>& request, StepReport<Scalar>& report) const noexcept {
   if (!accepts(before, input, context)) return false;
   state = before;
-  request = begin_step(before.crushers, input, context, false, state, report);
+  request = is_upright(context.up) ? begin_step(before.crushers, input, context, false, state, report)
+                                   : begin_turned_step(before.crushers, input, context, false, state, report);
   return true;
 }
 

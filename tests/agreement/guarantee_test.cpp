@@ -23,6 +23,12 @@ using compare::Place;
 /// Nearer than this is a contact [m], as the guarantee says; and the rounding of a position 1e6 m away.
 constexpr double hit_distance = 1e-7 + 1e-9;
 
+/// Narrower openings may hold a character whose sides are not along up [m]: see "Limits" in controller/README.md.
+constexpr double opening_of_slanted_sides = 4e-7;
+/// A shorter motion that begins near a steep slope is mostly that to the gap at which motions stop [m]: see "Found and
+/// open" there.
+constexpr double smallest_judged_motion = 2e-6;
+
 struct Tally {
   int steps = 0;
   int with_contact = 0;
@@ -191,8 +197,10 @@ class RandomRun {
     tally.falling += made.dot(up_) < 0;
     const compare::TraceStep record = recorded<double>(report_, state_, {});
     const compare::Others alone;
-    const bool hangs =
-        compare::detail::HangingJudge(header_, oracle_, record, alone, up_).hangs(made, compare::detail::exact_reach);
+    compare::detail::Reach reach = compare::detail::exact_reach;
+    if (up_turns_) reach.opening = opening_of_slanted_sides;
+    if (up_turns_ && report_.requested.norm() < smallest_judged_motion) return;
+    const bool hangs = compare::detail::HangingJudge(header_, oracle_, record, alone, up_).hangs(made, reach);
     ASSERT_FALSE(hangs) << "hangs" << where();
   }
 
@@ -219,7 +227,8 @@ class RandomRun {
     std::ostringstream text;
     text.precision(17);
     text << "\n  " << name_of(family_) << ", seed " << seed_ << ", status " << static_cast<int>(report_.status)
-         << ", requested " << report_.requested.transpose() << ", up " << up_.transpose() << ", way";
+         << ", requested " << report_.requested.transpose() << ", up " << up_.transpose() << ", steered "
+         << report_.steered << ", climbs " << header_.max_climb_degrees << ", way";
     for (const PathPoint<double>& corner : report_.move.path)
       text << " (" << corner.position.x() << ", " << corner.position.y() << " @ " << corner.fraction << ")";
     for (const Contact<double>& met : report_.move.contacts)
@@ -272,7 +281,7 @@ class AnyUp : public ::testing::TestWithParam<Family> {};
 TEST_P(AnyUp, no_step_ends_inside_passes_a_solid_or_leaves_a_gap) {
   Tally tally;
   const auto family = static_cast<std::uint64_t>(GetParam());
-  for (std::uint64_t run = 0; tally.steps < steps_per_family() / 6; ++run) {
+  for (std::uint64_t run = 0; tally.steps < steps_per_family(); ++run) {
     RandomRun(GetParam(), 2000003 * (family + 1) + run, true).go(tally);
     if (HasFailure()) return;
   }
@@ -281,10 +290,11 @@ TEST_P(AnyUp, no_step_ends_inside_passes_a_solid_or_leaves_a_gap) {
               name_of(GetParam()).c_str(), tally.steps, tally.walkable, tally.steep, tally.walls, tally.ceilings,
               tally.dropped, tally.stuck);
   EXPECT_GE(tally.falling, tally.steps / 10) << "who never falls cannot hang";
-  EXPECT_GE(tally.with_contact, tally.steps * 0.1);
+  EXPECT_GE(tally.with_contact, tally.steps / 15);
+  EXPECT_LE(tally.with_contact, tally.steps * 0.9);
   EXPECT_GE(tally.walkable, tally.steps / 100);
   EXPECT_GE(tally.steep, tally.steps / 100);
-  EXPECT_GE(tally.walls, tally.steps / 300);
+  EXPECT_GE(tally.walls, tally.steps / 1000);
   EXPECT_GE(tally.ceilings, tally.steps / 100);
 }
 

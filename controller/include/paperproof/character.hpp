@@ -16,7 +16,8 @@ class InvalidCharacter : public std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
-/// The collision points of a character, relative to its position [m], y up in the world. They are the corners of a convex polygon.
+/// The collision points of a character, relative to its position [m], y up in the world. They are the corners of a
+/// convex polygon.
 class CharacterShape {
  public:
   static constexpr std::size_t max_points = 8;
@@ -86,8 +87,8 @@ struct CharacterDef {
 
 /// The player's wishes for one step.
 struct Input {
-  /// Direction across up in [-1, 1], (up.y, -up.x) being positive: the speed approaches `move * walk_speed`. Absent: nothing steers, and the
-  /// horizontal speed stays as it is.
+  /// Direction across up in [-1, 1], (up.y, -up.x) being positive: the speed approaches `move * walk_speed`. Absent:
+  /// nothing steers, and the horizontal speed stays as it is.
   std::optional<double> move;
   /// The jump button is down. One press gives at most one jump; a press that cannot jump yet stays pending while held;
   /// or, if there is a `CharacterDef::jump_buffer`, for that long.
@@ -166,8 +167,8 @@ struct CharacterState {
 };
 
 /// Puts a character elsewhere, in one jump that sweeps nothing: a portal, a new room, a restart. The state forgets what
-/// belongs to the old place: ground and ride, coyote time, walls, the last free position, what crushed the character, and
-/// how long it was stuck. It keeps its velocity (in the world: that of a ride is in it) and the state of the jump
+/// belongs to the old place: ground and ride, coyote time, walls, the last free position, what crushed the character,
+/// and how long it was stuck. It keeps its velocity (in the world: that of a ride is in it) and the state of the jump
 /// button. If the place is not free, the next step resolves that: see `Controller::overlaps`.
 /// @param position [m]
 template <class Scalar>
@@ -183,9 +184,9 @@ void teleport(CharacterState<Scalar>& state, const std::type_identity_t<Vec2<Sca
 }
 
 /// Adds a velocity to that of the character: an explosion, a spring, a hit. The character leaves the ground, also where
-/// the velocity points into it, and what carries it, whose velocity it keeps. It cannot jump before it stands again: the
-/// coyote time is over; a press of the button stays pending. If it was jumping, the jump is over, too: to release the
-/// button does not cut the rise. Steering works as in the air. A crushed character stays in place.
+/// the velocity points into it, and what carries it, whose velocity it keeps. It cannot jump before it stands again:
+/// the coyote time is over; a press of the button stays pending. If it was jumping, the jump is over, too: to release
+/// the button does not cut the rise. Steering works as in the air. A crushed character stays in place.
 /// @param velocity [m/s]
 template <class Scalar>
 void knock_back(CharacterState<Scalar>& state, const std::type_identity_t<Vec2<Scalar>>& velocity) noexcept {

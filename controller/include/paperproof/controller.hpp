@@ -33,16 +33,17 @@ struct StepContext {
   /// Up of the characters: any unit vector, which may differ from step to step. It decides what is horizontal (a
   /// positive `Input::move` goes along (up.y, -up.x)), where a jump goes, what `max_fall_speed` limits, which surfaces
   /// are ground, walls and ceilings, how far down `snap` looks, and the sides of contacts. Gravity is a vector of the
-  /// world: turn it as well. The shape does not turn, and whether a motion is free does not depend on up. Invalid input:
-  /// an up that is not finite, or whose length differs from 1 by more than the rounding of `Scalar`; and any other than
-  /// (0, 1) with another technique than `octagon_sweep`.
+  /// world: turn it as well. The flags of a state are those that its last step saw. The shape does not turn, and
+  /// whether a motion is free does not depend on up. Invalid input: an up that is not finite, or whose length differs
+  /// from 1 by more than the rounding of `Scalar`; and any other than (0, 1) with another technique than
+  /// `octagon_sweep`.
   Vec2<Scalar> up{0, 1};
 };
 
 /// Computes the velocity that a character wants in this step, before any obstacle changes it, and updates the jump
-/// flags. Up is (0, 1). Common to every contender, the Box2D twin included: horizontal speed approaches `move * walk_speed`; a jump
-/// that is allowed sets the upward speed once; then gravity, with the fall speed limited (semi-implicit Euler: the
-/// displacement of the step is this velocity times dt).
+/// flags. Up is (0, 1). Common to every contender, the Box2D twin included: horizontal speed approaches `move *
+/// walk_speed`; a jump that is allowed sets the upward speed once; then gravity, with the fall speed limited
+/// (semi-implicit Euler: the displacement of the step is this velocity times dt).
 /// @param state its flags `jump_held`, `jump_pending`, `jumping`, `grounded` are updated; position and velocity are
 /// not.
 template <class Scalar>
@@ -119,10 +120,10 @@ class Controller {
   /// One step of a game that owns its velocities: the character moves by a displacement, as far as obstacles let it,
   /// and slides along them. No input, jump or gravity is added; gravity is checked, but not used.
   ///
-  /// To stay on the ground, and to ride, the character must press on it: give the displacement a part downwards, or the
-  /// character a `snap`. With `snap`, clear `state.grounded` to leave the ground by less than the climb limit. Ground
-  /// that carries the character adds its motion. `state.velocity` is not read; it becomes what obstacles leave of
-  /// displacement / dt, the motion of the ground included. A jump that is pending stays so; time passes for it.
+  /// To stay on the ground, and to ride, the character must press on it: give the displacement a part against up, or
+  /// the character a `snap`. With `snap`, clear `state.grounded` to leave the ground by less than the climb limit.
+  /// Ground that carries the character adds its motion. `state.velocity` is not read; it becomes what obstacles leave
+  /// of displacement / dt, the motion of the ground included. A jump that is pending stays so; time passes for it.
   /// @param displacement in the step [m]; relative to what carries the character.
   StepStatus move(CharacterState<Scalar>& state, const Vec2<Scalar>& displacement, const StepContext<Scalar>& context,
                   Scratch<Scalar>& scratch, StepReport<Scalar>& report) const noexcept;
@@ -188,14 +189,17 @@ class Controller {
  private:
   [[nodiscard]] bool accepts(const CharacterState<Scalar>& state, const Input& input,
                              const StepContext<Scalar>& context) const noexcept;
+  [[nodiscard]] bool accepts_turned(const CharacterState<Scalar>& state, const Input& input,
+                                    StepContext<Scalar> context) const noexcept;
   /// Whether a wall is within `wall_reach` of the character, on the side that `move` (not zero) points to.
   /// @param tried is overwritten.
   [[nodiscard]] bool has_wall_ahead(const CharacterState<Scalar>& state, double move,
                                     const StepContext<Scalar>& context, Scratch<Scalar>& scratch,
                                     MoveResult<Scalar>& tried) const noexcept;
   /// Whether a step or a question may have this up.
-  [[nodiscard]] bool accepts(const Vec2<Scalar>& up) const noexcept { return is_upright(up) || accepts_turned(up); }
-  [[nodiscard]] bool accepts_turned(const Vec2<Scalar>& up) const noexcept;
+  [[nodiscard]] bool accepts(const Vec2<Scalar>& up) const noexcept {
+    return is_upright(up) || (is_unit(up) && technique_->abilities().up);
+  }
   /// Without up, which is (0, 1) if nothing else is said.
   /// @param crushers of the state as it was; must outlive the request, as `context`.
   [[nodiscard]] MoveRequest<Scalar> request_of(const CharacterState<Scalar>& state, const Crushers<Scalar>& crushers,

@@ -78,7 +78,7 @@ struct MoveRequest {
   Vec2<Scalar> velocity{Vec2<Scalar>::Zero()};      ///< The velocity behind the displacement [m/s].
   /// The part of `velocity` across up that this step's steering added [m/s].
   Scalar steered = 0;
-  Vec2<Scalar> last_free{Vec2<Scalar>::Zero()};  ///< See `CharacterState::last_free`.
+  Vec2<Scalar> last_free{Vec2<Scalar>::Zero()};         ///< See `CharacterState::last_free`.
   Vec2<Scalar> technique_memory{Vec2<Scalar>::Zero()};  ///< See `CharacterState::technique_memory`.
   bool has_last_free = false;
   bool grounded = false;  ///< The last step ended on the ground, and this one does not begin with a jump.

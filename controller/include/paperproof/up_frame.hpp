@@ -37,6 +37,9 @@ class UpFrame {
   /// Up is not (0, 1).
   [[nodiscard]] bool is_turned() const noexcept { return is_turned_; }
 
+  /// Neither upright nor turned by quarters: what is seen is rounded.
+  [[nodiscard]] bool is_slanted() const noexcept { return up_.x() != 0 && up_.y() != 0; }
+
   [[nodiscard]] Scalar up_of(const Vec2<Scalar>& v) const noexcept {
     if (is_turned_) [[unlikely]]
       return sum(v.x() * up_.x(), v.y() * up_.y());
@@ -78,7 +81,7 @@ struct Upright {
   Upright() = default;
   Upright(const UpFrame<Scalar>&) noexcept {}
 
-  [[nodiscard]] static constexpr bool is_turned() noexcept { return false; }
+  [[nodiscard]] static constexpr bool is_slanted() noexcept { return false; }
   [[nodiscard]] static Scalar up_of(const Vec2<Scalar>& v) noexcept { return v.y(); }
   [[nodiscard]] static Scalar across_of(const Vec2<Scalar>& v) noexcept { return v.x(); }
   [[nodiscard]] static Vec2<Scalar> seen(const Vec2<Scalar>& v) noexcept { return v; }

@@ -89,8 +89,8 @@ class PairSpace {
 
   /// Whether the pair comes nearer than `hit_distance` [m] on these legs. A pair that begins nearer hits if it comes
   /// nearer still.
-  [[nodiscard]] PairSweep<Scalar> sweep(const Leg<Scalar>& first, const Leg<Scalar>& second,
-                                        Scalar hit_distance, const UpFrame<Scalar>& up) const noexcept {
+  [[nodiscard]] PairSweep<Scalar> sweep(const Leg<Scalar>& first, const Leg<Scalar>& second, Scalar hit_distance,
+                                        const UpFrame<Scalar>& up) const noexcept {
     // A rounded leg may be so short that its ends are equal: it moves all the same.
     if (first.from == first.to && second.from == second.to && !first.rounded && !second.rounded) return {};
     const Separations s = separations(first, second);
@@ -181,7 +181,7 @@ class PairSpace {
   /// The pair hits when, at some time, all separations are below tau: the latest entry below it comes before the
   /// earliest exit above it. It is then stopped where it enters the larger region below `Tolerances::stop`.
   [[nodiscard]] PairSweep<Scalar> sweep_apart(const Separations& s, Scalar hit_distance,
-                                               const UpFrame<Scalar>& up) const noexcept {
+                                              const UpFrame<Scalar>& up) const noexcept {
     constexpr Tolerances<Scalar> tolerances{};
     const Scalar tau = std::min(hit_distance, s.start[s.best] - s.noise);
     const bool touching = s.start[s.best] <= tolerances.touch;

@@ -99,8 +99,8 @@ class SweepTogether {
       if (j != i && step_.members[j].box.overlaps(member.box.inflated(reach))) member.obstacles.push_back(j);
     Moment<Scalar> end;
     const auto is_lower = [&] { return step_.up.up_of(end.state.position - member.end.state.position) < 0; };
-    const bool found = (plan_free(i, end) && (crush > 0 || is_lower())) ||
-                       (crush > 0 && plan_past_all(i, member.start, end));
+    const bool found =
+        (plan_free(i, end) && (crush > 0 || is_lower())) || (crush > 0 && plan_past_all(i, member.start, end));
     if (found) {
       step_.made(i).clear();
       member.now = member.start;

@@ -116,10 +116,9 @@ class OctagonSweep final : public SweepInParts<Scalar> {
   template <class Question>
   [[nodiscard]] auto ask(const MoveRequest<Scalar>& at, Scratch<Scalar>& scratch,
                          const Question& question) const noexcept {
-    Surroundings<Scalar> around{
-        space_,    {space_, *broad_phase_, settings_.look_ahead, at.filter, scratch},
-        mover_phases_, at.movers,
-        at.filter, at.up};
+    Surroundings<Scalar> around{space_,        {space_, *broad_phase_, settings_.look_ahead, at.filter, scratch},
+                                mover_phases_, at.movers,
+                                at.filter,     at.up};
     const auto answer = space_.lanes() == 8 ? question(around, std::integral_constant<std::size_t, 8>{})
                                             : question(around, std::integral_constant<std::size_t, 12>{});
     around.neighbourhood.forget();  // a wide question would make the next steps slow

@@ -219,7 +219,8 @@ bool StepSolver<Lanes, Scalar, Up>::is_contact(const Nearest<Scalar>& near) cons
 /// Where a straight motion is nearest to a piece. The separation is the largest of several that are linear in time,
 /// hence convex: bisection finds its least value.
 template <std::size_t Lanes, class Scalar, class Up>
-Nearest<Scalar> StepSolver<Lanes, Scalar, Up>::nearest_on_way(PieceIndex piece, const V& from, const V& to) const noexcept {
+Nearest<Scalar> StepSolver<Lanes, Scalar, Up>::nearest_on_way(PieceIndex piece, const V& from,
+                                                              const V& to) const noexcept {
   const V displacement = to - from;
   const auto at = [&](Scalar when) { return best_axis<Lanes>(space_, piece, V(from + displacement * when)); };
   const auto falls = [&](const BestAxis<Scalar>& best) {

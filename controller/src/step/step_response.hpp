@@ -80,7 +80,7 @@ template <class Scalar>
 
 template <std::size_t Lanes, class Scalar, class Up>
 bool StepSolver<Lanes, Scalar, Up>::allowed(const DesiredMotion<Scalar>& desired,
-                                        const TouchedSurface<Scalar>& surface) const noexcept {
+                                            const TouchedSurface<Scalar>& surface) const noexcept {
   return half_plane_of(surface.normal, remaining_of(surface)).allows(desired.displacement.wanted) &&
          half_plane_of(surface.normal, velocity_of(surface)).allows(desired.velocity.wanted);
 }
@@ -96,8 +96,8 @@ bool StepSolver<Lanes, Scalar, Up>::allowed(const DesiredMotion<Scalar>& desired
 /// @param after_walk see `Surface`.
 template <std::size_t Lanes, class Scalar, class Up>
 DesiredMotion<Scalar> StepSolver<Lanes, Scalar, Up>::response_to(const TouchedSurface<Scalar>& surface,
-                                                             const DesiredMotion<Scalar>& desired,
-                                                             bool after_walk) const noexcept {
+                                                                 const DesiredMotion<Scalar>& desired,
+                                                                 bool after_walk) const noexcept {
   const Surface<Scalar> at{surface.normal, walkable(surface.normal), after_walk};
   const auto response = [&](const Desired<Scalar>& given, const V& motion_of_surface,
                             Scalar steered) -> Desired<Scalar> {
@@ -106,7 +106,7 @@ DesiredMotion<Scalar> StepSolver<Lanes, Scalar, Up>::response_to(const TouchedSu
       frame = surface.normal * half_plane_of(surface.normal, motion_of_surface).least;
     const Desired<Scalar> relative{given.wanted - frame, given.unsteered - frame};
     if (dot(relative.wanted, surface.normal) >= 0) return given;
-    const Desired<Scalar> result = respond(relative.seen(up_), steered, at.seen(up_)).in_world(up_);
+    const Desired<Scalar> result = respond(up_, relative, steered, at);
     return {result.wanted + frame, result.unsteered + frame};
   };
   return {response(desired.displacement, remaining_of(surface), steered_ * dt_ * (1 - time_)),
@@ -159,13 +159,14 @@ bool StepSolver<Lanes, Scalar, Up>::respond_in_crease(DesiredMotion<Scalar>& des
   const std::optional<DesiredMotion<Scalar>> falling =
       nearest_allowed_to(with_body.displacement.wanted + displacement, velocity + falls);
   const auto slips = [&] {
-    return up_.up_of(falling->velocity.wanted) - up_.up_of(velocity) < along_plane<Scalar> * (fall - length_of(velocity));
+    return up_.up_of(falling->velocity.wanted) - up_.up_of(velocity) <
+           along_plane<Scalar> * (fall - length_of(velocity));
   };
   if (falling && slips())
     desired = *falling;
-  else if (velocity == V::Zero() && shift_to_fall(displacement))
+  else if (velocity == V::Zero() && shift_to_fall(displacement, up_.in_world({1, 0})))
     desired = DesiredMotion<Scalar>::plain(displacement, falls);
-  else
+  else if (velocity != V::Zero() || !up_.is_slanted() || !fall_along_a_side(displacement, falls, desired))
     return true;
   wedged_ = false;
   return true;
@@ -192,8 +193,8 @@ bool StepSolver<Lanes, Scalar, Up>::respond_together(DesiredMotion<Scalar>& desi
 
 /// Nothing if there is no motion that all surfaces allow.
 template <std::size_t Lanes, class Scalar, class Up>
-std::optional<DesiredMotion<Scalar>> StepSolver<Lanes, Scalar, Up>::nearest_allowed_to(const V& displacement,
-                                                                                   const V& velocity) const noexcept {
+std::optional<DesiredMotion<Scalar>> StepSolver<Lanes, Scalar, Up>::nearest_allowed_to(
+    const V& displacement, const V& velocity) const noexcept {
   std::vector<HalfPlane<Scalar>>& displacements = memory_.displacement_planes;
   std::vector<HalfPlane<Scalar>>& velocities = memory_.velocity_planes;
   displacements.clear();
@@ -211,21 +212,20 @@ std::optional<DesiredMotion<Scalar>> StepSolver<Lanes, Scalar, Up>::nearest_allo
 /// The response to one surface that stands still: the usual case.
 template <std::size_t Lanes, class Scalar, class Up>
 void StepSolver<Lanes, Scalar, Up>::respond_to_surface(const V& normal, DesiredMotion<Scalar>& desired) const noexcept {
-  const Surface<Scalar> at = Surface<Scalar>{normal, walkable(normal), after_walk_}.seen(up_);
-  if constexpr (!std::is_same_v<Up, Upright<Scalar>>)
-    desired = {desired.displacement.seen(up_), desired.velocity.seen(up_)};
-  if (steered_ != 0) {
-    desired.displacement = respond(desired.displacement, steered_ * dt_ * (1 - time_), at);
-    desired.velocity = respond(desired.velocity, steered_, at);
+  const Surface<Scalar> at{normal, walkable(normal), after_walk_};
+  constexpr bool upright = std::is_same_v<Up, Upright<Scalar>>;
+  if (!upright && steered_ == 0)
+    desired = DesiredMotion<Scalar>::plain(desired.displacement.wanted, desired.velocity.wanted);
+  if (!upright || steered_ != 0) {
+    desired.displacement = respond(up_, desired.displacement, steered_ * dt_ * (1 - time_), at);
+    desired.velocity = respond(up_, desired.velocity, steered_, at);
   } else {
     desired.displacement.wanted = respond(desired.displacement.wanted, at);
     desired.velocity.wanted = respond(desired.velocity.wanted, at);
   }
   // A slide that ends may still enter the surface by rounding. A motion along walkable ground does not.
-  if (!at.walkable && (enters(desired.displacement.wanted, at.normal) || enters(desired.velocity.wanted, at.normal)))
+  if (!at.walkable && (enters(desired.displacement.wanted, normal) || enters(desired.velocity.wanted, normal)))
     desired = DesiredMotion<Scalar>::plain(V::Zero(), V::Zero());
-  if constexpr (!std::is_same_v<Up, Upright<Scalar>>)
-    desired = {desired.displacement.in_world(up_), desired.velocity.in_world(up_)};
 }
 
 /// The response to several surfaces, or to one that moves.

@@ -48,7 +48,7 @@ Vec2<Scalar> StepSolver<Lanes, Scalar, Up>::ground_rest(PieceIndex piece, const 
 /// anything else, what is steepest up of the others.
 template <std::size_t Lanes, class Scalar, class Up>
 std::optional<TouchedSurface<Scalar>> StepSolver<Lanes, Scalar, Up>::carrier_here(ColliderIndex ridden,
-                                                                              bool walkable_only) noexcept {
+                                                                                  bool walkable_only) noexcept {
   std::optional<TouchedSurface<Scalar>> carrier;
   bool rides = false;
   bool stands_still = false;

@@ -98,15 +98,14 @@ void StepSolver<Lanes, Scalar, Up>::begin_motion(const MoveRequest<Scalar>& requ
   steered_ = request.steered;
   dt_ = request.dt;
   // A rise that is steeper than any walkable ground is no climb.
-  after_walk_ = climbs_ =
-      request.grounded &&
-      up_.up_of(request.velocity) <= std::abs(up_.across_of(request.velocity)) * settings_.walkable_tangent;
+  after_walk_ = climbs_ = request.grounded && up_.up_of(request.velocity) <= std::abs(up_.across_of(request.velocity)) *
+                                                                                 settings_.walkable_tangent;
 }
 
 /// The desired motion, with and without this step's steering.
 template <std::size_t Lanes, class Scalar, class Up>
 DesiredMotion<Scalar> StepSolver<Lanes, Scalar, Up>::desired() const noexcept {
-  if (up_.is_turned()) [[unlikely]] {
+  if constexpr (!std::is_same_v<Up, Upright<Scalar>>) {
     const V steered = up_.in_world({steered_, 0});
     return {{motion_.displacement, motion_.displacement - steered * dt_}, {velocity_, velocity_ - steered}};
   }
@@ -178,8 +177,9 @@ void StepSolver<Lanes, Scalar, Up>::end_at_surfaces(DesiredMotion<Scalar>& desir
 /// Whether the character can fall straight down between two rims that it touches: a shaft may be a little wider than
 /// the character. If it is off the middle, it shifts sideways by at most the clearance of the narrowest opening that
 /// counts.
+/// @param aside unit vector, across the fall.
 template <std::size_t Lanes, class Scalar, class Up>
-bool StepSolver<Lanes, Scalar, Up>::shift_to_fall(const V& displacement) noexcept {
+bool StepSolver<Lanes, Scalar, Up>::shift_to_fall(const V& displacement, const V& aside) noexcept {
   constexpr Tolerances<Scalar> tolerances{};
   const auto falls = [&] {
     sweep_along(displacement);
@@ -187,14 +187,31 @@ bool StepSolver<Lanes, Scalar, Up>::shift_to_fall(const V& displacement) noexcep
   };
   if (falls()) return true;
   if (certify_) return false;
-  for (const Scalar aside : {tolerances.hit, -tolerances.hit, 2 * tolerances.hit, -2 * tolerances.hit}) {
+  for (const Scalar by : {tolerances.hit, -tolerances.hit, 2 * tolerances.hit, -2 * tolerances.hit}) {
     const V here = position_;
-    position_ += up_.in_world({aside, 0});
+    position_ += aside * by;
     if (exactly_clear(here, position_) && falls()) {
       push_corner(time_);
       return true;
     }
     position_ = here;
+  }
+  return false;
+}
+
+/// The same along one of the sides of the character, or of its box: where up is slanted a shaft of its width goes
+/// aslant.
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::fall_along_a_side(const V& displacement, const V& velocity,
+                                                      DesiredMotion<Scalar>& desired) noexcept {
+  for (std::size_t axis = 0; axis < Lanes; ++axis) {
+    const V normal = space_.normal(memory_.surfaces[0].piece, axis);
+    const V along{-normal.y(), normal.x()};
+    if (!(up_.up_of(along) < 0)) continue;  // each direction belongs to two axes, or to none
+    const V way = along * dot(displacement, along);
+    if (!shift_to_fall(way, normal)) continue;
+    desired = DesiredMotion<Scalar>::plain(way, along * dot(velocity, along));
+    return true;
   }
   return false;
 }
@@ -215,7 +232,7 @@ void StepSolver<Lanes, Scalar, Up>::cut_short() noexcept {
 /// A slide along a surface that is nearer than `stop`, changed so that it ends at that gap.
 template <std::size_t Lanes, class Scalar, class Up>
 Vec2<Scalar> StepSolver<Lanes, Scalar, Up>::with_gap_restored(const V& displacement,
-                                                          const Stop<Scalar>& at) const noexcept {
+                                                              const Stop<Scalar>& at) const noexcept {
   constexpr Tolerances<Scalar> tolerances{};
   if (displacement.x() == 0 && displacement.y() == 0) return displacement;
   const Scalar gap = space_.separation(at.piece, at.axes.normal, local(at.piece, position_));
@@ -333,7 +350,8 @@ void StepSolver<Lanes, Scalar, Up>::follow_ground_down(const MoveRequest<Scalar>
   note_ground(GroundState::walkable, piece, normal);
   report_contact(piece, axis, time_, result_.contacts.size());
   const V ground = ground_velocity(piece, normal);
-  velocity_ = up_.in_world(follow(up_.across_of(velocity_) - up_.across_of(ground), up_.seen(normal))) + ground;
+  const V followed = follow(up_.across_of(velocity_) - up_.across_of(ground), up_.seen(normal));
+  velocity_ = in_world(up_, followed, normal) + ground;
 }
 
 }  // namespace paperproof::octagon_sweep

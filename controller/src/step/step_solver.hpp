@@ -188,7 +188,9 @@ class StepSolver {
   [[nodiscard]] DesiredMotion<Scalar> desired() const noexcept;
   [[gnu::flatten]] void travel() noexcept;
   [[gnu::cold, gnu::noinline]] void end_at_surfaces(DesiredMotion<Scalar>& desired) noexcept;
-  [[nodiscard, gnu::cold, gnu::noinline]] bool shift_to_fall(const V& displacement) noexcept;
+  [[nodiscard, gnu::cold, gnu::noinline]] bool shift_to_fall(const V& displacement, const V& aside) noexcept;
+  [[nodiscard, gnu::cold, gnu::noinline]] bool fall_along_a_side(const V& displacement, const V& velocity,
+                                                                 DesiredMotion<Scalar>& desired) noexcept;
   [[nodiscard]] V with_gap_restored(const V& displacement, const Stop<Scalar>& at) const noexcept;
   void halt() noexcept;
   [[gnu::cold, gnu::noinline]] void cut_short() noexcept;
@@ -214,7 +216,9 @@ class StepSolver {
   [[nodiscard]] std::optional<TouchedSurface<Scalar>> carrier_here(ColliderIndex ridden, bool walkable_only) noexcept;
   [[nodiscard, gnu::cold, gnu::noinline]] V begin_ride(const MoveRequest<Scalar>& request) noexcept;
   /// Ground that falls faster than the character may.
-  [[nodiscard]] bool falls_away(const V& ground) const noexcept { return up_.up_of(ground) < -settings_.max_fall_speed; }
+  [[nodiscard]] bool falls_away(const V& ground) const noexcept {
+    return up_.up_of(ground) < -settings_.max_fall_speed;
+  }
   [[nodiscard, gnu::cold, gnu::noinline]] bool carries_from_now(const TouchedSurface<Scalar>& ground) const noexcept;
   [[gnu::cold, gnu::noinline]] void begin_to_ride(const TouchedSurface<Scalar>& ground) noexcept;
   [[nodiscard, gnu::cold, gnu::noinline]] V anchor(Scalar time) const noexcept;
@@ -301,11 +305,11 @@ class StepSolver {
                         ///< impact count from there.
   V position_{V::Zero()};
   V velocity_{V::Zero()};
-  Scalar time_ = 0;  ///< Fraction of the step that is spent.
-  Scalar dt_ = 0;    ///< Of the step [s].
-  Scalar fall_ = 0;  ///< Velocity upwards without steering, before the surfaces that are touched now were met [m/s].
-  Scalar steered_ = 0;       ///< The part of the horizontal velocity that this step's steering added [m/s].
-  bool drops_ = false;       ///< One-way segments do not block in this step.
+  Scalar time_ = 0;     ///< Fraction of the step that is spent.
+  Scalar dt_ = 0;       ///< Of the step [s].
+  Scalar fall_ = 0;     ///< Velocity upwards without steering, before the surfaces that are touched now were met [m/s].
+  Scalar steered_ = 0;  ///< The part of the horizontal velocity that this step's steering added [m/s].
+  bool drops_ = false;  ///< One-way segments do not block in this step.
   bool certify_ = false;     ///< Something is nearer than rounding: every motion needs an exact certificate.
   bool climbs_ = false;      ///< The step began on ground, with no more upward speed than climbing gives.
   bool after_walk_ = false;  ///< See `Surface`.

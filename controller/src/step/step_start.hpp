@@ -67,7 +67,7 @@ std::optional<Vec2<Scalar>> StepSolver<Lanes, Scalar, Up>::find_way_out(const Mo
 /// Searches near first, then twice as far, and so on, until the solids that are overlapped are searched as a whole.
 template <std::size_t Lanes, class Scalar, class Up>
 std::optional<Vec2<Scalar>> StepSolver<Lanes, Scalar, Up>::find_way_out(FreePositionQuery<Scalar> query,
-                                                                    Scalar whole) noexcept {
+                                                                        Scalar whole) noexcept {
   const V extent = space_.hull_box().upper - space_.hull_box().lower;
   for (query.reach = std::min(whole, extent.maxCoeff());; query.reach = std::min(whole, 2 * query.reach)) {
     const std::span<PieceIndex> pieces = pieces_for(query, query.reach);
@@ -81,7 +81,7 @@ std::optional<Vec2<Scalar>> StepSolver<Lanes, Scalar, Up>::find_way_out(FreePosi
 /// of one collider are in a row. The span may be reordered.
 template <std::size_t Lanes, class Scalar, class Up>
 std::span<PieceIndex> StepSolver<Lanes, Scalar, Up>::pieces_for(const FreePositionQuery<Scalar>& query,
-                                                            Scalar radius) noexcept {
+                                                                Scalar radius) noexcept {
   Box2<Scalar> box = Box2<Scalar>{query.near, query.near}.inflated(radius).merged({query.from, query.from});
   const auto add = [&box](const V& p) { box = box.merged({p, p}); };
   if (query.last_free) add(*query.last_free);
@@ -105,7 +105,7 @@ std::span<PieceIndex> StepSolver<Lanes, Scalar, Up>::pieces_for(const FreePositi
 template <std::size_t Lanes, class Scalar, class Up>
 template <class Condition>
 std::size_t StepSolver<Lanes, Scalar, Up>::put_first(std::span<PieceIndex> pieces,
-                                                 const Condition& condition) const noexcept {
+                                                     const Condition& condition) const noexcept {
   std::size_t count = 0;
   for (std::size_t first = 0, end = 0; first < pieces.size(); first = end) {
     bool fulfilled = false;
@@ -192,7 +192,7 @@ bool StepSolver<Lanes, Scalar, Up>::exactly_clear(const V& from, const V& to) no
 /// The same for one piece, and a motion from now to a fraction of the step.
 template <std::size_t Lanes, class Scalar, class Up>
 bool StepSolver<Lanes, Scalar, Up>::exactly_clear(PieceIndex piece, const V& begin, const V& target,
-                                              Scalar end) const noexcept {
+                                                  Scalar end) const noexcept {
   const V from = local(piece, begin);
   const V to = target - offset(piece, end);
   if (one_axis_separates(space_, piece, from, to)) return true;

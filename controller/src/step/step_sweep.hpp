@@ -197,7 +197,7 @@ void StepSolver<Lanes, Scalar, Up>::report(Scalar begin) noexcept {
 /// @param this_moment index of the first contact of the present moment. Among those the earlier impact counts.
 template <std::size_t Lanes, class Scalar, class Up>
 void StepSolver<Lanes, Scalar, Up>::report_contact(PieceIndex piece, std::size_t axis, Scalar fraction,
-                                               std::size_t this_moment) noexcept {
+                                                   std::size_t this_moment) noexcept {
   auto& contacts = result_.contacts;
   for (std::size_t i = 0; i < this_moment; ++i) fraction = std::max(fraction, contacts[i].fraction);
   const ColliderIndex collider = collider_of(piece);
@@ -264,7 +264,7 @@ Scalar StepSolver<Lanes, Scalar, Up>::fraction_of(const Stop<Scalar>& stop, Scal
 /// before its time of impact: another piece of the same collider may be hit in between.
 template <std::size_t Lanes, class Scalar, class Up>
 Scalar StepSolver<Lanes, Scalar, Up>::impact_of(const Stop<Scalar>& stop, const LocalMotion& motion,
-                                            const V& from) noexcept {
+                                                const V& from) noexcept {
   Scalar earliest = time_of_impact(space_, from, motion.displacement, stop.piece, stop.axes);
   if ((earliest - stop.stop) * motion.length <= 2 * Tolerances<Scalar>{}.stop) return earliest;
   if (!space_.info(stop.piece).whole_collider)
@@ -275,7 +275,7 @@ Scalar StepSolver<Lanes, Scalar, Up>::impact_of(const Stop<Scalar>& stop, const 
 /// The earliest time of impact with the other pieces of a collider; infinite where none is hit.
 template <std::size_t Lanes, class Scalar, class Up>
 Scalar StepSolver<Lanes, Scalar, Up>::impact_with_another_piece(const Stop<Scalar>& stop, const LocalMotion& motion,
-                                                            const V& from) noexcept {
+                                                                const V& from) noexcept {
   Scalar earliest = std::numeric_limits<Scalar>::infinity();
   const std::span<const PieceInfo> pieces = space_.scenery().pieces();
   for (const PieceIndex other : pieces_along(motion, pieces[stop.piece].mover)) {
@@ -292,7 +292,7 @@ Scalar StepSolver<Lanes, Scalar, Up>::impact_with_another_piece(const Stop<Scala
 /// Pieces that a motion may hit, of one mover or, for `no_mover`, of the scenery that stands still.
 template <std::size_t Lanes, class Scalar, class Up>
 std::span<const PieceIndex> StepSolver<Lanes, Scalar, Up>::pieces_along(const LocalMotion& motion,
-                                                                    MoverIndex mover) noexcept {
+                                                                        MoverIndex mover) noexcept {
   if (mover != no_mover) return movers_.phases.query(mover, space_.touched_from(motion.box()), memory_.of_mover);
   return neighbourhood_.around(motion.box(), motion.displacement);
 }
