@@ -24,8 +24,8 @@ double area_of(const Vec2d& a, const Vec2d& b) { return a.x() * b.y() - a.y() * 
 
 }  // namespace
 
-bool is_walkable(const Vec2d& normal, const TraceHeader& header) {
-  return normal.y() >= std::cos(header.max_climb_degrees * std::numbers::pi / 180 + climb_margin);
+bool is_walkable(const Vec2d& normal, const TraceHeader& header, const Vec2d& up) {
+  return normal.dot(up) >= std::cos(header.max_climb_degrees * std::numbers::pi / 180 + climb_margin);
 }
 
 Reach reach_of(const TraceHeader& header) {
@@ -35,8 +35,8 @@ Reach reach_of(const TraceHeader& header) {
 }
 
 HangingJudge::HangingJudge(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step,
-                           const Others& others)
-    : header_(header), scenery_(scenery), step_(step), others_(others) {}
+                           const Others& others, const Vec2d& up)
+    : header_(header), scenery_(scenery), step_(step), others_(others), up_(up) {}
 
 bool HangingJudge::HalfPlane::holds(const Vec2d& d) const {
   return normal.dot(d) - bound >= -normal_rounding * (d.norm() + std::abs(bound));
@@ -49,17 +49,18 @@ double HangingJudge::HalfPlane::room(const Vec2d& aside) const {
 }
 
 bool HangingJudge::hangs(const Vec2d& made, const Reach& reach) const {
-  const Vec2d unsteered = step_.requested - Vec2d(step_.steered, 0);
+  const Vec2d unsteered = step_.requested - step_.steered * Vec2d(up_.y(), -up_.x());
   const double least = std::max(least_fall, ulp_at(header_, step_.path.front().position));
-  const double asked = -unsteered.y();
-  if (step_.capped || !(asked > least) || !(-made.y() < least_share * asked)) return false;
-  const auto falls_short_of = [&](double fall) { return fall > least && -made.y() < least_share * fall; };
+  const double asked = -unsteered.dot(up_);
+  const double fell = -made.dot(up_);
+  if (step_.capped || !(asked > least) || !(fell < least_share * asked)) return false;
+  const auto falls_short_of = [&](double fall) { return fall > least && fell < least_share * fall; };
   const std::vector<Nearby> corners = near_corners(reach);
   Nearby all;
   for (const Nearby& corner : corners) all.add(corner);
   if (all.holds) return false;
   const Vec2d free = nearest_free(unsteered, all.obstacles, reach.opening);
-  if (!falls_short_of(std::min(-free.y(), asked))) return false;
+  if (!falls_short_of(std::min(-free.dot(up_), asked))) return false;
   if (step_.movers.empty()) return true;
   return falls_short_of(fall_leg_by_leg(unsteered, corners, reach)) && !is_run_into(reach);
 }
@@ -72,7 +73,8 @@ bool HangingJudge::has_support(std::size_t corner, double within) const {
   return std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
     if (std::find(dropped.begin(), dropped.end(), part.collider) != dropped.end()) return false;
     return part.faces.front().separation < 0 ||
-           std::any_of(part.faces.begin(), part.faces.end(), [](const NearFace& face) { return face.normal.y() > 0; });
+           std::any_of(part.faces.begin(), part.faces.end(),
+                       [this](const NearFace& face) { return face.normal.dot(up_) > 0; });
   });
 }
 
@@ -103,12 +105,12 @@ std::vector<HangingJudge::Nearby> HangingJudge::near_corners(const Reach& reach)
 double HangingJudge::fall_leg_by_leg(const Vec2d& wanted, const std::vector<Nearby>& corners,
                                      const Reach& reach) const {
   double fall = 0;
-  double rate = -wanted.y();
+  double rate = -wanted.dot(up_);
   for (std::size_t corner = 0; corner + 1 < corners.size(); ++corner) {
     Nearby both = corners[corner];
     both.add(corners[corner + 1]);
     for (const auto& nearby : {std::cref(corners[corner]), std::cref(corners[corner + 1]), std::cref(both)})
-      rate = std::min(rate, -nearest_free(wanted, nearby.get().obstacles, reach.opening).y());
+      rate = std::min(rate, -nearest_free(wanted, nearby.get().obstacles, reach.opening).dot(up_));
     fall += rate * (step_.path[corner + 1].fraction - step_.path[corner].fraction);
   }
   return fall;
@@ -160,7 +162,7 @@ bool HangingJudge::blocks(std::size_t corner, const NearPart& part, double withi
 
 bool HangingJudge::is_ground(const NearPart& part) const {
   return std::any_of(part.faces.begin(), part.faces.end(),
-                     [&](const NearFace& face) { return is_walkable(face.normal, header_); });
+                     [&](const NearFace& face) { return is_walkable(face.normal, header_, up_); });
 }
 
 /// The displacement nearest to what is wanted that keeps clear of all obstacles: it is that itself, or on the border of

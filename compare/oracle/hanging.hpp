@@ -19,12 +19,14 @@ inline constexpr Reach exact_reach{1e-6, 2e-7};
 [[nodiscard]] Reach reach_of(const TraceHeader& header);
 
 /// Whether a surface with this unit normal is within the climb limit, and 1e-6 rad.
-[[nodiscard]] bool is_walkable(const Vec2d& normal, const TraceHeader& header);
+[[nodiscard]] bool is_walkable(const Vec2d& normal, const TraceHeader& header, const Vec2d& up = {0, 1});
 
 /// Asks of a step whether it hangs, and what it stands on: see `Judge` for what that means. Lives for one step.
 class HangingJudge {
  public:
-  HangingJudge(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step, const Others& others);
+  /// @param up of the character in this step, a unit vector: it falls against that.
+  HangingJudge(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step, const Others& others,
+               const Vec2d& up = {0, 1});
 
   /// @param made what the step went [m].
   [[nodiscard]] bool hangs(const Vec2d& made, const Reach& reach) const;
@@ -63,6 +65,7 @@ class HangingJudge {
   const ExactScenery& scenery_;
   const TraceStep& step_;
   const Others& others_;
+  Vec2d up_;
 };
 
 }  // namespace paperproof::compare::detail

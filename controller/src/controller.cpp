@@ -20,7 +20,8 @@ namespace {
 using namespace step_parts;
 
 template <class Scalar>
-Scalar steered(const CharacterDef& character, const CharacterState<Scalar>& state, double move, Scalar dt) noexcept {
+[[gnu::always_inline]] inline Scalar steered(const CharacterDef& character, const CharacterState<Scalar>& state,
+                                             double move, Scalar dt) noexcept {
   const double acceleration =
       state.grounded ? character.acceleration : character.air_acceleration.value_or(character.acceleration);
   const Scalar target = static_cast<Scalar>(std::clamp(move, -1.0, 1.0) * character.walk_speed);
@@ -79,8 +80,10 @@ void count_down_coyote(const CharacterDef& character, Scalar dt, CharacterState<
 
 /// @param wall_ahead there is a wall to jump against, whatever the last step touched.
 template <class Scalar>
-DesiredVelocity<Scalar> wanted_velocity(const CharacterDef& character, const Vec2<Scalar>& gravity, const Input& input,
-                                        Scalar dt, bool wall_ahead, CharacterState<Scalar>& state) noexcept {
+[[gnu::always_inline]] inline DesiredVelocity<Scalar> wanted_velocity(const CharacterDef& character,
+                                                                      const Vec2<Scalar>& gravity, const Input& input,
+                                                                      Scalar dt, bool wall_ahead,
+                                                                      CharacterState<Scalar>& state) noexcept {
   // Component by component: a pair that is written as two numbers and read as one vector waits for the memory.
   Scalar x = input.move ? steered(character, state, *input.move, dt) : state.velocity.x();
   const Scalar change = x - state.velocity.x();
@@ -178,7 +181,7 @@ Controller<Scalar>::Controller(const Scenery<Scalar>& scenery, const CharacterDe
       technique_(std::move(technique)),
       sweep_(dynamic_cast<const octagon_sweep::SweepInParts<Scalar>*>(technique_.get())) {
   character_.validate();
-  if (has_filters_ && !technique_->filters())
+  if (has_filters_ && !technique_->abilities().filter)
     throw std::invalid_argument("the technique " + std::string(technique_->name()) +
                                 " has no filter, and there is a collider with one");
   if (!stages.sensors && scenery.sensor_pieces().size() > 0)
@@ -198,11 +201,23 @@ Scratch<Scalar> Controller<Scalar>::completed(Scratch<Scalar> scratch) const {
 template <class Scalar>
 [[gnu::always_inline]] inline bool Controller<Scalar>::accepts(const CharacterState<Scalar>& state, const Input& input,
                                                                const StepContext<Scalar>& context) const noexcept {
+  if (!is_upright(context.up)) [[unlikely]]
+    return accepts_turned(state, input, context);
   const Vec2<Scalar>& gravity = context.gravity;
   const bool foreseen = (may_jump_ || !input.jump) && (may_fall_ || (gravity.x() == 0 && gravity.y() == 0));
   return foreseen && context.dt > 0 && context.movers.size() == scenery_->mover_count() &&
-         (context.filter == nullptr || technique_->filters()) &&
+         (context.filter == nullptr || technique_->abilities().filter) &&
          finite(state, input, gravity, context.dt, context.movers);
+}
+
+/// With an up that is not (0, 1).
+template <class Scalar>
+[[gnu::cold, gnu::noinline]] bool Controller<Scalar>::accepts_turned(const CharacterState<Scalar>& state,
+                                                                     const Input& input,
+                                                                     StepContext<Scalar> context) const noexcept {
+  if (!accepts(context.up)) return false;
+  context.up = {0, 1};
+  return accepts(state, input, context);
 }
 
 /// Tries a move towards the wall, without making it. Kept out of `step`: nearly no step needs it.
@@ -211,8 +226,10 @@ template <class Scalar>
                                                           const StepContext<Scalar>& context, Scratch<Scalar>& scratch,
                                                           MoveResult<Scalar>& tried) const noexcept {
   const Scalar reach = static_cast<Scalar>(character_.wall_reach);
-  const Vec2<Scalar> there{move < 0 ? -reach : reach, 0};
+  const UpFrame<Scalar> up = context.up;
+  const Vec2<Scalar> there = up.in_world({move < 0 ? -reach : reach, 0});
   MoveRequest<Scalar> request = request_of(state, state.crushers, there, there / context.dt, 0, false, context);
+  request.up = up;
   request.crushed = false;
   request.crushers = {};
   technique_->move(request, scratch, tried);
@@ -253,6 +270,24 @@ template <class Scalar>
   return request_of(state, crushers, {velocity.x() * dt, velocity.y() * dt}, velocity, steered, input.drop, context);
 }
 
+/// The same for a character that is not upright. Kept out of most steps.
+template <class Scalar>
+[[gnu::cold, gnu::noinline]] MoveRequest<Scalar> Controller<Scalar>::begin_turned_step(
+    const Crushers<Scalar>& crushers, const Input& input, const StepContext<Scalar>& context, bool wall_ahead,
+    CharacterState<Scalar>& state, StepReport<Scalar>& report) const noexcept {
+  if (state.ride.ground != Ride<Scalar>::none) state.velocity -= state.ride.velocity;
+  const UpFrame<Scalar> up = context.up;
+  const Scalar dt = context.dt;
+  state.velocity = up.seen(state.velocity);
+  const auto [seen, steered] = wanted_velocity(character_, up.seen(context.gravity), input, dt, wall_ahead, state);
+  const Vec2<Scalar> velocity = up.in_world(seen);
+  report.requested = velocity * dt;
+  report.steered = steered * dt;
+  MoveRequest<Scalar> request = request_of(state, crushers, report.requested, velocity, steered, input.drop, context);
+  request.up = up;
+  return request;
+}
+
 template <class Scalar>
 [[gnu::always_inline]] inline void Controller<Scalar>::end_step(bool drop, const StepContext<Scalar>& context,
                                                                 Scratch<Scalar>& scratch, CharacterState<Scalar>& state,
@@ -261,7 +296,7 @@ template <class Scalar>
   if (sensors_) sensors_->observe(path, context.movers, scratch.sensors, report.sensors, filter_of(context));
   if (drop && one_way_)
     one_way_->find_passed(path, context.movers, scratch.one_way, report.dropped_through, filter_of(context));
-  adopt(character_, report.move, state);
+  adopt(character_, context.up, report.move, state);
 }
 
 template <class Scalar>
@@ -278,7 +313,11 @@ template <class Scalar>
   if (character_.no_jump_toward_wall && may_press && state.grounded && input.move.value_or(0) != 0)
     wall_ahead = has_wall_ahead(state, *input.move, context, scratch, report.move);
   // A request with a name, read again after the move, cost 46 instructions more per step (g++ 12).
-  technique_->move(begin_step(state.crushers, input, context, wall_ahead, state, report), scratch, report.move);
+  if (is_upright(context.up)) [[likely]]
+    technique_->move(begin_step(state.crushers, input, context, wall_ahead, state, report), scratch, report.move);
+  else
+    technique_->move(begin_turned_step(state.crushers, input, context, wall_ahead, state, report), scratch,
+                     report.move);
   report.status = status_of(report.move.status);
   if (is_refused(report.status)) {
     before.restore(state);
@@ -300,7 +339,9 @@ StepStatus Controller<Scalar>::move(CharacterState<Scalar>& state, const Vec2<Sc
     return report.status = StepStatus::invalid_input;
   report.requested = displacement;
   report.steered = 0;
-  technique_->move(request_of(state, state.crushers, displacement, velocity, 0, false, context), scratch, report.move);
+  MoveRequest<Scalar> request = request_of(state, state.crushers, displacement, velocity, 0, false, context);
+  request.up = context.up;
+  technique_->move(request, scratch, report.move);
   report.status = status_of(report.move.status);
   if (is_refused(report.status)) return report.status;
   note_press(character_, state.jump_held, context.dt, state);  // as it was: time alone passes
@@ -336,7 +377,7 @@ bool Controller<Scalar>::can_answer(const Vec2<Scalar>& position, const Vec2<Sca
                                     const StepContext<Scalar>& context, const Scratch<Scalar>& scratch) const noexcept {
   return sweep_ != nullptr && is_made_by(technique_, scratch.maker) && in_range(position) &&
          in_range(Vec2<Scalar>(position + displacement)) && context.movers.size() == scenery_->mover_count() &&
-         (context.movers.empty() || finite(context.movers, Scalar(1)));
+         accepts(context.up) && (context.movers.empty() || finite(context.movers, Scalar(1)));
 }
 
 template <class Scalar>
@@ -371,7 +412,8 @@ bool Controller<Scalar>::begin_together(const CharacterState<Scalar>& before, co
                                         MoveRequest<Scalar>& request, StepReport<Scalar>& report) const noexcept {
   if (!accepts(before, input, context)) return false;
   state = before;
-  request = begin_step(before.crushers, input, context, false, state, report);
+  request = is_upright(context.up) ? begin_step(before.crushers, input, context, false, state, report)
+                                   : begin_turned_step(before.crushers, input, context, false, state, report);
   return true;
 }
 

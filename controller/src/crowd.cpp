@@ -121,7 +121,7 @@ StepStatus Crowd<Scalar>::step(std::span<CharacterState<Scalar>> states, std::sp
   const bool in_range =
       rules_->sweep != nullptr
           ? crowd::sweep_together<Scalar>({*rules_->sweep, memory, report, std::span(memory.members).first(count),
-                                           context.gravity, context.dt, context.movers, context.filter},
+                                           context.gravity, context.dt, context.movers, context.filter, context.up},
                                           states)
           : joint_technique(controller_).move_together(std::span(memory.requests).first(count), memory.scratch, report);
   if (!in_range) return report.status = StepStatus::out_of_range;

@@ -115,7 +115,8 @@ void note_freedom(const MoveResult<Scalar>& move, CharacterState<Scalar>& state)
 
 /// Writes the result of the move into the state for the next step.
 template <class Scalar>
-void adopt(const CharacterDef& character, const MoveResult<Scalar>& move, CharacterState<Scalar>& state) noexcept {
+void adopt(const CharacterDef& character, const Vec2<Scalar>& up, const MoveResult<Scalar>& move,
+           CharacterState<Scalar>& state) noexcept {
   state.position = move.position;
   state.velocity = move.velocity;
   state.technique_memory = move.technique_memory;
@@ -127,8 +128,11 @@ void adopt(const CharacterDef& character, const MoveResult<Scalar>& move, Charac
   if (move.grounded) state.jumping = false;
   state.wall_left = touches(move, Side::left);
   state.wall_right = touches(move, Side::right);
-  if (character.side_hit_ends_rise && (state.wall_left || state.wall_right))
-    state.velocity.y() = std::min(state.velocity.y(), Scalar(0));
+  if (character.side_hit_ends_rise && (state.wall_left || state.wall_right)) {
+    const UpFrame<Scalar> frame = up;
+    const Scalar rise = frame.up_of(state.velocity);
+    if (rise > 0) state.velocity = frame.in_world({frame.across_of(state.velocity), 0});
+  }
   const int stuck_steps = move.status == MoveStatus::stuck ? std::min(state.stuck_steps + 1, 255) : 0;
   state.stuck_steps = static_cast<std::uint8_t>(stuck_steps);
 }

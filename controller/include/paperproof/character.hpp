@@ -7,6 +7,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
 
 namespace paperproof {
 
@@ -15,7 +16,8 @@ class InvalidCharacter : public std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
-/// The collision points of a character, relative to its position [m], y up. They are the corners of a convex polygon.
+/// The collision points of a character, relative to its position [m], y up in the world. They are the corners of a
+/// convex polygon.
 class CharacterShape {
  public:
   static constexpr std::size_t max_points = 8;
@@ -52,10 +54,10 @@ class CharacterShape {
 /// How a character wants to move. The defaults are the values for a scene that gives none.
 struct CharacterDef {
   CharacterShape shape = CharacterShape::article();
-  double walk_speed = 6;                   ///< [m/s]
-  double acceleration = 60;                ///< Of the horizontal speed on the ground [m/s²].
-  std::optional<double> air_acceleration{}; ///< The same in the air [m/s²]; `acceleration` where absent.
-  double jump_speed = 12;                  ///< Upward speed that a jump sets [m/s].
+  double walk_speed = 6;                     ///< [m/s]
+  double acceleration = 60;                  ///< Of the horizontal speed on the ground [m/s²].
+  std::optional<double> air_acceleration{};  ///< The same in the air [m/s²]; `acceleration` where absent.
+  double jump_speed = 12;                    ///< Upward speed that a jump sets [m/s].
   /// For how long a character that has left the ground without a jump may still jump [s].
   double coyote_time = 0;
   /// For how long a press of the button that cannot jump yet stays pending, whether the button is held or not [s].
@@ -64,9 +66,10 @@ struct CharacterDef {
   /// The share of its upward speed that a jump keeps if the button is released during the rise, or before it, in
   /// [0, 1]. On a mover it is a share of the speed in the world.
   double jump_cut = 1;
-  std::optional<double> max_fall_speed{}; ///< [m/s]; no limit where absent.
-  double max_climb_degrees = 50;         ///< Steepest walkable ground, from the horizontal; in [0, 89].
-  /// How far down a walker follows its ground, over crests and down stairs [m]; 0: not at all. A jump leaves the ground.
+  std::optional<double> max_fall_speed{};  ///< Against up [m/s]; no limit where absent.
+  double max_climb_degrees = 50;           ///< Steepest walkable ground, from the horizontal; in [0, 89].
+  /// How far down a walker follows its ground, over crests and down stairs [m]; 0: not at all. A jump leaves the
+  /// ground.
   double snap = 0;
   /// How high a walker climbs a kerb or a stair that stops it, if there is room above and walkable ground behind the
   /// edge [m]; 0: not at all. It keeps its speed sideways, and gains none.
@@ -89,8 +92,8 @@ struct CharacterDef {
 
 /// The player's wishes for one step.
 struct Input {
-  /// Horizontal direction in [-1, 1]: the speed approaches `move * walk_speed`. Absent: nothing steers, and the
-  /// horizontal speed stays as it is.
+  /// Direction across up in [-1, 1], (up.y, -up.x) being positive: the speed approaches `move * walk_speed`. Absent:
+  /// nothing steers, and the horizontal speed stays as it is.
   std::optional<double> move{};
   /// The jump button is down. One press gives at most one jump; a press that cannot jump yet stays pending while held;
   /// or, if there is a `CharacterDef::jump_buffer`, for that long.
@@ -156,7 +159,7 @@ struct CharacterState {
   bool jump_pending = false;  ///< A press that has not become a jump yet.
   Scalar coyote_left = 0;     ///< For how long the character may still jump in the air [s]: see `coyote_time`.
   Scalar pending_left = 0;    ///< For how long a press stays pending [s]: see `jump_buffer`.
-  bool wall_left = false;     ///< The last step ended against something on the left.
+  bool wall_left = false;     ///< The last step met something on the left of the character as it stands.
   bool wall_right = false;
   /// Movers left no room, and one of them still overlaps the character. The character stays in place. Another mover
   /// that runs into it leaves it room on the side from which the character came, or crushes it as well.
@@ -167,5 +170,35 @@ struct CharacterState {
 
   friend bool operator==(const CharacterState&, const CharacterState&) = default;
 };
+
+/// Puts a character elsewhere, in one jump that sweeps nothing: a portal, a new room, a restart. The state forgets what
+/// belongs to the old place: ground and ride, coyote time, walls, the last free position, what crushed the character,
+/// and how long it was stuck. It keeps its velocity (in the world: that of a ride is in it) and the state of the jump
+/// button. If the place is not free, the next step resolves that: see `Controller::overlaps`.
+/// @param position [m]
+template <class Scalar>
+void teleport(CharacterState<Scalar>& state, const std::type_identity_t<Vec2<Scalar>>& position) noexcept {
+  CharacterState<Scalar> there;
+  there.position = position;
+  there.velocity = state.velocity;
+  there.jumping = state.jumping;
+  there.jump_held = state.jump_held;
+  there.jump_pending = state.jump_pending;
+  there.pending_left = state.pending_left;
+  state = there;
+}
+
+/// Adds a velocity to that of the character: an explosion, a spring, a hit. The character leaves the ground, also where
+/// the velocity points into it, and what carries it, whose velocity it keeps. It cannot jump before it stands again:
+/// the coyote time is over; a press of the button stays pending. If it was jumping, the jump is over, too: to release
+/// the button does not cut the rise. Steering works as in the air. A crushed character stays in place.
+/// @param velocity [m/s]
+template <class Scalar>
+void knock_back(CharacterState<Scalar>& state, const std::type_identity_t<Vec2<Scalar>>& velocity) noexcept {
+  state.velocity += velocity;
+  state.grounded = state.jumping = false;
+  state.coyote_left = 0;
+  state.ride = {};
+}
 
 }  // namespace paperproof

@@ -30,12 +30,20 @@ struct StepContext {
   /// filter leaves out were not in the scenery (but see `ColliderFilter` for seams): they give no contact and no event.
   /// `octagon_sweep` alone filters; with another technique a filter is invalid input.
   const ColliderFilter* filter = nullptr;
+  /// Up of the characters: any unit vector, which may differ from step to step. It decides what is horizontal (a
+  /// positive `Input::move` goes along (up.y, -up.x)), where a jump goes, what `max_fall_speed` limits, which surfaces
+  /// are ground, walls and ceilings, how far down `snap` looks, and the sides of contacts. Gravity is a vector of the
+  /// world: turn it as well. The flags of a state are those that its last step saw. The shape does not turn, and
+  /// whether a motion is free does not depend on up. Invalid input: an up that is not finite, or whose length differs
+  /// from 1 by more than the rounding of `Scalar`; and any other than (0, 1) with another technique than
+  /// `octagon_sweep`.
+  Vec2<Scalar> up{0, 1};
 };
 
 /// Computes the velocity that a character wants in this step, before any obstacle changes it, and updates the jump
-/// flags. Common to every contender, the Box2D twin included: horizontal speed approaches `move * walk_speed`; a jump
-/// that is allowed sets the upward speed once; then gravity, with the fall speed limited (semi-implicit Euler: the
-/// displacement of the step is this velocity times dt).
+/// flags. Up is (0, 1). Common to every contender, the Box2D twin included: horizontal speed approaches `move *
+/// walk_speed`; a jump that is allowed sets the upward speed once; then gravity, with the fall speed limited
+/// (semi-implicit Euler: the displacement of the step is this velocity times dt).
 /// @param state its flags `jump_held`, `jump_pending`, `jumping`, `grounded` are updated; position and velocity are
 /// not.
 template <class Scalar>
@@ -51,8 +59,8 @@ enum class StepStatus : std::uint8_t {
   out_of_range,  ///< Refused: the step would leave +-2e6 m. Position and velocity are unchanged.
   refused,       ///< Refused by the technique: see `MoveResult::refusal`. Position and velocity are unchanged.
   /// Refused: NaN, infinity, dt <= 0, a mover beyond +-2e6 m or with a speed that is not finite, a number of movers
-  /// that differs from the scenery's, a filter for a technique that has none, scratch memory that another controller
-  /// made. Nothing changed at all.
+  /// that differs from the scenery's, a filter or an up that the technique does not read (see `Abilities`), an up that
+  /// is no unit vector, scratch memory that another controller made. Nothing changed at all.
   invalid_input,
 };
 
@@ -69,7 +77,7 @@ template <class Scalar = double>
 struct StepReport {
   StepStatus status = StepStatus::moved;
   Vec2<Scalar> requested{Vec2<Scalar>::Zero()};  ///< Wanted displacement [m].
-  Scalar steered = 0;                            ///< The part of `requested.x()` that this step's steering added [m].
+  Scalar steered = 0;  ///< The part of `requested` across up that this step's steering added [m].
   MoveResult<Scalar> move;
   /// In order of time: see `SensorEvent`. If there are more events than it holds, the latest are missing, and it
   /// `overflowed()`.
@@ -112,10 +120,10 @@ class Controller {
   /// One step of a game that owns its velocities: the character moves by a displacement, as far as obstacles let it,
   /// and slides along them. No input, jump or gravity is added; gravity is checked, but not used.
   ///
-  /// To stay on the ground, and to ride, the character must press on it: give the displacement a part downwards, or the
-  /// character a `snap`. With `snap`, clear `state.grounded` to leave the ground by less than the climb limit. Ground
-  /// that carries the character adds its motion. `state.velocity` is not read; it becomes what obstacles leave of
-  /// displacement / dt, the motion of the ground included. A jump that is pending stays so; time passes for it.
+  /// To stay on the ground, and to ride, the character must press on it: give the displacement a part against up, or
+  /// the character a `snap`. With `snap`, clear `state.grounded` to leave the ground by less than the climb limit.
+  /// Ground that carries the character adds its motion. `state.velocity` is not read; it becomes what obstacles leave
+  /// of displacement / dt, the motion of the ground included. A jump that is pending stays so; time passes for it.
   /// @param displacement in the step [m]; relative to what carries the character.
   StepStatus move(CharacterState<Scalar>& state, const Vec2<Scalar>& displacement, const StepContext<Scalar>& context,
                   Scratch<Scalar>& scratch, StepReport<Scalar>& report) const noexcept;
@@ -136,7 +144,7 @@ class Controller {
                        std::span<StepReport<Scalar>> reports) const noexcept;
 
   // Questions about the surroundings of a character of this kind. They move nothing and allocate nothing. They read
-  // only the movers and the filter of the context. No question is answered by a controller that does not move by
+  // only the movers, the filter and up of the context. No question is answered by a controller that does not move by
   // `octagon_sweep`, with a scratch of another controller, with another number of movers than the scenery's, or about
   // numbers that are out of range.
 
@@ -181,11 +189,18 @@ class Controller {
  private:
   [[nodiscard]] bool accepts(const CharacterState<Scalar>& state, const Input& input,
                              const StepContext<Scalar>& context) const noexcept;
+  [[nodiscard]] bool accepts_turned(const CharacterState<Scalar>& state, const Input& input,
+                                    StepContext<Scalar> context) const noexcept;
   /// Whether a wall is within `wall_reach` of the character, on the side that `move` (not zero) points to.
   /// @param tried is overwritten.
   [[nodiscard]] bool has_wall_ahead(const CharacterState<Scalar>& state, double move,
                                     const StepContext<Scalar>& context, Scratch<Scalar>& scratch,
                                     MoveResult<Scalar>& tried) const noexcept;
+  /// Whether a step or a question may have this up.
+  [[nodiscard]] bool accepts(const Vec2<Scalar>& up) const noexcept {
+    return is_upright(up) || (is_unit(up) && technique_->abilities().up);
+  }
+  /// Without up, which is (0, 1) if nothing else is said.
   /// @param crushers of the state as it was; must outlive the request, as `context`.
   [[nodiscard]] MoveRequest<Scalar> request_of(const CharacterState<Scalar>& state, const Crushers<Scalar>& crushers,
                                                const Vec2<Scalar>& displacement, const Vec2<Scalar>& velocity,
@@ -196,6 +211,10 @@ class Controller {
                                                const StepContext<Scalar>& context, bool wall_ahead,
                                                CharacterState<Scalar>& state,
                                                StepReport<Scalar>& report) const noexcept;
+  [[nodiscard]] MoveRequest<Scalar> begin_turned_step(const Crushers<Scalar>& crushers, const Input& input,
+                                                      const StepContext<Scalar>& context, bool wall_ahead,
+                                                      CharacterState<Scalar>& state,
+                                                      StepReport<Scalar>& report) const noexcept;
   /// Ends the step, after the move has filled `report.move`.
   void end_step(bool drop, const StepContext<Scalar>& context, Scratch<Scalar>& scratch, CharacterState<Scalar>& state,
                 StepReport<Scalar>& report) const noexcept;
@@ -221,7 +240,11 @@ class Controller {
                                 const StepContext<Scalar>& context, const Scratch<Scalar>& scratch) const noexcept;
   [[nodiscard]] MoveRequest<Scalar> question(const Vec2<Scalar>& position, const Vec2<Scalar>& displacement,
                                              const StepContext<Scalar>& context) const noexcept {
-    return {.position = position, .displacement = displacement, .movers = context.movers, .filter = filter_of(context)};
+    return {.position = position,
+            .displacement = displacement,
+            .movers = context.movers,
+            .filter = filter_of(context),
+            .up = context.up};
   }
 
   const Scenery<Scalar>* scenery_;

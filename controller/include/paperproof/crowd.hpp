@@ -34,9 +34,10 @@ struct CrowdMember {
   /// character's own index.
   CharacterIndex island = 0;
 
-  /// Adds a contact with another, unless there is one on the same side.
-  void add_contact(CharacterIndex other, const Vec2<Scalar>& normal, Scalar fraction) noexcept {
-    const CrowdContact<Scalar> contact{other, normal, fraction, side_of_normal(normal.x(), normal.y())};
+  /// Adds a contact with another, seen with this up, unless there is one on the same side.
+  void add_contact(CharacterIndex other, const Vec2<Scalar>& normal, Scalar fraction,
+                   const UpFrame<Scalar>& up) noexcept {
+    const CrowdContact<Scalar> contact{other, normal, fraction, up.side_of(normal)};
     const bool known = std::any_of(met.begin(), met.end(), [&](const CrowdContact<Scalar>& earlier) {
       return earlier.other == contact.other && earlier.side == contact.side;
     });
@@ -54,9 +55,10 @@ struct CrowdReport {
   std::size_t impacts = 0;                   ///< How many impacts of two characters were handled.
 
   /// Adds the contact of two characters to both. @param normal from the second towards the first.
-  void add_contact(CharacterIndex first, CharacterIndex second, const Vec2<Scalar>& normal, Scalar fraction) noexcept {
-    members[first].add_contact(second, normal, fraction);
-    members[second].add_contact(first, Vec2<Scalar>(-normal), fraction);
+  void add_contact(CharacterIndex first, CharacterIndex second, const Vec2<Scalar>& normal, Scalar fraction,
+                   const UpFrame<Scalar>& up) noexcept {
+    members[first].add_contact(second, normal, fraction, up);
+    members[second].add_contact(first, Vec2<Scalar>(-normal), fraction, up);
   }
 };
 

@@ -13,3 +13,4 @@
 #include <paperproof/technique.hpp>
 #include <paperproof/tolerances.hpp>
 #include <paperproof/types.hpp>
+#include <paperproof/up_frame.hpp>

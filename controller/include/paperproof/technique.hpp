@@ -4,6 +4,7 @@
 #include <paperproof/character.hpp>
 #include <paperproof/report_vector.hpp>
 #include <paperproof/scenery.hpp>
+#include <paperproof/up_frame.hpp>
 
 #include <memory>
 #include <span>
@@ -75,8 +76,9 @@ struct MoveRequest {
   Vec2<Scalar> position{Vec2<Scalar>::Zero()};      ///< Where the step begins [m].
   Vec2<Scalar> displacement{Vec2<Scalar>::Zero()};  ///< The wanted displacement [m].
   Vec2<Scalar> velocity{Vec2<Scalar>::Zero()};      ///< The velocity behind the displacement [m/s].
-  Scalar steered = 0;                            ///< The part of `velocity.x()` that this step's steering added [m/s].
-  Vec2<Scalar> last_free{Vec2<Scalar>::Zero()};  ///< See `CharacterState::last_free`.
+  /// The part of `velocity` across up that this step's steering added [m/s].
+  Scalar steered = 0;
+  Vec2<Scalar> last_free{Vec2<Scalar>::Zero()};         ///< See `CharacterState::last_free`.
   Vec2<Scalar> technique_memory{Vec2<Scalar>::Zero()};  ///< See `CharacterState::technique_memory`.
   bool has_last_free = false;
   bool grounded = false;  ///< The last step ended on the ground, and this one does not begin with a jump.
@@ -87,6 +89,7 @@ struct MoveRequest {
   std::span<const MoverMotion<Scalar>> movers{};
   const ColliderFilter* filter = nullptr;  ///< Null: all colliders are there.
   Scalar dt = 0;                           ///< [s]
+  UpFrame<Scalar> up{};                    ///< See `StepContext::up`.
   /// The ground that carries the character, if any: `displacement` and `velocity` are then relative to this ground, and
   /// the technique adds the ground's motion.
   Ride<Scalar> ride{};
@@ -192,6 +195,12 @@ struct Scratch {
   std::weak_ptr<const void> maker;
 };
 
+/// What a technique reads of a `MoveRequest`, beside what each technique reads.
+struct Abilities {
+  bool filter = false;  ///< `MoveRequest::filter` has an effect; else it must be null.
+  bool up = false;      ///< `MoveRequest::up` has an effect; else it must be (0, 1).
+};
+
 /// A way to find out how far a character can move. Const and shareable between threads; each thread brings its scratch.
 template <class Scalar>
 class Technique {
@@ -202,8 +211,7 @@ class Technique {
   [[nodiscard]] virtual Scratch<Scalar> make_scratch() const = 0;
   /// Size of the technique's own copy of the level [bytes]; 0 for a technique that reads the scenery.
   [[nodiscard]] virtual std::size_t memory_bytes() const noexcept { return 0; }
-  /// Whether `MoveRequest::filter` has an effect.
-  [[nodiscard]] virtual bool filters() const noexcept { return false; }
+  [[nodiscard]] virtual Abilities abilities() const noexcept { return {}; }
   /// Never allocates and never throws.
   /// @param scratch made by this technique, which is not checked here.
   virtual void move(const MoveRequest<Scalar>& request, Scratch<Scalar>& scratch,

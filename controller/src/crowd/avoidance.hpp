@@ -37,7 +37,8 @@ template <class Scalar>
 }
 
 /// A velocity that does not go into another character faster than `limit`. On steep sides and walls of the other the
-/// horizontal part ends first: a character that walks into another in the air falls on beside it.
+/// horizontal part ends first: a character that walks into another in the air falls on beside it. Vectors are as the
+/// characters see them (see `UpFrame`).
 /// @param normal from the other towards this one. @param limit how fast the other recedes along the normal [m/s].
 template <class Scalar>
 [[nodiscard]] Vec2<Scalar> slowed(Vec2<Scalar> velocity, const Vec2<Scalar>& normal, Scalar limit,
@@ -70,7 +71,7 @@ class Avoidance {
       const auto [i, j, found] = *earliest;
       time_ = std::max(time_, found.stop);
       ++step_.report.impacts;
-      step_.report.add_contact(i, j, found.normal, found.time);
+      step_.report.add_contact(i, j, found.normal, found.time, step_.up);
       if (found.instant)
         handle_instant(i, j, found);
       else
@@ -94,7 +95,8 @@ class Avoidance {
     if (!member(i).box.overlaps(member(j).box)) return {};
     // A character that avoids another comes as near as the technique lets it.
     const Scalar hit_distance = avoids(i, j) || avoids(j, i) ? tolerances.certain : tolerances.hit;
-    return first_impact<Scalar>(step_.rules.space, member(i).plan.path, member(j).plan.path, time_, hit_distance);
+    return first_impact<Scalar>(step_.rules.space, member(i).plan.path, member(j).plan.path, time_, hit_distance,
+                                step_.up);
   }
 
   /// Those that begin the step nearer than they should be: the technique restores their gap, as that to a solid.
@@ -212,8 +214,8 @@ class Avoidance {
 
   /// When the step began. Of two at one height the left one is the upper one, in whichever order they are given.
   [[nodiscard]] bool is_above(CharacterIndex i, CharacterIndex j) const noexcept {
-    const V& a = member(i).start.state.position;
-    const V& b = member(j).start.state.position;
+    const V a = step_.up.seen(member(i).start.state.position);
+    const V b = step_.up.seen(member(j).start.state.position);
     return a.y() > b.y() || (a.y() == b.y() && a.x() <= b.x());
   }
 
@@ -221,7 +223,9 @@ class Avoidance {
   void slow_down(CharacterIndex i, const V& normal, Scalar limit) noexcept {
     Moment<Scalar>& now = member(i).now;
     const V ride = velocity_of(now.state.ride);
-    now.own_velocity = slowed(V(now.own_velocity + ride), normal, limit, step_.rules.walkable_cosine) - ride;
+    const V velocity = step_.up.seen(now.own_velocity + ride);
+    now.own_velocity =
+        step_.up.in_world(slowed(velocity, step_.up.seen(normal), limit, step_.rules.walkable_cosine)) - ride;
   }
 
   CrowdStep<Scalar>& step_;

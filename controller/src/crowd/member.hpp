@@ -59,7 +59,7 @@ struct Moment {
   Scalar time = 0;               ///< Fraction of the step.
   CharacterState<Scalar> state;  ///< Its velocity is not kept up to date.
   Vec2<Scalar> own_velocity;     ///< Relative to what carries it [m/s].
-  Scalar steered = 0;            ///< The part of `own_velocity.x()` that this step's steering added [m/s].
+  Scalar steered = 0;            ///< The part of `own_velocity` across up that this step's steering added [m/s].
   Scalar crushed_at = 1;         ///< The end of the first part that crushed the character.
 };
 
@@ -107,6 +107,7 @@ struct CrowdStep {
   Scalar dt;             ///< [s]
   std::span<const MoverMotion<Scalar>> movers;
   const ColliderFilter* filter;  ///< See `MoveRequest`.
+  UpFrame<Scalar> up;
 
   /// What a character has done up to now.
   [[nodiscard]] MoveResult<Scalar>& made(CharacterIndex i) const noexcept { return report.members[i].step.move; }

@@ -89,12 +89,12 @@ class PairSpace {
 
   /// Whether the pair comes nearer than `hit_distance` [m] on these legs. A pair that begins nearer hits if it comes
   /// nearer still.
-  [[nodiscard]] PairSweep<Scalar> sweep(const Leg<Scalar>& first, const Leg<Scalar>& second,
-                                        Scalar hit_distance) const noexcept {
+  [[nodiscard]] PairSweep<Scalar> sweep(const Leg<Scalar>& first, const Leg<Scalar>& second, Scalar hit_distance,
+                                        const UpFrame<Scalar>& up) const noexcept {
     // A rounded leg may be so short that its ends are equal: it moves all the same.
     if (first.from == first.to && second.from == second.to && !first.rounded && !second.rounded) return {};
     const Separations s = separations(first, second);
-    if (s.start[s.best] >= Tolerances<Scalar>{}.certain) return sweep_apart(s, hit_distance);
+    if (s.start[s.best] >= Tolerances<Scalar>{}.certain) return sweep_apart(s, hit_distance, up);
     if (comes_no_nearer(s) || passes_exactly(first, second)) return {};
     return {.hits = true, .normal = axes_[s.best].normal};
   }
@@ -180,7 +180,8 @@ class PairSpace {
 
   /// The pair hits when, at some time, all separations are below tau: the latest entry below it comes before the
   /// earliest exit above it. It is then stopped where it enters the larger region below `Tolerances::stop`.
-  [[nodiscard]] PairSweep<Scalar> sweep_apart(const Separations& s, Scalar hit_distance) const noexcept {
+  [[nodiscard]] PairSweep<Scalar> sweep_apart(const Separations& s, Scalar hit_distance,
+                                              const UpFrame<Scalar>& up) const noexcept {
     constexpr Tolerances<Scalar> tolerances{};
     const Scalar tau = std::min(hit_distance, s.start[s.best] - s.noise);
     const bool touching = s.start[s.best] <= tolerances.touch;
@@ -194,7 +195,7 @@ class PairSpace {
       if (start >= tau) {
         if (end >= tau) return {};
         const Scalar time = (start - tau) / approach;
-        const bool more_upright = std::abs(axes_[k].normal.y()) > std::abs(result.normal.y());
+        const bool more_upright = std::abs(up.up_of(axes_[k].normal)) > std::abs(up.up_of(result.normal));
         if (time > entry || (time == entry && more_upright)) result.normal = axes_[k].normal;
         entry = std::max(entry, time);
       } else if (end > tau) {

@@ -176,6 +176,7 @@ class PathPlanner {
             .movers = step_.memory.motions,
             .filter = step_.filter,
             .dt = duration,
+            .up = step_.up,
             .ride = at.state.ride};
   }
 
@@ -225,12 +226,13 @@ class PathPlanner {
     state.position = part.position;
     state.grounded = part.grounded;
     state.ride = part.ride;
-    const Scalar fall = at.own_velocity.y();
+    const Scalar fall = step_.up.up_of(at.own_velocity);
     at.own_velocity = part.velocity;
     if (!part.contacts.empty()) at.steered = 0;  // from here on it is momentum
     if (state.ride.ground != Ride<Scalar>::none) at.own_velocity -= state.ride.velocity;
     // An obstacle that held the character took its weight, which goes on for the rest of the step.
-    if (part.grounded || (fall < 0 && at.own_velocity.y() > fall / 2)) at.own_velocity += step_.gravity * step_.dt;
+    if (part.grounded || (fall < 0 && step_.up.up_of(at.own_velocity) > fall / 2))
+      at.own_velocity += step_.gravity * step_.dt;
     step_parts::note_freedom(part, state);
     if (!part.crushed.empty()) at.crushed_at = std::min(at.crushed_at, end);
     if (state.crushed)

@@ -114,7 +114,7 @@ class Paths {
     for (const Contact<Scalar>& contact : path.contacts) {
       if (step_.rules.is_character(contact.collider)) {
         const CharacterIndex other = member.obstacles[contact.collider - step_.rules.first_slot];
-        step_.report.add_contact(i, other, contact.normal, contact.fraction);
+        step_.report.add_contact(i, other, contact.normal, contact.fraction, step_.up);
       } else {
         add_contact(step_.made(i), contact);
       }

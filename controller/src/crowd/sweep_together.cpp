@@ -99,8 +99,9 @@ class SweepTogether {
     for (CharacterIndex j = 0; j < step_.members.size(); ++j)
       if (j != i && step_.members[j].box.overlaps(member.box.inflated(reach))) member.obstacles.push_back(j);
     Moment<Scalar> end;
-    const bool found = (plan_free(i, end) && (crush > 0 || end.state.position.y() < member.end.state.position.y())) ||
-                       (crush > 0 && plan_past_all(i, member.start, end));
+    const auto is_lower = [&] { return step_.up.up_of(end.state.position - member.end.state.position) < 0; };
+    const bool found =
+        (plan_free(i, end) && (crush > 0 || is_lower())) || (crush > 0 && plan_past_all(i, member.start, end));
     if (found) {
       step_.made(i).clear();
       member.now = member.start;
@@ -171,8 +172,8 @@ class SweepTogether {
     const CharacterState<Scalar>& end = member.end.state;
     const bool stands = end.grounded && !has_lost_ground(i);
     if (stands || end.crushed || start.crushed || start.ride.ground != Ride<Scalar>::none) return 0;
-    const Scalar wanted = -member.start.own_velocity.y() * step_.dt;
-    return wanted > 0 && start.position.y() - end.position.y() < wanted / 2 ? wanted : Scalar(0);
+    const Scalar wanted = -step_.up.up_of(member.start.own_velocity) * step_.dt;
+    return wanted > 0 && step_.up.up_of(start.position - end.position) < wanted / 2 ? wanted : Scalar(0);
   }
 
   /// Whether a character stands on another that is not under it at the end of the step: the other may have gone on
@@ -185,10 +186,12 @@ class SweepTogether {
   /// Whether it touches a character that is under it, and not beside it, at the end of the step.
   [[nodiscard]] bool ends_on_another(const Member<Scalar>& member) const noexcept {
     const V& position = member.end.state.position;
-    const Scalar width = step_.rules.space.box().upper.x() - step_.rules.space.box().lower.x();
+    const V size = step_.rules.space.box().upper - step_.rules.space.box().lower;
+    const Scalar width = std::abs(size.x() * step_.up.up().y()) + std::abs(size.y() * step_.up.up().x());
     return std::any_of(step_.members.begin(), step_.members.end(), [&](const Member<Scalar>& other) {
       const V& below = other.end.state.position;
-      return below.y() < position.y() && std::abs(below.x() - position.x()) < width &&
+      const V to = step_.up.seen(below - position);
+      return to.y() < 0 && std::abs(to.x()) < width &&
              step_.rules.space.separation(position, below) <= Tolerances<Scalar>{}.touch;
     });
   }
@@ -232,7 +235,7 @@ class SweepTogether {
       const WholePath whole = whole_path(j);
       const Path<Scalar> other = whole;
       const Impact<Scalar> impact = first_impact<Scalar>(step_.rules.space, i < j ? own : other, i < j ? other : own,
-                                                         from, Tolerances<Scalar>{}.hit);
+                                                         from, Tolerances<Scalar>{}.hit, step_.up);
       if (impact.happens) return Hit{j, impact.stop};
     }
     return std::nullopt;
@@ -252,7 +255,7 @@ class SweepTogether {
           if ((members[i].stayed && members[j].stayed) || !step_.members[i].box.overlaps(step_.members[j].box))
             continue;
           if (!first_impact<Scalar>(step_.rules.space, step_.made(i).path, step_.made(j).path, 0,
-                                    Tolerances<Scalar>{}.certain)
+                                    Tolerances<Scalar>{}.certain, step_.up)
                    .happens)
             continue;
           return_to_start(i, before[i]);

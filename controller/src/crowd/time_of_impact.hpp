@@ -100,7 +100,8 @@ template <class Scalar>
 /// take no time are made one after the other, those of the first path first.
 template <class Scalar>
 [[nodiscard]] Impact<Scalar> first_impact(const PairSpace<Scalar>& space, Path<Scalar> first_path,
-                                          Path<Scalar> second_path, Scalar from, Scalar hit_distance) noexcept {
+                                          Path<Scalar> second_path, Scalar from, Scalar hit_distance,
+                                          const UpFrame<Scalar>& up) noexcept {
   PathCursor<Scalar> first(first_path, from);
   PathCursor<Scalar> second(second_path, from);
   Scalar now = from;
@@ -117,7 +118,7 @@ template <class Scalar>
       first_leg = first.advance_to(next);
       second_leg = second.advance_to(next);
     }
-    const PairSweep<Scalar> sweep = space.sweep(first_leg, second_leg, hit_distance);
+    const PairSweep<Scalar> sweep = space.sweep(first_leg, second_leg, hit_distance, up);
     if (sweep.hits) return impact_of(sweep, first_leg, second_leg, now, next);
     now = next;
   }

@@ -7,6 +7,7 @@
 #include "step/configuration_space.hpp"
 
 #include <paperproof/tolerances.hpp>
+#include <paperproof/up_frame.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -161,11 +162,11 @@ struct PieceHit {
 };
 
 /// Finds the axis that is entered last; of times that are equal but for rounding the normal that points up most wins.
-template <class Scalar>
+template <class Scalar, class Up>
 class LastEntry {
  public:
-  LastEntry(const ConfigurationSpace<Scalar>& space, PieceIndex piece) noexcept
-      : space_(space), piece_(piece), open_{space.axis_count(piece)}, covered_(open_) {}
+  LastEntry(const ConfigurationSpace<Scalar>& space, PieceIndex piece, const Up& frame) noexcept
+      : space_(space), frame_(frame), piece_(piece), open_{space.axis_count(piece)}, covered_(open_) {}
 
   void add(std::size_t axis, Scalar time) noexcept {
     Entry& last = space_.covered(piece_, axis) ? covered_ : open_;
@@ -189,9 +190,10 @@ class LastEntry {
   };
   /// Times closer than this are one corner, met with both facets at once.
   static constexpr Scalar same = std::numeric_limits<Scalar>::epsilon() * 64;
-  [[nodiscard]] Scalar up(std::size_t axis) const noexcept { return space_.normal(piece_, axis).y(); }
+  [[nodiscard]] Scalar up(std::size_t axis) const noexcept { return frame_.up_of(space_.normal(piece_, axis)); }
 
   const ConfigurationSpace<Scalar>& space_;
+  const Up& frame_;
   PieceIndex piece_;
   Entry open_;
   Entry covered_;
@@ -246,18 +248,19 @@ enum class Covered : std::uint8_t { as_any, yields };
 /// below tau comes before the earliest exit above it. It is then stopped where it enters the larger region below
 /// `stop`. The obstacle is inflated instead of backing off along the motion: where the motion grazes, its time of
 /// impact is ill-conditioned, but the separations are not.
-template <Covered covered = Covered::yields, std::size_t Lanes, class Scalar>
+/// @param up decides which of two facets counts that are entered at once.
+template <Covered covered = Covered::yields, std::size_t Lanes, class Scalar, class Up = Upright<Scalar>>
 [[nodiscard, gnu::always_inline]] inline PieceHit<Scalar> sweep_piece(const ConfigurationSpace<Scalar>& space,
                                                                       const Motion<Lanes, Scalar>& motion,
-                                                                      PieceIndex piece,
-                                                                      const Clearance<Scalar>& clear) noexcept {
+                                                                      PieceIndex piece, const Clearance<Scalar>& clear,
+                                                                      const Up& up = {}) noexcept {
   constexpr Tolerances<Scalar> tolerances{};
   AxisRanges<Scalar> f;
   find_ranges(space, motion, piece, clear, f);
   const Scalar tau = clear.tau();
   const Scalar inside = std::min(tau, Scalar(0));
   const bool touching = clear.start <= tolerances.touch;
-  LastEntry<Scalar> last(space, piece);
+  LastEntry<Scalar, Up> last(space, piece, up);
   Scalar entry = 0;
   Scalar exit = 1;
   Scalar stop = 0;

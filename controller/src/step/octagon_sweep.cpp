@@ -18,13 +18,6 @@ using namespace octagon_sweep;
 /// Each impact is a corner of the path; the start, the end, a start that is put right and a snap are corners too.
 constexpr int most_iterations = static_cast<int>(MoveResult<double>::max_corners) - 4;
 
-/// How far a shape reaches sideways beyond its lowest points [m].
-double overhang(const CharacterShape& shape) {
-  const CharacterShape::Pair foot = shape.pair(Side::bottom);
-  return std::max(shape.points()[foot[0]].x() - shape.box().lower.x(),
-                  shape.box().upper.x() - shape.points()[foot[1]].x());
-}
-
 template <class Scalar>
 Settings<Scalar> settings_for(const SweepDef& def, const CharacterDef& character) {
   const double limit = character.max_climb_degrees * std::numbers::pi / 180;
@@ -34,7 +27,6 @@ Settings<Scalar> settings_for(const SweepDef& def, const CharacterDef& character
       .walkable_tangent = static_cast<Scalar>(std::tan(limit)),
       .snap = static_cast<Scalar>(character.snap),
       .step_height = static_cast<Scalar>(character.step_height),
-      .overhang = static_cast<Scalar>(overhang(character.shape)),
       .max_fall_speed = static_cast<Scalar>(character.max_fall_speed.value_or(std::numeric_limits<double>::infinity())),
       .look_ahead = static_cast<Scalar>(look_ahead_share * std::max(extent.x(), extent.y())),
       .iterations = def.iterations};
@@ -68,12 +60,13 @@ class OctagonSweep final : public SweepInParts<Scalar> {
         settings_(settings_for<Scalar>(def, character)),
         touched_at_once_(broad_phase::most_at_once<Scalar>(scenery.static_boxes(), space_.touched_size())),
         has_conveyors_(has_conveyors(scenery)),
-        solve_(solver_for<Scalar>(space_.lanes())) {
+        solve_(solver_for<Scalar>(space_.lanes(), false)),
+        solve_turned_(solver_for<Scalar>(space_.lanes(), true)) {
     check(def.stages, scenery, space_);
   }
 
   [[nodiscard]] std::string_view name() const noexcept override { return "octagon_sweep"; }
-  [[nodiscard]] bool filters() const noexcept override { return true; }
+  [[nodiscard]] Abilities abilities() const noexcept override { return {.filter = true, .up = true}; }
 
   [[nodiscard]] Scratch<Scalar> make_scratch() const override {
     Scratch<Scalar> scratch;
@@ -97,7 +90,8 @@ class OctagonSweep final : public SweepInParts<Scalar> {
     const bool rides = request.ride.ground != Ride<Scalar>::none;
     MoversInStep<Scalar> movers{mover_phases_, request.movers, request.dt, 0, has_conveyors_ || rides};
     if (!request.movers.empty() && (part == Part::stay || comes_near_a_mover(request))) movers.look_at_all();
-    solve_(space_, settings_, neighbourhood, movers, part, request, result);
+    const Solve<Scalar> solve = request.up.is_turned() ? solve_turned_ : solve_;
+    solve(space_, settings_, neighbourhood, movers, part, request, result);
   }
 
   [[nodiscard]] std::optional<Contact<Scalar>> cast(const MoveRequest<Scalar>& at,
@@ -123,8 +117,9 @@ class OctagonSweep final : public SweepInParts<Scalar> {
   template <class Question>
   [[nodiscard]] auto ask(const MoveRequest<Scalar>& at, Scratch<Scalar>& scratch,
                          const Question& question) const noexcept {
-    Surroundings<Scalar> around{
-        space_, {space_, *broad_phase_, settings_.look_ahead, at.filter, scratch}, mover_phases_, at.movers, at.filter};
+    Surroundings<Scalar> around{space_,        {space_, *broad_phase_, settings_.look_ahead, at.filter, scratch},
+                                mover_phases_, at.movers,
+                                at.filter,     at.up};
     const auto answer = space_.lanes() == 8 ? question(around, std::integral_constant<std::size_t, 8>{})
                                             : question(around, std::integral_constant<std::size_t, 12>{});
     around.neighbourhood.forget();  // a wide question would make the next steps slow
@@ -172,7 +167,8 @@ class OctagonSweep final : public SweepInParts<Scalar> {
   Settings<Scalar> settings_;
   std::size_t touched_at_once_;
   bool has_conveyors_;
-  Solve<Scalar> solve_;
+  Solve<Scalar> solve_;         ///< For upright characters,
+  Solve<Scalar> solve_turned_;  ///< and for others.
 };
 
 }  // namespace

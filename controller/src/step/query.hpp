@@ -20,12 +20,14 @@ struct Surroundings {
   const MoverPhases<Scalar>& phases;
   std::span<const MoverMotion<Scalar>> movers;  ///< One for each mover.
   const ColliderFilter* filter;                 ///< Null: all colliders are there.
+  UpFrame<Scalar> up;                           ///< See `StepContext::up`.
 };
 
 template <class Scalar>
-[[nodiscard]] Contact<Scalar> contact_with(const ConfigurationSpace<Scalar>& space, PieceIndex piece, std::size_t axis,
+[[nodiscard]] Contact<Scalar> contact_with(const Surroundings<Scalar>& around, PieceIndex piece, std::size_t axis,
                                            const Vec2<Scalar>& position, const Vec2<Scalar>& offset,
                                            Scalar fraction) noexcept {
+  const ConfigurationSpace<Scalar>& space = around.space;
   const ContactPlace<Scalar> place = contact_place(space, piece, axis, Vec2<Scalar>(position - offset));
   const Vec2<Scalar> normal = space.normal(piece, axis);
   return {.collider = space.scenery().pieces()[piece].collider,
@@ -33,7 +35,7 @@ template <class Scalar>
           .normal = normal,
           .fraction = fraction,
           .separation = place.separation,
-          .side = side_of_normal(normal.x(), normal.y())};
+          .side = around.up.side_of(normal)};
 }
 
 /// Calls `look(piece, motion)` for the pieces that may be touched from positions in a box, with the motion of each.
@@ -75,12 +77,14 @@ template <std::size_t Lanes, class Scalar>
         if (clear_of_box(space, motion, piece) || !blocks(space, motion, piece)) return;
         const Clearance<Scalar> clear = clearance(space, motion, piece);
         if (clear.clear()) return;
-        const PieceHit<Scalar> hit = sweep_piece(space, motion, piece, clear);
+        const PieceHit<Scalar> hit = sweep_piece(space, motion, piece, clear, around.up);
         if (!hit.hit) return;
         const Scalar fraction = time_of_impact(space, motion.from, motion.displacement, piece, hit.axes);
-        const Scalar up = space.normal(piece, hit.axes.normal).y();
-        if (first && (fraction > first->fraction || (fraction == first->fraction && up <= first->normal.y()))) return;
-        first = contact_with(space, piece, hit.axes.normal, Vec2<Scalar>(position + displacement * fraction),
+        const Scalar up = around.up.up_of(space.normal(piece, hit.axes.normal));
+        if (first &&
+            (fraction > first->fraction || (fraction == first->fraction && up <= around.up.up_of(first->normal))))
+          return;
+        first = contact_with(around, piece, hit.axes.normal, Vec2<Scalar>(position + displacement * fraction),
                              mover.at(fraction), fraction);
       });
   return first;
@@ -151,7 +155,7 @@ template <std::size_t Lanes, class Scalar>
         if (std::abs(best.separation) <= Tolerances<Scalar>{}.touch && space.covered(piece, best.axis)) return;
         if (space.scenery().pieces()[piece].one_way && !is_above(space, piece, at, lost_by(position, mover.from)))
           return;
-        const Contact<Scalar> contact = contact_with(space, piece, best.axis, position, mover.from, Scalar(0));
+        const Contact<Scalar> contact = contact_with(around, piece, best.axis, position, mover.from, Scalar(0));
         count = insert_contact(contact, found, count);
       });
   return count;

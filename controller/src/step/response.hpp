@@ -31,6 +31,8 @@
 /// motion to it that all surfaces allow is taken, if that still falls; else the motion ends there, as it does where one
 /// of them is walkable. So steering into one side of a funnel does not hold a character that would slip through it.
 ///
+/// All of this is as the character sees it: x is across it, and y is up (see `UpFrame`).
+///
 /// Position and velocity are treated alike: each rule is homogeneous of degree one. u is carried through every contact
 /// beside w. A falling motion comes to rise on
 /// nothing but walkable ground. The loop ends after a given number of impacts.
@@ -38,7 +40,7 @@
 
 #include "step/half_planes.hpp"
 
-#include <paperproof/types.hpp>
+#include <paperproof/up_frame.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -140,6 +142,36 @@ template <class Scalar>
   if (at.walkable) return {follow(desired.unsteered.x() + steered, at.normal), unsteered};
   const bool moves_in = at.normal.y() >= 0 && dot(Vec2<Scalar>(desired.wanted - desired.unsteered), at.normal) < 0;
   return {moves_in ? press(desired.unsteered, unsteered, at) : respond(desired.wanted, at), unsteered};
+}
+
+/// A motion of the world that was seen along a surface, or not into it, by a character that is not upright. A motion
+/// that rounding turned into the surface runs along it again.
+template <class Scalar>
+[[nodiscard]] Vec2<Scalar> in_world(const UpFrame<Scalar>& up, const Vec2<Scalar>& seen,
+                                    const Vec2<Scalar>& n) noexcept {
+  const Vec2<Scalar> w = up.in_world(seen);
+  if (!up.is_slanted() || std::abs(dot(w, n)) > along_plane<Scalar> * length_of(w)) return w;
+  return Vec2<Scalar>{n.y(), -n.x()} * (w.x() * n.y() - w.y() * n.x());
+}
+template <class Scalar>
+[[nodiscard]] Vec2<Scalar> in_world(const Upright<Scalar>& /*up*/, const Vec2<Scalar>& seen,
+                                    const Vec2<Scalar>& /*n*/) noexcept {
+  return seen;
+}
+
+/// The response of a character with any up. Motions and surface are those of the world.
+template <class Scalar>
+[[nodiscard]] Desired<Scalar> respond(const UpFrame<Scalar>& up, const Desired<Scalar>& desired, Scalar steered,
+                                      const Surface<Scalar>& at) noexcept {
+  const Surface<Scalar> seen{up.seen(at.normal), at.walkable, at.after_walk};
+  const Desired<Scalar> result = respond({up.seen(desired.wanted), up.seen(desired.unsteered)}, steered, seen);
+  return {in_world(up, result.wanted, at.normal), in_world(up, result.unsteered, at.normal)};
+}
+template <class Scalar>
+[[nodiscard, gnu::always_inline]] inline Desired<Scalar> respond(const Upright<Scalar>& /*up*/,
+                                                                 const Desired<Scalar>& desired, Scalar steered,
+                                                                 const Surface<Scalar>& at) noexcept {
+  return respond(desired, steered, at);
 }
 
 }  // namespace paperproof::octagon_sweep

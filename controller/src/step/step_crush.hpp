@@ -12,15 +12,15 @@
 namespace paperproof::octagon_sweep {
 
 /// Whether a mover passes through the character. It then moves only to a free position.
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::is_passed_through() const noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::is_passed_through() const noexcept {
   return moving_.overlapping > 0 || !result_.crushed.empty();
 }
 
 /// Moves to a free position beside the movers that are touched, if there is one and nothing has crushed the character
 /// yet. After a crush `undo_crushes` does that at the end of the step.
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::goes_to_free_position() noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::goes_to_free_position() noexcept {
   if (!result_.crushed.empty()) return false;
   Scalar reach = 0;
   for (const TouchedSurface<Scalar>& surface : memory_.surfaces)
@@ -32,8 +32,8 @@ bool StepSolver<Lanes, Scalar>::goes_to_free_position() noexcept {
 
 /// After several crushes there may be a free position that was not there after the first one. Looks for it beside all
 /// movers that crushed, no further away than one of them moves; then nothing was crushed.
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::undo_crushes() noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::undo_crushes() noexcept {
   moving_.ignored &= static_cast<std::uint8_t>(~crushes);
   Scalar reach = 0;
   for (const ColliderIndex collider : result_.crushed) reach = std::max(reach, length_of(displacement_of(collider)));
@@ -47,14 +47,14 @@ void StepSolver<Lanes, Scalar>::undo_crushes() noexcept {
 }
 
 /// Whether a surface moves into a character that stays where it is, by more than rounding.
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::moves_in(const TouchedSurface<Scalar>& surface) const noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::moves_in(const TouchedSurface<Scalar>& surface) const noexcept {
   return dot(remaining_of(surface), surface.normal) > Tolerances<Scalar>{}.certain;
 }
 
 /// Lets every touched surface crush that moves into the character. False if there is none.
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::note_crushers() noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::note_crushers() noexcept {
   const std::size_t before = result_.crushed.size();
   for (const TouchedSurface<Scalar>& surface : memory_.surfaces)
     if (moves_in(surface)) crush(surface.piece, time_);
@@ -63,8 +63,8 @@ bool StepSolver<Lanes, Scalar>::note_crushers() noexcept {
 
 /// Notes that the mover of a piece crushes the character.
 /// @param since the character was free of the mover at this fraction of the step.
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::crush(PieceIndex piece, Scalar since) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::crush(PieceIndex piece, Scalar since) noexcept {
   const MoverIndex mover = mover_of(piece);
   if (ignored(piece) || mover == no_mover) return;
   if (result_.crushed.empty()) {
@@ -81,8 +81,8 @@ void StepSolver<Lanes, Scalar>::crush(PieceIndex piece, Scalar since) noexcept {
 /// Ignores the movers that overlap the character, and finds each of them in the list of the state. The list may come
 /// from another scenery: unknown entries are skipped. A mover that is not in the list came at the last free position;
 /// if the list is full, its side is not known. True if there is a mover that was not ignored yet.
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::ignore_overlapping_movers(const MoveRequest<Scalar>& request) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::ignore_overlapping_movers(const MoveRequest<Scalar>& request) noexcept {
   bool any = false;
   for_each_near({position_, position_}, [&](PieceIndex piece) {
     if (mover_of(piece) == no_mover || ignored(piece) || !overlaps(piece, position_)) return;
@@ -109,8 +109,8 @@ bool StepSolver<Lanes, Scalar>::ignore_overlapping_movers(const MoveRequest<Scal
 
 /// Leaves the movers that overlap, as any solid, to the side from which the character came. False if there is no way
 /// out.
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::leaves_overlapping_movers(const MoveRequest<Scalar>& request) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::leaves_overlapping_movers(const MoveRequest<Scalar>& request) noexcept {
   if (moving_.side_lost) return false;
   moving_.ignored &= static_cast<std::uint8_t>(~overlaps_since_start);
   const std::optional<V> out = find_way_out(request);
@@ -126,14 +126,14 @@ bool StepSolver<Lanes, Scalar>::leaves_overlapping_movers(const MoveRequest<Scal
 }
 
 /// Displacement of the mover of a collider in the step [m].
-template <std::size_t Lanes, class Scalar>
-Vec2<Scalar> StepSolver<Lanes, Scalar>::displacement_of(ColliderIndex collider) const noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+Vec2<Scalar> StepSolver<Lanes, Scalar, Up>::displacement_of(ColliderIndex collider) const noexcept {
   return movers_.displacement(mover_of_collider(collider));
 }
 
 /// @param now its displacement is that at the end of the step.
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::remember(const Crusher<Scalar>& now) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::remember(const Crusher<Scalar>& now) noexcept {
   for (Crusher<Scalar>& known : memory_.crushers) {
     if (known.collider != now.collider) continue;
     known = now;
@@ -144,8 +144,8 @@ void StepSolver<Lanes, Scalar>::remember(const Crusher<Scalar>& now) noexcept {
 
 /// Finds the movers that were ignored in this step and still overlap the character. If one of them overlapped at the
 /// start, the character is stuck, unless it was crushed in this step. Hands the list to the next step.
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::find_movers_that_still_overlap() noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::find_movers_that_still_overlap() noexcept {
   moving_.ignored = 0;
   for_each_near({position_, position_}, [&](PieceIndex piece) {
     const ColliderIndex collider = collider_of(piece);
@@ -161,8 +161,8 @@ void StepSolver<Lanes, Scalar>::find_movers_that_still_overlap() noexcept {
 
 /// Movers that carry come first, as the others may be other characters of a crowd, which change from step to step. Of
 /// each kind those come first whose side is known.
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::hand_on_crushers() noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::hand_on_crushers() noexcept {
   const auto hand_on = [this](bool carries, bool has_side) {
     for (const Crusher<Scalar>& known : memory_.crushers)
       if (memory_.is(known.collider, overlaps_at_end) && known.has_side == has_side &&
@@ -176,8 +176,8 @@ void StepSolver<Lanes, Scalar>::hand_on_crushers() noexcept {
 /// The character stays where it is for the rest of the step, and movers that run into it crush it. Sweeps do not look
 /// at surfaces that are touched and do not come closer: they would hide a mover that comes later.
 /// @param may_move it moves to a free position instead, if there is one.
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::wait(bool may_move) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::wait(bool may_move) noexcept {
   halt();
   memory_.surfaces.clear();
   moving_.waits = true;
@@ -201,8 +201,8 @@ void StepSolver<Lanes, Scalar>::wait(bool may_move) noexcept {
 }
 
 /// The whole step of `Part::stay`.
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::stay_in_place(const MoveRequest<Scalar>& request) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::stay_in_place(const MoveRequest<Scalar>& request) noexcept {
   push_corner(0);
   ignore_overlapping_movers(request);
   wait(false);

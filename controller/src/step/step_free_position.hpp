@@ -16,8 +16,8 @@ namespace paperproof::octagon_sweep {
 /// Moves to the nearest free position. False if there is none: then nothing has changed.
 /// @param reach how far away it may be [m].
 /// @param corners how many corners of the path the motion may begin at.
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::find_free_position(Scalar reach, std::size_t corners) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::find_free_position(Scalar reach, std::size_t corners) noexcept {
   if (moving_.side_lost) return false;
   // Movers that overlap do not block the motion, but its end must be free of them.
   const std::uint8_t ignored_before = moving_.ignored;
@@ -40,8 +40,8 @@ bool StepSolver<Lanes, Scalar>::find_free_position(Scalar reach, std::size_t cor
 
 /// @return its corner is `corners` if there is none.
 /// @param gap that is left around the character [m].
-template <std::size_t Lanes, class Scalar>
-typename StepSolver<Lanes, Scalar>::FreePosition StepSolver<Lanes, Scalar>::nearest_free_position(
+template <std::size_t Lanes, class Scalar, class Up>
+typename StepSolver<Lanes, Scalar, Up>::FreePosition StepSolver<Lanes, Scalar, Up>::nearest_free_position(
     Scalar gap, Scalar reach, std::size_t corners) noexcept {
   // The gap to a mover comes on top of its displacement.
   constexpr Scalar beyond = 16 * Tolerances<Scalar>{}.stop;
@@ -58,8 +58,8 @@ typename StepSolver<Lanes, Scalar>::FreePosition StepSolver<Lanes, Scalar>::near
 }
 
 /// @param gap that is left around the character [m].
-template <std::size_t Lanes, class Scalar>
-FreePositionQuery<Scalar> StepSolver<Lanes, Scalar>::query_from(std::size_t corner, Scalar gap) const noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+FreePositionQuery<Scalar> StepSolver<Lanes, Scalar, Up>::query_from(std::size_t corner, Scalar gap) const noexcept {
   const PathPoint<Scalar>& begin = result_.path[corner];
   return {.from = begin.position,
           .begin = begin.fraction,
@@ -75,8 +75,8 @@ FreePositionQuery<Scalar> StepSolver<Lanes, Scalar>::query_from(std::size_t corn
 }
 
 /// Takes a free position that is reached from a corner, if it is nearer than the one found so far.
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::search_from(std::size_t corner, Scalar gap, FreePosition& found) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::search_from(std::size_t corner, Scalar gap, FreePosition& found) noexcept {
   FreePositionQuery<Scalar> query = query_from(corner, gap);
   if (!(query.begin < 1)) return;
   query.reach = found.distance;
@@ -88,8 +88,8 @@ void StepSolver<Lanes, Scalar>::search_from(std::size_t corner, Scalar gap, Free
 
 /// A character that arrives later at a place where it was stopped may touch nothing there. It then goes on in the same
 /// direction, no faster than before, until something is as near as a contact.
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::extend_until_contact(FreePosition& found) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::extend_until_contact(FreePosition& found) noexcept {
   const PathPoint<Scalar> from = result_.path[found.corner];
   if (!(time_ > from.fraction) || next_near(found.corner, {found.position, 1}, {})) return;
   const V displacement = found.position - from.position;
@@ -107,14 +107,14 @@ void StepSolver<Lanes, Scalar>::extend_until_contact(FreePosition& found) noexce
 }
 
 /// Whether a motion from a corner may pass the collider of a piece.
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::may_pass(PieceIndex piece, std::size_t corner) const noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::may_pass(PieceIndex piece, std::size_t corner) const noexcept {
   return memory_.is(collider_of(piece), corner == 0 ? leaving | overlaps_since_start : overlaps_since_start);
 }
 
 /// Notes the colliders that the step begins inside of.
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::note_colliders_left() noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::note_colliders_left() noexcept {
   for_each_near({position_, position_}, [&](PieceIndex piece) {
     const ColliderIndex collider = collider_of(piece);
     if (memory_.is(collider, leaving) || !overlaps(piece, position_)) return;
@@ -123,8 +123,8 @@ void StepSolver<Lanes, Scalar>::note_colliders_left() noexcept {
 }
 
 /// One motion for the rest of the step, which is known to be clear.
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::go_to(const V& end) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::go_to(const V& end) noexcept {
   halt();
   position_ = end;
   time_ = 1;
@@ -133,8 +133,8 @@ void StepSolver<Lanes, Scalar>::go_to(const V& end) noexcept {
 }
 
 /// Takes back the path since a corner, and its contacts.
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::go_back_to(std::size_t corner) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::go_back_to(std::size_t corner) noexcept {
   while (result_.path.size() > corner + 1) result_.path.pop_back();
   while (result_.contacts.size() > memory_.contacts_at[corner]) result_.contacts.pop_back();
   position_ = result_.path[corner].position;
@@ -144,8 +144,8 @@ void StepSolver<Lanes, Scalar>::go_back_to(std::size_t corner) noexcept {
 
 /// Reports what the motion to the free position comes near to: that is what stops or pushes the character. Each piece
 /// is a contact at the moment when it is nearest, and that moment becomes a corner of the path.
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::report_free_position(std::size_t corner) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::report_free_position(std::size_t corner) noexcept {
   const PathPoint<Scalar> from = result_.path[corner];
   const PathPoint<Scalar> to = result_.path.back();
   result_.path.pop_back();
@@ -176,8 +176,8 @@ void StepSolver<Lanes, Scalar>::report_free_position(std::size_t corner) noexcep
 
 /// The next piece that the motion from a corner comes as near to as a contact.
 /// @param last the one before; none for the first.
-template <std::size_t Lanes, class Scalar>
-std::optional<Nearest<Scalar>> StepSolver<Lanes, Scalar>::next_near(
+template <std::size_t Lanes, class Scalar, class Up>
+std::optional<Nearest<Scalar>> StepSolver<Lanes, Scalar, Up>::next_near(
     std::size_t corner, const PathPoint<Scalar>& to, const std::optional<Nearest<Scalar>>& last) noexcept {
   const PathPoint<Scalar> from = result_.path[corner];
   std::optional<Nearest<Scalar>> next;
@@ -207,8 +207,8 @@ std::optional<Nearest<Scalar>> StepSolver<Lanes, Scalar>::next_near(
 }
 
 /// Whether a piece pushes or comes nearer, and is as near as a contact then.
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::is_contact(const Nearest<Scalar>& near) const noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::is_contact(const Nearest<Scalar>& near) const noexcept {
   const MoverIndex mover = mover_of(near.piece);
   const V motion_of_mover = mover == no_mover ? V(V::Zero()) : movers_.displacement(mover);
   const bool pushes = dot(motion_of_mover, space_.normal(near.piece, near.axis)) > Tolerances<Scalar>{}.certain;
@@ -218,8 +218,9 @@ bool StepSolver<Lanes, Scalar>::is_contact(const Nearest<Scalar>& near) const no
 
 /// Where a straight motion is nearest to a piece. The separation is the largest of several that are linear in time,
 /// hence convex: bisection finds its least value.
-template <std::size_t Lanes, class Scalar>
-Nearest<Scalar> StepSolver<Lanes, Scalar>::nearest_on_way(PieceIndex piece, const V& from, const V& to) const noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+Nearest<Scalar> StepSolver<Lanes, Scalar, Up>::nearest_on_way(PieceIndex piece, const V& from,
+                                                              const V& to) const noexcept {
   const V displacement = to - from;
   const auto at = [&](Scalar when) { return best_axis<Lanes>(space_, piece, V(from + displacement * when)); };
   const auto falls = [&](const BestAxis<Scalar>& best) {

@@ -13,15 +13,15 @@
 namespace paperproof::octagon_sweep {
 
 /// Whether a mover crushed the character, or overlaps it since an earlier step: it is ignored for the rest of the step.
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::ignored(PieceIndex piece) const noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::ignored(PieceIndex piece) const noexcept {
   return memory_.is(collider_of(piece), moving_.ignored);
 }
 
 /// Whether a motion does not enter the surface of a piece that is touched. Its axis alone is then proof that the motion
 /// is clear of the piece.
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::slides_along_touched(const LocalMotion& motion, PieceIndex piece) const noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::slides_along_touched(const LocalMotion& motion, PieceIndex piece) const noexcept {
   constexpr Scalar noise = std::numeric_limits<Scalar>::epsilon() * 32;
   for (const TouchedSurface<Scalar>& surface : memory_.surfaces) {
     if (surface.piece != piece) continue;
@@ -37,11 +37,11 @@ bool StepSolver<Lanes, Scalar>::slides_along_touched(const LocalMotion& motion, 
 
 /// Adds the surfaces that stopped the last sweep, and drops those that are no longer touched. The first of them is the
 /// one that points up most.
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::update_surfaces() noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::update_surfaces() noexcept {
   constexpr Scalar touch = Tolerances<Scalar>{}.touch;
-  const auto less_up = [](const TouchedSurface<Scalar>& a, const TouchedSurface<Scalar>& b) {
-    return a.normal.y() < b.normal.y();
+  const auto less_up = [this](const TouchedSurface<Scalar>& a, const TouchedSurface<Scalar>& b) {
+    return up_.up_of(a.normal) < up_.up_of(b.normal);
   };
   auto& surfaces = memory_.surfaces;
   surfaces.swap(memory_.surfaces_before);
@@ -60,15 +60,15 @@ void StepSolver<Lanes, Scalar>::update_surfaces() noexcept {
 }
 
 /// Displacement of a surface in the rest of the step [m].
-template <std::size_t Lanes, class Scalar>
-Vec2<Scalar> StepSolver<Lanes, Scalar>::remaining_of(const TouchedSurface<Scalar>& surface) const noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+Vec2<Scalar> StepSolver<Lanes, Scalar, Up>::remaining_of(const TouchedSurface<Scalar>& surface) const noexcept {
   if (surface.mover == no_mover) return V::Zero();
   return movers_.remaining(surface.mover, time_);
 }
 
 /// Velocity of a surface [m/s].
-template <std::size_t Lanes, class Scalar>
-Vec2<Scalar> StepSolver<Lanes, Scalar>::velocity_of(const TouchedSurface<Scalar>& surface) const noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+Vec2<Scalar> StepSolver<Lanes, Scalar, Up>::velocity_of(const TouchedSurface<Scalar>& surface) const noexcept {
   if (surface.mover == no_mover) return V::Zero();
   return movers_.displacement(surface.mover) / movers_.dt;
 }
@@ -78,15 +78,15 @@ template <class Scalar>
   return {normal, normal.x() * motion.x() + normal.y() * motion.y()};
 }
 
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::allowed(const DesiredMotion<Scalar>& desired,
-                                        const TouchedSurface<Scalar>& surface) const noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::allowed(const DesiredMotion<Scalar>& desired,
+                                            const TouchedSurface<Scalar>& surface) const noexcept {
   return half_plane_of(surface.normal, remaining_of(surface)).allows(desired.displacement.wanted) &&
          half_plane_of(surface.normal, velocity_of(surface)).allows(desired.velocity.wanted);
 }
 
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::allowed(const DesiredMotion<Scalar>& desired) const noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::allowed(const DesiredMotion<Scalar>& desired) const noexcept {
   return std::all_of(memory_.surfaces.begin(), memory_.surfaces.end(),
                      [&](const TouchedSurface<Scalar>& surface) { return allowed(desired, surface); });
 }
@@ -94,10 +94,10 @@ bool StepSolver<Lanes, Scalar>::allowed(const DesiredMotion<Scalar>& desired) co
 /// The response to one surface, relative to its motion. Walkable ground that carries counts with its whole motion; any
 /// other surface only with its motion along its normal.
 /// @param after_walk see `Surface`.
-template <std::size_t Lanes, class Scalar>
-DesiredMotion<Scalar> StepSolver<Lanes, Scalar>::response_to(const TouchedSurface<Scalar>& surface,
-                                                             const DesiredMotion<Scalar>& desired,
-                                                             bool after_walk) const noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+DesiredMotion<Scalar> StepSolver<Lanes, Scalar, Up>::response_to(const TouchedSurface<Scalar>& surface,
+                                                                 const DesiredMotion<Scalar>& desired,
+                                                                 bool after_walk) const noexcept {
   const Surface<Scalar> at{surface.normal, walkable(surface.normal), after_walk};
   const auto response = [&](const Desired<Scalar>& given, const V& motion_of_surface,
                             Scalar steered) -> Desired<Scalar> {
@@ -106,7 +106,7 @@ DesiredMotion<Scalar> StepSolver<Lanes, Scalar>::response_to(const TouchedSurfac
       frame = surface.normal * half_plane_of(surface.normal, motion_of_surface).least;
     const Desired<Scalar> relative{given.wanted - frame, given.unsteered - frame};
     if (dot(relative.wanted, surface.normal) >= 0) return given;
-    const Desired<Scalar> result = respond(relative, steered, at);
+    const Desired<Scalar> result = respond(up_, relative, steered, at);
     return {result.wanted + frame, result.unsteered + frame};
   };
   return {response(desired.displacement, remaining_of(surface), steered_ * dt_ * (1 - time_)),
@@ -114,8 +114,8 @@ DesiredMotion<Scalar> StepSolver<Lanes, Scalar>::response_to(const TouchedSurfac
 }
 
 /// The response to the first surface, and to a second one that the first response enters. False if that enters a third.
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::respond_one_by_one(DesiredMotion<Scalar>& desired) const noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::respond_one_by_one(DesiredMotion<Scalar>& desired) const noexcept {
   const DesiredMotion<Scalar> wanted = desired;
   const TouchedSurface<Scalar>& first = memory_.surfaces[0];
   const DesiredMotion<Scalar> alone = response_to(first, wanted, after_walk_);
@@ -134,8 +134,8 @@ bool StepSolver<Lanes, Scalar>::respond_one_by_one(DesiredMotion<Scalar>& desire
 
 /// Surfaces with one motion that stop the character together: a fall may still slip down between them. Otherwise the
 /// motion ends there, relative to them. False if their motions differ.
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::respond_in_crease(DesiredMotion<Scalar>& desired) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::respond_in_crease(DesiredMotion<Scalar>& desired) noexcept {
   const TouchedSurface<Scalar>& first = memory_.surfaces[0];
   const DesiredMotion<Scalar> alone = response_to(first, desired, after_walk_);
   for (const TouchedSurface<Scalar>& surface : memory_.surfaces)
@@ -143,7 +143,7 @@ bool StepSolver<Lanes, Scalar>::respond_in_crease(DesiredMotion<Scalar>& desired
   const V velocity = velocity_of(first);
   const DesiredMotion<Scalar> with_body = DesiredMotion<Scalar>::plain(remaining_of(first), velocity);
   if (!allowed(with_body)) return false;
-  const Scalar fall = fall_ - velocity.y();
+  const Scalar fall = fall_ - up_.up_of(velocity);
   const bool on_ground =
       std::any_of(memory_.surfaces.begin(), memory_.surfaces.end(),
                   [this](const TouchedSurface<Scalar>& surface) { return walkable(surface.normal); });
@@ -154,17 +154,19 @@ bool StepSolver<Lanes, Scalar>::respond_in_crease(DesiredMotion<Scalar>& desired
     ground_axis_ = first.axis;
   }
   if (fall >= 0 || on_ground) return true;
-  const V displacement{0, fall * dt_ * (1 - time_)};
+  const V displacement = up_.in_world({0, fall * dt_ * (1 - time_)});
+  const V falls = up_.in_world({0, fall});
   const std::optional<DesiredMotion<Scalar>> falling =
-      nearest_allowed_to(with_body.displacement.wanted + displacement, velocity + V(0, fall));
+      nearest_allowed_to(with_body.displacement.wanted + displacement, velocity + falls);
   const auto slips = [&] {
-    return falling->velocity.wanted.y() - velocity.y() < along_plane<Scalar> * (fall - length_of(velocity));
+    return up_.up_of(falling->velocity.wanted) - up_.up_of(velocity) <
+           along_plane<Scalar> * (fall - length_of(velocity));
   };
   if (falling && slips())
     desired = *falling;
-  else if (velocity == V::Zero() && shift_to_fall(displacement))
-    desired = DesiredMotion<Scalar>::plain(displacement, {0, fall});
-  else
+  else if (velocity == V::Zero() && shift_to_fall(displacement, up_.in_world({1, 0})))
+    desired = DesiredMotion<Scalar>::plain(displacement, falls);
+  else if (velocity != V::Zero() || !up_.is_slanted() || !fall_along_a_side(displacement, falls, desired))
     return true;
   wedged_ = false;
   return true;
@@ -172,8 +174,8 @@ bool StepSolver<Lanes, Scalar>::respond_in_crease(DesiredMotion<Scalar>& desired
 
 /// The nearest motion that all surfaces allow. Steering and horizontal momentum count only where they do not slow a
 /// fall: between two steep surfaces they would become a climb. False if the surfaces leave no motion.
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::respond_together(DesiredMotion<Scalar>& desired) const noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::respond_together(DesiredMotion<Scalar>& desired) const noexcept {
   const Desired<Scalar> displacement = desired.displacement;
   const Desired<Scalar> velocity = desired.velocity;
   const auto wanted = nearest_allowed_to(displacement.wanted, velocity.wanted);
@@ -181,17 +183,18 @@ bool StepSolver<Lanes, Scalar>::respond_together(DesiredMotion<Scalar>& desired)
   desired = *wanted;
   const auto falls_by = [&](const V& down, const V& velocity_of_fall) {
     const auto falling = nearest_allowed_to(down, velocity_of_fall);
-    if (falling && falling->displacement.wanted.y() < desired.displacement.wanted.y()) desired = *falling;
+    if (falling && up_.up_of(falling->displacement.wanted) < up_.up_of(desired.displacement.wanted)) desired = *falling;
   };
   falls_by(displacement.unsteered, velocity.unsteered);
-  if (displacement.unsteered.y() < 0) falls_by({0, displacement.unsteered.y()}, {0, velocity.unsteered.y()});
+  const auto upwards = [this](const V& v) { return up_.in_world({0, up_.up_of(v)}); };
+  if (up_.up_of(displacement.unsteered) < 0) falls_by(upwards(displacement.unsteered), upwards(velocity.unsteered));
   return true;
 }
 
 /// Nothing if there is no motion that all surfaces allow.
-template <std::size_t Lanes, class Scalar>
-std::optional<DesiredMotion<Scalar>> StepSolver<Lanes, Scalar>::nearest_allowed_to(const V& displacement,
-                                                                                   const V& velocity) const noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+std::optional<DesiredMotion<Scalar>> StepSolver<Lanes, Scalar, Up>::nearest_allowed_to(
+    const V& displacement, const V& velocity) const noexcept {
   std::vector<HalfPlane<Scalar>>& displacements = memory_.displacement_planes;
   std::vector<HalfPlane<Scalar>>& velocities = memory_.velocity_planes;
   displacements.clear();
@@ -207,12 +210,15 @@ std::optional<DesiredMotion<Scalar>> StepSolver<Lanes, Scalar>::nearest_allowed_
 }
 
 /// The response to one surface that stands still: the usual case.
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::respond_to_surface(const V& normal, DesiredMotion<Scalar>& desired) const noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::respond_to_surface(const V& normal, DesiredMotion<Scalar>& desired) const noexcept {
   const Surface<Scalar> at{normal, walkable(normal), after_walk_};
-  if (steered_ != 0) {
-    desired.displacement = respond(desired.displacement, steered_ * dt_ * (1 - time_), at);
-    desired.velocity = respond(desired.velocity, steered_, at);
+  constexpr bool upright = std::is_same_v<Up, Upright<Scalar>>;
+  if (!upright && steered_ == 0)
+    desired = DesiredMotion<Scalar>::plain(desired.displacement.wanted, desired.velocity.wanted);
+  if (!upright || steered_ != 0) {
+    desired.displacement = respond(up_, desired.displacement, steered_ * dt_ * (1 - time_), at);
+    desired.velocity = respond(up_, desired.velocity, steered_, at);
   } else {
     desired.displacement.wanted = respond(desired.displacement.wanted, at);
     desired.velocity.wanted = respond(desired.velocity.wanted, at);
@@ -223,24 +229,24 @@ void StepSolver<Lanes, Scalar>::respond_to_surface(const V& normal, DesiredMotio
 }
 
 /// The response to several surfaces, or to one that moves.
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::respond_to_all(DesiredMotion<Scalar>& desired) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::respond_to_all(DesiredMotion<Scalar>& desired) noexcept {
   if (steered_ == 0) desired = DesiredMotion<Scalar>::plain(desired.displacement.wanted, desired.velocity.wanted);
   return respond_one_by_one(desired) || respond_in_crease(desired) || respond_together(desired);
 }
 
 /// False where the surfaces leave no motion.
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::respond_to_surfaces(DesiredMotion<Scalar>& desired) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::respond_to_surfaces(DesiredMotion<Scalar>& desired) noexcept {
   const TouchedSurface<Scalar>& first = memory_.surfaces[0];
   wedged_ = false;
-  if (movers_.active && desired.velocity.wanted.x() == 0 && carries_from_now(first)) {
+  if (movers_.active && up_.across_of(desired.velocity.wanted) == 0 && carries_from_now(first)) {
     begin_to_ride(first);
     desired = DesiredMotion<Scalar>::plain(ground_rest(first.piece, first.normal), moving_.ride.velocity);
     steered_ = 0;
   }
   const bool on_ground = walkable(first.normal);
-  if (after_walk_ && !on_ground && desired.velocity.wanted.y() > 0) after_walk_ = touches_ground();
+  if (after_walk_ && !on_ground && up_.up_of(desired.velocity.wanted) > 0) after_walk_ = touches_ground();
   bool possible = true;
   if (memory_.surfaces.size() == 1 && first.mover == no_mover)
     respond_to_surface(first.normal, desired);
@@ -252,8 +258,8 @@ bool StepSolver<Lanes, Scalar>::respond_to_surfaces(DesiredMotion<Scalar>& desir
 
 /// There were too many sweeps, or the path has no room for more corners but the last. Tries to end the step with the
 /// present motion, with the motion of a touched surface, or at a free position.
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::last_resort(const V& displacement) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::last_resort(const V& displacement) noexcept {
   if (result_.status == MoveStatus::moved) result_.status = MoveStatus::dropped;
   if (!movers_.active) return;
   const auto goes = [this](const V& last) {

@@ -13,21 +13,21 @@
 
 namespace paperproof::octagon_sweep {
 
-template <std::size_t Lanes, class Scalar>
-Scalar StepSolver<Lanes, Scalar>::surface_speed(PieceIndex piece) const noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+Scalar StepSolver<Lanes, Scalar, Up>::surface_speed(PieceIndex piece) const noexcept {
   const Scenery<Scalar>& scenery = space_.scenery();
   return static_cast<Scalar>(scenery.collider(scenery.pieces()[piece].collider).surface_speed);
 }
 
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::carries(PieceIndex piece) const noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::carries(PieceIndex piece) const noexcept {
   const ColliderInfo& info = space_.scenery().collider(collider_of(piece));
   return (info.mover != no_mover && info.carries) || info.surface_speed != 0;
 }
 
 /// Of what stands on a piece at a surface with this normal [m/s].
-template <std::size_t Lanes, class Scalar>
-Vec2<Scalar> StepSolver<Lanes, Scalar>::ground_velocity(PieceIndex piece, const V& normal) const noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+Vec2<Scalar> StepSolver<Lanes, Scalar, Up>::ground_velocity(PieceIndex piece, const V& normal) const noexcept {
   const MoverIndex mover = mover_of(piece);
   V velocity = V{normal.y(), -normal.x()} * surface_speed(piece);
   if (mover != no_mover) velocity += movers_.displacement(mover) / movers_.dt;
@@ -35,8 +35,8 @@ Vec2<Scalar> StepSolver<Lanes, Scalar>::ground_velocity(PieceIndex piece, const 
 }
 
 /// How far it takes what stands on it in the rest of the step [m].
-template <std::size_t Lanes, class Scalar>
-Vec2<Scalar> StepSolver<Lanes, Scalar>::ground_rest(PieceIndex piece, const V& normal) const noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+Vec2<Scalar> StepSolver<Lanes, Scalar, Up>::ground_rest(PieceIndex piece, const V& normal) const noexcept {
   const MoverIndex mover = mover_of(piece);
   const Scalar along = surface_speed(piece) * movers_.dt * (1 - time_);
   V rest = V{normal.y(), -normal.x()} * along;
@@ -46,9 +46,9 @@ Vec2<Scalar> StepSolver<Lanes, Scalar>::ground_rest(PieceIndex piece, const V& n
 
 /// What carries the character where it is now: the collider that it rides already, or, where it does not stand on
 /// anything else, what is steepest up of the others.
-template <std::size_t Lanes, class Scalar>
-std::optional<TouchedSurface<Scalar>> StepSolver<Lanes, Scalar>::carrier_here(ColliderIndex ridden,
-                                                                              bool walkable_only) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+std::optional<TouchedSurface<Scalar>> StepSolver<Lanes, Scalar, Up>::carrier_here(ColliderIndex ridden,
+                                                                                  bool walkable_only) noexcept {
   std::optional<TouchedSurface<Scalar>> carrier;
   bool rides = false;
   bool stands_still = false;
@@ -56,14 +56,14 @@ std::optional<TouchedSurface<Scalar>> StepSolver<Lanes, Scalar>::carrier_here(Co
     if (passes_one_way(piece)) return;
     const BestAxis<Scalar> best = best_axis<Lanes>(space_, piece, local(piece, position_));
     const V normal = space_.normal(piece, best.axis);
-    if (std::abs(best.separation) > Tolerances<Scalar>{}.touch || normal.y() <= 0) return;
+    if (std::abs(best.separation) > Tolerances<Scalar>{}.touch || up_.up_of(normal) <= 0) return;
     if ((walkable_only && !walkable(normal)) || !may_block(piece, position_)) return;
     if (!carries(piece)) {
       stands_still = stands_still || walkable(normal);
       return;
     }
     const bool known = collider_of(piece) == ridden;
-    if (carrier && (known < rides || (known == rides && normal.y() <= carrier->normal.y()))) return;
+    if (carrier && (known < rides || (known == rides && up_.up_of(normal) <= up_.up_of(carrier->normal)))) return;
     carrier = surface_at(piece, best.axis);
     rides = known;
   });
@@ -72,11 +72,11 @@ std::optional<TouchedSurface<Scalar>> StepSolver<Lanes, Scalar>::carrier_here(Co
 }
 
 /// The desired displacement in the world [m]; that of a rider includes the motion of its ground. Sets the velocity.
-template <std::size_t Lanes, class Scalar>
-Vec2<Scalar> StepSolver<Lanes, Scalar>::begin_ride(const MoveRequest<Scalar>& request) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+Vec2<Scalar> StepSolver<Lanes, Scalar, Up>::begin_ride(const MoveRequest<Scalar>& request) noexcept {
   constexpr Scalar noise = std::numeric_limits<Scalar>::epsilon() * 4;
   const bool riding = request.ride.ground != Ride<Scalar>::none;
-  const bool at_rest = request.velocity.x() == 0 && request.velocity.y() <= 0;
+  const bool at_rest = up_.across_of(request.velocity) == 0 && up_.up_of(request.velocity) <= 0;
   std::optional<TouchedSurface<Scalar>> ground;
   if (riding || at_rest) ground = carrier_here(request.ride.ground, !riding);
   if (riding && ground && collider_of(ground->piece) != request.ride.ground) ground.reset();
@@ -97,15 +97,15 @@ Vec2<Scalar> StepSolver<Lanes, Scalar>::begin_ride(const MoveRequest<Scalar>& re
 }
 
 /// Whether ground that the character lands on without horizontal speed carries it from now on.
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::carries_from_now(const TouchedSurface<Scalar>& ground) const noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::carries_from_now(const TouchedSurface<Scalar>& ground) const noexcept {
   return walkable(ground.normal) && carries(ground.piece) && moving_.ride.ground == Ride<Scalar>::none &&
          !falls_away(ground_velocity(ground.piece, ground.normal));
 }
 
 /// From now on this ground carries the character.
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::begin_to_ride(const TouchedSurface<Scalar>& ground) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::begin_to_ride(const TouchedSurface<Scalar>& ground) noexcept {
   moving_.ride.ground = collider_of(ground.piece);
   moving_.ride.velocity = ground_velocity(ground.piece, ground.normal);
   moving_.ride.place = position_ - offset(ground.piece);
@@ -113,8 +113,8 @@ void StepSolver<Lanes, Scalar>::begin_to_ride(const TouchedSurface<Scalar>& grou
   moving_.anchored = true;
 }
 
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::note_motion_on_ground() noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::note_motion_on_ground() noexcept {
   if (!moving_.anchored) return;
   V relative = motion_.displacement;
   if (moving_.carrier != no_mover) relative = movers_.relative(motion_.displacement, moving_.carrier, time_);
@@ -122,14 +122,14 @@ void StepSolver<Lanes, Scalar>::note_motion_on_ground() noexcept {
 }
 
 /// Position of an anchored rider at a fraction of the step.
-template <std::size_t Lanes, class Scalar>
-Vec2<Scalar> StepSolver<Lanes, Scalar>::anchor(Scalar time) const noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+Vec2<Scalar> StepSolver<Lanes, Scalar, Up>::anchor(Scalar time) const noexcept {
   if (moving_.carrier == no_mover) return position_;
   return movers_.offset(moving_.carrier, time) + moving_.ride.place;
 }
 
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::end_ride() noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::end_ride() noexcept {
   if (!result_.grounded) return;
   const std::optional<TouchedSurface<Scalar>> ground = carrier_here(moving_.ride.ground, false);
   if (!ground) return;

@@ -6,8 +6,8 @@
 
 namespace paperproof::octagon_sweep {
 
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::solve(Part part, const MoveRequest<Scalar>& request) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::solve(Part part, const MoveRequest<Scalar>& request) noexcept {
   position_ = request.position;
   velocity_ = request.velocity;
   start_ = position_;
@@ -18,7 +18,7 @@ void StepSolver<Lanes, Scalar>::solve(Part part, const MoveRequest<Scalar>& requ
   V wanted = request.displacement;
   if (part == Part::stay) return stay_in_place(request);
   if (movers_.active) wanted = begin_ride(request);
-  const Scalar walk = velocity_.x();
+  const Scalar walk = up_.across_of(velocity_);
   memory_.contacts_at[0] = 0;
   result_.path.push_back({position_, 0});
   sweep_along(wanted);
@@ -61,8 +61,8 @@ void StepSolver<Lanes, Scalar>::solve(Part part, const MoveRequest<Scalar>& requ
 /// Stops a motion at ground that is touched now and at the end of the motion. Under tiny gravity a walk enters its
 /// ground by less than the sweep sees. It would leave the ground, sink until the sweep hits it, and be put back, over
 /// and over.
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::stop_at_touched_ground() noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::stop_at_touched_ground() noexcept {
   const V from = position_;
   const Scalar begin = time_;
   position_ += motion_.displacement;
@@ -84,8 +84,8 @@ void StepSolver<Lanes, Scalar>::stop_at_touched_ground() noexcept {
 }
 
 /// Of movers. What stands still is left out of the candidates.
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::ignore_filtered(const ColliderFilter& filter) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::ignore_filtered(const ColliderFilter& filter) noexcept {
   const Scenery<Scalar>& scenery = space_.scenery();
   for (MoverIndex mover = 0; mover < movers_.phases.size(); ++mover) {
     const PieceRange pieces = scenery.pieces_of_mover(mover);
@@ -95,30 +95,34 @@ void StepSolver<Lanes, Scalar>::ignore_filtered(const ColliderFilter& filter) no
 }
 
 /// Reads this step's steering, its length, and whether it begins as a walk on the ground.
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::begin_motion(const MoveRequest<Scalar>& request) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::begin_motion(const MoveRequest<Scalar>& request) noexcept {
   steered_ = request.steered;
   dt_ = request.dt;
   // A rise that is steeper than any walkable ground is no climb.
-  after_walk_ = climbs_ =
-      request.grounded && request.velocity.y() <= std::abs(request.velocity.x()) * settings_.walkable_tangent;
+  after_walk_ = climbs_ = request.grounded && up_.up_of(request.velocity) <= std::abs(up_.across_of(request.velocity)) *
+                                                                                 settings_.walkable_tangent;
 }
 
 /// The desired motion, with and without this step's steering.
-template <std::size_t Lanes, class Scalar>
-DesiredMotion<Scalar> StepSolver<Lanes, Scalar>::desired() const noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+DesiredMotion<Scalar> StepSolver<Lanes, Scalar, Up>::desired() const noexcept {
+  if constexpr (!std::is_same_v<Up, Upright<Scalar>>) {
+    const V steered = up_.in_world({steered_, 0});
+    return {{motion_.displacement, motion_.displacement - steered * dt_}, {velocity_, velocity_ - steered}};
+  }
   return {{motion_.displacement, {motion_.displacement.x() - steered_ * dt_, motion_.displacement.y()}},
           {velocity_, {velocity_.x() - steered_, velocity_.y()}}};
 }
 
 /// Advances to the earliest impact, responds to all touched surfaces, and sweeps again with what is left of the
 /// displacement.
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::travel() noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::travel() noexcept {
   const std::size_t most_corners = memory_.corners.capacity() - 3;
   const std::size_t most_sweeps = 4 * most_corners;  // several impacts may come at one moment
   DesiredMotion<Scalar> desired = this->desired();
-  fall_ = desired.velocity.unsteered.y();
+  fall_ = up_.up_of(desired.velocity.unsteered);
   V displacement = motion_.displacement;  // of the next sweep: it may also restore the gap to a surface
   bool may_aim = true;
   int impacts = 0;
@@ -138,7 +142,7 @@ void StepSolver<Lanes, Scalar>::travel() noexcept {
     const Stop<Scalar> first = found_.stops[0];  // the response may sweep again
     report(begin);
     if (found_.stop * motion_.length > Tolerances<Scalar>{}.touch)
-      fall_ = steered_ != 0 ? desired.velocity.unsteered.y() : desired.velocity.wanted.y();
+      fall_ = up_.up_of(steered_ != 0 ? desired.velocity.unsteered : desired.velocity.wanted);
     update_surfaces();
     const Scalar left = 1 - found_.stop;
     desired.displacement.wanted *= left;
@@ -164,8 +168,8 @@ void StepSolver<Lanes, Scalar>::travel() noexcept {
 
 /// Ends the step here. The velocity still becomes one that the touched surfaces allow: otherwise it would grow from
 /// step to step.
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::end_at_surfaces(DesiredMotion<Scalar>& desired) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::end_at_surfaces(DesiredMotion<Scalar>& desired) noexcept {
   if (respond_to_surfaces(desired))
     velocity_ = desired.velocity.wanted;
   else
@@ -175,8 +179,9 @@ void StepSolver<Lanes, Scalar>::end_at_surfaces(DesiredMotion<Scalar>& desired) 
 /// Whether the character can fall straight down between two rims that it touches: a shaft may be a little wider than
 /// the character. If it is off the middle, it shifts sideways by at most the clearance of the narrowest opening that
 /// counts.
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::shift_to_fall(const V& displacement) noexcept {
+/// @param aside unit vector, across the fall.
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::shift_to_fall(const V& displacement, const V& aside) noexcept {
   constexpr Tolerances<Scalar> tolerances{};
   const auto falls = [&] {
     sweep_along(displacement);
@@ -184,9 +189,9 @@ bool StepSolver<Lanes, Scalar>::shift_to_fall(const V& displacement) noexcept {
   };
   if (falls()) return true;
   if (certify_) return false;
-  for (const Scalar aside : {tolerances.hit, -tolerances.hit, 2 * tolerances.hit, -2 * tolerances.hit}) {
+  for (const Scalar by : {tolerances.hit, -tolerances.hit, 2 * tolerances.hit, -2 * tolerances.hit}) {
     const V here = position_;
-    position_.x() += aside;
+    position_ += aside * by;
     if (exactly_clear(here, position_) && falls()) {
       push_corner(time_);
       return true;
@@ -196,9 +201,26 @@ bool StepSolver<Lanes, Scalar>::shift_to_fall(const V& displacement) noexcept {
   return false;
 }
 
+/// The same along one of the sides of the character, or of its box: where up is slanted a shaft of its width goes
+/// aslant.
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::fall_along_a_side(const V& displacement, const V& velocity,
+                                                      DesiredMotion<Scalar>& desired) noexcept {
+  for (std::size_t axis = 0; axis < Lanes; ++axis) {
+    const V normal = space_.normal(memory_.surfaces[0].piece, axis);
+    const V along{-normal.y(), normal.x()};
+    if (!(up_.up_of(along) < 0)) continue;  // each direction belongs to two axes, or to none
+    const V way = along * dot(displacement, along);
+    if (!shift_to_fall(way, normal)) continue;
+    desired = DesiredMotion<Scalar>::plain(way, along * dot(velocity, along));
+    return true;
+  }
+  return false;
+}
+
 /// Ends the step here, as the exact certificate or the range forbids the motion. Reports each piece that blocks it.
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::cut_short() noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::cut_short() noexcept {
   if (result_.status == MoveStatus::moved) result_.status = MoveStatus::dropped;
   const V target = motion_.from + motion_.displacement * found_.stop;
   const Scalar end = time_ + (1 - time_) * found_.stop;
@@ -210,9 +232,9 @@ void StepSolver<Lanes, Scalar>::cut_short() noexcept {
 }
 
 /// A slide along a surface that is nearer than `stop`, changed so that it ends at that gap.
-template <std::size_t Lanes, class Scalar>
-Vec2<Scalar> StepSolver<Lanes, Scalar>::with_gap_restored(const V& displacement,
-                                                          const Stop<Scalar>& at) const noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+Vec2<Scalar> StepSolver<Lanes, Scalar, Up>::with_gap_restored(const V& displacement,
+                                                              const Stop<Scalar>& at) const noexcept {
   constexpr Tolerances<Scalar> tolerances{};
   if (displacement.x() == 0 && displacement.y() == 0) return displacement;
   const Scalar gap = space_.separation(at.piece, at.axes.normal, local(at.piece, position_));
@@ -220,16 +242,16 @@ Vec2<Scalar> StepSolver<Lanes, Scalar>::with_gap_restored(const V& displacement,
   return displacement + space_.normal(at.piece, at.axes.normal) * (tolerances.stop - gap);
 }
 
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::halt() noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::halt() noexcept {
   velocity_ = V::Zero();
 }
 
 /// What the character stands on at the end of the step: walkable ground that it touches and that its motion does not
 /// leave, or a wedge that ended its fall; or what it slides down. Nothing in a step that hit nothing: without gravity
 /// nothing holds the character to ground that it touches.
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::find_ground() noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::find_ground() noexcept {
   if (on_ground_ || wedged_ || (met_ground_ && stands_on(ground_))) {  // the usual case
     const V normal = space_.normal(ground_, ground_axis_);
     note_ground(walkable(normal) ? GroundState::walkable : GroundState::wedge, ground_, normal);
@@ -238,12 +260,12 @@ void StepSolver<Lanes, Scalar>::find_ground() noexcept {
   }
 }
 
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::look_for_ground() noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::look_for_ground() noexcept {
   for_each_near({position_, position_}, [&](PieceIndex piece) {
     if (!result_.grounded && stands_on(piece)) note_ground(GroundState::walkable, piece, *touched_ground(piece));
   });
-  const auto is_steep = [this](const V& normal) { return normal.y() > 0 && !walkable(normal); };
+  const auto is_steep = [this](const V& normal) { return up_.up_of(normal) > 0 && !walkable(normal); };
   if (result_.grounded || std::none_of(result_.contacts.begin(), result_.contacts.end(),
                                        [&](const Contact<Scalar>& contact) { return is_steep(contact.normal); }))
     return;
@@ -253,17 +275,17 @@ void StepSolver<Lanes, Scalar>::look_for_ground() noexcept {
     const bool touched = std::abs(best.separation) <= Tolerances<Scalar>{}.touch && !space_.covered(piece, best.axis);
     if (!touched || !is_steep(normal) || passes_one_way(piece) || !may_block(piece, position_)) return;
     const bool first = result_.ground.state == GroundState::air;
-    if (first || normal.y() > result_.ground.normal.y()) note_ground(GroundState::steep, piece, normal);
+    if (first || up_.up_of(normal) > up_.up_of(result_.ground.normal)) note_ground(GroundState::steep, piece, normal);
   });
 }
 
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::note_ground_velocity(PieceIndex piece) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::note_ground_velocity(PieceIndex piece) noexcept {
   result_.ground.velocity = ground_velocity(piece, result_.ground.normal);
 }
 
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::note_ground(GroundState state, PieceIndex piece, const V& normal) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::note_ground(GroundState state, PieceIndex piece, const V& normal) noexcept {
   result_.grounded = state != GroundState::steep;
   result_.ground.state = state;
   result_.ground.collider = collider_of(piece);
@@ -276,8 +298,8 @@ void StepSolver<Lanes, Scalar>::note_ground(GroundState state, PieceIndex piece,
 /// Reports the ground that the character stands on, also where gravity presses onto it by less than the sweep sees.
 /// Ground that the wanted motion leaves is not reported: a character that jumps and hits a ceiling at once stands
 /// again, and its only contact is the ceiling.
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::report_ground(const V& wanted) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::report_ground(const V& wanted) noexcept {
   for_each_near({position_, position_}, [&](PieceIndex piece) {
     if (!stands_on(piece)) return;
     V displacement = wanted;
@@ -286,8 +308,8 @@ void StepSolver<Lanes, Scalar>::report_ground(const V& wanted) noexcept {
   });
 }
 
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::stands_on(PieceIndex piece) const noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::stands_on(PieceIndex piece) const noexcept {
   const std::optional<V> normal = touched_ground(piece);
   if (!normal) return false;
   V ground = V::Zero();
@@ -296,13 +318,13 @@ bool StepSolver<Lanes, Scalar>::stands_on(PieceIndex piece) const noexcept {
   return leaving <= 0 || leaving <= along_plane<Scalar> * (length_of(velocity_) + length_of(ground));
 }
 
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::touches_ground() noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::touches_ground() noexcept {
   return any_near({position_, position_}, [this](PieceIndex piece) { return touched_ground(piece).has_value(); });
 }
 
-template <std::size_t Lanes, class Scalar>
-std::optional<Vec2<Scalar>> StepSolver<Lanes, Scalar>::touched_ground(PieceIndex piece) const noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+std::optional<Vec2<Scalar>> StepSolver<Lanes, Scalar, Up>::touched_ground(PieceIndex piece) const noexcept {
   if (passes_one_way(piece)) return std::nullopt;
   const BestAxis<Scalar> best = best_axis<Lanes>(space_, piece, local(piece, position_));
   if (!(std::abs(best.separation) <= Tolerances<Scalar>{}.touch)) return std::nullopt;

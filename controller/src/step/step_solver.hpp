@@ -39,7 +39,6 @@ struct Settings {
   Scalar walkable_tangent;  ///< Steepest walkable slope, as rise over run.
   Scalar snap;              ///< How far down ground is followed [m].
   Scalar step_height;       ///< How high a walker climbs [m].
-  Scalar overhang;          ///< How far the hull reaches sideways beyond its foot [m].
   Scalar max_fall_speed;    ///< Ground that falls faster leaves its rider behind [m/s]; infinite: none does.
   Scalar look_ahead;        ///< How far ahead of a motion candidates are collected at most [m].
   int iterations;
@@ -91,17 +90,21 @@ struct MoverState {
   MoveStatus status_before_crush = MoveStatus::moved;  ///< the status until then.
 };
 
-template <std::size_t Lanes, class Scalar>
+/// @tparam Up of the character: `Upright` or `UpFrame`. With one class for both a step of an upright character took 2 %
+/// more instructions.
+template <std::size_t Lanes, class Scalar, class Up>
 class StepSolver {
  public:
   StepSolver(const ConfigurationSpace<Scalar>& space, const Settings<Scalar>& settings,
-             Neighbourhood<Scalar> neighbourhood, MoversInStep<Scalar>& movers, MoveResult<Scalar>& result) noexcept
+             Neighbourhood<Scalar> neighbourhood, MoversInStep<Scalar>& movers, const Up& up,
+             MoveResult<Scalar>& result) noexcept
       : space_(space),
         pieces_(space.scenery().pieces().data()),
         settings_(settings),
         neighbourhood_(neighbourhood),
         movers_(movers),
         memory_(neighbourhood.memory()),
+        up_(up),
         result_(result) {
     memory_.clear();
   }
@@ -186,7 +189,9 @@ class StepSolver {
   [[nodiscard]] DesiredMotion<Scalar> desired() const noexcept;
   [[gnu::flatten]] void travel() noexcept;
   [[gnu::cold, gnu::noinline]] void end_at_surfaces(DesiredMotion<Scalar>& desired) noexcept;
-  [[nodiscard, gnu::cold, gnu::noinline]] bool shift_to_fall(const V& displacement) noexcept;
+  [[nodiscard, gnu::cold, gnu::noinline]] bool shift_to_fall(const V& displacement, const V& aside) noexcept;
+  [[nodiscard, gnu::cold, gnu::noinline]] bool fall_along_a_side(const V& displacement, const V& velocity,
+                                                                 DesiredMotion<Scalar>& desired) noexcept;
   [[nodiscard]] V with_gap_restored(const V& displacement, const Stop<Scalar>& at) const noexcept;
   void halt() noexcept;
   [[gnu::cold, gnu::noinline]] void cut_short() noexcept;
@@ -200,9 +205,10 @@ class StepSolver {
   /// The normal of a piece, if the character touches it now and it is walkable ground.
   [[nodiscard, gnu::always_inline]] inline std::optional<V> touched_ground(PieceIndex piece) const noexcept;
   [[gnu::cold, gnu::noinline]] void stop_at_touched_ground() noexcept;
-  [[nodiscard]] bool walkable(const V& normal) const noexcept { return normal.y() >= settings_.walkable_cosine; }
+  [[nodiscard]] bool walkable(const V& normal) const noexcept { return up_.up_of(normal) >= settings_.walkable_cosine; }
 
   // step_stairs.hpp
+  [[nodiscard]] Scalar overhang() const noexcept;
   [[nodiscard]] bool go_along(const V& displacement) noexcept;
   [[nodiscard]] std::optional<TouchedSurface<Scalar>> ground_below(Scalar ahead, Scalar down) noexcept;
   bool step_down_to(const TouchedSurface<Scalar>& ground, Scalar speed) noexcept;
@@ -219,7 +225,9 @@ class StepSolver {
   [[nodiscard]] std::optional<TouchedSurface<Scalar>> carrier_here(ColliderIndex ridden, bool walkable_only) noexcept;
   [[nodiscard, gnu::cold, gnu::noinline]] V begin_ride(const MoveRequest<Scalar>& request) noexcept;
   /// Ground that falls faster than the character may.
-  [[nodiscard]] bool falls_away(const V& ground) const noexcept { return ground.y() < -settings_.max_fall_speed; }
+  [[nodiscard]] bool falls_away(const V& ground) const noexcept {
+    return up_.up_of(ground) < -settings_.max_fall_speed;
+  }
   [[nodiscard, gnu::cold, gnu::noinline]] bool carries_from_now(const TouchedSurface<Scalar>& ground) const noexcept;
   [[gnu::cold, gnu::noinline]] void begin_to_ride(const TouchedSurface<Scalar>& ground) noexcept;
   [[nodiscard, gnu::cold, gnu::noinline]] V anchor(Scalar time) const noexcept;
@@ -297,6 +305,7 @@ class StepSolver {
   Neighbourhood<Scalar> neighbourhood_;
   MoversInStep<Scalar>& movers_;
   StepMemory<Scalar>& memory_;
+  [[no_unique_address]] Up up_;
   MoveResult<Scalar>& result_;
 
   LocalMotion motion_;         ///< Of the last sweep,
@@ -305,11 +314,11 @@ class StepSolver {
                         ///< impact count from there.
   V position_{V::Zero()};
   V velocity_{V::Zero()};
-  Scalar time_ = 0;  ///< Fraction of the step that is spent.
-  Scalar dt_ = 0;    ///< Of the step [s].
-  Scalar fall_ = 0;  ///< Vertical velocity without steering, before the surfaces that are touched now were met [m/s].
-  Scalar steered_ = 0;       ///< The part of the horizontal velocity that this step's steering added [m/s].
-  bool drops_ = false;       ///< One-way segments do not block in this step.
+  Scalar time_ = 0;     ///< Fraction of the step that is spent.
+  Scalar dt_ = 0;       ///< Of the step [s].
+  Scalar fall_ = 0;     ///< Velocity upwards without steering, before the surfaces that are touched now were met [m/s].
+  Scalar steered_ = 0;  ///< The part of the horizontal velocity that this step's steering added [m/s].
+  bool drops_ = false;  ///< One-way segments do not block in this step.
   bool certify_ = false;     ///< Something is nearer than rounding: every motion needs an exact certificate.
   bool climbs_ = false;      ///< The step began on ground, with no more upward speed than climbing gives.
   bool after_walk_ = false;  ///< See `Surface`.

@@ -12,27 +12,44 @@
 namespace paperproof::octagon_sweep {
 
 /// Sweeps, and advances as far as the way is free. @return false where that cannot be certified.
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::go_along(const V& displacement) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::go_along(const V& displacement) noexcept {
   sweep_along(displacement);
   return advance(found_.hit ? found_.stop : Scalar(1));
+}
+
+/// How far the hull reaches sideways beyond its foot, at most [m].
+template <std::size_t Lanes, class Scalar, class Up>
+Scalar StepSolver<Lanes, Scalar, Up>::overhang() const noexcept {
+  Scalar low = std::numeric_limits<Scalar>::infinity();
+  for (const V& point : space_.hull()) low = std::min(low, up_.up_of(point));
+  constexpr Scalar far = std::numeric_limits<Scalar>::infinity();
+  V all{far, -far};
+  V foot{far, -far};
+  for (const V& point : space_.hull()) {
+    const Scalar across = up_.across_of(point);
+    all = {std::min(all.x(), across), std::max(all.y(), across)};
+    if (up_.up_of(point) - low > Tolerances<Scalar>{}.touch) continue;
+    foot = {std::min(foot.x(), across), std::max(foot.y(), across)};
+  }
+  return std::max(foot.x() - all.x(), all.y() - foot.y());
 }
 
 /// The ground that ends a way straight down: walkable, or the corner of a stair whose ground lies ahead. The last sweep
 /// is then that way down.
 /// @param ahead to which side [m]; zero: nowhere. @param down how far [m]
-template <std::size_t Lanes, class Scalar>
-std::optional<TouchedSurface<Scalar>> StepSolver<Lanes, Scalar>::ground_below(Scalar ahead, Scalar down) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+std::optional<TouchedSurface<Scalar>> StepSolver<Lanes, Scalar, Up>::ground_below(Scalar ahead, Scalar down) noexcept {
   const V from = position_;
   const auto ground = [&]() -> std::optional<TouchedSurface<Scalar>> {
-    sweep_along({0, -down});
+    sweep_along(up_.in_world({0, -down}));
     if (!found_.hit) return std::nullopt;
     const TouchedSurface<Scalar> surface = surface_at(found_.stops[0].piece, found_.stops[0].axes.normal);
-    return surface.normal.y() > 0 ? std::optional(surface) : std::nullopt;
+    return up_.up_of(surface.normal) > 0 ? std::optional(surface) : std::nullopt;
   };
   std::optional<TouchedSurface<Scalar>> below = ground();
-  if (!below || walkable(below->normal) || ahead == 0 || settings_.overhang == 0) return below;
-  sweep_along({ahead, 0});
+  if (!below || walkable(below->normal) || ahead == 0) return below;
+  sweep_along(up_.in_world({ahead, 0}));
   position_ += motion_.displacement * found_.stop;
   below = ground();
   position_ = from;
@@ -42,58 +59,60 @@ std::optional<TouchedSurface<Scalar>> StepSolver<Lanes, Scalar>::ground_below(Sc
 
 /// Stands on ground that `ground_below` found, at the end of the way down.
 /// @param speed sideways [m/s], which the walker keeps.
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::step_down_to(const TouchedSurface<Scalar>& ground, Scalar speed) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::step_down_to(const TouchedSurface<Scalar>& ground, Scalar speed) noexcept {
   if (!walkable(ground.normal) || !advance(found_.stop)) return false;
   note_ground(GroundState::walkable, ground.piece, ground.normal);
   const Stop<Scalar>& stop = found_.stops[0];
   if (walkable(space_.normal(stop.piece, stop.axes.normal)))  // the corner of a stair stops no wanted motion
     report_contact(stop.piece, stop.axes.normal, time_, result_.contacts.size());
   const V carried = ground_velocity(ground.piece, ground.normal);
-  velocity_ = follow(speed - carried.x(), ground.normal) + carried;
+  const V followed = follow(speed - up_.across_of(carried), up_.seen(ground.normal));
+  velocity_ = in_world(up_, followed, ground.normal) + carried;
   return true;
 }
 
 /// Climbs what stopped a walk, if there is walkable ground at most `step_height` higher: up, on sideways, and down.
 /// @param wanted displacement of the whole step [m]. @param speed sideways, as wanted [m/s].
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::climb_stairs(const MoveRequest<Scalar>& request, const V& wanted,
-                                             Scalar speed) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::climb_stairs(const MoveRequest<Scalar>& request, const V& wanted,
+                                                 Scalar speed) noexcept {
   constexpr Scalar touch = Tolerances<Scalar>{}.touch;
   constexpr std::size_t most_legs = 5;  // up, on, down; the snap, and the end of the step
   if (!request.grounded || !climbs_ || result_.status != MoveStatus::moved || is_passed_through()) return;
   for (int stair = 0; stair < most_stairs; ++stair) {
-    const Scalar left = wanted.x() - (position_.x() - request.position.x());
-    const bool is_steered = left * request.velocity.x() > 0 && std::abs(left) > touch;
+    const Scalar left = up_.across_of(V(wanted - (position_ - request.position)));
+    const bool is_steered = left * up_.across_of(request.velocity) > 0 && std::abs(left) > touch;
     const bool is_stopped = std::any_of(result_.contacts.begin(), result_.contacts.end(), [&](const auto& contact) {
-      return contact.normal.x() * left < 0 && contact.normal.y() >= 0 && !walkable(contact.normal);
+      return up_.across_of(contact.normal) * left < 0 && up_.up_of(contact.normal) >= 0 && !walkable(contact.normal);
     });
     if (!is_steered || !is_stopped || result_.path.size() + most_legs > memory_.corners.capacity()) return;
     push_corner(time_);
     const std::size_t corner = result_.path.size() - 1;
     memory_.contacts_at[corner] = result_.contacts.size();
     const V before = position_;
-    bool is_climbed = go_along({0, settings_.step_height}) && go_along({left, 0}) &&
-                      (position_.x() - before.x()) * left > touch * std::abs(left);
+    bool is_climbed = go_along(up_.in_world({0, settings_.step_height})) && go_along(up_.in_world({left, 0}));
     if (is_climbed) {
-      const auto ground = ground_below(std::copysign(settings_.overhang, left), position_.y() - before.y());
-      is_climbed = ground && (1 - found_.stop) * (position_.y() - before.y()) > touch && step_down_to(*ground, speed);
+      const V by = up_.seen(V(position_ - before));
+      const auto ground = ground_below(std::copysign(overhang(), left), by.y());
+      const bool is_higher = (1 - found_.stop) * by.y() > touch && by.x() * left > touch * std::abs(left);
+      is_climbed = ground && is_higher && step_down_to(*ground, speed);
     }
     if (!is_climbed) return go_back_to(corner);
   }
 }
 
 /// Follows the ground down where a walk has left it, and there is ground at most `snap` below.
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::follow_ground_down(const MoveRequest<Scalar>& request) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::follow_ground_down(const MoveRequest<Scalar>& request) noexcept {
   if (!request.grounded || result_.grounded) return;
   if (is_passed_through()) return;              // a crushed character does not move
   const V left_ground = moving_.ride.velocity;  // of the ground that was walked on
   // A character that rises has left the ground on purpose, unless it only climbs: a walk goes on over a crest.
-  if (velocity_.y() > left_ground.y() && !climbs_) return;
-  const Scalar walked = position_.x() - request.position.x() - left_ground.x() * request.dt;
-  const Scalar ahead = walked == 0 ? Scalar(0) : std::copysign(settings_.overhang, walked);
-  if (const auto ground = ground_below(ahead, settings_.snap)) step_down_to(*ground, velocity_.x());
+  if (up_.up_of(velocity_) > up_.up_of(left_ground) && !climbs_) return;
+  const Scalar walked = up_.across_of(V(position_ - request.position - left_ground * request.dt));
+  const Scalar ahead = walked == 0 ? Scalar(0) : std::copysign(overhang(), walked);
+  if (const auto ground = ground_below(ahead, settings_.snap)) step_down_to(*ground, up_.across_of(velocity_));
 }
 
 }  // namespace paperproof::octagon_sweep

@@ -11,8 +11,8 @@ namespace paperproof::octagon_sweep {
 /// Pushes that restore the gaps of a start in a corner. If that many are not enough, there is no room.
 inline constexpr int restore_rounds = 16;
 
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::prepare_start(Part part, const MoveRequest<Scalar>& request) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::prepare_start(Part part, const MoveRequest<Scalar>& request) noexcept {
   if (request.has_last_free) moving_.last_free = request.last_free;
   if (request.crushed && ignore_overlapping_movers(request) && part == Part::whole &&
       leaves_overlapping_movers(request))
@@ -41,8 +41,8 @@ bool StepSolver<Lanes, Scalar>::prepare_start(Part part, const MoveRequest<Scala
 
 /// The nearest free position on the side of the last free position; where there is none, on any side. First with the
 /// gap that is kept everywhere else, then with a little more than the gap of an opening that counts as closed.
-template <std::size_t Lanes, class Scalar>
-std::optional<Vec2<Scalar>> StepSolver<Lanes, Scalar>::find_way_out(const MoveRequest<Scalar>& request) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+std::optional<Vec2<Scalar>> StepSolver<Lanes, Scalar, Up>::find_way_out(const MoveRequest<Scalar>& request) noexcept {
   constexpr Tolerances<Scalar> tolerances{};
   const Scalar whole = reach_of_solids_inside();
   FreePositionQuery<Scalar> query{.from = position_,
@@ -65,9 +65,9 @@ std::optional<Vec2<Scalar>> StepSolver<Lanes, Scalar>::find_way_out(const MoveRe
 }
 
 /// Searches near first, then twice as far, and so on, until the solids that are overlapped are searched as a whole.
-template <std::size_t Lanes, class Scalar>
-std::optional<Vec2<Scalar>> StepSolver<Lanes, Scalar>::find_way_out(FreePositionQuery<Scalar> query,
-                                                                    Scalar whole) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+std::optional<Vec2<Scalar>> StepSolver<Lanes, Scalar, Up>::find_way_out(FreePositionQuery<Scalar> query,
+                                                                        Scalar whole) noexcept {
   const V extent = space_.hull_box().upper - space_.hull_box().lower;
   for (query.reach = std::min(whole, extent.maxCoeff());; query.reach = std::min(whole, 2 * query.reach)) {
     const std::span<PieceIndex> pieces = pieces_for(query, query.reach);
@@ -79,9 +79,9 @@ std::optional<Vec2<Scalar>> StepSolver<Lanes, Scalar>::find_way_out(FreePosition
 
 /// Every piece that may be hit on a straight motion to a position less than `radius` away from `query.near`. The pieces
 /// of one collider are in a row. The span may be reordered.
-template <std::size_t Lanes, class Scalar>
-std::span<PieceIndex> StepSolver<Lanes, Scalar>::pieces_for(const FreePositionQuery<Scalar>& query,
-                                                            Scalar radius) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+std::span<PieceIndex> StepSolver<Lanes, Scalar, Up>::pieces_for(const FreePositionQuery<Scalar>& query,
+                                                                Scalar radius) noexcept {
   Box2<Scalar> box = Box2<Scalar>{query.near, query.near}.inflated(radius).merged({query.from, query.from});
   const auto add = [&box](const V& p) { box = box.merged({p, p}); };
   if (query.last_free) add(*query.last_free);
@@ -102,10 +102,10 @@ std::span<PieceIndex> StepSolver<Lanes, Scalar>::pieces_for(const FreePositionQu
 
 /// Puts all pieces of those colliders first that have a piece for which the condition holds.
 /// @return how many they are.
-template <std::size_t Lanes, class Scalar>
+template <std::size_t Lanes, class Scalar, class Up>
 template <class Condition>
-std::size_t StepSolver<Lanes, Scalar>::put_first(std::span<PieceIndex> pieces,
-                                                 const Condition& condition) const noexcept {
+std::size_t StepSolver<Lanes, Scalar, Up>::put_first(std::span<PieceIndex> pieces,
+                                                     const Condition& condition) const noexcept {
   std::size_t count = 0;
   for (std::size_t first = 0, end = 0; first < pieces.size(); first = end) {
     bool fulfilled = false;
@@ -117,8 +117,8 @@ std::size_t StepSolver<Lanes, Scalar>::put_first(std::span<PieceIndex> pieces,
 }
 
 /// An upper bound for the way out of the colliders that are overlapped: their extent and that of the octagon [m].
-template <std::size_t Lanes, class Scalar>
-Scalar StepSolver<Lanes, Scalar>::reach_of_solids_inside() noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+Scalar StepSolver<Lanes, Scalar, Up>::reach_of_solids_inside() noexcept {
   Box2<Scalar> whole{position_, position_};
   for_each_near({position_, position_}, [&](PieceIndex piece) {
     if (!overlaps(piece, position_)) return;
@@ -133,13 +133,13 @@ Scalar StepSolver<Lanes, Scalar>::reach_of_solids_inside() noexcept {
   return length_of(V((position_ - whole.lower).cwiseMax(whole.upper - position_) + extent));
 }
 
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::overlaps(const V& position) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::overlaps(const V& position) noexcept {
   return any_near({position, position}, [&](PieceIndex piece) { return overlaps(piece, position); });
 }
 
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::overlaps(PieceIndex piece, const V& position) const noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::overlaps(PieceIndex piece, const V& position) const noexcept {
   const V at = local(piece, position);
   if (space_.info(piece).one_way_axis != ObstacleInfo::not_one_way ||
       best_axis<Lanes>(space_, piece, at).separation >= Tolerances<Scalar>{}.certain)
@@ -150,8 +150,8 @@ bool StepSolver<Lanes, Scalar>::overlaps(PieceIndex piece, const V& position) co
 }
 
 /// Whether a piece blocks a character at `position`. A one-way segment blocks only from above its surface.
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::may_block(PieceIndex piece, const V& position) const noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::may_block(PieceIndex piece, const V& position) const noexcept {
   if (space_.info(piece).one_way_axis == ObstacleInfo::not_one_way) return true;
   if (drops_) return false;
   return is_above(space_, piece, local(piece, position), lost_by(position, offset(piece)));
@@ -159,8 +159,8 @@ bool StepSolver<Lanes, Scalar>::may_block(PieceIndex piece, const V& position) c
 
 /// Pushes the character off the nearest piece, again and again, until every gap is at least `hit`. Without success the
 /// position does not change.
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::restore_gap() noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::restore_gap() noexcept {
   constexpr Tolerances<Scalar> tolerances{};
   V q = position_;
   for (int round = 0; round < restore_rounds; ++round) {
@@ -183,16 +183,16 @@ void StepSolver<Lanes, Scalar>::restore_gap() noexcept {
 }
 
 /// Whether a straight motion that takes no time is clear of every piece, exactly.
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::exactly_clear(const V& from, const V& to) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::exactly_clear(const V& from, const V& to) noexcept {
   return !any_near({from.cwiseMin(to), from.cwiseMax(to)},
                    [&](PieceIndex piece) { return !exactly_clear(piece, from, to, time_); });
 }
 
 /// The same for one piece, and a motion from now to a fraction of the step.
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::exactly_clear(PieceIndex piece, const V& begin, const V& target,
-                                              Scalar end) const noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::exactly_clear(PieceIndex piece, const V& begin, const V& target,
+                                                  Scalar end) const noexcept {
   const V from = local(piece, begin);
   const V to = target - offset(piece, end);
   if (one_axis_separates(space_, piece, from, to)) return true;
@@ -204,8 +204,8 @@ bool StepSolver<Lanes, Scalar>::exactly_clear(PieceIndex piece, const V& begin, 
 
 /// Where not all gaps can be restored, restores those to moving pieces one by one. Each push must make no gap smaller
 /// that is below `hit`. Otherwise rounding could let a mover that carries the character overlap it.
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::restore_gaps_to_movers() noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::restore_gaps_to_movers() noexcept {
   constexpr Tolerances<Scalar> tolerances{};
   std::vector<HalfPlane<Scalar>>& pushes = memory_.displacement_planes;
   pushes.clear();

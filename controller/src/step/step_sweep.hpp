@@ -6,20 +6,20 @@
 
 namespace paperproof::octagon_sweep {
 
-template <std::size_t Lanes, class Scalar>
-Vec2<Scalar> StepSolver<Lanes, Scalar>::offset(PieceIndex piece, Scalar time) const noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+Vec2<Scalar> StepSolver<Lanes, Scalar, Up>::offset(PieceIndex piece, Scalar time) const noexcept {
   const MoverIndex mover = mover_of(piece);
   return mover == no_mover ? V(V::Zero()) : movers_.offset(mover, time);
 }
 
-template <std::size_t Lanes, class Scalar>
-Vec2<Scalar> StepSolver<Lanes, Scalar>::local(PieceIndex piece, const V& p) const noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+Vec2<Scalar> StepSolver<Lanes, Scalar, Up>::local(PieceIndex piece, const V& p) const noexcept {
   return mover_of(piece) == no_mover ? p : V(p - offset(piece));
 }
 
-template <std::size_t Lanes, class Scalar>
+template <std::size_t Lanes, class Scalar, class Up>
 template <class Visit>
-void StepSolver<Lanes, Scalar>::for_each_near(const Box2<Scalar>& box, const Visit& visit) noexcept {
+void StepSolver<Lanes, Scalar, Up>::for_each_near(const Box2<Scalar>& box, const Visit& visit) noexcept {
   for (const PieceIndex piece : neighbourhood_.around(box)) visit(piece);
   const Box2<Scalar> world = space_.touched_from(box);
   for (MoverIndex mover = 0; mover < movers_.count; ++mover) {
@@ -31,16 +31,16 @@ void StepSolver<Lanes, Scalar>::for_each_near(const Box2<Scalar>& box, const Vis
   }
 }
 
-template <std::size_t Lanes, class Scalar>
+template <std::size_t Lanes, class Scalar, class Up>
 template <class Condition>
-bool StepSolver<Lanes, Scalar>::any_near(const Box2<Scalar>& box, const Condition& condition) noexcept {
+bool StepSolver<Lanes, Scalar, Up>::any_near(const Box2<Scalar>& box, const Condition& condition) noexcept {
   bool any = false;
   for_each_near(box, [&](PieceIndex piece) { any = any || condition(piece); });
   return any;
 }
 
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::sweep_along(const V& displacement) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::sweep_along(const V& displacement) noexcept {
   motion_ = make_motion<Lanes>(space_, position_, displacement);
   found_.clear();
   sweep<Covered::as_any>(motion_, neighbourhood_.around(motion_.box(), displacement));
@@ -51,40 +51,40 @@ void StepSolver<Lanes, Scalar>::sweep_along(const V& displacement) noexcept {
 }
 
 /// Repeats the last sweep after a covered facet came first. Covered facets yield to those that cover them.
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::sweep_again() noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::sweep_again() noexcept {
   found_.clear();
   sweep<Covered::yields>(motion_, neighbourhood_.around(motion_.box(), motion_.displacement));
   sweep_movers<Covered::yields>();
 }
 
 /// Whether a covered facet stopped the last sweep.
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::stops_at_covered() const noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::stops_at_covered() const noexcept {
   if (!found_.hit) return false;
   if (found_.stops.size() == 1) return found_.stops[0].axes.covered;  // the usual case
   return std::any_of(found_.stops.begin(), found_.stops.end(),
                      [](const Stop<Scalar>& stop) { return stop.axes.covered; });
 }
 
-template <std::size_t Lanes, class Scalar>
+template <std::size_t Lanes, class Scalar, class Up>
 template <Covered covered>
-void StepSolver<Lanes, Scalar>::sweep(const LocalMotion& motion, std::span<const PieceIndex> pieces) noexcept {
+void StepSolver<Lanes, Scalar, Up>::sweep(const LocalMotion& motion, std::span<const PieceIndex> pieces) noexcept {
   for (const PieceIndex piece : pieces) {
     if (clear_of_box(space_, motion, piece) || !in_way(motion, piece)) continue;
     if (ignored(piece) || slides_along_touched(motion, piece)) continue;
     const Clearance<Scalar> clear = clearance(space_, motion, piece);
     found_.least_separation = std::min(found_.least_separation, clear.start);
     if (clear.clear()) continue;
-    const PieceHit<Scalar> hit = sweep_piece<covered>(space_, motion, piece, clear);
+    const PieceHit<Scalar> hit = sweep_piece<covered>(space_, motion, piece, clear, up_);
     if (hit.hit) keep_stop({piece, hit.stop, 0, hit.axes}, motion.length);
   }
 }
 
 /// The motion of the last sweep, relative to a mover.
 /// @param offset of the mover when the motion began. @param displacement relative to it.
-template <std::size_t Lanes, class Scalar>
-typename StepSolver<Lanes, Scalar>::LocalMotion StepSolver<Lanes, Scalar>::motion_relative_to(
+template <std::size_t Lanes, class Scalar, class Up>
+typename StepSolver<Lanes, Scalar, Up>::LocalMotion StepSolver<Lanes, Scalar, Up>::motion_relative_to(
     const V& offset, const V& displacement) const noexcept {
   LocalMotion seen = make_motion<Lanes>(space_, V(motion_.from - offset), displacement);
   seen.lost = lost_by(motion_.from, offset);
@@ -92,9 +92,9 @@ typename StepSolver<Lanes, Scalar>::LocalMotion StepSolver<Lanes, Scalar>::motio
 }
 
 /// Sweeps the last motion against every mover, relative to it.
-template <std::size_t Lanes, class Scalar>
+template <std::size_t Lanes, class Scalar, class Up>
 template <Covered covered>
-void StepSolver<Lanes, Scalar>::sweep_movers() noexcept {
+void StepSolver<Lanes, Scalar, Up>::sweep_movers() noexcept {
   // A sweep looks this far beyond the end of a motion, at most (it measures by the larger component).
   constexpr Scalar look = 2 * Tolerances<Scalar>{}.look;
   for (MoverIndex mover = 0; mover < movers_.count; ++mover) {
@@ -110,8 +110,8 @@ void StepSolver<Lanes, Scalar>::sweep_movers() noexcept {
 
 /// Keeps a stop if it is among the first; stops at almost the same time count as one impact.
 /// @param length of the motion, as the piece sees it [m].
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::keep_stop(Stop<Scalar> stop, Scalar length) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::keep_stop(Stop<Scalar> stop, Scalar length) noexcept {
   constexpr Tolerances<Scalar> tolerances{};
   stop.together = length > 0 ? (tolerances.touch - tolerances.stop) / length : Scalar(0);
   if (found_.hit && stop.stop > found_.stop + stop.together) return;
@@ -127,19 +127,19 @@ void StepSolver<Lanes, Scalar>::keep_stop(Stop<Scalar> stop, Scalar length) noex
 }
 
 /// Puts the stop first whose normal points up most; of equals the one with the lowest index.
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::order_stops() noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::order_stops() noexcept {
   if (found_.stops.size() < 2) return;
   const auto less_up = [this](const Stop<Scalar>& a, const Stop<Scalar>& b) {
-    return space_.normal(a.piece, a.axes.normal).y() < space_.normal(b.piece, b.axes.normal).y();
+    return up_.up_of(space_.normal(a.piece, a.axes.normal)) < up_.up_of(space_.normal(b.piece, b.axes.normal));
   };
   std::swap(found_.stops[0], *std::max_element(found_.stops.begin(), found_.stops.end(), less_up));
 }
 
 /// Advances along the motion of the last sweep up to fraction `stop`. False where that cannot be certified, or leaves
 /// the range: then nothing has changed.
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::advance(Scalar stop) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::advance(Scalar stop) noexcept {
   if (stop == 0) return true;
   V target = motion_.from + motion_.displacement * stop;
   Scalar end = time_ + (1 - time_) * stop;
@@ -158,21 +158,21 @@ bool StepSolver<Lanes, Scalar>::advance(Scalar stop) noexcept {
 
 /// Whether the straight motion to `target` is proved clear of every piece that is nearer than rounding at its start.
 /// For pieces that are further away the sweep is proof enough.
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::certified(const V& target, Scalar end) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::certified(const V& target, Scalar end) noexcept {
   return !any_near({position_, position_}, [&](PieceIndex piece) { return blocks_exactly(piece, target, end); });
 }
 
-template <std::size_t Lanes, class Scalar>
-bool StepSolver<Lanes, Scalar>::blocks_exactly(PieceIndex piece, const V& target, Scalar end) const noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::blocks_exactly(PieceIndex piece, const V& target, Scalar end) const noexcept {
   return best_axis<Lanes>(space_, piece, local(piece, position_)).separation < Tolerances<Scalar>{}.certain &&
          !exactly_clear(piece, position_, target, end);
 }
 
 /// Reports the contacts of one moment, the earliest impact first.
 /// @param begin when the motion of the last sweep began.
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::report(Scalar begin) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::report(Scalar begin) noexcept {
   const std::size_t before = result_.contacts.size();
   on_ground_ = false;
   for (const Stop<Scalar>& stop : found_.stops) {
@@ -195,9 +195,9 @@ void StepSolver<Lanes, Scalar>::report(Scalar begin) noexcept {
 /// Reports one contact for each collider and normal: the same polygon may be floor and wall. A later contact never gets
 /// an earlier fraction, although a motion stops a little before its time of impact.
 /// @param this_moment index of the first contact of the present moment. Among those the earlier impact counts.
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::report_contact(PieceIndex piece, std::size_t axis, Scalar fraction,
-                                               std::size_t this_moment) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::report_contact(PieceIndex piece, std::size_t axis, Scalar fraction,
+                                                   std::size_t this_moment) noexcept {
   auto& contacts = result_.contacts;
   for (std::size_t i = 0; i < this_moment; ++i) fraction = std::max(fraction, contacts[i].fraction);
   const ColliderIndex collider = collider_of(piece);
@@ -212,7 +212,7 @@ void StepSolver<Lanes, Scalar>::report_contact(PieceIndex piece, std::size_t axi
                                 .normal = normal,
                                 .fraction = fraction,
                                 .separation = place.separation,
-                                .side = side_of_normal(normal.x(), normal.y())};
+                                .side = up_.side_of(normal)};
   if (known != contacts.end())
     *known = contact;
   else
@@ -220,15 +220,15 @@ void StepSolver<Lanes, Scalar>::report_contact(PieceIndex piece, std::size_t axi
 }
 
 /// Reports all pieces that stopped the last sweep, where there were too many to keep.
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::report_more(Scalar begin, std::size_t this_moment) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::report_more(Scalar begin, std::size_t this_moment) noexcept {
   const auto report_hit = [&](const LocalMotion& motion, PieceIndex piece) {
     constexpr Tolerances<Scalar> tolerances{};
     if (ignored(piece) || !in_way(motion, piece)) return;
     const Clearance<Scalar> clear = clearance(space_, motion, piece);
     if (clear.clear()) return;
     const Scalar together = motion.length > 0 ? (tolerances.touch - tolerances.stop) / motion.length : Scalar(0);
-    const PieceHit<Scalar> hit = sweep_piece(space_, motion, piece, clear);
+    const PieceHit<Scalar> hit = sweep_piece(space_, motion, piece, clear, up_);
     if (hit.hit && hit.stop <= found_.stop + together)
       report_contact(piece, hit.axes.normal, fraction_of({piece, hit.stop, together, hit.axes}, begin), this_moment);
   };
@@ -241,16 +241,16 @@ void StepSolver<Lanes, Scalar>::report_more(Scalar begin, std::size_t this_momen
 }
 
 /// Reports a contact with a piece that is touched now.
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::report_touched(PieceIndex piece) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::report_touched(PieceIndex piece) noexcept {
   const std::size_t axis = best_axis<Lanes>(space_, piece, local(piece, position_)).axis;
   report_contact(piece, axis, time_, result_.contacts.size());
 }
 
 /// Time of impact with the collider of a piece in the last sweep, as a fraction of the step.
 /// @param begin when that motion began.
-template <std::size_t Lanes, class Scalar>
-Scalar StepSolver<Lanes, Scalar>::fraction_of(const Stop<Scalar>& stop, Scalar begin) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+Scalar StepSolver<Lanes, Scalar, Up>::fraction_of(const Stop<Scalar>& stop, Scalar begin) noexcept {
   const V& from = begin == 0 ? start_ : motion_.from;
   const MoverIndex mover = mover_of(stop.piece);
   if (mover != no_mover) {
@@ -262,9 +262,9 @@ Scalar StepSolver<Lanes, Scalar>::fraction_of(const Stop<Scalar>& stop, Scalar b
 
 /// Time of impact with the collider of a piece, as a fraction of the motion. A motion that grazes a rim stops long
 /// before its time of impact: another piece of the same collider may be hit in between.
-template <std::size_t Lanes, class Scalar>
-Scalar StepSolver<Lanes, Scalar>::impact_of(const Stop<Scalar>& stop, const LocalMotion& motion,
-                                            const V& from) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+Scalar StepSolver<Lanes, Scalar, Up>::impact_of(const Stop<Scalar>& stop, const LocalMotion& motion,
+                                                const V& from) noexcept {
   Scalar earliest = time_of_impact(space_, from, motion.displacement, stop.piece, stop.axes);
   if ((earliest - stop.stop) * motion.length <= 2 * Tolerances<Scalar>{}.stop) return earliest;
   if (!space_.info(stop.piece).whole_collider)
@@ -273,9 +273,9 @@ Scalar StepSolver<Lanes, Scalar>::impact_of(const Stop<Scalar>& stop, const Loca
 }
 
 /// The earliest time of impact with the other pieces of a collider; infinite where none is hit.
-template <std::size_t Lanes, class Scalar>
-Scalar StepSolver<Lanes, Scalar>::impact_with_another_piece(const Stop<Scalar>& stop, const LocalMotion& motion,
-                                                            const V& from) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+Scalar StepSolver<Lanes, Scalar, Up>::impact_with_another_piece(const Stop<Scalar>& stop, const LocalMotion& motion,
+                                                                const V& from) noexcept {
   Scalar earliest = std::numeric_limits<Scalar>::infinity();
   const std::span<const PieceInfo> pieces = space_.scenery().pieces();
   for (const PieceIndex other : pieces_along(motion, pieces[stop.piece].mover)) {
@@ -283,22 +283,22 @@ Scalar StepSolver<Lanes, Scalar>::impact_with_another_piece(const Stop<Scalar>& 
     if (!in_way(motion, other)) continue;
     const Clearance<Scalar> clear = clearance(space_, motion, other);
     if (clear.clear()) continue;
-    const PieceHit<Scalar> hit = sweep_piece(space_, motion, other, clear);
+    const PieceHit<Scalar> hit = sweep_piece(space_, motion, other, clear, up_);
     if (hit.hit) earliest = std::min(earliest, time_of_impact(space_, from, motion.displacement, other, hit.axes));
   }
   return earliest;
 }
 
 /// Pieces that a motion may hit, of one mover or, for `no_mover`, of the scenery that stands still.
-template <std::size_t Lanes, class Scalar>
-std::span<const PieceIndex> StepSolver<Lanes, Scalar>::pieces_along(const LocalMotion& motion,
-                                                                    MoverIndex mover) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+std::span<const PieceIndex> StepSolver<Lanes, Scalar, Up>::pieces_along(const LocalMotion& motion,
+                                                                        MoverIndex mover) noexcept {
   if (mover != no_mover) return movers_.phases.query(mover, space_.touched_from(motion.box()), memory_.of_mover);
   return neighbourhood_.around(motion.box(), motion.displacement);
 }
 
-template <std::size_t Lanes, class Scalar>
-void StepSolver<Lanes, Scalar>::push_corner(Scalar fraction) noexcept {
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::push_corner(Scalar fraction) noexcept {
   if (!result_.path.empty() && result_.path.back().fraction == fraction && result_.path.back().position == position_)
     return;
   result_.path.push_back({position_, fraction}, memory_.corners);

@@ -276,7 +276,7 @@ template <class Scalar>
 void Discrete<Scalar>::report_meeting(Frames frames, const SolvedImpact<Scalar>& solved) const noexcept {
   const auto note = [&](BodyIndex one, BodyIndex other, const Vec2<Scalar>& normal) {
     Frame<Scalar>& frame = frames[one];
-    frame.member->add_contact(other, normal, solved.impact.time);
+    frame.member->add_contact(other, normal, solved.impact.time, UpFrame<Scalar>{});
     if (frame.stays) return;
     frame.left_over = true;
     if (side_of_normal(normal.x(), normal.y()) == Side::bottom) frame.result.grounded = true;
