@@ -107,6 +107,14 @@ Vec2d up_of(const Vec2d& gravity) {
   return size > 0 ? Vec2d(-gravity / size) : Vec2d(0, 1);
 }
 
+/// The box around a shape, across up and along it.
+Box2<double> seen_by(const UpFrame<double>& frame, const CharacterShape& shape) {
+  const Vec2d first = frame.seen(shape.points()[0]);
+  Box2<double> box{first, first};
+  for (const Vec2d& point : shape.points()) box = box.merged({frame.seen(point), frame.seen(point)});
+  return box;
+}
+
 }  // namespace
 
 struct Hero::Impl {
@@ -140,7 +148,6 @@ struct Hero::Impl {
             .up = up_of(gravity())};
   }
   [[nodiscard]] const b2Body* ground_body() const { return ride != nullptr ? ride->GetBody() : nullptr; }
-  void forget();
 
   b2World* world;
   HeroDef def;
@@ -223,7 +230,7 @@ StepStatus Hero::Impl::advance(double dt, const Go& go) {
     take_impacts();
     prepare(box, dt);
     const std::span<const MoverMotion<double>> motions = level.motions().first(stage->scenery.mover_count());
-    status = go(StepContext<double>{gravity(), dt, motions});
+    status = go(StepContext<double>{.gravity = gravity(), .dt = dt, .movers = motions, .up = up_of(gravity())});
     // A way out of solids may lead farther than what was read.
     complete = true;
     for (const PathPoint<double>& corner : report.move.path) {
@@ -328,16 +335,6 @@ void Hero::Impl::lead_body(double dt) {
   body->SetLinearVelocity(rounded(presses ? Vec2d(state.velocity + push + down * weight) : state.velocity));
 }
 
-void Hero::Impl::forget() {
-  state.grounded = state.crushed = state.jumping = state.has_last_free = state.wall_left = state.wall_right = false;
-  state.coyote_left = 0;
-  state.stuck_steps = 0;
-  state.ride = {};
-  state.crushers.clear();
-  ride = nullptr;
-  crushers.clear();
-}
-
 Hero::Hero(b2World& world, const HeroDef& def) : impl_(std::make_unique<Impl>(world, def)) {}
 Hero::~Hero() = default;
 Hero::Hero(Hero&&) noexcept = default;
@@ -371,24 +368,25 @@ b2Fixture* Hero::fixture_of(ColliderIndex collider) const noexcept {
 void Hero::place(const Vec2d& position, const Vec2d& velocity) {
   require_number(position, "position of a hero: must be within 1e6 m");
   require_number(velocity, "velocity of a hero: must be below 1e6 m/s");
-  impl_->forget();
-  impl_->state.position = position;
+  teleport(impl_->state, position);
   impl_->state.velocity = velocity;
+  impl_->state.jumping = false;
+  impl_->ride = nullptr;
+  impl_->crushers.clear();
   impl_->body->SetTransform(rounded(position), 0);
   impl_->body->SetLinearVelocity(rounded(velocity));
 }
 
-void Hero::push(const Vec2d& velocity) { set_velocity(impl_->state.velocity + velocity); }
+void Hero::knock_back(const Vec2d& velocity) {
+  require_number(Vec2d(impl_->state.velocity + velocity), "velocity of a hero: must be below 1e6 m/s");
+  paperproof::knock_back(impl_->state, velocity);
+  impl_->ride = nullptr;
+}
 
 void Hero::set_velocity(const Vec2d& velocity) {
   require_number(velocity, "velocity of a hero: must be below 1e6 m/s");
   CharacterState<double>& state = impl_->state;
-  const Vec2d up = up_of(impl_->gravity());
-  if ((velocity - state.ride.velocity).dot(up) > 0) {
-    state.grounded = false;
-    state.ride = {};
-    impl_->ride = nullptr;
-  }
+  if ((velocity - state.ride.velocity).dot(up_of(impl_->gravity())) > 0) knock_back({0, 0});
   state.velocity = velocity;
 }
 
@@ -396,10 +394,11 @@ bool Hero::change(const CharacterDef& character) {
   character.validate();
   Impl& hero = *impl_;
   require(!hero.world->IsLocked(), "a hero cannot change during a step of the world");
-  const Box2<double>& old_box = hero.def.character.shape.box();
-  const Box2<double>& box = character.shape.box();
-  const double sideways = (old_box.lower.x() + old_box.upper.x() - box.lower.x() - box.upper.x()) / 2;
-  const Vec2d by{sideways, old_box.lower.y() - box.lower.y()};
+  const UpFrame<double> frame(up_of(hero.gravity()));
+  const Box2<double> old_box = seen_by(frame, hero.def.character.shape);
+  const Box2<double> box = seen_by(frame, character.shape);
+  const double across = (old_box.lower.x() + old_box.upper.x() - box.lower.x() - box.upper.x()) / 2;
+  const Vec2d by = frame.in_world({across, old_box.lower.y() - box.lower.y()});
   const Vec2d position = hero.state.position + by;
   if (!hero.fits(character, position)) return false;
   hero.def.character = character;

@@ -497,6 +497,28 @@ TEST(Hero, reads_a_chain_of_many_segments_only_near_it) {
   EXPECT_GT(game.hero.position().x(), 40);
 }
 
+TEST(Hero, walks_and_jumps_where_gravity_turns) {
+  Game game({.position = {0, 0}});
+  game.box(b2_staticBody, {0, -5}, 6, 1);
+  game.box(b2_staticBody, {0, 5}, 6, 1);
+  game.box(b2_staticBody, {-5, 0}, 1, 6);
+  game.box(b2_staticBody, {5, 0}, 1, 6);
+  for (const b2Vec2& down : {b2Vec2(0, -10), b2Vec2(10, 0), b2Vec2(0, 10), b2Vec2(-10, 0), b2Vec2(6, -8)}) {
+    game.world.SetGravity(down);
+    game.run(150);
+    const Vec2d up(-static_cast<double>(down.x) / 10, -static_cast<double>(down.y) / 10);
+    ASSERT_TRUE(game.hero.grounded()) << "down " << down.x << " " << down.y;
+    EXPECT_GT(game.hero.report().move.ground.normal.dot(up), 0.6);
+    const Vec2d across(up.y(), -up.x());
+    const double before = game.hero.position().dot(across);
+    game.run(10, {.move = 0.5});
+    EXPECT_GT(game.hero.position().dot(across), before) << "move 0.5 goes to the right of the hero";
+    game.run(60);
+    game.go({.move = 0.0, .jump = true});
+    EXPECT_GT(game.hero.velocity().dot(up), 11);
+  }
+}
+
 TEST(Hero, refuses_what_it_cannot_do) {
   Game game;
   game.floor();
@@ -506,7 +528,7 @@ TEST(Hero, refuses_what_it_cannot_do) {
   EXPECT_EQ(game.hero.step({.move = std::numeric_limits<double>::infinity()}, frame), StepStatus::invalid_input);
   EXPECT_EQ(game.hero.state(), before);
   EXPECT_THROW(game.hero.place({std::numeric_limits<double>::quiet_NaN(), 0}), InvalidDefinition);
-  EXPECT_THROW(game.hero.push({0, std::numeric_limits<double>::infinity()}), InvalidDefinition);
+  EXPECT_THROW(game.hero.knock_back({0, std::numeric_limits<double>::infinity()}), InvalidDefinition);
   EXPECT_THROW(Hero(game.world, {.mass = 0}), InvalidDefinition);
   EXPECT_THROW(Hero(game.world, {.circle_corners = 2}), InvalidDefinition);
   CharacterDef impossible;

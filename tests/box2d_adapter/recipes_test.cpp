@@ -75,7 +75,7 @@ TEST(Recipe, knocks_back) {
   Game game({.position = {0, floor_height}});
   game.floor();
   game.run(5);
-  knock_back(game.hero, {1, 0});
+  hurt(game.hero, {1, 0});
   game.run(12, Input{});
   EXPECT_FALSE(game.hero.grounded());
   EXPECT_NEAR(game.hero.position().x(), -6 * 12 * frame, 1e-6);

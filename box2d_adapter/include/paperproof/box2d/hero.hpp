@@ -117,7 +117,7 @@ class Hero {
   Hero& operator=(Hero&&) noexcept;
 
   /// One step, after `world.Step` with the same `dt`. The hero steers, jumps and falls as in `Controller::step`, by the
-  /// gravity of the world.
+  /// gravity of the world; its up is where gravity comes from (without gravity (0, 1)), so gravity may turn.
   /// @return as `Controller::step`. `invalid_input`, if the world is locked, too: nothing changed.
   StepStatus step(const Input& input, double dt);
   /// One step of a game that owns the hero's velocity: see `Controller::move`.
@@ -149,10 +149,11 @@ class Hero {
   /// is dragged along.
   /// @throws InvalidDefinition for numbers that are not finite or beyond 1e6.
   void place(const Vec2d& position, const Vec2d& velocity = {0, 0});
-  /// Adds to the velocity: a knock-back, a spring, wind. A hero that it lifts leaves its ground, as by a jump.
+  /// Adds to the velocity: a hit, a spring. The hero leaves the ground: see `paperproof::knock_back`.
   /// @param velocity [m/s] @throws InvalidDefinition for numbers that are not finite or beyond 1e6.
-  void push(const Vec2d& velocity);
-  /// Lets the hero move by `velocity` from now on: a dash. @throws as `push`.
+  void knock_back(const Vec2d& velocity);
+  /// Lets the hero move by `velocity` from now on: a dash. A velocity upwards leaves the ground. @throws as
+  /// `knock_back`.
   void set_velocity(const Vec2d& velocity);
   /// Another shape, or another way to move: to crouch, to stand up, to swim. The lowest points of both shapes are at
   /// one height, and their boxes have one middle.
