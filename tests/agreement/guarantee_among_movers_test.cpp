@@ -76,7 +76,7 @@ struct Tally {
 template <class Scalar>
 class RandomRun {
  public:
-  RandomRun(Family family, std::uint64_t seed)
+  RandomRun(Family family, std::uint64_t seed, bool up_turns = false)
       : family_(family),
         seed_(seed),
         random_(seed),
@@ -86,7 +86,8 @@ class RandomRun {
         scratch_(controller_.make_scratch()),
         motions_(scenery_.mover_count()),
         wanderers_(scenery_.mover_count()),
-        record_(scenery_.mover_count(), scenery_) {}
+        record_(scenery_.mover_count(), scenery_),
+        up_turns_(up_turns) {}
 
   void go(Tally& tally) {
     state_.position = (origin_ + Vec2d{random_.between(-4, 4), random_.between(-3, 5)}).cast<Scalar>();
@@ -107,6 +108,10 @@ class RandomRun {
       input.drop = random_.chance(input.drop ? 0.8 : 0.1);
       if (random_.chance(0.05)) launch(dt);
       move_wanderers(dt);
+      if (up_turns_ && (step == 0 || random_.chance(0.1))) {
+        const double angle = random_.angle();
+        up_ = Vec2d{std::cos(angle), std::sin(angle)}.cast<Scalar>();
+      }
       take(input, static_cast<Scalar>(dt), tally);
       const bool gone = (state_.position.template cast<double>() - origin_).cwiseAbs().maxCoeff() > 14;
       if (gone || ends_ || ::testing::Test::HasFatalFailure()) return;
@@ -154,10 +159,10 @@ class RandomRun {
   }
 
   void take(const Input& input, Scalar dt, Tally& tally) {
-    const Vec2<Scalar> gravity{0, -30};
+    const Vec2<Scalar> gravity = Scalar(-30) * up_;
     const Ride<Scalar> ride = state_.ride;
     const bool rides = ride.ground != Ride<Scalar>::none;
-    const StepStatus status = controller_.step(state_, input, {gravity, dt, motions_}, scratch_, report_);
+    const StepStatus status = controller_.step(state_, input, {gravity, dt, motions_, nullptr, up_}, scratch_, report_);
     const Tally before = tally;
     ++tally.steps;
     ASSERT_NE(status, StepStatus::invalid_input) << where();
@@ -183,7 +188,7 @@ class RandomRun {
     const StepJudgement judgement = judge_->judge(record);
     count(record, judgement, tally);
     count_what_is_said(record, input.drop, tally);
-    if (!rides) count_fraction(record, judgement, tally);
+    if (!rides && !up_turns_) count_fraction(record, judgement, tally);
     if (!std::is_same_v<Scalar, float> && before.broken() < most_described && tally.broken() > before.broken())
       std::printf("breaks: %s\n", (what(judgement) + where()).c_str());
   }
@@ -202,7 +207,7 @@ class RandomRun {
     tally.passages += !judgement.tunnelled.empty() || !judgement.corner_cut.empty();
     tally.one_way += !judgement.one_way_broken.empty();
     tally.room += !judgement.crushed_with_room.empty();
-    tally.hanging += judgement.hangs;
+    tally.hanging += judgement.hangs && !up_turns_;  // the judge of a run knows no other up
     tally.in_wedges += record.dropped && is_between_surfaces(record);
     tally.stuck_refuted += judgement.stuck_refuted;
     const bool named =
@@ -324,16 +329,18 @@ class RandomRun {
   compare::MoverRecord<Scalar> record_;
   bool begins_anew_ = false;
   bool ends_ = false;
+  bool up_turns_;  ///< Between the steps of the run, now and then.
+  Vec2<Scalar> up_{0, 1};
 };
 
 class AmongMovers : public ::testing::TestWithParam<Family> {};
 
 template <class Scalar>
-Tally run_family(Family family, int steps) {
+Tally run_family(Family family, int steps, bool up_turns = false) {
   Tally tally;
   for (std::uint64_t run = first_run(); tally.steps < steps; ++run) {
     try {
-      RandomRun<Scalar>(family, 2000003 * (static_cast<std::uint64_t>(family) + 1) + run).go(tally);
+      RandomRun<Scalar>(family, 2000003 * (static_cast<std::uint64_t>(family) + 1) + run, up_turns).go(tally);
     } catch (const InvalidScenery&) {
       // Far from the origin neighbouring vertices become one in float.
       EXPECT_EQ(sizeof(Scalar), sizeof(float));
@@ -377,6 +384,21 @@ TEST_P(AmongMovers, no_step_breaks_the_guarantee) {
   EXPECT_GT(tally.riding, 0);
   EXPECT_GT(tally.crushed, 0);
   EXPECT_LT(tally.crushed, tally.steps / 5);
+}
+
+TEST_P(AmongMovers, no_step_with_any_up_breaks_the_guarantee) {
+  const Tally tally = run_family<double>(GetParam(), steps_per_family() / 9, true);
+  EXPECT_EQ(tally.overlaps, 0);
+  EXPECT_EQ(tally.passages, 0);
+  EXPECT_EQ(tally.one_way, 0);
+  EXPECT_EQ(tally.gaps, 0);
+  EXPECT_EQ(tally.room, 0);
+  EXPECT_EQ(tally.unsound, 0);
+  EXPECT_EQ(tally.drops, 0);
+  EXPECT_EQ(tally.contacts, 0);
+  EXPECT_EQ(tally.stuck_refuted, 0);
+  EXPECT_EQ(tally.dropped, tally.in_wedges);
+  EXPECT_GT(tally.riding, 0);
 }
 
 /// Each broke a promise once, or made the judge say so.

@@ -102,8 +102,8 @@ class TurnedRun {
     character.no_jump_toward_wall = random_.chance(0.3);
     character.side_hit_ends_rise = random_.chance(0.3);
     for (int quarters = 0; quarters < 4; ++quarters) {
-      sceneries_[quarters] = std::make_unique<Scenery<double>>(turned(def, quarters));
-      controllers_.emplace_back(*sceneries_[quarters], turned(character, quarters));
+      sceneries_.push_back(std::make_unique<const Scenery<double>>(turned(def, quarters)));
+      controllers_.emplace_back(*sceneries_.back(), turned(character, quarters));
       scratches_.push_back(controllers_.back().make_scratch());
     }
     motions_.resize(sceneries_[0]->mover_count());
@@ -130,14 +130,14 @@ class TurnedRun {
   void take(const Input& input, const Vec2d& gravity, TurnedTally& tally) {
     const CharacterState<double> before = states_[0];
     std::vector<MoverMotion<double>> motions(motions_.size());
-    for (int quarters = 0; quarters < 4; ++quarters) {
+    for (std::size_t k = 0; k < 4; ++k) {
+      const int quarters = static_cast<int>(k);
       for (std::size_t i = 0; i < motions.size(); ++i)
         motions[i] = {turned(motions_[i].from, quarters), turned(motions_[i].to, quarters)};
-      states_[quarters] = turned(before, quarters);
-      controllers_[quarters].step(
-          states_[quarters], input,
-          {turned(gravity, quarters), 1.0 / 60, motions, nullptr, turned(Vec2d{0, 1}, quarters)}, scratches_[quarters],
-          reports_[quarters]);
+      states_[k] = turned(before, quarters);
+      const Vec2d up = turned(Vec2d{0, 1}, quarters);
+      controllers_[k].step(states_[k], input, {turned(gravity, quarters), 1.0 / 60, motions, nullptr, up},
+                           scratches_[k], reports_[k]);
     }
     const StepReport<double>& report = reports_[0];
     ++tally.steps;
@@ -146,14 +146,14 @@ class TurnedRun {
     tally.rising += states_[0].jumping;
     tally.crushed += states_[0].crushed;
     tally.dropped_through += static_cast<int>(report.dropped_through.size());
-    for (int quarters = 1; quarters < 4; ++quarters) {
-      std::string what = report.status != reports_[quarters].status
-                             ? "status"
-                             : difference(report.move, reports_[quarters].move, quarters);
-      if (what.empty() && turned(states_[0], quarters) != states_[quarters]) what = "state";
+    for (std::size_t k = 1; k < 4; ++k) {
+      const int quarters = static_cast<int>(k);
+      const StepReport<double>& other = reports_[k];
+      std::string what = report.status != other.status ? "status" : difference(report.move, other.move, quarters);
+      if (what.empty() && turned(states_[0], quarters) != states_[k]) what = "state";
       if (what.empty()) continue;
       ++tally.ties;
-      ASSERT_TRUE(is_tie(reports_[0].move, reports_[quarters].move, quarters)) << text_of(before, what, quarters);
+      ASSERT_TRUE(is_tie(report.move, other.move, quarters)) << text_of(before, what, quarters);
     }
   }
 
@@ -169,7 +169,8 @@ class TurnedRun {
     const std::size_t common = std::min(move.path.size(), other.path.size());
     const bool snaps = controllers_[0].character().snap > 0 && move.path.size() + other.path.size() == 2 * common + 1;
     return move.status == other.status && (move.path.size() == other.path.size() || snaps) &&
-           std::equal(move.path.begin(), move.path.begin() + common, other.path.begin(), same);
+           std::equal(move.path.begin(), move.path.begin() + static_cast<std::ptrdiff_t>(common), other.path.begin(),
+                      same);
   }
 
   [[nodiscard]] std::string text_of(const CharacterState<double>& before, const std::string& what, int quarters) const {
@@ -191,7 +192,7 @@ class TurnedRun {
 
   std::uint64_t seed_;
   Random random_;
-  std::array<std::unique_ptr<Scenery<double>>, 4> sceneries_;
+  std::vector<std::unique_ptr<const Scenery<double>>> sceneries_;
   std::vector<Controller<double>> controllers_;
   std::vector<Scratch<double>> scratches_;
   std::array<CharacterState<double>, 4> states_;

@@ -167,11 +167,12 @@ TEST(Up, of_a_crowd_turns_with_the_scene) {
     for (int quarters = 0; quarters < 4; ++quarters) {
       Together& scene = scenes[static_cast<std::size_t>(quarters)];
       for (std::size_t i = 0; i < scene.inputs.size(); ++i)
-        scene.inputs[i] = {.move = (step / 40 + static_cast<int>(i)) % 3 - 1, .jump = (step + 9 * i) % 50 < 4};
+        scene.inputs[i] = {.move = (step / 40 + static_cast<int>(i)) % 3 - 1,
+                           .jump = (step + 9 * static_cast<int>(i)) % 50 < 4};
       const Vec2d up = turn({0, 1}, quarters);
-      ASSERT_EQ(scene.crowd.step(scene.states, scene.inputs, {-30 * up, frame, {}, nullptr, up}, scene.scratch,
-                                 scene.report),
-                StepStatus::moved);
+      ASSERT_EQ(
+          scene.crowd.step(scene.states, scene.inputs, {-30 * up, frame, {}, nullptr, up}, scene.scratch, scene.report),
+          StepStatus::moved);
       for (std::size_t i = 0; i < scene.states.size(); ++i) {
         ASSERT_EQ(scene.states[i].position, turn(scenes[0].states[i].position, quarters)) << step << ", " << i;
         const auto& contacts = scene.report.members[i].met;

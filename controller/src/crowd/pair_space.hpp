@@ -3,6 +3,7 @@
 
 #include <paperproof/character.hpp>
 #include <paperproof/tolerances.hpp>
+#include <paperproof/up_frame.hpp>
 
 #include <algorithm>
 #include <cmath>
