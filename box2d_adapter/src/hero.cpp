@@ -19,12 +19,11 @@
 namespace paperproof::box2d {
 namespace {
 
-/// How much smaller than a fixture without a skin the hero's fixture is for Box2D [m]. A polygon's skin is 1 cm: so the
-/// two touch within 2.5 mm, but overlap by less than the 5 mm from which on Box2D pushes bodies apart.
-constexpr float inset = 0.0075F;
-
 /// What a mover may carry or push the hero beyond its own motion in a step: Box2D's cap, twice [m].
 constexpr double most_carried = 4.2;
+
+/// A squeeze out of a gap is not looked at before it is so far [m].
+constexpr double most_squeezed = 0.25;
 
 /// Largest position [m] and speed [m/s] that a call may set.
 constexpr double largest = 1e6;
@@ -53,7 +52,7 @@ b2PolygonShape polygon_of(const CharacterShape& shape) {
   std::transform(hull.begin(), hull.end(), points.begin(), [](const Vec2d& point) { return rounded(point); });
   b2PolygonShape polygon;
   polygon.Set(points.data(), static_cast<int>(hull.size()));
-  polygon.m_radius = -inset;
+  polygon.m_radius = -hero_inset;
   return polygon;
 }
 
@@ -76,17 +75,30 @@ b2Body& make_body(b2World& world, const HeroDef& def) {
   return *world.CreateBody(&body);
 }
 
-void make_fixture(b2Body& body, const HeroDef& def, const b2Filter& filter) {
+/// @param place where the hero is, for other heroes: see `place_of`.
+void make_fixture(b2Body& body, const HeroDef& def, const b2Filter& filter, const Vec2d& place) {
   const b2PolygonShape shape = polygon_of(def.character.shape);
   b2FixtureDef fixture;
   fixture.shape = &shape;
   fixture.friction = 0;
   fixture.filter = filter;
+  fixture.userData.pointer = reinterpret_cast<std::uintptr_t>(&place);
   fixture.density = 1;
   body.CreateFixture(&fixture);
   if (!def.mass) return;
   const b2MassData mass{.mass = static_cast<float>(*def.mass), .center = {0, 0}, .I = 0};
   body.SetMassData(&mass);
+}
+
+/// The sensors of a scenery as solids, so that they can be asked for overlaps.
+SceneryDef sensors_of(const SceneryDef& scenery) {
+  SceneryDef sensors;
+  for (ColliderDef collider : scenery.colliders) {
+    if (!collider.sensor) collider.filter.mask = 0;  // keeps its index and its mover
+    collider.sensor = false;
+    sensors.colliders.push_back(std::move(collider));
+  }
+  return sensors;
 }
 
 /// Makes a stage of what was read of a level. Fixtures that cannot be scenery are left out.
@@ -119,7 +131,7 @@ Box2<double> seen_by(const UpFrame<double>& frame, const CharacterShape& shape) 
 
 struct Hero::Impl {
   Impl(b2World& in, const HeroDef& from) : world(&in), def(from), body(&make_body(in, from)), level(in, *body) {
-    make_fixture(*body, def, def.filter);
+    make_fixture(*body, def, def.filter, state.position);
     state.position = def.position;
     report.move.position = def.position;
   }
@@ -133,10 +145,14 @@ struct Hero::Impl {
   StepStatus advance(double dt, const Go& go);
   [[nodiscard]] Box2<double> box_needed(double dt) const;
   void prepare(const Box2<double>& box, double dt);
+  void note_sensors_between_steps();
+  void note_sensors();
+  [[nodiscard]] bool is_free_at_end(const Vec2d& position);
   [[nodiscard]] bool fits(const CharacterDef& character, const Vec2d& position) const;
+  void remake_fixture();
   void find_colliders_again(bool rebuilt);
   void take_impacts();
-  void limit_speed(const Vec2d& wanted, const Vec2d& body_velocity);
+  void limit_squeeze(const CharacterState<double>& before, const Vec2d& body_velocity, double dt);
   void note_step();
   void note_contacts();
   void lead_body(double dt);
@@ -154,6 +170,7 @@ struct Hero::Impl {
   b2Body* body;
   Level level;
   std::optional<Stage> stage;
+  std::optional<Stage> sensor_stage;  ///< Where a sensor is near.
   CharacterState<double> state;
   Vec2d ground_normal{0, 1};
   b2Fixture* ride = nullptr;         ///< What `state.ride` is on.
@@ -162,7 +179,9 @@ struct Hero::Impl {
   std::vector<HeroContact> contacts;
   std::vector<HeroContact> contacts_before;
   std::vector<HeroSensorEvent> sensors;
+  std::vector<b2Fixture*> inside;  ///< Sensors that it overlaps.
   std::vector<b2Fixture*> crushed_by;
+  std::vector<b2Fixture*> fixtures;  ///< Of the colliders of `report`.
 };
 
 /// Everything that this step can reach, but a way out of solids.
@@ -176,7 +195,11 @@ Box2<double> Hero::Impl::box_needed(double dt) const {
 
 void Hero::Impl::prepare(const Box2<double>& box, double dt) {
   const bool rebuilt = level.follow(box, def, stance(), dt);
-  if (rebuilt || !stage) fill(stage, level, def.character);
+  if (rebuilt || !stage) {
+    fill(stage, level, def.character);
+    sensor_stage.reset();
+    if (stage->scenery.sensor_pieces().size() > 0) sensor_stage.emplace(sensors_of(level.scenery()), def.character);
+  }
   find_colliders_again(rebuilt);
 }
 
@@ -218,9 +241,17 @@ bool Hero::Impl::fits(const CharacterDef& character, const Vec2d& position) cons
   return there->controller.overlaps(position, {{0, 0}, 1, standing}, there->scratch) == 0U;
 }
 
+/// After the shape has changed.
+void Hero::Impl::remake_fixture() {
+  const b2Filter filter = body->GetFixtureList()->GetFilterData();
+  body->DestroyFixture(body->GetFixtureList());
+  make_fixture(*body, def, filter, state.position);
+}
+
 template <class Go>
 StepStatus Hero::Impl::advance(double dt, const Go& go) {
-  if (world->IsLocked() || !(dt > 0 && dt <= largest)) return StepStatus::invalid_input;
+  if (world->IsLocked() || !(dt > 0 && dt <= largest) || !gravity().allFinite() || !state.position.allFinite())
+    return StepStatus::invalid_input;
   const CharacterState<double> before = state;
   const Vec2d body_velocity = widened(body->GetLinearVelocity());
   Box2<double> box = box_needed(dt);
@@ -229,6 +260,7 @@ StepStatus Hero::Impl::advance(double dt, const Go& go) {
     state = before;
     take_impacts();
     prepare(box, dt);
+    note_sensors_between_steps();
     const std::span<const MoverMotion<double>> motions = level.motions().first(stage->scenery.mover_count());
     status = go(StepContext<double>{.gravity = gravity(), .dt = dt, .movers = motions, .up = up_of(gravity())});
     // A way out of solids may lead farther than what was read.
@@ -245,7 +277,7 @@ StepStatus Hero::Impl::advance(double dt, const Go& go) {
     state = before;
     return status;
   }
-  limit_speed(report.requested / dt + before.ride.velocity, body_velocity);
+  limit_squeeze(before, body_velocity, dt);
   note_step();
   level.note_poses();
   lead_body(dt);
@@ -273,18 +305,49 @@ void Hero::Impl::take_impacts() {
   }
 }
 
-/// A body with a mass takes the hero along, but gives it no energy that Box2D did not give the hero's body: that body
-/// may squeeze it out sideways, faster than it goes itself.
-void Hero::Impl::limit_speed(const Vec2d& wanted, const Vec2d& body_velocity) {
-  const auto is_pushed_by = [&](const Contact<double>& contact) {
-    const b2Body* other = level.fixture(contact.collider)->GetBody();
-    return other->GetType() == b2_dynamicBody && contact.collider != state.ride.ground;
-  };
-  const auto& touched = report.move.contacts;
-  if (!std::any_of(touched.begin(), touched.end(), is_pushed_by)) return;
-  const double most = std::max({wanted.norm(), body_velocity.norm(), state.ride.velocity.norm()});
+/// Whether the hero overlaps nothing at a position at the end of the step.
+bool Hero::Impl::is_free_at_end(const Vec2d& position) {
+  std::vector<MoverMotion<double>> ends;
+  for (const MoverMotion<double>& motion : level.motions().first(stage->scenery.mover_count()))
+    ends.push_back({motion.to, motion.to});
+  return stage->controller.overlaps(position, {.dt = 1, .movers = ends}, stage->scratch) == 0U;
+}
+
+/// Moving bodies take the hero along, but squeeze it out no faster than they go themselves, or than Box2D moved the
+/// hero's body: between two surfaces of nearly one direction it would leave at any speed. It then ends where it is free
+/// first on its way.
+void Hero::Impl::limit_squeeze(const CharacterState<double>& before, const Vec2d& body_velocity, double dt) {
+  double most = std::max((report.requested / dt + before.ride.velocity).norm(), state.ride.velocity.norm());
+  bool is_pushed = false;
+  for (const Contact<double>& contact : report.move.contacts) {
+    const MoverIndex mover = stage->scenery.collider(contact.collider).mover;
+    if (mover == no_mover || contact.collider == state.ride.ground) continue;
+    is_pushed = true;
+    const b2Body& other = *level.fixture(contact.collider)->GetBody();
+    const MoverMotion<double>& motion = level.motions()[mover];
+    const bool has_mass = other.GetType() == b2_dynamicBody;
+    most = std::max(most, has_mass ? body_velocity.norm() : Vec2d(motion.to - motion.from).norm() / dt);
+    if (!has_mass) continue;
+    // What Box2D moved a body to part it from others is no velocity of the body, and becomes none of the hero.
+    const Vec2d its = widened(other.GetLinearVelocityFromWorldPoint(rounded(contact.point)));
+    state.velocity += contact.normal * std::max(0.0, (its - state.velocity).dot(contact.normal));
+  }
   const double speed = state.velocity.norm();
-  if (speed > most) state.velocity *= most / speed;
+  if (!is_pushed || !(speed > most)) return;
+  state.velocity *= most / speed;
+  if ((state.position - before.position).norm() <= most * dt + most_squeezed) return;
+  double reach = most * dt;
+  for (std::size_t i = 1; i < report.move.path.size(); ++i) {
+    const Vec2d from = report.move.path[i - 1].position;
+    const Vec2d way = report.move.path[i].position - from;
+    for (; reach < way.norm(); reach = 1.25 * reach + most_squeezed) {
+      const Vec2d there = from + way * (reach / way.norm());
+      if (!is_free_at_end(there)) continue;
+      teleport(state, there);
+      return;
+    }
+    reach = std::max(0.0, reach - way.norm());
+  }
 }
 
 void Hero::Impl::note_step() {
@@ -294,10 +357,44 @@ void Hero::Impl::note_step() {
   for (const Crusher<double>& crusher : state.crushers) crushers.push_back(level.fixture(crusher.collider));
   crushed_by.clear();
   for (const ColliderIndex collider : report.move.crushed) crushed_by.push_back(level.fixture(collider));
-  sensors.clear();
-  for (const SensorEvent<double>& event : report.sensors)
-    sensors.push_back({level.fixture(event.sensor), event.change, event.fraction});
+  fixtures.assign(level.fixtures().begin(), level.fixtures().end());
+  note_sensors();
   note_contacts();
+}
+
+/// Sensors that the hero came to overlap, or ceased to, although it did not move there: it was placed, or the sensor
+/// was.
+void Hero::Impl::note_sensors_between_steps() {
+  sensors.clear();
+  std::vector<b2Fixture*> now;
+  if (sensor_stage) {
+    std::vector<MoverMotion<double>> begins;
+    for (const MoverMotion<double>& motion : level.motions().first(sensor_stage->scenery.mover_count()))
+      begins.push_back({motion.from, motion.from});
+    std::vector<ColliderIndex> found(level.fixtures().size());
+    const auto count =
+        sensor_stage->controller.overlaps(state.position, {.dt = 1, .movers = begins}, sensor_stage->scratch, found);
+    for (std::size_t i = 0; i < count.value_or(0); ++i) now.push_back(level.fixture(found[i]));
+  }
+  const auto report_missing = [&](const auto& from, const auto& in, SensorEvent<double>::Change change) {
+    for (b2Fixture* sensor : from)
+      if (std::find(in.begin(), in.end(), sensor) == in.end() && level.collider_of(sensor) != no_collider)
+        sensors.push_back({sensor, change, 0});
+  };
+  report_missing(inside, now, SensorEvent<double>::Change::exit);
+  report_missing(now, inside, SensorEvent<double>::Change::enter);
+  inside = std::move(now);
+}
+
+void Hero::Impl::note_sensors() {
+  for (const SensorEvent<double>& event : report.sensors) {
+    b2Fixture* sensor = level.fixture(event.sensor);
+    sensors.push_back({sensor, event.change, event.fraction});
+    if (event.change == SensorEvent<double>::Change::enter)
+      inside.push_back(sensor);
+    else
+      std::erase(inside, sensor);
+  }
 }
 
 void Hero::Impl::note_contacts() {
@@ -362,10 +459,17 @@ std::span<b2Fixture* const> Hero::crushed_by() const noexcept { return impl_->cr
 std::span<b2Fixture* const> Hero::skipped() const noexcept { return impl_->level.skipped(); }
 b2Body& Hero::body() const noexcept { return *impl_->body; }
 b2Fixture* Hero::fixture_of(ColliderIndex collider) const noexcept {
-  return collider == no_collider ? nullptr : impl_->level.fixture(collider);
+  return collider < impl_->fixtures.size() ? impl_->fixtures[collider] : nullptr;
 }
 
+b2Fixture* Hero::ground() const noexcept {
+  const Ground<double>& ground = impl_->report.move.ground;
+  return ground.state == GroundState::air ? nullptr : fixture_of(ground.collider);
+}
+std::span<b2Fixture* const> Hero::inside() const noexcept { return impl_->inside; }
+
 void Hero::place(const Vec2d& position, const Vec2d& velocity) {
+  require(!impl_->world->IsLocked(), "a hero cannot be placed during a step of the world");
   require_number(position, "position of a hero: must be within 1e6 m");
   require_number(velocity, "velocity of a hero: must be below 1e6 m/s");
   teleport(impl_->state, position);
@@ -406,9 +510,7 @@ bool Hero::change(const CharacterDef& character) {
   hero.state.position = position;
   hero.state.last_free += by;
   hero.state.ride.place += by;
-  const b2Filter filter = hero.body->GetFixtureList()->GetFilterData();
-  hero.body->DestroyFixture(hero.body->GetFixtureList());
-  make_fixture(*hero.body, hero.def, filter);
+  hero.remake_fixture();
   hero.body->SetTransform(rounded(position), 0);
   return true;
 }
@@ -426,16 +528,21 @@ void Hero::shift_origin(const Vec2d& new_origin) {
 HeroSave Hero::save() const {
   const Impl& hero = *impl_;
   const std::span<const BodyPose> poses = hero.level.poses();
-  return {hero.state, hero.ground_normal, hero.ride, hero.crushers, {poses.begin(), poses.end()}, hero.contacts};
+  return {hero.def.character,           hero.state,    hero.ground_normal, hero.ride, hero.crushers,
+          {poses.begin(), poses.end()}, hero.contacts, hero.inside};
 }
 
 void Hero::restore(const HeroSave& save) {
   Impl& hero = *impl_;
+  hero.def.character = save.character;
+  hero.stage.reset();
+  hero.remake_fixture();
   hero.state = save.state;
   hero.ground_normal = save.ground_normal;
   hero.ride = save.ride;
   hero.crushers = save.crushers;
   hero.contacts = save.contacts;
+  hero.inside = save.inside;
   hero.level.restore_poses(save.poses);
   hero.body->SetTransform(rounded(hero.state.position), 0);
   hero.body->SetLinearVelocity(rounded(hero.state.velocity));

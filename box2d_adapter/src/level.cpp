@@ -28,9 +28,12 @@ namespace {
 /// the scenery costs more.
 constexpr double read_ahead = 1.5;
 
-/// A body that went farther in a step was put there by the game: Box2D moves it at most so far [m]. The rest is
-/// rounding.
-constexpr double longest_way = 2.0 * (1 + 1e-3);
+/// A body that went so much farther than its velocity explains was put there by the game [m]. Zero: platforms that a
+/// game moves by their place carry nobody. Large: a body that takes the address of another one sweeps the hero along.
+constexpr double longest_jump = 0.5;
+
+/// So many vertices of a chain are compared from step to step; of a longer chain as many, evenly.
+constexpr int compared_vertices = 1024;
 
 class Collector : public b2QueryCallback {
  public:
@@ -69,7 +72,6 @@ class Hash {
   std::uint64_t value_ = 0xcbf29ce484222325;
 };
 
-/// The vertices of a chain cannot change: its array and its ends stand for all.
 std::uint64_t hash_of(const b2Shape& shape) {
   Hash hash;
   hash.add(static_cast<std::uint64_t>(shape.GetType()));
@@ -89,8 +91,10 @@ std::uint64_t hash_of(const b2Shape& shape) {
     }
     case b2Shape::e_chain: {
       const auto& chain = static_cast<const b2ChainShape&>(shape);
-      hash.add(std::bit_cast<std::uintptr_t>(chain.m_vertices)).add(static_cast<std::uint64_t>(chain.m_count));
-      return hash.add(chain.m_vertices[0]).add(chain.m_vertices[chain.m_count - 1]).value();
+      hash.add(static_cast<std::uint64_t>(chain.m_count));
+      const int every = chain.m_count / compared_vertices + 1;
+      for (int i = 0; i < chain.m_count; i += every) hash.add(chain.m_vertices[i]);
+      return hash.value();
     }
     case b2Shape::e_typeCount:
       break;
@@ -123,8 +127,7 @@ std::vector<ColliderDef> cut_to(const Box2<double>& box, const ColliderDef& chai
   for (std::size_t i = 0; i + 1 < chain.points.size(); ++i) {
     const bool near = box.overlaps(box_around(std::span(chain.points).subspan(i, 2)));
     if (near && !goes_on) {
-      runs.push_back(chain);
-      runs.back().points = {chain.points[i]};
+      runs.push_back({.shape = ColliderDef::Shape::chain, .points = {chain.points[i]}});
     }
     if (near) runs.back().points.push_back(chain.points[i + 1]);
     goes_on = near;
@@ -134,6 +137,13 @@ std::vector<ColliderDef> cut_to(const Box2<double>& box, const ColliderDef& chai
 
 }  // namespace
 
+Vec2d place_of(const b2Body& body) {
+  b2Fixture* fixture = const_cast<b2Body&>(body).GetFixtureList();  // its user data cannot be read otherwise
+  const bool is_hero =
+      body.GetType() == b2_dynamicBody && fixture != nullptr && fixture->GetShape()->m_radius == -hero_inset;
+  return is_hero ? *reinterpret_cast<const Vec2d*>(fixture->GetUserData().pointer) : widened(body.GetPosition());
+}
+
 bool Level::Seen::operator==(const Seen& other) const noexcept {
   return fixture == other.fixture && body == other.body && shape == other.shape && geometry == other.geometry &&
          place == other.place && angle == other.angle && spin == other.spin && moves == other.moves &&
@@ -141,7 +151,8 @@ bool Level::Seen::operator==(const Seen& other) const noexcept {
 }
 
 bool Level::follow(const Box2<double>& box, const HeroDef& def, const Stance& stance, double dt) {
-  const bool is_read = box_.contains(box);
+  const Vec2d spare = (box_.upper - box_.lower) - (box.upper - box.lower);
+  const bool is_read = box_.contains(box) && spare.maxCoeff() <= 4 * read_ahead;
   if (!is_read) box_ = box.inflated(read_ahead);
   seen_.swap(seen_before_);
   look(def);
@@ -209,7 +220,7 @@ void Level::build(const HeroDef& def, const Vec2d& up) {
     const bool is_long = one.shape->GetType() == b2Shape::e_chain && !one.moves && !one.sensor &&
                          one.surface.blocks == Blocking::from_everywhere;
     is_cut_ = is_cut_ || is_long;
-    const Vec2d offset = one.moves ? widened(one.body->GetPosition()) : Vec2d(0, 0);
+    const Vec2d offset = one.moves ? place_of(*one.body) : Vec2d(0, 0);
     for (const ColliderDef& collider : is_long ? cut_to(box_, whole) : std::vector{whole}) {
       const Box2<double> box = box_around(collider.points);
       parts.push_back({{box.lower + offset, box.upper + offset}, &one, collider});
@@ -251,6 +262,16 @@ void Level::skip(ColliderIndex collider) {
   skipped_.push_back(fixtures_[collider]);
   scenery_.colliders.erase(scenery_.colliders.begin() + collider);
   fixtures_.erase(fixtures_.begin() + collider);
+  // A mover that moves nothing any more goes, too: their numbers have no gaps.
+  for (MoverIndex mover = static_cast<MoverIndex>(movers_.size()); mover-- > 0;) {
+    auto& colliders = scenery_.colliders;
+    if (std::any_of(colliders.begin(), colliders.end(), [&](const ColliderDef& one) { return one.mover == mover; }))
+      continue;
+    movers_.erase(movers_.begin() + mover);
+    motions_.erase(motions_.begin() + mover);
+    for (ColliderDef& one : colliders)
+      if (one.mover != no_mover && one.mover > mover) --one.mover;
+  }
 }
 
 ColliderIndex Level::collider_of(const b2Fixture* fixture) const noexcept {
@@ -262,7 +283,8 @@ void Level::note_poses() {
   poses_.clear();
   for (const Seen& one : seen_) {
     if (!one.moves || (!poses_.empty() && poses_.back().body == one.body)) continue;
-    poses_.push_back({one.body, widened(one.body->GetPosition()), static_cast<double>(one.body->GetAngle())});
+    const double speed = widened(one.body->GetLinearVelocity()).norm();
+    poses_.push_back({one.body, place_of(*one.body), static_cast<double>(one.body->GetAngle()), speed});
   }
 }
 
@@ -272,20 +294,23 @@ void Level::shift_origin(const Vec2d& new_origin) {
 }
 
 BodyPose Level::begin_of(const b2Body& body, double dt) const {
-  const Vec2d now = widened(body.GetPosition());
+  const Vec2d now = place_of(body);
   const double angle = static_cast<double>(body.GetAngle());
+  Vec2d way = widened(body.GetLinearVelocity()) * dt;
   const auto known =
       std::find_if(poses_.begin(), poses_.end(), [&](const BodyPose& pose) { return pose.body == &body; });
-  if (known != poses_.end() && (now - known->position).norm() <= longest_way) return *known;
-  if (!body.IsAwake()) return {&body, now, angle};
-  Vec2d way = widened(body.GetLinearVelocity()) * dt;
-  if (way.norm() > longest_way) way *= longest_way / way.norm();
+  if (known != poses_.end()) {
+    const double explained = std::max(way.norm(), known->speed * dt) + longest_jump;
+    if ((now - known->position).norm() <= explained) return *known;
+  }
+  if (!body.IsAwake() || !body.IsEnabled()) return {&body, now, angle};
+  if (way.norm() > b2_maxTranslation) way *= b2_maxTranslation / way.norm();
   return {&body, now - way, angle - static_cast<double>(body.GetAngularVelocity()) * dt};
 }
 
 MoverMotion<double> Level::motion_of(const Mover& mover, const Stance& stance, double dt) const {
   const b2Body& body = *mover.body;
-  const Vec2d to = widened(body.GetPosition());
+  const Vec2d to = place_of(body);
   const double angle = static_cast<double>(body.GetAngle());
   const BodyPose begin = begin_of(body, dt);
   if (mover.circle != nullptr) {

@@ -23,6 +23,14 @@ struct Stance {
   Vec2d up{0, 1};                  ///< The side from which ledges block.
 };
 
+/// How much smaller than a fixture without a skin the fixture of a hero is for Box2D [m]. A polygon's skin is 1 cm: so
+/// the two touch within 6.5 mm. Less than 6.25 mm: Box2D lets bodies rest 5 mm inside each other, give or take 1.25 mm,
+/// and a crate would come to rest inside the hero. Much more: it pushes apart what the hero only touches.
+inline constexpr float hero_inset = 0.0035F;
+
+/// Where a body is: of another hero where that hero is, as the world moves its body before it steps [m].
+[[nodiscard]] Vec2d place_of(const b2Body& body);
+
 /// Reads the fixtures near a hero in each step. While nothing changes that the scenery is made of, the scenery stays.
 class Level {
  public:
@@ -36,6 +44,7 @@ class Level {
   /// The bodies are where they are when the next step begins.
   void note_poses();
   void shift_origin(const Vec2d& new_origin);
+  [[nodiscard]] std::span<b2Fixture* const> fixtures() const noexcept { return fixtures_; }
   [[nodiscard]] std::span<const BodyPose> poses() const noexcept { return poses_; }
   void restore_poses(std::span<const BodyPose> poses) { poses_.assign(poses.begin(), poses.end()); }
 

@@ -57,7 +57,9 @@ Crowd<Scalar>::Crowd(const Scenery<Scalar>& scenery, const CharacterDef& charact
         rules.sweep = std::make_unique<crowd::SweepRules<Scalar>>(scenery, character, sweep.iterations);
         SweepDef def = sweep;
         def.stages.movers = def.stages.slopes = true;  // characters are moving obstacles with slopes
-        auto technique = octagon_sweep::make_sweep_in_parts(def, rules.sweep->scenery, character);
+        CharacterDef walker = character;
+        walker.step_height = 0;  // a path that goes up at once is not swept against the paths of others
+        auto technique = octagon_sweep::make_sweep_in_parts(def, rules.sweep->scenery, walker);
         rules.sweep->sweep = technique.get();
         return Crowd(std::make_unique<const Rules>(std::move(rules)),
                      Controller<Scalar>(scenery, character, std::move(technique), def.stages));

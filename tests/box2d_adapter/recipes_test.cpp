@@ -24,7 +24,11 @@ TEST(Recipe, marks_the_body) {
 TEST(Recipe, takes_coins) {
   Game game({.position = {0, floor_height}});
   game.floor();
-  for (const float x : {1.0F, 2.0F, 3.0F}) game.box(b2_staticBody, {x, 0.5F}, 0.1F, 0.1F).SetSensor(true);
+  for (const float x : {1.0F, 2.0F, 3.0F}) {
+    b2Fixture& fixture = game.box(b2_staticBody, {x, 0.5F}, 0.1F, 0.1F);
+    fixture.SetSensor(true);
+    fixture.GetUserData().pointer = coin;
+  }
   int taken = 0;
   for (int i = 0; i < 60; ++i) {
     game.go({.move = 1.0});
@@ -104,6 +108,18 @@ TEST(Recipe, crouches_under_a_ceiling) {
   game.run(180, {.move = 1.0});
   is_low = crouch(game.hero, false, is_low);
   EXPECT_FALSE(is_low);
+}
+
+TEST(Recipe, bounces_on_a_trampoline) {
+  Game game({.position = {0, 3}});
+  game.floor().GetUserData().pointer = 7;
+  double highest = 0;
+  for (int i = 0; i < 240; ++i) {
+    game.go();
+    bounce(game.hero, 7);
+    if (i > 60) highest = std::max(highest, game.hero.position().y());
+  }
+  EXPECT_NEAR(highest, half_height + 15.0 * 15 / 20, 0.2);
 }
 
 TEST(Recipe, climbs_a_ladder) {

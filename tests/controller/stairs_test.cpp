@@ -115,6 +115,14 @@ TEST(StepHeight, a_ceiling_that_leaves_no_room_stops) {
   }
 }
 
+TEST(StepHeight, a_low_stair_under_a_lintel_is_climbed) {
+  SceneryDef def = kerb(0.05);
+  def.colliders.push_back(box(3, 1.35, 6, 3));
+  Walk walk(def, walker(0.4), 0);
+  for (int i = 0; i < 60; ++i) walk.go();
+  EXPECT_GT(walk.state.position.x(), 4);
+}
+
 TEST(StepHeight, in_the_air_nothing_is_climbed) {
   Walk walk(kerb(0.2), walker(0.25), 1.5);
   walk.state.position.y() += 0.02;

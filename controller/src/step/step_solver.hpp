@@ -212,6 +212,7 @@ class StepSolver {
   [[nodiscard]] bool go_along(const V& displacement) noexcept;
   [[nodiscard]] std::optional<TouchedSurface<Scalar>> ground_below(Scalar ahead, Scalar down) noexcept;
   bool step_down_to(const TouchedSurface<Scalar>& ground, Scalar speed) noexcept;
+  [[nodiscard]] bool climb_by(Scalar rise, Scalar sideways, Scalar speed) noexcept;
   [[gnu::cold, gnu::noinline]] void climb_stairs(const MoveRequest<Scalar>& request, const V& wanted,
                                                  Scalar speed) noexcept;
   [[gnu::noinline]] void follow_ground_down(const MoveRequest<Scalar>& request) noexcept;

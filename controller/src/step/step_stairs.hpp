@@ -61,15 +61,27 @@ std::optional<TouchedSurface<Scalar>> StepSolver<Lanes, Scalar, Up>::ground_belo
 /// @param speed sideways [m/s], which the walker keeps.
 template <std::size_t Lanes, class Scalar, class Up>
 bool StepSolver<Lanes, Scalar, Up>::step_down_to(const TouchedSurface<Scalar>& ground, Scalar speed) noexcept {
-  if (!walkable(ground.normal) || !advance(found_.stop)) return false;
+  const V carried = ground_velocity(ground.piece, ground.normal);
+  if (!walkable(ground.normal) || falls_away(carried) || !advance(found_.stop)) return false;
   note_ground(GroundState::walkable, ground.piece, ground.normal);
   const Stop<Scalar>& stop = found_.stops[0];
   if (walkable(space_.normal(stop.piece, stop.axes.normal)))  // the corner of a stair stops no wanted motion
     report_contact(stop.piece, stop.axes.normal, time_, result_.contacts.size());
-  const V carried = ground_velocity(ground.piece, ground.normal);
   const V followed = follow(speed - up_.across_of(carried), up_.seen(ground.normal));
   velocity_ = in_world(up_, followed, ground.normal) + carried;
   return true;
+}
+
+/// Goes up, on sideways, and down to ground that is higher. @return false if it does not end there.
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::climb_by(Scalar rise, Scalar sideways, Scalar speed) noexcept {
+  constexpr Scalar touch = Tolerances<Scalar>{}.touch;
+  const V before = position_;
+  if (!go_along(up_.in_world({0, rise})) || !go_along(up_.in_world({sideways, 0}))) return false;
+  const V by = up_.seen(V(position_ - before));
+  const auto ground = ground_below(std::copysign(overhang(), sideways), by.y());
+  const bool is_higher = (1 - found_.stop) * by.y() > touch && by.x() * sideways > touch * std::abs(sideways);
+  return ground && is_higher && step_down_to(*ground, speed);
 }
 
 /// Climbs what stopped a walk, if there is walkable ground at most `step_height` higher: up, on sideways, and down.
@@ -90,15 +102,14 @@ void StepSolver<Lanes, Scalar, Up>::climb_stairs(const MoveRequest<Scalar>& requ
     push_corner(time_);
     const std::size_t corner = result_.path.size() - 1;
     memory_.contacts_at[corner] = result_.contacts.size();
-    const V before = position_;
-    bool is_climbed = go_along(up_.in_world({0, settings_.step_height})) && go_along(up_.in_world({left, 0}));
-    if (is_climbed) {
-      const V by = up_.seen(V(position_ - before));
-      const auto ground = ground_below(std::copysign(overhang(), left), by.y());
-      const bool is_higher = (1 - found_.stop) * by.y() > touch && by.x() * left > touch * std::abs(left);
-      is_climbed = ground && is_higher && step_down_to(*ground, speed);
+    bool is_climbed = false;
+    // There may be a lintel above a low stair.
+    for (const Scalar share : {Scalar(1), Scalar(0.5), Scalar(0.25), Scalar(0.125)}) {
+      is_climbed = climb_by(settings_.step_height * share, left, speed);
+      if (is_climbed) break;
+      go_back_to(corner);
     }
-    if (!is_climbed) return go_back_to(corner);
+    if (!is_climbed) return;
   }
 }
 

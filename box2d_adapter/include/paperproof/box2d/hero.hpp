@@ -32,7 +32,7 @@ struct Surface {
 
 struct HeroDef {
   CharacterDef character{};
-  Vec2d position{Vec2d::Zero()};  ///< Of the middle of the character's box, within 1e6 m [m].
+  Vec2d position{Vec2d::Zero()};  ///< Of the origin of the character's shape, within 1e6 m [m].
   b2Filter filter{};              ///< Of the hero's fixture: with which fixtures it collides.
   /// With which it pushes dynamic bodies, weighs on them, and takes their impacts [kg]; from 1e-6 to 1e9. Absent: that
   /// of its shape, of density 1.
@@ -57,7 +57,8 @@ struct HeroContact {
   Contact<double> contact;  ///< Of a `removed` one: the last.
 };
 
-/// The hero's open interior came to overlap a sensor fixture, or ceased to.
+/// The hero's open interior came to overlap a sensor fixture, or ceased to. What happened between two steps (the hero
+/// was placed, the sensor was made) is at fraction 0 of the second one.
 struct HeroSensorEvent {
   b2Fixture* sensor = nullptr;
   SensorEvent<double>::Change change = SensorEvent<double>::Change::enter;
@@ -69,16 +70,19 @@ struct BodyPose {
   const b2Body* body = nullptr;
   Vec2d position{Vec2d::Zero()};  ///< Of its origin [m].
   double angle = 0;               ///< [radians]
+  double speed = 0;               ///< [m/s]
 };
 
 /// A hero at one time, to save or to roll back. Restore it together with the world.
 struct HeroSave {
+  CharacterDef character;
   CharacterState<double> state;
   Vec2d ground_normal{0, 1};
   b2Fixture* ride = nullptr;           ///< What `state.ride` is on.
   std::vector<b2Fixture*> crushers{};  ///< What `state.crushers` are.
   std::vector<BodyPose> poses{};       ///< Of the bodies near it.
   std::vector<HeroContact> contacts{};
+  std::vector<b2Fixture*> inside{};  ///< Sensors that it overlaps.
 };
 
 /// A character in a game's own `b2World`, moved by a `Controller`. Each frame the world steps, then the hero:
@@ -91,8 +95,8 @@ struct HeroSave {
 /// again.
 ///
 /// - Static bodies stand. Kinematic and dynamic bodies move from where they were in the hero's last step to where they
-///   are now, and carry, push and crush it on this way. A body that went farther than Box2D moves a body in a step (2
-///   m) was put there by the game.
+///   are now, and carry, push and crush it on this way. A body that went half a metre
+///   farther than its velocity explains was put there by the game.
 /// - A body that turns has its new angle from the beginning of the step, turned about its point nearest to the hero; of
 ///   a body on which the hero stands, about the point under its foot. Among bodies that do not turn, the guarantees of
 ///   the controller hold (see controller/README.md). A body that turns may come to overlap the hero; the hero then goes
@@ -102,7 +106,7 @@ struct HeroSave {
 ///
 /// The world has a dynamic body for the hero, of the same shape and without gravity, friction and restitution. Box2D
 /// reports contacts of its fixture to the game's listener, also with static bodies and sensors, as for each dynamic
-/// body: in the next `world.Step`, of what the hero then touches within 2.5 mm. Dynamic bodies feel the hero through
+/// body: in the next `world.Step`, of what the hero then touches within 6.5 mm. Dynamic bodies feel the hero through
 /// this body: its mass, its weight and its push. The hero takes the impacts that its body took from them.
 ///
 /// Not thread-safe, as the world is not.
@@ -131,23 +135,26 @@ class Hero {
   [[nodiscard]] const StepReport<double>& report() const noexcept;
   /// @param collider of `report()`. @return null for `no_collider`.
   [[nodiscard]] b2Fixture* fixture_of(ColliderIndex collider) const noexcept;
-  /// What the hero stands on or slides down: see `MoveResult::ground`. Null in the air.
-  [[nodiscard]] b2Fixture* ground() const noexcept { return fixture_of(report().move.ground.collider); }
+  /// What the hero stands on or slides down: see `MoveResult::ground`. Null in the air. Valid until the next step, or
+  /// until the game destroys the fixture.
+  [[nodiscard]] b2Fixture* ground() const noexcept;
   /// Contacts of the last step by fixture: each fixture once, with its first contact; then those removed.
   [[nodiscard]] std::span<const HeroContact> contacts() const noexcept;
   /// Sensors that the hero entered and left in the last step, however fast it passed them, in order of time.
   [[nodiscard]] std::span<const HeroSensorEvent> sensors() const noexcept;
-  /// Fixtures of moving bodies that left the hero no room in the last step.
+  /// Sensors that the hero overlaps after the last step.
+  [[nodiscard]] std::span<b2Fixture* const> inside() const noexcept;
+  /// Fixtures of moving bodies that left the hero no room in the last step; while it is `stuck` none.
   [[nodiscard]] std::span<b2Fixture* const> crushed_by() const noexcept;
   /// Fixtures near the hero that are no scenery, as they have no extent: an edge of zero length, for example.
   [[nodiscard]] std::span<b2Fixture* const> skipped() const noexcept;
-  /// The hero's body, of one fixture. The game may read it, set user data, and change the filter of its fixture, which
-  /// is the filter of the hero. It must not move or destroy it.
+  /// The hero's body, of one fixture. The game may read it, set its user data, and change the filter of its fixture,
+  /// which is the filter of the hero. It must not move or destroy it. The user data of the fixture belongs to the hero.
   [[nodiscard]] b2Body& body() const noexcept;
 
   /// Puts the hero elsewhere, without a way between: it forgets ground, contacts, crushes and what carried it. Nothing
   /// is dragged along.
-  /// @throws InvalidDefinition for numbers that are not finite or beyond 1e6.
+  /// @throws InvalidDefinition for numbers that are not finite or beyond 1e6, and during a step of the world.
   void place(const Vec2d& position, const Vec2d& velocity = {0, 0});
   /// Adds to the velocity: a hit, a spring. The hero leaves the ground: see `paperproof::knock_back`.
   /// @param velocity [m/s] @throws InvalidDefinition for numbers that are not finite or beyond 1e6.
