@@ -171,7 +171,7 @@ struct CharacterState {
   friend bool operator==(const CharacterState&, const CharacterState&) = default;
 };
 
-/// Puts a character elsewhere, in one jump that sweeps nothing: a portal, a new room, a restart. The state forgets what
+/// Puts a character elsewhere at once, without a sweep: a portal, a new room, a restart. The state forgets what
 /// belongs to the old place: ground and ride, coyote time, walls, the last free position, what crushed the character,
 /// and how long it was stuck. It keeps its velocity (in the world: that of a ride is in it) and the state of the jump
 /// button. If the place is not free, the next step resolves that: see `Controller::overlaps`.

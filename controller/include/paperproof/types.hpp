@@ -45,9 +45,9 @@ struct MoverMotion {
 /// The side of the *character* that a contact is on: standing on the ground is a `bottom` contact.
 enum class Side : std::uint8_t { top, bottom, left, right };
 
-/// The side of an upright character that a contact normal (unit, from the obstacle towards the character) belongs to
-/// (see `UpFrame::side_of` for others). The larger component
-/// decides; at exactly 45 degrees the vertical one does.
+/// The side of an upright character that a contact normal (unit, from the obstacle towards the character) belongs to;
+/// of another character `UpFrame::side_of` tells it. The larger component decides; at exactly 45 degrees the vertical
+/// one does.
 template <class Scalar>
 [[nodiscard]] constexpr Side side_of_normal(Scalar normal_x, Scalar normal_y) noexcept {
   const Scalar width = normal_x < 0 ? -normal_x : normal_x;

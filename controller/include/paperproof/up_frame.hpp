@@ -36,7 +36,6 @@ class UpFrame {
   [[nodiscard]] const Vec2<Scalar>& up() const noexcept { return up_; }
   /// Up is not (0, 1).
   [[nodiscard]] bool is_turned() const noexcept { return is_turned_; }
-
   /// Neither upright nor turned by quarters: what is seen is rounded.
   [[nodiscard]] bool is_slanted() const noexcept { return up_.x() != 0 && up_.y() != 0; }
 
