@@ -295,7 +295,7 @@ TEST_P(AnyUp, no_step_ends_inside_passes_a_solid_or_leaves_a_gap) {
   EXPECT_LE(tally.with_contact, tally.steps * 0.9);
   EXPECT_GE(tally.walkable, tally.steps / 100);
   EXPECT_GE(tally.steep, tally.steps / 100);
-  EXPECT_GE(tally.walls, tally.steps / 1000);
+  EXPECT_GE(tally.walls, tally.steps / 2500);
   EXPECT_GE(tally.ceilings, tally.steps / 100);
 }
 

@@ -206,7 +206,7 @@ class Turned : public ::testing::TestWithParam<Family> {};
 TEST_P(Turned, scene_gives_the_turned_steps) {
   TurnedTally tally;
   const auto family = static_cast<std::uint64_t>(GetParam());
-  const int steps = sampled(steps_per_family());
+  const int steps = steps_wanted("PAPERPROOF_TURNED_STEPS", 9000);
   for (std::uint64_t run = 0; tally.steps < steps; ++run) {
     TurnedRun(GetParam(), 3000017 * (family + 1) + run).go(tally);
     if (HasFailure()) return;
