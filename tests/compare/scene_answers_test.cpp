@@ -328,9 +328,15 @@ TEST(WhatTurns, is_met_by_the_twin_a_skin_before_the_root_of_the_sinusoid) {
     EXPECT_LE(reported, root);
     EXPECT_NEAR(*row.toi_error_max, root - reported, 1e-3) << name << ": Box2D's angles are floats";
     const TraceStep& step = run_of(result, name).steps[30];
-    ASSERT_EQ(step.turns.size(), 1U);
-    EXPECT_NEAR(step.turns[0].from, 30.0 / 60, 1e-5);
-    EXPECT_NEAR(step.turns[0].to, 31.0 / 60, 1e-5);
+    ASSERT_EQ(step.vertex_ways.size(), 1U);
+    const VertexWay& way = step.vertex_ways[0];
+    for (const std::size_t end : {0U, 1U}) {
+      const std::vector<Vec2d>& vertices = end == 0 ? way.vertices.front() : way.vertices.back();
+      const double angle = (30.0 + static_cast<double>(end)) / 60;
+      EXPECT_EQ(vertices[0], Vec2d(0, 0));
+      EXPECT_LE((vertices[1] - Vec2d(std::cos(angle), std::sin(angle))).norm(), 1e-5);
+    }
+    EXPECT_EQ(row.undecided_steps, 0);
   }
 }
 
