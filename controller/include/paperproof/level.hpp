@@ -44,8 +44,10 @@ class Level {
   /// How many edits were made.
   [[nodiscard]] std::uint64_t edits() const noexcept { return edits_; }
 
-  /// Appends all colliders that come into a box during a step. Those that stand are in no order and may come twice.
-  void find_near(const Box2<double>& box, std::span<const PoseMotion> movers, std::vector<NearCollider>& found) const;
+  /// Appends all colliders without a mover that are in a box, in no order, each once or more often.
+  void find_standing(const Box2<double>& box, std::vector<NearCollider>& found) const;
+  /// Appends all colliders of movers that come into a box during a step.
+  void find_moving(const Box2<double>& box, std::span<const PoseMotion> movers, std::vector<NearCollider>& found) const;
 
  private:
   struct Slot {
