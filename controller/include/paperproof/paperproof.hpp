@@ -6,6 +6,8 @@
 #include <paperproof/controller.hpp>
 #include <paperproof/crowd.hpp>
 #include <paperproof/filter.hpp>
+#include <paperproof/level.hpp>
+#include <paperproof/local_controller.hpp>
 #include <paperproof/octagon_sweep.hpp>
 #include <paperproof/plan.hpp>
 #include <paperproof/report_vector.hpp>

@@ -1,0 +1,46 @@
+/// Convex pieces whose vertices go on straight lines: a turn, and everything else that they do within a short time.
+#pragma once
+
+#include <paperproof/types.hpp>
+
+#include <span>
+#include <vector>
+
+namespace paperproof::level {
+
+/// The way of a convex piece: each vertex goes evenly from one place to another. Counter-clockwise, or the two ends of a
+/// segment; at both times.
+struct PieceWay {
+  std::vector<Vec2d> from;
+  std::vector<Vec2d> to;
+};
+
+/// The character's way at the same time.
+struct HullWay {
+  std::span<const Vec2d> hull;  ///< Relative to the position, counter-clockwise.
+  Vec2d from{Vec2d::Zero()};
+  Vec2d to{Vec2d::Zero()};
+};
+
+/// Proves that a character and a piece stay apart while both go their ways.
+///
+/// They are apart where the line of an edge of one has the other wholly on its outside. The side of a point of which an
+/// edge is, cross(edge, point - vertex), is a polynomial of degree two in time, as both factors are linear. It is
+/// positive over the whole time if its three Bernstein coefficients are. Where no line is proved to separate the two
+/// over the whole time, each half is tried; where no line does at one moment, the proof has failed.
+/// (R. T. Farouki, V. T. Rajan, On the numerical condition of polynomials in Bernstein form, 1987, for the criterion.)
+/// @param least distance that counts as apart [m]; below zero: so deep an overlap is none.
+[[nodiscard]] bool stay_apart(const HullWay& character, const PieceWay& piece, double least);
+
+/// Where a piece is nearest to a character.
+struct Approach {
+  double distance = 0;  ///< [m]
+  Vec2d normal{0, 1};   ///< Unit, from the piece towards the character.
+};
+
+/// @param outline of a polygon or a chain; at least 2 points.
+/// @param closed whether an edge leads from its last point to its first.
+[[nodiscard]] Approach nearest(std::span<const Vec2d> outline, bool closed, std::span<const Vec2d> hull,
+                               const Vec2d& position);
+
+}  // namespace paperproof::level
