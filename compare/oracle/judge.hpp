@@ -174,7 +174,7 @@ struct StepJudgement {
 /// **Fraction.** A first impact is comparable where the octagon began farther than 1e-6 m (Box2D: its skin, 20 mm) away
 /// along the normal, and the approach against the normal is at least 1e-3 of the displacement: at rest, and where the
 /// motion grazes, a gap of a micrometre is much of the way. Who is stuck does not go as requested, and has none; nor
-/// has who gives way to a mover from the start of the step.
+/// has who gives way to a mover from the start of the step, or who goes in parts of the step, as what turns does.
 ///
 /// **Hangs.** Let u be what is requested less what the step's steering added to it. C is the set of displacements that
 /// enter no solid and no other character that is within 1e-6 m (separation along the best axis) of a corner of the

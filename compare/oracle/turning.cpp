@@ -281,13 +281,32 @@ void TurningJudge::judge_contacts(const Solid& solid, const TraceStep& step, Ste
   }
   if (!reports) return;
   judgement.max_contact_gap = std::max(judgement.max_contact_gap, gap);
-  const bool begins = !touched_.contains(solid.collider);
-  const bool earliest = std::none_of(step.contacts.begin(), step.contacts.end(), [&](const Contact<double>& contact) {
-    return contact.fraction < reported->fraction;
-  });
-  if (touches && begins && (!header_.path_exact || (first && earliest)))
+  if (touched_.contains(solid.collider)) return;
+  std::optional<double> touch;
+  if (header_.path_exact)
+    touch = touch_going_on(solid, step, reported->fraction);
+  else if (touches)
+    touch = when;
+  if (touch)
     judgement.turning_toi_error =
-        std::max(judgement.turning_toi_error.value_or(0), std::abs(reported->fraction - when));
+        std::max(judgement.turning_toi_error.value_or(0), std::abs(reported->fraction - *touch));
+}
+
+/// When the way that was travelled up to a moment touches, if it goes on from there as straight as before; nothing
+/// where it did not go, or leapt, just before.
+std::optional<double> TurningJudge::touch_going_on(const Solid& solid, const TraceStep& step, double moment) const {
+  std::vector<PathPoint<double>> way;
+  for (const PathPoint<double>& corner : step.path)
+    if (corner.fraction <= moment) way.push_back(corner);
+  if (way.size() < 2 || moment == 1) return std::nullopt;
+  const PathPoint<double>& last = way.back();
+  const PathPoint<double>& before = way[way.size() - 2];
+  if (last.position == before.position || last.fraction == before.fraction) return std::nullopt;
+  const Vec2d rate = (last.position - before.position) / (last.fraction - before.fraction);
+  way.push_back({last.position + (1 - last.fraction) * rate, 1});
+  const Meeting met = meeting(solid, way_of(step, solid.collider), way, Asked::when);
+  if (met.kind != Meeting::Kind::meets) return std::nullopt;
+  return met.low + (met.high - met.low) / 2;
 }
 
 }  // namespace paperproof::compare::detail

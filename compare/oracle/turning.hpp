@@ -20,9 +20,9 @@ namespace paperproof::compare::detail {
 /// - **Contact**: what the requested motion touches first in the step, or what was reported and is within 1e-6 m at a
 ///   corner of the way (Box2D: what the motion touches that is left by its contacts with the rest). The normal is that
 ///   of the best axis there.
-/// - **Time of impact**: where a contact begins, the reported fraction is held against the first touch of that motion,
-///   if it is the first contact of the step. Box2D stops 20 mm away, so that the touch itself lies ahead: there the
-///   motion goes on for at most four steps, and what turns goes on as in this one.
+/// - **Time of impact**: where a contact begins, the reported fraction is held against the first touch of the way that
+///   was travelled until then, going on straight. Box2D stops 20 mm away, so that the touch itself lies ahead: there it
+///   is that of what it wants, which goes on for at most four steps, and what turns goes on as in this one.
 /// - **Undecided** is what comes so near that halving the time does not tell: it is counted, and no answer.
 /// Distances, depths and normals are exact for places that are rounded to double.
 class TurningJudge {
@@ -66,6 +66,7 @@ class TurningJudge {
   void judge_passage(const Solid& solid, const TraceStep& step, StepJudgement& judgement) const;
   [[nodiscard]] double depth_on(const Solid& solid, const TraceStep& step) const;
   void judge_contacts(const Solid& solid, const TraceStep& step, StepJudgement& judgement) const;
+  [[nodiscard]] std::optional<double> touch_going_on(const Solid& solid, const TraceStep& step, double moment) const;
 
   const TraceHeader& header_;
   std::vector<Vec2d> octagon_;  ///< Counter-clockwise.

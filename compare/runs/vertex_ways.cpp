@@ -1,22 +1,11 @@
 #include "runs/vertex_ways.hpp"
 
+#include "runs/level_ways.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 namespace paperproof::compare {
-
-std::vector<Vec2d> placed_vertices(const ColliderDef& def, const Vec2d& offset, double angle) {
-  const double cosine = std::cos(angle);
-  const double sine = std::sin(angle);
-  std::vector<Vec2d> placed;
-  const auto place = [&](const std::vector<Vec2d>& ring) {
-    for (const Vec2d& v : ring)
-      placed.emplace_back(offset + Vec2d(cosine * v.x() - sine * v.y(), sine * v.x() + cosine * v.y()));
-  };
-  place(def.points);
-  for (const std::vector<Vec2d>& hole : def.holes) place(hole);
-  return placed;
-}
 
 void add_turn(const ColliderDef& def, const TurningMotion& motion, VertexWay& way) {
   double radius = 0;

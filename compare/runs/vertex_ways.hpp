@@ -20,9 +20,6 @@ struct TurningMotion {
   double end = 1;
 };
 
-/// Where the vertices of a collider are, in the order of `VertexWay::vertices` [m].
-[[nodiscard]] std::vector<Vec2d> placed_vertices(const ColliderDef& def, const Vec2d& offset, double angle);
-
 /// Adds a part of a step to the way of a collider: as many chords, of equal length, as `most_sag` needs.
 /// @param way that of the parts before, or an empty one.
 void add_turn(const ColliderDef& def, const TurningMotion& motion, VertexWay& way);

@@ -437,7 +437,8 @@ class Checker:
         contacts = [contact for contact in step["contacts"] if not motion.turns(contact["collider"])]
         # Who met another before, or what turns, may have been turned aside; who is stuck does not go as requested.
         first = contacts and contacts[0]["fraction"] == first_event(step) and not meets_at_once(contacts[0], step)
-        if first and not step["start_overlap"] and not step.get("crush") and not step.get("stuck"):
+        in_parts = any(len(way.instants) > 2 for way in motion.ways.values())  # so goes the character near what turns
+        if first and not in_parts and not step["start_overlap"] and not step.get("crush") and not step.get("stuck"):
             requested = tuple(map(Fraction, step["requested"]))
             yield from self.check_impact(contacts[0], path[0], requested, motion)
         yield from self.check_sensors(step, path, motion)

@@ -61,15 +61,16 @@ TEST_F(TurningArm, has_a_time_of_impact_error_where_its_contact_begins) {
 
 TEST_F(TurningArm, of_who_is_excused_nothing_the_first_contact_is_held_against_the_root) {
   Judge judge(with_arm(true));
-  TraceStep met = from(0.75, {above_, {1, 0.8 + 0.625}, {1, 0.85 + 0.625 + 5e-7}});
-  met.path[1].fraction = 0.5;
-  met.requested = {0, 0};
+  // It falls by 0.1 m in a step, the tip comes up by as much: 0.1 m are between them.
+  TraceStep met = from(0.7, {{1, 0.8 + 0.625}, {1, 0.75 + 0.625 + 1e-7}, {1, 0.8 + 0.625 + 1e-7}});
+  met.requested = {0, -0.1};
   met.contacts = {contact(0.5)};
   const StepJudgement judged = judge.judge(met);
   EXPECT_FALSE(judged.broke());
   EXPECT_TRUE(judged.undecided.empty());
   ASSERT_TRUE(judged.turning_toi_error);
-  EXPECT_NEAR(*judged.turning_toi_error, 0, 1e-9);
+  EXPECT_NEAR(*judged.turning_toi_error, 0, 2e-6) << "1e-7 m are left at 0.1 m in a step";
+  EXPECT_GT(*judged.turning_toi_error, 0);
   EXPECT_LE(judged.max_contact_gap, 1e-6);
   ASSERT_TRUE(judged.first_impact);
   EXPECT_NEAR(*judged.first_impact, 0.5, 1e-9);
