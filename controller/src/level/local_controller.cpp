@@ -535,8 +535,10 @@ void LocalController::Impl::append(const StepReport<double>& added, const Part& 
     if (std::find(report.dropped_through.begin(), report.dropped_through.end(), collider) ==
         report.dropped_through.end())
       report.dropped_through.push_back(collider);
-  report.requested += added.requested;
-  report.steered += added.steered;
+  if (part.begin == 0) {
+    report.requested = added.requested / part.end;
+    report.steered = added.steered / part.end;
+  }
   if (rank(from.status) > rank(to.status)) to.status = from.status;
   report.status = step_parts::status_of(to.status);
   to.position = from.position;
