@@ -1,7 +1,7 @@
 #include <paperproof/box2d/hero.hpp>
 
 #include "float_geometry.hpp"
-#include "level.hpp"
+#include "near_fixtures.hpp"
 
 #include <paperproof/box2d/invalid_definition.hpp>
 
@@ -9,6 +9,8 @@
 #include <box2d/b2_contact.h>
 #include <box2d/b2_polygon_shape.h>
 #include <box2d/b2_world.h>
+
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
@@ -19,24 +21,11 @@
 namespace paperproof::box2d {
 namespace {
 
-/// What a mover may carry or push the hero beyond its own motion in a step: Box2D's cap, twice [m].
-constexpr double most_carried = 4.2;
-
 /// A squeeze out of a gap is not looked at before it is so far [m].
 constexpr double most_squeezed = 0.25;
 
 /// Largest position [m] and speed [m/s] that a call may set.
 constexpr double largest = 1e6;
-
-/// The scenery of a step, and what steps through it.
-struct Stage {
-  Stage(const SceneryDef& def, const CharacterDef& character)
-      : scenery(def), controller(scenery, character, {.broad_phase = BroadPhaseKind::all_pairs}) {}
-
-  Scenery<double> scenery;
-  Controller<double> controller;
-  Scratch<double> scratch = controller.make_scratch();
-};
 
 void require(bool holds, const char* words) {
   if (!holds) throw InvalidDefinition(words);
@@ -90,33 +79,16 @@ void make_fixture(b2Body& body, const HeroDef& def, const b2Filter& filter, cons
   body.SetMassData(&mass);
 }
 
-/// The sensors of a scenery as solids, so that they can be asked for overlaps.
-SceneryDef sensors_of(const SceneryDef& scenery) {
-  SceneryDef sensors;
-  for (ColliderDef collider : scenery.colliders) {
-    if (!collider.sensor) collider.filter.mask = 0;  // keeps its index and its mover
-    collider.sensor = false;
-    sensors.colliders.push_back(std::move(collider));
-  }
-  return sensors;
-}
-
-/// Makes a stage of what was read of a level. Fixtures that cannot be scenery are left out.
-void fill(std::optional<Stage>& stage, Level& level, const CharacterDef& character) {
-  for (;;) {
-    try {
-      stage.emplace(level.scenery(), character);
-      return;
-    } catch (const InvalidScenery& unusable) {
-      level.skip(unusable.collider());
-    }
-  }
-}
-
 /// Where the world pulls, as a unit vector the other way.
 Vec2d up_of(const Vec2d& gravity) {
   const double size = gravity.norm();
   return size > 0 ? Vec2d(-gravity / size) : Vec2d(0, 1);
+}
+
+/// How far the point of a body that is now at `point` went in a step [m].
+double way_of(const Vec2d& point, const PoseMotion& motion) {
+  const Eigen::Rotation2Dd turn(motion.from.angle - motion.to.angle);
+  return (motion.from.position + turn * (point - motion.to.position) - point).norm();
 }
 
 /// The box around a shape, across up and along it.
@@ -130,7 +102,13 @@ Box2<double> seen_by(const UpFrame<double>& frame, const CharacterShape& shape) 
 }  // namespace
 
 struct Hero::Impl {
-  Impl(b2World& in, const HeroDef& from) : world(&in), def(from), body(&make_body(in, from)), level(in, *body) {
+  Impl(b2World& in, const HeroDef& from)
+      : world(&in),
+        def(from),
+        body(&make_body(in, from)),
+        fixtures(in, *body),
+        controller(from.character),
+        sensor_controller(from.character) {
     make_fixture(*body, def, def.filter, state.position);
     state.position = def.position;
     report.move.position = def.position;
@@ -143,102 +121,40 @@ struct Hero::Impl {
 
   template <class Go>
   StepStatus advance(double dt, const Go& go);
-  [[nodiscard]] Box2<double> box_needed(double dt) const;
-  void prepare(const Box2<double>& box, double dt);
-  void note_sensors_between_steps();
+  void note_sensors_between_steps(const Vec2d& position);
   void note_sensors();
   [[nodiscard]] bool is_free_at_end(const Vec2d& position);
   [[nodiscard]] bool fits(const CharacterDef& character, const Vec2d& position) const;
   void remake_fixture();
-  void find_colliders_again(bool rebuilt);
+  void change(const CharacterDef& character);
   void take_impacts();
   void limit_squeeze(const CharacterState<double>& before, const Vec2d& body_velocity, double dt);
   void note_step();
   void note_contacts();
   void lead_body(double dt);
-  [[nodiscard]] Stance stance() const {
-    return {.position = state.position,
-            .hull = def.character.shape.hull(),
-            .ground = ground_body(),
-            .normal = ground_normal,
-            .up = up_of(gravity())};
-  }
-  [[nodiscard]] const b2Body* ground_body() const { return ride != nullptr ? ride->GetBody() : nullptr; }
 
   b2World* world;
   HeroDef def;
   b2Body* body;
-  Level level;
-  std::optional<Stage> stage;
-  std::optional<Stage> sensor_stage;  ///< Where a sensor is near.
+  NearFixtures fixtures;
+  LocalController controller;
+  LocalController sensor_controller;  ///< Asks which sensors the hero overlaps.
   CharacterState<double> state;
-  Vec2d ground_normal{0, 1};
-  b2Fixture* ride = nullptr;         ///< What `state.ride` is on.
-  std::vector<b2Fixture*> crushers;  ///< What `state.crushers` are.
   StepReport<double> report;
   std::vector<HeroContact> contacts;
   std::vector<HeroContact> contacts_before;
   std::vector<HeroSensorEvent> sensors;
   std::vector<b2Fixture*> inside;  ///< Sensors that it overlaps.
   std::vector<b2Fixture*> crushed_by;
-  std::vector<b2Fixture*> fixtures;  ///< Of the colliders of `report`.
+  std::vector<b2Fixture*> skipped;
 };
-
-/// Everything that this step can reach, but a way out of solids.
-Box2<double> Hero::Impl::box_needed(double dt) const {
-  const CharacterDef& character = def.character;
-  const double speed_up = character.acceleration + character.jump_speed / dt + gravity().norm();
-  const double reach = (state.velocity.norm() + speed_up * dt) * dt + character.snap + most_carried;
-  const Box2<double>& box = character.shape.box();
-  return Box2<double>{state.position + box.lower, state.position + box.upper}.inflated(reach);
-}
-
-void Hero::Impl::prepare(const Box2<double>& box, double dt) {
-  const bool rebuilt = level.follow(box, def, stance(), dt);
-  if (rebuilt || !stage) {
-    fill(stage, level, def.character);
-    sensor_stage.reset();
-    if (stage->scenery.sensor_pieces().size() > 0) sensor_stage.emplace(sensors_of(level.scenery()), def.character);
-  }
-  find_colliders_again(rebuilt);
-}
-
-/// The state names colliders by their index, which is another in another scenery. A fixture that is gone carries and
-/// crushes no more.
-void Hero::Impl::find_colliders_again(bool rebuilt) {
-  if (ride != nullptr) {
-    const ColliderIndex collider = level.collider_of(ride);
-    if (collider == no_collider) {
-      state.ride = {};
-    } else {
-      state.ride.ground = collider;
-      const MoverIndex mover = stage->scenery.collider(collider).mover;
-      if (rebuilt && mover != no_mover && level.has_turned(collider))
-        state.ride.place = state.position - level.motions()[mover].from;
-    }
-  }
-  const Crushers<double> known = state.crushers;
-  state.crushers.clear();
-  for (std::size_t i = 0; i < known.size(); ++i) {
-    const ColliderIndex collider = level.collider_of(crushers[i]);
-    if (collider == no_collider) continue;
-    state.crushers.push_back(known[i]);
-    state.crushers.back().collider = collider;
-  }
-  state.crushed = state.crushed && !state.crushers.empty();
-}
 
 /// Whether a shape would overlap nothing at a position, where all bodies are now.
 bool Hero::Impl::fits(const CharacterDef& character, const Vec2d& position) const {
-  const Box2<double>& extent = character.shape.box();
-  Level around(*world, *body);
-  around.follow({position + extent.lower, position + extent.upper}, def, stance(), 1);
-  std::optional<Stage> there;
-  fill(there, around, character);
-  std::vector<MoverMotion<double>> standing;
-  for (const MoverMotion<double>& motion : around.motions().first(there->scenery.mover_count()))
-    standing.push_back({motion.to, motion.to});
-  return there->controller.overlaps(position, {{0, 0}, 1, standing}, there->scratch) == 0U;
+  NearFixtures around(*world, *body);
+  around.begin_step(def, up_of(gravity()), 1);
+  return LocalController(character).overlaps(
+             position, {.dt = 1}, [&](const auto& box, auto& found) { around.find(box, found); }, true) == 0U;
 }
 
 /// After the shape has changed.
@@ -248,38 +164,33 @@ void Hero::Impl::remake_fixture() {
   make_fixture(*body, def, filter, state.position);
 }
 
+/// After the shape has changed, or the way to move.
+void Hero::Impl::change(const CharacterDef& character) {
+  def.character = character;
+  controller = LocalController(character);
+  sensor_controller = LocalController(character);
+  remake_fixture();
+}
+
 template <class Go>
 StepStatus Hero::Impl::advance(double dt, const Go& go) {
   if (world->IsLocked() || !(dt > 0 && dt <= largest) || !gravity().allFinite() || !state.position.allFinite())
     return StepStatus::invalid_input;
   const CharacterState<double> before = state;
   const Vec2d body_velocity = widened(body->GetLinearVelocity());
-  Box2<double> box = box_needed(dt);
-  StepStatus status{};
-  for (bool complete = false; !complete;) {
-    state = before;
-    take_impacts();
-    prepare(box, dt);
-    note_sensors_between_steps();
-    const std::span<const MoverMotion<double>> motions = level.motions().first(stage->scenery.mover_count());
-    status = go(StepContext<double>{.gravity = gravity(), .dt = dt, .movers = motions, .up = up_of(gravity())});
-    // A way out of solids may lead farther than what was read.
-    complete = true;
-    for (const PathPoint<double>& corner : report.move.path) {
-      const Box2<double> at{corner.position, corner.position};
-      const double size = (def.character.shape.box().upper - def.character.shape.box().lower).maxCoeff() + 0.1;
-      if (status == StepStatus::invalid_input || level.box().contains(at.inflated(size))) continue;
-      complete = false;
-      box = box.merged(at.inflated(2 * size));
-    }
-  }
+  const Vec2d up = up_of(gravity());
+  fixtures.begin_step(def, up, dt);
+  take_impacts();
+  const StepStatus status = go({.gravity = gravity(), .dt = dt, .up = up},
+                               [this](const auto& box, auto& found) { fixtures.find(box, found); });
   if (status == StepStatus::invalid_input) {
     state = before;
     return status;
   }
   limit_squeeze(before, body_velocity, dt);
+  note_sensors_between_steps(before.position);
   note_step();
-  level.note_poses();
+  fixtures.note_poses();
   lead_body(dt);
   return status;
 }
@@ -288,10 +199,12 @@ StepStatus Hero::Impl::advance(double dt, const Go& go) {
 /// changed that of its body, but not more than to their own, as after an impact without bounce.
 void Hero::Impl::take_impacts() {
   const Vec2d after = widened(body->GetLinearVelocity());
+  const b2Fixture* ride = fixtures.fixture_of(state.ride.ground);
+  const b2Body* ground = ride == nullptr ? nullptr : ride->GetBody();
   for (const b2ContactEdge* edge = body->GetContactList(); edge != nullptr; edge = edge->next) {
     const b2Contact& contact = *edge->contact;
     const b2Body& other = *edge->other;
-    if (!contact.IsTouching() || !contact.IsEnabled() || other.GetType() != b2_dynamicBody || &other == ground_body())
+    if (!contact.IsTouching() || !contact.IsEnabled() || other.GetType() != b2_dynamicBody || &other == ground)
       continue;
     b2WorldManifold manifold;
     contact.GetWorldManifold(&manifold);
@@ -307,10 +220,8 @@ void Hero::Impl::take_impacts() {
 
 /// Whether the hero overlaps nothing at a position at the end of the step.
 bool Hero::Impl::is_free_at_end(const Vec2d& position) {
-  std::vector<MoverMotion<double>> ends;
-  for (const MoverMotion<double>& motion : level.motions().first(stage->scenery.mover_count()))
-    ends.push_back({motion.to, motion.to});
-  return stage->controller.overlaps(position, {.dt = 1, .movers = ends}, stage->scratch) == 0U;
+  return controller.overlaps(
+             position, {.dt = 1}, [this](const auto& box, auto& found) { fixtures.find(box, found); }, true) == 0U;
 }
 
 /// Moving bodies take the hero along, but squeeze it out no faster than they go themselves, or than Box2D moved the
@@ -320,13 +231,12 @@ void Hero::Impl::limit_squeeze(const CharacterState<double>& before, const Vec2d
   double most = std::max((report.requested / dt + before.ride.velocity).norm(), state.ride.velocity.norm());
   bool is_pushed = false;
   for (const Contact<double>& contact : report.move.contacts) {
-    const MoverIndex mover = stage->scenery.collider(contact.collider).mover;
-    if (mover == no_mover || contact.collider == state.ride.ground) continue;
+    b2Fixture& fixture = *fixtures.fixture_of(contact.collider);
+    const b2Body& other = *fixture.GetBody();
+    if (other.GetType() == b2_staticBody || contact.collider == state.ride.ground) continue;
     is_pushed = true;
-    const b2Body& other = *level.fixture(contact.collider)->GetBody();
-    const MoverMotion<double>& motion = level.motions()[mover];
     const bool has_mass = other.GetType() == b2_dynamicBody;
-    most = std::max(most, has_mass ? body_velocity.norm() : Vec2d(motion.to - motion.from).norm() / dt);
+    most = std::max(most, has_mass ? body_velocity.norm() : way_of(contact.point, fixtures.motion_of(fixture)) / dt);
     if (!has_mass) continue;
     // What Box2D moved a body to part it from others is no velocity of the body, and becomes none of the hero.
     const Vec2d its = widened(other.GetLinearVelocityFromWorldPoint(rounded(contact.point)));
@@ -351,34 +261,31 @@ void Hero::Impl::limit_squeeze(const CharacterState<double>& before, const Vec2d
 }
 
 void Hero::Impl::note_step() {
-  ground_normal = report.move.ground.normal;
-  ride = state.ride.ground == Ride<double>::none ? nullptr : level.fixture(state.ride.ground);
-  crushers.clear();
-  for (const Crusher<double>& crusher : state.crushers) crushers.push_back(level.fixture(crusher.collider));
   crushed_by.clear();
-  for (const ColliderIndex collider : report.move.crushed) crushed_by.push_back(level.fixture(collider));
-  fixtures.assign(level.fixtures().begin(), level.fixtures().end());
+  for (const ColliderIndex collider : report.move.crushed) crushed_by.push_back(fixtures.fixture_of(collider));
+  skipped.clear();
+  for (const ColliderIndex collider : controller.unusable()) skipped.push_back(fixtures.fixture_of(collider));
   note_sensors();
   note_contacts();
 }
 
 /// Sensors that the hero came to overlap, or ceased to, although it did not move there: it was placed, or the sensor
 /// was.
-void Hero::Impl::note_sensors_between_steps() {
+/// @param position where the step began.
+void Hero::Impl::note_sensors_between_steps(const Vec2d& position) {
   sensors.clear();
   std::vector<b2Fixture*> now;
-  if (sensor_stage) {
-    std::vector<MoverMotion<double>> begins;
-    for (const MoverMotion<double>& motion : level.motions().first(sensor_stage->scenery.mover_count()))
-      begins.push_back({motion.from, motion.from});
-    std::vector<ColliderIndex> found(level.fixtures().size());
-    const auto count =
-        sensor_stage->controller.overlaps(state.position, {.dt = 1, .movers = begins}, sensor_stage->scratch, found);
-    for (std::size_t i = 0; i < count.value_or(0); ++i) now.push_back(level.fixture(found[i]));
+  if (fixtures.any_sensor()) {
+    std::vector<ColliderIndex> found(16);
+    const auto find = [this](const auto& /*box*/, auto& near) { fixtures.find_sensors(near); };
+    std::size_t count = 0;
+    while ((count = sensor_controller.overlaps(position, {.dt = 1}, find, false, found).value_or(0)) > found.size())
+      found.resize(count);
+    for (std::size_t i = 0; i < count; ++i) now.push_back(fixtures.fixture_of(found[i]));
   }
   const auto report_missing = [&](const auto& from, const auto& in, SensorEvent<double>::Change change) {
     for (b2Fixture* sensor : from)
-      if (std::find(in.begin(), in.end(), sensor) == in.end() && level.collider_of(sensor) != no_collider)
+      if (std::find(in.begin(), in.end(), sensor) == in.end() && fixtures.is_near(sensor))
         sensors.push_back({sensor, change, 0});
   };
   report_missing(inside, now, SensorEvent<double>::Change::exit);
@@ -388,7 +295,7 @@ void Hero::Impl::note_sensors_between_steps() {
 
 void Hero::Impl::note_sensors() {
   for (const SensorEvent<double>& event : report.sensors) {
-    b2Fixture* sensor = level.fixture(event.sensor);
+    b2Fixture* sensor = fixtures.fixture_of(event.sensor);
     sensors.push_back({sensor, event.change, event.fraction});
     if (event.change == SensorEvent<double>::Change::enter)
       inside.push_back(sensor);
@@ -406,7 +313,7 @@ void Hero::Impl::note_contacts() {
     });
   };
   for (const Contact<double>& contact : report.move.contacts) {
-    b2Fixture* fixture = level.fixture(contact.collider);
+    b2Fixture* fixture = fixtures.fixture_of(contact.collider);
     if (of(contacts, fixture) != contacts.end()) continue;
     const bool is_new = of(contacts_before, fixture) == contacts_before.end();
     contacts.push_back({fixture, is_new ? HeroContact::Change::added : HeroContact::Change::persisted, contact});
@@ -439,15 +346,15 @@ Hero& Hero::operator=(Hero&&) noexcept = default;
 
 StepStatus Hero::step(const Input& input, double dt) {
   Impl& hero = *impl_;
-  return hero.advance(dt, [&](const StepContext<double>& context) {
-    return hero.stage->controller.step(hero.state, input, context, hero.stage->scratch, hero.report);
+  return hero.advance(dt, [&](const StepContext<double>& context, const LocalController::Find& find) {
+    return hero.controller.step(hero.state, input, context, find, hero.report);
   });
 }
 
 StepStatus Hero::move(const Vec2d& displacement, double dt) {
   Impl& hero = *impl_;
-  return hero.advance(dt, [&](const StepContext<double>& context) {
-    return hero.stage->controller.move(hero.state, displacement, context, hero.stage->scratch, hero.report);
+  return hero.advance(dt, [&](const StepContext<double>& context, const LocalController::Find& find) {
+    return hero.controller.move(hero.state, displacement, context, find, hero.report);
   });
 }
 
@@ -456,11 +363,9 @@ const StepReport<double>& Hero::report() const noexcept { return impl_->report; 
 std::span<const HeroContact> Hero::contacts() const noexcept { return impl_->contacts; }
 std::span<const HeroSensorEvent> Hero::sensors() const noexcept { return impl_->sensors; }
 std::span<b2Fixture* const> Hero::crushed_by() const noexcept { return impl_->crushed_by; }
-std::span<b2Fixture* const> Hero::skipped() const noexcept { return impl_->level.skipped(); }
+std::span<b2Fixture* const> Hero::skipped() const noexcept { return impl_->skipped; }
 b2Body& Hero::body() const noexcept { return *impl_->body; }
-b2Fixture* Hero::fixture_of(ColliderIndex collider) const noexcept {
-  return collider < impl_->fixtures.size() ? impl_->fixtures[collider] : nullptr;
-}
+b2Fixture* Hero::fixture_of(ColliderIndex collider) const noexcept { return impl_->fixtures.fixture_of(collider); }
 
 b2Fixture* Hero::ground() const noexcept {
   const Ground<double>& ground = impl_->report.move.ground;
@@ -475,8 +380,6 @@ void Hero::place(const Vec2d& position, const Vec2d& velocity) {
   teleport(impl_->state, position);
   impl_->state.velocity = velocity;
   impl_->state.jumping = false;
-  impl_->ride = nullptr;
-  impl_->crushers.clear();
   impl_->body->SetTransform(rounded(position), 0);
   impl_->body->SetLinearVelocity(rounded(velocity));
 }
@@ -484,7 +387,6 @@ void Hero::place(const Vec2d& position, const Vec2d& velocity) {
 void Hero::knock_back(const Vec2d& velocity) {
   require_number(Vec2d(impl_->state.velocity + velocity), "velocity of a hero: must be below 1e6 m/s");
   paperproof::knock_back(impl_->state, velocity);
-  impl_->ride = nullptr;
 }
 
 void Hero::set_velocity(const Vec2d& velocity) {
@@ -505,12 +407,10 @@ bool Hero::change(const CharacterDef& character) {
   const Vec2d by = frame.in_world({across, old_box.lower.y() - box.lower.y()});
   const Vec2d position = hero.state.position + by;
   if (!hero.fits(character, position)) return false;
-  hero.def.character = character;
-  hero.stage.reset();
+  hero.change(character);
   hero.state.position = position;
   hero.state.last_free += by;
   hero.state.ride.place += by;
-  hero.remake_fixture();
   hero.body->SetTransform(rounded(position), 0);
   return true;
 }
@@ -521,29 +421,35 @@ void Hero::shift_origin(const Vec2d& new_origin) {
   hero.state.position -= new_origin;
   hero.state.last_free -= new_origin;
   for (Crusher<double>& crusher : hero.state.crushers) crusher.last_free -= new_origin;
-  hero.level.shift_origin(new_origin);
+  hero.fixtures.shift_origin(new_origin);
   hero.body->SetTransform(rounded(hero.state.position), 0);
 }
 
 HeroSave Hero::save() const {
   const Impl& hero = *impl_;
-  const std::span<const BodyPose> poses = hero.level.poses();
-  return {hero.def.character,           hero.state,    hero.ground_normal, hero.ride, hero.crushers,
-          {poses.begin(), poses.end()}, hero.contacts, hero.inside};
+  const std::span<const BodyPose> poses = hero.fixtures.poses();
+  HeroSave save{hero.def.character,
+                hero.state,
+                hero.fixtures.fixture_of(hero.state.ride.ground),
+                {},
+                {poses.begin(), poses.end()},
+                hero.contacts,
+                hero.inside};
+  for (const Crusher<double>& crusher : hero.state.crushers)
+    save.crushers.push_back(hero.fixtures.fixture_of(crusher.collider));
+  return save;
 }
 
 void Hero::restore(const HeroSave& save) {
   Impl& hero = *impl_;
-  hero.def.character = save.character;
-  hero.stage.reset();
-  hero.remake_fixture();
+  hero.change(save.character);
   hero.state = save.state;
-  hero.ground_normal = save.ground_normal;
-  hero.ride = save.ride;
-  hero.crushers = save.crushers;
+  if (save.ride != nullptr) hero.state.ride.ground = hero.fixtures.id_of(save.ride);
+  for (std::size_t i = 0; i < save.crushers.size(); ++i)
+    if (save.crushers[i] != nullptr) hero.state.crushers[i].collider = hero.fixtures.id_of(save.crushers[i]);
   hero.contacts = save.contacts;
   hero.inside = save.inside;
-  hero.level.restore_poses(save.poses);
+  hero.fixtures.restore_poses(save.poses);
   hero.body->SetTransform(rounded(hero.state.position), 0);
   hero.body->SetLinearVelocity(rounded(hero.state.velocity));
 }

@@ -56,7 +56,8 @@ struct TurnedCollider {
 ///
 /// That the character's way is clear of what turns is proved for each step. Where the proof fails for 32 parts, too,
 /// the character stays in place, and what reaches it crushes it. Among movers that turn, gravity acts in each of the
-/// shorter steps. One-way colliders that turn are not proved.
+/// shorter steps; the report says what was requested as if the first of them were the whole. One-way colliders that
+/// turn are not proved.
 ///
 /// Not thread-safe.
 class LocalController {

@@ -25,14 +25,26 @@ std::int32_t cell_at(double coordinate, int grid) noexcept {
   return static_cast<std::int32_t>(std::floor(std::ldexp(coordinate, -grid)));
 }
 
+/// A convex polygon like most, which needs no closer look.
+bool is_plain(const ColliderDef& def) {
+  const auto usual = [](double value) { return value == 0 || (std::abs(value) >= 1e-80 && std::abs(value) <= 1e6); };
+  return def.shape == ColliderDef::Shape::polygon && def.holes.empty() && !def.one_way && def.surface_speed == 0 &&
+         std::all_of(def.points.begin(), def.points.end(),
+                     [&](const Vec2d& point) { return usual(point.x()) && usual(point.y()); }) &&
+         geometry::is_convex(def.points);
+}
+
 /// Checks a collider as a scenery does, alone.
 void check(const ColliderDef& def) {
   if (def.mover != no_mover && def.mover >= most_movers)
     throw InvalidScenery(0, "the mover of a collider in a level must be below 65,536");
+  if (is_plain(def)) return;
   SceneryDef alone{{def}};
   if (def.mover != no_mover) alone.colliders[0].mover = 0;
   const Scenery<double> checked(alone);
 }
+
+bool by_id(const NearCollider& a, const NearCollider& b) noexcept { return a.id < b.id; }
 
 bool is_usable(const Pose& pose) noexcept {
   // Written so that NaN is not.
@@ -196,6 +208,7 @@ LocalController::Find LevelController::finder(const LevelContext& context) {
     if (edits_ != level_->edits() || !(read_.lower == box.lower && read_.upper == box.upper)) {
       standing_.clear();
       level_->find_standing(box, standing_);
+      std::sort(standing_.begin(), standing_.end(), by_id);
       read_ = box;
       edits_ = level_->edits();
     }

@@ -119,10 +119,11 @@ struct FilterOfIds {
   [[nodiscard]] ColliderFilter local() const noexcept {
     ColliderFilter result = *filter;
     result.user = this;
-    if (filter->is_there != nullptr) result.is_there = [](ColliderIndex collider, const void* user) {
-      const auto& self = *static_cast<const FilterOfIds*>(user);
-      return self.filter->is_there(self.ids[collider], self.filter->user);
-    };
+    if (filter->is_there != nullptr)
+      result.is_there = [](ColliderIndex collider, const void* user) {
+        const auto& self = *static_cast<const FilterOfIds*>(user);
+        return self.filter->is_there(self.ids[collider], self.filter->user);
+      };
     return result;
   }
 };
@@ -164,8 +165,7 @@ struct LocalController::Impl {
   [[nodiscard]] int parts_for(const CharacterState<double>& state, const StepContext<double>& context) const;
   [[nodiscard]] Part turn(double begin, double end, const Vec2d& position);
   [[nodiscard]] Approach approach_of(MoverIndex mover, double fraction, const Vec2d& position) const;
-  [[nodiscard]] bool is_proved(const Part& part, const MoveResult<double>& move,
-                               const StepContext<double>& context);
+  [[nodiscard]] bool is_proved(const Part& part, const MoveResult<double>& move, const StepContext<double>& context);
   [[nodiscard]] bool blocks(ColliderIndex collider, const StepContext<double>& context) const;
   [[nodiscard]] Pose turned_pose(const NearCollider& collider, const Part& part) const;
   void note_vertices(const Part& part);
@@ -182,7 +182,7 @@ struct LocalController::Impl {
 
   CharacterDef character;
   Box2<double> box{Vec2d::Constant(1), Vec2d::Constant(-1)};  ///< That was read.
-  std::vector<NearCollider> near;                              ///< In it, by id.
+  std::vector<NearCollider> near;                             ///< In it, by id.
   std::vector<NearCollider> near_before;
   std::vector<NearMover> movers;  ///< Of them.
   bool any_turns = false;
@@ -204,10 +204,12 @@ Box2<double> LocalController::Impl::box_needed(const CharacterState<double>& sta
                                                const StepContext<double>& context) const {
   const double dt = context.dt;
   const double acceleration = character.acceleration + character.air_acceleration.value_or(0) + context.gravity.norm();
-  const double speed = state.velocity.norm() + state.ride.velocity.norm() + character.jump_speed + acceleration * dt;
-  const double reach = speed * dt + character.snap + character.step_height + 2 * most_turned;
+  const double reach =
+      (character.jump_speed + acceleration * dt) * dt + character.snap + character.step_height + 2 * most_turned;
+  const Vec2d goes = state.position + (state.velocity + state.ride.velocity) * dt;
+  const Box2<double> way{state.position.cwiseMin(goes), state.position.cwiseMax(goes)};
   const Box2<double>& extent = character.shape.box();
-  return Box2<double>{state.position + extent.lower, state.position + extent.upper}.inflated(reach);
+  return Box2<double>{way.lower + extent.lower, way.upper + extent.upper}.inflated(reach);
 }
 
 /// Whether everything was read that decides a move. A way out of solids may lead farther.
@@ -224,14 +226,14 @@ void LocalController::Impl::read(const Box2<double>& needed, const Find& find) {
   near.swap(near_before);
   near.clear();
   find(box, near);
-  std::sort(near.begin(), near.end(), [](const NearCollider& a, const NearCollider& b) { return a.id < b.id; });
+  const auto by_id = [](const NearCollider& a, const NearCollider& b) { return a.id < b.id; };
+  if (!std::is_sorted(near.begin(), near.end(), by_id)) std::sort(near.begin(), near.end(), by_id);
   const auto same_id = [](const NearCollider& a, const NearCollider& b) { return a.id == b.id; };
   near.erase(std::unique(near.begin(), near.end(), same_id), near.end());
-  const bool is_same =
-      std::equal(near.begin(), near.end(), near_before.begin(), near_before.end(),
-                 [](const NearCollider& a, const NearCollider& b) {
-                   return a.id == b.id && a.version == b.version && a.mover == b.mover;
-                 });
+  const bool is_same = std::equal(near.begin(), near.end(), near_before.begin(), near_before.end(),
+                                  [](const NearCollider& a, const NearCollider& b) {
+                                    return a.id == b.id && a.version == b.version && a.mover == b.mover;
+                                  });
   movers.clear();
   any_turns = false;
   for (const NearCollider& collider : near) {
@@ -244,8 +246,8 @@ void LocalController::Impl::read(const Box2<double>& needed, const Find& find) {
 
 MoverIndex LocalController::Impl::mover_of(const NearCollider& collider) const noexcept {
   if (collider.mover == no_mover) return no_mover;
-  const auto known = std::find_if(movers.begin(), movers.end(),
-                                  [&](const NearMover& mover) { return mover.mover == collider.mover; });
+  const auto known =
+      std::find_if(movers.begin(), movers.end(), [&](const NearMover& mover) { return mover.mover == collider.mover; });
   return static_cast<MoverIndex>(known - movers.begin());
 }
 
@@ -340,8 +342,7 @@ StepContext<double> LocalController::Impl::local_context(StepContext<double> con
 
 std::span<const MoverMotion<double>> LocalController::Impl::straight_motions() {
   motions.clear();
-  for (const NearMover& mover : movers)
-    motions.push_back({mover.motion.from.position, mover.motion.to.position});
+  for (const NearMover& mover : movers) motions.push_back({mover.motion.from.position, mover.motion.to.position});
   return motions;
 }
 
@@ -363,7 +364,8 @@ StepStatus LocalController::Impl::advance(CharacterState<double>& state, const S
       status = step_among_turning(state, context, report, go);
     } else {
       to_local(state);
-      status = go(surroundings->controller, state, local_context(context, straight_motions()), 1.0, surroundings->scratch, report);
+      status = go(surroundings->controller, state, local_context(context, straight_motions()), 1.0,
+                  surroundings->scratch, report);
       if (status != StepStatus::invalid_input) to_ids(report);
       to_ids(state);
     }
@@ -373,7 +375,8 @@ StepStatus LocalController::Impl::advance(CharacterState<double>& state, const S
     }
     if (contains(report.move)) return status;
     for (const PathPoint<double>& corner : report.move.path)
-      needed = needed.merged(Box2<double>{corner.position, corner.position}.inflated(2 * (character.shape.box().upper - character.shape.box().lower).maxCoeff() + 1));
+      needed = needed.merged(Box2<double>{corner.position, corner.position}.inflated(
+          2 * (character.shape.box().upper - character.shape.box().lower).maxCoeff() + 1));
   }
 }
 
@@ -381,11 +384,12 @@ StepStatus LocalController::Impl::advance(CharacterState<double>& state, const S
 int LocalController::Impl::parts_for(const CharacterState<double>& state, const StepContext<double>& context) const {
   const Box2<double>& extent = character.shape.box();
   const double size = (extent.upper - extent.lower).norm();
-  const Vec2d reach = box_needed(state, context).upper - state.position - extent.upper;
+  const Box2<double> needed = box_needed(state, context);
+  const double reach = (needed.upper - needed.lower).norm();
   double most = 0;
   for (MoverIndex i = 0; i < movers.size(); ++i) {
     const double way = (movers[i].motion.to.position - movers[i].motion.from.position).norm();
-    if (movers[i].turn() == 0 || approach_of(i, 0, state.position).distance > size + reach.maxCoeff() + way) continue;
+    if (movers[i].turn() == 0 || approach_of(i, 0, state.position).distance > reach + way) continue;
     most = std::max(most, std::abs(movers[i].turn()) * size);
   }
   int parts = 1;
@@ -400,8 +404,8 @@ Approach LocalController::Impl::approach_of(MoverIndex mover, double fraction, c
     if (mover_of(collider) != mover || collider.def->sensor) continue;
     const std::vector<Vec2d> outline = vertices_at(*collider.def, pose_at(collider.motion, fraction));
     const bool closed = collider.def->shape == ColliderDef::Shape::polygon;
-    const Approach here = nearest(std::span(outline).first(collider.def->points.size()), closed, character.shape.hull(),
-                                  position);
+    const Approach here =
+        nearest(std::span(outline).first(collider.def->points.size()), closed, character.shape.hull(), position);
     if (here.distance < best.distance) best = here;
   }
   return best;
@@ -436,7 +440,8 @@ Pose LocalController::Impl::turned_pose(const NearCollider& collider, const Part
 
 bool LocalController::Impl::blocks(ColliderIndex collider, const StepContext<double>& context) const {
   const ColliderDef& def = *at(collider).def;
-  return !def.sensor && !def.one_way && (context.filter == nullptr || (*context.filter)(surroundings->scenery, collider));
+  return !def.sensor && !def.one_way &&
+         (context.filter == nullptr || (*context.filter)(surroundings->scenery, collider));
 }
 
 const std::vector<std::vector<Vec2d>>& LocalController::Impl::pieces(const NearCollider& collider) {
@@ -512,7 +517,8 @@ void LocalController::Impl::append(const StepReport<double>& added, const Part& 
   if (turning == 1) to.path.push_back({from.path[0].position, part.turned()});
   for (std::size_t i = 1; i < from.path.size(); ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(turning - 1);
-    const double fraction = i < turning ? part.begin + (part.turned() - part.begin) * share : when(from.path[i].fraction);
+    const double fraction =
+        i < turning ? part.begin + (part.turned() - part.begin) * share : when(from.path[i].fraction);
     to.path.push_back({from.path[i].position, i + 1 == turning ? part.turned() : fraction});
   }
   for (Contact<double> contact : from.contacts) {
@@ -529,8 +535,10 @@ void LocalController::Impl::append(const StepReport<double>& added, const Part& 
     if (std::find(report.dropped_through.begin(), report.dropped_through.end(), collider) ==
         report.dropped_through.end())
       report.dropped_through.push_back(collider);
-  report.requested += added.requested;
-  report.steered += added.steered;
+  if (part.begin == 0) {
+    report.requested = added.requested / part.end;
+    report.steered = added.steered / part.end;
+  }
   if (rank(from.status) > rank(to.status)) to.status = from.status;
   report.status = step_parts::status_of(to.status);
   to.position = from.position;
@@ -618,8 +626,7 @@ StepStatus LocalController::Impl::stay(CharacterState<double>& state, const Step
     turned_.push_back(std::move(way));
     if (!is_reached || !blocks(i, context)) continue;
     move.crushed.push_back(collider.id);
-    if (reaches(collider, state.position, 1, 1))
-      move.crushers.push_back({collider.id, state.position, {0, 0}, true});
+    if (reaches(collider, state.position, 1, 1)) move.crushers.push_back({collider.id, state.position, {0, 0}, true});
   }
   step_parts::adopt(character, context.up, move, state);
   return report.status = StepStatus::crushed;
@@ -634,9 +641,8 @@ StepStatus LocalController::step(CharacterState<double>& state, const Input& inp
                                  const Find& find, StepReport<double>& report) {
   return impl_->advance(state, context, find, report,
                         [&](const Controller<double>& controller, CharacterState<double>& of, const auto& here,
-                            double /*share*/, Scratch<double>& scratch, StepReport<double>& result) {
-                          return controller.step(of, input, here, scratch, result);
-                        });
+                            double /*share*/, Scratch<double>& scratch,
+                            StepReport<double>& result) { return controller.step(of, input, here, scratch, result); });
 }
 
 StepStatus LocalController::move(CharacterState<double>& state, const Vec2d& displacement,

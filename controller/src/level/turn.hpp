@@ -8,8 +8,8 @@
 
 namespace paperproof::level {
 
-/// The way of a convex piece: each vertex goes evenly from one place to another. Counter-clockwise, or the two ends of a
-/// segment; at both times.
+/// The way of a convex piece: each vertex goes evenly from one place to another. Counter-clockwise, or the two ends of
+/// a segment; at both times.
 struct PieceWay {
   std::vector<Vec2d> from;
   std::vector<Vec2d> to;

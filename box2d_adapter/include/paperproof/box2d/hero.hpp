@@ -77,7 +77,6 @@ struct BodyPose {
 struct HeroSave {
   CharacterDef character;
   CharacterState<double> state;
-  Vec2d ground_normal{0, 1};
   b2Fixture* ride = nullptr;           ///< What `state.ride` is on.
   std::vector<b2Fixture*> crushers{};  ///< What `state.crushers` are.
   std::vector<BodyPose> poses{};       ///< Of the bodies near it.
@@ -97,10 +96,8 @@ struct HeroSave {
 /// - Static bodies stand. Kinematic and dynamic bodies move from where they were in the hero's last step to where they
 ///   are now, and carry, push and crush it on this way. A body that went half a metre
 ///   farther than its velocity explains was put there by the game.
-/// - A body that turns has its new angle from the beginning of the step, turned about its point nearest to the hero; of
-///   a body on which the hero stands, about the point under its foot. Among bodies that do not turn, the guarantees of
-///   the controller hold (see controller/README.md). A body that turns may come to overlap the hero; the hero then goes
-///   the shortest way out, in the same step.
+/// - A body that turns does so at the beginning of the step, or of several shorter ones, about its point nearest to the
+///   hero: see `LocalController`. Each step proves that nothing passes through the hero, and names what crushed it.
 /// - Polygons, edges and chains are exact, without Box2D's skin; a circle is a polygon around it. Edges and chains
 ///   block from both sides, unless `HeroDef::surface_of` says otherwise.
 ///

@@ -1,0 +1,329 @@
+#include "near_fixtures.hpp"
+
+#include "float_geometry.hpp"
+#include "shapes.hpp"
+
+#include <paperproof/box2d/world_scenery.hpp>
+
+#include <box2d/b2_body.h>
+#include <box2d/b2_chain_shape.h>
+#include <box2d/b2_circle_shape.h>
+#include <box2d/b2_edge_shape.h>
+#include <box2d/b2_polygon_shape.h>
+#include <box2d/b2_world.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <utility>
+
+namespace paperproof::box2d {
+namespace {
+
+/// A body that went so much farther than its velocity explains was put there by the game [m]. Zero: platforms that a
+/// game moves by their place carry nobody. Large: a body that takes the address of another one sweeps the hero along.
+constexpr double longest_jump = 0.5;
+
+/// So many vertices of a chain are compared from step to step; of a longer chain as many, evenly.
+constexpr int compared_vertices = 1024;
+
+class Collector : public b2QueryCallback {
+ public:
+  explicit Collector(std::vector<b2Fixture*>& found) noexcept : found_(found) {}
+  bool ReportFixture(b2Fixture* fixture) override {
+    found_.push_back(fixture);
+    return true;
+  }
+
+ private:
+  std::vector<b2Fixture*>& found_;
+};
+
+/// Not smaller than the box in double.
+b2AABB rounded_outwards(const Box2<double>& box) {
+  const auto slack = [](double value) { return 1e-3 + std::abs(value) * 1e-6; };
+  b2AABB result;
+  result.lowerBound = rounded(Vec2d(box.lower - Vec2d(slack(box.lower.x()), slack(box.lower.y()))));
+  result.upperBound = rounded(Vec2d(box.upper + Vec2d(slack(box.upper.x()), slack(box.upper.y()))));
+  return result;
+}
+
+/// Fowler, Noll, Vo: FNV-1a, over words.
+class Hash {
+ public:
+  Hash& add(std::uint64_t word) noexcept {
+    value_ = (value_ ^ word) * 0x100000001b3;
+    return *this;
+  }
+  Hash& add(const b2Vec2& v) noexcept {
+    return add(std::uint64_t{std::bit_cast<std::uint32_t>(v.x)} << 32U | std::bit_cast<std::uint32_t>(v.y));
+  }
+  [[nodiscard]] std::uint64_t value() const noexcept { return value_; }
+
+ private:
+  std::uint64_t value_ = 0xcbf29ce484222325;
+};
+
+std::uint64_t hash_of(const b2Shape& shape) {
+  Hash hash;
+  hash.add(static_cast<std::uint64_t>(shape.GetType()));
+  switch (shape.GetType()) {
+    case b2Shape::e_circle: {
+      const auto& circle = static_cast<const b2CircleShape&>(shape);
+      return hash.add(circle.m_p).add(b2Vec2(circle.m_radius, 0)).value();
+    }
+    case b2Shape::e_edge: {
+      const auto& edge = static_cast<const b2EdgeShape&>(shape);
+      return hash.add(edge.m_vertex1).add(edge.m_vertex2).value();
+    }
+    case b2Shape::e_polygon: {
+      const auto& polygon = static_cast<const b2PolygonShape&>(shape);
+      for (int i = 0; i < polygon.m_count; ++i) hash.add(polygon.m_vertices[i]);
+      return hash.value();
+    }
+    case b2Shape::e_chain: {
+      const auto& chain = static_cast<const b2ChainShape&>(shape);
+      hash.add(static_cast<std::uint64_t>(chain.m_count));
+      const int every = chain.m_count / compared_vertices + 1;
+      for (int i = 0; i < chain.m_count; i += every) hash.add(chain.m_vertices[i]);
+      return hash.value();
+    }
+    case b2Shape::e_typeCount:
+      break;
+  }
+  return hash.value();
+}
+
+/// A place of its own, without a turn.
+b2Transform at(const b2Vec2& place) {
+  b2Transform transform;
+  transform.Set(place, 0);
+  return transform;
+}
+
+bool is_circle(const b2Fixture& fixture) { return fixture.GetType() == b2Shape::e_circle; }
+
+Box2<double> box_around(std::span<const Vec2d> points) {
+  Box2<double> box{points[0], points[0]};
+  for (const Vec2d& point : points) box = box.merged({point, point});
+  return box;
+}
+
+/// The runs of segments of a chain that are near a box.
+std::vector<ColliderDef> cut_to(const Box2<double>& box, const ColliderDef& chain) {
+  std::vector<ColliderDef> runs;
+  bool goes_on = false;
+  for (std::size_t i = 0; i + 1 < chain.points.size(); ++i) {
+    const bool near = box.overlaps(box_around(std::span(chain.points).subspan(i, 2)));
+    if (near && !goes_on) {
+      runs.push_back({.shape = ColliderDef::Shape::chain, .points = {chain.points[i]}});
+    }
+    if (near) runs.back().points.push_back(chain.points[i + 1]);
+    goes_on = near;
+  }
+  return runs;
+}
+
+}  // namespace
+
+Vec2d place_of(const b2Body& body) {
+  b2Fixture* fixture = const_cast<b2Body&>(body).GetFixtureList();  // its user data cannot be read otherwise
+  const bool is_hero =
+      body.GetType() == b2_dynamicBody && fixture != nullptr && fixture->GetShape()->m_radius == -hero_inset;
+  return is_hero ? *reinterpret_cast<const Vec2d*>(fixture->GetUserData().pointer) : widened(body.GetPosition());
+}
+
+bool NearFixtures::Seen::operator==(const Seen& other) const noexcept {
+  return body == other.body && shape == other.shape && geometry == other.geometry && place == other.place &&
+         angle == other.angle && spin == other.spin && moves == other.moves && sensor == other.sensor &&
+         surface == other.surface && up == other.up && cut.lower == other.cut.lower && cut.upper == other.cut.upper;
+}
+
+void NearFixtures::begin_step(const HeroDef& def, const Vec2d& up, double dt) {
+  def_ = &def;
+  up_ = up;
+  dt_ = dt;
+}
+
+NearFixtures::Seen NearFixtures::seen(b2Fixture& fixture, const Box2<double>& box) const {
+  const b2Body& body = *fixture.GetBody();
+  Seen result{.body = &body,
+              .shape = fixture.GetShape(),
+              .geometry = hash_of(*fixture.GetShape()),
+              .moves = body.GetType() != b2_staticBody,
+              .sensor = fixture.IsSensor(),
+              .surface = {},
+              .cut = {}};
+  if (!result.moves) {
+    result.place = body.GetPosition();
+    result.angle = body.GetAngle();
+  } else if (is_circle(fixture)) {
+    result.spin = body.GetAngularVelocity();
+  }
+  if (def_->surface_of && !result.sensor) result.surface = def_->surface_of(fixture);
+  if (result.surface.blocks == Blocking::from_above) result.up = up_;
+  const bool is_long = fixture.GetType() == b2Shape::e_chain && !result.moves && !result.sensor &&
+                       result.surface.blocks == Blocking::from_everywhere;
+  if (is_long) result.cut = box;
+  return result;
+}
+
+void NearFixtures::search(const Box2<double>& box) {
+  ++searches_;
+  near_.clear();
+  Collector collector(near_);
+  world_->QueryAABB(&collector, rounded_outwards(box));
+  std::sort(near_.begin(), near_.end());  // a chain is found once for each of its segments
+  near_.erase(std::unique(near_.begin(), near_.end()), near_.end());
+  const Filter filter = filter_of(*hero_->GetFixtureList());
+  std::vector<std::pair<b2Fixture*, Known*>> changed;
+  std::erase_if(near_, [&](b2Fixture* fixture) {
+    if (fixture->GetBody() == hero_ || !collide(filter, filter_of(*fixture))) return true;
+    const Seen now = seen(*fixture, box);
+    if (now.surface.blocks == Blocking::not_at_all) return true;
+    Known& known = known_[fixture];
+    const bool is_other = known.version != 0 && (known.seen.body != now.body || known.seen.shape != now.shape);
+    if (is_other) known = {};  // another one at the same address
+    known.found = searches_;
+    if (known.version != 0 && known.seen == now) return false;
+    known.seen = now;
+    changed.emplace_back(fixture, &known);
+    return false;
+  });
+  std::erase_if(known_, [&](const auto& entry) { return entry.second.found != searches_; });
+  // Not in the order of the addresses: steps must be the same in each run of a game.
+  const auto key = [](const std::pair<b2Fixture*, Known*>& entry) {
+    const b2AABB& extent = entry.first->GetAABB(0);
+    return std::tuple(extent.lowerBound.x, extent.lowerBound.y, extent.upperBound.x, extent.upperBound.y);
+  };
+  std::sort(changed.begin(), changed.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
+  for (const auto& [fixture, known] : changed) {
+    define(*known);
+    if (known->seen.moves && known->mover == no_mover) known->mover = mover_of(*known, fixture);
+    if (known->mover == movers_) ++movers_;
+  }
+}
+
+/// Makes the colliders of a fixture. Those that it had keep their ids.
+void NearFixtures::define(Known& known) {
+  const Seen& seen = known.seen;
+  known.version = ++versions_;
+  b2Transform transform = seen.moves ? at({0, 0}) : seen.body->GetTransform();
+  const bool is_wheel = seen.moves && seen.shape->GetType() == b2Shape::e_circle;
+  if (is_wheel) transform = at(-static_cast<const b2CircleShape*>(seen.shape)->m_p);
+  ColliderDef whole = collider_of(*seen.shape, transform, def_->circle_corners);
+  whole.sensor = seen.sensor;
+  whole.surface_speed = seen.surface.speed;
+  if (is_wheel) whole.surface_speed -= static_cast<double>(seen.spin) * static_cast<double>(seen.shape->m_radius);
+  if (seen.surface.blocks == Blocking::from_above) whole.one_way = seen.up;
+  const bool is_cut = !(seen.cut.lower == seen.cut.upper);
+  std::vector<ColliderDef> defs = is_cut ? cut_to(seen.cut, whole) : std::vector{std::move(whole)};
+  known.parts.resize(std::max(known.parts.size(), defs.size()));
+  for (std::size_t i = 0; i < known.parts.size(); ++i) {
+    if (known.parts[i].id == no_collider) known.parts[i].id = ids_++;
+    known.parts[i].def = i < defs.size() ? std::move(defs[i]) : ColliderDef{};
+  }
+}
+
+/// That of the other fixtures of its body. A circle is a mover of its own: it does not turn.
+MoverIndex NearFixtures::mover_of(const Known& known, const b2Fixture* fixture) const {
+  if (is_circle(*fixture)) return movers_;
+  const auto other = std::find_if(known_.begin(), known_.end(), [&](const auto& entry) {
+    return entry.second.seen.body == known.seen.body && entry.second.mover != no_mover && !is_circle(*entry.first);
+  });
+  return other == known_.end() ? movers_ : other->second.mover;
+}
+
+void NearFixtures::add(b2Fixture* fixture, std::vector<NearCollider>& found) const {
+  const Known& known = known_.at(fixture);
+  const PoseMotion motion = known.mover == no_mover ? PoseMotion{} : motion_of(*fixture);
+  for (const Part& part : known.parts)
+    if (!part.def.points.empty()) found.push_back({part.id, known.version, &part.def, known.mover, motion});
+}
+
+void NearFixtures::find(const Box2<double>& box, std::vector<NearCollider>& found) {
+  search(box);
+  for (b2Fixture* fixture : near_) add(fixture, found);
+}
+
+void NearFixtures::find_sensors(std::vector<NearCollider>& found) {
+  for (b2Fixture* fixture : near_)
+    if (fixture->IsSensor()) add(fixture, found);
+  solid_sensors_.clear();
+  solid_sensors_.reserve(found.size());
+  for (NearCollider& collider : found) {
+    solid_sensors_.push_back(*collider.def);
+    solid_sensors_.back().sensor = false;
+    collider.def = &solid_sensors_.back();
+  }
+}
+
+b2Fixture* NearFixtures::fixture_of(ColliderIndex id) const noexcept {
+  for (b2Fixture* fixture : near_)
+    for (const Part& part : known_.at(fixture).parts)
+      if (part.id == id) return fixture;
+  return nullptr;
+}
+
+ColliderIndex NearFixtures::id_of(b2Fixture* fixture) {
+  Known& known = known_[fixture];
+  if (known.parts.empty()) known.parts.push_back({ids_++, {}});
+  return known.parts[0].id;
+}
+
+bool NearFixtures::is_near(const b2Fixture* fixture) const noexcept {
+  return std::find(near_.begin(), near_.end(), fixture) != near_.end();
+}
+
+bool NearFixtures::any_sensor() const noexcept {
+  return std::any_of(near_.begin(), near_.end(), [](const b2Fixture* fixture) { return fixture->IsSensor(); });
+}
+
+void NearFixtures::note_poses() {
+  poses_.clear();
+  for (b2Fixture* fixture : near_) {
+    const b2Body& body = *fixture->GetBody();
+    const auto is_its = [&](const BodyPose& pose) { return pose.body == &body; };
+    if (body.GetType() == b2_staticBody || std::any_of(poses_.begin(), poses_.end(), is_its)) continue;
+    const double speed = widened(body.GetLinearVelocity()).norm();
+    poses_.push_back({&body, place_of(body), static_cast<double>(body.GetAngle()), speed});
+  }
+}
+
+void NearFixtures::shift_origin(const Vec2d& new_origin) {
+  for (BodyPose& pose : poses_) pose.position -= new_origin;
+}
+
+BodyPose NearFixtures::begin_of(const b2Body& body) const {
+  const Vec2d now = place_of(body);
+  const double angle = static_cast<double>(body.GetAngle());
+  Vec2d way = widened(body.GetLinearVelocity()) * dt_;
+  const auto known =
+      std::find_if(poses_.begin(), poses_.end(), [&](const BodyPose& pose) { return pose.body == &body; });
+  if (known != poses_.end()) {
+    const double explained = std::max(way.norm(), known->speed * dt_) + longest_jump;
+    if ((now - known->position).norm() <= explained) return *known;
+  }
+  if (!body.IsAwake() || !body.IsEnabled()) return {&body, now, angle};
+  if (way.norm() > b2_maxTranslation) way *= b2_maxTranslation / way.norm();
+  return {&body, now - way, angle - static_cast<double>(body.GetAngularVelocity()) * dt_};
+}
+
+PoseMotion NearFixtures::motion_of(b2Fixture& fixture) const {
+  const b2Body& body = *fixture.GetBody();
+  const BodyPose begin = begin_of(body);
+  const Pose from{begin.position, begin.angle};
+  const Pose to{place_of(body), static_cast<double>(body.GetAngle())};
+  if (!is_circle(fixture)) return {from, to};
+  const Vec2d centre = widened(static_cast<const b2CircleShape*>(fixture.GetShape())->m_p);
+  const auto centre_at = [&](const Pose& pose) -> Vec2d {
+    const double c = std::cos(pose.angle);
+    const double s = std::sin(pose.angle);
+    return pose.position + Vec2d(c * centre.x() - s * centre.y(), s * centre.x() + c * centre.y());
+  };
+  return {{centre_at(from), 0}, {centre_at(to), 0}};
+}
+
+}  // namespace paperproof::box2d

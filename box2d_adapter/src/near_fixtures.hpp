@@ -1,0 +1,108 @@
+/// The fixtures of a `b2World` that are near a hero, as colliders of a `LocalController`.
+#pragma once
+
+#include <paperproof/box2d/hero.hpp>
+#include <paperproof/local_controller.hpp>
+
+#include <box2d/b2_math.h>
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+class b2Shape;
+
+namespace paperproof::box2d {
+
+/// How much smaller than a fixture without a skin the fixture of a hero is for Box2D [m]. A polygon's skin is 1 cm: so
+/// the two touch within 6.5 mm. Less than 6.25 mm: Box2D lets bodies rest 5 mm inside each other, give or take 1.25 mm,
+/// and a crate would come to rest inside the hero. Much more: it pushes apart what the hero only touches.
+inline constexpr float hero_inset = 0.0035F;
+
+/// Where a body is: of another hero where that hero is, as the world moves its body before it steps [m].
+[[nodiscard]] Vec2d place_of(const b2Body& body);
+
+/// Reads fixtures anew in each step. What did not change keeps its id, its definition and its version.
+class NearFixtures {
+ public:
+  NearFixtures(b2World& world, const b2Body& hero) noexcept : world_(&world), hero_(&hero) {}
+
+  /// Before the first `find` of a step.
+  /// @param up the side from which ledges block.
+  /// @param dt for the motion of a body that was not near in the last step.
+  void begin_step(const HeroDef& def, const Vec2d& up, double dt);
+  /// See `LocalController::Find`. Reads all fixtures in a box, and how their bodies moved since `note_poses`.
+  void find(const Box2<double>& box, std::vector<NearCollider>& found);
+  /// The sensors alone that the last `find` found, as if they were solid.
+  /// @param found is empty.
+  void find_sensors(std::vector<NearCollider>& found);
+  /// The bodies are where they are when the next step begins.
+  void note_poses();
+
+  /// Null for a collider that was not found in the last step.
+  [[nodiscard]] b2Fixture* fixture_of(ColliderIndex id) const noexcept;
+  /// The id of (the first part of) a fixture. One that is not known gets one.
+  [[nodiscard]] ColliderIndex id_of(b2Fixture* fixture);
+  /// Whether a fixture was found in the last step.
+  [[nodiscard]] bool is_near(const b2Fixture* fixture) const noexcept;
+  [[nodiscard]] bool any_sensor() const noexcept;
+  /// Of the body of a fixture that was found in the last step.
+  [[nodiscard]] PoseMotion motion_of(b2Fixture& fixture) const;
+
+  void shift_origin(const Vec2d& new_origin);
+  [[nodiscard]] std::span<const BodyPose> poses() const noexcept { return poses_; }
+  void restore_poses(std::span<const BodyPose> poses) { poses_.assign(poses.begin(), poses.end()); }
+
+ private:
+  /// All of a fixture that its colliders are made of.
+  struct Seen {
+    const b2Body* body = nullptr;
+    const b2Shape* shape = nullptr;
+    std::uint64_t geometry = 0;  ///< A hash of the shape's numbers.
+    b2Vec2 place{0, 0};          ///< Of a body that stands; zero of one that moves.
+    float angle = 0;             ///< The same.
+    float spin = 0;              ///< Of a circle on a body that turns [radians/s].
+    bool moves = false;
+    bool sensor = false;
+    Surface surface;
+    Vec2d up{0, 1};    ///< Of a ledge; else always the same.
+    Box2<double> cut;  ///< To which a long chain is cut; else always the same.
+    bool operator==(const Seen& other) const noexcept;
+  };
+  struct Part {
+    ColliderIndex id = no_collider;
+    ColliderDef def;
+  };
+  struct Known {
+    Seen seen;
+    std::uint64_t version = 0;
+    MoverIndex mover = no_mover;
+    std::vector<Part> parts;  ///< One, but of a chain that is cut.
+    std::uint64_t found = 0;  ///< In this search last.
+  };
+
+  void search(const Box2<double>& box);
+  void add(b2Fixture* fixture, std::vector<NearCollider>& found) const;
+  [[nodiscard]] Seen seen(b2Fixture& fixture, const Box2<double>& box) const;
+  void define(Known& known);
+  [[nodiscard]] MoverIndex mover_of(const Known& known, const b2Fixture* fixture) const;
+  /// Where a body was when the step began.
+  [[nodiscard]] BodyPose begin_of(const b2Body& body) const;
+
+  b2World* world_;
+  const b2Body* hero_;
+  const HeroDef* def_ = nullptr;
+  Vec2d up_{0, 1};
+  double dt_ = 0;
+  std::map<b2Fixture*, Known> known_;
+  std::vector<b2Fixture*> near_;  ///< Found in the last search.
+  std::vector<BodyPose> poses_;
+  std::vector<ColliderDef> solid_sensors_;
+  std::uint64_t searches_ = 0;
+  std::uint64_t versions_ = 0;
+  ColliderIndex ids_ = 0;
+  MoverIndex movers_ = 0;
+};
+
+}  // namespace paperproof::box2d

@@ -1,0 +1,420 @@
+/// A level that changes between steps, against scenery that is built at once; and movers that turn.
+#include <paperproof/level.hpp>
+
+#include "level/turn.hpp"
+#include "support/play_levels.hpp"
+#include "support/random.hpp"
+#include "support/steps_wanted.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <tuple>
+
+namespace paperproof::test {
+namespace {
+
+constexpr double frame = 1.0 / 60;
+constexpr double pi = std::numbers::pi;
+
+ColliderDef box(double left, double bottom, double right, double top, MoverIndex mover = no_mover) {
+  return {.points = {{left, bottom}, {right, bottom}, {right, top}, {left, top}}, .mover = mover};
+}
+
+/// The order in which a step sees colliders.
+void put_in_order(SceneryDef& def) {
+  const auto key = [](const ColliderDef& collider) {
+    Vec2d lower = collider.points[0];
+    Vec2d upper = lower;
+    for (const Vec2d& point : collider.points) {
+      lower = lower.cwiseMin(point);
+      upper = upper.cwiseMax(point);
+    }
+    return std::tuple(collider.mover + 1, lower.x(), lower.y(), upper.x(), upper.y(), collider.points.size());
+  };
+  std::stable_sort(def.colliders.begin(), def.colliders.end(),
+                   [&](const ColliderDef& a, const ColliderDef& b) { return key(a) < key(b); });
+}
+
+Input random_input(Random& random) {
+  return {.move = static_cast<double>(random.integer(-1, 1)), .jump = random.chance(0.4)};
+}
+
+TEST(LevelIds, count_from_zero_and_never_name_another_collider) {
+  Level level;
+  EXPECT_EQ(level.add(box(0, 0, 1, 1)), 0U);
+  EXPECT_EQ(level.add(box(1, 0, 2, 1)), 1U);
+  std::vector<ColliderIndex> stale;
+  for (int i = 0; i < 1000; ++i) {
+    const ColliderIndex id = level.add(box(2, 0, 3 + i, 1));
+    EXPECT_EQ(std::find(stale.begin(), stale.end(), id), stale.end());
+    EXPECT_TRUE(level.remove(id));
+    stale.push_back(id);
+  }
+  level.add(box(2, 0, 3, 1));
+  for (const ColliderIndex id : stale) {
+    EXPECT_EQ(level.find(id), nullptr);
+    EXPECT_FALSE(level.remove(id));
+    EXPECT_FALSE(level.replace(id, box(0, 0, 1, 1)));
+  }
+  EXPECT_EQ(level.size(), 3U);
+  EXPECT_EQ(level.find(no_collider), nullptr);
+}
+
+TEST(LevelEdits, what_is_refused_changes_nothing) {
+  Level level(SceneryDef{{box(0, 0, 1, 1)}});
+  const std::uint64_t edits = level.edits();
+  EXPECT_THROW(level.add({.points = {{0, 0}, {1, 0}}}), InvalidScenery);
+  EXPECT_THROW(level.add({.points = {{0, 0}, {1, 0}, {2, 0}}}), InvalidScenery);
+  EXPECT_THROW(level.add({.points = {{0, 0}, {std::nan(""), 0}, {2, 1}}}), InvalidScenery);
+  EXPECT_THROW(level.add({.points = {{0, 0}, {3e6, 0}, {2, 1}}}), InvalidScenery);
+  EXPECT_THROW(level.add(box(0, 0, 1, 1, 65'536)), InvalidScenery);
+  EXPECT_THROW(level.replace(0, {.points = {{0, 0}, {1, 0}}}), InvalidScenery);
+  EXPECT_EQ(level.edits(), edits);
+  EXPECT_EQ(level.size(), 1U);
+  try {
+    const Level refused(SceneryDef{{box(0, 0, 1, 1), {.points = {{0, 0}}}}});
+    FAIL();
+  } catch (const InvalidScenery& reason) {
+    EXPECT_EQ(reason.collider(), 1U);
+  }
+}
+
+TEST(LevelSteps, are_refused_without_a_pose_for_each_mover) {
+  Level level(SceneryDef{{box(0, 0, 1, 1, 1)}});
+  LevelController controller(level, {});
+  CharacterState<double> state;
+  StepReport<double> report;
+  std::vector<PoseMotion> movers(1);
+  EXPECT_EQ(controller.step(state, {}, {{0, -30}, frame, movers}, report), StepStatus::invalid_input);
+  movers.resize(2);
+  movers[1].to.angle = std::nan("");
+  EXPECT_EQ(controller.step(state, {}, {{0, -30}, frame, movers}, report), StepStatus::invalid_input);
+  movers[1] = {};
+  EXPECT_EQ(controller.step(state, {}, {{0, -30}, -frame, movers}, report), StepStatus::invalid_input);
+  EXPECT_EQ(controller.step(state, {}, {{0, -30}, frame, movers}, report), StepStatus::moved);
+}
+
+class LevelInPlay : public ::testing::TestWithParam<PlayLevel> {};
+
+TEST_P(LevelInPlay, steps_have_the_bits_of_the_controller_over_the_whole_scenery) {
+  int steps = 0;
+  int touching = 0;
+  int riding = 0;
+  const int wanted = steps_wanted("PAPERPROOF_LEVEL_STEPS", 20'000);
+  for (std::uint64_t seed = 1; steps < wanted; ++seed) {
+    Random random(seed);
+    CharacterDef character;
+    character.snap = random.chance(0.5) ? 0.2 : 0;
+    character.step_height = random.chance(0.5) ? 0.3 : 0;
+    SceneryDef def = play_level(GetParam(), random);
+    const int lifts = random.integer(1, 3);
+    for (int i = 0; i < lifts; ++i) def.colliders.push_back(box(-8, 0, 8, 0.5, static_cast<MoverIndex>(i)));
+    put_in_order(def);
+    const Scenery<double> scenery(def);
+    const Controller<double> controller(scenery, character);
+    Scratch<double> scratch = controller.make_scratch();
+    Level level;
+    std::map<ColliderIndex, ColliderIndex> index_of;
+    for (std::size_t i = def.colliders.size(); i-- > 0;)
+      index_of[level.add(def.colliders[i])] = static_cast<ColliderIndex>(i);
+    LevelController local(level, character);
+    CharacterState<double> state;
+    state.position = {random.between(-25, 25), 12};
+    CharacterState<double> local_state = state;
+    StepReport<double> report;
+    StepReport<double> local_report;
+    std::vector<MoverMotion<double>> motions(scenery.mover_count());
+    std::vector<PoseMotion> poses(level.mover_count());
+    const auto place = [&](std::size_t mover, int step) {
+      const double time = step * frame + static_cast<double>(mover);
+      return Vec2d(16 * static_cast<double>(mover) - 16, 3 + 5 * std::sin(time));
+    };
+    Input input;
+    for (int i = 0; i < 300; ++i, ++steps) {
+      if (i % 20 == 0) input = random_input(random);
+      for (std::size_t mover = 0; mover < motions.size(); ++mover) {
+        motions[mover] = {place(mover, i), place(mover, i + 1)};
+        poses[mover] = {{motions[mover].from, 0}, {motions[mover].to, 0}};
+      }
+      controller.step(state, input, {{0, -30}, frame, motions}, scratch, report);
+      local.step(local_state, input, {{0, -30}, frame, poses}, local_report);
+      ASSERT_EQ(local_state.ride.ground == no_collider, state.ride.ground == no_collider);
+      riding += state.ride.ground != no_collider;
+      CharacterState<double> renamed = local_state;
+      if (renamed.ride.ground != no_collider) renamed.ride.ground = index_of.at(renamed.ride.ground);
+      for (Crusher<double>& crusher : renamed.crushers) crusher.collider = index_of.at(crusher.collider);
+      ASSERT_EQ(renamed, state) << "seed " << seed << ", step " << i;
+      ASSERT_EQ(local_report.move.contacts.size(), report.move.contacts.size());
+      for (std::size_t k = 0; k < report.move.contacts.size(); ++k)
+        ASSERT_EQ(index_of.at(local_report.move.contacts[k].collider), report.move.contacts[k].collider);
+      touching += !report.move.contacts.empty();
+    }
+  }
+  EXPECT_GE(touching, steps / 4);
+  EXPECT_GE(riding, 100);
+}
+INSTANTIATE_TEST_SUITE_P(EveryLevel, LevelInPlay, ::testing::ValuesIn(all_play_levels),
+                         [](const auto& param) { return name_of(param.param); });
+
+/// A hall of tiles, some of them edited in each step.
+TEST(LevelEdits, give_the_bits_of_a_level_that_was_built_at_once) {
+  const int edits_wanted = steps_wanted("PAPERPROOF_LEVEL_EDITS", 20'000);
+  int edits = 0;
+  int changed_under_foot = 0;
+  for (std::uint64_t seed = 1; edits < edits_wanted; ++seed) {
+    Random random(seed);
+    Level edited(SceneryDef{{box(-1, -1, 41, 0), box(-1, 0, 0, 30), box(40, 0, 41, 30)}});
+    std::map<std::pair<int, int>, ColliderIndex> tiles;
+    CharacterDef character;
+    LevelController controller(edited, character);
+    CharacterState<double> state;
+    state.position = {20.5, 20};
+    StepReport<double> report;
+    Input input;
+    for (int step = 0; step < 200; ++step) {
+      if (step % 20 == 0) input = random_input(random);
+      for (int i = 0; i < 20; ++i, ++edits) {
+        const int x = random.integer(0, 39);
+        const int y = random.integer(0, 9);
+        const auto known = tiles.find({x, y});
+        const double height = random.chance(0.2) ? 0.5 : 1;
+        const ColliderDef tile = box(x, y, x + 1, y + height);
+        if (known == tiles.end()) {
+          tiles[{x, y}] = edited.add(tile);
+        } else if (random.chance(0.2)) {
+          ASSERT_TRUE(edited.replace(known->second, tile));
+        } else {
+          ASSERT_TRUE(edited.remove(known->second));
+          tiles.erase(known);
+        }
+      }
+      Level fresh(SceneryDef{{box(40, 0, 41, 30), box(-1, 0, 0, 30), box(-1, -1, 41, 0)}});
+      for (auto tile = tiles.rbegin(); tile != tiles.rend(); ++tile) fresh.add(*edited.find(tile->second));
+      CharacterState<double> other = state;
+      StepReport<double> other_report;
+      LevelController(fresh, character).step(other, input, {{0, -30}, frame}, other_report);
+      const bool stood = state.grounded;
+      controller.step(state, input, {{0, -30}, frame}, report);
+      ASSERT_EQ(state, other) << "seed " << seed << ", step " << step;
+      changed_under_foot += stood && !state.grounded && !input.jump;
+    }
+  }
+  EXPECT_GE(changed_under_foot, 1);
+}
+
+TEST(LevelEdits, a_rider_of_a_removed_collider_falls_in_that_step) {
+  Level level(SceneryDef{{box(-2, -1, 2, 0, 0)}});
+  LevelController controller(level, {});
+  CharacterState<double> state;
+  state.position = {0, 0.7};
+  StepReport<double> report;
+  PoseMotion lift;
+  for (int i = 0; i < 60; ++i) {
+    lift = {lift.to, {lift.to.position + Vec2d(0.01, 0.02), 0}};
+    controller.step(state, {}, {{0, -30}, frame, {&lift, 1}}, report);
+  }
+  ASSERT_TRUE(state.grounded);
+  ASSERT_EQ(state.ride.ground, 0U);
+  const Vec2d before = state.position;
+  level.remove(0);
+  level.add(box(-2, -100, 2, -99, 0));  // takes the slot
+  controller.step(state, {}, {{0, -30}, frame, {&lift, 1}}, report);
+  EXPECT_FALSE(state.grounded);
+  EXPECT_EQ(state.ride.ground, no_collider);
+  EXPECT_LT(state.position.y(), before.y() + 0.02);
+}
+
+TEST(LevelEdits, a_rider_stays_on_a_collider_that_is_replaced) {
+  Level level(SceneryDef{{box(-2, -1, 2, 0, 0)}});
+  LevelController controller(level, {});
+  CharacterState<double> state;
+  state.position = {0, 0.7};
+  StepReport<double> report;
+  PoseMotion lift;
+  for (int i = 0; i < 120; ++i) {
+    if (i == 60) level.replace(0, box(-1, -1, 1, 0, 0));
+    lift = {lift.to, {lift.to.position + Vec2d(0.05, 0.02), 0}};
+    controller.step(state, {}, {{0, -30}, frame, {&lift, 1}}, report);
+    ASSERT_EQ(state.ride.ground, i > 30 ? 0U : state.ride.ground) << i;
+  }
+  EXPECT_NEAR(state.position.x(), lift.to.position.x(), 0.2);
+}
+
+// What turns.
+
+/// Turns a mover evenly.
+PoseMotion turning(const Vec2d& position, double speed, int step) {
+  return {{position, speed * step * frame}, {position, speed * (step + 1) * frame}};
+}
+
+TEST(LevelTurning, a_plank_carries_its_rider) {
+  Level level(SceneryDef{{box(-3, -0.1, 3, 0.1, 0)}});
+  LevelController controller(level, {});
+  CharacterState<double> state;
+  state.position = {2, 0.75};
+  StepReport<double> report;
+  PoseMotion plank;
+  for (int i = 0; i < 30; ++i) controller.step(state, {}, {{0, -30}, frame, {&plank, 1}}, report);
+  ASSERT_TRUE(state.grounded);
+  const double foot = 2 + 10.0 / 32;  // the right one, which the plank lifts
+  for (int i = 0; i < 60; ++i) {
+    plank = turning({0, 0}, 0.5, i);
+    controller.step(state, {}, {{0, -30}, frame, {&plank, 1}}, report);
+    ASSERT_TRUE(state.grounded) << i;
+    ASSERT_EQ(state.ride.ground, 0U) << i;
+    ASSERT_EQ(report.status, StepStatus::moved);
+  }
+  EXPECT_NEAR(state.position.x(), 2 - foot * (1 - std::cos(0.5)), 0.1);
+  EXPECT_GT(state.position.y(), 0.75 + 1.8 * std::sin(0.5));
+}
+
+/// A revolving door of paper, faster and faster: the character is always on its own side, or crushed.
+TEST(LevelTurning, paper_that_turns_pushes_and_never_passes) {
+  for (const double speed : {0.5, 2.0, 8.0, 30.0, 120.0, 600.0}) {
+    Level level(SceneryDef{{box(-10, -1, 10, 0), box(-3, -1e-6, 3, 1e-6, 0)}});
+    LevelController controller(level, {});
+    CharacterState<double> state;
+    state.position = {1.5, 0.7};
+    StepReport<double> report;
+    for (int i = 0; i < 30; ++i) {
+      const PoseMotion stands = {{{0, 2}, 0}, {{0, 2}, 0}};
+      controller.step(state, {}, {{0, -30}, frame, {&stands, 1}}, report);
+    }
+    int crushed = 0;
+    int moved = 0;
+    for (int i = 0; i < 120; ++i) {
+      const PoseMotion door = turning({0, 2}, -speed, i);
+      const Vec2d before = state.position;
+      controller.step(state, {}, {{0, -30}, frame, {&door, 1}}, report);
+      crushed += report.status == StepStatus::crushed;
+      moved += (state.position - before).norm() > 1e-3;
+      for (const TurnedCollider& way : controller.turned()) {
+        ASSERT_EQ(way.instants.front(), 0);
+        ASSERT_EQ(way.instants.back(), 1);
+        ASSERT_TRUE(std::is_sorted(way.instants.begin(), way.instants.end()));
+        ASSERT_EQ(way.vertices.size(), way.instants.size());
+      }
+    }
+    EXPECT_GT(crushed + moved, 0) << speed;
+  }
+}
+
+TEST(LevelTurning, a_wall_that_turns_pushes_at_once) {
+  Level level(SceneryDef{{box(-10, -1, 10, 0), box(0, 0, 0.1, 4, 0)}});
+  LevelController controller(level, {});
+  CharacterState<double> state;
+  state.position = {-10.0 / 32 - 1e-6, 20.0 / 32 + 5e-7};
+  StepReport<double> report;
+  for (int i = 0; i < 40; ++i) {
+    const PoseMotion wall = turning({0, 0}, 0.3, i);
+    controller.step(state, {}, {{0, -30}, frame, {&wall, 1}}, report);
+    ASSERT_NE(report.status, StepStatus::crushed);
+    const double arm =
+        state.position.x() + 10.0 / 32;  // the wall, over the foot of the character, is at its arm or head
+    EXPECT_LT(arm, 0) << i;
+  }
+  EXPECT_LT(state.position.x(), -0.4);
+}
+
+TEST(LevelTurning, states_may_be_restored) {
+  Random random(3);
+  Level level(SceneryDef{{box(-10, -1, 10, 0), box(-3, -0.1, 3, 0.1, 0)}});
+  LevelController controller(level, {});
+  CharacterState<double> state;
+  state.position = {1, 3};
+  StepReport<double> report;
+  std::vector<CharacterState<double>> first;
+  std::vector<Input> inputs;
+  for (int i = 0; i < 300; ++i) {
+    const PoseMotion plank = turning({0, 1.5}, 1.0, i);
+    inputs.push_back(i % 20 == 0 ? random_input(random) : inputs.back());
+    first.push_back(state);
+    controller.step(state, inputs.back(), {{0, -30}, frame, {&plank, 1}}, report);
+  }
+  LevelController other(level, {});
+  for (int i = 100; i < 299; ++i) {
+    CharacterState<double> again = first[static_cast<std::size_t>(i)];
+    const PoseMotion plank = turning({0, 1.5}, 1.0, i);
+    other.step(again, inputs[static_cast<std::size_t>(i)], {{0, -30}, frame, {&plank, 1}}, report);
+    ASSERT_EQ(again, first[static_cast<std::size_t>(i) + 1]) << i;
+  }
+}
+
+// The proof.
+
+using level::PieceWay;
+using level::stay_apart;
+
+const std::vector<Vec2d> unit_box{{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}};
+
+std::vector<Vec2d> shifted(std::vector<Vec2d> points, const Vec2d& by) {
+  for (Vec2d& point : points) point += by;
+  return points;
+}
+
+std::vector<Vec2d> rotated(std::vector<Vec2d> points, double angle) {
+  for (Vec2d& point : points)
+    point = {point.x() * std::cos(angle) - point.y() * std::sin(angle),
+             point.x() * std::sin(angle) + point.y() * std::cos(angle)};
+  return points;
+}
+
+TEST(ProofOfTurns, knows_ways_that_pass_and_ways_that_meet) {
+  // Side by side, with a gap of 1e-6 m and of 1e-10 m.
+  EXPECT_TRUE(stay_apart({unit_box, {0, 0}, {0, 5}},
+                         {shifted(unit_box, {1 + 1e-6, 0}), shifted(unit_box, {1 + 1e-6, 3})}, 1e-9));
+  EXPECT_FALSE(stay_apart({unit_box, {0, 0}, {0, 5}},
+                          {shifted(unit_box, {1 + 1e-10, 0}), shifted(unit_box, {1 + 1e-10, 3})}, 1e-9));
+  // Through each other within the time, apart at both ends.
+  EXPECT_FALSE(stay_apart({unit_box, {0, 0}, {0, 0}}, {shifted(unit_box, {-2, 0}), shifted(unit_box, {2, 0})}, 1e-9));
+  // A paper turns past a corner: it ends 1 mm before the corner, or 1 mm behind it.
+  const std::vector<Vec2d> paper{{0, 0}, {2, 0}};
+  for (const double gap : {1e-3, -1e-3}) {
+    const Vec2d corner = rotated({{1, 0}}, 0.2)[0] + rotated({{0, 1}}, 0.2)[0] * gap;
+    const PieceWay turn{paper, rotated(paper, 0.2)};
+    const Vec2d at = corner + Vec2d(-0.5, 0.5);  // it is the lower right corner of the box
+    EXPECT_EQ(stay_apart({unit_box, at, at}, turn, 1e-9), gap > 0) << gap;
+  }
+}
+
+/// Against a twin that looks at many moments.
+TEST(ProofOfTurns, agrees_with_many_moments) {
+  int apart = 0;
+  int meet = 0;
+  for (std::uint64_t seed = 1; seed <= 4000; ++seed) {
+    Random random(seed);
+    const int corners = random.integer(2, 7);
+    std::vector<Vec2d> piece;
+    for (int i = 0; i < corners; ++i) piece.push_back(rotated({{1, 0}}, 2 * pi * i / corners)[0]);
+    const double size = random.log_between(1e-3, 3);
+    for (Vec2d& point : piece) point *= size;
+    const double first_angle = random.angle();
+    const double turn = random.between(-0.3, 0.3);
+    const Vec2d at{random.between(-2, 2), random.between(-2, 2)};
+    const Vec2d by{random.between(-1, 1), random.between(-1, 1)};
+    const Vec2d way{random.between(-1, 1), random.between(-1, 1)};
+    const PieceWay moving{shifted(rotated(piece, first_angle), at),
+                          shifted(rotated(piece, first_angle + turn), at + by)};
+    const bool proved = stay_apart({unit_box, {0, 0}, way}, moving, 1e-9);
+    bool overlaps = false;
+    for (int i = 0; i <= 500 && !overlaps; ++i) {
+      const double share = i / 500.0;
+      std::vector<Vec2d> here = moving.from;
+      for (std::size_t k = 0; k < here.size(); ++k) here[k] += (moving.to[k] - moving.from[k]) * share;
+      overlaps = !stay_apart({unit_box, way * share, way * share}, {here, here}, -1e-9);
+    }
+    ASSERT_FALSE(proved && overlaps) << "seed " << seed;
+    if (!proved && !overlaps) continue;  // less than the moments show
+    (proved ? apart : meet) += 1;
+  }
+  EXPECT_GE(apart, 500);
+  EXPECT_GE(meet, 500);
+  EXPECT_GE(apart + meet, 3960);
+}
+
+}  // namespace
+}  // namespace paperproof::test
