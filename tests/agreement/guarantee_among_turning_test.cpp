@@ -71,6 +71,7 @@ struct Tally {
   int room = 0;           ///< Were crushed where there was room.
   int unsound = 0;        ///< Were not finite, or did not end where they said, or inside what they did not name.
   int stuck_refuted = 0;  ///< Said that they are stuck, and there was a straight way out.
+  int described = 0;
   double worst_fraction = 0;  ///< Of a contact that begins: error of its time of impact [steps].
 
   [[nodiscard]] int broken() const {
@@ -167,9 +168,12 @@ class RandomRun {
         break;
       case Turning::presses:
         course.reach = {random_.between(-1, 1), 0};
-        course.reach.y() = random_.between(-4, 4);
-        course.swing = random_.between(-1, 1);
-        colliders.push_back(boxed(-half, -3 * thin, half, 3 * thin, mover));
+        course.middle.y() = random_.between(2, 4);
+        course.reach.y() = -random_.between(1, 4);
+        course.pace = random_.between(2, 6);
+        course.angle = random_.between(-0.3, 0.3);
+        course.swing = random_.between(-0.5, 0.5);
+        colliders.push_back(boxed(-2 * half, -3 * thin, 2 * half, 3 * thin, mover));
         break;
       case Turning::papers: {
         course.spin = random_.either_sign_log_between(0.05, random_.chance(0.2) ? 30 : 4);
@@ -243,7 +247,7 @@ class RandomRun {
     const StepJudgement judgement = judge_.judge(record);
     const int broken = tally.broken();
     count(record, judgement, tally);
-    if (tally.broken() > broken && described_++ < most_described)
+    if (tally.broken() > broken && tally.described++ < most_described)
       std::printf("breaks: %s\n", describe(record, judgement, before).c_str());
   }
 
@@ -295,6 +299,7 @@ class RandomRun {
     list("crushed with room", judgement.crushed_with_room);
     list("says crushed", record.crushed);
     list("ends in", judgement.end_overlap);
+    if (report_.move.path.overflowed()) text << "way too long; ";
     if (judgement.room) text << "room at " << judgement.room->transpose() << "; ";
     text << "gap " << judgement.max_contact_gap << ", status " << static_cast<int>(report_.status) << ", from "
          << before.position.transpose() << " at " << before.velocity.transpose() << "\n  way";
@@ -316,7 +321,6 @@ class RandomRun {
   CharacterState<double> state_;
   StepReport<double> report_;
   std::vector<PoseMotion> motions_;
-  static inline int described_ = 0;
 };
 
 class AmongTurning : public ::testing::TestWithParam<Turning> {};
@@ -348,10 +352,13 @@ TEST_P(AmongTurning, no_step_breaks_the_guarantee) {
   // The generators must really meet what turns, and also miss it.
   EXPECT_GE(tally.near, tally.steps * 0.2);
   EXPECT_GE(tally.with_contact, tally.steps * 0.02);
+  EXPECT_LE(tally.worst_fraction, 1e-6);
   EXPECT_LE(tally.with_contact, tally.steps * 0.9);
   if (tally.steps < 1000) return;
   EXPECT_GT(tally.riding, 0);
-  EXPECT_GT(tally.crushed, 0);
+  if (GetParam() == Turning::presses) {
+    EXPECT_GT(tally.crushed, 0);
+  }
   EXPECT_LT(tally.crushed, tally.steps / 5);
 }
 
