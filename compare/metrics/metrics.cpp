@@ -63,6 +63,7 @@ Metrics::Metrics(const TraceHeader& header, const Measured& measured)
     *counter = 0;
   }
   if (measured_.respawns) sums_.respawns = 0;
+  if (contains(header.turning, true)) sums_.undecided_steps = 0;
   if (has_one_way_) sums_.one_way_violations = 0;
   sums_.max_penetration_m = 0;
 }
@@ -216,6 +217,7 @@ void Metrics::add_events(const TraceStep& step, const StepJudgement& judgement) 
 }
 
 void Metrics::add_progress(const TraceStep& step, const StepJudgement& judgement) {
+  if (sums_.undecided_steps) count(sums_.undecided_steps, !judgement.undecided.empty());
   count(sums_.hanging_steps, judgement.hangs);
   count(sums_.stuck_steps, step.stuck);
   count(sums_.stuck_refuted, judgement.stuck_refuted);
@@ -280,6 +282,7 @@ void Metrics::write(Row& row) const {
   row.sensor_errors = sums_.sensor_errors;
   row.max_sensor_error = sums_.max_sensor_error;
   row.steps_inside_after_crush = sums_.steps_inside_after_crush;
+  row.undecided_steps = sums_.undecided_steps;
   row.hanging_steps = sums_.hanging_steps;
   row.stuck_refuted = sums_.stuck_refuted;
   row.ground_refuted = sums_.ground_refuted;

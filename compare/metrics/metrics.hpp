@@ -34,6 +34,7 @@ namespace paperproof::compare {
 ///   who is stuck inside something does not move and meets nothing).
 /// - `normal_error_max_deg`: largest angle between the normal of a reported contact and the nearest exact one with that
 ///   collider on that side.
+/// - `undecided_steps`: so near to what turns that it could not be told whether they met it; only where it does.
 /// - `hanging_steps`, `stuck_refuted`, `ground_refuted`: see `Judge`. `distance_m`: length of the ways.
 /// `wanted_motion_lost`: share of the
 ///   wanted horizontal motion, over the run, that was lost to nothing exact.

@@ -3,12 +3,6 @@
 namespace paperproof::compare::detail {
 namespace {
 
-/// The smaller of two; of two approximate values a number whose bound holds for either choice.
-Integer least(const Integer& a, const Integer& b) { return a < b ? a : b; }
-Approximate least(const Approximate& a, const Approximate& b) noexcept {
-  return {std::min(a.value, b.value), std::max(a.radius, b.radius)};
-}
-
 /// The exact product of the separation and the length of the edge: for a left normal n of the edge, n·x = edge × x.
 template <class Number>
 Number scaled_separation(const Convert<Number>& number, const AxisEdge& axis, const ConvexPart& part,

@@ -45,15 +45,32 @@ Judge::Judge(const TraceHeader& header)
 
 Judge::~Judge() = default;
 
+std::vector<ColliderIndex> Judge::overlapped(const TraceStep& step) const {
+  std::vector<ColliderIndex> all = scenery_.overlapped({step.path.front(), step.movers});
+  const std::vector<ColliderIndex> turning = turning_->overlapped(step);
+  all.insert(all.end(), turning.begin(), turning.end());
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
 StepJudgement Judge::judge(const TraceStep& step, const Others& others) {
   if (!turning_->any()) return judge_exactly(step, others);
-  StepJudgement judgement = judge_exactly(turning_->exact_part(step), others);
-  turning_->judge(step, judgement);
+  Others all = others;
+  all.left_free = [&](std::span<const PathPoint<double>> way) {
+    return turning_->left_free(step, way) && (!others.left_free || others.left_free(way));
+  };
+  StepJudgement judgement = judge_exactly(turning_->exact_part(step), all);
+  turning_->judge(step, scenery_, judgement);
   const bool beside = turning_->is_near(step, detail::reach_of(header_).contact);
   judgement.hangs = judgement.hangs && !beside;
   judgement.hovers = judgement.hovers && !beside;
   judgement.ground_refuted = judgement.ground_refuted && !beside;
   judgement.ground_late = judgement.ground_late && !beside;
+  judgement.stuck_refuted = judgement.stuck_refuted && !beside;
+  if (beside) judgement.motion_lost = judgement.ghost_speed_loss = 0;
+  const auto bends = [](const VertexWay& way) { return way.instants.size() > 2; };
+  if (header_.path_exact && std::any_of(step.vertex_ways.begin(), step.vertex_ways.end(), bends))
+    judgement.first_impact_comparable = false;
   return judgement;
 }
 

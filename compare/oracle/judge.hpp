@@ -91,6 +91,8 @@ struct StepJudgement {
     [[nodiscard]] bool broke() const { return !entered.empty() || !passed.empty(); }
   };
   Company company{};
+  /// Solids that turn of which it could not be told whether the step met them: see `detail::TurningJudge`.
+  std::vector<ColliderIndex> undecided{};
   /// Of a contact with what turns, where it began: how far the reported fraction is from the first touch [steps].
   std::optional<double> turning_toi_error{};
   std::optional<CharacterIndex> first_met;  ///< Whom `first_impact` is with, if that is no collider.
@@ -172,7 +174,7 @@ struct StepJudgement {
 /// **Fraction.** A first impact is comparable where the octagon began farther than 1e-6 m (Box2D: its skin, 20 mm) away
 /// along the normal, and the approach against the normal is at least 1e-3 of the displacement: at rest, and where the
 /// motion grazes, a gap of a micrometre is much of the way. Who is stuck does not go as requested, and has none; nor
-/// has who gives way to a mover from the start of the step.
+/// has who gives way to a mover from the start of the step, or who goes in parts of the step, as what turns does.
 ///
 /// **Hangs.** Let u be what is requested less what the step's steering added to it. C is the set of displacements that
 /// enter no solid and no other character that is within 1e-6 m (separation along the best axis) of a corner of the
@@ -209,12 +211,12 @@ struct StepJudgement {
 /// no other character has a face that looks upwards within the contender's reach (`detail::reach_of`; who promises
 /// nothing: and rounding). Whoever promises nothing may have stood on something earlier in the step (exempted): Box2D
 /// reads its contacts before it moves the bodies, and the article's techniques go on after they have met the ground.
-/// Nothing is asked beside what turns.
+/// Nothing is asked beside what turns, nor whether motion is lost.
 ///
 /// **Normal error.** The angle between the normal of a reported contact and the nearest normal of the exact contacts
 /// with that collider on that side, and of the face that is touched along the reported normal.
 ///
-/// **What turns** is judged apart, between bounds: see oracle/turning.hpp.
+/// **What turns** is judged apart, exactly as well: see oracle/turning.hpp. Who is inside of it may say that it is stuck.
 ///
 /// **Ghost speed loss.** Horizontal speed was lost to nothing where the step began free and crushed nobody, and no
 /// solid opposes the wanted horizontal motion, neither with the rise that was requested nor with the one that was made,
@@ -227,6 +229,9 @@ class Judge {
   Judge(Judge&&) = delete;
   /// @param others of a run with several characters: nobody has room where they are or go through.
   [[nodiscard]] StepJudgement judge(const TraceStep& step, const Others& others = {});
+  /// The solids that the octagon overlaps where a step begins, in order.
+  [[nodiscard]] std::vector<ColliderIndex> overlapped(const TraceStep& step) const;
+  /// What turns is no solid there.
   [[nodiscard]] const ExactScenery& scenery() const noexcept { return scenery_; }
 
  private:

@@ -6,6 +6,7 @@
 
 #include <boost/multiprecision/cpp_int.hpp>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -17,6 +18,28 @@ enum class Sign : std::int8_t { negative = -1, zero = 0, positive = 1, unknown =
 
 /// A yes or no that may have to be asked again in exact arithmetic.
 enum class Answer : std::uint8_t { no, yes, unknown };
+
+/// Both, and where one does not know: unknown.
+[[nodiscard]] inline Answer both(Answer a, Answer b) {
+  if (a == Answer::no || b == Answer::no) return Answer::no;
+  return a == Answer::yes ? b : a;
+}
+
+/// One of them, and where neither is known to be: unknown, if one is.
+[[nodiscard]] inline Answer either(Answer a, Answer b) {
+  if (a == Answer::yes || b == Answer::yes) return Answer::yes;
+  return a == Answer::no ? b : a;
+}
+
+[[nodiscard]] inline Answer is(Sign sign, Sign wanted) {
+  if (sign == Sign::unknown) return Answer::unknown;
+  return sign == wanted ? Answer::yes : Answer::no;
+}
+
+[[nodiscard]] inline Answer is_not(Answer a) {
+  if (a == Answer::unknown) return a;
+  return a == Answer::yes ? Answer::no : Answer::yes;
+}
 
 /// A double and a bound on its distance from the exact value. The bound follows the real rounding errors (two-sum, and
 /// the fused product for two-product), so it stays 0 while every operation is exact: a character that touches a tile on
@@ -60,6 +83,12 @@ using Integer =
 [[nodiscard]] inline Sign sign_of(const Integer& x) noexcept {
   const int sign = x.sign();
   return sign > 0 ? Sign::positive : sign < 0 ? Sign::negative : Sign::zero;
+}
+
+/// The smaller of two; of two approximate values a number whose bound holds for either choice.
+[[nodiscard]] inline Integer least(const Integer& a, const Integer& b) { return a < b ? a : b; }
+[[nodiscard]] inline Approximate least(const Approximate& a, const Approximate& b) noexcept {
+  return {std::min(a.value, b.value), std::max(a.radius, b.radius)};
 }
 
 /// The exponent of the lowest bit that is set in a finite double; large for zero.

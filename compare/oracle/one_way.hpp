@@ -55,22 +55,6 @@ class SurfaceFinder {
   std::map<Place, Ends> ends_;
 };
 
-/// Both, and where one does not know: unknown.
-[[nodiscard]] inline Answer both(Answer a, Answer b) {
-  if (a == Answer::no || b == Answer::no) return Answer::no;
-  return a == Answer::yes ? b : a;
-}
-
-[[nodiscard]] inline Answer is(Sign sign, Sign wanted) {
-  if (sign == Sign::unknown) return Answer::unknown;
-  return sign == wanted ? Answer::yes : Answer::no;
-}
-
-[[nodiscard]] inline Answer is_not(Answer a) {
-  if (a == Answer::unknown) return a;
-  return a == Answer::yes ? Answer::no : Answer::yes;
-}
-
 /// Whether a corner of the octagon lies below an edge that passes under it.
 /// @param up the direction of `one_way`. @param first, last whether the edge goes on straight before a, after b.
 template <class Number>

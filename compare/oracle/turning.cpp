@@ -1,30 +1,26 @@
 #include "oracle/turning.hpp"
 
+#include "contains.hpp"
 #include "oracle/contacts.hpp"
+#include "oracle/crush.hpp"
 #include "oracle/passing.hpp"
+#include "oracle/turning_room.hpp"
+#include "oracle/world.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <complex>
 
 namespace paperproof::compare::detail {
 namespace {
 
-/// Between the bounds of a first touch, in steps.
-constexpr double touch_width = 1e-9;
 /// So many steps ahead a first touch is looked for: Box2D's skin of 20 mm is passed in them at 0.3 m/s and more.
-constexpr double steps_ahead = 4;
+constexpr int steps_ahead = 4;
 /// Instants of a leg at which the depth of a passage is looked at.
 constexpr int depth_samples = 256;
 
 bool turns_with(const TraceHeader& header, ColliderIndex collider) {
   const MoverIndex mover = header.scenery.colliders[collider].mover;
   return mover != no_mover && mover < header.turning.size() && header.turning[mover];
-}
-
-Vec2d turned(const Vec2d& point, double angle) {
-  const double cosine = std::cos(angle);
-  const double sine = std::sin(angle);
-  return {cosine * point.x() - sine * point.y(), sine * point.x() + cosine * point.y()};
 }
 
 /// The wanted displacement without what contacts with the rest take from it.
@@ -35,12 +31,52 @@ Vec2d left_to_want(const TraceStep& step, const TraceHeader& header) {
   return wanted;
 }
 
+/// The parts of a definition by the numbers of their vertices: points that coincide go the same way.
+std::vector<std::vector<std::size_t>> numbered_parts(const ColliderDef& def) {
+  std::vector<Vec2d> all = def.points;
+  for (const std::vector<Vec2d>& hole : def.holes) all.insert(all.end(), hole.begin(), hole.end());
+  std::vector<std::vector<std::size_t>> parts;
+  for (const ConvexPart& part : convex_parts(def)) {
+    parts.emplace_back();
+    for (const Vec2d& point : part.points)
+      parts.back().push_back(static_cast<std::size_t>(std::find(all.begin(), all.end(), point) - all.begin()));
+  }
+  return parts;
+}
+
+/// What turns, gone on for some steps by the same rigid motion.
+VertexWay gone_on(const VertexWay& way, int steps) {
+  const auto number = [](const Vec2d& v) { return std::complex(v.x(), v.y()); };
+  const std::vector<Vec2d>& from = way.vertices.front();
+  const std::vector<Vec2d>& to = way.vertices.back();
+  const auto far = static_cast<std::size_t>(
+      std::max_element(from.begin(), from.end(),
+                       [&](const Vec2d& a, const Vec2d& b) { return (a - from[0]).norm() < (b - from[0]).norm(); }) -
+      from.begin());
+  const std::complex<double> turn =
+      from[far] == from[0] ? 1.0 : number(to[far] - to[0]) / number(from[far] - from[0]);
+  VertexWay all = way;
+  const std::size_t chords = way.instants.size() - 1;
+  for (std::size_t k = 1; k <= static_cast<std::size_t>(steps - 1) * chords; ++k) {
+    all.instants.push_back(1 + static_cast<double>((k - 1) / chords) + way.instants[(k - 1) % chords + 1]);
+    all.vertices.emplace_back();
+    for (const Vec2d& v : all.vertices[k]) {
+      const std::complex<double> place = number(to[0]) + turn * number(v - from[0]);
+      all.vertices.back().emplace_back(place.real(), place.imag());
+    }
+  }
+  return all;
+}
+
 }  // namespace
 
-TurningJudge::TurningJudge(const TraceHeader& header) : header_(header) {
+TurningJudge::TurningJudge(const TraceHeader& header)
+    : header_(header), octagon_(header.points), promises_(party_of(header) == Party::promising) {
+  if (std::find(header.turning.begin(), header.turning.end(), true) == header.turning.end()) return;
+  octagon_ = normalised(std::move(octagon_));
   for (ColliderIndex i = 0; i < header.scenery.colliders.size(); ++i) {
     const ColliderDef& def = header.scenery.colliders[i];
-    if (turns_with(header, i) && !def.sensor) solids_.push_back({i, def.mover, convex_parts(def)});
+    if (turns_with(header, i) && !def.sensor) solids_.push_back({i, numbered_parts(def)});
   }
 }
 
@@ -57,56 +93,78 @@ TraceStep TurningJudge::exact_part(const TraceStep& step) const {
   TraceStep rest = step;
   std::erase_if(rest.contacts, [this](const Contact<double>& contact) { return turns(contact.collider); });
   std::erase_if(rest.sensors, [this](const SensorEvent<double>& event) { return turns(event.sensor); });
+  std::erase_if(rest.crushed, [this](ColliderIndex collider) { return turns(collider); });
   return rest;
 }
 
-TurningJudge::Pose TurningJudge::pose(const TraceStep& step, const Solid& solid, double fraction) {
-  const TurnMotion& turn = step.turns[solid.mover];
-  const MoverMotion<double>& motion = step.movers[solid.mover];
-  return {motion.from + fraction * (motion.to - motion.from), turn.from + fraction * (turn.to - turn.from)};
-}
-
-/// The first touch of all parts, between two poses.
-RotationTouch TurningJudge::touch(const Solid& solid, const Pose& from, const Pose& to, const Vec2d& position,
-                                  const Vec2d& displacement) const {
-  const MovingOctagon octagon{header_.points, position, displacement};
-  RotationTouch first;
-  for (const ConvexPart& part : solid.parts) {
-    const TurningPiece piece{part.points, Vec2d::Zero(), from.angle, to.angle, {from.offset, to.offset}};
-    const RotationTouch found = first_touch(octagon, piece, touch_width / steps_ahead);
-    const bool earlier = first.kind != RotationTouch::Kind::touches || found.low < first.low;
-    if (found.kind == RotationTouch::Kind::touches && earlier) first = found;
+Meeting TurningJudge::meeting(const Solid& solid, const VertexWay& way, std::span<const PathPoint<double>> path,
+                              Asked asked) const {
+  Meeting first;
+  for (const std::vector<std::size_t>& part : solid.parts) {
+    const Meeting found = first_meeting(octagon_, path, way, part, asked);
+    const bool better = found.kind == first.kind ? found.low < first.low : found.kind == Meeting::Kind::meets;
+    if (found.kind != Meeting::Kind::apart && (first.kind == Meeting::Kind::apart || better)) first = found;
+    if (first.kind == Meeting::Kind::meets && asked == Asked::whether) break;
   }
   return first;
 }
 
-bool TurningJudge::overlaps(const Solid& solid, const Pose& at, const Vec2d& position) const {
-  return touch(solid, at, at, position, Vec2d::Zero()).kind == RotationTouch::Kind::touches;
+bool TurningJudge::overlaps(const Solid& solid, const VertexWay& way, const PathPoint<double>& at) const {
+  return meeting(solid, way, {&at, 1}).kind == Meeting::Kind::meets;
 }
 
-Axis TurningJudge::nearest_axis(const Solid& solid, const Pose& at, const Vec2d& position) const {
+Axis TurningJudge::nearest_axis(const Solid& solid, const VertexWay& way, const PathPoint<double>& at) const {
+  const std::vector<Vec2d> vertices = vertices_at(way, at.fraction);
   Axis nearest{std::numeric_limits<double>::infinity(), Vec2d::Zero()};
-  for (ConvexPart part : solid.parts) {
-    for (Vec2d& point : part.points) point = turned(point, at.angle) + at.offset;
-    const Axis axis = best_axis(part, header_.points, FramePlace{position});
+  for (const std::vector<std::size_t>& numbers : solid.parts) {
+    ConvexPart part;
+    for (const std::size_t i : numbers) part.points.push_back(vertices[i]);
+    const Axis axis = best_axis(part, octagon_, FramePlace{at.position});
     if (axis.separation < nearest.separation) nearest = axis;
   }
   return nearest;
 }
 
+double TurningJudge::nearest(const Solid& solid, const TraceStep& step) const {
+  double gap = std::numeric_limits<double>::infinity();
+  for (const PathPoint<double>& corner : step.path)
+    gap = std::min(gap, nearest_axis(solid, way_of(step, solid.collider), corner).separation);
+  return gap;
+}
+
+std::vector<ColliderIndex> TurningJudge::overlapped(const TraceStep& step) const {
+  std::vector<ColliderIndex> found;
+  for (const Solid& solid : solids_)
+    if (overlaps(solid, way_of(step, solid.collider), step.path.front())) found.push_back(solid.collider);
+  return found;
+}
+
 bool TurningJudge::is_near(const TraceStep& step, double within) const {
-  return std::any_of(solids_.begin(), solids_.end(), [&](const Solid& solid) {
-    return std::any_of(step.path.begin(), step.path.end(), [&](const PathPoint<double>& corner) {
-      return nearest_axis(solid, pose(step, solid, corner.fraction), corner.position).separation <= within;
-    });
+  return std::any_of(solids_.begin(), solids_.end(),
+                     [&](const Solid& solid) { return nearest(solid, step) <= within; });
+}
+
+bool TurningJudge::left_free(const TraceStep& step, std::span<const PathPoint<double>> way) const {
+  const std::vector<Vec2d> wider = grown(octagon_, least_clearance);
+  return std::all_of(solids_.begin(), solids_.end(), [&](const Solid& solid) {
+    const VertexWay& its = way_of(step, solid.collider);
+    const auto is_apart = [&](std::span<const Vec2d> body, std::span<const PathPoint<double>> path) {
+      return std::all_of(solid.parts.begin(), solid.parts.end(), [&](const std::vector<std::size_t>& part) {
+        return first_meeting(body, path, its, part).kind == Meeting::Kind::apart;
+      });
+    };
+    if (!is_apart(octagon_, way.first(1))) return true;
+    // Who leaves the way that was travelled must not pass nearer than that to what is farther away there.
+    const bool clear = !is_apart(wider, way.subspan(way.size() - 2, 1)) || is_apart(wider, way.last(2));
+    return clear && is_apart(octagon_, way) && is_apart(wider, way.last(1));
   });
 }
 
-void TurningJudge::judge(const TraceStep& step, StepJudgement& judgement) {
+void TurningJudge::judge(const TraceStep& step, const ExactScenery& rest, StepJudgement& judgement) {
   if (step.path.empty()) return;
   std::set<ColliderIndex> touched;
   for (const Solid& solid : solids_) {
-    judge_way(solid, step, judgement);
+    judge_way(solid, step, rest, judgement);
     judge_contacts(solid, step, judgement);
   }
   for (const Contact<double>& contact : step.contacts)
@@ -115,72 +173,140 @@ void TurningJudge::judge(const TraceStep& step, StepJudgement& judgement) {
   std::sort(judgement.end_overlap.begin(), judgement.end_overlap.end());
 }
 
-void TurningJudge::judge_way(const Solid& solid, const TraceStep& step, StepJudgement& judgement) const {
-  const PathPoint<double>& start = step.path.front();
-  const PathPoint<double>& end = step.path.back();
-  const bool began_inside = overlaps(solid, pose(step, solid, start.fraction), start.position);
-  if (overlaps(solid, pose(step, solid, end.fraction), end.position)) {
+/// Whether a crush by it is named, or would be by who has a word for it, and there is no room.
+bool TurningJudge::is_excused(const Solid& solid, const TraceStep& step, const ExactScenery& rest,
+                              StepJudgement& judgement) const {
+  const bool named = contains(step.crushed, solid.collider);
+  if (promises_ && !named) return false;
+  std::optional<Vec2d> room = step.path.front().position;
+  if (goes(way_of(step, solid.collider)))
+    room = room_beside(header_, rest, step, way_of(step, solid.collider),
+                       [&](std::span<const PathPoint<double>> way) { return left_free(step, way); });
+  if (room) judgement.room = room;
+  if (room && named) judgement.crushed_with_room.push_back(solid.collider);
+  if (!room) judgement.crushed.push_back(solid.collider);
+  return !room;
+}
+
+void TurningJudge::judge_way(const Solid& solid, const TraceStep& step, const ExactScenery& rest,
+                             StepJudgement& judgement) {
+  const VertexWay& way = way_of(step, solid.collider);
+  const bool began_inside = overlaps(solid, way, step.path.front());
+  const bool ends_inside = overlaps(solid, way, step.path.back());
+  const bool named = contains(step.crushed, solid.collider);
+  const bool excused = (named || (ends_inside && !began_inside)) && is_excused(solid, step, rest, judgement);
+  if (!began_inside) pressed_.erase(solid.collider);
+  if (ends_inside) {
+    if (excused) pressed_.insert(solid.collider);
     judgement.end_overlap.push_back(solid.collider);
-    const double depth = -nearest_axis(solid, pose(step, solid, end.fraction), end.position).separation;
-    judgement.max_penetration = std::max(judgement.max_penetration, depth);
+    if (pressed_.contains(solid.collider)) {
+      judgement.pressed.push_back(solid.collider);
+      return;
+    }
+    judgement.max_penetration =
+        std::max(judgement.max_penetration, -nearest_axis(solid, way, step.path.back()).separation);
     if (!began_inside) judgement.entered.push_back(solid.collider);
     return;
   }
   if (began_inside) return;
+  const Meeting met = meeting(solid, way, step.path);
+  if (met.kind == Meeting::Kind::undecided) judgement.undecided.push_back(solid.collider);
+  if (met.kind != Meeting::Kind::meets) return;
+  // What is excused may go through the octagon, and not the octagon through it: as it stands where the step ends.
+  const std::array<PathPoint<double>, 2> through{{{step.path.front().position, 1}, {step.path.back().position, 1}}};
+  if (excused && meeting(solid, way, through).kind != Meeting::Kind::meets) return;
+  judge_passage(solid, step, judgement);
+}
+
+void TurningJudge::judge_passage(const Solid& solid, const TraceStep& step, StepJudgement& judgement) const {
+  if (const double slop = slop_of(header_); slop > 0 && depth_on(solid, step) <= slop) {
+    judgement.corner_cut.push_back(solid.collider);
+    return;
+  }
+  std::vector<Vec2d> ring;
+  for (const std::size_t i : solid.parts.front()) ring.push_back(way_of(step, solid.collider).vertices.front()[i]);
+  judgement.tunnelled.push_back(solid.collider);
+  judgement.passings.push_back(
+      {.collider = solid.collider,
+       .speed = (step.path.back().position - step.path.front().position).norm() / length_of(step, header_),
+       .thickness = narrowest_width(ring),
+       .angle = 90});
+}
+
+/// The largest depth on the way, at equal shares of every leg [m].
+double TurningJudge::depth_on(const Solid& solid, const TraceStep& step) const {
   double depth = 0;
   for (std::size_t i = 1; i < step.path.size(); ++i) {
     const PathPoint<double>& a = step.path[i - 1];
     const PathPoint<double>& b = step.path[i];
-    const Vec2d way = b.position - a.position;
-    if (touch(solid, pose(step, solid, a.fraction), pose(step, solid, b.fraction), a.position, way).kind !=
-        RotationTouch::Kind::touches)
-      continue;
     for (int k = 0; k <= depth_samples; ++k) {
       const double share = static_cast<double>(k) / depth_samples;
-      const Pose at = pose(step, solid, a.fraction + share * (b.fraction - a.fraction));
-      depth = std::max(depth, -nearest_axis(solid, at, a.position + share * way).separation);
+      const PathPoint<double> at{a.position + share * (b.position - a.position),
+                                 a.fraction + share * (b.fraction - a.fraction)};
+      depth = std::max(depth, -nearest_axis(solid, way_of(step, solid.collider), at).separation);
     }
   }
-  if (depth <= 0) return;
-  if (const double slop = slop_of(header_); slop > 0 && depth <= slop) {
-    judgement.corner_cut.push_back(solid.collider);
-    return;
-  }
-  const double length = (end.position - start.position).norm();
-  judgement.tunnelled.push_back(solid.collider);
-  judgement.passings.push_back({.collider = solid.collider,
-                                .speed = length / length_of(step, header_),
-                                .thickness = narrowest_width(solid.parts.front().points),
-                                .angle = 90});
+  return depth;
 }
 
-void TurningJudge::judge_contacts(const Solid& solid, const TraceStep& step, StepJudgement& judgement) {
+void TurningJudge::judge_contacts(const Solid& solid, const TraceStep& step, StepJudgement& judgement) const {
+  const auto of_it = [&](const Contact<double>& contact) { return contact.collider == solid.collider; };
+  const auto reported = std::find_if(step.contacts.begin(), step.contacts.end(), of_it);
+  const bool reports = reported != step.contacts.end();
   const PathPoint<double>& start = step.path.front();
-  const Vec2d wanted = left_to_want(step, header_);
-  const Pose from = pose(step, solid, 0);
-  const RotationTouch ahead = touch(solid, from, pose(step, solid, steps_ahead), start.position, steps_ahead * wanted);
-  const bool touches = ahead.kind == RotationTouch::Kind::touches;
-  const double when = steps_ahead * (ahead.low + (ahead.high - ahead.low) / 2);
+  const Vec2d wanted = header_.path_exact ? step.requested : left_to_want(step, header_);
+  const int ahead = header_.path_exact ? 1 : steps_ahead;
+  const VertexWay way = gone_on(way_of(step, solid.collider), ahead);
+  const std::array<PathPoint<double>, 2> path{
+      {start, {start.position + ahead * wanted, static_cast<double>(ahead)}}};
+  const Meeting met = meeting(solid, way, path, Asked::when);
+  const bool touches = met.kind == Meeting::Kind::meets;
+  const double when = touches ? met.low + (met.high - met.low) / 2 : 0;
   const bool within = touches && when <= 1;
-  if (within) {
-    const Vec2d normal = nearest_axis(solid, pose(step, solid, when), start.position + when * wanted).normal;
+  const bool first = within && (!judgement.first_impact || when < *judgement.first_impact);
+  const double gap = reports || !promises_ ? nearest(solid, step) : 0;
+  if (header_.path_exact ? first || (reports && gap <= contact_reach) : within) {
+    const PathPoint<double> there{start.position + when * wanted, when};
+    const Vec2d normal = within ? nearest_axis(solid, way, there).normal : reported->normal;
     judgement.contacts.push_back({.collider = solid.collider,
                                   .side = side_of_normal(normal.x(), normal.y()),
                                   .normal = normal,
-                                  .fraction = when});
+                                  .fraction = within ? when : reported->fraction});
+  } else if (reports && gap <= (header_.path_exact ? contact_reach : box2d_skin)) {
+    judgement.dont_care.push_back(solid.collider);
   }
-  for (const Contact<double>& contact : step.contacts) {
-    if (contact.collider != solid.collider) continue;
-    const Pose to = pose(step, solid, 1);
-    const double gap = std::min(nearest_axis(solid, from, start.position).separation,
-                                nearest_axis(solid, to, step.path.back().position).separation);
-    judgement.max_contact_gap = std::max(judgement.max_contact_gap, gap);
-    if (!within && gap <= (header_.path_exact ? contact_reach : box2d_skin))
-      judgement.dont_care.push_back(solid.collider);
-    if (touches && touched_.count(solid.collider) == 0)
-      judgement.turning_toi_error =
-          std::max(judgement.turning_toi_error.value_or(0), std::abs(contact.fraction - when));
+  if (header_.path_exact && first) {
+    judgement.first_impact = when;
+    judgement.first_impact_comparable = false;
   }
+  if (!reports) return;
+  judgement.max_contact_gap = std::max(judgement.max_contact_gap, gap);
+  if (touched_.contains(solid.collider)) return;
+  std::optional<double> touch;
+  if (header_.path_exact)
+    touch = touch_going_on(solid, step, reported->fraction);
+  else if (touches)
+    touch = when;
+  if (touch)
+    judgement.turning_toi_error =
+        std::max(judgement.turning_toi_error.value_or(0), std::abs(reported->fraction - *touch));
+}
+
+/// When the way that was travelled up to a moment touches, if it goes on from there as straight as before; nothing
+/// where it did not go, or leapt, just before.
+std::optional<double> TurningJudge::touch_going_on(const Solid& solid, const TraceStep& step, double moment) const {
+  std::vector<PathPoint<double>> way;
+  for (const PathPoint<double>& corner : step.path)
+    if (corner.fraction <= moment) way.push_back(corner);
+  if (way.size() < 2 || moment == 1) return std::nullopt;
+  const PathPoint<double>& last = way.back();
+  const PathPoint<double>& before = way[way.size() - 2];
+  if (last.position == before.position || last.fraction == before.fraction) return std::nullopt;
+  const Vec2d rate = (last.position - before.position) / (last.fraction - before.fraction);
+  way.push_back({last.position + (1 - last.fraction) * rate, 1});
+  const Meeting met = meeting(solid, way_of(step, solid.collider), way, Asked::when);
+  if (met.kind != Meeting::Kind::meets) return std::nullopt;
+  return met.low + (met.high - met.low) / 2;
 }
 
 }  // namespace paperproof::compare::detail

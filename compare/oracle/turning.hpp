@@ -1,27 +1,33 @@
-/// What goes along with movers that turn, judged apart from the rest: between two bounds, for its places are no
-/// fractions.
+/// What goes along with movers that turn, judged apart from the rest: what it overlaps, passes and touches, exactly.
 #pragma once
 
 #include "oracle/convex_parts.hpp"
 #include "oracle/depth.hpp"
+#include "oracle/first_meeting.hpp"
 #include "oracle/judge.hpp"
-#include "oracle/rotation.hpp"
 
 #include <set>
 
 namespace paperproof::compare::detail {
 
-/// Solids that turn about the point (0, 0) that they are written around while that point goes along with their mover,
-/// both evenly during a step. Feed it every step of one run in order. Not thread-safe.
+/// Solids that turn: their vertices go as `TraceStep::vertex_ways` says, and at every moment they are the hulls of
+/// those that make up the convex parts of their definition. Feed it every step of one run in order. Not thread-safe.
 ///
-/// - **Overlap** at the end of a step, and a touch on the way, are what interval arithmetic is certain of.
-/// - **Contact**: the wanted motion, less what the other contacts that were reported take from it, touches within the
-///   step; its normal is that of the best axis there.
-/// - **Time of impact**: where a contact begins, the reported fraction is held against the first touch of that motion
-///   going on, at most four steps ahead: Box2D stops 20 mm away, so that the touch itself lies ahead.
-/// - Depths, normals and distances are exact for the place rounded to double.
+/// - **Overlap** at the end of a step, **tunnelled** and **corner cut** as of what does not turn (see `Judge`), but for
+///   one that is left on another side in a later step than it was entered.
+/// - **Crushed**: a solid that is named is excused if there is no room: see `Judge`; the way to a place that is room
+///   leaves free what turns, too, and ends 1e-7 m away from it.
+/// - **Contact**: what the requested motion touches first in the step, or what was reported and is within 1e-6 m at a
+///   corner of the way (Box2D: what the motion touches that is left by its contacts with the rest). The normal is that
+///   of the best axis there.
+/// - **Time of impact**: where a contact begins, the reported fraction is held against the first touch of the way that
+///   was travelled until then, going on straight. Box2D stops 20 mm away, so that the touch itself lies ahead: there it
+///   is that of what it wants, which goes on for at most four steps, and what turns goes on as in this one.
+/// - **Undecided** is what comes so near that halving the time does not tell: it is counted, and no answer.
+/// Distances, depths and normals are exact for places that are rounded to double.
 class TurningJudge {
  public:
+  /// @param header must outlive the judge.
   explicit TurningJudge(const TraceHeader& header);
 
   [[nodiscard]] bool any() const noexcept { return !solids_.empty(); }
@@ -29,36 +35,45 @@ class TurningJudge {
   [[nodiscard]] bool turns(ColliderIndex collider) const;
   /// The scenery for the exact judge: what turns blocks nothing there.
   [[nodiscard]] static SceneryDef exact_part(const TraceHeader& header);
-  /// The step without its contacts with and events of what turns.
+  /// The step without its contacts with, events of and crushes by what turns.
   [[nodiscard]] TraceStep exact_part(const TraceStep& step) const;
+  /// The solids that the octagon overlaps where a step begins.
+  [[nodiscard]] std::vector<ColliderIndex> overlapped(const TraceStep& step) const;
   /// Whether something that turns is within so many metres at a corner of the way.
   [[nodiscard]] bool is_near(const TraceStep& step, double within) const;
+  /// Whether a way of the whole step meets nothing that turns but what it begins in, and ends 1e-7 m away from it.
+  [[nodiscard]] bool left_free(const TraceStep& step, std::span<const PathPoint<double>> way) const;
   /// Adds what turns to the judgement of the rest.
-  void judge(const TraceStep& step, StepJudgement& judgement);
+  /// @param rest the scenery of `exact_part`.
+  void judge(const TraceStep& step, const ExactScenery& rest, StepJudgement& judgement);
 
  private:
   struct Solid {
     ColliderIndex collider = 0;
-    MoverIndex mover = 0;
-    std::vector<ConvexPart> parts;
-  };
-  /// Where a solid is at one moment, or how it goes from one to another.
-  struct Pose {
-    Vec2d offset{Vec2d::Zero()};
-    double angle = 0;
+    std::vector<std::vector<std::size_t>> parts;  ///< By the numbers of their vertices.
   };
 
-  [[nodiscard]] static Pose pose(const TraceStep& step, const Solid& solid, double fraction);
-  [[nodiscard]] RotationTouch touch(const Solid& solid, const Pose& from, const Pose& to, const Vec2d& position,
-                                    const Vec2d& displacement) const;
-  [[nodiscard]] bool overlaps(const Solid& solid, const Pose& at, const Vec2d& position) const;
-  [[nodiscard]] Axis nearest_axis(const Solid& solid, const Pose& at, const Vec2d& position) const;
-  void judge_way(const Solid& solid, const TraceStep& step, StepJudgement& judgement) const;
-  void judge_contacts(const Solid& solid, const TraceStep& step, StepJudgement& judgement);
+  /// The first touch of all parts on a way.
+  [[nodiscard]] Meeting meeting(const Solid& solid, const VertexWay& way, std::span<const PathPoint<double>> path,
+                                Asked asked = Asked::whether) const;
+  [[nodiscard]] bool overlaps(const Solid& solid, const VertexWay& way, const PathPoint<double>& at) const;
+  [[nodiscard]] Axis nearest_axis(const Solid& solid, const VertexWay& way, const PathPoint<double>& at) const;
+  /// Over the corners of the way [m].
+  [[nodiscard]] double nearest(const Solid& solid, const TraceStep& step) const;
+  [[nodiscard]] bool is_excused(const Solid& solid, const TraceStep& step, const ExactScenery& rest,
+                                StepJudgement& judgement) const;
+  void judge_way(const Solid& solid, const TraceStep& step, const ExactScenery& rest, StepJudgement& judgement);
+  void judge_passage(const Solid& solid, const TraceStep& step, StepJudgement& judgement) const;
+  [[nodiscard]] double depth_on(const Solid& solid, const TraceStep& step) const;
+  void judge_contacts(const Solid& solid, const TraceStep& step, StepJudgement& judgement) const;
+  [[nodiscard]] std::optional<double> touch_going_on(const Solid& solid, const TraceStep& step, double moment) const;
 
   const TraceHeader& header_;
+  std::vector<Vec2d> octagon_;  ///< Counter-clockwise.
   std::vector<Solid> solids_;
+  bool promises_ = false;            ///< See `Party::promising`.
   std::set<ColliderIndex> touched_;  ///< In the last step, as reported.
+  std::set<ColliderIndex> pressed_;  ///< Overlapped since a crush that was excused.
 };
 
 }  // namespace paperproof::compare::detail

@@ -34,19 +34,6 @@ Box2<double> box_around(std::span<const Vec2d> points) {
   return box;
 }
 
-/// The octagon counter-clockwise and without repeated points.
-std::vector<Vec2d> normalised(std::vector<Vec2d> points) {
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  while (points.size() > 1 && points.front() == points.back()) points.pop_back();
-  if (points.size() < 3 || points.size() > max_points) {
-    throw std::invalid_argument("the character needs 3 to 16 distinct hull points");
-  }
-  const Sign way = winding(points);
-  if (way == Sign::zero) throw std::invalid_argument("the character's points have no area");
-  if (way == Sign::negative) std::reverse(points.begin(), points.end());
-  return points;
-}
-
 bool strictly_inside(std::span<const Vec2d> convex, const Vec2d& point) {
   for (std::size_t k = 0; k < convex.size(); ++k) {
     if (turn(convex[k], convex[(k + 1) % convex.size()], point) != Sign::positive) return false;
@@ -74,6 +61,18 @@ Sign turn(const Vec2d& a, const Vec2d& b, const Vec2d& c) {
 Sign winding(std::span<const Vec2d> ring) {
   const Sign quick = winding_in(Convert<Approximate>{}, ring);
   return quick != Sign::unknown ? quick : winding_in(Convert<Integer>{lowest_bit(ring)}, ring);
+}
+
+std::vector<Vec2d> normalised(std::vector<Vec2d> points) {
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  while (points.size() > 1 && points.front() == points.back()) points.pop_back();
+  if (points.size() < 3 || points.size() > max_points) {
+    throw std::invalid_argument("the character needs 3 to 16 distinct hull points");
+  }
+  const Sign way = winding(points);
+  if (way == Sign::zero) throw std::invalid_argument("the character's points have no area");
+  if (way == Sign::negative) std::reverse(points.begin(), points.end());
+  return points;
 }
 
 World::World(const SceneryDef& scenery, std::vector<Vec2d> points)

@@ -47,6 +47,10 @@ struct Group {
   BoxTree solid_tree;
 };
 
+/// The octagon counter-clockwise and without repeated points.
+/// @throws std::invalid_argument for one without area, or with more than 16 points.
+[[nodiscard]] std::vector<Vec2d> normalised(std::vector<Vec2d> points);
+
 /// Everything that does not change from question to question. Immutable, apart from the counter.
 class World {
  public:

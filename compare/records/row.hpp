@@ -122,6 +122,7 @@ struct Row {
   std::optional<int> sensor_errors;
   std::optional<double> max_sensor_error;
   std::optional<int> steps_inside_after_crush;
+  std::optional<int> undecided_steps;
   std::optional<int> hanging_steps;
   std::optional<int> stuck_steps;
   std::optional<int> stuck_refuted;

@@ -1,7 +1,7 @@
 /// What a run leaves behind: a header and one record per step, in double (every float is one exactly).
 #pragma once
 
-#include "records/turn.hpp"
+#include "records/vertex_way.hpp"
 
 #include <paperproof/crowd.hpp>
 #include <paperproof/plan.hpp>
@@ -74,8 +74,9 @@ struct TraceStep {
   std::vector<Contact<double>> contacts;
   std::vector<CharacterIndex> start_overlap_characters;  ///< Which it overlapped when the step began, exactly.
   std::vector<CrowdContact<double>> met;                 ///< Contacts with other characters.
-  std::vector<MoverMotion<double>> movers;               ///< One for each mover of the scenery.
-  std::vector<TurnMotion> turns;                         ///< The same; empty where none turns.
+  /// One for each mover of the scenery; of one that turns the offset of the point that it turns about.
+  std::vector<MoverMotion<double>> movers;
+  std::vector<VertexWay> vertex_ways;        ///< Of each collider that goes with a mover that turns, in order.
   std::vector<ColliderIndex> crushed;        ///< Colliders of movers that left the character no room, as reported.
   std::vector<SensorEvent<double>> sensors;  ///< In order of time, as reported.
   /// One-way chains that were passed against their normal on purpose, as reported: the input asked to drop.

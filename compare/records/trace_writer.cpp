@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 
@@ -104,34 +106,33 @@ void put_met(Buffer& out, const std::vector<CrowdContact<double>>& met) {
   out.push_back(']');
 }
 
-/// Where a mover is when the step begins and ends; of one that turns with its angle.
-void put_motion(Buffer& out, const TraceStep& step, MoverIndex mover, const std::vector<bool>& turning) {
-  const MoverMotion<double>& motion = step.movers[mover];
-  const bool turns = mover < turning.size() && turning[mover];
-  const auto put_end = [&](const Vec2d& offset, double angle) {
-    if (!turns) return put(out, offset);
-    out.push_back('[');
-    put(out, offset.x());
-    out.push_back(',');
-    put(out, offset.y());
-    out.push_back(',');
-    put(out, angle);
-    out.push_back(']');
-  };
+template <class Items, class Put>
+void put_list(Buffer& out, const Items& items, const Put& put_one) {
   out.push_back('[');
-  put_end(motion.from, turns ? step.turns[mover].from : 0);
-  out.push_back(',');
-  put_end(motion.to, turns ? step.turns[mover].to : 0);
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    if (i > 0) out.push_back(',');
+    put_one(items[i]);
+  }
   out.push_back(']');
 }
 
+/// Where a mover is when the step begins and ends.
+void put_motion(Buffer& out, const MoverMotion<double>& motion) {
+  put_list(out, std::array{motion.from, motion.to}, [&](const Vec2d& offset) { put(out, offset); });
+}
+
+void put_way(Buffer& out, const VertexWay& way) {
+  put_text(out, "{\"k\":");
+  put_list(out, way.instants, [&](double instant) { put(out, instant); });
+  put_text(out, ",\"vertices\":");
+  put_list(out, way.vertices, [&](const std::vector<Vec2d>& vertices) {
+    put_list(out, vertices, [&](const Vec2d& vertex) { put(out, vertex); });
+  });
+  out.push_back('}');
+}
+
 void put_ids(Buffer& out, const std::vector<ColliderIndex>& colliders, const std::vector<std::string>& ids) {
-  out.push_back('[');
-  for (std::size_t i = 0; i < colliders.size(); ++i) {
-    if (i > 0) out.push_back(',');
-    put_text(out, ids[colliders[i]]);
-  }
-  out.push_back(']');
+  put_list(out, colliders, [&](ColliderIndex collider) { put_text(out, ids[collider]); });
 }
 
 void put_sensors(Buffer& out, const std::vector<SensorEvent<double>>& events, const std::vector<std::string>& ids) {
@@ -161,7 +162,7 @@ std::string twin_stem(const std::string& stem, std::string_view contender) {
 }
 
 TraceWriter::TraceWriter(const std::string& path, const TraceHeader& header)
-    : file_(path), path_exact_(header.path_exact), several_(header.characters > 1), turning_(header.turning) {
+    : file_(path), path_exact_(header.path_exact), several_(header.characters > 1) {
   const std::vector<ColliderDef>& colliders = header.scenery.colliders;
   for (ColliderIndex i = 0; i < colliders.size(); ++i) {
     if (colliders[i].mover != no_mover) moving_.push_back({i, colliders[i].mover});
@@ -198,7 +199,13 @@ void TraceWriter::write(const TraceStep& step) {
     if (i > 0) out.push_back(',');
     put_text(out, ids_[moving_[i].collider]);
     out.push_back(':');
-    put_motion(out, step, moving_[i].mover, turning_);
+    const auto way = std::find_if(step.vertex_ways.begin(), step.vertex_ways.end(), [&](const VertexWay& one) {
+      return one.collider == moving_[i].collider;
+    });
+    if (way != step.vertex_ways.end())
+      put_way(out, *way);
+    else
+      put_motion(out, step.movers[moving_[i].mover]);
   }
   put_text(out, "},\"contacts\":[");
   for (std::size_t i = 0; i < step.contacts.size(); ++i) {

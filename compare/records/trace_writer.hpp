@@ -32,8 +32,7 @@ class TraceWriter {
   std::vector<std::string> ids_;  ///< As JSON strings.
   std::vector<Moving> moving_;
   bool path_exact_;
-  bool several_;               ///< Characters.
-  std::vector<bool> turning_;  ///< By mover.
+  bool several_;  ///< Characters.
 };
 
 }  // namespace paperproof::compare

@@ -12,10 +12,21 @@ constexpr double parts_of_one = 10'000;  ///< Fractions and normals are shown to
 
 std::int64_t in_parts(double number) { return std::isfinite(number) ? std::llround(number * parts_of_one) : 0; }
 
+/// How far the edge between two vertices is turned when a step begins, and when it ends [rad].
+/// @param ring as defined.
+std::pair<double, double> angles_of(const std::vector<Vec2d>& ring, const VertexWay& way) {
+  const auto turn = [](const Vec2d& a, const Vec2d& b) { return std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b)); };
+  const auto edge = [](const std::vector<Vec2d>& vertices) -> Vec2d { return vertices[1] - vertices[0]; };
+  const double from = turn(edge(ring), edge(way.vertices.front()));
+  double to = from;
+  for (std::size_t k = 1; k < way.vertices.size(); ++k) to += turn(edge(way.vertices[k - 1]), edge(way.vertices[k]));
+  return {from, to};
+}
+
 /// Writes the steps of one run, column by column.
 class Columns {
  public:
-  explicit Columns(const Quantum& quantum) : quantum_(quantum) {}
+  Columns(const TraceHeader& header, const Quantum& quantum) : header_(header), quantum_(quantum) {}
 
   void add(const TraceStep& step) {
     steps_.add(step.step - last_step_);
@@ -30,8 +41,7 @@ class Columns {
     add_colliders(crushed_, step.crushed);
     add_colliders(dropped_through_, step.dropped_through);
     add_movers(step.movers);
-    for (const TurnMotion& turn : step.turns) turns_.add(in_parts(turn.from)).add(in_parts(turn.to));
-    turns_any_ = turns_any_ || !step.turns.empty();
+    add_turns(step);
     ++count_;
   }
 
@@ -152,6 +162,19 @@ class Columns {
     }
   }
 
+  /// What turns is drawn as it would be if it did so evenly: as far as the vertices of one of its colliders say.
+  void add_turns(const TraceStep& step) {
+    if (step.vertex_ways.empty()) return;
+    turns_any_ = true;
+    std::vector<std::pair<double, double>> angles(step.movers.size());
+    for (const VertexWay& way : step.vertex_ways) {
+      const ColliderDef& def = header_.scenery.colliders[way.collider];
+      angles[def.mover] = angles_of(def.points, way);
+    }
+    for (const auto& [from, to] : angles) turns_.add(in_parts(from)).add(in_parts(to));
+  }
+
+  const TraceHeader& header_;
   const Quantum& quantum_;
   JsonArray steps_, path_, velocity_, contacts_, kinds_, movers_, turns_;
   bool turns_any_ = false;
@@ -247,7 +270,7 @@ std::string run_json(const ReportRun& run, std::size_t scenery, const Quantum& q
   const std::size_t shown = finite_steps(run);
   if (shown < run.steps.size()) object.put("not_finite_from", run.steps[shown].step);
   const auto write_columns = [&](const std::vector<TraceStep>& steps, JsonObject& into) {
-    Columns columns(quantum);
+    Columns columns(run.header, quantum);
     for (std::size_t i = 0; i < shown; ++i) columns.add(steps[i]);
     std::move(columns).write(into);
   };

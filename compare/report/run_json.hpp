@@ -21,6 +21,7 @@ namespace paperproof::compare {
 /// - `movers`, where there are any: per step 1 and (dx, dy) from where each of them ended the step before, if any
 /// begins
 ///   elsewhere, else 0; then for each the change of its way (to - from) since the step before.
+/// - `turns`, where anything turns: per step the angle of each mover when it begins and when it ends, in 1/10,000;
 /// - `met`, where there is any: {index of the stored step: [character, side, normal x, normal y, fraction…]}, the last
 ///   three in 1/10,000;
 /// - `remainder`, where there is any: {index of the stored step: [dx, dy]}, from the end of its way to where the

@@ -45,7 +45,7 @@ void BodyJudge::add(const TraceStep& step) {
     own.path = {{motion.from, 0}, {motion.to, 1}};
     own.requested = motion.to - motion.from;
     own.movers = step.movers;
-    own.turns = step.turns;
+    own.vertex_ways = step.vertex_ways;
     const StepJudgement judged = body.judge->judge(own);
     inside = inside || judged.end_overlap.size() > judged.rounded.size();
     deepest_ = std::max(deepest_, judged.max_penetration);

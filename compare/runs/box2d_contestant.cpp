@@ -1,6 +1,7 @@
 #include "runs/box2d_contestant.hpp"
 
 #include "runs/technique_parts.hpp"
+#include "runs/vertex_ways.hpp"
 #include "scenes/step_times.hpp"
 
 #include <paperproof/controller.hpp>
@@ -24,7 +25,7 @@ void begin(TraceStep& record) {
   record.contacts.clear();
   record.met.clear();
   record.movers.clear();
-  record.turns.clear();
+  record.vertex_ways.clear();
   record.sensors.clear();
   record.dropped_through.clear();
   record.requested = Vec2d::Zero();
@@ -42,7 +43,20 @@ void add_events(const std::vector<Event>& events, const SubstepOf& of, const Sam
   }
 }
 
-void add_substep(const box2d::TwinStep& twin, const SubstepOf& of, bool turns, TraceStep& record) {
+/// The ways of what turns, in one part of a step.
+void add_ways(const box2d::TwinStep& twin, const SubstepOf& of, const TraceHeader& header,
+              std::vector<VertexWay>& ways) {
+  std::size_t next = 0;
+  for (ColliderIndex i = 0; i < header.scenery.colliders.size() && !header.turning.empty(); ++i) {
+    const ColliderDef& def = header.scenery.colliders[i];
+    if (def.mover == no_mover || !header.turning[def.mover]) continue;
+    if (of.number == 0) ways.push_back({.collider = i, .instants = {}, .vertices = {}});
+    const box2d::MoverTurn& turn = twin.turns[def.mover];
+    add_turn(def, {twin.movers[def.mover], {turn.from, turn.to}, of.fraction(0), of.fraction(1)}, ways[next++]);
+  }
+}
+
+void add_substep(const box2d::TwinStep& twin, const SubstepOf& of, const TraceHeader& header, TraceStep& record) {
   for (std::size_t i = of.number == 0 ? 0 : 1; i < twin.path.size(); ++i)  // it begins where the one before ended
     record.path.push_back({twin.path[i].position, of.fraction(twin.path[i].fraction)});
   add_events(
@@ -58,10 +72,7 @@ void add_substep(const box2d::TwinStep& twin, const SubstepOf& of, bool turns, T
   std::sort(record.dropped_through.begin(), record.dropped_through.end());
   if (of.number == 0) record.movers = twin.movers;
   for (std::size_t k = 0; k < twin.movers.size(); ++k) record.movers[k].to = twin.movers[k].to;
-  if (turns && of.number == 0)
-    for (const box2d::MoverTurn& turn : twin.turns) record.turns.push_back({turn.from, turn.to});
-  if (turns)
-    for (std::size_t k = 0; k < twin.turns.size(); ++k) record.turns[k].to = twin.turns[k].to;
+  add_ways(twin, of, header, record.vertex_ways);
   record.velocity = twin.velocity;
   record.grounded = twin.grounded;
   record.capped = record.capped || twin.capped;
@@ -106,7 +117,7 @@ class Box2dContestant final : public Contestant {
       const std::span<const box2d::TwinStep> steps = advance(part_of(input, substep));
       for (std::size_t k = 0; k < twins_.size(); ++k) {
         const SubstepOf of{substep, substeps_};
-        add_substep(steps[k], of, !header_.turning.empty(), records[k]);
+        add_substep(steps[k], of, header_, records[k]);
         records[k].requested += wishes_[k].velocity * dt_;
         records[k].steered += twins_[k].steered * dt_;
         records[k].jumping = twins_[k].state.jumping;

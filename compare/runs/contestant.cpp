@@ -2,6 +2,7 @@
 
 #include "runs/box2d_contestant.hpp"
 #include "runs/crowd_contestant.hpp"
+#include "runs/level_contestant.hpp"
 #include "runs/technique_contestant.hpp"
 
 #include <fmt/format.h>
@@ -14,6 +15,7 @@ namespace {
 
 constexpr std::string_view box2d_name = "box2d";
 constexpr std::string_view box2d_pieces_name = "box2d_pieces";
+constexpr std::string_view sweep_name = "octagon_sweep";  ///< The one technique that takes what turns.
 
 }  // namespace
 
@@ -47,9 +49,12 @@ std::unique_ptr<Contestant> make_contestant(std::string_view name, ScalarKind sc
   }
   const auto turning = std::find_if(scene.movers.begin(), scene.movers.end(),
                                     [](const MoverDef& mover) { return !mover.turns.empty(); });
-  if (turning != scene.movers.end())
-    throw NotApplicable(std::string(name) + " is for movers that do not turn, and \"" + turning->id + "\" does");
+  const bool turns = turning != scene.movers.end();
+  if (turns && (name != sweep_name || scalar != ScalarKind::binary64))
+    throw NotApplicable(fmt::format("{}{} is for movers that do not turn, and \"{}\" does", name,
+                                    name == sweep_name ? " in float" : "", turning->id));
   if (const TechniqueEntry* technique = find_technique(name)) {
+    if (turns) return make_level_contestant(*technique, scene, scenery, planning);
     const bool crowd = !scene.others.empty();
     if (crowd && technique->moves_crowds) return make_crowd_contestant(*technique, scalar, scene, scenery, planning);
     if (crowd)

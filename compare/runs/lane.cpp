@@ -137,7 +137,7 @@ void Lane::judge_step() {
   for (std::size_t k = 0; k < records_.size(); ++k) {
     TraceStep& record = records_[k];
     // What moves stands where the last step left it: who was not put elsewhere begins in what he ended in.
-    if (placed_[k]) inside_[k] = solids().overlapped({record.path.front(), record.movers});
+    if (placed_[k]) inside_[k] = judges_[k]->overlapped(record);
     placed_[k] = false;
     record.start_overlap = inside_[k];
     if (company_) record.start_overlap_characters = company_->overlapped(starts, record.character);
@@ -294,6 +294,9 @@ void Lane::conclude_safety(bool promised) {
     fault(Verdict::flagged, fmt::format("passes a one-way chain against its normal on {}", counted(passed, "step")));
   if (steps_miscalled_ > 0)
     fault(Verdict::flagged, fmt::format("a crush with room to give way on {}", counted(steps_miscalled_, "step")));
+  if (const int unsure = row_.undecided_steps.value_or(0); unsure > 0)
+    add_fault(row_, Axis::safety, Verdict::flagged,
+              fmt::format("too near to what turns to tell on {}", counted(unsure, "step")));
   if (const double gap = row_.max_contact_gap_m.value_or(0); promised && gap > guaranteed_gap)
     fault(Verdict::violates, fmt::format("a contact is {:.3g} m away", gap));
 }

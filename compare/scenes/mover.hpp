@@ -1,8 +1,6 @@
 /// What moves in a scene: colliders that go along a path through time, or are bodies that Box2D moves.
 #pragma once
 
-#include "records/turn.hpp"
-
 #include <paperproof/scenery.hpp>
 
 #include <cstdint>
@@ -43,6 +41,12 @@ struct MoverDef {
   std::vector<Turn> turns{};  ///< Empty: it does not turn.
   /// Where there is one, the path says only where it begins.
   std::optional<Body> body{};
+};
+
+/// How a mover turns during one step: evenly, from one angle to another [radians], counter-clockwise.
+struct TurnMotion {
+  double from = 0;
+  double to = 0;
 };
 
 /// Holds a body to the ground or to another body. Points are where they are at the start [m].

@@ -24,9 +24,9 @@ For octagon_sweep in double, which promises more, also:
 - two characters that met say so both, with opposite normals and the same fraction, and come to within 1e-6 m along them;
   where both had met nothing before, the fraction is the time of impact of their requested motions, as above.
 
-What turns (its ends have an angle as well) has places that are no fractions. Overlaps with it and ways through it are
-told where they are certain between bounds (trace_turning.py: 1e-12 m deep, to 1e-9 of a way); what is too close to tell is
-counted. Its contacts are not looked at, nor its sensors and one-way chains.
+What turns has its vertices at instants of the step, and each goes straight from one to the next (trace_turning.py).
+Overlaps with it and ways through it are told exactly, but for a touch that takes more halvings of the time than to 1e-9
+of a way: those are counted. The time of impact of its contacts is not looked at, nor its sensors and one-way chains.
 
 Where a character that goes by whole squares is drawn in between two of them (`remainder`) is not looked at: nothing
 collides there.
@@ -46,7 +46,12 @@ from trace_geometry import (
     scaled, size)
 from trace_hanging import hangs
 from trace_one_way import lines_of, surfaces_of
-from trace_turning import SURE, Leg, comes_to_overlap, is_free, overlaps
+from trace_turning import Way, comes_to_overlap, overlaps
+
+
+def edges_of(rings, lines):
+    return [edge for line in lines for edge in zip(line, line[1:])] + [
+        edge for ring in rings for edge in zip(ring, ring[1:] + ring[:1])]
 
 
 class Collider:
@@ -56,14 +61,26 @@ class Collider:
         self.one_way = tuple(map(Fraction, entry["one_way"])) if "one_way" in entry else None
         self.rings = [exact(ring) for ring in [entry["polygon"]] + entry.get("holes", [])] if "polygon" in entry else []
         self.lines = [exact(entry["chain"])] if "chain" in entry else []
+        self.sizes = [len(ring) for ring in self.rings + self.lines]
+        self.vertex_count = sum(self.sizes)
         if self.rings and self.one_way is not None:  # it has no inside
             self.lines, self.rings = lines_of(self.rings[0], self.one_way), []
-        self.edges = [edge for line in self.lines for edge in zip(line, line[1:])] + [
-            edge for ring in self.rings for edge in zip(ring, ring[1:] + ring[:1])]
+        self.edges = edges_of(self.rings, self.lines)
         points = [tuple(map(float, point)) for edge in self.edges for point in edge]
         self.low = [min(p[k] for p in points) for k in (0, 1)]
         self.high = [max(p[k] for p in points) for k in (0, 1)]
         self.segments = []  # of a one-way chain, with their surfaces
+
+    def rings_of(self, vertices):
+        """Of a polygon that turns."""
+        if not self.rings:
+            return []
+        ends = list(itertools.accumulate(self.sizes))
+        return [vertices[end - size:end] for end, size in zip(ends, self.sizes)]
+
+    def edges_of(self, vertices):
+        """Of what turns, with its vertices in the order of their definition."""
+        return edges_of(self.rings_of(vertices), [] if self.rings else [vertices])
 
     def blocking_edges(self, body):
         """Of a one-way chain, the segments that a body may not pass on its way from here."""
@@ -78,11 +95,21 @@ class Collider:
 class Motion:
     """Of the movers during one step, by the ids of their colliders."""
 
-    def __init__(self, step):
-        self.ends = {name: exact(ends) for name, ends in step["movers"].items()}
+    def __init__(self, step, colliders):
+        movers = step["movers"].items()
+        self.ends = {name: exact(ends) for name, ends in movers if not isinstance(ends, dict)}
+        self.ways = {name: Way(ends, colliders[name]) for name, ends in movers if isinstance(ends, dict)}
 
     def turns(self, name):
-        return name in self.ends and len(self.ends[name][0]) == 3
+        return name in self.ways
+
+    def moves(self, name):
+        return name in self.ends or name in self.ways
+
+    def first_and_last(self):
+        """Of everything that moves, where it is when the step begins and when it ends."""
+        ends = {name: (way.vertices[0], way.vertices[-1]) for name, way in self.ways.items()}
+        return {**self.ends, **ends}
 
     def change(self, name):
         ends = self.ends.get(name)
@@ -91,10 +118,12 @@ class Motion:
     def offset(self, name, fraction):
         return add(self.ends[name][0], scaled(self.change(name), fraction)) if name in self.ends else (ZERO, ZERO)
 
-    def angle(self, name, fraction):
-        """Of a mover that turns."""
-        first, last = (end[2] for end in self.ends[name])
-        return first + fraction * (last - first)
+    def edges(self, name, collider, fraction):
+        """Of a collider at a moment."""
+        if name in self.ways:
+            return self.ways[name].edges(fraction)
+        offset = self.offset(name, fraction)
+        return [(add(a, offset), add(b, offset)) for a, b in collider.edges]
 
     def seen(self, name, corner):
         """A corner of a way as the collider sees it, which then stands still."""
@@ -141,10 +170,10 @@ class Checker:
             if not self.may_overlap_at_start(name, path, motion):
                 yield f"does not overlap {name} at the start, as it says"
         for name in step.get("crush", []):
-            if name not in motion.ends:
+            if not motion.moves(name):
                 yield f"is crushed by {name}, which does not move"
         for name, collider in self.colliders.items():
-            crushes = name in step.get("crush", []) and name in motion.ends
+            crushes = name in step.get("crush", []) and motion.moves(name)
             if name in allowed or crushes or collider.sensor:
                 continue
             if motion.turns(name):
@@ -162,28 +191,32 @@ class Checker:
 
     def may_overlap_at_start(self, name, path, motion):
         if motion.turns(name):
-            return not is_free(self.colliders[name], self.leg(name, path[0], path[0], motion), ZERO)
+            return overlaps(motion.ways[name], motion.ways[name].seen(path[0]), self.body)
         return self.meets(name, motion.seen(name, path[0]), (ZERO, ZERO))
 
-    def leg(self, name, start, end, motion):
-        """Of the way, beside what turns."""
-        corners = (start, end)
-        return Leg(self.body, [motion.seen(name, corner) for corner in corners],
-                   [motion.angle(name, corner[2]) for corner in corners])
-
     def check_way_past_turning(self, name, path, motion):
-        collider, smaller = self.colliders[name], 2 - self.grown_by(SURE)
+        collider, way = self.colliders[name], motion.ways[name]
         if collider.one_way is not None:
             return
         for start, end in zip(path, path[1:]):
-            leg = self.leg(name, start, end, motion)
-            found = comes_to_overlap(collider, leg, smaller)
+            found = not self.is_far(way, start, end) and comes_to_overlap(way, self.body, start, end)
             if found:
                 yield f"passes or enters {name} on its way from {show(start)} to {show(end)}"
             elif found is None:
                 self.too_close += 1
-        if overlaps(collider, leg, Fraction(1), smaller):
+        if overlaps(way, way.seen(path[-1]), self.body):
             yield f"ends inside {name}"
+
+    def is_far(self, way, start, end):
+        """Whether all places of the body are beside all those of the vertices: doubles will do."""
+        points = [tuple(map(float, vertex)) for vertices in way.vertices for vertex in vertices]
+        for k in (0, 1):
+            low = min(float(start[k]), float(end[k])) + 1.01 * self.low[k]
+            high = max(float(start[k]), float(end[k])) + 1.01 * self.high[k]
+            margin = 1e-9 * (1 + abs(low) + abs(high))
+            if low > max(p[k] for p in points) + margin or high < min(p[k] for p in points) - margin:
+                return True
+        return False
 
     def check_drop(self, name, corners):
         if self.colliders[name].one_way is None:
@@ -237,11 +270,12 @@ class Checker:
     def check_movers(self, step, motion, last):
         if last is None:
             return
-        if motion.ends.keys() != last.ends.keys():
+        now, before = motion.first_and_last(), last.first_and_last()
+        if now.keys() != before.keys() or motion.ways.keys() != last.ways.keys():
             yield "has not the same movers as the step before"
-        for name in motion.ends.keys() & last.ends.keys():
-            if motion.ends[name][0] != last.ends[name][1]:
-                yield f"has {name} begin at {show(motion.ends[name][0])}, not where it was"
+        for name in now.keys() & before.keys():
+            if now[name][0] != before[name][1]:
+                yield f"has {name} begin where it was not"
 
     def check_contact(self, contact, path, motion, put):
         name, n = contact["collider"], tuple(map(Fraction, contact["normal"]))
@@ -258,8 +292,8 @@ class Checker:
         """Of a contact, if this is the corner where the character stopped before it."""
         name, n = contact["collider"], tuple(map(Fraction, contact["normal"]))
         place, point = corner[:2], tuple(map(Fraction, contact["point"]))
-        seen = less(point, motion.offset(name, corner[2]))
-        if not min(distance(seen, a, b) for a, b in self.colliders[name].edges) <= ROUNDING:
+        edges = motion.edges(name, self.colliders[name], corner[2])
+        if not min(distance(point, a, b) for a, b in edges) <= ROUNDING:
             yield f"has a contact point {show(point)} that is not on {name}"
         body = [add(place, corner) for corner in self.body]
         if not min(distance(point, a, b) for a, b in zip(body, body[1:] + body[:1])) <= GAP + Fraction(ROUNDING):
@@ -268,7 +302,9 @@ class Checker:
         if not abs(gap - Fraction(contact["separation"])) <= ROUNDING:
             yield f"is nowhere {contact['separation']} m from {name}"
         first_place, first_motion = put
-        is_as_put = gap == 0 and motion.seen(name, corner) == first_motion.seen(name, first_place)
+        first_edges = first_motion.edges(name, self.colliders[name], first_place[2])
+        moved = less(place, first_place[:2])
+        is_as_put = gap == 0 and edges == [(add(a, moved), add(b, moved)) for a, b in first_edges]
         if not (0 < gap <= GAP or is_as_put):
             yield f"keeps a gap of {float(gap)} m at {name}"
 
@@ -292,7 +328,7 @@ class Checker:
     def is_in_the_way(self, step, fraction):
         """Whether the requested motion leads until then to within 1e-6 m of a collider, which may turn it before that, and
         be no contact yet."""
-        motion, (start, *_) = Motion(step), exact(step["path"])
+        motion, (start, *_) = Motion(step, self.colliders), exact(step["path"])
         requested = tuple(map(Fraction, step["requested"]))
 
         def is_near(name):
@@ -334,9 +370,9 @@ class Checker:
 
     def check_progress(self, step, others):
         """Of octagon_sweep, which promises to fall where it can."""
-        motion, path = Motion(step), exact(step["path"])
+        motion, path = Motion(step, self.colliders), exact(step["path"])
         told = "steered" in step and self.max_climb is not None and not step.get("crush")
-        if not self.promises or not told or any(motion.turns(name) for name in motion.ends):
+        if not self.promises or not told or motion.ways:
             return
         if hangs(step, path, self.body, self.edges_near(step, motion, others), self.max_climb):
             yield "hangs: it could have fallen"
@@ -364,10 +400,10 @@ class Checker:
             if who != number % self.characters:
                 yield step, f"has a record of character {who} where that of {number % self.characters} belongs"
             if who not in last or step.get("respawn"):
-                self.put[who] = exact(step["path"])[0], Motion(step)
+                self.put[who] = exact(step["path"])[0], Motion(step, self.colliders)
             for words in self.check_alone(step, last.get(who), last_motion.get(who), self.put[who]):
                 yield step, told + words
-            last[who], last_motion[who] = exact(step["path"])[-1][:2], Motion(step)
+            last[who], last_motion[who] = exact(step["path"])[-1][:2], Motion(step, self.colliders)
             together = [other for other in together if other["step"] == step["step"]]
             for other in together:
                 for words in company.check(other, step, self.promises, self.is_in_the_way):
@@ -381,23 +417,28 @@ class Checker:
                         yield one, told + words
 
     def check_alone(self, step, last, last_motion, put):
-        motion = Motion(step)
+        motion = Motion(step, self.colliders)
         path = exact(step["path"])
         fractions = [corner[2] for corner in step["path"]]
         if fractions[0] != 0 or fractions[-1] != 1 or fractions != sorted(fractions):
             yield "has a way that does not go from fraction 0 to 1"
         if last not in (None, path[0][:2]) and not step.get("respawn"):
             yield f"begins at {show(path[0])}, not where the last one ended"
+        wrong = [words for way in motion.ways.values() for words in way.faults()]
+        yield from wrong
+        if wrong:
+            return
         yield from self.check_movers(step, motion, last_motion)
         yield from self.check_way(step, path, motion)
         if not self.promises:
             return
-        contacts = [contact for contact in step["contacts"] if not motion.turns(contact["collider"])]
-        for contact in contacts:
+        for contact in step["contacts"]:
             yield from self.check_contact(contact, path, motion, put)
+        contacts = [contact for contact in step["contacts"] if not motion.turns(contact["collider"])]
         # Who met another before, or what turns, may have been turned aside; who is stuck does not go as requested.
         first = contacts and contacts[0]["fraction"] == first_event(step) and not meets_at_once(contacts[0], step)
-        if first and not step["start_overlap"] and not step.get("crush") and not step.get("stuck"):
+        in_parts = any(len(way.instants) > 2 for way in motion.ways.values())  # so goes the character near what turns
+        if first and not in_parts and not step["start_overlap"] and not step.get("crush") and not step.get("stuck"):
             requested = tuple(map(Fraction, step["requested"]))
             yield from self.check_impact(contacts[0], path[0], requested, motion)
         yield from self.check_sensors(step, path, motion)

@@ -1,26 +1,26 @@
 #!/usr/bin/env python3
-"""That check_trace.py finds what is wrong beside what turns: traces that are made here, whose answers are formulas.
+"""That check_trace.py finds what is wrong beside what turns: traces that are made here, whose answers are fractions.
 
-A square of 1 m has its middle at x = 1. An arm of no thickness turns about the origin, 2 m long and flat at angle 0, so
-that it meets the lower right corner of the square first, at (1.5, h): where tan(angle) = h / 1.5.
+A square of 1 m has its middle at x = 1. An arm of no thickness is held at the origin, and its tip goes up and down at
+x = 2, so that it meets the lower right corner of the square first, at (1.5, h): where the tip is 4/3 h high.
 """
-import math
-import random
 import unittest
-from fractions import Fraction
 
 from check_trace import Checker
-from trace_geometry import at_most, hull, less, turn
 from trace_spoiling import GAP, Spoiling
-from trace_turning import Leg, cosine_and_sine
 
-CORNER = 1.5
-RISE = 0.15  # of the square above the flat arm
-MEETS = math.atan(RISE / CORNER)
+RISE = 0.375  # of the square above the flat arm
+MEETS = 0.5  # height of the tip
+
+
+def entry(heights, instants=None):
+    """Of the arm, whose tip goes from one height to the next."""
+    instants = instants or [k / (len(heights) - 1) for k in range(len(heights))]
+    return {"k": instants, "vertices": [[[0, 0], [2, height]] for height in heights]}
 
 
 def trace(ways):
-    """`ways`: for each step the corners (height of the square's lower side, fraction), and the arm's two angles."""
+    """`ways`: for each step the corners (height of the square's lower side, fraction), and the arm's heights."""
     header = {
         "paperproof_trace": 1, "scene": "made", "contender": "box2d", "scalar": "float", "dt": 0.25,
         "points": [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]],
@@ -28,12 +28,12 @@ def trace(ways):
     steps = [{
         "step": k, "path": [[1, height + 0.5, fraction] for height, fraction in corners], "requested": [0, 0],
         "velocity": [0, 0], "grounded": False, "start_overlap": [], "contacts": [],
-        "movers": {"arm": [[0, 0, angle] for angle in angles]}} for k, (corners, angles) in enumerate(ways)]
+        "movers": {"arm": entry(heights)}} for k, (corners, heights) in enumerate(ways)]
     return header, steps
 
 
-def staying(first, last, height=RISE):
-    return trace([([(height, 0), (height, 1)], (first, last))])
+def staying(*heights, height=RISE):
+    return trace([([(height, 0), (height, 1)], heights)])
 
 
 class BesideWhatTurns(unittest.TestCase):
@@ -47,31 +47,29 @@ class BesideWhatTurns(unittest.TestCase):
         self.assertEqual(["passes or enters arm" in said for said in words], [True, False][:1 + ends_inside])
         self.assertEqual(words[1:], ["ends inside arm"] * ends_inside)
 
-    def test_an_arm_that_comes_up_to_the_square_or_a_nanoradian_further(self):
+    def test_an_arm_that_comes_up_to_the_square_or_a_hair_further(self):
         self.assertEqual(self.said(*staying(0, MEETS - 1e-9)), [])
         self.assert_passes(self.said(*staying(0, MEETS + 1e-9)), ends_inside=True)
 
     def test_an_arm_that_comes_down_from_above(self):
-        # Onto the upper left corner at (0.5, 1.15), or beside it where the square is that much lower.
-        meets = math.atan(1.15 / 0.5)
-        self.assertEqual(self.said(*staying(1.5, meets + 1e-9)), [])
-        self.assert_passes(self.said(*staying(1.5, meets - 1e-9)), ends_inside=True)
+        # Onto the upper left corner at (0.5, 1.375): the tip is at 5.5 then.
+        self.assertEqual(self.said(*staying(6, 5.5 + 1e-9)), [])
+        self.assert_passes(self.said(*staying(6, 5.5 - 1e-9)), ends_inside=True)
 
     def test_an_arm_that_sweeps_all_through_the_square(self):
-        self.assert_passes(self.said(*staying(-1, 1.5)), ends_inside=False)
-        self.assert_passes(self.said(*staying(1.5, -1)), ends_inside=False)
+        self.assert_passes(self.said(*staying(-1, 6)), ends_inside=False)
+        self.assert_passes(self.said(*staying(6, -1)), ends_inside=False)
 
-    def test_an_arm_that_goes_round_many_times_in_a_step(self):
-        self.assert_passes(self.said(*staying(0, 4 * math.pi)), ends_inside=False)
-        self.assertEqual(self.said(*staying(0, 4 * math.pi, height=2.01)), [], "the arm is 2 m long")
+    def test_an_arm_that_comes_in_and_goes_back_within_the_step(self):
+        self.assert_passes(self.said(*staying(0, MEETS + 1e-6, 0)), ends_inside=False)
+        self.assertEqual(self.said(*staying(0, MEETS - 1e-6, 0)), [])
 
     def test_a_turn_and_back_between_two_steps_is_none(self):
         self.assertEqual(self.said(*staying(0.05, 0.05)), [])
 
     def test_a_square_that_rises_as_fast_as_the_arm(self):
-        """At both ends a nanometre above it: in between the tangent sags below the straight way."""
-        def height(angle):
-            return CORNER * math.tan(angle) + 1e-9
+        def height(tip):
+            return 0.75 * tip + 1e-9
 
         self.assertEqual(self.said(*trace([([(height(0.1), 0), (height(0.4), 1)], (0.1, 0.4))])), [])
         middle = height(0.25) - 1e-6
@@ -85,62 +83,55 @@ class BesideWhatTurns(unittest.TestCase):
         self.assertEqual(self.said(*trace([(away, (0, MEETS / 2))])), [])
 
     def test_what_turns_and_goes_along(self):
-        header, steps = staying(0, MEETS + 1e-3)
-        steps[0]["movers"]["arm"][1][1] = -0.01
-        self.assertEqual(self.said(header, steps), [], "the mover has gone down by more than the arm came up")
-        steps[0]["movers"]["arm"][1][1] = 0.01
-        self.assert_passes(self.said(header, steps), ends_inside=True)
+        def moved(by):
+            header, steps = staying(0, MEETS + 1e-3)
+            for vertex in steps[0]["movers"]["arm"]["vertices"][1]:
+                vertex[1] += by
+            return self.said(header, steps)
+
+        self.assertEqual(moved(-0.01), [], "it has gone down by more than it came up")
+        self.assert_passes(moved(0.01), ends_inside=True)
 
     def test_a_square_deep_inside_a_solid_that_touches_it_nowhere(self):
-        header, steps = staying(0, 1)
-        header["colliders"] = [{"id": "arm", "polygon": [[-9, -9], [9, -9], [9, 9], [-9, 9]]}]
+        header, steps = staying(0, 0)
+        outline, hole = ([[-s, -s], [s, -s], [s, s], [-s, s]] for s in (9, 5))
+        header["colliders"] = [{"id": "arm", "polygon": outline}]
+        turned = [[x - y / 10, y + x / 10] for x, y in outline]
+        steps[0]["movers"]["arm"]["vertices"] = [outline, turned]
         self.assert_passes(self.said(header, steps), ends_inside=True)
-        header["colliders"][0]["holes"] = [[[-5, -5], [5, -5], [5, 5], [-5, 5]]]
+        header["colliders"][0]["holes"] = [hole]
+        steps[0]["movers"]["arm"]["vertices"] = [outline + hole, turned + [[x - y / 10, y + x / 10] for x, y in hole]]
         self.assertEqual(self.said(header, steps), [])
 
     def test_an_overlap_at_the_start_that_is_told_or_is_none(self):
         header, steps = staying(MEETS + 0.01, MEETS + 0.02)
         steps[0]["start_overlap"] = ["arm"]
         self.assertEqual(self.said(header, steps), [])
-        header, steps = staying(MEETS - 1e-9, MEETS - 0.01)
+        header, steps = staying(MEETS, MEETS - 0.01)
         steps[0]["start_overlap"] = ["arm"]
         self.assertEqual(self.said(header, steps), ["does not overlap arm at the start, as it says"])
 
-    def test_a_touch_without_depth_is_too_close_to_tell(self):
-        self.assertEqual(self.said(*staying(0, 0, height=0), too_close=1), [])
-
-
-class Bounds(unittest.TestCase):
-    def test_all_places_of_a_part_of_a_way_are_around_its_polygon(self):
-        """Triangles at random, small and large, slow and fast: no side keeps a corner outside."""
-        chance = random.Random(1)
-        for _ in range(40):
-            size, speed = 10 ** chance.uniform(-3, 1), 10 ** chance.uniform(-3, 1)
-            body = hull([tuple(Fraction(chance.uniform(-size, size)) for _ in range(2)) for _ in range(3)])
-            way = [tuple(Fraction(chance.uniform(-speed, speed)) for _ in range(2)) for _ in range(2)]
-            leg = Leg(body, way, [Fraction(chance.uniform(-2, 2)) for _ in range(2)])
-            first, last = sorted(Fraction(chance.random()) for _ in range(2))
-            polygon, wider = leg.between(first, last)
-            for share in (first + (last - first) * Fraction(k, 4) for k in range(5)):
-                for corner in leg.corners(share):
-                    for a, b in zip(polygon, polygon[1:] + polygon[:1]):
-                        self.assertGreaterEqual(turn(a, b, corner) + wider * at_most(less(b, a)), 0)
-
-    def test_cosines_and_sines_of_any_angle_are_right_to_more_than_a_double(self):
-        chance = random.Random(1)
-        for angle in [0.0, math.pi, -math.pi / 2, 1e6] + [chance.uniform(-30, 30) for _ in range(100)]:
-            c, s = cosine_and_sine(Fraction(angle))
-            self.assertLessEqual(abs(c * c + s * s - 1), 1e-24)
-            self.assertLessEqual(abs(float(c) - math.cos(angle)), 2.0 ** -52)
-            self.assertLessEqual(abs(float(s) - math.sin(angle)), 2.0 ** -52)
+    def test_a_touch_that_slides_is_exact(self):
+        self.assertEqual(self.said(*staying(0, 0, height=0)), [])
 
 
 class SpoiltTurning(Spoiling, unittest.TestCase):
     """Of a square that stays while the arm comes up to it and goes down again."""
-    header, steps = trace([([(RISE, 0), (RISE, 1)], angles) for angles in ((0, MEETS - GAP), (MEETS - GAP, 0))])
+    header, steps = trace([([(RISE, 0), (RISE, 1)], heights) for heights in ((0, MEETS - GAP), (MEETS - GAP, 0))])
 
     def test_an_arm_that_jumps(self):
-        self.expect("has arm begin", lambda _, steps: steps[1]["movers"]["arm"][0].__setitem__(2, 0))
+        self.expect("has arm begin where it was not",
+                    lambda _, steps: steps[1]["movers"]["arm"]["vertices"][0][1].__setitem__(1, 0))
+
+    def test_an_arm_that_no_longer_turns(self):
+        self.expect("has not the same movers", lambda _, steps: steps[1]["movers"].update(arm=[[0, 0], [0, 0]]))
+
+    def test_instants_that_go_back_or_end_early(self):
+        for instants in ([0.5, 1], [0, 0.5], [0, 0]):
+            self.expect("do not ascend from 0 to 1", lambda _, steps: steps[0]["movers"]["arm"].update(k=instants))
+
+    def test_vertices_that_are_missing(self):
+        self.expect("without 2 vertices", lambda _, steps: steps[0]["movers"]["arm"]["vertices"][1].pop())
 
     def test_a_square_that_is_lower_than_it_was(self):
         def spoil(_, steps):
@@ -153,11 +144,28 @@ class SpoiltTurning(Spoiling, unittest.TestCase):
 
     def test_a_crush_excuses_the_arm(self):
         def spoil(_, steps):
-            steps[0]["movers"]["arm"][1][2] = steps[1]["movers"]["arm"][0][2] = MEETS + GAP
+            steps[0]["movers"]["arm"] = entry([0, MEETS + GAP])
+            steps[1]["movers"]["arm"] = entry([MEETS + GAP, 0])
             steps[0]["crush"] = ["arm"]
             steps[1]["start_overlap"] = ["arm"]
 
         self.assertEqual(self.found(spoil), [])
+
+
+class OfWhoPromises(Spoiling, unittest.TestCase):
+    """A contact with the arm, whose tip stays at 0.4: the line is at 0.3 under the corner, and turns its normal back."""
+    n = [-0.2 / 1.04 ** 0.5, 1 / 1.04 ** 0.5]
+    gap = 4e-7
+    header, steps = trace([([(0.31, 0), (0.3 + gap / n[1], 0.5), (0.3 + gap / n[1], 1)], (0.4, 0.4))])
+    header["contender"], header["scalar"] = "octagon_sweep", "double"
+    steps[0]["contacts"] = [{"collider": "arm", "point": [1.5, 0.3], "normal": n, "fraction": 0.5, "separation": gap}]
+
+    def test_a_point_that_is_not_on_the_arm(self):
+        self.expect("not on arm", lambda _, steps: steps[0]["contacts"][0].update(point=[1.5, 0.31]))
+
+    def test_an_arm_that_is_farther_away(self):
+        self.expect("keeps a gap", lambda _, steps: (steps[0]["movers"].update(arm=entry([0.39, 0.39])),
+                                                    steps[0]["contacts"][0].update(point=[1.5, 0.2925])))
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 #include "compare/scene_runs.hpp"
 
 #include "metrics/answers.hpp"
+#include "runs/vertex_ways.hpp"
 #include "support/steps_wanted.hpp"
 
 #include <array>
@@ -45,7 +46,6 @@ Ran ran(const std::string& name) {
   return all;
 }
 
-/// What octagon_sweep does not run, since it turns: Box2D answers.
 bool turns(const Scene& scene) {
   return std::any_of(scene.movers.begin(), scene.movers.end(),
                      [](const MoverDef& mover) { return !mover.turns.empty(); });
@@ -58,14 +58,13 @@ TEST(Answers, are_of_every_registered_scene) {
 TEST(Answers, are_met_by_octagon_sweep_in_every_registered_scene) {
   for (const BuiltInScene& entry : test::sampled_of(built_in_scenes())) {
     const Scene scene = shortened(entry.name);
-    if (turns(scene)) continue;
     const Row row = ran(scene).row;
     ASSERT_TRUE(row.answer_ok && row.answer_error) << entry.name;
     EXPECT_TRUE(*row.answer_ok) << entry.name << ": " << row.answer;
   }
 }
 
-TEST(Answers, are_met_by_box2d_where_something_turns) {
+TEST(Answers, are_met_by_box2d_too_where_something_turns) {
   RunOptions options = quick();
   options.contenders = {"box2d", "box2d_pieces"};
   for (const BuiltInScene& entry : built_in_scenes()) {
@@ -127,7 +126,7 @@ void toggle(std::vector<TraceStep>& steps) {
 TEST(Answers, are_each_missed_by_a_run_that_does_something_else) {
   for (const BuiltInScene& entry : test::sampled_of(built_in_scenes())) {
     const Scene scene = shortened(entry.name);
-    if (turns(scene) || scene.others.size() > 2) continue;
+    if (scene.others.size() > 2) continue;
     const ReportRun run = ran(scene).run;
     std::vector<std::vector<TraceStep>> spoilt(7, run.steps);
     for (const std::vector<TraceStep>& other : run.others)
@@ -301,10 +300,12 @@ TEST(Replicas, share_the_sequence_of_events) {
     EXPECT_EQ(events(name), expected) << name;
 }
 
-TEST(WhatTurns, is_refused_in_words_by_every_technique_and_run_by_the_twin) {
-  const ReportScene result = run_scene(built_in("rotating_paper"), quick());
+TEST(WhatTurns, is_refused_in_words_by_every_technique_but_octagon_sweep_in_double) {
+  RunOptions options = quick();
+  options.scalars = {ScalarKind::binary64, ScalarKind::binary32};
+  const ReportScene result = run_scene(built_in("rotating_paper"), options);
   for (const Row& row : result.rows) {
-    if (is_reference(row.contender)) {
+    if (is_reference(row.contender) || (row.contender == "octagon_sweep" && row.scalar == "double")) {
       EXPECT_EQ(row.verdict, Verdict::holds) << row.contender << ": " << row.reason;
     } else {
       EXPECT_EQ(row.verdict, Verdict::not_applicable) << row.contender;
@@ -326,11 +327,17 @@ TEST(WhatTurns, is_met_by_the_twin_a_skin_before_the_root_of_the_sinusoid) {
     // 20 mm are 1.2 steps of a tip at 1 m/s, somewhat more as it comes at an angle; and it looks once a step.
     const double reported = *row.first_contact_step + *row.first_contact_fraction;
     EXPECT_LE(reported, root);
-    EXPECT_NEAR(*row.toi_error_max, root - reported, 1e-3) << name << ": Box2D's angles are floats";
+    EXPECT_NEAR(*row.toi_error_max, root - reported, 60 * most_sag / 0.6) << name << ": it is met on a chord, at 0.6 m/s";
     const TraceStep& step = run_of(result, name).steps[30];
-    ASSERT_EQ(step.turns.size(), 1U);
-    EXPECT_NEAR(step.turns[0].from, 30.0 / 60, 1e-5);
-    EXPECT_NEAR(step.turns[0].to, 31.0 / 60, 1e-5);
+    ASSERT_EQ(step.vertex_ways.size(), 1U);
+    const VertexWay& way = step.vertex_ways[0];
+    for (const std::size_t end : {0U, 1U}) {
+      const std::vector<Vec2d>& vertices = end == 0 ? way.vertices.front() : way.vertices.back();
+      const double angle = (30.0 + static_cast<double>(end)) / 60;
+      EXPECT_EQ(vertices[0], Vec2d(0, 0));
+      EXPECT_LE((vertices[1] - Vec2d(std::cos(angle), std::sin(angle))).norm(), 1e-5);
+    }
+    EXPECT_EQ(row.undecided_steps, 0);
   }
 }
 

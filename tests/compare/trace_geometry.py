@@ -42,19 +42,11 @@ def hull(points):
     return half(points) + half(reversed(points))
 
 
-def at_most(v):
-    """No less than the length of a vector, and a fraction."""
-    return abs(v[0]) + abs(v[1])
-
-
-def enters(a, b, convex, wider=ZERO):
-    """Whether the segment a b has a point strictly inside a counter-clockwise convex polygon, all sides of which are first
-    moved outwards, by `wider` or a little more.
-    """
+def enters(a, b, convex):
+    """Whether the segment a b has a point strictly inside a counter-clockwise convex polygon."""
     first, last = ZERO, Fraction(1)
     for u, v in zip(convex, convex[1:] + convex[:1]):
-        moved = wider and wider * at_most(less(v, u))
-        at_a, at_b = turn(u, v, a) + moved, turn(u, v, b) + moved
+        at_a, at_b = turn(u, v, a), turn(u, v, b)
         if at_a <= 0 and at_b <= 0:
             return False
         if at_a <= 0 or at_b <= 0:

@@ -1,95 +1,120 @@
-"""What turns, for check_trace.py: between bounds, as the sine of a fraction is none.
+"""What turns, for check_trace.py: each vertex goes on a straight line from one instant to the next.
 
-Seen from what turns, that stands still, and the character turns the other way while it goes along a curve. In a short
-part of its way the curve is nearly straight: between its places at both ends and `bend` around them. So a part is
-certainly free where nothing comes into all of that; else its middle is looked at, and then its halves, down to WIDTH.
+Seen from the character, which stands still then. A part of the way is free where from each edge one line keeps it apart
+all the time; else its middle is looked at, and then its halves, down to WIDTH.
 """
+from bisect import bisect_right
 from collections import deque
 from fractions import Fraction
-from functools import lru_cache
 
-from trace_geometry import ZERO, add, at_most, enters, hull, inside, less, scaled
+from trace_geometry import ZERO, add, enters, exact, inside, less, scaled, turn
 
 WIDTH = Fraction(1, 10**9)  # of the shortest part that is looked at, as a share of a straight way
-MOST_PARTS = 200  # that are looked at before it is called too close to tell: a touch takes about 60
-SURE = Fraction(1, 10**12)  # an overlap is this deep, and free is this far away [m]: much more than sines are rounded by
-
-PI = Fraction("3.14159265358979323846264338327950288419716939937510")
-UNIT = 1 << 100
+MOST_PARTS = 2000  # that are looked at before it is called too close to tell: a touch takes about 60
 
 
-@lru_cache(maxsize=4096)
-def cosine_and_sine(angle):
-    """To 1e-25: the series for what is left of the angle without its whole turns, in whole numbers of UNIT parts."""
-    x = round((angle - 2 * PI * (angle // (2 * PI))) * UNIT)
-    sums, term, k = [0, 0, 0, 0], UNIT, 0  # of the terms whose signs are those of cos, sin, -cos, -sin
-    while term:
-        sums[k % 4] += term
-        k += 1
-        term = term * x // (k * UNIT)
-    return Fraction(sums[0] - sums[2], UNIT), Fraction(sums[1] - sums[3], UNIT)
+class Way:
+    """Of the vertices of a collider in one step."""
+
+    def __init__(self, entry, collider):
+        self.instants = list(map(Fraction, entry["k"]))
+        self.vertices = [exact(vertices) for vertices in entry["vertices"]]
+        self.collider = collider
+
+    def faults(self):
+        count = self.collider.vertex_count
+        if self.instants[0] != 0 or self.instants[-1] != 1 or any(
+                late <= early for early, late in zip(self.instants, self.instants[1:])):
+            yield f"has {self.collider.id} turn at instants that do not ascend from 0 to 1"
+        elif len(self.vertices) != len(self.instants) or any(len(vertices) != count for vertices in self.vertices):
+            yield f"has {self.collider.id} turn without {count} vertices at each instant"
+
+    def at(self, fraction):
+        """All vertices at a moment."""
+        k = min(bisect_right(self.instants, fraction), len(self.instants) - 1) - 1
+        share = (fraction - self.instants[k]) / (self.instants[k + 1] - self.instants[k])
+        return [add(a, scaled(less(b, a), share)) for a, b in zip(self.vertices[k], self.vertices[k + 1])]
+
+    def edges(self, fraction):
+        return self.collider.edges_of(self.at(fraction))
+
+    def stretches(self, start, end):
+        """Of a leg between two corners: (share of it where the stretch begins, and ends)."""
+        length = end[2] - start[2]
+        if length == 0:
+            return [(ZERO, Fraction(1))]
+        within = [(k - start[2]) / length for k in self.instants if start[2] < k < end[2]]
+        shares = [ZERO] + within + [Fraction(1)]
+        return list(zip(shares, shares[1:]))
+
+    def seen(self, corner):
+        """The vertices from a corner of the character's way."""
+        return [less(vertex, corner[:2]) for vertex in self.at(corner[2])]
 
 
-def turned_back(point, angle):
-    c, s = cosine_and_sine(angle)
-    return (c * point[0] + s * point[1], c * point[1] - s * point[0])
+def middle_of(body):
+    return (sum(p[0] for p in body) / len(body), sum(p[1] for p in body) / len(body))
 
 
-class Leg:
-    """A straight way of a body, and what turns meanwhile: both evenly while the share of it goes from 0 to 1."""
-
-    def __init__(self, body, places, angles):
-        """`places` of the body less those of the point that the mover turns about, and its angles, at both ends."""
-        self.body = body
-        self.start, self.way = places[0], less(places[1], places[0])
-        self.angle, self.turn = angles[0], angles[1] - angles[0]
-        # Of the curve of a corner, by the share: the second derivative is at most that long.
-        farthest = max(at_most(add(place, corner)) for place in places for corner in body)
-        self.curvature = self.turn**2 * farthest + 2 * abs(self.turn) * at_most(self.way)
-
-    def corners(self, share, size=Fraction(1)):
-        """Of the body, as the mover sees them."""
-        place = add(self.start, scaled(self.way, share))
-        return [turned_back(add(place, scaled(corner, size)), self.angle + share * self.turn) for corner in self.body]
-
-    def between(self, first, last):
-        """A convex polygon, and how far around it all places of the body between two shares are."""
-        bend = self.curvature * (last - first) ** 2 / 8
-        return hull(self.corners(first) + self.corners(last)), bend + SURE
+def between(start, end, share):
+    return tuple(a + share * (b - a) for a, b in zip(start, end))
 
 
-def meets(collider, convex, wider=ZERO):
-    """Whether a collider comes into a convex polygon, or so near to it."""
-    if any(enters(a, b, convex, wider) for a, b in collider.edges):
+def overlaps(way, vertices, body):
+    """Whether the body overlaps the collider, as it sees its vertices at one moment."""
+    if any(enters(a, b, body) for a, b in way.collider.edges_of(vertices)):
         return True
-    middle = (sum(p[0] for p in convex) / len(convex), sum(p[1] for p in convex) / len(convex))
-    return inside(middle, collider.rings)
+    return inside(middle_of(body), way.collider.rings_of(vertices))
 
 
-def overlaps(collider, leg, share, smaller):
-    """Whether a body certainly overlaps a collider at one moment. `smaller`: the factor that takes SURE off its sides."""
-    return meets(collider, leg.corners(share, smaller))
+def cross(a, b):
+    return a[0] * b[1] - a[1] * b[0]
 
 
-def is_free(collider, leg, share):
-    """Whether it certainly does not."""
-    return not meets(collider, *leg.between(share, share))
+def stays_right(first, last, corner):
+    """Whether a corner is at no time on the left of an edge that goes from `first` to `last`: the product of the edge and
+    the way to the corner is a parabola, which lies above the least of its three control points, or above its vertex.
+    """
+    edges, ways = [less(b, a) for a, b in (first, last)], [less(corner, a) for a, _ in (first, last)]
+    begin, end = -cross(edges[0], ways[0]), -cross(edges[1], ways[1])
+    middle = -(cross(edges[0], ways[1]) + cross(edges[1], ways[0])) / 2
+    return begin >= 0 and end >= 0 and (middle >= 0 or middle * middle <= begin * end)
 
 
-def comes_to_overlap(collider, leg, smaller):
-    """Whether a body certainly overlaps a collider at any moment; None where that is too close to tell."""
-    parts, close = deque([(ZERO, Fraction(1))]), False
+def keeps_apart(first, last, body):
+    """Whether one line separates the body from an edge all the time: along a side of the body, or along the edge."""
+    ends = first + last
+    if any(all(turn(u, v, end) <= 0 for end in ends) for u, v in zip(body, body[1:] + body[:1])):
+        return True
+    if first[0] == first[1] and last[0] == last[1]:
+        return False
+    back = first[::-1], last[::-1]
+    return any(all(stays_right(*edge, corner) for corner in body) for edge in ((first, last), back))
+
+
+def may_meet(way, first, last, body):
+    """Whether the body may overlap it while each vertex goes from a place of `first` to one of `last`."""
+    pairs = zip(way.collider.edges_of(first), way.collider.edges_of(last))
+    return not all(keeps_apart(*pair, body) for pair in pairs) or overlaps(way, first, body)
+
+
+def comes_to_overlap(way, body, start, end):
+    """Whether the body overlaps the collider at any moment of a leg; None where that is too close to tell."""
+    parts, close = deque(), False
+    for first, last in way.stretches(start, end):
+        corners = between(start, end, first), between(start, end, last)
+        parts.append((way.seen(corners[0]), way.seen(corners[1]), last - first))
     for _ in range(MOST_PARTS):
         if not parts:
             return None if close else False
-        first, last = parts.popleft()
-        if not meets(collider, *leg.between(first, last)):
+        first, last, length = parts.popleft()
+        if not may_meet(way, first, last, body):
             continue
-        middle = (first + last) / 2
-        if overlaps(collider, leg, middle, smaller):
+        middle = [scaled(add(a, b), Fraction(1, 2)) for a, b in zip(first, last)]
+        if any(overlaps(way, vertices, body) for vertices in (middle, last)):
             return True
-        if last - first <= WIDTH:
+        if length <= WIDTH:
             close = True
         else:
-            parts += [(first, middle), (middle, last)]
+            parts += [(first, middle, length / 2), (middle, last, length / 2)]
     return None

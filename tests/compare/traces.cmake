@@ -34,7 +34,7 @@ if(PAPERPROOF_SANITIZE)
 endif()
 
 set(good)
-foreach(scene IN LISTS checked_scenes)
+foreach(scene IN LISTS checked_scenes ITEMS turning_arm rotating_paper)
   list(APPEND good "${traces}/t.${scene}.octagon_sweep.double.jsonl")
 endforeach()
 paperproof_trace_test(of_octagon_sweep_hold COMMAND "${checker}" ${good} PROPERTIES COST 50)

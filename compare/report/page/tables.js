@@ -83,6 +83,10 @@ const QUALITY = [
     'Steps on which it said that it is stuck inside something; they do not count for recall'
   ],
   [
+    'undecided_steps', 'Undecided', 'steps', count,
+    'Steps that came so near to what turns that halving the time did not tell whether they met it'
+  ],
+  [
     'stuck_refuted', 'Stuck, refuted', 'steps', count,
     'Steps on which it said that it is stuck, and exact arithmetic has a straight way out'
   ],

@@ -1,0 +1,98 @@
+#include "oracle/turning_room.hpp"
+
+#include "oracle/crush.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace paperproof::compare::detail {
+namespace {
+
+/// What may be kept from a contact on top of how far the crusher goes [m].
+constexpr double beyond_travel = 1e-6;
+
+/// The longest way of a vertex [m].
+double travel_of(const VertexWay& way) {
+  double travel = 0;
+  for (std::size_t i = 0; i < way.vertices.front().size(); ++i) {
+    double length = 0;
+    for (std::size_t k = 1; k < way.vertices.size(); ++k)
+      length += (way.vertices[k][i] - way.vertices[k - 1][i]).norm();
+    travel = std::max(travel, length);
+  }
+  return travel;
+}
+
+/// Everything as it is when the step ends; what turns stands there.
+SceneryDef at_the_end(const SceneryDef& scenery, const TraceStep& step) {
+  SceneryDef all = scenery;
+  for (const VertexWay& way : step.vertex_ways) {
+    ColliderDef& def = all.colliders[way.collider];
+    auto from = way.vertices.back().begin();
+    const auto take = [&](std::vector<Vec2d>& ring) {
+      std::copy_n(from, ring.size(), ring.begin());
+      from += static_cast<std::ptrdiff_t>(ring.size());
+    };
+    take(def.points);
+    for (std::vector<Vec2d>& hole : def.holes) take(hole);
+    def.mover = no_mover;
+  }
+  return all;
+}
+
+/// Whether all that is met is among what was overlapped before.
+bool meets_no_more(const ExactScenery& rest, const Place& from, const Place& to) {
+  const std::vector<ColliderIndex> inside = rest.overlapped(from);
+  const std::vector<ColliderIndex> met = rest.met(from, to);
+  return std::includes(inside.begin(), inside.end(), met.begin(), met.end());
+}
+
+}  // namespace
+
+const VertexWay& way_of(const TraceStep& step, ColliderIndex collider) {
+  const auto found = std::find_if(step.vertex_ways.begin(), step.vertex_ways.end(),
+                                  [collider](const VertexWay& way) { return way.collider == collider; });
+  if (found == step.vertex_ways.end()) throw std::invalid_argument("a step needs the way of everything that turns");
+  return *found;
+}
+
+std::vector<Vec2d> vertices_at(const VertexWay& way, double fraction) {
+  const auto after = std::upper_bound(way.instants.begin(), way.instants.end(), fraction);
+  const auto k = static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - way.instants.begin(), 1)) - 1;
+  if (way.instants[k] == fraction || k + 1 == way.instants.size()) return way.vertices[k];
+  const double share = (fraction - way.instants[k]) / (way.instants[k + 1] - way.instants[k]);
+  std::vector<Vec2d> vertices = way.vertices[k];
+  for (std::size_t i = 0; i < vertices.size(); ++i) vertices[i] += share * (way.vertices[k + 1][i] - vertices[i]);
+  return vertices;
+}
+
+bool goes(const VertexWay& way) {
+  return std::any_of(way.vertices.begin(), way.vertices.end(),
+                     [&](const std::vector<Vec2d>& vertices) { return vertices != way.vertices.front(); });
+}
+
+std::optional<Vec2d> room_beside(const TraceHeader& header, const ExactScenery& rest, const TraceStep& step,
+                                 const VertexWay& crusher,
+                                 const std::function<bool(std::span<const PathPoint<double>>)>& left_free) {
+  const ExactScenery end(at_the_end(header.scenery, step), header.points);
+  const ExactScenery wider(rest.scenery(), grown(header.points, least_clearance));
+  std::vector<Vec2d> corners;
+  for (const PathPoint<double>& corner : step.path) corners.push_back(corner.position);
+  const auto reached = [&](const Vec2d& position) {
+    const Place there(position, step.movers, 1);
+    std::vector<PathPoint<double>> way;
+    for (const PathPoint<double>& corner : step.path) {
+      way.push_back(corner);
+      if (corner.fraction == 1) return false;
+      const Place from(corner, step.movers);
+      way.push_back({position, 1});
+      if (meets_no_more(rest, from, there) && meets_no_more(wider, from, there) && left_free(way)) return true;
+      way.pop_back();
+    }
+    return false;
+  };
+  return end.find_free(Place(step.path.back().position, step.movers, 1), travel_of(crusher) + beyond_travel,
+                       least_clearance, corners, reached);
+}
+
+}  // namespace paperproof::compare::detail

@@ -1,0 +1,94 @@
+#include "runs/level_contestant.hpp"
+
+#include "runs/level_ways.hpp"
+#include "runs/technique_parts.hpp"
+
+#include <paperproof/level.hpp>
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace paperproof::compare {
+namespace {
+
+class LevelContestant final : public Contestant {
+ public:
+  LevelContestant(const TechniqueEntry& technique, const Scene& scene, const Scenery<double>& scenery,
+                  const Planning& planning)
+      : level_(scenery.as_run()),
+        controller_(level_, rules_for(technique, scene, planning.knobs)),
+        gravity_(scene.gravity),
+        header_(header_of(technique, scenery, scene, plan_of(scenery, planning), planning.knobs)) {
+    header_.plan.reset();  // it leaves nothing out
+    header_.turning.assign(scene.movers.size(), true);
+    place_at_start(*this, scene);
+  }
+
+  [[nodiscard]] const TraceHeader& header() const noexcept override { return header_; }
+
+  void step(const StepInput& input, std::span<TraceStep> records) override {
+    TraceStep& record = records.front();
+    const CharacterState<double> before = state_;
+    step_unrecorded(input);
+    write_report(report_, state_, record);
+    record.requested += carried(before);
+    record.movers.assign(input.movers.begin(), input.movers.end());
+    record.vertex_ways = ways_in_level(header_.scenery, controller_.turned(), motions_);
+    refuse_unusable(report_.status, report_.move.refusal);
+  }
+
+  void step_unrecorded(const StepInput& input) override {
+    motions_.clear();
+    for (std::size_t i = 0; i < input.movers.size(); ++i)
+      motions_.push_back(
+          {{input.movers[i].from, input.turns[i].from}, {input.movers[i].to, input.turns[i].to}});
+    controller_.step(state_, input.players.front(), {.gravity = gravity_, .dt = input.dt, .movers = motions_}, report_);
+  }
+
+  [[nodiscard]] Pose pose(std::size_t) const override { return pose_of(state_); }
+
+  void place(const Pose& pose, std::size_t) override { state_ = state_at<double>(pose); }
+
+ private:
+  /// What the ground adds to the displacement [m]: the way of the point between the feet, if it went along with it.
+  [[nodiscard]] Vec2d carried(const CharacterState<double>& before) const {
+    if (before.ride.ground == Ride<double>::none) return Vec2d::Zero();
+    const MoverIndex mover = header_.scenery.colliders[before.ride.ground].mover;
+    if (mover == no_mover) return before.ride.velocity * header_.dt;
+    const PoseMotion& motion = motions_[mover];
+    const Vec2d feet = before.position + Vec2d(0, controller_.character().shape.box().lower.y());
+    const double turn = motion.to.angle - motion.from.angle;
+    const Vec2d arm = feet - motion.from.position;
+    const Vec2d turned(std::cos(turn) * arm.x() - std::sin(turn) * arm.y(),
+                       std::sin(turn) * arm.x() + std::cos(turn) * arm.y());
+    return motion.to.position + turned - feet;
+  }
+
+  Level level_;
+  LevelController controller_;
+  Vec2d gravity_;
+  TraceHeader header_;
+  CharacterState<double> state_;
+  StepReport<double> report_;
+  std::vector<PoseMotion> motions_;  ///< Of the present step.
+};
+
+}  // namespace
+
+std::unique_ptr<Contestant> make_level_contestant(const TechniqueEntry& octagon_sweep, const Scene& scene,
+                                                  const Scenery<double>& scenery, const Planning& planning) {
+  if (!scene.others.empty())
+    throw NotApplicable(fmt::format("octagon_sweep knows one character where something turns, and here are {}",
+                                    character_count(scene)));
+  for (ColliderIndex i = 0; i < scene.ids.size(); ++i)
+    if (const ColliderDef& def = scene.scenery.colliders[i]; def.one_way && def.mover != no_mover)
+      throw NotApplicable("octagon_sweep is for one-way colliders that stand where something turns, and \"" +
+                          scene.ids[i] + "\" moves");
+  for (const KnobSetting& knob : planning.knobs)
+    if (knob.name != "jump_rules" && has_knob(octagon_sweep.name, knob.name))
+      throw NotApplicable("octagon_sweep has no knob " + knob.name + " where something turns");
+  return std::make_unique<LevelContestant>(octagon_sweep, scene, scenery, planning);
+}
+
+}  // namespace paperproof::compare

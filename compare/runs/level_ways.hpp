@@ -1,0 +1,54 @@
+/// The ways of what moves, as the controller of a level went among them.
+#pragma once
+
+#include "records/vertex_way.hpp"
+
+#include <paperproof/local_controller.hpp>
+#include <paperproof/scenery.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+namespace paperproof::compare {
+
+/// Where the vertices of a collider are, in the order of `VertexWay::vertices` [m].
+[[nodiscard]] inline std::vector<Vec2d> placed_vertices(const ColliderDef& def, const Vec2d& offset, double angle) {
+  const double cosine = std::cos(angle);
+  const double sine = std::sin(angle);
+  std::vector<Vec2d> placed;
+  const auto place = [&](const std::vector<Vec2d>& ring) {
+    for (const Vec2d& v : ring)
+      placed.emplace_back(offset + Vec2d(cosine * v.x() - sine * v.y(), sine * v.x() + cosine * v.y()));
+  };
+  place(def.points);
+  for (const std::vector<Vec2d>& hole : def.holes) place(hole);
+  return placed;
+}
+
+/// Of every collider that moves. What was not near the character went beside it: where it is at both ends says enough.
+/// @param turned as `LevelController::turned`, with the indices of the scenery as ids. @param motions by mover.
+[[nodiscard]] inline std::vector<VertexWay> ways_in_level(const SceneryDef& scenery,
+                                                          std::span<const TurnedCollider> turned,
+                                                          std::span<const PoseMotion> motions) {
+  std::vector<VertexWay> all;
+  for (ColliderIndex i = 0; i < scenery.colliders.size(); ++i) {
+    const ColliderDef& def = scenery.colliders[i];
+    if (def.mover == no_mover) continue;
+    const auto known =
+        std::find_if(turned.begin(), turned.end(), [i](const TurnedCollider& one) { return one.collider == i; });
+    if (known != turned.end()) {
+      all.push_back({i, known->instants, known->vertices});
+      continue;
+    }
+    const PoseMotion& motion = motions[def.mover];
+    all.push_back({i,
+                   {0, 1},
+                   {placed_vertices(def, motion.from.position, motion.from.angle),
+                    placed_vertices(def, motion.to.position, motion.to.angle)}});
+  }
+  return all;
+}
+
+}  // namespace paperproof::compare
