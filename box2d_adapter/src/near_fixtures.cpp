@@ -172,37 +172,39 @@ NearFixtures::Seen NearFixtures::seen(b2Fixture& fixture, const Box2<double>& bo
 
 void NearFixtures::search(const Box2<double>& box) {
   ++searches_;
+  hits_.clear();
   near_.clear();
-  Collector collector(near_);
+  Collector collector(hits_);
   world_->QueryAABB(&collector, rounded_outwards(box));
-  std::sort(near_.begin(), near_.end());  // a chain is found once for each of its segments
-  near_.erase(std::unique(near_.begin(), near_.end()), near_.end());
+  std::sort(hits_.begin(), hits_.end());  // a chain is found once for each of its segments
+  hits_.erase(std::unique(hits_.begin(), hits_.end()), hits_.end());
   const Filter filter = filter_of(*hero_->GetFixtureList());
-  std::vector<std::pair<b2Fixture*, Known*>> changed;
-  std::erase_if(near_, [&](b2Fixture* fixture) {
-    if (fixture->GetBody() == hero_ || !collide(filter, filter_of(*fixture))) return true;
+  std::vector<Near> changed;
+  for (b2Fixture* fixture : hits_) {
+    if (fixture->GetBody() == hero_ || !collide(filter, filter_of(*fixture))) continue;
     const Seen now = seen(*fixture, box);
-    if (now.surface.blocks == Blocking::not_at_all) return true;
+    if (now.surface.blocks == Blocking::not_at_all) continue;
     Known& known = known_[fixture];
     const bool is_other = known.version != 0 && (known.seen.body != now.body || known.seen.shape != now.shape);
     if (is_other) known = {};  // another one at the same address
     known.found = searches_;
-    if (known.version != 0 && known.seen == now) return false;
+    near_.push_back({fixture, &known});
+    if (known.version != 0 && known.seen == now) continue;
     known.seen = now;
-    changed.emplace_back(fixture, &known);
-    return false;
-  });
-  std::erase_if(known_, [&](const auto& entry) { return entry.second.found != searches_; });
+    changed.push_back(near_.back());
+  }
+  if (known_.size() > near_.size())
+    std::erase_if(known_, [&](const auto& entry) { return entry.second.found != searches_; });
   // Not in the order of the addresses: steps must be the same in each run of a game.
-  const auto key = [](const std::pair<b2Fixture*, Known*>& entry) {
-    const b2AABB& extent = entry.first->GetAABB(0);
+  const auto key = [](const Near& near) {
+    const b2AABB& extent = near.fixture->GetAABB(0);
     return std::tuple(extent.lowerBound.x, extent.lowerBound.y, extent.upperBound.x, extent.upperBound.y);
   };
-  std::sort(changed.begin(), changed.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
-  for (const auto& [fixture, known] : changed) {
-    define(*known);
-    if (known->seen.moves && known->mover == no_mover) known->mover = mover_of(*known, fixture);
-    if (known->mover == movers_) ++movers_;
+  std::sort(changed.begin(), changed.end(), [&](const Near& a, const Near& b) { return key(a) < key(b); });
+  for (const Near& near : changed) {
+    define(*near.known);
+    if (near.known->seen.moves && near.known->mover == no_mover) near.known->mover = mover_of(near);
+    if (near.known->mover == movers_) ++movers_;
   }
 }
 
@@ -228,29 +230,29 @@ void NearFixtures::define(Known& known) {
 }
 
 /// That of the other fixtures of its body. A circle is a mover of its own: it does not turn.
-MoverIndex NearFixtures::mover_of(const Known& known, const b2Fixture* fixture) const {
-  if (is_circle(*fixture)) return movers_;
-  const auto other = std::find_if(known_.begin(), known_.end(), [&](const auto& entry) {
-    return entry.second.seen.body == known.seen.body && entry.second.mover != no_mover && !is_circle(*entry.first);
+MoverIndex NearFixtures::mover_of(const Near& near) const {
+  if (is_circle(*near.fixture)) return movers_;
+  const auto other = std::find_if(near_.begin(), near_.end(), [&](const Near& one) {
+    return one.known->seen.body == near.known->seen.body && one.known->mover != no_mover && !is_circle(*one.fixture);
   });
-  return other == known_.end() ? movers_ : other->second.mover;
+  return other == near_.end() ? movers_ : other->known->mover;
 }
 
-void NearFixtures::add(b2Fixture* fixture, std::vector<NearCollider>& found) const {
-  const Known& known = known_.at(fixture);
-  const PoseMotion motion = known.mover == no_mover ? PoseMotion{} : motion_of(*fixture);
+void NearFixtures::add(const Near& near, std::vector<NearCollider>& found) const {
+  const Known& known = *near.known;
+  const PoseMotion motion = known.mover == no_mover ? PoseMotion{} : motion_of(*near.fixture);
   for (const Part& part : known.parts)
     if (!part.def.points.empty()) found.push_back({part.id, known.version, &part.def, known.mover, motion});
 }
 
 void NearFixtures::find(const Box2<double>& box, std::vector<NearCollider>& found) {
   search(box);
-  for (b2Fixture* fixture : near_) add(fixture, found);
+  for (const Near& near : near_) add(near, found);
 }
 
 void NearFixtures::find_sensors(std::vector<NearCollider>& found) {
-  for (b2Fixture* fixture : near_)
-    if (fixture->IsSensor()) add(fixture, found);
+  for (const Near& near : near_)
+    if (near.known->seen.sensor) add(near, found);
   solid_sensors_.clear();
   solid_sensors_.reserve(found.size());
   for (NearCollider& collider : found) {
@@ -261,9 +263,9 @@ void NearFixtures::find_sensors(std::vector<NearCollider>& found) {
 }
 
 b2Fixture* NearFixtures::fixture_of(ColliderIndex id) const noexcept {
-  for (b2Fixture* fixture : near_)
-    for (const Part& part : known_.at(fixture).parts)
-      if (part.id == id) return fixture;
+  for (const Near& near : near_)
+    for (const Part& part : near.known->parts)
+      if (part.id == id) return near.fixture;
   return nullptr;
 }
 
@@ -274,17 +276,17 @@ ColliderIndex NearFixtures::id_of(b2Fixture* fixture) {
 }
 
 bool NearFixtures::is_near(const b2Fixture* fixture) const noexcept {
-  return std::find(near_.begin(), near_.end(), fixture) != near_.end();
+  return std::any_of(near_.begin(), near_.end(), [&](const Near& near) { return near.fixture == fixture; });
 }
 
 bool NearFixtures::any_sensor() const noexcept {
-  return std::any_of(near_.begin(), near_.end(), [](const b2Fixture* fixture) { return fixture->IsSensor(); });
+  return std::any_of(near_.begin(), near_.end(), [](const Near& near) { return near.known->seen.sensor; });
 }
 
 void NearFixtures::note_poses() {
   poses_.clear();
-  for (b2Fixture* fixture : near_) {
-    const b2Body& body = *fixture->GetBody();
+  for (const Near& near : near_) {
+    const b2Body& body = *near.fixture->GetBody();
     const auto is_its = [&](const BodyPose& pose) { return pose.body == &body; };
     if (body.GetType() == b2_staticBody || std::any_of(poses_.begin(), poses_.end(), is_its)) continue;
     const double speed = widened(body.GetLinearVelocity()).norm();

@@ -82,11 +82,16 @@ class NearFixtures {
     std::uint64_t found = 0;  ///< In this search last.
   };
 
+  struct Near {
+    b2Fixture* fixture;
+    Known* known;
+  };
+
   void search(const Box2<double>& box);
-  void add(b2Fixture* fixture, std::vector<NearCollider>& found) const;
+  void add(const Near& near, std::vector<NearCollider>& found) const;
   [[nodiscard]] Seen seen(b2Fixture& fixture, const Box2<double>& box) const;
   void define(Known& known);
-  [[nodiscard]] MoverIndex mover_of(const Known& known, const b2Fixture* fixture) const;
+  [[nodiscard]] MoverIndex mover_of(const Near& near) const;
   /// Where a body was when the step began.
   [[nodiscard]] BodyPose begin_of(const b2Body& body) const;
 
@@ -96,7 +101,8 @@ class NearFixtures {
   Vec2d up_{0, 1};
   double dt_ = 0;
   std::map<b2Fixture*, Known> known_;
-  std::vector<b2Fixture*> near_;  ///< Found in the last search.
+  std::vector<b2Fixture*> hits_;
+  std::vector<Near> near_;  ///< Found in the last search.
   std::vector<BodyPose> poses_;
   std::vector<ColliderDef> solid_sensors_;
   std::uint64_t searches_ = 0;
