@@ -251,8 +251,7 @@ void TurningJudge::judge_contacts(const Solid& solid, const TraceStep& step, Ste
   const Vec2d wanted = header_.path_exact ? step.requested : left_to_want(step, header_);
   const int ahead = header_.path_exact ? 1 : steps_ahead;
   const VertexWay way = gone_on(way_of(step, solid.collider), ahead);
-  const std::array<PathPoint<double>, 2> path{
-      {start, {start.position + ahead * wanted, static_cast<double>(ahead)}}};
+  const std::array<PathPoint<double>, 2> path{{start, {start.position + ahead * wanted, static_cast<double>(ahead)}}};
   const Meeting met = meeting(solid, way, path, Asked::when);
   const bool touches = met.kind == Meeting::Kind::meets;
   const double when = touches ? met.low + (met.high - met.low) / 2 : 0;

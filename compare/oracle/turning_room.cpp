@@ -48,7 +48,8 @@ bool meets_no_more(const ExactScenery& rest, const Place& from, const Place& to)
 
 }  // namespace
 
-RigidMotion::RigidMotion(std::span<const Vec2d> before, std::span<const Vec2d> after) : from_(before[0]), to_(after[0]) {
+RigidMotion::RigidMotion(std::span<const Vec2d> before, std::span<const Vec2d> after)
+    : from_(before[0]), to_(after[0]) {
   const auto farther = [&](const Vec2d& a, const Vec2d& b) { return (a - from_).norm() < (b - from_).norm(); };
   const auto far = static_cast<std::size_t>(std::max_element(before.begin(), before.end(), farther) - before.begin());
   if (before[far] != from_) turn_ = number(after[far] - to_) / number(before[far] - from_);
@@ -101,8 +102,8 @@ std::optional<Vec2d> room_beside(const TraceHeader& header, const ExactScenery& 
     }
     return false;
   };
-  return end.find_free(Place(step.path.back().position, step.movers, 1), travel_of(crusher.way, crusher.met) + beyond_travel,
-                       least_clearance, corners, reached);
+  return end.find_free(Place(step.path.back().position, step.movers, 1),
+                       travel_of(crusher.way, crusher.met) + beyond_travel, least_clearance, corners, reached);
 }
 
 }  // namespace paperproof::compare::detail
