@@ -85,8 +85,8 @@ View<Number> view_of(const Stretch& stretch, std::span<const Vec2d> octagon, std
   const Point<Number> at_end = position(true);
   for (const std::size_t i : part) {
     const auto vertex = [&](double when) {
-      return scaled(leg, between((*stretch.vertices_from)[i], (*stretch.vertices_to)[i], stretch.instant_from, when,
-                                 chord));
+      return scaled(leg,
+                    between((*stretch.vertices_from)[i], (*stretch.vertices_to)[i], stretch.instant_from, when, chord));
     };
     view.from.push_back(vertex(stretch.begin) - at_begin);
     view.to.push_back(vertex(stretch.end) - at_end);
@@ -149,8 +149,7 @@ struct Span {
       return scaled(whole(static_cast<double>(all - when)), view.from[i]) +
              scaled(whole(static_cast<double>(when)), view.to[i]);
     };
-    for (const Point<Number>& corner : view.corners)
-      corners.push_back(scaled(whole(static_cast<double>(all)), corner));
+    for (const Point<Number>& corner : view.corners) corners.push_back(scaled(whole(static_cast<double>(all)), corner));
     for (std::size_t i = 0; i < view.from.size(); ++i) {
       from.push_back(at(i, first));
       to.push_back(at(i, first + length));
@@ -209,7 +208,10 @@ struct Span {
 class StretchSearch {
  public:
   StretchSearch(const Stretch& stretch, std::span<const Vec2d> octagon, std::span<const std::size_t> part)
-      : stretch_(stretch), octagon_(octagon), part_(part), quick_(view_of<Approximate>(stretch, octagon, part, {}, {})) {}
+      : stretch_(stretch),
+        octagon_(octagon),
+        part_(part),
+        quick_(view_of<Approximate>(stretch, octagon, part, {}, {})) {}
 
   [[nodiscard]] Meeting find(Asked asked) const {
     if (are_far_apart()) return {};

@@ -67,10 +67,10 @@ StepJudgement Judge::judge(const TraceStep& step, const Others& others) {
   judgement.ground_refuted = judgement.ground_refuted && !beside;
   judgement.ground_late = judgement.ground_late && !beside;
   judgement.stuck_refuted = judgement.stuck_refuted && !beside;
-  if (beside) judgement.motion_lost = judgement.ghost_speed_loss = 0;
   const auto bends = [](const VertexWay& way) { return way.instants.size() > 2; };
-  if (header_.path_exact && std::any_of(step.vertex_ways.begin(), step.vertex_ways.end(), bends))
-    judgement.first_impact_comparable = false;
+  const bool in_parts = header_.path_exact && std::any_of(step.vertex_ways.begin(), step.vertex_ways.end(), bends);
+  if (beside || in_parts) judgement.motion_lost = judgement.ghost_speed_loss = 0;
+  judgement.first_impact_comparable = judgement.first_impact_comparable && !in_parts;
   return judgement;
 }
 

@@ -211,12 +211,14 @@ struct StepJudgement {
 /// no other character has a face that looks upwards within the contender's reach (`detail::reach_of`; who promises
 /// nothing: and rounding). Whoever promises nothing may have stood on something earlier in the step (exempted): Box2D
 /// reads its contacts before it moves the bodies, and the article's techniques go on after they have met the ground.
-/// Nothing is asked beside what turns, nor whether motion is lost.
+/// Nothing is asked beside what turns, nor whether motion is lost there, or in a step that goes in parts as what turns
+/// near it does: it wants another motion in each.
 ///
 /// **Normal error.** The angle between the normal of a reported contact and the nearest normal of the exact contacts
 /// with that collider on that side, and of the face that is touched along the reported normal.
 ///
-/// **What turns** is judged apart, exactly as well: see oracle/turning.hpp. Who is inside of it may say that it is stuck.
+/// **What turns** is judged apart, exactly as well: see oracle/turning.hpp. Who is inside of it may say that it is
+/// stuck.
 ///
 /// **Ghost speed loss.** Horizontal speed was lost to nothing where the step began free and crushed nobody, and no
 /// solid opposes the wanted horizontal motion, neither with the rise that was requested nor with the one that was made,

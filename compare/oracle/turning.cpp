@@ -8,7 +8,6 @@
 #include "oracle/world.hpp"
 
 #include <algorithm>
-#include <complex>
 
 namespace paperproof::compare::detail {
 namespace {
@@ -46,24 +45,14 @@ std::vector<std::vector<std::size_t>> numbered_parts(const ColliderDef& def) {
 
 /// What turns, gone on for some steps by the same rigid motion.
 VertexWay gone_on(const VertexWay& way, int steps) {
-  const auto number = [](const Vec2d& v) { return std::complex(v.x(), v.y()); };
-  const std::vector<Vec2d>& from = way.vertices.front();
-  const std::vector<Vec2d>& to = way.vertices.back();
-  const auto far = static_cast<std::size_t>(
-      std::max_element(from.begin(), from.end(),
-                       [&](const Vec2d& a, const Vec2d& b) { return (a - from[0]).norm() < (b - from[0]).norm(); }) -
-      from.begin());
-  const std::complex<double> turn =
-      from[far] == from[0] ? 1.0 : number(to[far] - to[0]) / number(from[far] - from[0]);
+  const RigidMotion motion(way.vertices.front(), way.vertices.back());
   VertexWay all = way;
   const std::size_t chords = way.instants.size() - 1;
   for (std::size_t k = 1; k <= static_cast<std::size_t>(steps - 1) * chords; ++k) {
     all.instants.push_back(1 + static_cast<double>((k - 1) / chords) + way.instants[(k - 1) % chords + 1]);
-    all.vertices.emplace_back();
-    for (const Vec2d& v : all.vertices[k]) {
-      const std::complex<double> place = number(to[0]) + turn * number(v - from[0]);
-      all.vertices.back().emplace_back(place.real(), place.imag());
-    }
+    std::vector<Vec2d> moved;
+    for (const Vec2d& v : all.vertices[k]) moved.push_back(motion(v));
+    all.vertices.push_back(std::move(moved));
   }
   return all;
 }
@@ -178,10 +167,15 @@ bool TurningJudge::is_excused(const Solid& solid, const TraceStep& step, const E
                               StepJudgement& judgement) const {
   const bool named = contains(step.crushed, solid.collider);
   if (promises_ && !named) return false;
+  const VertexWay& its = way_of(step, solid.collider);
   std::optional<Vec2d> room = step.path.front().position;
-  if (goes(way_of(step, solid.collider)))
-    room = room_beside(header_, rest, step, way_of(step, solid.collider),
+  if (goes(its)) {
+    const Vec2d normal = nearest_axis(solid, its, step.path.front()).normal;
+    const auto nearer = [&](const Vec2d& a, const Vec2d& b) { return a.dot(normal) < b.dot(normal); };
+    const Vec2d met = step.path.front().position + *std::min_element(octagon_.begin(), octagon_.end(), nearer);
+    room = room_beside(header_, rest, step, {its, met},
                        [&](std::span<const PathPoint<double>> way) { return left_free(step, way); });
+  }
   if (room) judgement.room = room;
   if (room && named) judgement.crushed_with_room.push_back(solid.collider);
   if (!room) judgement.crushed.push_back(solid.collider);
@@ -257,8 +251,7 @@ void TurningJudge::judge_contacts(const Solid& solid, const TraceStep& step, Ste
   const Vec2d wanted = header_.path_exact ? step.requested : left_to_want(step, header_);
   const int ahead = header_.path_exact ? 1 : steps_ahead;
   const VertexWay way = gone_on(way_of(step, solid.collider), ahead);
-  const std::array<PathPoint<double>, 2> path{
-      {start, {start.position + ahead * wanted, static_cast<double>(ahead)}}};
+  const std::array<PathPoint<double>, 2> path{{start, {start.position + ahead * wanted, static_cast<double>(ahead)}}};
   const Meeting met = meeting(solid, way, path, Asked::when);
   const bool touches = met.kind == Meeting::Kind::meets;
   const double when = touches ? met.low + (met.high - met.low) / 2 : 0;
@@ -281,7 +274,7 @@ void TurningJudge::judge_contacts(const Solid& solid, const TraceStep& step, Ste
   }
   if (!reports) return;
   judgement.max_contact_gap = std::max(judgement.max_contact_gap, gap);
-  if (touched_.contains(solid.collider)) return;
+  if (touched_.contains(solid.collider) || overlaps(solid, way, start)) return;
   std::optional<double> touch;
   if (header_.path_exact)
     touch = touch_going_on(solid, step, reported->fraction);

@@ -16,7 +16,8 @@ namespace paperproof::compare::detail {
 /// - **Overlap** at the end of a step, **tunnelled** and **corner cut** as of what does not turn (see `Judge`), but for
 ///   one that is left on another side in a later step than it was entered.
 /// - **Crushed**: a solid that is named is excused if there is no room: see `Judge`; the way to a place that is room
-///   leaves free what turns, too, and ends 1e-7 m away from it.
+///   leaves free what turns, too, and ends 1e-7 m away from it. How far the mover goes is how far it takes the
+///   corner of the octagon along that it is nearest to when the step begins.
 /// - **Contact**: what the requested motion touches first in the step, or what was reported and is within 1e-6 m at a
 ///   corner of the way (Box2D: what the motion touches that is left by its contacts with the rest). The normal is that
 ///   of the best axis there.

@@ -11,16 +11,15 @@ namespace {
 /// What may be kept from a contact on top of how far the crusher goes [m].
 constexpr double beyond_travel = 1e-6;
 
-/// The longest way of a vertex [m].
-double travel_of(const VertexWay& way) {
-  double travel = 0;
-  for (std::size_t i = 0; i < way.vertices.front().size(); ++i) {
-    double length = 0;
-    for (std::size_t k = 1; k < way.vertices.size(); ++k)
-      length += (way.vertices[k][i] - way.vertices[k - 1][i]).norm();
-    travel = std::max(travel, length);
+/// The way of a point that goes along [m].
+double travel_of(const VertexWay& way, Vec2d at) {
+  double length = 0;
+  for (std::size_t k = 1; k < way.vertices.size(); ++k) {
+    const Vec2d next = RigidMotion(way.vertices[k - 1], way.vertices[k])(at);
+    length += (next - at).norm();
+    at = next;
   }
-  return travel;
+  return length;
 }
 
 /// Everything as it is when the step ends; what turns stands there.
@@ -49,6 +48,18 @@ bool meets_no_more(const ExactScenery& rest, const Place& from, const Place& to)
 
 }  // namespace
 
+RigidMotion::RigidMotion(std::span<const Vec2d> before, std::span<const Vec2d> after)
+    : from_(before[0]), to_(after[0]) {
+  const auto farther = [&](const Vec2d& a, const Vec2d& b) { return (a - from_).norm() < (b - from_).norm(); };
+  const auto far = static_cast<std::size_t>(std::max_element(before.begin(), before.end(), farther) - before.begin());
+  if (before[far] != from_) turn_ = number(after[far] - to_) / number(before[far] - from_);
+}
+
+Vec2d RigidMotion::operator()(const Vec2d& at) const {
+  const std::complex<double> place = number(to_) + turn_ * number(at - from_);
+  return {place.real(), place.imag()};
+}
+
 const VertexWay& way_of(const TraceStep& step, ColliderIndex collider) {
   const auto found = std::find_if(step.vertex_ways.begin(), step.vertex_ways.end(),
                                   [collider](const VertexWay& way) { return way.collider == collider; });
@@ -72,7 +83,7 @@ bool goes(const VertexWay& way) {
 }
 
 std::optional<Vec2d> room_beside(const TraceHeader& header, const ExactScenery& rest, const TraceStep& step,
-                                 const VertexWay& crusher,
+                                 const Crusher& crusher,
                                  const std::function<bool(std::span<const PathPoint<double>>)>& left_free) {
   const ExactScenery end(at_the_end(header.scenery, step), header.points);
   const ExactScenery wider(rest.scenery(), grown(header.points, least_clearance));
@@ -91,8 +102,8 @@ std::optional<Vec2d> room_beside(const TraceHeader& header, const ExactScenery& 
     }
     return false;
   };
-  return end.find_free(Place(step.path.back().position, step.movers, 1), travel_of(crusher) + beyond_travel,
-                       least_clearance, corners, reached);
+  return end.find_free(Place(step.path.back().position, step.movers, 1),
+                       travel_of(crusher.way, crusher.met) + beyond_travel, least_clearance, corners, reached);
 }
 
 }  // namespace paperproof::compare::detail

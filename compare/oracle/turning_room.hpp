@@ -4,9 +4,24 @@
 #include "oracle/exact.hpp"
 #include "records/trace.hpp"
 
+#include <complex>
 #include <functional>
+#include <span>
 
 namespace paperproof::compare::detail {
+
+/// Takes vertices from where they are before to where they are after, and every other point along.
+class RigidMotion {
+ public:
+  RigidMotion(std::span<const Vec2d> before, std::span<const Vec2d> after);
+  [[nodiscard]] Vec2d operator()(const Vec2d& at) const;
+
+ private:
+  [[nodiscard]] static std::complex<double> number(const Vec2d& v) { return {v.x(), v.y()}; }
+  Vec2d from_;
+  Vec2d to_;
+  std::complex<double> turn_{1};
+};
 
 /// @throws std::invalid_argument where the step has none.
 [[nodiscard]] const VertexWay& way_of(const TraceStep& step, ColliderIndex collider);
@@ -15,11 +30,17 @@ namespace paperproof::compare::detail {
 /// Whether any vertex does not stay where it is.
 [[nodiscard]] bool goes(const VertexWay& way);
 
+/// What is said to crush.
+struct Crusher {
+  const VertexWay& way;
+  Vec2d met{Vec2d::Zero()};  ///< The corner of the octagon that it is nearest to when the step begins [m].
+};
+
 /// A free position at the end of the step, or none: see `Judge` for what counts as room.
-/// @param rest the solids that do not turn. @param crusher the way of the one that is said to crush.
+/// @param rest the solids that do not turn.
 /// @param left_free whether a way of the whole step leaves free what turns.
 [[nodiscard]] std::optional<Vec2d> room_beside(
-    const TraceHeader& header, const ExactScenery& rest, const TraceStep& step, const VertexWay& crusher,
+    const TraceHeader& header, const ExactScenery& rest, const TraceStep& step, const Crusher& crusher,
     const std::function<bool(std::span<const PathPoint<double>>)>& left_free);
 
 }  // namespace paperproof::compare::detail

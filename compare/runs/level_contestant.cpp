@@ -41,8 +41,7 @@ class LevelContestant final : public Contestant {
   void step_unrecorded(const StepInput& input) override {
     motions_.clear();
     for (std::size_t i = 0; i < input.movers.size(); ++i)
-      motions_.push_back(
-          {{input.movers[i].from, input.turns[i].from}, {input.movers[i].to, input.turns[i].to}});
+      motions_.push_back({{input.movers[i].from, input.turns[i].from}, {input.movers[i].to, input.turns[i].to}});
     controller_.step(state_, input.players.front(), {.gravity = gravity_, .dt = input.dt, .movers = motions_}, report_);
   }
 

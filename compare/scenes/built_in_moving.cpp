@@ -128,8 +128,8 @@ Scene turning_arm() {
   move_last(scene, {{.time = 0, .at = {0, 0}}});
   scene.movers.back().turns = {{.time = 0, .at = 0}, {.time = 2, .at = 2}};
   const double step = std::floor(std::asin(0.8) / scene.dt);
-  scene.answers = {  // the tip comes at cos(asin 0.8) m/s
-      between(Answer::Of::contact, step, step + 1).gaps(1 / (0.6 * scene.dt))};
+  scene.answers = {// the tip comes at cos(asin 0.8) m/s
+                   between(Answer::Of::contact, step, step + 1).gaps(1 / (0.6 * scene.dt))};
   return scene;
 }
 
@@ -158,8 +158,7 @@ std::vector<BuiltInScene> moving_scenes() {
       {"head_on", "30 m/s against a paper at 18 m/s, 2 m away: t = d / (v1 + v2), in step 2 at t = 0.5", head_on},
       {"papers_swap", "two papers pass each other around a character: neither is met", papers_swap},
       {"rotating_paper", "a paper turns beside a character: only who can turn what moves may run it", rotating_paper},
-      {"turning_arm", "an arm turns at 1 rad/s under a character: met after asin 0.8 s, in step 55",
-       turning_arm},
+      {"turning_arm", "an arm turns at 1 rad/s under a character: met after asin 0.8 s, in step 55", turning_arm},
   };
 }
 

@@ -275,7 +275,7 @@ class Checker:
             yield "has not the same movers as the step before"
         for name in now.keys() & before.keys():
             if now[name][0] != before[name][1]:
-                yield f"has {name} begin where it was not"
+                yield f"has {name} begin elsewhere, not where it was"
 
     def check_contact(self, contact, path, motion, put):
         name, n = contact["collider"], tuple(map(Fraction, contact["normal"]))

@@ -120,7 +120,7 @@ class SpoiltTurning(Spoiling, unittest.TestCase):
     header, steps = trace([([(RISE, 0), (RISE, 1)], heights) for heights in ((0, MEETS - GAP), (MEETS - GAP, 0))])
 
     def test_an_arm_that_jumps(self):
-        self.expect("has arm begin where it was not",
+        self.expect("has arm begin elsewhere",
                     lambda _, steps: steps[1]["movers"]["arm"]["vertices"][0][1].__setitem__(1, 0))
 
     def test_an_arm_that_no_longer_turns(self):

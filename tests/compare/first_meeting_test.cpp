@@ -31,9 +31,7 @@ Path staying(const Vec2d& at) { return {{at, 0}, {at, 1}}; }
 
 /// A plank about (0, 0), 2 m long and flat at first: its end comes up by a metre on a straight line, as the other one
 /// goes down.
-VertexWay see_saw() {
-  return {.collider = 0, .instants = {0, 1}, .vertices = {{{-1, 0}, {1, 0}}, {{-1, -1}, {1, 1}}}};
-}
+VertexWay see_saw() { return {.collider = 0, .instants = {0, 1}, .vertices = {{{-1, 0}, {1, 0}}, {{-1, -1}, {1, 1}}}}; }
 
 /// A square whose lowest corner is its position.
 const std::vector<Vec2d> on_its_tip{{0, 0}, {1, 1}, {0, 2}, {-1, 1}};
@@ -104,7 +102,8 @@ TEST(FirstMeeting, a_thin_plank_that_goes_through_in_one_chord_is_met) {
 TEST(FirstMeeting, an_arm_on_chords_is_met_on_its_chord_and_not_on_the_arc) {
   // A tip on two chords of a quarter of a circle: at height 1/√2 it is back on the circle, before that inside of it.
   const double half = std::sqrt(0.5);
-  const VertexWay way{.collider = 0, .instants = {0, 0.5, 1}, .vertices = {{{0, 0}, {1, 0}}, {{0, 0}, {half, half}}, {{0, 0}, {0, 1}}}};
+  const VertexWay way{
+      .collider = 0, .instants = {0, 0.5, 1}, .vertices = {{{0, 0}, {1, 0}}, {{0, 0}, {half, half}}, {{0, 0}, {0, 1}}}};
   // Feet at x from 0.8 on; the tip is at 0.85 on the chord where the circle would be at 0.9.
   const double x = 0.85;
   const double share = (1 - x) / (1 - half);
@@ -144,7 +143,9 @@ TEST(FirstMeeting, a_single_corner_asks_about_its_moment) {
 }
 
 TEST(FirstMeeting, an_octagon_that_is_all_inside_is_met_at_once) {
-  const VertexWay way{.collider = 0, .instants = {0, 1}, .vertices = {{{-9, -9}, {9, -9}, {9, 9}, {-9, 9}}, {{-9, -9}, {9, -9}, {9, 9}, {-9, 9}}}};
+  const VertexWay way{.collider = 0,
+                      .instants = {0, 1},
+                      .vertices = {{{-9, -9}, {9, -9}, {9, 9}, {-9, 9}}, {{-9, -9}, {9, -9}, {9, 9}, {-9, 9}}}};
   const Meeting found = met(staying({0, 0}), way);
   EXPECT_EQ(found.kind, Kind::meets);
   EXPECT_NEAR(found.high, 0, closely);

@@ -23,7 +23,8 @@ class TurningArm : public testing::Test {
   static TraceStep from(double height, const std::vector<Vec2d>& path, double up = 0.1) {
     TraceStep made = step(path);
     made.movers = {{}};
-    made.vertex_ways = {{.collider = 0, .instants = {0, 1}, .vertices = {{{0, 0}, {1, height}}, {{0, 0}, {1, height + up}}}}};
+    made.vertex_ways = {
+        {.collider = 0, .instants = {0, 1}, .vertices = {{{0, 0}, {1, height}}, {{0, 0}, {1, height + up}}}}};
     return made;
   }
   static Contact<double> contact(double fraction) {

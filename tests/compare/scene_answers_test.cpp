@@ -327,7 +327,8 @@ TEST(WhatTurns, is_met_by_the_twin_a_skin_before_the_root_of_the_sinusoid) {
     // 20 mm are 1.2 steps of a tip at 1 m/s, somewhat more as it comes at an angle; and it looks once a step.
     const double reported = *row.first_contact_step + *row.first_contact_fraction;
     EXPECT_LE(reported, root);
-    EXPECT_NEAR(*row.toi_error_max, root - reported, 60 * most_sag / 0.6) << name << ": it is met on a chord, at 0.6 m/s";
+    EXPECT_NEAR(*row.toi_error_max, root - reported, 60 * most_sag / 0.6)
+        << name << ": it is met on a chord, at 0.6 m/s";
     const TraceStep& step = run_of(result, name).steps[30];
     ASSERT_EQ(step.vertex_ways.size(), 1U);
     const VertexWay& way = step.vertex_ways[0];
