@@ -70,7 +70,7 @@ b2Body& make_body(b2World& world, const HeroDef& def) {
   body.position = rounded(def.position);
   body.fixedRotation = true;
   body.allowSleep = false;
-  body.bullet = true;  // what is thrown at it must not get into it before Box2D sees the impact
+  body.bullet = true;  // see `lead_body`
   body.gravityScale = 0;
   return *world.CreateBody(&body);
 }
@@ -125,6 +125,12 @@ Box2<double> seen_by(const UpFrame<double>& frame, const CharacterShape& shape) 
   Box2<double> box{first, first};
   for (const Vec2d& point : shape.points()) box = box.merged({frame.seen(point), frame.seen(point)});
   return box;
+}
+
+bool touches_dynamic_body(const b2Body& body) {
+  for (const b2ContactEdge* edge = body.GetContactList(); edge != nullptr; edge = edge->next)
+    if (edge->contact->IsTouching() && edge->other->GetType() == b2_dynamicBody) return true;
+  return false;
 }
 
 }  // namespace
@@ -418,6 +424,11 @@ void Hero::Impl::note_contacts() {
 
 /// Puts the body where the hero is. In the next step of the world it goes on as the hero does, and presses on what is
 /// in the way: with the hero's weight downwards, and with at most `push_force` across.
+///
+/// It is a bullet: what is thrown at it must not get into it before Box2D sees the impact. But Box2D takes a body that
+/// a bullet touches back to where the step began, and moves it on without its joints and its contacts with other
+/// dynamic bodies. A hero of 70 kg pressed its crate into the crate below by 8 cm in each second. So it is no bullet
+/// then.
 void Hero::Impl::lead_body(double dt) {
   const Vec2d down = -up_of(gravity());
   const Vec2d stopped = report.requested / dt + state.ride.velocity - state.velocity;
@@ -428,6 +439,7 @@ void Hero::Impl::lead_body(double dt) {
   const double most = acceleration * dt;
   if (push.norm() > most) push *= most / push.norm();
   const bool presses = !report.move.contacts.empty();
+  body->SetBullet(!touches_dynamic_body(*body));
   body->SetTransform(rounded(state.position), 0);
   body->SetLinearVelocity(rounded(presses ? Vec2d(state.velocity + push + down * weight) : state.velocity));
 }

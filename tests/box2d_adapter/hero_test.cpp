@@ -554,6 +554,33 @@ TEST(Hero, carries_a_second_hero_on_its_head_in_either_order) {
   }
 }
 
+TEST(Hero, does_not_press_its_crate_into_the_crate_below) {
+  Game game({.position = {0, 2.7}, .mass = 70});
+  game.floor();
+  game.box(b2_dynamicBody, {0, 0.5F}, 0.5F, 0.5F, 20);
+  b2Fixture& upper = game.box(b2_dynamicBody, {0, 1.51F}, 0.5F, 0.5F, 20);
+  game.run(60);
+  ASSERT_EQ(game.hero.ground(), &upper);
+  const float height = upper.GetBody()->GetPosition().y;
+  EXPECT_GE(height, 1.49F) << "Box2D lets each sink by its slop of 5 mm";
+  game.run(600);
+  EXPECT_EQ(game.hero.ground(), &upper);
+  EXPECT_NEAR(upper.GetBody()->GetPosition().y, height, 0.001);
+}
+
+TEST(Hero, does_not_press_a_plank_off_its_hinge) {
+  Game game({.position = {1, 1.6}, .mass = 70});
+  b2Fixture& post = game.box(b2_staticBody, {0, 0.3F}, 0.1F, 0.1F);
+  b2Fixture& plank = game.box(b2_dynamicBody, {0, 0.8F}, 3, 0.1F, 1);
+  b2RevoluteJointDef joint;
+  joint.Initialize(post.GetBody(), plank.GetBody(), {0, 0.8F});
+  joint.enableLimit = true;
+  game.world.CreateJoint(&joint);
+  game.run(600);
+  EXPECT_EQ(game.hero.ground(), &plank);
+  EXPECT_NEAR(plank.GetBody()->GetPosition().y, 0.8F, 0.005);
+}
+
 TEST(Hero, is_not_shot_away_by_a_bar_that_turns) {
   Game game({.position = {-1.5, half_height + 1e-6}});
   game.floor();
