@@ -95,6 +95,18 @@ ColliderDef turned_collider(const ColliderDef& def, double angle, MoverIndex mov
 
 Vec2d between(const Vec2d& from, const Vec2d& to, double share) { return from + (to - from) * share; }
 
+/// The corner of the character that is nearest to a surface once it has turned; the one that is so before, if both are
+/// at one height then.
+Vec2d nearest_corner(std::span<const Vec2d> hull, const Vec2d& normal_before, const Vec2d& normal_after) {
+  const auto nearest_along = [&](const Vec2d& normal) {
+    return *std::min_element(hull.begin(), hull.end(),
+                             [&](const Vec2d& a, const Vec2d& b) { return a.dot(normal) < b.dot(normal); });
+  };
+  const Vec2d before = nearest_along(normal_before);
+  const Vec2d after = nearest_along(normal_after);
+  return (before - after).dot(normal_after) < Tolerances<double>{}.hit ? before : after;
+}
+
 /// The place from which the character came goes along with what crushed it.
 void carry(Crusher<double>& crusher, const Pose& from, const Pose& to) {
   const Vec2d came_from = crusher.last_free + crusher.displacement;
@@ -433,7 +445,6 @@ Approach LocalController::Impl::approach_of(MoverIndex mover, double fraction, c
 /// corner of the character that will be nearest to it then: what carries the character turns under its foot.
 Part LocalController::Impl::turn(double begin, double end, const Vec2d& position) {
   motions.clear();
-  const std::span<const Vec2d> hull = character.shape.hull();
   for (MoverIndex i = 0; i < movers.size(); ++i) {
     const Pose from = pose_at(movers[i].motion, begin);
     const Pose to = pose_at(movers[i].motion, end);
@@ -442,10 +453,8 @@ Part LocalController::Impl::turn(double begin, double end, const Vec2d& position
       motions.push_back({from.position, to.position});
       continue;
     }
-    const Vec2d down = -rotated(approach_of(i, begin, position).normal, angle);
-    const Vec2d foot = *std::max_element(hull.begin(), hull.end(),
-                                         [&](const Vec2d& a, const Vec2d& b) { return a.dot(down) < b.dot(down); });
-    const Vec2d pivot = position + foot;
+    const Vec2d normal = approach_of(i, begin, position).normal;
+    const Vec2d pivot = position + nearest_corner(character.shape.hull(), normal, rotated(normal, angle));
     motions.push_back({pivot - rotated(pivot - from.position, angle), to.position});
   }
   build(end);
