@@ -122,6 +122,10 @@ void adopt(const CharacterDef& character, const Vec2<Scalar>& up, const MoveResu
   state.technique_memory = move.technique_memory;
   state.grounded = move.grounded;
   state.ride = move.ride;
+  if (move.ground.state != GroundState::air)
+    state.ground = move.ground;
+  else if (state.ground.state != GroundState::air)
+    state.ground = {};
   note_freedom(move, state);
   state.crushers.clear();
   if (state.crushed) state.crushers = move.crushers;

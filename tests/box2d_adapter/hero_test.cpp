@@ -8,6 +8,7 @@
 #include <box2d/b2_chain_shape.h>
 #include <box2d/b2_circle_shape.h>
 #include <box2d/b2_edge_shape.h>
+#include <box2d/b2_prismatic_joint.h>
 #include <box2d/b2_revolute_joint.h>
 
 #include <cmath>
@@ -552,6 +553,76 @@ TEST(Hero, carries_a_second_hero_on_its_head_in_either_order) {
       EXPECT_GT(game.hero.position().x(), 5) << "the lower one cannot walk";
     }
   }
+}
+
+TEST(Hero, does_not_press_its_crate_into_the_crate_below) {
+  Game game({.position = {0, 2.7}, .mass = 70});
+  game.floor();
+  game.box(b2_dynamicBody, {0, 0.5F}, 0.5F, 0.5F, 20);
+  b2Fixture& upper = game.box(b2_dynamicBody, {0, 1.51F}, 0.5F, 0.5F, 20);
+  game.run(60);
+  ASSERT_EQ(game.hero.ground(), &upper);
+  const float height = upper.GetBody()->GetPosition().y;
+  EXPECT_GE(height, 1.49F) << "Box2D lets each sink by its slop of 5 mm";
+  game.run(600);
+  EXPECT_EQ(game.hero.ground(), &upper);
+  EXPECT_NEAR(upper.GetBody()->GetPosition().y, height, 0.001);
+}
+
+TEST(Hero, does_not_press_a_plank_off_its_hinge) {
+  Game game({.position = {1, 1.6}, .mass = 70});
+  b2Fixture& post = game.box(b2_staticBody, {0, 0.3F}, 0.1F, 0.1F);
+  b2Fixture& plank = game.box(b2_dynamicBody, {0, 0.8F}, 3, 0.1F, 1);
+  b2RevoluteJointDef joint;
+  joint.Initialize(post.GetBody(), plank.GetBody(), {0, 0.8F});
+  joint.enableLimit = true;
+  game.world.CreateJoint(&joint);
+  game.run(600);
+  EXPECT_EQ(game.hero.ground(), &plank);
+  EXPECT_NEAR(plank.GetBody()->GetPosition().y, 0.8F, 0.005);
+}
+
+TEST(Hero, does_not_press_a_lift_on_a_motor_down) {
+  Game game({.position = {0, 0.8}, .mass = 70});
+  b2Fixture& post = game.box(b2_staticBody, {0, -30}, 1, 1);
+  b2Fixture& lift = game.box(b2_dynamicBody, {0, 0}, 2, 0.1F, 20);
+  b2PrismaticJointDef joint;
+  joint.Initialize(post.GetBody(), lift.GetBody(), {0, 0}, {0, 1});
+  joint.enableMotor = true;
+  joint.maxMotorForce = 1e6F;
+  joint.motorSpeed = 0.5F;
+  game.world.CreateJoint(&joint);
+  game.run(60);
+  const float before = lift.GetBody()->GetPosition().y;
+  game.run(600);
+  EXPECT_EQ(game.hero.ground(), &lift);
+  EXPECT_NEAR(lift.GetBody()->GetPosition().y - before, 0.5 * 10, 0.001);
+}
+
+TEST(Hero, moves_no_crate_without_force) {
+  Game game({.position = {0.6, half_height + 1e-6}, .mass = 70, .push_force = 0});
+  game.floor();
+  b2Fixture& crate = game.box(b2_dynamicBody, {1.5F, 0.51F}, 0.5F, 0.5F, 20);
+  game.run(300, {.move = 0.1});  // both have come to rest
+  const float before = crate.GetBody()->GetPosition().x;
+  game.run(600, {.move = 1.0});
+  EXPECT_EQ(game.listener.touching.count(&crate), 1U);
+  EXPECT_NEAR(crate.GetBody()->GetPosition().x - before, 0, 0.001);
+}
+
+TEST(Hero, pushes_a_ball_up_to_its_walking_speed) {
+  Game game({.position = {0, half_height + 1e-6}});
+  game.floor();
+  b2BodyDef def;
+  def.type = b2_dynamicBody;
+  def.position = {2, 0.51F};
+  b2CircleShape circle;
+  circle.m_radius = 0.5F;
+  b2Fixture* ball = game.world.CreateBody(&def)->CreateFixture(&circle, 1);
+  game.run(120, {.move = 1.0});
+  EXPECT_NEAR(game.hero.velocity().x(), CharacterDef{}.walk_speed, 0.1);
+  EXPECT_NEAR(speed_of(*ball), CharacterDef{}.walk_speed, 0.1);
+  EXPECT_EQ(game.listener.touching.count(ball), 1U);
 }
 
 TEST(Hero, is_not_shot_away_by_a_bar_that_turns) {

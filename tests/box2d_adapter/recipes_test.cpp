@@ -122,6 +122,25 @@ TEST(Recipe, bounces_on_a_trampoline) {
   EXPECT_NEAR(highest, half_height + 15.0 * 15 / 20, 0.2);
 }
 
+TEST(Recipe, slides_on_ice) {
+  Game game({.position = {0, floor_height}});
+  b2Fixture& floor = game.floor();
+  floor.GetUserData().pointer = 7;
+  bool is_on_ice = false;
+  game.run(2);
+  const auto braked_in_half_a_second = [&] {
+    walk_on(game.hero, 7, is_on_ice);
+    game.hero.set_velocity({6, 0});
+    game.run(30);
+    return 6 - game.hero.velocity().x();
+  };
+  EXPECT_NEAR(braked_in_half_a_second(), 4 * 0.5, 1e-9);
+  EXPECT_TRUE(is_on_ice);
+  floor.GetUserData().pointer = 0;
+  EXPECT_NEAR(braked_in_half_a_second(), 6, 1e-9);
+  EXPECT_FALSE(is_on_ice);
+}
+
 TEST(Recipe, climbs_a_ladder) {
   Game game({.position = {0, floor_height}});
   game.floor();

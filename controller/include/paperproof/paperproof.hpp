@@ -11,6 +11,7 @@
 #include <paperproof/octagon_sweep.hpp>
 #include <paperproof/plan.hpp>
 #include <paperproof/report_vector.hpp>
+#include <paperproof/saved_state.hpp>
 #include <paperproof/scenery.hpp>
 #include <paperproof/technique.hpp>
 #include <paperproof/tolerances.hpp>

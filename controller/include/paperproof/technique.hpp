@@ -54,16 +54,6 @@ struct SensorEvent {
   Scalar fraction = 0;  ///< Of the step, in [0, 1].
 };
 
-/// What a character stands on or slides down at the end of a step. The rest is valid where the state is not `air`.
-/// `octagon_sweep` tells it; other techniques always say `air`.
-template <class Scalar>
-struct Ground {
-  GroundState state = GroundState::air;
-  ColliderIndex collider = no_collider;         ///< None also for another character of a `Crowd`.
-  Vec2<Scalar> normal{Vec2<Scalar>::Zero()};    ///< Of the surface; of several one that points up most.
-  Vec2<Scalar> velocity{Vec2<Scalar>::Zero()};  ///< Of the surface, conveyor included [m/s].
-};
-
 /// A corner of the path.
 template <class Scalar>
 struct PathPoint {

@@ -95,6 +95,25 @@ ColliderDef turned_collider(const ColliderDef& def, double angle, MoverIndex mov
 
 Vec2d between(const Vec2d& from, const Vec2d& to, double share) { return from + (to - from) * share; }
 
+/// The corner of the character that is nearest to a surface once it has turned; the one that is so before, if both are
+/// at one height then.
+Vec2d nearest_corner(std::span<const Vec2d> hull, const Vec2d& normal_before, const Vec2d& normal_after) {
+  const auto nearest_along = [&](const Vec2d& normal) {
+    return *std::min_element(hull.begin(), hull.end(),
+                             [&](const Vec2d& a, const Vec2d& b) { return a.dot(normal) < b.dot(normal); });
+  };
+  const Vec2d before = nearest_along(normal_before);
+  const Vec2d after = nearest_along(normal_after);
+  return (before - after).dot(normal_after) < Tolerances<double>{}.hit ? before : after;
+}
+
+/// The place from which the character came goes along with what crushed it.
+void carry(Crusher<double>& crusher, const Pose& from, const Pose& to) {
+  const Vec2d came_from = crusher.last_free + crusher.displacement;
+  const Vec2d there = to.position + rotated(Vec2d(came_from - from.position), to.angle - from.angle);
+  crusher.displacement = there - crusher.last_free;
+}
+
 /// How bad a status is: that of a step is the worst of its parts.
 int rank(MoveStatus status) noexcept {
   constexpr std::array order{MoveStatus::moved, MoveStatus::dropped, MoveStatus::stuck, MoveStatus::crushed};
@@ -166,12 +185,19 @@ struct LocalController::Impl {
   [[nodiscard]] Part turn(double begin, double end, const Vec2d& position);
   [[nodiscard]] Approach approach_of(MoverIndex mover, double fraction, const Vec2d& position) const;
   [[nodiscard]] bool is_proved(const Part& part, const MoveResult<double>& move, const StepContext<double>& context);
-  [[nodiscard]] bool blocks(ColliderIndex collider, const StepContext<double>& context) const;
+  [[nodiscard]] bool blocks(const NearCollider& collider, const StepContext<double>& context) const;
   [[nodiscard]] Pose turned_pose(const NearCollider& collider, const Part& part) const;
+  void note_pushes(const Part& part, const StepContext<double>& context);
+  void note_begin();
   void note_vertices(const Part& part);
   void append(const StepReport<double>& added, const Part& part, StepReport<double>& report) const;
-  StepStatus stay(CharacterState<double>& state, const StepContext<double>& context, StepReport<double>& report);
-  [[nodiscard]] bool reaches(const NearCollider& collider, const Vec2d& position, double begin, double end);
+  StepStatus go_straight_or_stay(CharacterState<double>& state, const StepContext<double>& context,
+                                 StepReport<double>& report);
+  void go_straight(double begin, const Vec2d& to, const CharacterState<double>& state,
+                   const StepContext<double>& context, StepReport<double>& report);
+  [[nodiscard]] std::optional<Vec2d> way_out_at_end(CharacterState<double> state, const StepContext<double>& context);
+  [[nodiscard]] bool overlaps(const NearCollider& collider, const Pose& pose, const Vec2d& position);
+  [[nodiscard]] bool reaches(const NearCollider& collider, const HullWay& way, double begin, double end);
   [[nodiscard]] const std::vector<std::vector<Vec2d>>& pieces(const NearCollider& collider);
 
   struct KnownPieces {
@@ -196,6 +222,9 @@ struct LocalController::Impl {
   ColliderFilter filter;
   std::vector<TurnedCollider> turned_;
   std::unique_ptr<StepReport<double>> of_part = std::make_unique<StepReport<double>>();
+  ReportMemory<PathPoint<double>> more_corners{most_parts * MoveResult<double>::max_corners};
+  ReportMemory<Contact<double>> more_contacts{most_parts * MoveResult<double>::max_contacts};
+  ReportMemory<ColliderIndex> more_crushed{most_parts * MoveResult<double>::max_crushed};
   std::vector<KnownPieces> known_pieces;
 };
 
@@ -316,6 +345,7 @@ void LocalController::Impl::to_local(CharacterState<double>& state) const {
 
 void LocalController::Impl::to_ids(CharacterState<double>& state) const {
   if (state.ride.ground != Ride<double>::none) state.ride.ground = ids[state.ride.ground];
+  if (state.ground.collider != no_collider) state.ground.collider = ids[state.ground.collider];
   for (Crusher<double>& crusher : state.crushers) crusher.collider = ids[crusher.collider];
 }
 
@@ -415,7 +445,6 @@ Approach LocalController::Impl::approach_of(MoverIndex mover, double fraction, c
 /// corner of the character that will be nearest to it then: what carries the character turns under its foot.
 Part LocalController::Impl::turn(double begin, double end, const Vec2d& position) {
   motions.clear();
-  const std::span<const Vec2d> hull = character.shape.hull();
   for (MoverIndex i = 0; i < movers.size(); ++i) {
     const Pose from = pose_at(movers[i].motion, begin);
     const Pose to = pose_at(movers[i].motion, end);
@@ -424,10 +453,8 @@ Part LocalController::Impl::turn(double begin, double end, const Vec2d& position
       motions.push_back({from.position, to.position});
       continue;
     }
-    const Vec2d down = -rotated(approach_of(i, begin, position).normal, angle);
-    const Vec2d foot = *std::max_element(hull.begin(), hull.end(),
-                                         [&](const Vec2d& a, const Vec2d& b) { return a.dot(down) < b.dot(down); });
-    const Vec2d pivot = position + foot;
+    const Vec2d normal = approach_of(i, begin, position).normal;
+    const Vec2d pivot = position + nearest_corner(character.shape.hull(), normal, rotated(normal, angle));
     motions.push_back({pivot - rotated(pivot - from.position, angle), to.position});
   }
   build(end);
@@ -438,10 +465,12 @@ Pose LocalController::Impl::turned_pose(const NearCollider& collider, const Part
   return {part.motions[mover_of(collider)].from, pose_at(collider.motion, part.end).angle};
 }
 
-bool LocalController::Impl::blocks(ColliderIndex collider, const StepContext<double>& context) const {
-  const ColliderDef& def = *at(collider).def;
-  return !def.sensor && !def.one_way &&
-         (context.filter == nullptr || (*context.filter)(surroundings->scenery, collider));
+/// Whether a collider can be in the way, and has a proof. @param context of the step, whose filter knows ids.
+bool LocalController::Impl::blocks(const NearCollider& collider, const StepContext<double>& context) const {
+  const ColliderDef& def = *collider.def;
+  if (def.sensor || def.one_way || std::find(ids.begin(), ids.end(), collider.id) == ids.end()) return false;
+  const ColliderFilter wanted = context.filter == nullptr ? ColliderFilter{} : *context.filter;
+  return collide(wanted, def.filter) && (wanted.is_there == nullptr || wanted.is_there(collider.id, wanted.user));
 }
 
 const std::vector<std::vector<Vec2d>>& LocalController::Impl::pieces(const NearCollider& collider) {
@@ -453,6 +482,15 @@ const std::vector<std::vector<Vec2d>>& LocalController::Impl::pieces(const NearC
   if (known_pieces.size() > 2 * near.size()) known_pieces.clear();
   known_pieces.push_back({collider.id, collider.version, pieces_of(*collider.def)});
   return known_pieces.back().pieces;
+}
+
+/// Whether a collider overlaps the character by more than rounding.
+bool LocalController::Impl::overlaps(const NearCollider& collider, const Pose& pose, const Vec2d& position) {
+  const std::vector<std::vector<Vec2d>>& all = pieces(collider);
+  return std::any_of(all.begin(), all.end(), [&](const std::vector<Vec2d>& piece) {
+    const std::vector<Vec2d> here = placed(piece, pose);
+    return !stay_apart({character.shape.hull(), position, position}, {here, here}, -proved);
+  });
 }
 
 /// Whether the character stayed clear of everything that turned at the beginning of a part. What overlapped it before,
@@ -467,14 +505,14 @@ bool LocalController::Impl::is_proved(const Part& part, const MoveResult<double>
   const std::span<const Vec2d> hull = character.shape.hull();
   for (ColliderIndex i = 0; i < order.size(); ++i) {
     const NearCollider& collider = at(i);
-    if (collider.mover == no_mover || movers[mover_of(collider)].turn() == 0 || !blocks(i, context)) continue;
+    if (collider.mover == no_mover || movers[mover_of(collider)].turn() == 0 || !blocks(collider, context)) continue;
     if (std::find(move.crushed.begin(), move.crushed.end(), i) != move.crushed.end()) continue;
     const Pose from = pose_at(collider.motion, part.begin);
     const Pose to = turned_pose(collider, part);
+    if (overlaps(collider, from, way[0])) continue;
+    const auto legs = static_cast<double>(way.size() - 1);
     for (const std::vector<Vec2d>& piece : pieces(collider)) {
       const PieceWay whole = {placed(piece, from), placed(piece, to)};
-      if (!stay_apart({hull, way[0], way[0]}, {whole.from, whole.from}, -proved)) continue;
-      const auto legs = static_cast<double>(way.size() - 1);
       for (std::size_t leg = 0; leg + 1 < way.size(); ++leg) {
         PieceWay piece_way = whole;
         for (std::size_t v = 0; v < piece.size(); ++v) {
@@ -488,14 +526,37 @@ bool LocalController::Impl::is_proved(const Part& part, const MoveResult<double>
   return true;
 }
 
+/// Reports what pushed the character when it turned, as contacts at the beginning of a part.
+void LocalController::Impl::note_pushes(const Part& part, const StepContext<double>& context) {
+  MoveResult<double>& move = of_part->move;
+  if (move.path.size() < 2 || move.path[1].fraction > 0) return;
+  std::size_t last = 1;
+  while (last + 1 < move.path.size() && move.path[last + 1].fraction == 0) ++last;
+  std::array<Contact<double>, MoveResult<double>::max_contacts> touched;
+  const std::size_t count =
+      surroundings->controller.contacts_at(move.path[last].position, Tolerances<double>{}.touch,
+                                           local_context(context, part.motions), surroundings->scratch, touched);
+  for (std::size_t i = 0; i < count; ++i) {
+    const NearCollider& collider = at(touched[i].collider);
+    const auto is_known = [&](const Contact<double>& contact) { return contact.collider == touched[i].collider; };
+    if (collider.mover == no_mover || movers[mover_of(collider)].turn() == 0) continue;
+    if (std::none_of(move.contacts.begin(), move.contacts.end(), is_known))
+      move.contacts.push_back(touched[i], more_contacts);
+  }
+}
+
+/// Where everything that moves is when the step begins.
+void LocalController::Impl::note_begin() {
+  turned_.clear();
+  for (const NearCollider& collider : near)
+    if (collider.mover != no_mover)
+      turned_.push_back({collider.id, {0}, {vertices_at(*collider.def, collider.motion.from)}});
+}
+
 void LocalController::Impl::note_vertices(const Part& part) {
   std::size_t next = 0;
   for (const NearCollider& collider : near) {
     if (collider.mover == no_mover) continue;
-    if (part.begin == 0) {
-      turned_.push_back({collider.id, {0}, {vertices_at(*collider.def, collider.motion.from)}});
-      next = turned_.size() - 1;
-    }
     TurnedCollider& way = turned_[next++];
     way.instants.insert(way.instants.end(), {part.turned(), part.end});
     way.vertices.push_back(vertices_at(*collider.def, turned_pose(collider, part)));
@@ -513,20 +574,21 @@ void LocalController::Impl::append(const StepReport<double>& added, const Part& 
   };
   const auto turning = static_cast<std::size_t>(
       std::count_if(from.path.begin(), from.path.end(), [](const PathPoint<double>& p) { return p.fraction == 0; }));
-  if (to.path.empty()) to.path.push_back({from.path[0].position, 0});
-  if (turning == 1) to.path.push_back({from.path[0].position, part.turned()});
+  if (to.path.empty()) to.path.push_back({from.path[0].position, 0}, more_corners);
+  if (turning == 1) to.path.push_back({from.path[0].position, part.turned()}, more_corners);
   for (std::size_t i = 1; i < from.path.size(); ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(turning - 1);
     const double fraction =
         i < turning ? part.begin + (part.turned() - part.begin) * share : when(from.path[i].fraction);
-    to.path.push_back({from.path[i].position, i + 1 == turning ? part.turned() : fraction});
+    to.path.push_back({from.path[i].position, i + 1 == turning ? part.turned() : fraction}, more_corners);
   }
   for (Contact<double> contact : from.contacts) {
     contact.fraction = when(contact.fraction);
-    to.contacts.push_back(contact);
+    to.contacts.push_back(contact, more_contacts);
   }
   for (const ColliderIndex collider : from.crushed)
-    if (std::find(to.crushed.begin(), to.crushed.end(), collider) == to.crushed.end()) to.crushed.push_back(collider);
+    if (std::find(to.crushed.begin(), to.crushed.end(), collider) == to.crushed.end())
+      to.crushed.push_back(collider, more_crushed);
   for (SensorEvent<double> event : added.sensors) {
     event.fraction = when(event.fraction);
     report.sensors.push_back(event);
@@ -554,12 +616,24 @@ template <class Go>
 StepStatus LocalController::Impl::step_among_turning(CharacterState<double>& state, const StepContext<double>& context,
                                                      StepReport<double>& report, const Go& go) {
   const CharacterState<double> before = state;
-  for (int parts = parts_for(state, context); parts <= most_parts; parts *= 2) {
+  const int usual = parts_for(state, context);
+  std::optional<int> crushing;  // so many parts can be proved, but crush the character
+  const auto try_parts = [&](int parts) -> std::optional<StepStatus> {
     state = before;
-    if (const std::optional<StepStatus> status = step_in_parts(parts, state, context, report, go)) return *status;
-  }
+    const std::optional<StepStatus> status = step_in_parts(parts, state, context, report, go);
+    if (!status || report.move.crushed.empty()) return status;
+    if (!crushing) crushing = parts;
+    return std::nullopt;
+  };
+  for (int parts = usual; parts <= most_parts; parts *= 2)
+    if (const std::optional<StepStatus> status = try_parts(parts)) return *status;
+  for (int parts = usual / 2; parts > 0; parts /= 2)
+    if (const std::optional<StepStatus> status = try_parts(parts)) return *status;
   state = before;
-  return stay(state, context, report);
+  const StepStatus status = go_straight_or_stay(state, context, report);
+  if (!crushing || status == StepStatus::moved) return status;
+  state = before;
+  return *step_in_parts(*crushing, state, context, report, go);
 }
 
 /// @return nothing if the step cannot be proved; it is not complete then.
@@ -568,7 +642,7 @@ std::optional<StepStatus> LocalController::Impl::step_in_parts(int parts, Charac
                                                                const StepContext<double>& context,
                                                                StepReport<double>& report, const Go& go) {
   clear(report);
-  turned_.clear();
+  note_begin();
   StepContext<double> shorter = context;
   shorter.dt = context.dt / parts;
   for (int i = 0; i < parts; ++i) {
@@ -578,58 +652,110 @@ std::optional<StepStatus> LocalController::Impl::step_in_parts(int parts, Charac
       const MoverIndex mover = mover_of(at(state.ride.ground));
       if (mover != no_mover && movers[mover].turn() != 0) state.ride.place = state.position - part.motions[mover].from;
     }
+    for (Crusher<double>& crusher : state.crushers) {
+      const NearCollider& collider = at(crusher.collider);
+      carry(crusher, pose_at(collider.motion, part.begin), turned_pose(collider, part));
+    }
     const StepStatus status = go(surroundings->controller, state, local_context(shorter, part.motions), 1.0 / parts,
                                  surroundings->scratch, *of_part);
     if (step_parts::is_refused(status)) return report.status = status;
     if (!is_proved(part, of_part->move, context)) return std::nullopt;
+    note_pushes(part, shorter);
     to_ids(*of_part);
     to_ids(state);
     note_vertices(part);
     append(*of_part, part, report);
+    if (report.move.crushed.empty() || i + 1 == parts) continue;
+    // It stays where it was crushed until the next step.
+    go_straight(part.end, state.position, state, context, report);
+    step_parts::adopt(character, context.up, report.move, state);
+    break;
   }
   return report.status;
 }
 
-/// Whether a collider may reach a character that stays, within a part of the step.
-bool LocalController::Impl::reaches(const NearCollider& collider, const Vec2d& position, double begin, double end) {
-  const Pose from = pose_at(collider.motion, begin);
-  const Pose to = pose_at(collider.motion, end);
+/// Whether a collider may reach a character that goes its way within a part of the step.
+bool LocalController::Impl::reaches(const NearCollider& collider, const HullWay& way, double begin, double end) {
+  const Pose before = pose_at(collider.motion, begin);
+  const Pose after = pose_at(collider.motion, end);
   const std::vector<std::vector<Vec2d>>& all = pieces(collider);
   return std::any_of(all.begin(), all.end(), [&](const std::vector<Vec2d>& piece) {
-    return !stay_apart({character.shape.hull(), position, position}, {placed(piece, from), placed(piece, to)}, proved);
+    return !stay_apart(way, {placed(piece, before), placed(piece, after)}, proved);
   });
 }
 
-/// A step in which the character stays in place. What may reach it crushes it.
-StepStatus LocalController::Impl::stay(CharacterState<double>& state, const StepContext<double>& context,
-                                       StepReport<double>& report) {
-  clear(report);
-  turned_.clear();
-  build(1);
+/// The rest of a step, in which the character goes straight to a place, and everything that moves turns evenly. What
+/// may reach the character crushes it.
+/// @param begin as a fraction of the step; what is before it stands in the report.
+void LocalController::Impl::go_straight(double begin, const Vec2d& to, const CharacterState<double>& state,
+                                        const StepContext<double>& context, StepReport<double>& report) {
   MoveResult<double>& move = report.move;
-  move.status = MoveStatus::crushed;
-  move.position = state.position;
+  move.position = to;
   move.velocity.setZero();
-  move.path.push_back({state.position, 0});
-  move.path.push_back({state.position, 1});
-  for (ColliderIndex i = 0; i < order.size(); ++i) {
-    const NearCollider& collider = at(i);
+  move.grounded = false;
+  move.ground = {};
+  move.ride = {};
+  move.crushers.clear();
+  if (move.path.empty()) move.path.push_back({state.position, 0});
+  move.path.push_back({to, 1}, more_corners);
+  if (begin == 0) note_begin();
+  std::size_t next = 0;
+  for (const NearCollider& collider : near) {
     if (collider.mover == no_mover) continue;
-    TurnedCollider way{collider.id, {0}, {vertices_at(*collider.def, collider.motion.from)}};
+    TurnedCollider& way = turned_[next++];
+    const Pose from = pose_at(collider.motion, begin);
     bool is_reached = false;
-    for (int part = 0; part < most_parts; ++part) {
-      const double end = double(part + 1) / most_parts;
+    double last = begin;
+    for (int part = 1; part <= most_parts; ++part) {
+      const double end = part < most_parts ? begin + (1 - begin) * part / most_parts : 1;
       way.instants.push_back(end);
       way.vertices.push_back(vertices_at(*collider.def, pose_at(collider.motion, end)));
-      is_reached = is_reached || reaches(collider, state.position, double(part) / most_parts, end);
+      const HullWay leg{character.shape.hull(), between(state.position, to, (last - begin) / (1 - begin)),
+                        between(state.position, to, (end - begin) / (1 - begin))};
+      is_reached = is_reached || reaches(collider, leg, last, end);
+      last = end;
     }
-    turned_.push_back(std::move(way));
-    if (!is_reached || !blocks(i, context)) continue;
-    move.crushed.push_back(collider.id);
-    if (reaches(collider, state.position, 1, 1)) move.crushers.push_back({collider.id, state.position, {0, 0}, true});
+    if (!is_reached || !blocks(collider, context)) continue;
+    const auto known = std::find_if(state.crushers.begin(), state.crushers.end(),
+                                    [&](const Crusher<double>& crusher) { return crusher.collider == collider.id; });
+    Crusher<double> crusher{collider.id, state.position};
+    if (known != state.crushers.end()) crusher = *known;
+    carry(crusher, from, collider.motion.to);
+    const bool is_named = std::find(move.crushed.begin(), move.crushed.end(), collider.id) != move.crushed.end();
+    if (!is_named && !overlaps(collider, from, state.position)) move.crushed.push_back(collider.id, more_crushed);
+    if (overlaps(collider, collider.motion.to, to)) move.crushers.push_back(crusher);
+  }
+}
+
+/// Where a character that stays in place would leave what overlaps it at the end of the step.
+std::optional<Vec2d> LocalController::Impl::way_out_at_end(CharacterState<double> state,
+                                                           const StepContext<double>& context) {
+  build(1);
+  motions.clear();
+  for (const NearMover& mover : movers) motions.push_back({mover.motion.to.position, mover.motion.to.position});
+  to_local(state);
+  state.ride = {};
+  const StepStatus status =
+      surroundings->controller.move(state, {0, 0}, local_context(context, motions), surroundings->scratch, *of_part);
+  if (status != StepStatus::moved) return std::nullopt;
+  return of_part->move.position;
+}
+
+/// A step for a character that no division of the step brings to a free position. It goes straight to one, if it can;
+/// else it stays in place.
+StepStatus LocalController::Impl::go_straight_or_stay(CharacterState<double>& state, const StepContext<double>& context,
+                                                      StepReport<double>& report) {
+  const std::optional<Vec2d> out = way_out_at_end(state, context);
+  MoveResult<double>& move = report.move;
+  clear(report);
+  if (out) go_straight(0, *out, state, context, report);
+  if (!out || !move.crushed.empty() || !move.crushers.empty()) {
+    clear(report);
+    go_straight(0, state.position, state, context, report);
+    move.status = move.crushed.empty() ? MoveStatus::stuck : MoveStatus::crushed;
   }
   step_parts::adopt(character, context.up, move, state);
-  return report.status = StepStatus::crushed;
+  return report.status = step_parts::status_of(move.status);
 }
 
 LocalController::LocalController(const CharacterDef& character) : impl_(std::make_unique<Impl>(character)) {}

@@ -104,7 +104,8 @@ struct HeroSave {
 /// The world has a dynamic body for the hero, of the same shape and without gravity, friction and restitution. Box2D
 /// reports contacts of its fixture to the game's listener, also with static bodies and sensors, as for each dynamic
 /// body: in the next `world.Step`, of what the hero then touches within 6.5 mm. Dynamic bodies feel the hero through
-/// this body: its mass, its weight and its push. The hero takes the impacts that its body took from them.
+/// this body: its mass, its weight and its push. The hero takes the impacts that its body took from them. Where it
+/// touches them, its body is some millimetres beside it: draw it at `position()`.
 ///
 /// Not thread-safe, as the world is not.
 class Hero {

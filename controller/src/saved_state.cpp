@@ -1,0 +1,94 @@
+#include <paperproof/saved_state.hpp>
+
+#include <algorithm>
+
+namespace paperproof {
+namespace {
+
+/// Visits every member of a state, always in the same order. Written once, for saving and for restoring.
+template <class State, class Visit>
+void for_each_member(State& state, std::uint32_t& crusher_count, const Visit& visit) {
+  const auto vector = [&](auto& v) {
+    visit(v.x());
+    visit(v.y());
+  };
+  vector(state.position);
+  vector(state.velocity);
+  vector(state.last_free);
+  vector(state.technique_memory);
+  vector(state.ride.place);
+  vector(state.ride.velocity);
+  vector(state.ground.normal);
+  vector(state.ground.velocity);
+  visit(state.coyote_left);
+  visit(state.pending_left);
+  visit(state.ride.ground);
+  visit(state.ground.collider);
+  visit(state.ground.state);
+  visit(state.stuck_steps);
+  for (auto* flag : {&state.has_last_free, &state.grounded, &state.jumping, &state.jump_held, &state.jump_pending,
+                     &state.wall_left, &state.wall_right, &state.crushed})
+    visit(*flag);
+  visit(crusher_count);
+  for (auto& crusher : state.crushers) {
+    visit(crusher.collider);
+    vector(crusher.last_free);
+    vector(crusher.displacement);
+    visit(crusher.has_side);
+  }
+}
+
+/// Where the next number of each kind goes, or comes from.
+template <class Saved>
+struct Cursor {
+  Saved& saved;
+  std::size_t number = 0;
+  std::size_t index = 0;
+  std::size_t mark = 0;
+};
+
+}  // namespace
+
+template <class Scalar>
+SavedState<Scalar> save(const CharacterState<Scalar>& state) noexcept {
+  SavedState<Scalar> saved{};
+  Cursor<SavedState<Scalar>> to{saved};
+  auto count = static_cast<std::uint32_t>(state.crushers.size());
+  for_each_member(state, count, [&to]<class T>(const T& value) {
+    if constexpr (std::is_same_v<T, Scalar>)
+      to.saved.numbers[to.number++] = value + Scalar(0);  // a negative zero becomes a positive one
+    else if constexpr (std::is_same_v<T, std::uint32_t>)
+      to.saved.indices[to.index++] = value;
+    else
+      to.saved.marks[to.mark++] = static_cast<std::uint8_t>(value);
+  });
+  return saved;
+}
+
+template <class Scalar>
+CharacterState<Scalar> restored(const SavedState<Scalar>& saved) noexcept {
+  CharacterState<Scalar> state;
+  Cursor<const SavedState<Scalar>> from{saved};
+  constexpr std::size_t where_the_count_is = 2;
+  const std::size_t count = std::min<std::size_t>(saved.indices[where_the_count_is], state.crushers.capacity());
+  for (std::size_t i = 0; i < count; ++i) state.crushers.push_back({});
+  std::uint32_t ignored = 0;
+  for_each_member(state, ignored, [&from]<class T>(T& value) {
+    if constexpr (std::is_same_v<T, Scalar>)
+      value = from.saved.numbers[from.number++];
+    else if constexpr (std::is_same_v<T, std::uint32_t>)
+      value = from.saved.indices[from.index++];
+    else if constexpr (std::is_same_v<T, GroundState>)
+      value = static_cast<GroundState>(std::min<std::uint8_t>(from.saved.marks[from.mark++], 3));
+    else
+      value = static_cast<T>(from.saved.marks[from.mark++]);
+  });
+  return state;
+}
+
+template SavedState<float> save(const CharacterState<float>&) noexcept;
+template SavedState<double> save(const CharacterState<double>&) noexcept;
+template CharacterState<float> restored(const SavedState<float>&) noexcept;
+template CharacterState<double> restored(const SavedState<double>&) noexcept;
+
+}  // namespace paperproof

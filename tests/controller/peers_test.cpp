@@ -1,0 +1,316 @@
+/// What other controllers have, and what their users complain of, where no other test shows it. `coming_from.md` lists
+/// all of it, with the tests.
+#include "controller/stepping.hpp"
+#include "support/random.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace paperproof::stepping {
+namespace {
+
+constexpr double stop = Tolerances<double>{}.stop;
+constexpr double touch = 1e-6;  ///< Largest gap of what was stopped [m].
+constexpr double floor_width = 60;
+
+ColliderDef moving(ColliderDef collider) {
+  collider.mover = 0;
+  return collider;
+}
+
+CharacterDef box_character() {
+  CharacterDef character;
+  character.shape = CharacterShape(std::array{Vec2d(-half_width, -half_height), Vec2d(half_width, -half_height),
+                                              Vec2d(half_width, half_height), Vec2d(-half_width, half_height)});
+  return character;
+}
+
+/// Ground through the origin, in pieces of a metre that abut exactly. @param rise per metre, a multiple of 1/16.
+std::vector<ColliderDef> tiled_slope(double rise) {
+  std::vector<ColliderDef> tiles;
+  for (int i = -30; i < 30; ++i)
+    tiles.push_back(polygon({{double(i), rise * i - 4},
+                             {double(i + 1), rise * (i + 1) - 4},
+                             {double(i + 1), rise * (i + 1)},
+                             {double(i), rise * i}}));
+  return tiles;
+}
+
+// ------------------------------------------------------------------------------------------------------- features
+
+/// How high a character jumps beside the corner of a ceiling that catches so much of its width [m].
+double jumps_up_beside_a_corner(const CharacterDef& character, double caught) {
+  Stepper<double> jumper({rectangle(-9, -1, 9, 0), rectangle(-3, 2, 0, 3)}, character);
+  jumper.gravity = {0, -30};
+  jumper.at(half_width - caught, half_height + stop).steps(2);
+  double highest = 0;
+  for (int n = 0; n < 60; ++n) {
+    jumper.step({.move = 0, .jump = true});
+    highest = std::max(highest, jumper.state.position.y());
+  }
+  return highest;
+}
+
+TEST(PeersFeature, corner_correction_by_a_slanted_head) {
+  // Celeste puts a jumper whose head meets a corner aside, by up to 4 px. Here a slanted head slides past the corner.
+  const double slant = 5 * px;
+  const double below_the_ceiling = 2 - half_height;
+  for (const double caught : {0.2 * slant, 0.9 * slant})
+    EXPECT_GT(jumps_up_beside_a_corner({}, caught), below_the_ceiling + 0.5) << "caught by " << caught;
+  EXPECT_LT(jumps_up_beside_a_corner({}, 1.1 * slant), below_the_ceiling);
+  EXPECT_LT(jumps_up_beside_a_corner(box_character(), 0.2 * slant), below_the_ceiling);
+}
+
+TEST(PeersFeature, the_three_ways_to_leave_a_platform) {
+  // Godot's `platform_on_leave`: add the velocity, add it only upwards, add nothing. A step adds it.
+  Stepper<double> rider({moving(rectangle(-3, -1, 3, 0))});
+  rider.at(0, half_height + stop);
+  for (int n = 0; n < 10; ++n) rider.step_with_mover_by(0.05, -0.03);
+  const Vec2d platform = rider.state.ride.velocity;
+  EXPECT_NEAR((platform - Vec2d(3, -1.8)).norm(), 0, 1e-12);
+  rider.step_with_mover_by(0.05, -0.03, {.jump = true});
+  const Vec2d jump{0, 12 - 10.0 / 60};
+  EXPECT_NEAR((rider.state.velocity - platform - jump).norm(), 0, 1e-12) << "add";
+  const Vec2d downwards{0, std::min(0.0, platform.y())};
+  EXPECT_NEAR((rider.state.velocity - downwards - Vec2d(3, 0) - jump).norm(), 0, 1e-12) << "add upwards";
+}
+
+// ----------------------------------------------------------------------------------------------------- complaints
+
+TEST(PeersComplaint, falls_through_a_vertical_platform) {  // rapier #488
+  for (const double speed : {-60.0, -12.0, -1.0, 1.0, 12.0, 60.0, 400.0}) {
+    for (const double rate : {30.0, 60.0, 240.0}) {
+      Stepper<double> faller({moving(rectangle(-3, -0.01, 3, 0))});
+      faller.dt = 1 / rate;
+      faller.gravity = {0, -30};
+      faller.at(0, 3).with_velocity(0, -20);
+      for (int n = 0; n < 3 * static_cast<int>(rate); ++n) {
+        faller.step_with_mover_by(0, speed / rate);
+        ASSERT_GT(faller.state.position.y() - half_height, faller.movers[0].to.y()) << speed << " m/s, step " << n;
+      }
+      EXPECT_TRUE(faller.state.grounded) << speed;
+    }
+  }
+}
+
+TEST(PeersComplaint, a_motionless_character_is_passed_through) {  // rapier #485
+  for (const double speed : {0.5, 20.0, 3000.0}) {
+    Stepper<double> still({moving(rectangle(-2, -9, -1, 9))});
+    for (int n = 0; n < 60; ++n) {
+      const MoverMotion<double> wall{still.movers[0].to, still.movers[0].to + Vec2d(speed / 60, 0)};
+      still.movers[0] = wall;
+      still.controller.move(still.state, {0, 0}, {{0, 0}, still.dt, still.movers}, still.scratch, still.report);
+      ASSERT_GT(still.state.position.x() - half_width, wall.to.x() - 1) << speed << " m/s, step " << n;
+    }
+    const double pushed = std::max(0.0, -1 + speed + half_width);
+    EXPECT_NEAR(still.state.position.x(), pushed, touch) << speed;
+  }
+}
+
+TEST(PeersComplaint, sticks_to_walls) {  // bevy_rapier #489, #301
+  Stepper<double> at_the_wall({rectangle(1, -90, 2, 90)});
+  Stepper<double> free({});
+  for (Stepper<double>* jumper : {&at_the_wall, &free}) jumper->at(0, 0).with_velocity(0, 8);
+  int touching = 0;
+  for (int n = 0; n < 120; ++n) {
+    at_the_wall.step({.move = 1});
+    free.step({.move = 1});
+    touching += at_the_wall.touched(Side::right);
+    ASSERT_EQ(at_the_wall.state.velocity.y(), free.state.velocity.y()) << n;
+    ASSERT_NEAR(at_the_wall.state.position.y(), free.state.position.y(), 1e-12) << n;
+  }
+  EXPECT_GE(touching, 90);
+}
+
+TEST(PeersComplaint, snags_on_the_seams_of_walls_and_ceilings) {  // godot #87477, #92621; box2d #935
+  std::vector<ColliderDef> tiles;
+  for (int i = -20; i < 20; ++i) {
+    tiles.push_back(rectangle(1, i, 2, i + 1));
+    tiles.push_back(rectangle(-9, i, -8, i + 1));
+  }
+  for (int i = -8; i < 1; ++i) tiles.push_back(rectangle(i, 10, i + 1, 11));
+  Stepper<double> faller(tiles);
+  faller.at(0, 8).with_velocity(6, 0);
+  for (int n = 1; n <= 120; ++n) {
+    faller.step({.move = 1});
+    ASSERT_NEAR(faller.state.velocity.y(), -10.0 * n / 60, 1e-12) << "at the wall, step " << n;
+  }
+  // Along the ceiling, pressed against it in each step.
+  faller.at(-6, 10 - half_height - 0.01).with_velocity(6, 0);
+  for (int n = 0; n < 60; ++n) {
+    faller.state.velocity.y() = 5;
+    faller.step({.move = 1});
+    ASSERT_TRUE(faller.touched(Side::top)) << n;
+    ASSERT_EQ(faller.state.velocity, Vec2d(6, 0)) << "at the ceiling, step " << n;
+  }
+}
+
+TEST(PeersComplaint, the_floor_flag_flickers) {  // godot #16250, #90718; bevy_rapier #377
+  for (const double rise : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
+    for (const double rate : {60.0, 144.0, 1000.0}) {
+      for (const double move : {0.0, 0.02, 1.0}) {
+        CharacterDef character;
+        character.snap = 0.1;
+        Stepper<double> walker(tiled_slope(rise), character);
+        walker.dt = 1 / rate;
+        walker.at(-10, -10 * rise + half_height + 0.2).steps(static_cast<int>(rate), {.move = 0});
+        ASSERT_TRUE(walker.state.grounded);
+        for (int n = 0; n < 3 * static_cast<int>(rate); ++n) {
+          walker.step({.move = move});
+          ASSERT_TRUE(walker.state.grounded) << rise << ", " << rate << " Hz, move " << move << ", step " << n;
+          ASSERT_LE(walker.state.velocity.x(), 6 * move);
+        }
+        EXPECT_NEAR(walker.state.velocity.x(), 6 * move, 1e-12);
+      }
+    }
+  }
+}
+
+/// Ledges, 0.3 m apart: the character spans several.
+std::vector<ColliderDef> ladder_of_ledges() {
+  std::vector<ColliderDef> ledges{rectangle(-9, -1, 9, 0)};
+  for (int i = 1; i <= 20; ++i) ledges.push_back(chain({{-9, 0.3 * i}, {9, 0.3 * i}}, Vec2d{0, 1}));
+  return ledges;
+}
+
+TEST(PeersComplaint, one_way_platforms_pop_or_eat_jumps) {  // godot #9399, #42914; prime31 #46, #82
+  Stepper<double> jumper(ladder_of_ledges());
+  jumper.gravity = {0, -30};
+  jumper.at(0, half_height + stop).steps(2);
+  int jumps = 0;
+  for (int n = 0; n < 240; ++n) {
+    const CharacterState<double> before = jumper.state;
+    jumper.step({.move = 0.2, .jump = before.grounded});
+    const double speed = jumper.report.requested.y() / jumper.dt;
+    const double rise = jumper.state.position.y() - before.position.y();
+    ASSERT_LE(rise, std::max(speed, 0.0) * jumper.dt + touch) << "it popped up, step " << n;
+    if (!before.grounded) continue;
+    ASSERT_EQ(jumper.state.velocity.y(), 12 - 0.5) << "the jump was eaten, step " << n;
+    ++jumps;
+  }
+  EXPECT_GE(jumps, 3);
+}
+
+TEST(PeersComplaint, lift_reversal_eats_jumps) {  // JoltPhysics #530
+  // A lift that goes 4 m/s up, then 4 m/s down, at once. The jump is pressed at any time around that.
+  for (const double first : {4.0, -4.0}) {
+    for (int pressed = 0; pressed < 20; ++pressed) {
+      CharacterDef character;
+      character.snap = 0.2;
+      Stepper<double> rider({moving(rectangle(-3, -1, 3, 0))}, character);
+      rider.gravity = {0, -30};
+      rider.at(0, half_height + stop).step();
+      double speed = 0;
+      for (int n = 0; n <= pressed; ++n) {
+        speed = n < 10 ? first : -first;
+        rider.step_with_mover_by(0, speed / 60, {.move = 0, .jump = n == pressed});
+        ASSERT_EQ(rider.state.grounded, n < pressed) << "pressed in step " << pressed << ", step " << n;
+      }
+      EXPECT_NEAR(rider.state.velocity.y(), speed + 12 - 0.5, 1e-12) << "pressed in step " << pressed;
+      rider.step_with_mover_by(0, speed / 60, {.move = 0});
+      EXPECT_FALSE(rider.state.grounded);
+    }
+  }
+}
+
+TEST(PeersComplaint, snapping_eats_jumps) {  // JoltPhysics #1988
+  for (const double rise : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
+    CharacterDef character;
+    character.snap = character.step_height = 0.5;
+    Stepper<double> jumper(tiled_slope(rise), character);
+    jumper.gravity = {0, -30};
+    jumper.at(-10, -10 * rise + half_height + 0.2).steps(60, {.move = 1});
+    ASSERT_TRUE(jumper.state.grounded);
+    jumper.step({.move = 1, .jump = true});
+    EXPECT_EQ(jumper.state.velocity, Vec2d(6, 12 - 0.5)) << rise;
+    for (int n = 0; n < 3; ++n) {
+      EXPECT_FALSE(jumper.state.grounded) << rise;
+      jumper.step({.move = 1});
+    }
+  }
+}
+
+TEST(PeersComplaint, climbs_corners) {  // box2d #1032: a capsule does, users want a box
+  Stepper<double> walker({rectangle(-9, -1, 9, 0), rectangle(1, 0, 9, 0.002)}, box_character());
+  walker.at(0, half_height + stop).steps(60, {.move = 1});
+  EXPECT_NEAR(walker.state.position.x(), 1 - half_width, touch) << "a kerb of 2 mm is a wall";
+  EXPECT_NEAR(walker.state.position.y(), half_height, touch);
+  Stepper<double> on_the_brink({rectangle(-9, -1, 0, 0)}, box_character());
+  const Vec2d brink{half_width - 0.001, half_height + stop};
+  on_the_brink.at(brink.x(), brink.y()).steps(600, {.move = 0});
+  EXPECT_EQ(on_the_brink.state.position, brink) << "it stands on a millimetre";
+}
+
+/// A lift with a belt, under stairs and ledges.
+std::vector<ColliderDef> playground() {
+  ColliderDef belt = moving(rectangle(-6, -1, -2, 0));
+  belt.surface_speed = 1;
+  return {rectangle(-floor_width, -2, floor_width, -1.5), belt, rectangle(0, -2, 9, -1.3), rectangle(1, -2, 9, -1.1),
+          chain({{-4, 1}, {4, 1}}, Vec2d{0, 1})};
+}
+
+TEST(PeersComplaint, rollback_diverges) {  // JoltPhysics #1551, godot-proposals #2821, #9663
+  const std::uint64_t seed = 1;
+  test::Random random(seed);
+  CharacterDef character;
+  character.snap = character.step_height = 0.25;
+  character.coyote_time = 0.1;
+  character.jump_buffer = 0.1;
+  Stepper<double> player(playground(), character);
+  player.gravity = {0, -30};
+  player.at(-4, 1);
+  struct Frame {
+    Input input;
+    double dt;
+    MoverMotion<double> lift;
+    CharacterState<double> before;
+  };
+  std::vector<Frame> frames;
+  const auto take = [&player](const Frame& frame) {
+    player.dt = frame.dt;
+    player.movers[0] = frame.lift;
+    player.step(frame.input);
+  };
+  int rides = 0;
+  Input input;
+  for (int n = 0; n < 3000; ++n) {
+    if (random.chance(0.05)) input.move = random.integer(-1, 1);
+    input.jump = random.chance(0.05);
+    input.drop = random.chance(0.02);
+    const MoverMotion<double>& lift = player.movers[0];
+    frames.push_back({input, random.between(1e-3, 0.05), {lift.to, Vec2d(0, std::sin(n * 0.02))}, player.state});
+    take(frames.back());
+    rides += player.state.ride.ground != Ride<double>::none;
+    if (std::abs(player.state.position.x()) > 8) teleport(player.state, {-4, 1});
+  }
+  EXPECT_GE(rides, 300) << "seed " << seed;
+  for (std::size_t back = 0; back + 60 < frames.size(); back += 60) {
+    player.state = frames[back].before;
+    for (std::size_t n = back; n < back + 60; ++n) {
+      ASSERT_EQ(player.state, frames[n].before) << "seed " << seed << ", rolled back to " << back << ", at " << n;
+      take(frames[n]);
+      if (std::abs(player.state.position.x()) > 8) teleport(player.state, {-4, 1});
+    }
+  }
+}
+
+// ----------------------------------------------------------------------------------------------------- situations
+
+TEST(PeersSituation, a_wall_is_still_found_without_a_key) {
+  Stepper<double> idle({rectangle(-9, -1, 9, 0), rectangle(1, 0, 2, 4)});
+  idle.at(0, half_height + stop).steps(60, {.move = 1});
+  ASSERT_TRUE(idle.state.wall_right);
+  idle.steps(60, {.move = 0});
+  EXPECT_FALSE(idle.state.wall_right) << "nothing was wanted to the right";
+  std::array<Contact<double>, 4> found;
+  const std::size_t count =
+      idle.controller.contacts_at(idle.state.position, touch, {.dt = idle.dt}, idle.scratch, found);
+  EXPECT_TRUE(std::any_of(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(count),
+                          [](const Contact<double>& contact) { return contact.side == Side::right; }));
+}
+
+}  // namespace
+}  // namespace paperproof::stepping
