@@ -3,6 +3,7 @@
 #include "oracle/crush.hpp"
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 
 namespace paperproof::compare::detail {
@@ -22,12 +23,13 @@ double travel_of(const VertexWay& way, Vec2d at) {
   return length;
 }
 
-/// What turns stands where it is when the step begins, or ends; the rest goes as it does.
-SceneryDef standing_at(const SceneryDef& scenery, const TraceStep& step, bool end) {
+/// What turns stands where it is at a fraction of the step; the rest goes as it does.
+SceneryDef standing_at(const SceneryDef& scenery, const TraceStep& step, double fraction) {
   SceneryDef all = scenery;
   for (const VertexWay& way : step.vertex_ways) {
     ColliderDef& def = all.colliders[way.collider];
-    auto from = (end ? way.vertices.back() : way.vertices.front()).begin();
+    const std::vector<Vec2d> vertices = vertices_at(way, fraction);
+    auto from = vertices.begin();
     const auto take = [&](std::vector<Vec2d>& ring) {
       std::copy_n(from, ring.size(), ring.begin());
       from += static_cast<std::ptrdiff_t>(ring.size());
@@ -91,16 +93,27 @@ bool on_their_sides(const ExactScenery& standing, const Sides& sides, const Plac
 
 bool has_way_out(const TraceHeader& header, const TraceStep& step, const Sides& sides,
                  const std::function<bool(const Vec2d&)>& accept) {
-  const ExactScenery standing(standing_at(header.scenery, step, false), header.points);
-  const Place start(step.path.front().position, step.movers, 0);
-  const std::optional<Vec2d> out = standing.way_out(start, farthest_way_out);
-  return out && accept(*out) && on_their_sides(standing, sides, Place(*out, step.movers, 0));
+  double turned = 0;
+  for (const VertexWay& way : step.vertex_ways)
+    if (way.instants.size() > 2) turned = way.instants[1];
+  const std::array<double, 2> moments{0, turned};
+  return std::all_of(moments.begin(), moments.end(), [&](double moment) {
+    Sides then = sides;
+    for (auto& [collider, side] : then) {
+      const VertexWay& way = way_of(step, collider);
+      side = RigidMotion(way.vertices.front(), vertices_at(way, moment))(side);
+    }
+    const ExactScenery standing(standing_at(header.scenery, step, moment), header.points);
+    const Place start(step.path.front().position, step.movers, moment);
+    const std::optional<Vec2d> out = standing.way_out(start, farthest_way_out);
+    return out && accept(*out) && on_their_sides(standing, then, Place(*out, step.movers, moment));
+  });
 }
 
 std::optional<Vec2d> room_beside(const TraceHeader& header, const ExactScenery& rest, const TraceStep& step,
                                  const Crusher& crusher, const Sides& sides,
                                  const std::function<bool(std::span<const PathPoint<double>>)>& left_free) {
-  const ExactScenery end(standing_at(header.scenery, step, true), header.points);
+  const ExactScenery end(standing_at(header.scenery, step, 1), header.points);
   const ExactScenery wider(rest.scenery(), grown(header.points, least_clearance));
   std::vector<Vec2d> corners;
   for (const PathPoint<double>& corner : step.path) corners.push_back(corner.position);

@@ -51,9 +51,9 @@ using Sides = std::map<ColliderIndex, Vec2d>;
 /// A way out of what the octagon is inside of is looked for this far [m].
 inline constexpr double farthest_way_out = 1e4;
 
-/// Whether the shortest straight way out of what is overlapped where the step begins, as things are then, ends on the
-/// right side of it.
-/// @param sides as things are then. @param accept whether it ends on the right side of the rest.
+/// Whether the shortest straight way out of what is overlapped where the step begins ends on the right side of it, as
+/// things are then, and as they are when they have turned for the first time.
+/// @param sides as things are when the step begins. @param accept whether it ends on the right side of the rest.
 [[nodiscard]] bool has_way_out(const TraceHeader& header, const TraceStep& step, const Sides& sides,
                                const std::function<bool(const Vec2d&)>& accept);
 
