@@ -17,8 +17,6 @@ namespace {
 /// Instants at which the depth of a passing is looked at first.
 constexpr int depth_samples = 32;
 constexpr int depth_refinements = 40;
-/// A way out of what the octagon is inside of is looked for this far [m].
-constexpr double farthest_way_out = 1e4;
 
 Place between(const Place& from, const Place& to, double share) {
   return {from.position + share * (to.position - from.position), from.movers,
@@ -59,6 +57,15 @@ StepJudgement Judge::judge(const TraceStep& step, const Others& others) {
   all.left_free = [&](std::span<const PathPoint<double>> way) {
     return turning_->left_free(step, way) && (!others.left_free || others.left_free(way));
   };
+  const bool inside = turning_->begin(step);
+  bool freed = false;
+  if (step.stuck && inside) {
+    const Place start(step.path.front(), step.movers);
+    freed = turning_->frees(step, [&](const Vec2d& out) {
+      return !ends_on_another_side(start, out) &&
+             (!others.left_free || others.left_free(std::vector<PathPoint<double>>{{start.position, 0}, {out, 1}}));
+    });
+  }
   StepJudgement judgement = judge_exactly(turning_->exact_part(step), all);
   turning_->judge(step, scenery_, judgement);
   const bool beside = turning_->is_near(step, detail::reach_of(header_).contact);
@@ -66,7 +73,7 @@ StepJudgement Judge::judge(const TraceStep& step, const Others& others) {
   judgement.hovers = judgement.hovers && !beside;
   judgement.ground_refuted = judgement.ground_refuted && !beside;
   judgement.ground_late = judgement.ground_late && !beside;
-  judgement.stuck_refuted = judgement.stuck_refuted && !beside;
+  judgement.stuck_refuted = inside ? freed : judgement.stuck_refuted && !beside;
   const auto bends = [](const VertexWay& way) { return way.instants.size() > 2; };
   const bool in_parts = header_.path_exact && std::any_of(step.vertex_ways.begin(), step.vertex_ways.end(), bends);
   if (beside || in_parts) judgement.motion_lost = judgement.ghost_speed_loss = 0;
@@ -370,6 +377,14 @@ void Judge::judge_ground(const detail::HangingJudge& hanging, const TraceStep& s
   judgement.ground_refuted = !judgement.ground_late;
 }
 
+/// Whether a way out of what the octagon is inside of leads past some of it.
+bool Judge::ends_on_another_side(const Place& at, const Vec2d& out) const {
+  return std::any_of(inside_.begin(), inside_.end(), [&](const auto& stay) {
+    const std::optional<Kept>& free = stay.second.free_from;
+    return free && scenery_.meets(free->place(), Place(out, at.movers, at.fraction), stay.first);
+  });
+}
+
 /// Asked once for each place: it costs much, and whoever is stuck mostly stays.
 bool Judge::has_way_out(const Place& at, const Others& others) {
   if (asked_way_out_) {
@@ -379,13 +394,9 @@ bool Judge::has_way_out(const Place& at, const Others& others) {
         std::equal(asked.movers.begin(), asked.movers.end(), at.movers.begin(), at.movers.end(), same_motion);
     if (same) return asked_way_out_->second;
   }
-  const std::optional<Vec2d> out = scenery_.way_out(at, farthest_way_out);
-  const auto on_another_side = [&](const auto& stay) {
-    const std::optional<Kept>& free = stay.second.free_from;
-    return free && scenery_.meets(free->place(), Place(*out, at.movers, at.fraction), stay.first);
-  };
+  const std::optional<Vec2d> out = scenery_.way_out(at, detail::farthest_way_out);
   const bool found =
-      out && std::none_of(inside_.begin(), inside_.end(), on_another_side) &&
+      out && !ends_on_another_side(at, *out) &&
       (!others.left_free || others.left_free(std::vector<PathPoint<double>>{{at.position, 0}, {*out, 1}}));
   asked_way_out_.emplace(Kept(at), found);
   return found;

@@ -217,8 +217,7 @@ struct StepJudgement {
 /// **Normal error.** The angle between the normal of a reported contact and the nearest normal of the exact contacts
 /// with that collider on that side, and of the face that is touched along the reported normal.
 ///
-/// **What turns** is judged apart, exactly as well: see oracle/turning.hpp. Who is inside of it may say that it is
-/// stuck.
+/// **What turns** is judged apart, exactly as well: see oracle/turning.hpp.
 ///
 /// **Ghost speed loss.** Horizontal speed was lost to nothing where the step began free and crushed nobody, and no
 /// solid opposes the wanted horizontal motion, neither with the rise that was requested nor with the one that was made,
@@ -277,6 +276,7 @@ class Judge {
   void judge_ground(const detail::HangingJudge& hanging, const TraceStep& step, StepJudgement& judgement) const;
   void judge_progress(const TraceStep& step, const Others& others, StepJudgement& judgement);
   [[nodiscard]] std::vector<ColliderIndex> newly_inside(const StepJudgement& judgement) const;
+  [[nodiscard]] bool ends_on_another_side(const Place& at, const Vec2d& out) const;
   [[nodiscard]] bool has_way_out(const Place& at, const Others& others);
 
   const TraceHeader header_;

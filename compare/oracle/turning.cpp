@@ -149,17 +149,41 @@ bool TurningJudge::left_free(const TraceStep& step, std::span<const PathPoint<do
   });
 }
 
+bool TurningJudge::begin(const TraceStep& step) {
+  inside_.clear();
+  if (!step.path.empty()) inside_ = overlapped(step);
+  const auto is_left = [&](ColliderIndex collider) { return step.respawn || !contains(inside_, collider); };
+  std::erase_if(sides_, [&](const auto& side) { return is_left(side.first); });
+  std::erase_if(pressed_, is_left);
+  return !inside_.empty();
+}
+
 void TurningJudge::judge(const TraceStep& step, const ExactScenery& rest, StepJudgement& judgement) {
   if (step.path.empty()) return;
-  std::set<ColliderIndex> touched;
+  for (auto& [collider, side] : sides_) {
+    const VertexWay& way = way_of(step, collider);
+    side = RigidMotion(way.vertices.front(), way.vertices.back())(side);
+  }
   for (const Solid& solid : solids_) {
     judge_way(solid, step, rest, judgement);
     judge_contacts(solid, step, judgement);
   }
+  for (const Solid& solid : solids_)
+    if (contains(judgement.end_overlap, solid.collider) && !contains(inside_, solid.collider)) note_side(solid, step);
+  std::set<ColliderIndex> touched;
   for (const Contact<double>& contact : step.contacts)
     if (turns(contact.collider)) touched.insert(contact.collider);
   touched_ = std::move(touched);
   std::sort(judgement.end_overlap.begin(), judgement.end_overlap.end());
+}
+
+/// Where the octagon was last free of what it ends inside of, as that is then.
+void TurningJudge::note_side(const Solid& solid, const TraceStep& step) {
+  const VertexWay& way = way_of(step, solid.collider);
+  const auto last = std::find_if(step.path.rbegin(), step.path.rend(), [&](const PathPoint<double>& corner) {
+    return !overlaps(solid, way, corner);
+  });  // the first, if no other is
+  sides_[solid.collider] = RigidMotion(vertices_at(way, last->fraction), way.vertices.back())(last->position);
 }
 
 /// Whether a crush by it is named, or would be by who has a word for it, and there is no room.
@@ -173,7 +197,7 @@ bool TurningJudge::is_excused(const Solid& solid, const TraceStep& step, const E
     const Vec2d normal = nearest_axis(solid, its, step.path.front()).normal;
     const auto nearer = [&](const Vec2d& a, const Vec2d& b) { return a.dot(normal) < b.dot(normal); };
     const Vec2d met = step.path.front().position + *std::min_element(octagon_.begin(), octagon_.end(), nearer);
-    room = room_beside(header_, rest, step, {its, met},
+    room = room_beside(header_, rest, step, {its, met}, sides_,
                        [&](std::span<const PathPoint<double>> way) { return left_free(step, way); });
   }
   if (room) judgement.room = room;
@@ -185,11 +209,10 @@ bool TurningJudge::is_excused(const Solid& solid, const TraceStep& step, const E
 void TurningJudge::judge_way(const Solid& solid, const TraceStep& step, const ExactScenery& rest,
                              StepJudgement& judgement) {
   const VertexWay& way = way_of(step, solid.collider);
-  const bool began_inside = overlaps(solid, way, step.path.front());
+  const bool began_inside = contains(inside_, solid.collider);
   const bool ends_inside = overlaps(solid, way, step.path.back());
   const bool named = contains(step.crushed, solid.collider);
   const bool excused = (named || (ends_inside && !began_inside)) && is_excused(solid, step, rest, judgement);
-  if (!began_inside) pressed_.erase(solid.collider);
   if (ends_inside) {
     if (excused) pressed_.insert(solid.collider);
     judgement.end_overlap.push_back(solid.collider);

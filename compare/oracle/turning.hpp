@@ -5,6 +5,7 @@
 #include "oracle/depth.hpp"
 #include "oracle/first_meeting.hpp"
 #include "oracle/judge.hpp"
+#include "oracle/turning_room.hpp"
 
 #include <set>
 
@@ -40,6 +41,13 @@ class TurningJudge {
   [[nodiscard]] TraceStep exact_part(const TraceStep& step) const;
   /// The solids that the octagon overlaps where a step begins.
   [[nodiscard]] std::vector<ColliderIndex> overlapped(const TraceStep& step) const;
+  /// A step begins. @return whether it does inside of something that turns.
+  [[nodiscard]] bool begin(const TraceStep& step);
+  /// Whether there is a way out of that then.
+  /// @param accept see `has_way_out`.
+  [[nodiscard]] bool frees(const TraceStep& step, const std::function<bool(const Vec2d&)>& accept) const {
+    return has_way_out(header_, step, sides_, accept);
+  }
   /// Whether something that turns is within so many metres at a corner of the way.
   [[nodiscard]] bool is_near(const TraceStep& step, double within) const;
   /// Whether a way of the whole step meets nothing that turns but what it begins in, and ends 1e-7 m away from it.
@@ -63,6 +71,7 @@ class TurningJudge {
   [[nodiscard]] double nearest(const Solid& solid, const TraceStep& step) const;
   [[nodiscard]] bool is_excused(const Solid& solid, const TraceStep& step, const ExactScenery& rest,
                                 StepJudgement& judgement) const;
+  void note_side(const Solid& solid, const TraceStep& step);
   void judge_way(const Solid& solid, const TraceStep& step, const ExactScenery& rest, StepJudgement& judgement);
   void judge_passage(const Solid& solid, const TraceStep& step, StepJudgement& judgement) const;
   [[nodiscard]] double depth_on(const Solid& solid, const TraceStep& step) const;
@@ -75,6 +84,10 @@ class TurningJudge {
   bool promises_ = false;            ///< See `Party::promising`.
   std::set<ColliderIndex> touched_;  ///< In the last step, as reported.
   std::set<ColliderIndex> pressed_;  ///< Overlapped since a crush that was excused.
+  /// Of each solid that is overlapped, where it was last free of it, taken along since; none where the run began
+  /// inside.
+  Sides sides_;
+  std::vector<ColliderIndex> inside_;  ///< What is overlapped when the present step begins.
 };
 
 }  // namespace paperproof::compare::detail

@@ -22,12 +22,12 @@ double travel_of(const VertexWay& way, Vec2d at) {
   return length;
 }
 
-/// Everything as it is when the step ends; what turns stands there.
-SceneryDef at_the_end(const SceneryDef& scenery, const TraceStep& step) {
+/// What turns stands where it is when the step begins, or ends; the rest goes as it does.
+SceneryDef standing_at(const SceneryDef& scenery, const TraceStep& step, bool end) {
   SceneryDef all = scenery;
   for (const VertexWay& way : step.vertex_ways) {
     ColliderDef& def = all.colliders[way.collider];
-    auto from = way.vertices.back().begin();
+    auto from = (end ? way.vertices.back() : way.vertices.front()).begin();
     const auto take = [&](std::vector<Vec2d>& ring) {
       std::copy_n(from, ring.size(), ring.begin());
       from += static_cast<std::ptrdiff_t>(ring.size());
@@ -82,15 +82,31 @@ bool goes(const VertexWay& way) {
                      [&](const std::vector<Vec2d>& vertices) { return vertices != way.vertices.front(); });
 }
 
+/// Whether a place lies on the right side of all that is given with where the octagon was when it was last free of it.
+bool on_their_sides(const ExactScenery& standing, const Sides& sides, const Place& there) {
+  return std::all_of(sides.begin(), sides.end(), [&](const auto& side) {
+    return !standing.meets(Place(side.second, there.movers, there.fraction), there, side.first);
+  });
+}
+
+bool has_way_out(const TraceHeader& header, const TraceStep& step, const Sides& sides,
+                 const std::function<bool(const Vec2d&)>& accept) {
+  const ExactScenery standing(standing_at(header.scenery, step, false), header.points);
+  const Place start(step.path.front().position, step.movers, 0);
+  const std::optional<Vec2d> out = standing.way_out(start, farthest_way_out);
+  return out && accept(*out) && on_their_sides(standing, sides, Place(*out, step.movers, 0));
+}
+
 std::optional<Vec2d> room_beside(const TraceHeader& header, const ExactScenery& rest, const TraceStep& step,
-                                 const Crusher& crusher,
+                                 const Crusher& crusher, const Sides& sides,
                                  const std::function<bool(std::span<const PathPoint<double>>)>& left_free) {
-  const ExactScenery end(at_the_end(header.scenery, step), header.points);
+  const ExactScenery end(standing_at(header.scenery, step, true), header.points);
   const ExactScenery wider(rest.scenery(), grown(header.points, least_clearance));
   std::vector<Vec2d> corners;
   for (const PathPoint<double>& corner : step.path) corners.push_back(corner.position);
   const auto reached = [&](const Vec2d& position) {
     const Place there(position, step.movers, 1);
+    if (!on_their_sides(end, sides, there)) return false;
     std::vector<PathPoint<double>> way;
     for (const PathPoint<double>& corner : step.path) {
       way.push_back(corner);

@@ -6,6 +6,7 @@
 
 #include <complex>
 #include <functional>
+#include <map>
 #include <span>
 
 namespace paperproof::compare::detail {
@@ -36,11 +37,24 @@ struct Crusher {
   Vec2d met{Vec2d::Zero()};  ///< The corner of the octagon that it is nearest to when the step begins [m].
 };
 
+/// Of what turns and is overlapped: where the octagon was when it was last free of it, taken along with it since.
+using Sides = std::map<ColliderIndex, Vec2d>;
+
 /// A free position at the end of the step, or none: see `Judge` for what counts as room.
-/// @param rest the solids that do not turn.
+/// @param rest the solids that do not turn. @param sides of what was overlapped when the step began, as things are when
+///   it ends: room is on the same side.
 /// @param left_free whether a way of the whole step leaves free what turns.
 [[nodiscard]] std::optional<Vec2d> room_beside(
     const TraceHeader& header, const ExactScenery& rest, const TraceStep& step, const Crusher& crusher,
-    const std::function<bool(std::span<const PathPoint<double>>)>& left_free);
+    const Sides& sides, const std::function<bool(std::span<const PathPoint<double>>)>& left_free);
+
+/// A way out of what the octagon is inside of is looked for this far [m].
+inline constexpr double farthest_way_out = 1e4;
+
+/// Whether the shortest straight way out of what is overlapped where the step begins, as things are then, ends on the
+/// right side of it.
+/// @param sides as things are then. @param accept whether it ends on the right side of the rest.
+[[nodiscard]] bool has_way_out(const TraceHeader& header, const TraceStep& step, const Sides& sides,
+                               const std::function<bool(const Vec2d&)>& accept);
 
 }  // namespace paperproof::compare::detail
