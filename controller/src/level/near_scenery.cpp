@@ -1,0 +1,162 @@
+#include "level/near_scenery.hpp"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+namespace paperproof::level {
+namespace {
+
+/// How much wider than needed the box is that is read [m]. Zero: each step reads another one. Large: each change costs
+/// more.
+constexpr double read_ahead = 1.5;
+
+/// A collider as it is built into scenery: turned, not moved.
+ColliderDef turned_collider(const ColliderDef& def, double angle, MoverIndex mover) {
+  ColliderDef result = def;
+  result.mover = mover;
+  if (angle == 0) return result;
+  result.points = placed(def.points, {.angle = angle});
+  for (std::vector<Vec2d>& hole : result.holes) hole = placed(hole, {.angle = angle});
+  return result;
+}
+
+bool same_collider(const NearCollider& a, const NearCollider& b) noexcept {
+  return a.id == b.id && a.version == b.version && a.mover == b.mover;
+}
+
+}  // namespace
+
+void NearScenery::read(const Box2<double>& needed, const Find& find) {
+  const Vec2d spare = (box_.upper - box_.lower) - (needed.upper - needed.lower);
+  if (!box_.contains(needed) || spare.maxCoeff() > 4 * read_ahead) box_ = needed.inflated(read_ahead);
+  near_.swap(near_before_);
+  near_.clear();
+  find(box_, near_);
+  const auto by_id = [](const NearCollider& a, const NearCollider& b) { return a.id < b.id; };
+  if (!std::is_sorted(near_.begin(), near_.end(), by_id)) std::sort(near_.begin(), near_.end(), by_id);
+  const auto same_id = [](const NearCollider& a, const NearCollider& b) { return a.id == b.id; };
+  near_.erase(std::unique(near_.begin(), near_.end(), same_id), near_.end());
+  movers_.clear();
+  for (const NearCollider& collider : near_)
+    if (collider.mover != no_mover && mover_of(collider) == movers_.size())
+      movers_.push_back({collider.mover, collider.motion});
+  std::sort(movers_.begin(), movers_.end(), [](const NearMover& a, const NearMover& b) { return a.mover < b.mover; });
+  any_turns_ = std::any_of(movers_.begin(), movers_.end(), [](const NearMover& mover) { return mover.turn() != 0; });
+  const bool is_same = std::equal(near_.begin(), near_.end(), near_before_.begin(), near_before_.end(), same_collider);
+  if (!is_same || !scenery_) place_in_order();
+}
+
+MoverIndex NearScenery::mover_of(const NearCollider& collider) const noexcept {
+  if (collider.mover == no_mover) return no_mover;
+  const auto known = std::find_if(movers_.begin(), movers_.end(),
+                                  [&](const NearMover& mover) { return mover.mover == collider.mover; });
+  return static_cast<MoverIndex>(known - movers_.begin());
+}
+
+/// The order depends on what the colliders are, not on their ids: an edited level gives the bits of one that was built
+/// at once.
+void NearScenery::place_in_order() {
+  scenery_.reset();
+  unusable_.clear();
+  order_.resize(near_.size());
+  for (std::size_t i = 0; i < order_.size(); ++i) order_[i] = i;
+  const auto key = [&](std::size_t i) {
+    const NearCollider& collider = near_[i];
+    const Box2<double> extent = box_at(collider.def->points, {});
+    return std::tuple(collider.mover + 1, extent.lower.x(), extent.lower.y(), extent.upper.x(), extent.upper.y(),
+                      collider.def->points.size());
+  };
+  std::stable_sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+}
+
+SceneryDef NearScenery::scenery_def() const {
+  SceneryDef def;
+  for (const std::size_t i : order_) {
+    const MoverIndex mover = mover_of(near_[i]);
+    def.colliders.push_back(turned_collider(*near_[i].def, mover == no_mover ? 0 : angles_[mover], mover));
+  }
+  return def;
+}
+
+bool NearScenery::build(double fraction) {
+  std::vector<double> now;
+  for (const NearMover& mover : movers_) now.push_back(pose_at(mover.motion, fraction).angle);
+  if (scenery_ && now == angles_) return true;
+  angles_ = std::move(now);
+  for (scenery_.reset(); !scenery_;) {
+    try {
+      scenery_.emplace(scenery_def(), character_);
+    } catch (const InvalidScenery& refused) {
+      const NearCollider& collider = at(refused.collider());
+      try {
+        const Scenery<double> as_defined(SceneryDef{{turned_collider(*collider.def, 0, no_mover)}});
+        return false;
+      } catch (const InvalidScenery&) {
+        unusable_.push_back(collider.id);
+        order_.erase(order_.begin() + refused.collider());
+      }
+    }
+  }
+  ids_.clear();
+  for (const std::size_t i : order_) ids_.push_back(near_[i].id);
+  return true;
+}
+
+ColliderIndex NearScenery::local_of(ColliderIndex id) const noexcept {
+  const auto found = std::find(ids_.begin(), ids_.end(), id);
+  return found == ids_.end() ? no_collider : static_cast<ColliderIndex>(found - ids_.begin());
+}
+
+StepContext<double> NearScenery::context(StepContext<double> context,
+                                         std::span<const MoverMotion<double>> motions) noexcept {
+  context.movers = motions.first(scenery_->scenery.mover_count());
+  if (context.filter == nullptr) return context;
+  filter_of_ids_ = {*context.filter, ids_};
+  filter_ = *context.filter;
+  filter_.user = &filter_of_ids_;
+  if (filter_.is_there != nullptr)
+    filter_.is_there = [](ColliderIndex collider, const void* user) {
+      const auto& of_ids = *static_cast<const FilterOfIds*>(user);
+      return of_ids.filter.is_there(of_ids.ids[collider], of_ids.filter.user);
+    };
+  context.filter = &filter_;
+  return context;
+}
+
+void NearScenery::to_local(CharacterState<double>& state) const {
+  if (state.ride.ground != Ride<double>::none) {
+    state.ride.ground = local_of(state.ride.ground);
+    if (state.ride.ground == no_collider) state.ride = {};
+  }
+  const Crushers<double> known = state.crushers;
+  state.crushers.clear();
+  for (Crusher<double> crusher : known) {
+    crusher.collider = local_of(crusher.collider);
+    if (crusher.collider != no_collider) state.crushers.push_back(crusher);
+  }
+  state.crushed = state.crushed && !state.crushers.empty();
+}
+
+void NearScenery::to_ids(CharacterState<double>& state) const {
+  if (state.ride.ground != Ride<double>::none) state.ride.ground = ids_[state.ride.ground];
+  if (state.ground.collider != no_collider) state.ground.collider = ids_[state.ground.collider];
+  for (Crusher<double>& crusher : state.crushers) crusher.collider = ids_[crusher.collider];
+}
+
+void NearScenery::to_ids(StepReport<double>& report) const {
+  MoveResult<double>& move = report.move;
+  for (Contact<double>& contact : move.contacts) contact.collider = ids_[contact.collider];
+  for (Crusher<double>& crusher : move.crushers) crusher.collider = ids_[crusher.collider];
+  if (move.ground.state != GroundState::air) move.ground.collider = ids_[move.ground.collider];
+  if (move.ride.ground != Ride<double>::none) move.ride.ground = ids_[move.ride.ground];
+  for (SensorEvent<double>& event : report.sensors) event.sensor = ids_[event.sensor];
+  to_ids({move.crushed.begin(), move.crushed.size()});
+  to_ids({report.dropped_through.begin(), report.dropped_through.size()});
+}
+
+void NearScenery::to_ids(std::span<ColliderIndex> colliders) const {
+  for (ColliderIndex& collider : colliders) collider = ids_[collider];
+}
+
+}  // namespace paperproof::level

@@ -1,0 +1,102 @@
+/// What is near a character, and scenery of it.
+#pragma once
+
+#include "level/poses.hpp"
+
+#include <paperproof/local_controller.hpp>
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace paperproof::level {
+
+/// A mover of some of the colliders that are near.
+struct NearMover {
+  MoverIndex mover = no_mover;  ///< As `NearCollider::mover`.
+  PoseMotion motion{};
+
+  [[nodiscard]] double turn() const noexcept { return motion.to.angle - motion.from.angle; }
+};
+
+/// Reads what is near, and makes scenery of it where that changed. In the scenery a collider has an index and a mover
+/// a number; outside a collider has an id.
+class NearScenery {
+ public:
+  using Find = LocalController::Find;
+
+  explicit NearScenery(const CharacterDef& character) : character_(character) {}
+
+  /// @param needed box. A wider one is read, so that it holds for some steps.
+  void read(const Box2<double>& needed, const Find& find);
+  /// Makes scenery of what was read, with the angles at a fraction of the step, unless it is there already.
+  /// @return false if there is a collider that cannot be turned by its angle: rounding made it cross itself.
+  [[nodiscard]] bool build(double fraction);
+
+  [[nodiscard]] const CharacterDef& character() const noexcept { return character_; }
+  /// The box that was read.
+  [[nodiscard]] const Box2<double>& box() const noexcept { return box_; }
+  /// What was found in it, by id.
+  [[nodiscard]] std::span<const NearCollider> colliders() const noexcept { return near_; }
+  [[nodiscard]] std::span<const NearMover> movers() const noexcept { return movers_; }
+  [[nodiscard]] bool any_turns() const noexcept { return any_turns_; }
+  /// The number of a collider's mover, or `no_mover`.
+  [[nodiscard]] MoverIndex mover_of(const NearCollider& collider) const noexcept;
+  [[nodiscard]] bool turns(const NearCollider& collider) const noexcept {
+    return collider.mover != no_mover && collider.motion.from.angle != collider.motion.to.angle;
+  }
+
+  // Of the scenery.
+  [[nodiscard]] const Controller<double>& controller() const noexcept { return scenery_->controller; }
+  [[nodiscard]] Scratch<double>& scratch() noexcept { return scenery_->scratch; }
+  [[nodiscard]] std::size_t size() const noexcept { return order_.size(); }
+  [[nodiscard]] const NearCollider& at(ColliderIndex collider) const noexcept { return near_[order_[collider]]; }
+  [[nodiscard]] bool is_in_scenery(ColliderIndex id) const noexcept { return local_of(id) != no_collider; }
+  /// Ids of colliders of no extent, which are left out.
+  [[nodiscard]] std::span<const ColliderIndex> unusable() const noexcept { return unusable_; }
+  /// A context for steps and questions in the scenery, valid until the next one is made.
+  /// @param motions one for each of `movers()`. @param context its filter knows ids.
+  [[nodiscard]] StepContext<double> context(StepContext<double> context,
+                                            std::span<const MoverMotion<double>> motions) noexcept;
+
+  /// A collider that is gone carries and crushes no more.
+  void to_local(CharacterState<double>& state) const;
+  void to_ids(CharacterState<double>& state) const;
+  void to_ids(StepReport<double>& report) const;
+  void to_ids(std::span<ColliderIndex> colliders) const;
+
+ private:
+  struct Built {
+    Built(const SceneryDef& def, const CharacterDef& character)
+        : scenery(def), controller(scenery, character, {.broad_phase = BroadPhaseKind::all_pairs}) {}
+
+    Scenery<double> scenery;
+    Controller<double> controller;
+    Scratch<double> scratch = controller.make_scratch();
+  };
+  /// A filter of colliders by their ids.
+  struct FilterOfIds {
+    ColliderFilter filter{};
+    std::span<const ColliderIndex> ids{};
+  };
+
+  void place_in_order();
+  [[nodiscard]] SceneryDef scenery_def() const;
+  [[nodiscard]] ColliderIndex local_of(ColliderIndex id) const noexcept;
+
+  CharacterDef character_;
+  Box2<double> box_{Vec2d::Constant(1), Vec2d::Constant(-1)};
+  std::vector<NearCollider> near_;
+  std::vector<NearCollider> near_before_;
+  std::vector<NearMover> movers_;
+  bool any_turns_ = false;
+  std::vector<std::size_t> order_;  ///< Of the colliders of the scenery, in `near_`.
+  std::vector<ColliderIndex> ids_;  ///< Of these.
+  std::vector<ColliderIndex> unusable_;
+  std::vector<double> angles_;  ///< Of the movers in the scenery.
+  std::optional<Built> scenery_;
+  FilterOfIds filter_of_ids_;
+  ColliderFilter filter_;  ///< The same, for the scenery.
+};
+
+}  // namespace paperproof::level
