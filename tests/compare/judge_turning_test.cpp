@@ -147,6 +147,21 @@ TEST_F(TurningArm, that_is_said_to_crush_is_excused_only_where_there_is_no_room)
   EXPECT_EQ(rests.judge(still).crushed_with_room, Colliders{0}) << "what rests does not crush";
 }
 
+TEST_F(TurningArm, in_which_somebody_is_stuck_has_a_way_out_only_to_the_side_that_he_came_from) {
+  Judge judge(with_arm(true));
+  const auto stuck = [&](double height, double up) {
+    TraceStep rests = from(height, {above_, above_}, up);
+    rests.requested = {0, 0};
+    rests.stuck = true;
+    return judge.judge(rests).stuck_refuted;
+  };
+  EXPECT_TRUE(stuck(0.6, 0)) << "of nothing";
+  EXPECT_EQ(judge.judge(from(0.75, {above_, above_})).entered, Colliders{0});
+  EXPECT_TRUE(stuck(0.85, 0)) << "the tip is 5 cm in, and above it is room";
+  EXPECT_TRUE(stuck(0.85, 1.15)) << "that is asked where the step begins";
+  EXPECT_FALSE(stuck(2, 0)) << "the tip is 5 cm under its head: the shortest way out leads to the other side";
+}
+
 TEST_F(TurningArm, that_is_a_sensor_or_far_away_says_nothing) {
   header_.scenery.colliders[0].sensor = true;
   Judge sensor(header_);
