@@ -322,7 +322,10 @@ std::optional<double> TurningJudge::touch_going_on(const Solid& solid, const Tra
   way.push_back({last.position + (1 - last.fraction) * rate, 1});
   const Meeting met = meeting(solid, way_of(step, solid.collider), way, Asked::when);
   if (met.kind != Meeting::Kind::meets) return std::nullopt;
-  return met.low + (met.high - met.low) / 2;
+  const double touch = met.low + (met.high - met.low) / 2;
+  const double gap = nearest_axis(solid, way_of(step, solid.collider), last).separation;
+  const bool near = std::abs(touch - moment) * gap <= contact_reach * (touch - last.fraction);
+  return near ? moment : touch;
 }
 
 }  // namespace paperproof::compare::detail

@@ -23,8 +23,9 @@ namespace paperproof::compare::detail {
 ///   corner of the way (Box2D: what the motion touches that is left by its contacts with the rest). The normal is that
 ///   of the best axis there.
 /// - **Time of impact**: where a contact begins, the reported fraction is held against the first touch of the way that
-///   was travelled until then, going on straight. Box2D stops 20 mm away, so that the touch itself lies ahead: there it
-///   is that of what it wants, which goes on for at most four steps, and what turns goes on as in this one.
+///   was travelled until then, going on straight; less than 1e-6 m at the speed of approach is no error. Box2D stops 20
+///   mm away, so that the touch itself lies ahead: there it is that of what it wants, which goes on for at most four
+///   steps, and what turns goes on as in this one.
 /// - **Undecided** is what comes so near that halving the time does not tell: it is counted, and no answer.
 /// Distances, depths and normals are exact for places that are rounded to double.
 class TurningJudge {
