@@ -38,7 +38,8 @@ CharacterDef turned(CharacterDef def, int quarters) {
 }
 
 CharacterState<double> turned(CharacterState<double> state, int quarters) {
-  for (Vec2d* v : {&state.position, &state.velocity, &state.last_free, &state.ride.place, &state.ride.velocity})
+  for (Vec2d* v : {&state.position, &state.velocity, &state.last_free, &state.ride.place, &state.ride.velocity,
+                   &state.ground.normal, &state.ground.velocity})
     *v = turned(*v, quarters);
   for (Crusher<double>& crusher : state.crushers) {
     crusher.last_free = turned(crusher.last_free, quarters);

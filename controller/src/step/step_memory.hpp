@@ -83,7 +83,9 @@ struct StepMemory final : OwnMemory {
     surfaces.clear();
     crushers.clear();
   }
+  /// Without effect where nothing moves: then a ride in the state comes from another scenery.
   void mark(ColliderIndex collider, Role role) noexcept {
+    if (roles.empty()) return;
     if (roles[collider] == 0) marked.push_back(collider);
     roles[collider] |= role | known;
   }
