@@ -66,14 +66,14 @@ TEST(LevelIds, count_from_zero_and_never_name_another_collider) {
 
 TEST(LevelEdits, what_is_refused_changes_nothing) {
   Level level(SceneryDef{{box(0, 0, 1, 1)}});
-  const std::uint64_t edits = level.edits();
+  const std::uint64_t edit = level.last_edit();
   EXPECT_THROW(level.add({.points = {{0, 0}, {1, 0}}}), InvalidScenery);
   EXPECT_THROW(level.add({.points = {{0, 0}, {1, 0}, {2, 0}}}), InvalidScenery);
   EXPECT_THROW(level.add({.points = {{0, 0}, {std::nan(""), 0}, {2, 1}}}), InvalidScenery);
   EXPECT_THROW(level.add({.points = {{0, 0}, {3e6, 0}, {2, 1}}}), InvalidScenery);
   EXPECT_THROW(level.add(box(0, 0, 1, 1, 65'536)), InvalidScenery);
   EXPECT_THROW(level.replace(0, {.points = {{0, 0}, {1, 0}}}), InvalidScenery);
-  EXPECT_EQ(level.edits(), edits);
+  EXPECT_EQ(level.last_edit(), edit);
   EXPECT_EQ(level.size(), 1U);
   try {
     const Level refused(SceneryDef{{box(0, 0, 1, 1), {.points = {{0, 0}}}}});

@@ -16,8 +16,8 @@ namespace paperproof {
 /// steps through it are faster.
 ///
 /// Colliders are named by ids. An id is stamped with a generation: the id of a removed collider never names another
-/// one. Without edits the ids are 0, 1, 2 and so on. To add, replace or remove a collider takes about a microsecond,
-/// however large the level is.
+/// one (but a copy of the level, which is edited apart, gives the same ids again). Without edits the ids are 0, 1, 2
+/// and so on. To add, replace or remove a collider takes about a microsecond, however large the level is.
 ///
 /// Not thread-safe while it is edited. Any number of threads may read it meanwhile, each with its own
 /// `LevelController`.
@@ -41,8 +41,8 @@ class Level {
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
   /// One more than the highest index of a mover that ever moved a collider.
   [[nodiscard]] std::size_t mover_count() const noexcept { return movers_.size(); }
-  /// How many edits were made.
-  [[nodiscard]] std::uint64_t edits() const noexcept { return edits_; }
+  /// Another number after each edit, of this level or another one; a copy has that of its original.
+  [[nodiscard]] std::uint64_t last_edit() const noexcept { return last_edit_; }
 
   /// Appends all colliders without a mover that are in a box, in no order, each once or more often.
   void find_standing(const Box2<double>& box, std::vector<NearCollider>& found) const;
@@ -83,7 +83,7 @@ class Level {
   std::array<std::uint32_t, grid_count> in_grid_{};  ///< How many colliders stand in each grid.
   std::vector<std::vector<ColliderIndex>> movers_;
   std::size_t size_ = 0;
-  std::uint64_t edits_ = 0;
+  std::uint64_t last_edit_ = 0;
 };
 
 /// The surroundings of a step in a level: see `StepContext`.
@@ -127,9 +127,9 @@ class LevelController {
 
   const Level* level_;
   LocalController local_;
-  std::vector<NearCollider> standing_;  ///< In `read_`, after `edits_` edits.
+  std::vector<NearCollider> standing_;  ///< In `read_`, after `last_edit_`.
   Box2<double> read_{Vec2d::Constant(1), Vec2d::Constant(-1)};
-  std::uint64_t edits_ = 0;
+  std::uint64_t last_edit_ = 0;
 };
 
 }  // namespace paperproof

@@ -4,6 +4,7 @@
 #include "level/poses.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -42,6 +43,12 @@ void check(const ColliderDef& def) {
   SceneryDef alone{{def}};
   if (def.mover != no_mover) alone.colliders[0].mover = 0;
   const Scenery<double> checked(alone);
+}
+
+/// No two edits of any level have the same number, so that a copied or assigned level is told from the one before.
+std::uint64_t next_edit() noexcept {
+  static std::atomic<std::uint64_t> edits{0};
+  return ++edits;
 }
 
 bool by_id(const NearCollider& a, const NearCollider& b) noexcept { return a.id < b.id; }
@@ -97,7 +104,7 @@ void Level::for_each_cell(const Box2<double>& box, int grid, const Visit& visit)
 void Level::place(ColliderIndex id, Slot& slot, const ColliderDef& def) {
   slot.def = def;
   slot.box = geometry::box_of(def.points);
-  slot.version = ++edits_;
+  slot.version = last_edit_ = next_edit();
   if (def.mover != no_mover) {
     if (def.mover >= movers_.size()) movers_.resize(def.mover + 1);
     movers_[def.mover].push_back(id);
@@ -156,7 +163,7 @@ bool Level::remove(ColliderIndex id) {
   slot.def = {};
   slot.is_used = false;
   --size_;
-  ++edits_;
+  last_edit_ = next_edit();
   // A slot of the last generation is never used again: its next id would be that of the first.
   if (slot.generation++ < last_generation) unused_.push_back(id & slot_mask);
   return true;
@@ -205,12 +212,12 @@ bool LevelController::accepts(const LevelContext& context) const noexcept {
 
 LocalController::Find LevelController::finder(const LevelContext& context) {
   return [this, movers = context.movers](const Box2<double>& box, std::vector<NearCollider>& found) {
-    if (edits_ != level_->edits() || !(read_.lower == box.lower && read_.upper == box.upper)) {
+    if (last_edit_ != level_->last_edit() || !(read_.lower == box.lower && read_.upper == box.upper)) {
       standing_.clear();
       level_->find_standing(box, standing_);
       std::sort(standing_.begin(), standing_.end(), by_id);
       read_ = box;
-      edits_ = level_->edits();
+      last_edit_ = level_->last_edit();
     }
     found.insert(found.end(), standing_.begin(), standing_.end());
     level_->find_moving(box, movers, found);

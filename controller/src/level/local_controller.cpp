@@ -26,6 +26,8 @@ struct Part {
   double begin;
   double end;
   std::span<const MoverMotion<double>> motions;
+  /// Of the character while everything turns, in shares of this time.
+  std::vector<PathPoint<double>> way{};
 
   [[nodiscard]] double turned() const noexcept { return begin + (end - begin) * turning_share; }
 };
@@ -103,7 +105,7 @@ struct LocalController::Impl {
   [[nodiscard]] std::span<const Vec2d> hull() const noexcept { return character().shape.hull(); }
 
   [[nodiscard]] Box2<double> box_needed(const CharacterState<double>& state, const StepContext<double>& context) const;
-  [[nodiscard]] bool has_read(const MoveResult<double>& move) const;
+  [[nodiscard]] bool stays_in(const Box2<double>& box, const MoveResult<double>& move) const;
   StepStatus refuse(const CharacterState<double>& state, StepReport<double>& report) const;
 
   template <class Go>
@@ -122,9 +124,15 @@ struct LocalController::Impl {
 
   // Among what turns.
   [[nodiscard]] int parts_for(const CharacterState<double>& state, const StepContext<double>& context) const;
-  [[nodiscard]] Part turn(double begin, double end, const Vec2d& position);
-  [[nodiscard]] Approach approach_of(MoverIndex mover, double fraction, const Vec2d& position) const;
-  [[nodiscard]] bool is_proved(const Part& part, const MoveResult<double>& move, const StepContext<double>& context);
+  [[nodiscard]] Part turn(double begin, double end, const Vec2d& position, const ColliderFilter* filter);
+  [[nodiscard]] Approach approach_of(MoverIndex mover, double fraction, const Vec2d& position,
+                                     const ColliderFilter* filter) const;
+  [[nodiscard]] bool find_way(Part& part, const MoveResult<double>& move, const StepContext<double>& context);
+  void limit_speed(const Part& part, double wanted, double dt, MoveResult<double>& move,
+                   CharacterState<double>& state) const;
+  [[nodiscard]] Vec2d out_of_corner(const Vec2d& position, const StepContext<double>& context, const Part& part);
+  [[nodiscard]] bool is_proved(const Part& part, const MoveResult<double>& move, const StepContext<double>& context,
+                               bool of_all);
   [[nodiscard]] bool blocks(const NearCollider& collider, const StepContext<double>& context) const;
   [[nodiscard]] Pose turned_pose(const NearCollider& collider, const Part& part) const;
   void note_pushes(const Part& part, const StepContext<double>& context);
@@ -170,11 +178,12 @@ Box2<double> LocalController::Impl::box_needed(const CharacterState<double>& sta
   return Box2<double>{way.lower + extent.lower, way.upper + extent.upper}.inflated(reach);
 }
 
-/// Whether everything was read that decides a move. A way out of solids may lead farther.
-bool LocalController::Impl::has_read(const MoveResult<double>& move) const {
-  const double size = (character().shape.box().upper - character().shape.box().lower).maxCoeff() + 2 * most_turned;
+/// Whether everything that decides a move is in a box. A way out of solids may lead farther.
+bool LocalController::Impl::stays_in(const Box2<double>& box, const MoveResult<double>& move) const {
+  const Box2<double>& extent = character().shape.box();
   return std::all_of(move.path.begin(), move.path.end(), [&](const PathPoint<double>& corner) {
-    return scenery.box().contains(Box2<double>{corner.position, corner.position}.inflated(size));
+    const Box2<double> there{corner.position + extent.lower, corner.position + extent.upper};
+    return box.contains(there.inflated(most_turned));
   });
 }
 
@@ -188,7 +197,7 @@ StepStatus LocalController::Impl::advance(CharacterState<double>& state, const S
     return report.status = StepStatus::invalid_input;
   for (;;) {
     turned_.clear();
-    scenery.read(needed, find);
+    scenery.read(needed, context.filter, find);
     state = before;
     const StepStatus status = scenery.any_turns() ? step_among_turning(state, context, report, go)
                                                   : step_straight(state, context, report, go);
@@ -196,7 +205,7 @@ StepStatus LocalController::Impl::advance(CharacterState<double>& state, const S
       state = before;
       return status;
     }
-    if (has_read(report.move)) return status;
+    if (stays_in(needed, report.move)) return status;
     const double size = (character().shape.box().upper - character().shape.box().lower).maxCoeff();
     for (const PathPoint<double>& corner : report.move.path)
       needed = needed.merged(Box2<double>{corner.position, corner.position}.inflated(2 * size + 1));
@@ -242,7 +251,8 @@ int LocalController::Impl::parts_for(const CharacterState<double>& state, const 
   double most = 0;
   for (MoverIndex i = 0; i < scenery.movers().size(); ++i) {
     const double way = (scenery.movers()[i].motion.to.position - scenery.movers()[i].motion.from.position).norm();
-    if (scenery.movers()[i].turn() == 0 || approach_of(i, 0, state.position).distance > reach + way) continue;
+    if (scenery.movers()[i].turn() == 0 || approach_of(i, 0, state.position, context.filter).distance > reach + way)
+      continue;
     most = std::max(most, std::abs(scenery.movers()[i].turn()) * size);
   }
   int parts = 1;
@@ -251,10 +261,11 @@ int LocalController::Impl::parts_for(const CharacterState<double>& state, const 
 }
 
 /// Where the nearest of a mover's colliders is nearest to the character.
-Approach LocalController::Impl::approach_of(MoverIndex mover, double fraction, const Vec2d& position) const {
+Approach LocalController::Impl::approach_of(MoverIndex mover, double fraction, const Vec2d& position,
+                                            const ColliderFilter* filter) const {
   Approach best{std::numeric_limits<double>::infinity(), {0, 1}};
   for (const NearCollider& collider : scenery.colliders()) {
-    if (scenery.mover_of(collider) != mover || collider.def->sensor) continue;
+    if (scenery.mover_of(collider) != mover || collider.def->sensor || !is_there(collider, filter)) continue;
     const std::vector<Vec2d> outline = vertices_at(*collider.def, pose_at(collider.motion, fraction));
     const bool closed = collider.def->shape == ColliderDef::Shape::polygon;
     const Approach here = nearest(std::span(outline).first(collider.def->points.size()), closed, hull(), position);
@@ -265,17 +276,17 @@ Approach LocalController::Impl::approach_of(MoverIndex mover, double fraction, c
 
 /// Turns everything by its angle in a part of the step, and says how it goes on from there. A mover turns about the
 /// corner of the character that will be nearest to it then: what carries the character turns under its foot.
-Part LocalController::Impl::turn(double begin, double end, const Vec2d& position) {
+Part LocalController::Impl::turn(double begin, double end, const Vec2d& position, const ColliderFilter* filter) {
   motions.clear();
   for (MoverIndex i = 0; i < scenery.movers().size(); ++i) {
     const Pose from = pose_at(scenery.movers()[i].motion, begin);
     const Pose to = pose_at(scenery.movers()[i].motion, end);
     const double angle = to.angle - from.angle;
-    if (angle == 0) {
+    if (!scenery.movers()[i].turns) {
       motions.push_back({from.position, to.position});
       continue;
     }
-    const Vec2d normal = approach_of(i, begin, position).normal;
+    const Vec2d normal = approach_of(i, begin, position, filter).normal;
     const Vec2d pivot = position + nearest_corner(hull(), normal, rotated(normal, angle));
     motions.push_back({pivot - rotated(pivot - from.position, angle), to.position});
   }
@@ -288,10 +299,8 @@ Pose LocalController::Impl::turned_pose(const NearCollider& collider, const Part
 
 /// Whether a collider can be in the way, and has a proof. @param context of the step, whose filter knows ids.
 bool LocalController::Impl::blocks(const NearCollider& collider, const StepContext<double>& context) const {
-  const ColliderDef& def = *collider.def;
-  if (def.sensor || def.one_way || !scenery.is_in_scenery(collider.id)) return false;
-  const ColliderFilter wanted = context.filter == nullptr ? ColliderFilter{} : *context.filter;
-  return collide(wanted, def.filter) && (wanted.is_there == nullptr || wanted.is_there(collider.id, wanted.user));
+  return !collider.def->sensor && !collider.def->one_way && scenery.is_in_scenery(collider.id) &&
+         is_there(collider, context.filter);
 }
 
 const std::vector<std::vector<Vec2d>>& LocalController::Impl::pieces(const NearCollider& collider) {
@@ -314,36 +323,94 @@ bool LocalController::Impl::overlaps(const NearCollider& collider, const Pose& p
   });
 }
 
-/// Whether the character stayed clear of everything that turned at the beginning of a part. What overlapped it before,
-/// or crushed it, it may leave.
-/// @param move in the part; colliders by index.
-bool LocalController::Impl::is_proved(const Part& part, const MoveResult<double>& move,
-                                      const StepContext<double>& context) {
-  std::vector<Vec2d> way;
+/// Finds a way for the character to where it is once everything has turned, and proves that it is clear.
+/// @param move in the part; its corners at fraction 0 are that way. Colliders by index.
+bool LocalController::Impl::find_way(Part& part, const MoveResult<double>& move, const StepContext<double>& context) {
+  std::vector<Vec2d> corners;
   for (const PathPoint<double>& corner : move.path)
-    if (corner.fraction == 0) way.push_back(corner.position);
-  if (way.size() == 1) way.push_back(way[0]);
+    if (corner.fraction == 0) corners.push_back(corner.position);
+  // Mostly it goes first, and has gone before what pushes it arrives. Evenly it would be late by the square of a turn.
+  for (const double arrival : {0.5, 1.0}) {
+    part.way.clear();
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const double share = corners.size() == 1 ? 0 : static_cast<double>(i) / static_cast<double>(corners.size() - 1);
+      part.way.push_back({corners[i], arrival * share});
+    }
+    if (part.way.back().fraction < 1) part.way.push_back({part.way.back().position, 1});
+    if (is_proved(part, move, context, false)) return true;
+    if (corners.size() == 1) return false;
+  }
+  // In a corner one wall arrives as another leaves. Then it goes a little farther out of the corner, and comes back.
+  const Vec2d& end = corners.back();
+  const Vec2d out = out_of_corner(end, context, part);
+  const double far = (end - corners.front()).norm();
+  for (const double share : {0.01, 0.1, 1.0}) {
+    part.way = {{corners.front(), 0}, {end + out * (far * share + Tolerances<double>{}.stop), 0.5}, {end, 1}};
+    if (is_proved(part, move, context, true)) return true;
+  }
+  return false;
+}
+
+/// Unit, away from everything that is touched once everything has turned; or zero.
+Vec2d LocalController::Impl::out_of_corner(const Vec2d& position, const StepContext<double>& context,
+                                           const Part& part) {
+  std::array<Contact<double>, MoveResult<double>::max_contacts> touched;
+  const std::size_t count = scenery.controller().contacts_at(
+      position, Tolerances<double>{}.touch, scenery.context(context, part.motions), scenery.scratch(), touched);
+  Vec2d out = Vec2d::Zero();
+  for (std::size_t i = 0; i < count; ++i) out += touched[i].normal;
+  return out.norm() > 1e-3 ? Vec2d(out.normalized()) : Vec2d(Vec2d::Zero());
+}
+
+/// Whether the character stays clear of everything that turns at the beginning of a part. What overlapped it before,
+/// or crushes it, it may leave.
+/// @param of_all and of what stands meanwhile; else the sweep has proved that.
+bool LocalController::Impl::is_proved(const Part& part, const MoveResult<double>& move,
+                                      const StepContext<double>& context, bool of_all) {
   for (ColliderIndex i = 0; i < scenery.size(); ++i) {
     const NearCollider& collider = scenery.at(i);
-    if (!scenery.turns(collider) || !blocks(collider, context)) continue;
+    if (!(of_all || scenery.turns(collider)) || !blocks(collider, context)) continue;
     if (std::find(move.crushed.begin(), move.crushed.end(), i) != move.crushed.end()) continue;
     const Pose from = pose_at(collider.motion, part.begin);
-    const Pose to = turned_pose(collider, part);
-    if (overlaps(collider, from, way[0])) continue;
-    const auto legs = static_cast<double>(way.size() - 1);
+    const Pose to = collider.mover == no_mover ? from : turned_pose(collider, part);
+    if (overlaps(collider, from, part.way[0].position)) continue;
     for (const std::vector<Vec2d>& piece : pieces(collider)) {
       const PieceWay whole = {placed(piece, from), placed(piece, to)};
-      for (std::size_t leg = 0; leg + 1 < way.size(); ++leg) {
+      for (std::size_t leg = 0; leg + 1 < part.way.size(); ++leg) {
+        const PathPoint<double>& begin = part.way[leg];
+        const PathPoint<double>& end = part.way[leg + 1];
         PieceWay piece_way = whole;
         for (std::size_t v = 0; v < piece.size(); ++v) {
-          piece_way.from[v] = between(whole.from[v], whole.to[v], static_cast<double>(leg) / legs);
-          piece_way.to[v] = between(whole.from[v], whole.to[v], static_cast<double>(leg + 1) / legs);
+          piece_way.from[v] = between(whole.from[v], whole.to[v], begin.fraction);
+          piece_way.to[v] = between(whole.from[v], whole.to[v], end.fraction);
         }
-        if (!stay_apart({hull(), way[leg], way[leg + 1]}, piece_way, proved)) return false;
+        if (!stay_apart({hull(), begin.position, end.position}, piece_way, proved)) return false;
       }
     }
   }
   return true;
+}
+
+/// What pushes a character leaves it no faster than it goes itself: between surfaces that close like a wedge it would
+/// leave at any speed.
+/// @param move in the part, colliders by index. @param wanted speed [m/s].
+void LocalController::Impl::limit_speed(const Part& part, double wanted, double dt, MoveResult<double>& move,
+                                        CharacterState<double>& state) const {
+  double most = wanted;
+  bool is_pushed = false;
+  for (const Contact<double>& contact : move.contacts) {
+    const NearCollider& collider = scenery.at(contact.collider);
+    if (collider.mover == no_mover) continue;
+    const Pose from = pose_at(collider.motion, part.begin);
+    const Pose to = pose_at(collider.motion, part.end);
+    const Vec2d before = from.position + rotated(Vec2d(contact.point - to.position), from.angle - to.angle);
+    most = std::max(most, (contact.point - before).norm() / dt);
+    is_pushed = true;
+  }
+  const double speed = state.velocity.norm();
+  if (!is_pushed || !(speed > most)) return;
+  state.velocity *= most / speed;
+  move.velocity = state.velocity;
 }
 
 /// Reports what pushed the character when it turned, as contacts at the beginning of a part.
@@ -392,16 +459,13 @@ void LocalController::Impl::append(const StepReport<double>& added, const Part& 
   const auto when = [&](double fraction) {
     return fraction < 1 ? part.turned() + (part.end - part.turned()) * fraction : part.end;
   };
-  const auto turning = static_cast<std::size_t>(
-      std::count_if(from.path.begin(), from.path.end(), [](const PathPoint<double>& p) { return p.fraction == 0; }));
-  if (to.path.empty()) to.path.push_back({from.path[0].position, 0}, more_corners);
-  if (turning == 1) to.path.push_back({from.path[0].position, part.turned()}, more_corners);
-  for (std::size_t i = 1; i < from.path.size(); ++i) {
-    const double share = static_cast<double>(i) / static_cast<double>(turning - 1);
-    const double fraction =
-        i < turning ? part.begin + (part.turned() - part.begin) * share : when(from.path[i].fraction);
-    to.path.push_back({from.path[i].position, i + 1 == turning ? part.turned() : fraction}, more_corners);
+  for (const PathPoint<double>& corner : part.way) {
+    const double fraction = part.begin + (part.turned() - part.begin) * corner.fraction;
+    if (corner.fraction > 0 || to.path.empty())
+      to.path.push_back({corner.position, corner.fraction < 1 ? fraction : part.turned()}, more_corners);
   }
+  for (const PathPoint<double>& corner : from.path)
+    if (corner.fraction > 0) to.path.push_back({corner.position, when(corner.fraction)}, more_corners);
   for (Contact<double> contact : from.contacts) {
     contact.fraction = when(contact.fraction);
     to.contacts.push_back(contact, more_contacts);
@@ -441,7 +505,8 @@ StepStatus LocalController::Impl::step_among_turning(CharacterState<double>& sta
   const auto try_parts = [&](int parts) -> std::optional<StepStatus> {
     state = before;
     const std::optional<StepStatus> status = step_in_parts(parts, state, context, report, go);
-    if (!status || report.move.crushed.empty()) return status;
+    const bool is_inside = before.crushed || before.stuck_steps > 0;  // other divisions would not free it
+    if (!status || report.move.crushed.empty() || is_inside) return status;
     if (!crushing) crushing = parts;
     return std::nullopt;
   };
@@ -466,7 +531,7 @@ std::optional<StepStatus> LocalController::Impl::step_in_parts(int parts, Charac
   StepContext<double> shorter = context;
   shorter.dt = context.dt / parts;
   for (int i = 0; i < parts; ++i) {
-    const Part part = turn(double(i) / parts, double(i + 1) / parts, state.position);
+    Part part = turn(double(i) / parts, double(i + 1) / parts, state.position, context.filter);
     if (!scenery.build(part.end)) return refuse(state, report);
     scenery.to_local(state);
     if (state.ride.ground != Ride<double>::none) {
@@ -476,13 +541,15 @@ std::optional<StepStatus> LocalController::Impl::step_in_parts(int parts, Charac
     }
     for (Crusher<double>& crusher : state.crushers) {
       const NearCollider& collider = scenery.at(crusher.collider);
-      carry(crusher, pose_at(collider.motion, part.begin), turned_pose(collider, part));
+      if (collider.mover != no_mover) carry(crusher, pose_at(collider.motion, part.begin), turned_pose(collider, part));
     }
+    const Vec2d carried = state.ride.velocity;
     const StepStatus status = go(scenery.controller(), state, scenery.context(shorter, part.motions), 1.0 / parts,
                                  scenery.scratch(), *of_part);
     if (step_parts::is_refused(status)) return report.status = status;
-    if (!is_proved(part, of_part->move, context)) return std::nullopt;
+    if (!find_way(part, of_part->move, context)) return std::nullopt;
     note_pushes(part, shorter);
+    limit_speed(part, (of_part->requested / shorter.dt + carried).norm(), shorter.dt, of_part->move, state);
     scenery.to_ids(*of_part);
     scenery.to_ids(state);
     note_vertices(part);
@@ -608,7 +675,7 @@ std::optional<std::size_t> LocalController::overlaps(const Vec2d& position, cons
   Impl& impl = *impl_;
   const Box2<double>& extent = impl.character().shape.box();
   impl.turned_.clear();
-  impl.scenery.read({position + extent.lower, position + extent.upper}, find);
+  impl.scenery.read({position + extent.lower, position + extent.upper}, context.filter, find);
   if (!impl.scenery.build(at_end ? 1 : 0)) return std::nullopt;
   impl.motions.clear();
   for (const NearMover& mover : impl.scenery.movers()) {

@@ -25,9 +25,18 @@ bool same_collider(const NearCollider& a, const NearCollider& b) noexcept {
   return a.id == b.id && a.version == b.version && a.mover == b.mover;
 }
 
+/// Which of two points comes first.
+bool comes_first(const Vec2d& a, const Vec2d& b) noexcept { return std::pair(a.x(), a.y()) < std::pair(b.x(), b.y()); }
+
 }  // namespace
 
-void NearScenery::read(const Box2<double>& needed, const Find& find) {
+bool is_there(const NearCollider& collider, const ColliderFilter* filter) {
+  const ColliderFilter wanted = filter == nullptr ? ColliderFilter{} : *filter;
+  return collide(wanted, collider.def->filter) &&
+         (wanted.is_there == nullptr || wanted.is_there(collider.id, wanted.user));
+}
+
+void NearScenery::read(const Box2<double>& needed, const ColliderFilter* filter, const Find& find) {
   const Vec2d spare = (box_.upper - box_.lower) - (needed.upper - needed.lower);
   if (!box_.contains(needed) || spare.maxCoeff() > 4 * read_ahead) box_ = needed.inflated(read_ahead);
   near_.swap(near_before_);
@@ -37,14 +46,25 @@ void NearScenery::read(const Box2<double>& needed, const Find& find) {
   if (!std::is_sorted(near_.begin(), near_.end(), by_id)) std::sort(near_.begin(), near_.end(), by_id);
   const auto same_id = [](const NearCollider& a, const NearCollider& b) { return a.id == b.id; };
   near_.erase(std::unique(near_.begin(), near_.end(), same_id), near_.end());
+  note_movers(needed, filter);
+  const bool is_same = std::equal(near_.begin(), near_.end(), near_before_.begin(), near_before_.end(), same_collider);
+  if (!is_same || !scenery_) place_in_order();
+}
+
+/// What was read beside the needed box does not count, so that a step depends on its state alone.
+void NearScenery::note_movers(const Box2<double>& needed, const ColliderFilter* filter) {
   movers_.clear();
   for (const NearCollider& collider : near_)
     if (collider.mover != no_mover && mover_of(collider) == movers_.size())
       movers_.push_back({collider.mover, collider.motion});
   std::sort(movers_.begin(), movers_.end(), [](const NearMover& a, const NearMover& b) { return a.mover < b.mover; });
-  any_turns_ = std::any_of(movers_.begin(), movers_.end(), [](const NearMover& mover) { return mover.turn() != 0; });
-  const bool is_same = std::equal(near_.begin(), near_.end(), near_before_.begin(), near_before_.end(), same_collider);
-  if (!is_same || !scenery_) place_in_order();
+  any_turns_ = false;
+  for (const NearCollider& collider : near_) {
+    if (collider.mover == no_mover || collider.motion.from.angle == collider.motion.to.angle) continue;
+    if (collider.def->sensor || !is_there(collider, filter)) continue;
+    if (!swept_box(collider.def->points, collider.motion).overlaps(needed)) continue;
+    movers_[mover_of(collider)].turns = any_turns_ = true;
+  }
 }
 
 MoverIndex NearScenery::mover_of(const NearCollider& collider) const noexcept {
@@ -67,7 +87,16 @@ void NearScenery::place_in_order() {
     return std::tuple(collider.mover + 1, extent.lower.x(), extent.lower.y(), extent.upper.x(), extent.upper.y(),
                       collider.def->points.size());
   };
-  std::stable_sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
+  std::sort(order_.begin(), order_.end(), [&](std::size_t a, std::size_t b) {
+    const auto [one, other] = std::pair(key(a), key(b));
+    if (one != other) return one < other;
+    const std::vector<Vec2d>& points = near_[a].def->points;
+    const std::vector<Vec2d>& others = near_[b].def->points;
+    if (points != others)
+      return std::lexicographical_compare(points.begin(), points.end(), others.begin(), others.end(), comes_first);
+    const double speed = near_[a].def->surface_speed;
+    return speed != near_[b].def->surface_speed ? speed < near_[b].def->surface_speed : a < b;
+  });
 }
 
 SceneryDef NearScenery::scenery_def() const {

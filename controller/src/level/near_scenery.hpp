@@ -15,9 +15,13 @@ namespace paperproof::level {
 struct NearMover {
   MoverIndex mover = no_mover;  ///< As `NearCollider::mover`.
   PoseMotion motion{};
+  bool turns = false;  ///< And it may come near the character.
 
-  [[nodiscard]] double turn() const noexcept { return motion.to.angle - motion.from.angle; }
+  [[nodiscard]] double turn() const noexcept { return turns ? motion.to.angle - motion.from.angle : 0; }
 };
+
+/// Whether a character meets a collider at all. @param filter of ids; null: it leaves out nothing.
+[[nodiscard]] bool is_there(const NearCollider& collider, const ColliderFilter* filter);
 
 /// Reads what is near, and makes scenery of it where that changed. In the scenery a collider has an index and a mover
 /// a number; outside a collider has an id.
@@ -28,14 +32,13 @@ class NearScenery {
   explicit NearScenery(const CharacterDef& character) : character_(character) {}
 
   /// @param needed box. A wider one is read, so that it holds for some steps.
-  void read(const Box2<double>& needed, const Find& find);
+  /// @param filter of ids: what it leaves out does not turn. Null: nothing is left out.
+  void read(const Box2<double>& needed, const ColliderFilter* filter, const Find& find);
   /// Makes scenery of what was read, with the angles at a fraction of the step, unless it is there already.
   /// @return false if there is a collider that cannot be turned by its angle: rounding made it cross itself.
   [[nodiscard]] bool build(double fraction);
 
   [[nodiscard]] const CharacterDef& character() const noexcept { return character_; }
-  /// The box that was read.
-  [[nodiscard]] const Box2<double>& box() const noexcept { return box_; }
   /// What was found in it, by id.
   [[nodiscard]] std::span<const NearCollider> colliders() const noexcept { return near_; }
   [[nodiscard]] std::span<const NearMover> movers() const noexcept { return movers_; }
@@ -43,7 +46,7 @@ class NearScenery {
   /// The number of a collider's mover, or `no_mover`.
   [[nodiscard]] MoverIndex mover_of(const NearCollider& collider) const noexcept;
   [[nodiscard]] bool turns(const NearCollider& collider) const noexcept {
-    return collider.mover != no_mover && collider.motion.from.angle != collider.motion.to.angle;
+    return collider.mover != no_mover && movers_[mover_of(collider)].turns;
   }
 
   // Of the scenery.
@@ -80,6 +83,7 @@ class NearScenery {
     std::span<const ColliderIndex> ids{};
   };
 
+  void note_movers(const Box2<double>& needed, const ColliderFilter* filter);
   void place_in_order();
   [[nodiscard]] SceneryDef scenery_def() const;
   [[nodiscard]] ColliderIndex local_of(ColliderIndex id) const noexcept;
