@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -344,6 +345,171 @@ TEST(LevelTurning, states_may_be_restored) {
     other.step(again, inputs[static_cast<std::size_t>(i)], {{0, -30}, frame, {&plank, 1}}, report);
     ASSERT_EQ(again, first[static_cast<std::size_t>(i) + 1]) << i;
   }
+}
+
+/// A press comes down on the character, which stands on the floor.
+TEST(LevelTurning, what_crushed_and_stands_now_is_a_solid_to_leave) {
+  Level level(
+      SceneryDef{{box(-2, -1, 2, 0), box(-3, -1, -2, 5), box(2, -1, 3, 5), box(-2, 0, 2, 1, 0), box(0, 3, 3, 3.1, 1)}});
+  LevelController controller(level, {});
+  CharacterState<double> state;
+  state.position = {0, 0.63};
+  StepReport<double> report;
+  std::array<PoseMotion, 2> movers{};
+  movers[0].to.position = {0, 1.5};
+  for (int i = 0; i < 60; ++i) {
+    movers[0] = {movers[0].to, {{0, std::max(0.5, 1.5 - 0.5 * i)}, 0}};
+    movers[1] = turning({0, 0}, 1.0, i);
+    controller.step(state, {}, {{0, -30}, frame, movers}, report);
+  }
+  ASSERT_TRUE(state.crushed);
+  level.replace(3, box(-2, 0.5, 2, 1.5));  // where it is
+  movers[1] = turning({0, 0}, 1.0, 60);
+  const LevelContext context{{0, -30}, frame, movers};
+  const StepStatus status = controller.step(state, {}, context, report);
+  movers[1].from = movers[1].to;
+  EXPECT_EQ(controller.overlaps(state.position, context) == 0U, status == StepStatus::moved);
+}
+
+TEST(LevelEdits, an_assigned_level_is_another_level) {
+  Level level(SceneryDef{{box(-10, -1, 10, 0)}});
+  LevelController controller(level, {});
+  CharacterState<double> state;
+  state.position = {0, 0.63};
+  StepReport<double> report;
+  for (int i = 0; i < 30; ++i) controller.step(state, {}, {{0, -30}, frame}, report);
+  ASSERT_TRUE(state.grounded);
+  level = Level(SceneryDef{{box(-10, -6, 10, -5)}});
+  controller.step(state, {}, {{0, -30}, frame}, report);
+  EXPECT_FALSE(state.grounded);
+}
+
+/// Planks and wheels over a floor, for random play.
+struct Turners {
+  explicit Turners(Random& random) {
+    level.add(box(-8, -1, 8, 0));
+    level.add(box(-9, -1, -8, 9));
+    level.add(box(8, -1, 9, 9));
+    const int count = random.integer(1, 4);
+    for (int i = 0; i < count; ++i) {
+      const double half = random.between(0.5, 2);
+      level.add(box(-half, -0.1, half, 0.1, static_cast<MoverIndex>(i)));
+      places.push_back({random.between(-5, 5), 0});
+      places.back().y() = random.between(0.5, 4);
+      speeds.push_back(random.between(-4, 4));
+    }
+  }
+  [[nodiscard]] std::vector<PoseMotion> motions(int step) const {
+    std::vector<PoseMotion> all;
+    for (std::size_t i = 0; i < places.size(); ++i) all.push_back(turning(places[i], speeds[i], step));
+    return all;
+  }
+
+  Level level;
+  std::vector<Vec2d> places;
+  std::vector<double> speeds;
+};
+
+TEST(LevelTurning, a_step_depends_on_its_state_alone) {
+  int pushed = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Random random(seed);
+    const Turners turners(random);
+    LevelController controller(turners.level, {});
+    CharacterState<double> state;
+    state.position = {random.between(-5, 5), 6};
+    Input input;
+    StepReport<double> report;
+    for (int i = 0; i < 120; ++i) {
+      if (i % 20 == 0) input = random_input(random);
+      const std::vector<PoseMotion> motions = turners.motions(i);
+      const LevelContext context{{0, -30}, frame, motions};
+      CharacterState<double> other = state;
+      StepReport<double> other_report;
+      LevelController(turners.level, {}).step(other, input, context, other_report);
+      static_cast<void>(controller.overlaps({random.between(-8, 8), 3}, context));
+      controller.step(state, input, context, report);
+      ASSERT_EQ(state, other) << "seed " << seed << ", step " << i;
+      ASSERT_EQ(report.move.path.size(), other_report.move.path.size()) << "seed " << seed << ", step " << i;
+      pushed += controller.turned().empty() ? 0 : 1;
+    }
+  }
+  EXPECT_GE(pushed, 300);
+}
+
+TEST(LevelTurning, what_the_filter_leaves_out_changes_nothing) {
+  Level with(SceneryDef{{box(-10, -1, 10, 0), box(-1, 1.5, 1, 1.6, 0)}});
+  ColliderDef other_kind = *with.find(1);
+  other_kind.filter.category = 2;
+  with.replace(1, other_kind);
+  const Level without(SceneryDef{{box(-10, -1, 10, 0)}});
+  LevelController controller(with, {});
+  LevelController other(without, {});
+  CharacterState<double> state;
+  state.position = {0, 0.7};
+  CharacterState<double> other_state = state;
+  const ColliderFilter filter{Filter{.mask = 1}};
+  StepReport<double> report;
+  for (int i = 0; i < 120; ++i) {
+    const PoseMotion spinner = turning({0, 0}, 6, i);
+    const Input input{.move = 0.1, .jump = i % 40 > 30};
+    controller.step(state, input, {{0, -30}, frame, {&spinner, 1}, &filter}, report);
+    other.step(other_state, input, {{0, -30}, frame}, report);
+    ASSERT_EQ(state, other_state) << i;
+  }
+}
+
+TEST(LevelTurning, a_room_that_turns_crushes_nobody) {
+  for (const double speed : {0.5, 1.0, 2.0, 3.0}) {
+    ColliderDef room = box(-3, -3, 3, 3, 0);
+    room.holes = {box(-2.8, -2.8, 2.8, 2.8).points};
+    const Level level(SceneryDef{{room}});
+    LevelController controller(level, {});
+    CharacterState<double> state;
+    state.position = {0, -1};
+    StepReport<double> report;
+    for (int i = 0; i < 600; ++i) {
+      const PoseMotion motion = turning({0, 0}, speed, i);
+      ASSERT_EQ(controller.step(state, {.move = 0.0}, {{0, -30}, frame, {&motion, 1}}, report), StepStatus::moved)
+          << speed << " rad/s, step " << i;
+      ASSERT_LT(state.position.norm(), 4) << speed << " rad/s, step " << i;
+    }
+  }
+}
+
+/// A wedge that closes would squeeze out a rigid body at any speed.
+TEST(LevelTurning, a_plank_that_closes_on_the_floor_flings_nobody) {
+  for (const double speed : {3.0, 5.0, 7.0, 10.0, 20.0}) {
+    const Level level(SceneryDef{{box(-100, -1, 100, 0), box(-1.5, -0.05, 1.5, 0.05, 0)}});
+    LevelController controller(level, {});
+    CharacterState<double> state;
+    state.position = {-4, 0.63};
+    StepReport<double> report;
+    for (int i = 0; i < 120; ++i) {
+      const PoseMotion motion = turning({0, 1.2}, speed, i);
+      controller.step(state, {.move = 1.0}, {{0, -30}, frame, {&motion, 1}}, report);
+      EXPECT_LE(std::abs(state.velocity.x()), 1.5 * speed + CharacterDef{}.walk_speed + 0.01)
+          << speed << ", step " << i;
+    }
+  }
+}
+
+TEST(LevelEdits, colliders_at_one_place_have_an_order_of_their_own) {
+  ColliderDef right = box(-10, -1, 10, 0);
+  right.surface_speed = 2;
+  ColliderDef left = right;
+  left.surface_speed = -3;
+  std::vector<double> ends;
+  for (const auto& pair : {std::array{right, left}, std::array{left, right}}) {
+    const Level level(SceneryDef{{pair[0], pair[1]}});
+    LevelController controller(level, {});
+    CharacterState<double> state;
+    state.position = {0, 0.63};
+    StepReport<double> report;
+    for (int i = 0; i < 60; ++i) controller.step(state, {}, {{0, -30}, frame}, report);
+    ends.push_back(state.position.x());
+  }
+  EXPECT_EQ(ends[0], ends[1]);
 }
 
 // The proof.
