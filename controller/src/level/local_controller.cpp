@@ -22,7 +22,7 @@ constexpr int most_parts = 32;
 constexpr double turning_share = 1.0 / 64;
 
 /// A part of a step, as fractions of it, and how what is near moves in it once everything has turned.
-struct Part {
+struct StepPart {
   double begin;
   double end;
   std::span<const MoverMotion<double>> motions;
@@ -124,21 +124,21 @@ struct LocalController::Impl {
 
   // Among what turns.
   [[nodiscard]] int parts_for(const CharacterState<double>& state, const StepContext<double>& context) const;
-  [[nodiscard]] Part turn(double begin, double end, const Vec2d& position, const ColliderFilter* filter);
+  [[nodiscard]] StepPart turn(double begin, double end, const Vec2d& position, const ColliderFilter* filter);
   [[nodiscard]] Approach approach_of(MoverIndex mover, double fraction, const Vec2d& position,
                                      const ColliderFilter* filter) const;
-  [[nodiscard]] bool find_way(Part& part, const MoveResult<double>& move, const StepContext<double>& context);
-  void limit_speed(const Part& part, double wanted, double dt, MoveResult<double>& move,
+  [[nodiscard]] bool find_way(StepPart& part, const MoveResult<double>& move, const StepContext<double>& context);
+  void limit_speed(const StepPart& part, double wanted, double dt, MoveResult<double>& move,
                    CharacterState<double>& state) const;
-  [[nodiscard]] Vec2d out_of_corner(const Vec2d& position, const StepContext<double>& context, const Part& part);
-  [[nodiscard]] bool is_proved(const Part& part, const MoveResult<double>& move, const StepContext<double>& context,
+  [[nodiscard]] Vec2d out_of_corner(const Vec2d& position, const StepContext<double>& context, const StepPart& part);
+  [[nodiscard]] bool is_proved(const StepPart& part, const MoveResult<double>& move, const StepContext<double>& context,
                                bool of_all);
   [[nodiscard]] bool blocks(const NearCollider& collider, const StepContext<double>& context) const;
-  [[nodiscard]] Pose turned_pose(const NearCollider& collider, const Part& part) const;
-  void note_pushes(const Part& part, const StepContext<double>& context);
+  [[nodiscard]] Pose turned_pose(const NearCollider& collider, const StepPart& part) const;
+  void note_pushes(const StepPart& part, const StepContext<double>& context);
   void note_begin();
-  void note_vertices(const Part& part);
-  void append(const StepReport<double>& added, const Part& part, StepReport<double>& report) const;
+  void note_vertices(const StepPart& part);
+  void append(const StepReport<double>& added, const StepPart& part, StepReport<double>& report) const;
   StepStatus go_straight_or_stay(CharacterState<double>& state, const StepContext<double>& context,
                                  StepReport<double>& report);
   void go_straight(double begin, const Vec2d& to, const CharacterState<double>& state,
@@ -276,7 +276,7 @@ Approach LocalController::Impl::approach_of(MoverIndex mover, double fraction, c
 
 /// Turns everything by its angle in a part of the step, and says how it goes on from there. A mover turns about the
 /// corner of the character that will be nearest to it then: what carries the character turns under its foot.
-Part LocalController::Impl::turn(double begin, double end, const Vec2d& position, const ColliderFilter* filter) {
+StepPart LocalController::Impl::turn(double begin, double end, const Vec2d& position, const ColliderFilter* filter) {
   motions.clear();
   for (MoverIndex i = 0; i < scenery.movers().size(); ++i) {
     const Pose from = pose_at(scenery.movers()[i].motion, begin);
@@ -293,7 +293,7 @@ Part LocalController::Impl::turn(double begin, double end, const Vec2d& position
   return {begin, end, motions};
 }
 
-Pose LocalController::Impl::turned_pose(const NearCollider& collider, const Part& part) const {
+Pose LocalController::Impl::turned_pose(const NearCollider& collider, const StepPart& part) const {
   return {part.motions[scenery.mover_of(collider)].from, pose_at(collider.motion, part.end).angle};
 }
 
@@ -325,7 +325,8 @@ bool LocalController::Impl::overlaps(const NearCollider& collider, const Pose& p
 
 /// Finds a way for the character to where it is once everything has turned, and proves that it is clear.
 /// @param move in the part; its corners at fraction 0 are that way. Colliders by index.
-bool LocalController::Impl::find_way(Part& part, const MoveResult<double>& move, const StepContext<double>& context) {
+bool LocalController::Impl::find_way(StepPart& part, const MoveResult<double>& move,
+                                     const StepContext<double>& context) {
   std::vector<Vec2d> corners;
   for (const PathPoint<double>& corner : move.path)
     if (corner.fraction == 0) corners.push_back(corner.position);
@@ -353,7 +354,7 @@ bool LocalController::Impl::find_way(Part& part, const MoveResult<double>& move,
 
 /// Unit, away from everything that is touched once everything has turned; or zero.
 Vec2d LocalController::Impl::out_of_corner(const Vec2d& position, const StepContext<double>& context,
-                                           const Part& part) {
+                                           const StepPart& part) {
   std::array<Contact<double>, MoveResult<double>::max_contacts> touched;
   const std::size_t count = scenery.controller().contacts_at(
       position, Tolerances<double>{}.touch, scenery.context(context, part.motions), scenery.scratch(), touched);
@@ -365,7 +366,7 @@ Vec2d LocalController::Impl::out_of_corner(const Vec2d& position, const StepCont
 /// Whether the character stays clear of everything that turns at the beginning of a part. What overlapped it before,
 /// or crushes it, it may leave.
 /// @param of_all and of what stands meanwhile; else the sweep has proved that.
-bool LocalController::Impl::is_proved(const Part& part, const MoveResult<double>& move,
+bool LocalController::Impl::is_proved(const StepPart& part, const MoveResult<double>& move,
                                       const StepContext<double>& context, bool of_all) {
   for (ColliderIndex i = 0; i < scenery.size(); ++i) {
     const NearCollider& collider = scenery.at(i);
@@ -394,7 +395,7 @@ bool LocalController::Impl::is_proved(const Part& part, const MoveResult<double>
 /// What pushes a character leaves it no faster than it goes itself: between surfaces that close like a wedge it would
 /// leave at any speed.
 /// @param move in the part, colliders by index. @param wanted speed [m/s].
-void LocalController::Impl::limit_speed(const Part& part, double wanted, double dt, MoveResult<double>& move,
+void LocalController::Impl::limit_speed(const StepPart& part, double wanted, double dt, MoveResult<double>& move,
                                         CharacterState<double>& state) const {
   double most = wanted;
   bool is_pushed = false;
@@ -414,7 +415,7 @@ void LocalController::Impl::limit_speed(const Part& part, double wanted, double 
 }
 
 /// Reports what pushed the character when it turned, as contacts at the beginning of a part.
-void LocalController::Impl::note_pushes(const Part& part, const StepContext<double>& context) {
+void LocalController::Impl::note_pushes(const StepPart& part, const StepContext<double>& context) {
   MoveResult<double>& move = of_part->move;
   if (move.path.size() < 2 || move.path[1].fraction > 0) return;
   std::size_t last = 1;
@@ -440,7 +441,7 @@ void LocalController::Impl::note_begin() {
       turned_.push_back({collider.id, {0}, {vertices_at(*collider.def, collider.motion.from)}});
 }
 
-void LocalController::Impl::note_vertices(const Part& part) {
+void LocalController::Impl::note_vertices(const StepPart& part) {
   std::size_t next = 0;
   for (const NearCollider& collider : scenery.colliders()) {
     if (collider.mover == no_mover) continue;
@@ -452,7 +453,7 @@ void LocalController::Impl::note_vertices(const Part& part) {
 }
 
 /// Adds a part to the report of the step. @param added names colliders by ids.
-void LocalController::Impl::append(const StepReport<double>& added, const Part& part,
+void LocalController::Impl::append(const StepReport<double>& added, const StepPart& part,
                                    StepReport<double>& report) const {
   const MoveResult<double>& from = added.move;
   MoveResult<double>& to = report.move;
@@ -531,7 +532,7 @@ std::optional<StepStatus> LocalController::Impl::step_in_parts(int parts, Charac
   StepContext<double> shorter = context;
   shorter.dt = context.dt / parts;
   for (int i = 0; i < parts; ++i) {
-    Part part = turn(double(i) / parts, double(i + 1) / parts, state.position, context.filter);
+    StepPart part = turn(double(i) / parts, double(i + 1) / parts, state.position, context.filter);
     if (!scenery.build(part.end)) return refuse(state, report);
     scenery.to_local(state);
     if (state.ride.ground != Ride<double>::none) {
