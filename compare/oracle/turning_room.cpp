@@ -10,7 +10,7 @@ namespace paperproof::compare::detail {
 namespace {
 
 /// What may be kept from a contact on top of how far the crusher goes [m].
-constexpr double beyond_travel = 1e-6;
+constexpr double beyond_its_travel = 1e-6;
 
 /// The way of a point that goes along [m].
 double travel_of(const VertexWay& way, Vec2d at) {
@@ -132,7 +132,7 @@ std::optional<Vec2d> room_beside(const TraceHeader& header, const ExactScenery& 
     return false;
   };
   return end.find_free(Place(step.path.back().position, step.movers, 1),
-                       travel_of(crusher.way, crusher.met) + beyond_travel, least_clearance, corners, reached);
+                       travel_of(crusher.way, crusher.met) + beyond_its_travel, least_clearance, corners, reached);
 }
 
 }  // namespace paperproof::compare::detail
