@@ -2,6 +2,7 @@
 
 #include "metrics/rest.hpp"
 #include "oracle/exemptions.hpp"
+#include "oracle/turning_room.hpp"
 
 #include <fmt/format.h>
 
@@ -33,10 +34,10 @@ bool is_only_foreseen(const StepJudgement& judged, const Touch& touch) {
 }
 
 /// The smallest over the corners of the way [m].
-double gap_on_way(const LedgerParty& who, const TraceStep& step, ColliderIndex collider) {
+double gap_on_way(const SolidsInStep& solids, const TraceStep& step, ColliderIndex collider) {
   double gap = std::numeric_limits<double>::infinity();
   for (const PathPoint<double>& corner : step.path)
-    gap = std::min(gap, who.solids->separation(Place(corner, step.movers), collider));
+    gap = std::min(gap, solids.at(corner.fraction).separation(Place(corner, step.movers), collider));
   return gap;
 }
 
@@ -50,6 +51,25 @@ std::vector<ColliderIndex> crossed(const StepJudgement& judged) {
 
 }  // namespace
 
+const ExactScenery& SolidsInStep::at(double fraction) const {
+  if (step_.vertex_ways.empty()) return *who_.solids;
+  std::unique_ptr<ExactScenery>& there = turned_[fraction];
+  if (!there)
+    there = std::make_unique<ExactScenery>(standing_at(who_.header->scenery, step_, fraction), who_.header->points);
+  return *there;
+}
+
+Vec2d moved_by_step(const TraceHeader& header, const TraceStep& step, ColliderIndex collider, const Vec2d& point,
+                    double fraction) {
+  const MoverIndex mover = header.scenery.colliders[collider].mover;
+  if (mover == no_mover) return Vec2d::Zero();
+  const auto turning = std::find_if(step.vertex_ways.begin(), step.vertex_ways.end(),
+                                    [&](const VertexWay& way) { return way.collider == collider; });
+  if (turning == step.vertex_ways.end()) return step.movers[mover].to - step.movers[mover].from;
+  const std::vector<Vec2d> then = vertices_at(*turning, fraction);
+  return RigidMotion(then, turning->vertices.back())(point) - RigidMotion(then, turning->vertices.front())(point);
+}
+
 StepLedger::StepLedger(const LedgerParty& mine, const LedgerParty& reference, const Ledger::View& view,
                        const Known& known)
     : mine_(mine),
@@ -58,6 +78,8 @@ StepLedger::StepLedger(const LedgerParty& mine, const LedgerParty& reference, co
       now_(view.now()),
       m_(now_.mine.step),
       r_(now_.reference.step),
+      mine_solids_(mine, m_),
+      reference_solids_(reference, r_),
       dt_(length_of(m_, *mine.header)) {
   const auto at = [&](std::size_t k, int step) -> const Ledger::Moment* {
     return k < view.around.size() && view.around[k].mine.step.step == step ? &view.around[k] : nullptr;
@@ -148,8 +170,8 @@ bool StepLedger::is_capped_before(const Touch& touch) const {
 
 StepLedger::Event StepLedger::of_reference(const Touch& touch, EventKind kind) const {
   const StepJudgement& judged = now_.reference.judged;
-  const double gap = gap_on_way(reference_, r_, touch.collider);
-  const double mine = gap_on_way(mine_, m_, touch.collider);
+  const double gap = gap_on_way(reference_solids_, r_, touch.collider);
+  const double mine = gap_on_way(mine_solids_, m_, touch.collider);
   Event event{kind,
               {},
               false,
@@ -175,7 +197,7 @@ StepLedger::Event StepLedger::of_reference(const Touch& touch, EventKind kind) c
 
 StepLedger::Event StepLedger::of_mine(const Touch& touch) const {
   const StepJudgement& judged = now_.reference.judged;
-  const double gap = gap_on_way(reference_, r_, touch.collider);
+  const double gap = gap_on_way(reference_solids_, r_, touch.collider);
   Event event{EventKind::contact,
               {},
               false,
@@ -218,8 +240,7 @@ void StepLedger::add_contacts() {
 
 /// Relative to what the collider goes along with [m].
 Vec2d StepLedger::wanted_of_reference(const Touch& touch) const {
-  const MoverIndex mover = reference_.header->scenery.colliders[touch.collider].mover;
-  return mover == no_mover ? r_.requested : Vec2d(r_.requested - (r_.movers[mover].to - r_.movers[mover].from));
+  return r_.requested - moved_by_step(*reference_.header, r_, touch.collider, touch.point, touch.fraction);
 }
 
 /// From where Box2D was at the time that it reports, to the collider [m].
@@ -229,8 +250,9 @@ double StepLedger::gap_when_reported(const Touch& touch) const {
   const PathPoint<double>& from = *(next - 1);
   const double length = next->fraction - from.fraction;
   const double share = length > 0 ? std::clamp((touch.fraction - from.fraction) / length, 0.0, 1.0) : 1;
-  return reference_.solids->separation(
-      Place(from.position + share * (next->position - from.position), r_.movers, touch.fraction), touch.collider);
+  return reference_solids_.at(touch.fraction)
+      .separation(Place(from.position + share * (next->position - from.position), r_.movers, touch.fraction),
+                  touch.collider);
 }
 
 /// Of the colliders and sides that both report, the one whose earliest times differ most.
@@ -275,7 +297,7 @@ void StepLedger::add_crossings() {
     events_.push_back({EventKind::crossing, Cause::error_of_ours, false,
                        fmt::format("{} passes or enters `{}`", mine_.header->contender, mine_.header->ids[collider])});
   for (const ColliderIndex collider : crossed(now_.reference.judged)) {
-    const double depth = reference_.solids->penetration(Place(r_.path.back(), r_.movers), collider);
+    const double depth = reference_solids_.at(1).penetration(Place(r_.path.back(), r_.movers), collider);
     const bool rounded = depth > 0 && depth <= rounding_;
     events_.push_back({EventKind::crossing, rounded ? Cause::float_rounding : Cause::error_of_box2d, false,
                        fmt::format("Box2D passes or enters `{}`, {:.3g} m deep at the end of the step",
@@ -310,7 +332,8 @@ void StepLedger::add_toggle() {
     event.cause = Cause::skin;
     for (const Ledger::Moment* moment : {before_, &now_})
       for (const Touch& touch : moment->reference.step.contacts)
-        if (!within_skin(gap_on_way(reference_, moment->reference.step, touch.collider))) event.cause.reset();
+        if (!within_skin(gap_on_way({reference_, moment->reference.step}, moment->reference.step, touch.collider)))
+          event.cause.reset();
   }
   events_.push_back(std::move(event));
 }

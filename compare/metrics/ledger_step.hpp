@@ -7,6 +7,8 @@
 #include "oracle/contacts.hpp"
 
 #include <algorithm>
+#include <map>
+#include <memory>
 #include <utility>
 
 namespace paperproof::compare::detail {
@@ -32,6 +34,25 @@ inline constexpr double longest_way = 2;
 }
 
 [[nodiscard]] inline bool is_inside(const TraceStep& step) { return !step.start_overlap.empty(); }
+
+/// The solids of one side in one step, with what turns standing where it is at the moment that is asked about. Both
+/// must outlive it.
+class SolidsInStep {
+ public:
+  SolidsInStep(const LedgerParty& who, const TraceStep& step) : who_(who), step_(step) {}
+  /// @param fraction of the step.
+  [[nodiscard]] const ExactScenery& at(double fraction) const;
+
+ private:
+  const LedgerParty& who_;
+  const TraceStep& step_;
+  mutable std::map<double, std::unique_ptr<ExactScenery>> turned_;
+};
+
+/// How far a step takes a point of a collider [m].
+/// @param fraction of the step at which the point is there.
+[[nodiscard]] Vec2d moved_by_step(const TraceHeader& header, const TraceStep& step, ColliderIndex collider,
+                                  const Vec2d& point, double fraction);
 
 /// Finds what two sides differ about in one step, and why: see `Ledger`. Lives for one step.
 class StepLedger {
@@ -97,6 +118,8 @@ class StepLedger {
   const Ledger::Moment* after_ = nullptr;
   const TraceStep& m_;
   const TraceStep& r_;
+  SolidsInStep mine_solids_;
+  SolidsInStep reference_solids_;
   double dt_;  ///< [s]
   double apart_ = 0;
   double rounding_ = 0;

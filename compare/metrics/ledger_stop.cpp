@@ -1,6 +1,8 @@
 /// What a step takes of the wanted motion, and by which law: the part of the ledger about stops.
 #include "metrics/ledger_step.hpp"
 
+#include "oracle/turning_room.hpp"
+
 #include <fmt/format.h>
 
 #include <cmath>
@@ -31,9 +33,24 @@ Vec2d way_of(const TraceStep& step) { return step.path.back().position - step.pa
 Vec2d velocity_of(const LedgerParty& who, const TraceStep& step, const Touch& touch, double dt) {
   const ColliderDef& collider = who.header->scenery.colliders[touch.collider];
   const Vec2d conveyed = collider.surface_speed * Vec2d(touch.normal.y(), -touch.normal.x());
-  if (collider.mover == no_mover) return conveyed;
-  const MoverMotion<double>& motion = step.movers[collider.mover];
-  return conveyed + (motion.to - motion.from) / dt;
+  return conveyed + moved_by_step(*who.header, step, touch.collider, touch.point, touch.fraction) / dt;
+}
+
+/// What turns has no one velocity. By so much those of a collider differ over the size of the character [m/s].
+double spread_of(const LedgerParty& who, const TraceStep& step, ColliderIndex collider, double dt) {
+  const auto turning = std::find_if(step.vertex_ways.begin(), step.vertex_ways.end(),
+                                    [&](const VertexWay& way) { return way.collider == collider; });
+  if (turning == step.vertex_ways.end()) return 0;
+  double size = 0;
+  for (const Vec2d& a : who.header->points)
+    for (const Vec2d& b : who.header->points) size = std::max(size, (a - b).norm());
+  return std::abs(RigidMotion(turning->vertices.front(), turning->vertices.back()).angle()) * size / dt;
+}
+
+double widest_spread(std::span<const MetSurface> surfaces) {
+  double spread = 0;
+  for (const MetSurface& one : surfaces) spread = std::max(spread, one.spread);
+  return spread;
 }
 
 }  // namespace
@@ -46,23 +63,33 @@ std::vector<MetSurface> StepLedger::met_by_mine() const {
     const Vec2d velocity = velocity_of(mine_, m_, touch, dt_);
     // Ground carries; walls impart nothing along themselves.
     const Vec2d imparted = walkable ? velocity : Vec2d(velocity.dot(touch.normal) * touch.normal);
-    surfaces.push_back({touch.normal, imparted, walkable, touch.fraction >= 1});
+    const double spread = spread_of(mine_, m_, touch.collider, dt_);
+    surfaces.push_back({touch.normal, imparted, walkable, touch.fraction >= 1, spread});
   }
   return surfaces;
 }
 
 std::vector<MetSurface> StepLedger::near_reference() const {
   std::vector<MetSurface> surfaces;
-  const auto add = [&](const Vec2d& normal, const Vec2d& velocity) {
+  const auto add = [&](const Vec2d& normal, const Vec2d& velocity, double spread) {
     const bool known = std::any_of(surfaces.begin(), surfaces.end(), [&](const MetSurface& one) {
       return (one.normal - normal).norm() < same_velocity && one.velocity == velocity;
     });
-    if (!known) surfaces.push_back({.normal = normal, .velocity = velocity});
+    if (!known) surfaces.push_back({.normal = normal, .velocity = velocity, .spread = spread});
   };
+  const std::vector<Vec2d>& hull = reference_.header->points;
   for (const PathPoint<double>& corner : r_.path)
-    for (const NearPart& part : reference_.solids->near_parts(Place(corner, r_.movers), box2d_skin + rounding_))
-      for (const NearFace& face : part.faces)
-        if (face.separation <= box2d_skin + rounding_) add(face.normal, part.moved / dt_);
+    for (const NearPart& part :
+         reference_solids_.at(corner.fraction).near_parts(Place(corner, r_.movers), box2d_skin + rounding_))
+      for (const NearFace& face : part.faces) {
+        if (face.separation > box2d_skin + rounding_) continue;
+        const Vec2d foot = *std::min_element(hull.begin(), hull.end(), [&](const Vec2d& a, const Vec2d& b) {
+          return a.dot(face.normal) < b.dot(face.normal);
+        });
+        const Vec2d moved =
+            moved_by_step(*reference_.header, r_, part.collider, corner.position + foot, corner.fraction);
+        add(face.normal, moved / dt_, spread_of(reference_, r_, part.collider, dt_));
+      }
   return surfaces;
 }
 
@@ -94,14 +121,16 @@ void StepLedger::add_stop() {
 bool StepLedger::follows_our_law() const {
   const Vec2d wanted = m_.requested / dt_;
   const SteeredVelocity steered{wanted, wanted - Vec2d(m_.steered / dt_, 0)};
-  return distance_from(controlled_outcomes(steered, met_by_mine()), m_.velocity) <=
-         same_velocity * std::max(1.0, wanted.norm());
+  const std::vector<MetSurface> met = met_by_mine();
+  return distance_from(controlled_outcomes(steered, met), m_.velocity) <=
+         same_velocity * std::max(1.0, wanted.norm()) + widest_spread(met);
 }
 
 bool StepLedger::follows_box2ds_law(std::optional<Cause>& otherwise) const {
   const Vec2d wanted = r_.requested / dt_;
   const std::vector<MetSurface> near = near_reference();
-  const double tolerance = same_velocity_in_float * std::max(1.0, wanted.norm()) + rounding_ / dt_ / ulps;
+  const double tolerance =
+      same_velocity_in_float * std::max(1.0, wanted.norm()) + rounding_ / dt_ / ulps + widest_spread(near);
   const auto follows = [&](const std::vector<MetSurface>& surfaces) {
     return distance_from(frictionless_outcomes(wanted, surfaces), r_.velocity) <= tolerance;
   };

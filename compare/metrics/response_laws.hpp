@@ -14,6 +14,7 @@ struct MetSurface {
   Vec2d velocity{Vec2d::Zero()};  ///< Of what it goes along with, a conveyor's surface included [m/s].
   bool walkable = false;          ///< Within the climb limit of the character.
   bool at_end = false;            ///< Only touched where the step ends: it takes nothing, but ground is followed.
+  double spread = 0;              ///< Where it turns: by so much its velocities differ over the character [m/s].
 };
 
 /// The velocities that impulses without friction and restitution can make of `wanted` at one or two of the surfaces,

@@ -315,8 +315,8 @@ std::optional<double> TurningJudge::touch_going_on(const Solid& solid, const Tra
   for (const PathPoint<double>& corner : step.path)
     if (corner.fraction <= moment) way.push_back(corner);
   if (way.size() < 2 || moment == 1) return std::nullopt;
-  const PathPoint<double>& last = way.back();
-  const PathPoint<double>& before = way[way.size() - 2];
+  const PathPoint<double> last = way.back();
+  const PathPoint<double> before = way[way.size() - 2];
   if (last.position == before.position || last.fraction == before.fraction) return std::nullopt;
   const Vec2d rate = (last.position - before.position) / (last.fraction - before.fraction);
   way.push_back({last.position + (1 - last.fraction) * rate, 1});

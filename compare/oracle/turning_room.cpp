@@ -23,7 +23,15 @@ double travel_of(const VertexWay& way, Vec2d at) {
   return length;
 }
 
-/// What turns stands where it is at a fraction of the step; the rest goes as it does.
+/// Whether all that is met is among what was overlapped before.
+bool meets_no_more(const ExactScenery& rest, const Place& from, const Place& to) {
+  const std::vector<ColliderIndex> inside = rest.overlapped(from);
+  const std::vector<ColliderIndex> met = rest.met(from, to);
+  return std::includes(inside.begin(), inside.end(), met.begin(), met.end());
+}
+
+}  // namespace
+
 SceneryDef standing_at(const SceneryDef& scenery, const TraceStep& step, double fraction) {
   SceneryDef all = scenery;
   for (const VertexWay& way : step.vertex_ways) {
@@ -40,15 +48,6 @@ SceneryDef standing_at(const SceneryDef& scenery, const TraceStep& step, double 
   }
   return all;
 }
-
-/// Whether all that is met is among what was overlapped before.
-bool meets_no_more(const ExactScenery& rest, const Place& from, const Place& to) {
-  const std::vector<ColliderIndex> inside = rest.overlapped(from);
-  const std::vector<ColliderIndex> met = rest.met(from, to);
-  return std::includes(inside.begin(), inside.end(), met.begin(), met.end());
-}
-
-}  // namespace
 
 RigidMotion::RigidMotion(std::span<const Vec2d> before, std::span<const Vec2d> after)
     : from_(before[0]), to_(after[0]) {

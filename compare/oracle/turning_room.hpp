@@ -16,6 +16,8 @@ class RigidMotion {
  public:
   RigidMotion(std::span<const Vec2d> before, std::span<const Vec2d> after);
   [[nodiscard]] Vec2d operator()(const Vec2d& at) const;
+  /// Counter-clockwise, in (-pi, pi] [rad].
+  [[nodiscard]] double angle() const { return std::arg(turn_); }
 
  private:
   [[nodiscard]] static std::complex<double> number(const Vec2d& v) { return {v.x(), v.y()}; }
@@ -28,6 +30,8 @@ class RigidMotion {
 [[nodiscard]] const VertexWay& way_of(const TraceStep& step, ColliderIndex collider);
 /// Where the vertices are at a fraction of the step, rounded [m].
 [[nodiscard]] std::vector<Vec2d> vertices_at(const VertexWay& way, double fraction);
+/// The scenery in which what turns stands where it is at a fraction of the step; the rest goes as it does.
+[[nodiscard]] SceneryDef standing_at(const SceneryDef& scenery, const TraceStep& step, double fraction);
 /// Whether any vertex does not stay where it is.
 [[nodiscard]] bool goes(const VertexWay& way);
 

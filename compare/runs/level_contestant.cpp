@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 
 namespace paperproof::compare {
 namespace {
@@ -32,9 +32,9 @@ class LevelContestant final : public Contestant {
     const CharacterState<double> before = state_;
     step_unrecorded(input);
     write_report(report_, state_, record);
-    record.requested += carried(before);
     record.movers.assign(input.movers.begin(), input.movers.end());
     record.vertex_ways = ways_in_level(header_.scenery, controller_.turned(), motions_);
+    record.requested += carried(before, record.vertex_ways);
     refuse_unusable(report_.status, report_.move.refusal);
   }
 
@@ -50,18 +50,12 @@ class LevelContestant final : public Contestant {
   void place(const Pose& pose, std::size_t) override { state_ = state_at<double>(pose); }
 
  private:
-  /// What the ground adds to the displacement [m]: the way of the point between the feet, if it went along with it.
-  [[nodiscard]] Vec2d carried(const CharacterState<double>& before) const {
+  /// What the ground adds to the displacement [m].
+  [[nodiscard]] Vec2d carried(const CharacterState<double>& before, std::span<const VertexWay> ways) const {
     if (before.ride.ground == Ride<double>::none) return Vec2d::Zero();
-    const MoverIndex mover = header_.scenery.colliders[before.ride.ground].mover;
-    if (mover == no_mover) return before.ride.velocity * header_.dt;
-    const PoseMotion& motion = motions_[mover];
-    const Vec2d feet = before.position + Vec2d(0, controller_.character().shape.box().lower.y());
-    const double turn = motion.to.angle - motion.from.angle;
-    const Vec2d arm = feet - motion.from.position;
-    const Vec2d turned(std::cos(turn) * arm.x() - std::sin(turn) * arm.y(),
-                       std::sin(turn) * arm.x() + std::cos(turn) * arm.y());
-    return motion.to.position + turned - feet;
+    const auto ground = std::find_if(ways.begin(), ways.end(),
+                                     [&](const VertexWay& way) { return way.collider == before.ride.ground; });
+    return ground == ways.end() ? Vec2d(before.ride.velocity * header_.dt) : carried_along(*ground);
   }
 
   Level level_;

@@ -48,9 +48,9 @@ struct TurnedCollider {
 /// nothing. Else scenery and controller are made anew from them.
 ///
 /// **What turns.** A step among movers that turn consists of 1, 2, 4, ... or 32 shorter steps, so many that nothing
-/// near the character is turned by more than `most_turned` at once. Each begins with a short time, 1/64 of it, in which
-/// each mover turns by its angle about its point nearest to the character, every vertex on a straight line, while
-/// everything else stands. If it comes to overlap the character, the character goes straight to the nearest free
+/// near the character is turned by more than `most_turned` at once. Each begins with a millionth of its time in which
+/// each mover turns by its angle about the point where it is nearest to the character, every vertex on a straight line,
+/// while everything else stands. If it comes to overlap the character, the character goes straight to the nearest free
 /// position meanwhile. Then all movers go straight to their places. So what is near the character turns under its foot,
 /// and `turned()` gives every vertex at all times.
 ///

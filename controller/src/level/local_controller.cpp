@@ -18,8 +18,8 @@ using namespace level;
 /// Into so many shorter steps a step is divided at most.
 constexpr int most_parts = 32;
 
-/// The share of a part in which everything turns.
-constexpr double turning_share = 1.0 / 64;
+/// The share of a part in which everything turns. So short that a character which waits meanwhile is not 1 um behind.
+constexpr double turning_share = 0x1p-20;
 
 /// A part of a step, as fractions of it, and how what is near moves in it once everything has turned.
 struct StepPart {
@@ -30,6 +30,13 @@ struct StepPart {
   std::vector<PathPoint<double>> way{};
 
   [[nodiscard]] double turned() const noexcept { return begin + (end - begin) * turning_share; }
+};
+
+/// A collider, and where it is nearest to the character.
+struct NearestOutline {
+  Approach approach;
+  std::vector<Vec2d> outline;
+  bool closed;
 };
 
 /// Nothing nearer is proved to be apart [m]. Zero: rounding hides an overlap. Large: a character that is squeezed
@@ -125,8 +132,10 @@ struct LocalController::Impl {
   // Among what turns.
   [[nodiscard]] int parts_for(const CharacterState<double>& state, const StepContext<double>& context) const;
   [[nodiscard]] StepPart turn(double begin, double end, const Vec2d& position, const ColliderFilter* filter);
-  [[nodiscard]] Approach approach_of(MoverIndex mover, double fraction, const Vec2d& position,
-                                     const ColliderFilter* filter) const;
+  [[nodiscard]] NearestOutline nearest_of(MoverIndex mover, double fraction, const Vec2d& position,
+                                          const ColliderFilter* filter) const;
+  [[nodiscard]] Vec2d pivot_of(MoverIndex mover, double begin, double angle, const Vec2d& position,
+                               const ColliderFilter* filter) const;
   [[nodiscard]] bool find_way(StepPart& part, const MoveResult<double>& move, const StepContext<double>& context);
   void limit_speed(const StepPart& part, double wanted, double dt, MoveResult<double>& move,
                    CharacterState<double>& state) const;
@@ -251,7 +260,8 @@ int LocalController::Impl::parts_for(const CharacterState<double>& state, const 
   double most = 0;
   for (MoverIndex i = 0; i < scenery.movers().size(); ++i) {
     const double way = (scenery.movers()[i].motion.to.position - scenery.movers()[i].motion.from.position).norm();
-    if (scenery.movers()[i].turn() == 0 || approach_of(i, 0, state.position, context.filter).distance > reach + way)
+    if (scenery.movers()[i].turn() == 0 ||
+        nearest_of(i, 0, state.position, context.filter).approach.distance > reach + way)
       continue;
     most = std::max(most, std::abs(scenery.movers()[i].turn()) * size);
   }
@@ -260,22 +270,32 @@ int LocalController::Impl::parts_for(const CharacterState<double>& state, const 
   return parts;
 }
 
-/// Where the nearest of a mover's colliders is nearest to the character.
-Approach LocalController::Impl::approach_of(MoverIndex mover, double fraction, const Vec2d& position,
-                                            const ColliderFilter* filter) const {
-  Approach best{std::numeric_limits<double>::infinity(), {0, 1}};
+/// The nearest of a mover's colliders, and where it is nearest to the character.
+NearestOutline LocalController::Impl::nearest_of(MoverIndex mover, double fraction, const Vec2d& position,
+                                                 const ColliderFilter* filter) const {
+  NearestOutline best{{std::numeric_limits<double>::infinity(), {0, 1}}, {}, false};
   for (const NearCollider& collider : scenery.colliders()) {
     if (scenery.mover_of(collider) != mover || collider.def->sensor || !is_there(collider, filter)) continue;
-    const std::vector<Vec2d> outline = vertices_at(*collider.def, pose_at(collider.motion, fraction));
+    std::vector<Vec2d> outline = vertices_at(*collider.def, pose_at(collider.motion, fraction));
+    outline.resize(collider.def->points.size());
     const bool closed = collider.def->shape == ColliderDef::Shape::polygon;
-    const Approach here = nearest(std::span(outline).first(collider.def->points.size()), closed, hull(), position);
-    if (here.distance < best.distance) best = here;
+    const Approach here = nearest(outline, closed, hull(), position);
+    if (here.distance < best.approach.distance) best = {here, std::move(outline), closed};
   }
   return best;
 }
 
-/// Turns everything by its angle in a part of the step, and says how it goes on from there. A mover turns about the
-/// corner of the character that will be nearest to it then: what carries the character turns under its foot.
+/// About what a mover turns in a part: the corner of the character that will be nearest to it then, so that what
+/// carries the character turns under its foot; or its own corner, if that is beneath the foot instead.
+Vec2d LocalController::Impl::pivot_of(MoverIndex mover, double begin, double angle, const Vec2d& position,
+                                      const ColliderFilter* filter) const {
+  const NearestOutline near = nearest_of(mover, begin, position, filter);
+  const Vec2d corner = position + nearest_corner(hull(), near.approach.normal, rotated(near.approach.normal, angle));
+  if (near.outline.empty()) return corner;
+  return nearest_vertex(near.outline, near.closed, corner).value_or(corner);
+}
+
+/// Turns everything by its angle in a part of the step, and says how it goes on from there.
 StepPart LocalController::Impl::turn(double begin, double end, const Vec2d& position, const ColliderFilter* filter) {
   motions.clear();
   for (MoverIndex i = 0; i < scenery.movers().size(); ++i) {
@@ -286,8 +306,7 @@ StepPart LocalController::Impl::turn(double begin, double end, const Vec2d& posi
       motions.push_back({from.position, to.position});
       continue;
     }
-    const Vec2d normal = approach_of(i, begin, position, filter).normal;
-    const Vec2d pivot = position + nearest_corner(hull(), normal, rotated(normal, angle));
+    const Vec2d pivot = pivot_of(i, begin, angle, position, filter);
     motions.push_back({pivot - rotated(pivot - from.position, angle), to.position});
   }
   return {begin, end, motions};

@@ -121,4 +121,20 @@ Approach nearest(std::span<const Vec2d> outline, bool closed, std::span<const Ve
   return best;
 }
 
+std::optional<Vec2d> nearest_vertex(std::span<const Vec2d> outline, bool closed, const Vec2d& point) {
+  double least = std::numeric_limits<double>::infinity();
+  std::optional<Vec2d> vertex;
+  const std::size_t edges = closed ? outline.size() : outline.size() - 1;
+  for (std::size_t i = 0; i < edges; ++i) {
+    const Vec2d& a = outline[i];
+    const Vec2d& b = outline[(i + 1) % outline.size()];
+    const double share = nearest_share(a, b, point);
+    const double distance = (a + (b - a) * share - point).norm();
+    if (!(distance < least)) continue;
+    least = distance;
+    vertex = share == 0 ? std::optional(a) : share == 1 ? std::optional(b) : std::nullopt;
+  }
+  return vertex;
+}
+
 }  // namespace paperproof::level

@@ -3,6 +3,7 @@
 
 #include <paperproof/types.hpp>
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -42,5 +43,9 @@ struct Approach {
 /// @param closed whether an edge leads from its last point to its first.
 [[nodiscard]] Approach nearest(std::span<const Vec2d> outline, bool closed, std::span<const Vec2d> hull,
                                const Vec2d& position);
+
+/// The corner of an outline that is nearer to a point than every other point of the outline; nothing where a point
+/// within an edge is.
+[[nodiscard]] std::optional<Vec2d> nearest_vertex(std::span<const Vec2d> outline, bool closed, const Vec2d& point);
 
 }  // namespace paperproof::level
