@@ -14,6 +14,8 @@ namespace {
 
 /// So many steps ahead a first touch is looked for: Box2D's skin of 20 mm is passed in them at 0.3 m/s and more.
 constexpr int steps_ahead = 4;
+/// What goes a leg in less of the step leaps.
+constexpr double leap = 1e-5;
 /// Instants of a leg at which the depth of a passage is looked at.
 constexpr int depth_samples = 256;
 
@@ -317,7 +319,7 @@ std::optional<double> TurningJudge::touch_going_on(const Solid& solid, const Tra
   if (way.size() < 2 || moment == 1) return std::nullopt;
   const PathPoint<double> last = way.back();
   const PathPoint<double> before = way[way.size() - 2];
-  if (last.position == before.position || last.fraction == before.fraction) return std::nullopt;
+  if (last.position == before.position || last.fraction - before.fraction < leap) return std::nullopt;
   const Vec2d rate = (last.position - before.position) / (last.fraction - before.fraction);
   way.push_back({last.position + (1 - last.fraction) * rate, 1});
   const Meeting met = meeting(solid, way_of(step, solid.collider), way, Asked::when);

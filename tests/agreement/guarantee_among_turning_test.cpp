@@ -248,7 +248,8 @@ class RandomRun {
     const StepJudgement judgement = judge_.judge(record);
     const int broken = tally.broken();
     count(record, judgement, tally);
-    if (tally.broken() > broken && tally.described++ < most_described)
+    const bool is_late = judgement.turning_toi_error.value_or(0) > 0 && record.crushed.empty();
+    if ((tally.broken() > broken || is_late) && tally.described++ < most_described)
       std::printf("breaks: %s\n", describe(record, judgement, before).c_str());
   }
 
@@ -303,6 +304,7 @@ class RandomRun {
     list("ends in", judgement.end_overlap);
     if (report_.move.path.overflowed()) text << "way too long; ";
     if (judgement.room) text << "room at " << judgement.room->transpose() << "; ";
+    if (judgement.turning_toi_error.value_or(0) > 0) text << "fraction off by " << *judgement.turning_toi_error << "; ";
     text << "gap " << judgement.max_contact_gap << ", status " << static_cast<int>(report_.status) << ", from "
          << before.position.transpose() << " at " << before.velocity.transpose() << "\n  way";
     for (const PathPoint<double>& corner : record.path)

@@ -3,11 +3,17 @@
 #include "controller/stepping.hpp"
 #include "support/random.hpp"
 
+#include <paperproof/contact_changes.hpp>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
+#include <string>
+#include <tuple>
+#include <vector>
 
 namespace paperproof::stepping {
 namespace {
@@ -52,6 +58,42 @@ double jumps_up_beside_a_corner(const CharacterDef& character, double caught) {
     highest = std::max(highest, jumper.state.position.y());
   }
   return highest;
+}
+
+TEST(Contacts, are_added_persist_and_are_removed) {
+  // Two tiles and a wall: it lands on one, walks over the seam into the wall, and jumps up along that.
+  Stepper<double> walker({rectangle(-9, -1, 0, 0), rectangle(0, -1, 9, 0), rectangle(2, 0, 3, 9)});
+  walker.gravity = {0, -30};
+  walker.at(-1, half_height + 0.1);
+  std::vector<Contact<double>> before;
+  std::string said;
+  for (int n = 0; n < 90; ++n) {
+    walker.step({.move = 1, .jump = n == 80});
+    const std::span<const Contact<double>> now = walker.report.move.contacts;
+    for_each_change<double>(before, now, [&](ContactChange change, const Contact<double>& contact) {
+      if (change == ContactChange::persisted) return;
+      said += (change == ContactChange::added ? " +" : " -") + std::to_string(contact.collider);
+    });
+    before.assign(now.begin(), now.end());
+  }
+  EXPECT_EQ(said, " +0 +1 -0 +2 -1");
+}
+
+TEST(Contacts, of_one_collider_are_one_change_and_removed_ones_come_last) {
+  const auto with = [](ColliderIndex collider, double fraction) {
+    Contact<double> contact;
+    contact.collider = collider;
+    contact.fraction = fraction;
+    return contact;
+  };
+  const std::vector<Contact<double>> before{with(7, 0.1), with(3, 0.2), with(7, 0.3)};
+  const std::vector<Contact<double>> now{with(5, 0.4), with(3, 0.5), with(5, 0.6)};
+  std::vector<std::tuple<ContactChange, ColliderIndex, double>> changes;
+  for_each_change<double>(before, now, [&](ContactChange change, const Contact<double>& contact) {
+    changes.emplace_back(change, contact.collider, contact.fraction);
+  });
+  using enum ContactChange;
+  EXPECT_EQ(changes, (decltype(changes){{added, 5, 0.4}, {persisted, 3, 0.5}, {removed, 7, 0.1}}));
 }
 
 TEST(PeersFeature, corner_correction_by_a_slanted_head) {

@@ -3,6 +3,7 @@
 
 #include <paperproof/broad_phase.hpp>
 #include <paperproof/character.hpp>
+#include <paperproof/contact_changes.hpp>
 #include <paperproof/controller.hpp>
 #include <paperproof/crowd.hpp>
 #include <paperproof/filter.hpp>

@@ -150,7 +150,7 @@ struct LocalController::Impl {
   void append(const StepReport<double>& added, const StepPart& part, StepReport<double>& report) const;
   StepStatus go_straight_or_stay(CharacterState<double>& state, const StepContext<double>& context,
                                  StepReport<double>& report);
-  void go_straight(double begin, const Vec2d& to, const CharacterState<double>& state,
+  void go_straight(double begin, double departure, const Vec2d& to, const CharacterState<double>& state,
                    const StepContext<double>& context, StepReport<double>& report);
   [[nodiscard]] std::optional<Vec2d> way_out_at_end(CharacterState<double> state, const StepContext<double>& context);
   [[nodiscard]] bool overlaps(const NearCollider& collider, const Pose& pose, const Vec2d& position);
@@ -576,7 +576,7 @@ std::optional<StepStatus> LocalController::Impl::step_in_parts(int parts, Charac
     append(*of_part, part, report);
     if (report.move.crushed.empty() || i + 1 == parts) continue;
     // It stays where it was crushed until the next step.
-    go_straight(part.end, state.position, state, context, report);
+    go_straight(part.end, part.end, state.position, state, context, report);
     step_parts::adopt(character(), context.up, report.move, state);
     break;
   }
@@ -593,11 +593,13 @@ bool LocalController::Impl::reaches(const NearCollider& collider, const HullWay&
   });
 }
 
-/// The rest of a step, in which the character goes straight to a place, and everything that moves turns evenly. What
-/// may reach the character crushes it.
-/// @param begin as a fraction of the step; what is before it stands in the report.
-void LocalController::Impl::go_straight(double begin, const Vec2d& to, const CharacterState<double>& state,
-                                        const StepContext<double>& context, StepReport<double>& report) {
+/// The rest of a step, in which the character stays, then goes straight to a place, and everything that moves turns
+/// evenly. What may reach the character crushes it.
+/// @param begin as a fraction of the step; what is before it stands in the report. @param departure to the
+///   place.
+void LocalController::Impl::go_straight(double begin, double departure, const Vec2d& to,
+                                        const CharacterState<double>& state, const StepContext<double>& context,
+                                        StepReport<double>& report) {
   MoveResult<double>& move = report.move;
   move.position = to;
   move.velocity.setZero();
@@ -606,8 +608,16 @@ void LocalController::Impl::go_straight(double begin, const Vec2d& to, const Cha
   move.ride = {};
   move.crushers.clear();
   if (move.path.empty()) move.path.push_back({state.position, 0});
+  if (departure > begin) move.path.push_back({state.position, departure}, more_corners);
   move.path.push_back({to, 1}, more_corners);
   if (begin == 0) note_begin();
+  std::vector<double> ends;
+  for (int part = 1; part < most_parts; ++part) ends.push_back(begin + (1 - begin) * part / most_parts);
+  if (departure > begin) ends.push_back(departure);
+  ends.push_back(1);
+  const auto place_at = [&](double fraction) {
+    return fraction < 1 ? between(state.position, to, std::max(0.0, fraction - departure) / (1 - departure)) : to;
+  };
   std::size_t next = 0;
   for (const NearCollider& collider : scenery.colliders()) {
     if (collider.mover == no_mover) continue;
@@ -615,13 +625,10 @@ void LocalController::Impl::go_straight(double begin, const Vec2d& to, const Cha
     const Pose from = pose_at(collider.motion, begin);
     bool is_reached = false;
     double last = begin;
-    for (int part = 1; part <= most_parts; ++part) {
-      const double end = part < most_parts ? begin + (1 - begin) * part / most_parts : 1;
+    for (const double end : ends) {
       way.instants.push_back(end);
       way.vertices.push_back(vertices_at(*collider.def, pose_at(collider.motion, end)));
-      const HullWay leg{hull(), between(state.position, to, (last - begin) / (1 - begin)),
-                        between(state.position, to, (end - begin) / (1 - begin))};
-      is_reached = is_reached || reaches(collider, leg, last, end);
+      is_reached = is_reached || reaches(collider, {hull(), place_at(last), place_at(end)}, last, end);
       last = end;
     }
     if (!is_reached || !blocks(collider, context)) continue;
@@ -645,23 +652,31 @@ std::optional<Vec2d> LocalController::Impl::way_out_at_end(CharacterState<double
     motions.push_back({mover.motion.to.position, mover.motion.to.position});
   scenery.to_local(state);
   state.ride = {};
+  for (Crusher<double>& crusher : state.crushers) {
+    const PoseMotion& motion = scenery.at(crusher.collider).motion;
+    carry(crusher, motion.from, motion.to);
+  }
   const StepStatus status =
       scenery.controller().move(state, {0, 0}, scenery.context(context, motions), scenery.scratch(), *of_part);
   if (status != StepStatus::moved) return std::nullopt;
   return of_part->move.position;
 }
 
-/// A step for a character that no division of the step brings to a free position. It goes straight to one, if it can;
-/// else it stays in place.
+/// A step for a character that no division of the step brings to a free position. It goes straight to one, if it can,
+/// in the course of the step or at its end; else it stays in place.
 StepStatus LocalController::Impl::go_straight_or_stay(CharacterState<double>& state, const StepContext<double>& context,
                                                       StepReport<double>& report) {
   const std::optional<Vec2d> out = way_out_at_end(state, context);
   MoveResult<double>& move = report.move;
   clear(report);
-  if (out) go_straight(0, *out, state, context, report);
-  if (!out || !move.crushed.empty() || !move.crushers.empty()) {
+  const auto goes_out = [&](double departure) {
     clear(report);
-    go_straight(0, state.position, state, context, report);
+    go_straight(0, departure, *out, state, context, report);
+    return move.crushed.empty() && move.crushers.empty();
+  };
+  if (!out || !(goes_out(0) || goes_out(1 - turning_share))) {
+    clear(report);
+    go_straight(0, 0, state.position, state, context, report);
     move.status = move.crushed.empty() ? MoveStatus::stuck : MoveStatus::crushed;
   }
   step_parts::adopt(character(), context.up, move, state);

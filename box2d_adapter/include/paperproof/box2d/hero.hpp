@@ -1,6 +1,7 @@
 /// A character in a game's own `b2World`.
 #pragma once
 
+#include <paperproof/contact_changes.hpp>
 #include <paperproof/controller.hpp>
 
 #include <box2d/b2_fixture.h>
@@ -50,7 +51,7 @@ struct HeroDef {
 
 /// A surface that was in the hero's way in its last step, or that was so in the step before.
 struct HeroContact {
-  enum class Change : std::uint8_t { added, persisted, removed };
+  using Change = ContactChange;
   /// One that is `removed` may have been destroyed by the game: compare the pointer, do not follow it.
   b2Fixture* fixture = nullptr;
   Change change = Change::added;
