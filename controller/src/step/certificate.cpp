@@ -1,5 +1,10 @@
 #include "step/certificate.hpp"
 
+#include <paperproof/tolerances.hpp>
+
+#include <algorithm>
+#include <cmath>
+
 namespace paperproof::octagon_sweep {
 namespace {
 
@@ -43,11 +48,98 @@ bool piece_right_of(const PieceVertices<Scalar>& vertices, const Vec2d& o0, cons
   return true;
 }
 
+using Terms = FixedVector<Vec2d, geometry::most_terms>;
+
+/// The exact sum of some terms and of both points.
+Terms sum_of(const Vec2d& p, double sign, const Vec2d& a, const Vec2d& b) noexcept {
+  Terms terms;
+  for (const Vec2d& term : {a, b, Vec2d(sign * p)}) terms.push_back(term);
+  return terms;
+}
+Terms sum_of(const ExactPosition& p, double sign, const Vec2d& a, const Vec2d& b) noexcept {
+  Terms terms;
+  for (const Vec2d& term : {a, b}) terms.push_back(term);
+  for (const Vec2d& term : p.terms()) terms.push_back(sign * term);
+  return terms;
+}
+std::span<const Vec2d> span_of(const Terms& terms) noexcept { return {terms.begin(), terms.end()}; }
+
+Vec2d rounded(const Vec2d& p) noexcept { return p; }
+Vec2d rounded(const ExactPosition& p) noexcept {
+  Vec2d sum = Vec2d::Zero();
+  for (const Vec2d& term : p.terms()) sum += term;
+  return sum;
+}
+
+/// The octagon beside a circle.
+class BesideCircle {
+ public:
+  template <class Scalar>
+  BesideCircle(const ConfigurationSpace<Scalar>& space, PieceIndex piece) noexcept
+      : circle_{space.scenery().circle(piece).centre.template cast<double>(),
+                static_cast<double>(space.scenery().circle(piece).radius)} {
+    for (const Vec2<Scalar>& point : space.hull()) octagon_.push_back(point.template cast<double>());
+  }
+
+  /// Whether their open interiors are apart: an edge is, or the corner that is nearest.
+  template <class Position>
+  [[nodiscard]] bool is_clear(const Position& p) const noexcept {
+    const double separation = near(p).separation;
+    if (std::abs(separation) >= Tolerances<double>{}.certain) return separation > 0;
+    for (std::size_t k = 0; k < octagon_.size(); ++k) {
+      if (is_edge_apart(k, p)) return true;
+      const Terms arm = centre_from(k, p);
+      if (geometry::along_sign_of_sum(corner(k), corner(k + 1), span_of(arm)) <= 0 &&
+          geometry::along_sign_of_sum(corner(k + octagon_.size() - 1), corner(k), span_of(arm)) >= 0 &&
+          geometry::is_sum_as_long_as(span_of(arm), circle_.radius))
+        return true;
+    }
+    return false;
+  }
+
+  /// Whether an edge, or a tangent of the circle that is nearest at one of the ends, separates them at both ends.
+  template <class Position>
+  [[nodiscard]] bool are_clear(const Position& from, const Position& to) const noexcept {
+    for (std::size_t k = 0; k < octagon_.size(); ++k)
+      if (is_edge_apart(k, from) && is_edge_apart(k, to)) return true;
+    for (const Vec2d& normal : {near(from).normal, near(to).normal})
+      if (is_tangent_apart(normal, from) && is_tangent_apart(normal, to)) return true;
+    return false;
+  }
+
+ private:
+  [[nodiscard]] const Vec2d& corner(std::size_t k) const noexcept { return octagon_[k % octagon_.size()]; }
+  template <class Position>
+  [[nodiscard]] geometry::NearCircle<double> near(const Position& p) const noexcept {
+    return geometry::near_circle<double>({octagon_.begin(), octagon_.end()}, rounded(p), circle_);
+  }
+  template <class Position>
+  [[nodiscard]] Terms centre_from(std::size_t k, const Position& p) const noexcept {
+    return sum_of(p, -1, circle_.centre, -corner(k));
+  }
+  template <class Position>
+  [[nodiscard]] bool is_edge_apart(std::size_t k, const Position& p) const noexcept {
+    return geometry::is_sum_as_far_right(corner(k), corner(k + 1), span_of(centre_from(k, p)), circle_.radius);
+  }
+  template <class Position>
+  [[nodiscard]] bool is_tangent_apart(const Vec2d& normal, const Position& p) const noexcept {
+    const double length = geometry::length_rounded_up(normal);
+    return std::all_of(octagon_.begin(), octagon_.end(), [&](const Vec2d& o) {
+      return geometry::height_sign_of_sum(normal, span_of(sum_of(p, 1, o, -circle_.centre)), circle_.radius, length) >=
+             0;
+    });
+  }
+
+  Circle<double> circle_;
+  FixedVector<Vec2d, CharacterShape::max_points> octagon_;
+};
+
 /// Whether the line of an edge of the piece or of the octagon has the two on different sides, at `from` and at `to`.
 /// Both rings are counter-clockwise: the outside of an edge is on its right.
 template <class Scalar, class Position>
 bool some_line_separates(const ConfigurationSpace<Scalar>& space, PieceIndex piece, const Position& from,
                          const Position& to) noexcept {
+  if (space.is_circle(piece)) return BesideCircle(space, piece).are_clear(from, to);
   const PieceVertices<Scalar> vertices = space.scenery().vertices_of(piece);
   for (std::size_t j = 0; j < vertices.size(); ++j) {
     const Vec2d a = vertices[j].template cast<double>();
@@ -69,6 +161,7 @@ template <class Scalar>
 bool overlaps_exactly(const ConfigurationSpace<Scalar>& space, PieceIndex piece,
                       const Vec2<Scalar>& position) noexcept {
   const Vec2d p = position.template cast<double>();
+  if (space.is_circle(piece)) return !BesideCircle(space, piece).is_clear(p);
   return !some_line_separates(space, piece, p, p);
 }
 
@@ -81,6 +174,7 @@ bool clear_of_exactly(const ConfigurationSpace<Scalar>& space, PieceIndex piece,
 template <class Scalar>
 bool overlaps_exactly(const ConfigurationSpace<Scalar>& space, PieceIndex piece,
                       const ExactPosition& position) noexcept {
+  if (space.is_circle(piece)) return !BesideCircle(space, piece).is_clear(position);
   return !some_line_separates(space, piece, position, position);
 }
 

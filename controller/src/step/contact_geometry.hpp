@@ -48,7 +48,27 @@ template <class Scalar>
     if (height < face.high - flat) continue;
     face = {std::max(face.high, height), std::min(face.from, place), std::max(face.to, place)};
   }
+  if (space.is_circle(piece)) [[unlikely]]
+    face.high += scenery.circle(piece).radius;
   return face;
+}
+
+/// Separation along a direction, from differences of coordinates.
+template <class Scalar>
+[[nodiscard]] Scalar separation_along(const ConfigurationSpace<Scalar>& space, PieceIndex piece, std::size_t axis,
+                                      const Vec2<Scalar>& p) noexcept {
+  return space.face_along(space.normal(piece, axis)).low - piece_face(space, piece, axis, p).high;
+}
+
+/// See `time_of_impact`.
+template <class Scalar>
+[[nodiscard, gnu::cold, gnu::noinline]] Scalar time_of_impact_with_arc(const ConfigurationSpace<Scalar>& space,
+                                                                       Vec2<Scalar> from, Vec2<Scalar> displacement,
+                                                                       PieceIndex piece, std::size_t axis,
+                                                                       Scalar level) noexcept {
+  const Vec2<Scalar> n = space.normal(piece, axis);
+  const Scalar approach = -(n.x() * displacement.x() + n.y() * displacement.y());
+  return std::clamp((separation_along(space, piece, axis, from) - level) / approach, Scalar(0), Scalar(1));
 }
 
 /// Time of impact of a motion with a piece it hits, as a fraction of the motion, in [0, 1]: when the separation along
@@ -60,6 +80,8 @@ template <class Scalar>
                                                                const EntryAxes& axes) noexcept {
   if (axes.impact == space.axis_count(piece)) return 0;  // inside from the start
   const Scalar level = axes.missed ? Tolerances<Scalar>{}.hit : Scalar(0);
+  if (is_direction(axes.impact)) [[unlikely]]
+    return time_of_impact_with_arc(space, from, displacement, piece, axes.impact, level);
   const Vec2<Scalar> n = space.normal(piece, axes.impact);
   const Scalar approach = -(n.x() * displacement.x() + n.y() * displacement.y());
   const Scalar separation =
@@ -74,10 +96,21 @@ struct ContactPlace {
   Scalar separation;   ///< [m]
 };
 
+/// The point of a circle's arc that faces a corner of the octagon.
+template <class Scalar>
+[[nodiscard, gnu::cold, gnu::noinline]] ContactPlace<Scalar> place_on_arc(const ConfigurationSpace<Scalar>& space,
+                                                                          PieceIndex piece, std::size_t axis,
+                                                                          Vec2<Scalar> p) noexcept {
+  const Circle<Scalar> circle = space.scenery().circle(piece);
+  return {circle.centre + space.normal(piece, axis) * circle.radius, separation_along(space, piece, axis, p)};
+}
+
 template <class Scalar>
 [[nodiscard, gnu::always_inline]] inline ContactPlace<Scalar> contact_place(const ConfigurationSpace<Scalar>& space,
                                                                             PieceIndex piece, std::size_t axis,
                                                                             const Vec2<Scalar>& p) noexcept {
+  if (is_direction(axis)) [[unlikely]]
+    return place_on_arc(space, piece, axis, p);
   const Vec2<Scalar> n = space.normal(piece, axis);
   const PieceFace<Scalar> there = piece_face(space, piece, axis, p);
   const OctagonFace<Scalar>& face = space.octagon_face(piece, axis);
