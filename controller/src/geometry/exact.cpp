@@ -75,7 +75,7 @@ class ExactSum {
   [[nodiscard]] const double* end() const noexcept { return parts_.data() + size_; }
 
  private:
-  std::array<double, Capacity> parts_;
+  std::array<double, Capacity> parts_{};
   std::size_t size_ = 0;
 };
 
