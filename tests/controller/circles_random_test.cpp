@@ -50,8 +50,8 @@ Real least_distance(const std::vector<Place>& outline, const Place& from, const 
     const Place& b = outline[(k + 1) % outline.size()];
     if (cross_each_other(a, b, from, to)) return 0;
     is_inside = is_inside && cross_of(Place(b - a), Place(from - a)) > 0;
-    least = std::min({least, distance_to_segment(a, from, to), distance_to_segment(from, a, b),
-                      distance_to_segment(to, a, b)});
+    least = std::min(
+        {least, distance_to_segment(a, from, to), distance_to_segment(from, a, b), distance_to_segment(to, a, b)});
   }
   return is_inside ? Real(0) : least;
 }
@@ -61,11 +61,11 @@ struct Tally {
   int contacts = 0;       ///< With circles.
   int corner_on_arc = 0;  ///< Of these,
   int edge_on_arc = 0;
-  int slides = 0;       ///< Steps that went on after a contact with a circle.
-  int bullets = 0;      ///< Steps of over ten times the circle that stopped them.
-  int pushed = 0;       ///< Contacts with circles that move.
+  int slides = 0;   ///< Steps that went on after a contact with a circle.
+  int bullets = 0;  ///< Steps of over ten times the circle that stopped them.
+  int pushed = 0;   ///< Contacts with circles that move.
   int riding = 0;
-  int inside = 0;       ///< Began inside a circle, and came out.
+  int inside = 0;  ///< Began inside a circle, and came out.
   int stuck = 0;
   int crushed = 0;
   int dropped = 0;
@@ -88,21 +88,21 @@ class CircleRun {
     for (const Vec2d& point : character_.shape.hull()) hull_.push_back(real(point));
     Scratch<double> scratch = controller.make_scratch();
     motions_.resize(scenery.mover_count());
-    state_.position = {random_.between(-3, 3), 0};
-    state_.position.y() = random_.between(-1, 4);
+    state_.position = origin_ + Vec2d{random_.between(-3, 3), random_.between(-1, 4)};
     Input input;
     for (int step = 0; step < 60 && tally_.broken == 0; ++step) {
       move_on();
       const double gravity = random_.chance(0.1) ? random_.between(-60, 60) : -30;
       if (random_.chance(0.2)) launch();
-      if (random_.chance(0.01)) teleport(state_, {random_.between(-3, 3), random_.between(-1, 4)});
+      if (random_.chance(0.01)) teleport(state_, origin_ + Vec2d{random_.between(-3, 3), random_.between(-1, 4)});
       if (random_.chance(0.1)) input = {.move = random_.integer(-1, 1), .jump = random_.chance(0.3)};
       const CharacterState<double> before = state_;
       const StepContext<double> context{{0, random_.chance(0.1) ? 0 : gravity}, 1.0 / 60, motions_};
       const bool began_in_something = controller.overlaps(state_.position, context, scratch) > 0;
       controller.step(state_, input, context, scratch, report_);
       judge(before, began_in_something, step);
-      if (!(state_.position.cwiseAbs().maxCoeff() < 40)) teleport(state_, {random_.between(-4, 4), 3});
+      if (!((state_.position - origin_).cwiseAbs().maxCoeff() < 40))
+        teleport(state_, origin_ + Vec2d{random_.between(-4, 4), 3});
     }
   }
 
@@ -149,6 +149,9 @@ class CircleRun {
       if (random_.chance(moving)) def_.colliders.back().mover = movers++;
       if (random_.chance(0.05)) def_.colliders.back().surface_speed = random_.between(-3, 3);
     }
+    if (random_.chance(0.1)) origin_ = {random_.between(-9e5, 9e5), random_.between(-9e5, 9e5)};
+    for (ColliderDef& collider : def_.colliders)
+      for (Vec2d& point : collider.points) point += origin_;
     for (MoverIndex i = 0; i < movers; ++i)
       courses_.push_back({random_.either_sign_log_between(1e-3, 2), random_.either_sign_log_between(1e-3, 2),
                           random_.between(0.5, 6), random_.angle()});
@@ -205,7 +208,8 @@ class CircleRun {
     for (std::size_t i = 0; i < def_.colliders.size(); ++i) {
       const ColliderDef& def = def_.colliders[i];
       way << "\n  " << i << ": " << def.points[0].transpose() << " r " << def.radius;
-      if (def.mover != no_mover) way << " moves " << motions_[def.mover].from.transpose() << " -> " << motions_[def.mover].to.transpose();
+      if (def.mover != no_mover)
+        way << " moves " << motions_[def.mover].from.transpose() << " -> " << motions_[def.mover].to.transpose();
     }
     for (const auto& crusher : state_.crushers) way << "\n  crusher " << crusher.collider;
     way << "\n status " << int(report_.status);
@@ -245,7 +249,9 @@ class CircleRun {
       const bool began_inside = separation(collider, before.position, 0) < -noise;
       if (began_inside && move.status == MoveStatus::crushed) continue;  // it is stuck there, too
       tally_.inside += began_inside;
-      for (std::size_t k = 0; k + 1 < move.path.size(); ++k) {
+      // What moves and is overlapped may leave the character, too.
+      const bool is_left = began_inside && def_.colliders[collider].mover != no_mover;
+      for (std::size_t k = 0; !is_left && k + 1 < move.path.size(); ++k) {
         if (began_inside && move.path[k].fraction == 0 && move.path[k + 1].fraction == 0) continue;
         const Real gap = separation(collider, move.path[k].position, move.path[k].fraction, move.path[k + 1].position,
                                     move.path[k + 1].fraction);
@@ -314,6 +320,7 @@ class CircleRun {
   std::uint64_t seed_;
   Tally& tally_;
   SceneryDef def_;
+  Vec2d origin_{0, 0};
   CharacterDef character_;
   std::vector<Place> hull_;
   std::vector<Course> courses_;
