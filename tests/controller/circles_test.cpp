@@ -77,7 +77,7 @@ TEST(NearCircle, has_the_distance_of_a_slow_twin) {
     corners += near.edge == hull.size();
   }
   EXPECT_GT(inside, 500) << "the centre was inside the outline";
-  EXPECT_GT(corners, 3000);
+  EXPECT_GT(corners, 2000);
   EXPECT_LT(corners, 7000);
 }
 
@@ -91,7 +91,8 @@ TEST(Approach, is_that_of_a_slow_twin_and_never_later) {
     const Circle<double> circle{{random.between(-3, 3), random.between(-3, 3)}, random.log_between(1e-3, 2)};
     const Vec2d from{random.between(-8, 8), random.between(-8, 8)};
     if (slow_separation(outline, from, circle) <= 0.01) continue;
-    const Vec2d way = Vec2d{random.between(-1, 1), random.between(-1, 1)} - from * random.between(0.5, 2);
+    const Vec2d aim = circle.centre + 2 * Vec2d{random.between(-1, 1), random.between(-1, 1)};
+    const Vec2d way = (aim - from) * random.between(0.7, 2);
     const auto separation_at = [&](double time) { return slow_separation(outline, from + way * time, circle); };
     // The separation is convex: a third of the time with the greater end is left out, again and again.
     double low = 0;
@@ -172,8 +173,9 @@ TEST(GroundOfACircle, is_walkable_up_to_the_climb_limit_and_steep_beyond) {
     const double angle = degrees * std::numbers::pi / 180;
     const Vec2d n{-std::sin(angle), std::cos(angle)};
     Stepper<double> stepper({circle(0, 0, 3)});
+    stepper.dt = 1e-3;  // so that it does not slide away from the arc
     const Vec2d touching = n * 3 - Vec2d(foot, -half_height) * (degrees < 63 ? 1 : 0) - hip * (degrees < 63 ? 0 : 1);
-    stepper.at(touching.x(), touching.y() + 1e-4).step();
+    stepper.at(touching.x() + n.x() * 1e-6, touching.y() + n.y() * 1e-6).step();
     EXPECT_EQ(stepper.state.ground.state, degrees < 50 ? GroundState::walkable : GroundState::steep) << degrees;
     EXPECT_EQ(stepper.state.grounded, degrees < 50) << degrees;
     EXPECT_NEAR((stepper.state.ground.normal - n).norm(), 0, 2e-3) << degrees;
@@ -181,7 +183,7 @@ TEST(GroundOfACircle, is_walkable_up_to_the_climb_limit_and_steep_beyond) {
 }
 
 TEST(SlidingRoundACircle, touches_it_all_the_way_and_keeps_its_gap) {
-  // Without gravity and along the top at small steps: each step is a tangent, and leaves the arc by its square.
+  // Each step is a tangent, which leaves the arc by its square: the snap follows it down.
   CharacterDef character;
   character.snap = 0.1;
   Stepper<double> stepper({circle(0, -10, 10)}, character);
@@ -203,7 +205,7 @@ TEST(SlidingRoundACircle, touches_it_all_the_way_and_keeps_its_gap) {
 
 TEST(SlidingRoundACircle, down_a_steep_side_speeds_up_and_lets_go) {
   Stepper<double> stepper({circle(0, 0, 3)});
-  stepper.at(2.6, 3.2).steps(20);
+  stepper.at(2.6, 3.2).steps(30);
   EXPECT_FALSE(stepper.state.grounded);
   EXPECT_GT(stepper.state.velocity.x(), 0);
   EXPECT_LT(stepper.state.velocity.y(), -1);
@@ -213,12 +215,13 @@ TEST(SlidingRoundACircle, down_a_steep_side_speeds_up_and_lets_go) {
 }
 
 TEST(SlidingRoundACircle, a_hit_takes_the_speed_along_the_normal_and_leaves_the_rest) {
-  Stepper<double> stepper({circle(5, 0, 1)});
-  const MoveResult<double>& move = stepper.at(0, 1.2).fly(10, 0);
+  Stepper<double> stepper({circle(0, 0, 3)});
+  const Vec2d way{0, -4};
+  const MoveResult<double>& move = stepper.at(2.7, 3.2).fly(way.x(), way.y());
   ASSERT_EQ(move.contacts.size(), 1U);
   const Vec2d n = move.contacts[0].normal;
-  EXPECT_NEAR((move.velocity - (Vec2d(10, 0) - n * n.dot(Vec2d(10, 0)))).norm(), 0, 1e-12);
-  EXPECT_GT(move.velocity.y(), 0);
+  EXPECT_NEAR(n.x(), (2.7 - foot) / 3, 1e-6);
+  EXPECT_NEAR((move.velocity - (way - n * n.dot(way))).norm(), 0, 1e-12);
 }
 
 TEST(BumpOfACircle, is_walked_over_where_it_is_not_steep) {

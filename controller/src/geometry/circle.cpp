@@ -85,13 +85,13 @@ OverlapTime<Scalar> overlap_time(std::span<const Vec2<Scalar>> mover, const Circ
   return time;
 }
 
-#define PAPERPROOF_INSTANTIATE(Scalar)                                                                             \
-  template NearCircle<Scalar> near_circle(std::span<const Vec2<Scalar>>, const Vec2<Scalar>&,                      \
-                                          const Circle<Scalar>&) noexcept;                                         \
-  template std::optional<Approach<Scalar>> approach(std::span<const Vec2<Scalar>>, const Vec2<Scalar>&,            \
-                                                    const Vec2<Scalar>&, const Circle<Scalar>&, Scalar) noexcept;  \
-  template OverlapTime<Scalar> overlap_time(std::span<const Vec2<Scalar>>, const Circle<Scalar>&,                  \
-                                            const Vec2<Scalar>&, const Vec2<Scalar>&) noexcept;
+#define PAPERPROOF_INSTANTIATE(Scalar)                                                                                 \
+  template NearCircle<Scalar> near_circle(std::span<const Vec2<Scalar>>, const Vec2<Scalar>&,                          \
+                                          const Circle<Scalar>&) noexcept;                                             \
+  template std::optional<Approach<Scalar>> approach(std::span<const Vec2<Scalar>>, const Vec2<Scalar>&,                \
+                                                    const Vec2<Scalar>&, const Circle<Scalar>&, Scalar) noexcept;      \
+  template OverlapTime<Scalar> overlap_time(std::span<const Vec2<Scalar>>, const Circle<Scalar>&, const Vec2<Scalar>&, \
+                                            const Vec2<Scalar>&) noexcept;
 PAPERPROOF_INSTANTIATE(float)
 PAPERPROOF_INSTANTIATE(double)
 #undef PAPERPROOF_INSTANTIATE

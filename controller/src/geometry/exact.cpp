@@ -178,9 +178,17 @@ int height_sign_of_sum(const Vec2d& normal, std::span<const Vec2d> terms, double
   return height.sign();
 }
 
-int along_sign_of_sum(const Vec2d& from, const Vec2d& to, std::span<const Vec2d> terms) noexcept {
-  assert(terms.size() <= most_terms);
-  return exact_cross_sign<most_terms>({from.y(), -from.x()}, {to.y(), -to.x()}, terms);
+int dot_sign_of_sums(std::span<const Vec2d> terms, std::span<const Vec2d> others) noexcept {
+  assert(terms.size() <= most_terms && others.size() <= 2 * most_terms);
+  ExactSum<2 * 2 * most_terms * 2 * most_terms> dot;
+  for (const Eigen::Index i : {0, 1}) {
+    ExactSum<most_terms> sum;
+    for (const Vec2d& term : terms) sum.add(term[i]);
+    ExactSum<2 * most_terms> other;
+    for (const Vec2d& term : others) other.add(term[i]);
+    dot.add_product(sum, other);
+  }
+  return dot.sign();
 }
 
 double length_rounded_up(const Vec2d& v) noexcept {

@@ -58,14 +58,14 @@ inline constexpr std::size_t most_terms = 8;
 /// The least double that is not below the length of a vector.
 [[nodiscard]] double length_rounded_up(const Vec2d& v) noexcept;
 
-/// Sign of (to - from) · (the unrounded sum of the terms).
-[[nodiscard]] int along_sign_of_sum(const Vec2d& from, const Vec2d& to, std::span<const Vec2d> terms) noexcept;
+/// Sign of (the unrounded sum of some terms) · (that of others). @param others at most twice `most_terms`.
+[[nodiscard]] int dot_sign_of_sums(std::span<const Vec2d> terms, std::span<const Vec2d> others) noexcept;
 
 /// Whether the unrounded sum of the terms is a vector of at least this length.
 [[nodiscard]] bool is_sum_as_long_as(std::span<const Vec2d> terms, double length) noexcept;
 
-/// Whether `from` plus the unrounded sum of the terms is at least this far on the right of the line from -> to. A fourth
-/// power is compared: it is exact while magnitudes are zero or at least 2^-230.
+/// Whether `from` plus the unrounded sum of the terms is at least this far on the right of the line from -> to. A
+/// fourth power is compared: it is exact while magnitudes are zero or at least 2^-230.
 [[nodiscard]] bool is_sum_as_far_right(const Vec2d& from, const Vec2d& to, std::span<const Vec2d> terms,
                                        double distance) noexcept;
 

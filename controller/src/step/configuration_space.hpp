@@ -183,7 +183,8 @@ class ConfigurationSpace {
     return ((info_[piece].hidden >> axis) & 1U) != 0;
   }
   /// Separation along one axis at p [m].
-  [[nodiscard, gnu::always_inline]] inline Scalar separation(PieceIndex piece, std::size_t axis, const Vec2<Scalar>& p) const noexcept {
+  [[nodiscard, gnu::always_inline]] inline Scalar separation(PieceIndex piece, std::size_t axis,
+                                                             const Vec2<Scalar>& p) const noexcept {
     const Vec2<Scalar> n = normal(piece, axis);
     return n.x() * p.x() + n.y() * p.y() - offset(piece, axis);
   }
