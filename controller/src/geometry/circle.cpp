@@ -31,8 +31,9 @@ NearCircle<Scalar> near_circle(std::span<const Vec2<Scalar>> outline, const Vec2
                                const Circle<Scalar>& circle) noexcept {
   const Vec2<Scalar> centre = circle.centre - position;
   constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
-  NearCircle<Scalar> inside{-infinity, Vec2<Scalar>::Zero(), 0};  // by the edge that the centre is furthest outside of
-  NearCircle<Scalar> corner{infinity, Vec2<Scalar>::Zero(), outline.size()};  // by the nearest of them
+  NearCircle<Scalar> inside{-infinity, Vec2<Scalar>::Zero()};  // by the edge that the centre is furthest outside of
+  Scalar nearest = infinity;
+  Vec2<Scalar> to_nearest = Vec2<Scalar>::Zero();  // from the nearest corner to the centre
   for (std::size_t k = 0; k < outline.size(); ++k) {
     const Vec2<Scalar> edge = outline[k + 1 < outline.size() ? k + 1 : 0] - outline[k];
     const Vec2<Scalar> arm = centre - outline[k];
@@ -40,14 +41,15 @@ NearCircle<Scalar> near_circle(std::span<const Vec2<Scalar>> outline, const Vec2
     const Vec2<Scalar> out{edge.y() / length, -edge.x() / length};
     const Scalar height = dot(out, arm);
     const Scalar place = dot(edge, arm);
-    if (height >= 0 && place >= 0 && place <= length * length) return {height - circle.radius, -out, k};
-    if (height > inside.separation) inside = {height, -out, k};
+    if (height >= 0 && place >= 0 && place <= length * length) return {height - circle.radius, -out};
+    if (height > inside.separation) inside = {height, -out};
     const Scalar distance = length_of(arm);
-    if (distance < corner.separation) corner = {distance, arm, outline.size()};
+    if (!(distance < nearest)) continue;
+    nearest = distance;
+    to_nearest = arm;
   }
-  if (inside.separation < 0 || corner.separation == 0)
-    return {inside.separation - circle.radius, inside.normal, inside.edge};
-  return {corner.separation - circle.radius, -corner.normal / corner.separation, corner.edge};
+  if (inside.separation < 0 || nearest == 0) return {inside.separation - circle.radius, inside.normal};
+  return {nearest - circle.radius, -to_nearest / nearest};
 }
 
 template <class Scalar>

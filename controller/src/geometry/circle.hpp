@@ -20,7 +20,6 @@ template <class Scalar>
 struct NearCircle {
   Scalar separation;    ///< Below zero: inside [m].
   Vec2<Scalar> normal;  ///< From the circle to the outline.
-  std::size_t edge;     ///< The edge that begins at this point faces the circle; the number of points: a corner does.
 };
 
 /// @param outline 3 points or more, strictly convex, counter-clockwise, relative to `position` [m].

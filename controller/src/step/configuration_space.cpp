@@ -105,13 +105,12 @@ bool ConfigurationSpace<Scalar>::has_own_axes() const noexcept {
 
 template <class Scalar>
 void ConfigurationSpace<Scalar>::build_shared_axes() {
-  const auto add = [this](const Vec2d& normal) -> std::size_t {
+  const auto add = [this](const Vec2d& normal) {
     const Vec2<Scalar> n = normal.cast<Scalar>();
     for (std::size_t k = 0; k < shared_count_; ++k)
-      if (shared_x_[k] == n.x() && shared_y_[k] == n.y()) return k;
+      if (shared_x_[k] == n.x() && shared_y_[k] == n.y()) return;
     shared_x_[shared_count_] = n.x();
-    shared_y_[shared_count_] = n.y();
-    return shared_count_++;
+    shared_y_[shared_count_++] = n.y();
   };
   // Box directions first: they tell most misses (see clear_of_box).
   add({0, 1});
@@ -120,7 +119,7 @@ void ConfigurationSpace<Scalar>::build_shared_axes() {
   add({0, -1});
   for (std::size_t k = 0; k < hull_.size(); ++k) {
     const Vec2d edge = (hull_[(k + 1) % hull_.size()] - hull_[k]).template cast<double>();
-    edge_axes_[k] = static_cast<std::uint8_t>(add(-unit_normal_right_of(edge)));
+    add(-unit_normal_right_of(edge));
   }
   lanes_ = shared_count_ <= 8 ? 8 : max_shared;
   for (std::size_t k = 0; k < max_shared; ++k) {

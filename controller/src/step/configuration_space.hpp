@@ -10,9 +10,9 @@
 /// separating axis theorem read as a distance.) The normals of O's edges are the same for every piece, so their
 /// products with p and with the motion are formed once per motion, and a tile costs a handful of subtractions.
 ///
-/// A circle adds its radius to h. Where one of its corners is nearest, the octagon touches it along any normal in
-/// between: there an axis is no index but a direction (see `axis_along`). The shared axes are tangents of the circle's
-/// obstacle, so what they say of a separation is never too much.
+/// A circle adds its radius to h. The octagon touches it along any normal: there an axis is no index but a direction
+/// (see `axis_along`). The shared axes are tangents of the circle's obstacle, so what they say of a separation is never
+/// too much.
 #pragma once
 
 #include "geometry/circle.hpp"
@@ -146,12 +146,12 @@ class ConfigurationSpace {
   }
   /// A circle has an axis of its own, a tangent like any other: where a piece has none, nothing more is asked.
   [[nodiscard]] bool is_circle(PieceIndex piece) const noexcept { return info_[piece].surface == ObstacleInfo::round; }
-  /// Where the character at p is nearest to a circle. The axis is a shared one where a side of the character is.
+  /// Where the character at p is nearest to a circle.
   [[nodiscard]] geometry::NearCircle<Scalar> near_circle(PieceIndex piece, const Vec2<Scalar>& p) const noexcept {
     return geometry::near_circle<Scalar>(hull(), p, scenery_.circle(piece));
   }
-  [[nodiscard]] std::size_t axis_of(const geometry::NearCircle<Scalar>& near) const noexcept {
-    return near.edge < hull_.size() ? edge_axes_[near.edge] : axis_along(near.normal.template cast<double>());
+  [[nodiscard]] static std::size_t axis_of(const geometry::NearCircle<Scalar>& near) noexcept {
+    return axis_along(near.normal.template cast<double>());
   }
   /// Some piece that blocks has an axis of its own.
   [[nodiscard]] bool has_own_axes() const noexcept;
@@ -312,7 +312,6 @@ class ConfigurationSpace {
   std::array<Pair, max_shared / 2> rightward_{}, leftward_{}, upward_{}, downward_{};
   std::array<Pair, max_shared / 2> shared_low_{};  ///< and the least n·o over the octagon.
   std::array<OctagonFace<Scalar>, max_shared> shared_faces_{};
-  std::array<std::uint8_t, CharacterShape::max_points> edge_axes_{};  ///< Shared axis of each edge of the hull.
   std::array<Interval, max_shared> hull_faces_{};  ///< What of the octagon faces a piece, as `face_of` counts.
   std::vector<Scalar> shared_offsets_;             ///< Of what is no rectangle, but for the box directions.
   std::vector<OwnAxis<Scalar>> own_axes_;
@@ -337,9 +336,9 @@ inline Vec2d direction_of(std::size_t axis) noexcept {
     case 0:
       return {large, small};
     case 1:
-      return {-small, large};
+      return {0 - small, large};
     case 2:
-      return {-large, -small};
+      return {-large, 0 - small};
     default:
       return {small, -large};
   }

@@ -315,14 +315,15 @@ bool StepSolver<Lanes, Scalar, Up>::stands_on(PieceIndex piece) const noexcept {
   V ground = V::Zero();
   if (mover_of(piece) != no_mover) ground = movers_.displacement(mover_of(piece)) / movers_.dt;
   const Scalar leaving = dot(V(velocity_ - ground), *normal);
-  const Scalar speeds = length_of(velocity_) + length_of(ground);
-  if (leaving <= 0 || leaving <= along_plane<Scalar> * speeds) return true;
-  return space_.is_circle(piece) && leaving <= falls_away_from_tangent(piece, speeds);
+  return leaving <= 0 || leaving <= along_plane<Scalar> * (length_of(velocity_) + length_of(ground)) ||
+         (space_.is_circle(piece) && leaving <= falls_away_from_tangent(piece, V(velocity_ - ground)));
 }
 
 /// How fast round ground falls away below a motion that went along a tangent of it at most a step ago [m/s].
+/// @param motion relative to it [m/s].
 template <std::size_t Lanes, class Scalar, class Up>
-Scalar StepSolver<Lanes, Scalar, Up>::falls_away_from_tangent(PieceIndex piece, Scalar speed) const noexcept {
+Scalar StepSolver<Lanes, Scalar, Up>::falls_away_from_tangent(PieceIndex piece, V motion) const noexcept {
+  const Scalar speed = length_of(motion);
   return speed * speed * dt_ / space_.scenery().circle(piece).radius;
 }
 
