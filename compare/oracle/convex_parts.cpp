@@ -248,7 +248,7 @@ Box2<double> box_of_disc(const Vec2d& centre, double radius) {
 }
 
 ConvexPart with_corners(ConvexPart part) {
-  constexpr int corners = 256;
+  constexpr int corners = 64;
   if (part.radius == 0) return part;
   const Vec2d centre = part.points.front();
   const double reach = part.radius / std::cos(std::numbers::pi / corners) * (1 + 1e-12);

@@ -21,7 +21,7 @@ struct ConvexPart {
 /// @throws std::logic_error for a polygon that touches itself.
 [[nodiscard]] std::vector<ConvexPart> convex_parts(const ColliderDef& def);
 
-/// A polygon that encloses a disc, and reaches beyond it by less than 1e-4 of its radius. Others are what they are.
+/// A polygon that encloses a disc, and reaches beyond it by 0.12 % of its radius. Others are what they are.
 [[nodiscard]] ConvexPart with_corners(ConvexPart part);
 
 /// Encloses a disc, rounding included.

@@ -336,10 +336,15 @@ std::optional<Vec2d> ExactScenery::find_free(const Place& at, double reach, doub
                                              std::span<const Vec2d> others,
                                              const std::function<bool(const Vec2d&)>& accept) const {
   std::vector<detail::Obstacle> obstacles;
+  std::vector<Vec2d> also(others.begin(), others.end());
   for (const ColliderIndex collider : near(at, at, reach + 2 * clearance)) {
     if (scenery().colliders[collider].one_way) continue;
     for (const detail::ConvexPart& part : impl_->parts[collider]) {
-      obstacles.push_back({impl_->outline(part), impl_->seen_from(collider, at), &part});
+      const detail::FramePlace place = impl_->seen_from(collider, at);
+      obstacles.push_back({impl_->outline(part), place, &part});
+      if (part.radius == 0) continue;
+      const detail::Axis out = detail::best_axis(part, impl_->world.points(), place);
+      also.push_back(at.position + out.normal * (1.005 * clearance - out.separation));
     }
   }
   const auto is_free = [&](const Vec2d& position) {
@@ -348,7 +353,7 @@ std::optional<Vec2d> ExactScenery::find_free(const Place& at, double reach, doub
     });
   };
   for (const Vec2d& position :
-       detail::free_candidates(obstacles, impl_->world.points(), at.position, reach, clearance, others)) {
+       detail::free_candidates(obstacles, impl_->world.points(), at.position, reach, clearance, also)) {
     if (is_free(position) && accept(position)) return position;
   }
   return std::nullopt;

@@ -116,7 +116,7 @@ TEST(ExactDisc, is_a_near_part_with_the_direction_as_its_one_face) {
 TEST(ExactDisc, is_left_by_the_shortest_way_that_is_open) {
   const std::optional<Vec2d> out = beside({disc({0, 0}, 5)}).way_out({0, 5}, 100);
   ASSERT_TRUE(out);
-  EXPECT_NEAR(out->y(), 6, 1e-3);
+  EXPECT_NEAR(out->y(), 6, 0.0013 * 5);
   EXPECT_GE(out->y(), 6);
   // A ceiling bars that way: it goes out sideways, to where a corner is on the disc.
   const auto aside = beside({disc({0, 0}, 5), box(-20, 6.5, 20, 7)}).way_out({0.5, 5.375}, 100);
@@ -128,7 +128,7 @@ TEST(ExactDisc, is_left_by_the_shortest_way_that_is_open) {
 TEST(ExactDisc, leaves_a_free_place_beside_it) {
   const auto place = beside({disc({0, 0}, 5)}).find_free({0, 5.5}, 2, 1e-7, {}, [](const Vec2d&) { return true; });
   ASSERT_TRUE(place);
-  EXPECT_NEAR(place->y(), 6, 1e-3);
+  EXPECT_NEAR(place->y(), 6, 1e-6);
   EXPECT_FALSE(beside({disc({0, 0}, 5)}).find_free({0, 5.5}, 0.25, 1e-7, {}, [](const Vec2d&) { return true; }));
 }
 
