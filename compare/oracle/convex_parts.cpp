@@ -2,6 +2,8 @@
 
 #include "oracle/world.hpp"
 
+#include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <unordered_map>
 #include <utility>
@@ -240,8 +242,28 @@ ConvexPart make_part(std::vector<Vec2d> points) {
 
 }  // namespace
 
+Box2<double> box_of_disc(const Vec2d& centre, double radius) {
+  const Box2<double> box{centre, centre};
+  return box.inflated(radius + (centre.cwiseAbs().maxCoeff() + radius) * 0x1p-52);
+}
+
+ConvexPart with_corners(ConvexPart part) {
+  constexpr int corners = 64;
+  if (part.radius == 0) return part;
+  const Vec2d centre = part.points.front();
+  const double reach = part.radius / std::cos(std::numbers::pi / corners) * (1 + 1e-12);
+  part.points.clear();
+  for (int k = 0; k < corners; ++k) {
+    const double angle = 2 * std::numbers::pi * k / corners;
+    part.points.emplace_back(centre + reach * Vec2d(std::cos(angle), std::sin(angle)));
+  }
+  return make_part(std::move(part.points));
+}
+
 std::vector<ConvexPart> convex_parts(const ColliderDef& def) {
   std::vector<ConvexPart> parts;
+  if (def.shape == ColliderDef::Shape::circle)
+    return {{def.points, box_of_disc(def.points.front(), def.radius), def.radius}};
   const auto add_segments = [&parts](const std::vector<Vec2d>& line) {
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
       if (line[i] != line[i + 1]) parts.push_back(make_part({line[i], line[i + 1]}));

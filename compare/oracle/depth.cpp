@@ -122,14 +122,59 @@ Axis best_of(const Estimates& estimates, const ConvexPart& part, std::span<const
   return result;
 }
 
+using Long = Eigen::Matrix<long double, 2, 1>;
+
+/// Exact, but for one rounding.
+Long centre_seen_from(const FramePlace& place, const ConvexPart& disc) {
+  const Convert<Integer> number{std::min(place.unit(), lowest_bit(disc.points.front()))};
+  const Point<Integer> seen = convert(number, disc.points.front()) - place.in(number);
+  const auto rounded = [&](const Integer& x) { return std::ldexp(static_cast<long double>(x), number.unit); };
+  return {rounded(seen.x), rounded(seen.y)};
+}
+
+/// The octagon is nearest to the centre at a point of an edge; from inside the way out leads through the nearest line.
+Axis axis_of_disc(const ConvexPart& disc, std::span<const Vec2d> octagon, const FramePlace& place) {
+  const Long centre = centre_seen_from(place, disc);
+  long double nearest = std::numeric_limits<long double>::infinity();
+  long double shallowest = -nearest;  // of the lines, from inside
+  Long away = Long::Zero();
+  Long out = Long::Zero();
+  for (std::size_t k = 0; k < octagon.size(); ++k) {
+    const Long corner = octagon[k].cast<long double>();
+    const Long edge = octagon[(k + 1) % octagon.size()].cast<long double>() - corner;
+    const Long arm = centre - corner;
+    const Long normal = Long(edge.y(), -edge.x()) / edge.norm();
+    const long double height = normal.dot(arm);
+    if (height > shallowest) {
+      shallowest = height;
+      out = -normal;
+    }
+    const long double share = edge.dot(arm) / edge.squaredNorm();
+    const bool beside = share > 0 && share < 1 && height > 0;
+    const Long gap = share <= 0 ? arm : Long(arm - edge);
+    const long double distance = beside ? height : gap.norm();
+    if (!(distance < nearest)) continue;
+    nearest = distance;
+    away = beside ? Long(-normal) : distance > 0 ? Long(-gap / distance) : Long(-normal);
+  }
+  const long double radius = disc.radius;
+  if (shallowest < 0) return {static_cast<double>(shallowest - radius), out.cast<double>()};
+  return {static_cast<double>(nearest - radius), away.cast<double>()};
+}
+
 }  // namespace
 
 Axis best_axis(const ConvexPart& part, std::span<const Vec2d> octagon, const FramePlace& place) {
+  if (part.radius > 0) return axis_of_disc(part, octagon, place);
   return best_of(estimate(part, octagon, place), part, octagon, place);
 }
 
 std::vector<Axis> separating_axes(const ConvexPart& part, std::span<const Vec2d> octagon, const FramePlace& place,
                                   double within) {
+  if (part.radius > 0) {
+    const Axis axis = axis_of_disc(part, octagon, place);
+    return axis.separation > within ? std::vector<Axis>{} : std::vector<Axis>{axis};
+  }
   const Estimates estimates = estimate(part, octagon, place);
   if (estimates.best > within + estimates.window) return {};
   std::vector<Axis> apart;
@@ -139,7 +184,8 @@ std::vector<Axis> separating_axes(const ConvexPart& part, std::span<const Vec2d>
     if (separation >= 0) apart.push_back({separation, normal_of(estimates.axes[i])});
   }
   if (apart.empty()) apart.push_back(best_of(estimates, part, octagon, place));
-  std::stable_sort(apart.begin(), apart.end(), [](const Axis& a, const Axis& b) { return a.separation > b.separation; });
+  std::stable_sort(apart.begin(), apart.end(),
+                   [](const Axis& a, const Axis& b) { return a.separation > b.separation; });
   if (apart.front().separation > within) return {};
   return apart;
 }

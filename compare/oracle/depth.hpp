@@ -15,12 +15,13 @@ struct Axis {
   Vec2d normal{Vec2d::Zero()};  ///< Unit, from the part towards the octagon, rounded.
 };
 
-/// The axis, of all edge normals of the two, along which they are separated best. Rounded once from the exact value.
+/// The axis, of all edge normals of the two, along which they are separated best. Rounded once from the exact value. Of
+/// a disc, the direction in which the octagon is nearest; long doubles know it to 1e-18 of the radius.
 /// @param place in the frame of the part.
 [[nodiscard]] Axis best_axis(const ConvexPart& part, std::span<const Vec2d> octagon, const FramePlace& place);
 
-/// All axes along which the two are apart, the best first; where they overlap, the best one alone. Empty where they are
-/// farther apart than `within` along the best one.
+/// All axes along which the two are apart, the best first; where they overlap, and of a disc, the best one alone. Empty
+/// where they are farther apart than `within` along the best one.
 [[nodiscard]] std::vector<Axis> separating_axes(const ConvexPart& part, std::span<const Vec2d> octagon,
                                                 const FramePlace& place, double within);
 
@@ -36,7 +37,7 @@ struct AxisEdge {
 /// @param unit no larger than `common_unit` of the same.
 [[nodiscard]] std::vector<Integer> scaled_separations(const ConvexPart& part, std::span<const Vec2d> octagon,
                                                       const FramePlace& place, int unit);
-/// The lowest bit of the place, the part and the octagon.
+/// The lowest bit of the place, the part (a disc's radius is no part of that) and the octagon.
 [[nodiscard]] int common_unit(const ConvexPart& part, std::span<const Vec2d> octagon, const FramePlace& place);
 
 }  // namespace paperproof::compare::detail

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 namespace paperproof::compare {
@@ -18,7 +19,11 @@ using detail::Way;
 
 struct ExactScenery::Impl {
   Impl(const SceneryDef& scenery, std::vector<Vec2d> points) : world(scenery, std::move(points)) {
-    for (const ColliderDef& def : scenery.colliders) parts.push_back(detail::convex_parts(def));
+    for (const ColliderDef& def : scenery.colliders) {
+      parts.push_back(detail::convex_parts(def));
+      for (const detail::ConvexPart& part : parts.back())
+        if (part.radius > 0) outlines.emplace(&part, detail::with_corners(part));
+    }
     share_of_distance = smallest_share(world.points());
   }
 
@@ -59,6 +64,32 @@ struct ExactScenery::Impl {
     return nearest;
   }
 
+  /// What a way out or a free place is looked for with: of a disc a polygon around it.
+  [[nodiscard]] const detail::ConvexPart* outline(const detail::ConvexPart& part) const {
+    return part.radius > 0 ? &outlines.at(&part) : &part;
+  }
+
+  /// The first touch with a disc that is met on the way, and not overlapped where it begins: as late as doubles know
+  /// that it is not met before.
+  [[nodiscard]] ExactImpact impact_with_disc(const detail::WayIn& way_in, ColliderIndex disc) const {
+    const detail::Group& group = world.group_of(disc);
+    const Way way = way_in(group);
+    const Passage passage(world, group, way);
+    const double touch = detail::last_before([&](double until) { return passage.meets_disc(disc, until); });
+    detail::FramePlace there = way.from;
+    there.position += touch * way.rounded_displacement();
+    const Vec2d normal = detail::best_axis(parts[disc].front(), world.points(), there).normal;
+    const ColliderDef& def = scenery_of(disc);
+    return {.collider = disc,
+            .fraction = Rational(touch),
+            .normal = normal,
+            .point = def.points.front() + def.radius * normal + way.offset_after(touch),
+            .exposed = true};
+  }
+  [[nodiscard]] const ColliderDef& scenery_of(ColliderIndex collider) const {
+    return world.scenery().colliders[collider];
+  }
+
   /// The octagon overlaps `collider` where it starts.
   [[nodiscard]] ExactImpact at_once(const Place& from, ColliderIndex collider) const {
     const detail::Axis out = nearest(seen_from(collider, from), collider);
@@ -67,6 +98,10 @@ struct ExactScenery::Impl {
 
   [[nodiscard]] std::optional<ExactImpact> find_impact(const detail::WayIn& way_in, ColliderIndex collider) const {
     const detail::Group& group = world.group_of(collider);
+    if (world.solids()[collider].kind == detail::Kind::disc) {
+      if (!Passage(world, group, way_in(group)).meets(collider)) return std::nullopt;
+      return impact_with_disc(way_in, collider);
+    }
     const std::vector<std::uint32_t> edges = Passage(world, group, way_in(group)).entered_edges(collider);
     if (edges.empty()) return std::nullopt;
     return detail::find_impact(world, way_in, collider, edges);
@@ -93,6 +128,8 @@ struct ExactScenery::Impl {
   /// The impacts of one way with the colliders of one group.
   void add_impacts(const Passage& passage, const detail::WayIn& way_in, const std::vector<ColliderIndex>& at_start,
                    std::vector<ExactImpact>& all) const {
+    for (const ColliderIndex disc : passage.met_discs())
+      if (!std::binary_search(at_start.begin(), at_start.end(), disc)) all.push_back(impact_with_disc(way_in, disc));
     const std::vector<std::uint32_t> edges = passage.entered_edges();
     std::vector<ColliderIndex> colliders;
     for (const std::uint32_t edge : edges) colliders.push_back(world.edges()[edge].collider);
@@ -119,7 +156,7 @@ struct ExactScenery::Impl {
     const Box2<double>& octagon = world.points_box();
     const Box2<double> around{seen + octagon.lower, seen + octagon.upper};
     if (!obstacle.part->box.overlaps(around.inflated(surely_clear))) return true;
-    return detail::best_axis(*obstacle.part, world.points(), place).separation >= clearance;
+    return detail::best_axis(*obstacle.exact, world.points(), place).separation >= clearance;
   }
 
   /// Everything that may bar a way from `at` that is no longer than `reach`.
@@ -133,7 +170,7 @@ struct ExactScenery::Impl {
       const bool may_pass = std::find(inside.begin(), inside.end(), collider) != inside.end();
       for (const detail::ConvexPart& part : parts[collider]) {
         if (!part.box.overlaps(within) || (one_way && !starts_above(part, place, collider))) continue;
-        all.push_back({{&part, place},
+        all.push_back({{outline(part), place, &part},
                        one_way    ? detail::Bars::ways
                        : may_pass ? detail::Bars::ends
                                   : detail::Bars::ways_and_ends});
@@ -173,6 +210,7 @@ struct ExactScenery::Impl {
 
   detail::World world;
   std::vector<std::vector<detail::ConvexPart>> parts;
+  std::map<const detail::ConvexPart*, detail::ConvexPart> outlines;  ///< Of discs.
   double share_of_distance = 0;
 };
 
@@ -298,10 +336,15 @@ std::optional<Vec2d> ExactScenery::find_free(const Place& at, double reach, doub
                                              std::span<const Vec2d> others,
                                              const std::function<bool(const Vec2d&)>& accept) const {
   std::vector<detail::Obstacle> obstacles;
+  std::vector<Vec2d> also(others.begin(), others.end());
   for (const ColliderIndex collider : near(at, at, reach + 2 * clearance)) {
     if (scenery().colliders[collider].one_way) continue;
     for (const detail::ConvexPart& part : impl_->parts[collider]) {
-      obstacles.push_back({&part, impl_->seen_from(collider, at)});
+      const detail::FramePlace place = impl_->seen_from(collider, at);
+      obstacles.push_back({impl_->outline(part), place, &part});
+      if (part.radius == 0) continue;
+      const detail::Axis out = detail::best_axis(part, impl_->world.points(), place);
+      also.push_back(at.position + out.normal * (1.005 * clearance - out.separation));
     }
   }
   const auto is_free = [&](const Vec2d& position) {
@@ -310,7 +353,7 @@ std::optional<Vec2d> ExactScenery::find_free(const Place& at, double reach, doub
     });
   };
   for (const Vec2d& position :
-       detail::free_candidates(obstacles, impl_->world.points(), at.position, reach, clearance, others)) {
+       detail::free_candidates(obstacles, impl_->world.points(), at.position, reach, clearance, also)) {
     if (is_free(position) && accept(position)) return position;
   }
   return std::nullopt;

@@ -1,6 +1,6 @@
 #include "oracle/first_meeting.hpp"
 
-#include "oracle/number.hpp"
+#include "oracle/predicates.hpp"
 
 #include <optional>
 
@@ -55,6 +55,7 @@ struct View {
   std::vector<Point<Number>> corners;
   std::vector<Point<Number>> from;
   std::vector<Point<Number>> to;
+  Number radius{};  ///< Of a disc.
 };
 
 template <class Number>
@@ -62,8 +63,14 @@ Point<Number> scaled(const Number& by, const Point<Number>& v) {
   return {by * v.x, by * v.y};
 }
 
+/// What the octagon may meet: see `first_meeting`.
+struct Part {
+  std::span<const std::size_t> vertices;
+  double radius;
+};
+
 template <class Number>
-View<Number> view_of(const Stretch& stretch, std::span<const Vec2d> octagon, std::span<const std::size_t> part,
+View<Number> view_of(const Stretch& stretch, std::span<const Vec2d> octagon, const Part& part,
                      const Convert<Number>& place, const Convert<Number>& time) {
   const auto length = [&](double from, double to) { return from == to ? time(1) : time(to) - time(from); };
   const Number leg = length(stretch.leg_from->fraction, stretch.leg_to->fraction);
@@ -83,7 +90,8 @@ View<Number> view_of(const Stretch& stretch, std::span<const Vec2d> octagon, std
   for (const Vec2d& corner : octagon) view.corners.push_back(scaled(leg, scaled(chord, convert(place, corner))));
   const Point<Number> at_begin = position(false);
   const Point<Number> at_end = position(true);
-  for (const std::size_t i : part) {
+  view.radius = leg * chord * place(part.radius);
+  for (const std::size_t i : part.vertices) {
     const auto vertex = [&](double when) {
       return scaled(leg,
                     between((*stretch.vertices_from)[i], (*stretch.vertices_to)[i], stretch.instant_from, when, chord));
@@ -140,11 +148,15 @@ struct Span {
   std::vector<Point<Number>> corners;
   std::vector<Point<Number>> from;
   std::vector<Point<Number>> to;
+  Number radius;
+  bool is_disc;
 
   /// From first / 2^halvings of a stretch on, `length` of these parts long; all times 2^halvings.
-  Span(const View<Number>& view, std::int64_t first, std::int64_t length, int halvings) {
+  Span(const View<Number>& view, bool of_disc, std::int64_t first, std::int64_t length, int halvings)
+      : is_disc(of_disc) {
     const Convert<Number> whole{0};
     const std::int64_t all = std::int64_t{1} << halvings;
+    radius = whole(static_cast<double>(all)) * view.radius;
     const auto at = [&](std::size_t i, std::int64_t when) {
       return scaled(whole(static_cast<double>(all - when)), view.from[i]) +
              scaled(whole(static_cast<double>(when)), view.to[i]);
@@ -192,6 +204,7 @@ struct Span {
   /// Whether one line does. @param any_edge tries lines through any two vertices, too: rounded vertices of an edge
   ///   that is cut by others may leave the hull between two that are no neighbours.
   [[nodiscard]] Answer separated(bool any_edge) const {
+    if (is_disc) return disc_is_apart();
     Answer found = Answer::no;
     for (std::size_t a = 0; a < from.size() && found != Answer::yes; ++a)
       found = either(found, separated_by_edge(a, (a + 1) % from.size()));
@@ -202,12 +215,21 @@ struct Span {
         if (a != b && b != (a + 1) % from.size()) found = either(found, separated_by_edge(a, b));
     return found;
   }
+
+  /// The disc stands, and the octagon goes.
+  [[nodiscard]] Answer disc_is_apart() const {
+    Octagon<Number> octagon;
+    for (const Point<Number>& corner : corners) octagon.corners[octagon.size++] = corner;
+    Hull<Number> hull;
+    if (!sweep_hull(octagon, from[0] - to[0], hull)) return Answer::unknown;
+    return is_not(disc_enters(hull, from[0], radius));
+  }
 };
 
 /// The questions about one stretch.
 class StretchSearch {
  public:
-  StretchSearch(const Stretch& stretch, std::span<const Vec2d> octagon, std::span<const std::size_t> part)
+  StretchSearch(const Stretch& stretch, std::span<const Vec2d> octagon, const Part& part)
       : stretch_(stretch),
         octagon_(octagon),
         part_(part),
@@ -219,9 +241,11 @@ class StretchSearch {
       return separated(0, 0, 0, true) ? Meeting{} : Meeting{Meeting::Kind::meets, stretch_.begin, stretch_.end};
     std::optional<Meeting> found;
     std::optional<double> unsure;
-    std::vector<Part> open{{0, 0}};
+    if (part_.radius > 0 && asked == Asked::whether)
+      return separated(0, 1, 0, true) ? Meeting{} : Meeting{Meeting::Kind::meets, stretch_.begin, stretch_.end};
+    std::vector<Halves> open{{0, 0}};
     for (int spans = 0; !open.empty(); ++spans) {
-      const Part part = open.back();
+      const Halves part = open.back();
       open.pop_back();
       if (separated(part.first, 1, part.halvings, part.halvings >= halvings_of_neighbours)) continue;
       if (part.halvings == most_halvings || spans == most_spans) {
@@ -230,8 +254,8 @@ class StretchSearch {
         if (spans == most_spans) break;
         continue;
       }
-      const Part early{2 * part.first, part.halvings + 1};
-      const Part late{early.first + 1, early.halvings};
+      const Halves early{2 * part.first, part.halvings + 1};
+      const Halves late{early.first + 1, early.halvings};
       if (separated(late.first, 0, late.halvings, true)) {
         open.push_back(late);
         open.push_back(early);
@@ -247,7 +271,7 @@ class StretchSearch {
   }
 
  private:
-  struct Part {
+  struct Halves {
     std::int64_t first;
     int halvings;
   };
@@ -263,26 +287,27 @@ class StretchSearch {
     Box2<double> hull{octagon_[0], octagon_[0]};
     for (const Vec2d& corner : octagon_) hull = hull.merged({corner, corner});
     const Box2<double> octagon{way.lower + hull.lower, way.upper + hull.upper};
-    const Vec2d& any = (*stretch_.vertices_from)[part_[0]];
+    const Vec2d& any = (*stretch_.vertices_from)[part_.vertices[0]];
     Box2<double> part{any, any};
-    for (const std::size_t i : part_)
+    for (const std::size_t i : part_.vertices)
       for (const auto* vertices : {stretch_.vertices_from, stretch_.vertices_to})
         part = part.merged({(*vertices)[i], (*vertices)[i]});
     const double size = std::max(octagon.lower.cwiseAbs().maxCoeff(), octagon.upper.cwiseAbs().maxCoeff());
-    return !part.overlaps(octagon.inflated(size * 0x1p-50 + std::numeric_limits<double>::min()));
+    return !part.overlaps(octagon.inflated(part_.radius + size * 0x1p-50 + std::numeric_limits<double>::min()));
   }
 
   [[nodiscard]] bool separated(std::int64_t first, std::int64_t length, int halvings, bool any_edge) const {
-    const Answer quick = Span<Approximate>(quick_, first, length, halvings).separated(any_edge);
+    const Answer quick = Span<Approximate>(quick_, part_.radius > 0, first, length, halvings).separated(any_edge);
     if (quick != Answer::unknown) return quick == Answer::yes;
     if (!exact_) exact_ = exactly();
-    return Span<Integer>(*exact_, first, length, halvings).separated(true) == Answer::yes;
+    return Span<Integer>(*exact_, part_.radius > 0, first, length, halvings).separated(true) == Answer::yes;
   }
 
   [[nodiscard]] View<Integer> exactly() const {
-    int place = std::min(lowest_bit(stretch_.leg_from->position), lowest_bit(stretch_.leg_to->position));
+    int place = std::min(
+        {lowest_bit(stretch_.leg_from->position), lowest_bit(stretch_.leg_to->position), lowest_bit(part_.radius)});
     for (const Vec2d& corner : octagon_) place = std::min(place, lowest_bit(corner));
-    for (const std::size_t i : part_)
+    for (const std::size_t i : part_.vertices)
       place = std::min({place, lowest_bit((*stretch_.vertices_from)[i]), lowest_bit((*stretch_.vertices_to)[i])});
     int time = 0;  // the bit of 1
     for (const double t : {stretch_.leg_from->fraction, stretch_.leg_to->fraction, stretch_.instant_from,
@@ -293,7 +318,7 @@ class StretchSearch {
 
   const Stretch& stretch_;
   std::span<const Vec2d> octagon_;
-  std::span<const std::size_t> part_;
+  const Part& part_;
   View<Approximate> quick_;
   mutable std::optional<View<Integer>> exact_;
 };
@@ -301,10 +326,11 @@ class StretchSearch {
 }  // namespace
 
 Meeting first_meeting(std::span<const Vec2d> octagon, std::span<const PathPoint<double>> path, const VertexWay& way,
-                      std::span<const std::size_t> part, Asked asked) {
+                      std::span<const std::size_t> part, Asked asked, double radius) {
+  const Part whole{part, radius};
   Meeting first;
   for_stretches(path, way, [&](const Stretch& stretch) {
-    const Meeting found = StretchSearch(stretch, octagon, part).find(asked);
+    const Meeting found = StretchSearch(stretch, octagon, whole).find(asked);
     if (found.kind == Meeting::Kind::apart) return false;
     const double low = first.kind == Meeting::Kind::apart ? found.low : first.low;
     first = {found.kind, low, found.high};

@@ -35,9 +35,10 @@ enum class Asked : std::uint8_t { whether, when };
 /// @param octagon convex, counter-clockwise, without repeated points; relative to the position.
 /// @param path of the position, ascending in fractions of the step; a single corner asks about that moment.
 /// @param way its instants hold those of the path. @param part the numbers of its vertices in `way`, counter-clockwise
-///   or the two ends of a segment.
+///   or the two ends of a segment, or the centre of a disc.
+/// @param radius of a disc, else 0. It is judged for all of a straight stretch at once.
 [[nodiscard]] Meeting first_meeting(std::span<const Vec2d> octagon, std::span<const PathPoint<double>> path,
                                     const VertexWay& way, std::span<const std::size_t> part,
-                                    Asked asked = Asked::whether);
+                                    Asked asked = Asked::whether, double radius = 0);
 
 }  // namespace paperproof::compare::detail

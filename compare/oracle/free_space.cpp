@@ -20,10 +20,15 @@ struct Line {
   double distance = 0;  ///< Of the line from where the octagon is, along the normal [m].
 };
 
+struct OwnLines {
+  std::vector<Line> lines;
+  bool enclose_disc = false;  ///< What is inside of them may be free.
+};
+
 /// The lines of all obstacles, those of one obstacle in a row.
 struct Lines {
   int unit = finest_unit;
-  std::vector<std::vector<Line>> of_obstacle;
+  std::vector<OwnLines> of_obstacle;
 };
 
 Lines lines_of(std::span<const Obstacle> obstacles, std::span<const Vec2d> octagon, double clearance) {
@@ -35,7 +40,8 @@ Lines lines_of(std::span<const Obstacle> obstacles, std::span<const Vec2d> octag
   for (const Obstacle& obstacle : obstacles) {
     const std::vector<AxisEdge> axes = axis_edges(*obstacle.part, octagon);
     const std::vector<Integer> separations = scaled_separations(*obstacle.part, octagon, obstacle.place, lines.unit);
-    std::vector<Line>& own = lines.of_obstacle.emplace_back();
+    OwnLines& own = lines.of_obstacle.emplace_back();
+    own.enclose_disc = obstacle.exact != obstacle.part;
     for (std::size_t i = 0; i < axes.size(); ++i) {
       const Vec2d edge = axes[i].end - axes[i].start;
       const double length = edge.norm();
@@ -44,7 +50,7 @@ Lines lines_of(std::span<const Obstacle> obstacles, std::span<const Vec2d> octag
       line.bound = Integer(std::ldexp(clearance * margin * length, -2 * lines.unit)) - separations[i];
       line.normal = Vec2d(-edge.y(), edge.x()) / length;
       line.distance = std::ldexp(ratio(line.bound, Integer(1)), 2 * lines.unit) / length;
-      own.push_back(std::move(line));
+      own.lines.push_back(std::move(line));
     }
   }
   return lines;
@@ -60,9 +66,10 @@ std::optional<Vec2d> crossing(const Line& a, const Line& b, int unit) {
 }
 
 bool may_be_free(const Lines& lines, const Vec2d& way, double rounding) {
-  return std::all_of(lines.of_obstacle.begin(), lines.of_obstacle.end(), [&](const std::vector<Line>& own) {
-    return std::any_of(own.begin(), own.end(),
-                       [&](const Line& line) { return line.normal.dot(way) - line.distance >= -rounding; });
+  return std::all_of(lines.of_obstacle.begin(), lines.of_obstacle.end(), [&](const OwnLines& own) {
+    return own.enclose_disc || std::any_of(own.lines.begin(), own.lines.end(), [&](const Line& line) {
+             return line.normal.dot(way) - line.distance >= -rounding;
+           });
   });
 }
 
@@ -75,8 +82,8 @@ std::vector<Vec2d> free_candidates(std::span<const Obstacle> obstacles, std::spa
   std::vector<Vec2d> ways{Vec2d::Zero()};
   for (const Vec2d& other : others) ways.push_back(other - at);
   std::vector<const Line*> near;
-  for (const std::vector<Line>& own : lines.of_obstacle) {
-    for (const Line& line : own) {
+  for (const OwnLines& own : lines.of_obstacle) {
+    for (const Line& line : own.lines) {
       if (!(std::abs(line.distance) <= reach)) continue;
       near.push_back(&line);
       ways.push_back(line.normal * line.distance);

@@ -11,7 +11,8 @@ namespace paperproof::compare::detail {
 
 struct Obstacle {
   const ConvexPart* part = nullptr;
-  FramePlace place;  ///< Of the octagon, in the frame of the part.
+  FramePlace place;                   ///< Of the octagon, in the frame of the part.
+  const ConvexPart* exact = nullptr;  ///< The disc that the part is drawn around; else the part itself.
 };
 
 /// The positions in which the nearest free place must be looked for, nearest first: `at`, `others`, the feet of

@@ -31,6 +31,7 @@ void add_crossings(const std::vector<Vec2d>& ring, const Vec2d& point, const Vec
 /// Of the solid, from where it was entered against the normal to where that line leaves it.
 double thickness_at(const ColliderDef& def, const Vec2d& point, const Vec2d& normal) {
   if (def.shape == ColliderDef::Shape::chain || def.one_way) return 0;
+  if (def.shape == ColliderDef::Shape::circle) return 2 * def.radius;
   std::vector<double> crossings;
   const Vec2d way = -normal;
   add_crossings(def.points, point, way, crossings);

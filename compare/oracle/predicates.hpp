@@ -59,6 +59,26 @@ template <class Number>
   return true;
 }
 
+/// Whether the open disc around a point meets the hull: the point is inside, or nearer to an edge than the radius.
+template <class Number>
+[[nodiscard]] Answer disc_enters(const Hull<Number>& hull, const Point<Number>& centre, const Number& radius) {
+  const auto is_below = [](const Number& a, const Number& b) { return is(sign_of(a - b), Sign::negative); };
+  const Number square = radius * radius;
+  Answer inside = Answer::yes;
+  Answer near = Answer::no;
+  for (std::size_t k = 0; k < hull.size && near != Answer::yes; ++k) {
+    const Point<Number> arm = centre - hull.corners[k];
+    const Number aside = cross(hull.edges[k], arm);
+    inside = both(inside, is(sign_of(aside), Sign::positive));
+    near = either(near, is_below(dot(arm, arm), square));
+    const Number along = dot(hull.edges[k], arm);
+    const Number length = dot(hull.edges[k], hull.edges[k]);
+    const Answer beside = both(is(sign_of(along), Sign::positive), is_below(along, length));
+    near = either(near, both(beside, is_below(aside * aside, square * length)));
+  }
+  return either(inside, near);
+}
+
 /// Plain doubles with a static bound decide most of the edges that are near but not met: both ends certainly outside
 /// one edge of the hull. Every entry carries one rounding (the edge) or two (the corner), so 16 half ulp of the
 /// products' magnitudes is more than everything that can go wrong.

@@ -3,6 +3,7 @@
 #include "oracle/depth.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace paperproof::compare::detail {
 namespace {
@@ -18,6 +19,7 @@ struct Stay {
 /// The stay in one part along one leg, if any.
 std::optional<Stay> stay_in(const ConvexPart& part, std::span<const Vec2d> octagon, const FramePlace& from,
                             const FramePlace& to) {
+  assert(part.radius == 0);
   using boost::multiprecision::cpp_int;
   const int unit = std::min(common_unit(part, octagon, from), common_unit(part, octagon, to));
   const std::vector<Integer> at_from = scaled_separations(part, octagon, from, unit);
@@ -39,6 +41,22 @@ std::optional<Stay> stay_in(const ConvexPart& part, std::span<const Vec2d> octag
       stay.has_last = false;
     }
   }
+  if (stay.first >= stay.last) return std::nullopt;
+  return stay;
+}
+
+/// The same for a disc.
+std::optional<Stay> stay_in_disc(const World& world, ColliderIndex disc, const FramePlace& from, const FramePlace& to) {
+  const Group& group = world.group_of(disc);
+  if (!Passage(world, group, Way::to(from, to)).meets(disc)) return std::nullopt;
+  const auto first_of = [&](const FramePlace& a, const FramePlace& b) {
+    const Passage passage(world, group, Way::to(a, b));
+    return last_before([&](double until) { return passage.meets_disc(disc, until); });
+  };
+  Stay stay{.first = 0, .last = 1, .has_first = Passage(world, group, Way::stay(from)).meets(disc)};
+  stay.has_last = Passage(world, group, Way::stay(to)).meets(disc);
+  if (!stay.has_first) stay.first = Rational(first_of(from, to));
+  if (!stay.has_last) stay.last = 1 - Rational(first_of(to, from));
   if (stay.first >= stay.last) return std::nullopt;
   return stay;
 }
@@ -82,7 +100,8 @@ void add_sensor_events(const World& world, ColliderIndex sensor, std::span<const
     const Box2<double> box = world.box_of(Way::to(places[leg], places[leg + 1]));
     for (const ConvexPart& part : parts) {
       if (!part.box.overlaps(box)) continue;
-      std::optional<Stay> stay = stay_in(part, world.points(), places[leg], places[leg + 1]);
+      std::optional<Stay> stay = part.radius > 0 ? stay_in_disc(world, sensor, places[leg], places[leg + 1])
+                                                 : stay_in(part, world.points(), places[leg], places[leg + 1]);
       if (!stay) continue;
       stay->first += leg;
       stay->last += leg;

@@ -67,7 +67,7 @@ TurningJudge::TurningJudge(const TraceHeader& header)
   octagon_ = normalised(std::move(octagon_));
   for (ColliderIndex i = 0; i < header.scenery.colliders.size(); ++i) {
     const ColliderDef& def = header.scenery.colliders[i];
-    if (turns_with(header, i) && !def.sensor) solids_.push_back({i, numbered_parts(def)});
+    if (turns_with(header, i) && !def.sensor) solids_.push_back({i, numbered_parts(def), def.radius});
   }
 }
 
@@ -92,7 +92,7 @@ Meeting TurningJudge::meeting(const Solid& solid, const VertexWay& way, std::spa
                               Asked asked) const {
   Meeting first;
   for (const std::vector<std::size_t>& part : solid.parts) {
-    const Meeting found = first_meeting(octagon_, path, way, part, asked);
+    const Meeting found = first_meeting(octagon_, path, way, part, asked, solid.radius);
     const bool better = found.kind == first.kind ? found.low < first.low : found.kind == Meeting::Kind::meets;
     if (found.kind != Meeting::Kind::apart && (first.kind == Meeting::Kind::apart || better)) first = found;
     if (first.kind == Meeting::Kind::meets && asked == Asked::whether) break;
@@ -110,6 +110,7 @@ Axis TurningJudge::nearest_axis(const Solid& solid, const VertexWay& way, const 
   for (const std::vector<std::size_t>& numbers : solid.parts) {
     ConvexPart part;
     for (const std::size_t i : numbers) part.points.push_back(vertices[i]);
+    part.radius = solid.radius;
     const Axis axis = best_axis(part, octagon_, FramePlace{at.position});
     if (axis.separation < nearest.separation) nearest = axis;
   }
@@ -141,7 +142,7 @@ bool TurningJudge::left_free(const TraceStep& step, std::span<const PathPoint<do
     const VertexWay& its = way_of(step, solid.collider);
     const auto is_apart = [&](std::span<const Vec2d> body, std::span<const PathPoint<double>> path) {
       return std::all_of(solid.parts.begin(), solid.parts.end(), [&](const std::vector<std::size_t>& part) {
-        return first_meeting(body, path, its, part).kind == Meeting::Kind::apart;
+        return first_meeting(body, path, its, part, Asked::whether, solid.radius).kind == Meeting::Kind::apart;
       });
     };
     if (!is_apart(octagon_, way.first(1))) return true;
@@ -248,7 +249,7 @@ void TurningJudge::judge_passage(const Solid& solid, const TraceStep& step, Step
   judgement.passings.push_back(
       {.collider = solid.collider,
        .speed = (step.path.back().position - step.path.front().position).norm() / length_of(step, header_),
-       .thickness = narrowest_width(ring),
+       .thickness = solid.radius > 0 ? 2 * solid.radius : narrowest_width(ring),
        .angle = 90});
 }
 

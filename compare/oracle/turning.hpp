@@ -61,6 +61,7 @@ class TurningJudge {
   struct Solid {
     ColliderIndex collider = 0;
     std::vector<std::vector<std::size_t>> parts;  ///< By the numbers of their vertices.
+    double radius = 0;                            ///< Of a disc.
   };
 
   /// The first touch of all parts on a way.

@@ -1,5 +1,7 @@
 #include "oracle/world.hpp"
 
+#include "oracle/convex_parts.hpp"
+
 #include <algorithm>
 #include <stdexcept>
 
@@ -88,7 +90,9 @@ World::World(const SceneryDef& scenery, std::vector<Vec2d> points)
                        .edge_count = 0,
                        .unit = std::numeric_limits<int>::max(),
                        .box = box_around(def.points)});
-    if (def.one_way)
+    if (def.shape == ColliderDef::Shape::circle)
+      add_disc(i);
+    else if (def.one_way)
       add_one_way(i);
     else
       def.shape == ColliderDef::Shape::polygon ? add_polygon(i) : add_chain(i);
@@ -150,6 +154,14 @@ void World::add_polygon(ColliderIndex index) {
   const ColliderDef& def = scenery_.colliders[index];
   add_ring(def.points, Sign::positive);
   for (const std::vector<Vec2d>& hole : def.holes) add_ring(hole, Sign::negative);
+}
+
+void World::add_disc(ColliderIndex index) {
+  const ColliderDef& def = scenery_.colliders[index];
+  Solid& solid = solids_[index];
+  solid.kind = Kind::disc;
+  solid.unit = std::min(detail::lowest_bit(def.points.front()), detail::lowest_bit(def.radius));
+  solid.box = box_of_disc(def.points.front(), def.radius);
 }
 
 void World::add_chain(ColliderIndex index) {
@@ -296,8 +308,50 @@ bool Passage::inside(ColliderIndex collider) const {
   return answer == Answer::yes;
 }
 
+template <class Number>
+Answer Passage::enters_disc(const Frame<Number>& frame, ColliderIndex disc) const {
+  if (!frame.known) return Answer::unknown;
+  const ColliderDef& def = world_.scenery().colliders[disc];
+  return disc_enters(frame.hull, frame.at(def.points.front()), frame.number(def.radius));
+}
+
+bool Passage::enters_disc(ColliderIndex disc) const {
+  Answer answer = enters_disc(quick_, disc);
+  if (answer == Answer::unknown) {
+    world_.count_exact();
+    answer = enters_disc(frame<Integer>(world_.unit_of(way_, disc)), disc);
+  }
+  return answer == Answer::yes;
+}
+
+std::vector<ColliderIndex> Passage::met_discs() const {
+  std::vector<ColliderIndex> found;
+  for (const ColliderIndex collider : group_.solid_tree.meeting(box_))
+    if (world_.solids()[collider].kind == Kind::disc && enters_disc(collider)) found.push_back(collider);
+  return found;
+}
+
+bool Passage::meets_disc(ColliderIndex disc, double until) const {
+  const auto enters = [&]<class Number>(Frame<Number> part, const Point<Number>& way) {
+    part.way = way;
+    part.known = sweep_hull(part.octagon, part.way, part.hull = {});
+    return enters_disc(part, disc);
+  };
+  const Approximate share{until, 0};
+  const Answer quick = enters(quick_, Point<Approximate>{quick_.way.x * share, quick_.way.y * share});
+  if (quick != Answer::unknown) return quick == Answer::yes;
+  world_.count_exact();
+  // In units so much finer, the way counts the share as often as there are of its own units in 1.
+  const int unit = world_.unit_of(way_, disc);
+  const int bit = until == 0 ? 0 : std::min(0, lowest_bit(until));
+  const Point<Integer> whole = way_.displacement(Convert<Integer>{unit});
+  const Integer count = Convert<Integer>{bit}(until);
+  return enters(frame<Integer>(unit + bit), Point<Integer>{whole.x * count, whole.y * count}) == Answer::yes;
+}
+
 bool Passage::meets(ColliderIndex collider) const {
   if (!world_.solids()[collider].box.overlaps(box_)) return false;
+  if (world_.solids()[collider].kind == Kind::disc) return enters_disc(collider);
   return !entered_edges(collider).empty() || inside(collider);
 }
 
@@ -314,7 +368,9 @@ std::vector<ColliderIndex> Passage::met() const {
   if (near.empty()) return found;
   const std::vector<std::uint32_t> entered = entered_edges();
   for (const ColliderIndex collider : near) {
-    if (!of_collider(entered, collider).empty() || inside(collider)) found.push_back(collider);
+    const bool is_disc = world_.solids()[collider].kind == Kind::disc;
+    if (is_disc ? enters_disc(collider) : !of_collider(entered, collider).empty() || inside(collider))
+      found.push_back(collider);
   }
   return found;
 }

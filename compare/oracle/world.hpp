@@ -1,4 +1,5 @@
-/// The solids as the oracle keeps them: boundaries as edges, uncut, in two trees of boxes for each mover.
+/// The solids as the oracle keeps them: boundaries as edges, uncut, in two trees of boxes for each mover. A disc has no
+/// edges: each is asked by itself.
 #pragma once
 
 #include "oracle/box_tree.hpp"
@@ -25,14 +26,14 @@ struct Edge {
   std::uint32_t surface = no_surface;  ///< Of a one-way segment, into `World::surfaces()`.
 };
 
-enum class Kind : std::uint8_t { polygon, two_sided, one_way };
+enum class Kind : std::uint8_t { polygon, two_sided, one_way, disc };
 
 struct Solid {
   Kind kind = Kind::polygon;
   std::uint32_t group = 0;  ///< Into `World::groups()`.
   std::uint32_t first_edge = 0;
   std::uint32_t edge_count = 0;
-  int unit = 0;  ///< Lowest bit of its vertices.
+  int unit = 0;  ///< Lowest bit of its vertices, or of centre and radius.
   Box2<double> box;
 };
 
@@ -90,6 +91,7 @@ class World {
 
  private:
   void add_polygon(ColliderIndex index);
+  void add_disc(ColliderIndex index);
   void add_chain(ColliderIndex index);
   void add_one_way(ColliderIndex index);
   void add_edge(ColliderIndex index, const Vec2d& a, const Vec2d& b);
@@ -109,6 +111,18 @@ class World {
   std::size_t mover_count_ = 0;
   mutable std::atomic<std::uint64_t> exact_decisions_{0};
 };
+
+/// The last double in [0, 1) at which something is not yet so that is so from some moment on, 1 included.
+template <class Question>
+[[nodiscard]] double last_before(const Question& is_so) {
+  double before = 0;
+  double after = 1;
+  for (;;) {
+    const double middle = before + (after - before) / 2;
+    if (!(before < middle && middle < after)) return before;
+    (is_so(middle) ? after : before) = middle;
+  }
+}
 
 /// Twice the signed area of a ring: positive when it runs counter-clockwise. Exact.
 [[nodiscard]] Sign winding(std::span<const Vec2d> ring);
@@ -131,6 +145,11 @@ class Passage {
   /// The colliders that the open octagon meets, ascending.
   [[nodiscard]] std::vector<ColliderIndex> met() const;
   [[nodiscard]] bool meets(ColliderIndex collider) const;
+  /// The discs that the open octagon meets, ascending.
+  [[nodiscard]] std::vector<ColliderIndex> met_discs() const;
+  /// Whether a disc is met on a first part of the way, exactly.
+  /// @param until fraction of the way.
+  [[nodiscard]] bool meets_disc(ColliderIndex disc, double until) const;
 
  private:
   /// The hull of the way in one kind of number.
@@ -154,6 +173,9 @@ class Passage {
   [[nodiscard]] Answer inside(const Frame<Number>& frame, ColliderIndex collider) const;
   [[nodiscard]] std::vector<std::uint32_t> entered(const std::vector<std::uint32_t>& candidates) const;
   [[nodiscard]] bool inside(ColliderIndex collider) const;
+  [[nodiscard]] bool enters_disc(ColliderIndex disc) const;
+  template <class Number>
+  [[nodiscard]] Answer enters_disc(const Frame<Number>& frame, ColliderIndex disc) const;
   /// Whether the way begins above a surface.
   [[nodiscard]] bool above(std::uint32_t surface) const;
 

@@ -38,8 +38,10 @@ bool has_slope(const PieceVertices<Scalar>& vertices) {
 template <class Scalar>
 bool has_slope(const Scenery<Scalar>& scenery) {
   const PieceIndex solid = scenery.sensor_pieces().first;
-  for (PieceIndex piece = 0; piece < solid; ++piece)
+  for (PieceIndex piece = 0; piece < solid; ++piece) {
+    if (scenery.pieces()[piece].is_circle()) return true;
     if (!scenery.pieces()[piece].is_rectangle() && has_slope(scenery.vertices_of(piece))) return true;
+  }
   return false;
 }
 

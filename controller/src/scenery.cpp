@@ -49,6 +49,7 @@ void round_to(const ColliderDef& def, ColliderDef& result) {
       result.holes[hole][i] = rounded_point<Scalar>(
           def.holes[hole][i], [&] { return "point " + std::to_string(i) + " of hole " + std::to_string(hole); });
   if (def.one_way) result.one_way = rounded_point<Scalar>(*def.one_way, [] { return std::string("one_way"); });
+  if (def.radius != 0) result.radius = rounded_coordinate<Scalar>(def.radius);
 }
 
 void check_chain(const ColliderDef& chain) {
@@ -62,6 +63,16 @@ void check_chain(const ColliderDef& chain) {
                     std::to_string(i) + " (counted from 0) are both " + geometry::text_of(chain.points[i]));
     }
   }
+}
+
+void check_circle(const ColliderDef& circle) {
+  if (!circle.holes.empty()) throw Refused("a circle cannot have holes");
+  if (circle.points.size() != 1)
+    throw Refused("a circle needs exactly 1 point, its centre; it has " + std::to_string(circle.points.size()));
+  if (circle.one_way) throw Refused("a circle cannot be one-way: give a chain or a polygon the shape of its top");
+  // Written so that NaN fails.
+  if (!(circle.radius > 0 && circle.radius <= Tolerances<double>{}.range))
+    throw Refused("the radius of a circle must be above 0 and at most 2e6 m, not " + std::to_string(circle.radius));
 }
 
 /// Most vertices of a convex piece. Few: a round shape becomes many pieces. Many: a character near it tests edges that
@@ -140,7 +151,17 @@ struct Pieces {
         return add_polygon(collider, def);
       case ColliderDef::Shape::chain:
         return add_chain(collider, def);
+      case ColliderDef::Shape::circle:
+        return add_circle(collider, def);
     }
+  }
+
+  void add_circle(ColliderIndex collider, const ColliderDef& def) {
+    check_circle(def);
+    add(collider, def, def.points);
+    const Scalar radius = static_cast<Scalar>(def.radius);
+    boxes.back() = boxes.back().inflated(radius);
+    vertices.push_back({radius, 0});
   }
 
   void add_polygon(ColliderIndex collider, const ColliderDef& def) {
@@ -190,11 +211,12 @@ void check_role(const ColliderDef& def, std::size_t colliders) {
                   std::to_string(colliders) + " colliders");
   if (!std::isfinite(def.surface_speed)) throw Refused("surface_speed is not a finite number");
   if (def.sensor && def.one_way) throw Refused("a sensor cannot be one-way");
+  if (def.radius != 0 && def.shape != ColliderDef::Shape::circle) throw Refused("only a circle has a radius");
 }
 
 /// Rounding to `float` can make neighbours one point, or a thin polygon cross itself.
 std::string explained(const std::string& reason, const ColliderDef& given, const ColliderDef& as_run) {
-  const bool same = given.points == as_run.points && given.holes == as_run.holes;
+  const bool same = given.points == as_run.points && given.holes == as_run.holes && given.radius == as_run.radius;
   return same ? reason : reason + " (after rounding the coordinates to the scalar type that runs)";
 }
 
@@ -327,6 +349,7 @@ ColliderDef Scenery<Scalar>::as_run(ColliderIndex collider) const {
   if (kept.shape == Collider::piece || kept.shape == Collider::piece_backwards) {
     def.points = cast_points<double>(vertices_of(kept.first_piece));
     if (kept.shape == Collider::piece_backwards) std::reverse(def.points.begin(), def.points.end());
+    if (info.shape == ColliderDef::Shape::circle) def.radius = static_cast<double>(circle(kept.first_piece).radius);
     return def;
   }
   const Shape& shape = shapes_[kept.shape];

@@ -2,6 +2,8 @@
 
 #include <paperproof/tolerances.hpp>
 
+#include "geometry/circle.hpp"
+
 #include <limits>
 #include <numeric>
 #include <type_traits>
@@ -87,8 +89,8 @@ Sensors<Scalar>::Sensors(const Scenery<Scalar>& scenery, const CharacterShape& s
     : scenery_(&scenery), finder_(scenery, shape, all_of(scenery.sensor_pieces())) {
   const Vec2<Scalar> lower = shape.box().lower.cast<Scalar>();
   const Vec2<Scalar> upper = shape.box().upper.cast<Scalar>();
-  std::vector<Vec2<Scalar>> outline;
-  for (const Vec2d& corner : shape.hull()) outline.push_back(corner.cast<Scalar>());
+  for (const Vec2d& corner : shape.hull()) outline_.push_back(corner.cast<Scalar>());
+  const std::span<const Vec2<Scalar>> outline = outline_;
   overlaps_.reserve(scenery.sensor_pieces().size());
   for (const PieceIndex piece : all_of(scenery.sensor_pieces())) {
     const PieceVertices<Scalar> vertices = scenery.vertices_of(piece);
@@ -96,8 +98,11 @@ Sensors<Scalar>::Sensors(const Scenery<Scalar>& scenery, const CharacterShape& s
     const Scalar furthest = std::max(box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff());
     // A little larger, so that rounding here cannot hide an overlap that the separations show.
     const Box2<Scalar> any = Box2<Scalar>{box.lower - upper, box.upper - lower}.inflated(Tolerances<Scalar>{}.look);
-    overlaps_.push_back({any, geometry::deep_overlap<Scalar>(outline, vertices, beyond_rounding(furthest)),
-                         geometry::separating_axes<Scalar>(outline, vertices)});
+    if (scenery.pieces()[piece].is_circle())
+      overlaps_.push_back({any, {upper - lower, lower - upper}, {}});
+    else
+      overlaps_.push_back({any, geometry::deep_overlap<Scalar>(outline, vertices, beyond_rounding(furthest)),
+                           geometry::separating_axes<Scalar>(outline, vertices)});
   }
 }
 
@@ -180,6 +185,8 @@ void Sensors<Scalar>::observe(ColliderIndex sensor, std::span<const PieceIndex> 
     if (overlap_with(piece).well_inside.contains(segment.positions)) return;
   const auto stay_in = [&](PieceIndex piece) -> Time {
     if (!overlap_with(piece).any.overlaps(segment.positions)) return {.begin = Time::after, .end = Time::before};
+    if (scenery_->pieces()[piece].is_circle())
+      return geometry::overlap_time<Scalar>(outline_, scenery_->circle(piece), segment.from, segment.to);
     return geometry::overlap_time<Scalar>(overlap_with(piece).axes, segment.from, segment.to);
   };
   const Stays<Scalar, decltype(stay_in)> stays(pieces, stay_in);

@@ -73,14 +73,15 @@ class Sensors {
   /// How a sensor's piece and the character overlap.
   struct Overlap {
     Box2<Scalar> any;          ///< Positions at which they may overlap; at all others they do not [m].
-    Box2<Scalar> well_inside;  ///< Positions at which they certainly overlap [m].
-    std::vector<geometry::SeparatingAxis<Scalar>> axes;
+    Box2<Scalar> well_inside;  ///< Positions at which they certainly overlap [m]. Of a circle none are known.
+    std::vector<geometry::SeparatingAxis<Scalar>> axes;  ///< None for a circle.
   };
   [[nodiscard]] const Overlap& overlap_with(PieceIndex piece) const noexcept {
     return overlaps_[piece - scenery_->sensor_pieces().first];
   }
 
-  std::vector<Overlap> overlaps_;  ///< By piece.
+  std::vector<Overlap> overlaps_;      ///< By piece.
+  std::vector<Vec2<Scalar>> outline_;  ///< Of the character.
 };
 
 extern template class Sensors<float>;

@@ -125,6 +125,7 @@ class RandomRun {
     SceneryDef def = random_.chance(0.8) ? random_scenery(family_, random_, origin_) : SceneryDef{};
     const int movers = random_.chance(0.1) ? 64 : random_.integer(1, 8);
     for (int i = 0; i < movers; ++i) add_mover(def.colliders, static_cast<MoverIndex>(i), random_, origin_);
+    if (family_ == Family::circles) round_movers(def.colliders, random_);
     def_ = def;
     return def;
   }

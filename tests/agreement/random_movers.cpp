@@ -54,6 +54,15 @@ void add_mover(std::vector<ColliderDef>& colliders, MoverIndex mover, Random& r,
   }
 }
 
+void round_movers(std::vector<ColliderDef>& colliders, Random& r) {
+  for (ColliderDef& def : colliders) {
+    if (def.mover == no_mover || def.shape != ColliderDef::Shape::polygon || r.chance(0.3)) continue;
+    def.shape = ColliderDef::Shape::circle;
+    def.points.resize(1);
+    def.radius = r.log_between(1e-4, 1.5);
+  }
+}
+
 Vec2d next_offset(Wanderer& wanderer, const Vec2d& offset, Random& r) {
   if (wanderer.until_turn-- <= 0) turn(wanderer, r);
   const Vec2d next = offset + wanderer.velocity;

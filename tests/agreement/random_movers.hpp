@@ -17,6 +17,9 @@ struct Wanderer {
 /// Adds the colliders of one mover: a box, a triangle, a paper, a chain, a one-way chain or a row of tiles.
 void add_mover(std::vector<ColliderDef>& colliders, MoverIndex mover, Random& random, const Vec2d& origin);
 
+/// Makes circles of most polygons that move.
+void round_movers(std::vector<ColliderDef>& colliders, Random& random);
+
 /// Where it is a step later. Now and then it turns; it stays in the arena, but for what is thrown out of it.
 /// @return the offset of its mover [m], within 1e6.
 [[nodiscard]] Vec2d next_offset(Wanderer& wanderer, const Vec2d& offset, Random& random);

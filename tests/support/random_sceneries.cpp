@@ -31,6 +31,11 @@ class Builder {
     const Vec2d up{-std::sin(angle) * thickness / 2, std::cos(angle) * thickness / 2};
     polygon({middle - along - up, middle + along - up, middle + along + up, middle - along + up});
   }
+  void circle(const Vec2d& centre, double radius) {
+    ColliderDef collider{.shape = ColliderDef::Shape::circle, .points = {origin_ + centre}};
+    collider.radius = radius;
+    def.colliders.push_back(collider);
+  }
   void floor() { box(-8, -3, 8, -2); }
 
   SceneryDef def;
@@ -38,6 +43,29 @@ class Builder {
  private:
   Vec2d origin_;
 };
+
+/// Balls of every size on ground that is flat, or round itself; some touch each other exactly.
+void circles(Builder& b, Random& r) {
+  if (r.chance(0.5)) {
+    b.floor();
+  } else {
+    const double radius = r.log_between(3, 1e4);
+    b.circle({r.between(-1, 1), -2 - radius}, radius);
+  }
+  for (int i = 0; i < 12; ++i) {
+    const Vec2d centre{r.between(-5, 5), r.between(-3, 4)};
+    const double radius = r.log_between(1e-3, 1.5);
+    b.circle(centre, radius);
+    if (r.chance(0.2)) b.circle(centre + Vec2d(2 * radius, 0), radius);
+    if (r.chance(0.2)) b.circle(centre + Vec2d(r.between(0.5, 3), 0), radius);
+  }
+  for (int i = 0; i < 3; ++i) {
+    const Vec2d middle{r.between(-4, 4), r.between(-3, 4)};
+    const double length = r.between(0.5, 2);
+    const double thickness = r.log_between(1e-6, 0.1);
+    b.strip(middle, length, thickness, r.angle());
+  }
+}
 
 void tiles(Builder& b, Random& r) {
   const double size = r.chance(0.5) ? 1 : r.between(0.3, 1.4);
@@ -229,6 +257,8 @@ std::string name_of(Family family) {
       return "lattice";
     case Family::one_way_solids:
       return "one_way_solids";
+    case Family::circles:
+      return "circles";
   }
   return "";
 }
@@ -277,6 +307,9 @@ SceneryDef random_scenery(Family family, Random& random, const Vec2d& origin) {
       break;
     case Family::one_way_solids:
       one_way_solids(builder, random);
+      break;
+    case Family::circles:
+      circles(builder, random);
       break;
   }
   return builder.def;

@@ -25,12 +25,13 @@ enum class Family {
   one_way,
   lattice,
   one_way_solids,
+  circles,
 };
 
-inline constexpr std::array all_families{Family::tiles,   Family::slopes,        Family::spikes,  Family::papers,
-                                         Family::chains,  Family::wedges,        Family::stairs,  Family::ceilings,
-                                         Family::shafts,  Family::needles,       Family::concave, Family::one_way,
-                                         Family::lattice, Family::one_way_solids};
+inline constexpr std::array all_families{Family::tiles,   Family::slopes,         Family::spikes,  Family::papers,
+                                         Family::chains,  Family::wedges,         Family::stairs,  Family::ceilings,
+                                         Family::shafts,  Family::needles,        Family::concave, Family::one_way,
+                                         Family::lattice, Family::one_way_solids, Family::circles};
 
 std::string name_of(Family family);
 

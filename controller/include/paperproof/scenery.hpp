@@ -1,4 +1,4 @@
-/// The scenery around a character: polygons and chains, cut once into convex pieces.
+/// The scenery around a character: polygons, chains and circles, cut once into convex pieces.
 #pragma once
 
 #include <paperproof/filter.hpp>
@@ -13,16 +13,18 @@
 
 namespace paperproof {
 
-/// One polygon or one chain, in world metres, y up.
+/// One polygon, one chain or one circle, in world metres, y up.
 ///
 /// A polygon may be concave, have any number of vertices and either winding, and have holes. A chain is a polyline of
-/// zero thickness; it blocks from both sides unless `one_way` is given.
+/// zero thickness; it blocks from both sides unless `one_way` is given. A circle is solid, and exactly round.
 struct ColliderDef {
-  enum class Shape : std::uint8_t { polygon, chain };
+  enum class Shape : std::uint8_t { polygon, chain, circle };
 
   Shape shape = Shape::polygon;
-  std::vector<Vec2d> points;                ///< Outer ring (not closed: the first vertex is not repeated) or polyline.
+  /// Outer ring (not closed: the first vertex is not repeated), polyline, or the centre alone.
+  std::vector<Vec2d> points;
   std::vector<std::vector<Vec2d>> holes{};  ///< Polygons only; each strictly inside the outer ring.
+  double radius = 0;                        ///< Of a circle, and of nothing else [m].
   /// A chain blocks a character that begins a move above it, which is the side that this vector points to. A segment
   /// that runs along this vector blocks nothing. Abutting chains with the same `one_way`, filter and mover are one
   /// surface, extended straight beyond its ends.
@@ -77,7 +79,7 @@ struct ColliderInfo {
 
 /// A convex part of a collider. Polygons: counter-clockwise vertices, strictly convex, 3 to 32, taken from the
 /// collider's own vertices. Chains, and polygons that are one-way: the 2 end points of a segment, zero thickness; for a
-/// one-way segment in the order that has its blocking normal on the left.
+/// one-way segment in the order that has its blocking normal on the left. Circles: the centre alone.
 struct PieceInfo {
   static constexpr std::uint8_t no_rectangle = 4;
 
@@ -91,6 +93,13 @@ struct PieceInfo {
   bool one_way = false;
 
   [[nodiscard]] bool is_rectangle() const noexcept { return rectangle_corner != no_rectangle; }
+  [[nodiscard]] bool is_circle() const noexcept { return vertex_count == 1; }
+};
+
+template <class Scalar>
+struct Circle {
+  Vec2<Scalar> centre;  ///< [m]
+  Scalar radius;        ///< [m]
 };
 
 /// The vertices of a piece, as a range. They are stored in the scenery, which must outlive this range. The vertices of
@@ -136,7 +145,8 @@ class Scenery {
   /// @throws InvalidScenery on: fewer than 3 (polygon) or 2 (chain) points, a coordinate that is not finite or beyond
   ///   2e6 m, repeated neighbouring points, zero area, a ring that crosses or touches itself or another ring of its
   ///   polygon, a hole that is not inside, a `one_way` that is zero or not finite, a sensor that is one-way, a
-  ///   `surface_speed` that is not finite, a `mover` beyond the number of colliders.
+  ///   `surface_speed` that is not finite, a `mover` beyond the number of colliders; a circle that has not exactly one
+  ///   point, or is one-way, a radius that is not above zero and at most 2e6 m, a radius of what is no circle.
   explicit Scenery(const SceneryDef& def);
 
   [[nodiscard]] std::span<const PieceInfo> pieces() const noexcept { return pieces_; }
@@ -144,6 +154,11 @@ class Scenery {
     const PieceInfo& info = pieces_[piece];
     if (info.is_rectangle()) return {boxes_[piece], info.rectangle_corner};
     return std::span(vertices_).subspan(info.first_vertex, info.vertex_count);
+  }
+  /// Of a piece that is one.
+  [[nodiscard]] Circle<Scalar> circle(PieceIndex piece) const noexcept {
+    const Vec2<Scalar>* stored = vertices_.data() + pieces_[piece].first_vertex;
+    return {stored[0], stored[1].x()};
   }
   /// Pieces stand in this order: the solid ones that do not move, the solid ones of mover 0, of mover 1, …, sensors.
   [[nodiscard]] PieceRange static_pieces() const noexcept { return {0, static_count_}; }
@@ -197,7 +212,7 @@ class Scenery {
   std::vector<Collider> colliders_;
   std::vector<Shape> shapes_;
   std::vector<PieceInfo> pieces_;
-  std::vector<Vec2<Scalar>> vertices_;  ///< Of all pieces that are not rectangles.
+  std::vector<Vec2<Scalar>> vertices_;  ///< Of all pieces that are not rectangles; after a centre (radius, 0).
   std::vector<Box2<Scalar>> boxes_;
   PieceIndex static_count_ = 0;
   std::vector<PieceIndex> mover_begin_;  ///< First piece of each mover, and one past the last of the last.

@@ -48,6 +48,14 @@ template <class Scalar>
   return count;
 }
 
+/// Some collider is round, sensors included.
+template <class Scalar>
+[[nodiscard]] bool has_circles(const Scenery<Scalar>& scenery) noexcept {
+  const std::span<const ColliderInfo> kinds = scenery.collider_kinds();
+  return std::any_of(kinds.begin(), kinds.end(),
+                     [](const ColliderInfo& c) { return c.shape == ColliderDef::Shape::circle; });
+}
+
 /// Some segment blocks from one side only.
 template <class Scalar>
 [[nodiscard]] bool has_one_way_chains(const Scenery<Scalar>& scenery) noexcept {

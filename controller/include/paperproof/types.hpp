@@ -17,7 +17,8 @@ using Vec2 = Eigen::Matrix<Scalar, 2, 1, Eigen::DontAlign>;
 using Vec2d = Vec2<double>;
 using Vec2f = Vec2<float>;
 
-/// Position of a collider in `SceneryDef::colliders`. A collider is what a user placed: one polygon or one chain.
+/// Position of a collider in `SceneryDef::colliders`. A collider is what a user placed: one polygon, chain or
+/// circle.
 using ColliderIndex = std::uint32_t;
 
 /// Position of a convex piece in `Scenery::pieces()`. A collider has one or more pieces.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
 namespace paperproof::geometry {
 namespace {
@@ -64,11 +65,17 @@ class ExactSum {
   }
   /// Sign of the largest part: all other parts together are smaller.
   [[nodiscard]] int sign() const noexcept { return size_ == 0 ? 0 : parts_[size_ - 1] > 0 ? 1 : -1; }
+  /// Adds the product of two sums, or takes it away.
+  template <std::size_t N, std::size_t M>
+  void add_product(const ExactSum<N>& a, const ExactSum<M>& b, double sign = 1) noexcept {
+    for (const double part : a)
+      for (const double other : b) add_product(sign * part, other);
+  }
   [[nodiscard]] const double* begin() const noexcept { return parts_.data(); }
   [[nodiscard]] const double* end() const noexcept { return parts_.data() + size_; }
 
  private:
-  std::array<double, Capacity> parts_;
+  std::array<double, Capacity> parts_{};
   std::size_t size_ = 0;
 };
 
@@ -160,6 +167,78 @@ int orientation_sign_of_sum(const Vec2d& a, const Vec2d& b, std::span<const Vec2
   std::copy(terms.begin(), terms.end(), from_a.begin());
   from_a[terms.size()] = -a;
   return exact_cross_sign<most_terms + 1>(a, b, std::span(from_a).first(terms.size() + 1));
+}
+
+int height_sign_of_sum(const Vec2d& normal, std::span<const Vec2d> terms, double factor, double length) noexcept {
+  assert(terms.size() <= most_terms);
+  ExactSum<4 * most_terms + 2> height;
+  for (const Vec2d& term : terms)
+    for (const Eigen::Index i : {0, 1}) height.add_product(normal[i], term[i]);
+  height.add_product(-factor, length);
+  return height.sign();
+}
+
+int dot_sign_of_sums(std::span<const Vec2d> terms, std::span<const Vec2d> others) noexcept {
+  assert(terms.size() <= most_terms && others.size() <= 2 * most_terms);
+  ExactSum<2 * 2 * most_terms * 2 * most_terms> dot;
+  for (const Eigen::Index i : {0, 1}) {
+    ExactSum<most_terms> sum;
+    for (const Vec2d& term : terms) sum.add(term[i]);
+    ExactSum<2 * most_terms> other;
+    for (const Vec2d& term : others) other.add(term[i]);
+    dot.add_product(sum, other);
+  }
+  return dot.sign();
+}
+
+double length_rounded_up(const Vec2d& v) noexcept {
+  const auto is_short = [&](double length) {
+    ExactSum<6> over;
+    over.add_product(length, length);
+    over.add_product(-v.x(), v.x());
+    over.add_product(-v.y(), v.y());
+    return over.sign() < 0;
+  };
+  double length = std::sqrt(v.x() * v.x() + v.y() * v.y());
+  length -= length * (4 * rounding);
+  while (is_short(length)) length = std::nextafter(length, std::numeric_limits<double>::infinity());
+  return length;
+}
+
+bool is_sum_as_long_as(std::span<const Vec2d> terms, double length) noexcept {
+  assert(terms.size() <= most_terms);
+  ExactSum<4 * most_terms * most_terms + 2> over;
+  for (const Eigen::Index i : {0, 1}) {
+    ExactSum<most_terms> sum;
+    for (const Vec2d& term : terms) sum.add(term[i]);
+    over.add_product(sum, sum);
+  }
+  over.add_product(-length, length);
+  return over.sign() >= 0;
+}
+
+/// The height over the line is the cross product over the length of the edge: the squares are compared.
+bool is_sum_as_far_right(const Vec2d& from, const Vec2d& to, std::span<const Vec2d> terms, double distance) noexcept {
+  assert(terms.size() <= most_terms);
+  std::array<ExactSum<2>, 2> edge;
+  std::array<ExactSum<most_terms>, 2> arm;
+  for (const std::size_t i : {0, 1}) {
+    edge[i].add(to[static_cast<Eigen::Index>(i)]);
+    edge[i].add(-from[static_cast<Eigen::Index>(i)]);
+    for (const Vec2d& term : terms) arm[i].add(term[static_cast<Eigen::Index>(i)]);
+  }
+  ExactSum<8 * most_terms> cross;
+  cross.add_product(arm[0], edge[1]);
+  cross.add_product(arm[1], edge[0], -1);
+  if (cross.sign() <= 0) return cross.sign() == 0 && distance == 0;
+  ExactSum<4> squared_distance;
+  squared_distance.add_product(distance, distance);
+  ExactSum<16> squared_length;
+  for (const ExactSum<2>& part : edge) squared_length.add_product(part, part);
+  ExactSum<2 * 64 * most_terms * most_terms + 2 * 4 * 16> over;
+  over.add_product(cross, cross);
+  over.add_product(squared_distance, squared_length, -1);
+  return over.sign() >= 0;
 }
 
 std::array<Vec2d, 4> part_of_way(const Vec2d& from, const Vec2d& to, double factor) noexcept {

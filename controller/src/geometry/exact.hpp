@@ -1,4 +1,4 @@
-/// Orientation of three points with the exact sign.
+/// Orientation of three points, and distances, with the exact sign.
 #pragma once
 
 #include <paperproof/types.hpp>
@@ -46,10 +46,28 @@ inline constexpr double largest_exact = 0x1p300;
 [[nodiscard]] int turn_sign_of_offset(const Vec2d& direction, const Vec2d& through, const Vec2d& position,
                                       const Vec2d& offset, const Vec2d& rest = Vec2d::Zero()) noexcept;
 
-inline constexpr std::size_t most_terms = 7;
+inline constexpr std::size_t most_terms = 8;
 
 /// `orientation_sign(a, b, c)` for the unrounded sum c of at most `most_terms` terms.
 [[nodiscard]] int orientation_sign_of_sum(const Vec2d& a, const Vec2d& b, std::span<const Vec2d> terms) noexcept;
+
+/// Sign of normal · (the unrounded sum of the terms) - factor * length.
+[[nodiscard]] int height_sign_of_sum(const Vec2d& normal, std::span<const Vec2d> terms, double factor,
+                                     double length) noexcept;
+
+/// The least double that is not below the length of a vector.
+[[nodiscard]] double length_rounded_up(const Vec2d& v) noexcept;
+
+/// Sign of (the unrounded sum of some terms) · (that of others). @param others at most twice `most_terms`.
+[[nodiscard]] int dot_sign_of_sums(std::span<const Vec2d> terms, std::span<const Vec2d> others) noexcept;
+
+/// Whether the unrounded sum of the terms is a vector of at least this length.
+[[nodiscard]] bool is_sum_as_long_as(std::span<const Vec2d> terms, double length) noexcept;
+
+/// Whether `from` plus the unrounded sum of the terms is at least this far on the right of the line from -> to. A
+/// fourth power is compared: it is exact while magnitudes are zero or at least 2^-230.
+[[nodiscard]] bool is_sum_as_far_right(const Vec2d& from, const Vec2d& to, std::span<const Vec2d> terms,
+                                       double distance) noexcept;
 
 /// Terms whose unrounded sum is (to - from) * factor.
 [[nodiscard]] std::array<Vec2d, 4> part_of_way(const Vec2d& from, const Vec2d& to, double factor) noexcept;

@@ -1,5 +1,11 @@
 #include "step/certificate.hpp"
 
+#include <paperproof/tolerances.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
 namespace paperproof::octagon_sweep {
 namespace {
 
@@ -43,11 +49,116 @@ bool piece_right_of(const PieceVertices<Scalar>& vertices, const Vec2d& o0, cons
   return true;
 }
 
+using Terms = FixedVector<Vec2d, geometry::most_terms>;
+using Way = FixedVector<Vec2d, 2 * geometry::most_terms>;
+
+template <std::size_t capacity>
+std::span<const Vec2d> span_of(const FixedVector<Vec2d, capacity>& terms) noexcept {
+  return {terms.begin(), terms.end()};
+}
+std::span<const Vec2d> terms_of(const Vec2d& p) noexcept { return {&p, 1}; }
+std::span<const Vec2d> terms_of(const ExactPosition& p) noexcept { return p.terms(); }
+
+template <class Position>
+Vec2d rounded(const Position& p) noexcept {
+  Vec2d sum = Vec2d::Zero();
+  for (const Vec2d& term : terms_of(p)) sum += term;
+  return sum;
+}
+
+/// The octagon beside a circle.
+class BesideCircle {
+ public:
+  template <class Scalar>
+  BesideCircle(const ConfigurationSpace<Scalar>& space, PieceIndex piece) noexcept
+      : circle_{space.scenery().circle(piece).centre.template cast<double>(),
+                static_cast<double>(space.scenery().circle(piece).radius)} {
+    for (const Vec2<Scalar>& point : space.hull()) octagon_.push_back(point.template cast<double>());
+  }
+
+  /// Whether their open interiors are apart: an edge is, or the corner that is nearest.
+  template <class Position>
+  [[nodiscard]] bool is_clear(const Position& p) const noexcept {
+    const double separation = near(p).separation;
+    if (std::abs(separation) >= Tolerances<double>{}.certain) return separation > 0;
+    for (std::size_t k = 0; k < octagon_.size(); ++k)
+      if (is_edge_apart(k, p) || is_corner_apart(k, p)) return true;
+    return false;
+  }
+
+  /// Whether a motion is proved to be clear. The distance is convex in time: a motion that does not come nearer from
+  /// one end is clear if that end is. Else an edge, or a tangent of the circle that is nearest at one of the ends,
+  /// separates them at both.
+  template <class Position>
+  [[nodiscard]] bool are_clear(const Position& from, const Position& to) const noexcept {
+    for (std::size_t k = 0; k < octagon_.size(); ++k)
+      if ((is_edge_apart(k, from) && is_edge_apart(k, to)) || goes_away(k, from, to) || goes_away(k, to, from))
+        return true;
+    for (const Vec2d& normal : {near(from).normal, near(to).normal})
+      if (is_tangent_apart(normal, from) && is_tangent_apart(normal, to)) return true;
+    return false;
+  }
+
+ private:
+  [[nodiscard]] const Vec2d& corner(std::size_t k) const noexcept { return octagon_[k % octagon_.size()]; }
+  template <class Position>
+  [[nodiscard]] geometry::NearCircle<double> near(const Position& p) const noexcept {
+    return geometry::near_circle<double>({octagon_.begin(), octagon_.end()}, rounded(p), circle_);
+  }
+  /// From the circle's centre to a corner of the octagon.
+  template <class Position>
+  [[nodiscard]] Terms arm_to(const Vec2d& o, const Position& p) const noexcept {
+    Terms terms;
+    terms.push_back(o);
+    terms.push_back(-circle_.centre);
+    for (const Vec2d& term : terms_of(p)) terms.push_back(term);
+    return terms;
+  }
+  template <class Position>
+  [[nodiscard]] bool is_edge_apart(std::size_t k, const Position& p) const noexcept {
+    Terms back;  // from the corner to the centre
+    back.push_back(circle_.centre);
+    back.push_back(-corner(k));
+    for (const Vec2d& term : terms_of(p)) back.push_back(-term);
+    return geometry::is_sum_as_far_right(corner(k), corner(k + 1), span_of(back), circle_.radius);
+  }
+  /// Whether a corner is the nearest place of the octagon, and is outside of the circle or on it.
+  template <class Position>
+  [[nodiscard]] bool is_corner_apart(std::size_t k, const Position& p) const noexcept {
+    const Terms arm = arm_to(corner(k), p);
+    const std::array after{corner(k + 1), Vec2d(-corner(k))};
+    const std::array before{corner(k), Vec2d(-corner(k + octagon_.size() - 1))};
+    return geometry::dot_sign_of_sums(span_of(arm), after) >= 0 &&
+           geometry::dot_sign_of_sums(span_of(arm), before) <= 0 &&
+           geometry::is_sum_as_long_as(span_of(arm), circle_.radius);
+  }
+  /// Whether a motion begins clear with a corner that is nearest, and this does not come nearer.
+  template <class Position>
+  [[nodiscard]] bool goes_away(std::size_t k, const Position& from, const Position& to) const noexcept {
+    if (!is_corner_apart(k, from)) return false;
+    Way way;
+    for (const Vec2d& term : terms_of(to)) way.push_back(term);
+    for (const Vec2d& term : terms_of(from)) way.push_back(-term);
+    return geometry::dot_sign_of_sums(span_of(arm_to(corner(k), from)), span_of(way)) >= 0;
+  }
+  template <class Position>
+  [[nodiscard]] bool is_tangent_apart(const Vec2d& normal, const Position& p) const noexcept {
+    const double length = geometry::length_rounded_up(normal);
+    return std::all_of(octagon_.begin(), octagon_.end(), [&](const Vec2d& o) {
+      return geometry::height_sign_of_sum(normal, span_of(arm_to(o, p)), circle_.radius, length) >= 0;
+    });
+  }
+
+  Circle<double> circle_;
+  FixedVector<Vec2d, CharacterShape::max_points> octagon_;
+};
+
 /// Whether the line of an edge of the piece or of the octagon has the two on different sides, at `from` and at `to`.
 /// Both rings are counter-clockwise: the outside of an edge is on its right.
 template <class Scalar, class Position>
 bool some_line_separates(const ConfigurationSpace<Scalar>& space, PieceIndex piece, const Position& from,
                          const Position& to) noexcept {
+  if (space.is_circle(piece)) return BesideCircle(space, piece).are_clear(from, to);
   const PieceVertices<Scalar> vertices = space.scenery().vertices_of(piece);
   for (std::size_t j = 0; j < vertices.size(); ++j) {
     const Vec2d a = vertices[j].template cast<double>();
@@ -69,18 +180,20 @@ template <class Scalar>
 bool overlaps_exactly(const ConfigurationSpace<Scalar>& space, PieceIndex piece,
                       const Vec2<Scalar>& position) noexcept {
   const Vec2d p = position.template cast<double>();
+  if (space.is_circle(piece)) return !BesideCircle(space, piece).is_clear(p);
   return !some_line_separates(space, piece, p, p);
 }
 
 template <class Scalar>
 bool clear_of_exactly(const ConfigurationSpace<Scalar>& space, PieceIndex piece, const Vec2<Scalar>& from,
                       const Vec2<Scalar>& to) noexcept {
-  return some_line_separates(space, piece, from.template cast<double>(), to.template cast<double>());
+  return some_line_separates<Scalar, Vec2d>(space, piece, from.template cast<double>(), to.template cast<double>());
 }
 
 template <class Scalar>
 bool overlaps_exactly(const ConfigurationSpace<Scalar>& space, PieceIndex piece,
                       const ExactPosition& position) noexcept {
+  if (space.is_circle(piece)) return !BesideCircle(space, piece).is_clear(position);
   return !some_line_separates(space, piece, position, position);
 }
 

@@ -156,7 +156,8 @@ OctagonFace<Scalar> ConfigurationSpace<Scalar>::face_along(const Vec2<Scalar>& n
 
 template <class Scalar>
 Scalar ConfigurationSpace<Scalar>::support_offset(PieceIndex piece, const Vec2d& normal) const noexcept {
-  return static_cast<Scalar>(-least_along(scenery_.vertices_of(piece), -normal) - least_along(hull_, normal));
+  const double radius = scenery_.pieces()[piece].is_circle() ? static_cast<double>(scenery_.circle(piece).radius) : 0;
+  return static_cast<Scalar>(radius - least_along(scenery_.vertices_of(piece), -normal) - least_along(hull_, normal));
 }
 
 template <class Scalar>
@@ -192,6 +193,13 @@ void ConfigurationSpace<Scalar>::build_own_axes(PieceIndex piece, ObstacleInfo& 
     own_axes_.push_back({n, support_offset(piece, n.template cast<double>()), face_along(n)});
     return lanes_ + info.own_count++;
   };
+  if (source.is_circle()) {
+    info.surface = ObstacleInfo::round;
+    const Vec2<Scalar> up{0, 1};
+    own_axes_.push_back({up, support_offset(piece, {0, 1}), face_along(up)});
+    info.own_count = 1;
+    return;
+  }
   if (lanes_ + vertices.size() > max_axes)
     throw InvalidScenery(source.collider, "a convex piece has more than " + std::to_string(max_axes - lanes_) +
                                               " vertices; split the polygon");
@@ -286,7 +294,7 @@ bool ConfigurationSpace<Scalar>::is_covered_corner(PieceIndex piece, std::size_t
       const double out = normal(other, k).template cast<double>().dot(corner) - static_cast<double>(offset(other, k));
       if (out > facet_noise_) return false;
     }
-    return static_cast<double>(support_offset(other, n)) > n.dot(corner) + facet_noise_;
+    return !is_circle(other) && static_cast<double>(support_offset(other, n)) > n.dot(corner) + facet_noise_;
   });
 }
 
@@ -320,12 +328,12 @@ void ConfigurationSpace<Scalar>::build_covered(const BroadPhase<Scalar>& broad_p
     return {found.data(), count};
   };
   for (PieceIndex piece = 0; piece < scenery_.static_pieces().end; ++piece)
-    build_covered<Lanes>(piece, scenery_.static_pieces(), standing, search);
+    if (!is_circle(piece)) build_covered<Lanes>(piece, scenery_.static_pieces(), standing, search);
   for (MoverIndex mover = 0; mover < mover_phases.size(); ++mover) {
     const auto of_mover = [&](PieceIndex piece) { return mover_phases.query(mover, around(piece), found); };
     const PieceRange pieces = scenery_.pieces_of_mover(mover);
     for (PieceIndex piece = pieces.first; piece < pieces.end; ++piece)
-      build_covered<Lanes>(piece, pieces, of_mover, search);
+      if (!is_circle(piece)) build_covered<Lanes>(piece, pieces, of_mover, search);
   }
 }
 
@@ -423,7 +431,7 @@ double ConfigurationSpace<Scalar>::open_part(PieceIndex piece, const Facet& face
       facet_noise_ - std::max(facet.from.x(), facet.to.x()), facet_noise_ - std::max(facet.from.y(), facet.to.y())};
   for (const auto& [other, sides] : search.near) {
     // Most are apart along a box direction.
-    if ((nearest - sides).maxCoeff() >= 0) continue;
+    if ((nearest - sides).maxCoeff() >= 0 || is_circle(other)) continue;
     const Interval part = inside<Lanes>(facet, other);
     if (!(part.from < part.to)) continue;
     if ((part.from + (1 - part.to)) * facet.length <= hidden_enough) {

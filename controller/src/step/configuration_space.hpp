@@ -9,7 +9,13 @@
 /// is the separation along n, and the interiors are apart exactly when the largest f is >= 0. (Lozano-Perez 1983; the
 /// separating axis theorem read as a distance.) The normals of O's edges are the same for every piece, so their
 /// products with p and with the motion are formed once per motion, and a tile costs a handful of subtractions.
+///
+/// A circle adds its radius to h. The octagon touches it along any normal: there an axis is no index but a direction
+/// (see `axis_along`). The shared axes are tangents of the circle's obstacle, so what they say of a separation is never
+/// too much.
 #pragma once
+
+#include "geometry/circle.hpp"
 
 #include "one_way_surfaces.hpp"
 #include "step/mover_phases.hpp"
@@ -20,6 +26,7 @@
 #include <paperproof/tolerances.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <span>
 #include <type_traits>
@@ -49,10 +56,18 @@ struct OwnAxis {
   bool hidden = false;
 };
 
+/// An axis of a circle: its direction, as a number that is larger than any index. The larger component tells the
+/// quarter; the other one is divided by it, which keeps what a double has.
+[[nodiscard]] inline std::size_t axis_along(const Vec2d& direction) noexcept;
+[[nodiscard]] inline Vec2d direction_of(std::size_t axis) noexcept;
+/// Whether an axis is a direction.
+[[nodiscard]] constexpr bool is_direction(std::size_t axis) noexcept { return axis >> 63U != 0; }
+
 /// Everything about a piece but its shared offsets.
 struct ObstacleInfo {
   static constexpr std::uint8_t not_one_way = 255;
   static constexpr std::uint32_t rectangle = ~std::uint32_t{0};
+  static constexpr std::uint32_t round = ~std::uint32_t{0};
   std::uint32_t first_own = 0;  ///< Of its own axes.
   /// Of its offsets along shared axes, which of a rectangle follow from its box.
   std::uint32_t first_offset = rectangle;
@@ -64,7 +79,7 @@ struct ObstacleInfo {
   std::uint8_t one_way_axis = not_one_way;  ///< The axis whose normal is the blocking normal of a one-way segment.
   bool bent_surface = false;                ///< Its surface is more than one straight line.
   bool whole_collider = false;              ///< Its collider has no other piece.
-  std::uint32_t surface = 0;                ///< Of a one-way segment, into `surfaces()`.
+  std::uint32_t surface = 0;                ///< Of a one-way segment, into `surfaces()`; `round` of a circle.
 };
 
 /// Built once for a scenery and a character. Immutable; may be shared between threads.
@@ -129,32 +144,47 @@ class ConfigurationSpace {
   [[nodiscard]] std::span<const OwnAxis<Scalar>> own_axes(PieceIndex piece) const noexcept {
     return std::span(own_axes_).subspan(info_[piece].first_own, info_[piece].own_count);
   }
+  /// A circle has an axis of its own, a tangent like any other: where a piece has none, nothing more is asked.
+  [[nodiscard]] bool is_circle(PieceIndex piece) const noexcept { return info_[piece].surface == ObstacleInfo::round; }
+  /// Where the character at p is nearest to a circle.
+  [[nodiscard]] geometry::NearCircle<Scalar> near_circle(PieceIndex piece, const Vec2<Scalar>& p) const noexcept {
+    return geometry::near_circle<Scalar>(hull(), p, scenery_.circle(piece));
+  }
+  [[nodiscard]] static std::size_t axis_of(const geometry::NearCircle<Scalar>& near) noexcept {
+    return axis_along(near.normal.template cast<double>());
+  }
   /// Some piece that blocks has an axis of its own.
   [[nodiscard]] bool has_own_axes() const noexcept;
   [[nodiscard]] std::size_t axis_count(PieceIndex piece) const noexcept { return lanes_ + info_[piece].own_count; }
-  [[nodiscard]] Vec2<Scalar> normal(PieceIndex piece, std::size_t axis) const noexcept {
+  [[nodiscard, gnu::always_inline]] inline Vec2<Scalar> normal(PieceIndex piece, std::size_t axis) const noexcept {
     if (axis < lanes_) return {shared_x_[axis], shared_y_[axis]};
+    if (is_direction(axis)) [[unlikely]]
+      return normal_along(axis);
     return own_axes(piece)[axis - lanes_].normal;
   }
   [[nodiscard]] Scalar offset(PieceIndex piece, std::size_t axis) const noexcept {
-    if (axis >= lanes_) return own_axes(piece)[axis - lanes_].offset;
+    if (axis >= lanes_) [[unlikely]]
+      return is_direction(axis) ? offset_along(piece, axis) : own_axes(piece)[axis - lanes_].offset;
     if (info_[piece].first_offset == ObstacleInfo::rectangle) return rectangle_offset(piece, axis);
     return axis < box_axes ? box_offsets(piece)[static_cast<Eigen::Index>(axis)]
                            : shared_offsets_[info_[piece].first_offset + axis - box_axes];
   }
+  /// @param axis no direction.
   [[nodiscard]] const OctagonFace<Scalar>& octagon_face(PieceIndex piece, std::size_t axis) const noexcept {
     return axis < lanes_ ? shared_faces_[axis] : own_axes(piece)[axis - lanes_].face;
   }
+  [[nodiscard]] OctagonFace<Scalar> face_along(const Vec2<Scalar>& normal) const noexcept;
   [[nodiscard]] bool covered(PieceIndex piece, std::size_t axis) const noexcept {
-    if (axis >= lanes_) return own_axes(piece)[axis - lanes_].covered;
+    if (axis >= lanes_) return !is_direction(axis) && own_axes(piece)[axis - lanes_].covered;
     return ((info_[piece].covered >> axis) & 1U) != 0;
   }
   [[nodiscard]] bool hidden(PieceIndex piece, std::size_t axis) const noexcept {
-    if (axis >= lanes_) return own_axes(piece)[axis - lanes_].hidden;
+    if (axis >= lanes_) return !is_direction(axis) && own_axes(piece)[axis - lanes_].hidden;
     return ((info_[piece].hidden >> axis) & 1U) != 0;
   }
   /// Separation along one axis at p [m].
-  [[nodiscard]] Scalar separation(PieceIndex piece, std::size_t axis, const Vec2<Scalar>& p) const noexcept {
+  [[nodiscard, gnu::always_inline]] inline Scalar separation(PieceIndex piece, std::size_t axis,
+                                                             const Vec2<Scalar>& p) const noexcept {
     const Vec2<Scalar> n = normal(piece, axis);
     return n.x() * p.x() + n.y() * p.y() - offset(piece, axis);
   }
@@ -227,6 +257,12 @@ class ConfigurationSpace {
     return static_cast<Scalar>(furthest - low(axis));
   }
 
+  [[nodiscard, gnu::cold, gnu::noinline]] static Vec2<Scalar> normal_along(std::size_t direction) noexcept {
+    return direction_of(direction).template cast<Scalar>();
+  }
+  [[nodiscard, gnu::cold, gnu::noinline]] Scalar offset_along(PieceIndex piece, std::size_t direction) const noexcept {
+    return support_offset(piece, direction_of(direction));
+  }
   [[nodiscard]] double low(std::size_t axis) const noexcept { return shared_low_[axis / 2][axis % 2]; }
 
   void build_shared_axes();
@@ -261,7 +297,6 @@ class ConfigurationSpace {
   [[nodiscard]] bool is_covered_corner(PieceIndex piece, std::size_t axis, const Vec2d& corner,
                                        std::span<const PieceIndex> neighbours) const noexcept;
   [[nodiscard]] Scalar support_offset(PieceIndex piece, const Vec2d& normal) const noexcept;
-  [[nodiscard]] OctagonFace<Scalar> face_along(const Vec2<Scalar>& normal) const noexcept;
 
   const Scenery<Scalar>& scenery_;
   FixedVector<Vec2<Scalar>, CharacterShape::max_points> hull_;
@@ -282,6 +317,32 @@ class ConfigurationSpace {
   std::vector<OwnAxis<Scalar>> own_axes_;
   std::vector<ObstacleInfo> info_;
 };
+
+inline std::size_t axis_along(const Vec2d& direction) noexcept {
+  static_assert(sizeof(std::size_t) == 8);
+  const bool level = std::abs(direction.x()) >= std::abs(direction.y());
+  const std::size_t quarter = level ? (direction.x() > 0 ? 0 : 2) : (direction.y() > 0 ? 1 : 3);
+  const double tangent = level ? direction.y() / direction.x() : -direction.x() / direction.y();
+  return std::size_t{1} << 63U | quarter << 61U |
+         static_cast<std::size_t>(static_cast<std::int64_t>(tangent * 0x1p59) + (std::int64_t{1} << 59U));
+}
+
+inline Vec2d direction_of(std::size_t axis) noexcept {
+  const auto rest = static_cast<std::int64_t>(axis & ((std::size_t{1} << 61U) - 1));
+  const double tangent = static_cast<double>(rest - (std::int64_t{1} << 59U)) * 0x1p-59;
+  const double large = 1 / std::sqrt(1 + tangent * tangent);
+  const double small = tangent * large;
+  switch (axis >> 61U & 3U) {
+    case 0:
+      return {large, small};
+    case 1:
+      return {0 - small, large};
+    case 2:
+      return {-large, 0 - small};
+    default:
+      return {small, -large};
+  }
+}
 
 extern template class ConfigurationSpace<float>;
 extern template class ConfigurationSpace<double>;

@@ -28,14 +28,14 @@ template <class Scalar>
 }
 
 /// From differences of coordinates: relative accuracy of a few ulp, also where the offset of the axis has lost its last
-/// digits far from the origin.
+/// digits far from the origin. @param n normal of the axis.
 template <class Scalar>
 [[nodiscard, gnu::always_inline]] inline PieceFace<Scalar> piece_face(const ConfigurationSpace<Scalar>& space,
                                                                       PieceIndex piece, std::size_t axis,
+                                                                      const Vec2<Scalar>& n,
                                                                       const Vec2<Scalar>& p) noexcept {
   constexpr Scalar flat = Tolerances<Scalar>{}.hit;  // points this close to the highest belong to the face
   const Scenery<Scalar>& scenery = space.scenery();
-  const Vec2<Scalar> n = space.normal(piece, axis);
   if (axis < ConfigurationSpace<Scalar>::box_axes && scenery.pieces()[piece].is_rectangle())
     return rectangle_face(scenery.box(piece), n, p);
   PieceFace<Scalar> face{-std::numeric_limits<Scalar>::infinity(), 0, 0};
@@ -51,6 +51,24 @@ template <class Scalar>
   return face;
 }
 
+/// Separation from a circle along a direction, from differences of coordinates.
+template <class Scalar>
+[[nodiscard]] Scalar separation_along(const ConfigurationSpace<Scalar>& space, PieceIndex circle_piece,
+                                      const Vec2<Scalar>& n, const Vec2<Scalar>& p) noexcept {
+  const Circle<Scalar> circle = space.scenery().circle(circle_piece);
+  const Vec2<Scalar> centre = circle.centre - p;
+  return space.face_along(n).low - (n.x() * centre.x() + n.y() * centre.y()) - circle.radius;
+}
+
+/// See `time_of_impact`.
+template <class Scalar>
+[[nodiscard, gnu::cold, gnu::noinline]] Scalar time_of_impact_with_arc(const ConfigurationSpace<Scalar>& space,
+                                                                       Vec2<Scalar> from, Scalar approach,
+                                                                       PieceIndex piece, Vec2<Scalar> n,
+                                                                       Scalar level) noexcept {
+  return std::clamp((separation_along(space, piece, n, from) - level) / approach, Scalar(0), Scalar(1));
+}
+
 /// Time of impact of a motion with a piece it hits, as a fraction of the motion, in [0, 1]: when the separation along
 /// the axis that is entered last becomes zero; or, where the piece itself is missed, when it comes within `hit`.
 template <class Scalar>
@@ -62,8 +80,10 @@ template <class Scalar>
   const Scalar level = axes.missed ? Tolerances<Scalar>{}.hit : Scalar(0);
   const Vec2<Scalar> n = space.normal(piece, axes.impact);
   const Scalar approach = -(n.x() * displacement.x() + n.y() * displacement.y());
+  if (is_direction(axes.impact)) [[unlikely]]
+    return time_of_impact_with_arc(space, from, approach, piece, n, level);
   const Scalar separation =
-      space.octagon_face(piece, axes.impact).low - piece_face(space, piece, axes.impact, from).high;
+      space.octagon_face(piece, axes.impact).low - piece_face(space, piece, axes.impact, n, from).high;
   return std::clamp((separation - level) / approach, Scalar(0), Scalar(1));
 }
 
@@ -74,12 +94,24 @@ struct ContactPlace {
   Scalar separation;   ///< [m]
 };
 
+/// The point of a circle's arc that faces the octagon.
+template <class Scalar>
+[[nodiscard, gnu::cold, gnu::noinline]] ContactPlace<Scalar> place_on_arc(const ConfigurationSpace<Scalar>& space,
+                                                                          PieceIndex piece, Vec2<Scalar> n,
+                                                                          Vec2<Scalar> p) noexcept {
+  const Circle<Scalar> circle = space.scenery().circle(piece);
+  return {circle.centre + n * circle.radius, separation_along(space, piece, n, p)};
+}
+
+/// @param n normal of the axis.
 template <class Scalar>
 [[nodiscard, gnu::always_inline]] inline ContactPlace<Scalar> contact_place(const ConfigurationSpace<Scalar>& space,
                                                                             PieceIndex piece, std::size_t axis,
+                                                                            const Vec2<Scalar>& n,
                                                                             const Vec2<Scalar>& p) noexcept {
-  const Vec2<Scalar> n = space.normal(piece, axis);
-  const PieceFace<Scalar> there = piece_face(space, piece, axis, p);
+  if (is_direction(axis)) [[unlikely]]
+    return place_on_arc(space, piece, n, p);
+  const PieceFace<Scalar> there = piece_face(space, piece, axis, n, p);
   const OctagonFace<Scalar>& face = space.octagon_face(piece, axis);
   // Corner to corner they have nothing face to face, by less than a contact's gap.
   const Scalar middle =

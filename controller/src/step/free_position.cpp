@@ -11,6 +11,9 @@
 /// never ends on the border of a shadow from there: only the facets of these pieces are searched. Where a straight
 /// motion from the last free position must reach the end as well, the shadows from there are further regions, and their
 /// tangents are searched, too. The same holds for pieces that must be left to a known side.
+///
+/// Of a circle the tangents along the shared axes are searched, and the one that is nearest. So the way out of a circle
+/// alone is the shortest; where others bound it, it may be a little longer than that.
 #include "step/free_position.hpp"
 
 #include "step/certificate.hpp"
@@ -19,6 +22,8 @@
 #include "step/shadow.hpp"
 
 #include <paperproof/tolerances.hpp>
+
+#include <initializer_list>
 
 namespace paperproof::octagon_sweep {
 namespace {
@@ -111,6 +116,14 @@ class Search {
 
   // Pieces and shadows.
 
+  /// Calls `visit(axis)` for the axes of a piece. Of a circle for those, too, that are nearest at some places.
+  template <class Visit>
+  void for_each_axis(PieceIndex piece, std::initializer_list<V> places, const Visit& visit) const noexcept {
+    for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis) visit(axis);
+    if (!space_.is_circle(piece)) return;
+    for (const V& place : places) visit(best(piece, place).axis);
+  }
+
   /// Offset of the mover of a piece at a fraction of the step; zero for a piece that stands still.
   [[nodiscard]] V offset(PieceIndex piece, Scalar time) const noexcept {
     const MoverIndex mover = space_.scenery().pieces()[piece].mover;
@@ -179,14 +192,14 @@ class Search {
 
   void search_facets(PieceIndex piece) noexcept {
     const V at = seen_at_end(piece, query_.near);
-    for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis) {
+    for_each_axis(piece, {at}, [&](std::size_t axis) {
       const V n = space_.normal(piece, axis);
-      if (space_.covered(piece, axis) || (n.x() == 0 && n.y() == 0)) continue;
+      if (space_.covered(piece, axis) || (n.x() == 0 && n.y() == 0)) return;
       const Scalar bound = query_.gap - space_.separation(piece, axis, at);
-      if (!(std::abs(bound) < nearest_)) continue;
+      if (!(std::abs(bound) < nearest_)) return;
       const Line line{n * bound, {-n.y(), n.x()}};
       sweep_along(line, facet_on(line, piece, std::sqrt(nearest_ * nearest_ - bound * bound)));
-    }
+    });
   }
 
   /// The part of a facet's line that bounds the obstacle, at most `half` from its foot.
@@ -280,7 +293,15 @@ class Search {
     Scalar reach = std::numeric_limits<Scalar>::infinity();
     for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis)
       shorten(reach, spot, space_.normal(piece, axis), query_.gap - space_.separation(piece, axis, at));
-    return reach;
+    return space_.is_circle(piece) ? arc_from(spot, piece, at, reach) : reach;
+  }
+
+  /// The same for a circle: where one comes to it from beyond its tangents.
+  [[nodiscard]] Scalar arc_from(const Spot& spot, PieceIndex piece, const V& at, Scalar beyond) const noexcept {
+    const V way = spot.line.along * (spot.direction * beyond);
+    const auto back =
+        geometry::approach<Scalar>(space_.hull(), V(at + way), V(-way), space_.scenery().circle(piece), query_.gap);
+    return back ? beyond * (1 - back->time) : Scalar(0);
   }
 
   static void shorten(Scalar& reach, const Spot& spot, const V& normal, Scalar depth) noexcept {
@@ -296,12 +317,14 @@ class Search {
     const V travelled = at - view.place;
     const Scalar kept = solid(piece) ? view.level : query_.gap;
     Scalar reach = std::numeric_limits<Scalar>::infinity();
-    for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis) {
-      if (space_.separation(piece, axis, view.place) < view.level) continue;
+    bool is_before = false;
+    for_each_axis(piece, {view.place, at}, [&](std::size_t axis) {
+      if (is_before || space_.separation(piece, axis, view.place) < view.level) return;
       const Scalar depth = kept - space_.separation(piece, axis, at);
-      if (depth <= slack) return 0;
+      is_before = depth <= slack;
       shorten(reach, spot, space_.normal(piece, axis), depth);
-    }
+    });
+    if (is_before) return 0;
     if (!solid(piece)) {  // it blocks only motion against its normal
       const V n = space_.normal(piece, space_.info(piece).one_way_axis);
       const Scalar depth = -(n.x() * travelled.x() + n.y() * travelled.y());
@@ -342,9 +365,12 @@ class Search {
     const std::optional<V> from = side_of(piece);
     if (!from) return true;
     const V to = seen_at_end(piece, q);
-    for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis)
-      if (space_.separation(piece, axis, *from) > -certain && space_.separation(piece, axis, to) >= certain)
-        return true;
+    bool separates = false;
+    for_each_axis(piece, {*from, to}, [&](std::size_t axis) {
+      separates = separates ||
+                  (space_.separation(piece, axis, *from) > -certain && space_.separation(piece, axis, to) >= certain);
+    });
+    if (separates) return true;
     return best(piece, *from).separation >= certain && passes(make_motion<Lanes>(space_, *from, V(to - *from)), piece);
   }
 

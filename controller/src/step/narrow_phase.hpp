@@ -13,6 +13,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace paperproof::octagon_sweep {
 
@@ -122,6 +123,15 @@ template <std::size_t Lanes, class Scalar>
   return least.maxCoeff() >= Tolerances<Scalar>{}.hit;
 }
 
+/// Separation of a circle before the motion, and the one that the axis of this separation keeps over the whole motion.
+template <std::size_t Lanes, class Scalar>
+[[nodiscard, gnu::cold, gnu::noinline]] std::pair<Scalar, Scalar> clearance_of_circle(
+    const ConfigurationSpace<Scalar>& space, const Motion<Lanes, Scalar>& motion, PieceIndex piece) noexcept {
+  const geometry::NearCircle<Scalar> near = space.near_circle(piece, motion.from);
+  const Scalar along = near.normal.x() * motion.extended.x() + near.normal.y() * motion.extended.y();
+  return {near.separation, near.separation + std::min(along, Scalar(0))};
+}
+
 template <std::size_t Lanes, class Scalar>
 [[nodiscard, gnu::always_inline]] inline Clearance<Scalar> clearance(const ConfigurationSpace<Scalar>& space,
                                                                      const Motion<Lanes, Scalar>& motion,
@@ -134,6 +144,12 @@ template <std::size_t Lanes, class Scalar>
   result.kept = least.maxCoeff();
   Shared::Map(result.shared_starts.data()) = start;
   if (space.info(piece).own_count == 0) return result;
+  if (space.is_circle(piece)) [[unlikely]] {
+    const auto [start_of_circle, kept] = clearance_of_circle(space, motion, piece);
+    result.start = start_of_circle;
+    result.kept = std::max(result.kept, kept);
+    return result;
+  }
   for (const OwnAxis<Scalar>& own : space.own_axes(piece)) {
     const Scalar at = own.normal.x() * motion.from.x() + own.normal.y() * motion.from.y() - own.offset;
     const Scalar end = at + (own.normal.x() * motion.extended.x() + own.normal.y() * motion.extended.y());
@@ -238,6 +254,35 @@ template <class Scalar>
   return entry_below(f, tolerances.stop * covered_share<Scalar>);
 }
 
+/// A circle is entered along the tangent that it has where the motion is stopped. From each slide along a tangent it is
+/// a little further away: where that counted as touching up to the whole gap of a touch, a walk over a circle of 100 km
+/// would be in the air in one step of four.
+template <std::size_t Lanes, class Scalar>
+[[nodiscard, gnu::cold, gnu::noinline]] PieceHit<Scalar> sweep_circle(const ConfigurationSpace<Scalar>& space,
+                                                                      const Motion<Lanes, Scalar>& motion,
+                                                                      PieceIndex piece, Scalar start) noexcept {
+  constexpr Tolerances<Scalar> tolerances{};
+  const auto approach = [&](Scalar level) {
+    return geometry::approach<Scalar>(space.hull(), motion.from, motion.extended, space.scenery().circle(piece), level);
+  };
+  const auto near = approach(std::min(tolerances.hit, start));
+  if (!near) return {false, 0, {}};
+  geometry::Approach<Scalar> stop{0, space.near_circle(piece, motion.from)};
+  const Scalar touching = tolerances.stop + (tolerances.touch - tolerances.stop) / 4;
+  if (start > touching) stop = approach(tolerances.stop).value_or(*near);
+  stop.time *= motion.reach;
+  const auto impact = start >= 0 ? approach(Scalar(0)) : std::nullopt;
+  const bool missed = start >= 0 && !impact;
+  const std::size_t no_axis = space.axis_count(piece);
+  return {stop.time <= 1,
+          stop.time,
+          {space.axis_of(stop.there),
+           impact   ? space.axis_of(impact->there)
+           : missed ? space.axis_of(near->there)
+                    : no_axis,
+           missed, false}};
+}
+
 /// Whether hidden facets yield to what covers them. A sweep over many pieces asks that in a second round only, where
 /// one of them came first: behind the surface of a wall of tiles every facet is covered.
 enum class Covered : std::uint8_t { as_any, yields };
@@ -257,6 +302,8 @@ template <Covered covered = Covered::yields, std::size_t Lanes, class Scalar, cl
   constexpr Tolerances<Scalar> tolerances{};
   AxisRanges<Scalar> f;
   find_ranges(space, motion, piece, clear, f);
+  if (f.count > Lanes && space.is_circle(piece)) [[unlikely]]
+    return sweep_circle(space, motion, piece, clear.start);
   const Scalar tau = clear.tau();
   const Scalar inside = std::min(tau, Scalar(0));
   const bool touching = clear.start <= tolerances.touch;
@@ -318,9 +365,13 @@ template <class Scalar>
 [[nodiscard]] bool one_axis_separates(const ConfigurationSpace<Scalar>& space, PieceIndex piece,
                                       const Vec2<Scalar>& from, const Vec2<Scalar>& to) noexcept {
   constexpr Scalar certain = Tolerances<Scalar>{}.certain;
+  const auto separates = [&](std::size_t axis) {
+    return space.separation(piece, axis, from) >= certain && space.separation(piece, axis, to) >= certain;
+  };
   for (std::size_t axis = 0; axis < space.axis_count(piece); ++axis)
-    if (space.separation(piece, axis, from) >= certain && space.separation(piece, axis, to) >= certain) return true;
-  return false;
+    if (separates(axis)) return true;
+  return space.is_circle(piece) && (separates(space.axis_of(space.near_circle(piece, from))) ||
+                                    separates(space.axis_of(space.near_circle(piece, to))));
 }
 
 /// The axis of largest separation at a position, and that separation.
@@ -329,6 +380,14 @@ struct BestAxis {
   std::size_t axis = 0;
   Scalar separation = 0;
 };
+
+template <class Scalar>
+[[nodiscard, gnu::cold, gnu::noinline]] BestAxis<Scalar> best_axis_of_circle(const ConfigurationSpace<Scalar>& space,
+                                                                             PieceIndex piece,
+                                                                             const Vec2<Scalar>& p) noexcept {
+  const geometry::NearCircle<Scalar> near = space.near_circle(piece, p);
+  return {space.axis_of(near), near.separation};
+}
 
 template <std::size_t Lanes, class Scalar>
 [[nodiscard, gnu::always_inline]] inline BestAxis<Scalar> best_axis(const ConfigurationSpace<Scalar>& space,
@@ -339,6 +398,8 @@ template <std::size_t Lanes, class Scalar>
   BestAxis<Scalar> best{0, f.maxCoeff()};
   while (f[static_cast<Eigen::Index>(best.axis)] != best.separation) ++best.axis;
   for (std::size_t axis = Lanes; axis < space.axis_count(piece); ++axis) {
+    if (space.is_circle(piece)) [[unlikely]]
+      return best_axis_of_circle(space, piece, p);
     const Scalar separation = space.separation(piece, axis, p);
     if (separation > best.separation) best = {axis, separation};
   }

@@ -28,8 +28,8 @@ template <class Scalar>
                                            const Vec2<Scalar>& position, const Vec2<Scalar>& offset,
                                            Scalar fraction) noexcept {
   const ConfigurationSpace<Scalar>& space = around.space;
-  const ContactPlace<Scalar> place = contact_place(space, piece, axis, Vec2<Scalar>(position - offset));
   const Vec2<Scalar> normal = space.normal(piece, axis);
+  const ContactPlace<Scalar> place = contact_place(space, piece, axis, normal, Vec2<Scalar>(position - offset));
   return {.collider = space.scenery().pieces()[piece].collider,
           .point = place.point + offset,
           .normal = normal,

@@ -40,14 +40,19 @@ template <class Scalar>
   Vec2<Scalar> right = Vec2<Scalar>::Zero();
   Scalar leftmost = -2;
   Scalar rightmost = 2;
+  const bool is_circle = space.is_circle(piece);
+  if (is_circle) width += space.scenery().circle(piece).radius;
   for (const Vec2<Scalar>& v : space.scenery().vertices_of(piece)) {
     for (const Vec2<Scalar>& o : space.hull()) {
       const Vec2<Scalar> to = v - from - o;
       const Scalar length = length_of(to);
-      if (!(length > width)) continue;
-      const Vec2<Scalar> aside = Vec2<Scalar>{-to.y(), to.x()} * (width / length);
-      const Vec2<Scalar> passing_left = to + aside;
-      const Vec2<Scalar> passing_right = to - aside;
+      if (!(length > width) && !is_circle) continue;
+      const Scalar sine = std::min(width / length, Scalar(1));
+      // Of a small width the cosine is 1.
+      const Vec2<Scalar> past = is_circle ? Vec2<Scalar>(to * std::sqrt((1 - sine) * (1 + sine))) : to;
+      const Vec2<Scalar> aside = Vec2<Scalar>{-to.y(), to.x()} * sine;
+      const Vec2<Scalar> passing_left = past + aside;
+      const Vec2<Scalar> passing_right = past - aside;
       if (const Scalar place = leftward(ahead, passing_left); place > leftmost) {
         leftmost = place;
         left = passing_left;

@@ -120,10 +120,12 @@ struct StepMemory final : OwnMemory {
   /// stair, and the snap.
   [[nodiscard]] std::size_t most_contacts(const ConfigurationSpace<Scalar>& space, std::size_t touched,
                                           int iterations) const {
-    std::size_t axes = 0;
-    for (PieceIndex piece = 0; piece < space.scenery().sensor_pieces().first; ++piece) axes += space.axis_count(piece);
     const std::size_t impacts = moving_pieces(space) > 0 ? corners.capacity() : static_cast<std::size_t>(iterations);
-    return std::min(axes, touched * (impacts + 3 + most_stairs));
+    const std::size_t moments = impacts + 3 + most_stairs;
+    std::size_t axes = 0;
+    for (PieceIndex piece = 0; piece < space.scenery().sensor_pieces().first; ++piece)
+      axes += space.is_circle(piece) ? moments : space.axis_count(piece);
+    return std::min(axes, touched * moments);
   }
 };
 

@@ -315,7 +315,16 @@ bool StepSolver<Lanes, Scalar, Up>::stands_on(PieceIndex piece) const noexcept {
   V ground = V::Zero();
   if (mover_of(piece) != no_mover) ground = movers_.displacement(mover_of(piece)) / movers_.dt;
   const Scalar leaving = dot(V(velocity_ - ground), *normal);
-  return leaving <= 0 || leaving <= along_plane<Scalar> * (length_of(velocity_) + length_of(ground));
+  return leaving <= 0 || leaving <= along_plane<Scalar> * (length_of(velocity_) + length_of(ground)) ||
+         (space_.is_circle(piece) && leaving <= falls_away_from_tangent(piece, V(velocity_ - ground)));
+}
+
+/// How fast round ground falls away below a motion that went along a tangent of it at most a step ago [m/s].
+/// @param motion relative to it [m/s].
+template <std::size_t Lanes, class Scalar, class Up>
+Scalar StepSolver<Lanes, Scalar, Up>::falls_away_from_tangent(PieceIndex piece, V motion) const noexcept {
+  const Scalar speed = length_of(motion);
+  return speed * speed * dt_ / space_.scenery().circle(piece).radius;
 }
 
 template <std::size_t Lanes, class Scalar, class Up>

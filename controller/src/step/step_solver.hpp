@@ -201,6 +201,7 @@ class StepSolver {
   [[gnu::cold, gnu::noinline]] void note_ground_velocity(PieceIndex piece) noexcept;
   [[gnu::cold, gnu::noinline]] void report_ground(const V& wanted) noexcept;
   [[nodiscard, gnu::always_inline]] inline bool stands_on(PieceIndex piece) const noexcept;
+  [[nodiscard, gnu::cold, gnu::noinline]] Scalar falls_away_from_tangent(PieceIndex piece, V motion) const noexcept;
   [[nodiscard, gnu::cold, gnu::noinline]] bool touches_ground() noexcept;
   /// The normal of a piece, if the character touches it now and it is walkable ground.
   [[nodiscard, gnu::always_inline]] inline std::optional<V> touched_ground(PieceIndex piece) const noexcept;

@@ -206,7 +206,7 @@ void StepSolver<Lanes, Scalar, Up>::report_contact(PieceIndex piece, std::size_t
     return other.collider == collider && dot(other.normal, normal) > 1 - same_plane<Scalar>;
   });
   if (known != contacts.end() && (known < contacts.begin() + this_moment || known->fraction <= fraction)) return;
-  const ContactPlace<Scalar> place = contact_place(space_, piece, axis, local(piece, position_));
+  const ContactPlace<Scalar> place = contact_place(space_, piece, axis, normal, local(piece, position_));
   const Contact<Scalar> contact{.collider = collider,
                                 .point = place.point + offset(piece),
                                 .normal = normal,
