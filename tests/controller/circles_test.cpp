@@ -24,7 +24,7 @@ const Vec2d foot_corner{foot, -half_height};
 const Vec2d hip{half_width, -10 * px};
 
 ColliderDef circle(double x, double y, double radius, MoverIndex mover = no_mover) {
-  return {.shape = ColliderDef::Shape::circle, .points = {{x, y}}, .radius = radius, .mover = mover};
+  return {.shape = ColliderDef::Shape::circle, .points = {{x, y}}, .mover = mover, .radius = radius};
 }
 
 /// Inscribed in a circle, or around it.

@@ -24,7 +24,6 @@ struct ColliderDef {
   /// Outer ring (not closed: the first vertex is not repeated), polyline, or the centre alone.
   std::vector<Vec2d> points;
   std::vector<std::vector<Vec2d>> holes{};  ///< Polygons only; each strictly inside the outer ring.
-  double radius = 0;                        ///< Of a circle, and of nothing else [m].
   /// A chain blocks a character that begins a move above it, which is the side that this vector points to. A segment
   /// that runs along this vector blocks nothing. Abutting chains with the same `one_way`, filter and mover are one
   /// surface, extended straight beyond its ends.
@@ -41,6 +40,7 @@ struct ColliderDef {
   bool carries = true;
   /// Which characters it is there for: see `StepContext::filter`. Seams vanish only between colliders of equal filters.
   Filter filter{};
+  double radius = 0;  ///< Of a circle, and of nothing else [m].
 };
 
 /// The chains of a collider that has a `one_way`. A chain is its own only line. Of a polygon they are the edges of its
