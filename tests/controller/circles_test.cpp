@@ -497,17 +497,26 @@ TEST(StartInsideACircle, goes_out_to_the_side_of_the_last_free_position) {
   }
 }
 
-TEST(StartInsideACircle, beside_a_floor_stays_above_it) {
-  Stepper<double> stepper({rectangle(-9, -1, 9, 0), circle(0, 0.3, 0.6)});
+TEST(StartInsideACircle, goes_along_the_floor_where_the_shortest_way_leads_into_it) {
+  Stepper<double> stepper({rectangle(-9, -1, 9, 0), circle(0, 1.2, 0.6)});
   stepper.gravity = {0, 0};
   stepper.at(0.4, half_height + 1e-6);
   EXPECT_EQ(stepper.step(), StepStatus::moved);
   EXPECT_TRUE(stepper.state.position.y() - half_height > 0);
   const double gap =
-      slow_separation(stepper.controller.character().shape.hull(), stepper.state.position, {{0, 0.3}, 0.6});
+      slow_separation(stepper.controller.character().shape.hull(), stepper.state.position, {{0, 1.2}, 0.6});
   EXPECT_GT(gap, 0);
-  // Along the floor until the arc is passed: the slanted side faces it.
-  EXPECT_LT((stepper.state.position - Vec2d(0.4, half_height)).norm(), 0.6);
+  // Out of the circle alone it would go down and to the right. Along the floor to where the arc ends.
+  double inside = 0.4;
+  double outside = 2;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = (inside + outside) / 2;
+    const bool is_out =
+        slow_separation(stepper.controller.character().shape.hull(), {middle, half_height}, {{0, 1.2}, 0.6}) > 0;
+    (is_out ? outside : inside) = middle;
+  }
+  EXPECT_NEAR(stepper.state.position.x(), outside, 2e-6);
+  EXPECT_NEAR(stepper.state.position.y(), half_height, 2e-6);
 }
 
 TEST(StartInsideACircle, that_walls_enclose_is_stuck) {
