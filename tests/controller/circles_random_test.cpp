@@ -69,6 +69,8 @@ struct Tally {
   int inside = 0;    ///< Began inside a circle, and came out.
   int touching = 0;  ///< Began at a touch but for some ulps.
   int stuck = 0;
+  int thrown = 0;              ///< Into something, with a last free position,
+  int back_to_their_side = 0;  ///< and came out where that sees them.
   int crushed = 0;
   int dropped = 0;
   int walkable = 0;
@@ -98,6 +100,7 @@ class CircleRun {
       if (random_.chance(0.2)) launch();
       if (random_.chance(0.01)) teleport(state_, origin_ + Vec2d{random_.between(-3, 3), random_.between(-1, 4)});
       if (random_.chance(0.02)) touch();
+      if (random_.chance(0.02)) state_.position += Vec2d{random_.between(-1, 1), random_.between(-1, 1)};
       if (random_.chance(0.1)) input = {.move = random_.integer(-1, 1), .jump = random_.chance(0.3)};
       const CharacterState<double> before = state_;
       const StepContext<double> context{{0, random_.chance(0.1) ? 0 : gravity}, 1.0 / 60, motions_};
@@ -219,6 +222,14 @@ class CircleRun {
     return separation(collider, at, fraction, at, fraction);
   }
 
+  /// Whether no circle is in the straight way from a place, as all are when the step begins.
+  [[nodiscard]] bool is_seen_from(const Vec2d& place, const Vec2d& from) const {
+    for (ColliderIndex collider = 0; collider < def_.colliders.size(); ++collider)
+      if (def_.colliders[collider].shape == ColliderDef::Shape::circle &&
+          separation(collider, place, 0, from, 0) < -noise)
+        return false;
+    return true;
+  }
   [[nodiscard]] bool may_be_carried(const CharacterState<double>& before) const {
     for (ColliderIndex collider = 0; collider < def_.colliders.size(); ++collider) {
       const ColliderDef& def = def_.colliders[collider];
@@ -288,6 +299,10 @@ class CircleRun {
         if (!(gap >= -noise)) return fail(step, "passes into a circle", gap);
       }
       if (!(separation(collider, state_.position, 1) >= -noise)) return fail(step, "ends inside", 0);
+    }
+    if (!overlapped.empty() && before.has_last_free && move.path.size() > 1 && move.path[1].fraction == 0) {
+      ++tally_.thrown;
+      tally_.back_to_their_side += is_seen_from(before.last_free, move.path[1].position);
     }
     if (move.contacts.empty() && move.status == MoveStatus::moved && character_.snap == 0 && !before.crushed &&
         !may_be_carried(before)) {
@@ -367,12 +382,13 @@ TEST(AmongRandomCircles, no_step_gets_into_one) {
   for (; tally.steps < wanted && tally.broken == 0; ++seed) CircleRun(seed, tally).go();
   std::printf(
       "%d steps: %d contacts with circles (%d of a corner, %d of an edge), %d slides, %d bullets, %d with what moves, "
-      "%d riding, %d from inside, %d from a touch, %d stuck, %d crushed, %d dropped, %d walkable, %d steep, %d wedged, "
+      "%d riding, %d from inside (%d of %d to their side), %d from a touch, %d stuck, %d crushed, %d dropped, %d "
+      "walkable, %d steep, %d wedged, "
       "%d untouched; "
       "least gap %.3g m\n",
       tally.steps, tally.contacts, tally.corner_on_arc, tally.edge_on_arc, tally.slides, tally.bullets, tally.pushed,
-      tally.riding, tally.inside, tally.touching, tally.stuck, tally.crushed, tally.dropped, tally.walkable,
-      tally.steep, tally.wedged, tally.untouched, static_cast<double>(tally.least_gap));
+      tally.riding, tally.inside, tally.back_to_their_side, tally.thrown, tally.touching, tally.stuck, tally.crushed,
+      tally.dropped, tally.walkable, tally.steep, tally.wedged, tally.untouched, static_cast<double>(tally.least_gap));
   EXPECT_EQ(tally.broken, 0);
   if (wanted < 3000) return;
   // So that it is known to have looked at everything.
@@ -385,6 +401,8 @@ TEST(AmongRandomCircles, no_step_gets_into_one) {
                          tally.walkable, tally.steep, tally.wedged})
     EXPECT_GT(some, tally.steps / 1000);
   EXPECT_GT(tally.crushed, tally.steps / 20'000);
+  EXPECT_GT(tally.thrown, tally.steps / 1000);
+  EXPECT_GT(tally.back_to_their_side, tally.thrown / 2);
 }
 
 }  // namespace
