@@ -392,6 +392,35 @@ TEST(CircleInFloat, is_landed_on_and_slid_along) {
   EXPECT_LT(move.position.x(), -1 - static_cast<float>(half_width));
 }
 
+TEST(CircleInFloat, is_not_entered_by_more_than_its_gap_in_random_play) {
+  // Nothing is guaranteed in `float`; near the origin it keeps out all the same.
+  test::Random random(5);
+  int contacts = 0;
+  for (int run = 0; run < 100; ++run) {
+    std::vector<ColliderDef> colliders{rectangle(-9, -2, 9, -1), rectangle(-6, -1, -5, 99), rectangle(5, -1, 6, 99)};
+    for (int i = random.integer(1, 8); i > 0; --i) {
+      const double x = random.between(-4, 4);
+      const double y = random.between(-1, 2);
+      colliders.push_back(circle(x, y, random.log_between(0.05, 2)));
+    }
+    Stepper<float> stepper(colliders);
+    stepper.at(random.between(-4, 4), 5);
+    for (int i = 0; i < 100; ++i) {
+      if (random.chance(0.1)) stepper.with_velocity(random.between(-50, 50), -20);
+      stepper.step({.move = random.chance(0.5) ? 1.0 : -1.0});
+      ASSERT_TRUE(stepper.state.position.allFinite()) << run;
+      contacts += static_cast<int>(stepper.report.move.contacts.size());
+      const Vec2d at = stepper.state.position.cast<double>();
+      for (std::size_t c = 3; c < colliders.size(); ++c) {
+        const Circle<double> round{colliders[c].points[0], colliders[c].radius};
+        ASSERT_GT(slow_separation(stepper.controller.character().shape.hull(), at, round), -1e-4)
+            << "run " << run << ", step " << i;
+      }
+    }
+  }
+  EXPECT_GT(contacts, 2000);
+}
+
 // Circles that move.
 
 TEST(MovingCircle, pushes_the_character_along) {
