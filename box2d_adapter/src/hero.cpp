@@ -57,7 +57,6 @@ b2Body& make_body(b2World& world, const HeroDef& def) {
   const double push_force = def.push_force.value_or(0);
   require(mass >= 1e-6 && mass <= 1e9, "mass of a hero: must be from 1e-6 to 1e9 kg");
   require(push_force >= 0 && push_force <= 1e15, "push_force of a hero: must be from 0 to 1e15 N");
-  require(def.circle_corners >= 3, "circle_corners of a hero: a polygon around a circle has at least 3 corners");
   require(!world.IsLocked(), "a hero cannot be made during a step of the world");
   def.character.validate();
   b2BodyDef body;

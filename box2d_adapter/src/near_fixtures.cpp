@@ -215,11 +215,14 @@ void NearFixtures::define(Known& known) {
   b2Transform transform = seen.moves ? at({0, 0}) : seen.body->GetTransform();
   const bool is_wheel = seen.moves && seen.shape->GetType() == b2Shape::e_circle;
   if (is_wheel) transform = at(-static_cast<const b2CircleShape*>(seen.shape)->m_p);
-  ColliderDef whole = collider_of(*seen.shape, transform, def_->circle_corners);
+  ColliderDef whole = collider_of(*seen.shape, transform);
   whole.sensor = seen.sensor;
   whole.surface_speed = seen.surface.speed;
   if (is_wheel) whole.surface_speed -= static_cast<double>(seen.spin) * static_cast<double>(seen.shape->m_radius);
-  if (seen.surface.blocks == Blocking::from_above) whole.one_way = seen.up;
+  if (seen.surface.blocks == Blocking::from_above) {
+    if (whole.shape == ColliderDef::Shape::circle) whole = polygon_around(whole);
+    whole.one_way = seen.up;
+  }
   const bool is_cut = !(seen.cut.lower == seen.cut.upper);
   std::vector<ColliderDef> defs = is_cut ? cut_to(seen.cut, whole) : std::vector{std::move(whole)};
   known.parts.resize(std::max(known.parts.size(), defs.size()));

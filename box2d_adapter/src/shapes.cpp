@@ -28,24 +28,33 @@ ColliderDef chain_of(std::span<const b2Vec2> points, const b2Transform& transfor
   return {.shape = ColliderDef::Shape::chain, .points = in_world(points, transform)};
 }
 
-ColliderDef polygon_around(const b2CircleShape& circle, const b2Transform& transform, int corners) {
-  const Vec2d centre = widened(b2Mul(transform, circle.m_p));
-  const double half_angle = std::numbers::pi / corners;
-  const double reach = static_cast<double>(circle.m_radius) / std::cos(half_angle);
-  ColliderDef polygon;
-  for (int i = 0; i < corners; ++i) {
-    const double angle = half_angle * (2 * i + 1);
-    polygon.points.push_back(centre + reach * Vec2d(std::cos(angle), std::sin(angle)));
-  }
-  return polygon;
+ColliderDef circle_of(const b2CircleShape& circle, const b2Transform& transform) {
+  ColliderDef def{.shape = ColliderDef::Shape::circle, .points = {widened(b2Mul(transform, circle.m_p))}};
+  def.radius = static_cast<double>(circle.m_radius);
+  return def;
 }
 
 }  // namespace
 
-ColliderDef collider_of(const b2Shape& shape, const b2Transform& transform, int circle_corners) {
+ColliderDef polygon_around(const ColliderDef& circle) {
+  constexpr int corners = 32;
+  constexpr double half_angle = std::numbers::pi / corners;
+  const double reach = circle.radius / std::cos(half_angle);
+  ColliderDef polygon = circle;
+  polygon.shape = ColliderDef::Shape::polygon;
+  polygon.radius = 0;
+  polygon.points.clear();
+  for (int i = 0; i < corners; ++i) {
+    const double angle = half_angle * (2 * i + 1);
+    polygon.points.emplace_back(circle.points.front() + reach * Vec2d(std::cos(angle), std::sin(angle)));
+  }
+  return polygon;
+}
+
+ColliderDef collider_of(const b2Shape& shape, const b2Transform& transform) {
   switch (shape.GetType()) {
     case b2Shape::e_circle:
-      return polygon_around(static_cast<const b2CircleShape&>(shape), transform, circle_corners);
+      return circle_of(static_cast<const b2CircleShape&>(shape), transform);
     case b2Shape::e_edge: {
       const auto& edge = static_cast<const b2EdgeShape&>(shape);
       return chain_of(std::array{edge.m_vertex1, edge.m_vertex2}, transform);

@@ -34,14 +34,13 @@ Filter filter_of(const b2Fixture& fixture) noexcept {
 }
 
 WorldScenery scenery_of(b2World& world, const WorldSceneryDef& def) {
-  if (def.circle_corners < 3) throw InvalidDefinition("a polygon around a circle has at least 3 corners");
   const auto& wanted = def.filter ? def.filter : is_solid;
   WorldScenery result;
   for (b2Body* body : in_order_of_creation(world.GetBodyList())) {
     if (!body->IsEnabled() || body->GetType() != b2_staticBody) continue;
     for (b2Fixture* fixture : in_order_of_creation(body->GetFixtureList())) {
       if (!wanted(*fixture)) continue;
-      ColliderDef collider = collider_of(*fixture->GetShape(), body->GetTransform(), def.circle_corners);
+      ColliderDef collider = collider_of(*fixture->GetShape(), body->GetTransform());
       collider.sensor = fixture->IsSensor();
       collider.filter = filter_of(*fixture);
       result.scenery.colliders.push_back(std::move(collider));

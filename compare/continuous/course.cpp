@@ -30,6 +30,7 @@ void check(const Scene& scene, const std::vector<InputEvent>& input) {
   for (const ColliderDef& collider : scene.scenery.colliders) {
     require(!collider.one_way, "one-way chains");
     require(collider.surface_speed == 0, "conveyors");
+    require(collider.shape != ColliderDef::Shape::circle, "circles");
   }
   for (const MoverDef& mover : scene.movers) {
     require(!mover.body, "bodies that Box2D moves");

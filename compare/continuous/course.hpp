@@ -61,11 +61,11 @@ class Course {
 };
 
 /// @param input what the character wants, by steps of the scene.
-/// @throws NotCovered for: more than one character; gravity that is not straight down; one-way chains, conveyors and
-///   dropping through; bodies and movers that turn; `snap`, `step_height` and the article's rules for jumps; a start inside a solid; a
-///   map that is left; movers that are met by anything but their walkable side, that meet the character between
-///   them and something else, or that fall faster than the character; ground that the acceleration of the ground
-///   holds and that of the air does not; more than 20,000 events.
+/// @throws NotCovered for: more than one character; gravity that is not straight down; one-way chains, conveyors,
+///   circles and dropping through; bodies and movers that turn; `snap`, `step_height` and the article's rules for
+///   jumps; a start inside a solid; a map that is left; movers that are met by anything but their walkable side, that
+///   meet the character between them and something else, or that fall faster than the character; ground that the
+///   acceleration of the ground holds and that of the air does not; more than 20,000 events.
 template <class Real>
 [[nodiscard]] Course<Real> course_of(const Scene& scene, const std::vector<InputEvent>& input, Law law);
 

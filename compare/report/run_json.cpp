@@ -169,7 +169,7 @@ class Columns {
     std::vector<std::pair<double, double>> angles(step.movers.size());
     for (const VertexWay& way : step.vertex_ways) {
       const ColliderDef& def = header_.scenery.colliders[way.collider];
-      angles[def.mover] = angles_of(def.points, way);
+      if (def.points.size() > 1) angles[def.mover] = angles_of(def.points, way);
     }
     for (const auto& [from, to] : angles) turns_.add(in_parts(from)).add(in_parts(to));
   }

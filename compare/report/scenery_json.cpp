@@ -1,7 +1,9 @@
 #include "report/scenery_json.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <numbers>
 #include <numeric>
 
 namespace paperproof::compare {
@@ -19,7 +21,7 @@ std::string ring_json(const std::vector<Vec2d>& points, DisplayPoint last, const
 
 std::string shape_json(const ColliderDef& collider, DisplayPoint origin, const Quantum& quantum) {
   JsonArray rings;
-  rings.add_raw(ring_json(collider.points, origin, quantum));
+  rings.add_raw(ring_json(drawn_outline(collider), origin, quantum));
   for (const std::vector<Vec2d>& hole : collider.holes) rings.add_raw(ring_json(hole, origin, quantum));
   JsonArray shape;
   shape.add(collider.shape == ColliderDef::Shape::chain ? 1 : 0).add_raw(std::move(rings).take());
@@ -79,6 +81,17 @@ std::int64_t lattice_unit(const std::vector<DisplayPoint>& steps) {
 }
 
 }  // namespace
+
+std::vector<Vec2d> drawn_outline(const ColliderDef& collider) {
+  constexpr int corners = 64;
+  if (collider.shape != ColliderDef::Shape::circle) return collider.points;
+  std::vector<Vec2d> outline;
+  for (int k = 0; k < corners; ++k) {
+    const double angle = 2 * std::numbers::pi * k / corners;
+    outline.emplace_back(collider.points.front() + collider.radius * Vec2d(std::cos(angle), std::sin(angle)));
+  }
+  return outline;
+}
 
 std::string scenery_json(const SceneryDef& scenery, const std::vector<std::string>& ids,
                          const std::set<ColliderIndex>& named, const Quantum& quantum) {

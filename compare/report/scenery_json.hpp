@@ -9,6 +9,9 @@
 
 namespace paperproof::compare {
 
+/// The points of a collider; of a circle, those of a polygon of 64 corners.
+[[nodiscard]] std::vector<Vec2d> drawn_outline(const ColliderDef& collider);
+
 /// `{"shapes":[[kind,[ring…],one_way?]…],"order":[shape,count,…],"unit":u,"at":[dx,dy,…],"ids":{"3":"paper"}}`.
 /// A ring is flat, relative to its shape's first vertex, each vertex as the difference to the one before; kind is 0 for
 /// a polygon, 1 for a chain. `order` says which shape the colliders have, run by run; `at` is where each one's first

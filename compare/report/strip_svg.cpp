@@ -1,3 +1,4 @@
+#include "report/scenery_json.hpp"
 #include "report/svg.hpp"
 #include "report/svg_text.hpp"
 
@@ -94,7 +95,7 @@ void draw_scenery(Svg& svg, const View& view, const ReportRun& run, const TraceS
       svg.polyline(view.flat(collider.points, offset), false, "border curve");
       continue;
     }
-    std::vector<std::vector<double>> rings{view.flat(collider.points, offset)};
+    std::vector<std::vector<double>> rings{view.flat(drawn_outline(collider), offset)};
     for (const std::vector<Vec2d>& hole : collider.holes) rings.push_back(view.flat(hole, offset));
     svg.rings(rings, "solid");
   }

@@ -42,7 +42,10 @@ Scene sample_of(const Scene& scene, const Scenery<double>& scenery, std::size_t 
     const ColliderDef& whole = scene.scenery.colliders[scenery.pieces()[piece].collider];
     const auto vertices = scenery.vertices_of(piece);
     ColliderDef part;
-    part.shape = vertices.size() == 2 ? ColliderDef::Shape::chain : ColliderDef::Shape::polygon;
+    part.shape = whole.shape == ColliderDef::Shape::circle ? whole.shape
+                 : vertices.size() == 2                    ? ColliderDef::Shape::chain
+                                                           : ColliderDef::Shape::polygon;
+    part.radius = whole.radius;
     part.points.assign(vertices.begin(), vertices.end());
     part.one_way = whole.one_way;
     part.sensor = whole.sensor;

@@ -51,6 +51,11 @@ void add_chain(Scene& scene, std::string id, std::vector<Vec2d> points) {
   scene.scenery.colliders.push_back({.shape = ColliderDef::Shape::chain, .points = std::move(points)});
 }
 
+void add_circle(Scene& scene, std::string id, const Vec2d& centre, double radius) {
+  scene.ids.push_back(std::move(id));
+  scene.scenery.colliders.push_back({.shape = ColliderDef::Shape::circle, .points = {centre}, .radius = radius});
+}
+
 void move_last(Scene& scene, std::vector<MoverDef::Waypoint> path, MoverDef::Loop loop) {
   scene.scenery.colliders.back().mover = static_cast<MoverIndex>(scene.movers.size());
   scene.movers.push_back({.id = scene.ids.back(), .path = std::move(path), .loop = loop});

@@ -53,6 +53,7 @@ inline constexpr double tan_30 = 0.57735026918962576;  ///< Of 30 degrees.
 void add_polygon(Scene& scene, std::string id, std::vector<Vec2d> points);
 void add_box(Scene& scene, std::string id, double left, double bottom, double right, double top);
 void add_chain(Scene& scene, std::string id, std::vector<Vec2d> points);
+void add_circle(Scene& scene, std::string id, const Vec2d& centre, double radius);
 /// The last collider goes along a path.
 void move_last(Scene& scene, std::vector<MoverDef::Waypoint> path, MoverDef::Loop loop = MoverDef::Loop::once);
 /// The last collider is a body that Box2D moves.

@@ -171,6 +171,39 @@ Scene sawtooth_of(int teeth) {
   return scene;
 }
 
+/// Falls onto the top of a ball, and stands there.
+Scene land_on_circle() {
+  Scene scene = flight(0, half_height + 1, 0, 0, 120);
+  scene.gravity = {0, -30};
+  add_circle(scene, "ball", {0, -2}, 2);
+  const double landed = steps_to_fall(scene, 1);
+  scene.answers = {contact(landed, fallen(scene, 1) * landed)};
+  ends_at(scene, 0, half_height);
+  rests_after(scene, 80);
+  return scene;
+}
+
+/// Flies at 600 m/s, 10 m in a step, against a ball of 5 mm.
+Scene bullet_at_circle() {
+  Scene scene = flight(-24, 0, 600, 0, 30);
+  add_circle(scene, "ball", {0, 0}, 0.005);
+  scene.answers = {contact((24 - half_width - 0.005) / 10, 10)};
+  ends_at(scene, -half_width - 0.005, 0);
+  return scene;
+}
+
+/// Falls between two balls of 1 m, 2.4 m apart: the slanted sides between its feet and its arms rest on both. Of such a
+/// side the normal is (2, -1) / √5, and the line through the foot (5, y - 20) px is 1 m from (1.2, 0).
+Scene between_circles() {
+  Scene scene = flight(0, 3, 0, 0, 180);
+  scene.gravity = {0, -30};
+  add_circle(scene, "left", {-1.2, 0}, 1);
+  add_circle(scene, "right", {1.2, 0}, 1);
+  scene.answers = {x_is(0), y_is(std::sqrt(5.0) - 2 * (1.2 - foot) + half_height).gaps(std::sqrt(5.0))};
+  rests_after(scene, 120);
+  return scene;
+}
+
 Scene sawtooth_1() { return sawtooth_of(1); }
 Scene sawtooth_4() { return sawtooth_of(4); }
 Scene sawtooth_11() { return sawtooth_of(11); }
@@ -210,6 +243,10 @@ std::vector<BuiltInScene> angle_scenes() {
       {"wedge_5", "falls into a V of 5 degrees: rests on both sides, centre 239.0 px above the apex, v = 0", wedge_5},
       {"wedge_1", "falls into a V of 1 degree: rests on both sides, centre 1,155.9 px above the apex, v = 0", wedge_1},
       {"concave_corner", "into a right-angled corner at 57 m/s: contacts with floor and wall, v = 0", concave_corner},
+      {"land_on_circle", "falls onto the top of a ball of 2 m: stands there", land_on_circle},
+      {"bullet_at_circle", "600 m/s against a ball of 5 mm: t = d / v, in step 2", bullet_at_circle},
+      {"between_circles", "falls between two balls: the slanted sides rest on both, 0.774 m above their middles",
+       between_circles},
       {"sawtooth_1", "200 m in a step past one tooth: one impact", sawtooth_1},
       {"sawtooth_4", "the same between 4 teeth: 4 impacts in the step, at the times of the formula", sawtooth_4},
       {"sawtooth_11", "the same between 11 teeth: 11 impacts in the step", sawtooth_11},

@@ -29,6 +29,7 @@ std::string colliders(const SceneryDef& scenery) {
   std::size_t chains = 0;
   std::size_t one_way = 0;
   std::size_t one_way_polygons = 0;
+  std::size_t circles = 0;
   std::size_t moving = 0;
   std::size_t sensors = 0;
   for (const ColliderDef& collider : scenery.colliders) {
@@ -38,12 +39,15 @@ std::string colliders(const SceneryDef& scenery) {
       ++polygons;
       if (collider.one_way) ++one_way_polygons;
       holes += collider.holes.size();
+    } else if (collider.shape == ColliderDef::Shape::circle) {
+      ++circles;
     } else {
       ++(collider.one_way ? one_way : chains);
     }
   }
   std::string out = fmt::format("{} ({}), {}, {}", counted(polygons, "polygon"), counted(holes, "hole"),
                                 counted(chains, "two-sided chain"), counted(one_way, "one-way chain"));
+  if (circles > 0) out += fmt::format(", {}", counted(circles, "circle"));
   if (one_way_polygons > 0) out += fmt::format("; one-way polygons: {}", one_way_polygons);
   if (moving > 0) out += fmt::format("; moving: {}", moving);
   if (sensors > 0) out += fmt::format("; sensors: {}", sensors);

@@ -48,6 +48,14 @@ ColliderDef read_collider(const JsonCursor& entry, const std::string& shape, dou
     collider.surface_speed = speed->number();
     check_travel(*speed, std::abs(collider.surface_speed) * step_seconds, step_seconds);
   }
+  if (shape == "circle") {
+    const JsonCursor circle = entry.require("circle");
+    if (circle.size() != 3) circle.refuse("expected [x, y, radius]");
+    collider.shape = ColliderDef::Shape::circle;
+    collider.points = {{circle.element(0).number(), circle.element(1).number()}};
+    collider.radius = circle.element(2).number();
+    return collider;
+  }
   if (shape == "chain") {
     collider.shape = ColliderDef::Shape::chain;
     collider.points = entry.require("chain").points(2);
@@ -119,17 +127,18 @@ class SceneryReader {
 
   void read_entry(const JsonCursor& entry, std::size_t index) {
     if (entry.find("decoration")) return read_decoration(entry, index);
-    entry.refuse_other_keys({"id", "polygon", "holes", "chain", "one_way", "sensor", "surface_speed", "tiled",
+    entry.refuse_other_keys({"id", "polygon", "holes", "chain", "circle", "one_way", "sensor", "surface_speed", "tiled",
                              "picture", "solid", "background", "pixel_tiles"});
-    const std::string shape = only_shape(entry, {"polygon", "chain", "tiled", "picture", "pixel_tiles"});
+    const std::string shape = only_shape(entry, {"polygon", "chain", "circle", "tiled", "picture", "pixel_tiles"});
     refuse_key_beside(entry, "solid", shape, "picture");
     refuse_key_beside(entry, "background", shape, "picture");
     const std::string id = take_id(entry, "scenery", index);
     const JsonCursor at = entry.require(shape);
-    if (shape != "polygon" && shape != "chain") {
+    if (shape != "polygon" && shape != "chain" && shape != "circle") {
       refuse_key_beside(entry, "holes", shape, "polygon");
       for (const char* key : {"one_way", "sensor", "surface_speed"}) {
-        if (const auto found = entry.find(key)) found->refuse("expected only beside \"polygon\" or \"chain\"");
+        if (const auto found = entry.find(key))
+          found->refuse("expected only beside \"polygon\", \"chain\" or \"circle\"");
       }
       if (shape == "tiled")
         add_map(id, at);
@@ -221,8 +230,8 @@ class SceneryReader {
 
   void read_mover(const JsonCursor& entry, std::size_t index) {
     entry.refuse_other_keys(
-        {"id", "polygon", "holes", "chain", "one_way", "sensor", "surface_speed", "path", "angle", "loop"});
-    const std::string shape = only_shape(entry, {"polygon", "chain"});
+        {"id", "polygon", "holes", "chain", "circle", "one_way", "sensor", "surface_speed", "path", "angle", "loop"});
+    const std::string shape = only_shape(entry, {"polygon", "chain", "circle"});
     MoverDef mover;
     mover.id = take_id(entry, "movers", index);
     ColliderDef collider = read_collider(entry, shape, step_seconds_);

@@ -21,6 +21,7 @@ TechniqueEntry octagon_sweep_entry() {
           .knobs = {{"iterations", "rounds per step, at least 1",
                      [](const std::string& value, TechniqueDef& def) { def.sweep_iterations = whole_in(value); }}},
           .knows_movers = true,
+          .knows_circles = true,
           .moves_crowds = true};
 }
 

@@ -96,7 +96,7 @@ std::unique_ptr<Technique<Scalar>> make_technique(const TechniqueDef& def, const
   require(entry != nullptr, "technique: there is none with the name " + std::string(def.name));
   if (!entry->knows_movers && (has_moving_solids(scenery) || has_conveyors(scenery)))
     throw NotExpressible(std::string(def.name) + " is for scenery that stands still");
-  if (has_circles(scenery) && def.name != "octagon_sweep")
+  if (!entry->knows_circles && has_circles(scenery))
     throw NotExpressible(std::string(def.name) + " knows no circles: make a polygon of them");
   if constexpr (std::is_same_v<Scalar, float>) return entry->make_float(def, scenery, character);
   if constexpr (std::is_same_v<Scalar, double>) return entry->make_double(def, scenery, character);

@@ -98,7 +98,7 @@ std::size_t overlaps_now(b2World& world, const Hero& hero) {
     const Vec2d at(static_cast<double>(turned.p.x), static_cast<double>(turned.p.y));
     turned.p.SetZero();
     for (const b2Fixture* fixture = body->GetFixtureList(); fixture != nullptr; fixture = fixture->GetNext()) {
-      now.colliders.push_back(collider_of(*fixture->GetShape(), turned, 32));
+      now.colliders.push_back(collider_of(*fixture->GetShape(), turned));
       now.colliders.back().mover = static_cast<MoverIndex>(standing.size());
     }
     standing.push_back({at, at});

@@ -740,7 +740,6 @@ TEST(Hero, refuses_what_it_cannot_do) {
   EXPECT_THROW(game.hero.place({std::numeric_limits<double>::quiet_NaN(), 0}), InvalidDefinition);
   EXPECT_THROW(game.hero.knock_back({0, std::numeric_limits<double>::infinity()}), InvalidDefinition);
   EXPECT_THROW(Hero(game.world, {.mass = 0}), InvalidDefinition);
-  EXPECT_THROW(Hero(game.world, {.circle_corners = 2}), InvalidDefinition);
   CharacterDef impossible;
   impossible.walk_speed = -1;
   EXPECT_THROW(Hero(game.world, {.character = impossible}), InvalidCharacter);

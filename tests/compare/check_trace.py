@@ -42,8 +42,8 @@ from functools import lru_cache
 
 from trace_company import Company, first_event, meets_at_once, places_at
 from trace_geometry import (
-    GAP, NEAR_DROP, NEAR_PASS, ROUNDING, SAME, ZERO, add, crossings, distance, dot, enters, exact, hull, inside, less,
-    scaled, size)
+    GAP, NEAR_DROP, NEAR_PASS, ROUNDING, SAME, ZERO, add, circle_crossings, crossings, distance, dot, enters, exact, hull,
+    inside, is_near, less, scaled, size)
 from trace_hanging import hangs
 from trace_one_way import lines_of, surfaces_of
 from trace_turning import Way, comes_to_overlap, overlaps
@@ -62,13 +62,15 @@ class Collider:
         self.rings = [exact(ring) for ring in [entry["polygon"]] + entry.get("holes", [])] if "polygon" in entry else []
         self.lines = [exact(entry["chain"])] if "chain" in entry else []
         self.sizes = [len(ring) for ring in self.rings + self.lines]
-        self.vertex_count = sum(self.sizes)
+        *centre, self.radius = exact([entry["circle"]])[0] if "circle" in entry else (0,)
+        self.centre = tuple(centre)
+        self.vertex_count = sum(self.sizes) or 1
         if self.rings and self.one_way is not None:  # it has no inside
             self.lines, self.rings = lines_of(self.rings[0], self.one_way), []
-        self.edges = edges_of(self.rings, self.lines)
+        self.edges = [(self.centre, self.centre)] if self.radius else edges_of(self.rings, self.lines)
         points = [tuple(map(float, point)) for edge in self.edges for point in edge]
-        self.low = [min(p[k] for p in points) for k in (0, 1)]
-        self.high = [max(p[k] for p in points) for k in (0, 1)]
+        self.low = [min(p[k] for p in points) - float(self.radius) for k in (0, 1)]
+        self.high = [max(p[k] for p in points) + float(self.radius) for k in (0, 1)]
         self.segments = []  # of a one-way chain, with their surfaces
 
     def rings_of(self, vertices):
@@ -79,8 +81,16 @@ class Collider:
         return [vertices[end - size:end] for end, size in zip(ends, self.sizes)]
 
     def edges_of(self, vertices):
-        """Of what turns, with its vertices in the order of their definition."""
+        """Of what turns, with its vertices in the order of their definition. A circle has one edge, which is its centre."""
+        if self.radius:
+            return [(vertices[0], vertices[0])]
         return edges_of(self.rings_of(vertices), [] if self.rings else [vertices])
+
+    def distance(self, point, edges):
+        """Of a point from its boundary, which has these edges at that moment."""
+        if self.radius:
+            return abs(size(less(point, edges[0][0])) - float(self.radius))
+        return min(distance(point, a, b) for a, b in edges)
 
     def blocking_edges(self, body):
         """Of a one-way chain, the segments that a body may not pass on its way from here."""
@@ -159,6 +169,8 @@ class Checker:
         if collider.one_way is not None:
             edges = collider.blocking_edges([add(start, corner) for corner in self.body])
         swept = hull(swept)
+        if collider.radius:
+            return is_near(collider.centre, swept, collider.radius)
         if any(enters(a, b, swept) for a, b in edges):
             return True
         middle = (sum(p[0] for p in swept) / len(swept), sum(p[1] for p in swept) / len(swept))
@@ -214,6 +226,7 @@ class Checker:
             low = min(float(start[k]), float(end[k])) + 1.01 * self.low[k]
             high = max(float(start[k]), float(end[k])) + 1.01 * self.high[k]
             margin = 1e-9 * (1 + abs(low) + abs(high))
+            margin += float(way.collider.radius)
             if low > max(p[k] for p in points) + margin or high < min(p[k] for p in points) - margin:
                 return True
         return False
@@ -237,7 +250,12 @@ class Checker:
         for leg, (start, end) in enumerate(zip(corners, corners[1:])):
             way = less(end, start)
             near = self.meets(name, start, way)
-            found = crossings(start, way, self.body, self.colliders[name].edges) if near else []
+            sensor = self.colliders[name]
+            found = []
+            if near and sensor.radius:
+                found = circle_crossings(start, way, self.body, sensor.centre, sensor.radius)
+            elif near:
+                found = crossings(start, way, self.body, sensor.edges)
             times = [ZERO] + sorted({t for t in found if 0 < t < 1}) + [Fraction(1)]
             for first, last in zip(times, times[1:]):
                 for t in (first, (first + last) / 2):
@@ -293,7 +311,7 @@ class Checker:
         name, n = contact["collider"], tuple(map(Fraction, contact["normal"]))
         place, point = corner[:2], tuple(map(Fraction, contact["point"]))
         edges = motion.edges(name, self.colliders[name], corner[2])
-        if not min(distance(point, a, b) for a, b in edges) <= ROUNDING:
+        if not self.colliders[name].distance(point, edges) <= ROUNDING * max(1, float(self.colliders[name].radius)):
             yield f"has a contact point {show(point)} that is not on {name}"
         body = [add(place, corner) for corner in self.body]
         if not min(distance(point, a, b) for a, b in zip(body, body[1:] + body[:1])) <= GAP + Fraction(ROUNDING):
@@ -357,6 +375,10 @@ class Checker:
                     continue
                 place, offset = motion.seen(name, corner), motion.offset(name, corner[2])
                 moved = tuple(map(float, motion.change(name)))
+                if collider.radius:
+                    if self.meets(name, place, (ZERO, ZERO), self.grown_by(4 * GAP)):
+                        yield tuple(add(end, offset) for end in self.tangent(collider, place)), moved
+                    continue
                 for edge in collider.edges:
                     if is_near(*edge, place) and blocks(collider, edge, place):
                         yield tuple(add(end, offset) for end in edge), moved
@@ -367,6 +389,19 @@ class Checker:
                 yield from ((edge, moved) for edge in zip(body, body[1:] + body[:1]) if is_near(*edge, corner))
 
         return edges
+
+    def tangent(self, collider, place):
+        """An edge that stands for a circle beside a body: so long that the body does not see where it ends."""
+        body = [add(place, corner) for corner in self.body]
+        feet = []
+        for a, b in zip(body, body[1:] + body[:1]):
+            share = min(max(dot(less(collider.centre, a), less(b, a)) / dot(less(b, a), less(b, a)), ZERO), Fraction(1))
+            feet.append(less(add(a, scaled(less(b, a), share)), collider.centre))
+        nearest = min(feet, key=lambda foot: dot(foot, foot))
+        out = scaled(nearest, 1 / Fraction(size(nearest)))
+        top, along = add(collider.centre, scaled(out, collider.radius)), (-out[1], out[0])
+        reach = 8 * Fraction(max(self.high[k] - self.low[k] for k in (0, 1)))
+        return add(top, scaled(along, -reach)), add(top, scaled(along, reach))
 
     def check_progress(self, step, others):
         """Of octagon_sweep, which promises to fall where it can."""

@@ -153,7 +153,7 @@ TEST(PixelTileFile, stands_in_a_scene_once_and_by_itself) {
   EXPECT_EQ(complaint(R"({ "pixel_tiles": "level.json", "solid": 1 })"),
             ": /scenery/0/solid: expected only beside \"picture\"");
   EXPECT_EQ(complaint(R"({ "pixel_tiles": "level.json", "sensor": true })"),
-            ": /scenery/0/sensor: expected only beside \"polygon\" or \"chain\"");
+            ": /scenery/0/sensor: expected only beside \"polygon\", \"chain\" or \"circle\"");
   EXPECT_EQ(complaint(R"({ "pixel_tiles": "level.json", "picture": "a.png" })"),
             ": /scenery/0: expected exactly one shape; here are \"picture\" and \"pixel_tiles\"");
 }

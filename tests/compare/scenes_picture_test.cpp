@@ -214,7 +214,7 @@ TEST(Picture, that_cannot_be_used_is_refused_in_one_line) {
   EXPECT_EQ(complaint(R"({ "chain": [[0,0],[1,0]], "solid": "#ffffff" })"),
             ": /scenery/0/solid: expected only beside \"picture\"");
   EXPECT_EQ(complaint(R"({ "picture": "level.png", "one_way": [0,1] })"),
-            ": /scenery/0/one_way: expected only beside \"polygon\" or \"chain\"");
+            ": /scenery/0/one_way: expected only beside \"polygon\", \"chain\" or \"circle\"");
   EXPECT_EQ(complaint(R"({ "picture": "level.png", "tiled": "a.tmx" })").substr(0, 30),
             std::string(": /scenery/0: expected exactly one shape").substr(0, 30));
 }

@@ -68,6 +68,38 @@ def inside(point, rings):
     return odd
 
 
+def is_near(point, convex, radius):
+    """Whether a point is inside a counter-clockwise convex polygon, or nearer to it than a radius."""
+    if all(turn(u, v, point) > 0 for u, v in zip(convex, convex[1:] + convex[:1])):
+        return True
+    for a, b in zip(convex, convex[1:] + convex[:1]):
+        edge, off = less(b, a), less(point, a)
+        share = min(max(dot(off, edge) / dot(edge, edge), ZERO), Fraction(1))
+        rest = less(off, scaled(edge, share))
+        if dot(rest, rest) < radius * radius:
+            return True
+    return False
+
+
+def circle_crossings(start, way, body, centre, radius):
+    """Where on a straight way a corner of the body meets a circle, or an edge of the body touches it; rounded."""
+    length = size(way)
+    if length == 0:
+        return
+    r, along = float(radius), [float(k) / length for k in way]
+    for a, b in zip(body, body[1:] + body[:1]):
+        arm = [float(k) for k in less(centre, add(start, a))]
+        foot, aside = arm[0] * along[0] + arm[1] * along[1], arm[0] * along[1] - arm[1] * along[0]
+        if abs(aside) <= r:
+            half = (r * r - aside * aside) ** 0.5
+            yield from (Fraction((foot - half) / length), Fraction((foot + half) / length))
+        edge = [float(k) for k in less(b, a)]
+        out = edge[1] / size(edge), -edge[0] / size(edge)
+        speed = out[0] * along[0] + out[1] * along[1]
+        if speed != 0:
+            yield Fraction((out[0] * arm[0] + out[1] * arm[1] - r) / speed / length)
+
+
 def crossings(start, way, body, edges):
     """Where on a straight way a corner of the body meets an edge, or an end of an edge one of the body."""
     pairs = [(add(start, corner), a, b, way) for corner in body for a, b in edges]

@@ -7,7 +7,7 @@ from bisect import bisect_right
 from collections import deque
 from fractions import Fraction
 
-from trace_geometry import ZERO, add, enters, exact, inside, less, scaled, turn
+from trace_geometry import ZERO, add, enters, exact, hull, inside, is_near, less, scaled, turn
 
 WIDTH = Fraction(1, 10**9)  # of the shortest part that is looked at, as a share of a straight way
 MOST_PARTS = 2000  # that are looked at before it is called too close to tell: a touch takes about 60
@@ -62,6 +62,8 @@ def between(start, end, share):
 
 def overlaps(way, vertices, body):
     """Whether the body overlaps the collider, as it sees its vertices at one moment."""
+    if way.collider.radius:
+        return is_near(vertices[0], body, way.collider.radius)
     if any(enters(a, b, body) for a, b in way.collider.edges_of(vertices)):
         return True
     return inside(middle_of(body), way.collider.rings_of(vertices))
@@ -104,6 +106,9 @@ def comes_to_overlap(way, body, start, end):
     for first, last in way.stretches(start, end):
         corners = between(start, end, first), between(start, end, last)
         parts.append((way.seen(corners[0]), way.seen(corners[1]), last - first))
+    if way.collider.radius:  # its centre goes straight, and so does the body
+        return any(is_near(first[0], hull(body + [add(corner, less(first[0], last[0])) for corner in body]),
+                           way.collider.radius) for first, last, _ in parts)
     for _ in range(MOST_PARTS):
         if not parts:
             return None if close else False

@@ -69,6 +69,8 @@ struct Tally {
   int inside = 0;    ///< Began inside a circle, and came out.
   int touching = 0;  ///< Began at a touch but for some ulps.
   int stuck = 0;
+  int thrown = 0;              ///< Into something, with a last free position,
+  int back_to_their_side = 0;  ///< and came out where that sees them.
   int crushed = 0;
   int dropped = 0;
   int walkable = 0;
@@ -98,6 +100,7 @@ class CircleRun {
       if (random_.chance(0.2)) launch();
       if (random_.chance(0.01)) teleport(state_, origin_ + Vec2d{random_.between(-3, 3), random_.between(-1, 4)});
       if (random_.chance(0.02)) touch();
+      if (random_.chance(0.02)) state_.position += Vec2d{random_.between(-1, 1), random_.between(-1, 1)};
       if (random_.chance(0.1)) input = {.move = random_.integer(-1, 1), .jump = random_.chance(0.3)};
       const CharacterState<double> before = state_;
       const StepContext<double> context{{0, random_.chance(0.1) ? 0 : gravity}, 1.0 / 60, motions_};
@@ -219,6 +222,14 @@ class CircleRun {
     return separation(collider, at, fraction, at, fraction);
   }
 
+  /// Whether no circle is in the straight way from a place, as all are when the step begins.
+  [[nodiscard]] bool is_seen_from(const Vec2d& place, const Vec2d& from) const {
+    for (ColliderIndex collider = 0; collider < def_.colliders.size(); ++collider)
+      if (def_.colliders[collider].shape == ColliderDef::Shape::circle &&
+          separation(collider, place, 0, from, 0) < -noise)
+        return false;
+    return true;
+  }
   [[nodiscard]] bool may_be_carried(const CharacterState<double>& before) const {
     for (ColliderIndex collider = 0; collider < def_.colliders.size(); ++collider) {
       const ColliderDef& def = def_.colliders[collider];
@@ -288,6 +299,10 @@ class CircleRun {
         if (!(gap >= -noise)) return fail(step, "passes into a circle", gap);
       }
       if (!(separation(collider, state_.position, 1) >= -noise)) return fail(step, "ends inside", 0);
+    }
+    if (!overlapped.empty() && before.has_last_free && move.path.size() > 1 && move.path[1].fraction == 0) {
+      ++tally_.thrown;
+      tally_.back_to_their_side += is_seen_from(before.last_free, move.path[1].position);
     }
     if (move.contacts.empty() && move.status == MoveStatus::moved && character_.snap == 0 && !before.crushed &&
         !may_be_carried(before)) {
@@ -367,14 +382,15 @@ TEST(AmongRandomCircles, no_step_gets_into_one) {
   for (; tally.steps < wanted && tally.broken == 0; ++seed) CircleRun(seed, tally).go();
   std::printf(
       "%d steps: %d contacts with circles (%d of a corner, %d of an edge), %d slides, %d bullets, %d with what moves, "
-      "%d riding, %d from inside, %d from a touch, %d stuck, %d crushed, %d dropped, %d walkable, %d steep, %d wedged, "
+      "%d riding, %d from inside (%d of %d to their side), %d from a touch, %d stuck, %d crushed, %d dropped, %d "
+      "walkable, %d steep, %d wedged, "
       "%d untouched; "
       "least gap %.3g m\n",
       tally.steps, tally.contacts, tally.corner_on_arc, tally.edge_on_arc, tally.slides, tally.bullets, tally.pushed,
-      tally.riding, tally.inside, tally.touching, tally.stuck, tally.crushed, tally.dropped, tally.walkable,
-      tally.steep, tally.wedged, tally.untouched, static_cast<double>(tally.least_gap));
+      tally.riding, tally.inside, tally.back_to_their_side, tally.thrown, tally.touching, tally.stuck, tally.crushed,
+      tally.dropped, tally.walkable, tally.steep, tally.wedged, tally.untouched, static_cast<double>(tally.least_gap));
   EXPECT_EQ(tally.broken, 0);
-  if (wanted < 3000) return;
+  if (wanted < 20'000) return;
   // So that it is known to have looked at everything.
   EXPECT_GT(tally.contacts, tally.steps / 10);
   EXPECT_GT(tally.corner_on_arc, tally.steps / 50);
@@ -385,6 +401,97 @@ TEST(AmongRandomCircles, no_step_gets_into_one) {
                          tally.walkable, tally.steep, tally.wedged})
     EXPECT_GT(some, tally.steps / 1000);
   EXPECT_GT(tally.crushed, tally.steps / 20'000);
+  EXPECT_GT(tally.thrown, tally.steps / 1000);
+  EXPECT_GT(tally.back_to_their_side, tally.thrown / 2);
+}
+
+/// Four characters that are thrown about among circles, some of which move.
+class CrowdRun {
+ public:
+  explicit CrowdRun(std::uint64_t seed) : random_(seed) {}
+
+  struct Tally {
+    int steps = 0;
+    int contacts = 0;
+    int met = 0;
+    int crushed = 0;
+    Real least_gap = 1;
+  };
+
+  void go(Tally& tally) {
+    SceneryDef def{{{.points = {{-9, -2}, {9, -2}, {9, -1}, {-9, -1}}}}};
+    const int circles = random_.integer(2, 10);
+    MoverIndex movers = 0;
+    for (int i = 0; i < circles; ++i) {
+      const double radius = random_.log_between(0.02, 2);
+      const Vec2d centre{random_.between(-4, 4), random_.between(-1, 3)};
+      def.colliders.push_back({.shape = ColliderDef::Shape::circle, .points = {centre}, .radius = radius});
+      if (random_.chance(0.3)) def.colliders.back().mover = movers++;
+    }
+    const Scenery<double> scenery(def);
+    const Crowd<double> crowd(scenery, character_);
+    for (const Vec2d& point : character_.shape.hull()) hull_.push_back(real(point));
+    CrowdScratch scratch = crowd.make_scratch(4);
+    CrowdReport<double> report(4);
+    std::vector<CharacterState<double>> states(4);
+    std::vector<Input> inputs(4);
+    std::vector<MoverMotion<double>> motions(movers);
+    for (std::size_t k = 0; k < states.size(); ++k) states[k].position = {2.0 * static_cast<double>(k) - 3, 6};
+    for (int step = 0; step < 60; ++step, ++tally.steps) {
+      for (std::size_t i = 0; i < motions.size(); ++i) {
+        const double time = step / 60.0 + static_cast<double>(i);
+        motions[i].from = step == 0 ? Vec2d(0, 0) : motions[i].to;
+        motions[i].to = {motions[i].from.x() + 0.05 * std::sin(3 * time), motions[i].from.y() + 0.05 * std::cos(time)};
+      }
+      for (CharacterState<double>& state : states)
+        if (random_.chance(0.1)) state.velocity = {random_.between(-40, 40), random_.between(-40, 40)};
+      const std::vector<CharacterState<double>> before = states;
+      ASSERT_EQ(crowd.step(states, inputs, {{0, -30}, 1.0 / 60, motions}, scratch, report), StepStatus::moved);
+      for (std::size_t k = 0; k < states.size(); ++k) judge(def, motions, before[k], report.members[k], tally);
+    }
+  }
+
+ private:
+  void judge(const SceneryDef& def, const std::vector<MoverMotion<double>>& motions,
+             const CharacterState<double>& before, const CrowdMember<double>& member, Tally& tally) {
+    const MoveResult<double>& move = member.step.move;
+    tally.contacts += static_cast<int>(move.contacts.size());
+    tally.met += static_cast<int>(member.met.size());
+    tally.crushed += !move.crushed.empty();
+    if (before.crushed || !move.crushed.empty() || before.stuck_steps > 0 || move.status == MoveStatus::stuck) return;
+    for (std::size_t i = 1; i < def.colliders.size(); ++i) {
+      const ColliderDef& circle = def.colliders[i];
+      const auto centre_at = [&](double fraction) -> Place {
+        if (circle.mover == no_mover) return real(circle.points[0]);
+        const Place from = real(motions[circle.mover].from);
+        return real(circle.points[0]) + from + (real(motions[circle.mover].to) - from) * Real(fraction);
+      };
+      for (std::size_t k = 0; k + 1 < move.path.size(); ++k) {
+        const Real gap = least_distance(hull_, centre_at(move.path[k].fraction) - real(move.path[k].position),
+                                        centre_at(move.path[k + 1].fraction) - real(move.path[k + 1].position)) -
+                         Real(circle.radius);
+        tally.least_gap = std::min(tally.least_gap, gap);
+        ASSERT_GE(gap, -noise);
+      }
+    }
+  }
+
+  Random random_;
+  CharacterDef character_;
+  std::vector<Place> hull_;
+};
+
+TEST(AmongRandomCircles, no_member_of_a_crowd_gets_into_one) {
+  const int wanted = steps_wanted("PAPERPROOF_CIRCLE_STEPS", sampled(60'000)) / 10;
+  CrowdRun::Tally tally;
+  for (std::uint64_t seed = 1; tally.steps < wanted; ++seed) {
+    CrowdRun(seed).go(tally);
+    ASSERT_FALSE(HasFailure()) << "seed " << seed;
+  }
+  std::printf("%d steps of four: %d contacts, %d meetings, %d crushed; least gap %.3g m\n", tally.steps, tally.contacts,
+              tally.met, tally.crushed, static_cast<double>(tally.least_gap));
+  EXPECT_GT(tally.contacts, tally.steps / 4);
+  EXPECT_GT(tally.met, tally.steps / 50);
 }
 
 }  // namespace

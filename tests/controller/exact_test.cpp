@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -150,6 +151,64 @@ TEST_F(ExactSigns, orientation_of_a_sum_of_many_terms_does_not_round_it) {
   }
   EXPECT_GE(coverage.undecided_in_doubles, coverage.cases / 10);
   EXPECT_GE(coverage.wrong_in_doubles, coverage.cases / 100);
+}
+
+TEST_F(ExactSigns, of_lengths_and_heights_agree_with_rational_numbers_within_ulps_of_a_circle) {
+  int zeros = 0;
+  int longer = 0;
+  int further = 0;
+  int separated = 0;
+  for (int i = 0; i < cases / 4; ++i) {
+    // 3, 4 and 5, so that lengths are exact now and then.
+    const double scale = power_of_two(10);
+    const bool pythagorean = integer(0, 2) == 0;
+    const Vec2d arm = pythagorean ? Vec2d(3 * scale, 4 * scale) : point(scale);
+    const double length = pythagorean && integer(0, 1) == 0 ? 5 * scale : an_ulp_away(arm.norm());
+    const Vec2d offset = pythagorean ? few_digits(point(scale), scale / 1024) : point(scale);
+    const Vec2d moved = few_digits(point(scale), scale / 1024);
+    const std::array terms{Vec2d(arm - offset), offset, moved, Vec2d(-moved)};
+    Rational x = 0;
+    Rational y = 0;
+    for (const Vec2d& term : terms) x += Rational(term.x()), y += Rational(term.y());
+    const Rational squared_length = Rational(length) * Rational(length);
+    const bool is_as_long = x * x + y * y >= squared_length;
+    ASSERT_EQ(geometry::is_sum_as_long_as(terms, length), is_as_long) << "seed " << seed << ", case " << i;
+    zeros += x * x + y * y == squared_length;
+    longer += is_as_long;
+
+    const Vec2d a = few_digits(point(scale), scale / 16);
+    const Vec2d b = a + (pythagorean ? Vec2d(-4 * scale, 3 * scale) : point(scale));
+    const Rational edge_x = Rational(b.x()) - Rational(a.x());
+    const Rational edge_y = Rational(b.y()) - Rational(a.y());
+    const Rational right = x * edge_y - y * edge_x;
+    const double height = an_ulp_away(right.convert_to<double>() / (b - a).norm());
+    if (height > 0) {
+      const bool is_as_far =
+          right >= 0 && right * right >= Rational(height) * Rational(height) * (edge_x * edge_x + edge_y * edge_y);
+      ASSERT_EQ(geometry::is_sum_as_far_right(a, b, terms, height), is_as_far) << "seed " << seed << ", case " << i;
+      further += is_as_far;
+    }
+
+    const Vec2d normal = arm / arm.norm();
+    const double rounded_up = geometry::length_rounded_up(normal);
+    const Rational square = Rational(normal.x()) * Rational(normal.x()) + Rational(normal.y()) * Rational(normal.y());
+    ASSERT_GE(Rational(rounded_up) * Rational(rounded_up), square);
+    const double below = std::nextafter(rounded_up, 0.0);
+    ASSERT_LT(Rational(below) * Rational(below), square);
+    const Rational over = Rational(normal.x()) * x + Rational(normal.y()) * y - Rational(length) * Rational(rounded_up);
+    const int sign = over.sign();
+    ASSERT_EQ(geometry::height_sign_of_sum(normal, terms, length, rounded_up), sign);
+    separated += sign >= 0;
+
+    const std::array others{a, Vec2d(-b), moved};
+    const Rational dot = x * (Rational(moved.x()) - edge_x) + y * (Rational(moved.y()) - edge_y);
+    ASSERT_EQ(geometry::dot_sign_of_sums(terms, others), dot.sign());
+  }
+  EXPECT_GT(zeros, cases / 200);
+  for (const int some : {longer, further, separated}) {
+    EXPECT_GT(some, cases / 40);
+    EXPECT_LT(some, cases / 4 - cases / 40);
+  }
 }
 
 TEST_F(ExactSigns, signs_are_exact_for_every_mixture_of_magnitudes_in_range) {

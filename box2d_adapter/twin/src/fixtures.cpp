@@ -3,6 +3,7 @@
 #include "solid_union.hpp"
 
 #include <box2d/b2_chain_shape.h>
+#include <box2d/b2_circle_shape.h>
 #include <box2d/b2_fixture.h>
 
 #include <algorithm>
@@ -95,9 +96,17 @@ void add_pieces(b2Body& body, const Scenery<double>& scenery, const Part& part, 
   const PieceRange range = part.mover == no_mover ? scenery.static_pieces() : scenery.pieces_of_mover(part.mover);
   for (PieceIndex i = range.first; i < range.end; ++i) {
     const PieceInfo& piece = scenery.pieces()[i];
-    if (!is_chain(piece))
+    if (!is_chain(piece) && !piece.is_circle())
       add_polygon_piece(body, scenery.vertices_of(i), {.collider = piece.collider, .mover = part.mover}, made);
   }
+}
+
+void add_circle(b2Body& body, const Vec2d& centre, double radius, const FixtureSource& source, SceneryFixtures& made) {
+  b2CircleShape circle;
+  circle.m_p = rounded(centre);
+  circle.m_radius = static_cast<float>(radius);
+  add_fixture(body, circle, source, made);
+  ++made.size.vertices;
 }
 
 void add_loops(b2Body& body, const Part& part, SceneryFixtures& made) {
@@ -162,6 +171,11 @@ void check_colliders(const SceneryDef& as_run) {
     const std::vector<Vec2d>& points = as_run.colliders[i].points;
     const std::string name = "collider " + std::to_string(i);
     for (const Vec2d& point : points) (void)checked(point, name);
+    if (as_run.colliders[i].shape == ColliderDef::Shape::circle) {
+      if (!(static_cast<float>(as_run.colliders[i].radius) > 0))
+        throw InvalidDefinition(name + " has no radius in Box2D's single precision");
+      continue;
+    }
     const Ring ring = without_repeats(points, true);
     const bool has_extent = std::any_of(ring.begin(), ring.end(),
                                         [&ring](const b2Vec2& vertex) { return long_enough(vertex, ring.front()); });
@@ -250,8 +264,10 @@ void add_solids(b2Body& body, const Scenery<double>& scenery, const Part& part, 
   }
   for (std::size_t i = 0; i < part.colliders.size(); ++i) {
     const ColliderDef& collider = part.solids.colliders[i];
-    if (collider.shape == ColliderDef::Shape::chain)
-      add_chain(body, collider, {.collider = part.colliders[i], .mover = part.mover}, made);
+    const FixtureSource source{.collider = part.colliders[i], .mover = part.mover};
+    if (collider.shape == ColliderDef::Shape::chain) add_chain(body, collider, source, made);
+    if (collider.shape == ColliderDef::Shape::circle)
+      add_circle(body, collider.points.front(), collider.radius, source, made);
   }
 }
 
@@ -264,7 +280,10 @@ void add_sensors(std::span<b2Body* const> bodies, const Scenery<double>& scenery
     b2Body& body = *bodies[mover == no_mover ? 0 : mover + 1];
     const FixtureSource source{.collider = piece.collider, .mover = mover, .sensor = true};
     const PieceVertices<double> vertices = scenery.vertices_of(i);
-    if (is_chain(piece)) {
+    if (piece.is_circle()) {
+      const Circle<double> circle = scenery.circle(i);
+      add_circle(body, circle.centre, circle.radius, source, made);
+    } else if (is_chain(piece)) {
       add_two_sided_edge(body, rounded(vertices[0]), rounded(vertices[1]), source, made);
     } else {
       add_polygon_piece(body, vertices, source, made);

@@ -38,7 +38,7 @@ struct NearCollider {
 struct TurnedCollider {
   ColliderIndex collider = no_collider;
   std::vector<double> instants;  ///< Fractions of the step, ascending from 0 to 1.
-  /// At each instant: the points of its definition, then those of its holes [m].
+  /// At each instant: the points of its definition, then those of its holes [m]; of a circle its centre.
   std::vector<std::vector<Vec2d>> vertices;
 };
 

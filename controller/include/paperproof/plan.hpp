@@ -19,7 +19,8 @@ struct Stages {
   bool movers = true;   ///< Moving scenery and conveyors. Safe to leave out where nothing moves.
   bool one_way = true;  ///< Chains that block from one side. Safe to leave out where there are none.
   bool sensors = true;  ///< Colliders that only report. Safe to leave out where there are none.
-  /// Edges that are parallel to no side of the character and of its box. Safe to leave out where there are none.
+  /// Circles, and edges that are parallel to no side of the character and of its box. Safe to leave out where there are
+  /// none.
   bool slopes = true;
   bool jump = true;     ///< Safe to leave out where the jump button is never pressed; a press is then invalid input.
   bool gravity = true;  ///< Safe to leave out where gravity is zero; another one is then invalid input.
@@ -62,7 +63,7 @@ struct Plan {
 /// (`SweepDef::broad_phase` and `::stages` from here) gives the same bits as a controller with every stage.
 ///
 /// The plan looks at the convex pieces (diagonals of concave polygons included) and at the conveyors. A slope is an
-/// edge that is parallel to neither axis.
+/// edge that is parallel to neither axis, or a circle.
 template <class Scalar>
 [[nodiscard]] Plan make_plan(const Scenery<Scalar>& scenery, const Foreseen& foreseen = {});
 

@@ -222,10 +222,11 @@ bool is_sum_as_far_right(const Vec2d& from, const Vec2d& to, std::span<const Vec
   assert(terms.size() <= most_terms);
   std::array<ExactSum<2>, 2> edge;
   std::array<ExactSum<most_terms>, 2> arm;
-  for (const std::size_t i : {0, 1}) {
-    edge[i].add(to[static_cast<Eigen::Index>(i)]);
-    edge[i].add(-from[static_cast<Eigen::Index>(i)]);
-    for (const Vec2d& term : terms) arm[i].add(term[static_cast<Eigen::Index>(i)]);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto axis = static_cast<Eigen::Index>(i);
+    edge[i].add(to[axis]);
+    edge[i].add(-from[axis]);
+    for (const Vec2d& term : terms) arm[i].add(term[axis]);
   }
   ExactSum<8 * most_terms> cross;
   cross.add_product(arm[0], edge[1]);

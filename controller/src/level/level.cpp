@@ -30,6 +30,7 @@ std::int32_t cell_at(double coordinate, int grid) noexcept {
 bool is_plain(const ColliderDef& def) {
   const auto usual = [](double value) { return value == 0 || (std::abs(value) >= 1e-80 && std::abs(value) <= 1e6); };
   return def.shape == ColliderDef::Shape::polygon && def.holes.empty() && !def.one_way && def.surface_speed == 0 &&
+         def.radius == 0 &&
          std::all_of(def.points.begin(), def.points.end(),
                      [&](const Vec2d& point) { return usual(point.x()) && usual(point.y()); }) &&
          geometry::is_convex(def.points);
@@ -103,7 +104,7 @@ void Level::for_each_cell(const Box2<double>& box, int grid, const Visit& visit)
 
 void Level::place(ColliderIndex id, Slot& slot, const ColliderDef& def) {
   slot.def = def;
-  slot.box = geometry::box_of(def.points);
+  slot.box = geometry::box_of(def.points).inflated(def.radius);
   slot.version = last_edit_ = next_edit();
   if (def.mover != no_mover) {
     if (def.mover >= movers_.size()) movers_.resize(def.mover + 1);
@@ -199,7 +200,7 @@ void Level::find_moving(const Box2<double>& box, std::span<const PoseMotion> mov
   for (MoverIndex mover = 0; mover < movers_.size(); ++mover)
     for (const ColliderIndex id : movers_[mover]) {
       const Slot& slot = slots_[id & slot_mask];
-      if (level::swept_box(slot.def.points, movers[mover]).overlaps(box))
+      if (level::swept_box(slot.def.points, movers[mover]).inflated(slot.def.radius).overlaps(box))
         found.push_back({id, slot.version, &slot.def, mover, movers[mover]});
     }
 }

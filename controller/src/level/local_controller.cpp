@@ -55,13 +55,14 @@ std::vector<Vec2d> vertices_at(const ColliderDef& def, const Pose& pose) {
 }
 
 /// The convex pieces of a collider, where its pose is zero.
-std::vector<std::vector<Vec2d>> pieces_of(ColliderDef def) {
+std::vector<ConvexPiece> pieces_of(ColliderDef def) {
   def.mover = no_mover;
+  const double radius = def.radius;
   const Scenery<double> scenery(SceneryDef{{std::move(def)}});
-  std::vector<std::vector<Vec2d>> pieces;
+  std::vector<ConvexPiece> pieces;
   for (PieceIndex piece = 0; piece < scenery.pieces().size(); ++piece) {
     const PieceVertices<double> vertices = scenery.vertices_of(piece);
-    pieces.emplace_back(vertices.begin(), vertices.end());
+    pieces.push_back({{vertices.begin(), vertices.end()}, radius});
   }
   return pieces;
 }
@@ -155,12 +156,12 @@ struct LocalController::Impl {
   [[nodiscard]] std::optional<Vec2d> way_out_at_end(CharacterState<double> state, const StepContext<double>& context);
   [[nodiscard]] bool overlaps(const NearCollider& collider, const Pose& pose, const Vec2d& position);
   [[nodiscard]] bool reaches(const NearCollider& collider, const HullWay& way, double begin, double end);
-  [[nodiscard]] const std::vector<std::vector<Vec2d>>& pieces(const NearCollider& collider);
+  [[nodiscard]] const std::vector<ConvexPiece>& pieces(const NearCollider& collider);
 
   struct KnownPieces {
     ColliderIndex id;
     std::uint64_t version;
-    std::vector<std::vector<Vec2d>> pieces;
+    std::vector<ConvexPiece> pieces;
   };
 
   NearScenery scenery;
@@ -279,7 +280,9 @@ NearestOutline LocalController::Impl::nearest_of(MoverIndex mover, double fracti
     std::vector<Vec2d> outline = vertices_at(*collider.def, pose_at(collider.motion, fraction));
     outline.resize(collider.def->points.size());
     const bool closed = collider.def->shape == ColliderDef::Shape::polygon;
-    const Approach here = nearest(outline, closed, hull(), position);
+    const Approach here = collider.def->shape == ColliderDef::Shape::circle
+                              ? nearest(Circle<double>{outline[0], collider.def->radius}, hull(), position)
+                              : nearest(outline, closed, hull(), position);
     if (here.distance < best.approach.distance) best = {here, std::move(outline), closed};
   }
   return best;
@@ -322,7 +325,7 @@ bool LocalController::Impl::blocks(const NearCollider& collider, const StepConte
          is_there(collider, context.filter);
 }
 
-const std::vector<std::vector<Vec2d>>& LocalController::Impl::pieces(const NearCollider& collider) {
+const std::vector<ConvexPiece>& LocalController::Impl::pieces(const NearCollider& collider) {
   const auto is_it = [&](const KnownPieces& known) {
     return known.id == collider.id && known.version == collider.version;
   };
@@ -335,10 +338,10 @@ const std::vector<std::vector<Vec2d>>& LocalController::Impl::pieces(const NearC
 
 /// Whether a collider overlaps the character by more than rounding.
 bool LocalController::Impl::overlaps(const NearCollider& collider, const Pose& pose, const Vec2d& position) {
-  const std::vector<std::vector<Vec2d>>& all = pieces(collider);
-  return std::any_of(all.begin(), all.end(), [&](const std::vector<Vec2d>& piece) {
-    const std::vector<Vec2d> here = placed(piece, pose);
-    return !stay_apart({hull(), position, position}, {here, here}, -proved);
+  const std::vector<ConvexPiece>& all = pieces(collider);
+  return std::any_of(all.begin(), all.end(), [&](const ConvexPiece& piece) {
+    const std::vector<Vec2d> here = placed(piece.vertices, pose);
+    return !stay_apart({hull(), position, position}, {here, here, piece.radius}, -proved);
   });
 }
 
@@ -394,13 +397,13 @@ bool LocalController::Impl::is_proved(const StepPart& part, const MoveResult<dou
     const Pose from = pose_at(collider.motion, part.begin);
     const Pose to = collider.mover == no_mover ? from : turned_pose(collider, part);
     if (overlaps(collider, from, part.way[0].position)) continue;
-    for (const std::vector<Vec2d>& piece : pieces(collider)) {
-      const PieceWay whole = {placed(piece, from), placed(piece, to)};
+    for (const ConvexPiece& piece : pieces(collider)) {
+      const PieceWay whole = {placed(piece.vertices, from), placed(piece.vertices, to), piece.radius};
       for (std::size_t leg = 0; leg + 1 < part.way.size(); ++leg) {
         const PathPoint<double>& begin = part.way[leg];
         const PathPoint<double>& end = part.way[leg + 1];
         PieceWay piece_way = whole;
-        for (std::size_t v = 0; v < piece.size(); ++v) {
+        for (std::size_t v = 0; v < piece.vertices.size(); ++v) {
           piece_way.from[v] = between(whole.from[v], whole.to[v], begin.fraction);
           piece_way.to[v] = between(whole.from[v], whole.to[v], end.fraction);
         }
@@ -587,9 +590,9 @@ std::optional<StepStatus> LocalController::Impl::step_in_parts(int parts, Charac
 bool LocalController::Impl::reaches(const NearCollider& collider, const HullWay& way, double begin, double end) {
   const Pose before = pose_at(collider.motion, begin);
   const Pose after = pose_at(collider.motion, end);
-  const std::vector<std::vector<Vec2d>>& all = pieces(collider);
-  return std::any_of(all.begin(), all.end(), [&](const std::vector<Vec2d>& piece) {
-    return !stay_apart(way, {placed(piece, before), placed(piece, after)}, proved);
+  const std::vector<ConvexPiece>& all = pieces(collider);
+  return std::any_of(all.begin(), all.end(), [&](const ConvexPiece& piece) {
+    return !stay_apart(way, {placed(piece.vertices, before), placed(piece.vertices, after), piece.radius}, proved);
   });
 }
 

@@ -62,7 +62,7 @@ void NearScenery::note_movers(const Box2<double>& needed, const ColliderFilter* 
   for (const NearCollider& collider : near_) {
     if (collider.mover == no_mover || collider.motion.from.angle == collider.motion.to.angle) continue;
     if (collider.def->sensor || !is_there(collider, filter)) continue;
-    if (!swept_box(collider.def->points, collider.motion).overlaps(needed)) continue;
+    if (!swept_box(collider.def->points, collider.motion).inflated(collider.def->radius).overlaps(needed)) continue;
     movers_[mover_of(collider)].turns = any_turns_ = true;
   }
 }
@@ -94,6 +94,7 @@ void NearScenery::place_in_order() {
     const std::vector<Vec2d>& others = near_[b].def->points;
     if (points != others)
       return std::lexicographical_compare(points.begin(), points.end(), others.begin(), others.end(), comes_first);
+    if (near_[a].def->radius != near_[b].def->radius) return near_[a].def->radius < near_[b].def->radius;
     const double speed = near_[a].def->surface_speed;
     return speed != near_[b].def->surface_speed ? speed < near_[b].def->surface_speed : a < b;
   });

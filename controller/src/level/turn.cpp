@@ -1,5 +1,7 @@
 #include "level/turn.hpp"
 
+#include "geometry/circle.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -79,6 +81,16 @@ Box2<double> box_of(std::span<const Vec2d> points, const Vec2d& at) {
   return box;
 }
 
+bool circle_stays_apart(const HullWay& character, const PieceWay& piece, double least) {
+  const Circle<double> circle{piece.from[0] - character.from, piece.radius};
+  const Vec2d way = (character.to - character.from) - (piece.to[0] - piece.from[0]);
+  const auto is_apart_at = [&](const Vec2d& at) {
+    return geometry::near_circle(character.hull, at, circle).separation > least;
+  };
+  return is_apart_at({0, 0}) && is_apart_at(way) &&
+         !geometry::approach<double>(character.hull, {0, 0}, way, circle, least);
+}
+
 /// The point of a segment that is nearest to another point, as a share of the segment.
 double nearest_share(const Vec2d& a, const Vec2d& b, const Vec2d& point) {
   const Vec2d along = b - a;
@@ -91,8 +103,9 @@ double nearest_share(const Vec2d& a, const Vec2d& b, const Vec2d& point) {
 bool stay_apart(const HullWay& character, const PieceWay& piece, double least) {
   const Vec2d origin = character.from;
   const Box2<double> hull = box_of(character.hull, character.from).merged(box_of(character.hull, character.to));
-  const Box2<double> whole = box_of(piece.from, {0, 0}).merged(box_of(piece.to, {0, 0}));
+  const Box2<double> whole = box_of(piece.from, {0, 0}).merged(box_of(piece.to, {0, 0})).inflated(piece.radius);
   if (!hull.inflated(std::abs(least)).overlaps(whole)) return true;
+  if (piece.radius > 0) return circle_stays_apart(character, piece, least);
   Scene scene{{}, character.hull, {{0, 0}, character.to - origin}, least};
   for (std::size_t i = 0; i < piece.from.size(); ++i)
     scene.piece.push_back({piece.from[i] - origin, piece.to[i] - origin});
@@ -135,6 +148,11 @@ std::optional<Vec2d> nearest_vertex(std::span<const Vec2d> outline, bool closed,
     vertex = share == 0 ? std::optional(a) : share == 1 ? std::optional(b) : std::nullopt;
   }
   return vertex;
+}
+
+Approach nearest(const Circle<double>& circle, std::span<const Vec2d> hull, const Vec2d& position) {
+  const geometry::NearCircle<double> near = geometry::near_circle(hull, position, circle);
+  return {std::max(near.separation, 0.0), near.normal};
 }
 
 }  // namespace paperproof::level

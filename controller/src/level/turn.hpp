@@ -1,7 +1,8 @@
-/// Convex pieces whose vertices go on straight lines: a turn, and everything else that they do within a short time.
+/// Convex pieces whose vertices go on straight lines: a turn, and everything else that they do within a short time. Of
+/// a circle it is the centre that does.
 #pragma once
 
-#include <paperproof/types.hpp>
+#include <paperproof/scenery.hpp>
 
 #include <optional>
 #include <span>
@@ -9,11 +10,17 @@
 
 namespace paperproof::level {
 
-/// The way of a convex piece: each vertex goes evenly from one place to another. Counter-clockwise, or the two ends of
-/// a segment; at both times.
+/// Vertices counter-clockwise, or the two ends of a segment, or the centre of a circle.
+struct ConvexPiece {
+  std::vector<Vec2d> vertices;
+  double radius = 0;  ///< Of a circle [m].
+};
+
+/// The way of a convex piece: each vertex goes evenly from one place to another.
 struct PieceWay {
   std::vector<Vec2d> from;
   std::vector<Vec2d> to;
+  double radius = 0;  ///< Of a circle [m].
 };
 
 /// The character's way at the same time.
@@ -30,6 +37,7 @@ struct HullWay {
 /// positive over the whole time if its three Bernstein coefficients are. Where no line is proved to separate the two
 /// over the whole time, each half is tried; where no line does at one moment, the proof has failed.
 /// (R. T. Farouki, V. T. Rajan, On the numerical condition of polynomials in Bernstein form, 1987, for the criterion.)
+/// Seen by the character a circle goes straight: see `geometry::approach`.
 /// @param least distance that counts as apart [m]; below zero: so deep an overlap is none.
 [[nodiscard]] bool stay_apart(const HullWay& character, const PieceWay& piece, double least);
 
@@ -43,6 +51,7 @@ struct Approach {
 /// @param closed whether an edge leads from its last point to its first.
 [[nodiscard]] Approach nearest(std::span<const Vec2d> outline, bool closed, std::span<const Vec2d> hull,
                                const Vec2d& position);
+[[nodiscard]] Approach nearest(const Circle<double>& circle, std::span<const Vec2d> hull, const Vec2d& position);
 
 /// The corner of an outline that is nearer to a point than every other point of the outline; nothing where a point
 /// within an edge is.

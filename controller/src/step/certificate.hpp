@@ -44,7 +44,7 @@ template <class Scalar>
 
 /// Whether one line separates octagon and piece at both ends of a straight motion, exactly. Separations are linear, so
 /// the whole motion is then clear. (That no single line does so does not prove an overlap: the answer is then `false`
-/// all the same.)
+/// all the same.) Beside a circle also whether the motion comes no nearer from an end that is clear.
 template <class Scalar>
 [[nodiscard]] bool clear_of_exactly(const ConfigurationSpace<Scalar>& space, PieceIndex piece, const Vec2<Scalar>& from,
                                     const Vec2<Scalar>& to) noexcept;

@@ -12,8 +12,9 @@
 /// motion from the last free position must reach the end as well, the shadows from there are further regions, and their
 /// tangents are searched, too. The same holds for pieces that must be left to a known side.
 ///
-/// Of a circle the tangents along the shared axes are searched, and the one that is nearest. So the way out of a circle
-/// alone is the shortest; where others bound it, it may be a little longer than that.
+/// Of a circle the tangents along the shared axes are searched, and the one that is nearest: the way out of a circle
+/// alone ends there. Where others cover this place, the tangent that is nearest to the best position so far is
+/// searched, again and again: by Newton's method the position goes along the arc to where the others leave room.
 #include "step/free_position.hpp"
 
 #include "step/certificate.hpp"
@@ -86,6 +87,8 @@ class Search {
   static constexpr Scalar first_stride = 2 * Tolerances<Scalar>{}.hit;
   static constexpr Scalar stride_growth = 16;
   static constexpr int most_strides = 5;
+  /// Of a circle, one after the other. The distance that is left is about squared each time.
+  static constexpr int most_tangents = 8;
 
   /// Positions w with normal · w = bound, relative to `query.near`.
   struct Line {
@@ -191,15 +194,22 @@ class Search {
   // The lines that are searched.
 
   void search_facets(PieceIndex piece) noexcept {
-    const V at = seen_at_end(piece, query_.near);
-    for_each_axis(piece, {at}, [&](std::size_t axis) {
-      const V n = space_.normal(piece, axis);
-      if (space_.covered(piece, axis) || (n.x() == 0 && n.y() == 0)) return;
-      const Scalar bound = query_.gap - space_.separation(piece, axis, at);
-      if (!(std::abs(bound) < nearest_)) return;
-      const Line line{n * bound, {-n.y(), n.x()}};
-      sweep_along(line, facet_on(line, piece, std::sqrt(nearest_ * nearest_ - bound * bound)));
-    });
+    for_each_axis(piece, {seen_at_end(piece, query_.near)}, [&](std::size_t axis) { search_facet(piece, axis); });
+    if (!space_.is_circle(piece)) return;
+    for (int tangent = 0; tangent < most_tangents && best_; ++tangent) {
+      const Scalar before = nearest_;
+      search_facet(piece, best(piece, seen_at_end(piece, *best_)).axis);
+      if (!(nearest_ < before - slack)) return;
+    }
+  }
+
+  void search_facet(PieceIndex piece, std::size_t axis) noexcept {
+    const V n = space_.normal(piece, axis);
+    if (space_.covered(piece, axis) || (n.x() == 0 && n.y() == 0)) return;
+    const Scalar bound = query_.gap - space_.separation(piece, axis, seen_at_end(piece, query_.near));
+    if (!(std::abs(bound) < nearest_)) return;
+    const Line line{n * bound, {-n.y(), n.x()}};
+    sweep_along(line, facet_on(line, piece, std::sqrt(nearest_ * nearest_ - bound * bound)));
   }
 
   /// The part of a facet's line that bounds the obstacle, at most `half` from its foot.

@@ -42,7 +42,7 @@ void check(const Stages& stages, const Scenery<Scalar>& scenery, const Configura
   refuse_omission(!stages.movers && has_conveyors(scenery), "movers", "there is a conveyor");
   refuse_omission(!stages.one_way && has_one_way_chains(scenery), "one_way", "there is a one-way chain");
   refuse_omission(!stages.slopes && space.has_own_axes(), "slopes",
-                  "there is an edge that is parallel to no side of the character or of its box");
+                  "there is a circle, or an edge that is parallel to no side of the character or of its box");
 }
 
 template <class Scalar>

@@ -44,9 +44,6 @@ struct HeroDef {
   /// If set, it is asked in every step for each solid fixture near the hero that passes the filter: the place for what
   /// a game would decide in `PreSolve`. It may read the fixture's user data, and the hero, as after its last step.
   std::function<Surface(b2Fixture&)> surface_of{};
-  /// Corners of the polygon that stands for a circle, at least 3. It encloses the circle, and reaches beyond it by
-  /// 0.5 % of the radius at 32 corners.
-  int circle_corners = 32;
 };
 
 /// A surface that was in the hero's way in its last step, or that was so in the step before.
@@ -99,8 +96,8 @@ struct HeroSave {
 ///   farther than its velocity explains was put there by the game.
 /// - A body that turns does so at the beginning of the step, or of several shorter ones, about its point nearest to the
 ///   hero: see `LocalController`. Each step proves that nothing passes through the hero, and names what crushed it.
-/// - Polygons, edges and chains are exact, without Box2D's skin; a circle is a polygon around it. Edges and chains
-///   block from both sides, unless `HeroDef::surface_of` says otherwise.
+/// - Polygons, edges, chains and circles are exact, without Box2D's skin; a circle that is a ledge is a polygon of 32
+///   corners around it. Edges and chains block from both sides, unless `HeroDef::surface_of` says otherwise.
 ///
 /// The world has a dynamic body for the hero, of the same shape and without gravity, friction and restitution. Box2D
 /// reports contacts of its fixture to the game's listener, also with static bodies and sensors, as for each dynamic

@@ -21,9 +21,6 @@ struct WorldScenery {
 struct WorldSceneryDef {
   /// Which fixtures become scenery; sensors become sensors. Absent: all but sensors.
   std::function<bool(const b2Fixture&)> filter{};
-  /// Corners of the polygon that stands for a circle; it encloses the circle, and at 32 corners reaches 0.5 % of the
-  /// radius beyond it. At least 3.
-  int circle_corners = 32;
 };
 
 /// Reads the static bodies of `world` that are enabled, in the order in which bodies and their fixtures were created.
@@ -32,13 +29,13 @@ struct WorldSceneryDef {
 /// - An edge or a chain becomes a chain, a loop a closed one. It blocks from both sides, also where Box2D's is
 ///   one-sided: a loop blocks as it does in Box2D from the side that faces the game, and what is behind it is out of
 ///   reach.
-/// - A circle becomes the polygon of `circle_corners` corners around it.
+/// - A circle becomes exactly that circle.
 /// - Category, mask and group of a fixture are those of its collider: see `filter_of`.
 ///
 /// The world is only read (Box2D's own lists are not const); call it between steps. Read it again after the level
 /// changed.
-/// @throws InvalidDefinition for `circle_corners` below 3. Shapes that the controller refuses (points that coincide,
-///   zero area) throw `InvalidScenery` when the `Scenery` is built.
+/// Shapes that the controller refuses (points that coincide, zero area) throw `InvalidScenery` when the `Scenery` is
+/// built.
 [[nodiscard]] WorldScenery scenery_of(b2World& world, const WorldSceneryDef& def = {});
 
 /// The filter of a fixture. Used as the filter of a step (`StepContext::filter`), it lets a character collide with

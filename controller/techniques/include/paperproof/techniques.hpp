@@ -95,9 +95,10 @@ struct TechniqueEntry {
   TechniqueMaker<float> make_float;
   TechniqueMaker<double> make_double;
   std::vector<Knob> knobs{};
-  bool knows_movers = false;  ///< False: scenery that moves or conveys is refused.
-  bool moves_crowds = false;  ///< It is `octagon_sweep` or a `JointTechnique`.
-  bool draws_level = false;   ///< It sees the level as a picture, `article.raster_pixels_per_metre` fine.
+  bool knows_movers = false;   ///< False: scenery that moves or conveys is refused.
+  bool knows_circles = false;  ///< False: scenery with circles is refused.
+  bool moves_crowds = false;   ///< It is `octagon_sweep` or a `JointTechnique`.
+  bool draws_level = false;    ///< It sees the level as a picture, `article.raster_pixels_per_metre` fine.
   /// The length of the steps in which it searches or moves [m]. Null: it computes.
   double (*unit)(const ArticleKnobs& knobs) = nullptr;
 };
