@@ -28,9 +28,10 @@ enum class Turning {
   wheels,    ///< Polygons of 5 to 12 corners, some with notches, that turn and go along.
   presses,   ///< Boxes that come down, turning, onto the floor, the walls and each other.
   papers,    ///< From a line to 5 cm thick, about any point, turning and going along.
+  balls,     ///< One or two circles, about any point, turning and going along.
 };
-constexpr std::array all_turning{Turning::planks, Turning::see_saws, Turning::wheels, Turning::presses,
-                                 Turning::papers};
+constexpr std::array all_turning{Turning::planks,  Turning::see_saws, Turning::wheels,
+                                 Turning::presses, Turning::papers,   Turning::balls};
 
 std::string name_of(Turning family) {
   switch (family) {
@@ -44,6 +45,8 @@ std::string name_of(Turning family) {
       return "presses";
     case Turning::papers:
       return "papers";
+    case Turning::balls:
+      return "balls";
   }
   return "";
 }
@@ -175,6 +178,21 @@ class RandomRun {
         course.swing = random_.between(-0.5, 0.5);
         colliders.push_back(boxed(-2 * half, -3 * thin, 2 * half, 3 * thin, mover));
         break;
+      case Turning::balls: {
+        course.spin = random_.either_sign_log_between(0.05, random_.chance(0.2) ? 30 : 6);
+        course.reach = {random_.between(-2, 2), 0};
+        course.reach.y() = random_.between(-2, 2);
+        const double off = random_.chance(0.5) ? 0 : random_.between(-1.5, 1.5);
+        ColliderDef ball{.shape = ColliderDef::Shape::circle, .points = {{off, 0}}, .mover = mover};
+        ball.radius = random_.log_between(1e-3, 1);
+        if (random_.chance(0.3)) ball.surface_speed = random_.between(-3, 3);
+        colliders.push_back(ball);
+        if (random_.chance(0.5)) {
+          ball.points = {{-off, random_.between(-1, 1)}};
+          colliders.push_back(ball);
+        }
+        break;
+      }
       case Turning::papers: {
         course.spin = random_.either_sign_log_between(0.05, random_.chance(0.2) ? 30 : 4);
         course.reach = {random_.between(-3, 3), 0};

@@ -7,10 +7,13 @@ that is made here, spoilt in one way each.
 import json
 import sys
 import unittest
+from math import nextafter
 
+from check_trace import Checker
 from trace_geometry import exact
 from trace_one_way import lines_of, surfaces_of
 from trace_spoiling import GAP, Spoiling
+from trace_turning import Way, comes_to_overlap
 
 with open(sys.argv.pop(), encoding="utf-8") as file:
     HEADER, *STEPS = map(json.loads, file)
@@ -294,6 +297,63 @@ class SpoiltMovingTraces(Spoiling, unittest.TestCase):
                 {"id": name, "change": change, "fraction": fraction} for name, change, fraction in events])
 
         self.assertEqual(self.found(spoil), [])
+
+
+class Circles(unittest.TestCase):
+    """A box of 2 m beside a circle of 5 m, against triangles of 3, 4, 5."""
+
+    def checker(self, **more):
+        return Checker({"points": [[-1, -1], [1, -1], [1, 1], [-1, 1]], "contender": "octagon_sweep", "scalar": "double",
+                        "colliders": [{"id": "ball", "circle": [0, 0, 5], **more}]})
+
+    def meets(self, start, way=(0, 0)):
+        return self.checker().meets("ball", *exact([start, way]))
+
+    def test_are_overlapped_from_an_ulp_nearer_than_their_radius(self):
+        for x, y, overlaps in ((0, 6, False), (0, nextafter(6, 0), True), (-4, 5, False), (-4, nextafter(5, 0), True),
+                               (nextafter(-4, -9), 5, False), (0, 0, True)):
+            self.assertEqual(self.meets((x, y)), overlaps, (x, y))
+
+    def test_are_passed_by_a_way_along_their_tangent(self):
+        # The lower right corner goes along the tangent through (-3, 4), up to the right by (4, 3).
+        start = (-4 - 40, 5 - 30)
+        self.assertFalse(self.meets(start, (80, 60)))
+        self.assertTrue(self.meets(start, (80, nextafter(60, 0))))
+
+    def test_that_turn_go_where_their_centres_go(self):
+        checker = self.checker()
+        for end, meets in ((6, False), (6 - 1e-12, True)):
+            entry = {"k": [0, 1], "vertices": [[[0, -20]], [[20, -20]]]}
+            way, body = Way(entry, checker.colliders["ball"]), checker.body
+            path = exact([[0, -20 + end, 0], [20, -20 + end, 1]])
+            self.assertEqual(comes_to_overlap(way, body, *path), meets)
+            path = exact([[0, -20 + end, 0], [40, -20 + end, 1]])  # it leaves the circle behind
+            self.assertEqual(comes_to_overlap(way, body, *path), meets)
+
+    def test_that_are_sensors_are_entered_and_left_where_an_edge_touches_them(self):
+        found = list(self.checker(sensor=True).sensor_events("ball", exact([[-10, 0], [10, 0]])))
+        self.assertEqual([change for change, _, _ in found], ["enter", "exit"])
+        for (_, _, share), right in zip(found, (0.2, 0.8)):
+            self.assertAlmostEqual(float(share), right, 12)
+
+    def test_are_touched_where_a_contact_says(self):
+        header = {"paperproof_trace": 1, "scene": "made", "contender": "octagon_sweep", "scalar": "double", "dt": 0.25,
+                  "points": [[-1, -1], [1, -1], [1, 1], [-1, 1]], "colliders": [{"id": "ball", "circle": [0, 0, 5]}]}
+        gap = 2.0 ** -21
+        step = {"step": 0, "path": [[0, 7, 0], [0, 6 + gap, 1]], "requested": [0, -1], "velocity": [0, 0],
+                "grounded": True, "start_overlap": [], "movers": {}, "contacts": [
+                    {"collider": "ball", "point": [0, 5], "normal": [0, 1], "fraction": 1, "separation": gap,
+                     "side": "bottom"}]}
+
+        def found(**changed):
+            contact = {**step["contacts"][0], **changed}
+            return [words for _, words in Checker(header).check([{**step, "contacts": [contact]}])]
+
+        self.assertEqual(found(), [])
+        self.assertTrue(any("is not on ball" in words for words in found(point=[0, 5.0001])))
+        self.assertTrue(any("is nowhere" in words for words in found(separation=2 * gap)))
+        self.assertTrue(any("passes or enters ball" in words for _, words in Checker(header).check(
+            [{**step, "path": [[0, 7, 0], [0, -7, 1]], "contacts": []}])))
 
 
 def shouldering_trace():

@@ -81,10 +81,12 @@ Vec2d nearest_corner(std::span<const Vec2d> hull, const Vec2d& normal_before, co
   return (before - after).dot(normal_after) < Tolerances<double>{}.hit ? before : after;
 }
 
-/// The place from which the character came goes along with what crushed it.
-void carry(Crusher<double>& crusher, const Pose& from, const Pose& to) {
+/// The place from which the character came goes along with what crushed it: beside a circle, with its centre.
+void carry(Crusher<double>& crusher, const ColliderDef& def, const Pose& from, const Pose& to) {
   const Vec2d came_from = crusher.last_free + crusher.displacement;
-  const Vec2d there = to.position + rotated(Vec2d(came_from - from.position), to.angle - from.angle);
+  Vec2d there = to.position + rotated(Vec2d(came_from - from.position), to.angle - from.angle);
+  if (def.shape == ColliderDef::Shape::circle)
+    there = came_from + placed(def.points.front(), to) - placed(def.points.front(), from);
   crusher.displacement = there - crusher.last_free;
 }
 
@@ -564,7 +566,8 @@ std::optional<StepStatus> LocalController::Impl::step_in_parts(int parts, Charac
     }
     for (Crusher<double>& crusher : state.crushers) {
       const NearCollider& collider = scenery.at(crusher.collider);
-      if (collider.mover != no_mover) carry(crusher, pose_at(collider.motion, part.begin), turned_pose(collider, part));
+      if (collider.mover != no_mover)
+        carry(crusher, *collider.def, pose_at(collider.motion, part.begin), turned_pose(collider, part));
     }
     const Vec2d carried = state.ride.velocity;
     const StepStatus status = go(scenery.controller(), state, scenery.context(shorter, part.motions), 1.0 / parts,
@@ -639,7 +642,7 @@ void LocalController::Impl::go_straight(double begin, double departure, const Ve
                                     [&](const Crusher<double>& crusher) { return crusher.collider == collider.id; });
     Crusher<double> crusher{collider.id, state.position};
     if (known != state.crushers.end()) crusher = *known;
-    carry(crusher, from, collider.motion.to);
+    carry(crusher, *collider.def, from, collider.motion.to);
     const bool is_named = std::find(move.crushed.begin(), move.crushed.end(), collider.id) != move.crushed.end();
     if (!is_named && !overlaps(collider, from, state.position)) move.crushed.push_back(collider.id, more_crushed);
     if (overlaps(collider, collider.motion.to, to)) move.crushers.push_back(crusher);
@@ -656,8 +659,8 @@ std::optional<Vec2d> LocalController::Impl::way_out_at_end(CharacterState<double
   scenery.to_local(state);
   state.ride = {};
   for (Crusher<double>& crusher : state.crushers) {
-    const PoseMotion& motion = scenery.at(crusher.collider).motion;
-    carry(crusher, motion.from, motion.to);
+    const NearCollider& collider = scenery.at(crusher.collider);
+    carry(crusher, *collider.def, collider.motion.from, collider.motion.to);
   }
   const StepStatus status =
       scenery.controller().move(state, {0, 0}, scenery.context(context, motions), scenery.scratch(), *of_part);
