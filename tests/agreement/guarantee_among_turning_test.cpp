@@ -181,10 +181,10 @@ class RandomRun {
       case Turning::balls: {
         course.spin = random_.either_sign_log_between(0.05, random_.chance(0.2) ? 30 : 6);
         course.reach = {random_.between(-2, 2), 0};
-        course.reach.y() = random_.between(-2, 2);
+        course.reach.y() = random_.between(-1, 1);
         const double off = random_.chance(0.5) ? 0 : random_.between(-1.5, 1.5);
         ColliderDef ball{.shape = ColliderDef::Shape::circle, .points = {{off, 0}}, .mover = mover};
-        ball.radius = random_.log_between(1e-3, 1);
+        ball.radius = random_.chance(0.2) ? random_.log_between(1e-3, 0.1) : random_.between(0.1, 1.2);
         if (random_.chance(0.3)) ball.surface_speed = random_.between(-3, 3);
         colliders.push_back(ball);
         if (random_.chance(0.5)) {
