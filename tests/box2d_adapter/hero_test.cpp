@@ -476,7 +476,7 @@ TEST(Hero, tells_each_contact_as_added_persisted_and_removed) {
       if (changes.empty() || changes.back() != contact.change) changes.push_back(contact.change);
     }
   }
-  using enum HeroContact::Change;
+  using enum ContactChange;
   EXPECT_EQ(changes, (std::vector{added, persisted, removed}));
 }
 

@@ -291,12 +291,20 @@ NearestOutline LocalController::Impl::nearest_of(MoverIndex mover, double fracti
 }
 
 /// About what a mover turns in a part: the corner of the character that will be nearest to it then, so that what
-/// carries the character turns under its foot; or its own corner, if that is beneath the foot instead.
+/// carries the character turns under its foot; or its own corner, if that is beneath the foot instead. About the foot
+/// the centre of a circle goes on the chord of an arc. Where even in the shortest part that comes nearer than a gap is
+/// wide, a circle turns about its centre.
 Vec2d LocalController::Impl::pivot_of(MoverIndex mover, double begin, double angle, const Vec2d& position,
                                       const ColliderFilter* filter) const {
   const NearestOutline near = nearest_of(mover, begin, position, filter);
   const Vec2d corner = position + nearest_corner(hull(), near.approach.normal, rotated(near.approach.normal, angle));
   if (near.outline.empty()) return corner;
+  if (near.outline.size() == 1) {
+    const Vec2d& centre = near.outline.front();
+    const bool is_shortest = std::abs(angle) * most_parts <= std::abs(scenery.movers()[mover].turn()) * (1 + 1e-9);
+    const double sag = (corner - centre).norm() * angle * angle / 8;
+    return is_shortest && sag > Tolerances<double>{}.stop / 4 ? centre : corner;
+  }
   return nearest_vertex(near.outline, near.closed, corner).value_or(corner);
 }
 
