@@ -66,7 +66,7 @@ struct Approximate {
     double bound =
         (std::abs(a.value) * b.radius + std::abs(b.value) * a.radius + a.radius * b.radius + std::abs(error)) * outward;
     const bool may_underflow = std::abs(product) < 0x1p-900 && a.value != 0 && b.value != 0;
-    if (bound != 0 || may_underflow) bound += underflow;
+    if (may_underflow || a.radius != 0 || b.radius != 0) bound += underflow;
     return {product, bound};
   }
 };

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 namespace paperproof::compare::detail {
 namespace {
@@ -27,6 +28,13 @@ ColliderDef disc(const Vec2d& centre, double radius) {
 
 /// 2 m wide and high.
 std::vector<Vec2d> square() { return {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}; }
+
+TEST(Approximate, times_less_than_one_keeps_a_bound_of_the_smallest_double) {
+  const Approximate off{0.5, std::numeric_limits<double>::denorm_min()};
+  EXPECT_GT((off * Approximate{0.25}).radius, 0);
+  EXPECT_GT((Approximate{0.25} * off).radius, 0);
+  EXPECT_EQ((Approximate{0.5} * Approximate{0.25}).radius, 0);
+}
 
 ExactScenery beside(std::vector<ColliderDef> colliders) { return {scenery(std::move(colliders)), square()}; }
 
