@@ -33,14 +33,6 @@ bool is_only_foreseen(const StepJudgement& judged, const Touch& touch) {
                      [&](const ExactContact& exact) { return !is_touch(exact, touch) || exact.foreseen; });
 }
 
-/// The smallest over the corners of the way [m].
-double gap_on_way(const SolidsInStep& solids, const TraceStep& step, ColliderIndex collider) {
-  double gap = std::numeric_limits<double>::infinity();
-  for (const PathPoint<double>& corner : step.path)
-    gap = std::min(gap, solids.at(corner.fraction).separation(Place(corner, step.movers), collider));
-  return gap;
-}
-
 std::vector<ColliderIndex> crossed(const StepJudgement& judged) {
   std::vector<ColliderIndex> all = judged.tunnelled;
   for (const std::vector<ColliderIndex>* more : {&judged.entered, &judged.one_way_broken})
@@ -59,13 +51,19 @@ const ExactScenery& SolidsInStep::at(double fraction) const {
   return *there;
 }
 
+double SolidsInStep::gap_on_way(ColliderIndex collider) const {
+  double gap = std::numeric_limits<double>::infinity();
+  for (const PathPoint<double>& corner : step_.path)
+    gap = std::min(gap, at(corner.fraction).separation(Place(corner, step_.movers), collider));
+  return gap;
+}
+
 Vec2d moved_by_step(const TraceHeader& header, const TraceStep& step, ColliderIndex collider, const Vec2d& point,
                     double fraction) {
   const MoverIndex mover = header.scenery.colliders[collider].mover;
   if (mover == no_mover) return Vec2d::Zero();
-  const auto turning = std::find_if(step.vertex_ways.begin(), step.vertex_ways.end(),
-                                    [&](const VertexWay& way) { return way.collider == collider; });
-  if (turning == step.vertex_ways.end()) return step.movers[mover].to - step.movers[mover].from;
+  const VertexWay* turning = find_way(step.vertex_ways, collider);
+  if (turning == nullptr) return step.movers[mover].to - step.movers[mover].from;
   const std::vector<Vec2d> then = vertices_at(*turning, fraction);
   return RigidMotion(then, turning->vertices.back())(point) - RigidMotion(then, turning->vertices.front())(point);
 }
@@ -170,8 +168,8 @@ bool StepLedger::is_capped_before(const Touch& touch) const {
 
 StepLedger::Event StepLedger::of_reference(const Touch& touch, EventKind kind) const {
   const StepJudgement& judged = now_.reference.judged;
-  const double gap = gap_on_way(reference_solids_, r_, touch.collider);
-  const double mine = gap_on_way(mine_solids_, m_, touch.collider);
+  const double gap = reference_solids_.gap_on_way(touch.collider);
+  const double mine = mine_solids_.gap_on_way(touch.collider);
   Event event{kind,
               {},
               false,
@@ -197,7 +195,7 @@ StepLedger::Event StepLedger::of_reference(const Touch& touch, EventKind kind) c
 
 StepLedger::Event StepLedger::of_mine(const Touch& touch) const {
   const StepJudgement& judged = now_.reference.judged;
-  const double gap = gap_on_way(reference_solids_, r_, touch.collider);
+  const double gap = reference_solids_.gap_on_way(touch.collider);
   Event event{EventKind::contact,
               {},
               false,
@@ -332,7 +330,7 @@ void StepLedger::add_toggle() {
     event.cause = Cause::skin;
     for (const Ledger::Moment* moment : {before_, &now_})
       for (const Touch& touch : moment->reference.step.contacts)
-        if (!within_skin(gap_on_way({reference_, moment->reference.step}, moment->reference.step, touch.collider)))
+        if (!within_skin(SolidsInStep(reference_, moment->reference.step).gap_on_way(touch.collider)))
           event.cause.reset();
   }
   events_.push_back(std::move(event));

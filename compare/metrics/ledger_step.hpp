@@ -42,6 +42,8 @@ class SolidsInStep {
   SolidsInStep(const LedgerParty& who, const TraceStep& step) : who_(who), step_(step) {}
   /// @param fraction of the step.
   [[nodiscard]] const ExactScenery& at(double fraction) const;
+  /// The smallest separation from a collider over the corners of the way [m].
+  [[nodiscard]] double gap_on_way(ColliderIndex collider) const;
 
  private:
   const LedgerParty& who_;

@@ -38,9 +38,8 @@ Vec2d velocity_of(const LedgerParty& who, const TraceStep& step, const Touch& to
 
 /// What turns has no one velocity. By so much those of a collider differ over the size of the character [m/s].
 double spread_of(const LedgerParty& who, const TraceStep& step, ColliderIndex collider, double dt) {
-  const auto turning = std::find_if(step.vertex_ways.begin(), step.vertex_ways.end(),
-                                    [&](const VertexWay& way) { return way.collider == collider; });
-  if (turning == step.vertex_ways.end()) return 0;
+  const VertexWay* turning = find_way(step.vertex_ways, collider);
+  if (turning == nullptr) return 0;
   double size = 0;
   for (const Vec2d& a : who.header->points)
     for (const Vec2d& b : who.header->points) size = std::max(size, (a - b).norm());

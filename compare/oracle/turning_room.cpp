@@ -62,10 +62,9 @@ Vec2d RigidMotion::operator()(const Vec2d& at) const {
 }
 
 const VertexWay& way_of(const TraceStep& step, ColliderIndex collider) {
-  const auto found = std::find_if(step.vertex_ways.begin(), step.vertex_ways.end(),
-                                  [collider](const VertexWay& way) { return way.collider == collider; });
-  if (found == step.vertex_ways.end()) throw std::invalid_argument("a step needs the way of everything that turns");
-  return *found;
+  const VertexWay* way = find_way(step.vertex_ways, collider);
+  if (way == nullptr) throw std::invalid_argument("a step needs the way of everything that turns");
+  return *way;
 }
 
 std::vector<Vec2d> vertices_at(const VertexWay& way, double fraction) {

@@ -199,9 +199,7 @@ void TraceWriter::write(const TraceStep& step) {
     if (i > 0) out.push_back(',');
     put_text(out, ids_[moving_[i].collider]);
     out.push_back(':');
-    const auto way = std::find_if(step.vertex_ways.begin(), step.vertex_ways.end(),
-                                  [&](const VertexWay& one) { return one.collider == moving_[i].collider; });
-    if (way != step.vertex_ways.end())
+    if (const VertexWay* way = find_way(step.vertex_ways, moving_[i].collider))
       put_way(out, *way);
     else
       put_motion(out, step.movers[moving_[i].mover]);

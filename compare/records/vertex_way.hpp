@@ -3,6 +3,8 @@
 
 #include <paperproof/types.hpp>
 
+#include <algorithm>
+#include <span>
 #include <vector>
 
 namespace paperproof::compare {
@@ -16,5 +18,12 @@ struct VertexWay {
   /// holes.
   std::vector<std::vector<Vec2d>> vertices;
 };
+
+/// That of a collider; null if there is none.
+[[nodiscard]] inline const VertexWay* find_way(std::span<const VertexWay> ways, ColliderIndex collider) {
+  const auto found =
+      std::find_if(ways.begin(), ways.end(), [&](const VertexWay& way) { return way.collider == collider; });
+  return found == ways.end() ? nullptr : &*found;
+}
 
 }  // namespace paperproof::compare

@@ -53,9 +53,10 @@ class LevelContestant final : public Contestant {
   /// What the ground adds to the displacement [m].
   [[nodiscard]] Vec2d carried(const CharacterState<double>& before, std::span<const VertexWay> ways) const {
     if (before.ride.ground == Ride<double>::none) return Vec2d::Zero();
-    const auto ground = std::find_if(ways.begin(), ways.end(),
-                                     [&](const VertexWay& way) { return way.collider == before.ride.ground; });
-    return ground == ways.end() ? Vec2d(before.ride.velocity * header_.dt) : carried_along(*ground);
+    const VertexWay* ground = find_way(ways, before.ride.ground);
+    // A circle that turns carries like a conveyor, and its centre does not tell.
+    const bool is_circle = header_.scenery.colliders[before.ride.ground].shape == ColliderDef::Shape::circle;
+    return ground == nullptr || is_circle ? Vec2d(before.ride.velocity * header_.dt) : carried_along(*ground);
   }
 
   Level level_;

@@ -43,7 +43,7 @@ from functools import lru_cache
 from trace_company import Company, first_event, meets_at_once, places_at
 from trace_geometry import (
     GAP, NEAR_DROP, NEAR_PASS, ROUNDING, SAME, ZERO, add, circle_crossings, crossings, distance, dot, enters, exact, hull,
-    inside, is_near, less, scaled, size)
+    inside, is_near, less, scaled, size, way_from_segment)
 from trace_hanging import hangs
 from trace_one_way import lines_of, surfaces_of
 from trace_turning import Way, comes_to_overlap, overlaps
@@ -393,12 +393,9 @@ class Checker:
     def tangent(self, collider, place):
         """An edge that stands for a circle beside a body: so long that the body does not see where it ends."""
         body = [add(place, corner) for corner in self.body]
-        feet = []
-        for a, b in zip(body, body[1:] + body[:1]):
-            share = min(max(dot(less(collider.centre, a), less(b, a)) / dot(less(b, a), less(b, a)), ZERO), Fraction(1))
-            feet.append(less(add(a, scaled(less(b, a), share)), collider.centre))
-        nearest = min(feet, key=lambda foot: dot(foot, foot))
-        out = scaled(nearest, 1 / Fraction(size(nearest)))
+        ways = (way_from_segment(collider.centre, a, b) for a, b in zip(body, body[1:] + body[:1]))
+        nearest = min(ways, key=lambda way: dot(way, way))
+        out = scaled(nearest, -1 / Fraction(size(nearest)))
         top, along = add(collider.centre, scaled(out, collider.radius)), (-out[1], out[0])
         reach = 8 * Fraction(max(self.high[k] - self.low[k] for k in (0, 1)))
         return add(top, scaled(along, -reach)), add(top, scaled(along, reach))

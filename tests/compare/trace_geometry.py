@@ -72,13 +72,8 @@ def is_near(point, convex, radius):
     """Whether a point is inside a counter-clockwise convex polygon, or nearer to it than a radius."""
     if all(turn(u, v, point) > 0 for u, v in zip(convex, convex[1:] + convex[:1])):
         return True
-    for a, b in zip(convex, convex[1:] + convex[:1]):
-        edge, off = less(b, a), less(point, a)
-        share = min(max(dot(off, edge) / dot(edge, edge), ZERO), Fraction(1))
-        rest = less(off, scaled(edge, share))
-        if dot(rest, rest) < radius * radius:
-            return True
-    return False
+    ways = (way_from_segment(point, a, b) for a, b in zip(convex, convex[1:] + convex[:1]))
+    return any(dot(way, way) < radius * radius for way in ways)
 
 
 def circle_crossings(start, way, body, centre, radius):
@@ -120,13 +115,16 @@ def scaled(v, by):
     return (v[0] * by, v[1] * by)
 
 
+def way_from_segment(point, a, b):
+    """The shortest way from a segment to a point."""
+    edge, off = less(b, a), less(point, a)
+    share = min(max(dot(off, edge) / dot(edge, edge), ZERO), Fraction(1))
+    return less(off, scaled(edge, share))
+
+
 def distance(point, a, b):
     """From a point to a segment, rounded once at the end."""
-    way = (b[0] - a[0], b[1] - a[1])
-    off = (point[0] - a[0], point[1] - a[1])
-    share = min(max(dot(off, way) / dot(way, way), ZERO), Fraction(1))
-    rest = (off[0] - share * way[0], off[1] - share * way[1])
-    return size(rest)
+    return size(way_from_segment(point, a, b))
 
 
 def size(v):

@@ -28,8 +28,12 @@ struct ColliderFilter : Filter {
 
   template <class Scalar>
   [[nodiscard]] bool operator()(const Scenery<Scalar>& scenery, ColliderIndex collider) const noexcept {
+    return (*this)(collider, scenery.collider(collider).filter);
+  }
+  /// @param other that of the collider.
+  [[nodiscard]] bool operator()(ColliderIndex collider, const Filter& other) const noexcept {
     if (collider >= end) return true;
-    return collide(*this, scenery.collider(collider).filter) && (is_there == nullptr || is_there(collider, user));
+    return collide(*this, other) && (is_there == nullptr || is_there(collider, user));
   }
 };
 

@@ -1,20 +1,13 @@
 #include "geometry/circle.hpp"
 
+#include "geometry/length.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace paperproof::geometry {
 namespace {
-
-/// Only correctly rounded operations, without overflow or underflow in the squares.
-template <class Scalar>
-Scalar length_of(const Vec2<Scalar>& v) noexcept {
-  const Scalar scale = std::max(std::abs(v.x()), std::abs(v.y()));
-  if (scale == 0) return 0;
-  const Vec2<Scalar> unit = v / scale;
-  return scale * std::sqrt(unit.x() * unit.x() + unit.y() * unit.y());
-}
 
 template <class Scalar>
 Scalar dot(const Vec2<Scalar>& a, const Vec2<Scalar>& b) noexcept {

@@ -4,6 +4,7 @@
 /// (a pair that is written as two numbers and read as one waits for the memory).
 #pragma once
 
+#include "geometry/length.hpp"
 #include "step/configuration_space.hpp"
 
 #include <paperproof/tolerances.hpp>
@@ -16,6 +17,8 @@
 #include <utility>
 
 namespace paperproof::octagon_sweep {
+
+using geometry::length_of;
 
 /// A straight motion of the reference point, with all that is the same for every piece.
 template <std::size_t Lanes, class Scalar>
@@ -37,17 +40,6 @@ struct Motion {
     return {from.cwiseMin(to), from.cwiseMax(to)};
   }
 };
-
-/// Length without overflow or underflow in the squares; only correctly rounded operations, so that its bits are the
-/// same everywhere (std::hypot is not).
-template <class Scalar>
-[[nodiscard, gnu::always_inline]] inline Scalar length_of(const Vec2<Scalar>& v) noexcept {
-  const Scalar scale = std::max(std::abs(v.x()), std::abs(v.y()));
-  if (scale == 0) return 0;
-  const Scalar x = v.x() / scale;
-  const Scalar y = v.y() / scale;
-  return scale * std::sqrt(x * x + y * y);
-}
 
 /// @param look how far beyond the end of the motion the sweep looks [m].
 template <std::size_t Lanes, class Scalar>
