@@ -1,6 +1,6 @@
 /// Starts inside solids under octagon_sweep against the exact oracle: each is resolved by the shortest straight way out
-/// there is, or there is none. Blocks, gears, combs, tiles and stars, with crates, papers and one-way chains in the
-/// way, among movers too.
+/// there is, or there is none. Blocks, gears, combs, tiles, stars and balls, with crates, papers and one-way chains in
+/// the way, among movers too.
 #include "agreement/judged_step.hpp"
 #include "oracle/exact.hpp"
 #include "support/random.hpp"
@@ -25,8 +25,9 @@ constexpr double kept = 3e-6;
 /// What is asked of a way that is found by trial [m].
 constexpr double roomy = 1e-4;
 
-enum class Solids { block, gear, comb, tiles, star, many };
-constexpr std::array all_solids{Solids::block, Solids::gear, Solids::comb, Solids::tiles, Solids::star, Solids::many};
+enum class Solids { block, gear, comb, tiles, star, many, balls };
+constexpr std::array all_solids{Solids::block, Solids::gear, Solids::comb, Solids::tiles,
+                                Solids::star,  Solids::many, Solids::balls};
 
 std::string name_of(Solids solids) {
   switch (solids) {
@@ -42,6 +43,8 @@ std::string name_of(Solids solids) {
       return "star";
     case Solids::many:
       return "many";
+    case Solids::balls:
+      return "balls";
   }
   return {};
 }
@@ -140,6 +143,10 @@ class Start {
         half_ = 0.8;
         for (int n = random_.integer(2, 30); n > 0; --n) add_obstacle();
         return;
+      case Solids::balls:
+        half_ = random_.between(0.8, 2);
+        for (int n = random_.integer(1, 12); n > 0; --n) add_ball();
+        return;
     }
   }
 
@@ -187,6 +194,7 @@ class Start {
     const double x = random_.between(-2, 2) * half_;
     const double y = random_.between(-2, 2) * half_;
     const double width = random_.log_between(0.01, 2);
+    if (solids_ == Solids::balls && random_.chance(0.5)) return add_ball();
     const int kind = random_.integer(0, 3);
     if (kind == 0) return add(rectangle(x, y, x + width, y + random_.log_between(0.01, 2)));
     const double dx = random_.between(-1, 1);
@@ -200,6 +208,12 @@ class Start {
       if (kind == 3) other.one_way = Vec2d{(y - to.y()) * 0.3, 2 * dx * 0.3};
     }
     add(std::move(other));
+  }
+
+  void add_ball() {
+    const double x = random_.between(-1.5, 1.5) * half_;
+    const double y = random_.between(-1.5, 1.5) * half_;
+    add({.shape = ColliderDef::Shape::circle, .points = {{x, y}}, .radius = random_.log_between(0.05, 3)});
   }
 
   /// Around all, so that there may be no way out.
@@ -305,7 +319,11 @@ class Start {
       text << " (" << corner.position.x() << ", " << corner.position.y() << " @ " << corner.fraction << ")";
     if (last_free_) text << ", last free " << last_free_->transpose();
     for (const ColliderDef& collider : colliders_) {
-      text << "\n  " << (collider.shape == ColliderDef::Shape::chain ? "chain" : "polygon");
+      text << "\n  "
+           << (collider.shape == ColliderDef::Shape::chain    ? "chain"
+               : collider.shape == ColliderDef::Shape::circle ? "circle"
+                                                              : "polygon");
+      if (collider.shape == ColliderDef::Shape::circle) text << " r " << collider.radius;
       if (collider.one_way) text << " one way " << collider.one_way->transpose();
       if (collider.mover != no_mover) text << " at " << movers_[collider.mover].from.transpose();
       text << ":";

@@ -12,9 +12,7 @@
 /// motion from the last free position must reach the end as well, the shadows from there are further regions, and their
 /// tangents are searched, too. The same holds for pieces that must be left to a known side.
 ///
-/// Of a circle the tangents along the shared axes are searched, and the one that is nearest: the way out of a circle
-/// alone ends there. Where others cover this place, the tangent that is nearest to the best position so far is
-/// searched, again and again: by Newton's method the position goes along the arc to where the others leave room.
+/// A circle's region is bounded by arcs, too, one around each corner of the hull: they are searched like the lines.
 #include "step/free_position.hpp"
 
 #include "step/certificate.hpp"
@@ -87,25 +85,58 @@ class Search {
   static constexpr Scalar first_stride = 2 * Tolerances<Scalar>{}.hit;
   static constexpr Scalar stride_growth = 16;
   static constexpr int most_strides = 5;
-  /// Of a circle, one after the other. The distance that is left is about squared each time.
-  static constexpr int most_tangents = 8;
+  /// By which the end of a circle's region is found: the distance that is left is about squared each time.
+  static constexpr int most_tangents = 64;
 
-  /// Positions w with normal · w = bound, relative to `query.near`.
-  struct Line {
-    V foot;
-    V along;
-    [[nodiscard]] V at(Scalar place) const noexcept { return foot + along * place; }
+  /// A line, or an arc of at most half a turn. Positions are relative to `query.near`.
+  struct Curve {
+    V middle;           ///< The foot of a line, from which places are counted [m]; the centre of an arc.
+    V along;            ///< Unit vector towards growing places; of an arc where the place is 0.
+    V out{V::Zero()};   ///< Unit vector from the centre of an arc to its place 0.
+    Scalar radius = 0;  ///< Of an arc [m]. Its places are the tangents of half the angles.
+
+    [[nodiscard]] bool is_arc() const noexcept { return radius > 0; }
+    [[nodiscard]] V at(Scalar place) const noexcept {
+      if (!is_arc()) return middle + along * place;
+      const Scalar square = place * place;
+      return middle + (out * (1 - square) + along * (2 * place)) * (radius / (1 + square));
+    }
+    /// One unit of place is at most so long [m].
+    [[nodiscard]] Scalar pace() const noexcept { return is_arc() ? 2 * radius : Scalar(1); }
   };
   struct Part {
     Scalar from;
     Scalar to;
   };
-  /// A place on a line, and which way one goes along it.
+  /// A place on a curve, and which way one goes along it.
   struct Spot {
-    const Line& line;
+    const Curve& curve;
+    Scalar place;
+    Scalar end;  ///< Where the search ends.
     Scalar direction;
     V position;  ///< Relative to `query.near`.
+
+    /// A little beyond the end, from the place.
+    [[nodiscard]] Scalar rest() const noexcept { return (end - place) * direction + first_stride / curve.pace(); }
+    [[nodiscard]] V after(Scalar reach) const noexcept { return curve.at(place + direction * reach); }
+    /// How far it goes until it is by `depth` > 0 further along a unit vector; infinity if it never is.
+    [[nodiscard]] Scalar until(const V& normal, Scalar depth) const noexcept {
+      const Scalar turned = normal.x() * curve.along.x() + normal.y() * curve.along.y();
+      if (!curve.is_arc()) return turned * direction > parallel ? depth / (turned * direction) : infinity;
+      // The height over the centre is reached at the roots of a t^2 - 2 b t + c, and is less where that is positive.
+      const V arm = position - curve.middle;
+      const Scalar height = normal.x() * arm.x() + normal.y() * arm.y() + depth;
+      if (!(height < curve.radius)) return infinity;
+      const Scalar out = curve.radius * (normal.x() * curve.out.x() + normal.y() * curve.out.y());
+      const Scalar b = curve.radius * turned;
+      const Scalar larger = b + std::copysign(std::sqrt((curve.radius - height) * (curve.radius + height)), b);
+      Scalar least = infinity;
+      for (const Scalar root : {larger / (height + out), (height - out) / larger})
+        if (const Scalar reach = (root - place) * direction; reach > 0) least = std::min(least, reach);
+      return least;
+    }
   };
+  static constexpr Scalar infinity = std::numeric_limits<Scalar>::infinity();
 
   /// Where a motion starts that must be clear of a piece.
   enum class Place : std::uint8_t { from, last_free, side };
@@ -194,13 +225,8 @@ class Search {
   // The lines that are searched.
 
   void search_facets(PieceIndex piece) noexcept {
-    for_each_axis(piece, {seen_at_end(piece, query_.near)}, [&](std::size_t axis) { search_facet(piece, axis); });
-    if (!space_.is_circle(piece)) return;
-    for (int tangent = 0; tangent < most_tangents && best_; ++tangent) {
-      const Scalar before = nearest_;
-      search_facet(piece, best(piece, seen_at_end(piece, *best_)).axis);
-      if (!(nearest_ < before - slack)) return;
-    }
+    for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis) search_facet(piece, axis);
+    if (space_.is_circle(piece)) search_arcs(piece);
   }
 
   void search_facet(PieceIndex piece, std::size_t axis) noexcept {
@@ -208,13 +234,13 @@ class Search {
     if (space_.covered(piece, axis) || (n.x() == 0 && n.y() == 0)) return;
     const Scalar bound = query_.gap - space_.separation(piece, axis, seen_at_end(piece, query_.near));
     if (!(std::abs(bound) < nearest_)) return;
-    const Line line{n * bound, {-n.y(), n.x()}};
+    const Curve line{n * bound, {-n.y(), n.x()}};
     sweep_along(line, facet_on(line, piece, std::sqrt(nearest_ * nearest_ - bound * bound)));
   }
 
   /// The part of a facet's line that bounds the obstacle, at most `half` from its foot.
-  [[nodiscard]] Part facet_on(const Line& line, PieceIndex piece, Scalar half) const noexcept {
-    const V foot = seen_at_end(piece, query_.near) + line.foot;
+  [[nodiscard]] Part facet_on(const Curve& line, PieceIndex piece, Scalar half) const noexcept {
+    const V foot = seen_at_end(piece, query_.near) + line.middle;
     Part part{-half, half};
     for (std::size_t axis = 0; axis < space_.axis_count(piece) && part.from <= part.to; ++axis) {
       const V n = space_.normal(piece, axis);
@@ -231,6 +257,42 @@ class Search {
     return part;
   }
 
+  /// The arcs on which a corner of the hull touches a circle, with the gap.
+  void search_arcs(PieceIndex piece) noexcept {
+    const Circle<Scalar>& circle = space_.scenery().circle(piece);
+    const V centre = circle.centre - seen_at_end(piece, query_.near);
+    const Scalar radius = circle.radius + query_.gap;
+    const std::span<const V> hull = space_.hull();
+    for (std::size_t k = 0; k < hull.size(); ++k) {
+      const V corner = hull[k];
+      const V before = unit(V(corner - hull[(k + hull.size() - 1) % hull.size()]));
+      const V after = unit(V(hull[(k + 1) % hull.size()] - corner));
+      // The normals of both edges, inwards: between them the arc lies.
+      const V from{-before.y(), before.x()};
+      const V to{-after.y(), after.x()};
+      const V out = unit(V(from + to));
+      const Curve arc{centre - corner, {-out.y(), out.x()}, out, radius};
+      if (!(std::abs(length_of(arc.middle) - radius) < nearest_)) continue;
+      const Scalar end = half_tangent(arc, to);
+      const Part part{-end, end};
+      const V foot = -arc.middle;
+      if (foot.x() * out.x() + foot.y() * out.y() > 0) {
+        const Scalar begin = std::clamp(half_tangent(arc, unit(foot)), part.from, part.to);
+        sweep_along(arc, begin, part);
+      } else {
+        sweep_along(arc, part.from, part);
+        sweep_along(arc, part.to, part);
+      }
+    }
+  }
+
+  [[nodiscard]] static V unit(const V& v) noexcept { return v / length_of(v); }
+  /// The place of a direction, less than half a turn from the middle of an arc.
+  [[nodiscard]] static Scalar half_tangent(const Curve& arc, const V& direction) noexcept {
+    return (direction.x() * arc.along.x() + direction.y() * arc.along.y()) /
+           (1 + (direction.x() * arc.out.x() + direction.y() * arc.out.y()));
+  }
+
   void search_tangents(PieceIndex piece, Place place) noexcept {
     const View view = this->view(piece, place);
     if (!view.blocks) return;
@@ -244,19 +306,22 @@ class Search {
     }
   }
 
-  void sweep_along(const Line& line, const Part& part) noexcept {
-    if (!(part.from <= part.to)) return;
-    const Scalar begin = std::clamp(Scalar(0), part.from, part.to);
-    sweep_along(line, begin, part.to, Scalar(1));
-    sweep_along(line, begin, part.from, Scalar(-1));
+  void sweep_along(const Curve& line, const Part& part) noexcept {
+    if (part.from <= part.to) sweep_along(line, std::clamp(Scalar(0), part.from, part.to), part);
   }
 
-  /// Takes the first place on a line that is free and reached.
-  void sweep_along(const Line& line, Scalar place, Scalar end, Scalar direction) noexcept {
-    Scalar stride = first_stride;
+  /// Both ways: the positions must get further away.
+  void sweep_along(const Curve& curve, Scalar begin, const Part& part) noexcept {
+    sweep_along(curve, begin, part.to, Scalar(1));
+    sweep_along(curve, begin, part.from, Scalar(-1));
+  }
+
+  /// Takes the first place on a curve that is free and reached.
+  void sweep_along(const Curve& curve, Scalar place, Scalar end, Scalar direction) noexcept {
+    Scalar stride = first_stride / curve.pace();
     for (int tried = 0; tried <= most_strides; ++tried) {
-      place = next_uncovered(line, place, end, direction);
-      if (place * direction > end * direction || consider(line.at(place))) return;
+      place = next_uncovered(curve, place, end, direction);
+      if (place * direction > end * direction || consider(curve.at(place))) return;
       place += direction * stride;
       stride *= stride_growth;
     }
@@ -264,17 +329,19 @@ class Search {
 
   // The regions that cover them.
 
-  /// The next place on a line that no region covers, or one beyond the end. A region is convex: once left, it is not
-  /// entered again. The pieces are looked at forwards and backwards in turns, as they are mostly in order of place.
-  [[nodiscard]] Scalar next_uncovered(const Line& line, Scalar place, Scalar end, Scalar direction) noexcept {
+  /// The next place on a curve that no region covers, or one beyond the end. A region is convex: once left, it is not
+  /// entered again by a line. The pieces are looked at forwards and backwards in turns, as they are mostly in order of
+  /// place.
+  [[nodiscard]] Scalar next_uncovered(const Curve& curve, Scalar place, Scalar end, Scalar direction) noexcept {
+    const auto spot = [&] { return Spot{curve, place, end, direction, curve.at(place)}; };
     // A piece that covers one line often covers the next.
-    place += direction * covered_from({line, direction, line.at(place)}, last_covering_);
+    place += direction * covered_from(spot(), last_covering_);
     if (place * direction > end * direction) return place;
     for (bool forwards = true;; forwards = !forwards) {
       const Scalar before = place;
       for (std::size_t k = 0; k < pieces_.size(); ++k) {
         const std::size_t index = forwards ? k : pieces_.size() - 1 - k;
-        const Scalar beyond = covered_from({line, direction, line.at(place)}, index);
+        const Scalar beyond = covered_from(spot(), index);
         if (!(beyond > 0)) continue;
         last_covering_ = index;
         place += direction * beyond;
@@ -300,23 +367,37 @@ class Search {
   [[nodiscard]] Scalar obstacle_from(const Spot& spot, PieceIndex piece) const noexcept {
     const V at = seen_at_end(piece, query_.near) + spot.position;
     if (best(piece, at).separation >= query_.gap - slack) return 0;
-    Scalar reach = std::numeric_limits<Scalar>::infinity();
+    Scalar reach = infinity;
     for (std::size_t axis = 0; axis < space_.axis_count(piece); ++axis)
       shorten(reach, spot, space_.normal(piece, axis), query_.gap - space_.separation(piece, axis, at));
-    return space_.is_circle(piece) ? arc_from(spot, piece, at, reach) : reach;
-  }
-
-  /// The same for a circle: where one comes to it from beyond its tangents.
-  [[nodiscard]] Scalar arc_from(const Spot& spot, PieceIndex piece, const V& at, Scalar beyond) const noexcept {
-    const V way = spot.line.along * (spot.direction * beyond);
-    const auto back =
-        geometry::approach<Scalar>(space_.hull(), V(at + way), V(-way), space_.scenery().circle(piece), query_.gap);
-    return back ? beyond * (1 - back->time) : Scalar(0);
+    return space_.is_circle(piece) ? tangents_until(spot, piece, at, reach, query_.gap).reach : reach;
   }
 
   static void shorten(Scalar& reach, const Spot& spot, const V& normal, Scalar depth) noexcept {
-    const Scalar rate = (normal.x() * spot.line.along.x() + normal.y() * spot.line.along.y()) * spot.direction;
-    if (rate > parallel) reach = std::min(reach, depth / rate);
+    reach = std::min(reach, spot.until(normal, depth));
+  }
+
+  /// Where a curve leaves a circle, and the axis of the tangent there; infinity where it does not, and 0 where it is
+  /// beyond that tangent already.
+  struct WayOut {
+    Scalar reach;
+    std::size_t axis;
+  };
+  /// From where the curve is beyond the circle, the tangent there shortens the way, again and again.
+  [[nodiscard]] WayOut tangents_until(const Spot& spot, PieceIndex piece, const V& at, Scalar reach,
+                                      Scalar level) const noexcept {
+    WayOut out{std::min(reach, spot.rest()), 0};
+    for (int tangent = 0; tangent < most_tangents; ++tangent) {
+      const BestAxis<Scalar> there = best(piece, at + (spot.after(out.reach) - spot.position));
+      out.axis = there.axis;
+      if (tangent == 0 && there.separation < level - slack) return {infinity, there.axis};
+      const Scalar depth = level - space_.separation(piece, there.axis, at);
+      const Scalar before = out.reach;
+      if (!(depth > slack)) return {0, there.axis};
+      shorten(out.reach, spot, space_.normal(piece, there.axis), depth);
+      if (!(out.reach < before)) return out;
+    }
+    return out;
   }
 
   /// How far a shadow reaches.
@@ -326,13 +407,13 @@ class Search {
     const V at = seen_at_end(piece, query_.near) + spot.position;
     const V travelled = at - view.place;
     const Scalar kept = solid(piece) ? view.level : query_.gap;
-    Scalar reach = std::numeric_limits<Scalar>::infinity();
+    Scalar reach = infinity;
     bool is_before = false;
     for_each_axis(piece, {view.place, at}, [&](std::size_t axis) {
       if (is_before || space_.separation(piece, axis, view.place) < view.level) return;
       const Scalar depth = kept - space_.separation(piece, axis, at);
       is_before = depth <= slack;
-      shorten(reach, spot, space_.normal(piece, axis), depth);
+      if (!is_before) shorten(reach, spot, space_.normal(piece, axis), depth);
     });
     if (is_before) return 0;
     if (!solid(piece)) {  // it blocks only motion against its normal
@@ -342,11 +423,15 @@ class Search {
       shorten(reach, spot, n, depth);
     }
     for (const V& n : {view.tangents.left, view.tangents.right}) {
+      if (n.x() == 0 && n.y() == 0) continue;
       const Scalar depth = -(n.x() * travelled.x() + n.y() * travelled.y());
-      if ((n.x() != 0 || n.y() != 0) && depth <= slack) return 0;
+      if (depth <= slack) return 0;
       shorten(reach, spot, n, depth);
     }
-    return reach;
+    if (!space_.is_circle(piece)) return reach;
+    // The shadow of a circle begins at its arc.
+    const WayOut front = tangents_until(spot, piece, at, reach, kept);
+    return space_.separation(piece, front.axis, view.place) >= view.level ? std::min(reach, front.reach) : reach;
   }
 
   // The checks of a position.
