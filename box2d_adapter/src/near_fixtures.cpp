@@ -103,8 +103,6 @@ b2Transform at(const b2Vec2& place) {
   return transform;
 }
 
-bool is_circle(const b2Fixture& fixture) { return fixture.GetType() == b2Shape::e_circle; }
-
 Box2<double> box_around(std::span<const Vec2d> points) {
   Box2<double> box{points[0], points[0]};
   for (const Vec2d& point : points) box = box.merged({point, point});
@@ -137,8 +135,8 @@ Vec2d place_of(const b2Body& body) {
 
 bool NearFixtures::Seen::operator==(const Seen& other) const noexcept {
   return body == other.body && shape == other.shape && geometry == other.geometry && place == other.place &&
-         angle == other.angle && spin == other.spin && moves == other.moves && sensor == other.sensor &&
-         surface == other.surface && up == other.up && cut.lower == other.cut.lower && cut.upper == other.cut.upper;
+         angle == other.angle && moves == other.moves && sensor == other.sensor && surface == other.surface &&
+         up == other.up && cut.lower == other.cut.lower && cut.upper == other.cut.upper;
 }
 
 void NearFixtures::begin_step(const HeroDef& def, const Vec2d& up, double dt) {
@@ -159,8 +157,6 @@ NearFixtures::Seen NearFixtures::seen(b2Fixture& fixture, const Box2<double>& bo
   if (!result.moves) {
     result.place = body.GetPosition();
     result.angle = body.GetAngle();
-  } else if (is_circle(fixture)) {
-    result.spin = body.GetAngularVelocity();
   }
   if (def_->surface_of && !result.sensor) result.surface = def_->surface_of(fixture);
   if (result.surface.blocks == Blocking::from_above) result.up = up_;
@@ -212,13 +208,9 @@ void NearFixtures::search(const Box2<double>& box) {
 void NearFixtures::define(Known& known) {
   const Seen& seen = known.seen;
   known.version = ++versions_;
-  b2Transform transform = seen.moves ? at({0, 0}) : seen.body->GetTransform();
-  const bool is_wheel = seen.moves && seen.shape->GetType() == b2Shape::e_circle;
-  if (is_wheel) transform = at(-static_cast<const b2CircleShape*>(seen.shape)->m_p);
-  ColliderDef whole = collider_of(*seen.shape, transform);
+  ColliderDef whole = collider_of(*seen.shape, seen.moves ? at({0, 0}) : seen.body->GetTransform());
   whole.sensor = seen.sensor;
   whole.surface_speed = seen.surface.speed;
-  if (is_wheel) whole.surface_speed -= static_cast<double>(seen.spin) * static_cast<double>(seen.shape->m_radius);
   if (seen.surface.blocks == Blocking::from_above) {
     if (whole.shape == ColliderDef::Shape::circle) whole = polygon_around(whole);
     whole.one_way = seen.up;
@@ -232,11 +224,10 @@ void NearFixtures::define(Known& known) {
   }
 }
 
-/// That of the other fixtures of its body. A circle is a mover of its own: it does not turn.
+/// That of the other fixtures of its body.
 MoverIndex NearFixtures::mover_of(const Near& near) const {
-  if (is_circle(*near.fixture)) return movers_;
   const auto other = std::find_if(near_.begin(), near_.end(), [&](const Near& one) {
-    return one.known->seen.body == near.known->seen.body && one.known->mover != no_mover && !is_circle(*one.fixture);
+    return one.known->seen.body == near.known->seen.body && one.known->mover != no_mover;
   });
   return other == near_.end() ? movers_ : other->known->mover;
 }
@@ -319,16 +310,7 @@ BodyPose NearFixtures::begin_of(const b2Body& body) const {
 PoseMotion NearFixtures::motion_of(b2Fixture& fixture) const {
   const b2Body& body = *fixture.GetBody();
   const BodyPose begin = begin_of(body);
-  const Pose from{begin.position, begin.angle};
-  const Pose to{place_of(body), static_cast<double>(body.GetAngle())};
-  if (!is_circle(fixture)) return {from, to};
-  const Vec2d centre = widened(static_cast<const b2CircleShape*>(fixture.GetShape())->m_p);
-  const auto centre_at = [&](const Pose& pose) -> Vec2d {
-    const double c = std::cos(pose.angle);
-    const double s = std::sin(pose.angle);
-    return pose.position + Vec2d(c * centre.x() - s * centre.y(), s * centre.x() + c * centre.y());
-  };
-  return {{centre_at(from), 0}, {centre_at(to), 0}};
+  return {{begin.position, begin.angle}, {place_of(body), static_cast<double>(body.GetAngle())}};
 }
 
 }  // namespace paperproof::box2d

@@ -62,7 +62,6 @@ class NearFixtures {
     std::uint64_t geometry = 0;  ///< A hash of the shape's numbers.
     b2Vec2 place{0, 0};          ///< Of a body that stands; zero of one that moves.
     float angle = 0;             ///< The same.
-    float spin = 0;              ///< Of a circle on a body that turns [radians/s].
     bool moves = false;
     bool sensor = false;
     Surface surface;

@@ -187,6 +187,7 @@ class RandomRun {
         ball.radius = random_.chance(0.2) ? random_.log_between(1e-3, 0.1) : random_.between(0.1, 1.2);
         if (random_.chance(0.3)) ball.surface_speed = random_.between(-3, 3);
         colliders.push_back(ball);
+        if (random_.chance(0.5)) colliders.push_back(boxed(-half, off - thin, half, off + thin, mover));
         if (random_.chance(0.5)) {
           ball.points = {{-off, random_.between(-1, 1)}};
           colliders.push_back(ball);

@@ -150,20 +150,35 @@ TEST(WheelThatTurns, carries_its_rider_round_until_it_is_too_steep) {
   EXPECT_GT(ride.state.position.x(), 1);
 }
 
+TEST(WheelThatTurns, carries_at_any_speed) {
+  for (const double spin : {0.1, 1.0, 3.0, -5.0}) {  // [rad/s]
+    Ride ride({{disc(0, 0, 2, 0)}});
+    ride.state.position = {0, 2 + half_height + 0.01};
+    for (int i = 0; i < 20; ++i) ride.step_by(0);
+    ride.step_by(spin * frame);
+    ride.step_by(spin * frame);
+    EXPECT_NEAR(ride.state.position.x(), -2 * spin * 2 * frame, 0.05 * std::abs(spin) * frame) << spin;
+    EXPECT_TRUE(ride.controller.turned().empty()) << "no step need be divided";
+  }
+}
+
 TEST(WheelThatTurns, about_another_point_pushes_and_never_overlaps) {
   // A disc on the rim of a wheel that turns about the origin comes from the left, again and again.
   Ride ride({{disc(-2, 0.3, 0.3, 0), box_from(-9, -1, 9, 0)}});
   ride.state.position = {1.5, half_height + 1e-6};
   int pushed = 0;
+  double fastest = 0;
   for (int i = 0; i < 600; ++i) {
     ride.step_by(-0.03, {0, 0}, {.move = ride.state.position.x() > 1.5 ? -1.0 : 1.0});
     pushed += std::any_of(ride.report.move.contacts.begin(), ride.report.move.contacts.end(),
                           [](const Contact<double>& contact) { return contact.collider == 0; });
+    fastest = std::max(fastest, ride.state.velocity.norm());
     if (ride.report.move.crushed.empty() && !ride.state.crushed) {
       ASSERT_GT(ride.least_gap(0), -rounding) << i;
     }
   }
   EXPECT_GT(pushed, 5);
+  EXPECT_LT(fastest, 3 * 2.05 * 0.03 / frame) << "squeezed between disc and floor, too";
 }
 
 TEST(PlankWithRoundEnds, carries_and_pushes_as_it_turns) {
@@ -248,7 +263,7 @@ TEST(AmongRandomWheels, nothing_is_overlapped) {
   std::printf("%d steps: %d contacts, %d riding, %d with turns near, %d crushed, %d stuck; least gap %.3g m\n", steps,
               contacts, riding, turned, crushed, stuck, least);
   EXPECT_GT(contacts, steps / 10);
-  EXPECT_GT(turned, steps / 5);
+  EXPECT_GT(turned, steps / 20);
   if (wanted >= 3000) {
     EXPECT_GT(riding, steps / 100);
   }

@@ -54,6 +54,8 @@ struct TurnedCollider {
 /// position meanwhile. Then all movers go straight to their places. So what is near the character turns under its foot,
 /// and `turned()` gives every vertex at all times.
 ///
+/// A circle does not turn in this sense: its centre goes straight, and its surface carries like a conveyor.
+///
 /// That the character's way is clear of what turns is proved for each step. Where the proof fails for 32 parts, too,
 /// the character stays in place, and what reaches it crushes it. Among movers that turn, gravity acts in each of the
 /// shorter steps; the report says what was requested as if the first of them were the whole. One-way colliders that

@@ -81,12 +81,10 @@ Vec2d nearest_corner(std::span<const Vec2d> hull, const Vec2d& normal_before, co
   return (before - after).dot(normal_after) < Tolerances<double>{}.hit ? before : after;
 }
 
-/// The place from which the character came goes along with what crushed it: beside a circle, with its centre.
-void carry(Crusher<double>& crusher, const ColliderDef& def, const Pose& from, const Pose& to) {
+/// The place from which the character came goes along with what crushed it.
+void carry(Crusher<double>& crusher, const Pose& from, const Pose& to) {
   const Vec2d came_from = crusher.last_free + crusher.displacement;
-  Vec2d there = to.position + rotated(Vec2d(came_from - from.position), to.angle - from.angle);
-  if (def.shape == ColliderDef::Shape::circle)
-    there = came_from + placed(def.points.front(), to) - placed(def.points.front(), from);
+  const Vec2d there = to.position + rotated(Vec2d(came_from - from.position), to.angle - from.angle);
   crusher.displacement = there - crusher.last_free;
 }
 
@@ -209,7 +207,7 @@ StepStatus LocalController::Impl::advance(CharacterState<double>& state, const S
     return report.status = StepStatus::invalid_input;
   for (;;) {
     turned_.clear();
-    scenery.read(needed, context.filter, find);
+    scenery.read(needed, context, find);
     state = before;
     const StepStatus status = scenery.any_turns() ? step_among_turning(state, context, report, go)
                                                   : step_straight(state, context, report, go);
@@ -278,33 +276,23 @@ NearestOutline LocalController::Impl::nearest_of(MoverIndex mover, double fracti
                                                  const ColliderFilter* filter) const {
   NearestOutline best{{std::numeric_limits<double>::infinity(), {0, 1}}, {}, false};
   for (const NearCollider& collider : scenery.colliders()) {
-    if (scenery.mover_of(collider) != mover || collider.def->sensor || !is_there(collider, filter)) continue;
+    if (collider.mover != mover || collider.def->sensor || !is_there(collider, filter)) continue;
     std::vector<Vec2d> outline = vertices_at(*collider.def, pose_at(collider.motion, fraction));
     outline.resize(collider.def->points.size());
     const bool closed = collider.def->shape == ColliderDef::Shape::polygon;
-    const Approach here = collider.def->shape == ColliderDef::Shape::circle
-                              ? nearest(Circle<double>{outline[0], collider.def->radius}, hull(), position)
-                              : nearest(outline, closed, hull(), position);
+    const Approach here = nearest(outline, closed, hull(), position);
     if (here.distance < best.approach.distance) best = {here, std::move(outline), closed};
   }
   return best;
 }
 
 /// About what a mover turns in a part: the corner of the character that will be nearest to it then, so that what
-/// carries the character turns under its foot; or its own corner, if that is beneath the foot instead. About the foot
-/// the centre of a circle goes on the chord of an arc. Where even in the shortest part that comes nearer than a gap is
-/// wide, a circle turns about its centre.
+/// carries the character turns under its foot; or its own corner, if that is beneath the foot instead.
 Vec2d LocalController::Impl::pivot_of(MoverIndex mover, double begin, double angle, const Vec2d& position,
                                       const ColliderFilter* filter) const {
   const NearestOutline near = nearest_of(mover, begin, position, filter);
   const Vec2d corner = position + nearest_corner(hull(), near.approach.normal, rotated(near.approach.normal, angle));
   if (near.outline.empty()) return corner;
-  if (near.outline.size() == 1) {
-    const Vec2d& centre = near.outline.front();
-    const bool is_shortest = std::abs(angle) * most_parts <= std::abs(scenery.movers()[mover].turn()) * (1 + 1e-9);
-    const double sag = (corner - centre).norm() * angle * angle / 8;
-    return is_shortest && sag > Tolerances<double>{}.stop / 4 ? centre : corner;
-  }
   return nearest_vertex(near.outline, near.closed, corner).value_or(corner);
 }
 
@@ -326,7 +314,7 @@ StepPart LocalController::Impl::turn(double begin, double end, const Vec2d& posi
 }
 
 Pose LocalController::Impl::turned_pose(const NearCollider& collider, const StepPart& part) const {
-  return {part.motions[scenery.mover_of(collider)].from, pose_at(collider.motion, part.end).angle};
+  return {part.motions[collider.mover].from, pose_at(collider.motion, part.end).angle};
 }
 
 /// Whether a collider can be in the way, and has a proof. @param context of the step, whose filter knows ids.
@@ -568,14 +556,13 @@ std::optional<StepStatus> LocalController::Impl::step_in_parts(int parts, Charac
     if (!scenery.build(part.end)) return refuse(state, report);
     scenery.to_local(state);
     if (state.ride.ground != Ride<double>::none) {
-      const MoverIndex mover = scenery.mover_of(scenery.at(state.ride.ground));
+      const MoverIndex mover = scenery.at(state.ride.ground).mover;
       if (mover != no_mover && scenery.movers()[mover].turn() != 0)
         state.ride.place = state.position - part.motions[mover].from;
     }
     for (Crusher<double>& crusher : state.crushers) {
       const NearCollider& collider = scenery.at(crusher.collider);
-      if (collider.mover != no_mover)
-        carry(crusher, *collider.def, pose_at(collider.motion, part.begin), turned_pose(collider, part));
+      if (collider.mover != no_mover) carry(crusher, pose_at(collider.motion, part.begin), turned_pose(collider, part));
     }
     const Vec2d carried = state.ride.velocity;
     const StepStatus status = go(scenery.controller(), state, scenery.context(shorter, part.motions), 1.0 / parts,
@@ -650,7 +637,7 @@ void LocalController::Impl::go_straight(double begin, double departure, const Ve
                                     [&](const Crusher<double>& crusher) { return crusher.collider == collider.id; });
     Crusher<double> crusher{collider.id, state.position};
     if (known != state.crushers.end()) crusher = *known;
-    carry(crusher, *collider.def, from, collider.motion.to);
+    carry(crusher, from, collider.motion.to);
     const bool is_named = std::find(move.crushed.begin(), move.crushed.end(), collider.id) != move.crushed.end();
     if (!is_named && !overlaps(collider, from, state.position)) move.crushed.push_back(collider.id, more_crushed);
     if (overlaps(collider, collider.motion.to, to)) move.crushers.push_back(crusher);
@@ -668,7 +655,7 @@ std::optional<Vec2d> LocalController::Impl::way_out_at_end(CharacterState<double
   state.ride = {};
   for (Crusher<double>& crusher : state.crushers) {
     const NearCollider& collider = scenery.at(crusher.collider);
-    carry(crusher, *collider.def, collider.motion.from, collider.motion.to);
+    carry(crusher, collider.motion.from, collider.motion.to);
   }
   const StepStatus status =
       scenery.controller().move(state, {0, 0}, scenery.context(context, motions), scenery.scratch(), *of_part);
@@ -682,7 +669,6 @@ StepStatus LocalController::Impl::go_straight_or_stay(CharacterState<double>& st
                                                       StepReport<double>& report) {
   const std::optional<Vec2d> out = way_out_at_end(state, context);
   MoveResult<double>& move = report.move;
-  clear(report);
   const auto goes_out = [&](double departure) {
     clear(report);
     go_straight(0, departure, *out, state, context, report);
@@ -724,7 +710,7 @@ std::optional<std::size_t> LocalController::overlaps(const Vec2d& position, cons
   Impl& impl = *impl_;
   const Box2<double>& extent = impl.character().shape.box();
   impl.turned_.clear();
-  impl.scenery.read({position + extent.lower, position + extent.upper}, context.filter, find);
+  impl.scenery.read({position + extent.lower, position + extent.upper}, context, find);
   if (!impl.scenery.build(at_end ? 1 : 0)) return std::nullopt;
   impl.motions.clear();
   for (const NearMover& mover : impl.scenery.movers()) {

@@ -1,6 +1,7 @@
 #include "level/near_scenery.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 #include <utility>
 
@@ -10,6 +11,22 @@ namespace {
 /// How much wider than needed the box is that is read [m]. Zero: each step reads another one. Large: each change costs
 /// more.
 constexpr double read_ahead = 1.5;
+
+/// Surface speeds are rounded to a multiple of this [m/s]. Zero: a steady turn gives another speed in each step, by
+/// rounding, and so another scenery. Large: who stands on a wheel lags behind.
+constexpr double speed_unit = 0x1p-12;
+
+/// Whether a collider is a circle that is turned. It looks the same at every angle: only its centre has a place.
+bool is_turned_circle(const NearCollider& collider) noexcept {
+  return collider.def->shape == ColliderDef::Shape::circle &&
+         (collider.motion.from.angle != 0 || collider.motion.to.angle != 0);
+}
+
+/// The motion of a circle that is turned, as an offset of its centre.
+PoseMotion motion_of_centre(const NearCollider& collider) {
+  const Vec2d& centre = collider.def->points.front();
+  return {{placed(centre, collider.motion.from) - centre}, {placed(centre, collider.motion.to) - centre}};
+}
 
 /// A collider as it is built into scenery: turned, not moved.
 ColliderDef turned_collider(const ColliderDef& def, double angle, MoverIndex mover) {
@@ -31,12 +48,10 @@ bool comes_first(const Vec2d& a, const Vec2d& b) noexcept { return std::pair(a.x
 }  // namespace
 
 bool is_there(const NearCollider& collider, const ColliderFilter* filter) {
-  const ColliderFilter wanted = filter == nullptr ? ColliderFilter{} : *filter;
-  return collide(wanted, collider.def->filter) &&
-         (wanted.is_there == nullptr || wanted.is_there(collider.id, wanted.user));
+  return (filter == nullptr ? ColliderFilter{} : *filter)(collider.id, collider.def->filter);
 }
 
-void NearScenery::read(const Box2<double>& needed, const ColliderFilter* filter, const Find& find) {
+void NearScenery::read(const Box2<double>& needed, const StepContext<double>& context, const Find& find) {
   const Vec2d spare = (box_.upper - box_.lower) - (needed.upper - needed.lower);
   if (!box_.contains(needed) || spare.maxCoeff() > 4 * read_ahead) box_ = needed.inflated(read_ahead);
   near_.swap(near_before_);
@@ -46,32 +61,54 @@ void NearScenery::read(const Box2<double>& needed, const ColliderFilter* filter,
   if (!std::is_sorted(near_.begin(), near_.end(), by_id)) std::sort(near_.begin(), near_.end(), by_id);
   const auto same_id = [](const NearCollider& a, const NearCollider& b) { return a.id == b.id; };
   near_.erase(std::unique(near_.begin(), near_.end(), same_id), near_.end());
-  note_movers(needed, filter);
+  number_movers(context.dt);
+  note_what_turns(needed, context.filter);
   const bool is_same = std::equal(near_.begin(), near_.end(), near_before_.begin(), near_before_.end(), same_collider);
   if (!is_same || !scenery_) place_in_order();
 }
 
-/// What was read beside the needed box does not count, so that a step depends on its state alone.
-void NearScenery::note_movers(const Box2<double>& needed, const ColliderFilter* filter) {
+/// Counts the movers in the order of their numbers.
+void NearScenery::number_movers(double dt) {
+  moving_.clear();
+  for (std::size_t i = 0; i < near_.size(); ++i)
+    if (near_[i].mover != no_mover) moving_.push_back(i);
+  const auto key = [&](std::size_t i) {
+    const NearCollider& collider = near_[i];
+    const bool alone = is_turned_circle(collider);
+    const Vec2d centre = alone ? collider.def->points.front() : Vec2d(Vec2d::Zero());
+    return std::tuple(collider.mover, alone, centre.x(), centre.y(), alone ? collider.def->radius : 0.0,
+                      alone ? collider.id : no_collider);
+  };
+  std::sort(moving_.begin(), moving_.end(), [&](std::size_t a, std::size_t b) { return key(a) < key(b); });
   movers_.clear();
-  for (const NearCollider& collider : near_)
-    if (collider.mover != no_mover && mover_of(collider) == movers_.size())
-      movers_.push_back({collider.mover, collider.motion});
-  std::sort(movers_.begin(), movers_.end(), [](const NearMover& a, const NearMover& b) { return a.mover < b.mover; });
+  std::optional<decltype(key(0))> last;
+  for (const std::size_t i : moving_) {
+    NearCollider& collider = near_[i];
+    const auto now = key(i);
+    if (!last || now != *last) {
+      NearMover mover{.motion = collider.motion};
+      if (is_turned_circle(collider)) {
+        const double turn = collider.motion.to.angle - collider.motion.from.angle;
+        if (dt > 0) mover.surface_speed = std::round(-turn / dt * collider.def->radius / speed_unit) * speed_unit;
+        mover.motion = motion_of_centre(collider);
+      }
+      movers_.push_back(mover);
+    }
+    last = now;
+    collider.motion = movers_.back().motion;
+    collider.mover = static_cast<MoverIndex>(movers_.size() - 1);
+  }
+}
+
+/// What was read beside the needed box does not count, so that a step depends on its state alone.
+void NearScenery::note_what_turns(const Box2<double>& needed, const ColliderFilter* filter) {
   any_turns_ = false;
   for (const NearCollider& collider : near_) {
     if (collider.mover == no_mover || collider.motion.from.angle == collider.motion.to.angle) continue;
     if (collider.def->sensor || !is_there(collider, filter)) continue;
-    if (!swept_box(collider.def->points, collider.motion).inflated(collider.def->radius).overlaps(needed)) continue;
-    movers_[mover_of(collider)].turns = any_turns_ = true;
+    if (!swept_box(collider.def->points, collider.motion).overlaps(needed)) continue;
+    movers_[collider.mover].turns = any_turns_ = true;
   }
-}
-
-MoverIndex NearScenery::mover_of(const NearCollider& collider) const noexcept {
-  if (collider.mover == no_mover) return no_mover;
-  const auto known = std::find_if(movers_.begin(), movers_.end(),
-                                  [&](const NearMover& mover) { return mover.mover == collider.mover; });
-  return static_cast<MoverIndex>(known - movers_.begin());
 }
 
 /// The order depends on what the colliders are, not on their ids: an edited level gives the bits of one that was built
@@ -103,17 +140,19 @@ void NearScenery::place_in_order() {
 SceneryDef NearScenery::scenery_def() const {
   SceneryDef def;
   for (const std::size_t i : order_) {
-    const MoverIndex mover = mover_of(near_[i]);
-    def.colliders.push_back(turned_collider(*near_[i].def, mover == no_mover ? 0 : angles_[mover], mover));
+    const MoverIndex mover = near_[i].mover;
+    const auto [angle, surface_speed] = mover == no_mover ? std::pair(0.0, 0.0) : built_[mover];
+    def.colliders.push_back(turned_collider(*near_[i].def, angle, mover));
+    def.colliders.back().surface_speed += surface_speed;
   }
   return def;
 }
 
 bool NearScenery::build(double fraction) {
-  std::vector<double> now;
-  for (const NearMover& mover : movers_) now.push_back(pose_at(mover.motion, fraction).angle);
-  if (scenery_ && now == angles_) return true;
-  angles_ = std::move(now);
+  std::vector<std::pair<double, double>> now;
+  for (const NearMover& mover : movers_) now.emplace_back(pose_at(mover.motion, fraction).angle, mover.surface_speed);
+  if (scenery_ && now == built_) return true;
+  built_ = std::move(now);
   for (scenery_.reset(); !scenery_;) {
     try {
       scenery_.emplace(scenery_def(), character_);

@@ -7,15 +7,17 @@
 
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace paperproof::level {
 
-/// A mover of some of the colliders that are near.
+/// A mover of some of the colliders that are near. Each circle of a mover that turns is a mover of its own: its centre
+/// goes straight, and its surface carries like a conveyor.
 struct NearMover {
-  MoverIndex mover = no_mover;  ///< As `NearCollider::mover`.
   PoseMotion motion{};
-  bool turns = false;  ///< And it may come near the character.
+  double surface_speed = 0;  ///< What the turning of a circle adds to that of its surface [m/s].
+  bool turns = false;        ///< And it may come near the character.
 
   [[nodiscard]] double turn() const noexcept { return turns ? motion.to.angle - motion.from.angle : 0; }
 };
@@ -32,21 +34,19 @@ class NearScenery {
   explicit NearScenery(const CharacterDef& character) : character_(character) {}
 
   /// @param needed box. A wider one is read, so that it holds for some steps.
-  /// @param filter of ids: what it leaves out does not turn. Null: nothing is left out.
-  void read(const Box2<double>& needed, const ColliderFilter* filter, const Find& find);
+  /// @param context its filter knows ids: what it leaves out does not turn.
+  void read(const Box2<double>& needed, const StepContext<double>& context, const Find& find);
   /// Makes scenery of what was read, with the angles at a fraction of the step, unless it is there already.
   /// @return false if there is a collider that cannot be turned by its angle: rounding made it cross itself.
   [[nodiscard]] bool build(double fraction);
 
   [[nodiscard]] const CharacterDef& character() const noexcept { return character_; }
-  /// What was found in it, by id.
+  /// What was found in it, by id. Their movers are indices of `movers()`.
   [[nodiscard]] std::span<const NearCollider> colliders() const noexcept { return near_; }
   [[nodiscard]] std::span<const NearMover> movers() const noexcept { return movers_; }
   [[nodiscard]] bool any_turns() const noexcept { return any_turns_; }
-  /// The number of a collider's mover, or `no_mover`.
-  [[nodiscard]] MoverIndex mover_of(const NearCollider& collider) const noexcept;
   [[nodiscard]] bool turns(const NearCollider& collider) const noexcept {
-    return collider.mover != no_mover && movers_[mover_of(collider)].turns;
+    return collider.mover != no_mover && movers_[collider.mover].turns;
   }
 
   // Of the scenery.
@@ -83,7 +83,8 @@ class NearScenery {
     std::span<const ColliderIndex> ids{};
   };
 
-  void note_movers(const Box2<double>& needed, const ColliderFilter* filter);
+  void number_movers(double dt);
+  void note_what_turns(const Box2<double>& needed, const ColliderFilter* filter);
   void place_in_order();
   [[nodiscard]] SceneryDef scenery_def() const;
   [[nodiscard]] ColliderIndex local_of(ColliderIndex id) const noexcept;
@@ -93,11 +94,13 @@ class NearScenery {
   std::vector<NearCollider> near_;
   std::vector<NearCollider> near_before_;
   std::vector<NearMover> movers_;
+  std::vector<std::size_t> moving_;  ///< In `near_`, by mover.
   bool any_turns_ = false;
   std::vector<std::size_t> order_;  ///< Of the colliders of the scenery, in `near_`.
   std::vector<ColliderIndex> ids_;  ///< Of these.
   std::vector<ColliderIndex> unusable_;
-  std::vector<double> angles_;  ///< Of the movers in the scenery.
+  /// Angles of the movers in the scenery, and their surface speeds.
+  std::vector<std::pair<double, double>> built_;
   std::optional<Built> scenery_;
   FilterOfIds filter_of_ids_;
   ColliderFilter filter_;  ///< The same, for the scenery.

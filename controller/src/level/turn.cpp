@@ -150,9 +150,4 @@ std::optional<Vec2d> nearest_vertex(std::span<const Vec2d> outline, bool closed,
   return vertex;
 }
 
-Approach nearest(const Circle<double>& circle, std::span<const Vec2d> hull, const Vec2d& position) {
-  const geometry::NearCircle<double> near = geometry::near_circle(hull, position, circle);
-  return {std::max(near.separation, 0.0), near.normal};
-}
-
 }  // namespace paperproof::level

@@ -51,7 +51,6 @@ struct Approach {
 /// @param closed whether an edge leads from its last point to its first.
 [[nodiscard]] Approach nearest(std::span<const Vec2d> outline, bool closed, std::span<const Vec2d> hull,
                                const Vec2d& position);
-[[nodiscard]] Approach nearest(const Circle<double>& circle, std::span<const Vec2d> hull, const Vec2d& position);
 
 /// The corner of an outline that is nearer to a point than every other point of the outline; nothing where a point
 /// within an edge is.
