@@ -224,15 +224,18 @@ class RandomRun {
     tally.gaps += free && !(near && judgement.max_contact_gap <= contact_reach<Scalar>);
   }
 
-  /// What closes in is met on one side and on the other, sooner and sooner: no number of iterations is enough.
+  /// What closes in is met on one side and on the other, sooner and sooner: no number of iterations is enough. The last
+  /// way may lead along the tangent of a circle, and so away from it.
   [[nodiscard]] bool is_between_surfaces(const TraceStep& record) const {
-    const Place end(record.path.back(), record.movers);
-    const auto parts = judge_->scenery().near_parts(end, contact_reach<Scalar>);
-    const auto opposes = [](const Vec2d& one) {
-      return [one](const compare::NearPart& part) { return part.faces.front().normal.dot(one) < 0; };
-    };
-    return std::any_of(parts.begin(), parts.end(), [&](const compare::NearPart& part) {
-      return part.moved != Vec2d::Zero() && std::any_of(parts.begin(), parts.end(), opposes(part.faces.front().normal));
+    return std::any_of(record.path.begin(), record.path.end(), [&](const PathPoint<double>& corner) {
+      const auto parts = judge_->scenery().near_parts(Place(corner, record.movers), contact_reach<Scalar>);
+      const auto opposes = [](const Vec2d& one) {
+        return [one](const compare::NearPart& part) { return part.faces.front().normal.dot(one) < 0; };
+      };
+      return std::any_of(parts.begin(), parts.end(), [&](const compare::NearPart& part) {
+        return part.moved != Vec2d::Zero() &&
+               std::any_of(parts.begin(), parts.end(), opposes(part.faces.front().normal));
+      });
     });
   }
 

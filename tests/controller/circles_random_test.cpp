@@ -351,6 +351,9 @@ class CircleRun {
     const Contact<double>& first = move.contacts[0];
     if (def_.colliders[first.collider].shape != ColliderDef::Shape::circle) return;
     if (first.fraction > move.path[1].fraction + 1e-3 || move.path.size() < 3) return;
+    // Who would be flung gives way from the start.
+    const Vec2d leg = move.path[1].position - before.position;
+    if ((leg - report_.requested * move.path[1].fraction).cwiseAbs().maxCoeff() > largest_gap) return;
     const Vec2d there = before.position + report_.requested * first.fraction;
     const Real rounding = 1e-15L * Real(report_.requested.norm() + def_.colliders[first.collider].radius) + 1e-9L;
     const Real gap = separation(first.collider, there, first.fraction);

@@ -480,6 +480,60 @@ TEST(MovingCircle, that_leaves_again_frees_whom_it_crushed) {
   EXPECT_EQ(stepper.step_with_mover_by(0, 0), StepStatus::moved);
 }
 
+TEST(MovingCircle, that_comes_down_on_the_edge_of_the_head_pushes_aside_no_faster_than_it_comes) {
+  // Its tangent is nearly level there: along this the character would go 14 m in a step.
+  Stepper<double> stepper({circle(-half_width - 0.5, half_height + 0.6, 0.5, 0), rectangle(-9, -9, 99, -half_height)});
+  stepper.at(0, largest_gap);
+  double fastest = 0;
+  double farthest = 0;
+  for (int i = 0; i < 40; ++i) {
+    const Vec2d before = stepper.state.position;
+    ASSERT_EQ(stepper.step_with_mover_by(0.05, -0.03), StepStatus::moved) << i;
+    farthest = std::max(farthest, (stepper.state.position - before).norm());
+    fastest = std::max(fastest, stepper.state.velocity.norm() * frame);
+    const Circle<double> there{stepper.scenery->circle(0).centre + stepper.movers[0].to, 0.5};
+    ASSERT_GT(slow_separation(stepper.controller.character().shape.hull(), stepper.state.position, there), 0) << i;
+  }
+  EXPECT_GT(stepper.state.position.x(), 1);
+  EXPECT_LT(fastest, 2 * std::hypot(0.05, 0.03));
+  EXPECT_LT(farthest, 0.5);
+}
+
+TEST(BetweenASlopeAndACircle, that_sinks_who_slides_down_goes_as_fast_as_it_lets) {
+  CharacterDef character;
+  character.max_climb_degrees = 12;
+  const Vec2d slope = Vec2d(0.65, -0.158).normalized();
+  Stepper<double> stepper({polygon({{0.65, -0.158}, {0, 0}, {-0.1, -1}, {0.6, -1}}), circle(0.82, -0.363, 0.386, 0)},
+                          character);
+  stepper.at(0.2, 1.2).steps(120);
+  ASSERT_EQ(stepper.state.ground.state, GroundState::wedge);
+  for (int i = 0; i < 20; ++i) {
+    const Vec2d before = stepper.state.position;
+    const Circle<double> circle{stepper.scenery->circle(1).centre + stepper.movers[0].to, 0.386};
+    const Vec2d normal =
+        geometry::near_circle<double>(stepper.controller.character().shape.hull(), before, circle).normal;
+    stepper.step_with_mover_by(0, -0.0004);
+    const double possible = normal.dot(Vec2d(0, -0.0004)) / normal.dot(slope);
+    EXPECT_NEAR((stepper.state.position - before).dot(slope), possible, 0.05 * possible) << i;
+  }
+}
+
+TEST(SlopeOfACircle, a_little_steeper_than_the_climb_limit_is_slid_down_with_the_key_uphill) {
+  for (const double share : {1.001, 1.03, 1.3}) {
+    CharacterDef character;
+    character.max_climb_degrees = 0.1;
+    Stepper<double> stepper({circle(0, -100, 100)}, character);
+    const double angle = share * character.max_climb_degrees * std::numbers::pi / 180;
+    // The corner of the foot that is uphill is the one that touches.
+    const double x = -100 * std::sin(angle) - foot;
+    stepper.at(x, half_height + 100 * std::cos(angle) - 100 + 1e-6);
+    for (int i = 0; i < 60; ++i) stepper.step({.move = 1});
+    EXPECT_EQ(stepper.state.ground.state, GroundState::steep) << share;
+    const double by = x - stepper.state.position.x();
+    EXPECT_NEAR(by, 0.5 * 10 * std::sin(angle), 0.1 * by) << share;
+  }
+}
+
 TEST(ConveyorOnACircle, moves_who_stands_on_it_along_its_tangent) {
   ColliderDef belt = circle(0, -100, 100);
   belt.surface_speed = 2;
@@ -546,6 +600,29 @@ TEST(StartInsideACircle, goes_along_the_floor_where_the_shortest_way_leads_into_
   }
   EXPECT_NEAR(stepper.state.position.x(), outside, 2e-6);
   EXPECT_NEAR(stepper.state.position.y(), half_height, 2e-6);
+}
+
+TEST(StartInsideTiles, goes_to_where_a_facet_meets_the_arc_of_a_circle_that_is_not_overlapped) {
+  std::vector<ColliderDef> colliders{circle(1.0412749953638631, -1.5716481127112392, 0.35763210798085809)};
+  for (const Vec2d& corner : {Vec2d(0, 0), Vec2d(0.5, 0), Vec2d(1, 0), Vec2d(1.5, 0), Vec2d(0.5, 0.5)})
+    colliders.push_back(rectangle(corner.x(), corner.y(), corner.x() + 0.5, corner.y() + 0.5));
+  Stepper<double> stepper(std::move(colliders));
+  stepper.gravity = {0, 0};
+  EXPECT_EQ(stepper.at(0.85549703461439552, -0.20590779895981548).step(), StepStatus::moved);
+  EXPECT_NEAR(stepper.state.position.y(), -half_height, 2e-6);
+  EXPECT_LT(stepper.state.position.x(), 0.85549703461439552);
+  EXPECT_TRUE(is_gap(slow_separation(stepper.controller.character().shape.hull(), stepper.state.position,
+                                     stepper.scenery->circle(0))));
+}
+
+TEST(StartInsideTwoCircles, goes_to_where_their_arcs_cross) {
+  // Up between them it is nearer than beside one of them.
+  Stepper<double> stepper({circle(-0.8, 0, 1), circle(0.8, 0, 1), rectangle(-9, -9, 9, -0.9)});
+  stepper.gravity = {0, 0};
+  EXPECT_EQ(stepper.at(0.05, 0.9).step(), StepStatus::moved);
+  // Both corners of the foot are on an arc: (0.8 - foot)^2 + y^2 = 1.
+  EXPECT_NEAR(stepper.state.position.x(), 0, 2e-6);
+  EXPECT_NEAR(stepper.state.position.y() - half_height, std::sqrt(1 - (0.8 - foot) * (0.8 - foot)), 2e-6);
 }
 
 TEST(StartInsideACircle, that_walls_enclose_is_stuck) {

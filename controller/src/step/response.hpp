@@ -43,6 +43,7 @@
 #include <paperproof/up_frame.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace paperproof::octagon_sweep {
@@ -92,6 +93,15 @@ template <class Scalar>
 [[nodiscard, gnu::always_inline]] inline Vec2<Scalar> slide(const Vec2<Scalar>& w, const Vec2<Scalar>& n) noexcept {
   const Scalar into = dot(w, n);
   return {w.x() - into * n.x() + Scalar(0), w.y() - into * n.y() + Scalar(0)};
+}
+
+/// A slide that enters its surface by rounding, along the surface. One that is nothing but rounding is no motion: it
+/// goes about as far into the surface as along it.
+template <class Scalar>
+[[nodiscard]] Vec2<Scalar> rounded_slide(const Vec2<Scalar>& slide, const Vec2<Scalar>& n) noexcept {
+  const Scalar along = slide.x() * n.y() - slide.y() * n.x();
+  if (!(std::abs(along) > 1024 * std::abs(dot(slide, n)))) return Vec2<Scalar>::Zero();
+  return {n.y() * along + Scalar(0), -n.x() * along + Scalar(0)};
 }
 
 /// The response on steep ground and walls, without steering: rules 1 and 2 above.

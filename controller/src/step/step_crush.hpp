@@ -25,7 +25,31 @@ bool StepSolver<Lanes, Scalar, Up>::goes_to_free_position() noexcept {
   Scalar reach = 0;
   for (const TouchedSurface<Scalar>& surface : memory_.surfaces)
     if (surface.mover != no_mover) reach = std::max(reach, length_of(movers_.displacement(surface.mover)));
-  if (!find_free_position(reach, result_.path.size())) return false;
+  if (!find_free_position(reach, {0, result_.path.size()})) return false;
+  memory_.surfaces.clear();
+  return true;
+}
+
+/// Whether a circle that moves would drive the character farther than both go. Its tangent does, where it squeezes the
+/// character out sideways: the circle itself leaves it sooner.
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::flings(const V& wanted, const V& allowed) const noexcept {
+  const Scalar own = length_of(wanted) + std::abs(steered_) * dt_ + Tolerances<Scalar>{}.touch;
+  return std::any_of(memory_.surfaces.begin(), memory_.surfaces.end(), [&](const TouchedSurface<Scalar>& surface) {
+    return space_.is_circle(surface.piece) && moves_in(surface) &&
+           length_of(allowed) > own + length_of(remaining_of(surface));
+  });
+}
+
+/// Moves to a free position beside a circle that would fling the character, if there is one that is no farther away.
+/// A way out of what the step began inside of is kept.
+/// @param allowed the response to what the last sweep met.
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::goes_beside_circle(const V& allowed) noexcept {
+  if (is_passed_through() || !flings(V(motion_.displacement * (1 - found_.stop)), allowed)) return false;
+  const bool has_left = std::any_of(memory_.marked.begin(), memory_.marked.end(),
+                                    [this](ColliderIndex collider) { return memory_.is(collider, leaving); });
+  if (!find_free_position(length_of(allowed), {has_left ? std::size_t{1} : 0, result_.path.size()})) return false;
   memory_.surfaces.clear();
   return true;
 }
@@ -38,7 +62,7 @@ void StepSolver<Lanes, Scalar, Up>::undo_crushes() noexcept {
   Scalar reach = 0;
   for (const ColliderIndex collider : result_.crushed) reach = std::max(reach, length_of(displacement_of(collider)));
   memory_.surfaces.clear();
-  if (find_free_position(reach, moving_.corners_before_crush)) {
+  if (find_free_position(reach, {0, moving_.corners_before_crush})) {
     for (const ColliderIndex collider : result_.crushed) memory_.unmark(collider, crushes);
     result_.crushed.clear();
     result_.status = moving_.status_before_crush == MoveStatus::dropped ? MoveStatus::dropped : MoveStatus::moved;

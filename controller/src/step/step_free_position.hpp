@@ -15,46 +15,44 @@ namespace paperproof::octagon_sweep {
 
 /// Moves to the nearest free position. False if there is none: then nothing has changed.
 /// @param reach how far away it may be [m].
-/// @param corners how many corners of the path the motion may begin at.
+/// @param corners of the path at which the motion may begin.
 template <std::size_t Lanes, class Scalar, class Up>
-bool StepSolver<Lanes, Scalar, Up>::find_free_position(Scalar reach, std::size_t corners) noexcept {
+bool StepSolver<Lanes, Scalar, Up>::find_free_position(Scalar reach, Corners corners) noexcept {
   if (moving_.side_lost) return false;
   // Movers that overlap do not block the motion, but its end must be free of them.
   const std::uint8_t ignored_before = moving_.ignored;
   moving_.ignored &= static_cast<std::uint8_t>(~overlaps_since_start);
   constexpr Tolerances<Scalar> tolerances{};
-  FreePosition found = nearest_free_position(tolerances.hit * Scalar(least_gap), reach, corners);
-  if (found.corner < corners) {
+  std::optional<FreePosition> found = nearest_free_position(tolerances.hit * Scalar(least_gap), reach, corners);
+  if (found) {
     // Mostly there is also one with the gap that is kept everywhere else.
-    const FreePosition ample = nearest_free_position(tolerances.stop, reach, corners);
-    if (ample.corner < corners) found = ample;
+    if (const auto ample = nearest_free_position(tolerances.stop, reach, corners)) found = ample;
   }
   moving_.ignored = ignored_before;
-  if (found.corner == corners) return false;
-  extend_until_contact(found);
-  go_back_to(found.corner);
-  go_to(found.position);
-  report_free_position(found.corner);
+  if (!found) return false;
+  extend_until_contact(*found);
+  go_back_to(found->corner);
+  go_to(found->position);
+  report_free_position(found->corner);
   return true;
 }
 
-/// @return its corner is `corners` if there is none.
 /// @param gap that is left around the character [m].
 template <std::size_t Lanes, class Scalar, class Up>
-typename StepSolver<Lanes, Scalar, Up>::FreePosition StepSolver<Lanes, Scalar, Up>::nearest_free_position(
-    Scalar gap, Scalar reach, std::size_t corners) noexcept {
+auto StepSolver<Lanes, Scalar, Up>::nearest_free_position(Scalar gap, Scalar reach, Corners corners) noexcept
+    -> std::optional<FreePosition> {
   // The gap to a mover comes on top of its displacement.
   constexpr Scalar beyond = 16 * Tolerances<Scalar>{}.stop;
   const Scalar whole = reach + beyond;
   // Mostly there is one nearby, among few pieces.
   const Scalar near = std::min(whole, (space_.hull_box().upper - space_.hull_box().lower).maxCoeff());
-  FreePosition found{0, V::Zero(), corners};
   for (const Scalar radius : {near, whole}) {
-    found.distance = radius;
-    for (std::size_t corner = corners; corner-- > 0;) search_from(corner, gap, found);
-    if (found.corner < corners || near == whole) break;
+    FreePosition found{radius, V::Zero(), corners.end};
+    for (std::size_t corner = corners.end; corner-- > corners.first;) search_from(corner, gap, found);
+    if (found.corner < corners.end) return found;
+    if (near == whole) break;
   }
-  return found;
+  return std::nullopt;
 }
 
 /// @param gap that is left around the character [m].

@@ -126,10 +126,19 @@ bool StepSolver<Lanes, Scalar, Up>::respond_one_by_one(DesiredMotion<Scalar>& de
     desired = response_to(surface, alone, after_walk_ || walkable(first.normal));
     if (allowed(desired)) return true;
     desired = response_to(first, response_to(surface, wanted, after_walk_), after_walk_ || walkable(surface.normal));
-    if (allowed(desired)) return true;
+    if (!allowed(desired)) continue;
+    if (remaining_of(surface) != remaining_of(first)) fall_between(desired);
+    return true;
   }
   desired = wanted;
   return false;
+}
+
+/// What was lost at both surfaces in turns must not hold up a fall between surfaces that part.
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::fall_between(DesiredMotion<Scalar>& desired) const noexcept {
+  const auto falling = nearest_allowed_to(up_.in_world({0, fall_ * dt_ * (1 - time_)}), up_.in_world({0, fall_}));
+  if (falling && up_.up_of(falling->displacement.wanted) < up_.up_of(desired.displacement.wanted)) desired = *falling;
 }
 
 /// Surfaces with one motion that stop the character together: a fall may still slip down between them. Otherwise the
@@ -209,6 +218,13 @@ std::optional<DesiredMotion<Scalar>> StepSolver<Lanes, Scalar, Up>::nearest_allo
   return DesiredMotion<Scalar>::plain(*allowed_displacement, allowed_velocity.value_or(V::Zero()));
 }
 
+/// @param desired a slide that enters the surface by rounding.
+template <class Scalar>
+[[gnu::cold, gnu::noinline]] void keep_on_surface(const Vec2<Scalar>& normal, DesiredMotion<Scalar>& desired) noexcept {
+  desired = DesiredMotion<Scalar>::plain(rounded_slide(desired.displacement.wanted, normal),
+                                         rounded_slide(desired.velocity.wanted, normal));
+}
+
 /// The response to one surface that stands still: the usual case.
 template <std::size_t Lanes, class Scalar, class Up>
 void StepSolver<Lanes, Scalar, Up>::respond_to_surface(const V& normal, DesiredMotion<Scalar>& desired) const noexcept {
@@ -223,9 +239,9 @@ void StepSolver<Lanes, Scalar, Up>::respond_to_surface(const V& normal, DesiredM
     desired.displacement.wanted = respond(desired.displacement.wanted, at);
     desired.velocity.wanted = respond(desired.velocity.wanted, at);
   }
-  // A slide that ends may still enter the surface by rounding. A motion along walkable ground does not.
+  // A slow slide may still enter the surface by rounding. A motion along walkable ground does not.
   if (!at.walkable && (enters(desired.displacement.wanted, normal) || enters(desired.velocity.wanted, normal)))
-    desired = DesiredMotion<Scalar>::plain(V::Zero(), V::Zero());
+    keep_on_surface(normal, desired);
 }
 
 /// The response to several surfaces, or to one that moves.

@@ -127,7 +127,11 @@ void StepSolver<Lanes, Scalar, Up>::travel() noexcept {
   bool may_aim = true;
   int impacts = 0;
   for (std::size_t sweeps = 0; sweeps < most_sweeps && result_.path.size() < most_corners; ++sweeps) {
-    if (!movers_.active && displacement.x() == 0 && displacement.y() == 0) return;
+    if (movers_.active) {
+      if (sweeps > 0 && goes_beside_circle(desired.displacement.wanted)) return;
+    } else if (displacement.x() == 0 && displacement.y() == 0) {
+      return;
+    }
     if (sweeps > 0) sweep_along(displacement);
     if (found_.hit && found_.stop == 0 &&
         (displacement.x() != desired.displacement.wanted.x() || displacement.y() != desired.displacement.wanted.y())) {

@@ -252,6 +252,7 @@ class StepSolver {
                                                   const DesiredMotion<Scalar>& desired, bool after_walk) const noexcept;
   [[gnu::always_inline]] inline void respond_to_surface(const V& normal, DesiredMotion<Scalar>& desired) const noexcept;
   [[nodiscard, gnu::noinline]] bool respond_to_all(DesiredMotion<Scalar>& desired) noexcept;
+  [[gnu::cold, gnu::noinline]] void fall_between(DesiredMotion<Scalar>& desired) const noexcept;
   [[nodiscard]] bool respond_one_by_one(DesiredMotion<Scalar>& desired) const noexcept;
   [[nodiscard]] bool respond_in_crease(DesiredMotion<Scalar>& desired) noexcept;
   [[nodiscard]] bool respond_together(DesiredMotion<Scalar>& desired) const noexcept;
@@ -267,8 +268,13 @@ class StepSolver {
     V position;
     std::size_t corner;
   };
-  [[nodiscard]] bool find_free_position(Scalar reach, std::size_t corners) noexcept;
-  [[nodiscard]] FreePosition nearest_free_position(Scalar gap, Scalar reach, std::size_t corners) noexcept;
+  /// Corners of the path.
+  struct Corners {
+    std::size_t first;
+    std::size_t end;  ///< One past the last.
+  };
+  [[nodiscard]] bool find_free_position(Scalar reach, Corners corners) noexcept;
+  [[nodiscard]] std::optional<FreePosition> nearest_free_position(Scalar gap, Scalar reach, Corners corners) noexcept;
   [[nodiscard]] FreePositionQuery<Scalar> query_from(std::size_t corner, Scalar gap) const noexcept;
   void search_from(std::size_t corner, Scalar gap, FreePosition& room) noexcept;
   void extend_until_contact(FreePosition& room) noexcept;
@@ -285,6 +291,8 @@ class StepSolver {
   // step_crush.hpp
   [[nodiscard]] bool is_passed_through() const noexcept;
   [[nodiscard, gnu::cold, gnu::noinline]] bool goes_to_free_position() noexcept;
+  [[nodiscard]] bool flings(const V& wanted, const V& allowed) const noexcept;
+  [[nodiscard, gnu::cold, gnu::noinline]] bool goes_beside_circle(const V& allowed) noexcept;
   [[gnu::cold, gnu::noinline]] void undo_crushes() noexcept;
   [[nodiscard]] bool moves_in(const TouchedSurface<Scalar>& surface) const noexcept;
   [[gnu::cold, gnu::noinline]] bool note_crushers() noexcept;
