@@ -146,7 +146,7 @@ struct Hero::Impl {
         body(&make_body(in, from)),
         fixtures(in, *body),
         controller(from.character),
-        sensor_controller(from.character) {
+        other_controller(from.character) {
     make_fixture(*body, def, def.filter, state.position);
     state.position = def.position;
     report.move.position = def.position;
@@ -182,7 +182,7 @@ struct Hero::Impl {
   b2Body* body;
   NearFixtures fixtures;
   LocalController controller;
-  LocalController sensor_controller;  ///< Asks which sensors the hero overlaps.
+  LocalController other_controller;  ///< Asks what the hero overlaps, beside its step.
   CharacterState<double> state;
   StepReport<double> report;
   std::vector<HeroContact> contacts;
@@ -212,7 +212,7 @@ void Hero::Impl::remake_fixture() {
 void Hero::Impl::change(const CharacterDef& character) {
   def.character = character;
   controller = LocalController(character);
-  sensor_controller = LocalController(character);
+  other_controller = LocalController(character);
   remake_fixture();
 }
 
@@ -253,10 +253,10 @@ void Hero::Impl::take_impacts() {
   });
 }
 
-/// Whether the hero overlaps nothing at a position at the end of the step.
+/// Whether the hero overlaps nothing at a position on its way at the end of the step.
 bool Hero::Impl::is_free_at_end(const Vec2d& position) {
-  return controller.overlaps(
-             position, {.dt = 1}, [this](const auto& box, auto& found) { fixtures.find(box, found); }, true) == 0U;
+  const auto find = [this](const auto& /*box*/, auto& found) { fixtures.find_again(found); };
+  return other_controller.overlaps(position, {.dt = 1}, find, true) == 0U;
 }
 
 /// Moving bodies take the hero along, but squeeze it out no faster than they go themselves, or than Box2D moved the
@@ -314,7 +314,7 @@ void Hero::Impl::note_sensors_between_steps(const Vec2d& position) {
     std::vector<ColliderIndex> found(16);
     const auto find = [this](const auto& /*box*/, auto& near) { fixtures.find_sensors(near); };
     std::size_t count = 0;
-    while ((count = sensor_controller.overlaps(position, {.dt = 1}, find, false, found).value_or(0)) > found.size())
+    while ((count = other_controller.overlaps(position, {.dt = 1}, find, false, found).value_or(0)) > found.size())
       found.resize(count);
     for (std::size_t i = 0; i < count; ++i) now.push_back(fixtures.fixture_of(found[i]));
   }

@@ -241,6 +241,10 @@ void NearFixtures::add(const Near& near, std::vector<NearCollider>& found) const
 
 void NearFixtures::find(const Box2<double>& box, std::vector<NearCollider>& found) {
   search(box);
+  find_again(found);
+}
+
+void NearFixtures::find_again(std::vector<NearCollider>& found) const {
   for (const Near& near : near_) add(near, found);
 }
 
@@ -310,7 +314,13 @@ BodyPose NearFixtures::begin_of(const b2Body& body) const {
 PoseMotion NearFixtures::motion_of(b2Fixture& fixture) const {
   const b2Body& body = *fixture.GetBody();
   const BodyPose begin = begin_of(body);
-  return {{begin.position, begin.angle}, {place_of(body), static_cast<double>(body.GetAngle())}};
+  PoseMotion motion{{begin.position, begin.angle}, {place_of(body), static_cast<double>(body.GetAngle())}};
+  // A wheel turns as fast as its body says: angles in float tell that only roughly, and its place does not depend on
+  // them.
+  const b2Shape* shape = fixture.GetShape();
+  if (shape->GetType() == b2Shape::e_circle && static_cast<const b2CircleShape*>(shape)->m_p == b2Vec2_zero)
+    motion.from.angle = motion.to.angle - static_cast<double>(body.GetAngularVelocity()) * dt_;
+  return motion;
 }
 
 }  // namespace paperproof::box2d

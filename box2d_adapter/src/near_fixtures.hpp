@@ -34,6 +34,8 @@ class NearFixtures {
   void begin_step(const HeroDef& def, const Vec2d& up, double dt);
   /// See `LocalController::Find`. Reads all fixtures in a box, and how their bodies moved since `note_poses`.
   void find(const Box2<double>& box, std::vector<NearCollider>& found);
+  /// The same as the last `find` found.
+  void find_again(std::vector<NearCollider>& found) const;
   /// The sensors alone that the last `find` found, as if they were solid.
   /// @param found is empty.
   void find_sensors(std::vector<NearCollider>& found);

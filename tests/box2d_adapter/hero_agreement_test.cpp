@@ -116,7 +116,7 @@ TEST_P(HeroInPlay, never_gets_into_what_stands_among_bodies_that_turn) {
   int crushed = 0;
   double fastest = 0;  // [m/s]
   const int wanted = steps_wanted("PAPERPROOF_HERO_STEPS", 3000);
-  for (std::uint64_t seed = 1; steps < wanted; ++seed) {
+  const auto play = [&](std::uint64_t seed) {
     Random random(seed);
     b2World world({0, -10});
     paperproof::test::build_level(world, Scenery<double>(play_level(GetParam(), random)));
@@ -145,7 +145,9 @@ TEST_P(HeroInPlay, never_gets_into_what_stands_among_bodies_that_turn) {
       crushed += status == StepStatus::crushed || status == StepStatus::stuck;
       fastest = std::max(fastest, hero.velocity().norm());
     }
-  }
+  };
+  for (std::uint64_t seed = 1; steps < wanted && !HasFatalFailure(); ++seed) play(seed);
+  play(87);  // among the arches a hero that was squeezed forgot what it had touched on its way
   EXPECT_GE(hit, steps / 600);
   EXPECT_GE(carried, steps / 600);
   EXPECT_LE(crushed, steps / 10);
