@@ -14,7 +14,7 @@ constexpr double read_ahead = 1.5;
 
 /// Surface speeds are rounded to a multiple of this [m/s]. Zero: a steady turn gives another speed in each step, by
 /// rounding, and so another scenery. Large: who stands on a wheel lags behind.
-constexpr double speed_unit = 0x1p-12;
+constexpr double speed_unit = 0x1p-24;
 
 /// Whether a collider is a circle that is turned. It looks the same at every angle: only its centre has a place.
 bool is_turned_circle(const NearCollider& collider) noexcept {
