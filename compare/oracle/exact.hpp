@@ -149,8 +149,8 @@ class ExactScenery {
   /// A place not farther than `reach` from `at`, at the same moment, that keeps at least `clearance` [m] from every
   /// solid along its best axis (exactly), and that `accept` takes; or none. It looks, nearest first, at `at` itself, at
   /// `others`, and at all corners of the space that is free with 0.5 % more clearance, and feet of perpendiculars from
-  /// `at` to its edges: the nearest free place of all is one of them. Circles: what is near several things, one
-  /// of them a circle, is looked for around a polygon that encloses it, 0.12 % of its radius farther out.
+  /// `at` to its edges: the nearest free place of all is one of them. A circle counts as a polygon that
+  /// encloses it and reaches 0.12 % of its radius beyond it: beside a circle the place may be so much too far away.
   [[nodiscard]] std::optional<Vec2d> find_free(const Place& at, double reach, double clearance,
                                                std::span<const Vec2d> others,
                                                const std::function<bool(const Vec2d&)>& accept) const;

@@ -22,7 +22,7 @@ struct Line {
 
 struct OwnLines {
   std::vector<Line> lines;
-  bool enclose_disc = false;  ///< What is inside of them may be free.
+  bool enclose_disc = false;  ///< A place between these lines and the disc is free.
 };
 
 /// The lines of all obstacles, those of one obstacle in a row.

@@ -23,7 +23,7 @@ double travel_of(const VertexWay& way, Vec2d at) {
   return length;
 }
 
-/// Whether all that is met is among what was overlapped before.
+/// Whether a straight way meets only colliders that are overlapped where it begins.
 bool meets_no_more(const ExactScenery& rest, const Place& from, const Place& to) {
   const std::vector<ColliderIndex> inside = rest.overlapped(from);
   const std::vector<ColliderIndex> met = rest.met(from, to);

@@ -145,8 +145,9 @@ class Scenery {
   /// @throws InvalidScenery on: fewer than 3 (polygon) or 2 (chain) points, a coordinate that is not finite or beyond
   ///   2e6 m, repeated neighbouring points, zero area, a ring that crosses or touches itself or another ring of its
   ///   polygon, a hole that is not inside, a `one_way` that is zero or not finite, a sensor that is one-way, a
-  ///   `surface_speed` that is not finite, a `mover` beyond the number of colliders; a circle that has not exactly one
-  ///   point, or is one-way, a radius that is not above zero and at most 2e6 m, a radius of what is no circle.
+  ///   `surface_speed` that is not finite, a `mover` beyond the number of colliders; a circle that is
+  ///   one-way or has more or fewer than one point, a radius of a circle that is not above zero or beyond 2e6 m, a
+  ///   radius of anything else.
   explicit Scenery(const SceneryDef& def);
 
   [[nodiscard]] std::span<const PieceInfo> pieces() const noexcept { return pieces_; }

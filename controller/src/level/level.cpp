@@ -46,7 +46,7 @@ void check(const ColliderDef& def) {
   const Scenery<double> checked(alone);
 }
 
-/// No two edits of any level have the same number, so that a copied or assigned level is told from the one before.
+/// Each edit of each level has a number of its own: so a controller sees that another level was assigned to its level.
 std::uint64_t next_edit() noexcept {
   static std::atomic<std::uint64_t> edits{0};
   return ++edits;

@@ -596,8 +596,8 @@ bool LocalController::Impl::reaches(const NearCollider& collider, const HullWay&
 
 /// The rest of a step, in which the character stays, then goes straight to a place, and everything that moves turns
 /// evenly. What may reach the character crushes it.
-/// @param begin as a fraction of the step; what is before it stands in the report. @param departure to the
-///   place.
+/// @param begin as a fraction of the step; what is before it stands in the report.
+/// @param departure when the character leaves for the place.
 void LocalController::Impl::go_straight(double begin, double departure, const Vec2d& to,
                                         const CharacterState<double>& state, const StepContext<double>& context,
                                         StepReport<double>& report) {

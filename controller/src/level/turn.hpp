@@ -1,5 +1,5 @@
-/// Convex pieces whose vertices go on straight lines: a turn, and everything else that they do within a short time. Of
-/// a circle it is the centre that does.
+/// Convex pieces whose vertices go on straight lines: so a piece turns, and so it does everything else within a short
+/// time. Of a circle the centre goes on a straight line.
 #pragma once
 
 #include <paperproof/scenery.hpp>

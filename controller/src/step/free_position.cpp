@@ -85,7 +85,7 @@ class Search {
   static constexpr Scalar first_stride = 2 * Tolerances<Scalar>{}.hit;
   static constexpr Scalar stride_growth = 16;
   static constexpr int most_strides = 5;
-  /// By which the end of a circle's region is found: the distance that is left is about squared each time.
+  /// So many tangents find where a curve leaves a circle: each about squares the distance that is left.
   static constexpr int most_tangents = 64;
 
   /// A line, or an arc of at most half a turn. Positions are relative to `query.near`.
