@@ -49,8 +49,7 @@ class Ride {
  public:
   explicit Ride(const Ground& ground)
       : ground_(ground),
-        game_({.character = character(ground),
-               .position = {ground.start, top(ground) + half_height + 0.05},
+        game_({.position = {ground.start, top(ground) + half_height + 0.05},
                .surface_of = [this](b2Fixture&) { return Surface{.speed = belt_speed_}; }}) {
     b2BodyDef def;
     def.type = ground.type;
@@ -109,11 +108,6 @@ class Ride {
 
   static double top(const Ground& ground) {
     return ground.wheel_radius > 0 ? ground.wheel_radius : static_cast<double>(plank_top);
-  }
-  static CharacterDef character(const Ground& ground) {
-    CharacterDef result;
-    if (ground.wheel_radius > 0) result.snap = 0.1;  // over the corners of the polygon that stands for it
-    return result;
   }
 
   Ground ground_;

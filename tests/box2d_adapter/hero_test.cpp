@@ -334,9 +334,7 @@ TEST(Hero, is_carried_by_what_turns_and_moves_without_a_toggle) {
   for (const Ground& ground : {Ground{"plank", 0.2F, false, {0, 0}}, Ground{"plank back", -0.2F, false, {0, 0}},
                                Ground{"wheel", 0.2F, true, {0, 0}}, Ground{"lift", 0, false, {0.3F, -0.5F}},
                                Ground{"turning lift", 0.1F, false, {0.3F, 0.5F}}}) {
-    CharacterDef character;
-    if (ground.wheel) character.snap = 0.1;  // over the corners of the polygon that stands for it
-    Game game({.character = character, .position = {0.5, ground.wheel ? 2.75 : 0.75}});
+    Game game({.position = {0.5, ground.wheel ? 2.75 : 0.75}});
     b2BodyDef def;
     def.type = b2_kinematicBody;
     b2CircleShape circle;

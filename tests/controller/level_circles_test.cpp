@@ -162,6 +162,36 @@ TEST(WheelThatTurns, carries_at_any_speed) {
   }
 }
 
+TEST(RiderOfAWheel, stays_on_it_without_a_snap_until_it_is_too_steep) {
+  const int wheels = steps_wanted("PAPERPROOF_RIDERS", sampled(200));
+  int walked = 0;
+  int carried = 0;
+  for (int wheel = 1; wheel <= wheels; ++wheel) {
+    Random random(static_cast<std::uint64_t>(wheel));
+    const double radius = random.log_between(0.3, 10);
+    const double spin = random.either_sign_log_between(0.02, 3 / std::max(1.0, radius));  // surface: up to 3 m/s
+    const Vec2d way = random.chance(0.5) ? Vec2d(0, 0) : Vec2d(0.02, 0.01) * random.between(-1, 1);
+    const double move = random.chance(0.5) ? 0 : random.between(-0.3, 0.3);
+    Ride ride({{disc(0, 0, radius, 0)}});
+    ride.state.position = {0, radius + half_height + 0.01};
+    for (int i = 0; i < 20; ++i) ride.step_by(0);
+    ASSERT_TRUE(ride.state.grounded) << "wheel " << wheel;
+    for (int i = 0; i < 200; ++i) {
+      ride.step_by(spin * frame, way, {.move = move});
+      if (i == 0) continue;  // it starts with a jerk
+      const Vec2d normal = ride.report.move.ground.normal;
+      const double limit = std::cos((ride.character.max_climb_degrees - 5) * std::numbers::pi / 180);
+      const double turn = (std::abs(spin) + std::abs(move) * ride.character.walk_speed / radius) * frame;
+      if (ride.state.grounded && std::acos(normal.y()) + turn > std::acos(limit)) break;
+      ASSERT_TRUE(ride.state.grounded) << "wheel " << wheel << " of radius " << radius << ", step " << i;
+      ASSERT_EQ(ride.state.ride.ground, 0U) << "wheel " << wheel << ", step " << i;
+      (move == 0 ? carried : walked) += normal.y() < 1;
+    }
+  }
+  EXPECT_GT(carried, wheels);
+  EXPECT_GT(walked, wheels);
+}
+
 TEST(WheelThatTurns, about_another_point_pushes_and_never_overlaps) {
   // A disc on the rim of a wheel that turns about the origin comes from the left, again and again.
   Ride ride({{disc(-2, 0.3, 0.3, 0), box_from(-9, -1, 9, 0)}});

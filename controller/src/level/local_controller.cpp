@@ -489,7 +489,10 @@ void LocalController::Impl::append(const StepReport<double>& added, const StepPa
     if (corner.fraction > 0) to.path.push_back({corner.position, when(corner.fraction)}, more_corners);
   for (Contact<double> contact : from.contacts) {
     contact.fraction = when(contact.fraction);
-    to.contacts.push_back(contact, more_contacts);
+    const auto is_it = [&](const Contact<double>& other) {
+      return other.collider == contact.collider && other.normal == contact.normal;
+    };
+    if (std::none_of(to.contacts.begin(), to.contacts.end(), is_it)) to.contacts.push_back(contact, more_contacts);
   }
   for (const ColliderIndex collider : from.crushed)
     if (std::find(to.crushed.begin(), to.crushed.end(), collider) == to.crushed.end())

@@ -134,7 +134,8 @@ void StepSolver<Lanes, Scalar, Up>::go_to(const V& end) noexcept {
 template <std::size_t Lanes, class Scalar, class Up>
 void StepSolver<Lanes, Scalar, Up>::go_back_to(std::size_t corner) noexcept {
   while (result_.path.size() > corner + 1) result_.path.pop_back();
-  while (result_.contacts.size() > memory_.contacts_at[corner]) result_.contacts.pop_back();
+  while (result_.contacts.size() > memory_.reported_at[corner].contacts) result_.contacts.pop_back();
+  latest_impact_ = memory_.reported_at[corner].impact;
   position_ = result_.path[corner].position;
   time_ = result_.path[corner].fraction;
   moving_.anchored = false;
@@ -165,7 +166,7 @@ void StepSolver<Lanes, Scalar, Up>::report_free_position(std::size_t corner) noe
     time_ = then;
     push_corner(time_);
     report_contact(near.piece, near.axis, time_, result_.contacts.size());
-    memory_.contacts_at[result_.path.size() - 1] = result_.contacts.size();
+    note_reported();
   }
   position_ = to.position;
   time_ = 1;

@@ -56,6 +56,13 @@ inline constexpr std::uint8_t does_not_block = passes_through | filtered;
 /// Stairs that a walker climbs in one step, at most.
 inline constexpr int most_stairs = 4;
 
+/// What the contacts of a step were at a corner of its path.
+template <class Scalar>
+struct Reported {
+  std::size_t contacts = 0;  ///< How many.
+  Scalar impact = 0;         ///< The latest time of impact among them: no later motion meets anything before it.
+};
+
 /// One per thread; a step leaves nothing in it that the next one uses.
 template <class Scalar>
 struct StepMemory final : OwnMemory {
@@ -65,7 +72,7 @@ struct StepMemory final : OwnMemory {
       : corners(2 * MoveResult<Scalar>::max_corners + 4 * moving_pieces(space)),
         contacts(most_contacts(space, touched_at_once + moving_pieces(space), iterations)),
         crushed(count_moving_colliders(space.scenery())),
-        contacts_at(corners.capacity()),
+        reported_at(corners.capacity()),
         of_mover(moving_pieces(space)) {
     const std::size_t touched = touched_at_once + of_mover.size();
     for (auto* each : {&surfaces, &surfaces_before}) each->reserve(touched);
@@ -99,7 +106,7 @@ struct StepMemory final : OwnMemory {
   ReportMemory<PathPoint<Scalar>> corners;  ///< Of the path.
   ReportMemory<Contact<Scalar>> contacts;   ///< Of one step, which reports each facet once at most.
   ReportMemory<ColliderIndex> crushed;
-  std::vector<std::size_t> contacts_at;                 ///< How many contacts were known at each corner of the path.
+  std::vector<Reported<Scalar>> reported_at;            ///< At each corner of the path.
   std::vector<PieceIndex> of_mover;                     ///< Result of a query of one mover's broad phase.
   std::vector<std::uint8_t> roles;                      ///< Of each collider, where anything moves: bits of `Role`.
   std::vector<ColliderIndex> marked;                    ///< Colliders with a role, in the order in which they got one.

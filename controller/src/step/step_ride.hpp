@@ -110,6 +110,7 @@ void StepSolver<Lanes, Scalar, Up>::begin_to_ride(const TouchedSurface<Scalar>& 
   moving_.ride.velocity = ground_velocity(ground.piece, ground.normal);
   moving_.ride.place = position_ - offset(ground.piece);
   moving_.carrier = ground.mover;
+  moving_.ridden = ground.piece;
   moving_.anchored = true;
 }
 

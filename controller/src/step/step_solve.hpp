@@ -19,7 +19,7 @@ void StepSolver<Lanes, Scalar, Up>::solve(Part part, const MoveRequest<Scalar>& 
   if (part == Part::stay) return stay_in_place(request);
   if (movers_.active) wanted = begin_ride(request);
   const Scalar walk = up_.across_of(velocity_);
-  memory_.contacts_at[0] = 0;
+  memory_.reported_at[0] = {};
   result_.path.push_back({position_, 0});
   sweep_along(wanted);
   const bool near = found_.least_separation < Tolerances<Scalar>{}.hit;
@@ -49,10 +49,12 @@ void StepSolver<Lanes, Scalar, Up>::solve(Part part, const MoveRequest<Scalar>& 
     find_ground();
     if (result_.grounded && !met_ground_ && !wedged_) report_ground(wanted);
     if (settings_.step_height > 0) climb_stairs(request, wanted, walk);
-    if (settings_.snap > 0) follow_ground_down(request);
+    const Scalar snap = movers_.active ? std::max(settings_.snap, falls_away_below_rider()) : settings_.snap;
+    if (snap > 0) follow_ground_down(request, snap);
     if (movers_.active) end_ride();
   }
   if (!memory_.marked.empty()) find_movers_that_still_overlap();
+  if (result_.contacts.size() > 1) order_contacts();
   push_corner(1);
   result_.position = position_;
   result_.velocity = velocity_;

@@ -80,6 +80,7 @@ template <class Scalar>
 struct MoverState {
   Ride<Scalar> ride{};                    ///< What carries the character in this step, with its velocity in this step.
   MoverIndex carrier = no_mover;          ///< The mover of that; none for a conveyor that stands still.
+  PieceIndex ridden = 0;                  ///< The piece of that.
   bool anchored = false;                  ///< The character has not moved relative to what carries it.
   bool waits = false;                     ///< See `wait`.
   std::uint8_t ignored = does_not_block;  ///< Colliders with one of these roles do not block.
@@ -134,6 +135,8 @@ class StepSolver {
   [[gnu::flatten]] void report(Scalar begin) noexcept;
   [[gnu::cold, gnu::noinline]] void report_more(Scalar begin, std::size_t this_moment) noexcept;
   void report_contact(PieceIndex piece, std::size_t axis, Scalar fraction, std::size_t this_moment) noexcept;
+  [[gnu::cold, gnu::noinline]] void order_contacts() noexcept;
+  void note_reported() noexcept;
   [[gnu::cold, gnu::noinline]] void report_touched(PieceIndex piece) noexcept;
   [[nodiscard]] Scalar fraction_of(const Stop<Scalar>& stop, Scalar begin) noexcept;
   [[nodiscard]] Scalar impact_of(const Stop<Scalar>& stop, const LocalMotion& motion, const V& from) noexcept;
@@ -216,7 +219,8 @@ class StepSolver {
   [[nodiscard]] bool climb_by(Scalar rise, Scalar sideways, Scalar speed) noexcept;
   [[gnu::cold, gnu::noinline]] void climb_stairs(const MoveRequest<Scalar>& request, const V& wanted,
                                                  Scalar speed) noexcept;
-  [[gnu::noinline]] void follow_ground_down(const MoveRequest<Scalar>& request) noexcept;
+  [[gnu::noinline]] void follow_ground_down(const MoveRequest<Scalar>& request, Scalar down) noexcept;
+  [[nodiscard, gnu::cold, gnu::noinline]] Scalar falls_away_below_rider() const noexcept;
 
   // step_ride.hpp
   [[nodiscard]] MoverIndex mover_of(PieceIndex piece) const noexcept { return pieces_[piece].mover; }
@@ -324,8 +328,9 @@ class StepSolver {
                         ///< impact count from there.
   V position_{V::Zero()};
   V velocity_{V::Zero()};
-  Scalar time_ = 0;     ///< Fraction of the step that is spent.
-  Scalar dt_ = 0;       ///< Of the step [s].
+  Scalar time_ = 0;           ///< Fraction of the step that is spent.
+  Scalar dt_ = 0;             ///< Of the step [s].
+  Scalar latest_impact_ = 0;  ///< See `Reported`.
   Scalar fall_ = 0;     ///< Velocity upwards without steering, before the surfaces that are touched now were met [m/s].
   Scalar steered_ = 0;  ///< The part of the horizontal velocity that this step's steering added [m/s].
   bool drops_ = false;  ///< One-way segments do not block in this step.

@@ -101,7 +101,7 @@ void StepSolver<Lanes, Scalar, Up>::climb_stairs(const MoveRequest<Scalar>& requ
     if (!is_steered || !is_stopped || result_.path.size() + most_legs > memory_.corners.capacity()) return;
     push_corner(time_);
     const std::size_t corner = result_.path.size() - 1;
-    memory_.contacts_at[corner] = result_.contacts.size();
+    note_reported();
     bool is_climbed = false;
     // There may be a lintel above a low stair.
     for (const Scalar share : {Scalar(1), Scalar(0.5), Scalar(0.25), Scalar(0.125)}) {
@@ -113,9 +113,21 @@ void StepSolver<Lanes, Scalar, Up>::climb_stairs(const MoveRequest<Scalar>& requ
   }
 }
 
-/// Follows the ground down where a walk has left it, and there is ground at most `snap` below.
+/// How far a circle may fall away below a rider that this step took along a tangent of it [m]; zero where no circle
+/// carries the character.
 template <std::size_t Lanes, class Scalar, class Up>
-void StepSolver<Lanes, Scalar, Up>::follow_ground_down(const MoveRequest<Scalar>& request) noexcept {
+Scalar StepSolver<Lanes, Scalar, Up>::falls_away_below_rider() const noexcept {
+  if (moving_.ride.ground == Ride<Scalar>::none || !space_.is_circle(moving_.ridden)) return 0;
+  V motion = velocity_;
+  if (moving_.carrier != no_mover) motion -= movers_.displacement(moving_.carrier) / movers_.dt;
+  const Scalar radius = space_.scenery().circle(moving_.ridden).radius;
+  return std::min(falls_away_from_tangent(moving_.ridden, motion) * dt_, radius) + 2 * Tolerances<Scalar>{}.touch;
+}
+
+/// Follows the ground down where a walk has left it.
+/// @param down how far at most [m].
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::follow_ground_down(const MoveRequest<Scalar>& request, Scalar down) noexcept {
   if (!request.grounded || result_.grounded) return;
   if (is_passed_through()) return;              // a crushed character does not move
   const V left_ground = moving_.ride.velocity;  // of the ground that was walked on
@@ -123,7 +135,7 @@ void StepSolver<Lanes, Scalar, Up>::follow_ground_down(const MoveRequest<Scalar>
   if (up_.up_of(velocity_) > up_.up_of(left_ground) && !climbs_) return;
   const Scalar walked = up_.across_of(V(position_ - request.position - left_ground * request.dt));
   const Scalar ahead = walked == 0 ? Scalar(0) : std::copysign(overhang(), walked);
-  if (const auto ground = ground_below(ahead, settings_.snap)) step_down_to(*ground, up_.across_of(velocity_));
+  if (const auto ground = ground_below(ahead, down)) step_down_to(*ground, up_.across_of(velocity_));
 }
 
 }  // namespace paperproof::octagon_sweep

@@ -186,20 +186,27 @@ void StepSolver<Lanes, Scalar, Up>::report(Scalar begin) noexcept {
   }
   if (found_.stops.overflowed()) [[unlikely]]
     report_more(begin, before);
-  memory_.contacts_at[result_.path.size() - 1] = result_.contacts.size();
-  if (result_.contacts.size() - before > 1)
-    std::sort(result_.contacts.begin() + before, result_.contacts.end(),
-              [](const Contact<Scalar>& a, const Contact<Scalar>& b) { return a.fraction < b.fraction; });
+  // What the character touched when the motion began holds up nothing: the motion need not have closed that gap.
+  if (found_.stop > 0)
+    for (std::size_t i = before; i < result_.contacts.size(); ++i)
+      latest_impact_ = std::max(latest_impact_, result_.contacts[i].fraction);
+  note_reported();
 }
 
-/// Reports one contact for each collider and normal: the same polygon may be floor and wall. A later contact never gets
-/// an earlier fraction, although a motion stops a little before its time of impact.
+/// Notes what was reported up to the last corner of the path.
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::note_reported() noexcept {
+  memory_.reported_at[result_.path.size() - 1] = {result_.contacts.size(), latest_impact_};
+}
+
+/// Reports one contact for each collider and normal: the same polygon may be floor and wall. No contact gets an earlier
+/// fraction than an impact that came before, although a motion stops a little before its time of impact.
 /// @param this_moment index of the first contact of the present moment. Among those the earlier impact counts.
 template <std::size_t Lanes, class Scalar, class Up>
 void StepSolver<Lanes, Scalar, Up>::report_contact(PieceIndex piece, std::size_t axis, Scalar fraction,
                                                    std::size_t this_moment) noexcept {
   auto& contacts = result_.contacts;
-  for (std::size_t i = 0; i < this_moment; ++i) fraction = std::max(fraction, contacts[i].fraction);
+  fraction = std::max(fraction, latest_impact_);
   const ColliderIndex collider = collider_of(piece);
   const V normal = space_.normal(piece, axis);
   Contact<Scalar>* const known = std::find_if(contacts.begin(), contacts.end(), [&](const Contact<Scalar>& other) {
@@ -238,6 +245,13 @@ void StepSolver<Lanes, Scalar, Up>::report_more(Scalar begin, std::size_t this_m
     const PieceRange pieces = space_.scenery().pieces_of_mover(mover);
     for (PieceIndex piece = pieces.first; piece < pieces.end; ++piece) report_hit(motion, piece);
   }
+}
+
+/// Puts the contacts in order of fraction.
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::order_contacts() noexcept {
+  std::sort(result_.contacts.begin(), result_.contacts.end(),
+            [](const Contact<Scalar>& a, const Contact<Scalar>& b) { return a.fraction < b.fraction; });
 }
 
 /// Reports a contact with a piece that is touched now.
@@ -302,7 +316,7 @@ void StepSolver<Lanes, Scalar, Up>::push_corner(Scalar fraction) noexcept {
   if (!result_.path.empty() && result_.path.back().fraction == fraction && result_.path.back().position == position_)
     return;
   result_.path.push_back({position_, fraction}, memory_.corners);
-  memory_.contacts_at[result_.path.size() - 1] = result_.contacts.size();
+  note_reported();
 }
 
 }  // namespace paperproof::octagon_sweep
