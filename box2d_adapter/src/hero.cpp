@@ -123,6 +123,19 @@ double separation(const b2Fixture& moved, const Vec2d& to, const b2Fixture& othe
   return static_cast<double>(least - moved.GetShape()->m_radius - other.GetShape()->m_radius);
 }
 
+bool was_made(StepStatus status) {
+  return status == StepStatus::moved || status == StepStatus::dropped || status == StepStatus::stuck ||
+         status == StepStatus::crushed;
+}
+
+/// Whether a fixture is still in the world. @param fixture may have been destroyed.
+bool exists(b2World& world, const b2Fixture* fixture) {
+  for (b2Body* body = world.GetBodyList(); body != nullptr; body = body->GetNext())
+    for (const b2Fixture* one = body->GetFixtureList(); one != nullptr; one = one->GetNext())
+      if (one == fixture) return true;
+  return false;
+}
+
 /// Dynamic bodies that touch a body, with the normal towards it.
 template <class Each>
 void for_each_touching(b2Body& body, const Each& each) {
@@ -156,22 +169,20 @@ struct Hero::Impl {
   Impl& operator=(const Impl&) = delete;
 
   [[nodiscard]] Vec2d gravity() const { return widened(world->GetGravity()); }
-  /// The body that carries the hero, if one does.
-  [[nodiscard]] const b2Body* ground_body() const {
-    b2Fixture* fixture = fixtures.fixture_of(state.ride.ground);
-    return fixture == nullptr ? nullptr : fixture->GetBody();
-  }
+  /// The body that carries the hero, if one does. The game may have destroyed it.
+  [[nodiscard]] const b2Body* ground_body() const { return fixtures.body_of(state.ride.ground); }
 
   template <class Go>
   StepStatus advance(double dt, const Go& go);
-  void note_sensors_between_steps(const Vec2d& position);
+  void note_sensors_at(const Vec2d& position, bool at_end, double fraction);
   void note_sensors();
   [[nodiscard]] bool is_free_at_end(const Vec2d& position);
   [[nodiscard]] bool fits(const CharacterDef& character, const Vec2d& position) const;
   void remake_fixture();
   void change(const CharacterDef& character);
   void take_impacts();
-  void limit_squeeze(const CharacterState<double>& before, const Vec2d& body_velocity, double dt);
+  double end_at(const Vec2d& position, std::size_t corner, double share);
+  std::optional<double> limit_squeeze(const CharacterState<double>& before, const Vec2d& body_velocity, double dt);
   void note_step();
   void note_contacts();
   [[nodiscard]] Vec2d place_for_body() const;
@@ -193,12 +204,14 @@ struct Hero::Impl {
   std::vector<b2Fixture*> skipped;
 };
 
-/// Whether a shape would overlap nothing at a position, where all bodies are now.
+/// Whether a shape would overlap nothing at a position. Bodies that moved since the hero's last step count where they
+/// were then, as the hero does.
 bool Hero::Impl::fits(const CharacterDef& character, const Vec2d& position) const {
   NearFixtures around(*world, *body);
-  around.begin_step(def, up_of(gravity()), 1);
-  return LocalController(character).overlaps(
-             position, {.dt = 1}, [&](const auto& box, auto& found) { around.find(box, found); }, true) == 0U;
+  around.restore_poses(fixtures.poses());
+  around.begin_step(def, up_of(gravity()), fixtures.dt());
+  return LocalController(character).overlaps(position, {.dt = 1},
+                                             [&](const auto& box, auto& found) { around.find(box, found); }) == 0U;
 }
 
 /// After the shape has changed.
@@ -210,10 +223,11 @@ void Hero::Impl::remake_fixture() {
 
 /// After the shape has changed, or the way to move.
 void Hero::Impl::change(const CharacterDef& character) {
+  const bool same_shape = std::ranges::equal(def.character.shape.hull(), character.shape.hull());
   def.character = character;
   controller = LocalController(character);
   other_controller = LocalController(character);
-  remake_fixture();
+  if (!same_shape) remake_fixture();
 }
 
 template <class Go>
@@ -227,13 +241,15 @@ StepStatus Hero::Impl::advance(double dt, const Go& go) {
   take_impacts();
   const StepStatus status = go({.gravity = gravity(), .dt = dt, .up = up},
                                [this](const auto& box, auto& found) { fixtures.find(box, found); });
-  if (status == StepStatus::invalid_input) {
+  if (!was_made(status)) {
     state = before;
     return status;
   }
-  limit_squeeze(before, body_velocity, dt);
-  note_sensors_between_steps(before.position);
+  const std::optional<double> cut = limit_squeeze(before, body_velocity, dt);
+  sensors.clear();
+  note_sensors_at(before.position, false, 0);
   note_step();
+  if (cut) note_sensors_at(state.position, true, *cut);
   fixtures.note_poses();
   lead_body(dt);
   return status;
@@ -259,10 +275,32 @@ bool Hero::Impl::is_free_at_end(const Vec2d& position) {
   return other_controller.overlaps(position, {.dt = 1}, find, true) == 0U;
 }
 
+/// Ends the step on its way, in the air.
+/// @param corner of the path towards which the hero goes there. @param share of the way to it.
+/// @return when it is there, as a fraction of the step.
+double Hero::Impl::end_at(const Vec2d& position, std::size_t corner, double share) {
+  teleport(state, position);
+  MoveResult<double>& move = report.move;
+  const double before = move.path[corner - 1].fraction;
+  const double when = before + share * (move.path[corner].fraction - before);
+  while (move.path.size() > corner) move.path.pop_back();
+  move.path.push_back({position, 1});
+  while (!move.contacts.empty() && move.contacts.back().fraction > when) move.contacts.pop_back();
+  while (!report.sensors.empty() && report.sensors.back().fraction > when) report.sensors.pop_back();
+  move.position = position;
+  move.velocity = state.velocity;
+  move.grounded = false;
+  move.ground = {};
+  move.ride = {};
+  return when;
+}
+
 /// Moving bodies take the hero along, but squeeze it out no faster than they go themselves, or than Box2D moved the
 /// hero's body: between two surfaces of nearly one direction it would leave at any speed. It then ends where it is free
 /// first on its way.
-void Hero::Impl::limit_squeeze(const CharacterState<double>& before, const Vec2d& body_velocity, double dt) {
+/// @return when, as a fraction of the step; nothing if it is where the step took it.
+std::optional<double> Hero::Impl::limit_squeeze(const CharacterState<double>& before, const Vec2d& body_velocity,
+                                                double dt) {
   double most = std::max((report.requested / dt + before.ride.velocity).norm(), state.ride.velocity.norm());
   bool is_pushed = false;
   for (const Contact<double>& contact : report.move.contacts) {
@@ -278,9 +316,9 @@ void Hero::Impl::limit_squeeze(const CharacterState<double>& before, const Vec2d
     state.velocity += contact.normal * std::max(0.0, (its - state.velocity).dot(contact.normal));
   }
   const double speed = state.velocity.norm();
-  if (!is_pushed || !(speed > most)) return;
+  if (!is_pushed || !(speed > most)) return std::nullopt;
   state.velocity *= most / speed;
-  if ((state.position - before.position).norm() <= most * dt + most_squeezed) return;
+  if ((state.position - before.position).norm() <= most * dt + most_squeezed) return std::nullopt;
   double reach = most * dt;
   for (std::size_t i = 1; i < report.move.path.size(); ++i) {
     const Vec2d from = report.move.path[i - 1].position;
@@ -288,11 +326,11 @@ void Hero::Impl::limit_squeeze(const CharacterState<double>& before, const Vec2d
     for (; reach < way.norm(); reach = 1.25 * reach + most_squeezed) {
       const Vec2d there = from + way * (reach / way.norm());
       if (!is_free_at_end(there)) continue;
-      teleport(state, there);
-      return;
+      return end_at(there, i, reach / way.norm());
     }
     reach = std::max(0.0, reach - way.norm());
   }
+  return std::nullopt;
 }
 
 void Hero::Impl::note_step() {
@@ -304,24 +342,24 @@ void Hero::Impl::note_step() {
   note_contacts();
 }
 
-/// Sensors that the hero came to overlap, or ceased to, although it did not move there: it was placed, or the sensor
-/// was.
-/// @param position where the step began.
-void Hero::Impl::note_sensors_between_steps(const Vec2d& position) {
-  sensors.clear();
+/// Sensors that the hero came to overlap, or ceased to, although its way does not show it: it was placed, or the sensor
+/// was, or the way was cut.
+/// @param at_end the position and the sensors are those of the end of the step, else of its beginning.
+/// @param fraction of the events.
+void Hero::Impl::note_sensors_at(const Vec2d& position, bool at_end, double fraction) {
   std::vector<b2Fixture*> now;
   if (fixtures.any_sensor()) {
     std::vector<ColliderIndex> found(16);
     const auto find = [this](const auto& /*box*/, auto& near) { fixtures.find_sensors(near); };
     std::size_t count = 0;
-    while ((count = other_controller.overlaps(position, {.dt = 1}, find, false, found).value_or(0)) > found.size())
+    while ((count = other_controller.overlaps(position, {.dt = 1}, find, at_end, found).value_or(0)) > found.size())
       found.resize(count);
     for (std::size_t i = 0; i < count; ++i) now.push_back(fixtures.fixture_of(found[i]));
   }
   const auto report_missing = [&](const auto& from, const auto& in, SensorEvent<double>::Change change) {
     for (b2Fixture* sensor : from)
-      if (std::find(in.begin(), in.end(), sensor) == in.end() && fixtures.is_near(sensor))
-        sensors.push_back({sensor, change, 0});
+      if (std::find(in.begin(), in.end(), sensor) == in.end() && (fixtures.is_near(sensor) || exists(*world, sensor)))
+        sensors.push_back({sensor, change, fraction});
   };
   report_missing(inside, now, SensorEvent<double>::Change::exit);
   report_missing(now, inside, SensorEvent<double>::Change::enter);
@@ -436,7 +474,7 @@ b2Body& Hero::body() const noexcept { return *impl_->body; }
 b2Fixture* Hero::fixture_of(ColliderIndex collider) const noexcept { return impl_->fixtures.fixture_of(collider); }
 
 b2Fixture* Hero::ground() const noexcept {
-  const Ground<double>& ground = impl_->report.move.ground;
+  const Ground<double>& ground = state().ground;
   return ground.state == GroundState::air ? nullptr : fixture_of(ground.collider);
 }
 std::span<b2Fixture* const> Hero::inside() const noexcept { return impl_->inside; }
@@ -499,10 +537,14 @@ HeroSave Hero::save() const {
   HeroSave save{hero.def.character,
                 hero.state,
                 hero.fixtures.fixture_of(hero.state.ride.ground),
+                hero.fixtures.fixture_of(hero.state.ground.collider),
                 {},
                 {poses.begin(), poses.end()},
                 hero.contacts,
-                hero.inside};
+                hero.inside,
+                hero.body->GetPosition(),
+                hero.body->GetLinearVelocity(),
+                hero.body->IsBullet()};
   for (const Crusher<double>& crusher : hero.state.crushers)
     save.crushers.push_back(hero.fixtures.fixture_of(crusher.collider));
   return save;
@@ -513,13 +555,15 @@ void Hero::restore(const HeroSave& save) {
   hero.change(save.character);
   hero.state = save.state;
   if (save.ride != nullptr) hero.state.ride.ground = hero.fixtures.id_of(save.ride);
+  if (save.ground != nullptr) hero.state.ground.collider = hero.fixtures.id_of(save.ground);
   for (std::size_t i = 0; i < save.crushers.size(); ++i)
     if (save.crushers[i] != nullptr) hero.state.crushers[i].collider = hero.fixtures.id_of(save.crushers[i]);
   hero.contacts = save.contacts;
   hero.inside = save.inside;
   hero.fixtures.restore_poses(save.poses);
-  hero.body->SetTransform(rounded(hero.state.position), 0);
-  hero.body->SetLinearVelocity(rounded(hero.state.velocity));
+  hero.body->SetTransform(save.body_position, 0);
+  hero.body->SetLinearVelocity(save.body_velocity);
+  hero.body->SetBullet(save.is_bullet);
 }
 
 }  // namespace paperproof::box2d

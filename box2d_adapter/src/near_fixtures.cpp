@@ -103,6 +103,12 @@ b2Transform at(const b2Vec2& place) {
   return transform;
 }
 
+/// A circle about the origin of its body.
+bool is_wheel(const b2Fixture& fixture) {
+  return fixture.GetType() == b2Shape::e_circle &&
+         static_cast<const b2CircleShape*>(fixture.GetShape())->m_p == b2Vec2_zero;
+}
+
 Box2<double> box_around(std::span<const Vec2d> points) {
   Box2<double> box{points[0], points[0]};
   for (const Vec2d& point : points) box = box.merged({point, point});
@@ -117,6 +123,7 @@ std::vector<ColliderDef> cut_to(const Box2<double>& box, const ColliderDef& chai
     const bool near = box.overlaps(box_around(std::span(chain.points).subspan(i, 2)));
     if (near && !goes_on) {
       runs.push_back({.shape = ColliderDef::Shape::chain, .points = {chain.points[i]}});
+      runs.back().surface_speed = chain.surface_speed;
     }
     if (near) runs.back().points.push_back(chain.points[i + 1]);
     goes_on = near;
@@ -199,6 +206,7 @@ void NearFixtures::search(const Box2<double>& box) {
   std::sort(changed.begin(), changed.end(), [&](const Near& a, const Near& b) { return key(a) < key(b); });
   for (const Near& near : changed) {
     define(*near.known);
+    if (!near.known->seen.moves) near.known->mover = no_mover;
     if (near.known->seen.moves && near.known->mover == no_mover) near.known->mover = mover_of(near);
     if (near.known->mover == movers_) ++movers_;
   }
@@ -234,9 +242,11 @@ MoverIndex NearFixtures::mover_of(const Near& near) const {
 
 void NearFixtures::add(const Near& near, std::vector<NearCollider>& found) const {
   const Known& known = *near.known;
-  const PoseMotion motion = known.mover == no_mover ? PoseMotion{} : motion_of(*near.fixture);
+  const bool stands = known.mover == no_mover;
+  const PoseMotion motion = stands ? PoseMotion{} : motion_of(*near.fixture);
+  const MoverIndex mover = stands ? no_mover : 2 * known.mover + (is_wheel(*near.fixture) ? 1 : 0);
   for (const Part& part : known.parts)
-    if (!part.def.points.empty()) found.push_back({part.id, known.version, &part.def, known.mover, motion});
+    if (!part.def.points.empty()) found.push_back({part.id, known.version, &part.def, mover, motion});
 }
 
 void NearFixtures::find(const Box2<double>& box, std::vector<NearCollider>& found) {
@@ -260,11 +270,21 @@ void NearFixtures::find_sensors(std::vector<NearCollider>& found) {
   }
 }
 
+auto NearFixtures::find_known(ColliderIndex id) const noexcept -> std::map<b2Fixture*, Known>::const_iterator {
+  return std::find_if(known_.begin(), known_.end(), [&](const auto& entry) {
+    const std::vector<Part>& parts = entry.second.parts;
+    return std::any_of(parts.begin(), parts.end(), [&](const Part& part) { return part.id == id; });
+  });
+}
+
 b2Fixture* NearFixtures::fixture_of(ColliderIndex id) const noexcept {
-  for (const Near& near : near_)
-    for (const Part& part : near.known->parts)
-      if (part.id == id) return near.fixture;
-  return nullptr;
+  const auto known = find_known(id);
+  return known == known_.end() ? nullptr : known->first;
+}
+
+const b2Body* NearFixtures::body_of(ColliderIndex id) const noexcept {
+  const auto known = find_known(id);
+  return known == known_.end() ? nullptr : known->second.seen.body;
 }
 
 ColliderIndex NearFixtures::id_of(b2Fixture* fixture) {
@@ -317,9 +337,7 @@ PoseMotion NearFixtures::motion_of(b2Fixture& fixture) const {
   PoseMotion motion{{begin.position, begin.angle}, {place_of(body), static_cast<double>(body.GetAngle())}};
   // A wheel turns as fast as its body says: angles in float tell that only roughly, and its place does not depend on
   // them.
-  const b2Shape* shape = fixture.GetShape();
-  if (shape->GetType() == b2Shape::e_circle && static_cast<const b2CircleShape*>(shape)->m_p == b2Vec2_zero)
-    motion.from.angle = motion.to.angle - static_cast<double>(body.GetAngularVelocity()) * dt_;
+  if (is_wheel(fixture)) motion.from.angle = motion.to.angle - static_cast<double>(body.GetAngularVelocity()) * dt_;
   return motion;
 }
 

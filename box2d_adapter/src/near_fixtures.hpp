@@ -42,8 +42,10 @@ class NearFixtures {
   /// The bodies are where they are when the next step begins.
   void note_poses();
 
-  /// Null for a collider that was not found in the last step.
+  /// Null for a collider that is not known: from the last step, or from `id_of`.
   [[nodiscard]] b2Fixture* fixture_of(ColliderIndex id) const noexcept;
+  /// Its body in the last step, even if the fixture was destroyed since. Null as for `fixture_of`.
+  [[nodiscard]] const b2Body* body_of(ColliderIndex id) const noexcept;
   /// The id of (the first part of) a fixture. One that is not known gets one.
   [[nodiscard]] ColliderIndex id_of(b2Fixture* fixture);
   /// Whether a fixture was found in the last step.
@@ -53,6 +55,8 @@ class NearFixtures {
   [[nodiscard]] PoseMotion motion_of(b2Fixture& fixture) const;
 
   void shift_origin(const Vec2d& new_origin);
+  /// Of the last step [s]; zero before the first one.
+  [[nodiscard]] double dt() const noexcept { return dt_; }
   [[nodiscard]] std::span<const BodyPose> poses() const noexcept { return poses_; }
   void restore_poses(std::span<const BodyPose> poses) { poses_.assign(poses.begin(), poses.end()); }
 
@@ -92,6 +96,7 @@ class NearFixtures {
   void add(const Near& near, std::vector<NearCollider>& found) const;
   [[nodiscard]] Seen seen(b2Fixture& fixture, const Box2<double>& box) const;
   void define(Known& known);
+  [[nodiscard]] std::map<b2Fixture*, Known>::const_iterator find_known(ColliderIndex id) const noexcept;
   [[nodiscard]] MoverIndex mover_of(const Near& near) const;
   /// Where a body was when the step began.
   [[nodiscard]] BodyPose begin_of(const b2Body& body) const;

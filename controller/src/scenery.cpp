@@ -207,7 +207,7 @@ std::vector<Vec2<To>> cast_points(const Points& points) {
 
 void check_role(const ColliderDef& def, std::size_t colliders) {
   if (def.mover != no_mover && def.mover >= colliders)
-    throw Refused("the number of its mover is  " + std::to_string(def.mover) + ", and there are only " +
+    throw Refused("the number of its mover is " + std::to_string(def.mover) + ", and there are only " +
                   std::to_string(colliders) + " colliders");
   if (!std::isfinite(def.surface_speed)) throw Refused("surface_speed is not a finite number");
   if (def.sensor && def.one_way) throw Refused("a sensor cannot be one-way");

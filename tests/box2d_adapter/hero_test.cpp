@@ -716,6 +716,127 @@ TEST(Hero, enters_and_leaves_sensors_without_moving_there) {
   EXPECT_TRUE(game.hero.inside().empty());
 }
 
+TEST(Hero, is_stopped_by_a_lift_that_became_static) {
+  Game game({.position = {0, half_height + 1e-6}});
+  game.floor();
+  b2Fixture& lift = game.box(b2_kinematicBody, {2, 1}, 0.5F, 1);
+  game.run(5);
+  lift.GetBody()->SetType(b2_staticBody);
+  game.run(60, {.move = 1.0});
+  EXPECT_NEAR(game.hero.position().x(), 1.5 - CharacterDef{}.shape.box().upper.x(), 1e-5);
+}
+
+TEST(Hero, is_carried_by_a_chain_that_is_a_conveyor) {
+  Game game({.position = {0, half_height + 1e-6}, .surface_of = [](b2Fixture&) { return Surface{.speed = 1.5}; }});
+  const std::vector<b2Vec2> points{{-9, 0}, {-2, 0}, {2, 0}, {9, 0}};
+  b2ChainShape chain;
+  chain.CreateChain(points.data(), static_cast<int>(points.size()), {-10, 0}, {10, 0});
+  b2BodyDef def;
+  game.world.CreateBody(&def)->CreateFixture(&chain, 0);
+  game.run(10);
+  const double from = game.hero.position().x();
+  game.run(60);
+  EXPECT_NEAR(game.hero.position().x() - from, 1.5, 1e-6);
+}
+
+TEST(Hero, leaves_a_sensor_that_it_is_placed_far_away_from) {
+  Game game({.position = {0, half_height + 1e-6}});
+  game.floor();
+  b2Fixture& zone = game.box(b2_staticBody, {0, 1}, 1, 1);
+  zone.SetSensor(true);
+  game.run(3);
+  ASSERT_EQ(game.hero.inside().size(), 1U);
+  game.hero.place({80, half_height + 1e-6});
+  game.go();
+  ASSERT_EQ(game.hero.sensors().size(), 1U);
+  EXPECT_EQ(game.hero.sensors()[0].sensor, &zone);
+  EXPECT_EQ(game.hero.sensors()[0].change, SensorEvent<double>::Change::exit);
+}
+
+TEST(Hero, sends_no_event_of_a_sensor_that_was_destroyed) {
+  Game game({.position = {0, half_height + 1e-6}});
+  game.floor();
+  b2Fixture& zone = game.box(b2_staticBody, {0, 1}, 1, 1);
+  zone.SetSensor(true);
+  game.run(3);
+  game.world.DestroyBody(zone.GetBody());
+  game.go();
+  EXPECT_TRUE(game.hero.sensors().empty());
+  EXPECT_TRUE(game.hero.inside().empty());
+}
+
+TEST(Hero, crouches_on_a_rising_lift_before_and_after_its_step) {
+  Game game({.position = {0, 0.2 + half_height + 1e-6}});
+  b2Fixture& lift = game.box(b2_kinematicBody, {0, 0.1F}, 2, 0.1F);
+  lift.GetBody()->SetLinearVelocity({0, 3});
+  CharacterDef low;
+  low.shape = CharacterShape(std::array{Vec2d(-0.3, -0.3), Vec2d(0.3, -0.3), Vec2d(0.3, 0.3), Vec2d(-0.3, 0.3)});
+  game.run(10);
+  ASSERT_TRUE(game.hero.grounded());
+  game.world.Step(static_cast<float>(frame), 8, 3);
+  EXPECT_TRUE(game.hero.change(low));
+  game.hero.step({}, frame);
+  EXPECT_TRUE(game.hero.grounded());
+  EXPECT_TRUE(game.hero.change(CharacterDef{}));
+  game.go();
+  EXPECT_TRUE(game.hero.grounded());
+}
+
+TEST(Hero, knows_its_ground_after_a_place_and_a_restore) {
+  Game game({.position = {0, half_height + 1e-6}});
+  b2Fixture& floor = game.floor();
+  game.run(3);
+  const HeroSave save = game.hero.save();
+  game.hero.place({0, 5});
+  EXPECT_EQ(game.hero.ground(), nullptr);
+  game.run(10);
+  game.hero.restore(save);
+  EXPECT_TRUE(game.hero.grounded());
+  EXPECT_EQ(game.hero.ground(), &floor);
+  game.hero.knock_back({0, 1});
+  EXPECT_EQ(game.hero.ground(), nullptr);
+}
+
+TEST(Hero, has_the_body_of_the_save_after_a_restore) {
+  Game game({.position = {0, half_height + 1e-6}});
+  game.floor();
+  b2Body* crate = game.box(b2_dynamicBody, {0.7F, 0.5F}, 0.5F, 0.5F).GetBody();
+  game.run(30, {.move = 1.0});
+  const HeroSave save = game.hero.save();
+  const b2Vec2 place = game.hero.body().GetPosition();
+  const b2Vec2 velocity = game.hero.body().GetLinearVelocity();
+  ASSERT_GT(crate->GetPosition().x, 0.8F) << "it is pushed";
+  game.run(30, {.move = -1.0});
+  game.hero.restore(save);
+  EXPECT_EQ(game.hero.body().GetPosition(), place);
+  EXPECT_EQ(game.hero.body().GetLinearVelocity(), velocity);
+  EXPECT_FALSE(game.hero.body().IsBullet());
+}
+
+TEST(Hero, stands_on_a_lift_beside_nothing_but_a_moving_edge_of_zero_length) {
+  for (const bool lift_first : {true, false}) {
+    Game game({.position = {0, 1}});
+    const auto add_edge = [&] {
+      b2BodyDef def;
+      def.type = b2_kinematicBody;
+      def.position = {-0.2F, 0.3F};
+      def.angularVelocity = 0.1F;
+      b2EdgeShape edge;
+      edge.SetTwoSided({0.5F, 0.5F}, {0.5F, 0.5F});
+      game.world.CreateBody(&def)->CreateFixture(&edge, 0);
+    };
+    if (!lift_first) add_edge();
+    b2Body* lift = game.box(b2_kinematicBody, {0, 0.1F}, 1, 0.1F).GetBody();
+    if (lift_first) add_edge();
+    game.run(60);
+    ASSERT_TRUE(game.hero.grounded());
+    lift->SetAngularVelocity(0.3F);
+    for (int i = 0; i < 30; ++i) ASSERT_EQ(game.go(), StepStatus::moved) << i;
+    EXPECT_TRUE(game.hero.grounded());
+    ASSERT_EQ(game.hero.skipped().size(), 1U);
+  }
+}
+
 TEST(Hero, has_no_ground_in_the_air_and_keeps_its_answers_after_a_refusal) {
   Game game({.position = {0, half_height + 1e-6}});
   b2Fixture& floor = game.floor();

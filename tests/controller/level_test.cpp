@@ -2,6 +2,7 @@
 #include <paperproof/level.hpp>
 
 #include "level/turn.hpp"
+#include "support/allocations.hpp"
 #include "support/play_levels.hpp"
 #include "support/random.hpp"
 #include "support/steps_wanted.hpp"
@@ -13,6 +14,8 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
+#include <set>
 #include <tuple>
 
 namespace paperproof::test {
@@ -97,6 +100,22 @@ TEST(LevelSteps, are_refused_without_a_pose_for_each_mover) {
   movers[1] = {};
   EXPECT_EQ(controller.step(state, {}, {{0, -30}, -frame, movers}, report), StepStatus::invalid_input);
   EXPECT_EQ(controller.step(state, {}, {{0, -30}, frame, movers}, report), StepStatus::moved);
+}
+
+TEST(LevelSteps, allocate_nothing_while_what_is_near_stays) {
+  Level level(SceneryDef{{box(-10, -1, 10, 0), box(-2, 0, 2, 0.5, 0)}});
+  LevelController controller(level, {});
+  CharacterState<double> state;
+  state.position = {0, 1.2};
+  StepReport<double> report;
+  std::size_t before = 0;
+  for (int i = 0; i < 90; ++i) {
+    if (i == 30) before = tests::allocations();
+    const PoseMotion lift{{{0, 0.01 * i}, 0}, {{0, 0.01 * (i + 1)}, 0}};
+    controller.step(state, {}, {{0, -30}, frame, {&lift, 1}}, report);
+  }
+  ASSERT_EQ(state.ride.ground, 1U);
+  EXPECT_EQ(tests::allocations(), before);
 }
 
 class LevelInPlay : public ::testing::TestWithParam<PlayLevel> {};
@@ -207,6 +226,26 @@ TEST(LevelEdits, give_the_bits_of_a_level_that_was_built_at_once) {
     }
   }
   EXPECT_GE(changed_under_foot, 1);
+}
+
+TEST(LevelEdits, a_level_that_is_assigned_is_read_anew) {
+  for (const bool moved : {false, true}) {
+    Level level(SceneryDef{{box(-2, -1, 2, 0)}});
+    LevelController controller(level, {});
+    CharacterState<double> state;
+    state.position = {0, 0.7};
+    StepReport<double> report;
+    Level saved = level;
+    for (int i = 0; i < 30; ++i) controller.step(state, {}, {{0, -30}, frame}, report);
+    if (moved) {
+      level = std::move(saved);
+    } else {
+      for (int i = 0; i < 100; ++i) level.add(box(10 + i, 0, 11 + i, 1));  // its memory moves
+      level = saved;
+    }
+    for (int i = 0; i < 30; ++i) controller.step(state, {}, {{0, -30}, frame}, report);
+    EXPECT_TRUE(state.grounded);
+  }
 }
 
 TEST(LevelEdits, a_rider_of_a_removed_collider_falls_in_that_step) {
@@ -321,6 +360,127 @@ TEST(LevelTurning, a_wall_that_turns_pushes_at_once) {
     EXPECT_LT(arm, 0) << i;
   }
   EXPECT_LT(state.position.x(), -0.4);
+}
+
+/// Blades, wheels and frames of sensors that turn over a character which stands, walks, and jumps.
+TEST(SensorsThatTurn, report_each_visit_and_are_known_at_the_end_of_each_step) {
+  const int wanted = steps_wanted("PAPERPROOF_SENSOR_STEPS", 6000);
+  int steps = 0;
+  int events = 0;
+  int events_at_rest = 0;
+  for (std::uint64_t seed = 1; steps < wanted; ++seed) {
+    Random random(seed);
+    SceneryDef def{{box(-8, -1, 8, 0), box(-9, -1, -8, 9), box(8, -1, 9, 9)}};
+    const int sensors = random.integer(1, 3);
+    std::vector<std::pair<Vec2d, double>> courses;
+    for (int i = 0; i < sensors; ++i) {
+      const double off = random.between(-1, 1);
+      const Vec2d half{random.between(0.3, 3), random.between(0.05, 0.5)};
+      ColliderDef sensor = box(off - half.x(), -half.y(), off + half.x(), half.y(), static_cast<MoverIndex>(i));
+      if (random.chance(0.2)) {
+        sensor.shape = ColliderDef::Shape::circle;
+        sensor.points = {{off, 0}};
+        sensor.radius = half.y();
+      }
+      sensor.sensor = true;
+      def.colliders.push_back(sensor);
+      Vec2d middle{random.between(-6, 6), 0};
+      middle.y() = random.between(0, 2);
+      courses.emplace_back(middle, random.either_sign_log_between(0.1, 20));
+    }
+    if (random.chance(0.5)) {  // a solid that turns as well
+      def.colliders.push_back(box(-1, -0.1, 1, 0.1, static_cast<MoverIndex>(courses.size())));
+      courses.emplace_back(Vec2d{random.between(-5, 5), 1}, random.either_sign_log_between(0.1, 3));
+    }
+    const Level level(def);
+    LevelController controller(level, {});
+    CharacterState<double> state;
+    state.position = {random.between(-7, 7), 5};
+    StepReport<double> report;
+    std::set<ColliderIndex> inside;
+    Input input;
+    const auto pose = [&](std::size_t i, int step) -> Pose {
+      return {courses[i].first, courses[i].second * step * frame};
+    };
+    for (int step = 0; step < 100; ++step, ++steps) {
+      if (step % 20 == 0) input = random.chance(0.5) ? Input{} : random_input(random);
+      std::vector<PoseMotion> movers;
+      for (std::size_t i = 0; i < courses.size(); ++i) movers.push_back({pose(i, step), pose(i, step + 1)});
+      const Vec2d before = state.position;
+      controller.step(state, input, {{0, -30}, frame, movers}, report);
+      double last = 0;
+      for (const SensorEvent<double>& event : report.sensors) {
+        ASSERT_GE(event.fraction, last) << "seed " << seed << ", step " << step;
+        last = event.fraction;
+        const bool enters = event.change == SensorEvent<double>::Change::enter;
+        ASSERT_EQ(enters, !inside.contains(event.sensor)) << "seed " << seed << ", step " << step;
+        if (enters)
+          inside.insert(event.sensor);
+        else
+          inside.erase(event.sensor);
+        ++events;
+        events_at_rest += before == state.position;
+      }
+      // As a character that is put there without knowing anything would find it: the sensors as solids.
+      SceneryDef solid;
+      for (const ColliderDef& each : def.colliders) {
+        if (!each.sensor) continue;
+        solid.colliders.push_back(each);
+        solid.colliders.back().sensor = false;
+      }
+      for (std::size_t i = 0; i < solid.colliders.size(); ++i) {
+        const Level alone(SceneryDef{{solid.colliders[i]}});
+        std::vector<PoseMotion> there(movers.size());
+        for (std::size_t k = 0; k < movers.size(); ++k) there[k] = {movers[k].to, movers[k].to};
+        const std::size_t count = *LevelController(alone, {}).overlaps(state.position, {{0, 0}, frame, there});
+        ASSERT_EQ(count > 0, inside.contains(static_cast<ColliderIndex>(i + 3)))
+            << "seed " << seed << ", step " << step;
+      }
+    }
+  }
+  EXPECT_GT(events, steps / 60);
+  EXPECT_GT(events_at_rest, steps / 1000);
+}
+
+TEST(LevelTurning, a_wheel_that_does_not_carry_lets_its_belt_alone_carry) {
+  for (const double belt : {0.0, 1.5}) {
+    ColliderDef wheel{.shape = ColliderDef::Shape::circle, .points = {{0, 0}}, .mover = 0};
+    wheel.surface_speed = belt;
+    wheel.radius = 50;
+    wheel.carries = false;
+    Level level(SceneryDef{{wheel}});
+    LevelController controller(level, {});
+    CharacterState<double> state;
+    state.position = {0, 50.7};
+    StepReport<double> report;
+    for (int i = 0; i < 120; ++i) {
+      const double x = 0.01 * i;
+      const PoseMotion motion{{{x, 0}, 0.002 * i}, {{x + 0.01, 0}, 0.002 * (i + 1)}};
+      controller.step(state, {}, {{0, -30}, frame, {&motion, 1}}, report);
+      if (i < 60) state.velocity.x() = 0;
+      if (i == 59) state.position.x() = 0.6;
+    }
+    EXPECT_NEAR(state.position.x() - 0.6, belt, 0.06) << "a second on a belt of " << belt << " m/s";
+  }
+}
+
+TEST(LevelTurning, a_step_out_of_range_changes_nothing_and_says_so) {
+  Level level(SceneryDef{{box(-3, -0.1, 3, 0.1, 0)}});
+  LevelController controller(level, {});
+  CharacterState<double> state;
+  state.position = {999'999, 0.8};
+  state.velocity = {1e9, 0};
+  const CharacterState<double> before = state;
+  StepReport<double> report;
+  const PoseMotion plank{{{999'999, 0}, 0}, {{999'999, 0}, 0.01}};
+  EXPECT_EQ(controller.step(state, {}, {{0, -30}, frame, {&plank, 1}}, report), StepStatus::out_of_range);
+  EXPECT_EQ(state, before);
+  EXPECT_EQ(report.move.status, MoveStatus::out_of_range);
+  ASSERT_GE(report.move.path.size(), 1U);
+  EXPECT_EQ(report.move.path.back().position, before.position);
+  EXPECT_EQ(report.move.position, before.position);
+  EXPECT_EQ(controller.overlaps({1e12, 0}, {{0, 0}, frame, {&plank, 1}}), std::nullopt);
+  EXPECT_EQ(controller.overlaps({std::nan(""), 0}, {{0, 0}, frame, {&plank, 1}}), std::nullopt);
 }
 
 TEST(LevelTurning, states_may_be_restored) {

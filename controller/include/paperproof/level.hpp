@@ -41,8 +41,9 @@ class Level {
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
   /// One more than the highest index of a mover that ever moved a collider.
   [[nodiscard]] std::size_t mover_count() const noexcept { return movers_.size(); }
-  /// Another number after each edit, of this level or another one; a copy has that of its original.
-  [[nodiscard]] std::uint64_t last_edit() const noexcept { return last_edit_; }
+  /// Another number after each edit, copy or move, of this level or another one: what a controller read holds while
+  /// this number is the same.
+  [[nodiscard]] std::uint64_t last_edit() const noexcept { return last_edit_.number; }
 
   /// Appends all colliders without a mover that are in a box, in no order, each once or more often.
   void find_standing(const Box2<double>& box, std::vector<NearCollider>& found) const;
@@ -56,6 +57,16 @@ class Level {
     std::uint64_t version = 0;
     std::uint32_t generation = 0;
     bool is_used = false;
+  };
+  /// A copy has a number of its own.
+  struct Edit {
+    Edit() = default;
+    Edit(const Edit&) noexcept { renew(); }
+    Edit& operator=(const Edit&) noexcept { return renew(); }
+    ~Edit() = default;
+    Edit& renew() noexcept;
+
+    std::uint64_t number = 0;
   };
   /// A cell of a grid; grids have cells of 1 m, 2 m, 4 m and so on. A collider lies in the cells of the finest grid
   /// whose cells are not smaller than the collider, hence in at most four.
@@ -83,7 +94,7 @@ class Level {
   std::array<std::uint32_t, grid_count> in_grid_{};  ///< How many colliders stand in each grid.
   std::vector<std::vector<ColliderIndex>> movers_;
   std::size_t size_ = 0;
-  std::uint64_t last_edit_ = 0;
+  Edit last_edit_;
 };
 
 /// The surroundings of a step in a level: see `StepContext`.

@@ -46,12 +46,6 @@ void check(const ColliderDef& def) {
   const Scenery<double> checked(alone);
 }
 
-/// Each edit of each level has a number of its own: so a controller sees that another level was assigned to its level.
-std::uint64_t next_edit() noexcept {
-  static std::atomic<std::uint64_t> edits{0};
-  return ++edits;
-}
-
 bool by_id(const NearCollider& a, const NearCollider& b) noexcept { return a.id < b.id; }
 
 bool is_usable(const Pose& pose) noexcept {
@@ -67,6 +61,12 @@ std::size_t Level::CellHash::operator()(const Cell& cell) const noexcept {
   std::uint64_t hash = (word(cell.x) << 32U | word(cell.y)) + word(cell.grid) * 0x9e3779b97f4a7c15;
   hash = (hash ^ hash >> 30U) * 0xbf58476d1ce4e5b9;  // the finalizer of splitmix64
   return static_cast<std::size_t>((hash ^ hash >> 27U) * 0x94d049bb133111eb);
+}
+
+Level::Edit& Level::Edit::renew() noexcept {
+  static std::atomic<std::uint64_t> edits{0};
+  number = ++edits;
+  return *this;
 }
 
 Level::Level(const SceneryDef& def) {
@@ -105,7 +105,7 @@ void Level::for_each_cell(const Box2<double>& box, int grid, const Visit& visit)
 void Level::place(ColliderIndex id, Slot& slot, const ColliderDef& def) {
   slot.def = def;
   slot.box = geometry::box_of(def.points).inflated(def.radius);
-  slot.version = last_edit_ = next_edit();
+  slot.version = last_edit_.renew().number;
   if (def.mover != no_mover) {
     if (def.mover >= movers_.size()) movers_.resize(def.mover + 1);
     movers_[def.mover].push_back(id);
@@ -164,7 +164,7 @@ bool Level::remove(ColliderIndex id) {
   slot.def = {};
   slot.is_used = false;
   --size_;
-  last_edit_ = next_edit();
+  last_edit_.renew();
   // A slot of the last generation is never used again: its next id would be that of the first.
   if (slot.generation++ < last_generation) unused_.push_back(id & slot_mask);
   return true;
@@ -212,7 +212,8 @@ bool LevelController::accepts(const LevelContext& context) const noexcept {
 }
 
 LocalController::Find LevelController::finder(const LevelContext& context) {
-  return [this, movers = context.movers](const Box2<double>& box, std::vector<NearCollider>& found) {
+  // So small that a std::function holds it without memory of its own.
+  return [this, &context](const Box2<double>& box, std::vector<NearCollider>& found) {
     if (last_edit_ != level_->last_edit() || !(read_.lower == box.lower && read_.upper == box.upper)) {
       standing_.clear();
       level_->find_standing(box, standing_);
@@ -221,7 +222,7 @@ LocalController::Find LevelController::finder(const LevelContext& context) {
       last_edit_ = level_->last_edit();
     }
     found.insert(found.end(), standing_.begin(), standing_.end());
-    level_->find_moving(box, movers, found);
+    level_->find_moving(box, context.movers, found);
   };
 }
 

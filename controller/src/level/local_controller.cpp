@@ -94,6 +94,17 @@ int rank(MoveStatus status) noexcept {
   return static_cast<int>(std::find(order.begin(), order.end(), status) - order.begin());
 }
 
+/// Of what can be looked for. Written so that NaN is not.
+bool is_in_range(const Box2<double>& box) noexcept {
+  constexpr double range = 1e8;
+  return box.lower.x() > -range && box.lower.y() > -range && box.upper.x() < range && box.upper.y() < range;
+}
+
+SensorEvent<double> sensor_event(ColliderIndex sensor, bool enters, double fraction) {
+  using Change = SensorEvent<double>::Change;
+  return {sensor, enters ? Change::enter : Change::exit, fraction};
+}
+
 /// Before the first part.
 void clear(StepReport<double>& report) {
   report.status = StepStatus::moved;
@@ -114,7 +125,8 @@ struct LocalController::Impl {
 
   [[nodiscard]] Box2<double> box_needed(const CharacterState<double>& state, const StepContext<double>& context) const;
   [[nodiscard]] bool stays_in(const Box2<double>& box, const MoveResult<double>& move) const;
-  StepStatus refuse(const CharacterState<double>& state, StepReport<double>& report) const;
+  StepStatus refuse(const CharacterState<double>& state, StepReport<double>& report);
+  StepStatus stay(MoveStatus why, const CharacterState<double>& state, StepReport<double>& report);
 
   template <class Go>
   StepStatus advance(CharacterState<double>& state, const StepContext<double>& context, const Find& find,
@@ -146,11 +158,16 @@ struct LocalController::Impl {
   [[nodiscard]] bool blocks(const NearCollider& collider, const StepContext<double>& context) const;
   [[nodiscard]] Pose turned_pose(const NearCollider& collider, const StepPart& part) const;
   void note_pushes(const StepPart& part, const StepContext<double>& context);
+  void note_turned_sensors(const StepPart& part, const Vec2d& position, const ColliderFilter* filter,
+                           StepReport<double>& report);
   void note_begin();
   void note_vertices(const StepPart& part);
   void append(const StepReport<double>& added, const StepPart& part, StepReport<double>& report) const;
   StepStatus go_straight_or_stay(CharacterState<double>& state, const StepContext<double>& context,
                                  StepReport<double>& report);
+  template <class PlaceAt>
+  void note_stays(const NearCollider& sensor, double begin, std::span<const double> ends, const PlaceAt& place_at,
+                  StepReport<double>& report);
   void go_straight(double begin, double departure, const Vec2d& to, const CharacterState<double>& state,
                    const StepContext<double>& context, StepReport<double>& report);
   [[nodiscard]] std::optional<Vec2d> way_out_at_end(CharacterState<double> state, const StepContext<double>& context);
@@ -180,8 +197,8 @@ Box2<double> LocalController::Impl::box_needed(const CharacterState<double>& sta
   const double dt = context.dt;
   const double acceleration =
       character().acceleration + character().air_acceleration.value_or(0) + context.gravity.norm();
-  const double reach =
-      (character().jump_speed + acceleration * dt) * dt + character().snap + character().step_height + 2 * most_turned;
+  const double reach = (character().jump_speed + acceleration * dt) * dt + character().snap + character().step_height +
+                       character().wall_reach + 2 * most_turned;
   const Vec2d goes = state.position + (state.velocity + state.ride.velocity) * dt;
   const Box2<double> way{state.position.cwiseMin(goes), state.position.cwiseMax(goes)};
   const Box2<double>& extent = character().shape.box();
@@ -202,9 +219,7 @@ StepStatus LocalController::Impl::advance(CharacterState<double>& state, const S
                                           const Find& find, StepReport<double>& report, const Go& go) {
   const CharacterState<double> before = state;
   Box2<double> needed = box_needed(state, context);
-  // Written so that NaN is refused.
-  if (!(context.dt > 0 && needed.lower.cwiseAbs().maxCoeff() < 1e8 && needed.upper.cwiseAbs().maxCoeff() < 1e8))
-    return report.status = StepStatus::invalid_input;
+  if (!(context.dt > 0 && is_in_range(needed))) return report.status = StepStatus::invalid_input;
   for (;;) {
     turned_.clear();
     scenery.read(needed, context, find);
@@ -230,26 +245,39 @@ StepStatus LocalController::Impl::step_straight(CharacterState<double>& state, c
   motions.clear();
   for (const NearMover& mover : scenery.movers())
     motions.push_back({mover.motion.from.position, mover.motion.to.position});
+  const Vec2d from = state.position;
   scenery.to_local(state);
   const StepStatus status =
       go(scenery.controller(), state, scenery.context(context, motions), 1.0, scenery.scratch(), report);
   if (status == StepStatus::invalid_input) return status;
   scenery.to_ids(report);
   scenery.to_ids(state);
+  if (!step_parts::is_refused(status)) note_turned_sensors({0, 1, motions}, from, context.filter, report);
   return status;
 }
 
 /// A collider cannot be turned as it should.
-StepStatus LocalController::Impl::refuse(const CharacterState<double>& state, StepReport<double>& report) const {
+StepStatus LocalController::Impl::refuse(const CharacterState<double>& state, StepReport<double>& report) {
+  report.move.refusal =
+      "a collider near the character crosses itself when it is turned: two of its corners are so near "
+      "to each other that rounding swaps them";
+  return stay(MoveStatus::refused, state, report);
+}
+
+/// Reports a step that is refused.
+StepStatus LocalController::Impl::stay(MoveStatus why, const CharacterState<double>& state,
+                                       StepReport<double>& report) {
+  const auto words = report.move.refusal;
+  turned_.clear();
   clear(report);
-  report.move.status = MoveStatus::refused;
-  report.move.refusal = "a collider crosses itself when it is turned: it has corners that rounding moves";
+  report.move.refusal = words;
+  report.move.status = why;
   report.move.position = state.position;
   report.move.velocity = state.velocity;
   report.move.ride = state.ride;
   report.move.path.push_back({state.position, 0});
   report.move.path.push_back({state.position, 1});
-  return report.status = StepStatus::refused;
+  return report.status = step_parts::status_of(why);
 }
 
 /// Into how many shorter steps a step must be divided.
@@ -453,6 +481,24 @@ void LocalController::Impl::note_pushes(const StepPart& part, const StepContext<
   }
 }
 
+/// Reports the sensors that came over the character, or left it, as they turned at the beginning of a part. The sweep
+/// sees how they go on.
+/// @param position where the part begins. @param report of the part, by ids.
+void LocalController::Impl::note_turned_sensors(const StepPart& part, const Vec2d& position,
+                                                const ColliderFilter* filter, StepReport<double>& report) {
+  if (!scenery.any_sensor_turns()) return;
+  const auto later = report.sensors;
+  report.sensors.clear();
+  for (const NearCollider& collider : scenery.colliders()) {
+    const bool turns = collider.mover != no_mover && collider.motion.from.angle != collider.motion.to.angle;
+    if (!collider.def->sensor || !turns || !scenery.is_in_scenery(collider.id) || !is_there(collider, filter)) continue;
+    const bool before = overlaps(collider, pose_at(collider.motion, part.begin), position);
+    const bool after = overlaps(collider, turned_pose(collider, part), position);
+    if (before != after) report.sensors.push_back(sensor_event(collider.id, after, 0));
+  }
+  for (const SensorEvent<double>& event : later) report.sensors.push_back(event);
+}
+
 /// Where everything that moves is when the step begins.
 void LocalController::Impl::note_begin() {
   turned_.clear();
@@ -551,12 +597,13 @@ std::optional<StepStatus> LocalController::Impl::step_in_parts(int parts, Charac
                                                                const StepContext<double>& context,
                                                                StepReport<double>& report, const Go& go) {
   clear(report);
-  note_begin();
+  const CharacterState<double> before = state;
   StepContext<double> shorter = context;
   shorter.dt = context.dt / parts;
   for (int i = 0; i < parts; ++i) {
+    if (!scenery.build(double(i + 1) / parts)) return refuse(before, report);
+    if (i == 0) note_begin();
     StepPart part = turn(double(i) / parts, double(i + 1) / parts, state.position, context.filter);
-    if (!scenery.build(part.end)) return refuse(state, report);
     scenery.to_local(state);
     if (state.ride.ground != Ride<double>::none) {
       const MoverIndex mover = scenery.at(state.ride.ground).mover;
@@ -567,15 +614,18 @@ std::optional<StepStatus> LocalController::Impl::step_in_parts(int parts, Charac
       const NearCollider& collider = scenery.at(crusher.collider);
       if (collider.mover != no_mover) carry(crusher, pose_at(collider.motion, part.begin), turned_pose(collider, part));
     }
+    const Vec2d from = state.position;
     const Vec2d carried = state.ride.velocity;
     const StepStatus status = go(scenery.controller(), state, scenery.context(shorter, part.motions), 1.0 / parts,
                                  scenery.scratch(), *of_part);
-    if (step_parts::is_refused(status)) return report.status = status;
+    if (status == StepStatus::invalid_input) return report.status = status;
+    if (step_parts::is_refused(status)) return stay(of_part->move.status, before, report);
     if (!find_way(part, of_part->move, context)) return std::nullopt;
     note_pushes(part, shorter);
     limit_speed(part, (of_part->requested / shorter.dt + carried).norm(), shorter.dt, of_part->move, state);
     scenery.to_ids(*of_part);
     scenery.to_ids(state);
+    note_turned_sensors(part, from, context.filter, *of_part);
     note_vertices(part);
     append(*of_part, part, report);
     if (report.move.crushed.empty() || i + 1 == parts) continue;
@@ -595,6 +645,20 @@ bool LocalController::Impl::reaches(const NearCollider& collider, const HullWay&
   return std::any_of(all.begin(), all.end(), [&](const ConvexPiece& piece) {
     return !stay_apart(way, {placed(piece.vertices, before), placed(piece.vertices, after), piece.radius}, proved);
   });
+}
+
+/// Reports that the character enters and leaves a sensor, as far as instants of the step show it.
+/// @param ends the instants. @param place_at of the character, at one of them.
+template <class PlaceAt>
+void LocalController::Impl::note_stays(const NearCollider& sensor, double begin, std::span<const double> ends,
+                                       const PlaceAt& place_at, StepReport<double>& report) {
+  const auto is_inside = [&](double when) { return overlaps(sensor, pose_at(sensor.motion, when), place_at(when)); };
+  bool inside = is_inside(begin);
+  for (const double end : ends) {
+    if (is_inside(end) == inside) continue;
+    inside = !inside;
+    report.sensors.push_back(sensor_event(sensor.id, inside, end));
+  }
 }
 
 /// The rest of a step, in which the character stays, then goes straight to a place, and everything that moves turns
@@ -622,20 +686,26 @@ void LocalController::Impl::go_straight(double begin, double departure, const Ve
   const auto place_at = [&](double fraction) {
     return fraction < 1 ? between(state.position, to, std::max(0.0, fraction - departure) / (1 - departure)) : to;
   };
+  for (const NearCollider& collider : scenery.colliders())
+    if (collider.def->sensor && scenery.is_in_scenery(collider.id) && is_there(collider, context.filter))
+      note_stays(collider, begin, ends, place_at, report);
+  std::stable_sort(report.sensors.begin(), report.sensors.end(),
+                   [](const auto& a, const auto& b) { return a.fraction < b.fraction; });
   std::size_t next = 0;
   for (const NearCollider& collider : scenery.colliders()) {
     if (collider.mover == no_mover) continue;
     TurnedCollider& way = turned_[next++];
     const Pose from = pose_at(collider.motion, begin);
+    const bool in_way = blocks(collider, context);
     bool is_reached = false;
     double last = begin;
     for (const double end : ends) {
       way.instants.push_back(end);
       way.vertices.push_back(vertices_at(*collider.def, pose_at(collider.motion, end)));
-      is_reached = is_reached || reaches(collider, {hull(), place_at(last), place_at(end)}, last, end);
+      is_reached = is_reached || (in_way && reaches(collider, {hull(), place_at(last), place_at(end)}, last, end));
       last = end;
     }
-    if (!is_reached || !blocks(collider, context)) continue;
+    if (!is_reached) continue;
     const auto known = std::find_if(state.crushers.begin(), state.crushers.end(),
                                     [&](const Crusher<double>& crusher) { return crusher.collider == collider.id; });
     Crusher<double> crusher{collider.id, state.position};
@@ -712,6 +782,7 @@ std::optional<std::size_t> LocalController::overlaps(const Vec2d& position, cons
                                                      const Find& find, bool at_end, std::span<ColliderIndex> found) {
   Impl& impl = *impl_;
   const Box2<double>& extent = impl.character().shape.box();
+  if (!is_in_range({position, position})) return std::nullopt;
   impl.turned_.clear();
   impl.scenery.read({position + extent.lower, position + extent.upper}, context, find);
   if (!impl.scenery.build(at_end ? 1 : 0)) return std::nullopt;

@@ -100,11 +100,12 @@ void NearScenery::number_movers(double dt) {
   }
 }
 
-/// What was read beside the needed box does not count, so that a step depends on its state alone.
+/// What turns beside the needed box does not count, so that the number of parts depends on the state alone.
 void NearScenery::note_what_turns(const Box2<double>& needed, const ColliderFilter* filter) {
-  any_turns_ = false;
+  any_turns_ = any_sensor_turns_ = false;
   for (const NearCollider& collider : near_) {
     if (collider.mover == no_mover || collider.motion.from.angle == collider.motion.to.angle) continue;
+    any_sensor_turns_ = any_sensor_turns_ || collider.def->sensor;
     if (collider.def->sensor || !is_there(collider, filter)) continue;
     if (!swept_box(collider.def->points, collider.motion).overlaps(needed)) continue;
     movers_[collider.mover].turns = any_turns_ = true;
@@ -143,17 +144,35 @@ SceneryDef NearScenery::scenery_def() const {
     const MoverIndex mover = near_[i].mover;
     const auto [angle, surface_speed] = mover == no_mover ? std::pair(0.0, 0.0) : built_[mover];
     def.colliders.push_back(turned_collider(*near_[i].def, angle, mover));
-    def.colliders.back().surface_speed += surface_speed;
+    if (def.colliders.back().carries) def.colliders.back().surface_speed += surface_speed;
   }
   return def;
 }
 
+/// Leaves out a collider of the scenery that has no extent, and its mover, if that moves nothing else.
+void NearScenery::leave_out(ColliderIndex local) {
+  NearCollider& collider = near_[order_[local]];
+  unusable_.push_back(collider.id);
+  order_.erase(order_.begin() + local);
+  const MoverIndex mover = std::exchange(collider.mover, no_mover);
+  const auto is_its = [&](const NearCollider& other) { return other.mover == mover; };
+  if (mover == no_mover || std::any_of(near_.begin(), near_.end(), is_its)) return;
+  movers_.erase(movers_.begin() + mover);
+  for (NearCollider& other : near_)
+    if (other.mover != no_mover && other.mover > mover) --other.mover;
+}
+
 bool NearScenery::build(double fraction) {
-  std::vector<std::pair<double, double>> now;
-  for (const NearMover& mover : movers_) now.emplace_back(pose_at(mover.motion, fraction).angle, mover.surface_speed);
-  if (scenery_ && now == built_) return true;
-  built_ = std::move(now);
+  const auto angles_and_speeds = [&] {
+    now_.clear();
+    for (const NearMover& mover : movers_)
+      now_.emplace_back(pose_at(mover.motion, fraction).angle, mover.surface_speed);
+  };
+  angles_and_speeds();
+  if (scenery_ && now_ == built_) return true;
   for (scenery_.reset(); !scenery_;) {
+    angles_and_speeds();
+    built_ = now_;
     try {
       scenery_.emplace(scenery_def(), character_);
     } catch (const InvalidScenery& refused) {
@@ -162,8 +181,7 @@ bool NearScenery::build(double fraction) {
         const Scenery<double> as_defined(SceneryDef{{turned_collider(*collider.def, 0, no_mover)}});
         return false;
       } catch (const InvalidScenery&) {
-        unusable_.push_back(collider.id);
-        order_.erase(order_.begin() + refused.collider());
+        leave_out(refused.collider());
       }
     }
   }

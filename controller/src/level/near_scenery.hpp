@@ -36,7 +36,8 @@ class NearScenery {
   /// @param needed box. A wider one is read, so that it holds for some steps.
   /// @param context its filter knows ids: what it leaves out does not turn.
   void read(const Box2<double>& needed, const StepContext<double>& context, const Find& find);
-  /// Makes scenery of what was read, with the angles at a fraction of the step, unless it is there already.
+  /// Makes scenery of what was read, with the angles at a fraction of the step, unless it is there already. What is
+  /// unusable has no mover afterwards, so the movers may have other numbers.
   /// @return false if there is a collider that cannot be turned by its angle: rounding made it cross itself.
   [[nodiscard]] bool build(double fraction);
 
@@ -45,6 +46,7 @@ class NearScenery {
   [[nodiscard]] std::span<const NearCollider> colliders() const noexcept { return near_; }
   [[nodiscard]] std::span<const NearMover> movers() const noexcept { return movers_; }
   [[nodiscard]] bool any_turns() const noexcept { return any_turns_; }
+  [[nodiscard]] bool any_sensor_turns() const noexcept { return any_sensor_turns_; }
   [[nodiscard]] bool turns(const NearCollider& collider) const noexcept {
     return collider.mover != no_mover && movers_[collider.mover].turns;
   }
@@ -87,6 +89,7 @@ class NearScenery {
   void note_what_turns(const Box2<double>& needed, const ColliderFilter* filter);
   void place_in_order();
   [[nodiscard]] SceneryDef scenery_def() const;
+  void leave_out(ColliderIndex local);
   [[nodiscard]] ColliderIndex local_of(ColliderIndex id) const noexcept;
 
   CharacterDef character_;
@@ -96,11 +99,13 @@ class NearScenery {
   std::vector<NearMover> movers_;
   std::vector<std::size_t> moving_;  ///< In `near_`, by mover.
   bool any_turns_ = false;
+  bool any_sensor_turns_ = false;
   std::vector<std::size_t> order_;  ///< Of the colliders of the scenery, in `near_`.
   std::vector<ColliderIndex> ids_;  ///< Of these.
   std::vector<ColliderIndex> unusable_;
   /// Angles of the movers in the scenery, and their surface speeds.
   std::vector<std::pair<double, double>> built_;
+  std::vector<std::pair<double, double>> now_;  ///< The same, as they are now.
   std::optional<Built> scenery_;
   FilterOfIds filter_of_ids_;
   ColliderFilter filter_;  ///< The same, for the scenery.

@@ -200,9 +200,6 @@ void ConfigurationSpace<Scalar>::build_own_axes(PieceIndex piece, ObstacleInfo& 
     info.own_count = 1;
     return;
   }
-  if (lanes_ + vertices.size() > max_axes)
-    throw InvalidScenery(source.collider, "a convex piece has more than " + std::to_string(max_axes - lanes_) +
-                                              " vertices; split the polygon");
   for (std::size_t j = 0; j < vertices.size(); ++j) {
     const Vec2d edge = (vertices[(j + 1) % vertices.size()] - vertices[j]).template cast<double>();
     const std::size_t axis = axis_of(unit_normal_right_of(edge));

@@ -89,11 +89,10 @@ class ConfigurationSpace {
   /// Edges of the octagon, and the four box directions where they are not among them: they bevel sharp corners.
   static constexpr std::size_t max_shared = 12;
   static constexpr std::size_t box_axes = 4;   ///< The first shared axes: up, right, left, down.
-  static constexpr std::size_t max_axes = 64;  ///< Of one piece.
+  static constexpr std::size_t max_axes = 64;  ///< Of one piece: shared ones, and those of at most 32 edges.
 
   /// `scenery` must outlive it.
   /// @param broad_phase over what stands still, asked once for the neighbours of every piece.
-  /// @throws InvalidScenery for a piece with more edges than axes are kept for.
   ConfigurationSpace(const Scenery<Scalar>& scenery, const CharacterShape& shape, const BroadPhase<Scalar>& broad_phase,
                      const MoverPhases<Scalar>& mover_phases);
 

@@ -12,9 +12,8 @@
 ///  2. If it still enters, it is a fall: x n.x >= 0 and u·n < 0 give y < 0 (a wall, n.y = 0, is entered no more). It
 ///     slides: u - (u·n) n. Its length does not grow, x stays outward, and it stays a fall: y' = y n.x² - (x n.x) n.y,
 ///     where both terms are below zero.
-///  3. Steering that presses in (s·n < 0) does not change y: of all motions along the surface w is the one with the y
-///  of
-///     u, (-y n.y / n.x, y). Where u entered that is u itself, slid. So y(t) on a steep slope is the same with the key
+///  3. Steering that presses in (s·n < 0) does not change y: of all motions along the surface w is the one with the y of u,
+///     (-y n.y / n.x, y). Where u entered that is u itself, slid. So y(t) on a steep slope is the same with the key
 ///     uphill and without a key, at any dt. (Had only the part of s along n gone, the rest would point up the slope,
 ///     and hold the character on a platform's corner for good. Were all of it gone, a character that turns around at a
 ///     wall would be thrown back by its own momentum, and tremble there.) Steering that does not press in is treated
@@ -34,8 +33,8 @@
 /// All of this is as the character sees it: x is across it, and y is up (see `UpFrame`).
 ///
 /// Position and velocity are treated alike: each rule is homogeneous of degree one. u is carried through every contact
-/// beside w. A falling motion comes to rise on
-/// nothing but walkable ground. The loop ends after a given number of impacts.
+/// beside w. A falling motion comes to rise on nothing but walkable ground. The loop ends after a given number of
+/// impacts.
 #pragma once
 
 #include "step/half_planes.hpp"

@@ -102,7 +102,7 @@ DesiredMotion<Scalar> StepSolver<Lanes, Scalar, Up>::response_to(const TouchedSu
   const auto response = [&](const Desired<Scalar>& given, const V& motion_of_surface,
                             Scalar steered) -> Desired<Scalar> {
     V frame = motion_of_surface;
-    if (!at.walkable || !carries(surface.piece))
+    if (!at.walkable || carrier_of(surface.piece) == no_mover)
       frame = surface.normal * half_plane_of(surface.normal, motion_of_surface).least;
     const Desired<Scalar> relative{given.wanted - frame, given.unsteered - frame};
     if (dot(relative.wanted, surface.normal) >= 0) return given;

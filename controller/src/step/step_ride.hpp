@@ -20,15 +20,30 @@ Scalar StepSolver<Lanes, Scalar, Up>::surface_speed(PieceIndex piece) const noex
 }
 
 template <std::size_t Lanes, class Scalar, class Up>
-bool StepSolver<Lanes, Scalar, Up>::carries(PieceIndex piece) const noexcept {
-  const ColliderInfo& info = space_.scenery().collider(collider_of(piece));
-  return (info.mover != no_mover && info.carries) || info.surface_speed != 0;
+MoverIndex StepSolver<Lanes, Scalar, Up>::carrier_of(PieceIndex piece) const noexcept {
+  return space_.scenery().collider(collider_of(piece)).carries ? mover_of(piece) : no_mover;
 }
 
-/// Of what stands on a piece at a surface with this normal [m/s].
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::carries(PieceIndex piece) const noexcept {
+  return carrier_of(piece) != no_mover || surface_speed(piece) != 0;
+}
+
+/// Of a surface of a piece, conveyor included [m/s].
 template <std::size_t Lanes, class Scalar, class Up>
 Vec2<Scalar> StepSolver<Lanes, Scalar, Up>::ground_velocity(PieceIndex piece, const V& normal) const noexcept {
-  const MoverIndex mover = mover_of(piece);
+  return velocity_with(mover_of(piece), piece, normal);
+}
+
+/// Of what stands on a surface of a piece [m/s].
+template <std::size_t Lanes, class Scalar, class Up>
+Vec2<Scalar> StepSolver<Lanes, Scalar, Up>::carried_velocity(PieceIndex piece, const V& normal) const noexcept {
+  return velocity_with(carrier_of(piece), piece, normal);
+}
+
+template <std::size_t Lanes, class Scalar, class Up>
+Vec2<Scalar> StepSolver<Lanes, Scalar, Up>::velocity_with(MoverIndex mover, PieceIndex piece,
+                                                          const V& normal) const noexcept {
   V velocity = V{normal.y(), -normal.x()} * surface_speed(piece);
   if (mover != no_mover) velocity += movers_.displacement(mover) / movers_.dt;
   return velocity;
@@ -37,7 +52,7 @@ Vec2<Scalar> StepSolver<Lanes, Scalar, Up>::ground_velocity(PieceIndex piece, co
 /// How far it takes what stands on it in the rest of the step [m].
 template <std::size_t Lanes, class Scalar, class Up>
 Vec2<Scalar> StepSolver<Lanes, Scalar, Up>::ground_rest(PieceIndex piece, const V& normal) const noexcept {
-  const MoverIndex mover = mover_of(piece);
+  const MoverIndex mover = carrier_of(piece);
   const Scalar along = surface_speed(piece) * movers_.dt * (1 - time_);
   V rest = V{normal.y(), -normal.x()} * along;
   if (mover != no_mover) rest += movers_.remaining(mover, time_);
@@ -81,7 +96,7 @@ Vec2<Scalar> StepSolver<Lanes, Scalar, Up>::begin_ride(const MoveRequest<Scalar>
   if (riding || at_rest) ground = carrier_here(request.ride.ground, !riding);
   if (riding && ground && collider_of(ground->piece) != request.ride.ground) ground.reset();
   V carried = V::Zero();
-  if (ground) carried = ground_velocity(ground->piece, ground->normal);
+  if (ground) carried = carried_velocity(ground->piece, ground->normal);
   if (!ground || falls_away(carried)) {
     velocity_ += request.ride.velocity;
     return request.displacement + request.ride.velocity * request.dt;
@@ -100,16 +115,16 @@ Vec2<Scalar> StepSolver<Lanes, Scalar, Up>::begin_ride(const MoveRequest<Scalar>
 template <std::size_t Lanes, class Scalar, class Up>
 bool StepSolver<Lanes, Scalar, Up>::carries_from_now(const TouchedSurface<Scalar>& ground) const noexcept {
   return walkable(ground.normal) && carries(ground.piece) && moving_.ride.ground == Ride<Scalar>::none &&
-         !falls_away(ground_velocity(ground.piece, ground.normal));
+         !falls_away(carried_velocity(ground.piece, ground.normal));
 }
 
 /// From now on this ground carries the character.
 template <std::size_t Lanes, class Scalar, class Up>
 void StepSolver<Lanes, Scalar, Up>::begin_to_ride(const TouchedSurface<Scalar>& ground) noexcept {
   moving_.ride.ground = collider_of(ground.piece);
-  moving_.ride.velocity = ground_velocity(ground.piece, ground.normal);
+  moving_.ride.velocity = carried_velocity(ground.piece, ground.normal);
   moving_.ride.place = position_ - offset(ground.piece);
-  moving_.carrier = ground.mover;
+  moving_.carrier = carrier_of(ground.piece);
   moving_.ridden = ground.piece;
   moving_.anchored = true;
 }
@@ -136,7 +151,7 @@ void StepSolver<Lanes, Scalar, Up>::end_ride() noexcept {
   if (!ground) return;
   const ColliderIndex collider = collider_of(ground->piece);
   result_.ride.ground = collider;
-  result_.ride.velocity = ground_velocity(ground->piece, ground->normal);
+  result_.ride.velocity = carried_velocity(ground->piece, ground->normal);
   const bool stayed = moving_.anchored && moving_.ride.ground == collider;
   result_.ride.place = stayed ? moving_.ride.place : V(position_ - offset(ground->piece));
 }

@@ -7,8 +7,7 @@
 ///      stands still has none.
 ///   4. step_response.hpp: the desired motion becomes one that all touched surfaces allow. Back to 3 with what is left.
 ///   5. step_free_position.hpp, step_crush.hpp: where movers leave no motion at all, the step looks for the nearest
-///   free
-///      position; where there is none, the movers crush the character.
+///      free position; where there is none, the movers crush the character.
 ///   6. step_solve.hpp: does the character stand on ground? Is there ground to follow a little below?
 ///
 /// The definitions are in headers, and one source includes them all: a function that is called from one place is
@@ -224,9 +223,13 @@ class StepSolver {
 
   // step_ride.hpp
   [[nodiscard]] MoverIndex mover_of(PieceIndex piece) const noexcept { return pieces_[piece].mover; }
+  /// The mover that takes along what stands on a piece, if one does.
+  [[nodiscard]] MoverIndex carrier_of(PieceIndex piece) const noexcept;
   [[nodiscard]] bool carries(PieceIndex piece) const noexcept;
   [[nodiscard]] Scalar surface_speed(PieceIndex piece) const noexcept;
   [[nodiscard]] V ground_velocity(PieceIndex piece, const V& normal) const noexcept;
+  [[nodiscard]] V carried_velocity(PieceIndex piece, const V& normal) const noexcept;
+  [[nodiscard]] V velocity_with(MoverIndex mover, PieceIndex piece, const V& normal) const noexcept;
   [[nodiscard]] V ground_rest(PieceIndex piece, const V& normal) const noexcept;
   [[nodiscard]] std::optional<TouchedSurface<Scalar>> carrier_here(ColliderIndex ridden, bool walkable_only) noexcept;
   [[nodiscard, gnu::cold, gnu::noinline]] V begin_ride(const MoveRequest<Scalar>& request) noexcept;

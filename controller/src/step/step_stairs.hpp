@@ -61,8 +61,9 @@ std::optional<TouchedSurface<Scalar>> StepSolver<Lanes, Scalar, Up>::ground_belo
 /// @param speed sideways [m/s], which the walker keeps.
 template <std::size_t Lanes, class Scalar, class Up>
 bool StepSolver<Lanes, Scalar, Up>::step_down_to(const TouchedSurface<Scalar>& ground, Scalar speed) noexcept {
-  const V carried = ground_velocity(ground.piece, ground.normal);
-  if (!walkable(ground.normal) || falls_away(carried) || !advance(found_.stop)) return false;
+  const V carried = carried_velocity(ground.piece, ground.normal);
+  if (!walkable(ground.normal) || falls_away(ground_velocity(ground.piece, ground.normal)) || !advance(found_.stop))
+    return false;
   note_ground(GroundState::walkable, ground.piece, ground.normal);
   const Stop<Scalar>& stop = found_.stops[0];
   if (walkable(space_.normal(stop.piece, stop.axes.normal)))  // the corner of a stair stops no wanted motion

@@ -76,10 +76,14 @@ struct HeroSave {
   CharacterDef character;
   CharacterState<double> state;
   b2Fixture* ride = nullptr;           ///< What `state.ride` is on.
+  b2Fixture* ground = nullptr;         ///< What `state.ground` is.
   std::vector<b2Fixture*> crushers{};  ///< What `state.crushers` are.
   std::vector<BodyPose> poses{};       ///< Of the bodies near it.
   std::vector<HeroContact> contacts{};
   std::vector<b2Fixture*> inside{};  ///< Sensors that it overlaps.
+  b2Vec2 body_position{0, 0};        ///< Of its body in the world, which is some millimetres beside it [m];
+  b2Vec2 body_velocity{0, 0};        ///< with its weight and push [m/s].
+  bool is_bullet = true;
 };
 
 /// A character in a game's own `b2World`, moved by a `Controller`. Each frame the world steps, then the hero:
@@ -92,10 +96,9 @@ struct HeroSave {
 /// again.
 ///
 /// - Static bodies stand. Kinematic and dynamic bodies move from where they were in the hero's last step to where they
-///   are now, and carry, push and crush it on this way. A body that went half a metre
-///   farther than its velocity explains was put there by the game.
-/// - A body that turns does so at the beginning of the step, or of several shorter ones, about its point nearest to the
-///   hero: see `LocalController`. Each step proves that nothing passes through the hero, and names what crushed it.
+///   are now, and carry, push and crush it on this way. A body that went half a metre farther than its velocity
+///   explains was put there by the game.
+/// - A body that turns does so at the beginning of the step, or of several shorter ones: see `LocalController`. Each step proves that nothing passes through the hero, and names what crushed it.
 /// - Polygons, edges, chains and circles are exact, without Box2D's skin; a circle that is a ledge is a polygon of 32
 ///   corners around it. Edges and chains block from both sides, unless `HeroDef::surface_of` says otherwise.
 ///
