@@ -198,6 +198,7 @@ struct Hero::Impl {
   StepReport<double> report;
   std::vector<HeroContact> contacts;
   std::vector<HeroContact> contacts_before;
+  std::vector<HeroContact> contacts_now;
   std::vector<HeroSensorEvent> sensors;
   std::vector<b2Fixture*> inside;  ///< Sensors that it overlaps.
   std::vector<b2Fixture*> crushed_by;
@@ -378,22 +379,17 @@ void Hero::Impl::note_sensors() {
 }
 
 void Hero::Impl::note_contacts() {
-  contacts.swap(contacts_before);
+  std::erase_if(contacts, [](const HeroContact& contact) { return contact.change == HeroContact::Change::removed; });
+  contacts_before.swap(contacts);
+  contacts_now.clear();
+  for (const Contact<double>& contact : report.move.contacts)
+    contacts_now.push_back({fixtures.fixture_of(contact.collider), HeroContact::Change::added, contact});
   contacts.clear();
-  const auto of = [](const std::vector<HeroContact>& list, const b2Fixture* fixture) {
-    return std::find_if(list.begin(), list.end(), [&](const HeroContact& contact) {
-      return contact.fixture == fixture && contact.change != HeroContact::Change::removed;
-    });
-  };
-  for (const Contact<double>& contact : report.move.contacts) {
-    b2Fixture* fixture = fixtures.fixture_of(contact.collider);
-    if (of(contacts, fixture) != contacts.end()) continue;
-    const bool is_new = of(contacts_before, fixture) == contacts_before.end();
-    contacts.push_back({fixture, is_new ? HeroContact::Change::added : HeroContact::Change::persisted, contact});
-  }
-  for (const HeroContact& contact : contacts_before)
-    if (contact.change != HeroContact::Change::removed && of(contacts, contact.fixture) == contacts.end())
-      contacts.push_back({contact.fixture, HeroContact::Change::removed, contact.contact});
+  for_each_change<HeroContact>(
+      contacts_before, contacts_now, [](const HeroContact& a, const HeroContact& b) { return a.fixture == b.fixture; },
+      [this](ContactChange change, const HeroContact& of) {
+        contacts.push_back({of.fixture, change, of.contact});
+      });
 }
 
 /// Where the hero is, but for some millimetres. Box2D parts bodies that are deeper in each other's skins than its slop,

@@ -1,6 +1,7 @@
 /// A level that changes between steps, against scenery that is built at once; and movers that turn.
 #include <paperproof/level.hpp>
 
+#include "level/poses.hpp"
 #include "level/turn.hpp"
 #include "support/allocations.hpp"
 #include "support/play_levels.hpp"
@@ -481,6 +482,42 @@ TEST(LevelTurning, a_step_out_of_range_changes_nothing_and_says_so) {
   EXPECT_EQ(report.move.position, before.position);
   EXPECT_EQ(controller.overlaps({1e12, 0}, {{0, 0}, frame, {&plank, 1}}), std::nullopt);
   EXPECT_EQ(controller.overlaps({std::nan(""), 0}, {{0, 0}, frame, {&plank, 1}}), std::nullopt);
+}
+
+/// See-saws, lifts that tilt and swings, up to 5 radians a second.
+TEST(LevelTurning, a_one_way_plank_keeps_who_stands_on_it_and_who_jumps) {
+  const int runs = steps_wanted("PAPERPROOF_ONE_WAY_RUNS", sampled(60));
+  int grounded = 0;
+  int in_the_air = 0;
+  for (int run = 1; run <= runs; ++run) {
+    Random random(static_cast<std::uint64_t>(run));
+    ColliderDef plank = box(-2, -0.1, 2, 0.1, 0);
+    plank.one_way = Vec2d(0, 1);
+    const Level level(SceneryDef{{plank}});
+    LevelController controller(level, {});
+    CharacterState<double> state;
+    state.position = {random.between(-1.2, 1.2), 0.8};
+    StepReport<double> report;
+    const double swing = random.between(0.05, 0.6);
+    const double pace = random.between(0.3, 8);
+    const Vec2d reach{random.between(-1, 1), random.between(-1, 1)};
+    const bool jumps = random.chance(0.5);
+    const auto pose = [&](int step) -> Pose {
+      const double share = std::sin(pace * std::max(0, step - 30) * frame);
+      return {reach * share, swing * share};
+    };
+    for (int step = 0; step < 400; ++step) {
+      const PoseMotion motion{pose(step), pose(step + 1)};
+      const Input input{.jump = jumps && step > 30 && step % 40 < 20};
+      controller.step(state, input, {{0, -20}, frame, {&motion, 1}}, report);
+      const Vec2d from_above = level::rotated(Vec2d(state.position - motion.to.position), -motion.to.angle);
+      if (std::abs(from_above.x()) > 1.6) break;  // it went over the end
+      ASSERT_GT(from_above.y(), 0.1) << "run " << run << ", step " << step;
+      (state.grounded ? grounded : in_the_air) += 1;
+    }
+  }
+  EXPECT_GT(grounded, runs * 50);
+  EXPECT_GT(in_the_air, runs * 10);
 }
 
 TEST(LevelTurning, states_may_be_restored) {

@@ -11,27 +11,34 @@ namespace paperproof {
 
 enum class ContactChange : std::uint8_t { added, persisted, removed };
 
-/// Calls `visit(change, contact)` for each collider of two steps once, with its first contact: those of this step in
-/// their order, then those that are `removed`, with their contact of the step before. Ids of a `Level` tell a collider
-/// that was replaced from the one before.
+/// Calls `visit(change, contact)` for each surface of two steps once, with its first contact: those of this step in
+/// their order, then those that are `removed`, with their contact of the step before.
+/// @param same whether two contacts are with one surface.
+template <class Contact, class Same, class Visit>
+void for_each_change(std::span<const Contact> before, std::span<const Contact> now, const Same& same,
+                     const Visit& visit) {
+  const auto is_in = [&](std::span<const Contact> contacts, const Contact& contact) {
+    return std::any_of(contacts.begin(), contacts.end(), [&](const Contact& other) { return same(other, contact); });
+  };
+  const auto visit_first_of = [&](std::span<const Contact> contacts, const auto& change_of) {
+    for (std::size_t i = 0; i < contacts.size(); ++i)
+      if (!is_in(contacts.first(i), contacts[i])) change_of(contacts[i]);
+  };
+  visit_first_of(now, [&](const Contact& contact) {
+    visit(is_in(before, contact) ? ContactChange::persisted : ContactChange::added, contact);
+  });
+  visit_first_of(before, [&](const Contact& contact) {
+    if (!is_in(now, contact)) visit(ContactChange::removed, contact);
+  });
+}
+
+/// The same by collider. Ids of a `Level` tell a collider that was replaced from the one before.
 /// @param before the contacts of the step before: a copy of its `move.contacts`. @param now those of this step.
 template <class Scalar, class Visit>
 void for_each_change(std::span<const Contact<Scalar>> before, std::span<const Contact<Scalar>> now,
                      const Visit& visit) {
-  const auto is_in = [](std::span<const Contact<Scalar>> contacts, ColliderIndex collider) {
-    return std::any_of(contacts.begin(), contacts.end(),
-                       [&](const Contact<Scalar>& contact) { return contact.collider == collider; });
-  };
-  const auto visit_first_of = [&](std::span<const Contact<Scalar>> contacts, const auto& change_of) {
-    for (std::size_t i = 0; i < contacts.size(); ++i)
-      if (!is_in(contacts.first(i), contacts[i].collider)) change_of(contacts[i]);
-  };
-  visit_first_of(now, [&](const Contact<Scalar>& contact) {
-    visit(is_in(before, contact.collider) ? ContactChange::persisted : ContactChange::added, contact);
-  });
-  visit_first_of(before, [&](const Contact<Scalar>& contact) {
-    if (!is_in(now, contact.collider)) visit(ContactChange::removed, contact);
-  });
+  const auto same = [](const Contact<Scalar>& a, const Contact<Scalar>& b) { return a.collider == b.collider; };
+  for_each_change(before, now, same, visit);
 }
 
 }  // namespace paperproof
