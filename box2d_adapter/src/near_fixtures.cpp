@@ -109,18 +109,12 @@ bool is_wheel(const b2Fixture& fixture) {
          static_cast<const b2CircleShape*>(fixture.GetShape())->m_p == b2Vec2_zero;
 }
 
-Box2<double> box_around(std::span<const Vec2d> points) {
-  Box2<double> box{points[0], points[0]};
-  for (const Vec2d& point : points) box = box.merged({point, point});
-  return box;
-}
-
 /// The runs of segments of a chain that are near a box.
 std::vector<ColliderDef> cut_to(const Box2<double>& box, const ColliderDef& chain) {
   std::vector<ColliderDef> runs;
   bool goes_on = false;
   for (std::size_t i = 0; i + 1 < chain.points.size(); ++i) {
-    const bool near = box.overlaps(box_around(std::span(chain.points).subspan(i, 2)));
+    const bool near = box.overlaps(Box2<double>::around(std::span(chain.points).subspan(i, 2)));
     if (near && !goes_on) {
       runs.push_back({.shape = ColliderDef::Shape::chain, .points = {chain.points[i]}});
       runs.back().surface_speed = chain.surface_speed;

@@ -124,8 +124,7 @@ class Plane {
   Plane(std::span<const Barrier> barriers, std::span<const Vec2d> octagon, double clearance, double beside) {
     std::vector<Box2<double>> boxes;
     std::vector<std::uint32_t> names;
-    Box2<double> shape{octagon[0], octagon[0]};
-    for (const Vec2d& corner : octagon) shape = shape.merged({corner, corner});
+    const Box2<double> shape = Box2<double>::around(octagon);
     for (const Barrier& barrier : barriers) {
       const Obstacle& obstacle = barrier.obstacle;
       if (barrier.bars != Bars::ends) hidden_.push_back(hidden_by(obstacle, octagon, beside));

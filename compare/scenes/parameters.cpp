@@ -70,6 +70,7 @@ void scale_character(CharacterDef& character, double scale) {
   character.jump_speed *= scale;
   character.snap *= scale;
   character.step_height *= scale;
+  character.wall_reach *= scale;
   if (character.air_acceleration) *character.air_acceleration *= scale;
   if (character.max_fall_speed) *character.max_fall_speed *= scale;
 }
@@ -85,7 +86,10 @@ void scale_by(Scene& scene, double scale) {
   scale_start(scene.start);
   for (OtherCharacter& other : scene.others) scale_start(other.start);
   for_each_point(scene.scenery, [scale](Vec2d& point) { point *= scale; });
-  for (ColliderDef& collider : scene.scenery.colliders) collider.surface_speed *= scale;
+  for (ColliderDef& collider : scene.scenery.colliders) {
+    collider.surface_speed *= scale;
+    collider.radius *= scale;
+  }
   for (MoverDef& mover : scene.movers) {
     for (MoverDef::Waypoint& waypoint : mover.path) waypoint.at *= scale;
     if (mover.body) mover.body->velocity *= scale;

@@ -51,9 +51,7 @@ void check_scenery(const SceneryDef& scenery, const std::vector<std::string>& id
 }
 
 Box2<double> box_of(const ColliderDef& collider) {
-  Box2<double> box{collider.points.front(), collider.points.front()};
-  for (const Vec2d& point : collider.points) box = box.merged({point, point});
-  return box;
+  return Box2<double>::around(collider.points).inflated(collider.radius);
 }
 
 FreePlaces::FreePlaces(const SceneryDef& scenery, const CharacterShape& shape)

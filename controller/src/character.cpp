@@ -15,12 +15,6 @@ std::string point_name(std::size_t index) { return "point " + std::to_string(ind
 
 bool lower_then_left(const Vec2d& a, const Vec2d& b) { return a.y() != b.y() ? a.y() < b.y() : a.x() < b.x(); }
 
-Box2<double> box_around(std::span<const Vec2d> points) {
-  Box2<double> box{points[0], points[0]};
-  for (const Vec2d& point : points) box = box.merged({point, point});
-  return box;
-}
-
 void check_count(std::size_t count) {
   if (count < 3 || count > CharacterShape::max_points) {
     throw InvalidCharacter("a character has 3 to 8 points, this one has " + std::to_string(count));
@@ -100,7 +94,7 @@ CharacterShape CharacterShape::article(double pixels_per_metre) {
 CharacterShape CharacterShape::from_pixels(std::span<const Vec2d> points_px, double pixels_per_metre) {
   require(std::isfinite(pixels_per_metre) && pixels_per_metre > 0, "pixels_per_metre", "a finite number above zero");
   check_count(points_px.size());
-  const Box2<double> sprite = box_around(points_px);
+  const Box2<double> sprite = Box2<double>::around(points_px);
   const Vec2d centre = 0.5 * sprite.lower + 0.5 * sprite.upper;
   Points points;
   for (const Vec2d& at : points_px) {
@@ -110,7 +104,7 @@ CharacterShape CharacterShape::from_pixels(std::span<const Vec2d> points_px, dou
 }
 
 CharacterShape::CharacterShape(std::span<const Vec2d> points)
-    : points_(checked_points(points)), hull_(outline_of(points_)), box_(box_around(this->points())) {
+    : points_(checked_points(points)), hull_(outline_of(points_)), box_(Box2<double>::around(this->points())) {
   check_all_corners(hull_);
   pairs_[static_cast<std::size_t>(Side::top)] = extreme_pair(this->points(), 0, 1);
   pairs_[static_cast<std::size_t>(Side::bottom)] = extreme_pair(this->points(), 0, -1);

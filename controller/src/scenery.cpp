@@ -121,7 +121,7 @@ struct Pieces {
                    .first_vertex = static_cast<std::uint32_t>(vertices.size()),
                    .vertex_count = static_cast<std::uint8_t>(outline.size()),
                    .one_way = def.one_way.has_value()};
-    const Box2<double> box = geometry::box_of(outline);
+    const Box2<double> box = Box2<double>::around(outline);
     boxes.push_back({box.lower.template cast<Scalar>(), box.upper.template cast<Scalar>()});
     if (is_upright_rectangle(outline))
       info.rectangle_corner = corner_of(box, outline[0]);

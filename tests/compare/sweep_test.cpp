@@ -333,6 +333,9 @@ TEST(CommonParameters, turn_any_scene) {
   EXPECT_EQ(large.start.position, 8 * usual.start.position);
   EXPECT_EQ(large.scenery.colliders.front().points.front(), 8 * usual.scenery.colliders.front().points.front());
   EXPECT_EQ(large.character.jump_speed, 8 * usual.character.jump_speed);
+  const std::vector<ParameterSetting> eight{{"scale", 8}};
+  EXPECT_EQ(load_scene("land_on_circle", eight).scenery.colliders.back().radius,
+            8 * load_scene("land_on_circle", {}).scenery.colliders.back().radius);
   const Scene far = turned("origin", 1024);
   EXPECT_EQ(far.start.position, usual.start.position + Vec2d(1024, 0));
   EXPECT_EQ(turned("gravity", 5).gravity, Vec2d(0, -5));

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <type_traits>
 
 namespace paperproof {
@@ -76,6 +77,12 @@ struct Box2 {
   }
   [[nodiscard]] Box2 inflated(Scalar by) const noexcept {
     return {lower - Vec2<Scalar>::Constant(by), upper + Vec2<Scalar>::Constant(by)};
+  }
+  /// @param points at least one.
+  [[nodiscard]] static Box2 around(std::span<const Vec2<Scalar>> points) noexcept {
+    Box2 box{points[0], points[0]};
+    for (const Vec2<Scalar>& point : points) box = box.merged({point, point});
+    return box;
   }
 };
 

@@ -1,6 +1,6 @@
 #include "geometry/circle.hpp"
 
-#include "geometry/length.hpp"
+#include "geometry/vectors.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,11 +8,6 @@
 
 namespace paperproof::geometry {
 namespace {
-
-template <class Scalar>
-Scalar dot(const Vec2<Scalar>& a, const Vec2<Scalar>& b) noexcept {
-  return a.x() * b.x() + a.y() * b.y();
-}
 
 /// A motion that grazes converges by a quarter of its distance each time; 1e6 m to rounding are 40 of them.
 constexpr int most_tangents = 128;

@@ -1,15 +1,12 @@
 #include "geometry/overlap_time.hpp"
 
+#include "geometry/vectors.hpp"
+
 #include <algorithm>
 #include <limits>
 
 namespace paperproof::geometry {
 namespace {
-
-template <class Scalar>
-Scalar cross(const Vec2<Scalar>& a, const Vec2<Scalar>& b) noexcept {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 /// The edge that ends at vertex `i`.
 template <class Scalar>
@@ -45,13 +42,6 @@ void for_each_axis(std::span<const Vec2<Scalar>> mover, std::span<const Vec2<Sca
     if (!visit(axis_of_standing(mover, standing, i))) return;
   for (std::size_t i = 0; i < mover.size(); ++i)
     if (!visit(axis_of_mover(mover, standing, i))) return;
-}
-
-template <class Scalar>
-Box2<Scalar> box_around(std::span<const Vec2<Scalar>> outline) noexcept {
-  Box2<Scalar> box{outline.front(), outline.front()};
-  for (const Vec2<Scalar>& point : outline) box = box.merged({point, point});
-  return box;
 }
 
 /// Narrows `time`, in which all separations so far are negative, by one more separation that changes linearly.
@@ -108,8 +98,8 @@ OverlapTime<Scalar> overlap_time(std::span<const Vec2<Scalar>> mover, std::span<
 template <class Scalar>
 Box2<Scalar> deep_overlap(std::span<const Vec2<Scalar>> mover, std::span<const Vec2<Scalar>> standing,
                           Scalar depth) noexcept {
-  const Box2<Scalar> a = box_around(mover);
-  const Box2<Scalar> b = box_around(standing);
+  const Box2<Scalar> a = Box2<Scalar>::around(mover);
+  const Box2<Scalar> b = Box2<Scalar>::around(standing);
   const Vec2<Scalar> middle = (b.lower + b.upper - a.lower - a.upper) / 2;
   const Vec2<Scalar> half = (b.upper - b.lower + a.upper - a.lower) / 2;
   Scalar share = 1;  // of the box around all positions that overlap

@@ -89,7 +89,7 @@ bool is_inside(const Vec2d& point, Ring ring) {
 /// The rings do not meet, so one vertex decides for its whole ring.
 void check_nesting(std::span<const Ring> rings) {
   std::vector<Box2<double>> boxes;
-  for (const Ring ring : rings) boxes.push_back(box_of(ring));
+  for (const Ring ring : rings) boxes.push_back(Box2<double>::around(ring));
   for (std::size_t hole = 1; hole < rings.size(); ++hole) {
     if (!is_inside(rings[hole][0], rings[0])) throw InvalidRings(name_of(hole) + " is not inside the outline");
     for (std::size_t other = 1; other < rings.size(); ++other) {
@@ -106,12 +106,6 @@ std::string text_of(const Vec2d& point) {
   std::array<char, 64> text{};
   std::snprintf(text.data(), text.size(), "(%.9g, %.9g)", point.x(), point.y());
   return text.data();
-}
-
-Box2<double> box_of(Ring ring) noexcept {
-  Box2<double> box{ring[0], ring[0]};
-  for (const Vec2d& vertex : ring) box = box.merged({vertex, vertex});
-  return box;
 }
 
 /// A convex outline turns to one side only and goes around once: it runs to the right once and to the left once.

@@ -28,9 +28,6 @@ class InvalidRings : public std::invalid_argument {
 /// "(1.5, 2)"
 [[nodiscard]] std::string text_of(const Vec2d& point);
 
-/// Smallest box around a ring.
-[[nodiscard]] Box2<double> box_of(Ring ring) noexcept;
-
 /// Whether the ring is the outline of a convex polygon with an area. Vertices on a straight side are allowed. A convex
 /// ring needs no other check. Exact; linear in the number of vertices.
 [[nodiscard]] bool is_convex(Ring ring) noexcept;

@@ -104,7 +104,7 @@ void Level::for_each_cell(const Box2<double>& box, int grid, const Visit& visit)
 
 void Level::place(ColliderIndex id, Slot& slot, const ColliderDef& def) {
   slot.def = def;
-  slot.box = geometry::box_of(def.points).inflated(def.radius);
+  slot.box = Box2<double>::around(def.points).inflated(def.radius);
   slot.version = last_edit_.renew().number;
   if (def.mover != no_mover) {
     if (def.mover >= movers_.size()) movers_.resize(def.mover + 1);

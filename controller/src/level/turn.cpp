@@ -1,6 +1,7 @@
 #include "level/turn.hpp"
 
 #include "geometry/circle.hpp"
+#include "geometry/vectors.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,10 +10,10 @@
 namespace paperproof::level {
 namespace {
 
+using geometry::cross;
+
 /// Halvings of the time, until the proof has failed.
 constexpr int most_halvings = 16;
-
-double cross(const Vec2d& a, const Vec2d& b) noexcept { return a.x() * b.y() - a.y() * b.x(); }
 
 /// A vector that changes evenly.
 struct Linear {
@@ -75,12 +76,6 @@ bool stay_apart_between(const Scene& scene, double begin, double end, int halvin
   return stay_apart_between(scene, begin, middle, halvings + 1) && stay_apart_between(scene, middle, end, halvings + 1);
 }
 
-Box2<double> box_of(std::span<const Vec2d> points, const Vec2d& at) {
-  Box2<double> box{points[0] + at, points[0] + at};
-  for (const Vec2d& point : points) box = box.merged({point + at, point + at});
-  return box;
-}
-
 bool circle_stays_apart(const HullWay& character, const PieceWay& piece, double least) {
   const Circle<double> circle{piece.from[0] - character.from, piece.radius};
   const Vec2d way = (character.to - character.from) - (piece.to[0] - piece.from[0]);
@@ -102,8 +97,11 @@ double nearest_share(const Vec2d& a, const Vec2d& b, const Vec2d& point) {
 
 bool stay_apart(const HullWay& character, const PieceWay& piece, double least) {
   const Vec2d origin = character.from;
-  const Box2<double> hull = box_of(character.hull, character.from).merged(box_of(character.hull, character.to));
-  const Box2<double> whole = box_of(piece.from, {0, 0}).merged(box_of(piece.to, {0, 0})).inflated(piece.radius);
+  const Box2<double> shape = Box2<double>::around(character.hull);
+  const Box2<double> hull{character.from.cwiseMin(character.to) + shape.lower,
+                          character.from.cwiseMax(character.to) + shape.upper};
+  const Box2<double> whole =
+      Box2<double>::around(piece.from).merged(Box2<double>::around(piece.to)).inflated(piece.radius);
   if (!hull.inflated(std::abs(least)).overlaps(whole)) return true;
   if (piece.radius > 0) return circle_stays_apart(character, piece, least);
   Scene scene{{}, character.hull, {{0, 0}, character.to - origin}, least};

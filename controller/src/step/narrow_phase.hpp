@@ -4,7 +4,7 @@
 /// (a pair that is written as two numbers and read as one waits for the memory).
 #pragma once
 
-#include "geometry/length.hpp"
+#include "geometry/vectors.hpp"
 #include "step/configuration_space.hpp"
 
 #include <paperproof/tolerances.hpp>

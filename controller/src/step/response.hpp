@@ -12,7 +12,8 @@
 ///  2. If it still enters, it is a fall: x n.x >= 0 and u·n < 0 give y < 0 (a wall, n.y = 0, is entered no more). It
 ///     slides: u - (u·n) n. Its length does not grow, x stays outward, and it stays a fall: y' = y n.x² - (x n.x) n.y,
 ///     where both terms are below zero.
-///  3. Steering that presses in (s·n < 0) does not change y: of all motions along the surface w is the one with the y of u,
+///  3. Steering that presses in (s·n < 0) does not change y: of all motions along the surface w is the one with the y
+///  of u,
 ///     (-y n.y / n.x, y). Where u entered that is u itself, slid. So y(t) on a steep slope is the same with the key
 ///     uphill and without a key, at any dt. (Had only the part of s along n gone, the rest would point up the slope,
 ///     and hold the character on a platform's corner for good. Were all of it gone, a character that turns around at a
@@ -37,6 +38,7 @@
 /// impacts.
 #pragma once
 
+#include "geometry/vectors.hpp"
 #include "step/half_planes.hpp"
 
 #include <paperproof/up_frame.hpp>
@@ -55,10 +57,7 @@ inline constexpr Scalar same_plane = std::numeric_limits<Scalar>::epsilon() * 16
 template <class Scalar>
 inline constexpr Scalar along_plane = std::numeric_limits<Scalar>::epsilon() * 64;
 
-template <class Scalar>
-[[nodiscard, gnu::always_inline]] inline Scalar dot(const Vec2<Scalar>& a, const Vec2<Scalar>& b) noexcept {
-  return a.x() * b.x() + a.y() * b.y();
-}
+using geometry::dot;
 
 /// Whether a motion goes into a plane that it touches, rather than along it.
 template <class Scalar>

@@ -1,4 +1,4 @@
-/// The length of a vector, with the same bits everywhere.
+/// Products and lengths of vectors, with the same bits everywhere.
 #pragma once
 
 #include <paperproof/types.hpp>
@@ -7,6 +7,16 @@
 #include <cmath>
 
 namespace paperproof::geometry {
+
+template <class Scalar>
+[[nodiscard, gnu::always_inline]] inline Scalar dot(const Vec2<Scalar>& a, const Vec2<Scalar>& b) noexcept {
+  return a.x() * b.x() + a.y() * b.y();
+}
+
+template <class Scalar>
+[[nodiscard, gnu::always_inline]] inline Scalar cross(const Vec2<Scalar>& a, const Vec2<Scalar>& b) noexcept {
+  return a.x() * b.y() - a.y() * b.x();
+}
 
 /// Length without overflow or underflow in the squares; only correctly rounded operations, so that its bits are the
 /// same everywhere (std::hypot is not).
