@@ -40,18 +40,20 @@ struct NamedTolerance {
 struct TraceHeader {
   std::string scene;
   std::string contender;
-  std::string scalar;             ///< "double" or "float"
-  std::string knob;               ///< As in a `Row`.
-  std::string mode = "free";      ///< "free" or "lockstep"
-  double dt = 0;                  ///< [s]; where the steps have lengths of their own it is only shown.
-  std::size_t characters = 1;     ///< Each has one record in every step, in order.
-  std::vector<Vec2d> points;      ///< Hull of the character, relative to its position [m], as run.
-  double max_climb_degrees = 50;  ///< Steepest ground that the character walks on, from the horizontal.
-  SceneryDef scenery;             ///< As run, world metres.
-  std::vector<std::string> ids;   ///< One per collider.
-  std::vector<bool> turning;      ///< By mover; empty where none turns.
-  std::string box2d;              ///< Version of the Box2D in use.
-  std::optional<Plan> plan;       ///< None for Box2D, which has none.
+  std::string scalar;          ///< "double" or "float"
+  std::string knob;            ///< As in a `Row`.
+  std::string mode = "free";   ///< "free" or "lockstep"
+  double dt = 0;               ///< [s]; where the steps have lengths of their own it is only shown.
+  std::size_t characters = 1;  ///< Each has one record in every step, in order.
+  std::vector<Vec2d> points;   ///< Hull of the character, relative to its position [m], as run.
+  /// Steepest ground that the character walks on, from the horizontal. NaN where up is not (0, 1): it is not written,
+  /// and a checker does not ask whether the character could have fallen.
+  double max_climb_degrees = 50;
+  SceneryDef scenery;            ///< As run, world metres.
+  std::vector<std::string> ids;  ///< One per collider.
+  std::vector<bool> turning;     ///< By mover; empty where none turns.
+  std::string box2d;             ///< Version of the Box2D in use.
+  std::optional<Plan> plan;      ///< None for Box2D, which has none.
   std::vector<NamedTolerance> tolerances;
   /// Box2D only: `path` holds sampled positions, and cuts under 20 mm are counted apart.
   bool path_exact = true;

@@ -36,7 +36,7 @@ ordered_json header_json(const TraceHeader& header) {
   object["dt"] = header.dt;
   if (header.characters > 1) object["characters"] = header.characters;
   object["points"] = points_json(header.points);
-  object["max_climb_degrees"] = header.max_climb_degrees;
+  if (!std::isnan(header.max_climb_degrees)) object["max_climb_degrees"] = header.max_climb_degrees;
   object["colliders"] = ordered_json::array();
   for (std::size_t i = 0; i < header.ids.size(); ++i)
     object["colliders"].push_back(collider_json(header.ids[i], header.scenery.colliders[i]));

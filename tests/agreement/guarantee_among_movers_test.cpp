@@ -3,6 +3,7 @@
 #include "agreement/random_movers.hpp"
 #include "agreement/recorded.hpp"
 #include "agreement/reported.hpp"
+#include "agreement/run_trace.hpp"
 #include "oracle/judge.hpp"
 #include "runs/mover_record.hpp"
 #include "support/random_sceneries.hpp"
@@ -13,6 +14,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <optional>
 #include <sstream>
 
 namespace paperproof::test {
@@ -101,6 +104,9 @@ class RandomRun {
     header.max_climb_degrees = controller_.character().max_climb_degrees;
     judge_.emplace(header);
     reported_.emplace(header.scenery, header.points, Tolerances<Scalar>{}.certain);
+    if (up_turns_) header.max_climb_degrees = std::numeric_limits<double>::quiet_NaN();
+    if (!std::is_same_v<Scalar, float>)
+      trace_.emplace(header, name_of(family_) + (up_turns_ ? "_movers_any_up_" : "_movers_") + std::to_string(seed_));
     Input input;
     for (int step = 0; step < 60; ++step) {
       if (random_.chance(0.1)) input.move = random_.integer(-1, 1);
@@ -187,6 +193,7 @@ class RandomRun {
     record.respawn = begins_anew_;
     begins_anew_ = false;
     const StepJudgement judgement = judge_->judge(record);
+    if (trace_) trace_->write(record, judge_->overlapped(record));
     count(record, judgement, tally);
     count_what_is_said(record, input.drop, tally);
     if (!rides && !up_turns_) count_fraction(record, judgement, tally);
@@ -335,6 +342,7 @@ class RandomRun {
   bool ends_ = false;
   bool up_turns_;  ///< Between the steps of the run, now and then.
   Vec2<Scalar> up_{0, 1};
+  std::optional<RunTrace> trace_;
 };
 
 class AmongMovers : public ::testing::TestWithParam<Family> {};

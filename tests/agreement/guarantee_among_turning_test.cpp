@@ -1,6 +1,7 @@
 /// The guarantee of octagon_sweep among what turns: planks, see-saws, wheels, presses and papers, in random play over
 /// ground that stands, judged exactly by the ways of their vertices.
 #include "agreement/recorded.hpp"
+#include "agreement/run_trace.hpp"
 #include "oracle/judge.hpp"
 #include "runs/level_ways.hpp"
 #include "support/random.hpp"
@@ -110,7 +111,8 @@ class RandomRun {
         scenery_(scenery()),
         level_(scenery_),
         controller_(level_, character()),
-        judge_(header()) {}
+        judge_(header()),
+        trace_(header(), name_of(family) + "_turning_" + std::to_string(seed)) {}
 
   void go(Tally& tally) {
     const double dt = random_.chance(0.8) ? 1.0 / 60 : random_.log_between(1e-3, 0.05);
@@ -265,6 +267,7 @@ class RandomRun {
     ASSERT_NE(report_.status, StepStatus::invalid_input);
     if (step_refused()) return;
     const StepJudgement judgement = judge_.judge(record);
+    trace_.write(record, judge_.overlapped(record));
     const int broken = tally.broken();
     count(record, judgement, tally);
     const bool is_late = judgement.turning_toi_error.value_or(0) > 0 && record.crushed.empty();
@@ -341,6 +344,7 @@ class RandomRun {
   Level level_;
   LevelController controller_;
   Judge judge_;
+  RunTrace trace_;
   CharacterState<double> state_;
   StepReport<double> report_;
   std::vector<PoseMotion> motions_;

@@ -2,6 +2,7 @@
 /// 1e6 m per step, origins up to 1e6 m and paper down to zero thickness; also with an up that turns.
 #include "agreement/recorded.hpp"
 #include "agreement/reported.hpp"
+#include "agreement/run_trace.hpp"
 #include "oracle/exact.hpp"
 #include "oracle/hanging.hpp"
 #include "support/random_sceneries.hpp"
@@ -12,6 +13,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+#include <optional>
 #include <sstream>
 
 namespace paperproof::test {
@@ -81,6 +84,9 @@ class RandomRun {
     if (up_turns_) turn_up();
     const double dt = random_.chance(0.7) ? 1.0 / 60 : random_.log_between(1e-4, 1);
     Input input;
+    compare::TraceHeader traced = header_;
+    if (up_turns_) traced.max_climb_degrees = std::numeric_limits<double>::quiet_NaN();
+    trace_.emplace(traced, name_of(family_) + (up_turns_ ? "_any_up_" : "_") + std::to_string(seed_));
     for (int step = 0; step < 40; ++step) {
       if (random_.chance(0.1)) input.move = random_.integer(-1, 1);
       if (random_.chance(0.1)) input.jump = !input.jump;
@@ -141,6 +147,7 @@ class RandomRun {
     tally.with_contact += !report_.move.contacts.empty();
     for (const Contact<double>& contact : report_.move.contacts) classify(contact.normal.dot(up_), tally);
     tally.passed_on_purpose += static_cast<int>(report_.dropped_through.size());
+    trace_->write(recorded<double>(report_, state_, {}), start_overlap);
     check_path(start_overlap, status);
     check_what_is_said(input.drop);
     check_progress(tally);
@@ -253,6 +260,7 @@ class RandomRun {
   StepReport<double> report_;
   bool up_turns_;  ///< Between the steps of the run, now and then.
   Vec2d up_{0, 1};
+  std::optional<RunTrace> trace_;
 };
 
 class Guarantee : public ::testing::TestWithParam<Family> {};
