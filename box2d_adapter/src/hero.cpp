@@ -173,7 +173,8 @@ struct Hero::Impl {
   [[nodiscard]] const b2Body* ground_body() const { return fixtures.body_of(state.ride.ground); }
 
   template <class Go>
-  StepStatus advance(double dt, const Go& go);
+  StepStatus advance(double dt, bool drops, const Go& go);
+  [[nodiscard]] std::vector<Vec2d> held_points(bool drops) const;
   void note_sensors_at(const Vec2d& position, bool at_end, double fraction);
   void note_sensors();
   [[nodiscard]] bool is_free_at_end(const Vec2d& position);
@@ -231,14 +232,24 @@ void Hero::Impl::change(const CharacterDef& character) {
   if (!same_shape) remake_fixture();
 }
 
+/// See `NearFixtures::begin_step`. `Input::drop` is for ledges alone: what the hero is in front of holds it. A hero
+/// that was just placed may begin in the ground: that lifts it, as in Box2D, if the middle of the hero is in front.
+std::vector<Vec2d> Hero::Impl::held_points(bool drops) const {
+  if (!state.has_last_free) return {state.position};
+  std::vector<Vec2d> corners;
+  if (!drops) return corners;
+  for (const Vec2d& corner : def.character.shape.hull()) corners.emplace_back(state.position + corner);
+  return corners;
+}
+
 template <class Go>
-StepStatus Hero::Impl::advance(double dt, const Go& go) {
+StepStatus Hero::Impl::advance(double dt, bool drops, const Go& go) {
   if (world->IsLocked() || !(dt > 0 && dt <= largest) || !gravity().allFinite() || !state.position.allFinite())
     return StepStatus::invalid_input;
   const CharacterState<double> before = state;
   const Vec2d body_velocity = widened(body->GetLinearVelocity());
   const Vec2d up = up_of(gravity());
-  fixtures.begin_step(def, up, dt);
+  fixtures.begin_step(def, up, dt, held_points(drops));
   take_impacts();
   const StepStatus status = go({.gravity = gravity(), .dt = dt, .up = up},
                                [this](const auto& box, auto& found) { fixtures.find(box, found); });
@@ -448,14 +459,14 @@ Hero& Hero::operator=(Hero&&) noexcept = default;
 
 StepStatus Hero::step(const Input& input, double dt) {
   Impl& hero = *impl_;
-  return hero.advance(dt, [&](const StepContext<double>& context, const LocalController::Find& find) {
+  return hero.advance(dt, input.drop, [&](const StepContext<double>& context, const LocalController::Find& find) {
     return hero.controller.step(hero.state, input, context, find, hero.report);
   });
 }
 
 StepStatus Hero::move(const Vec2d& displacement, double dt) {
   Impl& hero = *impl_;
-  return hero.advance(dt, [&](const StepContext<double>& context, const LocalController::Find& find) {
+  return hero.advance(dt, false, [&](const StepContext<double>& context, const LocalController::Find& find) {
     return hero.controller.move(hero.state, displacement, context, find, hero.report);
   });
 }

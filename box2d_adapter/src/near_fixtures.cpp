@@ -3,16 +3,16 @@
 #include "float_geometry.hpp"
 #include "shapes.hpp"
 
-#include <paperproof/box2d/world_scenery.hpp>
-
 #include <box2d/b2_body.h>
 #include <box2d/b2_chain_shape.h>
 #include <box2d/b2_circle_shape.h>
 #include <box2d/b2_edge_shape.h>
 #include <box2d/b2_polygon_shape.h>
 #include <box2d/b2_world.h>
+#include <box2d/b2_world_callbacks.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <map>
@@ -109,15 +109,34 @@ bool is_wheel(const b2Fixture& fixture) {
          static_cast<const b2CircleShape*>(fixture.GetShape())->m_p == b2Vec2_zero;
 }
 
-/// The runs of segments of a chain that are near a box.
+/// Whether two sets of points overlap where they are seen along a direction.
+bool overlap_across(const Vec2d& direction, std::span<const Vec2d> some, std::span<const Vec2d> others) {
+  const auto range_of = [&](std::span<const Vec2d> points) {
+    const auto place = [&](const Vec2d& point) { return point.dot(Vec2d(direction.y(), -direction.x())); };
+    const auto [least, most] = std::ranges::minmax_element(points, {}, place);
+    return std::pair(place(*least), place(*most));
+  };
+  const auto [least, most] = range_of(some);
+  const auto [other_least, other_most] = range_of(others);
+  return least <= other_most && other_least <= most;
+}
+
+/// The runs of segments of a chain that are near a box. Of a one-way chain those before and behind the box, too: they
+/// tell on which side a character is.
 std::vector<ColliderDef> cut_to(const Box2<double>& box, const ColliderDef& chain) {
+  const std::array corners{box.lower, Vec2d(box.upper.x(), box.lower.y()), box.upper,
+                           Vec2d(box.lower.x(), box.upper.y())};
+  const auto is_near = [&](std::span<const Vec2d> segment) {
+    if (chain.one_way) return overlap_across(*chain.one_way, corners, segment);
+    return box.overlaps(Box2<double>::around(segment));
+  };
   std::vector<ColliderDef> runs;
   bool goes_on = false;
   for (std::size_t i = 0; i + 1 < chain.points.size(); ++i) {
-    const bool near = box.overlaps(Box2<double>::around(std::span(chain.points).subspan(i, 2)));
+    const bool near = is_near(std::span(chain.points).subspan(i, 2));
     if (near && !goes_on) {
-      runs.push_back({.shape = ColliderDef::Shape::chain, .points = {chain.points[i]}});
-      runs.back().surface_speed = chain.surface_speed;
+      runs.push_back(chain);
+      runs.back().points = {chain.points[i]};
     }
     if (near) runs.back().points.push_back(chain.points[i + 1]);
     goes_on = near;
@@ -137,16 +156,17 @@ Vec2d place_of(const b2Body& body) {
 bool NearFixtures::Seen::operator==(const Seen& other) const noexcept {
   return body == other.body && shape == other.shape && geometry == other.geometry && place == other.place &&
          angle == other.angle && moves == other.moves && sensor == other.sensor && surface == other.surface &&
-         up == other.up && cut.lower == other.cut.lower && cut.upper == other.cut.upper;
+         one_way == other.one_way && cut.lower == other.cut.lower && cut.upper == other.cut.upper;
 }
 
-void NearFixtures::begin_step(const HeroDef& def, const Vec2d& up, double dt) {
+void NearFixtures::begin_step(const HeroDef& def, const Vec2d& up, double dt, std::vector<Vec2d> held) {
   def_ = &def;
   up_ = up;
   dt_ = dt;
+  held_ = std::move(held);
 }
 
-NearFixtures::Seen NearFixtures::seen(b2Fixture& fixture, const Box2<double>& box) const {
+NearFixtures::Seen NearFixtures::seen(b2Fixture& fixture, const Seen& before, const Box2<double>& box) const {
   const b2Body& body = *fixture.GetBody();
   Seen result{.body = &body,
               .shape = fixture.GetShape(),
@@ -159,12 +179,35 @@ NearFixtures::Seen NearFixtures::seen(b2Fixture& fixture, const Box2<double>& bo
     result.place = body.GetPosition();
     result.angle = body.GetAngle();
   }
-  if (def_->surface_of && !result.sensor) result.surface = def_->surface_of(fixture);
-  if (result.surface.blocks == Blocking::from_above) result.up = up_;
-  const bool is_long = fixture.GetType() == b2Shape::e_chain && !result.moves && !result.sensor &&
-                       result.surface.blocks == Blocking::from_everywhere;
-  if (is_long) result.cut = box;
+  if (result.sensor) return result;
+  if (def_->surface_of) result.surface = def_->surface_of(fixture);
+  result.up = up_;
+  if (result.surface.blocks == Blocking::from_above) result.one_way = up_;
+  if (result.surface.blocks == Blocking::as_in_box2d) {
+    result.front = front_of_fixture(fixture, result, before);
+    if (result.front && !is_held_by(fixture, *result.front)) result.one_way = result.front;
+  }
+  const bool is_long = fixture.GetType() == b2Shape::e_chain && !result.moves;
+  if (is_long && result.surface.blocks != Blocking::from_above) result.cut = box;
   return result;
+}
+
+/// Of what turns, or may tumble, none.
+std::optional<Vec2d> NearFixtures::front_of_fixture(const b2Fixture& fixture, const Seen& now,
+                                                    const Seen& before) const {
+  const b2Body& body = *now.body;
+  if (body.GetType() == b2_dynamicBody || (now.moves && body.GetAngularVelocity() != 0)) return std::nullopt;
+  const bool is_same = !now.moves && before.shape == now.shape && before.geometry == now.geometry &&
+                       before.angle == now.angle && before.up == now.up &&
+                       before.surface.blocks == Blocking::as_in_box2d && !before.moves && !before.sensor;
+  return is_same ? before.front : front_of(*fixture.GetShape(), body.GetTransform().q, up_);
+}
+
+/// Whether a one-sided fixture blocks from everywhere in this step.
+bool NearFixtures::is_held_by(const b2Fixture& fixture, const Vec2d& front) const {
+  if (held_.empty()) return false;
+  const ColliderDef chain = collider_of(*fixture.GetShape(), fixture.GetBody()->GetTransform());
+  return are_in_front(held_, chain.points, front);
 }
 
 void NearFixtures::search(const Box2<double>& box) {
@@ -175,13 +218,14 @@ void NearFixtures::search(const Box2<double>& box) {
   world_->QueryAABB(&collector, rounded_outwards(box));
   std::sort(hits_.begin(), hits_.end());  // a chain is found once for each of its segments
   hits_.erase(std::unique(hits_.begin(), hits_.end()), hits_.end());
-  const Filter filter = filter_of(*hero_->GetFixtureList());
+  b2ContactFilter* filter = world_->GetContactManager().m_contactFilter;
   std::vector<Near> changed;
   for (b2Fixture* fixture : hits_) {
-    if (fixture->GetBody() == hero_ || !collide(filter, filter_of(*fixture))) continue;
-    const Seen now = seen(*fixture, box);
-    if (now.surface.blocks == Blocking::not_at_all) continue;
+    if (fixture->GetBody() == hero_) continue;
+    if (filter != nullptr && !filter->ShouldCollide(hero_->GetFixtureList(), fixture)) continue;
     Known& known = known_[fixture];
+    const Seen now = seen(*fixture, known.seen, box);
+    if (now.surface.blocks == Blocking::not_at_all) continue;
     const bool is_other = known.version != 0 && (known.seen.body != now.body || known.seen.shape != now.shape);
     if (is_other) known = {};  // another one at the same address
     known.found = searches_;
@@ -213,10 +257,8 @@ void NearFixtures::define(Known& known) {
   ColliderDef whole = collider_of(*seen.shape, seen.moves ? at({0, 0}) : seen.body->GetTransform());
   whole.sensor = seen.sensor;
   whole.surface_speed = seen.surface.speed;
-  if (seen.surface.blocks == Blocking::from_above) {
-    if (whole.shape == ColliderDef::Shape::circle) whole = polygon_around(whole);
-    whole.one_way = seen.up;
-  }
+  if (seen.one_way && whole.shape == ColliderDef::Shape::circle) whole = polygon_around(whole);
+  whole.one_way = seen.one_way;
   const bool is_cut = !(seen.cut.lower == seen.cut.upper);
   std::vector<ColliderDef> defs = is_cut ? cut_to(seen.cut, whole) : std::vector{std::move(whole)};
   known.parts.resize(std::max(known.parts.size(), defs.size()));

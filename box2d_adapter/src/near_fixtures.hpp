@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,12 +27,14 @@ inline constexpr float hero_inset = 0.0035F;
 /// Reads fixtures anew in each step. What did not change keeps its id, its definition and its version.
 class NearFixtures {
  public:
-  NearFixtures(b2World& world, const b2Body& hero) noexcept : world_(&world), hero_(&hero) {}
+  NearFixtures(b2World& world, b2Body& hero) noexcept : world_(&world), hero_(&hero) {}
 
   /// Before the first `find` of a step.
   /// @param up the side from which ledges block.
   /// @param dt for the motion of a body that was not near in the last step.
-  void begin_step(const HeroDef& def, const Vec2d& up, double dt);
+  /// @param held a one-sided edge or chain blocks from everywhere in this step, if all these points are in front of it.
+  /// Without points none does.
+  void begin_step(const HeroDef& def, const Vec2d& up, double dt, std::vector<Vec2d> held = {});
   /// See `LocalController::Find`. Reads all fixtures in a box, and how their bodies moved since `note_poses`.
   void find(const Box2<double>& box, std::vector<NearCollider>& found);
   /// The same as the last `find` found.
@@ -71,8 +74,10 @@ class NearFixtures {
     bool moves = false;
     bool sensor = false;
     Surface surface;
-    Vec2d up{0, 1};    ///< Of a ledge; else always the same.
-    Box2<double> cut;  ///< To which a long chain is cut; else always the same.
+    Vec2d up{0, 1};                  ///< Of the hero.
+    std::optional<Vec2d> front{};    ///< Of a one-sided shape: see `front_of`.
+    std::optional<Vec2d> one_way{};  ///< The side from which alone it blocks.
+    Box2<double> cut;                ///< To which a long chain is cut; else always the same.
     bool operator==(const Seen& other) const noexcept;
   };
   struct Part {
@@ -94,7 +99,11 @@ class NearFixtures {
 
   void search(const Box2<double>& box);
   void add(const Near& near, std::vector<NearCollider>& found) const;
-  [[nodiscard]] Seen seen(b2Fixture& fixture, const Box2<double>& box) const;
+  /// @param before as the same fixture was seen last, or another one at its address.
+  [[nodiscard]] Seen seen(b2Fixture& fixture, const Seen& before, const Box2<double>& box) const;
+  [[nodiscard]] std::optional<Vec2d> front_of_fixture(const b2Fixture& fixture, const Seen& now,
+                                                      const Seen& before) const;
+  [[nodiscard]] bool is_held_by(const b2Fixture& fixture, const Vec2d& front) const;
   void define(Known& known);
   [[nodiscard]] std::map<b2Fixture*, Known>::const_iterator find_known(ColliderIndex id) const noexcept;
   [[nodiscard]] MoverIndex mover_of(const Near& near) const;
@@ -102,10 +111,11 @@ class NearFixtures {
   [[nodiscard]] BodyPose begin_of(const b2Body& body) const;
 
   b2World* world_;
-  const b2Body* hero_;
+  b2Body* hero_;
   const HeroDef* def_ = nullptr;
   Vec2d up_{0, 1};
   double dt_ = 0;
+  std::vector<Vec2d> held_;
   std::map<b2Fixture*, Known> known_;
   std::vector<b2Fixture*> hits_;
   std::vector<Near> near_;  ///< Found in the last search.

@@ -9,6 +9,7 @@
 #include <box2d/b2_edge_shape.h>
 #include <box2d/b2_polygon_shape.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -34,7 +35,42 @@ ColliderDef circle_of(const b2CircleShape& circle, const b2Transform& transform)
   return def;
 }
 
+/// The vertices of a one-sided shape; none of any other. Box2D's front is on the right of the way along them.
+std::vector<b2Vec2> one_sided_vertices(const b2Shape& shape) {
+  if (shape.GetType() == b2Shape::e_chain) {
+    const auto& chain = static_cast<const b2ChainShape&>(shape);
+    return {chain.m_vertices, chain.m_vertices + chain.m_count};
+  }
+  if (shape.GetType() != b2Shape::e_edge) return {};
+  const auto& edge = static_cast<const b2EdgeShape&>(shape);
+  return edge.m_oneSided ? std::vector{edge.m_vertex1, edge.m_vertex2} : std::vector<b2Vec2>{};
+}
+
+Vec2d right_of(const Vec2d& way) { return {way.y(), -way.x()}; }
+
 }  // namespace
+
+std::optional<Vec2d> front_of(const b2Shape& shape, const b2Rot& turn, const Vec2d& up) {
+  const std::vector<b2Vec2> vertices = one_sided_vertices(shape);
+  if (vertices.empty()) return std::nullopt;
+  for (const Vec2d& side : {up, Vec2d(-up), right_of(up), Vec2d(-right_of(up))}) {
+    const b2Vec2 in_body = b2MulT(turn, rounded(side));
+    const auto turns_away = [&](const b2Vec2& from, const b2Vec2& to) {
+      return !(right_of(widened(to) - widened(from)).dot(widened(in_body)) > 0);
+    };
+    if (std::adjacent_find(vertices.begin(), vertices.end(), turns_away) == vertices.end()) return side;
+  }
+  return std::nullopt;
+}
+
+bool are_in_front(std::span<const Vec2d> points, std::span<const Vec2d> chain, const Vec2d& front) {
+  const Vec2d along = -right_of(front);  // the chain has its front on the right, and so goes this way
+  return std::all_of(points.begin(), points.end(), [&](const Vec2d& point) {
+    std::size_t i = 1;
+    while (i + 1 < chain.size() && (point - chain[i]).dot(along) > 0) ++i;
+    return right_of(chain[i] - chain[i - 1]).dot(point - chain[i]) >= 0;
+  });
+}
 
 ColliderDef polygon_around(const ColliderDef& circle) {
   constexpr int corners = 32;

@@ -5,12 +5,25 @@
 
 #include <box2d/b2_math.h>
 
+#include <optional>
+#include <span>
+
 class b2Shape;
 
 namespace paperproof::box2d {
 
 /// A shape at a place, in world coordinates. An edge and a chain block from both sides.
 [[nodiscard]] ColliderDef collider_of(const b2Shape& shape, const b2Transform& transform);
+
+/// The side from which Box2D lets a one-sided edge or chain block: the first of `up`, down, right and left that each of
+/// its segments faces. Nothing for a shape that is not one-sided, and for one that faces none of them everywhere, as a
+/// loop.
+/// @param turn of its body.
+[[nodiscard]] std::optional<Vec2d> front_of(const b2Shape& shape, const b2Rot& turn, const Vec2d& up);
+
+/// Whether all points are in front of a chain, or on it. It faces `front` everywhere, and goes on straight at its ends.
+/// @param points not empty.
+[[nodiscard]] bool are_in_front(std::span<const Vec2d> points, std::span<const Vec2d> chain, const Vec2d& front);
 
 /// The polygon of 32 corners that encloses a circle, and reaches beyond it by 0.5 % of its radius: circles cannot be
 /// one-way.

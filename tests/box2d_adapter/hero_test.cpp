@@ -482,7 +482,7 @@ TEST(Hero, reads_a_chain_of_many_segments_only_near_it) {
   Game game({.position = {0, 3}});
   std::vector<b2Vec2> points;
   for (int i = 0; i <= 4000; ++i) {
-    const float x = static_cast<float>(i) * 0.25F - 500;
+    const float x = 500 - static_cast<float>(i) * 0.25F;
     points.emplace_back(x, std::sin(x));
   }
   b2ChainShape chain;
@@ -652,9 +652,9 @@ TEST(Hero, is_not_swept_along_by_a_body_that_took_the_address_of_another) {
 
 TEST(Hero, sees_a_chain_that_was_dug_in_place) {
   Game game({.position = {0, half_height + 1e-6}});
-  std::vector<b2Vec2> points{{-9, 0}, {-2, 0}, {-1, 0}, {1, 0}, {2, 0}, {9, 0}};
+  std::vector<b2Vec2> points{{9, 0}, {2, 0}, {1, 0}, {-1, 0}, {-2, 0}, {-9, 0}};
   b2ChainShape chain;
-  chain.CreateChain(points.data(), static_cast<int>(points.size()), {-10, 0}, {10, 0});
+  chain.CreateChain(points.data(), static_cast<int>(points.size()), {10, 0}, {-10, 0});
   b2BodyDef def;
   b2Body* ground = game.world.CreateBody(&def);
   b2Fixture* fixture = ground->CreateFixture(&chain, 0);
@@ -728,9 +728,9 @@ TEST(Hero, is_stopped_by_a_lift_that_became_static) {
 
 TEST(Hero, is_carried_by_a_chain_that_is_a_conveyor) {
   Game game({.position = {0, half_height + 1e-6}, .surface_of = [](b2Fixture&) { return Surface{.speed = 1.5}; }});
-  const std::vector<b2Vec2> points{{-9, 0}, {-2, 0}, {2, 0}, {9, 0}};
+  const std::vector<b2Vec2> points{{9, 0}, {2, 0}, {-2, 0}, {-9, 0}};
   b2ChainShape chain;
-  chain.CreateChain(points.data(), static_cast<int>(points.size()), {-10, 0}, {10, 0});
+  chain.CreateChain(points.data(), static_cast<int>(points.size()), {10, 0}, {-10, 0});
   b2BodyDef def;
   game.world.CreateBody(&def)->CreateFixture(&chain, 0);
   game.run(10);

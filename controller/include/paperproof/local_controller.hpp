@@ -50,16 +50,16 @@ struct TurnedCollider {
 /// **What turns.** A step among movers that turn consists of 1, 2, 4, ... or 32 shorter steps, so many that nothing
 /// near the character is turned by more than `most_turned` at once. Each begins with a millionth of its time in which
 /// each mover turns by its angle about the corner of the character that will be nearest to it, or about its own corner
-/// beneath that one, every vertex on a straight line, while everything else stands. If it comes to overlap the character, the character goes straight to the nearest free
-/// position meanwhile. Then all movers go straight to their places. So what is near the character turns under its foot,
-/// and `turned()` gives every vertex at all times.
+/// beneath that one, every vertex on a straight line, while everything else stands. If it comes to overlap the
+/// character, the character goes straight to the nearest free position meanwhile. Then all movers go straight to their
+/// places. So what is near the character turns under its foot, and `turned()` gives every vertex at all times.
 ///
 /// A circle does not turn in this sense: its centre goes straight, and its surface carries like a conveyor.
 ///
 /// That the character's way is clear of what turns is proved for each step. Where no number of parts has a proof, the
-/// character goes straight to a free position, or stays in place, and what reaches it crushes it. Among movers that turn, gravity acts in each of the
-/// shorter steps; the report says what was requested as if the first of them were the whole. One-way colliders that
-/// turn are not proved.
+/// character goes straight to a free position, or stays in place, and what reaches it crushes it. Among movers that
+/// turn, gravity acts in each of the shorter steps; the report says what was requested as if the first of them were the
+/// whole. One-way colliders that turn are not proved.
 ///
 /// Not thread-safe.
 class LocalController {

@@ -19,6 +19,10 @@ namespace paperproof::box2d {
 
 /// From where a fixture blocks a hero.
 enum class Blocking : std::uint8_t {
+  /// A one-sided edge or chain from its front, if all of it faces up, down, left or right, as the hero sees it, and its
+  /// body
+  /// is static, or kinematic and does not turn. Anything else from everywhere. `Input::drop` changes nothing.
+  as_in_box2d,
   from_everywhere,
   from_above,  ///< A ledge: the hero jumps up through it and lands on it. `Input::drop` lets the hero fall through.
   not_at_all,
@@ -26,7 +30,7 @@ enum class Blocking : std::uint8_t {
 
 /// What a fixture is for a hero.
 struct Surface {
-  Blocking blocks = Blocking::from_everywhere;
+  Blocking blocks = Blocking::as_in_box2d;
   double speed = 0;  ///< Of a conveyor, to the right for a positive speed [m/s].
   friend bool operator==(const Surface&, const Surface&) = default;
 };
@@ -34,7 +38,7 @@ struct Surface {
 struct HeroDef {
   CharacterDef character{};
   Vec2d position{Vec2d::Zero()};  ///< Of the origin of the character's shape, within 1e6 m [m].
-  b2Filter filter{};              ///< Of the hero's fixture: with which fixtures it collides.
+  b2Filter filter{};              ///< Of the hero's fixture.
   /// With which it pushes dynamic bodies, weighs on them, and takes their impacts [kg]; from 1e-6 to 1e9. Absent: that
   /// of its shape, of density 1.
   std::optional<double> mass{};
@@ -98,9 +102,12 @@ struct HeroSave {
 /// - Static bodies stand. Kinematic and dynamic bodies move from where they were in the hero's last step to where they
 ///   are now, and carry, push and crush it on this way. A body that went half a metre farther than its velocity
 ///   explains was put there by the game.
-/// - A body that turns does so at the beginning of the step, or of several shorter ones: see `LocalController`. Each step proves that nothing passes through the hero, and names what crushed it.
+/// - A body that turns does so at the beginning of the step, or of several shorter ones: see `LocalController`. Each
+/// step proves that nothing passes through the hero, and names what crushed it.
 /// - Polygons, edges, chains and circles are exact, without Box2D's skin; a circle that is a ledge is a polygon of 32
-///   corners around it. Edges and chains block from both sides, unless `HeroDef::surface_of` says otherwise.
+///   corners around it.
+/// - The game's `b2ContactFilter` decides with which fixtures the hero collides. Without one Box2D's own does, by
+///   categories, masks and groups.
 ///
 /// The world has a dynamic body for the hero, of the same shape and without gravity, friction and restitution. Box2D
 /// reports contacts of its fixture to the game's listener, also with static bodies and sensors, as for each dynamic

@@ -27,8 +27,7 @@ struct WorldSceneryDef {
 ///
 /// - A polygon becomes a polygon of the same corners in world coordinates (Box2D's skin of 1 cm is not part of it).
 /// - An edge or a chain becomes a chain, a loop a closed one. It blocks from both sides, also where Box2D's is
-///   one-sided: a loop blocks as it does in Box2D from the side that faces the game, and what is behind it is out of
-///   reach.
+///   one-sided: give the collider a `one_way` where characters shall come through from behind.
 /// - A circle becomes exactly that circle.
 /// - Category, mask and group of a fixture are those of its collider: see `filter_of`.
 ///
