@@ -43,10 +43,15 @@ namespace paperproof::compare {
       continue;
     }
     const PoseMotion& motion = motions[def.mover];
-    all.push_back({i,
-                   {0, 1},
-                   {placed_vertices(def, motion.from.position, motion.from.angle),
-                    placed_vertices(def, motion.to.position, motion.to.angle)}});
+    const bool is_turned_circle =
+        def.shape == ColliderDef::Shape::circle && (motion.from.angle != 0 || motion.to.angle != 0);
+    const auto vertices_at = [&](const Pose& pose) {
+      std::vector<Vec2d> vertices = placed_vertices(def, pose.position, pose.angle);
+      // The controller moves the centre of a circle by an offset: rounding tells this from the place.
+      if (is_turned_circle) vertices[0] = Vec2d(vertices[0] - def.points[0]) + def.points[0];
+      return vertices;
+    };
+    all.push_back({i, {0, 1}, {vertices_at(motion.from), vertices_at(motion.to)}});
   }
   return all;
 }

@@ -17,10 +17,12 @@ For octagon_sweep in double, which promises more, also:
 - every contact is as it says at one corner of the way that is no later than its fraction: there its point lies on the
   collider and on the character, to 1e-6 m, and the gap between the two along its normal is its separation, above 0 and
   at most 1e-6 m; it may be 0 where the scene put the character so, and neither of the two has moved since;
-- the fraction of the first contact is the time of impact of the exact motion, to 1e-6 m along the normal;
+- the fraction of the first contact is the time of impact of the exact motion, to 1e-6 m along the normal; not that of a
+  contact at the end of a leg that follows the ground down, which takes no time;
 - the sensors' events are those of the way, in order, with fractions that are right to 1e-6 m along it;
 - no step hangs: what is wanted, less what the step's steering added, may lead down beside all that is within 1e-6 m of a
-  corner of the way, and the step falls less than half of that (trace_hanging.py; not looked at beside what turns);
+  corner of the way, and the step falls less than half of that (trace_hanging.py; not looked at beside what turns, nor in a
+  step that begins inside a solid);
 - two characters that met say so both, with opposite normals and the same fraction, and come to within 1e-6 m along them;
   where both had met nothing before, the fraction is the time of impact of their requested motions, as above.
 
@@ -363,13 +365,14 @@ class Checker:
             return all(float(min(a[k], b[k])) <= float(place[k]) + self.high[k] + reach and
                        float(max(a[k], b[k])) >= float(place[k]) + self.low[k] - reach for k in (0, 1))
 
-        def blocks(collider, edge, place):
+        def blocks(collider, edge, places):
+            """A one-way chain blocks from the corner, or from where the leg began that ended there."""
             if collider.one_way is None:
                 return True
-            body = [add(place, corner) for corner in self.body]
-            return any(set(edge) == set(held) for held in collider.blocking_edges(body))
+            bodies = [[add(place, corner) for corner in self.body] for place in places]
+            return any(set(edge) == set(held) for body in bodies for held in collider.blocking_edges(body))
 
-        def edges(corner):
+        def edges(corner, before):
             for name, collider in self.colliders.items():
                 if collider.sensor or name in step.get("drop", []):
                     continue
@@ -380,7 +383,7 @@ class Checker:
                         yield tuple(add(end, offset) for end in self.tangent(collider, place)), moved
                     continue
                 for edge in collider.edges:
-                    if is_near(*edge, place) and blocks(collider, edge, place):
+                    if is_near(*edge, place) and blocks(collider, edge, (place, motion.seen(name, before))):
                         yield tuple(add(end, offset) for end in edge), moved
             for other in others:
                 way = exact(other["path"])
@@ -404,7 +407,7 @@ class Checker:
         """Of octagon_sweep, which promises to fall where it can."""
         motion, path = Motion(step, self.colliders), exact(step["path"])
         told = "steered" in step and self.max_climb is not None and not step.get("crush")
-        if not self.promises or not told or motion.ways:
+        if not self.promises or not told or motion.ways or step["start_overlap"]:
             return
         if hangs(step, path, self.body, self.edges_near(step, motion, others), self.max_climb):
             yield "hangs: it could have fallen"
@@ -470,7 +473,9 @@ class Checker:
         # Who met another before, or what turns, may have been turned aside; who is stuck does not go as requested.
         first = contacts and contacts[0]["fraction"] == first_event(step) and not meets_at_once(contacts[0], step)
         in_parts = any(len(way.instants) > 2 for way in motion.ways.values())  # so goes the character near what turns
-        if first and not in_parts and not step["start_overlap"] and not step.get("crush") and not step.get("stuck"):
+        # A last leg without time follows the ground down: its contact is none of the requested motion.
+        follows = path[-1][2] == path[-2][2] == 1 and first and contacts[0]["fraction"] == 1
+        if first and not in_parts and not follows and not step["start_overlap"] and not step.get("crush") and not step.get("stuck"):
             requested = tuple(map(Fraction, step["requested"]))
             yield from self.check_impact(contacts[0], path[0], requested, motion)
         yield from self.check_sensors(step, path, motion)

@@ -70,7 +70,8 @@ def nearest_free(wanted, obstacles):
 def hangs(step, path, body, edges_near, max_climb_degrees):
     """Whether the step could have fallen, and fell less than half of that.
 
-    `edges_near(corner)` yields (edge, displacement of it in the step) of all that may hold a character at that corner."""
+    `edges_near(corner, before)` yields (edge, displacement of it in the step) of all that may hold a character at that corner,
+    to which it came from the corner before."""
     wanted = (float(step["requested"][0]) - float(step["steered"]), float(step["requested"][1]))
     fell = float(path[0][1] - path[-1][1])
     largest = max(abs(float(x)) for x in path[0][:2])
@@ -79,9 +80,9 @@ def hangs(step, path, body, edges_near, max_climb_degrees):
         return False
     ground = cos(radians(max_climb_degrees) + CLIMB_MARGIN)
     obstacles = []
-    for corner in path:
+    for before, corner in zip([path[0], *path], path):
         there = [add(corner[:2], point) for point in body]
-        for edge, moved in edges_near(corner):
+        for edge, moved in edges_near(corner, before):
             planes = planes_beside(there, edge, moved)
             if planes[0].gap > GAP:
                 continue
