@@ -70,6 +70,21 @@ template <class Scalar>
   return upwards;
 }
 
+/// The upward speed of a walker that brakes or turns round on a slope: the climb slows with the walk. The walker would
+/// leave the ground with the speed of its climb otherwise. A rise that is steeper than walkable ground is no climb, nor
+/// is the speed of ground that moved and is gone.
+/// @param walk speed of the walk from now on.
+template <class Scalar>
+[[gnu::cold, gnu::noinline]] Scalar slowed_climb(const CharacterDef& character, const CharacterState<Scalar>& state,
+                                                 Scalar walk) noexcept {
+  const Vec2<Scalar>& before = state.velocity;
+  const Scalar cosine = character.walkable_cosine<Scalar>();
+  const Scalar steepest = std::sqrt(1 - cosine * cosine) / cosine;
+  const bool is_left = state.ride.ground == Ride<Scalar>::none && !state.ground.velocity.isZero(0);
+  if (is_left || !(before.y() <= std::abs(before.x()) * steepest)) return before.y();
+  return before.y() * std::max(walk / before.x(), Scalar(0));
+}
+
 /// Counted from the first step that begins in the air.
 template <class Scalar>
 void count_down_coyote(const CharacterDef& character, Scalar dt, CharacterState<Scalar>& state) noexcept {
@@ -88,6 +103,8 @@ template <class Scalar>
   Scalar x = input.move ? steered(character, state, *input.move, dt) : state.velocity.x();
   const Scalar change = x - state.velocity.x();
   Scalar y = state.velocity.y();
+  if (change * state.velocity.x() < 0 && state.grounded && y > 0) [[unlikely]]
+    y = slowed_climb(character, state, x);
   if (input.jump != state.jump_held || state.jump_pending) [[unlikely]]
     y = use_button(character, input, wall_ahead, dt, state, y);
   count_down_coyote(character, dt, state);
@@ -130,14 +147,6 @@ class Undo {
   Scalar coyote_left_;
   Scalar pending_left_;
 };
-
-/// Other characters use the scratch next: the report keeps only its own memory.
-template <class Scalar>
-void leave_scratch(MoveResult<Scalar>& move) noexcept {
-  move.path.keep_own();
-  move.contacts.keep_own();
-  move.crushed.keep_own();
-}
 
 /// Number of characters that a thread takes at a time. One: threads wait for each other's counter. Many: one of them
 /// ends late.
@@ -366,7 +375,7 @@ BatchStatus Controller<Scalar>::step_all(std::span<CharacterState<Scalar>> state
     for (std::size_t first = next.fetch_add(taken_at_once); first < count; first = next.fetch_add(taken_at_once))
       for (std::size_t i = first; i < std::min(count, first + taken_at_once); ++i) {
         step(states[i], inputs[i], context, scratch, reports[i]);
-        leave_scratch(reports[i].move);
+        reports[i].move.keep_own();  // other characters use the scratch next
       }
   });
   return BatchStatus::stepped;

@@ -82,22 +82,6 @@ template <class Maker>
   return StepStatus::moved;
 }
 
-/// Nothing moved.
-[[nodiscard]] inline bool is_refused(StepStatus status) noexcept {
-  switch (status) {
-    case StepStatus::moved:
-    case StepStatus::dropped:
-    case StepStatus::stuck:
-    case StepStatus::crushed:
-      return false;
-    case StepStatus::out_of_range:
-    case StepStatus::refused:
-    case StepStatus::invalid_input:
-      break;
-  }
-  return true;
-}
-
 template <class Scalar>
 [[nodiscard]] bool touches(const MoveResult<Scalar>& move, Side side) noexcept {
   return std::any_of(move.contacts.begin(), move.contacts.end(),

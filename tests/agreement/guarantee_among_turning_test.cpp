@@ -69,13 +69,14 @@ struct Tally {
   int crushed = 0;
   int stuck = 0;
   int dropped = 0;
-  int near = 0;           ///< With ways of more than one chord: something near turned.
-  int overlaps = 0;       ///< Ended inside what they did not begin in, and what did not crush.
-  int passages = 0;       ///< Passed a solid.
-  int undecided = 0;      ///< Came too near to tell.
-  int gaps = 0;           ///< Left more than the guaranteed gap at a contact.
-  int room = 0;           ///< Were crushed where there was room.
-  int unsound = 0;        ///< Were not finite, or did not end where they said, or inside what they did not name.
+  int near = 0;       ///< With ways of more than one chord: something near turned.
+  int overlaps = 0;   ///< Ended inside what they did not begin in, and what did not crush.
+  int passages = 0;   ///< Passed a solid.
+  int undecided = 0;  ///< Came too near to tell.
+  int gaps = 0;       ///< Left more than the guaranteed gap at a contact.
+  int room = 0;       ///< Were crushed where there was room.
+  /// Were not finite, or did not end where they said, or inside what they did not name, or stuck and free.
+  int unsound = 0;
   int stuck_refuted = 0;  ///< Said that they are stuck, and there was a straight way out.
   int described = 0;
   double worst_fraction = 0;  ///< Of a contact that begins: error of its time of impact [steps].
@@ -297,7 +298,9 @@ class RandomRun {
         judgement.end_overlap.empty() || report_.status == StepStatus::stuck || report_.status == StepStatus::crushed;
     const bool ends = record.path.back().fraction == 1 && record.path.back().position == state_.position;
     const bool kept = !report_.move.path.overflowed() && !report_.move.crushed.overflowed();
-    tally.unsound += !(named && ends && kept && state_.position.allFinite() && state_.velocity.allFinite());
+    const bool is_inside = !record.stuck || !judgement.end_overlap.empty();
+    tally.unsound +=
+        !(named && is_inside && ends && kept && state_.position.allFinite() && state_.velocity.allFinite());
     const bool near = std::all_of(record.contacts.begin(), record.contacts.end(),
                                   [](const Contact<double>& contact) { return contact.separation <= contact_reach; });
     const bool free = record.crushed.empty() && judgement.end_overlap.empty();

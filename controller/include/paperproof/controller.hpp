@@ -42,8 +42,9 @@ struct StepContext {
 
 /// Computes the velocity that a character wants in this step, before any obstacle changes it, and updates the jump
 /// flags. Up is (0, 1). Common to every contender, the Box2D twin included: horizontal speed approaches `move *
-/// walk_speed`; a jump that is allowed sets the upward speed once; then gravity, with the fall speed limited
-/// (semi-implicit Euler: the displacement of the step is this velocity times dt).
+/// walk_speed`; on the ground a climb that is not steeper than walkable ground slows with it; a jump that is allowed
+/// sets the upward speed once; then gravity, with the fall speed limited (semi-implicit Euler: the displacement of the
+/// step is this velocity times dt).
 /// @param state its flags `jump_held`, `jump_pending`, `jumping`, `grounded` are updated; position and velocity are
 /// not.
 template <class Scalar>
@@ -63,6 +64,22 @@ enum class StepStatus : std::uint8_t {
   /// is no unit vector, scratch memory that another controller made. Nothing changed at all.
   invalid_input,
 };
+
+/// Whether a step was refused: nothing moved.
+[[nodiscard]] inline bool is_refused(StepStatus status) noexcept {
+  switch (status) {
+    case StepStatus::moved:
+    case StepStatus::dropped:
+    case StepStatus::stuck:
+    case StepStatus::crushed:
+      return false;
+    case StepStatus::out_of_range:
+    case StepStatus::refused:
+    case StepStatus::invalid_input:
+      break;
+  }
+  return true;
+}
 
 /// Outcome of a call that steps many characters.
 enum class BatchStatus : std::uint8_t {

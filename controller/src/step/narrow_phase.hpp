@@ -33,7 +33,7 @@ struct Motion {
   Vec2<Scalar> lost;             ///< What `from` lost when the offset of the piece's mover was taken from it [m].
   /// The bent one-way surface that was asked for last, and the answer: its pieces come one after the other.
   mutable typename OneWaySurfaces<Scalar>::Index known_surface;
-  mutable bool above_known_surface;
+  mutable bool above_known_surface = false;
 
   [[nodiscard]] Box2<Scalar> box() const noexcept {
     const Vec2<Scalar> to = from + extended;

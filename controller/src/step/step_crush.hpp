@@ -152,7 +152,8 @@ bool StepSolver<Lanes, Scalar, Up>::leaves_overlapping_movers(const MoveRequest<
 /// Displacement of the mover of a collider in the step [m].
 template <std::size_t Lanes, class Scalar, class Up>
 Vec2<Scalar> StepSolver<Lanes, Scalar, Up>::displacement_of(ColliderIndex collider) const noexcept {
-  return movers_.displacement(mover_of_collider(collider));
+  const MoverIndex mover = mover_of_collider(collider);
+  return mover == no_mover ? V(V::Zero()) : movers_.displacement(mover);
 }
 
 /// @param now its displacement is that at the end of the step.

@@ -59,8 +59,8 @@ Vec2<Scalar> StepSolver<Lanes, Scalar, Up>::ground_rest(PieceIndex piece, const 
   return rest;
 }
 
-/// What carries the character where it is now: the collider that it rides already, or, where it does not stand on
-/// anything else, what is steepest up of the others.
+/// The surface that carries the character here: of the collider that it rides already, or, where it does not stand on
+/// anything else, the one of the others whose normal points up most.
 template <std::size_t Lanes, class Scalar, class Up>
 std::optional<TouchedSurface<Scalar>> StepSolver<Lanes, Scalar, Up>::carrier_here(ColliderIndex ridden,
                                                                                   bool walkable_only) noexcept {

@@ -54,7 +54,7 @@ void StepSolver<Lanes, Scalar, Up>::solve(Part part, const MoveRequest<Scalar>& 
     if (movers_.active) end_ride();
   }
   if (!memory_.marked.empty()) find_movers_that_still_overlap();
-  if (result_.contacts.size() > 1) order_contacts();
+  if (result_.contacts.size() > 1) order_contacts(wanted);
   push_corner(1);
   result_.position = position_;
   result_.velocity = velocity_;

@@ -134,7 +134,7 @@ class StepSolver {
   [[gnu::flatten]] void report(Scalar begin) noexcept;
   [[gnu::cold, gnu::noinline]] void report_more(Scalar begin, std::size_t this_moment) noexcept;
   void report_contact(PieceIndex piece, std::size_t axis, Scalar fraction, std::size_t this_moment) noexcept;
-  [[gnu::cold, gnu::noinline]] void order_contacts() noexcept;
+  [[gnu::cold, gnu::noinline]] void order_contacts(const V& wanted) noexcept;
   void note_reported() noexcept;
   [[gnu::cold, gnu::noinline]] void report_touched(PieceIndex piece) noexcept;
   [[nodiscard]] Scalar fraction_of(const Stop<Scalar>& stop, Scalar begin) noexcept;

@@ -247,11 +247,22 @@ void StepSolver<Lanes, Scalar, Up>::report_more(Scalar begin, std::size_t this_m
   }
 }
 
-/// Puts the contacts in order of fraction.
+/// Puts the contacts in order of fraction. What the wanted motion does not run into was met because contacts before it
+/// turned that motion: it did not come earlier than they did.
+/// @param wanted in the step.
 template <std::size_t Lanes, class Scalar, class Up>
-void StepSolver<Lanes, Scalar, Up>::order_contacts() noexcept {
-  std::sort(result_.contacts.begin(), result_.contacts.end(),
-            [](const Contact<Scalar>& a, const Contact<Scalar>& b) { return a.fraction < b.fraction; });
+void StepSolver<Lanes, Scalar, Up>::order_contacts(const V& wanted) noexcept {
+  const auto begin = result_.contacts.begin();
+  Scalar latest = 0;
+  for (auto contact = begin; contact != result_.contacts.end(); ++contact) {
+    if (dot(V(wanted - displacement_of(contact->collider)), contact->normal) >= 0)
+      contact->fraction = std::max(contact->fraction, latest);
+    latest = std::max(latest, contact->fraction);
+    const auto place =
+        std::upper_bound(begin, contact, contact->fraction,
+                         [](Scalar fraction, const Contact<Scalar>& other) { return fraction < other.fraction; });
+    std::rotate(place, contact, contact + 1);
+  }
 }
 
 /// Reports a contact with a piece that is touched now.
