@@ -691,6 +691,22 @@ TEST(LevelTurning, a_plank_that_closes_on_the_floor_flings_nobody) {
   }
 }
 
+/// The id of the ground was taken for an index of what is near: memory beyond it was read.
+TEST(LevelStep, that_is_refused_changes_nothing_however_large_the_id_of_its_ground) {
+  Level level;
+  for (int i = 0; i < 20'000; ++i) level.add(box(i, -1, i + 1, 0));
+  LevelController controller(level, {});
+  CharacterState<double> state;
+  state.position = {19'900.5, 0.7};
+  StepReport<double> report;
+  const LevelContext context{.gravity = {0, -20}, .dt = frame};
+  for (int i = 0; i < 30; ++i) controller.step(state, {.move = 0.0}, context, report);
+  ASSERT_GT(state.ground.collider, 10'000U);
+  const CharacterState<double> before = state;
+  EXPECT_EQ(controller.move(state, {3e6, 0}, context, report), StepStatus::out_of_range);
+  EXPECT_EQ(state, before);
+}
+
 TEST(LevelEdits, colliders_at_one_place_have_an_order_of_their_own) {
   ColliderDef right = box(-10, -1, 10, 0);
   right.surface_speed = 2;

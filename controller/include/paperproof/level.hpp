@@ -28,7 +28,7 @@ class Level {
   explicit Level(const SceneryDef& def);
 
   /// @param def its `mover` is the index of a pose in `LevelContext::movers`, and may be any number below 65,536.
-  /// @throws InvalidScenery as `Scenery`; std::length_error for more than 2^24 colliders. Nothing changed then.
+  /// @throws InvalidScenery as `Scenery`; std::length_error for more than 2^24 - 1 colliders. Nothing changed then.
   ColliderIndex add(const ColliderDef& def);
   /// Gives a collider another definition. It keeps its id, so a character keeps riding on it.
   /// @return false if there is no collider of this id. @throws InvalidScenery as `add`.

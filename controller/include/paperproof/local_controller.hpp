@@ -49,10 +49,11 @@ struct TurnedCollider {
 ///
 /// **What turns.** A step among movers that turn consists of 1, 2, 4, ... or 32 shorter steps, so many that nothing
 /// near the character is turned by more than `most_turned` at once. Each begins with a millionth of its time in which
-/// each mover turns by its angle about the corner of the character that will be nearest to it, or about its own corner
-/// beneath that one, every vertex on a straight line, while everything else stands. If it comes to overlap the
-/// character, the character goes straight to the nearest free position meanwhile. Then all movers go straight to their
-/// places. So what is near the character turns under its foot, and `turned()` gives every vertex at all times.
+/// each mover turns by its angle about a pivot, every vertex on a straight line, while everything else stands. The
+/// pivot is the corner of the character that will be nearest to the mover, or a corner of the mover beneath it. If it
+/// comes to overlap the character, the character goes straight to the nearest free position meanwhile. Then all movers
+/// go straight to their places. So what is near the character turns under its foot, and `turned()` gives every vertex
+/// at all times.
 ///
 /// A circle does not turn in this sense: its centre goes straight, and its surface carries like a conveyor.
 ///
@@ -91,7 +92,11 @@ class LocalController {
 
   /// What moved near the character in the last step; empty where nothing near it turned. Valid until the next call.
   [[nodiscard]] std::span<const TurnedCollider> turned() const noexcept;
-  /// Colliders near the character that no scenery can be made of, as they have no extent. Valid until the next call.
+  /// The box in which colliders were looked for last: while a step needs no more, the next one looks there again. Where
+  /// a `Find` misses what only passes through the box, it decides what is found: a roll-back puts it back.
+  [[nodiscard]] const Box2<double>& reach() const noexcept;
+  void set_reach(const Box2<double>& box) noexcept;
+  /// Colliders near the character that no scenery can be made of: see `InvalidScenery`. Valid until the next call.
   [[nodiscard]] std::span<const ColliderIndex> unusable() const noexcept;
   [[nodiscard]] const CharacterDef& character() const noexcept;
 

@@ -23,8 +23,8 @@ struct SavedState {
 };
 
 static_assert(std::is_trivially_copyable_v<SavedState<double>> && std::is_trivially_copyable_v<SavedState<float>>);
-static_assert(sizeof(SavedState<double>) == 8 * SavedState<double>::scalars + 4 * SavedState<double>::integers +
-                                                SavedState<double>::flags);
+static_assert(sizeof(SavedState<double>) ==
+              8 * SavedState<double>::scalars + 4 * SavedState<double>::integers + SavedState<double>::flags);
 
 template <class Scalar>
 [[nodiscard]] SavedState<Scalar> save(const CharacterState<Scalar>& state) noexcept;

@@ -127,6 +127,12 @@ struct MoveResult {
   ReportVector<ColliderIndex, max_crushed> crushed;
   Crushers<Scalar> crushers;  ///< See `CharacterState::crushers`.
 
+  /// Gives up what is in borrowed memory, of a scratch for example: its owner uses it again, or goes.
+  void keep_own() noexcept {
+    path.keep_own();
+    contacts.keep_own();
+    crushed.keep_own();
+  }
   [[gnu::always_inline]] void clear() noexcept {
     status = MoveStatus::moved;
     technique_memory.setZero();

@@ -18,8 +18,8 @@ using Vec2 = Eigen::Matrix<Scalar, 2, 1, Eigen::DontAlign>;
 using Vec2d = Vec2<double>;
 using Vec2f = Vec2<float>;
 
-/// Position of a collider in `SceneryDef::colliders`. A collider is what a user placed: one polygon, chain or
-/// circle.
+/// Position of a collider in `SceneryDef::colliders`, or its id in a `Level` or of a `NearCollider`. A collider is what
+/// a user placed: one polygon, chain or circle.
 using ColliderIndex = std::uint32_t;
 
 /// Position of a convex piece in `Scenery::pieces()`. A collider has one or more pieces.
@@ -107,6 +107,8 @@ class FixedVector {
     std::construct_at(items_.data() + size_++, value);
     return true;
   }
+  /// Elements that belong here were refused elsewhere, if `lost`.
+  void note_overflow(bool lost) noexcept { overflowed_ = overflowed_ || lost; }
   void clear() noexcept {
     size_ = 0;
     overflowed_ = false;

@@ -88,7 +88,7 @@ void carry(Crusher<double>& crusher, const Pose& from, const Pose& to) {
   crusher.displacement = there - crusher.last_free;
 }
 
-/// How bad a status is: that of a step is the worst of its parts.
+/// How bad a status is: that of a step is the worst of its parts; but a step is stuck only if it ends so.
 int rank(MoveStatus status) noexcept {
   constexpr std::array order{MoveStatus::moved, MoveStatus::dropped, MoveStatus::stuck, MoveStatus::crushed};
   return static_cast<int>(std::find(order.begin(), order.end(), status) - order.begin());
@@ -226,7 +226,7 @@ StepStatus LocalController::Impl::advance(CharacterState<double>& state, const S
     state = before;
     const StepStatus status = scenery.any_turns() ? step_among_turning(state, context, report, go)
                                                   : step_straight(state, context, report, go);
-    if (step_parts::is_refused(status)) {
+    if (is_refused(status)) {
       state = before;
       return status;
     }
@@ -251,8 +251,9 @@ StepStatus LocalController::Impl::step_straight(CharacterState<double>& state, c
       go(scenery.controller(), state, scenery.context(context, motions), 1.0, scenery.scratch(), report);
   if (status == StepStatus::invalid_input) return status;
   scenery.to_ids(report);
+  if (is_refused(status)) return status;
   scenery.to_ids(state);
-  if (!step_parts::is_refused(status)) note_turned_sensors({0, 1, motions}, from, context.filter, report);
+  note_turned_sensors({0, 1, motions}, from, context.filter, report);
   return status;
 }
 
@@ -497,6 +498,7 @@ void LocalController::Impl::note_turned_sensors(const StepPart& part, const Vec2
     if (before != after) report.sensors.push_back(sensor_event(collider.id, after, 0));
   }
   for (const SensorEvent<double>& event : later) report.sensors.push_back(event);
+  report.sensors.note_overflow(later.overflowed());
 }
 
 /// Where everything that moves is when the step begins.
@@ -547,15 +549,18 @@ void LocalController::Impl::append(const StepReport<double>& added, const StepPa
     event.fraction = when(event.fraction);
     report.sensors.push_back(event);
   }
+  report.sensors.note_overflow(added.sensors.overflowed());
   for (const ColliderIndex collider : added.dropped_through)
     if (std::find(report.dropped_through.begin(), report.dropped_through.end(), collider) ==
         report.dropped_through.end())
       report.dropped_through.push_back(collider);
+  report.dropped_through.note_overflow(added.dropped_through.overflowed());
   if (part.begin == 0) {
     report.requested = added.requested / part.end;
     report.steered = added.steered / part.end;
   }
-  if (rank(from.status) > rank(to.status)) to.status = from.status;
+  const bool was_freed = to.status == MoveStatus::stuck && from.status != MoveStatus::crushed;
+  if (was_freed || rank(from.status) > rank(to.status)) to.status = from.status;
   report.status = step_parts::status_of(to.status);
   to.position = from.position;
   to.velocity = from.velocity;
@@ -619,7 +624,7 @@ std::optional<StepStatus> LocalController::Impl::step_in_parts(int parts, Charac
     const StepStatus status = go(scenery.controller(), state, scenery.context(shorter, part.motions), 1.0 / parts,
                                  scenery.scratch(), *of_part);
     if (status == StepStatus::invalid_input) return report.status = status;
-    if (step_parts::is_refused(status)) return stay(of_part->move.status, before, report);
+    if (is_refused(status)) return stay(of_part->move.status, before, report);
     if (!find_way(part, of_part->move, context)) return std::nullopt;
     note_pushes(part, shorter);
     limit_speed(part, (of_part->requested / shorter.dt + carried).norm(), shorter.dt, of_part->move, state);
@@ -798,6 +803,8 @@ std::optional<std::size_t> LocalController::overlaps(const Vec2d& position, cons
 }
 
 std::span<const TurnedCollider> LocalController::turned() const noexcept { return impl_->turned_; }
+const Box2<double>& LocalController::reach() const noexcept { return impl_->scenery.reach(); }
+void LocalController::set_reach(const Box2<double>& box) noexcept { impl_->scenery.set_reach(box); }
 std::span<const ColliderIndex> LocalController::unusable() const noexcept { return impl_->scenery.unusable(); }
 const CharacterDef& LocalController::character() const noexcept { return impl_->character(); }
 

@@ -149,7 +149,7 @@ SceneryDef NearScenery::scenery_def() const {
   return def;
 }
 
-/// Leaves out a collider of the scenery that has no extent, and its mover, if that moves nothing else.
+/// Leaves out a collider of the scenery that is refused, and its mover, if that moves nothing else.
 void NearScenery::leave_out(ColliderIndex local) {
   NearCollider& collider = near_[order_[local]];
   unusable_.push_back(collider.id);

@@ -42,6 +42,9 @@ class NearScenery {
   [[nodiscard]] bool build(double fraction);
 
   [[nodiscard]] const CharacterDef& character() const noexcept { return character_; }
+  /// See `LocalController::reach`.
+  [[nodiscard]] const Box2<double>& reach() const noexcept { return box_; }
+  void set_reach(const Box2<double>& box) noexcept { box_ = box; }
   /// What was found in it, by id. Their movers are indices of `movers()`.
   [[nodiscard]] std::span<const NearCollider> colliders() const noexcept { return near_; }
   [[nodiscard]] std::span<const NearMover> movers() const noexcept { return movers_; }
@@ -57,7 +60,7 @@ class NearScenery {
   [[nodiscard]] std::size_t size() const noexcept { return order_.size(); }
   [[nodiscard]] const NearCollider& at(ColliderIndex collider) const noexcept { return near_[order_[collider]]; }
   [[nodiscard]] bool is_in_scenery(ColliderIndex id) const noexcept { return local_of(id) != no_collider; }
-  /// Ids of colliders of no extent, which are left out.
+  /// Ids of colliders that no scenery can be made of, which are left out.
   [[nodiscard]] std::span<const ColliderIndex> unusable() const noexcept { return unusable_; }
   /// A context for steps and questions in the scenery, valid until the next one is made.
   /// @param motions one for each of `movers()`. @param context its filter knows ids.
