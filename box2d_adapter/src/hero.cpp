@@ -2,6 +2,7 @@
 
 #include "float_geometry.hpp"
 #include "near_fixtures.hpp"
+#include "shapes.hpp"
 
 #include <paperproof/box2d/invalid_definition.hpp>
 
@@ -41,16 +42,6 @@ void require_number(const Vec2d& value, const char* words) {
   require(std::abs(value.x()) <= largest && std::abs(value.y()) <= largest, words);
 }
 
-b2PolygonShape polygon_of(const CharacterShape& shape) {
-  std::array<b2Vec2, CharacterShape::max_points> points;
-  const std::span<const Vec2d> hull = shape.hull();
-  std::transform(hull.begin(), hull.end(), points.begin(), [](const Vec2d& point) { return rounded(point); });
-  b2PolygonShape polygon;
-  polygon.Set(points.data(), static_cast<int>(hull.size()));
-  polygon.m_radius = -hero_inset;
-  return polygon;
-}
-
 b2Body& make_body(b2World& world, const HeroDef& def) {
   require_number(def.position, "position of a hero: must be within 1e6 m");
   const double mass = def.mass.value_or(1);
@@ -59,6 +50,7 @@ b2Body& make_body(b2World& world, const HeroDef& def) {
   require(push_force >= 0 && push_force <= 1e15, "push_force of a hero: must be from 0 to 1e15 N");
   require(!world.IsLocked(), "a hero cannot be made during a step of the world");
   def.character.validate();
+  (void)character_polygon(def.character.shape.hull());  // refuses what Box2D does not take
   b2BodyDef body;
   body.type = b2_dynamicBody;
   body.position = rounded(def.position);
@@ -69,14 +61,13 @@ b2Body& make_body(b2World& world, const HeroDef& def) {
   return *world.CreateBody(&body);
 }
 
-/// @param place where the hero is, for other heroes: see `place_of`.
-void make_fixture(b2Body& body, const HeroDef& def, const b2Filter& filter, const Vec2d& place) {
-  const b2PolygonShape shape = polygon_of(def.character.shape);
+void make_fixture(b2Body& body, const HeroDef& def, const b2Filter& filter) {
+  b2PolygonShape shape = character_polygon(def.character.shape.hull());
+  shape.m_radius = -hero_inset;
   b2FixtureDef fixture;
   fixture.shape = &shape;
   fixture.friction = 0;
   fixture.filter = filter;
-  fixture.userData.pointer = reinterpret_cast<std::uintptr_t>(&place);
   fixture.density = 1;
   body.CreateFixture(&fixture);
   if (!def.mass) return;
@@ -123,11 +114,6 @@ double separation(const b2Fixture& moved, const Vec2d& to, const b2Fixture& othe
   return static_cast<double>(least - moved.GetShape()->m_radius - other.GetShape()->m_radius);
 }
 
-bool was_made(StepStatus status) {
-  return status == StepStatus::moved || status == StepStatus::dropped || status == StepStatus::stuck ||
-         status == StepStatus::crushed;
-}
-
 /// Whether a fixture is still in the world. @param fixture may have been destroyed.
 bool exists(b2World& world, const b2Fixture* fixture) {
   for (b2Body* body = world.GetBodyList(); body != nullptr; body = body->GetNext())
@@ -160,11 +146,15 @@ struct Hero::Impl {
         fixtures(in, *body),
         controller(from.character),
         other_controller(from.character) {
-    make_fixture(*body, def, def.filter, state.position);
+    make_fixture(*body, def, def.filter);
+    HeroPlaces::note(*body, state.position);
     state.position = def.position;
     report.move.position = def.position;
   }
-  ~Impl() { world->DestroyBody(body); }
+  ~Impl() {
+    HeroPlaces::forget(*body);
+    world->DestroyBody(body);
+  }
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
@@ -219,13 +209,16 @@ bool Hero::Impl::fits(const CharacterDef& character, const Vec2d& position) cons
 /// After the shape has changed.
 void Hero::Impl::remake_fixture() {
   const b2Filter filter = body->GetFixtureList()->GetFilterData();
+  const b2FixtureUserData user_data = body->GetFixtureList()->GetUserData();
   body->DestroyFixture(body->GetFixtureList());
-  make_fixture(*body, def, filter, state.position);
+  make_fixture(*body, def, filter);
+  body->GetFixtureList()->GetUserData() = user_data;
 }
 
 /// After the shape has changed, or the way to move.
 void Hero::Impl::change(const CharacterDef& character) {
   const bool same_shape = std::ranges::equal(def.character.shape.hull(), character.shape.hull());
+  report.move.keep_own();
   def.character = character;
   controller = LocalController(character);
   other_controller = LocalController(character);
@@ -253,7 +246,7 @@ StepStatus Hero::Impl::advance(double dt, bool drops, const Go& go) {
   take_impacts();
   const StepStatus status = go({.gravity = gravity(), .dt = dt, .up = up},
                                [this](const auto& box, auto& found) { fixtures.find(box, found); });
-  if (!was_made(status)) {
+  if (is_refused(status)) {
     state = before;
     return status;
   }
@@ -328,8 +321,10 @@ std::optional<double> Hero::Impl::limit_squeeze(const CharacterState<double>& be
     state.velocity += contact.normal * std::max(0.0, (its - state.velocity).dot(contact.normal));
   }
   const double speed = state.velocity.norm();
-  if (!is_pushed || !(speed > most)) return std::nullopt;
-  state.velocity *= most / speed;
+  const bool is_too_fast = is_pushed && speed > most;
+  if (is_too_fast) state.velocity *= most / speed;
+  report.move.velocity = state.velocity;
+  if (!is_too_fast) return std::nullopt;
   if ((state.position - before.position).norm() <= most * dt + most_squeezed) return std::nullopt;
   double reach = most * dt;
   for (std::size_t i = 1; i < report.move.path.size(); ++i) {
@@ -404,16 +399,16 @@ void Hero::Impl::note_contacts() {
 }
 
 /// Where the hero is, but for some millimetres. Box2D parts bodies that are deeper in each other's skins than its slop,
-/// and a ball, which has no skin, it does not touch. With its body in its own place a hero moved what it only stood on
-/// or stopped at, by 2 cm in each second, and did not push a ball at all. So the body is just the slop deep in the
-/// dynamic bodies that the hero touches.
+/// and a circle, which has no skin, it does not touch. With its body in its own place a hero moved what it only stood
+/// on or stopped at, by 2 cm in each second, did not push a ball, and no listener heard of a circle. So the body is
+/// just the slop deep in the dynamic bodies and the circles that the hero touches.
 Vec2d Hero::Impl::place_for_body() const {
   const b2Fixture& own = *body->GetFixtureList();
   Vec2d place = state.position;
   for (const Contact<double>& contact : report.move.contacts) {
     const b2Fixture& other = *fixtures.fixture_of(contact.collider);
-    const bool is_hero = other.GetShape()->m_radius < 0;
-    if (other.GetBody()->GetType() != b2_dynamicBody || is_hero) continue;
+    const bool is_felt = other.GetBody()->GetType() == b2_dynamicBody || other.GetType() == b2Shape::e_circle;
+    if (!is_felt || is_of_hero(other)) continue;
     const double off = -static_cast<double>(b2_linearSlop) - separation(own, place, other);
     place += contact.normal * std::clamp(off, -most_off, most_off);
   }
@@ -511,6 +506,7 @@ void Hero::set_velocity(const Vec2d& velocity) {
 
 bool Hero::change(const CharacterDef& character) {
   character.validate();
+  (void)character_polygon(character.shape.hull());
   Impl& hero = *impl_;
   require(!hero.world->IsLocked(), "a hero cannot change during a step of the world");
   const UpFrame<double> frame(up_of(hero.gravity()));
@@ -531,6 +527,7 @@ bool Hero::change(const CharacterDef& character) {
 void Hero::shift_origin(const Vec2d& new_origin) {
   require_number(new_origin, "the new origin: must be within 1e6 m");
   Impl& hero = *impl_;
+  require(!hero.world->IsLocked(), "the origin cannot be shifted during a step of the world");
   hero.state.position -= new_origin;
   hero.state.last_free -= new_origin;
   for (Crusher<double>& crusher : hero.state.crushers) crusher.last_free -= new_origin;
@@ -551,7 +548,8 @@ HeroSave Hero::save() const {
                 hero.inside,
                 hero.body->GetPosition(),
                 hero.body->GetLinearVelocity(),
-                hero.body->IsBullet()};
+                hero.body->IsBullet(),
+                hero.controller.reach()};
   for (const Crusher<double>& crusher : hero.state.crushers)
     save.crushers.push_back(hero.fixtures.fixture_of(crusher.collider));
   return save;
@@ -559,15 +557,20 @@ HeroSave Hero::save() const {
 
 void Hero::restore(const HeroSave& save) {
   Impl& hero = *impl_;
+  require(!hero.world->IsLocked(), "a hero cannot be restored during a step of the world");
   hero.change(save.character);
   hero.state = save.state;
-  if (save.ride != nullptr) hero.state.ride.ground = hero.fixtures.id_of(save.ride);
-  if (save.ground != nullptr) hero.state.ground.collider = hero.fixtures.id_of(save.ground);
-  for (std::size_t i = 0; i < save.crushers.size(); ++i)
-    if (save.crushers[i] != nullptr) hero.state.crushers[i].collider = hero.fixtures.id_of(save.crushers[i]);
+  // A fixture that is near keeps its ids: it may have several.
+  const auto rename = [&](ColliderIndex& id, b2Fixture* fixture) {
+    if (fixture != nullptr && hero.fixtures.fixture_of(id) != fixture) id = hero.fixtures.id_of(fixture);
+  };
+  rename(hero.state.ride.ground, save.ride);
+  rename(hero.state.ground.collider, save.ground);
+  for (std::size_t i = 0; i < save.crushers.size(); ++i) rename(hero.state.crushers[i].collider, save.crushers[i]);
   hero.contacts = save.contacts;
   hero.inside = save.inside;
   hero.fixtures.restore_poses(save.poses);
+  hero.controller.set_reach(save.reach);
   hero.body->SetTransform(save.body_position, 0);
   hero.body->SetLinearVelocity(save.body_velocity);
   hero.body->SetBullet(save.is_bullet);

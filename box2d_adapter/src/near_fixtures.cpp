@@ -22,12 +22,10 @@
 namespace paperproof::box2d {
 namespace {
 
-/// A body that went so much farther than its velocity explains was put there by the game [m]. Zero: platforms that a
-/// game moves by their place carry nobody. Large: a body that takes the address of another one sweeps the hero along.
+/// A body that went so much farther than its velocity explains [m], or turned so much more [radians], was put there by
+/// the game. Zero: platforms that a game moves by their place carry nobody. Large: a body that takes the address of
+/// another one, or is turned round by the game, sweeps the hero along.
 constexpr double longest_jump = 0.5;
-
-/// So many vertices of a chain are compared from step to step; of a longer chain as many, evenly.
-constexpr int compared_vertices = 1024;
 
 class Collector : public b2QueryCallback {
  public:
@@ -85,9 +83,10 @@ std::uint64_t hash_of(const b2Shape& shape) {
     }
     case b2Shape::e_chain: {
       const auto& chain = static_cast<const b2ChainShape&>(shape);
+      std::array<Hash, 4> lanes;  // side by side they take a fourth of the time
+      for (int i = 0; i < chain.m_count; ++i) lanes[static_cast<std::size_t>(i % 4)].add(chain.m_vertices[i]);
       hash.add(static_cast<std::uint64_t>(chain.m_count));
-      const int every = chain.m_count / compared_vertices + 1;
-      for (int i = 0; i < chain.m_count; i += every) hash.add(chain.m_vertices[i]);
+      for (const Hash& lane : lanes) hash.add(lane.value());
       return hash.value();
     }
     case b2Shape::e_typeCount:
@@ -146,11 +145,35 @@ std::vector<ColliderDef> cut_to(const Box2<double>& box, const ColliderDef& chai
 
 }  // namespace
 
+void HeroPlaces::note(const b2Body& body, const Vec2d& place) {
+  const std::lock_guard lock(mutex());
+  places()[&body] = &place;
+}
+
+void HeroPlaces::forget(const b2Body& body) {
+  const std::lock_guard lock(mutex());
+  places().erase(&body);
+}
+
+Vec2d HeroPlaces::of(const b2Body& body) {
+  const std::lock_guard lock(mutex());
+  const auto found = places().find(&body);
+  return found == places().end() ? widened(body.GetPosition()) : *found->second;
+}
+
+std::mutex& HeroPlaces::mutex() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+std::map<const b2Body*, const Vec2d*>& HeroPlaces::places() {
+  static std::map<const b2Body*, const Vec2d*> places;
+  return places;
+}
+
 Vec2d place_of(const b2Body& body) {
-  b2Fixture* fixture = const_cast<b2Body&>(body).GetFixtureList();  // its user data cannot be read otherwise
-  const bool is_hero =
-      body.GetType() == b2_dynamicBody && fixture != nullptr && fixture->GetShape()->m_radius == -hero_inset;
-  return is_hero ? *reinterpret_cast<const Vec2d*>(fixture->GetUserData().pointer) : widened(body.GetPosition());
+  const b2Fixture* fixture = body.GetFixtureList();
+  return fixture != nullptr && is_of_hero(*fixture) ? HeroPlaces::of(body) : widened(body.GetPosition());
 }
 
 bool NearFixtures::Seen::operator==(const Seen& other) const noexcept {
@@ -242,11 +265,27 @@ void NearFixtures::search(const Box2<double>& box) {
     return std::tuple(extent.lowerBound.x, extent.lowerBound.y, extent.upperBound.x, extent.upperBound.y);
   };
   std::sort(changed.begin(), changed.end(), [&](const Near& a, const Near& b) { return key(a) < key(b); });
-  for (const Near& near : changed) {
-    define(*near.known);
-    if (!near.known->seen.moves) near.known->mover = no_mover;
-    if (near.known->seen.moves && near.known->mover == no_mover) near.known->mover = mover_of(near);
-    if (near.known->mover == movers_) ++movers_;
+  for (const Near& near : changed) define(*near.known);
+  number_movers();
+}
+
+/// In an order that depends on where the bodies are now, and on nothing that was before: a roll-back gives the same.
+void NearFixtures::number_movers() {
+  moving_.clear();
+  for (const Near& near : near_) {
+    near.known->mover = no_mover;
+    if (near.known->seen.moves) moving_.push_back(near);
+  }
+  const auto key = [](const Near& near) {
+    const b2Body& body = *near.known->seen.body;
+    return std::tuple(body.GetPosition().x, body.GetPosition().y, body.GetAngle(), near.known->seen.geometry);
+  };
+  std::sort(moving_.begin(), moving_.end(), [&](const Near& a, const Near& b) { return key(a) < key(b); });
+  MoverIndex count = 0;
+  for (auto near = moving_.begin(); near != moving_.end(); ++near) {
+    const auto known = std::find_if(
+        moving_.begin(), near, [&](const Near& other) { return other.known->seen.body == near->known->seen.body; });
+    near->known->mover = known == near ? count++ : known->known->mover;
   }
 }
 
@@ -266,14 +305,6 @@ void NearFixtures::define(Known& known) {
     if (known.parts[i].id == no_collider) known.parts[i].id = ids_++;
     known.parts[i].def = i < defs.size() ? std::move(defs[i]) : ColliderDef{};
   }
-}
-
-/// That of the other fixtures of its body.
-MoverIndex NearFixtures::mover_of(const Near& near) const {
-  const auto other = std::find_if(near_.begin(), near_.end(), [&](const Near& one) {
-    return one.known->seen.body == near.known->seen.body && one.known->mover != no_mover;
-  });
-  return other == near_.end() ? movers_ : other->known->mover;
 }
 
 void NearFixtures::add(const Near& near, std::vector<NearCollider>& found) const {
@@ -325,6 +356,7 @@ const b2Body* NearFixtures::body_of(ColliderIndex id) const noexcept {
 
 ColliderIndex NearFixtures::id_of(b2Fixture* fixture) {
   Known& known = known_[fixture];
+  known.seen.body = fixture->GetBody();
   if (known.parts.empty()) known.parts.push_back({ids_++, {}});
   return known.parts[0].id;
 }
@@ -344,7 +376,8 @@ void NearFixtures::note_poses() {
     const auto is_its = [&](const BodyPose& pose) { return pose.body == &body; };
     if (body.GetType() == b2_staticBody || std::any_of(poses_.begin(), poses_.end(), is_its)) continue;
     const double speed = widened(body.GetLinearVelocity()).norm();
-    poses_.push_back({&body, place_of(body), static_cast<double>(body.GetAngle()), speed});
+    const double spin = static_cast<double>(body.GetAngularVelocity());
+    poses_.push_back({&body, place_of(body), static_cast<double>(body.GetAngle()), speed, spin});
   }
 }
 
@@ -356,15 +389,17 @@ BodyPose NearFixtures::begin_of(const b2Body& body) const {
   const Vec2d now = place_of(body);
   const double angle = static_cast<double>(body.GetAngle());
   Vec2d way = widened(body.GetLinearVelocity()) * dt_;
+  const double turn = static_cast<double>(body.GetAngularVelocity()) * dt_;
   const auto known =
       std::find_if(poses_.begin(), poses_.end(), [&](const BodyPose& pose) { return pose.body == &body; });
   if (known != poses_.end()) {
     const double explained = std::max(way.norm(), known->speed * dt_) + longest_jump;
-    if ((now - known->position).norm() <= explained) return *known;
+    const double turn_explained = std::max(std::abs(turn), std::abs(known->spin) * dt_) + longest_jump;
+    if ((now - known->position).norm() <= explained && std::abs(angle - known->angle) <= turn_explained) return *known;
   }
   if (!body.IsAwake() || !body.IsEnabled()) return {&body, now, angle};
   if (way.norm() > b2_maxTranslation) way *= b2_maxTranslation / way.norm();
-  return {&body, now - way, angle - static_cast<double>(body.GetAngularVelocity()) * dt_};
+  return {&body, now - way, angle - turn};
 }
 
 PoseMotion NearFixtures::motion_of(b2Fixture& fixture) const {

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <map>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <vector>
@@ -21,7 +22,27 @@ namespace paperproof::box2d {
 /// and a crate would come to rest inside the hero. Much more: it pushes apart what the hero only touches.
 inline constexpr float hero_inset = 0.0035F;
 
-/// Where a body is: of another hero where that hero is, as the world moves its body before it steps [m].
+/// Whether a fixture is that of a hero's body.
+[[nodiscard]] inline bool is_of_hero(const b2Fixture& fixture) noexcept {
+  return fixture.GetShape()->m_radius == -hero_inset;
+}
+
+/// Where each hero of the program is. Neither the body nor its fixture has a place for it: their user data are the
+/// game's. Thread-safe: worlds may be stepped in threads of their own.
+class HeroPlaces {
+ public:
+  /// @param place must outlive the entry.
+  static void note(const b2Body& body, const Vec2d& place);
+  static void forget(const b2Body& body);
+  [[nodiscard]] static Vec2d of(const b2Body& body);
+
+ private:
+  static std::mutex& mutex();
+  static std::map<const b2Body*, const Vec2d*>& places();
+};
+
+/// Position of a body [m]; for the body of another hero that hero's own, because `world.Step` moved the body and the
+/// hero has not stepped yet.
 [[nodiscard]] Vec2d place_of(const b2Body& body);
 
 /// Reads fixtures anew in each step. What did not change keeps its id, its definition and its version.
@@ -89,7 +110,7 @@ class NearFixtures {
     std::uint64_t version = 0;
     MoverIndex mover = no_mover;
     std::vector<Part> parts;  ///< One, but of a chain that is cut.
-    std::uint64_t found = 0;  ///< In this search last.
+    std::uint64_t found = 0;  ///< Number of the last search that found it.
   };
 
   struct Near {
@@ -106,7 +127,7 @@ class NearFixtures {
   [[nodiscard]] bool is_held_by(const b2Fixture& fixture, const Vec2d& front) const;
   void define(Known& known);
   [[nodiscard]] std::map<b2Fixture*, Known>::const_iterator find_known(ColliderIndex id) const noexcept;
-  [[nodiscard]] MoverIndex mover_of(const Near& near) const;
+  void number_movers();
   /// Where a body was when the step began.
   [[nodiscard]] BodyPose begin_of(const b2Body& body) const;
 
@@ -118,13 +139,13 @@ class NearFixtures {
   std::vector<Vec2d> held_;
   std::map<b2Fixture*, Known> known_;
   std::vector<b2Fixture*> hits_;
-  std::vector<Near> near_;  ///< Found in the last search.
+  std::vector<Near> near_;    ///< Found in the last search,
+  std::vector<Near> moving_;  ///< and those of bodies that may move.
   std::vector<BodyPose> poses_;
   std::vector<ColliderDef> solid_sensors_;
   std::uint64_t searches_ = 0;
   std::uint64_t versions_ = 0;
   ColliderIndex ids_ = 0;
-  MoverIndex movers_ = 0;
 };
 
 }  // namespace paperproof::box2d

@@ -4,6 +4,7 @@
 #include <paperproof/scenery.hpp>
 
 #include <box2d/b2_math.h>
+#include <box2d/b2_polygon_shape.h>
 
 #include <optional>
 #include <span>
@@ -11,6 +12,13 @@
 class b2Shape;
 
 namespace paperproof::box2d {
+
+/// The character's fixture, made by Box2D's own `Set`.
+/// @param hull counter-clockwise.
+/// @throws InvalidDefinition where Box2D would weld or drop a corner, or abort: corners nearer than 2.5 mm, an area
+/// below
+///   1e-6 m², corners that are not finite, or not strictly convex in float.
+[[nodiscard]] b2PolygonShape character_polygon(std::span<const Vec2d> hull);
 
 /// A shape at a place, in world coordinates. An edge and a chain block from both sides.
 [[nodiscard]] ColliderDef collider_of(const b2Shape& shape, const b2Transform& transform);

@@ -201,32 +201,6 @@ b2PolygonShape polygon_as_given(std::span<const b2Vec2> vertices) {
   return shape;
 }
 
-b2PolygonShape character_polygon(std::span<const Vec2d> hull) {
-  Ring corners;
-  for (const Vec2d& corner : hull) corners.push_back(checked(corner, "a corner of the character"));
-  const std::size_t count = corners.size();
-  if (count < 3 || count > b2_maxPolygonVertices) throw InvalidDefinition("Box2D takes characters of 3 to 8 corners");
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      if (!(b2Distance(corners[i], corners[j]) > 0.505F * b2_linearSlop)) {
-        throw InvalidDefinition("the character has corners nearer than 2.5 mm, which Box2D would weld");
-      }
-    }
-    const b2Vec2 along = corners[(i + 1) % count] - corners[i];
-    const b2Vec2 onward = corners[(i + 2) % count] - corners[(i + 1) % count];
-    if (!(b2Cross(along, onward) > 0))
-      throw InvalidDefinition("the character is not strictly convex in single precision");
-  }
-  // Box2D asserts an area above 1.2e-7 m²; ten times that leaves room for its rounding.
-  if (!(twice_area(corners) > 2e-6)) throw InvalidDefinition("the character is smaller than 1e-6 m²");
-
-  b2PolygonShape shape;
-  shape.Set(corners.data(), static_cast<int32>(count));
-  if (static_cast<std::size_t>(shape.m_count) != count)
-    throw InvalidDefinition("Box2D would drop a corner of the character");
-  return shape;
-}
-
 std::vector<Part> parts_of(const SceneryDef& as_run, std::size_t mover_count) {
   check_colliders(as_run);
   std::vector<Part> parts(mover_count + 1);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "float_scenery.hpp"
+#include "shapes.hpp"
 
 #include <paperproof/box2d/reference_world.hpp>
 
@@ -58,8 +59,7 @@ struct SceneryFixtures {
 /// paper
 ///   into a box of 2 m. Pieces of more than 8 vertices are cut as a fan.
 /// - A chain segment is a two-sided edge; a one-way segment a one-sided edge whose ghost vertices are its neighbours
-/// where
-///   these block the same way, and its own continuation where not.
+///   where these block the same way, and its own continuation where not.
 /// @param scenery gives the convex pieces.
 void add_solids(b2Body& body, const Scenery<double>& scenery, const Part& part, SceneryMode mode,
                 SceneryFixtures& made);
@@ -72,12 +72,5 @@ void add_sensors(std::span<b2Body* const> bodies, const Scenery<double>& scenery
 /// A convex polygon exactly as given: counter-clockwise, 3 to 8 vertices that differ. Two-sided, any thickness above
 /// zero.
 [[nodiscard]] b2PolygonShape polygon_as_given(std::span<const b2Vec2> vertices);
-
-/// The character's fixture, made by Box2D's own `Set`.
-/// @param hull counter-clockwise.
-/// @throws InvalidDefinition where Box2D would weld or drop a corner, or abort: corners nearer than 2.5 mm, an area
-/// below
-///   1e-6 m², corners that are not strictly convex in float.
-[[nodiscard]] b2PolygonShape character_polygon(std::span<const Vec2d> hull);
 
 }  // namespace paperproof::box2d

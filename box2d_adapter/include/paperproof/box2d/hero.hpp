@@ -73,6 +73,7 @@ struct BodyPose {
   Vec2d position{Vec2d::Zero()};  ///< Of its origin [m].
   double angle = 0;               ///< [radians]
   double speed = 0;               ///< [m/s]
+  double spin = 0;                ///< Counter-clockwise [radians/s].
 };
 
 /// A hero at one time, to save or to roll back. Restore it together with the world.
@@ -88,9 +89,10 @@ struct HeroSave {
   b2Vec2 body_position{0, 0};        ///< Of its body in the world, which is some millimetres beside it [m];
   b2Vec2 body_velocity{0, 0};        ///< with its weight and push [m/s].
   bool is_bullet = true;
+  Box2<double> reach{};  ///< See `LocalController::reach`.
 };
 
-/// A character in a game's own `b2World`, moved by a `Controller`. Each frame the world steps, then the hero:
+/// A character in a game's own `b2World`, moved by a `LocalController`. Each frame the world steps, then the hero:
 ///
 ///     world.Step(dt, 8, 3);
 ///     hero.step({.move = 1.0}, dt);
@@ -101,7 +103,7 @@ struct HeroSave {
 ///
 /// - Static bodies stand. Kinematic and dynamic bodies move from where they were in the hero's last step to where they
 ///   are now, and carry, push and crush it on this way. A body that went half a metre farther than its velocity
-///   explains was put there by the game.
+///   explains, or turned by half a radian more, was put there by the game.
 /// - A body that turns does so at the beginning of the step, or of several shorter ones: see `LocalController`. Each
 /// step proves that nothing passes through the hero, and names what crushed it.
 /// - Polygons, edges, chains and circles are exact, without Box2D's skin; a circle that is a ledge is a polygon of 32
@@ -121,7 +123,7 @@ class Hero {
   /// Makes the body. The world must outlive the hero.
   /// @throws InvalidCharacter, or InvalidDefinition in words for another member of `def`.
   Hero(b2World& world, const HeroDef& def = {});
-  /// Destroys the body.
+  /// Destroys the body. Not during a step of the world, nor is it moved then.
   ~Hero();
   Hero(Hero&&) noexcept;
   Hero& operator=(Hero&&) noexcept;
@@ -137,7 +139,8 @@ class Hero {
   [[nodiscard]] const Vec2d& velocity() const noexcept { return state().velocity; }
   [[nodiscard]] bool grounded() const noexcept { return state().grounded; }
   [[nodiscard]] const CharacterState<double>& state() const noexcept;
-  /// The last step. Its colliders are those of this step: see `fixture_of`. Valid until the next step.
+  /// The last step. Its colliders are those of this step: see `fixture_of`. Valid until the next step, `change` or
+  /// `restore`.
   [[nodiscard]] const StepReport<double>& report() const noexcept;
   /// @param collider of `report()`. @return null for `no_collider`.
   [[nodiscard]] b2Fixture* fixture_of(ColliderIndex collider) const noexcept;
@@ -152,10 +155,12 @@ class Hero {
   [[nodiscard]] std::span<b2Fixture* const> inside() const noexcept;
   /// Fixtures of moving bodies that left the hero no room in the last step; while it is `stuck` none.
   [[nodiscard]] std::span<b2Fixture* const> crushed_by() const noexcept;
-  /// Fixtures near the hero that are no scenery, as they have no extent: an edge of zero length, for example.
+  /// Fixtures near the hero that no scenery can be made of: an edge of zero length, for example. The hero does not see
+  /// them.
   [[nodiscard]] std::span<b2Fixture* const> skipped() const noexcept;
-  /// The hero's body, of one fixture. The game may read it, set its user data, and change the filter of its fixture,
-  /// which is the filter of the hero. It must not move or destroy it. The user data of the fixture belongs to the hero.
+  /// The hero's body, of one fixture. The game may read it, set the user data of both, and change the filter of the
+  /// fixture, which is the filter of the hero. It must not move or destroy it. Another shape is another fixture, with
+  /// the same filter and user data.
   [[nodiscard]] b2Body& body() const noexcept;
 
   /// Puts the hero elsewhere, without a way between: it forgets ground, contacts, crushes and what carried it. Nothing
@@ -171,13 +176,14 @@ class Hero {
   /// Another shape, or another way to move: to crouch, to stand up, to swim. The lowest points of both shapes are at
   /// one height, and their boxes have one middle.
   /// @return false if the new shape would overlap a solid; then nothing changed.
-  /// @throws InvalidCharacter
+  /// @throws InvalidCharacter, InvalidDefinition as the constructor; InvalidDefinition during a step of the world.
   bool change(const CharacterDef& character);
-  /// After `b2World::ShiftOrigin`: the hero's body has moved with the world, and the hero follows.
+  /// After `b2World::ShiftOrigin`: the hero's body has moved with the world, and the hero follows. @throws as `place`.
   void shift_origin(const Vec2d& new_origin);
 
   [[nodiscard]] HeroSave save() const;
   /// Call it after the world is as it was: what the save names must be there again.
+  /// @throws InvalidDefinition during a step of the world.
   void restore(const HeroSave& save);
 
  private:

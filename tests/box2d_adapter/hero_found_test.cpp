@@ -1,0 +1,169 @@
+/// What readers of a `Hero` found to go wrong, each once.
+#include "hero_world.hpp"
+
+#include <paperproof/box2d/invalid_definition.hpp>
+
+#include <box2d/b2_chain_shape.h>
+#include <box2d/b2_circle_shape.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace paperproof::box2d::hero_test {
+namespace {
+
+/// Box2D's circles have no skin, so a hero that rests on one never touched it for the game's listener.
+TEST(HeroListener, hears_of_circles_of_every_type_of_body) {
+  for (const b2BodyType type : {b2_staticBody, b2_kinematicBody, b2_dynamicBody}) {
+    Game game({.position = {0, 1 + half_height + 0.01}});
+    b2BodyDef def;
+    def.type = type;
+    b2CircleShape circle;
+    circle.m_radius = 1;
+    b2Body* body = game.world.CreateBody(&def);
+    b2Fixture* fixture = body->CreateFixture(&circle, 1000);
+    body->SetGravityScale(0);
+    game.run(30);
+    EXPECT_TRUE(game.listener.touching.contains(fixture)) << "type " << type;
+    EXPECT_EQ(game.hero.ground(), fixture) << "type " << type;
+  }
+}
+
+TEST(HeroListener, hears_of_a_saw_blade_that_comes) {
+  Game game({.position = {0, half_height + 1e-6}});
+  game.floor();
+  b2BodyDef def;
+  def.type = b2_kinematicBody;
+  def.position = {3, 0.5F};
+  def.linearVelocity = {-2, 0};
+  b2CircleShape circle;
+  circle.m_radius = 0.4F;
+  b2Fixture* saw = game.world.CreateBody(&def)->CreateFixture(&circle, 0);
+  game.run(90);
+  EXPECT_EQ(std::count(game.listener.begun.begin(), game.listener.begun.end(), saw), 1);
+}
+
+/// A body that the game turned was taken to have swept from its old angle to the new one, and threw the hero 60 m.
+TEST(Hero, is_not_thrown_by_a_body_that_the_game_turns_at_once) {
+  for (const float angle : {1.57F, 2.5F, 3.14F}) {
+    Game game({.position = {0, half_height + 1e-6}});
+    game.floor();
+    b2Fixture& plank = game.box(b2_kinematicBody, {2.5F, 0.7F}, 1.5F, 0.1F);
+    game.run(30);
+    plank.GetBody()->SetTransform({2.5F, 0.7F}, angle);
+    game.run(60);
+    EXPECT_LT((game.hero.position() - Vec2d(0, half_height)).norm(), 1) << "turned by " << angle;
+  }
+}
+
+/// Box2D asserts on these, or makes another shape of them.
+TEST(Hero, refuses_a_character_that_box2d_would_weld) {
+  b2World world({0, -10});
+  const CharacterDef tiny{.shape = CharacterShape(std::array{Vec2d(0, 0), Vec2d(0.001, 0), Vec2d(0, 0.001)})};
+  EXPECT_THROW(Hero(world, {.character = tiny}), InvalidDefinition);
+  EXPECT_EQ(world.GetBodyCount(), 0);
+  Hero hero(world);
+  EXPECT_THROW((void)hero.change(tiny), InvalidDefinition);
+  EXPECT_EQ(hero.step({}, frame), StepStatus::moved);
+}
+
+/// Of a long chain every second vertex was compared.
+TEST(Hero, sees_a_long_chain_that_was_dug_in_place_at_any_vertex) {
+  for (const int dug : {750, 751, 752, 753}) {
+    std::vector<b2Vec2> points;
+    for (int i = 0; i < 1500; ++i) points.emplace_back(static_cast<float>(750 - i), 0.0F);
+    Game game({.position = {static_cast<double>(750 - dug), half_height + 1e-6}});
+    b2ChainShape chain;
+    chain.CreateChain(points.data(), 1500, {751, 0}, {-750, 0});
+    b2BodyDef def;
+    b2Body* ground = game.world.CreateBody(&def);
+    b2Fixture* fixture = ground->CreateFixture(&chain, 0);
+    game.run(5);
+    chain.m_vertices[dug].y = -1;
+    ground->DestroyFixture(fixture);
+    ground->CreateFixture(&chain, 0);
+    game.run(5);
+    EXPECT_LT(game.hero.position().y(), half_height - 0.01) << "vertex " << dug;
+  }
+}
+
+TEST(Hero, leaves_the_user_data_of_its_fixture_to_the_game) {
+  Game game({.position = {0, half_height + 1e-6}});
+  game.floor();
+  b2Fixture* fixture = game.hero.body().GetFixtureList();
+  EXPECT_EQ(fixture->GetUserData().pointer, 0U);
+  fixture->GetUserData().pointer = 42;
+  CharacterDef low;
+  low.shape = CharacterShape(std::array{Vec2d(-0.3, -0.3), Vec2d(0.3, -0.3), Vec2d(0.3, 0.3), Vec2d(-0.3, 0.3)});
+  ASSERT_TRUE(game.hero.change(low));
+  EXPECT_EQ(game.hero.body().GetFixtureList()->GetUserData().pointer, 42U);
+}
+
+TEST(Hero, reports_the_velocity_that_it_has) {
+  Game game({.position = {0, half_height + 1e-6}});
+  game.floor();
+  b2Fixture& crate = game.box(b2_dynamicBody, {2, 0.5F}, 0.5F, 0.5F);
+  crate.GetBody()->SetLinearVelocity({-12, 0});
+  bool was_hit = false;
+  for (int i = 0; i < 60; ++i) {
+    game.go();
+    was_hit = was_hit || game.hero.velocity().x() < -0.1;
+    ASSERT_EQ(game.hero.report().move.velocity, game.hero.velocity()) << "frame " << i;
+  }
+  EXPECT_TRUE(was_hit);
+}
+
+TEST(Hero, refuses_calls_during_a_step_of_the_world) {
+  class Caller : public b2ContactListener {
+   public:
+    explicit Caller(Hero& hero) : hero_(hero), saved_(hero.save()) {}
+    void BeginContact(b2Contact* /*contact*/) override {
+      EXPECT_THROW(hero_.restore(saved_), InvalidDefinition);
+      EXPECT_THROW(hero_.shift_origin({1, 0}), InvalidDefinition);
+      ++calls;
+    }
+    int calls = 0;
+
+   private:
+    Hero& hero_;
+    HeroSave saved_;
+  };
+  Game game({.position = {0, half_height + 1e-6}});
+  game.floor();
+  Caller caller(game.hero);
+  game.world.SetContactListener(&caller);
+  game.run(5);
+  EXPECT_GT(caller.calls, 0);
+  EXPECT_EQ(game.hero.position().x(), 0);
+}
+
+/// The hero rides the second part of a chain that was cut to what is near.
+TEST(Hero, rides_on_after_it_was_restored) {
+  Game game({.position = {0, half_height + 1e-6}, .surface_of = [](b2Fixture&) { return Surface{.speed = 1.5}; }});
+  const std::vector<b2Vec2> points{{9, 0},  {6, 0},   {6, -20},   {-6, -20}, {-6, 0},
+                                   {-9, 0}, {-9, 40}, {0.5F, 40}, {0.5F, 0}, {-0.5F, 0}};
+  b2ChainShape chain;
+  chain.CreateChain(points.data(), static_cast<int>(points.size()), {10, 0}, {-1, 0});
+  b2BodyDef def;
+  game.world.CreateBody(&def)->CreateFixture(&chain, 0);
+  game.run(5);
+  const HeroSave saved = game.hero.save();
+  const auto go_on = [&] {
+    std::vector<double> places;
+    for (int i = 0; i < 10; ++i) {
+      game.go();
+      places.push_back(game.hero.position().x());
+    }
+    return places;
+  };
+  const std::vector<double> first = go_on();
+  game.hero.restore(saved);
+  EXPECT_EQ(go_on(), first);
+}
+
+}  // namespace
+}  // namespace paperproof::box2d::hero_test
