@@ -45,7 +45,7 @@ namespace paperproof::compare {
     const PoseMotion& motion = motions[def.mover];
     const bool is_turned_circle =
         def.shape == ColliderDef::Shape::circle && (motion.from.angle != 0 || motion.to.angle != 0);
-    const auto vertices_at = [&](const Pose& pose) {
+    const auto vertices_at = [&](const paperproof::Pose& pose) {
       std::vector<Vec2d> vertices = placed_vertices(def, pose.position, pose.angle);
       // The controller moves the centre of a circle by an offset: rounding tells this from the place.
       if (is_turned_circle) vertices[0] = Vec2d(vertices[0] - def.points[0]) + def.points[0];

@@ -53,7 +53,8 @@ struct Tally {
   int riding = 0;
   int crushed = 0;
   int dropped = 0;
-  int in_wedges = 0;  ///< Of the dropped ones: they came to rest where surfaces close in on them from several sides.
+  int in_wedges = 0;     ///< Of the dropped ones: they came to rest where surfaces close in on them from several sides,
+  int launched_far = 0;  ///< and of the others: they, or what they met, went so far that the iterations may run out.
   int stuck = 0;
   int overlaps = 0;        ///< Ended inside what they did not begin in, and what did not crush.
   int passages = 0;        ///< Passed a solid, and be it with a rim.
@@ -72,7 +73,7 @@ struct Tally {
 
   [[nodiscard]] int broken() const {
     return overlaps + passages + one_way + gaps + fractions + room + unsound + drops + contacts + hanging +
-           stuck_refuted + dropped - in_wedges;
+           stuck_refuted + dropped - in_wedges - launched_far;
   }
 };
 
@@ -217,6 +218,7 @@ class RandomRun {
     tally.room += !judgement.crushed_with_room.empty();
     tally.hanging += judgement.hangs && !up_turns_;  // the judge of a run knows no other up
     tally.in_wedges += record.dropped && is_between_surfaces(record);
+    tally.launched_far += record.dropped && !is_between_surfaces(record) && goes_far(record);
     tally.stuck_refuted += judgement.stuck_refuted;
     const bool named =
         judgement.end_overlap.empty() || report_.status == StepStatus::stuck || report_.status == StepStatus::crushed;
@@ -244,6 +246,16 @@ class RandomRun {
                std::any_of(parts.begin(), parts.end(), opposes(part.faces.front().normal));
       });
     });
+  }
+
+  /// As for launches among scenery that stands.
+  [[nodiscard]] bool goes_far(const TraceStep& record) const {
+    constexpr double far_launch = 1000;
+    return record.requested.norm() >= far_launch ||
+           std::any_of(record.contacts.begin(), record.contacts.end(), [&](const Contact<double>& contact) {
+             const MoverIndex mover = scenery_.collider(contact.collider).mover;
+             return mover != no_mover && (record.movers[mover].to - record.movers[mover].from).norm() >= far_launch;
+           });
   }
 
   void count_what_is_said(const TraceStep& record, bool drops, Tally& tally) {
@@ -360,14 +372,15 @@ Tally run_family(Family family, int steps, bool up_turns = false) {
     if (::testing::Test::HasFatalFailure()) break;
   }
   std::printf(
-      "%s in %s: %d steps, %d with contact, %d riding, %d crushed, %d stuck, %d dropped (%d between surfaces); %d "
+      "%s in %s: %d steps, %d with contact, %d riding, %d crushed, %d stuck, %d dropped (%d between surfaces, %d "
+      "launched far); %d "
       "overlaps, %d passages, %d "
       "against one-way chains, %d gaps, %d of %d fractions, %d crushes with room, %d crushed from afar, %d unsound, "
       "%d of %d drops, %d contacts, %d hanging, %d not stuck\n",
       name_of(family).c_str(), sizeof(Scalar) == 8 ? "double" : "float", tally.steps, tally.with_contact, tally.riding,
-      tally.crushed, tally.stuck, tally.dropped, tally.in_wedges, tally.overlaps, tally.passages, tally.one_way,
-      tally.gaps, tally.fractions, tally.fractions_seen, tally.room, tally.far, tally.unsound, tally.drops,
-      tally.on_purpose, tally.contacts, tally.hanging, tally.stuck_refuted);
+      tally.crushed, tally.stuck, tally.dropped, tally.in_wedges, tally.launched_far, tally.overlaps, tally.passages,
+      tally.one_way, tally.gaps, tally.fractions, tally.fractions_seen, tally.room, tally.far, tally.unsound,
+      tally.drops, tally.on_purpose, tally.contacts, tally.hanging, tally.stuck_refuted);
   return tally;
 }
 
@@ -384,7 +397,8 @@ TEST_P(AmongMovers, no_step_breaks_the_guarantee) {
   EXPECT_EQ(tally.contacts, 0);
   EXPECT_EQ(tally.hanging, 0);
   EXPECT_EQ(tally.stuck_refuted, 0);
-  EXPECT_EQ(tally.dropped, tally.in_wedges);
+  EXPECT_EQ(tally.dropped, tally.in_wedges + tally.launched_far);
+  if (tally.steps < few_steps) return;
   // The generators must really meet the solids, and also miss them.
   EXPECT_GE(tally.with_contact, tally.steps * 0.1);
   EXPECT_LE(tally.with_contact, tally.steps * 0.9);
@@ -409,7 +423,7 @@ TEST_P(AmongMovers, no_step_with_any_up_breaks_the_guarantee) {
   EXPECT_EQ(tally.drops, 0);
   EXPECT_EQ(tally.contacts, 0);
   EXPECT_EQ(tally.stuck_refuted, 0);
-  EXPECT_LE(tally.dropped - tally.in_wedges, 1 + tally.steps / 5000);
+  EXPECT_LE(tally.dropped - tally.in_wedges - tally.launched_far, 1 + tally.steps / 5000);
   EXPECT_GT(tally.riding, 0);
 }
 

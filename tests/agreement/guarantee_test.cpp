@@ -277,6 +277,7 @@ TEST_P(Guarantee, no_step_ends_inside_passes_a_solid_or_leaves_a_gap) {
       "%s: %d steps, %d with contact, %d launches, %d from inside, %d stuck, %d dropped, %d chains passed, %d fall\n",
       name_of(GetParam()).c_str(), tally.steps, tally.with_contact, tally.launched, tally.from_inside, tally.stuck,
       tally.dropped, tally.passed_on_purpose, tally.falling);
+  if (tally.steps < few_steps) return;
   EXPECT_GE(tally.falling, tally.steps / 10) << "who never falls cannot hang";
   // The generators must really meet the solids, and also miss them.
   EXPECT_GE(tally.with_contact, tally.steps * 0.1);
@@ -298,6 +299,7 @@ TEST_P(AnyUp, no_step_ends_inside_passes_a_solid_or_leaves_a_gap) {
   std::printf("%s: %d steps, contacts with %d walkable, %d steep, %d walls, %d ceilings, %d dropped, %d stuck\n",
               name_of(GetParam()).c_str(), tally.steps, tally.walkable, tally.steep, tally.walls, tally.ceilings,
               tally.dropped, tally.stuck);
+  if (tally.steps < few_steps) return;
   EXPECT_GE(tally.falling, tally.steps / 10) << "who never falls cannot hang";
   EXPECT_GE(tally.with_contact, tally.steps / 15);
   EXPECT_LE(tally.with_contact, tally.steps * 0.9);

@@ -12,7 +12,7 @@ set(may_include_techniques "${may_include_controller}|<paperproof/(techniques|pi
 file(GLOB adapter_headers RELATIVE "${ROOT}/box2d_adapter/include" "${ROOT}/box2d_adapter/include/paperproof/box2d/*.hpp")
 list(JOIN adapter_headers ">|<" adapter_headers)
 set(may_include_box2d_adapter "${may_include_controller}|<${adapter_headers}>|<box2d/[a-z_0-9]+[.]h>")
-set(may_include_twin "${may_include_box2d_adapter}|<paperproof/box2d/[a-z_0-9]+[.]hpp>|<polyclipping/clipper[.]hpp>|\"float_geometry[.]hpp\"")
+set(may_include_twin "${may_include_box2d_adapter}|<paperproof/box2d/[a-z_0-9]+[.]hpp>|<polyclipping/clipper[.]hpp>|\"(float_geometry|shapes)[.]hpp\"")
 # A benchmark of Box2D without the twin's recording needs the twin's fixtures, which are no part of its interface.
 set(may_include_compare "<.*>|\"box2d_adapter/(twin/src/fixtures|src/float_geometry)[.]hpp\"")
 # The oracle judges the controller, and so does the continuous reference: of it, they may know the values that all speak

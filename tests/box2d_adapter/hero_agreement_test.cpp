@@ -260,6 +260,7 @@ TEST(HeroInAChangingWorld, is_in_no_solid_and_knows_its_sensors) {
   int in_sensor = 0;
   int events = 0;
   int in_trouble = 0;
+  int rolled_back = 0;
   const auto play = [&](std::uint64_t seed) {
     Random random(seed);
     b2World world({0, -10});
@@ -282,8 +283,18 @@ TEST(HeroInAChangingWorld, is_in_no_solid_and_knows_its_sensors) {
       if (random.chance(0.5)) changes.make();
       world.Step(static_cast<float>(frame), 8, 3);
       if (random.chance(0.5)) changes.make();
-      const StepStatus status = hero.step(input, frame);
       const auto where = [&] { return "seed " + std::to_string(seed) + ", step " + std::to_string(i); };
+      const HeroSave before = hero.save();
+      const StepStatus status = hero.step(input, frame);
+      if (i % 3 == 0) {
+        const CharacterState<double> first = hero.state();
+        hero.restore(before);
+        ASSERT_EQ(hero.step(input, frame), status) << where();
+        ASSERT_EQ(hero.position(), first.position) << where();
+        ASSERT_EQ(hero.velocity(), first.velocity) << where();
+        ASSERT_EQ(hero.grounded(), first.grounded) << where();
+        ++rolled_back;
+      }
       ASSERT_NE(status, StepStatus::invalid_input) << where();
       ASSERT_NE(status, StepStatus::refused) << where();
       ASSERT_EQ(hero.report().move.position, hero.position()) << where();
@@ -316,6 +327,7 @@ TEST(HeroInAChangingWorld, is_in_no_solid_and_knows_its_sensors) {
     }
   };
   for (std::uint64_t seed = 1; steps < wanted && !HasFatalFailure(); ++seed) play(seed);
+  EXPECT_GE(rolled_back, steps / 4);
   EXPECT_GE(touching, steps / 12);
   EXPECT_GE(in_sensor, steps / 100);
   EXPECT_GE(events, steps / 100);
