@@ -174,6 +174,8 @@ struct Hero::Impl {
   void take_impacts();
   double end_at(const Vec2d& position, std::size_t corner, double share);
   std::optional<double> limit_squeeze(const CharacterState<double>& before, const Vec2d& body_velocity, double dt);
+  [[nodiscard]] bool is_drawn_out(const CharacterState<double>& before) const;
+  void stay_crushed(const CharacterState<double>& before);
   void note_step();
   void note_contacts();
   [[nodiscard]] Vec2d place_for_body() const;
@@ -250,6 +252,7 @@ StepStatus Hero::Impl::advance(double dt, bool drops, const Go& go) {
     state = before;
     return status;
   }
+  if (is_drawn_out(before)) stay_crushed(before);
   const std::optional<double> cut = limit_squeeze(before, body_velocity, dt);
   sensors.clear();
   note_sensors_at(before.position, false, 0);
@@ -257,7 +260,39 @@ StepStatus Hero::Impl::advance(double dt, bool drops, const Go& go) {
   if (cut) note_sensors_at(state.position, true, *cut);
   fixtures.note_poses();
   lead_body(dt);
-  return status;
+  return report.status;
+}
+
+/// Whether a hero that was crushed came out farther away than its crushers moved: from under a press to its edge, for
+/// example. There may be such a way while the press is hardly in the hero. A player sees a jump.
+bool Hero::Impl::is_drawn_out(const CharacterState<double>& before) const {
+  if (!before.crushed || state.crushed) return false;
+  double reach = report.requested.norm() + most_squeezed;
+  for (const Crusher<double>& crusher : before.crushers)
+    if (b2Fixture* fixture = fixtures.fixture_of(crusher.collider); fixtures.is_near(fixture))
+      reach += way_of(before.position, fixtures.motion_of(*fixture));
+  return (state.position - before.position).norm() > reach;
+}
+
+/// Undoes a step: the hero waits in place until its crushers leave.
+void Hero::Impl::stay_crushed(const CharacterState<double>& before) {
+  state = before;
+  state.velocity.setZero();
+  for (Crusher<double>& crusher : state.crushers) {
+    b2Fixture* fixture = fixtures.fixture_of(crusher.collider);
+    if (!fixtures.is_near(fixture)) continue;
+    const PoseMotion motion = fixtures.motion_of(*fixture);
+    crusher.displacement += motion.to.position - motion.from.position;
+  }
+  report.move.clear();
+  report.move.position = state.position;
+  report.move.velocity = state.velocity;
+  report.move.status = MoveStatus::stuck;
+  report.move.path.push_back({state.position, 0});
+  report.move.path.push_back({state.position, 1});
+  report.sensors.clear();
+  report.dropped_through.clear();
+  report.status = StepStatus::stuck;
 }
 
 /// Dynamic bodies that ran into the hero's body in the last step of the world change the hero's velocity as they

@@ -47,6 +47,37 @@ TEST(HeroListener, hears_of_a_saw_blade_that_comes) {
   EXPECT_EQ(std::count(game.listener.begun.begin(), game.listener.begun.end(), saw), 1);
 }
 
+/// A door whose way was a whole number of steps overlapped the hero by rounding alone. In the next step the hero came out
+/// from under it to its edge, metres away.
+TEST(Hero, is_not_drawn_out_from_under_a_door_that_closes) {
+  int crushed = 0;
+  for (const float speed : {-0.5F, -1.0F, -2.0F, -3.0F, -6.0F}) {
+    for (const float from : {1.5F, 1.75F, 2.0F, 2.25F, 2.5F, 3.0F}) {
+      Game game({.position = {0, half_height + 1e-6}});
+      game.floor();
+      b2Fixture& door = game.box(b2_kinematicBody, {0.5F, from + 1}, 2, 1);
+      game.run(5);
+      const double stood_at = game.hero.position().x();
+      door.GetBody()->SetLinearVelocity({0, speed});
+      bool was_crushed = false;
+      for (int i = 0; i < 600 && door.GetBody()->GetPosition().y > 1.5F; ++i) {
+        const Vec2d before = game.hero.position();
+        const StepStatus status = game.go();
+        was_crushed = was_crushed || status == StepStatus::crushed;
+        ASSERT_LT((game.hero.position() - before).norm(), 0.5) << "speed " << speed << " from " << from;
+        if (was_crushed) {
+          ASSERT_TRUE(status == StepStatus::crushed || status == StepStatus::stuck);
+        }
+      }
+      crushed += was_crushed;
+      door.GetBody()->SetLinearVelocity({0, 3});
+      game.run(60, {.move = 1.0});
+      EXPECT_GT(game.hero.position().x(), stood_at + 1) << "speed " << speed << " from " << from;
+    }
+  }
+  EXPECT_GE(crushed, 25);
+}
+
 /// A body that the game turned was taken to have swept from its old angle to the new one, and threw the hero 60 m.
 TEST(Hero, is_not_thrown_by_a_body_that_the_game_turns_at_once) {
   for (const float angle : {1.57F, 2.5F, 3.14F}) {

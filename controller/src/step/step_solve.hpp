@@ -18,6 +18,7 @@ void StepSolver<Lanes, Scalar, Up>::solve(Part part, const MoveRequest<Scalar>& 
   V wanted = request.displacement;
   if (part == Part::stay) return stay_in_place(request);
   if (movers_.active) wanted = begin_ride(request);
+  wanted_ = wanted;
   const Scalar walk = up_.across_of(velocity_);
   memory_.reported_at[0] = {};
   result_.path.push_back({position_, 0});
@@ -54,7 +55,7 @@ void StepSolver<Lanes, Scalar, Up>::solve(Part part, const MoveRequest<Scalar>& 
     if (movers_.active) end_ride();
   }
   if (!memory_.marked.empty()) find_movers_that_still_overlap();
-  if (result_.contacts.size() > 1) order_contacts(wanted);
+  if (result_.contacts.size() > 1) order_contacts();
   push_corner(1);
   result_.position = position_;
   result_.velocity = velocity_;

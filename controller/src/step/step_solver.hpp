@@ -134,10 +134,11 @@ class StepSolver {
   [[gnu::flatten]] void report(Scalar begin) noexcept;
   [[gnu::cold, gnu::noinline]] void report_more(Scalar begin, std::size_t this_moment) noexcept;
   void report_contact(PieceIndex piece, std::size_t axis, Scalar fraction, std::size_t this_moment) noexcept;
-  [[gnu::cold, gnu::noinline]] void order_contacts(const V& wanted) noexcept;
+  [[gnu::cold, gnu::noinline]] void order_contacts() noexcept;
   void note_reported() noexcept;
   [[gnu::cold, gnu::noinline]] void report_touched(PieceIndex piece) noexcept;
   [[nodiscard]] Scalar fraction_of(const Stop<Scalar>& stop, Scalar begin) noexcept;
+  [[nodiscard, gnu::cold, gnu::noinline]] std::optional<Scalar> impact_of_wanted(PieceIndex piece) noexcept;
   [[nodiscard]] Scalar impact_of(const Stop<Scalar>& stop, const LocalMotion& motion, const V& from) noexcept;
   [[nodiscard, gnu::noinline]] Scalar impact_with_another_piece(const Stop<Scalar>& stop, const LocalMotion& motion,
                                                                 const V& from) noexcept;
@@ -327,8 +328,9 @@ class StepSolver {
 
   LocalMotion motion_;         ///< Of the last sweep,
   SweepResult<Scalar> found_;  ///< and what it met.
-  V start_{V::Zero()};  ///< Where the step began, or the way out of a solid ended, before gaps were restored. Times of
-                        ///< impact count from there.
+  V start_{V::Zero()};   ///< Where the step began, or the way out of a solid ended, before gaps were restored. Times of
+                         ///< impact count from there.
+  V wanted_{V::Zero()};  ///< Displacement in the step, that of the ground included, before anything was met [m].
   V position_{V::Zero()};
   V velocity_{V::Zero()};
   Scalar time_ = 0;           ///< Fraction of the step that is spent.

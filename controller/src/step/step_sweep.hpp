@@ -182,7 +182,10 @@ void StepSolver<Lanes, Scalar, Up>::report(Scalar begin) noexcept {
       ground_ = stop.piece;
       ground_axis_ = stop.axes.normal;
     }
-    report_contact(stop.piece, stop.axes.normal, fraction_of(stop, begin), before);
+    Scalar fraction = fraction_of(stop, begin);
+    if (begin == 0 && before > 0) [[unlikely]]
+      fraction = impact_of_wanted(stop.piece).value_or(fraction);
+    report_contact(stop.piece, stop.axes.normal, fraction, before);
   }
   if (found_.stops.overflowed()) [[unlikely]]
     report_more(begin, before);
@@ -249,13 +252,12 @@ void StepSolver<Lanes, Scalar, Up>::report_more(Scalar begin, std::size_t this_m
 
 /// Puts the contacts in order of fraction. What the wanted motion does not run into was met because contacts before it
 /// turned that motion: it did not come earlier than they did.
-/// @param wanted in the step.
 template <std::size_t Lanes, class Scalar, class Up>
-void StepSolver<Lanes, Scalar, Up>::order_contacts(const V& wanted) noexcept {
+void StepSolver<Lanes, Scalar, Up>::order_contacts() noexcept {
   const auto begin = result_.contacts.begin();
   Scalar latest = 0;
   for (auto contact = begin; contact != result_.contacts.end(); ++contact) {
-    if (dot(V(wanted - displacement_of(contact->collider)), contact->normal) >= 0)
+    if (dot(V(wanted_ - displacement_of(contact->collider)), contact->normal) >= 0)
       contact->fraction = std::max(contact->fraction, latest);
     latest = std::max(latest, contact->fraction);
     const auto place =
@@ -283,6 +285,25 @@ Scalar StepSolver<Lanes, Scalar, Up>::fraction_of(const Stop<Scalar>& stop, Scal
     return begin + (1 - begin) * impact_of(stop, motion_seen_by(mover, begin), V(from - shift));
   }
   return begin + (1 - begin) * impact_of(stop, motion_, from);
+}
+
+/// Time of impact of the wanted motion with a piece, if it meets the piece in the step. What is met before any time has
+/// passed, by a motion that other contacts have turned, is met at this time: the wanted motion need not have come to
+/// those.
+template <std::size_t Lanes, class Scalar, class Up>
+std::optional<Scalar> StepSolver<Lanes, Scalar, Up>::impact_of_wanted(PieceIndex piece) noexcept {
+  const MoverIndex mover = mover_of(piece);
+  const V offset = mover == no_mover ? V(V::Zero()) : movers_.offset(mover, 0);
+  const V way = mover == no_mover ? wanted_ : V(wanted_ - movers_.displacement(mover));
+  LocalMotion motion = make_motion<Lanes>(space_, V(start_ - offset), way);
+  motion.lost = lost_by(start_, offset);
+  if (!in_way(motion, piece)) return std::nullopt;
+  const Clearance<Scalar> clear = clearance(space_, motion, piece);
+  if (clear.clear()) return std::nullopt;
+  const PieceHit<Scalar> hit = sweep_piece(space_, motion, piece, clear, up_);
+  if (!hit.hit) return std::nullopt;
+  const Scalar fraction = time_of_impact(space_, motion.from, way, piece, hit.axes);
+  return fraction <= 1 ? std::optional(fraction) : std::nullopt;
 }
 
 /// Time of impact with the collider of a piece, as a fraction of the motion. A motion that grazes a rim stops long
