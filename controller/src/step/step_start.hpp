@@ -24,6 +24,9 @@ bool StepSolver<Lanes, Scalar, Up>::prepare_start(Part part, const MoveRequest<S
     if (out) {
       if (movers_.active) note_colliders_left();
       start_ = position_ = *out;
+      // Movers that were ignored and do not overlap here are as solid as others again.
+      for (const ColliderIndex collider : memory_.marked) memory_.unmark(collider, overlaps_since_start);
+      if (moving_.overlapping > 0) ignore_overlapping_movers(request);
       push_corner(0);
       return true;
     }
