@@ -1,0 +1,87 @@
+/// What a `Hero` is made of. `hero.cpp` has the calls of a game, `hero_step.cpp` a step, and `hero_body.cpp` the hero's
+/// body in the world.
+#pragma once
+
+#include "float_geometry.hpp"
+#include "near_fixtures.hpp"
+
+#include <paperproof/box2d/hero.hpp>
+#include <paperproof/box2d/invalid_definition.hpp>
+#include <paperproof/local_controller.hpp>
+
+#include <box2d/b2_body.h>
+#include <box2d/b2_world.h>
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace paperproof::box2d {
+
+/// Largest position [m] and speed [m/s] that a call may set.
+inline constexpr double largest = 1e6;
+
+inline void require(bool holds, const char* words) {
+  if (!holds) throw InvalidDefinition(words);
+}
+
+/// Where the world pulls, as a unit vector the other way.
+[[nodiscard]] inline Vec2d up_of(const Vec2d& gravity) {
+  const double size = gravity.norm();
+  return size > 0 ? Vec2d(-gravity / size) : Vec2d(0, 1);
+}
+
+struct Hero::Impl {
+  Impl(b2World& in, const HeroDef& from);
+  ~Impl();
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  [[nodiscard]] Vec2d gravity() const { return widened(world->GetGravity()); }
+  /// The body that carries the hero, if one does. The game may have destroyed it.
+  [[nodiscard]] const b2Body* ground_body() const { return fixtures.body_of(state.ride.ground); }
+
+  // hero.cpp
+  [[nodiscard]] bool fits(const CharacterDef& character, const Vec2d& position) const;
+  void change(const CharacterDef& character);
+
+  // hero_step.cpp
+  using Go = std::function<StepStatus(const StepContext<double>& context, const LocalController::Find& find)>;
+  StepStatus advance(double dt, bool drops, const Go& go);
+  [[nodiscard]] std::vector<Vec2d> held_points(bool drops) const;
+  [[nodiscard]] bool is_drawn_out(const CharacterState<double>& before) const;
+  void stay_crushed(const CharacterState<double>& before);
+  std::optional<double> limit_squeeze(const CharacterState<double>& before, const Vec2d& body_velocity, double dt);
+  [[nodiscard]] bool is_free_at_end(const Vec2d& position);
+  double end_at(const Vec2d& position, std::size_t corner, double share);
+  void note_step();
+  void note_sensors_at(const Vec2d& position, bool at_end, double fraction);
+  void note_sensors();
+  void note_contacts();
+
+  // hero_body.cpp
+  static b2Body& make_body(b2World& world, const HeroDef& def);
+  void make_fixture(const b2Filter& filter);
+  void remake_fixture();
+  void take_impacts();
+  [[nodiscard]] Vec2d place_for_body() const;
+  void lead_body(double dt);
+
+  b2World* world;
+  HeroDef def;
+  b2Body* body;
+  NearFixtures fixtures;
+  LocalController controller;
+  LocalController other_controller;  ///< Asks what the hero overlaps, beside its step.
+  CharacterState<double> state;
+  StepReport<double> report;
+  std::vector<HeroContact> contacts;
+  std::vector<HeroContact> contacts_before;
+  std::vector<HeroContact> contacts_now;
+  std::vector<HeroSensorEvent> sensors;
+  std::vector<b2Fixture*> inside;  ///< Sensors that it overlaps.
+  std::vector<b2Fixture*> crushed_by;
+  std::vector<b2Fixture*> skipped;
+};
+
+}  // namespace paperproof::box2d

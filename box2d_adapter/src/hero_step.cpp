@@ -1,0 +1,222 @@
+#include "hero_impl.hpp"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace paperproof::box2d {
+namespace {
+
+/// A squeeze out of a gap is not looked at before it is so far [m].
+constexpr double most_squeezed = 0.25;
+
+/// How far the point of a body that is now at `point` went in a step [m].
+double way_of(const Vec2d& point, const PoseMotion& motion) {
+  const Eigen::Rotation2Dd turn(motion.from.angle - motion.to.angle);
+  return (motion.from.position + turn * (point - motion.to.position) - point).norm();
+}
+
+/// Whether a fixture is still in the world. @param fixture may have been destroyed.
+bool exists(b2World& world, const b2Fixture* fixture) {
+  for (b2Body* body = world.GetBodyList(); body != nullptr; body = body->GetNext())
+    for (const b2Fixture* one = body->GetFixtureList(); one != nullptr; one = one->GetNext())
+      if (one == fixture) return true;
+  return false;
+}
+
+}  // namespace
+
+/// See `NearFixtures::begin_step`. `Input::drop` is for ledges alone: what the hero is in front of holds it. A hero
+/// that was just placed may begin in the ground: that lifts it, as in Box2D, if the middle of the hero is in front.
+std::vector<Vec2d> Hero::Impl::held_points(bool drops) const {
+  if (!state.has_last_free) return {state.position};
+  std::vector<Vec2d> corners;
+  if (!drops) return corners;
+  for (const Vec2d& corner : def.character.shape.hull()) corners.emplace_back(state.position + corner);
+  return corners;
+}
+
+StepStatus Hero::Impl::advance(double dt, bool drops, const Go& go) {
+  if (world->IsLocked() || !(dt > 0 && dt <= largest) || !gravity().allFinite() || !state.position.allFinite())
+    return StepStatus::invalid_input;
+  const CharacterState<double> before = state;
+  const Vec2d body_velocity = widened(body->GetLinearVelocity());
+  const Vec2d up = up_of(gravity());
+  fixtures.begin_step(def, up, dt, held_points(drops));
+  take_impacts();
+  const StepStatus status = go({.gravity = gravity(), .dt = dt, .up = up},
+                               [this](const auto& box, auto& found) { fixtures.find(box, found); });
+  if (is_refused(status)) {
+    state = before;
+    return status;
+  }
+  if (is_drawn_out(before)) stay_crushed(before);
+  const std::optional<double> cut = limit_squeeze(before, body_velocity, dt);
+  sensors.clear();
+  note_sensors_at(before.position, false, 0);
+  note_step();
+  if (cut) note_sensors_at(state.position, true, *cut);
+  fixtures.note_poses();
+  lead_body(dt);
+  return report.status;
+}
+
+/// Whether a hero that was crushed came out farther away than its crushers moved: from under a press to its edge, for
+/// example. There may be such a way while the press is hardly in the hero. A player sees a jump.
+bool Hero::Impl::is_drawn_out(const CharacterState<double>& before) const {
+  if (!before.crushed || state.crushed) return false;
+  double reach = report.requested.norm() + most_squeezed;
+  for (const Crusher<double>& crusher : before.crushers)
+    if (b2Fixture* fixture = fixtures.fixture_of(crusher.collider); fixtures.is_near(fixture))
+      reach += way_of(before.position, fixtures.motion_of(*fixture));
+  return (state.position - before.position).norm() > reach;
+}
+
+/// Undoes a step: the hero waits in place until its crushers leave.
+void Hero::Impl::stay_crushed(const CharacterState<double>& before) {
+  state = before;
+  state.velocity.setZero();
+  for (Crusher<double>& crusher : state.crushers) {
+    b2Fixture* fixture = fixtures.fixture_of(crusher.collider);
+    if (!fixtures.is_near(fixture)) continue;
+    const PoseMotion motion = fixtures.motion_of(*fixture);
+    crusher.displacement += motion.to.position - motion.from.position;
+  }
+  report.move.clear();
+  report.move.position = state.position;
+  report.move.velocity = state.velocity;
+  report.move.status = MoveStatus::stuck;
+  report.move.path.push_back({state.position, 0});
+  report.move.path.push_back({state.position, 1});
+  report.sensors.clear();
+  report.dropped_through.clear();
+  report.status = StepStatus::stuck;
+}
+
+/// Whether the hero overlaps nothing at a position on its way at the end of the step.
+bool Hero::Impl::is_free_at_end(const Vec2d& position) {
+  const auto find = [this](const auto& /*box*/, auto& found) { fixtures.find_again(found); };
+  return other_controller.overlaps(position, {.dt = 1}, find, true) == 0U;
+}
+
+/// Ends the step on its way, in the air.
+/// @param corner of the path towards which the hero goes there. @param share of the way to it.
+/// @return when it is there, as a fraction of the step.
+double Hero::Impl::end_at(const Vec2d& position, std::size_t corner, double share) {
+  teleport(state, position);
+  MoveResult<double>& move = report.move;
+  const double before = move.path[corner - 1].fraction;
+  const double when = before + share * (move.path[corner].fraction - before);
+  while (move.path.size() > corner) move.path.pop_back();
+  move.path.push_back({position, 1});
+  while (!move.contacts.empty() && move.contacts.back().fraction > when) move.contacts.pop_back();
+  while (!report.sensors.empty() && report.sensors.back().fraction > when) report.sensors.pop_back();
+  move.position = position;
+  move.velocity = state.velocity;
+  move.grounded = false;
+  move.ground = {};
+  move.ride = {};
+  return when;
+}
+
+/// Moving bodies take the hero along, but squeeze it out no faster than they go themselves, or than Box2D moved the
+/// hero's body: between two surfaces of nearly one direction it would leave at any speed. It then ends where it is free
+/// first on its way.
+/// @return when, as a fraction of the step; nothing if it is where the step took it.
+std::optional<double> Hero::Impl::limit_squeeze(const CharacterState<double>& before, const Vec2d& body_velocity,
+                                                double dt) {
+  double most = std::max((report.requested / dt + before.ride.velocity).norm(), state.ride.velocity.norm());
+  bool is_pushed = false;
+  for (const Contact<double>& contact : report.move.contacts) {
+    b2Fixture& fixture = *fixtures.fixture_of(contact.collider);
+    const b2Body& other = *fixture.GetBody();
+    if (other.GetType() == b2_staticBody || contact.collider == state.ride.ground) continue;
+    is_pushed = true;
+    const bool has_mass = other.GetType() == b2_dynamicBody;
+    most = std::max(most, has_mass ? body_velocity.norm() : way_of(contact.point, fixtures.motion_of(fixture)) / dt);
+    if (!has_mass) continue;
+    // What Box2D moved a body to part it from others is no velocity of the body, and becomes none of the hero.
+    const Vec2d its = widened(other.GetLinearVelocityFromWorldPoint(rounded(contact.point)));
+    state.velocity += contact.normal * std::max(0.0, (its - state.velocity).dot(contact.normal));
+  }
+  const double speed = state.velocity.norm();
+  const bool is_too_fast = is_pushed && speed > most;
+  if (is_too_fast) state.velocity *= most / speed;
+  report.move.velocity = state.velocity;
+  if (!is_too_fast) return std::nullopt;
+  if ((state.position - before.position).norm() <= most * dt + most_squeezed) return std::nullopt;
+  double reach = most * dt;
+  for (std::size_t i = 1; i < report.move.path.size(); ++i) {
+    const Vec2d from = report.move.path[i - 1].position;
+    const Vec2d way = report.move.path[i].position - from;
+    for (; reach < way.norm(); reach = 1.25 * reach + most_squeezed) {
+      const Vec2d there = from + way * (reach / way.norm());
+      if (!is_free_at_end(there)) continue;
+      return end_at(there, i, reach / way.norm());
+    }
+    reach = std::max(0.0, reach - way.norm());
+  }
+  return std::nullopt;
+}
+
+void Hero::Impl::note_step() {
+  crushed_by.clear();
+  for (const ColliderIndex collider : report.move.crushed) crushed_by.push_back(fixtures.fixture_of(collider));
+  skipped.clear();
+  for (const ColliderIndex collider : controller.unusable()) skipped.push_back(fixtures.fixture_of(collider));
+  note_sensors();
+  note_contacts();
+}
+
+/// Sensors that the hero came to overlap, or ceased to, although its way does not show it: it was placed, or the sensor
+/// was, or the way was cut.
+/// @param at_end the position and the sensors are those of the end of the step, else of its beginning.
+/// @param fraction of the events.
+void Hero::Impl::note_sensors_at(const Vec2d& position, bool at_end, double fraction) {
+  std::vector<b2Fixture*> now;
+  if (fixtures.any_sensor()) {
+    std::vector<ColliderIndex> found(16);
+    const auto find = [this](const auto& /*box*/, auto& near) { fixtures.find_sensors(near); };
+    std::size_t count = 0;
+    while ((count = other_controller.overlaps(position, {.dt = 1}, find, at_end, found).value_or(0)) > found.size())
+      found.resize(count);
+    for (std::size_t i = 0; i < count; ++i) now.push_back(fixtures.fixture_of(found[i]));
+  }
+  const auto report_missing = [&](const auto& from, const auto& in, SensorEvent<double>::Change change) {
+    for (b2Fixture* sensor : from)
+      if (std::find(in.begin(), in.end(), sensor) == in.end() && (fixtures.is_near(sensor) || exists(*world, sensor)))
+        sensors.push_back({sensor, change, fraction});
+  };
+  report_missing(inside, now, SensorEvent<double>::Change::exit);
+  report_missing(now, inside, SensorEvent<double>::Change::enter);
+  inside = std::move(now);
+}
+
+void Hero::Impl::note_sensors() {
+  for (const SensorEvent<double>& event : report.sensors) {
+    b2Fixture* sensor = fixtures.fixture_of(event.sensor);
+    sensors.push_back({sensor, event.change, event.fraction});
+    if (event.change == SensorEvent<double>::Change::enter)
+      inside.push_back(sensor);
+    else
+      std::erase(inside, sensor);
+  }
+}
+
+void Hero::Impl::note_contacts() {
+  std::erase_if(contacts, [](const HeroContact& contact) { return contact.change == HeroContact::Change::removed; });
+  contacts_before.swap(contacts);
+  contacts_now.clear();
+  for (const Contact<double>& contact : report.move.contacts)
+    contacts_now.push_back({fixtures.fixture_of(contact.collider), HeroContact::Change::added, contact});
+  contacts.clear();
+  for_each_change<HeroContact>(
+      contacts_before, contacts_now, [](const HeroContact& a, const HeroContact& b) { return a.fixture == b.fixture; },
+      [this](ContactChange change, const HeroContact& of) {
+        contacts.push_back({of.fixture, change, of.contact});
+      });
+}
+
+}  // namespace paperproof::box2d
