@@ -45,7 +45,7 @@ Hero::Impl::~Impl() {
 bool Hero::Impl::fits(const CharacterDef& character, const Vec2d& position) const {
   NearFixtures around(*world, *body);
   around.restore_poses(fixtures.poses());
-  around.begin_step(def, up_of(gravity()), fixtures.dt());
+  around.begin_step(def, up_of(gravity()), fixtures.dt(), state);
   return LocalController(character).overlaps(position, {.dt = 1},
                                              [&](const auto& box, auto& found) { around.find(box, found); }) == 0U;
 }
@@ -67,14 +67,14 @@ Hero& Hero::operator=(Hero&&) noexcept = default;
 
 StepStatus Hero::step(const Input& input, double dt) {
   Impl& hero = *impl_;
-  return hero.advance(dt, input.drop, [&](const StepContext<double>& context, const LocalController::Find& find) {
+  return hero.advance(dt, [&](const StepContext<double>& context, const LocalController::Find& find) {
     return hero.controller.step(hero.state, input, context, find, hero.report);
   });
 }
 
 StepStatus Hero::move(const Vec2d& displacement, double dt) {
   Impl& hero = *impl_;
-  return hero.advance(dt, false, [&](const StepContext<double>& context, const LocalController::Find& find) {
+  return hero.advance(dt, [&](const StepContext<double>& context, const LocalController::Find& find) {
     return hero.controller.move(hero.state, displacement, context, find, hero.report);
   });
 }

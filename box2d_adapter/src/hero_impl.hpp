@@ -47,8 +47,7 @@ struct Hero::Impl {
 
   // hero_step.cpp
   using Go = std::function<StepStatus(const StepContext<double>& context, const LocalController::Find& find)>;
-  StepStatus advance(double dt, bool drops, const Go& go);
-  [[nodiscard]] std::vector<Vec2d> held_points(bool drops) const;
+  StepStatus advance(double dt, const Go& go);
   [[nodiscard]] bool is_drawn_out(const CharacterState<double>& before) const;
   void stay_crushed(const CharacterState<double>& before);
   std::optional<double> limit_squeeze(const CharacterState<double>& before, const Vec2d& body_velocity, double dt);

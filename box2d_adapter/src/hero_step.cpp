@@ -28,23 +28,13 @@ bool exists(b2World& world, const b2Fixture* fixture) {
 
 }  // namespace
 
-/// See `NearFixtures::begin_step`. `Input::drop` is for ledges alone: what the hero is in front of holds it. A hero
-/// that was just placed may begin in the ground: that lifts it, as in Box2D, if the middle of the hero is in front.
-std::vector<Vec2d> Hero::Impl::held_points(bool drops) const {
-  if (!state.has_last_free) return {state.position};
-  std::vector<Vec2d> corners;
-  if (!drops) return corners;
-  for (const Vec2d& corner : def.character.shape.hull()) corners.emplace_back(state.position + corner);
-  return corners;
-}
-
-StepStatus Hero::Impl::advance(double dt, bool drops, const Go& go) {
+StepStatus Hero::Impl::advance(double dt, const Go& go) {
   if (world->IsLocked() || !(dt > 0 && dt <= largest) || !gravity().allFinite() || !state.position.allFinite())
     return StepStatus::invalid_input;
   const CharacterState<double> before = state;
   const Vec2d body_velocity = widened(body->GetLinearVelocity());
   const Vec2d up = up_of(gravity());
-  fixtures.begin_step(def, up, dt, held_points(drops));
+  fixtures.begin_step(def, up, dt, state);
   take_impacts();
   const StepStatus status = go({.gravity = gravity(), .dt = dt, .up = up},
                                [this](const auto& box, auto& found) { fixtures.find(box, found); });
@@ -66,7 +56,7 @@ StepStatus Hero::Impl::advance(double dt, bool drops, const Go& go) {
 /// Whether a hero that was crushed came out farther away than its crushers moved: from under a press to its edge, for
 /// example. There may be such a way while the press is hardly in the hero. A player sees a jump.
 bool Hero::Impl::is_drawn_out(const CharacterState<double>& before) const {
-  if (!before.crushed || state.crushed) return false;
+  if (!before.crushed) return false;
   double reach = report.requested.norm() + most_squeezed;
   for (const Crusher<double>& crusher : before.crushers)
     if (b2Fixture* fixture = fixtures.fixture_of(crusher.collider); fixtures.is_near(fixture))
@@ -142,10 +132,9 @@ std::optional<double> Hero::Impl::limit_squeeze(const CharacterState<double>& be
     state.velocity += contact.normal * std::max(0.0, (its - state.velocity).dot(contact.normal));
   }
   const double speed = state.velocity.norm();
-  const bool is_too_fast = is_pushed && speed > most;
-  if (is_too_fast) state.velocity *= most / speed;
+  if (is_pushed && speed > most) state.velocity *= most / speed;
   report.move.velocity = state.velocity;
-  if (!is_too_fast) return std::nullopt;
+  if (!is_pushed) return std::nullopt;
   if ((state.position - before.position).norm() <= most * dt + most_squeezed) return std::nullopt;
   double reach = most * dt;
   for (std::size_t i = 1; i < report.move.path.size(); ++i) {

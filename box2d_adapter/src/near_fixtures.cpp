@@ -11,10 +11,13 @@
 #include <box2d/b2_world.h>
 #include <box2d/b2_world_callbacks.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -74,7 +77,7 @@ std::uint64_t hash_of(const b2Shape& shape) {
     }
     case b2Shape::e_edge: {
       const auto& edge = static_cast<const b2EdgeShape&>(shape);
-      return hash.add(edge.m_vertex1).add(edge.m_vertex2).value();
+      return hash.add(edge.m_vertex1).add(edge.m_vertex2).add(std::uint64_t{edge.m_oneSided}).value();
     }
     case b2Shape::e_polygon: {
       const auto& polygon = static_cast<const b2PolygonShape&>(shape);
@@ -182,14 +185,19 @@ bool NearFixtures::Seen::operator==(const Seen& other) const noexcept {
          one_way == other.one_way && cut.lower == other.cut.lower && cut.upper == other.cut.upper;
 }
 
-void NearFixtures::begin_step(const HeroDef& def, const Vec2d& up, double dt, std::vector<Vec2d> held) {
+void NearFixtures::begin_step(const HeroDef& def, const Vec2d& up, double dt, const CharacterState<double>& state) {
   def_ = &def;
   up_ = up;
   dt_ = dt;
-  held_ = std::move(held);
+  middle_ = state.position;
+  hull_.clear();
+  for (const Vec2d& corner : def.character.shape.hull()) hull_.emplace_back(middle_ + corner);
+  was_placed_ = !state.has_last_free;
+  ground_ = state.ground.state == GroundState::air ? nullptr : fixture_of(state.ground.collider);
 }
 
-NearFixtures::Seen NearFixtures::seen(b2Fixture& fixture, const Seen& before, const Box2<double>& box) const {
+/// @param known as it was seen last, or as another fixture at its address was. Its chain and front are renewed.
+NearFixtures::Seen NearFixtures::seen(b2Fixture& fixture, Known& known, const Box2<double>& box) const {
   const b2Body& body = *fixture.GetBody();
   Seen result{.body = &body,
               .shape = fixture.GetShape(),
@@ -204,33 +212,40 @@ NearFixtures::Seen NearFixtures::seen(b2Fixture& fixture, const Seen& before, co
   }
   if (result.sensor) return result;
   if (def_->surface_of) result.surface = def_->surface_of(fixture);
-  result.up = up_;
   if (result.surface.blocks == Blocking::from_above) result.one_way = up_;
-  if (result.surface.blocks == Blocking::as_in_box2d) {
-    result.front = front_of_fixture(fixture, result, before);
-    if (result.front && !is_held_by(fixture, *result.front)) result.one_way = result.front;
+  if (result.surface.blocks == Blocking::as_in_box2d && is_one_sided(*result.shape)) {
+    const Seen& before = known.seen;
+    const bool is_same = before.shape == result.shape && before.geometry == result.geometry &&
+                         before.moves == result.moves && before.place == result.place && before.angle == result.angle;
+    if (!is_same || known.chain.empty()) {
+      known.chain = collider_of(*result.shape, result.moves ? at({0, 0}) : body.GetTransform()).points;
+      known.front = front_of(known.chain);
+    }
+    result.one_way = one_way_of(fixture, known);
   }
   const bool is_long = fixture.GetType() == b2Shape::e_chain && !result.moves;
   if (is_long && result.surface.blocks != Blocking::from_above) result.cut = box;
   return result;
 }
 
-/// Of what turns, or may tumble, none.
-std::optional<Vec2d> NearFixtures::front_of_fixture(const b2Fixture& fixture, const Seen& now,
-                                                    const Seen& before) const {
-  const b2Body& body = *now.body;
-  if (body.GetType() == b2_dynamicBody || (now.moves && body.GetAngularVelocity() != 0)) return std::nullopt;
-  const bool is_same = !now.moves && before.shape == now.shape && before.geometry == now.geometry &&
-                       before.angle == now.angle && before.up == now.up &&
-                       before.surface.blocks == Blocking::as_in_box2d && !before.moves && !before.sensor;
-  return is_same ? before.front : front_of(*fixture.GetShape(), body.GetTransform().q, up_);
-}
-
-/// Whether a one-sided fixture blocks from everywhere in this step.
-bool NearFixtures::is_held_by(const b2Fixture& fixture, const Vec2d& front) const {
-  if (held_.empty()) return false;
-  const ColliderDef chain = collider_of(*fixture.GetShape(), fixture.GetBody()->GetTransform());
-  return are_in_front(held_, chain.points, front);
+/// The side from which alone a one-sided fixture blocks in this step. Nothing: it blocks from everywhere. It does so
+/// while the hero is in front of it, so that its ends and joints hold the hero as those of any fixture. A hero that was
+/// placed in it, or stands on it where the game raised it, is lifted out, if its middle is in front. What turns or may
+/// tumble always does.
+std::optional<Vec2d> NearFixtures::one_way_of(const b2Fixture& fixture, const Known& known) const {
+  const b2Body& body = *fixture.GetBody();
+  const bool moves = body.GetType() != b2_staticBody;
+  if (!known.front || body.GetType() == b2_dynamicBody || (moves && body.GetAngularVelocity() != 0))
+    return std::nullopt;
+  const BodyPose begin = moves ? begin_of(body) : BodyPose{};
+  const Eigen::Rotation2Dd turn(begin.angle);
+  const auto seen_from_body = [&](const Vec2d& point) { return Vec2d(turn.inverse() * (point - begin.position)); };
+  std::vector<Vec2d> hull;
+  std::transform(hull_.begin(), hull_.end(), std::back_inserter(hull), seen_from_body);
+  if (is_in_front(hull, known.chain, *known.front)) return std::nullopt;
+  const bool lifts = was_placed_ || ground_ == &fixture;
+  if (lifts && is_in_front(std::array{seen_from_body(middle_)}, known.chain, *known.front)) return std::nullopt;
+  return Vec2d(turn * *known.front);
 }
 
 void NearFixtures::search(const Box2<double>& box) {
@@ -247,7 +262,7 @@ void NearFixtures::search(const Box2<double>& box) {
     if (fixture->GetBody() == hero_) continue;
     if (filter != nullptr && !filter->ShouldCollide(hero_->GetFixtureList(), fixture)) continue;
     Known& known = known_[fixture];
-    const Seen now = seen(*fixture, known.seen, box);
+    const Seen now = seen(*fixture, known, box);
     if (now.surface.blocks == Blocking::not_at_all) continue;
     const bool is_other = known.version != 0 && (known.seen.body != now.body || known.seen.shape != now.shape);
     if (is_other) known = {};  // another one at the same address

@@ -53,9 +53,8 @@ class NearFixtures {
   /// Before the first `find` of a step.
   /// @param up the side from which ledges block.
   /// @param dt for the motion of a body that was not near in the last step.
-  /// @param held a one-sided edge or chain blocks from everywhere in this step, if all these points are in front of it.
-  /// Without points none does.
-  void begin_step(const HeroDef& def, const Vec2d& up, double dt, std::vector<Vec2d> held = {});
+  /// @param state of the hero, when the step begins.
+  void begin_step(const HeroDef& def, const Vec2d& up, double dt, const CharacterState<double>& state);
   /// See `LocalController::Find`. Reads all fixtures in a box, and how their bodies moved since `note_poses`.
   void find(const Box2<double>& box, std::vector<NearCollider>& found);
   /// The same as the last `find` found.
@@ -95,8 +94,6 @@ class NearFixtures {
     bool moves = false;
     bool sensor = false;
     Surface surface;
-    Vec2d up{0, 1};                  ///< Of the hero.
-    std::optional<Vec2d> front{};    ///< Of a one-sided shape: see `front_of`.
     std::optional<Vec2d> one_way{};  ///< The side from which alone it blocks.
     Box2<double> cut;                ///< To which a long chain is cut; else always the same.
     bool operator==(const Seen& other) const noexcept;
@@ -110,6 +107,10 @@ class NearFixtures {
     std::uint64_t version = 0;
     MoverIndex mover = no_mover;
     std::vector<Part> parts;  ///< One, but of a chain that is cut.
+    /// Of a one-sided shape: its vertices, in the world or, of a body that may move, relative to the body; and what
+    /// they face.
+    std::vector<Vec2d> chain;
+    std::optional<Vec2d> front;
     std::uint64_t found = 0;  ///< Number of the last search that found it.
   };
 
@@ -120,11 +121,8 @@ class NearFixtures {
 
   void search(const Box2<double>& box);
   void add(const Near& near, std::vector<NearCollider>& found) const;
-  /// @param before as the same fixture was seen last, or another one at its address.
-  [[nodiscard]] Seen seen(b2Fixture& fixture, const Seen& before, const Box2<double>& box) const;
-  [[nodiscard]] std::optional<Vec2d> front_of_fixture(const b2Fixture& fixture, const Seen& now,
-                                                      const Seen& before) const;
-  [[nodiscard]] bool is_held_by(const b2Fixture& fixture, const Vec2d& front) const;
+  [[nodiscard]] Seen seen(b2Fixture& fixture, Known& known, const Box2<double>& box) const;
+  [[nodiscard]] std::optional<Vec2d> one_way_of(const b2Fixture& fixture, const Known& known) const;
   void define(Known& known);
   [[nodiscard]] std::map<b2Fixture*, Known>::const_iterator find_known(ColliderIndex id) const noexcept;
   void number_movers();
@@ -136,7 +134,10 @@ class NearFixtures {
   const HeroDef* def_ = nullptr;
   Vec2d up_{0, 1};
   double dt_ = 0;
-  std::vector<Vec2d> held_;
+  Vec2d middle_{Vec2d::Zero()};        ///< The origin of the hero's shape [m],
+  std::vector<Vec2d> hull_;            ///< its corners, when the step begins,
+  bool was_placed_ = false;            ///< and whether it has not been free yet.
+  const b2Fixture* ground_ = nullptr;  ///< What it stands on.
   std::map<b2Fixture*, Known> known_;
   std::vector<b2Fixture*> hits_;
   std::vector<Near> near_;    ///< Found in the last search,

@@ -35,41 +35,57 @@ ColliderDef circle_of(const b2CircleShape& circle, const b2Transform& transform)
   return def;
 }
 
-/// The vertices of a one-sided shape; none of any other. Box2D's front is on the right of the way along them.
-std::vector<b2Vec2> one_sided_vertices(const b2Shape& shape) {
-  if (shape.GetType() == b2Shape::e_chain) {
-    const auto& chain = static_cast<const b2ChainShape&>(shape);
-    return {chain.m_vertices, chain.m_vertices + chain.m_count};
-  }
-  if (shape.GetType() != b2Shape::e_edge) return {};
-  const auto& edge = static_cast<const b2EdgeShape&>(shape);
-  return edge.m_oneSided ? std::vector{edge.m_vertex1, edge.m_vertex2} : std::vector<b2Vec2>{};
-}
-
 Vec2d right_of(const Vec2d& way) { return {way.y(), -way.x()}; }
 
 }  // namespace
 
-std::optional<Vec2d> front_of(const b2Shape& shape, const b2Rot& turn, const Vec2d& up) {
-  const std::vector<b2Vec2> vertices = one_sided_vertices(shape);
-  if (vertices.empty()) return std::nullopt;
-  for (const Vec2d& side : {up, Vec2d(-up), right_of(up), Vec2d(-right_of(up))}) {
-    const b2Vec2 in_body = b2MulT(turn, rounded(side));
-    const auto turns_away = [&](const b2Vec2& from, const b2Vec2& to) {
-      return !(right_of(widened(to) - widened(from)).dot(widened(in_body)) > 0);
-    };
-    if (std::adjacent_find(vertices.begin(), vertices.end(), turns_away) == vertices.end()) return side;
-  }
-  return std::nullopt;
+bool is_one_sided(const b2Shape& shape) {
+  return shape.GetType() == b2Shape::e_chain ||
+         (shape.GetType() == b2Shape::e_edge && static_cast<const b2EdgeShape&>(shape).m_oneSided);
 }
 
-bool are_in_front(std::span<const Vec2d> points, std::span<const Vec2d> chain, const Vec2d& front) {
+std::optional<Vec2d> front_of(std::span<const Vec2d> chain) {
+  const Vec2d front = right_of(chain.back() - chain.front()).normalized();
+  const auto turns_away = [&](const Vec2d& from, const Vec2d& to) { return !(right_of(to - from).dot(front) > 0); };
+  const bool any = std::adjacent_find(chain.begin(), chain.end(), turns_away) != chain.end();
+  return any ? std::nullopt : std::optional(front);
+}
+
+bool is_in_front(std::span<const Vec2d> polygon, std::span<const Vec2d> chain, const Vec2d& front) {
   const Vec2d along = -right_of(front);  // the chain has its front on the right, and so goes this way
-  return std::all_of(points.begin(), points.end(), [&](const Vec2d& point) {
-    std::size_t i = 1;
-    while (i + 1 < chain.size() && (point - chain[i]).dot(along) > 0) ++i;
-    return right_of(chain[i] - chain[i - 1]).dot(point - chain[i]) >= 0;
-  });
+  const auto place = [&](const Vec2d& point) { return point.dot(along); };
+  const auto height = [&](const Vec2d& point) { return point.dot(front); };
+  const double least = place(std::ranges::min(polygon, {}, place));
+  const double most = place(std::ranges::max(polygon, {}, place));
+  if (most < place(chain.front()) || least > place(chain.back())) {
+    const Vec2d& end = most < place(chain.front()) ? chain.front() : chain.back();
+    return height(std::ranges::min(polygon, {}, height)) >= height(end);
+  }
+  const auto vertex_from = [&](double there) {
+    return std::ranges::partition_point(chain, [&](const Vec2d& vertex) { return place(vertex) < there; });
+  };
+  const auto is_above = [&](const Vec2d& corner) {
+    const auto next = vertex_from(place(corner));
+    if (next == chain.end() || (next == chain.begin() && place(*next) > place(corner))) return true;
+    const auto to = next == chain.begin() ? next + 1 : next;
+    return right_of(*to - *(to - 1)).dot(corner - *to) >= 0;
+  };
+  const auto is_below = [&](const Vec2d& vertex) {
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Vec2d& a = polygon[i];
+      const Vec2d& b = polygon[(i + 1) % polygon.size()];
+      const double from = std::min(place(a), place(b));
+      const double to = std::max(place(a), place(b));
+      if (place(vertex) < from || place(vertex) > to || from == to) continue;
+      const double share = (place(vertex) - place(a)) / (place(b) - place(a));
+      if (height(a) + share * (height(b) - height(a)) < height(vertex)) return false;
+    }
+    return true;
+  };
+  if (!std::all_of(polygon.begin(), polygon.end(), is_above)) return false;
+  for (auto vertex = vertex_from(least); vertex != chain.end() && place(*vertex) <= most; ++vertex)
+    if (!is_below(*vertex)) return false;
+  return true;
 }
 
 b2PolygonShape character_polygon(std::span<const Vec2d> hull) {

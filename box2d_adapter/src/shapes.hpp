@@ -20,18 +20,20 @@ namespace paperproof::box2d {
 ///   1e-6 m², corners that are not finite, or not strictly convex in float.
 [[nodiscard]] b2PolygonShape character_polygon(std::span<const Vec2d> hull);
 
-/// A shape at a place, in world coordinates. An edge and a chain block from both sides.
+/// A shape at a place. An edge and a chain block from both sides.
 [[nodiscard]] ColliderDef collider_of(const b2Shape& shape, const b2Transform& transform);
 
-/// The side from which Box2D lets a one-sided edge or chain block: the first of `up`, down, right and left that each of
-/// its segments faces. Nothing for a shape that is not one-sided, and for one that faces none of them everywhere, as a
-/// loop.
-/// @param turn of its body.
-[[nodiscard]] std::optional<Vec2d> front_of(const b2Shape& shape, const b2Rot& turn, const Vec2d& up);
+/// Whether Box2D lets a shape block from one side alone: the right of the way along its vertices.
+[[nodiscard]] bool is_one_sided(const b2Shape& shape);
 
-/// Whether all points are in front of a chain, or on it. It faces `front` everywhere, and goes on straight at its ends.
-/// @param points not empty.
-[[nodiscard]] bool are_in_front(std::span<const Vec2d> points, std::span<const Vec2d> chain, const Vec2d& front);
+/// The unit vector that all segments of a one-sided chain face, and with it the straight way from its first vertex to
+/// its last. Nothing if a segment faces away from it: a loop, an overhang.
+[[nodiscard]] std::optional<Vec2d> front_of(std::span<const Vec2d> chain);
+
+/// Whether a convex polygon is in front of a chain, or touches it from there, where the two are above each other;
+/// beside the chain: whether it is not below the chain's nearest end.
+/// @param polygon one corner or more. @param front that the chain faces.
+[[nodiscard]] bool is_in_front(std::span<const Vec2d> polygon, std::span<const Vec2d> chain, const Vec2d& front);
 
 /// The polygon of 32 corners that encloses a circle, and reaches beyond it by 0.5 % of its radius: circles cannot be
 /// one-way.

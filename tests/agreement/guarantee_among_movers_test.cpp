@@ -413,7 +413,7 @@ TEST_P(AmongMovers, no_step_breaks_the_guarantee) {
 }
 
 TEST_P(AmongMovers, no_step_with_any_up_breaks_the_guarantee) {
-  const Tally tally = run_family<double>(GetParam(), std::max(steps_per_family() / 9, 1000), true);
+  const Tally tally = run_family<double>(GetParam(), std::max(steps_per_family() / 9, 2000), true);
   EXPECT_EQ(tally.overlaps, 0);
   EXPECT_EQ(tally.passages, 0);
   EXPECT_EQ(tally.one_way, 0);

@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <vector>
 
 namespace paperproof::box2d::hero_test {
@@ -90,6 +92,108 @@ TEST(OneSidedChain, is_no_ledge_to_drop_through) {
   game.hero.place({0, half_height + 0.001});
   game.run(60, {.drop = true});
   EXPECT_NEAR(game.hero.position().y(), half_height, 1e-5) << "behind it, it is not there";
+}
+
+b2Fixture& one_sided_edge(Game& game, const b2Vec2& from, const b2Vec2& to) {
+  b2EdgeShape edge;
+  edge.SetOneSided(from + from - to, from, to, to + to - from);
+  b2BodyDef def;
+  return *game.world.CreateBody(&def)->CreateFixture(&edge, 0);
+}
+
+TEST(OneSidedEdge, stops_at_a_wall_that_bulges_where_two_meet) {
+  for (const float bulge : {-0.6F, -0.1F, -0.02F, 0.0F, 0.02F, 0.1F, 0.6F}) {
+    Game game({.position = {0, half_height + 1e-6}});
+    game.floor();
+    one_sided_edge(game, {3, 12}, {3, 3});  // downwards: its front is on the left
+    one_sided_edge(game, {3, 3}, {3 - bulge, 0.6F});
+    one_sided_edge(game, {3 - bulge, 0.6F}, {3, -1});
+    for (int i = 0; i < 120; ++i) {
+      game.go({.move = 1.0, .jump = i > 60});
+      ASSERT_LT(game.hero.position().x(), 3 + std::max(0.0F, -bulge)) << "bulge " << bulge << ", frame " << i;
+    }
+  }
+}
+
+TEST(OneSidedEdge, holds_at_the_top_of_a_cliff_that_is_a_fixture_of_its_own) {
+  for (const float overhang : {0.0F, 0.3F, -0.3F}) {
+    Game game({.position = {-2, 1.5}});
+    chain(game, {{0, 0}, {-6, -1}});
+    chain(game, {{overhang, -5}, {0, 0}});
+    for (int i = 0; i < 200; ++i) {
+      game.go({.move = game.hero.position().x() < -0.1 ? 0.5 : 0.0});
+      ASSERT_GT(game.hero.position().y(), 0) << "overhang " << overhang << ", frame " << i;
+    }
+  }
+}
+
+TEST(OneSidedChain, leaves_no_room_to_stand_up_beneath_a_ceiling) {
+  CharacterDef low;
+  low.shape = CharacterShape(std::array{Vec2d(-0.3, -0.3), Vec2d(0.3, -0.3), Vec2d(0.3, 0.3), Vec2d(-0.3, 0.3)});
+  Game game({.character = low, .position = {0, 0.3 + 1e-6}});
+  chain(game, {{5, 0}, {-5, 0}});
+  chain(game, {{-5, 0.9F}, {5, 0.9F}});
+  game.run(5);
+  EXPECT_FALSE(game.hero.change({}));
+  game.run(30, {.jump = true});
+  EXPECT_LT(game.hero.position().y(), 0.9);
+}
+
+TEST(OneSidedChain, lifts_the_hero_if_the_game_raises_it) {
+  for (const float by : {1e-4F, 0.01F, 0.2F}) {
+    Game game({.position = {0, half_height + 1e-6}});
+    b2Body* ground = chain(game, {{8, 0}, {-8, 0}}).GetBody();
+    game.run(5);
+    for (int i = 1; i <= 10; ++i) {
+      ground->SetTransform({0, by * static_cast<float>(i)}, 0);
+      game.run(3);
+    }
+    EXPECT_NEAR(game.hero.position().y(), 10 * static_cast<double>(by) + half_height, 1e-4) << "by " << by;
+  }
+}
+
+TEST(OneSidedEdge, that_becomes_two_sided_in_place_is_seen) {
+  Game game({.position = {0, half_height + 1e-6}});
+  game.floor();
+  b2Fixture& edge = one_sided_edge(game, {4, 2}, {-4, 2});
+  game.run(2);
+  static_cast<b2EdgeShape*>(edge.GetShape())->SetTwoSided({4, 2}, {-4, 2});
+  double highest = 0;
+  for (int i = 0; i < 60; ++i) {
+    game.go({.jump = true});
+    highest = std::max(highest, game.hero.position().y());
+  }
+  EXPECT_NEAR(highest, 2 - half_height, 1e-5);
+}
+
+TEST(OneSidedChain, is_no_ledge_where_two_meet_at_a_peak) {
+  for (double x = -0.4; x <= 0.4; x += 0.02) {
+    Game game({.position = {x, 1.2 + half_height}});
+    chain(game, {{6, -2}, {0, 1}});
+    chain(game, {{0, 1}, {-6, -2}});
+    game.run(40);
+    game.go({.move = 0.0, .drop = true});
+    game.run(10);
+    const Vec2d at = game.hero.position();
+    ASSERT_GE(at.y() - half_height, 1 - std::abs(at.x()) / 2 - half_width / 2 - 1e-6) << "from " << x;
+  }
+}
+
+TEST(OneSidedChain, is_no_ledge_on_a_lift) {
+  for (const float speed : {-1.0F, -0.2F, 0.0F, 0.2F, 1.0F, 3.0F}) {
+    for (const float slant : {0.0F, 0.5F}) {
+      Game game({.position = {0, 2.5 + half_height}});
+      b2Fixture& lift = chain(game, {{4, 2}, {0, 2 + slant}, {-4, 2}}, b2_kinematicBody);
+      game.run(60);
+      ASSERT_EQ(game.hero.ground(), &lift);
+      lift.GetBody()->SetLinearVelocity({0, speed});
+      for (int i = 0; i < 60; ++i) {
+        game.go({.move = 0.0, .drop = i % 3 == 0});
+        ASSERT_GT(game.hero.position().y() - half_height, lift.GetBody()->GetPosition().y + 1.9F)
+            << "speed " << speed << ", slant " << slant << ", frame " << i;
+      }
+    }
+  }
 }
 
 TEST(OneSidedChain, lifts_a_hero_that_was_placed_a_little_too_deep) {

@@ -47,8 +47,8 @@ TEST(HeroListener, hears_of_a_saw_blade_that_comes) {
   EXPECT_EQ(std::count(game.listener.begun.begin(), game.listener.begun.end(), saw), 1);
 }
 
-/// A door whose way was a whole number of steps overlapped the hero by rounding alone. In the next step the hero came out
-/// from under it to its edge, metres away.
+/// A door whose way was a whole number of steps overlapped the hero by rounding alone. In the next step the hero came
+/// out from under it to its edge, metres away.
 TEST(Hero, is_not_drawn_out_from_under_a_door_that_closes) {
   int crushed = 0;
   for (const float speed : {-0.5F, -1.0F, -2.0F, -3.0F, -6.0F}) {
@@ -76,6 +76,28 @@ TEST(Hero, is_not_drawn_out_from_under_a_door_that_closes) {
     }
   }
   EXPECT_GE(crushed, 25);
+}
+
+/// A press that is turned by nearly nothing makes a wedge with the floor that leads out at any speed: the hero was
+/// moved by 120 km in a frame.
+TEST(Hero, is_not_flung_by_a_press_that_hardly_turns) {
+  for (const float spin : {1e-7F, 1e-5F, 1e-3F, 0.05F, -1e-4F}) {
+    for (const float speed : {-1.0F, -3.0F}) {
+      Game game({.position = {0, half_height + 1e-6}});
+      game.floor();
+      b2Fixture& press = game.box(b2_kinematicBody, {0.3F, 2.5F}, 1, 1);
+      press.GetBody()->SetAngularVelocity(spin);
+      game.run(5);
+      press.GetBody()->SetLinearVelocity({0, speed});
+      for (int i = 0; i < 200 && press.GetBody()->GetPosition().y > 1.2F; ++i) {
+        const Vec2d before = game.hero.position();
+        game.go();
+        ASSERT_LT((game.hero.position() - before).norm(), 2)
+            << "spin " << spin << ", speed " << speed << ", frame " << i;
+        ASSERT_LE(game.hero.velocity().norm(), 3.1) << "spin " << spin << ", speed " << speed << ", frame " << i;
+      }
+    }
+  }
 }
 
 /// A body that the game turned was taken to have swept from its old angle to the new one, and threw the hero 60 m.

@@ -30,22 +30,24 @@ bool StepSolver<Lanes, Scalar, Up>::goes_to_free_position() noexcept {
   return true;
 }
 
-/// Whether a circle that moves would drive the character farther than both go. Its tangent does, where it squeezes the
-/// character out sideways: the circle itself leaves it sooner.
+/// Whether a mover would drive the character farther than both go. The tangent of a circle does, where it squeezes the
+/// character out sideways: the circle itself leaves it sooner. A polygon does that as any wedge, so it is let go on for
+/// the size of the character; one that is turned by nearly nothing would drive the character any distance.
 template <std::size_t Lanes, class Scalar, class Up>
 bool StepSolver<Lanes, Scalar, Up>::flings(const V& wanted, const V& allowed) const noexcept {
   const Scalar own = length_of(wanted) + std::abs(steered_) * dt_ + Tolerances<Scalar>{}.touch;
+  const Scalar size = length_of(V(space_.hull_box().upper - space_.hull_box().lower));
   return std::any_of(memory_.surfaces.begin(), memory_.surfaces.end(), [&](const TouchedSurface<Scalar>& surface) {
-    return space_.is_circle(surface.piece) && moves_in(surface) &&
-           length_of(allowed) > own + length_of(remaining_of(surface));
+    const Scalar most = own + length_of(remaining_of(surface)) + (space_.is_circle(surface.piece) ? Scalar(0) : size);
+    return moves_in(surface) && length_of(allowed) > most;
   });
 }
 
-/// Moves to a free position beside a circle that would fling the character, if there is one that is no farther away.
+/// Moves to a free position beside a mover that would fling the character, if there is one that is no farther away.
 /// A way out of what the step began inside of is kept.
 /// @param allowed the response to what the last sweep met.
 template <std::size_t Lanes, class Scalar, class Up>
-bool StepSolver<Lanes, Scalar, Up>::goes_beside_circle(const V& allowed) noexcept {
+bool StepSolver<Lanes, Scalar, Up>::goes_beside_flinging(const V& allowed) noexcept {
   if (is_passed_through() || !flings(V(motion_.displacement * (1 - found_.stop)), allowed)) return false;
   const bool has_left = std::any_of(memory_.marked.begin(), memory_.marked.end(),
                                     [this](ColliderIndex collider) { return memory_.is(collider, leaving); });

@@ -131,7 +131,7 @@ void StepSolver<Lanes, Scalar, Up>::travel() noexcept {
   int impacts = 0;
   for (std::size_t sweeps = 0; sweeps < most_sweeps && result_.path.size() < most_corners; ++sweeps) {
     if (movers_.active) {
-      if (sweeps > 0 && goes_beside_circle(desired.displacement.wanted)) return;
+      if (sweeps > 0 && goes_beside_flinging(desired.displacement.wanted)) return;
     } else if (displacement.x() == 0 && displacement.y() == 0) {
       return;
     }

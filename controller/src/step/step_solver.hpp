@@ -138,7 +138,7 @@ class StepSolver {
   void note_reported() noexcept;
   [[gnu::cold, gnu::noinline]] void report_touched(PieceIndex piece) noexcept;
   [[nodiscard]] Scalar fraction_of(const Stop<Scalar>& stop, Scalar begin) noexcept;
-  [[nodiscard, gnu::cold, gnu::noinline]] std::optional<Scalar> impact_of_wanted(PieceIndex piece) noexcept;
+  [[nodiscard, gnu::cold, gnu::noinline]] Scalar fraction_after_contacts(PieceIndex piece, Scalar turned) noexcept;
   [[nodiscard]] Scalar impact_of(const Stop<Scalar>& stop, const LocalMotion& motion, const V& from) noexcept;
   [[nodiscard, gnu::noinline]] Scalar impact_with_another_piece(const Stop<Scalar>& stop, const LocalMotion& motion,
                                                                 const V& from) noexcept;
@@ -300,7 +300,7 @@ class StepSolver {
   [[nodiscard]] bool is_passed_through() const noexcept;
   [[nodiscard, gnu::cold, gnu::noinline]] bool goes_to_free_position() noexcept;
   [[nodiscard]] bool flings(const V& wanted, const V& allowed) const noexcept;
-  [[nodiscard, gnu::cold, gnu::noinline]] bool goes_beside_circle(const V& allowed) noexcept;
+  [[nodiscard, gnu::cold, gnu::noinline]] bool goes_beside_flinging(const V& allowed) noexcept;
   [[gnu::cold, gnu::noinline]] void undo_crushes() noexcept;
   [[nodiscard]] bool moves_in(const TouchedSurface<Scalar>& surface) const noexcept;
   [[gnu::cold, gnu::noinline]] bool note_crushers() noexcept;

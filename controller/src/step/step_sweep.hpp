@@ -184,7 +184,7 @@ void StepSolver<Lanes, Scalar, Up>::report(Scalar begin) noexcept {
     }
     Scalar fraction = fraction_of(stop, begin);
     if (begin == 0 && before > 0) [[unlikely]]
-      fraction = impact_of_wanted(stop.piece).value_or(fraction);
+      fraction = fraction_after_contacts(stop.piece, fraction);
     report_contact(stop.piece, stop.axes.normal, fraction, before);
   }
   if (found_.stops.overflowed()) [[unlikely]]
@@ -250,16 +250,11 @@ void StepSolver<Lanes, Scalar, Up>::report_more(Scalar begin, std::size_t this_m
   }
 }
 
-/// Puts the contacts in order of fraction. What the wanted motion does not run into was met because contacts before it
-/// turned that motion: it did not come earlier than they did.
+/// Puts the contacts in order of fraction; those of one fraction stay as they were met.
 template <std::size_t Lanes, class Scalar, class Up>
 void StepSolver<Lanes, Scalar, Up>::order_contacts() noexcept {
   const auto begin = result_.contacts.begin();
-  Scalar latest = 0;
   for (auto contact = begin; contact != result_.contacts.end(); ++contact) {
-    if (dot(V(wanted_ - displacement_of(contact->collider)), contact->normal) >= 0)
-      contact->fraction = std::max(contact->fraction, latest);
-    latest = std::max(latest, contact->fraction);
     const auto place =
         std::upper_bound(begin, contact, contact->fraction,
                          [](Scalar fraction, const Contact<Scalar>& other) { return fraction < other.fraction; });
@@ -287,23 +282,25 @@ Scalar StepSolver<Lanes, Scalar, Up>::fraction_of(const Stop<Scalar>& stop, Scal
   return begin + (1 - begin) * impact_of(stop, motion_, from);
 }
 
-/// Time of impact of the wanted motion with a piece, if it meets the piece in the step. What is met before any time has
-/// passed, by a motion that other contacts have turned, is met at this time: the wanted motion need not have come to
-/// those.
+/// The fraction of a contact that is met before any time has passed, by a motion that other contacts have turned.
+/// Either the wanted motion comes to it before it comes to them, or it comes after the first of them.
+/// @param turned time of impact of the motion that was turned.
 template <std::size_t Lanes, class Scalar, class Up>
-std::optional<Scalar> StepSolver<Lanes, Scalar, Up>::impact_of_wanted(PieceIndex piece) noexcept {
+Scalar StepSolver<Lanes, Scalar, Up>::fraction_after_contacts(PieceIndex piece, Scalar turned) noexcept {
+  Scalar first = 1;
+  for (const Contact<Scalar>& contact : result_.contacts) first = std::min(first, contact.fraction);
   const MoverIndex mover = mover_of(piece);
   const V offset = mover == no_mover ? V(V::Zero()) : movers_.offset(mover, 0);
   const V way = mover == no_mover ? wanted_ : V(wanted_ - movers_.displacement(mover));
   LocalMotion motion = make_motion<Lanes>(space_, V(start_ - offset), way);
   motion.lost = lost_by(start_, offset);
-  if (!in_way(motion, piece)) return std::nullopt;
-  const Clearance<Scalar> clear = clearance(space_, motion, piece);
-  if (clear.clear()) return std::nullopt;
-  const PieceHit<Scalar> hit = sweep_piece(space_, motion, piece, clear, up_);
-  if (!hit.hit) return std::nullopt;
-  const Scalar fraction = time_of_impact(space_, motion.from, way, piece, hit.axes);
-  return fraction <= 1 ? std::optional(fraction) : std::nullopt;
+  if (in_way(motion, piece)) {
+    const Clearance<Scalar> clear = clearance(space_, motion, piece);
+    const PieceHit<Scalar> hit = clear.clear() ? PieceHit<Scalar>{} : sweep_piece(space_, motion, piece, clear, up_);
+    const Scalar wanted = hit.hit ? time_of_impact(space_, motion.from, way, piece, hit.axes) : first;
+    if (wanted < first) return wanted;
+  }
+  return std::max(first, turned);
 }
 
 /// Time of impact with the collider of a piece, as a fraction of the motion. A motion that grazes a rim stops long

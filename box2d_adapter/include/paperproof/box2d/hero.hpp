@@ -19,9 +19,9 @@ namespace paperproof::box2d {
 
 /// From where a fixture blocks a hero.
 enum class Blocking : std::uint8_t {
-  /// A one-sided edge or chain from its front, if all of it faces up, down, left or right, as the hero sees it, and its
-  /// body
-  /// is static, or kinematic and does not turn. Anything else from everywhere. `Input::drop` changes nothing.
+  /// A one-sided edge or chain that the hero is behind lets the hero come through, if each of its segments faces the
+  /// side that the straight way from its first vertex to its last faces, and its body is static, or kinematic and does
+  /// not turn. Anything else blocks from everywhere. `Input::drop` changes nothing.
   as_in_box2d,
   from_everywhere,
   from_above,  ///< A ledge: the hero jumps up through it and lands on it. `Input::drop` lets the hero fall through.
