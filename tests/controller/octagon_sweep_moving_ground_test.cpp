@@ -130,5 +130,62 @@ TEST(FallingRamp, faster_than_the_character_may_fall_does_not_take_it_along) {
   EXPECT_EQ(walker.state.velocity, Vec2d(0, 0)) << "it keeps the speed that it had sideways";
 }
 
+/// Ground that leads to a slope or a wall on its right. Both are of one body, which stands or goes evenly.
+struct Corner {
+  double ground;  ///< [degrees]
+  double steep;   ///< [degrees]
+  Vec2d velocity{0, 0};
+
+  [[nodiscard]] std::vector<ColliderDef> colliders() const {
+    const auto on_circle = [](double degrees, double radius) {
+      return Vec2d(radius *
+                   Vec2d(std::cos(degrees * std::numbers::pi / 180), std::sin(degrees * std::numbers::pi / 180)));
+    };
+    const Vec2d left = -on_circle(ground, 40);
+    const Vec2d right = on_circle(steep, 8);
+    std::vector<ColliderDef> result{polygon({left, {left.x(), -50}, {0, -50}, {0, 0}}),
+                                    polygon({{0, 0}, {0, -50}, {9, -50}, {9, right.y()}, right})};
+    if (velocity != Vec2d::Zero())
+      for (ColliderDef& collider : result) collider.mover = 0;
+    return result;
+  }
+
+  /// Two seconds of a walker, and a jump in the last step.
+  /// @returns where it is and how fast, relative to the body, and in how many steps of the last second it stood.
+  [[nodiscard]] std::tuple<Vec2d, Vec2d, int> play(const CharacterDef& character, double move) const {
+    Stepper<double> walker(colliders(), character);
+    walker.at(-0.8, half_height + 0.8).with_velocity(velocity.x(), velocity.y());
+    int stood = 0;
+    for (int step = 0; step < 120; ++step) {
+      if (!walker.movers.empty()) walker.movers[0] = {walker.movers[0].to, velocity * ((step + 1) * walker.dt)};
+      walker.step({.move = move, .jump = step == 119});
+      stood += step >= 59 && step < 119 && walker.state.grounded;
+    }
+    const Vec2d by = walker.movers.empty() ? Vec2d(0, 0) : walker.movers[0].to;
+    return {walker.state.position - by, walker.state.velocity - velocity, stood};
+  }
+};
+
+TEST(GoingCorner, holds_a_walker_as_one_that_stands_does) {
+  int stood = 0;
+  for (unsigned seed = 1; seed <= 400; ++seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    article_tests::Random random(seed);
+    Corner corner{random.between(-40, 40), random.between(50, 100)};
+    const double move = random.between(0.5, 1);
+    CharacterDef character;
+    character.snap = 0.2;  // without it a walker hops down steep ground
+    const auto [place, velocity, steps] = corner.play(character, move);
+    corner.velocity = Vec2d(random.between(-3, 3), random.between(-3, 3));
+    const auto [moving_place, moving_velocity, moving_steps] = corner.play(character, move);
+    EXPECT_LT((place - moving_place).norm(), 1e-3);
+    EXPECT_LT((velocity - moving_velocity).norm(), 1e-3);
+    EXPECT_EQ(steps, moving_steps);
+    EXPECT_GT(velocity.y(), 10) << "it could not jump";
+    stood += steps == 60;
+  }
+  EXPECT_GT(stood, 300);
+}
+
 }  // namespace
 }  // namespace paperproof::stepping

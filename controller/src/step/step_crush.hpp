@@ -30,16 +30,18 @@ bool StepSolver<Lanes, Scalar, Up>::goes_to_free_position() noexcept {
   return true;
 }
 
-/// Whether a mover would drive the character farther than both go. The tangent of a circle does, where it squeezes the
-/// character out sideways: the circle itself leaves it sooner. A polygon does that as any wedge, so it is let go on for
-/// the size of the character; one that is turned by nearly nothing would drive the character any distance.
+/// Whether a mover would drive the character much farther than both go. The tangent of a circle does, where it squeezes
+/// the character out sideways: the circle itself leaves it sooner. A polygon does that as any wedge; only one that is
+/// as blunt as a press that is hardly turned flings.
 template <std::size_t Lanes, class Scalar, class Up>
 bool StepSolver<Lanes, Scalar, Up>::flings(const V& wanted, const V& allowed) const noexcept {
+  constexpr Scalar blunt = 32;
   const Scalar own = length_of(wanted) + std::abs(steered_) * dt_ + Tolerances<Scalar>{}.touch;
   const Scalar size = length_of(V(space_.hull_box().upper - space_.hull_box().lower));
   return std::any_of(memory_.surfaces.begin(), memory_.surfaces.end(), [&](const TouchedSurface<Scalar>& surface) {
-    const Scalar most = own + length_of(remaining_of(surface)) + (space_.is_circle(surface.piece) ? Scalar(0) : size);
-    return moves_in(surface) && length_of(allowed) > most;
+    const Scalar its = length_of(remaining_of(surface));
+    const Scalar most = space_.is_circle(surface.piece) ? its : its * blunt + size;
+    return moves_in(surface) && length_of(allowed) > own + most;
   });
 }
 

@@ -91,19 +91,25 @@ bool StepSolver<Lanes, Scalar, Up>::allowed(const DesiredMotion<Scalar>& desired
                      [&](const TouchedSurface<Scalar>& surface) { return allowed(desired, surface); });
 }
 
-/// The response to one surface, relative to its motion. Walkable ground that carries counts with its whole motion; any
-/// other surface only with its motion along its normal.
+/// The response to one surface, relative to its motion. Walkable ground that carries counts with its whole motion, as
+/// do walls and slopes that go with it, also before it is touched; any other surface only with its motion along its
+/// normal.
 /// @param after_walk see `Surface`.
 template <std::size_t Lanes, class Scalar, class Up>
 DesiredMotion<Scalar> StepSolver<Lanes, Scalar, Up>::response_to(const TouchedSurface<Scalar>& surface,
                                                                  const DesiredMotion<Scalar>& desired,
                                                                  bool after_walk) const noexcept {
   const Surface<Scalar> at{surface.normal, walkable(surface.normal), after_walk};
+  const TouchedSurface<Scalar>& ground = memory_.surfaces[0];
+  const auto carries = [this](const TouchedSurface<Scalar>& touched) {
+    return walkable(touched.normal) && carrier_of(touched.piece) != no_mover;
+  };
+  const bool is_carried_along =
+      carries(surface) || surface.mover == moving_.carrier || (surface.mover == ground.mover && carries(ground));
   const auto response = [&](const Desired<Scalar>& given, const V& motion_of_surface,
                             Scalar steered) -> Desired<Scalar> {
     V frame = motion_of_surface;
-    if (!at.walkable || carrier_of(surface.piece) == no_mover)
-      frame = surface.normal * half_plane_of(surface.normal, motion_of_surface).least;
+    if (!is_carried_along) frame = surface.normal * half_plane_of(surface.normal, motion_of_surface).least;
     const Desired<Scalar> relative{given.wanted - frame, given.unsteered - frame};
     if (dot(relative.wanted, surface.normal) >= 0) return given;
     const Desired<Scalar> result = respond(up_, relative, steered, at);
