@@ -48,9 +48,10 @@ struct Hero::Impl {
   // hero_step.cpp
   using Go = std::function<StepStatus(const StepContext<double>& context, const LocalController::Find& find)>;
   StepStatus advance(double dt, const Go& go);
-  [[nodiscard]] bool is_drawn_out(const CharacterState<double>& before) const;
-  void stay_crushed(const CharacterState<double>& before);
-  std::optional<double> limit_squeeze(const CharacterState<double>& before, const Vec2d& body_velocity, double dt);
+  std::optional<double> limit_squeeze(const CharacterState<double>& before, const Vec2d& body_velocity,
+                                      const StepContext<double>& context);
+  [[nodiscard]] bool begins_in_moving_bodies(const CharacterState<double>& before);
+  std::optional<double> end_sooner(double reach, double most);
   [[nodiscard]] bool is_free_at_end(const Vec2d& position);
   double end_at(const Vec2d& position, std::size_t corner, double share);
   void note_step();

@@ -36,14 +36,13 @@ StepStatus Hero::Impl::advance(double dt, const Go& go) {
   const Vec2d up = up_of(gravity());
   fixtures.begin_step(def, up, dt, state);
   take_impacts();
-  const StepStatus status = go({.gravity = gravity(), .dt = dt, .up = up},
-                               [this](const auto& box, auto& found) { fixtures.find(box, found); });
+  const StepContext<double> context{.gravity = gravity(), .dt = dt, .up = up};
+  const StepStatus status = go(context, [this](const auto& box, auto& found) { fixtures.find(box, found); });
   if (is_refused(status)) {
     state = before;
     return status;
   }
-  if (is_drawn_out(before)) stay_crushed(before);
-  const std::optional<double> cut = limit_squeeze(before, body_velocity, dt);
+  const std::optional<double> cut = limit_squeeze(before, body_velocity, context);
   sensors.clear();
   note_sensors_at(before.position, false, 0);
   note_step();
@@ -51,38 +50,6 @@ StepStatus Hero::Impl::advance(double dt, const Go& go) {
   fixtures.note_poses();
   lead_body(dt);
   return report.status;
-}
-
-/// Whether a hero that was crushed came out farther away than its crushers moved: from under a press to its edge, for
-/// example. There may be such a way while the press is hardly in the hero. A player sees a jump.
-bool Hero::Impl::is_drawn_out(const CharacterState<double>& before) const {
-  if (!before.crushed) return false;
-  double reach = report.requested.norm() + most_squeezed;
-  for (const Crusher<double>& crusher : before.crushers)
-    if (b2Fixture* fixture = fixtures.fixture_of(crusher.collider); fixtures.is_near(fixture))
-      reach += way_of(before.position, fixtures.motion_of(*fixture));
-  return (state.position - before.position).norm() > reach;
-}
-
-/// Undoes a step: the hero waits in place until its crushers leave.
-void Hero::Impl::stay_crushed(const CharacterState<double>& before) {
-  state = before;
-  state.velocity.setZero();
-  for (Crusher<double>& crusher : state.crushers) {
-    b2Fixture* fixture = fixtures.fixture_of(crusher.collider);
-    if (!fixtures.is_near(fixture)) continue;
-    const PoseMotion motion = fixtures.motion_of(*fixture);
-    crusher.displacement += motion.to.position - motion.from.position;
-  }
-  report.move.clear();
-  report.move.position = state.position;
-  report.move.velocity = state.velocity;
-  report.move.status = MoveStatus::stuck;
-  report.move.path.push_back({state.position, 0});
-  report.move.path.push_back({state.position, 1});
-  report.sensors.clear();
-  report.dropped_through.clear();
-  report.status = StepStatus::stuck;
 }
 
 /// Whether the hero overlaps nothing at a position on its way at the end of the step.
@@ -111,14 +78,19 @@ double Hero::Impl::end_at(const Vec2d& position, std::size_t corner, double shar
   return when;
 }
 
-/// Moving bodies take the hero along, but squeeze it out no faster than they go themselves, or than Box2D moved the
-/// hero's body: between two surfaces of nearly one direction it would leave at any speed. It then ends where it is free
-/// first on its way.
-/// @return when, as a fraction of the step; nothing if it is where the step took it.
+/// Moving bodies take the hero along, but squeeze it out hardly faster than they go themselves, or than Box2D moved the
+/// hero's body: between two surfaces of nearly one direction, or from under a press that is hardly in it, it would
+/// leave at any speed. It then ends where it is free first on its way. If that is farther away than the hero is large,
+/// it waits, and they crush it. A hero that is crushed already waits for room at hand.
+/// @return when it was stopped, as a fraction of the step; nothing if it is where the step took it, or where it began.
 std::optional<double> Hero::Impl::limit_squeeze(const CharacterState<double>& before, const Vec2d& body_velocity,
-                                                double dt) {
+                                                const StepContext<double>& context) {
+  const double dt = context.dt;
   double most = std::max((report.requested / dt + before.ride.velocity).norm(), state.ride.velocity.norm());
-  bool is_pushed = false;
+  bool is_pushed = before.crushed;
+  for (const Crusher<double>& crusher : before.crushers)
+    if (b2Fixture* fixture = fixtures.fixture_of(crusher.collider); fixtures.is_near(fixture))
+      most = std::max(most, way_of(before.position, fixtures.motion_of(*fixture)) / dt);
   for (const Contact<double>& contact : report.move.contacts) {
     b2Fixture& fixture = *fixtures.fixture_of(contact.collider);
     const b2Body& other = *fixture.GetBody();
@@ -134,18 +106,43 @@ std::optional<double> Hero::Impl::limit_squeeze(const CharacterState<double>& be
   const double speed = state.velocity.norm();
   if (is_pushed && speed > most) state.velocity *= most / speed;
   report.move.velocity = state.velocity;
-  if (!is_pushed) return std::nullopt;
-  if ((state.position - before.position).norm() <= most * dt + most_squeezed) return std::nullopt;
-  double reach = most * dt;
+  const double near = most * dt + most_squeezed;
+  const double gone = (state.position - before.position).norm();
+  if (gone <= near) return std::nullopt;
+  if (!is_pushed && !(before.has_last_free && begins_in_moving_bodies(before))) return std::nullopt;
+  const Box2<double>& extent = def.character.shape.box();
+  const double far = before.crushed ? near : near + (extent.upper - extent.lower).norm();
+  const std::optional<double> when = end_sooner(most * dt, far);
+  if (when || gone <= far) return when;
+  state = before;
+  controller.wait(
+      state, context, [this](const auto& /*box*/, auto& found) { fixtures.find_again(found); }, report);
+  return std::nullopt;
+}
+
+/// Whether bodies that may move hold the hero where it begins, and they alone.
+bool Hero::Impl::begins_in_moving_bodies(const CharacterState<double>& before) {
+  std::array<ColliderIndex, 16> found{};
+  const auto find = [this](const auto& /*box*/, auto& near) { fixtures.find_again(near); };
+  const std::size_t count = other_controller.overlaps(before.position, {.dt = 1}, find, false, found).value_or(0);
+  return count > 0 && std::all_of(found.begin(), found.begin() + std::min(count, found.size()),
+                                  [&](ColliderIndex id) { return fixtures.body_of(id)->GetType() != b2_staticBody; });
+}
+
+/// Ends the step at the first free place on its way.
+/// @param reach from here on [m]. @param most and at most so far.
+/// @return when it is there, as a fraction of the step; nothing if there is no such place before the end of the way.
+std::optional<double> Hero::Impl::end_sooner(double reach, double most) {
+  double before = 0;
   for (std::size_t i = 1; i < report.move.path.size(); ++i) {
     const Vec2d from = report.move.path[i - 1].position;
     const Vec2d way = report.move.path[i].position - from;
-    for (; reach < way.norm(); reach = 1.25 * reach + most_squeezed) {
-      const Vec2d there = from + way * (reach / way.norm());
-      if (!is_free_at_end(there)) continue;
-      return end_at(there, i, reach / way.norm());
+    for (; reach - before < way.norm(); reach = 1.25 * reach + most_squeezed) {
+      if (reach > most) return std::nullopt;
+      const double share = (reach - before) / way.norm();
+      if (is_free_at_end(from + way * share)) return end_at(from + way * share, i, share);
     }
-    reach = std::max(0.0, reach - way.norm());
+    before += way.norm();
   }
   return std::nullopt;
 }

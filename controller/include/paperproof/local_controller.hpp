@@ -85,6 +85,10 @@ class LocalController {
   /// See `Controller::move`.
   StepStatus move(CharacterState<double>& state, const Vec2d& displacement, const StepContext<double>& context,
                   const Find& find, StepReport<double>& report);
+  /// A step in which the character stays where it is, and what reaches it crushes it. Its velocity is zero then.
+  /// @returns `moved` if nothing overlaps it at the end.
+  StepStatus wait(CharacterState<double>& state, const StepContext<double>& context, const Find& find,
+                  StepReport<double>& report);
   /// See `Controller::overlaps`. @param at_end movers are where their motions end; else where they begin.
   [[nodiscard]] std::optional<std::size_t> overlaps(const Vec2d& position, const StepContext<double>& context,
                                                     const Find& find, bool at_end = false,

@@ -200,6 +200,17 @@ StepStatus LocalController::move(CharacterState<double>& state, const Vec2d& dis
                         });
 }
 
+StepStatus LocalController::wait(CharacterState<double>& state, const StepContext<double>& context, const Find& find,
+                                 StepReport<double>& report) {
+  Impl& impl = *impl_;
+  const Box2<double>& extent = impl.character().shape.box();
+  const Box2<double> here{state.position + extent.lower, state.position + extent.upper};
+  if (!(context.dt > 0 && is_in_range(here))) return report.status = StepStatus::invalid_input;
+  impl.turned_.clear();
+  impl.scenery.read(here, context, find);
+  return impl.scenery.build(1) ? impl.wait(state, context, report) : impl.refuse(state, report);
+}
+
 std::optional<std::size_t> LocalController::overlaps(const Vec2d& position, const StepContext<double>& context,
                                                      const Find& find, bool at_end, std::span<ColliderIndex> found) {
   Impl& impl = *impl_;

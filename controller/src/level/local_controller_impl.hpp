@@ -128,6 +128,7 @@ struct LocalController::Impl {
   void append(const StepReport<double>& added, const level::StepPart& part, StepReport<double>& report) const;
   StepStatus go_straight_or_stay(CharacterState<double>& state, const StepContext<double>& context,
                                  StepReport<double>& report);
+  StepStatus wait(CharacterState<double>& state, const StepContext<double>& context, StepReport<double>& report);
   template <class PlaceAt>
   void note_stays(const NearCollider& sensor, double begin, std::span<const double> ends, const PlaceAt& place_at,
                   StepReport<double>& report);

@@ -107,11 +107,20 @@ StepStatus LocalController::Impl::go_straight_or_stay(CharacterState<double>& st
     go_straight(0, departure, *out, state, context, report);
     return move.crushed.empty() && move.crushers.empty();
   };
-  if (!out || !(goes_out(0) || goes_out(1 - turning_share))) {
-    clear(report);
-    go_straight(0, 0, state.position, state, context, report);
-    move.status = move.crushed.empty() ? MoveStatus::stuck : MoveStatus::crushed;
-  }
+  if (!out || !(goes_out(0) || goes_out(1 - turning_share))) return wait(state, context, report);
+  step_parts::adopt(character(), context.up, move, state);
+  return report.status = step_parts::status_of(move.status);
+}
+
+/// A step in which the character stays in place, and what reaches it crushes it.
+StepStatus LocalController::Impl::wait(CharacterState<double>& state, const StepContext<double>& context,
+                                       StepReport<double>& report) {
+  MoveResult<double>& move = report.move;
+  clear(report);
+  go_straight(0, 0, state.position, state, context, report);
+  move.status = MoveStatus::moved;
+  if (!move.crushers.empty()) move.status = MoveStatus::stuck;
+  if (!move.crushed.empty()) move.status = MoveStatus::crushed;
   step_parts::adopt(character(), context.up, move, state);
   return report.status = step_parts::status_of(move.status);
 }

@@ -19,10 +19,10 @@ bool StepSolver<Lanes, Scalar, Up>::is_passed_through() const noexcept {
 
 /// Moves to a free position beside the movers that are touched, if there is one and nothing has crushed the character
 /// yet. After a crush `undo_crushes` does that at the end of the step.
+/// @param reach how far away it may be, if that is farther than the movers go [m].
 template <std::size_t Lanes, class Scalar, class Up>
-bool StepSolver<Lanes, Scalar, Up>::goes_to_free_position() noexcept {
+bool StepSolver<Lanes, Scalar, Up>::goes_to_free_position(Scalar reach) noexcept {
   if (!result_.crushed.empty()) return false;
-  Scalar reach = 0;
   for (const TouchedSurface<Scalar>& surface : memory_.surfaces)
     if (surface.mover != no_mover) reach = std::max(reach, length_of(movers_.displacement(surface.mover)));
   if (!find_free_position(reach, {0, result_.path.size()})) return false;
@@ -30,27 +30,26 @@ bool StepSolver<Lanes, Scalar, Up>::goes_to_free_position() noexcept {
   return true;
 }
 
-/// Whether a mover would drive the character much farther than both go. The tangent of a circle does, where it squeezes
-/// the character out sideways: the circle itself leaves it sooner. A polygon does that as any wedge; only one that is
-/// as blunt as a press that is hardly turned flings.
+/// Whether movers of one kind would drive the character much farther than both go.
+/// @param circles the tangent of a circle does, where it squeezes the character out sideways: the circle itself leaves
+/// it sooner. Else polygons: each does that as a wedge; one as blunt as a press that is hardly turned flings.
 template <std::size_t Lanes, class Scalar, class Up>
-bool StepSolver<Lanes, Scalar, Up>::flings(const V& wanted, const V& allowed) const noexcept {
+bool StepSolver<Lanes, Scalar, Up>::flings(bool circles, const V& wanted, const V& allowed) const noexcept {
   constexpr Scalar blunt = 32;
   const Scalar own = length_of(wanted) + std::abs(steered_) * dt_ + Tolerances<Scalar>{}.touch;
-  const Scalar size = length_of(V(space_.hull_box().upper - space_.hull_box().lower));
   return std::any_of(memory_.surfaces.begin(), memory_.surfaces.end(), [&](const TouchedSurface<Scalar>& surface) {
+    if (space_.is_circle(surface.piece) != circles || !moves_in(surface)) return false;
     const Scalar its = length_of(remaining_of(surface));
-    const Scalar most = space_.is_circle(surface.piece) ? its : its * blunt + size;
-    return moves_in(surface) && length_of(allowed) > own + most;
+    return length_of(allowed) > own + (circles ? its : its * blunt + size());
   });
 }
 
-/// Moves to a free position beside a mover that would fling the character, if there is one that is no farther away.
+/// Moves to a free position beside a circle that would fling the character, if there is one that is no farther away.
 /// A way out of what the step began inside of is kept.
 /// @param allowed the response to what the last sweep met.
 template <std::size_t Lanes, class Scalar, class Up>
-bool StepSolver<Lanes, Scalar, Up>::goes_beside_flinging(const V& allowed) noexcept {
-  if (is_passed_through() || !flings(V(motion_.displacement * (1 - found_.stop)), allowed)) return false;
+bool StepSolver<Lanes, Scalar, Up>::goes_beside_circle(const V& allowed) noexcept {
+  if (is_passed_through() || !flings(true, V(motion_.displacement * (1 - found_.stop)), allowed)) return false;
   const bool has_left = std::any_of(memory_.marked.begin(), memory_.marked.end(),
                                     [this](ColliderIndex collider) { return memory_.is(collider, leaving); });
   if (!find_free_position(length_of(allowed), {has_left ? std::size_t{1} : 0, result_.path.size()})) return false;
@@ -212,7 +211,7 @@ void StepSolver<Lanes, Scalar, Up>::wait(bool may_move) noexcept {
   moving_.waits = true;
   for (sweep_along(V::Zero()); found_.hit; sweep_along(V::Zero())) {
     update_surfaces();
-    if (may_move && goes_to_free_position()) {
+    if (may_move && goes_to_free_position(0)) {
       moving_.waits = false;
       return;
     }

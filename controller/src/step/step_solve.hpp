@@ -131,7 +131,7 @@ void StepSolver<Lanes, Scalar, Up>::travel() noexcept {
   int impacts = 0;
   for (std::size_t sweeps = 0; sweeps < most_sweeps && result_.path.size() < most_corners; ++sweeps) {
     if (movers_.active) {
-      if (sweeps > 0 && goes_beside_flinging(desired.displacement.wanted)) return;
+      if (sweeps > 0 && goes_beside_circle(desired.displacement.wanted)) return;
     } else if (displacement.x() == 0 && displacement.y() == 0) {
       return;
     }
@@ -161,8 +161,11 @@ void StepSolver<Lanes, Scalar, Up>::travel() noexcept {
       desired = DesiredMotion<Scalar>::plain(V::Zero(), V::Zero());
       steered_ = 0;
     }
-    if (is_passed_through() || !respond_to_surfaces(desired)) {
-      if (goes_to_free_position()) return;
+    const V wanted = desired.displacement.wanted;
+    const bool is_answered = !is_passed_through() && respond_to_surfaces(desired);
+    const bool is_flung = movers_.active && is_answered && flings(false, wanted, desired.displacement.wanted);
+    if (!is_answered || is_flung) {
+      if (goes_to_free_position(is_flung ? size() : Scalar(0))) return;
       if (!note_crushers()) return wait(true);
       desired = DesiredMotion<Scalar>::plain(V::Zero(), V::Zero());
       steered_ = 0;

@@ -298,9 +298,11 @@ class StepSolver {
 
   // step_crush.hpp
   [[nodiscard]] bool is_passed_through() const noexcept;
-  [[nodiscard, gnu::cold, gnu::noinline]] bool goes_to_free_position() noexcept;
-  [[nodiscard]] bool flings(const V& wanted, const V& allowed) const noexcept;
-  [[nodiscard, gnu::cold, gnu::noinline]] bool goes_beside_flinging(const V& allowed) noexcept;
+  [[nodiscard, gnu::cold, gnu::noinline]] bool goes_to_free_position(Scalar reach) noexcept;
+  /// Of the character, from corner to corner of its box [m].
+  [[nodiscard]] Scalar size() const noexcept { return length_of(V(space_.hull_box().upper - space_.hull_box().lower)); }
+  [[nodiscard]] bool flings(bool circles, const V& wanted, const V& allowed) const noexcept;
+  [[nodiscard, gnu::cold, gnu::noinline]] bool goes_beside_circle(const V& allowed) noexcept;
   [[gnu::cold, gnu::noinline]] void undo_crushes() noexcept;
   [[nodiscard]] bool moves_in(const TouchedSurface<Scalar>& surface) const noexcept;
   [[gnu::cold, gnu::noinline]] bool note_crushers() noexcept;
