@@ -45,7 +45,7 @@ Hero::Impl::~Impl() {
 bool Hero::Impl::fits(const CharacterDef& character, const Vec2d& position) const {
   NearFixtures around(*world, *body);
   around.restore_poses(fixtures.poses());
-  around.begin_step(def, up_of(gravity()), fixtures.dt(), state);
+  around.begin_step(def, up_of(gravity()), fixtures.dt(), state, contacts);
   return LocalController(character).overlaps(position, {.dt = 1},
                                              [&](const auto& box, auto& found) { around.find(box, found); }) == 0U;
 }
@@ -101,6 +101,7 @@ void Hero::place(const Vec2d& position, const Vec2d& velocity) {
   teleport(impl_->state, position);
   impl_->state.velocity = velocity;
   impl_->state.jumping = false;
+  impl_->struck.setZero();
   impl_->body->SetTransform(rounded(position), 0);
   impl_->body->SetLinearVelocity(rounded(velocity));
 }
@@ -151,18 +152,18 @@ void Hero::shift_origin(const Vec2d& new_origin) {
 HeroSave Hero::save() const {
   const Impl& hero = *impl_;
   const std::span<const BodyPose> poses = hero.fixtures.poses();
-  HeroSave save{hero.def.character,
-                hero.state,
-                hero.fixtures.fixture_of(hero.state.ride.ground),
-                hero.fixtures.fixture_of(hero.state.ground.collider),
-                {},
-                {poses.begin(), poses.end()},
-                hero.contacts,
-                hero.inside,
-                hero.body->GetPosition(),
-                hero.body->GetLinearVelocity(),
-                hero.body->IsBullet(),
-                hero.controller.reach()};
+  HeroSave save{.character = hero.def.character,
+                .state = hero.state,
+                .ride = hero.fixtures.fixture_of(hero.state.ride.ground),
+                .ground = hero.fixtures.fixture_of(hero.state.ground.collider),
+                .poses = {poses.begin(), poses.end()},
+                .contacts = hero.contacts,
+                .inside = hero.inside,
+                .body_position = hero.body->GetPosition(),
+                .body_velocity = hero.body->GetLinearVelocity(),
+                .is_bullet = hero.body->IsBullet(),
+                .struck = hero.struck,
+                .reach = hero.controller.reach()};
   for (const Crusher<double>& crusher : hero.state.crushers)
     save.crushers.push_back(hero.fixtures.fixture_of(crusher.collider));
   return save;
@@ -182,11 +183,15 @@ void Hero::restore(const HeroSave& save) {
   for (std::size_t i = 0; i < save.crushers.size(); ++i) rename(hero.state.crushers[i].collider, save.crushers[i]);
   hero.contacts = save.contacts;
   hero.inside = save.inside;
+  hero.sensors.clear();
+  hero.crushed_by.clear();
+  hero.skipped.clear();
   hero.fixtures.restore_poses(save.poses);
   hero.controller.set_reach(save.reach);
   hero.body->SetTransform(save.body_position, 0);
   hero.body->SetLinearVelocity(save.body_velocity);
   hero.body->SetBullet(save.is_bullet);
+  hero.struck = save.struck;
 }
 
 }  // namespace paperproof::box2d

@@ -99,6 +99,12 @@ void Hero::Impl::remake_fixture() {
 /// changed that of its body, but not more than to their own, as after an impact without bounce.
 void Hero::Impl::take_impacts() {
   const Vec2d after = widened(body->GetLinearVelocity());
+  if (struck != Vec2d::Zero()) {
+    const Vec2d way = struck.normalized();
+    const double gain = std::min(after.dot(way), struck.norm()) - state.velocity.dot(way);
+    if (gain > 0 && way.dot(up_of(gravity())) > 0) paperproof::knock_back(state, {0, 0});  // it leaves the ground
+    state.velocity += way * std::max(0.0, gain);
+  }
   for_each_touching(*body, [&](const b2Body& other, const Vec2d& normal, std::span<const b2Vec2> points) {
     if (&other == ground_body()) return;
     for (const b2Vec2& point : points) {
@@ -107,6 +113,24 @@ void Hero::Impl::take_impacts() {
       state.velocity += normal * std::clamp((its - state.velocity).dot(normal), 0.0, most);
     }
   });
+}
+
+/// A jump, a dash or a knock-back may be stopped at once by a dynamic body at hand: Box2D did not see the hero come.
+/// The hero's body strikes that body in the next step of the world, and `take_impacts` gives the hero what is left.
+/// @param own_velocity when the hero's step began. @param body_velocity of its body then.
+/// @return the velocity with which it strikes.
+Vec2d Hero::Impl::strike(const Vec2d& own_velocity, const Vec2d& body_velocity, double dt) const {
+  const Vec2d up = up_of(gravity());
+  const Vec2d wanted = own_velocity + up * std::max(0.0, (report.requested / dt - own_velocity).dot(up));
+  Vec2d result = Vec2d::Zero();
+  for (const Contact<double>& contact : report.move.contacts) {
+    const b2Fixture& other = *fixtures.fixture_of(contact.collider);
+    if (other.GetBody()->GetType() != b2_dynamicBody || is_of_hero(other)) continue;
+    const double unseen = (wanted - body_velocity).dot(-contact.normal);
+    const double lost = (wanted - state.velocity).dot(-contact.normal);
+    result -= contact.normal * std::max(0.0, std::min(unseen, lost) + result.dot(contact.normal));
+  }
+  return result;
 }
 
 /// Where the hero is, but for some millimetres. Box2D parts bodies that are deeper in each other's skins than its slop,
@@ -144,6 +168,7 @@ void Hero::Impl::lead_body(double dt) {
   if (push.norm() > most) push *= most / push.norm();
   const bool presses = !report.move.contacts.empty();
   Vec2d lead = presses ? Vec2d(state.velocity + push + down * weight) : state.velocity;
+  lead += struck;
   const Vec2d before = widened(body->GetLinearVelocity());
   bool is_touched = false;
   for_each_touching(*body, [&](const b2Body& other, const Vec2d& normal, std::span<const b2Vec2>) {

@@ -14,6 +14,7 @@
 
 #include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace paperproof::box2d {
@@ -50,8 +51,10 @@ struct Hero::Impl {
   StepStatus advance(double dt, const Go& go);
   std::optional<double> limit_squeeze(const CharacterState<double>& before, const Vec2d& body_velocity,
                                       const StepContext<double>& context);
-  [[nodiscard]] bool begins_in_moving_bodies(const CharacterState<double>& before);
-  std::optional<double> end_sooner(double reach, double most);
+  std::pair<double, bool> limit_speed(const CharacterState<double>& before, const Vec2d& body_velocity, double dt);
+  [[nodiscard]] bool is_freed(const CharacterState<double>& before);
+  std::optional<double> end_sooner(double least, double most);
+  [[nodiscard]] LocalController::Find found_again();
   [[nodiscard]] bool is_free_at_end(const Vec2d& position);
   double end_at(const Vec2d& position, std::size_t corner, double share);
   void note_step();
@@ -64,6 +67,7 @@ struct Hero::Impl {
   void make_fixture(const b2Filter& filter);
   void remake_fixture();
   void take_impacts();
+  [[nodiscard]] Vec2d strike(const Vec2d& own_velocity, const Vec2d& body_velocity, double dt) const;
   [[nodiscard]] Vec2d place_for_body() const;
   void lead_body(double dt);
 
@@ -74,6 +78,7 @@ struct Hero::Impl {
   LocalController controller;
   LocalController other_controller;  ///< Asks what the hero overlaps, beside its step.
   CharacterState<double> state;
+  Vec2d struck{Vec2d::Zero()};  ///< See `strike`.
   StepReport<double> report;
   std::vector<HeroContact> contacts;
   std::vector<HeroContact> contacts_before;

@@ -3,13 +3,14 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 namespace paperproof::box2d {
 namespace {
 
-/// A squeeze out of a gap is not looked at before it is so far [m].
+/// How much farther than they go bodies may squeeze the hero in a step [m].
 constexpr double most_squeezed = 0.25;
 
 /// How far the point of a body that is now at `point` went in a step [m].
@@ -34,8 +35,9 @@ StepStatus Hero::Impl::advance(double dt, const Go& go) {
   const CharacterState<double> before = state;
   const Vec2d body_velocity = widened(body->GetLinearVelocity());
   const Vec2d up = up_of(gravity());
-  fixtures.begin_step(def, up, dt, state);
+  fixtures.begin_step(def, up, dt, state, contacts);
   take_impacts();
+  const Vec2d own_velocity = state.velocity;
   const StepContext<double> context{.gravity = gravity(), .dt = dt, .up = up};
   const StepStatus status = go(context, [this](const auto& box, auto& found) { fixtures.find(box, found); });
   if (is_refused(status)) {
@@ -48,14 +50,19 @@ StepStatus Hero::Impl::advance(double dt, const Go& go) {
   note_step();
   if (cut) note_sensors_at(state.position, true, *cut);
   fixtures.note_poses();
+  struck = strike(own_velocity, body_velocity, dt);
   lead_body(dt);
   return report.status;
 }
 
+/// What the step has found near the hero.
+LocalController::Find Hero::Impl::found_again() {
+  return [this](const auto& /*box*/, auto& found) { fixtures.find_again(found); };
+}
+
 /// Whether the hero overlaps nothing at a position on its way at the end of the step.
 bool Hero::Impl::is_free_at_end(const Vec2d& position) {
-  const auto find = [this](const auto& /*box*/, auto& found) { fixtures.find_again(found); };
-  return other_controller.overlaps(position, {.dt = 1}, find, true) == 0U;
+  return other_controller.overlaps(position, {.dt = 1}, found_again(), true) == 0U;
 }
 
 /// Ends the step on its way, in the air.
@@ -63,6 +70,8 @@ bool Hero::Impl::is_free_at_end(const Vec2d& position) {
 /// @return when it is there, as a fraction of the step.
 double Hero::Impl::end_at(const Vec2d& position, std::size_t corner, double share) {
   teleport(state, position);
+  state.last_free = position;
+  state.has_last_free = true;
   MoveResult<double>& move = report.move;
   const double before = move.path[corner - 1].fraction;
   const double when = before + share * (move.path[corner].fraction - before);
@@ -78,14 +87,11 @@ double Hero::Impl::end_at(const Vec2d& position, std::size_t corner, double shar
   return when;
 }
 
-/// Moving bodies take the hero along, but squeeze it out hardly faster than they go themselves, or than Box2D moved the
-/// hero's body: between two surfaces of nearly one direction, or from under a press that is hardly in it, it would
-/// leave at any speed. It then ends where it is free first on its way. If that is farther away than the hero is large,
-/// it waits, and they crush it. A hero that is crushed already waits for room at hand.
-/// @return when it was stopped, as a fraction of the step; nothing if it is where the step took it, or where it began.
-std::optional<double> Hero::Impl::limit_squeeze(const CharacterState<double>& before, const Vec2d& body_velocity,
-                                                const StepContext<double>& context) {
-  const double dt = context.dt;
+/// Moving bodies take the hero along, but give it no more than their own speed, or that to which Box2D brought the
+/// hero's body.
+/// @return the largest speed that the hero may have [m/s], and whether such a body pushed it.
+std::pair<double, bool> Hero::Impl::limit_speed(const CharacterState<double>& before, const Vec2d& body_velocity,
+                                                double dt) {
   double most = std::max((report.requested / dt + before.ride.velocity).norm(), state.ride.velocity.norm());
   bool is_pushed = before.crushed;
   for (const Crusher<double>& crusher : before.crushers)
@@ -94,11 +100,11 @@ std::optional<double> Hero::Impl::limit_squeeze(const CharacterState<double>& be
   for (const Contact<double>& contact : report.move.contacts) {
     b2Fixture& fixture = *fixtures.fixture_of(contact.collider);
     const b2Body& other = *fixture.GetBody();
-    if (other.GetType() == b2_staticBody || contact.collider == state.ride.ground) continue;
+    if (other.GetType() == b2_staticBody) continue;
     is_pushed = true;
     const bool has_mass = other.GetType() == b2_dynamicBody;
     most = std::max(most, has_mass ? body_velocity.norm() : way_of(contact.point, fixtures.motion_of(fixture)) / dt);
-    if (!has_mass) continue;
+    if (!has_mass || contact.collider == state.ride.ground) continue;
     // What Box2D moved a body to part it from others is no velocity of the body, and becomes none of the hero.
     const Vec2d its = widened(other.GetLinearVelocityFromWorldPoint(rounded(contact.point)));
     state.velocity += contact.normal * std::max(0.0, (its - state.velocity).dot(contact.normal));
@@ -106,43 +112,55 @@ std::optional<double> Hero::Impl::limit_squeeze(const CharacterState<double>& be
   const double speed = state.velocity.norm();
   if (is_pushed && speed > most) state.velocity *= most / speed;
   report.move.velocity = state.velocity;
-  const double near = most * dt + most_squeezed;
-  const double gone = (state.position - before.position).norm();
-  if (gone <= near) return std::nullopt;
-  if (!is_pushed && !(before.has_last_free && begins_in_moving_bodies(before))) return std::nullopt;
-  const Box2<double>& extent = def.character.shape.box();
-  const double far = before.crushed ? near : near + (extent.upper - extent.lower).norm();
-  const std::optional<double> when = end_sooner(most * dt, far);
-  if (when || gone <= far) return when;
+  return {most, is_pushed};
+}
+
+/// Moving bodies squeeze the hero out hardly faster than they go: between two surfaces of nearly one direction, or from
+/// under a press that is hardly in it, it would leave at any speed. It then ends where it is free first on its way. If
+/// that is far away, it waits, and they crush it.
+/// @return when it was stopped, as a fraction of the step; nothing if it is where the step took it, or where it began.
+std::optional<double> Hero::Impl::limit_squeeze(const CharacterState<double>& before, const Vec2d& body_velocity,
+                                                const StepContext<double>& context) {
+  const auto [speed, is_pushed] = limit_speed(before, body_velocity, context.dt);
+  double most = speed * context.dt + most_squeezed;
+  if (!is_pushed) most += def.character.step_height + def.character.snap;
+  if ((state.position - before.position).norm() <= most || !(is_pushed || is_freed(before))) return std::nullopt;
+  if (const std::optional<double> when = end_sooner(speed * context.dt, most)) return when;
   state = before;
-  controller.wait(
-      state, context, [this](const auto& /*box*/, auto& found) { fixtures.find_again(found); }, report);
+  controller.wait(state, context, found_again(), report);
   return std::nullopt;
 }
 
-/// Whether bodies that may move hold the hero where it begins, and they alone.
-bool Hero::Impl::begins_in_moving_bodies(const CharacterState<double>& before) {
+/// Whether the step may have freed the hero from bodies that move: where it began, or where they turned. Out of what
+/// stands it goes, however far that is; so it does out of bodies in which it was placed.
+bool Hero::Impl::is_freed(const CharacterState<double>& before) {
+  if (!before.has_last_free) return false;
   std::array<ColliderIndex, 16> found{};
-  const auto find = [this](const auto& /*box*/, auto& near) { fixtures.find_again(near); };
-  const std::size_t count = other_controller.overlaps(before.position, {.dt = 1}, find, false, found).value_or(0);
-  return count > 0 && std::all_of(found.begin(), found.begin() + std::min(count, found.size()),
-                                  [&](ColliderIndex id) { return fixtures.body_of(id)->GetType() != b2_staticBody; });
+  const std::size_t count =
+      other_controller.overlaps(before.position, {.dt = 1}, found_again(), false, found).value_or(0);
+  const std::span<const ColliderIndex> holding(found.data(), std::min(count, found.size()));
+  const auto stands = [&](ColliderIndex id) { return fixtures.body_of(id)->GetType() == b2_staticBody; };
+  if (holding.empty()) return !controller.turned().empty();
+  return std::none_of(holding.begin(), holding.end(), stands);
 }
 
-/// Ends the step at the first free place on its way.
-/// @param reach from here on [m]. @param most and at most so far.
-/// @return when it is there, as a fraction of the step; nothing if there is no such place before the end of the way.
-std::optional<double> Hero::Impl::end_sooner(double reach, double most) {
-  double before = 0;
-  for (std::size_t i = 1; i < report.move.path.size(); ++i) {
-    const Vec2d from = report.move.path[i - 1].position;
-    const Vec2d way = report.move.path[i].position - from;
-    for (; reach - before < way.norm(); reach = 1.25 * reach + most_squeezed) {
-      if (reach > most) return std::nullopt;
-      const double share = (reach - before) / way.norm();
-      if (is_free_at_end(from + way * share)) return end_at(from + way * share, i, share);
+/// Ends the step at a free place on its way.
+/// @param least and @param most how far from the beginning [m].
+/// @return when it is there, as a fraction of the step; nothing if no place was found.
+std::optional<double> Hero::Impl::end_sooner(double least, double most) {
+  constexpr int places = 8;
+  for (int i = 0; i <= places; ++i) {
+    double reach = least + (most - least) * i / places;
+    std::size_t corner = 1;
+    double length = 0;
+    for (; corner < report.move.path.size(); ++corner, reach -= length) {
+      length = (report.move.path[corner].position - report.move.path[corner - 1].position).norm();
+      if (reach < length) break;
     }
-    before += way.norm();
+    if (corner == report.move.path.size()) return std::nullopt;
+    const Vec2d from = report.move.path[corner - 1].position;
+    const Vec2d there = from + (report.move.path[corner].position - from) * (reach / length);
+    if (is_free_at_end(there)) return end_at(there, corner, reach / length);
   }
   return std::nullopt;
 }

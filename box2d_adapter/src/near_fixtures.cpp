@@ -25,6 +25,10 @@
 namespace paperproof::box2d {
 namespace {
 
+/// How far into a one-sided chain a hero may be that the chain lifts out [m]. Zero: rounding lets the hero through.
+/// Large: a hero that jumps up through it is lifted sooner.
+constexpr double most_lifted = 0.05;
+
 /// A body that went so much farther than its velocity explains [m], or turned so much more [radians], was put there by
 /// the game. Zero: platforms that a game moves by their place carry nobody. Large: a body that takes the address of
 /// another one, or is turned round by the game, sweeps the hero along.
@@ -185,7 +189,8 @@ bool NearFixtures::Seen::operator==(const Seen& other) const noexcept {
          one_way == other.one_way && cut.lower == other.cut.lower && cut.upper == other.cut.upper;
 }
 
-void NearFixtures::begin_step(const HeroDef& def, const Vec2d& up, double dt, const CharacterState<double>& state) {
+void NearFixtures::begin_step(const HeroDef& def, const Vec2d& up, double dt, const CharacterState<double>& state,
+                              std::span<const HeroContact> contacts) {
   def_ = &def;
   up_ = up;
   dt_ = dt;
@@ -193,7 +198,11 @@ void NearFixtures::begin_step(const HeroDef& def, const Vec2d& up, double dt, co
   hull_.clear();
   for (const Vec2d& corner : def.character.shape.hull()) hull_.emplace_back(middle_ + corner);
   was_placed_ = !state.has_last_free;
-  ground_ = state.ground.state == GroundState::air ? nullptr : fixture_of(state.ground.collider);
+  stood_ = state.grounded;
+  touched_.clear();
+  if (state.ground.state != GroundState::air) touched_.push_back(fixture_of(state.ground.collider));
+  for (const HeroContact& contact : contacts)
+    if (contact.change != HeroContact::Change::removed) touched_.push_back(contact.fixture);
 }
 
 /// @param known as it was seen last, or as another fixture at its address was. Its chain and front are renewed.
@@ -229,9 +238,10 @@ NearFixtures::Seen NearFixtures::seen(b2Fixture& fixture, Known& known, const Bo
 }
 
 /// The side from which alone a one-sided fixture blocks in this step. Nothing: it blocks from everywhere. It does so
-/// while the hero is in front of it, so that its ends and joints hold the hero as those of any fixture. A hero that was
-/// placed in it, or stands on it where the game raised it, is lifted out, if its middle is in front. What turns or may
-/// tumble always does.
+/// while the hero is in front of it, so that its ends and joints hold the hero as those of any fixture. If the middle
+/// of the hero is in front, it lifts out a hero that is in it by little, was placed there, touched it in the last step,
+/// or stood: the game may have moved it, or made the ground anew. What turns or may tumble always blocks from
+/// everywhere.
 std::optional<Vec2d> NearFixtures::one_way_of(const b2Fixture& fixture, const Known& known) const {
   const b2Body& body = *fixture.GetBody();
   const bool moves = body.GetType() != b2_staticBody;
@@ -240,11 +250,16 @@ std::optional<Vec2d> NearFixtures::one_way_of(const b2Fixture& fixture, const Kn
   const BodyPose begin = moves ? begin_of(body) : BodyPose{};
   const Eigen::Rotation2Dd turn(begin.angle);
   const auto seen_from_body = [&](const Vec2d& point) { return Vec2d(turn.inverse() * (point - begin.position)); };
-  std::vector<Vec2d> hull;
-  std::transform(hull_.begin(), hull_.end(), std::back_inserter(hull), seen_from_body);
-  if (is_in_front(hull, known.chain, *known.front)) return std::nullopt;
-  const bool lifts = was_placed_ || ground_ == &fixture;
-  if (lifts && is_in_front(std::array{seen_from_body(middle_)}, known.chain, *known.front)) return std::nullopt;
+  const auto is_ahead = [&](std::span<const Vec2d> points, double by) {
+    std::vector<Vec2d> there;
+    for (const Vec2d& point : points) there.emplace_back(seen_from_body(point) + *known.front * by);
+    return is_in_front(there, known.chain, *known.front);
+  };
+  if (is_ahead(hull_, 0)) return std::nullopt;
+  const bool is_ground = stood_ && Vec2d(turn * *known.front).dot(up_) > 0;
+  const bool is_known =
+      was_placed_ || is_ground || std::find(touched_.begin(), touched_.end(), &fixture) != touched_.end();
+  if (is_ahead({&middle_, 1}, 0) && (is_known || is_ahead(hull_, most_lifted))) return std::nullopt;
   return Vec2d(turn * *known.front);
 }
 
@@ -263,10 +278,10 @@ void NearFixtures::search(const Box2<double>& box) {
     if (filter != nullptr && !filter->ShouldCollide(hero_->GetFixtureList(), fixture)) continue;
     Known& known = known_[fixture];
     const Seen now = seen(*fixture, known, box);
-    if (now.surface.blocks == Blocking::not_at_all) continue;
     const bool is_other = known.version != 0 && (known.seen.body != now.body || known.seen.shape != now.shape);
     if (is_other) known = {};  // another one at the same address
     known.found = searches_;
+    if (now.surface.blocks == Blocking::not_at_all) continue;
     near_.push_back({fixture, &known});
     if (known.version != 0 && known.seen == now) continue;
     known.seen = now;
@@ -349,6 +364,7 @@ void NearFixtures::find_sensors(std::vector<NearCollider>& found) {
     solid_sensors_.push_back(*collider.def);
     solid_sensors_.back().sensor = false;
     collider.def = &solid_sensors_.back();
+    collider.version = ~collider.version;  // not that of the sensor
   }
 }
 

@@ -53,8 +53,9 @@ class NearFixtures {
   /// Before the first `find` of a step.
   /// @param up the side from which ledges block.
   /// @param dt for the motion of a body that was not near in the last step.
-  /// @param state of the hero, when the step begins.
-  void begin_step(const HeroDef& def, const Vec2d& up, double dt, const CharacterState<double>& state);
+  /// @param state of the hero, when the step begins. @param contacts of the step before.
+  void begin_step(const HeroDef& def, const Vec2d& up, double dt, const CharacterState<double>& state,
+                  std::span<const HeroContact> contacts);
   /// See `LocalController::Find`. Reads all fixtures in a box, and how their bodies moved since `note_poses`.
   void find(const Box2<double>& box, std::vector<NearCollider>& found);
   /// The same as the last `find` found.
@@ -134,10 +135,11 @@ class NearFixtures {
   const HeroDef* def_ = nullptr;
   Vec2d up_{0, 1};
   double dt_ = 0;
-  Vec2d middle_{Vec2d::Zero()};        ///< The origin of the hero's shape [m],
-  std::vector<Vec2d> hull_;            ///< its corners, when the step begins,
-  bool was_placed_ = false;            ///< and whether it has not been free yet.
-  const b2Fixture* ground_ = nullptr;  ///< What it stands on.
+  Vec2d middle_{Vec2d::Zero()};            ///< The origin of the hero's shape [m],
+  std::vector<Vec2d> hull_;                ///< its corners, when the step begins,
+  bool was_placed_ = false;                ///< and whether it has not been free yet.
+  bool stood_ = false;                     ///< On some ground.
+  std::vector<const b2Fixture*> touched_;  ///< What it stands on and touched.
   std::map<b2Fixture*, Known> known_;
   std::vector<b2Fixture*> hits_;
   std::vector<Near> near_;    ///< Found in the last search,

@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -57,9 +58,14 @@ bool is_in_front(std::span<const Vec2d> polygon, std::span<const Vec2d> chain, c
   const auto height = [&](const Vec2d& point) { return point.dot(front); };
   const double least = place(std::ranges::min(polygon, {}, place));
   const double most = place(std::ranges::max(polygon, {}, place));
+  const auto is_right_of = [](const Vec2d& from, const Vec2d& to, const Vec2d& point) {
+    return right_of(to - from).dot(point - to) >= 0;
+  };
   if (most < place(chain.front()) || least > place(chain.back())) {
-    const Vec2d& end = most < place(chain.front()) ? chain.front() : chain.back();
-    return height(std::ranges::min(polygon, {}, height)) >= height(end);
+    const Vec2d middle =
+        std::accumulate(polygon.begin(), polygon.end(), Vec2d(0, 0)) / static_cast<double>(polygon.size());
+    const std::size_t to = most < place(chain.front()) ? 1 : chain.size() - 1;
+    return is_right_of(chain[to - 1], chain[to], middle);
   }
   const auto vertex_from = [&](double there) {
     return std::ranges::partition_point(chain, [&](const Vec2d& vertex) { return place(vertex) < there; });
@@ -68,7 +74,7 @@ bool is_in_front(std::span<const Vec2d> polygon, std::span<const Vec2d> chain, c
     const auto next = vertex_from(place(corner));
     if (next == chain.end() || (next == chain.begin() && place(*next) > place(corner))) return true;
     const auto to = next == chain.begin() ? next + 1 : next;
-    return right_of(*to - *(to - 1)).dot(corner - *to) >= 0;
+    return is_right_of(*(to - 1), *to, corner);
   };
   const auto is_below = [&](const Vec2d& vertex) {
     for (std::size_t i = 0; i < polygon.size(); ++i) {

@@ -31,7 +31,7 @@ namespace paperproof::box2d {
 [[nodiscard]] std::optional<Vec2d> front_of(std::span<const Vec2d> chain);
 
 /// Whether a convex polygon is in front of a chain, or touches it from there, where the two are above each other;
-/// beside the chain: whether it is not below the chain's nearest end.
+/// beside the chain: whether the polygon's middle is in front of the chain's nearest segment, as if that went on.
 /// @param polygon one corner or more. @param front that the chain faces.
 [[nodiscard]] bool is_in_front(std::span<const Vec2d> polygon, std::span<const Vec2d> chain, const Vec2d& front);
 

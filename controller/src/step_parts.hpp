@@ -101,8 +101,9 @@ void note_freedom(const MoveResult<Scalar>& move, CharacterState<Scalar>& state)
 template <class Scalar>
 void adopt(const CharacterDef& character, const Vec2<Scalar>& up, const MoveResult<Scalar>& move,
            CharacterState<Scalar>& state) noexcept {
-  state.position = move.position;
-  state.velocity = move.velocity;
+  // Zeros have no sign: states are compared as bytes.
+  state.position = move.position.array() + Scalar(0);
+  state.velocity = move.velocity.array() + Scalar(0);
   state.technique_memory = move.technique_memory;
   state.grounded = move.grounded;
   state.ride = move.ride;

@@ -115,6 +115,83 @@ TEST(OneSidedEdge, stops_at_a_wall_that_bulges_where_two_meet) {
   }
 }
 
+TEST(OneSidedEdge, holds_on_the_tip_of_a_roof_of_two) {
+  for (const float steepness : {0.5F, 1.1F, 1.5F, 2.0F, 4.0F}) {
+    for (float x = -0.3F; x <= 0.3F; x += 0.1F) {
+      for (double height = 0.5; height < 8; height += 0.7) {
+        Game game({.position = {x, height + half_height}});
+        one_sided_edge(game, {2, -2 * steepness}, {0, 0});
+        one_sided_edge(game, {0, 0}, {-2, -2 * steepness});
+        for (int i = 0; i < 120 && std::abs(game.hero.position().x()) < 1.5; ++i) {
+          game.go();
+          const double roof = -static_cast<double>(steepness) * std::abs(game.hero.position().x());
+          ASSERT_GT(game.hero.position().y(), roof) << "steepness " << steepness << ", x " << x << ", from " << height;
+        }
+      }
+    }
+  }
+}
+
+TEST(OneSidedChain, with_a_steep_foot_holds_a_hero_that_drops) {
+  for (const float flank : {0.45F, 0.6F, 0.9F}) {
+    Game game({.position = {3, half_height + 1e-6}});
+    chain(game, {{6, 0}, {0, 0}});
+    chain(game, {{0, 0}, {-flank, 1.5F}, {-3, 1.5F}, {-6, -1.5F}});
+    for (int i = 0; i < 200; ++i) {
+      game.go({.move = -1.0, .drop = true});
+      ASSERT_GT(game.hero.position().x(), 0) << "flank " << flank << ", frame " << i;
+    }
+  }
+}
+
+TEST(OneSidedChain, holds_the_hero_if_the_game_makes_it_anew) {
+  for (const float raised : {0.0F, 1e-6F, 1e-3F, 0.1F}) {
+    for (const float slope : {0.0F, 0.37F}) {
+      SCOPED_TRACE(testing::Message() << "raised by " << raised << ", slope " << slope);
+      const auto at = [&](float x, float up) { return b2Vec2(x, slope * (x - 500) + up); };
+      Game game({.position = {500, half_height + 0.3}});
+      b2Body* ground = chain(game, {at(510, 0), at(490, 0)}).GetBody();
+      game.run(60, {.move = 0.0});
+      ASSERT_TRUE(game.hero.grounded());
+      b2Body* anew = chain(game, {at(510, raised), at(503.3F, raised), at(490, raised)}).GetBody();
+      game.world.DestroyBody(ground);
+      game.run(60, {.move = 0.0});
+      EXPECT_TRUE(game.hero.grounded());
+      EXPECT_EQ(game.hero.ground(), anew->GetFixtureList());
+    }
+  }
+}
+
+TEST(OneSidedChain, that_moves_into_the_hero_holds_it) {
+  for (const float by : {1e-6F, 1e-3F, 0.1F}) {
+    Game game({.position = {0, half_height + 1e-6}});
+    game.floor();
+    b2Body* wall = chain(game, {{3, 12}, {3, -1}}).GetBody();  // its front is on the left
+    game.run(90, {.move = 1.0});
+    ASSERT_GT(game.hero.position().x(), 2);
+    wall->SetTransform({-by, 0}, 0);
+    for (int i = 0; i < 60; ++i) {
+      game.go({.move = 1.0});
+      ASSERT_LT(game.hero.position().x(), 3) << "by " << by << ", frame " << i;
+    }
+  }
+}
+
+TEST(OneSidedChain, holds_the_hero_over_shifts_of_the_origin) {
+  for (const float wall : {3.3F, 7.1F}) {
+    Game game({.position = {0, half_height + 1e-6}});
+    game.floor();
+    chain(game, {{wall, 12}, {wall, -1}});
+    game.run(120, {.move = 1.0});
+    for (const float shift : {64.0F, 301.0F, -700.0F, 1000.0F, -665.0F}) {
+      game.world.ShiftOrigin({shift, 0});
+      game.hero.shift_origin({shift, 0});
+      game.run(30, {.move = 1.0});
+    }
+    EXPECT_LT(game.hero.position().x(), wall);
+  }
+}
+
 TEST(OneSidedEdge, holds_at_the_top_of_a_cliff_that_is_a_fixture_of_its_own) {
   for (const float overhang : {0.0F, 0.3F, -0.3F}) {
     Game game({.position = {-2, 1.5}});

@@ -80,12 +80,11 @@ TEST(Hero, is_not_drawn_out_from_under_a_door_that_closes) {
 
 /// A press that is turned by nearly nothing makes a wedge with the floor that leads out at any speed: the hero was
 /// moved by 120 km in a frame. A wide one moved it to its edge.
-TEST(Hero, is_squeezed_out_by_no_more_than_its_size_or_crushed) {
-  const double size = Vec2d(0.625, 1.25).norm();
+TEST(Hero, is_squeezed_out_hardly_faster_than_a_press_moves_or_crushed) {
   int crushed = 0;
   int squeezed = 0;
   for (const b2BodyType type : {b2_kinematicBody, b2_dynamicBody}) {
-    for (const float spin : {0.0F, 1e-7F, 1e-5F, 1e-3F, 0.05F, -1e-4F}) {
+    for (const float spin : {0.0F, 1e-7F, 1e-5F, 1e-3F, 0.05F, 0.5F, 2.0F, -1e-4F}) {
       for (const float width : {1.0F, 3.0F}) {
         for (const float speed : {-0.5F, -3.0F}) {
           SCOPED_TRACE(testing::Message() << "spin " << spin << ", width " << width << ", speed " << speed);
@@ -93,14 +92,14 @@ TEST(Hero, is_squeezed_out_by_no_more_than_its_size_or_crushed) {
           game.floor();
           b2Body& press = *game.box(type, {0.3F, 2.5F}, width, 1, 1000).GetBody();
           press.SetGravityScale(0);
-          const double near = -speed * frame + 0.25;
+          const double fastest = -speed + 4 * std::abs(spin);
           for (int i = 0; i < 400 && press.GetPosition().y > 1.2F; ++i) {
             press.SetAngularVelocity(spin);
             press.SetLinearVelocity({0, speed});
             const Vec2d before = game.hero.position();
             game.go();
-            ASSERT_LE((game.hero.position() - before).norm(), near + size) << "frame " << i;
-            ASSERT_LE(game.hero.velocity().norm(), 3.1) << "frame " << i;
+            ASSERT_LE((game.hero.position() - before).norm(), fastest * frame + 0.25) << "frame " << i;
+            ASSERT_LE(game.hero.velocity().norm(), fastest + 0.1) << "frame " << i;
           }
           (game.hero.report().status == StepStatus::moved ? squeezed : crushed) += 1;
         }
@@ -109,6 +108,81 @@ TEST(Hero, is_squeezed_out_by_no_more_than_its_size_or_crushed) {
   }
   EXPECT_GT(crushed, 0);
   EXPECT_GT(squeezed, 0);
+}
+
+/// It was thrown out at 230 m/s. Only presses onto standing ground were looked at.
+TEST(Hero, is_not_thrown_out_between_a_lift_and_a_ceiling) {
+  for (const float degrees : {0.0F, 0.1F, 0.5F, 1.0F, 3.0F, 5.0F, 10.0F, -2.0F}) {
+    for (const float speed : {0.5F, 2.0F}) {
+      Game game({.position = {0.2, 5}});
+      b2PolygonShape ceiling;
+      ceiling.SetAsBox(20, 1, {0, 9}, degrees * 3.14159F / 180);
+      b2BodyDef still;
+      game.world.CreateBody(&still)->CreateFixture(&ceiling, 0);
+      b2Body& lift = *game.box(b2_kinematicBody, {0, 4}, 2, 0.3F).GetBody();
+      game.run(60, {.move = 0.0});
+      for (int i = 0; i < 400 && game.hero.position().y() > lift.GetPosition().y; ++i) {
+        lift.SetLinearVelocity({0, lift.GetPosition().y > 7.6F ? 0 : speed});
+        const Vec2d before = game.hero.position();
+        game.go({.move = 0.0});
+        ASSERT_LE((game.hero.position() - before).norm(), 0.3) << degrees << " degrees, frame " << i;
+        ASSERT_LE(std::abs(game.hero.velocity().x()), 3) << degrees << " degrees, frame " << i;
+      }
+    }
+  }
+}
+
+/// The crate creeps by a micrometre in each step: the hero never stood, and could not jump.
+TEST(Hero, stands_and_jumps_between_a_slope_and_a_crate_that_rests) {
+  for (const float degrees : {55.0F, 63.0F, 75.0F}) {
+    for (const float density : {1.0F, 5.0F, 100.0F, 1000.0F}) {
+      SCOPED_TRACE(testing::Message() << degrees << " degrees, density " << density);
+      Game game({.position = {0.05, 2.4}});
+      const float foot = 6 / std::tan(degrees * 3.14159F / 180);
+      const std::array<b2Vec2, 3> corners{b2Vec2(-foot, 6), b2Vec2(-foot, 0), b2Vec2(0, 0)};
+      b2PolygonShape slope;
+      slope.Set(corners.data(), 3);
+      b2BodyDef still;
+      game.world.CreateBody(&still)->CreateFixture(&slope, 0);
+      game.floor();
+      game.box(b2_dynamicBody, {1.45F, 1.5F}, 1, 1.5F, density);
+      game.run(200, {.move = 0.0});
+      int stands = 0;
+      for (int i = 0; i < 100; ++i) {
+        game.go({.move = 0.0});
+        stands += game.hero.grounded();
+      }
+      EXPECT_GE(stands, 95);
+      game.run(3, {.move = 0.0, .jump = true});
+      EXPECT_GT(game.hero.velocity().y(), 10);
+    }
+  }
+}
+
+/// A jump against a beam that hardly leaves a gap was lost: Box2D did not see the hero come.
+TEST(Hero, throws_up_a_beam_that_lies_on_its_head) {
+  for (const double mass : {0.68, 70.0}) {
+    for (const float gap : {0.0F, 0.015F, 0.1F, 0.5F}) {
+      SCOPED_TRACE(testing::Message() << "mass " << mass << ", gap " << gap);
+      Game game({.position = {0, half_height + 1e-6}, .mass = mass});
+      game.floor();
+      for (const float side : {-2.0F, 2.0F})
+        game.box(b2_staticBody, {side, (1.25F + gap) / 2}, 0.2F, (1.25F + gap) / 2);
+      const b2Body& beam = *game.box(b2_dynamicBody, {0, 1.35F + gap}, 2.2F, 0.1F, 0.5F).GetBody();
+      game.run(60, {.move = 0.0});
+      game.go({.move = 0.0, .jump = true});
+      double highest = 0;
+      for (int i = 0; i < 120; ++i) {
+        game.go({.move = 0.0});
+        highest = std::max(highest, game.hero.position().y());
+      }
+      // Both go on with the momentum of the hero.
+      const double speed = 12 * mass / (mass + static_cast<double>(beam.GetMass()));
+      const double rise = speed * speed / 20;
+      EXPECT_GT(highest - half_height, 0.7 * rise);
+      EXPECT_LT(highest - half_height, 1.1 * rise + static_cast<double>(gap));
+    }
+  }
 }
 
 /// A body that the game turned was taken to have swept from its old angle to the new one, and threw the hero 60 m.

@@ -110,6 +110,20 @@ TEST(Recipe, crouches_under_a_ceiling) {
   EXPECT_FALSE(is_low);
 }
 
+TEST(Recipe, crouches_on_every_slope) {
+  for (const float degrees : {-45.0F, -15.0F, 1.0F, 30.0F, 45.0F}) {
+    Game game({.position = {0, 1.5}});
+    b2PolygonShape slope;
+    slope.SetAsBox(30, 1, {0, -1}, degrees * 3.14159F / 180);
+    b2BodyDef still;
+    game.world.CreateBody(&still)->CreateFixture(&slope, 0);
+    game.run(60, {.move = 0.0});
+    ASSERT_TRUE(game.hero.grounded());
+    EXPECT_TRUE(crouch(game.hero, true, false)) << degrees;
+    EXPECT_FALSE(crouch(game.hero, false, true)) << degrees;
+  }
+}
+
 TEST(Recipe, bounces_on_a_trampoline) {
   Game game({.position = {0, 3}});
   game.floor().GetUserData().pointer = 7;

@@ -707,6 +707,67 @@ TEST(LevelStep, that_is_refused_changes_nothing_however_large_the_id_of_its_grou
   EXPECT_EQ(state, before);
 }
 
+/// The place of a ground that is none was read from a restored state, and named memory beyond the ids.
+TEST(LevelStep, reads_no_ground_of_a_state_that_stands_on_none) {
+  const Level level(SceneryDef{{box(-10, -1, 10, 0)}});
+  LevelController controller(level, {});
+  CharacterState<double> state;
+  state.position = {0, 5};
+  state.ground.collider = 4'000'000'000;
+  StepReport<double> report;
+  EXPECT_EQ(controller.step(state, {.move = 0.0}, {{0, -20}, frame}, report), StepStatus::moved);
+}
+
+TEST(LevelEdits, a_level_that_was_moved_from_is_empty_for_its_controllers) {
+  Level level(SceneryDef{{box(-10, -1, 10, 0)}});
+  LevelController controller(level, {});
+  CharacterState<double> state;
+  state.position = {0, 0.63};
+  StepReport<double> report;
+  for (int i = 0; i < 30; ++i) controller.step(state, {.move = 0.0}, {{0, -20}, frame}, report);
+  ASSERT_TRUE(state.grounded);
+  const Level other = std::move(level);
+  controller.step(state, {.move = 0.0}, {{0, -20}, frame}, report);
+  EXPECT_FALSE(state.grounded);
+  EXPECT_EQ(other.size(), 1U);
+}
+
+TEST(LocalControllerWait, is_stuck_in_what_stands_and_crushed_by_what_comes) {
+  LocalController controller({});
+  const ColliderDef wall = box(-1, -1, 1, 1);
+  const auto wait = [&](MoverIndex mover, const Vec2d& from) {
+    const auto find = [&](const Box2<double>&, std::vector<NearCollider>& found) {
+      found.push_back({.id = 0, .version = 1, .def = &wall, .mover = mover, .motion = {{from}, {}}});
+    };
+    CharacterState<double> state;
+    StepReport<double> report;
+    return controller.wait(state, {.dt = frame}, find, report);
+  };
+  EXPECT_EQ(wait(no_mover, {0, 0}), StepStatus::stuck);
+  EXPECT_EQ(wait(0, {0, 9}), StepStatus::crushed);
+  EXPECT_EQ(wait(0, {0, 0}), StepStatus::stuck);
+}
+
+/// A collider that no scenery can be made of made scenery anew in every step.
+TEST(LocalControllerStep, costs_the_same_beside_a_mover_that_is_unusable) {
+  LocalController controller({});
+  const ColliderDef floor = box(-5, -1, 5, 0);
+  const ColliderDef nothing{.shape = ColliderDef::Shape::chain, .points = {{1, 1}, {1, 1}}};
+  const auto find = [&](const Box2<double>&, std::vector<NearCollider>& found) {
+    found.push_back({.id = 0, .version = 1, .def = &floor, .mover = no_mover, .motion = {}});
+    found.push_back({.id = 1, .version = 1, .def = &nothing, .mover = 0, .motion = {}});
+  };
+  CharacterState<double> state;
+  state.position = {0, 0.63};
+  StepReport<double> report;
+  const auto step = [&] { controller.step(state, {.move = 0.0}, {.gravity = {0, -20}, .dt = frame}, find, report); };
+  for (int i = 0; i < 30; ++i) step();
+  ASSERT_EQ(controller.unusable().size(), 1U);
+  const std::size_t before = tests::allocations();
+  for (int i = 0; i < 10; ++i) step();
+  EXPECT_EQ(tests::allocations(), before);
+}
+
 TEST(LevelEdits, colliders_at_one_place_have_an_order_of_their_own) {
   ColliderDef right = box(-10, -1, 10, 0);
   right.surface_speed = 2;

@@ -150,5 +150,41 @@ TEST(CrushedAgain, each_mover_is_looked_at_from_where_it_came_over_the_character
   EXPECT_EQ(pressed.report.status, StepStatus::moved);
 }
 
+/// Two surfaces of nearly one direction squeezed the character out at up to 3,000 km/s.
+TEST(Pressed, between_surfaces_that_are_hardly_apart_in_direction_it_is_flung_by_nothing) {
+  int crushed = 0;
+  int squeezed = 0;
+  for (const double tilt : {0.0, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 0.01, 0.05, 0.2, 0.5}) {
+    for (const double speed : {0.5, 3.0}) {
+      for (const double half : {1.0, 20.0}) {
+        for (const bool is_lift : {false, true}) {
+          SCOPED_TRACE(testing::Message() << (is_lift ? "lift, " : "press, ") << "tilt " << tilt << ", " << speed
+                                          << " m/s, half width " << half);
+          const double slope = tilt * half;
+          const ColliderDef lift = polygon({{-half, -60}, {half, -60}, {half, slope}, {-half, -slope}});
+          const ColliderDef press = polygon({{-half, 2 - slope}, {half, 2 + slope}, {half, 60}, {-half, 60}});
+          Stepper<double> pressed(is_lift ? std::vector{moving(lift, 0), rectangle(-50, 2, 50, 3)}
+                                          : std::vector{rectangle(-50, -1, 50, 0), moving(press, 0)});
+          pressed.at(0, half_height + (is_lift ? tilt * half_width : 0.0) + 1e-3);
+          bool is_crushed = false;
+          const int steps = static_cast<int>(1.5 / speed / pressed.dt);
+          for (int i = 0; i < steps && !is_crushed && std::abs(pressed.state.position.x()) < half; ++i) {
+            const Vec2d by{0, (is_lift ? speed : -speed) * pressed.dt};
+            pressed.movers[0] = {pressed.movers[0].to, pressed.movers[0].to + by};
+            const Vec2d before = pressed.state.position;
+            is_crushed = pressed.step({}) == StepStatus::crushed;
+            ASSERT_LE((pressed.state.position - before).norm(), 9 * speed * pressed.dt + 0.05) << "step " << i;
+            ASSERT_LE(pressed.state.velocity.norm(), 9 * speed + 0.5) << "step " << i;
+          }
+          EXPECT_TRUE(tilt > 0.1 || is_crushed);
+          (is_crushed ? crushed : squeezed) += 1;
+        }
+      }
+    }
+  }
+  EXPECT_GT(crushed, 0);
+  EXPECT_GT(squeezed, 0);
+}
+
 }  // namespace
 }  // namespace paperproof::stepping

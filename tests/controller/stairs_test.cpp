@@ -95,6 +95,51 @@ TEST(StepHeight, stairs_are_climbed_at_walking_speed) {
   }
 }
 
+/// On most of these the foot is wider than a tread, or a flank meets the next corner before the foot is on the stair.
+TEST(StepHeight, stairs_of_any_tread_are_climbed_and_descended) {
+  for (const bool is_square : {false, true}) {
+    for (const double rise : {0.05, 0.1, 0.15, 0.2, 0.25}) {
+      for (const double tread : {0.15, 0.2, 0.25, 0.3, 0.4}) {
+        for (const double speed : {1.0, 3.0, 6.0}) {
+          for (const double dt : {1.0 / 240, 1.0 / 60}) {
+            SCOPED_TRACE(testing::Message() << (is_square ? "square, " : "") << "rise " << rise << ", tread " << tread
+                                            << ", " << speed << " m/s, dt " << dt);
+            const CharacterDef character = is_square ? square_walker(0.4, 0.5) : walker(0.4, 0.5);
+            Walk walk(stairs(rise, tread, 8), character, 0, 0, dt);
+            const int most = static_cast<int>((8 * tread + 8) / speed / dt) + 60;
+            int steps = 0;
+            while (walk.state.position.x() < 4 + 8 * tread && ++steps < most) walk.go({.move = speed / 6});
+            ASSERT_LT(steps, most) << "it stops at " << walk.state.position.transpose();
+            int in_air = 0;
+            for (steps = 0; walk.state.position.x() > 0 && ++steps < most;) {
+              walk.go({.move = -speed / 6});
+              in_air += !walk.state.grounded;
+            }
+            ASSERT_LT(steps, most) << "it stops at " << walk.state.position.transpose();
+            if (rise / tread < 1.2) {
+              ASSERT_EQ(in_air, 0);
+            }
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(StepHeight, a_kerb_that_leans_back_or_over_is_climbed) {
+  for (const double lean : {-0.05, -0.01, 0.0, 0.01, 0.02, 0.05, 0.1}) {
+    for (const double speed : {1.0, 3.0, 6.0}) {
+      for (const double dt : {1.0 / 240, 1.0 / 60}) {
+        SCOPED_TRACE(testing::Message() << "lean " << lean << ", " << speed << " m/s, dt " << dt);
+        const ColliderDef top{.points = {{3, -1}, {20, -1}, {20, 0.2}, {3 + lean, 0.2}, {3, 0}}};
+        Walk walk({{box(-10, -1, 3, 0), top}}, square_walker(0.5), 0, 0, dt);
+        for (int i = 0; i < static_cast<int>(6 / speed / dt); ++i) walk.go({.move = speed / 6});
+        EXPECT_GT(walk.state.position.x(), 4);
+      }
+    }
+  }
+}
+
 TEST(StepHeight, a_higher_wall_stops) {
   for (const CharacterDef& character : {walker(0.25), square_walker(0.25)}) {
     Walk walk(kerb(0.26), character, 0);

@@ -98,7 +98,8 @@ struct Input {
   /// The jump button is down. One press gives at most one jump; a press that cannot jump yet stays pending while held;
   /// or, if there is a `CharacterDef::jump_buffer`, for that long.
   bool jump = false;
-  /// One-way chains do not block while this is true: a character that stands on a chain drops through it. One step with
+  /// One-way chains do not block while this is true: a character that stands on a chain drops through it. (For a
+  /// `box2d::Hero`: fixtures that `surface_of` makes ledges; a `b2ChainShape` alone is none.) One step with
   /// `drop` is enough to leave a chain that the character touches: from partly below a chain the character goes on
   /// without `drop`.
   bool drop = false;

@@ -32,7 +32,8 @@ void for_each_change(std::span<const Contact> before, std::span<const Contact> n
   });
 }
 
-/// The same by collider. Ids of a `Level` tell a collider that was replaced from the one before.
+/// The same by collider. In a `Level` a collider that was replaced keeps its id and counts as the same surface; one
+/// that was removed does not.
 /// @param before the contacts of the step before: a copy of its `move.contacts`. @param now those of this step.
 template <class Scalar, class Visit>
 void for_each_change(std::span<const Contact<Scalar>> before, std::span<const Contact<Scalar>> now,

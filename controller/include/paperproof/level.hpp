@@ -58,11 +58,13 @@ class Level {
     std::uint32_t generation = 0;
     bool is_used = false;
   };
-  /// A copy has a number of its own.
+  /// A copy has a number of its own. So has what was moved from.
   struct Edit {
     Edit() = default;
     Edit(const Edit&) noexcept { renew(); }
+    Edit(Edit&& from) noexcept : Edit(from) { from.renew(); }
     Edit& operator=(const Edit&) noexcept { return renew(); }
+    Edit& operator=(Edit&& from) noexcept { return from.renew(), renew(); }
     ~Edit() = default;
     Edit& renew() noexcept;
 

@@ -86,7 +86,8 @@ class LocalController {
   StepStatus move(CharacterState<double>& state, const Vec2d& displacement, const StepContext<double>& context,
                   const Find& find, StepReport<double>& report);
   /// A step in which the character stays where it is, and what reaches it crushes it. Its velocity is zero then.
-  /// @returns `moved` if nothing overlaps it at the end.
+  /// @return `crushed` if something reached the character, else `stuck` if something overlaps it at the end, else
+  /// `moved`.
   StepStatus wait(CharacterState<double>& state, const StepContext<double>& context, const Find& find,
                   StepReport<double>& report);
   /// See `Controller::overlaps`. @param at_end movers are where their motions end; else where they begin.

@@ -48,8 +48,8 @@ StepStatus LocalController::Impl::advance(CharacterState<double>& state, const S
   if (!(context.dt > 0 && is_in_range(needed))) return report.status = StepStatus::invalid_input;
   for (;;) {
     turned_.clear();
+    state = before;  // `find` may ask the game, which may ask for the character
     scenery.read(needed, context, find);
-    state = before;
     const StepStatus status = scenery.any_turns() ? step_among_turning(state, context, report, go)
                                                   : step_straight(state, context, report, go);
     if (is_refused(status)) {

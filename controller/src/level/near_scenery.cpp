@@ -61,6 +61,7 @@ void NearScenery::read(const Box2<double>& needed, const StepContext<double>& co
   if (!std::is_sorted(near_.begin(), near_.end(), by_id)) std::sort(near_.begin(), near_.end(), by_id);
   const auto same_id = [](const NearCollider& a, const NearCollider& b) { return a.id == b.id; };
   near_.erase(std::unique(near_.begin(), near_.end(), same_id), near_.end());
+  leave_out_known();
   number_movers(context.dt);
   note_what_turns(needed, context.filter);
   const bool is_same = std::equal(near_.begin(), near_.end(), near_before_.begin(), near_before_.end(), same_collider);
@@ -116,7 +117,6 @@ void NearScenery::note_what_turns(const Box2<double>& needed, const ColliderFilt
 /// at once.
 void NearScenery::place_in_order() {
   scenery_.reset();
-  unusable_.clear();
   order_.resize(near_.size());
   for (std::size_t i = 0; i < order_.size(); ++i) order_[i] = i;
   const auto key = [&](std::size_t i) {
@@ -149,10 +149,27 @@ SceneryDef NearScenery::scenery_def() const {
   return def;
 }
 
+/// Leaves out what was refused before.
+void NearScenery::leave_out_known() {
+  unusable_.clear();
+  if (refused_.empty()) return;
+  std::erase_if(near_, [&](const NearCollider& collider) {
+    const std::pair here(collider.id, collider.version);
+    if (std::find(refused_.begin(), refused_.end(), here) == refused_.end()) return false;
+    unusable_.push_back(collider.id);
+    return true;
+  });
+  const auto is_gone = [&](const auto& refused) {
+    return std::find(unusable_.begin(), unusable_.end(), refused.first) == unusable_.end();
+  };
+  std::erase_if(refused_, is_gone);
+}
+
 /// Leaves out a collider of the scenery that is refused, and its mover, if that moves nothing else.
 void NearScenery::leave_out(ColliderIndex local) {
   NearCollider& collider = near_[order_[local]];
   unusable_.push_back(collider.id);
+  refused_.emplace_back(collider.id, collider.version);
   order_.erase(order_.begin() + local);
   const MoverIndex mover = std::exchange(collider.mover, no_mover);
   const auto is_its = [&](const NearCollider& other) { return other.mover == mover; };
@@ -227,7 +244,7 @@ void NearScenery::to_local(CharacterState<double>& state) const {
 
 void NearScenery::to_ids(CharacterState<double>& state) const {
   if (state.ride.ground != Ride<double>::none) state.ride.ground = ids_[state.ride.ground];
-  if (state.ground.collider != no_collider) state.ground.collider = ids_[state.ground.collider];
+  if (state.ground.state != GroundState::air) state.ground.collider = ids_[state.ground.collider];
   for (Crusher<double>& crusher : state.crushers) crusher.collider = ids_[crusher.collider];
 }
 

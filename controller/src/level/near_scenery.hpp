@@ -92,6 +92,7 @@ class NearScenery {
   void note_what_turns(const Box2<double>& needed, const ColliderFilter* filter);
   void place_in_order();
   [[nodiscard]] SceneryDef scenery_def() const;
+  void leave_out_known();
   void leave_out(ColliderIndex local);
   [[nodiscard]] ColliderIndex local_of(ColliderIndex id) const noexcept;
 
@@ -106,6 +107,7 @@ class NearScenery {
   std::vector<std::size_t> order_;  ///< Of the colliders of the scenery, in `near_`.
   std::vector<ColliderIndex> ids_;  ///< Of these.
   std::vector<ColliderIndex> unusable_;
+  std::vector<std::pair<ColliderIndex, std::uint64_t>> refused_;  ///< Of these, ids and versions.
   /// Angles of the movers in the scenery, and their surface speeds.
   std::vector<std::pair<double, double>> built_;
   std::vector<std::pair<double, double>> now_;  ///< The same, as they are now.

@@ -118,8 +118,12 @@ StepStatus LocalController::Impl::wait(CharacterState<double>& state, const Step
   MoveResult<double>& move = report.move;
   clear(report);
   go_straight(0, 0, state.position, state, context, report);
-  move.status = MoveStatus::moved;
-  if (!move.crushers.empty()) move.status = MoveStatus::stuck;
+  const auto holds = [&](const NearCollider& collider) {
+    return collider.mover == no_mover && blocks(collider, context) && overlaps(collider, {}, state.position);
+  };
+  const auto all = scenery.colliders();
+  const bool is_held = !move.crushers.empty() || std::any_of(all.begin(), all.end(), holds);
+  move.status = is_held ? MoveStatus::stuck : MoveStatus::moved;
   if (!move.crushed.empty()) move.status = MoveStatus::crushed;
   step_parts::adopt(character(), context.up, move, state);
   return report.status = step_parts::status_of(move.status);

@@ -27,12 +27,15 @@ void LocalController::Impl::note_pushes(const StepPart& part, const StepContext<
   const std::size_t count =
       scenery.controller().contacts_at(move.path[last].position, Tolerances<double>{}.touch,
                                        scenery.context(context, part.motions), scenery.scratch(), touched);
+  std::ptrdiff_t pushes = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const NearCollider& collider = scenery.at(touched[i].collider);
     const auto is_known = [&](const Contact<double>& contact) { return contact.collider == touched[i].collider; };
     if (!scenery.turns(collider)) continue;
-    if (std::none_of(move.contacts.begin(), move.contacts.end(), is_known))
-      move.contacts.push_back(touched[i], more_contacts);
+    if (std::any_of(move.contacts.begin(), move.contacts.end(), is_known)) continue;
+    // They come first: nothing else is met before any time has passed.
+    if (move.contacts.push_back(touched[i], more_contacts))
+      std::rotate(move.contacts.begin() + pushes++, move.contacts.end() - 1, move.contacts.end());
   }
 }
 

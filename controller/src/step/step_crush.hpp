@@ -19,10 +19,10 @@ bool StepSolver<Lanes, Scalar, Up>::is_passed_through() const noexcept {
 
 /// Moves to a free position beside the movers that are touched, if there is one and nothing has crushed the character
 /// yet. After a crush `undo_crushes` does that at the end of the step.
-/// @param reach how far away it may be, if that is farther than the movers go [m].
 template <std::size_t Lanes, class Scalar, class Up>
-bool StepSolver<Lanes, Scalar, Up>::goes_to_free_position(Scalar reach) noexcept {
+bool StepSolver<Lanes, Scalar, Up>::goes_to_free_position() noexcept {
   if (!result_.crushed.empty()) return false;
+  Scalar reach = 0;
   for (const TouchedSurface<Scalar>& surface : memory_.surfaces)
     if (surface.mover != no_mover) reach = std::max(reach, length_of(movers_.displacement(surface.mover)));
   if (!find_free_position(reach, {0, result_.path.size()})) return false;
@@ -30,18 +30,36 @@ bool StepSolver<Lanes, Scalar, Up>::goes_to_free_position(Scalar reach) noexcept
   return true;
 }
 
-/// Whether movers of one kind would drive the character much farther than both go.
-/// @param circles the tangent of a circle does, where it squeezes the character out sideways: the circle itself leaves
-/// it sooner. Else polygons: each does that as a wedge; one as blunt as a press that is hardly turned flings.
+/// Whether a circle would drive the character farther than both go: where it squeezes the character out along its
+/// tangent, it leaves the character sooner.
 template <std::size_t Lanes, class Scalar, class Up>
-bool StepSolver<Lanes, Scalar, Up>::flings(bool circles, const V& wanted, const V& allowed) const noexcept {
-  constexpr Scalar blunt = 32;
+bool StepSolver<Lanes, Scalar, Up>::circle_flings(const V& wanted, const V& allowed) const noexcept {
   const Scalar own = length_of(wanted) + std::abs(steered_) * dt_ + Tolerances<Scalar>{}.touch;
   return std::any_of(memory_.surfaces.begin(), memory_.surfaces.end(), [&](const TouchedSurface<Scalar>& surface) {
-    if (space_.is_circle(surface.piece) != circles || !moves_in(surface)) return false;
-    const Scalar its = length_of(remaining_of(surface));
-    return length_of(allowed) > own + (circles ? its : its * blunt + size());
+    return space_.is_circle(surface.piece) && moves_in(surface) &&
+           length_of(allowed) > own + length_of(remaining_of(surface));
   });
+}
+
+/// Whether movers would squeeze the character out as a wedge so blunt that they would fling it, in this step or, by the
+/// speed that they give it, in later ones.
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::are_too_blunt(const DesiredMotion<Scalar>& wanted,
+                                                  const DesiredMotion<Scalar>& allowed) const noexcept {
+  constexpr Scalar blunt = 8;
+  Scalar way = 0;
+  Scalar speed = 0;
+  for (const TouchedSurface<Scalar>& surface : memory_.surfaces) {
+    if (!moves_in(surface)) continue;
+    if (space_.is_circle(surface.piece)) return false;
+    way = std::max(way, length_of(remaining_of(surface)));
+    speed = std::max(speed, length_of(velocity_of(surface)));
+  }
+  if (way == 0) return false;
+  const V extent = space_.hull_box().upper - space_.hull_box().lower;
+  const Scalar own = length_of(wanted.displacement.wanted) + std::abs(steered_) * dt_;
+  return length_of(allowed.displacement.wanted) > own + way * blunt + length_of(extent) ||
+         length_of(allowed.velocity.wanted) > length_of(wanted.velocity.wanted) + std::abs(steered_) + speed * blunt;
 }
 
 /// Moves to a free position beside a circle that would fling the character, if there is one that is no farther away.
@@ -49,7 +67,7 @@ bool StepSolver<Lanes, Scalar, Up>::flings(bool circles, const V& wanted, const 
 /// @param allowed the response to what the last sweep met.
 template <std::size_t Lanes, class Scalar, class Up>
 bool StepSolver<Lanes, Scalar, Up>::goes_beside_circle(const V& allowed) noexcept {
-  if (is_passed_through() || !flings(true, V(motion_.displacement * (1 - found_.stop)), allowed)) return false;
+  if (is_passed_through() || !circle_flings(V(motion_.displacement * (1 - found_.stop)), allowed)) return false;
   const bool has_left = std::any_of(memory_.marked.begin(), memory_.marked.end(),
                                     [this](ColliderIndex collider) { return memory_.is(collider, leaving); });
   if (!find_free_position(length_of(allowed), {has_left ? std::size_t{1} : 0, result_.path.size()})) return false;
@@ -211,7 +229,7 @@ void StepSolver<Lanes, Scalar, Up>::wait(bool may_move) noexcept {
   moving_.waits = true;
   for (sweep_along(V::Zero()); found_.hit; sweep_along(V::Zero())) {
     update_surfaces();
-    if (may_move && goes_to_free_position(0)) {
+    if (may_move && goes_to_free_position()) {
       moving_.waits = false;
       return;
     }

@@ -254,7 +254,33 @@ void StepSolver<Lanes, Scalar, Up>::respond_to_surface(const V& normal, DesiredM
 template <std::size_t Lanes, class Scalar, class Up>
 bool StepSolver<Lanes, Scalar, Up>::respond_to_all(DesiredMotion<Scalar>& desired) noexcept {
   if (steered_ == 0) desired = DesiredMotion<Scalar>::plain(desired.displacement.wanted, desired.velocity.wanted);
-  return respond_one_by_one(desired) || respond_in_crease(desired) || respond_together(desired);
+  if (!respond_one_by_one(desired) && !respond_in_crease(desired) && !respond_together(desired)) return false;
+  if (movers_.active && !wedged_ && ends_fall_in_wedge(desired)) {
+    wedged_ = true;
+    ground_ = memory_.surfaces[0].piece;
+    ground_axis_ = memory_.surfaces[0].axis;
+  }
+  return true;
+}
+
+/// Whether steep surfaces that move apart hardly, or close in, hold a fall between them: a slope and a crate that
+/// rests, for example.
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::ends_fall_in_wedge(const DesiredMotion<Scalar>& desired) const noexcept {
+  constexpr Scalar hardly = Scalar(0.1);
+  Scalar left = 0;
+  Scalar right = 0;
+  Scalar fastest = 0;
+  for (const TouchedSurface<Scalar>& surface : memory_.surfaces) {
+    if (walkable(surface.normal)) return false;
+    const Scalar across = up_.across_of(surface.normal);
+    left = std::min(left, across);
+    right = std::max(right, across);
+    fastest = std::max(fastest, length_of(velocity_of(surface)));
+  }
+  const bool holds = left < 0 && right > 0 && up_.up_of(memory_.surfaces[0].normal) > 0;
+  const Scalar speed = length_of(desired.velocity.wanted);
+  return holds && fall_ < 0 && speed <= hardly * -fall_ && fastest <= hardly * -fall_;
 }
 
 /// False where the surfaces leave no motion.

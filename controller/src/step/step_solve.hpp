@@ -161,11 +161,10 @@ void StepSolver<Lanes, Scalar, Up>::travel() noexcept {
       desired = DesiredMotion<Scalar>::plain(V::Zero(), V::Zero());
       steered_ = 0;
     }
-    const V wanted = desired.displacement.wanted;
+    const DesiredMotion<Scalar> wanted = desired;
     const bool is_answered = !is_passed_through() && respond_to_surfaces(desired);
-    const bool is_flung = movers_.active && is_answered && flings(false, wanted, desired.displacement.wanted);
-    if (!is_answered || is_flung) {
-      if (goes_to_free_position(is_flung ? size() : Scalar(0))) return;
+    if (!is_answered || (movers_.active && are_too_blunt(wanted, desired))) {
+      if (goes_to_free_position()) return;
       if (!note_crushers()) return wait(true);
       desired = DesiredMotion<Scalar>::plain(V::Zero(), V::Zero());
       steered_ = 0;

@@ -74,6 +74,13 @@ struct DesiredMotion {
   }
 };
 
+/// How far a hull reaches to a side of the character's position [m].
+template <class Scalar>
+struct FootReach {
+  Scalar hull;
+  Scalar foot;  ///< Its lowest points.
+};
+
 /// What a step knows about its ride and about movers that crush.
 template <class Scalar>
 struct MoverState {
@@ -212,9 +219,9 @@ class StepSolver {
   [[nodiscard]] bool walkable(const V& normal) const noexcept { return up_.up_of(normal) >= settings_.walkable_cosine; }
 
   // step_stairs.hpp
-  [[nodiscard]] Scalar overhang() const noexcept;
+  [[nodiscard, gnu::cold, gnu::noinline]] FootReach<Scalar> foot_reach(Scalar side) const noexcept;
   [[nodiscard]] bool go_along(const V& displacement) noexcept;
-  [[nodiscard]] std::optional<TouchedSurface<Scalar>> ground_below(Scalar ahead, Scalar down) noexcept;
+  [[nodiscard]] std::optional<TouchedSurface<Scalar>> ground_below(Scalar side, Scalar down, Scalar lean) noexcept;
   bool step_down_to(const TouchedSurface<Scalar>& ground, Scalar speed) noexcept;
   [[nodiscard]] bool climb_by(Scalar rise, Scalar sideways, Scalar speed) noexcept;
   [[gnu::cold, gnu::noinline]] void climb_stairs(const MoveRequest<Scalar>& request, const V& wanted,
@@ -263,6 +270,7 @@ class StepSolver {
   [[gnu::cold, gnu::noinline]] void fall_between(DesiredMotion<Scalar>& desired) const noexcept;
   [[nodiscard]] bool respond_one_by_one(DesiredMotion<Scalar>& desired) const noexcept;
   [[nodiscard]] bool respond_in_crease(DesiredMotion<Scalar>& desired) noexcept;
+  [[nodiscard, gnu::cold, gnu::noinline]] bool ends_fall_in_wedge(const DesiredMotion<Scalar>& desired) const noexcept;
   [[nodiscard]] bool respond_together(DesiredMotion<Scalar>& desired) const noexcept;
   [[nodiscard]] std::optional<DesiredMotion<Scalar>> nearest_allowed_to(const V& displacement,
                                                                         const V& velocity) const noexcept;
@@ -298,10 +306,10 @@ class StepSolver {
 
   // step_crush.hpp
   [[nodiscard]] bool is_passed_through() const noexcept;
-  [[nodiscard, gnu::cold, gnu::noinline]] bool goes_to_free_position(Scalar reach) noexcept;
-  /// Of the character, from corner to corner of its box [m].
-  [[nodiscard]] Scalar size() const noexcept { return length_of(V(space_.hull_box().upper - space_.hull_box().lower)); }
-  [[nodiscard]] bool flings(bool circles, const V& wanted, const V& allowed) const noexcept;
+  [[nodiscard, gnu::cold, gnu::noinline]] bool goes_to_free_position() noexcept;
+  [[nodiscard]] bool circle_flings(const V& wanted, const V& allowed) const noexcept;
+  [[nodiscard, gnu::cold, gnu::noinline]] bool are_too_blunt(const DesiredMotion<Scalar>& wanted,
+                                                             const DesiredMotion<Scalar>& allowed) const noexcept;
   [[nodiscard, gnu::cold, gnu::noinline]] bool goes_beside_circle(const V& allowed) noexcept;
   [[gnu::cold, gnu::noinline]] void undo_crushes() noexcept;
   [[nodiscard]] bool moves_in(const TouchedSurface<Scalar>& surface) const noexcept;

@@ -7,6 +7,7 @@
 /// stair. There it may rest if a little ahead, where its foot would be, there is walkable ground.
 #pragma once
 
+#include "step/contact_geometry.hpp"
 #include "step/step_solver.hpp"
 
 namespace paperproof::octagon_sweep {
@@ -18,28 +19,27 @@ bool StepSolver<Lanes, Scalar, Up>::go_along(const V& displacement) noexcept {
   return advance(found_.hit ? found_.stop : Scalar(1));
 }
 
-/// How far the hull reaches sideways beyond its foot, at most [m].
+/// How far the hull and its foot reach to a side.
 template <std::size_t Lanes, class Scalar, class Up>
-Scalar StepSolver<Lanes, Scalar, Up>::overhang() const noexcept {
+FootReach<Scalar> StepSolver<Lanes, Scalar, Up>::foot_reach(Scalar side) const noexcept {
   Scalar low = std::numeric_limits<Scalar>::infinity();
   for (const V& point : space_.hull()) low = std::min(low, up_.up_of(point));
-  constexpr Scalar far = std::numeric_limits<Scalar>::infinity();
-  V all{far, -far};
-  V foot{far, -far};
+  FootReach<Scalar> reach{-std::numeric_limits<Scalar>::infinity(), -std::numeric_limits<Scalar>::infinity()};
   for (const V& point : space_.hull()) {
-    const Scalar across = up_.across_of(point);
-    all = {std::min(all.x(), across), std::max(all.y(), across)};
-    if (up_.up_of(point) - low > Tolerances<Scalar>{}.touch) continue;
-    foot = {std::min(foot.x(), across), std::max(foot.y(), across)};
+    const Scalar across = side * up_.across_of(point);
+    reach.hull = std::max(reach.hull, across);
+    if (up_.up_of(point) - low <= Tolerances<Scalar>{}.touch) reach.foot = std::max(reach.foot, across);
   }
-  return std::max(foot.x() - all.x(), all.y() - foot.y());
+  return reach;
 }
 
 /// The ground that ends a way straight down: walkable, or the corner of a stair whose ground lies ahead. The last sweep
 /// is then that way down.
-/// @param ahead to which side [m]; zero: nowhere. @param down how far [m]
+/// @param side of what is ahead: 1, -1, or 0 if nothing is. @param down how far [m].
+/// @param lean how far a stair may lean back [m].
 template <std::size_t Lanes, class Scalar, class Up>
-std::optional<TouchedSurface<Scalar>> StepSolver<Lanes, Scalar, Up>::ground_below(Scalar ahead, Scalar down) noexcept {
+std::optional<TouchedSurface<Scalar>> StepSolver<Lanes, Scalar, Up>::ground_below(Scalar side, Scalar down,
+                                                                                  Scalar lean) noexcept {
   const V from = position_;
   const auto ground = [&]() -> std::optional<TouchedSurface<Scalar>> {
     sweep_along(up_.in_world({0, -down}));
@@ -48,11 +48,22 @@ std::optional<TouchedSurface<Scalar>> StepSolver<Lanes, Scalar, Up>::ground_belo
     return up_.up_of(surface.normal) > 0 ? std::optional(surface) : std::nullopt;
   };
   std::optional<TouchedSurface<Scalar>> below = ground();
-  if (!below || walkable(below->normal) || ahead == 0) return below;
-  sweep_along(up_.in_world({ahead, 0}));
-  position_ += motion_.displacement * found_.stop;
-  below = ground();
-  position_ = from;
+  if (!below || walkable(below->normal) || side == 0) return below;
+  // Where the foot is just over the corner; farther, as this may be the corner of the stair behind; and behind the edge
+  // of a stair that leans back.
+  const V there = local(below->piece, V(from + motion_.displacement * found_.stop));
+  const V corner = contact_place(space_, below->piece, below->axis, below->normal, there).point;
+  const FootReach<Scalar> reach = foot_reach(side);
+  const Scalar overhang = std::max(reach.hull - reach.foot, foot_reach(-side).hull - foot_reach(-side).foot);
+  const Scalar over = side * up_.across_of(V(corner - there)) - reach.foot + 2 * Tolerances<Scalar>{}.touch;
+  for (const Scalar ahead : {over, overhang, overhang / 2, overhang / 4, lean}) {
+    if (ahead <= 0) continue;
+    sweep_along(up_.in_world({side * ahead, 0}));
+    position_ += motion_.displacement * found_.stop;
+    below = ground();
+    position_ = from;
+    if (below && walkable(below->normal)) break;
+  }
   if (below) ground();
   return below;
 }
@@ -64,8 +75,8 @@ bool StepSolver<Lanes, Scalar, Up>::step_down_to(const TouchedSurface<Scalar>& g
   const V carried = carried_velocity(ground.piece, ground.normal);
   if (!walkable(ground.normal) || falls_away(ground_velocity(ground.piece, ground.normal)) || !advance(found_.stop))
     return false;
-  note_ground(GroundState::walkable, ground.piece, ground.normal);
   const Stop<Scalar>& stop = found_.stops[0];
+  note_ground(GroundState::walkable, stop.piece, ground.normal);
   if (walkable(space_.normal(stop.piece, stop.axes.normal)))  // the corner of a stair stops no wanted motion
     report_contact(stop.piece, stop.axes.normal, time_, result_.contacts.size());
   const V followed = follow(speed - up_.across_of(carried), up_.seen(ground.normal));
@@ -80,7 +91,7 @@ bool StepSolver<Lanes, Scalar, Up>::climb_by(Scalar rise, Scalar sideways, Scala
   const V before = position_;
   if (!go_along(up_.in_world({0, rise})) || !go_along(up_.in_world({sideways, 0}))) return false;
   const V by = up_.seen(V(position_ - before));
-  const auto ground = ground_below(std::copysign(overhang(), sideways), by.y());
+  const auto ground = ground_below(std::copysign(Scalar(1), sideways), by.y(), by.y());
   const bool is_higher = (1 - found_.stop) * by.y() > touch && by.x() * sideways > touch * std::abs(sideways);
   return ground && is_higher && step_down_to(*ground, speed);
 }
@@ -97,7 +108,8 @@ void StepSolver<Lanes, Scalar, Up>::climb_stairs(const MoveRequest<Scalar>& requ
     const Scalar left = up_.across_of(V(wanted - (position_ - request.position)));
     const bool is_steered = left * up_.across_of(request.velocity) > 0 && std::abs(left) > touch;
     const bool is_stopped = std::any_of(result_.contacts.begin(), result_.contacts.end(), [&](const auto& contact) {
-      return up_.across_of(contact.normal) * left < 0 && up_.up_of(contact.normal) >= 0 && !walkable(contact.normal);
+      return up_.across_of(contact.normal) * left < 0 && up_.up_of(contact.normal) >= -along_plane<Scalar> &&
+             !walkable(contact.normal);
     });
     if (!is_steered || !is_stopped || result_.path.size() + most_legs > memory_.corners.capacity()) return;
     push_corner(time_);
@@ -135,8 +147,8 @@ void StepSolver<Lanes, Scalar, Up>::follow_ground_down(const MoveRequest<Scalar>
   // A character that rises has left the ground on purpose, unless it only climbs: a walk goes on over a crest.
   if (up_.up_of(velocity_) > up_.up_of(left_ground) && !climbs_) return;
   const Scalar walked = up_.across_of(V(position_ - request.position - left_ground * request.dt));
-  const Scalar ahead = walked == 0 ? Scalar(0) : std::copysign(overhang(), walked);
-  if (const auto ground = ground_below(ahead, down)) step_down_to(*ground, up_.across_of(velocity_));
+  const Scalar side = walked == 0 ? Scalar(0) : std::copysign(Scalar(1), walked);
+  if (const auto ground = ground_below(side, down, 0)) step_down_to(*ground, up_.across_of(velocity_));
 }
 
 }  // namespace paperproof::octagon_sweep

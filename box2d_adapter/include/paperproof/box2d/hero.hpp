@@ -21,7 +21,7 @@ namespace paperproof::box2d {
 enum class Blocking : std::uint8_t {
   /// A one-sided edge or chain that the hero is behind lets the hero come through, if each of its segments faces the
   /// side that the straight way from its first vertex to its last faces, and its body is static, or kinematic and does
-  /// not turn. Anything else blocks from everywhere. `Input::drop` changes nothing.
+  /// not turn. Anything else blocks from everywhere. `Input::drop` leaves neither.
   as_in_box2d,
   from_everywhere,
   from_above,  ///< A ledge: the hero jumps up through it and lands on it. `Input::drop` lets the hero fall through.
@@ -46,14 +46,16 @@ struct HeroDef {
   /// itself.
   std::optional<double> push_force{};
   /// If set, it is asked in every step for each solid fixture near the hero that passes the filter: the place for what
-  /// a game would decide in `PreSolve`. It may read the fixture's user data, and the hero, as after its last step.
+  /// a game would decide in `PreSolve`. It may read the fixture's user data, and where the hero was after its last
+  /// step.
   std::function<Surface(b2Fixture&)> surface_of{};
 };
 
 /// A surface that was in the hero's way in its last step, or that was so in the step before.
 struct HeroContact {
   using Change = ContactChange;
-  /// One that is `removed` may have been destroyed by the game: compare the pointer, do not follow it.
+  /// One that is `removed` may have been destroyed by the game: compare the pointer, do not follow it. A fixture that
+  /// was destroyed and made anew at the same address is taken for the old one.
   b2Fixture* fixture = nullptr;
   Change change = Change::added;
   Contact<double> contact;  ///< Of a `removed` one: the last.
@@ -89,7 +91,8 @@ struct HeroSave {
   b2Vec2 body_position{0, 0};        ///< Of its body in the world, which is some millimetres beside it [m];
   b2Vec2 body_velocity{0, 0};        ///< with its weight and push [m/s].
   bool is_bullet = true;
-  Box2<double> reach{};  ///< See `LocalController::reach`.
+  Vec2d struck{Vec2d::Zero()};  ///< The velocity with which its body strikes what stopped the hero at once [m/s].
+  Box2<double> reach{};         ///< See `LocalController::reach`.
 };
 
 /// A character in a game's own `b2World`, moved by a `LocalController`. Each frame the world steps, then the hero:
@@ -163,7 +166,7 @@ class Hero {
   /// the same filter and user data.
   [[nodiscard]] b2Body& body() const noexcept;
 
-  /// Puts the hero elsewhere, without a way between: it forgets ground, contacts, crushes and what carried it. Nothing
+  /// Puts the hero elsewhere, without a way between: it forgets ground, crushes and what carried it. Nothing
   /// is dragged along.
   /// @throws InvalidDefinition for numbers that are not finite or beyond 1e6, and during a step of the world.
   void place(const Vec2d& position, const Vec2d& velocity = {0, 0});
@@ -174,7 +177,8 @@ class Hero {
   /// `knock_back`.
   void set_velocity(const Vec2d& velocity);
   /// Another shape, or another way to move: to crouch, to stand up, to swim. The lowest points of both shapes are at
-  /// one height, and their boxes have one middle.
+  /// one height, and their boxes have one middle. Another shape is another fixture: the game's listener hears the end
+  /// of every contact, and in the next step of the world their begin.
   /// @return false if the new shape would overlap a solid; then nothing changed.
   /// @throws InvalidCharacter, InvalidDefinition as the constructor; InvalidDefinition during a step of the world.
   bool change(const CharacterDef& character);
@@ -182,7 +186,8 @@ class Hero {
   void shift_origin(const Vec2d& new_origin);
 
   [[nodiscard]] HeroSave save() const;
-  /// Call it after the world is as it was: what the save names must be there again.
+  /// Call it after the world is as it was: what the save names must be there again. `contacts()` and `inside()` are
+  /// those of the save; `sensors()`, `crushed_by()` and `skipped()` are empty until the next step.
   /// @throws InvalidDefinition during a step of the world.
   void restore(const HeroSave& save);
 
