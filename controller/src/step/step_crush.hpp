@@ -41,25 +41,30 @@ bool StepSolver<Lanes, Scalar, Up>::circle_flings(const V& wanted, const V& allo
   });
 }
 
-/// Whether movers would squeeze the character out as a wedge so blunt that they would fling it, in this step or, by the
-/// speed that they give it, in later ones.
+/// Movers squeeze the character out as a wedge does. A blunt one would fling it: the speed that they give it is
+/// limited.
+/// @param wanted before the response. @param allowed by the response.
+/// @return false if they would squeeze it out so far in this step that they crush it instead.
 template <std::size_t Lanes, class Scalar, class Up>
-bool StepSolver<Lanes, Scalar, Up>::are_too_blunt(const DesiredMotion<Scalar>& wanted,
-                                                  const DesiredMotion<Scalar>& allowed) const noexcept {
-  constexpr Scalar blunt = 8;
+bool StepSolver<Lanes, Scalar, Up>::limit_squeeze(const DesiredMotion<Scalar>& wanted,
+                                                  DesiredMotion<Scalar>& allowed) const noexcept {
+  constexpr Scalar farthest = 32;  // times as far as they go
+  constexpr Scalar fastest = 8;    // times as fast as they are
   Scalar way = 0;
   Scalar speed = 0;
   for (const TouchedSurface<Scalar>& surface : memory_.surfaces) {
     if (!moves_in(surface)) continue;
-    if (space_.is_circle(surface.piece)) return false;
+    if (space_.is_circle(surface.piece)) return true;
     way = std::max(way, length_of(remaining_of(surface)));
     speed = std::max(speed, length_of(velocity_of(surface)));
   }
-  if (way == 0) return false;
-  const V extent = space_.hull_box().upper - space_.hull_box().lower;
-  const Scalar own = length_of(wanted.displacement.wanted) + std::abs(steered_) * dt_;
-  return length_of(allowed.displacement.wanted) > own + way * blunt + length_of(extent) ||
-         length_of(allowed.velocity.wanted) > length_of(wanted.velocity.wanted) + std::abs(steered_) + speed * blunt;
+  if (way == 0) return true;
+  const Scalar own_way = length_of(wanted.displacement.wanted) + std::abs(steered_) * dt_;
+  if (length_of(allowed.displacement.wanted) > own_way + way * farthest + Tolerances<Scalar>{}.touch) return false;
+  const Scalar most = std::max(length_of(wanted.velocity.wanted), speed * fastest) + std::abs(steered_);
+  const Scalar now = length_of(allowed.velocity.wanted);
+  if (now > most) allowed.velocity.wanted *= most / now;
+  return true;
 }
 
 /// Moves to a free position beside a circle that would fling the character, if there is one that is no farther away.

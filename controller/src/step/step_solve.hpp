@@ -163,7 +163,7 @@ void StepSolver<Lanes, Scalar, Up>::travel() noexcept {
     }
     const DesiredMotion<Scalar> wanted = desired;
     const bool is_answered = !is_passed_through() && respond_to_surfaces(desired);
-    if (!is_answered || (movers_.active && are_too_blunt(wanted, desired))) {
+    if (!is_answered || (movers_.active && !limit_squeeze(wanted, desired))) {
       if (goes_to_free_position()) return;
       if (!note_crushers()) return wait(true);
       desired = DesiredMotion<Scalar>::plain(V::Zero(), V::Zero());

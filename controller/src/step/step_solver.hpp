@@ -308,8 +308,8 @@ class StepSolver {
   [[nodiscard]] bool is_passed_through() const noexcept;
   [[nodiscard, gnu::cold, gnu::noinline]] bool goes_to_free_position() noexcept;
   [[nodiscard]] bool circle_flings(const V& wanted, const V& allowed) const noexcept;
-  [[nodiscard, gnu::cold, gnu::noinline]] bool are_too_blunt(const DesiredMotion<Scalar>& wanted,
-                                                             const DesiredMotion<Scalar>& allowed) const noexcept;
+  [[nodiscard, gnu::noinline]] bool limit_squeeze(const DesiredMotion<Scalar>& wanted,
+                                                  DesiredMotion<Scalar>& allowed) const noexcept;
   [[nodiscard, gnu::cold, gnu::noinline]] bool goes_beside_circle(const V& allowed) noexcept;
   [[gnu::cold, gnu::noinline]] void undo_crushes() noexcept;
   [[nodiscard]] bool moves_in(const TouchedSurface<Scalar>& surface) const noexcept;
