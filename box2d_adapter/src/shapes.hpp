@@ -16,8 +16,7 @@ namespace paperproof::box2d {
 /// The character's fixture, made by Box2D's own `Set`.
 /// @param hull counter-clockwise.
 /// @throws InvalidDefinition where Box2D would weld or drop a corner, or abort: corners nearer than 2.5 mm, an area
-/// below
-///   1e-6 m², corners that are not finite, or not strictly convex in float.
+///   below 1e-6 m², corners that are not finite, or not strictly convex in float.
 [[nodiscard]] b2PolygonShape character_polygon(std::span<const Vec2d> hull);
 
 /// A shape at a place. An edge and a chain block from both sides.

@@ -4,6 +4,7 @@
 #include <paperproof/controller.hpp>
 #include <paperproof/local_controller.hpp>
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>

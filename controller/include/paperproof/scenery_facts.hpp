@@ -18,7 +18,7 @@ namespace paperproof {
   return solids;
 }
 
-/// Some collider that blocks moves. A moving sensor does not count: it blocks nothing.
+/// Whether a mover moves a solid: pieces of moving solids lie between the standing ones and the sensors.
 template <class Scalar>
 [[nodiscard]] bool has_moving_solids(const Scenery<Scalar>& scenery) noexcept {
   return scenery.sensor_pieces().first > scenery.static_pieces().end;

@@ -46,7 +46,7 @@ namespace paperproof::level {
 }
 
 /// Encloses the way of points during a step, whatever point they turn about that is not farther from the mover's
-/// origin than they are.
+/// origin than they are. (About a corner of the character, which may be farther, none of them comes nearer to it.)
 [[nodiscard]] inline Box2<double> swept_box(std::span<const Vec2d> points, const PoseMotion& motion) noexcept {
   const Box2<double> box = box_at(points, motion.from).merged(box_at(points, motion.to));
   const double turn = std::min(std::abs(motion.to.angle - motion.from.angle), 2.0);

@@ -1,7 +1,6 @@
 #include "level/local_controller_impl.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace paperproof {
 

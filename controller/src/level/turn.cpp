@@ -23,7 +23,6 @@ struct Linear {
   [[nodiscard]] Vec2d at(double time) const { return from + (to - from) * time; }
   [[nodiscard]] Linear between(double begin, double end) const { return {at(begin), at(end)}; }
   friend Linear operator-(const Linear& a, const Linear& b) { return {a.from - b.from, a.to - b.to}; }
-  friend Linear operator+(const Linear& a, const Linear& b) { return {a.from + b.from, a.to + b.to}; }
 };
 
 /// Character and piece during one part of the time. All places are relative to the character's first.

@@ -1,5 +1,5 @@
-/// Convex pieces whose vertices go on straight lines: so a piece turns, and so it does everything else within a short
-/// time. Of a circle the centre goes on a straight line.
+/// Convex pieces whose vertices go on straight lines, as those of everything near do in a part of a step, also of what
+/// turns. Of a circle the centre goes on a straight line.
 #pragma once
 
 #include <paperproof/scenery.hpp>
@@ -32,12 +32,12 @@ struct HullWay {
 
 /// Proves that a character and a piece stay apart while both go their ways.
 ///
-/// They are apart where the line of an edge of one has the other wholly on its outside. The side of a point of which an
-/// edge is, cross(edge, point - vertex), is a polynomial of degree two in time, as both factors are linear. It is
-/// positive over the whole time if its three Bernstein coefficients are. Where no line is proved to separate the two
-/// over the whole time, each half is tried; where no line does at one moment, the proof has failed.
-/// (R. T. Farouki, V. T. Rajan, On the numerical condition of polynomials in Bernstein form, 1987, for the criterion.)
-/// Seen by the character a circle goes straight: see `geometry::approach`.
+/// They are apart where the line of an edge of one has the other wholly on its outside. On which side of an edge a
+/// point is, tells the sign of cross(edge, vertex - point), positive on the right: a polynomial of degree two in time,
+/// as both factors are linear. It is positive over the whole time if its three Bernstein coefficients are. Where no
+/// line is proved to separate the two over the whole time, each half is tried; where no line does at one moment, the
+/// proof has failed. (R. T. Farouki, V. T. Rajan, On the numerical condition of polynomials in Bernstein form, 1987,
+/// for the criterion.) Seen by the character a circle goes straight: see `geometry::approach`.
 /// @param least distance that counts as apart [m]; below zero: so deep an overlap is none.
 [[nodiscard]] bool stay_apart(const HullWay& character, const PieceWay& piece, double least);
 

@@ -178,7 +178,7 @@ bool StepSolver<Lanes, Scalar, Up>::leaves_overlapping_movers(const MoveRequest<
 /// Displacement of the mover of a collider in the step [m].
 template <std::size_t Lanes, class Scalar, class Up>
 Vec2<Scalar> StepSolver<Lanes, Scalar, Up>::displacement_of(ColliderIndex collider) const noexcept {
-  const MoverIndex mover = mover_of_collider(collider);
+  const MoverIndex mover = space_.scenery().collider(collider).mover;
   return mover == no_mover ? V(V::Zero()) : movers_.displacement(mover);
 }
 

@@ -49,7 +49,7 @@ Vec2<Scalar> StepSolver<Lanes, Scalar, Up>::velocity_with(MoverIndex mover, Piec
   return velocity;
 }
 
-/// How far it takes what stands on it in the rest of the step [m].
+/// How far the surface of a piece takes a rider in the rest of the step [m].
 template <std::size_t Lanes, class Scalar, class Up>
 Vec2<Scalar> StepSolver<Lanes, Scalar, Up>::ground_rest(PieceIndex piece, const V& normal) const noexcept {
   const MoverIndex mover = carrier_of(piece);
@@ -131,7 +131,6 @@ void StepSolver<Lanes, Scalar, Up>::begin_to_ride(const TouchedSurface<Scalar>& 
 
 template <std::size_t Lanes, class Scalar, class Up>
 void StepSolver<Lanes, Scalar, Up>::note_motion_on_ground() noexcept {
-  if (!moving_.anchored) return;
   V relative = motion_.displacement;
   if (moving_.carrier != no_mover) relative = movers_.relative(motion_.displacement, moving_.carrier, time_);
   moving_.anchored = relative.x() == 0 && relative.y() == 0;

@@ -8,7 +8,8 @@
 ///   4. step_response.hpp: the desired motion becomes one that all touched surfaces allow. Back to 3 with what is left.
 ///   5. step_free_position.hpp, step_crush.hpp: where movers leave no motion at all, the step looks for the nearest
 ///      free position; where there is none, the movers crush the character.
-///   6. step_solve.hpp: does the character stand on ground? Is there ground to follow a little below?
+///   6. step_solve.hpp: does the character stand on ground?
+///   7. step_stairs.hpp: is there a stair to climb, or ground to follow a little below?
 ///
 /// The definitions are in headers, and one source includes them all: a function that is called from one place is
 /// inlined. What nearly every step does is flattened (an eighth of its instructions), and what hardly any does is kept
@@ -317,9 +318,6 @@ class StepSolver {
   void crush(PieceIndex piece, Scalar since) noexcept;
   bool ignore_overlapping_movers(const MoveRequest<Scalar>& request) noexcept;
   [[nodiscard]] bool leaves_overlapping_movers(const MoveRequest<Scalar>& request) noexcept;
-  [[nodiscard]] MoverIndex mover_of_collider(ColliderIndex collider) const noexcept {
-    return space_.scenery().collider(collider).mover;
-  }
   [[nodiscard]] V displacement_of(ColliderIndex collider) const noexcept;
   void remember(const Crusher<Scalar>& now) noexcept;
   void hand_on_crushers() noexcept;

@@ -6,6 +6,7 @@
 
 #include <box2d/b2_fixture.h>
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
