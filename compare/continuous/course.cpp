@@ -238,10 +238,13 @@ class Solver {
     return Real(change / rate);
   }
 
-  /// Under a ceiling that holds it: rises and falls follow it differently.
+  /// Under a ceiling that holds it, rises and falls follow it differently; on the ground a walk that turns round on a
+  /// slope is no longer held as one that brakes.
   [[nodiscard]] std::optional<Real> end_of_rise() const {
     const bool under = std::any_of(held_.begin(), held_.end(), [&](std::size_t i) { return facets_[i].normal.y < 0; });
-    return under && velocity_.y > 0 ? time_to(-velocity_.y, hold_.acceleration.y) : std::nullopt;
+    if (under && velocity_.y > 0) return time_to(-velocity_.y, hold_.acceleration.y);
+    const P own = forces().velocity;
+    return hold_.stands && own.y > 0 ? time_to(-own.x, hold_.acceleration.x) : std::nullopt;
   }
 
   [[nodiscard]] P from_begin_of(const Facet<Real>& facet) const {

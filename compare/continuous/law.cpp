@@ -126,11 +126,19 @@ Hold<Real> between(const Forces<Real>& forces, Touches<Real> running, bool on_gr
   return {Point<Real>{}, {}, on_ground || forces.fall > 0, false};
 }
 
+/// What steering and gravity do without surfaces. The climb of a walk that brakes slows with the walk.
+template <class Real>
+Point<Real> unheld(const Forces<Real>& forces, const Real& steering, bool on_ground) {
+  const Point<Real>& v = forces.velocity;
+  const bool brakes_uphill = on_ground && v.y > 0 && steering * v.x < 0;
+  return {steering, brakes_uphill ? steering * v.y / v.x - forces.fall : -forces.fall};
+}
+
 /// octagon_sweep's law. Nothing where whether it stands is not as `on_ground` says.
 template <class Real>
 std::optional<Hold<Real>> held_by_octagon(const Forces<Real>& forces, const Real& steering, Touches<Real> running,
                                           bool on_ground) {
-  const Point<Real> pressing{steering, -forces.fall};
+  const Point<Real> pressing = unheld(forces, steering, on_ground);
   std::vector<Touch<Real>> pressed;
   for (const Touch<Real>& at : running)
     if (enters(pressing, at)) pressed.push_back(at);
@@ -151,7 +159,7 @@ std::optional<Hold<Real>> held_by_octagon(const Forces<Real>& forces, const Real
 template <class Real>
 std::optional<Hold<Real>> held_without_friction(const Forces<Real>& forces, const Real& steering, Touches<Real> running,
                                                 bool on_ground) {
-  const Point<Real> pressing{steering, -forces.fall};
+  const Point<Real> pressing = unheld(forces, steering, on_ground);
   Hold<Real> hold{nearest_allowed(pressing, running)};
   hold.facets = held_by(hold.acceleration, pressing, running);
   for (const Touch<Real>& at : running)

@@ -17,8 +17,8 @@
 /// enters it, where s' is the acceleration, with the sign of what is missing to the wanted speed. A step's w is then
 /// v + f dt, and its answer is v + A dt:
 ///  - Walkable, f·n < 0: A = (s', -s' n.x / n.y). The horizontal speed goes to the wanted one as on level ground, up
-///  and
-///    down hills alike. Where f·n >= 0 (it speeds up downhill faster than gravity follows) it leaves the ground.
+///    and down hills alike. Where f·n >= 0 (it speeds up downhill faster than gravity follows) it leaves the ground. Of
+///    a walk that brakes uphill f is (s', s' v.y / v.x - g): the climb slows with the walk.
 ///  - Steep or wall, s' pressing in (s' n.x < 0): steering has no effect, A is that of gravity alone, slid: on a wall
 ///    (0, -g), on a slope g n.y (n.x, n.y) + (0, -g). Speed gained so is never braked.
 ///  - Steep, s' pointing outward: A = f - (f·n) n where f·n < 0, else it leaves the slope.
