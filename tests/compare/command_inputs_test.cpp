@@ -201,7 +201,7 @@ TEST(CommandInputs, long_work_says_how_long_it_takes_before_it_has_taken_long) {
   EXPECT_TRUE(holds(place.run(run, until_it_speaks).err, " for 1000000000 steps, as the first "));
   EXPECT_EQ(place.run(run + " --quiet", "timeout 3").err, "");
   std::string beams;
-  for (int i = 0; i < 4000; ++i)
+  for (int i = 0; i < 8000; ++i)
     beams +=
         (i == 0 ? "" : ",") + std::string("{\"polygon\": [[-4,0],[4,0],[4,-1],[-4,-1.") + std::to_string(i + 1) + "]]}";
   place.write("beams.json",
