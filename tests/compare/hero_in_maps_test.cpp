@@ -31,7 +31,9 @@ int expect_same_bits(const Scene& scene, const std::string& name) {
   StepReport<double> report;
   CharacterState<double> state;
   state.position = scene.start.position;
-  Hero hero(world, {.character = scene.character, .position = state.position});
+  // `scenery_of` reads one-sided chains as chains that block from both sides.
+  const auto solid = [](b2Fixture&) { return box2d::Surface{.blocks = box2d::Blocking::from_everywhere}; };
+  Hero hero(world, {.character = scene.character, .position = state.position, .surface_of = solid});
   Input input;
   int touching = 0;
   for (int i = 0; i < 200; ++i) {
