@@ -18,8 +18,8 @@ For octagon_sweep in double, which promises more, also:
   collider and on the character, to 1e-6 m, and the gap between the two along its normal is its separation, above 0 and
   at most 1e-6 m; it may be 0 where the scene put the character so, and neither of the two has moved since;
 - the fraction of the first contact is the time of impact of the exact motion, to 1e-6 m along the normal; not that of a
-  contact at the end of a leg that follows the ground down, which takes no time, nor where a mover pushes the character
-  out of the requested way from the start of the step;
+  contact at the end of a leg that follows the ground down, which takes no time, nor, among movers, of what is touched
+  where the step begins, nor where a mover pushes the character out of the requested way from there on;
 - the sensors' events are those of the way, in order, with fractions that are right to 1e-6 m along it;
 - no step hangs: what is wanted, less what the step's steering added, may lead down beside all that is within 1e-6 m of a
   corner of the way, and the step falls less than half of that (trace_hanging.py; not looked at beside what turns, nor in a
@@ -482,7 +482,8 @@ class Checker:
         aside = less(less(path[1][:2], path[0][:2]), scaled(requested, path[1][2]))
         gives_way = (first and step.get("movers") and max(abs(aside[0]), abs(aside[1])) > GAP
                      and Fraction(contacts[0]["fraction"]) >= path[1][2])
-        as_wanted = not (in_parts or follows or gives_way or step["start_overlap"] or step.get("crush") or step.get("stuck"))
+        touched = first and step.get("movers") and contacts[0]["fraction"] == 0  # `check_contact` has seen that it is touched at the start
+        as_wanted = not (in_parts or follows or gives_way or touched or step["start_overlap"] or step.get("crush") or step.get("stuck"))
         if first and as_wanted:
             yield from self.check_impact(contacts[0], path[0], requested, motion)
         yield from self.check_sensors(step, path, motion)
