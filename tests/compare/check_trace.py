@@ -43,7 +43,7 @@ import sys
 from fractions import Fraction
 from functools import lru_cache
 
-from trace_company import Company, first_event, meets_at_once, places_at
+from trace_company import Company, first_event, goes_as_requested, meets_at_once, places_at
 from trace_geometry import (
     GAP, NEAR_DROP, NEAR_PASS, ROUNDING, SAME, ZERO, add, circle_crossings, crossings, distance, dot, enters, exact, hull,
     inside, is_near, less, scaled, size, way_from_segment)
@@ -477,14 +477,13 @@ class Checker:
         in_parts = any(len(way.instants) > 2 for way in motion.ways.values())  # so goes the character near what turns
         # A last leg without time follows the ground down: its contact is none of the requested motion.
         follows = path[-1][2] == path[-2][2] == 1 and first and contacts[0]["fraction"] == 1
-        requested = tuple(map(Fraction, step["requested"]))
-        # A mover that leaves it no room there pushes it out of the way that was requested, from the start of the step.
-        aside = less(less(path[1][:2], path[0][:2]), scaled(requested, path[1][2]))
-        gives_way = (first and step.get("movers") and max(abs(aside[0]), abs(aside[1])) > GAP
-                     and Fraction(contacts[0]["fraction"]) >= path[1][2])
-        touched = first and step.get("movers") and contacts[0]["fraction"] == 0  # `check_contact` has seen that it is touched at the start
+        at = first and step.get("movers") and Fraction(contacts[0]["fraction"])
+        # A mover that leaves it no room pushes it out of the way that was requested, from the start of the step.
+        gives_way = at and at >= path[1][2] and not goes_as_requested(step, path[1][2])
+        touched = at == 0 and step.get("movers")  # `check_contact` has seen that it is touched at the start
         as_wanted = not (in_parts or follows or gives_way or touched or step["start_overlap"] or step.get("crush") or step.get("stuck"))
         if first and as_wanted:
+            requested = tuple(map(Fraction, step["requested"]))
             yield from self.check_impact(contacts[0], path[0], requested, motion)
         yield from self.check_sensors(step, path, motion)
 
