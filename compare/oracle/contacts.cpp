@@ -1,5 +1,6 @@
 #include "oracle/contacts.hpp"
 
+#include "oracle/claims.hpp"
 #include "oracle/exemptions.hpp"
 #include "oracle/hanging.hpp"
 
@@ -44,8 +45,8 @@ ContactJudge::ContactJudge(const TraceHeader& header, const ExactScenery& scener
       scenery_(scenery),
       step_(step),
       promises_(party_of(header) == Party::promising),
-      touch_(promises_ ? tolerance_named(header, "touch") : own_reach(header)),
-      hit_(std::max(hit_reach, tolerance_named(header, "unit"))) {}
+      touch_(promises_ ? guaranteed_touch : own_reach(header)),
+      hit_(promises_ ? hit_reach : std::max(hit_reach, tolerance_named(header, "unit"))) {}
 
 Vec2d ContactJudge::wanted(ColliderIndex collider) const {
   const MoverIndex mover = scenery_.scenery().colliders[collider].mover;
@@ -67,7 +68,10 @@ void ContactJudge::judge(bool starts_free, StepJudgement& judgement) const {
     if (!header_.path_exact && !end) continue;
     if (i > 0 && step_.movers.empty() && position == step_.path[i - 1].position) continue;
     std::vector<ExactImpact> impacts = scenery_.impacts(place(i), step_.requested);
-    std::erase_if(impacts, [this](const ExactImpact& impact) { return dropped_through(impact.collider); });
+    // What is overlapped already is left, not met.
+    std::erase_if(impacts, [&](const ExactImpact& impact) {
+      return dropped_through(impact.collider) || (header_.path_exact && scenery_.overlaps(place(i), impact.collider));
+    });
     if (i == 0) {
       for (const ExactImpact& impact : impacts) met.push_back(impact.collider);
       add_first_impacts(impacts, starts_free, judgement);
@@ -106,6 +110,8 @@ void ContactJudge::add_contacts_at(const std::vector<ExactImpact>& impacts, doub
     if (way > contact_reach) continue;
     if (impact.exposed && (is_met(impact) || reports(impact))) {
       add_contact(impact, fraction, judgement);
+      if (!is_met(impact))
+        judgement.ahead.emplace_back(impact.collider, side_of_normal(impact.normal.x(), impact.normal.y()));
     } else {
       judgement.dont_care.push_back(impact.collider);
     }
@@ -127,6 +133,7 @@ void ContactJudge::add_first_impacts(const std::vector<ExactImpact>& impacts, bo
   const Vec2d relative = wanted(first->collider);
   const double approach = std::abs(relative.dot(first->normal));
   judgement.first_impact = fraction;
+  if (!step_.stuck && !gives_way()) judgement.first_approach = approach;
   judgement.first_impact_comparable = !step_.stuck && !gives_way() &&
                                       fraction * approach > (header_.path_exact ? contact_reach : box2d_skin) &&
                                       approach >= least_approach * relative.norm();

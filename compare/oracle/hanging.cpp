@@ -78,6 +78,19 @@ bool HangingJudge::has_support(std::size_t corner, double within) const {
   });
 }
 
+bool HangingJudge::is_held_at_end(double within) const {
+  const Vec2d unsteered = step_.requested - step_.steered * Vec2d(up_.y(), -up_.x());
+  if (!(unsteered.dot(up_) < 0)) return false;
+  std::vector<Obstacle> obstacles;
+  for (const NearPart& part : parts_near(step_.path.size() - 1, within)) {
+    obstacles.emplace_back();
+    for (const NearFace& face : part.faces)
+      obstacles.back().push_back({face.normal, face.normal.dot(part.moved), face.separation});
+  }
+  const Vec2d free = nearest_free(unsteered, obstacles, exact_reach.opening);
+  return -free.dot(up_) <= std::max(least_fall, ulp_at(header_, step_.path.back().position));
+}
+
 void HangingJudge::Nearby::add(const Nearby& other) {
   obstacles.insert(obstacles.end(), other.obstacles.begin(), other.obstacles.end());
   holds = holds || other.holds;

@@ -105,6 +105,7 @@ Wanted Intent::begin(const TraceStep& step, int parts, const WallAhead& wall_ahe
   const double dt = whole / parts;
   const Vec2d up = up_in(step, *header_);
   Wanted wanted;
+  wanted.from_ground = grounded_;
   const Vec2d own = seen(ride_ ? Vec2d(velocity_ - ride_->velocity) : velocity_, up);
   double walk = own.x();
   double rise = own.y();
@@ -118,7 +119,7 @@ Wanted Intent::begin(const TraceStep& step, int parts, const WallAhead& wall_ahe
   if (change * own.x() < 0 && is_climb_of_walk(own.x(), rise)) rise *= std::max(walk / own.x(), 0.0);
   rise = use_button(step, dt, rise, wall_ahead, wanted);
   if (character.coyote_time > 0) coyote_left_ = grounded_ ? character.coyote_time : std::max(coyote_left_ - dt, 0.0);
-  const Vec2d pull = seen(header_->gravity, up) * dt;
+  const Vec2d pull = seen(gravity_in(step, *header_), up) * dt;
   rise += pull.y();
   if (character.max_fall_speed) rise = std::max(rise, -*character.max_fall_speed);
   const Vec2d velocity = in_world({walk + pull.x(), rise}, up);
