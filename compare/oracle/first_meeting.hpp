@@ -19,6 +19,7 @@ struct Meeting {
   Kind kind = Kind::apart;
   double low = 0;  ///< Fractions of the step, rounded.
   double high = 0;
+  bool by_second = false;  ///< Halving could not tell, and `second_meeting` did.
 };
 
 /// What is asked for: `whether` stops at the first overlap that is found, `when` closes in on the first one there is.
