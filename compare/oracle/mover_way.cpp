@@ -11,6 +11,7 @@ namespace paperproof::compare {
 namespace {
 
 constexpr double rounding = 0x1p-53;
+constexpr double rounding_of_float = 0x1p-24;
 /// Of the coordinates that a vertex is computed from: cosine and sine, two products, a difference, the sum, and for a
 /// centre the way there and back.
 constexpr int roundings_of_vertex = 8;
@@ -135,7 +136,7 @@ MoverPose MoverWayJudge::Course::at(double fraction) const {
 }
 
 MoverWayJudge::MoverWayJudge(const TraceHeader& header, std::vector<MoverScript> scripts)
-    : header_(header), scripts_(std::move(scripts)) {
+    : header_(header), scripts_(std::move(scripts)), is_float_(header.scalar == "float") {
   Box2<double> box{header.points.front(), header.points.front()};
   for (const Vec2d& corner : header.points) {
     box = box.merged({corner, corner});
@@ -157,8 +158,9 @@ void MoverWayJudge::tell_time(const TraceStep& step) {
 }
 
 MoverWayJudge::Course MoverWayJudge::course_of(MoverIndex mover) const {
-  return {pose_at(scripts_[mover], begin_), pose_at(scripts_[mover], end_),
-          vary_ ? roundings_of_time * rounding * end_ : 0};
+  double slack = vary_ ? roundings_of_time * rounding * end_ : 0;
+  if (is_float_) slack += rounding_of_float * end_;
+  return {pose_at(scripts_[mover], begin_), pose_at(scripts_[mover], end_), slack};
 }
 
 MoverWayJudgement MoverWayJudge::judge(const TraceStep& step, std::span<const ColliderIndex> near) {
@@ -179,9 +181,8 @@ MoverWayJudgement MoverWayJudge::judge(const TraceStep& step, std::span<const Co
 
 bool MoverWayJudge::is_on_script(const Vec2d& offset, const MoverPose& pose, MoverIndex mover, double slack) const {
   if (offset == pose.offset) return true;
-  if (header_.scalar == "float" && offset == pose.offset.cast<float>().cast<double>()) return true;
-  const double size = (1 + pose.offset.cwiseAbs().maxCoeff()) * rounding;
-  return slack > 0 && (offset - pose.offset).norm() <= slack * largest_speed(scripts_[mover]) + size;
+  const double rounded = (is_float_ ? rounding_of_float : rounding) * pose.offset.norm();
+  return slack > 0 && (offset - pose.offset).norm() <= slack * largest_speed(scripts_[mover]) + 2 * rounded;
 }
 
 void MoverWayJudge::judge_offsets(const TraceStep& step, MoverWayJudgement& judgement) {

@@ -47,8 +47,9 @@ inline constexpr int most_turning_parts = 32;
 ///
 /// **Poses.** In a step a mover goes evenly from its script's pose at the begin of the step to that at its end: that is
 /// its arc. (A script that has an entry within the step is met again at the end.) An offset is that of the script bit
-/// for bit; of a run in float, rounded to float. Times are step × dt; where steps have lengths of their own, the sum of
-/// these, and an offset may be off by 4 roundings of that time at the mover's speed. A vertex of what turns may be off
+/// for bit. Times are step × dt; where steps have lengths of their own, the sum of these, and an offset may be off by 4
+/// roundings of that time at the mover's speed. A run in float has its dt rounded to float in the header, and offsets
+/// as well: there both may be off by a rounding to float (2^-24). A vertex of what turns may be off
 /// by 8 roundings (2^-53) of (1 + |angle|) |v| + |offset|: cosines differ in the last bit between compilers. Every step
 /// begins where the step before ended, bit for bit.
 ///
@@ -98,6 +99,7 @@ class MoverWayJudge {
 
   const TraceHeader& header_;
   std::vector<MoverScript> scripts_;
+  bool is_float_ = false;
   double extent_ = 0;  ///< Of the character [m].
   double radius_ = 0;  ///< The largest distance of a corner from its position [m].
   int step_ = -1;      ///< The last one.

@@ -292,16 +292,17 @@ struct Scene {
 };
 
 /// What the octagon may meet.
-struct Part {
+struct PartWay {
   const VertexWay& way;
   std::span<const std::size_t> vertices;
   double radius;
 };
 
 /// From one moment to another, while the octagon goes one leg, and the part one chord of its way.
-class Stretch {
+class StraightTime {
  public:
-  Stretch(std::span<const Vec2d> octagon, const Part& part, const Leg& leg, std::size_t chord, double begin, double end)
+  StraightTime(std::span<const Vec2d> octagon, const PartWay& part, const Leg& leg, std::size_t chord, double begin,
+               double end)
       : octagon_(octagon), part_(part), leg_(leg), chord_(chord), begin_(begin), end_(end) {}
 
   [[nodiscard]] Meeting meeting() const {
@@ -381,7 +382,7 @@ class Stretch {
   }
 
   std::span<const Vec2d> octagon_;
-  const Part& part_;
+  const PartWay& part_;
   const Leg& leg_;
   std::size_t chord_;
   double begin_;
@@ -392,7 +393,7 @@ class Stretch {
 
 Meeting second_meeting(std::span<const Vec2d> octagon, std::span<const PathPoint<double>> path, const VertexWay& way,
                        std::span<const std::size_t> part, double radius) {
-  const Part whole{way, part, radius};
+  const PartWay whole{way, part, radius};
   const std::size_t chords = way.instants.size() - 1;
   const auto chord_at = [&](double t) {
     std::size_t k = 0;
@@ -402,7 +403,7 @@ Meeting second_meeting(std::span<const Vec2d> octagon, std::span<const PathPoint
   if (path.size() == 1) {
     const double t = path[0].fraction;
     const Leg standing{path[0].position, path[0].position, t, t + 1};
-    return Stretch(octagon, whole, standing, chord_at(t), t, t).meeting();
+    return StraightTime(octagon, whole, standing, chord_at(t), t, t).meeting();
   }
   for (std::size_t i = 1; i < path.size(); ++i) {
     const Leg leg{path[i - 1].position, path[i].position, path[i - 1].fraction, path[i].fraction};
@@ -410,7 +411,7 @@ Meeting second_meeting(std::span<const Vec2d> octagon, std::span<const PathPoint
     for (std::size_t chord = chord_at(begin); chord < chords; ++chord) {
       const double end = std::min(leg.end, way.instants[chord + 1]);
       if (begin < end || leg.begin == leg.end) {
-        const Meeting found = Stretch(octagon, whole, leg, chord, begin, end).meeting();
+        const Meeting found = StraightTime(octagon, whole, leg, chord, begin, end).meeting();
         if (found.kind != Meeting::Kind::apart) return found;
       }
       begin = end;

@@ -228,7 +228,7 @@ TEST_F(Plank, whose_steps_have_lengths_of_their_own_goes_by_their_sum) {
   EXPECT_EQ(judged({first}).off_script, Movers{0});
 }
 
-TEST(MoverWay, of_what_goes_straight_is_its_script_bit_for_bit_in_each_scalar) {
+TEST(MoverWay, of_what_goes_straight_is_its_script_in_each_scalar) {
   ColliderDef lift = box(-1, -1, 1, 0);
   lift.mover = 0;
   const MoverScript script{.colliders = {0}, .path = {{0, {0, 0}}, {0.3, {0.7, 1.1}}}, .loop = Loop::ping_pong};
