@@ -170,8 +170,11 @@ MoverWayJudgement MoverWayJudge::judge(const TraceStep& step, std::span<const Co
   for (const VertexWay& way : step.vertex_ways) {
     const MoverIndex mover = header_.scenery.colliders[way.collider].mover;
     const double turn = std::abs(course_of(mover).turn());
-    const bool is_near = std::any_of(near.begin(), near.end(),
-                                     [&](ColliderIndex one) { return header_.scenery.colliders[one].mover == mover; });
+    // A circle does not turn: its centre goes straight.
+    const bool is_near = std::any_of(near.begin(), near.end(), [&](ColliderIndex one) {
+      const ColliderDef& other = header_.scenery.colliders[one];
+      return other.mover == mover && !is_circle(other);
+    });
     const double most =
         is_near ? std::max(std::min(turn, most_turned_at_once / extent_), turn / most_turning_parts) : turn;
     judge_way(way, step, most, judgement);

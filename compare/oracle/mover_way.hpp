@@ -57,8 +57,9 @@ inline constexpr int most_turning_parts = 32;
 /// the collider has the shape and the angle that it has at the end of that part. At every other instant it is on its
 /// arc. (The centre of a circle goes straight from where it begins to where it ends.)
 ///
-/// **Coarse.** Let S be the extent of the character (the diagonal of its box). What belongs to a mover near it turns at
-/// once by at most 0.05 m / S, or by 1/32 of the turn of the step where that is more.
+/// **Coarse.** Let S be the extent of the character (the diagonal of its box). What belongs to a mover of which
+/// anything but a circle is near it turns at once by at most 0.05 m / S, or by 1/32 of the turn of the step where that
+/// is more.
 ///
 /// **Bound.** Let A be that angle (of what is not near, the turn of the whole step), r the distance of a vertex from
 /// the point that its mover turns about, D that from the position of the character at any corner of its way, R the

@@ -177,6 +177,17 @@ TEST_F(Plank, that_turns_at_once_in_fewer_parts_is_coarse_near_the_character_onl
   EXPECT_FALSE(judged({in_parts(0, 2 * needed)}).broken()) << "more are no fault";
 }
 
+TEST_F(Plank, of_which_only_a_circle_is_near_may_turn_in_fewer_parts) {
+  ColliderDef ball{.shape = ColliderDef::Shape::circle, .points = {{0, 0}}, .mover = 0};
+  ball.radius = 0.1;
+  header_.scenery.colliders.push_back(ball);
+  const auto of_near = [&](const Colliders& near) {
+    return MoverWayJudge(header_, {script_}).judge(in_parts(0, needed / 2), near).coarse;
+  };
+  EXPECT_EQ(of_near({1}), Colliders{});
+  EXPECT_EQ(of_near({0, 1}), Colliders{0});
+}
+
 TEST_F(Plank, that_turns_about_a_far_point_leaves_its_arc) {
   // The bound is A (2 D + 4 R) and D about 2 m, R 0.64 m: 6.6 m for a point that is 20 m away.
   EXPECT_EQ(judged({in_parts(0, needed, {20, 0})}).off_arc, Colliders{0});
