@@ -105,7 +105,7 @@ std::vector<HangingJudge::Nearby> HangingJudge::near_corners(const Reach& reach)
       nearby.holds = nearby.holds || part.faces.front().separation < -reach.contact || is_ground(part);
       Obstacle obstacle;
       for (const NearFace& face : part.faces)
-        obstacle.push_back({face.normal, face.normal.dot(part.moved), face.separation});
+        obstacle.push_back({face.normal, face.normal.dot(part.moved) + part.unsure, face.separation});
       nearby.obstacles.push_back(std::move(obstacle));
     }
   }

@@ -101,8 +101,11 @@ struct StepJudgement {
     [[nodiscard]] bool broke() const { return !entered.empty() || !passed.empty(); }
   };
   Company company{};
-  /// Solids that turn of which it could not be told whether the step met them: see `detail::TurningJudge`.
+  /// Solids that turn of which only the second method could tell whether the step met them: see
+  /// `detail::TurningJudge`.
   std::vector<ColliderIndex> undecided{};
+  /// Solids that turn of which the two methods say different things: an error of the judge, and never excused.
+  std::vector<ColliderIndex> methods_disagree{};
   /// Of a contact with what turns, where it began: how far the reported fraction is from the first touch [steps].
   std::optional<double> turning_toi_error{};
   std::optional<CharacterIndex> first_met;  ///< Whom `first_impact` is with, if that is no collider.
