@@ -132,7 +132,10 @@ double EndJudge::vertical_error() const {
 
 /// How much faster it is than it can be [m/s].
 double EndJudge::speed_gained() const {
-  double most = wanted_.velocity.norm() / std::cos(header_.character.max_climb_degrees * std::numbers::pi / 180);
+  // Steering that presses into a steep face is taken out of what is wanted.
+  const Vec2d unsteered = wanted_.velocity - wanted_.steered / dt_ * Vec2d(up_.y(), -up_.x());
+  double most = std::max(wanted_.velocity.norm(), unsteered.norm()) /
+                std::cos(header_.character.max_climb_degrees * std::numbers::pi / 180);
   for (std::size_t corner = 0; corner < step_.path.size(); ++corner)
     for (const NearPart& part : near(corner, contact_reach)) {
       const bool is_known = part.collider < header_.scenery.colliders.size();

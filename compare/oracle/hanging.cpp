@@ -79,7 +79,10 @@ bool HangingJudge::has_support(std::size_t corner, double within) const {
 }
 
 bool HangingJudge::is_held_at_end(double within) const {
-  const Vec2d unsteered = step_.requested - step_.steered * Vec2d(up_.y(), -up_.x());
+  Vec2d unsteered = step_.requested - step_.steered * Vec2d(up_.y(), -up_.x());
+  // A rise that ends in a wedge is held there by what pulls it down.
+  const double dt = length_of(step_, header_);
+  if (!(unsteered.dot(up_) < 0)) unsteered = gravity_in(step_, header_) * (dt * dt);
   if (!(unsteered.dot(up_) < 0)) return false;
   std::vector<Obstacle> obstacles;
   for (const NearPart& part : parts_near(step_.path.size() - 1, within)) {

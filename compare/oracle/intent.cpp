@@ -12,8 +12,8 @@ namespace {
 /// Ground of exactly the climb limit is walkable, whatever its normal was rounded to [rad].
 constexpr double climb_margin = 1e-8;
 /// Relative: a few operations in the number type of the contender.
-constexpr double rounding_of_double = 1e-12;
-constexpr double rounding_of_float = 1e-5;
+constexpr double share_of_double = 1e-12;
+constexpr double share_of_float = 1e-5;
 
 /// Components as a character with that up sees them: across up, to the right, and along it.
 Vec2d seen(const Vec2d& v, const Vec2d& up) { return {v.x() * up.y() - v.y() * up.x(), v.dot(up)}; }
@@ -151,7 +151,7 @@ void Intent::end(const TraceStep& step) {
 }
 
 double Intent::rounding(const TraceStep& step, const Wanted& wanted) const {
-  const double share = header_->scalar == "float" ? rounding_of_float : rounding_of_double;
+  const double share = header_->scalar == "float" ? share_of_float : share_of_double;
   double size = wanted.displacement.norm() +
                 (velocity_.norm() + (ride_ ? ride_->velocity.norm() : 0)) * length_of(step, *header_);
   // Where movers are is rounded, too.

@@ -100,9 +100,10 @@ StepJudgement Judge::judge_exactly(const TraceStep& step, const Others& others, 
   if (!starts_free || !step.contacts.empty() || !step.crushed.empty() || !alone(path, step)) {
     judgement.end_overlap = scenery_.overlapped(path.back());
     judge_way(path, step, others, judgement);
-    detail::ContactJudge(header_, scenery_, step).judge(starts_free, judgement);
+    detail::ContactJudge(header_, scenery_, promises_ ? grown_scenery() : nullptr, step).judge(starts_free, judgement);
   } else {
-    detail::ContactJudge(header_, scenery_, step).measure_motion(starts_free, judgement);
+    detail::ContactJudge(header_, scenery_, promises_ ? grown_scenery() : nullptr, step)
+        .measure_motion(starts_free, judgement);
   }
   if (has_sensors_) judge_sensors(path, step, judgement);
   if (step.stuck && starts_free)
@@ -303,6 +304,14 @@ double Judge::depth_of(const Path& path, ColliderIndex collider) const {
   return deepest;
 }
 
+/// For an octagon that is larger by `least_clearance`.
+const ExactScenery* Judge::grown_scenery() {
+  if (!grown_scenery_)
+    grown_scenery_ =
+        std::make_unique<ExactScenery>(scenery_.scenery(), detail::grown(header_.points, detail::least_clearance));
+  return grown_scenery_.get();
+}
+
 /// Overlapped where the step ends, deeper than by rounding, and in no earlier step.
 std::vector<ColliderIndex> Judge::newly_inside(const StepJudgement& judgement) const {
   std::vector<ColliderIndex> entered = judgement.end_overlap;
@@ -340,10 +349,7 @@ void Judge::judge_crushes(const Path& path, const TraceStep& step, const Touched
     std::optional<Place>& free = meetings.before[collider];
     if (episode.free_from) free = episode.free_from->place();
   }
-  if (!grown_scenery_)
-    grown_scenery_ =
-        std::make_unique<ExactScenery>(scenery_.scenery(), detail::grown(header_.points, detail::least_clearance));
-  judgement.room = detail::find_room(scenery_, *grown_scenery_, path, pressing, meetings, others);
+  judgement.room = detail::find_room(scenery_, *grown_scenery(), path, pressing, meetings, others);
   // One mover may press the octagon after another that goes away more slowly.
   const bool pressed = std::any_of(step.crushed.begin(), step.crushed.end(), comes_closer);
   for (const ColliderIndex collider : step.crushed) {

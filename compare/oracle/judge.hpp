@@ -271,6 +271,7 @@ class Judge {
   using Path = std::vector<Place>;
   using Touched = std::map<ColliderIndex, std::size_t>;  ///< With the corner where the first leg that meets it begins.
 
+  [[nodiscard]] const ExactScenery* grown_scenery();
   [[nodiscard]] StepJudgement judge_exactly(const TraceStep& step, const Others& others, const Wanted* wanted);
   [[nodiscard]] Path path_of(const TraceStep& step) const;
   /// Whether nothing differs from the last step, as at rest: then neither does the judgement.

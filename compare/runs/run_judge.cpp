@@ -70,7 +70,9 @@ bool RunJudge::is_wall_ahead(const TraceStep& record, double move) const {
   const Vec2d up = up_in(record, header_);
   const Vec2d there = Vec2d(up.y(), -up.x()) * std::copysign(header_.character.wall_reach, move);
   for (const ExactImpact& impact : solids().impacts({record.path.front(), record.movers}, there))
-    if (side_of_normal(impact.normal.x(), impact.normal.y()) == (move < 0 ? Side::left : Side::right)) return true;
+    if (side_of_normal(impact.normal.dot(Vec2d(up.y(), -up.x())), impact.normal.dot(up)) ==
+        (move < 0 ? Side::left : Side::right))
+      return true;
   return false;
 }
 
