@@ -25,7 +25,7 @@ double area_of(const Vec2d& a, const Vec2d& b) { return a.x() * b.y() - a.y() * 
 }  // namespace
 
 bool is_walkable(const Vec2d& normal, const TraceHeader& header, const Vec2d& up) {
-  return normal.dot(up) >= std::cos(header.max_climb_degrees * std::numbers::pi / 180 + climb_margin);
+  return normal.dot(up) >= std::cos(header.character.max_climb_degrees * std::numbers::pi / 180 + climb_margin);
 }
 
 Reach reach_of(const TraceHeader& header) {

@@ -46,6 +46,7 @@ Lane::Lane(std::string contender, ScalarKind scalar, const Scene& scene, const S
     judgements_.resize(records_.size());
     inside_.resize(records_.size());
     placed_.resize(records_.size(), true);
+    placed_in_.resize(records_.size());
     for (std::size_t k = 0; k < records_.size(); ++k) judges_.push_back(std::make_unique<Judge>(header()));
     if (records_.size() > 1) company_ = std::make_unique<CompanyJudge>(header());
     metrics_ = std::make_unique<Metrics>(header(), metrics_for(scene, planning).measured);
@@ -106,6 +107,12 @@ void Lane::expect(const std::vector<Answer>& answers) {
 void Lane::place(const Pose& pose, std::size_t character) {
   contestant_->place(pose, character);
   placed_[character] = true;
+  placed_in_[character] = {.velocity = pose.velocity,
+                           .grounded = pose.grounded,
+                           .jumping = pose.jumping,
+                           .jump_held = pose.jump_held,
+                           .jump_pending = pose.jump_pending,
+                           .ride = is_reference(row_.contender) ? recorded_ride(pose.ride) : std::nullopt};
 }
 
 void Lane::respawn(const Start& start, const Respawn& when) {
@@ -122,12 +129,15 @@ bool Lane::is_free(const Vec2d& position, std::size_t character) const {
 }
 
 /// What was put somewhere in between did not get there by itself.
-void Lane::begin_records(int step, double dt) {
+void Lane::begin_records(int step, const StepInput& input) {
   for (std::size_t k = 0; k < records_.size(); ++k) {
     records_[k].step = step;
-    if (steps_vary_) records_[k].dt = dt;
+    if (steps_vary_) records_[k].dt = input.dt;
     records_[k].character = static_cast<CharacterIndex>(k);
+    records_[k].input = input.players[k];
     records_[k].respawn = placed_[k] && step > 0;
+    records_[k].from.reset();
+    if (records_[k].respawn) records_[k].from = placed_in_[k];
   }
 }
 
@@ -160,7 +170,7 @@ bool Lane::is_finite() const {
 
 void Lane::step(int step, const StepInput& input) {
   try {
-    begin_records(step, input.dt);
+    begin_records(step, input);
     contestant_->step(input, records_);
     for (std::size_t k = 0; k < records_.size(); ++k)
       if (!input.players[k].drop) records_[k].dropped_through.clear();  // nobody asked for it

@@ -63,7 +63,7 @@ class Lane {
   [[nodiscard]] TraceHeader header_as_run() const;
   void write_metrics();
   void note_start();
-  void begin_records(int step, double dt);
+  void begin_records(int step, const StepInput& input);
   [[nodiscard]] bool is_finite() const;
   void judge_step();
   void fail(Verdict verdict, const std::string& reason);
@@ -91,6 +91,7 @@ class Lane {
   std::vector<StepJudgement> judgements_;
   std::vector<std::vector<ColliderIndex>> inside_;  ///< What the octagon overlaps now, exactly.
   std::vector<bool> placed_;                        ///< Since the last step.
+  std::vector<TraceState> placed_in_;               ///< With this state.
   std::string begins_inside_;
   std::vector<Respawn> respawns_;
   int steps_broken_ = 0;     ///< Steps that entered a solid, passed one, or passed a one-way chain backwards.

@@ -102,10 +102,10 @@ class RandomRun {
     header.points = hull();
     header.scenery = scenery_.as_run();
     header.dt = static_cast<double>(static_cast<Scalar>(dt));
-    header.max_climb_degrees = controller_.character().max_climb_degrees;
+    header.character.max_climb_degrees = controller_.character().max_climb_degrees;
     judge_.emplace(header);
     reported_.emplace(header.scenery, header.points, Tolerances<Scalar>{}.certain);
-    if (up_turns_) header.max_climb_degrees = std::numeric_limits<double>::quiet_NaN();
+    if (up_turns_) header.character.max_climb_degrees = std::numeric_limits<double>::quiet_NaN();
     if (!std::is_same_v<Scalar, float>)
       trace_.emplace(header, name_of(family_) + (up_turns_ ? "_movers_any_up_" : "_movers_") + std::to_string(seed_));
     Input input;

@@ -241,7 +241,7 @@ class RandomRun {
     header.points.assign(controller_.character().shape.hull().begin(), controller_.character().shape.hull().end());
     header.scenery = scenery_;
     header.dt = 1.0 / 60;
-    header.max_climb_degrees = controller_.character().max_climb_degrees;
+    header.character.max_climb_degrees = controller_.character().max_climb_degrees;
     header.turning.assign(courses_.size(), true);
     return header;
   }

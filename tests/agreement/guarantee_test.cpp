@@ -70,7 +70,7 @@ class RandomRun {
         up_turns_(up_turns) {
     header_.points = hull_;
     header_.scenery = scenery_.as_run();
-    header_.max_climb_degrees = controller_.character().max_climb_degrees;
+    header_.character.max_climb_degrees = controller_.character().max_climb_degrees;
   }
 
   void go(Tally& tally) {
@@ -235,7 +235,7 @@ class RandomRun {
     text.precision(17);
     text << "\n  " << name_of(family_) << ", seed " << seed_ << ", status " << static_cast<int>(report_.status)
          << ", requested " << report_.requested.transpose() << ", up " << up_.transpose() << ", steered "
-         << report_.steered << ", climbs " << header_.max_climb_degrees << ", way";
+         << report_.steered << ", climbs " << header_.character.max_climb_degrees << ", way";
     for (const PathPoint<double>& corner : report_.move.path)
       text << " (" << corner.position.x() << ", " << corner.position.y() << " @ " << corner.fraction << ")";
     for (const Contact<double>& met : report_.move.contacts)
