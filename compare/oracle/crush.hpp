@@ -33,6 +33,10 @@ struct Meetings {
 
 /// Half of the narrowest opening that is asked for [m].
 inline constexpr double least_clearance = 1e-7;
+/// How much farther than what crushes goes a way to a free place may be, and the place still is room [m]: what pushes
+/// may push as far. Zero: a press that is not quite level crushes beside free space. Large: it is promised that a
+/// character is thrown aside by metres.
+inline constexpr double push_beyond_motion = 0.25;
 
 /// A convex shape with every side moved out.
 /// @param hull its corners in order. @param by so far [m].

@@ -137,10 +137,12 @@ struct StepJudgement {
 ///
 /// **Crushed.** A mover that the contender names as crushing is excused, and what it is pressed into stays excused
 /// until the octagon is free of it, if exact arithmetic finds no room. Room is a position at the end of the step
-/// - not farther from the octagon's than the longest way of the movers that are named, and 1e-6 m;
+/// - not farther than the longest motion of the movers that are named, and 0.25 m (`detail::push_beyond_motion`), from
+///   where the way to it begins, and from the octagon's: how far it went by itself is no push;
 /// - with a clearance of at least 1e-7 m to every solid, so that no opening under 2e-7 m is asked for;
 /// - reached from a corner of the way that was travelled, no later than where the first leg begins that meets one of
-///   those named (no way that leaves later undoes what has been pressed in), by a straight uniform motion until the end
+///   those named, or from where that leg touches it (no way that leaves later undoes what has been pressed in), by a
+///   straight uniform motion until the end
 ///   of the step that meets no solid but what is overlapped at that corner, and comes no nearer than 1e-7 m (each side
 ///   of the octagon moved out by so much) to what is farther away there: who passes a rim nearer than that may be
 ///   stopped at it. And no solid that was met before lies between the last place free of it and there: on its far side

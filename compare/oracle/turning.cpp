@@ -365,10 +365,7 @@ bool TurningJudge::is_excused(const Solid& solid, const TraceStep& step, const E
   const VertexWay& its = way_of(step, solid.collider);
   std::optional<Vec2d> room = step.path.front().position;
   if (goes(its)) {
-    const Vec2d normal = nearest_axis(solid, its, step.path.front()).normal;
-    const auto nearer = [&](const Vec2d& a, const Vec2d& b) { return a.dot(normal) < b.dot(normal); };
-    const Vec2d met = step.path.front().position + *std::min_element(octagon_.begin(), octagon_.end(), nearer);
-    room = room_beside(header_, rest, step, {its, met}, sides_,
+    room = room_beside(header_, rest, step, its, sides_,
                        [&](std::span<const PathPoint<double>> way) { return left_free(step, way); });
   }
   if (room) judgement.room = room;

@@ -9,18 +9,16 @@
 namespace paperproof::compare::detail {
 namespace {
 
-/// What may be kept from a contact on top of how far the crusher goes [m].
-constexpr double beyond_its_travel = 1e-6;
-
-/// The way of a point that goes along [m].
-double travel_of(const VertexWay& way, Vec2d at) {
-  double length = 0;
-  for (std::size_t k = 1; k < way.vertices.size(); ++k) {
-    const Vec2d next = RigidMotion(way.vertices[k - 1], way.vertices[k])(at);
-    length += (next - at).norm();
-    at = next;
+/// The longest way of a vertex in the step [m].
+double largest_motion(const VertexWay& way) {
+  double largest = 0;
+  for (std::size_t i = 0; i < way.vertices.front().size(); ++i) {
+    double length = 0;
+    for (std::size_t k = 1; k < way.vertices.size(); ++k)
+      length += (way.vertices[k][i] - way.vertices[k - 1][i]).norm();
+    largest = std::max(largest, length);
   }
-  return length;
+  return largest;
 }
 
 /// Whether a straight way meets only colliders that are overlapped where it begins.
@@ -114,28 +112,30 @@ bool has_way_out(const TraceHeader& header, const TraceStep& step, const Sides& 
 }
 
 std::optional<Vec2d> room_beside(const TraceHeader& header, const ExactScenery& rest, const TraceStep& step,
-                                 const Crusher& crusher, const Sides& sides,
+                                 const VertexWay& crusher, const Sides& sides,
                                  const std::function<bool(std::span<const PathPoint<double>>)>& left_free) {
   const ExactScenery end(standing_at(header.scenery, step, 1), header.points);
   const ExactScenery wider(rest.scenery(), grown(header.points, least_clearance));
-  std::vector<Vec2d> corners;
-  for (const PathPoint<double>& corner : step.path) corners.push_back(corner.position);
-  const auto reached = [&](const Vec2d& position) {
-    const Place there(position, step.movers, 1);
-    if (!on_their_sides(end, sides, there)) return false;
-    std::vector<PathPoint<double>> way;
-    for (const PathPoint<double>& corner : step.path) {
-      way.push_back(corner);
-      if (corner.fraction == 1) return false;
-      const Place from(corner, step.movers);
-      way.push_back({position, 1});
-      if (meets_no_more(rest, from, there) && meets_no_more(wider, from, there) && left_free(way)) return true;
-      way.pop_back();
-    }
-    return false;
-  };
-  return end.find_free(Place(step.path.back().position, step.movers, 1),
-                       travel_of(crusher.way, crusher.met) + beyond_its_travel, least_clearance, corners, reached);
+  const double reach = largest_motion(crusher) + push_beyond_motion;
+  std::vector<PathPoint<double>> way;
+  for (const PathPoint<double>& corner : step.path) {
+    if (corner.fraction == 1) break;
+    way.push_back(corner);
+    const Place from(corner, step.movers);
+    const auto reached = [&](const Vec2d& position) {
+      const Place there(position, step.movers, 1);
+      std::vector<PathPoint<double>> whole = way;
+      whole.push_back({position, 1});
+      return (position - step.path.back().position).norm() <= reach && on_their_sides(end, sides, there) &&
+             meets_no_more(rest, from, there) && meets_no_more(wider, from, there) && left_free(whole);
+    };
+    std::vector<ColliderIndex> may_pass = rest.overlapped(from);
+    for (const VertexWay& turning : step.vertex_ways) may_pass.push_back(turning.collider);
+    const WayQuestion question{
+        .from = from, .end = Place(corner.position, step.movers, 1), .may_pass = may_pass, .wider = wider.points()};
+    if (const auto room = end.find_free(question, reach, least_clearance, reached)) return room;
+  }
+  return std::nullopt;
 }
 
 }  // namespace paperproof::compare::detail
