@@ -105,6 +105,7 @@ Wanted Intent::begin(const TraceStep& step, int parts, const WallAhead& wall_ahe
   const double dt = whole / parts;
   const Vec2d up = up_in(step, *header_);
   Wanted wanted;
+  wanted.parts = parts;
   wanted.from_ground = grounded_;
   const Vec2d own = seen(ride_ ? Vec2d(velocity_ - ride_->velocity) : velocity_, up);
   double walk = own.x();
