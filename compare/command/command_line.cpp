@@ -5,6 +5,7 @@
 #include "command/complain.hpp"
 #include "command/convert_command.hpp"
 #include "command/demo_command.hpp"
+#include "command/judge_command.hpp"
 #include "command/list_command.hpp"
 #include "command/option_checks.hpp"
 #include "command/options.hpp"
@@ -283,6 +284,18 @@ void add_rows_commands(CLI::App& app, int& status) {
             [](const RowsWords& typed) { return diff_command(typed.files[0], typed.files[1]); });
 }
 
+void add_judge(CLI::App& app, int& status) {
+  CLI::App& command =
+      *app.add_subcommand("judge", "Say of each trace which clauses of the guarantee it breaks, with exact arithmetic");
+  const auto options = std::make_shared<JudgeOptions>();
+  command.add_option("TRACE", options->traces, "Files written by --trace, or by any other program")->required();
+  command.add_flag("--all", options->all_clauses, "Ask for every clause, whatever the trace's contender guarantees");
+  command
+      .add_option("--scene", options->scene, "The scene of the traces: what it says stands instead of their headers")
+      ->type_name("SCENE");
+  on_parsed(command, status, options, [](const JudgeOptions& typed) { return judge_command(typed); });
+}
+
 void add_report(CLI::App& app, int& status) {
   struct Words {
     std::string page;
@@ -383,6 +396,7 @@ int run(int argc, char** argv) {
   add_studies(app, status);
   add_sweep(app, status);
   add_rows_commands(app, status);
+  add_judge(app, status);
   add_report(app, status);
   add_scene_commands(app, status);
   add_demo_and_list(app, status);

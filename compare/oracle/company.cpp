@@ -69,6 +69,10 @@ Others CompanyJudge::others_of(CharacterIndex character, std::span<const TraceSt
                        [&](const TraceStep& other) { return other.character != character && is(other); });
   };
   Others others;
+  for (const TraceStep& other : steps)
+    if (other.character != character)
+      others.longest_way =
+          std::max({others.longest_way, other.requested.norm(), (end_of(other) - start_of(other)).norm()});
   others.touched = any_other([&](const TraceStep& other) { return may_meet(one, other) && touch(one, other); });
   others.left_free = [this, any_other](Way way) {
     return !any_other([&](const TraceStep& other) {

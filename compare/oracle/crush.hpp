@@ -15,7 +15,8 @@ struct Others {
   /// Whether they leave free a way of the whole step, from fraction 0 to 1, and the place where it ends. Empty where
   /// there are none.
   std::function<bool(std::span<const PathPoint<double>> way)> left_free{};
-  bool touched = false;  ///< One of them touched it during the step.
+  double longest_way = 0;  ///< That one of them is asked to go, or goes, in the step [m].
+  bool touched = false;    ///< One of them touched it during the step.
 };
 
 }  // namespace paperproof::compare

@@ -69,6 +69,7 @@ struct NearPart {
   ColliderIndex collider = 0;
   Vec2d moved{Vec2d::Zero()};   ///< By its mover in the whole step [m].
   std::vector<NearFace> faces;  ///< All along which they are apart, the farthest first; the best alone on overlap.
+  double unsure = 0;            ///< So much farther than `moved` it may come along a normal [m]: of what turns.
 };
 
 /// The octagon's interior came to overlap a sensor's, or ceased to.

@@ -12,8 +12,8 @@ namespace {
 /// Ground of exactly the climb limit is walkable, whatever its normal was rounded to [rad].
 constexpr double climb_margin = 1e-8;
 /// Relative: a few operations in the number type of the contender.
-constexpr double rounding_of_double = 1e-12;
-constexpr double rounding_of_float = 1e-5;
+constexpr double share_of_double = 1e-12;
+constexpr double share_of_float = 1e-5;
 
 /// Components as a character with that up sees them: across up, to the right, and along it.
 Vec2d seen(const Vec2d& v, const Vec2d& up) { return {v.x() * up.y() - v.y() * up.x(), v.dot(up)}; }
@@ -105,6 +105,7 @@ Wanted Intent::begin(const TraceStep& step, int parts, const WallAhead& wall_ahe
   const double dt = whole / parts;
   const Vec2d up = up_in(step, *header_);
   Wanted wanted;
+  wanted.from_ground = grounded_;
   const Vec2d own = seen(ride_ ? Vec2d(velocity_ - ride_->velocity) : velocity_, up);
   double walk = own.x();
   double rise = own.y();
@@ -118,7 +119,7 @@ Wanted Intent::begin(const TraceStep& step, int parts, const WallAhead& wall_ahe
   if (change * own.x() < 0 && is_climb_of_walk(own.x(), rise)) rise *= std::max(walk / own.x(), 0.0);
   rise = use_button(step, dt, rise, wall_ahead, wanted);
   if (character.coyote_time > 0) coyote_left_ = grounded_ ? character.coyote_time : std::max(coyote_left_ - dt, 0.0);
-  const Vec2d pull = seen(header_->gravity, up) * dt;
+  const Vec2d pull = seen(gravity_in(step, *header_), up) * dt;
   rise += pull.y();
   if (character.max_fall_speed) rise = std::max(rise, -*character.max_fall_speed);
   const Vec2d velocity = in_world({walk + pull.x(), rise}, up);
@@ -150,7 +151,7 @@ void Intent::end(const TraceStep& step) {
 }
 
 double Intent::rounding(const TraceStep& step, const Wanted& wanted) const {
-  const double share = header_->scalar == "float" ? rounding_of_float : rounding_of_double;
+  const double share = header_->scalar == "float" ? share_of_float : share_of_double;
   double size = wanted.displacement.norm() +
                 (velocity_.norm() + (ride_ ? ride_->velocity.norm() : 0)) * length_of(step, *header_);
   // Where movers are is rounded, too.

@@ -14,6 +14,7 @@ struct Wanted {
   Vec2d velocity{Vec2d::Zero()};      ///< The same [m/s].
   double steered = 0;                 ///< The part of the displacement across up that steering added [m].
   bool jumped = false;                ///< A jump begins.
+  bool from_ground = false;           ///< It stood when the step began.
 };
 
 /// The discrete law of motion (§4 of the design), for one character: horizontal speed approaches the input's by

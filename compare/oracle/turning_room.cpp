@@ -87,6 +87,14 @@ bool on_their_sides(const ExactScenery& standing, const Sides& sides, const Plac
   });
 }
 
+bool has_way_out_at(const TraceHeader& header, const TraceStep& step, double moment, const Sides& sides,
+                    const std::function<bool(const Vec2d&)>& accept) {
+  const ExactScenery standing(standing_at(header.scenery, step, moment), header.points);
+  const Vec2d& from = moment == 1 ? step.path.back().position : step.path.front().position;
+  const std::optional<Vec2d> out = standing.way_out(Place(from, step.movers, moment), farthest_way_out);
+  return out && accept(*out) && on_their_sides(standing, sides, Place(*out, step.movers, moment));
+}
+
 bool has_way_out(const TraceHeader& header, const TraceStep& step, const Sides& sides,
                  const std::function<bool(const Vec2d&)>& accept) {
   double turned = 0;
@@ -99,10 +107,7 @@ bool has_way_out(const TraceHeader& header, const TraceStep& step, const Sides& 
       const VertexWay& way = way_of(step, collider);
       side = RigidMotion(way.vertices.front(), vertices_at(way, moment))(side);
     }
-    const ExactScenery standing(standing_at(header.scenery, step, moment), header.points);
-    const Place start(step.path.front().position, step.movers, moment);
-    const std::optional<Vec2d> out = standing.way_out(start, farthest_way_out);
-    return out && accept(*out) && on_their_sides(standing, then, Place(*out, step.movers, moment));
+    return has_way_out_at(header, step, moment, then, accept);
   });
 }
 

@@ -54,5 +54,8 @@ inline constexpr double farthest_way_out = 1e4;
 /// @param sides as things are when the step begins. @param accept whether it ends on the right side of the rest.
 [[nodiscard]] bool has_way_out(const TraceHeader& header, const TraceStep& step, const Sides& sides,
                                const std::function<bool(const Vec2d&)>& accept);
+/// The same at one fraction of the step. @param sides as things are then.
+[[nodiscard]] bool has_way_out_at(const TraceHeader& header, const TraceStep& step, double moment, const Sides& sides,
+                                  const std::function<bool(const Vec2d&)>& accept);
 
 }  // namespace paperproof::compare::detail

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace paperproof::compare {
 
@@ -51,6 +52,12 @@ inline constexpr std::array<std::string_view, 21> clause_names{
   for (std::size_t i = 0; i < clause_names.size(); ++i)
     if (clause_names[i] == name) return static_cast<Clause>(i);
   return std::nullopt;
+}
+
+[[nodiscard]] inline std::vector<Clause> every_clause() {
+  std::vector<Clause> all;
+  for (std::size_t i = 0; i < clause_names.size(); ++i) all.push_back(static_cast<Clause>(i));
+  return all;
 }
 
 /// How often a clause was broken, and where first.

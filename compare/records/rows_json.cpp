@@ -44,6 +44,7 @@ nlohmann::ordered_json row_json(const Row& row) {
   }
   if (!row.source.empty()) object["source"] = row.source;
   for_each_metric(row, [&](const Metric& metric, const auto& value) { object[std::string(metric.key)] = value; });
+  if (!row.broken.empty()) object["broken"] = row.broken;
   if (row.steps > 0) object["exempted"] = row.exempted;
   if (!row.event_sequence.empty()) object["event_sequence"] = row.event_sequence;
   for (const auto& [name, some] : row.disagreements)

@@ -96,6 +96,7 @@ struct TraceStep {
   CharacterIndex character = 0;
   Input input{};
   std::optional<Vec2d> up{};            ///< In this step, where it is not the header's.
+  std::optional<Vec2d> gravity{};       ///< The same [m/s²].
   std::vector<PathPoint<double>> path;  ///< From the start (fraction 0) to the end (1).
   /// Displacement that was wanted [m], in the world: what carries the character is included.
   Vec2d requested{Vec2d::Zero()};
@@ -129,6 +130,11 @@ struct TraceStep {
 /// Unit vector against which a character falls in a step.
 [[nodiscard]] inline Vec2d up_in(const TraceStep& step, const TraceHeader& header) {
   return step.up.value_or(header.up);
+}
+
+/// Of a step [m/s²].
+[[nodiscard]] inline Vec2d gravity_in(const TraceStep& step, const TraceHeader& header) {
+  return step.gravity.value_or(header.gravity);
 }
 
 /// How long a step was [s].

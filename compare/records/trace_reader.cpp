@@ -378,6 +378,7 @@ TraceStep read_step(const Value& at, const TraceHeader& header) {
            "path_exact",
            "input",
            "up",
+           "gravity",
            "requested",
            "steered",
            "velocity",
@@ -416,6 +417,7 @@ TraceStep read_step(const Value& at, const TraceHeader& header) {
     step.path.push_back({{numbers[0].number(), numbers[1].number()}, numbers[2].share()});
   }
   if (const auto up = at.find("up")) step.up = read_up(*up);
+  if (const auto gravity = at.find("gravity")) step.gravity = gravity->point();
   if (const auto requested = at.find("requested")) step.requested = requested->point();
   if (const auto steered = at.find("steered")) step.steered = steered->number();
   step.velocity = at.require("velocity").point();

@@ -286,9 +286,10 @@ void TraceWriter::write(const TraceStep& step) {
   put_path(out, step.path);
   if (!path_exact_) put_text(out, ",\"path_exact\":false");
   put_input(out, step.input);
-  if (step.up) {
-    put_text(out, ",\"up\":");
-    put(out, *step.up);
+  for (const auto& [key, own] : {std::pair{",\"up\":", step.up}, {",\"gravity\":", step.gravity}}) {
+    if (!own) continue;
+    put_text(out, key);
+    put(out, *own);
   }
   put_text(out, ",\"requested\":");
   put(out, step.requested);

@@ -157,11 +157,34 @@ MoverScript script_of(const MoverDef& mover) {
   return script;
 }
 
-std::vector<Clause> promised_by(const TraceHeader& header) {
-  std::vector<Clause> all;
-  if (!is_guaranteed(header.contender, header.scalar)) return all;
-  for (std::size_t i = 0; i < clause_names.size(); ++i) all.push_back(static_cast<Clause>(i));
-  return all;
+/// What a scene says of a scenery, in the number type that runs.
+template <class Scalar>
+SceneryDef rounded(SceneryDef scenery) {
+  const auto round = [](double& value) { value = static_cast<double>(static_cast<Scalar>(value)); };
+  const auto round_all = [&round](std::vector<Vec2d>& points) {
+    for (Vec2d& point : points) {
+      round(point.x());
+      round(point.y());
+    }
+  };
+  for (ColliderDef& collider : scenery.colliders) {
+    round_all(collider.points);
+    for (std::vector<Vec2d>& hole : collider.holes) round_all(hole);
+    round(collider.radius);
+  }
+  return scenery;
+}
+
+/// What runs must be what the scene says: the judge sees the latter.
+/// @throws std::logic_error naming the collider that differs.
+void check_as_run(const SceneryDef& said, const SceneryDef& runs, const std::vector<std::string>& ids) {
+  const auto same = [](const ColliderDef& a, const ColliderDef& b) {
+    return a.shape == b.shape && a.points == b.points && a.holes == b.holes && a.radius == b.radius &&
+           a.mover == b.mover && a.sensor == b.sensor && a.one_way.has_value() == b.one_way.has_value();
+  };
+  for (std::size_t i = 0; i < said.colliders.size(); ++i)
+    if (i >= runs.colliders.size() || !same(said.colliders[i], runs.colliders[i]))
+      throw std::logic_error(fmt::format("the collider \"{}\" that runs is not the scene's", ids[i]));
 }
 
 }  // namespace
@@ -176,7 +199,7 @@ void add_terms(const Scene& scene, const CharacterDef& character, TraceHeader& h
   for (ColliderIndex i = 0; i < scene.scenery.colliders.size(); ++i)
     if (const MoverIndex mover = scene.scenery.colliders[i].mover; mover != no_mover)
       header.scripts[mover].colliders.push_back(i);
-  header.guarantees = promised_by(header);
+  if (is_guaranteed(header.contender, header.scalar)) header.guarantees = every_clause();
 }
 
 template <class Scalar>
@@ -192,7 +215,8 @@ TraceHeader header_of(const TechniqueEntry& technique, const Scenery<Scalar>& sc
   for (const Vec2d& point : scene.character.shape.hull())
     header.points.push_back(point.cast<Scalar>().template cast<double>());
   add_terms(scene, rules_for(technique, scene, knobs), header);
-  header.scenery = scenery.as_run();
+  header.scenery = rounded<Scalar>(scene.scenery);
+  check_as_run(header.scenery, scenery.as_run(), scene.ids);
   header.ids = scene.ids;
   header.plan = plan;
   header.tolerances = tolerances_of<Scalar>();
