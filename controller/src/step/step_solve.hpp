@@ -264,7 +264,7 @@ void StepSolver<Lanes, Scalar, Up>::find_ground() noexcept {
     const V normal = space_.normal(ground_, ground_axis_);
     note_ground(walkable(normal) ? GroundState::walkable : GroundState::wedge, ground_, normal);
   } else if (!result_.contacts.empty() ||
-             (leaves_ground_above_ > 0 && found_.least_separation < std::numeric_limits<Scalar>::infinity())) {
+             (leaves_ground_above_ > 0 && found_.least_kept <= Tolerances<Scalar>{}.touch)) {
     look_for_ground();  // in most steps in the air nothing is near
   }
 }

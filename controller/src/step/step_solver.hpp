@@ -51,6 +51,7 @@ struct SweepResult {
   Scalar stop = 1;              ///< Fraction of the motion that is free.
   Scalar least_separation = 0;  ///< Of all pieces that block, at the start of the motion [m]. Any value above `hit`
                                 ///< where all of them are further away than that.
+  Scalar least_kept = 0;        ///< By a box direction over the whole motion, of all pieces [m].
   /// The pieces that stop it there. If there are more than fit, the others are reported too, and the next sweep meets
   /// them again.
   FixedVector<Stop<Scalar>, MoveResult<Scalar>::max_contacts> stops;
@@ -58,7 +59,7 @@ struct SweepResult {
   void clear() noexcept {
     hit = false;
     stop = 1;
-    least_separation = std::numeric_limits<Scalar>::infinity();
+    least_separation = least_kept = std::numeric_limits<Scalar>::infinity();
     stops.clear();
   }
 };

@@ -159,7 +159,8 @@ void StepSolver<Lanes, Scalar, Up>::follow_ground_down(const MoveRequest<Scalar>
   const Scalar walked = up_.across_of(V(position_ - request.position - left_ground * request.dt));
   const Scalar side = walked == 0 || snap == 0 ? Scalar(0) : std::copysign(Scalar(1), walked);
   const auto ground = ground_below(side, down, 0);
-  if (ground && (found_.stop * down <= snap || hardly_leaves(*ground))) step_down_to(*ground, up_.across_of(velocity_));
+  if (ground && ((snap > 0 && found_.stop * down <= snap) || hardly_leaves(*ground)))
+    step_down_to(*ground, up_.across_of(velocity_));
 }
 
 }  // namespace paperproof::octagon_sweep
