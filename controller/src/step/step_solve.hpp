@@ -307,17 +307,21 @@ void StepSolver<Lanes, Scalar, Up>::note_ground(GroundState state, PieceIndex pi
 /// Lands on the ground that the character touches at the end of a step in which no sweep hit it, and reports it:
 /// gravity presses onto it by less than the sweep sees, or a fall ends just there. Ground that the wanted motion leaves
 /// is not reported: a character that jumps and hits a ceiling at once stands again, and its only contact is the
-/// ceiling.
+/// ceiling. Nor is a one-way surface that the step began beneath.
 template <std::size_t Lanes, class Scalar, class Up>
 void StepSolver<Lanes, Scalar, Up>::land(const V& wanted) noexcept {
   memory_.surfaces.clear();
   for_each_near({position_, position_}, [&](PieceIndex piece) {
-    if (!stands_on(piece)) return;
+    const V before = start_ - offset(piece, 0);
+    const bool was_above = space_.info(piece).one_way_axis == ObstacleInfo::not_one_way ||
+                           is_above(space_, piece, before, lost_by(start_, offset(piece, 0)));
+    if (!was_above || !stands_on(piece)) return;
     memory_.surfaces.push_back(surface_at(piece, best_axis<Lanes>(space_, piece, local(piece, position_)).axis));
     V displacement = wanted;
     if (mover_of(piece) != no_mover) displacement = movers_.relative(wanted, mover_of(piece), Scalar(0));
     if (enters(displacement, memory_.surfaces.back().normal)) report_touched(piece);
   });
+  if (memory_.surfaces.empty()) return;
   DesiredMotion<Scalar> desired = this->desired();
   end_at_surfaces(desired);
 }
