@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+
 namespace paperproof::compare {
 namespace {
 
@@ -12,9 +14,9 @@ nlohmann::ordered_json first_tunnel_json(const FirstTunnel& first) {
   nlohmann::ordered_json object{{"step", first.step}};
   if (!first.collider.empty()) {
     object["collider"] = first.collider;
-    object["speed_m_s"] = first.speed_m_s;
-    object["thickness_m"] = first.thickness_m;
-    object["angle_deg"] = first.angle_deg;
+    for (const auto& [key, value] :
+         {std::pair{"speed_m_s", first.speed_m_s}, {"thickness_m", first.thickness_m}, {"angle_deg", first.angle_deg}})
+      if (std::isfinite(value)) object[key] = value;
   }
   return object;
 }
@@ -43,7 +45,10 @@ nlohmann::ordered_json row_json(const Row& row) {
     for (const auto& [key, value] : row.parameters) parameters[key] = value;
   }
   if (!row.source.empty()) object["source"] = row.source;
-  for_each_metric(row, [&](const Metric& metric, const auto& value) { object[std::string(metric.key)] = value; });
+  for_each_metric(row, [&](const Metric& metric, const auto& value) {
+    // JSON has no word for it; `finite` says that something is not.
+    if (std::isfinite(static_cast<double>(value))) object[std::string(metric.key)] = value;
+  });
   if (row.steps > 0) object["exempted"] = row.exempted;
   if (!row.event_sequence.empty()) object["event_sequence"] = row.event_sequence;
   for (const auto& [name, some] : row.disagreements)
