@@ -222,8 +222,10 @@ class XmlReader {
     } else if (const pugi::xml_node polyline = node.child("polyline")) {
       object.shape = TiledObject::Shape::polyline;
       object.points = points(polyline);
-    } else if (node.child("ellipse") || node.child("capsule")) {
+    } else if (node.child("ellipse")) {
       object.shape = TiledObject::Shape::ellipse;
+    } else if (node.child("capsule")) {
+      object.shape = TiledObject::Shape::capsule;
     } else if (node.child("point")) {
       object.shape = TiledObject::Shape::point;
     } else if (node.child("text")) {
