@@ -55,7 +55,7 @@ TEST(Schema, names_the_place_of_what_does_not) {
   EXPECT_EQ(fault(R"({"name": "a", "pair": [{}, {"x": "1"}]})"), "/pair/1/x: expected a number, not \"1\"");
   EXPECT_EQ(fault(R"({"name": "a", "pair": [{}, {"y": 1}]})"), "/pair/1/y: unknown key");
   EXPECT_EQ(fault(R"({"name": "a", "counts": {"a/b": -2}})"), "/counts/a~1b: expected 0 or more, not -2");
-  EXPECT_EQ(fault(R"({"name": "a", "cuont": 2})"), "/cuont: unknown key; did you mean count?");
+  EXPECT_EQ(fault(R"({"name": "a", "coumt": 2})"), "/coumt: unknown key; did you mean count?");
 }
 
 TEST(Schema, refuses_to_ask_less_than_it_says) {
