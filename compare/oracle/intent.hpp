@@ -53,6 +53,7 @@ class Intent {
 
   const TraceHeader* header_;
   bool begun_ = false;
+  Vec2d end_{Vec2d::Zero()};       ///< Where the step before ended [m].
   Vec2d velocity_{Vec2d::Zero()};  ///< In the world [m/s].
   bool grounded_ = false;
   bool jumping_ = false;
