@@ -136,13 +136,22 @@ double EndJudge::speed_gained() const {
   const Vec2d unsteered = wanted_.velocity - wanted_.steered / dt_ * Vec2d(up_.y(), -up_.x());
   double most = std::max(wanted_.velocity.norm(), unsteered.norm()) /
                 std::cos(header_.character.max_climb_degrees * std::numbers::pi / 180);
+  bool pushed = false;
   for (std::size_t corner = 0; corner < step_.path.size(); ++corner)
     for (const NearPart& part : near(corner, contact_reach)) {
+      pushed = pushed || !part.moved.isZero(0);
       const bool is_known = part.collider < header_.scenery.colliders.size();
       const double conveyor = is_known ? std::abs(header_.scenery.colliders[part.collider].surface_speed) : 0;
       most += part.moved.norm() / dt_ + conveyor;
     }
-  const double gained = step_.velocity.norm() - most;
+  const Vec2d right(up_.y(), -up_.x());
+  double gained = step_.velocity.norm() - most;
+  // A fall becomes a rise only where a walk climbs, and that keeps its speed across up.
+  const bool rises = step_.velocity.dot(up_) > rounding_of_motion && wanted_.velocity.dot(up_) < 0;
+  if (rises && !pushed) {
+    const double across = std::max(std::abs(wanted_.velocity.dot(right)), std::abs(unsteered.dot(right)));
+    gained = std::max(gained, std::abs(step_.velocity.dot(right)) - across);
+  }
   return gained <= rounding_of_motion * (1 + most) ? 0 : gained;
 }
 

@@ -123,8 +123,12 @@ void ContactJudge::add_contacts_at(const std::vector<ExactImpact>& impacts, doub
     const double way = static_cast<double>(impact.fraction) * std::abs(wanted(impact.collider).dot(impact.normal));
     if (way > contact_reach) continue;
     if (impact.exposed && (is_met(impact) || reports(impact))) {
+      const auto is_it = [&](const ExactContact& known) {
+        return known.collider == impact.collider && known.side == side_of(impact);
+      };
+      const bool known = std::any_of(judgement.contacts.begin(), judgement.contacts.end(), is_it);
       add_contact(impact, side_of(impact), fraction, judgement);
-      if (!is_met(impact)) judgement.ahead.emplace_back(impact.collider, side_of(impact));
+      if (!known && !is_met(impact)) judgement.ahead.emplace_back(impact.collider, side_of(impact));
     } else {
       judgement.dont_care.push_back(impact.collider);
     }

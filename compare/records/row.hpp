@@ -127,6 +127,8 @@ struct Row {
   std::optional<int> stuck_steps;
   std::optional<int> stuck_refuted;
   std::optional<int> ground_refuted;
+  std::optional<int> ground_missed;
+  std::optional<double> arc_error_max_m;
   std::optional<int> dropped_steps;
   std::optional<double> answer_error;
   std::optional<bool> answer_ok;

@@ -51,6 +51,11 @@ RunJudge::RunJudge(const TraceHeader& header, const Measured& measured)
   for (std::size_t k = 0; k < header.characters; ++k)
     followers_.push_back({.judge = std::make_unique<Judge>(header_), .intent = Intent(header_)});
   if (header.characters > 1) company_ = std::make_unique<CompanyJudge>(header_);
+  const auto is_known = [](const MoverScript& script) { return !script.path.empty(); };
+  if (!header_.scripts.empty() && std::all_of(header_.scripts.begin(), header_.scripts.end(), is_known)) {
+    ways_.emplace(header_, header_.scripts);
+    turning_.emplace(header_);
+  }
 }
 
 void RunJudge::note(Clause clause, const TraceStep& record, const std::string& what) {
@@ -117,6 +122,11 @@ void RunJudge::add(std::span<TraceStep> records) {
       steps_far_ += !header_.guarantees.empty();
     } else {
       judge_clauses(asked[k], judgements_[k]);
+      for (const CrowdContact<double>& met : asked[k].met)
+        if (const double gap = company_ && met.other < asked.size() ? company_->nearest(asked[k], asked[met.other]) : 1;
+            gap > guaranteed_gap)
+          note(Clause::contact_invented, asked[k],
+               fmt::format("met character {} from {} away", met.other, metres(gap)));
       judge_rest(asked[k], follower);
       judge_ride(asked[k], follower);
     }
@@ -129,10 +139,12 @@ void RunJudge::add(std::span<TraceStep> records) {
       follower.last_wanted.erase(follower.last_wanted.begin());
     }
   }
+  judge_movers(asked.front());
   ++steps_;
   const auto any = [this](const auto& is) { return std::any_of(judgements_.begin(), judgements_.end(), is); };
   steps_broken_ += any([](const StepJudgement& judged) { return judged.broke(); });
   broke_company_ = broke_company_ || any([](const StepJudgement& judged) { return judged.company.broke(); });
+  disagreements_ += any([](const StepJudgement& judged) { return !judged.methods_disagree.empty(); });
   steps_capped_ += std::any_of(records.begin(), records.end(), [](const TraceStep& record) { return record.capped; });
 }
 
@@ -250,6 +262,19 @@ void RunJudge::judge_ride(const TraceStep& record, const Follower& follower) {
     note(Clause::rest, record, fmt::format("drifts {} on what carries it", metres(drift.norm())));
 }
 
+/// Whether movers go as the scene says.
+void RunJudge::judge_movers(const TraceStep& record) {
+  if (!ways_) return;
+  const MoverWayJudgement judged = ways_->judge(record, turning_->near_at_begin(record, near_what_turns));
+  arc_error_ = std::max(arc_error_, judged.arc_error);
+  if (!judged.broken()) return;
+  const char* what = !judged.off_script.empty()   ? "a mover leaves its script"
+                     : !judged.out_of_way.empty() ? "what turns leaves its way between two instants"
+                     : !judged.coarse.empty()     ? "what turns is turned at once by more than promised"
+                                                  : "what turns leaves its arc by more than the bound";
+  note(Clause::mover_way, record, what);
+}
+
 /// The fraction of a first contact, as far along the normal as it is off.
 void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged) {
   if (record.contacts.empty() || !record.start_overlap.empty() || !judged.first_impact || !judged.first_approach ||
@@ -315,6 +340,7 @@ void RunJudge::judge_clauses(const TraceStep& record, const StepJudgement& judge
 
 void RunJudge::add_refused(const TraceStep& record) {
   Follower& follower = followers_[record.character];
+  if (ways_) ways_->pass_over(record);
   if (follower.last.empty()) return;
   const Vec2d& start = follower.last.back().path.back().position;
   const double dt = length_of(record, header_);
@@ -334,6 +360,9 @@ Breaches RunJudge::breaches() const {
 void RunJudge::write(Row& row) const {
   metrics_.write(row);
   const Breaches all = breaches();
+  if (contains(header_.turning, true)) row.arc_error_max_m = arc_error_;
+  if (!header_.guarantees.empty())
+    row.ground_missed = all.contains(Clause::ground_missed) ? all.at(Clause::ground_missed).steps : 0;
   for (const auto& [clause, breach] : all) row.broken[std::string(name_of(clause))] = breach.steps;
   if (steps_far_ > 0) row.exempted[std::string(exemptions()[static_cast<std::size_t>(Exempt::far)].name)] = steps_far_;
   write_faults(row);
@@ -356,6 +385,9 @@ void RunJudge::write_faults(Row& row) const {
   if (const int unsure = row.undecided_steps.value_or(0); unsure > 0)
     fault(Axis::safety, Verdict::flagged, fmt::format("too near to what turns to tell on {}", counted(unsure, "step")));
   on_steps(row.dropped_steps, "drops displacement");
+  if (disagreements_ > 0)
+    fault(Axis::validity, Verdict::failed,
+          fmt::format("the judge's two methods disagree on {}", counted(disagreements_, "step")));
   if (steps_capped_ > 0)
     fault(Axis::validity, Verdict::flagged,
           fmt::format("{} beyond Box2D's travel cap of 2 m per step, not scored", counted(steps_capped_, "step")));

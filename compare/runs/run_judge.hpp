@@ -5,6 +5,8 @@
 #include "oracle/company.hpp"
 #include "oracle/intent.hpp"
 #include "oracle/judge.hpp"
+#include "oracle/mover_way.hpp"
+#include "oracle/turning.hpp"
 
 #include <memory>
 
@@ -55,6 +57,7 @@ class RunJudge {
   void judge_rest(const TraceStep& record, const Follower& follower);
   void judge_ride(const TraceStep& record, const Follower& follower);
   void judge_clauses(const TraceStep& record, const StepJudgement& judged);
+  void judge_movers(const TraceStep& record);
   void judge_times(const TraceStep& record, const StepJudgement& judged);
   [[nodiscard]] bool may_respawn(const TraceStep& record, const Follower& follower) const;
   [[nodiscard]] bool is_wall_ahead(const TraceStep& record, double move) const;
@@ -64,6 +67,10 @@ class RunJudge {
   std::unique_ptr<CompanyJudge> company_;  ///< Null for one character.
   Metrics metrics_;
   std::vector<Follower> followers_;
+  std::optional<MoverWayJudge> ways_;            ///< None where no script is known.
+  std::optional<detail::TurningJudge> turning_;  ///< The same.
+  double arc_error_ = 0;                         ///< See `MoverWayJudgement` [m].
+  int disagreements_ = 0;                        ///< Steps on which two methods of the judge's own differ.
   std::vector<StepJudgement> judgements_;
   std::vector<std::string> begins_inside_;
   Breaches breaches_;
