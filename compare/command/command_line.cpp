@@ -274,7 +274,11 @@ void add_rows_commands(CLI::App& app, int& status) {
   CLI::App& merge = *app.add_subcommand("merge", "Put rows of several files together: shards of a sweep, or any");
   const auto merged = std::make_shared<RowsWords>();
   merge.add_option("ROWS", merged->files, "Files of rows, .jsonl")->required();
-  merge.add_option("--rows", merged->rows_path, "Where they go")->required()->type_name("FILE.jsonl");
+  merge.add_option("--rows", merged->rows_path, "Where they go")
+      ->required()
+      ->type_name("FILE.jsonl")
+      ->check(expect_file_name())
+      ->check(expect_ending({".jsonl"}));
   on_parsed(merge, status, merged, [](const RowsWords& typed) { return merge_command(typed.files, typed.rows_path); });
 
   CLI::App& diff = *app.add_subcommand("diff", "Name what changed between two files of rows, costs apart");
@@ -306,7 +310,8 @@ void add_report(CLI::App& app, int& status) {
   command.add_option("FILE", words->page, "Where the page goes")
       ->required()
       ->type_name("FILE.html")
-      ->check(expect_file_name());
+      ->check(expect_file_name())
+      ->check(expect_ending({".html"}));
   command.add_option("ROWS", words->records, "Files of rows (.jsonl, .json), and pages (.html)")->required();
   on_parsed(command, status, words, [](const Words& typed) { return report_command(typed.page, typed.records); });
 }
@@ -417,6 +422,7 @@ int run(int argc, char** argv) {
 int paperproof::compare::run_command_line(int argc, char** argv) {
   hold_standard_streams();
   std::signal(SIGPIPE, SIG_IGN);
+  remove_unfinished_on_signals();
   try {
     return run(argc, argv);
   } catch (const ClosedPipe&) {

@@ -78,6 +78,10 @@ void Metrics::match(const View& view, Matches& matches) const {
     const bool in_time = contains(now.exact, touch) || contains(now.deflected, touch);
     const bool right = in_time || anywhere([&](const Moment& moment) { return contains(moment.exact, touch); });
     const bool ghost = contains(now.ghosts, touch);
+    if (!right && now.held && promises_) {
+      ++matches.stuck;
+      continue;
+    }
     if (!right && contains(now.by_company, touch.first)) {
       ++matches.by_company;
       continue;
@@ -114,6 +118,10 @@ void Metrics::match_wanted(const View& view, Matches& matches) const {
     };
     const bool in_time = reports(now);
     const bool late = !in_time && sampled_ && std::any_of(view.around.begin(), view.around.end(), reports);
+    if (!in_time && !late && now.held && promises_) {
+      ++matches.stuck;
+      continue;
+    }
     if (!in_time && !late)
       note(now, *std::find_if(now.exact.begin(), now.exact.end(), of_side),
            "does not report a contact:", matches.missed);
@@ -128,6 +136,7 @@ void Metrics::add_contacts(const TraceStep& step, const StepJudgement& judgement
                                          .dont_care = judgement.dont_care,
                                          .ghosts = judgement.ghosts,
                                          .stuck = step.stuck && !(promises_ && judgement.stuck_refuted),
+                                         .held = !judgement.crushed.empty() || !step.start_overlap.empty(),
                                          .step = step.step,
                                          .deflected = judgement.deflected,
                                          .ahead = judgement.ahead,

@@ -81,6 +81,7 @@ class Metrics {
     std::vector<ColliderIndex> dont_care;
     std::vector<Touch> ghosts;
     bool stuck = false;
+    bool held = false;  ///< Crushed, as verified, or inside something where it begins.
     int step = 0;
     std::vector<Touch> deflected{};
     std::vector<Touch> ahead{};

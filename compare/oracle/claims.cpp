@@ -46,7 +46,7 @@ bool EndJudge::meets_ground(const Vec2d& displacement) const {
 /// Of the solids that stand or go straight; whether ground that turns, or another character, is beneath is not asked.
 bool EndJudge::stands_on_ground() const { return meets_ground(-up_ * (2 * contact_reach)); }
 
-void EndJudge::judge_ground(const HangingJudge& hanging, StepJudgement& judgement) const {
+void EndJudge::judge_ground(const HangingJudge& hanging, bool starts_free, StepJudgement& judgement) const {
   const std::size_t last = step_.path.size() - 1;
   if (!judgement.end_overlap.empty() || !judgement.crushed.empty()) return;
   const std::vector<NearPart> parts = near(last, guaranteed_touch + touch_rounding);
@@ -65,7 +65,7 @@ void EndJudge::judge_ground(const HangingJudge& hanging, StepJudgement& judgemen
     return;
   }
   const Vec2d unsteered = wanted_.displacement - wanted_.steered * Vec2d(up_.y(), -up_.x());
-  if (wanted_.jumped || step_.stuck) return;
+  if (wanted_.jumped || step_.stuck || !starts_free) return;
   const double least = guaranteed_touch - touch_rounding;
   judgement.ground_missed = any_face([&](const NearPart& part, const NearFace& face) {
     if (!walkable(part, face) || face.separation > least) return false;
@@ -150,6 +150,10 @@ void EndJudge::judge_speed(bool starts_free, StepJudgement& judgement) const {
   const bool excused =
       !starts_free || step_.stuck || step_.dropped || !judgement.crushed.empty() || !judgement.end_overlap.empty();
   if (excused) return;
+  if (wanted_.parts > 1) {  // each part wants another motion
+    judgement.beside_turning = true;
+    return;
+  }
   // A walker follows its ground down over a crest, as far as it is allowed to.
   const bool may_snap = header_.character.snap > 0 && wanted_.from_ground;
   if (goes_freely())

@@ -33,8 +33,8 @@ class EndJudge {
   EndJudge(const TraceHeader& header, const ExactScenery& scenery, const ExactScenery& grown_scenery,
            const TraceStep& step, const Wanted& wanted, const Others& others);
 
-  void judge_ground(const HangingJudge& hanging, StepJudgement& judgement) const;
   /// @param starts_free the step begins inside nothing.
+  void judge_ground(const HangingJudge& hanging, bool starts_free, StepJudgement& judgement) const;
   void judge_speed(bool starts_free, StepJudgement& judgement) const;
 
  private:

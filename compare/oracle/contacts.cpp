@@ -196,7 +196,7 @@ void ContactJudge::add_gaps(StepJudgement& judgement) const {
 
 double ContactJudge::ghost_speed_loss(bool starts_free, const StepJudgement& judgement) const {
   const double wanted = across(step_.requested) / length_of(step_, header_);
-  if (wanted == 0) return 0;
+  if (std::abs(wanted) * length_of(step_, header_) <= rounding_across()) return 0;
   const double loss = std::clamp(1 - across(step_.velocity) / wanted, 0.0, 1.0);
   return loss < least_loss || !starts_free || is_opposed(wanted, judgement) ? 0 : loss;
 }
@@ -205,12 +205,15 @@ double ContactJudge::ghost_speed_loss(bool starts_free, const StepJudgement& jud
 void ContactJudge::measure_motion(bool starts_free, StepJudgement& judgement) const {
   const double wanted = across(step_.requested);
   judgement.motion_wanted = std::abs(wanted);
-  if (wanted == 0 || !starts_free || !judgement.crushed.empty() || step_.capped) return;
+  if (std::abs(wanted) <= rounding_across() || !starts_free || !judgement.crushed.empty() || step_.capped) return;
   const double made = across(step_.path.back().position - step_.path.front().position) + judgement.remainder_made;
   const double lost = std::clamp(std::abs(wanted) - std::copysign(1.0, wanted) * made, 0.0, std::abs(wanted));
   const double rounding = ulp_at(header_, step_.path.front().position) + least_loss * std::abs(wanted);
   if (lost > rounding && !is_opposed(wanted, judgement)) judgement.motion_lost = lost;
 }
+
+/// Of a motion straight along an up that is rounded this much may seem to go across [m].
+double ContactJudge::rounding_across() const { return 1e-12 * step_.requested.norm(); }
 
 /// Whether a solid is in the way of the wanted horizontal motion, from any corner of the path: of the motion as
 /// requested, or at the height that it was left (ground may hold it).

@@ -24,6 +24,7 @@ class ContactJudge {
   [[nodiscard]] Place place(std::size_t corner) const { return {step_.path[corner], step_.movers}; }
   /// The requested displacement relative to what a collider goes along with [m].
   [[nodiscard]] Vec2d wanted(ColliderIndex collider) const;
+  [[nodiscard]] double rounding_across() const;
   [[nodiscard]] double across(const Vec2d& v) const { return v.dot(right_); }
   [[nodiscard]] Side side_of(const ExactImpact& impact) const;
   [[nodiscard]] bool reports(const ExactImpact& impact) const;

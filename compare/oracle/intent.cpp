@@ -35,6 +35,8 @@ void Intent::start_anew(const TraceStep& step) {
   jump_held_ = state.jump_held;
   jump_pending_ = state.jump_pending;
   ride_ = state.ride;
+  // A character that is given another velocity where it is remembers the rest.
+  if (begun_ && step.path.front().position == end_) return;
   pending_left_ = coyote_left_ = 0;
   crushed_ = wall_left_ = wall_right_ = false;
   ground_velocity_ = carrier_velocity_ = Vec2d::Zero();
@@ -105,6 +107,7 @@ Wanted Intent::begin(const TraceStep& step, int parts, const WallAhead& wall_ahe
   const double dt = whole / parts;
   const Vec2d up = up_in(step, *header_);
   Wanted wanted;
+  wanted.parts = parts;
   wanted.from_ground = grounded_;
   const Vec2d own = seen(ride_ ? Vec2d(velocity_ - ride_->velocity) : velocity_, up);
   double walk = own.x();
@@ -131,6 +134,7 @@ Wanted Intent::begin(const TraceStep& step, int parts, const WallAhead& wall_ahe
 }
 
 void Intent::end(const TraceStep& step) {
+  end_ = step.path.back().position;
   velocity_ = step.velocity;
   grounded_ = step.grounded;
   const bool promises = party_of(*header_) == Party::promising;

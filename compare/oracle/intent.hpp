@@ -14,6 +14,7 @@ struct Wanted {
   Vec2d velocity{Vec2d::Zero()};      ///< The same [m/s].
   double steered = 0;                 ///< The part of the displacement across up that steering added [m].
   bool jumped = false;                ///< A jump begins.
+  int parts = 1;                      ///< Shorter steps that the step consists of.
   bool from_ground = false;           ///< It stood when the step began.
 };
 
@@ -52,6 +53,7 @@ class Intent {
 
   const TraceHeader* header_;
   bool begun_ = false;
+  Vec2d end_{Vec2d::Zero()};       ///< Where the step before ended [m].
   Vec2d velocity_{Vec2d::Zero()};  ///< In the world [m/s].
   bool grounded_ = false;
   bool jumping_ = false;

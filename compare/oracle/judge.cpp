@@ -70,7 +70,7 @@ StepJudgement Judge::judge(const TraceStep& step, const Others& others, const Wa
   StepJudgement judgement = judge_exactly(turning_->exact_part(step), all, wanted);
   turning_->judge(step, scenery_, judgement);
   const bool beside = turning_->is_near(step, detail::reach_of(header_).contact);
-  judgement.beside_turning = beside;
+  judgement.beside_turning = judgement.beside_turning || beside;
   judgement.hangs = judgement.hangs && !beside;
   judgement.hovers = judgement.hovers && !beside;
   judgement.ground_refuted = judgement.ground_refuted && !beside;
@@ -373,7 +373,7 @@ void Judge::judge_progress(const TraceStep& step, const Others& others, const Wa
       near_scenery_ =
           std::make_unique<ExactScenery>(scenery_.scenery(), detail::grown(header_.points, detail::contact_reach));
     const detail::EndJudge end(header_, scenery_, *near_scenery_, step, *wanted, others);
-    end.judge_ground(hanging, judgement);
+    end.judge_ground(hanging, starts_free, judgement);
     end.judge_speed(starts_free, judgement);
   } else if (step.grounded) {
     judge_ground(hanging, step, judgement);

@@ -93,6 +93,10 @@ void RunJudge::add(std::span<TraceStep> records) {
     follower.wanted = follower.intent.begin(record, header_.substeps * parts_of(record), wall_ahead);
     judge_wish(record, follower.wanted, follower);
     asked[k] = record;
+    // A character that is given another velocity where it is remembers from which side it came.
+    const bool stays =
+        !follower.last.empty() && follower.last.back().path.back().position == record.path.front().position;
+    asked[k].respawn = record.respawn && !stays;
     if (header_.substeps == 1) {
       asked[k].requested = follower.wanted.displacement;
       asked[k].steered = follower.wanted.steered;
@@ -182,7 +186,8 @@ void RunJudge::judge_course(const TraceStep& record, Follower& follower) {
   for (std::size_t i = 0; i < record.movers.size() && !follower.last.empty(); ++i)
     if (record.movers[i].from != follower.last.back().movers[i].to)
       fault = "a mover begins elsewhere than where the step before left it";
-  follower.begins = follower.begins || record.respawn || !fault.empty();
+  follower.begins =
+      follower.begins || follower.last.empty() || path.front().position != follower.last.back().path.back().position;
   const bool in_lockstep = header_.mode == "lockstep" && header_.guarantees.empty();
   if (!fault.empty() && !in_lockstep) note(Clause::continuity, record, fault);
 }
