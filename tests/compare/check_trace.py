@@ -218,7 +218,8 @@ class Checker:
             self.sides[who] = {}
         if last is None:
             at = vector(self.header["starts"][who]["position"])
-            if start[:2] != at and not step.get("respawn"):
+            rounding = 2.0 ** -23 * (1 + size(at)) if self.header["scalar"] == "float" else 0
+            if not size(less(start, at)) <= rounding and not step.get("respawn"):
                 yield "continuity", f"begins at {show(start)}, not where the scene puts it: {show(at)}"
         elif step.get("respawn"):
             if not self.may_respawn(start, who, last):
