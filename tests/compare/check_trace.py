@@ -106,9 +106,9 @@ class Checker:
         self.count = header.get("characters", 1)
         self.world = World(header)
         self.body, self.colliders = self.world.body, self.world.colliders
-        self.bodies = {by: wider(self.body, by) for by in (GAP, NEAR_DROP, NEAR_PASS)}
+        self.bodies = {by: wider(self.body, by) for by in (GAP, NEAR_DROP, NEAR_PASS, NEARLY)}
         self.ground = Ground(self.world, header["character"]["max_climb_degrees"])
-        self.scripts = Scripts(header, self.colliders)
+        self.scripts = Scripts(header, self.world)
         self.company = Company(self.body)
         self.intents = [Intent(header, start) for start in header["starts"]]
         self.last = {}  # by character: the step before,
@@ -194,7 +194,7 @@ class Checker:
         yield from self.check_start(step, who, last)
         yield from self.check_wanted(step, who, last)
         if self.asks("mover_way") and not same:
-            yield from (("mover_way", words) for words in self.scripts.faults(step.record, step.motion))
+            yield from (("mover_way", words) for words in self.scripts.faults(step.record, step.motion, step.path))
         elif self.asks("mover_way"):
             self.scripts.times(step.record)
         yield from self.check_rest(step, last)
@@ -218,7 +218,8 @@ class Checker:
             self.sides[who] = {}
         if last is None:
             at = vector(self.header["starts"][who]["position"])
-            if start[:2] != at and not step.get("respawn"):
+            rounding = 2.0 ** -23 * (1 + size(at)) if self.header["scalar"] == "float" else 0
+            if not size(less(start, at)) <= rounding and not step.get("respawn"):
                 yield "continuity", f"begins at {show(start)}, not where the scene puts it: {show(at)}"
         elif step.get("respawn"):
             if not self.may_respawn(start, who, last):
@@ -269,19 +270,13 @@ class Checker:
         return any(self.world.met(name, step.motion, step.path[0], (*there, ZERO)) for name in self.world.solids)
 
     def check_rest(self, step, last):
-        if not self.asks("rest") or last is None or step.get("respawn") or any(map(step.motion.goes, step.motion.first_and_last())):
+        step.before = last.record["velocity"] if last else None
+        if not self.asks("rest") or last is None or step.get("respawn") or step.way() == STAYS or self.count > 1:
             return
         before = last.record
-        if before["path"][0][:2] != before["path"][-1][:2] or any(map(last.motion.goes, last.motion.first_and_last())):
-            return
-        repeated = (self.velocity_before(last) == before["velocity"] == step.record["velocity"] and
-                    before["input"] == step.record["input"] and self.count == 1)
-        if repeated and step.way() != STAYS:
+        repeated = last.way() == STAYS and last.before == before["velocity"] == step.record["velocity"]
+        if repeated and before["input"] == step.record["input"] and not self.is_pushed(last) and not self.is_pushed(step):
             yield "rest", f"goes by {show(step.way())} m where position and velocity had repeated"
-
-    @staticmethod
-    def velocity_before(step):
-        return getattr(step, "before", None)
 
     # The way.
 
@@ -393,7 +388,16 @@ class Checker:
         if not corners or not 0 <= contact["fraction"] <= 1:
             yield "contact_invented", f"has a contact with {name} at {contact['fraction']}, outside the step"
             return
-        yield from min((list(self.faults(contact, corner, step, put)) for corner in reversed(corners)), key=len)
+        found = [list(self.faults(contact, corner, step, put)) for corner in reversed(step.path)]
+        in_time = min(found[-len(corners):], key=self.weight)
+        if in_time and not all(found):
+            yield "time_of_impact", f"has a contact with {name} at {contact['fraction']}, and comes to it later"
+        else:
+            yield from in_time
+
+    @staticmethod
+    def weight(faults):
+        return any(clause == "contact_invented" for clause, _ in faults), len(faults)
 
     def faults(self, contact, corner, step, put):
         """Of a contact, if this is the corner where the character stopped before it."""
@@ -441,7 +445,7 @@ class Checker:
         met = min((Fraction(m["fraction"]) for m in step.get("met", [])), default=None)
         if met is not None and met <= first:
             first, contact = met, None  # another character may have turned it aside
-        if motion.first_and_last() and (first == 0 or not step.goes_as_wanted(min(first, path[1][2]))):
+        if self.is_pushed(step) and (first == 0 or not step.goes_as_wanted(min(first, path[1][2]))):
             return  # touched where it began, or pushed aside by a mover from there
         # A last leg without time follows the ground down: its contact is none of the wanted motion.
         follows = path[-1][2] == path[-2][2] == 1 and first == 1
@@ -449,6 +453,13 @@ class Checker:
             if motion.turns(name) or name in step.get("drop", []):
                 continue
             yield from self.check_impact(name, contact, first, follows, step)
+
+    def is_pushed(self, step):
+        """Whether something that moves comes near to the way that was travelled, or wanted."""
+        legs = list(zip(step.path, step.path[1:]))
+        legs.append((step.path[0], (*add(step.path[0][:2], step.wanted), Fraction(1))))
+        return any(step.motion.goes(name) and any(self.world.met(name, step.motion, *leg, self.bodies[NEARLY]) is not False
+                                                  for leg in legs) for name in self.world.solids)
 
     def check_impact(self, name, contact, first, follows, step):
         start = step.motion.seen(name, step.path[0])
@@ -577,7 +588,6 @@ class Checker:
                     return
 
     def check_speed(self, step, who, others):
-        step.before = self.last[who].record["velocity"] if who in self.last else None
         if not self.asks("speed_lost", "velocity"):
             return
         record, frame = step.record, step.frame
@@ -589,32 +599,44 @@ class Checker:
         largest = max(abs(float(x)) for corner in step.path for x in corner[:2])
         rounding = (1e-5 if self.header["scalar"] == "float" else SLOWER) * (1 + math.hypot(*want)) + largest * 1e-14 / step.dt
         normals = [vector(c["normal"]) for c in step.contacts] + [vector(m["normal"]) for m in step.get("met", [])]
+        restored = rounding + 2 * float(GAP) / step.dt  # a gap is kept from what is touched
         if not normals:
-            for what, value in (("way", made), ("speed", have)):
+            for what, value, slack in (("way", made, restored), ("speed", have, rounding)):
                 off = less(value, want)
-                if math.hypot(*off) > rounding:
+                if math.hypot(*off) > slack:
                     slower = off[0] * want[0] + off[1] * want[1] < 0
                     yield "speed_lost" if slower else "velocity", f"touches nothing, and its {what} is {value} m/s, not {want}"
             return
         faces = [(frame.across(n), frame.rise(n)) for n in normals]
-        yield from self.check_loss(step, want, have, made, faces, rounding)
-        if not step.motion.first_and_last() and not step.get("met"):
+        yield from self.check_loss(step, want, have, made, faces, rounding, restored)
+        if not self.is_pushed(step) and "ride" not in record and not step.get("met"):
+            gravity = vector(self.header["gravity"])
+            at_rest = step.steered == 0 and frame.rise(want) <= 0 and step.before is not None and not any(step.before)
+            if at_rest and float(dot(step.way(), gravity)) < -2 * float(GAP) * size(gravity):
+                yield "velocity", f"goes up by {show(step.way())} m from rest, against gravity, and nothing takes it there"
             steepest = math.tan(math.radians(self.header["character"]["max_climb_degrees"]) + 1e-6)
-            climbs = abs(frame.rise(have)) <= abs(frame.across(want)) * steepest + rounding
+            walks = max(abs(frame.across(want)), abs(frame.across(want) - float(step.steered) / step.dt)) + rounding
+            climbs = abs(frame.across(have)) <= walks and abs(frame.rise(have)) <= walks * steepest + rounding
             across = step.frame.world(float(step.steered) / step.dt, 0)
             if math.hypot(*have) > max(math.hypot(*want), math.hypot(*less(want, across))) + rounding and not climbs:
                 yield "velocity", f"comes out at {have} m/s, and wanted {want}"
 
-    def check_loss(self, step, want, have, made, faces, rounding):
+    def check_loss(self, step, want, have, made, faces, rounding, restored):
         frame, walk, rise = step.frame, step.frame.across(want), step.frame.rise(want)
         slope = self.ground.surely_walkable
         steered = float(step.steered)
         opposed = any((across * walk < 0 or across * steered < 0) and up < slope for across, up in faces)
-        way_rounding = rounding + 2 * float(GAP) / step.dt
-        for what, value, slack in (("speed", have, rounding), ("way", made, way_rounding)):
+        between = any(a[0] * b[0] + a[1] * b[1] < 0 for a, b in itertools.combinations(faces, 2))
+        for what, value, slack in (("speed", have, rounding), ("way", made, restored)):
             lost = (walk - frame.across(value)) * math.copysign(1, walk)
-            if lost > slack and not opposed:
-                yield "speed_lost", f"loses {lost} m/s of its {what} across up, and nothing opposes it"
+            if abs(walk) > slack and lost > slack and not opposed and not between:
+                ahead = scaled((step.up[1], -step.up[0]), Fraction(math.copysign(2 * float(GAP), walk)))
+                there = (*add(step.path[-1][:2], ahead), Fraction(1))
+                hidden = [name for name in self.world.solids if self.world.met(name, step.motion, step.path[-1], there)]
+                if hidden:
+                    yield "contact_missed", f"is stopped by {hidden[0]}, and does not name it"
+                else:
+                    yield "speed_lost", f"loses {lost} m/s of its {what} across up, and nothing opposes it"
         climbed = step.began_grounded or step.record["grounded"] or any(up >= slope for _, up in faces)
         side_hit = self.header["character"].get("side_hit_ends_rise") and any(abs(up) < 0.7 for _, up in faces)
         if rise < 0:
