@@ -93,10 +93,11 @@ double Hero::Impl::end_at(const Vec2d& position, std::size_t corner, double shar
 std::pair<double, bool> Hero::Impl::limit_speed(const CharacterState<double>& before, const Vec2d& body_velocity,
                                                 double dt) {
   double most = std::max((report.requested / dt + before.ride.velocity).norm(), state.ride.velocity.norm());
+  const Vec2d middle = before.position + def.character.shape.box().middle();
   bool is_pushed = before.crushed;
   for (const Crusher<double>& crusher : before.crushers)
     if (b2Fixture* fixture = fixtures.fixture_of(crusher.collider); fixtures.is_near(fixture))
-      most = std::max(most, way_of(before.position, fixtures.motion_of(*fixture)) / dt);
+      most = std::max(most, way_of(middle, fixtures.motion_of(*fixture)) / dt);
   for (const Contact<double>& contact : report.move.contacts) {
     b2Fixture& fixture = *fixtures.fixture_of(contact.collider);
     const b2Body& other = *fixture.GetBody();

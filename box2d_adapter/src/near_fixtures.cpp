@@ -194,9 +194,9 @@ void NearFixtures::begin_step(const HeroDef& def, const Vec2d& up, double dt, co
   def_ = &def;
   up_ = up;
   dt_ = dt;
-  middle_ = state.position;
+  middle_ = state.position + def.character.shape.box().middle();
   hull_.clear();
-  for (const Vec2d& corner : def.character.shape.hull()) hull_.emplace_back(middle_ + corner);
+  for (const Vec2d& corner : def.character.shape.hull()) hull_.emplace_back(state.position + corner);
   was_placed_ = !state.has_last_free;
   stood_ = state.grounded;
   touched_.clear();

@@ -5,6 +5,7 @@
 #include "command/complain.hpp"
 #include "command/convert_command.hpp"
 #include "command/demo_command.hpp"
+#include "command/judge_command.hpp"
 #include "command/list_command.hpp"
 #include "command/option_checks.hpp"
 #include "command/options.hpp"
@@ -273,7 +274,11 @@ void add_rows_commands(CLI::App& app, int& status) {
   CLI::App& merge = *app.add_subcommand("merge", "Put rows of several files together: shards of a sweep, or any");
   const auto merged = std::make_shared<RowsWords>();
   merge.add_option("ROWS", merged->files, "Files of rows, .jsonl")->required();
-  merge.add_option("--rows", merged->rows_path, "Where they go")->required()->type_name("FILE.jsonl");
+  merge.add_option("--rows", merged->rows_path, "Where they go")
+      ->required()
+      ->type_name("FILE.jsonl")
+      ->check(expect_file_name())
+      ->check(expect_ending({".jsonl"}));
   on_parsed(merge, status, merged, [](const RowsWords& typed) { return merge_command(typed.files, typed.rows_path); });
 
   CLI::App& diff = *app.add_subcommand("diff", "Name what changed between two files of rows, costs apart");
@@ -281,6 +286,18 @@ void add_rows_commands(CLI::App& app, int& status) {
   diff.add_option("ROWS", differed->files, "Two files of rows, .jsonl: before and after")->required()->expected(2);
   on_parsed(diff, status, differed,
             [](const RowsWords& typed) { return diff_command(typed.files[0], typed.files[1]); });
+}
+
+void add_judge(CLI::App& app, int& status) {
+  CLI::App& command =
+      *app.add_subcommand("judge", "Say of each trace which clauses of the guarantee it breaks, with exact arithmetic");
+  const auto options = std::make_shared<JudgeOptions>();
+  command.add_option("TRACE", options->traces, "Files written by --trace, or by any other program")->required();
+  command.add_flag("--all", options->all_clauses, "Ask for every clause, whatever the trace's contender guarantees");
+  command
+      .add_option("--scene", options->scene, "The scene of the traces: what it says stands instead of their headers")
+      ->type_name("SCENE");
+  on_parsed(command, status, options, [](const JudgeOptions& typed) { return judge_command(typed); });
 }
 
 void add_report(CLI::App& app, int& status) {
@@ -293,7 +310,8 @@ void add_report(CLI::App& app, int& status) {
   command.add_option("FILE", words->page, "Where the page goes")
       ->required()
       ->type_name("FILE.html")
-      ->check(expect_file_name());
+      ->check(expect_file_name())
+      ->check(expect_ending({".html"}));
   command.add_option("ROWS", words->records, "Files of rows (.jsonl, .json), and pages (.html)")->required();
   on_parsed(command, status, words, [](const Words& typed) { return report_command(typed.page, typed.records); });
 }
@@ -383,6 +401,7 @@ int run(int argc, char** argv) {
   add_studies(app, status);
   add_sweep(app, status);
   add_rows_commands(app, status);
+  add_judge(app, status);
   add_report(app, status);
   add_scene_commands(app, status);
   add_demo_and_list(app, status);
@@ -403,6 +422,7 @@ int run(int argc, char** argv) {
 int paperproof::compare::run_command_line(int argc, char** argv) {
   hold_standard_streams();
   std::signal(SIGPIPE, SIG_IGN);
+  remove_unfinished_on_signals();
   try {
     return run(argc, argv);
   } catch (const ClosedPipe&) {

@@ -14,7 +14,9 @@ constexpr std::size_t kept_in_memory = 16;
 }  // namespace
 
 std::vector<std::string> names_from(const std::string& file) {
-  std::istringstream lines(file == "-" ? read_all(std::cin, "--files-from -") : read_file(file, file));
+  const std::string text = file == "-" ? read_all(std::cin, "--files-from -") : read_text(file, file);
+  refuse_zero_bytes(text, "--files-from " + file);
+  std::istringstream lines(text);
   std::vector<std::string> names;
   for (std::string line; std::getline(lines, line);) {
     if (line.ends_with('\r')) line.pop_back();

@@ -1,9 +1,12 @@
 #include "command/list_command.hpp"
 
+#include "command/forecast.hpp"
 #include "records/metric.hpp"
 #include "records/output_file.hpp"
 #include "runs/contestant.hpp"
+#include "runs/input_cursor.hpp"
 #include "runs/knobs.hpp"
+#include "runs/preparation.hpp"
 #include "runs/scene_plan.hpp"
 #include "scenes/describe.hpp"
 #include "scenes/load.hpp"
@@ -18,6 +21,50 @@ namespace {
 std::string parameter_line(const ParameterDef& def) {
   return fmt::format("  {:<26} {} to {}{}{}: {}\n", def.key, def.least, def.most, def.unit.empty() ? "" : " ", def.unit,
                      def.meaning);
+}
+
+/// Why a contender cannot run a scene; empty where it can.
+std::string why_not(std::string_view contender, const Scene& scene, const Scenery<double>& scenery,
+                    const Planning& planning) {
+  try {
+    static_cast<void>(make_contestant(contender, ScalarKind::binary64, scene, scenery, planning));
+  } catch (const std::exception& reason) {
+    return reason.what();
+  }
+  return "";
+}
+
+/// What `compare` will do with a scene: who runs it, and why the others do not.
+std::string describe_contenders(const Scene& scene) {
+  constexpr double longest = 10;  // [s]; who only asks waits no longer
+  const auto names = contender_names();
+  const auto preparation = expected_preparation(scene, {names.begin(), names.end()}, {ScalarKind::binary64});
+  if (preparation && preparation->seconds > longest)
+    return fmt::format("  {:<10} about {} until the first step, so that it was not tried who runs\n", "compare",
+                       duration_in_words(preparation->seconds));
+  const Scenery<double> scenery(scene.scenery);
+  const Script script = script_of(scene);
+  const Planning planning{.full = false, .foreseen = foreseen_in(scene, script), .knobs = {}};
+  std::string cannot_move;
+  try {
+    const InputCursor movers(scene, script);
+  } catch (const NotApplicable& reason) {
+    cannot_move = reason.what();
+  }
+  std::string others;
+  std::size_t running = 0;
+  bool is_guaranteed = false;
+  for (const std::string_view name : names) {
+    const std::string why = cannot_move.empty() ? why_not(name, scene, scenery, planning) : cannot_move;
+    if (why.empty()) {
+      ++running;
+      is_guaranteed = is_guaranteed || name == "octagon_sweep";
+    } else {
+      others += fmt::format("  {:<10} not {}: {}\n", "", name, why);
+    }
+  }
+  return fmt::format("  {:<10} {} of {} contenders run{}\n{}", "compare", running, names.size(),
+                     is_guaranteed ? "" : "; octagon_sweep does not, so that status 0 guarantees nothing", others);
 }
 
 }  // namespace
@@ -51,7 +98,7 @@ int list_command(const std::string& what) {
 
 int check_command(const std::vector<std::string>& scenes) {
   for (const std::string& name : scenes)
-    for (const Scene& scene : load_scenes(name)) print_out(describe(scene) + '\n');
+    for (const Scene& scene : load_scenes(name)) print_out(describe(scene) + describe_contenders(scene) + '\n');
   return 0;
 }
 

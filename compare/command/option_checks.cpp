@@ -43,12 +43,12 @@ CLI::Validator expect_file_name() {
   });
 }
 
-CLI::Validator expect_rows_name() {
-  return unnamed([](const std::string& typed) {
+CLI::Validator expect_ending(const std::vector<std::string>& endings) {
+  return unnamed([endings](const std::string& typed) {
     const std::string extension = std::filesystem::path(typed).extension().string();
-    const bool known = extension.empty() || extension == ".json" || extension == ".jsonl" || extension == ".csv";
+    const bool known = extension.empty() || std::find(endings.begin(), endings.end(), extension) != endings.end();
     return known ? std::string{}
-                 : fmt::format("expected a name that ends in .json, .jsonl or .csv, not {}", shown(typed));
+                 : fmt::format("expected a name that ends in {}, not {}", one_of_words(endings), shown(typed));
   });
 }
 

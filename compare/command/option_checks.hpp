@@ -17,8 +17,8 @@ namespace paperproof::compare {
 /// Anything but nothing: a script whose variable is empty wants to know.
 [[nodiscard]] CLI::Validator expect_file_name();
 
-/// A name for rows: its end says how they are written.
-[[nodiscard]] CLI::Validator expect_rows_name();
+/// A name that ends in one of these, as `.html`, or without an end (a device): the end says what is written.
+[[nodiscard]] CLI::Validator expect_ending(const std::vector<std::string>& endings);
 
 /// Why the arguments cannot be used, in one sentence that begins with the option or argument where there is one.
 /// @param command the one whose arguments were parsed when it happened.

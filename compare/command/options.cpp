@@ -53,10 +53,11 @@ void add_outputs(CLI::App& command, std::string& rows, PagePaths& pages) {
   command.add_option("--rows", rows, "Write all rows to this file; .jsonl grows line by line as results come")
       ->type_name("FILE.json|.jsonl|.csv")
       ->check(expect_file_name())
-      ->check(expect_rows_name());
+      ->check(expect_ending({".json", ".jsonl", ".csv"}));
   command.add_option("--report", pages.report, "Write one self-contained HTML page to this file")
       ->type_name("FILE.html")
-      ->check(expect_file_name());
+      ->check(expect_file_name())
+      ->check(expect_ending({".html"}));
   command.add_option("--svg", pages.svg, "Write each picture to a file of its own in this folder")
       ->type_name("DIR")
       ->check(expect_file_name());

@@ -57,8 +57,8 @@ class PageOfRecords {
     const PageReader page(input);
     try {
       take_page(page);
-    } catch (const ordered_json::exception& reason) {
-      throw InputError(fmt::format("{}: {}", input, reason.what()));
+    } catch (const ordered_json::exception&) {
+      throw InputError(input + ": expected a page that paperproof wrote");
     }
   }
 
@@ -81,14 +81,10 @@ class PageOfRecords {
     RowPictures pictures;
     for (const std::string& input : inputs_) {
       if (input.ends_with(".html")) continue;
-      try {
-        const ordered_json header = for_each_row(input, [&](ordered_json row) { pictures.add(std::move(row)); });
-        if (facts_.environment.empty() && header.contains("environment"))
-          for (const auto& [name, value] : header["environment"].items())
-            facts_.environment.emplace_back(name, value.get<std::string>());
-      } catch (const ordered_json::exception& reason) {
-        throw InputError(fmt::format("{}: {}", input, reason.what()));
-      }
+      const ordered_json header = for_each_row(input, [&](ordered_json row) { pictures.add(std::move(row)); });
+      if (facts_.environment.empty() && header.contains("environment"))
+        for (const auto& [name, value] : header["environment"].items())
+          facts_.environment.emplace_back(name, value.get<std::string>());
     }
     for (const auto& [scene, rows] : pictures.scenes()) writer_.add_scene(scene_index_json(scene, rows), "");
     for (ChartPage& page : pictures.pages()) {

@@ -26,14 +26,20 @@ using nlohmann::ordered_json;
 std::vector<RowsReader*> in_order(const std::vector<std::unique_ptr<RowsReader>>& readers) {
   const ordered_json first = readers.front()->header().value("sweep", ordered_json{});
   if (!first.is_object() || first["shard"][1] == 1) return {};
-  std::vector<RowsReader*> ordered(first["shard"][1].get<std::size_t>());
+  const auto shards = first["shard"][1].get<std::size_t>();
+  const auto incomplete = [&] {
+    return InputError(fmt::format("merge: expected the {} shards of the sweep, each once", shards));
+  };
+  std::vector<RowsReader*> ordered(readers.size());
   for (const std::unique_ptr<RowsReader>& reader : readers) {
     const ordered_json sweep = reader->header().value("sweep", ordered_json{});
     if (!sweep.is_object() || sweep["id"] != first["id"] || sweep["shard"][1] != first["shard"][1]) return {};
-    ordered.at(sweep["shard"][0].get<std::size_t>() - 1) = reader.get();
+    const auto part = sweep["shard"][0].get<std::size_t>();
+    if (part > ordered.size()) throw incomplete();
+    ordered[part - 1] = reader.get();
   }
-  if (readers.size() != ordered.size() || std::find(ordered.begin(), ordered.end(), nullptr) != ordered.end())
-    throw InputError(fmt::format("merge: expected the {} shards of the sweep, each once", ordered.size()));
+  if (readers.size() != shards || std::find(ordered.begin(), ordered.end(), nullptr) != ordered.end())
+    throw incomplete();
   return ordered;
 }
 
@@ -53,10 +59,9 @@ using Rows = std::map<std::string, ordered_json>;
 Rows rows_of(const std::string& path) {
   Rows rows;
   RowsReader reader(path);
-  while (const std::optional<std::string> line = reader.next()) {
-    ordered_json row = ordered_json::parse(*line);
-    std::string name = name_of_row(row);
-    rows.insert_or_assign(std::move(name), std::move(row));
+  while (std::optional<RowLine> line = reader.next()) {
+    std::string name = name_of_row(line->row);
+    rows.insert_or_assign(std::move(name), std::move(line->row));
   }
   return rows;
 }
@@ -101,11 +106,11 @@ int merge_command(const std::vector<std::string>& files, const std::string& rows
     out.write(json_line(header));
     for (std::size_t row = 0; row < cases; ++row) {
       const std::size_t part = row % shards.size();
-      const std::optional<std::string> line = shards[part]->next();
+      const std::optional<RowLine> line = shards[part]->next();
       if (!line)
         throw InputError(fmt::format("merge: shard {}/{} is not complete: row {} is missing; --resume it", part + 1,
                                      shards.size(), row / shards.size() + 1));
-      out.write(*line);
+      out.write(line->text);
     }
     for (RowsReader* shard : shards)
       if (shard->next()) throw InputError("merge: a shard has more rows than there are cases");
@@ -114,9 +119,9 @@ int merge_command(const std::vector<std::string>& files, const std::string& rows
     out.write(json_line(header));
     std::set<std::string> known;
     for (const std::unique_ptr<RowsReader>& reader : readers)
-      while (const std::optional<std::string> line = reader->next()) {
-        const std::string id = ordered_json::parse(*line).value("case", "");
-        if (id.empty() || known.insert(id).second) out.write(*line);
+      while (const std::optional<RowLine> line = reader->next()) {
+        const std::string id = line->row.value("case", "");
+        if (id.empty() || known.insert(id).second) out.write(line->text);
       }
   }
   out.commit();

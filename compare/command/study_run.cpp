@@ -1,13 +1,16 @@
 #include "command/study_run.hpp"
 
+#include "command/complain.hpp"
 #include "command/forecast.hpp"
 #include "command/study_outputs.hpp"
+#include "records/input_file.hpp"
 #include "records/rows_reader.hpp"
 #include "runs/environment.hpp"
 #include "runs/text_columns.hpp"
 #include "scenes/input_error.hpp"
 #include "scenes/load.hpp"
 #include "scenes/parameters.hpp"
+#include "words.hpp"
 
 #include <paperproof/number_in.hpp>
 
@@ -39,16 +42,17 @@ std::size_t cases_in(const std::vector<StudyPart>& parts) {
 
 }  // namespace
 
-StudyRun::Shard StudyRun::parse_shard(const std::string& text) {
+StudyRun::Shard StudyRun::parse_shard(const std::optional<std::string>& typed) {
   Shard shard;
-  if (text.empty()) return shard;
+  if (!typed) return shard;
+  const std::string& text = *typed;
   const std::size_t slash = text.find('/');
   if (slash != std::string::npos) {
     shard.part = number_in<std::size_t>(std::string_view(text).substr(0, slash)).value_or(0);
     shard.of = number_in<std::size_t>(std::string_view(text).substr(slash + 1)).value_or(0);
     if (shard.part >= 1 && shard.part <= shard.of) return shard;
   }
-  refuse("--shard " + text, "expected K/N with K from 1 to N");
+  refuse("--shard " + shown(text), "expected K/N with K from 1 to N");
 }
 
 StudyRun::StudyRun(const RunArguments& arguments, const std::vector<StudyPart>& parts, Visit visit)
@@ -69,24 +73,31 @@ bool StudyRun::goes_on() {
   const std::string& path = arguments_.rows_path;
   if (!arguments_.resume) return false;
   if (!path.ends_with(".jsonl")) throw InputError("--resume: expected --rows FILE.jsonl to go on with");
-  if (!std::filesystem::exists(path) || std::filesystem::file_size(path) == 0) return false;
-  RowsReader reader(path);
+  std::error_code unknown;
+  if (!std::filesystem::exists(path, unknown)) return false;
+  if (const std::string why = why_not_regular(path); !why.empty())
+    throw InputError(fmt::format("--resume: {}: {}", path, why));
+  if (std::filesystem::is_empty(path, unknown)) return false;
+  RowsReader reader(path, RowsReader::LastLine::may_be_cut);
   if (reader.header().value("sweep", ordered_json{}) != header_["sweep"])
     throw InputError("--resume: " + path + " has rows of another sweep or shard");
   const ordered_json built = reader.header().value("environment", ordered_json::object());
   for (const char* key : {"paperproof", "box2d", "compiler", "flags", "build"})
     if (built.value(key, "") != header_["environment"].value(key, ""))
       throw InputError(fmt::format("--resume: {} has rows of another build: {} differs", path, key));
-  while (const std::optional<std::string> line = reader.next()) {
+  while (const std::optional<RowLine> line = reader.next()) {
     if (done_ == count_) throw InputError("--resume: " + path + " has more rows than there are cases");
-    const ordered_json row = ordered_json::parse(*line);
+    const ordered_json& row = line->row;
     const PartCase place = part_case(parts_, shard_.case_of(done_));
     const Sweep& sweep = parts_[place.part].sweep;
     if (!sweep.border && row.value("case", "") != id_of(sweep.at(place.index)))
       throw InputError(fmt::format("{}: row {} is not the case that belongs there", path, done_ + 1));
     note(row);
   }
-  std::filesystem::resize_file(path, reader.end());
+  if (reader.cut_line() > 0 && !arguments_.quiet)
+    complain(fmt::format("{}:{}: this last row is cut short; its case is run again", path, reader.cut_line()));
+  std::filesystem::resize_file(path, reader.end(), unknown);
+  if (unknown) throw std::runtime_error(fmt::format("{}: cannot be written: {}", path, unknown.message()));
   return true;
 }
 

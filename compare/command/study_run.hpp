@@ -21,10 +21,10 @@ namespace paperproof::compare {
 struct RunArguments {
   std::string rows_path;  ///< Empty: none.
   PagePaths pages;
-  std::string log_path;  ///< Of the progress; empty: none.
-  int jobs = 0;          ///< 0: one for each core.
-  int limit_s = 60;      ///< Of one case. A search of lowest speeds is one.
-  std::string shard;     ///< `K/N`; empty: all.
+  std::string log_path;              ///< Of the progress; empty: none.
+  int jobs = 0;                      ///< 0: one for each core.
+  int limit_s = 60;                  ///< Of one case. A search of lowest speeds is one.
+  std::optional<std::string> shard;  ///< `K/N`; absent: all.
   bool resume = false;
   bool quiet = false;
 };
@@ -52,7 +52,7 @@ class StudyRun {
     [[nodiscard]] std::size_t size(std::size_t all) const { return all < part ? 0 : (all - part) / of + 1; }
     [[nodiscard]] std::size_t case_of(std::size_t job) const { return part - 1 + job * of; }
   };
-  static Shard parse_shard(const std::string& text);
+  static Shard parse_shard(const std::optional<std::string>& typed);
 
   /// Takes over the rows of an earlier run. @return whether there was one.
   bool goes_on();

@@ -22,7 +22,7 @@ bool stands_still(const ColliderDef& collider) { return collider.mover == no_mov
 
 Energy::Energy(const TraceHeader& header, const Vec2d& gravity)
     : gravity_(gravity),
-      least_up_(std::cos((header.max_climb_degrees + 1e-3) * std::numbers::pi / 180)),
+      least_up_(std::cos((header.character.max_climb_degrees + 1e-3) * std::numbers::pi / 180)),
       reach_(own_reach(header)),
       characters_(header.characters) {
   const std::vector<ColliderDef>& colliders = header.scenery.colliders;

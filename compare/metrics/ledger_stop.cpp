@@ -57,7 +57,7 @@ double widest_spread(std::span<const MetSurface> surfaces) {
 }  // namespace
 
 std::vector<MetSurface> StepLedger::met_by_mine() const {
-  const double least_up = std::cos(mine_.header->max_climb_degrees * std::numbers::pi / 180) - 1e-12;
+  const double least_up = std::cos(mine_.header->character.max_climb_degrees * std::numbers::pi / 180) - 1e-12;
   std::vector<MetSurface> surfaces;
   for (const Touch& touch : m_.contacts) {
     const bool walkable = touch.normal.y() >= least_up;

@@ -78,6 +78,10 @@ void Metrics::match(const View& view, Matches& matches) const {
     const bool in_time = contains(now.exact, touch) || contains(now.deflected, touch);
     const bool right = in_time || anywhere([&](const Moment& moment) { return contains(moment.exact, touch); });
     const bool ghost = contains(now.ghosts, touch);
+    if (!right && now.held && promises_) {
+      ++matches.stuck;
+      continue;
+    }
     if (!right && contains(now.by_company, touch.first)) {
       ++matches.by_company;
       continue;
@@ -89,6 +93,9 @@ void Metrics::match(const View& view, Matches& matches) const {
       ++(promises_ ? matches.band : matches.reach);
       continue;
     }
+    if (!right) note(now, touch, "reports a contact that is none:", matches.invented);
+    matches.deflected += !sampled_ && !contains(now.exact, touch) && contains(now.deflected, touch);
+    matches.ahead += !sampled_ && contains(now.ahead, touch);
     ++matches.counted;
     matches.right += right;
     matches.late += right && !in_time;
@@ -99,7 +106,7 @@ void Metrics::match(const View& view, Matches& matches) const {
 void Metrics::match_wanted(const View& view, Matches& matches) const {
   const Moment& now = view.now();
   if (now.stuck) {
-    matches.stuck += !promises_ && !now.exact.empty();
+    matches.stuck += !now.exact.empty();
     return;
   }
   for (const Side side : {Side::top, Side::bottom, Side::left, Side::right}) {
@@ -111,6 +118,13 @@ void Metrics::match_wanted(const View& view, Matches& matches) const {
     };
     const bool in_time = reports(now);
     const bool late = !in_time && sampled_ && std::any_of(view.around.begin(), view.around.end(), reports);
+    if (!in_time && !late && now.held && promises_) {
+      ++matches.stuck;
+      continue;
+    }
+    if (!in_time && !late)
+      note(now, *std::find_if(now.exact.begin(), now.exact.end(), of_side),
+           "does not report a contact:", matches.missed);
     ++matches.wanted;
     matches.found += in_time || late;
   }
@@ -122,7 +136,10 @@ void Metrics::add_contacts(const TraceStep& step, const StepJudgement& judgement
                                          .dont_care = judgement.dont_care,
                                          .ghosts = judgement.ghosts,
                                          .stuck = step.stuck && !(promises_ && judgement.stuck_refuted),
+                                         .held = !judgement.crushed.empty() || !step.start_overlap.empty(),
+                                         .step = step.step,
                                          .deflected = judgement.deflected,
+                                         .ahead = judgement.ahead,
                                          .band = judgement.contact_band,
                                          .by_company = judgement.excused_by_company},
                                         [this](const View& view) { match(view, matches_); });
@@ -242,6 +259,7 @@ void Metrics::add_exempted(const StepJudgement& judgement) {
   exempt(Exempt::drawn, !judgement.drawn.empty());
   exempt(Exempt::late_ground, judgement.ground_late);
   exempt(Exempt::touched_crush, judgement.excused_crush);
+  exempt(Exempt::beside_turning, judgement.beside_turning);
 }
 
 void Metrics::add(const TraceStep& step, const StepJudgement& judgement) {
@@ -259,6 +277,27 @@ void Metrics::add(const TraceStep& step, const StepJudgement& judgement) {
   add_progress(step, judgement);
   add_exempted(judgement);
   if (step.requested.x() != 0) raise(sums_.ghost_speed_loss, judgement.ghost_speed_loss);
+}
+
+void Metrics::note(const Moment& moment, const Touch& touch, const char* what, Breach& breach) const {
+  if (breach.steps++ > 0) return;
+  breach.first_step = moment.step;
+  breach.first = std::string(what) + " `" +
+                 (touch.first < ids_.size() ? ids_[touch.first] : std::to_string(touch.first)) + "`, " +
+                 std::string(name_of(touch.second));
+}
+
+/// Those of the last steps included, which have no neighbours after them.
+Metrics::Matches Metrics::all_matches() const {
+  Matches matches = matches_;
+  for (const Follower& follower : followers_) follower.window.last([&](const View& view) { match(view, matches); });
+  return matches;
+}
+
+void Metrics::write_contact_breaches(Breaches& breaches) const {
+  const Matches matches = all_matches();
+  if (matches.missed.steps > 0) breaches[Clause::contact_missed] = matches.missed;
+  if (matches.invented.steps > 0) breaches[Clause::contact_invented] = matches.invented;
 }
 
 void Metrics::write(Row& row) const {
@@ -299,12 +338,11 @@ void Metrics::write(Row& row) const {
   energy_.write(row);
   events_.write(row);
 
-  Matches matches = matches_;
   for (const Follower& follower : followers_) {
     write_the_least_quiet(follower.rest, row);
     follower.smoothness.write(row);
-    follower.window.last([&](const View& view) { match(view, matches); });
   }
+  const Matches matches = all_matches();
   if (matches.counted > 0) row.contact_precision = share(matches.right, matches.counted);
   if (matches.wanted > 0) row.contact_recall = share(matches.found, matches.wanted);
   if (promises_) row.contact_band = matches.band;
@@ -312,7 +350,9 @@ void Metrics::write(Row& row) const {
   for (const auto& [which, often] : {std::pair{Exempt::late_match, matches.late},
                                      {Exempt::reach, matches.reach},
                                      {Exempt::company, matches.by_company},
-                                     {Exempt::stuck, matches.stuck}})
+                                     {Exempt::stuck, matches.stuck},
+                                     {Exempt::deflected, matches.deflected},
+                                     {Exempt::ahead, matches.ahead}})
     if (often > 0) row.exempted[std::string(exemptions()[static_cast<std::size_t>(which)].name)] = often;
 }
 

@@ -10,6 +10,7 @@
 #include "metrics/window.hpp"
 #include "oracle/exemptions.hpp"
 #include "oracle/judge.hpp"
+#include "records/clause.hpp"
 #include "records/row.hpp"
 
 #include <set>
@@ -67,6 +68,8 @@ class Metrics {
  public:
   explicit Metrics(const TraceHeader& header, const Measured& measured = {});
   void add(const TraceStep& step, const StepJudgement& judgement);
+  /// Adds the steps on which contacts were missed or invented.
+  void write_contact_breaches(Breaches& breaches) const;
   /// Fills every metric that applies; leaves verdict, reason, cost and the comparison with Box2D alone.
   void write(Row& row) const;
 
@@ -78,7 +81,10 @@ class Metrics {
     std::vector<ColliderIndex> dont_care;
     std::vector<Touch> ghosts;
     bool stuck = false;
+    bool held = false;  ///< Crushed, as verified, or inside something where it begins.
+    int step = 0;
     std::vector<Touch> deflected{};
+    std::vector<Touch> ahead{};
     std::vector<ColliderIndex> band{};
     std::vector<ColliderIndex> by_company{};
   };
@@ -92,6 +98,10 @@ class Metrics {
     int reach = 0;
     int by_company = 0;
     int stuck = 0;
+    int deflected = 0;
+    int ahead = 0;
+    Breach missed{};
+    Breach invented{};
   };
   using View = detail::Window<Moment>::View;
   /// What is matched from step to step.
@@ -101,6 +111,8 @@ class Metrics {
     Rest rest;
     Smoothness smoothness;
   };
+  [[nodiscard]] Matches all_matches() const;
+  void note(const Moment& moment, const Touch& touch, const char* what, Breach& breach) const;
   void match(const View& view, Matches& matches) const;
   void match_wanted(const View& view, Matches& matches) const;
   void add_progress(const TraceStep& step, const StepJudgement& judgement);

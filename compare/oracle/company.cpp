@@ -69,6 +69,10 @@ Others CompanyJudge::others_of(CharacterIndex character, std::span<const TraceSt
                        [&](const TraceStep& other) { return other.character != character && is(other); });
   };
   Others others;
+  for (const TraceStep& other : steps)
+    if (other.character != character)
+      others.longest_way =
+          std::max({others.longest_way, other.requested.norm(), (end_of(other) - start_of(other)).norm()});
   others.touched = any_other([&](const TraceStep& other) { return may_meet(one, other) && touch(one, other); });
   others.left_free = [this, any_other](Way way) {
     return !any_other([&](const TraceStep& other) {
@@ -88,17 +92,17 @@ Others CompanyJudge::others_of(CharacterIndex character, std::span<const TraceSt
   return others;
 }
 
-/// At a corner of either's way.
-bool CompanyJudge::touch(const TraceStep& one, const TraceStep& other) const {
-  const auto near = [this](const Vec2d& mine, const Vec2d& theirs) { return pair_.separation(mine, theirs) <= reach_; };
-  return std::any_of(one.path.begin(), one.path.end(),
-                     [&](const PathPoint<double>& corner) {
-                       return near(corner.position, place_at(other.path, corner.fraction));
-                     }) ||
-         std::any_of(other.path.begin(), other.path.end(), [&](const PathPoint<double>& corner) {
-           return near(place_at(one.path, corner.fraction), corner.position);
-         });
+double CompanyJudge::nearest(const TraceStep& one, const TraceStep& other) const {
+  double gap = std::numeric_limits<double>::infinity();
+  const auto look = [&](const Vec2d& mine, const Vec2d& theirs) {
+    gap = std::min(gap, pair_.separation(mine, theirs));
+  };
+  for (const PathPoint<double>& corner : one.path) look(corner.position, place_at(other.path, corner.fraction));
+  for (const PathPoint<double>& corner : other.path) look(place_at(one.path, corner.fraction), corner.position);
+  return gap;
 }
+
+bool CompanyJudge::touch(const TraceStep& one, const TraceStep& other) const { return nearest(one, other) <= reach_; }
 
 bool CompanyJudge::continues(const TraceStep& step) const {
   return !step.respawn && !last_ends_.empty() && last_ends_[step.character] == start_of(step);

@@ -41,6 +41,9 @@ class CompanyJudge {
   [[nodiscard]] std::vector<CharacterIndex> overlapped(std::span<const Vec2d> positions,
                                                        CharacterIndex character) const;
 
+  /// The smallest separation of two characters at a corner of either's way [m].
+  [[nodiscard]] double nearest(const TraceStep& one, const TraceStep& other) const;
+
   /// What the others mean for one of them that is crushed: see `Judge`.
   /// @param steps of all of them, in order; not copied.
   [[nodiscard]] Others others_of(CharacterIndex character, std::span<const TraceStep> steps) const;

@@ -1,9 +1,11 @@
 #include "oracle/contacts.hpp"
 
+#include "oracle/claims.hpp"
 #include "oracle/exemptions.hpp"
 #include "oracle/hanging.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -20,9 +22,16 @@ constexpr double same_face = 0.9;
 /// A smaller share of the speed is rounding: Box2D's floats have 24 bits.
 constexpr double least_loss = 1e-5;
 
+/// Of the character as it stands. What rounding leaves of a component that is zero is none.
+Side side_along(const Vec2d& normal, const Vec2d& up) {
+  constexpr double rounding = 1e-12;
+  const auto clean = [](double component) { return std::abs(component) <= rounding ? 0 : component; };
+  return side_of_normal(clean(normal.x() * up.y() - normal.y() * up.x()), clean(normal.dot(up)));
+}
+
 /// Of one collider and side there may be several normals: two slopes of one polygon.
-void add_contact(const ExactImpact& impact, double fraction, StepJudgement& judgement, bool foreseen = false) {
-  const Side side = side_of_normal(impact.normal.x(), impact.normal.y());
+void add_contact(const ExactImpact& impact, Side side, double fraction, StepJudgement& judgement,
+                 bool foreseen = false) {
   for (ExactContact& known : judgement.contacts) {
     if (known.collider != impact.collider || known.side != side || known.normal != impact.normal) continue;
     known.fraction = std::min(known.fraction, fraction);
@@ -39,13 +48,17 @@ double degrees_between(const Vec2d& a, const Vec2d& b) {
 
 }  // namespace
 
-ContactJudge::ContactJudge(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step)
+ContactJudge::ContactJudge(const TraceHeader& header, const ExactScenery& scenery, const ExactScenery* grown_scenery,
+                           const TraceStep& step)
     : header_(header),
       scenery_(scenery),
+      grown_scenery_(grown_scenery),
       step_(step),
+      up_(up_in(step, header)),
+      right_(up_.y(), -up_.x()),
       promises_(party_of(header) == Party::promising),
-      touch_(promises_ ? tolerance_named(header, "touch") : own_reach(header)),
-      hit_(std::max(hit_reach, tolerance_named(header, "unit"))) {}
+      touch_(promises_ ? guaranteed_touch : own_reach(header)),
+      hit_(promises_ ? hit_reach : std::max(hit_reach, tolerance_named(header, "unit"))) {}
 
 Vec2d ContactJudge::wanted(ColliderIndex collider) const {
   const MoverIndex mover = scenery_.scenery().colliders[collider].mover;
@@ -67,7 +80,10 @@ void ContactJudge::judge(bool starts_free, StepJudgement& judgement) const {
     if (!header_.path_exact && !end) continue;
     if (i > 0 && step_.movers.empty() && position == step_.path[i - 1].position) continue;
     std::vector<ExactImpact> impacts = scenery_.impacts(place(i), step_.requested);
-    std::erase_if(impacts, [this](const ExactImpact& impact) { return dropped_through(impact.collider); });
+    // What is overlapped already is left, not met.
+    std::erase_if(impacts, [&](const ExactImpact& impact) {
+      return dropped_through(impact.collider) || (header_.path_exact && scenery_.overlaps(place(i), impact.collider));
+    });
     if (i == 0) {
       for (const ExactImpact& impact : impacts) met.push_back(impact.collider);
       add_first_impacts(impacts, starts_free, judgement);
@@ -83,11 +99,13 @@ void ContactJudge::judge(bool starts_free, StepJudgement& judgement) const {
       if (has_face(contact)) judgement.faced.emplace_back(contact.collider, contact.side);
   measure_motion(starts_free, judgement);
   // What a crush stops is not stopped by nothing.
-  if (judgement.crushed.empty()) judgement.ghost_speed_loss = ghost_speed_loss(starts_free);
+  if (judgement.crushed.empty()) judgement.ghost_speed_loss = ghost_speed_loss(starts_free, judgement);
 }
 
+Side ContactJudge::side_of(const ExactImpact& impact) const { return side_along(impact.normal, up_); }
+
 bool ContactJudge::reports(const ExactImpact& impact) const {
-  const Side side = side_of_normal(impact.normal.x(), impact.normal.y());
+  const Side side = side_of(impact);
   return std::any_of(step_.contacts.begin(), step_.contacts.end(), [&](const Contact<double>& contact) {
     return contact.collider == impact.collider && contact.side == side;
   });
@@ -99,13 +117,18 @@ void ContactJudge::add_contacts_at(const std::vector<ExactImpact>& impacts, doub
   // What the step only comes near to is entered in the next one, if the motion goes on.
   const auto is_met = [&](const ExactImpact& impact) {
     return !header_.path_exact || impact.fraction + Rational(fraction) <= 1 ||
-           std::find(met.begin(), met.end(), impact.collider) != met.end();
+           (fraction < 1 && std::find(met.begin(), met.end(), impact.collider) != met.end());
   };
   for (const ExactImpact& impact : impacts) {
     const double way = static_cast<double>(impact.fraction) * std::abs(wanted(impact.collider).dot(impact.normal));
     if (way > contact_reach) continue;
     if (impact.exposed && (is_met(impact) || reports(impact))) {
-      add_contact(impact, fraction, judgement);
+      const auto is_it = [&](const ExactContact& known) {
+        return known.collider == impact.collider && known.side == side_of(impact);
+      };
+      const bool known = std::any_of(judgement.contacts.begin(), judgement.contacts.end(), is_it);
+      add_contact(impact, side_of(impact), fraction, judgement);
+      if (!known && !is_met(impact)) judgement.ahead.emplace_back(impact.collider, side_of(impact));
     } else {
       judgement.dont_care.push_back(impact.collider);
     }
@@ -117,19 +140,38 @@ void ContactJudge::add_first_impacts(const std::vector<ExactImpact>& impacts, bo
   const auto first = std::min_element(impacts.begin(), impacts.end(), [](const ExactImpact& a, const ExactImpact& b) {
     return a.fraction < b.fraction;
   });
-  if (first == impacts.end()) return;
+  if (first == impacts.end() || is_closed_before(*first)) return;
   for (const ExactImpact& impact : impacts) {
     if (impact.fraction != first->fraction || !impact.exposed) continue;
-    add_contact(impact, static_cast<double>(impact.fraction), judgement, true);
+    add_contact(impact, side_of(impact), static_cast<double>(impact.fraction), judgement, true);
   }
   if (!starts_free) return;
   const double fraction = static_cast<double>(first->fraction);
   const Vec2d relative = wanted(first->collider);
   const double approach = std::abs(relative.dot(first->normal));
   judgement.first_impact = fraction;
+  if (!step_.stuck && !gives_way()) judgement.first_approach = approach;
   judgement.first_impact_comparable = !step_.stuck && !gives_way() &&
                                       fraction * approach > (header_.path_exact ? contact_reach : box2d_skin) &&
                                       approach >= least_approach * relative.norm();
+}
+
+/// Whether the way to the first impact leads through an opening that counts as closed, or past a rim that is nearer
+/// than a contact may be.
+bool ContactJudge::is_closed_before(const ExactImpact& first) const {
+  if (grown_scenery_ == nullptr) return false;
+  const Place start = place(0);
+  const double fraction = static_cast<double>(first.fraction);
+  const double along = std::abs(wanted(first.collider).dot(first.normal));
+  if (!(along * fraction > 2 * contact_reach)) return false;  // it is at the start
+  const double until = fraction - 2 * contact_reach / along;
+  const Place there(start.position + step_.requested * until, step_.movers, until);
+  const std::vector<ColliderIndex> touched = grown_scenery_->overlapped(start);
+  const std::vector<ColliderIndex> met = grown_scenery_->met(start, there);
+  return std::any_of(met.begin(), met.end(), [&](ColliderIndex collider) {
+    return collider != first.collider && std::find(touched.begin(), touched.end(), collider) == touched.end() &&
+           !dropped_through(collider);
+  });
 }
 
 /// Whether its way, from the start, is not the requested one: a mover would leave it no room there.
@@ -156,34 +198,46 @@ void ContactJudge::add_gaps(StepJudgement& judgement) const {
   }
 }
 
-double ContactJudge::ghost_speed_loss(bool starts_free) const {
-  const double wanted = step_.requested.x() / length_of(step_, header_);
-  if (wanted == 0) return 0;
-  const double loss = std::clamp(1 - step_.velocity.x() / wanted, 0.0, 1.0);
-  return loss < least_loss || !starts_free || is_opposed(wanted) ? 0 : loss;
+double ContactJudge::ghost_speed_loss(bool starts_free, const StepJudgement& judgement) const {
+  const double wanted = across(step_.requested) / length_of(step_, header_);
+  if (std::abs(wanted) * length_of(step_, header_) <= rounding_across()) return 0;
+  const double loss = std::clamp(1 - across(step_.velocity) / wanted, 0.0, 1.0);
+  return loss < least_loss || !starts_free || is_opposed(wanted, judgement) ? 0 : loss;
 }
 
 /// What is missing of the wanted horizontal displacement, and whether something exact is in the way of it.
 void ContactJudge::measure_motion(bool starts_free, StepJudgement& judgement) const {
-  const double wanted = step_.requested.x();
+  const double wanted = across(step_.requested);
   judgement.motion_wanted = std::abs(wanted);
-  if (wanted == 0 || !starts_free || !judgement.crushed.empty() || step_.capped) return;
-  const double made = step_.path.back().position.x() - step_.path.front().position.x() + judgement.remainder_made;
+  if (std::abs(wanted) <= rounding_across() || !starts_free || !judgement.crushed.empty() || step_.capped) return;
+  const double made = across(step_.path.back().position - step_.path.front().position) + judgement.remainder_made;
   const double lost = std::clamp(std::abs(wanted) - std::copysign(1.0, wanted) * made, 0.0, std::abs(wanted));
   const double rounding = ulp_at(header_, step_.path.front().position) + least_loss * std::abs(wanted);
-  if (lost > rounding && !is_opposed(wanted)) judgement.motion_lost = lost;
+  if (lost > rounding && !is_opposed(wanted, judgement)) judgement.motion_lost = lost;
 }
+
+/// Of a motion straight along an up that is rounded this much may seem to go across [m].
+double ContactJudge::rounding_across() const { return 1e-12 * step_.requested.norm(); }
 
 /// Whether a solid is in the way of the wanted horizontal motion, from any corner of the path: of the motion as
 /// requested, or at the height that it was left (ground may hold it).
-bool ContactJudge::is_opposed(double wanted) const {
+bool ContactJudge::is_opposed(double wanted, const StepJudgement& judgement) const {
+  // A contact that exact arithmetic has, or that an exact one deflected the motion into, may take it.
+  for (const Contact<double>& contact : step_.contacts) {
+    const auto is_it = [&](const auto& one) { return one.collider == contact.collider && one.side == contact.side; };
+    const std::pair touch(contact.collider, contact.side);
+    const bool confirmed =
+        std::any_of(judgement.contacts.begin(), judgement.contacts.end(), is_it) ||
+        std::find(judgement.deflected.begin(), judgement.deflected.end(), touch) != judgement.deflected.end();
+    if (promises_ && confirmed && across(contact.normal) * wanted < 0 && has_face(contact)) return true;
+  }
   const double beyond = std::copysign(promises_ ? contact_reach : own_reach(header_), wanted);
-  const double rise = step_.path.back().position.y() - step_.path.front().position.y();
-  for (const double up : {step_.requested.y(), rise}) {
-    const Vec2d motion(step_.requested.x() + beyond, up);
+  const double rise = (step_.path.back().position - step_.path.front().position).dot(up_);
+  for (const double up : {step_.requested.dot(up_), rise}) {
+    const Vec2d motion = right_ * (across(step_.requested) + beyond) + up_ * up;
     for (std::size_t i = 0; i < step_.path.size(); ++i) {
       for (const ExactImpact& impact : scenery_.impacts(place(i), motion)) {
-        if (impact.exposed && impact.normal.x() * wanted < 0) return true;
+        if (impact.exposed && across(impact.normal) * wanted < 0) return true;
       }
     }
   }
@@ -208,7 +262,7 @@ void ContactJudge::add_normal_error(StepJudgement& judgement) const {
 /// Box2D pushes out of what is within its skin: whether a reported contact against the motion has a real face there.
 bool ContactJudge::pushed_by_skin(double wanted) const {
   return std::any_of(step_.contacts.begin(), step_.contacts.end(), [&](const Contact<double>& contact) {
-    return contact.normal.x() * wanted < 0 && has_face(contact);
+    return across(contact.normal) * wanted < 0 && has_face(contact);
   });
 }
 
@@ -228,9 +282,9 @@ std::optional<Vec2d> ContactJudge::face_of(const Contact<double>& contact) const
   return most_alike;
 }
 
-/// Whether the way that was travelled leads against the reported normal, and stops there, on ground: it was followed.
+/// Whether the way that was travelled leads against the reported normal, and stops there: what an earlier contact left
+/// of the motion was stopped, or ground was followed.
 bool ContactJudge::ran_into(const Contact<double>& contact) const {
-  if (!is_walkable(contact.normal, header_)) return false;
   for (std::size_t i = 1; i < step_.path.size(); ++i) {
     const Vec2d leg = step_.path[i].position - step_.path[i - 1].position;
     if (contact.normal.dot(leg) < 0 && scenery_.separation(place(i), contact.collider) <= contact_reach) return true;
@@ -250,13 +304,19 @@ void ContactJudge::add_ghosts(StepJudgement& judgement) const {
 /// corner of a wall and a slope, pushing down along the slope: it runs along the slope and into the wall; what is left
 /// of it falls onto the slope.)
 bool ContactJudge::met_after_another(const Contact<double>& contact, const StepJudgement& judgement) const {
-  const Vec2d& d = step_.requested;
-  const Vec2d own = d - wanted(contact.collider);
+  const Vec2d own = step_.requested - wanted(contact.collider);
+  const Vec2d unsteered = step_.requested - step_.steered * right_;
+  // A steep face takes steering out of the motion, and an impact the momentum across up.
+  const std::array<Vec2d, 4> left_over{step_.requested, unsteered, up_ * step_.requested.dot(up_),
+                                       right_ * step_.requested.dot(right_)};
+  const auto leads_in = [&](const Vec2d& d, const ExactContact& one) {
+    const Vec2d along = d - one.normal * std::min(0.0, (d - own).dot(one.normal)) - own;
+    return std::min({contact.normal.dot(along), contact.normal.dot(right_) * (d - own).dot(right_),
+                     contact.normal.dot(up_) * (d - own).dot(up_)}) < 0;
+  };
   const bool deflected =
       std::any_of(judgement.contacts.begin(), judgement.contacts.end(), [&](const ExactContact& one) {
-        const Vec2d along = d - one.normal * wanted(one.collider).dot(one.normal) - own;
-        return std::min({contact.normal.dot(along), contact.normal.x() * (d.x() - own.x()),
-                         contact.normal.y() * (d.y() - own.y())}) < 0;
+        return std::any_of(left_over.begin(), left_over.end(), [&](const Vec2d& d) { return leads_in(d, one); });
       });
   return deflected && nearest(contact.collider) <= contact_reach;
 }

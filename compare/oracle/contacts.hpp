@@ -12,7 +12,10 @@ inline constexpr double contact_reach = 1e-6;
 /// Judges the contacts of one step: see `Judge` for what each answer means. Lives for one step.
 class ContactJudge {
  public:
-  ContactJudge(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step);
+  /// @param grown_scenery the same for an octagon that is larger by `least_clearance`; null for a contender that
+  /// promises nothing.
+  ContactJudge(const TraceHeader& header, const ExactScenery& scenery, const ExactScenery* grown_scenery,
+               const TraceStep& step);
   void judge(bool starts_free, StepJudgement& judgement) const;
   /// How much of the wanted horizontal motion was lost to nothing; `judge` asks it, too.
   void measure_motion(bool starts_free, StepJudgement& judgement) const;
@@ -21,6 +24,9 @@ class ContactJudge {
   [[nodiscard]] Place place(std::size_t corner) const { return {step_.path[corner], step_.movers}; }
   /// The requested displacement relative to what a collider goes along with [m].
   [[nodiscard]] Vec2d wanted(ColliderIndex collider) const;
+  [[nodiscard]] double rounding_across() const;
+  [[nodiscard]] double across(const Vec2d& v) const { return v.dot(right_); }
+  [[nodiscard]] Side side_of(const ExactImpact& impact) const;
   [[nodiscard]] bool reports(const ExactImpact& impact) const;
   void add_contacts_at(const std::vector<ExactImpact>& impacts, double fraction, std::span<const ColliderIndex> met,
                        StepJudgement& judgement) const;
@@ -28,8 +34,8 @@ class ContactJudge {
   void add_gaps(StepJudgement& judgement) const;
   void add_dont_care(StepJudgement& judgement) const;
   void add_ghosts(StepJudgement& judgement) const;
-  [[nodiscard]] double ghost_speed_loss(bool starts_free) const;
-  [[nodiscard]] bool is_opposed(double wanted) const;
+  [[nodiscard]] double ghost_speed_loss(bool starts_free, const StepJudgement& judgement) const;
+  [[nodiscard]] bool is_opposed(double wanted, const StepJudgement& judgement) const;
   void add_normal_error(StepJudgement& judgement) const;
   [[nodiscard]] bool pushed_by_skin(double wanted) const;
   [[nodiscard]] std::optional<Vec2d> face_of(const Contact<double>& contact) const;
@@ -39,11 +45,15 @@ class ContactJudge {
   [[nodiscard]] bool comes_near(const Contact<double>& contact) const;
   [[nodiscard]] bool dropped_through(ColliderIndex collider) const;
   [[nodiscard]] bool gives_way() const;
+  [[nodiscard]] bool is_closed_before(const ExactImpact& first) const;
   [[nodiscard]] double nearest(ColliderIndex collider) const;
 
   const TraceHeader& header_;
   const ExactScenery& scenery_;
+  const ExactScenery* grown_scenery_;
   const TraceStep& step_;
+  Vec2d up_;       ///< Of the character in this step,
+  Vec2d right_;    ///< and across it.
   bool promises_;  ///< See `Party::promising`.
   double touch_;   ///< Up to this gap the contender may hold a contact that it has [m].
   double hit_;     ///< Below this gap at the end of the motion it may call it a contact already [m].

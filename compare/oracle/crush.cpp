@@ -6,42 +6,53 @@
 namespace paperproof::compare::detail {
 namespace {
 
-/// What the controller may keep from a contact on top of what the mover pushes [m].
-constexpr double beyond_travel = 1e-6;
-
-/// The ways from one corner to the end of the step.
+/// The straight ways from one place of the travelled way to the end of the step.
 class Departure {
  public:
-  Departure(const ExactScenery& scenery, const ExactScenery& grown_scenery, std::span<const Place> path,
+  /// @param way to the place where they begin, which is its last.
+  /// @param corner the last corner of the travelled way that belongs to it.
+  Departure(const ExactScenery& scenery, const ExactScenery& grown_scenery, std::span<const Place> way,
             std::size_t corner, const Meetings& meetings)
       : scenery_(scenery),
         grown_scenery_(grown_scenery),
-        from_(path[corner]),
+        from_(way.back()),
         inside_(scenery.overlapped(from_)),
         near_(grown_scenery.overlapped(from_)) {
-    for (const Place& place : path.first(corner + 1)) way_.push_back({place.position, place.fraction});
+    for (const Place& place : way) way_.push_back({place.position, place.fraction});
     for (const auto& [collider, free] : meetings.before) {
       if (free) sides_.emplace_back(collider, *free);
     }
     for (const auto& [collider, first] : meetings.within_step) {
-      if (first < corner && !meetings.before.contains(collider)) sides_.emplace_back(collider, path[first]);
+      if (first < corner && !meetings.before.contains(collider)) sides_.emplace_back(collider, way[first]);
     }
   }
 
+  [[nodiscard]] std::optional<Vec2d> room(const Place& end, double reach, const Others& characters) const {
+    const auto can_go_there = [&](const Vec2d& position) {
+      const Place there(position, end.movers, end.fraction);
+      return (position - end.position).norm() <= reach && reaches(there) &&
+             (!characters.left_free || characters.left_free(way_to(position)));
+    };
+    const WayQuestion question{
+        .from = from_, .end = end, .may_pass = inside_, .sides = sides_, .wider = grown_scenery_.points()};
+    return scenery_.find_free(question, reach, least_clearance, can_go_there);
+  }
+
+ private:
   /// Whether a straight uniform motion comes to `there` without meeting a solid. Of what was met before it must not
   /// come out on another side.
-  [[nodiscard]] bool reaches(const Place& there) {
-    // What was in the way to one place mostly is in the way to the next, too.
-    if (last_met_ && scenery_.meets(from_, there, *last_met_)) return false;
-    for (const auto& [collider, free] : sides_) {
-      if (scenery_.meets(free, there, collider)) return false;
-    }
-    for (const ColliderIndex collider : scenery_.met(from_, there)) {
-      if (std::find(inside_.begin(), inside_.end(), collider) != inside_.end()) continue;
-      last_met_ = collider;
-      return false;
-    }
-    return keeps_clear(there);
+  [[nodiscard]] bool reaches(const Place& there) const {
+    const std::vector<ColliderIndex> met = scenery_.met(from_, there);
+    return std::includes(inside_.begin(), inside_.end(), met.begin(), met.end()) && keeps_clear(there) &&
+           std::none_of(sides_.begin(), sides_.end(),
+                        [&](const auto& side) { return scenery_.meets(side.second, there, side.first); });
+  }
+
+  /// Whether the way comes no nearer than `least_clearance` to what is farther away where it begins: what passes a rim
+  /// nearer than that may be stopped there.
+  [[nodiscard]] bool keeps_clear(const Place& there) const {
+    const std::vector<ColliderIndex> approached = grown_scenery_.met(from_, there);
+    return std::includes(near_.begin(), near_.end(), approached.begin(), approached.end());
   }
 
   /// The whole way of the step, if it goes straight from here.
@@ -51,25 +62,34 @@ class Departure {
     return way;
   }
 
- private:
-  /// Whether the way comes no nearer than `least_clearance` to what is farther away where it begins: what passes a rim
-  /// nearer than that may be stopped there.
-  [[nodiscard]] bool keeps_clear(const Place& there) const {
-    const std::vector<ColliderIndex> approached = grown_scenery_.met(from_, there);
-    return std::all_of(approached.begin(), approached.end(), [this](ColliderIndex collider) {
-      return std::find(near_.begin(), near_.end(), collider) != near_.end();
-    });
-  }
-
   const ExactScenery& scenery_;
   const ExactScenery& grown_scenery_;
-  const Place& from_;
+  Place from_;
   std::vector<PathPoint<double>> way_;  ///< Up to there.
   std::vector<ColliderIndex> inside_;
   std::vector<ColliderIndex> near_;                     ///< Nearer than `least_clearance`.
   std::vector<std::pair<ColliderIndex, Place>> sides_;  ///< What was met, with the last place free of it.
-  std::optional<ColliderIndex> last_met_;
 };
+
+/// Where on a leg the first of some colliders is touched, as late as that is known to be before; or none.
+std::optional<Place> touched_on(const ExactScenery& scenery, const Place& from, const Place& to,
+                                std::span<const ColliderIndex> colliders) {
+  /// A share of the way that rounding stays below.
+  constexpr double earlier = 1e-12;
+  double first = 1;
+  for (const ColliderIndex collider : colliders) {
+    if (const auto impact = scenery.impact_between(from, to, collider))
+      first = std::min(first, static_cast<double>(impact->fraction) - earlier);
+  }
+  if (!(first > 0 && first < 1)) return std::nullopt;
+  const Place there(from.position + first * (to.position - from.position), from.movers,
+                    from.fraction + first * (to.fraction - from.fraction));
+  if (!(there.fraction < 1)) return std::nullopt;
+  const std::vector<ColliderIndex> inside = scenery.overlapped(from);
+  const std::vector<ColliderIndex> met = scenery.met(from, there);
+  if (!std::includes(inside.begin(), inside.end(), met.begin(), met.end())) return std::nullopt;
+  return there;
+}
 
 }  // namespace
 
@@ -97,33 +117,27 @@ std::optional<Vec2d> find_room(const ExactScenery& scenery, const ExactScenery& 
                                std::span<const Place> path, std::span<const ColliderIndex> crushed,
                                const Meetings& meetings, const Others& characters) {
   const Place& end = path.back();
-  double travel = 0;
-  std::vector<Vec2d> others;
-  for (const ColliderIndex collider : crushed) {
-    const MoverIndex mover = scenery.scenery().colliders[collider].mover;
-    if (mover == no_mover) continue;
-    travel = std::max(travel, (end.movers[mover].to - end.movers[mover].from).norm());
-    // Where it would be if it went along with the mover from some corner on.
-    for (const Place& corner : path) others.push_back(corner.position + (end.offset(mover) - corner.offset(mover)));
-  }
-  for (const Place& corner : path) others.push_back(corner.position);
+  double motion = 0;
   // What leaves the way later has been pressed into already, and where the step ends there is no time to go anywhere.
   std::size_t last = path.size();
   for (const ColliderIndex collider : crushed) {
+    const MoverIndex mover = scenery.scenery().colliders[collider].mover;
+    if (mover != no_mover) motion = std::max(motion, (end.movers[mover].to - end.movers[mover].from).norm());
     const auto first = meetings.within_step.find(collider);
     if (first != meetings.within_step.end()) last = std::min(last, first->second);
   }
-  std::vector<Departure> departures;
+  const double reach = motion + push_beyond_motion;
+  std::vector<Place> way;
   for (std::size_t corner = 0; corner < path.size() && corner <= last && path[corner].fraction < 1; ++corner) {
-    departures.emplace_back(scenery, grown_scenery, path, corner, meetings);
+    way.push_back(path[corner]);
+    if (const auto room = Departure(scenery, grown_scenery, way, corner, meetings).room(end, reach, characters))
+      return room;
   }
-  const auto can_go_there = [&](const Vec2d& position) {
-    const Place there(position, end.movers, end.fraction);
-    return std::any_of(departures.begin(), departures.end(), [&](Departure& one) {
-      return one.reaches(there) && (!characters.left_free || characters.left_free(one.way_to(position)));
-    });
-  };
-  return scenery.find_free(end, travel + beyond_travel, least_clearance, others, can_go_there);
+  if (way.size() != last + 1 || last + 1 >= path.size()) return std::nullopt;
+  const std::optional<Place> touched = touched_on(scenery, path[last], path[last + 1], crushed);
+  if (!touched) return std::nullopt;
+  way.push_back(*touched);
+  return Departure(scenery, grown_scenery, way, last, meetings).room(end, reach, characters);
 }
 
 }  // namespace paperproof::compare::detail

@@ -15,7 +15,8 @@ struct Others {
   /// Whether they leave free a way of the whole step, from fraction 0 to 1, and the place where it ends. Empty where
   /// there are none.
   std::function<bool(std::span<const PathPoint<double>> way)> left_free{};
-  bool touched = false;  ///< One of them touched it during the step.
+  double longest_way = 0;  ///< That one of them is asked to go, or goes, in the step [m].
+  bool touched = false;    ///< One of them touched it during the step.
 };
 
 }  // namespace paperproof::compare
@@ -32,6 +33,10 @@ struct Meetings {
 
 /// Half of the narrowest opening that is asked for [m].
 inline constexpr double least_clearance = 1e-7;
+/// How much farther than what crushes goes a way to a free place may be, and the place still is room [m]: what pushes
+/// may push as far. Zero: a press that is not quite level crushes beside free space. Large: it is promised that a
+/// character is thrown aside by metres.
+inline constexpr double push_beyond_motion = 0.25;
 
 /// A convex shape with every side moved out.
 /// @param hull its corners in order. @param by so far [m].

@@ -1,7 +1,6 @@
 #include "oracle/exact.hpp"
 
 #include "oracle/depth.hpp"
-#include "oracle/free_space.hpp"
 #include "oracle/impact.hpp"
 #include "oracle/sensor.hpp"
 #include "oracle/way_out.hpp"
@@ -145,36 +144,51 @@ struct ExactScenery::Impl {
     }
   }
 
-  /// Whether a position keeps at least `clearance` from an obstacle.
-  [[nodiscard]] bool keeps_clear(const detail::Obstacle& obstacle, const Vec2d& position, double clearance) const {
+  /// Whether a position keeps at least `clearance` from a barrier, at the moment when the ways end.
+  [[nodiscard]] bool keeps_clear(const detail::Barrier& barrier, const Vec2d& position, double clearance) const {
     /// Boxes that are this far apart leave any clearance along the best axis, unless a corner is sharper than 0.01°
     /// [m].
     const double surely_clear = 1e4 * clearance;
-    detail::FramePlace place = obstacle.place;
+    detail::FramePlace place = barrier.end;
     place.position = position;
     const Vec2d seen = place.rounded();
     const Box2<double>& octagon = world.points_box();
     const Box2<double> around{seen + octagon.lower, seen + octagon.upper};
-    if (!obstacle.part->box.overlaps(around.inflated(surely_clear))) return true;
-    return detail::best_axis(*obstacle.exact, world.points(), place).separation >= clearance;
+    if (!barrier.part->box.overlaps(around.inflated(surely_clear))) return true;
+    return detail::best_axis(*barrier.exact, world.points(), place).separation >= clearance;
   }
 
-  /// Everything that may bar a way from `at` that is no longer than `reach`.
-  [[nodiscard]] std::vector<detail::Barrier> barriers(const Place& at, std::span<const ColliderIndex> near,
-                                                      std::span<const ColliderIndex> inside, double reach) const {
+  /// Everything that may bar a straight way of the question that is no longer than `reach`.
+  [[nodiscard]] std::vector<detail::Barrier> barriers(const WayQuestion& question, double reach) const {
     std::vector<detail::Barrier> all;
-    for (const ColliderIndex collider : near) {
-      const detail::FramePlace place = seen_from(collider, at);
-      const Box2<double> within = world.box_of(Way::stay(place)).inflated(reach);
-      const bool one_way = world.solids()[collider].kind == detail::Kind::one_way;
-      const bool may_pass = std::find(inside.begin(), inside.end(), collider) != inside.end();
-      for (const detail::ConvexPart& part : parts[collider]) {
-        if (!part.box.overlaps(within) || (one_way && !starts_above(part, place, collider))) continue;
-        all.push_back({{outline(part), place, &part},
-                       one_way    ? detail::Bars::ways
-                       : may_pass ? detail::Bars::ends
-                                  : detail::Bars::ways_and_ends});
+    const auto passable = [&](ColliderIndex collider) {
+      return std::find(question.may_pass.begin(), question.may_pass.end(), collider) != question.may_pass.end();
+    };
+    for (const detail::Group& group : world.groups()) {
+      if (group.sensor) continue;
+      const detail::FramePlace from = seen_from(group, question.from);
+      const detail::FramePlace end =
+          seen_from(group, Place(question.from.position, question.end.movers, question.end.fraction));
+      const Box2<double> within = world.box_of(Way::to(from, end)).inflated(reach);
+      for (const ColliderIndex collider : group.solid_tree.meeting(within)) {
+        const bool one_way = world.solids()[collider].kind == detail::Kind::one_way;
+        for (const detail::ConvexPart& part : parts[collider]) {
+          if (!part.box.overlaps(within)) continue;
+          detail::Barrier barrier{outline(part), &part, end, !one_way, {}, {}};
+          if (one_way ? starts_above(part, from, collider) : !passable(collider)) {
+            barrier.from = from;
+            const bool near = question.wider.empty() || detail::best_axis(part, question.wider, from).separation < 0;
+            barrier.shape = near ? std::span<const Vec2d>(world.points()) : question.wider;
+          }
+          if (barrier.from || barrier.bars_ends) all.push_back(barrier);
+        }
       }
+    }
+    for (const auto& [collider, free] : question.sides) {
+      const detail::FramePlace end =
+          seen_from(collider, Place(question.from.position, question.end.movers, question.end.fraction));
+      for (const detail::ConvexPart& part : parts[collider])
+        all.push_back({outline(part), &part, end, false, seen_from(collider, free), world.points()});
     }
     return all;
   }
@@ -332,29 +346,20 @@ std::vector<ExactSensorEvent> ExactScenery::sensor_events(std::span<const Place>
   return events;
 }
 
-std::optional<Vec2d> ExactScenery::find_free(const Place& at, double reach, double clearance,
-                                             std::span<const Vec2d> others,
+std::optional<Vec2d> ExactScenery::find_free(const WayQuestion& question, double reach, double clearance,
                                              const std::function<bool(const Vec2d&)>& accept) const {
-  std::vector<detail::Obstacle> obstacles;
-  std::vector<Vec2d> also(others.begin(), others.end());
-  for (const ColliderIndex collider : near(at, at, reach + 2 * clearance)) {
-    if (scenery().colliders[collider].one_way) continue;
-    for (const detail::ConvexPart& part : impl_->parts[collider]) {
-      const detail::FramePlace place = impl_->seen_from(collider, at);
-      obstacles.push_back({impl_->outline(part), place, &part});
-      if (part.radius == 0) continue;
-      const detail::Axis out = detail::best_axis(part, impl_->world.points(), place);
-      also.push_back(at.position + out.normal * (1.005 * clearance - out.separation));
-    }
-  }
-  const auto is_free = [&](const Vec2d& position) {
-    return std::all_of(obstacles.begin(), obstacles.end(), [&](const detail::Obstacle& obstacle) {
-      return impl_->keeps_clear(obstacle, position, clearance);
+  /// So much more clearance the search keeps, so that a place still has all of it after rounding.
+  constexpr double margin = 1.005;
+  /// The same for the edges of shadows [m].
+  constexpr double beside = 1e-9;
+  const std::vector<detail::Barrier> barriers = impl_->barriers(question, reach + 2 * clearance);
+  const detail::EndSearch search{.reach = reach, .clearance = margin * clearance, .beside = beside};
+  for (const Vec2d& way : detail::ends_of_ways(barriers, impl_->world.points(), search)) {
+    const Vec2d position = question.from.position + way;
+    const bool free = std::all_of(barriers.begin(), barriers.end(), [&](const detail::Barrier& barrier) {
+      return !barrier.bars_ends || impl_->keeps_clear(barrier, position, clearance);
     });
-  };
-  for (const Vec2d& position :
-       detail::free_candidates(obstacles, impl_->world.points(), at.position, reach, clearance, also)) {
-    if (is_free(position) && accept(position)) return position;
+    if (free && accept(position)) return position;
   }
   return std::nullopt;
 }
@@ -379,14 +384,16 @@ std::optional<Vec2d> ExactScenery::way_out(const Place& at, double reach) const 
   }
   const double whole = std::min(reach, farthest + size.norm());
   for (double radius = std::min(whole, size.maxCoeff());; radius = std::min(whole, 2 * radius)) {
-    const std::vector<ColliderIndex> colliders = near(at, at, radius + 2 * clearance);
-    const std::vector<detail::Barrier> barriers = impl_->barriers(at, colliders, inside, radius + 2 * clearance);
-    for (const Vec2d& end :
-         detail::ways_out(barriers, impl_->world.points(), at.position, radius, 2 * clearance, 1.5 * beside)) {
+    const std::vector<detail::Barrier> barriers =
+        impl_->barriers({.from = at, .end = at, .may_pass = inside}, radius + 2 * clearance);
+    const detail::EndSearch search{
+        .reach = radius, .clearance = 2 * clearance, .beside = 1.5 * beside, .from_inside_only = true};
+    for (const Vec2d& out : detail::ends_of_ways(barriers, impl_->world.points(), search)) {
+      const Vec2d end = at.position + out;
       const Vec2d way = (end - at.position).normalized();
       const Vec2d aside = Vec2d(-way.y(), way.x()) * beside;
       const bool free = std::all_of(barriers.begin(), barriers.end(), [&](const detail::Barrier& barrier) {
-        return barrier.bars == detail::Bars::ways || impl_->keeps_clear(barrier.obstacle, end, clearance);
+        return !barrier.bars_ends || impl_->keeps_clear(barrier, end, clearance);
       });
       if (free && open(end) && open(end + aside) && open(end - aside)) return end;
     }
@@ -395,6 +402,8 @@ std::optional<Vec2d> ExactScenery::way_out(const Place& at, double reach) const 
 }
 
 const SceneryDef& ExactScenery::scenery() const noexcept { return impl_->world.scenery(); }
+
+std::span<const Vec2d> ExactScenery::points() const noexcept { return impl_->world.points(); }
 
 std::uint64_t ExactScenery::rational_decisions() const noexcept { return impl_->world.exact_decisions(); }
 

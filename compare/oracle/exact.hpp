@@ -69,6 +69,7 @@ struct NearPart {
   ColliderIndex collider = 0;
   Vec2d moved{Vec2d::Zero()};   ///< By its mover in the whole step [m].
   std::vector<NearFace> faces;  ///< All along which they are apart, the farthest first; the best alone on overlap.
+  double unsure = 0;            ///< So much farther than `moved` it may come along a normal [m]: of what turns.
 };
 
 /// The octagon's interior came to overlap a sensor's, or ceased to.
@@ -77,6 +78,19 @@ struct ExactSensorEvent {
   ColliderIndex sensor = 0;
   Change change = Change::enter;
   Rational fraction;  ///< Of the step, in [0, 1].
+};
+
+/// Which straight ways to free places are asked for. What moves goes on meanwhile.
+struct WayQuestion {
+  Place from;
+  Place end;  ///< The moment when the ways end. Its position does not matter.
+  /// What the ways may pass, and only not end in.
+  std::span<const ColliderIndex> may_pass{};
+  /// What is on the far side of a collider, seen from a place, is no end.
+  std::span<const std::pair<ColliderIndex, Place>> sides{};
+  /// A shape around the octagon that the ways must be wide enough for, but beside what this shape overlaps where they
+  /// begin. Empty: the octagon.
+  std::span<const Vec2d> wider{};
 };
 
 /// The solids of one run with the exact questions that can be asked of them. The octagon at position p is the exact sum
@@ -146,13 +160,11 @@ class ExactScenery {
   /// is overlapped where the way begins was entered before.
   [[nodiscard]] std::vector<ExactSensorEvent> sensor_events(std::span<const Place> path) const;
 
-  /// A place not farther than `reach` from `at`, at the same moment, that keeps at least `clearance` [m] from every
-  /// solid along its best axis (exactly), and that `accept` takes; or none. It looks, nearest first, at `at` itself, at
-  /// `others`, and at all corners of the space that is free with 0.5 % more clearance, and feet of perpendiculars from
-  /// `at` to its edges: the nearest free place of all is one of them. A circle counts as a polygon that
-  /// encloses it and reaches 0.12 % of its radius beyond it: beside a circle the place may be so much too far away.
-  [[nodiscard]] std::optional<Vec2d> find_free(const Place& at, double reach, double clearance,
-                                               std::span<const Vec2d> others,
+  /// Where a straight way ends, not farther than `reach` from where it begins, that keeps at least `clearance` [m] from
+  /// every solid at its end, along its best axis (exactly), and that `accept` takes; or none. It asks `accept` the
+  /// nearest first. Where only what the question bars is in the way, it misses none but by rounding, and beside a
+  /// circle: that counts as a polygon that encloses it and reaches 0.12 % of its radius beyond it.
+  [[nodiscard]] std::optional<Vec2d> find_free(const WayQuestion& question, double reach, double clearance,
                                                const std::function<bool(const Vec2d&)>& accept) const;
 
   /// Where the shortest straight way out ends of all colliders that are `overlapped` at `at`; or none within `reach`
@@ -170,6 +182,8 @@ class ExactScenery {
   [[nodiscard]] std::optional<Vec2d> way_out(const Place& at, double reach) const;
 
   [[nodiscard]] const SceneryDef& scenery() const noexcept;
+  /// The hull of the character.
+  [[nodiscard]] std::span<const Vec2d> points() const noexcept;
 
   /// How many decisions the floating-point filter could not make for certain and exact arithmetic had to.
   [[nodiscard]] std::uint64_t rational_decisions() const noexcept;

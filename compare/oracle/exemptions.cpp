@@ -14,7 +14,7 @@ namespace {
 constexpr double least_reach = 1e-6;
 
 //                                                                 octagon_sweep  Box2D          by units  others
-constexpr std::array<Exemption, 9> all_exemptions{{
+constexpr std::array<Exemption, 13> all_exemptions{{
     {Exempt::corner_cut,
      "corner_cut",
      "passes a solid with a rim of the octagon no deeper than this (and an eighth of its width)",
@@ -36,7 +36,11 @@ constexpr std::array<Exemption, 9> all_exemptions{{
      "touches another character, and reports or misses contacts with scenery",
      "",
      {0, 1, 1, 1}},
-    {Exempt::stuck, "stuck", "says that it is stuck, and misses contacts", "", {0, 1, 1, 1}},
+    {Exempt::stuck,
+     "stuck",
+     "is stuck, crushed or begins inside something, and misses or invents contacts",
+     "",
+     {1, 1, 1, 1}},
     {Exempt::touched_crush,
      "touched_crush",
      "says that it is crushed with room left, touched by another character",
@@ -52,6 +56,22 @@ constexpr std::array<Exemption, 9> all_exemptions{{
      "is inside, or passes, pixels no deeper than this: it is drawn on whole pixels, and the octagon is not",
      "m",
      {0, 0, its_pixel, 0}},
+    {Exempt::deflected,
+     "deflected",
+     "reports a contact that the requested motion has not, but what an exact contact leaves of it",
+     "",
+     {1, 0, 1, 1}},
+    {Exempt::ahead,
+     "ahead",
+     "reports a contact with what is this near along the normal, and met in the next step only",
+     "m",
+     {1e-6, 0, 1e-6, 1e-6}},
+    {Exempt::far, "far", "begins or goes farther than this, and breaks a clause", "m", {1e6, 0, 0, 0}},
+    {Exempt::beside_turning,
+     "beside_turning",
+     "is within this of what turns: whether it hangs, stands or loses speed there is not asked",
+     "m",
+     {1e-6, box2d_skin, its_own, its_own}},
 }};
 
 std::string size_in_words(const Exemption& exemption, Party party) {
@@ -68,8 +88,8 @@ std::string size_in_words(const Exemption& exemption, Party party) {
 }  // namespace
 
 Party party_of(const TraceHeader& header) {
+  if (!header.guarantees.empty() || is_guaranteed(header.contender, header.scalar)) return Party::promising;
   if (!header.path_exact) return Party::sampled;
-  if (is_guaranteed(header.contender, header.scalar)) return Party::promising;
   return tolerance_named(header, "unit") > 0 ? Party::by_units : Party::computing;
 }
 

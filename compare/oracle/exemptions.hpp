@@ -15,7 +15,7 @@ inline constexpr double box2d_skin = 0.020;
 
 /// Who is treated alike.
 enum class Party : std::uint8_t {
-  promising,  ///< octagon_sweep in double: it is excused nothing.
+  promising,  ///< It guarantees something: octagon_sweep in double.
   sampled,    ///< Its path is known by samples: Box2D.
   by_units,   ///< It searches or moves by units.
   computing,  ///< All others: bounding_box, discrete, float.
@@ -31,7 +31,11 @@ enum class Exempt : std::uint8_t {
   stuck,
   touched_crush,
   late_ground,
-  drawn
+  drawn,
+  deflected,
+  ahead,
+  far,
+  beside_turning
 };
 
 struct Exemption {

@@ -19,6 +19,7 @@ struct Meeting {
   Kind kind = Kind::apart;
   double low = 0;  ///< Fractions of the step, rounded.
   double high = 0;
+  bool by_second = false;  ///< Halving could not tell, and `second_meeting` did.
 };
 
 /// What is asked for: `whether` stops at the first overlap that is found, `when` closes in on the first one there is.
@@ -30,8 +31,8 @@ enum class Asked : std::uint8_t { whether, when };
 /// sees it, make a product of degree 2 (of an edge of the octagon: 1) in the time, with rational coefficients. Where no
 /// product of one edge is negative in a span of time, that edge separates the two all along. Where none does, the
 /// middle of the span is looked at: if no edge separates them there, they overlap; else both halves are asked in turn,
-/// down to 2^-45 of what goes straight. Every sign is tried in doubles that know their rounding, and decided in
-/// integers where these do not.
+/// down to 2^-45 of what goes straight, and in no more than 4096 spans of it. Every sign is tried in doubles that know
+/// their rounding, and decided in integers where these do not.
 /// @param octagon convex, counter-clockwise, without repeated points; relative to the position.
 /// @param path of the position, ascending in fractions of the step; a single corner asks about that moment.
 /// @param way its instants hold those of the path. @param part the numbers of its vertices in `way`, counter-clockwise

@@ -25,7 +25,7 @@ double area_of(const Vec2d& a, const Vec2d& b) { return a.x() * b.y() - a.y() * 
 }  // namespace
 
 bool is_walkable(const Vec2d& normal, const TraceHeader& header, const Vec2d& up) {
-  return normal.dot(up) >= std::cos(header.max_climb_degrees * std::numbers::pi / 180 + climb_margin);
+  return normal.dot(up) >= std::cos(header.character.max_climb_degrees * std::numbers::pi / 180 + climb_margin);
 }
 
 Reach reach_of(const TraceHeader& header) {
@@ -78,6 +78,22 @@ bool HangingJudge::has_support(std::size_t corner, double within) const {
   });
 }
 
+bool HangingJudge::is_held_at_end(double within) const {
+  Vec2d unsteered = step_.requested - step_.steered * Vec2d(up_.y(), -up_.x());
+  // A rise that ends in a wedge is held there by what pulls it down.
+  const double dt = length_of(step_, header_);
+  if (!(unsteered.dot(up_) < 0)) unsteered = gravity_in(step_, header_) * (dt * dt);
+  if (!(unsteered.dot(up_) < 0)) return false;
+  std::vector<Obstacle> obstacles;
+  for (const NearPart& part : parts_near(step_.path.size() - 1, within)) {
+    obstacles.emplace_back();
+    for (const NearFace& face : part.faces)
+      obstacles.back().push_back({face.normal, face.normal.dot(part.moved), face.separation});
+  }
+  const Vec2d free = nearest_free(unsteered, obstacles, exact_reach.opening);
+  return -free.dot(up_) <= std::max(least_fall, ulp_at(header_, step_.path.back().position));
+}
+
 void HangingJudge::Nearby::add(const Nearby& other) {
   obstacles.insert(obstacles.end(), other.obstacles.begin(), other.obstacles.end());
   holds = holds || other.holds;
@@ -92,7 +108,7 @@ std::vector<HangingJudge::Nearby> HangingJudge::near_corners(const Reach& reach)
       nearby.holds = nearby.holds || part.faces.front().separation < -reach.contact || is_ground(part);
       Obstacle obstacle;
       for (const NearFace& face : part.faces)
-        obstacle.push_back({face.normal, face.normal.dot(part.moved), face.separation});
+        obstacle.push_back({face.normal, face.normal.dot(part.moved) + part.unsure, face.separation});
       nearby.obstacles.push_back(std::move(obstacle));
     }
   }

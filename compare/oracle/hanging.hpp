@@ -32,6 +32,8 @@ class HangingJudge {
   [[nodiscard]] bool hangs(const Vec2d& made, const Reach& reach) const;
   /// Whether a face that looks upwards is no farther away, or anything is overlapped, at a corner of the step's way.
   [[nodiscard]] bool has_support(std::size_t corner, double within) const;
+  /// Whether what is no farther away where the step ends lets the unsteered motion go no way down: a wedge.
+  [[nodiscard]] bool is_held_at_end(double within) const;
 
  private:
   /// The displacements that stay outside an obstacle, beyond one of its faces: normal · d >= bound.

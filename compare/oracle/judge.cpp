@@ -1,6 +1,7 @@
 #include "oracle/judge.hpp"
 
 #include "contains.hpp"
+#include "oracle/claims.hpp"
 #include "oracle/contacts.hpp"
 #include "oracle/exemptions.hpp"
 #include "oracle/hanging.hpp"
@@ -51,8 +52,8 @@ std::vector<ColliderIndex> Judge::overlapped(const TraceStep& step) const {
   return all;
 }
 
-StepJudgement Judge::judge(const TraceStep& step, const Others& others) {
-  if (!turning_->any()) return judge_exactly(step, others);
+StepJudgement Judge::judge(const TraceStep& step, const Others& others, const Wanted* wanted) {
+  if (!turning_->any()) return judge_exactly(step, others, wanted);
   Others all = others;
   all.left_free = [&](std::span<const PathPoint<double>> way) {
     return turning_->left_free(step, way) && (!others.left_free || others.left_free(way));
@@ -66,13 +67,16 @@ StepJudgement Judge::judge(const TraceStep& step, const Others& others) {
              (!others.left_free || others.left_free(std::vector<PathPoint<double>>{{start.position, 0}, {out, 1}}));
     });
   }
-  StepJudgement judgement = judge_exactly(turning_->exact_part(step), all);
+  StepJudgement judgement = judge_exactly(turning_->exact_part(step), all, wanted);
   turning_->judge(step, scenery_, judgement);
   const bool beside = turning_->is_near(step, detail::reach_of(header_).contact);
+  judgement.beside_turning = judgement.beside_turning || beside;
   judgement.hangs = judgement.hangs && !beside;
   judgement.hovers = judgement.hovers && !beside;
   judgement.ground_refuted = judgement.ground_refuted && !beside;
   judgement.ground_late = judgement.ground_late && !beside;
+  judgement.ground_missed = judgement.ground_missed && !beside;
+  if (beside) judgement.speed_lost = judgement.speed_gained = 0;
   judgement.stuck_refuted = inside ? freed : judgement.stuck_refuted && !beside;
   const auto bends = [](const VertexWay& way) { return way.instants.size() > 2; };
   const bool in_parts = header_.path_exact && std::any_of(step.vertex_ways.begin(), step.vertex_ways.end(), bends);
@@ -81,7 +85,7 @@ StepJudgement Judge::judge(const TraceStep& step, const Others& others) {
   return judgement;
 }
 
-StepJudgement Judge::judge_exactly(const TraceStep& step, const Others& others) {
+StepJudgement Judge::judge_exactly(const TraceStep& step, const Others& others, const Wanted* wanted) {
   if (step.movers.size() < mover_count_) throw std::invalid_argument("a step needs the motion of every mover");
   if (!others.near && repeats(step)) return last_->second;  // others may have gone
   dt_ = length_of(step, header_);
@@ -96,14 +100,15 @@ StepJudgement Judge::judge_exactly(const TraceStep& step, const Others& others) 
   if (!starts_free || !step.contacts.empty() || !step.crushed.empty() || !alone(path, step)) {
     judgement.end_overlap = scenery_.overlapped(path.back());
     judge_way(path, step, others, judgement);
-    detail::ContactJudge(header_, scenery_, step).judge(starts_free, judgement);
+    detail::ContactJudge(header_, scenery_, promises_ ? grown_scenery() : nullptr, step).judge(starts_free, judgement);
   } else {
-    detail::ContactJudge(header_, scenery_, step).measure_motion(starts_free, judgement);
+    detail::ContactJudge(header_, scenery_, promises_ ? grown_scenery() : nullptr, step)
+        .measure_motion(starts_free, judgement);
   }
   if (has_sensors_) judge_sensors(path, step, judgement);
   if (step.stuck && starts_free)
     judgement.stuck_refuted = judgement.end_overlap.empty() || has_way_out(path.back(), others);
-  judge_progress(step, others, judgement);
+  judge_progress(step, others, wanted, starts_free, judgement);
   last_end_.emplace(path.back());
   last_.reset();
   if (path.size() == 1 && inside_.empty() && step.remainder == remainder_before_) last_.emplace(step, judgement);
@@ -145,9 +150,9 @@ bool Judge::repeats(const TraceStep& step) const {
     return a.collider == b.collider && a.normal == b.normal;
   };
   return step.dt == last.dt && step.requested == last.requested && step.steered == last.steered &&
-         step.velocity == last.velocity && step.remainder == last.remainder && step.stuck == last.stuck &&
-         step.crushed == last.crushed && step.dropped_through == last.dropped_through && step.sensors.empty() &&
-         last.sensors.empty() &&
+         step.velocity == last.velocity && step.grounded == last.grounded && step.remainder == last.remainder &&
+         step.stuck == last.stuck && step.crushed == last.crushed && step.dropped_through == last.dropped_through &&
+         step.sensors.empty() && last.sensors.empty() &&
          std::equal(step.movers.begin(), step.movers.end(), last.movers.begin(), last.movers.end(), same_motion) &&
          std::equal(step.path.begin(), step.path.end(), last.path.begin(), last.path.end(), same_corner) &&
          std::equal(step.contacts.begin(), step.contacts.end(), last.contacts.begin(), last.contacts.end(),
@@ -299,6 +304,14 @@ double Judge::depth_of(const Path& path, ColliderIndex collider) const {
   return deepest;
 }
 
+/// For an octagon that is larger by `least_clearance`.
+const ExactScenery* Judge::grown_scenery() {
+  if (!grown_scenery_)
+    grown_scenery_ =
+        std::make_unique<ExactScenery>(scenery_.scenery(), detail::grown(header_.points, detail::least_clearance));
+  return grown_scenery_.get();
+}
+
 /// Overlapped where the step ends, deeper than by rounding, and in no earlier step.
 std::vector<ColliderIndex> Judge::newly_inside(const StepJudgement& judgement) const {
   std::vector<ColliderIndex> entered = judgement.end_overlap;
@@ -336,10 +349,7 @@ void Judge::judge_crushes(const Path& path, const TraceStep& step, const Touched
     std::optional<Place>& free = meetings.before[collider];
     if (episode.free_from) free = episode.free_from->place();
   }
-  if (!grown_scenery_)
-    grown_scenery_ =
-        std::make_unique<ExactScenery>(scenery_.scenery(), detail::grown(header_.points, detail::least_clearance));
-  judgement.room = detail::find_room(scenery_, *grown_scenery_, path, pressing, meetings, others);
+  judgement.room = detail::find_room(scenery_, *grown_scenery(), path, pressing, meetings, others);
   // One mover may press the octagon after another that goes away more slowly.
   const bool pressed = std::any_of(step.crushed.begin(), step.crushed.end(), comes_closer);
   for (const ColliderIndex collider : step.crushed) {
@@ -355,16 +365,26 @@ void Judge::judge_crushes(const Path& path, const TraceStep& step, const Touched
         judgement.crushed.push_back(collider);
 }
 
-void Judge::judge_progress(const TraceStep& step, const Others& others, StepJudgement& judgement) {
-  const detail::HangingJudge hanging(header_, scenery_, step, others);
-  if (step.grounded) judge_ground(hanging, step, judgement);
+void Judge::judge_progress(const TraceStep& step, const Others& others, const Wanted* wanted, bool starts_free,
+                           StepJudgement& judgement) {
+  const detail::HangingJudge hanging(header_, scenery_, step, others, up_in(step, header_));
+  if (promises_ && wanted != nullptr) {
+    if (!near_scenery_)
+      near_scenery_ =
+          std::make_unique<ExactScenery>(scenery_.scenery(), detail::grown(header_.points, detail::contact_reach));
+    const detail::EndJudge end(header_, scenery_, *near_scenery_, step, *wanted, others);
+    end.judge_ground(hanging, starts_free, judgement);
+    end.judge_speed(starts_free, judgement);
+  } else if (step.grounded) {
+    judge_ground(hanging, step, judgement);
+  }
   if (!judgement.crushed.empty()) return;
   const Vec2d before = step.respawn ? step.remainder : remainder_before_;
   const Vec2d made = step.path.back().position - step.path.front().position + step.remainder - before;
   const detail::Reach own = detail::reach_of(header_);
   judgement.hangs = hanging.hangs(made, own);
-  judgement.hovers =
-      own.contact > detail::exact_reach.contact && !judgement.hangs && hanging.hangs(made, detail::exact_reach);
+  judgement.hovers = judgement.hovers || (own.contact > detail::exact_reach.contact && !judgement.hangs &&
+                                          hanging.hangs(made, detail::exact_reach));
 }
 
 void Judge::judge_ground(const detail::HangingJudge& hanging, const TraceStep& step, StepJudgement& judgement) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "oracle/crush.hpp"
+#include "oracle/intent.hpp"
 #include "records/trace.hpp"
 
 #include <map>
@@ -57,6 +58,8 @@ struct StepJudgement {
   std::vector<ColliderIndex> contact_band;
   /// Reported contacts that no requested motion has, but what an exact contact leaves of it: right all the same.
   std::vector<std::pair<ColliderIndex, Side>> deflected;
+  /// Reported contacts that are no farther than 1e-6 m, and met by the requested motion only after this step.
+  std::vector<std::pair<ColliderIndex, Side>> ahead;
   /// Reported contacts along whose normal a face is there to be touched; asked among several characters.
   std::vector<std::pair<ColliderIndex, Side>> faced;
   /// Not confirmed because another character was touched.
@@ -66,7 +69,10 @@ struct StepJudgement {
   std::vector<std::pair<ColliderIndex, Side>> ghosts;
   std::optional<double> first_impact;    ///< Exact fraction of the first impact of the requested motion, started free.
   bool first_impact_comparable = false;  ///< A reported fraction can be held against it: see `Judge`.
-  bool hangs = false;                    ///< It could have fallen, and did not: see `Judge`.
+  /// How far the requested motion goes against the normal of the first impact, where it goes as requested until then
+  /// [m].
+  std::optional<double> first_approach;
+  bool hangs = false;           ///< It could have fallen, and did not: see `Judge`.
   bool hovers = false;          ///< Only surfaces farther than 1e-6 m away, within the contender's own reach, hold it.
   double remainder_made = 0;    ///< Horizontally, taken up by a grid to be made later [m].
   double motion_wanted = 0;     ///< Horizontally [m].
@@ -74,6 +80,10 @@ struct StepJudgement {
   bool stuck_refuted = false;   ///< It said that it is stuck, and there is a way out: see `Judge`.
   bool ground_refuted = false;  ///< It said that it is grounded, and nothing is under it: see `Judge`.
   bool ground_late = false;     ///< The same, but something was under it earlier in the step: excused.
+  bool beside_turning = false;  ///< Something that turns is within reach: what is above is not asked there.
+  bool ground_missed = false;   ///< It touches ground that it does not leave, and says that it is not grounded.
+  double speed_lost = 0;        ///< Of the wanted velocity, with nothing exact that took it [m/s].
+  double speed_gained = 0;      ///< More than the wanted velocity and what is touched can give [m/s].
   double ghost_speed_loss = 0;  ///< Share of the wanted horizontal speed that was lost to nothing exact, in [0, 1].
   std::vector<ExactSensorEvent> sensor_events;  ///< What should have been reported.
   int sensor_events_missing = 0;                ///< Of `sensor_events`.
@@ -91,8 +101,11 @@ struct StepJudgement {
     [[nodiscard]] bool broke() const { return !entered.empty() || !passed.empty(); }
   };
   Company company{};
-  /// Solids that turn of which it could not be told whether the step met them: see `detail::TurningJudge`.
+  /// Solids that turn of which only the second method could tell whether the step met them: see
+  /// `detail::TurningJudge`.
   std::vector<ColliderIndex> undecided{};
+  /// Solids that turn of which the two methods say different things: an error of the judge, and never excused.
+  std::vector<ColliderIndex> methods_disagree{};
   /// Of a contact with what turns, where it began: how far the reported fraction is from the first touch [steps].
   std::optional<double> turning_toi_error{};
   std::optional<CharacterIndex> first_met;  ///< Whom `first_impact` is with, if that is no collider.
@@ -124,10 +137,12 @@ struct StepJudgement {
 ///
 /// **Crushed.** A mover that the contender names as crushing is excused, and what it is pressed into stays excused
 /// until the octagon is free of it, if exact arithmetic finds no room. Room is a position at the end of the step
-/// - not farther from the octagon's than the longest way of the movers that are named, and 1e-6 m;
+/// - not farther than the longest motion of the movers that are named, and 0.25 m (`detail::push_beyond_motion`), from
+///   where the way to it begins, and from the octagon's: how far it went by itself is no push;
 /// - with a clearance of at least 1e-7 m to every solid, so that no opening under 2e-7 m is asked for;
 /// - reached from a corner of the way that was travelled, no later than where the first leg begins that meets one of
-///   those named (no way that leaves later undoes what has been pressed in), by a straight uniform motion until the end
+///   those named, or from where that leg touches it (no way that leaves later undoes what has been pressed in), by a
+///   straight uniform motion until the end
 ///   of the step that meets no solid but what is overlapped at that corner, and comes no nearer than 1e-7 m (each side
 ///   of the octagon moved out by so much) to what is farther away there: who passes a rim nearer than that may be
 ///   stopped at it. And no solid that was met before lies between the last place free of it and there: on its far side
@@ -229,7 +244,10 @@ class Judge {
   ~Judge();
   Judge(Judge&&) = delete;
   /// @param others of a run with several characters: nobody has room where they are or go through.
-  [[nodiscard]] StepJudgement judge(const TraceStep& step, const Others& others = {});
+  /// @param wanted what the step was asked for, as `requested` of the step has it: then what the step says of its end
+  /// is
+  ///   judged, too.
+  [[nodiscard]] StepJudgement judge(const TraceStep& step, const Others& others = {}, const Wanted* wanted = nullptr);
   /// The solids that the octagon overlaps where a step begins, in order.
   [[nodiscard]] std::vector<ColliderIndex> overlapped(const TraceStep& step) const;
   /// What turns is no solid there.
@@ -255,7 +273,8 @@ class Judge {
   using Path = std::vector<Place>;
   using Touched = std::map<ColliderIndex, std::size_t>;  ///< With the corner where the first leg that meets it begins.
 
-  [[nodiscard]] StepJudgement judge_exactly(const TraceStep& step, const Others& others);
+  [[nodiscard]] const ExactScenery* grown_scenery();
+  [[nodiscard]] StepJudgement judge_exactly(const TraceStep& step, const Others& others, const Wanted* wanted);
   [[nodiscard]] Path path_of(const TraceStep& step) const;
   /// Whether nothing differs from the last step, as at rest: then neither does the judgement.
   [[nodiscard]] bool repeats(const TraceStep& step) const;
@@ -274,7 +293,8 @@ class Judge {
                      StepJudgement& judgement);
   void judge_sensors(const Path& path, const TraceStep& step, StepJudgement& judgement) const;
   void judge_ground(const detail::HangingJudge& hanging, const TraceStep& step, StepJudgement& judgement) const;
-  void judge_progress(const TraceStep& step, const Others& others, StepJudgement& judgement);
+  void judge_progress(const TraceStep& step, const Others& others, const Wanted* wanted, bool starts_free,
+                      StepJudgement& judgement);
   [[nodiscard]] std::vector<ColliderIndex> newly_inside(const StepJudgement& judgement) const;
   [[nodiscard]] bool ends_on_another_side(const Place& at, const Vec2d& out) const;
   [[nodiscard]] bool has_way_out(const Place& at, const Others& others);
@@ -283,6 +303,7 @@ class Judge {
   std::unique_ptr<detail::TurningJudge> turning_;
   ExactScenery scenery_;
   std::unique_ptr<ExactScenery> grown_scenery_;  ///< See `detail::find_room`; made when a crush is asked about.
+  std::unique_ptr<ExactScenery> near_scenery_;   ///< See `detail::EndJudge`; made for what is promised.
   std::size_t mover_count_ = 0;
   bool has_sensors_ = false;
   double slop_ = 0;

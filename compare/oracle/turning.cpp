@@ -4,6 +4,7 @@
 #include "oracle/contacts.hpp"
 #include "oracle/crush.hpp"
 #include "oracle/passing.hpp"
+#include "oracle/second_meeting.hpp"
 #include "oracle/turning_room.hpp"
 #include "oracle/world.hpp"
 
@@ -16,6 +17,8 @@ namespace {
 constexpr int steps_ahead = 4;
 /// What goes a leg in less of the step leaps.
 constexpr double leap = 1e-5;
+/// Every so many steps, and every step with a contact with what turns, is judged by the second method as well.
+constexpr int judged_twice = 8;
 /// Instants of a leg at which the depth of a passage is looked at.
 constexpr int depth_samples = 256;
 
@@ -59,6 +62,52 @@ VertexWay gone_on(const VertexWay& way, int steps) {
   return all;
 }
 
+Vec2d nearest_on(const Vec2d& a, const Vec2d& b, const Vec2d& to) {
+  const Vec2d along = b - a;
+  const double square = along.squaredNorm();
+  return square > 0 ? Vec2d(a + std::clamp((to - a).dot(along) / square, 0.0, 1.0) * along) : a;
+}
+
+/// The point of a part's outline that is nearest to an octagon's.
+Vec2d nearest_point(std::span<const Vec2d> part, std::span<const Vec2d> octagon, const Vec2d& position) {
+  Vec2d best = part[0];
+  double least = std::numeric_limits<double>::infinity();
+  const auto offer = [&](const Vec2d& on_part, const Vec2d& on_octagon) {
+    if (const double distance = (on_part - on_octagon).norm(); distance < least) {
+      least = distance;
+      best = on_part;
+    }
+  };
+  for (std::size_t k = 0; k < octagon.size(); ++k) {
+    const Vec2d corner = position + octagon[k];
+    const Vec2d next = position + octagon[(k + 1) % octagon.size()];
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      offer(nearest_on(part[i], part[(i + 1) % part.size()], corner), corner);
+      offer(part[i], nearest_on(corner, next, part[i]));
+    }
+  }
+  return best;
+}
+
+/// The largest distance between two points [m].
+double extent_of(std::span<const Vec2d> points) {
+  double most = 0;
+  for (const Vec2d& a : points)
+    for (const Vec2d& b : points) most = std::max(most, (a - b).norm());
+  return most;
+}
+
+/// By how much a way turns at most from how it stands when it begins [rad].
+double turn_of(const VertexWay& way) {
+  double most = 0;
+  double turned = 0;
+  for (std::size_t k = 1; k < way.vertices.size(); ++k) {
+    turned += RigidMotion(way.vertices[k - 1], way.vertices[k]).angle();
+    most = std::max(most, std::abs(turned));
+  }
+  return most;
+}
+
 }  // namespace
 
 TurningJudge::TurningJudge(const TraceHeader& header)
@@ -91,13 +140,29 @@ TraceStep TurningJudge::exact_part(const TraceStep& step) const {
 Meeting TurningJudge::meeting(const Solid& solid, const VertexWay& way, std::span<const PathPoint<double>> path,
                               Asked asked) const {
   Meeting first;
+  bool by_second = false;
   for (const std::vector<std::size_t>& part : solid.parts) {
-    const Meeting found = first_meeting(octagon_, path, way, part, asked, solid.radius);
+    Meeting found = first_meeting(octagon_, path, way, part, asked, solid.radius);
+    if (found.kind == Meeting::Kind::undecided) {
+      found = second_meeting(octagon_, path, way, part, solid.radius);
+      by_second = true;
+    }
     const bool better = found.kind == first.kind ? found.low < first.low : found.kind == Meeting::Kind::meets;
     if (found.kind != Meeting::Kind::apart && (first.kind == Meeting::Kind::apart || better)) first = found;
     if (first.kind == Meeting::Kind::meets && asked == Asked::whether) break;
   }
+  first.by_second = by_second;
   return first;
+}
+
+/// Whether both methods say the same of the way of a step.
+bool TurningJudge::methods_agree(const Solid& solid, const TraceStep& step) const {
+  const VertexWay& way = way_of(step, solid.collider);
+  return std::all_of(solid.parts.begin(), solid.parts.end(), [&](const std::vector<std::size_t>& part) {
+    const Meeting one = first_meeting(octagon_, step.path, way, part, Asked::whether, solid.radius);
+    return one.kind == Meeting::Kind::undecided ||
+           one.kind == second_meeting(octagon_, step.path, way, part, solid.radius).kind;
+  });
 }
 
 bool TurningJudge::overlaps(const Solid& solid, const VertexWay& way, const PathPoint<double>& at) const {
@@ -136,6 +201,105 @@ bool TurningJudge::is_near(const TraceStep& step, double within) const {
                      [&](const Solid& solid) { return nearest(solid, step) <= within; });
 }
 
+std::vector<ColliderIndex> TurningJudge::near_at_begin(const TraceStep& step, double within) const {
+  std::vector<ColliderIndex> found;
+  for (const Solid& solid : solids_)
+    if (nearest_axis(solid, way_of(step, solid.collider), step.path.front()).separation <= within)
+      found.push_back(solid.collider);
+  return found;
+}
+
+TurningJudge::Standing TurningJudge::standing(const Solid& solid, const std::vector<std::size_t>& numbers,
+                                              const TraceStep& step, const PathPoint<double>& corner,
+                                              double within) const {
+  const VertexWay& way = way_of(step, solid.collider);
+  const std::vector<Vec2d> now = vertices_at(way, corner.fraction);
+  Standing found;
+  for (const std::size_t i : numbers) found.part.points.push_back(now[i]);
+  found.part.radius = solid.radius;
+  const Vec2d nearest = nearest_point(found.part.points, octagon_, corner.position);
+  const Vec2d begin = RigidMotion(now, way.vertices.front())(nearest);
+  found.moved = RigidMotion(now, way.vertices.back())(nearest) - begin;
+  double leaves = 0;
+  for (std::size_t k = 0; k < way.instants.size(); ++k) {
+    const Vec2d even = begin + way.instants[k] * found.moved;
+    leaves = std::max(leaves, (RigidMotion(now, way.vertices[k])(nearest) - even).norm());
+  }
+  const double reach = std::min(extent_of(found.part.points), extent_of(octagon_) + within);
+  found.unsure = turn_of(way) * (reach + step.requested.norm() + found.moved.norm()) + leaves;
+  return found;
+}
+
+std::vector<NearPart> TurningJudge::near(const TraceStep& step, const PathPoint<double>& corner, double within,
+                                         Bounds bounds) const {
+  std::vector<NearPart> found;
+  for (const Solid& solid : solids_)
+    for (const std::vector<std::size_t>& numbers : solid.parts) {
+      const Standing here = standing(solid, numbers, step, corner, within);
+      NearPart part{.collider = solid.collider,
+                    .moved = here.moved,
+                    .faces = {},
+                    .unsure = bounds == Bounds::safe ? here.unsure : 0};
+      for (const Axis& axis : separating_axes(here.part, octagon_, FramePlace{corner.position}, within))
+        part.faces.push_back({axis.separation, axis.normal});
+      if (!part.faces.empty()) found.push_back(std::move(part));
+    }
+  return found;
+}
+
+/// Whether some side of a part that is near at a place faces the horizontal part of a motion.
+bool TurningJudge::is_against(const Solid& solid, const VertexWay& way, const PathPoint<double>& at,
+                              const Vec2d& motion, double within) const {
+  const std::vector<Vec2d> vertices = vertices_at(way, at.fraction);
+  return std::any_of(solid.parts.begin(), solid.parts.end(), [&](const std::vector<std::size_t>& numbers) {
+    ConvexPart part;
+    for (const std::size_t i : numbers) part.points.push_back(vertices[i]);
+    part.radius = solid.radius;
+    const std::vector<Axis> axes = separating_axes(part, octagon_, FramePlace{at.position}, within);
+    return std::any_of(axes.begin(), axes.end(), [&](const Axis& axis) { return axis.normal.x() * motion.x() < 0; });
+  });
+}
+
+TurningJudge::Opposition TurningJudge::opposes(const TraceStep& step, const PathPoint<double>& corner,
+                                               const Vec2d& motion) const {
+  const std::array<PathPoint<double>, 2> path{{corner, {corner.position + motion, corner.fraction + 1}}};
+  Opposition found = Opposition::none;
+  for (const Solid& solid : solids_) {
+    const VertexWay way = gone_on(way_of(step, solid.collider), 2);
+    double unsure = 0;
+    for (const std::vector<std::size_t>& numbers : solid.parts)
+      unsure = std::max(unsure, standing(solid, numbers, step, corner, motion.norm()).unsure);
+    const std::vector<Vec2d> wider = grown(octagon_, unsure);
+    for (const std::vector<std::size_t>& numbers : solid.parts) {
+      const auto opposes_body = [&](std::span<const Vec2d> body, double within) {
+        const Meeting met = first_meeting(body, path, way, numbers, Asked::when, solid.radius);
+        if (met.kind == Meeting::Kind::apart) return false;
+        const double when = std::clamp(met.low, corner.fraction, corner.fraction + 1);
+        const PathPoint<double> there{corner.position + (when - corner.fraction) * motion, when};
+        return is_against(solid, way, there, motion, within + contact_reach);
+      };
+      if (opposes_body(octagon_, 0)) return Opposition::met;
+      if (opposes_body(wider, 2 * unsure)) found = Opposition::unsure;
+    }
+  }
+  return found;
+}
+
+bool TurningJudge::runs_into(const TraceStep& step, const PathPoint<double>& corner, const Vec2d& way,
+                             double within) const {
+  const std::array<PathPoint<double>, 2> path{{corner, {corner.position + way, 1}}};
+  if (corner.fraction == 1) return false;
+  return std::any_of(solids_.begin(), solids_.end(), [&](const Solid& solid) {
+    const VertexWay& its = way_of(step, solid.collider);
+    return nearest_axis(solid, its, corner).separation > within &&
+           meeting(solid, its, path).kind != Meeting::Kind::apart;
+  });
+}
+
+bool TurningJudge::frees_at_end(const TraceStep& step, const std::function<bool(const Vec2d&)>& accept) const {
+  return has_way_out_at(header_, step, 1, sides_, accept);
+}
+
 bool TurningJudge::left_free(const TraceStep& step, std::span<const PathPoint<double>> way) const {
   const std::vector<Vec2d> wider = grown(octagon_, least_clearance);
   return std::all_of(solids_.begin(), solids_.end(), [&](const Solid& solid) {
@@ -167,9 +331,13 @@ void TurningJudge::judge(const TraceStep& step, const ExactScenery& rest, StepJu
     const VertexWay& way = way_of(step, collider);
     side = RigidMotion(way.vertices.front(), way.vertices.back())(side);
   }
+  const bool touches = std::any_of(step.contacts.begin(), step.contacts.end(),
+                                   [this](const Contact<double>& contact) { return turns(contact.collider); });
   for (const Solid& solid : solids_) {
     judge_way(solid, step, rest, judgement);
     judge_contacts(solid, step, judgement);
+    if ((touches || step.step % judged_twice == 0) && !methods_agree(solid, step))
+      judgement.methods_disagree.push_back(solid.collider);
   }
   for (const Solid& solid : solids_)
     if (contains(judgement.end_overlap, solid.collider) && !contains(inside_, solid.collider)) note_side(solid, step);
@@ -197,10 +365,7 @@ bool TurningJudge::is_excused(const Solid& solid, const TraceStep& step, const E
   const VertexWay& its = way_of(step, solid.collider);
   std::optional<Vec2d> room = step.path.front().position;
   if (goes(its)) {
-    const Vec2d normal = nearest_axis(solid, its, step.path.front()).normal;
-    const auto nearer = [&](const Vec2d& a, const Vec2d& b) { return a.dot(normal) < b.dot(normal); };
-    const Vec2d met = step.path.front().position + *std::min_element(octagon_.begin(), octagon_.end(), nearer);
-    room = room_beside(header_, rest, step, {its, met}, sides_,
+    room = room_beside(header_, rest, step, its, sides_,
                        [&](std::span<const PathPoint<double>> way) { return left_free(step, way); });
   }
   if (room) judgement.room = room;
@@ -230,7 +395,7 @@ void TurningJudge::judge_way(const Solid& solid, const TraceStep& step, const Ex
   }
   if (began_inside) return;
   const Meeting met = meeting(solid, way, step.path);
-  if (met.kind == Meeting::Kind::undecided) judgement.undecided.push_back(solid.collider);
+  if (met.by_second) judgement.undecided.push_back(solid.collider);
   if (met.kind != Meeting::Kind::meets) return;
   // What is excused may go through the octagon, and not the octagon through it: as it stands where the step ends.
   const std::array<PathPoint<double>, 2> through{{{step.path.front().position, 1}, {step.path.back().position, 1}}};

@@ -26,7 +26,10 @@ namespace paperproof::compare::detail {
 ///   was travelled until then, going on straight; less than 1e-6 m at the speed of approach is no error. Box2D stops 20
 ///   mm away, so that the touch itself lies ahead: there it is that of what it wants, which goes on for at most four
 ///   steps, and what turns goes on as in this one.
-/// - **Undecided** is what comes so near that halving the time does not tell: it is counted, and no answer.
+/// - **Undecided** is what comes so near that halving the time does not tell: it is counted, and `second_meeting`
+///   decides it.
+/// - **Two methods.** In every 8th step, and in each with a contact with what turns, `second_meeting` judges the way as
+///   well. Where the two disagree the judge is wrong: `StepJudgement::methods_disagree`.
 /// Distances, depths and normals are exact for places that are rounded to double.
 class TurningJudge {
  public:
@@ -53,6 +56,37 @@ class TurningJudge {
   [[nodiscard]] bool is_near(const TraceStep& step, double within) const;
   /// Whether a way of the whole step meets nothing that turns but what it begins in, and ends 1e-7 m away from it.
   [[nodiscard]] bool left_free(const TraceStep& step, std::span<const PathPoint<double>> way) const;
+  /// The solids that are no farther than so many metres from where the step begins.
+  [[nodiscard]] std::vector<ColliderIndex> near_at_begin(const TraceStep& step, double within) const;
+
+  /// Whether `near` says how far a part may come at most, or how far its nearest point comes.
+  enum class Bounds : std::uint8_t { safe, nominal };
+  /// The parts within so many metres at a corner of the way, as they are at that instant. `moved` is how far the point
+  /// nearest to the octagon goes in the step. By as much as `unsure` any point that the octagon may touch in the step
+  /// comes farther along a face's normal than that:
+  ///
+  ///     turn (reach + |requested| + |moved|) + leaves
+  ///
+  /// where `reach` is the extent of the part, or of the octagon and `within` if that is less, and `leaves` how far the
+  /// nearest point goes from an even straight way. Nominal bounds have 0 for it: what only they accuse is not certain.
+  [[nodiscard]] std::vector<NearPart> near(const TraceStep& step, const PathPoint<double>& corner, double within,
+                                           Bounds bounds = Bounds::safe) const;
+  /// How a solid stands to a motion.
+  enum class Opposition : std::uint8_t {
+    none,    ///< It is not met, or not against the motion's horizontal part.
+    unsure,  ///< It is met if the octagon is wider by `unsure` on every side.
+    met,
+  };
+  /// Whether something opposes a motion from a corner of the way, in the time of a whole step: what turns goes on as in
+  /// this one. @param motion [m]
+  [[nodiscard]] Opposition opposes(const TraceStep& step, const PathPoint<double>& corner, const Vec2d& motion) const;
+  /// Whether something farther away than `within` at a corner of the way is met in the rest of the step, if the octagon
+  /// goes on by so much. @param way [m]
+  [[nodiscard]] bool runs_into(const TraceStep& step, const PathPoint<double>& corner, const Vec2d& way,
+                               double within) const;
+  /// Whether a way leads out of what the octagon is inside of where the step ends: see `frees`.
+  [[nodiscard]] bool frees_at_end(const TraceStep& step, const std::function<bool(const Vec2d&)>& accept) const;
+
   /// Adds what turns to the judgement of the rest.
   /// @param rest the scenery of `exact_part`.
   void judge(const TraceStep& step, const ExactScenery& rest, StepJudgement& judgement);
@@ -67,6 +101,17 @@ class TurningJudge {
   /// The first touch of all parts on a way.
   [[nodiscard]] Meeting meeting(const Solid& solid, const VertexWay& way, std::span<const PathPoint<double>> path,
                                 Asked asked = Asked::whether) const;
+  /// Where a part stands at an instant, and how it goes in the step.
+  struct Standing {
+    ConvexPart part;
+    Vec2d moved{Vec2d::Zero()};  ///< See `near`.
+    double unsure = 0;
+  };
+  [[nodiscard]] Standing standing(const Solid& solid, const std::vector<std::size_t>& numbers, const TraceStep& step,
+                                  const PathPoint<double>& corner, double within) const;
+  [[nodiscard]] bool is_against(const Solid& solid, const VertexWay& way, const PathPoint<double>& at,
+                                const Vec2d& motion, double within) const;
+  [[nodiscard]] bool methods_agree(const Solid& solid, const TraceStep& step) const;
   [[nodiscard]] bool overlaps(const Solid& solid, const VertexWay& way, const PathPoint<double>& at) const;
   [[nodiscard]] Axis nearest_axis(const Solid& solid, const VertexWay& way, const PathPoint<double>& at) const;
   /// Over the corners of the way [m].

@@ -9,18 +9,16 @@
 namespace paperproof::compare::detail {
 namespace {
 
-/// What may be kept from a contact on top of how far the crusher goes [m].
-constexpr double beyond_its_travel = 1e-6;
-
-/// The way of a point that goes along [m].
-double travel_of(const VertexWay& way, Vec2d at) {
-  double length = 0;
-  for (std::size_t k = 1; k < way.vertices.size(); ++k) {
-    const Vec2d next = RigidMotion(way.vertices[k - 1], way.vertices[k])(at);
-    length += (next - at).norm();
-    at = next;
+/// The longest way of a vertex in the step [m].
+double largest_motion(const VertexWay& way) {
+  double largest = 0;
+  for (std::size_t i = 0; i < way.vertices.front().size(); ++i) {
+    double length = 0;
+    for (std::size_t k = 1; k < way.vertices.size(); ++k)
+      length += (way.vertices[k][i] - way.vertices[k - 1][i]).norm();
+    largest = std::max(largest, length);
   }
-  return length;
+  return largest;
 }
 
 /// Whether a straight way meets only colliders that are overlapped where it begins.
@@ -89,6 +87,14 @@ bool on_their_sides(const ExactScenery& standing, const Sides& sides, const Plac
   });
 }
 
+bool has_way_out_at(const TraceHeader& header, const TraceStep& step, double moment, const Sides& sides,
+                    const std::function<bool(const Vec2d&)>& accept) {
+  const ExactScenery standing(standing_at(header.scenery, step, moment), header.points);
+  const Vec2d& from = moment == 1 ? step.path.back().position : step.path.front().position;
+  const std::optional<Vec2d> out = standing.way_out(Place(from, step.movers, moment), farthest_way_out);
+  return out && accept(*out) && on_their_sides(standing, sides, Place(*out, step.movers, moment));
+}
+
 bool has_way_out(const TraceHeader& header, const TraceStep& step, const Sides& sides,
                  const std::function<bool(const Vec2d&)>& accept) {
   double turned = 0;
@@ -101,36 +107,35 @@ bool has_way_out(const TraceHeader& header, const TraceStep& step, const Sides& 
       const VertexWay& way = way_of(step, collider);
       side = RigidMotion(way.vertices.front(), vertices_at(way, moment))(side);
     }
-    const ExactScenery standing(standing_at(header.scenery, step, moment), header.points);
-    const Place start(step.path.front().position, step.movers, moment);
-    const std::optional<Vec2d> out = standing.way_out(start, farthest_way_out);
-    return out && accept(*out) && on_their_sides(standing, then, Place(*out, step.movers, moment));
+    return has_way_out_at(header, step, moment, then, accept);
   });
 }
 
 std::optional<Vec2d> room_beside(const TraceHeader& header, const ExactScenery& rest, const TraceStep& step,
-                                 const Crusher& crusher, const Sides& sides,
+                                 const VertexWay& crusher, const Sides& sides,
                                  const std::function<bool(std::span<const PathPoint<double>>)>& left_free) {
   const ExactScenery end(standing_at(header.scenery, step, 1), header.points);
   const ExactScenery wider(rest.scenery(), grown(header.points, least_clearance));
-  std::vector<Vec2d> corners;
-  for (const PathPoint<double>& corner : step.path) corners.push_back(corner.position);
-  const auto reached = [&](const Vec2d& position) {
-    const Place there(position, step.movers, 1);
-    if (!on_their_sides(end, sides, there)) return false;
-    std::vector<PathPoint<double>> way;
-    for (const PathPoint<double>& corner : step.path) {
-      way.push_back(corner);
-      if (corner.fraction == 1) return false;
-      const Place from(corner, step.movers);
-      way.push_back({position, 1});
-      if (meets_no_more(rest, from, there) && meets_no_more(wider, from, there) && left_free(way)) return true;
-      way.pop_back();
-    }
-    return false;
-  };
-  return end.find_free(Place(step.path.back().position, step.movers, 1),
-                       travel_of(crusher.way, crusher.met) + beyond_its_travel, least_clearance, corners, reached);
+  const double reach = largest_motion(crusher) + push_beyond_motion;
+  std::vector<PathPoint<double>> way;
+  for (const PathPoint<double>& corner : step.path) {
+    if (corner.fraction == 1) break;
+    way.push_back(corner);
+    const Place from(corner, step.movers);
+    const auto reached = [&](const Vec2d& position) {
+      const Place there(position, step.movers, 1);
+      std::vector<PathPoint<double>> whole = way;
+      whole.push_back({position, 1});
+      return (position - step.path.back().position).norm() <= reach && on_their_sides(end, sides, there) &&
+             meets_no_more(rest, from, there) && meets_no_more(wider, from, there) && left_free(whole);
+    };
+    std::vector<ColliderIndex> may_pass = rest.overlapped(from);
+    for (const VertexWay& turning : step.vertex_ways) may_pass.push_back(turning.collider);
+    const WayQuestion question{
+        .from = from, .end = Place(corner.position, step.movers, 1), .may_pass = may_pass, .wider = wider.points()};
+    if (const auto room = end.find_free(question, reach, least_clearance, reached)) return room;
+  }
+  return std::nullopt;
 }
 
 }  // namespace paperproof::compare::detail

@@ -35,12 +35,6 @@ class RigidMotion {
 /// Whether any vertex does not stay where it is.
 [[nodiscard]] bool goes(const VertexWay& way);
 
-/// What is said to crush.
-struct Crusher {
-  const VertexWay& way;
-  Vec2d met{Vec2d::Zero()};  ///< The corner of the octagon that it is nearest to when the step begins [m].
-};
-
 /// Of what turns and is overlapped: where the octagon was when it was last free of it, taken along with it since.
 using Sides = std::map<ColliderIndex, Vec2d>;
 
@@ -49,7 +43,7 @@ using Sides = std::map<ColliderIndex, Vec2d>;
 ///   it ends: room is on the same side.
 /// @param left_free whether a way of the whole step leaves free what turns.
 [[nodiscard]] std::optional<Vec2d> room_beside(
-    const TraceHeader& header, const ExactScenery& rest, const TraceStep& step, const Crusher& crusher,
+    const TraceHeader& header, const ExactScenery& rest, const TraceStep& step, const VertexWay& crusher,
     const Sides& sides, const std::function<bool(std::span<const PathPoint<double>>)>& left_free);
 
 /// A way out of what the octagon is inside of is looked for this far [m].
@@ -60,5 +54,8 @@ inline constexpr double farthest_way_out = 1e4;
 /// @param sides as things are when the step begins. @param accept whether it ends on the right side of the rest.
 [[nodiscard]] bool has_way_out(const TraceHeader& header, const TraceStep& step, const Sides& sides,
                                const std::function<bool(const Vec2d&)>& accept);
+/// The same at one fraction of the step. @param sides as things are then.
+[[nodiscard]] bool has_way_out_at(const TraceHeader& header, const TraceStep& step, double moment, const Sides& sides,
+                                  const std::function<bool(const Vec2d&)>& accept);
 
 }  // namespace paperproof::compare::detail

@@ -29,24 +29,25 @@ struct Interval {
 Vec2d left_of(const Vec2d& v) { return {-v.y(), v.x()}; }
 double cross_of(const Vec2d& a, const Vec2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// What the obstacle covers in configuration space, with `clearance` around it.
-Region covered_by(const Obstacle& obstacle, std::span<const Vec2d> octagon, double clearance) {
-  const Vec2d seen = obstacle.place.rounded();
+/// What the barrier covers in configuration space, with `clearance` around it. Exact, and rounded once.
+Region covered_by(const Barrier& barrier, std::span<const Vec2d> octagon, double clearance) {
+  const int unit = common_unit(*barrier.part, octagon, barrier.end);
+  const std::vector<Integer> separations = scaled_separations(*barrier.part, octagon, barrier.end, unit);
   Region region;
-  for (const AxisEdge& axis : axis_edges(*obstacle.part, octagon)) {
-    const Vec2d normal = left_of(Vec2d(axis.end - axis.start).normalized());
-    double farthest = -std::numeric_limits<double>::infinity();
-    for (const Vec2d& vertex : obstacle.part->points) farthest = std::max(farthest, normal.dot(Vec2d(vertex - seen)));
-    double nearest = std::numeric_limits<double>::infinity();
-    for (const Vec2d& corner : octagon) nearest = std::min(nearest, normal.dot(corner));
-    region.push_back({normal, farthest - nearest + clearance});
+  for (const AxisEdge& axis : axis_edges(*barrier.part, octagon)) {
+    const Vec2d edge = axis.end - axis.start;
+    const double separation = std::ldexp(ratio(separations[region.size()], Integer(1)), 2 * unit) / edge.norm();
+    region.push_back({left_of(edge.normalized()), clearance - separation});
   }
   return region;
 }
 
-/// What the obstacle hides: behind the facets that face the octagon, and between the tangents.
-Region hidden_by(const Obstacle& obstacle, std::span<const Vec2d> octagon, double beside) {
-  const Region covered = covered_by(obstacle, octagon, 0);
+/// What the barrier hides from where the octagon begins: behind the facets that face it, and between the tangents.
+Region hidden_by(const Barrier& barrier, double beside) {
+  const std::span<const Vec2d> shape = barrier.shape;
+  Barrier seen = barrier;
+  seen.end = *barrier.from;
+  const Region covered = covered_by(seen, shape, 0);
   const HalfPlane& nearest = *std::min_element(covered.begin(), covered.end(), [](const auto& a, const auto& b) {
     return a.bound < b.bound;  // the larger the separation
   });
@@ -61,13 +62,13 @@ Region hidden_by(const Obstacle& obstacle, std::span<const Vec2d> octagon, doubl
     const double far = std::abs(aside) + std::max(0.0, ahead.dot(way));
     return far > 0 ? aside / far : 0;  // grows with the angle
   };
-  const Vec2d seen = obstacle.place.rounded();
+  const Vec2d from = barrier.from->rounded();
   Vec2d left = ahead;
   Vec2d right = ahead;
   bool any = false;
-  for (const Vec2d& vertex : obstacle.part->points) {
-    for (const Vec2d& corner : octagon) {
-      const Vec2d way = (vertex - seen) - corner;
+  for (const Vec2d& vertex : barrier.part->points) {
+    for (const Vec2d& corner : shape) {
+      const Vec2d way = (vertex - from) - corner;
       if (way == Vec2d::Zero()) continue;
       if (!any || to_the_left(way) > to_the_left(left)) left = way;
       if (!any || to_the_left(way) < to_the_left(right)) right = way;
@@ -76,6 +77,9 @@ Region hidden_by(const Obstacle& obstacle, std::span<const Vec2d> octagon, doubl
   }
   hidden.push_back({left_of(left.normalized()), beside});
   hidden.push_back({-left_of(right.normalized()), beside});
+  // Seen from where the octagon would be at the end if it stayed: meanwhile the part has moved.
+  const Vec2d moved = from - barrier.end.rounded();
+  for (HalfPlane& half : hidden) half.bound += half.normal.dot(moved);
   return hidden;
 }
 
@@ -118,52 +122,62 @@ std::vector<Interval> without(const Interval& whole, std::vector<Interval> taken
   return left;
 }
 
-/// All obstacles as regions of ways from one place.
+/// All barriers as regions of ways from one place.
 class Plane {
  public:
-  Plane(std::span<const Barrier> barriers, std::span<const Vec2d> octagon, double clearance, double beside) {
+  Plane(std::span<const Barrier> barriers, std::span<const Vec2d> octagon, const EndSearch& search) : search_(search) {
     std::vector<Box2<double>> boxes;
     std::vector<std::uint32_t> names;
     const Box2<double> shape = Box2<double>::around(octagon);
     for (const Barrier& barrier : barriers) {
-      const Obstacle& obstacle = barrier.obstacle;
-      if (barrier.bars != Bars::ends) hidden_.push_back(hidden_by(obstacle, octagon, beside));
-      if (barrier.bars == Bars::ways) continue;
+      if (barrier.from) hidden_.push_back(hidden_by(barrier, search.beside));
+      if (!barrier.bars_ends) continue;
       names.push_back(static_cast<std::uint32_t>(covered_.size()));
-      covered_.push_back(covered_by(obstacle, octagon, clearance));
-      may_pass_.push_back(barrier.bars == Bars::ends);
-      const Box2<double>& box = obstacle.part->box;
-      const Vec2d seen = obstacle.place.rounded();
+      covered_.push_back(covered_by(barrier, octagon, search.clearance));
+      may_pass_.push_back(!barrier.from);
+      if (barrier.exact != barrier.part) {
+        // Beside the disc itself there may be room where there is none beside the polygon around it.
+        const Axis out = best_axis(*barrier.exact, octagon, barrier.end);
+        beside_discs_.emplace_back(out.normal * (search.clearance - out.separation));
+      }
+      const Box2<double>& box = barrier.part->box;
+      const Vec2d seen = barrier.end.rounded();
       boxes.push_back(
-          Box2<double>{box.lower - seen - shape.upper, box.upper - seen - shape.lower}.inflated(2 * clearance));
+          Box2<double>{box.lower - seen - shape.upper, box.upper - seen - shape.lower}.inflated(2 * search.clearance));
     }
     tree_ = BoxTree(std::move(boxes), std::move(names));
   }
 
-  void add_ends(double reach, std::vector<Vec2d>& ends) const {
+  [[nodiscard]] std::vector<Vec2d> ends() const {
+    std::vector<Vec2d> ends = beside_discs_;
+    if (!search_.from_inside_only) ends.emplace_back(0, 0);
     for (std::size_t i = 0; i < covered_.size(); ++i) {
-      if (!may_pass_[i]) continue;
-      for (const HalfPlane& edge : covered_[i]) add_ends_on(edge, i, reach, ends);
+      if (search_.from_inside_only && !may_pass_[i]) continue;
+      for (const HalfPlane& edge : covered_[i]) add_ends_on(edge, covered_[i], ends);
     }
+    if (search_.from_inside_only) return ends;
+    for (const Region& region : hidden_)
+      for (const HalfPlane& edge : region) add_ends_on(edge, region, ends);
+    return ends;
   }
 
  private:
-  void add_ends_on(const HalfPlane& edge, std::size_t own, double reach, std::vector<Vec2d>& ends) const {
-    if (!(std::abs(edge.bound) < reach)) return;
+  /// @param own the region that the edge bounds.
+  void add_ends_on(const HalfPlane& edge, const Region& own, std::vector<Vec2d>& ends) const {
+    if (!(std::abs(edge.bound) < search_.reach)) return;
     const EdgeLine line(edge);
-    const double half = std::sqrt(reach * reach - edge.bound * edge.bound);
-    const Interval facet = line.within(covered_[own], {-half, half}, true);
+    const double half = std::sqrt(search_.reach * search_.reach - edge.bound * edge.bound);
+    const Interval facet = line.within(own, {-half, half}, true);
     if (!(facet.from < facet.to)) return;
     std::vector<Interval> taken;
     const auto take = [&](const Region& region) {
+      if (&region == &own) return;
       const Interval part = line.within(region, facet);
       if (part.from < part.to) taken.push_back(part);
     };
     const Vec2d first = line.at(facet.from);
     const Vec2d last = line.at(facet.to);
-    for (const std::uint32_t other : tree_.meeting({first.cwiseMin(last), first.cwiseMax(last)})) {
-      if (other != own) take(covered_[other]);
-    }
+    for (const std::uint32_t other : tree_.meeting({first.cwiseMin(last), first.cwiseMax(last)})) take(covered_[other]);
     if (without(facet, taken).empty()) return;  // as most facets inside a large solid: spare them the shadows
     std::for_each(hidden_.begin(), hidden_.end(), take);
     for (const Interval& part : without(facet, std::move(taken))) {
@@ -173,22 +187,22 @@ class Plane {
     }
   }
 
+  EndSearch search_;
   std::vector<Region> covered_;
   std::vector<bool> may_pass_;  ///< One for each of `covered_`.
   std::vector<Region> hidden_;
+  std::vector<Vec2d> beside_discs_;
   BoxTree tree_;  ///< Of `covered_`.
 };
 
 }  // namespace
 
-std::vector<Vec2d> ways_out(std::span<const Barrier> barriers, std::span<const Vec2d> octagon, const Vec2d& at,
-                            double reach, double clearance, double beside) {
-  std::vector<Vec2d> ends;
-  Plane(barriers, octagon, clearance, beside).add_ends(reach, ends);
-  std::erase_if(ends, [&](const Vec2d& way) { return !(way.norm() <= reach); });
+std::vector<Vec2d> ends_of_ways(std::span<const Barrier> barriers, std::span<const Vec2d> octagon,
+                                const EndSearch& search) {
+  std::vector<Vec2d> ends = Plane(barriers, octagon, search).ends();
+  std::erase_if(ends, [&](const Vec2d& way) { return !(way.norm() <= search.reach); });
   std::stable_sort(ends.begin(), ends.end(),
                    [](const Vec2d& a, const Vec2d& b) { return a.squaredNorm() < b.squaredNorm(); });
-  for (Vec2d& end : ends) end += at;
   return ends;
 }
 

@@ -104,6 +104,14 @@ constexpr std::array all{
     Metric{"ground_refuted", "Ground, refuted", "steps", Group::progress, Of::sum,
            "Steps on which the contender said that it stands, and exact arithmetic has nothing under it",
            &Row::ground_refuted},
+    Metric{
+        "ground_missed", "Ground, missed", "steps", Group::progress, Of::sum,
+        "Steps on which it touches ground and does not leave it, and says that it does not stand; only where that is "
+        "guaranteed",
+        &Row::ground_missed},
+    Metric{"arc_error_max_m", "Off the arc", "m", Group::progress, Of::most,
+           "Largest distance of what turns from its true arc at the same instant; absent where nothing turns",
+           &Row::arc_error_max_m},
     Metric{"dropped_steps", "Displacement left over", "steps", Group::progress, Of::sum,
            "Steps on which a part of the displacement was left when the iterations ran out", &Row::dropped_steps},
     Metric{"answer_error", "Error of the answer", "", Group::progress, Of::most,

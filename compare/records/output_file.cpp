@@ -1,6 +1,11 @@
 #include "records/output_file.hpp"
 
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <stdexcept>
@@ -8,6 +13,41 @@
 #include <utility>
 
 namespace paperproof::compare {
+
+namespace {
+
+/// Paths of the files that stand beside their final names, as a signal's handler can read them. More at a time than
+/// these, which no command has, would stay behind.
+std::array<std::atomic<const char*>, 16> unfinished{};
+/// Children that were forked share the paths, but not the files.
+std::atomic<pid_t> owner{};
+
+void note_unfinished(const char* path) {
+  for (std::atomic<const char*>& place : unfinished)
+    if (const char* none = nullptr; place.compare_exchange_strong(none, path)) return;
+}
+
+void forget_unfinished(const char* path) {
+  for (std::atomic<const char*>& place : unfinished)
+    if (const char* own = path; place.compare_exchange_strong(own, nullptr)) return;
+}
+
+/// Calls only what a handler may call (POSIX, async-signal-safe).
+void end_by(int signal) {
+  if (getpid() == owner)
+    for (const std::atomic<const char*>& place : unfinished)
+      if (const char* path = place) unlink(path);
+  std::signal(signal, SIG_DFL);
+  std::raise(signal);
+}
+
+}  // namespace
+
+void remove_unfinished_on_signals() {
+  owner = getpid();
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP})
+    if (std::signal(signal, end_by) == SIG_IGN) std::signal(signal, SIG_IGN);  // `nohup` wants it to go on
+}
 
 OutputFile::OutputFile(std::string path, Appears appears) : path_(std::move(path)), target_(path_) {
   std::error_code none;
@@ -17,9 +57,14 @@ OutputFile::OutputFile(std::string path, Appears appears) : path_(std::move(path
       appears != Appears::whole || (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status));
   if (std::filesystem::is_regular_file(status)) target_ = std::filesystem::canonical(target_, none);
   beside_ = target_;
-  if (!in_place_) beside_ += ".part";
+  if (!in_place_) {
+    beside_ += ".part";
+    note_unfinished(beside_.c_str());
+  }
   stream_.open(beside_, std::ios::binary | (appears == Appears::continued ? std::ios::app : std::ios::trunc));
-  if (!stream_) fail("cannot be written");
+  if (stream_) return;
+  if (!in_place_) forget_unfinished(beside_.c_str());
+  fail("cannot be written");
 }
 
 OutputFile::~OutputFile() {
@@ -27,6 +72,7 @@ OutputFile::~OutputFile() {
   stream_.close();
   std::error_code ignored;
   std::filesystem::remove(beside_, ignored);
+  forget_unfinished(beside_.c_str());
 }
 
 void OutputFile::write(std::string_view text) {
@@ -45,6 +91,7 @@ void OutputFile::commit() {
   std::error_code error;
   if (!in_place_) std::filesystem::rename(beside_, target_, error);
   if (error) throw std::runtime_error(path_ + ": cannot be replaced: " + error.message());
+  if (!in_place_) forget_unfinished(beside_.c_str());
   committed_ = true;
 }
 

@@ -17,7 +17,8 @@ class ClosedPipe : public std::runtime_error {
 };
 
 /// Writes beside the final name and renames on `commit`; what was never committed is removed. A link keeps pointing to
-/// where it points; a device or a pipe is written to directly, as nothing can stand beside it. Not thread-safe.
+/// where it points; a device or a pipe is written to directly, as nothing can stand beside it. Not thread-safe. What a
+/// signal removes: see `remove_unfinished_on_signals`.
 /// Everything that fails throws ClosedPipe, or std::runtime_error naming the path and why it cannot be written.
 class OutputFile {
  public:
@@ -47,6 +48,10 @@ class OutputFile {
   bool in_place_ = false;
   bool committed_ = false;
 };
+
+/// From now on SIGTERM, SIGINT and SIGHUP, where they are not ignored, remove what stands beside a final name before
+/// they end this process. To be called once.
+void remove_unfinished_on_signals();
 
 /// Prints and flushes. @throws ClosedPipe; std::runtime_error where standard output cannot be written (a full disk).
 void print_out(std::string_view text);

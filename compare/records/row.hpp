@@ -127,6 +127,8 @@ struct Row {
   std::optional<int> stuck_steps;
   std::optional<int> stuck_refuted;
   std::optional<int> ground_refuted;
+  std::optional<int> ground_missed;
+  std::optional<double> arc_error_max_m;
   std::optional<int> dropped_steps;
   std::optional<double> answer_error;
   std::optional<bool> answer_ok;
@@ -161,6 +163,8 @@ struct Row {
   std::optional<std::size_t> memory_bytes;
 
   std::optional<FirstTunnel> first_tunnel;
+  std::map<std::string, int>
+      broken;  ///< Steps that broke a clause, promised or not, by its name: see records/clause.hpp.
   std::map<std::string, int> exempted;  ///< What was not held against it, how often: see oracle/exemptions.hpp.
   /// Where a ledger was kept, by `cause.kind`: the events on which it and the Box2D twin differ. See `Ledger`.
   std::map<std::string, Disagreements> disagreements;

@@ -1,5 +1,8 @@
 #include "records/rows_file.hpp"
 
+#include "one_line.hpp"
+
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -41,11 +44,28 @@ void add_columns(const Cells& cells, std::vector<std::string>& columns) {
   }
 }
 
+/// A `#` is quoted, too: behind one that is not, readers that know comments see none of the line.
 std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  if (text.find_first_of(",\"\r\n#") == std::string::npos) return text;
   std::string out = "\"";
   for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
   return out + '"';
+}
+
+/// As `box2d[continuous=off]`: who groups the rows by contender does not mix up what was set differently.
+ordered_json with_knobs_named(ordered_json row) {
+  const std::string knob = row.value("knob", "");
+  if (!knob.empty()) row["contender"] = fmt::format("{}[{}]", row.value("contender", ""), knob);
+  return row;
+}
+
+/// As `# compiler: g++ 12.2`.
+std::string comments_of(const ordered_json& header) {
+  std::string text;
+  const ordered_json environment = header.value("environment", ordered_json::object());
+  for (const auto& [key, value] : environment.items())
+    text += "# " + without_controls(key + ": " + text_of(value)) + "\r\n";
+  return text;
 }
 
 }  // namespace
@@ -81,7 +101,7 @@ void RowsFile::add(const std::string& line) {
 
 void RowsFile::finish(const ordered_json& more) {
   if (format_ == Format::none) return;
-  if (format_ == Format::csv) file_->write(rows_csv(rows_));
+  if (format_ == Format::csv) file_->write(rows_csv(rows_, header_));
   if (format_ == Format::json) {
     header_["rows"] = std::move(rows_);
     header_.update(more);
@@ -90,16 +110,16 @@ void RowsFile::finish(const ordered_json& more) {
   file_->commit();
 }
 
-std::string rows_csv(const ordered_json& rows) {
+std::string rows_csv(const ordered_json& rows, const ordered_json& header) {
   std::vector<std::string> columns;
   std::vector<Cells> lines;
   for (const ordered_json& row : rows) {
-    flatten(row, "", lines.emplace_back());
+    flatten(with_knobs_named(row), "", lines.emplace_back());
     add_columns(lines.back(), columns);
   }
-  std::string text;
+  std::string text = comments_of(header);
   for (const std::string& column : columns) {
-    if (!text.empty()) text += ',';
+    if (column != columns.front()) text += ',';
     text += quoted(column);
   }
   text += "\r\n";

@@ -38,6 +38,8 @@ class RowsFile {
 
 /// Rows as comma-separated values (RFC 4180), a line each below the line of keys. A column stands where its key first
 /// stands in a row; objects are laid out as `key.inner`, lists are joined by "; ", and what does not apply is empty.
-[[nodiscard]] std::string rows_csv(const nlohmann::ordered_json& rows);
+/// The contender's column has its knobs, as `box2d[continuous=off]`. The environment of `header` stands before all, in
+/// lines that begin with `#`.
+[[nodiscard]] std::string rows_csv(const nlohmann::ordered_json& rows, const nlohmann::ordered_json& header);
 
 }  // namespace paperproof::compare

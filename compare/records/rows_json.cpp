@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+
 namespace paperproof::compare {
 namespace {
 
@@ -17,6 +19,18 @@ nlohmann::ordered_json first_tunnel_json(const FirstTunnel& first) {
     object["angle_deg"] = first.angle_deg;
   }
   return object;
+}
+
+bool is_no_number(const nlohmann::ordered_json& value) {
+  return value.is_number_float() && !std::isfinite(value.get<double>());
+}
+
+/// JSON has no word for such numbers: a file leaves them out, and `finite` says that something is not.
+nlohmann::ordered_json with_finite_numbers(const nlohmann::ordered_json& object) {
+  nlohmann::ordered_json kept = nlohmann::ordered_json::object();
+  for (const auto& [key, value] : object.items())
+    if (!is_no_number(value)) kept[key] = value.is_object() ? with_finite_numbers(value) : value;
+  return kept;
 }
 
 }  // namespace
@@ -44,6 +58,7 @@ nlohmann::ordered_json row_json(const Row& row) {
   }
   if (!row.source.empty()) object["source"] = row.source;
   for_each_metric(row, [&](const Metric& metric, const auto& value) { object[std::string(metric.key)] = value; });
+  if (!row.broken.empty()) object["broken"] = row.broken;
   if (row.steps > 0) object["exempted"] = row.exempted;
   if (!row.event_sequence.empty()) object["event_sequence"] = row.event_sequence;
   for (const auto& [name, some] : row.disagreements)
@@ -65,7 +80,7 @@ nlohmann::ordered_json rows_header(const Environment& environment) {
 nlohmann::ordered_json rows_json(const std::vector<Row>& rows, const Environment& environment) {
   nlohmann::ordered_json file = rows_header(environment);
   file["rows"] = nlohmann::ordered_json::array();
-  for (const Row& row : rows) file["rows"].push_back(row_json(row));
+  for (const Row& row : rows) file["rows"].push_back(with_finite_numbers(row_json(row)));
   return file;
 }
 
@@ -75,7 +90,7 @@ bool breaks_guarantee(const nlohmann::ordered_json& row) {
 }
 
 std::string json_line(const nlohmann::ordered_json& object) {
-  return object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
+  return with_finite_numbers(object).dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
 }
 
 }  // namespace paperproof::compare

@@ -20,13 +20,13 @@ using Environment = std::vector<std::pair<std::string, std::string>>;
 /// What stands before the rows of a file, and is the first line of JSON Lines.
 [[nodiscard]] nlohmann::ordered_json rows_header(const Environment& environment);
 
-/// The rows with their header.
+/// The rows with their header. As in `json_line`, numbers that are not finite are left out.
 [[nodiscard]] nlohmann::ordered_json rows_json(const std::vector<Row>& rows, const Environment& environment);
 
 /// Whether octagon_sweep in double broke its guarantee. @param row one of `row_json`.
 [[nodiscard]] bool breaks_guarantee(const nlohmann::ordered_json& row);
 
-/// On one line, with its line feed.
+/// On one line, with its line feed. Numbers that are not finite are left out: JSON has no word for them.
 [[nodiscard]] std::string json_line(const nlohmann::ordered_json& object);
 
 }  // namespace paperproof::compare

@@ -1,8 +1,11 @@
 /// What a run leaves behind: a header and one record per step, in double (every float is one exactly).
 #pragma once
 
+#include "records/clause.hpp"
+#include "records/mover_script.hpp"
 #include "records/vertex_way.hpp"
 
+#include <paperproof/character.hpp>
 #include <paperproof/crowd.hpp>
 #include <paperproof/plan.hpp>
 #include <paperproof/scenery.hpp>
@@ -37,6 +40,28 @@ struct NamedTolerance {
   double metres = 0;
 };
 
+/// Where and how fast a character begins.
+struct TraceStart {
+  Vec2d position{Vec2d::Zero()};  ///< [m]
+  Vec2d velocity{Vec2d::Zero()};  ///< [m/s]
+};
+
+/// What carries a character after a step.
+struct TraceRide {
+  ColliderIndex collider = 0;
+  Vec2d velocity{Vec2d::Zero()};  ///< Of its surface in this step, conveyor included [m/s].
+};
+
+/// The state with which a step begins that does not continue the one before.
+struct TraceState {
+  Vec2d velocity{Vec2d::Zero()};  ///< [m/s]
+  bool grounded = false;
+  bool jumping = false;
+  bool jump_held = false;
+  bool jump_pending = false;
+  std::optional<TraceRide> ride{};
+};
+
 struct TraceHeader {
   std::string scene;
   std::string contender;
@@ -46,14 +71,20 @@ struct TraceHeader {
   double dt = 0;               ///< [s]; where the steps have lengths of their own it is only shown.
   std::size_t characters = 1;  ///< Each has one record in every step, in order.
   std::vector<Vec2d> points;   ///< Hull of the character, relative to its position [m], as run.
-  /// Steepest ground that the character walks on, from the horizontal. NaN where up is not (0, 1): it is not written,
-  /// and a checker does not ask whether the character could have fallen.
-  double max_climb_degrees = 50;
-  SceneryDef scenery;            ///< As run, world metres.
-  std::vector<std::string> ids;  ///< One per collider.
-  std::vector<bool> turning;     ///< By mover; empty where none turns.
-  std::string box2d;             ///< Version of the Box2D in use.
-  std::optional<Plan> plan;      ///< None for Box2D, which has none.
+  /// How the character wants to move, jumping rules in force included. Its shape is `points`.
+  CharacterDef character{};
+  Vec2d gravity{Vec2d::Zero()};               ///< [m/s²]
+  Vec2d up{Vec2d::UnitY()};                   ///< Unit vector: the character falls against it.
+  std::vector<TraceStart> starts{};           ///< One for each character.
+  std::vector<MoverScript> scripts{};         ///< By mover: where the scene says that it is.
+  std::optional<Box2<double>> respawn_box{};  ///< Maps only: see `Scene::respawn_box`.
+  int substeps = 1;                           ///< Into how many shorter steps the contender divides each.
+  std::vector<Clause> guarantees{};           ///< What the contender promises. Empty: nothing.
+  SceneryDef scenery;                         ///< As run, world metres.
+  std::vector<std::string> ids;               ///< One per collider.
+  std::vector<bool> turning;                  ///< By mover; empty where none turns.
+  std::string box2d;                          ///< Version of the Box2D in use.
+  std::optional<Plan> plan;                   ///< None for Box2D, which has none.
   std::vector<NamedTolerance> tolerances;
   /// Box2D only: `path` holds sampled positions, and cuts under 20 mm are counted apart.
   bool path_exact = true;
@@ -63,6 +94,9 @@ struct TraceStep {
   int step = 0;
   std::optional<double> dt{};  ///< Its own length [s], where the scene gives each step one.
   CharacterIndex character = 0;
+  Input input{};
+  std::optional<Vec2d> up{};            ///< In this step, where it is not the header's.
+  std::optional<Vec2d> gravity{};       ///< The same [m/s²].
   std::vector<PathPoint<double>> path;  ///< From the start (fraction 0) to the end (1).
   /// Displacement that was wanted [m], in the world: what carries the character is included.
   Vec2d requested{Vec2d::Zero()};
@@ -72,6 +106,8 @@ struct TraceStep {
   Vec2d remainder{Vec2d::Zero()};
   bool grounded = false;
   bool jumping = false;
+  std::optional<TraceRide> ride{};
+  Vec2d ground_velocity{Vec2d::Zero()};      ///< Of the surface that the character stands on at the end [m/s].
   std::vector<ColliderIndex> start_overlap;  ///< What the octagon overlapped when the step began, exactly.
   std::vector<Contact<double>> contacts;
   std::vector<CharacterIndex> start_overlap_characters;  ///< Which it overlapped when the step began, exactly.
@@ -83,11 +119,23 @@ struct TraceStep {
   std::vector<SensorEvent<double>> sensors;  ///< In order of time, as reported.
   /// One-way chains that were passed against their normal on purpose, as reported: the input asked to drop.
   std::vector<ColliderIndex> dropped_through{};
-  bool respawn = false;  ///< The character was put back at the start before this step.
-  bool stuck = false;    ///< The contender reported that it is stuck inside something.
-  bool dropped = false;  ///< Displacement was left when the iterations ran out.
-  bool capped = false;   ///< Box2D only: the step met the 2 m cap.
+  bool respawn = false;  ///< The character was put back at the start, or placed elsewhere, before this step.
+  std::optional<TraceState> from{};  ///< With `respawn`, where the character does not begin at rest in the air.
+  std::string refused{};             ///< Why the step was refused; nothing but the input is valid then.
+  bool stuck = false;                ///< The contender reported that it is stuck inside something.
+  bool dropped = false;              ///< Displacement was left when the iterations ran out.
+  bool capped = false;               ///< Box2D only: the step met the 2 m cap.
 };
+
+/// Unit vector against which a character falls in a step.
+[[nodiscard]] inline Vec2d up_in(const TraceStep& step, const TraceHeader& header) {
+  return step.up.value_or(header.up);
+}
+
+/// Of a step [m/s²].
+[[nodiscard]] inline Vec2d gravity_in(const TraceStep& step, const TraceHeader& header) {
+  return step.gravity.value_or(header.gravity);
+}
 
 /// How long a step was [s].
 [[nodiscard]] inline double length_of(const TraceStep& step, const TraceHeader& header) {

@@ -25,6 +25,63 @@ ordered_json plan_json(const std::optional<Plan>& plan) {
   return object;
 }
 
+ordered_json limits_json(const CharacterDef& character) {
+  ordered_json object;
+  object["walk_speed"] = character.walk_speed;
+  object["acceleration"] = character.acceleration;
+  if (character.air_acceleration) object["air_acceleration"] = *character.air_acceleration;
+  object["jump_speed"] = character.jump_speed;
+  object["coyote_time"] = character.coyote_time;
+  if (character.jump_buffer) object["jump_buffer"] = *character.jump_buffer;
+  object["jump_cut"] = character.jump_cut;
+  if (character.max_fall_speed) object["max_fall_speed"] = *character.max_fall_speed;
+  object["max_climb_degrees"] = character.max_climb_degrees;
+  object["snap"] = character.snap;
+  object["step_height"] = character.step_height;
+  object["no_jump_toward_wall"] = character.no_jump_toward_wall;
+  object["wall_reach"] = character.wall_reach;
+  object["side_hit_ends_rise"] = character.side_hit_ends_rise;
+  return object;
+}
+
+std::string_view loop_name(MoverScript::Loop loop) {
+  switch (loop) {
+    case MoverScript::Loop::once:
+      return "once";
+    case MoverScript::Loop::loop:
+      return "loop";
+    case MoverScript::Loop::ping_pong:
+      return "ping_pong";
+  }
+  return "once";
+}
+
+ordered_json script_json(const MoverScript& script, const std::vector<std::string>& ids) {
+  ordered_json object{{"colliders", ordered_json::array()}, {"path", ordered_json::array()}};
+  for (const ColliderIndex collider : script.colliders) object["colliders"].push_back(ids[collider]);
+  for (const MoverScript::Waypoint& waypoint : script.path)
+    object["path"].push_back({{"t", waypoint.time}, {"at", point_json(waypoint.at)}});
+  object["loop"] = loop_name(script.loop);
+  for (const MoverScript::Turn& turn : script.turns) object["turns"].push_back({{"t", turn.time}, {"at", turn.at}});
+  if (script.body) object["body"] = true;
+  return object;
+}
+
+/// What was wanted, and what is promised.
+void add_terms(const TraceHeader& header, ordered_json& object) {
+  object["gravity"] = point_json(header.gravity);
+  object["up"] = point_json(header.up);
+  object["character"] = limits_json(header.character);
+  object["starts"] = ordered_json::array();
+  for (const TraceStart& start : header.starts)
+    object["starts"].push_back({{"position", point_json(start.position)}, {"velocity", point_json(start.velocity)}});
+  if (const auto& box = header.respawn_box) object["respawn_box"] = {point_json(box->lower), point_json(box->upper)};
+  for (const MoverScript& script : header.scripts) object["movers"].push_back(script_json(script, header.ids));
+  if (header.substeps > 1) object["substeps"] = header.substeps;
+  object["guarantees"] = ordered_json::array();
+  for (const Clause clause : header.guarantees) object["guarantees"].push_back(name_of(clause));
+}
+
 ordered_json header_json(const TraceHeader& header) {
   ordered_json object;
   object["paperproof_trace"] = 1;
@@ -36,7 +93,8 @@ ordered_json header_json(const TraceHeader& header) {
   object["dt"] = header.dt;
   if (header.characters > 1) object["characters"] = header.characters;
   object["points"] = points_json(header.points);
-  if (!std::isnan(header.max_climb_degrees)) object["max_climb_degrees"] = header.max_climb_degrees;
+  object["max_climb_degrees"] = header.character.max_climb_degrees;
+  add_terms(header, object);
   object["colliders"] = ordered_json::array();
   for (std::size_t i = 0; i < header.ids.size(); ++i)
     object["colliders"].push_back(collider_json(header.ids[i], header.scenery.colliders[i]));
@@ -62,6 +120,13 @@ void put(Buffer& out, const Vec2d& v) {
   out.push_back(',');
   put(out, v.y());
   out.push_back(']');
+}
+
+void put_text(Buffer& out, std::string_view text);
+
+void put_flags(Buffer& out, std::initializer_list<std::pair<std::string_view, bool>> flags) {
+  for (const auto& [name, set] : flags)
+    if (set) fmt::format_to(std::back_inserter(out), ",\"{}\":true", name);
 }
 
 void put_text(Buffer& out, std::string_view text) { out.append(text.data(), text.data() + text.size()); }
@@ -148,6 +213,42 @@ void put_sensors(Buffer& out, const std::vector<SensorEvent<double>>& events, co
   out.push_back(']');
 }
 
+void put_input(Buffer& out, const Input& input) {
+  put_text(out, ",\"input\":{");
+  std::string_view comma;
+  if (input.move) {
+    put_text(out, "\"move\":");
+    put(out, *input.move);
+    comma = ",";
+  }
+  for (const auto& [name, set] : {std::pair{"jump", input.jump}, {"drop", input.drop}}) {
+    if (!set) continue;
+    fmt::format_to(std::back_inserter(out), "{}\"{}\":true", comma, name);
+    comma = ",";
+  }
+  out.push_back('}');
+}
+
+void put_ride(Buffer& out, const std::optional<TraceRide>& ride, const std::vector<std::string>& ids) {
+  if (!ride) return;
+  put_text(out, ",\"ride\":{\"collider\":");
+  put_text(out, ids[ride->collider]);
+  put_text(out, ",\"velocity\":");
+  put(out, ride->velocity);
+  out.push_back('}');
+}
+
+void put_state(Buffer& out, const TraceState& state, const std::vector<std::string>& ids) {
+  put_text(out, ",\"from\":{\"velocity\":");
+  put(out, state.velocity);
+  put_flags(out, {{"grounded", state.grounded},
+                  {"jumping", state.jumping},
+                  {"jump_held", state.jump_held},
+                  {"jump_pending", state.jump_pending}});
+  put_ride(out, state.ride, ids);
+  out.push_back('}');
+}
+
 }  // namespace
 
 std::string trace_path(const std::string& stem, std::string scene, const std::string& contender,
@@ -181,15 +282,28 @@ void TraceWriter::write(const TraceStep& step) {
     out.push_back(',');
   }
   if (several_) fmt::format_to(std::back_inserter(out), "\"character\":{},", step.character);
+  if (!step.refused.empty()) return write_refused(step, out);
   put_path(out, step.path);
   if (!path_exact_) put_text(out, ",\"path_exact\":false");
+  put_input(out, step.input);
+  for (const auto& [key, own] : {std::pair{",\"up\":", step.up}, {",\"gravity\":", step.gravity}}) {
+    if (!own) continue;
+    put_text(out, key);
+    put(out, *own);
+  }
   put_text(out, ",\"requested\":");
   put(out, step.requested);
   put_text(out, ",\"steered\":");
   put(out, step.steered);
   put_text(out, ",\"velocity\":");
   put(out, step.velocity);
-  fmt::format_to(std::back_inserter(out), ",\"grounded\":{},\"start_overlap\":", step.grounded);
+  fmt::format_to(std::back_inserter(out), ",\"grounded\":{},\"jumping\":{}", step.grounded, step.jumping);
+  put_ride(out, step.ride, ids_);
+  if (!step.ground_velocity.isZero(0)) {
+    put_text(out, ",\"ground_velocity\":");
+    put(out, step.ground_velocity);
+  }
+  put_text(out, ",\"start_overlap\":");
   put_ids(out, step.start_overlap, ids_);
   if (!step.start_overlap_characters.empty())
     fmt::format_to(std::back_inserter(out), ",\"start_overlap_characters\":[{}]",
@@ -224,9 +338,18 @@ void TraceWriter::write(const TraceStep& step) {
     put_text(out, ",\"remainder\":");
     put(out, step.remainder);
   }
-  for (const auto& [name, set] :
-       {std::pair{"respawn", step.respawn}, {"stuck", step.stuck}, {"dropped", step.dropped}, {"capped", step.capped}})
-    if (set) fmt::format_to(std::back_inserter(out), ",\"{}\":true", name);
+  put_flags(out,
+            {{"respawn", step.respawn}, {"stuck", step.stuck}, {"dropped", step.dropped}, {"capped", step.capped}});
+  if (step.from) put_state(out, *step.from, ids_);
+  put_text(out, "}\n");
+  file_.write({out.data(), out.size()});
+}
+
+/// @param out the line so far.
+void TraceWriter::write_refused(const TraceStep& step, fmt::memory_buffer& out) {
+  put_text(out, "\"refused\":");
+  put_text(out, ordered_json(step.refused).dump(-1, ' ', false, ordered_json::error_handler_t::replace));
+  put_input(out, step.input);
   put_text(out, "}\n");
   file_.write({out.data(), out.size()});
 }

@@ -4,6 +4,8 @@
 #include "records/output_file.hpp"
 #include "records/trace.hpp"
 
+#include <fmt/format.h>
+
 namespace paperproof::compare {
 
 /// `STEM.<scene>.<contender>.<scalar>.jsonl`; what a file name cannot hold becomes `_`.
@@ -28,6 +30,8 @@ class TraceWriter {
     ColliderIndex collider = 0;
     MoverIndex mover = 0;
   };
+  void write_refused(const TraceStep& step, fmt::memory_buffer& out);
+
   OutputFile file_;
   std::vector<std::string> ids_;  ///< As JSON strings.
   std::vector<Moving> moving_;

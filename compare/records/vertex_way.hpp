@@ -26,4 +26,17 @@ struct VertexWay {
   return found == ways.end() ? nullptr : &*found;
 }
 
+/// How far a collider takes what stands on it [m]. Where it turns at once and then goes straight, time and again, that
+/// is the way of what goes straight: it turns under the foot.
+[[nodiscard]] inline Vec2d carried_along(const VertexWay& way) {
+  constexpr double at_once = 1e-5;  // of the time of what follows
+  Vec2d carried = Vec2d::Zero();
+  for (std::size_t k = 1; k < way.instants.size(); ++k) {
+    const bool turns_at_once = k + 1 < way.instants.size() && way.instants[k] - way.instants[k - 1] <
+                                                                  at_once * (way.instants[k + 1] - way.instants[k]);
+    if (!turns_at_once) carried += way.vertices[k][0] - way.vertices[k - 1][0];
+  }
+  return carried;
+}
+
 }  // namespace paperproof::compare

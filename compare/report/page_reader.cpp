@@ -1,7 +1,7 @@
 #include "report/page_reader.hpp"
 
-#include <fstream>
-#include <sstream>
+#include "records/input_file.hpp"
+
 #include <stdexcept>
 
 namespace paperproof::compare {
@@ -12,11 +12,7 @@ std::string opening_of(const std::string& id) { return "<script type=\"applicati
 }  // namespace
 
 PageReader::PageReader(const std::string& path) : path_(path) {
-  const std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error(path + ": cannot be read");
-  std::ostringstream text;
-  text << file.rdbuf();
-  text_ = std::move(text).str();
+  text_ = read_input(path, most_page_bytes);
   index_ = nlohmann::ordered_json::parse(element("index"), nullptr, false);
   if (!index_.is_object()) throw std::runtime_error(path + ": expected a page that paperproof wrote");
 }

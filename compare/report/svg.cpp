@@ -225,7 +225,11 @@ std::string svg_of_maps(const std::string& title, const std::vector<const ChartG
   return svg.finish(title);
 }
 
-PictureFolder::PictureFolder(std::string path) : path_(std::move(path)) { std::filesystem::create_directories(path_); }
+PictureFolder::PictureFolder(std::string path) : path_(std::move(path)) {
+  std::error_code error;
+  std::filesystem::create_directories(path_, error);
+  if (error) throw std::runtime_error(path_ + ": no folder for pictures: " + error.message());
+}
 
 std::string PictureFolder::write(std::string_view title, std::string_view svg) {
   const std::string words = file_words(title);

@@ -97,7 +97,8 @@ class Box2dContestant final : public Contestant {
     header_.dt = scene.dt;
     header_.characters = character_count(scene);
     header_.points = world_.points_as_run();
-    header_.max_climb_degrees = scene.character.max_climb_degrees;
+    add_terms(scene, character_, header_);
+    header_.substeps = substeps_;
     header_.scenery = world_.as_run();
     header_.ids = scene.ids;
     header_.box2d = box2d::box2d_version();
@@ -121,6 +122,7 @@ class Box2dContestant final : public Contestant {
         records[k].requested += wishes_[k].velocity * dt_;
         records[k].steered += twins_[k].steered * dt_;
         records[k].jumping = twins_[k].state.jumping;
+        records[k].ride = recorded_ride(twins_[k].state.ride);
       }
     }
   }

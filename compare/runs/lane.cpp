@@ -12,12 +12,6 @@
 namespace paperproof::compare {
 namespace {
 
-/// The guarantee of octagon_sweep covers starts this near to the origin [m].
-constexpr double guaranteed_range = 1e6;
-/// The largest gap that it may leave at a contact [m].
-constexpr double guaranteed_gap = 1e-6;
-/// A larger share of the wanted motion that is lost to nothing is a fault of who promises none.
-constexpr double most_motion_lost = 0.01;
 /// The first steps are kept for the replay one by one: a start is what people look at.
 constexpr int first_steps = 60;
 
@@ -43,12 +37,9 @@ Lane::Lane(std::string contender, ScalarKind scalar, const Scene& scene, const S
     contestant_ = make_contestant(row_.contender, scalar, scene, scenery, planning);
     row_.knob = header().knob;
     records_.resize(header().characters);
-    judgements_.resize(records_.size());
-    inside_.resize(records_.size());
     placed_.resize(records_.size(), true);
-    for (std::size_t k = 0; k < records_.size(); ++k) judges_.push_back(std::make_unique<Judge>(header()));
-    if (records_.size() > 1) company_ = std::make_unique<CompanyJudge>(header());
-    metrics_ = std::make_unique<Metrics>(header(), metrics_for(scene, planning).measured);
+    placed_in_.resize(records_.size());
+    judge_ = std::make_unique<RunJudge>(header_as_run(), metrics_for(scene, planning).measured);
     if (is_reference(row_.contender)) bodies_ = std::make_unique<BodyJudge>(scene, header());
     if (bodies_ && !bodies_->any()) bodies_.reset();
     if (limit_.most > 0) {
@@ -74,17 +65,6 @@ TraceHeader Lane::header_as_run() const {
   return as_run;
 }
 
-void Lane::note_start() {
-  for (std::size_t k = 0; k < records_.size(); ++k) {
-    if (inside_[k].empty()) continue;
-    const std::string who = company_ ? fmt::format("character {}", k) : "the run";
-    std::string text = fmt::format("{} begins inside `{}`", who, header().ids[inside_[k].front()]);
-    if (inside_[k].size() > 1) text += " and " + counted(inside_[k].size() - 1, "other collider");
-    row_.findings.push_back(text);
-    if (begins_inside_.empty()) begins_inside_ = text;
-  }
-}
-
 void Lane::fail(Verdict verdict, const std::string& reason) {
   row_.verdict = verdict;
   row_.reason = reason;
@@ -106,6 +86,12 @@ void Lane::expect(const std::vector<Answer>& answers) {
 void Lane::place(const Pose& pose, std::size_t character) {
   contestant_->place(pose, character);
   placed_[character] = true;
+  placed_in_[character] = {.velocity = pose.velocity,
+                           .grounded = pose.grounded,
+                           .jumping = pose.jumping,
+                           .jump_held = pose.jump_held,
+                           .jump_pending = pose.jump_pending,
+                           .ride = is_reference(row_.contender) ? recorded_ride(pose.ride) : std::nullopt};
 }
 
 void Lane::respawn(const Start& start, const Respawn& when) {
@@ -114,38 +100,30 @@ void Lane::respawn(const Start& start, const Respawn& when) {
 }
 
 bool Lane::is_free(const Vec2d& position, std::size_t character) const {
-  if (!company_) return true;
   std::vector<Vec2d> positions;
   for (std::size_t k = 0; k < records_.size(); ++k)
     positions.push_back(k == character ? position : contestant_->pose(k).position);
-  return company_->overlapped(positions, static_cast<CharacterIndex>(character)).empty();
+  return judge_->is_free(positions, character);
 }
 
 /// What was put somewhere in between did not get there by itself.
-void Lane::begin_records(int step, double dt) {
+void Lane::begin_records(int step, const StepInput& input) {
   for (std::size_t k = 0; k < records_.size(); ++k) {
     records_[k].step = step;
-    if (steps_vary_) records_[k].dt = dt;
+    if (steps_vary_) records_[k].dt = input.dt;
     records_[k].character = static_cast<CharacterIndex>(k);
+    records_[k].input = input.players[k];
     records_[k].respawn = placed_[k] && step > 0;
+    records_[k].from.reset();
+    if (records_[k].respawn) records_[k].from = placed_in_[k];
   }
 }
 
 void Lane::judge_step() {
-  std::vector<Vec2d> starts;
-  for (const TraceStep& record : records_) starts.push_back(record.path.front().position);
-  for (std::size_t k = 0; k < records_.size(); ++k) {
-    TraceStep& record = records_[k];
-    // What moves stands where the last step left it: who was not put elsewhere begins in what he ended in.
-    if (placed_[k]) inside_[k] = judges_[k]->overlapped(record);
-    placed_[k] = false;
-    record.start_overlap = inside_[k];
-    if (company_) record.start_overlap_characters = company_->overlapped(starts, record.character);
-    judgements_[k] = judges_[k]->judge(record, company_ ? company_->others_of(record.character, records_) : Others{});
-  }
-  if (records_.front().step == 0) note_start();
-  if (company_) company_->judge(records_, judgements_);
-  for (std::size_t k = 0; k < records_.size(); ++k) metrics_->add(records_[k], judgements_[k]);
+  judge_->add(records_);
+  std::fill(placed_.begin(), placed_.end(), false);
+  if (records_.front().step == 0)
+    row_.findings.insert(row_.findings.end(), judge_->begins_inside().begin(), judge_->begins_inside().end());
   if (answers_)
     for (const TraceStep& record : records_) answers_->add(record);
   if (bodies_) bodies_->add(records_.front());
@@ -158,29 +136,28 @@ bool Lane::is_finite() const {
   });
 }
 
+void Lane::note_refusal(const std::string& reason) {
+  TraceStep record = records_.front();
+  record.refused = reason;
+  judge_->add_refused(record);
+  if (trace_) trace_->write(record);
+}
+
 void Lane::step(int step, const StepInput& input) {
   try {
-    begin_records(step, input.dt);
+    begin_records(step, input);
     contestant_->step(input, records_);
-    for (std::size_t k = 0; k < records_.size(); ++k)
-      if (!input.players[k].drop) records_[k].dropped_through.clear();  // nobody asked for it
     row_.finite = is_finite();
     if (!*row_.finite)
       return fail(Verdict::failed, fmt::format("step {}: a position or velocity that is no number", step));
     judge_step();
   } catch (const StepRefused& reason) {
+    note_refusal(reason.what());
     return end_early(fmt::format("step {}: {}", step, reason.what()));
   } catch (const std::exception& error) {
     return fail(Verdict::failed, fmt::format("step {}: {}", step, error.what()));
   }
   ++row_.steps;
-  const auto any = [this](const auto& is) { return std::any_of(judgements_.begin(), judgements_.end(), is); };
-  if (any([](const StepJudgement& judged) { return !judged.crushed_with_room.empty(); })) ++steps_miscalled_;
-  if (any([](const StepJudgement& judged) { return judged.broke(); })) ++steps_broken_;
-  broke_company_ = broke_company_ || any([](const StepJudgement& judged) { return judged.company.broke(); });
-  if (std::any_of(records_.begin(), records_.end(), [](const TraceStep& record) { return record.capped; }))
-    ++steps_capped_;
-  for (std::size_t k = 0; k < records_.size(); ++k) inside_[k] = judgements_[k].end_overlap;
   if (trace_)
     for (const TraceStep& record : records_) trace_->write(record);
   if (limit_.most > 0) keep_for_replay();
@@ -199,8 +176,8 @@ void Lane::keep_for_replay() {
 
 void Lane::note_events(std::size_t character) {
   const TraceStep& record = records_[character];
-  const StepJudgement& judged = judgements_[character];
-  const std::string who = company_ ? fmt::format("character {} ", character) : "";
+  const StepJudgement& judged = judgement(character);
+  const std::string who = characters() > 1 ? fmt::format("character {} ", character) : "";
   const auto tell = [&](ReportEvent::Kind kind, const std::string& words, std::optional<ColliderIndex> collider = {}) {
     if (replay_.events.size() < static_cast<std::size_t>(limit_.most))
       replay_.events.push_back({record.step, kind, who + words, record.character, collider});
@@ -230,7 +207,7 @@ void Lane::note_events(std::size_t character) {
 }
 
 void Lane::write_metrics() {
-  metrics_->write(row_);
+  judge_->write(row_);
   if (answers_) answers_->write(row_);
 }
 
@@ -243,62 +220,10 @@ void Lane::finish() {
   if (trace_) trace_->commit();
 }
 
-bool Lane::guaranteed() const {
-  if (!is_guaranteed(row_)) return false;
-  const auto within = [](const Vec2d& p) { return p.cwiseAbs().maxCoeff() <= guaranteed_range; };
-  const std::vector<ColliderDef>& colliders = header().scenery.colliders;
-  return std::all_of(colliders.begin(), colliders.end(), [&](const ColliderDef& collider) {
-    return std::all_of(collider.points.begin(), collider.points.end(), within);
-  });
-}
-
 void Lane::conclude() {
-  const bool promised = guaranteed();
-  conclude_safety(promised);
   if (!row_.answer_ok.value_or(true)) add_fault(row_, Axis::answer, Verdict::flagged, row_.answer);
   if (bodies_) bodies_->write(row_);
-  conclude_progress(promised);
-  if (steps_capped_ > 0)
-    add_fault(row_, Axis::validity, Verdict::flagged,
-              fmt::format("{} beyond Box2D's travel cap of 2 m per step, not scored", counted(steps_capped_, "step")));
   settle(row_);
-}
-
-void Lane::conclude_progress(bool promised) {
-  const Verdict broken = promised ? Verdict::violates : Verdict::flagged;
-  const auto fault = [&](const std::optional<int>& steps, Verdict verdict, const char* what) {
-    if (steps.value_or(0) > 0)
-      add_fault(row_, Axis::progress, verdict, fmt::format("{} on {}", what, counted(*steps, "step")));
-  };
-  fault(row_.hanging_steps, broken, "hangs");
-  fault(row_.stuck_refuted, broken, "says it is stuck beside a way out");
-  fault(row_.ground_refuted, Verdict::flagged, "says it is grounded with nothing under it");
-  fault(row_.dropped_steps, Verdict::flagged, "drops displacement");
-  if (const double lost = row_.wanted_motion_lost.value_or(0); lost > (promised ? 0 : most_motion_lost))
-    add_fault(row_, Axis::progress, broken,
-              fmt::format("loses {:.3g} % of its horizontal motion to nothing", 100 * lost));
-}
-
-void Lane::conclude_safety(bool promised) {
-  const auto fault = [&](Verdict usual, const std::string& words) {
-    add_fault(row_, Axis::safety, promised ? Verdict::violates : usual, words);
-  };
-  const std::string solid = broke_company_ ? "a solid or another character" : "a solid";
-  const int inside = row_.steps_ending_inside.value_or(0);
-  if (row_.first_tunnel)  // the first passage in words says more than how many there are
-    fault(Verdict::tunnels, row_.first_tunnel->words);
-  if (inside > 0 && steps_broken_ > 0)
-    fault(Verdict::flagged, fmt::format("ends {} inside {}, up to {:.3g} m deep", counted(inside, "step"), solid,
-                                        row_.max_penetration_m.value_or(0)));
-  if (const int passed = row_.one_way_violations.value_or(0); passed > 0)
-    fault(Verdict::flagged, fmt::format("passes a one-way chain against its normal on {}", counted(passed, "step")));
-  if (steps_miscalled_ > 0)
-    fault(Verdict::flagged, fmt::format("a crush with room to give way on {}", counted(steps_miscalled_, "step")));
-  if (const int unsure = row_.undecided_steps.value_or(0); unsure > 0)
-    add_fault(row_, Axis::safety, Verdict::flagged,
-              fmt::format("too near to what turns to tell on {}", counted(unsure, "step")));
-  if (const double gap = row_.max_contact_gap_m.value_or(0); promised && gap > guaranteed_gap)
-    fault(Verdict::violates, fmt::format("a contact is {:.3g} m away", gap));
 }
 
 }  // namespace paperproof::compare

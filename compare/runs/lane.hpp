@@ -1,15 +1,13 @@
-/// One contestant with everything that watches it.
+/// Runs one contender and feeds every step to judge, metrics, trace and replay.
 #pragma once
 
 #include "metrics/answers.hpp"
-#include "metrics/metrics.hpp"
-#include "oracle/company.hpp"
-#include "oracle/judge.hpp"
 #include "records/scene_result.hpp"
 #include "records/trace_writer.hpp"
 #include "runs/body_judge.hpp"
 #include "runs/contestant.hpp"
 #include "runs/cost.hpp"
+#include "runs/run_judge.hpp"
 
 #include <memory>
 #include <optional>
@@ -33,15 +31,17 @@ class Lane {
   [[nodiscard]] const std::string& contender() const noexcept { return row_.contender; }
   [[nodiscard]] Contestant& contestant() noexcept { return *contestant_; }
   [[nodiscard]] const TraceHeader& header() const noexcept { return contestant_->header(); }
-  [[nodiscard]] const ExactScenery& solids() const noexcept { return judges_.front()->scenery(); }
+  [[nodiscard]] const ExactScenery& solids() const noexcept { return judge_->solids(); }
   [[nodiscard]] std::size_t characters() const noexcept { return records_.size(); }
   [[nodiscard]] const TraceStep& record(std::size_t character = 0) const noexcept { return records_[character]; }
   [[nodiscard]] const StepJudgement& judgement(std::size_t character = 0) const noexcept {
-    return judgements_[character];
+    return judge_->judgement(character);
   }
   [[nodiscard]] Row& row() noexcept { return row_; }
   /// In words; empty where the run begins free.
-  [[nodiscard]] const std::string& begins_inside() const noexcept { return begins_inside_; }
+  [[nodiscard]] std::string begins_inside() const {
+    return judge_ && !judge_->begins_inside().empty() ? judge_->begins_inside().front() : "";
+  }
   [[nodiscard]] ReportRun& replay() noexcept { return replay_; }
 
   /// What the run must come to.
@@ -62,41 +62,30 @@ class Lane {
  private:
   [[nodiscard]] TraceHeader header_as_run() const;
   void write_metrics();
-  void note_start();
-  void begin_records(int step, double dt);
+  void begin_records(int step, const StepInput& input);
   [[nodiscard]] bool is_finite() const;
   void judge_step();
+  void note_refusal(const std::string& reason);
   void fail(Verdict verdict, const std::string& reason);
   void end_early(const std::string& reason);
   void keep_for_replay();
   void note_events(std::size_t character);
   void conclude();
-  void conclude_safety(bool promised);
-  void conclude_progress(bool promised);
-  [[nodiscard]] bool guaranteed() const;
 
   Row row_;
   ReportRun replay_;
   ReplayLimit limit_;
   bool steps_vary_;  ///< Each step has a length of its own.
   std::unique_ptr<Contestant> contestant_;
-  std::unique_ptr<CompanyJudge> company_;  ///< Null for one character.
-  std::unique_ptr<Metrics> metrics_;
+  std::unique_ptr<RunJudge> judge_;
   std::optional<AnswerCheck> answers_;  ///< None where nothing is asked.
   std::unique_ptr<BodyJudge> bodies_;   ///< Null where none are Box2D's own.
   std::unique_ptr<TraceWriter> trace_;
   // By character:
-  std::vector<std::unique_ptr<Judge>> judges_;
   std::vector<TraceStep> records_;
-  std::vector<StepJudgement> judgements_;
-  std::vector<std::vector<ColliderIndex>> inside_;  ///< What the octagon overlaps now, exactly.
-  std::vector<bool> placed_;                        ///< Since the last step.
-  std::string begins_inside_;
+  std::vector<bool> placed_;           ///< Since the last step.
+  std::vector<TraceState> placed_in_;  ///< With this state.
   std::vector<Respawn> respawns_;
-  int steps_broken_ = 0;     ///< Steps that entered a solid, passed one, or passed a one-way chain backwards.
-  int steps_miscalled_ = 0;  ///< Steps with a crush where there was room.
-  int steps_capped_ = 0;
-  bool broke_company_ = false;  ///< Some of `steps_broken_` are with another character.
 };
 
 }  // namespace paperproof::compare

@@ -136,6 +136,72 @@ double jump_rules_in_force(const CharacterDef& character) {
   return (character.no_jump_toward_wall ? 0.5 : 0) + (character.side_hit_ends_rise ? 0.5 : 0);
 }
 
+namespace {
+
+MoverScript script_of(const MoverDef& mover) {
+  MoverScript script;
+  for (const MoverDef::Waypoint& waypoint : mover.path) script.path.push_back({waypoint.time, waypoint.at});
+  for (const MoverDef::Turn& turn : mover.turns) script.turns.push_back({turn.time, turn.at});
+  switch (mover.loop) {
+    case MoverDef::Loop::once:
+      script.loop = MoverScript::Loop::once;
+      break;
+    case MoverDef::Loop::loop:
+      script.loop = MoverScript::Loop::loop;
+      break;
+    case MoverDef::Loop::ping_pong:
+      script.loop = MoverScript::Loop::ping_pong;
+      break;
+  }
+  script.body = mover.body.has_value();
+  return script;
+}
+
+/// What a scene says of a scenery, in the number type that runs.
+template <class Scalar>
+SceneryDef rounded(SceneryDef scenery) {
+  const auto round = [](double& value) { value = static_cast<double>(static_cast<Scalar>(value)); };
+  const auto round_all = [&round](std::vector<Vec2d>& points) {
+    for (Vec2d& point : points) {
+      round(point.x());
+      round(point.y());
+    }
+  };
+  for (ColliderDef& collider : scenery.colliders) {
+    round_all(collider.points);
+    for (std::vector<Vec2d>& hole : collider.holes) round_all(hole);
+    round(collider.radius);
+  }
+  return scenery;
+}
+
+/// What runs must be what the scene says: the judge sees the latter.
+/// @throws std::logic_error naming the collider that differs.
+void check_as_run(const SceneryDef& said, const SceneryDef& runs, const std::vector<std::string>& ids) {
+  const auto same = [](const ColliderDef& a, const ColliderDef& b) {
+    return a.shape == b.shape && a.points == b.points && a.holes == b.holes && a.radius == b.radius &&
+           a.mover == b.mover && a.sensor == b.sensor && a.one_way.has_value() == b.one_way.has_value();
+  };
+  for (std::size_t i = 0; i < said.colliders.size(); ++i)
+    if (i >= runs.colliders.size() || !same(said.colliders[i], runs.colliders[i]))
+      throw std::logic_error(fmt::format("the collider \"{}\" that runs is not the scene's", ids[i]));
+}
+
+}  // namespace
+
+void add_terms(const Scene& scene, const CharacterDef& character, TraceHeader& header) {
+  header.character = character;
+  header.gravity = scene.gravity;
+  for (std::size_t k = 0; k < character_count(scene); ++k)
+    header.starts.push_back({start_of(scene, k).position, start_of(scene, k).velocity});
+  header.respawn_box = scene.respawn_box;
+  for (const MoverDef& mover : scene.movers) header.scripts.push_back(script_of(mover));
+  for (ColliderIndex i = 0; i < scene.scenery.colliders.size(); ++i)
+    if (const MoverIndex mover = scene.scenery.colliders[i].mover; mover != no_mover)
+      header.scripts[mover].colliders.push_back(i);
+  if (is_guaranteed(header.contender, header.scalar)) header.guarantees = every_clause();
+}
+
 template <class Scalar>
 TraceHeader header_of(const TechniqueEntry& technique, const Scenery<Scalar>& scenery, const Scene& scene,
                       const Plan& plan, std::span<const KnobSetting> knobs) {
@@ -148,8 +214,9 @@ TraceHeader header_of(const TechniqueEntry& technique, const Scenery<Scalar>& sc
   header.characters = character_count(scene);
   for (const Vec2d& point : scene.character.shape.hull())
     header.points.push_back(point.cast<Scalar>().template cast<double>());
-  header.max_climb_degrees = scene.character.max_climb_degrees;
-  header.scenery = scenery.as_run();
+  add_terms(scene, rules_for(technique, scene, knobs), header);
+  header.scenery = rounded<Scalar>(scene.scenery);
+  check_as_run(header.scenery, scenery.as_run(), scene.ids);
   header.ids = scene.ids;
   header.plan = plan;
   header.tolerances = tolerances_of<Scalar>();
@@ -157,6 +224,12 @@ TraceHeader header_of(const TechniqueEntry& technique, const Scenery<Scalar>& sc
   if (technique.draws_level && scene.has_pixels && !is_turned(knobs, "raster_pixels_per_metre"))
     header.tolerances.push_back({"pixel", 1 / scene.pixels_per_metre});
   return header;
+}
+
+template <class Scalar>
+std::optional<TraceRide> recorded_ride(const Ride<Scalar>& ride) {
+  if (ride.ground == Ride<Scalar>::none) return std::nullopt;
+  return TraceRide{ride.ground, widened<Scalar>(ride.velocity)};
 }
 
 template <class Scalar>
@@ -171,6 +244,8 @@ void write_report(const StepReport<Scalar>& report, const CharacterState<Scalar>
   record.remainder = widened<Scalar>(state.technique_memory);
   record.grounded = state.grounded;
   record.jumping = state.jumping;
+  record.ride = recorded_ride(state.ride);
+  record.ground_velocity = widened<Scalar>(state.ground.velocity);
   record.stuck = report.status == StepStatus::stuck;
   record.dropped = report.status == StepStatus::dropped;
   record.capped = false;
@@ -222,6 +297,8 @@ template TraceHeader header_of(const TechniqueEntry&, const Scenery<float>&, con
                                std::span<const KnobSetting>);
 template TraceHeader header_of(const TechniqueEntry&, const Scenery<double>&, const Scene&, const Plan&,
                                std::span<const KnobSetting>);
+template std::optional<TraceRide> recorded_ride(const Ride<float>&);
+template std::optional<TraceRide> recorded_ride(const Ride<double>&);
 template void write_report(const StepReport<float>&, const CharacterState<float>&, TraceStep&);
 template void write_report(const StepReport<double>&, const CharacterState<double>&, TraceStep&);
 template Pose pose_of(const CharacterState<float>&);

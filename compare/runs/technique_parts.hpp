@@ -45,9 +45,17 @@ class OwnScenery<double> {
 /// `jump_rules` as rows have it: 1 where both rules are in force, 0 for none, 0.5 for one of them.
 [[nodiscard]] double jump_rules_in_force(const CharacterDef& character);
 
+/// What a trace says of the scene: what is wanted, where characters begin, and where movers are.
+/// @param character with the jumping rules in force.
+void add_terms(const Scene& scene, const CharacterDef& character, TraceHeader& header);
+
 template <class Scalar>
 [[nodiscard]] TraceHeader header_of(const TechniqueEntry& technique, const Scenery<Scalar>& scenery, const Scene& scene,
                                     const Plan& plan, std::span<const KnobSetting> knobs);
+
+/// What carries a character, as a record has it.
+template <class Scalar>
+[[nodiscard]] std::optional<TraceRide> recorded_ride(const Ride<Scalar>& ride);
 
 /// Fills what a step report and the state after it say; not `movers`. `requested` is as the controller has it: relative
 /// to what carries the character.

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "records/input_file.hpp"
 #include "scenes/input_error.hpp"
 
 namespace paperproof::compare {
@@ -135,6 +136,7 @@ std::string listed(std::initializer_list<std::string_view> words) { return fmt::
 }  // namespace
 
 json parse_json(const std::string& text, const std::string& file) {
+  refuse_zero_bytes(text, file);
   Builder builder(text, file);
   json::sax_parse(text, &builder);
   return builder.take();

@@ -121,7 +121,7 @@ class LevelReader {
 }  // namespace
 
 SuperTuxLevel read_supertux_level(const std::string& path, const std::string& given) {
-  const std::string source = read_file(path, given);
+  const std::string source = read_text(path, given);
   const SExpression file = parse_s_expressions(source, given);
   SuperTuxLevel level;
   level.sectors = LevelReader(given).sectors(file.items.front());
@@ -168,7 +168,7 @@ std::optional<Vec2d> sprite_size(const std::string& root, const std::string& spr
   namespace fs = std::filesystem;
   const fs::path sprite_path = fs::path(root) / fs::path(sprite).relative_path();
   try {
-    const std::string source = read_file(sprite_path.string(), sprite);
+    const std::string source = read_text(sprite_path.string(), sprite);
     const SExpression file = parse_s_expressions(source, sprite);
     const SExpression* action = file.items.front().find("action");
     const SExpression* images = action == nullptr ? nullptr : action->find("images");

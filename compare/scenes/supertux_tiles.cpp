@@ -105,7 +105,7 @@ std::vector<Vec2d> SuperTuxTile::solid_part() const {
 }
 
 SuperTuxTiles read_supertux_tiles(const std::string& path, const std::string& given) {
-  const std::string source = read_file(path, given);
+  const std::string source = read_text(path, given);
   const SReader reader(given);
   const SExpression file = parse_s_expressions(source, given);
   const SExpression& root = file.items.front();

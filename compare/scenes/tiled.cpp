@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -15,6 +17,7 @@
 #include "scenes/tiled_rule.hpp"
 #include "scenes/tiled_shapes.hpp"
 #include "scenes/validate.hpp"
+#include "words.hpp"
 
 #include <paperproof/number_in.hpp>
 
@@ -23,6 +26,21 @@ namespace paperproof::compare {
 namespace {
 
 TiledRole first_mark(TiledRole own, TiledRole around) { return own == TiledRole::unmarked ? around : own; }
+
+/// Where the character is when its lowest point, `lower` from there, is at `ground` or above by a rounding: who stands
+/// on the edge of a solid is not inside.
+double place_above(double ground, double lower) {
+  // The rounded sum and what its rounding left out (Knuth's TwoSum): exact together.
+  const auto is_below = [=](double place) {
+    const double sum = place + lower;
+    const double part = sum - place;
+    const double left_out = (place - (sum - part)) + (lower - part);
+    return sum < ground || (sum == ground && left_out < 0);
+  };
+  double place = ground - lower;
+  while (is_below(place)) place = std::nextafter(place, std::numeric_limits<double>::infinity());
+  return place;
+}
 
 /// Turns a map into scenery, by the rule in tiled.hpp.
 class MapBuilder {
@@ -51,6 +69,7 @@ class MapBuilder {
       scene_.notes.push_back(
           fmt::format("{} objects made from templates are left out: templates are not read", templates_));
     }
+    note_round_objects();
     scene_.respawn_box = box();
     return std::move(scene_);
   }
@@ -68,6 +87,17 @@ class MapBuilder {
     return std::any_of(colliders.begin(), colliders.end(), [](const auto& each) { return each.mover == no_mover; });
   }
 
+  void note_round_objects() {
+    const auto note = [this](std::size_t count, const std::string& thing, const std::string& one,
+                             const std::string& many) {
+      if (count > 0) scene_.notes.push_back(fmt::format("{} {}", counted(count, thing), count == 1 ? one : many));
+    };
+    note(circles_, "object", "as wide as high and round is a circle", "as wide as high and round are circles");
+    const std::string inside = fmt::format("straight edges, at most {} px inside of the curve", straight_within);
+    note(ellipses_, "ellipse", "has " + inside, "have " + inside);
+    note(capsules_, "capsule", "has " + inside, "have " + inside);
+  }
+
   Vec2d to_metres(const Vec2d& pixels) const { return {pixels.x() / scale_, 0 - pixels.y() / scale_}; }
 
   std::string unused(const std::string& id) {
@@ -79,6 +109,8 @@ class MapBuilder {
   ColliderDef collider_of(const PixelShape& shape, bool one_way) const {
     ColliderDef collider;
     collider.shape = shape.closed ? ColliderDef::Shape::polygon : ColliderDef::Shape::chain;
+    if (shape.radius > 0) collider.shape = ColliderDef::Shape::circle;
+    collider.radius = shape.radius / scale_;
     for (const Vec2d& point : shape.points) collider.points.push_back(to_metres(point));
     if (one_way) collider.one_way = Vec2d{0, 1};
     return collider;
@@ -104,6 +136,12 @@ class MapBuilder {
       scene_.scenery.colliders.push_back(std::move(collider));
       scene_.ids.push_back(unused(i == 0 ? id : fmt::format("{}.{}", id, i)));
       where_.push_back(shapes[i].where);
+      if (shapes[i].radius > 0)
+        ++circles_;
+      else if (shapes[i].drawn_as == TiledObject::Shape::ellipse)
+        ++ellipses_;
+      else if (shapes[i].drawn_as == TiledObject::Shape::capsule)
+        ++capsules_;
     }
   }
 
@@ -274,8 +312,11 @@ class MapBuilder {
       return;
     }
     const Box2<double>& body = scene_.character.shape.box();
-    const Vec2d corner = to_metres(upper_left(map_, *marked.object, marked.offset));
-    scene_.start.position = {corner.x() - body.lower.x(), corner.y() - body.upper.y()};
+    const Vec2d at = to_metres(upper_left(map_, *marked.object, marked.offset));
+    if (marked.object->shape == TiledObject::Shape::point)
+      scene_.start.position = {at.x() - (body.lower.x() + body.upper.x()) / 2, place_above(at.y(), body.lower.y())};
+    else
+      scene_.start.position = {at.x() - body.lower.x(), at.y() - body.upper.y()};
     check_start(scene_, marked.object->where);
   }
 
@@ -284,6 +325,9 @@ class MapBuilder {
   double scale_;
   bool only_shapes_ = false;  ///< Nothing is marked: tiles with collision shapes are what is solid.
   int templates_ = 0;
+  std::size_t circles_ = 0;
+  std::size_t ellipses_ = 0;  ///< That have straight edges.
+  std::size_t capsules_ = 0;  ///< The same.
   Scene scene_;
   std::vector<std::string> where_;
   std::set<std::string> ids_;

@@ -15,17 +15,21 @@
 /// **What it becomes.** A solid tile is its collision shapes, or its whole square where it has none; a one-way tile is
 /// its upper edges. A solid rectangle, polygon or tile object is a polygon, a solid polyline a chain that blocks from
 /// both sides; a one-way polyline blocks from above, a one-way rectangle, polygon or tile object with its upper edges.
-/// An ellipse that is marked is refused, and so is an object made from a template, as templates are not read; points,
-/// texts and objects without a size are left out with a note. A tile object or rectangle in a layer named `moving
+/// A solid ellipse as wide as high is a circle; another one, and a capsule (Tiled 1.12: a rectangle with half circles
+/// at its ends), becomes a polygon at most 1/8 px inside of its curve, and a note counts these. An object made from a
+/// template is refused where it is marked, as templates are not read; points, texts and objects without a size are left
+/// out with a note. A tile object or rectangle in a layer named `moving
 /// platforms` becomes a mover: `change_x` or `change_y` is its speed in pixels per 1/60 s (y up), `boundary_left`,
 /// `_right`, `_top`, `_bottom` its turning points in pixels from the map's lower left corner (one that begins beyond
 /// them turns where it began); without a pair of turning points it is left out with a note.
 ///
 /// **Where the character begins.** At the first object whose name or class is `spawn`, `spawn point`, `player`,
 /// `main player`, `player start`, `player spawn`, `start` or `hero`; else at the first object in a layer of such a
-/// name; the sprite's top left corner is put at the object's (of a tile object, its upper left corner). Without any:
-/// above the first ground, looking through the columns of tiles from left to right and in each from top to bottom,
-/// where there is room. The character is the article's, 20 x 40 px at 32 px/m, whatever the scale of the map.
+/// name; the sprite's top left corner is put at the object's (of a tile object, its upper left corner); but at a point
+/// the sprite stands: the middle of its lower edge is there. Without any: above the first ground, looking through the
+/// columns of tiles from left to right and in each from top to bottom, where there is room. The character is the
+/// article's, 20 x 40 px at 32 px/m, whatever the scale of the map. It climbs kerbs up to a pixel: see
+/// map_defaults.hpp.
 ///
 /// **Scale.** A tile is 1 m high, unless a scene that refers to the map says otherwise. Vertices are (pixels) /
 /// pixels_per_metre with one division, so that neighbouring tiles share bits; y is negated, so the map lies below 0.

@@ -220,8 +220,10 @@ class JsonReader {
     } else if (const auto polyline = at.find("polyline")) {
       object.shape = TiledObject::Shape::polyline;
       object.points = points(*polyline);
-    } else if (flag(at, "ellipse") || flag(at, "capsule")) {
+    } else if (flag(at, "ellipse")) {
       object.shape = TiledObject::Shape::ellipse;
+    } else if (flag(at, "capsule")) {
+      object.shape = TiledObject::Shape::capsule;
     } else if (flag(at, "point")) {
       object.shape = TiledObject::Shape::point;
     } else if (at.find("text")) {

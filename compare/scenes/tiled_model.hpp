@@ -21,7 +21,7 @@ struct TiledMarks {
 };
 
 struct TiledObject {
-  enum class Shape : std::uint8_t { rectangle, polygon, polyline, ellipse, point, text, tile };
+  enum class Shape : std::uint8_t { rectangle, polygon, polyline, ellipse, capsule, point, text, tile };
   int id = 0;
   std::string name;
   TiledMarks marks;

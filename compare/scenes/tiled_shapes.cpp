@@ -67,12 +67,59 @@ class Flip {
 
 std::vector<Vec2d> rectangle(const Vec2d& size) { return {{0, 0}, {size.x(), 0}, size, {0, size.y()}}; }
 
+/// A rectangle whose corners are quarters of ellipses with these radii, clockwise on the screen from the top.
+std::vector<Vec2d> rounded_rectangle(const Vec2d& size, const Vec2d& radii, const std::string& where) {
+  constexpr int most = 256;
+  int edges = 2;  // of a quarter
+  while (edges <= most && radii.maxCoeff() * (1 - turn_by(45.0 / edges).cos) > straight_within) ++edges;
+  if (edges > most) refuse(where, "expected a round object with radii of at most 26,000 px; use a polygon");
+  std::vector<Vec2d> points;
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    const bool is_right = quarter < 2;
+    const bool is_low = quarter == 1 || quarter == 2;
+    const Vec2d centre{is_right ? size.x() - radii.x() : radii.x(), is_low ? size.y() - radii.y() : radii.y()};
+    for (int k = 0; k <= edges; ++k) {
+      const Turn turn = turn_by(90.0 * (quarter - 1) + 90.0 * k / edges);
+      const Vec2d point = centre + radii.cwiseProduct(Vec2d{turn.cos, turn.sin});
+      if (points.empty() || points.back() != point) points.push_back(point);
+    }
+  }
+  if (points.back() == points.front()) points.pop_back();
+  return points;
+}
+
+/// An ellipse or a capsule relative to where it is, before it is rotated.
+PixelShape round_shape(const TiledObject& object) {
+  PixelShape shape{.closed = true, .points = {}, .where = object.where, .drawn_as = object.shape};
+  if (!(object.size.minCoeff() > 0)) return shape;
+  const Vec2d half = object.size / 2;
+  if (half.x() == half.y()) {
+    shape.radius = half.x();
+    shape.points = {half};
+  } else {
+    const bool is_ellipse = object.shape == TiledObject::Shape::ellipse;
+    const Vec2d radii = is_ellipse ? half : Vec2d::Constant(half.minCoeff());
+    shape.points = rounded_rectangle(object.size, radii, object.where);
+  }
+  return shape;
+}
+
+/// A circle with straight edges, as an ellipse of these radii.
+void straighten(PixelShape& circle, const Vec2d& radii) {
+  const Vec2d centre = circle.points.front();
+  circle.points = rounded_rectangle(2 * radii, radii, circle.where);
+  for (Vec2d& point : circle.points) point += centre - radii;
+  circle.radius = 0;
+}
+
 /// An object's own outline, relative to where it is; empty where it has none.
 PixelShape outline(const TiledObject& object) {
   PixelShape shape{.closed = true, .points = {}, .where = object.where};
   switch (object.shape) {
     case TiledObject::Shape::ellipse:
-      refuse(object.where, "expected a rectangle, polygon or polyline as a solid; an ellipse cannot be one");
+    case TiledObject::Shape::capsule:
+      shape = round_shape(object);
+      break;
     case TiledObject::Shape::polygon:
       shape.points = object.points;
       break;
@@ -125,7 +172,10 @@ std::vector<PixelShape> shapes_of_tile_object(const TiledMap& map, const TiledOb
   const Turn turn = turn_by(object.rotation);
   std::vector<PixelShape> shapes = shapes_of_tile(info, flip, object.where);
   for (PixelShape& shape : shapes) {
-    for (Vec2d& point : shape.points) point = turned(corner + point.cwiseProduct(scale), turn);
+    for (Vec2d& point : shape.points) point = corner + point.cwiseProduct(scale);
+    if (shape.radius > 0 && scale.x() != scale.y()) straighten(shape, shape.radius * scale);
+    shape.radius *= scale.x();
+    for (Vec2d& point : shape.points) point = turned(point, turn);
   }
   return shapes;
 }
@@ -178,8 +228,9 @@ Vec2d upper_left(const TiledMap& map, const TiledObject& object, const Vec2d& of
   return object.at + offset - anchor(info.tileset->object_alignment).cwiseProduct(object.size);
 }
 
-std::vector<PixelShape> upper_edges(const PixelShape& shape) {
+std::vector<PixelShape> upper_edges(PixelShape shape) {
   if (!shape.closed) return {shape};
+  if (shape.radius > 0) straighten(shape, Vec2d::Constant(shape.radius));
   const std::size_t n = shape.points.size();
   double twice_area = 0;
   for (std::size_t i = 0; i < n; ++i) {
@@ -194,7 +245,7 @@ std::vector<PixelShape> upper_edges(const PixelShape& shape) {
   std::vector<PixelShape> runs;
   for (std::size_t i = 0; i < n; ++i) {
     if (!faces_up(i) || faces_up((i + n - 1) % n)) continue;  // only where a run begins
-    PixelShape run{.closed = false, .points = {shape.points[i]}, .where = shape.where};
+    PixelShape run{.closed = false, .points = {shape.points[i]}, .where = shape.where, .drawn_as = shape.drawn_as};
     for (std::size_t k = i; faces_up(k % n); ++k) run.points.push_back(shape.points[(k + 1) % n]);
     runs.push_back(std::move(run));
   }

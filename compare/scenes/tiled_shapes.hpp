@@ -7,11 +7,18 @@
 
 namespace paperproof::compare {
 
+/// What is round becomes straight edges that lie at most this far inside of it [px]. Small: more corners than a level
+/// needs. Large: the picture shows the gap.
+inline constexpr double straight_within = 1.0 / 8;
+
 /// On the map [px], y down.
 struct PixelShape {
   bool closed = true;  ///< A polygon; otherwise a polyline.
   std::vector<Vec2d> points;
   std::string where;  ///< Of the shape's definition, for messages; empty where it is a whole tile.
+  double radius = 0;  ///< Above 0: a circle around its one point.
+  /// What it was drawn as: an ellipse or a capsule that is no circle has straight edges instead.
+  TiledObject::Shape drawn_as = TiledObject::Shape::polygon;
 };
 
 /// A tile of a tileset; `tile` is null where nothing is said about it.
@@ -34,15 +41,16 @@ struct TileInfo {
                                                      int column, int row, const Vec2d& offset,
                                                      const std::string& where);
 
-/// An object: itself, or the shapes of the tile that it shows. Empty where it has none: points, texts, no size.
-/// @throws InputError for an ellipse.
+/// An object: itself, or the shapes of the tile that it shows. Empty where it has none: points, texts, no size. An
+/// ellipse or a capsule as wide as high is a circle.
+/// @throws InputError for a tile of no tileset, and a round object too large for `straight_within`.
 [[nodiscard]] std::vector<PixelShape> shapes_of_object(const TiledMap& map, const TiledObject& object,
                                                        const Vec2d& offset);
 
 /// The upper left corner of an object that is not rotated [px].
 [[nodiscard]] Vec2d upper_left(const TiledMap& map, const TiledObject& object, const Vec2d& offset);
 
-/// The edges of a polygon that face upwards, in connected runs; of a polyline, itself.
-[[nodiscard]] std::vector<PixelShape> upper_edges(const PixelShape& shape);
+/// The edges of a polygon or a circle that face upwards, in connected runs; of a polyline, itself.
+[[nodiscard]] std::vector<PixelShape> upper_edges(PixelShape shape);
 
 }  // namespace paperproof::compare

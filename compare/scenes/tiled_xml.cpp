@@ -6,6 +6,7 @@
 #include <limits>
 #include <pugixml.hpp>
 
+#include "records/input_file.hpp"
 #include "scenes/input_error.hpp"
 #include "scenes/tiled_model.hpp"
 
@@ -18,7 +19,7 @@ namespace {
 /// A parsed file with its lines. Not movable: nodes point into it.
 class XmlFile {
  public:
-  XmlFile(const std::string& path, const std::string& given) : given_(given), text_(read_file(path, given)) {
+  XmlFile(const std::string& path, const std::string& given) : given_(given), text_(read_text(path, given)) {
     if (text_.empty()) refuse(at_line(given_, 1), "expected XML; the file is empty");
     for (std::size_t i = 0; i < text_.size(); ++i) {
       if (text_[i] == '\n') line_ends_.push_back(i);
@@ -221,8 +222,10 @@ class XmlReader {
     } else if (const pugi::xml_node polyline = node.child("polyline")) {
       object.shape = TiledObject::Shape::polyline;
       object.points = points(polyline);
-    } else if (node.child("ellipse") || node.child("capsule")) {
+    } else if (node.child("ellipse")) {
       object.shape = TiledObject::Shape::ellipse;
+    } else if (node.child("capsule")) {
+      object.shape = TiledObject::Shape::capsule;
     } else if (node.child("point")) {
       object.shape = TiledObject::Shape::point;
     } else if (node.child("text")) {

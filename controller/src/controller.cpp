@@ -237,7 +237,7 @@ template <class Scalar>
   const Scalar reach = static_cast<Scalar>(character_.wall_reach);
   const UpFrame<Scalar> up = context.up;
   const Vec2<Scalar> there = up.in_world({move < 0 ? -reach : reach, 0});
-  MoveRequest<Scalar> request = request_of(state, state.crushers, there, there / context.dt, 0, false, context);
+  MoveRequest<Scalar> request = request_of(state, state.crushers, there, there / context.dt, 0, false, false, context);
   request.up = up;
   request.crushed = false;
   request.crushers = {};
@@ -248,7 +248,8 @@ template <class Scalar>
 template <class Scalar>
 [[gnu::always_inline]] inline MoveRequest<Scalar> Controller<Scalar>::request_of(
     const CharacterState<Scalar>& state, const Crushers<Scalar>& crushers, const Vec2<Scalar>& displacement,
-    const Vec2<Scalar>& velocity, Scalar steered, bool drop, const StepContext<Scalar>& context) const noexcept {
+    const Vec2<Scalar>& velocity, Scalar steered, bool drop, bool jumps,
+    const StepContext<Scalar>& context) const noexcept {
   return {.position = state.position,
           .displacement = {displacement.x(), displacement.y()},
           .velocity = {velocity.x(), velocity.y()},
@@ -259,6 +260,7 @@ template <class Scalar>
           .grounded = state.grounded,
           .crushed = state.crushed,
           .drop = drop,
+          .leaves_ground_above = jumps ? Scalar(0) : Tolerances<Scalar>{}.touch / context.dt,
           .crushers = {crushers.begin(), crushers.end()},
           .movers = context.movers,
           .filter = filter_of(context),
@@ -273,10 +275,12 @@ template <class Scalar>
   // A carried character steers, jumps and falls relative to its ground.
   if (state.ride.ground != Ride<Scalar>::none) state.velocity -= state.ride.velocity;
   const Scalar dt = context.dt;
+  const bool rises = state.jumping;
   const auto [velocity, steered] = wanted_velocity(character_, context.gravity, input, dt, wall_ahead, state);
   report.requested = {velocity.x() * dt, velocity.y() * dt};
   report.steered = steered * dt;
-  return request_of(state, crushers, {velocity.x() * dt, velocity.y() * dt}, velocity, steered, input.drop, context);
+  return request_of(state, crushers, {velocity.x() * dt, velocity.y() * dt}, velocity, steered, input.drop,
+                    state.jumping && !rises, context);
 }
 
 /// The same for a character that is not upright. Kept out of most steps.
@@ -288,11 +292,13 @@ template <class Scalar>
   const UpFrame<Scalar> up = context.up;
   const Scalar dt = context.dt;
   state.velocity = up.seen(state.velocity);
+  const bool rises = state.jumping;
   const auto [seen, steered] = wanted_velocity(character_, up.seen(context.gravity), input, dt, wall_ahead, state);
   const Vec2<Scalar> velocity = up.in_world(seen);
   report.requested = velocity * dt;
   report.steered = steered * dt;
-  MoveRequest<Scalar> request = request_of(state, crushers, report.requested, velocity, steered, input.drop, context);
+  MoveRequest<Scalar> request =
+      request_of(state, crushers, report.requested, velocity, steered, input.drop, state.jumping && !rises, context);
   request.up = up;
   return request;
 }
@@ -348,7 +354,7 @@ StepStatus Controller<Scalar>::move(CharacterState<Scalar>& state, const Vec2<Sc
     return report.status = StepStatus::invalid_input;
   report.requested = displacement;
   report.steered = 0;
-  MoveRequest<Scalar> request = request_of(state, state.crushers, displacement, velocity, 0, false, context);
+  MoveRequest<Scalar> request = request_of(state, state.crushers, displacement, velocity, 0, false, false, context);
   request.up = context.up;
   technique_->move(request, scratch, report.move);
   report.status = status_of(report.move.status);

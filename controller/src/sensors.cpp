@@ -56,6 +56,7 @@ class Stays {
       const OverlapTime<Scalar> stay = stay_in_(piece);
       if (stay.any() && stay.begin > time && stay.begin < first.begin) first = stay;
     }
+    // Each round but the last reaches the end of one more stay.
     while (pieces_.size() > 1 && first.any() && first.end != OverlapTime<Scalar>::after && extend(first)) {
     }
     return first;

@@ -73,7 +73,7 @@ class RandomCrowd {
     header_.points = {character_.shape.hull().begin(), character_.shape.hull().end()};
     header_.scenery = scenery_.as_run();
     header_.dt = dt_;
-    header_.max_climb_degrees = character_.max_climb_degrees;
+    header_.character.max_climb_degrees = character_.max_climb_degrees;
   }
 
   void go(Tally& tally) {

@@ -79,7 +79,7 @@ class RandomCrowd {
     header_.scalar = "double";
     header_.points = {character_.shape.hull().begin(), character_.shape.hull().end()};
     header_.scenery = scenery_.as_run();
-    header_.max_climb_degrees = crowd_.character().max_climb_degrees;
+    header_.character.max_climb_degrees = crowd_.character().max_climb_degrees;
   }
 
   void go(Tally& tally) {

@@ -102,10 +102,15 @@ class RandomRun {
     header.points = hull();
     header.scenery = scenery_.as_run();
     header.dt = static_cast<double>(static_cast<Scalar>(dt));
-    header.max_climb_degrees = controller_.character().max_climb_degrees;
+    header.character = controller_.character();
     judge_.emplace(header);
     reported_.emplace(header.scenery, header.points, Tolerances<Scalar>{}.certain);
-    if (up_turns_) header.max_climb_degrees = std::numeric_limits<double>::quiet_NaN();
+    for (ColliderIndex i = 0; i < header.scenery.colliders.size(); ++i)
+      if (const MoverIndex mover = header.scenery.colliders[i].mover; mover != no_mover) {
+        header.scripts.resize(std::max(header.scripts.size(), std::size_t{mover} + 1));
+        header.scripts[mover].colliders.push_back(i);
+        header.scripts[mover].body = true;  // no path says where it goes
+      }
     if (!std::is_same_v<Scalar, float>)
       trace_.emplace(header, name_of(family_) + (up_turns_ ? "_movers_any_up_" : "_movers_") + std::to_string(seed_));
     Input input;
@@ -155,6 +160,7 @@ class RandomRun {
     const double speed = random_.log_between(1e-3, random_.chance(0.2) ? 1e6 : 10) / dt;
     const double angle = random_.angle();
     state_.velocity = Vec2d{std::cos(angle) * speed, std::sin(angle) * speed}.cast<Scalar>();
+    launched_ = true;
   }
 
   void move_wanderers(double dt) {
@@ -168,6 +174,7 @@ class RandomRun {
 
   void take(const Input& input, Scalar dt, Tally& tally) {
     const Vec2<Scalar> gravity = Scalar(-30) * up_;
+    const CharacterState<Scalar> state_before = state_;
     const Ride<Scalar> ride = state_.ride;
     const bool rides = ride.ground != Ride<Scalar>::none;
     const StepStatus status = controller_.step(state_, input, {gravity, dt, motions_, nullptr, up_}, scratch_, report_);
@@ -194,7 +201,12 @@ class RandomRun {
     record.respawn = begins_anew_;
     begins_anew_ = false;
     const StepJudgement judgement = judge_->judge(record);
-    if (trace_) trace_->write(record, judge_->overlapped(record));
+    if constexpr (std::is_same_v<Scalar, double>) {
+      record.up = up_;
+      record.gravity = gravity;
+      trace_->write(record, state_before, input, launched_ || record.respawn);
+      launched_ = false;
+    }
     count(record, judgement, tally);
     count_what_is_said(record, input.drop, tally);
     if (!rides && !up_turns_) count_fraction(record, judgement, tally);
@@ -355,6 +367,7 @@ class RandomRun {
   bool up_turns_;  ///< Between the steps of the run, now and then.
   Vec2<Scalar> up_{0, 1};
   std::optional<RunTrace> trace_;
+  bool launched_ = false;
 };
 
 class AmongMovers : public ::testing::TestWithParam<Family> {};
@@ -429,11 +442,12 @@ TEST_P(AmongMovers, no_step_with_any_up_breaks_the_guarantee) {
 
 /// Each broke a promise once, or made the judge say so.
 TEST(AmongMoversFound, what_broke_once_holds) {
-  const std::vector<std::pair<Family, std::uint64_t>> found{{Family::tiles, 2001356}, {Family::stairs, 14000776}, {Family::slopes, 4001578}, {Family::slopes, 4000198},    {Family::papers, 8001016},
-                                                            {Family::papers, 8001922},    {Family::chains, 10000835},
-                                                            {Family::shafts, 18001570},   {Family::ceilings, 16002797},
-                                                            {Family::ceilings, 16004470}, {Family::ceilings, 16001581},
-                                                            {Family::one_way, 24000858},  {Family::one_way, 24000897}};
+  const std::vector<std::pair<Family, std::uint64_t>> found{
+      {Family::tiles, 2001356},     {Family::stairs, 14000776},   {Family::slopes, 4001578},
+      {Family::slopes, 4000198},    {Family::papers, 8001016},    {Family::papers, 8001922},
+      {Family::chains, 10000835},   {Family::shafts, 18001570},   {Family::ceilings, 16002797},
+      {Family::ceilings, 16004470}, {Family::ceilings, 16001581}, {Family::one_way, 24000858},
+      {Family::one_way, 24000897}};
   for (const auto& [family, seed] : found) {
     Tally tally;
     RandomRun<double>(family, seed).go(tally);

@@ -241,7 +241,14 @@ class RandomRun {
     header.points.assign(controller_.character().shape.hull().begin(), controller_.character().shape.hull().end());
     header.scenery = scenery_;
     header.dt = 1.0 / 60;
-    header.max_climb_degrees = controller_.character().max_climb_degrees;
+    header.character = controller_.character();
+    header.gravity = {0, -20};
+    for (ColliderIndex i = 0; i < scenery_.colliders.size(); ++i)
+      if (const MoverIndex mover = scenery_.colliders[i].mover; mover != no_mover) {
+        header.scripts.resize(std::max(header.scripts.size(), std::size_t{mover} + 1));
+        header.scripts[mover].colliders.push_back(i);
+        header.scripts[mover].body = true;  // no path says where it goes
+      }
     header.turning.assign(courses_.size(), true);
     return header;
   }
@@ -254,6 +261,7 @@ class RandomRun {
   void launch(double dt) {
     const double angle = random_.angle();
     state_.velocity = random_.log_between(0.1, 10) / (60 * dt) * Vec2d(std::cos(angle), std::sin(angle));
+    launched_ = true;
   }
 
   void take(int step, const Input& input, double dt, Tally& tally) {
@@ -268,7 +276,13 @@ class RandomRun {
     ASSERT_NE(report_.status, StepStatus::invalid_input);
     if (step_refused()) return;
     const StepJudgement judgement = judge_.judge(record);
-    trace_.write(record, judge_.overlapped(record));
+    if (before.ride.ground != Ride<double>::none) {
+      const compare::VertexWay* ground = compare::find_way(record.vertex_ways, before.ride.ground);
+      const bool is_circle = scenery_.colliders[before.ride.ground].shape == ColliderDef::Shape::circle;
+      record.requested += is_circle ? Vec2d(before.ride.velocity * dt) : compare::carried_along(*ground);
+    }
+    trace_.write(record, before, input, launched_);
+    launched_ = false;
     const int broken = tally.broken();
     count(record, judgement, tally);
     const bool is_late = judgement.turning_toi_error.value_or(0) > 0 && record.crushed.empty();
@@ -348,6 +362,7 @@ class RandomRun {
   LevelController controller_;
   Judge judge_;
   RunTrace trace_;
+  bool launched_ = false;
   CharacterState<double> state_;
   StepReport<double> report_;
   std::vector<PoseMotion> motions_;

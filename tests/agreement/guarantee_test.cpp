@@ -70,7 +70,7 @@ class RandomRun {
         up_turns_(up_turns) {
     header_.points = hull_;
     header_.scenery = scenery_.as_run();
-    header_.max_climb_degrees = controller_.character().max_climb_degrees;
+    header_.character = controller_.character();
   }
 
   void go(Tally& tally) {
@@ -85,7 +85,9 @@ class RandomRun {
     const double dt = random_.chance(0.7) ? 1.0 / 60 : random_.log_between(1e-4, 1);
     Input input;
     compare::TraceHeader traced = header_;
-    if (up_turns_) traced.max_climb_degrees = std::numeric_limits<double>::quiet_NaN();
+    traced.dt = dt;
+    traced.gravity = -gravity * up_;
+    traced.up = up_;
     trace_.emplace(traced, name_of(family_) + (up_turns_ ? "_any_up_" : "_") + std::to_string(seed_));
     for (int step = 0; step < 40; ++step) {
       if (random_.chance(0.1)) input.move = random_.integer(-1, 1);
@@ -124,6 +126,7 @@ class RandomRun {
 
   void launch(double dt, Tally& tally) {
     ++tally.launched;
+    launched_ = true;
     const double speed = random_.log_between(1e-3, random_.chance(0.3) ? 1e6 : 20) / dt;
     const double angle = random_.chance(0.3) ? random_.integer(0, 7) * std::numbers::pi / 4 : random_.angle();
     state_.velocity = {std::cos(angle) * speed, std::sin(angle) * speed};
@@ -138,6 +141,7 @@ class RandomRun {
     if (status == StepStatus::out_of_range) {
       EXPECT_TRUE(state_ == before) << where();
       state_.velocity = {0, 0};
+      launched_ = true;
       return;
     }
     ASSERT_NE(status, StepStatus::invalid_input) << where();
@@ -147,7 +151,11 @@ class RandomRun {
     tally.with_contact += !report_.move.contacts.empty();
     for (const Contact<double>& contact : report_.move.contacts) classify(contact.normal.dot(up_), tally);
     tally.passed_on_purpose += static_cast<int>(report_.dropped_through.size());
-    trace_->write(recorded<double>(report_, state_, {}), start_overlap);
+    compare::TraceStep record = recorded<double>(report_, state_, {});
+    record.up = up_;
+    record.gravity = gravity;
+    trace_->write(record, before, input, launched_);
+    launched_ = false;
     check_path(start_overlap, status);
     check_what_is_said(input.drop);
     check_progress(tally);
@@ -235,7 +243,7 @@ class RandomRun {
     text.precision(17);
     text << "\n  " << name_of(family_) << ", seed " << seed_ << ", status " << static_cast<int>(report_.status)
          << ", requested " << report_.requested.transpose() << ", up " << up_.transpose() << ", steered "
-         << report_.steered << ", climbs " << header_.max_climb_degrees << ", way";
+         << report_.steered << ", climbs " << header_.character.max_climb_degrees << ", way";
     for (const PathPoint<double>& corner : report_.move.path)
       text << " (" << corner.position.x() << ", " << corner.position.y() << " @ " << corner.fraction << ")";
     for (const Contact<double>& met : report_.move.contacts)
@@ -261,6 +269,7 @@ class RandomRun {
   bool up_turns_;  ///< Between the steps of the run, now and then.
   Vec2d up_{0, 1};
   std::optional<RunTrace> trace_;
+  bool launched_ = false;
 };
 
 class Guarantee : public ::testing::TestWithParam<Family> {};

@@ -71,7 +71,7 @@ class Game {
     header.contender = "octagon_sweep";
     header.scalar = "double";
     header.dt = 1 / rate_;
-    header.max_climb_degrees = controller_.character().max_climb_degrees;
+    header.character.max_climb_degrees = controller_.character().max_climb_degrees;
     const auto hull = controller_.character().shape.hull();
     header.points.assign(hull.begin(), hull.end());
     header.scenery = scenery_.as_run();

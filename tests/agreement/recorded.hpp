@@ -19,6 +19,11 @@ template <class Scalar>
   record.requested = report.requested.template cast<double>();
   record.steered = static_cast<double>(report.steered);
   record.velocity = state.velocity.template cast<double>();
+  record.grounded = state.grounded;
+  record.jumping = state.jumping;
+  if (state.ride.ground != Ride<Scalar>::none)
+    record.ride = {state.ride.ground, state.ride.velocity.template cast<double>()};
+  record.ground_velocity = state.ground.velocity.template cast<double>();
   for (const Contact<Scalar>& contact : report.move.contacts)
     record.contacts.push_back({.collider = contact.collider,
                                .point = contact.point.template cast<double>(),

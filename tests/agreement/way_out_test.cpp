@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 #include <sstream>
 
 namespace paperproof::test {
@@ -257,7 +258,10 @@ class Start {
     const double turned = 4e-7 * expected / std::max(clearance(oracle, from, inside), 1e-7);
     ASSERT_LE(length, expected * (1 + 1e-6) + kept + turned)
         << "there is a way to " << shortest->transpose() << where(from);
-    const std::optional<Vec2d> free = oracle.find_free(from, expected, 1e-7, {}, [](const Vec2d&) { return true; });
+    std::vector<ColliderIndex> all(oracle.scenery().colliders.size());
+    std::iota(all.begin(), all.end(), ColliderIndex{0});
+    const std::optional<Vec2d> free = oracle.find_free({.from = from, .end = from, .may_pass = all}, expected, 1e-7,
+                                                       [](const Vec2d&) { return true; });
     tally.passed_beside += free && (*free - from.position).norm() < expected - kept;
   }
 

@@ -7,6 +7,7 @@ import csv
 import json
 import math
 import os
+import re
 import subprocess
 import sys
 
@@ -27,6 +28,15 @@ def flat(value, prefix=""):
     return cells
 
 
+def lines_of(path):
+    """The lines of a CSV without the comments at its top, and what these say."""
+    with open(path, newline="", encoding="utf-8") as file:
+        lines = file.readlines()
+    comments = [line for line in lines if line.startswith("#")]
+    assert lines[:len(comments)] == comments, "a comment stands below the rows"
+    return lines[len(comments):], dict(line[2:].rstrip("\r\n").split(": ", 1) for line in comments)
+
+
 def same(text, value):
     if isinstance(value, bool):
         return text == ("true" if value else "false")
@@ -38,10 +48,18 @@ def same(text, value):
 def check(command, arguments):
     for name in ("rows.csv", "rows.json"):
         subprocess.run([command, *arguments, "--quiet", "--rows", name], check=True)
-    with open("rows.csv", newline="", encoding="utf-8") as file:
-        rows = list(csv.DictReader(file, strict=True))
+    lines, environment = lines_of("rows.csv")
+    rows = list(csv.DictReader(lines, strict=True))
     with open("rows.json", encoding="utf-8") as file:
-        expected = [flat(row) for row in json.load(file)["rows"]]
+        written = json.load(file)
+    assert environment == written["environment"], environment
+    # A reader that knows comments cuts a line at a # outside of quotes.
+    for line in lines:
+        assert "#" not in re.sub('"[^"]*"', "", line), f"cut short by a reader of comments: {line}"
+    expected = [flat(row) for row in written["rows"]]
+    for wanted in expected:
+        if "knob" in wanted:
+            wanted["contender"] += f"[{wanted['knob']}]"
     assert len(rows) == len(expected) > 0, (len(rows), len(expected))
     columns = list(rows[0])
     assert len(set(columns)) == len(columns), "a column stands there twice"
@@ -58,24 +76,26 @@ def check(command, arguments):
     for column in columns:
         kinds = {type(wanted[column]) for wanted in expected if column in wanted}
         assert kinds <= {int, float} or len(kinds) == 1, f"{column} has cells of {kinds}"
-    return columns, numbers
+    return columns, numbers, rows
 
 
 def main():
     command, folder = os.path.abspath(sys.argv[1]), sys.argv[2]
     os.makedirs(folder, exist_ok=True)
     os.chdir(folder)
-    columns, numbers = check(command, ["compare", "article_bullet", "wedge_60", "--no-timing"])
+    columns, numbers, _ = check(command, ["compare", "article_bullet", "wedge_60", "--no-timing"])
     assert numbers > 500, f"only {numbers} numbers were compared"
     for column in LENGTHS:
         assert column in columns, column
-    columns, _ = check(command, ["sweep", "paper", "--vary", "speed=10,100", "--vary", "angle=45,90",
+    columns, *_ = check(command, ["sweep", "paper", "--vary", "speed=10,100", "--vary", "angle=45,90",
                                  "--contender", "mask,octagon_sweep"])
     parameters = [column for column in columns if column.startswith("parameters.")]
     assert {"parameters.speed_m_s", "parameters.thickness_m", "parameters.angle_deg"} <= set(parameters), parameters
     without = [column for column in parameters if not column.endswith(UNITS)]
     pure = {"parameters.phase", "parameters.jump_rules"}
     assert set(without) == pure, f"numbers without a unit: {without}"
+    *_, rows = check(command, ["sweep", "paper", "--vary", "continuous=on,off", "--contender", "box2d"])
+    assert [row["contender"] for row in rows] == [f"box2d[continuous={x}]" for x in ("on", "off")], rows
     print(f"{numbers} numbers are the same in both formats")
 
 

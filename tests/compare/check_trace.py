@@ -1,259 +1,513 @@
 #!/usr/bin/env python3
-"""Checks a trace of paperproof without any of its code: Python's standard library, exact fractions, nothing else.
+"""Judges a trace of paperproof without any of its code: Python's standard library, exact fractions, nothing else.
 
-    check_trace.py FILE.jsonl...
+    check_trace.py [--all | --clauses NAME,NAME...] FILE.jsonl...
 
-For every step:
-- the way that was travelled, corner by corner, enters no solid that the character was not already in, and the step does
-  not end inside one; what the trace calls an overlap at the start of a step is one. What moves is looked at from where it
-  is: its offset goes evenly from one end to the other while the fraction of the step goes from 0 to 1. Only a mover that
-  the step names in `crush` may come into the character, and one-way chains are passed by a leg that begins above them
-  (see trace_one_way.py) only where the step names them in `drop`;
-- a step begins where the last one ended, unless the trace says that the character was put elsewhere; so does every mover,
-  and every mover stands in every step;
-- of several characters each has a record in every step, in order; no two come to overlap at any moment of their ways
-  that did not when the step began (where the ways are samples: on the straight way from their start to their end).
-For octagon_sweep in double, which promises more, also:
-- every contact is as it says at one corner of the way that is no later than its fraction: there its point lies on the
-  collider and on the character, to 1e-6 m, and the gap between the two along its normal is its separation, above 0 and
-  at most 1e-6 m; it may be 0 where the scene put the character so, and neither of the two has moved since;
-- the fraction of the first contact is the time of impact of the exact motion, to 1e-6 m along the normal; not that of a
-  contact at the end of a leg that follows the ground down, which takes no time, nor, among movers, of what is touched
-  where the step begins, nor where a mover pushes the character out of the requested way from there on;
-- the sensors' events are those of the way, in order, with fractions that are right to 1e-6 m along it;
-- no step hangs: what is wanted, less what the step's steering added, may lead down beside all that is within 1e-6 m of a
-  corner of the way, and the step falls less than half of that (trace_hanging.py; not looked at beside what turns, nor in a
-  step that begins inside a solid);
-- two characters that met say so both, with opposite normals and the same fraction, and come to within 1e-6 m along them;
-  where both had met nothing before, the fraction is the time of impact of their requested motions, as above.
+It asks for the clauses that the trace's header guarantees, for all that it knows (--all), or for those named. One line
+for each that is broken: file, step, clause, what happened. At the end of each file it says how much it judged, and what
+it did not judge. Exit status: 0 all holds, 1 something does not, 2 not a trace, or one that does not say what was wanted.
 
-What turns has its vertices at instants of the step, and each goes straight from one to the next (trace_turning.py).
-Overlaps with it and ways through it are told exactly, but for a touch that takes more halvings of the time than to 1e-9
-of a way: those are counted. The time of impact of its contacts is not looked at, nor its sensors and one-way chains.
-
-Where a character that goes by whole squares is drawn in between two of them (`remainder`) is not looked at: nothing
-collides there.
+overlap, passage, one_way: the way that was travelled, corner by corner, enters no solid that the character was not
+    already in, no other character, and no one-way chain from above; the step does not end inside. What moves is where its
+    way has it at each moment. Only what crushes without room (`crush`) may come into the character.
+crush: there is no room where a step says that a mover crushed: trace_room.py. It finds room, or does not judge.
+gap, normal, contact_invented: a contact is as it says at a corner of the way no later than its fraction: its point lies
+    on both, the gap along its normal is its separation, above 0 and at most 1e-6 m (0 where the scene put them so), the
+    normal keeps the two apart, and the motion leads into it.
+time_of_impact, contact_missed: what was wanted, from where the step began, meets nothing before the first contact that is
+    reported, and meets that one then, to 1e-6 m along the normal.
+sensor: the events are those of the way, in order, with fractions that are right to 1e-6 m along it.
+wanted: trace_motion.py works out what was wanted from scene, inputs and the state before.
+speed_lost, velocity: without a contact a character goes as wanted and as fast. With contacts it loses speed across up only
+    to what is no ground and opposes it, a fall only to what looks up, a rise only to what looks down or to the end of
+    a climb; and comes out no faster than it was, but along ground.
+ground_invented, ground_missed, hanging: trace_ground.py.
+rest: where position, velocity and input have repeated, position does not change, bit for bit.
+start_inside: who says that it is stuck is inside of something, and there is no straight way out.
+refusal: a refused step had no finite input, no length, or would have left 2e6 m.
+continuity: a step begins where the last one ended, movers too; fractions ascend from 0 to 1; only who left the map's box
+    is put back.
+mover_way: movers are where their scripts have them: trace_scripts.py.
 
 Every number of a trace is a double, and every double is a fraction: the answers are exact but where a tolerance is named.
-Exit status: 0 all holds, 1 something does not (one line each), 2 not a trace.
 """
+import argparse
+import collections
 import itertools
 import json
+import math
 import sys
 from fractions import Fraction
-from functools import lru_cache
 
-from trace_company import Company, first_event, goes_as_requested, meets_at_once, places_at
+from trace_company import Company, places_at
 from trace_geometry import (
-    GAP, NEAR_DROP, NEAR_PASS, ROUNDING, SAME, ZERO, add, circle_crossings, crossings, distance, dot, enters, exact, hull,
-    inside, is_near, less, scaled, size, way_from_segment)
-from trace_hanging import hangs
-from trace_one_way import lines_of, surfaces_of
-from trace_turning import Way, comes_to_overlap, overlaps
+    GAP, NEAR_DROP, NEAR_PASS, ROUNDING, SAME, ZERO, add, circle_crossings, crossings, distance, dot, exact, hull, less,
+    scaled, size)
+from trace_ground import Ground
+from trace_motion import Frame, Intent, differs
+from trace_room import Room
+from trace_scripts import Scripts
+from trace_world import STAYS, Motion, World, wider
+
+CLAUSES = ("overlap", "passage", "one_way", "gap", "time_of_impact", "contact_missed", "contact_invented", "normal", "sensor",
+           "rest", "start_inside", "refusal", "hanging", "speed_lost", "ground_invented", "ground_missed", "crush", "wanted",
+           "velocity", "continuity", "mover_way")
+NEEDED = ("gravity", "up", "character", "starts", "guarantees")
+NEARLY = Fraction(1, 10**4)  # what is farther away is not touched at all [m]
+SLOWER = 1e-9  # of speed, for each m/s of it: rounding
+FARTHEST = 2e6  # [m]
+LEFT_BOX = 10.0  # who leaves a map's box by this is put back [m]
+WAY_OUT = 10.0  # a way out of a solid is looked for this far [m]
 
 
-def edges_of(rings, lines):
-    return [edge for line in lines for edge in zip(line, line[1:])] + [
-        edge for ring in rings for edge in zip(ring, ring[1:] + ring[:1])]
+def show(point):
+    return f"({float(point[0])}, {float(point[1])})"
 
 
-class Collider:
-    def __init__(self, entry):
-        self.id = entry["id"]
-        self.sensor = entry.get("sensor", False)
-        self.one_way = tuple(map(Fraction, entry["one_way"])) if "one_way" in entry else None
-        self.rings = [exact(ring) for ring in [entry["polygon"]] + entry.get("holes", [])] if "polygon" in entry else []
-        self.lines = [exact(entry["chain"])] if "chain" in entry else []
-        self.sizes = [len(ring) for ring in self.rings + self.lines]
-        *centre, self.radius = exact([entry["circle"]])[0] if "circle" in entry else (0,)
-        self.centre = tuple(centre)
-        self.vertex_count = sum(self.sizes) or 1
-        if self.rings and self.one_way is not None:  # it has no inside
-            self.lines, self.rings = lines_of(self.rings[0], self.one_way), []
-        self.edges = [(self.centre, self.centre)] if self.radius else edges_of(self.rings, self.lines)
-        points = [tuple(map(float, point)) for edge in self.edges for point in edge]
-        self.low = [min(p[k] for p in points) - float(self.radius) for k in (0, 1)]
-        self.high = [max(p[k] for p in points) + float(self.radius) for k in (0, 1)]
-        self.segments = []  # of a one-way chain, with their surfaces
-
-    def rings_of(self, vertices):
-        """Of a polygon that turns."""
-        if not self.rings:
-            return []
-        ends = list(itertools.accumulate(self.sizes))
-        return [vertices[end - size:end] for end, size in zip(ends, self.sizes)]
-
-    def edges_of(self, vertices):
-        """Of what turns, with its vertices in the order of their definition. A circle has one edge, which is its centre."""
-        if self.radius:
-            return [(vertices[0], vertices[0])]
-        return edges_of(self.rings_of(vertices), [] if self.rings else [vertices])
-
-    def distance(self, point, edges):
-        """Of a point from its boundary, which has these edges at that moment."""
-        if self.radius:
-            return abs(size(less(point, edges[0][0])) - float(self.radius))
-        return min(distance(point, a, b) for a, b in edges)
-
-    def blocking_edges(self, body):
-        """Of a one-way chain, the segments that a body may not pass on its way from here."""
-        above = {}
-        for a, b, surface in self.segments:
-            if surface not in above:
-                above[surface] = surface.is_below(body)
-            if above[surface]:
-                yield a, b
+def vector(v):
+    return tuple(map(Fraction, v))
 
 
-class Motion:
-    """Of the movers during one step, by the ids of their colliders."""
+class Step:
+    """One record, with what the checks need of it."""
 
-    def __init__(self, step, colliders):
-        movers = step["movers"].items()
-        self.ends = {name: exact(ends) for name, ends in movers if not isinstance(ends, dict)}
-        self.ways = {name: Way(ends, colliders[name]) for name, ends in movers if isinstance(ends, dict)}
+    def __init__(self, record, colliders, header):
+        self.record, self.motion = record, Motion(record, colliders)
+        self.path = exact(record["path"])
+        self.contacts = record["contacts"]
+        self.dt = record.get("dt", header["dt"])
+        self.up = vector(record.get("up", header["up"]))
+        self.frame = Frame(self.up)
+        self.wanted = None  # [m]; None where the trace does not tell
+        self.in_parts = any(len(way.instants) > 2 for way in self.motion.ways.values())  # so goes who is near what turns
+        self.excused = []  # what crushes without room
 
-    def turns(self, name):
-        return name in self.ways
+    def get(self, key, default=None):
+        return self.record.get(key, default)
 
-    def moves(self, name):
-        return name in self.ends or name in self.ways
+    def first_event(self):
+        return min((event["fraction"] for event in self.contacts + self.get("met", [])), default=None)
 
-    def first_and_last(self):
-        """Of everything that moves, where it is when the step begins and when it ends."""
-        ends = {name: (way.vertices[0], way.vertices[-1]) for name, way in self.ways.items()}
-        return {**self.ends, **ends}
+    def way(self):
+        return less(self.path[-1][:2], self.path[0][:2])
 
-    def change(self, name):
-        ends = self.ends.get(name)
-        return less(ends[1], ends[0]) if ends else (ZERO, ZERO)
-
-    def offset(self, name, fraction):
-        return add(self.ends[name][0], scaled(self.change(name), fraction)) if name in self.ends else (ZERO, ZERO)
-
-    def edges(self, name, collider, fraction):
-        """Of a collider at a moment."""
-        if name in self.ways:
-            return self.ways[name].edges(fraction)
-        offset = self.offset(name, fraction)
-        return [(add(a, offset), add(b, offset)) for a, b in collider.edges]
-
-    def seen(self, name, corner):
-        """A corner of a way as the collider sees it, which then stands still."""
-        return less(corner[:2], self.offset(name, corner[2]))
+    def goes_as_wanted(self, fraction):
+        wanted = scaled(self.wanted, fraction)
+        return any(size(less(less(place, self.path[0]), wanted)) <= GAP for place in places_at(self.path, fraction))
 
 
 class Checker:
-    def __init__(self, header):
-        self.characters = header.get("characters", 1)
-        self.body = hull(exact(header["points"]))
-        self.low = [float(min(corner[k] for corner in self.body)) for k in (0, 1)]
-        self.high = [float(max(corner[k] for corner in self.body)) for k in (0, 1)]
-        self.colliders = {entry["id"]: Collider(entry) for entry in header["colliders"]}
-        self.max_climb = header.get("max_climb_degrees")
-        self.promises = header["contender"] == "octagon_sweep" and header["scalar"] == "double"
-        self.put = {}  # by character: its first place, or the one that it was put to since, and the movers' motion then
-        self.too_close = 0  # ways past what turns of which nothing can be said
-        self.meets = lru_cache(maxsize=4096)(self.meets)
+    def __init__(self, header, clauses=None):
+        missing = [key for key in NEEDED if key not in header]
+        if missing:
+            raise ValueError(f"the header does not say what was wanted: no {', '.join(missing)}")
+        self.header = header
+        self.clauses = set(header["guarantees"] if clauses is None else clauses)
+        self.count = header.get("characters", 1)
+        self.world = World(header)
+        self.body, self.colliders = self.world.body, self.world.colliders
+        self.bodies = {by: wider(self.body, by) for by in (GAP, NEAR_DROP, NEAR_PASS, NEARLY)}
+        self.ground = Ground(self.world, header["character"]["max_climb_degrees"])
+        self.scripts = Scripts(header, self.world)
+        self.company = Company(self.body)
+        self.intents = [Intent(header, start) for start in header["starts"]]
+        self.last = {}  # by character: the step before,
+        self.repeated = {}  # how often it has been the same,
+        self.put = {}  # the step in which it was put where it began,
+        self.sides = collections.defaultdict(dict)  # and where it was last free of what it is inside of
+        self.judged = collections.Counter()
+        self.skipped = collections.Counter()  # (clause, why): in how many steps it was not judged
 
-    def meets(self, name, start, way, grown=Fraction(1)):
-        """Whether the open body meets a collider anywhere on a straight way: all its places are one convex polygon."""
-        collider = self.colliders[name]
-        # Doubles will do to tell what is far away: the margin is more than their rounding.
-        for k in (0, 1):
-            at, to = float(start[k]), float(start[k] + way[k])
-            low, high = min(at, to) + 1.01 * self.low[k], max(at, to) + 1.01 * self.high[k]
-            margin = 1e-9 * (1 + abs(low) + abs(high))
-            if low > collider.high[k] + margin or high < collider.low[k] - margin:
-                return False
-        body = [add(start, scaled(corner, grown)) for corner in self.body]
-        swept = body + [add(corner, way) for corner in body]
-        edges = collider.edges
-        if collider.one_way is not None:
-            edges = collider.blocking_edges([add(start, corner) for corner in self.body])
-        swept = hull(swept)
-        if collider.radius:
-            return is_near(collider.centre, swept, collider.radius)
-        if any(enters(a, b, swept) for a, b in edges):
+    def asks(self, *clauses):
+        return not self.clauses.isdisjoint(clauses)
+
+    def skip(self, clause, why):
+        if clause in self.clauses:
+            self.skipped[clause, why] += 1
+
+    def check(self, records):
+        """Yields (record, clause, words) of every clause that is asked for and broken."""
+        together, number = [], 0
+        for record in records:
+            if number == 0 and "movers" in record:
+                self.world.find_surfaces(record["movers"])
+            who = record.get("character", 0)
+            told = f"character {who} " if self.count > 1 else ""
+            self.judged["steps"] += 1
+            if who != number % self.count or who >= len(self.intents):
+                yield record, "continuity", f"has a record of character {who} where that of {number % self.count} belongs"
+                return
+            number += 1
+            if "refused" in record:
+                yield from ((record, *broken) for broken in self.check_refusal(record) if broken[0] in self.clauses)
+                continue
+            self.judged["contacts"] += len(record["contacts"])
+            step = Step(record, self.colliders, self.header)
+            faults = list(self.check_ways(step, who))
+            yield from ((record, clause, told + words) for clause, words in faults if clause in self.clauses)
+            if any(clause == "fatal" for clause, _ in faults):
+                yield record, "continuity", told + "cannot be judged: " + "; ".join(words for _, words in faults)
+                return
+            together.append((step, who, told))
+            if len(together) == self.count:
+                yield from self.check_together(together)
+                together = []
+
+    def check_ways(self, step, who):
+        """What must hold before anything else can be asked."""
+        fractions = [corner[2] for corner in step.path]
+        if fractions[0] != 0 or fractions[-1] != 1 or fractions != sorted(fractions):
+            yield "fatal", "its way does not go from fraction 0 to 1"
+        for way in step.motion.ways.values():
+            yield from (("fatal", words) for words in way.faults())
+
+    def check_together(self, together):
+        for step, who, told in together:
+            same = self.is_repeated(step, who)
+            others = [other for other, _, _ in together if other is not step]
+            for clause, words in self.check_alone(step, who, others, same):
+                if clause in self.clauses:
+                    yield step.record, clause, told + words
+        for (one, _, told), (other, _, _) in itertools.combinations(together, 2):
+            faults = list(self.company.check(one.record, other.record))
+            if self.asks("time_of_impact", "contact_invented", "normal") and not self.is_sampled(one):
+                faults += self.company.check_met(one.record, other.record, lambda record: next(
+                    step.wanted for step in (one, other) if step.record is record), lambda record, fraction: next(
+                    self.is_turned(step, fraction) for step in (one, other) if step.record is record))
+            yield from ((one.record, clause, told + words) for clause, words in faults if clause in self.clauses)
+        for step, who, _ in together:
+            self.last[who] = step
+
+    def is_repeated(self, step, who):
+        """Whether nothing differs from the step before, so that neither does the verdict."""
+        last = self.last.get(who)
+        same = last is not None and self.count == 1 and {**step.record, "step": 0} == {**last.record, "step": 0}
+        self.repeated[who] = self.repeated.get(who, 0) + 1 if same else 0
+        return self.repeated[who] > 1  # once more than needed: the state before was another one
+
+    @staticmethod
+    def is_sampled(step):
+        return step.get("path_exact") is False
+
+    def check_alone(self, step, who, others, same):
+        last = self.last.get(who)
+        yield from self.check_start(step, who, last)
+        yield from self.check_wanted(step, who, last)
+        if self.asks("mover_way") and not same:
+            yield from (("mover_way", words) for words in self.scripts.faults(step.record, step.motion, step.path))
+        elif self.asks("mover_way"):
+            self.scripts.times(step.record)
+        yield from self.check_rest(step, last)
+        if not same:
+            yield from self.check_crush(step, who, others)
+            yield from self.check_stuck(step, who, others)
+            yield from self.check_way(step)
+            if not self.is_sampled(step):
+                yield from self.check_contacts(step, who, others)
+                yield from self.check_sensors(step)
+            yield from self.check_ground(step, last, others)
+            yield from self.check_speed(step, who, others)
+        self.note_sides(step, who)
+
+    # Where a step begins, and what it wants.
+
+    def check_start(self, step, who, last):
+        start = step.path[0]
+        if last is None or step.get("respawn"):
+            self.put[who] = step
+            self.sides[who] = {}
+        if last is None:
+            at = vector(self.header["starts"][who]["position"])
+            rounding = 2.0 ** -23 * (1 + size(at)) if self.header["scalar"] == "float" else 0
+            if not size(less(start, at)) <= rounding and not step.get("respawn"):
+                yield "continuity", f"begins at {show(start)}, not where the scene puts it: {show(at)}"
+        elif step.get("respawn"):
+            if not self.may_respawn(start, who, last):
+                yield "continuity", "says that it was put back, and had not left the map"
+        elif last.path[-1][:2] != start[:2]:
+            yield "continuity", f"begins at {show(start)}, not where the last one ended"
+        if last is None:
+            return
+        now, before = step.motion.first_and_last(), last.motion.first_and_last()
+        if now.keys() != before.keys() or step.motion.ways.keys() != last.motion.ways.keys():
+            yield "continuity", "has not the same movers as the step before"
+        for name in now.keys() & before.keys():
+            if now[name][0] != before[name][1]:
+                yield "continuity", f"has {name} begin elsewhere, not where it was"
+
+    def may_respawn(self, start, who, last):
+        if self.header.get("mode") == "lockstep":
             return True
-        middle = (sum(p[0] for p in swept) / len(swept), sum(p[1] for p in swept) / len(swept))
-        return inside(middle, collider.rings)
+        box = self.header.get("respawn_box")
+        if box is None:
+            return False
+        left = [float(x) for x in last.path[-1][:2]]
+        outside = max(max(box[0][k] - left[k], left[k] - box[1][k]) for k in (0, 1))
+        return outside >= LEFT_BOX * (1 - 1e-9) and start[:2] == vector(self.header["starts"][who]["position"])
 
-    def check_way(self, step, path, motion):
-        allowed = step["start_overlap"]
+    def check_wanted(self, step, who, last):
+        intent = self.intents[who]
+        if step.get("respawn") and last is not None:
+            intent.begin_anew(step.get("from", {"velocity": (0, 0)}))
+        elif step.get("from"):
+            intent.begin_anew(step.get("from"))
+        wanted = intent.wanted(step.record, step.dt, step.frame, step.motion, self.colliders,
+                               lambda move: self.has_wall(step, move))
+        step.began_grounded, step.jumped = intent.began_grounded, intent.jumping and not intent.grounded
+        if wanted is None:
+            self.skip("wanted", "carried by what turns")
+            step.wanted, step.steered = vector(step.record["requested"]), Fraction(step.record["steered"])
+        else:
+            words = differs(wanted, step.record, self.header["scalar"], step.frame)
+            if words:
+                yield "wanted", words
+            step.wanted, step.steered = vector(wanted.way), Fraction(wanted.steered)
+        intent.end(step.record, step.dt, step.motion)
+
+    def has_wall(self, step, move):
+        reach = Fraction(math.copysign(self.header["character"]["wall_reach"], move))
+        there = add(step.path[0][:2], (step.up[1] * reach, -step.up[0] * reach))
+        return any(self.world.met(name, step.motion, step.path[0], (*there, ZERO)) for name in self.world.solids)
+
+    def check_rest(self, step, last):
+        step.before = last.record["velocity"] if last else None
+        if not self.asks("rest") or last is None or step.get("respawn") or step.way() == STAYS or self.count > 1:
+            return
+        before = last.record
+        repeated = last.way() == STAYS and last.before == before["velocity"] == step.record["velocity"]
+        if repeated and before["input"] == step.record["input"] and not self.is_pushed(last) and not self.is_pushed(step):
+            yield "rest", f"goes by {show(step.way())} m where position and velocity had repeated"
+
+    # The way.
+
+    def note_sides(self, step, who):
+        """Where the character was last free of what it ends inside of, as the collider sees it."""
+        sides = self.sides[who]
+        inside = self.world.overlapped(step.motion, step.path[-1]) if self.near_anything(step) else []
+        for name in list(sides):
+            if name not in inside:
+                del sides[name]
+        for name in inside:
+            if name in sides or step.motion.turns(name):
+                continue
+            free = [corner for corner in step.path if not self.world.met(name, step.motion, corner, corner)]
+            if free:
+                sides[name] = step.motion.seen(name, free[-1])
+
+    def near_anything(self, step):
+        return any(step.motion.turns(name) or self.world.met(name, step.motion, step.path[-1], step.path[-1])
+                   for name in self.world.solids)
+
+    def others_free(self, others):
+        ways = [other.path for other in others]
+        return lambda way: all(self.company.leaves_free(way, other) for other in ways)
+
+    def check_crush(self, step, who, others):
+        named = step.get("crush", [])
+        if not named:
+            return
+        moving = [name for name in named if step.motion.goes(name)]
+        for name in named:
+            if name not in moving:
+                yield "crush", f"is crushed by {name}, which does not move"
+        if not moving:
+            return
+        if any(step.motion.turns(name) for name in step.get("start_overlap")):
+            self.skip("crush", "begins inside what turns")
+            step.excused = moving
+            return
+        room = Room(self.world, step.motion, self.sides[who], self.others_free(others)).find(step.path, moving)
+        self.judged["crushes"] += 1
+        if room is None:
+            step.excused = moving
+        else:
+            yield "crush", f"is crushed by {', '.join(moving)}, and has room at {show(room)}"
+
+    def check_stuck(self, step, who, others):
+        if not step.get("stuck") or not self.asks("start_inside"):
+            return
+        start, inside = step.path[0], step.record["start_overlap"]
+        if not inside:
+            if not self.world.overlapped(step.motion, step.path[-1]):
+                yield "start_inside", "says that it is stuck, and is inside of nothing"
+            return
+        if any(map(step.motion.goes, step.motion.first_and_last())):
+            self.skip("start_inside", "among what moves")
+            return
+        out = Room(self.world, step.motion, self.sides[who], self.others_free(others)).way_out(start, WAY_OUT)
+        if out:
+            yield "start_inside", f"says that it is stuck, and there is a way out to {show(out)}"
+
+    def check_way(self, step):
+        path, motion, allowed = step.path, step.motion, step.record["start_overlap"]
         for name in allowed:
-            if not self.may_overlap_at_start(name, path, motion):
-                yield f"does not overlap {name} at the start, as it says"
-        for name in step.get("crush", []):
-            if not motion.moves(name):
-                yield f"is crushed by {name}, which does not move"
-        for name, collider in self.colliders.items():
-            crushes = name in step.get("crush", []) and motion.moves(name)
-            if name in allowed or crushes or collider.sensor:
+            if not self.world.met(name, motion, path[0], path[0]):
+                yield "start_inside", f"does not overlap {name} at the start, as it says"
+        for name in self.world.solids:
+            collider = self.colliders[name]
+            if name in allowed or name in step.excused:
                 continue
-            if motion.turns(name):
-                yield from self.check_way_past_turning(name, path, motion)
-                continue
-            corners = [motion.seen(name, corner) for corner in path]
             if name in step.get("drop", []):
-                yield from self.check_drop(name, corners)
+                yield from self.check_drop(step, name)
                 continue
-            for i, (start, end) in enumerate(zip(corners, corners[1:])):
-                if self.meets(name, start, less(end, start)):
-                    yield f"passes or enters {name} on its way from {show(path[i])} to {show(path[i + 1])}"
-            if collider.one_way is None and self.meets(name, corners[-1], (ZERO, ZERO)):
-                yield f"ends inside {name}"
+            ends_inside = collider.one_way is None and self.world.met(name, motion, path[-1], path[-1])
+            if ends_inside:
+                yield "overlap", f"ends inside {name}"
+            for start, end in zip(path, path[1:]):
+                if self.world.met(name, motion, start, end):
+                    clause = "one_way" if collider.one_way is not None else "overlap" if ends_inside else "passage"
+                    yield clause, f"passes or enters {name} on its way from {show(start)} to {show(end)}"
 
-    def may_overlap_at_start(self, name, path, motion):
-        if motion.turns(name):
-            return overlaps(motion.ways[name], motion.ways[name].seen(path[0]), self.body)
-        return self.meets(name, motion.seen(name, path[0]), (ZERO, ZERO))
-
-    def check_way_past_turning(self, name, path, motion):
-        collider, way = self.colliders[name], motion.ways[name]
-        if collider.one_way is not None:
-            return
-        for start, end in zip(path, path[1:]):
-            found = not self.is_far(way, start, end) and comes_to_overlap(way, self.body, start, end)
-            if found:
-                yield f"passes or enters {name} on its way from {show(start)} to {show(end)}"
-            elif found is None:
-                self.too_close += 1
-        if overlaps(way, way.seen(path[-1]), self.body):
-            yield f"ends inside {name}"
-
-    def is_far(self, way, start, end):
-        """Whether all places of the body are beside all those of the vertices: doubles will do."""
-        points = [tuple(map(float, vertex)) for vertices in way.vertices for vertex in vertices]
-        for k in (0, 1):
-            low = min(float(start[k]), float(end[k])) + 1.01 * self.low[k]
-            high = max(float(start[k]), float(end[k])) + 1.01 * self.high[k]
-            margin = 1e-9 * (1 + abs(low) + abs(high))
-            margin += float(way.collider.radius)
-            if low > max(p[k] for p in points) + margin or high < min(p[k] for p in points) - margin:
-                return True
-        return False
-
-    def check_drop(self, name, corners):
+    def check_drop(self, step, name):
         if self.colliders[name].one_way is None:
-            yield f"drops through {name}, which is no one-way chain"
-            return
-        grown = self.grown_by(NEAR_DROP)
-        if not any(self.meets(name, start, less(end, start), grown) for start, end in zip(corners, corners[1:])):
-            yield f"does not drop through {name}, as it says"
+            yield "one_way", f"drops through {name}, which is no one-way chain"
+        elif not step.record["input"].get("drop"):
+            yield "one_way", f"drops through {name}, and was not asked to"
+        elif not any(self.world.met(name, step.motion, start, end, self.bodies[NEAR_DROP])
+                     for start, end in zip(step.path, step.path[1:])):
+            yield "one_way", f"does not drop through {name}, as it says"
 
-    def grown_by(self, metres):
-        """The factor by which every side of the body goes outwards by at least so much."""
-        nearest = min(distance((ZERO, ZERO), a, b) for a, b in zip(self.body, self.body[1:] + self.body[:1]))
-        return 1 + metres / Fraction(nearest)
+    # Contacts.
+
+    def check_contacts(self, step, who, others):
+        if not self.asks("gap", "normal", "contact_invented", "contact_missed", "time_of_impact"):
+            return
+        for contact in step.contacts:
+            yield from self.check_contact(contact, step, self.put[who])
+        yield from self.check_impacts(step, others)
+
+    def check_contact(self, contact, step, put):
+        name, n = contact["collider"], vector(contact["normal"])
+        if name not in self.colliders or self.colliders[name].sensor:
+            yield "contact_invented", f"has a contact with {name}, which is no solid of the scene"
+            return
+        if abs(dot(n, n) - 1) > 1e-12:
+            yield "normal", f"has a normal that is no unit vector at {name}"
+        # Where a touch takes long to come the way may have other corners before the fraction.
+        corners = [corner for corner in step.path if corner[2] <= Fraction(contact["fraction"]) + SAME]
+        if not corners or not 0 <= contact["fraction"] <= 1:
+            yield "contact_invented", f"has a contact with {name} at {contact['fraction']}, outside the step"
+            return
+        found = [list(self.faults(contact, corner, step, put)) for corner in reversed(step.path)]
+        in_time = min(found[-len(corners):], key=self.weight)
+        if in_time and not all(found):
+            yield "time_of_impact", f"has a contact with {name} at {contact['fraction']}, and comes to it later"
+        else:
+            yield from in_time
+
+    @staticmethod
+    def weight(faults):
+        return any(clause == "contact_invented" for clause, _ in faults), len(faults)
+
+    def faults(self, contact, corner, step, put):
+        """Of a contact, if this is the corner where the character stopped before it."""
+        name, n, point = contact["collider"], vector(contact["normal"]), vector(contact["point"])
+        collider, place = self.colliders[name], corner[:2]
+        edges = step.motion.edges(name, collider, corner[2])
+        body = [add(place, corner) for corner in self.body]
+        sides = list(zip(body, body[1:] + body[:1]))
+        # Along a side that nearly faces the character the middle of both its ends is a little off.
+        if not collider.distance(point, edges) <= 10 * ROUNDING * max(1, float(collider.radius)):
+            yield "contact_invented", f"has a contact point {show(point)} that is not on {name}"
+        off = min(distance(point, a, b) for a, b in sides)
+        if not off <= GAP + Fraction(ROUNDING):
+            clause = "gap" if off <= NEARLY else "contact_invented"
+            yield clause, f"has a contact point {show(point)} with {name} that is {off} m from the character"
+            return
+        gap = dot(n, less(place, point)) + min(dot(n, corner) for corner in self.body)
+        if not abs(gap - Fraction(contact["separation"])) <= ROUNDING:
+            yield "gap" if 0 < gap <= NEARLY else "normal", f"is nowhere {contact['separation']} m from {name} along its normal"
+        elif not self.keeps_apart(n, point, edges, collider):
+            yield "normal", f"has the normal {show(n)} at {name}, which is of no face there"
+        first = put.path[0]
+        first_edges = put.motion.edges(name, collider, first[2])
+        moved = less(place, first[:2])
+        is_as_put = gap == 0 and edges == [(add(a, moved), add(b, moved)) for a, b in first_edges]
+        if not (0 < gap <= GAP or is_as_put):
+            yield "gap" if abs(gap) <= NEARLY else "normal", f"keeps a gap of {float(gap)} m at {name}"
+
+    def keeps_apart(self, n, point, edges, collider):
+        """Whether some edge at the point lies wholly behind the normal. (One that goes on ahead of it may be hidden by the
+        one that is touched.)"""
+        if collider.radius:
+            return size(less(less(point, edges[0][0]), scaled(n, collider.radius))) <= 1e-6 * max(1, float(collider.radius))
+        touched = [(a, b) for a, b in edges if distance(point, a, b) <= 10 * ROUNDING]
+        return any(max(dot(n, less(end, point)) for end in edge) <= 10 * ROUNDING for edge in touched)
+
+    def check_impacts(self, step, others):
+        """What the wanted motion meets first, and when."""
+        path, record, motion = step.path, step.record, step.motion
+        if record["start_overlap"] or step.get("crush") or step.get("stuck") or step.in_parts:
+            self.skip("contact_missed", "begins inside, crushed or stuck, or goes in parts")
+            return
+        events = [(Fraction(contact["fraction"]), contact) for contact in step.contacts]
+        first, contact = min(events, key=lambda event: event[0], default=(Fraction(1), None))
+        met = min((Fraction(m["fraction"]) for m in step.get("met", [])), default=None)
+        if met is not None and met <= first:
+            first, contact = met, None  # another character may have turned it aside
+        if self.is_pushed(step) and (first == 0 or not step.goes_as_wanted(min(first, path[1][2]))):
+            return  # touched where it began, or pushed aside by a mover from there
+        # A last leg without time follows the ground down: its contact is none of the wanted motion.
+        follows = path[-1][2] == path[-2][2] == 1 and first == 1
+        for name in self.world.solids:
+            if motion.turns(name) or name in step.get("drop", []):
+                continue
+            yield from self.check_impact(name, contact, first, follows, step)
+
+    def is_pushed(self, step):
+        """Whether something that moves comes near to the way that was travelled, or wanted."""
+        legs = list(zip(step.path, step.path[1:]))
+        legs.append((step.path[0], (*add(step.path[0][:2], step.wanted), Fraction(1))))
+        return any(step.motion.goes(name) and any(self.world.met(name, step.motion, *leg, self.bodies[NEARLY]) is not False
+                                                  for leg in legs) for name in self.world.solids)
+
+    def check_impact(self, name, contact, first, follows, step):
+        start = step.motion.seen(name, step.path[0])
+        wanted = less(step.wanted, step.motion.change(name))
+        is_first = contact is not None and contact["collider"] == name
+        reported = [c for c in step.contacts if c["collider"] == name]
+        normal = vector((contact if is_first else reported[0])["normal"]) if reported else None
+        along = abs(dot(normal, wanted)) if normal else ZERO
+        speed = Fraction(size(wanted))
+        if is_first and along == 0:
+            yield "contact_invented", f"has a contact with {name} that it does not move towards"
+            return
+        if speed == 0:
+            return
+        # Of what is not reported the normal is not known: by that much nearer a corner may be grazed.
+        slack = GAP / along if along else 1000 * GAP / speed
+        clause = "time_of_impact" if reported else "contact_missed"
+        if first > slack and self.world.meets(name, start, scaled(wanted, first - slack), self.body):
+            yield clause, f"meets {name} earlier than at {float(first)} of the step"
+        if is_first and not follows and not self.world.meets(name, start, scaled(wanted, first + slack), self.body):
+            # Not by then, unless it passes so closely that it may be called a contact.
+            if not self.world.meets(name, start, scaled(wanted, first + slack), self.bodies[NEAR_PASS]):
+                yield "time_of_impact", f"does not meet {name} by {float(first)} of the step"
+
+    def is_turned(self, step, fraction):
+        """Whether something may have turned a character aside before it met another at that fraction."""
+        fraction = Fraction(fraction)
+        if step.get("stuck") or step.first_event() != fraction:
+            return True
+        stops = [[corner[2] for corner in step.path if corner[2] <= event["fraction"]][-1:]
+                 for event in step.contacts + step.get("met", [])]
+        if len(stops) > 1 and stops[0] in stops[1:]:
+            return True
+        if step.goes_as_wanted(fraction):
+            return False
+        end = (*add(step.path[0][:2], scaled(step.wanted, fraction)), fraction)
+        return any(self.world.met(name, step.motion, step.path[0], end, self.bodies[GAP]) is not False
+                   for name in self.world.solids)
+
+    # Sensors.
 
     def sensor_events(self, name, corners):
         """(change, leg, fraction of the leg) of everything that happens to a sensor, which stands still."""
         states = []  # in turn at an instant and between two, with the leg and its fraction
+        sensor = self.colliders[name]
         for leg, (start, end) in enumerate(zip(corners, corners[1:])):
             way = less(end, start)
-            near = self.meets(name, start, way)
-            sensor = self.colliders[name]
+            near = self.world.meets(name, start, way, self.body)
             found = []
             if near and sensor.radius:
                 found = circle_crossings(start, way, self.body, sensor.centre, sensor.radius)
@@ -263,269 +517,196 @@ class Checker:
             for first, last in zip(times, times[1:]):
                 for t in (first, (first + last) / 2):
                     at = add(start, scaled(way, t))
-                    states.append((near and self.meets(name, at, (ZERO, ZERO)), leg, first if t == first else last))
-        states.append((self.meets(name, corners[-1], (ZERO, ZERO)), len(corners) - 2, Fraction(1)))
+                    states.append((near and self.world.meets(name, at, STAYS, self.body), leg, first if t == first else last))
+        states.append((self.world.meets(name, corners[-1], STAYS, self.body), len(corners) - 2, Fraction(1)))
         for i, (before, now) in enumerate(zip(states, states[1:])):
             if before[0] != now[0]:
                 instant = before if i % 2 == 0 else now
                 yield "enter" if now[0] else "exit", instant[1], instant[2]
 
-    def check_sensors(self, step, path, motion):
+    def check_sensors(self, step):
+        if not self.asks("sensor"):
+            return
+        path = step.path
         for name, collider in self.colliders.items():
-            if not collider.sensor or motion.turns(name):
+            if not collider.sensor:
                 continue
-            corners = [motion.seen(name, corner) for corner in path]
+            if step.motion.turns(name):
+                self.skip("sensor", "turns")
+                continue
+            corners = [step.motion.seen(name, corner) for corner in path]
             expected = []
             for change, leg, share in self.sensor_events(name, corners):
                 expected.append((change, path[leg][2] + share * (path[leg + 1][2] - path[leg][2])))
             found = [(e["change"], Fraction(e["fraction"])) for e in step.get("sensors", []) if e["id"] == name]
             if [change for change, _ in found] != [change for change, _ in expected]:
                 words = [f"{change} at {float(t)}" for change, t in expected] or ["nothing"]
-                yield f"does not report {', '.join(words)} at the sensor {name}"
+                yield "sensor", f"does not report {', '.join(words)} at the sensor {name}"
                 continue
             length = sum(size(less(end, start)) for start, end in zip(corners, corners[1:]))
             for (change, reported), (_, right) in zip(found, expected):
                 if not abs(reported - right) * Fraction(length) <= GAP:
-                    yield f"has the {change} of {name} at {float(reported)}, not at {float(right)}"
+                    yield "sensor", f"has the {change} of {name} at {float(reported)}, not at {float(right)}"
 
-    def check_movers(self, step, motion, last):
-        if last is None:
+    # Ground, falls and speeds.
+
+    def check_ground(self, step, last, others):
+        path, motion, record = step.path, step.motion, step.record
+        if record["start_overlap"] or step.get("crush") or self.world.overlapped(motion, path[-1]):
+            self.skip("hanging", "inside of something")
             return
-        now, before = motion.first_and_last(), last.first_and_last()
-        if now.keys() != before.keys() or motion.ways.keys() != last.ways.keys():
-            yield "has not the same movers as the step before"
-        for name in now.keys() & before.keys():
-            if now[name][0] != before[name][1]:
-                yield f"has {name} begin elsewhere, not where it was"
+        bodies = [[add(other.path[-1][:2], p) for p in self.body] for other in others
+                  if size(less(other.path[-1][:2], path[-1][:2])) <= 2 * sum(self.company.size)]
+        edges = [edge for body in bodies for edge in zip(body, body[1:] + body[:1])]
+        before = path[-2]
+        if record["grounded"] and self.asks("ground_invented"):
+            if not self.ground.is_grounded(motion, path[-1], step.up, before, edges):
+                yield "ground_invented", "is grounded, and nothing is under it"
+        if not record["grounded"] and self.asks("ground_missed"):
+            yield from self.check_ground_missed(step, before)
+        if self.asks("hanging"):
+            across = (step.up[1], -step.up[0])
+            unsteered = less(step.wanted, scaled(across, step.steered))
+            hangs = self.ground.hangs(motion, path, step.up, unsteered, step.get("drop", []), edges)
+            if hangs is None:
+                self.skip("hanging", "beside what moves, or another character")
+            elif hangs:
+                yield "hanging", "could have fallen"
 
-    def check_contact(self, contact, path, motion, put):
-        name, n = contact["collider"], tuple(map(Fraction, contact["normal"]))
-        if abs(dot(n, n) - 1) > 1e-12:
-            yield f"has a normal that is no unit vector at {name}"
-        # Where a touch takes long to come the way may have other corners before the fraction.
-        corners = [corner for corner in path if corner[2] <= Fraction(contact["fraction"]) + SAME]
-        if not corners:
-            yield f"has a contact with {name} at {contact['fraction']}, before the step"
+    def check_ground_missed(self, step, before):
+        """On ground that it touches, and does not leave, it is grounded."""
+        velocity = vector(step.record["velocity"])
+        for contact in step.contacts:
+            n, name = vector(contact["normal"]), contact["collider"]
+            if float(dot(n, step.up)) < self.ground.surely_walkable or step.motion.turns(name):
+                continue
+            relative = less(velocity, scaled(step.motion.change(name), 1 / Fraction(step.dt)))
+            for below, up, along, gap in self.ground.supports(step.motion, step.path[-1], step.up, before):
+                walkable = below == name and along >= self.ground.surely_walkable and gap <= GAP
+                if walkable and float(dot(up, relative)) * step.dt <= 1e-9:
+                    yield "ground_missed", f"touches {name}, does not leave it, and is not grounded"
+                    return
+
+    def check_speed(self, step, who, others):
+        if not self.asks("speed_lost", "velocity"):
             return
-        yield from min((list(self.faults(contact, corner, motion, put)) for corner in reversed(corners)), key=len)
-
-    def faults(self, contact, corner, motion, put):
-        """Of a contact, if this is the corner where the character stopped before it."""
-        name, n = contact["collider"], tuple(map(Fraction, contact["normal"]))
-        place, point = corner[:2], tuple(map(Fraction, contact["point"]))
-        edges = motion.edges(name, self.colliders[name], corner[2])
-        # Along a side that nearly faces the character the middle of both its ends is a little off.
-        if not self.colliders[name].distance(point, edges) <= 10 * ROUNDING * max(1, float(self.colliders[name].radius)):
-            yield f"has a contact point {show(point)} that is not on {name}"
-        body = [add(place, corner) for corner in self.body]
-        if not min(distance(point, a, b) for a, b in zip(body, body[1:] + body[:1])) <= GAP + Fraction(ROUNDING):
-            yield f"has a contact point {show(point)} with {name} that is not on the character"
-        gap = dot(n, less(place, point)) + min(dot(n, corner) for corner in self.body)
-        if not abs(gap - Fraction(contact["separation"])) <= ROUNDING:
-            yield f"is nowhere {contact['separation']} m from {name}"
-        first_place, first_motion = put
-        first_edges = first_motion.edges(name, self.colliders[name], first_place[2])
-        moved = less(place, first_place[:2])
-        is_as_put = gap == 0 and edges == [(add(a, moved), add(b, moved)) for a, b in first_edges]
-        if not (0 < gap <= GAP or is_as_put):
-            yield f"keeps a gap of {float(gap)} m at {name}"
-
-    def check_impact(self, contact, start, requested, motion):
-        name, n, t = contact["collider"], contact["normal"], Fraction(contact["fraction"])
-        start = motion.seen(name, start)
-        requested = less(requested, motion.change(name))
-        along = abs(dot(tuple(map(Fraction, n)), requested))
-        if along == 0:
-            yield f"has a contact with {name} that it does not move towards"
+        record, frame = step.record, step.frame
+        if record["start_overlap"] or step.get("crush") or step.get("stuck") or step.get("dropped") or step.in_parts:
+            self.skip("speed_lost", "begins inside, crushed, stuck or dropped, or goes in parts")
             return
-        slack = GAP / along
-        before, after = max(ZERO, t - slack), t + slack
-        if t > slack and self.meets(name, start, scaled(requested, before)):
-            yield f"meets {name} earlier than at {float(t)} of the step"
-        if not self.meets(name, start, scaled(requested, after)):
-            # Not by then, unless it passes so closely that it may be called a contact.
-            if not self.meets(name, start, scaled(requested, after), self.grown_by(NEAR_PASS)):
-                yield f"does not meet {name} by {float(t)} of the step"
-
-    def is_in_the_way(self, step, fraction):
-        """Whether the requested motion leads until then to within 1e-6 m of a collider, which may turn it before that, and
-        be no contact yet."""
-        motion, (start, *_) = Motion(step, self.colliders), exact(step["path"])
-        requested = tuple(map(Fraction, step["requested"]))
-
-        def is_near(name):
-            way = scaled(less(requested, motion.change(name)), Fraction(fraction))
-            return motion.turns(name) or self.meets(name, motion.seen(name, start), way, self.grown_by(GAP))
-
-        return any(is_near(name) for name, collider in self.colliders.items() if not collider.sensor)
-
-    def edges_near(self, step, motion, others):
-        """For `hangs`: edges whose box comes near the body at a corner, with how far they move in the step."""
-        reach = 4 * float(GAP)
-
-        def is_near(a, b, place):
-            return all(float(min(a[k], b[k])) <= float(place[k]) + self.high[k] + reach and
-                       float(max(a[k], b[k])) >= float(place[k]) + self.low[k] - reach for k in (0, 1))
-
-        def blocks(collider, edge, places):
-            """A one-way chain blocks from the corner, or from where the leg began that ended there."""
-            if collider.one_way is None:
-                return True
-            bodies = [[add(place, corner) for corner in self.body] for place in places]
-            return any(set(edge) == set(held) for body in bodies for held in collider.blocking_edges(body))
-
-        def edges(corner, before):
-            for name, collider in self.colliders.items():
-                if collider.sensor or name in step.get("drop", []):
-                    continue
-                place, offset = motion.seen(name, corner), motion.offset(name, corner[2])
-                moved = tuple(map(float, motion.change(name)))
-                if collider.radius:
-                    if self.meets(name, place, (ZERO, ZERO), self.grown_by(4 * GAP)):
-                        yield tuple(add(end, offset) for end in self.tangent(collider, place)), moved
-                    continue
-                for edge in collider.edges:
-                    if is_near(*edge, place) and blocks(collider, edge, (place, motion.seen(name, before))):
-                        yield tuple(add(end, offset) for end in edge), moved
-            for other in others:
-                way = exact(other["path"])
-                body = [add(places_at(way, corner[2])[-1], point) for point in self.body]
-                moved = tuple(map(float, less(way[-1][:2], way[0][:2])))
-                yield from ((edge, moved) for edge in zip(body, body[1:] + body[:1]) if is_near(*edge, corner))
-
-        return edges
-
-    def tangent(self, collider, place):
-        """An edge that stands for a circle beside a body: so long that the body does not see where it ends."""
-        body = [add(place, corner) for corner in self.body]
-        ways = (way_from_segment(collider.centre, a, b) for a, b in zip(body, body[1:] + body[:1]))
-        nearest = min(ways, key=lambda way: dot(way, way))
-        out = scaled(nearest, -1 / Fraction(size(nearest)))
-        top, along = add(collider.centre, scaled(out, collider.radius)), (-out[1], out[0])
-        reach = 8 * Fraction(max(self.high[k] - self.low[k] for k in (0, 1)))
-        return add(top, scaled(along, -reach)), add(top, scaled(along, reach))
-
-    def check_progress(self, step, others):
-        """Of octagon_sweep, which promises to fall where it can."""
-        motion, path = Motion(step, self.colliders), exact(step["path"])
-        told = "steered" in step and self.max_climb is not None and not step.get("crush")
-        if not self.promises or not told or motion.ways or step["start_overlap"]:
+        want = [float(x) / step.dt for x in step.wanted]
+        have, made = record["velocity"], [float(x) / step.dt for x in step.way()]
+        largest = max(abs(float(x)) for corner in step.path for x in corner[:2])
+        rounding = (1e-5 if self.header["scalar"] == "float" else SLOWER) * (1 + math.hypot(*want)) + largest * 1e-14 / step.dt
+        normals = [vector(c["normal"]) for c in step.contacts] + [vector(m["normal"]) for m in step.get("met", [])]
+        restored = rounding + 2 * float(GAP) / step.dt  # a gap is kept from what is touched
+        if not normals:
+            for what, value, slack in (("way", made, restored), ("speed", have, rounding)):
+                off = less(value, want)
+                if math.hypot(*off) > slack:
+                    slower = off[0] * want[0] + off[1] * want[1] < 0
+                    yield "speed_lost" if slower else "velocity", f"touches nothing, and its {what} is {value} m/s, not {want}"
             return
-        if hangs(step, path, self.body, self.edges_near(step, motion, others), self.max_climb):
-            yield "hangs: it could have fallen"
+        faces = [(frame.across(n), frame.rise(n)) for n in normals]
+        yield from self.check_loss(step, want, have, made, faces, rounding, restored)
+        if not self.is_pushed(step) and "ride" not in record and not step.get("met"):
+            gravity = vector(self.header["gravity"])
+            at_rest = step.steered == 0 and frame.rise(want) <= 0 and step.before is not None and not any(step.before)
+            if at_rest and float(dot(step.way(), gravity)) < -2 * float(GAP) * size(gravity):
+                yield "velocity", f"goes up by {show(step.way())} m from rest, against gravity, and nothing takes it there"
+            steepest = math.tan(math.radians(self.header["character"]["max_climb_degrees"]) + 1e-6)
+            walks = max(abs(frame.across(want)), abs(frame.across(want) - float(step.steered) / step.dt)) + rounding
+            climbs = abs(frame.across(have)) <= walks and abs(frame.rise(have)) <= walks * steepest + rounding
+            across = step.frame.world(float(step.steered) / step.dt, 0)
+            if math.hypot(*have) > max(math.hypot(*want), math.hypot(*less(want, across))) + rounding and not climbs:
+                yield "velocity", f"comes out at {have} m/s, and wanted {want}"
 
-    def find_surfaces(self, movers):
-        """Of the one-way chains. What moves alike in the first step is taken for one mover: a trace does not name them."""
-        chains = [(name, repr(movers[name]) if name in movers else None, line, collider.one_way)
-                  for name, collider in self.colliders.items() if collider.one_way is not None
-                  for line in collider.lines]
-        for name, segments in surfaces_of(chains).items():
-            self.colliders[name].segments = segments
+    def check_loss(self, step, want, have, made, faces, rounding, restored):
+        frame, walk, rise = step.frame, step.frame.across(want), step.frame.rise(want)
+        slope = self.ground.surely_walkable
+        steered = float(step.steered)
+        opposed = any((across * walk < 0 or across * steered < 0) and up < slope for across, up in faces)
+        between = any(a[0] * b[0] + a[1] * b[1] < 0 for a, b in itertools.combinations(faces, 2))
+        for what, value, slack in (("speed", have, rounding), ("way", made, restored)):
+            lost = (walk - frame.across(value)) * math.copysign(1, walk)
+            if abs(walk) > slack and lost > slack and not opposed and not between:
+                ahead = scaled((step.up[1], -step.up[0]), Fraction(math.copysign(2 * float(GAP), walk)))
+                there = (*add(step.path[-1][:2], ahead), Fraction(1))
+                hidden = [name for name in self.world.solids if self.world.met(name, step.motion, step.path[-1], there)]
+                if hidden:
+                    yield "contact_missed", f"is stopped by {hidden[0]}, and does not name it"
+                else:
+                    yield "speed_lost", f"loses {lost} m/s of its {what} across up, and nothing opposes it"
+        climbed = step.began_grounded or step.record["grounded"] or any(up >= slope for _, up in faces)
+        side_hit = self.header["character"].get("side_hit_ends_rise") and any(abs(up) < 0.7 for _, up in faces)
+        if rise < 0:
+            lost = frame.rise(have) - rise
+            if lost > rounding and not any(up > 1e-9 for _, up in faces):
+                yield "speed_lost", f"loses {lost} m/s of its fall, and nothing is under it"
+        elif rise > 0 and not climbed and not side_hit:
+            lost = rise - frame.rise(have)
+            if lost > rounding and not any(up < -1e-9 for _, up in faces):
+                yield "speed_lost", f"loses {lost} m/s of its rise, and nothing is over it"
 
-    def check(self, records):
-        """Yields (step, what is wrong)."""
-        last, last_motion, together = {}, {}, []
-        records = iter(records)
-        first = next(records, None)
-        if first is not None:
-            self.find_surfaces(first["movers"])
-            records = itertools.chain([first], records)
-        company = Company(self.body)
-        for number, step in enumerate(records):
-            who = step.get("character", 0)
-            told = f"character {who} " if self.characters > 1 else ""
-            if who != number % self.characters:
-                yield step, f"has a record of character {who} where that of {number % self.characters} belongs"
-            if who not in last or step.get("respawn"):
-                self.put[who] = exact(step["path"])[0], Motion(step, self.colliders)
-            for words in self.check_alone(step, last.get(who), last_motion.get(who), self.put[who]):
-                yield step, told + words
-            last[who], last_motion[who] = exact(step["path"])[-1][:2], Motion(step, self.colliders)
-            together = [other for other in together if other["step"] == step["step"]]
-            for other in together:
-                for words in company.check(other, step, self.promises, self.is_in_the_way):
-                    yield step, f"character {other['character']} {words}"
-            together.append(step)
-            if len(together) == self.characters:
-                for one in together:
-                    told = f"character {one.get('character', 0)} " if self.characters > 1 else ""
-                    others = [other for other in together if other is not one]
-                    for words in self.check_progress(one, others):
-                        yield one, told + words
+    def check_refusal(self, record):
+        values = [record.get("dt", self.header["dt"]), record["input"].get("move", 0)]
+        bad = [v for v in values if not isinstance(v, (int, float)) or not math.isfinite(v)]
+        last = self.last.get(record.get("character", 0))
+        far = last is not None and max(
+            abs(float(x) + v * values[0]) for x, v in zip(last.path[-1][:2], last.record["velocity"])) > FARTHEST / 2
+        if not bad and values[0] > 0 and not far:
+            yield "refusal", f"is refused ({record['refused']}), and nothing is wrong with it"
 
-    def check_alone(self, step, last, last_motion, put):
-        motion = Motion(step, self.colliders)
-        path = exact(step["path"])
-        fractions = [corner[2] for corner in step["path"]]
-        if fractions[0] != 0 or fractions[-1] != 1 or fractions != sorted(fractions):
-            yield "has a way that does not go from fraction 0 to 1"
-        if last not in (None, path[0][:2]) and not step.get("respawn"):
-            yield f"begins at {show(path[0])}, not where the last one ended"
-        wrong = [words for way in motion.ways.values() for words in way.faults()]
-        yield from wrong
-        if wrong:
-            return
-        yield from self.check_movers(step, motion, last_motion)
-        yield from self.check_way(step, path, motion)
-        if not self.promises:
-            return
-        for contact in step["contacts"]:
-            yield from self.check_contact(contact, path, motion, put)
-        contacts = [contact for contact in step["contacts"] if not motion.turns(contact["collider"])]
-        # Who met another before, or what turns, may have been turned aside; who is stuck does not go as requested.
-        first = contacts and contacts[0]["fraction"] == first_event(step) and not meets_at_once(contacts[0], step)
-        in_parts = any(len(way.instants) > 2 for way in motion.ways.values())  # so goes the character near what turns
-        # A last leg without time follows the ground down: its contact is none of the requested motion.
-        follows = path[-1][2] == path[-2][2] == 1 and first and contacts[0]["fraction"] == 1
-        at = first and step.get("movers") and Fraction(contacts[0]["fraction"])
-        # A mover that leaves it no room pushes it out of the way that was requested, from the start of the step.
-        gives_way = at and at >= path[1][2] and not goes_as_requested(step, path[1][2])
-        touched = at == 0 and step.get("movers")  # `check_contact` has seen that it is touched at the start
-        as_wanted = not (in_parts or follows or gives_way or touched or step["start_overlap"] or step.get("crush") or step.get("stuck"))
-        if first and as_wanted:
-            requested = tuple(map(Fraction, step["requested"]))
-            yield from self.check_impact(contacts[0], path[0], requested, motion)
-        yield from self.check_sensors(step, path, motion)
+    def summary(self):
+        told = [f"{self.judged['steps']} steps", f"{self.judged['contacts']} contacts"]
+        if self.judged["crushes"]:
+            told.append(f"{self.judged['crushes']} crushes")
+        if self.world.too_close:
+            told.append(f"too close to tell on {self.world.too_close} ways past what turns")
+        unjudged = [f"{clause} in {n} steps ({why})" for (clause, why), n in sorted(self.skipped.items())]
+        unknown = sorted(self.clauses - set(CLAUSES))
+        unjudged += [f"{clause} (unknown)" for clause in unknown]
+        unjudged += ["that a way out is the shortest"] if "start_inside" in self.clauses else []
+        return ", ".join(told), unjudged
 
 
-def show(point):
-    return f"({float(point[0])}, {float(point[1])})"
-
-
-def check_file(path):
-    violations = steps = contacts = 0
+def check_file(path, clauses):
+    broken = collections.Counter()
     with open(path, encoding="utf-8") as file:
         header = json.loads(file.readline())
         if header.get("paperproof_trace") != 1:
             raise ValueError("not a trace of version 1")
-
-        def counted():
-            nonlocal steps, contacts
-            for line in file:
-                step = json.loads(line)
-                steps += 1
-                contacts += len(step["contacts"])
-                yield step
-
-        checker = Checker(header)
-        for step, words in checker.check(counted()):
-            print(f"{path}: step {step['step']} {words}")
-            violations += 1
-    close = f", too close to tell on {checker.too_close} ways past what turns" if checker.too_close else ""
-    print(f"{path}: {steps} steps, {contacts} contacts, {violations} violations{close}")
-    return violations
+        checker = Checker(header, clauses)
+        for record, clause, words in checker.check(map(json.loads, file)):
+            print(f"{path}: step {record['step']}: {clause}: {words}")
+            broken[clause] += 1
+    told, unjudged = checker.summary()
+    print(f"{path}: {told}, {sum(broken.values())} violations" + "".join(
+        f", {clause} {count}" for clause, count in sorted(broken.items())))
+    if unjudged:
+        print(f"{path}: not judged: {'; '.join(unjudged)}")
+    return sum(broken.values())
 
 
-def main(paths):
-    if not paths:
-        print(__doc__)
-        return 2
-    try:
-        return 1 if sum([check_file(path) for path in paths]) else 0
-    except (OSError, ValueError, KeyError) as error:
-        print(f"{paths}: {error!r}", file=sys.stderr)
-        return 2
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    which = parser.add_mutually_exclusive_group()
+    which.add_argument("--all", action="store_true", help="ask for every clause, whatever the header guarantees")
+    which.add_argument("--clauses", help="ask for these alone")
+    parser.add_argument("files", nargs="+")
+    options = parser.parse_args()
+    clauses = CLAUSES if options.all else options.clauses.split(",") if options.clauses else None
+    if options.clauses and not set(clauses) <= set(CLAUSES):
+        parser.error(f"a clause is one of {', '.join(CLAUSES)}")
+    violations = 0
+    for path in options.files:
+        try:
+            violations += check_file(path, clauses)
+        except (OSError, ValueError, KeyError, TypeError, IndexError) as error:
+            print(f"{path}: {error if isinstance(error, (OSError, ValueError)) else repr(error)}", file=sys.stderr)
+            return 2
+    return 1 if violations else 0
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    sys.exit(main())

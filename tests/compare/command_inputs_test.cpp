@@ -51,8 +51,9 @@ TEST(CommandInputs, a_map_without_a_script_moves_by_itself_and_says_so_in_one_li
   for (const std::string map : {"map.tmx", "picture.png"}) {
     const Finished finished = place.run(run + map);
     EXPECT_EQ(finished.status, 0) << finished.err;
-    EXPECT_TRUE(
-        begins(finished.out, map.substr(0, map.find('.')) + ": a map without a script, so it moves by random:1\n"));
+    EXPECT_TRUE(begins(finished.out, map.substr(0, map.find('.')) +
+                                         ": its character climbs kerbs up to a pixel of the map (0.03125 "
+                                         "m); a map without a script, so it moves by random:1\n"));
     const std::string own = place.files().at("t." + map.substr(0, map.find('.')) + ".octagon_sweep.double.jsonl");
     EXPECT_GT(farthest_to_the_side(own), 1) << map;
     EXPECT_EQ(place.run(run + map + " --input random:1").out.find("without a script"), std::string::npos);

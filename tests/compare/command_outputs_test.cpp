@@ -31,7 +31,9 @@ TEST(CommandOutputs, rows_as_csv_are_flat) {
   EXPECT_EQ(place.run("compare article_bullet --no-timing --quiet --contender mask --rows rows.csv").status, 0);
   std::istringstream lines(place.files().at("rows.csv"));
   std::string line;
-  std::getline(lines, line);
+  int comments = 0;
+  while (std::getline(lines, line) && begins(line, "# ")) ++comments;
+  EXPECT_GE(comments, 5) << "compiler, flags, versions";
   EXPECT_TRUE(begins(line, "scene,contender,scalar,mode,steps,verdict,reason,")) << line;
   EXPECT_TRUE(line.ends_with('\r'));
   const auto commas = std::count(line.begin(), line.end(), ',');
@@ -113,6 +115,38 @@ TEST(CommandOutputs, json_lines_keep_what_is_done_when_the_command_is_interrupte
   ASSERT_EQ(read.size(), 3U);
   EXPECT_EQ(read[0].at("paperproof_rows"), 1);
   for (const std::size_t i : {std::size_t{1}, std::size_t{2}}) EXPECT_EQ(read[i].at("scene"), "article_bullet");
+}
+
+TEST(CommandOutputs, a_signal_removes_what_is_not_whole) {
+  const Workplace place;
+  place.write("long.json", good_with("\"steps\": 20", "\"steps\": 1000000000"));
+  // Signals the command as soon as both files are open, and waits for its end.
+  place.write("then.sh", R"("$@" & p=$!
+until test -e rows.json.part -a -e page.html.part; do sleep 0.01; done
+for signal in $signals; do kill -s $signal $p; sleep 0.1; ls *.part >left.$signal 2>/dev/null; done
+wait $p)");
+  const auto signalled = [&](const std::string& signals, const std::string& before = "") {
+    return place
+        .run("compare long.json --no-timing --quiet --contender octagon_sweep --rows rows.json --report page.html",
+             "signals='" + signals + "' timeout 60 sh then.sh " + before)
+        .status;
+  };
+  const auto parts = [&] {
+    std::size_t count = 0;
+    for (const char* name : {"rows.json.part", "page.html.part"}) count += std::filesystem::remove(place.path(name));
+    return count;
+  };
+  EXPECT_EQ(signalled("TERM"), 128 + 15);
+  EXPECT_EQ(parts(), 0U);
+  EXPECT_EQ(signalled("HUP"), 128 + 1);
+  EXPECT_EQ(parts(), 0U);
+  EXPECT_EQ(signalled("KILL"), 128 + 9);
+  EXPECT_EQ(parts(), 2U) << "nobody can do anything about that one";
+  // Who starts it with `nohup` wants it to go on. A shell has its jobs in the background ignore INT.
+  EXPECT_EQ(signalled("HUP INT TERM", "nohup"), 128 + 15);
+  EXPECT_EQ(content(place.path("left.HUP")), "page.html.part\nrows.json.part\n");
+  EXPECT_EQ(content(place.path("left.INT")), "page.html.part\nrows.json.part\n");
+  EXPECT_EQ(parts(), 0U);
 }
 
 /// What is said and the status where standard output goes elsewhere.

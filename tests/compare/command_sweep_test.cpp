@@ -74,6 +74,15 @@ TEST(CommandSweep, goes_on_behind_what_a_kill_left) {
     EXPECT_EQ(place.run(sweep + "--rows k.jsonl --resume").status, 0);
     EXPECT_EQ(written(place, "k.jsonl"), whole) << kept;
   }
+  // A file system that was not shut down leaves zeros.
+  for (const std::string& cut : {whole.substr(0, header + 10), whole.substr(0, header) + std::string(100, '\0'),
+                                 whole.substr(0, header) + std::string(100, '\0') + "\n"}) {
+    std::ofstream(place.path("k.jsonl"), std::ios::binary) << cut;
+    const Finished resumed = place.run(with(sweep, "--quiet", "") + "--rows k.jsonl --resume");
+    EXPECT_EQ(resumed.status, 0);
+    EXPECT_EQ(resumed.err, "k.jsonl:2: this last row is cut short; its case is run again\n");
+    EXPECT_EQ(written(place, "k.jsonl"), whole);
+  }
   const Finished other = place.run("sweep paper --vary speed=1,2 --contender mask --rows k.jsonl --resume");
   EXPECT_EQ(other.status, 2);
   EXPECT_TRUE(holds(other.err, "has rows of another sweep")) << other.err;

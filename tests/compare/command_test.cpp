@@ -159,6 +159,32 @@ TEST(Command, lists_names_first_and_checks_scenes) {
   EXPECT_EQ(bad.out, "");
 }
 
+TEST(Command, check_says_who_will_run_and_why_the_others_do_not) {
+  const Workplace place;
+  EXPECT_TRUE(holds(place.run("check article_bullet").out,
+                    "\n  compare    12 of 13 contenders run\n             not grid: the grid cannot express "));
+  // The same as `compare` finds, for each contender.
+  const std::string turning =
+      R"(], "movers": [ { "id": "arm", "polygon": [[6,0],[8,0],[8,1],[6,1]], "path": [ { "t": 0, "at": [0,0] } ], "angle": [ { "t": 0, "at": 0 }, { "t": 1, "at": 1 } ] } ],
+         "characters": [ { "position": [2, 3] } ] })";
+  place.write("company.json", with(good_scene, "]\n}", turning));
+  const Finished checked = place.run("check company.json");
+  EXPECT_EQ(checked.status, 0) << checked.err;
+  EXPECT_TRUE(holds(checked.out, "contenders run; octagon_sweep does not, so that status 0 guarantees nothing\n"));
+  const Finished compared = place.run("compare company.json --no-timing --json");
+  EXPECT_EQ(compared.status, 0) << compared.err;
+  std::size_t running = 0;
+  const nlohmann::json rows = nlohmann::json::parse(compared.out);
+  for (const nlohmann::json& row : rows.at("rows")) {
+    if (row.at("verdict") != "not_applicable")
+      ++running;
+    else
+      EXPECT_TRUE(holds(checked.out, "  not " + row.at("contender").get<std::string>() + ": " +
+                                         row.at("reason").get<std::string>() + "\n"));
+  }
+  EXPECT_TRUE(holds(checked.out, "  compare    " + std::to_string(running) + " of 13 contenders run"));
+}
+
 TEST(Command, says_what_a_scene_does_not_need_and_writes_it_into_traces) {
   const Workplace place;
   const Finished plan = place.run("plan article_bullet");

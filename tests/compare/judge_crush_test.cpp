@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 namespace paperproof::compare {
 namespace {
 
@@ -202,6 +204,8 @@ TEST(FreeSpace, a_place_that_is_found_keeps_the_clearance_and_none_is_missed) {
   constexpr double clearance = 0.02;
   constexpr double reach = 0.75;
   int with_room = 0;
+  Colliders all(14);
+  std::iota(all.begin(), all.end(), ColliderIndex{0});
   constexpr int rounds = paperproof::test::sampled(300);
   for (int i = 0; i < rounds; ++i) {
     std::vector<ColliderDef> colliders;
@@ -220,7 +224,8 @@ TEST(FreeSpace, a_place_that_is_found_keeps_the_clearance_and_none_is_missed) {
       }
       return least;
     };
-    const auto found = world.find_free(at, reach, clearance, {}, [](const Vec2d&) { return true; });
+    const WayQuestion anywhere{.from = at, .end = at, .may_pass = all};
+    const auto found = world.find_free(anywhere, reach, clearance, [](const Vec2d&) { return true; });
     if (found) {
       ++with_room;
       EXPECT_GE(clear_by(*found), clearance) << "seed " << seed << " round " << i;

@@ -61,7 +61,7 @@ TEST(JudgeHanging, ground_is_what_the_character_walks_on_and_nothing_steeper) {
   const ColliderDef slope = polygon({foot + Vec2d(-4, -4), foot + Vec2d(4, -4), foot + Vec2d(4, 4)});
   for (const auto& [limit, stands] : {std::pair{50.0, true}, {45.0, true}, {44.99, false}, {0.0, false}}) {
     TraceHeader on_slope = header({slope});
-    on_slope.max_climb_degrees = limit;
+    on_slope.character.max_climb_degrees = limit;
     EXPECT_EQ(!hangs(on_slope, wanting({0, -fall})), stands) << limit;
   }
   EXPECT_FALSE(hangs(header({box(-4, -2, 4, -0.625 - gap)}), wanting({0.1, -fall})));
@@ -204,7 +204,7 @@ TEST(JudgeHanging, it_is_right_beside_random_solids) {
       solids.push_back(std::move(solid));
     }
     TraceHeader beside = header(solids);
-    beside.max_climb_degrees = 1;
+    beside.character.max_climb_degrees = 1;
     const ExactScenery exact(beside.scenery, beside.points);
     const std::vector<NearPart> near = exact.near_parts(Vec2d(0, 0), 2 * probe);
     const bool ground = std::any_of(near.begin(), near.end(), [](const NearPart& part) {

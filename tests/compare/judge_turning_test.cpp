@@ -175,6 +175,26 @@ TEST_F(TurningArm, that_is_a_sensor_or_far_away_says_nothing) {
   EXPECT_FALSE(far.broke());
 }
 
+TEST_F(TurningArm, that_touches_at_a_moment_no_halving_comes_to_is_decided_by_the_second_method_and_counted) {
+  // In units of 0.15625 m: the lower corner of the octagon is at (1, -4), and the end of the arm there at 3/7, on a
+  // line of slope -1/2 that the octagon lies above.
+  const double unit = 0.15625;
+  const auto arm = [&](const Vec2d& a, const Vec2d& b) { return std::vector<Vec2d>{a * unit, b * unit}; };
+  Judge judge(with_arm(true));
+  TraceStep passes = from(0, {Vec2d(2, 0) * unit, Vec2d(2, 0) * unit});
+  passes.step = 8;
+  passes.vertex_ways[0].vertices = {arm({7, -7}, {-1, -7}), arm({-7, 0}, {-7, -8})};
+  const StepJudgement touched = judge.judge(passes);
+  EXPECT_EQ(touched.undecided, Colliders{0});
+  EXPECT_FALSE(touched.broke());
+  EXPECT_TRUE(touched.methods_disagree.empty());
+  for (PathPoint<double>& corner : passes.path) corner.position.y() -= 1e-9;
+  const StepJudgement passed = Judge(with_arm(true)).judge(passes);
+  EXPECT_EQ(passed.tunnelled, Colliders{0});
+  EXPECT_TRUE(passed.undecided.empty());
+  EXPECT_TRUE(passed.methods_disagree.empty());
+}
+
 TEST_F(TurningArm, of_which_a_step_has_no_way_is_refused) {
   Judge judge(header_);
   TraceStep none = from(0, {above_, above_});

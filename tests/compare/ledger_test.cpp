@@ -31,7 +31,7 @@ TraceHeader header(bool box2d) {
   made.scalar = box2d ? "float" : "double";
   made.dt = dt;
   made.path_exact = !box2d;
-  made.max_climb_degrees = 50;
+  made.character.max_climb_degrees = 50;
   made.points = {{-0.15625, -0.625}, {0.15625, -0.625}, {0.3125, -0.3125}, {0.3125, 0.3125},
                  {0.15625, 0.625},   {-0.15625, 0.625}, {-0.3125, 0.3125}, {-0.3125, -0.3125}};
   made.scenery = scenery();

@@ -134,10 +134,13 @@ TEST(ExactDisc, is_left_by_the_shortest_way_that_is_open) {
 }
 
 TEST(ExactDisc, leaves_a_free_place_beside_it) {
-  const auto place = beside({disc({0, 0}, 5)}).find_free({0, 5.5}, 2, 1e-7, {}, [](const Vec2d&) { return true; });
+  const std::vector<ColliderIndex> all{0};
+  const WayQuestion anywhere{.from = {0, 5.5}, .end = {0, 5.5}, .may_pass = all};
+  const auto accept = [](const Vec2d&) { return true; };
+  const auto place = beside({disc({0, 0}, 5)}).find_free(anywhere, 2, 1e-7, accept);
   ASSERT_TRUE(place);
   EXPECT_NEAR(place->y(), 6, 1e-6);
-  EXPECT_FALSE(beside({disc({0, 0}, 5)}).find_free({0, 5.5}, 0.25, 1e-7, {}, [](const Vec2d&) { return true; }));
+  EXPECT_FALSE(beside({disc({0, 0}, 5)}).find_free(anywhere, 0.25, 1e-7, accept));
 }
 
 TEST(ExactDisc, as_a_sensor_is_entered_and_left_where_it_is_overlapped) {

@@ -1,6 +1,8 @@
 /// Tiled maps: objects, starts, files, and maps that nobody in this project drew.
 #include "compare/tiled_maps.hpp"
 
+#include <paperproof/controller.hpp>
+
 namespace paperproof::compare {
 namespace {
 
@@ -56,12 +58,117 @@ TEST(TiledObjects, rotation_is_clockwise_about_the_objects_own_point_and_exact_f
   }
 }
 
-TEST(TiledObjects, an_ellipse_is_refused_where_it_would_be_solid_and_ignored_elsewhere) {
+std::string round_object(const std::string& kind, const std::string& attributes) {
+  return "<object id=\"9\" " + attributes + "><" + kind + "/></object>";
+}
+
+Scene with_solid(const SceneFiles& files, const std::string& object) {
+  return files.load("map.tmx", tmx(objects("solid", object) + csv_layer(floor_csv) + spawn));
+}
+
+TEST(TiledObjects, a_round_object_as_wide_as_high_is_a_circle) {
   const SceneFiles files;
-  const std::string ellipse = "\n<object id=\"9\" x=\"1\" y=\"1\" width=\"4\" height=\"4\"><ellipse/></object>";
-  EXPECT_EQ(files.complaint("map.tmx", tmx(objects("collision", ellipse))),
-            ":5: expected a rectangle, polygon or polyline as a solid; an ellipse cannot be one");
-  EXPECT_EQ(files.load("map.tmx", tmx(objects("coins", ellipse) + csv_layer(floor_csv) + spawn)).ids.size(), 4U);
+  for (const char* kind : {"ellipse", "capsule"}) {
+    const Scene scene = with_solid(files, round_object(kind, R"(x="32" y="8" width="8" height="8")"));
+    const ColliderDef& round = collider(scene, "o9");
+    EXPECT_EQ(round.shape, ColliderDef::Shape::circle);
+    EXPECT_EQ(round.points, std::vector<Vec2d>{Vec2d(36 / 16.0, -12 / 16.0)});
+    EXPECT_EQ(round.radius, 4 / 16.0);
+    EXPECT_EQ(scene.notes, std::vector<std::string>{"1 object as wide as high and round is a circle"});
+  }
+  // A quarter turn clockwise about its corner takes the centre to the left.
+  const Scene turned = with_solid(files, round_object("ellipse", R"(x="40" y="8" width="8" height="8" rotation="90")"));
+  EXPECT_EQ(collider(turned, "o9").points, std::vector<Vec2d>{Vec2d(36 / 16.0, -12 / 16.0)});
+}
+
+/// How far a point is from an ellipse's curve, as a factor: 1 is on it.
+double on_ellipse(const Vec2d& p, const Vec2d& centre, const Vec2d& radii) {
+  return (p - centre).cwiseQuotient(radii).norm();
+}
+
+TEST(TiledObjects, another_ellipse_is_a_polygon_on_its_curve_and_close_to_it) {
+  const SceneFiles files;
+  const Scene scene = with_solid(files, round_object("ellipse", R"(x="28" y="2" width="36" height="10")"));
+  const ColliderDef& round = collider(scene, "o9");
+  ASSERT_EQ(round.shape, ColliderDef::Shape::polygon);
+  EXPECT_EQ(scene.notes,
+            std::vector<std::string>{"1 ellipse has straight edges, at most 0.125 px inside of the curve"});
+  const Vec2d centre{46 / 16.0, -7 / 16.0};
+  const Vec2d radii{18 / 16.0, 5 / 16.0};
+  // Edges of angle d on a circle of 18 px lie 18 (1 - cos d/2) px inside at most; the ellipse is flatter.
+  EXPECT_EQ(round.points.size(), 28U) << "18 (1 - cos(90 / 7 / 2 degrees)) = 0.113, and with 6 edges 0.154";
+  const Box2<double> box = Box2<double>::around(round.points);
+  EXPECT_EQ(box.lower, Vec2d(28 / 16.0, -12 / 16.0));
+  EXPECT_EQ(box.upper, Vec2d(64 / 16.0, -2 / 16.0));
+  for (std::size_t i = 0; i < round.points.size(); ++i) {
+    const Vec2d& a = round.points[i];
+    const Vec2d& b = round.points[(i + 1) % round.points.size()];
+    EXPECT_NEAR(on_ellipse(a, centre, radii), 1, 1e-14);
+    // In units of the radii the middle of an edge is 1 - cos d/2 inside.
+    EXPECT_GE(on_ellipse((a + b) / 2, centre, radii), 1 - 0.125 / 18);
+  }
+}
+
+TEST(TiledObjects, a_capsule_has_half_circles_at_its_ends) {
+  const SceneFiles files;
+  const Scene scene = with_solid(files, round_object("capsule", R"(x="28" y="2" width="32" height="8")"));
+  const ColliderDef& capsule = collider(scene, "o9");
+  ASSERT_EQ(capsule.shape, ColliderDef::Shape::polygon);
+  EXPECT_EQ(scene.notes,
+            std::vector<std::string>{"1 capsule has straight edges, at most 0.125 px inside of the curve"});
+  for (const Vec2d& point : capsule.points) {
+    // 4 px from the middle line, which goes from 32 to 56 px.
+    const Vec2d nearest{std::clamp(point.x(), 32 / 16.0, 56 / 16.0), -6 / 16.0};
+    EXPECT_NEAR((point - nearest).norm(), 4 / 16.0, 1e-15);
+  }
+  const auto has = [&](double x, double y) {
+    return std::find(capsule.points.begin(), capsule.points.end(), Vec2d(x / 16, -y / 16)) != capsule.points.end();
+  };
+  EXPECT_TRUE(has(32, 2) && has(56, 2) && has(32, 10) && has(56, 10) && has(28, 6) && has(60, 6));
+  // Upright, its half circles are above and below.
+  const Scene upright = with_solid(files, round_object("capsule", R"(x="28" y="0" width="8" height="28")"));
+  EXPECT_EQ(Box2<double>::around(collider(upright, "o9").points).upper, Vec2d(36 / 16.0, 0));
+}
+
+TEST(TiledObjects, round_ones_are_counted_ignored_without_a_mark_and_blocking_from_above_as_platforms) {
+  const SceneFiles files;
+  const std::string three = R"(<object id="9" x="0" y="2" width="8" height="6"><ellipse/></object>
+      <object id="10" x="20" y="2" width="8" height="6"><ellipse/></object>
+      <object id="11" x="40" y="2" width="8" height="8"><ellipse/></object>)";
+  EXPECT_EQ(files.load("map.tmx", tmx(objects("coins", three) + csv_layer(floor_csv) + spawn)).ids.size(), 4U);
+  const std::string elsewhere = R"(<objectgroup name="spawn"><object id="1" x="50" y="11"/></objectgroup>)";
+  const auto notes = [&](const std::string& layer) {
+    return files.load("map.tmx", tmx(objects(layer, three) + csv_layer(floor_csv) + elsewhere));
+  };
+  EXPECT_EQ(notes("solid").notes,
+            (std::vector<std::string>{"1 object as wide as high and round is a circle",
+                                      "2 ellipses have straight edges, at most 0.125 px inside of the curve"}));
+  const Scene platforms = notes("one_way");
+  const ColliderDef& round = collider(platforms, "o11");
+  EXPECT_EQ(round.shape, ColliderDef::Shape::chain);
+  EXPECT_EQ(round.one_way, Vec2d(0, 1));
+  EXPECT_EQ(round.points.front(), Vec2d(40 / 16.0, -6 / 16.0)) << "its left end, half way down";
+  EXPECT_EQ(round.points.back(), Vec2d(48 / 16.0, -6 / 16.0));
+}
+
+TEST(TiledObjects, a_tile_that_is_stretched_makes_an_ellipse_of_its_circle) {
+  const SceneFiles files;
+  const std::string tile =
+      R"(<tile id="0" class="solid"><objectgroup><object id="1" x="4" y="4" width="8" height="8"><ellipse/></object></objectgroup></tile>)";
+  const auto shown = [&](const std::string& size) {
+    return files.load("map.tmx", tmx(objects("things", "<object id=\"5\" gid=\"1\" x=\"0\" y=\"32\" " + size + "/>") +
+                                         csv_layer("0,0,0,0, 0,0,0,0, 2,2,2,2") + spawn,
+                                     tile));
+  };
+  // Half as large: its centre is 4 px right of and 4 px above the lower left corner.
+  const Scene half = shown("width=\"8\" height=\"8\"");
+  EXPECT_EQ(collider(half, "o5").points, std::vector<Vec2d>{Vec2d(4 / 16.0, -28 / 16.0)});
+  EXPECT_EQ(collider(half, "o5").radius, 2 / 16.0);
+  const Scene flat = shown("width=\"16\" height=\"8\"");
+  EXPECT_EQ(collider(flat, "o5").shape, ColliderDef::Shape::polygon);
+  const Box2<double> box = Box2<double>::around(collider(flat, "o5").points);
+  EXPECT_EQ(box.lower, Vec2d(4 / 16.0, -30 / 16.0));
+  EXPECT_EQ(box.upper, Vec2d(12 / 16.0, -26 / 16.0));
 }
 
 TEST(TiledObjects, points_and_empty_rectangles_are_left_out_with_a_note) {
@@ -99,6 +206,91 @@ TEST(TiledStart, a_spawn_inside_a_solid_is_refused_with_its_line) {
   const std::string message =
       files.complaint("map.tmx", tmx(csv_layer(floor_csv) + "\n" + with(spawn, "y=\"4\"", "y=\"24\"")));
   EXPECT_TRUE(begins(message, ":5: expected a start outside of every solid"));
+}
+
+TEST(TiledStart, at_a_point_the_sprite_stands) {
+  const SceneFiles files;
+  const auto start = [&](const std::string& at) {
+    return files
+        .load("map.tmx", tmx(csv_layer(floor_csv) +
+                             objects("things", "<object id=\"1\" name=\"Spawn\" " + at + "><point/></object>")))
+        .start.position;
+  };
+  // The middle of the lower edge; the sprite is 40 px at 32 px/m high, and its centre is half of that above.
+  EXPECT_EQ(start("x=\"24\" y=\"20\""), Vec2d(24 / 16.0, -20 / 16.0 + 20 / 32.0));
+  EXPECT_EQ(start("x=\"24\" y=\"32\""), Vec2d(24 / 16.0, -2 + 20 / 32.0)) << "on the ground";
+  EXPECT_TRUE(
+      begins(files.complaint("map.tmx",
+                             tmx(csv_layer(floor_csv) + "\n" +
+                                 objects("things", R"(<object id="1" name="Spawn" x="24" y="33"><point/></object>)"))),
+             ":5: expected a start outside of every solid"));
+}
+
+TEST(TiledStart, who_stands_on_the_ground_by_a_point_is_not_inside_by_a_rounding) {
+  const SceneFiles files;
+  // Grounds whose height in metres no double is, above the origin: where the sprite's middle is in a higher binade the
+  // sum is rounded.
+  int rounded_up = 0;
+  for (int k = 1; k < 200; ++k) {
+    const std::string y = std::to_string(-k);
+    const Scene scene = files.load(
+        "map.tmx", R"(<map orientation="orthogonal" width="20" height="20" tilewidth="18" tileheight="18">)" +
+                       objects("solid", "<object id=\"2\" x=\"0\" y=\"" + y + "\" width=\"90\" height=\"9\"/>") +
+                       objects("spawn", "<object id=\"1\" x=\"45\" y=\"" + y + "\"><point/></object>") + "</map>");
+    // It was loaded, so that by exact arithmetic it overlaps nothing.
+    const double rounded = k / 18.0 + 0.625;
+    const double place = scene.start.position.y();
+    EXPECT_TRUE(place == rounded || place == std::nextafter(rounded, 100.0)) << k;
+    rounded_up += place != rounded;
+  }
+  EXPECT_GT(rounded_up, 5) << "the rounding that this is about did not happen";
+}
+
+/// How far to the right a walker of a map gets in 2 s [m].
+double walked_in(const Scene& scene) {
+  const Scenery<double> scenery(scene.scenery);
+  const Controller<double> controller(scenery, scene.character);
+  Scratch<double> scratch = controller.make_scratch();
+  StepReport<double> report;
+  CharacterState<double> state;
+  state.position = scene.start.position;
+  for (int step = 0; step < 120; ++step)
+    controller.step(state, {.move = 1.0}, {scene.gravity, scene.dt}, scratch, report);
+  return state.position.x() - scene.start.position.x();
+}
+
+TEST(TiledStart, a_kerb_of_a_pixel_stops_no_walker_and_a_higher_one_does) {
+  const SceneFiles files;
+  // 32 px/m: 6 mm are 0.2 px. The kerb is 3 m ahead, and 2 s at 6 m/s go further.
+  const auto with_kerb = [&](double pixels) {
+    const std::string top = std::to_string(160 - pixels);
+    return files.load(
+        "map.tmx",
+        R"(<map orientation="orthogonal" width="40" height="10" tilewidth="32" tileheight="32">)" +
+            objects("solid", R"(<object id="1" x="0" y="160" width="160" height="64"/><object id="2" x="160" y=")" +
+                                 top + R"(" width="900" height="64"/>)") +
+            objects("spawn", R"(<object id="3" x="64" y="160"><point/></object>)") + "</map>");
+  };
+  const double free = walked_in(with_kerb(0));
+  EXPECT_GT(free, 10);
+  for (const double pixels : {0.2, 0.5, 0.9, 1.0}) EXPECT_NEAR(walked_in(with_kerb(pixels)), free, 1e-6) << pixels;
+  // The nearest point of the outline, the foot or the arm, is 10 px ahead of the middle.
+  for (const double pixels : {1.1, 4.0}) EXPECT_NEAR(walked_in(with_kerb(pixels)), 3, 10 / 32.0) << pixels;
+  Scene without = with_kerb(0.2);
+  without.character.step_height = 0;
+  EXPECT_NEAR(walked_in(without), 3, 10 / 32.0) << "what this is about";
+}
+
+TEST(TiledStart, the_character_of_a_map_climbs_a_pixel_and_that_of_a_scene_what_the_scene_says) {
+  const SceneFiles files;
+  const std::string map = tmx(csv_layer(floor_csv) + spawn);
+  const Scene alone = files.load("map.tmx", map);
+  EXPECT_EQ(alone.character.step_height, 1 / 16.0);
+  EXPECT_EQ(alone.description, "its character climbs kerbs up to a pixel of the map (0.0625 m)");
+  const Scene within = files.load("scene.json", R"({"paperproof_scene": 1, "name": "n", "gravity": [0, 0], "dt": 1,
+      "steps": 1, "character": {"position": [1, 0]}, "scenery": [{"id": "m", "tiled": "map.tmx"}]})");
+  EXPECT_EQ(within.character.step_height, 0);
+  EXPECT_EQ(within.description, "");
 }
 
 TEST(TiledStart, without_a_spawn_it_is_above_the_first_ground_with_room) {

@@ -29,30 +29,10 @@ def parts(one, other):
             yield (mine[-1], places_at(one, following)[0]), (theirs[-1], places_at(other, following)[0])
 
 
-def first_event(step):
-    """The fraction of the earliest contact of a step with anything."""
-    return min((event["fraction"] for event in step["contacts"] + step.get("met", [])), default=None)
-
-
-def meets_at_once(contact, step):
-    """Whether a step stops for a contact where it stops for another character: either may turn it into the other."""
-    stops = [[corner[2] for corner in step["path"] if corner[2] <= event["fraction"]][-1:]
-             for event in [contact] + step.get("met", [])]
-    return stops[0] in stops[1:]
-
-
-def goes_as_requested(step, fraction):
-    """Whether a character is then where its requested motion takes it, to 1e-6 m."""
-    way = exact(step["path"])
-    wanted = scaled(tuple(map(Fraction, step["requested"])), Fraction(fraction))
-    return any(size(less(less(place, way[0]), wanted)) <= GAP for place in places_at(way, Fraction(fraction)))
-
-
 class Company:
     """Several characters of one shape: they overlap where the difference of their places is inside `reach`."""
 
     def __init__(self, body):
-        self.body = body
         self.reach = hull([less(a, b) for a in body for b in body])
         self.size = [float(max(corner[k] for corner in self.reach)) for k in (0, 1)]
 
@@ -68,61 +48,66 @@ class Company:
     def width(self, n):
         return max(dot(n, corner) for corner in self.reach)
 
-    def check(self, one, other, promises, is_in_the_way):
-        """Two records of one step. `is_in_the_way` says whether a collider may turn one of them aside before a
-        fraction."""
+    def leaves_free(self, way, other):
+        """Whether another's way keeps clear of a way of (x, y, fraction) from 0 to 1."""
+        return not any(self.meet(*part) for part in parts(way, other))
+
+    def check(self, one, other):
+        """Two records of one step: (clause, words)."""
         i, j = one["character"], other["character"]
         mine, theirs = exact(one["path"]), exact(other["path"])
         overlapped = self.meet((mine[0], mine[0]), (theirs[0], theirs[0]))
         for a, b in ((one, j), (other, i)):
-            said = b in a.get("start_overlap_characters", [])
-            if said != overlapped:
-                yield f"and character {j}: {a['character']} says {said} of an overlap at the start that is {overlapped}"
-        if not overlapped:
-            if one.get("path_exact") is False:
-                mine, theirs = [mine[0], mine[-1]], [theirs[0], theirs[-1]]
-            if any(self.meet(*part) for part in parts(mine, theirs)):
-                yield f"and character {j} come to overlap or pass through each other"
-        if promises:
-            yield from self.check_met(one, other, is_in_the_way)
+            if (b in a.get("start_overlap_characters", [])) != overlapped:
+                yield "continuity", f"and character {j}: {a['character']} says {not overlapped} of an overlap at the start"
+        if overlapped:
+            return
+        if one.get("path_exact") is False:
+            mine, theirs = [mine[0], mine[-1]], [theirs[0], theirs[-1]]
+        if self.meet((mine[-1], mine[-1]), (theirs[-1], theirs[-1])):
+            yield "overlap", f"and character {j} come to overlap or pass through each other"
+        elif not self.leaves_free(mine, theirs):
+            yield "passage", f"and character {j} come to overlap or pass through each other"
 
-    def check_met(self, one, other, is_in_the_way):
+    def check_met(self, one, other, wanted, is_turned):
+        """What two say of how they met. `wanted(step)`: the displacement, or None. `is_turned(step, fraction)`: something
+        may have turned it aside before."""
         j = other["character"]
         of_one = [met for met in one.get("met", []) if met["character"] == j]
         of_other = [met for met in other.get("met", []) if met["character"] == one["character"]]
         if [([-x for x in met["normal"]], met["fraction"]) for met in of_one] != [
                 (met["normal"], met["fraction"]) for met in of_other]:
-            yield f"and character {j} do not say the same of how they met"
+            yield "contact_invented", f"and character {j} do not say the same of how they met"
             return
         for met in of_one:
             n = tuple(map(Fraction, met["normal"]))
             if abs(met["normal"][0] ** 2 + met["normal"][1] ** 2 - 1) > 1e-12:
-                yield f"has a normal that is no unit vector at character {j}"
+                yield "normal", f"has a normal that is no unit vector at character {j}"
             moments = [(m[k], t[k]) for m, t in parts(exact(one["path"]), exact(other["path"])) for k in (0, 1)]
             gaps = [dot(n, less(m, t)) - self.width(n) for m, t in moments]
             if not any(0 < gap <= GAP for gap in gaps):
-                yield f"and character {j} have met, and at no corner are within 1e-6 m: {[float(gap) for gap in gaps]}"
-            t = met["fraction"]
-            turned = any(step.get("stuck") or (not goes_as_requested(step, t) and is_in_the_way(step, t))
-                         for step in (one, other))
-            if t == first_event(one) == first_event(other) and not turned:
-                yield from self.check_impact(one, other, met)
+                yield "contact_invented", (f"and character {j} have met, and at no corner are within 1e-6 m: "
+                                           f"{[float(gap) for gap in gaps]}")
+                continue
+            ways = wanted(one), wanted(other)
+            if None not in ways and not is_turned(one, met["fraction"]) and not is_turned(other, met["fraction"]):
+                yield from self.check_impact(one, other, met, *ways)
 
-    def check_impact(self, one, other, met):
+    def check_impact(self, one, other, met, mine_wanted, theirs_wanted):
         n, t = tuple(map(Fraction, met["normal"])), Fraction(met["fraction"])
         mine, theirs = (tuple(map(Fraction, step["path"][0][:2])) for step in (one, other))
-        wanted, by = (tuple(map(Fraction, step["requested"])) for step in (one, other))
-        along = -dot(n, less(wanted, by))
-        if along <= GRAZING * size(less(wanted, by)):
+        relative = less(mine_wanted, theirs_wanted)
+        along = -dot(n, relative)
+        if along <= GRAZING * size(relative):
             return  # what holds one of them, a micrometre away, turns it into the other
         slack = GAP / along
 
-        def meet_until(time, wider=ZERO):
-            reach = less(scaled(n, -wider), (ZERO, ZERO))
-            return self.meet((mine, add(add(mine, scaled(wanted, time)), reach)),
-                             (theirs, add(theirs, scaled(by, time))))
+        def meet_until(time, wide=ZERO):
+            reach = scaled(n, -wide)
+            return self.meet((mine, add(add(mine, scaled(mine_wanted, time)), reach)),
+                             (theirs, add(theirs, scaled(theirs_wanted, time))))
 
         if t > slack and meet_until(t - slack):
-            yield f"meets character {met['character']} earlier than at {float(t)} of the step"
+            yield "time_of_impact", f"meets character {met['character']} earlier than at {float(t)} of the step"
         if not meet_until(t + slack, NEAR_PASS):
-            yield f"does not meet character {met['character']} by {float(t)} of the step"
+            yield "time_of_impact", f"does not meet character {met['character']} by {float(t)} of the step"

@@ -13,10 +13,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
 #include <set>
+#include <span>
 #include <tuple>
 
 namespace paperproof::test {
@@ -315,6 +318,36 @@ TEST(LevelTurning, a_plank_carries_its_rider) {
   EXPECT_GT(state.position.y(), 0.75 + 1.8 * std::sin(0.5));
 }
 
+/// Where a place that goes straight between instants is at a time.
+template <class PlaceOf, class InstantOf>
+Vec2d place_at(double time, std::size_t count, const InstantOf& instant, const PlaceOf& place) {
+  std::size_t k = 0;
+  while (k + 2 < count && instant(k + 1) <= time) ++k;
+  const double length = instant(k + 1) - instant(k);
+  const double share = length > 0 ? std::clamp((time - instant(k)) / length, 0.0, 1.0) : 1.0;
+  return place(k) + (place(k + 1) - place(k)) * share;
+}
+
+/// On which side of a paper a character is: 1 or -1; 0 where it reaches beyond an end of it; nothing where the paper is
+/// in it. @param first,last ends of the paper.
+std::optional<int> side_of_paper(const Vec2d& first, const Vec2d& last, const Vec2d& position,
+                                 std::span<const Vec2d> hull) {
+  const Vec2d along = (last - first).normalized();
+  const Vec2d normal{-along.y(), along.x()};
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  bool is_beside = true;
+  for (const Vec2d& corner : hull) {
+    const Vec2d from = position + corner - first;
+    low = std::min(low, from.dot(normal));
+    high = std::max(high, from.dot(normal));
+    is_beside = is_beside && from.dot(along) > 0 && from.dot(along) < (last - first).norm();
+  }
+  if (!is_beside) return 0;
+  if (low < -1e-9 && high > 1e-9) return std::nullopt;
+  return low + high > 0 ? 1 : -1;
+}
+
 /// A revolving door of paper, faster and faster: the character is always on its own side, or crushed.
 TEST(LevelTurning, paper_that_turns_pushes_and_never_passes) {
   for (const double speed : {0.5, 2.0, 8.0, 30.0, 120.0, 600.0}) {
@@ -329,19 +362,51 @@ TEST(LevelTurning, paper_that_turns_pushes_and_never_passes) {
     }
     int crushed = 0;
     int moved = 0;
+    int beside = 0;              // moments in which it is beside the paper and not crushed
+    int side = 0;                // of the paper, the last that is known
+    constexpr int moments = 32;  // between two instants of the paper
     for (int i = 0; i < 120; ++i) {
       const PoseMotion door = turning({0, 2}, -speed, i);
       const Vec2d before = state.position;
       controller.step(state, {}, {{0, -30}, frame, {&door, 1}}, report);
       crushed += report.status == StepStatus::crushed;
       moved += (state.position - before).norm() > 1e-3;
-      for (const TurnedCollider& way : controller.turned()) {
-        ASSERT_EQ(way.instants.front(), 0);
-        ASSERT_EQ(way.instants.back(), 1);
-        ASSERT_TRUE(std::is_sorted(way.instants.begin(), way.instants.end()));
-        ASSERT_EQ(way.vertices.size(), way.instants.size());
+      if (state.crushed || report.status != StepStatus::moved || controller.turned().empty()) {
+        side = 0;
+        continue;
+      }
+      const TurnedCollider& way = controller.turned()[0];
+      ASSERT_EQ(way.instants.front(), 0);
+      ASSERT_EQ(way.instants.back(), 1);
+      ASSERT_TRUE(std::is_sorted(way.instants.begin(), way.instants.end()));
+      ASSERT_EQ(way.vertices.size(), way.instants.size());
+      std::vector<double> times = way.instants;
+      for (const PathPoint<double>& corner : report.move.path) times.push_back(corner.fraction);
+      for (std::size_t k = 1; k < way.instants.size(); ++k)
+        for (int part = 1; part < moments; ++part)
+          times.push_back(way.instants[k - 1] + (way.instants[k] - way.instants[k - 1]) * part / moments);
+      std::sort(times.begin(), times.end());
+      const auto vertex_at = [&](double time, std::size_t vertex) {
+        return place_at(
+            time, way.instants.size(), [&](std::size_t k) { return way.instants[k]; },
+            [&](std::size_t k) { return way.vertices[k][vertex]; });
+      };
+      const auto& path = report.move.path;
+      for (const double time : times) {
+        const Vec2d here = place_at(
+            time, path.size(), [&](std::size_t k) { return path[k].fraction; },
+            [&](std::size_t k) { return path[k].position; });
+        const std::optional<int> now =
+            side_of_paper(vertex_at(time, 0), vertex_at(time, 1), here, controller.character().shape.hull());
+        ASSERT_TRUE(now) << "speed " << speed << ", step " << i << ", at " << time << " the paper is in it";
+        ASSERT_NE(*now * side, -1) << "speed " << speed << ", step " << i << ", passed before " << time;
+        side = *now;
+        beside += side != 0;
       }
     }
+    std::printf("%g rad/s: %d moments beside the paper, %d steps with motion, %d crushed\n", speed, beside, moved,
+                crushed);
+    EXPECT_GT(beside, 100) << speed;
     EXPECT_GT(crushed + moved, 0) << speed;
   }
 }

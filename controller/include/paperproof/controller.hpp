@@ -221,7 +221,7 @@ class Controller {
   /// @param crushers of the state as it was; must outlive the request, as `context`.
   [[nodiscard]] MoveRequest<Scalar> request_of(const CharacterState<Scalar>& state, const Crushers<Scalar>& crushers,
                                                const Vec2<Scalar>& displacement, const Vec2<Scalar>& velocity,
-                                               Scalar steered, bool drop,
+                                               Scalar steered, bool drop, bool jumps,
                                                const StepContext<Scalar>& context) const noexcept;
   /// Begins an accepted step: turns the intent into a request.
   [[nodiscard]] MoveRequest<Scalar> begin_step(const Crushers<Scalar>& crushers, const Input& input,

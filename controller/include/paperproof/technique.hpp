@@ -78,6 +78,9 @@ struct MoveRequest {
   bool grounded = false;  ///< The last step ended on the ground, and this one does not begin with a jump.
   bool crushed = false;   ///< See `CharacterState::crushed`.
   bool drop = false;      ///< One-way chains do not block: see `Input::drop`.
+  /// A motion leaves ground that it touches if it goes away from it faster than this [m/s]: by more than
+  /// `Tolerances::touch` in one more step. Zero in a step that begins with a jump.
+  Scalar leaves_ground_above = 0;
   std::span<const Crusher<Scalar>> crushers{};  ///< See `CharacterState::crushers`.
   /// One for each mover of the scenery.
   std::span<const MoverMotion<Scalar>> movers{};

@@ -75,6 +75,7 @@ struct Box2 {
   [[nodiscard]] Box2 merged(const Box2& other) const noexcept {
     return {lower.cwiseMin(other.lower), upper.cwiseMax(other.upper)};
   }
+  [[nodiscard]] Vec2<Scalar> middle() const noexcept { return (lower + upper) / 2; }
   [[nodiscard]] Box2 inflated(Scalar by) const noexcept {
     return {lower - Vec2<Scalar>::Constant(by), upper + Vec2<Scalar>::Constant(by)};
   }

@@ -62,7 +62,8 @@ class Avoidance {
       : step_(step), paths_(paths), queue_(std::span(step.memory.impacts).first(step.members.size())) {}
 
   /// Every impact gives a new path to a character that does not hold its position. After so many new paths it does, and
-  /// two that hold their positions have no impact: so the loop ends.
+  /// two that hold their positions have no impact: so the loop ends. For each character there are 2 * `max_replans` + 2
+  /// impacts at most.
   void handle_impacts() noexcept {
     avoid_those_too_near();
     const auto impact_of = [this](CharacterIndex i, CharacterIndex j) { return impact(i, j); };

@@ -62,7 +62,7 @@ class PathPlanner {
   [[nodiscard]] bool plan_until(CharacterIndex i, Scalar until, MoveResult<Scalar>& path, Moment<Scalar>& at) noexcept {
     const Member<Scalar>& member = step_.members[i];
     path.clear();
-    while (at.time < until) {
+    while (at.time < until) {  // for each corner of an obstacle's path once, at most
       const Scalar end = std::min(until, next_corner(member, at.time));
       set_motions(member.obstacles, at.time, end);
       if (!plan_part(member, end, path, at)) return false;
@@ -172,6 +172,7 @@ class PathPlanner {
             .grounded = member.follows_ground && !member.ground_taken && end == 1,
             .crushed = at.state.crushed,
             .drop = member.drops,
+            .leaves_ground_above = member.leaves_ground_above,
             .crushers = {at.state.crushers.begin(), at.state.crushers.end()},
             .movers = step_.memory.motions,
             .filter = step_.filter,

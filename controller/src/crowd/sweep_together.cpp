@@ -49,6 +49,7 @@ class SweepTogether {
     member.replans = 0;
     member.holds_position = member.ground_taken = member.dropped = false;
     member.follows_ground = request.grounded;
+    member.leaves_ground_above = request.leaves_ground_above;
     member.drops = request.drop;
     Moment<Scalar> end = member.now;
     if (planner_.plan_until(i, 1, step_.memory.path, end))
@@ -210,7 +211,7 @@ class SweepTogether {
     Obstacles& obstacles = step_.members[i].obstacles;
     FixedVector<Scalar, max_obstacles> legs;
     obstacles.clear();
-    for (;;) {
+    for (;;) {  // `max_obstacles` times at most, and once more
       end = at;
       if (!planner_.plan_past(i, {legs.begin(), legs.end()}, step_.memory.path, end) ||
           !step_.memory.path.crushed.empty())
@@ -242,7 +243,8 @@ class SweepTogether {
   }
 
   /// A path is made in parts, and rounding may shift each part. So all pairs are checked once more. Both of a pair that
-  /// comes too near go back to where they began, which is free; this repeats until no pair has an impact.
+  /// comes too near go back to where they began, which is free; this repeats until no pair has an impact: each round
+  /// sends back one more character at least.
   void check_paths(std::span<const CharacterState<Scalar>> before) noexcept {
     const auto& members = step_.report.members;
     for (CharacterIndex i = 0; i < step_.members.size(); ++i)

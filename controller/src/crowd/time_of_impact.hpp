@@ -97,7 +97,7 @@ template <class Scalar>
 }
 
 /// The first impact from a time on: see `PairSpace::sweep`. Between corners the relative motion is straight. Legs that
-/// take no time are made one after the other, those of the first path first.
+/// take no time are made one after the other, those of the first path first. Each round ends a leg.
 template <class Scalar>
 [[nodiscard]] Impact<Scalar> first_impact(const PairSpace<Scalar>& space, Path<Scalar> first_path,
                                           Path<Scalar> second_path, Scalar from, Scalar hit_distance,

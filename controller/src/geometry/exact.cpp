@@ -201,7 +201,8 @@ double length_rounded_up(const Vec2d& v) noexcept {
   };
   double length = std::sqrt(v.x() * v.x() + v.y() * v.y());
   length -= length * (4 * rounding);
-  while (is_short(length)) length = std::nextafter(length, std::numeric_limits<double>::infinity());
+  while (is_short(length))  // 8 ulp at most
+    length = std::nextafter(length, std::numeric_limits<double>::infinity());
   return length;
 }
 

@@ -30,13 +30,12 @@ Box2<double> LocalController::Impl::box_needed(const CharacterState<double>& sta
   return Box2<double>{way.lower + extent.lower, way.upper + extent.upper}.inflated(reach);
 }
 
-/// Whether everything that decides a move is in a box. A way out of solids may lead farther.
-bool LocalController::Impl::stays_in(const Box2<double>& box, const MoveResult<double>& move) const {
+/// The box that everything which decides a move is in. A way out of solids may lead farther than was looked.
+Box2<double> LocalController::Impl::box_along(const MoveResult<double>& move) const {
   const Box2<double>& extent = character().shape.box();
-  return std::all_of(move.path.begin(), move.path.end(), [&](const PathPoint<double>& corner) {
-    const Box2<double> there{corner.position + extent.lower, corner.position + extent.upper};
-    return box.contains(there.inflated(most_turned));
-  });
+  Box2<double> way{move.path[0].position, move.path[0].position};
+  for (const PathPoint<double>& corner : move.path) way = way.merged({corner.position, corner.position});
+  return Box2<double>{way.lower + extent.lower, way.upper + extent.upper}.inflated(most_turned);
 }
 
 template <class Go>
@@ -45,7 +44,7 @@ StepStatus LocalController::Impl::advance(CharacterState<double>& state, const S
   const CharacterState<double> before = state;
   Box2<double> needed = box_needed(state, context);
   if (!(context.dt > 0 && is_in_range(needed))) return report.status = StepStatus::invalid_input;
-  for (;;) {
+  for (;;) {  // 27 times at most: `needed` doubles, from 4 * most_turned or more, until it has the whole range
     turned_.clear();
     state = before;  // `find` may ask the game, which may ask for the character
     scenery.read(needed, context, find);
@@ -55,10 +54,9 @@ StepStatus LocalController::Impl::advance(CharacterState<double>& state, const S
       state = before;
       return status;
     }
-    if (stays_in(needed, report.move)) return status;
-    const double size = (character().shape.box().upper - character().shape.box().lower).maxCoeff();
-    for (const PathPoint<double>& corner : report.move.path)
-      needed = needed.merged(Box2<double>{corner.position, corner.position}.inflated(2 * size + 1));
+    const Box2<double> way = box_along(report.move);
+    if (needed.contains(way)) return status;
+    needed = needed.merged(way.inflated((needed.upper - needed.lower).maxCoeff()));
   }
 }
 
@@ -152,7 +150,8 @@ std::optional<StepStatus> LocalController::Impl::step_in_parts(int parts, Charac
     }
     for (Crusher<double>& crusher : state.crushers) {
       const NearCollider& collider = scenery.at(crusher.collider);
-      if (collider.mover != no_mover) carry(crusher, pose_at(collider.motion, part.begin), turned_pose(collider, part));
+      if (collider.mover != no_mover)
+        carry(crusher, middle(), pose_at(collider.motion, part.begin), turned_pose(collider, part));
     }
     const Vec2d from = state.position;
     const Vec2d carried = state.ride.velocity;

@@ -55,10 +55,11 @@ inline std::vector<Vec2d> vertices_at(const ColliderDef& def, const Pose& pose) 
 inline Vec2d between(const Vec2d& from, const Vec2d& to, double share) { return from + (to - from) * share; }
 
 /// The place from which the character came goes along with what crushed it.
-inline void carry(Crusher<double>& crusher, const Pose& from, const Pose& to) {
-  const Vec2d came_from = crusher.last_free + crusher.displacement;
+/// @param middle of the character's shape, relative to its position.
+inline void carry(Crusher<double>& crusher, const Vec2d& middle, const Pose& from, const Pose& to) {
+  const Vec2d came_from = crusher.last_free + crusher.displacement + middle;
   const Vec2d there = to.position + rotated(Vec2d(came_from - from.position), to.angle - from.angle);
-  crusher.displacement = there - crusher.last_free;
+  crusher.displacement = there - middle - crusher.last_free;
 }
 
 inline SensorEvent<double> sensor_event(ColliderIndex sensor, bool enters, double fraction) {
@@ -83,9 +84,10 @@ struct LocalController::Impl {
 
   [[nodiscard]] const CharacterDef& character() const noexcept { return scenery.character(); }
   [[nodiscard]] std::span<const Vec2d> hull() const noexcept { return character().shape.hull(); }
+  [[nodiscard]] Vec2d middle() const noexcept { return character().shape.box().middle(); }
 
   [[nodiscard]] Box2<double> box_needed(const CharacterState<double>& state, const StepContext<double>& context) const;
-  [[nodiscard]] bool stays_in(const Box2<double>& box, const MoveResult<double>& move) const;
+  [[nodiscard]] Box2<double> box_along(const MoveResult<double>& move) const;
   StepStatus refuse(const CharacterState<double>& state, StepReport<double>& report);
   StepStatus stay(MoveStatus why, const CharacterState<double>& state, StepReport<double>& report);
 

@@ -187,7 +187,7 @@ bool NearScenery::build(double fraction) {
   };
   angles_and_speeds();
   if (scenery_ && now_ == built_) return true;
-  for (scenery_.reset(); !scenery_;) {
+  for (scenery_.reset(); !scenery_;) {  // each round but the last leaves out a collider
     angles_and_speeds();
     built_ = now_;
     try {

@@ -69,7 +69,7 @@ void LocalController::Impl::go_straight(double begin, double departure, const Ve
                                     [&](const Crusher<double>& crusher) { return crusher.collider == collider.id; });
     Crusher<double> crusher{collider.id, state.position};
     if (known != state.crushers.end()) crusher = *known;
-    carry(crusher, from, collider.motion.to);
+    carry(crusher, middle(), from, collider.motion.to);
     const bool is_named = std::find(move.crushed.begin(), move.crushed.end(), collider.id) != move.crushed.end();
     if (!is_named && !overlaps(collider, from, state.position)) move.crushed.push_back(collider.id, more_crushed);
     if (overlaps(collider, collider.motion.to, to)) move.crushers.push_back(crusher);
@@ -87,7 +87,7 @@ std::optional<Vec2d> LocalController::Impl::way_out_at_end(CharacterState<double
   state.ride = {};
   for (Crusher<double>& crusher : state.crushers) {
     const NearCollider& collider = scenery.at(crusher.collider);
-    carry(crusher, collider.motion.from, collider.motion.to);
+    carry(crusher, middle(), collider.motion.from, collider.motion.to);
   }
   const StepStatus status =
       scenery.controller().move(state, {0, 0}, scenery.context(context, motions), scenery.scratch(), *of_part);

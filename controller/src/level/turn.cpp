@@ -12,7 +12,7 @@ namespace {
 
 using geometry::cross;
 
-/// Halvings of the time, until the proof has failed.
+/// Halvings of the time, until the proof has failed: after 2^17 parts at most.
 constexpr int most_halvings = 16;
 
 /// A vector that changes evenly.

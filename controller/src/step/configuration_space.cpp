@@ -112,7 +112,7 @@ void ConfigurationSpace<Scalar>::build_shared_axes() {
     shared_x_[shared_count_] = n.x();
     shared_y_[shared_count_++] = n.y();
   };
-  // Box directions first: they tell most misses (see clear_of_box).
+  // Box directions first: they tell most misses (see kept_by_box).
   add({0, 1});
   add({1, 0});
   add({-1, 0});

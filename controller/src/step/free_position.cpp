@@ -331,24 +331,26 @@ class Search {
 
   /// The next place on a curve that no region covers, or one beyond the end. A region is convex: once left, it is not
   /// entered again by a line. The pieces are looked at forwards and backwards in turns, as they are mostly in order of
-  /// place.
+  /// place. A piece has three regions at most, so no line takes more rounds; of an arc the place is tried as it is
+  /// then.
   [[nodiscard]] Scalar next_uncovered(const Curve& curve, Scalar place, Scalar end, Scalar direction) noexcept {
     const auto spot = [&] { return Spot{curve, place, end, direction, curve.at(place)}; };
     // A piece that covers one line often covers the next.
     place += direction * covered_from(spot(), last_covering_);
     if (place * direction > end * direction) return place;
-    for (bool forwards = true;; forwards = !forwards) {
+    for (std::size_t round = 0; round <= 3 * pieces_.size(); ++round) {
       const Scalar before = place;
       for (std::size_t k = 0; k < pieces_.size(); ++k) {
-        const std::size_t index = forwards ? k : pieces_.size() - 1 - k;
+        const std::size_t index = round % 2 == 0 ? k : pieces_.size() - 1 - k;
         const Scalar beyond = covered_from(spot(), index);
         if (!(beyond > 0)) continue;
         last_covering_ = index;
         place += direction * beyond;
         if (place * direction > end * direction) return place;
       }
-      if (place == before) return place;
+      if (place == before) break;
     }
+    return place;
   }
 
   /// How far the regions of a piece reach from a spot; 0 if none covers it.

@@ -103,16 +103,16 @@ template <std::size_t Lanes, class Scalar>
   }
 }
 
-/// Whether one of the box directions alone, which are the first shared axes, keeps a piece further than `hit` away
-/// during the whole motion. So it is with most pieces: looking at these axes first saves half of a sweep.
+/// How far away one of the box directions alone, which are the first shared axes, keeps a piece during the whole motion
+/// [m]. With most pieces that is further than `hit`: looking at these axes first saves half of a sweep.
 template <std::size_t Lanes, class Scalar>
-[[nodiscard, gnu::always_inline]] inline bool clear_of_box(const ConfigurationSpace<Scalar>& space,
-                                                           const Motion<Lanes, Scalar>& motion,
-                                                           PieceIndex piece) noexcept {
+[[nodiscard, gnu::always_inline]] inline Scalar kept_by_box(const ConfigurationSpace<Scalar>& space,
+                                                            const Motion<Lanes, Scalar>& motion,
+                                                            PieceIndex piece) noexcept {
   using BoxAxes = PerAxis<ConfigurationSpace<Scalar>::box_axes, Scalar>;
   const BoxAxes start = BoxAxes::Map(motion.at.data()) - space.box_offsets(piece);
   const BoxAxes least = start.min(start + BoxAxes::Map(motion.along.data()));
-  return least.maxCoeff() >= Tolerances<Scalar>{}.hit;
+  return least.maxCoeff();
 }
 
 /// Separation of a circle before the motion, and the one that the axis of this separation keeps over the whole motion.

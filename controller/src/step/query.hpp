@@ -74,7 +74,7 @@ template <std::size_t Lanes, class Scalar>
         return motion.box();
       },
       [&](PieceIndex piece, const MoverMotion<Scalar>& mover) {
-        if (clear_of_box(space, motion, piece) || !blocks(space, motion, piece)) return;
+        if (kept_by_box(space, motion, piece) >= Tolerances<Scalar>{}.hit || !blocks(space, motion, piece)) return;
         const Clearance<Scalar> clear = clearance(space, motion, piece);
         if (clear.clear()) return;
         const PieceHit<Scalar> hit = sweep_piece(space, motion, piece, clear, around.up);

@@ -232,6 +232,7 @@ void StepSolver<Lanes, Scalar, Up>::wait(bool may_move) noexcept {
   halt();
   memory_.surfaces.clear();
   moving_.waits = true;
+  // Each round makes a touched surface of one more piece at least, and a touched one stops no sweep.
   for (sweep_along(V::Zero()); found_.hit; sweep_along(V::Zero())) {
     update_surfaces();
     if (may_move && goes_to_free_position()) {

@@ -96,7 +96,7 @@ void StepSolver<Lanes, Scalar, Up>::extend_until_contact(FreePosition& found) no
   FreePositionQuery<Scalar> query = query_from(found.corner, Scalar(0));
   const std::span<PieceIndex> pieces = pieces_for(query, length_of(V(from.position + displacement * high - position_)));
   query.passable = put_first(pieces, [&](PieceIndex piece) { return may_pass(piece, found.corner); });
-  while ((high - low) * length_of(displacement) > Tolerances<Scalar>{}.hit) {
+  while ((high - low) * length_of(displacement) > Tolerances<Scalar>{}.hit) {  // 46 halvings at most, of 4e6 m
     const Scalar middle = (low + high) / 2;
     if (!(middle > low && middle < high)) break;
     (reaches<Lanes>(space_, pieces, query, V(from.position + displacement * middle)) ? low : high) = middle;
@@ -151,7 +151,7 @@ void StepSolver<Lanes, Scalar, Up>::report_free_position(std::size_t corner) noe
   position_ = result_.path.back().position;
   time_ = result_.path.back().fraction;
   std::optional<Nearest<Scalar>> next;
-  while ((next = next_near(corner, to, next))) {
+  while ((next = next_near(corner, to, next))) {  // each piece once
     const Nearest<Scalar> near = *next;
     const bool within = near.when < 1;
     // No corner within a motion that needs an exact certificate: its position could not be rounded.
@@ -232,7 +232,7 @@ Nearest<Scalar> StepSolver<Lanes, Scalar, Up>::nearest_on_way(PieceIndex piece, 
   Scalar high = 1;
   best = at(0);
   if (!falls(best)) return {piece, best.axis, best.separation, 0};
-  while ((high - low) * displacement.cwiseAbs().maxCoeff() > Tolerances<Scalar>{}.certain) {
+  while ((high - low) * displacement.cwiseAbs().maxCoeff() > Tolerances<Scalar>{}.certain) {  // 49 halvings at most
     const Scalar middle = (low + high) / 2;
     if (!(middle > low && middle < high)) break;
     const BestAxis<Scalar> there = at(middle);

@@ -143,9 +143,10 @@ Vec2<Scalar> StepSolver<Lanes, Scalar, Up>::anchor(Scalar time) const noexcept {
   return movers_.offset(moving_.carrier, time) + moving_.ride.place;
 }
 
+/// Without gravity nothing holds the character to ground that it only touches: that does not carry it.
 template <std::size_t Lanes, class Scalar, class Up>
 void StepSolver<Lanes, Scalar, Up>::end_ride() noexcept {
-  if (!result_.grounded) return;
+  if (!result_.grounded || result_.contacts.empty()) return;
   const std::optional<TouchedSurface<Scalar>> ground = carrier_here(moving_.ride.ground, false);
   if (!ground) return;
   const ColliderIndex collider = collider_of(ground->piece);

@@ -48,10 +48,9 @@ void StepSolver<Lanes, Scalar, Up>::solve(Part part, const MoveRequest<Scalar>& 
     travel();
     if (!result_.crushed.empty()) undo_crushes();
     find_ground();
-    if (result_.grounded && !met_ground_ && !wedged_) report_ground(wanted);
+    if (result_.grounded && !met_ground_ && !wedged_) land(wanted);
     if (settings_.step_height > 0) climb_stairs(request, wanted, walk);
-    const Scalar snap = movers_.active ? std::max(settings_.snap, falls_away_below_rider()) : settings_.snap;
-    if (snap > 0) follow_ground_down(request, snap);
+    if (request.grounded && !result_.grounded) follow_ground_down(request);
     if (movers_.active) end_ride();
   }
   if (!memory_.marked.empty()) find_movers_that_still_overlap();
@@ -102,6 +101,7 @@ template <std::size_t Lanes, class Scalar, class Up>
 void StepSolver<Lanes, Scalar, Up>::begin_motion(const MoveRequest<Scalar>& request) noexcept {
   steered_ = request.steered;
   dt_ = request.dt;
+  leaves_ground_above_ = request.leaves_ground_above;
   // A rise that is steeper than any walkable ground is no climb.
   after_walk_ = climbs_ = request.grounded && up_.up_of(request.velocity) <= std::abs(up_.across_of(request.velocity)) *
                                                                                  settings_.walkable_tangent;
@@ -257,15 +257,15 @@ void StepSolver<Lanes, Scalar, Up>::halt() noexcept {
 }
 
 /// What the character stands on at the end of the step: walkable ground that it touches and that its motion does not
-/// leave, or a wedge that ended its fall; or what it slides down. Nothing in a step that hit nothing: without gravity
-/// nothing holds the character to ground that it touches.
+/// leave, or a wedge that ended its fall; or what it slides down.
 template <std::size_t Lanes, class Scalar, class Up>
 void StepSolver<Lanes, Scalar, Up>::find_ground() noexcept {
   if (on_ground_ || wedged_ || (met_ground_ && stands_on(ground_))) {  // the usual case
     const V normal = space_.normal(ground_, ground_axis_);
     note_ground(walkable(normal) ? GroundState::walkable : GroundState::wedge, ground_, normal);
-  } else if (!result_.contacts.empty()) {
-    look_for_ground();
+  } else if (!result_.contacts.empty() ||
+             (leaves_ground_above_ > 0 && found_.least_kept <= Tolerances<Scalar>{}.touch)) {
+    look_for_ground();  // in most steps in the air nothing is near
   }
 }
 
@@ -304,28 +304,45 @@ void StepSolver<Lanes, Scalar, Up>::note_ground(GroundState state, PieceIndex pi
     note_ground_velocity(piece);
 }
 
-/// Reports the ground that the character stands on, also where gravity presses onto it by less than the sweep sees.
-/// Ground that the wanted motion leaves is not reported: a character that jumps and hits a ceiling at once stands
-/// again, and its only contact is the ceiling.
+/// Lands on the ground that the character touches at the end of a step in which no sweep hit it, and reports it:
+/// gravity presses onto it by less than the sweep sees, or a fall ends just there. Ground that the wanted motion leaves
+/// is not reported: a character that jumps and hits a ceiling at once stands again, and its only contact is the
+/// ceiling. Nor is a one-way surface that the step began beneath.
 template <std::size_t Lanes, class Scalar, class Up>
-void StepSolver<Lanes, Scalar, Up>::report_ground(const V& wanted) noexcept {
+void StepSolver<Lanes, Scalar, Up>::land(const V& wanted) noexcept {
+  memory_.surfaces.clear();
   for_each_near({position_, position_}, [&](PieceIndex piece) {
-    if (!stands_on(piece)) return;
+    const V before = start_ - offset(piece, 0);
+    const bool was_above = space_.info(piece).one_way_axis == ObstacleInfo::not_one_way ||
+                           is_above(space_, piece, before, lost_by(start_, offset(piece, 0)));
+    if (!was_above || !stands_on(piece)) return;
+    memory_.surfaces.push_back(surface_at(piece, best_axis<Lanes>(space_, piece, local(piece, position_)).axis));
     V displacement = wanted;
     if (mover_of(piece) != no_mover) displacement = movers_.relative(wanted, mover_of(piece), Scalar(0));
-    if (enters(displacement, *touched_ground(piece))) report_touched(piece);
+    if (enters(displacement, memory_.surfaces.back().normal)) report_touched(piece);
   });
+  if (memory_.surfaces.empty()) return;
+  DesiredMotion<Scalar> desired = this->desired();
+  end_at_surfaces(desired);
 }
 
 template <std::size_t Lanes, class Scalar, class Up>
 bool StepSolver<Lanes, Scalar, Up>::stands_on(PieceIndex piece) const noexcept {
   const std::optional<V> normal = touched_ground(piece);
-  if (!normal) return false;
+  return normal && !leaves(piece, *normal);
+}
+
+/// Whether the motion at the end of the step leaves ground that it touches: one more step of it would part them by more
+/// than `touch`. Vertices that are rounded make seams of straight ground bend by 1e-12 or 1e-6: they are no crests. A
+/// jump leaves at any speed. Round ground falls away below a walk, which does not leave it.
+template <std::size_t Lanes, class Scalar, class Up>
+bool StepSolver<Lanes, Scalar, Up>::leaves(PieceIndex piece, const V& normal) const noexcept {
   V ground = V::Zero();
   if (mover_of(piece) != no_mover) ground = movers_.displacement(mover_of(piece)) / movers_.dt;
-  const Scalar leaving = dot(V(velocity_ - ground), *normal);
-  return leaving <= 0 || leaving <= along_plane<Scalar> * (length_of(velocity_) + length_of(ground)) ||
-         (space_.is_circle(piece) && leaving <= falls_away_from_tangent(piece, V(velocity_ - ground)));
+  const Scalar leaving = dot(V(velocity_ - ground), normal);
+  if (leaving <= leaves_ground_above_) return false;
+  if (leaves_ground_above_ == 0) return leaving > along_plane<Scalar> * (length_of(velocity_) + length_of(ground));
+  return !space_.is_circle(piece) || leaving > falls_away_from_tangent(piece, V(velocity_ - ground));
 }
 
 /// How fast round ground falls away below a motion that went along a tangent of it at most a step ago [m/s].

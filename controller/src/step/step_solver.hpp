@@ -51,6 +51,7 @@ struct SweepResult {
   Scalar stop = 1;              ///< Fraction of the motion that is free.
   Scalar least_separation = 0;  ///< Of all pieces that block, at the start of the motion [m]. Any value above `hit`
                                 ///< where all of them are further away than that.
+  Scalar least_kept = 0;        ///< By a box direction over the whole motion, of all pieces [m].
   /// The pieces that stop it there. If there are more than fit, the others are reported too, and the next sweep meets
   /// them again.
   FixedVector<Stop<Scalar>, MoveResult<Scalar>::max_contacts> stops;
@@ -58,7 +59,7 @@ struct SweepResult {
   void clear() noexcept {
     hit = false;
     stop = 1;
-    least_separation = std::numeric_limits<Scalar>::infinity();
+    least_separation = least_kept = std::numeric_limits<Scalar>::infinity();
     stops.clear();
   }
 };
@@ -210,8 +211,9 @@ class StepSolver {
   [[gnu::cold, gnu::noinline]] void look_for_ground() noexcept;
   [[gnu::always_inline]] inline void note_ground(GroundState state, PieceIndex piece, const V& normal) noexcept;
   [[gnu::cold, gnu::noinline]] void note_ground_velocity(PieceIndex piece) noexcept;
-  [[gnu::cold, gnu::noinline]] void report_ground(const V& wanted) noexcept;
+  [[gnu::cold, gnu::noinline]] void land(const V& wanted) noexcept;
   [[nodiscard, gnu::always_inline]] inline bool stands_on(PieceIndex piece) const noexcept;
+  [[nodiscard, gnu::always_inline]] inline bool leaves(PieceIndex piece, const V& normal) const noexcept;
   [[nodiscard, gnu::cold, gnu::noinline]] Scalar falls_away_from_tangent(PieceIndex piece, V motion) const noexcept;
   [[nodiscard, gnu::cold, gnu::noinline]] bool touches_ground() noexcept;
   /// The normal of a piece, if the character touches it now and it is walkable ground.
@@ -227,7 +229,8 @@ class StepSolver {
   [[nodiscard]] bool climb_by(Scalar rise, Scalar sideways, Scalar speed) noexcept;
   [[gnu::cold, gnu::noinline]] void climb_stairs(const MoveRequest<Scalar>& request, const V& wanted,
                                                  Scalar speed) noexcept;
-  [[gnu::noinline]] void follow_ground_down(const MoveRequest<Scalar>& request, Scalar down) noexcept;
+  [[gnu::cold, gnu::noinline]] void follow_ground_down(const MoveRequest<Scalar>& request) noexcept;
+  [[nodiscard]] bool hardly_leaves(const TouchedSurface<Scalar>& ground) const noexcept;
   [[nodiscard, gnu::cold, gnu::noinline]] Scalar falls_away_below_rider() const noexcept;
 
   // step_ride.hpp
@@ -346,14 +349,15 @@ class StepSolver {
   Scalar latest_impact_ = 0;  ///< See `Reported`.
   Scalar fall_ = 0;     ///< Velocity upwards without steering, before the surfaces that are touched now were met [m/s].
   Scalar steered_ = 0;  ///< The part of the horizontal velocity that this step's steering added [m/s].
-  bool drops_ = false;  ///< One-way segments do not block in this step.
-  bool certify_ = false;     ///< Something is nearer than rounding: every motion needs an exact certificate.
-  bool climbs_ = false;      ///< The step began on ground, with no more upward speed than climbing gives.
-  bool after_walk_ = false;  ///< See `Surface`.
-  bool wedged_ = false;      ///< A fall ended between surfaces that are touched together.
-  bool met_ground_ = false;  ///< Walkable ground was hit in this step,
-  bool on_ground_ = false;   ///< and the character has not moved since, nor hit anything else.
-  PieceIndex ground_ = 0;    ///< That ground, where `met_ground_`; the surface that points up most, where `wedged_`;
+  Scalar leaves_ground_above_ = 0;  ///< See `MoveRequest`.
+  bool drops_ = false;              ///< One-way segments do not block in this step.
+  bool certify_ = false;            ///< Something is nearer than rounding: every motion needs an exact certificate.
+  bool climbs_ = false;             ///< The step began on ground, with no more upward speed than climbing gives.
+  bool after_walk_ = false;         ///< See `Surface`.
+  bool wedged_ = false;             ///< A fall ended between surfaces that are touched together.
+  bool met_ground_ = false;         ///< Walkable ground was hit in this step,
+  bool on_ground_ = false;          ///< and the character has not moved since, nor hit anything else.
+  PieceIndex ground_ = 0;  ///< That ground, where `met_ground_`; the surface that points up most, where `wedged_`;
   std::size_t ground_axis_ = 0;  ///< and the axis of its normal.
   MoverState<Scalar> moving_;
 };

@@ -137,18 +137,30 @@ Scalar StepSolver<Lanes, Scalar, Up>::falls_away_below_rider() const noexcept {
   return std::min(falls_away_from_tangent(moving_.ridden, motion) * dt_, radius) + 2 * Tolerances<Scalar>{}.touch;
 }
 
-/// Follows the ground down where a walk has left it.
-/// @param down how far at most [m].
+/// Whether the motion leaves ground just below by no more than rounded vertices bend it, and gravity takes the motion
+/// there: see `leaves`.
 template <std::size_t Lanes, class Scalar, class Up>
-void StepSolver<Lanes, Scalar, Up>::follow_ground_down(const MoveRequest<Scalar>& request, Scalar down) noexcept {
-  if (!request.grounded || result_.grounded) return;
-  if (is_passed_through()) return;              // a crushed character does not move
-  const V left_ground = moving_.ride.velocity;  // of the ground that was walked on
+bool StepSolver<Lanes, Scalar, Up>::hardly_leaves(const TouchedSurface<Scalar>& ground) const noexcept {
+  const V wanted = ground.mover == no_mover ? wanted_ : V(wanted_ - movers_.displacement(ground.mover));
+  return enters(wanted, ground.normal) && !leaves(ground.piece, ground.normal);
+}
+
+/// Follows the ground down where a walk has left it: as far as `snap` allows, and at seams that hardly bend. Beyond
+/// such a seam the walk is above its ground by up to `touch` more than before.
+template <std::size_t Lanes, class Scalar, class Up>
+void StepSolver<Lanes, Scalar, Up>::follow_ground_down(const MoveRequest<Scalar>& request) noexcept {
+  constexpr Scalar bend = 4 * Tolerances<Scalar>{}.touch;  // straight down: enough on ground as steep as 60 degrees
+  if (is_passed_through()) return;                         // a crushed character does not move
+  const V left_ground = moving_.ride.velocity;             // of the ground that was walked on
   // A character that rises has left the ground on purpose, unless it only climbs: a walk goes on over a crest.
   if (up_.up_of(velocity_) > up_.up_of(left_ground) && !climbs_) return;
+  const Scalar snap = movers_.active ? std::max(settings_.snap, falls_away_below_rider()) : settings_.snap;
+  const Scalar down = std::max(snap, bend);
   const Scalar walked = up_.across_of(V(position_ - request.position - left_ground * request.dt));
-  const Scalar side = walked == 0 ? Scalar(0) : std::copysign(Scalar(1), walked);
-  if (const auto ground = ground_below(side, down, 0)) step_down_to(*ground, up_.across_of(velocity_));
+  const Scalar side = walked == 0 || snap == 0 ? Scalar(0) : std::copysign(Scalar(1), walked);
+  const auto ground = ground_below(side, down, 0);
+  if (ground && ((snap > 0 && found_.stop * down <= snap) || hardly_leaves(*ground)))
+    step_down_to(*ground, up_.across_of(velocity_));
 }
 
 }  // namespace paperproof::octagon_sweep

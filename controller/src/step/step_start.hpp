@@ -17,7 +17,7 @@ bool StepSolver<Lanes, Scalar, Up>::prepare_start(Part part, const MoveRequest<S
   if (request.crushed && ignore_overlapping_movers(request) && part == Part::whole &&
       leaves_overlapping_movers(request))
     return true;
-  while (overlaps(position_)) {
+  while (overlaps(position_)) {  // each round ignores one more collider that moves
     // Movers overlap the character, too: it must not leave to another side of them than it came from.
     if (!memory_.crushers.empty()) return false;
     const std::optional<V> out = find_way_out(request);
@@ -67,7 +67,8 @@ std::optional<Vec2<Scalar>> StepSolver<Lanes, Scalar, Up>::find_way_out(const Mo
   return std::nullopt;
 }
 
-/// Searches near first, then twice as far, and so on, until the solids that are overlapped are searched as a whole.
+/// Searches near first, then twice as far, and so on, until the solids that are overlapped are searched as a whole: 52
+/// times at most from 1 nm on, as solids are less than 4e6 m wide.
 template <std::size_t Lanes, class Scalar, class Up>
 std::optional<Vec2<Scalar>> StepSolver<Lanes, Scalar, Up>::find_way_out(FreePositionQuery<Scalar> query,
                                                                         Scalar whole) noexcept {
@@ -122,7 +123,8 @@ std::size_t StepSolver<Lanes, Scalar, Up>::put_first(std::span<PieceIndex> piece
 /// An upper bound for the way out of the colliders that are overlapped: their extent and that of the octagon [m].
 template <std::size_t Lanes, class Scalar, class Up>
 Scalar StepSolver<Lanes, Scalar, Up>::reach_of_solids_inside() noexcept {
-  Box2<Scalar> whole{position_, position_};
+  const V middle = position_ + space_.hull_box().middle();
+  Box2<Scalar> whole{middle, middle};
   for_each_near({position_, position_}, [&](PieceIndex piece) {
     if (!overlaps(piece, position_)) return;
     const V shift = offset(piece);
@@ -133,7 +135,7 @@ Scalar StepSolver<Lanes, Scalar, Up>::reach_of_solids_inside() noexcept {
     }
   });
   const V extent = space_.hull_box().upper - space_.hull_box().lower;
-  return length_of(V((position_ - whole.lower).cwiseMax(whole.upper - position_) + extent));
+  return length_of(V((middle - whole.lower).cwiseMax(whole.upper - middle) + extent));
 }
 
 template <std::size_t Lanes, class Scalar, class Up>

@@ -71,7 +71,9 @@ template <std::size_t Lanes, class Scalar, class Up>
 template <Covered covered>
 void StepSolver<Lanes, Scalar, Up>::sweep(const LocalMotion& motion, std::span<const PieceIndex> pieces) noexcept {
   for (const PieceIndex piece : pieces) {
-    if (clear_of_box(space_, motion, piece) || !in_way(motion, piece)) continue;
+    const Scalar kept = kept_by_box(space_, motion, piece);
+    found_.least_kept = std::min(found_.least_kept, kept);
+    if (kept >= Tolerances<Scalar>{}.hit || !in_way(motion, piece)) continue;
     if (ignored(piece) || slides_along_touched(motion, piece)) continue;
     const Clearance<Scalar> clear = clearance(space_, motion, piece);
     found_.least_separation = std::min(found_.least_separation, clear.start);

@@ -1,0 +1,175 @@
+#include "oracle/claims.hpp"
+
+#include "contains.hpp"
+#include "oracle/contacts.hpp"
+#include "oracle/exemptions.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace paperproof::compare::detail {
+namespace {
+
+/// A velocity and a place that were computed in another order differ by no more than this, relative to their size.
+constexpr double rounding_of_motion = 1e-9;
+
+}  // namespace
+
+EndJudge::EndJudge(const TraceHeader& header, const ExactScenery& scenery, const ExactScenery& grown_scenery,
+                   const TraceStep& step, const Wanted& wanted, const Others& others)
+    : header_(header),
+      scenery_(scenery),
+      grown_scenery_(grown_scenery),
+      step_(step),
+      wanted_(wanted),
+      others_(others),
+      up_(up_in(step, header)),
+      dt_(length_of(step, header)) {}
+
+std::vector<NearPart> EndJudge::near(std::size_t corner, double within) const {
+  std::vector<NearPart> parts = scenery_.near_parts(Place(step_.path[corner], step_.movers), within);
+  if (others_.near)
+    for (NearPart& other : others_.near(step_.path[corner], within)) parts.push_back(std::move(other));
+  return parts;
+}
+
+/// Whether an exact displacement from where the step ends meets a walkable face.
+bool EndJudge::meets_ground(const Vec2d& displacement) const {
+  Place beyond = end();
+  beyond.position += displacement;
+  for (const ExactImpact& impact : scenery_.impacts_between(end(), beyond))
+    if (is_walkable(impact.normal, header_, up_) && !contains(step_.dropped_through, impact.collider)) return true;
+  return false;
+}
+
+/// Of the solids that stand or go straight; whether ground that turns, or another character, is beneath is not asked.
+bool EndJudge::stands_on_ground() const { return meets_ground(-up_ * (2 * contact_reach)); }
+
+void EndJudge::judge_ground(const HangingJudge& hanging, bool starts_free, StepJudgement& judgement) const {
+  const std::size_t last = step_.path.size() - 1;
+  if (!judgement.end_overlap.empty() || !judgement.crushed.empty()) return;
+  const std::vector<NearPart> parts = near(last, guaranteed_touch + touch_rounding);
+  const auto any_face = [&](const auto& is) {
+    return std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
+      return !contains(step_.dropped_through, part.collider) &&
+             std::any_of(part.faces.begin(), part.faces.end(), [&](const NearFace& face) { return is(part, face); });
+    });
+  };
+  const auto walkable = [&](const NearPart&, const NearFace& face) { return is_walkable(face.normal, header_, up_); };
+  if (step_.grounded) {
+    const bool on_ground = any_face(walkable);
+    judgement.ground_refuted = !on_ground && !hanging.is_held_at_end(guaranteed_touch + touch_rounding);
+    const bool only_solids = !others_.near || others_.near(step_.path[last], guaranteed_touch).empty();
+    judgement.hovers = judgement.hovers || (on_ground && only_solids && !stands_on_ground());
+    return;
+  }
+  const Vec2d unsteered = wanted_.displacement - wanted_.steered * Vec2d(up_.y(), -up_.x());
+  if (wanted_.jumped || step_.stuck || !starts_free) return;
+  const double least = guaranteed_touch - touch_rounding;
+  judgement.ground_missed = any_face([&](const NearPart& part, const NearFace& face) {
+    if (!walkable(part, face) || face.separation > least) return false;
+    // Where a fall ends within touch without a contact it goes on in the next step.
+    const double apart = face.normal.dot(step_.velocity * dt_ - part.moved);
+    const bool is_pulled = face.normal.dot(unsteered - part.moved) < -rounding_of_motion;
+    return std::abs(apart) <= least && is_pulled && meets_ground(-face.normal * least) && stands_on_ground();
+  });
+}
+
+/// Whether no other character and nothing that turns is within reach where the step begins.
+bool EndJudge::is_alone() const {
+  const double within = contact_reach + wanted_.displacement.norm() + others_.longest_way;
+  return !others_.near || others_.near(step_.path.front(), within).empty();
+}
+
+/// Whether the wanted motion comes within 1e-6 m of nothing.
+bool EndJudge::goes_freely() const {
+  const Place start(step_.path.front(), step_.movers);
+  if (!is_alone() || !near(0, contact_reach).empty()) return false;
+  const Place wanted(start.position + wanted_.displacement, step_.movers, 1);
+  return grown_scenery_.met(start, wanted).empty();
+}
+
+/// How far a free motion leaves the wanted one [m/s].
+double EndJudge::flight_error() const {
+  const Vec2d start = step_.path.front().position;
+  const double size = wanted_.displacement.norm();
+  const double rounding =
+      rounding_of_motion * (1 + size) + 4 * ulp_at(header_, start) + 4 * ulp_at(header_, step_.path.back().position);
+  // Where something turns the character waits for a millionth of each part of the step.
+  const bool waits = std::any_of(step_.vertex_ways.begin(), step_.vertex_ways.end(),
+                                 [](const VertexWay& way) { return way.instants.size() > 2; });
+  const double waited = waits ? 2e-6 * size : 0;
+  double off = 0;
+  for (const PathPoint<double>& corner : step_.path)
+    off = std::max(off, (corner.position - start - wanted_.displacement * corner.fraction).norm());
+  const double too_slow = (step_.velocity - wanted_.velocity).norm();
+  return std::max(off <= rounding + waited ? 0 : off / dt_,
+                  too_slow <= rounding_of_motion * (1 + wanted_.velocity.norm()) ? 0 : too_slow);
+}
+
+/// The upward speed that is missing, or too much, without anything exact that could have taken or given it [m/s].
+double EndJudge::vertical_error() const {
+  const double asked = wanted_.velocity.dot(up_);
+  const double left = step_.velocity.dot(up_);
+  const double error = std::abs(asked - left);
+  if (error <= rounding_of_motion * (1 + wanted_.velocity.norm())) return 0;
+  const Vec2d right(up_.y(), -up_.x());
+  for (std::size_t corner = 0; corner < step_.path.size(); ++corner)
+    for (const NearPart& part : near(corner, contact_reach))
+      for (const NearFace& face : part.faces) {
+        const double slope = face.normal.dot(up_);
+        const bool moves = !part.moved.isZero(0);
+        const bool is_wall = std::abs(face.normal.dot(right)) > rounding_of_motion;
+        if (left > asked ? slope > 0 || moves : slope < 0 || moves) return 0;
+        const bool follows = slope > 0 && std::abs(face.normal.dot(step_.velocity)) <=
+                                              guaranteed_touch / dt_ + rounding_of_motion * step_.velocity.norm();
+        const bool ends_rise = is_wall && (wanted_.from_ground || header_.character.side_hit_ends_rise);
+        if (left < asked && (follows || ends_rise)) return 0;
+      }
+  return error;
+}
+
+/// How much faster it is than it can be [m/s].
+double EndJudge::speed_gained() const {
+  // Steering that presses into a steep face is taken out of what is wanted.
+  const Vec2d unsteered = wanted_.velocity - wanted_.steered / dt_ * Vec2d(up_.y(), -up_.x());
+  double most = std::max(wanted_.velocity.norm(), unsteered.norm()) /
+                std::cos(header_.character.max_climb_degrees * std::numbers::pi / 180);
+  bool pushed = false;
+  for (std::size_t corner = 0; corner < step_.path.size(); ++corner)
+    for (const NearPart& part : near(corner, contact_reach)) {
+      pushed = pushed || !part.moved.isZero(0);
+      const bool is_known = part.collider < header_.scenery.colliders.size();
+      const double conveyor = is_known ? std::abs(header_.scenery.colliders[part.collider].surface_speed) : 0;
+      most += part.moved.norm() / dt_ + conveyor;
+    }
+  const Vec2d right(up_.y(), -up_.x());
+  double gained = step_.velocity.norm() - most;
+  // A fall becomes a rise only where a walk climbs, and that keeps its speed across up.
+  const bool rises = step_.velocity.dot(up_) > rounding_of_motion && wanted_.velocity.dot(up_) < 0;
+  if (rises && !pushed) {
+    const double across = std::max(std::abs(wanted_.velocity.dot(right)), std::abs(unsteered.dot(right)));
+    gained = std::max(gained, std::abs(step_.velocity.dot(right)) - across);
+  }
+  return gained <= rounding_of_motion * (1 + most) ? 0 : gained;
+}
+
+void EndJudge::judge_speed(bool starts_free, StepJudgement& judgement) const {
+  const bool excused =
+      !starts_free || step_.stuck || step_.dropped || !judgement.crushed.empty() || !judgement.end_overlap.empty();
+  if (excused) return;
+  if (wanted_.parts > 1) {  // each part wants another motion
+    judgement.beside_turning = true;
+    return;
+  }
+  // A walker follows its ground down over a crest, as far as it is allowed to.
+  const bool may_snap = header_.character.snap > 0 && wanted_.from_ground;
+  if (goes_freely())
+    judgement.speed_lost = may_snap ? 0 : flight_error();
+  else
+    judgement.speed_lost = may_snap ? 0 : vertical_error();
+  judgement.speed_gained = speed_gained();
+}
+
+}  // namespace paperproof::compare::detail

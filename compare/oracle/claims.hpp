@@ -1,0 +1,62 @@
+/// What a step says of its end: that it stands, and how fast it goes.
+#pragma once
+
+#include "oracle/hanging.hpp"
+#include "oracle/intent.hpp"
+#include "oracle/judge.hpp"
+
+namespace paperproof::compare::detail {
+
+/// §6 of the guarantee lets a contact be held up to this gap [m].
+inline constexpr double guaranteed_touch = 7e-7;
+/// Room for the rounding of a separation [m].
+inline constexpr double touch_rounding = 1e-8;
+
+/// Holds the end of one step against exact arithmetic and the law of motion, for a contender that promises both. Lives
+/// for one step.
+///
+/// **Grounded** is right where a solid or another character has a walkable face within `guaranteed_touch`, or where the
+/// unsteered motion points down and all that is within it leaves no way down (a wedge). It hovers where no walkable
+/// face is met by an exact motion straight down by the gap: the octagon only touches beside the face.
+///
+/// **Ground missed.** The octagon is met by a walkable face on a motion by `guaranteed_touch` against the face's
+/// normal, no jump began, the unsteered motion leads into the face, and the motion at the end goes along it: in one
+/// more step it would part them, or press in, by no more than that.
+///
+/// **Speed lost or gained.** A step that begins free, and whose wanted motion comes within 1e-6 m of nothing, goes
+/// exactly as wanted. Else the upward speed is less than wanted only below a ceiling, on ground that is followed, or
+/// where a climb ends with the walk at a wall; and more than wanted only on a face that looks upwards. No speed is
+/// larger than the wanted one, kept across up on the steepest walkable ground, and that of the movers touched. A fall
+/// becomes a rise only where a walk climbs: then it goes no faster across up than was wanted.
+class EndJudge {
+ public:
+  /// @param grown_scenery the same for an octagon that is larger by 1e-6 m.
+  EndJudge(const TraceHeader& header, const ExactScenery& scenery, const ExactScenery& grown_scenery,
+           const TraceStep& step, const Wanted& wanted, const Others& others);
+
+  /// @param starts_free the step begins inside nothing.
+  void judge_ground(const HangingJudge& hanging, bool starts_free, StepJudgement& judgement) const;
+  void judge_speed(bool starts_free, StepJudgement& judgement) const;
+
+ private:
+  [[nodiscard]] Place end() const { return {step_.path.back(), step_.movers}; }
+  [[nodiscard]] std::vector<NearPart> near(std::size_t corner, double within) const;
+  [[nodiscard]] bool meets_ground(const Vec2d& displacement) const;
+  [[nodiscard]] bool stands_on_ground() const;
+  [[nodiscard]] bool goes_freely() const;
+  [[nodiscard]] double flight_error() const;
+  [[nodiscard]] double vertical_error() const;
+  [[nodiscard]] double speed_gained() const;
+  [[nodiscard]] bool is_alone() const;
+
+  const TraceHeader& header_;
+  const ExactScenery& scenery_;
+  const ExactScenery& grown_scenery_;
+  const TraceStep& step_;
+  const Wanted& wanted_;
+  const Others& others_;
+  Vec2d up_;
+  double dt_;  ///< [s]
+};
+
+}  // namespace paperproof::compare::detail

@@ -1,0 +1,168 @@
+#include "oracle/intent.hpp"
+
+#include "oracle/exemptions.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace paperproof::compare {
+namespace {
+
+/// Ground of exactly the climb limit is walkable, whatever its normal was rounded to [rad].
+constexpr double climb_margin = 1e-8;
+/// Relative: a few operations in the number type of the contender.
+constexpr double share_of_double = 1e-12;
+constexpr double share_of_float = 1e-5;
+
+/// Components as a character with that up sees them: across up, to the right, and along it.
+Vec2d seen(const Vec2d& v, const Vec2d& up) { return {v.x() * up.y() - v.y() * up.x(), v.dot(up)}; }
+Vec2d in_world(const Vec2d& v, const Vec2d& up) {
+  return {v.x() * up.y() + v.y() * up.x(), v.y() * up.y() - v.x() * up.x()};
+}
+
+Vec2d way_of(const MoverMotion<double>& motion) { return motion.to - motion.from; }
+
+}  // namespace
+
+void Intent::start_anew(const TraceStep& step) {
+  TraceState state = step.from.value_or(TraceState{});
+  const bool is_start = !step.from && step.character < header_->starts.size();
+  if (is_start) state.velocity = header_->starts[step.character].velocity;
+  velocity_ = state.velocity;
+  grounded_ = state.grounded;
+  jumping_ = state.jumping;
+  jump_held_ = state.jump_held;
+  jump_pending_ = state.jump_pending;
+  ride_ = state.ride;
+  // A character that is given another velocity where it is remembers the rest.
+  if (begun_ && step.path.front().position == end_) return;
+  pending_left_ = coyote_left_ = 0;
+  crushed_ = wall_left_ = wall_right_ = false;
+  ground_velocity_ = carrier_velocity_ = Vec2d::Zero();
+}
+
+void Intent::note_press(bool pressed, double dt) {
+  const std::optional<double>& buffer = header_->character.jump_buffer;
+  if (pressed && !jump_held_) {
+    jump_pending_ = true;
+    pending_left_ = buffer.value_or(0);
+  } else if (buffer) {
+    pending_left_ = std::max(pending_left_ - dt, 0.0);
+    jump_pending_ = jump_pending_ && pending_left_ > 0;
+  } else if (!pressed) {
+    jump_pending_ = false;
+  }
+}
+
+bool Intent::may_jump(const TraceStep& step, const WallAhead& wall_ahead) const {
+  if (crushed_ || jumping_ || !(grounded_ || coyote_left_ > 0)) return false;
+  const double move = step.input.move.value_or(0);
+  if (!header_->character.no_jump_toward_wall || move == 0) return true;
+  return !(move < 0 ? wall_left_ : wall_right_) && !(grounded_ && wall_ahead && wall_ahead(step, move));
+}
+
+/// The upward speed after the button was pressed or released, or while a press is pending.
+double Intent::use_button(const TraceStep& step, double dt, double rise, const WallAhead& wall_ahead, Wanted& wanted) {
+  const CharacterDef& character = header_->character;
+  const bool pressed = step.input.jump;
+  if (pressed == jump_held_ && !jump_pending_) return rise;
+  note_press(pressed, dt);
+  if (jump_held_ && !pressed && jumping_ && rise > 0) rise *= character.jump_cut;
+  jump_held_ = pressed;
+  if (!jump_pending_ || !may_jump(step, wall_ahead)) return rise;
+  wanted.jumped = jumping_ = true;
+  grounded_ = jump_pending_ = false;
+  coyote_left_ = 0;
+  return character.jump_speed * (pressed ? 1 : character.jump_cut);
+}
+
+/// Whether the rise comes from walking up ground: then it ends with the walk.
+bool Intent::is_climb_of_walk(double walk, double rise) const {
+  const bool ground_is_gone = !ride_ && !ground_velocity_.isZero(0);
+  const double steepest = std::tan(header_->character.max_climb_degrees * std::numbers::pi / 180 + climb_margin);
+  return grounded_ && rise > 0 && !ground_is_gone && rise <= std::abs(walk) * steepest;
+}
+
+/// How far the ground takes its rider in the step [m]. A conveyor adds to its mover's way what its surface ran in the
+/// step before. A rider that drops through a one-way carrier goes on as fast as it went.
+Vec2d Intent::carried(const TraceStep& step, double dt) const {
+  if (!ride_) return Vec2d::Zero();
+  const ColliderDef& ground = header_->scenery.colliders[ride_->collider];
+  if (step.input.drop && ground.one_way) return ride_->velocity * dt;
+  const bool is_circle = ground.shape == ColliderDef::Shape::circle;
+  if (const VertexWay* way = find_way(step.vertex_ways, ride_->collider))
+    return is_circle ? Vec2d(ride_->velocity * dt) : carried_along(*way);
+  Vec2d carried = Vec2d::Zero();
+  if (ground.mover != no_mover) carried = way_of(step.movers[ground.mover]);
+  if (ground.surface_speed != 0) carried += (ride_->velocity - carrier_velocity_) * dt;
+  return carried;
+}
+
+Wanted Intent::begin(const TraceStep& step, int parts, const WallAhead& wall_ahead) {
+  if (!begun_ || step.respawn) start_anew(step);
+  begun_ = true;
+  const CharacterDef& character = header_->character;
+  const double whole = length_of(step, *header_);
+  const double dt = whole / parts;
+  const Vec2d up = up_in(step, *header_);
+  Wanted wanted;
+  wanted.parts = parts;
+  wanted.from_ground = grounded_;
+  const Vec2d own = seen(ride_ ? Vec2d(velocity_ - ride_->velocity) : velocity_, up);
+  double walk = own.x();
+  double rise = own.y();
+  if (step.input.move) {
+    const double acceleration =
+        grounded_ ? character.acceleration : character.air_acceleration.value_or(character.acceleration);
+    const double target = std::clamp(*step.input.move, -1.0, 1.0) * character.walk_speed;
+    walk += std::clamp(target - walk, -acceleration * dt, acceleration * dt);
+  }
+  const double change = walk - own.x();
+  if (change * own.x() < 0 && is_climb_of_walk(own.x(), rise)) rise *= std::max(walk / own.x(), 0.0);
+  rise = use_button(step, dt, rise, wall_ahead, wanted);
+  if (character.coyote_time > 0) coyote_left_ = grounded_ ? character.coyote_time : std::max(coyote_left_ - dt, 0.0);
+  const Vec2d pull = seen(gravity_in(step, *header_), up) * dt;
+  rise += pull.y();
+  if (character.max_fall_speed) rise = std::max(rise, -*character.max_fall_speed);
+  const Vec2d velocity = in_world({walk + pull.x(), rise}, up);
+  const Vec2d by_ground = carried(step, whole);
+  wanted.displacement = velocity * whole + by_ground;
+  wanted.velocity = velocity + by_ground / whole;
+  wanted.steered = change * whole;
+  return wanted;
+}
+
+void Intent::end(const TraceStep& step) {
+  end_ = step.path.back().position;
+  velocity_ = step.velocity;
+  grounded_ = step.grounded;
+  const bool promises = party_of(*header_) == Party::promising;
+  jumping_ = promises ? jumping_ && !step.grounded : step.jumping;
+  crushed_ = !step.crushed.empty() || (crushed_ && step.stuck);
+  const auto touches = [&](Side side) {
+    return std::any_of(step.contacts.begin(), step.contacts.end(),
+                       [side](const Contact<double>& contact) { return contact.side == side; });
+  };
+  wall_left_ = touches(Side::left);
+  wall_right_ = touches(Side::right);
+  ride_ = step.ride;
+  ground_velocity_ = step.ground_velocity;
+  carrier_velocity_ = Vec2d::Zero();
+  if (!ride_) return;
+  const MoverIndex mover = header_->scenery.colliders[ride_->collider].mover;
+  if (mover != no_mover) carrier_velocity_ = way_of(step.movers[mover]) / length_of(step, *header_);
+}
+
+double Intent::rounding(const TraceStep& step, const Wanted& wanted) const {
+  const double share = header_->scalar == "float" ? share_of_float : share_of_double;
+  double size = wanted.displacement.norm() +
+                (velocity_.norm() + (ride_ ? ride_->velocity.norm() : 0)) * length_of(step, *header_);
+  // Where movers are is rounded, too.
+  double largest = 0;
+  for (const MoverMotion<double>& motion : step.movers)
+    largest = std::max({largest, motion.from.cwiseAbs().maxCoeff(), motion.to.cwiseAbs().maxCoeff()});
+  return share * size + 4 * ulp_at(*header_, {largest, 0});
+}
+
+}  // namespace paperproof::compare

@@ -1,0 +1,286 @@
+#include "oracle/mover_way.hpp"
+
+#include "contains.hpp"
+#include "oracle/turning_room.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace paperproof::compare {
+namespace {
+
+constexpr double rounding = 0x1p-53;
+constexpr double rounding_of_float = 0x1p-24;
+/// Of the coordinates that a vertex is computed from: cosine and sine, two products, a difference, the sum, and for a
+/// centre the way there and back.
+constexpr int roundings_of_vertex = 8;
+constexpr int roundings_of_time = 4;
+/// What takes less of the time that follows is a turn at once.
+constexpr double at_once = 1e-5;
+/// Share of a step that a turn at once takes.
+constexpr double turning_share = 1e-6;
+/// Of an angle that is read off vertices.
+constexpr double angle_rounding = 1e-9;
+constexpr int moments_of_chord = 8;
+
+/// A time since the first entry, brought into the first run of a path.
+struct Folded {
+  double time = 0;
+  double runs = 0;  ///< Whole ones that are behind it.
+};
+
+Folded fold(MoverScript::Loop loop, double first, double last, double time) {
+  const double length = last - first;
+  if (time <= first || length <= 0) return {first, 0};
+  if (loop == MoverScript::Loop::once) return {std::min(time, last), 0};
+  const double gone = time - first;
+  if (loop == MoverScript::Loop::loop) {
+    const double rest = std::fmod(gone, length);
+    return {first + rest, std::nearbyint((gone - rest) / length)};
+  }
+  const double rest = std::fmod(gone, 2 * length);
+  return {rest > length ? last - (rest - length) : first + rest, 0};
+}
+
+template <class Entry>
+auto value_at(const std::vector<Entry>& entries, double time) -> decltype(Entry::at) {
+  std::size_t next = 0;
+  while (next < entries.size() && entries[next].time <= time) ++next;
+  if (next == 0) return entries.front().at;
+  const Entry& a = entries[next - 1];
+  if (a.time == time || next == entries.size()) return a.at;
+  const Entry& b = entries[next];
+  return a.at + (time - a.time) / (b.time - a.time) * (b.at - a.at);
+}
+
+/// [m/s]
+double largest_speed(const MoverScript& script) {
+  double most = 0;
+  for (std::size_t i = 1; i < script.path.size(); ++i) {
+    const auto& [before, a] = script.path[i - 1];
+    const auto& [after, b] = script.path[i];
+    most = std::max(most, (b - a).norm() / (after - before));
+  }
+  return most;
+}
+
+/// [rad/s]
+double largest_spin(const MoverScript& script) {
+  double most = 0;
+  for (std::size_t i = 1; i < script.turns.size(); ++i) {
+    const auto& [before, a] = script.turns[i - 1];
+    const auto& [after, b] = script.turns[i];
+    most = std::max(most, std::abs(b - a) / (after - before));
+  }
+  return most;
+}
+
+/// Places vertices in a pose.
+class Placing {
+ public:
+  explicit Placing(const MoverPose& pose)
+      : offset_(pose.offset.cast<long double>()),
+        cosine_(std::cos(static_cast<long double>(pose.angle))),
+        sine_(std::sin(static_cast<long double>(pose.angle))) {}
+  [[nodiscard]] Vec2d operator()(const Vec2d& v) const {
+    const long double x = v.x();
+    const long double y = v.y();
+    return {static_cast<double>(offset_.x() + (cosine_ * x - sine_ * y)),
+            static_cast<double>(offset_.y() + (sine_ * x + cosine_ * y))};
+  }
+
+ private:
+  Eigen::Matrix<long double, 2, 1> offset_;
+  long double cosine_;
+  long double sine_;
+};
+
+/// The points of a definition in the order of `VertexWay::vertices`.
+std::vector<Vec2d> points_of(const ColliderDef& def) {
+  std::vector<Vec2d> all = def.points;
+  for (const std::vector<Vec2d>& hole : def.holes) all.insert(all.end(), hole.begin(), hole.end());
+  return all;
+}
+
+bool is_circle(const ColliderDef& def) { return def.shape == ColliderDef::Shape::circle; }
+
+/// Whether a turn at once ends at this instant of a way.
+bool ends_turn_at_once(const VertexWay& way, std::size_t k) {
+  if (k == 0 || k + 1 >= way.instants.size()) return false;
+  return way.instants[k] - way.instants[k - 1] < at_once * (way.instants[k + 1] - way.instants[k]);
+}
+
+template <class Index>
+void note(std::vector<Index>& list, Index one) {
+  if (!contains(list, one)) list.push_back(one);
+}
+
+}  // namespace
+
+MoverPose pose_at(const MoverScript& script, double time) {
+  const Folded on_path = fold(script.loop, script.path.front().time, script.path.back().time, time);
+  MoverPose pose{value_at(script.path, on_path.time), 0};
+  if (script.turns.empty()) return pose;
+  const MoverScript::Turn& first = script.turns.front();
+  const MoverScript::Turn& last = script.turns.back();
+  const Folded turned = fold(script.loop, first.time, last.time, time);
+  pose.angle = value_at(script.turns, turned.time) + turned.runs * (last.at - first.at);
+  return pose;
+}
+
+MoverPose MoverWayJudge::Course::at(double fraction) const {
+  if (fraction == 0) return from;
+  if (fraction == 1) return to;
+  return {from.offset + fraction * (to.offset - from.offset), from.angle + fraction * turn()};
+}
+
+MoverWayJudge::MoverWayJudge(const TraceHeader& header, std::vector<MoverScript> scripts)
+    : header_(header), scripts_(std::move(scripts)), is_float_(header.scalar == "float") {
+  Box2<double> box{header.points.front(), header.points.front()};
+  for (const Vec2d& corner : header.points) {
+    box = box.merged({corner, corner});
+    radius_ = std::max(radius_, corner.norm());
+  }
+  extent_ = (box.upper - box.lower).norm();
+}
+
+/// Records of several characters share a step.
+void MoverWayJudge::tell_time(const TraceStep& step) {
+  if (step.step == step_) return;
+  goes_on_ = step_ >= 0 && step.step == step_ + 1 && !now_.offsets.empty();
+  before_ = std::exchange(now_, {});
+  step_ = step.step;
+  vary_ = step.dt.has_value();
+  begin_ = vary_ ? static_cast<double>(time_) : step.step * header_.dt;
+  if (vary_) time_ += Rational(*step.dt);
+  end_ = vary_ ? static_cast<double>(time_) : (step.step + 1) * header_.dt;
+}
+
+MoverWayJudge::Course MoverWayJudge::course_of(MoverIndex mover) const {
+  double slack = vary_ ? roundings_of_time * rounding * end_ : 0;
+  if (is_float_) slack += rounding_of_float * end_;
+  return {pose_at(scripts_[mover], begin_), pose_at(scripts_[mover], end_), slack};
+}
+
+MoverWayJudgement MoverWayJudge::judge(const TraceStep& step, std::span<const ColliderIndex> near) {
+  tell_time(step);
+  MoverWayJudgement judgement;
+  judge_offsets(step, judgement);
+  for (const VertexWay& way : step.vertex_ways) {
+    const MoverIndex mover = header_.scenery.colliders[way.collider].mover;
+    const double turn = std::abs(course_of(mover).turn());
+    // A circle does not turn: its centre goes straight.
+    const bool is_near = std::any_of(near.begin(), near.end(), [&](ColliderIndex one) {
+      const ColliderDef& other = header_.scenery.colliders[one];
+      return other.mover == mover && !is_circle(other);
+    });
+    const double most =
+        is_near ? std::max(std::min(turn, most_turned_at_once / extent_), turn / most_turning_parts) : turn;
+    judge_way(way, step, most, judgement);
+  }
+  return judgement;
+}
+
+bool MoverWayJudge::is_on_script(const Vec2d& offset, const MoverPose& pose, MoverIndex mover, double slack) const {
+  if (offset == pose.offset) return true;
+  const double rounded = (is_float_ ? rounding_of_float : rounding) * pose.offset.norm();
+  return slack > 0 && (offset - pose.offset).norm() <= slack * largest_speed(scripts_[mover]) + 2 * rounded;
+}
+
+void MoverWayJudge::judge_offsets(const TraceStep& step, MoverWayJudgement& judgement) {
+  for (MoverIndex i = 0; i < scripts_.size() && i < step.movers.size(); ++i) {
+    const Course course = course_of(i);
+    const MoverMotion<double>& motion = step.movers[i];
+    const bool begins = (scripts_[i].body && step.step > 0) || is_on_script(motion.from, course.from, i, course.slack);
+    const bool ends = scripts_[i].body || is_on_script(motion.to, course.to, i, course.slack);
+    const bool goes_on = !goes_on_ || motion.from == before_.offsets[i];
+    if (!(begins && ends && goes_on)) judgement.off_script.push_back(i);
+  }
+  if (step.movers.size() < scripts_.size()) judgement.off_script.push_back(static_cast<MoverIndex>(step.movers.size()));
+  now_.offsets.clear();
+  for (const MoverMotion<double>& motion : step.movers) now_.offsets.push_back(motion.to);
+}
+
+double MoverWayJudge::allowed(const MoverPose& pose, const Vec2d& v, MoverIndex mover, double slack) const {
+  const MoverScript& script = scripts_[mover];
+  return roundings_of_vertex * rounding * ((1 + std::abs(pose.angle)) * v.norm() + pose.offset.norm()) +
+         slack * (largest_speed(script) + largest_spin(script) * v.norm());
+}
+
+void MoverWayJudge::judge_way(const VertexWay& way, const TraceStep& step, double most, MoverWayJudgement& judgement) {
+  const ColliderDef& def = header_.scenery.colliders[way.collider];
+  const MoverIndex mover = def.mover;
+  const Course course = course_of(mover);
+  const std::vector<Vec2d> points = points_of(def);
+  const auto before = before_.vertices.find(way.collider);
+  const bool jumps = goes_on_ && before != before_.vertices.end() && before->second != way.vertices.front();
+  if (jumps) note(judgement.off_script, mover);
+  now_.vertices[way.collider] = way.vertices.back();
+
+  int parts = 0;
+  for (std::size_t k = 0; k < way.instants.size(); ++k) {
+    const bool turned = ends_turn_at_once(way, k);
+    parts += turned;
+    const MoverPose pose = course.at(way.instants[turned ? k + 1 : k]);
+    const Placing place(pose);
+    const bool between = k > 0 && k + 1 < way.instants.size();
+    Vec2d moved = Vec2d::Zero();  // by a turn at once about another point
+    if (turned && !points.empty()) moved = way.vertices[k][0] - place(points[0]);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      Vec2d there = place(points[i]) + moved;
+      if (is_circle(def) && between) {
+        const Vec2d& begin = way.vertices.front()[i];
+        there = begin + way.instants[turned ? k - 1 : k] * (way.vertices.back()[i] - begin);
+      }
+      const double off = (way.vertices[k][i] - there).norm();
+      const double more = (turned ? 2 : 1) + (is_circle(def) ? 2 : 0);  // of roundings
+      if (off <= more * (allowed(pose, points[i], mover, course.slack) + rounding * moved.norm())) continue;
+      if (between)
+        note(judgement.out_of_way, way.collider);
+      else
+        note(judgement.off_script, mover);
+    }
+    if (!turned || points.size() < 2) continue;
+    const double angle = std::abs(detail::RigidMotion(way.vertices[k - 1], way.vertices[k]).angle());
+    if (angle > most + angle_rounding) note(judgement.coarse, way.collider);
+  }
+  judgement.parts = std::max(judgement.parts, parts);
+  measure_arc(way, step, most, judgement);
+}
+
+void MoverWayJudge::measure_arc(const VertexWay& way, const TraceStep& step, double most,
+                                MoverWayJudgement& judgement) const {
+  const ColliderDef& def = header_.scenery.colliders[way.collider];
+  const Course course = course_of(def.mover);
+  if (course.turn() == 0) return;
+  const std::vector<Vec2d> points = points_of(def);
+  const double turn = std::abs(course.turn());
+  std::vector<double> errors(points.size());
+  for (std::size_t k = 1; k < way.instants.size(); ++k)
+    for (int moment = 0; moment <= moments_of_chord; ++moment) {
+      const double share = static_cast<double>(moment) / moments_of_chord;
+      const Placing place(course.at(way.instants[k - 1] + share * (way.instants[k] - way.instants[k - 1])));
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        const Vec2d& from = way.vertices[k - 1][i];
+        const Vec2d there = from + share * (way.vertices[k][i] - from);
+        errors[i] = std::max(errors[i], (there - place(points[i])).norm());
+      }
+    }
+  const double carried = (course.to.offset - course.from.offset).norm();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double r = points[i].norm();
+    double far = 0;  // from the position of the character
+    for (const PathPoint<double>& corner : step.path)
+      for (const auto* vertices : {&way.vertices.front(), &way.vertices.back()})
+        far = std::max(far, ((*vertices)[i] - corner.position).norm());
+    const double lag = turning_share * (carried + r * turn) + allowed(course.to, points[i], def.mover, course.slack);
+    const double bound =
+        lag + (is_circle(def) ? r * turn * turn / 8 : most * std::max(r, 2 * far + 4 * radius_) + r * most * most / 8);
+    if (errors[i] > bound) note(judgement.off_arc, way.collider);
+    judgement.arc_share = std::max(judgement.arc_share, errors[i] / bound);
+    judgement.arc_error = std::max(judgement.arc_error, errors[i]);
+  }
+}
+
+}  // namespace paperproof::compare

@@ -1,0 +1,43 @@
+/// Holds JSON against a JSON Schema that ships.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <map>
+#include <optional>
+#include <regex>
+#include <string>
+#include <string_view>
+
+namespace paperproof::compare {
+
+/// As much of JSON Schema 2020-12 as the project's schemas of records use. Not thread-safe.
+class Schema {
+ public:
+  /// @throws std::logic_error for a keyword that is not known here: what it asks would not be asked.
+  explicit Schema(std::string_view text);
+
+  /// The first fault of `value`, as "/verdict: expected ..."; nothing where it holds.
+  /// @param definition a name in `$defs`; empty: the whole schema.
+  [[nodiscard]] std::optional<std::string> fault(const nlohmann::ordered_json& value,
+                                                 const std::string& definition = "") const;
+
+ private:
+  using Json = nlohmann::ordered_json;
+  using Pointer = Json::json_pointer;
+  using Fault = std::optional<std::string>;
+
+  void prepare(const Json& schema);
+  [[nodiscard]] const Json& resolved(const Json& schema) const;
+  [[nodiscard]] Fault fault_of(const Json& value, const Json& schema, const Pointer& at) const;
+  [[nodiscard]] Fault fault_of_object(const Json& value, const Json& schema, const Pointer& at) const;
+  [[nodiscard]] Fault fault_of_list(const Json& value, const Json& schema, const Pointer& at) const;
+
+  Json root_;
+  std::map<std::string, std::regex> patterns_;
+};
+
+/// Of rows and their headers: `paperproof_rows.schema.json`.
+[[nodiscard]] const Schema& rows_schema();
+
+}  // namespace paperproof::compare

@@ -1,0 +1,418 @@
+#include "runs/run_judge.hpp"
+
+#include "contains.hpp"
+#include "oracle/claims.hpp"
+#include "oracle/contacts.hpp"
+#include "records/verdict.hpp"
+#include "words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace paperproof::compare {
+namespace {
+
+/// The largest gap that is allowed at a contact, and how far a time of impact may be off along the normal [m].
+constexpr double guaranteed_gap = 1e-6;
+/// Normals are computed from rounded vertices [degrees].
+constexpr double rounding_of_normal = 1e-3;
+/// A larger share of the wanted motion that is lost to nothing is a fault of a contender that promises none.
+constexpr double most_motion_lost = 0.01;
+/// The guarantee covers starts this near to the origin, and displacements up to it [m].
+constexpr double guaranteed_range = 1e6;
+/// Positions and offsets beyond are refused [m].
+constexpr double range = 2e6;
+/// A character this far outside of its map is put back [m].
+constexpr double lost_beyond = 10;
+
+bool moves(const MoverMotion<double>& motion) { return motion.from != motion.to; }
+
+/// Into how many shorter steps a step among what turns was divided: each begins with a leap.
+int parts_of(const TraceStep& step) {
+  constexpr double leap = 1e-5;
+  int most = 1;
+  for (const VertexWay& way : step.vertex_ways) {
+    int leaps = 0;
+    for (std::size_t k = 1; k + 1 < way.instants.size(); ++k)
+      leaps += way.instants[k] - way.instants[k - 1] < leap * (way.instants[k + 1] - way.instants[k]);
+    most = std::max(most, leaps);
+  }
+  return most;
+}
+
+std::string metres(double length) { return fmt::format("{:.3g} m", length); }
+
+}  // namespace
+
+RunJudge::RunJudge(const TraceHeader& header, const Measured& measured)
+    : header_(header), metrics_(header, measured), judgements_(header.characters) {
+  for (std::size_t k = 0; k < header.characters; ++k)
+    followers_.push_back({.judge = std::make_unique<Judge>(header_), .intent = Intent(header_)});
+  if (header.characters > 1) company_ = std::make_unique<CompanyJudge>(header_);
+  const auto is_known = [](const MoverScript& script) { return !script.path.empty(); };
+  if (!header_.scripts.empty() && std::all_of(header_.scripts.begin(), header_.scripts.end(), is_known)) {
+    ways_.emplace(header_, header_.scripts);
+    turning_.emplace(header_);
+  }
+}
+
+void RunJudge::note(Clause clause, const TraceStep& record, const std::string& what) {
+  Breach& breach = breaches_[clause];
+  if (breach.steps == 0) {
+    breach.first_step = record.step;
+    breach.first = (company_ ? fmt::format("character {}: ", record.character) : "") + what;
+  }
+  ++breach.steps;
+}
+
+bool RunJudge::is_free(std::span<const Vec2d> positions, std::size_t character) const {
+  return !company_ || company_->overlapped(positions, static_cast<CharacterIndex>(character)).empty();
+}
+
+bool RunJudge::is_wall_ahead(const TraceStep& record, double move) const {
+  const Vec2d up = up_in(record, header_);
+  const Vec2d there = Vec2d(up.y(), -up.x()) * std::copysign(header_.character.wall_reach, move);
+  for (const ExactImpact& impact : solids().impacts({record.path.front(), record.movers}, there))
+    if (side_of_normal(impact.normal.dot(Vec2d(up.y(), -up.x())), impact.normal.dot(up)) ==
+        (move < 0 ? Side::left : Side::right))
+      return true;
+  return false;
+}
+
+void RunJudge::add(std::span<TraceStep> records) {
+  std::vector<TraceStep> asked(records.begin(), records.end());
+  std::vector<Vec2d> starts;
+  for (const TraceStep& record : records) starts.push_back(record.path.front().position);
+  for (std::size_t k = 0; k < records.size(); ++k) {
+    TraceStep& record = records[k];
+    Follower& follower = followers_[k];
+    judge_course(record, follower);
+    // What moves stands where the last step left it: a character that was not put elsewhere begins in what it ended in.
+    if (follower.begins) follower.inside = follower.judge->overlapped(record);
+    follower.begins = false;
+    record.start_overlap = follower.inside;
+    if (company_) record.start_overlap_characters = company_->overlapped(starts, record.character);
+    const auto wall_ahead = [this](const TraceStep& step, double move) { return is_wall_ahead(step, move); };
+    follower.wanted = follower.intent.begin(record, header_.substeps * parts_of(record), wall_ahead);
+    judge_wish(record, follower.wanted, follower);
+    asked[k] = record;
+    // A character that is given another velocity where it is remembers from which side it came.
+    const bool stays =
+        !follower.last.empty() && follower.last.back().path.back().position == record.path.front().position;
+    asked[k].respawn = record.respawn && !stays;
+    if (header_.substeps == 1) {
+      asked[k].requested = follower.wanted.displacement;
+      asked[k].steered = follower.wanted.steered;
+    }
+    if (!record.input.drop) asked[k].dropped_through.clear();  // the input did not ask for it
+  }
+  for (std::size_t k = 0; k < records.size(); ++k)
+    judgements_[k] = followers_[k].judge->judge(
+        asked[k], company_ ? company_->others_of(asked[k].character, asked) : Others{}, &followers_[k].wanted);
+  if (steps_ == 0) note_begin(asked);
+  if (company_) company_->judge(asked, judgements_);
+  for (std::size_t k = 0; k < records.size(); ++k) {
+    Follower& follower = followers_[k];
+    metrics_.add(asked[k], judgements_[k]);
+    const bool far = asked[k].path.front().position.cwiseAbs().maxCoeff() > guaranteed_range ||
+                     asked[k].requested.cwiseAbs().maxCoeff() > guaranteed_range;
+    if (far) {
+      steps_far_ += !header_.guarantees.empty();
+    } else {
+      judge_clauses(asked[k], judgements_[k]);
+      for (const CrowdContact<double>& met : asked[k].met)
+        if (const double gap = company_ && met.other < asked.size() ? company_->nearest(asked[k], asked[met.other]) : 1;
+            gap > guaranteed_gap)
+          note(Clause::contact_invented, asked[k],
+               fmt::format("met character {} from {} away", met.other, metres(gap)));
+      judge_rest(asked[k], follower);
+      judge_ride(asked[k], follower);
+    }
+    follower.inside = judgements_[k].end_overlap;
+    follower.intent.end(records[k]);
+    follower.last.push_back(asked[k]);
+    follower.last_wanted.push_back(follower.wanted);
+    if (follower.last.size() > 2) {
+      follower.last.erase(follower.last.begin());
+      follower.last_wanted.erase(follower.last_wanted.begin());
+    }
+  }
+  judge_movers(asked.front());
+  ++steps_;
+  const auto any = [this](const auto& is) { return std::any_of(judgements_.begin(), judgements_.end(), is); };
+  steps_broken_ += any([](const StepJudgement& judged) { return judged.broke(); });
+  broke_company_ = broke_company_ || any([](const StepJudgement& judged) { return judged.company.broke(); });
+  disagreements_ += any([](const StepJudgement& judged) { return !judged.methods_disagree.empty(); });
+  steps_capped_ += std::any_of(records.begin(), records.end(), [](const TraceStep& record) { return record.capped; });
+}
+
+void RunJudge::note_begin(const std::vector<TraceStep>& records) {
+  for (const TraceStep& record : records) {
+    const std::vector<ColliderIndex>& inside = record.start_overlap;
+    if (inside.empty()) continue;
+    const std::string who = company_ ? fmt::format("character {}", record.character) : "the run";
+    std::string text = fmt::format("{} begins inside `{}`", who, header_.ids[inside.front()]);
+    if (inside.size() > 1) text += " and " + counted(inside.size() - 1, "other collider");
+    begins_inside_.push_back(text);
+  }
+}
+
+/// Whether a record may say that it begins elsewhere than the one before ended.
+bool RunJudge::may_respawn(const TraceStep& record, const Follower& follower) const {
+  if (header_.guarantees.empty()) return true;  // a twin in lockstep is placed before every step
+  if (!header_.respawn_box || record.character >= header_.starts.size() || follower.last.empty()) return false;
+  const Vec2d& left = follower.last.back().path.back().position;
+  return !header_.respawn_box->inflated(lost_beyond).contains({left, left}) &&
+         !record.from.value_or(TraceState{}).grounded;
+}
+
+/// Whether the step goes on from the one before, along a way that takes the whole step.
+void RunJudge::judge_course(const TraceStep& record, Follower& follower) {
+  const std::vector<PathPoint<double>>& path = record.path;
+  const auto is_start = [&] {
+    if (record.character >= header_.starts.size()) return false;
+    const TraceStart& start = header_.starts[record.character];
+    const bool same_velocity = !record.from || record.from->velocity == start.velocity;
+    return path.front().position == start.position && same_velocity;
+  };
+  std::string fault;
+  if (path.front().fraction != 0 || path.back().fraction != 1 ||
+      !std::is_sorted(path.begin(), path.end(), [](const auto& a, const auto& b) { return a.fraction < b.fraction; }))
+    fault = "the fractions of its way do not ascend from 0 to 1";
+  if (follower.last.empty()) {
+    if (record.step != 0)
+      fault = fmt::format("the run begins with step {}", record.step);
+    else if (record.respawn || !is_start())
+      fault = "the run begins elsewhere than the scene says";
+  } else if (record.step != follower.last.back().step + 1) {
+    fault = fmt::format("follows step {}", follower.last.back().step);
+  } else if (record.respawn) {
+    if (!may_respawn(record, follower) || (!header_.guarantees.empty() && !is_start()))
+      fault = "is put elsewhere, and the scene asks for that nowhere";
+  } else if (path.front().position != follower.last.back().path.back().position) {
+    fault = fmt::format("begins {} from where the step before ended",
+                        metres((path.front().position - follower.last.back().path.back().position).norm()));
+  }
+  for (std::size_t i = 0; i < record.movers.size() && !follower.last.empty(); ++i)
+    if (record.movers[i].from != follower.last.back().movers[i].to)
+      fault = "a mover begins elsewhere than where the step before left it";
+  follower.begins =
+      follower.begins || follower.last.empty() || path.front().position != follower.last.back().path.back().position;
+  const bool in_lockstep = header_.mode == "lockstep" && header_.guarantees.empty();
+  if (!fault.empty() && !in_lockstep) note(Clause::continuity, record, fault);
+}
+
+/// Whether what it says that it was asked is what scene, input and state ask for.
+void RunJudge::judge_wish(const TraceStep& record, const Wanted& wanted, const Follower& follower) {
+  if (header_.substeps > 1) return;
+  const double off =
+      std::max((record.requested - wanted.displacement).norm(), std::abs(record.steered - wanted.steered));
+  if (!(off <= follower.intent.rounding(record, wanted)))
+    note(Clause::wanted, record,
+         fmt::format("says it was asked to go ({:.9g}, {:.9g}) m, and ({:.9g}, {:.9g}) m was wanted",
+                     record.requested.x(), record.requested.y(), wanted.displacement.x(), wanted.displacement.y()));
+}
+
+/// Once position and velocity have repeated, and the same is wanted again, nothing may change any more.
+void RunJudge::judge_rest(const TraceStep& record, const Follower& follower) {
+  if (follower.last.size() < 2 || record.respawn) return;
+  const TraceStep& before = follower.last[1];
+  const TraceStep& earlier = follower.last[0];
+  const auto stands = [](const TraceStep& step) {
+    return !step.respawn && step.vertex_ways.empty() && std::none_of(step.movers.begin(), step.movers.end(), moves);
+  };
+  const auto same = [this](const TraceStep& a, const TraceStep& b) {
+    return a.path.back().position == b.path.back().position && a.velocity == b.velocity && a.grounded == b.grounded &&
+           length_of(a, header_) == length_of(b, header_) && up_in(a, header_) == up_in(b, header_);
+  };
+  const bool repeated = same(before, earlier) && stands(earlier) && stands(before) && stands(record) && !company_ &&
+                        follower.last_wanted[1].displacement == follower.wanted.displacement &&
+                        follower.last_wanted[1].steered == follower.wanted.steered &&
+                        before.input.drop == record.input.drop &&
+                        length_of(before, header_) == length_of(record, header_);
+  if (repeated && !same(record, before))
+    note(Clause::rest, record,
+         fmt::format("moves by {} after position and velocity had repeated",
+                     metres((record.path.back().position - before.path.back().position).norm())));
+}
+
+/// A rider that goes nowhere on its mover keeps its place there.
+void RunJudge::judge_ride(const TraceStep& record, const Follower& follower) {
+  if (follower.last.empty() || record.respawn || !record.ride || !record.vertex_ways.empty()) return;
+  const std::optional<TraceRide>& before = follower.last.back().ride;
+  const ColliderDef& ground = header_.scenery.colliders[record.ride->collider];
+  if (!before || before->collider != record.ride->collider || ground.mover == no_mover || ground.surface_speed != 0)
+    return;
+  const MoverMotion<double>& motion = record.movers[ground.mover];
+  const Vec2d up = up_in(record, header_);
+  const Vec2d own = follower.wanted.displacement - (motion.to - motion.from);
+  const bool stays = std::abs(own.dot(Vec2d(up.y(), -up.x()))) == 0 && own.dot(up) <= 0 && record.met.empty() &&
+                     std::all_of(record.contacts.begin(), record.contacts.end(), [&](const Contact<double>& contact) {
+                       return contact.collider == record.ride->collider;
+                     });
+  if (!stays || follower.last.size() < 2) return;
+  const std::optional<TraceRide>& earlier = follower.last[0].ride;
+  if (!earlier || earlier->collider != before->collider) return;
+  const Vec2d drift = (record.path.back().position - motion.to) - (record.path.front().position - motion.from);
+  const double ulps = ulp_at(header_, record.path.back().position) + ulp_at(header_, record.path.front().position) +
+                      ulp_at(header_, motion.to) + ulp_at(header_, motion.from);
+  if (drift.cwiseAbs().maxCoeff() > ulps && drift.norm() < guaranteed_gap)
+    note(Clause::rest, record, fmt::format("drifts {} on what carries it", metres(drift.norm())));
+}
+
+/// Whether movers go as the scene says.
+void RunJudge::judge_movers(const TraceStep& record) {
+  if (!ways_) return;
+  const MoverWayJudgement judged = ways_->judge(record, turning_->near_at_begin(record, near_what_turns));
+  arc_error_ = std::max(arc_error_, judged.arc_error);
+  if (!judged.broken()) return;
+  const char* what = !judged.off_script.empty()   ? "a mover leaves its script"
+                     : !judged.out_of_way.empty() ? "what turns leaves its way between two instants"
+                     : !judged.coarse.empty()     ? "what turns is turned at once by more than promised"
+                                                  : "what turns leaves its arc by more than the bound";
+  note(Clause::mover_way, record, what);
+}
+
+/// The fraction of a first contact, as far along the normal as it is off.
+void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged) {
+  if (record.contacts.empty() || !record.start_overlap.empty() || !judged.first_impact || !judged.first_approach ||
+      judged.first_met || !record.met.empty())
+    return;
+  const auto first = std::min_element(record.contacts.begin(), record.contacts.end(),
+                                      [](const auto& a, const auto& b) { return a.fraction < b.fraction; });
+  const bool is_exact = std::any_of(judged.contacts.begin(), judged.contacts.end(), [&](const ExactContact& exact) {
+    return exact.collider == first->collider && exact.side == first->side && exact.foreseen;
+  });
+  const double off = std::abs(first->fraction - *judged.first_impact) * *judged.first_approach;
+  // It stops up to 7e-7 m before the impact, and the exact fraction counts from there on.
+  if (is_exact && off > guaranteed_gap)
+    note(Clause::time_of_impact, record,
+         fmt::format("says it met `{}` at {:.6g} of the step, and that is {} off along the normal",
+                     header_.ids[first->collider], first->fraction, metres(off)));
+}
+
+void RunJudge::judge_clauses(const TraceStep& record, const StepJudgement& judged) {
+  const auto name = [&](const std::vector<ColliderIndex>& colliders) {
+    return colliders.empty() ? std::string("another character") : "`" + header_.ids[colliders.front()] + "`";
+  };
+  const auto check = [&](Clause clause, bool broken, const auto& words) {
+    if (broken) note(clause, record, words());
+  };
+  check(Clause::overlap, !judged.entered.empty() || !judged.company.entered.empty(),
+        [&] { return "ends inside " + name(judged.entered); });
+  check(Clause::passage, !judged.tunnelled.empty() || !judged.company.passed.empty(),
+        [&] { return "passes through " + name(judged.tunnelled); });
+  check(Clause::one_way, !judged.one_way_broken.empty(),
+        [&] { return "passes " + name(judged.one_way_broken) + " against its normal"; });
+  check(Clause::gap, judged.max_contact_gap > guaranteed_gap,
+        [&] { return "a contact is " + metres(judged.max_contact_gap) + " away"; });
+  check(Clause::normal, judged.normal_error.value_or(0) > rounding_of_normal,
+        [&] { return fmt::format("a normal is {:.3g} degrees off", *judged.normal_error); });
+  check(Clause::sensor, judged.sensor_events_missing > 0 || judged.sensor_events_extra > 0, [&] {
+    return std::string(judged.sensor_events_missing > 0 ? "a sensor's event is missing"
+                                                        : "reports a sensor's event that was none");
+  });
+  check(Clause::sensor, judged.max_sensor_error * record.requested.norm() > guaranteed_gap,
+        [&] { return fmt::format("a sensor's event is {:.3g} of the step off", judged.max_sensor_error); });
+  check(Clause::start_inside, judged.stuck_refuted, [] { return std::string("says it is stuck beside a way out"); });
+  check(Clause::hanging, judged.hangs, [] { return std::string("hangs in the air"); });
+  check(Clause::speed_lost, judged.motion_lost > 0,
+        [&] { return "loses " + metres(judged.motion_lost) + " of its horizontal way to nothing"; });
+  check(Clause::speed_lost, judged.motion_lost == 0 && (judged.speed_lost > 0 || judged.ghost_speed_loss > 0), [&] {
+    return judged.speed_lost > 0
+               ? fmt::format("loses {:.3g} m/s to nothing", judged.speed_lost)
+               : fmt::format("loses {:.3g} % of its horizontal speed to nothing", 100 * judged.ghost_speed_loss);
+  });
+  check(Clause::velocity, judged.speed_gained > 0,
+        [&] { return fmt::format("is {:.3g} m/s faster than anything made it", judged.speed_gained); });
+  check(Clause::ground_invented, judged.ground_refuted,
+        [] { return std::string("says it is grounded with nothing under it"); });
+  check(Clause::ground_missed, judged.ground_missed,
+        [] { return std::string("stands on ground, and says it does not"); });
+  check(Clause::crush, !judged.crushed_with_room.empty(),
+        [&] { return "is crushed by " + name(judged.crushed_with_room) + " with room to give way"; });
+  check(Clause::refusal, record.path.back().position.cwiseAbs().maxCoeff() > range || !(length_of(record, header_) > 0),
+        [] { return std::string("takes a step that must be refused"); });
+  judge_times(record, judged);
+}
+
+void RunJudge::add_refused(const TraceStep& record) {
+  Follower& follower = followers_[record.character];
+  if (ways_) ways_->pass_over(record);
+  if (follower.last.empty()) return;
+  const Vec2d& start = follower.last.back().path.back().position;
+  const double dt = length_of(record, header_);
+  const Vec2d reach = follower.last.back().velocity.cwiseAbs() * dt + header_.gravity.cwiseAbs() * dt * dt +
+                      Vec2d::Constant(header_.character.jump_speed * dt);
+  const bool must = !(dt > 0) || !((start.cwiseAbs() + reach).maxCoeff() < range);
+  const bool movers_leave = !header_.scripts.empty();
+  if (!must && !movers_leave) note(Clause::refusal, record, "refuses a step that it can take: " + record.refused);
+}
+
+Breaches RunJudge::breaches() const {
+  Breaches all = breaches_;
+  metrics_.write_contact_breaches(all);
+  return all;
+}
+
+void RunJudge::write(Row& row) const {
+  metrics_.write(row);
+  const Breaches all = breaches();
+  if (contains(header_.turning, true)) row.arc_error_max_m = arc_error_;
+  if (!header_.guarantees.empty())
+    row.ground_missed = all.contains(Clause::ground_missed) ? all.at(Clause::ground_missed).steps : 0;
+  for (const auto& [clause, breach] : all) row.broken[std::string(name_of(clause))] = breach.steps;
+  if (steps_far_ > 0) row.exempted[std::string(exemptions()[static_cast<std::size_t>(Exempt::far)].name)] = steps_far_;
+  write_faults(row);
+  for (const auto& [clause, breach] : all)
+    if (contains(header_.guarantees, clause))
+      add_fault(row, Axis::safety, Verdict::violates,
+                fmt::format("breaks the clause {} on {} (step {}: {})", name_of(clause), counted(breach.steps, "step"),
+                            breach.first_step, breach.first));
+}
+
+/// Where it falls short, whatever it promises.
+void RunJudge::write_faults(Row& row) const {
+  const auto fault = [&](Axis axis, Verdict verdict, const std::string& words) {
+    add_fault(row, axis, verdict, words);
+  };
+  const auto on_steps = [&](const std::optional<int>& steps, const char* what) {
+    if (steps.value_or(0) > 0)
+      fault(Axis::progress, Verdict::flagged, fmt::format("{} on {}", what, counted(*steps, "step")));
+  };
+  if (const int unsure = row.undecided_steps.value_or(0); unsure > 0)
+    fault(Axis::safety, Verdict::flagged, fmt::format("too near to what turns to tell on {}", counted(unsure, "step")));
+  on_steps(row.dropped_steps, "drops displacement");
+  if (disagreements_ > 0)
+    fault(Axis::validity, Verdict::failed,
+          fmt::format("the judge's two methods disagree on {}", counted(disagreements_, "step")));
+  if (steps_capped_ > 0)
+    fault(Axis::validity, Verdict::flagged,
+          fmt::format("{} beyond Box2D's travel cap of 2 m per step, not scored", counted(steps_capped_, "step")));
+  if (!header_.guarantees.empty()) return;  // the rest are clauses
+  if (row.first_tunnel)                     // the first passage in words says more than how many there are
+    fault(Axis::safety, Verdict::tunnels, row.first_tunnel->words);
+  if (row.steps_ending_inside.value_or(0) > 0 && steps_broken_ > 0)
+    fault(Axis::safety, Verdict::flagged,
+          fmt::format("ends {} inside {}, up to {:.3g} m deep", counted(*row.steps_ending_inside, "step"),
+                      broke_company_ ? "a solid or another character" : "a solid", row.max_penetration_m.value_or(0)));
+  if (const int passed = row.one_way_violations.value_or(0); passed > 0)
+    fault(Axis::safety, Verdict::flagged,
+          fmt::format("passes a one-way chain against its normal on {}", counted(passed, "step")));
+  if (row.crushes_refuted.value_or(0) > 0)
+    fault(Axis::safety, Verdict::flagged,
+          fmt::format("a crush with room to give way on {}", counted(*row.crushes_refuted, "step")));
+  on_steps(row.hanging_steps, "hangs");
+  on_steps(row.stuck_refuted, "says it is stuck beside a way out");
+  on_steps(row.ground_refuted, "says it is grounded with nothing under it");
+  if (const double lost = row.wanted_motion_lost.value_or(0); lost > most_motion_lost)
+    fault(Axis::progress, Verdict::flagged,
+          fmt::format("loses {:.3g} % of its horizontal motion to nothing", 100 * lost));
+  if (const auto other = breaches_.find(Clause::wanted); other != breaches_.end())
+    fault(Axis::validity, Verdict::flagged,
+          fmt::format("was asked for another motion than the scene wants on {}", counted(other->second.steps, "step")));
+}
+
+}  // namespace paperproof::compare

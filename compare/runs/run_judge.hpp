@@ -1,0 +1,84 @@
+/// Judges a run from what its trace holds, clause by clause of the guarantee.
+#pragma once
+
+#include "metrics/metrics.hpp"
+#include "oracle/company.hpp"
+#include "oracle/intent.hpp"
+#include "oracle/judge.hpp"
+#include "oracle/mover_way.hpp"
+#include "oracle/turning.hpp"
+
+#include <memory>
+
+namespace paperproof::compare {
+
+/// Feed it every step of one run in order, then write the row. What a record says that was requested is compared with
+/// what scene, input and state ask for, and the latter is judged. Not thread-safe.
+class RunJudge {
+ public:
+  RunJudge(const TraceHeader& header, const Measured& measured);
+  RunJudge(const RunJudge&) = delete;
+  RunJudge& operator=(const RunJudge&) = delete;
+
+  /// @param records one of each character, in order. What they overlapped when the step began is written into them.
+  void add(std::span<TraceStep> records);
+  /// A step that was refused: the run ends there.
+  void add_refused(const TraceStep& record);
+
+  [[nodiscard]] const ExactScenery& solids() const noexcept { return followers_.front().judge->scenery(); }
+  [[nodiscard]] const StepJudgement& judgement(std::size_t character) const noexcept { return judgements_[character]; }
+  /// Whether no other character would be overlapped there.
+  /// @param positions of all.
+  [[nodiscard]] bool is_free(std::span<const Vec2d> positions, std::size_t character) const;
+  /// In words, where the run begins inside something; in order of characters.
+  [[nodiscard]] const std::vector<std::string>& begins_inside() const noexcept { return begins_inside_; }
+
+  /// Writes the metrics, what was broken of the guarantee, and where the run falls short.
+  void write(Row& row) const;
+  /// Every clause that a step broke, whether it was promised or not.
+  [[nodiscard]] Breaches breaches() const;
+
+ private:
+  /// What is remembered of one character from step to step.
+  struct Follower {
+    std::unique_ptr<Judge> judge;
+    Intent intent;
+    Wanted wanted{};
+    std::vector<ColliderIndex> inside{};  ///< What the octagon overlaps now, exactly.
+    std::vector<TraceStep> last{};        ///< Two steps, the earlier one first; none before the first step.
+    std::vector<Wanted> last_wanted{};
+    bool begins = true;  ///< The next step does not continue one.
+  };
+
+  void note(Clause clause, const TraceStep& record, const std::string& what);
+  void note_begin(const std::vector<TraceStep>& records);
+  void judge_course(const TraceStep& record, Follower& follower);
+  void judge_wish(const TraceStep& record, const Wanted& wanted, const Follower& follower);
+  void judge_rest(const TraceStep& record, const Follower& follower);
+  void judge_ride(const TraceStep& record, const Follower& follower);
+  void judge_clauses(const TraceStep& record, const StepJudgement& judged);
+  void judge_movers(const TraceStep& record);
+  void judge_times(const TraceStep& record, const StepJudgement& judged);
+  [[nodiscard]] bool may_respawn(const TraceStep& record, const Follower& follower) const;
+  [[nodiscard]] bool is_wall_ahead(const TraceStep& record, double move) const;
+  void write_faults(Row& row) const;
+
+  TraceHeader header_;
+  std::unique_ptr<CompanyJudge> company_;  ///< Null for one character.
+  Metrics metrics_;
+  std::vector<Follower> followers_;
+  std::optional<MoverWayJudge> ways_;            ///< None where no script is known.
+  std::optional<detail::TurningJudge> turning_;  ///< The same.
+  double arc_error_ = 0;                         ///< See `MoverWayJudgement` [m].
+  int disagreements_ = 0;                        ///< Steps on which two methods of the judge's own differ.
+  std::vector<StepJudgement> judgements_;
+  std::vector<std::string> begins_inside_;
+  Breaches breaches_;
+  int steps_ = 0;
+  int steps_broken_ = 0;  ///< Steps that entered a solid, passed one, or passed a one-way chain backwards.
+  int steps_capped_ = 0;
+  int steps_far_ = 0;           ///< Steps that begin or go farther than what is guaranteed: exempted.
+  bool broke_company_ = false;  ///< Some of `steps_broken_` are with another character.
+};
+
+}  // namespace paperproof::compare

@@ -1,0 +1,101 @@
+#include "records/schema.hpp"
+
+#include "records/metric.hpp"
+#include "records/rows_json.hpp"
+#include "records/strict_json.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+namespace paperproof::compare {
+namespace {
+
+using nlohmann::ordered_json;
+
+constexpr const char* small_schema = R"({
+  "type": "object", "required": ["name"], "additionalProperties": false,
+  "properties": {
+    "name": {"type": "string", "pattern": "^[a-z]+$"}, "kind": {"enum": ["one", "two"]}, "version": {"const": 1},
+    "count": {"type": "integer", "minimum": 0}, "length": {"type": "number"}, "sure": {"type": "boolean"},
+    "pair": {"type": "array", "minItems": 2, "maxItems": 2, "items": {"$ref": "#/$defs/inner"}},
+    "free": {"type": "object"}, "counts": {"type": "object", "additionalProperties": {"$ref": "#/$defs/count"}}
+  },
+  "$defs": {"inner": {"type": "object", "properties": {"x": {"type": "number"}}, "additionalProperties": false},
+            "count": {"type": "integer", "minimum": 0}}
+})";
+
+std::string fault(const std::string& text) {
+  return Schema(small_schema).fault(ordered_json::parse(text)).value_or("");
+}
+
+TEST(Schema, takes_what_holds) {
+  for (const char* good :
+       {R"({"name": "a"})", R"({"name": "a", "kind": "two", "version": 1, "count": 0, "length": -1.5})",
+        R"({"name": "a", "count": 3.0, "length": 2, "sure": false, "free": {"any": [null]}})",
+        R"({"name": "a", "pair": [{}, {"x": 1}], "counts": {"b": 2}})"})
+    EXPECT_EQ(fault(good), "") << good;
+}
+
+TEST(Schema, names_the_place_of_what_does_not) {
+  EXPECT_EQ(fault("[]"), "/: expected an object, not []");
+  EXPECT_EQ(fault("{}"), "/name: expected this key, which is missing");
+  EXPECT_EQ(fault(R"({"name": 1})"), "/name: expected a text, not 1");
+  EXPECT_EQ(fault(R"({"name": "A"})"), "/name: expected a text like ^[a-z]+$, not \"A\"");
+  EXPECT_EQ(fault(R"({"name": "a", "kind": "three"})"), "/kind: expected one or two, not \"three\"");
+  EXPECT_EQ(fault(R"({"name": "a", "version": 2})"), "/version: expected 1, not 2");
+  EXPECT_EQ(fault(R"({"name": "a", "count": -1})"), "/count: expected 0 or more, not -1");
+  EXPECT_EQ(fault(R"({"name": "a", "count": 1.5})"), "/count: expected a whole number, not 1.5");
+  EXPECT_EQ(fault(R"({"name": "a", "count": 1e300})"), "/count: expected a whole number, not 1e+300");
+  EXPECT_EQ(fault(R"({"name": "a", "length": null})"), "/length: expected a number, not null");
+  EXPECT_EQ(fault(R"({"name": "a", "sure": "yes"})"), "/sure: expected true or false, not \"yes\"");
+  EXPECT_EQ(fault(R"({"name": "a", "pair": [{}]})"), "/pair: expected 2 to 2 entries, not 1");
+  EXPECT_EQ(fault(R"({"name": "a", "pair": [{}, {"x": "1"}]})"), "/pair/1/x: expected a number, not \"1\"");
+  EXPECT_EQ(fault(R"({"name": "a", "pair": [{}, {"y": 1}]})"), "/pair/1/y: unknown key");
+  EXPECT_EQ(fault(R"({"name": "a", "counts": {"a/b": -2}})"), "/counts/a~1b: expected 0 or more, not -2");
+  EXPECT_EQ(fault(R"({"name": "a", "coumt": 2})"), "/coumt: unknown key; did you mean count?");
+}
+
+TEST(Schema, refuses_to_ask_less_than_it_says) {
+  EXPECT_THROW(Schema(R"({"properties": {"a": {"multipleOf": 2}}})"), std::logic_error);
+  EXPECT_THROW(Schema(R"({"$defs": {"a": {"type": "null"}}})"), std::logic_error);
+}
+
+TEST(Schema, of_rows_takes_each_metric_and_refuses_it_in_another_type) {
+  ordered_json row = row_json(Row{});
+  row["verdict"] = "holds";
+  ASSERT_EQ(rows_schema().fault(row, "row"), std::nullopt);
+  for (const Metric& metric : metrics()) {
+    const std::string key(metric.key);
+    ordered_json with = row;
+    with[key] = std::holds_alternative<std::optional<bool> Row::*>(metric.field) ? ordered_json(true) : ordered_json(1);
+    EXPECT_EQ(rows_schema().fault(with, "row"), std::nullopt) << key;
+    with[key] = "1";
+    EXPECT_TRUE(rows_schema().fault(with, "row").value_or("").starts_with("/" + key + ": expected ")) << key;
+    const bool counts = std::holds_alternative<std::optional<int> Row::*>(metric.field) ||
+                        std::holds_alternative<std::optional<std::size_t> Row::*>(metric.field);
+    if (!counts) continue;
+    with[key] = -1;
+    EXPECT_EQ(rows_schema().fault(with, "row"), "/" + key + ": expected 0 or more, not -1");
+  }
+}
+
+TEST(Schema, a_row_whose_numbers_are_not_finite_holds_as_it_is_written) {
+  Row row;
+  row.finite = false;
+  row.max_penetration_m = std::numeric_limits<double>::quiet_NaN();
+  FirstTunnel& first = row.first_tunnel.emplace();
+  first.step = 3;
+  first.collider = "a";
+  first.speed_m_s = std::numeric_limits<double>::infinity();
+  const ordered_json read = strict_json(json_line(row_json(row)), "file");
+  EXPECT_EQ(rows_schema().fault(read, "row"), std::nullopt);
+  EXPECT_FALSE(read.contains("max_penetration_m"));
+  EXPECT_FALSE(read["first_tunnel"].contains("speed_m_s"));
+  EXPECT_EQ(read["first_tunnel"]["step"], 3);
+}
+
+}  // namespace
+}  // namespace paperproof::compare

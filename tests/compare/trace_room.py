@@ -1,0 +1,140 @@
+"""Whether there was room where a trace says that a mover crushed, for check_trace.py.
+
+Room is a free place at the end of the step, at the end of a straight way that meets nothing (the way takes what is left of
+the step, and what moves goes on meanwhile), no longer than the longest motion of a crusher's vertex and 0.25 m; and no
+farther than that from where the character ended. The way begins at a corner of the travelled way, or where the crusher
+touches the character. Openings of less than 2e-7 m are closed.
+
+The places that are looked at are those where the rims of the space that each edge takes from the body cross, the middles
+between two crossings, and a fan. They are guessed in doubles, and each is tried exactly: whoever finds one has proved
+that there is room. None found is no proof that there is none.
+"""
+from fractions import Fraction
+from math import cos, hypot, pi, sin
+
+from trace_geometry import ZERO, add, hull, less
+from trace_world import wider
+
+BEYOND = 0.25  # how far may be pushed beyond the crusher's own motion [m]
+CLEAR = Fraction(1, 10**7)  # half of the narrowest opening [m]
+LEFT = 1.000001  # guesses keep so much more
+FAN = 24  # directions
+STRIDES = (0.02, 0.1, 0.25, 0.5, 0.75, 0.98)  # of the longest way
+MOST_TRIED = 400
+
+
+def crossing(a, b, c, d):
+    """Where two segments cross, in doubles; None where they do not."""
+    (ax, ay), (bx, by), (cx, cy), (dx, dy) = a, b, c, d
+    over = (bx - ax) * (dy - cy) - (by - ay) * (dx - cx)
+    if over == 0:
+        return None
+    t = ((cx - ax) * (dy - cy) - (cy - ay) * (dx - cx)) / over
+    s = ((cx - ax) * (by - ay) - (cy - ay) * (bx - ax)) / over
+    return (ax + t * (bx - ax), ay + t * (by - ay)) if 0 <= t <= 1 and 0 <= s <= 1 else None
+
+
+def is_in(point, convex):
+    return all((b[0] - a[0]) * (point[1] - a[1]) - (b[1] - a[1]) * (point[0] - a[0]) > 1e-12
+               for a, b in zip(convex, convex[1:] + convex[:1]))
+
+
+def guesses(world, motion, at, reach):
+    """Displacements from `at` (x, y, 1), the nearest first."""
+    body = wider(world.body, CLEAR * Fraction(LEFT))
+    taken = []
+    for _, edge in world.edges_near(motion, at, reach, body):
+        ends = [less(end, at[:2]) for end in edge]
+        # Around nothing larger than the reach: what lies beyond does not matter, and doubles are fine near zero.
+        taken.append([tuple(map(float, p)) for p in hull([less(end, corner) for end in ends for corner in body])])
+    rims = [(ring[k - 1], ring[k]) for ring in taken for k in range(len(ring))]
+    found = [(0.0, 0.0)]
+    found += [(d * reach * cos(2 * pi * k / FAN), d * reach * sin(2 * pi * k / FAN)) for k in range(FAN) for d in STRIDES]
+    for i, (a, b) in enumerate(rims):
+        along = (b[0] - a[0], b[1] - a[1])
+        length = along[0] ** 2 + along[1] ** 2
+        foot = -(a[0] * along[0] + a[1] * along[1]) / length if length else 0
+        places = sorted([0.0, 1.0, min(max(foot, 0.0), 1.0)] + [
+            ((p[0] - a[0]) * along[0] + (p[1] - a[1]) * along[1]) / length
+            for j, other in enumerate(rims) if j != i for p in [crossing(a, b, *other)] if p and length])
+        shares = places + [(p + q) / 2 for p, q in zip(places, places[1:])]
+        found += [(a[0] + s * along[0], a[1] + s * along[1]) for s in shares]
+    near = {d for d in found if hypot(*d) <= reach}
+    return sorted((d for d in near if not any(is_in(d, ring) for ring in taken)), key=lambda d: hypot(*d))
+
+
+class Room:
+    def __init__(self, world, motion, sides, others_free):
+        """`sides`: by collider, the body's place as the collider saw it when it was last free of what it overlaps now.
+        `others_free(way)`: whether the other characters leave a way free."""
+        self.world, self.motion, self.sides, self.others_free = world, motion, sides, others_free
+
+    def starts(self, path, crushers):
+        """(corners of the way so far) where a way may begin: no later than something that crushes is met."""
+        for k, (corner, following) in enumerate(zip(path, path[1:])):
+            if corner[2] < 1:
+                yield path[:k + 1]
+            if any(self.world.met(name, self.motion, corner, following) is not False for name in crushers):
+                touch = self.touched(corner, following, crushers)
+                if touch and corner[2] < touch[2] < 1:
+                    yield path[:k + 1] + [touch]
+                return
+
+    def touched(self, corner, following, crushers):
+        """The last place on a leg that is known to come before the crushers."""
+        first, last = ZERO, Fraction(1)
+        for _ in range(40):
+            middle = (first + last) / 2
+            there = tuple(a + middle * (b - a) for a, b in zip(corner, following))
+            if any(self.world.met(name, self.motion, corner, there) is not False for name in crushers):
+                last = middle
+            else:
+                first = middle
+        return tuple(a + first * (b - a) for a, b in zip(corner, following)) if first else None
+
+    def find(self, path, crushers):
+        """The end of a way, or None."""
+        reach = max(self.motion.longest(name) for name in crushers) + BEYOND
+        for so_far in self.starts(path, crushers):
+            start = so_far[-1]
+            # Each wider body begins where the body is: what it overlaps there it need not be clear of.
+            body = wider(self.world.body, CLEAR)
+            inside = self.world.overlapped(self.motion, start)
+            close = self.world.overlapped(self.motion, start, body)
+            tried = 0
+            for d in guesses(self.world, self.motion, (*start[:2], Fraction(1)), reach):
+                there = (start[0] + Fraction(d[0]), start[1] + Fraction(d[1]), Fraction(1))
+                if hypot(*map(float, less(there[:2], path[-1][:2]))) > reach:
+                    continue
+                tried += 1
+                if self.is_room(start, there, inside, close, body) and self.others_free(so_far + [there]):
+                    return there
+                if tried == MOST_TRIED:
+                    break
+        return None
+
+    def way_out(self, start, reach):
+        """The end of a straight way out of what is overlapped at a corner, as things are then; or None."""
+        there = (*start[:2], start[2])
+        body = wider(self.world.body, CLEAR)
+        inside = self.world.overlapped(self.motion, start)
+        close = self.world.overlapped(self.motion, start, body)
+        for d in guesses(self.world, self.motion, there, reach)[:MOST_TRIED]:
+            end = (start[0] + Fraction(d[0]), start[1] + Fraction(d[1]), start[2])
+            if self.is_room(start, end, inside, close, body) and self.others_free([start, end]):
+                return end
+        return None
+
+    def is_room(self, start, there, inside, close, body):
+        world, motion = self.world, self.motion
+        for name in world.solids:
+            if world.colliders[name].one_way is None and world.met(name, motion, there, there, body) is not False:
+                return False
+            if name in inside:
+                if name in self.sides and world.meets(
+                        name, self.sides[name], less(motion.seen(name, there), self.sides[name]), world.body):
+                    return False
+                continue
+            if world.met(name, motion, start, there, world.body if name in close else body) is not False:
+                return False
+        return True
