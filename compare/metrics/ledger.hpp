@@ -41,7 +41,7 @@ enum class EventKind : std::uint8_t {
 /// - `event_latency`: exact arithmetic has the contact for Box2D's motion in this step. Box2D reports it in the next
 ///   one, and is no more than 20 mm away.
 /// - `response_law`: both report the same surfaces, and both velocities are what the two laws make of the wanted one,
-///   in closed form: see metrics/response_laws.hpp.
+///   in closed form: see oracle/response_laws.hpp.
 /// - `solver_iterations`: Box2D's velocity is what 8 rounds of impulses at two surfaces leave, short of its own law.
 /// - `outline`: Box2D cannot have vertices closer than 5 mm. Where the scenery has such, the twin's loops are up to
 ///   5 mm off: its velocity is what its law makes with the normal that it reports, or with one tilted by as much.

@@ -2,7 +2,6 @@
 
 #include "metrics/rest.hpp"
 #include "oracle/exemptions.hpp"
-#include "oracle/turning_room.hpp"
 
 #include <fmt/format.h>
 
@@ -43,31 +42,6 @@ std::vector<ColliderIndex> crossed(const StepJudgement& judged) {
 
 }  // namespace
 
-const ExactScenery& SolidsInStep::at(double fraction) const {
-  if (step_.vertex_ways.empty()) return *who_.solids;
-  std::unique_ptr<ExactScenery>& there = turned_[fraction];
-  if (!there)
-    there = std::make_unique<ExactScenery>(standing_at(who_.header->scenery, step_, fraction), who_.header->points);
-  return *there;
-}
-
-double SolidsInStep::gap_on_way(ColliderIndex collider) const {
-  double gap = std::numeric_limits<double>::infinity();
-  for (const PathPoint<double>& corner : step_.path)
-    gap = std::min(gap, at(corner.fraction).separation(Place(corner, step_.movers), collider));
-  return gap;
-}
-
-Vec2d moved_by_step(const TraceHeader& header, const TraceStep& step, ColliderIndex collider, const Vec2d& point,
-                    double fraction) {
-  const MoverIndex mover = header.scenery.colliders[collider].mover;
-  if (mover == no_mover) return Vec2d::Zero();
-  const VertexWay* turning = find_way(step.vertex_ways, collider);
-  if (turning == nullptr) return step.movers[mover].to - step.movers[mover].from;
-  const std::vector<Vec2d> then = vertices_at(*turning, fraction);
-  return RigidMotion(then, turning->vertices.back())(point) - RigidMotion(then, turning->vertices.front())(point);
-}
-
 StepLedger::StepLedger(const LedgerParty& mine, const LedgerParty& reference, const Ledger::View& view,
                        const Known& known)
     : mine_(mine),
@@ -76,8 +50,8 @@ StepLedger::StepLedger(const LedgerParty& mine, const LedgerParty& reference, co
       now_(view.now()),
       m_(now_.mine.step),
       r_(now_.reference.step),
-      mine_solids_(mine, m_),
-      reference_solids_(reference, r_),
+      mine_solids_(*mine.header, *mine.solids, m_),
+      reference_solids_(*reference.header, *reference.solids, r_),
       dt_(length_of(m_, *mine.header)) {
   const auto at = [&](std::size_t k, int step) -> const Ledger::Moment* {
     return k < view.around.size() && view.around[k].mine.step.step == step ? &view.around[k] : nullptr;
@@ -240,7 +214,7 @@ void StepLedger::add_contacts() {
 
 /// Relative to what the collider goes along with [m].
 Vec2d StepLedger::wanted_of_reference(const Touch& touch) const {
-  return r_.requested - moved_by_step(*reference_.header, r_, touch.collider, touch.point, touch.fraction);
+  return r_.requested - reference_solids_.moved(touch.collider, touch.point, touch.fraction);
 }
 
 /// From where Box2D was at the time that it reports, to the collider [m].
@@ -331,7 +305,8 @@ void StepLedger::add_toggle() {
     event.cause = Cause::skin;
     for (const Ledger::Moment* moment : {before_, &now_})
       for (const Touch& touch : moment->reference.step.contacts)
-        if (!within_skin(SolidsInStep(reference_, moment->reference.step).gap_on_way(touch.collider)))
+        if (!within_skin(SolidsInStep(*reference_.header, *reference_.solids, moment->reference.step)
+                             .gap_on_way(touch.collider)))
           event.cause.reset();
   }
   events_.push_back(std::move(event));

@@ -3,13 +3,11 @@
 
 #include "contains.hpp"
 #include "metrics/ledger.hpp"
-#include "metrics/response_laws.hpp"
 #include "oracle/contacts.hpp"
+#include "oracle/met_surfaces.hpp"
 
 #include <algorithm>
 #include <limits>
-#include <map>
-#include <memory>
 #include <utility>
 
 namespace paperproof::compare::detail {
@@ -35,27 +33,6 @@ inline constexpr double longest_way = 2;
 }
 
 [[nodiscard]] inline bool is_inside(const TraceStep& step) { return !step.start_overlap.empty(); }
-
-/// The solids of one side in one step, with what turns standing where it is at the moment that is asked about. Both
-/// must outlive it.
-class SolidsInStep {
- public:
-  SolidsInStep(const LedgerParty& who, const TraceStep& step) : who_(who), step_(step) {}
-  /// @param fraction of the step.
-  [[nodiscard]] const ExactScenery& at(double fraction) const;
-  /// The smallest separation from a collider over the corners of the way [m].
-  [[nodiscard]] double gap_on_way(ColliderIndex collider) const;
-
- private:
-  const LedgerParty& who_;
-  const TraceStep& step_;
-  mutable std::map<double, std::unique_ptr<ExactScenery>> turned_;
-};
-
-/// How far a step takes a point of a collider [m].
-/// @param fraction of the step at which the point is there.
-[[nodiscard]] Vec2d moved_by_step(const TraceHeader& header, const TraceStep& step, ColliderIndex collider,
-                                  const Vec2d& point, double fraction);
 
 /// Finds what two sides differ about in one step, and why: see `Ledger`. Lives for one step.
 class StepLedger {
@@ -104,7 +81,6 @@ class StepLedger {
   [[nodiscard]] bool reports_next(const Touch& touch) const;
   [[nodiscard]] bool is_capped_before(const Touch& touch) const;
   [[nodiscard]] std::optional<Cause> within_skin(double gap) const;
-  [[nodiscard]] std::vector<MetSurface> met_by_mine() const;
   [[nodiscard]] std::vector<MetSurface> near_reference() const;
   [[nodiscard]] bool is_turned_by_ghost() const;
   [[nodiscard]] double gap_when_reported(const Touch& touch) const;

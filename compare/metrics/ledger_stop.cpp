@@ -1,19 +1,18 @@
 /// What a step takes of the wanted motion, and by which law: the part of the ledger about stops.
 #include "metrics/ledger_step.hpp"
 
-#include "oracle/turning_room.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
+#include <limits>
 
 namespace paperproof::compare::detail {
 namespace {
 
-/// Velocities of one law differ by less, as a share of the wanted one: in double, and in Box2D's float.
-constexpr double same_velocity = 1e-9;
+/// Velocities of Box2D's law differ by less, as a share of the wanted one: they are in float.
 constexpr double same_velocity_in_float = 1e-5;
+/// Exact normals of one direction.
+constexpr double same_normal = 1e-9;
 /// A normal that Box2D reports is of the face whose normal is as near as this: it is in float.
 constexpr double one_normal = 1e-5;
 /// Rounds of Box2D's velocity solver.
@@ -31,21 +30,19 @@ double width_of(const std::vector<Vec2d>& hull) {
 
 Vec2d way_of(const TraceStep& step) { return step.path.back().position - step.path.front().position; }
 
-/// Of a surface that goes along with its mover and may be a conveyor [m/s].
-Vec2d velocity_of(const LedgerParty& who, const TraceStep& step, const Touch& touch, double dt) {
-  const ColliderDef& collider = who.header->scenery.colliders[touch.collider];
-  const Vec2d conveyed = collider.surface_speed * Vec2d(touch.normal.y(), -touch.normal.x());
-  return conveyed + moved_by_step(*who.header, step, touch.collider, touch.point, touch.fraction) / dt;
-}
-
-/// What turns has no one velocity. By so much those of a collider differ over the size of the character [m/s].
-double spread_of(const LedgerParty& who, const TraceStep& step, ColliderIndex collider, double dt) {
-  const VertexWay* turning = find_way(step.vertex_ways, collider);
-  if (turning == nullptr) return 0;
-  double size = 0;
-  for (const Vec2d& a : who.header->points)
-    for (const Vec2d& b : who.header->points) size = std::max(size, (a - b).norm());
-  return std::abs(RigidMotion(turning->vertices.front(), turning->vertices.back()).angle()) * size / dt;
+/// The length of the side of the character that faces a surface with that normal [m]; 0 where a corner does.
+double side_towards(const std::vector<Vec2d>& hull, const Vec2d& normal) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Vec2d& point : hull) lowest = std::min(lowest, point.dot(normal));
+  const Vec2d along(normal.y(), -normal.x());
+  double from = std::numeric_limits<double>::infinity();
+  double to = -from;
+  for (const Vec2d& point : hull) {
+    if (point.dot(normal) > lowest + box2d_skin) continue;
+    from = std::min(from, point.dot(along));
+    to = std::max(to, point.dot(along));
+  }
+  return to - from;
 }
 
 double widest_spread(std::span<const MetSurface> surfaces) {
@@ -56,25 +53,11 @@ double widest_spread(std::span<const MetSurface> surfaces) {
 
 }  // namespace
 
-std::vector<MetSurface> StepLedger::met_by_mine() const {
-  const double least_up = std::cos(mine_.header->character.max_climb_degrees * std::numbers::pi / 180) - 1e-12;
-  std::vector<MetSurface> surfaces;
-  for (const Touch& touch : m_.contacts) {
-    const bool walkable = touch.normal.y() >= least_up;
-    const Vec2d velocity = velocity_of(mine_, m_, touch, dt_);
-    // Ground carries; walls impart nothing along themselves.
-    const Vec2d imparted = walkable ? velocity : Vec2d(velocity.dot(touch.normal) * touch.normal);
-    const double spread = spread_of(mine_, m_, touch.collider, dt_);
-    surfaces.push_back({touch.normal, imparted, walkable, touch.fraction >= 1, spread});
-  }
-  return surfaces;
-}
-
 std::vector<MetSurface> StepLedger::near_reference() const {
   std::vector<MetSurface> surfaces;
   const auto add = [&](const Vec2d& normal, const Vec2d& velocity, double spread) {
     const bool known = std::any_of(surfaces.begin(), surfaces.end(), [&](const MetSurface& one) {
-      return (one.normal - normal).norm() < same_velocity && one.velocity == velocity;
+      return (one.normal - normal).norm() < same_normal && one.velocity == velocity;
     });
     if (!known) surfaces.push_back({.normal = normal, .velocity = velocity, .spread = spread});
   };
@@ -93,9 +76,8 @@ std::vector<MetSurface> StepLedger::near_reference() const {
         const Vec2d foot = *std::min_element(hull.begin(), hull.end(), [&](const Vec2d& a, const Vec2d& b) {
           return a.dot(face.normal) < b.dot(face.normal);
         });
-        const Vec2d moved =
-            moved_by_step(*reference_.header, r_, part.collider, corner.position + foot, corner.fraction);
-        add(face.normal, moved / dt_, spread_of(reference_, r_, part.collider, dt_));
+        const Vec2d moved = reference_solids_.moved(part.collider, corner.position + foot, corner.fraction);
+        add(face.normal, moved / dt_, reference_solids_.spread(part.collider, moved, side_towards(hull, face.normal)));
       }
   return surfaces;
 }
@@ -126,11 +108,17 @@ void StepLedger::add_stop() {
 }
 
 bool StepLedger::follows_our_law() const {
-  const Vec2d wanted = m_.requested / dt_;
-  const SteeredVelocity steered{wanted, wanted - Vec2d(m_.steered / dt_, 0)};
-  const std::vector<MetSurface> met = met_by_mine();
-  return distance_from(controlled_outcomes(steered, met), m_.velocity) <=
-         same_velocity * std::max(1.0, wanted.norm()) + widest_spread(met);
+  const Vec2d up = up_in(m_, *mine_.header);
+  ControlledStep step{.wanted = m_.requested / dt_, .up = up};
+  step.unsteered = step.wanted - m_.steered / dt_ * Vec2d(up.y(), -up.x());
+  step.side_hit_ends_rise = mine_.header->character.side_hit_ends_rise;
+  const auto follows = [&](bool grounded) {
+    const bool walks = begins_as_walk(*mine_.header, m_, grounded, step.wanted);
+    return !velocity_fault(step, met_surfaces(mine_solids_, m_.contacts, walks), m_.velocity);
+  };
+  if (m_.respawn) return follows(m_.from && m_.from->grounded);
+  if (before_ != nullptr) return follows(before_->mine.step.grounded);
+  return follows(false) || follows(true);  // a step that is not compared is not known
 }
 
 bool StepLedger::follows_box2ds_law(std::optional<Cause>& otherwise) const {
@@ -148,7 +136,8 @@ bool StepLedger::follows_box2ds_law(std::optional<Cause>& otherwise) const {
     if (moment == nullptr) continue;
     const TraceStep& step = moment->reference.step;
     for (const Touch& touch : step.contacts)
-      reported.push_back({.normal = touch.normal, .velocity = velocity_of(reference_, step, touch, dt_)});
+      reported.push_back({.normal = touch.normal,
+                          .velocity = velocity_of(SolidsInStep(*reference_.header, *reference_.solids, step), touch)});
     kept = step.velocity - step.requested / dt_;
   }
   const double tilt = least_edge / width_of(reference_.header->points);

@@ -1,6 +1,7 @@
 #include "oracle/intent.hpp"
 
 #include "oracle/exemptions.hpp"
+#include "oracle/up.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,12 +15,6 @@ constexpr double climb_margin = 1e-8;
 /// Relative: a few operations in the number type of the contender.
 constexpr double share_of_double = 1e-12;
 constexpr double share_of_float = 1e-5;
-
-/// Components as a character with that up sees them: across up, to the right, and along it.
-Vec2d seen(const Vec2d& v, const Vec2d& up) { return {v.x() * up.y() - v.y() * up.x(), v.dot(up)}; }
-Vec2d in_world(const Vec2d& v, const Vec2d& up) {
-  return {v.x() * up.y() + v.y() * up.x(), v.y() * up.y() - v.x() * up.x()};
-}
 
 Vec2d way_of(const MoverMotion<double>& motion) { return motion.to - motion.from; }
 

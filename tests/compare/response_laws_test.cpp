@@ -1,10 +1,18 @@
 /// What becomes of a velocity that met surfaces: both laws in closed form.
-#include "metrics/response_laws.hpp"
+#include "oracle/response_laws.hpp"
+
+#include "support/random.hpp"
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
 
 namespace paperproof::compare {
 namespace {
@@ -12,8 +20,7 @@ namespace {
 const double half = std::sqrt(0.5);
 
 MetSurface surface(double x, double y, bool walkable = false) {
-  MetSurface one;
-  one.normal = {x, y};
+  MetSurface one{.normal = {x, y}};
   one.walkable = walkable;
   return one;
 }
@@ -85,7 +92,7 @@ TEST(ControlledLaw, ends_between_ground_and_what_pushes_along_it) {
 }
 
 TEST(ControlledLaw, keeps_the_horizontal_part_on_walkable_ground_alone) {
-  const SteeredVelocity walk{{1, -0.5}, {1, -0.5}};
+  const ControlledStep walk{{1, -0.5}, {1, -0.5}};
   const std::array ground{surface(-half, half, true)};
   EXPECT_TRUE(has(controlled_outcomes(walk, ground), {1, 1}));
   const std::array steep{surface(-half, half)};
@@ -96,8 +103,8 @@ TEST(ControlledLaw, keeps_the_horizontal_part_on_walkable_ground_alone) {
 
 TEST(ControlledLaw, steering_holds_no_fall) {
   const std::array steep{surface(-half, half)};
-  const SteeredVelocity uphill{{1, -2}, {0, -2}};
-  const SteeredVelocity idle{{0, -2}, {0, -2}};
+  const ControlledStep uphill{{1, -2}, {0, -2}};
+  const ControlledStep idle{{0, -2}, {0, -2}};
   EXPECT_TRUE(has(controlled_outcomes(uphill, steep), {-1, -1}));
   EXPECT_TRUE(has(controlled_outcomes(idle, steep), {-1, -1}));
   EXPECT_FALSE(has(controlled_outcomes(uphill, steep), {-0.5, -0.5}));
@@ -122,16 +129,217 @@ TEST(ControlledLaw, a_slide_ends_on_the_floor_that_it_comes_to) {
 }
 
 TEST(ControlledLaw, steering_that_a_wall_took_is_there_again_when_the_wall_is_left) {
-  const std::array past{surface(1, 0), surface(0, 1, true)};
-  EXPECT_TRUE(has(controlled_outcomes({{-1, -4}, {0, -4}}, past), {-1, 0}));
+  std::array past{surface(1, 0), surface(0, 1, true)};
   EXPECT_TRUE(has(controlled_outcomes({{-1, -4}, {0, -4}}, past), {0, 0})) << "beside the wall";
+  past[0].left = past[1].met = 0.5;
+  EXPECT_TRUE(has(controlled_outcomes({{-1, -4}, {0, -4}}, past), {-1, 0}));
+  EXPECT_FALSE(has(controlled_outcomes({{-1, -4}, {0, -4}}, past), {0, 0}));
 }
 
 TEST(ControlledLaw, what_is_only_touched_where_the_step_ends_takes_nothing) {
   std::array floor{surface(0, 1, true)};
-  floor[0].at_end = true;
+  floor[0].met = 1;
   EXPECT_TRUE(has(controlled_outcomes({{1, -3}, {1, -3}}, floor), {1, -3}));
   EXPECT_TRUE(has(controlled_outcomes({{1, -3}, {1, -3}}, floor), {1, 0})) << "ground is followed";
+}
+
+const Vec2d upright(0, 1);
+
+/// Of an upright character whose climb limit is 50 degrees, at surfaces that rest.
+class RandomLaw : public testing::Test {
+ protected:
+  static constexpr double climb_limit = 50 * std::numbers::pi / 180;
+
+  /// @param along_axes how many look up, down, left or right.
+  MetSurface random_surface(double along_axes) {
+    const double angle = random_.chance(along_axes) ? random_.integer(0, 3) * std::numbers::pi / 2 : random_.angle();
+    const Vec2d normal(std::sin(angle), std::cos(angle));
+    MetSurface one{.normal = normal};
+    one.walkable = normal.y() >= std::cos(climb_limit);
+    one.is_side = std::abs(normal.x()) > std::abs(normal.y());
+    return one;
+  }
+  ControlledStep random_step() {
+    const double speed = random_.log_between(0.01, 100);
+    const double angle = random_.angle();
+    const double steering = random_.chance(0.4) ? 0 : random_.between(-1, 1) * speed;
+    ControlledStep step{.unsteered = speed * Vec2d(std::cos(angle), std::sin(angle))};
+    step.wanted = step.unsteered + Vec2d(steering, 0);
+    return step;
+  }
+  /// The one velocity that the law makes.
+  static Vec2d outcome(const ControlledStep& step, std::span<const MetSurface> surfaces) {
+    const std::vector<Vec2d> all = controlled_outcomes(step, surfaces);
+    EXPECT_EQ(all.size(), 1U);
+    return all.front();
+  }
+  static double size_of(const ControlledStep& step) { return std::max(step.wanted.norm(), step.unsteered.norm()); }
+  /// Only that velocity is faultless, in the frame of any up.
+  void expect_only(const ControlledStep& step, const std::vector<MetSurface>& surfaces, const Vec2d& velocity) {
+    const double up_angle = random_.angle();
+    const Eigen::Rotation2Dd turn(up_angle);
+    ControlledStep turned = step;
+    turned.wanted = turn * step.wanted;
+    turned.unsteered = turn * step.unsteered;
+    turned.up = turn * upright;
+    std::vector<MetSurface> there = surfaces;
+    for (MetSurface& at : there) at.normal = turn * at.normal;
+    EXPECT_EQ(velocity_fault(step, surfaces, velocity), std::nullopt);
+    // 1e-9 of the wanted velocity, at least 1 m/s, is allowed; turning adds some ulps.
+    EXPECT_EQ(velocity_fault(turned, there, turn * velocity), std::nullopt);
+    const double off = 1e-8 * std::max(1.0, size_of(step));
+    const double angle = random_.angle();
+    const Vec2d wrong = velocity + off * Vec2d(std::cos(angle), std::sin(angle));
+    EXPECT_TRUE(velocity_fault(step, surfaces, wrong).has_value());
+    EXPECT_TRUE(velocity_fault(turned, there, turn * wrong).has_value());
+  }
+
+  static constexpr std::uint64_t seed = 28;
+  paperproof::test::Random random_{seed};
+};
+
+/// What §4 of the design says of one contact.
+TEST_F(RandomLaw, of_one_contact_is_that_of_the_design) {
+  constexpr int all = 20'000;
+  int leaves = 0, ground = 0, steep = 0, pressed = 0, ceilings = 0, climbs = 0;
+  for (int k = 0; k < all && !HasFailure(); ++k) {
+    SCOPED_TRACE("seed " + std::to_string(seed) + ", case " + std::to_string(k));
+    MetSurface at = random_surface(0.2);
+    at.climbs = random_.chance(0.3);
+    const ControlledStep step = random_step();
+    const std::array surfaces{at};
+    const Vec2d v = outcome(step, surfaces);
+    const Vec2d w = step.wanted;
+    const Vec2d steering = w - step.unsteered;
+    const double rounding = 1e-12 * size_of(step);
+    if (w.dot(at.normal) >= 0) {
+      ++leaves;
+      EXPECT_EQ(v, w);
+    } else if (w.dot(at.normal) < -1e-6 * size_of(step)) {
+      EXPECT_GE(v.dot(at.normal), -1e-9 * size_of(step)) << "it enters no more";
+      if (at.walkable) {
+        ++ground;
+        EXPECT_NEAR(v.x(), w.x(), rounding) << "the part across up is kept";
+        EXPECT_NEAR(v.dot(at.normal), 0, rounding) << "by following the surface";
+      } else if (at.normal.y() >= 0) {
+        ++steep;
+        ControlledStep idle{.wanted = step.unsteered, .unsteered = step.unsteered};
+        if (steering.dot(at.normal) < 0) {
+          ++pressed;
+          EXPECT_NEAR(v.y(), outcome(idle, surfaces).y() > 0 && at.climbs ? 0 : outcome(idle, surfaces).y(), rounding)
+              << "the key uphill changes no height";
+        } else {
+          EXPECT_LE(v.y(), std::max(w.y(), 0.0) + rounding) << "a fall becomes no climb";
+        }
+        if (steering.isZero(0) && w.x() * at.normal.x() < 0) {
+          const Vec2d u(0, at.climbs ? std::min(w.y(), 0.0) : w.y());  // what presses in dies
+          const Vec2d expected = u - std::min(u.dot(at.normal), 0.0) * at.normal;
+          EXPECT_LE((v - expected).norm(), rounding);
+        }
+      } else {
+        ++ceilings;
+        const bool rises = w.y() > 0;
+        climbs += rises && at.climbs ? 1 : 0;
+        if (rises && at.climbs) {
+          EXPECT_EQ(v, Vec2d(Vec2d::Zero())) << "the climb of a walk ends with the walk";
+        }
+        if (rises && !at.climbs) {
+          EXPECT_LE((v - (w - w.dot(at.normal) * at.normal)).norm(), rounding);
+        }
+        if (!rises) {
+          EXPECT_NEAR(v.y(), w.y(), rounding) << "a fall goes on";
+        }
+      }
+    }
+    EXPECT_LE(v.norm(), size_of(step) / std::cos(climb_limit) + rounding) << "nothing gives speed";
+    expect_only(step, {at}, v);
+  }
+  EXPECT_GE(leaves, all / 3);
+  EXPECT_LE(leaves, all * 2 / 3);
+  for (const int some : {ground, steep, ceilings}) EXPECT_GE(some, all / 20);
+  for (const int some : {pressed, climbs}) EXPECT_GE(some, all / 50);
+}
+
+/// Two surfaces that are both touched: what is left enters neither, and both together end what only both can hold.
+TEST_F(RandomLaw, of_two_contacts_enters_neither) {
+  constexpr int all = 20'000;
+  int held = 0, second_only = 0;
+  for (int k = 0; k < all && !HasFailure(); ++k) {
+    SCOPED_TRACE("seed " + std::to_string(seed) + ", case " + std::to_string(k));
+    // Where the normals are square to each other rounding decides whether the second response enters the first again.
+    std::vector<MetSurface> two{random_surface(0), random_surface(0)};
+    two[0].met = 0.25;
+    two[1].met = 0.5;
+    ControlledStep step = random_step();
+    const Vec2d& a = two[0].normal;
+    const Vec2d& b = two[1].normal;
+    if (std::abs(a.x() * b.y() - a.y() * b.x()) < 1e-3) continue;  // of one direction
+    const Vec2d v = outcome(step, two);
+    const double size = size_of(step);
+    const Vec2d alone = outcome(step, std::span(two).first(1));
+    const bool both = step.wanted.dot(a) < 0 && alone.dot(b) < -1e-6 * size;
+    // Steering that a steep surface took is there again on the ground behind it.
+    const double most = step.unsteered.norm() + (step.wanted - step.unsteered).norm();
+    EXPECT_LE(v.norm(), most / std::cos(climb_limit) * (1 + 1e-12));
+    if (step.wanted.dot(a) < -1e-6 * size) {
+      EXPECT_GE(v.dot(a), -1e-8 * size);
+    }
+    if (both) {
+      EXPECT_GE(v.dot(b), -1e-8 * size);
+    }
+    if (alone.dot(b) >= 0) {
+      EXPECT_EQ(v, alone);
+    }
+    const std::vector<MetSurface> only_second{two[1]};
+    const Vec2d in_turns = outcome({.wanted = alone, .unsteered = alone}, only_second);
+    const bool is_steered = step.wanted != step.unsteered;
+    if (both && !is_steered && in_turns.dot(a) < -1e-6 * size) {
+      ++held;
+      EXPECT_LE(v.norm(), 1e-8 * size) << "each response enters the other surface";
+    }
+    if (both && !is_steered) {
+      std::vector<MetSurface> left = two;
+      left[0].left = left[1].met;
+      EXPECT_LE((outcome(step, left) - in_turns).norm(), 1e-12 * size) << "a surface that was left holds nothing";
+      ++second_only;
+    }
+    expect_only(step, two, v);
+  }
+  EXPECT_GE(held, all / 100);
+  EXPECT_GE(second_only, all / 40);
+}
+
+TEST(VelocityFault, allows_by_how_much_a_turning_surface_is_not_known) {
+  std::array ground{surface(0, 1, true)};
+  ground[0].spread = 0.01;
+  EXPECT_EQ(velocity_fault({{1, -1}, {1, -1}}, ground, {1.0099, 0}), std::nullopt);
+  EXPECT_TRUE(velocity_fault({{1, -1}, {1, -1}}, ground, {1.0101, 0}).has_value());
+}
+
+TEST(VelocityFault, names_what_is_expected) {
+  const std::optional<std::string> fault =
+      velocity_fault({{1, -1}, {1, -1}}, std::array{surface(0, 1, true)}, {0.5, 0});
+  EXPECT_EQ(fault, "ends with (0.5, 0) m/s; of (1, -1) the law makes (1, 0) at 1 surfaces");
+}
+
+TEST(ControlledLaw, the_articles_rule_ends_a_rise_at_a_side) {
+  std::array wall{surface(-1, 0)};
+  wall[0].is_side = true;
+  const Vec2d jump(3, 5);
+  EXPECT_TRUE(has(controlled_outcomes({.wanted = jump, .unsteered = jump}, wall), {0, 5}));
+  const ControlledStep ruled{.wanted = jump, .unsteered = jump, .side_hit_ends_rise = true};
+  EXPECT_TRUE(has(controlled_outcomes(ruled, wall), {0, 0}));
+  EXPECT_FALSE(has(controlled_outcomes(ruled, wall), {0, 5}));
+}
+
+/// A lift carries one that lands on it without speed across up, and one that has some keeps it.
+TEST(ControlledLaw, a_landing_without_speed_across_up_may_be_carried_at_once) {
+  std::array lift{surface(0, 1, true)};
+  lift[0].velocity = {2, 1};
+  const auto lands = [&](const Vec2d& v) { return controlled_outcomes({.wanted = v, .unsteered = v}, lift); };
+  EXPECT_TRUE(has(lands({0, -3}), {2, 1}));
+  EXPECT_TRUE(has(lands({0.5, -3}), {0.5, 1}));
+  EXPECT_FALSE(has(lands({0.5, -3}), {2, 1}));
 }
 
 }  // namespace

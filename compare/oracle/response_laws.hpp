@@ -3,7 +3,10 @@
 
 #include <paperproof/types.hpp>
 
+#include <limits>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace paperproof::compare {
@@ -13,8 +16,11 @@ struct MetSurface {
   Vec2d normal{Vec2d::Zero()};    ///< Unit, towards the character.
   Vec2d velocity{Vec2d::Zero()};  ///< Of what it goes along with, a conveyor's surface included [m/s].
   bool walkable = false;          ///< Within the climb limit of the character.
-  bool at_end = false;            ///< Only touched where the step ends: it takes nothing, but ground is followed.
-  double spread = 0;              ///< Where it turns: by so much its velocities differ over the character [m/s].
+  bool is_side = false;           ///< Touches the left or right side of the character.
+  bool climbs = false;            ///< A rise that comes to it is the climb of a walk, whose ground is still touched.
+  double met = 0;                 ///< When it was met, as a fraction of the step; 1: only touched where that ends.
+  double left = std::numeric_limits<double>::infinity();  ///< From then on it is touched no more.
+  double spread = 0;  ///< Where it turns: by so much its velocity is not known [m/s].
 };
 
 /// The velocities that impulses without friction and restitution can make of `wanted` at one or two of the surfaces,
@@ -37,20 +43,29 @@ struct MetSurface {
 [[nodiscard]] bool is_turned_by_tilt(const Vec2d& wanted, const Vec2d& velocity, std::span<const MetSurface> surfaces,
                                      double tilt);
 
-/// A velocity that is wanted, and the part of it that is there without this step's steering [m/s].
-struct SteeredVelocity {
-  Vec2d wanted{Vec2d::Zero()};
-  Vec2d unsteered{Vec2d::Zero()};
+/// What a step of octagon_sweep begins with.
+struct ControlledStep {
+  Vec2d wanted{Vec2d::Zero()};      ///< Velocity [m/s].
+  Vec2d unsteered{Vec2d::Zero()};   ///< The part of it that is there without this step's steering [m/s].
+  Vec2d up{Vec2d::UnitY()};         ///< Unit vector.
+  bool side_hit_ends_rise = false;  ///< See `CharacterDef::side_hit_ends_rise`.
 };
 
-/// The velocities that the law of octagon_sweep can make of `velocity` at the surfaces, met in their order. Walkable
-/// ground keeps the horizontal part, steering holds no fall, a ceiling ends a rise; two surfaces that both hold the
-/// motion end it, unless the fall of the unsteered velocity goes on between them. There are several because a
-/// trace does not say whether a climb came from a walk, whether a surface had been left when the next one was met,
-/// whether what is touched where the step ends was met or is only followed, and whether a landing without sideways
-/// speed is carried at once.
-[[nodiscard]] std::vector<Vec2d> controlled_outcomes(const SteeredVelocity& velocity,
-                                                     std::span<const MetSurface> surfaces);
+/// The velocities that the law of octagon_sweep (§4 of the design) can make in a step at the surfaces, met in their
+/// order. Walkable ground keeps the part across up, steering holds no fall, a ceiling ends a rise; two surfaces that
+/// both hold the motion end it, unless the fall of the unsteered velocity goes on between them.
+///
+/// There are several only where a trace does not say, of a surface that is touched where the step ends, whether it was
+/// met by rounding, was ground that is followed, or takes nothing; and of ground that moves, whether a landing without
+/// speed across up is carried at once.
+[[nodiscard]] std::vector<Vec2d> controlled_outcomes(const ControlledStep& step, std::span<const MetSurface> surfaces);
+
+/// What is wrong with the velocity at the end of a step: it is none of `controlled_outcomes`, as far as rounding and
+/// `MetSurface::spread` go. Nothing where it is one. The law knows the surfaces alone. It is not that of a step that
+/// began inside something, was crushed, stuck or dropped motion, met another character, climbed a stair, or consisted
+/// of shorter steps.
+[[nodiscard]] std::optional<std::string> velocity_fault(const ControlledStep& step,
+                                                        std::span<const MetSurface> surfaces, const Vec2d& velocity);
 
 /// The smallest distance of a velocity from any of the outcomes [m/s].
 [[nodiscard]] double distance_from(std::span<const Vec2d> outcomes, const Vec2d& velocity);

@@ -1,4 +1,8 @@
-#include "metrics/response_laws.hpp"
+#include "oracle/response_laws.hpp"
+
+#include "oracle/up.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -13,6 +17,8 @@ namespace {
 constexpr double grazing = 1e-9;
 /// Normals whose cross product is smaller are of one direction.
 constexpr double one_direction = 1e-9;
+/// Velocities of the law of octagon_sweep are the same within this share of the wanted one: they are in double.
+constexpr double same_velocity = 1e-9;
 /// Share of a velocity that is rounding in Box2D.
 constexpr double in_float = 1e-5;
 
@@ -62,49 +68,63 @@ std::optional<Vec2d> impulses_of(const Vec2d& change, const MetSurface& a, const
 Vec2d follow(double x, const Vec2d& n) { return {x, -x * n.x() / n.y()}; }
 
 /// At one surface that rests, without steering.
-Vec2d respond(Vec2d v, const MetSurface& at, bool after_walk) {
+Vec2d respond(Vec2d v, const MetSurface& at) {
   const Vec2d& n = at.normal;
   if (v.dot(n) >= 0) return v;
   if (at.walkable) return follow(v.x(), n);
   const auto slide = [&n](const Vec2d& w) { return Vec2d(w - w.dot(n) * n); };
   if (n.y() < 0) {
-    if (v.y() > 0) return after_walk ? Vec2d(Vec2d::Zero()) : slide(v);
+    if (v.y() > 0) return at.climbs ? Vec2d(Vec2d::Zero()) : slide(v);
     return {-v.y() * n.y() / n.x(), v.y()};
   }
-  if (v.x() * n.x() < 0) v = {0, after_walk ? std::min(v.y(), 0.0) : v.y()};
+  if (v.x() * n.x() < 0) v = {0, at.climbs ? std::min(v.y(), 0.0) : v.y()};
   return v.dot(n) < 0 ? slide(v) : v;
 }
 
+/// A velocity that is wanted, and the part of it that is there without this step's steering [m/s].
+struct Steered {
+  Vec2d wanted;
+  Vec2d unsteered;
+};
+
 /// At one surface that rests. @param steering what steering added, horizontally.
-SteeredVelocity respond(const SteeredVelocity& v, double steering, const MetSurface& at, bool after_walk) {
+Steered respond(const Steered& v, double steering, const MetSurface& at) {
   const Vec2d& n = at.normal;
   if (v.wanted.dot(n) >= 0) return v;
-  const Vec2d unsteered = respond(v.unsteered, at, after_walk);
+  const Vec2d unsteered = respond(v.unsteered, at);
   if (at.walkable) return {follow(v.unsteered.x() + steering, n), unsteered};
   const bool presses = n.y() >= 0 && (v.wanted - v.unsteered).dot(n) < 0;
-  if (!presses) return {respond(v.wanted, at, after_walk), unsteered};
+  if (!presses) return {respond(v.wanted, at), unsteered};
   if (v.unsteered.dot(n) < 0) return {unsteered, unsteered};
-  const double y = after_walk ? std::min(unsteered.y(), 0.0) : unsteered.y();
+  const double y = at.climbs ? std::min(unsteered.y(), 0.0) : unsteered.y();
   return {Vec2d(-y * n.y() / n.x(), y), unsteered};
 }
 
 /// What a trace does not say.
-struct Circumstances {
-  bool after_walk = false;   ///< A climb came from a walk.
-  bool met_at_end = false;   ///< What is touched where the step ends was met, by rounding.
-  bool left_behind = false;  ///< Each surface has been left when the next one is met.
+struct Unknown {
+  bool met_at_end = false;  ///< What is touched where the step ends was met, by rounding.
+  bool carried = false;     ///< A landing without horizontal speed is carried at once.
 };
 
-Vec2d controlled(const SteeredVelocity& velocity, std::span<const MetSurface> surfaces, const Circumstances& here) {
-  SteeredVelocity now = velocity;
-  const double steering = (velocity.wanted - velocity.unsteered).x();
+bool is_at_end(const MetSurface& at) { return at.met >= 1; }
+bool may_carry(const MetSurface& at) { return at.walkable && at.velocity != Vec2d::Zero(); }
+
+/// As an upright character sees it.
+Vec2d controlled(const Steered& velocity, std::span<const MetSurface> surfaces, const Unknown& unknown) {
+  Steered now = velocity;
+  double steering = (velocity.wanted - velocity.unsteered).x();
   std::vector<MetSurface> held;
   for (const MetSurface& at : surfaces) {
-    if ((at.at_end && !here.met_at_end) || !enters(now.wanted, at)) continue;
+    if ((is_at_end(at) && !unknown.met_at_end) || !enters(now.wanted, at)) continue;
     const Vec2d& carried = at.velocity;
-    now = respond({now.wanted - carried, now.unsteered - carried}, steering, at, here.after_walk);
-    now = {now.wanted + carried, now.unsteered + carried};
-    if (here.left_behind) continue;
+    if (unknown.carried && may_carry(at) && now.wanted.x() == 0) {
+      now = {carried, carried};
+      steering = 0;
+    } else {
+      now = respond({now.wanted - carried, now.unsteered - carried}, steering, at);
+      now = {now.wanted + carried, now.unsteered + carried};
+    }
+    std::erase_if(held, [&](const MetSurface& one) { return one.left <= at.met; });
     held.push_back(at);
     if (std::none_of(held.begin(), held.end(), [&](const MetSurface& one) { return enters(now.wanted, one); }))
       continue;
@@ -114,6 +134,22 @@ Vec2d controlled(const SteeredVelocity& velocity, std::span<const MetSurface> su
     now.wanted = now.unsteered = !walked && fall.y() < end.y() ? fall : end;
   }
   return now.wanted;
+}
+
+/// All that the law can make, as an upright character sees it.
+std::vector<Vec2d> upright_outcomes(const Steered& velocity, std::span<const MetSurface> surfaces) {
+  const bool any_at_end = std::any_of(surfaces.begin(), surfaces.end(), is_at_end);
+  const bool any_carries = std::any_of(surfaces.begin(), surfaces.end(), may_carry);
+  std::vector<Vec2d> outcomes;
+  for (const bool met_at_end : {false, true})
+    for (const bool carried : {false, true}) {
+      if ((met_at_end && !any_at_end) || (carried && !any_carries)) continue;
+      const Vec2d met = outcomes.emplace_back(controlled(velocity, surfaces, {met_at_end, carried}));
+      for (const MetSurface& at : surfaces)
+        if (at.walkable && is_at_end(at))
+          outcomes.emplace_back(follow((met - at.velocity).x(), at.normal) + at.velocity);
+    }
+  return outcomes;
 }
 
 }  // namespace
@@ -163,18 +199,32 @@ bool is_turned_by_tilt(const Vec2d& wanted, const Vec2d& velocity, std::span<con
   });
 }
 
-std::vector<Vec2d> controlled_outcomes(const SteeredVelocity& velocity, std::span<const MetSurface> surfaces) {
-  std::vector<Vec2d> outcomes;
-  for (const unsigned bits : {0U, 1U, 2U, 3U, 4U, 5U, 6U, 7U}) {
-    const Circumstances here{(bits & 1U) != 0, (bits & 2U) != 0, (bits & 4U) != 0};
-    const Vec2d met = outcomes.emplace_back(controlled(velocity, surfaces, here));
-    for (const MetSurface& at : surfaces) {
-      if (!at.walkable) continue;
-      outcomes.emplace_back(follow(met.x() - at.velocity.x(), at.normal) + at.velocity);
-      if (velocity.wanted.x() == 0) outcomes.push_back(at.velocity);
-    }
+std::vector<Vec2d> controlled_outcomes(const ControlledStep& step, std::span<const MetSurface> surfaces) {
+  std::vector<MetSurface> upright(surfaces.begin(), surfaces.end());
+  for (MetSurface& at : upright) {
+    at.normal = seen(at.normal, step.up);
+    at.velocity = seen(at.velocity, step.up);
+  }
+  const bool ends_rise = step.side_hit_ends_rise &&
+                         std::any_of(surfaces.begin(), surfaces.end(), [](const MetSurface& at) { return at.is_side; });
+  std::vector<Vec2d> outcomes = upright_outcomes({seen(step.wanted, step.up), seen(step.unsteered, step.up)}, upright);
+  for (Vec2d& outcome : outcomes) {
+    if (ends_rise) outcome.y() = std::min(outcome.y(), 0.0);
+    outcome = in_world(outcome, step.up);
   }
   return outcomes;
+}
+
+std::optional<std::string> velocity_fault(const ControlledStep& step, std::span<const MetSurface> surfaces,
+                                          const Vec2d& velocity) {
+  double unknown = same_velocity * std::max(1.0, step.wanted.norm());
+  for (const MetSurface& at : surfaces) unknown += at.spread;
+  const std::vector<Vec2d> outcomes = controlled_outcomes(step, surfaces);
+  const double off = distance_from(outcomes, velocity);
+  if (off <= unknown) return std::nullopt;
+  return fmt::format(
+      "ends with ({:.9g}, {:.9g}) m/s; of ({:.9g}, {:.9g}) the law makes ({:.9g}, {:.9g}) at {} surfaces", velocity.x(),
+      velocity.y(), step.wanted.x(), step.wanted.y(), outcomes.front().x(), outcomes.front().y(), surfaces.size());
 }
 
 double distance_from(std::span<const Vec2d> outcomes, const Vec2d& velocity) {

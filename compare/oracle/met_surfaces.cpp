@@ -1,0 +1,108 @@
+#include "oracle/met_surfaces.hpp"
+
+#include "oracle/turning_room.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace paperproof::compare {
+namespace {
+
+using detail::RigidMotion;
+
+/// What is held up to this distance is touched [m]: §6 of the guarantee, and the rounding of a separation.
+constexpr double touched = 7e-7 + 1e-8;
+
+/// The law has an edge here: ground that is steeper than the climb limit by this [rad] is walkable still, and what is
+/// steeper than that is not (§4 of the design; `Tolerances::climb`).
+bool is_walkable(const Vec2d& normal, const TraceHeader& header, const Vec2d& up) {
+  const double climb = header.scalar == "float" ? 1e-5 : 1e-8;
+  return normal.dot(up) >= std::cos(header.character.max_climb_degrees * std::numbers::pi / 180 + climb);
+}
+
+bool touches_ground(const SolidsInStep& solids, const PathPoint<double>& at) {
+  const Vec2d up = up_in(solids.step(), solids.header());
+  const std::vector<NearPart> parts = solids.at(at.fraction).near_parts(Place(at, solids.step().movers), touched);
+  return std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
+    return part.faces.front().separation <= touched && is_walkable(part.faces.front().normal, solids.header(), up);
+  });
+}
+
+}  // namespace
+
+const ExactScenery& SolidsInStep::at(double fraction) const {
+  if (step_.vertex_ways.empty()) return solids_;
+  std::unique_ptr<ExactScenery>& there = turned_[fraction];
+  if (!there)
+    there = std::make_unique<ExactScenery>(detail::standing_at(header_.scenery, step_, fraction), header_.points);
+  return *there;
+}
+
+double SolidsInStep::gap_on_way(ColliderIndex collider) const {
+  double gap = std::numeric_limits<double>::infinity();
+  for (const PathPoint<double>& corner : step_.path)
+    gap = std::min(gap, at(corner.fraction).separation(Place(corner, step_.movers), collider));
+  return gap;
+}
+
+Vec2d SolidsInStep::moved(ColliderIndex collider, const Vec2d& point, double fraction) const {
+  const MoverIndex mover = header_.scenery.colliders[collider].mover;
+  if (mover == no_mover) return Vec2d::Zero();
+  const VertexWay* turning = find_way(step_.vertex_ways, collider);
+  if (turning == nullptr) return step_.movers[mover].to - step_.movers[mover].from;
+  const std::vector<Vec2d> then = detail::vertices_at(*turning, fraction);
+  return RigidMotion(then, turning->vertices.back())(point) - RigidMotion(then, turning->vertices.front())(point);
+}
+
+double SolidsInStep::spread(ColliderIndex collider, const Vec2d& moved, double apart) const {
+  const VertexWay* turning = find_way(step_.vertex_ways, collider);
+  if (turning == nullptr) return 0;
+  const double angle = std::abs(RigidMotion(turning->vertices.front(), turning->vertices.back()).angle());
+  return angle * (moved.norm() + apart) / length_of(step_, header_);
+}
+
+Vec2d velocity_of(const SolidsInStep& solids, const Contact<double>& touch) {
+  const ColliderDef& collider = solids.header().scenery.colliders[touch.collider];
+  const Vec2d conveyed = collider.surface_speed * Vec2d(touch.normal.y(), -touch.normal.x());
+  return conveyed +
+         solids.moved(touch.collider, touch.point, touch.fraction) / length_of(solids.step(), solids.header());
+}
+
+bool begins_as_walk(const TraceHeader& header, const TraceStep& step, bool grounded, const Vec2d& wanted) {
+  const Vec2d up = up_in(step, header);
+  const double steepest = std::tan(header.character.max_climb_degrees * std::numbers::pi / 180);
+  return grounded && wanted.dot(up) <= std::abs(wanted.dot(Vec2d(up.y(), -up.x()))) * steepest;
+}
+
+std::vector<MetSurface> met_surfaces(const SolidsInStep& solids, std::span<const Contact<double>> contacts,
+                                     bool walks) {
+  const TraceStep& step = solids.step();
+  const Vec2d up = up_in(step, solids.header());
+  std::vector<MetSurface> surfaces;
+  for (const Contact<double>& touch : contacts) {
+    // A contact tells when it would be touched, a corner when the way ends at the gap before it.
+    const auto corner = std::min_element(step.path.begin(), step.path.end(), [&](const auto& a, const auto& b) {
+      return std::abs(a.fraction - touch.fraction) < std::abs(b.fraction - touch.fraction);
+    });
+    const auto leaves = std::find_if(corner + 1, step.path.end(), [&](const PathPoint<double>& one) {
+      return solids.at(one.fraction).separation(Place(one, step.movers), touch.collider) > touched;
+    });
+    const Vec2d velocity = velocity_of(solids, touch);
+    MetSurface one{.normal = touch.normal};
+    one.walkable = is_walkable(touch.normal, solids.header(), up);
+    // Ground carries; walls impart nothing along themselves.
+    one.velocity = one.walkable ? velocity : Vec2d(velocity.dot(touch.normal) * touch.normal);
+    one.is_side = touch.side == Side::left || touch.side == Side::right;
+    one.climbs = walks && touches_ground(solids, *corner);
+    one.met = touch.fraction >= 1 || corner->fraction >= 1 ? touch.fraction : corner->fraction;
+    if (leaves != step.path.end()) one.left = leaves->fraction;
+    one.spread = solids.spread(touch.collider, solids.moved(touch.collider, touch.point, touch.fraction), 0);
+    walks = walks || one.walkable;
+    surfaces.push_back(one);
+  }
+  return surfaces;
+}
+
+}  // namespace paperproof::compare

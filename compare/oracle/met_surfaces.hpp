@@ -1,0 +1,56 @@
+/// What a step met, from its trace: surfaces, how they move, and when they were left.
+#pragma once
+
+#include "oracle/exact.hpp"
+#include "oracle/response_laws.hpp"
+#include "records/trace.hpp"
+
+#include <map>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace paperproof::compare {
+
+/// The solids in one step, with what turns standing where it is at the moment that is asked about. Header, solids and
+/// step must outlive it.
+class SolidsInStep {
+ public:
+  SolidsInStep(const TraceHeader& header, const ExactScenery& solids, const TraceStep& step)
+      : header_(header), solids_(solids), step_(step) {}
+  /// @param fraction of the step.
+  [[nodiscard]] const ExactScenery& at(double fraction) const;
+  /// The smallest separation from a collider over the corners of the way [m].
+  [[nodiscard]] double gap_on_way(ColliderIndex collider) const;
+  /// How far the step takes a point of a collider [m]. @param fraction of the step at which the point is there.
+  [[nodiscard]] Vec2d moved(ColliderIndex collider, const Vec2d& point, double fraction) const;
+  /// What turns has no one velocity in a step: that of a point turns by the angle that the collider turns by, and those
+  /// of two points that are `apart` [m] differ by that share of it. By so much a velocity is not known [m/s].
+  /// @param moved how far the step takes the point [m].
+  [[nodiscard]] double spread(ColliderIndex collider, const Vec2d& moved, double apart) const;
+
+  [[nodiscard]] const TraceHeader& header() const noexcept { return header_; }
+  [[nodiscard]] const TraceStep& step() const noexcept { return step_; }
+
+ private:
+  const TraceHeader& header_;
+  const ExactScenery& solids_;
+  const TraceStep& step_;
+  mutable std::map<double, std::unique_ptr<ExactScenery>> turned_;
+};
+
+/// Of a surface that goes along with its mover and may be a conveyor [m/s].
+[[nodiscard]] Vec2d velocity_of(const SolidsInStep& solids, const Contact<double>& touch);
+
+/// Whether a step begins as a walk on the ground, so that what rises in it is a climb: a rise that is steeper than any
+/// walkable ground is a jump.
+/// @param grounded at the end of the step before. @param wanted in the step [m/s].
+[[nodiscard]] bool begins_as_walk(const TraceHeader& header, const TraceStep& step, bool grounded, const Vec2d& wanted);
+
+/// The surfaces of the contacts, in their order, for the law of octagon_sweep.
+/// @param contacts of the step: those reported, or of these the ones that exact arithmetic confirms.
+/// @param walks see `begins_as_walk`.
+[[nodiscard]] std::vector<MetSurface> met_surfaces(const SolidsInStep& solids,
+                                                   std::span<const Contact<double>> contacts, bool walks);
+
+}  // namespace paperproof::compare

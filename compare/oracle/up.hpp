@@ -1,0 +1,17 @@
+/// Vectors as a character sees them whose up is not that of the world.
+#pragma once
+
+#include <paperproof/types.hpp>
+
+namespace paperproof::compare {
+
+/// Components across up, to the right, and along it. @param up unit vector.
+[[nodiscard]] inline Vec2d seen(const Vec2d& v, const Vec2d& up) {
+  return {v.x() * up.y() - v.y() * up.x(), v.dot(up)};
+}
+/// The inverse.
+[[nodiscard]] inline Vec2d in_world(const Vec2d& v, const Vec2d& up) {
+  return {v.x() * up.y() + v.y() * up.x(), v.y() * up.y() - v.x() * up.x()};
+}
+
+}  // namespace paperproof::compare
