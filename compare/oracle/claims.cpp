@@ -148,7 +148,7 @@ double EndJudge::speed_gained() const {
   double gained = step_.velocity.norm() - most;
   // A fall becomes a rise only where a walk climbs, and that keeps its speed across up.
   const bool rises = step_.velocity.dot(up_) > rounding_of_motion && wanted_.velocity.dot(up_) < 0;
-  if (rises && !pushed) {
+  if (rises && !pushed && step_.contacts.size() <= 1) {  // several may turn a fall aside, and that up a slope
     const double across = std::max(std::abs(wanted_.velocity.dot(right)), std::abs(unsteered.dot(right)));
     gained = std::max(gained, std::abs(step_.velocity.dot(right)) - across);
   }
