@@ -2,8 +2,7 @@
 
 #include "metrics/ledger_step.hpp"
 
-#include <algorithm>
-#include <limits>
+#include <fmt/format.h>
 
 namespace paperproof::compare {
 namespace {
@@ -68,6 +67,10 @@ std::string_view name_of(Cause cause) noexcept {
       return "error_of_box2d";
     case Cause::error_of_ours:
       return "error_of_ours";
+    case Cause::remaining_lockstep:
+      return "remaining_lockstep";
+    case Cause::after_divergence:
+      return "after_divergence";
     case Cause::unexplained:
       return "unexplained";
   }
@@ -97,14 +100,15 @@ void Ledger::finish() {
 }
 
 void Ledger::begin(const View& view, double apart, double rounding) {
-  if (apart <= rounding) {
-    origin_.reset();
+  const bool together = apart <= rounding;
+  if (together) {
+    divergence_.reset();
     apart_for_ = 0;
   }
   ++apart_for_;
   // Rounding adds up, at most by as much in every step.
-  if (!origin_ && !lockstep_ && apart <= apart_for_ * rounding)
-    origin_ = Origin{view.now().mine.step.step, Cause::float_rounding, apart};
+  if (!together && !divergence_ && !lockstep_ && apart <= apart_for_ * rounding)
+    divergence_ = Divergence{view.now().mine.step.step, Cause::float_rounding};
   entered_ = entered_ && !view.now().reference.step.start_overlap.empty();
 }
 
@@ -113,29 +117,26 @@ void Ledger::judge(const View& view) {
                           {.lockstep = lockstep_, .close_vertices = has_close_vertices_, .entered = entered_});
   const int number = view.now().mine.step.step;
   begin(view, step.apart(), step.rounding());
+  const std::optional<Divergence> before = divergence_;
   for (detail::StepLedger::Event& event : step.events()) {
-    LedgerEntry entry{
-        event.kind, event.cause.value_or(Cause::unexplained), false, number, number, std::move(event.words)};
-    if (!event.cause && event.both_right && origin_ && !lockstep_ && step.apart() > step.rounding()) {
-      entry.cause = origin_->cause;
-      entry.consequence = true;
-      entry.origin = origin_->step;
+    LedgerEntry entry{event.kind, event.cause.value_or(Cause::unexplained), number, std::move(event.words)};
+    if (!event.cause && event.both_right && before) {
+      entry.cause = Cause::after_divergence;
+      entry.words += fmt::format("; apart since step {} ({})", before->step, name_of(before->cause));
     }
-    Sum& sum = sums_[{entry.consequence, entry.cause, entry.kind}];
-    if (sum.count++ == 0) sum.first = entry;
     const bool crosses = event.kind == EventKind::crossing && entry.cause == Cause::error_of_box2d;
     entered_ = entered_ || crosses;
-    if (lockstep_ || !event.cause || !(crosses || event.kind == EventKind::stop)) continue;
-    const double size = crosses ? std::numeric_limits<double>::infinity() : step.taken();
-    if (!origin_ || size > origin_->size) origin_ = Origin{number, entry.cause, size};
+    if (!lockstep_ && !divergence_ && event.cause && (crosses || event.kind == EventKind::stop))
+      divergence_ = Divergence{number, *event.cause};
+    Sum& sum = sums_[{entry.cause, entry.kind}];
+    if (sum.count++ == 0) sum.first = std::move(entry);
   }
 }
 
 void Ledger::write(Row& row) const {
   for (const auto& [key, sum] : sums_) {
     const LedgerEntry& first = sum.first;
-    std::string name = first.consequence ? "consequence_of_" : "";
-    name += std::string(name_of(first.cause)) + "." + std::string(name_of(first.kind));
+    const std::string name = fmt::format("{}.{}", name_of(first.cause), name_of(first.kind));
     auto [at, is_new] = row.disagreements.try_emplace(name, Disagreements{0, first.step, first.words});
     at->second.count += sum.count;
     if (is_new || first.step >= at->second.first_step) continue;

@@ -10,7 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace paperproof::compare {
@@ -27,16 +27,17 @@ enum class EventKind : std::uint8_t {
 };
 [[nodiscard]] std::string_view name_of(EventKind kind) noexcept;
 
-/// Why they differ. Exact arithmetic answers the predicate of each; `unexplained` is where none holds.
+/// Why they differ. Each cause has a predicate. Those marked * are circumstances: something that is so in the step and
+/// that the laws do not know; it is asked last, and does not prove that it made the difference.
 ///
 /// A side is *right* about a contact if exact arithmetic has it for the motion of that side, or, for Box2D, if the
-/// collider is within its skin. Where both are right, they differ because of where they were when the step began, or
-/// because of another event of the step.
+/// collider is within its skin. It is right about a stop if its velocity follows its law. Where both are right, they
+/// differ because of where they were when the step began, or because of another event of the step, which then gives its
+/// cause to both.
 ///
 /// - `skin`: Box2D is within (0, 20 mm] of the collider, and the contender reports all that its own motion meets; or
-///   both follow their laws at the same surfaces, and their ways differ by no more than two skins. In lockstep the twin
-///   begins 15 mm aside: what only that start changes is `skin`, too.
-/// - `travel_cap`: the way of the step, or up to the contact, is longer than the 2 m that Box2D travels.
+///   both follow their laws at the same surfaces, and their ways differ by no more than two skins.
+/// - `travel_cap`: up to the contact it is more than the 2 m that Box2D travels; *of a stop: the way of the step is.
 /// - `event_latency`: exact arithmetic has the contact for Box2D's motion in this step. Box2D reports it in the next
 ///   one, and is no more than 20 mm away.
 /// - `response_law`: both report the same surfaces, and both velocities are what the two laws make of the wanted one,
@@ -48,17 +49,22 @@ enum class EventKind : std::uint8_t {
 ///   arithmetic refutes this one: at that place the body is out of its skin.
 /// - `intent`: in lockstep, from the same start, the two want different motions: a scene's jump rule asks for the
 ///   contacts of the last step, which the twin does not take over.
-/// - `ghost_collision`: Box2D reports, or is turned by, a normal along which no face stands out
+/// - `ghost_collision`: Box2D reports, or no law but a push along it explains, a normal along which no face stands out
 ///   (`StepJudgement::ghosts`).
 /// - `float`: the difference, or the gap, is within 4 ulps (float) of the coordinate and of the way.
-/// - `start_inside`: the step begins inside a solid that no error of Box2D led into. The contender takes the shortest
+/// - `start_inside` *: the step begins inside a solid that no error of Box2D led into. The contender takes the shortest
 ///   way out, Box2D is pushed step by step.
-/// - `crush`: movers left no room, which exact arithmetic verified. The contender stays; Box2D has no word for it.
-/// - `company`: one met another character in this step, or stands within Box2D's skin of one. In Box2D alone
+/// - `crush` *: movers left no room, which exact arithmetic verified. The contender stays; Box2D has no word for it.
+/// - `company` *: one met another character in this step, or stands within Box2D's skin of one. In Box2D alone
 ///   characters push each other.
 /// - `error_of_box2d`: exact arithmetic refutes Box2D: it passes or enters a solid, or misses a contact thereby, or
 ///   reports one that is out of its skin and not met.
 /// - `error_of_ours`: exact arithmetic refutes the contender: the same, or it loses motion to nothing, or hangs.
+///
+/// What no cause is found for is one of three:
+/// - `remaining_lockstep`: in lockstep, both are right. The twin begins 15 mm aside, and nothing else is known.
+/// - `after_divergence`: in a free run, both are right, and an earlier event took them apart.
+/// - `unexplained`: everything else.
 enum class Cause : std::uint8_t {
   skin,
   travel_cap,
@@ -75,17 +81,16 @@ enum class Cause : std::uint8_t {
   company,
   error_of_box2d,
   error_of_ours,
+  remaining_lockstep,
+  after_divergence,
   unexplained,
 };
+inline constexpr std::size_t cause_count = static_cast<std::size_t>(Cause::unexplained) + 1;
 [[nodiscard]] std::string_view name_of(Cause cause) noexcept;
 
 struct LedgerEntry {
   EventKind kind = EventKind::contact;
   Cause cause = Cause::unexplained;
-  /// Both are right about their own motion, and the two were apart when the step began, because of an event at step
-  /// `origin` that has this cause.
-  bool consequence = false;
-  int origin = 0;
   int step = 0;
   std::string words;  ///< What each side says, with the numbers that show the cause.
 };
@@ -103,9 +108,9 @@ struct LedgerParty {
 /// each other and they are with one collider, or their points lie in one plane to 20 mm: two tiles of a floor are one
 /// surface.
 ///
-/// In a free run the two come apart after the first event. From then on an event about which both are right is a
-/// consequence of the event that took them apart: of those since they were last together (to 4 ulps) the one that took
-/// most. In lockstep each step stands alone, and nothing is a consequence.
+/// In a free run the first stop or crossing that has a cause takes the two apart, or rounding that adds up. Until they
+/// are together again (to 4 ulps) an event about which both are right is `after_divergence`. In lockstep each step
+/// stands alone.
 class Ledger {
  public:
   Ledger(const LedgerParty& mine, const LedgerParty& reference, bool lockstep);
@@ -121,7 +126,7 @@ class Ledger {
     int count = 0;
     LedgerEntry first;
   };
-  using Key = std::tuple<bool, Cause, EventKind>;  ///< The first: consequences.
+  using Key = std::pair<Cause, EventKind>;
   [[nodiscard]] const std::map<Key, Sum>& sums() const noexcept { return sums_; }
 
   struct Says {
@@ -139,10 +144,10 @@ class Ledger {
   using View = detail::Window<Moment>::View;
 
  private:
-  struct Origin {
+  /// What took the two apart since they were last together.
+  struct Divergence {
     int step = 0;
     Cause cause = Cause::unexplained;
-    double size = 0;  ///< What it took more from one than from the other [m]; infinite for a crossing.
   };
   void judge(const View& view);
   void begin(const View& view, double apart, double rounding);
@@ -153,7 +158,7 @@ class Ledger {
   bool has_close_vertices_ = false;  ///< Closer than Box2D can have them.
   bool entered_ = false;             ///< Box2D is inside of something that it should not have entered.
   detail::Window<Moment> window_;
-  std::optional<Origin> origin_;
+  std::optional<Divergence> divergence_;
   int apart_for_ = 0;  ///< Steps since the two were together.
   int rests_mine_ = 0;
   int rests_reference_ = 0;

@@ -174,7 +174,8 @@ StepLedger::Event StepLedger::of_reference(const Touch& touch, EventKind kind) c
               {},
               false,
               fmt::format("only Box2D reports {}; it is {:.3g} m away, {} {:.3g} m", named(touch), gap,
-                          mine_.header->contender, mine)};
+                          mine_.header->contender, mine),
+              gap};
   if (is_missed_by_mine(touch)) {
     event.cause = Cause::error_of_ours;
   } else if (is_ghost(judged, touch)) {
@@ -199,7 +200,8 @@ StepLedger::Event StepLedger::of_mine(const Touch& touch) const {
   Event event{EventKind::contact,
               {},
               false,
-              fmt::format("only {} reports {}; Box2D is {:.3g} m away", mine_.header->contender, named(touch), gap)};
+              fmt::format("only {} reports {}; Box2D is {:.3g} m away", mine_.header->contender, named(touch), gap),
+              gap};
   const bool met = is_exact(judged, touch);
   const bool inside = contains(r_.start_overlap, touch.collider);
   const std::optional<Cause> near = within_skin(gap);
@@ -276,12 +278,11 @@ void StepLedger::add_time() {
               {},
               true,
               fmt::format("{}: at {:.6g} for {}, at {:.6g} for Box2D, {:.3g} m apart", named(*mine), mine->fraction,
-                          mine_.header->contender, reference->fraction, most)};
-  const std::optional<Cause> near = within_skin(gap_when_reported(*reference));
+                          mine_.header->contender, reference->fraction, most),
+              gap_when_reported(*reference)};
+  const std::optional<Cause> near = within_skin(event.gap);
   if (most <= rounding_) {
     event.cause = Cause::float_rounding;
-  } else if (is_crushed(now_.mine.judged) || is_crushed(now_.reference.judged)) {
-    event.cause = Cause::crush;
   } else if (near && most <= within_skins + rounding_) {
     event.cause = near;
   } else if (!near && !is_inside(r_)) {
@@ -336,9 +337,10 @@ void StepLedger::add_toggle() {
   events_.push_back(std::move(event));
 }
 
-/// What is left open because both are right: where they began alike, or no further apart than their skins, another
-/// event of this step made the difference, or in lockstep the start that the skin needs.
+/// Gives causes to what its own predicates left open: first by another event of the step, where they began alike or no
+/// further apart than their skins; then by the circumstances; last, in lockstep, by the start that the skin needs.
 void StepLedger::settle() {
+  const bool together = apart_ <= within_skins + rounding_;
   const auto cause_of = [this](auto&& is_one) {
     const auto found =
         std::find_if(events_.begin(), events_.end(), [&](const Event& one) { return one.cause && is_one(one); });
@@ -347,12 +349,21 @@ void StepLedger::settle() {
   const std::optional<Cause> of_contact = cause_of([](const Event& one) {
     return (one.kind == EventKind::contact || one.kind == EventKind::side) && one.cause != Cause::error_of_ours;
   });
+  for (Event& event : events_) {
+    if (event.cause || event.kind != EventKind::stop) continue;
+    if (event.both_right && together) event.cause = of_contact;
+    if (!event.cause && (!event.both_right || together)) event.cause = circumstance_of_stop();
+    event.both_right = event.both_right || is_inside(r_);  // the way out of what it should not have entered
+  }
   const std::optional<Cause> of_stop = cause_of([](const Event& one) { return one.kind == EventKind::stop; });
-  if (apart_ > within_skins + rounding_) return;
   for (Event& event : events_) {
     if (event.cause || !event.both_right) continue;
-    event.cause = event.kind == EventKind::stop ? of_contact : of_stop;
-    if (!event.cause && known_.lockstep && apart_ > rounding_) event.cause = Cause::skin;
+    if (together && event.kind != EventKind::stop) event.cause = of_stop;
+    if (!event.cause && event.kind == EventKind::time &&
+        (is_crushed(now_.mine.judged) || is_crushed(now_.reference.judged)))
+      event.cause = Cause::crush;
+    if (!event.cause && known_.lockstep && apart_ > rounding_)
+      event.cause = within_skin(event.gap).value_or(Cause::remaining_lockstep);
   }
 }
 

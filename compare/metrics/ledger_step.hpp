@@ -7,6 +7,7 @@
 #include "oracle/contacts.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <memory>
 #include <utility>
@@ -62,8 +63,10 @@ class StepLedger {
   struct Event {
     EventKind kind = EventKind::contact;
     std::optional<Cause> cause;
-    bool both_right = false;  ///< Without a cause in this step it may be a consequence.
+    bool both_right = false;  ///< About their own motion: without a cause it is a leftover, and not unexplained.
     std::string words;
+    /// From Box2D to the surface that the event is about [m]; infinite where it is about none.
+    double gap = std::numeric_limits<double>::infinity();
   };
   /// What the ledger knows of the run.
   struct Known {
@@ -79,8 +82,6 @@ class StepLedger {
   [[nodiscard]] double apart() const noexcept { return apart_; }
   /// What one place or way of Box2D can differ by from the double that it was made of [m].
   [[nodiscard]] double rounding() const noexcept { return rounding_; }
-  /// What the step took more from one than from the other [m]; after `events`.
-  [[nodiscard]] double taken() const noexcept { return taken_; }
 
  private:
   using Touch = Contact<double>;
@@ -94,6 +95,7 @@ class StepLedger {
   void add_stop();
   [[nodiscard]] std::optional<Cause> cause_of_stop(const Vec2d& way_apart, const Vec2d& speed_apart,
                                                    Event& event) const;
+  [[nodiscard]] std::optional<Cause> circumstance_of_stop() const;
   void settle();
 
   [[nodiscard]] bool same_surface(const Touch& a, const Touch& b) const;

@@ -14,6 +14,8 @@ namespace {
 /// Velocities of one law differ by less, as a share of the wanted one: in double, and in Box2D's float.
 constexpr double same_velocity = 1e-9;
 constexpr double same_velocity_in_float = 1e-5;
+/// A normal that Box2D reports is of the face whose normal is as near as this: it is in float.
+constexpr double one_normal = 1e-5;
 /// Rounds of Box2D's velocity solver.
 constexpr int solver_rounds = 8;
 /// A ghost turns a velocity if it adds more than this along its normal [m/s].
@@ -76,12 +78,18 @@ std::vector<MetSurface> StepLedger::near_reference() const {
     });
     if (!known) surfaces.push_back({.normal = normal, .velocity = velocity, .spread = spread});
   };
+  const auto is_of_ghost = [this](ColliderIndex collider, const NearFace& face) {
+    return std::any_of(r_.contacts.begin(), r_.contacts.end(), [&](const Touch& touch) {
+      return touch.collider == collider && is_ghost(now_.reference.judged, touch) &&
+             (touch.normal - face.normal).norm() < one_normal;
+    });
+  };
   const std::vector<Vec2d>& hull = reference_.header->points;
   for (const PathPoint<double>& corner : r_.path)
     for (const NearPart& part :
          reference_solids_.at(corner.fraction).near_parts(Place(corner, r_.movers), box2d_skin + rounding_))
       for (const NearFace& face : part.faces) {
-        if (face.separation > box2d_skin + rounding_) continue;
+        if (face.separation > box2d_skin + rounding_ || is_of_ghost(part.collider, face)) continue;
         const Vec2d foot = *std::min_element(hull.begin(), hull.end(), [&](const Vec2d& a, const Vec2d& b) {
           return a.dot(face.normal) < b.dot(face.normal);
         });
@@ -152,18 +160,12 @@ bool StepLedger::follows_box2ds_law(std::optional<Cause>& otherwise) const {
   return false;
 }
 
+/// By the laws alone.
 std::optional<Cause> StepLedger::cause_of_stop(const Vec2d& way_apart, const Vec2d& speed_apart, Event& event) const {
   const StepJudgement& mine = now_.mine.judged;
   if (mine.hangs || mine.motion_lost > 0) return Cause::error_of_ours;
   if (taken_ <= rounding_) return Cause::float_rounding;
-  if (is_crushed(mine) || is_crushed(now_.reference.judged)) return Cause::crush;
-  if (is_inside(m_) || (is_inside(r_) && !known_.entered)) return Cause::start_inside;
-  if (now_.beside_another || !m_.met.empty() || !r_.met.empty()) return Cause::company;
-  if (r_.capped && r_.requested.norm() > longest_way && way_of(r_).norm() <= longest_way + rounding_)
-    return Cause::travel_cap;
-  if (is_turned_by_ghost()) return Cause::ghost_collision;
-  event.both_right = is_inside(r_);  // the way out of what it should not have entered
-  if (event.both_right || !follows_our_law()) return std::nullopt;
+  if (!follows_our_law()) return std::nullopt;
   if (std::optional<Cause> otherwise; !follows_box2ds_law(otherwise)) return otherwise;
   event.both_right = true;
   const bool one_wish = (m_.requested - r_.requested).norm() <= rounding_;
@@ -171,6 +173,17 @@ std::optional<Cause> StepLedger::cause_of_stop(const Vec2d& way_apart, const Vec
   if (!only_mine_.empty() || !only_reference_.empty()) return std::nullopt;
   if (speed_apart.norm() > same_event + rounding_) return Cause::response_law;
   return way_apart.norm() <= within_skins + rounding_ ? std::optional(Cause::skin) : std::nullopt;
+}
+
+/// Of a stop that no law explains: what is so in this step and the laws do not know.
+std::optional<Cause> StepLedger::circumstance_of_stop() const {
+  if (is_turned_by_ghost()) return Cause::ghost_collision;
+  if (r_.capped && r_.requested.norm() > longest_way && way_of(r_).norm() <= longest_way + rounding_)
+    return Cause::travel_cap;
+  if (is_crushed(now_.mine.judged) || is_crushed(now_.reference.judged)) return Cause::crush;
+  if (is_inside(m_) || (is_inside(r_) && !known_.entered)) return Cause::start_inside;
+  if (now_.beside_another || !m_.met.empty() || !r_.met.empty()) return Cause::company;
+  return std::nullopt;
 }
 
 }  // namespace paperproof::compare::detail

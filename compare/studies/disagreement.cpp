@@ -2,6 +2,7 @@
 
 #include "runs/run.hpp"
 #include "scenes/load.hpp"
+#include "words.hpp"
 
 #include <fmt/format.h>
 
@@ -59,6 +60,13 @@ Row failed_row(const DisagreementCase& one, const std::string& reason) {
   row.verdict = Verdict::failed;
   row.reason = reason;
   return named(row, one);
+}
+
+std::string words_of(const Leftovers& found) {
+  return fmt::format("{}: {} unexplained, {} beyond the known causes (remaining_lockstep), {} of {}, {} failed",
+                     found.any() ? "fails" : "holds", counted(found.unexplained, "event"),
+                     counted(found.remaining_lockstep, "event"), counted(found.errors_of_ours, "error"), compared,
+                     counted(found.failed_runs, "run"));
 }
 
 std::string replay_command(std::string_view scene, std::string_view mode, int step) {

@@ -29,6 +29,18 @@ struct DisagreementCase {
 /// The row of a case that gave none. @param reason in words.
 [[nodiscard]] Row failed_row(const DisagreementCase& one, const std::string& reason);
 
+/// What the study must not find, over all its runs.
+struct Leftovers {
+  int unexplained = 0;
+  int remaining_lockstep = 0;
+  int errors_of_ours = 0;
+  int failed_runs = 0;
+
+  [[nodiscard]] bool any() const { return unexplained + remaining_lockstep + errors_of_ours + failed_runs > 0; }
+};
+/// In one line, zeros included: `holds: …` or `fails: …`.
+[[nodiscard]] std::string words_of(const Leftovers& found);
+
 /// What shows a step in the report: `paperproof compare SCENE --contender octagon_sweep --mode lockstep …`.
 [[nodiscard]] std::string replay_command(std::string_view scene, std::string_view mode, int step);
 

@@ -78,7 +78,6 @@ class LedgerTest : public testing::Test {
     std::string text;
     for (const auto& [key, sum] : ledger_.sums()) {
       text += text.empty() ? "" : " ";
-      text += sum.first.consequence ? "consequence_of_" : "";
       text += std::string(name_of(sum.first.cause)) + "." + std::string(name_of(sum.first.kind));
     }
     return text;
@@ -233,6 +232,36 @@ TEST_F(LedgerTest, what_begins_inside_leaves_as_each_side_does) {
   EXPECT_EQ(found(), "start_inside.stop");
 }
 
+/// Ours comes to the floor from 5 mm above, Box2D from 35 mm and stays 30 mm away.
+TEST_F(LedgerTest, what_both_are_right_about_beyond_the_skin_remains) {
+  const Vec2d way(0, -0.005);
+  const Vec2d made(0, -0.0049995);
+  add(step({-2, feet + 0.005}, way, made, {floor_below(-2, 1)}), step({-2, feet + 0.035}, way, made));
+  EXPECT_EQ(found(), "remaining_lockstep.contact");
+}
+
+TEST_F(LedgerTest, what_both_are_right_about_within_the_skin_is_skin) {
+  const Vec2d way(0, -0.005);
+  const Vec2d made(0, -0.0049995);
+  add(step({-2, feet + 0.005}, way, made, {floor_below(-2, 1)}), step({-2, feet + 0.0249}, way, made));
+  EXPECT_EQ(found(), "skin.contact");
+}
+
+/// A law that explains both velocities comes before what else is so in the step.
+TEST_F(OnASlope, a_law_explains_the_step_of_a_character_that_meets_another) {
+  TraceStep reference = box2d(0.5);
+  reference.met.push_back({.other = 1, .normal = {0, -1}, .fraction = 1, .side = Side::top});
+  add(ours_, reference);
+  EXPECT_EQ(found(), "response_law.stop");
+}
+
+TEST_F(OnASlope, a_circumstance_explains_a_velocity_of_no_law) {
+  TraceStep reference = box2d(0.501);
+  reference.met.push_back({.other = 1, .normal = {0, -1}, .fraction = 1, .side = Side::top});
+  add(ours_, reference);
+  EXPECT_EQ(found(), "company.stop");
+}
+
 TEST_F(LedgerTest, who_meets_another_character_is_in_company) {
   TraceStep pushed = step({-2, 2}, {0.1, 0}, {0.05, 0});
   pushed.met.push_back({.other = 1, .normal = {-1, 0}, .fraction = 0, .side = Side::right});
@@ -297,10 +326,10 @@ TEST_F(LedgerTest, the_side_that_trembles_at_rest_is_named_with_its_reason) {
   }
   EXPECT_NE(found().find("ghost_collision.contact"), std::string::npos);
   const auto& sums = ledger_.sums();
-  EXPECT_EQ(sums.at({false, Cause::skin, EventKind::toggle_box2d}).count, 2);
+  EXPECT_EQ(sums.at({Cause::skin, EventKind::toggle_box2d}).count, 2);
 }
 
-TEST_F(FreeLedgerTest, what_follows_is_a_consequence_and_counted_apart) {
+TEST_F(FreeLedgerTest, what_both_are_right_about_once_they_are_apart_is_counted_apart) {
   // Step 0: a ghost stops Box2D. Step 1: ours comes to the wall, Box2D is a metre behind.
   const Vec2d from(-0.15625, feet + 0.015);
   TraceStep ours = step(from, {2.75, 0}, {2.75, 0});
@@ -310,19 +339,19 @@ TEST_F(FreeLedgerTest, what_follows_is_a_consequence_and_counted_apart) {
   TraceStep stops = step(there, way, {0.0937495, 0}, {touch(2, {-1, 0}, {3, feet}, 0.46875)});
   stops.velocity.setZero();
   add(stops, step(from, way, way));
-  EXPECT_EQ(found(),
-            "ghost_collision.contact ghost_collision.stop consequence_of_ghost_collision.contact "
-            "consequence_of_ghost_collision.stop");
-  EXPECT_EQ(ledger_.sums().at({true, Cause::ghost_collision, EventKind::contact}).first.origin, 0);
+  EXPECT_EQ(found(), "ghost_collision.contact ghost_collision.stop after_divergence.contact after_divergence.stop");
+  const LedgerEntry& first = ledger_.sums().at({Cause::after_divergence, EventKind::contact}).first;
+  EXPECT_EQ(first.step, 1);
+  EXPECT_NE(first.words.find("apart since step 0 (ghost_collision)"), std::string::npos) << first.words;
 }
 
-TEST_F(FreeLedgerTest, nothing_is_a_consequence_while_both_are_together) {
+TEST_F(FreeLedgerTest, nothing_is_after_divergence_while_both_are_together) {
   const Vec2d from(2.5875, feet + 0.015);
   const Vec2d way(0.2, 0);
   TraceStep stops = step(from, way, {0.0999995, 0}, {touch(2, {-1, 0}, {3, feet}, 0.5)});
   stops.velocity.setZero();
   add(stops, step(from, way, {0.05, 0}));
-  EXPECT_EQ(found().find("consequence"), std::string::npos);
+  EXPECT_EQ(found().find("after_divergence"), std::string::npos);
 }
 
 TEST_F(FreeLedgerTest, the_row_has_every_cause_with_its_first_step) {
