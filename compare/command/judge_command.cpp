@@ -44,7 +44,6 @@ class Steps {
       if (!next_->refused.empty() && records.empty()) {
         records.push_back(std::move(*next_));
         next_ = reader_.next();
-        if (next_) throw InputError(path_ + ": expected nothing after a step that was refused");
         return records;
       }
       const bool fits = next_->character == records.size() && (records.empty() || records[0].step == next_->step);
@@ -77,7 +76,9 @@ bool judge_trace(const std::string& path, const JudgeOptions& options, const std
       judge.add_refused(records.front());
       continue;
     }
+    const std::vector<TraceStep> claimed = records;
     judge.add(records);
+    for (std::size_t k = 0; k < records.size(); ++k) judge.check_start(claimed[k], records[k]);
     ++judged;
   }
   const Breaches breaches = judge.breaches();

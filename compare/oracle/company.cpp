@@ -102,6 +102,10 @@ double CompanyJudge::nearest(const TraceStep& one, const TraceStep& other) const
   return gap;
 }
 
+double CompanyJudge::gap_at(const TraceStep& one, const TraceStep& other, double fraction) const {
+  return pair_.separation(place_at(one.path, fraction), place_at(other.path, fraction));
+}
+
 bool CompanyJudge::touch(const TraceStep& one, const TraceStep& other) const { return nearest(one, other) <= reach_; }
 
 bool CompanyJudge::continues(const TraceStep& step) const {

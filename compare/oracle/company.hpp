@@ -44,6 +44,9 @@ class CompanyJudge {
   /// The smallest separation of two characters at a corner of either's way [m].
   [[nodiscard]] double nearest(const TraceStep& one, const TraceStep& other) const;
 
+  /// Their separation at a fraction of the step [m].
+  [[nodiscard]] double gap_at(const TraceStep& one, const TraceStep& other, double fraction) const;
+
   /// What the others mean for one of them that is crushed: see `Judge`.
   /// @param steps of all of them, in order; not copied.
   [[nodiscard]] Others others_of(CharacterIndex character, std::span<const TraceStep> steps) const;

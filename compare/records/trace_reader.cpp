@@ -420,6 +420,8 @@ TraceStep read_step(const Value& at, const TraceHeader& header) {
   if (const auto gravity = at.find("gravity")) step.gravity = gravity->point();
   if (const auto requested = at.find("requested")) step.requested = requested->point();
   if (const auto steered = at.find("steered")) step.steered = steered->number();
+  step.start_overlap = colliders_in(at.find("start_overlap"), header.ids);
+  std::sort(step.start_overlap.begin(), step.start_overlap.end());
   step.velocity = at.require("velocity").point();
   step.grounded = at.require("grounded").flag();
   step.jumping = at.is_set("jumping");

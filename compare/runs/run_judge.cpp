@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace paperproof::compare {
 namespace {
@@ -18,12 +19,15 @@ namespace {
 constexpr double guaranteed_gap = 1e-6;
 /// Normals are computed from rounded vertices [degrees].
 constexpr double rounding_of_normal = 1e-3;
+constexpr double rounding_of_unit = 1e-6;
 /// A larger share of the wanted motion that is lost to nothing is a fault of a contender that promises none.
 constexpr double most_motion_lost = 0.01;
 /// The guarantee covers starts this near to the origin, and displacements up to it [m].
 constexpr double guaranteed_range = 1e6;
 /// Positions and offsets beyond are refused [m].
 constexpr double range = 2e6;
+/// What moves farther away than this does not reach a character at rest in the step [m].
+constexpr double beside = 0.01;
 /// A character this far outside of its map is put back [m].
 constexpr double lost_beyond = 10;
 
@@ -122,11 +126,8 @@ void RunJudge::add(std::span<TraceStep> records) {
       steps_far_ += !header_.guarantees.empty();
     } else {
       judge_clauses(asked[k], judgements_[k]);
-      for (const CrowdContact<double>& met : asked[k].met)
-        if (const double gap = company_ && met.other < asked.size() ? company_->nearest(asked[k], asked[met.other]) : 1;
-            gap > guaranteed_gap)
-          note(Clause::contact_invented, asked[k],
-               fmt::format("met character {} from {} away", met.other, metres(gap)));
+      judge_drops(records[k]);
+      judge_met(asked[k], asked);
       judge_rest(asked[k], follower);
       judge_ride(asked[k], follower);
     }
@@ -215,14 +216,23 @@ void RunJudge::judge_wish(const TraceStep& record, const Wanted& wanted, const F
                      record.requested.x(), record.requested.y(), wanted.displacement.x(), wanted.displacement.y()));
 }
 
+/// Whether nothing near the character moves.
+bool RunJudge::stands(const TraceStep& record) const {
+  if (record.respawn || !record.vertex_ways.empty()) return false;
+  if (std::none_of(record.movers.begin(), record.movers.end(), moves)) return true;
+  const std::vector<ColliderIndex> near =
+      solids().near(Place(record.path.front(), record.movers), Place(record.path.back(), record.movers), beside);
+  return std::none_of(near.begin(), near.end(), [&](ColliderIndex collider) {
+    const MoverIndex mover = header_.scenery.colliders[collider].mover;
+    return mover != no_mover && moves(record.movers[mover]);
+  });
+}
+
 /// Once position and velocity have repeated, and the same is wanted again, nothing may change any more.
 void RunJudge::judge_rest(const TraceStep& record, const Follower& follower) {
   if (follower.last.size() < 2 || record.respawn) return;
   const TraceStep& before = follower.last[1];
   const TraceStep& earlier = follower.last[0];
-  const auto stands = [](const TraceStep& step) {
-    return !step.respawn && step.vertex_ways.empty() && std::none_of(step.movers.begin(), step.movers.end(), moves);
-  };
   const auto same = [this](const TraceStep& a, const TraceStep& b) {
     return a.path.back().position == b.path.back().position && a.velocity == b.velocity && a.grounded == b.grounded &&
            length_of(a, header_) == length_of(b, header_) && up_in(a, header_) == up_in(b, header_);
@@ -293,6 +303,70 @@ void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged)
                      header_.ids[first->collider], first->fraction, metres(off)));
 }
 
+/// Where it was when it met what it reports, as far as something is there.
+void RunJudge::judge_places(const TraceStep& record, const StepJudgement& judged) {
+  if (!record.start_overlap.empty() || !record.vertex_ways.empty() || !record.crushed.empty() ||
+      !judged.end_overlap.empty())
+    return;
+  for (const Contact<double>& contact : record.contacts) {
+    // As far along the normal as it is off the time at which the way touches, at the pace of the leg that leads there.
+    double off = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < record.path.size(); ++i) {
+      const PathPoint<double>& corner = record.path[i];
+      if (!(solids().separation({corner, record.movers}, contact.collider) <= guaranteed_gap)) continue;
+      const double span = i > 0 ? corner.fraction - record.path[i - 1].fraction : 0;
+      const MoverIndex mover = header_.scenery.colliders[contact.collider].mover;
+      Vec2d pace = span > 0 ? Vec2d((corner.position - record.path[i - 1].position) / span) : record.requested;
+      if (mover != no_mover) pace -= record.movers[mover].to - record.movers[mover].from;
+      const double approach = -pace.dot(contact.normal);
+      if (approach > 0) off = std::min(off, std::abs(contact.fraction - corner.fraction) * approach);
+    }
+    if (off > 2 * guaranteed_gap && off < std::numeric_limits<double>::infinity())
+      note(Clause::time_of_impact, record,
+           fmt::format("says it met `{}` at {:.6g} of the step, and that is {} off along the normal",
+                       header_.ids[contact.collider], contact.fraction, metres(off)));
+  }
+}
+
+/// What it says that it dropped through was asked for, and is there.
+void RunJudge::judge_drops(const TraceStep& record) {
+  constexpr double there = 1e-5;
+  for (const ColliderIndex chain : record.dropped_through) {
+    double gap = std::numeric_limits<double>::infinity();
+    for (const PathPoint<double>& corner : record.path)
+      gap = std::min(gap, solids().separation({corner, record.movers}, chain));
+    bool meets = false;
+    for (std::size_t i = 1; i < record.path.size(); ++i)
+      meets = meets || solids().meets({record.path[i - 1], record.movers}, {record.path[i], record.movers}, chain);
+    if (!record.input.drop || (gap > there && !meets))
+      note(Clause::one_way, record, "says it dropped through `" + header_.ids[chain] + "`, and did not");
+  }
+}
+
+/// Two that met each say so, with one normal and at one time, and were there.
+void RunJudge::judge_met(const TraceStep& record, std::span<const TraceStep> records) {
+  for (const CrowdContact<double>& met : record.met) {
+    if (!company_ || met.other >= records.size()) continue;
+    const TraceStep& other = records[met.other];
+    if (const double gap = company_->nearest(record, other); gap > guaranteed_gap)
+      note(Clause::contact_invented, record, fmt::format("met character {} from {} away", met.other, metres(gap)));
+    const bool agreed = std::any_of(other.met.begin(), other.met.end(), [&](const CrowdContact<double>& its) {
+      return its.other == record.character && (its.normal + met.normal).norm() <= guaranteed_gap;
+    });
+    if (!agreed)
+      note(Clause::contact_invented, record, fmt::format("met character {}, which met another way", met.other));
+    if (const double gap = company_->gap_at(record, other, met.fraction); gap > 2 * guaranteed_gap)
+      note(Clause::time_of_impact, record,
+           fmt::format("met character {} at {:.6g} of the step, and was {} away then", met.other, met.fraction,
+                       metres(gap)));
+  }
+}
+
+void RunJudge::check_start(const TraceStep& claimed, const TraceStep& judged) {
+  if (claimed.start_overlap != judged.start_overlap)
+    note(Clause::start_inside, judged, "says that it begins inside of other things than it does");
+}
+
 void RunJudge::judge_clauses(const TraceStep& record, const StepJudgement& judged) {
   const auto name = [&](const std::vector<ColliderIndex>& colliders) {
     return colliders.empty() ? std::string("another character") : "`" + header_.ids[colliders.front()] + "`";
@@ -310,6 +384,11 @@ void RunJudge::judge_clauses(const TraceStep& record, const StepJudgement& judge
         [&] { return "a contact is " + metres(judged.max_contact_gap) + " away"; });
   check(Clause::normal, judged.normal_error.value_or(0) > rounding_of_normal,
         [&] { return fmt::format("a normal is {:.3g} degrees off", *judged.normal_error); });
+  check(Clause::normal,
+        std::any_of(
+            record.contacts.begin(), record.contacts.end(),
+            [](const Contact<double>& contact) { return std::abs(contact.normal.norm() - 1) > rounding_of_unit; }),
+        [] { return std::string("a normal is no unit vector"); });
   check(Clause::sensor, judged.sensor_events_missing > 0 || judged.sensor_events_extra > 0, [&] {
     return std::string(judged.sensor_events_missing > 0 ? "a sensor's event is missing"
                                                         : "reports a sensor's event that was none");
@@ -336,6 +415,7 @@ void RunJudge::judge_clauses(const TraceStep& record, const StepJudgement& judge
   check(Clause::refusal, record.path.back().position.cwiseAbs().maxCoeff() > range || !(length_of(record, header_) > 0),
         [] { return std::string("takes a step that must be refused"); });
   judge_times(record, judged);
+  judge_places(record, judged);
 }
 
 void RunJudge::add_refused(const TraceStep& record) {
@@ -347,7 +427,13 @@ void RunJudge::add_refused(const TraceStep& record) {
   const Vec2d reach = follower.last.back().velocity.cwiseAbs() * dt + header_.gravity.cwiseAbs() * dt * dt +
                       Vec2d::Constant(header_.character.jump_speed * dt);
   const bool must = !(dt > 0) || !((start.cwiseAbs() + reach).maxCoeff() < range);
-  const bool movers_leave = !header_.scripts.empty();
+  const bool movers_leave = std::any_of(header_.scripts.begin(), header_.scripts.end(), [](const MoverScript& script) {
+    return script.body ||
+           std::any_of(script.path.begin(), script.path.end(), [](const MoverScript::Waypoint& waypoint) {
+             return !(waypoint.at.cwiseAbs().maxCoeff() < range);
+           });
+  });
+  follower.last.back().step = record.step;
   if (!must && !movers_leave) note(Clause::refusal, record, "refuses a step that it can take: " + record.refused);
 }
 

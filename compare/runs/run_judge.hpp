@@ -22,7 +22,9 @@ class RunJudge {
 
   /// @param records one of each character, in order. What they overlapped when the step began is written into them.
   void add(std::span<TraceStep> records);
-  /// A step that was refused: the run ends there.
+  /// A record says what it overlapped when the step began that `add` judged last; others are given the truth.
+  void check_start(const TraceStep& claimed, const TraceStep& judged);
+  /// A step that was refused, and changed nothing.
   void add_refused(const TraceStep& record);
 
   [[nodiscard]] const ExactScenery& solids() const noexcept { return followers_.front().judge->scenery(); }
@@ -59,6 +61,10 @@ class RunJudge {
   void judge_clauses(const TraceStep& record, const StepJudgement& judged);
   void judge_movers(const TraceStep& record);
   void judge_times(const TraceStep& record, const StepJudgement& judged);
+  void judge_places(const TraceStep& record, const StepJudgement& judged);
+  void judge_drops(const TraceStep& record);
+  void judge_met(const TraceStep& record, std::span<const TraceStep> records);
+  [[nodiscard]] bool stands(const TraceStep& record) const;
   [[nodiscard]] bool may_respawn(const TraceStep& record, const Follower& follower) const;
   [[nodiscard]] bool is_wall_ahead(const TraceStep& record, double move) const;
   void write_faults(Row& row) const;

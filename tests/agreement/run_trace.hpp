@@ -1,6 +1,7 @@
 /// Holds the runs of a random test against every clause of the guarantee, and writes them as traces.
 #pragma once
 
+#include "agreement/known_and_open.hpp"
 #include "records/trace_writer.hpp"
 #include "runs/run_judge.hpp"
 
@@ -12,22 +13,46 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace paperproof::test {
 
-/// How many runs broke a clause, over the whole program.
-inline std::map<compare::Clause, int>& runs_that_broke() {
-  static std::map<compare::Clause, int> counts;
-  return counts;
-}
+/// What the runs of a program broke, by kind of run: see tests/known_and_open.json.
+class BrokenByRuns {
+ public:
+  static BrokenByRuns& all() {
+    static BrokenByRuns broken;
+    return broken;
+  }
+  void count(const std::string& kind, int steps, const compare::Breaches& breaches) {
+    steps_[kind] += steps;
+    for (const auto& [clause, breach] : breaches) broken_[{kind, clause}] += breach.steps;
+  }
+  /// Fails the test that runs where more was broken than is known and open, and forgets it.
+  void expect_only_what_is_known() {
+    for (const auto& [what, steps] : broken_) {
+      const auto& [kind, clause] = what;
+      EXPECT_LE(steps, most_broken(kind, clause, steps_[kind]))
+          << name_of(clause) << " in " << kind << " runs of " << steps_[kind] << " steps";
+    }
+    broken_.clear();
+    steps_.clear();
+  }
+
+ private:
+  std::map<std::string, int> steps_;
+  std::map<std::pair<std::string, compare::Clause>, int> broken_;
+};
 
 /// One run of octagon_sweep in double. What it breaks is printed with the run's name. It is written only where
 /// PAPERPROOF_GUARANTEE_TRACES names a folder.
 class RunTrace {
  public:
-  /// @param header with scenery, points, limits, gravity and scripts. @param run names it.
-  RunTrace(compare::TraceHeader header, const std::string& run) : run_(run) {
-    header.scene = run;
+  /// @param header with scenery, points, limits, gravity and scripts. @param kind of run, as tests/known_and_open.json
+  ///   has it. @param run names it.
+  RunTrace(compare::TraceHeader header, std::string kind, std::string run)
+      : kind_(std::move(kind)), run_(std::move(run)) {
+    header.scene = run_;
     header.contender = "octagon_sweep";
     header.scalar = "double";
     header.guarantees = compare::every_clause();
@@ -37,12 +62,12 @@ class RunTrace {
   }
   ~RunTrace() {
     if (judge_) {
-      for (const auto& [clause, breach] : judge_->breaches()) {
-        if (clause == compare::Clause::continuity) continue;  // launched
-        ++runs_that_broke()[clause];
-        std::printf("breaks %s: %s, step %d, %d steps: %s\n", std::string(name_of(clause)).c_str(), run_.c_str(),
-                    breach.first_step, breach.steps, breach.first.c_str());
-      }
+      compare::Breaches breaches = judge_->breaches();
+      breaches.erase(compare::Clause::continuity);  // the test launches the character
+      for (const auto& [clause, breach] : breaches)
+        std::printf("breaks %s: %s %s, step %d, %d steps: %s\n", std::string(name_of(clause)).c_str(), kind_.c_str(),
+                    run_.c_str(), breach.first_step, breach.steps, breach.first.c_str());
+      BrokenByRuns::all().count(kind_, steps_, breaches);
     }
     if (writer_) writer_->commit();
   }
@@ -73,6 +98,7 @@ class RunTrace {
   }
 
  private:
+  std::string kind_;
   std::string run_;
   compare::TraceHeader header_;
   std::optional<compare::RunJudge> judge_;

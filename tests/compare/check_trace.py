@@ -215,6 +215,7 @@ class Checker:
         start = step.path[0]
         if last is None or step.get("respawn"):
             self.put[who] = step
+        if last is None or last.path[-1][:2] != start[:2]:
             self.sides[who] = {}
         if last is None:
             at = vector(self.header["starts"][who]["position"])

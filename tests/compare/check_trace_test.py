@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""check_trace.py finds nothing in good traces, and what is wrong in traces that are spoilt in one thing each.
+"""Both judges, check_trace.py and `paperproof judge`, find nothing in good traces, and what is wrong in traces that are
+spoilt in one thing each.
 
     check_trace_test.py PAPERPROOF
 
@@ -278,6 +279,10 @@ class Checking(unittest.TestCase):
                               capture_output=True, text=True, check=False)
         return done.returncode, done.stdout, done.stderr
 
+    def judged(self, path, *options):
+        done = subprocess.run([COMMAND, "judge", *options, path], capture_output=True, text=True, check=False)
+        return done.returncode, done.stdout + done.stderr
+
     def spoilt(self, scene, spoil):
         """The file of a trace that is changed by `spoil`."""
         with open(self.good[scene], encoding="utf-8") as file:
@@ -296,13 +301,19 @@ class Checking(unittest.TestCase):
                 status, said, _ = self.run_on(path)
                 self.assertEqual(status, 0, said)
                 self.assertIn("contacts, 0 violations" if "crush" not in said else "0 violations", said)
+                self.assertEqual(self.judged(path)[0], 0)
+                self.assertIn(" 0 broken of 21 clauses guaranteed", self.judged(path, "--all")[1])
 
     def test_what_is_spoilt_is_found_and_named(self):
         for what, scene, spoil, clause in SPOILT:
             with self.subTest(what):
-                status, said, error = self.run_on(self.spoilt(scene, spoil))
+                path = self.spoilt(scene, spoil)
+                status, said, error = self.run_on(path)
                 self.assertEqual(status, 1, said + error)
                 self.assertIn(f": {clause}: ", said)
+                status, said = self.judged(path)
+                self.assertEqual(status, 1, said)
+                self.assertIn(f"\n  {clause} on ", said)
 
     def test_only_what_is_guaranteed_is_asked_for_unless_told(self):
         def spoil(header, steps):
@@ -312,6 +323,8 @@ class Checking(unittest.TestCase):
         path = self.spoilt("yard", spoil)
         self.assertEqual(self.run_on(path)[0], 0)
         self.assertEqual(self.run_on(path, "--all")[0], 1)
+        self.assertEqual(self.judged(path)[0], 0)
+        self.assertEqual(self.judged(path, "--all")[0], 1)
         self.assertEqual(self.run_on(path, "--clauses", "overlap,passage")[0], 0)
         self.assertEqual(self.run_on(path, "--clauses", "wanted")[0], 1)
 

@@ -63,5 +63,8 @@ paperproof_trace_test(of_penetration_resolution_shows_the_tunnel COMMAND "${chec
 paperproof_trace_test(of_penetration_resolution_ends_with_an_error COMMAND "${checker}" ${safe} "${passed}"
   PROPERTIES WILL_FAIL TRUE)
 paperproof_trace_test(of_penetration_resolution_that_promises_nothing_is_no_error COMMAND "${checker}" "${passed}")
+paperproof_trace_test(what_is_known_and_open_is_all_that_built_in_scenes_break
+  COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/known_and_open_test.py" "$<TARGET_FILE:paperproof>"
+          "${PROJECT_SOURCE_DIR}/tests/known_and_open.json" "${PROJECT_SOURCE_DIR}/README.md" PROPERTIES COST 20)
 paperproof_trace_test(checker_finds_and_names_whatever_is_spoilt
   COMMAND "${CMAKE_CURRENT_SOURCE_DIR}/check_trace_test.py" "$<TARGET_FILE:paperproof>" PROPERTIES COST 60)
