@@ -9,6 +9,7 @@
 #include "report/page_reader.hpp"
 #include "report/report.hpp"
 #include "report/row_pictures.hpp"
+#include "scenes/load.hpp"
 
 #include <nlohmann/json.hpp>
 

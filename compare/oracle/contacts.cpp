@@ -358,7 +358,9 @@ void ContactJudge::add_dont_care(StepJudgement& judgement) const {
   };
   for (const Contact<double>& contact : step_.contacts) {
     if (!header_.path_exact || exact_on_side(contact)) continue;
-    const bool deflected = met_after_another(contact, judgement) || ran_into(contact);
+    // Nothing but another contact turns a motion aside; ground is followed.
+    const bool turned_aside = !judgement.contacts.empty() || is_walkable(contact.normal, header_, up_);
+    const bool deflected = met_after_another(contact, judgement) || (turned_aside && ran_into(contact));
     if (deflected && has_face(contact)) judgement.deflected.emplace_back(contact.collider, contact.side);
     if (exact(contact.collider)) continue;
     const bool near = comes_near(contact);

@@ -123,6 +123,7 @@ class Box2dContestant final : public Contestant {
         records[k].steered += twins_[k].steered * dt_;
         records[k].jumping = twins_[k].state.jumping;
         records[k].ride = recorded_ride(twins_[k].state.ride);
+        records[k].velocity = twins_[k].state.velocity;  // with what carries it from now on
       }
     }
   }

@@ -309,6 +309,10 @@ void RunJudge::judge_places(const TraceStep& record, const StepJudgement& judged
       !judged.end_overlap.empty())
     return;
   for (const Contact<double>& contact : record.contacts) {
+    const MoverIndex carrier = header_.scenery.colliders[contact.collider].mover;
+    const bool pushed = carrier != no_mover && moves(record.movers[carrier]) &&
+                        solids().separation({record.path.front(), record.movers}, contact.collider) <= guaranteed_gap;
+    if (pushed) continue;  // it gives way from the start, and has no time of impact
     // As far along the normal as it is off the time at which the way touches, at the pace of the leg that leads there.
     double off = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < record.path.size(); ++i) {

@@ -1,5 +1,7 @@
 #include "runs/technique_parts.hpp"
 
+#include "records/row.hpp"
+
 #include <paperproof/tolerances.hpp>
 
 #include <fmt/format.h>

@@ -240,7 +240,8 @@ TEST(CommandDiff, names_what_changed_and_nothing_else) {
     older.replace(at_commit += 10, 1, "x");
   std::ofstream(place.path("o.jsonl"), std::ios::binary) << older;
   EXPECT_EQ(place.run("diff r.jsonl o.jsonl").status, 0) << "the same rows of another commit";
-  std::ofstream(place.path("t.jsonl"), std::ios::binary) << changed.substr(0, changed.rfind('{'));
+  std::ofstream(place.path("t.jsonl"), std::ios::binary)
+      << changed.substr(0, changed.rfind('\n', changed.size() - 2) + 1);
   EXPECT_TRUE(holds(place.run("diff s.jsonl t.jsonl").out, "only in s.jsonl"));
   EXPECT_EQ(place.run("diff r.jsonl nothing.jsonl").status, 2);
 }

@@ -361,7 +361,8 @@ TEST(Judge, walking_over_abutting_tiles_touches_only_the_floor) {
 
 TEST(Judge, walking_into_a_wall_on_the_floor_touches_both) {
   Judge judge(header({box(-4, -1, 4, 0), box(1, 0, 2, 2)}));
-  TraceStep walk = step({{0.5, 0.625 + 5e-7}, {1 - 0.3125 - 5e-7, 0.625 + 5e-7}});
+  const Vec2d wall(1 - 0.3125 - 5e-7, 0.625 + 5e-7);
+  TraceStep walk = step({{0.5, 0.625 + 5e-7}, wall, wall});
   walk.requested = {0.5, -1.0 / 128};
   const StepJudgement judged = judge.judge(walk);
   ASSERT_EQ(judged.contacts.size(), 2U);

@@ -59,7 +59,7 @@ TEST(FallingCrate, crushes_in_the_step_of_the_formula_and_nobody_leaves_the_floo
   int expected = 0;  // after n + 1 steps it has fallen g h² (n + 1) (n + 2) / 2
   while (10 * scene.dt * scene.dt * (expected + 1) * (expected + 2) / 2 <= 2) ++expected;
   const ReportScene result = ran(scene, {"octagon_sweep"});
-  EXPECT_EQ(row_of(result, "octagon_sweep").verdict, Verdict::holds);
+  EXPECT_EQ(row_of(result, "octagon_sweep").verdict, Verdict::holds) << row_of(result, "octagon_sweep").reason;
   for (const TraceStep& step : run_of(result, "octagon_sweep").steps) {
     // Afterwards every step begins inside the crate, and nothing new is crushed.
     EXPECT_EQ(step.crushed, step.step == expected ? std::vector<ColliderIndex>{1} : std::vector<ColliderIndex>{})
@@ -97,7 +97,7 @@ TEST(Bodies, are_lifted_by_what_goes_along_a_path) {
   scene.movers[1].body = Body{};
   scene.start.position = {0, 1.015 + half_height + 5e-7};
   const ReportScene result = ran(scene, {"octagon_sweep"});
-  EXPECT_EQ(row_of(result, "octagon_sweep").verdict, Verdict::holds);
+  EXPECT_EQ(row_of(result, "octagon_sweep").verdict, Verdict::holds) << row_of(result, "octagon_sweep").reason;
   EXPECT_NEAR(run_of(result, "octagon_sweep").steps.back().path.back().position.y(), 6 + scene.start.position.y(),
               0.01);
 }
