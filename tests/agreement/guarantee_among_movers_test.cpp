@@ -70,6 +70,8 @@ struct Tally {
   int contacts = 0;        ///< Had a contact whose normal, point and gap are not what is there.
   int hanging = 0;         ///< Could have fallen, and did not.
   int stuck_refuted = 0;   ///< Said that they are stuck, and there was a straight way out.
+  int fine = 0;            ///< Are fine, see `is_fine`, as are all before them in their run.
+  int fine_broken = 0;     ///< Of these, ended inside something or passed it.
 
   [[nodiscard]] int broken() const {
     return overlaps + passages + one_way + gaps + fractions + room + unsound + drops + contacts + hanging +
@@ -227,6 +229,12 @@ class RandomRun {
     tally.overlaps += !judgement.entered.empty();
     tally.passages += !judgement.tunnelled.empty() || !judgement.corner_cut.empty();
     tally.one_way += !judgement.one_way_broken.empty();
+    all_fine_ = all_fine_ && is_fine(record);
+    if (all_fine_) {
+      ++tally.fine;
+      tally.fine_broken += !judgement.entered.empty() || !judgement.tunnelled.empty() ||
+                           !judgement.corner_cut.empty() || !judgement.one_way_broken.empty();
+    }
     tally.room += !judgement.crushed_with_room.empty();
     tally.hanging += judgement.hangs && !up_turns_;  // the judge of a run knows no other up
     tally.in_wedges += record.dropped && is_between_surfaces(record);
@@ -243,6 +251,21 @@ class RandomRun {
     // A contact with what was overlapped, or crushes later in the step, has no gap.
     const bool free = record.crushed.empty() && judgement.end_overlap.empty();
     tally.gaps += free && !(near && judgement.max_contact_gap <= contact_reach<Scalar>);
+  }
+
+  /// Whether nothing crushes, and an ulp of every number of the step is at most a sixteenth of the gap that is kept. A
+  /// position, the end of a mover and the way of each are rounded once, and a step has few parts: their errors do not
+  /// add up to the gap. In float this is so up to 262 m.
+  [[nodiscard]] bool is_fine(const TraceStep& record) const {
+    constexpr double ulp = std::numeric_limits<Scalar>::epsilon();
+    constexpr double largest = static_cast<double>(Tolerances<Scalar>{}.stop) / 16 / ulp;
+    const auto is_small = [](const Vec2d& v) { return v.cwiseAbs().maxCoeff() <= largest; };
+    return record.crushed.empty() && is_small(record.requested) &&
+           std::all_of(record.path.begin(), record.path.end(),
+                       [&](const PathPoint<double>& corner) { return is_small(corner.position); }) &&
+           std::all_of(record.movers.begin(), record.movers.end(), [&](const MoverMotion<double>& motion) {
+             return is_small(motion.from) && is_small(motion.to) && is_small(motion.to - motion.from);
+           });
   }
 
   /// What closes in is met on one side and on the other, sooner and sooner: no number of iterations is enough. The last
@@ -364,7 +387,8 @@ class RandomRun {
   compare::MoverRecord<Scalar> record_;
   bool begins_anew_ = false;
   bool ends_ = false;
-  bool up_turns_;  ///< Between the steps of the run, now and then.
+  bool all_fine_ = true;  ///< All steps so far.
+  bool up_turns_;         ///< Between the steps of the run, now and then.
   Vec2<Scalar> up_{0, 1};
   std::optional<RunTrace> trace_;
   bool launched_ = false;
@@ -457,9 +481,11 @@ TEST(AmongMoversFound, what_broke_once_holds) {
   }
 }
 
-TEST_P(AmongMovers, in_float_what_breaks_is_counted) {
+TEST_P(AmongMovers, in_float_nothing_is_passed_where_rounding_is_finer_than_the_gap) {
   const Tally tally = run_family<float>(GetParam(), steps_per_family() / 9);
-  EXPECT_GE(tally.steps, steps_per_family() / 9);
+  EXPECT_EQ(tally.fine_broken, 0);
+  EXPECT_GE(tally.fine, tally.steps / 4) << "of " << tally.steps;
+  EXPECT_LT(tally.fine, tally.steps);
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryFamily, AmongMovers, ::testing::ValuesIn(all_families),
