@@ -177,7 +177,7 @@ class Solver {
     return true;
   }
 
-  /// Takes out of the velocity what rounding left of it into what holds.
+  /// Removes the component into held surfaces that rounding left in the velocity.
   void follow(const std::vector<Touch<Real>>& touches) {
     held_.clear();
     for (const Touch<Real>& touch : touches) {

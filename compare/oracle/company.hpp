@@ -25,13 +25,13 @@ namespace paperproof::compare {
 /// then takes the place of the scenery's. It is comparable under the conditions of `Judge`, and if no third one that
 /// comes near either has met something before: that one may have turned them aside.
 ///
-/// **In company.** Who comes within 1e-6 m of another (float: within the gap at which it still touches; Box2D: its
-/// skin, 20 mm) at a corner of either's way may be turned aside there, so what was requested no longer says what
-/// scenery is met: on such a step contacts with scenery that were reported and are not exact, or are exact and were not
-/// reported, count neither way (exempted; of who is excused nothing a reported one is right where a face is there, and
-/// an exact one from the start of the step alone is none where the other was met first); and horizontal speed that the
-/// other opposes, where it is or where it wants to go (within the step and the skin beyond, as for solids), is not lost
-/// to nothing. In Box2D characters push each other, and whoever is in company may have been.
+/// **In company.** Two characters touch in a step where they come within 1e-6 m of each other at a corner of either's
+/// way (float: within the gap at which it still touches; Box2D: its skin, 20 mm). What was requested then no longer
+/// says what scenery is met, so contacts with scenery that are only reported, or only exact, count neither way
+/// (exempted). Of octagon_sweep in double, which has no such exemption, two things are still compared: a reported
+/// contact is right where a face is there, and one that is exact only from the start of the step is none where the
+/// other character was met first. Horizontal speed is not lost to nothing where the other opposes it, where it is or
+/// wants to go (within the step and the skin beyond, as for solids).
 class CompanyJudge {
  public:
   explicit CompanyJudge(const TraceHeader& header);

@@ -1,11 +1,14 @@
 /// Exact answers about an octagon and solids, in rational arithmetic.
 ///
-/// No geometry is shared with the controller, and the algorithms differ on purpose: nothing is cut into convex pieces
-/// and nothing is moved to configuration space. What goes along with a mover is judged in the frame of that mover,
-/// where the octagon makes the relative motion: a sum of doubles and products of two, so it is exact as well. A solid
-/// is overlapped where an edge of its uncut boundary enters the open octagon (Cyrus-Beck, strict) or the octagon lies
-/// wholly inside; a way is judged as the open hull of all its positions; the time of impact is the earliest of all
-/// times at which a corner of one meets an edge of the other.
+/// No geometry is shared with the controller. Overlap, passage and time of impact use the uncut outline, by other
+/// algorithms than the controller's: a solid is overlapped where an edge of its boundary enters the open octagon
+/// (Cyrus-Beck, strict) or the octagon lies wholly inside; a way is judged as the open hull of all its positions; the
+/// time of impact is the earliest of all times at which a corner of one meets an edge of the other. Depth, separation,
+/// near faces, room and ways out cut the outline into convex parts and look for separating axes, as the controller
+/// does: there the code is independent, the method is not.
+///
+/// What goes along with a mover is judged in the frame of that mover, where the octagon makes the relative motion: a
+/// sum of doubles and products of two, so it is exact as well.
 ///
 /// Every decision is tried first in doubles that carry a rigorous bound of their own rounding errors, and is made in
 /// unlimited integers (all doubles scaled by one power of two) where that bound leaves it open.

@@ -53,7 +53,10 @@ constexpr std::array all{
     Metric{"exact_first_impact_fraction", "First impact, exact", "of a step", Group::contacts, Of::first,
            "Time of that impact as a fraction of the step", &Row::exact_first_impact_fraction},
     Metric{"contact_precision", "Precision", "share", Group::contacts, Of::share,
-           "Share of the reported contacts that exact arithmetic confirms", &Row::contact_precision},
+           "Share of the reported contacts that are exact, or that an exact contact deflected the motion into; "
+           "contacts in reach "
+           "do not count",
+           &Row::contact_precision},
     Metric{"contact_recall", "Recall", "share", Group::contacts, Of::share,
            "Share of the exact contacts that were reported", &Row::contact_recall},
     Metric{"contact_precision_box2d", "Precision, Box2D", "share", Group::contacts, Of::share,

@@ -53,7 +53,7 @@ struct JumpRules {
   std::optional<bool> side_hit_ends_rise{};
 };
 
-/// Drawn in the colour of a platform, and in nobody's way but that of who reads colours.
+/// Drawn in the colour of a platform, and solid only for `pixel_colour`, which reads colours.
 struct Decoration {
   std::string id;
   std::vector<Vec2d> polygon;  ///< [m]

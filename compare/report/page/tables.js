@@ -115,7 +115,7 @@ const QUALITY = [
   ['memory_bytes', 'Memory', 'bytes', measure, 'Of a contender\'s own picture of the level'],
 ];
 const CONTACTS = [
-  ['contact_precision', 'Precision', '%, exact', share, 'Share of reported contacts that exact arithmetic confirms'],
+  ['contact_precision', 'Precision', '%, exact', share, 'Share of reported contacts that are exact, or that an exact contact deflected into; contacts in reach do not count'],
   ['contact_recall', 'Recall', '%, exact', share, 'Share of the exact contacts that were reported'],
   ['contact_band', 'In the band', '', count, 'Contacts between 1e-7 and 7e-7 m, where the guarantee lets hit and hold be either'],
   ['normal_error_max_deg', 'Normal error', 'degrees', measure, 'Largest, of the reported contacts that are exact'],
