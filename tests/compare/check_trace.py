@@ -251,7 +251,8 @@ class Checker:
     def check_wanted(self, step, who, last):
         intent = self.intents[who]
         if step.get("respawn") and last is not None:
-            intent.begin_anew(step.get("from", {"velocity": (0, 0)}))
+            moved = last.path[-1][:2] != step.path[0][:2]
+            intent.begin_anew(step.get("from", {"velocity": (0, 0)}), moved)
         elif step.get("from"):
             intent.begin_anew(step.get("from"))
         wanted = intent.wanted(step.record, step.dt, step.frame, step.gravity, step.motion, self.colliders,
@@ -273,7 +274,8 @@ class Checker:
         return any(self.world.met(name, step.motion, step.path[0], (*there, ZERO)) for name in self.world.solids)
 
     def check_rest(self, step, last):
-        step.before = last.record["velocity"] if last else None
+        put = step.get("from", {}) if step.get("respawn") else {}
+        step.before = put.get("velocity", last.record["velocity"] if last else None)
         if not self.asks("rest") or last is None or step.get("respawn") or step.way() == STAYS or self.count > 1:
             return
         before = last.record

@@ -46,11 +46,14 @@ class Intent:
         self.parts = header.get("substeps", 1)
         self.begin_anew({"velocity": start["velocity"]})
 
-    def begin_anew(self, state):
+    def begin_anew(self, state, moved=True):
+        """With a state that is told. Who has not been moved remembers the rest."""
         self.velocity = state["velocity"]
         self.grounded, self.jumping = state.get("grounded", False), state.get("jumping", False)
         self.held, self.pending = state.get("jump_held", False), state.get("jump_pending", False)
         self.ride = state.get("ride")
+        if not moved:
+            return
         self.pending_left = self.coyote_left = 0.0
         self.crushed, self.sides, self.left_ground = False, set(), False
         self.carrier = (0.0, 0.0)  # how fast what carries went in the step before
