@@ -67,13 +67,19 @@ void EndJudge::judge_ground(const HangingJudge& hanging, bool starts_free, StepJ
   const Vec2d unsteered = wanted_.displacement - wanted_.steered * Vec2d(up_.y(), -up_.x());
   if (wanted_.jumped || step_.stuck || !starts_free) return;
   const double least = guaranteed_touch - touch_rounding;
-  judgement.ground_missed = any_face([&](const NearPart& part, const NearFace& face) {
-    if (!walkable(part, face) || face.separation > least) return false;
+  // At a crest several faces are touched: a motion that leaves one of them leaves the ground.
+  bool touches = false;
+  bool leaves = false;
+  any_face([&](const NearPart& part, const NearFace& face) {
+    if (!walkable(part, face) || face.separation > least || !meets_ground(-face.normal * least)) return false;
     // Where a fall ends within touch without a contact it goes on in the next step.
     const double apart = face.normal.dot(step_.velocity * dt_ - part.moved);
     const bool is_pulled = face.normal.dot(unsteered - part.moved) < -rounding_of_motion;
-    return std::abs(apart) <= least && is_pulled && meets_ground(-face.normal * least) && stands_on_ground();
+    touches = touches || is_pulled;
+    leaves = leaves || std::abs(apart) > least;
+    return false;
   });
+  judgement.ground_missed = touches && !leaves && stands_on_ground();
 }
 
 /// Whether no other character and nothing that turns is within reach where the step begins.

@@ -20,8 +20,8 @@ inline constexpr double touch_rounding = 1e-8;
 /// face is met by an exact motion straight down by the gap: the octagon only touches beside the face.
 ///
 /// **Ground missed.** The octagon is met by a walkable face on a motion by `guaranteed_touch` against the face's
-/// normal, no jump began, the unsteered motion leads into the face, and the motion at the end goes along it: in one
-/// more step it would part them, or press in, by no more than that.
+/// normal, no jump began, the unsteered motion leads into it, and the motion at the end goes along all such faces: in
+/// one more step it would part them, or press in, by no more than that.
 ///
 /// **Speed lost or gained.** A step that begins free, and whose wanted motion comes within 1e-6 m of nothing, goes
 /// exactly as wanted. Else the upward speed is less than wanted only below a ceiling, on ground that is followed, or

@@ -88,7 +88,7 @@ bool HangingJudge::is_held_at_end(double within) const {
   for (const NearPart& part : parts_near(step_.path.size() - 1, within)) {
     obstacles.emplace_back();
     for (const NearFace& face : part.faces)
-      obstacles.back().push_back({face.normal, face.normal.dot(part.moved), face.separation});
+      obstacles.back().push_back({face.normal, 0, face.separation});  // as things are then
   }
   const Vec2d free = nearest_free(unsteered, obstacles, exact_reach.opening);
   return -free.dot(up_) <= std::max(least_fall, ulp_at(header_, step_.path.back().position));

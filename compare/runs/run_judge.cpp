@@ -318,7 +318,8 @@ void RunJudge::judge_places(const TraceStep& record, const StepJudgement& judged
       const MoverIndex mover = header_.scenery.colliders[contact.collider].mover;
       Vec2d pace = span > 0 ? Vec2d((corner.position - record.path[i - 1].position) / span) : record.requested;
       if (mover != no_mover) pace -= record.movers[mover].to - record.movers[mover].from;
-      off = std::min(off, std::abs(contact.fraction - corner.fraction) * std::abs(pace.dot(contact.normal)));
+      const double approach = -pace.dot(contact.normal);
+      if (approach > 0) off = std::min(off, std::abs(contact.fraction - corner.fraction) * approach);
     }
     if (off > 2 * guaranteed_gap && off < std::numeric_limits<double>::infinity())
       note(Clause::time_of_impact, record,
