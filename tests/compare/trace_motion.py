@@ -60,7 +60,7 @@ class Intent:
 
     def wanted(self, step, dt, frame, gravity, motion, colliders, wall_ahead):
         """None where the trace does not say it: a rider of what turns."""
-        c, part = self.character, dt / self.parts
+        c, part = self.character, dt / (self.parts * motion.parts())
         own = [a - b for a, b in zip(self.velocity, self.ride["velocity"] if self.ride else (0, 0))]
         before, rise = frame.across(own), frame.rise(own)
         move = step["input"].get("move")
