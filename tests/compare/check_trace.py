@@ -636,7 +636,9 @@ class Checker:
         slope = self.ground.surely_walkable
         steered = float(step.steered)
         opposed = any((across * walk < 0 or across * steered < 0) and up < slope for across, up in faces)
-        between = any(a[0] * b[0] + a[1] * b[1] < 0 for a, b in itertools.combinations(faces, 2))
+        # Two surfaces that close in on it, and one of them ahead, stop it together.
+        between = any(a[0] * b[0] + a[1] * b[1] < 0 and min(a[0] * walk, b[0] * walk) < 0
+                      for a, b in itertools.combinations(faces, 2))
         for what, value, slack in (("speed", have, rounding), ("way", made, restored)):
             lost = (walk - frame.across(value)) * math.copysign(1, walk)
             if abs(walk) > slack and lost > slack and not opposed and not between:
