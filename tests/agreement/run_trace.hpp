@@ -83,7 +83,7 @@ class RunTrace {
       header_.starts = {{before.position, before.velocity}};
       judge_.emplace(header_, compare::Measured{});
       if (const char* folder = std::getenv("PAPERPROOF_GUARANTEE_TRACES"))
-        writer_.emplace(std::string(folder) + "/" + run_ + ".jsonl", header_);
+        writer_.emplace(std::string(folder) + "/" + kind_ + "_" + run_ + ".jsonl", header_);
     } else if (launched) {
       step.respawn = true;
       step.from = {.velocity = before.velocity,

@@ -60,6 +60,30 @@ TEST(JudgeCrush, with_room_below_it_is_none) {
   EXPECT_EQ(judged.entered, Colliders{1});
 }
 
+TEST(JudgeCrush, room_is_no_farther_than_what_crushes_goes_and_a_quarter_of_a_metre) {
+  // The press comes down by 0.5 m, and touches the octagon after half of the step. By then it has to be beside the
+  // press, whose edge is at x = `edge`: its top is 0.3125 m wide. So it goes aside by 2 (edge + 0.15625) in the step.
+  constexpr double motion = 0.5;
+  constexpr double half_top = 0.15625;
+  for (const double more : {-0.3, -1e-3, 1e-3, 0.3}) {
+    const double edge = (motion + detail::push_beyond_motion) / 2 - half_top + more;
+    Judge judge(promising({box(-4, -1, 4, 0), moving(box(-4, 1.5, edge, 2))}));
+    const StepJudgement judged = judge.judge(staying(standing, {{0, 0}, {0, -motion}}, {1}));
+    EXPECT_EQ(judged.room.has_value(), more < 0) << more;
+    EXPECT_EQ(judged.crushed, more < 0 ? Colliders{} : Colliders{1}) << more;
+  }
+}
+
+TEST(JudgeCrush, room_is_not_where_it_did_not_go_by_itself) {
+  // It goes 3 m to the right in half of the step, onto a shelf below a ceiling, and is pressed there from below: that
+  // it could have stayed where it was does not count.
+  Judge judge(promising({box(1.5, 0.625 + gap, 6, 2), moving(box(1.5, -0.825, 9, -0.725))}));
+  TraceStep held = step({{0, 0}, {3, 0}, {3, 0}});
+  held.movers = {{{0, 0}, {0, 0.2}}};
+  held.crushed = {1};
+  EXPECT_EQ(judge.judge(held).crushed, Colliders{1});
+}
+
 TEST(JudgeCrush, an_opening_counts_from_two_tenths_of_a_micrometre_on) {
   // Pushed to the right by a face that comes from -0.5 to -0.1; the wall leaves an opening of the octagon's width and
   // `more`.

@@ -42,22 +42,25 @@ class Intent:
     the state of the button is not."""
 
     def __init__(self, header, start):
-        self.character, self.gravity = header["character"], header["gravity"]
+        self.character = header["character"]
         self.parts = header.get("substeps", 1)
         self.begin_anew({"velocity": start["velocity"]})
 
-    def begin_anew(self, state):
+    def begin_anew(self, state, moved=True):
+        """With a state that is told. Who has not been moved remembers the rest."""
         self.velocity = state["velocity"]
         self.grounded, self.jumping = state.get("grounded", False), state.get("jumping", False)
         self.held, self.pending = state.get("jump_held", False), state.get("jump_pending", False)
         self.ride = state.get("ride")
+        if not moved:
+            return
         self.pending_left = self.coyote_left = 0.0
         self.crushed, self.sides, self.left_ground = False, set(), False
         self.carrier = (0.0, 0.0)  # how fast what carries went in the step before
 
-    def wanted(self, step, dt, frame, motion, colliders, wall_ahead):
+    def wanted(self, step, dt, frame, gravity, motion, colliders, wall_ahead):
         """None where the trace does not say it: a rider of what turns."""
-        c, part = self.character, dt / self.parts
+        c, part = self.character, dt / (self.parts * motion.parts())
         own = [a - b for a, b in zip(self.velocity, self.ride["velocity"] if self.ride else (0, 0))]
         before, rise = frame.across(own), frame.rise(own)
         move = step["input"].get("move")
@@ -73,10 +76,10 @@ class Intent:
         rise = self.press(step["input"].get("jump", False), part, rise, move or 0, wall_ahead)
         if c.get("coyote_time", 0) > 0:
             self.coyote_left = c["coyote_time"] if self.grounded else max(self.coyote_left - part, 0)
-        rise += frame.rise(self.gravity) * part
+        rise += frame.rise(gravity) * part
         if "max_fall_speed" in c:
             rise = max(rise, -c["max_fall_speed"])
-        speed = frame.world(walk + frame.across(self.gravity) * part, rise)
+        speed = frame.world(walk + frame.across(gravity) * part, rise)
         carried = self.carried(step, dt, motion, colliders)
         if carried is None:
             return None

@@ -9,6 +9,7 @@ from trace_one_way import lines_of, surfaces_of
 from trace_turning import Way, comes_to_overlap, overlaps
 
 STAYS = (ZERO, ZERO)
+AT_ONCE = Fraction(1, 10**5)  # a turn at once takes less than this part of the time of what follows
 
 
 def edges_of(rings, lines):
@@ -112,6 +113,13 @@ class Motion:
     def seen(self, name, corner):
         """A corner of a way as the collider sees it, which then stands still."""
         return less(corner[:2], self.offset(name, corner[2]))
+
+    def parts(self):
+        """Into how many shorter steps the step was divided: each begins with a turn at once."""
+        def turns_at_once(k):
+            return sum(b - a < AT_ONCE * (c - b) for a, b, c in zip(k, k[1:], k[2:]))
+
+        return max([1] + [turns_at_once(way.instants) for way in self.ways.values()])
 
     def longest(self, name):
         """The longest way of a vertex, rounded [m]."""
