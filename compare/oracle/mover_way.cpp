@@ -17,7 +17,7 @@ constexpr double rounding_of_float = 0x1p-24;
 constexpr int roundings_of_vertex = 8;
 constexpr int roundings_of_time = 4;
 /// What takes less of the time that follows is a turn at once.
-constexpr double at_once = 1e-5;
+constexpr double share_at_once = 1e-5;
 /// Share of a step that a turn at once takes.
 constexpr double turning_share = 1e-6;
 /// Of an angle that is read off vertices.
@@ -108,7 +108,7 @@ bool is_circle(const ColliderDef& def) { return def.shape == ColliderDef::Shape:
 /// Whether a turn at once ends at this instant of a way.
 bool ends_turn_at_once(const VertexWay& way, std::size_t k) {
   if (k == 0 || k + 1 >= way.instants.size()) return false;
-  return way.instants[k] - way.instants[k - 1] < at_once * (way.instants[k + 1] - way.instants[k]);
+  return way.instants[k] - way.instants[k - 1] < share_at_once * (way.instants[k + 1] - way.instants[k]);
 }
 
 template <class Index>
