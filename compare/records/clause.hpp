@@ -55,9 +55,9 @@ inline constexpr std::array<std::string_view, 21> clause_names{
 }
 
 [[nodiscard]] inline std::vector<Clause> every_clause() {
-  std::vector<Clause> all;
-  for (std::size_t i = 0; i < clause_names.size(); ++i) all.push_back(static_cast<Clause>(i));
-  return all;
+  std::vector<Clause> clauses;
+  for (std::size_t i = 0; i < clause_names.size(); ++i) clauses.push_back(static_cast<Clause>(i));
+  return clauses;
 }
 
 /// How often a clause was broken, and where first.

@@ -497,9 +497,9 @@ void RunJudge::write_faults(Row& row) const {
   on_steps(row.hanging_steps, "hangs");
   on_steps(row.stuck_refuted, "says it is stuck beside a way out");
   on_steps(row.ground_refuted, "says it is grounded with nothing under it");
-  if (const double lost = row.wanted_motion_lost.value_or(0); lost > most_motion_lost)
+  if (const double share = row.wanted_motion_lost.value_or(0); share > most_motion_lost)
     fault(Axis::progress, Verdict::flagged,
-          fmt::format("loses {:.3g} % of its horizontal motion to nothing", 100 * lost));
+          fmt::format("loses {:.3g} % of its horizontal motion to nothing", 100 * share));
   if (const auto other = breaches_.find(Clause::wanted); other != breaches_.end())
     fault(Axis::validity, Verdict::flagged,
           fmt::format("was asked for another motion than the scene wants on {}", counted(other->second.steps, "step")));
