@@ -252,6 +252,7 @@ class Judge {
   [[nodiscard]] std::vector<ColliderIndex> overlapped(const TraceStep& step) const;
   /// What turns is no solid there.
   [[nodiscard]] const ExactScenery& scenery() const noexcept { return scenery_; }
+  [[nodiscard]] const detail::TurningJudge& turning() const noexcept { return *turning_; }
 
  private:
   /// A place that outlasts its step.
