@@ -240,7 +240,8 @@ struct StepJudgement {
 /// double: 1e-6 m; Box2D: 20 mm), from any corner of the path.
 class Judge {
  public:
-  explicit Judge(const TraceHeader& header);
+  /// @param like of another character of the same run: both ask the same exact sceneries.
+  explicit Judge(const TraceHeader& header, const Judge* like = nullptr);
   ~Judge();
   Judge(Judge&&) = delete;
   /// @param others of a run with several characters: nobody has room where they are or go through.
@@ -274,7 +275,14 @@ class Judge {
   using Path = std::vector<Place>;
   using Touched = std::map<ColliderIndex, std::size_t>;  ///< With the corner where the first leg that meets it begins.
 
-  [[nodiscard]] const ExactScenery* grown_scenery();
+  struct Sceneries {
+    explicit Sceneries(const TraceHeader& header);
+    ExactScenery octagon;
+    std::map<double, std::unique_ptr<ExactScenery>> larger;  ///< By how much the octagon is [m].
+  };
+
+  /// The scenery for an octagon that is larger by so many metres.
+  [[nodiscard]] const ExactScenery& scenery_for(double larger);
   [[nodiscard]] StepJudgement judge_exactly(const TraceStep& step, const Others& others, const Wanted* wanted);
   [[nodiscard]] Path path_of(const TraceStep& step) const;
   /// Whether nothing differs from the last step, as at rest: then neither does the judgement.
@@ -302,9 +310,8 @@ class Judge {
 
   const TraceHeader header_;
   std::unique_ptr<detail::TurningJudge> turning_;
-  ExactScenery scenery_;
-  std::unique_ptr<ExactScenery> grown_scenery_;  ///< See `detail::find_room`; made when a crush is asked about.
-  std::unique_ptr<ExactScenery> near_scenery_;   ///< See `detail::EndJudge`; made for what is promised.
+  std::shared_ptr<Sceneries> sceneries_;
+  const ExactScenery& scenery_;
   std::size_t mover_count_ = 0;
   bool has_sensors_ = false;
   double slop_ = 0;

@@ -41,7 +41,8 @@ std::string metres(double length) { return fmt::format("{:.3g} m", length); }
 RunJudge::RunJudge(const TraceHeader& header, const Measured& measured)
     : header_(header), metrics_(header, measured), judgements_(header.characters) {
   for (std::size_t k = 0; k < header.characters; ++k)
-    followers_.push_back({.judge = std::make_unique<Judge>(header_), .intent = Intent(header_)});
+    followers_.push_back({.judge = std::make_unique<Judge>(header_, k > 0 ? followers_[0].judge.get() : nullptr),
+                          .intent = Intent(header_)});
   if (header.characters > 1) company_ = std::make_unique<CompanyJudge>(header_);
   const auto is_known = [](const MoverScript& script) { return !script.path.empty(); };
   if (!header_.scripts.empty() && std::all_of(header_.scripts.begin(), header_.scripts.end(), is_known))
