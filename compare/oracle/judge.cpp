@@ -211,7 +211,7 @@ void Judge::judge_end(const Path& path, Touched& touched, StepJudgement& judgeme
     const double depth = scenery_.penetration(path.back(), collider);
     episode.depth = std::max(episode.depth, depth);
     if (!is_new && contains(judgement.crushed, collider)) {
-      // It was left within the step before it came again: what counts is where it was free of it then.
+      // The octagon left this solid earlier in the step: it is judged from its last free position.
       const auto free = std::find_if(path.rbegin(), path.rend(),
                                      [&](const Place& corner) { return !scenery_.overlaps(corner, collider); });
       if (free != path.rend()) episode.free_from.emplace(*free);

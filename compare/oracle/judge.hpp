@@ -130,10 +130,9 @@ struct StepJudgement {
 ///   of the way since it left meet the solid: it left on another side. Leaving a solid in which the run (or a respawn,
 ///   or a placement of the twin) began is none; entering it again after that is.
 ///
-/// What a verified crush excuses may go through the octagon, but the octagon not through it: such a mover is tunnelled
-/// only if, standing still where this step leaves it, it also lies on the straight way from where the octagon was in
-/// the world when the mover came over it to where the octagon is now. An octagon that stayed there was passed over and
-/// left behind.
+/// A crushing mover may sweep over the resting character; where the character's own way crosses it, it is tunnelled.
+/// The own way is the straight one in the world from where the octagon was when the mover came over it to where it is
+/// now, and the mover stands where this step leaves it.
 ///
 /// **Crushed.** A mover that the contender names as crushing is excused, and what it is pressed into stays excused
 /// until the octagon is free of it, if exact arithmetic finds no room. Room is a position at the end of the step
@@ -158,7 +157,7 @@ struct StepJudgement {
 ///
 /// **Sensor events** are compared in order, for every sensor entering and leaving apart.
 ///
-/// **Exemptions** are data, with their sizes: oracle/exemptions.hpp. octagon_sweep in double has none.
+/// **Exemptions** are data, with their sizes for each kind of contender: oracle/exemptions.hpp.
 ///
 /// **Rounding.** Whoever promises nothing may end inside by one ulp of its largest coordinate: `rounded` is no overlap.
 ///
