@@ -259,7 +259,8 @@ void Metrics::add_exempted(const StepJudgement& judgement) {
   exempt(Exempt::drawn, !judgement.drawn.empty());
   exempt(Exempt::late_ground, judgement.ground_late);
   exempt(Exempt::touched_crush, judgement.excused_crush);
-  exempt(Exempt::beside_turning, judgement.beside_turning);
+  exempt(Exempt::unsure, judgement.unsure);
+  exempt(Exempt::in_parts, judgement.in_parts);
 }
 
 void Metrics::add(const TraceStep& step, const StepJudgement& judgement) {

@@ -17,13 +17,14 @@ constexpr double rounding_of_motion = 1e-9;
 }  // namespace
 
 EndJudge::EndJudge(const TraceHeader& header, const ExactScenery& scenery, const ExactScenery& grown_scenery,
-                   const TraceStep& step, const Wanted& wanted, const Others& others)
+                   const TraceStep& step, const Wanted& wanted, const Others& others, const LaterParts& later)
     : header_(header),
       scenery_(scenery),
       grown_scenery_(grown_scenery),
       step_(step),
-      wanted_(wanted),
+      wanted_(later.whole(wanted)),
       others_(others),
+      later_(later),
       up_(up_in(step, header)),
       dt_(length_of(step, header)) {}
 
@@ -34,22 +35,33 @@ std::vector<NearPart> EndJudge::near(std::size_t corner, double within) const {
   return parts;
 }
 
+/// The same where the step ends, and how it goes then.
+std::vector<NearPart> EndJudge::near_at_end(double within) const {
+  if (!others_.near_at_end) return near(step_.path.size() - 1, within);
+  std::vector<NearPart> parts = scenery_.near_parts(end(), within);
+  for (NearPart& part : others_.near_at_end(within)) parts.push_back(std::move(part));
+  return parts;
+}
+
 /// Whether an exact displacement from where the step ends meets a walkable face.
 bool EndJudge::meets_ground(const Vec2d& displacement) const {
   Place beyond = end();
   beyond.position += displacement;
-  for (const ExactImpact& impact : scenery_.impacts_between(end(), beyond))
+  std::vector<ExactImpact> impacts = scenery_.impacts_between(end(), beyond);
+  if (others_.impacts_at_end)
+    for (ExactImpact& impact : others_.impacts_at_end(displacement)) impacts.push_back(std::move(impact));
+  for (const ExactImpact& impact : impacts)
     if (is_walkable(impact.normal, header_, up_) && !contains(step_.dropped_through, impact.collider)) return true;
   return false;
 }
 
-/// Of the solids that stand or go straight; whether ground that turns, or another character, is beneath is not asked.
+/// Whether another character is beneath is not asked.
 bool EndJudge::stands_on_ground() const { return meets_ground(-up_ * (2 * contact_reach)); }
 
 void EndJudge::judge_ground(const HangingJudge& hanging, bool starts_free, StepJudgement& judgement) const {
   const std::size_t last = step_.path.size() - 1;
   if (!judgement.end_overlap.empty() || !judgement.crushed.empty()) return;
-  const std::vector<NearPart> parts = near(last, guaranteed_touch + touch_rounding);
+  const std::vector<NearPart> parts = near_at_end(guaranteed_touch + touch_rounding);
   const auto any_face = [&](const auto& is) {
     return std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
       return !contains(step_.dropped_through, part.collider) &&
@@ -60,7 +72,8 @@ void EndJudge::judge_ground(const HangingJudge& hanging, bool starts_free, StepJ
   if (step_.grounded) {
     const bool on_ground = any_face(walkable);
     judgement.ground_refuted = !on_ground && !hanging.is_held_at_end(guaranteed_touch + touch_rounding);
-    const bool only_solids = !others_.near || others_.near(step_.path[last], guaranteed_touch).empty();
+    const bool only_solids =
+        !others_.near || others_.impacts_at_end || others_.near(step_.path[last], guaranteed_touch).empty();
     judgement.hovers = judgement.hovers || (on_ground && only_solids && !stands_on_ground());
     return;
   }
@@ -84,7 +97,7 @@ void EndJudge::judge_ground(const HangingJudge& hanging, bool starts_free, StepJ
 
 /// Whether no other character and nothing that turns is within reach where the step begins.
 bool EndJudge::is_alone() const {
-  const double within = contact_reach + wanted_.displacement.norm() + others_.longest_way;
+  const double within = contact_reach + wanted_.displacement.norm() + later_.bend() + others_.longest_way;
   return !others_.near || others_.near(step_.path.front(), within).empty();
 }
 
@@ -93,6 +106,7 @@ bool EndJudge::goes_freely() const {
   const Place start(step_.path.front(), step_.movers);
   if (!is_alone() || !near(0, contact_reach).empty()) return false;
   const Place wanted(start.position + wanted_.displacement, step_.movers, 1);
+  if (later_.any()) return scenery_.near(start, wanted, contact_reach + later_.bend()).empty();
   return grown_scenery_.met(start, wanted).empty();
 }
 
@@ -107,9 +121,13 @@ double EndJudge::flight_error() const {
                                  [](const VertexWay& way) { return way.instants.size() > 2; });
   const double waited = waits ? 2e-6 * size : 0;
   double off = 0;
-  for (const PathPoint<double>& corner : step_.path)
-    off = std::max(off, (corner.position - start - wanted_.displacement * corner.fraction).norm());
-  const double too_slow = (step_.velocity - wanted_.velocity).norm();
+  for (const PathPoint<double>& corner : step_.path) {
+    const double bend = corner.fraction < 1 ? later_.bend() : later_.steered() * dt_ / 2;
+    off = std::max(off, (corner.position - start - wanted_.displacement * corner.fraction).norm() - bend);
+  }
+  const Vec2d right(up_.y(), -up_.x());
+  const Vec2d slower = step_.velocity - wanted_.velocity;
+  const double too_slow = (slower - right * std::clamp(slower.dot(right), later_.slower, later_.faster)).norm();
   return std::max(off <= rounding + waited ? 0 : off / dt_,
                   too_slow <= rounding_of_motion * (1 + wanted_.velocity.norm()) ? 0 : too_slow);
 }
@@ -140,7 +158,7 @@ double EndJudge::vertical_error() const {
 double EndJudge::speed_gained() const {
   // Steering that presses into a steep face is taken out of what is wanted.
   const Vec2d unsteered = wanted_.velocity - wanted_.steered / dt_ * Vec2d(up_.y(), -up_.x());
-  double most = std::max(wanted_.velocity.norm(), unsteered.norm()) /
+  double most = (std::max(wanted_.velocity.norm(), unsteered.norm()) + later_.steered()) /
                 std::cos(header_.character.max_climb_degrees * std::numbers::pi / 180);
   bool pushed = false;
   for (std::size_t corner = 0; corner < step_.path.size(); ++corner)
@@ -148,14 +166,15 @@ double EndJudge::speed_gained() const {
       pushed = pushed || !part.moved.isZero(0);
       const bool is_known = part.collider < header_.scenery.colliders.size();
       const double conveyor = is_known ? std::abs(header_.scenery.colliders[part.collider].surface_speed) : 0;
-      most += part.moved.norm() / dt_ + conveyor;
+      most += (part.moved.norm() + part.unsure) / dt_ + conveyor;
     }
   const Vec2d right(up_.y(), -up_.x());
   double gained = step_.velocity.norm() - most;
   // A fall becomes a rise only where a walk climbs, and that keeps its speed across up.
   const bool rises = step_.velocity.dot(up_) > rounding_of_motion && wanted_.velocity.dot(up_) < 0;
   if (rises && !pushed && step_.contacts.size() <= 1) {  // several may turn a fall aside, and that up a slope
-    const double across = std::max(std::abs(wanted_.velocity.dot(right)), std::abs(unsteered.dot(right)));
+    const double across =
+        std::max(std::abs(wanted_.velocity.dot(right)), std::abs(unsteered.dot(right))) + later_.steered();
     gained = std::max(gained, std::abs(step_.velocity.dot(right)) - across);
   }
   return gained <= rounding_of_motion * (1 + most) ? 0 : gained;
@@ -165,10 +184,6 @@ void EndJudge::judge_speed(bool starts_free, StepJudgement& judgement) const {
   const bool excused =
       !starts_free || step_.stuck || step_.dropped || !judgement.crushed.empty() || !judgement.end_overlap.empty();
   if (excused) return;
-  if (wanted_.parts > 1) {  // each part wants another motion
-    judgement.beside_turning = true;
-    return;
-  }
   // A walker follows its ground down over a crest, as far as it is allowed to.
   const bool may_snap = header_.character.snap > 0 && wanted_.from_ground;
   if (goes_freely())

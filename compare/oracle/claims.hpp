@@ -4,6 +4,7 @@
 #include "oracle/hanging.hpp"
 #include "oracle/intent.hpp"
 #include "oracle/judge.hpp"
+#include "oracle/later_parts.hpp"
 
 namespace paperproof::compare::detail {
 
@@ -32,7 +33,7 @@ class EndJudge {
  public:
   /// @param grown_scenery the same for an octagon that is larger by 1e-6 m.
   EndJudge(const TraceHeader& header, const ExactScenery& scenery, const ExactScenery& grown_scenery,
-           const TraceStep& step, const Wanted& wanted, const Others& others);
+           const TraceStep& step, const Wanted& wanted, const Others& others, const LaterParts& later = {});
 
   /// @param starts_free the step begins inside nothing.
   void judge_ground(const HangingJudge& hanging, bool starts_free, StepJudgement& judgement) const;
@@ -41,6 +42,7 @@ class EndJudge {
  private:
   [[nodiscard]] Place end() const { return {step_.path.back(), step_.movers}; }
   [[nodiscard]] std::vector<NearPart> near(std::size_t corner, double within) const;
+  [[nodiscard]] std::vector<NearPart> near_at_end(double within) const;
   [[nodiscard]] bool meets_ground(const Vec2d& displacement) const;
   [[nodiscard]] bool stands_on_ground() const;
   [[nodiscard]] bool goes_freely() const;
@@ -53,8 +55,9 @@ class EndJudge {
   const ExactScenery& scenery_;
   const ExactScenery& grown_scenery_;
   const TraceStep& step_;
-  const Wanted& wanted_;
+  const Wanted wanted_;  ///< By all parts of the step, but for what later ones steer.
   const Others& others_;
+  const LaterParts later_;
   Vec2d up_;
   double dt_;  ///< [s]
 };

@@ -8,14 +8,22 @@
 
 namespace paperproof::compare {
 
-/// What the other characters of a run mean for one of them: where it has room, and what holds it.
+/// What is no solid of the exact scenery, the other characters of a run and what turns, means for a character: where it
+/// has room, and what holds it.
 struct Others {
   /// Those within so many metres when the step has come to a corner of the way. Empty where there are none.
   std::function<std::vector<NearPart>(const PathPoint<double>& corner, double within)> near{};
+  /// The same where the step ends, `moved` as what turns goes then. Empty where nothing turns near by.
+  std::function<std::vector<NearPart>(double within)> near_at_end{};
+  /// Of what turns only: what a displacement from where the step ends meets first, while all stays as it is then.
+  std::function<std::vector<ExactImpact>(const Vec2d& displacement)> impacts_at_end{};
+  /// Of what turns only: whether something that is farther away than `within` at a corner of the way is met in the rest
+  /// of the step, if the character goes on by so much.
+  std::function<bool(const PathPoint<double>& corner, const Vec2d& way, double within)> runs_into{};
   /// Whether they leave free a way of the whole step, from fraction 0 to 1, and the place where it ends. Empty where
   /// there are none.
   std::function<bool(std::span<const PathPoint<double>> way)> left_free{};
-  double longest_way = 0;  ///< That one of them is asked to go, or goes, in the step [m].
+  double longest_way = 0;  ///< That one of them, or a point of it, is asked to go, or goes, in the step [m].
   bool touched = false;    ///< One of them touched it during the step.
 };
 

@@ -13,7 +13,7 @@ namespace {
 constexpr double least_reach = 1e-6;
 
 //                                                                 octagon_sweep  Box2D          by units  others
-constexpr std::array<Exemption, 13> all_exemptions{{
+constexpr std::array<Exemption, 14> all_exemptions{{
     {Exempt::corner_cut,
      "corner_cut",
      "passes a solid with a rim of the octagon no deeper than this (and an eighth of its width)",
@@ -66,16 +66,22 @@ constexpr std::array<Exemption, 13> all_exemptions{{
      "m",
      {1e-6, 0, 1e-6, 1e-6}},
     {Exempt::far, "far", "begins or goes farther than this, and breaks a clause", "m", {1e6, 0, 0, 0}},
-    {Exempt::beside_turning,
-     "beside_turning",
-     "is within this of what turns: whether it hangs, stands or loses speed there is not asked",
+    {Exempt::unsure,
+     "unsure",
+     "hangs or loses speed, unless what turns comes this much farther than its point that is nearest to the character",
      "m",
-     {1e-6, box2d_skin, its_own, its_own}},
+     {its_turn, its_turn, its_turn, its_turn}},
+    {Exempt::in_parts,
+     "in_parts",
+     "goes in parts of a step, as what turns near it does: the time of an impact with what does not is not compared",
+     "",
+     {1, 0, 1, 1}},
 }};
 
 std::string size_in_words(const Exemption& exemption, Party party) {
   const double size = exemption.sizes[static_cast<std::size_t>(party)];
   if (size == its_pixel) return "its pixel";
+  if (size == its_turn) return "its turn times the size of the character";
   if (size == its_own) return party == Party::by_units ? "its unit" : "its touch gap";
   if (exemption.unit.empty()) return size > 0 ? "yes" : "no";
   if (size == 0) return "0";

@@ -35,7 +35,8 @@ enum class Exempt : std::uint8_t {
   deflected,
   ahead,
   far,
-  beside_turning
+  unsure,
+  in_parts
 };
 
 struct Exemption {
@@ -49,10 +50,13 @@ struct Exemption {
 inline constexpr double its_own = -1;
 /// A pixel of the picture that it draws, where the scenery is made of these very pixels; elsewhere 0.
 inline constexpr double its_pixel = -2;
+/// How much farther than its nearest point what turns may come in a step: see `NearPart::unsure`.
+inline constexpr double its_turn = -3;
 
 /// In the order of `Exempt`.
 [[nodiscard]] std::span<const Exemption> exemptions();
-/// For this contender, in metres or steps; 0: it does not apply.
+/// For this contender, in metres or steps; 0: it does not apply. `its_turn` is another in each step, and stays what it
+/// is.
 [[nodiscard]] double allowed(Exempt which, const TraceHeader& header);
 /// What this contender calls near [m]: no less than 1e-6, at which §6 of the guarantee lets it stop.
 [[nodiscard]] double own_reach(const TraceHeader& header);

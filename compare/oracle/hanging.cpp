@@ -48,14 +48,14 @@ double HangingJudge::HalfPlane::room(const Vec2d& aside) const {
   return approach > normal_rounding ? separation / approach : std::numeric_limits<double>::infinity();
 }
 
-bool HangingJudge::hangs(const Vec2d& made, const Reach& reach) const {
+bool HangingJudge::hangs(const Vec2d& made, const Reach& reach, Bounds bounds) const {
   const Vec2d unsteered = step_.requested - step_.steered * Vec2d(up_.y(), -up_.x());
   const double least = std::max(least_fall, ulp_at(header_, step_.path.front().position));
   const double asked = -unsteered.dot(up_);
   const double fell = -made.dot(up_);
   if (step_.capped || !(asked > least) || !(fell < least_share * asked)) return false;
   const auto falls_short_of = [&](double fall) { return fall > least && fell < least_share * fall; };
-  const std::vector<Nearby> corners = near_corners(reach);
+  const std::vector<Nearby> corners = near_corners(reach, bounds);
   Nearby all;
   for (const Nearby& corner : corners) all.add(corner);
   if (all.holds) return false;
@@ -100,15 +100,16 @@ void HangingJudge::Nearby::add(const Nearby& other) {
 }
 
 /// What the octagon may touch at each corner of its way.
-std::vector<HangingJudge::Nearby> HangingJudge::near_corners(const Reach& reach) const {
+std::vector<HangingJudge::Nearby> HangingJudge::near_corners(const Reach& reach, Bounds bounds) const {
   std::vector<Nearby> corners(step_.path.size());
   for (std::size_t corner = 0; corner < corners.size(); ++corner) {
     for (const NearPart& part : parts_near(corner, reach.contact)) {
       Nearby& nearby = corners[corner];
       nearby.holds = nearby.holds || part.faces.front().separation < -reach.contact || is_ground(part);
       Obstacle obstacle;
+      const double unsure = bounds == Bounds::safe ? part.unsure : 0;
       for (const NearFace& face : part.faces)
-        obstacle.push_back({face.normal, face.normal.dot(part.moved) + part.unsure, face.separation});
+        obstacle.push_back({face.normal, face.normal.dot(part.moved) + unsure, face.separation});
       nearby.obstacles.push_back(std::move(obstacle));
     }
   }
@@ -142,6 +143,7 @@ bool HangingJudge::is_run_into(const Reach& reach) const {
 }
 
 bool HangingJudge::is_run_into(const PathPoint<double>& corner, const Vec2d& way, const Reach& reach) const {
+  if (others_.runs_into && others_.runs_into(corner, way, reach.contact)) return true;
   const Place there(corner, step_.movers);
   const std::vector<ExactImpact> impacts =
       scenery_.impacts_between(there, Place(corner.position + way, step_.movers, 1));

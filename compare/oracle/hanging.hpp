@@ -18,6 +18,9 @@ inline constexpr Reach exact_reach{1e-6, 2e-7};
 /// none of them enters an opening without that much room on both sides. Else the exact one.
 [[nodiscard]] Reach reach_of(const TraceHeader& header);
 
+/// How far what turns may come in the step, along a face's normal: at most, or as far as its nearest point does.
+enum class Bounds : std::uint8_t { safe, nominal };
+
 /// Whether a surface with this unit normal is within the climb limit, and 1e-6 rad.
 [[nodiscard]] bool is_walkable(const Vec2d& normal, const TraceHeader& header, const Vec2d& up = {0, 1});
 
@@ -29,7 +32,7 @@ class HangingJudge {
                const Vec2d& up = {0, 1});
 
   /// @param made what the step went [m].
-  [[nodiscard]] bool hangs(const Vec2d& made, const Reach& reach) const;
+  [[nodiscard]] bool hangs(const Vec2d& made, const Reach& reach, Bounds bounds = Bounds::safe) const;
   /// Whether a face that looks upwards is no farther away, or anything is overlapped, at a corner of the step's way.
   [[nodiscard]] bool has_support(std::size_t corner, double within) const;
   /// Whether what is no farther away where the step ends lets the unsteered motion go no way down: a wedge.
@@ -52,7 +55,7 @@ class HangingJudge {
     void add(const Nearby& other);
   };
 
-  [[nodiscard]] std::vector<Nearby> near_corners(const Reach& reach) const;
+  [[nodiscard]] std::vector<Nearby> near_corners(const Reach& reach, Bounds bounds) const;
   [[nodiscard]] double fall_leg_by_leg(const Vec2d& wanted, const std::vector<Nearby>& corners,
                                        const Reach& reach) const;
   [[nodiscard]] bool is_run_into(const Reach& reach) const;

@@ -5,6 +5,7 @@
 #include "oracle/contacts.hpp"
 #include "oracle/exemptions.hpp"
 #include "oracle/hanging.hpp"
+#include "oracle/later_parts.hpp"
 #include "oracle/passing.hpp"
 #include "oracle/turning.hpp"
 
@@ -18,6 +19,8 @@ namespace {
 /// Instants at which the depth of a passing is looked at first.
 constexpr int depth_samples = 32;
 constexpr int depth_refinements = 40;
+/// A smaller share of the wanted motion is rounding.
+constexpr double rounding_of_loss = 1e-5;
 
 Place between(const Place& from, const Place& to, double share) {
   return {from.position + share * (to.position - from.position), from.movers,
@@ -57,39 +60,41 @@ std::vector<ColliderIndex> Judge::overlapped(const TraceStep& step) const {
 }
 
 StepJudgement Judge::judge(const TraceStep& step, const Others& others, const Wanted* wanted) {
-  if (!turning_->any()) return judge_exactly(step, others, wanted);
-  Others all = others;
-  all.left_free = [&](std::span<const PathPoint<double>> way) {
-    return turning_->left_free(step, way) && (!others.left_free || others.left_free(way));
-  };
-  const bool inside = turning_->begin(step);
-  bool freed = false;
-  if (step.stuck && inside) {
-    const Place start(step.path.front(), step.movers);
-    freed = turning_->frees(step, [&](const Vec2d& out) {
-      return !ends_on_another_side(start, out) &&
-             (!others.left_free || others.left_free(std::vector<PathPoint<double>>{{start.position, 0}, {out, 1}}));
-    });
-  }
-  StepJudgement judgement = judge_exactly(turning_->exact_part(step), all, wanted);
-  turning_->judge(step, scenery_, judgement);
-  const bool beside = turning_->is_near(step, detail::reach_of(header_).contact);
-  judgement.beside_turning = judgement.beside_turning || beside;
-  judgement.hangs = judgement.hangs && !beside;
-  judgement.hovers = judgement.hovers && !beside;
-  judgement.ground_refuted = judgement.ground_refuted && !beside;
-  judgement.ground_late = judgement.ground_late && !beside;
-  judgement.ground_missed = judgement.ground_missed && !beside;
-  if (beside) judgement.speed_lost = judgement.speed_gained = 0;
-  judgement.stuck_refuted = inside ? freed : judgement.stuck_refuted && !beside;
-  const auto bends = [](const VertexWay& way) { return way.instants.size() > 2; };
-  const bool in_parts = header_.path_exact && std::any_of(step.vertex_ways.begin(), step.vertex_ways.end(), bends);
-  if (beside || in_parts) judgement.motion_lost = judgement.ghost_speed_loss = 0;
-  judgement.first_impact_comparable = judgement.first_impact_comparable && !in_parts;
-  return judgement;
+  if (!turning_->any()) return judge_step(step, others, wanted);
+  const AmongTurning turning{step, others, turning_->begin(step)};
+  return judge_step(turning_->exact_part(step), with_turning(step, others), wanted, &turning);
 }
 
-StepJudgement Judge::judge_exactly(const TraceStep& step, const Others& others, const Wanted* wanted) {
+Others Judge::with_turning(const TraceStep& step, const Others& characters) const {
+  Others all = characters;
+  all.left_free = [this, &step, &characters](std::span<const PathPoint<double>> way) {
+    return turning_->left_free(step, way) && (!characters.left_free || characters.left_free(way));
+  };
+  if (step.path.empty() || turning_->is_alone(step, std::max(detail::reach_of(header_).contact, own_reach(header_))))
+    return all;
+  const auto with = [&characters](std::vector<NearPart> parts, const PathPoint<double>& corner, double within) {
+    if (characters.near)
+      for (NearPart& part : characters.near(corner, within)) parts.push_back(std::move(part));
+    return parts;
+  };
+  all.near = [this, &step, with](const PathPoint<double>& corner, double within) {
+    return with(turning_->near(step, corner, within), corner, within);
+  };
+  all.near_at_end = [this, &step, with](double within) {
+    return with(turning_->near_at_end(step, within), step.path.back(), within);
+  };
+  all.impacts_at_end = [this, &step](const Vec2d& displacement) {
+    return turning_->impacts_at_end(step, displacement);
+  };
+  all.runs_into = [this, &step](const PathPoint<double>& corner, const Vec2d& way, double within) {
+    return turning_->runs_into(step, corner, way, within);
+  };
+  all.longest_way = std::max(all.longest_way, turning_->longest_way(step));
+  return all;
+}
+
+StepJudgement Judge::judge_step(const TraceStep& step, const Others& others, const Wanted* wanted,
+                                const AmongTurning* turning) {
   if (step.movers.size() < mover_count_) throw std::invalid_argument("a step needs the motion of every mover");
   if (!others.near && repeats(step)) return last_->second;  // others may have gone
   dt_ = length_of(step, header_);
@@ -97,10 +102,12 @@ StepJudgement Judge::judge_exactly(const TraceStep& step, const Others& others, 
   const Path path = path_of(step);
   if (path.empty()) return judgement;
   if (!continues(step, path.front())) begin_episodes(path.front());
-  const bool starts_free = inside_.empty();
+  const bool begins_in_turning = turning != nullptr && turning->begins_inside;
+  const bool starts_free = inside_.empty() && !begins_in_turning;
   if (!step.respawn) judgement.remainder_made = step.remainder.x() - remainder_before_.x();
   // Before the way is judged: from which side it came into what it is inside of is known where the step begins.
-  if (step.stuck && !starts_free) judgement.stuck_refuted = has_way_out(path.front(), others);
+  if (step.stuck && !starts_free)
+    judgement.stuck_refuted = is_stuck_refuted(path.front(), others, turning, begins_in_turning);
   const auto contacts = [&] {
     const ExactScenery* grown = promises_ ? &scenery_for(detail::least_clearance) : nullptr;
     return detail::ContactJudge(header_, scenery_, grown, step);
@@ -112,15 +119,44 @@ StepJudgement Judge::judge_exactly(const TraceStep& step, const Others& others, 
   } else {
     contacts().measure_motion(starts_free, judgement);
   }
+  if (turning != nullptr) {
+    turning_->judge(turning->step, scenery_, judgement);
+    leave_out_times(turning->step, judgement);
+  }
   if (has_sensors_) judge_sensors(path, step, judgement);
-  if (step.stuck && starts_free)
-    judgement.stuck_refuted = judgement.end_overlap.empty() || has_way_out(path.back(), others);
+  if (step.stuck && starts_free) {
+    const bool ends_in_turning = std::any_of(judgement.end_overlap.begin(), judgement.end_overlap.end(),
+                                             [this](ColliderIndex collider) { return turning_->turns(collider); });
+    judgement.stuck_refuted =
+        judgement.end_overlap.empty() || is_stuck_refuted(path.back(), others, turning, ends_in_turning);
+  }
   judge_progress(step, others, wanted, starts_free, judgement);
   last_end_.emplace(path.back());
   last_.reset();
   if (path.size() == 1 && inside_.empty() && step.remainder == remainder_before_) last_.emplace(step, judgement);
   remainder_before_ = step.remainder;
   return judgement;
+}
+
+/// A motion that was requested for the whole step tells no time of impact where each part wants another.
+void Judge::leave_out_times(const TraceStep& step, StepJudgement& judgement) const {
+  const auto bends = [](const VertexWay& way) { return way.instants.size() > 2; };
+  if (!header_.path_exact || std::none_of(step.vertex_ways.begin(), step.vertex_ways.end(), bends)) return;
+  judgement.in_parts = judgement.first_approach && !step.contacts.empty();
+  judgement.first_impact_comparable = false;
+  judgement.first_approach.reset();
+}
+
+/// Whether there is a way out of what is overlapped where the step begins, or ends.
+/// @param in_turning something that turns is overlapped there.
+bool Judge::is_stuck_refuted(const Place& at, const Others& others, const AmongTurning* turning, bool in_turning) {
+  if (!in_turning) return has_way_out(at, others);
+  const auto accept = [&](const Vec2d& out) {
+    const auto& left_free = turning->characters.left_free;
+    return !ends_on_another_side(at, out) &&
+           (!left_free || left_free(std::vector<PathPoint<double>>{{at.position, 0}, {out, 1}}));
+  };
+  return at.fraction == 1 ? turning_->frees_at_end(turning->step, accept) : turning_->frees(turning->step, accept);
 }
 
 /// Corners where nothing moves are left out; a way that ends early waits where it is while the movers go on.
@@ -372,21 +408,68 @@ void Judge::judge_crushes(const Path& path, const TraceStep& step, const Touched
 
 void Judge::judge_progress(const TraceStep& step, const Others& others, const Wanted* wanted, bool starts_free,
                            StepJudgement& judgement) {
-  const detail::HangingJudge hanging(header_, scenery_, step, others, up_in(step, header_));
+  const detail::LaterParts later =
+      wanted != nullptr ? detail::later_parts(header_, step, *wanted) : detail::LaterParts{};
+  std::optional<TraceStep> whole;
+  if (later.any()) whole.emplace(step).requested += later.way;
+  const detail::HangingJudge hanging(header_, scenery_, whole ? *whole : step, others, up_in(step, header_));
   if (promises_ && wanted != nullptr) {
-    const detail::EndJudge end(header_, scenery_, scenery_for(detail::contact_reach), step, *wanted, others);
+    const detail::EndJudge end(header_, scenery_, scenery_for(detail::contact_reach), step, *wanted, others, later);
     end.judge_ground(hanging, starts_free, judgement);
     end.judge_speed(starts_free, judgement);
   } else if (step.grounded) {
     judge_ground(hanging, step, judgement);
   }
+  excuse_by_turning(step, later, others, judgement);
   if (!judgement.crushed.empty()) return;
   const Vec2d before = step.respawn ? step.remainder : remainder_before_;
   const Vec2d made = step.path.back().position - step.path.front().position + step.remainder - before;
   const detail::Reach own = detail::reach_of(header_);
   judgement.hangs = hanging.hangs(made, own);
+  judgement.unsure =
+      judgement.unsure || (others.runs_into && !judgement.hangs && hanging.hangs(made, own, detail::Bounds::nominal));
   judgement.hovers = judgement.hovers || (own.contact > detail::exact_reach.contact && !judgement.hangs &&
                                           hanging.hangs(made, detail::exact_reach));
+}
+
+/// Takes back what all parts of the step together did not want, or what something that turns may have taken.
+void Judge::excuse_by_turning(const TraceStep& step, const detail::LaterParts& later, const Others& others,
+                              StepJudgement& judgement) const {
+  const auto any_lost = [&] { return judgement.motion_lost > 0 || judgement.ghost_speed_loss > 0; };
+  if (!any_lost()) return;
+  const Vec2d up = up_in(step, header_);
+  const Vec2d right(up.y(), -up.x());
+  const double wanted = step.requested.dot(right);
+  const double ahead = std::copysign(1.0, wanted);
+  if (later.any()) {
+    const auto slowed = [&](const Vec2d& by, double steered) { return std::max(0.0, steered - ahead * by.dot(right)); };
+    const double steered = ahead > 0 ? -later.slower : later.faster;
+    const double slower = slowed(later.velocity, steered) * dt_ / std::abs(wanted);
+    judgement.motion_lost -= slowed(later.way, steered * dt_ / 2);
+    judgement.ghost_speed_loss -= slower;
+    if (!(judgement.motion_lost > rounding_of_loss * std::abs(wanted))) judgement.motion_lost = 0;
+    if (!(judgement.ghost_speed_loss > rounding_of_loss)) judgement.ghost_speed_loss = 0;
+  }
+  if (!others.runs_into || !any_lost()) return;
+  using Opposition = detail::TurningJudge::Opposition;
+  const double beyond = ahead * (promises_ ? detail::contact_reach : own_reach(header_));
+  const double rise = (step.path.back().position - step.path.front().position).dot(up);
+  double unsure = 0;
+  bool may_oppose = false;
+  for (const PathPoint<double>& corner : step.path) {
+    for (const double height : {step.requested.dot(up), rise}) {
+      const Opposition how = turning_->opposes(step, corner, (wanted + beyond) * right + height * up);
+      may_oppose = may_oppose || how == Opposition::unsure;
+      if (how == Opposition::met) judgement.motion_lost = judgement.ghost_speed_loss = 0;
+      if (how == Opposition::met) return;
+    }
+    for (const NearPart& part : turning_->near(step, corner, own_reach(header_)))
+      unsure = std::max(unsure, part.unsure);
+  }
+  const double lost = std::max(judgement.motion_lost, judgement.ghost_speed_loss * std::abs(wanted));
+  if (!may_oppose && lost > unsure) return;
+  judgement.unsure = true;
+  judgement.motion_lost = judgement.ghost_speed_loss = 0;
 }
 
 void Judge::judge_ground(const detail::HangingJudge& hanging, const TraceStep& step, StepJudgement& judgement) const {

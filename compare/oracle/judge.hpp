@@ -13,6 +13,7 @@ namespace paperproof::compare {
 namespace detail {
 class HangingJudge;
 class TurningJudge;
+struct LaterParts;
 }  // namespace detail
 
 /// A contact that the requested motion really had.
@@ -80,7 +81,9 @@ struct StepJudgement {
   bool stuck_refuted = false;   ///< It said that it is stuck, and there is a way out: see `Judge`.
   bool ground_refuted = false;  ///< It said that it is grounded, and nothing is under it: see `Judge`.
   bool ground_late = false;     ///< The same, but something was under it earlier in the step: excused.
-  bool beside_turning = false;  ///< Something that turns is within reach: what is above is not asked there.
+  /// It hangs, or loses motion or speed, unless what turns comes farther than its nearest point does: see `Bounds`.
+  bool unsure = false;
+  bool in_parts = false;        ///< It goes in parts, so that the time of its first impact is not compared.
   bool ground_missed = false;   ///< It touches ground that it does not leave, and says that it is not grounded.
   double speed_lost = 0;        ///< Of the wanted velocity, with nothing exact that took it [m/s].
   double speed_gained = 0;      ///< More than the wanted velocity and what is touched can give [m/s].
@@ -207,10 +210,11 @@ struct StepJudgement {
 /// - a direction with less than 2e-7 m of room between what is left and right of it, which is not in C;
 /// - ground: a step with a part in reach one of whose faces is within `max_climb_degrees` (and 1e-6 rad) of level;
 /// - a step that touches a corner deeper than 1e-6 m inside a solid, a verified crush, and Box2D's cap: other answers
-/// say
-///   so; and one beside a rotating body.
-/// What a grid has taken up and not made yet (`remainder`) counts as made. A step hovers if it would hang, but for what
-/// is within the contender's own reach (`detail::reach_of`): Box2D's skin, a unit of the article's search.
+///   say so.
+/// What turns comes along a face's normal by no more than a bound that is safe. Who hangs only if it comes as far as
+/// the point does that is nearest to the octagon is `unsure` (exempted). What a grid has taken up and not made yet
+/// (`remainder`) counts as made. A step hovers if it would hang, but for what is within the contender's own reach
+/// (`detail::reach_of`): Box2D's skin, a unit of the article's search.
 ///
 /// **Motion lost.** What is missing of the requested horizontal displacement is lost to nothing under the conditions of
 /// ghost speed loss, whether a contact was reported or not; but for a step that Box2D's cap cut short, or one that
@@ -225,8 +229,10 @@ struct StepJudgement {
 /// no other character has a face that looks upwards within the contender's reach (`detail::reach_of`; who promises
 /// nothing: and rounding). Whoever promises nothing may have stood on something earlier in the step (exempted): Box2D
 /// reads its contacts before it moves the bodies, and the article's techniques go on after they have met the ground.
-/// Nothing is asked beside what turns, nor whether motion is lost there, or in a step that goes in parts as what turns
-/// near it does: it wants another motion in each.
+///
+/// **In parts.** A step that goes in parts, as what turns near it does, wants another motion in each: see `LaterParts`.
+/// What is asked of its progress is asked for all of them together. The time of a first impact with what does not turn
+/// is not compared (`in_parts`, exempted).
 ///
 /// **Normal error.** The angle between the normal of a reported contact and the nearest normal of the exact contacts
 /// with that collider on that side, and of the face that is touched along the reported normal.
@@ -236,7 +242,9 @@ struct StepJudgement {
 /// **Ghost speed loss.** Horizontal speed was lost to nothing where the step began free and crushed nobody, and no
 /// solid opposes the wanted horizontal motion, neither with the rise that was requested nor with the one that was made,
 /// within the step and the contender's reach beyond it (octagon_sweep in
-/// double: 1e-6 m; Box2D: 20 mm), from any corner of the path.
+/// double: 1e-6 m; Box2D: 20 mm), from any corner of the path. No more is lost than steering in the slowest way leaves
+/// of a step in parts. What is lost where something that turns may oppose the motion (`TurningJudge::opposes`), or no
+/// more than by what a touched one may come farther than its nearest point, is `unsure` (exempted).
 class Judge {
  public:
   /// @param like of another character of the same run: both ask the same exact sceneries.
@@ -282,7 +290,21 @@ class Judge {
 
   /// The scenery for an octagon that is larger by so many metres.
   [[nodiscard]] const ExactScenery& scenery_for(double larger);
-  [[nodiscard]] StepJudgement judge_exactly(const TraceStep& step, const Others& others, const Wanted* wanted);
+  /// A step of a run in which something turns.
+  struct AmongTurning {
+    const TraceStep& step;
+    const Others& characters;
+    bool begins_inside = false;  ///< Of something that turns.
+  };
+  /// @param step,others if something turns: without contacts and the like of that, and with what it means.
+  [[nodiscard]] StepJudgement judge_step(const TraceStep& step, const Others& others, const Wanted* wanted,
+                                         const AmongTurning* turning = nullptr);
+  [[nodiscard]] Others with_turning(const TraceStep& step, const Others& characters) const;
+  [[nodiscard]] bool is_stuck_refuted(const Place& at, const Others& others, const AmongTurning* turning,
+                                      bool in_turning);
+  void leave_out_times(const TraceStep& step, StepJudgement& judgement) const;
+  void excuse_by_turning(const TraceStep& step, const detail::LaterParts& later, const Others& others,
+                         StepJudgement& judgement) const;
   [[nodiscard]] Path path_of(const TraceStep& step) const;
   /// Whether nothing differs from the last step, as at rest: then neither does the judgement.
   [[nodiscard]] bool repeats(const TraceStep& step) const;

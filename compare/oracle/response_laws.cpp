@@ -2,13 +2,12 @@
 
 #include "oracle/up.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <sstream>
 
 namespace paperproof::compare {
 namespace {
@@ -222,9 +221,13 @@ std::optional<std::string> velocity_fault(const ControlledStep& step, std::span<
   const std::vector<Vec2d> outcomes = controlled_outcomes(step, surfaces);
   const double off = distance_from(outcomes, velocity);
   if (off <= unknown) return std::nullopt;
-  return fmt::format(
-      "ends with ({:.9g}, {:.9g}) m/s; of ({:.9g}, {:.9g}) the law makes ({:.9g}, {:.9g}) at {} surfaces", velocity.x(),
-      velocity.y(), step.wanted.x(), step.wanted.y(), outcomes.front().x(), outcomes.front().y(), surfaces.size());
+  const Vec2d& made = outcomes.front();
+  std::ostringstream fault;
+  fault.precision(9);
+  fault << "ends with (" << velocity.x() << ", " << velocity.y() << ") m/s; of (" << step.wanted.x() << ", "
+        << step.wanted.y() << ") the law makes (" << made.x() << ", " << made.y() << ") at " << surfaces.size()
+        << " surfaces";
+  return fault.str();
 }
 
 double distance_from(std::span<const Vec2d> outcomes, const Vec2d& velocity) {

@@ -209,10 +209,34 @@ std::vector<ColliderIndex> TurningJudge::near_at_begin(const TraceStep& step, do
   return found;
 }
 
+bool TurningJudge::is_alone(const TraceStep& step, double within) const {
+  const auto covered = [](std::span<const Vec2d> points) {
+    Box2<double> box{points[0], points[0]};
+    for (const Vec2d& point : points) box = box.merged({point, point});
+    return box;
+  };
+  const Box2<double> extent = covered(octagon_);
+  Box2<double> places{step.path.front().position, step.path.front().position};
+  for (const PathPoint<double>& corner : step.path)
+    for (const Vec2d& at : {corner.position, Vec2d(corner.position + step.requested)}) places = places.merged({at, at});
+  const Box2<double> reach = Box2<double>{places.lower + extent.lower, places.upper + extent.upper}.inflated(within);
+  return std::none_of(solids_.begin(), solids_.end(), [&](const Solid& solid) {
+    const VertexWay& way = way_of(step, solid.collider);
+    return std::any_of(way.vertices.begin(), way.vertices.end(), [&](const std::vector<Vec2d>& vertices) {
+      return covered(vertices).inflated(solid.radius + longest_way(step)).overlaps(reach);
+    });
+  });
+}
+
+double TurningJudge::longest_way(const TraceStep& step) const {
+  double most = 0;
+  for (const Solid& solid : solids_) most = std::max(most, largest_motion(way_of(step, solid.collider)));
+  return most;
+}
+
 TurningJudge::Standing TurningJudge::standing(const Solid& solid, const std::vector<std::size_t>& numbers,
-                                              const TraceStep& step, const PathPoint<double>& corner,
-                                              double within) const {
-  const VertexWay& way = way_of(step, solid.collider);
+                                              const VertexWay& way, const Vec2d& requested,
+                                              const PathPoint<double>& corner, double within) const {
   const std::vector<Vec2d> now = vertices_at(way, corner.fraction);
   Standing found;
   for (const std::size_t i : numbers) found.part.points.push_back(now[i]);
@@ -226,49 +250,90 @@ TurningJudge::Standing TurningJudge::standing(const Solid& solid, const std::vec
     leaves = std::max(leaves, (RigidMotion(now, way.vertices[k])(nearest) - even).norm());
   }
   const double reach = std::min(extent_of(found.part.points), extent_of(octagon_) + within);
-  found.unsure = turn_of(way) * (reach + step.requested.norm() + found.moved.norm()) + leaves;
+  found.unsure = turn_of(way) * (reach + requested.norm() + found.moved.norm()) + leaves;
   return found;
 }
 
-std::vector<NearPart> TurningJudge::near(const TraceStep& step, const PathPoint<double>& corner, double within,
-                                         Bounds bounds) const {
+std::optional<NearPart> TurningJudge::near_part(const Solid& solid, const Standing& standing, const Vec2d& position,
+                                                double within) const {
+  NearPart near{.collider = solid.collider, .moved = standing.moved, .faces = {}, .unsure = standing.unsure};
+  for (const Axis& axis : separating_axes(standing.part, octagon_, FramePlace{position}, within))
+    near.faces.push_back({axis.separation, axis.normal});
+  if (near.faces.empty()) return std::nullopt;
+  return near;
+}
+
+std::vector<NearPart> TurningJudge::near(const TraceStep& step, const PathPoint<double>& corner, double within) const {
   std::vector<NearPart> found;
   for (const Solid& solid : solids_)
     for (const std::vector<std::size_t>& numbers : solid.parts) {
-      const Standing here = standing(solid, numbers, step, corner, within);
-      NearPart part{.collider = solid.collider,
-                    .moved = here.moved,
-                    .faces = {},
-                    .unsure = bounds == Bounds::safe ? here.unsure : 0};
-      for (const Axis& axis : separating_axes(here.part, octagon_, FramePlace{corner.position}, within))
-        part.faces.push_back({axis.separation, axis.normal});
-      if (!part.faces.empty()) found.push_back(std::move(part));
+      const VertexWay& way = way_of(step, solid.collider);
+      const Standing here = standing(solid, numbers, way, step.requested, corner, within);
+      if (std::optional<NearPart> part = near_part(solid, here, corner.position, within))
+        found.push_back(*std::move(part));
     }
   return found;
 }
 
-/// Whether some side of a part that is near at a place faces the horizontal part of a motion.
+std::vector<NearPart> TurningJudge::near_at_end(const TraceStep& step, double within) const {
+  std::vector<NearPart> found;
+  for (const Solid& solid : solids_)
+    for (const std::vector<std::size_t>& numbers : solid.parts) {
+      const VertexWay& way = way_of(step, solid.collider);
+      const std::size_t last = way.instants.size() - 1;
+      const double share = 1 - way.instants[last - 1];
+      const VertexWay stretch{
+          .collider = way.collider, .instants = {0, 1}, .vertices = {way.vertices[last - 1], way.vertices[last]}};
+      Standing here = standing(solid, numbers, stretch, step.requested * share, {step.path.back().position, 1}, within);
+      here.moved /= share;
+      here.unsure /= share;
+      if (std::optional<NearPart> part = near_part(solid, here, step.path.back().position, within))
+        found.push_back(*std::move(part));
+    }
+  return found;
+}
+
+std::vector<ExactImpact> TurningJudge::impacts_at_end(const TraceStep& step, const Vec2d& displacement) const {
+  SceneryDef near;
+  std::vector<ColliderIndex> colliders;
+  for (const Solid& solid : solids_) {
+    const VertexWay& way = way_of(step, solid.collider);
+    if (nearest_axis(solid, way, step.path.back()).separation > displacement.norm()) continue;
+    near.colliders.push_back(standing_at(header_.scenery.colliders[solid.collider], way, 1));
+    colliders.push_back(solid.collider);
+  }
+  if (colliders.empty()) return {};
+  const Vec2d& end = step.path.back().position;
+  std::vector<ExactImpact> impacts = ExactScenery(near, octagon_).impacts(end, displacement);
+  for (ExactImpact& impact : impacts) impact.collider = colliders[impact.collider];
+  return impacts;
+}
+
+/// Whether some side of a part that is near at a place faces the part of a motion across up.
 bool TurningJudge::is_against(const Solid& solid, const VertexWay& way, const PathPoint<double>& at,
-                              const Vec2d& motion, double within) const {
+                              const Vec2d& across, double within) const {
   const std::vector<Vec2d> vertices = vertices_at(way, at.fraction);
   return std::any_of(solid.parts.begin(), solid.parts.end(), [&](const std::vector<std::size_t>& numbers) {
     ConvexPart part;
     for (const std::size_t i : numbers) part.points.push_back(vertices[i]);
     part.radius = solid.radius;
     const std::vector<Axis> axes = separating_axes(part, octagon_, FramePlace{at.position}, within);
-    return std::any_of(axes.begin(), axes.end(), [&](const Axis& axis) { return axis.normal.x() * motion.x() < 0; });
+    return std::any_of(axes.begin(), axes.end(), [&](const Axis& axis) { return axis.normal.dot(across) < 0; });
   });
 }
 
 TurningJudge::Opposition TurningJudge::opposes(const TraceStep& step, const PathPoint<double>& corner,
                                                const Vec2d& motion) const {
   const std::array<PathPoint<double>, 2> path{{corner, {corner.position + motion, corner.fraction + 1}}};
+  const Vec2d up = up_in(step, header_);
+  const Vec2d across = motion - motion.dot(up) * up;
   Opposition found = Opposition::none;
   for (const Solid& solid : solids_) {
-    const VertexWay way = gone_on(way_of(step, solid.collider), 2);
+    const VertexWay& its = way_of(step, solid.collider);
+    const VertexWay way = gone_on(its, 2);
     double unsure = 0;
     for (const std::vector<std::size_t>& numbers : solid.parts)
-      unsure = std::max(unsure, standing(solid, numbers, step, corner, motion.norm()).unsure);
+      unsure = std::max(unsure, standing(solid, numbers, its, step.requested, corner, motion.norm()).unsure);
     const std::vector<Vec2d> wider = grown(octagon_, unsure);
     for (const std::vector<std::size_t>& numbers : solid.parts) {
       const auto opposes_body = [&](std::span<const Vec2d> body, double within) {
@@ -276,7 +341,7 @@ TurningJudge::Opposition TurningJudge::opposes(const TraceStep& step, const Path
         if (met.kind == Meeting::Kind::apart) return false;
         const double when = std::clamp(met.low, corner.fraction, corner.fraction + 1);
         const PathPoint<double> there{corner.position + (when - corner.fraction) * motion, when};
-        return is_against(solid, way, there, motion, within + contact_reach);
+        return is_against(solid, way, there, across, within + contact_reach);
       };
       if (opposes_body(octagon_, 0)) return Opposition::met;
       if (opposes_body(wider, 2 * unsure)) found = Opposition::unsure;
@@ -461,6 +526,7 @@ void TurningJudge::judge_contacts(const Solid& solid, const TraceStep& step, Ste
   }
   if (header_.path_exact && first) {
     judgement.first_impact = when;
+    judgement.first_approach.reset();
     judgement.first_impact_comparable = false;
   }
   if (!reports) return;

@@ -59,8 +59,11 @@ class TurningJudge {
   /// The solids that are no farther than so many metres from where the step begins.
   [[nodiscard]] std::vector<ColliderIndex> near_at_begin(const TraceStep& step, double within) const;
 
-  /// Whether `near` says how far a part may come at most, or how far its nearest point comes.
-  enum class Bounds : std::uint8_t { safe, nominal };
+  /// Whether nothing that turns comes near enough in the step to matter: boxes tell.
+  [[nodiscard]] bool is_alone(const TraceStep& step, double within) const;
+  /// The longest way of a vertex in the step [m].
+  [[nodiscard]] double longest_way(const TraceStep& step) const;
+
   /// The parts within so many metres at a corner of the way, as they are at that instant. `moved` is how far the point
   /// nearest to the octagon goes in the step. By as much as `unsure` any point that the octagon may touch in the step
   /// comes farther along a face's normal than that:
@@ -68,12 +71,15 @@ class TurningJudge {
   ///     turn (reach + |requested| + |moved|) + leaves
   ///
   /// where `reach` is the extent of the part, or of the octagon and `within` if that is less, and `leaves` how far the
-  /// nearest point goes from an even straight way. Nominal bounds have 0 for it: what only they accuse is not certain.
-  [[nodiscard]] std::vector<NearPart> near(const TraceStep& step, const PathPoint<double>& corner, double within,
-                                           Bounds bounds = Bounds::safe) const;
+  /// nearest point goes from an even straight way.
+  [[nodiscard]] std::vector<NearPart> near(const TraceStep& step, const PathPoint<double>& corner, double within) const;
+  /// The same where the step ends, if everything went all the time as it does in the last stretch between two instants.
+  [[nodiscard]] std::vector<NearPart> near_at_end(const TraceStep& step, double within) const;
+  /// What a displacement from where the step ends meets first, of all that is within its length, while all stays.
+  [[nodiscard]] std::vector<ExactImpact> impacts_at_end(const TraceStep& step, const Vec2d& displacement) const;
   /// How a solid stands to a motion.
   enum class Opposition : std::uint8_t {
-    none,    ///< It is not met, or not against the motion's horizontal part.
+    none,    ///< It is not met, or not against the motion's part across up.
     unsure,  ///< It is met if the octagon is wider by `unsure` on every side.
     met,
   };
@@ -107,10 +113,13 @@ class TurningJudge {
     Vec2d moved{Vec2d::Zero()};  ///< See `near`.
     double unsure = 0;
   };
-  [[nodiscard]] Standing standing(const Solid& solid, const std::vector<std::size_t>& numbers, const TraceStep& step,
-                                  const PathPoint<double>& corner, double within) const;
+  [[nodiscard]] Standing standing(const Solid& solid, const std::vector<std::size_t>& numbers, const VertexWay& way,
+                                  const Vec2d& requested, const PathPoint<double>& corner, double within) const;
+  [[nodiscard]] std::optional<NearPart> near_part(const Solid& solid, const Standing& standing, const Vec2d& position,
+                                                  double within) const;
+  /// @param across up, as long as the motion goes that way [m].
   [[nodiscard]] bool is_against(const Solid& solid, const VertexWay& way, const PathPoint<double>& at,
-                                const Vec2d& motion, double within) const;
+                                const Vec2d& across, double within) const;
   [[nodiscard]] bool methods_agree(const Solid& solid, const TraceStep& step) const;
   [[nodiscard]] bool overlaps(const Solid& solid, const VertexWay& way, const PathPoint<double>& at) const;
   [[nodiscard]] Axis nearest_axis(const Solid& solid, const VertexWay& way, const PathPoint<double>& at) const;

@@ -9,7 +9,15 @@
 namespace paperproof::compare::detail {
 namespace {
 
-/// The longest way of a vertex in the step [m].
+/// Whether a straight way meets only colliders that are overlapped where it begins.
+bool meets_no_more(const ExactScenery& rest, const Place& from, const Place& to) {
+  const std::vector<ColliderIndex> inside = rest.overlapped(from);
+  const std::vector<ColliderIndex> met = rest.met(from, to);
+  return std::includes(inside.begin(), inside.end(), met.begin(), met.end());
+}
+
+}  // namespace
+
 double largest_motion(const VertexWay& way) {
   double largest = 0;
   for (std::size_t i = 0; i < way.vertices.front().size(); ++i) {
@@ -21,29 +29,23 @@ double largest_motion(const VertexWay& way) {
   return largest;
 }
 
-/// Whether a straight way meets only colliders that are overlapped where it begins.
-bool meets_no_more(const ExactScenery& rest, const Place& from, const Place& to) {
-  const std::vector<ColliderIndex> inside = rest.overlapped(from);
-  const std::vector<ColliderIndex> met = rest.met(from, to);
-  return std::includes(inside.begin(), inside.end(), met.begin(), met.end());
+ColliderDef standing_at(ColliderDef def, const VertexWay& way, double fraction) {
+  const std::vector<Vec2d> vertices = vertices_at(way, fraction);
+  auto from = vertices.begin();
+  const auto take = [&](std::vector<Vec2d>& ring) {
+    std::copy_n(from, ring.size(), ring.begin());
+    from += static_cast<std::ptrdiff_t>(ring.size());
+  };
+  take(def.points);
+  for (std::vector<Vec2d>& hole : def.holes) take(hole);
+  def.mover = no_mover;
+  return def;
 }
-
-}  // namespace
 
 SceneryDef standing_at(const SceneryDef& scenery, const TraceStep& step, double fraction) {
   SceneryDef all = scenery;
-  for (const VertexWay& way : step.vertex_ways) {
-    ColliderDef& def = all.colliders[way.collider];
-    const std::vector<Vec2d> vertices = vertices_at(way, fraction);
-    auto from = vertices.begin();
-    const auto take = [&](std::vector<Vec2d>& ring) {
-      std::copy_n(from, ring.size(), ring.begin());
-      from += static_cast<std::ptrdiff_t>(ring.size());
-    };
-    take(def.points);
-    for (std::vector<Vec2d>& hole : def.holes) take(hole);
-    def.mover = no_mover;
-  }
+  for (const VertexWay& way : step.vertex_ways)
+    all.colliders[way.collider] = standing_at(std::move(all.colliders[way.collider]), way, fraction);
   return all;
 }
 

@@ -30,8 +30,12 @@ class RigidMotion {
 [[nodiscard]] const VertexWay& way_of(const TraceStep& step, ColliderIndex collider);
 /// Where the vertices are at a fraction of the step, rounded [m].
 [[nodiscard]] std::vector<Vec2d> vertices_at(const VertexWay& way, double fraction);
+/// A collider that turns, standing where it is at a fraction of the step.
+[[nodiscard]] ColliderDef standing_at(ColliderDef def, const VertexWay& way, double fraction);
 /// The scenery in which what turns stands where it is at a fraction of the step; the rest goes as it does.
 [[nodiscard]] SceneryDef standing_at(const SceneryDef& scenery, const TraceStep& step, double fraction);
+/// The longest way of a vertex in the step [m].
+[[nodiscard]] double largest_motion(const VertexWay& way);
 /// Whether any vertex does not stay where it is.
 [[nodiscard]] bool goes(const VertexWay& way);
 

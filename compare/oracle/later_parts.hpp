@@ -1,0 +1,40 @@
+/// What the later parts of a step add, where it goes in parts as what turns near it does.
+#pragma once
+
+#include "oracle/intent.hpp"
+#include "records/trace.hpp"
+
+namespace paperproof::compare::detail {
+
+/// Each of n parts of a step falls and steers for its share of the time, so that `Wanted`, what the first of them would
+/// come to in the whole step, is not what all of them want together. With v the velocity before the step and g gravity
+/// the whole step falls
+///
+///     v dt + g dt² (n + 1) / (2 n),
+///
+/// in which the first part has v dt + g dt² / n; a fall that is limited falls less. How far later parts steer depends
+/// on the ground of each: there is a range. All zero for a step in one part.
+struct LaterParts {
+  Vec2d velocity{Vec2d::Zero()};  ///< So much is added by the end of the step, but for steering [m/s].
+  Vec2d way{Vec2d::Zero()};       ///< So far it leads in the step, but for steering [m].
+  double slower = 0;              ///< Across up, steering adds no less than this by the end, which is not positive,
+  double faster = 0;              ///< and no more than this [m/s].
+  double dt = 0;                  ///< Of the step [s].
+
+  [[nodiscard]] bool any() const { return velocity != Vec2d::Zero() || slower < 0 || faster > 0; }
+  /// The most that steering may add, whatever its direction [m/s].
+  [[nodiscard]] double steered() const { return std::max(-slower, faster); }
+  /// The farthest that it leads, or that all parts lead away from an even straight way [m]. A speed that grows evenly
+  /// goes half as far as one that is there at once.
+  [[nodiscard]] double bend() const { return way.norm() + steered() * dt / 2; }
+  /// What all parts want together, but for the steering of later ones.
+  [[nodiscard]] Wanted whole(Wanted first) const {
+    first.displacement += way;
+    first.velocity += velocity;
+    return first;
+  }
+};
+
+[[nodiscard]] LaterParts later_parts(const TraceHeader& header, const TraceStep& step, const Wanted& first);
+
+}  // namespace paperproof::compare::detail
