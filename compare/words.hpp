@@ -51,7 +51,7 @@ inline constexpr std::size_t longest_sentence = 300;
   return lines;
 }
 
-/// What somebody typed, within quotes where it would not be seen.
+/// What was typed, within quotes where it would not be seen.
 [[nodiscard]] inline std::string shown(const std::string& typed) {
   return typed.find_first_not_of(" \t") == std::string::npos ? '"' + typed + '"' : typed;
 }

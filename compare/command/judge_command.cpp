@@ -92,6 +92,7 @@ bool judge_trace(const std::string& path, const JudgeOptions& options, const std
                breach.first_step, breach.first);
   Row row;
   judge.write(row);
+  if (row.arc_error_max_m) fmt::print("  what turns leaves its arc by at most {:.3g} m\n", *row.arc_error_max_m);
   for (const auto& [which, often] : row.exempted) fmt::print("  exempted: {} on {}\n", which, counted(often, "step"));
   return broken > 0;
 }

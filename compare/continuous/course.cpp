@@ -163,7 +163,7 @@ class Solver {
     P after = after_impact<Real>(law_, relative, touches, hold_.stands);
     if (scene_.gravity.y() < 0) after = without_climb<Real>(law_, after, touches);
     if (after.x == relative.x && after.y == relative.y) return false;
-    // Who comes from straight above is carried at once.
+    // A character that comes from straight above is carried at once.
     if (carrier_ != no_mover && !hold_.stands && velocity_.x == 0) after = {};
     const auto less_into = [&](const Touch<Real>& a, const Touch<Real>& b) {
       return dot(relative, a.normal) < dot(relative, b.normal);

@@ -40,11 +40,11 @@ inline constexpr double beyond_box2d_skin = 0.021;
 /// - `max_position_difference_box2d_m`: largest distance of the two ends of a step [m].
 ///
 /// - `first_difference_box2d_step`: the first step with other sides of contact, or with ends of the step further apart
-///   than Box2D's skin (21 mm). Positions differ for a reason that may lie earlier: right is then who has not passed or
-///   entered a solid so far, where just one has.
+///   than Box2D's skin (21 mm). Positions differ for a reason that may lie earlier: right is then the side that has not
+///   passed or entered a solid so far, where just one has.
 ///
-/// Right is who reports, on that step, no side that exact arithmetic does not have for its own motion within one step,
-/// and misses none that exact arithmetic has.
+/// Right is the side that reports, on that step, no side that exact arithmetic does not have for its own motion within
+/// one step, and misses none that exact arithmetic has.
 class Agreement {
  public:
   /// @param most disagreements that are kept; all are counted.

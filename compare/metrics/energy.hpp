@@ -11,9 +11,9 @@ namespace paperproof::compare {
 /// Energy of the characters per kilogram, E = v²/2 - g·x, the sum over all of them [J/kg].
 /// - `energy_gained_j_kg`: how far E ever rises above the least value that it had since something was last put in. A
 ///   step puts something in where the wanted motion is faster than the velocity before it with gravity, or rises where
-///   that one falls or rises less: steering, a jump; and where somebody is put elsewhere. Whoever walks has legs: where
-///   a step goes sideways, and begins or ends grounded or touches what is walkable, the gain is what both E and the
-///   horizontal part of v²/2 grow by, at most.
+///   that one falls or rises less: steering, a jump; and where a character is put elsewhere. A character that walks has
+///   legs: where a step goes sideways, and begins or ends grounded or touches what is walkable, the gain is what both E
+///   and the horizontal part of v²/2 grow by, at most.
 /// - `energy_bound_j_kg`: what is no gain: gravity times what the contender calls near (1e-6 m, Box2D's skin of 20 mm),
 ///   and rounding: 8 epsilon of the largest v², and two ulp of the largest coordinate in the field of gravity.
 ///
@@ -38,7 +38,7 @@ class Energy {
   /// Of the characters of one step.
   struct Sum {
     double energy = 0;
-    double gain = 0;  ///< Since the step before; of who walks at most the gain in horizontal speed.
+    double gain = 0;  ///< Since the step before; of a walk at most the gain in horizontal speed.
     bool put_in = false;
     bool walks = false;
   };

@@ -126,7 +126,7 @@ bool StepLedger::follows_box2ds_law(std::optional<Cause>& otherwise) const {
   const std::vector<MetSurface> near = near_reference();
   const double tolerance =
       same_velocity_in_float * std::max(1.0, wanted.norm()) + rounding_ / dt_ / ulps + widest_spread(near);
-  // Who lands without speed across on what carries it is carried at once.
+  // A character that lands without speed across on what carries it is carried at once.
   Vec2d landed = r_.velocity;
   if (r_.ride && landed.x() == r_.ride->velocity.x()) landed.x() = 0;
   const auto follows = [&](const std::vector<MetSurface>& surfaces) {

@@ -281,11 +281,10 @@ void Metrics::add(const TraceStep& step, const StepJudgement& judgement) {
 }
 
 void Metrics::note(const Moment& moment, const Touch& touch, const char* what, Breach& breach) const {
-  if (breach.steps++ > 0) return;
-  breach.first_step = moment.step;
-  breach.first = std::string(what) + " `" +
-                 (touch.first < ids_.size() ? ids_[touch.first] : std::to_string(touch.first)) + "`, " +
-                 std::string(name_of(touch.second));
+  breach.add(moment.step, [&] {
+    const std::string id = touch.first < ids_.size() ? ids_[touch.first] : std::to_string(touch.first);
+    return std::string(what) + " `" + id + "`, " + std::string(name_of(touch.second));
+  });
 }
 
 /// Those of the last steps included, which have no neighbours after them.

@@ -10,10 +10,10 @@
 namespace paperproof::compare {
 
 /// Jitter at rest. A rest is a maximal run of at least 60 steps that want no horizontal motion, begins and ends with a
-/// grounded step, and has no gap longer than `longest_gap` between two of them: who hops on its floor rests, and that
-/// is its jitter. (A jump is a longer gap. Without gaps a technique that is grounded in every fourth step never rests,
-/// and has no number.) The first `settling_steps` are not measured. The last rest of a run counts. Who
-/// stands on a mover rests relative to it: its motion is taken out of the wanted one and of the positions.
+/// grounded step, and has no gap longer than `longest_gap` between two of them: a character that hops on its floor
+/// rests, and that is its jitter. (A jump is a longer gap. Without gaps a technique that is grounded in every fourth
+/// step never rests, and has no number.) The first `settling_steps` are not measured. The last rest of a run counts.
+/// A character on a mover rests relative to it: the mover's motion is taken out of the wanted one and of the positions.
 /// - `rest_peak_to_peak_m`: the larger of the ranges of x and of y over the ends of the steps [m].
 /// - `rest_rms_m`: root mean square distance from the mean position [m].
 /// - `rest_sign_changes`, `rest_upper_band`: see metrics/jitter.hpp; the larger of x and y, over the last 512 steps.

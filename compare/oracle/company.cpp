@@ -184,7 +184,7 @@ std::optional<CompanyJudge::Impact> CompanyJudge::first_impact(const TraceStep& 
   return Impact{one.character, other.character, static_cast<double>(impact->fraction), comparable};
 }
 
-/// Who has met anything no longer goes as requested, and may turn aside whoever is near.
+/// A character that has met anything no longer goes as requested, and may turn aside those that are near.
 void CompanyJudge::judge_first_impacts(std::span<const TraceStep> steps, std::span<StepJudgement> judgements) const {
   std::vector<Impact> impacts;
   std::vector<double> earliest;

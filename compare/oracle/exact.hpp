@@ -175,13 +175,14 @@ class ExactScenery {
   /// - meets no collider but those that are overlapped (a one-way segment where it blocks, as `met`), nor does it where
   ///   its end is 1e-6 m to either side: narrower openings count as closed;
   /// - ends with a clearance of at least 1e-7 m to every solid, along its best axis.
-  /// Both are exact, so that whoever says "stuck" with such a way is refuted. That it is the shortest is not: of the
-  /// places where it must be looked for, which are computed in doubles, it is the first that passes these checks.
+  /// Both are exact, so that a character that says "stuck" with such a way is refuted. That it is the shortest is not:
+  /// of the places where it must be looked for, which are computed in doubles, it is the first that passes these
+  /// checks.
   ///
   /// It looks near first: at what is within one size of the octagon, then within twice that, and so on, until a way is
   /// found, or everything within `reach`, or as far as the overlapped colliders reach, has been looked at. One round
   /// costs the facets of the overlapped colliders times the convex parts of all that may not be passed: 40 ms
-  /// in a gear of 500 teeth. Whoever is stuck mostly stays where it is: ask once for each place.
+  /// in a gear of 500 teeth. A character that is stuck mostly stays where it is: ask once for each place.
   [[nodiscard]] std::optional<Vec2d> way_out(const Place& at, double reach) const;
 
   [[nodiscard]] const SceneryDef& scenery() const noexcept;

@@ -48,7 +48,7 @@ Vec2d ExactPair::Part::near(double fraction) const {
   return from.position + (fraction - from.fraction) / (to.fraction - from.fraction) * (to.position - from.position);
 }
 
-/// Who has arrived waits there until the step ends.
+/// A character that has arrived waits there until the step ends.
 ExactPair::Part ExactPair::part_of(Way way, std::size_t corner, double now, double end) {
   if (corner + 1 < way.size()) return {way[corner], way[corner + 1], now, end, false};
   return {way[corner], {way[corner].position, std::max(end, 1.0)}, now, end, false};

@@ -11,7 +11,7 @@
 
 namespace paperproof::compare {
 
-/// What a contender may promise of every step. The README states each in full.
+/// What a contender may promise of every step. oracle/README.md says what the judge asks for each.
 enum class Clause : std::uint8_t {
   overlap,           ///< Ends inside nothing that it did not overlap before and that did not crush it.
   passage,           ///< Passes through nothing.
@@ -60,11 +60,23 @@ inline constexpr std::array<std::string_view, 21> clause_names{
   return clauses;
 }
 
-/// How often a clause was broken, and where first.
+/// On how many steps a clause was broken, and where first.
 struct Breach {
   int steps = 0;
   int first_step = 0;
+  int last_step = 0;
   std::string first;  ///< What happened there.
+
+  /// Counts a step once, whatever else breaks the clause in it. Steps come in order. @param words for the first one.
+  template <class Words>
+  void add(int step, const Words& words) {
+    if (steps == 0) {
+      first_step = step;
+      first = words();
+    }
+    steps += steps == 0 || step != last_step;
+    last_step = step;
+  }
 };
 using Breaches = std::map<Clause, Breach>;
 

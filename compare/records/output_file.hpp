@@ -10,7 +10,7 @@
 
 namespace paperproof::compare {
 
-/// Nobody reads the pipe that was written to: the work ends, and there is nothing to say.
+/// The pipe that was written to has no reader: the work ends, and there is nothing to say.
 class ClosedPipe : public std::runtime_error {
  public:
   ClosedPipe() : std::runtime_error("nobody reads the pipe") {}

@@ -52,7 +52,7 @@ std::string quoted(const std::string& text) {
   return out + '"';
 }
 
-/// As `box2d[continuous=off]`: who groups the rows by contender does not mix up what was set differently.
+/// As `box2d[continuous=off]`: rows that are grouped by contender do not mix up what was set differently.
 ordered_json with_knobs_named(ordered_json row) {
   const std::string knob = row.value("knob", "");
   if (!knob.empty()) row["contender"] = fmt::format("{}[{}]", row.value("contender", ""), knob);

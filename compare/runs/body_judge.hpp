@@ -1,4 +1,4 @@
-/// Judges the dynamic bodies of a scene like anybody else: what Box2D pushes through a floor is a finding of Box2D.
+/// Judges the dynamic bodies of a scene like characters: what Box2D pushes through a floor is a finding of Box2D.
 #pragma once
 
 #include "oracle/judge.hpp"

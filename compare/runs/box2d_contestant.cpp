@@ -252,7 +252,8 @@ class Box2dContestant final : public Contestant {
     if (step.grounded && step.velocity.y() <= state.ride.velocity.y() + at_rest) state.jumping = false;
   }
 
-  /// Who comes to rest on what carries is carried at once; who has a speed of his own keeps it, as for the controller.
+  /// A character that comes to rest on what carries is carried at once; one with a speed of its own keeps it, as for
+  /// the controller.
   void ride_on(const box2d::TwinStep& step, Twin& twin) const {
     const bool comes_to_rest = twin.state.ride.ground == Ride<double>::none && twin.state.velocity.x() == 0;
     twin.state.ride = {};

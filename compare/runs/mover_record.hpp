@@ -35,8 +35,8 @@ class MoverRecord {
   }
 
   /// What the ground adds to the displacement of a step that began with this ride [m]. A conveyor's part is what was
-  /// left of the ride's velocity in the step before, without its mover's. Who drops through it goes on as fast as it
-  /// went.
+  /// left of the ride's velocity in the step before, without its mover's. A character that drops through it goes on as
+  /// fast as it went.
   [[nodiscard]] Vec2d carried_by(const Ride<Scalar>& ride, bool drops) const {
     if (ride.ground == Ride<Scalar>::none) return Vec2d::Zero();
     if (drops && scenery_->collider(ride.ground).one_way)

@@ -50,12 +50,8 @@ RunJudge::RunJudge(const TraceHeader& header, const Measured& measured)
 }
 
 void RunJudge::note(Clause clause, const TraceStep& record, const std::string& what) {
-  Breach& breach = breaches_[clause];
-  if (breach.steps == 0) {
-    breach.first_step = record.step;
-    breach.first = (company_ ? fmt::format("character {}: ", record.character) : "") + what;
-  }
-  ++breach.steps;
+  breaches_[clause].add(record.step,
+                        [&] { return (company_ ? fmt::format("character {}: ", record.character) : "") + what; });
 }
 
 bool RunJudge::is_free(std::span<const Vec2d> positions, std::size_t character) const {

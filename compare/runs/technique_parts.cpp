@@ -44,7 +44,7 @@ bool is_turned(std::span<const KnobSetting> knobs, std::string_view name) {
 }
 
 /// Scenery of vectors is drawn as finely as can be, since there the resolution is a knob. A picture that is drawn
-/// with fewer pixels than it has is another level, and that is for who turns the knob to say.
+/// with fewer pixels than it has is another level, and that is for the knob to say.
 void refuse_coarser_drawing(const TechniqueEntry& technique, const Scene& scene, std::span<const KnobSetting> knobs) {
   if (!technique.draws_level || !scene.has_pixels || is_turned(knobs, "raster_pixels_per_metre")) return;
   if (scene.pixels_per_metre > finest_raster)
@@ -52,7 +52,7 @@ void refuse_coarser_drawing(const TechniqueEntry& technique, const Scene& scene,
                                     technique.name, finest_raster, scene.pixels_per_metre));
 }
 
-/// A level of tiles is complete, has pixels of its own, and is in nobody's way but through its tiles.
+/// A level of tiles is complete, has pixels of its own, and is in the way through its tiles alone.
 std::shared_ptr<const PixelTileSet> tiles_for(const TechniqueEntry& technique, const Scene& scene,
                                               std::span<const KnobSetting> knobs) {
   if (technique.name != "pixel_tile" || !scene.tile_level.tiles) return nullptr;

@@ -43,8 +43,8 @@ struct Answer {
   int step = end;
   std::size_t character = 0;
   std::string with{};    ///< Id of a collider; any where it is empty.
-  bool by_law = false;   ///< Only who moves by the law of octagon_sweep, or can say it, is asked.
-  double clearance = 0;  ///< Who keeps a larger gap than this is not asked [m]; 0: everybody is.
+  bool by_law = false;   ///< Only a contender that moves by the law of octagon_sweep, or can say it, is asked.
+  double clearance = 0;  ///< A contender that keeps a larger gap is not asked [m]; 0: all are.
 
   /// Relative to a mover, or of one collider alone.
   [[nodiscard]] Answer to(std::string id) && { return with = std::move(id), std::move(*this); }

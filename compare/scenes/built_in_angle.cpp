@@ -85,7 +85,7 @@ Scene corner_at(double top) {
   return scene;
 }
 
-/// Where the two only touch, give or take an ulp, who is stopped is as right as who passes.
+/// Where the two only touch, give or take an ulp, to be stopped is as right as to pass.
 Scene corner_touched_at(double top) {
   Scene scene = corner_at(top);
   scene.answers = {x_is(-0.5).after(3), y_is(0.5).after(3), between(Answer::Of::place, -28, top + half_height, {0, 1})};
@@ -96,7 +96,7 @@ constexpr double corner_top = -25.0 / 32 + 0.25;
 Scene corner_to_corner() { return corner_touched_at(corner_top); }
 Scene corner_minus_ulp() { return corner_touched_at(std::nextafter(corner_top, -1.0)); }
 
-/// Who keeps no gap meets the box; all others may.
+/// A contender that keeps no gap meets the box; all others may.
 Scene corner_plus_ulp() {
   Scene scene = corner_touched_at(std::nextafter(corner_top, 0.0));
   scene.answers.push_back(contact((2 - half_height - corner_top) / 0.5, 0.5).beyond(1e-9));

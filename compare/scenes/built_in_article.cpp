@@ -21,7 +21,7 @@ Scene spike_between_feet() {
   return scene;
 }
 
-/// Walks at 20 m/s from level ground up a thin ramp; a lower floor catches whoever passes it.
+/// Walks at 20 m/s from level ground up a thin ramp; a lower floor catches a character that passes it.
 Scene sloped_paper_walk() {
   Scene scene = walk(-3, half_height + 0.02, 1, 90);
   scene.gravity = {0, -30};

@@ -75,7 +75,7 @@ Scene plank_on_springs(const ParameterValues& values) {
 
 std::vector<ParameterSetting> under(double mass) { return {{"mass_ratio", mass}}; }
 
-/// A crate falls onto the head of who stands there, from `way` metres above it.
+/// A crate falls onto the head of a character that stands there, from `way` metres above it.
 Scene falling_crate() {
   constexpr double way = 2;
   Scene scene = flight(0, half_height + 5e-7, 0, 0, 90);

@@ -122,7 +122,7 @@ Scene pressed_in_a_row() {
 }
 
 /// Walks and jumps at random for as long as it is asked to: over a slope, a steep slope, kerbs, a ledge, a needle and a
-/// pit, between walls that nobody leaves.
+/// pit, between walls that no character leaves.
 Scene playground(const ParameterValues& values) {
   Scene scene = flight(0, half_height + 0.02, 0, 0, static_cast<int>(values["steps"]));
   scene.gravity = {0, -30};

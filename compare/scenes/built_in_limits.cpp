@@ -221,7 +221,7 @@ std::vector<BuiltInScene> limit_scenes() {
       {"tiles_1e4", "walks over 10,000 tiles: the same", tiles_1e4},
       {"thin_sensor", "100 m in a step through a sensor of 1 cm and one of none: one enter and one exit each",
        thin_sensor},
-      {"sensor_gate", "through a sensor in steps 31 to 43, into a wall in step 71: the sensor stops nobody",
+      {"sensor_gate", "through a sensor in steps 31 to 43, into a wall in step 71: the sensor stops no character",
        sensor_gate},
       {"replica", "walk, jump, wall: the sequence of events that perturbed replicas share", nullptr, "replica_of",
        aside(0)},

@@ -246,7 +246,7 @@ Scene oneway_noise() {
   return scene;
 }
 
-/// How high a line leads somebody whose feet are on both sides of x: up to its highest point between them.
+/// How high a line leads a character whose feet are on both sides of x: up to its highest point between them.
 double height_over(const std::vector<Vec2d>& line, double x) {
   double highest = -HUGE_VAL;
   const auto rise_to = [&](double y) { highest = std::max(highest, y); };

@@ -67,7 +67,7 @@ Scene closing_walls(const ParameterValues& values) {
     add_box(scene, side < 0 ? "left" : "right", std::min(face, back), 0.05, std::max(face, back), 3);
     move_last(scene, {{.time = 0, .at = {0, 0}}, {.time = distance / speed, .at = {-side * distance, 0}}});
   }
-  // Who is pushed keeps the speed of the wall, and slides on as far as the other one.
+  // A character that is pushed keeps the speed of the wall, and slides on as far as the other one.
   if (is_open(clearance))
     scene.answers = {between(Answer::Of::place, -clearance, std::min(aside, clearance), {1, 0}), y_is(half_height)};
   if (clearance < 0) scene.answers = {crushed_after(scene, begin - half_width, speed)};

@@ -32,9 +32,9 @@
 /// The solid pixels are the scenery of all contenders, as those of a picture are. Otherwise a level would have to be
 /// written twice, once for `pixel_tile` and once in polygons for all others, and where the two differ the judge would
 /// call `pixel_tile` wrong for what is only a mistake in a file. So everybody is judged against the pixels that are
-/// drawn. Who draws lies on whole pixels, and the octagon up to one beside that: no deeper in these pixels than one of
-/// them counts as `drawn` and not as inside (oracle/exemptions.hpp). What a tile says beyond that, up and down, is for
-/// `pixel_tile` alone: the others see steps of one pixel.
+/// drawn. A contender that draws lies on whole pixels, and the octagon up to one beside that: no deeper in these pixels
+/// than one of them counts as `drawn` and not as inside (oracle/exemptions.hpp). What a tile says beyond that, up and
+/// down, is for `pixel_tile` alone: the others see steps of one pixel.
 #pragma once
 
 #include "scenes/pixel_rectangles.hpp"

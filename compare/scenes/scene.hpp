@@ -83,14 +83,15 @@ struct Scene {
   std::optional<std::uint64_t> moves_at_random{};
   /// Characters 1, 2, ...; character 0 begins at `start` and does what `input` says.
   std::vector<OtherCharacter> others;
-  /// What it must come to with its own input and number of steps. Whoever changes the scene clears them.
+  /// What it must come to with its own input and number of steps. A change of the scene clears them.
   std::vector<Answer> answers{};
-  /// Part of the scenery is made of pixels: who draws the level draws these, `pixels_per_metre` of them, or none.
+  /// Part of the scenery is made of pixels: a contender that draws the level draws these, `pixels_per_metre` of them,
+  /// or none.
   bool has_pixels = false;
   TileLevel tile_level{};
   std::vector<Decoration> decoration{};
-  /// The picture of the character, rows from the top, `#` for a pixel that collides: for who compares pictures. Its
-  /// size is that of the character's box, `pixels_per_metre` fine. Empty: the pixels of the hull.
+  /// The picture of the character, rows from the top, `#` for a pixel that collides: for a contender that compares
+  /// pictures. Its size is that of the character's box, `pixels_per_metre` fine. Empty: the pixels of the hull.
   std::vector<std::string> sprite{};
   /// Maps only: their box [m]. A character that leaves it by more than 10 m is put back at the start.
   std::optional<Box2<double>> respawn_box;

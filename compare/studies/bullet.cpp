@@ -141,7 +141,7 @@ Row lowest_speed_through(const Case& paper, double thickness, int phases) {
                         {"height", "0.1"},
                         {"phase", fmt::format("{}", static_cast<double>(phase) / phases)}};
       worst = run_case(one);
-      worst.steps_ending_inside.reset();  // it is asked who gets through
+      worst.steps_ending_inside.reset();  // it is asked what gets through
       if (worst.tunnels.value_or(0) > 0 || !was_judged(worst)) break;
     }
     return worst;

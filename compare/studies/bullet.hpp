@@ -14,8 +14,9 @@ namespace paperproof::compare {
 [[nodiscard]] std::vector<Contender> bullet_contenders();
 
 /// The parts of the study, in this order:
-/// - without a title, one for each contender: speed × thickness × angle × phase × length of a step. Whoever promises to
-///   let nothing through, octagon_sweep, is tried at more phases: over a million cases on the standard grid;
+/// - without a title, one for each contender: speed × thickness × angle × phase × length of a step. A contender that
+///   promises to let nothing through, octagon_sweep, is tried at more phases: over a million cases on the standard
+///   grid;
 /// - `moving_paper_title`: paper that comes to a character that stands; for Box2D also put there by SetTransform;
 /// - `far_title`: a wall far from the origin;
 /// - `lowest_speeds_title`: for each contender and thickness `lowest_speed_through`.
@@ -45,9 +46,9 @@ inline constexpr const char* lowest_speeds_title = "lowest speeds";
 /// - `bounding_box`, `discrete`: s > height + thickness: they look at where a step ends.
 /// - `speculative`, `octagon_sweep`, Box2D with continuous collision: never.
 /// - Box2D with `continuous=off`: s > height / 2 + 20 mm. Its contacts begin at 20 mm, and its static solids are
-///   one-sided chains, which hold nobody whose middle is behind them.
+///   one-sided chains, which hold no character whose middle is behind them.
 /// - Box2D with `bullet=off solids=dynamic`: s > (height + thickness) / 2 + 20 mm. Dynamic paper is a box, which pushes
-///   whoever overlaps it the shorter way out.
+///   a character that overlaps it the shorter way out.
 struct BulletTheory {
   bool known = false;
   std::optional<double> lowest{};  ///< [m/s]; none: never. 0: at any speed.

@@ -25,7 +25,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Results that wait for an earlier one. Many: a slow job holds up nobody. Few: memory stays small.
+/// Results that wait for an earlier one. Many: a slow job holds up no other. Few: memory stays small.
 constexpr std::size_t most_waiting = 1024;
 
 bool read_all(int from, void* data, std::size_t size) {

@@ -130,7 +130,7 @@ struct Border {
   double most_off = 0;
 };
 
-/// Half of the way that the walk of `far` goes [m]: who is further from where it should be does not move.
+/// Half of the way that the walk of `far` goes [m]: a character that is further from where it should be does not move.
 constexpr double half_of_the_walk = 11.7;
 /// The scenery of `far` begins 16 m before its origin and ends 3 m before it; the controller takes places to 2e6 m.
 constexpr double farthest = 1.99e6;

@@ -53,6 +53,7 @@ CLAUSES = ("overlap", "passage", "one_way", "gap", "time_of_impact", "contact_mi
            "rest", "start_inside", "refusal", "hanging", "speed_lost", "ground_invented", "ground_missed", "crush", "wanted",
            "velocity", "continuity", "mover_way")
 NEEDED = ("gravity", "up", "character", "starts", "guarantees")
+UNSAID = {"jump_cut": 1, "max_climb_degrees": 50, "no_jump_toward_wall": False, "wall_reach": 1 / 32}  # of a character
 NEARLY = Fraction(1, 10**4)  # what is farther away is not touched at all [m]
 SLOWER = 1e-9  # of speed, for each m/s of it: rounding
 FARTHEST = 2e6  # [m]
@@ -103,7 +104,7 @@ class Checker:
         missing = [key for key in NEEDED if key not in header]
         if missing:
             raise ValueError(f"the header does not say what was wanted: no {', '.join(missing)}")
-        self.header = header
+        self.header = header = {**header, "character": {**UNSAID, **header["character"]}}
         self.clauses = set(header["guarantees"] if clauses is None else clauses)
         self.count = header.get("characters", 1)
         self.world = World(header)

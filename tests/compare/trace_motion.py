@@ -124,7 +124,7 @@ class Intent:
 
     def end(self, step, dt, motion):
         self.velocity, self.grounded = step["velocity"], step["grounded"]
-        self.jumping = step["jumping"] and (self.jumping or not self.grounded)
+        self.jumping = step.get("jumping", False) and (self.jumping or not self.grounded)
         self.crushed = bool(step.get("crush")) or (self.crushed and step.get("stuck", False))
         self.sides = {contact["side"] for contact in step["contacts"]}
         self.ride = step.get("ride")
