@@ -3,6 +3,7 @@
 #include "contains.hpp"
 #include "oracle/claims.hpp"
 #include "oracle/contacts.hpp"
+#include "oracle/met_surfaces.hpp"
 #include "records/verdict.hpp"
 #include "words.hpp"
 
@@ -126,6 +127,7 @@ void RunJudge::add(std::span<TraceStep> records) {
       steps_far_ += !header_.guarantees.empty();
     } else {
       judge_clauses(asked[k], judgements_[k]);
+      judge_velocity(asked[k], judgements_[k], follower);
       judge_drops(records[k]);
       judge_met(asked[k], asked);
       judge_rest(asked[k], follower);
@@ -408,8 +410,6 @@ void RunJudge::judge_clauses(const TraceStep& record, const StepJudgement& judge
                ? fmt::format("loses {:.3g} m/s to nothing", judged.speed_lost)
                : fmt::format("loses {:.3g} % of its horizontal speed to nothing", 100 * judged.ghost_speed_loss);
   });
-  check(Clause::velocity, judged.speed_gained > 0,
-        [&] { return fmt::format("is {:.3g} m/s faster than anything made it", judged.speed_gained); });
   check(Clause::ground_invented, judged.ground_refuted,
         [] { return std::string("says it is grounded with nothing under it"); });
   check(Clause::ground_missed, judged.ground_missed,
@@ -420,6 +420,31 @@ void RunJudge::judge_clauses(const TraceStep& record, const StepJudgement& judge
         [] { return std::string("takes a step that must be refused"); });
   judge_times(record, judged);
   judge_places(record, judged);
+}
+
+/// Whether the law of response (§4 of the design) makes the velocity at the end of what was wanted, at the contacts
+/// that are reported: these are judged for themselves. That law is no law of nature, and asked only of who promises it.
+void RunJudge::judge_velocity(const TraceStep& record, const StepJudgement& judged, const Follower& follower) {
+  const Wanted& wanted = follower.wanted;
+  const bool crushed =
+      !judged.crushed.empty() || (!judged.crushed_with_room.empty() && contains(header_.guarantees, Clause::crush));
+  const bool excused = !record.start_overlap.empty() || !judged.end_overlap.empty() || crushed || record.stuck ||
+                       record.dropped || header_.substeps > 1 || wanted.parts > 1;
+  if (excused || !contains(header_.guarantees, Clause::velocity)) return;
+  if (!record.met.empty()) {  // what characters hand on to each other is no matter of surfaces
+    if (judged.speed_gained > 0)
+      note(Clause::velocity, record, fmt::format("is {:.3g} m/s faster than anything made it", judged.speed_gained));
+    return;
+  }
+  const Vec2d up = up_in(record, header_);
+  ControlledStep step{.wanted = wanted.velocity, .up = up};
+  step.unsteered = wanted.velocity - wanted.steered / length_of(record, header_) * Vec2d(up.y(), -up.x());
+  step.side_hit_ends_rise = header_.character.side_hit_ends_rise;
+  const bool walks = begins_as_walk(header_, record, wanted.from_ground, wanted.velocity);
+  const SolidsInStep there(header_, solids(), record);
+  const std::vector<MetSurface> surfaces = met_surfaces(there, record.contacts, walks);
+  if (const std::optional<std::string> fault = velocity_fault(step, surfaces, record.velocity))
+    note(Clause::velocity, record, *fault);
 }
 
 void RunJudge::add_refused(const TraceStep& record) {
