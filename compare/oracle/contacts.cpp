@@ -266,18 +266,23 @@ bool ContactJudge::pushed_by_skin(double wanted) const {
   });
 }
 
-/// The face of the solids taken together that is there to be touched along the reported normal: its own normal.
+/// The face of the solids taken together that is there to be touched along the reported normal: its own normal. A
+/// one-way chain is there for a leg that began above it: where the leg ends, beside its tip, it is not above any more.
 std::optional<Vec2d> ContactJudge::face_of(const Contact<double>& contact) const {
   const double reach = header_.path_exact ? 2 * std::max(contact_reach, touch_) : box2d_skin;
   std::optional<Vec2d> most_alike;
+  const auto look = [&](const ExactImpact& impact) {
+    const double alike = impact.normal.dot(contact.normal);
+    if (!impact.exposed || !(alike > same_face)) return;
+    if (!most_alike || alike > most_alike->dot(contact.normal)) most_alike = impact.normal;
+  };
+  const bool one_way = scenery_.scenery().colliders[contact.collider].one_way && !dropped_through(contact.collider);
   for (std::size_t i = 0; i < step_.path.size(); ++i) {
     Place beyond = place(i);
     beyond.position -= contact.normal * reach;
-    for (const ExactImpact& impact : scenery_.impacts_between(place(i), beyond)) {
-      const double alike = impact.normal.dot(contact.normal);
-      if (!impact.exposed || !(alike > same_face)) continue;
-      if (!most_alike || alike > most_alike->dot(contact.normal)) most_alike = impact.normal;
-    }
+    for (const ExactImpact& impact : scenery_.impacts_between(place(i), beyond)) look(impact);
+    if (!one_way || i == 0 || !header_.path_exact) continue;
+    if (const auto impact = scenery_.impact_between(place(i - 1), beyond, contact.collider)) look(*impact);
   }
   return most_alike;
 }
