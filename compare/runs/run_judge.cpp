@@ -20,6 +20,8 @@ constexpr double guaranteed_gap = 1e-6;
 /// Normals are computed from rounded vertices [degrees].
 constexpr double rounding_of_normal = 1e-3;
 constexpr double rounding_of_unit = 1e-6;
+/// Cosine of the angle between two normals of one face that is round.
+constexpr double same_face = 0.9;
 /// A larger share of the wanted motion that is lost to nothing is a fault of a contender that promises none.
 constexpr double most_motion_lost = 0.01;
 /// The guarantee covers starts this near to the origin, and displacements up to it [m].
@@ -318,12 +320,21 @@ void RunJudge::judge_places(const TraceStep& record, const StepJudgement& judged
     for (std::size_t i = 0; i < record.path.size(); ++i) {
       const PathPoint<double>& corner = record.path[i];
       if (!(solids().separation({corner, record.movers}, contact.collider) <= guaranteed_gap)) continue;
+      if (contact.fraction == corner.fraction) off = 0;  // it was there, however it came
       const double span = i > 0 ? corner.fraction - record.path[i - 1].fraction : 0;
+      const PathPoint<double>& begin = span > 0 ? record.path[i - 1] : corner;
+      const Vec2d pace = span > 0 ? Vec2d((corner.position - begin.position) / span) : record.requested;
       const MoverIndex mover = header_.scenery.colliders[contact.collider].mover;
-      Vec2d pace = span > 0 ? Vec2d((corner.position - record.path[i - 1].position) / span) : record.requested;
-      if (mover != no_mover) pace -= record.movers[mover].to - record.movers[mover].from;
-      const double approach = -pace.dot(contact.normal);
+      const Vec2d relative =
+          mover == no_mover ? pace : Vec2d(pace - (record.movers[mover].to - record.movers[mover].from));
+      const double approach = -relative.dot(contact.normal);
       if (approach > 0) off = std::min(off, std::abs(contact.fraction - corner.fraction) * approach);
+      // A motion that grazes stops long before it touches.
+      const Place far(begin.position + pace * (1 - begin.fraction), record.movers, 1);
+      const auto touch = solids().impact_between(Place(begin, record.movers), far, contact.collider);
+      if (!touch || !(touch->normal.dot(contact.normal) > same_face)) continue;
+      const double when = begin.fraction + static_cast<double>(touch->fraction) * (1 - begin.fraction);
+      off = std::min(off, std::abs(contact.fraction - when) * std::abs(relative.dot(touch->normal)));
     }
     if (off > 2 * guaranteed_gap && off < std::numeric_limits<double>::infinity())
       note(Clause::time_of_impact, record,
