@@ -32,20 +32,19 @@ namespace paperproof::compare {
 /// - `contact_recall`: the share of exact (step, side) for which a contact of that side with one of the colliders that
 ///   exact arithmetic has there was reported in the same step (Box2D: within one): a floor of two abutting tiles is one
 ///   contact. Steps that are said to be stuck do not count (exempted; of octagon_sweep in double those that are right:
-///   who is stuck inside something does not move and meets nothing).
+///   a character that is stuck inside something does not move and meets nothing).
 /// - `normal_error_max_deg`: largest angle between the normal of a reported contact and the nearest exact one with that
 ///   collider on that side.
-/// - `undecided_steps`: so near to what turns that it could not be told whether they met it; only where it does.
+/// - `undecided_steps`: steps of which 45 halvings of the time did not tell whether they meet what turns; absent where
+///   nothing does.
 /// - `hanging_steps`, `stuck_refuted`, `ground_refuted`: see `Judge`. `distance_m`: length of the ways.
-/// `wanted_motion_lost`: share of the
-///   wanted horizontal motion, over the run, that was lost to nothing exact.
-/// - `rounding`: steps ending inside by no more than rounding, of who promises nothing. `exempted`: what was not held
+///   `wanted_motion_lost`: share of the wanted horizontal motion, over the run, that was lost to nothing exact.
+/// - `rounding`: steps ending inside by no more than rounding, of a contender that promises nothing. `exempted`: what was not held
 ///   against the contender, and how often: see oracle/exemptions.hpp.
 /// - `contact_steps`: steps with a reported contact. `colliders_touched`: how many different ones.
 /// - `first_contact_step`, `first_contact_fraction`: the earliest reported contact.
 /// - `exact_first_impact_step`, `exact_first_impact_fraction`: the first impact of the wanted motion that exact
-/// arithmetic
-///   has, over the steps that began free.
+///   arithmetic has, over the steps that began free.
 /// - `toi_error_max`: largest difference of the first reported fraction of a step and the exact first impact, over the
 ///   steps where the two are comparable (see `Judge`) and the reported collider is one of exact arithmetic's.
 /// - `ghost_speed_loss`: largest share of the wanted horizontal speed lost in one step to nothing exact; only where

@@ -9,8 +9,7 @@
 namespace paperproof::compare {
 namespace {
 
-/// Box2D begins to report touching at this gap [m].
-/// See `own_reach`.
+/// See `own_reach` [m].
 constexpr double least_reach = 1e-6;
 
 //                                                                 octagon_sweep  Box2D          by units  others

@@ -13,7 +13,7 @@ namespace paperproof::compare {
 /// Box2D reports touching from this gap on: two polygon radii [m].
 inline constexpr double box2d_skin = 0.020;
 
-/// Who is treated alike.
+/// Contenders that are treated alike.
 enum class Party : std::uint8_t {
   promising,  ///< It guarantees something: octagon_sweep in double.
   sampled,    ///< Its path is known by samples: Box2D.

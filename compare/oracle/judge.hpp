@@ -130,10 +130,9 @@ struct StepJudgement {
 ///   of the way since it left meet the solid: it left on another side. Leaving a solid in which the run (or a respawn,
 ///   or a placement of the twin) began is none; entering it again after that is.
 ///
-/// What a verified crush excuses may go through the octagon, but the octagon not through it: such a mover is tunnelled
-/// only if, standing still where this step leaves it, it also lies on the straight way from where the octagon was in
-/// the world when the mover came over it to where the octagon is now. An octagon that stayed there was passed over and
-/// left behind.
+/// A crushing mover may sweep over the resting character; where the character's own way crosses it, it is tunnelled.
+/// The own way is the straight one in the world from where the octagon was when the mover came over it to where it is
+/// now, and the mover stands where this step leaves it.
 ///
 /// **Crushed.** A mover that the contender names as crushing is excused, and what it is pressed into stays excused
 /// until the octagon is free of it, if exact arithmetic finds no room. Room is a position at the end of the step
@@ -160,7 +159,7 @@ struct StepJudgement {
 ///
 /// **Sensor events** are compared in order, for every sensor entering and leaving apart.
 ///
-/// **Exemptions** are data, with their sizes: oracle/exemptions.hpp. octagon_sweep in double has none.
+/// **Exemptions** are data, with their sizes for each kind of contender: oracle/exemptions.hpp.
 ///
 /// **Rounding.** Whoever promises nothing may end inside by one ulp of its largest coordinate: `rounded` is no overlap.
 ///
@@ -242,7 +241,8 @@ struct StepJudgement {
 /// double: 1e-6 m; Box2D: 20 mm), from any corner of the path.
 class Judge {
  public:
-  explicit Judge(const TraceHeader& header);
+  /// @param like of another character of the same run: both ask the same exact sceneries.
+  explicit Judge(const TraceHeader& header, const Judge* like = nullptr);
   ~Judge();
   Judge(Judge&&) = delete;
   /// @param others of a run with several characters: nobody has room where they are or go through.
@@ -254,6 +254,7 @@ class Judge {
   [[nodiscard]] std::vector<ColliderIndex> overlapped(const TraceStep& step) const;
   /// What turns is no solid there.
   [[nodiscard]] const ExactScenery& scenery() const noexcept { return scenery_; }
+  [[nodiscard]] const detail::TurningJudge& turning() const noexcept { return *turning_; }
 
  private:
   /// A place that outlasts its step.
@@ -275,7 +276,14 @@ class Judge {
   using Path = std::vector<Place>;
   using Touched = std::map<ColliderIndex, std::size_t>;  ///< With the corner where the first leg that meets it begins.
 
-  [[nodiscard]] const ExactScenery* grown_scenery();
+  struct Sceneries {
+    explicit Sceneries(const TraceHeader& header);
+    ExactScenery octagon;
+    std::map<double, std::unique_ptr<ExactScenery>> larger;  ///< By how much the octagon is [m].
+  };
+
+  /// The scenery for an octagon that is larger by so many metres.
+  [[nodiscard]] const ExactScenery& scenery_for(double larger);
   [[nodiscard]] StepJudgement judge_exactly(const TraceStep& step, const Others& others, const Wanted* wanted);
   [[nodiscard]] Path path_of(const TraceStep& step) const;
   /// Whether nothing differs from the last step, as at rest: then neither does the judgement.
@@ -304,9 +312,8 @@ class Judge {
 
   const TraceHeader header_;
   std::unique_ptr<detail::TurningJudge> turning_;
-  ExactScenery scenery_;
-  std::unique_ptr<ExactScenery> grown_scenery_;  ///< See `detail::find_room`; made when a crush is asked about.
-  std::unique_ptr<ExactScenery> near_scenery_;   ///< See `detail::EndJudge`; made for what is promised.
+  std::shared_ptr<Sceneries> sceneries_;
+  const ExactScenery& scenery_;
   std::size_t mover_count_ = 0;
   bool has_sensors_ = false;
   double slop_ = 0;

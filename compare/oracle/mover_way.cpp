@@ -16,8 +16,6 @@ constexpr double rounding_of_float = 0x1p-24;
 /// centre the way there and back.
 constexpr int roundings_of_vertex = 8;
 constexpr int roundings_of_time = 4;
-/// What takes less of the time that follows is a turn at once.
-constexpr double share_at_once = 1e-5;
 /// Share of a step that a turn at once takes.
 constexpr double turning_share = 1e-6;
 /// Of an angle that is read off vertices.
@@ -104,12 +102,6 @@ std::vector<Vec2d> points_of(const ColliderDef& def) {
 }
 
 bool is_circle(const ColliderDef& def) { return def.shape == ColliderDef::Shape::circle; }
-
-/// Whether a turn at once ends at this instant of a way.
-bool ends_turn_at_once(const VertexWay& way, std::size_t k) {
-  if (k == 0 || k + 1 >= way.instants.size()) return false;
-  return way.instants[k] - way.instants[k - 1] < share_at_once * (way.instants[k + 1] - way.instants[k]);
-}
 
 template <class Index>
 void note(std::vector<Index>& list, Index one) {
@@ -218,10 +210,8 @@ void MoverWayJudge::judge_way(const VertexWay& way, const TraceStep& step, doubl
   if (jumps) note(judgement.off_script, mover);
   now_.vertices[way.collider] = way.vertices.back();
 
-  int parts = 0;
   for (std::size_t k = 0; k < way.instants.size(); ++k) {
-    const bool turned = ends_turn_at_once(way, k);
-    parts += turned;
+    const bool turned = turns_at_once(way, k);
     const MoverPose pose = course.at(way.instants[turned ? k + 1 : k]);
     const Placing place(pose);
     const bool between = k > 0 && k + 1 < way.instants.size();
@@ -245,7 +235,6 @@ void MoverWayJudge::judge_way(const VertexWay& way, const TraceStep& step, doubl
     const double angle = std::abs(detail::RigidMotion(way.vertices[k - 1], way.vertices[k]).angle());
     if (angle > most + angle_rounding) note(judgement.coarse, way.collider);
   }
-  judgement.parts = std::max(judgement.parts, parts);
   measure_arc(way, step, most, judgement);
 }
 

@@ -29,7 +29,6 @@ struct MoverWayJudgement {
   std::vector<ColliderIndex> off_arc;     ///< Leaves its arc by more than the bound.
   double arc_error = 0;                   ///< Largest distance of a vertex from its arc at the same instant [m].
   double arc_share = 0;                   ///< Largest share of its bound that the error of a vertex is.
-  int parts = 1;                          ///< Into which the step is divided among what turns.
 
   [[nodiscard]] bool broken() const {
     return !off_script.empty() || !out_of_way.empty() || !coarse.empty() || !off_arc.empty();

@@ -3,7 +3,9 @@
 
 #include <paperproof/types.hpp>
 
+#include <array>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 namespace paperproof::compare {
@@ -24,11 +26,17 @@ struct MoverScript {
     double time = 0;  ///< [s], ascending
     double at = 0;    ///< Angle, counter-clockwise [radians].
   };
-  std::vector<ColliderIndex> colliders;  ///< What goes along.
-  std::vector<Waypoint> path;            ///< At least one.
+  std::vector<ColliderIndex> colliders{};  ///< What goes along.
+  std::vector<Waypoint> path;              ///< At least one.
   Loop loop = Loop::once;
   std::vector<Turn> turns{};  ///< Empty: it does not turn.
   bool body = false;          ///< Box2D moves it, and the path says only where it begins.
 };
+
+/// As scenes and traces have it.
+[[nodiscard]] constexpr std::string_view name_of(MoverScript::Loop loop) noexcept {
+  constexpr std::array<std::string_view, 3> names{"once", "loop", "ping_pong"};
+  return names[static_cast<std::size_t>(loop)];
+}
 
 }  // namespace paperproof::compare

@@ -44,24 +44,12 @@ ordered_json limits_json(const CharacterDef& character) {
   return object;
 }
 
-std::string_view loop_name(MoverScript::Loop loop) {
-  switch (loop) {
-    case MoverScript::Loop::once:
-      return "once";
-    case MoverScript::Loop::loop:
-      return "loop";
-    case MoverScript::Loop::ping_pong:
-      return "ping_pong";
-  }
-  return "once";
-}
-
 ordered_json script_json(const MoverScript& script, const std::vector<std::string>& ids) {
   ordered_json object{{"colliders", ordered_json::array()}, {"path", ordered_json::array()}};
   for (const ColliderIndex collider : script.colliders) object["colliders"].push_back(ids[collider]);
   for (const MoverScript::Waypoint& waypoint : script.path)
     object["path"].push_back({{"t", waypoint.time}, {"at", point_json(waypoint.at)}});
-  object["loop"] = loop_name(script.loop);
+  object["loop"] = name_of(script.loop);
   for (const MoverScript::Turn& turn : script.turns) object["turns"].push_back({{"t", turn.time}, {"at", turn.at}});
   if (script.body) object["body"] = true;
   return object;

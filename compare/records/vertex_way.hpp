@@ -26,16 +26,30 @@ struct VertexWay {
   return found == ways.end() ? nullptr : &*found;
 }
 
+/// Whether the stretch that ends at an instant is a turn at once: it takes less than 1e-5 of the time of the next one.
+[[nodiscard]] inline bool turns_at_once(const VertexWay& way, std::size_t k) {
+  constexpr double share_at_once = 1e-5;
+  return k > 0 && k + 1 < way.instants.size() &&
+         way.instants[k] - way.instants[k - 1] < share_at_once * (way.instants[k + 1] - way.instants[k]);
+}
+
+/// Into how many shorter steps a step among what turns is divided: each begins with a turn at once.
+[[nodiscard]] inline int parts_of(std::span<const VertexWay> ways) {
+  int most = 1;
+  for (const VertexWay& way : ways) {
+    int parts = 0;
+    for (std::size_t k = 0; k < way.instants.size(); ++k) parts += turns_at_once(way, k);
+    most = std::max(most, parts);
+  }
+  return most;
+}
+
 /// How far a collider takes what stands on it [m]. Where it turns at once and then goes straight, time and again, that
 /// is the way of what goes straight: it turns under the foot.
 [[nodiscard]] inline Vec2d carried_along(const VertexWay& way) {
-  constexpr double at_once = 1e-5;  // of the time of what follows
   Vec2d carried = Vec2d::Zero();
-  for (std::size_t k = 1; k < way.instants.size(); ++k) {
-    const bool turns_at_once = k + 1 < way.instants.size() && way.instants[k] - way.instants[k - 1] <
-                                                                  at_once * (way.instants[k + 1] - way.instants[k]);
-    if (!turns_at_once) carried += way.vertices[k][0] - way.vertices[k - 1][0];
-  }
+  for (std::size_t k = 1; k < way.instants.size(); ++k)
+    if (!turns_at_once(way, k)) carried += way.vertices[k][0] - way.vertices[k - 1][0];
   return carried;
 }
 

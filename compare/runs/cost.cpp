@@ -72,7 +72,7 @@ class Timing {
   Timing(const TimedRun& run, const Scene& scene, std::span<const StepInput> inputs)
       : run_(run), scene_(scene), inputs_(inputs) {}
 
-  /// The first pass: what is wanted in it is what an engine alone is given later.
+  /// The first pass records the wanted velocities; bare passes replay them.
   void warm_up() {
     has_bare_ = run_.contestant->keep_wishes(true);
     (void)full_pass();

@@ -16,8 +16,9 @@ std::string moment(double fraction, int step) {
 
 std::string on_steps(int count) { return count == 1 ? "" : fmt::format(" on {}", counted(count, "step")); }
 
-/// A contender with a guarantee knows best where the scene's first impact is: the others may have gone astray before.
-const Row* row_to_trust(const std::vector<Row>& rows) {
+/// The first impact depends on the run: a contender that is off the wanted way before meets something else. So it is
+/// that of a contender with a guarantee, where one ran.
+const Row* row_of_first_impact(const std::vector<Row>& rows) {
   const Row* best = nullptr;
   for (const Row& row : rows) {
     if (!row.exact_first_impact_step || !row.exact_first_impact_fraction) continue;
@@ -44,7 +45,7 @@ std::string outcome_of(const Row& row) {
 }
 
 std::string exact_answer(const std::vector<Row>& rows) {
-  const Row* row = row_to_trust(rows);
+  const Row* row = row_of_first_impact(rows);
   if (row == nullptr) return "";
   const std::string& what = row->exact_first_impact;
   return fmt::format("exact arithmetic: {} is met at {}", what.empty() ? "a solid" : what,

@@ -4,6 +4,7 @@
 #include "oracle/claims.hpp"
 #include "oracle/contacts.hpp"
 #include "oracle/met_surfaces.hpp"
+#include "oracle/turning.hpp"
 #include "records/verdict.hpp"
 #include "words.hpp"
 
@@ -21,6 +22,8 @@ constexpr double guaranteed_gap = 1e-6;
 /// Normals are computed from rounded vertices [degrees].
 constexpr double rounding_of_normal = 1e-3;
 constexpr double rounding_of_unit = 1e-6;
+/// Cosine of the angle between two normals of one face that is round.
+constexpr double same_face = 0.9;
 /// A larger share of the wanted motion that is lost to nothing is a fault of a contender that promises none.
 constexpr double most_motion_lost = 0.01;
 /// The guarantee covers starts this near to the origin, and displacements up to it [m].
@@ -34,19 +37,6 @@ constexpr double lost_beyond = 10;
 
 bool moves(const MoverMotion<double>& motion) { return motion.from != motion.to; }
 
-/// Into how many shorter steps a step among what turns was divided: each begins with a leap.
-int parts_of(const TraceStep& step) {
-  constexpr double leap = 1e-5;
-  int most = 1;
-  for (const VertexWay& way : step.vertex_ways) {
-    int leaps = 0;
-    for (std::size_t k = 1; k + 1 < way.instants.size(); ++k)
-      leaps += way.instants[k] - way.instants[k - 1] < leap * (way.instants[k + 1] - way.instants[k]);
-    most = std::max(most, leaps);
-  }
-  return most;
-}
-
 std::string metres(double length) { return fmt::format("{:.3g} m", length); }
 
 }  // namespace
@@ -54,13 +44,12 @@ std::string metres(double length) { return fmt::format("{:.3g} m", length); }
 RunJudge::RunJudge(const TraceHeader& header, const Measured& measured)
     : header_(header), metrics_(header, measured), judgements_(header.characters) {
   for (std::size_t k = 0; k < header.characters; ++k)
-    followers_.push_back({.judge = std::make_unique<Judge>(header_), .intent = Intent(header_)});
+    followers_.push_back({.judge = std::make_unique<Judge>(header_, k > 0 ? followers_[0].judge.get() : nullptr),
+                          .intent = Intent(header_)});
   if (header.characters > 1) company_ = std::make_unique<CompanyJudge>(header_);
   const auto is_known = [](const MoverScript& script) { return !script.path.empty(); };
-  if (!header_.scripts.empty() && std::all_of(header_.scripts.begin(), header_.scripts.end(), is_known)) {
+  if (!header_.scripts.empty() && std::all_of(header_.scripts.begin(), header_.scripts.end(), is_known))
     ways_.emplace(header_, header_.scripts);
-    turning_.emplace(header_);
-  }
 }
 
 void RunJudge::note(Clause clause, const TraceStep& record, const std::string& what) {
@@ -100,7 +89,7 @@ void RunJudge::add(std::span<TraceStep> records) {
     record.start_overlap = follower.inside;
     if (company_) record.start_overlap_characters = company_->overlapped(starts, record.character);
     const auto wall_ahead = [this](const TraceStep& step, double move) { return is_wall_ahead(step, move); };
-    follower.wanted = follower.intent.begin(record, header_.substeps * parts_of(record), wall_ahead);
+    follower.wanted = follower.intent.begin(record, header_.substeps * parts_of(record.vertex_ways), wall_ahead);
     judge_wish(record, follower.wanted, follower);
     asked[k] = record;
     // A character that is given another velocity where it is remembers from which side it came.
@@ -277,7 +266,8 @@ void RunJudge::judge_ride(const TraceStep& record, const Follower& follower) {
 /// Whether movers go as the scene says.
 void RunJudge::judge_movers(const TraceStep& record) {
   if (!ways_) return;
-  const MoverWayJudgement judged = ways_->judge(record, turning_->near_at_begin(record, near_what_turns));
+  const detail::TurningJudge& turning = followers_.front().judge->turning();
+  const MoverWayJudgement judged = ways_->judge(record, turning.near_at_begin(record, near_what_turns));
   arc_error_ = std::max(arc_error_, judged.arc_error);
   if (!judged.broken()) return;
   const char* what = !judged.off_script.empty()   ? "a mover leaves its script"
@@ -287,50 +277,56 @@ void RunJudge::judge_movers(const TraceStep& record) {
   note(Clause::mover_way, record, what);
 }
 
-/// The fraction of a first contact, as far along the normal as it is off.
+/// Whether a contact was met when it says so: the first one where the exact motion meets it, and each where the way
+/// comes to it.
 void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged) {
-  if (record.contacts.empty() || !record.start_overlap.empty() || !judged.first_impact || !judged.first_approach ||
-      judged.first_met || !record.met.empty())
-    return;
-  const auto first = std::min_element(record.contacts.begin(), record.contacts.end(),
-                                      [](const auto& a, const auto& b) { return a.fraction < b.fraction; });
-  const bool is_exact = std::any_of(judged.contacts.begin(), judged.contacts.end(), [&](const ExactContact& exact) {
-    return exact.collider == first->collider && exact.side == first->side && exact.foreseen;
-  });
-  const double off = std::abs(first->fraction - *judged.first_impact) * *judged.first_approach;
-  // It stops up to 7e-7 m before the impact, and the exact fraction counts from there on.
-  if (is_exact && off > guaranteed_gap)
-    note(Clause::time_of_impact, record,
-         fmt::format("says it met `{}` at {:.6g} of the step, and that is {} off along the normal",
-                     header_.ids[first->collider], first->fraction, metres(off)));
-}
-
-/// Where it was when it met what it reports, as far as something is there.
-void RunJudge::judge_places(const TraceStep& record, const StepJudgement& judged) {
-  if (!record.start_overlap.empty() || !record.vertex_ways.empty() || !record.crushed.empty() ||
-      !judged.end_overlap.empty())
-    return;
+  if (record.contacts.empty() || !record.start_overlap.empty()) return;
+  const auto check = [&](const Contact<double>& contact, double off, double allowed) {
+    if (off > allowed && off < std::numeric_limits<double>::infinity())
+      note(Clause::time_of_impact, record,
+           fmt::format("says it met `{}` at {:.6g} of the step, and that is {} off along the normal",
+                       header_.ids[contact.collider], contact.fraction, metres(off)));
+  };
+  if (judged.first_impact && judged.first_approach && !judged.first_met && record.met.empty()) {
+    const auto first = std::min_element(record.contacts.begin(), record.contacts.end(),
+                                        [](const auto& a, const auto& b) { return a.fraction < b.fraction; });
+    const bool is_exact = std::any_of(judged.contacts.begin(), judged.contacts.end(), [&](const ExactContact& exact) {
+      return exact.collider == first->collider && exact.side == first->side && exact.foreseen;
+    });
+    // It stops up to 7e-7 m before the impact, and the exact fraction counts from there on.
+    if (is_exact)
+      check(*first, std::abs(first->fraction - *judged.first_impact) * *judged.first_approach, guaranteed_gap);
+  }
+  if (!record.vertex_ways.empty() || !record.crushed.empty() || !judged.end_overlap.empty()) return;
   for (const Contact<double>& contact : record.contacts) {
-    const MoverIndex carrier = header_.scenery.colliders[contact.collider].mover;
-    const bool pushed = carrier != no_mover && moves(record.movers[carrier]) &&
-                        solids().separation({record.path.front(), record.movers}, contact.collider) <= guaranteed_gap;
-    if (pushed) continue;  // it gives way from the start, and has no time of impact
+    const MoverIndex mover = header_.scenery.colliders[contact.collider].mover;
+    const Vec2d carried =
+        mover != no_mover ? Vec2d(record.movers[mover].to - record.movers[mover].from) : Vec2d::Zero();
+    const auto is_there = [&](const PathPoint<double>& corner) {
+      return solids().separation({corner, record.movers}, contact.collider) <= guaranteed_gap;
+    };
+    if (carried != Vec2d::Zero() && is_there(record.path.front())) continue;  // it gives way from the start
     // As far along the normal as it is off the time at which the way touches, at the pace of the leg that leads there.
     double off = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < record.path.size(); ++i) {
       const PathPoint<double>& corner = record.path[i];
-      if (!(solids().separation({corner, record.movers}, contact.collider) <= guaranteed_gap)) continue;
-      const double span = i > 0 ? corner.fraction - record.path[i - 1].fraction : 0;
-      const MoverIndex mover = header_.scenery.colliders[contact.collider].mover;
-      Vec2d pace = span > 0 ? Vec2d((corner.position - record.path[i - 1].position) / span) : record.requested;
-      if (mover != no_mover) pace -= record.movers[mover].to - record.movers[mover].from;
-      const double approach = -pace.dot(contact.normal);
+      if (!is_there(corner)) continue;
+      if (contact.fraction == corner.fraction) off = 0;  // it was there, however it came
+      const bool waited = i == 0 || !(record.path[i - 1].fraction < corner.fraction);
+      const PathPoint<double>& begin = waited ? corner : record.path[i - 1];
+      const Vec2d pace =
+          waited ? record.requested : Vec2d((corner.position - begin.position) / (corner.fraction - begin.fraction));
+      const double approach = (carried - pace).dot(contact.normal);
       if (approach > 0) off = std::min(off, std::abs(contact.fraction - corner.fraction) * approach);
+      // A motion that grazes stops long before it touches; what it would touch is of one direction with what it
+      // reports.
+      const Place far(begin.position + pace * (1 - begin.fraction), record.movers, 1);
+      const auto touch = solids().impact_between(Place(begin, record.movers), far, contact.collider);
+      if (!touch || !(touch->normal.dot(contact.normal) > same_face)) continue;
+      const double when = begin.fraction + static_cast<double>(touch->fraction) * (1 - begin.fraction);
+      off = std::min(off, std::abs(contact.fraction - when) * std::abs((carried - pace).dot(touch->normal)));
     }
-    if (off > 2 * guaranteed_gap && off < std::numeric_limits<double>::infinity())
-      note(Clause::time_of_impact, record,
-           fmt::format("says it met `{}` at {:.6g} of the step, and that is {} off along the normal",
-                       header_.ids[contact.collider], contact.fraction, metres(off)));
+    check(contact, off, 2 * guaranteed_gap);
   }
 }
 
@@ -338,13 +334,13 @@ void RunJudge::judge_places(const TraceStep& record, const StepJudgement& judged
 void RunJudge::judge_drops(const TraceStep& record) {
   constexpr double there = 1e-5;
   for (const ColliderIndex chain : record.dropped_through) {
-    double gap = std::numeric_limits<double>::infinity();
-    for (const PathPoint<double>& corner : record.path)
-      gap = std::min(gap, solids().separation({corner, record.movers}, chain));
     bool meets = false;
-    for (std::size_t i = 1; i < record.path.size(); ++i)
-      meets = meets || solids().meets({record.path[i - 1], record.movers}, {record.path[i], record.movers}, chain);
-    if (!record.input.drop || (gap > there && !meets))
+    for (std::size_t i = 0; i < record.path.size() && !meets; ++i) {
+      const Place corner(record.path[i], record.movers);
+      meets = solids().separation(corner, chain) <= there ||
+              (i > 0 && solids().meets({record.path[i - 1], record.movers}, corner, chain));
+    }
+    if (!record.input.drop || !meets)
       note(Clause::one_way, record, "says it dropped through `" + header_.ids[chain] + "`, and did not");
   }
 }
@@ -419,7 +415,6 @@ void RunJudge::judge_clauses(const TraceStep& record, const StepJudgement& judge
   check(Clause::refusal, record.path.back().position.cwiseAbs().maxCoeff() > range || !(length_of(record, header_) > 0),
         [] { return std::string("takes a step that must be refused"); });
   judge_times(record, judged);
-  judge_places(record, judged);
 }
 
 /// Whether the law of response (§4 of the design) makes the velocity at the end of what was wanted, at the contacts

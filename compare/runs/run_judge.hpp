@@ -6,7 +6,6 @@
 #include "oracle/intent.hpp"
 #include "oracle/judge.hpp"
 #include "oracle/mover_way.hpp"
-#include "oracle/turning.hpp"
 
 #include <memory>
 
@@ -62,7 +61,6 @@ class RunJudge {
   void judge_velocity(const TraceStep& record, const StepJudgement& judged, const Follower& follower);
   void judge_movers(const TraceStep& record);
   void judge_times(const TraceStep& record, const StepJudgement& judged);
-  void judge_places(const TraceStep& record, const StepJudgement& judged);
   void judge_drops(const TraceStep& record);
   void judge_met(const TraceStep& record, std::span<const TraceStep> records);
   [[nodiscard]] bool stands(const TraceStep& record) const;
@@ -74,10 +72,9 @@ class RunJudge {
   std::unique_ptr<CompanyJudge> company_;  ///< Null for one character.
   Metrics metrics_;
   std::vector<Follower> followers_;
-  std::optional<MoverWayJudge> ways_;            ///< None where no script is known.
-  std::optional<detail::TurningJudge> turning_;  ///< The same.
-  double arc_error_ = 0;                         ///< See `MoverWayJudgement` [m].
-  int disagreements_ = 0;                        ///< Steps on which two methods of the judge's own differ.
+  std::optional<MoverWayJudge> ways_;  ///< None where no script is known.
+  double arc_error_ = 0;               ///< See `MoverWayJudgement` [m].
+  int disagreements_ = 0;              ///< Steps on which two methods of the judge's own differ.
   std::vector<StepJudgement> judgements_;
   std::vector<std::string> begins_inside_;
   Breaches breaches_;

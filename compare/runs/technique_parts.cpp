@@ -140,25 +140,6 @@ double jump_rules_in_force(const CharacterDef& character) {
 
 namespace {
 
-MoverScript script_of(const MoverDef& mover) {
-  MoverScript script;
-  for (const MoverDef::Waypoint& waypoint : mover.path) script.path.push_back({waypoint.time, waypoint.at});
-  for (const MoverDef::Turn& turn : mover.turns) script.turns.push_back({turn.time, turn.at});
-  switch (mover.loop) {
-    case MoverDef::Loop::once:
-      script.loop = MoverScript::Loop::once;
-      break;
-    case MoverDef::Loop::loop:
-      script.loop = MoverScript::Loop::loop;
-      break;
-    case MoverDef::Loop::ping_pong:
-      script.loop = MoverScript::Loop::ping_pong;
-      break;
-  }
-  script.body = mover.body.has_value();
-  return script;
-}
-
 /// What a scene says of a scenery, in the number type that runs.
 template <class Scalar>
 SceneryDef rounded(SceneryDef scenery) {
@@ -197,7 +178,9 @@ void add_terms(const Scene& scene, const CharacterDef& character, TraceHeader& h
   for (std::size_t k = 0; k < character_count(scene); ++k)
     header.starts.push_back({start_of(scene, k).position, start_of(scene, k).velocity});
   header.respawn_box = scene.respawn_box;
-  for (const MoverDef& mover : scene.movers) header.scripts.push_back(script_of(mover));
+  for (const MoverDef& mover : scene.movers)
+    header.scripts.push_back(
+        {.path = mover.path, .loop = mover.loop, .turns = mover.turns, .body = mover.body.has_value()});
   for (ColliderIndex i = 0; i < scene.scenery.colliders.size(); ++i)
     if (const MoverIndex mover = scene.scenery.colliders[i].mover; mover != no_mover)
       header.scripts[mover].colliders.push_back(i);

@@ -1,6 +1,8 @@
 /// What moves in a scene: colliders that go along a path through time, or are bodies that Box2D moves.
 #pragma once
 
+#include "records/mover_script.hpp"
+
 #include <paperproof/scenery.hpp>
 
 #include <cstdint>
@@ -22,19 +24,9 @@ struct Body {
 /// it. Their points are where they are at offset (0, 0) and angle 0; they turn about the point (0, 0) that they are
 /// written around, and are then moved by the offset.
 struct MoverDef {
-  enum class Loop : std::uint8_t {
-    once,       ///< Stays at the last waypoint.
-    loop,       ///< Begins anew at the first one. Offsets end where they began; angles go on from where they ended.
-    ping_pong,  ///< Goes back the same way, in the same time.
-  };
-  struct Waypoint {
-    double time = 0;          ///< [s], ascending
-    Vec2d at{Vec2d::Zero()};  ///< Offset [m].
-  };
-  struct Turn {
-    double time = 0;  ///< [s], ascending
-    double at = 0;    ///< Angle, counter-clockwise [radians].
-  };
+  using Loop = MoverScript::Loop;
+  using Waypoint = MoverScript::Waypoint;
+  using Turn = MoverScript::Turn;
   std::string id;
   std::vector<Waypoint> path;  ///< At least one.
   Loop loop = Loop::once;

@@ -62,8 +62,7 @@ void put_motion(const MoverDef& mover, ordered_json& object) {
   for (const MoverDef::Waypoint& waypoint : mover.path)
     object["path"].push_back({{"t", waypoint.time}, {"at", point_json(waypoint.at)}});
   for (const MoverDef::Turn& turn : mover.turns) object["angle"].push_back({{"t", turn.time}, {"at", turn.at}});
-  if (mover.loop == MoverDef::Loop::loop) object["loop"] = "loop";
-  if (mover.loop == MoverDef::Loop::ping_pong) object["loop"] = "ping_pong";
+  if (mover.loop != MoverDef::Loop::once) object["loop"] = name_of(mover.loop);
 }
 
 void put_body(const Body& body, ordered_json& object) {

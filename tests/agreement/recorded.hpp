@@ -4,6 +4,7 @@
 #include "oracle/judge.hpp"
 
 #include <paperproof/controller.hpp>
+#include <paperproof/crowd.hpp>
 
 #include <span>
 
@@ -37,6 +38,16 @@ template <class Scalar>
   record.stuck = report.status == StepStatus::stuck;
   record.dropped = report.status == StepStatus::dropped;
   record.dropped_through.assign(report.dropped_through.begin(), report.dropped_through.end());
+  return record;
+}
+
+/// The same of a character of a crowd, with the others that it met.
+[[nodiscard]] inline compare::TraceStep recorded(const CrowdMember<double>& member, const CharacterState<double>& state,
+                                                 std::span<const MoverMotion<double>> motions,
+                                                 CharacterIndex character) {
+  compare::TraceStep record = recorded(member.step, state, motions);
+  record.character = character;
+  record.met.assign(member.met.begin(), member.met.end());
   return record;
 }
 

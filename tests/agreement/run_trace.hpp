@@ -8,12 +8,15 @@
 #include <gtest/gtest.h>
 #include <paperproof/character.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace paperproof::test {
 
@@ -48,7 +51,8 @@ class BrokenByRuns {
 /// PAPERPROOF_GUARANTEE_TRACES names a folder.
 class RunTrace {
  public:
-  /// @param header with scenery, points, limits, gravity and scripts. @param kind of run, as tests/known_and_open.json
+  /// @param header with scenery, points, limits and gravity. Where it has no scripts, movers go as the records say.
+  ///   @param kind of run, as tests/known_and_open.json
   ///   has it. @param run names it.
   RunTrace(compare::TraceHeader header, std::string kind, std::string run)
       : kind_(std::move(kind)), run_(std::move(run)) {
@@ -58,6 +62,7 @@ class RunTrace {
     header.guarantees = compare::every_clause();
     header.ids.clear();
     for (std::size_t i = 0; i < header.scenery.colliders.size(); ++i) header.ids.push_back(std::to_string(i));
+    if (header.scripts.empty()) header.scripts = of_bodies(header.scenery);
     header_ = std::move(header);
   }
   ~RunTrace() {
@@ -74,30 +79,57 @@ class RunTrace {
   RunTrace(const RunTrace&) = delete;
   RunTrace& operator=(const RunTrace&) = delete;
 
-  /// A test that gives the character another velocity begins a new run there, in the same file.
-  /// @param before the state with which the step began. @param launched the test has changed it since the last step.
-  void write(compare::TraceStep step, const CharacterState<double>& before, const Input& input, bool launched) {
-    step.input = input;
-    step.step = steps_++;
+  /// A test that gives a character another velocity begins a new run there, in the same file.
+  /// @param before the states with which the step began, one of each character. @param launched the test has changed
+  ///   the state since the last step.
+  void write(std::vector<compare::TraceStep> records, std::span<const CharacterState<double>> before,
+             std::span<const Input> inputs, const std::vector<bool>& launched) {
     if (!judge_) {
-      header_.starts = {{before.position, before.velocity}};
+      header_.characters = records.size();
+      for (const CharacterState<double>& state : before) header_.starts.push_back({state.position, state.velocity});
       judge_.emplace(header_, compare::Measured{});
       if (const char* folder = std::getenv("PAPERPROOF_GUARANTEE_TRACES"))
         writer_.emplace(std::string(folder) + "/" + kind_ + "_" + run_ + ".jsonl", header_);
-    } else if (launched) {
-      step.respawn = true;
-      step.from = {.velocity = before.velocity,
+    }
+    for (std::size_t i = 0; i < records.size(); ++i) {
+      records[i].character = static_cast<CharacterIndex>(i);
+      records[i].input = inputs[i];
+      records[i].step = steps_;
+      if (steps_ > 0 && launched[i]) begin_anew(records[i], before[i]);
+    }
+    ++steps_;
+    judge_->add(records);
+    if (writer_)
+      for (const compare::TraceStep& record : records) writer_->write(record);
+  }
+  void write(const compare::TraceStep& step, const CharacterState<double>& before, const Input& input, bool launched) {
+    write({step}, {&before, 1}, {&input, 1}, {launched});
+  }
+
+ private:
+  static std::vector<compare::MoverScript> of_bodies(const SceneryDef& scenery) {
+    std::vector<compare::MoverScript> scripts;
+    for (ColliderIndex i = 0; i < scenery.colliders.size(); ++i) {
+      const MoverIndex mover = scenery.colliders[i].mover;
+      if (mover == no_mover) continue;
+      scripts.resize(std::max(scripts.size(), std::size_t{mover} + 1));
+      scripts[mover].colliders.push_back(i);
+      scripts[mover].body = true;  // the path says only where it begins
+      scripts[mover].path.assign(1, {});
+    }
+    return scripts;
+  }
+
+  static void begin_anew(compare::TraceStep& record, const CharacterState<double>& before) {
+    record.respawn = true;
+    record.from = {.velocity = before.velocity,
                    .grounded = before.grounded,
                    .jumping = before.jumping,
                    .jump_held = before.jump_held,
                    .jump_pending = before.jump_pending};
-      if (before.ride.ground != Ride<double>::none) step.from->ride = {before.ride.ground, before.ride.velocity};
-    }
-    judge_->add({&step, 1});
-    if (writer_) writer_->write(step);
+    if (before.ride.ground != Ride<double>::none) record.from->ride = {before.ride.ground, before.ride.velocity};
   }
 
- private:
   std::string kind_;
   std::string run_;
   compare::TraceHeader header_;

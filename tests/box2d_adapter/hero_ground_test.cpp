@@ -125,7 +125,8 @@ TEST(HeroOrigin, changes_no_step) {
     for (double& component : offset) component = std::round(component * 0x1p10) / 0x1p10;
     const auto hero_def = [&](const Vec2d& by) {
       std::vector<Vec2d> points;
-      for (const Vec2d& point : CharacterShape::article().hull()) points.push_back(point + by);
+      const CharacterShape article = CharacterShape::article();
+      for (const Vec2d& point : article.hull()) points.push_back(point + by);
       HeroDef hero;
       hero.character.shape = CharacterShape(points);
       hero.character.acceleration = random.between(30, 90);

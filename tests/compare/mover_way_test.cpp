@@ -154,9 +154,10 @@ class Plank : public testing::Test {
 TEST_F(Plank, that_turns_at_once_in_enough_parts_holds_to_its_script) {
   MoverWayJudge judge(header_, {script_});
   for (int k = 0; k < 40; ++k) {
-    const MoverWayJudgement one = judge.judge(in_parts(k, needed), near_);
+    const TraceStep step = in_parts(k, needed);
+    const MoverWayJudgement one = judge.judge(step, near_);
     EXPECT_FALSE(one.broken()) << k;
-    EXPECT_EQ(one.parts, needed);
+    EXPECT_EQ(parts_of(step.vertex_ways), needed);
     EXPECT_GT(one.arc_error, 0) << "it turns at once";
     EXPECT_LE(one.arc_share, 1);
   }

@@ -5,6 +5,9 @@
 #include "studies/front.hpp"
 #include "studies/motions.hpp"
 
+#include <paperproof/box2d/reference_world.hpp>
+#include <paperproof/tolerances.hpp>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,23 +47,70 @@ TEST(WorkPrecision, in_flight_the_error_is_that_of_the_step_and_its_slope_one) {
   EXPECT_THROW((void)study_work_precision({"fligt"}, {}, {}), std::invalid_argument);
 }
 
-/// octagon_sweep comes to every motion as the step becomes small, down to the gap it keeps, and with it Box2D to that
-/// of its own law, down to its skin.
-TEST(WorkPrecision, each_side_comes_to_the_motion_of_its_own_law) {
+constexpr double root_3 = 1.7320508075688772;
+
+/// So far up or down the slope of 30 degrees. @param gap to the slope, along its normal
+Vec2d on_30_degrees(double way, double gap) { return {root_3 / 2 * way - gap / 2, way / 2 + root_3 / 2 * gap}; }
+
+/// The motions as their descriptions have them, but for `level`.
+Vec2d formula(std::string_view name, double t, bool frictionless = false) {
+  if (name == "flight") return {3 * t, 8 * t - 5 * t * t};
+  if (name == "rest") return {0, std::max(2 - 5 * t * t, 0.0)};
+  if (name == "slide") return Vec2d(0.5, -root_3 / 2) * (5 * root_3 / 2 * t * t);
+  if (name == "corridor") return {std::min(6 * t, 2.0), 2 * t};
+  if (name == "bullet") return {0, std::max(10 - 200 * t, 0.0)};
+  if (name == "lift") return {0, 1.5 * t};
+  return on_30_degrees(8 / root_3 * t - (frictionless && name == "uphill" ? 5 * t * t / 2 : 0), 0);
+}
+
+/// The same after n steps of h, each of which first adds gravity to the velocity and then moves: n steps of an
+/// acceleration a lead a t (t + h) / 2 far instead of a t² / 2. What is touched is `gap` away along its normal.
+/// Box2D goes no more than 2 m a step. Its walker is steered back to 4 m/s across in each step and slides without
+/// friction: from step to step the speed on the slope v becomes 4 cos + (v sin - g h) sin. So it is slower by
+/// g h sin / cos² (1 - sin²ᵏ) in step k.
+Vec2d formula_in_steps(std::string_view name, int n, double h, double gap, bool box2d) {
+  const double t = n * h;
+  if (name == "flight") return {3 * t, 8 * t - 5 * t * (t + h)};
+  if (name == "rest") return {0, std::max(2 - 5 * t * (t + h), gap)};
+  if (name == "slide") return Vec2d(0.5, -root_3 / 2) * (5 * root_3 / 2 * t * (t + h)) + Vec2d(root_3 / 2, 0.5) * gap;
+  if (name == "corridor") return {std::min(6 * t, 2 - gap), 2 * t};
+  if (name == "bullet")
+    return {0, std::max(10 - (box2d ? std::min(200.0, box2d::max_travel_per_step / h) : 200) * t, gap)};
+  if (name == "lift") return {0, 1.5 * t + gap};
+  double behind = 0;
+  if (box2d && name == "uphill") behind = 5 * t * (t + h) / 2;
+  if (box2d && name == "walk") behind = 20.0 / 3 * h * h * (n - (1 - std::pow(0.25, n)) / 3);
+  return on_30_degrees(8 / root_3 * t - behind, gap);
+}
+
+/// The error is that of steps, and of the gap that is kept: 5e-7 m, or Box2D's 15 mm. Of `level`, for which there is no
+/// formula, it falls as the step does; Box2D takes other ways through it.
+TEST(WorkPrecision, each_side_differs_from_the_motion_of_its_own_law_by_its_steps_and_its_gap) {
   const WorkPrecision found = study_work_precision({}, {"octagon_sweep", "box2d"}, {});
-  for (const Motion& motion : motions()) {
-    double least = 1;
-    double least_of_box2d = 1;
-    for (const Row& row : found.points) {
-      if (row.scene != motion.name || row.scalar != (row.contender == "box2d" ? "float" : "double")) continue;
-      double& of = row.contender == "box2d" ? least_of_box2d : least;
-      of = std::min(of, row.error_max_m.value_or(1));
+  int seen = 0;
+  for (const Row& row : found.points) {
+    const bool box2d = row.contender == "box2d";
+    if (row.scene == "level" || row.parameters.size() > 1 || row.scalar != (box2d ? "float" : "double")) continue;
+    const double h = row.parameters.front().second;
+    const double gap = box2d ? box2d::rest_gap : Tolerances<double>{}.stop;
+    const auto motion =
+        std::find_if(motions().begin(), motions().end(), [&](const Motion& m) { return m.name == row.scene; });
+    const auto steps = static_cast<int>(std::lround(motion->duration / h));
+    double error = 0;
+    double largest = 0;
+    for (int n = 1; n <= steps; ++n) {
+      const Vec2d place = formula_in_steps(row.scene, n, h, gap, box2d);
+      error = std::max(error, (place - formula(row.scene, n * h, box2d)).norm());
+      largest = std::max(largest, place.cwiseAbs().maxCoeff() + 1);  // the character is up to 1 m above what it names
     }
-    EXPECT_LT(least, 0.03) << motion.name;
-    if (motion.name != "level") {
-      EXPECT_LT(least_of_box2d, 0.04) << motion.name;
-    }
+    // Of steps in float; Box2D's time of impact is within a quarter of its slop of 5 mm. On a slope octagon_sweep keeps
+    // its gap across up, not along the normal.
+    const double impact = row.scene == "flight" ? 0 : 0.005 / 4;
+    const double rounding = box2d ? impact + steps * std::ldexp(largest, -24) : gap;
+    EXPECT_NEAR(row.error_max_m.value(), error, rounding) << row.scene << " " << row.contender << " " << h;
+    ++seen;
   }
+  EXPECT_EQ(seen, 8 * 2 * 6);
   for (const Row& curve : found.curves)
     if (curve.scene == "level" && curve.contender == "octagon_sweep" && curve.scalar == "double" &&
         curve.curve == "dt_s") {
@@ -68,18 +118,8 @@ TEST(WorkPrecision, each_side_comes_to_the_motion_of_its_own_law) {
     }
 }
 
-/// The formulas of the descriptions, up to the gap of 1e-6 m at the start and rounding.
+/// Up to the gap of 1e-6 m at the start and rounding.
 TEST(Motions, are_those_of_their_formulas) {
-  const double root_3 = std::sqrt(3.0);
-  const auto formula = [&](std::string_view name, double t) -> Vec2d {
-    if (name == "flight") return {3 * t, 8 * t - 5 * t * t};
-    if (name == "rest") return {0, std::max(2 - 5 * t * t, 0.0)};
-    if (name == "slide") return Vec2d(0.5, -root_3 / 2) * (5 * root_3 / 2 * t * t);
-    if (name == "corridor") return {std::min(6 * t, 2.0), 2 * t};
-    if (name == "bullet") return {0, std::max(10 - 200 * t, 0.0)};
-    if (name == "lift") return {0, 1.5 * t};
-    return Vec2d(4 * t, 4 * t / root_3);  // walk, uphill
-  };
   for (const Motion& motion : motions()) {
     if (motion.name == "level") continue;
     const Scene scene = scene_of(motion, 1.0 / 480);

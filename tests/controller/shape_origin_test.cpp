@@ -34,7 +34,8 @@ Vec2d random_offset(Random& random) {
 
 CharacterShape shape_at(const Vec2d& offset, bool is_box) {
   std::vector<Vec2d> points;
-  for (const Vec2d& point : CharacterShape::article().hull()) points.push_back(point);
+  const CharacterShape article = CharacterShape::article();
+  for (const Vec2d& point : article.hull()) points.push_back(point);
   if (is_box) points = {{-0.25, -0.25}, {0.25, -0.25}, {0.25, 0.25}, {-0.25, 0.25}};
   for (Vec2d& point : points) point += offset;
   return CharacterShape(points);
