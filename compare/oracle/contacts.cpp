@@ -3,6 +3,7 @@
 #include "oracle/claims.hpp"
 #include "oracle/exemptions.hpp"
 #include "oracle/hanging.hpp"
+#include "oracle/up.hpp"
 
 #include <algorithm>
 #include <array>
@@ -74,21 +75,18 @@ bool ContactJudge::dropped_through(ColliderIndex collider) const {
 
 void ContactJudge::judge(bool starts_free, StepJudgement& judgement) const {
   std::vector<ColliderIndex> met;  // by the requested motion
+  const std::size_t begin = first_corner();
   for (std::size_t i = 0; i < step_.path.size(); ++i) {
     const Vec2d& position = step_.path[i].position;
     const bool end = i == 0 || i + 1 == step_.path.size();
     if (!header_.path_exact && !end) continue;
-    if (i > 0 && step_.movers.empty() && position == step_.path[i - 1].position) continue;
-    std::vector<ExactImpact> impacts = scenery_.impacts(place(i), step_.requested);
-    // What is overlapped already is left, not met.
-    std::erase_if(impacts, [&](const ExactImpact& impact) {
-      return dropped_through(impact.collider) || (header_.path_exact && scenery_.overlaps(place(i), impact.collider));
-    });
-    if (i == 0) {
+    if (i > begin && step_.movers.empty() && position == step_.path[i - 1].position) continue;
+    const std::vector<ExactImpact> impacts = impacts_from(i);
+    if (i == begin) {
       for (const ExactImpact& impact : impacts) met.push_back(impact.collider);
       add_first_impacts(impacts, starts_free, judgement);
     }
-    add_contacts_at(impacts, step_.path[i].fraction, met, judgement);
+    add_contacts_at(i, impacts, met, judgement);
   }
   add_gaps(judgement);
   add_dont_care(judgement);
@@ -102,6 +100,63 @@ void ContactJudge::judge(bool starts_free, StepJudgement& judgement) const {
   if (judgement.crushed.empty()) judgement.ghost_speed_loss = ghost_speed_loss(starts_free, judgement);
 }
 
+/// Where the motion begins: a start that is no gap away from something is moved away from it first.
+std::size_t ContactJudge::first_corner() const {
+  if (!header_.path_exact || step_.path.size() < 2 || step_.path[1].fraction > 0) return 0;
+  const bool is_short = (step_.path[1].position - step_.path[0].position).norm() <= contact_reach;
+  return is_short && !scenery_.near_parts(place(0), touch_rounding).empty() ? 1 : 0;
+}
+
+/// What the requested motion enters from a corner. What is overlapped already is left, not met.
+std::vector<ExactImpact> ContactJudge::impacts_from(std::size_t corner) const {
+  std::vector<ExactImpact> impacts = scenery_.impacts(place(corner), step_.requested);
+  std::erase_if(impacts, [&](const ExactImpact& impact) {
+    return dropped_through(impact.collider) ||
+           (header_.path_exact && scenery_.overlaps(place(corner), impact.collider));
+  });
+  return impacts;
+}
+
+/// What a contact may leave of the requested motion, by the laws that there are: it slides, without steering or
+/// momentum across up or with it; on ground its part across up goes on along it.
+std::vector<Vec2d> ContactJudge::left_by(const ExactImpact& contact) const {
+  const Vec2d& n = contact.normal;
+  const Vec2d& requested = step_.requested;
+  const Vec2d own = requested - wanted(contact.collider);
+  const auto slid = [&](const Vec2d& d) { return Vec2d(d - n * std::min(0.0, (d - own).dot(n))); };
+  if (is_walkable(n, header_, up_))
+    return {slid(requested),
+            own + in_world({across(requested - own), -across(requested - own) * across(n) / n.dot(up_)}, up_)};
+  return {slid(requested), slid(requested - step_.steered * right_), slid(up_ * requested.dot(up_))};
+}
+
+/// Whether the motion comes to a contact, whatever is met before it and whichever law it follows there.
+/// @param impacts of the same motion from the same corner. @param scenery that they are with.
+bool ContactJudge::comes_to(const ExactImpact& contact, std::size_t corner, std::span<const ExactImpact> impacts,
+                            const ExactScenery& scenery) const {
+  return std::all_of(impacts.begin(), impacts.end(), [&](const ExactImpact& before) {
+    if (!before.exposed || !(before.fraction < contact.fraction)) return true;
+    Place there = place(corner);
+    there.position += step_.requested * static_cast<double>(before.fraction);
+    const std::vector<Vec2d> left = left_by(before);
+    return std::all_of(left.begin(), left.end(), [&](const Vec2d& way) {
+      const std::optional<ExactImpact> impact = scenery.time_of_impact(there, way, contact.collider);
+      return impact && side_of(*impact) == side_of(contact);
+    });
+  });
+}
+
+/// The same for an octagon that is larger by the distance within which a motion may be said to hit: where the two
+/// differ the contact may be another one.
+bool ContactJudge::comes_to_when_grown(const ExactImpact& contact, std::size_t corner) const {
+  if (grown_scenery_ == nullptr || grown_scenery_->overlaps(place(corner), contact.collider)) return true;
+  const std::vector<ExactImpact> impacts = grown_scenery_->impacts(place(corner), step_.requested);
+  return std::any_of(impacts.begin(), impacts.end(), [&](const ExactImpact& grown) {
+    return grown.collider == contact.collider && side_of(grown) == side_of(contact) &&
+           comes_to(grown, corner, impacts, *grown_scenery_);
+  });
+}
+
 Side ContactJudge::side_of(const ExactImpact& impact) const { return side_along(impact.normal, up_); }
 
 bool ContactJudge::reports(const ExactImpact& impact) const {
@@ -111,27 +166,37 @@ bool ContactJudge::reports(const ExactImpact& impact) const {
   });
 }
 
-/// @param met what the requested motion of the step enters, from its start.
-void ContactJudge::add_contacts_at(const std::vector<ExactImpact>& impacts, double fraction,
+/// @param impacts from the corner. @param met what the requested motion of the step enters, from its start.
+void ContactJudge::add_contacts_at(std::size_t corner, std::span<const ExactImpact> impacts,
                                    std::span<const ColliderIndex> met, StepJudgement& judgement) const {
+  const double fraction = step_.path[corner].fraction;
   // What the step only comes near to is entered in the next one, if the motion goes on.
-  const auto is_met = [&](const ExactImpact& impact) {
+  const auto in_time = [&](const ExactImpact& impact) {
     return !header_.path_exact || impact.fraction + Rational(fraction) <= 1 ||
            (fraction < 1 && std::find(met.begin(), met.end(), impact.collider) != met.end());
+  };
+  const auto is_met = [&](const ExactImpact& impact) {
+    return in_time(impact) &&
+           (!header_.path_exact || (corner >= first_corner() && comes_to(impact, corner, impacts, scenery_) &&
+                                    comes_to_when_grown(impact, corner)));
   };
   for (const ExactImpact& impact : impacts) {
     const double way = static_cast<double>(impact.fraction) * std::abs(wanted(impact.collider).dot(impact.normal));
     if (way > contact_reach) continue;
-    if (impact.exposed && (is_met(impact) || reports(impact))) {
-      const auto is_it = [&](const ExactContact& known) {
-        return known.collider == impact.collider && known.side == side_of(impact);
-      };
-      const bool known = std::any_of(judgement.contacts.begin(), judgement.contacts.end(), is_it);
-      add_contact(impact, side_of(impact), fraction, judgement);
-      if (!known && !is_met(impact)) judgement.ahead.emplace_back(impact.collider, side_of(impact));
-    } else {
+    // A motion that grazes may have far to go although it is near along the normal.
+    if (header_.path_exact && scenery_.separation(place(corner), impact.collider) > contact_reach) continue;
+    const bool is_reported = reports(impact);
+    const bool demanded = impact.exposed && is_met(impact);
+    if (!demanded && !(impact.exposed && is_reported)) {
       judgement.dont_care.push_back(impact.collider);
+      continue;
     }
+    const auto is_it = [&](const ExactContact& known) {
+      return known.collider == impact.collider && known.side == side_of(impact);
+    };
+    const bool known = std::any_of(judgement.contacts.begin(), judgement.contacts.end(), is_it);
+    add_contact(impact, side_of(impact), fraction, judgement);
+    if (!known && !demanded) judgement.ahead.emplace_back(impact.collider, side_of(impact));
   }
 }
 
@@ -160,7 +225,7 @@ void ContactJudge::add_first_impacts(const std::vector<ExactImpact>& impacts, bo
 /// than a contact may be.
 bool ContactJudge::is_closed_before(const ExactImpact& first) const {
   if (grown_scenery_ == nullptr) return false;
-  const Place start = place(0);
+  const Place start = place(first_corner());
   const double fraction = static_cast<double>(first.fraction);
   const double along = std::abs(wanted(first.collider).dot(first.normal));
   if (!(along * fraction > 2 * contact_reach)) return false;  // it is at the start
@@ -200,9 +265,9 @@ void ContactJudge::add_gaps(StepJudgement& judgement) const {
 
 double ContactJudge::ghost_speed_loss(bool starts_free, const StepJudgement& judgement) const {
   const double wanted = across(step_.requested) / length_of(step_, header_);
-  if (std::abs(wanted) * length_of(step_, header_) <= rounding_across()) return 0;
   const double loss = std::clamp(1 - across(step_.velocity) / wanted, 0.0, 1.0);
-  return loss < least_loss || !starts_free || is_opposed(wanted, judgement) ? 0 : loss;
+  const bool is_rounding = !(loss * std::abs(wanted) * length_of(step_, header_) > rounding_across());
+  return is_rounding || loss < least_loss || !starts_free || is_opposed(wanted, judgement) ? 0 : loss;
 }
 
 /// What is missing of the wanted horizontal displacement, and whether something exact is in the way of it.
@@ -229,7 +294,8 @@ bool ContactJudge::is_opposed(double wanted, const StepJudgement& judgement) con
     const bool confirmed =
         std::any_of(judgement.contacts.begin(), judgement.contacts.end(), is_it) ||
         std::find(judgement.deflected.begin(), judgement.deflected.end(), touch) != judgement.deflected.end();
-    if (promises_ && confirmed && across(contact.normal) * wanted < 0 && has_face(contact)) return true;
+    if (promises_ && (confirmed || comes_near(contact)) && across(contact.normal) * wanted < 0 && has_face(contact))
+      return true;
   }
   const double beyond = std::copysign(promises_ ? contact_reach : own_reach(header_), wanted);
   const double rise = (step_.path.back().position - step_.path.front().position).dot(up_);
@@ -266,18 +332,29 @@ bool ContactJudge::pushed_by_skin(double wanted) const {
   });
 }
 
-/// The face of the solids taken together that is there to be touched along the reported normal: its own normal.
+/// The face of the solids taken together that is there to be touched along the reported normal: its own normal. There
+/// is one beside a corner of the way, or where a leg would come to if it went on. A one-way chain is there for a leg
+/// that began above it: where the leg ends, beside its tip, the octagon is not above it any more.
 std::optional<Vec2d> ContactJudge::face_of(const Contact<double>& contact) const {
   const double reach = header_.path_exact ? 2 * std::max(contact_reach, touch_) : box2d_skin;
   std::optional<Vec2d> most_alike;
+  const auto look = [&](const ExactImpact& impact) {
+    const double alike = impact.normal.dot(contact.normal);
+    if (!impact.exposed || !(alike > same_face)) return;
+    if (!most_alike || alike > most_alike->dot(contact.normal)) most_alike = impact.normal;
+  };
   for (std::size_t i = 0; i < step_.path.size(); ++i) {
+    Place beside = place(i);
+    beside.position -= contact.normal * reach;
+    for (const ExactImpact& impact : scenery_.impacts_between(place(i), beside)) look(impact);
+    if (i == 0 || !header_.path_exact || dropped_through(contact.collider)) continue;
     Place beyond = place(i);
-    beyond.position -= contact.normal * reach;
-    for (const ExactImpact& impact : scenery_.impacts_between(place(i), beyond)) {
-      const double alike = impact.normal.dot(contact.normal);
-      if (!impact.exposed || !(alike > same_face)) continue;
-      if (!most_alike || alike > most_alike->dot(contact.normal)) most_alike = impact.normal;
-    }
+    const Vec2d leg = beyond.position - place(i - 1).position;
+    const double approach = -contact.normal.dot(leg);
+    if (approach >= least_approach * leg.norm() && approach > 0) beyond.position += leg * (reach / approach);
+    if (scenery_.separation(place(i), contact.collider) > reach) continue;
+    for (const Place& to : {beside, beyond})
+      if (const auto impact = scenery_.impact_between(place(i - 1), to, contact.collider)) look(*impact);
   }
   return most_alike;
 }
@@ -299,11 +376,11 @@ void ContactJudge::add_ghosts(StepJudgement& judgement) const {
   }
 }
 
-/// Whether what an exact contact leaves of the requested motion, or what a mover adds to it by pushing, leads into a
+/// Whether what another contact leaves of the requested motion, or what a mover adds to it by pushing, leads into a
 /// collider that is touched: which part that is belongs to the contender's law of response, not to geometry. (In a
 /// corner of a wall and a slope, pushing down along the slope: it runs along the slope and into the wall; what is left
 /// of it falls onto the slope.)
-bool ContactJudge::met_after_another(const Contact<double>& contact, const StepJudgement& judgement) const {
+bool ContactJudge::met_after_another(const Contact<double>& contact, std::span<const ExactContact> others) const {
   const Vec2d own = step_.requested - wanted(contact.collider);
   const Vec2d unsteered = step_.requested - step_.steered * right_;
   // A steep face takes steering out of the motion, and an impact the momentum across up.
@@ -314,10 +391,9 @@ bool ContactJudge::met_after_another(const Contact<double>& contact, const StepJ
     return std::min({contact.normal.dot(along), contact.normal.dot(right_) * (d - own).dot(right_),
                      contact.normal.dot(up_) * (d - own).dot(up_)}) < 0;
   };
-  const bool deflected =
-      std::any_of(judgement.contacts.begin(), judgement.contacts.end(), [&](const ExactContact& one) {
-        return std::any_of(left_over.begin(), left_over.end(), [&](const Vec2d& d) { return leads_in(d, one); });
-      });
+  const bool deflected = std::any_of(others.begin(), others.end(), [&](const ExactContact& one) {
+    return std::any_of(left_over.begin(), left_over.end(), [&](const Vec2d& d) { return leads_in(d, one); });
+  });
   return deflected && nearest(contact.collider) <= contact_reach;
 }
 
@@ -335,6 +411,25 @@ bool ContactJudge::comes_near(const Contact<double>& contact) const {
     if (std::any_of(impacts.begin(), impacts.end(), is_it)) return true;
   }
   return false;
+}
+
+/// The other contacts that there are: exact ones, and those that a motion comes within the hit distance of.
+std::vector<ExactContact> ContactJudge::contacts_besides(const Contact<double>& contact,
+                                                         const StepJudgement& judgement) const {
+  std::vector<ExactContact> others = judgement.contacts;
+  for (const Contact<double>& other : step_.contacts)
+    if (&other != &contact && comes_near(other) && has_face(other))
+      others.push_back({.collider = other.collider, .side = other.side, .normal = other.normal});
+  return others;
+}
+
+/// Whether the collider is held, and the motion along the ground goes against it or away from it by no more than a
+/// slanted up, which is rounded, makes of a motion straight down.
+bool ContactJudge::is_led_into_by_rounding(const Contact<double>& contact, std::span<const ExactContact> others) const {
+  const bool is_slanted = up_.x() != 0 && up_.y() != 0;
+  return is_slanted && std::abs(across(step_.requested)) <= rounding_across() && nearest(contact.collider) <= touch_ &&
+         std::any_of(others.begin(), others.end(),
+                     [&](const ExactContact& one) { return is_walkable(one.normal, header_, up_); });
 }
 
 void ContactJudge::add_dont_care(StepJudgement& judgement) const {
@@ -359,11 +454,12 @@ void ContactJudge::add_dont_care(StepJudgement& judgement) const {
   for (const Contact<double>& contact : step_.contacts) {
     if (!header_.path_exact || exact_on_side(contact)) continue;
     // Nothing but another contact turns a motion aside; ground is followed.
-    const bool turned_aside = !judgement.contacts.empty() || is_walkable(contact.normal, header_, up_);
-    const bool deflected = met_after_another(contact, judgement) || (turned_aside && ran_into(contact));
+    const std::vector<ExactContact> others = contacts_besides(contact, judgement);
+    const bool turned_aside = !others.empty() || is_walkable(contact.normal, header_, up_);
+    const bool deflected = met_after_another(contact, others) || (turned_aside && ran_into(contact));
     if (deflected && has_face(contact)) judgement.deflected.emplace_back(contact.collider, contact.side);
     if (exact(contact.collider)) continue;
-    const bool near = comes_near(contact);
+    const bool near = comes_near(contact) || (!deflected && is_led_into_by_rounding(contact, others));
     if (promises_ && near) judgement.contact_band.push_back(contact.collider);
     if (deflected || near) judgement.dont_care.push_back(contact.collider);
   }

@@ -28,7 +28,13 @@ class ContactJudge {
   [[nodiscard]] double across(const Vec2d& v) const { return v.dot(right_); }
   [[nodiscard]] Side side_of(const ExactImpact& impact) const;
   [[nodiscard]] bool reports(const ExactImpact& impact) const;
-  void add_contacts_at(const std::vector<ExactImpact>& impacts, double fraction, std::span<const ColliderIndex> met,
+  [[nodiscard]] std::size_t first_corner() const;
+  [[nodiscard]] std::vector<ExactImpact> impacts_from(std::size_t corner) const;
+  [[nodiscard]] std::vector<Vec2d> left_by(const ExactImpact& contact) const;
+  [[nodiscard]] bool comes_to(const ExactImpact& contact, std::size_t corner, std::span<const ExactImpact> impacts,
+                              const ExactScenery& scenery) const;
+  [[nodiscard]] bool comes_to_when_grown(const ExactImpact& contact, std::size_t corner) const;
+  void add_contacts_at(std::size_t corner, std::span<const ExactImpact> impacts, std::span<const ColliderIndex> met,
                        StepJudgement& judgement) const;
   void add_first_impacts(const std::vector<ExactImpact>& impacts, bool starts_free, StepJudgement& judgement) const;
   void add_gaps(StepJudgement& judgement) const;
@@ -41,7 +47,11 @@ class ContactJudge {
   [[nodiscard]] std::optional<Vec2d> face_of(const Contact<double>& contact) const;
   [[nodiscard]] bool has_face(const Contact<double>& contact) const { return face_of(contact).has_value(); }
   [[nodiscard]] bool ran_into(const Contact<double>& contact) const;
-  [[nodiscard]] bool met_after_another(const Contact<double>& contact, const StepJudgement& judgement) const;
+  [[nodiscard]] std::vector<ExactContact> contacts_besides(const Contact<double>& contact,
+                                                           const StepJudgement& judgement) const;
+  [[nodiscard]] bool met_after_another(const Contact<double>& contact, std::span<const ExactContact> others) const;
+  [[nodiscard]] bool is_led_into_by_rounding(const Contact<double>& contact,
+                                             std::span<const ExactContact> others) const;
   [[nodiscard]] bool comes_near(const Contact<double>& contact) const;
   [[nodiscard]] bool dropped_through(ColliderIndex collider) const;
   [[nodiscard]] bool gives_way() const;

@@ -175,7 +175,14 @@ bool HangingJudge::blocks(std::size_t corner, const NearPart& part, double withi
   const Place at(step_.path[corner], step_.movers);
   const Place beyond(at.position - 2 * within * part.faces.front().normal, at.movers, at.fraction);
   if (scenery_.meets(at, beyond, part.collider)) return true;
-  return corner > 0 && scenery_.meets(Place(step_.path[corner - 1], step_.movers), beyond, part.collider);
+  // It may have waited here since that leg.
+  const MoverIndex mover = scenery_.scenery().colliders[part.collider].mover;
+  const auto seen = [&](std::size_t i) {
+    return Vec2d(step_.path[i].position - Place(step_.path[i], step_.movers).offset(mover));
+  };
+  std::size_t before = corner;
+  while (before > 0 && seen(before) == seen(corner)) --before;
+  return before < corner && scenery_.meets(Place(step_.path[before], step_.movers), beyond, part.collider);
 }
 
 bool HangingJudge::is_ground(const NearPart& part) const {

@@ -227,7 +227,9 @@ void Judge::judge_way(const Path& path, const TraceStep& step, const Others& oth
   judge_crushes(path, step, touched, others, judgement);
   judge_end(path, touched, judgement);
   for (const auto& [collider, corner] : touched) {
-    if (contains(judgement.crushed, collider) && !went_through(path[corner].position, path.back(), collider)) continue;
+    if (is_said_as_crush(path.back(), collider, judgement) &&
+        !went_through(path[corner].position, path.back(), collider))
+      continue;
     if (scenery_.scenery().colliders[collider].one_way) {
       if (!contains(step.dropped_through, collider)) judgement.one_way_broken.push_back(collider);
     } else {
@@ -246,13 +248,14 @@ void Judge::judge_end(const Path& path, Touched& touched, StepJudgement& judgeme
     Episode& episode = it->second;
     const double depth = scenery_.penetration(path.back(), collider);
     episode.depth = std::max(episode.depth, depth);
-    if (!is_new && contains(judgement.crushed, collider)) {
+    const bool crushes = is_said_as_crush(path.back(), collider, judgement);
+    if (!is_new && crushes) {
       // The octagon left this solid earlier in the step: it is judged from its last free position.
       const auto free = std::find_if(path.rbegin(), path.rend(),
                                      [&](const Place& corner) { return !scenery_.overlaps(corner, collider); });
       if (free != path.rend()) episode.free_from.emplace(*free);
     }
-    episode.pressed = episode.pressed || contains(judgement.crushed, collider);
+    episode.pressed = episode.pressed || crushes;
     const bool was_rounded = episode.rounded;
     const double rounding = promises_ ? 0 : ulp_at(header_, path.back().position);
     const double excused = std::max(rounding, allowed(Exempt::drawn, header_));
@@ -284,12 +287,21 @@ void Judge::judge_end(const Path& path, Touched& touched, StepJudgement& judgeme
       return !scenery_.meets(episode.free_from->place(), corner, collider);
     };
     if (!episode.free_from || std::any_of(left, path.end(), in_sight)) return true;
-    const bool excused = episode.pressed || contains(judgement.crushed, collider);
+    const bool excused = episode.pressed || is_said_as_crush(path.back(), collider, judgement);
     if (!excused || went_through(episode.free_from->position, path.back(), collider)) {
       judge_passing(path, collider, episode.free_from->place(), path.back(), episode.depth, judgement);
     }
     return true;
   });
+}
+
+/// Whether what it does to the octagon is a matter of the clause `crush`. A mover that is named and had left room
+/// breaks that clause, of who promises it, and no other besides.
+bool Judge::is_said_as_crush(const Place& end, ColliderIndex collider, const StepJudgement& judgement) const {
+  if (contains(judgement.crushed, collider)) return true;
+  const MoverIndex mover = header_.scenery.colliders[collider].mover;
+  return contains(header_.guarantees, Clause::crush) && contains(judgement.crushed_with_room, collider) &&
+         mover != no_mover && end.movers[mover].from != end.movers[mover].to;
 }
 
 /// Whether the octagon itself went through what crushed it, rather than that through the octagon.

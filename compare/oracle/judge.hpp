@@ -36,7 +36,7 @@ struct Passing {
 
 struct StepJudgement {
   std::vector<ColliderIndex> end_overlap;  ///< Solids that the octagon overlaps at the end of the step.
-  std::vector<ColliderIndex> pressed;      ///< Of these, the ones that a verified crush brought on, now or before.
+  std::vector<ColliderIndex> pressed;      ///< Of these, the ones that a crush brought on, now or before: see `Judge`.
   std::vector<ColliderIndex> entered;      ///< Of these, the ones that are new and not pressed.
   std::vector<ColliderIndex> rounded;      ///< Of these, the ones that are no deeper than rounding: see `Judge`.
   std::vector<ColliderIndex> drawn;        ///< Of these, the ones that are no deeper than a pixel: see `Judge`.
@@ -154,6 +154,8 @@ struct StepJudgement {
 /// impact by impact, and may hide room that is there for both together. `room` says where it was.
 /// The same is asked for who promises nothing when a step ends inside something new: of the movers that come closer and
 /// are within its reach, named or not. Where they leave no room, all that it is pressed into is excused.
+/// A mover that goes and is named with room breaks `crush`. Of who promises that clause it is excused like one without
+/// room in all else: one breach is said once.
 /// A collider that stands still or rests never crushes, nor does anything where nothing that is named comes closer to
 /// where the octagon was when the step began. What a
 /// mover presses the octagon into besides itself is not excused.
@@ -315,6 +317,7 @@ class Judge {
   [[nodiscard]] bool alone(const Path& path, const TraceStep& step) const;
   void judge_way(const Path& path, const TraceStep& step, const Others& others, StepJudgement& judgement);
   void judge_end(const Path& path, Touched& touched, StepJudgement& judgement);
+  [[nodiscard]] bool is_said_as_crush(const Place& end, ColliderIndex collider, const StepJudgement& judgement) const;
   [[nodiscard]] bool went_through(const Vec2d& from, const Place& end, ColliderIndex collider) const;
   void judge_passing(const Path& path, ColliderIndex collider, const Place& from, const Place& to, double depth,
                      StepJudgement& judgement) const;

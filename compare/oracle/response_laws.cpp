@@ -16,7 +16,8 @@ namespace {
 constexpr double grazing = 1e-9;
 /// Normals whose cross product is smaller are of one direction.
 constexpr double one_direction = 1e-9;
-/// Velocities of the law of octagon_sweep are the same within this share of the wanted one: they are in double.
+/// Velocities of the law of octagon_sweep are the same within this share of the largest one that they are made of: they
+/// are in double.
 constexpr double same_velocity = 1e-9;
 /// Share of a velocity that is rounding in Box2D.
 constexpr double in_float = 1e-5;
@@ -116,7 +117,7 @@ Vec2d controlled(const Steered& velocity, std::span<const MetSurface> surfaces, 
   for (const MetSurface& at : surfaces) {
     if ((is_at_end(at) && !unknown.met_at_end) || !enters(now.wanted, at)) continue;
     const Vec2d& carried = at.velocity;
-    if (unknown.carried && may_carry(at) && now.wanted.x() == 0) {
+    if (unknown.carried && may_carry(at) && std::abs(now.wanted.x()) <= grazing * now.wanted.norm()) {
       now = {carried, carried};
       steering = 0;
     } else {
@@ -216,8 +217,13 @@ std::vector<Vec2d> controlled_outcomes(const ControlledStep& step, std::span<con
 
 std::optional<std::string> velocity_fault(const ControlledStep& step, std::span<const MetSurface> surfaces,
                                           const Vec2d& velocity) {
-  double unknown = same_velocity * std::max(1.0, step.wanted.norm());
-  for (const MetSurface& at : surfaces) unknown += at.spread;
+  double largest = std::max(1.0, step.wanted.norm());
+  double unknown = 0;
+  for (const MetSurface& at : surfaces) {
+    largest = std::max(largest, at.velocity.norm());
+    unknown += at.spread;
+  }
+  unknown += same_velocity * largest;
   const std::vector<Vec2d> outcomes = controlled_outcomes(step, surfaces);
   const double off = distance_from(outcomes, velocity);
   if (off <= unknown) return std::nullopt;

@@ -31,7 +31,7 @@ enum class Clause : std::uint8_t {
   ground_missed,     ///< Is grounded wherever it touches ground and does not leave it.
   crush,             ///< Is crushed only without room.
   wanted,            ///< Goes for what scene, input and state ask for.
-  velocity,          ///< Gains no speed that nothing gave it.
+  velocity,          ///< Ends with a velocity that the law of response makes of what was wanted.
   continuity,        ///< Begins each step as it ended the one before.
   mover_way,         ///< Takes movers to go as the scene says.
 };

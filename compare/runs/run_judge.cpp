@@ -3,6 +3,7 @@
 #include "contains.hpp"
 #include "oracle/claims.hpp"
 #include "oracle/contacts.hpp"
+#include "oracle/met_surfaces.hpp"
 #include "oracle/turning.hpp"
 #include "records/verdict.hpp"
 #include "words.hpp"
@@ -21,6 +22,8 @@ constexpr double guaranteed_gap = 1e-6;
 /// Normals are computed from rounded vertices [degrees].
 constexpr double rounding_of_normal = 1e-3;
 constexpr double rounding_of_unit = 1e-6;
+/// Cosine of the angle between two normals of one face that is round.
+constexpr double same_face = 0.9;
 /// A larger share of the wanted motion that is lost to nothing is a fault of a contender that promises none.
 constexpr double most_motion_lost = 0.01;
 /// The guarantee covers starts this near to the origin, and displacements up to it [m].
@@ -109,6 +112,7 @@ void RunJudge::add(std::span<TraceStep> records) {
       steps_far_ += !header_.guarantees.empty();
     } else {
       judge_clauses(asked[k], judgements_[k]);
+      judge_velocity(asked[k], judgements_[k], follower);
       judge_drops(records[k]);
       judge_met(asked[k], asked);
       judge_rest(asked[k], follower);
@@ -303,10 +307,20 @@ void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged)
     for (std::size_t i = 0; i < record.path.size(); ++i) {
       const PathPoint<double>& corner = record.path[i];
       if (!is_there(corner)) continue;
-      const double span = i > 0 ? corner.fraction - record.path[i - 1].fraction : 0;
-      const Vec2d pace = span > 0 ? Vec2d((corner.position - record.path[i - 1].position) / span) : record.requested;
+      if (contact.fraction == corner.fraction) off = 0;  // it was there, however it came
+      const bool waited = i == 0 || !(record.path[i - 1].fraction < corner.fraction);
+      const PathPoint<double>& begin = waited ? corner : record.path[i - 1];
+      const Vec2d pace =
+          waited ? record.requested : Vec2d((corner.position - begin.position) / (corner.fraction - begin.fraction));
       const double approach = (carried - pace).dot(contact.normal);
       if (approach > 0) off = std::min(off, std::abs(contact.fraction - corner.fraction) * approach);
+      // A motion that grazes stops long before it touches; what it would touch is of one direction with what it
+      // reports.
+      const Place far(begin.position + pace * (1 - begin.fraction), record.movers, 1);
+      const auto touch = solids().impact_between(Place(begin, record.movers), far, contact.collider);
+      if (!touch || !(touch->normal.dot(contact.normal) > same_face)) continue;
+      const double when = begin.fraction + static_cast<double>(touch->fraction) * (1 - begin.fraction);
+      off = std::min(off, std::abs(contact.fraction - when) * std::abs((carried - pace).dot(touch->normal)));
     }
     check(contact, off, 2 * guaranteed_gap);
   }
@@ -388,8 +402,6 @@ void RunJudge::judge_clauses(const TraceStep& record, const StepJudgement& judge
                ? fmt::format("loses {:.3g} m/s to nothing", judged.speed_lost)
                : fmt::format("loses {:.3g} % of its horizontal speed to nothing", 100 * judged.ghost_speed_loss);
   });
-  check(Clause::velocity, judged.speed_gained > 0,
-        [&] { return fmt::format("is {:.3g} m/s faster than anything made it", judged.speed_gained); });
   check(Clause::ground_invented, judged.ground_refuted,
         [] { return std::string("says it is grounded with nothing under it"); });
   check(Clause::ground_missed, judged.ground_missed,
@@ -399,6 +411,31 @@ void RunJudge::judge_clauses(const TraceStep& record, const StepJudgement& judge
   check(Clause::refusal, record.path.back().position.cwiseAbs().maxCoeff() > range || !(length_of(record, header_) > 0),
         [] { return std::string("takes a step that must be refused"); });
   judge_times(record, judged);
+}
+
+/// Whether the law of response (§4 of the design) makes the velocity at the end of what was wanted, at the contacts
+/// that are reported: these are judged for themselves. That law is no law of nature, and asked only of who promises it.
+void RunJudge::judge_velocity(const TraceStep& record, const StepJudgement& judged, const Follower& follower) {
+  const Wanted& wanted = follower.wanted;
+  const bool crushed =
+      !judged.crushed.empty() || (!judged.crushed_with_room.empty() && contains(header_.guarantees, Clause::crush));
+  const bool excused = !record.start_overlap.empty() || !judged.end_overlap.empty() || crushed || record.stuck ||
+                       record.dropped || header_.substeps > 1 || wanted.parts > 1;
+  if (excused || !contains(header_.guarantees, Clause::velocity)) return;
+  if (!record.met.empty()) {  // what characters hand on to each other is no matter of surfaces
+    if (judged.speed_gained > 0)
+      note(Clause::velocity, record, fmt::format("is {:.3g} m/s faster than anything made it", judged.speed_gained));
+    return;
+  }
+  const Vec2d up = up_in(record, header_);
+  ControlledStep step{.wanted = wanted.velocity, .up = up};
+  step.unsteered = wanted.velocity - wanted.steered / length_of(record, header_) * Vec2d(up.y(), -up.x());
+  step.side_hit_ends_rise = header_.character.side_hit_ends_rise;
+  const bool walks = begins_as_walk(header_, record, wanted.from_ground, wanted.velocity);
+  const SolidsInStep there(header_, solids(), record);
+  const std::vector<MetSurface> surfaces = met_surfaces(there, record.contacts, walks);
+  if (const std::optional<std::string> fault = velocity_fault(step, surfaces, record.velocity))
+    note(Clause::velocity, record, *fault);
 }
 
 void RunJudge::add_refused(const TraceStep& record) {

@@ -58,6 +58,7 @@ class RunJudge {
   void judge_rest(const TraceStep& record, const Follower& follower);
   void judge_ride(const TraceStep& record, const Follower& follower);
   void judge_clauses(const TraceStep& record, const StepJudgement& judged);
+  void judge_velocity(const TraceStep& record, const StepJudgement& judged, const Follower& follower);
   void judge_movers(const TraceStep& record);
   void judge_times(const TraceStep& record, const StepJudgement& judged);
   void judge_drops(const TraceStep& record);

@@ -315,6 +315,14 @@ class Checking(unittest.TestCase):
                 self.assertEqual(status, 1, said)
                 self.assertIn(f"\n  {clause} on ", said)
 
+    def test_a_velocity_that_the_law_of_response_does_not_make_is_found(self):
+        # Slower than wanted, and at a wall that stops it: it bounces, or falls more slowly than a wall lets it fall.
+        for k, spoilt in ((0, -1), (1, 0.5)):
+            path = self.spoilt("yard", at(is_at_wall, put("velocity", k, to=spoilt)))
+            status, said = self.judged(path)
+            self.assertEqual(status, 1, said)
+            self.assertRegex(said, r"\n  velocity on .*: ends with .* the law makes ")
+
     def test_only_what_is_guaranteed_is_asked_for_unless_told(self):
         def spoil(header, steps):
             header["guarantees"].remove("wanted")

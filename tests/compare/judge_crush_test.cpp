@@ -60,6 +60,42 @@ TEST(JudgeCrush, with_room_below_it_is_none) {
   EXPECT_EQ(judged.entered, Colliders{1});
 }
 
+/// A mover that comes down on the octagon with room below, and a wall that stands: who promises `crush` breaks that
+/// alone.
+TEST(JudgeCrush, with_room_it_is_one_breach_of_who_promises_it_by_what_goes) {
+  TraceHeader header = promising({box(-4, -3, 4, -2), moving(box(-4, 1.5, 4, 2)), box(0.25, 0, 1, 1)});
+  for (const bool promised : {false, true}) {
+    if (promised) header.guarantees = {Clause::crush};
+    Judge judge(header);
+    const StepJudgement judged = judge.judge(staying({-0.5, standing.y()}, {{0, 0}, {0, -0.5}}, {1}));
+    EXPECT_EQ(judged.crushed_with_room, Colliders{1});
+    EXPECT_EQ(judged.entered, promised ? Colliders{} : Colliders{1});
+    EXPECT_EQ(judged.pressed, promised ? Colliders{1} : Colliders{});
+    // It stays as the press goes up again, and comes out below: the press came over it and left.
+    const StepJudgement left = judge.judge(staying({-0.5, standing.y()}, {{0, -0.5}, {0, 0}}, {}));
+    EXPECT_TRUE(left.entered.empty());
+    EXPECT_TRUE(left.tunnelled.empty());
+    Judge again(header);
+    TraceStep into_wall = step({{-0.5, standing.y()}, {0, standing.y()}});
+    into_wall.movers = {{{0, 0}, {0, 0}}};
+    into_wall.crushed = {2};
+    EXPECT_EQ(again.judge(into_wall).entered, Colliders{2});
+  }
+}
+
+/// What comes over the octagon with room and leaves it on the other side is not passed by the octagon, if the crush is
+/// said as such.
+TEST(JudgeCrush, what_passes_over_it_with_room_is_no_passage_of_who_promises_it) {
+  TraceHeader header = promising({moving(box(-4, 1.5, 4, 2))});
+  for (const bool promised : {false, true}) {
+    if (promised) header.guarantees = {Clause::crush};
+    Judge judge(header);
+    const StepJudgement judged = judge.judge(staying(standing, {{0, 0}, {0, -3}}, {1}));
+    EXPECT_EQ(judged.crushed_with_room, Colliders{1});
+    EXPECT_EQ(judged.tunnelled, promised ? Colliders{} : Colliders{1});
+  }
+}
+
 TEST(JudgeCrush, room_is_no_farther_than_what_crushes_goes_and_a_quarter_of_a_metre) {
   // The press comes down by 0.5 m, and touches the octagon after half of the step. By then it has to be beside the
   // press, whose edge is at x = `edge`: its top is 0.3125 m wide. So it goes aside by 2 (edge + 0.15625) in the step.

@@ -316,6 +316,17 @@ TEST(VelocityFault, allows_by_how_much_a_turning_surface_is_not_known) {
   EXPECT_TRUE(velocity_fault({{1, -1}, {1, -1}}, ground, {1.0101, 0}).has_value());
 }
 
+/// A wall that pushes at 1e7 m/s: the velocity is known to a share of that, not of what was wanted.
+TEST(VelocityFault, allows_the_rounding_of_the_fastest_surface) {
+  std::array wall{surface(-half, half)};
+  wall[0].velocity = Vec2d(-1e7, 1e7);
+  const ControlledStep step{{0, -0.5}, {0, -0.5}};
+  const Vec2d pushed = controlled_outcomes(step, wall).front();
+  EXPECT_GT(pushed.norm(), 1e7);
+  EXPECT_EQ(velocity_fault(step, wall, pushed + Vec2d(1e-3, 0)), std::nullopt);
+  EXPECT_TRUE(velocity_fault(step, wall, pushed + Vec2d(0.1, 0)).has_value());
+}
+
 TEST(VelocityFault, names_what_is_expected) {
   const std::optional<std::string> fault =
       velocity_fault({{1, -1}, {1, -1}}, std::array{surface(0, 1, true)}, {0.5, 0});
@@ -340,6 +351,7 @@ TEST(ControlledLaw, a_landing_without_speed_across_up_may_be_carried_at_once) {
   EXPECT_TRUE(has(lands({0, -3}), {2, 1}));
   EXPECT_TRUE(has(lands({0.5, -3}), {0.5, 1}));
   EXPECT_FALSE(has(lands({0.5, -3}), {2, 1}));
+  EXPECT_TRUE(has(lands({6e-16, -3}), {2, 1})) << "what rounding leaves across a turned up is no speed";
 }
 
 }  // namespace
