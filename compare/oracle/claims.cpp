@@ -158,7 +158,7 @@ double EndJudge::vertical_error() const {
 double EndJudge::speed_gained() const {
   // Steering that presses into a steep face is taken out of what is wanted.
   const Vec2d unsteered = wanted_.velocity - wanted_.steered / dt_ * Vec2d(up_.y(), -up_.x());
-  double most = (std::max(wanted_.velocity.norm(), unsteered.norm()) + later_.steered()) /
+  double most = (std::max(wanted_.velocity.norm(), unsteered.norm()) + later_.steered() + later_.jump) /
                 std::cos(header_.character.max_climb_degrees * std::numbers::pi / 180);
   bool pushed = false;
   for (std::size_t corner = 0; corner < step_.path.size(); ++corner)

@@ -112,7 +112,7 @@ StepJudgement Judge::judge_step(const TraceStep& step, const Others& others, con
     const ExactScenery* grown = promises_ ? &scenery_for(detail::least_clearance) : nullptr;
     return detail::ContactJudge(header_, scenery_, grown, step);
   };
-  if (!starts_free || !step.contacts.empty() || !step.crushed.empty() || !alone(path, step)) {
+  if (!starts_free || !step.contacts.empty() || !step.crushed.empty() || others.runs_into || !alone(path, step)) {
     judgement.end_overlap = scenery_.overlapped(path.back());
     judge_way(path, step, others, judgement);
     contacts().judge(starts_free, judgement);
@@ -448,20 +448,18 @@ void Judge::judge_progress(const TraceStep& step, const Others& others, const Wa
 void Judge::excuse_by_turning(const TraceStep& step, const detail::LaterParts& later, const Others& others,
                               StepJudgement& judgement) const {
   const auto any_lost = [&] { return judgement.motion_lost > 0 || judgement.ghost_speed_loss > 0; };
-  if (!any_lost()) return;
+  if (!any_lost() || !(later.any() || others.runs_into)) return;
   const Vec2d up = up_in(step, header_);
   const Vec2d right(up.y(), -up.x());
   const double wanted = step.requested.dot(right);
   const double ahead = std::copysign(1.0, wanted);
-  if (later.any()) {
-    const auto slowed = [&](const Vec2d& by, double steered) { return std::max(0.0, steered - ahead * by.dot(right)); };
-    const double steered = ahead > 0 ? -later.slower : later.faster;
-    const double slower = slowed(later.velocity, steered) * dt_ / std::abs(wanted);
-    judgement.motion_lost -= slowed(later.way, steered * dt_ / 2);
-    judgement.ghost_speed_loss -= slower;
-    if (!(judgement.motion_lost > rounding_of_loss * std::abs(wanted))) judgement.motion_lost = 0;
-    if (!(judgement.ghost_speed_loss > rounding_of_loss)) judgement.ghost_speed_loss = 0;
-  }
+  const auto slowed = [&](const Vec2d& by, double steered) { return std::max(0.0, steered - ahead * by.dot(right)); };
+  const double steered = ahead > 0 ? -later.slower : later.faster;
+  const double carried = others.runs_into ? turning_->carries_otherwise(step) : 0;
+  judgement.motion_lost -= slowed(later.way, steered * dt_ / 2) + carried;
+  judgement.ghost_speed_loss -= (slowed(later.velocity, steered) * dt_ + carried) / std::abs(wanted);
+  if (!(judgement.motion_lost > rounding_of_loss * std::abs(wanted))) judgement.motion_lost = 0;
+  if (!(judgement.ghost_speed_loss > rounding_of_loss)) judgement.ghost_speed_loss = 0;
   if (!others.runs_into || !any_lost()) return;
   using Opposition = detail::TurningJudge::Opposition;
   const double beyond = ahead * (promises_ ? detail::contact_reach : own_reach(header_));

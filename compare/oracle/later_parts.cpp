@@ -34,16 +34,18 @@ LaterParts later_parts(const TraceHeader& header, const TraceStep& step, const W
   }
   later.velocity = in_world(added, up);
   later.way = in_world(way, up);
+  if (step.input.jump && !first.jumped) later.jump = header.character.jump_speed;
   if (!step.input.move) return later;
   const CharacterDef& character = header.character;
   const double in_air = character.air_acceleration.value_or(character.acceleration);
+  const double most = std::max(character.acceleration, in_air) * (later.dt - part);
+  // What is walked on may be left, or met, in any part: then what was steered so far says nothing of what follows.
+  const bool any_way = first.from_ground || !step.contacts.empty() || pull.x() != 0;
   // Who steered less than it could has the speed that it asked for.
   const bool is_there =
       std::abs(first.steered) < std::min(character.acceleration, in_air) * part * later.dt * (1 - rounding_of_steering);
-  if (is_there && pull.x() == 0) return later;
-  const double most = std::max(character.acceleration, in_air) * (later.dt - part);
-  later.faster = first.steered > 0 || pull.x() != 0 ? most : 0;
-  later.slower = first.steered < 0 || pull.x() != 0 ? -most : 0;
+  later.faster = any_way || (first.steered > 0 && !is_there) ? most : 0;
+  later.slower = any_way || (first.steered < 0 && !is_there) ? -most : 0;
   return later;
 }
 

@@ -19,6 +19,7 @@ struct LaterParts {
   Vec2d way{Vec2d::Zero()};       ///< So far it leads in the step, but for steering [m].
   double slower = 0;              ///< Across up, steering adds no less than this by the end, which is not positive,
   double faster = 0;              ///< and no more than this [m/s].
+  double jump = 0;                ///< Up, a jump adds no more than this [m/s]: who lands may jump in the next part.
   double dt = 0;                  ///< Of the step [s].
 
   [[nodiscard]] bool any() const { return velocity != Vec2d::Zero() || slower < 0 || faster > 0; }

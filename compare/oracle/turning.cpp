@@ -6,9 +6,13 @@
 #include "oracle/passing.hpp"
 #include "oracle/second_meeting.hpp"
 #include "oracle/turning_room.hpp"
+#include "oracle/up.hpp"
 #include "oracle/world.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
 
 namespace paperproof::compare::detail {
 namespace {
@@ -21,6 +25,8 @@ constexpr double leap = 1e-5;
 constexpr int judged_twice = 8;
 /// Instants of a leg at which the depth of a passage is looked at.
 constexpr int depth_samples = 256;
+
+Vec2d went(const VertexWay& disc) { return disc.vertices.back()[0] - disc.vertices.front()[0]; }
 
 bool turns_with(const TraceHeader& header, ColliderIndex collider) {
   const MoverIndex mover = header.scenery.colliders[collider].mover;
@@ -169,17 +175,34 @@ bool TurningJudge::overlaps(const Solid& solid, const VertexWay& way, const Path
   return meeting(solid, way, {&at, 1}).kind == Meeting::Kind::meets;
 }
 
+ConvexPart TurningJudge::part_at(const Solid& solid, const std::vector<std::size_t>& numbers,
+                                 std::span<const Vec2d> vertices) {
+  ConvexPart part;
+  for (const std::size_t i : numbers) part.points.push_back(vertices[i]);
+  part.radius = solid.radius;
+  return part;
+}
+
 Axis TurningJudge::nearest_axis(const Solid& solid, const VertexWay& way, const PathPoint<double>& at) const {
   const std::vector<Vec2d> vertices = vertices_at(way, at.fraction);
   Axis nearest{std::numeric_limits<double>::infinity(), Vec2d::Zero()};
   for (const std::vector<std::size_t>& numbers : solid.parts) {
-    ConvexPart part;
-    for (const std::size_t i : numbers) part.points.push_back(vertices[i]);
-    part.radius = solid.radius;
-    const Axis axis = best_axis(part, octagon_, FramePlace{at.position});
+    const Axis axis = best_axis(part_at(solid, numbers, vertices), octagon_, FramePlace{at.position});
     if (axis.separation < nearest.separation) nearest = axis;
   }
   return nearest;
+}
+
+/// Of all faces that are touched at a corner of the way, the normal that is most alike.
+Vec2d TurningJudge::nearest_face(const Solid& solid, const TraceStep& step, const Vec2d& normal) const {
+  Vec2d most_alike = -normal;
+  for (const PathPoint<double>& corner : step.path)
+    for (const std::vector<std::size_t>& numbers : solid.parts) {
+      const ConvexPart part = part_at(solid, numbers, vertices_at(way_of(step, solid.collider), corner.fraction));
+      for (const Axis& axis : separating_axes(part, octagon_, FramePlace{corner.position}, contact_reach))
+        if (axis.normal.dot(normal) > most_alike.dot(normal)) most_alike = axis.normal;
+    }
+  return most_alike;
 }
 
 double TurningJudge::nearest(const Solid& solid, const TraceStep& step) const {
@@ -238,9 +261,7 @@ TurningJudge::Standing TurningJudge::standing(const Solid& solid, const std::vec
                                               const VertexWay& way, const Vec2d& requested,
                                               const PathPoint<double>& corner, double within) const {
   const std::vector<Vec2d> now = vertices_at(way, corner.fraction);
-  Standing found;
-  for (const std::size_t i : numbers) found.part.points.push_back(now[i]);
-  found.part.radius = solid.radius;
+  Standing found{.part = part_at(solid, numbers, now)};
   const Vec2d nearest = nearest_point(found.part.points, octagon_, corner.position);
   const Vec2d begin = RigidMotion(now, way.vertices.front())(nearest);
   found.moved = RigidMotion(now, way.vertices.back())(nearest) - begin;
@@ -314,10 +335,8 @@ bool TurningJudge::is_against(const Solid& solid, const VertexWay& way, const Pa
                               const Vec2d& across, double within) const {
   const std::vector<Vec2d> vertices = vertices_at(way, at.fraction);
   return std::any_of(solid.parts.begin(), solid.parts.end(), [&](const std::vector<std::size_t>& numbers) {
-    ConvexPart part;
-    for (const std::size_t i : numbers) part.points.push_back(vertices[i]);
-    part.radius = solid.radius;
-    const std::vector<Axis> axes = separating_axes(part, octagon_, FramePlace{at.position}, within);
+    const std::vector<Axis> axes =
+        separating_axes(part_at(solid, numbers, vertices), octagon_, FramePlace{at.position}, within);
     return std::any_of(axes.begin(), axes.end(), [&](const Axis& axis) { return axis.normal.dot(across) < 0; });
   });
 }
@@ -361,6 +380,19 @@ bool TurningJudge::runs_into(const TraceStep& step, const PathPoint<double>& cor
   });
 }
 
+double TurningJudge::carries_otherwise(const TraceStep& step) const {
+  double most = 0;
+  for (const Solid& solid : solids_) {
+    const auto before = went_before_.find(solid.collider);
+    if (before == went_before_.end() || nearest(solid, step) > contact_reach) continue;
+    const double conveyed =
+        std::abs(header_.scenery.colliders[solid.collider].surface_speed) * length_of(step, header_);
+    const double turned = std::min(2.0, step.requested.norm() / solid.radius);  // the normal on it, as it goes
+    most = std::max(most, (went_.at(solid.collider) - before->second).norm() + conveyed * turned);
+  }
+  return most;
+}
+
 bool TurningJudge::frees_at_end(const TraceStep& step, const std::function<bool(const Vec2d&)>& accept) const {
   return has_way_out_at(header_, step, 1, sides_, accept);
 }
@@ -384,6 +416,9 @@ bool TurningJudge::left_free(const TraceStep& step, std::span<const PathPoint<do
 bool TurningJudge::begin(const TraceStep& step) {
   inside_.clear();
   if (!step.path.empty()) inside_ = overlapped(step);
+  went_before_ = std::exchange(went_, {});
+  for (const Solid& solid : solids_)
+    if (solid.radius > 0) went_[solid.collider] = went(way_of(step, solid.collider));
   const auto is_left = [&](ColliderIndex collider) { return step.respawn || !contains(inside_, collider); };
   std::erase_if(sides_, [&](const auto& side) { return is_left(side.first); });
   std::erase_if(pressed_, is_left);
@@ -500,9 +535,9 @@ double TurningJudge::depth_on(const Solid& solid, const TraceStep& step) const {
 }
 
 void TurningJudge::judge_contacts(const Solid& solid, const TraceStep& step, StepJudgement& judgement) const {
-  const auto of_it = [&](const Contact<double>& contact) { return contact.collider == solid.collider; };
-  const auto reported = std::find_if(step.contacts.begin(), step.contacts.end(), of_it);
-  const bool reports = reported != step.contacts.end();
+  std::vector<Contact<double>> reported = step.contacts;
+  std::erase_if(reported, [&](const Contact<double>& contact) { return contact.collider != solid.collider; });
+  const bool reports = !reported.empty();
   const PathPoint<double>& start = step.path.front();
   const Vec2d wanted = header_.path_exact ? step.requested : left_to_want(step, header_);
   const int ahead = header_.path_exact ? 1 : steps_ahead;
@@ -514,14 +549,20 @@ void TurningJudge::judge_contacts(const Solid& solid, const TraceStep& step, Ste
   const bool within = touches && when <= 1;
   const bool first = within && (!judgement.first_impact || when < *judgement.first_impact);
   const double gap = reports || !promises_ ? nearest(solid, step) : 0;
-  if (header_.path_exact ? first || (reports && gap <= contact_reach) : within) {
-    const PathPoint<double> there{start.position + when * wanted, when};
-    const Vec2d normal = within ? nearest_axis(solid, way, there).normal : reported->normal;
-    judgement.contacts.push_back({.collider = solid.collider,
-                                  .side = side_of_normal(normal.x(), normal.y()),
-                                  .normal = normal,
-                                  .fraction = within ? when : reported->fraction});
-  } else if (reports && gap <= (header_.path_exact ? contact_reach : box2d_skin)) {
+  if (header_.path_exact && reports && gap <= contact_reach) {
+    for (const Contact<double>& contact : reported) {
+      const Vec2d face = nearest_face(solid, step, contact.normal);
+      judgement.contacts.push_back(
+          {.collider = solid.collider, .side = contact.side, .normal = face, .fraction = contact.fraction});
+      const double error = std::acos(std::clamp(face.dot(contact.normal.normalized()), -1.0, 1.0));
+      judgement.normal_error = std::max(judgement.normal_error.value_or(0), error * 180 / std::numbers::pi);
+    }
+  } else if (header_.path_exact ? first : within) {
+    const Vec2d normal = nearest_axis(solid, way, {start.position + when * wanted, when}).normal;
+    const Vec2d side = seen(normal, up_in(step, header_));
+    judgement.contacts.push_back(
+        {.collider = solid.collider, .side = side_of_normal(side.x(), side.y()), .normal = normal, .fraction = when});
+  } else if (reports && gap <= box2d_skin && !header_.path_exact) {
     judgement.dont_care.push_back(solid.collider);
   }
   if (header_.path_exact && first) {
@@ -534,12 +575,12 @@ void TurningJudge::judge_contacts(const Solid& solid, const TraceStep& step, Ste
   if (touched_.contains(solid.collider) || overlaps(solid, way, start)) return;
   std::optional<double> touch;
   if (header_.path_exact)
-    touch = touch_going_on(solid, step, reported->fraction);
+    touch = touch_going_on(solid, step, reported.front().fraction);
   else if (touches)
     touch = when;
   if (touch)
     judgement.turning_toi_error =
-        std::max(judgement.turning_toi_error.value_or(0), std::abs(reported->fraction - *touch));
+        std::max(judgement.turning_toi_error.value_or(0), std::abs(reported.front().fraction - *touch));
 }
 
 /// When the way that was travelled up to a moment touches, if it goes on from there as straight as before; nothing

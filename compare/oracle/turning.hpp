@@ -19,9 +19,9 @@ namespace paperproof::compare::detail {
 /// - **Crushed**: a solid that is named is excused if there is no room: see `Judge`; the way to a place that is room
 ///   leaves free what turns, too, and ends 1e-7 m away from it. How far the mover goes is how far it takes the
 ///   corner of the octagon along that it is nearest to when the step begins.
-/// - **Contact**: what the requested motion touches first in the step, or what was reported and is within 1e-6 m at a
-///   corner of the way (Box2D: what the motion touches that is left by its contacts with the rest). The normal is that
-///   of the best axis there.
+/// - **Contact**: what was reported and is within 1e-6 m at a corner of the way, or what the requested motion touches
+///   first in the step (Box2D: what the motion touches that is left by its contacts with the rest). The normal is that
+///   of the face that is touched and most like the reported one, or of the best axis where the motion touches.
 /// - **Time of impact**: where a contact begins, the reported fraction is held against the first touch of the way that
 ///   was travelled until then, going on straight; less than 1e-6 m at the speed of approach is no error. Box2D stops 20
 ///   mm away, so that the touch itself lies ahead: there it is that of what it wants, which goes on for at most four
@@ -90,6 +90,9 @@ class TurningJudge {
   /// goes on by so much. @param way [m]
   [[nodiscard]] bool runs_into(const TraceStep& step, const PathPoint<double>& corner, const Vec2d& way,
                                double within) const;
+  /// Who rides a disc wants to go on as that went in the step before. By so much the discs that are touched go
+  /// otherwise in this one, as conveyors too [m].
+  [[nodiscard]] double carries_otherwise(const TraceStep& step) const;
   /// Whether a way leads out of what the octagon is inside of where the step ends: see `frees`.
   [[nodiscard]] bool frees_at_end(const TraceStep& step, const std::function<bool(const Vec2d&)>& accept) const;
 
@@ -122,6 +125,10 @@ class TurningJudge {
                                 const Vec2d& across, double within) const;
   [[nodiscard]] bool methods_agree(const Solid& solid, const TraceStep& step) const;
   [[nodiscard]] bool overlaps(const Solid& solid, const VertexWay& way, const PathPoint<double>& at) const;
+  /// @param vertices all of the solid, at one instant.
+  [[nodiscard]] static ConvexPart part_at(const Solid& solid, const std::vector<std::size_t>& numbers,
+                                          std::span<const Vec2d> vertices);
+  [[nodiscard]] Vec2d nearest_face(const Solid& solid, const TraceStep& step, const Vec2d& normal) const;
   [[nodiscard]] Axis nearest_axis(const Solid& solid, const VertexWay& way, const PathPoint<double>& at) const;
   /// Over the corners of the way [m].
   [[nodiscard]] double nearest(const Solid& solid, const TraceStep& step) const;
@@ -143,7 +150,9 @@ class TurningJudge {
   /// Of each solid that is overlapped, where it was last free of it, taken along since; none where the run began
   /// inside.
   Sides sides_;
-  std::vector<ColliderIndex> inside_;  ///< What is overlapped when the present step begins.
+  std::vector<ColliderIndex> inside_;           ///< What is overlapped when the present step begins.
+  std::map<ColliderIndex, Vec2d> went_;         ///< How the discs go in the present step,
+  std::map<ColliderIndex, Vec2d> went_before_;  ///< and in the one before.
 };
 
 }  // namespace paperproof::compare::detail

@@ -585,9 +585,13 @@ class Checker:
         velocity = vector(step.record["velocity"])
         for contact in step.contacts:
             n, name = vector(contact["normal"]), contact["collider"]
-            if float(dot(n, step.up)) < self.ground.surely_walkable or step.motion.turns(name):
+            if float(dot(n, step.up)) < self.ground.surely_walkable:
                 continue
-            relative = less(velocity, scaled(step.motion.change(name), 1 / Fraction(step.dt)))
+            change = step.motion.change_at_end(name)
+            if change is None:
+                self.skip("ground_missed", "on what turns to the end")
+                continue
+            relative = less(velocity, scaled(change, 1 / Fraction(step.dt)))
             for below, up, along, gap in self.ground.supports(step.motion, step.path[-1], step.up, before):
                 if below != name or along < self.ground.surely_walkable or gap > GAP:
                     continue

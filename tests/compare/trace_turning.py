@@ -7,7 +7,7 @@ from bisect import bisect_right
 from collections import deque
 from fractions import Fraction
 
-from trace_geometry import ZERO, add, enters, exact, hull, inside, is_near, less, scaled, turn
+from trace_geometry import ZERO, add, enters, exact, hull, inside, is_near, less, scaled, size, turn
 
 WIDTH = Fraction(1, 10**9)  # of the shortest part that is looked at, as a share of a straight way
 MOST_PARTS = 2000  # that are looked at before it is called too close to tell: a touch takes about 60
@@ -28,6 +28,13 @@ class Way:
             yield f"has {self.collider.id} turn at instants that do not ascend from 0 to 1"
         elif len(self.vertices) != len(self.instants) or any(len(vertices) != count for vertices in self.vertices):
             yield f"has {self.collider.id} turn without {count} vertices at each instant"
+
+    def change_at_end(self):
+        """How it would go in the step, if it went all the time as in the last straight stretch; None if it turns there."""
+        ways = [less(late, early) for early, late in zip(*self.vertices[-2:])]
+        if any(size(less(way, ways[0])) > 1e-12 for way in ways):
+            return None
+        return scaled(ways[0], 1 / (1 - self.instants[-2]))
 
     def at(self, fraction):
         """All vertices at a moment."""

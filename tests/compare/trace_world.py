@@ -100,6 +100,10 @@ class Motion:
         ends = self.ends.get(name)
         return less(ends[1], ends[0]) if ends else STAYS
 
+    def change_at_end(self, name):
+        """Of a step that goes all the time as its end does; None of what turns then."""
+        return self.ways[name].change_at_end() if name in self.ways else self.change(name)
+
     def offset(self, name, fraction):
         return add(self.ends[name][0], scaled(self.change(name), fraction)) if name in self.ends else STAYS
 

@@ -1,7 +1,7 @@
 /// What is near of what turns, against many small steps.
 #include "oracle/turning.hpp"
 
-#include "compare/judge_steps.hpp"
+#include "compare/turning_planks.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,42 +14,6 @@ using Opposition = TurningJudge::Opposition;
 
 constexpr int small_steps = 256;
 constexpr double half_height = 0.625;
-
-/// A plank beside a character, and how it goes in one step.
-struct Beside {
-  TraceHeader header;
-  TraceStep step;
-
-  [[nodiscard]] PathPoint<double> start() const { return step.path.front(); }
-  [[nodiscard]] const VertexWay& way() const { return step.vertex_ways.front(); }
-};
-
-/// @param chords of the way: a turn that is even but for the chords.
-Beside beside(const std::vector<Vec2d>& plank, const Vec2d& position, double from, double turn, const Vec2d& at,
-              const Vec2d& moved, int chords = 16) {
-  ColliderDef def = polygon(plank);
-  def.mover = 0;
-  Beside made{promising({def}), test::step({position, position})};
-  made.header.turning = {true};
-  made.step.movers = {{at, at + moved}};
-  VertexWay way{.collider = 0, .instants = {}, .vertices = {}};
-  for (int k = 0; k <= chords; ++k) {
-    const double share = static_cast<double>(k) / chords;
-    const double angle = from + share * turn;
-    way.instants.push_back(share);
-    way.vertices.emplace_back();
-    for (const Vec2d& v : plank)
-      way.vertices.back().emplace_back(
-          at + share * moved +
-          Vec2d(std::cos(angle) * v.x() - std::sin(angle) * v.y(), std::sin(angle) * v.x() + std::cos(angle) * v.y()));
-  }
-  made.step.vertex_ways = {way};
-  return made;
-}
-
-std::vector<Vec2d> plank(double half, double thin) {
-  return {{-half, -thin}, {half, -thin}, {half, thin}, {-half, thin}};
-}
 
 Beside random_plank(Random& random) {
   const double turn = random.between(-0.08, 0.08);
