@@ -36,8 +36,7 @@ Judge::Sceneries::Sceneries(const TraceHeader& header)
 Judge::Judge(const TraceHeader& header, const Judge* like)
     : header_(header),
       turning_(std::make_unique<detail::TurningJudge>(header_)),
-      sceneries_(like != nullptr ? like->sceneries_ : std::make_shared<Sceneries>(header)),
-      scenery_(sceneries_->octagon) {
+      sceneries_(like != nullptr ? like->sceneries_ : std::make_shared<Sceneries>(header)) {
   slop_ = detail::slop_of(header);
   promises_ = party_of(header) == Party::promising;
   for (const ColliderDef& def : header.scenery.colliders) {
@@ -101,16 +100,13 @@ StepJudgement Judge::judge_exactly(const TraceStep& step, const Others& others, 
   if (!step.respawn) judgement.remainder_made = step.remainder.x() - remainder_before_.x();
   // Before the way is judged: from which side it came into what it is inside of is known where the step begins.
   if (step.stuck && !starts_free) judgement.stuck_refuted = has_way_out(path.front(), others);
-  const auto contacts = [&] {
-    const ExactScenery* grown = promises_ ? &scenery_for(detail::least_clearance) : nullptr;
-    return detail::ContactJudge(header_, scenery_, grown, step);
-  };
   if (!starts_free || !step.contacts.empty() || !step.crushed.empty() || !alone(path, step)) {
     judgement.end_overlap = scenery_.overlapped(path.back());
     judge_way(path, step, others, judgement);
-    contacts().judge(starts_free, judgement);
+    detail::ContactJudge(header_, scenery_, promises_ ? grown_scenery() : nullptr, step).judge(starts_free, judgement);
   } else {
-    contacts().measure_motion(starts_free, judgement);
+    detail::ContactJudge(header_, scenery_, promises_ ? grown_scenery() : nullptr, step)
+        .measure_motion(starts_free, judgement);
   }
   if (has_sensors_) judge_sensors(path, step, judgement);
   if (step.stuck && starts_free)
@@ -311,10 +307,12 @@ double Judge::depth_of(const Path& path, ColliderIndex collider) const {
   return deepest;
 }
 
-const ExactScenery& Judge::scenery_for(double larger) {
-  std::unique_ptr<ExactScenery>& scenery = sceneries_->larger[larger];
-  if (!scenery) scenery = std::make_unique<ExactScenery>(scenery_.scenery(), detail::grown(header_.points, larger));
-  return *scenery;
+/// For an octagon that is larger by `least_clearance`.
+const ExactScenery* Judge::grown_scenery() {
+  if (!grown_scenery_)
+    grown_scenery_ =
+        std::make_unique<ExactScenery>(scenery_.scenery(), detail::grown(header_.points, detail::least_clearance));
+  return grown_scenery_.get();
 }
 
 /// Overlapped where the step ends, deeper than by rounding, and in no earlier step.
@@ -354,7 +352,7 @@ void Judge::judge_crushes(const Path& path, const TraceStep& step, const Touched
     std::optional<Place>& free = meetings.before[collider];
     if (episode.free_from) free = episode.free_from->place();
   }
-  judgement.room = detail::find_room(scenery_, scenery_for(detail::least_clearance), path, pressing, meetings, others);
+  judgement.room = detail::find_room(scenery_, *grown_scenery(), path, pressing, meetings, others);
   // One mover may press the octagon after another that goes away more slowly.
   const bool pressed = std::any_of(step.crushed.begin(), step.crushed.end(), comes_closer);
   for (const ColliderIndex collider : step.crushed) {
@@ -374,7 +372,10 @@ void Judge::judge_progress(const TraceStep& step, const Others& others, const Wa
                            StepJudgement& judgement) {
   const detail::HangingJudge hanging(header_, scenery_, step, others, up_in(step, header_));
   if (promises_ && wanted != nullptr) {
-    const detail::EndJudge end(header_, scenery_, scenery_for(detail::contact_reach), step, *wanted, others);
+    if (!near_scenery_)
+      near_scenery_ =
+          std::make_unique<ExactScenery>(scenery_.scenery(), detail::grown(header_.points, detail::contact_reach));
+    const detail::EndJudge end(header_, scenery_, *near_scenery_, step, *wanted, others);
     end.judge_ground(hanging, starts_free, judgement);
     end.judge_speed(starts_free, judgement);
   } else if (step.grounded) {

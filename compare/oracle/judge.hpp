@@ -274,14 +274,7 @@ class Judge {
   using Path = std::vector<Place>;
   using Touched = std::map<ColliderIndex, std::size_t>;  ///< With the corner where the first leg that meets it begins.
 
-  struct Sceneries {
-    explicit Sceneries(const TraceHeader& header);
-    ExactScenery octagon;
-    std::map<double, std::unique_ptr<ExactScenery>> larger;  ///< By how much the octagon is [m].
-  };
-
-  /// The scenery for an octagon that is larger by so many metres.
-  [[nodiscard]] const ExactScenery& scenery_for(double larger);
+  [[nodiscard]] const ExactScenery* grown_scenery();
   [[nodiscard]] StepJudgement judge_exactly(const TraceStep& step, const Others& others, const Wanted* wanted);
   [[nodiscard]] Path path_of(const TraceStep& step) const;
   /// Whether nothing differs from the last step, as at rest: then neither does the judgement.
@@ -309,8 +302,16 @@ class Judge {
 
   const TraceHeader header_;
   std::unique_ptr<detail::TurningJudge> turning_;
-  std::shared_ptr<Sceneries> sceneries_;
-  const ExactScenery& scenery_;
+  struct Sceneries {
+    explicit Sceneries(const TraceHeader& header);
+    ExactScenery octagon;
+    std::unique_ptr<ExactScenery> grown;  ///< See `detail::find_room`; made when a crush is asked about.
+    std::unique_ptr<ExactScenery> near;   ///< See `detail::EndJudge`; made for what is promised.
+  };
+  const std::shared_ptr<Sceneries> sceneries_;
+  const ExactScenery& scenery_ = sceneries_->octagon;
+  std::unique_ptr<ExactScenery>& grown_scenery_ = sceneries_->grown;
+  std::unique_ptr<ExactScenery>& near_scenery_ = sceneries_->near;
   std::size_t mover_count_ = 0;
   bool has_sensors_ = false;
   double slop_ = 0;
