@@ -119,9 +119,10 @@ std::vector<ExactImpact> ContactJudge::impacts_from(std::size_t corner) const {
 
 /// What a contact may leave of the requested motion, by the laws that there are: it slides, without steering or
 /// momentum across up or with it; on ground its part across up goes on along it.
-std::vector<Vec2d> ContactJudge::left_by(ColliderIndex collider, const Vec2d& n) const {
+std::vector<Vec2d> ContactJudge::left_by(const ExactImpact& contact) const {
+  const Vec2d& n = contact.normal;
   const Vec2d& requested = step_.requested;
-  const Vec2d own = requested - wanted(collider);
+  const Vec2d own = requested - wanted(contact.collider);
   const auto slid = [&](const Vec2d& d) { return Vec2d(d - n * std::min(0.0, (d - own).dot(n))); };
   if (is_walkable(n, header_, up_))
     return {slid(requested),
@@ -137,7 +138,7 @@ bool ContactJudge::comes_to(const ExactImpact& contact, std::size_t corner, std:
     if (!before.exposed || !(before.fraction < contact.fraction)) return true;
     Place there = place(corner);
     there.position += step_.requested * static_cast<double>(before.fraction);
-    const std::vector<Vec2d> left = left_by(before.collider, before.normal);
+    const std::vector<Vec2d> left = left_by(before);
     return std::all_of(left.begin(), left.end(), [&](const Vec2d& way) {
       const std::optional<ExactImpact> impact = scenery.time_of_impact(there, way, contact.collider);
       return impact && side_of(*impact) == side_of(contact);
@@ -415,27 +416,6 @@ bool ContactJudge::comes_near(const Contact<double>& contact) const {
   return false;
 }
 
-/// Whether it is the contact of a motion that would have gone on, and gave way to a mover instead: what another contact
-/// leaves of the requested motion comes to that face at that time, from a corner of the way. Where the way leads past
-/// the rim of that face none may be there any more.
-bool ContactJudge::gave_way_to(const Contact<double>& contact, std::span<const ExactContact> others) const {
-  if (!header_.path_exact || wanted(contact.collider) == step_.requested) return false;
-  const auto comes_to_it = [&](std::size_t corner, const Vec2d& way) {
-    const std::optional<ExactImpact> impact = scenery_.time_of_impact(place(corner), way, contact.collider);
-    if (!impact || !impact->exposed || !(impact->normal.dot(contact.normal) > same_face)) return false;
-    const double approach = std::abs((way - step_.requested + wanted(contact.collider)).dot(impact->normal));
-    const double when = step_.path[corner].fraction + static_cast<double>(impact->fraction);
-    return std::abs(when - contact.fraction) * approach <= contact_reach;
-  };
-  for (std::size_t corner = 0; corner < step_.path.size(); ++corner)
-    for (const ExactContact& one : others) {
-      const std::vector<Vec2d> ways = left_by(one.collider, one.normal);
-      if (std::any_of(ways.begin(), ways.end(), [&](const Vec2d& way) { return comes_to_it(corner, way); }))
-        return true;
-    }
-  return false;
-}
-
 /// The other contacts that there are: exact ones, and those that a motion comes within the hit distance of.
 std::vector<ExactContact> ContactJudge::contacts_besides(const Contact<double>& contact,
                                                          const StepJudgement& judgement) const {
@@ -480,8 +460,7 @@ void ContactJudge::add_dont_care(StepJudgement& judgement) const {
     const std::vector<ExactContact> others = contacts_besides(contact, judgement);
     const bool turned_aside = !others.empty() || is_walkable(contact.normal, header_, up_);
     const bool deflected = met_after_another(contact, others) || (turned_aside && ran_into(contact));
-    if (deflected && (has_face(contact) || gave_way_to(contact, others)))
-      judgement.deflected.emplace_back(contact.collider, contact.side);
+    if (deflected && has_face(contact)) judgement.deflected.emplace_back(contact.collider, contact.side);
     if (exact(contact.collider)) continue;
     const bool near = comes_near(contact) || (!deflected && is_led_into_by_rounding(contact, others));
     if (promises_ && near) judgement.contact_band.push_back(contact.collider);

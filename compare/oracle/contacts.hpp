@@ -30,7 +30,7 @@ class ContactJudge {
   [[nodiscard]] bool reports(const ExactImpact& impact) const;
   [[nodiscard]] std::size_t first_corner() const;
   [[nodiscard]] std::vector<ExactImpact> impacts_from(std::size_t corner) const;
-  [[nodiscard]] std::vector<Vec2d> left_by(ColliderIndex collider, const Vec2d& n) const;
+  [[nodiscard]] std::vector<Vec2d> left_by(const ExactImpact& contact) const;
   [[nodiscard]] bool comes_to(const ExactImpact& contact, std::size_t corner, std::span<const ExactImpact> impacts,
                               const ExactScenery& scenery) const;
   [[nodiscard]] bool comes_to_when_grown(const ExactImpact& contact, std::size_t corner) const;
@@ -52,7 +52,6 @@ class ContactJudge {
   [[nodiscard]] bool met_after_another(const Contact<double>& contact, std::span<const ExactContact> others) const;
   [[nodiscard]] bool is_led_into_by_rounding(const Contact<double>& contact,
                                              std::span<const ExactContact> others) const;
-  [[nodiscard]] bool gave_way_to(const Contact<double>& contact, std::span<const ExactContact> others) const;
   [[nodiscard]] bool comes_near(const Contact<double>& contact) const;
   [[nodiscard]] bool dropped_through(ColliderIndex collider) const;
   [[nodiscard]] bool gives_way() const;

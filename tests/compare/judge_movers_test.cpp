@@ -315,31 +315,5 @@ TEST(JudgeMovers, a_contact_into_which_ground_carries_is_right) {
   }
 }
 
-/// A press comes down beside the octagon that stands on a floor and wants down: it would be met on top, and the octagon
-/// gives way so far that a rim passes the other. What is named is met by what the floor leaves of the wanted motion, at
-/// that time.
-TEST(JudgeMovers, the_contact_of_a_motion_that_gives_way_past_a_rim_is_right) {
-  constexpr double height = 0.25;
-  constexpr double motion = 0.5;
-  constexpr double met = height / motion;
-  constexpr double beside = 7e-8;
-  constexpr double half_top = 0.15625;
-  const Vec2d there(-0.25, 0);
-  const TraceHeader header =
-      promising({box(-4, -2, 4, -0.625 - kept), moving(box(there.x() + half_top + beside, 0.625 + height, 1, 2))});
-  for (const double late : {0.0, 0.01}) {
-    TraceStep gives_way = among(step({{0, 0}, there, 2 * there}), {{{0, 0}, {0, -motion}}});
-    gives_way.requested = {0, -0.125};
-    gives_way.contacts = {
-        {.collider = 0, .normal = {0, 1}, .fraction = kept / 0.125, .separation = kept, .side = Side::bottom},
-        {.collider = 1, .normal = {0, -1}, .fraction = met + late, .separation = beside, .side = Side::top}};
-    const StepJudgement judged = Judge(header).judge(gives_way);
-    const auto& deflected = judged.deflected;
-    EXPECT_EQ(std::find(deflected.begin(), deflected.end(), std::pair(ColliderIndex{1}, Side::top)) != deflected.end(),
-              late == 0)
-        << late;
-  }
-}
-
 }  // namespace
 }  // namespace paperproof::compare
