@@ -154,8 +154,8 @@ struct StepJudgement {
 /// impact by impact, and may hide room that is there for both together. `room` says where it was.
 /// The same is asked for who promises nothing when a step ends inside something new: of the movers that come closer and
 /// are within its reach, named or not. Where they leave no room, all that it is pressed into is excused.
-/// A mover that goes and is named with room breaks `crush`. Of who promises that clause it is excused like one without
-/// room in all else: one breach is said once.
+/// A mover that goes and is named with room breaks `crush`. Of who promises that clause it is no matter of `overlap`
+/// and `passage`, like one without room: one breach is said once.
 /// A collider that stands still or rests never crushes, nor does anything where nothing that is named comes closer to
 /// where the octagon was when the step began. What a
 /// mover presses the octagon into besides itself is not excused.

@@ -463,20 +463,21 @@ void RunJudge::judge_velocity(const TraceStep& record, const StepJudgement& judg
   const bool excused = !record.start_overlap.empty() || !judged.end_overlap.empty() || crushed || record.stuck ||
                        record.dropped || header_.substeps > 1 || wanted.parts > 1;
   if (excused || !contains(header_.guarantees, Clause::velocity)) return;
-  if (!record.met.empty()) {  // what characters hand on to each other is no matter of surfaces
-    if (judged.speed_gained > 0)
-      note(Clause::velocity, record, fmt::format("is {:.3g} m/s faster than anything made it", judged.speed_gained));
-    return;
-  }
   const Vec2d up = up_in(record, header_);
   ControlledStep step{.wanted = wanted.velocity, .up = up};
   step.unsteered = wanted.velocity - wanted.steered / length_of(record, header_) * Vec2d(up.y(), -up.x());
   step.side_hit_ends_rise = header_.character.side_hit_ends_rise;
-  const bool walks = begins_as_walk(header_, record, wanted.from_ground, wanted.velocity);
+  const bool walks = !wanted.jumped && begins_as_walk(header_, record, wanted.from_ground, wanted.velocity);
   const SolidsInStep there(header_, solids(), record);
   const std::vector<MetSurface> surfaces = met_surfaces(there, record.contacts, walks);
-  if (const std::optional<std::string> fault = velocity_fault(step, surfaces, record.velocity))
-    note(Clause::velocity, record, *fault);
+  // What characters hand on to each other is no matter of surfaces, and what turns has no one normal in a step.
+  const bool is_bounded_only = !record.met.empty() || std::any_of(surfaces.begin(), surfaces.end(),
+                                                                  [](const auto& at) { return at.spread > 0; });
+  if (!is_bounded_only) {
+    if (const auto fault = velocity_fault(step, surfaces, record.velocity)) note(Clause::velocity, record, *fault);
+  } else if (judged.speed_gained > 0) {
+    note(Clause::velocity, record, fmt::format("is {:.3g} m/s faster than anything made it", judged.speed_gained));
+  }
 }
 
 void RunJudge::add_refused(const TraceStep& record) {
