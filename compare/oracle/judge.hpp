@@ -215,7 +215,8 @@ struct StepJudgement {
 /// - a step that touches a corner deeper than 1e-6 m inside a solid, a verified crush, and Box2D's cap: other answers
 ///   say so.
 /// What turns comes along a face's normal by no more than a bound that is safe. Who hangs only if it comes as far as
-/// the point does that is nearest to the octagon is `unsure` (exempted). What a grid has taken up and not made yet
+/// the point does that is nearest to the octagon is `unsure` (exempted); so is who is
+/// too fast at a disc that turns. What a grid has taken up and not made yet
 /// (`remainder`) counts as made. A step hovers if it would hang, but for what is within the contender's own reach
 /// (`detail::reach_of`): Box2D's skin, a unit of the article's search.
 ///
