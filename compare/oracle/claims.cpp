@@ -93,7 +93,8 @@ bool EndJudge::goes_freely() const {
   const Place start(step_.path.front(), step_.movers);
   if (!is_alone() || !near(0, contact_reach).empty()) return false;
   const Place wanted(start.position + wanted_.displacement, step_.movers, 1);
-  return grown_scenery_.met(start, wanted).empty();
+  // A larger octagon is less often above a one-way surface.
+  return grown_scenery_.met(start, wanted).empty() && scenery_.met(start, wanted).empty();
 }
 
 /// How far a free motion leaves the wanted one [m/s].
