@@ -107,7 +107,8 @@ bool EndJudge::goes_freely() const {
   if (!is_alone() || !near(0, contact_reach).empty()) return false;
   const Place wanted(start.position + wanted_.displacement, step_.movers, 1);
   if (later_.any()) return scenery_.near(start, wanted, contact_reach + later_.bend()).empty();
-  return grown_scenery_.met(start, wanted).empty();
+  // A larger octagon is less often above a one-way surface.
+  return grown_scenery_.met(start, wanted).empty() && scenery_.met(start, wanted).empty();
 }
 
 /// How far a free motion leaves the wanted one [m/s].
