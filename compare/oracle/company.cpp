@@ -43,6 +43,13 @@ Vec2d place_at(const std::vector<PathPoint<double>>& path, double fraction) {
   return path.back().position;
 }
 
+/// What counts as touching [m]. What the header says of itself excuses nothing where something is promised.
+double touch_of(const TraceHeader& header) {
+  if (!header.path_exact) return box2d_skin;
+  if (party_of(header) == Party::promising) return detail::contact_reach;
+  return std::max(detail::contact_reach, tolerance_named(header, "touch"));
+}
+
 const Vec2d& start_of(const TraceStep& step) { return step.path.front().position; }
 const Vec2d& end_of(const TraceStep& step) { return step.path.back().position; }
 
@@ -53,7 +60,7 @@ CompanyJudge::CompanyJudge(const TraceHeader& header)
       pair_(header.points),
       box_(box_of(header.points)),
       slop_(detail::slop_of(header)),
-      reach_(header.path_exact ? std::max(detail::contact_reach, tolerance_named(header, "touch")) : box2d_skin) {}
+      reach_(touch_of(header)) {}
 
 std::vector<CharacterIndex> CompanyJudge::overlapped(std::span<const Vec2d> positions, CharacterIndex character) const {
   std::vector<CharacterIndex> found;
@@ -88,6 +95,16 @@ Others CompanyJudge::others_of(CharacterIndex character, std::span<const TraceSt
       if (!part.faces.empty()) parts.push_back(std::move(part));
     }
     return parts;
+  };
+  others.impacts_at_end = [this, steps, character](const Vec2d& displacement) {
+    const Vec2d from = end_of(steps[character]);
+    std::vector<ExactImpact> impacts;
+    for (const TraceStep& other : steps) {
+      if (other.character == character) continue;
+      if (const auto impact = pair_.first_impact(from, displacement, end_of(other), Vec2d::Zero()))
+        impacts.push_back({.collider = no_collider, .fraction = impact->fraction, .normal = impact->normal});
+    }
+    return impacts;
   };
   return others;
 }

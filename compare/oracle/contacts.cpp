@@ -129,7 +129,8 @@ double ContactJudge::ghost_speed_loss(bool starts_free, const StepJudgement& jud
 void ContactJudge::measure_motion(bool starts_free, StepJudgement& judgement) const {
   const double wanted = across(step_.requested);
   judgement.motion_wanted = std::abs(wanted);
-  if (std::abs(wanted) <= rounding_across() || !starts_free || !judgement.crushed.empty() || step_.capped) return;
+  if (std::abs(wanted) <= rounding_across() || !starts_free || !judgement.crushed.empty() || is_capped(step_, header_))
+    return;
   const double made = across(step_.path.back().position - step_.path.front().position) + judgement.remainder_made;
   const double lost = std::clamp(std::abs(wanted) - std::copysign(1.0, wanted) * made, 0.0, std::abs(wanted));
   const double rounding = ulp_at(header_, step_.path.front().position) + least_loss * std::abs(wanted);
@@ -173,10 +174,13 @@ void ContactJudge::add_normal_error(StepJudgement& judgement) const {
       const double error = degrees_between(exact.normal, contact.normal);
       least = std::min(least.value_or(error), error);
     }
-    if (!least) continue;
-    if (const std::optional<Vec2d> face = *least > 0 ? face_of(contact) : std::nullopt)
-      least = std::min(*least, degrees_between(*face, contact.normal));
-    judgement.normal_error = std::max(judgement.normal_error.value_or(0), *least);
+    // Of who promises it the normal of a contact that is excused, too: of one that no face is known of none is asked.
+    const bool asks_face = least ? *least > 0 : promises_;
+    if (const std::optional<Vec2d> face = asks_face ? face_of(contact) : std::nullopt) {
+      const double error = degrees_between(*face, contact.normal);
+      least = std::min(least.value_or(error), error);
+    }
+    if (least) judgement.normal_error = std::max(judgement.normal_error.value_or(0), *least);
   }
 }
 

@@ -156,8 +156,9 @@ struct StepJudgement {
 /// are within its reach, named or not. Where they leave no room, all that it is pressed into is excused.
 /// A mover that goes and is named with room breaks `crush`. Of who promises that clause it is excused like one without
 /// room in all else: one breach is said once.
-/// A collider that stands still or rests never crushes, nor does anything where nothing that is named comes closer to
-/// where the octagon was when the step began. What a
+/// A collider that stands still or rests never crushes, nor does one that is nowhere on the way within 1e-6 m (who
+/// promises nothing: its reach), nor does anything where nothing that is named comes closer to where the octagon was
+/// when the step began. What a
 /// mover presses the octagon into besides itself is not excused.
 ///
 /// **Sensor events** are compared in order, for every sensor entering and leaving apart.
@@ -309,7 +310,7 @@ class Judge {
                          StepJudgement& judgement) const;
   [[nodiscard]] Path path_of(const TraceStep& step) const;
   /// Whether nothing differs from the last step, as at rest: then neither does the judgement.
-  [[nodiscard]] bool repeats(const TraceStep& step) const;
+  [[nodiscard]] bool repeats(const TraceStep& step, const Wanted* wanted) const;
   /// Whether the step begins where the last one ended, movers included.
   [[nodiscard]] bool continues(const TraceStep& step, const Place& start) const;
   void begin_episodes(const Place& start);
@@ -344,7 +345,13 @@ class Judge {
   std::map<ColliderIndex, Episode> inside_;
   std::optional<Kept> last_end_;
   Vec2d remainder_before_{Vec2d::Zero()};                    ///< See `TraceStep::remainder`.
-  std::optional<std::pair<TraceStep, StepJudgement>> last_;  ///< Where no episode was open.
+  /// The last step and what became of it, where no episode was open.
+  struct Last {
+    TraceStep step;
+    std::optional<Wanted> wanted;
+    StepJudgement judgement;
+  };
+  std::optional<Last> last_;
   /// The last place of which `has_way_out` was asked, and the answer.
   std::optional<std::pair<Kept, bool>> asked_way_out_;
 };

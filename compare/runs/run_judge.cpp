@@ -326,17 +326,21 @@ void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged)
   }
 }
 
-/// What it says that it dropped through was asked for, and is there.
+/// What it says that it dropped through is a one-way chain, was asked for, and was passed: by the octagon itself or, as
+/// rounding may name a chain whose tip is grazed, by one a little to its side.
 void RunJudge::judge_drops(const TraceStep& record) {
-  constexpr double there = 1e-5;
+  constexpr double aside = 1e-5;
   for (const ColliderIndex chain : record.dropped_through) {
-    bool meets = false;
-    for (std::size_t i = 0; i < record.path.size() && !meets; ++i) {
-      const Place corner(record.path[i], record.movers);
-      meets = solids().separation(corner, chain) <= there ||
-              (i > 0 && solids().meets({record.path[i - 1], record.movers}, corner, chain));
-    }
-    if (!record.input.drop || !meets)
+    const std::optional<Vec2d>& one_way = header_.scenery.colliders[chain].one_way;
+    bool passes = one_way && followers_.front().judge->turning().turns(chain);
+    for (std::size_t i = 1; i < record.path.size() && one_way && !passes; ++i)
+      for (const double shift : {0.0, aside, -aside}) {
+        Place from(record.path[i - 1], record.movers);
+        Place to(record.path[i], record.movers);
+        for (Place* place : {&from, &to}) place->position += shift * Vec2d(one_way->y(), -one_way->x());
+        passes = passes || solids().meets(from, to, chain);
+      }
+    if (!record.input.drop || !passes)
       note(Clause::one_way, record, "says it dropped through `" + header_.ids[chain] + "`, and did not");
   }
 }
