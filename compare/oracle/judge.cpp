@@ -136,7 +136,8 @@ StepJudgement Judge::judge_step(const TraceStep& step, const Others& others, con
   judge_progress(step, others, wanted, starts_free, judgement);
   last_end_.emplace(path.back());
   last_.reset();
-  if (path.size() == 1 && inside_.empty() && step.remainder == remainder_before_) last_.emplace(Last{step, wanted != nullptr ? std::optional(*wanted) : std::nullopt, judgement});
+  if (path.size() == 1 && inside_.empty() && step.remainder == remainder_before_)
+    last_.emplace(Last{step, wanted != nullptr ? std::optional(*wanted) : std::nullopt, judgement});
   remainder_before_ = step.remainder;
   return judgement;
 }
@@ -334,13 +335,18 @@ void Judge::judge_passing(const Path& path, ColliderIndex collider, const Place&
   }
   judgement.tunnelled.push_back(collider);
   Passing passing = detail::describe_passing(scenery_, from, to, collider);
+  passing.speed = way_past(path, collider) / dt_;
+  judgement.passings.push_back(passing);
+}
+
+/// Length of the way relative to a collider [m].
+double Judge::way_past(const Path& path, ColliderIndex collider) const {
   const MoverIndex mover = header_.scenery.colliders[collider].mover;
   double length = 0;
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
     length += ((path[i + 1].position - path[i + 1].offset(mover)) - (path[i].position - path[i].offset(mover))).norm();
   }
-  passing.speed = length / dt_;
-  judgement.passings.push_back(passing);
+  return length;
 }
 
 /// The largest depth on the way: between entry and exit of every leg at equal distances, then closing in on the deepest
@@ -559,6 +565,7 @@ void Judge::judge_sensors(const Path& path, const TraceStep& step, StepJudgement
     taken[i] = true;
     const double error = std::abs(static_cast<double>(Rational(step.sensors[i].fraction) - event.fraction));
     judgement.max_sensor_error = std::max(judgement.max_sensor_error, error);
+    judgement.max_sensor_way = std::max(judgement.max_sensor_way, error * way_past(path, event.sensor));
   }
   judgement.sensor_events_extra = static_cast<int>(std::count(taken.begin(), taken.end(), false));
 }

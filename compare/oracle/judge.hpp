@@ -91,7 +91,8 @@ struct StepJudgement {
   std::vector<ExactSensorEvent> sensor_events;  ///< What should have been reported.
   int sensor_events_missing = 0;                ///< Of `sensor_events`.
   int sensor_events_extra = 0;                  ///< Reported, and there was no such event.
-  double max_sensor_error = 0;                  ///< Over the other reported ones: of the fraction of the step.
+  double max_sensor_error = 0;                  ///< Over the other reported ones: of the fraction of the step,
+  double max_sensor_way = 0;  ///< and of the way relative to the sensor that the whole step takes [m].
 
   /// What happened with characters of a higher index; each pair is told once. See `CompanyJudge`.
   struct Company {
@@ -161,7 +162,7 @@ struct StepJudgement {
 /// when the step began. What a
 /// mover presses the octagon into besides itself is not excused.
 ///
-/// **Sensor events** are compared in order, for every sensor entering and leaving apart.
+/// **Sensor events** are reported in order of time, and compared for every sensor entering and leaving apart.
 ///
 /// **Exemptions** are data, with their sizes for each kind of contender: oracle/exemptions.hpp.
 ///
@@ -323,6 +324,7 @@ class Judge {
   void judge_passing(const Path& path, ColliderIndex collider, const Place& from, const Place& to, double depth,
                      StepJudgement& judgement) const;
   [[nodiscard]] double depth_of(const Path& path, ColliderIndex collider) const;
+  [[nodiscard]] double way_past(const Path& path, ColliderIndex collider) const;
   void judge_crushes(const Path& path, const TraceStep& step, const Touched& touched, const Others& others,
                      StepJudgement& judgement);
   void judge_sensors(const Path& path, const TraceStep& step, StepJudgement& judgement) const;
@@ -344,7 +346,7 @@ class Judge {
   double dt_ = 0;          ///< Of the step that is being judged [s].
   std::map<ColliderIndex, Episode> inside_;
   std::optional<Kept> last_end_;
-  Vec2d remainder_before_{Vec2d::Zero()};                    ///< See `TraceStep::remainder`.
+  Vec2d remainder_before_{Vec2d::Zero()};  ///< See `TraceStep::remainder`.
   /// The last step and what became of it, where no episode was open.
   struct Last {
     TraceStep step;

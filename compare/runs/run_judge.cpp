@@ -2,6 +2,7 @@
 
 #include "contains.hpp"
 #include "oracle/claims.hpp"
+#include "oracle/contact_place.hpp"
 #include "oracle/contacts.hpp"
 #include "oracle/met_surfaces.hpp"
 #include "oracle/turning.hpp"
@@ -301,7 +302,17 @@ void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged)
     const auto is_there = [&](const PathPoint<double>& corner) {
       return solids().separation({corner, record.movers}, contact.collider) <= guaranteed_gap;
     };
-    if (carried != Vec2d::Zero() && is_there(record.path.front())) continue;  // it gives way from the start
+    if (carried != Vec2d::Zero() && is_there(record.path.front())) {
+      // It gives way from the start, and meets no later than what was requested touches.
+      const Place start(record.path.front(), record.movers);
+      const double approach = (carried - record.requested).dot(contact.normal);
+      const auto touch = solids().time_of_impact(start, record.requested, contact.collider);
+      const bool at_once = touch && touch->normal.dot(contact.normal) > same_face &&
+                           static_cast<double>(touch->fraction) * approach <= guaranteed_gap;
+      if (at_once && approach > 0)
+        check(contact, (contact.fraction - static_cast<double>(touch->fraction)) * approach, 2 * guaranteed_gap);
+      continue;
+    }
     // As far along the normal as it is off the time at which the way touches, at the pace of the leg that leads there.
     double off = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < record.path.size(); ++i) {
@@ -345,10 +356,14 @@ void RunJudge::judge_drops(const TraceStep& record) {
   }
 }
 
-/// Two that met each say so, with one normal and at one time, and were there.
+/// Two that met each say so, with one normal, of a face that is there, and at one time, and were there. Who must have
+/// met another says so.
 void RunJudge::judge_met(const TraceStep& record, std::span<const TraceStep> records) {
   for (const CrowdContact<double>& met : record.met) {
-    if (!company_ || met.other >= records.size()) continue;
+    if (met.other >= records.size() || met.other == record.character) {
+      note(Clause::contact_invented, record, fmt::format("met character {}, which is no other one", met.other));
+      continue;
+    }
     const TraceStep& other = records[met.other];
     if (const double gap = company_->nearest(record, other); gap > guaranteed_gap)
       note(Clause::contact_invented, record, fmt::format("met character {} from {} away", met.other, metres(gap)));
@@ -357,15 +372,27 @@ void RunJudge::judge_met(const TraceStep& record, std::span<const TraceStep> rec
     });
     if (!agreed)
       note(Clause::contact_invented, record, fmt::format("met character {}, which met another way", met.other));
+    if (!company_->has_face(record, other, met.normal))
+      note(Clause::normal, record, fmt::format("the normal at character {} is of no face there", met.other));
+    if (detail::side_along(met.normal, up_in(record, header_)) != met.side)
+      note(Clause::normal, record, fmt::format("met character {} on another side than its normal says", met.other));
     if (const double gap = company_->gap_at(record, other, met.fraction); gap > 2 * guaranteed_gap)
       note(Clause::time_of_impact, record,
            fmt::format("met character {} at {:.6g} of the step, and was {} away then", met.other, met.fraction,
                        metres(gap)));
   }
+  if (!company_) return;
+  for (const TraceStep& other : records) {
+    const bool says = std::any_of(record.met.begin(), record.met.end(),
+                                  [&](const CrowdContact<double>& met) { return met.other == other.character; });
+    if (!says && other.character != record.character && company_->must_meet(record, other))
+      note(Clause::contact_missed, record, fmt::format("met character {}, and does not say so", other.character));
+  }
 }
 
 void RunJudge::check_start(const TraceStep& claimed, const TraceStep& judged) {
-  if (claimed.start_overlap != judged.start_overlap)
+  if (claimed.start_overlap != judged.start_overlap ||
+      claimed.start_overlap_characters != judged.start_overlap_characters)
     note(Clause::start_inside, judged, "says that it begins inside of other things than it does");
 }
 
@@ -395,8 +422,12 @@ void RunJudge::judge_clauses(const TraceStep& record, const StepJudgement& judge
     return std::string(judged.sensor_events_missing > 0 ? "a sensor's event is missing"
                                                         : "reports a sensor's event that was none");
   });
-  check(Clause::sensor, judged.max_sensor_error * record.requested.norm() > guaranteed_gap,
+  check(Clause::sensor, judged.max_sensor_way > guaranteed_gap,
         [&] { return fmt::format("a sensor's event is {:.3g} of the step off", judged.max_sensor_error); });
+  check(Clause::sensor,
+        !std::is_sorted(record.sensors.begin(), record.sensors.end(),
+                        [](const auto& a, const auto& b) { return a.fraction < b.fraction; }),
+        [] { return std::string("the events of sensors are not in order of time"); });
   check(Clause::start_inside, judged.stuck_refuted, [] { return std::string("says it is stuck beside a way out"); });
   check(Clause::hanging, judged.hangs, [] { return std::string("hangs in the air"); });
   check(Clause::speed_lost, judged.motion_lost > 0,
@@ -415,6 +446,31 @@ void RunJudge::judge_clauses(const TraceStep& record, const StepJudgement& judge
   check(Clause::refusal, record.path.back().position.cwiseAbs().maxCoeff() > range || !(length_of(record, header_) > 0),
         [] { return std::string("takes a step that must be refused"); });
   judge_times(record, judged);
+  judge_places(record, judged);
+}
+
+/// Where each contact says that it is; and of several that the motion meets first, at one time, each is reported.
+void RunJudge::judge_places(const TraceStep& record, const StepJudgement& judged) {
+  const bool excused = !record.start_overlap.empty() || !judged.end_overlap.empty() || record.stuck ||
+                       !record.crushed.empty() || record.contacts.empty() || header_.guarantees.empty();
+  if (excused) return;
+  const detail::TurningJudge& turning = followers_.front().judge->turning();
+  for (const Contact<double>& contact : record.contacts) {
+    if (turning.turns(contact.collider)) continue;
+    if (const std::optional<PlaceFault> fault = place_fault(header_, record, contact))
+      note(fault->clause, record, fault->words);
+  }
+  for (const ExactContact& exact : judged.contacts) {
+    const auto is_it = [&](const Contact<double>& one) {
+      return one.collider == exact.collider && one.side == exact.side;
+    };
+    const auto on_side = [&](const Contact<double>& one) { return one.side == exact.side; };
+    // Of a side where none is reported the metrics tell.
+    if (exact.foreseen && !judged.first_met && std::any_of(record.contacts.begin(), record.contacts.end(), on_side) &&
+        std::none_of(record.contacts.begin(), record.contacts.end(), is_it))
+      note(Clause::contact_missed, record,
+           fmt::format("does not report a contact: `{}`, {}", header_.ids[exact.collider], name_of(exact.side)));
+  }
 }
 
 /// Whether the law of response (§4 of the design) makes the velocity at the end of what was wanted, at the contacts
