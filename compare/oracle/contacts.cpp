@@ -21,12 +21,15 @@ constexpr double same_face = 0.9;
 /// A smaller share of the speed is rounding: Box2D's floats have 24 bits.
 constexpr double least_loss = 1e-5;
 
-/// Of the character as it stands. What rounding leaves of a component that is zero is none.
+}  // namespace
+
 Side side_along(const Vec2d& normal, const Vec2d& up) {
   constexpr double rounding = 1e-12;
   const auto clean = [](double component) { return std::abs(component) <= rounding ? 0 : component; };
   return side_of_normal(clean(normal.x() * up.y() - normal.y() * up.x()), clean(normal.dot(up)));
 }
+
+namespace {
 
 double degrees_between(const Vec2d& a, const Vec2d& b) {
   return std::atan2(std::abs(a.x() * b.y() - a.y() * b.x()), a.dot(b)) * 180 / std::numbers::pi;
@@ -129,7 +132,8 @@ double ContactJudge::ghost_speed_loss(bool starts_free, const StepJudgement& jud
 void ContactJudge::measure_motion(bool starts_free, StepJudgement& judgement) const {
   const double wanted = across(step_.requested);
   judgement.motion_wanted = std::abs(wanted);
-  if (std::abs(wanted) <= rounding_across() || !starts_free || !judgement.crushed.empty() || step_.capped) return;
+  if (std::abs(wanted) <= rounding_across() || !starts_free || !judgement.crushed.empty() || is_capped(step_, header_))
+    return;
   const double made = across(step_.path.back().position - step_.path.front().position) + judgement.remainder_made;
   const double lost = std::clamp(std::abs(wanted) - std::copysign(1.0, wanted) * made, 0.0, std::abs(wanted));
   const double rounding = ulp_at(header_, step_.path.front().position) + least_loss * std::abs(wanted);
@@ -173,10 +177,13 @@ void ContactJudge::add_normal_error(StepJudgement& judgement) const {
       const double error = degrees_between(exact.normal, contact.normal);
       least = std::min(least.value_or(error), error);
     }
-    if (!least) continue;
-    if (const std::optional<Vec2d> face = *least > 0 ? face_of(contact) : std::nullopt)
-      least = std::min(*least, degrees_between(*face, contact.normal));
-    judgement.normal_error = std::max(judgement.normal_error.value_or(0), *least);
+    // Of who promises it the normal of a contact that is excused, too: of one that no face is known of none is asked.
+    const bool asks_face = least ? *least > 0 : promises_;
+    if (const std::optional<Vec2d> face = asks_face ? face_of(contact) : std::nullopt) {
+      const double error = degrees_between(*face, contact.normal);
+      least = std::min(least.value_or(error), error);
+    }
+    if (least) judgement.normal_error = std::max(judgement.normal_error.value_or(0), *least);
   }
 }
 
@@ -193,9 +200,12 @@ bool ContactJudge::pushed_by_skin(double wanted) const {
 std::optional<Vec2d> ContactJudge::face_of(const Contact<double>& contact) const {
   const double reach = header_.path_exact ? 2 * std::max(contact_reach, touch_) : box2d_skin;
   std::optional<Vec2d> most_alike;
+  bool is_own = false;  // of two that abut the face may be the other's, but both are there
   const auto look = [&](const ExactImpact& impact) {
     const double alike = impact.normal.dot(contact.normal);
-    if (!impact.exposed || !(alike > same_face)) return;
+    if (!(alike > same_face)) return;
+    is_own = is_own || impact.collider == contact.collider;
+    if (!impact.exposed) return;
     if (!most_alike || alike > most_alike->dot(contact.normal)) most_alike = impact.normal;
   };
   for (std::size_t i = 0; i < step_.path.size(); ++i) {
@@ -213,7 +223,7 @@ std::optional<Vec2d> ContactJudge::face_of(const Contact<double>& contact) const
     for (const Place& to : {beside, beyond})
       if (const auto impact = scenery_.impact_between(place(i - 1), to, contact.collider)) look(*impact);
   }
-  return most_alike;
+  return is_own || !promises_ ? most_alike : std::nullopt;
 }
 
 /// Whether the way that was travelled leads against the reported normal, and stops there: what an earlier contact left
@@ -319,9 +329,7 @@ void ContactJudge::add_dont_care(StepJudgement& judgement) const {
     const bool deflected = met_after_another(contact, others) || (turned_aside && ran_into(contact));
     if (deflected && has_face(contact)) judgement.deflected.emplace_back(contact.collider, contact.side);
     const bool near = comes_near(contact) || (!deflected && is_led_into_by_rounding(contact, others));
-    // Another side of what is met needs a face of its own.
-    if (promises_ && near && (!exact(contact.collider) || has_face(contact)))
-      judgement.contact_band.push_back(contact.collider);
+    if (promises_ && near && has_face(contact)) judgement.contact_band.push_back(contact.collider);
     if (exact(contact.collider)) continue;
     if (deflected || near) judgement.dont_care.push_back(contact.collider);
   }

@@ -115,6 +115,7 @@ double allowed(Exempt which, const TraceHeader& header) {
 
 double own_reach(const TraceHeader& header) {
   if (!header.path_exact) return box2d_skin;
+  if (party_of(header) == Party::promising) return least_reach;  // whatever its header says
   return std::max({least_reach, tolerance_named(header, "unit"), tolerance_named(header, "touch")});
 }
 

@@ -89,8 +89,11 @@ Others Judge::with_turning(const TraceStep& step, const Others& characters) cons
   all.near_at_end = [this, &step, with](double within) {
     return with(turning_->near_at_end(step, within), step.path.back(), within);
   };
-  all.impacts_at_end = [this, &step](const Vec2d& displacement) {
-    return turning_->impacts_at_end(step, displacement);
+  all.impacts_at_end = [this, &step, &characters](const Vec2d& displacement) {
+    std::vector<ExactImpact> impacts = turning_->impacts_at_end(step, displacement);
+    if (characters.impacts_at_end)
+      for (ExactImpact& impact : characters.impacts_at_end(displacement)) impacts.push_back(std::move(impact));
+    return impacts;
   };
   all.runs_into = [this, &step](const PathPoint<double>& corner, const Vec2d& way, double within) {
     return turning_->runs_into(step, corner, way, within);
@@ -102,7 +105,7 @@ Others Judge::with_turning(const TraceStep& step, const Others& characters) cons
 StepJudgement Judge::judge_step(const TraceStep& step, const Others& others, const Wanted* wanted,
                                 const AmongTurning* turning) {
   if (step.movers.size() < mover_count_) throw std::invalid_argument("a step needs the motion of every mover");
-  if (!others.near && repeats(step)) return last_->second;  // others may have gone
+  if (!others.near && repeats(step, wanted)) return last_->judgement;  // others may have gone
   dt_ = length_of(step, header_);
   StepJudgement judgement;
   const Path path = path_of(step);
@@ -143,7 +146,8 @@ StepJudgement Judge::judge_step(const TraceStep& step, const Others& others, con
   judge_progress(step, others, wanted, starts_free, judgement);
   last_end_.emplace(path.back());
   last_.reset();
-  if (path.size() == 1 && inside_.empty() && step.remainder == remainder_before_) last_.emplace(step, judgement);
+  if (path.size() == 1 && inside_.empty() && step.remainder == remainder_before_)
+    last_.emplace(Last{step, wanted != nullptr ? std::optional(*wanted) : std::nullopt, judgement});
   remainder_before_ = step.remainder;
   return judgement;
 }
@@ -238,19 +242,32 @@ bool Judge::alone(const Path& path, const TraceStep& step) const {
   return scenery_.near(Place(reach.lower, step.movers, 0), Place(reach.upper, step.movers, 2), box2d_skin).empty();
 }
 
-bool Judge::repeats(const TraceStep& step) const {
-  if (!last_ || step.respawn) return false;
-  const TraceStep& last = last_->first;
+bool Judge::repeats(const TraceStep& step, const Wanted* wanted) const {
+  if (!last_ || step.respawn || last_->wanted.has_value() != (wanted != nullptr)) return false;
+  const TraceStep& last = last_->step;
   const auto same_corner = [](const PathPoint<double>& a, const PathPoint<double>& b) {
     return a.position == b.position && a.fraction == b.fraction;
   };
   const auto same_contact = [](const Contact<double>& a, const Contact<double>& b) {
-    return a.collider == b.collider && a.normal == b.normal;
+    return a.collider == b.collider && a.side == b.side && a.normal == b.normal && a.point == b.point &&
+           a.fraction == b.fraction && a.separation == b.separation;
   };
-  return step.dt == last.dt && step.requested == last.requested && step.steered == last.steered &&
-         step.velocity == last.velocity && step.grounded == last.grounded && step.remainder == last.remainder &&
-         step.stuck == last.stuck && step.crushed == last.crushed && step.dropped_through == last.dropped_through &&
-         step.sensors.empty() && last.sensors.empty() &&
+  const auto same_wish = [](const Wanted& a, const Wanted& b) {
+    return a.displacement == b.displacement && a.velocity == b.velocity && a.steered == b.steered &&
+           a.jumped == b.jumped && a.parts == b.parts && a.from_ground == b.from_ground;
+  };
+  const auto same_ride = [](const TraceRide& a, const TraceRide& b) {
+    return a.collider == b.collider && a.velocity == b.velocity;
+  };
+  const bool same_state = step.velocity == last.velocity && step.grounded == last.grounded &&
+                          step.remainder == last.remainder && step.stuck == last.stuck && step.capped == last.capped &&
+                          step.dropped == last.dropped && step.ride.has_value() == last.ride.has_value() &&
+                          (!step.ride || same_ride(*step.ride, *last.ride));
+  return same_state && length_of(step, header_) == length_of(last, header_) &&
+         up_in(step, header_) == up_in(last, header_) && gravity_in(step, header_) == gravity_in(last, header_) &&
+         step.requested == last.requested && step.steered == last.steered &&
+         (wanted == nullptr || same_wish(*wanted, *last_->wanted)) && step.crushed == last.crushed &&
+         step.dropped_through == last.dropped_through && step.sensors.empty() && last.sensors.empty() &&
          std::equal(step.movers.begin(), step.movers.end(), last.movers.begin(), last.movers.end(), same_motion) &&
          std::equal(step.path.begin(), step.path.end(), last.path.begin(), last.path.end(), same_corner) &&
          std::equal(step.contacts.begin(), step.contacts.end(), last.contacts.begin(), last.contacts.end(),
@@ -373,13 +390,18 @@ void Judge::judge_passing(const Path& path, ColliderIndex collider, const Place&
   }
   judgement.tunnelled.push_back(collider);
   Passing passing = detail::describe_passing(scenery_, from, to, collider);
+  passing.speed = way_past(path, collider) / dt_;
+  judgement.passings.push_back(passing);
+}
+
+/// Length of the way relative to a collider [m].
+double Judge::way_past(const Path& path, ColliderIndex collider) const {
   const MoverIndex mover = header_.scenery.colliders[collider].mover;
   double length = 0;
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
     length += ((path[i + 1].position - path[i + 1].offset(mover)) - (path[i].position - path[i].offset(mover))).norm();
   }
-  passing.speed = length / dt_;
-  judgement.passings.push_back(passing);
+  return length;
 }
 
 /// The largest depth on the way: between entry and exit of every leg at equal distances, then closing in on the deepest
@@ -458,10 +480,17 @@ void Judge::judge_crushes(const Path& path, const TraceStep& step, const Touched
     if (episode.free_from) free = episode.free_from->place();
   }
   judgement.room = detail::find_room(scenery_, scenery_for(detail::least_clearance), path, pressing, meetings, others);
-  // One mover may press the octagon after another that goes away more slowly.
-  const bool pressed = std::any_of(step.crushed.begin(), step.crushed.end(), comes_closer);
+  // One mover may press the octagon after another that goes away more slowly; but each of them touches it.
+  const double within = std::max(detail::contact_reach, promises_ ? 0 : own_reach(header_));
+  const auto touches = [&](ColliderIndex collider) {
+    return touched.contains(collider) || std::any_of(path.begin(), path.end(), [&](const Place& corner) {
+             return scenery_.separation(corner, collider) <= within;
+           });
+  };
+  const auto presses = [&](ColliderIndex collider) { return comes_closer(collider) && touches(collider); };
+  const bool pressed = std::any_of(step.crushed.begin(), step.crushed.end(), presses);
   for (const ColliderIndex collider : step.crushed) {
-    const bool moves = pressed && goes(collider);
+    const bool moves = pressed && goes(collider) && touches(collider);
     const bool excused = moves && judgement.room && others.touched && allowed(Exempt::touched_crush, header_) > 0;
     judgement.excused_crush = judgement.excused_crush || excused;
     (moves && (!judgement.room || excused) ? judgement.crushed : judgement.crushed_with_room).push_back(collider);
@@ -595,6 +624,7 @@ void Judge::judge_sensors(const Path& path, const TraceStep& step, StepJudgement
     taken[i] = true;
     const double error = std::abs(static_cast<double>(Rational(step.sensors[i].fraction) - event.fraction));
     judgement.max_sensor_error = std::max(judgement.max_sensor_error, error);
+    judgement.max_sensor_way = std::max(judgement.max_sensor_way, error * way_past(path, event.sensor));
   }
   judgement.sensor_events_extra = static_cast<int>(std::count(taken.begin(), taken.end(), false));
 }

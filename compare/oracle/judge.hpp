@@ -93,7 +93,8 @@ struct StepJudgement {
   std::vector<ExactSensorEvent> sensor_events;  ///< What should have been reported.
   int sensor_events_missing = 0;                ///< Of `sensor_events`.
   int sensor_events_extra = 0;                  ///< Reported, and there was no such event.
-  double max_sensor_error = 0;                  ///< Over the other reported ones: of the fraction of the step.
+  double max_sensor_error = 0;                  ///< Over the other reported ones: of the fraction of the step,
+  double max_sensor_way = 0;  ///< and of the way relative to the sensor that the whole step takes [m].
 
   /// What happened with characters of a higher index; each pair is told once. See `CompanyJudge`.
   struct Company {
@@ -158,11 +159,12 @@ struct StepJudgement {
 /// are within its reach, named or not. Where they leave no room, all that it is pressed into is excused.
 /// A mover that goes and is named with room breaks `crush`. Of who promises that clause it is no matter of `overlap`
 /// and `passage`, like one without room: one breach is said once.
-/// A collider that stands still or rests never crushes, nor does anything where nothing that is named comes closer to
-/// where the octagon was when the step began. What a
+/// A collider that stands still or rests never crushes, nor does one that is nowhere on the way within 1e-6 m (who
+/// promises nothing: its reach), nor does anything where nothing that is named comes closer to where the octagon was
+/// when the step began. What a
 /// mover presses the octagon into besides itself is not excused.
 ///
-/// **Sensor events** are compared in order, for every sensor entering and leaving apart.
+/// **Sensor events** are reported in order of time, and compared for every sensor entering and leaving apart.
 ///
 /// **Exemptions** are data, with their sizes for each kind of contender: oracle/exemptions.hpp.
 ///
@@ -313,7 +315,7 @@ class Judge {
                          StepJudgement& judgement) const;
   [[nodiscard]] Path path_of(const TraceStep& step) const;
   /// Whether nothing differs from the last step, as at rest: then neither does the judgement.
-  [[nodiscard]] bool repeats(const TraceStep& step) const;
+  [[nodiscard]] bool repeats(const TraceStep& step, const Wanted* wanted) const;
   /// Whether the step begins where the last one ended, movers included.
   [[nodiscard]] bool continues(const TraceStep& step, const Place& start) const;
   void begin_episodes(const Place& start);
@@ -326,6 +328,7 @@ class Judge {
   void judge_passing(const Path& path, ColliderIndex collider, const Place& from, const Place& to, double depth,
                      StepJudgement& judgement) const;
   [[nodiscard]] double depth_of(const Path& path, ColliderIndex collider) const;
+  [[nodiscard]] double way_past(const Path& path, ColliderIndex collider) const;
   void judge_crushes(const Path& path, const TraceStep& step, const Touched& touched, const Others& others,
                      StepJudgement& judgement);
   void judge_sensors(const Path& path, const TraceStep& step, StepJudgement& judgement) const;
@@ -347,8 +350,14 @@ class Judge {
   double dt_ = 0;          ///< Of the step that is being judged [s].
   std::map<ColliderIndex, Episode> inside_;
   std::optional<Kept> last_end_;
-  Vec2d remainder_before_{Vec2d::Zero()};                    ///< See `TraceStep::remainder`.
-  std::optional<std::pair<TraceStep, StepJudgement>> last_;  ///< Where no episode was open.
+  Vec2d remainder_before_{Vec2d::Zero()};  ///< See `TraceStep::remainder`.
+  /// The last step and what became of it, where no episode was open.
+  struct Last {
+    TraceStep step;
+    std::optional<Wanted> wanted;
+    StepJudgement judgement;
+  };
+  std::optional<Last> last_;
   /// The last place of which `has_way_out` was asked, and the answer.
   std::optional<std::pair<Kept, bool>> asked_way_out_;
 };

@@ -42,16 +42,19 @@ std::vector<ExactImpact> ContactJudge::impacts_from(std::size_t corner) const {
   return impacts;
 }
 
-/// What a contact with a normal may leave of the requested motion, by the laws that there are: it slides, without
-/// steering or momentum across up or with it; on ground its part across up goes on along it.
+std::vector<Vec2d> ways_left(const Vec2d& motion, const Vec2d& own, double steered, const Vec2d& normal,
+                             const TraceHeader& header, const Vec2d& up) {
+  const Vec2d right(up.y(), -up.x());
+  const auto slid = [&](const Vec2d& d) { return Vec2d(d - normal * std::min(0.0, (d - own).dot(normal))); };
+  if (is_walkable(normal, header, up)) {
+    const double across = (motion - own).dot(right);
+    return {slid(motion), own + in_world({across, -across * normal.dot(right) / normal.dot(up)}, up)};
+  }
+  return {slid(motion), slid(motion - steered * right), slid(up * motion.dot(up))};
+}
+
 std::vector<Vec2d> ContactJudge::left_by(ColliderIndex collider, const Vec2d& n) const {
-  const Vec2d& requested = step_.requested;
-  const Vec2d own = requested - wanted(collider);
-  const auto slid = [&](const Vec2d& d) { return Vec2d(d - n * std::min(0.0, (d - own).dot(n))); };
-  if (is_walkable(n, header_, up_))
-    return {slid(requested),
-            own + in_world({across(requested - own), -across(requested - own) * across(n) / n.dot(up_)}, up_)};
-  return {slid(requested), slid(requested - step_.steered * right_), slid(up_ * requested.dot(up_))};
+  return ways_left(step_.requested, step_.requested - wanted(collider), step_.steered, n, header_, up_);
 }
 
 /// Whether each of some motions from a place enters a collider on the side of a contact.
