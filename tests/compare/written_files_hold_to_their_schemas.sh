@@ -15,9 +15,8 @@ rm -rf "$3" && mkdir -p "$3" && cd "$3"
 "$command" work-precision flight --contender mask,box2d --quiet --rows work.jsonl
 # Ours alone: every field that a row of this study has is in these. What breaks the guarantee is known and open.
 "$command" stability --grid quick --contender octagon_sweep --quiet --rows stability.jsonl || [[ $? -eq 1 ]]
-broken=$(grep '"scalar": *"double"' stability.jsonl | grep -o '"scene": *"[a-z_]*".*"broken": *{[^}]*}' |
-  sed -E 's/"scene": *"([a-z_]*)".*"broken": *\{([^}]*)\}/\1 \2/' | sort)
-if [[ $broken != $'crowd "ground_invented":1\nplayground "speed_lost":1' ]]; then
+broken=$(grep '"scalar": *"double"' stability.jsonl | grep '"broken":' | grep -o '"scene": *"[a-z_]*"' | sort -u)
+if [[ $broken != '"scene":"crowd"' ]]; then
   printf 'stability breaks more than is known and open, or less:\n%s\n' "$broken" >&2
   exit 1
 fi
