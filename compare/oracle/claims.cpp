@@ -155,8 +155,13 @@ double EndJudge::vertical_error() const {
 double EndJudge::speed_gained() const {
   // Steering that presses into a steep face is taken out of what is wanted.
   const Vec2d unsteered = wanted_.velocity - wanted_.steered / dt_ * Vec2d(up_.y(), -up_.x());
-  double most = (std::max(wanted_.velocity.norm(), unsteered.norm()) + later_.steered() + later_.jump) /
-                std::cos(header_.character.max_climb_degrees * std::numbers::pi / 180);
+  // Ground that is followed makes a climb of what goes across up, and a ceiling turns that back.
+  const auto grounds = std::count_if(step_.contacts.begin(), step_.contacts.end(), [this](const Contact<double>& one) {
+    return is_walkable(one.normal, header_, up_);
+  });
+  const double steepest = 1 / std::cos(header_.character.max_climb_degrees * std::numbers::pi / 180);
+  double most = (std::max(wanted_.velocity.norm(), unsteered.norm()) + later_.steered() + later_.jump) *
+                std::pow(steepest, static_cast<double>(std::max<std::ptrdiff_t>(1, grounds)));
   bool pushed = false;
   for (std::size_t corner = 0; corner < step_.path.size(); ++corner)
     for (const NearPart& part : near(corner, contact_reach)) {

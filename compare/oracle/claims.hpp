@@ -27,7 +27,8 @@ inline constexpr double touch_rounding = 1e-8;
 /// **Speed lost or gained.** A step that begins free, and whose wanted motion comes within 1e-6 m of nothing, goes
 /// exactly as wanted. Else the upward speed is less than wanted only below a ceiling, on ground that is followed, or
 /// where a climb ends with the walk at a wall; and more than wanted only on a face that looks upwards. No speed is
-/// larger than the wanted one, kept across up on the steepest walkable ground, and that of the movers touched. A fall
+/// larger than the wanted one, kept across up on the steepest walkable ground, once for each ground that is met, and
+/// that of the movers touched. A fall
 /// becomes a rise only where a walk climbs: then it goes no faster across up than was wanted.
 class EndJudge {
  public:

@@ -253,8 +253,11 @@ bool ContactJudge::met_after_another(const Contact<double>& contact, std::span<c
   // A steep face takes steering out of the motion, and an impact the momentum across up.
   const std::array<Vec2d, 4> left_over{step_.requested, unsteered, up_ * step_.requested.dot(up_),
                                        right_ * step_.requested.dot(right_)};
+  // What moves adds to the motion what it pushes, and ground carries.
   const auto leads_in = [&](const Vec2d& d, const ExactContact& one) {
-    const Vec2d along = d - one.normal * std::min(0.0, (d - own).dot(one.normal)) - own;
+    const Vec2d pushed = step_.requested - wanted(one.collider);
+    if (is_walkable(one.normal, header_, up_) && contact.normal.dot(pushed - own) < 0) return true;
+    const Vec2d along = d - one.normal * std::min(0.0, (d - pushed).dot(one.normal)) - own;
     return std::min({contact.normal.dot(along), contact.normal.dot(right_) * (d - own).dot(right_),
                      contact.normal.dot(up_) * (d - own).dot(up_)}) < 0;
   };

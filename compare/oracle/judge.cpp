@@ -19,6 +19,12 @@ namespace {
 /// Instants at which the depth of a passing is looked at first.
 constexpr int depth_samples = 32;
 constexpr int depth_refinements = 40;
+/// The character waits so long at the beginning of each part of a step that goes in parts, as a share of the step.
+constexpr double waited_in_part = 2e-6;
+/// A time of impact is told where what that comes to is no more than this along the normal [m].
+constexpr double least_told = 5e-7;
+/// Normals of one face differ by no more than this, by rounding.
+constexpr double same_normal = 1e-6;
 /// A smaller share of the wanted motion is rounding.
 constexpr double rounding_of_loss = 1e-5;
 
@@ -123,8 +129,12 @@ StepJudgement Judge::judge_step(const TraceStep& step, const Others& others, con
     contacts().measure_motion(starts_free, judgement);
   }
   if (turning != nullptr) {
-    turning_->judge(turning->step, scenery_, judgement);
-    leave_out_times(turning->step, judgement);
+    const int parts = wanted != nullptr ? std::max(wanted->parts / header_.substeps, 1) : 1;
+    turning_->judge(turning->step, scenery_, parts, judgement);
+    leave_out_what_follows(turning->step, parts, judgement);
+    add_deflected(step, judgement);
+    judgement.turning_sensor =
+        turning->step.sensors.size() > step.sensors.size() || turning_->meets_sensor(turning->step);
   }
   if (has_sensors_) judge_sensors(path, step, judgement);
   if (step.stuck && starts_free) {
@@ -142,13 +152,58 @@ StepJudgement Judge::judge_step(const TraceStep& step, const Others& others, con
   return judgement;
 }
 
-/// A motion that was requested for the whole step tells no time of impact where each part wants another.
-void Judge::leave_out_times(const TraceStep& step, StepJudgement& judgement) const {
+/// What was requested tells of no contact, and no time, after what turns was met, or in a later part than the first.
+void Judge::leave_out_what_follows(const TraceStep& step, int parts, StepJudgement& judgement) const {
   const auto bends = [](const VertexWay& way) { return way.instants.size() > 2; };
-  if (!header_.path_exact || std::none_of(step.vertex_ways.begin(), step.vertex_ways.end(), bends)) return;
-  judgement.in_parts = judgement.first_approach && !step.contacts.empty();
+  const bool in_parts = std::any_of(step.vertex_ways.begin(), step.vertex_ways.end(), bends);
+  if (!header_.path_exact) return;
+  const auto is_reported = [&](const ExactContact& exact) {
+    return std::any_of(step.contacts.begin(), step.contacts.end(),
+                       [&](const Contact<double>& contact) { return contact.collider == exact.collider; });
+  };
+  std::erase_if(judgement.contacts, [&](const ExactContact& exact) {
+    if (!exact.foreseen || is_reported(exact)) return false;
+    const bool later = exact.fraction * parts > 1;
+    judgement.in_parts = judgement.in_parts || later;
+    return later || (judgement.first_impact && exact.fraction > *judgement.first_impact);
+  });
+  if (!in_parts) return;
   judgement.first_impact_comparable = false;
-  judgement.first_approach.reset();
+  if (!judgement.first_approach || step.contacts.empty()) return;
+  // In each part the character waits at first.
+  const bool is_told = *judgement.first_impact * parts <= 1 && waited_in_part * *judgement.first_approach <= least_told;
+  judgement.in_parts = judgement.in_parts || !is_told;
+  if (!is_told) judgement.first_approach.reset();
+}
+
+/// Adds the reported contacts with the rest that a contact with what turns pushes the octagon against.
+/// @param step the exact part of it.
+void Judge::add_deflected(const TraceStep& step, StepJudgement& judgement) const {
+  const auto is_known = [&](const Contact<double>& contact) {
+    const auto is_it = [&](const ExactContact& one) {
+      return one.collider == contact.collider && one.side == contact.side;
+    };
+    return std::any_of(judgement.contacts.begin(), judgement.contacts.end(), is_it) ||
+           contains(judgement.deflected, std::pair(contact.collider, contact.side));
+  };
+  const auto is_pushed = [&](const Contact<double>& contact) {
+    return std::any_of(judgement.contacts.begin(), judgement.contacts.end(), [&](const ExactContact& one) {
+      return turning_->turns(one.collider) && one.normal.dot(contact.normal) < 0;
+    });
+  };
+  const auto has_face = [&](const Contact<double>& contact) {
+    return std::any_of(step.path.begin(), step.path.end(), [&](const PathPoint<double>& corner) {
+      const std::vector<NearPart> parts = scenery_.near_parts({corner, step.movers}, detail::contact_reach);
+      return std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
+        return part.collider == contact.collider &&
+               std::any_of(part.faces.begin(), part.faces.end(),
+                           [&](const NearFace& face) { return (face.normal - contact.normal).norm() <= same_normal; });
+      });
+    });
+  };
+  for (const Contact<double>& contact : step.contacts)
+    if (!is_known(contact) && is_pushed(contact) && has_face(contact))
+      judgement.deflected.emplace_back(contact.collider, contact.side);
 }
 
 /// Whether there is a way out of what is overlapped where the step begins, or ends.
@@ -458,6 +513,10 @@ void Judge::judge_progress(const TraceStep& step, const Others& others, const Wa
     const detail::EndJudge end(header_, scenery_, scenery_for(detail::contact_reach), step, *wanted, others, later);
     end.judge_ground(hanging, starts_free, judgement);
     end.judge_speed(starts_free, judgement);
+    if (judgement.speed_gained > 0 && others.runs_into && turning_->touches_disc(step)) {
+      judgement.speed_gained = 0;
+      judgement.unsure = true;
+    }
   } else if (step.grounded) {
     judge_ground(hanging, step, judgement);
   }

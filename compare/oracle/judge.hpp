@@ -82,9 +82,11 @@ struct StepJudgement {
   bool stuck_refuted = false;   ///< It said that it is stuck, and there is a way out: see `Judge`.
   bool ground_refuted = false;  ///< It said that it is grounded, and nothing is under it: see `Judge`.
   bool ground_late = false;     ///< The same, but something was under it earlier in the step: excused.
-  /// It hangs, or loses motion or speed, unless what turns comes farther than its nearest point does: see `Bounds`.
+  /// It hangs, or loses motion or speed, unless what turns comes farther than its nearest point does (see `Bounds`); or
+  /// it is faster than anything but the rim of a disc could make it.
   bool unsure = false;
-  bool in_parts = false;        ///< It goes in parts, so that the time of its first impact is not compared.
+  bool in_parts = false;        ///< It goes in parts, and a contact or a time that follows the first is not asked for.
+  bool turning_sensor = false;  ///< It overlaps a sensor that turns, or says so: that is not asked for.
   bool ground_missed = false;   ///< It touches ground that it does not leave, and says that it is not grounded.
   double speed_lost = 0;        ///< Of the wanted velocity, with nothing exact that took it [m/s].
   double speed_gained = 0;      ///< More than the wanted velocity and what is touched can give [m/s].
@@ -156,8 +158,8 @@ struct StepJudgement {
 /// impact by impact, and may hide room that is there for both together. `room` says where it was.
 /// The same is asked for who promises nothing when a step ends inside something new: of the movers that come closer and
 /// are within its reach, named or not. Where they leave no room, all that it is pressed into is excused.
-/// A mover that goes and is named with room breaks `crush`. Of who promises that clause it is excused like one without
-/// room in all else: one breach is said once.
+/// A mover that goes and is named with room breaks `crush`. Of who promises that clause it is no matter of `overlap`
+/// and `passage`, like one without room: one breach is said once.
 /// A collider that stands still or rests never crushes, nor does one that is nowhere on the way within 1e-6 m (who
 /// promises nothing: its reach), nor does anything where nothing that is named comes closer to where the octagon was
 /// when the step began. What a
@@ -217,7 +219,8 @@ struct StepJudgement {
 /// - a step that touches a corner deeper than 1e-6 m inside a solid, a verified crush, and Box2D's cap: other answers
 ///   say so.
 /// What turns comes along a face's normal by no more than a bound that is safe. Who hangs only if it comes as far as
-/// the point does that is nearest to the octagon is `unsure` (exempted). What a grid has taken up and not made yet
+/// the point does that is nearest to the octagon is `unsure` (exempted); so is who is
+/// too fast at a disc that turns. What a grid has taken up and not made yet
 /// (`remainder`) counts as made. A step hovers if it would hang, but for what is within the contender's own reach
 /// (`detail::reach_of`): Box2D's skin, a unit of the article's search.
 ///
@@ -236,8 +239,8 @@ struct StepJudgement {
 /// reads its contacts before it moves the bodies, and the article's techniques go on after they have met the ground.
 ///
 /// **In parts.** A step that goes in parts, as what turns near it does, wants another motion in each: see `LaterParts`.
-/// What is asked of its progress is asked for all of them together. The time of a first impact with what does not turn
-/// is not compared (`in_parts`, exempted).
+/// What is asked of its progress is asked for all of them together. What was requested is what the first of them wants:
+/// a contact, or a time of impact, that it tells of in a later one is not asked for (`in_parts`, exempted).
 ///
 /// **Normal error.** The angle between the normal of a reported contact and the nearest normal of the exact contacts
 /// with that collider on that side, and of the face that is touched along the reported normal.
@@ -307,7 +310,8 @@ class Judge {
   [[nodiscard]] Others with_turning(const TraceStep& step, const Others& characters) const;
   [[nodiscard]] bool is_stuck_refuted(const Place& at, const Others& others, const AmongTurning* turning,
                                       bool in_turning);
-  void leave_out_times(const TraceStep& step, StepJudgement& judgement) const;
+  void leave_out_what_follows(const TraceStep& step, int parts, StepJudgement& judgement) const;
+  void add_deflected(const TraceStep& step, StepJudgement& judgement) const;
   void excuse_by_turning(const TraceStep& step, const detail::LaterParts& later, const Others& others,
                          StepJudgement& judgement) const;
   [[nodiscard]] Path path_of(const TraceStep& step) const;

@@ -198,6 +198,12 @@ MoverScript read_script(const Value& at, const std::vector<std::string>& ids) {
     for (const Value& turn : turns->list(1))
       script.turns.push_back({turn.only({"t", "at"}).require("t").number(), turn.require("at").number()});
   script.body = at.is_set("body");
+  const auto ascend = [](const auto& entries) {
+    return std::adjacent_find(entries.begin(), entries.end(),
+                              [](const auto& a, const auto& b) { return !(a.time < b.time); }) == entries.end();
+  };
+  if (!ascend(script.path)) at.require("path").refuse("times that ascend");
+  if (!ascend(script.turns)) at.require("turns").refuse("times that ascend");
   return script;
 }
 
@@ -291,7 +297,7 @@ TraceState read_state(const Value& at, const std::vector<std::string>& ids) {
 }
 
 VertexWay read_way(const Value& at, ColliderIndex collider, const ColliderDef& def) {
-  at.only({"k", "vertices"});
+  at.only({"k", "vertices", "offset"});
   std::size_t count = def.points.size();
   for (const std::vector<Vec2d>& hole : def.holes) count += hole.size();
   VertexWay way{.collider = collider, .instants = {}, .vertices = {}};
@@ -306,23 +312,32 @@ VertexWay read_way(const Value& at, ColliderIndex collider, const ColliderDef& d
   return way;
 }
 
-/// Where everything is that moves: each mover once, whatever goes with it.
+/// Where everything is that moves: what goes along with one mover goes as far.
 void read_movers(const Value& at, const TraceHeader& header, TraceStep& step) {
   step.movers.resize(header.scripts.size());
   std::set<ColliderIndex> seen;
+  std::set<MoverIndex> known;
   for (const auto& [id, motion] : at.entries()) {
     const auto found = std::find(header.ids.begin(), header.ids.end(), id);
     const auto collider = static_cast<ColliderIndex>(found - header.ids.begin());
     const MoverIndex mover = found == header.ids.end() ? no_mover : header.scenery.colliders[collider].mover;
     if (mover == no_mover) motion.refuse("a collider that moves");
     seen.insert(collider);
+    std::optional<Value> offset = motion;
     if (motion.is_object()) {
       if (header.turning.empty()) motion.refuse("two offsets");
       step.vertex_ways.push_back(read_way(motion, collider, header.scenery.colliders[collider]));
-      continue;
+      offset = motion.find("offset");
     }
-    const std::vector<Value> ends = motion.list(2, 2);
-    step.movers[mover] = {ends[0].point(), ends[1].point()};
+    MoverMotion<double> own{Vec2d::Zero(), Vec2d::Zero()};
+    if (offset) {
+      const std::vector<Value> ends = offset->list(2, 2);
+      own = {ends[0].point(), ends[1].point()};
+    }
+    const MoverMotion<double>& other = step.movers[mover];
+    if (!known.insert(mover).second && (other.from != own.from || other.to != own.to))
+      motion.refuse("the offset of what goes along with it");
+    step.movers[mover] = own;
   }
   std::sort(step.vertex_ways.begin(), step.vertex_ways.end(),
             [](const VertexWay& a, const VertexWay& b) { return a.collider < b.collider; });

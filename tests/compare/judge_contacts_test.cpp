@@ -185,6 +185,25 @@ TEST(JudgeOfContacts, who_is_above_a_ledge_does_not_fall_freely_past_it) {
   EXPECT_GT(Judge(header).judge(land, {}, &wanted).speed_lost, 0) << "nothing gives it a rise";
 }
 
+/// Ground that is followed makes a climb of the speed across up, a ceiling turns that across again, and so on.
+TEST(JudgeOfContacts, each_ground_that_is_followed_may_make_it_faster_once) {
+  TraceHeader header = promising({box(-4, -9, 4, -8)});
+  header.character.max_climb_degrees = 60;  // whose cosine is a half
+  const auto gained = [&](double speed, int grounds) {
+    TraceStep climb = step({{0, 0}, {1, 0}});
+    climb.velocity = {0, speed};
+    for (int i = 0; i < grounds; ++i) climb.contacts.push_back(contact(0, Vec2d(-1.5, 1).normalized(), 0, Side::right));
+    Wanted wanted;
+    wanted.displacement = climb.requested;
+    wanted.velocity = climb.requested / dt;
+    return Judge(header).judge(climb, {}, &wanted).speed_gained > 0;
+  };
+  EXPECT_FALSE(gained(1.9 / dt, 1));
+  EXPECT_TRUE(gained(2.1 / dt, 1));
+  EXPECT_FALSE(gained(3.9 / dt, 2));
+  EXPECT_TRUE(gained(4.1 / dt, 2));
+}
+
 /// Between the tip of a one-way ledge and a steep slope: the last leg that moved began above the ledge.
 TEST(JudgeOfContacts, a_wedge_with_the_tip_of_a_ledge_holds_who_has_waited_in_it) {
   const Vec2d at(0, 0);
