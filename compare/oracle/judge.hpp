@@ -24,6 +24,7 @@ struct ExactContact {
   double fraction = 0;          ///< Of the step.
   /// Met by the requested motion from the start of the step alone: what turns the motion before may prevent it.
   bool foreseen = false;
+  bool first = false;  ///< Of those that the requested motion of the step meets before all others, at one time.
 };
 
 /// How a solid was passed.

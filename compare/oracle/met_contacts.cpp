@@ -16,11 +16,16 @@ void add_contact(const ExactImpact& impact, Side side, double fraction, StepJudg
   for (ExactContact& known : judgement.contacts) {
     if (known.collider != impact.collider || known.side != side || known.normal != impact.normal) continue;
     known.fraction = std::min(known.fraction, fraction);
+    known.first = known.first || foreseen;
     known.foreseen = known.foreseen && foreseen;
     return;
   }
-  judgement.contacts.push_back(
-      {.collider = impact.collider, .side = side, .normal = impact.normal, .fraction = fraction, .foreseen = foreseen});
+  judgement.contacts.push_back({.collider = impact.collider,
+                                .side = side,
+                                .normal = impact.normal,
+                                .fraction = fraction,
+                                .foreseen = foreseen,
+                                .first = foreseen});
 }
 
 }  // namespace

@@ -437,6 +437,10 @@ TraceStep read_step(const Value& at, const TraceHeader& header) {
   if (const auto steered = at.find("steered")) step.steered = steered->number();
   step.start_overlap = colliders_in(at.find("start_overlap"), header.ids);
   std::sort(step.start_overlap.begin(), step.start_overlap.end());
+  if (const auto others = at.find("start_overlap_characters"))
+    for (const Value& other : others->list())
+      step.start_overlap_characters.push_back(static_cast<CharacterIndex>(other.index(header.characters)));
+  std::sort(step.start_overlap_characters.begin(), step.start_overlap_characters.end());
   step.velocity = at.require("velocity").point();
   step.grounded = at.require("grounded").flag();
   step.jumping = at.is_set("jumping");

@@ -406,21 +406,23 @@ void RunJudge::judge_met(const TraceStep& record, std::span<const TraceStep> rec
       continue;
     }
     const TraceStep& other = records[met.other];
-    if (const double gap = company_->nearest(record, other); gap > guaranteed_gap)
-      note(Clause::contact_invented, record, fmt::format("met character {} from {} away", met.other, metres(gap)));
     const bool agreed = std::any_of(other.met.begin(), other.met.end(), [&](const CrowdContact<double>& its) {
       return its.other == record.character && (its.normal + met.normal).norm() <= guaranteed_gap;
     });
     if (!agreed)
       note(Clause::contact_invented, record, fmt::format("met character {}, which met another way", met.other));
-    if (!company_->has_face(record, other, met.normal))
-      note(Clause::normal, record, fmt::format("the normal at character {} is of no face there", met.other));
     if (detail::side_along(met.normal, up_in(record, header_)) != met.side)
       note(Clause::normal, record, fmt::format("met character {} on another side than its normal says", met.other));
-    if (const double gap = company_->gap_at(record, other, met.fraction); gap > 2 * guaranteed_gap)
+    const double nearest = company_->nearest(record, other);
+    const double then = company_->gap_at(record, other, met.fraction);
+    if (nearest > guaranteed_gap)
+      note(Clause::contact_invented, record, fmt::format("met character {} from {} away", met.other, metres(nearest)));
+    if (then > 2 * guaranteed_gap)
       note(Clause::time_of_impact, record,
            fmt::format("met character {} at {:.6g} of the step, and was {} away then", met.other, met.fraction,
-                       metres(gap)));
+                       metres(then)));
+    else if (nearest <= guaranteed_gap && !company_->has_face(record, other, met.normal))
+      note(Clause::normal, record, fmt::format("the normal at character {} is of no face there", met.other));
   }
   if (!company_) return;
   for (const TraceStep& other : records) {
@@ -507,7 +509,7 @@ void RunJudge::judge_places(const TraceStep& record, const StepJudgement& judged
     };
     const auto on_side = [&](const Contact<double>& one) { return one.side == exact.side; };
     // Of a side where none is reported the metrics tell.
-    if (exact.foreseen && !judged.first_met && std::any_of(record.contacts.begin(), record.contacts.end(), on_side) &&
+    if (exact.first && !judged.first_met && std::any_of(record.contacts.begin(), record.contacts.end(), on_side) &&
         std::none_of(record.contacts.begin(), record.contacts.end(), is_it))
       note(Clause::contact_missed, record,
            fmt::format("does not report a contact: `{}`, {}", header_.ids[exact.collider], name_of(exact.side)));
