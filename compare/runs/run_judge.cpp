@@ -394,6 +394,14 @@ void RunJudge::judge_clauses(const TraceStep& record, const StepJudgement& judge
   check(Clause::sensor, judged.max_sensor_error * record.requested.norm() > guaranteed_gap,
         [&] { return fmt::format("a sensor's event is {:.3g} of the step off", judged.max_sensor_error); });
   check(Clause::start_inside, judged.stuck_refuted, [] { return std::string("says it is stuck beside a way out"); });
+  check(Clause::start_inside, judged.start_mishandled,
+        [] { return std::string("begins inside, and neither leaves by the shortest way out nor stays and says so"); });
+  check(Clause::velocity, judged.way_gained > 0,
+        [&] { return "goes " + metres(judged.way_gained) + " farther than anything made it"; });
+  check(Clause::velocity, judged.leg_error > 0,
+        [&] { return "goes another way than the law makes, by " + metres(judged.leg_error); });
+  check(Clause::velocity, judged.speed_gained > 0,
+        [&] { return fmt::format("is {:.3g} m/s faster than anything made it", judged.speed_gained); });
   check(Clause::hanging, judged.hangs, [] { return std::string("hangs in the air"); });
   check(Clause::speed_lost, judged.motion_lost > 0,
         [&] { return "loses " + metres(judged.motion_lost) + " of its horizontal way to nothing"; });
@@ -422,11 +430,7 @@ void RunJudge::judge_velocity(const TraceStep& record, const StepJudgement& judg
   const bool excused = !record.start_overlap.empty() || !judged.end_overlap.empty() || crushed || record.stuck ||
                        record.dropped || header_.substeps > 1 || wanted.parts > 1;
   if (excused || !contains(header_.guarantees, Clause::velocity)) return;
-  if (!record.met.empty()) {  // what characters hand on to each other is no matter of surfaces
-    if (judged.speed_gained > 0)
-      note(Clause::velocity, record, fmt::format("is {:.3g} m/s faster than anything made it", judged.speed_gained));
-    return;
-  }
+  if (!record.met.empty()) return;  // what characters hand on to each other is no matter of surfaces
   const Vec2d up = up_in(record, header_);
   ControlledStep step{.wanted = wanted.velocity, .up = up};
   step.unsteered = wanted.velocity - wanted.steered / length_of(record, header_) * Vec2d(up.y(), -up.x());
