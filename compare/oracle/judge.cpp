@@ -491,12 +491,11 @@ void Judge::judge_legs(const TraceStep& step, const Others& others, const Wanted
   const bool says_so = step.stuck || !judgement.crushed.empty() || !judgement.crushed_with_room.empty();
   const auto overlaps = [](const NearPart& part) { return part.faces.front().separation < 0; };
   const auto is_inside_another = [&] {
-    const std::vector<NearPart> parts =
-        others.near ? others.near(step.path.back(), 0) : std::vector<NearPart>{};
+    const std::vector<NearPart> parts = others.near ? others.near(step.path.back(), 0) : std::vector<NearPart>{};
     return std::any_of(parts.begin(), parts.end(), overlaps);
   };
-  const bool stays = (held && !judgement.end_overlap.empty()) ||
-                     (!step.start_overlap_characters.empty() && is_inside_another());
+  const bool stays =
+      (held && !judgement.end_overlap.empty()) || (!step.start_overlap_characters.empty() && is_inside_another());
   judgement.start_mishandled = leaving_.longer || (stays && !says_so) || (held && (way > 0 || speed > 0));
   if (held) return;
   if (!leaving_.turning) judgement.way_gained = way;

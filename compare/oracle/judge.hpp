@@ -73,11 +73,11 @@ struct StepJudgement {
   /// How far the requested motion goes against the normal of the first impact, where it goes as requested until then
   /// [m].
   std::optional<double> first_approach;
-  bool hangs = false;           ///< It could have fallen, and did not: see `Judge`.
-  bool hovers = false;          ///< Only surfaces farther than 1e-6 m away, within the contender's own reach, hold it.
-  double remainder_made = 0;    ///< Horizontally, taken up by a grid to be made later [m].
-  double motion_wanted = 0;     ///< Horizontally [m].
-  double motion_lost = 0;       ///< Of that, to nothing exact [m]: see `Judge`.
+  bool hangs = false;         ///< It could have fallen, and did not: see `Judge`.
+  bool hovers = false;        ///< Only surfaces farther than 1e-6 m away, within the contender's own reach, hold it.
+  double remainder_made = 0;  ///< Horizontally, taken up by a grid to be made later [m].
+  double motion_wanted = 0;   ///< Horizontally [m].
+  double motion_lost = 0;     ///< Of that, to nothing exact [m]: see `Judge`.
   /// It began inside something, and neither left that as §6 of the guarantee says nor was held there: see `Judge`.
   bool start_mishandled = false;
   bool stuck_refuted = false;   ///< It said that it is stuck, and there is a way out: see `Judge`.

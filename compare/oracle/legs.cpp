@@ -52,8 +52,8 @@ LegJudge::LegJudge(const TraceHeader& header, const ExactScenery& scenery, const
 /// The largest speed that the step can have without what moves [m/s]. Steering that presses into a steep face is taken
 /// out of what is wanted; a walk keeps its speed across up on ground as steep as it may be.
 double LegJudge::own_speed() const {
-  const double most = std::max({wanted_.velocity.norm(), first_.velocity.norm(), wanted_.displacement.norm() / dt_,
-                                unsteered_.norm()});
+  const double most =
+      std::max({wanted_.velocity.norm(), first_.velocity.norm(), wanted_.displacement.norm() / dt_, unsteered_.norm()});
   return (most + later_.steered() + later_.jump) /
          std::cos(header_.character.max_climb_degrees * std::numbers::pi / 180);
 }
@@ -72,7 +72,8 @@ double LegJudge::conveyed() const {
 /// How far all goes in the step that moves and may reach the character [m].
 double LegJudge::pushed() const {
   double farthest = others_.longest_way;
-  for (const MoverMotion<double>& motion : step_.movers) farthest = std::max(farthest, (motion.to - motion.from).norm());
+  for (const MoverMotion<double>& motion : step_.movers)
+    farthest = std::max(farthest, (motion.to - motion.from).norm());
   if (!(farthest > 0)) return 0;
   const double own = own_speed() * dt_ + contact_reach;
   std::map<ColliderIndex, double> solids;
@@ -139,8 +140,8 @@ double LegJudge::speed_gained(bool held) const {
   // A fall becomes a rise only where a walk climbs, and that keeps its speed across up.
   const bool rises = !held && step_.velocity.dot(up_) > relative_rounding && wanted_.velocity.dot(up_) < 0;
   if (rises && step_.contacts.size() <= 1 && !is_beside_what_moves()) {
-    const double across =
-        std::max(std::abs(wanted_.velocity.dot(right_)), std::abs(unsteered_.dot(right_))) + later_.steered() + conveyed();
+    const double across = std::max(std::abs(wanted_.velocity.dot(right_)), std::abs(unsteered_.dot(right_))) +
+                          later_.steered() + conveyed();
     const double too_fast = std::abs(step_.velocity.dot(right_)) - across;
     if (too_fast > relative_rounding * (1 + most)) more = std::max(more, too_fast);
   }
@@ -154,7 +155,8 @@ bool LegJudge::is_beside_what_moves() const {
   }
   for (std::size_t corner = 0; corner < step_.path.size(); ++corner) {
     const std::vector<NearPart> parts = near(corner, contact_reach);
-    if (std::any_of(parts.begin(), parts.end(), [](const NearPart& part) { return !part.moved.isZero(0); })) return true;
+    if (std::any_of(parts.begin(), parts.end(), [](const NearPart& part) { return !part.moved.isZero(0); }))
+      return true;
     if (others_.near && !others_.near(step_.path[corner], contact_reach).empty()) return true;
   }
   return false;
@@ -163,9 +165,9 @@ bool LegJudge::is_beside_what_moves() const {
 double LegJudge::leg_error() const {
   const bool in_parts = first_.parts > 1 || later_.any() || !step_.vertex_ways.empty();
   if (step_.dropped || in_parts || !step_.met.empty() || is_beside_what_moves()) return 0;
+  // A side hit ends a rise with the step: the way still goes on.
   ControlledStep law{.wanted = first_.displacement / dt_, .up = up_};
   law.unsteered = law.wanted - first_.steered / dt_ * right_;
-  law.side_hit_ends_rise = header_.character.side_hit_ends_rise;
   const SolidsInStep solids(header_, scenery_, step_);
   const bool walks = begins_as_walk(header_, step_, first_.from_ground, first_.velocity);
   const std::vector<MetSurface> surfaces = met_surfaces(solids, step_.contacts, walks);
@@ -189,7 +191,8 @@ double LegJudge::leg_error() const {
     const double time = (to.fraction - from.fraction) * dt_;
     if (!(time > 0)) continue;
     double least = HUGE_VAL;
-    for (const Vec2d& outcome : outcomes) least = std::min(least, (to.position - from.position - outcome * time).norm());
+    for (const Vec2d& outcome : outcomes)
+      least = std::min(least, (to.position - from.position - outcome * time).norm());
     off = std::max(off, least);
   }
   double room = restores_start + follows_seam + aims_away + rounding();

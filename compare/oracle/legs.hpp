@@ -56,7 +56,7 @@ class LegJudge {
   const LaterParts& later_;
   Vec2d up_;
   Vec2d right_;
-  double dt_;  ///< [s]
+  double dt_;        ///< [s]
   Vec2d unsteered_;  ///< [m/s]
 };
 
