@@ -5,11 +5,16 @@
 #include "runs/run_judge.hpp"
 #include "runs/technique_parts.hpp"
 #include "scenes/load.hpp"
+#include "scenes/step_times.hpp"
 #include "words.hpp"
+
+#include <paperproof/scenery.hpp>
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <utility>
 
 namespace paperproof::compare {
 namespace {
@@ -17,6 +22,11 @@ namespace {
 /// The header with what the scene says in place of what it says itself.
 TraceHeader as_scene_says(TraceHeader header, const Scene& scene, const std::string& path) {
   if (header.ids != scene.ids) throw InputError(path + ": expected the colliders of the scene, in its order");
+  if (header.characters != character_count(scene))
+    throw InputError(fmt::format("{}: expected {}", path, counted(character_count(scene), "character")));
+  for (std::size_t i = 0; i < scene.movers.size(); ++i)
+    if ((i < header.turning.size() && header.turning[i]) == scene.movers[i].turns.empty())
+      throw InputError(path + ": expected the movers to turn that turn in the scene");
   const CharacterDef rules = header.character;
   header.points.assign(scene.character.shape.hull().begin(), scene.character.shape.hull().end());
   header.scenery = scene.scenery;
@@ -29,6 +39,45 @@ TraceHeader as_scene_says(TraceHeader header, const Scene& scene, const std::str
   header.character.side_hit_ends_rise = rules.side_hit_ends_rise;
   header.guarantees = promised;
   return header;
+}
+
+/// What a scene asks for in each step.
+class AskedByScene {
+ public:
+  AskedByScene(const Scene& scene, const TraceHeader& header)
+      : header_(header), script_(script_of(scene)), times_(scene) {}
+
+  /// @throws InputError where a record is of another step, gravity or input.
+  void check(const TraceStep& record, const std::string& path) const {
+    const auto expect = [&](bool is_so, const char* what) {
+      if (!is_so) throw InputError(fmt::format("{}: step {}: expected {} of the scene", path, record.step, what));
+    };
+    const double length = times_.vary() ? times_.length(record.step) : header_.dt;
+    expect(length_of(record, header_) == length, "the length");
+    expect(!record.up || *record.up == header_.up, "the up");
+    expect(!record.gravity || *record.gravity == header_.gravity, "the gravity");
+    const Input input = input_at(script_[record.character], record.step);
+    expect(record.input.move == input.move && record.input.jump == input.jump && record.input.drop == input.drop,
+           "the input");
+  }
+
+ private:
+  const TraceHeader& header_;
+  Script script_;
+  StepTimes times_;
+};
+
+/// Whether two records say the same of the world, which has one state in a step.
+bool is_one_world(const TraceStep& a, const TraceStep& b) {
+  const auto same_motion = [](const MoverMotion<double>& one, const MoverMotion<double>& other) {
+    return one.from == other.from && one.to == other.to;
+  };
+  const auto same_way = [](const VertexWay& one, const VertexWay& other) {
+    return one.collider == other.collider && one.instants == other.instants && one.vertices == other.vertices;
+  };
+  return a.dt == b.dt && a.up == b.up && a.gravity == b.gravity &&
+         std::equal(a.movers.begin(), a.movers.end(), b.movers.begin(), b.movers.end(), same_motion) &&
+         std::equal(a.vertex_ways.begin(), a.vertex_ways.end(), b.vertex_ways.begin(), b.vertex_ways.end(), same_way);
 }
 
 /// The records of one step, one of each character; empty behind the last.
@@ -50,6 +99,9 @@ class Steps {
       if (!fits || !next_->refused.empty())
         throw InputError(fmt::format("{}: expected a record of character {} in step {}", path_, records.size(),
                                      records.empty() ? next_->step : records[0].step));
+      if (!records.empty() && !is_one_world(records[0], *next_))
+        throw InputError(fmt::format("{}: step {}: character {} has another world than character 0", path_, next_->step,
+                                     next_->character));
       records.push_back(std::move(*next_));
       next_ = reader_.next();
     }
@@ -64,23 +116,42 @@ class Steps {
   std::optional<TraceStep> next_;
 };
 
+/// What no trace can stand for.
+void check_header(const TraceHeader& header, const std::string& path) {
+  if (header.substeps > 1 && !header.guarantees.empty())
+    throw InputError(path + ": /substeps: expected 1 of who guarantees something");
+  try {
+    const Scenery<double> scenery(header.scenery);
+  } catch (const std::invalid_argument& reason) {
+    throw InputError(fmt::format("{}: /colliders: {}", path, reason.what()));
+  }
+}
+
 bool judge_trace(const std::string& path, const JudgeOptions& options, const std::optional<Scene>& scene) {
   Steps steps(path);
   TraceHeader header = scene ? as_scene_says(steps.header(), *scene, path) : steps.header();
+  check_header(header, path);
+  const std::optional<AskedByScene> asked =
+      scene ? std::optional<AskedByScene>(std::in_place, *scene, header) : std::nullopt;
   if (options.all_clauses) header.guarantees = every_clause();
   if (!header.guarantees.empty()) header.path_exact = true;  // a promise is about the way that was travelled
   RunJudge judge(header, {.gravity = header.gravity});
   int judged = 0;
+  int refused = 0;
   for (std::vector<TraceStep> records = steps.next(); !records.empty(); records = steps.next()) {
     if (!records.front().refused.empty()) {
       judge.add_refused(records.front());
+      ++refused;
       continue;
     }
+    if (asked)
+      for (const TraceStep& record : records) asked->check(record, path);
     const std::vector<TraceStep> claimed = records;
     judge.add(records);
     for (std::size_t k = 0; k < records.size(); ++k) judge.check_start(claimed[k], records[k]);
     ++judged;
   }
+  if (judged + refused == 0) throw InputError(path + ": expected a step");
   const Breaches breaches = judge.breaches();
   int broken = 0;
   for (const auto& [clause, breach] : breaches) broken += contains(header.guarantees, clause);
@@ -93,6 +164,10 @@ bool judge_trace(const std::string& path, const JudgeOptions& options, const std
   Row row;
   judge.write(row);
   if (row.arc_error_max_m) fmt::print("  what turns leaves its arc by at most {:.3g} m\n", *row.arc_error_max_m);
+  if (refused > 0) fmt::print("  {} refused\n", counted(refused, "step"));
+  const auto bodies = std::count_if(header.scripts.begin(), header.scripts.end(),
+                                    [](const MoverScript& script) { return script.body; });
+  if (bodies > 0) fmt::print("  {} held against no script\n", counted(bodies, "body"));
   for (const auto& [which, often] : row.exempted) fmt::print("  exempted: {} on {}\n", which, counted(often, "step"));
   return broken > 0;
 }

@@ -198,6 +198,12 @@ MoverScript read_script(const Value& at, const std::vector<std::string>& ids) {
     for (const Value& turn : turns->list(1))
       script.turns.push_back({turn.only({"t", "at"}).require("t").number(), turn.require("at").number()});
   script.body = at.is_set("body");
+  const auto ascend = [](const auto& entries) {
+    return std::adjacent_find(entries.begin(), entries.end(),
+                              [](const auto& a, const auto& b) { return !(a.time < b.time); }) == entries.end();
+  };
+  if (!ascend(script.path)) at.require("path").refuse("times that ascend");
+  if (!ascend(script.turns)) at.require("turns").refuse("times that ascend");
   return script;
 }
 
@@ -310,6 +316,7 @@ VertexWay read_way(const Value& at, ColliderIndex collider, const ColliderDef& d
 void read_movers(const Value& at, const TraceHeader& header, TraceStep& step) {
   step.movers.resize(header.scripts.size());
   std::set<ColliderIndex> seen;
+  std::set<MoverIndex> placed;
   for (const auto& [id, motion] : at.entries()) {
     const auto found = std::find(header.ids.begin(), header.ids.end(), id);
     const auto collider = static_cast<ColliderIndex>(found - header.ids.begin());
@@ -322,7 +329,11 @@ void read_movers(const Value& at, const TraceHeader& header, TraceStep& step) {
       continue;
     }
     const std::vector<Value> ends = motion.list(2, 2);
-    step.movers[mover] = {ends[0].point(), ends[1].point()};
+    MoverMotion<double>& own = step.movers[mover];
+    const MoverMotion<double> said{ends[0].point(), ends[1].point()};
+    if (!placed.insert(mover).second && (own.from != said.from || own.to != said.to))
+      motion.refuse("the motion that the mover's other colliders have");
+    own = said;
   }
   std::sort(step.vertex_ways.begin(), step.vertex_ways.end(),
             [](const VertexWay& a, const VertexWay& b) { return a.collider < b.collider; });

@@ -32,10 +32,19 @@ constexpr double guaranteed_range = 1e6;
 constexpr double range = 2e6;
 /// What moves farther away than this does not reach a character at rest in the step [m].
 constexpr double beside = 0.01;
+/// Relative: two computations of a velocity.
+constexpr double same_speed = 1e-9;
 /// A character this far outside of its map is put back [m].
 constexpr double lost_beyond = 10;
 
 bool moves(const MoverMotion<double>& motion) { return motion.from != motion.to; }
+
+double extent_of(const std::vector<Vec2d>& points) {
+  double extent = 0;
+  for (const Vec2d& a : points)
+    for (const Vec2d& b : points) extent = std::max(extent, (a - b).norm());
+  return extent;
+}
 
 std::string metres(double length) { return fmt::format("{:.3g} m", length); }
 
@@ -117,6 +126,7 @@ void RunJudge::add(std::span<TraceStep> records) {
       judge_met(asked[k], asked);
       judge_rest(asked[k], follower);
       judge_ride(asked[k], follower);
+      judge_carrier(asked[k]);
     }
     follower.inside = judgements_[k].end_overlap;
     follower.intent.end(records[k]);
@@ -162,14 +172,17 @@ void RunJudge::judge_course(const TraceStep& record, Follower& follower) {
   const auto is_start = [&] {
     if (record.character >= header_.starts.size()) return false;
     const TraceStart& start = header_.starts[record.character];
-    const bool same_velocity = !record.from || record.from->velocity == start.velocity;
-    return path.front().position == start.position && same_velocity;
+    const TraceState from = record.from.value_or(TraceState{.velocity = start.velocity});
+    return path.front().position == start.position && from.velocity == start.velocity && !from.ride &&
+           !(from.grounded || from.jumping || from.jump_held || from.jump_pending);
   };
   std::string fault;
   if (path.front().fraction != 0 || path.back().fraction != 1 ||
       !std::is_sorted(path.begin(), path.end(), [](const auto& a, const auto& b) { return a.fraction < b.fraction; }))
     fault = "the fractions of its way do not ascend from 0 to 1";
-  if (follower.last.empty()) {
+  if (refused_) {
+    fault = "goes on after the step that it refused";
+  } else if (follower.last.empty()) {
     if (record.step != 0)
       fault = fmt::format("the run begins with step {}", record.step);
     else if (record.respawn || !is_start())
@@ -221,18 +234,46 @@ void RunJudge::judge_rest(const TraceStep& record, const Follower& follower) {
   const TraceStep& before = follower.last[1];
   const TraceStep& earlier = follower.last[0];
   const auto same = [this](const TraceStep& a, const TraceStep& b) {
-    return a.path.back().position == b.path.back().position && a.velocity == b.velocity && a.grounded == b.grounded &&
-           length_of(a, header_) == length_of(b, header_) && up_in(a, header_) == up_in(b, header_);
+    return a.path.back().position == b.path.back().position && a.velocity == b.velocity && a.grounded == b.grounded;
+  };
+  const auto is_asked_alike = [this](const TraceStep& a, const TraceStep& b) {
+    return length_of(a, header_) == length_of(b, header_) && up_in(a, header_) == up_in(b, header_);
   };
   const bool repeated = same(before, earlier) && stands(earlier) && stands(before) && stands(record) && !company_ &&
                         follower.last_wanted[1].displacement == follower.wanted.displacement &&
                         follower.last_wanted[1].steered == follower.wanted.steered &&
-                        before.input.drop == record.input.drop &&
-                        length_of(before, header_) == length_of(record, header_);
+                        before.input.drop == record.input.drop && is_asked_alike(earlier, before) &&
+                        is_asked_alike(before, record);
   if (repeated && !same(record, before))
     note(Clause::rest, record,
          fmt::format("moves by {} after position and velocity had repeated",
                      metres((record.path.back().position - before.path.back().position).norm())));
+}
+
+/// What it says that it rides is there, and goes as it says.
+void RunJudge::judge_carrier(const TraceStep& record) {
+  if (!record.ride || header_.guarantees.empty()) return;
+  const ColliderIndex carrier = record.ride->collider;
+  const SolidsInStep there(header_, solids(), record);
+  const Place end(record.path.back(), record.movers);
+  double off = std::numeric_limits<double>::infinity();
+  for (const NearPart& part : there.at(1).near_parts(end, guaranteed_gap))
+    for (const NearFace& face : part.faces) {
+      if (part.collider != carrier) continue;
+      const Vec2d foot =
+          *std::min_element(header_.points.begin(), header_.points.end(),
+                            [&](const Vec2d& a, const Vec2d& b) { return a.dot(face.normal) < b.dot(face.normal); });
+      const Vec2d point = end.position + foot;
+      const Contact<double> touch{.collider = carrier, .point = point, .normal = face.normal, .fraction = 1};
+      const Vec2d velocity = velocity_of(there, touch);
+      const double unknown = there.spread(carrier, there.moved(carrier, point, 1), extent_of(header_.points));
+      off = std::min(off, (record.ride->velocity - velocity).norm() - unknown - same_speed * (1 + velocity.norm()));
+    }
+  if (std::isinf(off))
+    note(Clause::ground_invented, record, "says it rides `" + header_.ids[carrier] + "`, which is not there");
+  else if (off > 0)
+    note(Clause::velocity, record,
+         fmt::format("says it rides `{}` at a velocity that is {:.3g} m/s off", header_.ids[carrier], off));
 }
 
 /// A rider that goes nowhere on its mover keeps its place there.
@@ -443,22 +484,23 @@ void RunJudge::judge_velocity(const TraceStep& record, const StepJudgement& judg
 }
 
 void RunJudge::add_refused(const TraceStep& record) {
-  Follower& follower = followers_[record.character];
+  const Follower& follower = followers_[record.character];
   if (ways_) ways_->pass_over(record);
-  if (follower.last.empty()) return;
-  const Vec2d& start = follower.last.back().path.back().position;
+  refused_ = true;
+  TraceStart begin;
+  if (record.character < header_.starts.size()) begin = header_.starts[record.character];
+  if (!follower.last.empty()) begin = {follower.last.back().path.back().position, follower.last.back().velocity};
   const double dt = length_of(record, header_);
-  const Vec2d reach = follower.last.back().velocity.cwiseAbs() * dt + header_.gravity.cwiseAbs() * dt * dt +
-                      Vec2d::Constant(header_.character.jump_speed * dt);
-  const bool must = !(dt > 0) || !((start.cwiseAbs() + reach).maxCoeff() < range);
+  const CharacterDef& character = header_.character;
+  const double fastest = begin.velocity.norm() + character.jump_speed + character.walk_speed +
+                         character.acceleration * dt + gravity_in(record, header_).norm() * dt;
+  const bool may = !(dt > 0) || !(begin.position.cwiseAbs().maxCoeff() + fastest * dt < range);
   const bool movers_leave = std::any_of(header_.scripts.begin(), header_.scripts.end(), [](const MoverScript& script) {
-    return script.body ||
-           std::any_of(script.path.begin(), script.path.end(), [](const MoverScript::Waypoint& waypoint) {
-             return !(waypoint.at.cwiseAbs().maxCoeff() < range);
-           });
+    return std::any_of(script.path.begin(), script.path.end(), [](const MoverScript::Waypoint& waypoint) {
+      return !(waypoint.at.cwiseAbs().maxCoeff() < range);
+    });
   });
-  follower.last.back().step = record.step;
-  if (!must && !movers_leave) note(Clause::refusal, record, "refuses a step that it can take: " + record.refused);
+  if (!may && !movers_leave) note(Clause::refusal, record, "refuses a step that it can take: " + record.refused);
 }
 
 Breaches RunJudge::breaches() const {

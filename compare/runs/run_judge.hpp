@@ -57,6 +57,7 @@ class RunJudge {
   void judge_wish(const TraceStep& record, const Wanted& wanted, const Follower& follower);
   void judge_rest(const TraceStep& record, const Follower& follower);
   void judge_ride(const TraceStep& record, const Follower& follower);
+  void judge_carrier(const TraceStep& record);
   void judge_clauses(const TraceStep& record, const StepJudgement& judged);
   void judge_velocity(const TraceStep& record, const StepJudgement& judged, const Follower& follower);
   void judge_movers(const TraceStep& record);
@@ -78,6 +79,7 @@ class RunJudge {
   std::vector<StepJudgement> judgements_;
   std::vector<std::string> begins_inside_;
   Breaches breaches_;
+  bool refused_ = false;  ///< A step: the run ends there.
   int steps_ = 0;
   int steps_broken_ = 0;  ///< Steps that entered a solid, passed one, or passed a one-way chain backwards.
   int steps_capped_ = 0;
