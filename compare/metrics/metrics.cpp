@@ -261,6 +261,7 @@ void Metrics::add_exempted(const StepJudgement& judgement) {
   exempt(Exempt::touched_crush, judgement.excused_crush);
   exempt(Exempt::unsure, judgement.unsure);
   exempt(Exempt::in_parts, judgement.in_parts);
+  exempt(Exempt::turning_sensor, judgement.turning_sensor);
 }
 
 void Metrics::add(const TraceStep& step, const StepJudgement& judgement) {

@@ -39,8 +39,8 @@ namespace paperproof::compare {
 ///   nothing does.
 /// - `hanging_steps`, `stuck_refuted`, `ground_refuted`: see `Judge`. `distance_m`: length of the ways.
 ///   `wanted_motion_lost`: share of the wanted horizontal motion, over the run, that was lost to nothing exact.
-/// - `rounding`: steps ending inside by no more than rounding, of a contender that promises nothing. `exempted`: what was not held
-///   against the contender, and how often: see oracle/exemptions.hpp.
+/// - `rounding`: steps ending inside by no more than rounding, of a contender that promises nothing. `exempted`: what
+///   was not held against the contender, and how often: see oracle/exemptions.hpp.
 /// - `contact_steps`: steps with a reported contact. `colliders_touched`: how many different ones.
 /// - `first_contact_step`, `first_contact_fraction`: the earliest reported contact.
 /// - `exact_first_impact_step`, `exact_first_impact_fraction`: the first impact of the wanted motion that exact

@@ -47,11 +47,9 @@ bool EndJudge::meets_ground(const Vec2d& displacement) const {
   return false;
 }
 
-/// Whether another character is beneath is not asked.
 bool EndJudge::stands_on_ground() const { return meets_ground(-up_ * (2 * contact_reach)); }
 
 void EndJudge::judge_ground(const HangingJudge& hanging, bool starts_free, StepJudgement& judgement) const {
-  const std::size_t last = step_.path.size() - 1;
   if (!judgement.end_overlap.empty() || !judgement.crushed.empty()) return;
   const std::vector<NearPart> parts = near_at_end(guaranteed_touch + touch_rounding);
   const auto any_face = [&](const auto& is) {
@@ -64,9 +62,7 @@ void EndJudge::judge_ground(const HangingJudge& hanging, bool starts_free, StepJ
   if (step_.grounded) {
     const bool on_ground = any_face(walkable);
     judgement.ground_refuted = !on_ground && !hanging.is_held_at_end(guaranteed_touch + touch_rounding);
-    const bool only_solids =
-        !others_.near || others_.impacts_at_end || others_.near(step_.path[last], guaranteed_touch).empty();
-    judgement.hovers = judgement.hovers || (on_ground && only_solids && !stands_on_ground());
+    judgement.hovers = judgement.hovers || (on_ground && !stands_on_ground());
     return;
   }
   const Vec2d unsteered = wanted_.displacement - wanted_.steered * Vec2d(up_.y(), -up_.x());
@@ -99,7 +95,8 @@ bool EndJudge::goes_freely() const {
   if (!is_alone() || !near(0, contact_reach).empty()) return false;
   const Place wanted(start.position + wanted_.displacement, step_.movers, 1);
   if (later_.any()) return scenery_.near(start, wanted, contact_reach + later_.bend()).empty();
-  return grown_scenery_.met(start, wanted).empty();
+  // A larger octagon is less often above a one-way surface.
+  return grown_scenery_.met(start, wanted).empty() && scenery_.met(start, wanted).empty();
 }
 
 /// How far a free motion leaves the wanted one [m/s].

@@ -14,6 +14,10 @@ namespace {
 
 /// Where the approach is a smaller part of the motion it grazes: see `Judge`.
 constexpr double least_approach = 1e-3;
+/// What a normal that was computed otherwise is off.
+constexpr double rounding_of_normal = 1e-6;
+/// With more contacts with scenery there are too many ways that they may have left.
+constexpr std::size_t most_contacts = 4;
 /// Half of the narrowest opening between others that counts as room [m]: as between solids.
 constexpr double least_clearance = 1e-7;
 
@@ -43,6 +47,21 @@ Vec2d place_at(const std::vector<PathPoint<double>>& path, double fraction) {
   return path.back().position;
 }
 
+/// What counts as touching [m]. What the header says of itself excuses nothing where something is promised.
+double touch_of(const TraceHeader& header) {
+  if (!header.path_exact) return box2d_skin;
+  if (party_of(header) == Party::promising) return detail::contact_reach;
+  return std::max(detail::contact_reach, tolerance_named(header, "touch"));
+}
+
+/// How far it goes in the time of a whole step, as it does after a fraction of it [m].
+Vec2d rate_after(const std::vector<PathPoint<double>>& path, double fraction) {
+  for (std::size_t i = 0; i + 1 < path.size(); ++i)
+    if (path[i].fraction <= fraction && fraction < path[i + 1].fraction)
+      return (path[i + 1].position - path[i].position) / (path[i + 1].fraction - path[i].fraction);
+  return Vec2d::Zero();
+}
+
 const Vec2d& start_of(const TraceStep& step) { return step.path.front().position; }
 const Vec2d& end_of(const TraceStep& step) { return step.path.back().position; }
 
@@ -53,7 +72,7 @@ CompanyJudge::CompanyJudge(const TraceHeader& header)
       pair_(header.points),
       box_(box_of(header.points)),
       slop_(detail::slop_of(header)),
-      reach_(header.path_exact ? std::max(detail::contact_reach, tolerance_named(header, "touch")) : box2d_skin) {}
+      reach_(touch_of(header)) {}
 
 std::vector<CharacterIndex> CompanyJudge::overlapped(std::span<const Vec2d> positions, CharacterIndex character) const {
   std::vector<CharacterIndex> found;
@@ -89,17 +108,80 @@ Others CompanyJudge::others_of(CharacterIndex character, std::span<const TraceSt
     }
     return parts;
   };
+  others.impacts_at_end = [this, steps, character](const Vec2d& displacement) {
+    const Vec2d from = end_of(steps[character]);
+    std::vector<ExactImpact> impacts;
+    for (const TraceStep& other : steps) {
+      if (other.character == character) continue;
+      if (const auto impact = pair_.first_impact(from, displacement, end_of(other), Vec2d::Zero()))
+        impacts.push_back({.collider = no_collider, .fraction = impact->fraction, .normal = impact->normal});
+    }
+    return impacts;
+  };
   return others;
+}
+
+template <class Visit>
+bool CompanyJudge::any_moment(const TraceStep& one, const TraceStep& other, const Visit& visit) {
+  for (const PathPoint<double>& corner : one.path)
+    if (visit(corner.position, place_at(other.path, corner.fraction), corner.fraction)) return true;
+  for (const PathPoint<double>& corner : other.path)
+    if (visit(place_at(one.path, corner.fraction), corner.position, corner.fraction)) return true;
+  return false;
 }
 
 double CompanyJudge::nearest(const TraceStep& one, const TraceStep& other) const {
   double gap = std::numeric_limits<double>::infinity();
-  const auto look = [&](const Vec2d& mine, const Vec2d& theirs) {
+  any_moment(one, other, [&](const Vec2d& mine, const Vec2d& theirs, double) {
     gap = std::min(gap, pair_.separation(mine, theirs));
-  };
-  for (const PathPoint<double>& corner : one.path) look(corner.position, place_at(other.path, corner.fraction));
-  for (const PathPoint<double>& corner : other.path) look(place_at(one.path, corner.fraction), corner.position);
+    return false;
+  });
   return gap;
+}
+
+bool CompanyJudge::has_face(const TraceStep& one, const TraceStep& other, const Vec2d& normal) const {
+  return any_moment(one, other, [&](const Vec2d& mine, const Vec2d& theirs, double) {
+    const std::vector<NearFace> faces = pair_.near_faces(mine, theirs, 2 * reach_);
+    return std::any_of(faces.begin(), faces.end(),
+                       [&](const NearFace& face) { return (face.normal - normal).norm() <= rounding_of_normal; });
+  });
+}
+
+/// What was requested of a character, and all that its contacts with scenery may have left of it.
+std::vector<Vec2d> CompanyJudge::ways_of(const TraceStep& step) const {
+  std::vector<Vec2d> ways{step.requested};
+  for (const Contact<double>& contact : step.contacts) {
+    const MoverIndex mover = header_.scenery.colliders[contact.collider].mover;
+    const Vec2d own = mover == no_mover ? Vec2d::Zero() : Vec2d(step.movers[mover].to - step.movers[mover].from);
+    for (std::size_t i = 0, before = ways.size(); i < before; ++i)
+      for (const Vec2d& left :
+           detail::ways_left(ways[i], own, step.steered, contact.normal, header_, up_in(step, header_)))
+        ways.push_back(left);
+  }
+  return ways;
+}
+
+bool CompanyJudge::must_meet(const TraceStep& one, const TraceStep& other) const {
+  const auto goes_freely = [](const TraceStep& step, CharacterIndex whom) {
+    return !step.stuck && !step.dropped && step.crushed.empty() && step.start_overlap.empty() &&
+           step.start_overlap_characters.empty() && step.contacts.size() <= most_contacts &&
+           std::all_of(step.met.begin(), step.met.end(), [&](const auto& met) { return met.other == whom; });
+  };
+  if (!header_.path_exact || !may_meet(one, other)) return false;
+  if (!goes_freely(one, other.character) || !goes_freely(other, one.character)) return false;
+  const std::vector<Vec2d> ways = ways_of(one);
+  return any_moment(one, other, [&](const Vec2d& mine, const Vec2d& theirs, double fraction) {
+    if (!(fraction < 1) || !(pair_.separation(mine, theirs) <= detail::contact_reach)) return false;
+    const Vec2d goes = rate_after(other.path, fraction);
+    return std::all_of(ways.begin(), ways.end(), [&](const Vec2d& way) {
+      const auto impact = pair_.first_impact(mine, way, theirs, goes);
+      if (!impact) return false;
+      const double approach = -(way - goes).dot(impact->normal);
+      const double until = static_cast<double>(impact->fraction) * approach;
+      return approach >= least_approach * (way - goes).norm() && until <= detail::contact_reach &&
+             until + least_clearance <= (1 - fraction) * approach;
+    });
+  });
 }
 
 double CompanyJudge::gap_at(const TraceStep& one, const TraceStep& other, double fraction) const {

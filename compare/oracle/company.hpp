@@ -44,6 +44,16 @@ class CompanyJudge {
   /// The smallest separation of two characters at a corner of either's way [m].
   [[nodiscard]] double nearest(const TraceStep& one, const TraceStep& other) const;
 
+  /// Whether a normal is of a face along which the one is apart from the other, and touches it, at a corner of either's
+  /// way. @param normal towards the one.
+  [[nodiscard]] bool has_face(const TraceStep& one, const TraceStep& other, const Vec2d& normal) const;
+
+  /// Whether the one must say that it met the other: at a corner of either's way they are no farther than 1e-6 m from
+  /// each other, and where the other goes from there is entered, in what is left of the step, by what was requested of
+  /// the one and by all that its contacts with scenery may have left of that. Not asked where a character says that it
+  /// is stuck, crushed or gives up its way, begins inside something, or met a third one.
+  [[nodiscard]] bool must_meet(const TraceStep& one, const TraceStep& other) const;
+
   /// Their separation at a fraction of the step [m].
   [[nodiscard]] double gap_at(const TraceStep& one, const TraceStep& other, double fraction) const;
 
@@ -65,6 +75,10 @@ class CompanyJudge {
     double fraction = 0;
     bool comparable = false;
   };
+  /// Calls `visit(mine, theirs, fraction)` for their places at the corners of either's way, until it returns true.
+  template <class Visit>
+  static bool any_moment(const TraceStep& one, const TraceStep& other, const Visit& visit);
+  [[nodiscard]] std::vector<Vec2d> ways_of(const TraceStep& step) const;
   [[nodiscard]] bool continues(const TraceStep& step) const;
   void judge_pair(const TraceStep& one, const TraceStep& other, StepJudgement& judgement);
   void judge_apart(const TraceStep& one, const TraceStep& other, StepJudgement& judgement);

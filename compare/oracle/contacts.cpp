@@ -16,32 +16,20 @@ namespace {
 /// Below this gap at the end of the motion the controller may call it a contact already [m]: its hit distance, with
 /// room for the rounding of the comparison.
 constexpr double hit_reach = 1.01e-7;
-/// See `Judge`: sine of the flattest approach whose fraction is compared.
-constexpr double least_approach = 1e-3;
 /// Cosine of the angle between two normals of one face, as far as Box2D's floats and its rounded corners know it.
 constexpr double same_face = 0.9;
 /// A smaller share of the speed is rounding: Box2D's floats have 24 bits.
 constexpr double least_loss = 1e-5;
 
-/// Of the character as it stands. What rounding leaves of a component that is zero is none.
+}  // namespace
+
 Side side_along(const Vec2d& normal, const Vec2d& up) {
   constexpr double rounding = 1e-12;
   const auto clean = [](double component) { return std::abs(component) <= rounding ? 0 : component; };
   return side_of_normal(clean(normal.x() * up.y() - normal.y() * up.x()), clean(normal.dot(up)));
 }
 
-/// Of one collider and side there may be several normals: two slopes of one polygon.
-void add_contact(const ExactImpact& impact, Side side, double fraction, StepJudgement& judgement,
-                 bool foreseen = false) {
-  for (ExactContact& known : judgement.contacts) {
-    if (known.collider != impact.collider || known.side != side || known.normal != impact.normal) continue;
-    known.fraction = std::min(known.fraction, fraction);
-    known.foreseen = known.foreseen && foreseen;
-    return;
-  }
-  judgement.contacts.push_back(
-      {.collider = impact.collider, .side = side, .normal = impact.normal, .fraction = fraction, .foreseen = foreseen});
-}
+namespace {
 
 double degrees_between(const Vec2d& a, const Vec2d& b) {
   return std::atan2(std::abs(a.x() * b.y() - a.y() * b.x()), a.dot(b)) * 180 / std::numbers::pi;
@@ -100,142 +88,12 @@ void ContactJudge::judge(bool starts_free, StepJudgement& judgement) const {
   if (judgement.crushed.empty()) judgement.ghost_speed_loss = ghost_speed_loss(starts_free, judgement);
 }
 
-/// Where the motion begins: a start that is no gap away from something is moved away from it first.
-std::size_t ContactJudge::first_corner() const {
-  if (!header_.path_exact || step_.path.size() < 2 || step_.path[1].fraction > 0) return 0;
-  const bool is_short = (step_.path[1].position - step_.path[0].position).norm() <= contact_reach;
-  return is_short && !scenery_.near_parts(place(0), touch_rounding).empty() ? 1 : 0;
-}
-
-/// What the requested motion enters from a corner. What is overlapped already is left, not met.
-std::vector<ExactImpact> ContactJudge::impacts_from(std::size_t corner) const {
-  std::vector<ExactImpact> impacts = scenery_.impacts(place(corner), step_.requested);
-  std::erase_if(impacts, [&](const ExactImpact& impact) {
-    return dropped_through(impact.collider) ||
-           (header_.path_exact && scenery_.overlaps(place(corner), impact.collider));
-  });
-  return impacts;
-}
-
-/// What a contact may leave of the requested motion, by the laws that there are: it slides, without steering or
-/// momentum across up or with it; on ground its part across up goes on along it.
-std::vector<Vec2d> ContactJudge::left_by(const ExactImpact& contact) const {
-  const Vec2d& n = contact.normal;
-  const Vec2d& requested = step_.requested;
-  const Vec2d own = requested - wanted(contact.collider);
-  const auto slid = [&](const Vec2d& d) { return Vec2d(d - n * std::min(0.0, (d - own).dot(n))); };
-  if (is_walkable(n, header_, up_))
-    return {slid(requested),
-            own + in_world({across(requested - own), -across(requested - own) * across(n) / n.dot(up_)}, up_)};
-  return {slid(requested), slid(requested - step_.steered * right_), slid(up_ * requested.dot(up_))};
-}
-
-/// Whether the motion comes to a contact, whatever is met before it and whichever law it follows there.
-/// @param impacts of the same motion from the same corner. @param scenery that they are with.
-bool ContactJudge::comes_to(const ExactImpact& contact, std::size_t corner, std::span<const ExactImpact> impacts,
-                            const ExactScenery& scenery) const {
-  return std::all_of(impacts.begin(), impacts.end(), [&](const ExactImpact& before) {
-    if (!before.exposed || !(before.fraction < contact.fraction)) return true;
-    Place there = place(corner);
-    there.position += step_.requested * static_cast<double>(before.fraction);
-    const std::vector<Vec2d> left = left_by(before);
-    return std::all_of(left.begin(), left.end(), [&](const Vec2d& way) {
-      const std::optional<ExactImpact> impact = scenery.time_of_impact(there, way, contact.collider);
-      return impact && side_of(*impact) == side_of(contact);
-    });
-  });
-}
-
-/// The same for an octagon that is larger by the distance within which a motion may be said to hit: where the two
-/// differ the contact may be another one.
-bool ContactJudge::comes_to_when_grown(const ExactImpact& contact, std::size_t corner) const {
-  if (grown_scenery_ == nullptr || grown_scenery_->overlaps(place(corner), contact.collider)) return true;
-  const std::vector<ExactImpact> impacts = grown_scenery_->impacts(place(corner), step_.requested);
-  return std::any_of(impacts.begin(), impacts.end(), [&](const ExactImpact& grown) {
-    return grown.collider == contact.collider && side_of(grown) == side_of(contact) &&
-           comes_to(grown, corner, impacts, *grown_scenery_);
-  });
-}
-
 Side ContactJudge::side_of(const ExactImpact& impact) const { return side_along(impact.normal, up_); }
 
 bool ContactJudge::reports(const ExactImpact& impact) const {
   const Side side = side_of(impact);
   return std::any_of(step_.contacts.begin(), step_.contacts.end(), [&](const Contact<double>& contact) {
     return contact.collider == impact.collider && contact.side == side;
-  });
-}
-
-/// @param impacts from the corner. @param met what the requested motion of the step enters, from its start.
-void ContactJudge::add_contacts_at(std::size_t corner, std::span<const ExactImpact> impacts,
-                                   std::span<const ColliderIndex> met, StepJudgement& judgement) const {
-  const double fraction = step_.path[corner].fraction;
-  // What the step only comes near to is entered in the next one, if the motion goes on.
-  const auto in_time = [&](const ExactImpact& impact) {
-    return !header_.path_exact || impact.fraction + Rational(fraction) <= 1 ||
-           (fraction < 1 && std::find(met.begin(), met.end(), impact.collider) != met.end());
-  };
-  const auto is_met = [&](const ExactImpact& impact) {
-    return in_time(impact) &&
-           (!header_.path_exact || (corner >= first_corner() && comes_to(impact, corner, impacts, scenery_) &&
-                                    comes_to_when_grown(impact, corner)));
-  };
-  for (const ExactImpact& impact : impacts) {
-    const double way = static_cast<double>(impact.fraction) * std::abs(wanted(impact.collider).dot(impact.normal));
-    if (way > contact_reach) continue;
-    // A motion that grazes may have far to go although it is near along the normal.
-    if (header_.path_exact && scenery_.separation(place(corner), impact.collider) > contact_reach) continue;
-    const bool is_reported = reports(impact);
-    const bool demanded = impact.exposed && is_met(impact);
-    if (!demanded && !(impact.exposed && is_reported)) {
-      judgement.dont_care.push_back(impact.collider);
-      continue;
-    }
-    const auto is_it = [&](const ExactContact& known) {
-      return known.collider == impact.collider && known.side == side_of(impact);
-    };
-    const bool known = std::any_of(judgement.contacts.begin(), judgement.contacts.end(), is_it);
-    add_contact(impact, side_of(impact), fraction, judgement);
-    if (!known && !demanded) judgement.ahead.emplace_back(impact.collider, side_of(impact));
-  }
-}
-
-void ContactJudge::add_first_impacts(const std::vector<ExactImpact>& impacts, bool starts_free,
-                                     StepJudgement& judgement) const {
-  const auto first = std::min_element(impacts.begin(), impacts.end(), [](const ExactImpact& a, const ExactImpact& b) {
-    return a.fraction < b.fraction;
-  });
-  if (first == impacts.end() || is_closed_before(*first)) return;
-  for (const ExactImpact& impact : impacts) {
-    if (impact.fraction != first->fraction || !impact.exposed) continue;
-    add_contact(impact, side_of(impact), static_cast<double>(impact.fraction), judgement, true);
-  }
-  if (!starts_free) return;
-  const double fraction = static_cast<double>(first->fraction);
-  const Vec2d relative = wanted(first->collider);
-  const double approach = std::abs(relative.dot(first->normal));
-  judgement.first_impact = fraction;
-  if (!step_.stuck && !gives_way()) judgement.first_approach = approach;
-  judgement.first_impact_comparable = !step_.stuck && !gives_way() &&
-                                      fraction * approach > (header_.path_exact ? contact_reach : box2d_skin) &&
-                                      approach >= least_approach * relative.norm();
-}
-
-/// Whether the way to the first impact leads through an opening that counts as closed, or past a rim that is nearer
-/// than a contact may be.
-bool ContactJudge::is_closed_before(const ExactImpact& first) const {
-  if (grown_scenery_ == nullptr) return false;
-  const Place start = place(first_corner());
-  const double fraction = static_cast<double>(first.fraction);
-  const double along = std::abs(wanted(first.collider).dot(first.normal));
-  if (!(along * fraction > 2 * contact_reach)) return false;  // it is at the start
-  const double until = fraction - 2 * contact_reach / along;
-  const Place there(start.position + step_.requested * until, step_.movers, until);
-  const std::vector<ColliderIndex> touched = grown_scenery_->overlapped(start);
-  const std::vector<ColliderIndex> met = grown_scenery_->met(start, there);
-  return std::any_of(met.begin(), met.end(), [&](ColliderIndex collider) {
-    return collider != first.collider && std::find(touched.begin(), touched.end(), collider) == touched.end() &&
-           !dropped_through(collider);
   });
 }
 
@@ -274,7 +132,8 @@ double ContactJudge::ghost_speed_loss(bool starts_free, const StepJudgement& jud
 void ContactJudge::measure_motion(bool starts_free, StepJudgement& judgement) const {
   const double wanted = across(step_.requested);
   judgement.motion_wanted = std::abs(wanted);
-  if (std::abs(wanted) <= rounding_across() || !starts_free || !judgement.crushed.empty() || step_.capped) return;
+  if (std::abs(wanted) <= rounding_across() || !starts_free || !judgement.crushed.empty() || is_capped(step_, header_))
+    return;
   const double made = across(step_.path.back().position - step_.path.front().position) + judgement.remainder_made;
   const double lost = std::clamp(std::abs(wanted) - std::copysign(1.0, wanted) * made, 0.0, std::abs(wanted));
   const double rounding = ulp_at(header_, step_.path.front().position) + least_loss * std::abs(wanted);
@@ -318,10 +177,13 @@ void ContactJudge::add_normal_error(StepJudgement& judgement) const {
       const double error = degrees_between(exact.normal, contact.normal);
       least = std::min(least.value_or(error), error);
     }
-    if (!least) continue;
-    if (const std::optional<Vec2d> face = *least > 0 ? face_of(contact) : std::nullopt)
-      least = std::min(*least, degrees_between(*face, contact.normal));
-    judgement.normal_error = std::max(judgement.normal_error.value_or(0), *least);
+    // Of who promises it the normal of a contact that is excused, too: of one that no face is known of none is asked.
+    const bool asks_face = least ? *least > 0 : promises_;
+    if (const std::optional<Vec2d> face = asks_face ? face_of(contact) : std::nullopt) {
+      const double error = degrees_between(*face, contact.normal);
+      least = std::min(least.value_or(error), error);
+    }
+    if (least) judgement.normal_error = std::max(judgement.normal_error.value_or(0), *least);
   }
 }
 
@@ -338,15 +200,20 @@ bool ContactJudge::pushed_by_skin(double wanted) const {
 std::optional<Vec2d> ContactJudge::face_of(const Contact<double>& contact) const {
   const double reach = header_.path_exact ? 2 * std::max(contact_reach, touch_) : box2d_skin;
   std::optional<Vec2d> most_alike;
+  bool is_own = false;  // of two that abut the face may be the other's, but both are there
   const auto look = [&](const ExactImpact& impact) {
     const double alike = impact.normal.dot(contact.normal);
-    if (!impact.exposed || !(alike > same_face)) return;
+    if (!(alike > same_face)) return;
+    is_own = is_own || impact.collider == contact.collider;
+    if (!impact.exposed) return;
     if (!most_alike || alike > most_alike->dot(contact.normal)) most_alike = impact.normal;
   };
   for (std::size_t i = 0; i < step_.path.size(); ++i) {
     Place beside = place(i);
     beside.position -= contact.normal * reach;
-    for (const ExactImpact& impact : scenery_.impacts_between(place(i), beside)) look(impact);
+    for (const ExactScenery* scenery : {&scenery_, grown_scenery_})
+      if (scenery != nullptr)
+        for (const ExactImpact& impact : scenery->impacts_between(place(i), beside)) look(impact);
     if (i == 0 || !header_.path_exact || dropped_through(contact.collider)) continue;
     Place beyond = place(i);
     const Vec2d leg = beyond.position - place(i - 1).position;
@@ -356,7 +223,7 @@ std::optional<Vec2d> ContactJudge::face_of(const Contact<double>& contact) const
     for (const Place& to : {beside, beyond})
       if (const auto impact = scenery_.impact_between(place(i - 1), to, contact.collider)) look(*impact);
   }
-  return most_alike;
+  return is_own || !promises_ ? most_alike : std::nullopt;
 }
 
 /// Whether the way that was travelled leads against the reported normal, and stops there: what an earlier contact left
@@ -386,8 +253,11 @@ bool ContactJudge::met_after_another(const Contact<double>& contact, std::span<c
   // A steep face takes steering out of the motion, and an impact the momentum across up.
   const std::array<Vec2d, 4> left_over{step_.requested, unsteered, up_ * step_.requested.dot(up_),
                                        right_ * step_.requested.dot(right_)};
+  // What moves adds to the motion what it pushes, and ground carries.
   const auto leads_in = [&](const Vec2d& d, const ExactContact& one) {
-    const Vec2d along = d - one.normal * std::min(0.0, (d - own).dot(one.normal)) - own;
+    const Vec2d pushed = step_.requested - wanted(one.collider);
+    if (is_walkable(one.normal, header_, up_) && contact.normal.dot(pushed - own) < 0) return true;
+    const Vec2d along = d - one.normal * std::min(0.0, (d - pushed).dot(one.normal)) - own;
     return std::min({contact.normal.dot(along), contact.normal.dot(right_) * (d - own).dot(right_),
                      contact.normal.dot(up_) * (d - own).dot(up_)}) < 0;
   };
@@ -458,9 +328,9 @@ void ContactJudge::add_dont_care(StepJudgement& judgement) const {
     const bool turned_aside = !others.empty() || is_walkable(contact.normal, header_, up_);
     const bool deflected = met_after_another(contact, others) || (turned_aside && ran_into(contact));
     if (deflected && has_face(contact)) judgement.deflected.emplace_back(contact.collider, contact.side);
-    if (exact(contact.collider)) continue;
     const bool near = comes_near(contact) || (!deflected && is_led_into_by_rounding(contact, others));
-    if (promises_ && near) judgement.contact_band.push_back(contact.collider);
+    if (promises_ && near && has_face(contact)) judgement.contact_band.push_back(contact.collider);
+    if (exact(contact.collider)) continue;
     if (deflected || near) judgement.dont_care.push_back(contact.collider);
   }
   std::sort(judgement.dont_care.begin(), judgement.dont_care.end());

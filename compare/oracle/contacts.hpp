@@ -8,6 +8,17 @@ namespace paperproof::compare::detail {
 
 /// A contact is this near along its normal [m]: twice what the controller stops at.
 inline constexpr double contact_reach = 1e-6;
+/// See `Judge`: sine of the flattest approach whose fraction is compared.
+inline constexpr double least_approach = 1e-3;
+
+/// Of the character as it stands. What rounding leaves of a component that is zero is none.
+[[nodiscard]] Side side_along(const Vec2d& normal, const Vec2d& up);
+
+/// What a contact may leave of a motion, by the laws that there are: it slides, without steering or momentum across up
+/// or with it; on ground its part across up goes on along it.
+/// @param own how far the collider goes meanwhile [m]. @param steered across up, of the motion [m].
+[[nodiscard]] std::vector<Vec2d> ways_left(const Vec2d& motion, const Vec2d& own, double steered, const Vec2d& normal,
+                                           const TraceHeader& header, const Vec2d& up);
 
 /// Judges the contacts of one step: see `Judge` for what each answer means. Lives for one step.
 class ContactJudge {
@@ -30,7 +41,9 @@ class ContactJudge {
   [[nodiscard]] bool reports(const ExactImpact& impact) const;
   [[nodiscard]] std::size_t first_corner() const;
   [[nodiscard]] std::vector<ExactImpact> impacts_from(std::size_t corner) const;
-  [[nodiscard]] std::vector<Vec2d> left_by(const ExactImpact& contact) const;
+  [[nodiscard]] std::vector<Vec2d> left_by(ColliderIndex collider, const Vec2d& n) const;
+  [[nodiscard]] bool all_enter(const ExactImpact& contact, const Place& from, std::span<const Vec2d> ways,
+                               const ExactScenery& scenery) const;
   [[nodiscard]] bool comes_to(const ExactImpact& contact, std::size_t corner, std::span<const ExactImpact> impacts,
                               const ExactScenery& scenery) const;
   [[nodiscard]] bool comes_to_when_grown(const ExactImpact& contact, std::size_t corner) const;

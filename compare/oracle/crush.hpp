@@ -15,7 +15,7 @@ struct Others {
   std::function<std::vector<NearPart>(const PathPoint<double>& corner, double within)> near{};
   /// The same where the step ends, `moved` as what turns goes then. Empty where nothing turns near by.
   std::function<std::vector<NearPart>(double within)> near_at_end{};
-  /// Of what turns only: what a displacement from where the step ends meets first, while all stays as it is then.
+  /// What a displacement from where the step ends meets first of them, while all stays as it is then.
   std::function<std::vector<ExactImpact>(const Vec2d& displacement)> impacts_at_end{};
   /// Of what turns only: whether something that is farther away than `within` at a corner of the way is met in the rest
   /// of the step, if the character goes on by so much.

@@ -13,7 +13,7 @@ namespace {
 constexpr double least_reach = 1e-6;
 
 //                                                                 octagon_sweep  Box2D          by units  others
-constexpr std::array<Exemption, 14> all_exemptions{{
+constexpr std::array<Exemption, 15> all_exemptions{{
     {Exempt::corner_cut,
      "corner_cut",
      "passes a solid with a rim of the octagon no deeper than this (and an eighth of its width)",
@@ -68,14 +68,21 @@ constexpr std::array<Exemption, 14> all_exemptions{{
     {Exempt::far, "far", "begins or goes farther than this, and breaks a clause", "m", {1e6, 0, 0, 0}},
     {Exempt::unsure,
      "unsure",
-     "hangs or loses speed, unless what turns comes this much farther than its point that is nearest to the character",
+     "hangs, or loses or gains speed, unless what turns comes this much farther than its point nearest to the "
+     "character",
      "m",
      {its_turn, its_turn, its_turn, its_turn}},
     {Exempt::in_parts,
      "in_parts",
-     "goes in parts of a step, as what turns near it does: the time of an impact with what does not is not compared",
+     "goes in parts of a step, as what turns near it does: what the motion of the first would meet later is not asked "
+     "for",
      "",
      {1, 0, 1, 1}},
+    {Exempt::turning_sensor,
+     "turning_sensor",
+     "overlaps a sensor that turns, or says so: whether and when it enters and leaves that is not asked for",
+     "",
+     {1, 1, 1, 1}},
 }};
 
 std::string size_in_words(const Exemption& exemption, Party party) {
@@ -108,6 +115,7 @@ double allowed(Exempt which, const TraceHeader& header) {
 
 double own_reach(const TraceHeader& header) {
   if (!header.path_exact) return box2d_skin;
+  if (party_of(header) == Party::promising) return least_reach;  // whatever its header says
   return std::max({least_reach, tolerance_named(header, "unit"), tolerance_named(header, "touch")});
 }
 

@@ -36,7 +36,8 @@ enum class Exempt : std::uint8_t {
   ahead,
   far,
   unsure,
-  in_parts
+  in_parts,
+  turning_sensor
 };
 
 struct Exemption {

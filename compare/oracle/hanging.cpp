@@ -53,7 +53,7 @@ bool HangingJudge::hangs(const Vec2d& made, const Reach& reach, Bounds bounds) c
   const double least = std::max(least_fall, ulp_at(header_, step_.path.front().position));
   const double asked = -unsteered.dot(up_);
   const double fell = -made.dot(up_);
-  if (step_.capped || !(asked > least) || !(fell < least_share * asked)) return false;
+  if (is_capped(step_, header_) || !(asked > least) || !(fell < least_share * asked)) return false;
   const auto falls_short_of = [&](double fall) { return fall > least && fell < least_share * fall; };
   const std::vector<Nearby> corners = near_corners(reach, bounds);
   Nearby all;

@@ -22,6 +22,12 @@ constexpr int depth_refinements = 40;
 /// The shortest straight way out of what a step begins inside of may be longer by this [m]; a way that is to be shorter
 /// ends with as large a gap, and is open as far to both sides.
 constexpr double around_way_out = 1e-6;
+/// The character waits so long at the beginning of each part of a step that goes in parts, as a share of the step.
+constexpr double waited_in_part = 2e-6;
+/// A time of impact is told where what that comes to is no more than this along the normal [m].
+constexpr double least_told = 5e-7;
+/// Normals of one face differ by no more than this, by rounding.
+constexpr double same_normal = 1e-6;
 /// A smaller share of the wanted motion is rounding.
 constexpr double rounding_of_loss = 1e-5;
 
@@ -86,8 +92,11 @@ Others Judge::with_turning(const TraceStep& step, const Others& characters) cons
   all.near_at_end = [this, &step, with](double within) {
     return with(turning_->near_at_end(step, within), step.path.back(), within);
   };
-  all.impacts_at_end = [this, &step](const Vec2d& displacement) {
-    return turning_->impacts_at_end(step, displacement);
+  all.impacts_at_end = [this, &step, &characters](const Vec2d& displacement) {
+    std::vector<ExactImpact> impacts = turning_->impacts_at_end(step, displacement);
+    if (characters.impacts_at_end)
+      for (ExactImpact& impact : characters.impacts_at_end(displacement)) impacts.push_back(std::move(impact));
+    return impacts;
   };
   all.runs_into = [this, &step](const PathPoint<double>& corner, const Vec2d& way, double within) {
     return turning_->runs_into(step, corner, way, within);
@@ -99,7 +108,7 @@ Others Judge::with_turning(const TraceStep& step, const Others& characters) cons
 StepJudgement Judge::judge_step(const TraceStep& step, const Others& others, const Wanted* wanted,
                                 const AmongTurning* turning) {
   if (step.movers.size() < mover_count_) throw std::invalid_argument("a step needs the motion of every mover");
-  if (!others.near && repeats(step)) return last_->second;  // others may have gone
+  if (!others.near && repeats(step, wanted)) return last_->judgement;  // others may have gone
   dt_ = length_of(step, header_);
   StepJudgement judgement;
   const Path path = path_of(step);
@@ -124,8 +133,12 @@ StepJudgement Judge::judge_step(const TraceStep& step, const Others& others, con
     contacts().measure_motion(starts_free, judgement);
   }
   if (turning != nullptr) {
-    turning_->judge(turning->step, scenery_, judgement);
-    leave_out_times(turning->step, judgement);
+    const int parts = wanted != nullptr ? std::max(wanted->parts / header_.substeps, 1) : 1;
+    turning_->judge(turning->step, scenery_, parts, judgement);
+    leave_out_what_follows(turning->step, parts, judgement);
+    add_deflected(step, judgement);
+    judgement.turning_sensor =
+        turning->step.sensors.size() > step.sensors.size() || turning_->meets_sensor(turning->step);
   }
   if (has_sensors_) judge_sensors(path, step, judgement);
   if (step.stuck && starts_free) {
@@ -137,18 +150,64 @@ StepJudgement Judge::judge_step(const TraceStep& step, const Others& others, con
   judge_progress(step, others, wanted, starts_free, judgement);
   last_end_.emplace(path.back());
   last_.reset();
-  if (path.size() == 1 && inside_.empty() && step.remainder == remainder_before_) last_.emplace(step, judgement);
+  if (path.size() == 1 && inside_.empty() && step.remainder == remainder_before_)
+    last_.emplace(Last{step, wanted != nullptr ? std::optional(*wanted) : std::nullopt, judgement});
   remainder_before_ = step.remainder;
   return judgement;
 }
 
-/// A motion that was requested for the whole step tells no time of impact where each part wants another.
-void Judge::leave_out_times(const TraceStep& step, StepJudgement& judgement) const {
+/// What was requested tells of no contact, and no time, after what turns was met, or in a later part than the first.
+void Judge::leave_out_what_follows(const TraceStep& step, int parts, StepJudgement& judgement) const {
   const auto bends = [](const VertexWay& way) { return way.instants.size() > 2; };
-  if (!header_.path_exact || std::none_of(step.vertex_ways.begin(), step.vertex_ways.end(), bends)) return;
-  judgement.in_parts = judgement.first_approach && !step.contacts.empty();
+  const bool in_parts = std::any_of(step.vertex_ways.begin(), step.vertex_ways.end(), bends);
+  if (!header_.path_exact) return;
+  const auto is_reported = [&](const ExactContact& exact) {
+    return std::any_of(step.contacts.begin(), step.contacts.end(),
+                       [&](const Contact<double>& contact) { return contact.collider == exact.collider; });
+  };
+  std::erase_if(judgement.contacts, [&](const ExactContact& exact) {
+    if (!exact.foreseen || is_reported(exact)) return false;
+    const bool later = exact.fraction * parts > 1;
+    judgement.in_parts = judgement.in_parts || later;
+    return later || (judgement.first_impact && exact.fraction > *judgement.first_impact);
+  });
+  if (!in_parts) return;
   judgement.first_impact_comparable = false;
-  judgement.first_approach.reset();
+  if (!judgement.first_approach || step.contacts.empty()) return;
+  // In each part the character waits at first.
+  const bool is_told = *judgement.first_impact * parts <= 1 && waited_in_part * *judgement.first_approach <= least_told;
+  judgement.in_parts = judgement.in_parts || !is_told;
+  if (!is_told) judgement.first_approach.reset();
+}
+
+/// Adds the reported contacts with the rest that a contact with what turns pushes the octagon against.
+/// @param step the exact part of it.
+void Judge::add_deflected(const TraceStep& step, StepJudgement& judgement) const {
+  const auto is_known = [&](const Contact<double>& contact) {
+    const auto is_it = [&](const ExactContact& one) {
+      return one.collider == contact.collider && one.side == contact.side;
+    };
+    return std::any_of(judgement.contacts.begin(), judgement.contacts.end(), is_it) ||
+           contains(judgement.deflected, std::pair(contact.collider, contact.side));
+  };
+  const auto is_pushed = [&](const Contact<double>& contact) {
+    return std::any_of(judgement.contacts.begin(), judgement.contacts.end(), [&](const ExactContact& one) {
+      return turning_->turns(one.collider) && one.normal.dot(contact.normal) < 0;
+    });
+  };
+  const auto has_face = [&](const Contact<double>& contact) {
+    return std::any_of(step.path.begin(), step.path.end(), [&](const PathPoint<double>& corner) {
+      const std::vector<NearPart> parts = scenery_.near_parts({corner, step.movers}, detail::contact_reach);
+      return std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
+        return part.collider == contact.collider &&
+               std::any_of(part.faces.begin(), part.faces.end(),
+                           [&](const NearFace& face) { return (face.normal - contact.normal).norm() <= same_normal; });
+      });
+    });
+  };
+  for (const Contact<double>& contact : step.contacts)
+    if (!is_known(contact) && is_pushed(contact) && has_face(contact))
+      judgement.deflected.emplace_back(contact.collider, contact.side);
 }
 
 /// Whether there is a way out of what is overlapped where the step begins, or ends.
@@ -187,19 +246,32 @@ bool Judge::alone(const Path& path, const TraceStep& step) const {
   return scenery_.near(Place(reach.lower, step.movers, 0), Place(reach.upper, step.movers, 2), box2d_skin).empty();
 }
 
-bool Judge::repeats(const TraceStep& step) const {
-  if (!last_ || step.respawn) return false;
-  const TraceStep& last = last_->first;
+bool Judge::repeats(const TraceStep& step, const Wanted* wanted) const {
+  if (!last_ || step.respawn || last_->wanted.has_value() != (wanted != nullptr)) return false;
+  const TraceStep& last = last_->step;
   const auto same_corner = [](const PathPoint<double>& a, const PathPoint<double>& b) {
     return a.position == b.position && a.fraction == b.fraction;
   };
   const auto same_contact = [](const Contact<double>& a, const Contact<double>& b) {
-    return a.collider == b.collider && a.normal == b.normal;
+    return a.collider == b.collider && a.side == b.side && a.normal == b.normal && a.point == b.point &&
+           a.fraction == b.fraction && a.separation == b.separation;
   };
-  return step.dt == last.dt && step.requested == last.requested && step.steered == last.steered &&
-         step.velocity == last.velocity && step.grounded == last.grounded && step.remainder == last.remainder &&
-         step.stuck == last.stuck && step.crushed == last.crushed && step.dropped_through == last.dropped_through &&
-         step.sensors.empty() && last.sensors.empty() &&
+  const auto same_wish = [](const Wanted& a, const Wanted& b) {
+    return a.displacement == b.displacement && a.velocity == b.velocity && a.steered == b.steered &&
+           a.jumped == b.jumped && a.parts == b.parts && a.from_ground == b.from_ground;
+  };
+  const auto same_ride = [](const TraceRide& a, const TraceRide& b) {
+    return a.collider == b.collider && a.velocity == b.velocity;
+  };
+  const bool same_state = step.velocity == last.velocity && step.grounded == last.grounded &&
+                          step.remainder == last.remainder && step.stuck == last.stuck && step.capped == last.capped &&
+                          step.dropped == last.dropped && step.ride.has_value() == last.ride.has_value() &&
+                          (!step.ride || same_ride(*step.ride, *last.ride));
+  return same_state && length_of(step, header_) == length_of(last, header_) &&
+         up_in(step, header_) == up_in(last, header_) && gravity_in(step, header_) == gravity_in(last, header_) &&
+         step.requested == last.requested && step.steered == last.steered &&
+         (wanted == nullptr || same_wish(*wanted, *last_->wanted)) && step.crushed == last.crushed &&
+         step.dropped_through == last.dropped_through && step.sensors.empty() && last.sensors.empty() &&
          std::equal(step.movers.begin(), step.movers.end(), last.movers.begin(), last.movers.end(), same_motion) &&
          std::equal(step.path.begin(), step.path.end(), last.path.begin(), last.path.end(), same_corner) &&
          std::equal(step.contacts.begin(), step.contacts.end(), last.contacts.begin(), last.contacts.end(),
@@ -322,13 +394,18 @@ void Judge::judge_passing(const Path& path, ColliderIndex collider, const Place&
   }
   judgement.tunnelled.push_back(collider);
   Passing passing = detail::describe_passing(scenery_, from, to, collider);
+  passing.speed = way_past(path, collider) / dt_;
+  judgement.passings.push_back(passing);
+}
+
+/// Length of the way relative to a collider [m].
+double Judge::way_past(const Path& path, ColliderIndex collider) const {
   const MoverIndex mover = header_.scenery.colliders[collider].mover;
   double length = 0;
   for (std::size_t i = 0; i + 1 < path.size(); ++i) {
     length += ((path[i + 1].position - path[i + 1].offset(mover)) - (path[i].position - path[i].offset(mover))).norm();
   }
-  passing.speed = length / dt_;
-  judgement.passings.push_back(passing);
+  return length;
 }
 
 /// The largest depth on the way: between entry and exit of every leg at equal distances, then closing in on the deepest
@@ -407,10 +484,17 @@ void Judge::judge_crushes(const Path& path, const TraceStep& step, const Touched
     if (episode.free_from) free = episode.free_from->place();
   }
   judgement.room = detail::find_room(scenery_, scenery_for(detail::least_clearance), path, pressing, meetings, others);
-  // One mover may press the octagon after another that goes away more slowly.
-  const bool pressed = std::any_of(step.crushed.begin(), step.crushed.end(), comes_closer);
+  // One mover may press the octagon after another that goes away more slowly; but each of them touches it.
+  const double within = std::max(detail::contact_reach, promises_ ? 0 : own_reach(header_));
+  const auto touches = [&](ColliderIndex collider) {
+    return touched.contains(collider) || std::any_of(path.begin(), path.end(), [&](const Place& corner) {
+             return scenery_.separation(corner, collider) <= within;
+           });
+  };
+  const auto presses = [&](ColliderIndex collider) { return comes_closer(collider) && touches(collider); };
+  const bool pressed = std::any_of(step.crushed.begin(), step.crushed.end(), presses);
   for (const ColliderIndex collider : step.crushed) {
-    const bool moves = pressed && goes(collider);
+    const bool moves = pressed && goes(collider) && touches(collider);
     const bool excused = moves && judgement.room && others.touched && allowed(Exempt::touched_crush, header_) > 0;
     judgement.excused_crush = judgement.excused_crush || excused;
     (moves && (!judgement.room || excused) ? judgement.crushed : judgement.crushed_with_room).push_back(collider);
@@ -434,6 +518,10 @@ void Judge::judge_progress(const TraceStep& step, const Others& others, const Wa
     end.judge_ground(hanging, starts_free, judgement);
     end.judge_speed(starts_free, judgement);
     judge_legs(step, others, *wanted, later, judgement);
+    if (judgement.speed_gained > 0 && others.runs_into && turning_->touches_disc(step)) {
+      judgement.speed_gained = 0;
+      judgement.unsure = true;
+    }
   } else if (step.grounded) {
     judge_ground(hanging, step, judgement);
   }
@@ -596,6 +684,7 @@ void Judge::judge_sensors(const Path& path, const TraceStep& step, StepJudgement
     taken[i] = true;
     const double error = std::abs(static_cast<double>(Rational(step.sensors[i].fraction) - event.fraction));
     judgement.max_sensor_error = std::max(judgement.max_sensor_error, error);
+    judgement.max_sensor_way = std::max(judgement.max_sensor_way, error * way_past(path, event.sensor));
   }
   judgement.sensor_events_extra = static_cast<int>(std::count(taken.begin(), taken.end(), false));
 }

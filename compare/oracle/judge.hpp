@@ -83,9 +83,11 @@ struct StepJudgement {
   bool stuck_refuted = false;   ///< It said that it is stuck, and there is a way out: see `Judge`.
   bool ground_refuted = false;  ///< It said that it is grounded, and nothing is under it: see `Judge`.
   bool ground_late = false;     ///< The same, but something was under it earlier in the step: excused.
-  /// It hangs, or loses motion or speed, unless what turns comes farther than its nearest point does: see `Bounds`.
+  /// It hangs, or loses motion or speed, unless what turns comes farther than its nearest point does (see `Bounds`); or
+  /// it is faster than anything but the rim of a disc could make it.
   bool unsure = false;
-  bool in_parts = false;        ///< It goes in parts, so that the time of its first impact is not compared.
+  bool in_parts = false;        ///< It goes in parts, and a contact or a time that follows the first is not asked for.
+  bool turning_sensor = false;  ///< It overlaps a sensor that turns, or says so: that is not asked for.
   bool ground_missed = false;   ///< It touches ground that it does not leave, and says that it is not grounded.
   double speed_lost = 0;        ///< Of the wanted velocity, with nothing exact that took it [m/s].
   double speed_gained = 0;      ///< More than the wanted velocity and what moves near by can give [m/s].
@@ -95,7 +97,8 @@ struct StepJudgement {
   std::vector<ExactSensorEvent> sensor_events;  ///< What should have been reported.
   int sensor_events_missing = 0;                ///< Of `sensor_events`.
   int sensor_events_extra = 0;                  ///< Reported, and there was no such event.
-  double max_sensor_error = 0;                  ///< Over the other reported ones: of the fraction of the step.
+  double max_sensor_error = 0;                  ///< Over the other reported ones: of the fraction of the step,
+  double max_sensor_way = 0;  ///< and of the way relative to the sensor that the whole step takes [m].
 
   /// What happened with characters of a higher index; each pair is told once. See `CompanyJudge`.
   struct Company {
@@ -158,13 +161,14 @@ struct StepJudgement {
 /// impact by impact, and may hide room that is there for both together. `room` says where it was.
 /// The same is asked for who promises nothing when a step ends inside something new: of the movers that come closer and
 /// are within its reach, named or not. Where they leave no room, all that it is pressed into is excused.
-/// A mover that goes and is named with room breaks `crush`. Of who promises that clause it is excused like one without
-/// room in all else: one breach is said once.
-/// A collider that stands still or rests never crushes, nor does anything where nothing that is named comes closer to
-/// where the octagon was when the step began. What a
+/// A mover that goes and is named with room breaks `crush`. Of who promises that clause it is no matter of `overlap`
+/// and `passage`, like one without room: one breach is said once.
+/// A collider that stands still or rests never crushes, nor does one that is nowhere on the way within 1e-6 m (who
+/// promises nothing: its reach), nor does anything where nothing that is named comes closer to where the octagon was
+/// when the step began. What a
 /// mover presses the octagon into besides itself is not excused.
 ///
-/// **Sensor events** are compared in order, for every sensor entering and leaving apart.
+/// **Sensor events** are reported in order of time, and compared for every sensor entering and leaving apart.
 ///
 /// **Exemptions** are data, with their sizes for each kind of contender: oracle/exemptions.hpp.
 ///
@@ -218,7 +222,8 @@ struct StepJudgement {
 /// - a step that touches a corner deeper than 1e-6 m inside a solid, a verified crush, and Box2D's cap: other answers
 ///   say so.
 /// What turns comes along a face's normal by no more than a bound that is safe. Who hangs only if it comes as far as
-/// the point does that is nearest to the octagon is `unsure` (exempted). What a grid has taken up and not made yet
+/// the point does that is nearest to the octagon is `unsure` (exempted); so is who is
+/// too fast at a disc that turns. What a grid has taken up and not made yet
 /// (`remainder`) counts as made. A step hovers if it would hang, but for what is within the contender's own reach
 /// (`detail::reach_of`): Box2D's skin, a unit of the article's search.
 ///
@@ -244,8 +249,8 @@ struct StepJudgement {
 /// reads its contacts before it moves the bodies, and the article's techniques go on after they have met the ground.
 ///
 /// **In parts.** A step that goes in parts, as what turns near it does, wants another motion in each: see `LaterParts`.
-/// What is asked of its progress is asked for all of them together. The time of a first impact with what does not turn
-/// is not compared (`in_parts`, exempted).
+/// What is asked of its progress is asked for all of them together. What was requested is what the first of them wants:
+/// a contact, or a time of impact, that it tells of in a later one is not asked for (`in_parts`, exempted).
 ///
 /// **Normal error.** The angle between the normal of a reported contact and the nearest normal of the exact contacts
 /// with that collider on that side, and of the face that is touched along the reported normal.
@@ -315,12 +320,13 @@ class Judge {
   [[nodiscard]] Others with_turning(const TraceStep& step, const Others& characters) const;
   [[nodiscard]] bool is_stuck_refuted(const Place& at, const Others& others, const AmongTurning* turning,
                                       bool in_turning);
-  void leave_out_times(const TraceStep& step, StepJudgement& judgement) const;
+  void leave_out_what_follows(const TraceStep& step, int parts, StepJudgement& judgement) const;
+  void add_deflected(const TraceStep& step, StepJudgement& judgement) const;
   void excuse_by_turning(const TraceStep& step, const detail::LaterParts& later, const Others& others,
                          StepJudgement& judgement) const;
   [[nodiscard]] Path path_of(const TraceStep& step) const;
   /// Whether nothing differs from the last step, as at rest: then neither does the judgement.
-  [[nodiscard]] bool repeats(const TraceStep& step) const;
+  [[nodiscard]] bool repeats(const TraceStep& step, const Wanted* wanted) const;
   /// Whether the step begins where the last one ended, movers included.
   [[nodiscard]] bool continues(const TraceStep& step, const Place& start) const;
   void begin_episodes(const Place& start);
@@ -333,6 +339,7 @@ class Judge {
   void judge_passing(const Path& path, ColliderIndex collider, const Place& from, const Place& to, double depth,
                      StepJudgement& judgement) const;
   [[nodiscard]] double depth_of(const Path& path, ColliderIndex collider) const;
+  [[nodiscard]] double way_past(const Path& path, ColliderIndex collider) const;
   void judge_crushes(const Path& path, const TraceStep& step, const Touched& touched, const Others& others,
                      StepJudgement& judgement);
   void judge_sensors(const Path& path, const TraceStep& step, StepJudgement& judgement) const;
@@ -366,8 +373,14 @@ class Judge {
   double dt_ = 0;          ///< Of the step that is being judged [s].
   std::map<ColliderIndex, Episode> inside_;
   std::optional<Kept> last_end_;
-  Vec2d remainder_before_{Vec2d::Zero()};                    ///< See `TraceStep::remainder`.
-  std::optional<std::pair<TraceStep, StepJudgement>> last_;  ///< Where no episode was open.
+  Vec2d remainder_before_{Vec2d::Zero()};  ///< See `TraceStep::remainder`.
+  /// The last step and what became of it, where no episode was open.
+  struct Last {
+    TraceStep step;
+    std::optional<Wanted> wanted;
+    StepJudgement judgement;
+  };
+  std::optional<Last> last_;
   /// The last place of which `has_way_out` was asked, and the answer.
   std::optional<std::pair<Kept, bool>> asked_way_out_;
 };

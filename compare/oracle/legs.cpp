@@ -1,6 +1,7 @@
 #include "oracle/legs.hpp"
 
 #include "oracle/contacts.hpp"
+#include "oracle/hanging.hpp"
 #include "oracle/met_surfaces.hpp"
 
 #include <algorithm>
@@ -50,12 +51,17 @@ LegJudge::LegJudge(const TraceHeader& header, const ExactScenery& scenery, const
       unsteered_(wanted_.velocity - wanted_.steered / dt_ * right_) {}
 
 /// The largest speed that the step can have without what moves [m/s]. Steering that presses into a steep face is taken
-/// out of what is wanted; a walk keeps its speed across up on ground as steep as it may be.
+/// out of what is wanted. A walk keeps its speed across up on ground as steep as it may be, and where a ceiling turns
+/// that climb back, once more on the ground that follows.
 double LegJudge::own_speed() const {
   const double most =
       std::max({wanted_.velocity.norm(), first_.velocity.norm(), wanted_.displacement.norm() / dt_, unsteered_.norm()});
-  return (most + later_.steered() + later_.jump) /
-         std::cos(header_.character.max_climb_degrees * std::numbers::pi / 180);
+  const auto grounds = std::count_if(step_.contacts.begin(), step_.contacts.end(), [this](const Contact<double>& one) {
+    return is_walkable(one.normal, header_, up_);
+  });
+  const double steepest = 1 / std::cos(header_.character.max_climb_degrees * std::numbers::pi / 180);
+  return (most + later_.steered() + later_.jump) *
+         std::pow(steepest, static_cast<double>(std::max<std::ptrdiff_t>(1, grounds)));
 }
 
 /// The speed of all conveyors that are touched [m/s].

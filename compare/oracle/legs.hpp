@@ -14,11 +14,12 @@ namespace paperproof::compare::detail {
 /// step.
 ///
 /// **Length.** A leg is no longer than its share of the time at the largest speed that the step can have: the wanted
-/// one, kept across up on the steepest walkable ground, and that of conveyors that are touched. What all legs together
-/// are longer is no more than the rules allow that move a character at once: the gap is restored by 2e-6 m and, on
-/// a leg that aims at it, by 1e-6 m; ground that hardly bends is followed by 2.8e-6 m, and by `snap` where a walk may;
-/// a walk climbs 4 stairs, up and down by `step_height`, and goes on as it wanted in between; and what moves, and may
-/// reach the character in the step, pushes it as far as it goes itself, and by `push_beyond_motion` more.
+/// one, kept across up on the steepest walkable ground, once for each ground that is met, and that of conveyors that
+/// are touched. What all legs together are longer is no more than the rules allow that move a character at once: the
+/// gap is restored by 2e-6 m and, on a leg that aims at it, by 1e-6 m; ground that hardly bends is followed by 2.8e-6
+/// m, and by `snap` where a walk may; a walk climbs 4 stairs, up and down by `step_height`, and goes on as it wanted in
+/// between; and what moves, and may reach the character in the step, pushes it as far as it goes itself, and by
+/// `push_beyond_motion` more.
 ///
 /// **Speed.** At the end it is no faster than the same speed and that of all that moves and may reach it.
 ///

@@ -184,7 +184,6 @@ void MoverWayJudge::judge_offsets(const TraceStep& step, MoverWayJudgement& judg
   for (MoverIndex i = 0; i < scripts_.size() && i < step.movers.size(); ++i) {
     const Course course = course_of(i);
     const MoverMotion<double>& motion = step.movers[i];
-    if (!scripts_[i].turns.empty()) continue;  // its vertices say where it is
     const bool begins = (scripts_[i].body && step.step > 0) || is_on_script(motion.from, course.from, i, course.slack);
     const bool ends = scripts_[i].body || is_on_script(motion.to, course.to, i, course.slack);
     const bool goes_on = !goes_on_ || motion.from == before_.offsets[i];

@@ -26,8 +26,6 @@ constexpr int judged_twice = 8;
 /// Instants of a leg at which the depth of a passage is looked at.
 constexpr int depth_samples = 256;
 
-Vec2d went(const VertexWay& disc) { return disc.vertices.back()[0] - disc.vertices.front()[0]; }
-
 bool turns_with(const TraceHeader& header, ColliderIndex collider) {
   const MoverIndex mover = header.scenery.colliders[collider].mover;
   return mover != no_mover && mover < header.turning.size() && header.turning[mover];
@@ -122,7 +120,7 @@ TurningJudge::TurningJudge(const TraceHeader& header)
   octagon_ = normalised(std::move(octagon_));
   for (ColliderIndex i = 0; i < header.scenery.colliders.size(); ++i) {
     const ColliderDef& def = header.scenery.colliders[i];
-    if (turns_with(header, i) && !def.sensor) solids_.push_back({i, numbered_parts(def), def.radius});
+    if (turns_with(header, i)) (def.sensor ? sensors_ : solids_).push_back({i, numbered_parts(def), def.radius});
   }
 }
 
@@ -380,6 +378,12 @@ bool TurningJudge::runs_into(const TraceStep& step, const PathPoint<double>& cor
   });
 }
 
+bool TurningJudge::meets_sensor(const TraceStep& step) const {
+  return std::any_of(sensors_.begin(), sensors_.end(), [&](const Solid& sensor) {
+    return meeting(sensor, way_of(step, sensor.collider), step.path).kind != Meeting::Kind::apart;
+  });
+}
+
 double TurningJudge::carries_otherwise(const TraceStep& step) const {
   double most = 0;
   for (const Solid& solid : solids_) {
@@ -387,10 +391,15 @@ double TurningJudge::carries_otherwise(const TraceStep& step) const {
     if (before == went_before_.end() || nearest(solid, step) > contact_reach) continue;
     const double conveyed =
         std::abs(header_.scenery.colliders[solid.collider].surface_speed) * length_of(step, header_);
-    const double turned = std::min(2.0, step.requested.norm() / solid.radius);  // the normal on it, as it goes
-    most = std::max(most, (went_.at(solid.collider) - before->second).norm() + conveyed * turned);
+    const double bent = solid.radius > 0 ? std::min(2.0, step.requested.norm() / solid.radius) : 0;  // of its normal
+    most = std::max(most, (went_.at(solid.collider) - before->second).norm() + conveyed * bent);
   }
   return most;
+}
+
+bool TurningJudge::touches_disc(const TraceStep& step) const {
+  return std::any_of(solids_.begin(), solids_.end(),
+                     [&](const Solid& solid) { return solid.radius > 0 && nearest(solid, step) <= contact_reach; });
 }
 
 bool TurningJudge::frees_at_end(const TraceStep& step, const std::function<bool(const Vec2d&)>& accept) const {
@@ -417,15 +426,14 @@ bool TurningJudge::begin(const TraceStep& step) {
   inside_.clear();
   if (!step.path.empty()) inside_ = overlapped(step);
   went_before_ = std::exchange(went_, {});
-  for (const Solid& solid : solids_)
-    if (solid.radius > 0) went_[solid.collider] = went(way_of(step, solid.collider));
+  for (const Solid& solid : solids_) went_[solid.collider] = carried_along(way_of(step, solid.collider));
   const auto is_left = [&](ColliderIndex collider) { return step.respawn || !contains(inside_, collider); };
   std::erase_if(sides_, [&](const auto& side) { return is_left(side.first); });
   std::erase_if(pressed_, is_left);
   return !inside_.empty();
 }
 
-void TurningJudge::judge(const TraceStep& step, const ExactScenery& rest, StepJudgement& judgement) {
+void TurningJudge::judge(const TraceStep& step, const ExactScenery& rest, int parts, StepJudgement& judgement) {
   if (step.path.empty()) return;
   for (auto& [collider, side] : sides_) {
     const VertexWay& way = way_of(step, collider);
@@ -435,7 +443,7 @@ void TurningJudge::judge(const TraceStep& step, const ExactScenery& rest, StepJu
                                    [this](const Contact<double>& contact) { return turns(contact.collider); });
   for (const Solid& solid : solids_) {
     judge_way(solid, step, rest, judgement);
-    judge_contacts(solid, step, judgement);
+    judge_contacts(solid, step, parts, judgement);
     if ((touches || step.step % judged_twice == 0) && !methods_agree(solid, step))
       judgement.methods_disagree.push_back(solid.collider);
   }
@@ -534,7 +542,8 @@ double TurningJudge::depth_on(const Solid& solid, const TraceStep& step) const {
   return depth;
 }
 
-void TurningJudge::judge_contacts(const Solid& solid, const TraceStep& step, StepJudgement& judgement) const {
+void TurningJudge::judge_contacts(const Solid& solid, const TraceStep& step, int parts,
+                                  StepJudgement& judgement) const {
   std::vector<Contact<double>> reported = step.contacts;
   std::erase_if(reported, [&](const Contact<double>& contact) { return contact.collider != solid.collider; });
   const bool reports = !reported.empty();
@@ -547,7 +556,8 @@ void TurningJudge::judge_contacts(const Solid& solid, const TraceStep& step, Ste
   const bool touches = met.kind == Meeting::Kind::meets;
   const double when = touches ? met.low + (met.high - met.low) / 2 : 0;
   const bool within = touches && when <= 1;
-  const bool first = within && (!judgement.first_impact || when < *judgement.first_impact);
+  const bool told = within && when * parts <= 1;
+  const bool first = told && (!judgement.first_impact || when < *judgement.first_impact);
   const double gap = reports || !promises_ ? nearest(solid, step) : 0;
   if (header_.path_exact && reports && gap <= contact_reach) {
     for (const Contact<double>& contact : reported) {
@@ -565,6 +575,7 @@ void TurningJudge::judge_contacts(const Solid& solid, const TraceStep& step, Ste
   } else if (reports && gap <= box2d_skin && !header_.path_exact) {
     judgement.dont_care.push_back(solid.collider);
   }
+  judgement.in_parts = judgement.in_parts || (header_.path_exact && within && !told && !reports);
   if (header_.path_exact && first) {
     judgement.first_impact = when;
     judgement.first_approach.reset();

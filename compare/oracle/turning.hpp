@@ -20,8 +20,9 @@ namespace paperproof::compare::detail {
 ///   leaves free what turns, too, and ends 1e-7 m away from it. How far the mover goes is how far it takes the
 ///   corner of the octagon along that it is nearest to when the step begins.
 /// - **Contact**: what was reported and is within 1e-6 m at a corner of the way, or what the requested motion touches
-///   first in the step (Box2D: what the motion touches that is left by its contacts with the rest). The normal is that
-///   of the face that is touched and most like the reported one, or of the best axis where the motion touches.
+///   first in the step, or in its first part (Box2D: what the motion touches that is left by its contacts with the
+///   rest). The normal is that of the face that is touched and most like the reported one, or of the best axis where
+///   the motion touches.
 /// - **Time of impact**: where a contact begins, the reported fraction is held against the first touch of the way that
 ///   was travelled until then, going on straight; less than 1e-6 m at the speed of approach is no error. Box2D stops 20
 ///   mm away, so that the touch itself lies ahead: there it is that of what it wants, which goes on for at most four
@@ -36,7 +37,9 @@ class TurningJudge {
   /// @param header must outlive the judge.
   explicit TurningJudge(const TraceHeader& header);
 
-  [[nodiscard]] bool any() const noexcept { return !solids_.empty(); }
+  [[nodiscard]] bool any() const noexcept { return !solids_.empty() || !sensors_.empty(); }
+  /// Whether the octagon overlaps a sensor that turns at any moment of the step.
+  [[nodiscard]] bool meets_sensor(const TraceStep& step) const;
   /// Of a collider that goes along with a mover that turns, a sensor or a solid.
   [[nodiscard]] bool turns(ColliderIndex collider) const;
   /// The scenery for the exact judge: what turns blocks nothing there.
@@ -90,15 +93,18 @@ class TurningJudge {
   /// goes on by so much. @param way [m]
   [[nodiscard]] bool runs_into(const TraceStep& step, const PathPoint<double>& corner, const Vec2d& way,
                                double within) const;
-  /// Who rides a disc wants to go on as that went in the step before. By so much the discs that are touched go
-  /// otherwise in this one, as conveyors too [m].
+  /// Who leaves what carried it, or rides a disc, goes on as that went in the step before. By so much what is touched
+  /// carries otherwise in this one, as a conveyor too [m].
   [[nodiscard]] double carries_otherwise(const TraceStep& step) const;
+  /// Whether a disc is touched whose mover turns: how fast its rim goes is in no way of a vertex.
+  [[nodiscard]] bool touches_disc(const TraceStep& step) const;
   /// Whether a way leads out of what the octagon is inside of where the step ends: see `frees`.
   [[nodiscard]] bool frees_at_end(const TraceStep& step, const std::function<bool(const Vec2d&)>& accept) const;
 
   /// Adds what turns to the judgement of the rest.
   /// @param rest the scenery of `exact_part`.
-  void judge(const TraceStep& step, const ExactScenery& rest, StepJudgement& judgement);
+  /// @param parts of the step: what was requested is what the first of them wants.
+  void judge(const TraceStep& step, const ExactScenery& rest, int parts, StepJudgement& judgement);
 
  private:
   struct Solid {
@@ -138,12 +144,13 @@ class TurningJudge {
   void judge_way(const Solid& solid, const TraceStep& step, const ExactScenery& rest, StepJudgement& judgement);
   void judge_passage(const Solid& solid, const TraceStep& step, StepJudgement& judgement) const;
   [[nodiscard]] double depth_on(const Solid& solid, const TraceStep& step) const;
-  void judge_contacts(const Solid& solid, const TraceStep& step, StepJudgement& judgement) const;
+  void judge_contacts(const Solid& solid, const TraceStep& step, int parts, StepJudgement& judgement) const;
   [[nodiscard]] std::optional<double> touch_going_on(const Solid& solid, const TraceStep& step, double moment) const;
 
   const TraceHeader& header_;
   std::vector<Vec2d> octagon_;  ///< Counter-clockwise.
   std::vector<Solid> solids_;
+  std::vector<Solid> sensors_;
   bool promises_ = false;            ///< See `Party::promising`.
   std::set<ColliderIndex> touched_;  ///< In the last step, as reported.
   std::set<ColliderIndex> pressed_;  ///< Overlapped since a crush that was excused.
@@ -151,7 +158,7 @@ class TurningJudge {
   /// inside.
   Sides sides_;
   std::vector<ColliderIndex> inside_;           ///< What is overlapped when the present step begins.
-  std::map<ColliderIndex, Vec2d> went_;         ///< How the discs go in the present step,
+  std::map<ColliderIndex, Vec2d> went_;         ///< How far what turns carries in the present step [m],
   std::map<ColliderIndex, Vec2d> went_before_;  ///< and in the one before.
 };
 

@@ -137,6 +137,11 @@ struct TraceStep {
   return step.gravity.value_or(header.gravity);
 }
 
+/// Only what Box2D moves is cut short; who promises something, or tells its whole way, has no cap.
+[[nodiscard]] inline bool is_capped(const TraceStep& step, const TraceHeader& header) {
+  return step.capped && !header.path_exact && header.guarantees.empty();
+}
+
 /// How long a step was [s].
 [[nodiscard]] inline double length_of(const TraceStep& step, const TraceHeader& header) {
   return step.dt.value_or(header.dt);

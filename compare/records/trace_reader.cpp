@@ -297,7 +297,7 @@ TraceState read_state(const Value& at, const std::vector<std::string>& ids) {
 }
 
 VertexWay read_way(const Value& at, ColliderIndex collider, const ColliderDef& def) {
-  at.only({"k", "vertices"});
+  at.only({"k", "vertices", "offset"});
   std::size_t count = def.points.size();
   for (const std::vector<Vec2d>& hole : def.holes) count += hole.size();
   VertexWay way{.collider = collider, .instants = {}, .vertices = {}};
@@ -312,28 +312,32 @@ VertexWay read_way(const Value& at, ColliderIndex collider, const ColliderDef& d
   return way;
 }
 
-/// Where everything is that moves: each mover once, whatever goes with it.
+/// Where everything is that moves: what goes along with one mover goes as far.
 void read_movers(const Value& at, const TraceHeader& header, TraceStep& step) {
   step.movers.resize(header.scripts.size());
   std::set<ColliderIndex> seen;
-  std::set<MoverIndex> placed;
+  std::set<MoverIndex> known;
   for (const auto& [id, motion] : at.entries()) {
     const auto found = std::find(header.ids.begin(), header.ids.end(), id);
     const auto collider = static_cast<ColliderIndex>(found - header.ids.begin());
     const MoverIndex mover = found == header.ids.end() ? no_mover : header.scenery.colliders[collider].mover;
     if (mover == no_mover) motion.refuse("a collider that moves");
     seen.insert(collider);
+    std::optional<Value> offset = motion;
     if (motion.is_object()) {
       if (header.turning.empty()) motion.refuse("two offsets");
       step.vertex_ways.push_back(read_way(motion, collider, header.scenery.colliders[collider]));
-      continue;
+      offset = motion.find("offset");
     }
-    const std::vector<Value> ends = motion.list(2, 2);
-    MoverMotion<double>& own = step.movers[mover];
-    const MoverMotion<double> said{ends[0].point(), ends[1].point()};
-    if (!placed.insert(mover).second && (own.from != said.from || own.to != said.to))
-      motion.refuse("the motion that the mover's other colliders have");
-    own = said;
+    MoverMotion<double> own{Vec2d::Zero(), Vec2d::Zero()};
+    if (offset) {
+      const std::vector<Value> ends = offset->list(2, 2);
+      own = {ends[0].point(), ends[1].point()};
+    }
+    const MoverMotion<double>& other = step.movers[mover];
+    if (!known.insert(mover).second && (other.from != own.from || other.to != own.to))
+      motion.refuse("the offset of what goes along with it");
+    step.movers[mover] = own;
   }
   std::sort(step.vertex_ways.begin(), step.vertex_ways.end(),
             [](const VertexWay& a, const VertexWay& b) { return a.collider < b.collider; });

@@ -174,13 +174,18 @@ void put_motion(Buffer& out, const MoverMotion<double>& motion) {
   put_list(out, std::array{motion.from, motion.to}, [&](const Vec2d& offset) { put(out, offset); });
 }
 
-void put_way(Buffer& out, const VertexWay& way) {
+/// @param motion of its mover.
+void put_way(Buffer& out, const VertexWay& way, const MoverMotion<double>& motion) {
   put_text(out, "{\"k\":");
   put_list(out, way.instants, [&](double instant) { put(out, instant); });
   put_text(out, ",\"vertices\":");
   put_list(out, way.vertices, [&](const std::vector<Vec2d>& vertices) {
     put_list(out, vertices, [&](const Vec2d& vertex) { put(out, vertex); });
   });
+  if (!motion.from.isZero(0) || !motion.to.isZero(0)) {
+    put_text(out, ",\"offset\":");
+    put_motion(out, motion);
+  }
   out.push_back('}');
 }
 
@@ -302,7 +307,7 @@ void TraceWriter::write(const TraceStep& step) {
     put_text(out, ids_[moving_[i].collider]);
     out.push_back(':');
     if (const VertexWay* way = find_way(step.vertex_ways, moving_[i].collider))
-      put_way(out, *way);
+      put_way(out, *way, step.movers[moving_[i].mover]);
     else
       put_motion(out, step.movers[moving_[i].mover]);
   }

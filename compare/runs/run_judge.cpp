@@ -2,6 +2,7 @@
 
 #include "contains.hpp"
 #include "oracle/claims.hpp"
+#include "oracle/contact_place.hpp"
 #include "oracle/contacts.hpp"
 #include "oracle/met_surfaces.hpp"
 #include "oracle/turning.hpp"
@@ -342,7 +343,17 @@ void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged)
     const auto is_there = [&](const PathPoint<double>& corner) {
       return solids().separation({corner, record.movers}, contact.collider) <= guaranteed_gap;
     };
-    if (carried != Vec2d::Zero() && is_there(record.path.front())) continue;  // it gives way from the start
+    if (carried != Vec2d::Zero() && is_there(record.path.front())) {
+      // It gives way from the start, and meets no later than what was requested touches.
+      const Place start(record.path.front(), record.movers);
+      const double approach = (carried - record.requested).dot(contact.normal);
+      const auto touch = solids().time_of_impact(start, record.requested, contact.collider);
+      const bool at_once = touch && touch->normal.dot(contact.normal) > same_face &&
+                           static_cast<double>(touch->fraction) * approach <= guaranteed_gap;
+      if (at_once && approach > 0)
+        check(contact, (contact.fraction - static_cast<double>(touch->fraction)) * approach, 2 * guaranteed_gap);
+      continue;
+    }
     // As far along the normal as it is off the time at which the way touches, at the pace of the leg that leads there.
     double off = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < record.path.size(); ++i) {
@@ -367,25 +378,33 @@ void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged)
   }
 }
 
-/// What it says that it dropped through was asked for, and is there.
+/// What it says that it dropped through is a one-way chain, was asked for, and was passed: by the octagon itself or, as
+/// rounding may name a chain whose tip is grazed, by one a little to its side.
 void RunJudge::judge_drops(const TraceStep& record) {
-  constexpr double there = 1e-5;
+  constexpr double aside = 1e-5;
   for (const ColliderIndex chain : record.dropped_through) {
-    bool meets = false;
-    for (std::size_t i = 0; i < record.path.size() && !meets; ++i) {
-      const Place corner(record.path[i], record.movers);
-      meets = solids().separation(corner, chain) <= there ||
-              (i > 0 && solids().meets({record.path[i - 1], record.movers}, corner, chain));
-    }
-    if (!record.input.drop || !meets)
+    const std::optional<Vec2d>& one_way = header_.scenery.colliders[chain].one_way;
+    bool passes = one_way && followers_.front().judge->turning().turns(chain);
+    for (std::size_t i = 1; i < record.path.size() && one_way && !passes; ++i)
+      for (const double shift : {0.0, aside, -aside}) {
+        Place from(record.path[i - 1], record.movers);
+        Place to(record.path[i], record.movers);
+        for (Place* place : {&from, &to}) place->position += shift * Vec2d(one_way->y(), -one_way->x());
+        passes = passes || solids().meets(from, to, chain);
+      }
+    if (!record.input.drop || !passes)
       note(Clause::one_way, record, "says it dropped through `" + header_.ids[chain] + "`, and did not");
   }
 }
 
-/// Two that met each say so, with one normal and at one time, and were there.
+/// Two that met each say so, with one normal, of a face that is there, and at one time, and were there. Who must have
+/// met another says so.
 void RunJudge::judge_met(const TraceStep& record, std::span<const TraceStep> records) {
   for (const CrowdContact<double>& met : record.met) {
-    if (!company_ || met.other >= records.size()) continue;
+    if (met.other >= records.size() || met.other == record.character) {
+      note(Clause::contact_invented, record, fmt::format("met character {}, which is no other one", met.other));
+      continue;
+    }
     const TraceStep& other = records[met.other];
     if (const double gap = company_->nearest(record, other); gap > guaranteed_gap)
       note(Clause::contact_invented, record, fmt::format("met character {} from {} away", met.other, metres(gap)));
@@ -394,15 +413,27 @@ void RunJudge::judge_met(const TraceStep& record, std::span<const TraceStep> rec
     });
     if (!agreed)
       note(Clause::contact_invented, record, fmt::format("met character {}, which met another way", met.other));
+    if (!company_->has_face(record, other, met.normal))
+      note(Clause::normal, record, fmt::format("the normal at character {} is of no face there", met.other));
+    if (detail::side_along(met.normal, up_in(record, header_)) != met.side)
+      note(Clause::normal, record, fmt::format("met character {} on another side than its normal says", met.other));
     if (const double gap = company_->gap_at(record, other, met.fraction); gap > 2 * guaranteed_gap)
       note(Clause::time_of_impact, record,
            fmt::format("met character {} at {:.6g} of the step, and was {} away then", met.other, met.fraction,
                        metres(gap)));
   }
+  if (!company_) return;
+  for (const TraceStep& other : records) {
+    const bool says = std::any_of(record.met.begin(), record.met.end(),
+                                  [&](const CrowdContact<double>& met) { return met.other == other.character; });
+    if (!says && other.character != record.character && company_->must_meet(record, other))
+      note(Clause::contact_missed, record, fmt::format("met character {}, and does not say so", other.character));
+  }
 }
 
 void RunJudge::check_start(const TraceStep& claimed, const TraceStep& judged) {
-  if (claimed.start_overlap != judged.start_overlap)
+  if (claimed.start_overlap != judged.start_overlap ||
+      claimed.start_overlap_characters != judged.start_overlap_characters)
     note(Clause::start_inside, judged, "says that it begins inside of other things than it does");
 }
 
@@ -432,8 +463,12 @@ void RunJudge::judge_clauses(const TraceStep& record, const StepJudgement& judge
     return std::string(judged.sensor_events_missing > 0 ? "a sensor's event is missing"
                                                         : "reports a sensor's event that was none");
   });
-  check(Clause::sensor, judged.max_sensor_error * record.requested.norm() > guaranteed_gap,
+  check(Clause::sensor, judged.max_sensor_way > guaranteed_gap,
         [&] { return fmt::format("a sensor's event is {:.3g} of the step off", judged.max_sensor_error); });
+  check(Clause::sensor,
+        !std::is_sorted(record.sensors.begin(), record.sensors.end(),
+                        [](const auto& a, const auto& b) { return a.fraction < b.fraction; }),
+        [] { return std::string("the events of sensors are not in order of time"); });
   check(Clause::start_inside, judged.stuck_refuted, [] { return std::string("says it is stuck beside a way out"); });
   check(Clause::start_inside, judged.start_mishandled,
         [] { return std::string("begins inside, and neither leaves by the shortest way out nor stays and says so"); });
@@ -460,6 +495,31 @@ void RunJudge::judge_clauses(const TraceStep& record, const StepJudgement& judge
   check(Clause::refusal, record.path.back().position.cwiseAbs().maxCoeff() > range || !(length_of(record, header_) > 0),
         [] { return std::string("takes a step that must be refused"); });
   judge_times(record, judged);
+  judge_places(record, judged);
+}
+
+/// Where each contact says that it is; and of several that the motion meets first, at one time, each is reported.
+void RunJudge::judge_places(const TraceStep& record, const StepJudgement& judged) {
+  const bool excused = !record.start_overlap.empty() || !judged.end_overlap.empty() || record.stuck ||
+                       !record.crushed.empty() || record.contacts.empty() || header_.guarantees.empty();
+  if (excused) return;
+  const detail::TurningJudge& turning = followers_.front().judge->turning();
+  for (const Contact<double>& contact : record.contacts) {
+    if (turning.turns(contact.collider)) continue;
+    if (const std::optional<PlaceFault> fault = place_fault(header_, record, contact))
+      note(fault->clause, record, fault->words);
+  }
+  for (const ExactContact& exact : judged.contacts) {
+    const auto is_it = [&](const Contact<double>& one) {
+      return one.collider == exact.collider && one.side == exact.side;
+    };
+    const auto on_side = [&](const Contact<double>& one) { return one.side == exact.side; };
+    // Of a side where none is reported the metrics tell.
+    if (exact.foreseen && !judged.first_met && std::any_of(record.contacts.begin(), record.contacts.end(), on_side) &&
+        std::none_of(record.contacts.begin(), record.contacts.end(), is_it))
+      note(Clause::contact_missed, record,
+           fmt::format("does not report a contact: `{}`, {}", header_.ids[exact.collider], name_of(exact.side)));
+  }
 }
 
 /// Whether the law of response (§4 of the design) makes the velocity at the end of what was wanted, at the contacts
@@ -471,16 +531,21 @@ void RunJudge::judge_velocity(const TraceStep& record, const StepJudgement& judg
   const bool excused = !record.start_overlap.empty() || !judged.end_overlap.empty() || crushed || record.stuck ||
                        record.dropped || header_.substeps > 1 || wanted.parts > 1;
   if (excused || !contains(header_.guarantees, Clause::velocity)) return;
-  if (!record.met.empty()) return;  // what characters hand on to each other is no matter of surfaces
   const Vec2d up = up_in(record, header_);
   ControlledStep step{.wanted = wanted.velocity, .up = up};
   step.unsteered = wanted.velocity - wanted.steered / length_of(record, header_) * Vec2d(up.y(), -up.x());
   step.side_hit_ends_rise = header_.character.side_hit_ends_rise;
-  const bool walks = begins_as_walk(header_, record, wanted.from_ground, wanted.velocity);
+  const bool walks = !wanted.jumped && begins_as_walk(header_, record, wanted.from_ground, wanted.velocity);
   const SolidsInStep there(header_, solids(), record);
   const std::vector<MetSurface> surfaces = met_surfaces(there, record.contacts, walks);
-  if (const std::optional<std::string> fault = velocity_fault(step, surfaces, record.velocity))
-    note(Clause::velocity, record, *fault);
+  // What characters hand on to each other is no matter of surfaces, and what turns has no one normal in a step.
+  const bool is_bounded_only = !record.met.empty() || std::any_of(surfaces.begin(), surfaces.end(),
+                                                                  [](const auto& at) { return at.spread > 0; });
+  if (!is_bounded_only) {
+    if (const auto fault = velocity_fault(step, surfaces, record.velocity)) note(Clause::velocity, record, *fault);
+  } else if (judged.speed_gained > 0) {
+    note(Clause::velocity, record, fmt::format("is {:.3g} m/s faster than anything made it", judged.speed_gained));
+  }
 }
 
 void RunJudge::add_refused(const TraceStep& record) {

@@ -62,6 +62,7 @@ class RunJudge {
   void judge_velocity(const TraceStep& record, const StepJudgement& judged, const Follower& follower);
   void judge_movers(const TraceStep& record);
   void judge_times(const TraceStep& record, const StepJudgement& judged);
+  void judge_places(const TraceStep& record, const StepJudgement& judged);
   void judge_drops(const TraceStep& record);
   void judge_met(const TraceStep& record, std::span<const TraceStep> records);
   [[nodiscard]] bool stands(const TraceStep& record) const;

@@ -107,13 +107,6 @@ class RandomRun {
     header.character = controller_.character();
     judge_.emplace(header);
     reported_.emplace(header.scenery, header.points, Tolerances<Scalar>{}.certain);
-    for (ColliderIndex i = 0; i < header.scenery.colliders.size(); ++i)
-      if (const MoverIndex mover = header.scenery.colliders[i].mover; mover != no_mover) {
-        header.scripts.resize(std::max(header.scripts.size(), std::size_t{mover} + 1));
-        header.scripts[mover].colliders.push_back(i);
-        header.scripts[mover].path = {{}};
-        header.scripts[mover].body = true;  // the path says no more than where it begins
-      }
     if (!std::is_same_v<Scalar, float>)
       trace_.emplace(header, up_turns_ ? "movers_any_up" : "movers", name_of(family_) + "_" + std::to_string(seed_));
     Input input;

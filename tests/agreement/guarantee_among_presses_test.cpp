@@ -115,10 +115,6 @@ class Chamber {
     header.scenery = scenery_.as_run();
     header.dt = dt;
     header.gravity = gravity;
-    header.scripts.resize(courses_.size());
-    for (ColliderIndex i = 0; i < colliders_.size(); ++i)
-      if (const MoverIndex mover = colliders_[i].mover; mover != no_mover)
-        header.scripts[mover] = {.colliders = {i}, .path = {{}}, .body = true};  // the path says where it begins
     return header;
   }
 

@@ -293,7 +293,7 @@ TEST_P(Guarantee, no_step_ends_inside_passes_a_solid_or_leaves_a_gap) {
   EXPECT_LE(tally.with_contact, tally.steps * 0.9);
   const bool has_ledges = GetParam() == Family::one_way || GetParam() == Family::one_way_solids;
   EXPECT_EQ(tally.passed_on_purpose > 0, has_ledges) << "only there are ledges to drop through";
-  BrokenByRuns::all().expect_only_what_is_known();
+  BrokenByRuns::all().expect_only_what_is_known(name_of(GetParam()));
 }
 
 class AnyUp : public ::testing::TestWithParam<Family> {};
@@ -317,7 +317,7 @@ TEST_P(AnyUp, no_step_ends_inside_passes_a_solid_or_leaves_a_gap) {
   EXPECT_GE(tally.steep, tally.steps / 100);
   EXPECT_GE(tally.walls, tally.steps / 2500);
   EXPECT_GE(tally.ceilings, tally.steps / 100);
-  BrokenByRuns::all().expect_only_what_is_known();
+  BrokenByRuns::all().expect_only_what_is_known(name_of(GetParam()));
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryFamily, AnyUp, ::testing::ValuesIn(all_families),

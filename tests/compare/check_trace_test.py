@@ -28,6 +28,14 @@ YARD = {
                 "path": [{"t": 0, "at": [0, 0]}, {"t": 3, "at": [0, 3]}]}],
     "input": [{"step": 0, "move": 0}, {"step": 40, "move": 1}, {"step": 120, "move": -1}, {"step": 150, "move": 0},
               {"step": 180, "jump": True}, {"step": 182, "jump": False}]}
+# A character falls onto a plank that turns slowly under it, walks down it and stays.
+SEE_SAW = {
+    "paperproof_scene": 1, "name": "see_saw", "pixels_per_metre": 32, "gravity": [0, -32], "dt": 1 / 64, "steps": 90,
+    "character": {"position": [0, 1.625], "velocity": [0, 0], "walk_speed": 4, "acceleration": 64},
+    "scenery": [{"id": "far", "polygon": [[-9, -9], [9, -9], [9, -8], [-9, -8]]}],
+    "movers": [{"id": "plank", "polygon": [[-4, -0.5], [4, -0.5], [4, 0], [-4, 0]], "path": [{"t": 0, "at": [0, 0]}],
+                "angle": [{"t": 0, "at": -0.02}, {"t": 2, "at": 0.02}, {"t": 4, "at": -0.02}], "loop": "loop"}],
+    "input": [{"step": 0, "move": 0}, {"step": 30, "move": 1}, {"step": 50, "move": 0}]}
 BUILT_IN = ("closing_ceiling", "one_way_drop", "turning_arm", "land_on_circle", "two_on_a_lift", "characters_head_on",
             "start_overlapping_deep")
 STUCK = {
@@ -61,8 +69,21 @@ def is_rising(step, _):
     return step["velocity"][1] > 2 and not step["contacts"]
 
 
+def is_riding(step, before):
+    return step["grounded"] and before["grounded"] and "ride" in step and step["input"] == {"move": 0}
+
+
+def is_walking_along(step, _):
+    return step["grounded"] and step["input"] == {"move": 1} and step["velocity"][0] > 3.9
+
+
 def is_at_gate(step, _):
     return "sensors" in step
+
+
+def is_just_above(step, _):
+    """Of the plank: within what it falls in two steps."""
+    return not step["contacts"] and step["path"][-1][1] < 0.625 + 0.25
 
 
 def is_met(step, _):
@@ -250,9 +271,22 @@ SPOILT = [
     ("two that do not say the same", "characters_head_on", at(is_met, renamed), "contact_invented"),
     ("two that met earlier", "characters_head_on", at(is_met, lambda step, steps, k: [
         met.update(fraction=met["fraction"] / 2) for one in (step, steps[k + 1]) for met in one["met"]]), "time_of_impact"),
+    ("hanging for 10 steps above what turns", "see_saw", at(is_just_above, hanging(10)), "hanging"),
+    ("grounded in the air above what turns", "see_saw", at(is_just_above, put("grounded", to=True)), "ground_invented"),
+    ("not grounded on what turns", "see_saw", at(is_riding, put("grounded", to=False)), "ground_missed"),
+    ("walking on what turns and not grounded", "see_saw", at(is_walking_along, put("grounded", to=False)), "ground_missed"),
+    ("a normal of what turns that is turned", "see_saw", at(is_walking_along, turned(0.1)), "normal"),
     ("a rider that is not carried", "two_on_a_lift", at(
         lambda step, _: "ride" in step and step["ride"]["velocity"][1] > 0 and is_touching(step, _),
         put("requested", 1, to=lambda y: y - 0.02)), "wanted"),
+]
+
+
+# The same; check_trace.py says that it does not judge it.
+SPOILT_FOR_THE_COMMAND = [
+    ("a fall that is lost above what turns", "see_saw", at(is_just_above, put("velocity", 1, to=0)), "speed_lost"),
+    ("a way that is lost above what turns", "see_saw", at(is_just_above, end_moved(0, 0.01)), "speed_lost"),
+    ("horizontal speed that is lost on what turns", "see_saw", at(is_walking_along, put("velocity", 0, to=2)), "speed_lost"),
 ]
 
 
@@ -261,14 +295,15 @@ class Checking(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         scenes = []
-        for scene in (YARD, STUCK):
+        for scene in (YARD, STUCK, SEE_SAW):
             scenes.append(os.path.join(cls.folder.name, scene["name"] + ".json"))
             with open(scenes[-1], "w", encoding="utf-8") as file:
                 json.dump(scene, file)
         stem = os.path.join(cls.folder.name, "t")
         subprocess.run([COMMAND, "compare", *scenes, *BUILT_IN, "--contender", "octagon_sweep", "--no-reference",
                         "--no-timing", "--quiet", "--trace", stem], check=True, stdout=subprocess.DEVNULL)
-        cls.good = {name: f"{stem}.{name}.octagon_sweep.double.jsonl" for name in (YARD["name"], STUCK["name"], *BUILT_IN)}
+        names = [scene["name"] for scene in (YARD, STUCK, SEE_SAW)] + list(BUILT_IN)
+        cls.good = {name: f"{stem}.{name}.octagon_sweep.double.jsonl" for name in names}
 
     @classmethod
     def tearDownClass(cls):
@@ -322,6 +357,15 @@ class Checking(unittest.TestCase):
             status, said = self.judged(path)
             self.assertEqual(status, 1, said)
             self.assertRegex(said, r"\n  velocity on .*: ends with .* the law makes ")
+
+    def test_what_one_of_them_cannot_judge_the_other_does(self):
+        for what, scene, spoil, clause in SPOILT_FOR_THE_COMMAND:
+            with self.subTest(what):
+                path = self.spoilt(scene, spoil)
+                self.assertRegex(self.run_on(path)[1], rf"not judged: .*{clause} in \d+ steps")
+                status, said = self.judged(path)
+                self.assertEqual(status, 1, said)
+                self.assertIn(f"\n  {clause} on ", said)
 
     def test_only_what_is_guaranteed_is_asked_for_unless_told(self):
         def spoil(header, steps):

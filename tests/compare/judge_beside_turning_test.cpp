@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
 namespace paperproof::compare {
@@ -34,11 +35,14 @@ Wanted from_rest(const Vec2d& carried = Vec2d::Zero()) {
   return {.displacement = carried + Vec2d(0, -fall), .velocity = (carried + Vec2d(0, -fall)) / test::dt};
 }
 
-TEST(BesideTurning, a_wall_that_turns_holds_nobody) {
-  const Vec2d right_of_it(half_width + gap + 0.5, 0);
-  for (const double turn : {-1e-2, -1e-4, 0.0})
-    EXPECT_TRUE(judged(staying(plank(2, 0.5), {0, 0}, std::numbers::pi / 2, turn, right_of_it)).hangs) << turn;
-  Beside falls = staying(plank(2, 0.5), {0, 0}, std::numbers::pi / 2, -1e-4, right_of_it);
+TEST(BesideTurning, a_wall_that_turns_away_holds_nobody) {
+  // It touches the right arm, and turns about its lower end.
+  const std::vector<Vec2d> wall{{0, -1}, {4, -1}, {4, 0}, {0, 0}};
+  const auto beside_it = [&](double turn) {
+    return staying(wall, {0, 0}, std::numbers::pi / 2, turn, {half_width + gap, -2});
+  };
+  for (const double turn : {-1e-2, -1e-4, 0.0}) EXPECT_TRUE(judged(beside_it(turn)).hangs) << turn;
+  Beside falls = beside_it(-1e-4);
   falls.step.path.back().position.y() = -0.51 * fall;
   EXPECT_FALSE(judged(falls).hangs);
 }
@@ -124,7 +128,7 @@ TEST(BesideTurning, who_stands_on_it_and_says_it_does_not_is_told_so) {
 }
 
 TEST(BesideTurning, what_is_lost_on_it_is_lost_to_nothing) {
-  Beside made = staying(plank(2, 0.5), {0, half_height + gap}, 0, 1e-6, {0, -0.5});
+  Beside made = staying(plank(2, 0.5), {0, half_height + gap}, 0, -1e-6, {0, -0.5});  // a little downhill
   made.step.requested = {0.05, 0};
   made.step.velocity = {0, 0};
   const StepJudgement one = judged(made);
@@ -144,8 +148,11 @@ TEST(BesideTurning, a_wall_that_turns_opposes_who_runs_into_it) {
   EXPECT_EQ(lost(0.05, 1e-6).motion_lost, 0);
   EXPECT_FALSE(lost(0.05, 1e-6).unsure);
   EXPECT_NEAR(lost(0.15, 1e-6).motion_lost, 0.1, 1e-9);
-  EXPECT_TRUE(lost(0.101, 1e-2).unsure);
-  EXPECT_EQ(lost(0.101, 1e-2).motion_lost, 0);
+  // Its face comes 0.01 times 0.3125 closer at the height of the arm, and 0.01 times the octagon's extent at most.
+  EXPECT_TRUE(lost(0.11, 1e-2).unsure);
+  EXPECT_EQ(lost(0.11, 1e-2).motion_lost, 0);
+  EXPECT_EQ(lost(0.102, 1e-2).motion_lost, 0);
+  EXPECT_FALSE(lost(0.102, 1e-2).unsure);
 }
 
 /// A free fall in parts, a tenth of a metre beside a plank that turns.
@@ -199,6 +206,7 @@ TEST(LaterParts, are_what_the_law_makes_part_by_part) {
     const double part = test::dt / parts;
     Vec2d v(random.between(-6, 6), random.between(-5, 5));
     if (has_limit) v.y() = std::max(v.y(), -*header.character.max_fall_speed);
+    if (random.below(3) == 0) v.x() = target;
     Wanted first;
     first.parts = parts;
     Vec2d way = Vec2d::Zero();
@@ -263,6 +271,73 @@ TEST(BesideTurning, a_reported_normal_is_that_of_a_face_that_is_touched) {
   EXPECT_NEAR(error({0, 1}, Side::bottom), 0, 1e-6);
   EXPECT_NEAR(error(turned({0, 1}, 0.1), Side::bottom), 0.1 * 180 / std::numbers::pi, 1e-6);
   EXPECT_NEAR(error({0, -1}, Side::top), 180, 1e-6);
+}
+
+/// Beside a wall that turns, 5 cm above a floor, which is collider 1.
+Beside above_floor(double wall_apart, const Vec2d& moved) {
+  Beside made = staying(plank(2, 0.5), {0, half_height + 0.05}, std::numbers::pi / 2, 1e-6,
+                        {half_width + wall_apart + 0.5, 1}, moved);
+  made.header.scenery.colliders.push_back(box(-5, -1, 5, 0));
+  made.header.ids.push_back("floor");
+  made.step.requested = {0, -0.1};
+  return made;
+}
+
+bool has_contact(const StepJudgement& judged, ColliderIndex collider) {
+  return std::any_of(judged.contacts.begin(), judged.contacts.end(),
+                     [&](const ExactContact& contact) { return contact.collider == collider; });
+}
+
+TEST(BesideTurning, what_is_requested_meets_nothing_after_what_turns) {
+  EXPECT_TRUE(has_contact(judged(above_floor(1, {-0.1, 0})), 1)) << "the wall does not come so far";
+  // It comes to the arm after 0.2 of the step; the floor would be met after half of it.
+  Beside met = above_floor(0.02, {-0.1, 0});
+  met.step.path.back().position = {-0.08 - gap, half_height + 0.05};
+  const StepJudgement one = judged(met);
+  EXPECT_FALSE(has_contact(one, 1));
+  EXPECT_TRUE(has_contact(one, 0)) << "which is not reported";
+  EXPECT_NEAR(one.first_impact.value_or(0), 0.2, 1e-3);
+  EXPECT_FALSE(one.in_parts);
+}
+
+TEST(BesideTurning, what_the_first_part_would_meet_in_a_later_one_is_not_asked_for) {
+  const auto judge_parts = [](int parts, double requested) {
+    Beside made = above_floor(0.3, Vec2d::Zero());
+    made.step.requested = {0, -requested};
+    Wanted wanted{.displacement = made.step.requested, .velocity = made.step.requested / test::dt};
+    wanted.parts = parts;
+    return Judge(made.header).judge(made.step, {}, &wanted);
+  };
+  EXPECT_TRUE(has_contact(judge_parts(1, 0.1), 1)) << "after half of the step";
+  EXPECT_FALSE(has_contact(judge_parts(4, 0.1), 1));
+  EXPECT_TRUE(judge_parts(4, 0.1).in_parts);
+  EXPECT_TRUE(has_contact(judge_parts(4, 0.25), 1)) << "in the first fifth";
+  EXPECT_FALSE(judge_parts(4, 0.25).in_parts);
+}
+
+TEST(BesideTurning, who_is_pressed_against_the_floor_touches_it) {
+  // It wants to jump; a press that turns touches its head, or is far above.
+  const auto deflected = [](double above) {
+    Beside made = staying(plank(2, 0.5), {0, half_height + gap}, 0, 1e-9, {0, 2 * half_height + gap + above + 0.5});
+    made.header.scenery.colliders.push_back(box(-5, -1, 5, 0));
+    made.header.ids.push_back("floor");
+    made.step.requested = {0, 0.1};
+    made.step.contacts = {{.collider = 1, .point = {0, 0}, .normal = {0, 1}, .fraction = 0, .side = Side::bottom}};
+    return judged(made).deflected;
+  };
+  const std::vector<std::pair<ColliderIndex, Side>> pressed{{1, Side::bottom}};
+  EXPECT_EQ(deflected(gap), pressed);
+  EXPECT_TRUE(deflected(1).empty());
+}
+
+TEST(BesideTurning, a_sensor_that_turns_is_counted_where_it_is_overlapped) {
+  const auto overlaps = [](double x) {
+    Beside made = staying(plank(2, 0.5), {x, 0}, 0, 0.01, {0, 0});
+    made.header.scenery.colliders[0].sensor = true;
+    return judged(made).turning_sensor;
+  };
+  EXPECT_TRUE(overlaps(0));
+  EXPECT_FALSE(overlaps(5));
 }
 
 }  // namespace

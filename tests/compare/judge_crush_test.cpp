@@ -90,9 +90,9 @@ TEST(JudgeCrush, what_passes_over_it_with_room_is_no_passage_of_who_promises_it)
   for (const bool promised : {false, true}) {
     if (promised) header.guarantees = {Clause::crush};
     Judge judge(header);
-    const StepJudgement judged = judge.judge(staying(standing, {{0, 0}, {0, -3}}, {1}));
-    EXPECT_EQ(judged.crushed_with_room, Colliders{1});
-    EXPECT_EQ(judged.tunnelled, promised ? Colliders{} : Colliders{1});
+    const StepJudgement judged = judge.judge(staying(standing, {{0, 0}, {0, -3}}, {0}));
+    EXPECT_EQ(judged.crushed_with_room, Colliders{0});
+    EXPECT_EQ(judged.tunnelled, promised ? Colliders{} : Colliders{0});
   }
 }
 

@@ -67,6 +67,23 @@ class TypedTrace(unittest.TestCase):
                 self.assertEqual(status, 1 if clause in promised else 0, f"{word} -> {other}")
 
 
+class Arcs(unittest.TestCase):
+    def test_of_scenes_are_left_as_far_as_it_says(self):
+        text = section("oracle/README.md", "What turns")
+        said = {scene: metres for metres, scene in re.findall(r"([\d.]+) m in\s+`(\w+)`", text)}
+        self.assertGreaterEqual(len(said), 2)
+        with tempfile.TemporaryDirectory() as folder:
+            out = Path(folder) / "rows.jsonl"
+            subprocess.run([COMMAND, "compare", *said, "--contender", "octagon_sweep", "--no-reference", "--no-timing",
+                            "--quiet", "--rows", out, "--trace", Path(folder) / "t"], stdout=subprocess.DEVNULL, check=True)
+            found = [json.loads(line) for line in out.read_text(encoding="utf-8").splitlines()[1:]]
+            self.assertEqual({row["scene"]: f"{row['arc_error_max_m']:.2g}" for row in found}, said)
+            for row in found:
+                trace = Path(folder) / f"t.{row['scene']}.octagon_sweep.double.jsonl"
+                judged = subprocess.run([COMMAND, "judge", trace], stdout=subprocess.PIPE, text=True, check=True).stdout
+                self.assertIn(f"leaves its arc by at most {row['arc_error_max_m']:.3g} m", judged)
+
+
 class Tables(unittest.TestCase):
     def test_of_clauses_names_each_in_order(self):
         schema = json.loads((COMPARE / "records/paperproof_trace.schema.json").read_text(encoding="utf-8"))

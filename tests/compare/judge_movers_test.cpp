@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace paperproof::compare {
 namespace {
@@ -266,6 +268,51 @@ TEST(JudgeSensors, agree_with_overlap_tested_at_many_instants) {
     }
   }
   EXPECT_GT(events, 200);
+}
+
+/// Kept at a contact [m].
+constexpr double kept = 5e-7;
+
+bool is_deflected(const TraceHeader& header, TraceStep step, const Contact<double>& first,
+                  const Contact<double>& second) {
+  step.requested.setZero();
+  step.contacts = {first, second};
+  const StepJudgement judged = Judge(header).judge(step);
+  const auto& deflected = judged.deflected;
+  return std::find(deflected.begin(), deflected.end(), std::pair(second.collider, second.side)) != deflected.end();
+}
+
+/// A corner of a box touches the octagon's lower right flank, whose middle is at (0.234375, -0.46875), and goes left:
+/// it pushes the octagon up against a ceiling. If it goes right, nothing does.
+TEST(JudgeMovers, a_contact_into_which_a_mover_pushes_is_right) {
+  const Vec2d flank = Vec2d(-2, 1).normalized();
+  const Vec2d corner = Vec2d(0.234375, -0.46875) - kept * flank;
+  const TraceHeader there =
+      promising({moving(box(corner.x(), corner.y() - 0.5, corner.x() + 1, corner.y())), box(-4, 0.625 + kept, 4, 2)});
+  for (const double way : {-0.125, 0.125}) {
+    const TraceStep pushed = leg({0, 0}, {std::min(way, 0.0), 0}, {{{0, 0}, {way, 0}}});
+    EXPECT_EQ(is_deflected(there, pushed,
+                           {.collider = 0, .point = corner, .normal = flank, .separation = kept, .side = Side::right},
+                           {.collider = 1, .normal = {0, -1}, .separation = kept, .side = Side::top}),
+              way < 0);
+  }
+}
+
+/// A floor comes up under the octagon beside a wall: it carries to the left, into the wall, or to the right.
+TEST(JudgeMovers, a_contact_into_which_ground_carries_is_right) {
+  const TraceHeader there = promising({moving(box(-0.5, -2, 4, -1)), box(-2, -0.5, -0.3125 - kept, 2)});
+  constexpr double rise = 0.5;
+  constexpr double met = (1 - 0.625) / rise;
+  for (const double way : {-0.125, 0.125}) {
+    const TraceStep carried =
+        among(step({{0, 0}, {0, 0}, {std::max(0.0, way * (1 - met)), rise * (1 - met)}}), {{{0, 0}, {way, rise}}});
+    TraceStep at_its_time = carried;
+    at_its_time.path[1] = {{0, 0}, met - 2 * kept / rise};
+    EXPECT_EQ(is_deflected(there, at_its_time,
+                           {.collider = 0, .normal = {0, 1}, .fraction = met, .separation = kept, .side = Side::bottom},
+                           {.collider = 1, .normal = {1, 0}, .fraction = met, .separation = kept, .side = Side::left}),
+              way < 0);
+  }
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "records/verdict.hpp"
 
+#include "records/clause.hpp"
+
 #include <gtest/gtest.h>
 
 namespace paperproof::compare {
@@ -44,6 +46,18 @@ TEST(Verdict, of_a_run_that_was_not_made_stays) {
     EXPECT_EQ(row.verdict, verdict);
     EXPECT_EQ(row.reason, "no slopes");
   }
+}
+
+TEST(Breach, counts_a_step_once_and_keeps_what_happened_first) {
+  Breach breach;
+  for (const auto& [step, words] : {std::pair{3, "first"}, {3, "second"}, {4, "third"}, {7, "fourth"}, {7, "fifth"}})
+    breach.add(step, [&] { return std::string(words); });
+  EXPECT_EQ(breach.steps, 3);
+  EXPECT_EQ(breach.first_step, 3);
+  EXPECT_EQ(breach.first, "first");
+  Breach at_zero;
+  at_zero.add(0, [] { return std::string("at once"); });
+  EXPECT_EQ(at_zero.steps, 1);
 }
 
 }  // namespace
