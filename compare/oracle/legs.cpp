@@ -175,7 +175,7 @@ double LegJudge::leg_error() const {
   ControlledStep law{.wanted = first_.displacement / dt_, .up = up_};
   law.unsteered = law.wanted - first_.steered / dt_ * right_;
   const SolidsInStep solids(header_, scenery_, step_);
-  const bool walks = begins_as_walk(header_, step_, first_.from_ground, first_.velocity);
+  const bool walks = !first_.jumped && begins_as_walk(header_, step_, first_.from_ground, first_.velocity);
   const std::vector<MetSurface> surfaces = met_surfaces(solids, step_.contacts, walks);
   std::vector<Vec2d> outcomes{law.wanted};
   std::size_t met = 0;

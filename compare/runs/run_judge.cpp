@@ -538,14 +538,12 @@ void RunJudge::judge_velocity(const TraceStep& record, const StepJudgement& judg
   const bool walks = !wanted.jumped && begins_as_walk(header_, record, wanted.from_ground, wanted.velocity);
   const SolidsInStep there(header_, solids(), record);
   const std::vector<MetSurface> surfaces = met_surfaces(there, record.contacts, walks);
-  // What characters hand on to each other is no matter of surfaces, and what turns has no one normal in a step.
+  // What characters hand on to each other is no matter of surfaces, and what turns has no one normal in a step:
+  // there only its size is judged.
   const bool is_bounded_only = !record.met.empty() || std::any_of(surfaces.begin(), surfaces.end(),
                                                                   [](const auto& at) { return at.spread > 0; });
-  if (!is_bounded_only) {
-    if (const auto fault = velocity_fault(step, surfaces, record.velocity)) note(Clause::velocity, record, *fault);
-  } else if (judged.speed_gained > 0) {
-    note(Clause::velocity, record, fmt::format("is {:.3g} m/s faster than anything made it", judged.speed_gained));
-  }
+  if (is_bounded_only) return;
+  if (const auto fault = velocity_fault(step, surfaces, record.velocity)) note(Clause::velocity, record, *fault);
 }
 
 void RunJudge::add_refused(const TraceStep& record) {
