@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace paperproof::compare::detail {
 namespace {
@@ -28,14 +27,7 @@ EndJudge::EndJudge(const TraceHeader& header, const ExactScenery& scenery, const
       up_(up_in(step, header)),
       dt_(length_of(step, header)) {}
 
-std::vector<NearPart> EndJudge::near(std::size_t corner, double within) const {
-  std::vector<NearPart> parts = scenery_.near_parts(Place(step_.path[corner], step_.movers), within);
-  if (others_.near)
-    for (NearPart& other : others_.near(step_.path[corner], within)) parts.push_back(std::move(other));
-  return parts;
-}
-
-/// The same where the step ends, and how it goes then.
+/// The parts near where the step ends, and how they go then.
 std::vector<NearPart> EndJudge::near_at_end(double within) const {
   if (!others_.near_at_end) return near(step_.path.size() - 1, within);
   std::vector<NearPart> parts = scenery_.near_parts(end(), within);
@@ -151,37 +143,6 @@ double EndJudge::vertical_error() const {
   return error;
 }
 
-/// How much faster it is than it can be [m/s].
-double EndJudge::speed_gained() const {
-  // Steering that presses into a steep face is taken out of what is wanted.
-  const Vec2d unsteered = wanted_.velocity - wanted_.steered / dt_ * Vec2d(up_.y(), -up_.x());
-  // Ground that is followed makes a climb of what goes across up, and a ceiling turns that back.
-  const auto grounds = std::count_if(step_.contacts.begin(), step_.contacts.end(), [this](const Contact<double>& one) {
-    return is_walkable(one.normal, header_, up_);
-  });
-  const double steepest = 1 / std::cos(header_.character.max_climb_degrees * std::numbers::pi / 180);
-  double most = (std::max(wanted_.velocity.norm(), unsteered.norm()) + later_.steered() + later_.jump) *
-                std::pow(steepest, static_cast<double>(std::max<std::ptrdiff_t>(1, grounds)));
-  bool pushed = false;
-  for (std::size_t corner = 0; corner < step_.path.size(); ++corner)
-    for (const NearPart& part : near(corner, contact_reach)) {
-      pushed = pushed || !part.moved.isZero(0);
-      const bool is_known = part.collider < header_.scenery.colliders.size();
-      const double conveyor = is_known ? std::abs(header_.scenery.colliders[part.collider].surface_speed) : 0;
-      most += (part.moved.norm() + part.unsure) / dt_ + conveyor;
-    }
-  const Vec2d right(up_.y(), -up_.x());
-  double gained = step_.velocity.norm() - most;
-  // A fall becomes a rise only where a walk climbs, and that keeps its speed across up.
-  const bool rises = step_.velocity.dot(up_) > rounding_of_motion && wanted_.velocity.dot(up_) < 0;
-  if (rises && !pushed && step_.contacts.size() <= 1) {  // several may turn a fall aside, and that up a slope
-    const double across =
-        std::max(std::abs(wanted_.velocity.dot(right)), std::abs(unsteered.dot(right))) + later_.steered();
-    gained = std::max(gained, std::abs(step_.velocity.dot(right)) - across);
-  }
-  return gained <= rounding_of_motion * (1 + most) ? 0 : gained;
-}
-
 void EndJudge::judge_speed(bool starts_free, StepJudgement& judgement) const {
   const bool excused =
       !starts_free || step_.stuck || step_.dropped || !judgement.crushed.empty() || !judgement.end_overlap.empty();
@@ -192,7 +153,6 @@ void EndJudge::judge_speed(bool starts_free, StepJudgement& judgement) const {
     judgement.speed_lost = may_snap ? 0 : flight_error();
   else
     judgement.speed_lost = may_snap ? 0 : vertical_error();
-  judgement.speed_gained = speed_gained();
 }
 
 }  // namespace paperproof::compare::detail

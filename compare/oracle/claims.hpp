@@ -4,7 +4,7 @@
 #include "oracle/hanging.hpp"
 #include "oracle/intent.hpp"
 #include "oracle/judge.hpp"
-#include "oracle/later_parts.hpp"
+#include "oracle/legs.hpp"
 
 namespace paperproof::compare::detail {
 
@@ -26,10 +26,8 @@ inline constexpr double touch_rounding = 1e-8;
 ///
 /// **Speed lost or gained.** A step that begins free, and whose wanted motion comes within 1e-6 m of nothing, goes
 /// exactly as wanted. Else the upward speed is less than wanted only below a ceiling, on ground that is followed, or
-/// where a climb ends with the walk at a wall; and more than wanted only on a face that looks upwards. No speed is
-/// larger than the wanted one, kept across up on the steepest walkable ground, once for each ground that is met, and
-/// that of the movers touched. A fall
-/// becomes a rise only where a walk climbs: then it goes no faster across up than was wanted.
+/// where a climb ends with the walk at a wall; and more than wanted only on a face that looks upwards. How fast
+/// and far it may go at most is a matter of `LegJudge`.
 class EndJudge {
  public:
   /// @param grown_scenery the same for an octagon that is larger by 1e-6 m.
@@ -42,14 +40,15 @@ class EndJudge {
 
  private:
   [[nodiscard]] Place end() const { return {step_.path.back(), step_.movers}; }
-  [[nodiscard]] std::vector<NearPart> near(std::size_t corner, double within) const;
+  [[nodiscard]] std::vector<NearPart> near(std::size_t corner, double within) const {
+    return parts_near(scenery_, step_, others_, corner, within);
+  }
   [[nodiscard]] std::vector<NearPart> near_at_end(double within) const;
   [[nodiscard]] bool meets_ground(const Vec2d& displacement) const;
   [[nodiscard]] bool stands_on_ground() const;
   [[nodiscard]] bool goes_freely() const;
   [[nodiscard]] double flight_error() const;
   [[nodiscard]] double vertical_error() const;
-  [[nodiscard]] double speed_gained() const;
   [[nodiscard]] bool is_alone() const;
 
   const TraceHeader& header_;

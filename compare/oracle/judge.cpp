@@ -19,6 +19,9 @@ namespace {
 /// Instants at which the depth of a passing is looked at first.
 constexpr int depth_samples = 32;
 constexpr int depth_refinements = 40;
+/// The shortest straight way out of what a step begins inside of may be longer by this [m]; a way that is to be shorter
+/// ends with as large a gap, and is open as far to both sides.
+constexpr double around_way_out = 1e-6;
 /// The character waits so long at the beginning of each part of a step that goes in parts, as a share of the step.
 constexpr double waited_in_part = 2e-6;
 /// A time of impact is told where what that comes to is no more than this along the normal [m].
@@ -113,10 +116,11 @@ StepJudgement Judge::judge_step(const TraceStep& step, const Others& others, con
   if (!continues(step, path.front())) begin_episodes(path.front());
   const bool begins_in_turning = turning != nullptr && turning->begins_inside;
   const bool starts_free = inside_.empty() && !begins_in_turning;
-  if (!step.respawn) judgement.remainder_made = step.remainder.x() - remainder_before_.x();
+  if (!step.respawn && !promises_) judgement.remainder_made = step.remainder.x() - remainder_before_.x();
   // Before the way is judged: from which side it came into what it is inside of is known where the step begins.
   if (step.stuck && !starts_free)
     judgement.stuck_refuted = is_stuck_refuted(path.front(), others, turning, begins_in_turning);
+  leaving_ = promises_ && !starts_free ? leaving_of(path, others, begins_in_turning) : Leaving{};
   const auto contacts = [&] {
     const ExactScenery* grown = promises_ ? &scenery_for(detail::least_clearance) : nullptr;
     return detail::ContactJudge(header_, scenery_, grown, step);
@@ -513,6 +517,7 @@ void Judge::judge_progress(const TraceStep& step, const Others& others, const Wa
     const detail::EndJudge end(header_, scenery_, scenery_for(detail::contact_reach), step, *wanted, others, later);
     end.judge_ground(hanging, starts_free, judgement);
     end.judge_speed(starts_free, judgement);
+    judge_legs(step, others, *wanted, later, judgement);
     if (judgement.speed_gained > 0 && others.runs_into && turning_->touches_disc(step)) {
       judgement.speed_gained = 0;
       judgement.unsure = true;
@@ -523,13 +528,68 @@ void Judge::judge_progress(const TraceStep& step, const Others& others, const Wa
   excuse_by_turning(step, later, others, judgement);
   if (!judgement.crushed.empty()) return;
   const Vec2d before = step.respawn ? step.remainder : remainder_before_;
-  const Vec2d made = step.path.back().position - step.path.front().position + step.remainder - before;
+  Vec2d made = step.path.back().position - step.path.front().position;
+  if (!promises_) made += step.remainder - before;  // a grid's
   const detail::Reach own = detail::reach_of(header_);
   judgement.hangs = hanging.hangs(made, own);
   judgement.unsure =
       judgement.unsure || (others.runs_into && !judgement.hangs && hanging.hangs(made, own, detail::Bounds::nominal));
   judgement.hovers = judgement.hovers || (own.contact > detail::exact_reach.contact && !judgement.hangs &&
                                           hanging.hangs(made, detail::exact_reach));
+}
+
+Judge::Leaving Judge::leaving_of(const Path& path, const Others& others, bool from_turning) const {
+  Leaving leaving{.inside = true, .turning = from_turning};
+  if (path.size() < 2 || path[1].fraction != 0 || from_turning) return leaving;
+  const Place& start = path[0];
+  const Place& out = path[1];
+  std::vector<ColliderIndex> inside;
+  std::vector<std::pair<ColliderIndex, Place>> sides;
+  for (const auto& [collider, episode] : inside_) {
+    inside.push_back(collider);
+    if (episode.free_from) sides.emplace_back(collider, episode.free_from->place());
+  }
+  const auto is_left = [&](ColliderIndex collider) { return !scenery_.overlaps(out, collider); };
+  leaving.at_once = std::any_of(inside.begin(), inside.end(), is_left);
+  leaving.free = std::all_of(inside.begin(), inside.end(), is_left);
+  const Vec2d way = out.position - start.position;
+  if (!leaving.free || !(way.norm() > around_way_out)) return leaving;
+  const auto open = [&](const Vec2d& end) {
+    const std::vector<ColliderIndex> met = scenery_.met(start, Place(end, start.movers, 0));
+    return std::includes(inside.begin(), inside.end(), met.begin(), met.end());
+  };
+  const auto accept = [&](const Vec2d& end) {
+    const Vec2d ahead = (end - start.position).normalized();
+    const Vec2d aside = Vec2d(-ahead.y(), ahead.x()) * around_way_out;
+    return open(end) && open(end + aside) && open(end - aside) && !ends_on_another_side(start, end) &&
+           (!others.left_free || others.left_free(std::vector<PathPoint<double>>{{start.position, 0}, {end, 1}}));
+  };
+  const WayQuestion question{.from = start, .end = start, .may_pass = inside, .sides = sides};
+  leaving.longer = scenery_.find_free(question, way.norm() - around_way_out, around_way_out, accept).has_value();
+  return leaving;
+}
+
+/// How far and how fast the step goes at most, and whether it leaves what it begins inside of as it must.
+void Judge::judge_legs(const TraceStep& step, const Others& others, const Wanted& wanted,
+                       const detail::LaterParts& later, StepJudgement& judgement) const {
+  const detail::LegJudge legs(header_, scenery_, step, wanted, others, later);
+  const bool held = leaving_.inside && !leaving_.free && (!leaving_.turning || step.stuck);
+  const double way = legs.way_gained(leaving_.inside && leaving_.at_once ? 1 : 0, held);
+  const double speed = legs.speed_gained(held);
+  const bool says_so = step.stuck || !judgement.crushed.empty() || !judgement.crushed_with_room.empty();
+  const auto overlaps = [](const NearPart& part) { return part.faces.front().separation < 0; };
+  const auto is_inside_another = [&] {
+    const std::vector<NearPart> parts = others.near ? others.near(step.path.back(), 0) : std::vector<NearPart>{};
+    return std::any_of(parts.begin(), parts.end(), overlaps);
+  };
+  const bool stays =
+      (held && !judgement.end_overlap.empty()) || (!step.start_overlap_characters.empty() && is_inside_another());
+  judgement.start_mishandled = leaving_.longer || (stays && !says_so) || (held && (way > 0 || speed > 0));
+  if (held) return;
+  if (!leaving_.turning) judgement.way_gained = way;
+  judgement.speed_gained = speed;
+  const bool as_law = !leaving_.inside && !step.stuck && !says_so && judgement.end_overlap.empty();
+  if (as_law) judgement.leg_error = legs.leg_error();
 }
 
 /// Takes back what all parts of the step together did not want, or what something that turns may have taken.

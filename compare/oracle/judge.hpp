@@ -74,11 +74,13 @@ struct StepJudgement {
   /// How far the requested motion goes against the normal of the first impact, where it goes as requested until then
   /// [m].
   std::optional<double> first_approach;
-  bool hangs = false;           ///< It could have fallen, and did not: see `Judge`.
-  bool hovers = false;          ///< Only surfaces farther than 1e-6 m away, within the contender's own reach, hold it.
-  double remainder_made = 0;    ///< Horizontally, taken up by a grid to be made later [m].
-  double motion_wanted = 0;     ///< Horizontally [m].
-  double motion_lost = 0;       ///< Of that, to nothing exact [m]: see `Judge`.
+  bool hangs = false;         ///< It could have fallen, and did not: see `Judge`.
+  bool hovers = false;        ///< Only surfaces farther than 1e-6 m away, within the contender's own reach, hold it.
+  double remainder_made = 0;  ///< Horizontally, taken up by a grid to be made later [m].
+  double motion_wanted = 0;   ///< Horizontally [m].
+  double motion_lost = 0;     ///< Of that, to nothing exact [m]: see `Judge`.
+  /// It began inside something, and neither left that as §6 of the guarantee says nor was held there: see `Judge`.
+  bool start_mishandled = false;
   bool stuck_refuted = false;   ///< It said that it is stuck, and there is a way out: see `Judge`.
   bool ground_refuted = false;  ///< It said that it is grounded, and nothing is under it: see `Judge`.
   bool ground_late = false;     ///< The same, but something was under it earlier in the step: excused.
@@ -89,7 +91,9 @@ struct StepJudgement {
   bool turning_sensor = false;  ///< It overlaps a sensor that turns, or says so: that is not asked for.
   bool ground_missed = false;   ///< It touches ground that it does not leave, and says that it is not grounded.
   double speed_lost = 0;        ///< Of the wanted velocity, with nothing exact that took it [m/s].
-  double speed_gained = 0;      ///< More than the wanted velocity and what is touched can give [m/s].
+  double speed_gained = 0;      ///< More than the wanted velocity and what moves near by can give [m/s].
+  double way_gained = 0;        ///< The same of the way [m].
+  double leg_error = 0;         ///< So far from where the law of response leads it a leg ends [m].
   double ghost_speed_loss = 0;  ///< Share of the wanted horizontal speed that was lost to nothing exact, in [0, 1].
   std::vector<ExactSensorEvent> sensor_events;  ///< What should have been reported.
   int sensor_events_missing = 0;                ///< Of `sensor_events`.
@@ -228,6 +232,13 @@ struct StepJudgement {
 /// ghost speed loss, whether a contact was reported or not; but for a step that Box2D's cap cut short, or one that
 /// said it is stuck and was right.
 ///
+/// **Start inside.** A step that begins inside of solids leaves them at once, in its first leg, which takes no time. No
+/// straight way out is shorter by more than 1e-6 m, ends with a gap of 1e-6 m to everything, leaves the other
+/// characters free, and keeps to the side of the last free place. Else the step is held: it ends free of them, or says
+/// that it is stuck or crushed, and neither its way nor its velocity at the end is more than what moves near by gives
+/// it (`detail::LegJudge`). Of what turns only the latter is asked of a step that says it is stuck. Of other
+/// characters: it ends free of them, or says so.
+///
 /// **Stuck, refuted.** A step that says it is stuck is refuted if it begins and ends free, or if the shortest straight
 /// way out (`ExactScenery::way_out`) leaves the other characters free and ends on the side of the last place that was
 /// free of what it is inside of. The way is asked for where the step begins, as things are then: what moves may open
@@ -337,6 +348,17 @@ class Judge {
   void judge_progress(const TraceStep& step, const Others& others, const Wanted* wanted, bool starts_free,
                       StepJudgement& judgement);
   [[nodiscard]] std::vector<ColliderIndex> newly_inside(const StepJudgement& judgement) const;
+  void judge_legs(const TraceStep& step, const Others& others, const Wanted& wanted, const detail::LaterParts& later,
+                  StepJudgement& judgement) const;
+  /// How a step that begins inside of solids leaves them.
+  struct Leaving {
+    bool inside = false;   ///< The step begins inside of solids.
+    bool at_once = false;  ///< Its first leg leaves one of them.
+    bool free = false;     ///< That leg leaves all of them.
+    bool longer = false;   ///< And there is a shorter way.
+    bool turning = false;  ///< Something that turns is among them.
+  };
+  [[nodiscard]] Leaving leaving_of(const Path& path, const Others& others, bool from_turning) const;
   [[nodiscard]] bool ends_on_another_side(const Place& at, const Vec2d& out) const;
   [[nodiscard]] bool has_way_out(const Place& at, const Others& others);
 
@@ -348,6 +370,7 @@ class Judge {
   bool has_sensors_ = false;
   double slop_ = 0;
   bool promises_ = false;  ///< See `Party::promising`.
+  Leaving leaving_;        ///< Of the step that is being judged.
   double dt_ = 0;          ///< Of the step that is being judged [s].
   std::map<ColliderIndex, Episode> inside_;
   std::optional<Kept> last_end_;

@@ -472,6 +472,14 @@ void RunJudge::judge_clauses(const TraceStep& record, const StepJudgement& judge
                         [](const auto& a, const auto& b) { return a.fraction < b.fraction; }),
         [] { return std::string("the events of sensors are not in order of time"); });
   check(Clause::start_inside, judged.stuck_refuted, [] { return std::string("says it is stuck beside a way out"); });
+  check(Clause::start_inside, judged.start_mishandled,
+        [] { return std::string("begins inside, and neither leaves by the shortest way out nor stays and says so"); });
+  check(Clause::velocity, judged.way_gained > 0,
+        [&] { return "goes " + metres(judged.way_gained) + " farther than anything made it"; });
+  check(Clause::velocity, judged.leg_error > 0,
+        [&] { return "goes another way than the law makes, by " + metres(judged.leg_error); });
+  check(Clause::velocity, judged.speed_gained > 0,
+        [&] { return fmt::format("is {:.3g} m/s faster than anything made it", judged.speed_gained); });
   check(Clause::hanging, judged.hangs, [] { return std::string("hangs in the air"); });
   check(Clause::speed_lost, judged.motion_lost > 0,
         [&] { return "loses " + metres(judged.motion_lost) + " of its horizontal way to nothing"; });
@@ -532,14 +540,12 @@ void RunJudge::judge_velocity(const TraceStep& record, const StepJudgement& judg
   const bool walks = !wanted.jumped && begins_as_walk(header_, record, wanted.from_ground, wanted.velocity);
   const SolidsInStep there(header_, solids(), record);
   const std::vector<MetSurface> surfaces = met_surfaces(there, record.contacts, walks);
-  // What characters hand on to each other is no matter of surfaces, and what turns has no one normal in a step.
+  // What characters hand on to each other is no matter of surfaces, and what turns has no one normal in a step:
+  // there only its size is judged.
   const bool is_bounded_only = !record.met.empty() || std::any_of(surfaces.begin(), surfaces.end(),
                                                                   [](const auto& at) { return at.spread > 0; });
-  if (!is_bounded_only) {
-    if (const auto fault = velocity_fault(step, surfaces, record.velocity)) note(Clause::velocity, record, *fault);
-  } else if (judged.speed_gained > 0) {
-    note(Clause::velocity, record, fmt::format("is {:.3g} m/s faster than anything made it", judged.speed_gained));
-  }
+  if (is_bounded_only) return;
+  if (const auto fault = velocity_fault(step, surfaces, record.velocity)) note(Clause::velocity, record, *fault);
 }
 
 void RunJudge::add_refused(const TraceStep& record) {

@@ -1,0 +1,209 @@
+#include "oracle/legs.hpp"
+
+#include "oracle/contacts.hpp"
+#include "oracle/hanging.hpp"
+#include "oracle/met_surfaces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <set>
+
+namespace paperproof::compare::detail {
+namespace {
+
+/// What is computed in another order differs by no more than this, relative to its size.
+constexpr double relative_rounding = 1e-9;
+/// A start is moved by so much at most, so that it is no nearer to anything than a step keeps [m].
+constexpr double restores_start = 2e-6;
+/// A leg along a surface may aim so much away from it [m].
+constexpr double aims_away = 1e-6;
+/// Straight down, to ground that bends by no more than rounded vertices do [m].
+constexpr double follows_seam = 2.8e-6;
+/// A walk climbs no more of them in one step.
+constexpr double most_stairs = 4;
+/// Where something turns, a character waits for a millionth of each part of the step, and then catches up.
+constexpr double waits = 2e-6;
+
+}  // namespace
+
+std::vector<NearPart> parts_near(const ExactScenery& scenery, const TraceStep& step, const Others& others,
+                                 std::size_t corner, double within) {
+  std::vector<NearPart> parts = scenery.near_parts(Place(step.path[corner], step.movers), within);
+  if (others.near)
+    for (NearPart& other : others.near(step.path[corner], within)) parts.push_back(std::move(other));
+  return parts;
+}
+
+LegJudge::LegJudge(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step, const Wanted& wanted,
+                   const Others& others, const LaterParts& later)
+    : header_(header),
+      scenery_(scenery),
+      step_(step),
+      first_(wanted),
+      wanted_(later.whole(wanted)),
+      others_(others),
+      later_(later),
+      up_(up_in(step, header)),
+      right_(up_.y(), -up_.x()),
+      dt_(length_of(step, header)),
+      unsteered_(wanted_.velocity - wanted_.steered / dt_ * right_) {}
+
+/// The largest speed that the step can have without what moves [m/s]. Steering that presses into a steep face is taken
+/// out of what is wanted. A walk keeps its speed across up on ground as steep as it may be, and where a ceiling turns
+/// that climb back, once more on the ground that follows.
+double LegJudge::own_speed() const {
+  const double most =
+      std::max({wanted_.velocity.norm(), first_.velocity.norm(), wanted_.displacement.norm() / dt_, unsteered_.norm()});
+  const auto grounds = std::count_if(step_.contacts.begin(), step_.contacts.end(), [this](const Contact<double>& one) {
+    return is_walkable(one.normal, header_, up_);
+  });
+  const double steepest = 1 / std::cos(header_.character.max_climb_degrees * std::numbers::pi / 180);
+  return (most + later_.steered() + later_.jump) *
+         std::pow(steepest, static_cast<double>(std::max<std::ptrdiff_t>(1, grounds)));
+}
+
+/// The speed of all conveyors that are touched [m/s].
+double LegJudge::conveyed() const {
+  std::map<ColliderIndex, double> conveyors;
+  for (std::size_t corner = 0; corner < step_.path.size(); ++corner)
+    for (const NearPart& part : scenery_.near_parts(Place(step_.path[corner], step_.movers), contact_reach))
+      conveyors[part.collider] = std::abs(header_.scenery.colliders[part.collider].surface_speed);
+  double speed = 0;
+  for (const auto& [collider, conveyor] : conveyors) speed += conveyor;
+  return speed;
+}
+
+/// How far all goes in the step that moves and may reach the character [m].
+double LegJudge::pushed() const {
+  double farthest = others_.longest_way;
+  for (const MoverMotion<double>& motion : step_.movers)
+    farthest = std::max(farthest, (motion.to - motion.from).norm());
+  if (!(farthest > 0)) return 0;
+  const double own = own_speed() * dt_ + contact_reach;
+  std::map<ColliderIndex, double> solids;
+  std::set<double> others;
+  for (std::size_t corner = 0; corner < step_.path.size(); ++corner) {
+    const auto reaches = [&](const NearPart& part) {
+      return part.faces.front().separation <= own + part.moved.norm() + part.unsure;
+    };
+    for (const NearPart& part : scenery_.near_parts(Place(step_.path[corner], step_.movers), own + farthest))
+      if (reaches(part)) solids[part.collider] = part.moved.norm();
+    if (!others_.near) continue;
+    for (const NearPart& part : others_.near(step_.path[corner], own + farthest))
+      if (reaches(part)) others.insert(part.moved.norm() + part.unsure);
+  }
+  double moved = 0;
+  for (const auto& [collider, way] : solids) moved += way;
+  for (const double way : others) moved += way;
+  return moved;
+}
+
+double LegJudge::rounding() const {
+  double rounding = relative_rounding * (1 + wanted_.displacement.norm());
+  for (const PathPoint<double>& corner : step_.path) rounding += 4 * ulp_at(header_, corner.position);
+  return rounding;
+}
+
+double LegJudge::way_gained(std::size_t first, bool held) const {
+  const auto longer = [&](double speed) {
+    double excess = 0;
+    for (std::size_t leg = first; leg + 1 < step_.path.size(); ++leg) {
+      const PathPoint<double>& from = step_.path[leg];
+      const PathPoint<double>& to = step_.path[leg + 1];
+      excess += std::max(0.0, (to.position - from.position).norm() - (to.fraction - from.fraction) * dt_ * speed);
+    }
+    return excess;
+  };
+  double speed = held ? 0 : own_speed();
+  double room = restores_start + follows_seam + aims_away * static_cast<double>(step_.path.size()) + rounding();
+  if (!step_.vertex_ways.empty()) room += waits * wanted_.displacement.norm();
+  if (wanted_.from_ground && !held) {
+    room += header_.character.snap;
+    const double stairs = header_.character.step_height;
+    if (stairs > 0) room += most_stairs * 2 * stairs + std::abs(wanted_.displacement.dot(right_));
+  }
+  if (longer(speed) <= room) return 0;
+  speed += conveyed();
+  const double moved = pushed();
+  if (moved > 0) room += moved + push_beyond_motion;
+  return std::max(0.0, longer(speed) - room);
+}
+
+double LegJudge::speed_gained(bool held) const {
+  const double own = held ? 0 : own_speed();
+  const double speed = step_.velocity.norm();
+  const auto gained = [&](double most) { return speed - most <= relative_rounding * (1 + most) ? 0 : speed - most; };
+  double most = own;
+  double more = gained(most);
+  double moved = 0;
+  if (more > 0) {
+    moved = pushed();
+    most += moved / dt_ + conveyed();
+    more = gained(most);
+  }
+  // A fall becomes a rise only where a walk climbs, and that keeps its speed across up.
+  const bool rises = !held && step_.velocity.dot(up_) > relative_rounding && wanted_.velocity.dot(up_) < 0;
+  if (rises && step_.contacts.size() <= 1 && !is_beside_what_moves()) {
+    const double across = std::max(std::abs(wanted_.velocity.dot(right_)), std::abs(unsteered_.dot(right_))) +
+                          later_.steered() + conveyed();
+    const double too_fast = std::abs(step_.velocity.dot(right_)) - across;
+    if (too_fast > relative_rounding * (1 + most)) more = std::max(more, too_fast);
+  }
+  return more;
+}
+
+bool LegJudge::is_beside_what_moves() const {
+  for (const Contact<double>& contact : step_.contacts) {
+    const MoverIndex mover = header_.scenery.colliders[contact.collider].mover;
+    if (mover != no_mover && step_.movers[mover].from != step_.movers[mover].to) return true;
+  }
+  for (std::size_t corner = 0; corner < step_.path.size(); ++corner) {
+    const std::vector<NearPart> parts = near(corner, contact_reach);
+    if (std::any_of(parts.begin(), parts.end(), [](const NearPart& part) { return !part.moved.isZero(0); }))
+      return true;
+    if (others_.near && !others_.near(step_.path[corner], contact_reach).empty()) return true;
+  }
+  return false;
+}
+
+double LegJudge::leg_error() const {
+  const bool in_parts = first_.parts > 1 || later_.any() || !step_.vertex_ways.empty();
+  if (step_.dropped || in_parts || !step_.met.empty() || is_beside_what_moves()) return 0;
+  // A side hit ends a rise with the step: the way still goes on.
+  ControlledStep law{.wanted = first_.displacement / dt_, .up = up_};
+  law.unsteered = law.wanted - first_.steered / dt_ * right_;
+  const SolidsInStep solids(header_, scenery_, step_);
+  const bool walks = !first_.jumped && begins_as_walk(header_, step_, first_.from_ground, first_.velocity);
+  const std::vector<MetSurface> surfaces = met_surfaces(solids, step_.contacts, walks);
+  std::vector<Vec2d> outcomes{law.wanted};
+  std::size_t met = 0;
+  double off = 0;
+  for (std::size_t leg = 0; leg + 1 < step_.path.size(); ++leg) {
+    const PathPoint<double>& from = step_.path[leg];
+    const PathPoint<double>& to = step_.path[leg + 1];
+    const auto is_there = [&](const Contact<double>& contact) {
+      return std::any_of(step_.path.begin(), step_.path.begin() + static_cast<std::ptrdiff_t>(leg) + 1,
+                         [&](const PathPoint<double>& corner) {
+                           return scenery_.separation(Place(corner, step_.movers), contact.collider) <= contact_reach;
+                         });
+    };
+    for (; met < surfaces.size() && is_there(step_.contacts[met]); ++met) {
+      const std::vector<Vec2d> made = controlled_outcomes(law, std::span(surfaces).first(met + 1));
+      outcomes.insert(outcomes.end(), made.begin(), made.end());
+      if (met + 1 == surfaces.size()) outcomes.push_back(step_.velocity);  // judged for itself
+    }
+    const double time = (to.fraction - from.fraction) * dt_;
+    if (!(time > 0)) continue;
+    double least = HUGE_VAL;
+    for (const Vec2d& outcome : outcomes)
+      least = std::min(least, (to.position - from.position - outcome * time).norm());
+    off = std::max(off, least);
+  }
+  double room = restores_start + follows_seam + aims_away + rounding();
+  if (first_.from_ground) room += header_.character.snap;
+  return off <= room ? 0 : off;
+}
+
+}  // namespace paperproof::compare::detail

@@ -1,0 +1,64 @@
+/// Whether the way of a step is made with the velocities that the step had.
+#pragma once
+
+#include "oracle/crush.hpp"
+#include "oracle/later_parts.hpp"
+
+namespace paperproof::compare::detail {
+
+/// The parts of solids and of other characters within so many metres of a corner of the way.
+[[nodiscard]] std::vector<NearPart> parts_near(const ExactScenery& scenery, const TraceStep& step, const Others& others,
+                                               std::size_t corner, double within);
+
+/// Holds the way of one step, leg by leg, against the law of motion, for a contender that promises it. Lives for one
+/// step.
+///
+/// **Length.** A leg is no longer than its share of the time at the largest speed that the step can have: the wanted
+/// one, kept across up on the steepest walkable ground, once for each ground that is met, and that of conveyors that
+/// are touched. What all legs together are longer is no more than the rules allow that move a character at once: the
+/// gap is restored by 2e-6 m and, on a leg that aims at it, by 1e-6 m; ground that hardly bends is followed by 2.8e-6
+/// m, and by `snap` where a walk may; a walk climbs 4 stairs, up and down by `step_height`, and goes on as it wanted in
+/// between; and what moves, and may reach the character in the step, pushes it as far as it goes itself, and by
+/// `push_beyond_motion` more.
+///
+/// **Speed.** At the end it is no faster than the same speed and that of all that moves and may reach it.
+///
+/// **Direction.** While nothing that moves is near, each leg leads along the wanted motion, or what the law of response
+/// makes of it at the contacts that the way has come to by then: what is steered into a wall goes nowhere else.
+class LegJudge {
+ public:
+  LegJudge(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step, const Wanted& wanted,
+           const Others& others, const LaterParts& later);
+
+  /// How much longer the way is than anything made it [m].
+  /// @param first the leg that is looked at first. @param held it is stuck, so that it wants to go nowhere.
+  [[nodiscard]] double way_gained(std::size_t first, bool held) const;
+  /// How much faster it is than anything made it [m/s].
+  [[nodiscard]] double speed_gained(bool held) const;
+  /// How far a leg ends from where the law leads it [m]. Not of a step in parts, nor of one that drops motion.
+  [[nodiscard]] double leg_error() const;
+
+ private:
+  [[nodiscard]] std::vector<NearPart> near(std::size_t corner, double within) const {
+    return parts_near(scenery_, step_, others_, corner, within);
+  }
+  [[nodiscard]] double own_speed() const;
+  [[nodiscard]] double conveyed() const;
+  [[nodiscard]] double pushed() const;
+  [[nodiscard]] bool is_beside_what_moves() const;
+  [[nodiscard]] double rounding() const;
+
+  const TraceHeader& header_;
+  const ExactScenery& scenery_;
+  const TraceStep& step_;
+  const Wanted& first_;  ///< By the first part of the step.
+  const Wanted wanted_;  ///< By all parts of the step, but for what later ones steer.
+  const Others& others_;
+  const LaterParts& later_;
+  Vec2d up_;
+  Vec2d right_;
+  double dt_;        ///< [s]
+  Vec2d unsteered_;  ///< [m/s]
+};
+
+}  // namespace paperproof::compare::detail
