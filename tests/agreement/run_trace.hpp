@@ -88,6 +88,9 @@ class RunTrace {
     if (!judge_) {
       header_.characters = records.size();
       for (const CharacterState<double>& state : before) header_.starts.push_back({state.position, state.velocity});
+      for (MoverIndex i = 0; i < header_.scripts.size(); ++i)
+        if (header_.scripts[i].body && header_.turning.empty())
+          header_.scripts[i].path.assign(1, {.time = 0, .at = records.front().movers[i].from});
       judge_.emplace(header_, compare::Measured{});
       if (const char* folder = std::getenv("PAPERPROOF_GUARANTEE_TRACES"))
         writer_.emplace(std::string(folder) + "/" + kind_ + "_" + run_ + ".jsonl", header_);
@@ -115,8 +118,7 @@ class RunTrace {
       if (mover == no_mover) continue;
       scripts.resize(std::max(scripts.size(), std::size_t{mover} + 1));
       scripts[mover].colliders.push_back(i);
-      scripts[mover].body = true;  // the path says only where it begins
-      scripts[mover].path.assign(1, {});
+      scripts[mover].body = true;
     }
     return scripts;
   }
