@@ -88,7 +88,7 @@ constexpr std::array<Exemption, 15> all_exemptions{{
 std::string size_in_words(const Exemption& exemption, Party party) {
   const double size = exemption.sizes[static_cast<std::size_t>(party)];
   if (size == its_pixel) return "its pixel";
-  if (size == its_turn) return "its turn times the size of the character";
+  if (size == its_turn) return "angle × size";
   if (size == its_own) return party == Party::by_units ? "its unit" : "its touch gap";
   if (exemption.unit.empty()) return size > 0 ? "yes" : "no";
   if (size == 0) return "0";

@@ -74,7 +74,7 @@ class FilteredRun {
     const auto hull = controller_.character().shape.hull();
     header.points.assign(hull.begin(), hull.end());
     header.scenery = what_is_there();
-    RunTrace trace(header, "movers", "filtered_" + run_ + "_" + std::to_string(filters_++));
+    RunTrace trace(header, "filtered", run_ + "_" + std::to_string(filters_++));
     CharacterState<double> start;
     start.position = state_.position;
     start.velocity = state_.velocity;
