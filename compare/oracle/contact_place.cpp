@@ -10,7 +10,7 @@ namespace paperproof::compare {
 namespace {
 
 /// How far a point may be from what it is on [m]: §6 of the guarantee knows no smaller length.
-constexpr double beside = 1e-6;
+constexpr double beside_face = 1e-6;
 /// What a separation that was computed in another order is off [m], beside a few ulps of the coordinates.
 constexpr double rounding_of_separation = 1e-8;
 
@@ -47,7 +47,7 @@ Face face_against(const Vec2d& normal, const std::vector<Vec2d>& hull) {
   Face face;
   for (const Vec2d& corner : hull) face.below = std::min(face.below, normal.dot(corner));
   for (const Vec2d& corner : hull) {
-    if (normal.dot(corner) > face.below + beside) continue;
+    if (normal.dot(corner) > face.below + beside_face) continue;
     const double across = corner.dot(Vec2d(normal.y(), -normal.x()));
     face.left = std::min(face.left, across);
     face.right = std::max(face.right, across);
@@ -65,11 +65,12 @@ std::optional<PlaceFault> place_fault(const TraceHeader& header, const TraceStep
   bool on_both = false;
   for (const PathPoint<double>& at : step.path) {
     const Vec2d offset = Place(at, step.movers).offset(def.mover);
-    if (!(distance_from_outline(contact.point - offset, def) <= beside)) continue;
+    if (!(distance_from_outline(contact.point - offset, def) <= beside_face)) continue;
     const Vec2d from = contact.point - at.position;
     const double side = from.dot(across);
     const double gap = face.below - from.dot(contact.normal);
-    const bool on_face = side >= face.left - beside && side <= face.right + beside && std::abs(gap) <= 2 * beside;
+    const bool on_face =
+        side >= face.left - beside_face && side <= face.right + beside_face && std::abs(gap) <= 2 * beside_face;
     on_both = on_both || on_face;
     const double rounding = rounding_of_separation + 16 * ulp_at(header, at.position) + 16 * ulp_at(header, offset);
     if (on_face && std::abs(gap - contact.separation) <= rounding) return std::nullopt;

@@ -234,7 +234,7 @@ void RunJudge::judge_rest(const TraceStep& record, const Follower& follower) {
   if (follower.last.size() < 2 || record.respawn) return;
   const TraceStep& before = follower.last[1];
   const TraceStep& earlier = follower.last[0];
-  const auto same = [this](const TraceStep& a, const TraceStep& b) {
+  const auto same = [](const TraceStep& a, const TraceStep& b) {
     return a.path.back().position == b.path.back().position && a.velocity == b.velocity && a.grounded == b.grounded;
   };
   const auto is_asked_alike = [this](const TraceStep& a, const TraceStep& b) {

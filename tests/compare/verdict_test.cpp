@@ -51,7 +51,7 @@ TEST(Verdict, of_a_run_that_was_not_made_stays) {
 TEST(Breach, counts_a_step_once_and_keeps_what_happened_first) {
   Breach breach;
   for (const auto& [step, words] : {std::pair{3, "first"}, {3, "second"}, {4, "third"}, {7, "fourth"}, {7, "fifth"}})
-    breach.add(step, [&] { return std::string(words); });
+    breach.add(step, [words = words] { return std::string(words); });
   EXPECT_EQ(breach.steps, 3);
   EXPECT_EQ(breach.first_step, 3);
   EXPECT_EQ(breach.first, "first");
