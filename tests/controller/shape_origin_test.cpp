@@ -166,7 +166,7 @@ struct Tally {
   void check(const char* name, int wanted, int share) const {
     std::printf("%s: %d steps, %d with contacts, %d crushed, %d stuck, %d of shapes over 3 m away, %d ties\n", name,
                 steps, contacts, crushes, stuck, far, ties);
-    if (wanted < few_steps) return;
+    if (sanitized || wanted < few_steps) return;
     EXPECT_GT(contacts, steps / share);
     EXPECT_GT(crushes + stuck, 0);
     EXPECT_GT(far, steps / 4);
