@@ -115,7 +115,13 @@ Vec2d controlled(const Steered& velocity, std::span<const MetSurface> surfaces, 
   double steering = (velocity.wanted - velocity.unsteered).x();
   std::vector<MetSurface> held;
   for (const MetSurface& at : surfaces) {
-    if ((is_at_end(at) && !unknown.met_at_end) || !enters(now.wanted, at)) continue;
+    if (is_at_end(at) && !unknown.met_at_end) continue;
+    if (!enters(now.wanted, at)) {
+      // A flush neighbour of what holds goes on to hold where that ends.
+      for (MetSurface& one : held)
+        if (one.normal == at.normal && one.velocity == at.velocity) one.left = std::max(one.left, at.left);
+      continue;
+    }
     const Vec2d& carried = at.velocity;
     if (unknown.carried && may_carry(at) && std::abs(now.wanted.x()) <= grazing * now.wanted.norm()) {
       now = {carried, carried};

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -352,6 +353,22 @@ TEST(ControlledLaw, a_landing_without_speed_across_up_may_be_carried_at_once) {
   EXPECT_TRUE(has(lands({0.5, -3}), {0.5, 1}));
   EXPECT_FALSE(has(lands({0.5, -3}), {2, 1}));
   EXPECT_TRUE(has(lands({6e-16, -3}), {2, 1})) << "what rounding leaves across a turned up is no speed";
+}
+
+/// A character falls along a wall of two tiles and lands: the upper tile is left behind, the lower one is not.
+TEST(VelocityFault, a_flush_neighbour_goes_on_to_hold_where_a_wall_is_left) {
+  const ControlledStep step{.wanted = {-1, -6.5}, .unsteered = {0, -6.5}};
+  MetSurface upper{.normal = {1, 0}};
+  upper.is_side = true;
+  upper.left = 0.9;
+  MetSurface lower = upper;
+  lower.left = std::numeric_limits<double>::infinity();
+  MetSurface floor{.normal = {0, 1}};
+  floor.walkable = true;
+  floor.met = 0.9;
+  EXPECT_FALSE(velocity_fault(step, std::vector{upper, lower, floor}, {0, 0}));
+  EXPECT_TRUE(velocity_fault(step, std::vector{upper, lower, floor}, {-1, 0}));
+  EXPECT_FALSE(velocity_fault(step, std::vector{upper, floor}, {-1, 0}));
 }
 
 }  // namespace
