@@ -93,14 +93,6 @@ Vec2d nearest_point(std::span<const Vec2d> part, std::span<const Vec2d> octagon,
   return best;
 }
 
-/// The largest distance between two points [m].
-double extent_of(std::span<const Vec2d> points) {
-  double most = 0;
-  for (const Vec2d& a : points)
-    for (const Vec2d& b : points) most = std::max(most, (a - b).norm());
-  return most;
-}
-
 /// By how much a way turns at most from how it stands when it begins [rad].
 double turn_of(const VertexWay& way) {
   double most = 0;
@@ -113,6 +105,13 @@ double turn_of(const VertexWay& way) {
 }
 
 }  // namespace
+
+double extent_of(std::span<const Vec2d> points) {
+  double most = 0;
+  for (const Vec2d& a : points)
+    for (const Vec2d& b : points) most = std::max(most, (a - b).norm());
+  return most;
+}
 
 TurningJudge::TurningJudge(const TraceHeader& header)
     : header_(header), octagon_(header.points), promises_(party_of(header) == Party::promising) {

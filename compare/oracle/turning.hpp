@@ -11,6 +11,9 @@
 
 namespace paperproof::compare::detail {
 
+/// The largest distance between two points [m].
+[[nodiscard]] double extent_of(std::span<const Vec2d> points);
+
 /// Solids that turn: their vertices go as `TraceStep::vertex_ways` says, and at every moment they are the hulls of
 /// those that make up the convex parts of their definition. Feed it every step of one run in order. Not thread-safe.
 ///

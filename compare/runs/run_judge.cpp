@@ -4,7 +4,6 @@
 #include "oracle/claims.hpp"
 #include "oracle/contact_place.hpp"
 #include "oracle/contacts.hpp"
-#include "oracle/met_surfaces.hpp"
 #include "oracle/turning.hpp"
 #include "records/verdict.hpp"
 #include "words.hpp"
@@ -39,13 +38,6 @@ constexpr double same_speed = 1e-9;
 constexpr double lost_beyond = 10;
 
 bool moves(const MoverMotion<double>& motion) { return motion.from != motion.to; }
-
-double extent_of(const std::vector<Vec2d>& points) {
-  double extent = 0;
-  for (const Vec2d& a : points)
-    for (const Vec2d& b : points) extent = std::max(extent, (a - b).norm());
-  return extent;
-}
 
 std::string metres(double length) { return fmt::format("{:.3g} m", length); }
 
@@ -122,12 +114,13 @@ void RunJudge::add(std::span<TraceStep> records) {
       steps_far_ += !header_.guarantees.empty();
     } else {
       judge_clauses(asked[k], judgements_[k]);
-      judge_velocity(asked[k], judgements_[k], follower);
+      const SolidsInStep there(header_, solids(), asked[k]);
+      judge_velocity(there, judgements_[k], follower);
       judge_drops(records[k]);
       judge_met(asked[k], asked);
       judge_rest(asked[k], follower);
       judge_ride(asked[k], follower);
-      judge_carrier(asked[k]);
+      judge_carrier(there);
     }
     follower.inside = judgements_[k].end_overlap;
     follower.intent.end(records[k]);
@@ -252,10 +245,10 @@ void RunJudge::judge_rest(const TraceStep& record, const Follower& follower) {
 }
 
 /// What it says that it rides is there, and goes as it says.
-void RunJudge::judge_carrier(const TraceStep& record) {
+void RunJudge::judge_carrier(const SolidsInStep& there) {
+  const TraceStep& record = there.step();
   if (!record.ride || header_.guarantees.empty()) return;
   const ColliderIndex carrier = record.ride->collider;
-  const SolidsInStep there(header_, solids(), record);
   const Place end(record.path.back(), record.movers);
   double off = std::numeric_limits<double>::infinity();
   for (const NearPart& part : there.at(1).near_parts(end, guaranteed_gap))
@@ -267,7 +260,7 @@ void RunJudge::judge_carrier(const TraceStep& record) {
       const Vec2d point = end.position + foot;
       const Contact<double> touch{.collider = carrier, .point = point, .normal = face.normal, .fraction = 1};
       const Vec2d velocity = velocity_of(there, touch);
-      const double unknown = there.spread(carrier, there.moved(carrier, point, 1), extent_of(header_.points));
+      const double unknown = there.spread(carrier, there.moved(carrier, point, 1), detail::extent_of(header_.points));
       off = std::min(off, (record.ride->velocity - velocity).norm() - unknown - same_speed * (1 + velocity.norm()));
     }
   if (std::isinf(off))
@@ -526,7 +519,8 @@ void RunJudge::judge_places(const TraceStep& record, const StepJudgement& judged
 
 /// Whether the law of response (§4 of the design) makes the velocity at the end of what was wanted, at the contacts
 /// that are reported: these are judged for themselves. That law is no law of nature, and asked only of who promises it.
-void RunJudge::judge_velocity(const TraceStep& record, const StepJudgement& judged, const Follower& follower) {
+void RunJudge::judge_velocity(const SolidsInStep& there, const StepJudgement& judged, const Follower& follower) {
+  const TraceStep& record = there.step();
   const Wanted& wanted = follower.wanted;
   const bool crushed =
       !judged.crushed.empty() || (!judged.crushed_with_room.empty() && contains(header_.guarantees, Clause::crush));
@@ -538,7 +532,6 @@ void RunJudge::judge_velocity(const TraceStep& record, const StepJudgement& judg
   step.unsteered = wanted.velocity - wanted.steered / length_of(record, header_) * Vec2d(up.y(), -up.x());
   step.side_hit_ends_rise = header_.character.side_hit_ends_rise;
   const bool walks = !wanted.jumped && begins_as_walk(header_, record, wanted.from_ground, wanted.velocity);
-  const SolidsInStep there(header_, solids(), record);
   const std::vector<MetSurface> surfaces = met_surfaces(there, record.contacts, walks);
   // What characters hand on to each other is no matter of surfaces, and what turns has no one normal in a step:
   // there only its size is judged.

@@ -5,6 +5,7 @@
 #include "oracle/company.hpp"
 #include "oracle/intent.hpp"
 #include "oracle/judge.hpp"
+#include "oracle/met_surfaces.hpp"
 #include "oracle/mover_way.hpp"
 
 #include <memory>
@@ -57,9 +58,9 @@ class RunJudge {
   void judge_wish(const TraceStep& record, const Wanted& wanted, const Follower& follower);
   void judge_rest(const TraceStep& record, const Follower& follower);
   void judge_ride(const TraceStep& record, const Follower& follower);
-  void judge_carrier(const TraceStep& record);
+  void judge_carrier(const SolidsInStep& there);
   void judge_clauses(const TraceStep& record, const StepJudgement& judged);
-  void judge_velocity(const TraceStep& record, const StepJudgement& judged, const Follower& follower);
+  void judge_velocity(const SolidsInStep& there, const StepJudgement& judged, const Follower& follower);
   void judge_movers(const TraceStep& record);
   void judge_times(const TraceStep& record, const StepJudgement& judged);
   void judge_places(const TraceStep& record, const StepJudgement& judged);

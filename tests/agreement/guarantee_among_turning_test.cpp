@@ -243,12 +243,6 @@ class RandomRun {
     header.dt = 1.0 / 60;
     header.character = controller_.character();
     header.gravity = {0, -20};
-    for (ColliderIndex i = 0; i < scenery_.colliders.size(); ++i)
-      if (const MoverIndex mover = scenery_.colliders[i].mover; mover != no_mover) {
-        header.scripts.resize(std::max(header.scripts.size(), std::size_t{mover} + 1));
-        header.scripts[mover].colliders.push_back(i);
-        header.scripts[mover].body = true;  // no path says where it goes
-      }
     header.turning.assign(courses_.size(), true);
     return header;
   }
