@@ -29,8 +29,9 @@ namespace paperproof::compare {
 /// way (float: within the gap at which it still touches; Box2D: its skin, 20 mm). What was requested then no longer
 /// says what scenery is met, so contacts with scenery that are only reported, or only exact, count neither way
 /// (exempted). Of octagon_sweep in double, which has no such exemption, two things are still compared: a reported
-/// contact is right where a face is there, and one that is exact only from the start of the step is none where the
-/// other character was met first. Horizontal speed is not lost to nothing where the other opposes it, where it is or
+/// contact is right where a face is there, and one that is exact is none where the other turns the motion aside
+/// before: what was requested enters the other, as that goes, no later; and the contact is exact only from the start of
+/// the step, or what the other may leave of the motion does not lead into it. Horizontal speed is not lost to nothing where the other opposes it, where it is or
 /// wants to go (within the step and the skin beyond, as for solids).
 class CompanyJudge {
  public:
@@ -54,8 +55,11 @@ class CompanyJudge {
   /// is stuck, crushed or gives up its way, begins inside something, or met a third one.
   [[nodiscard]] bool must_meet(const TraceStep& one, const TraceStep& other) const;
 
-  /// Their separation at a fraction of the step [m].
-  [[nodiscard]] double gap_at(const TraceStep& one, const TraceStep& other, double fraction) const;
+  /// How far the time at which they say that they met is off [m]: from a moment at which they are no farther than
+  /// 1e-6 m from each other, along the normal, at the pace at which they came to it, or would go on from it if one of them,
+  /// or both, went as requested.
+  /// No more than the gap that there is at that time.
+  [[nodiscard]] double off_at(const TraceStep& one, const TraceStep& other, const CrowdContact<double>& met) const;
 
   /// What the others mean for one of them that is crushed: see `Judge`.
   /// @param steps of all of them, in order; not copied.
@@ -86,7 +90,9 @@ class CompanyJudge {
   [[nodiscard]] bool may_meet(const TraceStep& one, const TraceStep& other) const;
   [[nodiscard]] std::optional<Impact> first_impact(const TraceStep& one, const TraceStep& other) const;
   void judge_first_impacts(std::span<const TraceStep> steps, std::span<StepJudgement> judgements) const;
+  [[nodiscard]] double handed_on(CharacterIndex character, std::span<const TraceStep> steps) const;
   [[nodiscard]] bool touch(const TraceStep& one, const TraceStep& other) const;
+  [[nodiscard]] bool turns_aside(const TraceStep& one, const TraceStep& other, const ExactContact& exact) const;
   void excuse(const TraceStep& one, const TraceStep& other, StepJudgement& judgement) const;
 
   TraceHeader header_;

@@ -353,7 +353,8 @@ void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged)
       const PathPoint<double>& corner = record.path[i];
       if (!is_there(corner)) continue;
       if (contact.fraction == corner.fraction) off = 0;  // it was there, however it came
-      const bool waited = i == 0 || !(record.path[i - 1].fraction < corner.fraction);
+      const bool waited = i == 0 || !(record.path[i - 1].fraction < corner.fraction) ||
+                          (carried.isZero(0) && record.path[i - 1].position == corner.position);
       const PathPoint<double>& begin = waited ? corner : record.path[i - 1];
       const Vec2d pace =
           waited ? record.requested : Vec2d((corner.position - begin.position) / (corner.fraction - begin.fraction));
@@ -407,14 +408,14 @@ void RunJudge::judge_met(const TraceStep& record, std::span<const TraceStep> rec
     if (detail::side_along(met.normal, up_in(record, header_)) != met.side)
       note(Clause::normal, record, fmt::format("met character {} on another side than its normal says", met.other));
     const double nearest = company_->nearest(record, other);
-    const double then = company_->gap_at(record, other, met.fraction);
+    const double off = company_->off_at(record, other, met);
     if (nearest > guaranteed_gap)
       note(Clause::contact_invented, record, fmt::format("met character {} from {} away", met.other, metres(nearest)));
-    if (then > 2 * guaranteed_gap)
+    else if (off > 2 * guaranteed_gap)
       note(Clause::time_of_impact, record,
-           fmt::format("met character {} at {:.6g} of the step, and was {} away then", met.other, met.fraction,
-                       metres(then)));
-    else if (nearest <= guaranteed_gap && !company_->has_face(record, other, met.normal))
+           fmt::format("says it met character {} at {:.6g} of the step, and that is {} off along the normal", met.other,
+                       met.fraction, metres(off)));
+    else if (!company_->has_face(record, other, met.normal))
       note(Clause::normal, record, fmt::format("the normal at character {} is of no face there", met.other));
   }
   if (!company_) return;
