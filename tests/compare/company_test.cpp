@@ -241,7 +241,7 @@ TEST(CompanyJudge, the_time_of_a_meeting_is_told_from_a_moment_at_which_they_are
     return judge.off_at(one, other, {.other = 1, .normal = {-1, 0}, .fraction = fraction});
   };
   EXPECT_LE(off(1e-6), 5.1e-7) << "it would have touched then";
-  EXPECT_NEAR(off(1e-4), 0.5e-4, 1e-6);
+  EXPECT_NEAR(off(0.5), 0.25, 1e-6);
   // Down at once at the end.
   TraceStep lands;
   lands.path = {{{0, 2}, 0}, {{0, 2}, 1}, {{0, 1.25 + 5e-7}, 1}};
