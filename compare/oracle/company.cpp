@@ -21,6 +21,9 @@ constexpr double least_approach = 1e-3;
 constexpr double rounding_of_normal = 1e-6;
 /// With more contacts with scenery there are too many ways that they may have left.
 constexpr std::size_t most_contacts = 4;
+constexpr std::size_t most_ways = 100;
+/// What a time is off along the normal is not told below this [m].
+constexpr double told = 1e-6;
 /// Half of the narrowest opening between others that counts as room [m]: as between solids.
 constexpr double least_clearance = 1e-7;
 
@@ -243,19 +246,41 @@ bool CompanyJudge::must_meet(const TraceStep& one, const TraceStep& other) const
   });
 }
 
-double CompanyJudge::off_at(const TraceStep& one, const TraceStep& other, const CrowdContact<double>& met) const {
+std::vector<Vec2d> CompanyJudge::ways_at(const TraceStep& one, std::span<const TraceStep> steps,
+                                         double fraction) const {
+  std::vector<Vec2d> ways = one.contacts.size() <= most_contacts ? ways_of(one) : std::vector<Vec2d>{one.requested};
+  const Vec2d mine = place_at(one.path, fraction);
+  for (const TraceStep& other : steps) {
+    if (other.character == one.character || ways.size() > most_ways) continue;
+    const std::vector<NearFace> faces = pair_.near_faces(mine, place_at(other.path, fraction), reach_);
+    if (faces.empty()) continue;
+    for (std::size_t i = 0, before = ways.size(); i < before; ++i)
+      for (const Vec2d& left : detail::ways_left(ways[i], rate_after(other.path, fraction), one.steered,
+                                                 faces.front().normal, header_, up_in(one, header_)))
+        ways.push_back(left);
+  }
+  return ways;
+}
+
+double CompanyJudge::off_at(const TraceStep& one, const TraceStep& other, const CrowdContact<double>& met,
+                            std::span<const TraceStep> steps) const {
   double off = std::max(0.0, pair_.separation(place_at(one.path, met.fraction), place_at(other.path, met.fraction)));
   any_moment(one, other, [&](const Vec2d& mine, const Vec2d& theirs, double fraction) {
+    if (off <= told) return true;
     if (pair_.separation(mine, theirs) > reach_) return false;
-    const Vec2d came = rate_before(one.path, fraction) - rate_before(other.path, fraction);
-    const std::array<Vec2d, 4> paces{came, one.requested - other.requested,
-                                     one.requested - rate_after(other.path, fraction),
-                                     rate_after(one.path, fraction) - other.requested};
-    for (const Vec2d& pace : paces)
+    const auto look = [&](const Vec2d& pace) {
       if (const double approach = -pace.dot(met.normal); approach > 0)
         off = std::min(off, std::abs(met.fraction - fraction) * approach);
+    };
+    look(rate_before(one.path, fraction) - rate_before(other.path, fraction));
+    std::vector<Vec2d> mine_goes = ways_at(one, steps, fraction);
+    std::vector<Vec2d> theirs_goes = ways_at(other, steps, fraction);
+    mine_goes.push_back(rate_after(one.path, fraction));
+    theirs_goes.push_back(rate_after(other.path, fraction));
+    for (const Vec2d& my_way : mine_goes)
+      for (const Vec2d& their_way : theirs_goes) look(my_way - their_way);
     if (fraction == met.fraction) off = 0;
-    return false;
+    return off <= told;
   });
   return off;
 }

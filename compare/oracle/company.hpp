@@ -31,8 +31,8 @@ namespace paperproof::compare {
 /// (exempted). Of octagon_sweep in double, which has no such exemption, two things are still compared: a reported
 /// contact is right where a face is there, and one that is exact is none where the other turns the motion aside
 /// before: what was requested enters the other, as that goes, no later; and the contact is exact only from the start of
-/// the step, or what the other may leave of the motion does not lead into it. Horizontal speed is not lost to nothing where the other opposes it, where it is or
-/// wants to go (within the step and the skin beyond, as for solids).
+/// the step, or what the other may leave of the motion does not lead into it. Horizontal speed is not lost to nothing
+/// where the other opposes it, where it is or wants to go (within the step and the skin beyond, as for solids).
 class CompanyJudge {
  public:
   explicit CompanyJudge(const TraceHeader& header);
@@ -56,10 +56,15 @@ class CompanyJudge {
   [[nodiscard]] bool must_meet(const TraceStep& one, const TraceStep& other) const;
 
   /// How far the time at which they say that they met is off [m]: from a moment at which they are no farther than
-  /// 1e-6 m from each other, along the normal, at the pace at which they came to it, or would go on from it if one of them,
-  /// or both, went as requested.
-  /// No more than the gap that there is at that time.
-  [[nodiscard]] double off_at(const TraceStep& one, const TraceStep& other, const CrowdContact<double>& met) const;
+  /// 1e-6 m from each other, along the normal, at the pace at which they come to it, or go on from it, or would go on:
+  /// see `ways_at`. No more than the gap that there is at that time. Not told below 1e-6 m.
+  [[nodiscard]] double off_at(const TraceStep& one, const TraceStep& other, const CrowdContact<double>& met,
+                              std::span<const TraceStep> steps) const;
+
+  /// How far one would go in the time of a whole step, from a fraction of it on: as requested, or as its contacts with
+  /// scenery, and the others that are near then, may leave that [m].
+  [[nodiscard]] std::vector<Vec2d> ways_at(const TraceStep& one, std::span<const TraceStep> steps,
+                                           double fraction) const;
 
   /// What the others mean for one of them that is crushed: see `Judge`.
   /// @param steps of all of them, in order; not copied.

@@ -236,9 +236,10 @@ TEST(CompanyJudge, the_time_of_a_meeting_is_told_from_a_moment_at_which_they_are
   const CompanyJudge judge(header);
   TraceStep one = step({{0, 0}, {0, 3}});  // turned aside at once
   one.requested = {0.5, 3};
-  const TraceStep other = step({{width + 5e-7, 0}, {width + 5e-7, 0}});
+  TraceStep other = step({{width + 5e-7, 0}, {width + 5e-7, 0}});
+  other.character = 1;
   const auto off = [&](double fraction) {
-    return judge.off_at(one, other, {.other = 1, .normal = {-1, 0}, .fraction = fraction});
+    return judge.off_at(one, other, {.other = 1, .normal = {-1, 0}, .fraction = fraction}, std::array{one, other});
   };
   EXPECT_LE(off(1e-6), 5.1e-7) << "it would have touched then";
   EXPECT_NEAR(off(0.5), 0.25, 1e-6);
@@ -246,8 +247,10 @@ TEST(CompanyJudge, the_time_of_a_meeting_is_told_from_a_moment_at_which_they_are
   TraceStep lands;
   lands.path = {{{0, 2}, 0}, {{0, 2}, 1}, {{0, 1.25 + 5e-7}, 1}};
   TraceStep stands = step({{0, 0}, {0, 0}});
-  EXPECT_EQ(judge.off_at(lands, stands, {.other = 1, .normal = {0, 1}, .fraction = 1}), 0);
-  EXPECT_GT(judge.off_at(lands, stands, {.other = 1, .normal = {0, 1}, .fraction = 0.5}), 0.7);
+  stands.character = 1;
+  const std::array both{lands, stands};
+  EXPECT_EQ(judge.off_at(lands, stands, {.other = 1, .normal = {0, 1}, .fraction = 1}, both), 0);
+  EXPECT_GT(judge.off_at(lands, stands, {.other = 1, .normal = {0, 1}, .fraction = 0.5}, both), 0.7);
 }
 
 TEST(CompanyJudge, two_that_hold_hold_for_as_long_as_they_touch) {
