@@ -118,6 +118,7 @@ bool may_carry(const MetSurface& at) { return at.walkable && at.velocity != Vec2
 /// As an upright character sees it.
 Vec2d controlled(const Steered& velocity, std::span<const MetSurface> surfaces, const Unknown& unknown) {
   Steered now = velocity;
+  Steered came = velocity;  // to the last of what holds
   double steering = (velocity.wanted - velocity.unsteered).x();
   std::vector<MetSurface> held;
   for (const MetSurface& at : surfaces) {
@@ -128,44 +129,29 @@ Vec2d controlled(const Steered& velocity, std::span<const MetSurface> surfaces, 
         if (one.normal == at.normal && one.velocity == at.velocity) one.left = std::max(one.left, at.left);
       continue;
     }
+    std::erase_if(held, [&](const MetSurface& one) { return one.left <= at.met; });
+    // What each of two leaves that are touched at once enters the other.
+    const bool both_stop = !held.empty() && at.touched_since <= held.back().met &&
+                           enters(at_surface(came, steering, at).wanted, held.back());
+    came = now;
     const Vec2d& carried = at.velocity;
-    const Vec2d before = now.unsteered;
     if (unknown.carried && may_carry(at) && std::abs(now.wanted.x()) <= grazing * now.wanted.norm()) {
       now = {carried, carried};
       steering = 0;
     } else {
       now = at_surface(now, steering, at);
     }
-    std::erase_if(held, [&](const MetSurface& one) { return one.left <= at.met; });
     held.push_back(at);
-    const auto is_held = [&](const Steered& v) {
-      return std::any_of(held.begin(), held.end(), [&](const MetSurface& one) { return enters(v.wanted, one); });
-    };
-    const bool walked = std::any_of(held.begin(), held.end(), [](const MetSurface& one) { return one.walkable; });
-    for (MetSurface& one : held) {
-      one.climbs = one.climbs || walked;
-      if (!enters(now.wanted, one)) continue;
-      if (const Steered turned = at_surface(now, steering, one); !is_held(turned)) now = turned;
-    }
-    if (!is_held(now)) continue;
+    const auto is_entered = [&](const MetSurface& one) { return enters(now.wanted, one); };
+    if (!both_stop && std::none_of(held.begin(), held.end(), is_entered)) continue;
     const bool all_left = std::all_of(held.begin(), held.end(), [](const MetSurface& one) { return one.left <= 1; });
     const Vec2d fall =
-        all_left ? Vec2d(carried.x(), before.y()) : nearest_allowed(velocity.unsteered, held).value_or(carried);
+        all_left ? Vec2d(carried.x(), came.unsteered.y()) : nearest_allowed(velocity.unsteered, held).value_or(carried);
+    const bool walked = std::any_of(held.begin(), held.end(), [](const MetSurface& one) { return one.walkable; });
     const Vec2d end = held.size() > 1 ? held_by(held[held.size() - 2], at).value_or(carried) : carried;
     now.wanted = now.unsteered = !walked && fall.y() < end.y() ? fall : end;
   }
   return now.wanted;
-}
-
-/// Two that are touched when the first of them is met are met at once, in any order.
-std::vector<std::vector<MetSurface>> orders_of(std::span<const MetSurface> surfaces) {
-  std::vector<std::vector<MetSurface>> orders{{surfaces.begin(), surfaces.end()}};
-  for (std::size_t i = 1; i < surfaces.size(); ++i) {
-    if (surfaces[i].touched_since > surfaces[i - 1].met) continue;
-    std::vector<MetSurface>& order = orders.emplace_back(orders.front());
-    std::swap(order[i - 1], order[i]);
-  }
-  return orders;
 }
 
 /// All that the law can make, as an upright character sees it.
@@ -173,15 +159,14 @@ std::vector<Vec2d> upright_outcomes(const Steered& velocity, std::span<const Met
   const bool any_at_end = std::any_of(surfaces.begin(), surfaces.end(), is_at_end);
   const bool any_carries = std::any_of(surfaces.begin(), surfaces.end(), may_carry);
   std::vector<Vec2d> outcomes;
-  for (const std::vector<MetSurface>& order : orders_of(surfaces))
-    for (const bool met_at_end : {false, true})
-      for (const bool carried : {false, true}) {
-        if ((met_at_end && !any_at_end) || (carried && !any_carries)) continue;
-        const Vec2d met = outcomes.emplace_back(controlled(velocity, order, {met_at_end, carried}));
-        for (const MetSurface& at : surfaces)
-          if (at.walkable && is_at_end(at))
-            outcomes.emplace_back(follow((met - at.velocity).x(), at.normal) + at.velocity);
-      }
+  for (const bool met_at_end : {false, true})
+    for (const bool carried : {false, true}) {
+      if ((met_at_end && !any_at_end) || (carried && !any_carries)) continue;
+      const Vec2d met = outcomes.emplace_back(controlled(velocity, surfaces, {met_at_end, carried}));
+      for (const MetSurface& at : surfaces)
+        if (at.walkable && is_at_end(at))
+          outcomes.emplace_back(follow((met - at.velocity).x(), at.normal) + at.velocity);
+    }
   return outcomes;
 }
 

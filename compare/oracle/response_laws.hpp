@@ -56,10 +56,9 @@ struct ControlledStep {
 /// order. Walkable ground keeps the part across up, steering holds no fall, a ceiling ends a rise; two surfaces that
 /// both hold the motion end it, unless the fall of the unsteered velocity goes on between them.
 ///
-/// There are several where two are touched when the first of them is met: they are met at once, in any order. And where
-/// a trace does not say, of a surface that is touched where the step ends, whether it was met by rounding, was ground
-/// that is followed, or takes nothing; and of ground that moves, whether a landing without speed across up is carried
-/// at once.
+/// There are several only where a trace does not say, of a surface that is touched where the step ends, whether it was
+/// met by rounding, was ground that is followed, or takes nothing; and of ground that moves, whether a landing without
+/// speed across up is carried at once.
 [[nodiscard]] std::vector<Vec2d> controlled_outcomes(const ControlledStep& step, std::span<const MetSurface> surfaces);
 
 /// What is wrong with the velocity at the end of a step: it is none of `controlled_outcomes`, as far as rounding and
