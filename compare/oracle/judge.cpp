@@ -561,7 +561,8 @@ Judge::Leaving Judge::leaving_of(const Path& path, const Others& others, bool fr
   const auto accept = [&](const Vec2d& end) {
     const Vec2d ahead = (end - start.position).normalized();
     const Vec2d aside = Vec2d(-ahead.y(), ahead.x()) * around_way_out;
-    return open(end) && open(end + aside) && open(end - aside) && !ends_on_another_side(start, end) &&
+    const auto leads_out = [&](const Vec2d& to) { return open(to) && !ends_on_another_side(start, to); };
+    return leads_out(end) && leads_out(end + aside) && leads_out(end - aside) &&
            (!others.left_free || others.left_free(std::vector<PathPoint<double>>{{start.position, 0}, {end, 1}}));
   };
   const WayQuestion question{.from = start, .end = start, .may_pass = inside, .sides = sides};

@@ -336,7 +336,10 @@ void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged)
     const auto is_there = [&](const PathPoint<double>& corner) {
       return solids().separation({corner, record.movers}, contact.collider) <= guaranteed_gap;
     };
-    if (carried != Vec2d::Zero() && is_there(record.path.front())) {
+    // Of one collider that is the first contact: a later one is another face, and is met where the way comes to it.
+    const auto is_of_it = [&](const Contact<double>& one) { return one.collider == contact.collider; };
+    const Contact<double>& first = *std::find_if(record.contacts.begin(), record.contacts.end(), is_of_it);
+    if (carried != Vec2d::Zero() && is_there(record.path.front()) && &first == &contact) {
       // It gives way from the start, and meets no later than what was requested touches.
       const Place start(record.path.front(), record.movers);
       const double approach = (carried - record.requested).dot(contact.normal);

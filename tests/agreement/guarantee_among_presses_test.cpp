@@ -193,8 +193,9 @@ TEST(AmongPresses, no_step_breaks_the_guarantee) {
   Pressed all;
   const int wanted = steps_per_family() / 3;
   constexpr std::array<std::uint64_t, 2> found{148, 225};  // each broke a promise once, or made the judge say so
-  for (std::uint64_t run = 0; all.steps < wanted && !HasFatalFailure(); ++run)
-    Chamber(run < found.size() ? found[run] : run - found.size() + 1).go(all);
+  const auto first = static_cast<std::uint64_t>(steps_wanted("PAPERPROOF_GUARANTEE_FIRST_RUN", 1));
+  for (const std::uint64_t seed : found) Chamber(seed).go(all);
+  for (std::uint64_t seed = first; all.steps < wanted && !HasFatalFailure(); ++seed) Chamber(seed).go(all);
   std::printf("%d steps, %d crushed, %d of them again, %d stuck, %d freed, %d aside, %d unnamed, %d dropped\n",
               all.steps, all.crushed, all.crushed_again, all.stuck, all.freed, all.aside, all.unnamed, all.dropped);
   BrokenByRuns::all().expect_only_what_is_known();
