@@ -86,9 +86,10 @@ std::vector<MetSurface> met_surfaces(const SolidsInStep& solids, std::span<const
     const auto corner = std::min_element(step.path.begin(), step.path.end(), [&](const auto& a, const auto& b) {
       return std::abs(a.fraction - touch.fraction) < std::abs(b.fraction - touch.fraction);
     });
-    const auto leaves = std::find_if(corner + 1, step.path.end(), [&](const PathPoint<double>& one) {
-      return solids.at(one.fraction).separation(Place(one, step.movers), touch.collider) > touched;
-    });
+    const auto is_touched = [&](const PathPoint<double>& at) {
+      return solids.at(at.fraction).separation(Place(at, step.movers), touch.collider) <= touched;
+    };
+    const auto leaves = std::find_if_not(corner + 1, step.path.end(), is_touched);
     const Vec2d velocity = velocity_of(solids, touch);
     MetSurface one{.normal = touch.normal};
     one.walkable = is_walkable(touch.normal, solids.header(), up);
@@ -98,6 +99,7 @@ std::vector<MetSurface> met_surfaces(const SolidsInStep& solids, std::span<const
     one.climbs = walks && touches_ground(solids, *corner);
     one.met = touch.fraction >= 1 || corner->fraction >= 1 ? touch.fraction : corner->fraction;
     if (leaves != step.path.end()) one.left = leaves->fraction;
+    one.returned = leaves != step.path.end() && is_touched(step.path.back());
     one.spread = solids.spread(touch.collider, solids.moved(touch.collider, touch.point, touch.fraction), 0);
     walks = walks || one.walkable;
     surfaces.push_back(one);

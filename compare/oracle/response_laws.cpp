@@ -142,6 +142,35 @@ Vec2d controlled(const Steered& velocity, std::span<const MetSurface> surfaces, 
   return now.wanted;
 }
 
+/// Calls `visit` with the surfaces in each order that they may have been met in. Those at one corner of the way are met
+/// together, if they are no more than this.
+template <class Visit>
+void for_each_order(std::span<const MetSurface> surfaces, const Visit& visit) {
+  constexpr std::ptrdiff_t most_together = 4;
+  std::vector<std::size_t> order;
+  const auto fits = [&](std::size_t k) {
+    const double met = surfaces[order.size()].met;
+    const auto together =
+        std::count_if(surfaces.begin(), surfaces.end(), [met](const auto& at) { return at.met == met; });
+    if (together > most_together) return k == order.size();
+    return surfaces[k].met == met && std::find(order.begin(), order.end(), k) == order.end();
+  };
+  const auto go_on = [&](const auto& self) -> void {
+    if (order.size() == surfaces.size()) {
+      std::vector<MetSurface> ordered;
+      for (const std::size_t k : order) ordered.push_back(surfaces[k]);
+      return visit(ordered);
+    }
+    for (std::size_t k = 0; k < surfaces.size(); ++k) {
+      if (!fits(k)) continue;
+      order.push_back(k);
+      self(self);
+      order.pop_back();
+    }
+  };
+  go_on(go_on);
+}
+
 /// All that the law can make, as an upright character sees it.
 std::vector<Vec2d> upright_outcomes(const Steered& velocity, std::span<const MetSurface> surfaces) {
   const bool any_at_end = std::any_of(surfaces.begin(), surfaces.end(), is_at_end);
@@ -152,7 +181,7 @@ std::vector<Vec2d> upright_outcomes(const Steered& velocity, std::span<const Met
       if ((met_at_end && !any_at_end) || (carried && !any_carries)) continue;
       const Vec2d met = outcomes.emplace_back(controlled(velocity, surfaces, {met_at_end, carried}));
       for (const MetSurface& at : surfaces)
-        if (at.walkable && is_at_end(at))
+        if (at.walkable && (is_at_end(at) || at.returned))
           outcomes.emplace_back(follow((met - at.velocity).x(), at.normal) + at.velocity);
     }
   return outcomes;
@@ -213,7 +242,11 @@ std::vector<Vec2d> controlled_outcomes(const ControlledStep& step, std::span<con
   }
   const bool ends_rise = step.side_hit_ends_rise &&
                          std::any_of(surfaces.begin(), surfaces.end(), [](const MetSurface& at) { return at.is_side; });
-  std::vector<Vec2d> outcomes = upright_outcomes({seen(step.wanted, step.up), seen(step.unsteered, step.up)}, upright);
+  std::vector<Vec2d> outcomes;
+  for_each_order(upright, [&](std::span<const MetSurface> ordered) {
+    const Steered velocity{seen(step.wanted, step.up), seen(step.unsteered, step.up)};
+    for (const Vec2d& outcome : upright_outcomes(velocity, ordered)) outcomes.push_back(outcome);
+  });
   for (Vec2d& outcome : outcomes) {
     if (ends_rise) outcome.y() = std::min(outcome.y(), 0.0);
     outcome = in_world(outcome, step.up);
