@@ -14,6 +14,7 @@
 #include <array>
 #include <cstdio>
 #include <sstream>
+#include <vector>
 
 namespace paperproof::test {
 namespace {
@@ -404,6 +405,24 @@ TEST_P(AmongTurning, no_step_breaks_the_guarantee) {
     EXPECT_GT(tally.crushed, 0);
   }
   EXPECT_LT(tally.crushed, tally.steps / 5);
+}
+
+/// What the judge accused each of once, and it did not do.
+TEST(AmongTurningFound, is_accused_of_nothing_that_it_did_not_do) {
+  struct Found {
+    Turning family;
+    std::uint64_t seed;
+    compare::Clause clause;
+  };
+  const std::vector<Found> all{{Turning::planks, 3000087, compare::Clause::overlap},
+                               {Turning::planks, 3000030, compare::Clause::velocity},
+                               {Turning::see_saws, 6000194, compare::Clause::wanted},
+                               {Turning::balls, 18000119, compare::Clause::velocity}};
+  for (const Found& found : all) {
+    Tally tally;
+    RandomRun(found.family, found.seed).go(tally);
+    EXPECT_EQ(BrokenByRuns::all().take("turning", found.clause), 0) << name_of(found.clause) << ", seed " << found.seed;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryFamily, AmongTurning, ::testing::ValuesIn(all_turning),
