@@ -100,6 +100,12 @@ Steered respond(const Steered& v, double steering, const MetSurface& at) {
   return {Vec2d(-y * n.y() / n.x(), y), unsteered};
 }
 
+/// At one surface that goes along.
+Steered at_surface(const Steered& v, double steering, const MetSurface& at) {
+  const Steered seen = respond({v.wanted - at.velocity, v.unsteered - at.velocity}, steering, at);
+  return {seen.wanted + at.velocity, seen.unsteered + at.velocity};
+}
+
 /// What a trace does not say.
 struct Unknown {
   bool met_at_end = false;  ///< What is touched where the step ends was met, by rounding.
@@ -123,52 +129,43 @@ Vec2d controlled(const Steered& velocity, std::span<const MetSurface> surfaces, 
       continue;
     }
     const Vec2d& carried = at.velocity;
+    const Vec2d before = now.unsteered;
     if (unknown.carried && may_carry(at) && std::abs(now.wanted.x()) <= grazing * now.wanted.norm()) {
       now = {carried, carried};
       steering = 0;
     } else {
-      now = respond({now.wanted - carried, now.unsteered - carried}, steering, at);
-      now = {now.wanted + carried, now.unsteered + carried};
+      now = at_surface(now, steering, at);
     }
     std::erase_if(held, [&](const MetSurface& one) { return one.left <= at.met; });
     held.push_back(at);
-    if (std::none_of(held.begin(), held.end(), [&](const MetSurface& one) { return enters(now.wanted, one); }))
-      continue;
-    const Vec2d fall = nearest_allowed(velocity.unsteered, held).value_or(carried);
+    const auto is_held = [&](const Steered& v) {
+      return std::any_of(held.begin(), held.end(), [&](const MetSurface& one) { return enters(v.wanted, one); });
+    };
     const bool walked = std::any_of(held.begin(), held.end(), [](const MetSurface& one) { return one.walkable; });
+    for (MetSurface& one : held) {
+      one.climbs = one.climbs || walked;
+      if (!enters(now.wanted, one)) continue;
+      if (const Steered turned = at_surface(now, steering, one); !is_held(turned)) now = turned;
+    }
+    if (!is_held(now)) continue;
+    const bool all_left = std::all_of(held.begin(), held.end(), [](const MetSurface& one) { return one.left <= 1; });
+    const Vec2d fall =
+        all_left ? Vec2d(carried.x(), before.y()) : nearest_allowed(velocity.unsteered, held).value_or(carried);
     const Vec2d end = held.size() > 1 ? held_by(held[held.size() - 2], at).value_or(carried) : carried;
     now.wanted = now.unsteered = !walked && fall.y() < end.y() ? fall : end;
   }
   return now.wanted;
 }
 
-/// Calls `visit` with the surfaces in each order that they may have been met in. Those at one corner of the way are met
-/// together, if they are no more than this.
-template <class Visit>
-void for_each_order(std::span<const MetSurface> surfaces, const Visit& visit) {
-  constexpr std::ptrdiff_t most_together = 4;
-  std::vector<std::size_t> order;
-  const auto fits = [&](std::size_t k) {
-    const double met = surfaces[order.size()].met;
-    const auto together =
-        std::count_if(surfaces.begin(), surfaces.end(), [met](const auto& at) { return at.met == met; });
-    if (together > most_together) return k == order.size();
-    return surfaces[k].met == met && std::find(order.begin(), order.end(), k) == order.end();
-  };
-  const auto go_on = [&](const auto& self) -> void {
-    if (order.size() == surfaces.size()) {
-      std::vector<MetSurface> ordered;
-      for (const std::size_t k : order) ordered.push_back(surfaces[k]);
-      return visit(ordered);
-    }
-    for (std::size_t k = 0; k < surfaces.size(); ++k) {
-      if (!fits(k)) continue;
-      order.push_back(k);
-      self(self);
-      order.pop_back();
-    }
-  };
-  go_on(go_on);
+/// Two that are touched when the first of them is met are met at once, in any order.
+std::vector<std::vector<MetSurface>> orders_of(std::span<const MetSurface> surfaces) {
+  std::vector<std::vector<MetSurface>> orders{{surfaces.begin(), surfaces.end()}};
+  for (std::size_t i = 1; i < surfaces.size(); ++i) {
+    if (surfaces[i].touched_since > surfaces[i - 1].met) continue;
+    std::vector<MetSurface>& order = orders.emplace_back(orders.front());
+    std::swap(order[i - 1], order[i]);
+  }
+  return orders;
 }
 
 /// All that the law can make, as an upright character sees it.
@@ -176,14 +173,15 @@ std::vector<Vec2d> upright_outcomes(const Steered& velocity, std::span<const Met
   const bool any_at_end = std::any_of(surfaces.begin(), surfaces.end(), is_at_end);
   const bool any_carries = std::any_of(surfaces.begin(), surfaces.end(), may_carry);
   std::vector<Vec2d> outcomes;
-  for (const bool met_at_end : {false, true})
-    for (const bool carried : {false, true}) {
-      if ((met_at_end && !any_at_end) || (carried && !any_carries)) continue;
-      const Vec2d met = outcomes.emplace_back(controlled(velocity, surfaces, {met_at_end, carried}));
-      for (const MetSurface& at : surfaces)
-        if (at.walkable && (is_at_end(at) || at.returned))
-          outcomes.emplace_back(follow((met - at.velocity).x(), at.normal) + at.velocity);
-    }
+  for (const std::vector<MetSurface>& order : orders_of(surfaces))
+    for (const bool met_at_end : {false, true})
+      for (const bool carried : {false, true}) {
+        if ((met_at_end && !any_at_end) || (carried && !any_carries)) continue;
+        const Vec2d met = outcomes.emplace_back(controlled(velocity, order, {met_at_end, carried}));
+        for (const MetSurface& at : surfaces)
+          if (at.walkable && (is_at_end(at) || at.returned))
+            outcomes.emplace_back(follow((met - at.velocity).x(), at.normal) + at.velocity);
+      }
   return outcomes;
 }
 
@@ -242,11 +240,7 @@ std::vector<Vec2d> controlled_outcomes(const ControlledStep& step, std::span<con
   }
   const bool ends_rise = step.side_hit_ends_rise &&
                          std::any_of(surfaces.begin(), surfaces.end(), [](const MetSurface& at) { return at.is_side; });
-  std::vector<Vec2d> outcomes;
-  for_each_order(upright, [&](std::span<const MetSurface> ordered) {
-    const Steered velocity{seen(step.wanted, step.up), seen(step.unsteered, step.up)};
-    for (const Vec2d& outcome : upright_outcomes(velocity, ordered)) outcomes.push_back(outcome);
-  });
+  std::vector<Vec2d> outcomes = upright_outcomes({seen(step.wanted, step.up), seen(step.unsteered, step.up)}, upright);
   for (Vec2d& outcome : outcomes) {
     if (ends_rise) outcome.y() = std::min(outcome.y(), 0.0);
     outcome = in_world(outcome, step.up);

@@ -429,7 +429,7 @@ TEST_P(AmongMovers, no_step_breaks_the_guarantee) {
   EXPECT_EQ(tally.unsound, 0);
   EXPECT_EQ(tally.drops, 0);
   EXPECT_LE(tally.contacts, most_broken("movers", compare::Clause::contact_invented, tally.steps, family));
-  EXPECT_EQ(tally.hanging, 0);
+  EXPECT_LE(tally.hanging, most_broken("movers", compare::Clause::hanging, tally.steps, family));
   EXPECT_LE(tally.stuck_refuted, most_broken("movers", compare::Clause::start_inside, tally.steps, family));
   EXPECT_EQ(tally.dropped, tally.in_wedges + tally.launched_far);
   if (tally.steps < few_steps) return;
@@ -475,6 +475,7 @@ TEST(AmongMoversFound, what_broke_once_holds) {
     Tally tally;
     RandomRun<double>(family, seed).go(tally);
     EXPECT_EQ(tally.broken(), 0) << name_of(family) << ", seed " << seed;
+    EXPECT_EQ(BrokenByRuns::all().take("movers", compare::Clause::passage), 0) << name_of(family) << ", seed " << seed;
   }
 }
 
