@@ -34,8 +34,8 @@ struct VertexWay {
          way.instants[k] - way.instants[k - 1] < share_at_once * (way.instants[k + 1] - way.instants[k]);
 }
 
-/// Into how many shorter steps a step among what turns is divided: they are equally long, and each begins with a turn at
-/// once. The first one tells: after a crush the rest is not divided.
+/// Into how many shorter steps a step among what turns is divided: they are equally long, and each begins with a turn
+/// at once. The first one tells: after a crush the rest is not divided.
 [[nodiscard]] inline int parts_of(std::span<const VertexWay> ways) {
   int most = 1;
   for (const VertexWay& way : ways)
