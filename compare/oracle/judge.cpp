@@ -22,6 +22,8 @@ constexpr int depth_refinements = 40;
 /// The shortest straight way out of what a step begins inside of may be longer by this [m]; a way that is to be shorter
 /// ends with as large a gap, and is open as far to both sides.
 constexpr double around_way_out = 1e-6;
+/// It keeps so far from the rims that it passes: an opening as narrow counts as closed [m].
+constexpr double beside_rim = 2 * detail::least_clearance;
 /// The character waits so long at the beginning of each part of a step that goes in parts, as a share of the step.
 constexpr double waited_in_part = 2e-6;
 /// A time of impact is told where what that comes to is no more than this along the normal [m].
@@ -526,7 +528,10 @@ void Judge::judge_progress(const TraceStep& step, const Others& others, const Wa
     judge_ground(hanging, step, judgement);
   }
   excuse_by_turning(step, later, others, judgement);
-  if (!judgement.crushed.empty()) return;
+  const bool breaks_crush = !judgement.crushed_with_room.empty() && contains(header_.guarantees, Clause::crush);
+  // What a crush stops is not stopped by nothing, and one breach is said once.
+  if (breaks_crush) judgement.motion_lost = judgement.ghost_speed_loss = judgement.speed_lost = 0;
+  if (breaks_crush || !judgement.crushed.empty()) return;
   const Vec2d before = step.respawn ? step.remainder : remainder_before_;
   Vec2d made = step.path.back().position - step.path.front().position;
   if (!promises_) made += step.remainder - before;  // a grid's
@@ -541,7 +546,7 @@ void Judge::judge_progress(const TraceStep& step, const Others& others, const Wa
                                           fall.hangs(made, detail::exact_reach));
 }
 
-Judge::Leaving Judge::leaving_of(const Path& path, const Others& others, bool from_turning) const {
+Judge::Leaving Judge::leaving_of(const Path& path, const Others& others, bool from_turning) {
   Leaving leaving{.inside = true, .turning = from_turning};
   if (path.size() < 2 || path[1].fraction != 0 || from_turning) return leaving;
   const Place& start = path[0];
@@ -561,10 +566,18 @@ Judge::Leaving Judge::leaving_of(const Path& path, const Others& others, bool fr
     const std::vector<ColliderIndex> met = scenery_.met(start, Place(end, start.movers, 0));
     return std::includes(inside.begin(), inside.end(), met.begin(), met.end());
   };
+  // Far beyond a rim that it passes the clearance is much.
+  const ExactScenery& wider = scenery_for(beside_rim);
+  const auto keeps_side = [&](const Vec2d& end) {
+    return std::none_of(sides.begin(), sides.end(), [&](const auto& side) {
+      const ExactScenery& asked = wider.overlaps(side.second, side.first) ? scenery_ : wider;
+      return asked.meets(side.second, Place(end, start.movers, start.fraction), side.first);
+    });
+  };
   const auto accept = [&](const Vec2d& end) {
     const Vec2d ahead = (end - start.position).normalized();
     const Vec2d aside = Vec2d(-ahead.y(), ahead.x()) * around_way_out;
-    return open(end) && open(end + aside) && open(end - aside) && !ends_on_another_side(start, end) &&
+    return open(end) && open(end + aside) && open(end - aside) && keeps_side(end) &&
            (!others.left_free || others.left_free(std::vector<PathPoint<double>>{{start.position, 0}, {end, 1}}));
   };
   const WayQuestion question{.from = start, .end = start, .may_pass = inside, .sides = sides};

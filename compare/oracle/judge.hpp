@@ -164,7 +164,7 @@ struct StepJudgement {
 /// The same is asked for who promises nothing when a step ends inside something new: of the movers that come closer and
 /// are within its reach, named or not. Where they leave no room, all that it is pressed into is excused.
 /// A mover that goes and is named with room breaks `crush`. Of who promises that clause it is no matter of `overlap`
-/// and `passage`, like one without room: one breach is said once.
+/// and `passage`, nor what it stops of `speed_lost` and `hanging`, like one without room: one breach is said once.
 /// A collider that stands still or rests never crushes, nor does one that is nowhere on the way within 1e-6 m (who
 /// promises nothing: its reach), nor does anything where nothing that is named comes closer to where the octagon was
 /// when the step began. What a
@@ -234,7 +234,8 @@ struct StepJudgement {
 /// said it is stuck and was right.
 ///
 /// **Start inside.** A step that begins inside of solids leaves them at once, in its first leg, which takes no time. No
-/// straight way out is shorter by more than 1e-6 m, ends with a gap of 1e-6 m to everything, leaves the other
+/// straight way out is shorter by more than 1e-6 m, ends with a gap of 1e-6 m to everything, passes no rim of what it
+/// leaves nearer than 2e-7 m, leaves the other
 /// characters free, and keeps to the side of the last free place. Else the step is held: it ends free of them, or says
 /// that it is stuck or crushed, and neither its way nor its velocity at the end is more than what moves near by gives
 /// it (`detail::LegJudge`). Of what turns only the latter is asked of a step that says it is stuck. Of other
@@ -359,7 +360,7 @@ class Judge {
     bool longer = false;   ///< And there is a shorter way.
     bool turning = false;  ///< Something that turns is among them.
   };
-  [[nodiscard]] Leaving leaving_of(const Path& path, const Others& others, bool from_turning) const;
+  [[nodiscard]] Leaving leaving_of(const Path& path, const Others& others, bool from_turning);
   [[nodiscard]] bool ends_on_another_side(const Place& at, const Vec2d& out) const;
   [[nodiscard]] bool has_way_out(const Place& at, const Others& others);
 

@@ -73,6 +73,8 @@ Vec2d SolidsInStep::moved(ColliderIndex collider, const Vec2d& point, double fra
 double SolidsInStep::spread(ColliderIndex collider, const Vec2d& moved, double apart) const {
   const VertexWay* turning = find_way(step_.vertex_ways, collider);
   if (turning == nullptr) return 0;
+  if (header_.scenery.colliders[collider].shape == ColliderDef::Shape::circle)
+    return std::numeric_limits<double>::infinity();
   const double angle = std::abs(RigidMotion(turning->vertices.front(), turning->vertices.back()).angle());
   return angle * (moved.norm() + apart) / length_of(step_, header_);
 }
@@ -115,6 +117,7 @@ std::vector<MetSurface> met_surfaces(const SolidsInStep& solids, std::span<const
     one.met = touch.fraction >= 1 || corner->fraction >= 1 ? touch.fraction : corner->fraction;
     const auto leaves = std::find_if_not(corner + 1, step.path.end(), is_touched);
     if (leaves != step.path.end()) one.left = leaves->fraction;
+    one.returned = leaves != step.path.end() && is_touched(step.path.back());
     one.touched_since = std::min(one.met, since->fraction);
     one.spread = solids.spread(touch.collider, solids.moved(touch.collider, touch.point, touch.fraction), 0);
     walks = walks || one.walkable;

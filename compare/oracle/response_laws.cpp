@@ -164,7 +164,7 @@ std::vector<Vec2d> upright_outcomes(const Steered& velocity, std::span<const Met
       if ((met_at_end && !any_at_end) || (carried && !any_carries)) continue;
       const Vec2d met = outcomes.emplace_back(controlled(velocity, surfaces, {met_at_end, carried}));
       for (const MetSurface& at : surfaces)
-        if (at.walkable && is_at_end(at))
+        if (at.walkable && (is_at_end(at) || at.returned))
           outcomes.emplace_back(follow((met - at.velocity).x(), at.normal) + at.velocity);
     }
   return outcomes;

@@ -21,7 +21,8 @@ struct MetSurface {
   double met = 0;                 ///< When it was met, as a fraction of the step; 1: only touched where that ends.
   double touched_since = std::numeric_limits<double>::infinity();  ///< From then until it is met it is touched.
   double left = std::numeric_limits<double>::infinity();           ///< From then on it is touched no more.
-  double spread = 0;  ///< Where it turns: by so much its velocity is not known [m/s].
+  bool returned = false;  ///< It was left, and is touched again where the step ends.
+  double spread = 0;      ///< Where it turns: by so much its velocity is not known [m/s].
 };
 
 /// The velocities that impulses without friction and restitution can make of `wanted` at one or two of the surfaces,
@@ -57,8 +58,8 @@ struct ControlledStep {
 /// both hold the motion end it, unless the fall of the unsteered velocity goes on between them.
 ///
 /// There are several only where a trace does not say, of a surface that is touched where the step ends, whether it was
-/// met by rounding, was ground that is followed, or takes nothing; and of ground that moves, whether a landing without
-/// speed across up is carried at once.
+/// met by rounding, was ground that is followed, also to where it was left, or takes nothing; and of ground that moves,
+/// whether a landing without speed across up is carried at once.
 [[nodiscard]] std::vector<Vec2d> controlled_outcomes(const ControlledStep& step, std::span<const MetSurface> surfaces);
 
 /// What is wrong with the velocity at the end of a step: it is none of `controlled_outcomes`, as far as rounding and

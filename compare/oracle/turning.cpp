@@ -464,9 +464,10 @@ void TurningJudge::note_side(const Solid& solid, const TraceStep& step) {
   sides_[solid.collider] = RigidMotion(vertices_at(way, last->fraction), way.vertices.back())(last->position);
 }
 
-/// Whether a crush by it is named, or would be by who has a word for it, and there is no room.
-bool TurningJudge::is_excused(const Solid& solid, const TraceStep& step, const ExactScenery& rest,
-                              StepJudgement& judgement) const {
+/// Whether a crush by it is named, or would be by who has a word for it, and what it does to the octagon is a matter of
+/// the clause `crush`: there is no room, or it goes, and who promises that clause breaks it.
+bool TurningJudge::is_said_as_crush(const Solid& solid, const TraceStep& step, const ExactScenery& rest,
+                                    StepJudgement& judgement) const {
   const bool named = contains(step.crushed, solid.collider);
   if (promises_ && !named) return false;
   const VertexWay& its = way_of(step, solid.collider);
@@ -478,7 +479,7 @@ bool TurningJudge::is_excused(const Solid& solid, const TraceStep& step, const E
   if (room) judgement.room = room;
   if (room && named) judgement.crushed_with_room.push_back(solid.collider);
   if (!room) judgement.crushed.push_back(solid.collider);
-  return !room;
+  return !room || (named && goes(its) && contains(header_.guarantees, Clause::crush));
 }
 
 void TurningJudge::judge_way(const Solid& solid, const TraceStep& step, const ExactScenery& rest,
@@ -487,7 +488,7 @@ void TurningJudge::judge_way(const Solid& solid, const TraceStep& step, const Ex
   const bool began_inside = contains(inside_, solid.collider);
   const bool ends_inside = overlaps(solid, way, step.path.back());
   const bool named = contains(step.crushed, solid.collider);
-  const bool excused = (named || (ends_inside && !began_inside)) && is_excused(solid, step, rest, judgement);
+  const bool excused = (named || (ends_inside && !began_inside)) && is_said_as_crush(solid, step, rest, judgement);
   if (ends_inside) {
     if (excused) pressed_.insert(solid.collider);
     judgement.end_overlap.push_back(solid.collider);

@@ -19,9 +19,9 @@ namespace paperproof::compare::detail {
 ///
 /// - **Overlap** at the end of a step, **tunnelled** and **corner cut** as of what does not turn (see `Judge`), but for
 ///   one that is left on another side in a later step than it was entered.
-/// - **Crushed**: a solid that is named is excused if there is no room: see `Judge`; the way to a place that is room
-///   leaves free what turns, too, and ends 1e-7 m away from it. How far the mover goes is how far it takes the
-///   corner of the octagon along that it is nearest to when the step begins.
+/// - **Crushed**: a solid that is named is excused if there is no room, and with room its overlap and passage are a
+///   matter of `crush`, of who promises that: see `Judge`. The way to a place that is room leaves free what turns, too,
+///   and ends 1e-7 m away from it. How far the mover goes is the longest way of a vertex.
 /// - **Contact**: what was reported and is within 1e-6 m at a corner of the way, or what the requested motion touches
 ///   first in the step, or in its first part (Box2D: what the motion touches that is left by its contacts with the
 ///   rest). The normal is that of the face that is touched and most like the reported one, or of the best axis where
@@ -141,8 +141,8 @@ class TurningJudge {
   [[nodiscard]] Axis nearest_axis(const Solid& solid, const VertexWay& way, const PathPoint<double>& at) const;
   /// Over the corners of the way [m].
   [[nodiscard]] double nearest(const Solid& solid, const TraceStep& step) const;
-  [[nodiscard]] bool is_excused(const Solid& solid, const TraceStep& step, const ExactScenery& rest,
-                                StepJudgement& judgement) const;
+  [[nodiscard]] bool is_said_as_crush(const Solid& solid, const TraceStep& step, const ExactScenery& rest,
+                                      StepJudgement& judgement) const;
   void note_side(const Solid& solid, const TraceStep& step);
   void judge_way(const Solid& solid, const TraceStep& step, const ExactScenery& rest, StepJudgement& judgement);
   void judge_passage(const Solid& solid, const TraceStep& step, StepJudgement& judgement) const;

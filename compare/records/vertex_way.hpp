@@ -4,6 +4,7 @@
 #include <paperproof/types.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -33,14 +34,12 @@ struct VertexWay {
          way.instants[k] - way.instants[k - 1] < share_at_once * (way.instants[k + 1] - way.instants[k]);
 }
 
-/// Into how many shorter steps a step among what turns is divided: each begins with a turn at once.
+/// Into how many shorter steps a step among what turns is divided: they are equally long, and each begins with a turn
+/// at once. The first one tells: after a crush the rest is not divided.
 [[nodiscard]] inline int parts_of(std::span<const VertexWay> ways) {
   int most = 1;
-  for (const VertexWay& way : ways) {
-    int parts = 0;
-    for (std::size_t k = 0; k < way.instants.size(); ++k) parts += turns_at_once(way, k);
-    most = std::max(most, parts);
-  }
+  for (const VertexWay& way : ways)
+    if (turns_at_once(way, 1)) most = std::max(most, static_cast<int>(std::lround(1 / way.instants[2])));
   return most;
 }
 

@@ -263,7 +263,7 @@ void RunJudge::judge_carrier(const SolidsInStep& there) {
       const double unknown = there.spread(carrier, there.moved(carrier, point, 1), detail::extent_of(header_.points));
       off = std::min(off, (record.ride->velocity - velocity).norm() - unknown - same_speed * (1 + velocity.norm()));
     }
-  if (std::isinf(off))
+  if (off == std::numeric_limits<double>::infinity())
     note(Clause::ground_invented, record, "says it rides `" + header_.ids[carrier] + "`, which is not there");
   else if (off > 0)
     note(Clause::velocity, record,
@@ -336,7 +336,10 @@ void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged,
     const auto is_there = [&](const PathPoint<double>& corner) {
       return solids().separation({corner, record.movers}, contact.collider) <= guaranteed_gap;
     };
-    if (carried != Vec2d::Zero() && is_there(record.path.front())) {
+    // Of one collider that is the first contact: a later one is another face, and is met where the way comes to it.
+    const auto is_of_it = [&](const Contact<double>& one) { return one.collider == contact.collider; };
+    const Contact<double>& first = *std::find_if(record.contacts.begin(), record.contacts.end(), is_of_it);
+    if (carried != Vec2d::Zero() && is_there(record.path.front()) && &first == &contact) {
       // It gives way from the start, and meets no later than what was requested touches.
       const Place start(record.path.front(), record.movers);
       const double approach = (carried - record.requested).dot(contact.normal);
@@ -538,10 +541,14 @@ void RunJudge::judge_velocity(const SolidsInStep& there, const StepJudgement& ju
   step.side_hit_ends_rise = header_.character.side_hit_ends_rise;
   const bool walks = !wanted.jumped && begins_as_walk(header_, record, wanted.from_ground, wanted.velocity);
   const std::vector<MetSurface> surfaces = met_surfaces(there, record.contacts, walks);
-  // What characters hand on to each other is no matter of surfaces, and what turns has no one normal in a step:
-  // there only its size is judged.
-  const bool is_bounded_only = !record.met.empty() || std::any_of(surfaces.begin(), surfaces.end(),
-                                                                  [](const auto& at) { return at.spread > 0; });
+  // What characters hand on to each other is no matter of surfaces, and what turns has no one normal in a step, nor has
+  // the ground that is left one velocity: there only its size is judged.
+  const auto turns = [](const MetSurface& at) { return at.spread > 0; };
+  const std::optional<TraceRide> carrier = record.from             ? record.from->ride
+                                           : follower.last.empty() ? std::nullopt
+                                                                   : follower.last.back().ride;
+  const bool is_bounded_only = !record.met.empty() || std::any_of(surfaces.begin(), surfaces.end(), turns) ||
+                               (carrier && there.spread(carrier->collider, carrier->velocity, 1) > 0);
   if (is_bounded_only) return;
   if (const auto fault = velocity_fault(step, surfaces, record.velocity)) note(Clause::velocity, record, *fault);
 }

@@ -315,5 +315,22 @@ TEST(JudgeMovers, a_contact_into_which_ground_carries_is_right) {
   }
 }
 
+/// A walker runs into a corner of a box with his lower right flank, and goes on with the box, along that normal: down,
+/// onto the floor, if the box goes away.
+TEST(JudgeMovers, a_contact_into_which_a_face_leads_that_ends_the_motion_is_right) {
+  const Vec2d flank = Vec2d(-2, 1).normalized();
+  const Vec2d corner = Vec2d(0.234375, -0.46875) - kept * flank;
+  const TraceHeader there =
+      promising({moving(box(corner.x(), corner.y() - 0.1, corner.x() + 1, corner.y())), box(-4, -2, 4, -0.625 - kept)});
+  for (const double way : {-0.05, 0.0, 0.05}) {
+    TraceStep walk = leg({0, 0}, {std::max(0.8 * way, -0.05), 0}, {{{0, 0}, {way, 0}}});
+    walk.requested = {0.3, 0};
+    walk.contacts = {{.collider = 0, .point = corner, .normal = flank, .separation = kept, .side = Side::right},
+                     {.collider = 1, .normal = {0, 1}, .separation = kept, .side = Side::bottom}};
+    const StepJudgement judged = Judge(there).judge(walk);
+    EXPECT_EQ(!judged.deflected.empty(), way > 0) << way;
+  }
+}
+
 }  // namespace
 }  // namespace paperproof::compare

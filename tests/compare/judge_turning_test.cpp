@@ -127,6 +127,12 @@ TEST_F(TurningArm, that_is_said_to_crush_is_excused_only_where_there_is_no_room)
   const StepJudgement refuted = judge.judge(pressed);
   EXPECT_EQ(refuted.crushed_with_room, Colliders{0});
   EXPECT_EQ(refuted.entered, Colliders{0}) << "above it was room";
+  TraceHeader whole = with_arm(true);
+  whole.guarantees = every_clause();
+  Judge once(whole);
+  const StepJudgement told = once.judge(pressed);
+  EXPECT_EQ(told.crushed_with_room, Colliders{0});
+  EXPECT_TRUE(told.entered.empty()) << "of who promises `crush` one breach is said once";
   TraceHeader shaft = with_arm(true);
   // Walls and a ceiling around the octagon, less than 1e-7 m away.
   const double e = 0x1p-25;

@@ -163,6 +163,21 @@ TEST_F(Plank, that_turns_at_once_in_enough_parts_holds_to_its_script) {
   }
 }
 
+TEST_F(Plank, that_crushes_in_the_first_part_goes_on_evenly_and_the_step_was_divided_as_before) {
+  TraceStep step = in_parts(0, needed);
+  for (VertexWay& way : step.vertex_ways) {
+    // Turned at once and gone on in the first part; then 32 chords, as where a character that is crushed stays.
+    way.instants.resize(3);
+    way.vertices.resize(3);
+    const double begin = way.instants.back();
+    for (int k = 1; k <= 32; ++k) {
+      way.instants.push_back(begin + (1 - begin) * k / 32);
+      way.vertices.push_back(way.vertices.back());
+    }
+  }
+  EXPECT_EQ(parts_of(step.vertex_ways), needed);
+}
+
 TEST_F(Plank, is_off_its_arc_by_the_chord_of_the_first_turn) {
   // The vertex farthest from the corner that it turns about, in the first part of the first step.
   const Vec2d corner = beside_ + Vec2d(-0.3125, -0.3125);

@@ -400,5 +400,23 @@ TEST(VelocityFault, a_flush_neighbour_goes_on_to_hold_where_a_wall_is_left) {
   EXPECT_FALSE(velocity_fault(step, std::vector{upper, floor}, {-1, 0}));
 }
 
+/// Who is lifted off the floor by what pushes, and snaps back to it, follows it.
+TEST(VelocityFault, ground_that_was_left_may_be_followed_again) {
+  const ControlledStep step{.wanted = {-5, -0.5}, .unsteered = {-4, -0.5}};
+  MetSurface floor{.normal = {0, 1}};
+  floor.walkable = true;
+  floor.left = 0.7;
+  MetSurface pusher{.normal = Vec2d(2, 1).normalized()};
+  pusher.velocity = 2.25 * pusher.normal;
+  pusher.climbs = true;
+  pusher.met = 0.7;
+  const Vec2d lifted = controlled_outcomes(step, std::vector{floor, pusher}).front();
+  ASSERT_GT(lifted.y(), 0.1);
+  EXPECT_TRUE(velocity_fault(step, std::vector{floor, pusher}, {lifted.x(), 0}));
+  floor.returned = true;
+  EXPECT_FALSE(velocity_fault(step, std::vector{floor, pusher}, {lifted.x(), 0}));
+  EXPECT_TRUE(velocity_fault(step, std::vector{floor, pusher}, {0, 0}));
+}
+
 }  // namespace
 }  // namespace paperproof::compare

@@ -119,11 +119,12 @@ class Motion:
         return less(corner[:2], self.offset(name, corner[2]))
 
     def parts(self):
-        """Into how many shorter steps the step was divided: each begins with a turn at once."""
-        def turns_at_once(k):
-            return sum(b - a < AT_ONCE * (c - b) for a, b, c in zip(k, k[1:], k[2:]))
+        """Into how many shorter steps the step was divided, by the first: each begins with a turn at once, and they are
+        equally long. After a crush the rest is not divided."""
+        def first_of(k):
+            return round(1 / k[2]) if len(k) > 2 and k[1] - k[0] < AT_ONCE * (k[2] - k[1]) else 1
 
-        return max([1] + [turns_at_once(way.instants) for way in self.ways.values()])
+        return max([1] + [first_of(way.instants) for way in self.ways.values()])
 
     def longest(self, name):
         """The longest way of a vertex, rounded [m]."""
