@@ -208,6 +208,9 @@ void RunJudge::judge_wish(const TraceStep& record, const Wanted& wanted, const F
     note(Clause::wanted, record,
          fmt::format("says it was asked to go ({:.9g}, {:.9g}) m, and ({:.9g}, {:.9g}) m was wanted",
                      record.requested.x(), record.requested.y(), wanted.displacement.x(), wanted.displacement.y()));
+  const bool jumps_later = wanted.parts > 1 && record.jumping && !wanted.jumping;
+  if (jumps_later && !(wanted.pending && touches_from_above(record, up_in(record, header_))))
+    note(Clause::wanted, record, "says it jumped in a part of the step, and could not");
 }
 
 /// Whether nothing near the character moves.

@@ -82,7 +82,9 @@ class Intent:
         speed = frame.world(walk + frame.across(gravity) * part, rise)
         carried = self.carried(step, dt, motion, colliders)
         if carried is None:
+            self.rise = float("inf")
             return None
+        self.rise = rise + frame.rise(carried) / dt
         places = [abs(float(x)) for ends in motion.ends.values() for place in ends for x in place]
         size = max([hypot(*speed) * dt, hypot(*carried), hypot(*self.velocity) * dt] + [ulp(x) * 1e12 for x in places])
         return Wanted([v * dt + by for v, by in zip(speed, carried)], (walk - before) * dt, size)
@@ -122,7 +124,24 @@ class Intent:
             way = tuple(w + (v - c) * dt for w, v, c in zip(way, speed, self.carrier))
         return way
 
-    def end(self, step, dt, motion):
+    def end_later_parts(self, step, dt, parts, frame):
+        """Who lands in a part of a step may jump in the next. A jump that went on has ended on ground before."""
+        if self.pending and step.get("jumping", False) and (not self.jumping or self.rises_anew(step, frame)):
+            self.jumping, self.pending, self.coyote_left = True, False, 0.0
+        for _ in range(parts - 1):
+            if self.pending and self.character.get("jump_buffer") is not None:
+                self.pending_left -= dt / parts
+                self.pending = self.pending_left > 0
+            if not self.grounded:
+                self.coyote_left = max(self.coyote_left - dt / parts, 0)
+
+    def rises_anew(self, step, frame):
+        met = step["contacts"] + step.get("met", [])
+        return frame.rise(step["velocity"]) > self.rise and any(frame.rise(one["normal"]) > 0 for one in met)
+
+    def end(self, step, dt, motion, frame):
+        if motion.parts() > 1:
+            self.end_later_parts(step, dt, motion.parts(), frame)
         self.velocity, self.grounded = step["velocity"], step["grounded"]
         self.jumping = step.get("jumping", False) and (self.jumping or not self.grounded)
         self.crushed = bool(step.get("crush")) or (self.crushed and step.get("stuck", False))
