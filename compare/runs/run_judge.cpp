@@ -105,12 +105,15 @@ void RunJudge::add(std::span<TraceStep> records) {
         asked[k], company_ ? company_->others_of(asked[k].character, asked) : Others{}, &followers_[k].wanted);
   if (steps_ == 0) note_begin(asked);
   if (company_) company_->judge(asked, judgements_);
+  const auto is_far = [](const TraceStep& step) {
+    return step.path.front().position.cwiseAbs().maxCoeff() > guaranteed_range ||
+           step.requested.cwiseAbs().maxCoeff() > guaranteed_range;
+  };
+  // What they note is of the step before.
+  for (std::size_t k = 0; k < records.size(); ++k) metrics_.add(asked[k], judgements_[k], breaches_, is_far(asked[k]));
   for (std::size_t k = 0; k < records.size(); ++k) {
     Follower& follower = followers_[k];
-    metrics_.add(asked[k], judgements_[k]);
-    const bool far = asked[k].path.front().position.cwiseAbs().maxCoeff() > guaranteed_range ||
-                     asked[k].requested.cwiseAbs().maxCoeff() > guaranteed_range;
-    if (far) {
+    if (is_far(asked[k])) {
       steps_far_ += !header_.guarantees.empty();
     } else {
       judge_clauses(asked[k], judgements_[k]);
@@ -566,7 +569,7 @@ void RunJudge::add_refused(const TraceStep& record) {
 
 Breaches RunJudge::breaches() const {
   Breaches all = breaches_;
-  metrics_.write_contact_breaches(all);
+  metrics_.end(all);
   return all;
 }
 
