@@ -1,6 +1,7 @@
 #include "oracle/intent.hpp"
 
 #include "oracle/exemptions.hpp"
+#include "oracle/hanging.hpp"
 #include "oracle/up.hpp"
 
 #include <algorithm>
@@ -78,13 +79,16 @@ double Intent::use_button(const TraceStep& step, double dt, double rise, const W
   return character.jump_speed * (pressed ? 1 : character.jump_cut);
 }
 
-/// Whether a step in parts jumps after its first part. A jump that went on has ended on ground before: it rises from
-/// there, faster than it wanted to.
+/// Whether a step in parts jumps after its first part. Who jumped before, or does no longer at the end, has landed in a
+/// part before the last one; and a jump that goes on is faster than what was wanted.
 bool Intent::jumped_later(const TraceStep& step) const {
-  if (!jump_pending_ || !step.jumping) return false;
-  if (!jumping_) return true;
+  if (!jump_pending_) return false;
+  if (step.jumping && !jumping_) return true;
   const Vec2d up = up_in(step, *header_);
-  return step.velocity.dot(up) > rise_ && touches_from_above(step, up);
+  const bool landed = std::any_of(step.contacts.begin(), step.contacts.end(), [&](const Contact<double>& contact) {
+    return contact.fraction * parts_ < parts_ - 1 && detail::is_walkable(contact.normal, *header_, up);
+  });
+  return landed && (step.jumping ? step.velocity.dot(up) > rise_ : step.grounded);
 }
 
 /// The button, and the time in the air, in the parts after the first one.

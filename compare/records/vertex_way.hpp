@@ -4,6 +4,7 @@
 #include <paperproof/types.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -33,12 +34,15 @@ struct VertexWay {
          way.instants[k] - way.instants[k - 1] < share_at_once * (way.instants[k + 1] - way.instants[k]);
 }
 
-/// Into how many shorter steps a step among what turns is divided: each begins with a turn at once.
-[[nodiscard]] inline int parts_of(std::span<const VertexWay> ways) {
+/// Into how many shorter steps a step among what turns is divided: each begins with a turn at once. Who is crushed in
+/// one takes no further ones: then the first one tells how long they all are.
+[[nodiscard]] inline int parts_of(std::span<const VertexWay> ways, bool crushed = false) {
   int most = 1;
   for (const VertexWay& way : ways) {
     int parts = 0;
     for (std::size_t k = 0; k < way.instants.size(); ++k) parts += turns_at_once(way, k);
+    if (crushed && parts > 0 && turns_at_once(way, 1))
+      parts = std::max(parts, static_cast<int>(std::lround(1 / way.instants[2])));
     most = std::max(most, parts);
   }
   return most;

@@ -87,7 +87,8 @@ void RunJudge::add(std::span<TraceStep> records) {
     record.start_overlap = follower.inside;
     if (company_) record.start_overlap_characters = company_->overlapped(starts, record.character);
     const auto wall_ahead = [this](const TraceStep& step, double move) { return is_wall_ahead(step, move); };
-    follower.wanted = follower.intent.begin(record, header_.substeps * parts_of(record.vertex_ways), wall_ahead);
+    const int parts = header_.substeps * parts_of(record.vertex_ways, !record.crushed.empty());
+    follower.wanted = follower.intent.begin(record, parts, wall_ahead);
     judge_wish(record, follower.wanted, follower);
     asked[k] = record;
     // A character that is given another velocity where it is remembers from which side it came.

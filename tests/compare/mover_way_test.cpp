@@ -163,6 +163,15 @@ TEST_F(Plank, that_turns_at_once_in_enough_parts_holds_to_its_script) {
   }
 }
 
+TEST_F(Plank, that_goes_evenly_on_after_a_crush_went_in_as_many_parts_as_its_first_one_says) {
+  TraceStep step = in_parts(0, needed);
+  VertexWay& way = step.vertex_ways[0];
+  way.instants.resize(3);
+  for (int k = 1; k <= 8; ++k) way.instants.push_back(way.instants[2] + (1 - way.instants[2]) * k / 8);
+  EXPECT_EQ(parts_of(step.vertex_ways), 1);
+  EXPECT_EQ(parts_of(step.vertex_ways, true), needed);
+}
+
 TEST_F(Plank, is_off_its_arc_by_the_chord_of_the_first_turn) {
   // The vertex farthest from the corner that it turns about, in the first part of the first step.
   const Vec2d corner = beside_ + Vec2d(-0.3125, -0.3125);

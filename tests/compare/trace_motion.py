@@ -4,7 +4,7 @@ The law: the speed across up comes nearer to what the input asks for by accelera
 that is allowed sets the speed along up. Gravity is added, the fall limited, and the way is the speed times dt. Whoever
 rides something does all of that relative to it, and goes along besides.
 """
-from math import hypot, radians, tan, ulp
+from math import cos, hypot, radians, tan, ulp
 
 from trace_geometry import less
 
@@ -125,8 +125,7 @@ class Intent:
         return way
 
     def end_later_parts(self, step, dt, parts, frame):
-        """Who lands in a part of a step may jump in the next. A jump that went on has ended on ground before."""
-        if self.pending and step.get("jumping", False) and (not self.jumping or self.rises_anew(step, frame)):
+        if self.pending and self.jumped_later(step, parts, frame):
             self.jumping, self.pending, self.coyote_left = True, False, 0.0
         for _ in range(parts - 1):
             if self.pending and self.character.get("jump_buffer") is not None:
@@ -135,9 +134,16 @@ class Intent:
             if not self.grounded:
                 self.coyote_left = max(self.coyote_left - dt / parts, 0)
 
-    def rises_anew(self, step, frame):
-        met = step["contacts"] + step.get("met", [])
-        return frame.rise(step["velocity"]) > self.rise and any(frame.rise(one["normal"]) > 0 for one in met)
+    def jumped_later(self, step, parts, frame):
+        """Who lands in a part of a step may jump in the next. A jump that went on before, or ends with the step, needs
+        ground in a part before the last."""
+        jumping = step.get("jumping", False)
+        if jumping and not self.jumping:
+            return True
+        walkable = cos(radians(self.character["max_climb_degrees"]) + CLIMB)
+        landed = any(contact["fraction"] * parts < parts - 1 and frame.rise(contact["normal"]) >= walkable
+                     for contact in step["contacts"])
+        return landed and (frame.rise(step["velocity"]) > self.rise if jumping else step["grounded"])
 
     def end(self, step, dt, motion, frame):
         if motion.parts() > 1:

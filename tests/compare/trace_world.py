@@ -78,6 +78,7 @@ class Motion:
 
     def __init__(self, step, colliders):
         movers = step["movers"].items()
+        self.crushes = bool(step.get("crush"))
         self.ends = {name: exact(ends) for name, ends in movers if not isinstance(ends, dict)}
         self.ways = {name: Way(ends, colliders[name]) for name, ends in movers if isinstance(ends, dict)}
 
@@ -119,11 +120,13 @@ class Motion:
         return less(corner[:2], self.offset(name, corner[2]))
 
     def parts(self):
-        """Into how many shorter steps the step was divided: each begins with a turn at once."""
-        def turns_at_once(k):
-            return sum(b - a < AT_ONCE * (c - b) for a, b, c in zip(k, k[1:], k[2:]))
+        """Into how many shorter steps the step was divided: each begins with a turn at once. Who is crushed in one takes
+        no further ones: then the first one tells how long they all are."""
+        def parts_of(k):
+            at_once = [b - a < AT_ONCE * (c - b) for a, b, c in zip(k, k[1:], k[2:])]
+            return max(sum(at_once), round(1 / k[2]) if self.crushes and at_once and at_once[0] else 1)
 
-        return max([1] + [turns_at_once(way.instants) for way in self.ways.values()])
+        return max([1] + [parts_of(way.instants) for way in self.ways.values()])
 
     def longest(self, name):
         """The longest way of a vertex, rounded [m]."""
