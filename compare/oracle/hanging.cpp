@@ -55,7 +55,7 @@ bool HangingJudge::hangs(const Vec2d& made, const Reach& reach, Bounds bounds) c
   const double fell = -made.dot(up_);
   if (is_capped(step_, header_) || !(asked > least) || !(fell < least_share * asked)) return false;
   const auto falls_short_of = [&](double fall) { return fall > least && fell < least_share * fall; };
-  const std::vector<Nearby> corners = near_corners(reach, bounds);
+  const std::vector<Nearby> corners = near_corners(unsteered, reach, bounds);
   Nearby all;
   for (const Nearby& corner : corners) all.add(corner);
   if (all.holds) return false;
@@ -99,17 +99,24 @@ void HangingJudge::Nearby::add(const Nearby& other) {
   holds = holds || other.holds;
 }
 
-/// What the octagon may touch at each corner of its way.
-std::vector<HangingJudge::Nearby> HangingJudge::near_corners(const Reach& reach, Bounds bounds) const {
+/// What the octagon may touch at each corner of its way. Ground holds it where it says that it stands, or cannot fall
+/// past: two corners that lie side by side hold nothing.
+std::vector<HangingJudge::Nearby> HangingJudge::near_corners(const Vec2d& unsteered, const Reach& reach,
+                                                             Bounds bounds) const {
   std::vector<Nearby> corners(step_.path.size());
   for (std::size_t corner = 0; corner < corners.size(); ++corner) {
     for (const NearPart& part : parts_near(corner, reach.contact)) {
-      Nearby& nearby = corners[corner];
-      nearby.holds = nearby.holds || part.faces.front().separation < -reach.contact || is_ground(part);
       Obstacle obstacle;
       const double unsure = bounds == Bounds::safe ? part.unsure : 0;
       for (const NearFace& face : part.faces)
         obstacle.push_back({face.normal, face.normal.dot(part.moved) + unsure, face.separation});
+      const auto lets_fall = [&](const HalfPlane& plane) {
+        return plane.separation >= reach.opening && plane.holds(unsteered);
+      };
+      const bool falls_past = std::any_of(obstacle.begin(), obstacle.end(), lets_fall);
+      Nearby& nearby = corners[corner];
+      nearby.holds = nearby.holds || part.faces.front().separation < -reach.contact ||
+                     (is_ground(part) && (step_.grounded || !falls_past));
       nearby.obstacles.push_back(std::move(obstacle));
     }
   }

@@ -55,7 +55,7 @@ class HangingJudge {
     void add(const Nearby& other);
   };
 
-  [[nodiscard]] std::vector<Nearby> near_corners(const Reach& reach, Bounds bounds) const;
+  [[nodiscard]] std::vector<Nearby> near_corners(const Vec2d& unsteered, const Reach& reach, Bounds bounds) const;
   [[nodiscard]] double fall_leg_by_leg(const Vec2d& wanted, const std::vector<Nearby>& corners,
                                        const Reach& reach) const;
   [[nodiscard]] bool is_run_into(const Reach& reach) const;

@@ -378,8 +378,8 @@ void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged)
   }
 }
 
-/// What it says that it dropped through is a one-way chain, was asked for, and was passed: by the octagon itself or, as
-/// rounding may name a chain whose tip is grazed, by one a little to its side.
+/// What it says that it dropped through is one-way, was asked for, and was passed, or stood upon where a leg begins: by
+/// the octagon itself or, as rounding may name a chain whose tip is grazed, by one a little to its side.
 void RunJudge::judge_drops(const TraceStep& record) {
   constexpr double aside = 1e-5;
   for (const ColliderIndex chain : record.dropped_through) {
@@ -390,7 +390,9 @@ void RunJudge::judge_drops(const TraceStep& record) {
         Place from(record.path[i - 1], record.movers);
         Place to(record.path[i], record.movers);
         for (Place* place : {&from, &to}) place->position += shift * Vec2d(one_way->y(), -one_way->x());
-        passes = passes || solids().meets(from, to, chain);
+        Place below = from;
+        below.position -= guaranteed_gap * *one_way;
+        passes = passes || solids().meets(from, to, chain) || solids().meets(from, below, chain);
       }
     if (!record.input.drop || !passes)
       note(Clause::one_way, record, "says it dropped through `" + header_.ids[chain] + "`, and did not");

@@ -86,6 +86,18 @@ TEST(JudgeHanging, an_opening_below_200_nanometres_is_closed) {
   }
 }
 
+TEST(JudgeHanging, a_ledge_holds_nobody_who_is_beside_it) {
+  // The feet are flat, and the ledge's corner lies below them and to the left of the flank.
+  for (const auto& [beside, holds] : {std::pair{gap, false}, {1.9e-7, true}, {-1e-3, true}}) {
+    TraceHeader boxed = header({box(-4, -4, -0.3125 - beside, -0.625 - gap)});
+    boxed.points = {{-0.3125, -0.625}, {0.3125, -0.625}, {0.3125, 0.625}, {-0.3125, 0.625}};
+    TraceStep pressed = wanting({0, -fall}, -0.1);
+    EXPECT_EQ(hangs(boxed, pressed), !holds) << beside;
+    pressed.grounded = true;
+    EXPECT_FALSE(hangs(boxed, pressed)) << "says that it stands: whether there is ground is another clause";
+  }
+}
+
 TEST(JudgeHanging, a_seam_of_a_steep_face_holds_nobody) {
   // A steep face below the chamfer in two pieces, cut straight down where the chamfer's middle is.
   const Vec2d touched = ledge().points[3];

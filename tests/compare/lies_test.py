@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Traces that lie, each in one point: `paperproof judge` names the clause, or refuses the trace with status 2.
+"""Traces that lie, each in one point: `paperproof judge` names the clause, or refuses the trace with status 2. A few are
+honest and were accused once: they hold.
 
     lies_test.py PAPERPROOF
 
@@ -27,10 +28,10 @@ class Lies(unittest.TestCase):
                         arguments += ["--scene", json.loads(next(lines))["scene"]]
                 done = subprocess.run(arguments, capture_output=True, text=True, check=False)
                 said = done.stdout + done.stderr
-                self.assertEqual(done.returncode, 2 if clause == "status 2" else 1, said)
+                self.assertEqual(done.returncode, {"status 2": 2, "holds": 0}.get(clause, 1), said)
                 if done.returncode == 1:
                     self.assertIn(f"\n  {clause} on ", said)
-                else:
+                elif done.returncode == 2:
                     self.assertEqual(len(said.splitlines()), 1, said)
 
 
