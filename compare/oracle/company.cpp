@@ -1,13 +1,16 @@
 #include "oracle/company.hpp"
 
+#include "contains.hpp"
 #include "oracle/contacts.hpp"
 #include "oracle/exemptions.hpp"
 #include "oracle/passing.hpp"
+#include "oracle/up.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace paperproof::compare {
 namespace {
@@ -18,6 +21,9 @@ constexpr double least_approach = 1e-3;
 constexpr double rounding_of_normal = 1e-6;
 /// With more contacts with scenery there are too many ways that they may have left.
 constexpr std::size_t most_contacts = 4;
+constexpr std::size_t most_ways = 100;
+/// What a time is off along the normal is not told below this [m].
+constexpr double told = 1e-6;
 /// Half of the narrowest opening between others that counts as room [m]: as between solids.
 constexpr double least_clearance = 1e-7;
 
@@ -54,11 +60,22 @@ double touch_of(const TraceHeader& header) {
   return std::max(detail::contact_reach, tolerance_named(header, "touch"));
 }
 
-/// How far it goes in the time of a whole step, as it does after a fraction of it [m].
+/// How far it goes in the time of a whole step, as it does from one fraction of it to another [m].
+Vec2d rate_between(const PathPoint<double>& from, const PathPoint<double>& to) {
+  return (to.position - from.position) / (to.fraction - from.fraction);
+}
+
+/// As it goes on from a fraction of the step,
 Vec2d rate_after(const std::vector<PathPoint<double>>& path, double fraction) {
   for (std::size_t i = 0; i + 1 < path.size(); ++i)
-    if (path[i].fraction <= fraction && fraction < path[i + 1].fraction)
-      return (path[i + 1].position - path[i].position) / (path[i + 1].fraction - path[i].fraction);
+    if (path[i].fraction <= fraction && fraction < path[i + 1].fraction) return rate_between(path[i], path[i + 1]);
+  return Vec2d::Zero();
+}
+
+/// and as it comes to it.
+Vec2d rate_before(const std::vector<PathPoint<double>>& path, double fraction) {
+  for (std::size_t i = 0; i + 1 < path.size(); ++i)
+    if (path[i].fraction < fraction && fraction <= path[i + 1].fraction) return rate_between(path[i], path[i + 1]);
   return Vec2d::Zero();
 }
 
@@ -102,11 +119,27 @@ Others CompanyJudge::others_of(CharacterIndex character, std::span<const TraceSt
     std::vector<NearPart> parts;
     for (const TraceStep& other : steps) {
       if (other.character == character) continue;
-      NearPart part{.moved = end_of(other) - start_of(other),
+      NearPart part{.collider = no_collider,
+                    .moved = end_of(other) - start_of(other),
                     .faces = pair_.near_faces(corner.position, place_at(other.path, corner.fraction), within)};
-      if (!part.faces.empty()) parts.push_back(std::move(part));
+      if (part.faces.empty()) continue;
+      part.comes = rate_before(other.path, corner.fraction);
+      part.goes = rate_after(other.path, corner.fraction);
+      parts.push_back(std::move(part));
     }
     return parts;
+  };
+  others.handed_on = [this, steps, character] { return handed_on(character, steps); };
+  others.add_moments = [steps, character](std::vector<PathPoint<double>>& path) {
+    for (const TraceStep& other : steps) {
+      if (other.character == character) continue;
+      for (const PathPoint<double>& corner : other.path) {
+        const auto next = std::lower_bound(path.begin(), path.end(), corner.fraction,
+                                           [](const auto& own, double fraction) { return own.fraction < fraction; });
+        if (next == path.end() || next->fraction == corner.fraction) continue;
+        path.insert(next, {place_at(path, corner.fraction), corner.fraction});
+      }
+    }
   };
   others.impacts_at_end = [this, steps, character](const Vec2d& displacement) {
     const Vec2d from = end_of(steps[character]);
@@ -119,6 +152,35 @@ Others CompanyJudge::others_of(CharacterIndex character, std::span<const TraceSt
     return impacts;
   };
   return others;
+}
+
+double CompanyJudge::handed_on(CharacterIndex character, std::span<const TraceStep> steps) const {
+  std::vector<CharacterIndex> linked{character};
+  for (std::size_t i = 0; i < linked.size(); ++i)
+    for (const TraceStep& other : steps)
+      if (!contains(linked, other.character) && may_meet(steps[linked[i]], other) && touch(steps[linked[i]], other))
+        linked.push_back(other.character);
+  // On the steepest ground that is walked on.
+  const double steepest = 1 / std::cos(header_.character.max_climb_degrees * std::numbers::pi / 180);
+  std::map<MoverIndex, double> movers;
+  double most = 0;
+  for (const CharacterIndex member : linked) {
+    const TraceStep& step = steps[member];
+    const Vec2d up = up_in(step, header_);
+    const Vec2d unsteered = step.requested - step.steered * Vec2d(up.y(), -up.x());
+    if (member != character) most += std::max(step.requested.norm(), unsteered.norm()) * steepest;
+    const Box2<double> places = reach_of(step);
+    const Box2<double> covered{places.lower + box_.lower, places.upper + box_.upper};
+    for (const ColliderDef& def : header_.scenery.colliders) {
+      if (def.mover == no_mover) continue;
+      const auto& [from, to] = step.movers[def.mover];
+      Box2<double> swept = box_of(def.points);
+      swept = Box2<double>{swept.lower + from.cwiseMin(to), swept.upper + from.cwiseMax(to)};
+      if (swept.inflated((to - from).norm() + reach_).overlaps(covered)) movers[def.mover] = (to - from).norm();
+    }
+  }
+  for (const auto& [mover, way] : movers) most += way;
+  return most;
 }
 
 template <class Visit>
@@ -184,8 +246,59 @@ bool CompanyJudge::must_meet(const TraceStep& one, const TraceStep& other) const
   });
 }
 
-double CompanyJudge::gap_at(const TraceStep& one, const TraceStep& other, double fraction) const {
-  return pair_.separation(place_at(one.path, fraction), place_at(other.path, fraction));
+std::vector<Vec2d> CompanyJudge::ways_at(const TraceStep& one, std::span<const TraceStep> steps,
+                                         double fraction) const {
+  std::vector<Vec2d> ways = one.contacts.size() <= most_contacts ? ways_of(one) : std::vector<Vec2d>{one.requested};
+  const Vec2d mine = place_at(one.path, fraction);
+  for (const TraceStep& other : steps) {
+    if (other.character == one.character || ways.size() > most_ways) continue;
+    const std::vector<NearFace> faces = pair_.near_faces(mine, place_at(other.path, fraction), reach_);
+    if (faces.empty()) continue;
+    for (std::size_t i = 0, before = ways.size(); i < before; ++i)
+      for (const Vec2d& left : detail::ways_left(ways[i], rate_after(other.path, fraction), one.steered,
+                                                 faces.front().normal, header_, up_in(one, header_)))
+        ways.push_back(left);
+  }
+  return ways;
+}
+
+double CompanyJudge::off_at(const TraceStep& one, const TraceStep& other, const CrowdContact<double>& met,
+                            std::span<const TraceStep> steps) const {
+  double off = std::max(0.0, pair_.separation(place_at(one.path, met.fraction), place_at(other.path, met.fraction)));
+  any_moment(one, other, [&](const Vec2d& mine, const Vec2d& theirs, double fraction) {
+    if (off <= told) return true;
+    if (pair_.separation(mine, theirs) > reach_) return false;
+    const auto look = [&](const Vec2d& pace) {
+      if (const double approach = -pace.dot(met.normal); approach > 0)
+        off = std::min(off, std::abs(met.fraction - fraction) * approach);
+    };
+    look(rate_before(one.path, fraction) - rate_before(other.path, fraction));
+    std::vector<Vec2d> mine_goes = ways_at(one, steps, fraction);
+    std::vector<Vec2d> theirs_goes = ways_at(other, steps, fraction);
+    mine_goes.push_back(rate_after(one.path, fraction));
+    theirs_goes.push_back(rate_after(other.path, fraction));
+    for (const Vec2d& my_way : mine_goes)
+      for (const Vec2d& their_way : theirs_goes) look(my_way - their_way);
+    if (fraction == met.fraction) off = 0;
+    return off <= told;
+  });
+  return off;
+}
+
+bool CompanyJudge::turns_aside(const TraceStep& one, const TraceStep& other, const ExactContact& exact) const {
+  const MoverIndex mover = header_.scenery.colliders[exact.collider].mover;
+  const Vec2d its = mover == no_mover ? Vec2d::Zero() : Vec2d(one.movers[mover].to - one.movers[mover].from);
+  return any_moment(one, other, [&](const Vec2d& mine, const Vec2d& theirs, double fraction) {
+    if (!(fraction <= exact.touched) || pair_.separation(mine, theirs) > reach_) return false;
+    const Vec2d goes = rate_after(other.path, fraction);
+    const auto impact = pair_.first_impact(mine, one.requested, theirs, goes);
+    if (!impact || !(fraction + static_cast<double>(impact->fraction) <= exact.touched)) return false;
+    if (exact.foreseen) return true;
+    const std::vector<Vec2d> ways =
+        detail::ways_left(one.requested, goes, one.steered, impact->normal, header_, up_in(one, header_));
+    return std::any_of(ways.begin(), ways.end(),
+                       [&](const Vec2d& way) { return !((way - its).dot(exact.normal) < 0); });
+  });
 }
 
 bool CompanyJudge::touch(const TraceStep& one, const TraceStep& other) const { return nearest(one, other) <= reach_; }
@@ -330,10 +443,10 @@ void CompanyJudge::excuse(const TraceStep& one, const TraceStep& other, StepJudg
   }
   // What another turned aside before is not met by what was requested.
   std::erase_if(judgement.contacts, [&](const ExactContact& exact) {
-    if (!excused) return exact.foreseen && judgement.first_met && exact.fraction > *judgement.first_impact;
-    return std::none_of(one.contacts.begin(), one.contacts.end(), [&exact](const Contact<double>& contact) {
+    const auto is_it = [&exact](const Contact<double>& contact) {
       return contact.collider == exact.collider && contact.side == exact.side;
-    });
+    };
+    return std::none_of(one.contacts.begin(), one.contacts.end(), is_it) && (excused || turns_aside(one, other, exact));
   });
   judgement.ghosts.clear();
   if (!judgement.first_met) judgement.first_impact_comparable = false;

@@ -29,9 +29,10 @@ namespace paperproof::compare {
 /// way (float: within the gap at which it still touches; Box2D: its skin, 20 mm). What was requested then no longer
 /// says what scenery is met, so contacts with scenery that are only reported, or only exact, count neither way
 /// (exempted). Of octagon_sweep in double, which has no such exemption, two things are still compared: a reported
-/// contact is right where a face is there, and one that is exact only from the start of the step is none where the
-/// other character was met first. Horizontal speed is not lost to nothing where the other opposes it, where it is or
-/// wants to go (within the step and the skin beyond, as for solids).
+/// contact is right where a face is there, and one that is exact is none where the other turns the motion aside
+/// before: what was requested enters the other, as that goes, no later; and the contact is exact only from the start of
+/// the step, or what the other may leave of the motion does not lead into it. Horizontal speed is not lost to nothing
+/// where the other opposes it, where it is or wants to go (within the step and the skin beyond, as for solids).
 class CompanyJudge {
  public:
   explicit CompanyJudge(const TraceHeader& header);
@@ -54,8 +55,16 @@ class CompanyJudge {
   /// is stuck, crushed or gives up its way, begins inside something, or met a third one.
   [[nodiscard]] bool must_meet(const TraceStep& one, const TraceStep& other) const;
 
-  /// Their separation at a fraction of the step [m].
-  [[nodiscard]] double gap_at(const TraceStep& one, const TraceStep& other, double fraction) const;
+  /// How far the time at which they say that they met is off [m]: from a moment at which they are no farther than
+  /// 1e-6 m from each other, along the normal, at the pace at which they come to it, or go on from it, or would go on:
+  /// see `ways_at`. No more than the gap that there is at that time. Not told below 1e-6 m.
+  [[nodiscard]] double off_at(const TraceStep& one, const TraceStep& other, const CrowdContact<double>& met,
+                              std::span<const TraceStep> steps) const;
+
+  /// How far one would go in the time of a whole step, from a fraction of it on: as requested, or as its contacts with
+  /// scenery, and the others that are near then, may leave that [m].
+  [[nodiscard]] std::vector<Vec2d> ways_at(const TraceStep& one, std::span<const TraceStep> steps,
+                                           double fraction) const;
 
   /// What the others mean for one of them that is crushed: see `Judge`.
   /// @param steps of all of them, in order; not copied.
@@ -86,7 +95,9 @@ class CompanyJudge {
   [[nodiscard]] bool may_meet(const TraceStep& one, const TraceStep& other) const;
   [[nodiscard]] std::optional<Impact> first_impact(const TraceStep& one, const TraceStep& other) const;
   void judge_first_impacts(std::span<const TraceStep> steps, std::span<StepJudgement> judgements) const;
+  [[nodiscard]] double handed_on(CharacterIndex character, std::span<const TraceStep> steps) const;
   [[nodiscard]] bool touch(const TraceStep& one, const TraceStep& other) const;
+  [[nodiscard]] bool turns_aside(const TraceStep& one, const TraceStep& other, const ExactContact& exact) const;
   void excuse(const TraceStep& one, const TraceStep& other, StepJudgement& judgement) const;
 
   TraceHeader header_;

@@ -15,6 +15,8 @@ struct Others {
   std::function<std::vector<NearPart>(const PathPoint<double>& corner, double within)> near{};
   /// The same where the step ends, `moved` as what turns goes then. Empty where nothing turns near by.
   std::function<std::vector<NearPart>(double within)> near_at_end{};
+  /// Adds to a way the moments at which others turn. Empty where there are no other characters.
+  std::function<void(std::vector<PathPoint<double>>& path)> add_moments{};
   /// What a displacement from where the step ends meets first of them, while all stays as it is then.
   std::function<std::vector<ExactImpact>(const Vec2d& displacement)> impacts_at_end{};
   /// Of what turns only: whether something that is farther away than `within` at a corner of the way is met in the rest
@@ -23,6 +25,9 @@ struct Others {
   /// Whether they leave free a way of the whole step, from fraction 0 to 1, and the place where it ends. Empty where
   /// there are none.
   std::function<bool(std::span<const PathPoint<double>> way)> left_free{};
+  /// How far those may push it, of the other characters, that touch it, or touch one that does, and so on: a push begins
+  /// with a character that wants to go, or with what moves near one of them [m]. Empty where there are none.
+  std::function<double()> handed_on{};
   double longest_way = 0;  ///< That one of them, or a point of it, is asked to go, or goes, in the step [m].
   bool touched = false;    ///< One of them touched it during the step.
 };

@@ -61,7 +61,7 @@ bool HangingJudge::hangs(const Vec2d& made, const Reach& reach, Bounds bounds) c
   if (all.holds) return false;
   const Vec2d free = nearest_free(unsteered, all.obstacles, reach.opening);
   if (!falls_short_of(std::min(-free.dot(up_), asked))) return false;
-  if (step_.movers.empty()) return true;
+  if (step_.movers.empty() && !others_.near) return true;
   return falls_short_of(fall_leg_by_leg(unsteered, corners, reach)) && !is_run_into(reach);
 }
 
@@ -95,7 +95,8 @@ bool HangingJudge::is_held_at_end(double within) const {
 }
 
 void HangingJudge::Nearby::add(const Nearby& other) {
-  obstacles.insert(obstacles.end(), other.obstacles.begin(), other.obstacles.end());
+  for (const auto which : {&Nearby::obstacles, &Nearby::coming, &Nearby::going})
+    (this->*which).insert((this->*which).end(), (other.*which).begin(), (other.*which).end());
   holds = holds || other.holds;
 }
 
@@ -106,18 +107,24 @@ std::vector<HangingJudge::Nearby> HangingJudge::near_corners(const Vec2d& unstee
   std::vector<Nearby> corners(step_.path.size());
   for (std::size_t corner = 0; corner < corners.size(); ++corner) {
     for (const NearPart& part : parts_near(corner, reach.contact)) {
-      Obstacle obstacle;
       const double unsure = bounds == Bounds::safe ? part.unsure : 0;
-      for (const NearFace& face : part.faces)
-        obstacle.push_back({face.normal, face.normal.dot(part.moved) + unsure, face.separation});
+      const auto obstacle = [&](const Vec2d& moved) {
+        Obstacle planes;
+        for (const NearFace& face : part.faces)
+          planes.push_back({face.normal, face.normal.dot(moved) + unsure, face.separation});
+        return planes;
+      };
+      const Obstacle whole = obstacle(part.moved);
       const auto lets_fall = [&](const HalfPlane& plane) {
         return plane.separation >= reach.opening && plane.holds(unsteered);
       };
-      const bool falls_past = std::any_of(obstacle.begin(), obstacle.end(), lets_fall);
+      const bool falls_past = std::any_of(whole.begin(), whole.end(), lets_fall);
       Nearby& nearby = corners[corner];
       nearby.holds = nearby.holds || part.faces.front().separation < -reach.contact ||
                      (is_ground(part) && (step_.grounded || !falls_past));
-      nearby.obstacles.push_back(std::move(obstacle));
+      nearby.obstacles.push_back(whole);
+      nearby.coming.push_back(obstacle(part.comes.value_or(part.moved)));
+      nearby.going.push_back(obstacle(part.goes.value_or(part.moved)));
     }
   }
   return corners;
@@ -131,10 +138,12 @@ double HangingJudge::fall_leg_by_leg(const Vec2d& wanted, const std::vector<Near
   double fall = 0;
   double rate = -wanted.dot(up_);
   for (std::size_t corner = 0; corner + 1 < corners.size(); ++corner) {
-    Nearby both = corners[corner];
-    both.add(corners[corner + 1]);
-    for (const auto& nearby : {std::cref(corners[corner]), std::cref(corners[corner + 1]), std::cref(both)})
-      rate = std::min(rate, -nearest_free(wanted, nearby.get().obstacles, reach.opening).dot(up_));
+    const std::vector<Obstacle>& begin = corners[corner].going;
+    const std::vector<Obstacle>& end = corners[corner + 1].coming;
+    std::vector<Obstacle> both = begin;
+    both.insert(both.end(), end.begin(), end.end());
+    for (const auto& obstacles : {std::cref(begin), std::cref(end), std::cref(both)})
+      rate = std::min(rate, -nearest_free(wanted, obstacles.get(), reach.opening).dot(up_));
     fall += rate * (step_.path[corner + 1].fraction - step_.path[corner].fraction);
   }
   return fall;

@@ -50,7 +50,9 @@ class HangingJudge {
   /// One of these has to hold.
   using Obstacle = std::vector<HalfPlane>;
   struct Nearby {
-    std::vector<Obstacle> obstacles;
+    std::vector<Obstacle> obstacles;  ///< By how far they go in the whole step,
+    std::vector<Obstacle> coming;     ///< as they come to the corner,
+    std::vector<Obstacle> going;      ///< and as they go on from it.
     bool holds = false;  ///< Something of it is ground, or overlaps the octagon.
     void add(const Nearby& other);
   };

@@ -531,11 +531,14 @@ void Judge::judge_progress(const TraceStep& step, const Others& others, const Wa
   Vec2d made = step.path.back().position - step.path.front().position;
   if (!promises_) made += step.remainder - before;  // a grid's
   const detail::Reach own = detail::reach_of(header_);
-  judgement.hangs = hanging.hangs(made, own);
+  TraceStep among = whole ? *whole : step;
+  if (others.add_moments) others.add_moments(among.path);
+  const detail::HangingJudge fall(header_, scenery_, among, others, up_in(step, header_));
+  judgement.hangs = fall.hangs(made, own);
   judgement.unsure =
-      judgement.unsure || (others.runs_into && !judgement.hangs && hanging.hangs(made, own, detail::Bounds::nominal));
+      judgement.unsure || (others.runs_into && !judgement.hangs && fall.hangs(made, own, detail::Bounds::nominal));
   judgement.hovers = judgement.hovers || (own.contact > detail::exact_reach.contact && !judgement.hangs &&
-                                          hanging.hangs(made, detail::exact_reach));
+                                          fall.hangs(made, detail::exact_reach));
 }
 
 Judge::Leaving Judge::leaving_of(const Path& path, const Others& others, bool from_turning) const {

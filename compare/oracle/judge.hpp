@@ -22,6 +22,7 @@ struct ExactContact {
   Side side = Side::bottom;
   Vec2d normal{Vec2d::Zero()};  ///< Unit, from the obstacle towards the octagon.
   double fraction = 0;          ///< Of the step.
+  double touched = 0;           ///< When what was requested, going on from there, touches it [steps].
   /// Met by the requested motion from the start of the step alone: what turns the motion before may prevent it.
   bool foreseen = false;
   bool first = false;  ///< Of those that the requested motion of the step meets before all others, at one time.
@@ -210,11 +211,11 @@ struct StepJudgement {
 /// to how far it moves in the step. (A one-way chain counts where it blocks the shortest way to it, from there or from
 /// where the leg began that ended there.) The projection of
 /// u onto C is the displacement of C that is nearest to u. A step hangs if the projection falls, u falls, each by more
-/// than 1e-9 m and an ulp of the largest coordinate, and the step falls less than half of both. Among movers
-/// two more things must hold, as what moves may touch for a part of the step only:
-/// - Leg by leg it could have fallen twice as far, too. The rate of a leg is that of the projection onto C of its first
-///   corner, of its last, or of both, whichever falls least, and no more than that of the leg before: what takes
-///   momentum takes it for the rest of the step.
+/// than 1e-9 m and an ulp of the largest coordinate, and the step falls less than half of both. Among movers and other
+/// characters two more things must hold, as what moves may touch for a part of the step only:
+/// - Leg by leg it could have fallen twice as far, too. Where another character turns a leg begins as well. The rate of
+///   a leg is that of the projection onto C of its first corner, of its last, or of both, whichever falls least, and no
+///   more than that of the leg before: what takes momentum takes it for the rest of the step.
 /// - No mover that does not touch the octagon at a corner runs into it from there, whether it stays or goes on as
 ///   requested: a character may give way instead.
 /// Excepted are

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <set>
 
 namespace paperproof::compare::detail {
@@ -83,7 +84,8 @@ double LegJudge::pushed() const {
   if (!(farthest > 0)) return 0;
   const double own = own_speed() * dt_ + contact_reach;
   std::map<ColliderIndex, double> solids;
-  std::set<double> others;
+  std::set<double> turning;
+  std::set<double> characters;
   for (std::size_t corner = 0; corner < step_.path.size(); ++corner) {
     const auto reaches = [&](const NearPart& part) {
       return part.faces.front().separation <= own + part.moved.norm() + part.unsure;
@@ -91,12 +93,18 @@ double LegJudge::pushed() const {
     for (const NearPart& part : scenery_.near_parts(Place(step_.path[corner], step_.movers), own + farthest))
       if (reaches(part)) solids[part.collider] = part.moved.norm();
     if (!others_.near) continue;
-    for (const NearPart& part : others_.near(step_.path[corner], own + farthest))
-      if (reaches(part)) others.insert(part.moved.norm() + part.unsure);
+    for (const NearPart& part : others_.near(step_.path[corner], own + farthest)) {
+      if (!reaches(part)) continue;
+      if (part.collider != no_collider) turning.insert(part.moved.norm() + part.unsure);
+      // One that is pushed itself, late in the step, goes fast for a part of it.
+      else
+        characters.insert(std::max({part.moved.norm(), part.comes->norm(), part.goes->norm()}));
+    }
   }
-  double moved = 0;
+  double moved = std::accumulate(characters.begin(), characters.end(), 0.0);
+  if (others_.handed_on) moved = std::min(moved, others_.handed_on());
   for (const auto& [collider, way] : solids) moved += way;
-  for (const double way : others) moved += way;
+  for (const double way : turning) moved += way;
   return moved;
 }
 
@@ -127,7 +135,10 @@ double LegJudge::way_gained(std::size_t first, bool held) const {
   if (longer(speed) <= room) return 0;
   speed += conveyed();
   const double moved = pushed();
-  if (moved > 0) room += moved + push_beyond_motion;
+  const auto moves = [](const MoverMotion<double>& motion) { return motion.from != motion.to; };
+  const bool may_be_thrown = std::any_of(step_.movers.begin(), step_.movers.end(), moves) ||
+                             !step_.vertex_ways.empty() || !step_.start_overlap_characters.empty();
+  if (moved > 0) room += moved + (may_be_thrown ? push_beyond_motion : 0);
   return std::max(0.0, longer(speed) - room);
 }
 

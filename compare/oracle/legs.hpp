@@ -19,7 +19,8 @@ namespace paperproof::compare::detail {
 /// gap is restored by 2e-6 m and, on a leg that aims at it, by 1e-6 m; ground that hardly bends is followed by 2.8e-6
 /// m, and by `snap` where a walk may; a walk climbs 4 stairs, up and down by `step_height`, and goes on as it wanted in
 /// between; and what moves, and may reach the character in the step, pushes it as far as it goes itself, and by
-/// `push_beyond_motion` more.
+/// `push_beyond_motion` more. Other characters do that by no more than they want themselves, or hand on (`Others`), and
+/// without the last.
 ///
 /// **Speed.** At the end it is no faster than the same speed and that of all that moves and may reach it.
 ///

@@ -13,9 +13,11 @@ namespace {
 /// Of one collider and side there may be several normals: two slopes of one polygon.
 void add_contact(const ExactImpact& impact, Side side, double fraction, StepJudgement& judgement,
                  bool foreseen = false) {
+  const double touched = foreseen ? fraction : fraction + static_cast<double>(impact.fraction);
   for (ExactContact& known : judgement.contacts) {
     if (known.collider != impact.collider || known.side != side || known.normal != impact.normal) continue;
     known.fraction = std::min(known.fraction, fraction);
+    known.touched = std::min(known.touched, touched);
     known.first = known.first || foreseen;
     known.foreseen = known.foreseen && foreseen;
     return;
@@ -24,6 +26,7 @@ void add_contact(const ExactImpact& impact, Side side, double fraction, StepJudg
                                 .side = side,
                                 .normal = impact.normal,
                                 .fraction = fraction,
+                                .touched = touched,
                                 .foreseen = foreseen,
                                 .first = foreseen});
 }

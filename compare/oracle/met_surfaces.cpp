@@ -22,6 +22,20 @@ bool is_walkable(const Vec2d& normal, const TraceHeader& header, const Vec2d& up
   return normal.dot(up) >= std::cos(header.character.max_climb_degrees * std::numbers::pi / 180 + climb);
 }
 
+/// Whether what was touched still is, and there: who has come past a rim is beside it. The normal of a circle turns.
+bool is_touched_there(const ExactScenery& solids, const Place& at, const Contact<double>& touch) {
+  constexpr double same_face = 1 - 1e-9;
+  const bool round = solids.scenery().colliders[touch.collider].shape == ColliderDef::Shape::circle;
+  const std::vector<NearPart> parts = solids.near_parts(at, touched);
+  return std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
+    return part.collider == touch.collider &&
+           (round || part.faces.front().separation < 0 ||
+            std::any_of(part.faces.begin(), part.faces.end(), [&](const NearFace& face) {
+              return face.separation <= touched && face.normal.dot(touch.normal) >= same_face;
+            }));
+  });
+}
+
 bool touches_ground(const SolidsInStep& solids, const PathPoint<double>& at) {
   const Vec2d up = up_in(solids.step(), solids.header());
   const std::vector<NearPart> parts = solids.at(at.fraction).near_parts(Place(at, solids.step().movers), touched);
@@ -86,9 +100,11 @@ std::vector<MetSurface> met_surfaces(const SolidsInStep& solids, std::span<const
     const auto corner = std::min_element(step.path.begin(), step.path.end(), [&](const auto& a, const auto& b) {
       return std::abs(a.fraction - touch.fraction) < std::abs(b.fraction - touch.fraction);
     });
-    const auto leaves = std::find_if(corner + 1, step.path.end(), [&](const PathPoint<double>& one) {
-      return solids.at(one.fraction).separation(Place(one, step.movers), touch.collider) > touched;
-    });
+    const auto is_touched = [&](const PathPoint<double>& at) {
+      return is_touched_there(solids.at(at.fraction), Place(at, step.movers), touch);
+    };
+    auto since = corner;
+    while (since != step.path.begin() && is_touched(*std::prev(since))) --since;
     const Vec2d velocity = velocity_of(solids, touch);
     MetSurface one{.normal = touch.normal};
     one.walkable = is_walkable(touch.normal, solids.header(), up);
@@ -97,7 +113,9 @@ std::vector<MetSurface> met_surfaces(const SolidsInStep& solids, std::span<const
     one.is_side = touch.side == Side::left || touch.side == Side::right;
     one.climbs = walks && touches_ground(solids, *corner);
     one.met = touch.fraction >= 1 || corner->fraction >= 1 ? touch.fraction : corner->fraction;
+    const auto leaves = std::find_if_not(corner + 1, step.path.end(), is_touched);
     if (leaves != step.path.end()) one.left = leaves->fraction;
+    one.touched_since = std::min(one.met, since->fraction);
     one.spread = solids.spread(touch.collider, solids.moved(touch.collider, touch.point, touch.fraction), 0);
     walks = walks || one.walkable;
     surfaces.push_back(one);

@@ -100,6 +100,12 @@ Steered respond(const Steered& v, double steering, const MetSurface& at) {
   return {Vec2d(-y * n.y() / n.x(), y), unsteered};
 }
 
+/// At one surface that goes along.
+Steered at_surface(const Steered& v, double steering, const MetSurface& at) {
+  const Steered seen = respond({v.wanted - at.velocity, v.unsteered - at.velocity}, steering, at);
+  return {seen.wanted + at.velocity, seen.unsteered + at.velocity};
+}
+
 /// What a trace does not say.
 struct Unknown {
   bool met_at_end = false;  ///< What is touched where the step ends was met, by rounding.
@@ -112,6 +118,7 @@ bool may_carry(const MetSurface& at) { return at.walkable && at.velocity != Vec2
 /// As an upright character sees it.
 Vec2d controlled(const Steered& velocity, std::span<const MetSurface> surfaces, const Unknown& unknown) {
   Steered now = velocity;
+  Steered came = velocity;  // to the last of what holds
   double steering = (velocity.wanted - velocity.unsteered).x();
   std::vector<MetSurface> held;
   for (const MetSurface& at : surfaces) {
@@ -122,19 +129,24 @@ Vec2d controlled(const Steered& velocity, std::span<const MetSurface> surfaces, 
         if (one.normal == at.normal && one.velocity == at.velocity) one.left = std::max(one.left, at.left);
       continue;
     }
+    std::erase_if(held, [&](const MetSurface& one) { return one.left <= at.met; });
+    // What each of two leaves that are touched at once enters the other.
+    const bool both_stop = !held.empty() && at.touched_since <= held.back().met &&
+                           enters(at_surface(came, steering, at).wanted, held.back());
+    came = now;
     const Vec2d& carried = at.velocity;
     if (unknown.carried && may_carry(at) && std::abs(now.wanted.x()) <= grazing * now.wanted.norm()) {
       now = {carried, carried};
       steering = 0;
     } else {
-      now = respond({now.wanted - carried, now.unsteered - carried}, steering, at);
-      now = {now.wanted + carried, now.unsteered + carried};
+      now = at_surface(now, steering, at);
     }
-    std::erase_if(held, [&](const MetSurface& one) { return one.left <= at.met; });
     held.push_back(at);
-    if (std::none_of(held.begin(), held.end(), [&](const MetSurface& one) { return enters(now.wanted, one); }))
-      continue;
-    const Vec2d fall = nearest_allowed(velocity.unsteered, held).value_or(carried);
+    const auto is_entered = [&](const MetSurface& one) { return enters(now.wanted, one); };
+    if (!both_stop && std::none_of(held.begin(), held.end(), is_entered)) continue;
+    const bool all_left = std::all_of(held.begin(), held.end(), [](const MetSurface& one) { return one.left <= 1; });
+    const Vec2d fall =
+        all_left ? Vec2d(carried.x(), came.unsteered.y()) : nearest_allowed(velocity.unsteered, held).value_or(carried);
     const bool walked = std::any_of(held.begin(), held.end(), [](const MetSurface& one) { return one.walkable; });
     const Vec2d end = held.size() > 1 ? held_by(held[held.size() - 2], at).value_or(carried) : carried;
     now.wanted = now.unsteered = !walked && fall.y() < end.y() ? fall : end;

@@ -19,7 +19,8 @@ struct MetSurface {
   bool is_side = false;           ///< Touches the left or right side of the character.
   bool climbs = false;            ///< A rise that comes to it is the climb of a walk, whose ground is still touched.
   double met = 0;                 ///< When it was met, as a fraction of the step; 1: only touched where that ends.
-  double left = std::numeric_limits<double>::infinity();  ///< From then on it is touched no more.
+  double touched_since = std::numeric_limits<double>::infinity();  ///< From then until it is met it is touched.
+  double left = std::numeric_limits<double>::infinity();           ///< From then on it is touched no more.
   double spread = 0;  ///< Where it turns: by so much its velocity is not known [m/s].
 };
 

@@ -117,7 +117,7 @@ void RunJudge::add(std::span<TraceStep> records) {
     if (is_far(asked[k])) {
       steps_far_ += !header_.guarantees.empty();
     } else {
-      judge_clauses(asked[k], judgements_[k]);
+      judge_clauses(asked[k], judgements_[k], asked);
       const SolidsInStep there(header_, solids(), asked[k]);
       judge_velocity(there, judgements_[k], follower);
       judge_drops(records[k]);
@@ -317,7 +317,7 @@ void RunJudge::judge_movers(const TraceStep& record) {
 
 /// Whether a contact was met when it says so: the first one where the exact motion meets it, and each where the way
 /// comes to it.
-void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged) {
+void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged, std::span<const TraceStep> records) {
   if (record.contacts.empty() || !record.start_overlap.empty()) return;
   const auto check = [&](const Contact<double>& contact, double off, double allowed) {
     if (off > allowed && off < std::numeric_limits<double>::infinity())
@@ -364,8 +364,11 @@ void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged)
       const PathPoint<double>& begin = waited ? corner : record.path[i - 1];
       const Vec2d pace =
           waited ? record.requested : Vec2d((corner.position - begin.position) / (corner.fraction - begin.fraction));
-      const double approach = (carried - pace).dot(contact.normal);
-      if (approach > 0) off = std::min(off, std::abs(contact.fraction - corner.fraction) * approach);
+      std::vector<Vec2d> paces = company_ ? company_->ways_at(record, records, corner.fraction) : std::vector<Vec2d>{};
+      paces.push_back(pace);
+      for (const Vec2d& goes : paces)
+        if (const double approach = (carried - goes).dot(contact.normal); approach > 0)
+          off = std::min(off, std::abs(contact.fraction - corner.fraction) * approach);
       // A motion that grazes stops long before it touches; what it would touch is of one direction with what it
       // reports.
       const Place far(begin.position + pace * (1 - begin.fraction), record.movers, 1);
@@ -416,14 +419,14 @@ void RunJudge::judge_met(const TraceStep& record, std::span<const TraceStep> rec
     if (detail::side_along(met.normal, up_in(record, header_)) != met.side)
       note(Clause::normal, record, fmt::format("met character {} on another side than its normal says", met.other));
     const double nearest = company_->nearest(record, other);
-    const double then = company_->gap_at(record, other, met.fraction);
+    const double off = company_->off_at(record, other, met, records);
     if (nearest > guaranteed_gap)
       note(Clause::contact_invented, record, fmt::format("met character {} from {} away", met.other, metres(nearest)));
-    if (then > 2 * guaranteed_gap)
+    else if (off > 2 * guaranteed_gap)
       note(Clause::time_of_impact, record,
-           fmt::format("met character {} at {:.6g} of the step, and was {} away then", met.other, met.fraction,
-                       metres(then)));
-    else if (nearest <= guaranteed_gap && !company_->has_face(record, other, met.normal))
+           fmt::format("says it met character {} at {:.6g} of the step, and that is {} off along the normal", met.other,
+                       met.fraction, metres(off)));
+    else if (!company_->has_face(record, other, met.normal))
       note(Clause::normal, record, fmt::format("the normal at character {} is of no face there", met.other));
   }
   if (!company_) return;
@@ -441,7 +444,7 @@ void RunJudge::check_start(const TraceStep& claimed, const TraceStep& judged) {
     note(Clause::start_inside, judged, "says that it begins inside of other things than it does");
 }
 
-void RunJudge::judge_clauses(const TraceStep& record, const StepJudgement& judged) {
+void RunJudge::judge_clauses(const TraceStep& record, const StepJudgement& judged, std::span<const TraceStep> records) {
   const auto name = [&](const std::vector<ColliderIndex>& colliders) {
     return colliders.empty() ? std::string("another character") : "`" + header_.ids[colliders.front()] + "`";
   };
@@ -498,7 +501,7 @@ void RunJudge::judge_clauses(const TraceStep& record, const StepJudgement& judge
         [&] { return "is crushed by " + name(judged.crushed_with_room) + " with room to give way"; });
   check(Clause::refusal, record.path.back().position.cwiseAbs().maxCoeff() > range || !(length_of(record, header_) > 0),
         [] { return std::string("takes a step that must be refused"); });
-  judge_times(record, judged);
+  judge_times(record, judged, records);
   judge_places(record, judged);
 }
 

@@ -59,10 +59,10 @@ class RunJudge {
   void judge_rest(const TraceStep& record, const Follower& follower);
   void judge_ride(const TraceStep& record, const Follower& follower);
   void judge_carrier(const SolidsInStep& there);
-  void judge_clauses(const TraceStep& record, const StepJudgement& judged);
+  void judge_clauses(const TraceStep& record, const StepJudgement& judged, std::span<const TraceStep> records);
   void judge_velocity(const SolidsInStep& there, const StepJudgement& judged, const Follower& follower);
   void judge_movers(const TraceStep& record);
-  void judge_times(const TraceStep& record, const StepJudgement& judged);
+  void judge_times(const TraceStep& record, const StepJudgement& judged, std::span<const TraceStep> records);
   void judge_places(const TraceStep& record, const StepJudgement& judged);
   void judge_drops(const TraceStep& record);
   void judge_met(const TraceStep& record, std::span<const TraceStep> records);

@@ -230,7 +230,7 @@ TEST_P(Filtered, steps_have_the_bits_of_a_scenery_without_the_colliders_that_are
 
 TEST_P(Filtered, steps_by_a_predicate_hold_the_guarantee) {
   run_all(GetParam(), &FilteredRun::go_judged);
-  BrokenByRuns::all().expect_only_what_is_known();
+  BrokenByRuns::all().expect_only_what_is_known(name_of(GetParam()));
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryFamily, Filtered, ::testing::ValuesIn(all_families),

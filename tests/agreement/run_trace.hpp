@@ -31,6 +31,11 @@ class BrokenByRuns {
     steps_[kind] += steps;
     for (const auto& [clause, breach] : breaches) broken_[{kind, clause}] += breach.steps;
   }
+  /// On how many steps a clause was broken.
+  [[nodiscard]] int steps(const std::string& kind, compare::Clause clause) const {
+    const auto found = broken_.find({kind, clause});
+    return found == broken_.end() ? 0 : found->second;
+  }
   /// Fails the test that runs where more was broken than is known and open, and forgets it.
   /// @param family of all the runs, where tests/known_and_open.json knows families.
   void expect_only_what_is_known(const std::string& family = {}) {

@@ -202,5 +202,82 @@ TEST(CompanyJudge, beside_another_what_scenery_was_met_is_not_told_from_what_was
   EXPECT_TRUE(Two(true, 7e-4)(one, step({in_float, in_float}), alone).contacts.empty()) << "it stops there";
 }
 
+TEST(CompanyJudge, a_contact_is_none_where_another_turns_the_motion_aside_before) {
+  TraceHeader header = promising({box(1, -1, 2, 1)});
+  header.characters = 2;
+  TraceStep one = step({{0, 0}, {0, 0}});
+  one.requested = {2, -0.5};
+  const auto asked = [&](const Vec2d& at, const ExactContact& contact) {
+    TraceStep other = step({at, at});
+    other.character = 1;
+    std::array<StepJudgement, 2> judged{};
+    judged[0].contacts = {contact};
+    CompanyJudge(header).judge(std::array{one, other}, judged);
+    return !judged[0].contacts.empty();
+  };
+  const ExactContact wall{
+      .collider = 0, .side = Side::right, .normal = {-1, 0}, .fraction = 0.34, .touched = 0.34, .foreseen = true};
+  EXPECT_FALSE(asked({width + 5e-7, 0}, wall)) << "it is between";
+  EXPECT_TRUE(asked({-width - 5e-7, 0}, wall)) << "it is behind";
+  EXPECT_TRUE(asked({width + 5e-7, 1.5}, wall)) << "it is above";
+  // Both are touched: the other first, and what it leaves goes straight down.
+  ExactContact near{.collider = 0, .side = Side::right, .normal = {-1, 0}, .fraction = 0, .touched = 1e-6};
+  EXPECT_FALSE(asked({width + 5e-7, 0}, near));
+  near.normal = {-std::sqrt(0.2), std::sqrt(0.8)};
+  EXPECT_TRUE(asked({width + 5e-7, 0}, near)) << "that leads into it";
+  near.normal = {-1, 0};
+  near.touched = 1e-8;
+  EXPECT_TRUE(asked({width + 5e-7, 0}, near)) << "it is met before";
+}
+
+TEST(CompanyJudge, the_time_of_a_meeting_is_told_from_a_moment_at_which_they_are_near) {
+  TraceHeader header = promising({});
+  header.characters = 2;
+  const CompanyJudge judge(header);
+  TraceStep one = step({{0, 0}, {0, 3}});  // turned aside at once
+  one.requested = {0.5, 3};
+  TraceStep other = step({{width + 5e-7, 0}, {width + 5e-7, 0}});
+  other.character = 1;
+  const auto off = [&](double fraction) {
+    return judge.off_at(one, other, {.other = 1, .normal = {-1, 0}, .fraction = fraction}, std::array{one, other});
+  };
+  EXPECT_LE(off(1e-6), 5.1e-7) << "it would have touched then";
+  EXPECT_NEAR(off(0.5), 0.25, 1e-6);
+  // Down at once at the end.
+  TraceStep lands;
+  lands.path = {{{0, 2}, 0}, {{0, 2}, 1}, {{0, 1.25 + 5e-7}, 1}};
+  TraceStep stands = step({{0, 0}, {0, 0}});
+  stands.character = 1;
+  const std::array both{lands, stands};
+  EXPECT_EQ(judge.off_at(lands, stands, {.other = 1, .normal = {0, 1}, .fraction = 1}, both), 0);
+  EXPECT_GT(judge.off_at(lands, stands, {.other = 1, .normal = {0, 1}, .fraction = 0.5}, both), 0.7);
+}
+
+TEST(CompanyJudge, two_that_hold_hold_for_as_long_as_they_touch) {
+  TraceHeader header = promising({});
+  header.characters = 3;
+  constexpr double fall = 0.1;
+  // The one stands with its chamfers on theirs until they go down.
+  const auto hangs = [&](double gone, double falls) {
+    std::array<TraceStep, 3> steps;
+    steps[0].path = {{{0, 0}, 0}, {{0, 0}, 0.75}, {{0, -falls}, 1}};
+    steps[0].requested = {0, -fall};
+    for (const auto& [who, side] : {std::pair{1U, -1.0}, {2U, 1.0}}) {
+      const Vec2d at = side * Vec2d(0.46875 + 1e-7, 0) - Vec2d(0, 0.9375 + 1e-7);
+      steps[who].path = {{at, 0}, {at, gone}, {at - Vec2d(0, 2), 1}};
+      steps[who].character = who;
+    }
+    const CompanyJudge company(header);
+    Wanted wanted;
+    wanted.displacement = steps[0].requested;
+    wanted.velocity = wanted.displacement / dt;
+    steps[0].velocity = wanted.velocity;
+    return Judge(header).judge(steps[0], company.others_of(0, steps), &wanted).hangs;
+  };
+  EXPECT_FALSE(hangs(0.75, 0.25 * fall));
+  EXPECT_TRUE(hangs(0, 0.25 * fall)) << "they were gone";
+  EXPECT_FALSE(hangs(0, 0.75 * fall));
+}
+
 }  // namespace
 }  // namespace paperproof::compare::test

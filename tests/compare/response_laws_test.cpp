@@ -117,6 +117,35 @@ TEST(ControlledLaw, ends_between_ground_and_a_steep_surface) {
   EXPECT_FALSE(has(controlled_outcomes({{1, -0.5}, {0, -0.5}}, corner), {1, 0}));
 }
 
+TEST(ControlledLaw, two_that_are_touched_at_once_and_both_stop_the_motion_end_it) {
+  // The steep one leaves the fall, which slides away and down to the ground. The ground leaves a run into the steep
+  // one.
+  std::array corner{surface(-0.8, 0.6), surface(0, 1, true)};
+  const ControlledStep run{{2, -1}, {2, -1}};
+  EXPECT_TRUE(has(controlled_outcomes(run, corner), {-0.48, 0}));
+  EXPECT_FALSE(has(controlled_outcomes(run, corner), {0, 0}));
+  corner[1].touched_since = 0;
+  EXPECT_TRUE(has(controlled_outcomes(run, corner), {0, 0}));
+  EXPECT_FALSE(has(controlled_outcomes(run, corner), {-0.48, 0}));
+}
+
+TEST(ControlledLaw, what_stands_between_two_slopes_rests) {
+  // A corner of 31 and 59 degrees, gravity not along up: from rest nothing goes up the slope.
+  const double s = std::sin(0.54), c = std::cos(0.54);
+  std::array corner{surface(-s, c, true), surface(c, s)};
+  corner[1].touched_since = 0;
+  for (const Vec2d& velocity : controlled_outcomes({{-0.056, -0.5}, {-0.056, -0.5}}, corner))
+    EXPECT_LE(velocity.y(), 1e-12);
+}
+
+TEST(ControlledLaw, rims_that_are_left_behind_hold_no_fall) {
+  std::array rims{surface(0.8, 0.6), surface(-0.8, 0.6)};
+  const ControlledStep fall{{0, -1}, {0, -1}};
+  EXPECT_TRUE(has(controlled_outcomes(fall, rims), {0, 0}));
+  for (MetSurface& rim : rims) rim.left = 1;
+  EXPECT_TRUE(has(controlled_outcomes(fall, rims), {0, -0.64})) << "what the first rim leaves of it";
+}
+
 TEST(ControlledLaw, a_rise_ends_under_a_ceiling) {
   const std::array ceiling{surface(0, -1)};
   EXPECT_TRUE(has(controlled_outcomes({{1, 3}, {1, 3}}, ceiling), {1, 0}));
