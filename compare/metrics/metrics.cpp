@@ -69,7 +69,7 @@ Metrics::Metrics(const TraceHeader& header, const Measured& measured)
 }
 
 /// Both directions of the match of one step; of sampled paths with its neighbours.
-void Metrics::match(const View& view, Matches& matches) const {
+void Metrics::match(const View& view, Matches& matches, Breaches& breaches) const {
   const Moment& now = view.now();
   const auto anywhere = [&](auto&& test) {
     return test(now) || (sampled_ && std::any_of(view.around.begin(), view.around.end(), test));
@@ -93,17 +93,17 @@ void Metrics::match(const View& view, Matches& matches) const {
       ++(promises_ ? matches.band : matches.reach);
       continue;
     }
-    if (!right) note(now, touch, "reports a contact that is none:", matches.invented);
+    if (!right) note(Clause::contact_invented, now, touch, breaches);
     matches.deflected += !sampled_ && !contains(now.exact, touch) && contains(now.deflected, touch);
     matches.ahead += !sampled_ && contains(now.ahead, touch);
     ++matches.counted;
     matches.right += right;
     matches.late += right && !in_time;
   }
-  match_wanted(view, matches);
+  match_wanted(view, matches, breaches);
 }
 
-void Metrics::match_wanted(const View& view, Matches& matches) const {
+void Metrics::match_wanted(const View& view, Matches& matches, Breaches& breaches) const {
   const Moment& now = view.now();
   if (now.stuck) {
     matches.stuck += !now.exact.empty();
@@ -123,26 +123,26 @@ void Metrics::match_wanted(const View& view, Matches& matches) const {
       continue;
     }
     if (!in_time && !late)
-      note(now, *std::find_if(now.exact.begin(), now.exact.end(), of_side),
-           "does not report a contact:", matches.missed);
+      note(Clause::contact_missed, now, *std::find_if(now.exact.begin(), now.exact.end(), of_side), breaches);
     ++matches.wanted;
     matches.found += in_time || late;
   }
 }
 
-void Metrics::add_contacts(const TraceStep& step, const StepJudgement& judgement) {
+void Metrics::add_contacts(const TraceStep& step, const StepJudgement& judgement, Breaches& breaches, bool far) {
   followers_[step.character].window.add({.reported = touches_of(step.contacts),
                                          .exact = touches_of(judgement.contacts),
                                          .dont_care = judgement.dont_care,
                                          .ghosts = judgement.ghosts,
                                          .stuck = step.stuck && !(promises_ && judgement.stuck_refuted),
                                          .held = !judgement.crushed.empty() || !step.start_overlap.empty(),
+                                         .far = far,
                                          .step = step.step,
                                          .deflected = judgement.deflected,
                                          .ahead = judgement.ahead,
                                          .band = judgement.contact_band,
                                          .by_company = judgement.excused_by_company},
-                                        [this](const View& view) { match(view, matches_); });
+                                        [&](const View& view) { match(view, matches_, breaches); });
   for (const Contact<double>& contact : step.contacts) touched_.insert(contact.collider);
   if (!step.contacts.empty()) raise(sums_.max_contact_gap_m, judgement.max_contact_gap);
   if (!step.contacts.empty() || !step.met.empty()) add_first_contact(step, judgement);
@@ -264,8 +264,8 @@ void Metrics::add_exempted(const StepJudgement& judgement) {
   exempt(Exempt::turning_sensor, judgement.turning_sensor);
 }
 
-void Metrics::add(const TraceStep& step, const StepJudgement& judgement) {
-  add_contacts(step, judgement);
+void Metrics::add(const TraceStep& step, const StepJudgement& judgement, Breaches& breaches, bool far) {
+  add_contacts(step, judgement, breaches, far);
   add_exact_impact(step, judgement);
   add_passings(step, judgement);
   add_events(step, judgement);
@@ -281,25 +281,25 @@ void Metrics::add(const TraceStep& step, const StepJudgement& judgement) {
   if (step.requested.x() != 0) raise(sums_.ghost_speed_loss, judgement.ghost_speed_loss);
 }
 
-void Metrics::note(const Moment& moment, const Touch& touch, const char* what, Breach& breach) const {
-  breach.add(moment.step, [&] {
+void Metrics::note(Clause clause, const Moment& moment, const Touch& touch, Breaches& breaches) const {
+  if (moment.far) return;
+  breaches[clause].add(moment.step, [&] {
+    const char* what =
+        clause == Clause::contact_missed ? "does not report a contact" : "reports a contact that is none";
     const std::string id = touch.first < ids_.size() ? ids_[touch.first] : std::to_string(touch.first);
-    return std::string(what) + " `" + id + "`, " + std::string(name_of(touch.second));
+    return std::string(what) + ": `" + id + "`, " + std::string(name_of(touch.second));
   });
 }
 
 /// Those of the last steps included, which have no neighbours after them.
-Metrics::Matches Metrics::all_matches() const {
+Metrics::Matches Metrics::all_matches(Breaches& breaches) const {
   Matches matches = matches_;
-  for (const Follower& follower : followers_) follower.window.last([&](const View& view) { match(view, matches); });
+  for (const Follower& follower : followers_)
+    follower.window.last([&](const View& view) { match(view, matches, breaches); });
   return matches;
 }
 
-void Metrics::write_contact_breaches(Breaches& breaches) const {
-  const Matches matches = all_matches();
-  if (matches.missed.steps > 0) breaches[Clause::contact_missed] = matches.missed;
-  if (matches.invented.steps > 0) breaches[Clause::contact_invented] = matches.invented;
-}
+void Metrics::end(Breaches& breaches) const { static_cast<void>(all_matches(breaches)); }
 
 void Metrics::write(Row& row) const {
   row.tunnels = sums_.tunnels;
@@ -343,7 +343,8 @@ void Metrics::write(Row& row) const {
     write_the_least_quiet(follower.rest, row);
     follower.smoothness.write(row);
   }
-  const Matches matches = all_matches();
+  Breaches noted;  // by `end`
+  const Matches matches = all_matches(noted);
   if (matches.counted > 0) row.contact_precision = share(matches.right, matches.counted);
   if (matches.wanted > 0) row.contact_recall = share(matches.found, matches.wanted);
   if (promises_) row.contact_band = matches.band;

@@ -66,9 +66,11 @@ namespace paperproof::compare {
 class Metrics {
  public:
   explicit Metrics(const TraceHeader& header, const Measured& measured = {});
-  void add(const TraceStep& step, const StepJudgement& judgement);
-  /// Adds the steps on which contacts were missed or invented.
-  void write_contact_breaches(Breaches& breaches) const;
+  /// Contacts are matched when the step after them comes: then those that were missed or invented are noted.
+  /// @param far the step is not held against the contender.
+  void add(const TraceStep& step, const StepJudgement& judgement, Breaches& breaches, bool far = false);
+  /// Notes the same of the last step.
+  void end(Breaches& breaches) const;
   /// Fills every metric that applies; leaves verdict, reason, cost and the comparison with Box2D alone.
   void write(Row& row) const;
 
@@ -81,6 +83,7 @@ class Metrics {
     std::vector<Touch> ghosts;
     bool stuck = false;
     bool held = false;  ///< Crushed, as verified, or inside something where it begins.
+    bool far = false;
     int step = 0;
     std::vector<Touch> deflected{};
     std::vector<Touch> ahead{};
@@ -99,8 +102,6 @@ class Metrics {
     int stuck = 0;
     int deflected = 0;
     int ahead = 0;
-    Breach missed{};
-    Breach invented{};
   };
   using View = detail::Window<Moment>::View;
   /// What is matched from step to step.
@@ -110,15 +111,15 @@ class Metrics {
     Rest rest;
     Smoothness smoothness;
   };
-  [[nodiscard]] Matches all_matches() const;
-  void note(const Moment& moment, const Touch& touch, const char* what, Breach& breach) const;
-  void match(const View& view, Matches& matches) const;
-  void match_wanted(const View& view, Matches& matches) const;
+  [[nodiscard]] Matches all_matches(Breaches& breaches) const;
+  void note(Clause clause, const Moment& moment, const Touch& touch, Breaches& breaches) const;
+  void match(const View& view, Matches& matches, Breaches& breaches) const;
+  void match_wanted(const View& view, Matches& matches, Breaches& breaches) const;
   void add_progress(const TraceStep& step, const StepJudgement& judgement);
   void add_exempted(const StepJudgement& judgement);
   void add_first_contact(const TraceStep& step, const StepJudgement& judgement);
   void add_exact_impact(const TraceStep& step, const StepJudgement& judgement);
-  void add_contacts(const TraceStep& step, const StepJudgement& judgement);
+  void add_contacts(const TraceStep& step, const StepJudgement& judgement, Breaches& breaches, bool far);
   void add_events(const TraceStep& step, const StepJudgement& judgement);
   void add_passings(const TraceStep& step, const StepJudgement& judgement);
 

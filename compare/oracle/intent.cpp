@@ -1,6 +1,7 @@
 #include "oracle/intent.hpp"
 
 #include "oracle/exemptions.hpp"
+#include "oracle/hanging.hpp"
 #include "oracle/up.hpp"
 
 #include <algorithm>
@@ -19,6 +20,12 @@ constexpr double share_of_float = 1e-5;
 Vec2d way_of(const MoverMotion<double>& motion) { return motion.to - motion.from; }
 
 }  // namespace
+
+bool touches_from_above(const TraceStep& step, const Vec2d& up) {
+  const auto looks_up = [&up](const auto& contact) { return contact.normal.dot(up) > 0; };
+  return std::any_of(step.contacts.begin(), step.contacts.end(), looks_up) ||
+         std::any_of(step.met.begin(), step.met.end(), looks_up);
+}
 
 void Intent::start_anew(const TraceStep& step) {
   TraceState state = step.from.value_or(TraceState{});
@@ -72,6 +79,32 @@ double Intent::use_button(const TraceStep& step, double dt, double rise, const W
   return character.jump_speed * (pressed ? 1 : character.jump_cut);
 }
 
+/// Whether a step in parts jumps after its first part. Who jumped before, or does no longer at the end, has landed in a
+/// part before the last one; and a jump that goes on is faster than what was wanted.
+bool Intent::jumped_later(const TraceStep& step) const {
+  if (!jump_pending_) return false;
+  if (step.jumping && !jumping_) return true;
+  const Vec2d up = up_in(step, *header_);
+  const bool landed = std::any_of(step.contacts.begin(), step.contacts.end(), [&](const Contact<double>& contact) {
+    return contact.fraction * parts_ < parts_ - 1 && detail::is_walkable(contact.normal, *header_, up);
+  });
+  return landed && (step.jumping ? step.velocity.dot(up) > rise_ : step.grounded);
+}
+
+/// The button, and the time in the air, in the parts after the first one.
+void Intent::end_later_parts(const TraceStep& step) {
+  const double part = length_of(step, *header_) / parts_;
+  if (jumped_later(step)) {
+    jumping_ = true;
+    jump_pending_ = false;
+    coyote_left_ = 0;
+  }
+  for (int k = 1; k < parts_; ++k) {
+    if (jump_pending_) note_press(jump_held_, part);
+    if (!grounded_) coyote_left_ = std::max(coyote_left_ - part, 0.0);
+  }
+}
+
 /// Whether the rise comes from walking up ground: then it ends with the walk.
 bool Intent::is_climb_of_walk(double walk, double rise) const {
   const bool ground_is_gone = !ride_ && !ground_velocity_.isZero(0);
@@ -102,7 +135,7 @@ Wanted Intent::begin(const TraceStep& step, int parts, const WallAhead& wall_ahe
   const double dt = whole / parts;
   const Vec2d up = up_in(step, *header_);
   Wanted wanted;
-  wanted.parts = parts;
+  wanted.parts = parts_ = parts;
   wanted.from_ground = grounded_;
   const Vec2d own = seen(ride_ ? Vec2d(velocity_ - ride_->velocity) : velocity_, up);
   double walk = own.x();
@@ -120,15 +153,19 @@ Wanted Intent::begin(const TraceStep& step, int parts, const WallAhead& wall_ahe
   const Vec2d pull = seen(gravity_in(step, *header_), up) * dt;
   rise += pull.y();
   if (character.max_fall_speed) rise = std::max(rise, -*character.max_fall_speed);
+  wanted.jumping = jumping_;
+  wanted.pending = jump_pending_;
   const Vec2d velocity = in_world({walk + pull.x(), rise}, up);
   const Vec2d by_ground = carried(step, whole);
   wanted.displacement = velocity * whole + by_ground;
   wanted.velocity = velocity + by_ground / whole;
   wanted.steered = change * whole;
+  rise_ = wanted.velocity.dot(up);
   return wanted;
 }
 
 void Intent::end(const TraceStep& step) {
+  if (parts_ > 1) end_later_parts(step);
   end_ = step.path.back().position;
   velocity_ = step.velocity;
   grounded_ = step.grounded;

@@ -14,9 +14,14 @@ struct Wanted {
   Vec2d velocity{Vec2d::Zero()};      ///< The same [m/s].
   double steered = 0;                 ///< The part of the displacement across up that steering added [m].
   bool jumped = false;                ///< A jump begins.
+  bool jumping = false;               ///< The same, or one goes on.
+  bool pending = false;               ///< A press that has not become a jump yet.
   int parts = 1;                      ///< Shorter steps that the step consists of.
   bool from_ground = false;           ///< It stood when the step began.
 };
+
+/// Whether it says that it touched something from above.
+[[nodiscard]] bool touches_from_above(const TraceStep& step, const Vec2d& up);
 
 /// The discrete law of motion (§4 of the design), for one character: horizontal speed approaches the input's by
 /// acceleration times dt, a jump that is allowed sets the upward speed, gravity is added, the fall is limited, and the
@@ -25,7 +30,8 @@ struct Wanted {
 /// wanted is what the first of them would come to in the whole step.
 ///
 /// Position, velocity, ground and ride at the end of a step are read from its record, where they are judged. The state
-/// of the jump button is derived from the inputs. Feed it every step of one character in order. Not thread-safe.
+/// of the jump button is derived from the inputs. Only whether it jumped in a later one of shorter steps is read, too:
+/// who lands in one may jump in the next. Feed it every step of one character in order. Not thread-safe.
 class Intent {
  public:
   /// Whether a wall is beside the character in the direction of `move`, within the character's `wall_reach`: for the
@@ -45,6 +51,8 @@ class Intent {
  private:
   void start_anew(const TraceStep& step);
   void note_press(bool pressed, double dt);
+  void end_later_parts(const TraceStep& step);
+  [[nodiscard]] bool jumped_later(const TraceStep& step) const;
   [[nodiscard]] double use_button(const TraceStep& step, double dt, double rise, const WallAhead& wall_ahead,
                                   Wanted& wanted);
   [[nodiscard]] bool may_jump(const TraceStep& step, const WallAhead& wall_ahead) const;
@@ -53,6 +61,8 @@ class Intent {
 
   const TraceHeader* header_;
   bool begun_ = false;
+  int parts_ = 1;                  ///< Of the step that has begun,
+  double rise_ = 0;                ///< and how fast up it wants to go [m/s].
   Vec2d end_{Vec2d::Zero()};       ///< Where the step before ended [m].
   Vec2d velocity_{Vec2d::Zero()};  ///< In the world [m/s].
   bool grounded_ = false;

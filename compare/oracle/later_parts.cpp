@@ -34,7 +34,7 @@ LaterParts later_parts(const TraceHeader& header, const TraceStep& step, const W
   }
   later.velocity = in_world(added, up);
   later.way = in_world(way, up);
-  if (step.input.jump && !first.jumped) later.jump = header.character.jump_speed;
+  if (first.pending) later.jump = header.character.jump_speed;
   if (!step.input.move) return later;
   const CharacterDef& character = header.character;
   const double in_air = character.air_acceleration.value_or(character.acceleration);

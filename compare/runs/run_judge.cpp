@@ -87,7 +87,8 @@ void RunJudge::add(std::span<TraceStep> records) {
     record.start_overlap = follower.inside;
     if (company_) record.start_overlap_characters = company_->overlapped(starts, record.character);
     const auto wall_ahead = [this](const TraceStep& step, double move) { return is_wall_ahead(step, move); };
-    follower.wanted = follower.intent.begin(record, header_.substeps * parts_of(record.vertex_ways), wall_ahead);
+    const int parts = header_.substeps * parts_of(record.vertex_ways);
+    follower.wanted = follower.intent.begin(record, parts, wall_ahead);
     judge_wish(record, follower.wanted, follower);
     asked[k] = record;
     // A character that is given another velocity where it is remembers from which side it came.
@@ -105,12 +106,15 @@ void RunJudge::add(std::span<TraceStep> records) {
         asked[k], company_ ? company_->others_of(asked[k].character, asked) : Others{}, &followers_[k].wanted);
   if (steps_ == 0) note_begin(asked);
   if (company_) company_->judge(asked, judgements_);
+  const auto is_far = [](const TraceStep& step) {
+    return step.path.front().position.cwiseAbs().maxCoeff() > guaranteed_range ||
+           step.requested.cwiseAbs().maxCoeff() > guaranteed_range;
+  };
+  // What they note is of the step before.
+  for (std::size_t k = 0; k < records.size(); ++k) metrics_.add(asked[k], judgements_[k], breaches_, is_far(asked[k]));
   for (std::size_t k = 0; k < records.size(); ++k) {
     Follower& follower = followers_[k];
-    metrics_.add(asked[k], judgements_[k]);
-    const bool far = asked[k].path.front().position.cwiseAbs().maxCoeff() > guaranteed_range ||
-                     asked[k].requested.cwiseAbs().maxCoeff() > guaranteed_range;
-    if (far) {
+    if (is_far(asked[k])) {
       steps_far_ += !header_.guarantees.empty();
     } else {
       judge_clauses(asked[k], judgements_[k], asked);
@@ -208,6 +212,9 @@ void RunJudge::judge_wish(const TraceStep& record, const Wanted& wanted, const F
     note(Clause::wanted, record,
          fmt::format("says it was asked to go ({:.9g}, {:.9g}) m, and ({:.9g}, {:.9g}) m was wanted",
                      record.requested.x(), record.requested.y(), wanted.displacement.x(), wanted.displacement.y()));
+  const bool jumps_later = wanted.parts > 1 && record.jumping && !wanted.jumping;
+  if (jumps_later && !(wanted.pending && touches_from_above(record, up_in(record, header_))))
+    note(Clause::wanted, record, "says it jumped in a part of the step, and could not");
 }
 
 /// Whether nothing near the character moves.
@@ -575,7 +582,7 @@ void RunJudge::add_refused(const TraceStep& record) {
 
 Breaches RunJudge::breaches() const {
   Breaches all = breaches_;
-  metrics_.write_contact_breaches(all);
+  metrics_.end(all);
   return all;
 }
 

@@ -274,7 +274,7 @@ class Checker:
             if words:
                 yield "wanted", words
             step.wanted, step.steered = vector(wanted.way), Fraction(wanted.steered)
-        intent.end(step.record, step.dt, step.motion)
+        intent.end(step.record, step.dt, step.motion, step.frame)
 
     def has_wall(self, step, move):
         reach = Fraction(math.copysign(self.header["character"]["wall_reach"], move))

@@ -1,5 +1,6 @@
 /// Progress beside what turns: hanging, ground, ways out, speed and motion that is lost.
 #include "compare/turning_planks.hpp"
+#include "oracle/intent.hpp"
 #include "oracle/later_parts.hpp"
 
 #include <gtest/gtest.h>
@@ -184,6 +185,44 @@ TEST(BesideTurning, a_fall_in_parts_is_that_of_all_parts) {
     made.step.velocity.y() += 1e-6;
     EXPECT_GT(judge(way).speed_lost, 0) << parts;
   }
+}
+
+/// Presses the button in the air, and ends a step in four parts as told.
+/// @return whether the press is still there to jump from ground in the next step.
+bool is_press_left(const Contact<double>& contact, double rise, bool grounded, bool jumping) {
+  TraceHeader header = promising({});
+  header.gravity = {0, -10};
+  header.starts = {{.position = {0, 0}, .velocity = {0, -9}}};
+  Intent intent(header);
+  TraceStep first = test::step({{0, 0}, {0, -0.1}});
+  first.input.jump = true;
+  EXPECT_TRUE(intent.begin(first, 4, {}).pending);
+  first.contacts = {contact};
+  first.velocity = {0, rise};
+  first.grounded = grounded;
+  first.jumping = jumping;
+  intent.end(first);
+  if (!grounded) {  // it lands in the next step
+    TraceStep landing = test::step({{0, -0.1}, {0, -0.2}});
+    landing.input.jump = true;
+    static_cast<void>(intent.begin(landing, 1, {}));
+    landing.grounded = true;
+    intent.end(landing);
+  }
+  TraceStep after = test::step({{0, -0.2}, {0, -0.2}});
+  after.input.jump = true;
+  return intent.begin(after, 1, {}).jumped;
+}
+
+TEST(PressOfTheButton, is_used_up_by_who_lands_in_a_part_before_the_last_one) {
+  const auto ground = [](double fraction) {
+    return Contact<double>{.normal = {0, 1}, .fraction = fraction, .side = Side::bottom};
+  };
+  const Contact<double> steep{.normal = {0.8, 0.6}, .fraction = 0.3, .side = Side::bottom};
+  EXPECT_FALSE(is_press_left(ground(0.3), 10, false, true)) << "it rises";
+  EXPECT_FALSE(is_press_left(ground(0.3), 0, true, false)) << "a ceiling ended the jump, and it landed again";
+  EXPECT_TRUE(is_press_left(ground(0.9), 0, true, false)) << "it landed in the last part";
+  EXPECT_TRUE(is_press_left(steep, -2, false, false)) << "it slides";
 }
 
 /// Against the law of motion, gone through part by part.

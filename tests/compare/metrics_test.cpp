@@ -12,7 +12,8 @@ namespace {
 
 Row row_of(const std::vector<Moment>& run, const TraceHeader& head = header()) {
   Metrics metrics(head);
-  for (const Moment& moment : run) metrics.add(moment.step, moment.judged);
+  Breaches breaches;
+  for (const Moment& moment : run) metrics.add(moment.step, moment.judged, breaches);
   Row row;
   metrics.write(row);
   return row;

@@ -114,6 +114,47 @@ TEST(Movers, give_the_twin_that_jumps_off_their_speed) {
   EXPECT_LE(std::abs(run.steps[65].velocity.x()), speed + 1e-5);
 }
 
+/// Beside a wheel that turns, so that a step goes in parts.
+Scene beside_a_wheel(double height) {
+  Scene scene = on_a_slab(100);
+  scene.start = {.position = {0, half_height + height}, .velocity = {0, -9}};
+  scene.scenery.colliders.push_back(slab(-0.5, -0.5, 0.5, 0.5));
+  scene.ids.emplace_back("wheel");
+  scene.movers = {{.id = "wheel",
+                   .path = {{.time = 0, .at = {1.1, 0.8}}},
+                   .loop = MoverDef::Loop::loop,
+                   .turns = {{.time = 0, .at = 0}, {.time = 1, .at = 15}}}};
+  scene.scenery.colliders.back().mover = 0;
+  return scene;
+}
+
+TEST(Movers, that_turn_let_who_lands_in_a_part_of_a_step_jump_in_the_next_and_use_up_the_press) {
+  using Presses = std::vector<InputEvent>;
+  const Presses held{{.step = 0, .move = 0, .jump = true}};
+  const Presses released{{.step = 0, .move = 0, .jump = true}, {.step = 4, .move = 0, .jump = false}};
+  const Presses pressed_in_the_air{{.step = 0, .move = 0, .jump = true},
+                                   {.step = 20, .move = 0, .jump = false},
+                                   {.step = 30, .move = 0, .jump = true}};
+  const Presses buffered{{.step = 0, .move = 0, .jump = true}, {.step = 1, .move = 0, .jump = false}};
+  int jumps = 0;
+  for (const Presses& presses : {held, released, pressed_in_the_air, buffered})
+    for (const double height : {0.16, 0.22, 0.27, 0.34}) {
+      Scene scene = beside_a_wheel(height);
+      scene.input = presses;
+      scene.character.jump_cut = 0.5;
+      if (presses == buffered) scene.character.jump_buffer = 0.05;
+      RunOptions options = watched(scene, {"octagon_sweep"});
+      options.reference = false;
+      const ReportScene result = run_scene(scene, options);
+      const Row& row = row_of(result, "octagon_sweep");
+      EXPECT_EQ(row.verdict, Verdict::holds) << height << ": " << row.reason;
+      const ReportRun& run = run_of(result, "octagon_sweep");
+      for (std::size_t i = 1; i < run.steps.size(); ++i)
+        jumps += run.steps[i].velocity.y() > run.steps[i - 1].velocity.y() + 9;
+    }
+  EXPECT_GE(jumps, 16);
+}
+
 TEST(Crushes, are_events_and_what_they_press_into_is_none) {
   const Scene scene = built_in("closing_ceiling");
   RunOptions options = watched(scene, {"octagon_sweep"});

@@ -56,7 +56,7 @@ TEST(Answers, are_of_every_registered_scene) {
 }
 
 TEST(Answers, are_met_by_octagon_sweep_in_every_registered_scene) {
-  for (const BuiltInScene& entry : test::sampled_of(built_in_scenes())) {
+  for (const BuiltInScene& entry : paperproof::test::sampled_of(built_in_scenes())) {
     const Scene scene = shortened(entry.name);
     const Row row = ran(scene).row;
     ASSERT_TRUE(row.answer_ok && row.answer_error) << entry.name;
@@ -124,7 +124,7 @@ void toggle(std::vector<TraceStep>& steps) {
 }
 
 TEST(Answers, are_each_missed_by_a_run_that_does_something_else) {
-  for (const BuiltInScene& entry : test::sampled_of(built_in_scenes())) {
+  for (const BuiltInScene& entry : paperproof::test::sampled_of(built_in_scenes())) {
     const Scene scene = shortened(entry.name);
     if (scene.others.size() > 2) continue;
     const ReportRun run = ran(scene).run;
@@ -262,7 +262,7 @@ TEST(UnevenSteps, are_the_same_for_the_twin) {
 
 TEST(Tiles, far_away_change_nothing) {
   const Ran few = ran("tiles_1e2");
-  for (const char* name : {"tiles_1e3", test::sanitized ? "tiles_1e3" : "tiles_1e4"}) {
+  for (const char* name : {"tiles_1e3", paperproof::test::sanitized ? "tiles_1e3" : "tiles_1e4"}) {
     const Ran more = ran(name);
     for (std::size_t i = 0; i < few.steps().size(); ++i)
       ASSERT_EQ(more.steps()[i].path.back().position, few.steps()[i].path.back().position) << name << ", step " << i;

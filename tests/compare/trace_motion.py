@@ -4,7 +4,7 @@ The law: the speed across up comes nearer to what the input asks for by accelera
 that is allowed sets the speed along up. Gravity is added, the fall limited, and the way is the speed times dt. Whoever
 rides something does all of that relative to it, and goes along besides.
 """
-from math import hypot, radians, tan, ulp
+from math import cos, hypot, radians, tan, ulp
 
 from trace_geometry import less
 
@@ -82,7 +82,9 @@ class Intent:
         speed = frame.world(walk + frame.across(gravity) * part, rise)
         carried = self.carried(step, dt, motion, colliders)
         if carried is None:
+            self.rise = float("inf")
             return None
+        self.rise = rise + frame.rise(carried) / dt
         places = [abs(float(x)) for ends in motion.ends.values() for place in ends for x in place]
         size = max([hypot(*speed) * dt, hypot(*carried), hypot(*self.velocity) * dt] + [ulp(x) * 1e12 for x in places])
         return Wanted([v * dt + by for v, by in zip(speed, carried)], (walk - before) * dt, size)
@@ -122,7 +124,30 @@ class Intent:
             way = tuple(w + (v - c) * dt for w, v, c in zip(way, speed, self.carrier))
         return way
 
-    def end(self, step, dt, motion):
+    def end_later_parts(self, step, dt, parts, frame):
+        if self.pending and self.jumped_later(step, parts, frame):
+            self.jumping, self.pending, self.coyote_left = True, False, 0.0
+        for _ in range(parts - 1):
+            if self.pending and self.character.get("jump_buffer") is not None:
+                self.pending_left -= dt / parts
+                self.pending = self.pending_left > 0
+            if not self.grounded:
+                self.coyote_left = max(self.coyote_left - dt / parts, 0)
+
+    def jumped_later(self, step, parts, frame):
+        """Who lands in a part of a step may jump in the next. A jump that went on before, or ends with the step, needs
+        ground in a part before the last."""
+        jumping = step.get("jumping", False)
+        if jumping and not self.jumping:
+            return True
+        walkable = cos(radians(self.character["max_climb_degrees"]) + CLIMB)
+        landed = any(contact["fraction"] * parts < parts - 1 and frame.rise(contact["normal"]) >= walkable
+                     for contact in step["contacts"])
+        return landed and (frame.rise(step["velocity"]) > self.rise if jumping else step["grounded"])
+
+    def end(self, step, dt, motion, frame):
+        if motion.parts() > 1:
+            self.end_later_parts(step, dt, motion.parts(), frame)
         self.velocity, self.grounded = step["velocity"], step["grounded"]
         self.jumping = step.get("jumping", False) and (self.jumping or not self.grounded)
         self.crushed = bool(step.get("crush")) or (self.crushed and step.get("stuck", False))
