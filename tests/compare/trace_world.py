@@ -78,7 +78,6 @@ class Motion:
 
     def __init__(self, step, colliders):
         movers = step["movers"].items()
-        self.crushes = bool(step.get("crush"))
         self.ends = {name: exact(ends) for name, ends in movers if not isinstance(ends, dict)}
         self.ways = {name: Way(ends, colliders[name]) for name, ends in movers if isinstance(ends, dict)}
 
