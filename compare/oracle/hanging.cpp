@@ -55,7 +55,7 @@ bool HangingJudge::hangs(const Vec2d& made, const Reach& reach, Bounds bounds) c
   const double fell = -made.dot(up_);
   if (is_capped(step_, header_) || !(asked > least) || !(fell < least_share * asked)) return false;
   const auto falls_short_of = [&](double fall) { return fall > least && fell < least_share * fall; };
-  const std::vector<Nearby> corners = near_corners(unsteered, reach, bounds);
+  const std::vector<Nearby> corners = near_corners(unsteered.dot(up_) * up_, reach, bounds);
   Nearby all;
   for (const Nearby& corner : corners) all.add(corner);
   if (all.holds) return false;
@@ -102,7 +102,7 @@ void HangingJudge::Nearby::add(const Nearby& other) {
 
 /// What the octagon may touch at each corner of its way. Ground holds it where it says that it stands, or cannot fall
 /// past: two corners that lie side by side hold nothing.
-std::vector<HangingJudge::Nearby> HangingJudge::near_corners(const Vec2d& unsteered, const Reach& reach,
+std::vector<HangingJudge::Nearby> HangingJudge::near_corners(const Vec2d& fall, const Reach& reach,
                                                              Bounds bounds) const {
   std::vector<Nearby> corners(step_.path.size());
   for (std::size_t corner = 0; corner < corners.size(); ++corner) {
@@ -116,7 +116,7 @@ std::vector<HangingJudge::Nearby> HangingJudge::near_corners(const Vec2d& unstee
       };
       const Obstacle whole = obstacle(part.moved);
       const auto lets_fall = [&](const HalfPlane& plane) {
-        return plane.separation >= reach.opening && plane.holds(unsteered);
+        return plane.separation >= reach.opening && plane.holds(fall);
       };
       const bool falls_past = std::any_of(whole.begin(), whole.end(), lets_fall);
       Nearby& nearby = corners[corner];

@@ -53,11 +53,11 @@ class HangingJudge {
     std::vector<Obstacle> obstacles;  ///< By how far they go in the whole step,
     std::vector<Obstacle> coming;     ///< as they come to the corner,
     std::vector<Obstacle> going;      ///< and as they go on from it.
-    bool holds = false;  ///< Something of it is ground, or overlaps the octagon.
+    bool holds = false;               ///< Something of it is ground, or overlaps the octagon.
     void add(const Nearby& other);
   };
 
-  [[nodiscard]] std::vector<Nearby> near_corners(const Vec2d& unsteered, const Reach& reach, Bounds bounds) const;
+  [[nodiscard]] std::vector<Nearby> near_corners(const Vec2d& fall, const Reach& reach, Bounds bounds) const;
   [[nodiscard]] double fall_leg_by_leg(const Vec2d& wanted, const std::vector<Nearby>& corners,
                                        const Reach& reach) const;
   [[nodiscard]] bool is_run_into(const Reach& reach) const;
