@@ -58,7 +58,9 @@ void EndJudge::judge_ground(const HangingJudge& hanging, bool starts_free, StepJ
              std::any_of(part.faces.begin(), part.faces.end(), [&](const NearFace& face) { return is(part, face); });
     });
   };
-  const auto walkable = [&](const NearPart&, const NearFace& face) { return is_walkable(face.normal, header_, up_); };
+  const auto walkable = [&](const NearPart&, const NearFace& face) {
+    return face.separation >= 0 && is_walkable(face.normal, header_, up_);
+  };
   if (step_.grounded) {
     const bool on_ground = any_face(walkable);
     judgement.ground_refuted = !on_ground && !hanging.is_held_at_end(guaranteed_touch + touch_rounding);

@@ -15,8 +15,6 @@
 namespace paperproof::compare {
 namespace {
 
-/// Where the approach is a smaller part of the motion it grazes: see `Judge`.
-constexpr double least_approach = 1e-3;
 /// What a normal that was computed otherwise is off.
 constexpr double rounding_of_normal = 1e-6;
 /// With more contacts with scenery there are too many ways that they may have left.
@@ -24,8 +22,6 @@ constexpr std::size_t most_contacts = 4;
 constexpr std::size_t most_ways = 100;
 /// What a time is off along the normal is not told below this [m].
 constexpr double told = 1e-6;
-/// Half of the narrowest opening between others that counts as room [m]: as between solids.
-constexpr double least_clearance = 1e-7;
 
 Box2<double> box_of(const std::vector<Vec2d>& points) {
   Box2<double> box{points.front(), points.front()};
@@ -112,7 +108,8 @@ Others CompanyJudge::others_of(CharacterIndex character, std::span<const TraceSt
   others.touched = any_other([&](const TraceStep& other) { return may_meet(one, other) && touch(one, other); });
   others.left_free = [this, any_other](Way way) {
     return !any_other([&](const TraceStep& other) {
-      return !(pair_.separation(way.back().position, end_of(other)) >= least_clearance) || pair_.meet(way, other.path);
+      return !(pair_.separation(way.back().position, end_of(other)) >= detail::least_clearance) ||
+             pair_.meet(way, other.path);
     });
   };
   others.near = [this, steps, character](const PathPoint<double>& corner, double within) {
@@ -176,7 +173,8 @@ double CompanyJudge::handed_on(CharacterIndex character, std::span<const TraceSt
       const auto& [from, to] = step.movers[def.mover];
       Box2<double> swept = box_of(def.points);
       swept = Box2<double>{swept.lower + from.cwiseMin(to), swept.upper + from.cwiseMax(to)};
-      if (swept.inflated((to - from).norm() + reach_).overlaps(covered)) movers[def.mover] = (to - from).norm();
+      if (swept.inflated(def.radius + (to - from).norm() + reach_).overlaps(covered))
+        movers[def.mover] = (to - from).norm();
     }
   }
   for (const auto& [mover, way] : movers) most += way;
@@ -240,8 +238,8 @@ bool CompanyJudge::must_meet(const TraceStep& one, const TraceStep& other) const
       if (!impact) return false;
       const double approach = -(way - goes).dot(impact->normal);
       const double until = static_cast<double>(impact->fraction) * approach;
-      return approach >= least_approach * (way - goes).norm() && until <= detail::contact_reach &&
-             until + least_clearance <= (1 - fraction) * approach;
+      return approach >= detail::least_approach * (way - goes).norm() && until <= detail::contact_reach &&
+             until + detail::least_clearance <= (1 - fraction) * approach;
     });
   });
 }
@@ -269,7 +267,8 @@ double CompanyJudge::off_at(const TraceStep& one, const TraceStep& other, const 
     if (off <= told) return true;
     if (pair_.separation(mine, theirs) > reach_) return false;
     const auto look = [&](const Vec2d& pace) {
-      if (const double approach = -pace.dot(met.normal); approach > 0)
+      if (const double approach = -pace.dot(met.normal);
+          approach >= detail::least_approach * pace.norm() && approach > 0)
         off = std::min(off, std::abs(met.fraction - fraction) * approach);
     };
     look(rate_before(one.path, fraction) - rate_before(other.path, fraction));
@@ -375,7 +374,7 @@ std::optional<CompanyJudge::Impact> CompanyJudge::first_impact(const TraceStep& 
   const Vec2d way = one.requested - other.requested;
   const double approach = -way.dot(impact->normal);
   const bool comparable = !one.stuck && !other.stuck && pair_.separation(start_of(one), start_of(other)) > reach_ &&
-                          approach >= least_approach * way.norm();
+                          approach >= detail::least_approach * way.norm();
   return Impact{one.character, other.character, static_cast<double>(impact->fraction), comparable};
 }
 
@@ -414,11 +413,14 @@ void CompanyJudge::judge_first_impacts(std::span<const TraceStep> steps, std::sp
 void CompanyJudge::excuse(const TraceStep& one, const TraceStep& other, StepJudgement& judgement) const {
   const bool near = touch(one, other);
   bool opposed = false;
-  const Vec2d wanted(one.requested.x() + std::copysign(reach_, one.requested.x()), 0);
+  const Vec2d up = up_in(one, header_);
+  const Vec2d right(up.y(), -up.x());
+  const double across = one.requested.dot(right);
+  const Vec2d wanted = (across + std::copysign(reach_, across)) * right;
   // The other comes from ahead, or from above on a shoulder.
   const auto is_pushed = [&](const Vec2d& mine, const Vec2d& theirs) {
     const auto impact = pair_.first_impact(mine, wanted, theirs, other.requested);
-    return impact && impact->normal.x() * wanted.x() < 0;
+    return impact && impact->normal.dot(wanted) < 0;
   };
   const auto look = [&](const Vec2d& mine, const Vec2d& theirs) {
     if (judgement.ghost_speed_loss == 0 && judgement.motion_lost == 0) return;

@@ -95,8 +95,7 @@ bool HangingJudge::is_held_at_end(double within) const {
 }
 
 void HangingJudge::Nearby::add(const Nearby& other) {
-  for (const auto which : {&Nearby::obstacles, &Nearby::coming, &Nearby::going})
-    (this->*which).insert((this->*which).end(), (other.*which).begin(), (other.*which).end());
+  obstacles.insert(obstacles.end(), other.obstacles.begin(), other.obstacles.end());
   holds = holds || other.holds;
 }
 

@@ -1,7 +1,7 @@
 #include "oracle/intent.hpp"
 
 #include "oracle/exemptions.hpp"
-#include "oracle/hanging.hpp"
+#include "oracle/met_surfaces.hpp"
 #include "oracle/up.hpp"
 
 #include <algorithm>
@@ -86,7 +86,7 @@ bool Intent::jumped_later(const TraceStep& step) const {
   if (step.jumping && !jumping_) return true;
   const Vec2d up = up_in(step, *header_);
   const bool landed = std::any_of(step.contacts.begin(), step.contacts.end(), [&](const Contact<double>& contact) {
-    return contact.fraction * parts_ < parts_ - 1 && detail::is_walkable(contact.normal, *header_, up);
+    return contact.fraction * parts_ < parts_ - 1 && is_walked_on(contact.normal, *header_, up);
   });
   return landed && (step.jumping ? step.velocity.dot(up) > rise_ : step.grounded);
 }

@@ -37,6 +37,20 @@ std::vector<NearPart> parts_near(const ExactScenery& scenery, const TraceStep& s
   return parts;
 }
 
+bool climbs_stair(const TraceHeader& header, const TraceStep& step, const Wanted& wanted) {
+  const double highest = header.character.step_height + contact_reach;
+  if (!(header.character.step_height > 0) || !wanted.from_ground || wanted.jumped) return false;
+  const Vec2d up = up_in(step, header);
+  for (std::size_t k = 2; k < step.path.size(); ++k) {
+    const Vec2d leg = step.path[k - 1].position - step.path[k - 2].position;
+    const double aside = std::abs(leg.dot(Vec2d(up.y(), -up.x())));
+    const bool goes_on_at_once = step.path[k].fraction == step.path[k - 1].fraction;
+    const bool straight = aside <= 4 * ulp_at(header, step.path[k].position);
+    if (goes_on_at_once && straight && leg.dot(up) > 0 && leg.dot(up) <= highest) return true;
+  }
+  return false;
+}
+
 LegJudge::LegJudge(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step, const Wanted& wanted,
                    const Others& others, const LaterParts& later)
     : header_(header),
@@ -84,7 +98,7 @@ double LegJudge::pushed() const {
   if (!(farthest > 0)) return 0;
   const double own = own_speed() * dt_ + contact_reach;
   std::map<ColliderIndex, double> solids;
-  std::set<double> turning;
+  std::map<ColliderIndex, double> turning;
   std::set<double> characters;
   for (std::size_t corner = 0; corner < step_.path.size(); ++corner) {
     const auto reaches = [&](const NearPart& part) {
@@ -95,7 +109,8 @@ double LegJudge::pushed() const {
     if (!others_.near) continue;
     for (const NearPart& part : others_.near(step_.path[corner], own + farthest)) {
       if (!reaches(part)) continue;
-      if (part.collider != no_collider) turning.insert(part.moved.norm() + part.unsure);
+      if (part.collider != no_collider)
+        turning[part.collider] = std::max(turning[part.collider], part.moved.norm() + part.unsure);
       // One that is pushed itself, late in the step, goes fast for a part of it.
       else
         characters.insert(std::max({part.moved.norm(), part.comes->norm(), part.goes->norm()}));
@@ -104,7 +119,7 @@ double LegJudge::pushed() const {
   double moved = std::accumulate(characters.begin(), characters.end(), 0.0);
   if (others_.handed_on) moved = std::min(moved, others_.handed_on());
   for (const auto& [collider, way] : solids) moved += way;
-  for (const double way : turning) moved += way;
+  for (const auto& [collider, way] : turning) moved += way;
   return moved;
 }
 
@@ -112,6 +127,16 @@ double LegJudge::rounding() const {
   double rounding = relative_rounding * (1 + wanted_.displacement.norm());
   for (const PathPoint<double>& corner : step_.path) rounding += 4 * ulp_at(header_, corner.position);
   return rounding;
+}
+
+/// How far the last leg goes straight down at once, and so no farther than a walk is held to the ground [m].
+double LegJudge::snapped() const {
+  if (!wanted_.from_ground || step_.path.size() < 2) return 0;
+  const PathPoint<double>& from = *std::prev(step_.path.end(), 2);
+  const Vec2d leg = step_.path.back().position - from.position;
+  const bool at_once = from.fraction == step_.path.back().fraction;
+  if (!at_once || std::abs(leg.dot(right_)) > rounding() || leg.dot(up_) > 0) return 0;
+  return std::min(leg.norm(), header_.character.snap);
 }
 
 double LegJudge::way_gained(std::size_t first, bool held) const {
@@ -128,7 +153,7 @@ double LegJudge::way_gained(std::size_t first, bool held) const {
   double room = restores_start + follows_seam + aims_away * static_cast<double>(step_.path.size()) + rounding();
   if (!step_.vertex_ways.empty()) room += waits * wanted_.displacement.norm();
   if (wanted_.from_ground && !held) {
-    room += header_.character.snap;
+    room += snapped();
     const double stairs = header_.character.step_height;
     if (stairs > 0) room += most_stairs * 2 * stairs + std::abs(wanted_.displacement.dot(right_));
   }
@@ -181,7 +206,8 @@ bool LegJudge::is_beside_what_moves() const {
 
 double LegJudge::leg_error() const {
   const bool in_parts = first_.parts > 1 || later_.any() || !step_.vertex_ways.empty();
-  if (step_.dropped || in_parts || !step_.met.empty() || is_beside_what_moves()) return 0;
+  const bool stair = climbs_stair(header_, step_, first_);
+  if (step_.dropped || in_parts || stair || !step_.met.empty() || is_beside_what_moves()) return 0;
   // A side hit ends a rise with the step: the way still goes on.
   ControlledStep law{.wanted = first_.displacement / dt_, .up = up_};
   law.unsteered = law.wanted - first_.steered / dt_ * right_;
@@ -213,7 +239,6 @@ double LegJudge::leg_error() const {
     off = std::max(off, least);
   }
   double room = restores_start + follows_seam + aims_away + rounding();
-  if (first_.from_ground) room += header_.character.snap;
   return off <= room ? 0 : off;
 }
 

@@ -10,6 +10,9 @@ namespace paperproof::compare::detail {
 [[nodiscard]] std::vector<NearPart> parts_near(const ExactScenery& scenery, const TraceStep& step, const Others& others,
                                                std::size_t corner, double within);
 
+/// Whether a walk climbs a stair: a leg goes straight up by no more than `step_height`, and the next one takes no time.
+[[nodiscard]] bool climbs_stair(const TraceHeader& header, const TraceStep& step, const Wanted& wanted);
+
 /// Holds the way of one step, leg by leg, against the law of motion, for a contender that promises it. Lives for one
 /// step.
 ///
@@ -17,10 +20,10 @@ namespace paperproof::compare::detail {
 /// one, kept across up on the steepest walkable ground, once for each ground that is met, and that of conveyors that
 /// are touched. What all legs together are longer is no more than the rules allow that move a character at once: the
 /// gap is restored by 2e-6 m and, on a leg that aims at it, by 1e-6 m; ground that hardly bends is followed by 2.8e-6
-/// m, and by `snap` where a walk may; a walk climbs 4 stairs, up and down by `step_height`, and goes on as it wanted in
-/// between; and what moves, and may reach the character in the step, pushes it as far as it goes itself, and by
-/// `push_beyond_motion` more. Other characters do that by no more than they want themselves, or hand on (`Others`), and
-/// without the last.
+/// m, and at the end straight down by `snap` where a walk may; a walk climbs 4 stairs, up and down by `step_height`,
+/// and goes on as it wanted in between; and what moves, and may reach the character in the step, pushes it as far as it
+/// goes itself, and by `push_beyond_motion` more. Other characters do that by no more than they want themselves, or
+/// hand on (`Others`), and without the last.
 ///
 /// **Speed.** At the end it is no faster than the same speed and that of all that moves and may reach it.
 ///
@@ -48,6 +51,7 @@ class LegJudge {
   [[nodiscard]] double pushed() const;
   [[nodiscard]] bool is_beside_what_moves() const;
   [[nodiscard]] double rounding() const;
+  [[nodiscard]] double snapped() const;
 
   const TraceHeader& header_;
   const ExactScenery& scenery_;

@@ -15,13 +15,6 @@ using detail::RigidMotion;
 /// What is held up to this distance is touched [m]: §6 of the guarantee, and the rounding of a separation.
 constexpr double touched = 7e-7 + 1e-8;
 
-/// The law has an edge here: ground that is steeper than the climb limit by this [rad] is walkable still, and what is
-/// steeper than that is not (§4 of the design; `Tolerances::climb`).
-bool is_walkable(const Vec2d& normal, const TraceHeader& header, const Vec2d& up) {
-  const double climb = header.scalar == "float" ? 1e-5 : 1e-8;
-  return normal.dot(up) >= std::cos(header.character.max_climb_degrees * std::numbers::pi / 180 + climb);
-}
-
 /// Whether what was touched still is, and there: who has come past a rim is beside it. The normal of a circle turns.
 bool is_touched_there(const ExactScenery& solids, const Place& at, const Contact<double>& touch) {
   constexpr double same_face = 1 - 1e-9;
@@ -40,11 +33,16 @@ bool touches_ground(const SolidsInStep& solids, const PathPoint<double>& at) {
   const Vec2d up = up_in(solids.step(), solids.header());
   const std::vector<NearPart> parts = solids.at(at.fraction).near_parts(Place(at, solids.step().movers), touched);
   return std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
-    return part.faces.front().separation <= touched && is_walkable(part.faces.front().normal, solids.header(), up);
+    return part.faces.front().separation <= touched && is_walked_on(part.faces.front().normal, solids.header(), up);
   });
 }
 
 }  // namespace
+
+bool is_walked_on(const Vec2d& normal, const TraceHeader& header, const Vec2d& up) {
+  const double climb = header.scalar == "float" ? 1e-5 : 1e-8;
+  return normal.dot(up) >= std::cos(header.character.max_climb_degrees * std::numbers::pi / 180 + climb);
+}
 
 const ExactScenery& SolidsInStep::at(double fraction) const {
   if (step_.vertex_ways.empty()) return solids_;
@@ -109,7 +107,7 @@ std::vector<MetSurface> met_surfaces(const SolidsInStep& solids, std::span<const
     while (since != step.path.begin() && is_touched(*std::prev(since))) --since;
     const Vec2d velocity = velocity_of(solids, touch);
     MetSurface one{.normal = touch.normal};
-    one.walkable = is_walkable(touch.normal, solids.header(), up);
+    one.walkable = is_walked_on(touch.normal, solids.header(), up);
     // Ground carries; walls impart nothing along themselves.
     one.velocity = one.walkable ? velocity : Vec2d(velocity.dot(touch.normal) * touch.normal);
     one.is_side = touch.side == Side::left || touch.side == Side::right;

@@ -12,6 +12,11 @@
 
 namespace paperproof::compare {
 
+/// Whether the law walks on ground with this unit normal. The law has an edge here: ground that is steeper than the
+/// climb limit by 1e-8 rad (float: 1e-5) is walked on still, and what is steeper is not (§4 of the design;
+/// `Tolerances::climb`).
+[[nodiscard]] bool is_walked_on(const Vec2d& normal, const TraceHeader& header, const Vec2d& up);
+
 /// The solids in one step, with what turns standing where it is at the moment that is asked about. Header, solids and
 /// step must outlive it.
 class SolidsInStep {

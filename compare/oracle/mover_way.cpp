@@ -108,6 +108,16 @@ void note(std::vector<Index>& list, Index one) {
   if (!contains(list, one)) list.push_back(one);
 }
 
+/// Parts of a step are equally long, no more than promised, and each turns at once; but after a crush the rest is one.
+bool is_divided_evenly(const VertexWay& way, bool crushed) {
+  if (!turns_at_once(way, 1)) return true;
+  const double parts = std::round(1 / way.instants[2]);
+  if (!(parts <= most_turning_parts && std::abs(way.instants[2] * parts - 1) <= turning_share)) return false;
+  std::size_t turned = 0;
+  for (std::size_t k = 1; k < way.instants.size(); ++k) turned += turns_at_once(way, k);
+  return crushed || turned == static_cast<std::size_t>(parts);
+}
+
 }  // namespace
 
 MoverPose pose_at(const MoverScript& script, double time) {
@@ -235,6 +245,7 @@ void MoverWayJudge::judge_way(const VertexWay& way, const TraceStep& step, doubl
     const double angle = std::abs(detail::RigidMotion(way.vertices[k - 1], way.vertices[k]).angle());
     if (angle > most + angle_rounding) note(judgement.coarse, way.collider);
   }
+  if (!is_divided_evenly(way, !step.crushed.empty())) note(judgement.coarse, way.collider);
   measure_arc(way, step, most, judgement);
 }
 

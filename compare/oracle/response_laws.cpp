@@ -115,25 +115,30 @@ struct Unknown {
 bool is_at_end(const MetSurface& at) { return at.met >= 1; }
 bool may_carry(const MetSurface& at) { return at.walkable && at.velocity != Vec2d::Zero(); }
 
+/// A surface that holds, and the velocity that came to it.
+struct Holding {
+  MetSurface at;
+  Steered came;
+};
+
 /// As an upright character sees it.
 Vec2d controlled(const Steered& velocity, std::span<const MetSurface> surfaces, const Unknown& unknown) {
   Steered now = velocity;
-  Steered came = velocity;  // to the last of what holds
   double steering = (velocity.wanted - velocity.unsteered).x();
-  std::vector<MetSurface> held;
+  std::vector<Holding> held;
   for (const MetSurface& at : surfaces) {
     if (is_at_end(at) && !unknown.met_at_end) continue;
     if (!enters(now.wanted, at)) {
       // A flush neighbour of what holds goes on to hold where that ends.
-      for (MetSurface& one : held)
-        if (one.normal == at.normal && one.velocity == at.velocity) one.left = std::max(one.left, at.left);
+      for (Holding& one : held)
+        if (one.at.normal == at.normal && one.at.velocity == at.velocity) one.at.left = std::max(one.at.left, at.left);
       continue;
     }
-    std::erase_if(held, [&](const MetSurface& one) { return one.left <= at.met; });
+    std::erase_if(held, [&](const Holding& one) { return one.at.left <= at.met; });
     // What each of two leaves that are touched at once enters the other.
-    const bool both_stop = !held.empty() && at.touched_since <= held.back().met &&
-                           enters(at_surface(came, steering, at).wanted, held.back());
-    came = now;
+    const bool both_stop = !held.empty() && at.touched_since <= held.back().at.met &&
+                           enters(at_surface(held.back().came, steering, at).wanted, held.back().at);
+    held.push_back({at, now});
     const Vec2d& carried = at.velocity;
     if (unknown.carried && may_carry(at) && std::abs(now.wanted.x()) <= grazing * now.wanted.norm()) {
       now = {carried, carried};
@@ -141,14 +146,15 @@ Vec2d controlled(const Steered& velocity, std::span<const MetSurface> surfaces, 
     } else {
       now = at_surface(now, steering, at);
     }
-    held.push_back(at);
-    const auto is_entered = [&](const MetSurface& one) { return enters(now.wanted, one); };
+    const auto is_entered = [&](const Holding& one) { return enters(now.wanted, one.at); };
     if (!both_stop && std::none_of(held.begin(), held.end(), is_entered)) continue;
-    const bool all_left = std::all_of(held.begin(), held.end(), [](const MetSurface& one) { return one.left <= 1; });
-    const Vec2d fall =
-        all_left ? Vec2d(carried.x(), came.unsteered.y()) : nearest_allowed(velocity.unsteered, held).value_or(carried);
-    const bool walked = std::any_of(held.begin(), held.end(), [](const MetSurface& one) { return one.walkable; });
-    const Vec2d end = held.size() > 1 ? held_by(held[held.size() - 2], at).value_or(carried) : carried;
+    const bool all_left = std::all_of(held.begin(), held.end(), [](const Holding& one) { return one.at.left <= 1; });
+    std::vector<MetSurface> all;
+    for (const Holding& one : held) all.push_back(one.at);
+    const Vec2d fall = all_left ? Vec2d(carried.x(), held.back().came.unsteered.y())
+                                : nearest_allowed(velocity.unsteered, all).value_or(carried);
+    const bool walked = std::any_of(held.begin(), held.end(), [](const Holding& one) { return one.at.walkable; });
+    const Vec2d end = held.size() > 1 ? held_by(held[held.size() - 2].at, at).value_or(carried) : carried;
     now.wanted = now.unsteered = !walked && fall.y() < end.y() ? fall : end;
   }
   return now.wanted;

@@ -37,9 +37,11 @@ struct VertexWay {
 /// Into how many shorter steps a step among what turns is divided: they are equally long, and each begins with a turn
 /// at once. The first one tells: after a crush the rest is not divided.
 [[nodiscard]] inline int parts_of(std::span<const VertexWay> ways) {
+  constexpr double absurd = 1e3;  // whoever says so is told by `mover_way`
   int most = 1;
   for (const VertexWay& way : ways)
-    if (turns_at_once(way, 1)) most = std::max(most, static_cast<int>(std::lround(1 / way.instants[2])));
+    if (turns_at_once(way, 1))
+      most = std::max(most, static_cast<int>(std::lround(std::min(absurd, 1 / way.instants[2]))));
   return most;
 }
 

@@ -4,6 +4,7 @@
 #include "oracle/claims.hpp"
 #include "oracle/contact_place.hpp"
 #include "oracle/contacts.hpp"
+#include "oracle/legs.hpp"
 #include "oracle/turning.hpp"
 #include "records/verdict.hpp"
 #include "words.hpp"
@@ -24,6 +25,8 @@ constexpr double rounding_of_normal = 1e-3;
 constexpr double rounding_of_unit = 1e-6;
 /// Cosine of the angle between two normals of one face that is round.
 constexpr double same_face = 0.9;
+/// What two records of one normal may be apart.
+constexpr double same_normal = 1e-6;
 /// A larger share of the wanted motion that is lost to nothing is a fault of a contender that promises none.
 constexpr double most_motion_lost = 0.01;
 /// The guarantee covers starts this near to the origin, and displacements up to it [m].
@@ -99,7 +102,8 @@ void RunJudge::add(std::span<TraceStep> records) {
       asked[k].requested = follower.wanted.displacement;
       asked[k].steered = follower.wanted.steered;
     }
-    if (!record.input.drop) asked[k].dropped_through.clear();  // the input did not ask for it
+    if (!record.input.drop) asked[k].dropped_through.clear();                     // the input did not ask for it
+    if (record.contacts.empty() && record.met.empty()) asked[k].dropped = false;  // nothing made it give up
   }
   for (std::size_t k = 0; k < records.size(); ++k)
     judgements_[k] = followers_[k].judge->judge(
@@ -257,10 +261,11 @@ void RunJudge::judge_carrier(const SolidsInStep& there) {
   if (!record.ride || header_.guarantees.empty()) return;
   const ColliderIndex carrier = record.ride->collider;
   const Place end(record.path.back(), record.movers);
+  const Vec2d up = up_in(record, header_);
   double off = std::numeric_limits<double>::infinity();
   for (const NearPart& part : there.at(1).near_parts(end, guaranteed_gap))
     for (const NearFace& face : part.faces) {
-      if (part.collider != carrier) continue;
+      if (part.collider != carrier || !(face.normal.dot(up) > 0)) continue;
       const Vec2d foot =
           *std::min_element(header_.points.begin(), header_.points.end(),
                             [&](const Vec2d& a, const Vec2d& b) { return a.dot(face.normal) < b.dot(face.normal); });
@@ -335,7 +340,11 @@ void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged,
     if (is_exact)
       check(*first, std::abs(first->fraction - *judged.first_impact) * *judged.first_approach, guaranteed_gap);
   }
-  if (!record.vertex_ways.empty() || !record.crushed.empty() || !judged.end_overlap.empty()) return;
+  const detail::TurningJudge& turning = followers_.front().judge->turning();
+  const bool meets_turning = std::any_of(record.contacts.begin(), record.contacts.end(),
+                                         [&](const auto& contact) { return turning.turns(contact.collider); });
+  const bool in_parts = parts_of(record.vertex_ways) > 1;
+  if (in_parts || meets_turning || !record.crushed.empty() || !judged.end_overlap.empty()) return;
   for (const Contact<double>& contact : record.contacts) {
     const MoverIndex mover = header_.scenery.colliders[contact.collider].mover;
     const Vec2d carried =
@@ -370,7 +379,8 @@ void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged,
       std::vector<Vec2d> paces = company_ ? company_->ways_at(record, records, corner.fraction) : std::vector<Vec2d>{};
       paces.push_back(pace);
       for (const Vec2d& goes : paces)
-        if (const double approach = (carried - goes).dot(contact.normal); approach > 0)
+        if (const double approach = (carried - goes).dot(contact.normal);
+            approach >= detail::least_approach * (carried - goes).norm() && approach > 0)
           off = std::min(off, std::abs(contact.fraction - corner.fraction) * approach);
       // A motion that grazes stops long before it touches; what it would touch is of one direction with what it
       // reports.
@@ -415,7 +425,8 @@ void RunJudge::judge_met(const TraceStep& record, std::span<const TraceStep> rec
     }
     const TraceStep& other = records[met.other];
     const bool agreed = std::any_of(other.met.begin(), other.met.end(), [&](const CrowdContact<double>& its) {
-      return its.other == record.character && (its.normal + met.normal).norm() <= guaranteed_gap;
+      return its.other == record.character && its.fraction == met.fraction &&
+             (its.normal + met.normal).norm() <= same_normal;
     });
     if (!agreed)
       note(Clause::contact_invented, record, fmt::format("met character {}, which met another way", met.other));
@@ -540,7 +551,8 @@ void RunJudge::judge_velocity(const SolidsInStep& there, const StepJudgement& ju
   const bool crushed =
       !judged.crushed.empty() || (!judged.crushed_with_room.empty() && contains(header_.guarantees, Clause::crush));
   const bool excused = !record.start_overlap.empty() || !judged.end_overlap.empty() || crushed || record.stuck ||
-                       record.dropped || header_.substeps > 1 || wanted.parts > 1;
+                       record.dropped || header_.substeps > 1 || wanted.parts > 1 ||
+                       detail::climbs_stair(header_, record, wanted);
   if (excused || !contains(header_.guarantees, Clause::velocity)) return;
   const Vec2d up = up_in(record, header_);
   ControlledStep step{.wanted = wanted.velocity, .up = up};
