@@ -155,8 +155,9 @@ bool judge_trace(const std::string& path, const JudgeOptions& options, const std
   const Breaches breaches = judge.breaches();
   int broken = 0;
   for (const auto& [clause, breach] : breaches) broken += contains(header.guarantees, clause);
-  fmt::print("{}: {} in {}, {}: {} judged, {} broken of {} guaranteed\n", path, header.contender, header.scalar,
-             header.scene, counted(judged, "step"), broken, counted(header.guarantees.size(), "clause"));
+  fmt::print("{}: {} in {}, {}: {} judged, {} broken of {} {}\n", path, header.contender, header.scalar, header.scene,
+             counted(judged, "step"), broken, counted(header.guarantees.size(), "clause"),
+             options.all_clauses ? "asked" : "guaranteed");
   for (const auto& [clause, breach] : breaches)
     fmt::print("  {}{} on {}, first in step {}: {}\n", name_of(clause),
                contains(header.guarantees, clause) ? "" : " (not guaranteed)", counted(breach.steps, "step"),

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,8 @@ class Totals {
     count.asked_for = true;
     count.runs += row.verdict != Verdict::not_applicable;
     count.broken += row.scalar == "double" ? row.verdict == Verdict::violates : breaks;
+    if (row.scalar == "double" && row.verdict == Verdict::violates)
+      for (const auto& [clause, steps] : row.broken) broken_[clause] += steps;
   }
   [[nodiscard]] bool trouble() const { return in_double_.broken > 0 || failed_ > 0; }
   /// One line for each number type that ran.
@@ -33,7 +36,8 @@ class Totals {
     std::vector<std::string> all;
     if (in_double_.asked_for)
       all.push_back(fmt::format("octagon_sweep in double: {}, {} with a violation of the guarantee",
-                                in_double_.extent(), counted(in_double_.broken, "run")));
+                                in_double_.extent(), counted(in_double_.broken, "run")) +
+                    clauses());
     if (in_float_.asked_for)
       all.push_back(
           fmt::format("octagon_sweep in float, for which nothing is guaranteed: {}, {} with a step through or "
@@ -50,6 +54,15 @@ class Totals {
     int broken = 0;
     [[nodiscard]] std::string extent() const { return counted(steps, "step") + " in " + counted(runs, "run"); }
   };
+  /// What was broken, and how often.
+  [[nodiscard]] std::string clauses() const {
+    std::string words;
+    for (const auto& [clause, steps] : broken_)
+      words += fmt::format("{}{} on {}", words.empty() ? ": " : ", ", clause, counted(steps, "step"));
+    return words;
+  }
+
+  std::map<std::string, long long> broken_;
   Count in_double_;
   Count in_float_;
   int failed_ = 0;

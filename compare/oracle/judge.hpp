@@ -220,7 +220,8 @@ struct StepJudgement {
 ///   requested: a character may give way instead.
 /// Excepted are
 /// - a direction with less than 2e-7 m of room between what is left and right of it, which is not in C;
-/// - ground: a step with a part in reach one of whose faces is within `max_climb_degrees` (and 1e-6 rad) of level;
+/// - ground: a step with a part in reach one of whose faces is within `max_climb_degrees` (and 1e-6 rad) of level, if it
+///   says that it stands, or cannot fall straight down past that part;
 /// - a step that touches a corner deeper than 1e-6 m inside a solid, a verified crush, and Box2D's cap: other answers
 ///   say so.
 /// What turns comes along a face's normal by no more than a bound that is safe. Who hangs only if it comes as far as

@@ -29,7 +29,7 @@ def kind_of(name):
 
 
 def most_broken(known, kind, clause, steps):
-    """As known_and_open.hpp has it."""
+    """By the share of all families together: the checker judges few steps of each."""
     for entry in known["random"]:
         if (entry["runs"], entry["clause"]) == (kind, clause):
             expected = entry["steps_in_a_million"] * steps / 1e6
