@@ -267,8 +267,7 @@ double CompanyJudge::off_at(const TraceStep& one, const TraceStep& other, const 
     if (off <= told) return true;
     if (pair_.separation(mine, theirs) > reach_) return false;
     const auto look = [&](const Vec2d& pace) {
-      if (const double approach = -pace.dot(met.normal);
-          approach >= detail::least_approach * pace.norm() && approach > 0)
+      if (const double approach = -pace.dot(met.normal); approach > detail::least_approach * pace.norm())
         off = std::min(off, std::abs(met.fraction - fraction) * approach);
     };
     look(rate_before(one.path, fraction) - rate_before(other.path, fraction));

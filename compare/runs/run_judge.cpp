@@ -128,7 +128,7 @@ void RunJudge::add(std::span<TraceStep> records) {
       judge_met(asked[k], asked);
       judge_rest(asked[k], follower);
       judge_ride(asked[k], follower);
-      judge_carrier(there);
+      judge_carrier(there, follower);
     }
     follower.inside = judgements_[k].end_overlap;
     follower.intent.end(records[k]);
@@ -255,10 +255,38 @@ void RunJudge::judge_rest(const TraceStep& record, const Follower& follower) {
                      metres((record.path.back().position - before.path.back().position).norm())));
 }
 
-/// What it says that it rides is there, and goes as it says.
-void RunJudge::judge_carrier(const SolidsInStep& there) {
+/// Whether the step goes on ground that moves or conveys, and on no other, all along, and is held there by gravity.
+bool RunJudge::is_carried_unsaid(const SolidsInStep& there, const Follower& follower) const {
   const TraceStep& record = there.step();
-  if (!record.ride || header_.guarantees.empty()) return;
+  const bool goes_on = !follower.last.empty() && !record.respawn && !record.from && follower.last.back().grounded;
+  const bool plain = record.grounded && record.met.empty() && record.start_overlap.empty() && record.crushed.empty() &&
+                     !record.stuck && !record.dropped && record.dropped_through.empty() && !follower.wanted.jumped &&
+                     record.vertex_ways.empty() && header_.substeps == 1 && !company_;
+  if (!goes_on || !plain) return false;
+  const Vec2d up = up_in(record, header_);
+  if (!(gravity_in(record, header_).dot(up) < 0)) return false;
+  const auto stands_on_what_moves = [&](const PathPoint<double>& at) {
+    bool stands = false;
+    for (const NearPart& part : solids().near_parts(Place(at, record.movers), guaranteed_gap))
+      for (const NearFace& face : part.faces) {
+        if (!(face.normal.dot(up) > 0)) continue;
+        if (part.moved.isZero(0) && header_.scenery.colliders[part.collider].surface_speed == 0) return false;
+        stands = stands || is_walked_on(face.normal, header_, up);
+      }
+    return stands;
+  };
+  return std::all_of(record.path.begin(), record.path.end(), stands_on_what_moves);
+}
+
+/// What it says that it rides is there, and goes as it says.
+void RunJudge::judge_carrier(const SolidsInStep& there, const Follower& follower) {
+  const TraceStep& record = there.step();
+  if (header_.guarantees.empty()) return;
+  if (!record.ride) {
+    if (is_carried_unsaid(there, follower))
+      note(Clause::ground_missed, record, "stands on what moves all along, and says no ride");
+    return;
+  }
   const ColliderIndex carrier = record.ride->collider;
   const Place end(record.path.back(), record.movers);
   const Vec2d up = up_in(record, header_);
@@ -376,12 +404,15 @@ void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged,
       const PathPoint<double>& begin = waited ? corner : record.path[i - 1];
       const Vec2d pace =
           waited ? record.requested : Vec2d((corner.position - begin.position) / (corner.fraction - begin.fraction));
-      std::vector<Vec2d> paces = company_ ? company_->ways_at(record, records, corner.fraction) : std::vector<Vec2d>{};
-      paces.push_back(pace);
-      for (const Vec2d& goes : paces)
-        if (const double approach = (carried - goes).dot(contact.normal);
-            approach >= detail::least_approach * (carried - goes).norm() && approach > 0)
+      // A way that others leave, and that runs along the face, comes to it at no time.
+      const auto look = [&](const Vec2d& goes, double least) {
+        if (const double approach = (carried - goes).dot(contact.normal); approach > least * (carried - goes).norm())
           off = std::min(off, std::abs(contact.fraction - corner.fraction) * approach);
+      };
+      look(pace, 0);
+      if (company_)
+        for (const Vec2d& goes : company_->ways_at(record, records, corner.fraction))
+          look(goes, detail::least_approach);
       // A motion that grazes stops long before it touches; what it would touch is of one direction with what it
       // reports.
       const Place far(begin.position + pace * (1 - begin.fraction), record.movers, 1);

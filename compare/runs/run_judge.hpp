@@ -58,7 +58,8 @@ class RunJudge {
   void judge_wish(const TraceStep& record, const Wanted& wanted, const Follower& follower);
   void judge_rest(const TraceStep& record, const Follower& follower);
   void judge_ride(const TraceStep& record, const Follower& follower);
-  void judge_carrier(const SolidsInStep& there);
+  void judge_carrier(const SolidsInStep& there, const Follower& follower);
+  [[nodiscard]] bool is_carried_unsaid(const SolidsInStep& there, const Follower& follower) const;
   void judge_clauses(const TraceStep& record, const StepJudgement& judged, std::span<const TraceStep> records);
   void judge_velocity(const SolidsInStep& there, const StepJudgement& judged, const Follower& follower);
   void judge_movers(const TraceStep& record);
