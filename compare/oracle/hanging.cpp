@@ -115,7 +115,7 @@ std::vector<HangingJudge::Nearby> HangingJudge::near_corners(const Vec2d& fall, 
       };
       const Obstacle whole = obstacle(part.moved);
       const auto lets_fall = [&](const HalfPlane& plane) {
-        return plane.separation >= reach.opening && plane.holds(fall);
+        return plane.separation >= reach.opening && plane.normal.dot(fall) >= 0;  // however it moves
       };
       const bool falls_past = std::any_of(whole.begin(), whole.end(), lets_fall);
       Nearby& nearby = corners[corner];

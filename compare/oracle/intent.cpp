@@ -88,7 +88,16 @@ bool Intent::jumped_later(const TraceStep& step) const {
   const bool landed = std::any_of(step.contacts.begin(), step.contacts.end(), [&](const Contact<double>& contact) {
     return contact.fraction * parts_ < parts_ - 1 && is_walked_on(contact.normal, *header_, up);
   });
-  return landed && (step.jumping ? step.velocity.dot(up) > rise_ : step.grounded);
+  if (!landed || step.jumping) return landed && step.velocity.dot(up) > rise_;
+  // It landed once more, if it went up as only a jump does.
+  const double dt = length_of(step, *header_);
+  for (std::size_t i = 1; i < step.path.size() && step.grounded; ++i) {
+    const PathPoint<double>& from = step.path[i - 1];
+    const double time = (step.path[i].fraction - from.fraction) * dt;
+    if (time > 0 && (step.path[i].position - from.position).dot(up) > header_->character.jump_speed / 2 * time)
+      return true;
+  }
+  return false;
 }
 
 /// The button, and the time in the air, in the parts after the first one.

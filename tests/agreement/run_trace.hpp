@@ -33,6 +33,7 @@ class BrokenByRuns {
   }
   /// On how many steps the runs of a kind broke a clause; forgets them all.
   [[nodiscard]] int take(const std::string& kind, compare::Clause clause) {
+    EXPECT_GT(steps_[kind], 0) << "no run of " << kind;
     const int steps = broken_[{kind, clause}];
     broken_.clear();
     steps_.clear();

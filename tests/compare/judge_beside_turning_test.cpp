@@ -187,9 +187,9 @@ TEST(BesideTurning, a_fall_in_parts_is_that_of_all_parts) {
   }
 }
 
-/// Presses the button in the air, and ends a step in four parts as told.
+/// Presses the button in the air, and ends a step in four parts as told, on its second corner `way_up` above the first.
 /// @return whether the press is still there to jump from ground in the next step.
-bool is_press_left(const Contact<double>& contact, double rise, bool grounded, bool jumping) {
+bool is_press_left(const Contact<double>& contact, double rise, bool grounded, bool jumping, double way_up = -0.1) {
   TraceHeader header = promising({});
   header.gravity = {0, -10};
   header.starts = {{.position = {0, 0}, .velocity = {0, -9}}};
@@ -198,6 +198,7 @@ bool is_press_left(const Contact<double>& contact, double rise, bool grounded, b
   first.input.jump = true;
   EXPECT_TRUE(intent.begin(first, 4, {}).pending);
   first.contacts = {contact};
+  first.path = {{{0, 0}, 0}, {{0, way_up}, 0.5}, {{0, -0.1}, 1}};
   first.velocity = {0, rise};
   first.grounded = grounded;
   first.jumping = jumping;
@@ -220,7 +221,8 @@ TEST(PressOfTheButton, is_used_up_by_who_lands_in_a_part_before_the_last_one) {
   };
   const Contact<double> steep{.normal = {0.8, 0.6}, .fraction = 0.3, .side = Side::bottom};
   EXPECT_FALSE(is_press_left(ground(0.3), 10, false, true)) << "it rises";
-  EXPECT_FALSE(is_press_left(ground(0.3), 0, true, false)) << "a ceiling ended the jump, and it landed again";
+  EXPECT_FALSE(is_press_left(ground(0.3), 0, true, false, 0.05)) << "a ceiling ended the jump, and it landed again";
+  EXPECT_TRUE(is_press_left(ground(0.3), 0, true, false)) << "it landed, left the ground and landed again";
   EXPECT_TRUE(is_press_left(ground(0.9), 0, true, false)) << "it landed in the last part";
   EXPECT_TRUE(is_press_left(steep, -2, false, false)) << "it slides";
 }

@@ -125,7 +125,7 @@ class Intent:
         return way
 
     def end_later_parts(self, step, dt, parts, frame):
-        if self.pending and self.jumped_later(step, parts, frame):
+        if self.pending and self.jumped_later(step, dt, parts, frame):
             self.jumping, self.pending, self.coyote_left = True, False, 0.0
         for _ in range(parts - 1):
             if self.pending and self.character.get("jump_buffer") is not None:
@@ -134,7 +134,7 @@ class Intent:
             if not self.grounded:
                 self.coyote_left = max(self.coyote_left - dt / parts, 0)
 
-    def jumped_later(self, step, parts, frame):
+    def jumped_later(self, step, dt, parts, frame):
         """Who lands in a part of a step may jump in the next. A jump that went on before, or ends with the step, needs
         ground in a part before the last."""
         jumping = step.get("jumping", False)
@@ -143,7 +143,12 @@ class Intent:
         walkable = cos(radians(self.character["max_climb_degrees"]) + CLIMB)
         landed = any(contact["fraction"] * parts < parts - 1 and frame.rise(contact["normal"]) >= walkable
                      for contact in step["contacts"])
-        return landed and (frame.rise(step["velocity"]) > self.rise if jumping else step["grounded"])
+        if jumping or not landed:
+            return landed and frame.rise(step["velocity"]) > self.rise
+        # It landed once more, if it went up as only a jump does.
+        rises = [(frame.rise(b) - frame.rise(a), float(b[2]) - float(a[2])) for a, b in zip(step["path"], step["path"][1:])]
+        fast = self.character["jump_speed"] / 2 * dt
+        return step["grounded"] and any(time > 0 and rise > fast * time for rise, time in rises)
 
     def end(self, step, dt, motion, frame):
         if motion.parts() > 1:
