@@ -129,6 +129,14 @@ double LegJudge::rounding() const {
   return rounding;
 }
 
+/// Whether it comes near two obstacles: one alone squeezes nobody.
+bool LegJudge::is_between_two() const {
+  const double reach = own_speed() * dt_ + contact_reach + pushed();
+  for (std::size_t corner = 0; corner < step_.path.size(); ++corner)
+    if (near(corner, reach).size() > 1) return true;
+  return false;
+}
+
 /// How far the last leg goes straight down at once, and so no farther than a walk is held to the ground [m].
 double LegJudge::snapped() const {
   if (!wanted_.from_ground || step_.path.size() < 2) return 0;
@@ -161,7 +169,7 @@ double LegJudge::way_gained(std::size_t first, bool held) const {
   speed += conveyed();
   const double moved = pushed();
   const auto moves = [](const MoverMotion<double>& motion) { return motion.from != motion.to; };
-  const bool may_be_thrown = std::any_of(step_.movers.begin(), step_.movers.end(), moves) ||
+  const bool may_be_thrown = (std::any_of(step_.movers.begin(), step_.movers.end(), moves) && is_between_two()) ||
                              !step_.vertex_ways.empty() || !step_.start_overlap_characters.empty();
   if (moved > 0) room += moved + (may_be_thrown ? push_beyond_motion : 0);
   return std::max(0.0, longer(speed) - room);

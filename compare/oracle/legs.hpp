@@ -22,8 +22,8 @@ namespace paperproof::compare::detail {
 /// gap is restored by 2e-6 m and, on a leg that aims at it, by 1e-6 m; ground that hardly bends is followed by 2.8e-6
 /// m, and at the end straight down by `snap` where a walk may; a walk climbs 4 stairs, up and down by `step_height`,
 /// and goes on as it wanted in between; and what moves, and may reach the character in the step, pushes it as far as it
-/// goes itself, and by `push_beyond_motion` more. Other characters do that by no more than they want themselves, or
-/// hand on (`Others`), and without the last.
+/// goes itself, and by `push_beyond_motion` more between two obstacles. Other characters do that by no more than they
+/// want themselves, or hand on (`Others`), and without the last.
 ///
 /// **Speed.** At the end it is no faster than the same speed and that of all that moves and may reach it.
 ///
@@ -52,6 +52,7 @@ class LegJudge {
   [[nodiscard]] bool is_beside_what_moves() const;
   [[nodiscard]] double rounding() const;
   [[nodiscard]] double snapped() const;
+  [[nodiscard]] bool is_between_two() const;
 
   const TraceHeader& header_;
   const ExactScenery& scenery_;

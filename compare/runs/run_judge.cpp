@@ -255,6 +255,20 @@ void RunJudge::judge_rest(const TraceStep& record, const Follower& follower) {
                      metres((record.path.back().position - before.path.back().position).norm())));
 }
 
+/// Whether it says that its ground moves, and has touched nothing that does since it said otherwise.
+bool RunJudge::is_ground_velocity_invented(const SolidsInStep& there, const Follower& follower) const {
+  const TraceStep& record = there.step();
+  const bool is_kept = !follower.last.empty() && follower.last.back().ground_velocity == record.ground_velocity;
+  if (record.ground_velocity.isZero(0) || is_kept || company_ || record.from || !record.vertex_ways.empty())
+    return false;
+  return std::none_of(record.path.begin(), record.path.end(), [&](const PathPoint<double>& at) {
+    const std::vector<NearPart> parts = solids().near_parts(Place(at, record.movers), guaranteed_gap);
+    return std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
+      return !part.moved.isZero(0) || header_.scenery.colliders[part.collider].surface_speed != 0;
+    });
+  });
+}
+
 /// Whether the step goes on ground that moves or conveys, and on no other, all along, and is held there by gravity.
 bool RunJudge::is_carried_unsaid(const SolidsInStep& there, const Follower& follower) const {
   const TraceStep& record = there.step();
@@ -282,6 +296,8 @@ bool RunJudge::is_carried_unsaid(const SolidsInStep& there, const Follower& foll
 void RunJudge::judge_carrier(const SolidsInStep& there, const Follower& follower) {
   const TraceStep& record = there.step();
   if (header_.guarantees.empty()) return;
+  if (is_ground_velocity_invented(there, follower))
+    note(Clause::wanted, record, "says that its ground moves, and none does");
   if (!record.ride) {
     if (is_carried_unsaid(there, follower))
       note(Clause::ground_missed, record, "stands on what moves all along, and says no ride");
@@ -428,6 +444,10 @@ void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged,
 /// What it says that it dropped through is one-way, was asked for, and was passed, or stood upon where a leg begins: by
 /// the octagon itself or, as rounding may name a chain whose tip is grazed, by one a little to its side.
 void RunJudge::judge_drops(const TraceStep& record) {
+  for (const Contact<double>& contact : record.contacts)
+    if (record.input.drop && header_.scenery.colliders[contact.collider].one_way)
+      note(Clause::contact_invented, record,
+           "reports a contact with `" + header_.ids[contact.collider] + "`, which blocks nobody who drops");
   constexpr double aside = 1e-5;
   for (const ColliderIndex chain : record.dropped_through) {
     const std::optional<Vec2d>& one_way = header_.scenery.colliders[chain].one_way;
