@@ -51,7 +51,7 @@ class KnownAndOpen(unittest.TestCase):
     def test_the_scenes_beside_the_list_are_named_in_it(self):
         named = {entry["compare"][0] for entry in self.known["commands"] if entry["compare"][0].endswith(".json")}
         folder = Path(KNOWN).with_suffix("")
-        self.assertEqual(named, {f"{folder.name}/{path.name}" for path in folder.iterdir()})
+        self.assertEqual(named, {f"{folder.name}/{path.name}" for path in folder.glob("*.json")})
         for entry in self.known["maps"]:
             self.assertIn(f"{folder.name}/{entry['as']}.json", named)
 
