@@ -42,6 +42,7 @@ void for_each_touching(b2Body& body, const Each& each) {
   for (const b2ContactEdge* edge = body.GetContactList(); edge != nullptr; edge = edge->next) {
     b2Contact& contact = *edge->contact;
     if (!contact.IsTouching() || !contact.IsEnabled() || edge->other->GetType() != b2_dynamicBody) continue;
+    if (contact.GetManifold()->pointCount == 0) continue;  // a sensor: Box2D leaves its normal as it was in memory
     b2WorldManifold manifold;
     contact.GetWorldManifold(&manifold);
     const double side = contact.GetFixtureB()->GetBody() == &body ? 1 : -1;
