@@ -21,13 +21,14 @@ class Totals {
     failed_ += row.verdict == Verdict::failed;
     if (row.contender != "octagon_sweep") return;
     Count& count = row.scalar == "double" ? in_double_ : in_float_;
+    const bool violates = row.verdict == Verdict::violates;
     const bool breaks =
         row.verdict == Verdict::tunnels || (row.verdict == Verdict::flagged && row.steps_ending_inside.value_or(0) > 0);
     count.steps += row.steps;
     count.asked_for = true;
     count.runs += row.verdict != Verdict::not_applicable;
-    count.broken += row.scalar == "double" ? row.verdict == Verdict::violates : breaks;
-    if (row.scalar == "double" && row.verdict == Verdict::violates)
+    count.broken += row.scalar == "double" ? violates : breaks;
+    if (row.scalar == "double" && violates)
       for (const auto& [clause, steps] : row.broken) broken_[clause] += steps;
   }
   [[nodiscard]] bool trouble() const { return in_double_.broken > 0 || failed_ > 0; }
@@ -54,7 +55,7 @@ class Totals {
     int broken = 0;
     [[nodiscard]] std::string extent() const { return counted(steps, "step") + " in " + counted(runs, "run"); }
   };
-  /// What was broken, and how often.
+  /// The broken clauses, each with the number of steps that broke it.
   [[nodiscard]] std::string clauses() const {
     std::string words;
     for (const auto& [clause, steps] : broken_)

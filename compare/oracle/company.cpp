@@ -413,9 +413,8 @@ void CompanyJudge::excuse(const TraceStep& one, const TraceStep& other, StepJudg
   const bool near = touch(one, other);
   bool opposed = false;
   const Vec2d up = up_in(one, header_);
-  const Vec2d right(up.y(), -up.x());
-  const double across = one.requested.dot(right);
-  const Vec2d wanted = (across + std::copysign(reach_, across)) * right;
+  const double across = seen(one.requested, up).x();
+  const Vec2d wanted = in_world({across + std::copysign(reach_, across), 0}, up);
   // The other comes from ahead, or from above on a shoulder.
   const auto is_pushed = [&](const Vec2d& mine, const Vec2d& theirs) {
     const auto impact = pair_.first_impact(mine, wanted, theirs, other.requested);

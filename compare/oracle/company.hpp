@@ -29,10 +29,11 @@ namespace paperproof::compare {
 /// way (float: within the gap at which it still touches; Box2D: its skin, 20 mm). What was requested then no longer
 /// says what scenery is met, so contacts with scenery that are only reported, or only exact, count neither way
 /// (exempted). Of octagon_sweep in double, which has no such exemption, two things are still compared: a reported
-/// contact is right where a face is there, and one that is exact is none where the other turns the motion aside
-/// before: what was requested enters the other, as that goes, no later; and the contact is exact only from the start of
-/// the step, or what the other may leave of the motion does not lead into it. Horizontal speed is not lost to nothing
-/// where the other opposes it, where it is or wants to go (within the step and the skin beyond, as for solids).
+/// contact is right where a face is there, and an exact contact does not count where the other turns the motion aside
+/// first: the requested motion enters the other no later than it touches the scenery; and the contact is exact only
+/// from the start of the step, or what the other leaves of the motion does not lead into it. Horizontal speed is not
+/// lost to nothing where the other opposes it, where it is or wants to go (within the step and the skin beyond, as for
+/// solids).
 class CompanyJudge {
  public:
   explicit CompanyJudge(const TraceHeader& header);

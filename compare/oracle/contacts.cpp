@@ -257,7 +257,7 @@ bool ContactJudge::met_after_another(const Contact<double>& contact, std::span<c
   const auto leads_in = [&](const Vec2d& d, const ExactContact& one) {
     const Vec2d pushed = step_.requested - wanted(one.collider);
     if (is_walkable(one.normal, header_, up_) && contact.normal.dot(pushed - own) < 0) return true;
-    // Where an impact ends the motion, what is left goes along with the face, as far as that goes along its normal.
+    // Where an impact ends the motion, the character moves on with the face, along the normal of that face.
     if (contact.normal.dot(one.normal * pushed.dot(one.normal) - own) < 0) return true;
     const Vec2d along = d - one.normal * std::min(0.0, (d - pushed).dot(one.normal)) - own;
     return std::min({contact.normal.dot(along), contact.normal.dot(right_) * (d - own).dot(right_),

@@ -27,7 +27,8 @@ constexpr std::array<Exemption, 15> all_exemptions{{
      {0, box2d_skin, its_own, its_own}},
     {Exempt::hover,
      "hover",
-     "does not fall above, or beside, what is no farther than this; or stands on ground 7e-7 m or less beside the foot",
+     "does not fall, and no solid below or beside it is farther than this; or stands on ground that is beside its foot "
+     "by up to 7e-7 m",
      "m",
      {0, box2d_skin, its_own, its_own}},
     {Exempt::company,

@@ -79,8 +79,8 @@ double Intent::use_button(const TraceStep& step, double dt, double rise, const W
   return character.jump_speed * (pressed ? 1 : character.jump_cut);
 }
 
-/// Whether a step in parts jumps after its first part. Who jumped before, or does no longer at the end, has landed in a
-/// part before the last one; and a jump that goes on is faster than what was wanted.
+/// Whether a step in parts jumps after its first part. A character whose jump goes on, or has ended, must have landed
+/// in a part before the last one. A new jump rises faster than the step was to rise.
 bool Intent::jumped_later(const TraceStep& step) const {
   if (!jump_pending_) return false;
   if (step.jumping && !jumping_) return true;
@@ -88,10 +88,12 @@ bool Intent::jumped_later(const TraceStep& step) const {
   const bool landed = std::any_of(step.contacts.begin(), step.contacts.end(), [&](const Contact<double>& contact) {
     return contact.fraction * parts_ < parts_ - 1 && is_walked_on(contact.normal, *header_, up);
   });
-  if (!landed || step.jumping) return landed && step.velocity.dot(up) > rise_;
+  if (!landed) return false;
+  if (step.jumping) return step.velocity.dot(up) > rise_;
+  if (!step.grounded) return false;
   // It landed once more, if it went up as only a jump does.
   const double dt = length_of(step, *header_);
-  for (std::size_t i = 1; i < step.path.size() && step.grounded; ++i) {
+  for (std::size_t i = 1; i < step.path.size(); ++i) {
     const PathPoint<double>& from = step.path[i - 1];
     const double time = (step.path[i].fraction - from.fraction) * dt;
     if (time > 0 && (step.path[i].position - from.position).dot(up) > header_->character.jump_speed / 2 * time)

@@ -3,6 +3,7 @@
 #include "oracle/contacts.hpp"
 #include "oracle/hanging.hpp"
 #include "oracle/met_surfaces.hpp"
+#include "oracle/up.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -42,11 +43,10 @@ bool climbs_stair(const TraceHeader& header, const TraceStep& step, const Wanted
   if (!(header.character.step_height > 0) || !wanted.from_ground || wanted.jumped) return false;
   const Vec2d up = up_in(step, header);
   for (std::size_t k = 2; k < step.path.size(); ++k) {
-    const Vec2d leg = step.path[k - 1].position - step.path[k - 2].position;
-    const double aside = std::abs(leg.dot(Vec2d(up.y(), -up.x())));
+    const Vec2d leg = seen(step.path[k - 1].position - step.path[k - 2].position, up);
     const bool goes_on_at_once = step.path[k].fraction == step.path[k - 1].fraction;
-    const bool straight = aside <= 4 * ulp_at(header, step.path[k].position);
-    if (goes_on_at_once && straight && leg.dot(up) > 0 && leg.dot(up) <= highest) return true;
+    const bool straight = std::abs(leg.x()) <= 4 * ulp_at(header, step.path[k].position);
+    if (goes_on_at_once && straight && leg.y() > 0 && leg.y() <= highest) return true;
   }
   return false;
 }
@@ -130,8 +130,9 @@ double LegJudge::rounding() const {
 }
 
 /// Whether it comes near two obstacles: one alone squeezes nobody.
-bool LegJudge::is_between_two() const {
-  const double reach = own_speed() * dt_ + contact_reach + pushed();
+/// @param pushed how far what moves may push it [m].
+bool LegJudge::is_between_two(double pushed) const {
+  const double reach = own_speed() * dt_ + contact_reach + pushed;
   for (std::size_t corner = 0; corner < step_.path.size(); ++corner)
     if (near(corner, reach).size() > 1) return true;
   return false;
@@ -168,10 +169,11 @@ double LegJudge::way_gained(std::size_t first, bool held) const {
   if (longer(speed) <= room) return 0;
   speed += conveyed();
   const double moved = pushed();
+  if (!(moved > 0)) return std::max(0.0, longer(speed) - room);
   const auto moves = [](const MoverMotion<double>& motion) { return motion.from != motion.to; };
-  const bool may_be_thrown = (std::any_of(step_.movers.begin(), step_.movers.end(), moves) && is_between_two()) ||
+  const bool may_be_thrown = (std::any_of(step_.movers.begin(), step_.movers.end(), moves) && is_between_two(moved)) ||
                              !step_.vertex_ways.empty() || !step_.start_overlap_characters.empty();
-  if (moved > 0) room += moved + (may_be_thrown ? push_beyond_motion : 0);
+  room += moved + (may_be_thrown ? push_beyond_motion : 0);
   return std::max(0.0, longer(speed) - room);
 }
 

@@ -52,7 +52,7 @@ class LegJudge {
   [[nodiscard]] bool is_beside_what_moves() const;
   [[nodiscard]] double rounding() const;
   [[nodiscard]] double snapped() const;
-  [[nodiscard]] bool is_between_two() const;
+  [[nodiscard]] bool is_between_two(double pushed) const;
 
   const TraceHeader& header_;
   const ExactScenery& scenery_;

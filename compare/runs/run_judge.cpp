@@ -256,22 +256,22 @@ void RunJudge::judge_rest(const TraceStep& record, const Follower& follower) {
 }
 
 /// Whether it says that its ground moves, and has touched nothing that does since it said otherwise.
-bool RunJudge::is_ground_velocity_invented(const SolidsInStep& there, const Follower& follower) const {
-  const TraceStep& record = there.step();
+bool RunJudge::is_ground_velocity_invented(const TraceStep& record, const Follower& follower) const {
   const bool is_kept = !follower.last.empty() && follower.last.back().ground_velocity == record.ground_velocity;
   if (record.ground_velocity.isZero(0) || is_kept || company_ || record.from || !record.vertex_ways.empty())
     return false;
   return std::none_of(record.path.begin(), record.path.end(), [&](const PathPoint<double>& at) {
     const std::vector<NearPart> parts = solids().near_parts(Place(at, record.movers), guaranteed_gap);
-    return std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
-      return !part.moved.isZero(0) || header_.scenery.colliders[part.collider].surface_speed != 0;
-    });
+    return std::any_of(parts.begin(), parts.end(), [this](const NearPart& part) { return moves_or_conveys(part); });
   });
 }
 
+bool RunJudge::moves_or_conveys(const NearPart& part) const {
+  return !part.moved.isZero(0) || header_.scenery.colliders[part.collider].surface_speed != 0;
+}
+
 /// Whether the step goes on ground that moves or conveys, and on no other, all along, and is held there by gravity.
-bool RunJudge::is_carried_unsaid(const SolidsInStep& there, const Follower& follower) const {
-  const TraceStep& record = there.step();
+bool RunJudge::is_carried_unsaid(const TraceStep& record, const Follower& follower) const {
   const bool goes_on = !follower.last.empty() && !record.respawn && !record.from && follower.last.back().grounded;
   const bool plain = record.grounded && record.met.empty() && record.start_overlap.empty() && record.crushed.empty() &&
                      !record.stuck && !record.dropped && record.dropped_through.empty() && !follower.wanted.jumped &&
@@ -284,7 +284,7 @@ bool RunJudge::is_carried_unsaid(const SolidsInStep& there, const Follower& foll
     for (const NearPart& part : solids().near_parts(Place(at, record.movers), guaranteed_gap))
       for (const NearFace& face : part.faces) {
         if (!(face.normal.dot(up) > 0)) continue;
-        if (part.moved.isZero(0) && header_.scenery.colliders[part.collider].surface_speed == 0) return false;
+        if (!moves_or_conveys(part)) return false;
         stands = stands || is_walked_on(face.normal, header_, up);
       }
     return stands;
@@ -296,10 +296,10 @@ bool RunJudge::is_carried_unsaid(const SolidsInStep& there, const Follower& foll
 void RunJudge::judge_carrier(const SolidsInStep& there, const Follower& follower) {
   const TraceStep& record = there.step();
   if (header_.guarantees.empty()) return;
-  if (is_ground_velocity_invented(there, follower))
+  if (is_ground_velocity_invented(record, follower))
     note(Clause::wanted, record, "says that its ground moves, and none does");
   if (!record.ride) {
-    if (is_carried_unsaid(there, follower))
+    if (is_carried_unsaid(record, follower))
       note(Clause::ground_missed, record, "stands on what moves all along, and says no ride");
     return;
   }

@@ -59,8 +59,9 @@ class RunJudge {
   void judge_rest(const TraceStep& record, const Follower& follower);
   void judge_ride(const TraceStep& record, const Follower& follower);
   void judge_carrier(const SolidsInStep& there, const Follower& follower);
-  [[nodiscard]] bool is_ground_velocity_invented(const SolidsInStep& there, const Follower& follower) const;
-  [[nodiscard]] bool is_carried_unsaid(const SolidsInStep& there, const Follower& follower) const;
+  [[nodiscard]] bool is_ground_velocity_invented(const TraceStep& record, const Follower& follower) const;
+  [[nodiscard]] bool is_carried_unsaid(const TraceStep& record, const Follower& follower) const;
+  [[nodiscard]] bool moves_or_conveys(const NearPart& part) const;
   void judge_clauses(const TraceStep& record, const StepJudgement& judged, std::span<const TraceStep> records);
   void judge_velocity(const SolidsInStep& there, const StepJudgement& judged, const Follower& follower);
   void judge_movers(const TraceStep& record);

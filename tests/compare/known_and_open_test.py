@@ -84,10 +84,11 @@ class KnownAndOpen(unittest.TestCase):
         self.assertEqual(named, {file.name for file in (Path(KNOWN).parent / "known_and_open/lies").iterdir()})
 
     def test_the_readme_says_how_many(self):
-        said = re.search(r"(\d+) commands and (\d+) kinds of random runs,\s+and (\d+) sectors of maps;\s+and (\d+) false traces",
-                         Path(README).read_text(encoding="utf-8"))
+        said = re.search(r"(\d+) commands and (\d+) kinds of random runs,\s+and (\d+) sectors of maps;"
+                         r"\s+and (\d+) false traces", Path(README).read_text(encoding="utf-8"))
         self.assertIsNotNone(said, "the README does not say how many are known and open")
-        self.assertEqual(tuple(map(int, said.groups())), tuple(len(self.known[key]) for key in ("commands", "random", "maps", "lies")))
+        counts = [len(self.known[key]) for key in ("commands", "random", "maps", "lies")]
+        self.assertEqual([int(number) for number in said.groups()], counts)
 
 
 if __name__ == "__main__":
