@@ -62,7 +62,14 @@ void EndJudge::judge_ground(const HangingJudge& hanging, bool starts_free, StepJ
     return face.separation >= 0 && is_walkable(face.normal, header_, up_);
   };
   if (step_.grounded) {
-    const bool on_ground = any_face(walkable);
+    // Who stands does not go on into its ground. How what turns, or another character, goes then is not known.
+    const auto holds = [&](const NearPart& part, const NearFace& face) {
+      const bool is_known = part.collider != no_collider && find_way(step_.vertex_ways, part.collider) == nullptr;
+      const double apart = face.normal.dot(step_.velocity * dt_ - part.moved);
+      const double rounding = rounding_of_motion * (1 + step_.velocity.norm() * dt_);
+      return walkable(part, face) && (!is_known || apart >= -guaranteed_touch - rounding);
+    };
+    const bool on_ground = any_face(holds);
     judgement.ground_refuted = !on_ground && !hanging.is_held_at_end(guaranteed_touch + touch_rounding);
     judgement.hovers = judgement.hovers || (on_ground && !stands_on_ground());
     return;
@@ -123,26 +130,22 @@ double EndJudge::flight_error() const {
                   too_slow <= rounding_of_motion * (1 + wanted_.velocity.norm()) ? 0 : too_slow);
 }
 
-/// The upward speed that is missing, or too much, without anything exact that could have taken or given it [m/s].
-double EndJudge::vertical_error() const {
-  const double asked = wanted_.velocity.dot(up_);
-  const double left = step_.velocity.dot(up_);
-  const double error = std::abs(asked - left);
-  if (error <= rounding_of_motion * (1 + wanted_.velocity.norm())) return 0;
+/// The upward speed that is missing without anything exact that could have taken it [m/s].
+double EndJudge::rise_lost() const {
+  const double lost = (wanted_.velocity - step_.velocity).dot(up_);
+  if (lost <= rounding_of_motion * (1 + wanted_.velocity.norm())) return 0;
   const Vec2d right(up_.y(), -up_.x());
   for (std::size_t corner = 0; corner < step_.path.size(); ++corner)
     for (const NearPart& part : near(corner, contact_reach))
       for (const NearFace& face : part.faces) {
         const double slope = face.normal.dot(up_);
-        const bool moves = !part.moved.isZero(0);
         const bool is_wall = std::abs(face.normal.dot(right)) > rounding_of_motion;
-        if (left > asked ? slope > 0 || moves : slope < 0 || moves) return 0;
         const bool follows = slope > 0 && std::abs(face.normal.dot(step_.velocity)) <=
                                               guaranteed_touch / dt_ + rounding_of_motion * step_.velocity.norm();
         const bool ends_rise = is_wall && (wanted_.from_ground || header_.character.side_hit_ends_rise);
-        if (left < asked && (follows || ends_rise)) return 0;
+        if (slope < 0 || !part.moved.isZero(0) || follows || ends_rise) return 0;
       }
-  return error;
+  return lost;
 }
 
 void EndJudge::judge_speed(bool starts_free, StepJudgement& judgement) const {
@@ -154,7 +157,7 @@ void EndJudge::judge_speed(bool starts_free, StepJudgement& judgement) const {
   if (goes_freely())
     judgement.speed_lost = may_snap ? 0 : flight_error();
   else
-    judgement.speed_lost = may_snap ? 0 : vertical_error();
+    judgement.speed_lost = may_snap ? 0 : rise_lost();
 }
 
 }  // namespace paperproof::compare::detail

@@ -16,7 +16,8 @@ inline constexpr double touch_rounding = 1e-8;
 /// Holds the end of one step against exact arithmetic and the law of motion, for a contender that promises both. Lives
 /// for one step.
 ///
-/// **Grounded** is right where a solid or another character has a walkable face within `guaranteed_touch`, or where the
+/// **Grounded** is right where a solid or another character has a walkable face within `guaranteed_touch` that the
+/// velocity does not lead into by more than that in one step (not asked of what turns, and of characters), or where the
 /// unsteered motion points down and all that is within it leaves no way down (a wedge). It hovers where no walkable
 /// face is met by an exact motion straight down by the gap: the octagon only touches beside the face.
 ///
@@ -24,10 +25,9 @@ inline constexpr double touch_rounding = 1e-8;
 /// normal, no jump began, the unsteered motion leads into it, and the motion at the end goes along all such faces: in
 /// one more step it would part them, or press in, by no more than that.
 ///
-/// **Speed lost or gained.** A step that begins free, and whose wanted motion comes within 1e-6 m of nothing, goes
-/// exactly as wanted. Else the upward speed is less than wanted only below a ceiling, on ground that is followed, or
-/// where a climb ends with the walk at a wall; and more than wanted only on a face that looks upwards. How fast
-/// and far it may go at most is a matter of `LegJudge`.
+/// **Speed lost.** A step that begins free, and whose wanted motion comes within 1e-6 m of nothing, goes exactly as
+/// wanted. Else the upward speed is less than wanted only below a ceiling, on ground that is followed, or where a climb
+/// ends with the walk at a wall. How fast and far it may go at most is a matter of `LegJudge`.
 class EndJudge {
  public:
   /// @param grown_scenery the same for an octagon that is larger by 1e-6 m.
@@ -48,7 +48,7 @@ class EndJudge {
   [[nodiscard]] bool stands_on_ground() const;
   [[nodiscard]] bool goes_freely() const;
   [[nodiscard]] double flight_error() const;
-  [[nodiscard]] double vertical_error() const;
+  [[nodiscard]] double rise_lost() const;
   [[nodiscard]] bool is_alone() const;
 
   const TraceHeader& header_;

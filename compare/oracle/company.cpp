@@ -120,7 +120,7 @@ Others CompanyJudge::others_of(CharacterIndex character, std::span<const TraceSt
                     .moved = end_of(other) - start_of(other),
                     .faces = pair_.near_faces(corner.position, place_at(other.path, corner.fraction), within)};
       if (part.faces.empty()) continue;
-      part.comes = rate_before(other.path, corner.fraction);
+      part.comes = corner.fraction > 0 ? rate_before(other.path, corner.fraction) : other.requested;
       part.goes = rate_after(other.path, corner.fraction);
       parts.push_back(std::move(part));
     }

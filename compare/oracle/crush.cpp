@@ -27,12 +27,18 @@ class Departure {
     }
   }
 
-  [[nodiscard]] std::optional<Vec2d> room(const Place& end, double reach, const Others& characters) const {
+  /// @param movers that press: who is above a one-way chain, which ends no way, may go along with it.
+  [[nodiscard]] std::optional<Vec2d> room(const Place& end, double reach, std::span<const MoverIndex> movers,
+                                          const Others& characters) const {
     const auto can_go_there = [&](const Vec2d& position) {
       const Place there(position, end.movers, end.fraction);
       return (position - end.position).norm() <= reach && reaches(there) &&
              (!characters.left_free || characters.left_free(way_to(position)));
     };
+    for (const MoverIndex mover : movers) {
+      const Vec2d along = from_.position + end.offset(mover) - from_.offset(mover);
+      if (grown_scenery_.overlapped({along, end.movers, end.fraction}).empty() && can_go_there(along)) return along;
+    }
     const WayQuestion question{
         .from = from_, .end = end, .may_pass = inside_, .sides = sides_, .wider = grown_scenery_.points()};
     return scenery_.find_free(question, reach, least_clearance, can_go_there);
@@ -118,11 +124,15 @@ std::optional<Vec2d> find_room(const ExactScenery& scenery, const ExactScenery& 
                                const Meetings& meetings, const Others& characters) {
   const Place& end = path.back();
   double motion = 0;
+  std::vector<MoverIndex> movers;
   // What leaves the way later has been pressed into already, and where the step ends there is no time to go anywhere.
   std::size_t last = path.size();
   for (const ColliderIndex collider : crushed) {
     const MoverIndex mover = scenery.scenery().colliders[collider].mover;
-    if (mover != no_mover) motion = std::max(motion, (end.movers[mover].to - end.movers[mover].from).norm());
+    if (mover != no_mover) {
+      motion = std::max(motion, (end.movers[mover].to - end.movers[mover].from).norm());
+      movers.push_back(mover);
+    }
     const auto first = meetings.within_step.find(collider);
     if (first != meetings.within_step.end()) last = std::min(last, first->second);
   }
@@ -130,14 +140,14 @@ std::optional<Vec2d> find_room(const ExactScenery& scenery, const ExactScenery& 
   std::vector<Place> way;
   for (std::size_t corner = 0; corner < path.size() && corner <= last && path[corner].fraction < 1; ++corner) {
     way.push_back(path[corner]);
-    if (const auto room = Departure(scenery, grown_scenery, way, corner, meetings).room(end, reach, characters))
+    if (const auto room = Departure(scenery, grown_scenery, way, corner, meetings).room(end, reach, movers, characters))
       return room;
   }
   if (way.size() != last + 1 || last + 1 >= path.size()) return std::nullopt;
   const std::optional<Place> touched = touched_on(scenery, path[last], path[last + 1], crushed);
   if (!touched) return std::nullopt;
   way.push_back(*touched);
-  return Departure(scenery, grown_scenery, way, last, meetings).room(end, reach, characters);
+  return Departure(scenery, grown_scenery, way, last, meetings).room(end, reach, movers, characters);
 }
 
 }  // namespace paperproof::compare::detail

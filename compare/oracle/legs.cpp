@@ -25,6 +25,8 @@ constexpr double aims_away = 1e-6;
 constexpr double follows_seam = 2.8e-6;
 /// A walk climbs no more of them in one step.
 constexpr double most_stairs = 4;
+/// A shorter way is none [m].
+constexpr double least_way = 1e-12;
 /// Where something turns, a character waits for a millionth of each part of the step, and then catches up.
 constexpr double waits = 2e-6;
 
@@ -79,15 +81,68 @@ double LegJudge::own_speed() const {
          std::pow(steepest, static_cast<double>(std::max<std::ptrdiff_t>(1, grounds)));
 }
 
-/// The speed of all conveyors that are touched [m/s].
-double LegJudge::conveyed() const {
-  std::map<ColliderIndex, double> conveyors;
+/// What is wanted, in whichever part of the step.
+ControlledRange LegJudge::wanted_velocities() const {
+  std::vector<Vec2d> unsteered;
+  for (const Wanted* wanted : {&wanted_, &first_})
+    for (const Vec2d& velocity : {wanted->velocity, Vec2d(wanted->displacement / dt_)})
+      unsteered.push_back(seen(velocity - wanted->steered / dt_ * right_, up_));
+  ControlledRange range{.unsteered = Box2<double>::around(unsteered)};
+  range.unsteered.upper.y() += later_.jump;
+  // What turns under its rider takes it along otherwise in each part of the step.
+  double unsure = 0;
+  if (first_.from_ground)
+    for (const NearPart& part : near(0, contact_reach)) unsure = std::max(unsure, part.unsure);
+  range.unsteered = range.unsteered.inflated(unsure / dt_);
+  range.least_steering = std::min(first_.steered / dt_, 0.0) + later_.slower;
+  range.most_steering = std::max(first_.steered / dt_, 0.0) + later_.faster;
+  return range;
+}
+
+/// All that is near the way, in the order in which it comes to it.
+const std::vector<MetSurface>& LegJudge::surfaces() const {
+  if (surfaces_) return *surfaces_;
+  surfaces_.emplace();
+  const auto is_known = [this](const MetSurface& at) {
+    return std::any_of(surfaces_->begin(), surfaces_->end(), [&](const MetSurface& one) {
+      return one.normal == at.normal && one.velocity == at.velocity && one.spread == at.spread &&
+             one.walkable == at.walkable;
+    });
+  };
   for (std::size_t corner = 0; corner < step_.path.size(); ++corner)
-    for (const NearPart& part : scenery_.near_parts(Place(step_.path[corner], step_.movers), contact_reach))
-      conveyors[part.collider] = std::abs(header_.scenery.colliders[part.collider].surface_speed);
-  double speed = 0;
-  for (const auto& [collider, conveyor] : conveyors) speed += conveyor;
-  return speed;
+    for (const NearPart& part : near(corner, contact_reach))
+      for (const NearFace& face : part.faces)
+        for (const std::optional<Vec2d>& way : {std::optional(part.moved), part.comes, part.goes}) {
+          if (!way) continue;
+          MetSurface at{.normal = seen(face.normal, up_), .spread = part.unsure / dt_};
+          at.velocity = seen(*way, up_) / dt_;
+          // Two that say that they push each other do not vouch for each other.
+          if (part.collider == no_collider && others_.handed_on)
+            at.velocity *= std::min(1.0, others_.handed_on() / std::max(way->norm(), least_way));
+          if (part.collider != no_collider)
+            at.velocity +=
+                header_.scenery.colliders[part.collider].surface_speed * Vec2d(at.normal.y(), -at.normal.x());
+          at.walkable = is_walked_on(face.normal, header_, up_);
+          if (at.walkable && !is_known(at)) surfaces_->push_back(at);
+          // Ground carries; walls impart nothing along themselves. What slopes of a character is both.
+          if (at.walkable && part.collider != no_collider) continue;
+          at.walkable = false;
+          at.velocity = at.velocity.dot(at.normal) * at.normal;
+          if (!is_known(at)) surfaces_->push_back(at);
+        }
+  return *surfaces_;
+}
+
+/// All that the step may have at these surfaces, across and along up [m/s].
+/// @param held it is stuck, so that it wants to go nowhere.
+Box2<double> LegJudge::velocities(bool held, std::span<const MetSurface> surfaces) const {
+  ControlledRange range = held ? ControlledRange{} : wanted_velocities();
+  range.squeezed = push_beyond_motion / dt_;
+  const Box2<double> box = controlled_bounds(range, surfaces);
+  // What a part of the step has made falls on in the next.
+  const Vec2d falls = held ? Vec2d(Vec2d::Zero()) : seen(later_.velocity, up_);
+  const Box2<double> all = box.merged({box.lower + falls, box.upper + falls});
+  return step_.crushed.empty() ? all : all.merged({});  // a crush ends all motion
 }
 
 /// How far all goes in the step that moves and may reach the character [m].
@@ -149,55 +204,58 @@ double LegJudge::snapped() const {
 }
 
 double LegJudge::way_gained(std::size_t first, bool held) const {
-  const auto longer = [&](double speed) {
-    double excess = 0;
-    for (std::size_t leg = first; leg + 1 < step_.path.size(); ++leg) {
-      const PathPoint<double>& from = step_.path[leg];
-      const PathPoint<double>& to = step_.path[leg + 1];
-      excess += std::max(0.0, (to.position - from.position).norm() - (to.fraction - from.fraction) * dt_ * speed);
-    }
-    return excess;
-  };
-  double speed = held ? 0 : own_speed();
-  double room = restores_start + follows_seam + aims_away * static_cast<double>(step_.path.size()) + rounding();
-  if (!step_.vertex_ways.empty()) room += waits * wanted_.displacement.norm();
-  if (wanted_.from_ground && !held) {
-    room += snapped();
-    const double stairs = header_.character.step_height;
-    if (stairs > 0) room += most_stairs * 2 * stairs + std::abs(wanted_.displacement.dot(right_));
-  }
-  if (longer(speed) <= room) return 0;
-  speed += conveyed();
+  const double gained = farther(first, held, velocities(held, surfaces()), 0);
+  if (!(gained > 0)) return 0;
   const double moved = pushed();
-  if (!(moved > 0)) return std::max(0.0, longer(speed) - room);
+  if (!(moved > 0)) return gained;
   const auto moves = [](const MoverMotion<double>& motion) { return motion.from != motion.to; };
   const bool may_be_thrown = (std::any_of(step_.movers.begin(), step_.movers.end(), moves) && is_between_two(moved)) ||
                              !step_.vertex_ways.empty() || !step_.start_overlap_characters.empty();
-  room += moved + (may_be_thrown ? push_beyond_motion : 0);
-  return std::max(0.0, longer(speed) - room);
+  // Pushed at once, it goes on as if all rested: each motion counts once.
+  std::vector<MetSurface> resting = surfaces();
+  for (MetSurface& at : resting) at = {.normal = at.normal, .walkable = at.walkable};
+  return farther(first, held, velocities(held, resting), moved + (may_be_thrown ? push_beyond_motion : 0));
+}
+
+/// How much farther the way is, in one direction, than at these velocities [m]. @param push in any direction [m].
+double LegJudge::farther(std::size_t first, bool held, const Box2<double>& speeds, double push) const {
+  Vec2d above = Vec2d::Zero();
+  Vec2d below = Vec2d::Zero();
+  for (std::size_t leg = first; leg + 1 < step_.path.size(); ++leg) {
+    const PathPoint<double>& from = step_.path[leg];
+    const PathPoint<double>& to = step_.path[leg + 1];
+    const Vec2d way = seen(to.position - from.position, up_);
+    const double time = (to.fraction - from.fraction) * dt_;
+    above += (way - speeds.upper * time).cwiseMax(0);
+    below += (speeds.lower * time - way).cwiseMax(0);
+  }
+  double everywhere = rounding() + push;
+  if (!step_.vertex_ways.empty()) everywhere += waits * wanted_.displacement.norm();
+  Vec2d room_above = Vec2d::Zero();
+  Vec2d room_below = Vec2d::Zero();
+  const double gap = restores_start + aims_away * static_cast<double>(step_.path.size());
+  for (const MetSurface& at : surfaces()) {
+    room_above = room_above.cwiseMax(gap * at.normal);
+    room_below = room_below.cwiseMax(-gap * at.normal);
+  }
+  room_below.y() += follows_seam;
+  if (!held) room_below.y() += snapped();
+  if (!held && climbs_stair(header_, step_, first_)) {
+    // Atop it goes on to where it would have come.
+    const double across = (std::max(speeds.upper.x(), 0.0) - std::min(speeds.lower.x(), 0.0)) * dt_;
+    const Vec2d stairs(across, most_stairs * header_.character.step_height);
+    room_above += stairs;
+    room_below += stairs;
+  }
+  return std::max({0.0, (above - room_above).maxCoeff() - everywhere, (below - room_below).maxCoeff() - everywhere});
 }
 
 double LegJudge::speed_gained(bool held) const {
-  const double own = held ? 0 : own_speed();
-  const double speed = step_.velocity.norm();
-  const auto gained = [&](double most) { return speed - most <= relative_rounding * (1 + most) ? 0 : speed - most; };
-  double most = own;
-  double more = gained(most);
-  double moved = 0;
-  if (more > 0) {
-    moved = pushed();
-    most += moved / dt_ + conveyed();
-    more = gained(most);
-  }
-  // A fall becomes a rise only where a walk climbs, and that keeps its speed across up.
-  const bool rises = !held && step_.velocity.dot(up_) > relative_rounding && wanted_.velocity.dot(up_) < 0;
-  if (rises && step_.contacts.size() <= 1 && !is_beside_what_moves()) {
-    const double across = std::max(std::abs(wanted_.velocity.dot(right_)), std::abs(unsteered_.dot(right_))) +
-                          later_.steered() + conveyed();
-    const double too_fast = std::abs(step_.velocity.dot(right_)) - across;
-    if (too_fast > relative_rounding * (1 + most)) more = std::max(more, too_fast);
-  }
-  return more;
+  const Box2<double> speeds = velocities(held, surfaces());
+  const Vec2d velocity = seen(step_.velocity, up_);
+  const double gained = std::max((velocity - speeds.upper).maxCoeff(), (speeds.lower - velocity).maxCoeff());
+  const double largest = std::max(speeds.lower.cwiseAbs().maxCoeff(), speeds.upper.cwiseAbs().maxCoeff());
+  return gained <= relative_rounding * (1 + largest) ? 0 : gained;
 }
 
 bool LegJudge::is_beside_what_moves() const {
@@ -246,9 +304,12 @@ double LegJudge::leg_error() const {
     double least = HUGE_VAL;
     for (const Vec2d& outcome : outcomes)
       least = std::min(least, (to.position - from.position - outcome * time).norm());
-    off = std::max(off, least);
+    off += least;
   }
-  double room = restores_start + follows_seam + aims_away + rounding();
+  // A way turns more often than it comes to colliders, but aims away from each.
+  std::set<ColliderIndex> aimed_at;
+  for (const Contact<double>& contact : step_.contacts) aimed_at.insert(contact.collider);
+  const double room = restores_start + follows_seam + aims_away * static_cast<double>(1 + aimed_at.size()) + rounding();
   return off <= room ? 0 : off;
 }
 

@@ -3,6 +3,7 @@
 
 #include "oracle/crush.hpp"
 #include "oracle/later_parts.hpp"
+#include "oracle/met_surfaces.hpp"
 
 namespace paperproof::compare::detail {
 
@@ -16,16 +17,15 @@ namespace paperproof::compare::detail {
 /// Holds the way of one step, leg by leg, against the law of motion, for a contender that promises it. Lives for one
 /// step.
 ///
-/// **Length.** A leg is no longer than its share of the time at the largest speed that the step can have: the wanted
-/// one, kept across up on the steepest walkable ground, once for each ground that is met, and that of conveyors that
-/// are touched. What all legs together are longer is no more than the rules allow that move a character at once: the
-/// gap is restored by 2e-6 m and, on a leg that aims at it, by 1e-6 m; ground that hardly bends is followed by 2.8e-6
-/// m, and at the end straight down by `snap` where a walk may; a walk climbs 4 stairs, up and down by `step_height`,
-/// and goes on as it wanted in between; and what moves, and may reach the character in the step, pushes it as far as it
-/// goes itself, and by `push_beyond_motion` more between two obstacles. Other characters do that by no more than they
-/// want themselves, or hand on (`Others`), and without the last.
-///
-/// **Speed.** At the end it is no faster than the same speed and that of all that moves and may reach it.
+/// **Bounds.** `controlled_bounds` gives the velocities that a step can have: of what is wanted, at all that comes
+/// within `contact_reach` of the way. At the end it has one of them. No leg goes farther in any of the four directions,
+/// along and across up, than its share of the time at these. What all legs together go farther is no more than the
+/// rules allow that move a character at once, each in its own direction: the gap is restored by 2e-6 m and, on a leg
+/// that aims at it, by 1e-6 m, along the normal of what is near; ground that hardly bends is followed by 2.8e-6 m, and
+/// at the end by `snap` where a walk may, straight down; a walk climbs 4 stairs, up and down by `step_height`, and goes
+/// on as it wanted in between; and what moves, and may reach the character in the step, pushes it as far as it goes
+/// itself, and by `push_beyond_motion` more between two obstacles. Other characters do that by no more than they want
+/// themselves, or hand on (`Others`), and without the last.
 ///
 /// **Direction.** While nothing that moves is near, each leg leads along the wanted motion, or what the law of response
 /// makes of it at the contacts that the way has come to by then: what is steered into a wall goes nowhere else.
@@ -37,7 +37,7 @@ class LegJudge {
   /// How much longer the way is than anything made it [m].
   /// @param first the leg that is looked at first. @param held it is stuck, so that it wants to go nowhere.
   [[nodiscard]] double way_gained(std::size_t first, bool held) const;
-  /// How much faster it is than anything made it [m/s].
+  /// How much faster it is, in one direction, than anything made it [m/s].
   [[nodiscard]] double speed_gained(bool held) const;
   /// How far a leg ends from where the law leads it [m]. Not of a step in parts, nor of one that drops motion.
   [[nodiscard]] double leg_error() const;
@@ -46,8 +46,11 @@ class LegJudge {
   [[nodiscard]] std::vector<NearPart> near(std::size_t corner, double within) const {
     return parts_near(scenery_, step_, others_, corner, within);
   }
+  [[nodiscard]] ControlledRange wanted_velocities() const;
+  [[nodiscard]] const std::vector<MetSurface>& surfaces() const;
+  [[nodiscard]] Box2<double> velocities(bool held, std::span<const MetSurface> surfaces) const;
+  [[nodiscard]] double farther(std::size_t first, bool held, const Box2<double>& speeds, double push) const;
   [[nodiscard]] double own_speed() const;
-  [[nodiscard]] double conveyed() const;
   [[nodiscard]] double pushed() const;
   [[nodiscard]] bool is_beside_what_moves() const;
   [[nodiscard]] double rounding() const;
@@ -63,8 +66,9 @@ class LegJudge {
   const LaterParts& later_;
   Vec2d up_;
   Vec2d right_;
-  double dt_;        ///< [s]
-  Vec2d unsteered_;  ///< [m/s]
+  double dt_;                                                ///< [s]
+  Vec2d unsteered_;                                          ///< [m/s]
+  mutable std::optional<std::vector<MetSurface>> surfaces_;  ///< Asked for once.
 };
 
 }  // namespace paperproof::compare::detail

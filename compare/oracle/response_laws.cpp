@@ -160,6 +160,33 @@ Vec2d controlled(const Steered& velocity, std::span<const MetSurface> surfaces, 
   return now.wanted;
 }
 
+std::array<Vec2d, 4> corners_of(const Box2<double>& box) {
+  return {box.lower, box.upper, Vec2d(box.lower.x(), box.upper.y()), Vec2d(box.upper.x(), box.lower.y())};
+}
+
+/// The corners of the box that its velocity is in.
+std::array<Vec2d, 4> velocities_of(const MetSurface& at) {
+  return corners_of(Box2<double>{at.velocity, at.velocity}.inflated(at.spread));
+}
+
+/// Adds to a box what one surface that rests can make of a velocity. Ground may be followed that is not entered. A wall
+/// takes what leads across up into it, or a part of that: it turns none of that upwards.
+void add_responses(const Vec2d& v, const MetSurface& at, Box2<double>& box) {
+  const Vec2d& n = at.normal;
+  const auto add = [&box](const Vec2d& made) { box = box.merged({made, made}); };
+  const auto slide = [&](const Vec2d& w) { add(w - std::min(w.dot(n), 0.0) * n); };
+  if (at.walkable) return add(follow(v.x(), n));
+  if (v.dot(n) >= 0) return;
+  const bool leads_into = v.x() * n.x() < 0;
+  const Vec2d falls(leads_into ? 0 : v.x(), v.y());
+  add(falls);
+  add({falls.x(), std::min(v.y(), 0.0)});
+  slide(falls);
+  if (n.y() >= 0) return;
+  add(Vec2d::Zero());
+  slide(v);
+}
+
 /// All that the law can make, as an upright character sees it.
 std::vector<Vec2d> upright_outcomes(const Steered& velocity, std::span<const MetSurface> surfaces) {
   const bool any_at_end = std::any_of(surfaces.begin(), surfaces.end(), is_at_end);
@@ -237,6 +264,45 @@ std::vector<Vec2d> controlled_outcomes(const ControlledStep& step, std::span<con
     outcome = in_world(outcome, step.up);
   }
   return outcomes;
+}
+
+Box2<double> controlled_bounds(const ControlledRange& range, std::span<const MetSurface> surfaces) {
+  const Vec2d slower(range.least_steering, 0);
+  const Vec2d faster(range.most_steering, 0);
+  Box2<double> unsteered = range.unsteered;
+  Box2<double> wanted{unsteered.lower + slower, unsteered.upper + faster};
+  // What one has made comes to others, and from there back to it.
+  for (std::size_t turn = 0; turn < 2 * surfaces.size(); ++turn) {
+    const std::size_t i = turn % surfaces.size();
+    const MetSurface& at = surfaces[i];
+    const auto responses = [&at](const Box2<double>& box) {
+      Box2<double> all{at.velocity, at.velocity};  // what it carries goes as it does
+      for (const Vec2d& goes : velocities_of(at))
+        for (const Vec2d& v : corners_of(box)) {
+          Box2<double> made{Vec2d::Zero(), Vec2d::Zero()};
+          add_responses(v - goes, at, made);
+          all = all.merged({made.lower + goes, made.upper + goes});
+        }
+      return all;
+    };
+    const Box2<double> before = unsteered;
+    unsteered = unsteered.merged(responses(before));
+    wanted = wanted.merged(responses(wanted)).merged(unsteered);
+    // On ground steering begins anew, whatever walls have taken of it.
+    if (at.walkable) wanted = wanted.merged(responses({before.lower + slower, before.upper + faster}));
+    for (std::size_t k = 0; k < i; ++k) {
+      const MetSurface& with = surfaces[k];
+      const double most = at.velocity.norm() + at.spread + with.velocity.norm() + with.spread + range.squeezed;
+      for (const Vec2d& velocity : velocities_of(at))
+        for (const Vec2d& other : velocities_of(with)) {
+          auto held = held_by({.normal = at.normal, .velocity = velocity}, {.normal = with.normal, .velocity = other});
+          if (!held) continue;
+          if (held->norm() > most) *held *= most / held->norm();
+          unsteered = unsteered.merged({*held, *held});
+        }
+    }
+  }
+  return wanted.merged(unsteered);
 }
 
 std::optional<std::string> velocity_fault(const ControlledStep& step, std::span<const MetSurface> surfaces,

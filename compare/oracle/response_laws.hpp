@@ -62,6 +62,20 @@ struct ControlledStep {
 /// whether a landing without speed across up is carried at once.
 [[nodiscard]] std::vector<Vec2d> controlled_outcomes(const ControlledStep& step, std::span<const MetSurface> surfaces);
 
+/// What a step may begin with where its parts are not told apart, as an upright character sees it: x across up, y along
+/// it [m/s].
+struct ControlledRange {
+  Box2<double> unsteered{};   ///< As in `ControlledStep`.
+  double least_steering = 0;  ///< Steering adds across up no less than this, which is not positive,
+  double most_steering = 0;   ///< and no more than this.
+  double squeezed = 0;        ///< Two that close press out what is between them no faster than they go, and this.
+};
+
+/// A box that holds whatever the same law can make at the surfaces, where neither their order nor times are known, nor
+/// which of them are met at all, nor more of their velocities than `MetSurface::spread`; and what is wanted itself.
+/// @param surfaces as an upright character sees them.
+[[nodiscard]] Box2<double> controlled_bounds(const ControlledRange& range, std::span<const MetSurface> surfaces);
+
 /// What is wrong with the velocity at the end of a step: it is none of `controlled_outcomes`, as far as rounding and
 /// `MetSurface::spread` go. Nothing where it is one. The law knows the surfaces alone. It is not that of a step that
 /// began inside something, was crushed, stuck or dropped motion, met another character, climbed a stair, or consisted

@@ -121,9 +121,9 @@ void RunJudge::add(std::span<TraceStep> records) {
     if (is_far(asked[k])) {
       steps_far_ += !header_.guarantees.empty();
     } else {
-      judge_clauses(asked[k], judgements_[k], asked);
       const SolidsInStep there(header_, solids(), asked[k]);
-      judge_velocity(there, judgements_[k], follower);
+      judge_velocity(there, judgements_[k], follower);  // says more than that a bound is broken
+      judge_clauses(asked[k], judgements_[k], asked);
       judge_drops(records[k]);
       judge_met(asked[k], asked);
       judge_rest(asked[k], follower);

@@ -182,26 +182,28 @@ TEST(JudgeOfContacts, who_is_above_a_ledge_does_not_fall_freely_past_it) {
   wanted.velocity = land.requested / dt;
   EXPECT_EQ(Judge(header).judge(land, {}, &wanted).speed_lost, 0);
   land.path = {{land.path[0].position, 0}, {land.path[0].position + Vec2d(0.05, 1), 1}};
-  EXPECT_GT(Judge(header).judge(land, {}, &wanted).speed_lost, 0) << "nothing gives it a rise";
+  EXPECT_GT(Judge(header).judge(land, {}, &wanted).way_gained, 0) << "nothing gives it a rise";
 }
 
-/// Ground that is followed makes a climb of the speed across up, a ceiling turns that across again, and so on.
-TEST(JudgeOfContacts, each_ground_that_is_followed_may_make_it_faster_once) {
-  TraceHeader header = promising({box(-4, -9, 4, -8)});
-  header.character.max_climb_degrees = 60;  // whose cosine is a half
-  const auto gained = [&](double speed, int grounds) {
-    TraceStep climb = step({{0, 0}, {1, 0}});
-    climb.velocity = {0, speed};
-    for (int i = 0; i < grounds; ++i) climb.contacts.push_back(contact(0, Vec2d(-1.5, 1).normalized(), 0, Side::right));
+/// On a slope of 45 degrees a walk climbs as fast as it goes across; a wall gives no rise, and where nothing is near
+/// nothing rises.
+TEST(JudgeOfContacts, who_rises_has_ground_to_climb) {
+  const double height = -0.78125 - gap * std::sqrt(2);  // at x = 0
+  const ColliderDef slope = polygon({{-4, height - 4}, {4, height - 4}, {4, height + 4}});
+  const auto gained = [&](const ColliderDef& near, double rise) {
+    TraceStep climb = step({{0, 0}, {0.0625, 0.0625}});
+    climb.requested = {0.0625, -0.0078125};
+    climb.velocity = Vec2d(0.0625, rise) / dt;
     Wanted wanted;
     wanted.displacement = climb.requested;
     wanted.velocity = climb.requested / dt;
-    return Judge(header).judge(climb, {}, &wanted).speed_gained > 0;
+    wanted.from_ground = true;
+    return Judge(promising({near})).judge(climb, {}, &wanted).speed_gained > 0;
   };
-  EXPECT_FALSE(gained(1.9 / dt, 1));
-  EXPECT_TRUE(gained(2.1 / dt, 1));
-  EXPECT_FALSE(gained(3.9 / dt, 2));
-  EXPECT_TRUE(gained(4.1 / dt, 2));
+  EXPECT_FALSE(gained(slope, 0.0625));
+  EXPECT_TRUE(gained(slope, 0.0626));
+  EXPECT_TRUE(gained(box(0.3125 + gap, -4, 4, 4), 0.01)) << "a wall";
+  EXPECT_TRUE(gained(box(-4, -9, 4, -8), 0.01)) << "nothing near";
 }
 
 /// Between the tip of a one-way ledge and a steep slope: the last leg that moved began above the ledge.

@@ -339,6 +339,59 @@ TEST_F(RandomLaw, of_two_contacts_enters_neither) {
   EXPECT_GE(second_only, all / 40);
 }
 
+std::string describe(const ControlledStep& step, const std::vector<MetSurface>& surfaces) {
+  std::ostringstream s;
+  s << "wants " << step.wanted.transpose() << " unsteered " << step.unsteered.transpose();
+  for (const MetSurface& at : surfaces)
+    s << "\n n " << at.normal.transpose() << " v " << at.velocity.transpose() << " w " << at.walkable << " climbs "
+      << at.climbs << " met " << at.met << " left " << at.left << " ret " << at.returned;
+  s << "\n";
+  return s.str();
+}
+/// Whatever the law makes is within its bounds; and what is steep and rests gives no rise.
+TEST_F(RandomLaw, is_within_its_bounds) {
+  constexpr int all = 20'000;
+  int changed = 0, moving = 0, steep = 0;
+  for (int k = 0; k < all && !HasFailure(); ++k) {
+    SCOPED_TRACE("seed " + std::to_string(seed) + ", case " + std::to_string(k));
+    const ControlledStep step = random_step();
+    std::vector<MetSurface> surfaces;
+    const bool rest = random_.chance(0.5);
+    const bool climbs = random_.chance(0.3);
+    for (int i = random_.integer(1, 3); i > 0; --i) {
+      MetSurface at = random_surface(0.3);
+      const Vec2d velocity = size_of(step) * Vec2d(random_.between(-1, 1), random_.between(-1, 1));
+      if (!rest) at.velocity = at.walkable ? velocity : Vec2d(velocity.dot(at.normal) * at.normal);
+      at.met = surfaces.empty() ? random_.between(0, 1) : random_.between(surfaces.back().met, 1);
+      if (random_.chance(0.3)) at.met = 1;
+      if (random_.chance(0.3)) at.left = random_.between(at.met, 1);
+      at.climbs = climbs;
+      at.returned = random_.chance(0.2);
+      surfaces.push_back(at);
+    }
+    const double steering = (step.wanted - step.unsteered).x();
+    const Box2<double> bounds = controlled_bounds({.unsteered = {step.unsteered, step.unsteered},
+                                                   .least_steering = std::min(steering, 0.0),
+                                                   .most_steering = std::max(steering, 0.0),
+                                                   .squeezed = std::numeric_limits<double>::infinity()},
+                                                  surfaces);
+    double size = size_of(step);
+    for (const Vec2d& outcome : controlled_outcomes(step, surfaces)) {
+      size = std::max(size, outcome.norm());
+      EXPECT_TRUE(bounds.inflated(1e-9 * size).contains({outcome, outcome}))
+          << describe(step, surfaces) << outcome.transpose() << " beyond " << bounds.lower.transpose() << ".."
+          << bounds.upper.transpose();
+      changed += outcome != step.wanted;
+    }
+    moving += !rest;
+    if (!rest || std::any_of(surfaces.begin(), surfaces.end(), [](const MetSurface& at) { return at.walkable; }))
+      continue;
+    EXPECT_LE(bounds.upper.y(), std::max(step.unsteered.y(), 0.0) + 1e-9 * size);
+    ++steep;
+  }
+  for (const int some : {changed, moving, steep}) EXPECT_GE(some, all / 10);
+}
+
 TEST(VelocityFault, allows_by_how_much_a_turning_surface_is_not_known) {
   std::array ground{surface(0, 1, true)};
   ground[0].spread = 0.01;
