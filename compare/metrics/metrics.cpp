@@ -278,7 +278,7 @@ void Metrics::add(const TraceStep& step, const StepJudgement& judgement, Breache
   if (measured_.respawns) count(sums_.respawns, step.respawn);
   add_progress(step, judgement);
   add_exempted(judgement);
-  if (step.requested.x() != 0) raise(sums_.ghost_speed_loss, judgement.ghost_speed_loss);
+  if (judgement.motion_wanted > 0) raise(sums_.ghost_speed_loss, judgement.ghost_speed_loss);
 }
 
 void Metrics::note(Clause clause, const Moment& moment, const Touch& touch, Breaches& breaches) const {

@@ -30,6 +30,8 @@ constexpr double least_way = 1e-12;
 /// Where something turns, a character waits for a millionth of each part of the step, and then catches up.
 constexpr double waits = 2e-6;
 
+bool comes_against(const MetSurface& at) { return at.velocity.dot(at.normal) + at.spread > 0; }
+
 }  // namespace
 
 std::vector<NearPart> parts_near(const ExactScenery& scenery, const TraceStep& step, const Others& others,
@@ -66,20 +68,6 @@ LegJudge::LegJudge(const TraceHeader& header, const ExactScenery& scenery, const
       right_(up_.y(), -up_.x()),
       dt_(length_of(step, header)),
       unsteered_(wanted_.velocity - wanted_.steered / dt_ * right_) {}
-
-/// The largest speed that the step can have without what moves [m/s]. Steering that presses into a steep face is taken
-/// out of what is wanted. A walk keeps its speed across up on ground as steep as it may be, and where a ceiling turns
-/// that climb back, once more on the ground that follows.
-double LegJudge::own_speed() const {
-  const double most =
-      std::max({wanted_.velocity.norm(), first_.velocity.norm(), wanted_.displacement.norm() / dt_, unsteered_.norm()});
-  const auto grounds = std::count_if(step_.contacts.begin(), step_.contacts.end(), [this](const Contact<double>& one) {
-    return is_walkable(one.normal, header_, up_);
-  });
-  const double steepest = 1 / std::cos(header_.character.max_climb_degrees * std::numbers::pi / 180);
-  return (most + later_.steered() + later_.jump) *
-         std::pow(steepest, static_cast<double>(std::max<std::ptrdiff_t>(1, grounds)));
-}
 
 /// What is wanted, in whichever part of the step.
 ControlledRange LegJudge::wanted_velocities() const {
@@ -145,36 +133,21 @@ Box2<double> LegJudge::velocities(bool held, std::span<const MetSurface> surface
   return step_.crushed.empty() ? all : all.merged({});  // a crush ends all motion
 }
 
-/// How far all goes in the step that moves and may reach the character [m].
+/// How far all goes in the step that touches the character and moves [m].
 double LegJudge::pushed() const {
-  double farthest = others_.longest_way;
-  for (const MoverMotion<double>& motion : step_.movers)
-    farthest = std::max(farthest, (motion.to - motion.from).norm());
-  if (!(farthest > 0)) return 0;
-  const double own = own_speed() * dt_ + contact_reach;
   std::map<ColliderIndex, double> solids;
-  std::map<ColliderIndex, double> turning;
   std::set<double> characters;
-  for (std::size_t corner = 0; corner < step_.path.size(); ++corner) {
-    const auto reaches = [&](const NearPart& part) {
-      return part.faces.front().separation <= own + part.moved.norm() + part.unsure;
-    };
-    for (const NearPart& part : scenery_.near_parts(Place(step_.path[corner], step_.movers), own + farthest))
-      if (reaches(part)) solids[part.collider] = part.moved.norm();
-    if (!others_.near) continue;
-    for (const NearPart& part : others_.near(step_.path[corner], own + farthest)) {
-      if (!reaches(part)) continue;
+  for (std::size_t corner = 0; corner < step_.path.size(); ++corner)
+    for (const NearPart& part : near(corner, contact_reach)) {
       if (part.collider != no_collider)
-        turning[part.collider] = std::max(turning[part.collider], part.moved.norm() + part.unsure);
+        solids[part.collider] = std::max(solids[part.collider], part.moved.norm() + part.unsure);
       // One that is pushed itself, late in the step, goes fast for a part of it.
       else
         characters.insert(std::max({part.moved.norm(), part.comes->norm(), part.goes->norm()}));
     }
-  }
   double moved = std::accumulate(characters.begin(), characters.end(), 0.0);
   if (others_.handed_on) moved = std::min(moved, others_.handed_on());
   for (const auto& [collider, way] : solids) moved += way;
-  for (const auto& [collider, way] : turning) moved += way;
   return moved;
 }
 
@@ -184,13 +157,16 @@ double LegJudge::rounding() const {
   return rounding;
 }
 
-/// Whether it comes near two obstacles: one alone squeezes nobody.
-/// @param pushed how far what moves may push it [m].
-bool LegJudge::is_between_two(double pushed) const {
-  const double reach = own_speed() * dt_ + contact_reach + pushed;
-  for (std::size_t corner = 0; corner < step_.path.size(); ++corner)
-    if (near(corner, reach).size() > 1) return true;
-  return false;
+/// Whether something that comes against it touches it: nothing else pushes.
+bool LegJudge::is_pushed() const { return std::any_of(surfaces().begin(), surfaces().end(), comes_against); }
+
+/// Whether two that look at each other touch it, and one of them comes against it: one alone squeezes nobody.
+bool LegJudge::is_squeezed() const {
+  const std::vector<MetSurface>& all = surfaces();
+  return std::any_of(all.begin(), all.end(), [&](const MetSurface& one) {
+    return comes_against(one) && std::any_of(all.begin(), all.end(),
+                                             [&](const MetSurface& other) { return one.normal.dot(other.normal) < 0; });
+  });
 }
 
 /// How far the last leg goes straight down at once, and so no farther than a walk is held to the ground [m].
@@ -206,15 +182,12 @@ double LegJudge::snapped() const {
 double LegJudge::way_gained(std::size_t first, bool held) const {
   const double gained = farther(first, held, velocities(held, surfaces()), 0);
   if (!(gained > 0)) return 0;
-  const double moved = pushed();
-  if (!(moved > 0)) return gained;
-  const auto moves = [](const MoverMotion<double>& motion) { return motion.from != motion.to; };
-  const bool may_be_thrown = (std::any_of(step_.movers.begin(), step_.movers.end(), moves) && is_between_two(moved)) ||
-                             !step_.vertex_ways.empty() || !step_.start_overlap_characters.empty();
+  if (!is_pushed()) return gained;
+  const bool may_be_thrown = is_squeezed() || !step_.start_overlap_characters.empty();
   // Pushed at once, it goes on as if all rested: each motion counts once.
   std::vector<MetSurface> resting = surfaces();
   for (MetSurface& at : resting) at = {.normal = at.normal, .walkable = at.walkable};
-  return farther(first, held, velocities(held, resting), moved + (may_be_thrown ? push_beyond_motion : 0));
+  return farther(first, held, velocities(held, resting), pushed() + (may_be_thrown ? push_beyond_motion : 0));
 }
 
 /// How much farther the way is, in one direction, than at these velocities [m]. @param push in any direction [m].
@@ -233,7 +206,7 @@ double LegJudge::farther(std::size_t first, bool held, const Box2<double>& speed
   if (!step_.vertex_ways.empty()) everywhere += waits * wanted_.displacement.norm();
   Vec2d room_above = Vec2d::Zero();
   Vec2d room_below = Vec2d::Zero();
-  const double gap = restores_start + aims_away * static_cast<double>(step_.path.size());
+  const double gap = restores_start + aims_away * static_cast<double>(1 + surfaces().size());
   for (const MetSurface& at : surfaces()) {
     room_above = room_above.cwiseMax(gap * at.normal);
     room_below = room_below.cwiseMax(-gap * at.normal);

@@ -50,12 +50,12 @@ class LegJudge {
   [[nodiscard]] const std::vector<MetSurface>& surfaces() const;
   [[nodiscard]] Box2<double> velocities(bool held, std::span<const MetSurface> surfaces) const;
   [[nodiscard]] double farther(std::size_t first, bool held, const Box2<double>& speeds, double push) const;
-  [[nodiscard]] double own_speed() const;
   [[nodiscard]] double pushed() const;
   [[nodiscard]] bool is_beside_what_moves() const;
   [[nodiscard]] double rounding() const;
   [[nodiscard]] double snapped() const;
-  [[nodiscard]] bool is_between_two(double pushed) const;
+  [[nodiscard]] bool is_pushed() const;
+  [[nodiscard]] bool is_squeezed() const;
 
   const TraceHeader& header_;
   const ExactScenery& scenery_;
