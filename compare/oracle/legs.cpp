@@ -42,15 +42,25 @@ std::vector<NearPart> parts_near(const ExactScenery& scenery, const TraceStep& s
   return parts;
 }
 
-bool climbs_stair(const TraceHeader& header, const TraceStep& step, const Wanted& wanted) {
+bool climbs_stair(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step, const Others& others,
+                  const Wanted& wanted) {
   const double highest = header.character.step_height + contact_reach;
-  if (!(header.character.step_height > 0) || !wanted.from_ground || wanted.jumped) return false;
+  if (!(header.character.step_height > 0) || !wanted.from_ground || wanted.jumped || !step.grounded) return false;
   const Vec2d up = up_in(step, header);
+  const Vec2d walk = wanted.displacement - wanted.displacement.dot(up) * up;
+  const auto stops = [&](const NearFace& face) {
+    return face.normal.dot(walk) < 0 && !is_walked_on(face.normal, header, up);
+  };
+  const auto is_stopped = [&](std::size_t corner) {
+    const std::vector<NearPart> parts = parts_near(scenery, step, others, corner, contact_reach);
+    return std::any_of(parts.begin(), parts.end(),
+                       [&](const NearPart& part) { return std::any_of(part.faces.begin(), part.faces.end(), stops); });
+  };
   for (std::size_t k = 2; k < step.path.size(); ++k) {
     const Vec2d leg = seen(step.path[k - 1].position - step.path[k - 2].position, up);
     const bool goes_on_at_once = step.path[k].fraction == step.path[k - 1].fraction;
     const bool straight = std::abs(leg.x()) <= 4 * ulp_at(header, step.path[k].position);
-    if (goes_on_at_once && straight && leg.y() > 0 && leg.y() <= highest) return true;
+    if (goes_on_at_once && straight && leg.y() > 0 && leg.y() <= highest && is_stopped(k - 2)) return true;
   }
   return false;
 }
@@ -66,8 +76,7 @@ LegJudge::LegJudge(const TraceHeader& header, const ExactScenery& scenery, const
       later_(later),
       up_(up_in(step, header)),
       right_(up_.y(), -up_.x()),
-      dt_(length_of(step, header)),
-      unsteered_(wanted_.velocity - wanted_.steered / dt_ * right_) {}
+      dt_(length_of(step, header)) {}
 
 /// What is wanted, in whichever part of the step.
 ControlledRange LegJudge::wanted_velocities() const {
@@ -169,9 +178,9 @@ bool LegJudge::is_squeezed() const {
   });
 }
 
-/// How far the last leg goes straight down at once, and so no farther than a walk is held to the ground [m].
+/// How far the last leg goes straight down to ground at once, and so no farther than a walk is held to it [m].
 double LegJudge::snapped() const {
-  if (!wanted_.from_ground || step_.path.size() < 2) return 0;
+  if (!wanted_.from_ground || !step_.grounded || step_.path.size() < 2) return 0;
   const PathPoint<double>& from = *std::prev(step_.path.end(), 2);
   const Vec2d leg = step_.path.back().position - from.position;
   const bool at_once = from.fraction == step_.path.back().fraction;
@@ -213,7 +222,7 @@ double LegJudge::farther(std::size_t first, bool held, const Box2<double>& speed
   }
   room_below.y() += follows_seam;
   if (!held) room_below.y() += snapped();
-  if (!held && climbs_stair(header_, step_, first_)) {
+  if (!held && climbs_stair(header_, scenery_, step_, others_, first_)) {
     // Atop it goes on to where it would have come.
     const double across = (std::max(speeds.upper.x(), 0.0) - std::min(speeds.lower.x(), 0.0)) * dt_;
     const Vec2d stairs(across, most_stairs * header_.character.step_height);
@@ -247,7 +256,7 @@ bool LegJudge::is_beside_what_moves() const {
 
 double LegJudge::leg_error() const {
   const bool in_parts = first_.parts > 1 || later_.any() || !step_.vertex_ways.empty();
-  const bool stair = climbs_stair(header_, step_, first_);
+  const bool stair = climbs_stair(header_, scenery_, step_, others_, first_);
   if (step_.dropped || in_parts || stair || !step_.met.empty() || is_beside_what_moves()) return 0;
   // A side hit ends a rise with the step: the way still goes on.
   ControlledStep law{.wanted = first_.displacement / dt_, .up = up_};
