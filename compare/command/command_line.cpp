@@ -288,16 +288,29 @@ void add_rows_commands(CLI::App& app, int& status) {
             [](const RowsWords& typed) { return diff_command(typed.files[0], typed.files[1]); });
 }
 
+/// Options of `judge` as typed.
+struct JudgeWords {
+  JudgeOptions options;
+  std::vector<std::string> settings;
+};
+
 void add_judge(CLI::App& app, int& status) {
   CLI::App& command =
       *app.add_subcommand("judge", "Say of each trace which clauses of the guarantee it breaks, with exact arithmetic");
-  const auto options = std::make_shared<JudgeOptions>();
+  const auto words = std::make_shared<JudgeWords>();
+  JudgeOptions* const options = &words->options;
   command.add_option("TRACE", options->traces, "Files written by --trace, or by any other program")->required();
   command.add_flag("--all", options->all_clauses, "Ask for every clause, whatever the trace's contender guarantees");
   command
       .add_option("--scene", options->scene, "The scene of the traces: what it says stands instead of their headers")
       ->type_name("SCENE");
-  on_parsed(command, status, options, [](const JudgeOptions& typed) { return judge_command(typed); });
+  add_settings(command, words->settings);
+  add_steps(command, options->steps);
+  for (const char* name : {"--set", "--steps"}) command.get_option(name)->needs("--scene");
+  on_parsed(command, status, words, [](JudgeWords& typed) {
+    for (const std::string& setting : typed.settings) typed.options.settings.push_back(parse_setting(setting));
+    return judge_command(typed.options);
+  });
 }
 
 void add_report(CLI::App& app, int& status) {

@@ -336,12 +336,12 @@ std::vector<KnobSetting> parse_knobs(const std::vector<std::string>& texts,
   return settings;
 }
 
-void check_contenders(const std::vector<std::string>& names) {
+void check_contenders(const std::vector<std::string>& names, std::string_view asked) {
   const auto views = contender_names();
   const std::vector<std::string> known(views.begin(), views.end());
   for (const std::string& name : names)
     if (std::find(known.begin(), known.end(), name) == known.end())
-      throw InputError(fmt::format("--contender {}: expected {} (see `paperproof list contenders`){}", shown(name),
+      throw InputError(fmt::format("{} {}: expected {} (see `paperproof list contenders`){}", asked, shown(name),
                                    one_of_words(known), did_you_mean(name, known)));
 }
 

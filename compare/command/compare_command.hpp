@@ -33,8 +33,9 @@ struct CompareArguments {
 [[nodiscard]] std::vector<KnobSetting> parse_knobs(const std::vector<std::string>& texts,
                                                    const std::vector<std::string>& contenders);
 
+/// @param asked the option, or the command, that the names stand behind.
 /// @throws InputError naming the contender and those there are.
-void check_contenders(const std::vector<std::string>& names);
+void check_contenders(const std::vector<std::string>& names, std::string_view asked = "--contender");
 
 /// @return the exit status: 0; 1 if octagon_sweep in double broke its guarantee or a contender failed; else 2 if an
 /// input

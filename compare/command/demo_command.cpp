@@ -84,7 +84,7 @@ std::string picture(const ReportRun& run, double pixels_per_metre) {
 }  // namespace
 
 int demo_command(const std::string& technique) {
-  if (!technique.empty()) check_contenders({technique});
+  if (!technique.empty()) check_contenders({technique}, "demo");
   const Scene scene = load_scene("article_bullet", {});
   print_out(
       "The article's bullet: one pixel, falling 50 pixels in its first frame, onto a platform 5 pixels thick that\n"

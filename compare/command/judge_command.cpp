@@ -31,6 +31,8 @@ TraceHeader as_scene_says(TraceHeader header, const Scene& scene, const std::str
   header.points.assign(scene.character.shape.hull().begin(), scene.character.shape.hull().end());
   header.scenery = scene.scenery;
   header.up = Vec2d::UnitY();
+  // Box2D's twin in lockstep ends with the run that it is the twin of.
+  if (header.mode != "lockstep" || !header.guarantees.empty()) header.steps = header.steps.value_or(scene.steps);
   header.starts.clear();
   header.scripts.clear();
   const std::vector<Clause> promised = header.guarantees;
@@ -127,9 +129,20 @@ void check_header(const TraceHeader& header, const std::string& path) {
   }
 }
 
+/// The run must have all the steps that it was to have, where that is known, unless the last was refused.
+void judge_end(const TraceHeader& header, const TraceStep& last, Breaches& breaches) {
+  if (!header.steps) return;
+  const int final_step = *header.steps - 1;
+  if (last.step == final_step || (!last.refused.empty() && last.step < final_step)) return;
+  breaches[Clause::continuity].add(last.step, [&] {
+    return fmt::format("the trace ends with this step, and the run has {}", counted(*header.steps, "step"));
+  });
+}
+
 bool judge_trace(const std::string& path, const JudgeOptions& options, const std::optional<Scene>& scene) {
   Steps steps(path);
   TraceHeader header = scene ? as_scene_says(steps.header(), *scene, path) : steps.header();
+  if (options.steps) header.steps = options.steps;
   check_header(header, path);
   const std::optional<AskedByScene> asked =
       scene ? std::optional<AskedByScene>(std::in_place, *scene, header) : std::nullopt;
@@ -138,7 +151,9 @@ bool judge_trace(const std::string& path, const JudgeOptions& options, const std
   RunJudge judge(header, {.gravity = header.gravity});
   int judged = 0;
   int refused = 0;
+  TraceStep last;
   for (std::vector<TraceStep> records = steps.next(); !records.empty(); records = steps.next()) {
+    last = records.front();
     if (!records.front().refused.empty()) {
       judge.add_refused(records.front());
       ++refused;
@@ -152,12 +167,15 @@ bool judge_trace(const std::string& path, const JudgeOptions& options, const std
     ++judged;
   }
   if (judged + refused == 0) throw InputError(path + ": expected a step");
-  const Breaches breaches = judge.breaches();
+  Breaches breaches = judge.breaches();
+  judge_end(header, last, breaches);
   int broken = 0;
   for (const auto& [clause, breach] : breaches) broken += contains(header.guarantees, clause);
   fmt::print("{}: {} in {}, {}: {} judged, {} broken of {} {}\n", path, header.contender, header.scalar, header.scene,
              counted(judged, "step"), broken, counted(header.guarantees.size(), "clause"),
              options.all_clauses ? "asked" : "guaranteed");
+  if (scene && header.steps && *header.steps != scene->steps)
+    fmt::print("  the scene has {}\n", counted(scene->steps, "step"));
   for (const auto& [clause, breach] : breaches)
     fmt::print("  {}{} on {}, first in step {}: {}\n", name_of(clause),
                contains(header.guarantees, clause) ? "" : " (not guaranteed)", counted(breach.steps, "step"),
@@ -177,7 +195,7 @@ bool judge_trace(const std::string& path, const JudgeOptions& options, const std
 
 int judge_command(const JudgeOptions& options) {
   std::optional<Scene> scene;
-  if (!options.scene.empty()) scene = load_scene(options.scene, {});
+  if (!options.scene.empty()) scene = load_scene(options.scene, options.settings);
   bool any = false;
   try {
     for (const std::string& path : options.traces) any = judge_trace(path, options, scene) || any;

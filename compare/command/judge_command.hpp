@@ -1,6 +1,9 @@
 /// `paperproof judge`: whether a run, as its trace has it, holds the guarantee.
 #pragma once
 
+#include "scenes/parameters.hpp"
+
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +15,8 @@ struct JudgeOptions {
   bool all_clauses = false;
   /// Scene that the traces are of: what it says stands instead of what their headers say. Empty: the headers are taken.
   std::string scene;
+  std::vector<ParameterSetting> settings;  ///< Parameters of the scene that are turned, as they were in the run.
+  std::optional<int> steps;                ///< Of the run, instead of the scene's.
 };
 
 /// Prints a line for each trace, and one for each clause that was broken.

@@ -28,7 +28,9 @@ RowsReader::RowsReader(const std::string& path, LastLine last)
   std::string line;
   if (read_line(line) != Found::nothing) header_ = ordered_json::parse(line, nullptr, false);
   if (!is_of_rows(header_) || header_.contains("rows"))
-    throw std::runtime_error(path + ": expected rows as JSON Lines (`\"paperproof_rows\": 1` in the first line)");
+    throw std::runtime_error(path +
+                             ": expected rows as JSON Lines, as `--rows FILE.jsonl` writes them "
+                             "(`\"paperproof_rows\": 1` in the first line)");
   hold_to_schema(strict_json(line, path_), "", here());
 }
 

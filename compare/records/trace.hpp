@@ -69,6 +69,7 @@ struct TraceHeader {
   std::string knob;            ///< As in a `Row`.
   std::string mode = "free";   ///< "free" or "lockstep"
   double dt = 0;               ///< [s]; where the steps have lengths of their own it is only shown.
+  std::optional<int> steps{};  ///< That the run was to have; none: unknown, as in lockstep, which ends with a twin's.
   std::size_t characters = 1;  ///< Each has one record in every step, in order.
   std::vector<Vec2d> points;   ///< Hull of the character, relative to its position [m], as run.
   /// How the character wants to move, jumping rules in force included. Its shape is `points`.

@@ -1,11 +1,13 @@
 #include "records/trace_reader.hpp"
 
+#include "records/input_file.hpp"
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
+#include <limits>
 #include <set>
 
 namespace paperproof::compare {
@@ -48,6 +50,14 @@ class Value {
     if (!value_->is_number_unsigned() || value_->get<std::size_t>() >= end)
       refuse(fmt::format("a whole number from 0 to {}", end - 1));
     return value_->get<std::size_t>();
+  }
+  /// A whole number that an `int` holds.
+  [[nodiscard]] int count_from(int least) const {
+    constexpr int most = std::numeric_limits<int>::max();
+    if (!value_->is_number_unsigned() || value_->get<std::uint64_t>() < static_cast<std::uint64_t>(least) ||
+        value_->get<std::uint64_t>() > std::uint64_t{most})
+      refuse(fmt::format("a whole number from {} to {}", least, most));
+    return value_->get<int>();
   }
   [[nodiscard]] bool flag() const {
     if (!value_->is_boolean()) refuse("true or false");
@@ -164,6 +174,7 @@ CharacterDef read_limits(const Value& at) {
   at.only({"walk_speed", "acceleration", "air_acceleration", "jump_speed", "coyote_time", "jump_buffer", "jump_cut",
            "max_fall_speed", "max_climb_degrees", "snap", "step_height", "no_jump_toward_wall", "wall_reach",
            "side_hit_ends_rise"});
+  for (const char* key : {"walk_speed", "acceleration", "jump_speed"}) static_cast<void>(at.require(key));
   CharacterDef def;
   for (const auto& [key, limit] : {std::pair{"walk_speed", &def.walk_speed},
                                    {"acceleration", &def.acceleration},
@@ -237,19 +248,50 @@ void read_scenery(const Value& at, TraceHeader& header) {
   if (std::find(header.turning.begin(), header.turning.end(), true) == header.turning.end()) header.turning.clear();
 }
 
+/// What a plan left out is only shown, and yet a misspelt key says nothing.
+void check_plan(const Value& at) {
+  at.only({"broad_phase", "omitted"});
+  if (const auto broad_phase = at.find("broad_phase")) static_cast<void>(broad_phase->text());
+  for (const Value& omission : at.require("omitted").list()) {
+    omission.only({"stage", "reason"});
+    for (const char* key : {"stage", "reason"}) static_cast<void>(omission.require(key).text());
+  }
+}
+
 TraceHeader read_header(const Value& at) {
-  at.only({"paperproof_trace", "scene",  "contender",         "scalar",     "knob",      "mode",      "dt",
-           "characters",       "points", "max_climb_degrees", "gravity",    "up",        "character", "starts",
-           "respawn_box",      "movers", "substeps",          "guarantees", "colliders", "box2d",     "plan",
+  at.only({"paperproof_trace",
+           "scene",
+           "contender",
+           "scalar",
+           "knob",
+           "mode",
+           "dt",
+           "steps",
+           "characters",
+           "points",
+           "max_climb_degrees",
+           "gravity",
+           "up",
+           "character",
+           "starts",
+           "respawn_box",
+           "movers",
+           "substeps",
+           "guarantees",
+           "colliders",
+           "box2d",
+           "plan",
            "tolerances"});
   if (at.require("paperproof_trace").number() != 1) at.require("paperproof_trace").refuse("1");
   TraceHeader header;
   header.scene = at.require("scene").text();
   header.contender = at.require("contender").text();
-  header.scalar = at.require("scalar").text();
+  header.scalar = at.require("scalar").one_of<std::string>({{"double", "double"}, {"float", "float"}});
   if (const auto knob = at.find("knob")) header.knob = knob->text();
-  if (const auto mode = at.find("mode")) header.mode = mode->text();
+  header.mode = at.require("mode").one_of<std::string>({{"free", "free"}, {"lockstep", "lockstep"}});
   header.dt = at.require("dt").number_from(0);
+  if (const auto steps = at.find("steps")) header.steps = steps->count_from(1);
+  if (const auto degrees = at.find("max_climb_degrees")) static_cast<void>(degrees->number());
   header.points = at.require("points").points(3);
   if (header.points.size() > CharacterShape::max_points) at.require("points").refuse("3 to 8 points");
   header.gravity = at.require("gravity").point();
@@ -259,11 +301,14 @@ TraceHeader read_header(const Value& at) {
     header.starts.push_back(
         {start.only({"position", "velocity"}).require("position").point(), start.require("velocity").point()});
   header.characters = header.starts.size();
+  const auto characters = at.find("characters");
+  if ((characters ? static_cast<std::size_t>(characters->count_from(2)) : 1) != header.characters)
+    at.require("starts").refuse("one start for each of the `characters`");
   if (const auto box = at.find("respawn_box")) {
     const std::vector<Value> corners = box->list(2, 2);
     header.respawn_box = {corners[0].point(), corners[1].point()};
   }
-  if (const auto substeps = at.find("substeps")) header.substeps = static_cast<int>(substeps->index(1000));
+  if (const auto substeps = at.find("substeps")) header.substeps = substeps->count_from(2);
   read_scenery(at, header);
   for (const Value& name : at.require("guarantees").list()) {
     const std::optional<Clause> clause = clause_named(name.text());
@@ -271,6 +316,7 @@ TraceHeader read_header(const Value& at) {
     header.guarantees.push_back(*clause);
   }
   if (const auto version = at.find("box2d")) header.box2d = version->text();
+  if (const auto plan = at.find("plan")) check_plan(*plan);
   if (const auto tolerances = at.find("tolerances"))
     for (const auto& [name, value] : tolerances->entries()) header.tolerances.push_back({name, value.number()});
   return header;
@@ -417,7 +463,7 @@ TraceStep read_step(const Value& at, const TraceHeader& header) {
            "capped",
            "refused"});
   TraceStep step;
-  step.step = static_cast<int>(at.require("step").index(std::size_t{1} << 31));
+  step.step = at.require("step").count_from(0);
   if (const auto dt = at.find("dt")) step.dt = dt->number();
   if (const auto character = at.find("character"))
     step.character = static_cast<CharacterIndex>(character->index(header.characters));
@@ -425,6 +471,7 @@ TraceStep read_step(const Value& at, const TraceHeader& header) {
   if (const auto reason = at.find("refused")) {
     step.refused = reason->text();
     if (step.refused.empty()) reason->refuse("a reason");
+    at.only({"step", "dt", "character", "input", "refused"});
     return step;
   }
   for (const Value& corner : at.require("path").list(1)) {
@@ -433,9 +480,9 @@ TraceStep read_step(const Value& at, const TraceHeader& header) {
   }
   if (const auto up = at.find("up")) step.up = read_up(*up);
   if (const auto gravity = at.find("gravity")) step.gravity = gravity->point();
-  if (const auto requested = at.find("requested")) step.requested = requested->point();
-  if (const auto steered = at.find("steered")) step.steered = steered->number();
-  step.start_overlap = colliders_in(at.find("start_overlap"), header.ids);
+  step.requested = at.require("requested").point();
+  step.steered = at.require("steered").number();
+  step.start_overlap = colliders_in(at.require("start_overlap"), header.ids);
   std::sort(step.start_overlap.begin(), step.start_overlap.end());
   if (const auto others = at.find("start_overlap_characters"))
     for (const Value& other : others->list())
@@ -460,8 +507,7 @@ TraceStep read_step(const Value& at, const TraceHeader& header) {
 }  // namespace
 
 TraceReader::TraceReader(const std::string& path) : path_(path) {
-  std::error_code none;
-  if (!std::filesystem::is_regular_file(path, none)) throw InvalidTrace(path + ": expected a regular file");
+  if (const std::string why = why_not_regular(path); !why.empty()) throw InvalidTrace(path + ": " + why);
   stream_.open(path, std::ios::binary);
   std::string line;
   if (!stream_ || !read_line(line)) throw InvalidTrace(path + ": expected a trace");
@@ -481,12 +527,18 @@ std::optional<TraceStep> TraceReader::next() {
   const json object = json::parse(line, nullptr, false);
   if (!object.is_object()) refuse("expected a record");
   try {
-    TraceStep step = read_step({object, ""}, header_);
+    const Value record(object, "");
+    TraceStep step = read_step(record, header_);
+    const std::optional<Value> exact = record.find("path_exact");
+    const bool is_exact = !exact || exact->flag();
     // All of one run: the first says whether positions are exact.
-    if (line_ == 2) header_.path_exact = object.value("path_exact", true);
+    if (line_ == 2) header_.path_exact = is_exact;
     return step;
   } catch (const Unexpected& unexpected) {
-    refuse(unexpected.what());
+    const auto step = object.find("step");
+    const bool is_numbered = step != object.end() && step->is_number_unsigned();
+    refuse(is_numbered ? fmt::format("step {}: {}", step->get<std::uint64_t>(), unexpected.what())
+                       : std::string(unexpected.what()));
   }
 }
 

@@ -10,21 +10,22 @@
 
 namespace paperproof::compare {
 
-/// What is wrong with a trace, as `FILE:LINE: KEY: what was expected`.
+/// What is wrong with a trace, as `FILE:LINE: step N: KEY: what was expected`; of the header without a step.
 class InvalidTrace : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Reads JSON Lines as records/paperproof_trace.schema.json describes them. What the schema leaves open is checked,
-/// too: ids are known and unique, a step has the motion of every mover, numbers are finite. Not thread-safe.
+/// Reads JSON Lines as records/paperproof_trace.schema.json describes them: what the schema refuses is refused
+/// (tests/compare/trace_schema_test.py). What it leaves open is checked, too: ids are known and unique, a step has the
+/// motion of every mover, numbers are finite. Not thread-safe.
 class TraceReader {
  public:
   /// A longer line is refused [bytes].
   static constexpr std::size_t longest_line = std::size_t{1} << 26;
 
   /// Reads the header.
-  /// @throws InvalidTrace, also for a file that cannot be read or is no regular file.
+  /// @throws InvalidTrace, also for a file that is not there, cannot be read or is no regular file.
   explicit TraceReader(const std::string& path);
   [[nodiscard]] const TraceHeader& header() const noexcept { return header_; }
   /// The next record; nothing behind the last.

@@ -79,6 +79,7 @@ ordered_json header_json(const TraceHeader& header) {
   if (!header.knob.empty()) object["knob"] = header.knob;
   object["mode"] = header.mode;
   object["dt"] = header.dt;
+  if (header.steps) object["steps"] = *header.steps;
   if (header.characters > 1) object["characters"] = header.characters;
   object["points"] = points_json(header.points);
   object["max_climb_degrees"] = header.character.max_climb_degrees;

@@ -58,10 +58,12 @@ Lane::Lane(std::string contender, ScalarKind scalar, const Scene& scene, const S
         std::make_unique<TraceWriter>(trace_path(trace_stem, row_.scene, row_.contender, row_.scalar), header_as_run());
 }
 
-/// A contestant does not know in which mode it runs.
+/// A contestant does not know in which mode it runs, nor how long.
 TraceHeader Lane::header_as_run() const {
   TraceHeader as_run = header();
   as_run.mode = row_.mode;
+  // In lockstep a run ends with its twin's, and its trace does not say so.
+  if (as_run.mode != "lockstep") as_run.steps = limit_.steps;
   return as_run;
 }
 

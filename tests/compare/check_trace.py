@@ -29,7 +29,7 @@ start_inside: a step that begins inside of solids leaves them at once, by a way 
     something, and no straight way out is found.
 refusal: a refused step had no finite input, no length, or would have left 2e6 m.
 continuity: a step begins where the last one ended, movers too; fractions ascend from 0 to 1; only who left the map's box
-    is put back.
+    is put back; the last one is that of the run, where the header says how many `steps` it has, or was refused.
 mover_way: movers are where their scripts have them: trace_scripts.py.
 
 Every number of a trace is a double, and every double is a fraction: the answers are exact but where a tolerance is named.
@@ -56,7 +56,10 @@ from trace_world import STAYS, Motion, World, wider
 CLAUSES = ("overlap", "passage", "one_way", "gap", "time_of_impact", "contact_missed", "contact_invented", "normal", "sensor",
            "rest", "start_inside", "refusal", "hanging", "speed_lost", "ground_invented", "ground_missed", "crush", "wanted",
            "velocity", "continuity", "mover_way")
-NEEDED = ("gravity", "up", "character", "starts", "guarantees")
+NEEDED = ("scene", "contender", "scalar", "mode", "dt", "points", "gravity", "up", "character", "starts", "guarantees",
+          "colliders")
+NEEDED_IN_A_STEP = ("step", "input")
+NEEDED_UNLESS_REFUSED = ("path", "requested", "steered", "velocity", "grounded", "start_overlap", "movers", "contacts")
 UNSAID = {"jump_cut": 1, "max_climb_degrees": 50, "no_jump_toward_wall": False, "wall_reach": 1 / 32}  # of a character
 NEARLY = Fraction(1, 10**4)  # what is farther away is not touched at all [m]
 SLOWER = 1e-9  # of speed, for each m/s of it: rounding
@@ -136,8 +139,13 @@ class Checker:
 
     def check(self, records):
         """Yields (record, clause, words) of every clause that is asked for and broken."""
-        together, number = [], 0
+        together, number, last = [], 0, None
         for record in records:
+            needed = NEEDED_IN_A_STEP + (() if "refused" in record else NEEDED_UNLESS_REFUSED)
+            missing = [key for key in needed if key not in record]
+            if missing:
+                raise ValueError(f"step {record.get('step', 'without a number')}: no {', '.join(missing)}")
+            last = record
             if number == 0 and "movers" in record:
                 self.world.find_surfaces(record["movers"])
             who = record.get("character", 0)
@@ -161,6 +169,15 @@ class Checker:
             if len(together) == self.count:
                 yield from self.check_together(together)
                 together = []
+        if last is None:
+            raise ValueError("expected a step")
+        if self.asks("continuity"):
+            yield from self.check_end(last)
+
+    def check_end(self, last):
+        steps, had = self.header.get("steps"), last["step"] + 1
+        if steps is not None and had != steps and not ("refused" in last and had < steps):
+            yield last, "continuity", f"is the last one, and the run has {steps} steps"
 
     def check_ways(self, step, who):
         """What must hold before anything else can be asked."""
@@ -722,7 +739,7 @@ def check_file(path, clauses, but):
     with open(path, encoding="utf-8") as file:
         header = json.loads(file.readline())
         if header.get("paperproof_trace") != 1:
-            raise ValueError("not a trace of version 1")
+            raise ValueError("not a trace: expected \"paperproof_trace\": 1 in the header")
         checker = Checker(header, clauses)
         checker.clauses -= set(but)
         for record, clause, words in checker.check(map(json.loads, file)):

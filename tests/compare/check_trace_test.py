@@ -247,6 +247,8 @@ SPOILT = [
     ("a jump that was not pressed", "yard", at(is_rising, put("requested", 1, to=lambda y: y + 0.1)), "wanted"),
     ("a teleport between steps", "yard", at(is_falling, put("path", 0, 0, to=0.5)), "continuity"),
     ("another start", "yard", lambda header, _: header["starts"][0].update(position=[0, 2]), "continuity"),
+    ("a run that is cut off", "yard", lambda _, steps: steps.pop(), "continuity"),
+    ("a run that goes on", "yard", lambda header, _: header.update(steps=header["steps"] - 1), "continuity"),
     ("a respawn that is claimed", "yard", at(is_falling, put("respawn", to=True)), "continuity"),
     ("fractions that go back", "yard", at(is_at_wall, put("path", -1, 2, to=0.5)), "continuity"),
     ("a lift that jumps", "yard", at(is_at_rest, put("movers", "lift", 0, 1, to=9)), "continuity"),

@@ -107,6 +107,23 @@ TEST(Command, points_to_the_names_there_are_and_says_which_is_near) {
                  "box2d or box2d_pieces (see `paperproof list contenders`); did you mean octagon_sweep?\n");
   expect_refused(place, "article_bullet --contender grid,nobody", "--contender nobody" + contenders,
                  "(see `paperproof list contenders`)\n");
+  const Finished demo = place.run("demo octagon_swep");
+  EXPECT_EQ(demo.status, 2);
+  EXPECT_TRUE(begins(demo.err, "demo octagon_swep" + contenders)) << demo.err;
+}
+
+TEST(Command, says_what_merge_and_diff_take) {
+  const Workplace place;
+  ASSERT_EQ(place.run("compare article_bullet --contender mask --no-timing --quiet --rows rows.json").status, 0);
+  const std::string takes =
+      "rows.json: expected rows as JSON Lines, as `--rows FILE.jsonl` writes them (`\"paperproof_rows\": 1` in the "
+      "first "
+      "line)\n";
+  for (const char* arguments : {"merge rows.json --rows out.jsonl", "diff rows.json rows.json"}) {
+    const Finished finished = place.run(arguments);
+    EXPECT_EQ(finished.status, 2) << arguments;
+    EXPECT_EQ(finished.err, takes) << arguments;
+  }
 }
 
 /// Runs what has to be refused before anything is done, and gives the one line that it says.
@@ -157,7 +174,8 @@ TEST(Command, complains_in_one_line_whatever_was_typed) {
 TEST(Command, names_what_could_stand_where_a_word_is_missing_or_unknown) {
   const Workplace place;
   const std::string commands =
-      "paperproof: expected one of compare, study, work-precision, stability, sweep, merge, diff, judge, report, convert, "
+      "paperproof: expected one of compare, study, work-precision, stability, sweep, merge, diff, judge, report, "
+      "convert, "
       "check, plan, demo, list; see paperproof --help\n";
   for (const auto& [arguments, line] : {std::pair<std::string, std::string>{"", commands},
                                         {"frobnicate", commands},

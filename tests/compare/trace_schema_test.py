@@ -1,0 +1,180 @@
+#!/usr/bin/env python3
+"""What the schema of a trace asks for, `paperproof judge` asks for, too: good traces hold, and one that breaks the schema in
+one place is refused with status 2, in one line that says where. check_trace.py refuses a record without a key that it needs.
+
+    trace_schema_test.py PAPERPROOF SCHEMA
+
+The schema says what is tried: at each place of it a required key is taken out, a key is added, and a value becomes one that
+its type, enum, const, minimum or number of items forbids.
+"""
+import copy
+import json
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+CHECKER = Path(__file__).with_name("check_trace.py")
+SCENES = ("lift_up", "turning_arm", "thin_sensor", "characters_head_on", "land_on_circle", "article_bullet", "one_way_drop")
+OF_ANOTHER_TYPE = {"object": 7, "array": 7, "string": 7, "boolean": 7, "number": "seven", "integer": 1.5}
+MADE_UP = {"respawn": True, "from": {"velocity": [0, 0]}}  # no scene of these puts anybody back
+
+
+def without(at, key):
+    return lambda value: parent(value, at).pop(key)
+
+
+def with_value(at, new):
+    def change(value):
+        parent(value, at[:-1])[at[-1]] = new
+    return change
+
+
+def parent(value, at):
+    for key in at:
+        value = value[key]
+    return value
+
+
+class Places:
+    """Walks a record beside its schema. `found` has for each place of the schema, and each thing that it asks for there, the
+    first record that has it, with the change that breaks it."""
+
+    def __init__(self, schema):
+        self.defs, self.found = schema["$defs"], {}
+
+    def walk(self, schema, value, where, at=(), line=None):
+        if "$ref" in schema:
+            where = schema["$ref"].rsplit("/", 1)[1]
+            schema = self.defs[where]
+
+        def tries(kind, change, *, key=""):
+            self.found.setdefault((where, kind, key), (line, at + ((key,) if key else ()), change))
+
+        for key in schema.get("required", []) + schema.get("else", {}).get("required", []):  # no step here is refused
+            tries("required", without(at, key), key=key)
+        if schema.get("additionalProperties") is False:
+            tries("additionalProperties", with_value((*at, "no_such_key"), 7))
+        if at and "type" in schema:
+            tries("type", with_value(at, OF_ANOTHER_TYPE[schema["type"]]))
+        if at and ("enum" in schema or "const" in schema):
+            tries("enum", with_value(at, "no_such_word"))
+        if "minimum" in schema:
+            tries("minimum", with_value(at, schema["minimum"] - 1))
+        if "maximum" in schema:
+            tries("maximum", with_value(at, schema["maximum"] + 1))
+        if schema.get("minItems"):
+            tries("minItems", with_value(at, value[:schema["minItems"] - 1]))
+        if "maxItems" in schema:
+            tries("maxItems", with_value(at, value[:1] * (schema["maxItems"] + 1)))
+        known, others = schema.get("properties", {}), schema.get("additionalProperties")
+        if isinstance(value, dict) and (known or others):
+            for key, inner in value.items():
+                self.walk(known.get(key, others), inner, f"{where}/{key if key in known else '*'}", (*at, key), line)
+        if isinstance(value, list) and "items" in schema:
+            for k, inner in enumerate(value):
+                self.walk(schema["items"], inner, where + "/0", (*at, k), line)
+        for choice in schema.get("oneOf", []):
+            if choice.get("type") == ("object" if isinstance(value, dict) else "array"):
+                self.walk(choice, value, f"{where}/{choice['type']}", at, line)
+
+
+def required_in(schema, defs):
+    """Every (place, key) of a schema that is required, wherever it stands."""
+    def below(node, where):
+        for key in node.get("required", []) + node.get("else", {}).get("required", []):
+            yield where, key
+        for key, inner in node.get("properties", {}).items():
+            yield from below(inner, f"{where}/{key}")
+        if isinstance(node.get("additionalProperties"), dict):
+            yield from below(node["additionalProperties"], where + "/*")
+        if "items" in node:
+            yield from below(node["items"], where + "/0")
+        for choice in node.get("oneOf", []):
+            if "type" in choice:
+                yield from below(choice, f"{where}/{choice['type']}")
+    return {found for name in defs for found in below(schema["$defs"][name], name)}
+
+
+class SchemaOfTraces(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.schema = json.loads(Path(SCHEMA).read_text(encoding="utf-8"))
+        cls.folder = tempfile.TemporaryDirectory()
+        stem = Path(cls.folder.name) / "t"
+        subprocess.run([COMMAND, "compare", *SCENES, "--contender", "octagon_sweep", "--no-reference", "--no-timing",
+                        "--quiet", "--trace", stem], check=True, stdout=subprocess.DEVNULL)
+        cls.traces = []
+        for scene in SCENES:
+            lines = Path(f"{stem}.{scene}.octagon_sweep.double.jsonl").read_text(encoding="utf-8").splitlines()
+            cls.traces.append([json.loads(line) for line in lines])
+        cls.traces[0][-1].update(MADE_UP)
+        cls.traces[0][0]["plan"]["omitted"].append({"stage": "stairs", "reason": "none"})
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def judge(self, lines, *call):
+        path = Path(self.folder.name) / "spoilt.jsonl"
+        path.write_text("".join(json.dumps(line) + "\n" for line in lines), encoding="utf-8")
+        done = subprocess.run([*(call or (COMMAND, "judge")), path], capture_output=True, text=True, check=False)
+        return done.returncode, done.stdout, done.stderr
+
+    def places(self):
+        """What can be broken: how, which record stands there, where in it, and the trace up to it, broken."""
+        places = Places(self.schema)
+        for trace in self.traces:
+            for k, record in enumerate(trace):
+                places.walk(self.schema["$defs"]["step" if k else "header"], record, "step" if k else "header",
+                            line=(trace, k))
+        for (where, kind, key), ((trace, k), at, change) in places.found.items():
+            spoilt = copy.deepcopy(trace[:k + 1])
+            change(spoilt[k])
+            yield (where, kind, key), k, at, spoilt if k else [*spoilt, trace[1]]
+
+    def test_good_traces_are_read(self):
+        for trace in self.traces:
+            status, out, err = self.judge(trace)
+            self.assertIn(status, (0, 1), out + err)
+
+    def test_what_breaks_it_is_refused(self):
+        tried = set()
+        for place, k, at, lines in self.places():
+            with self.subTest(place):
+                status, out, err = self.judge(lines)
+                self.assertEqual((status, len(err.splitlines())), (2, 1), out + err)
+                self.assertIn(f"spoilt.jsonl:{k + 1}: ", err)
+                if k and at != ("step",):
+                    self.assertIn(f": step {lines[k]['step']}: ", err)
+                if place[1:] == ("required", "paperproof_trace"):
+                    self.assertIn('expected the header of a trace, with "paperproof_trace": 1', err)
+                elif place[1] == "required":
+                    self.assertIn(": /" + "/".join(map(str, at)) + ": expected this key", err)
+                tried.add(place)
+        required = {(where, key) for where, kind, key in tried if kind == "required"}
+        self.assertEqual(required, required_in(self.schema, ("header", "step", "ride")))
+
+    def test_a_refused_step_has_nothing_else(self):
+        header, step = self.traces[0][:2]
+        refused = {"step": 0, "input": {}, "refused": "no length", "dt": 0}
+        self.assertEqual(self.judge([header, refused])[0], 0)
+        for key in self.schema["$defs"]["step"]["else"]["required"]:
+            status, _, err = self.judge([header, {**refused, key: step[key]}])
+            self.assertEqual(status, 2)
+            self.assertIn(f"spoilt.jsonl:2: step 0: /{key}: expected no such key", err)
+
+    def test_the_checker_refuses_a_record_without_a_key(self):
+        for place, _, at, lines in self.places():
+            if place[1] == "required" and len(at) == 1 and place[0] in ("header", "step"):
+                with self.subTest(place):
+                    status, out, err = self.judge(lines, sys.executable, "-B", CHECKER)
+                    self.assertEqual((status, len(err.splitlines())), (2, 1), out + err)
+                    self.assertIn(place[2], err)
+
+
+if __name__ == "__main__":
+    SCHEMA = sys.argv.pop(2)
+    COMMAND = sys.argv.pop(1)
+    unittest.main()
