@@ -520,8 +520,9 @@ void Judge::judge_progress(const TraceStep& step, const Others& others, const Wa
     end.judge_ground(hanging, starts_free, judgement);
     end.judge_speed(starts_free, judgement);
     judge_legs(step, others, *wanted, later, judgement);
-    if (judgement.speed_gained > 0 && others.runs_into && turning_->touches_disc(step)) {
-      judgement.speed_gained = 0;
+    const bool gains = judgement.speed_gained > 0 || judgement.way_gained > 0;
+    if (gains && others.runs_into && turning_->touches_disc(step)) {
+      judgement.speed_gained = judgement.way_gained = 0;
       judgement.unsure = true;
     }
   } else if (step.grounded) {

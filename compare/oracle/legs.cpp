@@ -85,7 +85,6 @@ ControlledRange LegJudge::wanted_velocities() const {
     for (const Vec2d& velocity : {wanted->velocity, Vec2d(wanted->displacement / dt_)})
       unsteered.push_back(seen(velocity - wanted->steered / dt_ * right_, up_));
   ControlledRange range{.unsteered = Box2<double>::around(unsteered)};
-  range.unsteered.upper.y() += later_.jump;
   // What turns under its rider takes it along otherwise in each part of the step.
   double unsure = 0;
   if (first_.from_ground)
@@ -136,9 +135,12 @@ Box2<double> LegJudge::velocities(bool held, std::span<const MetSurface> surface
   ControlledRange range = held ? ControlledRange{} : wanted_velocities();
   range.squeezed = push_beyond_motion / dt_;
   const Box2<double> box = controlled_bounds(range, surfaces);
-  // What a part of the step has made falls on in the next.
+  // What a part of the step has made falls on in the next, or jumps off ground.
   const Vec2d falls = held ? Vec2d(Vec2d::Zero()) : seen(later_.velocity, up_);
-  const Box2<double> all = box.merged({box.lower + falls, box.upper + falls});
+  Box2<double> all = box.merged({box.lower + falls, box.upper + falls});
+  for (const MetSurface& at : surfaces)
+    if (at.walkable && later_.jump > 0)
+      all.upper.y() = std::max(all.upper.y(), at.velocity.y() + at.spread + later_.jump);
   return step_.crushed.empty() ? all : all.merged({});  // a crush ends all motion
 }
 
@@ -178,14 +180,18 @@ bool LegJudge::is_squeezed() const {
   });
 }
 
-/// How far the last leg goes straight down to ground at once, and so no farther than a walk is held to it [m].
+/// How far the last leg, or one in a step in parts, goes straight down to ground at once, and so no farther than a walk
+/// is held to it [m].
 double LegJudge::snapped() const {
-  if (!wanted_.from_ground || !step_.grounded || step_.path.size() < 2) return 0;
-  const PathPoint<double>& from = *std::prev(step_.path.end(), 2);
-  const Vec2d leg = step_.path.back().position - from.position;
-  const bool at_once = from.fraction == step_.path.back().fraction;
-  if (!at_once || std::abs(leg.dot(right_)) > rounding() || leg.dot(up_) > 0) return 0;
-  return std::min(leg.norm(), header_.character.snap);
+  const bool in_parts = first_.parts > 1;
+  if (in_parts ? header_.character.snap == 0 : !wanted_.from_ground || !step_.grounded) return 0;
+  double down = 0;
+  for (std::size_t k = in_parts ? 1 : step_.path.size() - 1; k > 0 && k < step_.path.size(); ++k) {
+    const Vec2d leg = seen(step_.path[k].position - step_.path[k - 1].position, up_);
+    const bool at_once = step_.path[k - 1].fraction == step_.path[k].fraction;
+    if (at_once && std::abs(leg.x()) <= rounding() && leg.y() < 0) down += std::min(-leg.y(), header_.character.snap);
+  }
+  return down;
 }
 
 double LegJudge::way_gained(std::size_t first, bool held) const {
