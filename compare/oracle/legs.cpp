@@ -24,7 +24,7 @@ constexpr double aims_away = 1e-6;
 /// Straight down, to ground that bends by no more than rounded vertices do [m].
 constexpr double follows_seam = 2.8e-6;
 /// A walk climbs no more of them in one step.
-constexpr double most_stairs = 4;
+constexpr int most_stairs = 4;
 /// A shorter way is none [m].
 constexpr double least_way = 1e-12;
 /// Where something turns, a character waits for a millionth of each part of the step, and then catches up.
@@ -42,10 +42,10 @@ std::vector<NearPart> parts_near(const ExactScenery& scenery, const TraceStep& s
   return parts;
 }
 
-bool climbs_stair(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step, const Others& others,
-                  const Wanted& wanted) {
+int stairs_climbed(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step, const Others& others,
+                   const Wanted& wanted) {
   const double highest = header.character.step_height + contact_reach;
-  if (!(header.character.step_height > 0) || !wanted.from_ground || wanted.jumped || !step.grounded) return false;
+  if (!(header.character.step_height > 0) || !wanted.from_ground || wanted.jumped || !step.grounded) return 0;
   const Vec2d up = up_in(step, header);
   const Vec2d walk = wanted.displacement - wanted.displacement.dot(up) * up;
   const auto stops = [&](const NearFace& face) {
@@ -56,13 +56,14 @@ bool climbs_stair(const TraceHeader& header, const ExactScenery& scenery, const 
     return std::any_of(parts.begin(), parts.end(),
                        [&](const NearPart& part) { return std::any_of(part.faces.begin(), part.faces.end(), stops); });
   };
+  int climbed = 0;
   for (std::size_t k = 2; k < step.path.size(); ++k) {
     const Vec2d leg = seen(step.path[k - 1].position - step.path[k - 2].position, up);
     const bool goes_on_at_once = step.path[k].fraction == step.path[k - 1].fraction;
     const bool straight = std::abs(leg.x()) <= 4 * ulp_at(header, step.path[k].position);
-    if (goes_on_at_once && straight && leg.y() > 0 && leg.y() <= highest && is_stopped(k - 2)) return true;
+    if (goes_on_at_once && straight && leg.y() > 0 && leg.y() <= highest && is_stopped(k - 2)) ++climbed;
   }
-  return false;
+  return std::min(climbed, most_stairs);
 }
 
 LegJudge::LegJudge(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step, const Wanted& wanted,
@@ -228,12 +229,12 @@ double LegJudge::farther(std::size_t first, bool held, const Box2<double>& speed
   }
   room_below.y() += follows_seam;
   if (!held) room_below.y() += snapped();
-  if (!held && climbs_stair(header_, scenery_, step_, others_, first_)) {
+  if (const int stairs = held ? 0 : stairs_climbed(header_, scenery_, step_, others_, first_); stairs > 0) {
     // Atop it goes on to where it would have come.
     const double across = (std::max(speeds.upper.x(), 0.0) - std::min(speeds.lower.x(), 0.0)) * dt_;
-    const Vec2d stairs(across, most_stairs * header_.character.step_height);
-    room_above += stairs;
-    room_below += stairs;
+    (wanted_.displacement.dot(right_) > 0 ? room_above : room_below).x() += across;
+    room_above.y() += stairs * header_.character.step_height;
+    room_below.y() += stairs * header_.character.step_height;
   }
   return std::max({0.0, (above - room_above).maxCoeff() - everywhere, (below - room_below).maxCoeff() - everywhere});
 }
@@ -262,7 +263,7 @@ bool LegJudge::is_beside_what_moves() const {
 
 double LegJudge::leg_error() const {
   const bool in_parts = first_.parts > 1 || later_.any() || !step_.vertex_ways.empty();
-  const bool stair = climbs_stair(header_, scenery_, step_, others_, first_);
+  const bool stair = stairs_climbed(header_, scenery_, step_, others_, first_) > 0;
   if (step_.dropped || in_parts || stair || !step_.met.empty() || is_beside_what_moves()) return 0;
   // A side hit ends a rise with the step: the way still goes on.
   ControlledStep law{.wanted = first_.displacement / dt_, .up = up_};

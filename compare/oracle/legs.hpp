@@ -11,10 +11,10 @@ namespace paperproof::compare::detail {
 [[nodiscard]] std::vector<NearPart> parts_near(const ExactScenery& scenery, const TraceStep& step, const Others& others,
                                                std::size_t corner, double within);
 
-/// Whether a walk climbs a stair: beside a face that stops it, too steep to walk on, a leg goes straight up by no more
-/// than `step_height`, the next one takes no time, and the step ends on ground.
-[[nodiscard]] bool climbs_stair(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step,
-                                const Others& others, const Wanted& wanted);
+/// How many stairs a walk climbs, at most 4: beside a face that stops it, too steep to walk on, a leg goes straight up
+/// by no more than `step_height`, the next one takes no time, and the step ends on ground.
+[[nodiscard]] int stairs_climbed(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step,
+                                 const Others& others, const Wanted& wanted);
 
 /// Holds the way of one step, leg by leg, against the law of motion, for a contender that promises it. Lives for one
 /// step.
@@ -24,10 +24,10 @@ namespace paperproof::compare::detail {
 /// along and across up, than its share of the time at these. What all legs together go farther is no more than the
 /// rules allow that move a character at once, each in its own direction: the gap is restored by 2e-6 m and, on a leg
 /// that aims at it, by 1e-6 m, along the normal of what is near; ground that hardly bends is followed by 2.8e-6 m, and
-/// at the end by `snap` where a walk may, straight down; a walk climbs 4 stairs, up and down by `step_height`, and goes
-/// on as it wanted in between; and what comes against the character and touches it pushes it as far as it goes itself,
-/// and by `push_beyond_motion` more towards something that looks at it. Other characters do that by no more than they
-/// want themselves, or hand on (`Others`).
+/// at the end by `snap` where a walk may, straight down; a walk climbs 4 stairs, up and down by `step_height` each, and
+/// goes on as it wanted in between; and what comes against the character and touches it pushes it as far as it goes
+/// itself, and by `push_beyond_motion` more towards something that looks at it. Other characters do that by no more
+/// than they want themselves, or hand on (`Others`).
 ///
 /// **Direction.** While nothing that moves is near, each leg leads along the wanted motion, or what the law of response
 /// makes of it at the contacts that the way has come to by then: what is steered into a wall goes nowhere else.

@@ -603,7 +603,7 @@ void RunJudge::judge_velocity(const SolidsInStep& there, const StepJudgement& ju
       !judged.crushed.empty() || (!judged.crushed_with_room.empty() && contains(header_.guarantees, Clause::crush));
   const bool excused = !record.start_overlap.empty() || !judged.end_overlap.empty() || crushed || record.stuck ||
                        record.dropped || header_.substeps > 1 || wanted.parts > 1 ||
-                       detail::climbs_stair(header_, solids(), record, {}, wanted);
+                       detail::stairs_climbed(header_, solids(), record, {}, wanted) > 0;
   if (excused || !contains(header_.guarantees, Clause::velocity)) return;
   const Vec2d up = up_in(record, header_);
   ControlledStep step{.wanted = wanted.velocity, .up = up};
