@@ -136,9 +136,12 @@ Box2<double> LegJudge::velocities(bool held, std::span<const MetSurface> surface
   ControlledRange range = held ? ControlledRange{} : wanted_velocities();
   range.squeezed = push_beyond_motion / dt_;
   const Box2<double> box = controlled_bounds(range, surfaces);
-  // What a part of the step has made falls on in the next, or jumps off ground.
-  const Vec2d falls = held ? Vec2d(Vec2d::Zero()) : seen(later_.velocity, up_);
-  Box2<double> all = box.merged({box.lower + falls, box.upper + falls});
+  // What a part of the step has made falls on, and is steered, in the next; or it jumps off ground.
+  Box2<double> all = box;
+  if (!held) {
+    const Vec2d falls = seen(later_.velocity, up_);
+    all = box.merged({box.lower + falls + Vec2d(later_.slower, 0), box.upper + falls + Vec2d(later_.faster, 0)});
+  }
   for (const MetSurface& at : surfaces)
     if (at.walkable && later_.jump > 0)
       all.upper.y() = std::max(all.upper.y(), at.velocity.y() + at.spread + later_.jump);
