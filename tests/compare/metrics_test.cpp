@@ -416,7 +416,7 @@ TEST(Metrics, ghost_speed_loss_is_the_largest_share_where_motion_was_wanted) {
   run[0].judged.ghost_speed_loss = 0.25;
   run[1].judged.ghost_speed_loss = 0.5;
   EXPECT_FALSE(row_of(run).ghost_speed_loss);
-  for (Moment& one : run) one.step.requested = {1, 0};
+  for (Moment& one : run) one.judged.motion_wanted = 1;
   EXPECT_EQ(row_of(run).ghost_speed_loss, 0.5);
 }
 
