@@ -16,7 +16,7 @@ struct JudgeOptions {
   /// Scene that the traces are of: what it says stands instead of what their headers say. Empty: the headers are taken.
   std::string scene;
   std::vector<ParameterSetting> settings;  ///< Parameters of the scene that are turned, as they were in the run.
-  std::optional<int> steps;                ///< Of the run, instead of the scene's.
+  std::optional<int> steps;                ///< Of the run, whatever scene and header say.
 };
 
 /// Prints a line for each trace, and one for each clause that was broken.

@@ -154,10 +154,7 @@ void EndJudge::judge_speed(bool starts_free, StepJudgement& judgement) const {
   if (excused) return;
   // A walker follows its ground down over a crest, as far as it is allowed to.
   const bool may_snap = header_.character.snap > 0 && wanted_.from_ground;
-  if (goes_freely())
-    judgement.speed_lost = may_snap ? 0 : flight_error();
-  else
-    judgement.speed_lost = may_snap ? 0 : rise_lost();
+  if (!may_snap) judgement.speed_lost = goes_freely() ? flight_error() : rise_lost();
 }
 
 }  // namespace paperproof::compare::detail

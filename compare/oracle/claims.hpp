@@ -25,9 +25,9 @@ inline constexpr double touch_rounding = 1e-8;
 /// normal, no jump began, the unsteered motion leads into it, and the motion at the end goes along all such faces: in
 /// one more step it would part them, or press in, by no more than that.
 ///
-/// **Speed lost.** A step that begins free, and whose wanted motion comes within 1e-6 m of nothing, goes exactly as
-/// wanted. Else the upward speed is less than wanted only below a ceiling, on ground that is followed, or where a climb
-/// ends with the walk at a wall. How fast and far it may go at most is a matter of `LegJudge`.
+/// **Speed lost.** A step begins free, and its wanted motion comes within 1e-6 m of nothing: it goes exactly as wanted.
+/// Else a character loses upward speed only below a ceiling, on ground that it follows, or at a wall that ends its
+/// climb. `LegJudge` bounds how fast and how far it goes.
 class EndJudge {
  public:
   /// @param grown_scenery the same for an octagon that is larger by 1e-6 m.

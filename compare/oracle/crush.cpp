@@ -27,7 +27,8 @@ class Departure {
     }
   }
 
-  /// @param movers that press: who is above a one-way chain, which ends no way, may go along with it.
+  /// @param movers that press. A character above a one-way chain may go along with the mover of that chain: such a
+  /// chain bounds no place, so that the search alone would not find this one.
   [[nodiscard]] std::optional<Vec2d> room(const Place& end, double reach, std::span<const MoverIndex> movers,
                                           const Others& characters) const {
     const auto can_go_there = [&](const Vec2d& position) {

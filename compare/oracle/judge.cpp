@@ -589,10 +589,10 @@ Judge::Leaving Judge::leaving_of(const Path& path, const Others& others, bool fr
 /// How far and how fast the step goes at most, and whether it leaves what it begins inside of as it must.
 void Judge::judge_legs(const TraceStep& step, const Others& others, const Wanted& wanted,
                        const detail::LaterParts& later, StepJudgement& judgement) const {
-  const detail::LegJudge legs(header_, scenery_, step, wanted, others, later);
   const bool held = leaving_.inside && !leaving_.free && (!leaving_.turning || step.stuck);
-  const double way = legs.way_gained(leaving_.inside && leaving_.at_once ? 1 : 0, held);
-  const double speed = legs.speed_gained(held);
+  const detail::LegJudge legs(header_, scenery_, step, wanted, others, later, held);
+  const double way = legs.way_gained(leaving_.inside && leaving_.at_once ? 1 : 0);
+  const double speed = legs.speed_gained();
   const bool says_so = step.stuck || !judgement.crushed.empty() || !judgement.crushed_with_room.empty();
   const auto overlaps = [](const NearPart& part) { return part.faces.front().separation < 0; };
   const auto is_inside_another = [&] {

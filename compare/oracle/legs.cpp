@@ -1,14 +1,12 @@
 #include "oracle/legs.hpp"
 
 #include "oracle/contacts.hpp"
-#include "oracle/hanging.hpp"
 #include "oracle/met_surfaces.hpp"
 #include "oracle/up.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <numeric>
 #include <set>
 
@@ -25,8 +23,6 @@ constexpr double aims_away = 1e-6;
 constexpr double follows_seam = 2.8e-6;
 /// A walk climbs no more of them in one step.
 constexpr int most_stairs = 4;
-/// A shorter way is none [m].
-constexpr double least_way = 1e-12;
 /// Where something turns, a character waits for a millionth of each part of the step, and then catches up.
 constexpr double waits = 2e-6;
 
@@ -67,7 +63,7 @@ int stairs_climbed(const TraceHeader& header, const ExactScenery& scenery, const
 }
 
 LegJudge::LegJudge(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step, const Wanted& wanted,
-                   const Others& others, const LaterParts& later)
+                   const Others& others, const LaterParts& later, bool held)
     : header_(header),
       scenery_(scenery),
       step_(step),
@@ -77,9 +73,12 @@ LegJudge::LegJudge(const TraceHeader& header, const ExactScenery& scenery, const
       later_(later),
       up_(up_in(step, header)),
       right_(up_.y(), -up_.x()),
-      dt_(length_of(step, header)) {}
+      dt_(length_of(step, header)),
+      held_(held),
+      surfaces_(near_surfaces()),
+      speeds_(velocities(surfaces_)) {}
 
-/// What is wanted, in whichever part of the step.
+/// The velocities that the parts of the step want.
 ControlledRange LegJudge::wanted_velocities() const {
   std::vector<Vec2d> unsteered;
   for (const Wanted* wanted : {&wanted_, &first_})
@@ -97,48 +96,50 @@ ControlledRange LegJudge::wanted_velocities() const {
 }
 
 /// All that is near the way, in the order in which it comes to it.
-const std::vector<MetSurface>& LegJudge::surfaces() const {
-  if (surfaces_) return *surfaces_;
-  surfaces_.emplace();
-  const auto is_known = [this](const MetSurface& at) {
-    return std::any_of(surfaces_->begin(), surfaces_->end(), [&](const MetSurface& one) {
+std::vector<MetSurface> LegJudge::near_surfaces() const {
+  std::vector<MetSurface> surfaces;
+  const auto add = [&surfaces](const MetSurface& at) {
+    const bool is_known = std::any_of(surfaces.begin(), surfaces.end(), [&](const MetSurface& one) {
       return one.normal == at.normal && one.velocity == at.velocity && one.spread == at.spread &&
              one.walkable == at.walkable;
     });
+    if (!is_known) surfaces.push_back(at);
   };
+  std::optional<double> handed_on;
   for (std::size_t corner = 0; corner < step_.path.size(); ++corner)
-    for (const NearPart& part : near(corner, contact_reach))
+    for (const NearPart& part : near(corner, contact_reach)) {
+      const bool is_character = part.collider == no_collider;
+      if (is_character && !handed_on) handed_on = others_.handed_on ? others_.handed_on() : HUGE_VAL;
       for (const NearFace& face : part.faces)
         for (const std::optional<Vec2d>& way : {std::optional(part.moved), part.comes, part.goes}) {
           if (!way) continue;
-          MetSurface at{.normal = seen(face.normal, up_), .spread = part.unsure / dt_};
-          at.velocity = seen(*way, up_) / dt_;
+          const Vec2d normal = seen(face.normal, up_);
+          Vec2d velocity = seen(*way, up_) / dt_;
           // Two that say that they push each other do not vouch for each other.
-          if (part.collider == no_collider && others_.handed_on)
-            at.velocity *= std::min(1.0, others_.handed_on() / std::max(way->norm(), least_way));
-          if (part.collider != no_collider)
-            at.velocity +=
-                header_.scenery.colliders[part.collider].surface_speed * Vec2d(at.normal.y(), -at.normal.x());
-          at.walkable = is_walked_on(face.normal, header_, up_);
-          if (at.walkable && !is_known(at)) surfaces_->push_back(at);
-          // Ground carries; walls impart nothing along themselves. What slopes of a character is both.
-          if (at.walkable && part.collider != no_collider) continue;
-          at.walkable = false;
-          at.velocity = at.velocity.dot(at.normal) * at.normal;
-          if (!is_known(at)) surfaces_->push_back(at);
+          if (is_character && way->norm() > *handed_on) velocity *= *handed_on / way->norm();
+          if (!is_character) velocity += conveyed(header_.scenery.colliders[part.collider], normal);
+          const bool is_ground = is_walked_on(face.normal, header_, up_);
+          for (const bool walkable : {true, false}) {
+            // What slopes of a character is ground and wall.
+            if (walkable != is_ground && (walkable || !is_character)) continue;
+            add({.normal = normal,
+                 .velocity = imparted(velocity, normal, walkable),
+                 .walkable = walkable,
+                 .spread = part.unsure / dt_});
+          }
         }
-  return *surfaces_;
+    }
+  return surfaces;
 }
 
 /// All that the step may have at these surfaces, across and along up [m/s].
-/// @param held it is stuck, so that it wants to go nowhere.
-Box2<double> LegJudge::velocities(bool held, std::span<const MetSurface> surfaces) const {
-  ControlledRange range = held ? ControlledRange{} : wanted_velocities();
+Box2<double> LegJudge::velocities(std::span<const MetSurface> surfaces) const {
+  ControlledRange range = held_ ? ControlledRange{} : wanted_velocities();
   range.squeezed = push_beyond_motion / dt_;
   const Box2<double> box = controlled_bounds(range, surfaces);
   // What a part of the step has made falls on, and is steered, in the next; or it jumps off ground.
   Box2<double> all = box;
-  if (!held) {
+  if (!held_) {
     const Vec2d falls = seen(later_.velocity, up_);
     all = box.merged({box.lower + falls + Vec2d(later_.slower, 0), box.upper + falls + Vec2d(later_.faster, 0)});
   }
@@ -173,14 +174,13 @@ double LegJudge::rounding() const {
 }
 
 /// Whether something that comes against it touches it: nothing else pushes.
-bool LegJudge::is_pushed() const { return std::any_of(surfaces().begin(), surfaces().end(), comes_against); }
+bool LegJudge::is_pushed() const { return std::any_of(surfaces_.begin(), surfaces_.end(), comes_against); }
 
 /// Whether two that look at each other touch it, and one of them comes against it: one alone squeezes nobody.
 bool LegJudge::is_squeezed() const {
-  const std::vector<MetSurface>& all = surfaces();
-  return std::any_of(all.begin(), all.end(), [&](const MetSurface& one) {
-    return comes_against(one) && std::any_of(all.begin(), all.end(),
-                                             [&](const MetSurface& other) { return one.normal.dot(other.normal) < 0; });
+  return std::any_of(surfaces_.begin(), surfaces_.end(), [&](const MetSurface& one) {
+    const auto looks_at_it = [&](const MetSurface& other) { return one.normal.dot(other.normal) < 0; };
+    return comes_against(one) && std::any_of(surfaces_.begin(), surfaces_.end(), looks_at_it);
   });
 }
 
@@ -198,19 +198,19 @@ double LegJudge::snapped() const {
   return down;
 }
 
-double LegJudge::way_gained(std::size_t first, bool held) const {
-  const double gained = farther(first, held, velocities(held, surfaces()), 0);
+double LegJudge::way_gained(std::size_t first) const {
+  const double gained = farther(first, speeds_, 0);
   if (!(gained > 0)) return 0;
   if (!is_pushed()) return gained;
   const bool may_be_thrown = is_squeezed() || !step_.start_overlap_characters.empty();
   // Pushed at once, it goes on as if all rested: each motion counts once.
-  std::vector<MetSurface> resting = surfaces();
+  std::vector<MetSurface> resting = surfaces_;
   for (MetSurface& at : resting) at = {.normal = at.normal, .walkable = at.walkable};
-  return farther(first, held, velocities(held, resting), pushed() + (may_be_thrown ? push_beyond_motion : 0));
+  return farther(first, velocities(resting), pushed() + (may_be_thrown ? push_beyond_motion : 0));
 }
 
 /// How much farther the way is, in one direction, than at these velocities [m]. @param push in any direction [m].
-double LegJudge::farther(std::size_t first, bool held, const Box2<double>& speeds, double push) const {
+double LegJudge::farther(std::size_t first, const Box2<double>& speeds, double push) const {
   Vec2d above = Vec2d::Zero();
   Vec2d below = Vec2d::Zero();
   for (std::size_t leg = first; leg + 1 < step_.path.size(); ++leg) {
@@ -225,14 +225,14 @@ double LegJudge::farther(std::size_t first, bool held, const Box2<double>& speed
   if (!step_.vertex_ways.empty()) everywhere += waits * wanted_.displacement.norm();
   Vec2d room_above = Vec2d::Zero();
   Vec2d room_below = Vec2d::Zero();
-  const double gap = restores_start + aims_away * static_cast<double>(1 + surfaces().size());
-  for (const MetSurface& at : surfaces()) {
+  const double gap = restores_start + aims_away * static_cast<double>(1 + surfaces_.size());
+  for (const MetSurface& at : surfaces_) {
     room_above = room_above.cwiseMax(gap * at.normal);
     room_below = room_below.cwiseMax(-gap * at.normal);
   }
   room_below.y() += follows_seam;
-  if (!held) room_below.y() += snapped();
-  if (const int stairs = held ? 0 : stairs_climbed(header_, scenery_, step_, others_, first_); stairs > 0) {
+  if (!held_) room_below.y() += snapped();
+  if (const int stairs = held_ ? 0 : stairs_climbed(header_, scenery_, step_, others_, first_); stairs > 0) {
     // Atop it goes on to where it would have come.
     const double across = (std::max(speeds.upper.x(), 0.0) - std::min(speeds.lower.x(), 0.0)) * dt_;
     (wanted_.displacement.dot(right_) > 0 ? room_above : room_below).x() += across;
@@ -242,11 +242,10 @@ double LegJudge::farther(std::size_t first, bool held, const Box2<double>& speed
   return std::max({0.0, (above - room_above).maxCoeff() - everywhere, (below - room_below).maxCoeff() - everywhere});
 }
 
-double LegJudge::speed_gained(bool held) const {
-  const Box2<double> speeds = velocities(held, surfaces());
+double LegJudge::speed_gained() const {
   const Vec2d velocity = seen(step_.velocity, up_);
-  const double gained = std::max((velocity - speeds.upper).maxCoeff(), (speeds.lower - velocity).maxCoeff());
-  const double largest = std::max(speeds.lower.cwiseAbs().maxCoeff(), speeds.upper.cwiseAbs().maxCoeff());
+  const double gained = std::max((velocity - speeds_.upper).maxCoeff(), (speeds_.lower - velocity).maxCoeff());
+  const double largest = std::max(speeds_.lower.cwiseAbs().maxCoeff(), speeds_.upper.cwiseAbs().maxCoeff());
   return gained <= relative_rounding * (1 + largest) ? 0 : gained;
 }
 

@@ -19,28 +19,29 @@ namespace paperproof::compare::detail {
 /// Holds the way of one step, leg by leg, against the law of motion, for a contender that promises it. Lives for one
 /// step.
 ///
-/// **Bounds.** `controlled_bounds` gives the velocities that a step can have: of what is wanted, at all that comes
-/// within `contact_reach` of the way. At the end it has one of them. No leg goes farther in any of the four directions,
-/// along and across up, than its share of the time at these. What all legs together go farther is no more than the
-/// rules allow that move a character at once, each in its own direction: the gap is restored by 2e-6 m and, on a leg
-/// that aims at it, by 1e-6 m, along the normal of what is near; ground that hardly bends is followed by 2.8e-6 m, and
-/// at the end by `snap` where a walk may, straight down; a walk climbs 4 stairs, up and down by `step_height` each, and
-/// goes on as it wanted in between; and what comes against the character and touches it pushes it as far as it goes
-/// itself, and by `push_beyond_motion` more towards something that looks at it. Other characters do that by no more
-/// than they want themselves, or hand on (`Others`).
+/// **Bounds.** `controlled_bounds` gives the velocities that the step can have at all surfaces within `contact_reach`
+/// of its way. The velocity at the end is one of them. In each of four directions, along and across up, no leg is
+/// longer than its share of the time at these velocities. Some rules move a character at once. All legs together are
+/// longer by no more than these rules allow, each in its own direction:
+/// - The gap is restored by 2e-6 m, and by 1e-6 m on a leg that aims at it, along the normal of a surface.
+/// - Ground that hardly bends is followed by 2.8e-6 m, straight down. A walk follows ground by `snap`.
+/// - A walk climbs at most 4 stairs, each up and down by `step_height`, and goes on to where it would have come.
+/// - What moves and touches the character pushes it as far as it goes itself, and `push_beyond_motion` farther where
+///   another surface looks at it. Other characters push no farther than they want to go, or hand on (`Others`).
 ///
 /// **Direction.** While nothing that moves is near, each leg leads along the wanted motion, or what the law of response
 /// makes of it at the contacts that the way has come to by then: what is steered into a wall goes nowhere else.
 class LegJudge {
  public:
+  /// @param held it is stuck in what it begins inside of, so that it wants to go nowhere.
   LegJudge(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step, const Wanted& wanted,
-           const Others& others, const LaterParts& later);
+           const Others& others, const LaterParts& later, bool held);
 
-  /// How much longer the way is than anything made it [m].
-  /// @param first the leg that is looked at first. @param held it is stuck, so that it wants to go nowhere.
-  [[nodiscard]] double way_gained(std::size_t first, bool held) const;
+  /// How much longer the way is, in one direction, than anything made it [m].
+  /// @param first the leg that is looked at first.
+  [[nodiscard]] double way_gained(std::size_t first) const;
   /// How much faster it is, in one direction, than anything made it [m/s].
-  [[nodiscard]] double speed_gained(bool held) const;
+  [[nodiscard]] double speed_gained() const;
   /// How far a leg ends from where the law leads it [m]. Not of a step in parts, nor of one that drops motion.
   [[nodiscard]] double leg_error() const;
 
@@ -49,9 +50,9 @@ class LegJudge {
     return parts_near(scenery_, step_, others_, corner, within);
   }
   [[nodiscard]] ControlledRange wanted_velocities() const;
-  [[nodiscard]] const std::vector<MetSurface>& surfaces() const;
-  [[nodiscard]] Box2<double> velocities(bool held, std::span<const MetSurface> surfaces) const;
-  [[nodiscard]] double farther(std::size_t first, bool held, const Box2<double>& speeds, double push) const;
+  [[nodiscard]] std::vector<MetSurface> near_surfaces() const;
+  [[nodiscard]] Box2<double> velocities(std::span<const MetSurface> surfaces) const;
+  [[nodiscard]] double farther(std::size_t first, const Box2<double>& speeds, double push) const;
   [[nodiscard]] double pushed() const;
   [[nodiscard]] bool is_beside_what_moves() const;
   [[nodiscard]] double rounding() const;
@@ -68,8 +69,10 @@ class LegJudge {
   const LaterParts& later_;
   Vec2d up_;
   Vec2d right_;
-  double dt_;                                                ///< [s]
-  mutable std::optional<std::vector<MetSurface>> surfaces_;  ///< Asked for once.
+  double dt_;  ///< [s]
+  bool held_;
+  const std::vector<MetSurface> surfaces_;  ///< All that is near the way, as an upright character sees it.
+  const Box2<double> speeds_;               ///< What the step may have at them, across and along up [m/s].
 };
 
 }  // namespace paperproof::compare::detail

@@ -77,10 +77,16 @@ double SolidsInStep::spread(ColliderIndex collider, const Vec2d& moved, double a
   return angle * (moved.norm() + apart) / length_of(step_, header_);
 }
 
+Vec2d conveyed(const ColliderDef& collider, const Vec2d& normal) {
+  return collider.surface_speed * Vec2d(normal.y(), -normal.x());
+}
+
+Vec2d imparted(const Vec2d& velocity, const Vec2d& normal, bool walkable) {
+  return walkable ? velocity : Vec2d(velocity.dot(normal) * normal);
+}
+
 Vec2d velocity_of(const SolidsInStep& solids, const Contact<double>& touch) {
-  const ColliderDef& collider = solids.header().scenery.colliders[touch.collider];
-  const Vec2d conveyed = collider.surface_speed * Vec2d(touch.normal.y(), -touch.normal.x());
-  return conveyed +
+  return conveyed(solids.header().scenery.colliders[touch.collider], touch.normal) +
          solids.moved(touch.collider, touch.point, touch.fraction) / length_of(solids.step(), solids.header());
 }
 
@@ -105,11 +111,9 @@ std::vector<MetSurface> met_surfaces(const SolidsInStep& solids, std::span<const
     };
     auto since = corner;
     while (since != step.path.begin() && is_touched(*std::prev(since))) --since;
-    const Vec2d velocity = velocity_of(solids, touch);
     MetSurface one{.normal = touch.normal};
     one.walkable = is_walked_on(touch.normal, solids.header(), up);
-    // Ground carries; walls impart nothing along themselves.
-    one.velocity = one.walkable ? velocity : Vec2d(velocity.dot(touch.normal) * touch.normal);
+    one.velocity = imparted(velocity_of(solids, touch), touch.normal, one.walkable);
     one.is_side = touch.side == Side::left || touch.side == Side::right;
     one.climbs = walks && touches_ground(solids, *corner);
     one.met = touch.fraction >= 1 || corner->fraction >= 1 ? touch.fraction : corner->fraction;

@@ -45,6 +45,12 @@ class SolidsInStep {
   mutable std::map<double, std::unique_ptr<ExactScenery>> turned_;
 };
 
+/// The velocity of the surface of a conveyor, relative to its mover [m/s]; zero of what is none.
+[[nodiscard]] Vec2d conveyed(const ColliderDef& collider, const Vec2d& normal);
+
+/// What a surface imparts of its velocity: ground carries; walls impart nothing along themselves [m/s].
+[[nodiscard]] Vec2d imparted(const Vec2d& velocity, const Vec2d& normal, bool walkable);
+
 /// Of a surface that goes along with its mover and may be a conveyor [m/s].
 [[nodiscard]] Vec2d velocity_of(const SolidsInStep& solids, const Contact<double>& touch);
 

@@ -276,7 +276,7 @@ Box2<double> controlled_bounds(const ControlledRange& range, std::span<const Met
     const std::size_t i = turn % surfaces.size();
     const MetSurface& at = surfaces[i];
     const auto responses = [&at](const Box2<double>& box) {
-      Box2<double> all{at.velocity, at.velocity};  // what it carries goes as it does
+      Box2<double> all{at.velocity, at.velocity};  // the surface may carry the character
       for (const Vec2d& goes : velocities_of(at))
         for (const Vec2d& v : corners_of(box)) {
           Box2<double> made{Vec2d::Zero(), Vec2d::Zero()};
@@ -288,7 +288,7 @@ Box2<double> controlled_bounds(const ControlledRange& range, std::span<const Met
     const Box2<double> before = unsteered;
     unsteered = unsteered.merged(responses(before));
     wanted = wanted.merged(responses(wanted)).merged(unsteered);
-    // On ground steering begins anew, whatever walls have taken of it.
+    // A wall takes steering. On ground the whole of it is there again.
     if (at.walkable) wanted = wanted.merged(responses({before.lower + slower, before.upper + faster}));
     for (std::size_t k = 0; k < i; ++k) {
       const MetSurface& with = surfaces[k];

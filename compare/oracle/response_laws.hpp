@@ -68,11 +68,11 @@ struct ControlledRange {
   Box2<double> unsteered{};   ///< As in `ControlledStep`.
   double least_steering = 0;  ///< Steering adds across up no less than this, which is not positive,
   double most_steering = 0;   ///< and no more than this.
-  double squeezed = 0;        ///< Two that close press out what is between them no faster than they go, and this.
+  double squeezed = 0;        ///< Two surfaces press a character out by at most their own speeds and this.
 };
 
-/// A box that holds whatever the same law can make at the surfaces, where neither their order nor times are known, nor
-/// which of them are met at all, nor more of their velocities than `MetSurface::spread`; and what is wanted itself.
+/// A box that holds the wanted velocities, and all that the same law can make of them. It does not ask in which order
+/// the surfaces are met, when, or whether at all. It knows their velocities as far as `MetSurface::spread` says.
 /// @param surfaces as an upright character sees them.
 [[nodiscard]] Box2<double> controlled_bounds(const ControlledRange& range, std::span<const MetSurface> surfaces);
 

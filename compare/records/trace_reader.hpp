@@ -10,7 +10,7 @@
 
 namespace paperproof::compare {
 
-/// What is wrong with a trace, as `FILE:LINE: step N: KEY: what was expected`; of the header without a step.
+/// A fault of a trace, as `FILE:LINE: step N: KEY: what was expected`. A fault of the header names no step.
 class InvalidTrace : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -116,9 +116,8 @@ TEST(Command, says_what_merge_and_diff_take) {
   const Workplace place;
   ASSERT_EQ(place.run("compare article_bullet --contender mask --no-timing --quiet --rows rows.json").status, 0);
   const std::string takes =
-      "rows.json: expected rows as JSON Lines, as `--rows FILE.jsonl` writes them (`\"paperproof_rows\": 1` in the "
-      "first "
-      "line)\n";
+      "rows.json: expected rows as JSON Lines, as `--rows FILE.jsonl` writes them "
+      "(`\"paperproof_rows\": 1` in the first line)\n";
   for (const char* arguments : {"merge rows.json --rows out.jsonl", "diff rows.json rows.json"}) {
     const Finished finished = place.run(arguments);
     EXPECT_EQ(finished.status, 2) << arguments;
@@ -175,8 +174,7 @@ TEST(Command, names_what_could_stand_where_a_word_is_missing_or_unknown) {
   const Workplace place;
   const std::string commands =
       "paperproof: expected one of compare, study, work-precision, stability, sweep, merge, diff, judge, report, "
-      "convert, "
-      "check, plan, demo, list; see paperproof --help\n";
+      "convert, check, plan, demo, list; see paperproof --help\n";
   for (const auto& [arguments, line] : {std::pair<std::string, std::string>{"", commands},
                                         {"frobnicate", commands},
                                         {"study bullets",
