@@ -120,7 +120,7 @@ double EndJudge::flight_error() const {
   const double waited = waits ? 2e-6 * size : 0;
   double off = 0;
   for (const PathPoint<double>& corner : step_.path) {
-    const double bend = corner.fraction < 1 ? later_.bend() : later_.steered() * dt_ / 2;
+    const double bend = corner.fraction < 1 ? later_.bend() : later_.steered_way(later_.steered());
     off = std::max(off, (corner.position - start - wanted_.displacement * corner.fraction).norm() - bend);
   }
   const Vec2d right(up_.y(), -up_.x());
@@ -140,8 +140,10 @@ double EndJudge::rise_lost() const {
       for (const NearFace& face : part.faces) {
         const double slope = face.normal.dot(up_);
         const bool is_wall = std::abs(face.normal.dot(right)) > rounding_of_motion;
-        const bool follows = slope > 0 && std::abs(face.normal.dot(step_.velocity)) <=
-                                              guaranteed_touch / dt_ + rounding_of_motion * step_.velocity.norm();
+        const bool is_entered = face.normal.dot(wanted_.velocity * dt_ - part.moved) < 0;
+        const bool follows = slope > 0 && (is_entered || !wanted_.jumped) &&
+                             std::abs(face.normal.dot(step_.velocity)) <=
+                                 guaranteed_touch / dt_ + rounding_of_motion * step_.velocity.norm();
         const bool ends_rise = is_wall && (wanted_.from_ground || header_.character.side_hit_ends_rise);
         if (slope < 0 || !part.moved.isZero(0) || follows || ends_rise) return 0;
       }
@@ -153,7 +155,7 @@ void EndJudge::judge_speed(bool starts_free, StepJudgement& judgement) const {
       !starts_free || step_.stuck || step_.dropped || !judgement.crushed.empty() || !judgement.end_overlap.empty();
   if (excused) return;
   // A walker follows its ground down over a crest, as far as it is allowed to.
-  const bool may_snap = header_.character.snap > 0 && wanted_.from_ground;
+  const bool may_snap = header_.character.snap > 0 && wanted_.from_ground && !wanted_.jumped;
   if (!may_snap) judgement.speed_lost = goes_freely() ? flight_error() : rise_lost();
 }
 

@@ -76,7 +76,8 @@ struct NearPart {
   /// this moment, and as it goes on from it [m].
   std::optional<Vec2d> comes{};
   std::optional<Vec2d> goes{};
-  double unsure = 0;            ///< So much farther than `moved` it may come along a normal [m]: of what turns.
+  double unsure = 0;  ///< So much farther than `moved` it may come along a normal [m]: of what turns.
+  double rim = 0;     ///< So far the rim of a disc that turns goes along itself [m].
 };
 
 /// The octagon's interior came to overlap a sensor's, or ceased to.

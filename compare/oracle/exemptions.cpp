@@ -69,7 +69,7 @@ constexpr std::array<Exemption, 15> all_exemptions{{
     {Exempt::far, "far", "begins or goes farther than this, and breaks a clause", "m", {1e6, 0, 0, 0}},
     {Exempt::unsure,
      "unsure",
-     "hangs, or loses or gains speed, unless what turns comes this much farther than its point nearest to the "
+     "hangs, or loses speed, unless what turns comes this much farther than its point nearest to the "
      "character",
      "m",
      {its_turn, its_turn, its_turn, its_turn}},

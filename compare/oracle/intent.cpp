@@ -158,6 +158,8 @@ Wanted Intent::begin(const TraceStep& step, int parts, const WallAhead& wall_ahe
     walk += std::clamp(target - walk, -acceleration * dt, acceleration * dt);
   }
   const double change = walk - own.x();
+  wanted.walk = walk;
+  wanted.rides = ride_.has_value();
   if (change * own.x() < 0 && is_climb_of_walk(own.x(), rise)) rise *= std::max(walk / own.x(), 0.0);
   rise = use_button(step, dt, rise, wall_ahead, wanted);
   if (character.coyote_time > 0) coyote_left_ = grounded_ ? character.coyote_time : std::max(coyote_left_ - dt, 0.0);

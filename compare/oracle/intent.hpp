@@ -13,6 +13,8 @@ struct Wanted {
   Vec2d displacement{Vec2d::Zero()};  ///< In the world: what carries the character is included [m].
   Vec2d velocity{Vec2d::Zero()};      ///< The same [m/s].
   double steered = 0;                 ///< The part of the displacement across up that steering added [m].
+  double walk = 0;                    ///< Across up, relative to what it rides [m/s].
+  bool rides = false;                 ///< Something that moves or conveys carries it.
   bool jumped = false;                ///< A jump begins.
   bool jumping = false;               ///< The same, or one goes on.
   bool pending = false;               ///< A press that has not become a jump yet.

@@ -520,11 +520,6 @@ void Judge::judge_progress(const TraceStep& step, const Others& others, const Wa
     end.judge_ground(hanging, starts_free, judgement);
     end.judge_speed(starts_free, judgement);
     judge_legs(step, others, *wanted, later, judgement);
-    const bool gains = judgement.speed_gained > 0 || judgement.way_gained > 0;
-    if (gains && others.runs_into && turning_->touches_disc(step)) {
-      judgement.speed_gained = judgement.way_gained = 0;
-      judgement.unsure = true;
-    }
   } else if (step.grounded) {
     judge_ground(hanging, step, judgement);
   }
@@ -591,6 +586,8 @@ void Judge::judge_legs(const TraceStep& step, const Others& others, const Wanted
                        const detail::LaterParts& later, StepJudgement& judgement) const {
   const bool held = leaving_.inside && !leaving_.free && (!leaving_.turning || step.stuck);
   const detail::LegJudge legs(header_, scenery_, step, wanted, others, later, held);
+  judgement.unsure = judgement.unsure || !legs.knows_speeds();
+  if (!legs.knows_speeds()) return;
   const double way = legs.way_gained(leaving_.inside && leaving_.at_once ? 1 : 0);
   const double speed = legs.speed_gained();
   const bool says_so = step.stuck || !judgement.crushed.empty() || !judgement.crushed_with_room.empty();
@@ -621,7 +618,7 @@ void Judge::excuse_by_turning(const TraceStep& step, const detail::LaterParts& l
   const auto slowed = [&](const Vec2d& by, double steered) { return std::max(0.0, steered - ahead * by.dot(right)); };
   const double steered = ahead > 0 ? -later.slower : later.faster;
   const double carried = others.runs_into ? turning_->carries_otherwise(step) : 0;
-  judgement.motion_lost -= slowed(later.way, steered * dt_ / 2) + carried;
+  judgement.motion_lost -= slowed(later.way, later.steered_way(steered)) + carried;
   judgement.ghost_speed_loss -= (slowed(later.velocity, steered) * dt_ + carried) / std::abs(wanted);
   if (!(judgement.motion_lost > rounding_of_loss * std::abs(wanted))) judgement.motion_lost = 0;
   if (!(judgement.ghost_speed_loss > rounding_of_loss)) judgement.ghost_speed_loss = 0;

@@ -85,8 +85,7 @@ struct StepJudgement {
   bool stuck_refuted = false;   ///< It said that it is stuck, and there is a way out: see `Judge`.
   bool ground_refuted = false;  ///< It said that it is grounded, and nothing is under it: see `Judge`.
   bool ground_late = false;     ///< The same, but something was under it earlier in the step: excused.
-  /// It hangs, or loses motion or speed, unless what turns comes farther than its nearest point does (see `Bounds`); or
-  /// it is faster than anything but the rim of a disc could make it.
+  /// It hangs, or loses motion or speed, unless what turns comes farther than its nearest point does (see `Bounds`).
   bool unsure = false;
   bool in_parts = false;        ///< It goes in parts, and a contact or a time that follows the first is not asked for.
   bool turning_sensor = false;  ///< It overlaps a sensor that turns, or says so: that is not asked for.
@@ -220,13 +219,13 @@ struct StepJudgement {
 ///   requested: a character may give way instead.
 /// Excepted are
 /// - a direction with less than 2e-7 m of room between what is left and right of it, which is not in C;
-/// - ground: a step with a part in reach one of whose faces is within `max_climb_degrees` (and 1e-6 rad) of level, if it
+/// - ground: a step with a part in reach one of whose faces is within `max_climb_degrees` (and 1e-6 rad) of level, if
+/// it
 ///   says that it stands, or cannot fall straight down past that part;
 /// - a step that touches a corner deeper than 1e-6 m inside a solid, a verified crush, and Box2D's cap: other answers
 ///   say so.
 /// What turns comes along a face's normal by no more than a bound that is safe. Who hangs only if it comes as far as
-/// the point does that is nearest to the octagon is `unsure` (exempted); so is who is
-/// too fast at a disc that turns. What a grid has taken up and not made yet
+/// the point does that is nearest to the octagon is `unsure` (exempted). What a grid has taken up and not made yet
 /// (`remainder`) counts as made. A step hovers if it would hang, but for what is within the contender's own reach
 /// (`detail::reach_of`): Box2D's skin, a unit of the article's search.
 ///

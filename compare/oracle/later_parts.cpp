@@ -1,5 +1,6 @@
 #include "oracle/later_parts.hpp"
 
+#include "oracle/met_surfaces.hpp"
 #include "oracle/up.hpp"
 
 #include <algorithm>
@@ -8,7 +9,7 @@
 namespace paperproof::compare::detail {
 namespace {
 
-/// A change of speed that is less than the limit by this share is what was asked for.
+/// Relative.
 constexpr double rounding_of_steering = 1e-9;
 
 }  // namespace
@@ -39,13 +40,24 @@ LaterParts later_parts(const TraceHeader& header, const TraceStep& step, const W
   const CharacterDef& character = header.character;
   const double in_air = character.air_acceleration.value_or(character.acceleration);
   const double most = std::max(character.acceleration, in_air) * (later.dt - part);
-  // What is walked on may be left, or met, in any part: then what was steered so far says nothing of what follows.
-  const bool any_way = first.from_ground || !step.contacts.empty() || pull.x() != 0;
-  // Who steered less than it could has the speed that it asked for.
-  const bool is_there =
-      std::abs(first.steered) < std::min(character.acceleration, in_air) * part * later.dt * (1 - rounding_of_steering);
-  later.faster = any_way || (first.steered > 0 && !is_there) ? most : 0;
-  later.slower = any_way || (first.steered < 0 && !is_there) ? -most : 0;
+  later.most_steered = most;
+  later.asked = std::clamp(*step.input.move, -1.0, 1.0) * character.walk_speed;
+  // Ground that moves, and what slopes, may leave it any speed in any part.
+  const auto keeps_speed = [&](const Contact<double>& contact) {
+    const ColliderDef& met = header.scenery.colliders[contact.collider];
+    const bool is_wall = std::abs(contact.normal.dot(up)) <= rounding_of_steering;
+    return met.mover == no_mover && met.surface_speed == 0 && (is_wall || is_walked_on(contact.normal, header, up));
+  };
+  const bool any_speed = first.rides || pull.x() != 0 || !step.met.empty() ||
+                         !std::all_of(step.contacts.begin(), step.contacts.end(), keeps_speed);
+  // A wall ends it.
+  const double slowest_walk = step.contacts.empty() ? first.walk : std::min(first.walk, 0.0);
+  const double fastest_walk = step.contacts.empty() ? first.walk : std::max(first.walk, 0.0);
+  const double room = rounding_of_steering * (1 + std::abs(later.asked));
+  if (any_speed || later.asked > slowest_walk + room)
+    later.faster = any_speed ? most : std::min(most, later.asked - slowest_walk);
+  if (any_speed || later.asked < fastest_walk - room)
+    later.slower = any_speed ? -most : -std::min(most, fastest_walk - later.asked);
   return later;
 }
 

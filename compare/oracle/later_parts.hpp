@@ -19,15 +19,19 @@ struct LaterParts {
   Vec2d way{Vec2d::Zero()};       ///< So far it leads in the step, but for steering [m].
   double slower = 0;              ///< Across up, steering adds no less than this by the end, which is not positive,
   double faster = 0;              ///< and no more than this [m/s].
+  double most_steered = 0;        ///< By the end, whatever was asked for [m/s].
+  double asked = 0;               ///< The speed that steering ends at, across up, on ground at rest [m/s].
   double jump = 0;                ///< Up, a jump adds no more than this [m/s]: who lands may jump in the next part.
   double dt = 0;                  ///< Of the step [s].
 
   [[nodiscard]] bool any() const { return velocity != Vec2d::Zero() || slower < 0 || faster > 0; }
   /// The most that steering may add, whatever its direction [m/s].
   [[nodiscard]] double steered() const { return std::max(-slower, faster); }
-  /// The farthest that it leads, or that all parts lead away from an even straight way [m]. A speed that grows evenly
-  /// goes half as far as one that is there at once.
-  [[nodiscard]] double bend() const { return way.norm() + steered() * dt / 2; }
+  /// How far steering leads that changes the speed by so much: one that grows evenly goes half as far as one that is
+  /// there at once. @param change of the speed by the end [m/s]. @return at most [m].
+  [[nodiscard]] double steered_way(double change) const { return std::min(change * dt, most_steered * dt / 2); }
+  /// The farthest that it leads, or that all parts lead away from an even straight way [m].
+  [[nodiscard]] double bend() const { return way.norm() + steered_way(steered()); }
   /// What all parts want together, but for the steering of later ones.
   [[nodiscard]] Wanted whole(Wanted first) const {
     first.displacement += way;

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <set>
 
@@ -90,8 +89,8 @@ ControlledRange LegJudge::wanted_velocities() const {
   if (first_.from_ground)
     for (const NearPart& part : near(0, contact_reach)) unsure = std::max(unsure, part.unsure);
   range.unsteered = range.unsteered.inflated(unsure / dt_);
-  range.least_steering = std::min(first_.steered / dt_, 0.0) + later_.slower;
-  range.most_steering = std::max(first_.steered / dt_, 0.0) + later_.faster;
+  range.least_steering = std::min(first_.steered / dt_, 0.0);
+  range.most_steering = std::max(first_.steered / dt_, 0.0);
   return range;
 }
 
@@ -101,7 +100,7 @@ std::vector<MetSurface> LegJudge::near_surfaces() const {
   const auto add = [&surfaces](const MetSurface& at) {
     const bool is_known = std::any_of(surfaces.begin(), surfaces.end(), [&](const MetSurface& one) {
       return one.normal == at.normal && one.velocity == at.velocity && one.spread == at.spread &&
-             one.walkable == at.walkable;
+             one.walkable == at.walkable && one.is_entered == at.is_entered;
     });
     if (!is_known) surfaces.push_back(at);
   };
@@ -122,10 +121,12 @@ std::vector<MetSurface> LegJudge::near_surfaces() const {
           for (const bool walkable : {true, false}) {
             // What slopes of a character is ground and wall.
             if (walkable != is_ground && (walkable || !is_character)) continue;
+            const bool is_entered = face.separation < 0;
             add({.normal = normal,
-                 .velocity = imparted(velocity, normal, walkable),
+                 .velocity = is_entered ? velocity : imparted(velocity, normal, walkable),
                  .walkable = walkable,
-                 .spread = part.unsure / dt_});
+                 .is_entered = is_entered,
+                 .spread = (part.unsure + part.rim) / dt_});
           }
         }
     }
@@ -136,35 +137,49 @@ std::vector<MetSurface> LegJudge::near_surfaces() const {
 Box2<double> LegJudge::velocities(std::span<const MetSurface> surfaces) const {
   ControlledRange range = held_ ? ControlledRange{} : wanted_velocities();
   range.squeezed = push_beyond_motion / dt_;
-  const Box2<double> box = controlled_bounds(range, surfaces);
-  // What a part of the step has made falls on, and is steered, in the next; or it jumps off ground.
-  Box2<double> all = box;
+  Box2<double> all = controlled_bounds(range, surfaces);
   if (!held_) {
+    // What a part of the step has made falls on, and is steered, in the next; or it jumps off ground.
     const Vec2d falls = seen(later_.velocity, up_);
-    all = box.merged({box.lower + falls + Vec2d(later_.slower, 0), box.upper + falls + Vec2d(later_.faster, 0)});
+    const auto goes_on = [&](const Box2<double>& box, double slower, double faster) {
+      return box.merged({box.lower + falls + Vec2d(slower, 0), box.upper + falls + Vec2d(faster, 0)});
+    };
+    all = goes_on(all, 0, 0);
+    if (later_.steered() > 0) {
+      range.least_steering += later_.slower;
+      range.most_steering += later_.faster;
+      const Box2<double> steered = goes_on(controlled_bounds(range, surfaces), later_.slower, later_.faster);
+      const Box2<double> ends = all.merged(asked(surfaces));
+      all = all.merged(steered);
+      all.lower.x() = std::max(all.lower.x(), ends.lower.x());
+      all.upper.x() = std::min(all.upper.x(), ends.upper.x());
+    }
+    for (const MetSurface& at : surfaces)
+      if (at.walkable && later_.jump > 0)
+        all.upper.y() = std::max(all.upper.y(), at.velocity.y() + at.spread + later_.jump);
   }
-  for (const MetSurface& at : surfaces)
-    if (at.walkable && later_.jump > 0)
-      all.upper.y() = std::max(all.upper.y(), at.velocity.y() + at.spread + later_.jump);
   return step_.crushed.empty() ? all : all.merged({});  // a crush ends all motion
 }
 
-/// How far all goes in the step that touches the character and moves [m].
-double LegJudge::pushed() const {
-  std::map<ColliderIndex, double> solids;
-  std::set<double> characters;
+/// The speeds across up that steering ends at, in the air and on each ground: their smallest box, of any height.
+Box2<double> LegJudge::asked(std::span<const MetSurface> surfaces) const {
+  const Vec2d speed(later_.asked, 0);
+  Box2<double> all{speed, speed};
+  for (const MetSurface& at : surfaces)
+    if (at.walkable) all = all.merged(Box2<double>{speed + at.velocity, speed + at.velocity}.inflated(at.spread));
+  return all;
+}
+
+/// How far other characters that touch this one go in the step [m].
+double LegJudge::pushed_by_characters() const {
+  std::set<double> ways;
   for (std::size_t corner = 0; corner < step_.path.size(); ++corner)
-    for (const NearPart& part : near(corner, contact_reach)) {
-      if (part.collider != no_collider)
-        solids[part.collider] = std::max(solids[part.collider], part.moved.norm() + part.unsure);
+    for (const NearPart& part : near(corner, contact_reach))
       // One that is pushed itself, late in the step, goes fast for a part of it.
-      else
-        characters.insert(std::max({part.moved.norm(), part.comes->norm(), part.goes->norm()}));
-    }
-  double moved = std::accumulate(characters.begin(), characters.end(), 0.0);
-  if (others_.handed_on) moved = std::min(moved, others_.handed_on());
-  for (const auto& [collider, way] : solids) moved += way;
-  return moved;
+      if (part.collider == no_collider)
+        ways.insert(std::max({part.moved.norm(), part.comes->norm(), part.goes->norm()}));
+  const double all = std::accumulate(ways.begin(), ways.end(), 0.0);
+  return others_.handed_on ? std::min(all, others_.handed_on()) : all;
 }
 
 double LegJudge::rounding() const {
@@ -173,16 +188,11 @@ double LegJudge::rounding() const {
   return rounding;
 }
 
+/// What it waits where something turns makes up so much of its way [m].
+double LegJudge::waited() const { return step_.vertex_ways.empty() ? 0 : waits * wanted_.displacement.norm(); }
+
 /// Whether something that comes against it touches it: nothing else pushes.
 bool LegJudge::is_pushed() const { return std::any_of(surfaces_.begin(), surfaces_.end(), comes_against); }
-
-/// Whether two that look at each other touch it, and one of them comes against it: one alone squeezes nobody.
-bool LegJudge::is_squeezed() const {
-  return std::any_of(surfaces_.begin(), surfaces_.end(), [&](const MetSurface& one) {
-    const auto looks_at_it = [&](const MetSurface& other) { return one.normal.dot(other.normal) < 0; };
-    return comes_against(one) && std::any_of(surfaces_.begin(), surfaces_.end(), looks_at_it);
-  });
-}
 
 /// How far the last leg, or one in a step in parts, goes straight down to ground at once, and so no farther than a walk
 /// is held to it [m].
@@ -198,19 +208,25 @@ double LegJudge::snapped() const {
   return down;
 }
 
-double LegJudge::way_gained(std::size_t first) const {
-  const double gained = farther(first, speeds_, 0);
-  if (!(gained > 0)) return 0;
-  if (!is_pushed()) return gained;
-  const bool may_be_thrown = is_squeezed() || !step_.start_overlap_characters.empty();
-  // Pushed at once, it goes on as if all rested: each motion counts once.
-  std::vector<MetSurface> resting = surfaces_;
-  for (MetSurface& at : resting) at = {.normal = at.normal, .walkable = at.walkable};
-  return farther(first, velocities(resting), pushed() + (may_be_thrown ? push_beyond_motion : 0));
+bool LegJudge::knows_speeds() const {
+  return std::all_of(surfaces_.begin(), surfaces_.end(), [](const MetSurface& at) { return std::isfinite(at.spread); });
 }
 
-/// How much farther the way is, in one direction, than at these velocities [m]. @param push in any direction [m].
-double LegJudge::farther(std::size_t first, const Box2<double>& speeds, double push) const {
+double LegJudge::way_gained(std::size_t first) const {
+  const double gained = farther(first, speeds_, {});
+  if (!(gained > 0) || !is_pushed()) return gained;
+  // Pushed at once, it goes on as if all rested: each motion counts once.
+  const Box2<double> push = controlled_bounds({.squeezed = push_beyond_motion / dt_}, surfaces_);
+  std::vector<MetSurface> resting = surfaces_;
+  for (MetSurface& at : resting) at = {.normal = at.normal, .walkable = at.walkable};
+  const double thrown = step_.start_overlap_characters.empty() ? 0 : push_beyond_motion;
+  return farther(first, velocities(resting),
+                 Box2<double>{push.lower * dt_, push.upper * dt_}.inflated(pushed_by_characters() + thrown));
+}
+
+/// How much farther the way is, in one direction, than at these velocities [m]. @param push of what comes against it,
+/// across and along up [m].
+double LegJudge::farther(std::size_t first, const Box2<double>& speeds, const Box2<double>& push) const {
   Vec2d above = Vec2d::Zero();
   Vec2d below = Vec2d::Zero();
   for (std::size_t leg = first; leg + 1 < step_.path.size(); ++leg) {
@@ -221,8 +237,7 @@ double LegJudge::farther(std::size_t first, const Box2<double>& speeds, double p
     above += (way - speeds.upper * time).cwiseMax(0);
     below += (speeds.lower * time - way).cwiseMax(0);
   }
-  double everywhere = rounding() + push;
-  if (!step_.vertex_ways.empty()) everywhere += waits * wanted_.displacement.norm();
+  const double everywhere = rounding() + waited();
   Vec2d room_above = Vec2d::Zero();
   Vec2d room_below = Vec2d::Zero();
   const double gap = restores_start + aims_away * static_cast<double>(1 + surfaces_.size());
@@ -230,6 +245,8 @@ double LegJudge::farther(std::size_t first, const Box2<double>& speeds, double p
     room_above = room_above.cwiseMax(gap * at.normal);
     room_below = room_below.cwiseMax(-gap * at.normal);
   }
+  room_above += push.upper;
+  room_below -= push.lower;
   room_below.y() += follows_seam;
   if (!held_) room_below.y() += snapped();
   if (const int stairs = held_ ? 0 : stairs_climbed(header_, scenery_, step_, others_, first_); stairs > 0) {
@@ -264,7 +281,7 @@ bool LegJudge::is_beside_what_moves() const {
 }
 
 double LegJudge::leg_error() const {
-  const bool in_parts = first_.parts > 1 || later_.any() || !step_.vertex_ways.empty();
+  const bool in_parts = first_.parts > 1 || later_.any();
   const bool stair = stairs_climbed(header_, scenery_, step_, others_, first_) > 0;
   if (step_.dropped || in_parts || stair || !step_.met.empty() || is_beside_what_moves()) return 0;
   // A side hit ends a rise with the step: the way still goes on.
@@ -300,7 +317,8 @@ double LegJudge::leg_error() const {
   // A way turns more often than it comes to colliders, but aims away from each.
   std::set<ColliderIndex> aimed_at;
   for (const Contact<double>& contact : step_.contacts) aimed_at.insert(contact.collider);
-  const double room = restores_start + follows_seam + aims_away * static_cast<double>(1 + aimed_at.size()) + rounding();
+  const double room =
+      restores_start + follows_seam + aims_away * static_cast<double>(1 + aimed_at.size()) + waited() + rounding();
   return off <= room ? 0 : off;
 }
 

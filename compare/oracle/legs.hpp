@@ -26,8 +26,9 @@ namespace paperproof::compare::detail {
 /// - The gap is restored by 2e-6 m, and by 1e-6 m on a leg that aims at it, along the normal of a surface.
 /// - Ground that hardly bends is followed by 2.8e-6 m, straight down. A walk follows ground by `snap`.
 /// - A walk climbs at most 4 stairs, each up and down by `step_height`, and goes on to where it would have come.
-/// - What moves and touches the character pushes it as far as it goes itself, and `push_beyond_motion` farther where
-///   another surface looks at it. Other characters push no farther than they want to go, or hand on (`Others`).
+/// - What moves and touches the character pushes it as far as the law of response has it pushed that wants nothing;
+///   where two surfaces hold it, at most `push_beyond_motion` farther than they go. Other characters push no farther
+///   than they want to go, or hand on (`Others`).
 ///
 /// **Direction.** While nothing that moves is near, each leg leads along the wanted motion, or what the law of response
 /// makes of it at the contacts that the way has come to by then: what is steered into a wall goes nowhere else.
@@ -37,6 +38,8 @@ class LegJudge {
   LegJudge(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step, const Wanted& wanted,
            const Others& others, const LaterParts& later, bool held);
 
+  /// Whether it is known how fast all goes that is near: how a disc turns that is no scene's is not in a trace.
+  [[nodiscard]] bool knows_speeds() const;
   /// How much longer the way is, in one direction, than anything made it [m].
   /// @param first the leg that is looked at first.
   [[nodiscard]] double way_gained(std::size_t first) const;
@@ -52,13 +55,14 @@ class LegJudge {
   [[nodiscard]] ControlledRange wanted_velocities() const;
   [[nodiscard]] std::vector<MetSurface> near_surfaces() const;
   [[nodiscard]] Box2<double> velocities(std::span<const MetSurface> surfaces) const;
-  [[nodiscard]] double farther(std::size_t first, const Box2<double>& speeds, double push) const;
-  [[nodiscard]] double pushed() const;
+  [[nodiscard]] Box2<double> asked(std::span<const MetSurface> surfaces) const;
+  [[nodiscard]] double farther(std::size_t first, const Box2<double>& speeds, const Box2<double>& push) const;
+  [[nodiscard]] double pushed_by_characters() const;
   [[nodiscard]] bool is_beside_what_moves() const;
   [[nodiscard]] double rounding() const;
   [[nodiscard]] double snapped() const;
+  [[nodiscard]] double waited() const;
   [[nodiscard]] bool is_pushed() const;
-  [[nodiscard]] bool is_squeezed() const;
 
   const TraceHeader& header_;
   const ExactScenery& scenery_;

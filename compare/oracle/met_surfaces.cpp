@@ -71,8 +71,9 @@ Vec2d SolidsInStep::moved(ColliderIndex collider, const Vec2d& point, double fra
 double SolidsInStep::spread(ColliderIndex collider, const Vec2d& moved, double apart) const {
   const VertexWay* turning = find_way(step_.vertex_ways, collider);
   if (turning == nullptr) return 0;
-  if (header_.scenery.colliders[collider].shape == ColliderDef::Shape::circle)
-    return std::numeric_limits<double>::infinity();
+  const ColliderDef& def = header_.scenery.colliders[collider];
+  if (def.shape == ColliderDef::Shape::circle)
+    return turning->turn * (def.radius + detail::contact_reach) / length_of(step_, header_);
   const double angle = std::abs(RigidMotion(turning->vertices.front(), turning->vertices.back()).angle());
   return angle * (moved.norm() + apart) / length_of(step_, header_);
 }

@@ -165,9 +165,30 @@ MoverWayJudge::Course MoverWayJudge::course_of(MoverIndex mover) const {
   return {pose_at(scripts_[mover], begin_), pose_at(scripts_[mover], end_), slack};
 }
 
-MoverWayJudgement MoverWayJudge::judge(const TraceStep& step, std::span<const ColliderIndex> near) {
+double MoverWayJudge::reach_of_parts(const TraceStep& step) const {
+  const CharacterDef& character = header_.character;
+  const double dt = length_of(step, header_);
+  const double acceleration =
+      character.acceleration + character.air_acceleration.value_or(0) + gravity_in(step, header_).norm();
+  const double otherwise = (character.jump_speed + acceleration * dt) * dt + character.snap + character.step_height +
+                           character.wall_reach + 2 * most_turned_at_once;
+  double way = 0;
+  for (const VertexWay& its : step.vertex_ways) way = std::max(way, detail::largest_motion(its));
+  return way + 4 * (extent_ + 2 * step.requested.norm() + otherwise);
+}
+
+MoverWayJudgement MoverWayJudge::judge(const TraceStep& step, std::span<const ColliderIndex> near,
+                                       std::span<const ColliderIndex> beside) {
   tell_time(step);
   MoverWayJudgement judgement;
+  for (MoverIndex mover = 0; mover < scripts_.size(); ++mover)
+    judgement.turns.push_back(std::abs(course_of(mover).turn()));
+  const int parts = parts_of(step.vertex_ways);
+  judgement.is_fine = parts > 1 && std::none_of(beside.begin(), beside.end(), [&](ColliderIndex one) {
+                        const MoverIndex mover = header_.scenery.colliders[one].mover;
+                        const double needed = most_turned_at_once * parts / 2 * (1 - turning_share);
+                        return scripts_[mover].body || judgement.turns[mover] * extent_ >= needed;
+                      });
   judge_offsets(step, judgement);
   for (const VertexWay& way : step.vertex_ways) {
     const MoverIndex mover = header_.scenery.colliders[way.collider].mover;

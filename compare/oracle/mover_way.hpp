@@ -27,11 +27,13 @@ struct MoverWayJudgement {
   std::vector<ColliderIndex> out_of_way;  ///< At an instant in between it is not where the law below has it.
   std::vector<ColliderIndex> coarse;      ///< Turned at once by more than is promised near the character.
   std::vector<ColliderIndex> off_arc;     ///< Leaves its arc by more than the bound.
+  bool is_fine = false;                   ///< The step goes in more parts than what is near the character needs.
+  std::vector<double> turns;              ///< How far each mover turns in the step, as far as its script tells [rad].
   double arc_error = 0;                   ///< Largest distance of a vertex from its arc at the same instant [m].
   double arc_share = 0;                   ///< Largest share of its bound that the error of a vertex is.
 
   [[nodiscard]] bool broken() const {
-    return !off_script.empty() || !out_of_way.empty() || !coarse.empty() || !off_arc.empty();
+    return !off_script.empty() || !out_of_way.empty() || !coarse.empty() || !off_arc.empty() || is_fine;
   }
 };
 
@@ -60,6 +62,10 @@ inline constexpr int most_turning_parts = 32;
 /// anything but a circle is near it turns at once by at most 0.05 m / S, or by 1/32 of the turn of the step where that
 /// is more.
 ///
+/// **Fine.** A step goes in n > 1 parts only where a mover turns by more than n / 2 times 0.05 m / S, and something of
+/// it is no farther from the character than the way of a vertex in the step, and 4 times the sum of S, twice the wanted
+/// way, and what the character's limits let it go otherwise.
+///
 /// **Bound.** Let A be that angle (of what is not near, the turn of the whole step), r the distance of a vertex from
 /// the point that its mover turns about, D that from the position of the character at any corner of its way, R the
 /// largest distance of a corner of the character from its position. The point about which it turns at once is a corner
@@ -75,7 +81,11 @@ class MoverWayJudge {
   /// @param header must outlive the judge. @param scripts one for each mover; copied.
   MoverWayJudge(const TraceHeader& header, std::vector<MoverScript> scripts);
   /// @param near the colliders that are no farther from the octagon than `near_what_turns` when the step begins.
-  [[nodiscard]] MoverWayJudgement judge(const TraceStep& step, std::span<const ColliderIndex> near);
+  /// @param beside those that are no farther than `reach_of_parts`.
+  [[nodiscard]] MoverWayJudgement judge(const TraceStep& step, std::span<const ColliderIndex> near,
+                                        std::span<const ColliderIndex> beside);
+  /// How near something that turns must be to divide a step: see **Fine** [m].
+  [[nodiscard]] double reach_of_parts(const TraceStep& step) const;
   /// A step that left no ways, because it was refused: its time goes by.
   void pass_over(const TraceStep& step) { tell_time(step); }
 

@@ -154,7 +154,15 @@ Vec2d controlled(const Steered& velocity, std::span<const MetSurface> surfaces, 
     const Vec2d fall = all_left ? Vec2d(carried.x(), held.back().came.unsteered.y())
                                 : nearest_allowed(velocity.unsteered, all).value_or(carried);
     const bool walked = std::any_of(held.begin(), held.end(), [](const Holding& one) { return one.at.walkable; });
-    const Vec2d end = held.size() > 1 ? held_by(held[held.size() - 2].at, at).value_or(carried) : carried;
+    std::optional<Vec2d> stop;
+    if (held.size() > 1) {
+      const auto other = std::find_if(held.begin(), held.end() - 1, is_entered);
+      stop = held_by((other != held.end() - 1 ? *other : held[held.size() - 2]).at, at);
+      const bool is_in_another =
+          stop && std::any_of(all.begin(), all.end(), [&](const MetSurface& one) { return enters(*stop, one); });
+      if (is_in_another) stop = nearest_allowed(velocity.wanted, all);
+    }
+    const Vec2d end = stop.value_or(carried);
     now.wanted = now.unsteered = !walked && fall.y() < end.y() ? fall : end;
   }
   return now.wanted;
@@ -167,6 +175,21 @@ std::array<Vec2d, 4> corners_of(const Box2<double>& box) {
 /// The corners of the box that its velocity is in.
 std::array<Vec2d, 4> velocities_of(const MetSurface& at) {
   return corners_of(Box2<double>{at.velocity, at.velocity}.inflated(at.spread));
+}
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// Holds nothing.
+const Box2<double> no_box{Vec2d::Constant(infinity), Vec2d::Constant(-infinity)};
+
+/// Whether some velocity in a box enters a surface.
+bool may_enter(const Box2<double>& box, const MetSurface& at) {
+  if (!(box.lower.x() <= box.upper.x())) return false;
+  const std::array<Vec2d, 4> corners = corners_of(box);
+  const std::array<Vec2d, 4> goes = velocities_of(at);
+  return std::any_of(corners.begin(), corners.end(), [&](const Vec2d& v) {
+    return std::any_of(goes.begin(), goes.end(),
+                       [&](const Vec2d& velocity) { return enters(v, {.normal = at.normal, .velocity = velocity}); });
+  });
 }
 
 /// Adds to a box what one surface that rests can make of a velocity. Ground may be followed that is not entered. A wall
@@ -271,15 +294,29 @@ Box2<double> controlled_bounds(const ControlledRange& range, std::span<const Met
   const Vec2d faster(range.most_steering, 0);
   Box2<double> unsteered = range.unsteered;
   Box2<double> wanted{unsteered.lower + slower, unsteered.upper + faster};
+  std::vector<Box2<double>> made_by(surfaces.size(), no_box);
+  // What impulses along the normal leave.
+  const auto slides = [&wanted](const MetSurface& at) {
+    Box2<double> left = no_box;
+    for (const Vec2d& goes : velocities_of(at))
+      for (const Vec2d& v : corners_of(wanted)) {
+        const MetSurface moving{.normal = at.normal, .velocity = goes};
+        const Vec2d made = slid(v, moving);
+        if (enters(v, moving)) left = left.merged({made, made});
+      }
+    return left;
+  };
   // What one has made comes to others, and from there back to it.
   for (std::size_t turn = 0; turn < 2 * surfaces.size(); ++turn) {
     const std::size_t i = turn % surfaces.size();
     const MetSurface& at = surfaces[i];
     const auto responses = [&at](const Box2<double>& box) {
-      Box2<double> all{at.velocity, at.velocity};  // the surface may carry the character
+      Box2<double> all = no_box;
+      // Ground may carry the character.
+      if (at.walkable || at.is_entered) all = Box2<double>{at.velocity, at.velocity}.inflated(at.spread);
       for (const Vec2d& goes : velocities_of(at))
         for (const Vec2d& v : corners_of(box)) {
-          Box2<double> made{Vec2d::Zero(), Vec2d::Zero()};
+          Box2<double> made = no_box;
           add_responses(v - goes, at, made);
           all = all.merged({made.lower + goes, made.upper + goes});
         }
@@ -287,11 +324,20 @@ Box2<double> controlled_bounds(const ControlledRange& range, std::span<const Met
     };
     const Box2<double> before = unsteered;
     unsteered = unsteered.merged(responses(before));
-    wanted = wanted.merged(responses(wanted)).merged(unsteered);
+    made_by[i] = responses(wanted);
+    wanted = wanted.merged(made_by[i]).merged(unsteered);
     // A wall takes steering. On ground the whole of it is there again.
     if (at.walkable) wanted = wanted.merged(responses({before.lower + slower, before.upper + faster}));
     for (std::size_t k = 0; k < i; ++k) {
       const MetSurface& with = surfaces[k];
+      const Box2<double> slide = slides(at);
+      const Box2<double> other_slide = slides(with);
+      const bool enters_with = may_enter(made_by[i].merged(slide), with);
+      const bool enters_at = may_enter(made_by[k].merged(other_slide), at);
+      // Among those that go otherwise the nearest motion is left that enters none.
+      if (at.velocity != with.velocity && (enters_with || enters_at)) wanted = wanted.merged(slide).merged(other_slide);
+      // Two hold only a motion that goes into each by what the other leaves of it.
+      if (!enters_with || !enters_at) continue;
       const double most = at.velocity.norm() + at.spread + with.velocity.norm() + with.spread + range.squeezed;
       for (const Vec2d& velocity : velocities_of(at))
         for (const Vec2d& other : velocities_of(with)) {

@@ -16,6 +16,7 @@ struct MetSurface {
   Vec2d normal{Vec2d::Zero()};    ///< Unit, towards the character.
   Vec2d velocity{Vec2d::Zero()};  ///< Of what it goes along with, a conveyor's surface included [m/s].
   bool walkable = false;          ///< Within the climb limit of the character.
+  bool is_entered = false;        ///< The character is inside of it, and goes along with it.
   bool is_side = false;           ///< Touches the left or right side of the character.
   bool climbs = false;            ///< A rise that comes to it is the climb of a walk, whose ground is still touched.
   double met = 0;                 ///< When it was met, as a fraction of the step; 1: only touched where that ends.

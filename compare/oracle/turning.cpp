@@ -258,7 +258,7 @@ TurningJudge::Standing TurningJudge::standing(const Solid& solid, const std::vec
                                               const VertexWay& way, const Vec2d& requested,
                                               const PathPoint<double>& corner, double within) const {
   const std::vector<Vec2d> now = vertices_at(way, corner.fraction);
-  Standing found{.part = part_at(solid, numbers, now)};
+  Standing found{.part = part_at(solid, numbers, now), .turn = way.turn};
   const Vec2d nearest = nearest_point(found.part.points, octagon_, corner.position);
   const Vec2d begin = RigidMotion(now, way.vertices.front())(nearest);
   found.moved = RigidMotion(now, way.vertices.back())(nearest) - begin;
@@ -275,6 +275,7 @@ TurningJudge::Standing TurningJudge::standing(const Solid& solid, const std::vec
 std::optional<NearPart> TurningJudge::near_part(const Solid& solid, const Standing& standing, const Vec2d& position,
                                                 double within) const {
   NearPart near{.collider = solid.collider, .moved = standing.moved, .faces = {}, .unsure = standing.unsure};
+  if (solid.radius > 0) near.rim = standing.turn * (solid.radius + contact_reach);
   for (const Axis& axis : separating_axes(standing.part, octagon_, FramePlace{position}, within))
     near.faces.push_back({axis.separation, axis.normal});
   if (near.faces.empty()) return std::nullopt;
@@ -394,11 +395,6 @@ double TurningJudge::carries_otherwise(const TraceStep& step) const {
     most = std::max(most, (went_.at(solid.collider) - before->second).norm() + conveyed * bent);
   }
   return most;
-}
-
-bool TurningJudge::touches_disc(const TraceStep& step) const {
-  return std::any_of(solids_.begin(), solids_.end(),
-                     [&](const Solid& solid) { return solid.radius > 0 && nearest(solid, step) <= contact_reach; });
 }
 
 bool TurningJudge::frees_at_end(const TraceStep& step, const std::function<bool(const Vec2d&)>& accept) const {

@@ -99,8 +99,6 @@ class TurningJudge {
   /// Who leaves what carried it, or rides a disc, goes on as that went in the step before. By so much what is touched
   /// carries otherwise in this one, as a conveyor too [m].
   [[nodiscard]] double carries_otherwise(const TraceStep& step) const;
-  /// Whether a disc is touched whose mover turns: how fast its rim goes is in no way of a vertex.
-  [[nodiscard]] bool touches_disc(const TraceStep& step) const;
   /// Whether a way leads out of what the octagon is inside of where the step ends: see `frees`.
   [[nodiscard]] bool frees_at_end(const TraceStep& step, const std::function<bool(const Vec2d&)>& accept) const;
 
@@ -124,6 +122,7 @@ class TurningJudge {
     ConvexPart part;
     Vec2d moved{Vec2d::Zero()};  ///< See `near`.
     double unsure = 0;
+    double turn = 0;  ///< Of a disc: see `VertexWay::turn`.
   };
   [[nodiscard]] Standing standing(const Solid& solid, const std::vector<std::size_t>& numbers, const VertexWay& way,
                                   const Vec2d& requested, const PathPoint<double>& corner, double within) const;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,8 @@ struct VertexWay {
   /// At each instant, in the world [m]: the points of the collider in the order of its definition, then those of its
   /// holes.
   std::vector<std::vector<Vec2d>> vertices;
+  /// Of a disc, whose vertex is its centre: how far it turns in the step, as the scene has it [rad]. Not in a trace.
+  double turn = std::numeric_limits<double>::infinity();
 };
 
 /// That of a collider; null if there is none.

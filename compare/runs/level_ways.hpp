@@ -36,13 +36,14 @@ namespace paperproof::compare {
   for (ColliderIndex i = 0; i < scenery.colliders.size(); ++i) {
     const ColliderDef& def = scenery.colliders[i];
     if (def.mover == no_mover) continue;
+    const PoseMotion& motion = motions[def.mover];
+    const double turn = std::abs(motion.to.angle - motion.from.angle);
     const auto known =
         std::find_if(turned.begin(), turned.end(), [i](const TurnedCollider& one) { return one.collider == i; });
     if (known != turned.end()) {
-      all.push_back({i, known->instants, known->vertices});
+      all.push_back({i, known->instants, known->vertices, turn});
       continue;
     }
-    const PoseMotion& motion = motions[def.mover];
     const bool is_turned_circle =
         def.shape == ColliderDef::Shape::circle && (motion.from.angle != 0 || motion.to.angle != 0);
     const auto vertices_at = [&](const paperproof::Pose& pose) {
@@ -51,7 +52,7 @@ namespace paperproof::compare {
       if (is_turned_circle) vertices[0] = Vec2d(vertices[0] - def.points[0]) + def.points[0];
       return vertices;
     };
-    all.push_back({i, {0, 1}, {vertices_at(motion.from), vertices_at(motion.to)}});
+    all.push_back({i, {0, 1}, {vertices_at(motion.from), vertices_at(motion.to)}, turn});
   }
   return all;
 }

@@ -33,6 +33,10 @@ constexpr double most_motion_lost = 0.01;
 constexpr double guaranteed_range = 1e6;
 /// Positions and offsets beyond are refused [m].
 constexpr double range = 2e6;
+/// Who is no faster stands still [m/s].
+constexpr double standstill = 1e-6;
+/// Its gap is restored once, and it settles on ground that hardly bends [m].
+constexpr double most_drift = 5e-6;
 /// What moves farther away than this does not reach a character at rest in the step [m].
 constexpr double beside = 0.01;
 /// Relative: two computations of a velocity.
@@ -66,6 +70,13 @@ bool RunJudge::is_free(std::span<const Vec2d> positions, std::size_t character) 
   return !company_ || company_->overlapped(positions, static_cast<CharacterIndex>(character)).empty();
 }
 
+/// Whether no other character comes near it in the step.
+bool RunJudge::is_alone(const TraceStep& record, const Others& others) {
+  return !others.near || std::all_of(record.path.begin(), record.path.end(), [&](const PathPoint<double>& at) {
+    return others.near(at, beside + others.longest_way).empty();
+  });
+}
+
 bool RunJudge::is_wall_ahead(const TraceStep& record, double move) const {
   const Vec2d up = up_in(record, header_);
   const Vec2d there = Vec2d(up.y(), -up.x()) * std::copysign(header_.character.wall_reach, move);
@@ -77,6 +88,7 @@ bool RunJudge::is_wall_ahead(const TraceStep& record, double move) const {
 }
 
 void RunJudge::add(std::span<TraceStep> records) {
+  judge_movers(records);
   std::vector<TraceStep> asked(records.begin(), records.end());
   std::vector<Vec2d> starts;
   for (const TraceStep& record : records) starts.push_back(record.path.front().position);
@@ -105,9 +117,11 @@ void RunJudge::add(std::span<TraceStep> records) {
     if (!record.input.drop) asked[k].dropped_through.clear();                     // the input did not ask for it
     if (record.contacts.empty() && record.met.empty()) asked[k].dropped = false;  // nothing made it give up
   }
-  for (std::size_t k = 0; k < records.size(); ++k)
-    judgements_[k] = followers_[k].judge->judge(
-        asked[k], company_ ? company_->others_of(asked[k].character, asked) : Others{}, &followers_[k].wanted);
+  for (std::size_t k = 0; k < records.size(); ++k) {
+    const Others others = company_ ? company_->others_of(asked[k].character, asked) : Others{};
+    followers_[k].steps_alone = is_alone(asked[k], others) ? followers_[k].steps_alone + 1 : 0;
+    judgements_[k] = followers_[k].judge->judge(asked[k], others, &followers_[k].wanted);
+  }
   if (steps_ == 0) note_begin(asked);
   if (company_) company_->judge(asked, judgements_);
   const auto is_far = [](const TraceStep& step) {
@@ -127,6 +141,7 @@ void RunJudge::add(std::span<TraceStep> records) {
       judge_drops(records[k]);
       judge_met(asked[k], asked);
       judge_rest(asked[k], follower);
+      judge_standing(asked[k], follower);
       judge_ride(asked[k], follower);
       judge_carrier(there, follower);
     }
@@ -139,7 +154,6 @@ void RunJudge::add(std::span<TraceStep> records) {
       follower.last_wanted.erase(follower.last_wanted.begin());
     }
   }
-  judge_movers(asked.front());
   ++steps_;
   const auto any = [this](const auto& is) { return std::any_of(judgements_.begin(), judgements_.end(), is); };
   steps_broken_ += any([](const StepJudgement& judged) { return judged.broke(); });
@@ -221,9 +235,13 @@ void RunJudge::judge_wish(const TraceStep& record, const Wanted& wanted, const F
     note(Clause::wanted, record, "says it jumped in a part of the step, and could not");
 }
 
+bool RunJudge::is_beside_what_turns(const TraceStep& record) const {
+  return !followers_.front().judge->turning().is_alone(record, beside);
+}
+
 /// Whether nothing near the character moves.
 bool RunJudge::stands(const TraceStep& record) const {
-  if (record.respawn || !record.vertex_ways.empty()) return false;
+  if (record.respawn || is_beside_what_turns(record)) return false;
   if (std::none_of(record.movers.begin(), record.movers.end(), moves)) return true;
   const std::vector<ColliderIndex> near =
       solids().near(Place(record.path.front(), record.movers), Place(record.path.back(), record.movers), beside);
@@ -244,21 +262,43 @@ void RunJudge::judge_rest(const TraceStep& record, const Follower& follower) {
   const auto is_asked_alike = [this](const TraceStep& a, const TraceStep& b) {
     return length_of(a, header_) == length_of(b, header_) && up_in(a, header_) == up_in(b, header_);
   };
-  const bool repeated = same(before, earlier) && stands(earlier) && stands(before) && stands(record) && !company_ &&
-                        follower.last_wanted[1].displacement == follower.wanted.displacement &&
-                        follower.last_wanted[1].steered == follower.wanted.steered &&
-                        before.input.drop == record.input.drop && is_asked_alike(earlier, before) &&
-                        is_asked_alike(before, record);
+  const bool repeated =
+      same(before, earlier) && stands(earlier) && stands(before) && stands(record) && follower.steps_alone > 2 &&
+      follower.last_wanted[1].displacement == follower.wanted.displacement &&
+      follower.last_wanted[1].steered == follower.wanted.steered && before.input.drop == record.input.drop &&
+      is_asked_alike(earlier, before) && is_asked_alike(before, record);
   if (repeated && !same(record, before))
     note(Clause::rest, record,
          fmt::format("moves by {} after position and velocity had repeated",
                      metres((record.path.back().position - before.path.back().position).norm())));
 }
 
+/// Who says that it stands still, and wants nothing but to fall, stays where it began to.
+void RunJudge::judge_standing(const TraceStep& record, Follower& follower) {
+  const Wanted& wanted = follower.wanted;
+  const Vec2d up = up_in(record, header_);
+  const double across = (wanted.displacement - wanted.displacement.dot(up) * up).norm() / length_of(record, header_);
+  const bool as_before =
+      follower.last.empty() || (up_in(follower.last.back(), header_) == up &&
+                                gravity_in(follower.last.back(), header_) == gravity_in(record, header_));
+  const bool stays = record.grounded && record.velocity.norm() <= standstill && across <= standstill &&
+                     !wanted.jumped && !wanted.rides && stands(record) && as_before && follower.steps_alone > 0 &&
+                     record.start_overlap.empty() && !header_.guarantees.empty();
+  const Vec2d& end = record.path.back().position;
+  if (!stays) {
+    follower.stood_at.reset();
+  } else if (!follower.stood_at) {
+    follower.stood_at = end;
+  } else if (const double drift = (end - *follower.stood_at).norm(); drift > most_drift + 4 * ulp_at(header_, end)) {
+    note(Clause::rest, record, fmt::format("has drifted by {} since it stands still", metres(drift)));
+  }
+}
+
 /// Whether it says that its ground moves, and has touched nothing that does since it said otherwise.
 bool RunJudge::is_ground_velocity_invented(const TraceStep& record, const Follower& follower) const {
   const bool is_kept = !follower.last.empty() && follower.last.back().ground_velocity == record.ground_velocity;
-  if (record.ground_velocity.isZero(0) || is_kept || company_ || record.from || !record.vertex_ways.empty())
+  if (record.ground_velocity.isZero(0) || is_kept || follower.steps_alone == 0 || record.from ||
+      is_beside_what_turns(record))
     return false;
   return std::none_of(record.path.begin(), record.path.end(), [&](const PathPoint<double>& at) {
     const std::vector<NearPart> parts = solids().near_parts(Place(at, record.movers), guaranteed_gap);
@@ -275,7 +315,7 @@ bool RunJudge::is_carried_unsaid(const TraceStep& record, const Follower& follow
   const bool goes_on = !follower.last.empty() && !record.respawn && !record.from && follower.last.back().grounded;
   const bool plain = record.grounded && record.met.empty() && record.start_overlap.empty() && record.crushed.empty() &&
                      !record.stuck && !record.dropped && record.dropped_through.empty() && !follower.wanted.jumped &&
-                     record.vertex_ways.empty() && header_.substeps == 1 && !company_;
+                     !is_beside_what_turns(record) && header_.substeps == 1 && follower.steps_alone > 0;
   if (!goes_on || !plain) return false;
   const Vec2d up = up_in(record, header_);
   if (!(gravity_in(record, header_).dot(up) < 0)) return false;
@@ -351,15 +391,22 @@ void RunJudge::judge_ride(const TraceStep& record, const Follower& follower) {
 }
 
 /// Whether movers go as the scene says.
-void RunJudge::judge_movers(const TraceStep& record) {
+void RunJudge::judge_movers(std::span<TraceStep> records) {
   if (!ways_) return;
+  const TraceStep& record = records.front();
   const detail::TurningJudge& turning = followers_.front().judge->turning();
-  const MoverWayJudgement judged = ways_->judge(record, turning.near_at_begin(record, near_what_turns));
+  const MoverWayJudgement judged = ways_->judge(record, turning.near_at_begin(record, near_what_turns),
+                                                turning.near_at_begin(record, ways_->reach_of_parts(record)));
   arc_error_ = std::max(arc_error_, judged.arc_error);
+  for (TraceStep& step : records)
+    for (VertexWay& way : step.vertex_ways)
+      if (const MoverIndex mover = header_.scenery.colliders[way.collider].mover; !header_.scripts[mover].body)
+        way.turn = judged.turns[mover];
   if (!judged.broken()) return;
   const char* what = !judged.off_script.empty()   ? "a mover leaves its script"
                      : !judged.out_of_way.empty() ? "what turns leaves its way between two instants"
                      : !judged.coarse.empty()     ? "what turns is turned at once by more than promised"
+                     : judged.is_fine             ? "the step goes in more parts than what turns near by needs"
                                                   : "what turns leaves its arc by more than the bound";
   note(Clause::mover_way, record, what);
 }

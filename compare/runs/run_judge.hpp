@@ -49,14 +49,18 @@ class RunJudge {
     std::vector<ColliderIndex> inside{};  ///< What the octagon overlaps now, exactly.
     std::vector<TraceStep> last{};        ///< Two steps, the earlier one first; none before the first step.
     std::vector<Wanted> last_wanted{};
-    bool begins = true;  ///< The next step does not continue one.
+    bool begins = true;               ///< The next step does not continue one.
+    int steps_alone = 0;              ///< So many in a row no other character has come near it.
+    std::optional<Vec2d> stood_at{};  ///< Where it has begun to stand still, as it says.
   };
 
+  [[nodiscard]] static bool is_alone(const TraceStep& record, const Others& others);
   void note(Clause clause, const TraceStep& record, const std::string& what);
   void note_begin(const std::vector<TraceStep>& records);
   void judge_course(const TraceStep& record, Follower& follower);
   void judge_wish(const TraceStep& record, const Wanted& wanted, const Follower& follower);
   void judge_rest(const TraceStep& record, const Follower& follower);
+  void judge_standing(const TraceStep& record, Follower& follower);
   void judge_ride(const TraceStep& record, const Follower& follower);
   void judge_carrier(const SolidsInStep& there, const Follower& follower);
   [[nodiscard]] bool is_ground_velocity_invented(const TraceStep& record, const Follower& follower) const;
@@ -64,11 +68,12 @@ class RunJudge {
   [[nodiscard]] bool moves_or_conveys(const NearPart& part) const;
   void judge_clauses(const TraceStep& record, const StepJudgement& judged, std::span<const TraceStep> records);
   void judge_velocity(const SolidsInStep& there, const StepJudgement& judged, const Follower& follower);
-  void judge_movers(const TraceStep& record);
+  void judge_movers(std::span<TraceStep> records);
   void judge_times(const TraceStep& record, const StepJudgement& judged, std::span<const TraceStep> records);
   void judge_places(const TraceStep& record, const StepJudgement& judged);
   void judge_drops(const TraceStep& record);
   void judge_met(const TraceStep& record, std::span<const TraceStep> records);
+  [[nodiscard]] bool is_beside_what_turns(const TraceStep& record) const;
   [[nodiscard]] bool stands(const TraceStep& record) const;
   [[nodiscard]] bool may_respawn(const TraceStep& record, const Follower& follower) const;
   [[nodiscard]] bool is_wall_ahead(const TraceStep& record, double move) const;
