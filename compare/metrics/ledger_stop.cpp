@@ -1,5 +1,6 @@
 /// What a step takes of the wanted motion, and by which law: the part of the ledger about stops.
 #include "metrics/ledger_step.hpp"
+#include "oracle/up.hpp"
 
 #include <fmt/format.h>
 
@@ -110,7 +111,7 @@ void StepLedger::add_stop() {
 bool StepLedger::follows_our_law() const {
   const Vec2d up = up_in(m_, *mine_.header);
   ControlledStep step{.wanted = m_.requested / dt_, .up = up};
-  step.unsteered = step.wanted - m_.steered / dt_ * Vec2d(up.y(), -up.x());
+  step.unsteered = step.wanted - m_.steered / dt_ * right_of(up);
   step.side_hit_ends_rise = mine_.header->character.side_hit_ends_rise;
   const auto follows = [&](bool grounded) {
     const bool walks = begins_as_walk(*mine_.header, m_, grounded, step.wanted);

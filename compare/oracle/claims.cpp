@@ -3,6 +3,7 @@
 #include "contains.hpp"
 #include "oracle/contacts.hpp"
 #include "oracle/exemptions.hpp"
+#include "oracle/up.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -74,7 +75,7 @@ void EndJudge::judge_ground(const HangingJudge& hanging, bool starts_free, StepJ
     judgement.hovers = judgement.hovers || (on_ground && !stands_on_ground());
     return;
   }
-  const Vec2d unsteered = wanted_.displacement - wanted_.steered * Vec2d(up_.y(), -up_.x());
+  const Vec2d unsteered = wanted_.displacement - wanted_.steered * right_of(up_);
   if (wanted_.jumped || step_.stuck || !starts_free) return;
   const double least = guaranteed_touch - touch_rounding;
   // At a crest several faces are touched: a motion that leaves one of them leaves the ground.
@@ -123,7 +124,7 @@ double EndJudge::flight_error() const {
     const double bend = corner.fraction < 1 ? later_.bend() : later_.steered_way(later_.steered());
     off = std::max(off, (corner.position - start - wanted_.displacement * corner.fraction).norm() - bend);
   }
-  const Vec2d right(up_.y(), -up_.x());
+  const Vec2d right = right_of(up_);
   const Vec2d slower = step_.velocity - wanted_.velocity;
   const double too_slow = (slower - right * std::clamp(slower.dot(right), later_.slower, later_.faster)).norm();
   return std::max(off <= rounding + waited ? 0 : off / dt_,
@@ -134,17 +135,18 @@ double EndJudge::flight_error() const {
 double EndJudge::rise_lost() const {
   const double lost = (wanted_.velocity - step_.velocity).dot(up_);
   if (lost <= rounding_of_motion * (1 + wanted_.velocity.norm())) return 0;
-  const Vec2d right(up_.y(), -up_.x());
+  const Vec2d right = right_of(up_);
   for (std::size_t corner = 0; corner < step_.path.size(); ++corner)
     for (const NearPart& part : near(corner, contact_reach))
       for (const NearFace& face : part.faces) {
         const double slope = face.normal.dot(up_);
-        const bool is_wall = std::abs(face.normal.dot(right)) > rounding_of_motion;
+        const bool is_level = std::abs(face.normal.dot(right)) <= rounding_of_motion;
         const bool is_entered = face.normal.dot(wanted_.velocity * dt_ - part.moved) < 0;
         const bool follows = slope > 0 && (is_entered || !wanted_.jumped) &&
                              std::abs(face.normal.dot(step_.velocity)) <=
                                  guaranteed_touch / dt_ + rounding_of_motion * step_.velocity.norm();
-        const bool ends_rise = is_wall && (wanted_.from_ground || header_.character.side_hit_ends_rise);
+        const bool climbs = wanted_.from_ground && !wanted_.jumped;
+        const bool ends_rise = !is_level && (climbs || header_.character.side_hit_ends_rise);
         if (slope < 0 || !part.moved.isZero(0) || follows || ends_rise) return 0;
       }
   return lost;

@@ -1,17 +1,13 @@
 /// What a step says of its end: that it stands, and how fast it goes.
 #pragma once
 
+#include "oracle/contacts.hpp"
 #include "oracle/hanging.hpp"
 #include "oracle/intent.hpp"
 #include "oracle/judge.hpp"
 #include "oracle/legs.hpp"
 
 namespace paperproof::compare::detail {
-
-/// §6 of the guarantee lets a contact be held up to this gap [m].
-inline constexpr double guaranteed_touch = 7e-7;
-/// Room for the rounding of a separation [m].
-inline constexpr double touch_rounding = 1e-8;
 
 /// Holds the end of one step against exact arithmetic and the law of motion, for a contender that promises both. Lives
 /// for one step.

@@ -164,7 +164,7 @@ double CompanyJudge::handed_on(CharacterIndex character, std::span<const TraceSt
   for (const CharacterIndex member : linked) {
     const TraceStep& step = steps[member];
     const Vec2d up = up_in(step, header_);
-    const Vec2d unsteered = step.requested - step.steered * Vec2d(up.y(), -up.x());
+    const Vec2d unsteered = step.requested - step.steered * right_of(up);
     if (member != character) most += std::max(step.requested.norm(), unsteered.norm()) * steepest;
     const Box2<double> places = reach_of(step);
     const Box2<double> covered{places.lower + box_.lower, places.upper + box_.upper};

@@ -44,7 +44,7 @@ ContactJudge::ContactJudge(const TraceHeader& header, const ExactScenery& scener
       grown_scenery_(grown_scenery),
       step_(step),
       up_(up_in(step, header)),
-      right_(up_.y(), -up_.x()),
+      right_(right_of(up_)),
       promises_(party_of(header) == Party::promising),
       touch_(promises_ ? guaranteed_touch : own_reach(header)),
       hit_(promises_ ? hit_reach : std::max(hit_reach, tolerance_named(header, "unit"))) {}

@@ -8,6 +8,10 @@ namespace paperproof::compare::detail {
 
 /// A contact is this near along its normal [m]: twice what the controller stops at.
 inline constexpr double contact_reach = 1e-6;
+/// §6 of the guarantee lets a contact be held up to this gap [m].
+inline constexpr double guaranteed_touch = 7e-7;
+/// Room for the rounding of a separation [m].
+inline constexpr double touch_rounding = 1e-8;
 /// See `Judge`: sine of the flattest approach whose fraction is compared.
 inline constexpr double least_approach = 1e-3;
 

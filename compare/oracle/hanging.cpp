@@ -1,6 +1,7 @@
 #include "oracle/hanging.hpp"
 
 #include "oracle/exemptions.hpp"
+#include "oracle/up.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +50,7 @@ double HangingJudge::HalfPlane::room(const Vec2d& aside) const {
 }
 
 bool HangingJudge::hangs(const Vec2d& made, const Reach& reach, Bounds bounds) const {
-  const Vec2d unsteered = step_.requested - step_.steered * Vec2d(up_.y(), -up_.x());
+  const Vec2d unsteered = step_.requested - step_.steered * right_of(up_);
   const double least = std::max(least_fall, ulp_at(header_, step_.path.front().position));
   const double asked = -unsteered.dot(up_);
   const double fell = -made.dot(up_);
@@ -79,7 +80,7 @@ bool HangingJudge::has_support(std::size_t corner, double within) const {
 }
 
 bool HangingJudge::is_held_at_end(double within) const {
-  Vec2d unsteered = step_.requested - step_.steered * Vec2d(up_.y(), -up_.x());
+  Vec2d unsteered = step_.requested - step_.steered * right_of(up_);
   // A rise that ends in a wedge is held there by what pulls it down.
   const double dt = length_of(step_, header_);
   if (!(unsteered.dot(up_) < 0)) unsteered = gravity_in(step_, header_) * (dt * dt);

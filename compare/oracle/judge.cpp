@@ -8,6 +8,7 @@
 #include "oracle/later_parts.hpp"
 #include "oracle/passing.hpp"
 #include "oracle/turning.hpp"
+#include "oracle/up.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -586,10 +587,10 @@ void Judge::judge_legs(const TraceStep& step, const Others& others, const Wanted
                        const detail::LaterParts& later, StepJudgement& judgement) const {
   const bool held = leaving_.inside && !leaving_.free && (!leaving_.turning || step.stuck);
   const detail::LegJudge legs(header_, scenery_, step, wanted, others, later, held);
-  judgement.unsure = judgement.unsure || !legs.knows_speeds();
-  if (!legs.knows_speeds()) return;
-  const double way = legs.way_gained(leaving_.inside && leaving_.at_once ? 1 : 0);
-  const double speed = legs.speed_gained();
+  const bool is_known = legs.knows_speeds();
+  judgement.unsure = judgement.unsure || !is_known;
+  const double way = is_known ? legs.way_gained(leaving_.inside && leaving_.at_once ? 1 : 0) : 0;
+  const double speed = is_known ? legs.speed_gained() : 0;
   const bool says_so = step.stuck || !judgement.crushed.empty() || !judgement.crushed_with_room.empty();
   const auto overlaps = [](const NearPart& part) { return part.faces.front().separation < 0; };
   const auto is_inside_another = [&] {
@@ -612,7 +613,7 @@ void Judge::excuse_by_turning(const TraceStep& step, const detail::LaterParts& l
   const auto any_lost = [&] { return judgement.motion_lost > 0 || judgement.ghost_speed_loss > 0; };
   if (!any_lost() || !(later.any() || others.runs_into)) return;
   const Vec2d up = up_in(step, header_);
-  const Vec2d right(up.y(), -up.x());
+  const Vec2d right = right_of(up);
   const double wanted = step.requested.dot(right);
   const double ahead = std::copysign(1.0, wanted);
   const auto slowed = [&](const Vec2d& by, double steered) { return std::max(0.0, steered - ahead * by.dot(right)); };

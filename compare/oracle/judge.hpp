@@ -85,7 +85,8 @@ struct StepJudgement {
   bool stuck_refuted = false;   ///< It said that it is stuck, and there is a way out: see `Judge`.
   bool ground_refuted = false;  ///< It said that it is grounded, and nothing is under it: see `Judge`.
   bool ground_late = false;     ///< The same, but something was under it earlier in the step: excused.
-  /// It hangs, or loses motion or speed, unless what turns comes farther than its nearest point does (see `Bounds`).
+  /// It hangs, or loses motion or speed, unless what turns comes farther than its nearest point does (see `Bounds`); or
+  /// it touches a disc that turns by no script, so that nobody knows how fast the rim goes.
   bool unsure = false;
   bool in_parts = false;        ///< It goes in parts, and a contact or a time that follows the first is not asked for.
   bool turning_sensor = false;  ///< It overlaps a sensor that turns, or says so: that is not asked for.

@@ -11,6 +11,8 @@ namespace {
 
 /// Relative.
 constexpr double rounding_of_steering = 1e-9;
+/// Sine of the largest tilt of an upright wall.
+constexpr double upright = 1e-9;
 
 }  // namespace
 
@@ -45,12 +47,12 @@ LaterParts later_parts(const TraceHeader& header, const TraceStep& step, const W
   // Ground that moves, and what slopes, may leave it any speed in any part.
   const auto keeps_speed = [&](const Contact<double>& contact) {
     const ColliderDef& met = header.scenery.colliders[contact.collider];
-    const bool is_wall = std::abs(contact.normal.dot(up)) <= rounding_of_steering;
+    const bool is_wall = std::abs(contact.normal.dot(up)) <= upright;
     return met.mover == no_mover && met.surface_speed == 0 && (is_wall || is_walked_on(contact.normal, header, up));
   };
   const bool any_speed = first.rides || pull.x() != 0 || !step.met.empty() ||
                          !std::all_of(step.contacts.begin(), step.contacts.end(), keeps_speed);
-  // A wall ends it.
+  // A wall may have stopped it.
   const double slowest_walk = step.contacts.empty() ? first.walk : std::min(first.walk, 0.0);
   const double fastest_walk = step.contacts.empty() ? first.walk : std::max(first.walk, 0.0);
   const double room = rounding_of_steering * (1 + std::abs(later.asked));

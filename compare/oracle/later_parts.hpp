@@ -27,8 +27,8 @@ struct LaterParts {
   [[nodiscard]] bool any() const { return velocity != Vec2d::Zero() || slower < 0 || faster > 0; }
   /// The most that steering may add, whatever its direction [m/s].
   [[nodiscard]] double steered() const { return std::max(-slower, faster); }
-  /// How far steering leads that changes the speed by so much: one that grows evenly goes half as far as one that is
-  /// there at once. @param change of the speed by the end [m/s]. @return at most [m].
+  /// The way that a change of speed adds, at most: a speed that grows evenly adds half of what one adds that is there
+  /// at once. @param change by the end of the step, not negative [m/s]. @return [m].
   [[nodiscard]] double steered_way(double change) const { return std::min(change * dt, most_steered * dt / 2); }
   /// The farthest that it leads, or that all parts lead away from an even straight way [m].
   [[nodiscard]] double bend() const { return way.norm() + steered_way(steered()); }

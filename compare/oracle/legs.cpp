@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <map>
 #include <set>
 
 namespace paperproof::compare::detail {
@@ -16,7 +16,7 @@ namespace {
 constexpr double relative_rounding = 1e-9;
 /// A start is moved by so much at most, so that it is no nearer to anything than a step keeps [m].
 constexpr double restores_start = 2e-6;
-/// A leg along a surface may aim so much away from it [m].
+/// The legs along a surface may aim so much away from it [m].
 constexpr double aims_away = 1e-6;
 /// Straight down, to ground that bends by no more than rounded vertices do [m].
 constexpr double follows_seam = 2.8e-6;
@@ -43,13 +43,14 @@ int stairs_climbed(const TraceHeader& header, const ExactScenery& scenery, const
   if (!(header.character.step_height > 0) || !wanted.from_ground || wanted.jumped || !step.grounded) return 0;
   const Vec2d up = up_in(step, header);
   const Vec2d walk = wanted.displacement - wanted.displacement.dot(up) * up;
-  const auto stops = [&](const NearFace& face) {
-    return face.normal.dot(walk) < 0 && !is_walked_on(face.normal, header, up);
+  const auto stops = [&](const NearPart& part, const NearFace& face) {
+    return face.normal.dot(walk - part.moved) < 0 && !is_walked_on(face.normal, header, up);
   };
   const auto is_stopped = [&](std::size_t corner) {
     const std::vector<NearPart> parts = parts_near(scenery, step, others, corner, contact_reach);
-    return std::any_of(parts.begin(), parts.end(),
-                       [&](const NearPart& part) { return std::any_of(part.faces.begin(), part.faces.end(), stops); });
+    return std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
+      return std::any_of(part.faces.begin(), part.faces.end(), [&](const NearFace& face) { return stops(part, face); });
+    });
   };
   int climbed = 0;
   for (std::size_t k = 2; k < step.path.size(); ++k) {
@@ -71,7 +72,7 @@ LegJudge::LegJudge(const TraceHeader& header, const ExactScenery& scenery, const
       others_(others),
       later_(later),
       up_(up_in(step, header)),
-      right_(up_.y(), -up_.x()),
+      right_(right_of(up_)),
       dt_(length_of(step, header)),
       held_(held),
       surfaces_(near_surfaces()),
@@ -100,7 +101,7 @@ std::vector<MetSurface> LegJudge::near_surfaces() const {
   const auto add = [&surfaces](const MetSurface& at) {
     const bool is_known = std::any_of(surfaces.begin(), surfaces.end(), [&](const MetSurface& one) {
       return one.normal == at.normal && one.velocity == at.velocity && one.spread == at.spread &&
-             one.walkable == at.walkable && one.is_entered == at.is_entered;
+             one.walkable == at.walkable && one.is_overlapped == at.is_overlapped;
     });
     if (!is_known) surfaces.push_back(at);
   };
@@ -121,11 +122,11 @@ std::vector<MetSurface> LegJudge::near_surfaces() const {
           for (const bool walkable : {true, false}) {
             // What slopes of a character is ground and wall.
             if (walkable != is_ground && (walkable || !is_character)) continue;
-            const bool is_entered = face.separation < 0;
+            const bool is_overlapped = face.separation < 0;
             add({.normal = normal,
-                 .velocity = is_entered ? velocity : imparted(velocity, normal, walkable),
+                 .velocity = is_overlapped ? velocity : imparted(velocity, normal, walkable),
                  .walkable = walkable,
-                 .is_entered = is_entered,
+                 .is_overlapped = is_overlapped,
                  .spread = (part.unsure + part.rim) / dt_});
           }
         }
@@ -170,16 +171,27 @@ Box2<double> LegJudge::asked(std::span<const MetSurface> surfaces) const {
   return all;
 }
 
-/// How far other characters that touch this one go in the step [m].
-double LegJudge::pushed_by_characters() const {
-  std::set<double> ways;
-  for (std::size_t corner = 0; corner < step_.path.size(); ++corner)
-    for (const NearPart& part : near(corner, contact_reach))
+/// How far all goes in the step that touches the character and moves.
+LegJudge::Pushes LegJudge::pushes() const {
+  std::map<ColliderIndex, double> solids;
+  Pushes pushes;
+  for (std::size_t corner = 0; corner < step_.path.size(); ++corner) {
+    double of_characters = 0;
+    for (const NearPart& part : near(corner, contact_reach)) {
+      double way = part.moved.norm();
       // One that is pushed itself, late in the step, goes fast for a part of it.
+      for (const std::optional<Vec2d>& own : {part.comes, part.goes})
+        if (own) way = std::max(way, own->norm());
       if (part.collider == no_collider)
-        ways.insert(std::max({part.moved.norm(), part.comes->norm(), part.goes->norm()}));
-  const double all = std::accumulate(ways.begin(), ways.end(), 0.0);
-  return others_.handed_on ? std::min(all, others_.handed_on()) : all;
+        of_characters += way;
+      else
+        solids[part.collider] = std::max(solids[part.collider], way + part.unsure + part.rim);
+    }
+    pushes.of_characters = std::max(pushes.of_characters, of_characters);
+  }
+  for (const auto& [collider, way] : solids) pushes.of_solids += way;
+  if (others_.handed_on) pushes.of_characters = std::min(pushes.of_characters, others_.handed_on());
+  return pushes;
 }
 
 double LegJudge::rounding() const {
@@ -216,12 +228,14 @@ double LegJudge::way_gained(std::size_t first) const {
   const double gained = farther(first, speeds_, {});
   if (!(gained > 0) || !is_pushed()) return gained;
   // Pushed at once, it goes on as if all rested: each motion counts once.
-  const Box2<double> push = controlled_bounds({.squeezed = push_beyond_motion / dt_}, surfaces_);
+  const Pushes ways = pushes();
+  const Box2<double> pushed = controlled_bounds({.squeezed = push_beyond_motion / dt_}, surfaces_);
+  const Vec2d most = Vec2d::Constant(ways.of_solids + push_beyond_motion);
+  const Box2<double> push{(pushed.lower * dt_).cwiseMax(-most), (pushed.upper * dt_).cwiseMin(most)};
   std::vector<MetSurface> resting = surfaces_;
-  for (MetSurface& at : resting) at = {.normal = at.normal, .walkable = at.walkable};
+  for (MetSurface& at : resting) at = {.normal = at.normal, .walkable = at.walkable, .is_overlapped = at.is_overlapped};
   const double thrown = step_.start_overlap_characters.empty() ? 0 : push_beyond_motion;
-  return farther(first, velocities(resting),
-                 Box2<double>{push.lower * dt_, push.upper * dt_}.inflated(pushed_by_characters() + thrown));
+  return farther(first, velocities(resting), push.inflated(ways.of_characters + thrown));
 }
 
 /// How much farther the way is, in one direction, than at these velocities [m]. @param push of what comes against it,
@@ -314,7 +328,7 @@ double LegJudge::leg_error() const {
       least = std::min(least, (to.position - from.position - outcome * time).norm());
     off += least;
   }
-  // A way turns more often than it comes to colliders, but aims away from each.
+  // Each collider is aimed away from once, however often the way turns.
   std::set<ColliderIndex> aimed_at;
   for (const Contact<double>& contact : step_.contacts) aimed_at.insert(contact.collider);
   const double room =

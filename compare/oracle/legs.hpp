@@ -23,12 +23,12 @@ namespace paperproof::compare::detail {
 /// of its way. The velocity at the end is one of them. In each of four directions, along and across up, no leg is
 /// longer than its share of the time at these velocities. Some rules move a character at once. All legs together are
 /// longer by no more than these rules allow, each in its own direction:
-/// - The gap is restored by 2e-6 m, and by 1e-6 m on a leg that aims at it, along the normal of a surface.
+/// - The gap is restored by 2e-6 m, and by 1e-6 m for each surface near the way, along the normals.
 /// - Ground that hardly bends is followed by 2.8e-6 m, straight down. A walk follows ground by `snap`.
 /// - A walk climbs at most 4 stairs, each up and down by `step_height`, and goes on to where it would have come.
 /// - What moves and touches the character pushes it as far as the law of response has it pushed that wants nothing;
 ///   where two surfaces hold it, at most `push_beyond_motion` farther than they go. Other characters push no farther
-///   than they want to go, or hand on (`Others`).
+///   than they want to go, or hand on (`Others`); who begins inside of one may be thrown out by `push_beyond_motion`.
 ///
 /// **Direction.** While nothing that moves is near, each leg leads along the wanted motion, or what the law of response
 /// makes of it at the contacts that the way has come to by then: what is steered into a wall goes nowhere else.
@@ -45,7 +45,8 @@ class LegJudge {
   [[nodiscard]] double way_gained(std::size_t first) const;
   /// How much faster it is, in one direction, than anything made it [m/s].
   [[nodiscard]] double speed_gained() const;
-  /// How far a leg ends from where the law leads it [m]. Not of a step in parts, nor of one that drops motion.
+  /// How far a leg ends from where the law leads it [m]. Zero of a step in parts, of one that drops motion, climbs a
+  /// stair or meets another character, and beside what moves.
   [[nodiscard]] double leg_error() const;
 
  private:
@@ -57,7 +58,11 @@ class LegJudge {
   [[nodiscard]] Box2<double> velocities(std::span<const MetSurface> surfaces) const;
   [[nodiscard]] Box2<double> asked(std::span<const MetSurface> surfaces) const;
   [[nodiscard]] double farther(std::size_t first, const Box2<double>& speeds, const Box2<double>& push) const;
-  [[nodiscard]] double pushed_by_characters() const;
+  struct Pushes {
+    double of_solids = 0;      ///< [m]
+    double of_characters = 0;  ///< [m]
+  };
+  [[nodiscard]] Pushes pushes() const;
   [[nodiscard]] bool is_beside_what_moves() const;
   [[nodiscard]] double rounding() const;
   [[nodiscard]] double snapped() const;

@@ -52,7 +52,7 @@ std::vector<ExactImpact> ContactJudge::impacts_from(std::size_t corner) const {
 
 std::vector<Vec2d> ways_left(const Vec2d& motion, const Vec2d& own, double steered, const Vec2d& normal,
                              const TraceHeader& header, const Vec2d& up) {
-  const Vec2d right(up.y(), -up.x());
+  const Vec2d right = right_of(up);
   const auto slid = [&](const Vec2d& d) { return Vec2d(d - normal * std::min(0.0, (d - own).dot(normal))); };
   if (is_walkable(normal, header, up)) {
     const double across = (motion - own).dot(right);

@@ -1,6 +1,8 @@
 #include "oracle/met_surfaces.hpp"
 
+#include "oracle/contacts.hpp"
 #include "oracle/turning_room.hpp"
+#include "oracle/up.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,8 +14,8 @@ namespace {
 
 using detail::RigidMotion;
 
-/// What is held up to this distance is touched [m]: §6 of the guarantee, and the rounding of a separation.
-constexpr double touched = 7e-7 + 1e-8;
+/// What is held up to this distance is touched [m].
+constexpr double touched = detail::guaranteed_touch + detail::touch_rounding;
 
 /// Whether what was touched still is, and there: who has come past a rim is beside it. The normal of a circle turns.
 bool is_touched_there(const ExactScenery& solids, const Place& at, const Contact<double>& touch) {
@@ -94,7 +96,7 @@ Vec2d velocity_of(const SolidsInStep& solids, const Contact<double>& touch) {
 bool begins_as_walk(const TraceHeader& header, const TraceStep& step, bool grounded, const Vec2d& wanted) {
   const Vec2d up = up_in(step, header);
   const double steepest = std::tan(header.character.max_climb_degrees * std::numbers::pi / 180);
-  return grounded && wanted.dot(up) <= std::abs(wanted.dot(Vec2d(up.y(), -up.x()))) * steepest;
+  return grounded && wanted.dot(up) <= std::abs(wanted.dot(right_of(up))) * steepest;
 }
 
 std::vector<MetSurface> met_surfaces(const SolidsInStep& solids, std::span<const Contact<double>> contacts,

@@ -31,7 +31,7 @@ class SolidsInStep {
   [[nodiscard]] Vec2d moved(ColliderIndex collider, const Vec2d& point, double fraction) const;
   /// What turns has no one velocity in a step: that of a point turns by the angle that the collider turns by, and those
   /// of two points that are `apart` [m] differ by that share of it. By so much a velocity is not known [m/s]. Of a disc
-  /// nothing is known: how fast its rim goes is in no way of a vertex.
+  /// it is how fast its rim goes along itself; infinite where no script says how it turns.
   /// @param moved how far the step takes the point [m].
   [[nodiscard]] double spread(ColliderIndex collider, const Vec2d& moved, double apart) const;
 

@@ -165,36 +165,41 @@ MoverWayJudge::Course MoverWayJudge::course_of(MoverIndex mover) const {
   return {pose_at(scripts_[mover], begin_), pose_at(scripts_[mover], end_), slack};
 }
 
-double MoverWayJudge::reach_of_parts(const TraceStep& step) const {
+/// Whether a step goes in more parts than what turns near by needs.
+bool MoverWayJudge::is_fine(const TraceStep& step, const Near& near) const {
+  const int parts = parts_of(step.vertex_ways);
+  if (parts < 2) return false;
+  double way = 0;
+  for (const VertexWay& its : step.vertex_ways) way = std::max(way, detail::largest_motion(its));
+  const double wanted = step.requested.norm();
+  if (!near(way + wanted + near_what_turns).empty()) return false;
   const CharacterDef& character = header_.character;
   const double dt = length_of(step, header_);
   const double acceleration =
       character.acceleration + character.air_acceleration.value_or(0) + gravity_in(step, header_).norm();
   const double otherwise = (character.jump_speed + acceleration * dt) * dt + character.snap + character.step_height +
                            character.wall_reach + 2 * most_turned_at_once;
-  double way = 0;
-  for (const VertexWay& its : step.vertex_ways) way = std::max(way, detail::largest_motion(its));
-  return way + 4 * (extent_ + 2 * step.requested.norm() + otherwise);
+  const std::vector<ColliderIndex> beside = near(way + 4 * (extent_ + 2 * wanted + otherwise));
+  return std::none_of(beside.begin(), beside.end(), [&](ColliderIndex one) {
+    const MoverIndex mover = header_.scenery.colliders[one].mover;
+    const double turned = std::abs(course_of(mover).turn()) * extent_;
+    return scripts_[mover].body || turned >= most_turned_at_once * parts / 2 * (1 - turning_share);
+  });
 }
 
-MoverWayJudgement MoverWayJudge::judge(const TraceStep& step, std::span<const ColliderIndex> near,
-                                       std::span<const ColliderIndex> beside) {
+MoverWayJudgement MoverWayJudge::judge(const TraceStep& step, const Near& near) {
   tell_time(step);
   MoverWayJudgement judgement;
   for (MoverIndex mover = 0; mover < scripts_.size(); ++mover)
     judgement.turns.push_back(std::abs(course_of(mover).turn()));
-  const int parts = parts_of(step.vertex_ways);
-  judgement.is_fine = parts > 1 && std::none_of(beside.begin(), beside.end(), [&](ColliderIndex one) {
-                        const MoverIndex mover = header_.scenery.colliders[one].mover;
-                        const double needed = most_turned_at_once * parts / 2 * (1 - turning_share);
-                        return scripts_[mover].body || judgement.turns[mover] * extent_ >= needed;
-                      });
+  judgement.is_fine = is_fine(step, near);
+  const std::vector<ColliderIndex> beside = near(near_what_turns);
   judge_offsets(step, judgement);
   for (const VertexWay& way : step.vertex_ways) {
     const MoverIndex mover = header_.scenery.colliders[way.collider].mover;
     const double turn = std::abs(course_of(mover).turn());
     // A circle does not turn: its centre goes straight.
-    const bool is_near = std::any_of(near.begin(), near.end(), [&](ColliderIndex one) {
+    const bool is_near = std::any_of(beside.begin(), beside.end(), [&](ColliderIndex one) {
       const ColliderDef& other = header_.scenery.colliders[one];
       return other.mover == mover && !is_circle(other);
     });

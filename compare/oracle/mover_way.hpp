@@ -5,6 +5,7 @@
 #include "records/mover_script.hpp"
 #include "records/trace.hpp"
 
+#include <functional>
 #include <map>
 #include <span>
 
@@ -21,7 +22,7 @@ struct MoverPose {
 /// @param script with at least one waypoint.
 [[nodiscard]] MoverPose pose_at(const MoverScript& script, double time);
 
-/// What is wrong with the ways of one step. All empty where nothing is.
+/// What is wrong with the ways of one step. The lists of what is wrong are empty where nothing is.
 struct MoverWayJudgement {
   std::vector<MoverIndex> off_script;     ///< Begins or ends elsewhere, or begins not where it ended before.
   std::vector<ColliderIndex> out_of_way;  ///< At an instant in between it is not where the law below has it.
@@ -62,9 +63,10 @@ inline constexpr int most_turning_parts = 32;
 /// anything but a circle is near it turns at once by at most 0.05 m / S, or by 1/32 of the turn of the step where that
 /// is more.
 ///
-/// **Fine.** A step goes in n > 1 parts only where a mover turns by more than n / 2 times 0.05 m / S, and something of
-/// it is no farther from the character than the way of a vertex in the step, and 4 times the sum of S, twice the wanted
-/// way, and what the character's limits let it go otherwise.
+/// **Fine.** A step goes in n > 1 parts only where a mover turns by more than n / 2 times 0.05 m / S. When the step
+/// begins something of it is no farther from the character than W, the longest way of a vertex, and 4 times the sum of
+/// S, twice the wanted way, and what the character's limits let it go otherwise. What is no farther than W, the wanted
+/// way and 0.1 m may be met: beside it a step may go in any number of parts, as it may beside what follows no script.
 ///
 /// **Bound.** Let A be that angle (of what is not near, the turn of the whole step), r the distance of a vertex from
 /// the point that its mover turns about, D that from the position of the character at any corner of its way, R the
@@ -80,12 +82,9 @@ class MoverWayJudge {
  public:
   /// @param header must outlive the judge. @param scripts one for each mover; copied.
   MoverWayJudge(const TraceHeader& header, std::vector<MoverScript> scripts);
-  /// @param near the colliders that are no farther from the octagon than `near_what_turns` when the step begins.
-  /// @param beside those that are no farther than `reach_of_parts`.
-  [[nodiscard]] MoverWayJudgement judge(const TraceStep& step, std::span<const ColliderIndex> near,
-                                        std::span<const ColliderIndex> beside);
-  /// How near something that turns must be to divide a step: see **Fine** [m].
-  [[nodiscard]] double reach_of_parts(const TraceStep& step) const;
+  /// The colliders that turn and are no farther from the octagon than so many metres when the step begins.
+  using Near = std::function<std::vector<ColliderIndex>(double within)>;
+  [[nodiscard]] MoverWayJudgement judge(const TraceStep& step, const Near& near);
   /// A step that left no ways, because it was refused: its time goes by.
   void pass_over(const TraceStep& step) { tell_time(step); }
 
@@ -100,6 +99,7 @@ class MoverWayJudge {
   };
 
   [[nodiscard]] Course course_of(MoverIndex mover) const;
+  [[nodiscard]] bool is_fine(const TraceStep& step, const Near& near) const;
   void tell_time(const TraceStep& step);
   [[nodiscard]] bool is_on_script(const Vec2d& offset, const MoverPose& pose, MoverIndex mover, double slack) const;
   void judge_offsets(const TraceStep& step, MoverWayJudgement& judgement);

@@ -192,6 +192,9 @@ bool may_enter(const Box2<double>& box, const MetSurface& at) {
   });
 }
 
+/// `controlled_bounds` goes so often over the surfaces. Each time the box holds more that no motion does.
+constexpr std::size_t most_rounds = 2;
+
 /// Adds to a box what one surface that rests can make of a velocity. Ground may be followed that is not entered. A wall
 /// takes what leads across up into it, or a part of that: it turns none of that upwards.
 void add_responses(const Vec2d& v, const MetSurface& at, Box2<double>& box) {
@@ -307,13 +310,13 @@ Box2<double> controlled_bounds(const ControlledRange& range, std::span<const Met
     return left;
   };
   // What one has made comes to others, and from there back to it.
-  for (std::size_t turn = 0; turn < 2 * surfaces.size(); ++turn) {
+  for (std::size_t turn = 0; turn < most_rounds * surfaces.size(); ++turn) {
     const std::size_t i = turn % surfaces.size();
     const MetSurface& at = surfaces[i];
     const auto responses = [&at](const Box2<double>& box) {
       Box2<double> all = no_box;
       // Ground may carry the character.
-      if (at.walkable || at.is_entered) all = Box2<double>{at.velocity, at.velocity}.inflated(at.spread);
+      if (at.walkable || at.is_overlapped) all = Box2<double>{at.velocity, at.velocity}.inflated(at.spread);
       for (const Vec2d& goes : velocities_of(at))
         for (const Vec2d& v : corners_of(box)) {
           Box2<double> made = no_box;
@@ -334,7 +337,7 @@ Box2<double> controlled_bounds(const ControlledRange& range, std::span<const Met
       const Box2<double> other_slide = slides(with);
       const bool enters_with = may_enter(made_by[i].merged(slide), with);
       const bool enters_at = may_enter(made_by[k].merged(other_slide), at);
-      // Among those that go otherwise the nearest motion is left that enters none.
+      // At two surfaces with different velocities the nearest motion may be left that enters neither.
       if (at.velocity != with.velocity && (enters_with || enters_at)) wanted = wanted.merged(slide).merged(other_slide);
       // Two hold only a motion that goes into each by what the other leaves of it.
       if (!enters_with || !enters_at) continue;

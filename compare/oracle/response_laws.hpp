@@ -16,7 +16,7 @@ struct MetSurface {
   Vec2d normal{Vec2d::Zero()};    ///< Unit, towards the character.
   Vec2d velocity{Vec2d::Zero()};  ///< Of what it goes along with, a conveyor's surface included [m/s].
   bool walkable = false;          ///< Within the climb limit of the character.
-  bool is_entered = false;        ///< The character is inside of it, and goes along with it.
+  bool is_overlapped = false;     ///< For bounds alone: the character is inside of it, and may go along.
   bool is_side = false;           ///< Touches the left or right side of the character.
   bool climbs = false;            ///< A rise that comes to it is the climb of a walk, whose ground is still touched.
   double met = 0;                 ///< When it was met, as a fraction of the step; 1: only touched where that ends.
@@ -72,8 +72,9 @@ struct ControlledRange {
   double squeezed = 0;        ///< Two surfaces press a character out by at most their own speeds and this.
 };
 
-/// A box that holds the wanted velocities, and all that the same law can make of them. It does not ask in which order
-/// the surfaces are met, when, or whether at all. It knows their velocities as far as `MetSurface::spread` says.
+/// A box that holds the wanted velocities, and all that the same law can make of them. It does not ask when the
+/// surfaces are met, or whether at all, nor in which order: it goes over them twice. It knows their velocities as far
+/// as `MetSurface::spread` says.
 /// @param surfaces as an upright character sees them.
 [[nodiscard]] Box2<double> controlled_bounds(const ControlledRange& range, std::span<const MetSurface> surfaces);
 

@@ -301,8 +301,10 @@ std::vector<NearPart> TurningJudge::near_at_end(const TraceStep& step, double wi
       const VertexWay& way = way_of(step, solid.collider);
       const std::size_t last = way.instants.size() - 1;
       const double share = 1 - way.instants[last - 1];
-      const VertexWay stretch{
-          .collider = way.collider, .instants = {0, 1}, .vertices = {way.vertices[last - 1], way.vertices[last]}};
+      const VertexWay stretch{.collider = way.collider,
+                              .instants = {0, 1},
+                              .vertices = {way.vertices[last - 1], way.vertices[last]},
+                              .turn = way.turn};
       Standing here = standing(solid, numbers, stretch, step.requested * share, {step.path.back().position, 1}, within);
       here.moved /= share;
       here.unsure /= share;

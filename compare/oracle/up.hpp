@@ -5,6 +5,8 @@
 
 namespace paperproof::compare {
 
+/// Across up, to the right. @param up unit vector.
+[[nodiscard]] inline Vec2d right_of(const Vec2d& up) { return {up.y(), -up.x()}; }
 /// Components across up, to the right, and along it. @param up unit vector.
 [[nodiscard]] inline Vec2d seen(const Vec2d& v, const Vec2d& up) {
   return {v.x() * up.y() - v.y() * up.x(), v.dot(up)};

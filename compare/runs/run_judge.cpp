@@ -6,6 +6,7 @@
 #include "oracle/contacts.hpp"
 #include "oracle/legs.hpp"
 #include "oracle/turning.hpp"
+#include "oracle/up.hpp"
 #include "records/verdict.hpp"
 #include "words.hpp"
 
@@ -79,10 +80,9 @@ bool RunJudge::is_alone(const TraceStep& record, const Others& others) {
 
 bool RunJudge::is_wall_ahead(const TraceStep& record, double move) const {
   const Vec2d up = up_in(record, header_);
-  const Vec2d there = Vec2d(up.y(), -up.x()) * std::copysign(header_.character.wall_reach, move);
+  const Vec2d there = right_of(up) * std::copysign(header_.character.wall_reach, move);
   for (const ExactImpact& impact : solids().impacts({record.path.front(), record.movers}, there))
-    if (side_of_normal(impact.normal.dot(Vec2d(up.y(), -up.x())), impact.normal.dot(up)) ==
-        (move < 0 ? Side::left : Side::right))
+    if (side_of_normal(impact.normal.dot(right_of(up)), impact.normal.dot(up)) == (move < 0 ? Side::left : Side::right))
       return true;
   return false;
 }
@@ -376,7 +376,7 @@ void RunJudge::judge_ride(const TraceStep& record, const Follower& follower) {
   const MoverMotion<double>& motion = record.movers[ground.mover];
   const Vec2d up = up_in(record, header_);
   const Vec2d own = follower.wanted.displacement - (motion.to - motion.from);
-  const bool stays = std::abs(own.dot(Vec2d(up.y(), -up.x()))) == 0 && own.dot(up) <= 0 && record.met.empty() &&
+  const bool stays = std::abs(own.dot(right_of(up))) == 0 && own.dot(up) <= 0 && record.met.empty() &&
                      std::all_of(record.contacts.begin(), record.contacts.end(), [&](const Contact<double>& contact) {
                        return contact.collider == record.ride->collider;
                      });
@@ -395,8 +395,8 @@ void RunJudge::judge_movers(std::span<TraceStep> records) {
   if (!ways_) return;
   const TraceStep& record = records.front();
   const detail::TurningJudge& turning = followers_.front().judge->turning();
-  const MoverWayJudgement judged = ways_->judge(record, turning.near_at_begin(record, near_what_turns),
-                                                turning.near_at_begin(record, ways_->reach_of_parts(record)));
+  const MoverWayJudgement judged =
+      ways_->judge(record, [&](double within) { return turning.near_at_begin(record, within); });
   arc_error_ = std::max(arc_error_, judged.arc_error);
   for (TraceStep& step : records)
     for (VertexWay& way : step.vertex_ways)
@@ -591,11 +591,11 @@ void RunJudge::judge_clauses(const TraceStep& record, const StepJudgement& judge
   check(Clause::start_inside, judged.stuck_refuted, [] { return std::string("says it is stuck beside a way out"); });
   check(Clause::start_inside, judged.start_mishandled,
         [] { return std::string("begins inside, and neither leaves by the shortest way out nor stays and says so"); });
-  check(Clause::velocity, judged.way_gained > 0,
+  check(Clause::velocity, !(judged.way_gained <= 0),
         [&] { return "goes " + metres(judged.way_gained) + " farther than anything made it"; });
-  check(Clause::velocity, judged.leg_error > 0,
+  check(Clause::velocity, !(judged.leg_error <= 0),
         [&] { return "goes another way than the law makes, by " + metres(judged.leg_error); });
-  check(Clause::velocity, judged.speed_gained > 0,
+  check(Clause::velocity, !(judged.speed_gained <= 0),
         [&] { return fmt::format("is {:.3g} m/s faster than anything made it", judged.speed_gained); });
   check(Clause::hanging, judged.hangs, [] { return std::string("hangs in the air"); });
   check(Clause::speed_lost, judged.motion_lost > 0,
@@ -654,7 +654,7 @@ void RunJudge::judge_velocity(const SolidsInStep& there, const StepJudgement& ju
   if (excused || !contains(header_.guarantees, Clause::velocity)) return;
   const Vec2d up = up_in(record, header_);
   ControlledStep step{.wanted = wanted.velocity, .up = up};
-  step.unsteered = wanted.velocity - wanted.steered / length_of(record, header_) * Vec2d(up.y(), -up.x());
+  step.unsteered = wanted.velocity - wanted.steered / length_of(record, header_) * right_of(up);
   step.side_hit_ends_rise = header_.character.side_hit_ends_rise;
   const bool walks = !wanted.jumped && begins_as_walk(header_, record, wanted.from_ground, wanted.velocity);
   const std::vector<MetSurface> surfaces = met_surfaces(there, record.contacts, walks);

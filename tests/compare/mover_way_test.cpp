@@ -12,6 +12,8 @@ using namespace test;  // NOLINT(google-build-using-namespace): the shapes of th
 
 using Loop = MoverScript::Loop;
 using Colliders = std::vector<ColliderIndex>;
+
+const MoverWayJudge::Near none = [](double) { return Colliders{}; };
 using Movers = std::vector<MoverIndex>;
 
 /// Between two entries in rationals, of a path that is run through once.
@@ -141,8 +143,12 @@ class Plank : public testing::Test {
   [[nodiscard]] MoverWayJudgement judged(const std::vector<TraceStep>& steps, bool near = true) const {
     MoverWayJudge judge(header_, {script_});
     MoverWayJudgement last;
-    for (const TraceStep& one : steps) last = judge.judge(one, near ? near_ : Colliders{}, near_);
+    for (const TraceStep& one : steps) last = judge.judge(one, is_near(near));
     return last;
+  }
+
+  [[nodiscard]] MoverWayJudge::Near is_near(bool near) const {
+    return [this, near](double within) { return near || within > near_what_turns ? near_ : Colliders{}; };
   }
 
   TraceHeader header_;
@@ -155,7 +161,7 @@ TEST_F(Plank, that_turns_at_once_in_enough_parts_holds_to_its_script) {
   MoverWayJudge judge(header_, {script_});
   for (int k = 0; k < 40; ++k) {
     const TraceStep step = in_parts(k, needed);
-    const MoverWayJudgement one = judge.judge(step, near_, near_);
+    const MoverWayJudgement one = judge.judge(step, is_near(true));
     EXPECT_FALSE(one.broken()) << k;
     EXPECT_EQ(parts_of(step.vertex_ways), needed);
     EXPECT_GT(one.arc_error, 0) << "it turns at once";
@@ -192,14 +198,16 @@ TEST_F(Plank, that_turns_at_once_in_fewer_parts_is_coarse_near_the_character_onl
   EXPECT_FALSE(judged({in_parts(0, needed / 2)}, false).broken());
 }
 
-TEST_F(Plank, that_is_near_alone_divides_a_step_and_into_no_more_parts_than_it_needs) {
-  const auto is_fine = [&](int parts, const Colliders& beside) {
-    return MoverWayJudge(header_, {script_}).judge(in_parts(0, parts), {}, beside).is_fine;
+TEST_F(Plank, divides_a_step_only_where_it_is_near_and_into_no_more_parts_than_it_needs) {
+  const auto is_fine = [&](int parts, double distance) {
+    const auto near = [&](double within) { return distance <= within ? near_ : Colliders{}; };
+    return MoverWayJudge(header_, {script_}).judge(in_parts(0, parts), near).is_fine;
   };
-  EXPECT_FALSE(is_fine(needed, near_));
-  EXPECT_TRUE(is_fine(needed, {})) << "nothing that turns is near";
-  EXPECT_TRUE(is_fine(4 * needed, near_));
-  EXPECT_FALSE(is_fine(1, {}));
+  EXPECT_FALSE(is_fine(1, 1000));
+  EXPECT_FALSE(is_fine(needed, 3));
+  EXPECT_TRUE(is_fine(needed, 1000)) << "it is far";
+  EXPECT_TRUE(is_fine(4 * needed, 3));
+  EXPECT_FALSE(is_fine(4 * needed, 0.05)) << "it may be met: a finer division may free the character";
 }
 
 TEST_F(Plank, of_which_only_a_circle_is_near_may_turn_in_fewer_parts) {
@@ -207,7 +215,7 @@ TEST_F(Plank, of_which_only_a_circle_is_near_may_turn_in_fewer_parts) {
   ball.radius = 0.1;
   header_.scenery.colliders.push_back(ball);
   const auto of_near = [&](const Colliders& near) {
-    return MoverWayJudge(header_, {script_}).judge(in_parts(0, needed / 2), near, near).coarse;
+    return MoverWayJudge(header_, {script_}).judge(in_parts(0, needed / 2), [&](double) { return near; }).coarse;
   };
   EXPECT_EQ(of_near({1}), Colliders{});
   EXPECT_EQ(of_near({0, 1}), Colliders{0});
@@ -280,12 +288,12 @@ TEST(MoverWay, of_what_goes_straight_is_its_script_in_each_scalar) {
       TraceStep one = step({{5, 5}, {5, 5}});
       one.step = k;
       one.movers = {{offset(k), offset(k + 1)}};
-      EXPECT_FALSE(judge.judge(one, {}, {}).broken()) << scalar << " " << k;
+      EXPECT_FALSE(judge.judge(one, none).broken()) << scalar << " " << k;
     }
     TraceStep off = step({{5, 5}, {5, 5}});
     off.step = 100;
     off.movers = {{offset(100), offset(101) + Vec2d(1e-3, 0)}};
-    EXPECT_EQ(judge.judge(off, {}, {}).off_script, Movers{0}) << scalar;
+    EXPECT_EQ(judge.judge(off, none).off_script, Movers{0}) << scalar;
   }
 }
 
