@@ -135,7 +135,8 @@ void judge_end(const TraceHeader& header, const TraceStep& last, Breaches& breac
   const int final_step = *header.steps - 1;
   if (last.step == final_step || (!last.refused.empty() && last.step < final_step)) return;
   breaches[Clause::continuity].add(last.step, [&] {
-    return fmt::format("the trace ends with this step, and the run has {}", counted(*header.steps, "step"));
+    const char* ends = last.step < final_step ? "ends with" : "goes on to";
+    return fmt::format("the trace {} this step, and the run has {}", ends, counted(*header.steps, "step"));
   });
 }
 

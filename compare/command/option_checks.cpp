@@ -61,7 +61,11 @@ std::string reason_of(const CLI::ParseError& error, CLI::App& command) {
       return fmt::format("{}: expected nothing behind it", name);
     if (!library.starts_with(name + ":")) continue;
     if (option->empty()) return fmt::format("{}: expected {} behind it", name, option->get_type_name());
-    return fmt::format("{}: expected once, not {} times", name, option->count());
+    const int most = option->get_expected_max();
+    const bool is_short = static_cast<int>(option->count()) < option->get_expected_min();
+    if (is_short) return fmt::format("{}: expected {}, not {}", name, option->get_expected_min(), option->count());
+    return most == 1 ? fmt::format("{}: expected once, not {} times", name, option->count())
+                     : fmt::format("{}: expected at most {}, not {}", name, most, option->count());
   }
   return library;
 }

@@ -131,25 +131,38 @@ double EndJudge::flight_error() const {
                   too_slow <= rounding_of_motion * (1 + wanted_.velocity.norm()) ? 0 : too_slow);
 }
 
-/// The upward speed that is missing without anything exact that could have taken it [m/s].
+/// Whether a face may take upward speed: a ceiling, what the wanted motion goes into and that slopes or moves, ground
+/// that is followed, or a wall that ends the climb of a walk.
+bool EndJudge::may_take_rise(const NearPart& part, const NearFace& face) const {
+  const double slope = face.normal.dot(up_);
+  if (slope < 0) return true;
+  double against = face.normal.dot(wanted_.velocity * dt_ - part.moved);
+  for (const std::optional<Vec2d>& way : {part.comes, part.goes})
+    if (way) against = std::min(against, face.normal.dot(wanted_.velocity * dt_ - *way));
+  const bool is_entered = against < part.unsure;
+  const bool moves = !part.moved.isZero(0) || part.unsure > 0;
+  const bool follows =
+      slope > 0 && (is_entered || !wanted_.jumped) &&
+      std::abs(face.normal.dot(step_.velocity)) <= guaranteed_touch / dt_ + rounding_of_motion * step_.velocity.norm();
+  const bool is_level = std::abs(face.normal.dot(right_of(up_))) <= rounding_of_motion;
+  const bool climbs = wanted_.from_ground && !wanted_.jumped;
+  const bool ends_rise = !is_level && (climbs || header_.character.side_hit_ends_rise);
+  return (moves && is_entered) || follows || ends_rise;
+}
+
+/// The upward speed that is missing without anything exact that could have taken it [m/s]. What turns takes its rider
+/// along by no one velocity: so much of it is not asked for.
 double EndJudge::rise_lost() const {
   const double lost = (wanted_.velocity - step_.velocity).dot(up_);
+  double unsure = 0;
   if (lost <= rounding_of_motion * (1 + wanted_.velocity.norm())) return 0;
-  const Vec2d right = right_of(up_);
   for (std::size_t corner = 0; corner < step_.path.size(); ++corner)
-    for (const NearPart& part : near(corner, contact_reach))
-      for (const NearFace& face : part.faces) {
-        const double slope = face.normal.dot(up_);
-        const bool is_level = std::abs(face.normal.dot(right)) <= rounding_of_motion;
-        const bool is_entered = face.normal.dot(wanted_.velocity * dt_ - part.moved) < 0;
-        const bool follows = slope > 0 && (is_entered || !wanted_.jumped) &&
-                             std::abs(face.normal.dot(step_.velocity)) <=
-                                 guaranteed_touch / dt_ + rounding_of_motion * step_.velocity.norm();
-        const bool climbs = wanted_.from_ground && !wanted_.jumped;
-        const bool ends_rise = !is_level && (climbs || header_.character.side_hit_ends_rise);
-        if (slope < 0 || !part.moved.isZero(0) || follows || ends_rise) return 0;
-      }
-  return lost;
+    for (const NearPart& part : near(corner, contact_reach)) {
+      unsure = std::max(unsure, (part.unsure + std::abs(part.rim)) / dt_);
+      for (const NearFace& face : part.faces)
+        if (may_take_rise(part, face)) return 0;
+    }
+  return lost > unsure ? lost : 0;
 }
 
 void EndJudge::judge_speed(bool starts_free, StepJudgement& judgement) const {

@@ -44,6 +44,7 @@ class EndJudge {
   [[nodiscard]] bool stands_on_ground() const;
   [[nodiscard]] bool goes_freely() const;
   [[nodiscard]] double flight_error() const;
+  [[nodiscard]] bool may_take_rise(const NearPart& part, const NearFace& face) const;
   [[nodiscard]] double rise_lost() const;
   [[nodiscard]] bool is_alone() const;
 

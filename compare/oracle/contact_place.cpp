@@ -76,7 +76,7 @@ std::optional<PlaceFault> place_fault(const TraceHeader& header, const TraceStep
     if (on_face && std::abs(gap - contact.separation) <= rounding) return std::nullopt;
   }
   const std::string whom = "`" + header.ids[contact.collider] + "`";
-  if (on_both) return PlaceFault{Clause::gap, "is nowhere as far from " + whom + " as a contact says"};
+  if (on_both) return PlaceFault{Clause::gap, "is as far from " + whom + " as a contact says at no corner of its way"};
   return PlaceFault{Clause::contact_invented, "has a contact with " + whom + " in a point where they do not touch"};
 }
 

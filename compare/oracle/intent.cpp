@@ -171,6 +171,7 @@ Wanted Intent::begin(const TraceStep& step, int parts, const WallAhead& wall_ahe
   const Vec2d velocity = in_world({walk + pull.x(), rise}, up);
   const Vec2d by_ground = carried(step, whole);
   wanted.displacement = velocity * whole + by_ground;
+  wanted.carried = by_ground;
   wanted.velocity = velocity + by_ground / whole;
   wanted.steered = change * whole;
   rise_ = wanted.velocity.dot(up);

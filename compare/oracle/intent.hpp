@@ -14,6 +14,7 @@ struct Wanted {
   Vec2d velocity{Vec2d::Zero()};      ///< The same [m/s].
   double steered = 0;                 ///< The part of the displacement across up that steering added [m].
   double walk = 0;                    ///< Across up, relative to what it rides [m/s].
+  Vec2d carried{Vec2d::Zero()};       ///< By what it rides, in the world [m].
   bool rides = false;                 ///< Something that moves or conveys carries it.
   bool jumped = false;                ///< A jump begins.
   bool jumping = false;               ///< The same, or one goes on.

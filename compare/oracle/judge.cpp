@@ -140,8 +140,10 @@ StepJudgement Judge::judge_step(const TraceStep& step, const Others& others, con
     turning_->judge(turning->step, scenery_, parts, judgement);
     leave_out_what_follows(turning->step, parts, judgement);
     add_deflected(step, judgement);
-    judgement.turning_sensor =
-        turning->step.sensors.size() > step.sensors.size() || turning_->meets_sensor(turning->step);
+    judgement.turning_sensor = turning_->meets_sensor(turning->step);
+    // What is told of sensors that turn is not judged, but where there is none.
+    if (!judgement.turning_sensor)
+      judgement.sensor_events_extra += static_cast<int>(turning->step.sensors.size() - step.sensors.size());
   }
   if (has_sensors_) judge_sensors(path, step, judgement);
   if (step.stuck && starts_free) {
@@ -582,6 +584,18 @@ Judge::Leaving Judge::leaving_of(const Path& path, const Others& others, bool fr
   return leaving;
 }
 
+/// How much farther it goes than what it begins inside of, and turns, may put it [m].
+double Judge::turned_out_too_far(const TraceStep& step, const Wanted& wanted) const {
+  double depth = 0;
+  for (const NearPart& part : turning_->near(step, step.path.front(), 0))
+    depth += std::max(0.0, -part.faces.front().separation);
+  double way = 0;
+  for (std::size_t k = 1; k < step.path.size(); ++k) way += (step.path[k].position - step.path[k - 1].position).norm();
+  const double most =
+      4 * depth + turning_->longest_way(step) + detail::push_beyond_motion + 2 * wanted.displacement.norm();
+  return std::max(0.0, way - most);
+}
+
 /// How far and how fast the step goes at most, and whether it leaves what it begins inside of as it must.
 void Judge::judge_legs(const TraceStep& step, const Others& others, const Wanted& wanted,
                        const detail::LaterParts& later, StepJudgement& judgement) const {
@@ -601,7 +615,7 @@ void Judge::judge_legs(const TraceStep& step, const Others& others, const Wanted
       (held && !judgement.end_overlap.empty()) || (!step.start_overlap_characters.empty() && is_inside_another());
   judgement.start_mishandled = leaving_.longer || (stays && !says_so) || (held && (way > 0 || speed > 0));
   if (held) return;
-  if (!leaving_.turning) judgement.way_gained = way;
+  judgement.way_gained = leaving_.turning ? turned_out_too_far(step, wanted) : way;
   judgement.speed_gained = speed;
   const bool as_law = !leaving_.inside && !step.stuck && !says_so && judgement.end_overlap.empty();
   if (as_law) judgement.leg_error = legs.leg_error();
@@ -701,7 +715,7 @@ void Judge::judge_sensors(const Path& path, const TraceStep& step, StepJudgement
     judgement.max_sensor_error = std::max(judgement.max_sensor_error, error);
     judgement.max_sensor_way = std::max(judgement.max_sensor_way, error * way_past(path, event.sensor));
   }
-  judgement.sensor_events_extra = static_cast<int>(std::count(taken.begin(), taken.end(), false));
+  judgement.sensor_events_extra += static_cast<int>(std::count(taken.begin(), taken.end(), false));
 }
 
 }  // namespace paperproof::compare

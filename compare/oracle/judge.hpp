@@ -321,6 +321,7 @@ class Judge {
   /// @param step,others if something turns: without contacts and the like of that, and with what it means.
   [[nodiscard]] StepJudgement judge_step(const TraceStep& step, const Others& others, const Wanted* wanted,
                                          const AmongTurning* turning = nullptr);
+  [[nodiscard]] double turned_out_too_far(const TraceStep& step, const Wanted& wanted) const;
   [[nodiscard]] Others with_turning(const TraceStep& step, const Others& characters) const;
   [[nodiscard]] bool is_stuck_refuted(const Place& at, const Others& others, const AmongTurning* turning,
                                       bool in_turning);

@@ -22,6 +22,8 @@ constexpr double aims_away = 1e-6;
 constexpr double follows_seam = 2.8e-6;
 /// A walk climbs no more of them in one step.
 constexpr int most_stairs = 4;
+/// Who begins inside of others is put aside by so many times the depth at most.
+constexpr double most_of_depth = 4;
 /// Where something turns, a character waits for a millionth of each part of the step, and then catches up.
 constexpr double waits = 2e-6;
 
@@ -76,14 +78,14 @@ LegJudge::LegJudge(const TraceHeader& header, const ExactScenery& scenery, const
       dt_(length_of(step, header)),
       held_(held),
       surfaces_(near_surfaces()),
-      speeds_(velocities(surfaces_)) {}
+      speeds_(velocities(surfaces_, Vec2d::Zero())) {}
 
-/// The velocities that the parts of the step want.
-ControlledRange LegJudge::wanted_velocities() const {
+/// The velocities that the parts of the step want. @param carried this is taken from them [m/s].
+ControlledRange LegJudge::wanted_velocities(const Vec2d& carried) const {
   std::vector<Vec2d> unsteered;
   for (const Wanted* wanted : {&wanted_, &first_})
     for (const Vec2d& velocity : {wanted->velocity, Vec2d(wanted->displacement / dt_)})
-      unsteered.push_back(seen(velocity - wanted->steered / dt_ * right_, up_));
+      unsteered.push_back(seen(velocity - carried - wanted->steered / dt_ * right_, up_));
   ControlledRange range{.unsteered = Box2<double>::around(unsteered)};
   // What turns under its rider takes it along otherwise in each part of the step.
   double unsure = 0;
@@ -118,6 +120,7 @@ std::vector<MetSurface> LegJudge::near_surfaces() const {
           // Two that say that they push each other do not vouch for each other.
           if (is_character && way->norm() > *handed_on) velocity *= *handed_on / way->norm();
           if (!is_character) velocity += conveyed(header_.scenery.colliders[part.collider], normal);
+          velocity += part.rim / dt_ * Vec2d(-normal.y(), normal.x());
           const bool is_ground = is_walked_on(face.normal, header_, up_);
           for (const bool walkable : {true, false}) {
             // What slopes of a character is ground and wall.
@@ -127,16 +130,16 @@ std::vector<MetSurface> LegJudge::near_surfaces() const {
                  .velocity = is_overlapped ? velocity : imparted(velocity, normal, walkable),
                  .walkable = walkable,
                  .is_overlapped = is_overlapped,
-                 .spread = (part.unsure + part.rim) / dt_});
+                 .spread = (part.unsure + part.rim_unsure) / dt_});
           }
         }
     }
   return surfaces;
 }
 
-/// All that the step may have at these surfaces, across and along up [m/s].
-Box2<double> LegJudge::velocities(std::span<const MetSurface> surfaces) const {
-  ControlledRange range = held_ ? ControlledRange{} : wanted_velocities();
+/// All that the step may have at these surfaces, across and along up [m/s]. @param carried see `wanted_velocities`.
+Box2<double> LegJudge::velocities(std::span<const MetSurface> surfaces, const Vec2d& carried) const {
+  ControlledRange range = held_ ? ControlledRange{} : wanted_velocities(carried);
   range.squeezed = push_beyond_motion / dt_;
   Box2<double> all = controlled_bounds(range, surfaces);
   if (!held_) {
@@ -176,27 +179,50 @@ LegJudge::Pushes LegJudge::pushes() const {
   std::map<ColliderIndex, double> solids;
   Pushes pushes;
   for (std::size_t corner = 0; corner < step_.path.size(); ++corner) {
-    double of_characters = 0;
+    Box2<double> of_characters;  // these push along their normals
     for (const NearPart& part : near(corner, contact_reach)) {
       double way = part.moved.norm();
       // One that is pushed itself, late in the step, goes fast for a part of it.
       for (const std::optional<Vec2d>& own : {part.comes, part.goes})
         if (own) way = std::max(way, own->norm());
-      if (part.collider == no_collider)
-        of_characters += way;
-      else
-        solids[part.collider] = std::max(solids[part.collider], way + part.unsure + part.rim);
+      if (part.collider != no_collider) {
+        solids[part.collider] =
+            std::max(solids[part.collider], way + part.unsure + std::abs(part.rim) + part.rim_unsure);
+        continue;
+      }
+      Box2<double> along;
+      for (const NearFace& face : part.faces) {
+        const Vec2d push = way * seen(face.normal, up_);
+        along = along.merged({push, push});
+      }
+      of_characters = {of_characters.lower + along.lower, of_characters.upper + along.upper};
     }
-    pushes.of_characters = std::max(pushes.of_characters, of_characters);
+    pushes.of_characters = pushes.of_characters.merged(of_characters);
   }
   for (const auto& [collider, way] : solids) pushes.of_solids += way;
-  if (others_.handed_on) pushes.of_characters = std::min(pushes.of_characters, others_.handed_on());
+  if (others_.handed_on) {
+    const Vec2d most = Vec2d::Constant(others_.handed_on());
+    pushes.of_characters = {pushes.of_characters.lower.cwiseMax(-most), pushes.of_characters.upper.cwiseMin(most)};
+  }
   return pushes;
+}
+
+/// How far a character may be put aside that begins inside of others [m].
+double LegJudge::thrown() const {
+  double depth = 0;
+  if (!step_.start_overlap_characters.empty() && others_.near)
+    for (const NearPart& part : others_.near(step_.path.front(), 0))
+      depth += std::max(0.0, -part.faces.front().separation);
+  return std::min(push_beyond_motion, most_of_depth * depth);
 }
 
 double LegJudge::rounding() const {
   double rounding = relative_rounding * (1 + wanted_.displacement.norm());
-  for (const PathPoint<double>& corner : step_.path) rounding += 4 * ulp_at(header_, corner.position);
+  const Vec2d* last = nullptr;
+  for (const PathPoint<double>& corner : step_.path) {
+    if (last == nullptr || *last != corner.position) rounding += 4 * ulp_at(header_, corner.position);
+    last = &corner.position;
+  }
   return rounding;
 }
 
@@ -206,18 +232,39 @@ double LegJudge::waited() const { return step_.vertex_ways.empty() ? 0 : waits *
 /// Whether something that comes against it touches it: nothing else pushes.
 bool LegJudge::is_pushed() const { return std::any_of(surfaces_.begin(), surfaces_.end(), comes_against); }
 
-/// How far the last leg, or one in a step in parts, goes straight down to ground at once, and so no farther than a walk
-/// is held to it [m].
+/// How far it goes straight down to ground at once, and so no farther than a walk is held to it [m]: with its last leg,
+/// or with one in each of the parts of the step.
 double LegJudge::snapped() const {
+  if (header_.character.snap == 0) return 0;
   const bool in_parts = first_.parts > 1;
-  if (in_parts ? header_.character.snap == 0 : !wanted_.from_ground || !step_.grounded) return 0;
+  if (!in_parts && !(wanted_.from_ground && step_.grounded)) return 0;
+  const auto ends_on_ground = [&](std::size_t corner) {
+    const std::vector<NearPart> parts = near(corner, contact_reach);
+    return std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
+      return std::any_of(part.faces.begin(), part.faces.end(),
+                         [&](const NearFace& face) { return face.normal.dot(up_) > 0; });
+    });
+  };
   double down = 0;
+  int legs = 0;
   for (std::size_t k = in_parts ? 1 : step_.path.size() - 1; k > 0 && k < step_.path.size(); ++k) {
     const Vec2d leg = seen(step_.path[k].position - step_.path[k - 1].position, up_);
     const bool at_once = step_.path[k - 1].fraction == step_.path[k].fraction;
-    if (at_once && std::abs(leg.x()) <= rounding() && leg.y() < 0) down += std::min(-leg.y(), header_.character.snap);
+    const bool is_straight = std::abs(leg.x()) <= rounding() && leg.y() < 0;
+    if (!at_once || !is_straight || legs == first_.parts || !ends_on_ground(k)) continue;
+    down += std::min(-leg.y(), header_.character.snap);
+    ++legs;
   }
   return down;
+}
+
+/// How fast what pushes it at once has carried it already [m/s].
+Vec2d LegJudge::own_carrier() const {
+  const std::vector<NearPart> parts = near(0, contact_reach);
+  const bool is_there = std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
+    return part.collider != no_collider && part.moved == first_.carried;
+  });
+  return is_there ? Vec2d(first_.carried / dt_) : Vec2d(Vec2d::Zero());
 }
 
 bool LegJudge::knows_speeds() const {
@@ -234,8 +281,8 @@ double LegJudge::way_gained(std::size_t first) const {
   const Box2<double> push{(pushed.lower * dt_).cwiseMax(-most), (pushed.upper * dt_).cwiseMin(most)};
   std::vector<MetSurface> resting = surfaces_;
   for (MetSurface& at : resting) at = {.normal = at.normal, .walkable = at.walkable, .is_overlapped = at.is_overlapped};
-  const double thrown = step_.start_overlap_characters.empty() ? 0 : push_beyond_motion;
-  return farther(first, velocities(resting), push.inflated(ways.of_characters + thrown));
+  const Box2<double> all{push.lower + ways.of_characters.lower, push.upper + ways.of_characters.upper};
+  return farther(first, velocities(resting, own_carrier()), all.inflated(thrown()));
 }
 
 /// How much farther the way is, in one direction, than at these velocities [m]. @param push of what comes against it,
@@ -264,9 +311,14 @@ double LegJudge::farther(std::size_t first, const Box2<double>& speeds, const Bo
   room_below.y() += follows_seam;
   if (!held_) room_below.y() += snapped();
   if (const int stairs = held_ ? 0 : stairs_climbed(header_, scenery_, step_, others_, first_); stairs > 0) {
-    // Atop it goes on to where it would have come.
-    const double across = (std::max(speeds.upper.x(), 0.0) - std::min(speeds.lower.x(), 0.0)) * dt_;
-    (wanted_.displacement.dot(right_) > 0 ? room_above : room_below).x() += across;
+    // Atop it goes on at once to where it would have come, and no farther.
+    const Vec2d way = seen(step_.path.back().position - step_.path[first].position, up_);
+    const bool to_the_right = wanted_.displacement.dot(right_) > 0;
+    const double gained = to_the_right ? way.x() - std::max(speeds.upper.x(), 0.0) * dt_ - room_above.x()
+                                       : std::min(speeds.lower.x(), 0.0) * dt_ - way.x() - room_below.x();
+    if (gained > everywhere) return gained;
+    (to_the_right ? room_above : room_below).x() +=
+        (std::max(speeds.upper.x(), 0.0) - std::min(speeds.lower.x(), 0.0)) * dt_;
     room_above.y() += stairs * header_.character.step_height;
     room_below.y() += stairs * header_.character.step_height;
   }

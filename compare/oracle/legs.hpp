@@ -28,7 +28,8 @@ namespace paperproof::compare::detail {
 /// - A walk climbs at most 4 stairs, each up and down by `step_height`, and goes on to where it would have come.
 /// - What moves and touches the character pushes it as far as the law of response has it pushed that wants nothing;
 ///   where two surfaces hold it, at most `push_beyond_motion` farther than they go. Other characters push no farther
-///   than they want to go, or hand on (`Others`); who begins inside of one may be thrown out by `push_beyond_motion`.
+///   than they want to go, or hand on (`Others`); who begins inside of some is put aside by no more than 4 times the
+///   depth.
 ///
 /// **Direction.** While nothing that moves is near, each leg leads along the wanted motion, or what the law of response
 /// makes of it at the contacts that the way has come to by then: what is steered into a wall goes nowhere else.
@@ -53,16 +54,18 @@ class LegJudge {
   [[nodiscard]] std::vector<NearPart> near(std::size_t corner, double within) const {
     return parts_near(scenery_, step_, others_, corner, within);
   }
-  [[nodiscard]] ControlledRange wanted_velocities() const;
+  [[nodiscard]] ControlledRange wanted_velocities(const Vec2d& carried) const;
   [[nodiscard]] std::vector<MetSurface> near_surfaces() const;
-  [[nodiscard]] Box2<double> velocities(std::span<const MetSurface> surfaces) const;
+  [[nodiscard]] Box2<double> velocities(std::span<const MetSurface> surfaces, const Vec2d& carried) const;
   [[nodiscard]] Box2<double> asked(std::span<const MetSurface> surfaces) const;
   [[nodiscard]] double farther(std::size_t first, const Box2<double>& speeds, const Box2<double>& push) const;
   struct Pushes {
-    double of_solids = 0;      ///< [m]
-    double of_characters = 0;  ///< [m]
+    double of_solids = 0;          ///< [m]
+    Box2<double> of_characters{};  ///< Across and along up [m].
   };
+  [[nodiscard]] Vec2d own_carrier() const;
   [[nodiscard]] Pushes pushes() const;
+  [[nodiscard]] double thrown() const;
   [[nodiscard]] bool is_beside_what_moves() const;
   [[nodiscard]] double rounding() const;
   [[nodiscard]] double snapped() const;

@@ -75,7 +75,7 @@ double SolidsInStep::spread(ColliderIndex collider, const Vec2d& moved, double a
   if (turning == nullptr) return 0;
   const ColliderDef& def = header_.scenery.colliders[collider];
   if (def.shape == ColliderDef::Shape::circle)
-    return turning->turn * (def.radius + detail::contact_reach) / length_of(step_, header_);
+    return std::abs(turning->turn) * (def.radius + detail::contact_reach) / length_of(step_, header_);
   const double angle = std::abs(RigidMotion(turning->vertices.front(), turning->vertices.back()).angle());
   return angle * (moved.norm() + apart) / length_of(step_, header_);
 }

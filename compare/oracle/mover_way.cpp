@@ -179,7 +179,7 @@ bool MoverWayJudge::is_fine(const TraceStep& step, const Near& near) const {
       character.acceleration + character.air_acceleration.value_or(0) + gravity_in(step, header_).norm();
   const double otherwise = (character.jump_speed + acceleration * dt) * dt + character.snap + character.step_height +
                            character.wall_reach + 2 * most_turned_at_once;
-  const std::vector<ColliderIndex> beside = near(way + 4 * (extent_ + 2 * wanted + otherwise));
+  const std::vector<ColliderIndex> beside = near(way + 2 * (extent_ + wanted) + 3 * otherwise);
   return std::none_of(beside.begin(), beside.end(), [&](ColliderIndex one) {
     const MoverIndex mover = header_.scenery.colliders[one].mover;
     const double turned = std::abs(course_of(mover).turn()) * extent_;
@@ -190,8 +190,7 @@ bool MoverWayJudge::is_fine(const TraceStep& step, const Near& near) const {
 MoverWayJudgement MoverWayJudge::judge(const TraceStep& step, const Near& near) {
   tell_time(step);
   MoverWayJudgement judgement;
-  for (MoverIndex mover = 0; mover < scripts_.size(); ++mover)
-    judgement.turns.push_back(std::abs(course_of(mover).turn()));
+  for (MoverIndex mover = 0; mover < scripts_.size(); ++mover) judgement.turns.push_back(course_of(mover).turn());
   judgement.is_fine = is_fine(step, near);
   const std::vector<ColliderIndex> beside = near(near_what_turns);
   judge_offsets(step, judgement);

@@ -258,7 +258,7 @@ TurningJudge::Standing TurningJudge::standing(const Solid& solid, const std::vec
                                               const VertexWay& way, const Vec2d& requested,
                                               const PathPoint<double>& corner, double within) const {
   const std::vector<Vec2d> now = vertices_at(way, corner.fraction);
-  Standing found{.part = part_at(solid, numbers, now), .turn = way.turn};
+  Standing found{.part = part_at(solid, numbers, now), .turn = way.turn, .requested = requested.norm()};
   const Vec2d nearest = nearest_point(found.part.points, octagon_, corner.position);
   const Vec2d begin = RigidMotion(now, way.vertices.front())(nearest);
   found.moved = RigidMotion(now, way.vertices.back())(nearest) - begin;
@@ -275,7 +275,11 @@ TurningJudge::Standing TurningJudge::standing(const Solid& solid, const std::vec
 std::optional<NearPart> TurningJudge::near_part(const Solid& solid, const Standing& standing, const Vec2d& position,
                                                 double within) const {
   NearPart near{.collider = solid.collider, .moved = standing.moved, .faces = {}, .unsure = standing.unsure};
-  if (solid.radius > 0) near.rim = standing.turn * (solid.radius + contact_reach);
+  if (solid.radius > 0) {
+    near.rim = standing.turn * (solid.radius + contact_reach);
+    const double round = (standing.requested + standing.moved.norm() + std::abs(near.rim)) / solid.radius;
+    near.rim_unsure = std::abs(near.rim) * std::min(2.0, round) + std::abs(standing.turn) * contact_reach;
+  }
   for (const Axis& axis : separating_axes(standing.part, octagon_, FramePlace{position}, within))
     near.faces.push_back({axis.separation, axis.normal});
   if (near.faces.empty()) return std::nullopt;

@@ -122,7 +122,8 @@ class TurningJudge {
     ConvexPart part;
     Vec2d moved{Vec2d::Zero()};  ///< See `near`.
     double unsure = 0;
-    double turn = 0;  ///< Of a disc: see `VertexWay::turn`.
+    double turn = 0;       ///< Of a disc: see `VertexWay::turn`.
+    double requested = 0;  ///< [m]
   };
   [[nodiscard]] Standing standing(const Solid& solid, const std::vector<std::size_t>& numbers, const VertexWay& way,
                                   const Vec2d& requested, const PathPoint<double>& corner, double within) const;

@@ -1,5 +1,6 @@
 #include "records/output_file.hpp"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <array>
@@ -61,7 +62,12 @@ OutputFile::OutputFile(std::string path, Appears appears) : path_(std::move(path
     beside_ += ".part";
     note_unfinished(beside_.c_str());
   }
+  // To open a pipe without a reader would wait for one, for ever.
+  const int reader = std::filesystem::is_fifo(status) ? open(target_.c_str(), O_WRONLY | O_NONBLOCK | O_CLOEXEC) : -1;
+  if (std::filesystem::is_fifo(status) && reader < 0 && errno == ENXIO)
+    throw std::runtime_error(path_ + ": cannot be written: nobody reads the pipe");
   stream_.open(beside_, std::ios::binary | (appears == Appears::continued ? std::ios::app : std::ios::trunc));
+  if (reader >= 0) close(reader);
   if (stream_) return;
   if (!in_place_) forget_unfinished(beside_.c_str());
   fail("cannot be written");

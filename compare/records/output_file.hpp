@@ -17,9 +17,9 @@ class ClosedPipe : public std::runtime_error {
 };
 
 /// Writes beside the final name and renames on `commit`; what was never committed is removed. A link keeps pointing to
-/// where it points; a device or a pipe is written to directly, as nothing can stand beside it. Not thread-safe. What a
-/// signal removes: see `remove_unfinished_on_signals`.
-/// Everything that fails throws ClosedPipe, or std::runtime_error naming the path and why it cannot be written.
+/// where it points; a device, or a pipe that somebody reads, is written to directly, as nothing can stand beside it.
+/// Not thread-safe. What a signal removes: see `remove_unfinished_on_signals`. Everything that fails throws ClosedPipe,
+/// or std::runtime_error naming the path and why it cannot be written.
 class OutputFile {
  public:
   enum class Appears : std::uint8_t {

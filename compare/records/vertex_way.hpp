@@ -19,7 +19,8 @@ struct VertexWay {
   /// At each instant, in the world [m]: the points of the collider in the order of its definition, then those of its
   /// holes.
   std::vector<std::vector<Vec2d>> vertices;
-  /// Of a disc, whose vertex is its centre: how far it turns in the step, as the scene has it [rad]. Not in a trace.
+  /// Of a disc, whose vertex is its centre: how far it turns in the step, counter-clockwise, as the scene has it [rad].
+  /// Not in a trace.
   double turn = std::numeric_limits<double>::infinity();
 };
 

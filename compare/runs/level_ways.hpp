@@ -37,7 +37,7 @@ namespace paperproof::compare {
     const ColliderDef& def = scenery.colliders[i];
     if (def.mover == no_mover) continue;
     const PoseMotion& motion = motions[def.mover];
-    const double turn = std::abs(motion.to.angle - motion.from.angle);
+    const double turn = motion.to.angle - motion.from.angle;
     const auto known =
         std::find_if(turned.begin(), turned.end(), [i](const TurnedCollider& one) { return one.collider == i; });
     if (known != turned.end()) {

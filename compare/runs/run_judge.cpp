@@ -34,8 +34,12 @@ constexpr double most_motion_lost = 0.01;
 constexpr double guaranteed_range = 1e6;
 /// Positions and offsets beyond are refused [m].
 constexpr double range = 2e6;
+/// So many impacts a step answers, unless its contender is set otherwise: `SweepDef::iterations`.
+constexpr std::size_t impacts_of_step = 12;
 /// Who is no faster stands still [m/s].
 constexpr double standstill = 1e-6;
+/// Who goes no farther in a step may creep [m].
+constexpr double most_crept = 1e-3;
 /// Its gap is restored once, and it settles on ground that hardly bends [m].
 constexpr double most_drift = 5e-6;
 /// What moves farther away than this does not reach a character at rest in the step [m].
@@ -71,11 +75,10 @@ bool RunJudge::is_free(std::span<const Vec2d> positions, std::size_t character) 
   return !company_ || company_->overlapped(positions, static_cast<CharacterIndex>(character)).empty();
 }
 
-/// Whether no other character comes near it in the step.
-bool RunJudge::is_alone(const TraceStep& record, const Others& others) {
-  return !others.near || std::all_of(record.path.begin(), record.path.end(), [&](const PathPoint<double>& at) {
-    return others.near(at, beside + others.longest_way).empty();
-  });
+/// Whether no other character is within so many metres at a corner of the way.
+bool RunJudge::is_apart(const TraceStep& record, const Others& others, double within) {
+  return !others.near || std::all_of(record.path.begin(), record.path.end(),
+                                     [&](const PathPoint<double>& at) { return others.near(at, within).empty(); });
 }
 
 bool RunJudge::is_wall_ahead(const TraceStep& record, double move) const {
@@ -95,6 +98,7 @@ void RunJudge::add(std::span<TraceStep> records) {
   for (std::size_t k = 0; k < records.size(); ++k) {
     TraceStep& record = records[k];
     Follower& follower = followers_[k];
+    if (!record.respawn && !follower.last.empty()) record.from.reset();  // it goes on
     judge_course(record, follower);
     // What moves stands where the last step left it: a character that was not put elsewhere begins in what it ended in.
     if (follower.begins) follower.inside = follower.judge->overlapped(record);
@@ -114,12 +118,16 @@ void RunJudge::add(std::span<TraceStep> records) {
       asked[k].requested = follower.wanted.displacement;
       asked[k].steered = follower.wanted.steered;
     }
-    if (!record.input.drop) asked[k].dropped_through.clear();                     // the input did not ask for it
-    if (record.contacts.empty() && record.met.empty()) asked[k].dropped = false;  // nothing made it give up
+    if (!record.input.drop) asked[k].dropped_through.clear();  // the input did not ask for it
+    // Who gives up has met as much as a step answers, or met others, or what turns.
+    const bool gives_up = record.path.size() > impacts_of_step || !record.met.empty() || is_beside_what_turns(record);
+    asked[k].dropped = record.dropped && gives_up;
   }
   for (std::size_t k = 0; k < records.size(); ++k) {
     const Others others = company_ ? company_->others_of(asked[k].character, asked) : Others{};
-    followers_[k].steps_alone = is_alone(asked[k], others) ? followers_[k].steps_alone + 1 : 0;
+    const bool is_alone = is_apart(asked[k], others, beside + others.longest_way);
+    followers_[k].steps_alone = is_alone ? followers_[k].steps_alone + 1 : 0;
+    followers_[k].touches_nobody = is_alone || is_apart(asked[k], others, guaranteed_gap);
     judgements_[k] = followers_[k].judge->judge(asked[k], others, &followers_[k].wanted);
   }
   if (steps_ == 0) note_begin(asked);
@@ -189,7 +197,11 @@ void RunJudge::judge_course(const TraceStep& record, Follower& follower) {
     if (record.character >= header_.starts.size()) return false;
     const TraceStart& start = header_.starts[record.character];
     const TraceState from = record.from.value_or(TraceState{.velocity = start.velocity});
-    return path.front().position == start.position && from.velocity == start.velocity && !from.ride &&
+    // A run in float rounds what its scene says.
+    const auto is_said = [this](const Vec2d& is, const Vec2d& said) {
+      return is == said || (header_.scalar == "float" && is == Vec2d(said.cast<float>().cast<double>()));
+    };
+    return is_said(path.front().position, start.position) && is_said(from.velocity, start.velocity) && !from.ride &&
            !(from.grounded || from.jumping || from.jump_held || from.jump_pending);
   };
   std::string fault;
@@ -224,12 +236,19 @@ void RunJudge::judge_course(const TraceStep& record, Follower& follower) {
 /// Whether what it says that it was asked is what scene, input and state ask for.
 void RunJudge::judge_wish(const TraceStep& record, const Wanted& wanted, const Follower& follower) {
   if (header_.substeps > 1) return;
-  const double off =
-      std::max((record.requested - wanted.displacement).norm(), std::abs(record.steered - wanted.steered));
-  if (!(off <= follower.intent.rounding(record, wanted)))
+  const double rounding = follower.intent.rounding(record, wanted);
+  if (!(std::abs(record.steered - wanted.steered) <= rounding))
+    note(Clause::wanted, record,
+         fmt::format("says that {:.9g} m of its motion were steered, and {:.9g} m were", record.steered,
+                     wanted.steered));
+  else if (!((record.requested - wanted.displacement).norm() <= rounding))
     note(Clause::wanted, record,
          fmt::format("says it was asked to go ({:.9g}, {:.9g}) m, and ({:.9g}, {:.9g}) m was wanted",
                      record.requested.x(), record.requested.y(), wanted.displacement.x(), wanted.displacement.y()));
+  const bool jumping = wanted.jumping && !record.grounded;
+  if (!header_.guarantees.empty() && wanted.parts == 1 && record.jumping != jumping)
+    note(Clause::wanted, record,
+         record.jumping ? "says that a jump goes on, and none does" : "says nothing of its jump");
   const bool jumps_later = wanted.parts > 1 && record.jumping && !wanted.jumping;
   if (jumps_later && !(wanted.pending && touches_from_above(record, up_in(record, header_))))
     note(Clause::wanted, record, "says it jumped in a part of the step, and could not");
@@ -269,8 +288,9 @@ void RunJudge::judge_rest(const TraceStep& record, const Follower& follower) {
       is_asked_alike(earlier, before) && is_asked_alike(before, record);
   if (repeated && !same(record, before))
     note(Clause::rest, record,
-         fmt::format("moves by {} after position and velocity had repeated",
-                     metres((record.path.back().position - before.path.back().position).norm())));
+         fmt::format("changes after position and velocity had repeated: goes {}, ends with ({:.3g}, {:.3g}) m/s, {}",
+                     metres((record.path.back().position - before.path.back().position).norm()), record.velocity.x(),
+                     record.velocity.y(), record.grounded ? "and stands" : "and does not stand"));
 }
 
 /// Who says that it stands still, and wants nothing but to fall, stays where it began to.
@@ -285,7 +305,9 @@ void RunJudge::judge_standing(const TraceStep& record, Follower& follower) {
                      !wanted.jumped && !wanted.rides && stands(record) && as_before && follower.steps_alone > 0 &&
                      record.start_overlap.empty() && !header_.guarantees.empty();
   const Vec2d& end = record.path.back().position;
-  if (!stays) {
+  // What goes farther at once is asked for its velocity.
+  const bool creeps = (end - record.path.front().position).norm() <= most_crept;
+  if (!stays || !creeps) {
     follower.stood_at.reset();
   } else if (!follower.stood_at) {
     follower.stood_at = end;
@@ -297,7 +319,7 @@ void RunJudge::judge_standing(const TraceStep& record, Follower& follower) {
 /// Whether it says that its ground moves, and has touched nothing that does since it said otherwise.
 bool RunJudge::is_ground_velocity_invented(const TraceStep& record, const Follower& follower) const {
   const bool is_kept = !follower.last.empty() && follower.last.back().ground_velocity == record.ground_velocity;
-  if (record.ground_velocity.isZero(0) || is_kept || follower.steps_alone == 0 || record.from ||
+  if (record.ground_velocity.isZero(0) || is_kept || !follower.touches_nobody || record.respawn ||
       is_beside_what_turns(record))
     return false;
   return std::none_of(record.path.begin(), record.path.end(), [&](const PathPoint<double>& at) {
@@ -315,7 +337,7 @@ bool RunJudge::is_carried_unsaid(const TraceStep& record, const Follower& follow
   const bool goes_on = !follower.last.empty() && !record.respawn && !record.from && follower.last.back().grounded;
   const bool plain = record.grounded && record.met.empty() && record.start_overlap.empty() && record.crushed.empty() &&
                      !record.stuck && !record.dropped && record.dropped_through.empty() && !follower.wanted.jumped &&
-                     !is_beside_what_turns(record) && header_.substeps == 1 && follower.steps_alone > 0;
+                     !is_beside_what_turns(record) && header_.substeps == 1 && follower.touches_nobody;
   if (!goes_on || !plain) return false;
   const Vec2d up = up_in(record, header_);
   if (!(gravity_in(record, header_).dot(up) < 0)) return false;
@@ -498,7 +520,10 @@ void RunJudge::judge_drops(const TraceStep& record) {
   constexpr double aside = 1e-5;
   for (const ColliderIndex chain : record.dropped_through) {
     const std::optional<Vec2d>& one_way = header_.scenery.colliders[chain].one_way;
-    bool passes = one_way && followers_.front().judge->turning().turns(chain);
+    const detail::TurningJudge& turning = followers_.front().judge->turning();
+    // How it passes one that turns is not judged.
+    const double within = beside + record.requested.norm() + turning.longest_way(record);
+    bool passes = one_way && turning.turns(chain) && contains(turning.near_at_begin(record, within), chain);
     for (std::size_t i = 1; i < record.path.size() && one_way && !passes; ++i)
       for (const double shift : {0.0, aside, -aside}) {
         Place from(record.path[i - 1], record.movers);

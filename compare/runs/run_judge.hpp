@@ -50,11 +50,12 @@ class RunJudge {
     std::vector<TraceStep> last{};        ///< Two steps, the earlier one first; none before the first step.
     std::vector<Wanted> last_wanted{};
     bool begins = true;               ///< The next step does not continue one.
+    bool touches_nobody = true;       ///< Of the other characters, in the present step.
     int steps_alone = 0;              ///< So many in a row no other character has come near it.
     std::optional<Vec2d> stood_at{};  ///< Where it has begun to stand still, as it says.
   };
 
-  [[nodiscard]] static bool is_alone(const TraceStep& record, const Others& others);
+  [[nodiscard]] static bool is_apart(const TraceStep& record, const Others& others, double within);
   void note(Clause clause, const TraceStep& record, const std::string& what);
   void note_begin(const std::vector<TraceStep>& records);
   void judge_course(const TraceStep& record, Follower& follower);

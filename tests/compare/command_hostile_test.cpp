@@ -263,6 +263,7 @@ TEST(CommandHostile, outputs_that_cannot_be) {
   std::filesystem::create_directory(place.path("folder.json"));
   std::filesystem::create_directory(place.path("folder.html"));
   std::filesystem::create_directory(place.path("folder.jsonl"));
+  for (const char* pipe : {"pipe.json", "pipe.html"}) ASSERT_EQ(mkfifo(place.path(pipe).c_str(), 0600), 0);
   const std::string compare = "compare good.json --no-timing --quiet --contender mask ";
   const std::string sweep = "sweep paper --vary speed=1,2 --contender mask --quiet ";
   for (const auto& [arguments, says] : std::vector<std::pair<std::string, std::string>>{
@@ -271,6 +272,9 @@ TEST(CommandHostile, outputs_that_cannot_be) {
            {compare + "--rows good.json/o.json", "cannot be written"},
            {compare + "--rows o.txt", "expected a name that ends in .json, .jsonl or .csv, not o.txt"},
            {compare + "--rows /dev/full", "/dev/full: cannot be written"},
+           {compare + "--rows pipe.json", "pipe.json: cannot be written: nobody reads the pipe"},
+           {compare + "--report pipe.html", "pipe.html: cannot be written: nobody reads the pipe"},
+           {"convert bullet pipe.json", "pipe.json: cannot be written: nobody reads the pipe"},
            {compare + "--rows ''", "expected a file name"},
            {compare + "--rows good.json", "expected another file"},
            {compare + "--report o.txt", "expected a name that ends in .html, not o.txt"},
