@@ -146,6 +146,12 @@ double ContactJudge::rounding_across() const { return 1e-12 * step_.requested.no
 /// Whether a solid is in the way of the wanted horizontal motion, from any corner of the path: of the motion as
 /// requested, or at the height that it was left (ground may hold it).
 bool ContactJudge::is_opposed(double wanted, const StepJudgement& judgement) const {
+  // Ground that rests keeps what leads across up, but between it and another surface a motion may end.
+  const auto is_ground = [this](const Contact<double>& contact) {
+    return header_.scenery.colliders[contact.collider].mover == no_mover && is_walkable(contact.normal, header_, up_);
+  };
+  const bool on_ground_alone = promises_ && !step_.contacts.empty() && step_.met.empty() &&
+                               std::all_of(step_.contacts.begin(), step_.contacts.end(), is_ground);
   // A contact that exact arithmetic has, or that an exact one deflected the motion into, may take it.
   for (const Contact<double>& contact : step_.contacts) {
     const auto is_it = [&](const auto& one) { return one.collider == contact.collider && one.side == contact.side; };
@@ -153,7 +159,8 @@ bool ContactJudge::is_opposed(double wanted, const StepJudgement& judgement) con
     const bool confirmed =
         std::any_of(judgement.contacts.begin(), judgement.contacts.end(), is_it) ||
         std::find(judgement.deflected.begin(), judgement.deflected.end(), touch) != judgement.deflected.end();
-    if (promises_ && (confirmed || comes_near(contact)) && across(contact.normal) * wanted < 0 && has_face(contact))
+    if (promises_ && !on_ground_alone && (confirmed || comes_near(contact)) && across(contact.normal) * wanted < 0 &&
+        has_face(contact))
       return true;
   }
   const double beyond = std::copysign(promises_ ? contact_reach : own_reach(header_), wanted);
@@ -162,7 +169,8 @@ bool ContactJudge::is_opposed(double wanted, const StepJudgement& judgement) con
     const Vec2d motion = right_ * (across(step_.requested) + beyond) + up_ * up;
     for (std::size_t i = 0; i < step_.path.size(); ++i) {
       for (const ExactImpact& impact : scenery_.impacts(place(i), motion)) {
-        if (impact.exposed && across(impact.normal) * wanted < 0) return true;
+        const bool may_end_it = !on_ground_alone || !is_walkable(impact.normal, header_, up_);
+        if (impact.exposed && across(impact.normal) * wanted < 0 && may_end_it) return true;
       }
     }
   }

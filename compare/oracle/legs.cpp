@@ -90,7 +90,7 @@ ControlledRange LegJudge::wanted_velocities(const Vec2d& carried) const {
   // What turns under its rider takes it along otherwise in each part of the step.
   double unsure = 0;
   if (first_.from_ground)
-    for (const NearPart& part : near(0, contact_reach)) unsure = std::max(unsure, part.unsure);
+    for (const NearPart& part : near(0, contact_reach)) unsure = std::max(unsure, part.unsure + part.rim_unsure);
   range.unsteered = range.unsteered.inflated(unsure / dt_);
   range.least_steering = std::min(first_.steered / dt_, 0.0);
   range.most_steering = std::max(first_.steered / dt_, 0.0);
@@ -332,24 +332,19 @@ double LegJudge::speed_gained() const {
   return gained <= relative_rounding * (1 + largest) ? 0 : gained;
 }
 
-bool LegJudge::is_beside_what_moves() const {
-  for (const Contact<double>& contact : step_.contacts) {
-    const MoverIndex mover = header_.scenery.colliders[contact.collider].mover;
-    if (mover != no_mover && step_.movers[mover].from != step_.movers[mover].to) return true;
-  }
-  for (std::size_t corner = 0; corner < step_.path.size(); ++corner) {
-    const std::vector<NearPart> parts = near(corner, contact_reach);
-    if (std::any_of(parts.begin(), parts.end(), [](const NearPart& part) { return !part.moved.isZero(0); }))
-      return true;
-    if (others_.near && !others_.near(step_.path[corner], contact_reach).empty()) return true;
-  }
-  return false;
+/// Whether something touches it that comes against it, turns, or is another character: it may move it at once.
+bool LegJudge::is_moved_at_once() const {
+  const auto turns = [](const MetSurface& at) { return at.spread > 0; };
+  if (is_pushed() || std::any_of(surfaces_.begin(), surfaces_.end(), turns)) return true;
+  if (!others_.near) return false;
+  return std::any_of(step_.path.begin(), step_.path.end(),
+                     [this](const PathPoint<double>& corner) { return !others_.near(corner, contact_reach).empty(); });
 }
 
 double LegJudge::leg_error() const {
   const bool in_parts = first_.parts > 1 || later_.any();
   const bool stair = stairs_climbed(header_, scenery_, step_, others_, first_) > 0;
-  if (step_.dropped || in_parts || stair || !step_.met.empty() || is_beside_what_moves()) return 0;
+  if (step_.dropped || in_parts || stair || !step_.met.empty() || is_moved_at_once()) return 0;
   // A side hit ends a rise with the step: the way still goes on.
   ControlledStep law{.wanted = first_.displacement / dt_, .up = up_};
   law.unsteered = law.wanted - first_.steered / dt_ * right_;

@@ -31,8 +31,9 @@ namespace paperproof::compare::detail {
 ///   than they want to go, or hand on (`Others`); who begins inside of some is put aside by no more than 4 times the
 ///   depth.
 ///
-/// **Direction.** While nothing that moves is near, each leg leads along the wanted motion, or what the law of response
-/// makes of it at the contacts that the way has come to by then: what is steered into a wall goes nowhere else.
+/// **Direction.** While nothing near comes against it, or turns, each leg leads along the wanted motion, or what the
+/// law of response makes of it at the contacts that the way has come to by then: what is steered into a wall goes
+/// nowhere else.
 class LegJudge {
  public:
   /// @param held it is stuck in what it begins inside of, so that it wants to go nowhere.
@@ -47,7 +48,7 @@ class LegJudge {
   /// How much faster it is, in one direction, than anything made it [m/s].
   [[nodiscard]] double speed_gained() const;
   /// How far a leg ends from where the law leads it [m]. Zero of a step in parts, of one that drops motion, climbs a
-  /// stair or meets another character, and beside what moves.
+  /// stair or meets another character, and beside what pushes or turns.
   [[nodiscard]] double leg_error() const;
 
  private:
@@ -66,7 +67,7 @@ class LegJudge {
   [[nodiscard]] Vec2d own_carrier() const;
   [[nodiscard]] Pushes pushes() const;
   [[nodiscard]] double thrown() const;
-  [[nodiscard]] bool is_beside_what_moves() const;
+  [[nodiscard]] bool is_moved_at_once() const;
   [[nodiscard]] double rounding() const;
   [[nodiscard]] double snapped() const;
   [[nodiscard]] double waited() const;

@@ -1,6 +1,7 @@
 #include "oracle/met_surfaces.hpp"
 
 #include "oracle/contacts.hpp"
+#include "oracle/turning.hpp"
 #include "oracle/turning_room.hpp"
 #include "oracle/up.hpp"
 
@@ -124,7 +125,8 @@ std::vector<MetSurface> met_surfaces(const SolidsInStep& solids, std::span<const
     if (leaves != step.path.end()) one.left = leaves->fraction;
     one.returned = leaves != step.path.end() && is_touched(step.path.back());
     one.touched_since = std::min(one.met, since->fraction);
-    one.spread = solids.spread(touch.collider, solids.moved(touch.collider, touch.point, touch.fraction), 0);
+    one.spread = solids.spread(touch.collider, solids.moved(touch.collider, touch.point, touch.fraction),
+                               detail::extent_of(solids.header().points));
     walks = walks || one.walkable;
     surfaces.push_back(one);
   }

@@ -278,7 +278,8 @@ std::optional<NearPart> TurningJudge::near_part(const Solid& solid, const Standi
   if (solid.radius > 0) {
     near.rim = standing.turn * (solid.radius + contact_reach);
     const double round = (standing.requested + standing.moved.norm() + std::abs(near.rim)) / solid.radius;
-    near.rim_unsure = std::abs(near.rim) * std::min(2.0, round) + std::abs(standing.turn) * contact_reach;
+    near.rim_unsure =
+        std::abs(near.rim) * std::min(2.0, round) + std::abs(standing.turn) * (standing.moved.norm() + contact_reach);
   }
   for (const Axis& axis : separating_axes(standing.part, octagon_, FramePlace{position}, within))
     near.faces.push_back({axis.separation, axis.normal});

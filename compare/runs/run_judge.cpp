@@ -34,6 +34,8 @@ constexpr double most_motion_lost = 0.01;
 constexpr double guaranteed_range = 1e6;
 /// Positions and offsets beyond are refused [m].
 constexpr double range = 2e6;
+/// What turns and touches has one velocity to within this [m/s].
+constexpr double hardly_turns = 1e-3;
 /// So many impacts a step answers, unless its contender is set otherwise: `SweepDef::iterations`.
 constexpr std::size_t impacts_of_step = 12;
 /// Who is no faster stands still [m/s].
@@ -48,6 +50,17 @@ constexpr double beside = 0.01;
 constexpr double same_speed = 1e-9;
 /// A character this far outside of its map is put back [m].
 constexpr double lost_beyond = 10;
+
+/// Whether a contact's point is in the character's box at some corner of the way, and no farther from it than it says.
+bool is_point_of(const TraceStep& record, const Contact<double>& contact, std::span<const Vec2d> points) {
+  constexpr double near = 1e-5;
+  const Box2<double> box = Box2<double>::around(points).inflated(near);
+  const auto is_there = [&](const PathPoint<double>& at) {
+    const Vec2d point = contact.point - at.position;
+    return box.contains({point, point});
+  };
+  return std::abs(contact.separation) <= near && std::any_of(record.path.begin(), record.path.end(), is_there);
+}
 
 bool moves(const MoverMotion<double>& motion) { return motion.from != motion.to; }
 
@@ -649,7 +662,12 @@ void RunJudge::judge_places(const TraceStep& record, const StepJudgement& judged
   if (excused) return;
   const detail::TurningJudge& turning = followers_.front().judge->turning();
   for (const Contact<double>& contact : record.contacts) {
-    if (turning.turns(contact.collider)) continue;
+    if (turning.turns(contact.collider)) {
+      if (!is_point_of(record, contact, header_.points))
+        note(Clause::contact_invented, record,
+             "has a contact with `" + header_.ids[contact.collider] + "` in a point that it does not come to");
+      continue;
+    }
     if (const std::optional<PlaceFault> fault = place_fault(header_, record, contact))
       note(fault->clause, record, fault->words);
   }
@@ -685,7 +703,7 @@ void RunJudge::judge_velocity(const SolidsInStep& there, const StepJudgement& ju
   const std::vector<MetSurface> surfaces = met_surfaces(there, record.contacts, walks);
   // What characters hand on to each other is no matter of surfaces, and what turns has no one normal in a step, nor has
   // the ground that is left one velocity: there only its size is judged.
-  const auto turns = [](const MetSurface& at) { return at.spread > 0; };
+  const auto turns = [](const MetSurface& at) { return at.spread > hardly_turns; };
   const std::optional<TraceRide> carrier = record.from             ? record.from->ride
                                            : follower.last.empty() ? std::nullopt
                                                                    : follower.last.back().ride;
