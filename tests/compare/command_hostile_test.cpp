@@ -311,7 +311,7 @@ TEST(CommandHostile, outputs_that_cannot_be) {
            {"convert good.json folder.json", "it is a directory"},
            {"convert good.json", "OUT is required"}})
     hostile.call(arguments, says);
-  EXPECT_EQ(hostile.calls(), 40U);
+  EXPECT_EQ(hostile.calls(), 43U);
 }
 
 TEST(CommandHostile, options_that_cannot_be) {
