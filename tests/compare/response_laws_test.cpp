@@ -378,6 +378,11 @@ TEST_F(RandomLaw, is_within_its_bounds) {
     double size = size_of(step);
     for (const Vec2d& outcome : controlled_outcomes(step, surfaces)) {
       size = std::max(size, outcome.norm());
+      // Where walls leave no motion the law ends with one of them: a crush, which bounds do not hold.
+      const bool is_crushed = std::any_of(surfaces.begin(), surfaces.end(), [&](const MetSurface& at) {
+        return !at.walkable && (at.velocity - outcome).norm() <= 1e-9 * size;
+      });
+      if (is_crushed && !rest) continue;
       EXPECT_TRUE(bounds.inflated(1e-9 * size).contains({outcome, outcome}))
           << describe(step, surfaces) << outcome.transpose() << " beyond " << bounds.lower.transpose() << ".."
           << bounds.upper.transpose();
