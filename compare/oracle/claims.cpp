@@ -115,10 +115,9 @@ double EndJudge::flight_error() const {
   const double size = wanted_.displacement.norm();
   const double rounding =
       rounding_of_motion * (1 + size) + 4 * ulp_at(header_, start) + 4 * ulp_at(header_, step_.path.back().position);
-  // Where something turns the character waits for a millionth of each part of the step.
   const bool waits = std::any_of(step_.vertex_ways.begin(), step_.vertex_ways.end(),
                                  [](const VertexWay& way) { return way.instants.size() > 2; });
-  const double waited = waits ? 2e-6 * size : 0;
+  const double waited = waits ? waited_in_part * size : 0;
   double off = 0;
   for (const PathPoint<double>& corner : step_.path) {
     const double bend = corner.fraction < 1 ? later_.bend() : later_.steered_way(later_.steered());
@@ -154,8 +153,8 @@ bool EndJudge::may_take_rise(const NearPart& part, const NearFace& face) const {
 /// along by no one velocity: so much of it is not asked for.
 double EndJudge::rise_lost() const {
   const double lost = (wanted_.velocity - step_.velocity).dot(up_);
-  double unsure = 0;
   if (lost <= rounding_of_motion * (1 + wanted_.velocity.norm())) return 0;
+  double unsure = 0;
   for (std::size_t corner = 0; corner < step_.path.size(); ++corner)
     for (const NearPart& part : near(corner, contact_reach)) {
       unsure = std::max(unsure, (part.unsure + std::abs(part.rim)) / dt_);

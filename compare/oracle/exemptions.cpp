@@ -81,7 +81,7 @@ constexpr std::array<Exemption, 15> all_exemptions{{
      {1, 0, 1, 1}},
     {Exempt::turning_sensor,
      "turning_sensor",
-     "overlaps a sensor that turns, or says so: whether and when it enters and leaves that is not asked for",
+     "overlaps a sensor that turns: whether and when it enters and leaves that is not asked for",
      "",
      {1, 1, 1, 1}},
 }};

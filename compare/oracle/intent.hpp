@@ -13,8 +13,8 @@ struct Wanted {
   Vec2d displacement{Vec2d::Zero()};  ///< In the world: what carries the character is included [m].
   Vec2d velocity{Vec2d::Zero()};      ///< The same [m/s].
   double steered = 0;                 ///< The part of the displacement across up that steering added [m].
-  double walk = 0;                    ///< Across up, relative to what it rides [m/s].
-  Vec2d carried{Vec2d::Zero()};       ///< By what it rides, in the world [m].
+  double walk = 0;                    ///< The speed across up, relative to the ground that it rides [m/s].
+  Vec2d carried{Vec2d::Zero()};       ///< The way that its ground carries it, in the world [m].
   bool rides = false;                 ///< Something that moves or conveys carries it.
   bool jumped = false;                ///< A jump begins.
   bool jumping = false;               ///< The same, or one goes on.

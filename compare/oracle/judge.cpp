@@ -25,8 +25,6 @@ constexpr int depth_refinements = 40;
 constexpr double around_way_out = 1e-6;
 /// It keeps so far from the rims that it passes: an opening as narrow counts as closed [m].
 constexpr double beside_rim = 2 * detail::least_clearance;
-/// The character waits so long at the beginning of each part of a step that goes in parts, as a share of the step.
-constexpr double waited_in_part = 2e-6;
 /// A time of impact is told where what that comes to is no more than this along the normal [m].
 constexpr double least_told = 5e-7;
 /// Normals of one face differ by no more than this, by rounding.
@@ -141,7 +139,7 @@ StepJudgement Judge::judge_step(const TraceStep& step, const Others& others, con
     leave_out_what_follows(turning->step, parts, judgement);
     add_deflected(step, judgement);
     judgement.turning_sensor = turning_->meets_sensor(turning->step);
-    // What is told of sensors that turn is not judged, but where there is none.
+    // Events of sensors that turn are judged only where the character meets none: there each is invented.
     if (!judgement.turning_sensor)
       judgement.sensor_events_extra += static_cast<int>(turning->step.sensors.size() - step.sensors.size());
   }
@@ -180,7 +178,8 @@ void Judge::leave_out_what_follows(const TraceStep& step, int parts, StepJudgeme
   judgement.first_impact_comparable = false;
   if (!judgement.first_approach || step.contacts.empty()) return;
   // In each part the character waits at first.
-  const bool is_told = *judgement.first_impact * parts <= 1 && waited_in_part * *judgement.first_approach <= least_told;
+  const bool is_told =
+      *judgement.first_impact * parts <= 1 && detail::waited_in_part * *judgement.first_approach <= least_told;
   judgement.in_parts = judgement.in_parts || !is_told;
   if (!is_told) judgement.first_approach.reset();
 }
@@ -584,15 +583,13 @@ Judge::Leaving Judge::leaving_of(const Path& path, const Others& others, bool fr
   return leaving;
 }
 
-/// How much farther it goes than what it begins inside of, and turns, may put it [m].
+/// How much too far a step goes that begins inside of what turns [m].
 double Judge::turned_out_too_far(const TraceStep& step, const Wanted& wanted) const {
-  double depth = 0;
-  for (const NearPart& part : turning_->near(step, step.path.front(), 0))
-    depth += std::max(0.0, -part.faces.front().separation);
   double way = 0;
   for (std::size_t k = 1; k < step.path.size(); ++k) way += (step.path[k].position - step.path[k - 1].position).norm();
-  const double most =
-      4 * depth + turning_->longest_way(step) + detail::push_beyond_motion + 2 * wanted.displacement.norm();
+  const double depth = detail::depth_in(turning_->near(step, step.path.front(), 0));
+  const double most = detail::most_of_depth * depth + turning_->longest_way(step) + detail::push_beyond_motion +
+                      2 * wanted.displacement.norm();
   return std::max(0.0, way - most);
 }
 

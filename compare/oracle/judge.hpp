@@ -89,7 +89,7 @@ struct StepJudgement {
   /// it touches a disc that turns by no script, so that nobody knows how fast the rim goes.
   bool unsure = false;
   bool in_parts = false;        ///< It goes in parts, and a contact or a time that follows the first is not asked for.
-  bool turning_sensor = false;  ///< It overlaps a sensor that turns, or says so: that is not asked for.
+  bool turning_sensor = false;  ///< It overlaps a sensor that turns: its events are not judged.
   bool ground_missed = false;   ///< It touches ground that it does not leave, and says that it is not grounded.
   double speed_lost = 0;        ///< Of the wanted velocity, with nothing exact that took it [m/s].
   double speed_gained = 0;      ///< More than the wanted velocity and what moves near by can give [m/s].
@@ -220,9 +220,8 @@ struct StepJudgement {
 ///   requested: a character may give way instead.
 /// Excepted are
 /// - a direction with less than 2e-7 m of room between what is left and right of it, which is not in C;
-/// - ground: a step with a part in reach one of whose faces is within `max_climb_degrees` (and 1e-6 rad) of level, if
-/// it
-///   says that it stands, or cannot fall straight down past that part;
+/// - ground, a part in reach with a face within `max_climb_degrees` (and 1e-6 rad) of level: of a step that says that
+///   it stands, or cannot fall straight down past that part;
 /// - a step that touches a corner deeper than 1e-6 m inside a solid, a verified crush, and Box2D's cap: other answers
 ///   say so.
 /// What turns comes along a face's normal by no more than a bound that is safe. Who hangs only if it comes as far as

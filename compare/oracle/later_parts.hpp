@@ -6,6 +6,9 @@
 
 namespace paperproof::compare::detail {
 
+/// Where something turns, a character waits at the beginning of each part of a step, for less than this share of it.
+inline constexpr double waited_in_part = 2e-6;
+
 /// Each of n parts of a step falls and steers for its share of the time, so that `Wanted`, what the first of them would
 /// come to in the whole step, is not what all of them want together. With v the velocity before the step and g gravity
 /// the whole step falls
@@ -19,7 +22,7 @@ struct LaterParts {
   Vec2d way{Vec2d::Zero()};       ///< So far it leads in the step, but for steering [m].
   double slower = 0;              ///< Across up, steering adds no less than this by the end, which is not positive,
   double faster = 0;              ///< and no more than this [m/s].
-  double most_steered = 0;        ///< By the end, whatever was asked for [m/s].
+  double most_steered = 0;        ///< The most that acceleration allows by the end [m/s].
   double asked = 0;               ///< The speed that steering ends at, across up, on ground at rest [m/s].
   double jump = 0;                ///< Up, a jump adds no more than this [m/s]: who lands may jump in the next part.
   double dt = 0;                  ///< Of the step [s].

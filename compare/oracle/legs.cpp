@@ -22,10 +22,6 @@ constexpr double aims_away = 1e-6;
 constexpr double follows_seam = 2.8e-6;
 /// A walk climbs no more of them in one step.
 constexpr int most_stairs = 4;
-/// Who begins inside of others is put aside by so many times the depth at most.
-constexpr double most_of_depth = 4;
-/// Where something turns, a character waits for a millionth of each part of the step, and then catches up.
-constexpr double waits = 2e-6;
 
 bool comes_against(const MetSurface& at) { return at.velocity.dot(at.normal) + at.spread > 0; }
 
@@ -37,6 +33,12 @@ std::vector<NearPart> parts_near(const ExactScenery& scenery, const TraceStep& s
   if (others.near)
     for (NearPart& other : others.near(step.path[corner], within)) parts.push_back(std::move(other));
   return parts;
+}
+
+double depth_in(std::span<const NearPart> parts) {
+  double depth = 0;
+  for (const NearPart& part : parts) depth += std::max(0.0, -part.faces.front().separation);
+  return depth;
 }
 
 int stairs_climbed(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step, const Others& others,
@@ -209,11 +211,8 @@ LegJudge::Pushes LegJudge::pushes() const {
 
 /// How far a character may be put aside that begins inside of others [m].
 double LegJudge::thrown() const {
-  double depth = 0;
-  if (!step_.start_overlap_characters.empty() && others_.near)
-    for (const NearPart& part : others_.near(step_.path.front(), 0))
-      depth += std::max(0.0, -part.faces.front().separation);
-  return std::min(push_beyond_motion, most_of_depth * depth);
+  if (step_.start_overlap_characters.empty() || !others_.near) return 0;
+  return std::min(push_beyond_motion, most_of_depth * depth_in(others_.near(step_.path.front(), 0)));
 }
 
 double LegJudge::rounding() const {
@@ -226,8 +225,8 @@ double LegJudge::rounding() const {
   return rounding;
 }
 
-/// What it waits where something turns makes up so much of its way [m].
-double LegJudge::waited() const { return step_.vertex_ways.empty() ? 0 : waits * wanted_.displacement.norm(); }
+/// The character waits where something turns: its way is late by this [m].
+double LegJudge::waited() const { return step_.vertex_ways.empty() ? 0 : waited_in_part * wanted_.displacement.norm(); }
 
 /// Whether something that comes against it touches it: nothing else pushes.
 bool LegJudge::is_pushed() const { return std::any_of(surfaces_.begin(), surfaces_.end(), comes_against); }

@@ -11,6 +11,12 @@ namespace paperproof::compare::detail {
 [[nodiscard]] std::vector<NearPart> parts_near(const ExactScenery& scenery, const TraceStep& step, const Others& others,
                                                std::size_t corner, double within);
 
+/// How deep the character is in parts, together [m].
+[[nodiscard]] double depth_in(std::span<const NearPart> parts);
+
+/// Who begins inside of characters, or of what turns, is put aside by at most so many times the depth.
+inline constexpr double most_of_depth = 4;
+
 /// How many stairs a walk climbs, at most 4: beside a face that stops it, too steep to walk on, a leg goes straight up
 /// by no more than `step_height`, the next one takes no time, and the step ends on ground.
 [[nodiscard]] int stairs_climbed(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step,

@@ -22,13 +22,13 @@ struct MoverPose {
 /// @param script with at least one waypoint.
 [[nodiscard]] MoverPose pose_at(const MoverScript& script, double time);
 
-/// What is wrong with the ways of one step. The lists of what is wrong are empty where nothing is.
+/// What is wrong with the ways of one step: each list is empty where it finds no fault.
 struct MoverWayJudgement {
   std::vector<MoverIndex> off_script;     ///< Begins or ends elsewhere, or begins not where it ended before.
   std::vector<ColliderIndex> out_of_way;  ///< At an instant in between it is not where the law below has it.
   std::vector<ColliderIndex> coarse;      ///< Turned at once by more than is promised near the character.
   std::vector<ColliderIndex> off_arc;     ///< Leaves its arc by more than the bound.
-  bool is_fine = false;                   ///< The step goes in more parts than what is near the character needs.
+  bool is_fine = false;                   ///< The step has more parts than it needs: see **Fine**.
   std::vector<double> turns;              ///< How far each mover turns in the step, as far as its script tells [rad].
   double arc_error = 0;                   ///< Largest distance of a vertex from its arc at the same instant [m].
   double arc_share = 0;                   ///< Largest share of its bound that the error of a vertex is.
@@ -63,10 +63,11 @@ inline constexpr int most_turning_parts = 32;
 /// anything but a circle is near it turns at once by at most 0.05 m / S, or by 1/32 of the turn of the step where that
 /// is more.
 ///
-/// **Fine.** A step goes in n > 1 parts only where a mover turns by more than n / 2 times 0.05 m / S. When the step
-/// begins something of it is no farther from the character than W, the longest way of a vertex, and 4 times the sum of
-/// S, twice the wanted way, and what the character's limits let it go otherwise. What is no farther than W, the wanted
-/// way and 0.1 m may be met: beside it a step may go in any number of parts, as it may beside what follows no script.
+/// **Fine.** Let W be the longest way of a vertex in the step, and L how far the character's limits let it go besides
+/// the wanted way. A step goes in n > 1 parts only where a mover turns by more than n / 2 times 0.05 m / S, and is no
+/// farther from the character, when the step begins, than W, twice S, twice the wanted way, and 3 L together. What is
+/// no farther than W, the wanted way and 0.1 m may be met. Beside it a step may go in any number of parts, and so it
+/// may beside a mover without a script.
 ///
 /// **Bound.** Let A be that angle (of what is not near, the turn of the whole step), r the distance of a vertex from
 /// the point that its mover turns about, D that from the position of the character at any corner of its way, R the

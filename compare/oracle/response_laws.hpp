@@ -74,8 +74,7 @@ struct ControlledRange {
 
 /// A box that holds the wanted velocities, and all that the same law can make of them. It does not ask when the
 /// surfaces are met, or whether at all, nor in which order: it goes over them twice. It knows their velocities as far
-/// as `MetSurface::spread` says.
-/// A motion that walls leave nothing of is a crush: how that ends it does not hold.
+/// as `MetSurface::spread` says. Where walls leave no motion it is a crush, and the box need not hold its end.
 /// @param surfaces as an upright character sees them.
 [[nodiscard]] Box2<double> controlled_bounds(const ControlledRange& range, std::span<const MetSurface> surfaces);
 

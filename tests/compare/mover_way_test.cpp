@@ -196,6 +196,7 @@ TEST_F(Plank, is_off_its_arc_by_the_chord_of_the_first_turn) {
 TEST_F(Plank, that_turns_at_once_in_fewer_parts_is_coarse_near_the_character_only) {
   EXPECT_EQ(judged({in_parts(0, needed / 2)}).coarse, Colliders{0});
   EXPECT_FALSE(judged({in_parts(0, needed / 2)}, false).broken());
+  EXPECT_FALSE(judged({in_parts(0, 2 * needed)}).broken()) << "more are no fault";
 }
 
 TEST_F(Plank, divides_a_step_only_where_it_is_near_and_into_no_more_parts_than_it_needs) {
