@@ -3,16 +3,39 @@
 #include "contains.hpp"
 #include "oracle/contacts.hpp"
 #include "oracle/exemptions.hpp"
+#include "oracle/met_surfaces.hpp"
 #include "oracle/up.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 namespace paperproof::compare::detail {
 namespace {
 
 /// A velocity and a place that were computed in another order differ by no more than this, relative to their size.
 constexpr double rounding_of_motion = 1e-9;
+/// Who has come nearer to where it wanted to go needs not climb [m].
+constexpr double least_left = 1e-5;
+
+/// How much farther a shape reaches to a side than its foot does, at most [m].
+double narrower_at_foot(std::span<const Vec2d> points, const Vec2d& up) {
+  double low = HUGE_VAL;
+  for (const Vec2d& point : points) low = std::min(low, point.dot(up));
+  double most = 0;
+  for (const double side : {-1.0, 1.0}) {
+    double hull = -HUGE_VAL;
+    double foot = -HUGE_VAL;
+    for (const Vec2d& point : points) {
+      const double across = side * point.dot(right_of(up));
+      hull = std::max(hull, across);
+      if (point.dot(up) - low <= guaranteed_touch) foot = std::max(foot, across);
+    }
+    most = std::max(most, hull - foot);
+  }
+  return most;
+}
 
 }  // namespace
 
@@ -171,6 +194,93 @@ void EndJudge::judge_speed(bool starts_free, StepJudgement& judgement) const {
   // A walker follows its ground down over a crest, as far as it is allowed to.
   const bool may_snap = header_.character.snap > 0 && wanted_.from_ground && !wanted_.jumped;
   if (!may_snap) judgement.speed_lost = goes_freely() ? flight_error() : rise_lost();
+}
+
+/// What is met first on a way straight down, in no time: all that is met no more than 1e-6 m later, too.
+std::vector<ExactImpact> EndJudge::first_below(const ExactScenery& scenery, const Vec2d& from, double down) const {
+  std::vector<ExactImpact> impacts =
+      scenery.impacts_between(Place(from, step_.movers, 1), Place(from - down * up_, step_.movers, 1));
+  double first = 1;
+  for (const ExactImpact& impact : impacts) first = std::min(first, static_cast<double>(impact.fraction));
+  std::erase_if(impacts, [&](const ExactImpact& impact) {
+    return (static_cast<double>(impact.fraction) - first) * down > contact_reach;
+  });
+  return impacts;
+}
+
+bool EndJudge::is_ground_at_rest(const ExactImpact& impact) const {
+  const MoverIndex mover = header_.scenery.colliders[impact.collider].mover;
+  const bool rests = mover == no_mover || step_.movers[mover].from == step_.movers[mover].to;
+  return rests && impact.exposed && is_walked_on(impact.normal, header_, up_) &&
+         !contains(step_.dropped_through, impact.collider);
+}
+
+/// Whether a way straight down ends at walkable ground at rest, before it is as long as this. The octagon may be larger
+/// by 1e-6 m.
+bool EndJudge::meets_ground_first(const Vec2d& from, double down) const {
+  const auto ends_at_ground = [&](const ExactScenery& scenery) {
+    const std::vector<ExactImpact> impacts = first_below(scenery, from, down);
+    return !impacts.empty() && std::all_of(impacts.begin(), impacts.end(), [&](const ExactImpact& impact) {
+      return is_ground_at_rest(impact) && static_cast<double>(impact.fraction) * down < down - 2 * contact_reach;
+    });
+  };
+  return ends_at_ground(scenery_) && ends_at_ground(grown_scenery_);
+}
+
+/// Whether nothing is in a way that takes no time, for an octagon that is larger by 1e-6 m: but what is nearer already.
+bool EndJudge::is_free(const Vec2d& from, const Vec2d& to) const {
+  const Place begin(from, step_.movers, 1);
+  const Place end(to, step_.movers, 1);
+  const std::vector<ColliderIndex> touched = grown_scenery_.overlapped(begin);
+  const std::vector<ColliderIndex> met = grown_scenery_.met(begin, end);
+  return scenery_.met(begin, end).empty() && std::includes(touched.begin(), touched.end(), met.begin(), met.end());
+}
+
+/// Whether a face is touched that is too steep to walk on, and stops a way ahead.
+bool EndJudge::is_stopped(const Vec2d& ahead) const {
+  const std::vector<NearPart> parts = near_at_end(contact_reach);
+  return std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
+    return std::any_of(part.faces.begin(), part.faces.end(), [&](const NearFace& face) {
+      return face.normal.dot(ahead) < 0 && face.normal.dot(up_) >= 0 && !is_walkable(face.normal, header_, up_);
+    });
+  });
+}
+
+/// Whether a way straight up by so much, on, and down ends on ground that is higher.
+bool EndJudge::could_climb(double rise, const Vec2d& ahead) const {
+  const Vec2d& stopped = step_.path.back().position;
+  const Vec2d above = stopped + rise * up_;
+  if (!is_free(stopped, above) || !is_free(above, above + ahead)) return false;
+  if (meets_ground_first(above + ahead, rise)) return true;
+  const std::vector<ExactImpact> impacts = first_below(scenery_, above + ahead, rise);
+  const bool is_corner =
+      !impacts.empty() && std::all_of(impacts.begin(), impacts.end(), [&](const ExactImpact& impact) {
+        return impact.normal.dot(up_) > 0 && static_cast<double>(impact.fraction) * rise < rise - 2 * contact_reach;
+      });
+  const Vec2d farther = above + ahead + narrower_at_foot(header_.points, up_) * ahead.normalized();
+  return is_corner && is_free(above + ahead, farther) && meets_ground_first(farther, rise);
+}
+
+void EndJudge::judge_walk(bool starts_free, StepJudgement& judgement) const {
+  const CharacterDef& character = header_.character;
+  const bool excused = !starts_free || step_.stuck || step_.dropped || !step_.dropped_through.empty() ||
+                       !judgement.crushed.empty() || !judgement.end_overlap.empty();
+  const bool walks = !excused && wanted_.from_ground && !wanted_.jumped && !wanted_.ridden && !later_.any() &&
+                     (character.snap > 0 || character.step_height > 0) && is_alone();
+  if (!walks) return;
+  const Vec2d& end = step_.path.back().position;
+  const bool climbs = begins_as_walk(header_, step_, wanted_.from_ground, wanted_.velocity);
+  judgement.ground_left = character.snap > 0 && !step_.grounded && (climbs || step_.velocity.dot(up_) <= 0) &&
+                          meets_ground_first(end, character.snap);
+  const Vec2d right = right_of(up_);
+  const Vec2d ahead = (wanted_.displacement - (end - step_.path.front().position)).dot(right) * right;
+  const bool is_asked = character.step_height > 0 && header_.characters == 1 && climbs && is_stopped(ahead) &&
+                        ahead.norm() > least_left && ahead.dot(wanted_.velocity) > 0 &&
+                        stairs_climbed(header_, scenery_, step_, others_, wanted_) == 0;
+  const std::array shares{1.0, 0.5, 0.25, 0.125};
+  judgement.kerb_missed = is_asked && std::any_of(shares.begin(), shares.end(), [&](double share) {
+                            return could_climb(share * character.step_height, ahead);
+                          });
 }
 
 }  // namespace paperproof::compare::detail

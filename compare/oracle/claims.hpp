@@ -21,6 +21,14 @@ namespace paperproof::compare::detail {
 /// normal, no jump began, the unsteered motion leads into it, and the motion at the end goes along all such faces: in
 /// one more step it would part them, or press in, by no more than that.
 ///
+/// **Ground left.** A walk that `snap` holds to its ground does not end in the air where what it would meet first
+/// straight down, less than `snap` below, is walkable ground at rest.
+///
+/// **Kerb.** No face stops a walk that could go straight up by `step_height`, or by a half, a quarter or an eighth of
+/// it, on by what is left of its way, and down to walkable ground at rest that is higher. Where a corner is met on the
+/// way down, that ground may lie ahead by as much as the shape is narrower at its foot. Both are asked of one who rides
+/// nothing, and has no other character and nothing that turns near by; this one of a single character.
+///
 /// **Speed lost.** A step begins free, and its wanted motion comes within 1e-6 m of nothing: it goes exactly as wanted.
 /// Else a character loses upward speed only below a ceiling, on ground that it follows, or at a wall that ends its
 /// climb. `LegJudge` bounds how fast and how far it goes.
@@ -33,6 +41,8 @@ class EndJudge {
   /// @param starts_free the step begins inside nothing.
   void judge_ground(const HangingJudge& hanging, bool starts_free, StepJudgement& judgement) const;
   void judge_speed(bool starts_free, StepJudgement& judgement) const;
+  /// Whether a walk leaves ground that it follows, and whether a kerb stops what climbs it.
+  void judge_walk(bool starts_free, StepJudgement& judgement) const;
 
  private:
   [[nodiscard]] Place end() const { return {step_.path.back(), step_.movers}; }
@@ -47,6 +57,12 @@ class EndJudge {
   [[nodiscard]] bool may_take_rise(const NearPart& part, const NearFace& face) const;
   [[nodiscard]] double rise_lost() const;
   [[nodiscard]] bool is_alone() const;
+  [[nodiscard]] std::vector<ExactImpact> first_below(const ExactScenery& scenery, const Vec2d& from, double down) const;
+  [[nodiscard]] bool is_ground_at_rest(const ExactImpact& impact) const;
+  [[nodiscard]] bool meets_ground_first(const Vec2d& from, double down) const;
+  [[nodiscard]] bool is_free(const Vec2d& from, const Vec2d& to) const;
+  [[nodiscard]] bool is_stopped(const Vec2d& ahead) const;
+  [[nodiscard]] bool could_climb(double rise, const Vec2d& ahead) const;
 
   const TraceHeader& header_;
   const ExactScenery& scenery_;

@@ -159,7 +159,8 @@ Wanted Intent::begin(const TraceStep& step, int parts, const WallAhead& wall_ahe
   }
   const double change = walk - own.x();
   wanted.walk = walk;
-  wanted.rides = ride_.has_value();
+  if (ride_) wanted.ridden = ride_->collider;
+  if (ride_) wanted.rode = ride_->velocity;
   if (change * own.x() < 0 && is_climb_of_walk(own.x(), rise)) rise *= std::max(walk / own.x(), 0.0);
   rise = use_button(step, dt, rise, wall_ahead, wanted);
   if (character.coyote_time > 0) coyote_left_ = grounded_ ? character.coyote_time : std::max(coyote_left_ - dt, 0.0);

@@ -15,12 +15,17 @@ struct Wanted {
   double steered = 0;                 ///< The part of the displacement across up that steering added [m].
   double walk = 0;                    ///< The speed across up, relative to the ground that it rides [m/s].
   Vec2d carried{Vec2d::Zero()};       ///< The way that its ground carries it, in the world [m].
-  bool rides = false;                 ///< Something that moves or conveys carries it.
-  bool jumped = false;                ///< A jump begins.
-  bool jumping = false;               ///< The same, or one goes on.
-  bool pending = false;               ///< A press that has not become a jump yet.
-  int parts = 1;                      ///< Shorter steps that the step consists of.
-  bool from_ground = false;           ///< It stood when the step began.
+  /// Moves or conveys, and carries it where the step begins.
+  std::optional<ColliderIndex> ridden{};
+  Vec2d rode{Vec2d::Zero()};  ///< How fast that went in the step before [m/s].
+  bool jumped = false;        ///< A jump begins.
+  bool jumping = false;       ///< The same, or one goes on.
+  bool pending = false;       ///< A press that has not become a jump yet.
+  int parts = 1;              ///< Shorter steps that the step consists of.
+  bool from_ground = false;   ///< It stood when the step began.
+
+  /// What it goes on riding: a jump leaves that.
+  [[nodiscard]] std::optional<ColliderIndex> stays_on() const { return jumped ? std::nullopt : ridden; }
 };
 
 /// Whether it says that it touched something from above.

@@ -521,6 +521,7 @@ void Judge::judge_progress(const TraceStep& step, const Others& others, const Wa
     const detail::EndJudge end(header_, scenery_, scenery_for(detail::contact_reach), step, *wanted, others, later);
     end.judge_ground(hanging, starts_free, judgement);
     end.judge_speed(starts_free, judgement);
+    end.judge_walk(starts_free, judgement);
     judge_legs(step, others, *wanted, later, judgement);
   } else if (step.grounded) {
     judge_ground(hanging, step, judgement);
@@ -615,7 +616,9 @@ void Judge::judge_legs(const TraceStep& step, const Others& others, const Wanted
   judgement.way_gained = leaving_.turning ? turned_out_too_far(step, wanted) : way;
   judgement.speed_gained = speed;
   const bool as_law = !leaving_.inside && !step.stuck && !says_so && judgement.end_overlap.empty();
-  if (as_law) judgement.leg_error = legs.leg_error();
+  if (!as_law) return;
+  judgement.leg_error = legs.leg_error();
+  judgement.crept = legs.crept();
 }
 
 /// Takes back what all parts of the step together did not want, or what something that turns may have taken.

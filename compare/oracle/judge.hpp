@@ -91,9 +91,12 @@ struct StepJudgement {
   bool in_parts = false;        ///< It goes in parts, and a contact or a time that follows the first is not asked for.
   bool turning_sensor = false;  ///< It overlaps a sensor that turns: its events are not judged.
   bool ground_missed = false;   ///< It touches ground that it does not leave, and says that it is not grounded.
+  bool ground_left = false;     ///< A walk ends in the air above ground that `snap` has it follow.
+  bool kerb_missed = false;     ///< A face stops a walk that could climb it: see `CharacterDef::step_height`.
   double speed_lost = 0;        ///< Of the wanted velocity, with nothing exact that took it [m/s].
   double speed_gained = 0;      ///< More than the wanted velocity and what moves near by can give [m/s].
   double way_gained = 0;        ///< The same of the way [m].
+  Vec2d crept{Vec2d::Zero()};   ///< Across and along up, way that no velocity made [m]; zero of what is pushed.
   double leg_error = 0;         ///< So far from where the law of response leads it a leg ends [m].
   double ghost_speed_loss = 0;  ///< Share of the wanted horizontal speed that was lost to nothing exact, in [0, 1].
   std::vector<ExactSensorEvent> sensor_events;  ///< What should have been reported.

@@ -23,6 +23,13 @@ constexpr double follows_seam = 2.8e-6;
 /// A walk climbs no more of them in one step.
 constexpr int most_stairs = 4;
 
+/// Of what goes no one knows how far. @param normal as an upright character sees it.
+MetSurface surface_of(const NearPart& part, const Vec2d& normal, double dt) {
+  return {.normal = normal,
+          .spread = (part.unsure + part.rim_unsure) / dt,
+          .spread_along = (part.unsure_along + part.rim_unsure) / dt};
+}
+
 bool comes_against(const MetSurface& at) { return at.velocity.dot(at.normal) + at.spread > 0; }
 
 }  // namespace
@@ -85,15 +92,21 @@ LegJudge::LegJudge(const TraceHeader& header, const ExactScenery& scenery, const
 /// The velocities that the parts of the step want. @param carried this is taken from them [m/s].
 ControlledRange LegJudge::wanted_velocities(const Vec2d& carried) const {
   std::vector<Vec2d> unsteered;
+  // Who leaves what turns goes on as fast as that went before.
+  const bool turns = first_.ridden && find_way(step_.vertex_ways, *first_.ridden) != nullptr;
+  const Vec2d left = turns ? Vec2d(first_.rode - first_.carried / dt_) : Vec2d(Vec2d::Zero());
   for (const Wanted* wanted : {&wanted_, &first_})
-    for (const Vec2d& velocity : {wanted->velocity, Vec2d(wanted->displacement / dt_)})
+    for (const Vec2d& velocity : {wanted->velocity, Vec2d(wanted->displacement / dt_), Vec2d(wanted->velocity + left)})
       unsteered.push_back(seen(velocity - carried - wanted->steered / dt_ * right_, up_));
   ControlledRange range{.unsteered = Box2<double>::around(unsteered)};
   // What turns under its rider takes it along otherwise in each part of the step.
-  double unsure = 0;
-  if (first_.from_ground)
-    for (const NearPart& part : near(0, contact_reach)) unsure = std::max(unsure, part.unsure + part.rim_unsure);
-  range.unsteered = range.unsteered.inflated(unsure / dt_);
+  if (first_.from_ground) {
+    Box2<double> unsure{Vec2d::Zero(), Vec2d::Zero()};
+    for (const NearPart& part : near(0, contact_reach))
+      for (const NearFace& face : part.faces)
+        unsure = unsure.merged(surface_of(part, seen(face.normal, up_), dt_).velocities());
+    range.unsteered = {range.unsteered.lower + unsure.lower, range.unsteered.upper + unsure.upper};
+  }
   range.least_steering = std::min(first_.steered / dt_, 0.0);
   range.most_steering = std::max(first_.steered / dt_, 0.0);
   return range;
@@ -105,7 +118,8 @@ std::vector<MetSurface> LegJudge::near_surfaces() const {
   const auto add = [&surfaces](const MetSurface& at) {
     const bool is_known = std::any_of(surfaces.begin(), surfaces.end(), [&](const MetSurface& one) {
       return one.normal == at.normal && one.velocity == at.velocity && one.spread == at.spread &&
-             one.walkable == at.walkable && one.is_overlapped == at.is_overlapped;
+             one.spread_along == at.spread_along && one.walkable == at.walkable &&
+             one.is_overlapped == at.is_overlapped;
     });
     if (!is_known) surfaces.push_back(at);
   };
@@ -128,11 +142,13 @@ std::vector<MetSurface> LegJudge::near_surfaces() const {
             // What slopes of a character is ground and wall.
             if (walkable != is_ground && (walkable || !is_character)) continue;
             const bool is_overlapped = face.separation < 0;
-            add({.normal = normal,
-                 .velocity = is_overlapped ? velocity : imparted(velocity, normal, walkable),
-                 .walkable = walkable,
-                 .is_overlapped = is_overlapped,
-                 .spread = (part.unsure + part.rim_unsure) / dt_});
+            MetSurface at = surface_of(part, normal, dt_);
+            at.velocity = is_overlapped ? velocity : imparted(velocity, normal, walkable);
+            at.walkable = walkable;
+            at.is_overlapped = is_overlapped;
+            if (part.unsure > 0 && !is_character) at.turning = part.collider;
+            at.stands_at = step_.path[corner].fraction;
+            add(at);
           }
         }
     }
@@ -162,7 +178,7 @@ Box2<double> LegJudge::velocities(std::span<const MetSurface> surfaces, const Ve
     }
     for (const MetSurface& at : surfaces)
       if (at.walkable && later_.jump > 0)
-        all.upper.y() = std::max(all.upper.y(), at.velocity.y() + at.spread + later_.jump);
+        all.upper.y() = std::max(all.upper.y(), at.velocities().upper.y() + later_.jump);
   }
   return step_.crushed.empty() ? all : all.merged({});  // a crush ends all motion
 }
@@ -172,7 +188,7 @@ Box2<double> LegJudge::asked(std::span<const MetSurface> surfaces) const {
   const Vec2d speed(later_.asked, 0);
   Box2<double> all{speed, speed};
   for (const MetSurface& at : surfaces)
-    if (at.walkable) all = all.merged(Box2<double>{speed + at.velocity, speed + at.velocity}.inflated(at.spread));
+    if (at.walkable) all = all.merged({speed + at.velocities().lower, speed + at.velocities().upper});
   return all;
 }
 
@@ -267,7 +283,8 @@ Vec2d LegJudge::own_carrier() const {
 }
 
 bool LegJudge::knows_speeds() const {
-  return std::all_of(surfaces_.begin(), surfaces_.end(), [](const MetSurface& at) { return std::isfinite(at.spread); });
+  return std::all_of(surfaces_.begin(), surfaces_.end(),
+                     [](const MetSurface& at) { return std::isfinite(at.spread + at.spread_along); });
 }
 
 double LegJudge::way_gained(std::size_t first) const {
@@ -340,6 +357,19 @@ bool LegJudge::is_moved_at_once() const {
                      [this](const PathPoint<double>& corner) { return !others_.near(corner, contact_reach).empty(); });
 }
 
+Vec2d LegJudge::crept() const {
+  const bool in_parts = first_.parts > 1 || later_.any();
+  if (held_ || in_parts || is_moved_at_once() || snapped() > 0) return Vec2d::Zero();
+  if (stairs_climbed(header_, scenery_, step_, others_, first_) > 0) return Vec2d::Zero();
+  Vec2d crept = Vec2d::Zero();
+  for (std::size_t leg = 0; leg + 1 < step_.path.size(); ++leg) {
+    const Vec2d way = seen(step_.path[leg + 1].position - step_.path[leg].position, up_);
+    const double time = (step_.path[leg + 1].fraction - step_.path[leg].fraction) * dt_;
+    crept += way - way.cwiseMin(speeds_.upper * time).cwiseMax(speeds_.lower * time);
+  }
+  return crept;
+}
+
 double LegJudge::leg_error() const {
   const bool in_parts = first_.parts > 1 || later_.any();
   const bool stair = stairs_climbed(header_, scenery_, step_, others_, first_) > 0;
@@ -349,7 +379,7 @@ double LegJudge::leg_error() const {
   law.unsteered = law.wanted - first_.steered / dt_ * right_;
   const SolidsInStep solids(header_, scenery_, step_);
   const bool walks = !first_.jumped && begins_as_walk(header_, step_, first_.from_ground, first_.velocity);
-  const std::vector<MetSurface> surfaces = met_surfaces(solids, step_.contacts, walks);
+  const std::vector<MetSurface> surfaces = met_surfaces(solids, step_.contacts, walks, first_.stays_on());
   std::vector<Vec2d> outcomes{law.wanted};
   std::size_t met = 0;
   double off = 0;

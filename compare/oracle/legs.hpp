@@ -53,6 +53,9 @@ class LegJudge {
   [[nodiscard]] double way_gained(std::size_t first) const;
   /// How much faster it is, in one direction, than anything made it [m/s].
   [[nodiscard]] double speed_gained() const;
+  /// How far the way leads, across and along up, beyond what these velocities make of it [m]. Zero where something
+  /// moves the character at once, of a stair, a snap, and a step in parts.
+  [[nodiscard]] Vec2d crept() const;
   /// How far a leg ends from where the law leads it [m]. Zero of a step in parts, of one that drops motion, climbs a
   /// stair or meets another character, and beside what pushes or turns.
   [[nodiscard]] double leg_error() const;

@@ -100,8 +100,8 @@ bool begins_as_walk(const TraceHeader& header, const TraceStep& step, bool groun
   return grounded && wanted.dot(up) <= std::abs(wanted.dot(right_of(up))) * steepest;
 }
 
-std::vector<MetSurface> met_surfaces(const SolidsInStep& solids, std::span<const Contact<double>> contacts,
-                                     bool walks) {
+std::vector<MetSurface> met_surfaces(const SolidsInStep& solids, std::span<const Contact<double>> contacts, bool walks,
+                                     std::optional<ColliderIndex> ridden) {
   const TraceStep& step = solids.step();
   const Vec2d up = up_in(step, solids.header());
   std::vector<MetSurface> surfaces;
@@ -118,6 +118,7 @@ std::vector<MetSurface> met_surfaces(const SolidsInStep& solids, std::span<const
     MetSurface one{.normal = touch.normal};
     one.walkable = is_walked_on(touch.normal, solids.header(), up);
     one.velocity = imparted(velocity_of(solids, touch), touch.normal, one.walkable);
+    one.ridden = ridden == touch.collider;
     one.is_side = touch.side == Side::left || touch.side == Side::right;
     one.climbs = walks && touches_ground(solids, *corner);
     one.met = touch.fraction >= 1 || corner->fraction >= 1 ? touch.fraction : corner->fraction;

@@ -61,8 +61,9 @@ class SolidsInStep {
 
 /// The surfaces of the contacts, in their order, for the law of octagon_sweep.
 /// @param contacts of the step: those reported, or of these the ones that exact arithmetic confirms.
-/// @param walks see `begins_as_walk`.
+/// @param walks see `begins_as_walk`. @param ridden what the step rides from its begin on.
 [[nodiscard]] std::vector<MetSurface> met_surfaces(const SolidsInStep& solids,
-                                                   std::span<const Contact<double>> contacts, bool walks);
+                                                   std::span<const Contact<double>> contacts, bool walks,
+                                                   std::optional<ColliderIndex> ridden = {});
 
 }  // namespace paperproof::compare

@@ -113,7 +113,7 @@ struct Unknown {
 };
 
 bool is_at_end(const MetSurface& at) { return at.met >= 1; }
-bool may_carry(const MetSurface& at) { return at.walkable && at.velocity != Vec2d::Zero(); }
+bool may_carry(const MetSurface& at) { return at.walkable && !at.ridden && at.velocity != Vec2d::Zero(); }
 
 /// A surface that holds, and the velocity that came to it.
 struct Holding {
@@ -173,9 +173,9 @@ std::array<Vec2d, 4> corners_of(const Box2<double>& box) {
 }
 
 /// The corners of the box that its velocity is in.
-std::array<Vec2d, 4> velocities_of(const MetSurface& at) {
-  return corners_of(Box2<double>{at.velocity, at.velocity}.inflated(at.spread));
-}
+std::array<Vec2d, 4> velocities_of(const MetSurface& at) { return corners_of(at.velocities()); }
+
+double fastest(const MetSurface& at) { return at.velocity.norm() + std::max(at.spread, at.spread_along); }
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Holds nothing.
@@ -190,6 +190,11 @@ bool may_enter(const Box2<double>& box, const MetSurface& at) {
     return std::any_of(goes.begin(), goes.end(),
                        [&](const Vec2d& velocity) { return enters(v, {.normal = at.normal, .velocity = velocity}); });
   });
+}
+
+/// Whether both may be touched at once.
+bool are_together(const MetSurface& a, const MetSurface& b) {
+  return !a.turning || a.turning != b.turning || a.stands_at == b.stands_at;
 }
 
 /// `controlled_bounds` goes so often over the surfaces. Each time the box holds more that no motion does.
@@ -316,7 +321,7 @@ Box2<double> controlled_bounds(const ControlledRange& range, std::span<const Met
     const auto responses = [&at](const Box2<double>& box) {
       Box2<double> all = no_box;
       // Ground may carry the character.
-      if (at.walkable || at.is_overlapped) all = Box2<double>{at.velocity, at.velocity}.inflated(at.spread);
+      if (at.walkable || at.is_overlapped) all = at.velocities();
       for (const Vec2d& goes : velocities_of(at))
         for (const Vec2d& v : corners_of(box)) {
           Box2<double> made = no_box;
@@ -333,6 +338,7 @@ Box2<double> controlled_bounds(const ControlledRange& range, std::span<const Met
     if (at.walkable) wanted = wanted.merged(responses({before.lower + slower, before.upper + faster}));
     for (std::size_t k = 0; k < i; ++k) {
       const MetSurface& with = surfaces[k];
+      if (!are_together(at, with)) continue;
       const Box2<double> slide = slides(at);
       const Box2<double> other_slide = slides(with);
       const bool enters_with = may_enter(made_by[i].merged(slide), with);
@@ -341,7 +347,7 @@ Box2<double> controlled_bounds(const ControlledRange& range, std::span<const Met
       if (at.velocity != with.velocity && (enters_with || enters_at)) wanted = wanted.merged(slide).merged(other_slide);
       // Two hold only a motion that goes into each by what the other leaves of it.
       if (!enters_with || !enters_at) continue;
-      const double most = at.velocity.norm() + at.spread + with.velocity.norm() + with.spread + range.squeezed;
+      const double most = fastest(at) + fastest(with) + range.squeezed;
       for (const Vec2d& velocity : velocities_of(at))
         for (const Vec2d& other : velocities_of(with)) {
           auto held = held_by({.normal = at.normal, .velocity = velocity}, {.normal = with.normal, .velocity = other});

@@ -18,12 +18,26 @@ struct MetSurface {
   bool walkable = false;          ///< Within the climb limit of the character.
   bool is_overlapped = false;     ///< For bounds alone: the character is inside of it, and may go along.
   bool is_side = false;           ///< Touches the left or right side of the character.
+  bool ridden = false;            ///< The step begins on it, and goes along: nobody lands on it.
   bool climbs = false;            ///< A rise that comes to it is the climb of a walk, whose ground is still touched.
   double met = 0;                 ///< When it was met, as a fraction of the step; 1: only touched where that ends.
   double touched_since = std::numeric_limits<double>::infinity();  ///< From then until it is met it is touched.
   double left = std::numeric_limits<double>::infinity();           ///< From then on it is touched no more.
   bool returned = false;  ///< It was left, and is touched again where the step ends.
-  double spread = 0;      ///< Where it turns: by so much its velocity is not known [m/s].
+  /// Where it turns: by so much its velocity is not known [m/s], along its normal,
+  double spread = 0;
+  double spread_along = 0;  ///< and along itself; for bounds alone.
+
+  /// What turns stands as this says at this fraction of the step alone: its faces are not there together at two.
+  std::optional<ColliderIndex> turning{};
+  double stands_at = 0;
+
+  /// The smallest box that holds its velocities.
+  [[nodiscard]] Box2<double> velocities() const {
+    const Vec2d along(-normal.y(), normal.x());
+    const Vec2d unknown = spread * normal.cwiseAbs() + spread_along * along.cwiseAbs();
+    return {velocity - unknown, velocity + unknown};
+  }
 };
 
 /// The velocities that impulses without friction and restitution can make of `wanted` at one or two of the surfaces,

@@ -268,13 +268,20 @@ TurningJudge::Standing TurningJudge::standing(const Solid& solid, const std::vec
     leaves = std::max(leaves, (RigidMotion(now, way.vertices[k])(nearest) - even).norm());
   }
   const double reach = std::min(extent_of(found.part.points), extent_of(octagon_) + within);
-  found.unsure = turn_of(way) * (reach + requested.norm() + found.moved.norm()) + leaves;
+  const double turn = turn_of(way);
+  const double touched = reach + requested.norm();
+  found.unsure = turn * (touched + found.moved.norm()) + leaves;
+  found.unsure_along = solid.radius > 0 ? found.unsure : turn * (turn * touched + within + found.moved.norm()) + leaves;
   return found;
 }
 
 std::optional<NearPart> TurningJudge::near_part(const Solid& solid, const Standing& standing, const Vec2d& position,
                                                 double within) const {
-  NearPart near{.collider = solid.collider, .moved = standing.moved, .faces = {}, .unsure = standing.unsure};
+  NearPart near{.collider = solid.collider,
+                .moved = standing.moved,
+                .faces = {},
+                .unsure = standing.unsure,
+                .unsure_along = standing.unsure_along};
   if (solid.radius > 0) {
     near.rim = standing.turn * (solid.radius + contact_reach);
     const double round = (standing.requested + standing.moved.norm() + std::abs(near.rim)) / solid.radius;
@@ -313,6 +320,7 @@ std::vector<NearPart> TurningJudge::near_at_end(const TraceStep& step, double wi
       Standing here = standing(solid, numbers, stretch, step.requested * share, {step.path.back().position, 1}, within);
       here.moved /= share;
       here.unsure /= share;
+      here.unsure_along /= share;
       if (std::optional<NearPart> part = near_part(solid, here, step.path.back().position, within))
         found.push_back(*std::move(part));
     }

@@ -77,7 +77,8 @@ class TurningJudge {
   ///     turn (reach + |requested| + |moved|) + leaves
   ///
   /// where `reach` is the extent of the part, or of the octagon and `within` if that is less, and `leaves` how far the
-  /// nearest point goes from an even straight way.
+  /// nearest point goes from an even straight way. All points of a straight face go equally fast along it, while it
+  /// turns by nothing: so `unsure_along` has `turn` times the reach, and the gap, in place of the reach.
   [[nodiscard]] std::vector<NearPart> near(const TraceStep& step, const PathPoint<double>& corner, double within) const;
   /// The same where the step ends, if everything went all the time as it does in the last stretch between two instants.
   [[nodiscard]] std::vector<NearPart> near_at_end(const TraceStep& step, double within) const;
@@ -122,6 +123,7 @@ class TurningJudge {
     ConvexPart part;
     Vec2d moved{Vec2d::Zero()};  ///< See `near`.
     double unsure = 0;
+    double unsure_along = 0;
     double turn = 0;       ///< Of a disc: see `VertexWay::turn`.
     double requested = 0;  ///< [m]
   };

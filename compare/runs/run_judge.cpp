@@ -44,6 +44,8 @@ constexpr double standstill = 1e-6;
 constexpr double most_crept = 1e-3;
 /// Its gap is restored once, and it settles on ground that hardly bends [m].
 constexpr double most_drift = 5e-6;
+/// Over uneven ground so much of its way is made by the gaps that it keeps.
+constexpr double share_of_way = 0.01;
 /// What moves farther away than this does not reach a character at rest in the step [m].
 constexpr double beside = 0.01;
 /// Relative: two computations of a velocity.
@@ -163,6 +165,7 @@ void RunJudge::add(std::span<TraceStep> records) {
       judge_met(asked[k], asked);
       judge_rest(asked[k], follower);
       judge_standing(asked[k], follower);
+      judge_creeping(asked[k], judgements_[k], follower);
       judge_ride(asked[k], follower);
       judge_carrier(there, follower);
     }
@@ -315,7 +318,7 @@ void RunJudge::judge_standing(const TraceStep& record, Follower& follower) {
       follower.last.empty() || (up_in(follower.last.back(), header_) == up &&
                                 gravity_in(follower.last.back(), header_) == gravity_in(record, header_));
   const bool stays = record.grounded && record.velocity.norm() <= standstill && across <= standstill &&
-                     !wanted.jumped && !wanted.rides && stands(record) && as_before && follower.steps_alone > 0 &&
+                     !wanted.jumped && !wanted.ridden && stands(record) && as_before && follower.steps_alone > 0 &&
                      record.start_overlap.empty() && !header_.guarantees.empty();
   const Vec2d& end = record.path.back().position;
   // What goes farther at once is asked for its velocity.
@@ -327,6 +330,16 @@ void RunJudge::judge_standing(const TraceStep& record, Follower& follower) {
   } else if (const double drift = (end - *follower.stood_at).norm(); drift > most_drift + 4 * ulp_at(header_, end)) {
     note(Clause::rest, record, fmt::format("has drifted by {} since it stands still", metres(drift)));
   }
+}
+
+/// Gaps are restored and seams followed once each: over many steps that leads nowhere.
+void RunJudge::judge_creeping(const TraceStep& record, const StepJudgement& judged, Follower& follower) {
+  follower.crept += judged.crept;
+  follower.went += (record.path.back().position - record.path.front().position).norm();
+  const double crept = follower.crept.norm();
+  if (crept <= 2 * most_drift + share_of_way * follower.went) return;
+  note(Clause::velocity, record, fmt::format("has crept {} that no velocity made", metres(crept)));
+  follower.crept.setZero();
 }
 
 /// Whether it says that its ground moves, and has touched nothing that does since it said otherwise.
@@ -647,6 +660,10 @@ void RunJudge::judge_clauses(const TraceStep& record, const StepJudgement& judge
         [] { return std::string("says it is grounded with nothing under it"); });
   check(Clause::ground_missed, judged.ground_missed,
         [] { return std::string("stands on ground, and says it does not"); });
+  check(Clause::ground_missed, judged.ground_left,
+        [] { return std::string("leaves ground that `snap` has it follow"); });
+  check(Clause::speed_lost, judged.kerb_missed,
+        [] { return std::string("is stopped by what `step_height` has it climb"); });
   check(Clause::crush, !judged.crushed_with_room.empty(),
         [&] { return "is crushed by " + name(judged.crushed_with_room) + " with room to give way"; });
   check(Clause::refusal, record.path.back().position.cwiseAbs().maxCoeff() > range || !(length_of(record, header_) > 0),
@@ -700,7 +717,7 @@ void RunJudge::judge_velocity(const SolidsInStep& there, const StepJudgement& ju
   step.unsteered = wanted.velocity - wanted.steered / length_of(record, header_) * right_of(up);
   step.side_hit_ends_rise = header_.character.side_hit_ends_rise;
   const bool walks = !wanted.jumped && begins_as_walk(header_, record, wanted.from_ground, wanted.velocity);
-  const std::vector<MetSurface> surfaces = met_surfaces(there, record.contacts, walks);
+  const std::vector<MetSurface> surfaces = met_surfaces(there, record.contacts, walks, wanted.stays_on());
   // What characters hand on to each other is no matter of surfaces, and what turns has no one normal in a step, nor has
   // the ground that is left one velocity: there only its size is judged.
   const auto turns = [](const MetSurface& at) { return at.spread > hardly_turns; };

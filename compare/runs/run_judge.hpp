@@ -53,6 +53,8 @@ class RunJudge {
     bool touches_nobody = true;       ///< Of the other characters, in the present step.
     int steps_alone = 0;              ///< So many in a row no other character has come near it.
     std::optional<Vec2d> stood_at{};  ///< Where it has begun to stand still, as it says.
+    Vec2d crept{Vec2d::Zero()};       ///< Sum over its steps: see `StepJudgement::crept` [m].
+    double went = 0;                  ///< The length of its way [m].
   };
 
   [[nodiscard]] static bool is_apart(const TraceStep& record, const Others& others, double within);
@@ -62,6 +64,7 @@ class RunJudge {
   void judge_wish(const TraceStep& record, const Wanted& wanted, const Follower& follower);
   void judge_rest(const TraceStep& record, const Follower& follower);
   void judge_standing(const TraceStep& record, Follower& follower);
+  void judge_creeping(const TraceStep& record, const StepJudgement& judged, Follower& follower);
   void judge_ride(const TraceStep& record, const Follower& follower);
   void judge_carrier(const SolidsInStep& there, const Follower& follower);
   [[nodiscard]] bool is_ground_velocity_invented(const TraceStep& record, const Follower& follower) const;

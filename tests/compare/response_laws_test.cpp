@@ -92,6 +92,27 @@ TEST(ControlledLaw, ends_between_ground_and_what_pushes_along_it) {
   EXPECT_FALSE(has(controlled_outcomes({{-1, -0.5}, {-1, -0.5}}, pressed), {-1, 0}));
 }
 
+TEST(ControlledLaw, carries_at_once_who_lands_and_not_who_walks_against_it) {
+  std::array lift{surface(0, 1, true)};
+  lift[0].velocity = {3, 0};
+  const ControlledStep still{{0, -0.5}, {0, -0.5}};
+  EXPECT_TRUE(has(controlled_outcomes(still, lift), {3, 0}));
+  lift[0].ridden = true;
+  EXPECT_FALSE(has(controlled_outcomes(still, lift), {3, 0}));
+  EXPECT_TRUE(has(controlled_outcomes(still, lift), {0, 0}));
+}
+
+TEST(ControlledBounds, hold_nobody_between_a_face_and_itself_at_another_time) {
+  std::array floor{surface(0, 1, true), surface(0.01, 1, true)};
+  floor[1].normal.normalize();
+  floor[0].spread = floor[1].spread = 0.5;
+  const ControlledRange falls{.unsteered = {{0, -1}, {0, -1}}, .squeezed = 10};
+  EXPECT_GT(controlled_bounds(falls, floor).upper.x(), 5);
+  floor[0].turning = floor[1].turning = 0;
+  floor[1].stands_at = 1;
+  EXPECT_LT(controlled_bounds(falls, floor).upper.x(), 0.1);
+}
+
 TEST(ControlledLaw, keeps_the_horizontal_part_on_walkable_ground_alone) {
   const ControlledStep walk{{1, -0.5}, {1, -0.5}};
   const std::array ground{surface(-half, half, true)};

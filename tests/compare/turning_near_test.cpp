@@ -95,6 +95,42 @@ TEST(NearWhatTurns, no_point_in_reach_comes_farther_along_a_face_than_the_safe_b
   EXPECT_GE(beyond_nominal, near_ones * 3 / 10) << "the nominal bound is not safe";
 }
 
+TEST(NearWhatTurns, no_point_of_a_touched_face_goes_farther_along_it_than_the_bound) {
+  constexpr std::uint64_t seed = 283;
+  Random random(seed);
+  constexpr int rounds = 1000;
+  int asked = 0;
+  int beyond_nominal = 0;
+  double share = 0;
+  while (asked < rounds) {
+    const Beside made = random_plank(random);
+    const std::vector<NearPart> near = TurningJudge(made.header).near(made.step, made.start(), 0.05);
+    if (near.empty() || near[0].faces.front().separation < 0) continue;
+    const std::vector<Vec2d>& first = made.way().vertices.front();
+    for (const NearFace& face : near[0].faces)
+      for (std::size_t k = 0; k < first.size(); ++k) {
+        const std::size_t next = (k + 1) % first.size();
+        const Vec2d along(-face.normal.y(), face.normal.x());
+        if (std::abs((first[next] - first[k]).normalized().dot(along)) < 1 - 1e-12) continue;
+        const bool is_far_side = std::any_of(first.begin(), first.end(), [&](const Vec2d& vertex) {
+          return (vertex - first[k]).dot(face.normal) > 1e-9;
+        });
+        if (is_far_side) continue;
+        const double u = random.between(0, 1);
+        const auto point = [&](const std::vector<Vec2d>& at) { return Vec2d((1 - u) * at[k] + u * at[next]); };
+        if ((point(first) - made.start().position).norm() > half_height) continue;
+        const Vec2d went = point(made.way().vertices.back()) - point(first);
+        const double off = std::abs(along.dot(went - near[0].moved));
+        EXPECT_LE(off, near[0].unsure_along + 1e-12) << "seed " << seed << ", " << asked << " asked";
+        share += near[0].unsure_along / near[0].unsure;
+        beyond_nominal += off > 1e-9;
+        ++asked;
+      }
+  }
+  EXPECT_GE(beyond_nominal, rounds / 2);
+  EXPECT_LE(share, 0.5 * asked) << "much less than across";
+}
+
 TEST(NearWhatTurns, who_keeps_to_the_safe_bound_of_one_face_ends_free) {
   constexpr std::uint64_t seed = 282;
   Random random(seed);

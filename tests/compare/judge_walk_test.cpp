@@ -1,0 +1,128 @@
+/// Walks that leave ground which they follow, and kerbs that stop who climbs them.
+#include "compare/judge_steps.hpp"
+
+#include "oracle/intent.hpp"
+
+#include <gtest/gtest.h>
+
+namespace paperproof::compare {
+namespace {
+
+using namespace test;  // NOLINT(google-build-using-namespace): the shapes of this folder
+
+constexpr double feet = 0.625;    // of the octagon, whose foot is from -0.15625 to 0.15625
+constexpr double side = 0.3125;   // of the octagon, from 0.3125 above its foot on
+constexpr double gap = 5e-7;      // that a step leaves
+constexpr double hardly = 1e-5;   // [m]
+constexpr double walk = 0.09375;  // in one step [m]
+
+Wanted to_the_right() {
+  Wanted wanted;
+  wanted.displacement = {walk, -1e-3};
+  wanted.velocity = wanted.displacement / dt;
+  wanted.from_ground = true;
+  return wanted;
+}
+
+StepJudgement judged(const TraceHeader& header, const TraceStep& step, const Wanted& wanted) {
+  TraceStep asked = step;
+  asked.requested = wanted.displacement;
+  return Judge(header).judge(asked, {}, &wanted);
+}
+
+/// A walk off a ledge: where it ends, `drop` is between its foot and the lower floor.
+struct OffALedge {
+  double drop = 0.25;
+  double snap = 0.25;
+  Wanted wanted = to_the_right();
+  std::vector<ColliderDef> more{};
+  Vec2d ends_with{6, -0.064};
+
+  [[nodiscard]] bool is_left() const {
+    const double level = -1e-3 + gap - drop;
+    std::vector<ColliderDef> colliders{box(-9, -1, 0, 0), box(0, -9, 9, level)};
+    colliders.insert(colliders.end(), more.begin(), more.end());
+    TraceHeader all = promising(std::move(colliders));
+    all.character.snap = snap;
+    TraceStep off = step({{0.2, feet + gap}, {0.2 + walk, feet + gap - 1e-3}});
+    off.velocity = ends_with;
+    return judged(all, off, wanted).ground_left;
+  }
+};
+
+TEST(GroundThatIsLeft, is_walkable_and_less_than_the_snap_below) {
+  EXPECT_TRUE((OffALedge{.drop = 0.001}.is_left()));
+  EXPECT_TRUE((OffALedge{.drop = 0.25 - hardly}.is_left()));
+  EXPECT_FALSE((OffALedge{.drop = 0.25 + hardly}.is_left()));
+  EXPECT_FALSE((OffALedge{.drop = 0.001, .snap = 0}.is_left()));
+  // A slope of 60 degrees stands on it and is met first.
+  EXPECT_FALSE((OffALedge{.drop = 0.2, .more = {polygon({{0, -1}, {0.8, -1}, {0, 0.386}})}}.is_left()));
+}
+
+TEST(GroundThatIsLeft, is_left_on_purpose_by_who_jumps_or_rises) {
+  Wanted jump = to_the_right();
+  jump.jumped = true;
+  EXPECT_FALSE((OffALedge{.wanted = jump}.is_left()));
+  Wanted in_the_air = to_the_right();
+  in_the_air.from_ground = false;
+  EXPECT_FALSE((OffALedge{.drop = 0.1, .wanted = in_the_air}.is_left()));
+  // Faster up than a climb of 50 degrees would be.
+  Wanted rises = to_the_right();
+  rises.velocity = {6, 8};
+  EXPECT_FALSE((OffALedge{.drop = 0.1, .wanted = rises, .ends_with = {6, 8}}.is_left()));
+  EXPECT_TRUE((OffALedge{.drop = 0.1, .wanted = rises}.is_left()));
+}
+
+/// A walk that a kerb stops.
+struct AtAKerb {
+  double height = 0.25;
+  double step_height = 0.5;
+  Wanted wanted = to_the_right();
+  std::vector<ColliderDef> more{};
+
+  [[nodiscard]] bool is_missed() const {
+    std::vector<ColliderDef> colliders{box(-9, -1, 9, 0), box(1, -1, 9, height)};
+    colliders.insert(colliders.end(), more.begin(), more.end());
+    TraceHeader all = promising(std::move(colliders));
+    all.character.step_height = step_height;
+    // The corner touches the slanted side at its height: 2 up for 1 aside.
+    const double touched = std::min(side, side / 2 + height / 2);
+    TraceStep stopped = step({{1 - touched - 0.01, feet + gap}, {1 - touched - gap * 1.2, feet + gap}});
+    stopped.grounded = true;
+    stopped.velocity = {0, 0};
+    return judged(all, stopped, wanted).kerb_missed;
+  }
+};
+
+TEST(KerbThatIsMissed, is_no_higher_than_the_character_climbs) {
+  for (const double height : {0.02, 0.1, 0.25, 0.4}) {
+    EXPECT_TRUE((AtAKerb{.height = height}.is_missed())) << height;
+    EXPECT_TRUE((AtAKerb{.height = height, .step_height = height + hardly}.is_missed())) << height;
+    EXPECT_FALSE((AtAKerb{.height = height, .step_height = height - hardly}.is_missed())) << height;
+    EXPECT_FALSE((AtAKerb{.height = height, .step_height = 0}.is_missed())) << height;
+  }
+}
+
+TEST(KerbThatIsMissed, has_room_above_it) {
+  const auto lintel = [](double height) { return std::vector{box(-9, height, 9, 9)}; };
+  const double head = 2 * feet;
+  EXPECT_FALSE((AtAKerb{.height = 0.25, .more = lintel(head + 0.25)}.is_missed()));
+  // Half of the height that it climbs leads below the lintel.
+  EXPECT_TRUE((AtAKerb{.height = 0.2, .more = lintel(head + 0.26)}.is_missed()));
+  EXPECT_FALSE((AtAKerb{.height = 0.3, .more = lintel(head + 0.45)}.is_missed()));
+}
+
+TEST(KerbThatIsMissed, stops_a_walk) {
+  Wanted jump = to_the_right();
+  jump.jumped = true;
+  EXPECT_FALSE((AtAKerb{.wanted = jump}.is_missed()));
+  Wanted away = to_the_right();
+  away.displacement.x() = away.velocity.x() = -walk;
+  EXPECT_FALSE((AtAKerb{.wanted = away}.is_missed()));
+  Wanted in_the_air = to_the_right();
+  in_the_air.from_ground = false;
+  EXPECT_FALSE((AtAKerb{.wanted = in_the_air}.is_missed()));
+}
+
+}  // namespace
+}  // namespace paperproof::compare
