@@ -25,8 +25,8 @@ struct Others {
   /// Whether they leave free a way of the whole step, from fraction 0 to 1, and the place where it ends. Empty where
   /// there are none.
   std::function<bool(std::span<const PathPoint<double>> way)> left_free{};
-  /// How far those may push it, of the other characters, that touch it, or touch one that does, and so on: a push begins
-  /// with a character that wants to go, or with what moves near one of them [m]. Empty where there are none.
+  /// How far those may push it, of the other characters, that touch it, or touch one that does, and so on: a push
+  /// begins with a character that wants to go, or with what moves near one of them [m]. Empty where there are none.
   std::function<double()> handed_on{};
   double longest_way = 0;  ///< That one of them, or a point of it, is asked to go, or goes, in the step [m].
   bool touched = false;    ///< One of them touched it during the step.
