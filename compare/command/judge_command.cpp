@@ -1,6 +1,7 @@
 #include "command/judge_command.hpp"
 
 #include "contains.hpp"
+#include "records/output_file.hpp"
 #include "records/trace_reader.hpp"
 #include "runs/run_judge.hpp"
 #include "runs/technique_parts.hpp"
@@ -172,23 +173,27 @@ bool judge_trace(const std::string& path, const JudgeOptions& options, const std
   judge_end(header, last, breaches);
   int broken = 0;
   for (const auto& [clause, breach] : breaches) broken += contains(header.guarantees, clause);
-  fmt::print("{}: {} in {}, {}: {} judged, {} broken of {} {}\n", path, header.contender, header.scalar, header.scene,
-             counted(judged, "step"), broken, counted(header.guarantees.size(), "clause"),
-             options.all_clauses ? "asked" : "guaranteed");
+  std::string said =
+      fmt::format("{}: {} in {}, {}: {} judged, {} broken of {} {}\n", path, header.contender, header.scalar,
+                  header.scene, counted(judged, "step"), broken, counted(header.guarantees.size(), "clause"),
+                  options.all_clauses ? "asked" : "guaranteed");
   if (scene && header.steps && *header.steps != scene->steps)
-    fmt::print("  the scene has {}\n", counted(scene->steps, "step"));
+    said += fmt::format("  the scene has {}\n", counted(scene->steps, "step"));
   for (const auto& [clause, breach] : breaches)
-    fmt::print("  {}{} on {}, first in step {}: {}\n", name_of(clause),
-               contains(header.guarantees, clause) ? "" : " (not guaranteed)", counted(breach.steps, "step"),
-               breach.first_step, breach.first);
+    said += fmt::format("  {}{} on {}, first in step {}: {}\n", name_of(clause),
+                        contains(header.guarantees, clause) ? "" : " (not guaranteed)", counted(breach.steps, "step"),
+                        breach.first_step, breach.first);
   Row row;
   judge.write(row);
-  if (row.arc_error_max_m) fmt::print("  what turns leaves its arc by at most {:.3g} m\n", *row.arc_error_max_m);
-  if (refused > 0) fmt::print("  {} refused\n", counted(refused, "step"));
+  if (row.arc_error_max_m)
+    said += fmt::format("  what turns leaves its arc by at most {:.3g} m\n", *row.arc_error_max_m);
+  if (refused > 0) said += fmt::format("  {} refused\n", counted(refused, "step"));
   const auto bodies = std::count_if(header.scripts.begin(), header.scripts.end(),
                                     [](const MoverScript& script) { return script.body; });
-  if (bodies > 0) fmt::print("  {} held against no script\n", counted(bodies, "body"));
-  for (const auto& [which, often] : row.exempted) fmt::print("  exempted: {} on {}\n", which, counted(often, "step"));
+  if (bodies > 0) said += fmt::format("  {} held against no script\n", counted(bodies, "body"));
+  for (const auto& [which, often] : row.exempted)
+    said += fmt::format("  exempted: {} on {}\n", which, counted(often, "step"));
+  print_out(said);
   return broken > 0;
 }
 

@@ -16,7 +16,7 @@ namespace {
 
 /// A velocity and a place that were computed in another order differ by no more than this, relative to their size.
 constexpr double rounding_of_motion = 1e-9;
-/// Who has come nearer to where it wanted to go needs not climb [m].
+/// A walk that has no more than this left of its way needs not climb [m].
 constexpr double least_left = 1e-5;
 
 /// How much farther a shape reaches to a side than its foot does, at most [m].
@@ -117,8 +117,9 @@ void EndJudge::judge_ground(const HangingJudge& hanging, bool starts_free, StepJ
 }
 
 /// Whether no other character and nothing that turns is within reach where the step begins.
-bool EndJudge::is_alone() const {
-  const double within = contact_reach + wanted_.displacement.norm() + later_.bend() + others_.longest_way;
+/// @param beyond so much farther than the step goes [m].
+bool EndJudge::is_alone(double beyond) const {
+  const double within = beyond + contact_reach + wanted_.displacement.norm() + later_.bend() + others_.longest_way;
   return !others_.near || others_.near(step_.path.front(), within).empty();
 }
 
@@ -196,10 +197,11 @@ void EndJudge::judge_speed(bool starts_free, StepJudgement& judgement) const {
   if (!may_snap) judgement.speed_lost = goes_freely() ? flight_error() : rise_lost();
 }
 
-/// What is met first on a way straight down, in no time: all that is met no more than 1e-6 m later, too.
+/// What stops a way straight down, in no time: all that is met no more than 1e-6 m later, too.
 std::vector<ExactImpact> EndJudge::first_below(const ExactScenery& scenery, const Vec2d& from, double down) const {
   std::vector<ExactImpact> impacts =
       scenery.impacts_between(Place(from, step_.movers, 1), Place(from - down * up_, step_.movers, 1));
+  std::erase_if(impacts, [this](const ExactImpact& impact) { return impact.normal.dot(up_) <= rounding_of_motion; });
   double first = 1;
   for (const ExactImpact& impact : impacts) first = std::min(first, static_cast<double>(impact.fraction));
   std::erase_if(impacts, [&](const ExactImpact& impact) {
@@ -211,8 +213,7 @@ std::vector<ExactImpact> EndJudge::first_below(const ExactScenery& scenery, cons
 bool EndJudge::is_ground_at_rest(const ExactImpact& impact) const {
   const MoverIndex mover = header_.scenery.colliders[impact.collider].mover;
   const bool rests = mover == no_mover || step_.movers[mover].from == step_.movers[mover].to;
-  return rests && impact.exposed && is_walked_on(impact.normal, header_, up_) &&
-         !contains(step_.dropped_through, impact.collider);
+  return rests && impact.exposed && is_walked_on(impact.normal, header_, up_);
 }
 
 /// Whether a way straight down ends at walkable ground at rest, before it is as long as this. The octagon may be larger
@@ -236,14 +237,26 @@ bool EndJudge::is_free(const Vec2d& from, const Vec2d& to) const {
   return scenery_.met(begin, end).empty() && std::includes(touched.begin(), touched.end(), met.begin(), met.end());
 }
 
-/// Whether a face is touched that is too steep to walk on, and stops a way ahead.
-bool EndJudge::is_stopped(const Vec2d& ahead) const {
+/// Whether a face at rest is touched that is too steep to walk on, and stops a way ahead. Surely too steep: it is not
+/// walkable by 1e-6 rad.
+bool EndJudge::touches_riser(const Vec2d& ahead) const {
   const std::vector<NearPart> parts = near_at_end(contact_reach);
   return std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
-    return std::any_of(part.faces.begin(), part.faces.end(), [&](const NearFace& face) {
-      return face.normal.dot(ahead) < 0 && face.normal.dot(up_) >= 0 && !is_walkable(face.normal, header_, up_);
-    });
+    return part.moved.isZero(0) && std::any_of(part.faces.begin(), part.faces.end(), [&](const NearFace& face) {
+             return face.normal.dot(ahead) < 0 && face.normal.dot(up_) >= -rounding_of_motion &&
+                    !is_walkable(face.normal, header_, up_);
+           });
   });
+}
+
+/// How far a way straight up is free, at most as far as the character climbs [m].
+double EndJudge::headroom() const {
+  const double highest = header_.character.step_height;
+  const Vec2d& stopped = step_.path.back().position;
+  double free = highest;
+  for (const ExactImpact& impact : scenery_.impacts_between(end(), Place(stopped + highest * up_, step_.movers, 1)))
+    free = std::min(free, static_cast<double>(impact.fraction) * highest - 2 * contact_reach);
+  return free;
 }
 
 /// Whether a way straight up by so much, on, and down ends on ground that is higher.
@@ -255,7 +268,7 @@ bool EndJudge::could_climb(double rise, const Vec2d& ahead) const {
   const std::vector<ExactImpact> impacts = first_below(scenery_, above + ahead, rise);
   const bool is_corner =
       !impacts.empty() && std::all_of(impacts.begin(), impacts.end(), [&](const ExactImpact& impact) {
-        return impact.normal.dot(up_) > 0 && static_cast<double>(impact.fraction) * rise < rise - 2 * contact_reach;
+        return static_cast<double>(impact.fraction) * rise < rise - 2 * contact_reach;
       });
   const Vec2d farther = above + ahead + narrower_at_foot(header_.points, up_) * ahead.normalized();
   return is_corner && is_free(above + ahead, farther) && meets_ground_first(farther, rise);
@@ -263,24 +276,26 @@ bool EndJudge::could_climb(double rise, const Vec2d& ahead) const {
 
 void EndJudge::judge_walk(bool starts_free, StepJudgement& judgement) const {
   const CharacterDef& character = header_.character;
-  const bool excused = !starts_free || step_.stuck || step_.dropped || !step_.dropped_through.empty() ||
-                       !judgement.crushed.empty() || !judgement.end_overlap.empty();
-  const bool walks = !excused && wanted_.from_ground && !wanted_.jumped && !wanted_.ridden && !later_.any() &&
-                     (character.snap > 0 || character.step_height > 0) && is_alone();
-  if (!walks) return;
-  const Vec2d& end = step_.path.back().position;
-  const bool climbs = begins_as_walk(header_, step_, wanted_.from_ground, wanted_.velocity);
-  judgement.ground_left = character.snap > 0 && !step_.grounded && (climbs || step_.velocity.dot(up_) <= 0) &&
-                          meets_ground_first(end, character.snap);
+  const bool excused = !starts_free || step_.stuck || step_.dropped || step_.input.drop || !judgement.crushed.empty() ||
+                       !judgement.end_overlap.empty();
+  if (excused || !wanted_.from_ground || wanted_.jumped || later_.any()) return;
+  const Vec2d& stopped = step_.path.back().position;
   const Vec2d right = right_of(up_);
-  const Vec2d ahead = (wanted_.displacement - (end - step_.path.front().position)).dot(right) * right;
-  const bool is_asked = character.step_height > 0 && header_.characters == 1 && climbs && is_stopped(ahead) &&
-                        ahead.norm() > least_left && ahead.dot(wanted_.velocity) > 0 &&
-                        stairs_climbed(header_, scenery_, step_, others_, wanted_) == 0;
+  const Vec2d ahead = (wanted_.displacement - (stopped - step_.path.front().position)).dot(right) * right;
+  const bool climbs = begins_as_walk(header_, step_, wanted_.from_ground, wanted_.velocity);
+  const bool may_leave =
+      character.snap > 0 && !step_.grounded && (climbs || (step_.velocity - wanted_.rode).dot(up_) <= 0);
+  const bool may_miss = character.step_height > 0 && header_.characters == 1 && climbs && ahead.norm() > least_left &&
+                        ahead.dot(wanted_.velocity) > 0;
+  if (!(may_leave || may_miss) || !is_alone(character.snap + character.step_height)) return;
+  judgement.ground_left = may_leave && meets_ground_first(stopped, character.snap);
+  if (!may_miss || !touches_riser(ahead) || stairs_climbed(header_, scenery_, step_, others_, wanted_) > 0) return;
+  const double most = headroom();
   const std::array shares{1.0, 0.5, 0.25, 0.125};
-  judgement.kerb_missed = is_asked && std::any_of(shares.begin(), shares.end(), [&](double share) {
-                            return could_climb(share * character.step_height, ahead);
-                          });
+  judgement.kerb_missed = std::any_of(shares.begin(), shares.end(), [&](double share) {
+    const double rise = std::min(share * character.step_height, most);
+    return rise > 0 && could_climb(rise, ahead);
+  });
 }
 
 }  // namespace paperproof::compare::detail

@@ -24,10 +24,13 @@ namespace paperproof::compare::detail {
 /// **Ground left.** A walk that `snap` holds to its ground does not end in the air where what it would meet first
 /// straight down, less than `snap` below, is walkable ground at rest.
 ///
-/// **Kerb.** No face stops a walk that could go straight up by `step_height`, or by a half, a quarter or an eighth of
-/// it, on by what is left of its way, and down to walkable ground at rest that is higher. Where a corner is met on the
-/// way down, that ground may lie ahead by as much as the shape is narrower at its foot. Both are asked of one who rides
-/// nothing, and has no other character and nothing that turns near by; this one of a single character.
+/// **Kerb missed.** No face at rest stops a walk that could go straight up by `step_height`, or by a half, a quarter or
+/// an eighth of it, or as far as there is room; on by what is left of its way, if that is more than 1e-5 m; and down to
+/// walkable ground at rest that is higher. Where a corner is met on the way down, that ground may lie ahead by as much
+/// as the shape is narrower at its foot. Asked in runs of one character, of steps that have climbed no stair.
+///
+/// Both are asked of steps in one part, without `drop`, and where no other character and nothing that turns is as near
+/// as the character would go.
 ///
 /// **Speed lost.** A step begins free, and its wanted motion comes within 1e-6 m of nothing: it goes exactly as wanted.
 /// Else a character loses upward speed only below a ceiling, on ground that it follows, or at a wall that ends its
@@ -56,12 +59,13 @@ class EndJudge {
   [[nodiscard]] double flight_error() const;
   [[nodiscard]] bool may_take_rise(const NearPart& part, const NearFace& face) const;
   [[nodiscard]] double rise_lost() const;
-  [[nodiscard]] bool is_alone() const;
+  [[nodiscard]] bool is_alone(double beyond = 0) const;
   [[nodiscard]] std::vector<ExactImpact> first_below(const ExactScenery& scenery, const Vec2d& from, double down) const;
   [[nodiscard]] bool is_ground_at_rest(const ExactImpact& impact) const;
   [[nodiscard]] bool meets_ground_first(const Vec2d& from, double down) const;
   [[nodiscard]] bool is_free(const Vec2d& from, const Vec2d& to) const;
-  [[nodiscard]] bool is_stopped(const Vec2d& ahead) const;
+  [[nodiscard]] bool touches_riser(const Vec2d& ahead) const;
+  [[nodiscard]] double headroom() const;
   [[nodiscard]] bool could_climb(double rise, const Vec2d& ahead) const;
 
   const TraceHeader& header_;

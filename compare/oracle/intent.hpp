@@ -15,7 +15,7 @@ struct Wanted {
   double steered = 0;                 ///< The part of the displacement across up that steering added [m].
   double walk = 0;                    ///< The speed across up, relative to the ground that it rides [m/s].
   Vec2d carried{Vec2d::Zero()};       ///< The way that its ground carries it, in the world [m].
-  /// Moves or conveys, and carries it where the step begins.
+  /// The collider that carries it where the step begins: it moves or conveys.
   std::optional<ColliderIndex> ridden{};
   Vec2d rode{Vec2d::Zero()};  ///< How fast that went in the step before [m/s].
   bool jumped = false;        ///< A jump begins.
@@ -24,7 +24,8 @@ struct Wanted {
   int parts = 1;              ///< Shorter steps that the step consists of.
   bool from_ground = false;   ///< It stood when the step began.
 
-  /// What it goes on riding: a jump leaves that.
+  [[nodiscard]] bool operator==(const Wanted&) const = default;
+  /// What it rides and goes on riding, unless it drops through it: a jump leaves that.
   [[nodiscard]] std::optional<ColliderIndex> stays_on() const { return jumped ? std::nullopt : ridden; }
 };
 

@@ -260,10 +260,6 @@ bool Judge::repeats(const TraceStep& step, const Wanted* wanted) const {
     return a.collider == b.collider && a.side == b.side && a.normal == b.normal && a.point == b.point &&
            a.fraction == b.fraction && a.separation == b.separation;
   };
-  const auto same_wish = [](const Wanted& a, const Wanted& b) {
-    return a.displacement == b.displacement && a.velocity == b.velocity && a.steered == b.steered &&
-           a.jumped == b.jumped && a.parts == b.parts && a.from_ground == b.from_ground;
-  };
   const auto same_ride = [](const TraceRide& a, const TraceRide& b) {
     return a.collider == b.collider && a.velocity == b.velocity;
   };
@@ -274,7 +270,7 @@ bool Judge::repeats(const TraceStep& step, const Wanted* wanted) const {
   return same_state && length_of(step, header_) == length_of(last, header_) &&
          up_in(step, header_) == up_in(last, header_) && gravity_in(step, header_) == gravity_in(last, header_) &&
          step.requested == last.requested && step.steered == last.steered &&
-         (wanted == nullptr || same_wish(*wanted, *last_->wanted)) && step.crushed == last.crushed &&
+         (wanted == nullptr || *wanted == *last_->wanted) && step.crushed == last.crushed &&
          step.dropped_through == last.dropped_through && step.sensors.empty() && last.sensors.empty() &&
          std::equal(step.movers.begin(), step.movers.end(), last.movers.begin(), last.movers.end(), same_motion) &&
          std::equal(step.path.begin(), step.path.end(), last.path.begin(), last.path.end(), same_corner) &&
@@ -522,6 +518,10 @@ void Judge::judge_progress(const TraceStep& step, const Others& others, const Wa
     end.judge_ground(hanging, starts_free, judgement);
     end.judge_speed(starts_free, judgement);
     end.judge_walk(starts_free, judgement);
+    // What turns is no part of the scenery that was asked.
+    const double probed = header_.character.snap + header_.character.step_height + detail::extent_of(header_.points);
+    if ((judgement.ground_left || judgement.kerb_missed) && !turning_->is_alone(step, probed))
+      judgement.ground_left = judgement.kerb_missed = false;
     judge_legs(step, others, *wanted, later, judgement);
   } else if (step.grounded) {
     judge_ground(hanging, step, judgement);
@@ -618,6 +618,7 @@ void Judge::judge_legs(const TraceStep& step, const Others& others, const Wanted
   const bool as_law = !leaving_.inside && !step.stuck && !says_so && judgement.end_overlap.empty();
   if (!as_law) return;
   judgement.leg_error = legs.leg_error();
+  judgement.end_error = legs.end_error();
   judgement.crept = legs.crept();
 }
 

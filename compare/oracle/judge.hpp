@@ -96,8 +96,9 @@ struct StepJudgement {
   double speed_lost = 0;        ///< Of the wanted velocity, with nothing exact that took it [m/s].
   double speed_gained = 0;      ///< More than the wanted velocity and what moves near by can give [m/s].
   double way_gained = 0;        ///< The same of the way [m].
-  Vec2d crept{Vec2d::Zero()};   ///< Across and along up, way that no velocity made [m]; zero of what is pushed.
+  Vec2d crept{Vec2d::Zero()};   ///< Way that no velocity made [m]: see `detail::LegJudge`.
   double leg_error = 0;         ///< So far from where the law of response leads it a leg ends [m].
+  double end_error = 0;         ///< So far from where the velocity at the end leads it the last leg ends [m].
   double ghost_speed_loss = 0;  ///< Share of the wanted horizontal speed that was lost to nothing exact, in [0, 1].
   std::vector<ExactSensorEvent> sensor_events;  ///< What should have been reported.
   int sensor_events_missing = 0;                ///< Of `sensor_events`.

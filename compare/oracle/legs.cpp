@@ -23,8 +23,9 @@ constexpr double follows_seam = 2.8e-6;
 /// A walk climbs no more of them in one step.
 constexpr int most_stairs = 4;
 
-/// Of what goes no one knows how far. @param normal as an upright character sees it.
-MetSurface surface_of(const NearPart& part, const Vec2d& normal, double dt) {
+/// A face, and how well its velocity is known; the velocity itself is zero. @param normal as an upright character sees
+/// it.
+MetSurface face_of(const NearPart& part, const Vec2d& normal, double dt) {
   return {.normal = normal,
           .spread = (part.unsure + part.rim_unsure) / dt,
           .spread_along = (part.unsure_along + part.rim_unsure) / dt};
@@ -68,7 +69,11 @@ int stairs_climbed(const TraceHeader& header, const ExactScenery& scenery, const
     const Vec2d leg = seen(step.path[k - 1].position - step.path[k - 2].position, up);
     const bool goes_on_at_once = step.path[k].fraction == step.path[k - 1].fraction;
     const bool straight = std::abs(leg.x()) <= 4 * ulp_at(header, step.path[k].position);
-    if (goes_on_at_once && straight && leg.y() > 0 && leg.y() <= highest && is_stopped(k - 2)) ++climbed;
+    if (!goes_on_at_once || !straight || !(leg.y() > 0 && leg.y() <= highest)) continue;
+    const PathPoint<double>& atop = step.path[std::min(k + 1, step.path.size() - 1)];
+    const Vec2d made = seen(atop.position - step.path[k - 2].position, up);
+    const bool leads_on = made.y() > guaranteed_touch && made.x() * walk.dot(right_of(up)) > 0;
+    if (leads_on && is_stopped(k - 2)) ++climbed;
   }
   return std::min(climbed, most_stairs);
 }
@@ -92,7 +97,7 @@ LegJudge::LegJudge(const TraceHeader& header, const ExactScenery& scenery, const
 /// The velocities that the parts of the step want. @param carried this is taken from them [m/s].
 ControlledRange LegJudge::wanted_velocities(const Vec2d& carried) const {
   std::vector<Vec2d> unsteered;
-  // Who leaves what turns goes on as fast as that went before.
+  // Who rides what turns may leave it, and goes on as fast as that went before.
   const bool turns = first_.ridden && find_way(step_.vertex_ways, *first_.ridden) != nullptr;
   const Vec2d left = turns ? Vec2d(first_.rode - first_.carried / dt_) : Vec2d(Vec2d::Zero());
   for (const Wanted* wanted : {&wanted_, &first_})
@@ -104,7 +109,7 @@ ControlledRange LegJudge::wanted_velocities(const Vec2d& carried) const {
     Box2<double> unsure{Vec2d::Zero(), Vec2d::Zero()};
     for (const NearPart& part : near(0, contact_reach))
       for (const NearFace& face : part.faces)
-        unsure = unsure.merged(surface_of(part, seen(face.normal, up_), dt_).velocities());
+        unsure = unsure.merged(face_of(part, seen(face.normal, up_), dt_).velocities());
     range.unsteered = {range.unsteered.lower + unsure.lower, range.unsteered.upper + unsure.upper};
   }
   range.least_steering = std::min(first_.steered / dt_, 0.0);
@@ -142,12 +147,14 @@ std::vector<MetSurface> LegJudge::near_surfaces() const {
             // What slopes of a character is ground and wall.
             if (walkable != is_ground && (walkable || !is_character)) continue;
             const bool is_overlapped = face.separation < 0;
-            MetSurface at = surface_of(part, normal, dt_);
+            MetSurface at = face_of(part, normal, dt_);
             at.velocity = is_overlapped ? velocity : imparted(velocity, normal, walkable);
             at.walkable = walkable;
             at.is_overlapped = is_overlapped;
-            if (part.unsure > 0 && !is_character) at.turning = part.collider;
-            at.stands_at = step_.path[corner].fraction;
+            if (!is_character && find_way(step_.vertex_ways, part.collider) != nullptr) {
+              at.turning = header_.scenery.colliders[part.collider].mover;
+              at.stands_at = step_.path[corner].fraction;
+            }
             add(at);
           }
         }
@@ -357,23 +364,52 @@ bool LegJudge::is_moved_at_once() const {
                      [this](const PathPoint<double>& corner) { return !others_.near(corner, contact_reach).empty(); });
 }
 
-Vec2d LegJudge::crept() const {
+/// Whether nothing but the law of response moves it: it goes in one part, and nothing moves it at once, but for gaps
+/// that are restored, and seams and ground that are followed.
+bool LegJudge::goes_by_law() const {
   const bool in_parts = first_.parts > 1 || later_.any();
-  if (held_ || in_parts || is_moved_at_once() || snapped() > 0) return Vec2d::Zero();
-  if (stairs_climbed(header_, scenery_, step_, others_, first_) > 0) return Vec2d::Zero();
+  return !step_.dropped && !in_parts && step_.met.empty() && !is_moved_at_once() &&
+         stairs_climbed(header_, scenery_, step_, others_, first_) == 0;
+}
+
+Vec2d LegJudge::crept() const {
   Vec2d crept = Vec2d::Zero();
   for (std::size_t leg = 0; leg + 1 < step_.path.size(); ++leg) {
     const Vec2d way = seen(step_.path[leg + 1].position - step_.path[leg].position, up_);
     const double time = (step_.path[leg + 1].fraction - step_.path[leg].fraction) * dt_;
-    crept += way - way.cwiseMin(speeds_.upper * time).cwiseMax(speeds_.lower * time);
+    crept += way - way.cwiseMin((speeds_.upper * time).cwiseMax(0)).cwiseMax((speeds_.lower * time).cwiseMin(0));
   }
-  return crept;
+  const bool is_asked = !crept.isZero(0) && !held_ && snapped() == 0 && goes_by_law();
+  return is_asked ? in_world(crept, up_) : Vec2d(Vec2d::Zero());
+}
+
+double LegJudge::end_error() const {
+  const std::vector<PathPoint<double>>& path = step_.path;
+  std::size_t end = path.size() - 1;
+  while (end > 0 && !(path[end - 1].fraction < path[end].fraction)) --end;
+  const bool in_parts = first_.parts > 1 || later_.any();
+  const bool is_asked = end > 0 && !held_ && !in_parts && !step_.dropped && step_.crushed.empty() && snapped() == 0 &&
+                        !header_.character.side_hit_ends_rise &&
+                        stairs_climbed(header_, scenery_, step_, others_, first_) == 0;
+  if (!is_asked) return 0;
+  const PathPoint<double>& from = path[end - 1];
+  const PathPoint<double>& to = path[end];
+  // What is met later than the leg begins changes the velocity after it. A contact tells of a moment after its corner.
+  const auto follows = [&](const auto& met) { return met.fraction - from.fraction > to.fraction - met.fraction; };
+  if (std::any_of(step_.contacts.begin(), step_.contacts.end(), follows)) return 0;
+  if (std::any_of(step_.met.begin(), step_.met.end(), follows)) return 0;
+  const Vec2d way = to.position - from.position;
+  const double time = (to.fraction - from.fraction) * dt_;
+  const double off = (way - step_.velocity * time).norm();
+  double unsure = 0;
+  for (const MetSurface& at : surfaces_) unsure = std::max(unsure, std::hypot(at.spread, at.spread_along));
+  const double room = unsure * time + restores_start + follows_seam +
+                      aims_away * static_cast<double>(1 + surfaces_.size()) + waited() + rounding();
+  return off <= room ? 0 : off;
 }
 
 double LegJudge::leg_error() const {
-  const bool in_parts = first_.parts > 1 || later_.any();
-  const bool stair = stairs_climbed(header_, scenery_, step_, others_, first_) > 0;
-  if (step_.dropped || in_parts || stair || !step_.met.empty() || is_moved_at_once()) return 0;
+  if (!goes_by_law()) return 0;
   // A side hit ends a rise with the step: the way still goes on.
   ControlledStep law{.wanted = first_.displacement / dt_, .up = up_};
   law.unsteered = law.wanted - first_.steered / dt_ * right_;

@@ -18,7 +18,8 @@ namespace paperproof::compare::detail {
 inline constexpr double most_of_depth = 4;
 
 /// How many stairs a walk climbs, at most 4: beside a face that stops it, too steep to walk on, a leg goes straight up
-/// by no more than `step_height`, the next one takes no time, and the step ends on ground.
+/// by no more than `step_height`, the next one takes no time, and after a third it is farther and higher than it was;
+/// and the step ends on ground.
 [[nodiscard]] int stairs_climbed(const TraceHeader& header, const ExactScenery& scenery, const TraceStep& step,
                                  const Others& others, const Wanted& wanted);
 
@@ -53,9 +54,13 @@ class LegJudge {
   [[nodiscard]] double way_gained(std::size_t first) const;
   /// How much faster it is, in one direction, than anything made it [m/s].
   [[nodiscard]] double speed_gained() const;
-  /// How far the way leads, across and along up, beyond what these velocities make of it [m]. Zero where something
-  /// moves the character at once, of a stair, a snap, and a step in parts.
+  /// How far the way leads beyond what the velocities of the step make of it, in the world [m]. Zero where something
+  /// moves the character at once, of a stair, a snap, and a step that drops motion or goes in parts.
   [[nodiscard]] Vec2d crept() const;
+  /// How far the last leg that takes time ends from where the velocity at the end of the step leads it [m]: what
+  /// turns there may take it elsewhere by as much as its velocity is not known. Zero where something is met after the
+  /// leg has begun, of a stair, a snap, a crush, and a step that drops motion or goes in parts.
+  [[nodiscard]] double end_error() const;
   /// How far a leg ends from where the law leads it [m]. Zero of a step in parts, of one that drops motion, climbs a
   /// stair or meets another character, and beside what pushes or turns.
   [[nodiscard]] double leg_error() const;
@@ -77,6 +82,7 @@ class LegJudge {
   [[nodiscard]] Pushes pushes() const;
   [[nodiscard]] double thrown() const;
   [[nodiscard]] bool is_moved_at_once() const;
+  [[nodiscard]] bool goes_by_law() const;
   [[nodiscard]] double rounding() const;
   [[nodiscard]] double snapped() const;
   [[nodiscard]] double waited() const;

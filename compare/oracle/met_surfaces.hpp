@@ -35,6 +35,16 @@ class SolidsInStep {
   /// @param moved how far the step takes the point [m].
   [[nodiscard]] double spread(ColliderIndex collider, const Vec2d& moved, double apart) const;
 
+  /// How fast what turns may carry who stands on a face of it where the step ends [m/s].
+  struct Carrying {
+    Vec2d velocity{Vec2d::Zero()};  ///< Of a point of the face, but for a conveyor's surface.
+    double across = 0;              ///< By so much that of another point of it differs along the normal,
+    double along = 0;               ///< and by so much along the face.
+  };
+  /// As it goes in the whole step, and as it goes in the last stretch between two instants.
+  /// @param apart the points may be [m].
+  [[nodiscard]] std::vector<Carrying> carrying(ColliderIndex collider, const Vec2d& point, double apart) const;
+
   [[nodiscard]] const TraceHeader& header() const noexcept { return header_; }
   [[nodiscard]] const TraceStep& step() const noexcept { return step_; }
 

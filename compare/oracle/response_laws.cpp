@@ -175,7 +175,7 @@ std::array<Vec2d, 4> corners_of(const Box2<double>& box) {
 /// The corners of the box that its velocity is in.
 std::array<Vec2d, 4> velocities_of(const MetSurface& at) { return corners_of(at.velocities()); }
 
-double fastest(const MetSurface& at) { return at.velocity.norm() + std::max(at.spread, at.spread_along); }
+double fastest(const MetSurface& at) { return at.velocity.norm() + std::hypot(at.spread, at.spread_along); }
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Holds nothing.
@@ -377,7 +377,7 @@ std::optional<std::string> velocity_fault(const ControlledStep& step, std::span<
   fault.precision(9);
   fault << "ends with (" << velocity.x() << ", " << velocity.y() << ") m/s; of (" << step.wanted.x() << ", "
         << step.wanted.y() << ") the law makes (" << made.x() << ", " << made.y() << ") at " << surfaces.size()
-        << " surfaces";
+        << (surfaces.size() == 1 ? " surface" : " surfaces");
   return fault.str();
 }
 

@@ -24,16 +24,18 @@ struct MetSurface {
   double touched_since = std::numeric_limits<double>::infinity();  ///< From then until it is met it is touched.
   double left = std::numeric_limits<double>::infinity();           ///< From then on it is touched no more.
   bool returned = false;  ///< It was left, and is touched again where the step ends.
-  /// Where it turns: by so much its velocity is not known [m/s], along its normal,
+  /// Where it turns: by so much its velocity is not known, whatever the direction; for bounds, along its normal [m/s].
   double spread = 0;
-  double spread_along = 0;  ///< and along itself; for bounds alone.
-
-  /// What turns stands as this says at this fraction of the step alone: its faces are not there together at two.
-  std::optional<ColliderIndex> turning{};
+  double spread_along = 0;  ///< The same along the face; for bounds alone.
+  /// What goes along with a mover that turns is as it is here at this fraction of the step alone: no face of it presses
+  /// against one that is there at another fraction.
+  std::optional<MoverIndex> turning{};
   double stands_at = 0;
 
   /// The smallest box that holds its velocities.
   [[nodiscard]] Box2<double> velocities() const {
+    constexpr double any = std::numeric_limits<double>::infinity();
+    if (spread + spread_along == any) return {Vec2d::Constant(-any), Vec2d::Constant(any)};
     const Vec2d along(-normal.y(), normal.x());
     const Vec2d unknown = spread * normal.cwiseAbs() + spread_along * along.cwiseAbs();
     return {velocity - unknown, velocity + unknown};

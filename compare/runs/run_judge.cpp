@@ -64,6 +64,15 @@ bool is_point_of(const TraceStep& record, const Contact<double>& contact, std::s
   return std::abs(contact.separation) <= near && std::any_of(record.path.begin(), record.path.end(), is_there);
 }
 
+/// Whether it says that it has met two surfaces that face different ways.
+bool is_between(const TraceStep& record) {
+  std::vector<Vec2d> normals;
+  for (const Contact<double>& contact : record.contacts) normals.push_back(contact.normal);
+  for (const CrowdContact<double>& met : record.met) normals.push_back(met.normal);
+  return std::any_of(normals.begin(), normals.end(),
+                     [&](const Vec2d& normal) { return normal.dot(normals.front()) < same_face; });
+}
+
 bool moves(const MoverMotion<double>& motion) { return motion.from != motion.to; }
 
 std::string metres(double length) { return fmt::format("{:.3g} m", length); }
@@ -134,8 +143,9 @@ void RunJudge::add(std::span<TraceStep> records) {
       asked[k].steered = follower.wanted.steered;
     }
     if (!record.input.drop) asked[k].dropped_through.clear();  // the input did not ask for it
-    // Who gives up has met as much as a step answers, or met others, or what turns.
-    const bool gives_up = record.path.size() > impacts_of_step || !record.met.empty() || is_beside_what_turns(record);
+    // Who gives up is between two surfaces, and has met as much as a step answers, or met others, or what turns.
+    const bool gives_up = is_between(record) &&
+                          (record.path.size() > impacts_of_step || !record.met.empty() || is_beside_what_turns(record));
     asked[k].dropped = record.dropped && gives_up;
   }
   for (std::size_t k = 0; k < records.size(); ++k) {
@@ -332,19 +342,24 @@ void RunJudge::judge_standing(const TraceStep& record, Follower& follower) {
   }
 }
 
-/// Gaps are restored and seams followed once each: over many steps that leads nowhere.
+/// Gaps are restored and seams followed once each: over many steps that leads nowhere. A hundredth of the way may be
+/// made so, on uneven ground.
 void RunJudge::judge_creeping(const TraceStep& record, const StepJudgement& judged, Follower& follower) {
+  if (record.respawn) follower.crept.setZero();
   follower.crept += judged.crept;
-  follower.went += (record.path.back().position - record.path.front().position).norm();
   const double crept = follower.crept.norm();
-  if (crept <= 2 * most_drift + share_of_way * follower.went) return;
-  note(Clause::velocity, record, fmt::format("has crept {} that no velocity made", metres(crept)));
-  follower.crept.setZero();
+  if (crept > 2 * most_drift) {
+    note(Clause::velocity, record, fmt::format("has crept {} that no velocity made", metres(crept)));
+    follower.crept.setZero();
+  }
+  const double way = (record.path.back().position - record.path.front().position).norm();
+  if (crept > 0) follower.crept *= std::max(0.0, 1 - share_of_way * way / crept);
 }
 
 /// Whether it says that its ground moves, and has touched nothing that does since it said otherwise.
 bool RunJudge::is_ground_velocity_invented(const TraceStep& record, const Follower& follower) const {
-  const bool is_kept = !follower.last.empty() && follower.last.back().ground_velocity == record.ground_velocity;
+  const bool is_kept =
+      !follower.last.empty() && !record.grounded && follower.last.back().ground_velocity == record.ground_velocity;
   if (record.ground_velocity.isZero(0) || is_kept || !follower.touches_nobody || record.respawn ||
       is_beside_what_turns(record))
     return false;
@@ -401,11 +416,13 @@ void RunJudge::judge_carrier(const SolidsInStep& there, const Follower& follower
       const Vec2d foot =
           *std::min_element(header_.points.begin(), header_.points.end(),
                             [&](const Vec2d& a, const Vec2d& b) { return a.dot(face.normal) < b.dot(face.normal); });
-      const Vec2d point = end.position + foot;
-      const Contact<double> touch{.collider = carrier, .point = point, .normal = face.normal, .fraction = 1};
-      const Vec2d velocity = velocity_of(there, touch);
-      const double unknown = there.spread(carrier, there.moved(carrier, point, 1), detail::extent_of(header_.points));
-      off = std::min(off, (record.ride->velocity - velocity).norm() - unknown - same_speed * (1 + velocity.norm()));
+      for (const SolidsInStep::Carrying& by :
+           there.carrying(carrier, end.position + foot, detail::extent_of(header_.points))) {
+        const Vec2d velocity = by.velocity + conveyed(header_.scenery.colliders[carrier], face.normal);
+        const Vec2d other = seen(record.ride->velocity - velocity, face.normal);
+        off = std::min(off, std::max(std::abs(other.x()) - by.along, std::abs(other.y()) - by.across) -
+                                (same_speed + detail::waited_in_part) * (1 + velocity.norm()));
+      }
     }
   if (off == std::numeric_limits<double>::infinity())
     note(Clause::ground_invented, record, "says it rides `" + header_.ids[carrier] + "`, which is not there");
@@ -643,11 +660,13 @@ void RunJudge::judge_clauses(const TraceStep& record, const StepJudgement& judge
   check(Clause::start_inside, judged.start_mishandled,
         [] { return std::string("begins inside, and neither leaves by the shortest way out nor stays and says so"); });
   check(Clause::velocity, !(judged.way_gained <= 0),
-        [&] { return "goes " + metres(judged.way_gained) + " farther than anything made it"; });
+        [&] { return "goes " + metres(judged.way_gained) + " more or less than the law allows"; });
   check(Clause::velocity, !(judged.leg_error <= 0),
         [&] { return "goes another way than the law makes, by " + metres(judged.leg_error); });
+  check(Clause::velocity, !(judged.end_error <= 0),
+        [&] { return "goes another way than its velocity at the end says, by " + metres(judged.end_error); });
   check(Clause::velocity, !(judged.speed_gained <= 0),
-        [&] { return fmt::format("is {:.3g} m/s faster than anything made it", judged.speed_gained); });
+        [&] { return fmt::format("is {:.3g} m/s faster or slower than the law allows", judged.speed_gained); });
   check(Clause::hanging, judged.hangs, [] { return std::string("hangs in the air"); });
   check(Clause::speed_lost, judged.motion_lost > 0,
         [&] { return "loses " + metres(judged.motion_lost) + " of its horizontal way to nothing"; });
@@ -679,6 +698,9 @@ void RunJudge::judge_places(const TraceStep& record, const StepJudgement& judged
   if (excused) return;
   const detail::TurningJudge& turning = followers_.front().judge->turning();
   for (const Contact<double>& contact : record.contacts) {
+    if (detail::side_along(contact.normal, up_in(record, header_)) != contact.side)
+      note(Clause::normal, record,
+           "has a contact with `" + header_.ids[contact.collider] + "` on another side than its normal says");
     if (turning.turns(contact.collider)) {
       if (!is_point_of(record, contact, header_.points))
         note(Clause::contact_invented, record,
@@ -709,10 +731,16 @@ void RunJudge::judge_velocity(const SolidsInStep& there, const StepJudgement& ju
   const bool crushed =
       !judged.crushed.empty() || (!judged.crushed_with_room.empty() && contains(header_.guarantees, Clause::crush));
   const bool excused = !record.start_overlap.empty() || !judged.end_overlap.empty() || crushed || record.stuck ||
-                       record.dropped || header_.substeps > 1 || wanted.parts > 1 ||
-                       detail::stairs_climbed(header_, solids(), record, {}, wanted) > 0;
+                       record.dropped || header_.substeps > 1 || wanted.parts > 1;
   if (excused || !contains(header_.guarantees, Clause::velocity)) return;
   const Vec2d up = up_in(record, header_);
+  if (detail::stairs_climbed(header_, solids(), record, {}, wanted) > 0) {
+    const double changed = (record.velocity - wanted.velocity).dot(right_of(up));
+    const bool is_pushed = !record.met.empty() || !stands(record);
+    if (!is_pushed && std::abs(changed) > same_speed * (1 + wanted.velocity.norm()))
+      note(Clause::velocity, record, fmt::format("climbs a stair, which changes its speed by {:.3g} m/s", changed));
+    return;
+  }
   ControlledStep step{.wanted = wanted.velocity, .up = up};
   step.unsteered = wanted.velocity - wanted.steered / length_of(record, header_) * right_of(up);
   step.side_hit_ends_rise = header_.character.side_hit_ends_rise;

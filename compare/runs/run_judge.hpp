@@ -53,8 +53,7 @@ class RunJudge {
     bool touches_nobody = true;       ///< Of the other characters, in the present step.
     int steps_alone = 0;              ///< So many in a row no other character has come near it.
     std::optional<Vec2d> stood_at{};  ///< Where it has begun to stand still, as it says.
-    Vec2d crept{Vec2d::Zero()};       ///< Sum over its steps: see `StepJudgement::crept` [m].
-    double went = 0;                  ///< The length of its way [m].
+    Vec2d crept{Vec2d::Zero()};       ///< Over its steps, less a share of its way: see `StepJudgement::crept` [m].
   };
 
   [[nodiscard]] static bool is_apart(const TraceStep& record, const Others& others, double within);

@@ -65,7 +65,7 @@ TEST_P(Stairs, are_climbed_and_descended_within_the_guarantee) {
           before.grounded && run.state.grounded && before.position.y() - run.state.position.y() > 30 * dt * dt + 1e-3;
     }
   }
-  BrokenByRuns::all().expect_only_what_is_known();
+  BrokenByRuns::all().expect_only_what_is_known(name_of(GetParam()));
   if (GetParam() == PlayLevel::kerbs) {
     EXPECT_GE(climbed, steps / 2000);
     EXPECT_GE(descended, steps / 1000);

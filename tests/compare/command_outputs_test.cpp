@@ -171,6 +171,13 @@ TEST(CommandOutputs, standard_output_that_cannot_be_written_is_an_error_of_every
     EXPECT_EQ(full.err, "standard output: cannot be written: No space left on device\n") << arguments;
     EXPECT_EQ(run_into(place, arguments, ">&-").status, 2) << arguments;
   }
+  ASSERT_EQ(
+      place.run("compare article_bullet --contender octagon_sweep --scalar double --no-timing --quiet --trace run")
+          .status,
+      0);
+  const Finished judged = run_into(place, "judge run.article_bullet.octagon_sweep.double.jsonl", ">/dev/full");
+  EXPECT_EQ(judged.status, 2);
+  EXPECT_EQ(judged.err, "standard output: cannot be written: No space left on device\n");
   EXPECT_EQ(run_into(place, "compare article_bullet --no-timing --quiet", ">/dev/full").status, 0)
       << "nothing is printed";
 }

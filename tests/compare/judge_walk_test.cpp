@@ -3,6 +3,7 @@
 
 #include "oracle/intent.hpp"
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 namespace paperproof::compare {
@@ -24,10 +25,20 @@ Wanted to_the_right() {
   return wanted;
 }
 
-StepJudgement judged(const TraceHeader& header, const TraceStep& step, const Wanted& wanted) {
-  TraceStep asked = step;
-  asked.requested = wanted.displacement;
-  return Judge(header).judge(asked, {}, &wanted);
+/// @param turned everything, and up with it [rad].
+StepJudgement judged(TraceHeader header, TraceStep step, Wanted wanted, double turned) {
+  const Eigen::Rotation2D<double> by(turned);
+  const auto turn = [&by](Vec2d& v) { v = by * v; };
+  if (turned != 0) {
+    turn(header.up);
+    for (Vec2d& point : header.points) turn(point);
+    for (ColliderDef& collider : header.scenery.colliders)
+      for (Vec2d& point : collider.points) turn(point);
+    for (PathPoint<double>& corner : step.path) turn(corner.position);
+    for (Vec2d* v : {&step.velocity, &wanted.displacement, &wanted.velocity}) turn(*v);
+  }
+  step.requested = wanted.displacement;
+  return Judge(header).judge(step, {}, &wanted);
 }
 
 /// A walk off a ledge: where it ends, `drop` is between its foot and the lower floor.
@@ -37,16 +48,22 @@ struct OffALedge {
   Wanted wanted = to_the_right();
   std::vector<ColliderDef> more{};
   Vec2d ends_with{6, -0.064};
+  double goes = 0;     ///< The lower floor, up in the step [m].
+  bool drops = false;  ///< The input asks for it.
+  double turned = 0;   ///< [rad]
 
   [[nodiscard]] bool is_left() const {
     const double level = -1e-3 + gap - drop;
-    std::vector<ColliderDef> colliders{box(-9, -1, 0, 0), box(0, -9, 9, level)};
+    std::vector<ColliderDef> colliders{box(-9, -1, 0, 0), box(0, -9, 9, level - goes)};
+    colliders[1].mover = 0;
     colliders.insert(colliders.end(), more.begin(), more.end());
     TraceHeader all = promising(std::move(colliders));
     all.character.snap = snap;
     TraceStep off = step({{0.2, feet + gap}, {0.2 + walk, feet + gap - 1e-3}});
+    off.movers = {{.from = {0, 0}, .to = {0, goes}}};
     off.velocity = ends_with;
-    return judged(all, off, wanted).ground_left;
+    off.input.drop = drops;
+    return judged(all, off, wanted, turned).ground_left;
   }
 };
 
@@ -73,15 +90,35 @@ TEST(GroundThatIsLeft, is_left_on_purpose_by_who_jumps_or_rises) {
   EXPECT_TRUE((OffALedge{.drop = 0.1, .wanted = rises}.is_left()));
 }
 
+TEST(GroundThatIsLeft, rests_whatever_carried_the_walk) {
+  EXPECT_FALSE((OffALedge{.drop = 0.1, .goes = 0.001}.is_left()));
+  Wanted rides = to_the_right();
+  rides.ridden = 0;
+  rides.rode = {0, 1};
+  rides.velocity = {0.1, 1};
+  EXPECT_TRUE((OffALedge{.drop = 0.1, .wanted = rides, .ends_with = {0.1, 1}}.is_left()));
+  EXPECT_FALSE((OffALedge{.drop = 0.1, .wanted = rides, .ends_with = {0.1, 1.1}}.is_left()));
+  EXPECT_FALSE((OffALedge{.drop = 0.1, .drops = true}.is_left()));
+}
+
+TEST(GroundThatIsLeft, is_below_whatever_is_up) {
+  for (const double turned : {0.5, 1.5, 3.0, -2.0}) {
+    EXPECT_TRUE((OffALedge{.drop = 0.1, .turned = turned}.is_left())) << turned;
+    EXPECT_FALSE((OffALedge{.drop = 0.26, .turned = turned}.is_left())) << turned;
+  }
+}
+
 /// A walk that a kerb stops.
 struct AtAKerb {
   double height = 0.25;
   double step_height = 0.5;
   Wanted wanted = to_the_right();
   std::vector<ColliderDef> more{};
+  double deep = 8;  ///< So long is its top [m].
+  double turned = 0;
 
   [[nodiscard]] bool is_missed() const {
-    std::vector<ColliderDef> colliders{box(-9, -1, 9, 0), box(1, -1, 9, height)};
+    std::vector<ColliderDef> colliders{box(-9, -1, 9, 0), box(1, -1, 1 + deep, height)};
     colliders.insert(colliders.end(), more.begin(), more.end());
     TraceHeader all = promising(std::move(colliders));
     all.character.step_height = step_height;
@@ -90,7 +127,7 @@ struct AtAKerb {
     TraceStep stopped = step({{1 - touched - 0.01, feet + gap}, {1 - touched - gap * 1.2, feet + gap}});
     stopped.grounded = true;
     stopped.velocity = {0, 0};
-    return judged(all, stopped, wanted).kerb_missed;
+    return judged(all, stopped, wanted, turned).kerb_missed;
   }
 };
 
@@ -107,9 +144,26 @@ TEST(KerbThatIsMissed, has_room_above_it) {
   const auto lintel = [](double height) { return std::vector{box(-9, height, 9, 9)}; };
   const double head = 2 * feet;
   EXPECT_FALSE((AtAKerb{.height = 0.25, .more = lintel(head + 0.25)}.is_missed()));
-  // Half of the height that it climbs leads below the lintel.
   EXPECT_TRUE((AtAKerb{.height = 0.2, .more = lintel(head + 0.26)}.is_missed()));
-  EXPECT_FALSE((AtAKerb{.height = 0.3, .more = lintel(head + 0.45)}.is_missed()));
+  EXPECT_TRUE((AtAKerb{.height = 0.3, .more = lintel(head + 0.45)}.is_missed()));
+  // Above the kerb alone: the half of the height leads below the lintel.
+  const std::vector<ColliderDef> ahead{box(0.95, head + 0.26, 9, 9)};
+  EXPECT_TRUE((AtAKerb{.height = 0.2, .more = ahead}.is_missed()));
+  EXPECT_FALSE((AtAKerb{.height = 0.25 + hardly, .more = ahead}.is_missed()));
+}
+
+TEST(KerbThatIsMissed, has_ground_behind_its_edge) {
+  EXPECT_TRUE((AtAKerb{.height = 0.3, .deep = 0.01}.is_missed())) << "a thin wall, on which a flat foot stands";
+  const std::vector<ColliderDef> steep{polygon({{1, -1}, {1.4, -1}, {1.4, 1}, {1, 0.3}})};
+  EXPECT_FALSE((AtAKerb{.height = 0.3, .more = steep}.is_missed()));
+}
+
+TEST(KerbThatIsMissed, is_a_kerb_whatever_is_up) {
+  for (const double turned : {0.5, 1.5, 3.0, -2.0}) {
+    EXPECT_TRUE((AtAKerb{.height = 0.2, .turned = turned}.is_missed())) << turned;
+    EXPECT_TRUE((AtAKerb{.height = 0.4, .turned = turned}.is_missed())) << turned;
+    EXPECT_FALSE((AtAKerb{.height = 0.51, .turned = turned}.is_missed())) << turned;
+  }
 }
 
 TEST(KerbThatIsMissed, stops_a_walk) {

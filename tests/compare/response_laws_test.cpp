@@ -102,6 +102,16 @@ TEST(ControlledLaw, carries_at_once_who_lands_and_not_who_walks_against_it) {
   EXPECT_TRUE(has(controlled_outcomes(still, lift), {0, 0}));
 }
 
+TEST(MetSurface, is_known_apart_along_itself_and_across) {
+  MetSurface slope{.normal = {0.6, 0.8}, .velocity = {1, 2}, .spread = 0.5, .spread_along = 0.1};
+  const Box2<double> box = slope.velocities();
+  EXPECT_NEAR((box.upper - Vec2d(1 + 0.3 + 0.08, 2 + 0.4 + 0.06)).norm(), 0, 1e-12);
+  EXPECT_NEAR((box.lower - Vec2d(1 - 0.3 - 0.08, 2 - 0.4 - 0.06)).norm(), 0, 1e-12);
+  slope.normal = {0, 1};
+  slope.spread = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(slope.velocities().upper.x(), slope.spread);
+}
+
 TEST(ControlledBounds, hold_nobody_between_a_face_and_itself_at_another_time) {
   std::array floor{surface(0, 1, true), surface(0.01, 1, true)};
   floor[1].normal.normalize();
@@ -109,6 +119,7 @@ TEST(ControlledBounds, hold_nobody_between_a_face_and_itself_at_another_time) {
   const ControlledRange falls{.unsteered = {{0, -1}, {0, -1}}, .squeezed = 10};
   EXPECT_GT(controlled_bounds(falls, floor).upper.x(), 5);
   floor[0].turning = floor[1].turning = 0;
+  EXPECT_GT(controlled_bounds(falls, floor).upper.x(), 5) << "at one time";
   floor[1].stands_at = 1;
   EXPECT_LT(controlled_bounds(falls, floor).upper.x(), 0.1);
 }
