@@ -210,19 +210,22 @@ std::vector<ExactImpact> EndJudge::first_below(const ExactScenery& scenery, cons
   return impacts;
 }
 
-bool EndJudge::is_ground_at_rest(const ExactImpact& impact) const {
+/// Whether it is walkable, and goes down no faster than the character may fall.
+bool EndJudge::is_followed(const ExactImpact& impact) const {
   const MoverIndex mover = header_.scenery.colliders[impact.collider].mover;
-  const bool rests = mover == no_mover || step_.movers[mover].from == step_.movers[mover].to;
-  return rests && impact.exposed && is_walked_on(impact.normal, header_, up_);
+  const MoverMotion<double> motion = mover == no_mover ? MoverMotion<double>{} : step_.movers[mover];
+  const double sinks = (motion.from - motion.to).dot(up_) / dt_;
+  return impact.exposed && is_walked_on(impact.normal, header_, up_) &&
+         sinks <= header_.character.max_fall_speed.value_or(HUGE_VAL);
 }
 
-/// Whether a way straight down ends at walkable ground at rest, before it is as long as this. The octagon may be larger
+/// Whether a way straight down ends at ground that is followed, before it is as long as this. The octagon may be larger
 /// by 1e-6 m.
 bool EndJudge::meets_ground_first(const Vec2d& from, double down) const {
   const auto ends_at_ground = [&](const ExactScenery& scenery) {
     const std::vector<ExactImpact> impacts = first_below(scenery, from, down);
     return !impacts.empty() && std::all_of(impacts.begin(), impacts.end(), [&](const ExactImpact& impact) {
-      return is_ground_at_rest(impact) && static_cast<double>(impact.fraction) * down < down - 2 * contact_reach;
+      return is_followed(impact) && static_cast<double>(impact.fraction) * down < down - 2 * contact_reach;
     });
   };
   return ends_at_ground(scenery_) && ends_at_ground(grown_scenery_);
@@ -282,7 +285,8 @@ void EndJudge::judge_walk(bool starts_free, StepJudgement& judgement) const {
   const Vec2d& stopped = step_.path.back().position;
   const Vec2d right = right_of(up_);
   const Vec2d ahead = (wanted_.displacement - (stopped - step_.path.front().position)).dot(right) * right;
-  const bool climbs = begins_as_walk(header_, step_, wanted_.from_ground, wanted_.velocity);
+  const Vec2d own = wanted_.velocity - wanted_.carried / dt_;
+  const bool climbs = begins_as_walk(header_, step_, wanted_.from_ground, own);
   const bool may_leave =
       character.snap > 0 && !step_.grounded && (climbs || (step_.velocity - wanted_.rode).dot(up_) <= 0);
   const bool may_miss = character.step_height > 0 && header_.characters == 1 && climbs && ahead.norm() > least_left &&

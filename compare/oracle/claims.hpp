@@ -22,12 +22,12 @@ namespace paperproof::compare::detail {
 /// one more step it would part them, or press in, by no more than that.
 ///
 /// **Ground left.** A walk that `snap` holds to its ground does not end in the air where what it would meet first
-/// straight down, less than `snap` below, is walkable ground at rest.
+/// straight down, less than `snap` below, is walkable ground that goes down no faster than the character may fall.
 ///
 /// **Kerb missed.** No face at rest stops a walk that could go straight up by `step_height`, or by a half, a quarter or
 /// an eighth of it, or as far as there is room; on by what is left of its way, if that is more than 1e-5 m; and down to
-/// walkable ground at rest that is higher. Where a corner is met on the way down, that ground may lie ahead by as much
-/// as the shape is narrower at its foot. Asked in runs of one character, of steps that have climbed no stair.
+/// such ground that is higher. Where a corner is met on the way down, that ground may lie ahead by as much as the shape
+/// is narrower at its foot. Asked in runs of one character, of steps that have climbed no stair.
 ///
 /// Both are asked of steps in one part, without `drop`, and where no other character and nothing that turns is as near
 /// as the character would go.
@@ -61,7 +61,7 @@ class EndJudge {
   [[nodiscard]] double rise_lost() const;
   [[nodiscard]] bool is_alone(double beyond = 0) const;
   [[nodiscard]] std::vector<ExactImpact> first_below(const ExactScenery& scenery, const Vec2d& from, double down) const;
-  [[nodiscard]] bool is_ground_at_rest(const ExactImpact& impact) const;
+  [[nodiscard]] bool is_followed(const ExactImpact& impact) const;
   [[nodiscard]] bool meets_ground_first(const Vec2d& from, double down) const;
   [[nodiscard]] bool is_free(const Vec2d& from, const Vec2d& to) const;
   [[nodiscard]] bool touches_riser(const Vec2d& ahead) const;

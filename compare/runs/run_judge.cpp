@@ -73,6 +73,34 @@ bool is_between(const TraceStep& record) {
                      [&](const Vec2d& normal) { return normal.dot(normals.front()) < same_face; });
 }
 
+/// How many corners its way has that are not where the one before is.
+std::size_t places_of(const TraceStep& record) {
+  std::size_t places = 1;
+  for (std::size_t i = 1; i < record.path.size(); ++i) places += record.path[i].position != record.path[i - 1].position;
+  return places;
+}
+
+/// Whether a face of what a contact is with has its normal, or nearly so.
+bool has_face(std::span<const NearPart> parts, const Contact<double>& contact) {
+  return std::any_of(parts.begin(), parts.end(), [&](const NearPart& part) {
+    return part.collider == contact.collider &&
+           std::any_of(part.faces.begin(), part.faces.end(),
+                       [&](const NearFace& face) { return face.normal.dot(contact.normal) > same_face; });
+  });
+}
+
+/// Where it is at a fraction of the step.
+PathPoint<double> place_at(const TraceStep& record, double fraction) {
+  if (record.path.size() == 1) return {record.path.front().position, fraction};
+  std::size_t next = 1;
+  while (next + 1 < record.path.size() && record.path[next].fraction < fraction) ++next;
+  const PathPoint<double>& from = record.path[next - 1];
+  const PathPoint<double>& to = record.path[next];
+  const double length = to.fraction - from.fraction;
+  const double share = length > 0 ? std::clamp((fraction - from.fraction) / length, 0.0, 1.0) : 1;
+  return {from.position + share * (to.position - from.position), fraction};
+}
+
 bool moves(const MoverMotion<double>& motion) { return motion.from != motion.to; }
 
 std::string metres(double length) { return fmt::format("{:.3g} m", length); }
@@ -145,7 +173,7 @@ void RunJudge::add(std::span<TraceStep> records) {
     if (!record.input.drop) asked[k].dropped_through.clear();  // the input did not ask for it
     // Who gives up is between two surfaces, and has met as much as a step answers, or met others, or what turns.
     const bool gives_up = is_between(record) &&
-                          (record.path.size() > impacts_of_step || !record.met.empty() || is_beside_what_turns(record));
+                          (places_of(record) > impacts_of_step || !record.met.empty() || is_beside_what_turns(record));
     asked[k].dropped = record.dropped && gives_up;
   }
   for (std::size_t k = 0; k < records.size(); ++k) {
@@ -500,17 +528,32 @@ void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged,
   const bool meets_turning = std::any_of(record.contacts.begin(), record.contacts.end(),
                                          [&](const auto& contact) { return turning.turns(contact.collider); });
   const bool in_parts = parts_of(record.vertex_ways) > 1;
+  for (const Contact<double>& contact : record.contacts) {
+    if (in_parts || !turning.turns(contact.collider) || !judged.end_overlap.empty()) continue;
+    std::vector<PathPoint<double>> then{place_at(record, contact.fraction)};
+    std::copy_if(record.path.begin(), record.path.end(), std::back_inserter(then),
+                 [&](const PathPoint<double>& corner) { return corner.fraction == contact.fraction; });
+    const bool is_there = std::any_of(then.begin(), then.end(), [&](const PathPoint<double>& at) {
+      return has_face(turning.near(record, at, 3 * guaranteed_gap), contact);
+    });
+    if (!is_there)
+      note(Clause::time_of_impact, record,
+           fmt::format("says it met `{}` at {:.6g} of the step, and was not there", header_.ids[contact.collider],
+                       contact.fraction));
+  }
   if (in_parts || meets_turning || !record.crushed.empty() || !judged.end_overlap.empty()) return;
   for (const Contact<double>& contact : record.contacts) {
     const MoverIndex mover = header_.scenery.colliders[contact.collider].mover;
     const Vec2d carried =
         mover != no_mover ? Vec2d(record.movers[mover].to - record.movers[mover].from) : Vec2d::Zero();
-    const auto is_there = [&](const PathPoint<double>& corner) {
-      return solids().separation({corner, record.movers}, contact.collider) <= guaranteed_gap;
-    };
     // Of one collider that is the first contact: a later one is another face, and is met where the way comes to it.
     const auto is_of_it = [&](const Contact<double>& one) { return one.collider == contact.collider; };
     const Contact<double>& first = *std::find_if(record.contacts.begin(), record.contacts.end(), is_of_it);
+    const auto is_there = [&](const PathPoint<double>& corner) {
+      const Place at(corner, record.movers);
+      if (&first == &contact) return solids().separation(at, contact.collider) <= guaranteed_gap;
+      return has_face(solids().near_parts(at, guaranteed_gap), contact);
+    };
     if (carried != Vec2d::Zero() && is_there(record.path.front()) && &first == &contact) {
       // It gives way from the start, and meets no later than what was requested touches.
       const Place start(record.path.front(), record.movers);
@@ -537,7 +580,7 @@ void RunJudge::judge_times(const TraceStep& record, const StepJudgement& judged,
         if (const double approach = (carried - goes).dot(contact.normal); approach > least * (carried - goes).norm())
           off = std::min(off, std::abs(contact.fraction - corner.fraction) * approach);
       };
-      look(pace, 0);
+      look(pace, same_speed);
       if (company_)
         for (const Vec2d& goes : company_->ways_at(record, records, corner.fraction))
           look(goes, detail::least_approach);

@@ -3,8 +3,8 @@
 
 #include "oracle/intent.hpp"
 
-#include <Eigen/Geometry>
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 namespace paperproof::compare {
 namespace {
@@ -48,9 +48,10 @@ struct OffALedge {
   Wanted wanted = to_the_right();
   std::vector<ColliderDef> more{};
   Vec2d ends_with{6, -0.064};
-  double goes = 0;     ///< The lower floor, up in the step [m].
-  bool drops = false;  ///< The input asks for it.
-  double turned = 0;   ///< [rad]
+  double goes = 0;                ///< The lower floor, up in the step [m].
+  bool drops = false;             ///< The input asks for it.
+  double turned = 0;              ///< [rad]
+  std::optional<double> falls{};  ///< As fast as it may [m/s].
 
   [[nodiscard]] bool is_left() const {
     const double level = -1e-3 + gap - drop;
@@ -59,6 +60,7 @@ struct OffALedge {
     colliders.insert(colliders.end(), more.begin(), more.end());
     TraceHeader all = promising(std::move(colliders));
     all.character.snap = snap;
+    all.character.max_fall_speed = falls;
     TraceStep off = step({{0.2, feet + gap}, {0.2 + walk, feet + gap - 1e-3}});
     off.movers = {{.from = {0, 0}, .to = {0, goes}}};
     off.velocity = ends_with;
@@ -90,8 +92,10 @@ TEST(GroundThatIsLeft, is_left_on_purpose_by_who_jumps_or_rises) {
   EXPECT_TRUE((OffALedge{.drop = 0.1, .wanted = rises}.is_left()));
 }
 
-TEST(GroundThatIsLeft, rests_whatever_carried_the_walk) {
-  EXPECT_FALSE((OffALedge{.drop = 0.1, .goes = 0.001}.is_left()));
+TEST(GroundThatIsLeft, falls_no_faster_than_the_walk_and_may_carry_it) {
+  EXPECT_TRUE((OffALedge{.drop = 0.1, .goes = 0.001}.is_left()));
+  EXPECT_TRUE((OffALedge{.drop = 0.1, .goes = -0.1}.is_left()));
+  EXPECT_FALSE((OffALedge{.drop = 0.1, .goes = -0.1, .falls = 6}.is_left()));
   Wanted rides = to_the_right();
   rides.ridden = 0;
   rides.rode = {0, 1};
