@@ -455,7 +455,7 @@ TEST(VelocityFault, allows_the_rounding_of_the_fastest_surface) {
 TEST(VelocityFault, names_what_is_expected) {
   const std::optional<std::string> fault =
       velocity_fault({{1, -1}, {1, -1}}, std::array{surface(0, 1, true)}, {0.5, 0});
-  EXPECT_EQ(fault, "ends with (0.5, 0) m/s; of (1, -1) the law makes (1, 0) at 1 surfaces");
+  EXPECT_EQ(fault, "ends with (0.5, 0) m/s; of (1, -1) the law makes (1, 0) at 1 surface");
 }
 
 TEST(ControlledLaw, the_articles_rule_ends_a_rise_at_a_side) {
