@@ -231,7 +231,8 @@ bool EndJudge::meets_ground_first(const Vec2d& from, double down) const {
   return ends_at_ground(scenery_) && ends_at_ground(grown_scenery_);
 }
 
-/// Whether nothing is in a way that takes no time, for an octagon that is larger by 1e-6 m: but what is nearer already.
+/// Whether a way that takes no time is free for an octagon that is larger by 1e-6 m. What touches that octagon where
+/// the way begins stops only the octagon itself.
 bool EndJudge::is_free(const Vec2d& from, const Vec2d& to) const {
   const Place begin(from, step_.movers, 1);
   const Place end(to, step_.movers, 1);

@@ -21,13 +21,13 @@ namespace paperproof::compare::detail {
 /// normal, no jump began, the unsteered motion leads into it, and the motion at the end goes along all such faces: in
 /// one more step it would part them, or press in, by no more than that.
 ///
-/// **Ground left.** A walk that `snap` holds to its ground does not end in the air where what it would meet first
-/// straight down, less than `snap` below, is walkable ground that goes down no faster than the character may fall.
+/// **Ground left.** With a `snap`, a walk follows its ground down. It does not end in the air if the first thing
+/// straight below, nearer than `snap`, is walkable ground. That ground goes down no faster than the character may fall.
 ///
-/// **Kerb missed.** No face at rest stops a walk that could go straight up by `step_height`, or by a half, a quarter or
-/// an eighth of it, or as far as there is room; on by what is left of its way, if that is more than 1e-5 m; and down to
-/// such ground that is higher. Where a corner is met on the way down, that ground may lie ahead by as much as the shape
-/// is narrower at its foot. Asked in runs of one character, of steps that have climbed no stair.
+/// **Kerb missed.** No face at rest stops a walk that could climb it. The climb goes straight up by `step_height`, by a
+/// half, a quarter or an eighth of it, or as far as there is room. It goes on by what is left of the way, if that is
+/// more than 1e-5 m, and down to such ground, which is higher. Where a corner is met on the way down, the ground may
+/// lie ahead by as much as the shape is narrower at its foot. Asked in runs of one character, of steps without a stair.
 ///
 /// Both are asked of steps in one part, without `drop`, and where no other character and nothing that turns is as near
 /// as the character would go.

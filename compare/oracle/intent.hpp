@@ -25,7 +25,7 @@ struct Wanted {
   bool from_ground = false;   ///< It stood when the step began.
 
   [[nodiscard]] bool operator==(const Wanted&) const = default;
-  /// What it rides and goes on riding, unless it drops through it: a jump leaves that.
+  /// What it rides, unless it jumps off. Who drops through its carrier still counts.
   [[nodiscard]] std::optional<ColliderIndex> stays_on() const { return jumped ? std::nullopt : ridden; }
 };
 

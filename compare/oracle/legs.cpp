@@ -91,6 +91,7 @@ LegJudge::LegJudge(const TraceHeader& header, const ExactScenery& scenery, const
       right_(right_of(up_)),
       dt_(length_of(step, header)),
       held_(held),
+      stairs_(stairs_climbed(header, scenery, step, others, wanted)),
       surfaces_(near_surfaces()),
       speeds_(velocities(surfaces_, Vec2d::Zero())) {}
 
@@ -333,7 +334,7 @@ double LegJudge::farther(std::size_t first, const Box2<double>& speeds, const Bo
   room_below -= push.lower;
   room_below.y() += follows_seam;
   if (!held_) room_below.y() += snapped();
-  if (const int stairs = held_ ? 0 : stairs_climbed(header_, scenery_, step_, others_, first_); stairs > 0) {
+  if (!held_ && stairs_ > 0) {
     // Atop it goes on at once to where it would have come, and no farther.
     const Vec2d way = seen(step_.path.back().position - step_.path[first].position, up_);
     const bool to_the_right = wanted_.displacement.dot(right_) > 0;
@@ -342,8 +343,8 @@ double LegJudge::farther(std::size_t first, const Box2<double>& speeds, const Bo
     if (gained > everywhere) return gained;
     (to_the_right ? room_above : room_below).x() +=
         (std::max(speeds.upper.x(), 0.0) - std::min(speeds.lower.x(), 0.0)) * dt_;
-    room_above.y() += stairs * header_.character.step_height;
-    room_below.y() += stairs * header_.character.step_height;
+    room_above.y() += stairs_ * header_.character.step_height;
+    room_below.y() += stairs_ * header_.character.step_height;
   }
   return std::max({0.0, (above - room_above).maxCoeff() - everywhere, (below - room_below).maxCoeff() - everywhere});
 }
@@ -368,8 +369,7 @@ bool LegJudge::is_moved_at_once() const {
 /// that are restored, and seams and ground that are followed.
 bool LegJudge::goes_by_law() const {
   const bool in_parts = first_.parts > 1 || later_.any();
-  return !step_.dropped && !in_parts && step_.met.empty() && !is_moved_at_once() &&
-         stairs_climbed(header_, scenery_, step_, others_, first_) == 0;
+  return !step_.dropped && !in_parts && step_.met.empty() && stairs_ == 0 && !is_moved_at_once();
 }
 
 Vec2d LegJudge::crept() const {
@@ -383,18 +383,22 @@ Vec2d LegJudge::crept() const {
   return is_asked ? in_world(crept, up_) : Vec2d(Vec2d::Zero());
 }
 
+/// How far the way may leave the motion of the law at so many surfaces [m].
+double LegJudge::room_at(std::size_t surfaces) const {
+  return restores_start + follows_seam + aims_away * static_cast<double>(1 + surfaces) + waited() + rounding();
+}
+
 double LegJudge::end_error() const {
   const std::vector<PathPoint<double>>& path = step_.path;
   std::size_t end = path.size() - 1;
   while (end > 0 && !(path[end - 1].fraction < path[end].fraction)) --end;
   const bool in_parts = first_.parts > 1 || later_.any();
   const bool is_asked = end > 0 && !held_ && !in_parts && !step_.dropped && step_.crushed.empty() && snapped() == 0 &&
-                        !header_.character.side_hit_ends_rise &&
-                        stairs_climbed(header_, scenery_, step_, others_, first_) == 0;
+                        !header_.character.side_hit_ends_rise && stairs_ == 0;
   if (!is_asked) return 0;
   const PathPoint<double>& from = path[end - 1];
   const PathPoint<double>& to = path[end];
-  // What is met later than the leg begins changes the velocity after it. A contact tells of a moment after its corner.
+  // A contact that is met where the leg ends changes the velocity there. It tells of a moment just after its corner.
   const auto follows = [&](const auto& met) { return met.fraction - from.fraction > to.fraction - met.fraction; };
   if (std::any_of(step_.contacts.begin(), step_.contacts.end(), follows)) return 0;
   if (std::any_of(step_.met.begin(), step_.met.end(), follows)) return 0;
@@ -403,8 +407,7 @@ double LegJudge::end_error() const {
   const double off = (way - step_.velocity * time).norm();
   double unsure = 0;
   for (const MetSurface& at : surfaces_) unsure = std::max(unsure, std::hypot(at.spread, at.spread_along));
-  const double room = unsure * time + restores_start + follows_seam +
-                      aims_away * static_cast<double>(1 + surfaces_.size()) + waited() + rounding();
+  const double room = unsure * time + room_at(surfaces_.size());
   return off <= room ? 0 : off;
 }
 
@@ -443,8 +446,7 @@ double LegJudge::leg_error() const {
   // Each collider is aimed away from once, however often the way turns.
   std::set<ColliderIndex> aimed_at;
   for (const Contact<double>& contact : step_.contacts) aimed_at.insert(contact.collider);
-  const double room =
-      restores_start + follows_seam + aims_away * static_cast<double>(1 + aimed_at.size()) + waited() + rounding();
+  const double room = room_at(aimed_at.size());
   return off <= room ? 0 : off;
 }
 

@@ -83,6 +83,7 @@ class LegJudge {
   [[nodiscard]] double thrown() const;
   [[nodiscard]] bool is_moved_at_once() const;
   [[nodiscard]] bool goes_by_law() const;
+  [[nodiscard]] double room_at(std::size_t surfaces) const;
   [[nodiscard]] double rounding() const;
   [[nodiscard]] double snapped() const;
   [[nodiscard]] double waited() const;
@@ -99,6 +100,7 @@ class LegJudge {
   Vec2d right_;
   double dt_;  ///< [s]
   bool held_;
+  const int stairs_;                        ///< See `stairs_climbed`.
   const std::vector<MetSurface> surfaces_;  ///< All that is near the way, as an upright character sees it.
   const Box2<double> speeds_;               ///< What the step may have at them, across and along up [m/s].
 };

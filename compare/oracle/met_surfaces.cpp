@@ -87,19 +87,21 @@ std::vector<SolidsInStep::Carrying> SolidsInStep::carrying(ColliderIndex collide
   const VertexWay* way = find_way(step_.vertex_ways, collider);
   const Vec2d whole = moved(collider, point, 1) / dt;
   if (way == nullptr) return {{.velocity = whole}};
-  const double unknown = spread(collider, whole * dt, apart);
-  if (header_.scenery.colliders[collider].shape == ColliderDef::Shape::circle)
+  if (header_.scenery.colliders[collider].shape == ColliderDef::Shape::circle) {
+    const double unknown = spread(collider, whole * dt, apart);
     return {{.velocity = whole, .across = unknown, .along = unknown}};
-  const double turned = std::abs(RigidMotion(way->vertices.front(), way->vertices.back()).angle());
+  }
   const std::size_t last = way->instants.size() - 1;
-  const RigidMotion back(way->vertices[last], way->vertices[last - 1]);
-  const double time = (way->instants[last] - way->instants[last - 1]) * dt;
-  const double turned_last = std::abs(back.angle());
-  const Vec2d in_last = point - back(point);
-  return {{.velocity = whole, .across = unknown, .along = spread(collider, whole * dt, turned * apart)},
-          {.velocity = in_last / time,
-           .across = turned_last * (in_last.norm() + apart) / time,
-           .along = turned_last * (in_last.norm() + turned_last * apart) / time}};
+  const auto since = [&](std::size_t begin) -> Carrying {
+    const RigidMotion back(way->vertices[last], way->vertices[begin]);
+    const double time = (way->instants[last] - way->instants[begin]) * dt;
+    const Vec2d went = point - back(point);
+    const double turned = std::abs(back.angle());
+    return {.velocity = went / time,
+            .across = turned * (went.norm() + apart) / time,
+            .along = turned * (went.norm() + turned * apart) / time};
+  };
+  return {since(0), since(last - 1)};
 }
 
 Vec2d conveyed(const ColliderDef& collider, const Vec2d& normal) {

@@ -24,11 +24,11 @@ struct MetSurface {
   double touched_since = std::numeric_limits<double>::infinity();  ///< From then until it is met it is touched.
   double left = std::numeric_limits<double>::infinity();           ///< From then on it is touched no more.
   bool returned = false;  ///< It was left, and is touched again where the step ends.
-  /// Where it turns: by so much its velocity is not known, whatever the direction; for bounds, along its normal [m/s].
+  /// Its velocity is known to within this, where it turns [m/s]: for bounds along its normal, else in any direction.
   double spread = 0;
   double spread_along = 0;  ///< The same along the face; for bounds alone.
-  /// What goes along with a mover that turns is as it is here at this fraction of the step alone: no face of it presses
-  /// against one that is there at another fraction.
+  /// The mover that turns it. A face of that mover stands so at one fraction of the step only: it presses nobody
+  /// against a face of the same mover at another fraction.
   std::optional<MoverIndex> turning{};
   double stands_at = 0;
 
