@@ -5,6 +5,7 @@
 #include "command/complain.hpp"
 #include "command/convert_command.hpp"
 #include "command/demo_command.hpp"
+#include "command/campaign_command.hpp"
 #include "command/judge_command.hpp"
 #include "command/list_command.hpp"
 #include "command/option_checks.hpp"
@@ -313,6 +314,37 @@ void add_judge(CLI::App& app, int& status) {
   });
 }
 
+void add_random_runs(CLI::App& app, int& status) {
+  CLI::App& campaign = *app.add_subcommand("campaign", "Run families of random runs, and count what they meet and break");
+  const auto counted = std::make_shared<CampaignArguments>();
+  campaign.add_option("FAMILY", counted->families, "Families such as movers/tiles, or kinds such as movers; none: all");
+  campaign.add_option("--steps", counted->steps, "Of each family; slow ones take a share")
+      ->type_name("N")
+      ->check(CLI::Range(1, 100'000'000));
+  on_parsed(campaign, status, counted, campaign_command);
+
+  CLI::App& replay = *app.add_subcommand("replay", "Run one random run again, as a test or `campaign` names it");
+  const auto again = std::make_shared<ReplayArguments>();
+  replay.add_option("FAMILY", again->family, "Such as movers/tiles")->required();
+  replay.add_option("SEED", again->seed, "Of the run")->required();
+  replay.add_option("--scene", again->scene_path, "Write the scene, which has no launches")
+      ->type_name("FILE.json")
+      ->check(expect_file_name())
+      ->check(expect_ending({".json"}));
+  const auto names = contender_names();
+  const auto add_alike = [&](CLI::App& command, std::string& contender, std::string& trace_stem) {
+    command.add_option("--contender", contender, "Instead of octagon_sweep")
+        ->type_name("NAME")
+        ->check(expect_one_of({names.begin(), names.end()}));
+    command.add_option("--trace", trace_stem, "Write STEM.<run>.<contender>.<scalar>.jsonl")
+        ->type_name("STEM")
+        ->check(expect_file_name());
+  };
+  add_alike(campaign, counted->contender, counted->trace_stem);
+  add_alike(replay, again->contender, again->trace_stem);
+  on_parsed(replay, status, again, replay_command);
+}
+
 void add_report(CLI::App& app, int& status) {
   struct Words {
     std::string page;
@@ -415,6 +447,7 @@ int run(int argc, char** argv) {
   add_sweep(app, status);
   add_rows_commands(app, status);
   add_judge(app, status);
+  add_random_runs(app, status);
   add_report(app, status);
   add_scene_commands(app, status);
   add_demo_and_list(app, status);

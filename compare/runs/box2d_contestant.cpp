@@ -83,7 +83,6 @@ class Box2dContestant final : public Contestant {
   Box2dContestant(const TwinDef& def, const Scene& scene, const Scenery<double>& scenery,
                   std::span<const KnobSetting> knobs)
       : character_(rules_for_twin(scene)),
-        gravity_(scene.gravity),
         substeps_(def.substeps),
         world_(scenery, scene.character, starts_of(scene), def.world),
         twins_(character_count(scene)),
@@ -197,7 +196,7 @@ class Box2dContestant final : public Contestant {
     part_turns_.clear();
     for (const TurnMotion& turn : whole.turns)
       part_turns_.push_back({place_at(turn, substep), place_at(turn, substep + 1)});
-    return {whole.dt / substeps_, whole.players, part_movers_, part_turns_};
+    return {whole.dt / substeps_, whole.players, part_movers_, part_turns_, whole.gravity, whole.up};
   }
   /// Where a motion is when so many substeps are done. @param motion with `from` and `to`.
   template <class Motion>
@@ -210,9 +209,10 @@ class Box2dContestant final : public Contestant {
 
   /// One step of the world.
   std::span<const box2d::TwinStep> advance(const StepInput& input) {
+    if (input.up != Vec2d::UnitY()) throw StepRefused("Box2D's twin stands upright, and the run ends there");
     dt_ = input.dt;
     for (std::size_t k = 0; k < twins_.size(); ++k)
-      wishes_[k] = {wanted_by(twins_[k], input.players[k], input.movers), input.players[k].drop};
+      wishes_[k] = {wanted_by(twins_[k], input.players[k], input), input.players[k].drop};
     if (keeps_) kept_.insert(kept_.end(), wishes_.begin(), wishes_.end());
     take_turns(input);
     const std::span<const box2d::TwinStep> steps = step_world(input.movers);
@@ -226,10 +226,10 @@ class Box2dContestant final : public Contestant {
   }
 
   /// On ground that carries the intent is relative to it, as it is for the controller.
-  Vec2d wanted_by(Twin& twin, const Input& player, std::span<const MoverMotion<double>> movers) const {
+  Vec2d wanted_by(Twin& twin, const Input& player, const StepInput& input) const {
     twin.state.velocity -= twin.state.ride.velocity;
-    const Vec2d carried = velocity_of_ground(twin.state.ride.ground, twin.ground_normal, movers);
-    const DesiredVelocity<double> own = desired_velocity(character_, gravity_, player, dt_, twin.state);
+    const Vec2d carried = velocity_of_ground(twin.state.ride.ground, twin.ground_normal, input.movers);
+    const DesiredVelocity<double> own = desired_velocity(character_, input.gravity, player, dt_, twin.state);
     twin.steered = own.steered;
     return carried + own.velocity;
   }
@@ -277,7 +277,6 @@ class Box2dContestant final : public Contestant {
   }
 
   CharacterDef character_;
-  Vec2d gravity_;
   int substeps_;
   double dt_ = 0;  ///< Of the present step of the world.
   box2d::ReferenceWorld world_;

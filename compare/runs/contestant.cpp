@@ -32,6 +32,12 @@ bool is_reference(std::string_view contender) { return contender == box2d_name |
 
 std::string_view name_of(ScalarKind scalar) noexcept { return scalar == ScalarKind::binary32 ? "float" : "double"; }
 
+void Contestant::launch(const Vec2d& velocity, std::size_t character) {
+  Pose launched = pose(character);
+  launched.velocity = velocity;
+  place(launched, character);
+}
+
 void place_at_start(Contestant& contestant, const Scene& scene) {
   for (std::size_t k = 0; k < character_count(scene); ++k)
     contestant.place({.position = start_of(scene, k).position, .velocity = start_of(scene, k).velocity}, k);

@@ -40,6 +40,8 @@ struct StepInput {
   std::span<const Input> players;               ///< One for each character.
   std::span<const MoverMotion<double>> movers;  ///< One for each mover of the scene.
   std::span<const TurnMotion> turns;            ///< The same.
+  Vec2d gravity{Vec2d::Zero()};                 ///< [m/s²]
+  Vec2d up{Vec2d::UnitY()};                     ///< Unit vector.
 };
 
 class Contestant {
@@ -58,6 +60,8 @@ class Contestant {
   virtual void step_bare(const StepInput& /*input*/, std::size_t /*k*/) {}
   [[nodiscard]] virtual Pose pose(std::size_t character = 0) const = 0;
   virtual void place(const Pose& pose, std::size_t character = 0) = 0;
+  /// Gives a character another velocity [m/s], and leaves it the rest of its state where it can.
+  virtual void launch(const Vec2d& velocity, std::size_t character);
   /// What its own picture of the level takes [bytes]; 0 where it keeps none.
   [[nodiscard]] virtual std::size_t memory_bytes() const { return 0; }
 };

@@ -18,7 +18,7 @@ class CrowdContestant final : public Contestant {
         crowd_(make_crowd(scenery_.get(), rules_for(technique, scene, planning.knobs),
                           definition_of(technique, scene, plan_, planning.knobs))),
         scratch_(crowd_.make_scratch(character_count(scene))),
-        gravity_(scene.gravity.cast<Scalar>()),
+        sides_(sides_of(technique)),
         movers_(scene.movers.size(), scenery_.get()),
         header_(header_of(technique, scenery_.get(), scene, plan_, planning.knobs)),
         states_(character_count(scene)),
@@ -35,7 +35,7 @@ class CrowdContestant final : public Contestant {
     refuse_unusable(report_.status);
     for (std::size_t k = 0; k < states_.size(); ++k) {
       const CrowdMember<Scalar>& member = report_.members[k];
-      write_report(member.step, states_[k], records[k]);
+      write_report(member.step, states_[k], sides_, records[k]);
       records[k].requested += movers_.carried_by(rides_[k], input.players[k].drop);
       movers_.write(records[k]);
       records[k].met.clear();
@@ -49,18 +49,21 @@ class CrowdContestant final : public Contestant {
 
   void step_unrecorded(const StepInput& input) override {
     movers_.take(input.movers, input.dt);
-    crowd_.step(states_, input.players, {gravity_, movers_.dt(), movers_.motions()}, scratch_, report_);
+    crowd_.step(states_, input.players, context_of(input, movers_), scratch_, report_);
   }
 
   [[nodiscard]] Pose pose(std::size_t character) const override { return pose_of(states_[character]); }
   void place(const Pose& pose, std::size_t character) override { states_[character] = state_at<Scalar>(pose); }
+  void launch(const Vec2d& velocity, std::size_t character) override {
+    states_[character].velocity = velocity.cast<Scalar>();
+  }
 
  private:
   OwnScenery<Scalar> scenery_;
   Plan plan_;
   Crowd<Scalar> crowd_;
   CrowdScratch scratch_;
-  Vec2<Scalar> gravity_;
+  Sides sides_;
   MoverRecord<Scalar> movers_;
   TraceHeader header_;
   std::vector<CharacterState<Scalar>> states_;

@@ -15,13 +15,13 @@ class InputCursor {
   /// @param script instead of the scene's own; one list for each character.
   /// @throws NotApplicable where Box2D cannot have the scene's bodies.
   InputCursor(const Scene& scene, const Script& script)
-      : script_(script), times_(scene), next_(script.size()), now_(script.size()), movers_(scene) {}
+      : script_(script), times_(scene), next_(script.size()), now_(script.size()), movers_(scene), gravity_(scene.gravity) {}
 
   /// The players do what `input_at` says. What is returned holds until the next call.
   [[nodiscard]] StepInput at(int step) {
     movers_.advance(step, times_);
     for (std::size_t k = 0; k < script_.size(); ++k) advance(k, step);
-    return {times_.length(step), now_, movers_.motions(), movers_.turns()};
+    return {times_.length(step), now_, movers_.motions(), movers_.turns(), gravity_};
   }
 
  private:
@@ -36,6 +36,7 @@ class InputCursor {
   std::vector<std::size_t> next_;
   std::vector<Input> now_;
   MoverMotions movers_;
+  Vec2d gravity_;
 };
 
 }  // namespace paperproof::compare

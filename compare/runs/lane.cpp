@@ -87,13 +87,24 @@ void Lane::expect(const std::vector<Answer>& answers) {
 
 void Lane::place(const Pose& pose, std::size_t character) {
   contestant_->place(pose, character);
+  // Of our own, what is put down stands anew.
+  begin_anew(pose, character, is_reference(row_.contender) ? pose.ride : Ride<double>{});
+}
+
+void Lane::launch(const Vec2d& velocity, std::size_t character) {
+  contestant_->launch(velocity, character);
+  const Pose launched = contestant_->pose(character);
+  begin_anew(launched, character, launched.ride);
+}
+
+void Lane::begin_anew(const Pose& pose, std::size_t character, const Ride<double>& ride) {
   placed_[character] = true;
   placed_in_[character] = {.velocity = pose.velocity,
                            .grounded = pose.grounded,
                            .jumping = pose.jumping,
                            .jump_held = pose.jump_held,
                            .jump_pending = pose.jump_pending,
-                           .ride = is_reference(row_.contender) ? recorded_ride(pose.ride) : std::nullopt};
+                           .ride = recorded_ride(ride)};
 }
 
 void Lane::respawn(const Start& start, const Respawn& when) {
@@ -115,6 +126,8 @@ void Lane::begin_records(int step, const StepInput& input) {
     if (steps_vary_) records_[k].dt = input.dt;
     records_[k].character = static_cast<CharacterIndex>(k);
     records_[k].input = input.players[k];
+    records_[k].up = input.up != header().up ? std::optional(input.up) : std::nullopt;
+    records_[k].gravity = input.gravity != header().gravity ? std::optional(input.gravity) : std::nullopt;
     records_[k].respawn = placed_[k] && step > 0;
     records_[k].from.reset();
     if (records_[k].respawn) records_[k].from = placed_in_[k];

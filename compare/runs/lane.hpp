@@ -37,6 +37,8 @@ class Lane {
   [[nodiscard]] const StepJudgement& judgement(std::size_t character = 0) const noexcept {
     return judge_->judgement(character);
   }
+  /// Every clause that a step broke so far, whether it was promised or not.
+  [[nodiscard]] Breaches breaches() const { return judge_ ? judge_->breaches() : Breaches{}; }
   [[nodiscard]] Row& row() noexcept { return row_; }
   /// In words; empty where the run begins free.
   [[nodiscard]] std::string begins_inside() const {
@@ -48,6 +50,8 @@ class Lane {
   void expect(const std::vector<Answer>& answers);
   /// Puts a character somewhere; the next step begins a new story.
   void place(const Pose& pose, std::size_t character = 0);
+  /// Gives a character another velocity [m/s]; the next step begins a new story with all else that it had.
+  void launch(const Vec2d& velocity, std::size_t character);
   /// Puts a character back to a start, before a step, and remembers it.
   void respawn(const Start& start, const Respawn& when);
   [[nodiscard]] const std::vector<Respawn>& respawns() const noexcept { return respawns_; }
@@ -62,6 +66,7 @@ class Lane {
  private:
   [[nodiscard]] TraceHeader header_as_run() const;
   void write_metrics();
+  void begin_anew(const Pose& pose, std::size_t character, const Ride<double>& ride);
   void begin_records(int step, const StepInput& input);
   [[nodiscard]] bool is_finite() const;
   void judge_step();

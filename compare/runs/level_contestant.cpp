@@ -18,7 +18,6 @@ class LevelContestant final : public Contestant {
                   const Planning& planning)
       : level_(scenery.as_run()),
         controller_(level_, rules_for(technique, scene, planning.knobs)),
-        gravity_(scene.gravity),
         header_(header_of(technique, scenery, scene, plan_of(scenery, planning), planning.knobs)) {
     header_.plan.reset();  // it leaves nothing out
     header_.turning.assign(scene.movers.size(), true);
@@ -31,7 +30,7 @@ class LevelContestant final : public Contestant {
     TraceStep& record = records.front();
     const CharacterState<double> before = state_;
     step_unrecorded(input);
-    write_report(report_, state_, record);
+    write_report(report_, state_, Sides::as_said, record);
     record.movers.assign(input.movers.begin(), input.movers.end());
     record.vertex_ways = ways_in_level(header_.scenery, controller_.turned(), motions_);
     record.requested += carried(before, record.vertex_ways);
@@ -42,12 +41,13 @@ class LevelContestant final : public Contestant {
     motions_.clear();
     for (std::size_t i = 0; i < input.movers.size(); ++i)
       motions_.push_back({{input.movers[i].from, input.turns[i].from}, {input.movers[i].to, input.turns[i].to}});
-    controller_.step(state_, input.players.front(), {.gravity = gravity_, .dt = input.dt, .movers = motions_}, report_);
+    controller_.step(state_, input.players.front(), {.gravity = input.gravity, .dt = input.dt, .movers = motions_, .up = input.up}, report_);
   }
 
   [[nodiscard]] Pose pose(std::size_t) const override { return pose_of(state_); }
 
   void place(const Pose& pose, std::size_t) override { state_ = state_at<double>(pose); }
+  void launch(const Vec2d& velocity, std::size_t) override { state_.velocity = velocity; }
 
  private:
   /// What the ground adds to the displacement [m].
@@ -61,7 +61,6 @@ class LevelContestant final : public Contestant {
 
   Level level_;
   LevelController controller_;
-  Vec2d gravity_;
   TraceHeader header_;
   CharacterState<double> state_;
   StepReport<double> report_;

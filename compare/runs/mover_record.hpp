@@ -1,7 +1,10 @@
 /// How movers go, as a contestant of a technique runs them.
 #pragma once
 
+#include "runs/contestant.hpp"
+
 #include <paperproof/character.hpp>
+#include <paperproof/controller.hpp>
 #include <paperproof/scenery.hpp>
 
 #include <span>
@@ -62,5 +65,14 @@ class MoverRecord {
   Scalar dt_ = 0;       ///< Of the present step [s].
   Scalar last_dt_ = 0;  ///< Of the step before [s].
 };
+
+/// The surroundings of a step, as a technique takes them.
+template <class Scalar>
+[[nodiscard]] StepContext<Scalar> context_of(const StepInput& input, const MoverRecord<Scalar>& movers) {
+  return {.gravity = input.gravity.cast<Scalar>(),
+          .dt = movers.dt(),
+          .movers = movers.motions(),
+          .up = input.up.cast<Scalar>()};
+}
 
 }  // namespace paperproof::compare

@@ -20,7 +20,7 @@ class TechniqueContestant final : public Contestant {
         controller_(make_controller(scenery_.get(), rules_for(technique, scene, planning.knobs),
                                     definition_of(technique, scene, plan_, planning.knobs))),
         scratch_(controller_.make_scratch()),
-        gravity_(scene.gravity.cast<Scalar>()),
+        sides_(sides_of(technique)),
         movers_(scene.movers.size(), scenery_.get()),
         header_(header_of(technique, scenery_.get(), scene, plan_, planning.knobs)) {
     place_at_start(*this, scene);
@@ -32,7 +32,7 @@ class TechniqueContestant final : public Contestant {
     TraceStep& record = records.front();
     const Ride<Scalar> ride = state_.ride;
     step_unrecorded(input);
-    write_report(report_, state_, record);
+    write_report(report_, state_, sides_, record);
     record.requested += movers_.carried_by(ride, input.players.front().drop);
     movers_.write(record);
     refuse_unusable(report_.status, report_.move.refusal);
@@ -40,7 +40,7 @@ class TechniqueContestant final : public Contestant {
 
   void step_unrecorded(const StepInput& input) override {
     movers_.take(input.movers, input.dt);
-    controller_.step(state_, input.players.front(), {gravity_, movers_.dt(), movers_.motions()}, scratch_, report_);
+    controller_.step(state_, input.players.front(), context_of(input, movers_), scratch_, report_);
   }
 
   [[nodiscard]] Pose pose(std::size_t) const override { return pose_of(state_); }
@@ -48,13 +48,14 @@ class TechniqueContestant final : public Contestant {
   [[nodiscard]] std::size_t memory_bytes() const override { return controller_.technique().memory_bytes(); }
 
   void place(const Pose& pose, std::size_t) override { state_ = state_at<Scalar>(pose); }
+  void launch(const Vec2d& velocity, std::size_t) override { state_.velocity = velocity.cast<Scalar>(); }
 
  private:
   OwnScenery<Scalar> scenery_;
   Plan plan_;
   Controller<Scalar> controller_;
   Scratch<Scalar> scratch_;
-  Vec2<Scalar> gravity_;
+  Sides sides_;
   MoverRecord<Scalar> movers_;
   TraceHeader header_;
   CharacterState<Scalar> state_;

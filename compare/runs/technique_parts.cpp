@@ -27,13 +27,13 @@ Vec2d widened(const Vec2<Scalar>& v) {
 
 /// The article's techniques name the pair that was tested; all contenders are compared by where the normal points.
 template <class Scalar>
-Contact<double> recorded(const Contact<Scalar>& contact) {
+Contact<double> recorded(const Contact<Scalar>& contact, Sides sides) {
   return {.collider = contact.collider,
           .point = widened<Scalar>(contact.point),
           .normal = widened<Scalar>(contact.normal),
           .fraction = static_cast<double>(contact.fraction),
           .separation = static_cast<double>(contact.separation),
-          .side = side_of_normal(contact.normal.x(), contact.normal.y())};
+          .side = sides == Sides::as_said ? contact.side : side_of_normal(contact.normal.x(), contact.normal.y())};
 }
 
 /// That the picture techniques take.
@@ -218,7 +218,8 @@ std::optional<TraceRide> recorded_ride(const Ride<Scalar>& ride) {
 }
 
 template <class Scalar>
-void write_report(const StepReport<Scalar>& report, const CharacterState<Scalar>& state, TraceStep& record) {
+void write_report(const StepReport<Scalar>& report, const CharacterState<Scalar>& state, Sides sides,
+                  TraceStep& record) {
   const MoveResult<Scalar>& move = report.move;
   record.path.clear();
   for (const PathPoint<Scalar>& corner : move.path)
@@ -243,7 +244,7 @@ void write_report(const StepReport<Scalar>& report, const CharacterState<Scalar>
         {event.sensor, enters ? SensorChange::enter : SensorChange::exit, static_cast<double>(event.fraction)});
   }
   record.contacts.clear();
-  for (const Contact<Scalar>& contact : move.contacts) record.contacts.push_back(recorded(contact));
+  for (const Contact<Scalar>& contact : move.contacts) record.contacts.push_back(recorded(contact, sides));
 }
 
 void refuse_unusable(StepStatus status, std::string_view refusal) {
@@ -284,8 +285,8 @@ template TraceHeader header_of(const TechniqueEntry&, const Scenery<double>&, co
                                std::span<const KnobSetting>);
 template std::optional<TraceRide> recorded_ride(const Ride<float>&);
 template std::optional<TraceRide> recorded_ride(const Ride<double>&);
-template void write_report(const StepReport<float>&, const CharacterState<float>&, TraceStep&);
-template void write_report(const StepReport<double>&, const CharacterState<double>&, TraceStep&);
+template void write_report(const StepReport<float>&, const CharacterState<float>&, Sides, TraceStep&);
+template void write_report(const StepReport<double>&, const CharacterState<double>&, Sides, TraceStep&);
 template Pose pose_of(const CharacterState<float>&);
 template Pose pose_of(const CharacterState<double>&);
 template CharacterState<float> state_at(const Pose&);

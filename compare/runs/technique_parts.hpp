@@ -57,10 +57,18 @@ template <class Scalar>
 template <class Scalar>
 [[nodiscard]] std::optional<TraceRide> recorded_ride(const Ride<Scalar>& ride);
 
+/// On which side of the character a contact is: the sides of the article's techniques are those that they search, and
+/// a trace has those that their normals say.
+enum class Sides : std::uint8_t { as_said, of_normals };
+[[nodiscard]] inline Sides sides_of(const TechniqueEntry& technique) {
+  return technique.name == "octagon_sweep" ? Sides::as_said : Sides::of_normals;
+}
+
 /// Fills what a step report and the state after it say; not `movers`. `requested` is as the controller has it: relative
 /// to what carries the character.
 template <class Scalar>
-void write_report(const StepReport<Scalar>& report, const CharacterState<Scalar>& state, TraceStep& record);
+void write_report(const StepReport<Scalar>& report, const CharacterState<Scalar>& state, Sides sides,
+                  TraceStep& record);
 
 /// @param refusal the technique's own reason, where it refused.
 /// @throws StepRefused for a motion that is too far, std::runtime_error for one that is not finite.

@@ -2,7 +2,7 @@
 /// corners of one step. No fixed number decides what is safe or what is named.
 #include "agreement/judged_step.hpp"
 #include "agreement/known_and_open.hpp"
-#include "support/random.hpp"
+#include "support/random_runs.hpp"
 #include "support/steps_wanted.hpp"
 
 #include <gtest/gtest.h>

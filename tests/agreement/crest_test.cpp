@@ -2,8 +2,7 @@
 /// what the character has between their normals at a crest, is ever met, and where both flanks are walked on the
 /// horizontal speed stays what it is.
 #include "agreement/judged_step.hpp"
-#include "support/play_levels.hpp"
-#include "support/random.hpp"
+#include "support/random_runs.hpp"
 #include "support/steps_wanted.hpp"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 /// No room to spare between what stands and what moves, and between what moves and what moves: what rests is as solid
 /// as what stands still, and only what comes closer crushes.
 #include "agreement/judged_step.hpp"
-#include "support/random.hpp"
+#include "support/random_runs.hpp"
 #include "support/steps_wanted.hpp"
 
 #include <gtest/gtest.h>

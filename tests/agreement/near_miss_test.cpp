@@ -1,7 +1,7 @@
 /// Flights past a corner at distances down to an ulp: octagon_sweep and exact arithmetic agree about hit and miss, but
 /// for what comes nearer than the hit distance.
 #include "oracle/exact.hpp"
-#include "support/random.hpp"
+#include "support/random_runs.hpp"
 #include "support/steps_wanted.hpp"
 
 #include <paperproof/controller.hpp>

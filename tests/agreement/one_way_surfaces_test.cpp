@@ -3,7 +3,7 @@
 /// colliders, chains and solids, at rest and moving; and exact ties on a lattice, where two implementations must agree.
 #include "agreement/recorded.hpp"
 #include "oracle/judge.hpp"
-#include "support/random.hpp"
+#include "support/random_runs.hpp"
 #include "support/steps_wanted.hpp"
 
 #include <paperproof/controller.hpp>

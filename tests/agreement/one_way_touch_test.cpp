@@ -5,7 +5,7 @@
 /// more.
 #include "agreement/recorded.hpp"
 #include "oracle/judge.hpp"
-#include "support/random.hpp"
+#include "support/random_runs.hpp"
 #include "support/steps_wanted.hpp"
 
 #include <paperproof/controller.hpp>

@@ -1,7 +1,6 @@
 /// cast, overlaps, contacts_at and nearest against exact arithmetic, in random scenery with movers.
-#include "agreement/random_movers.hpp"
 #include "oracle/exact.hpp"
-#include "support/random_sceneries.hpp"
+#include "support/random_runs.hpp"
 #include "support/steps_wanted.hpp"
 
 #include <paperproof/controller.hpp>
@@ -27,7 +26,7 @@ struct Tally {
 
 class Questions {
  public:
-  Questions(Family family, std::uint64_t seed) : random_(seed), def_(random_scenery(family, random_, Vec2d::Zero())) {
+  Questions(Terrain family, std::uint64_t seed) : random_(seed), def_(random_terrain(family, random_, Vec2d::Zero())) {
     const int movers = random_.integer(0, 3);
     while (def_.colliders.size() < 4) def_.colliders.push_back({.points = {{50, 50}, {51, 50}, {50, 51}}});
     for (MoverIndex mover = 0; mover < static_cast<MoverIndex>(movers); ++mover)
@@ -125,7 +124,7 @@ class Questions {
   std::array<ColliderIndex, 256> found_{};
 };
 
-class Queries : public ::testing::TestWithParam<Family> {};
+class Queries : public ::testing::TestWithParam<Terrain> {};
 
 TEST_P(Queries, are_answered_as_by_exact_arithmetic) {
   Tally tally;
@@ -141,8 +140,8 @@ TEST_P(Queries, are_answered_as_by_exact_arithmetic) {
   EXPECT_GE(tally.near, tally.casts / 10);
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryFamily, Queries, ::testing::ValuesIn(all_families),
-                         [](const ::testing::TestParamInfo<Family>& family) { return name_of(family.param); });
+INSTANTIATE_TEST_SUITE_P(EveryFamily, Queries, ::testing::ValuesIn(all_terrains),
+                         [](const ::testing::TestParamInfo<Terrain>& family) { return name_of(family.param); });
 
 }  // namespace
 }  // namespace paperproof::test

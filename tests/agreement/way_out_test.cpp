@@ -3,7 +3,7 @@
 /// the way, among movers too.
 #include "agreement/judged_step.hpp"
 #include "oracle/exact.hpp"
-#include "support/random.hpp"
+#include "support/random_runs.hpp"
 #include "support/steps_wanted.hpp"
 
 #include <paperproof/controller.hpp>

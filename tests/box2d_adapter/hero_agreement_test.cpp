@@ -5,8 +5,7 @@
 
 #include "shapes.hpp"
 #include "support/box2d_level.hpp"
-#include "support/play_levels.hpp"
-#include "support/random.hpp"
+#include "support/random_runs.hpp"
 #include "support/steps_wanted.hpp"
 
 #include <gtest/gtest.h>

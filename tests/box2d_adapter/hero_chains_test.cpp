@@ -1,7 +1,7 @@
 /// A hero and Box2D's edges and chains: one-sided ones block from the side from which Box2D lets them block. And the
 /// filter of the game.
 #include "hero_world.hpp"
-#include "support/random.hpp"
+#include "support/random_runs.hpp"
 
 #include <box2d/b2_chain_shape.h>
 #include <box2d/b2_edge_shape.h>

@@ -1,6 +1,6 @@
 /// Heroes on ramps of boxes, whose corners Box2D rounds; and heroes whose shape lies away from their position.
 #include "box2d_adapter/hero_world.hpp"
-#include "support/random.hpp"
+#include "support/random_runs.hpp"
 #include "support/steps_wanted.hpp"
 
 #include <paperproof/tolerances.hpp>

@@ -173,8 +173,8 @@ TEST(Command, complains_in_one_line_whatever_was_typed) {
 TEST(Command, names_what_could_stand_where_a_word_is_missing_or_unknown) {
   const Workplace place;
   const std::string commands =
-      "paperproof: expected one of compare, study, work-precision, stability, sweep, merge, diff, judge, report, "
-      "convert, check, plan, demo, list; see paperproof --help\n";
+      "paperproof: expected one of compare, study, work-precision, stability, sweep, merge, diff, judge, campaign, "
+      "replay, report, convert, check, plan, demo, list; see paperproof --help\n";
   for (const auto& [arguments, line] : {std::pair<std::string, std::string>{"", commands},
                                         {"frobnicate", commands},
                                         {"study bullets",

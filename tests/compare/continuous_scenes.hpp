@@ -3,7 +3,7 @@
 
 #include "continuous/course.hpp"
 #include "scenes/scene.hpp"
-#include "support/random.hpp"
+#include "support/random_runs.hpp"
 
 #include <paperproof/controller.hpp>
 #include <paperproof/techniques.hpp>

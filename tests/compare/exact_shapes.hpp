@@ -1,10 +1,10 @@
 /// Shapes, random numbers and exact points for the tests of the oracle.
 #pragma once
 
+#include "campaign/random.hpp"
 #include "oracle/exact.hpp"
 
 #include <cmath>
-#include <random>
 
 namespace paperproof::compare::test {
 
@@ -95,22 +95,6 @@ inline bool in_minkowski_difference(const std::vector<Vec2d>& convex, const std:
   };
   return strictly_left(all.begin(), all.end()) && strictly_left(all.rbegin(), all.rend());
 }
-
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-  double between(double low, double high) { return low + (high - low) * unit(); }
-  int below(int n) { return static_cast<int>(engine_() % static_cast<std::uint64_t>(n)); }
-  Vec2d point(double reach) { return {between(-reach, reach), between(-reach, reach)}; }
-  /// On a coarse grid, so that touching is frequent.
-  Vec2d grid_point(int reach) {
-    return {(below(2 * reach + 1) - reach) * 0.15625, (below(2 * reach + 1) - reach) * 0.15625};
-  }
-
- private:
-  double unit() { return static_cast<double>(engine_() >> 11) * 0x1p-53; }
-  std::mt19937_64 engine_;
-};
 
 /// A star-shaped ring, concave as a rule.
 inline std::vector<Vec2d> star(Random& random, const Vec2d& centre, double radius, int corners) {

@@ -1,7 +1,7 @@
 /// A hero in a Box2D world made of a map steps as the controller over the whole map.
 #include "scenes/load.hpp"
 #include "support/box2d_level.hpp"
-#include "support/random.hpp"
+#include "support/random_runs.hpp"
 #include "support/steps_wanted.hpp"
 
 #include <paperproof/box2d/hero.hpp>

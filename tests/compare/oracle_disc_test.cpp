@@ -3,7 +3,7 @@
 #include "oracle/first_meeting.hpp"
 
 #include "compare/exact_shapes.hpp"
-#include "support/random.hpp"
+#include "support/random_runs.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,6 @@ namespace {
 
 using namespace test;  // NOLINT(google-build-using-namespace): the shapes of this folder
 
-using paperproof::test::Random;
 
 constexpr double closely = 1e-15;
 

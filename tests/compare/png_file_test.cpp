@@ -3,7 +3,7 @@
 
 #include "compare/png_files.hpp"
 #include "compare/scene_files.hpp"
-#include "support/random.hpp"
+#include "support/random_runs.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 /// What becomes of a velocity that met surfaces: both laws in closed form.
 #include "oracle/response_laws.hpp"
 
-#include "support/random.hpp"
+#include "support/random_runs.hpp"
 
 #include <gtest/gtest.h>
 

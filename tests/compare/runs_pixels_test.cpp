@@ -73,7 +73,7 @@ class Stepped {
   /// @returns where it is then.
   Pose step(const Input& input = {}) {
     const std::array players{input};
-    contestant_->step_unrecorded({.dt = scene_.dt, .players = players, .movers = {}, .turns = {}});
+    contestant_->step_unrecorded({.dt = scene_.dt, .players = players, .movers = {}, .turns = {}, .gravity = scene_.gravity});
     return contestant_->pose();
   }
 

@@ -1,5 +1,5 @@
 /// octagon_sweep among random circles, judged by a slow twin that measures in long double.
-#include "support/random.hpp"
+#include "support/random_runs.hpp"
 #include "support/steps_wanted.hpp"
 
 #include <paperproof/paperproof.hpp>

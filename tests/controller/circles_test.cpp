@@ -3,7 +3,7 @@
 
 #include "controller/together.hpp"
 #include "support/allocations.hpp"
-#include "support/random.hpp"
+#include "support/random_runs.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 #include <paperproof/level.hpp>
 
 #include "geometry/circle.hpp"
-#include "support/random.hpp"
+#include "support/random_runs.hpp"
 #include "support/steps_wanted.hpp"
 
 #include <gtest/gtest.h>

@@ -4,8 +4,7 @@
 #include "level/poses.hpp"
 #include "level/turn.hpp"
 #include "support/allocations.hpp"
-#include "support/play_levels.hpp"
-#include "support/random.hpp"
+#include "support/random_runs.hpp"
 #include "support/steps_wanted.hpp"
 
 #include <gtest/gtest.h>
@@ -121,69 +120,6 @@ TEST(LevelSteps, allocate_nothing_while_what_is_near_stays) {
   ASSERT_EQ(state.ride.ground, 1U);
   EXPECT_EQ(tests::allocations(), before);
 }
-
-class LevelInPlay : public ::testing::TestWithParam<PlayLevel> {};
-
-TEST_P(LevelInPlay, steps_have_the_bits_of_the_controller_over_the_whole_scenery) {
-  int steps = 0;
-  int touching = 0;
-  int riding = 0;
-  const int wanted = steps_wanted("PAPERPROOF_LEVEL_STEPS", 20'000);
-  for (std::uint64_t seed = 1; steps < wanted; ++seed) {
-    Random random(seed);
-    CharacterDef character;
-    character.snap = random.chance(0.5) ? 0.2 : 0;
-    character.step_height = random.chance(0.5) ? 0.3 : 0;
-    SceneryDef def = play_level(GetParam(), random);
-    const int lifts = random.integer(1, 3);
-    for (int i = 0; i < lifts; ++i) def.colliders.push_back(box(-8, 0, 8, 0.5, static_cast<MoverIndex>(i)));
-    put_in_order(def);
-    const Scenery<double> scenery(def);
-    const Controller<double> controller(scenery, character);
-    Scratch<double> scratch = controller.make_scratch();
-    Level level;
-    std::map<ColliderIndex, ColliderIndex> index_of;
-    for (std::size_t i = def.colliders.size(); i-- > 0;)
-      index_of[level.add(def.colliders[i])] = static_cast<ColliderIndex>(i);
-    LevelController local(level, character);
-    CharacterState<double> state;
-    state.position = {random.between(-25, 25), 12};
-    CharacterState<double> local_state = state;
-    StepReport<double> report;
-    StepReport<double> local_report;
-    std::vector<MoverMotion<double>> motions(scenery.mover_count());
-    std::vector<PoseMotion> poses(level.mover_count());
-    const auto place = [&](std::size_t mover, int step) {
-      const double time = step * frame + static_cast<double>(mover);
-      return Vec2d(16 * static_cast<double>(mover) - 16, 3 + 5 * std::sin(time));
-    };
-    Input input;
-    for (int i = 0; i < 300; ++i, ++steps) {
-      if (i % 20 == 0) input = random_input(random);
-      for (std::size_t mover = 0; mover < motions.size(); ++mover) {
-        motions[mover] = {place(mover, i), place(mover, i + 1)};
-        poses[mover] = {{motions[mover].from, 0}, {motions[mover].to, 0}};
-      }
-      controller.step(state, input, {{0, -30}, frame, motions}, scratch, report);
-      local.step(local_state, input, {{0, -30}, frame, poses}, local_report);
-      ASSERT_EQ(local_state.ride.ground == no_collider, state.ride.ground == no_collider);
-      riding += state.ride.ground != no_collider;
-      CharacterState<double> renamed = local_state;
-      if (renamed.ride.ground != no_collider) renamed.ride.ground = index_of.at(renamed.ride.ground);
-      if (renamed.ground.collider != no_collider) renamed.ground.collider = index_of.at(renamed.ground.collider);
-      for (Crusher<double>& crusher : renamed.crushers) crusher.collider = index_of.at(crusher.collider);
-      ASSERT_EQ(renamed, state) << "seed " << seed << ", step " << i;
-      ASSERT_EQ(local_report.move.contacts.size(), report.move.contacts.size());
-      for (std::size_t k = 0; k < report.move.contacts.size(); ++k)
-        ASSERT_EQ(index_of.at(local_report.move.contacts[k].collider), report.move.contacts[k].collider);
-      touching += !report.move.contacts.empty();
-    }
-  }
-  EXPECT_GE(touching, steps / 4);
-  EXPECT_GE(riding, 100);
-}
-INSTANTIATE_TEST_SUITE_P(EveryLevel, LevelInPlay, ::testing::ValuesIn(all_play_levels),
-                         [](const auto& param) { return name_of(param.param); });
 
 /// A hall of tiles, some of them edited in each step.
 TEST(LevelEdits, give_the_bits_of_a_level_that_was_built_at_once) {

@@ -1,6 +1,6 @@
 /// The law of motion: steering never holds or slows a fall, at any dt, and mirror images behave alike.
 #include "controller/stepping.hpp"
-#include "support/play_levels.hpp"
+#include "support/random_runs.hpp"
 #include "support/steps_wanted.hpp"
 
 #include <paperproof/tolerances.hpp>

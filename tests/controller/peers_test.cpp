@@ -1,7 +1,7 @@
 /// What other controllers have, and what their users complain of, where no other test shows it. `coming_from.md` lists
 /// all of it, with the tests.
 #include "controller/stepping.hpp"
-#include "support/random.hpp"
+#include "support/random_runs.hpp"
 
 #include <paperproof/contact_changes.hpp>
 

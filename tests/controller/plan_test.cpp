@@ -1,6 +1,6 @@
 /// The plan: what may be left out, what may not, and that nothing comes of it but speed.
 #include "controller/stepping.hpp"
-#include "support/random_sceneries.hpp"
+#include "support/random_runs.hpp"
 #include "support/steps_wanted.hpp"
 
 #include <paperproof/plan.hpp>
@@ -213,8 +213,8 @@ testing::AssertionResult same_bits(const CharacterState<Scalar>& a, const StepRe
 /// A scenery of some family, at times with a one-way chain, a mover, a sensor or a conveyor added.
 SceneryDef varied_scenery(test::Random& random) {
   const auto family =
-      test::all_families[static_cast<std::size_t>(random.integer(0, static_cast<int>(test::all_families.size()) - 1))];
-  SceneryDef def = test::random_scenery(family, random, Vec2d(0, 0));
+      test::all_terrains[static_cast<std::size_t>(random.integer(0, static_cast<int>(test::all_terrains.size()) - 1))];
+  SceneryDef def = test::random_terrain(family, random, Vec2d(0, 0));
   if (random.chance(0.3)) {
     const double x = random.between(-3, 2);
     const double y = random.between(-2, 3);

@@ -2,7 +2,7 @@
 /// takes no memory.
 #include "controller/stepping.hpp"
 #include "support/allocations.hpp"
-#include "support/random_sceneries.hpp"
+#include "support/random_runs.hpp"
 #include "support/steps_wanted.hpp"
 
 #include <paperproof/saved_state.hpp>
@@ -15,8 +15,8 @@
 namespace paperproof::stepping {
 namespace {
 
-using test::all_families;
-using test::Family;
+using test::all_terrains;
+using test::Terrain;
 
 constexpr std::uint64_t seed = 20;
 
@@ -46,8 +46,8 @@ struct Walk {
   Scenery<Scalar> scenery;
   Controller<Scalar> controller;
 
-  Walk(Family family, std::string_view kind)
-      : scenery(test::random_scenery(family, random, {0, 0})),
+  Walk(Terrain family, std::string_view kind)
+      : scenery(test::random_terrain(family, random, {0, 0})),
         controller(make_controller(scenery, CharacterDef{}, {.name = kind})) {}
 
   static CharacterState<Scalar> start() {
@@ -79,7 +79,7 @@ struct Walk {
 };
 
 /// A picture and a one-way chain, for example, do not go together.
-bool expresses(std::string_view kind, Family family) {
+bool expresses(std::string_view kind, Terrain family) {
   try {
     return Walk<double>(family, kind).controller.technique().name() == kind;
   } catch (const NotExpressible&) {
@@ -99,7 +99,7 @@ template <class Scalar>
 
 /// @return steps with contact.
 template <class Scalar>
-int expect_no_allocation(Family family, std::string_view kind) {
+int expect_no_allocation(Terrain family, std::string_view kind) {
   const Walk<Scalar> walk(family, kind);
   const auto script = script_of(300);
   CharacterState<Scalar> state = Walk<Scalar>::start();
@@ -123,7 +123,7 @@ TEST(Memory, is_not_allocated_while_stepping) {
   for (const std::string_view kind : technique_names()) {
     int contacts = 0;
     bool walked = false;
-    for (const Family family : all_families) {
+    for (const Terrain family : all_terrains) {
       if (!expresses(kind, family)) continue;
       walked = true;
       contacts += expect_no_allocation<double>(family, kind);
@@ -136,7 +136,7 @@ TEST(Memory, is_not_allocated_while_stepping) {
 }
 
 TEST(Replay, from_a_copied_state_gives_the_same_bits) {
-  for (const Family family : all_families)
+  for (const Terrain family : all_terrains)
     for (const std::string_view kind : technique_names()) {
       if (!expresses(kind, family)) continue;
       const Walk<double> walk(family, kind);
@@ -153,7 +153,7 @@ TEST(Replay, from_a_copied_state_gives_the_same_bits) {
 }
 
 TEST(Replay, with_fresh_scratch_memory_gives_the_same_bits) {
-  for (const Family family : all_families)
+  for (const Terrain family : all_terrains)
     for (const std::string_view kind : technique_names()) {
       if (!expresses(kind, family)) continue;
       const auto script = script_of(test::sampled(240));
@@ -166,7 +166,7 @@ TEST(Replay, with_fresh_scratch_memory_gives_the_same_bits) {
 }
 
 TEST(Replay, in_two_threads_that_share_a_controller_gives_the_same_bits) {
-  for (const Family family : all_families)
+  for (const Terrain family : all_terrains)
     for (const std::string_view kind : technique_names()) {
       if (!expresses(kind, family)) continue;
       const Walk<double> walk(family, kind);
@@ -253,7 +253,7 @@ TYPED_TEST(SavedStates, have_the_bytes_of_equal_states_and_no_others) {
 
 TEST(SavedBytes, of_any_kind_give_a_state_that_is_are_refused_or_stepped) {
   test::Random random(seed);
-  const Walk<double> walk(Family::tiles, "octagon_sweep");
+  const Walk<double> walk(Terrain::tiles, "octagon_sweep");
   Scratch<double> scratch = walk.controller.make_scratch();
   StepReport<double> report;
   int refused = 0;

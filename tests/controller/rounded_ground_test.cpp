@@ -1,6 +1,6 @@
 /// Ground that is straight but for the rounding of its vertices: a walk does not leave it (the law is at
 /// `StepSolver::leaves`).
-#include "support/random.hpp"
+#include "support/random_runs.hpp"
 #include "support/steps_wanted.hpp"
 
 #include <paperproof/controller.hpp>

@@ -1,6 +1,6 @@
 /// A shape may lie anywhere about its character's position: each step is that of the shape at the origin, shifted. Both
 /// begin each step in the same state.
-#include "support/random.hpp"
+#include "support/random_runs.hpp"
 #include "support/steps_wanted.hpp"
 
 #include <paperproof/crowd.hpp>

@@ -1,7 +1,7 @@
 /// A state outlives the scenery that its indices are of: the level was read again, and has other colliders.
 #include "controller/passenger.hpp"
 #include "controller/together.hpp"
-#include "support/random.hpp"
+#include "support/random_runs.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 /// Many characters in one call: each is stepped as it would be alone, by any number of threads.
 #include "controller/stepping.hpp"
 #include "support/allocations.hpp"
-#include "support/random.hpp"
+#include "support/random_runs.hpp"
 
 #include <gtest/gtest.h>
 

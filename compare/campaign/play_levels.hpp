@@ -1,15 +1,16 @@
 /// Levels as players meet them: where a character can hang, hop, tremble or fall through.
 #pragma once
 
-#include "support/random.hpp"
+#include "campaign/random.hpp"
 
 #include <paperproof/character.hpp>
 #include <paperproof/scenery.hpp>
 
 #include <array>
 #include <string>
+#include <string_view>
 
-namespace paperproof::test {
+namespace paperproof::compare {
 
 enum class PlayLevel {
   gaps,       ///< Flat platforms with gaps of 0.7 to 3 m.
@@ -22,11 +23,18 @@ enum class PlayLevel {
   dead_ends,  ///< Walkable slopes into walls, some of them under a ceiling.
 };
 
-inline constexpr std::array all_play_levels{PlayLevel::gaps,      PlayLevel::kerbs,    PlayLevel::ramps,
-                                            PlayLevel::funnels,   PlayLevel::platforms, PlayLevel::sawtooth,
-                                            PlayLevel::arches,    PlayLevel::dead_ends};
+/// In the order of `PlayLevel`.
+inline constexpr std::array<std::string_view, 8> play_level_names{"gaps",      "kerbs",    "ramps",  "funnels",
+                                                                  "platforms", "sawtooth", "arches", "dead_ends"};
 
-[[nodiscard]] std::string name_of(PlayLevel level);
+inline constexpr std::array all_play_levels = [] {
+  std::array<PlayLevel, play_level_names.size()> all{};
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<PlayLevel>(i);
+  return all;
+}();
+[[nodiscard]] inline std::string name_of(PlayLevel level) {
+  return std::string(play_level_names[static_cast<std::size_t>(level)]);
+}
 
 /// A closed hall from -30 to 30 m, with a floor at -12 m; a start between the walls at a height of 12 m is free.
 [[nodiscard]] SceneryDef play_level(PlayLevel level, Random& random);
@@ -34,4 +42,4 @@ inline constexpr std::array all_play_levels{PlayLevel::gaps,      PlayLevel::ker
 /// The article's octagon, a box or a triangle, each about as large.
 [[nodiscard]] CharacterShape play_shape(int which);
 
-}  // namespace paperproof::test
+}  // namespace paperproof::compare

@@ -1,29 +1,21 @@
-#include "support/random_sceneries.hpp"
+#include "campaign/terrain.hpp"
+
+#include "campaign/shapes.hpp"
 
 #include <numbers>
 
-namespace paperproof::test {
+namespace paperproof::compare {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
-
 /// Collects colliders relative to an origin.
-class Builder {
+class TerrainBuilder {
  public:
-  explicit Builder(const Vec2d& origin) : origin_(origin) {}
+  explicit TerrainBuilder(const Vec2d& origin) : origin_(origin) {}
 
-  void polygon(std::initializer_list<Vec2d> points) {
-    ColliderDef collider;
-    for (const Vec2d& p : points) collider.points.push_back(origin_ + p);
-    def.colliders.push_back(collider);
-  }
+  void polygon(std::initializer_list<Vec2d> points) { def.colliders.push_back(compare::polygon(placed(points))); }
   void box(double x0, double y0, double x1, double y1) { polygon({{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}); }
   ColliderDef& chain(std::initializer_list<Vec2d> points) {
-    ColliderDef collider;
-    collider.shape = ColliderDef::Shape::chain;
-    for (const Vec2d& p : points) collider.points.push_back(origin_ + p);
-    def.colliders.push_back(collider);
-    return def.colliders.back();
+    return def.colliders.emplace_back(compare::chain(placed(points)));
   }
   /// A strip of the given thickness along `angle`.
   void strip(const Vec2d& middle, double length, double thickness, double angle) {
@@ -32,20 +24,23 @@ class Builder {
     polygon({middle - along - up, middle + along - up, middle + along + up, middle - along + up});
   }
   void circle(const Vec2d& centre, double radius) {
-    ColliderDef collider{.shape = ColliderDef::Shape::circle, .points = {origin_ + centre}};
-    collider.radius = radius;
-    def.colliders.push_back(collider);
+    def.colliders.push_back(compare::circle(origin_ + centre, radius));
   }
   void floor() { box(-8, -3, 8, -2); }
 
   SceneryDef def;
 
  private:
+  std::vector<Vec2d> placed(std::vector<Vec2d> points) const {
+    for (Vec2d& point : points) point += origin_;
+    return points;
+  }
+
   Vec2d origin_;
 };
 
 /// Balls of every size on ground that is flat, or round itself; some touch each other exactly.
-void circles(Builder& b, Random& r) {
+void circles(TerrainBuilder& b, Random& r) {
   if (r.chance(0.5)) {
     b.floor();
   } else {
@@ -67,14 +62,14 @@ void circles(Builder& b, Random& r) {
   }
 }
 
-void tiles(Builder& b, Random& r) {
+void tiles(TerrainBuilder& b, Random& r) {
   const double size = r.chance(0.5) ? 1 : r.between(0.3, 1.4);
   for (int x = -6; x <= 6; ++x)
     for (int y = -5; y <= 5; ++y)
       if (r.chance(y < -1 ? 0.7 : 0.12)) b.box(x * size, y * size, (x + 1) * size, (y + 1) * size);
 }
 
-void slopes(Builder& b, Random& r) {
+void slopes(TerrainBuilder& b, Random& r) {
   double x = -6;
   double y = -2;
   while (x < 6) {
@@ -88,7 +83,7 @@ void slopes(Builder& b, Random& r) {
   }
 }
 
-void spikes(Builder& b, Random& r) {
+void spikes(TerrainBuilder& b, Random& r) {
   b.floor();
   for (int i = 0; i < 12; ++i) {
     const double x = r.between(-5, 5);
@@ -97,7 +92,7 @@ void spikes(Builder& b, Random& r) {
   }
 }
 
-void papers(Builder& b, Random& r) {
+void papers(TerrainBuilder& b, Random& r) {
   for (int i = 0; i < 8; ++i) {
     const Vec2d middle{r.between(-4, 4), r.between(-4, 4)};
     const double length = r.between(0.5, 5);
@@ -106,7 +101,7 @@ void papers(Builder& b, Random& r) {
   }
 }
 
-void chains(Builder& b, Random& r) {
+void chains(TerrainBuilder& b, Random& r) {
   for (int i = 0; i < 6; ++i) {
     const Vec2d a{r.between(-4, 4), r.between(-4, 4)};
     const Vec2d d{r.between(-2, 2), r.between(-2, 2)};
@@ -115,7 +110,7 @@ void chains(Builder& b, Random& r) {
   }
 }
 
-void wedges(Builder& b, Random& r) {
+void wedges(TerrainBuilder& b, Random& r) {
   const double half = r.log_between(0.5, 45) * degree;
   const double lean = r.chance(0.5) ? 0 : r.between(-0.3, 0.3);
   // Two plates, 1 m thick, that meet in an edge.
@@ -129,12 +124,12 @@ void wedges(Builder& b, Random& r) {
   plate(lean + half, 1);
 }
 
-void stairs(Builder& b, Random& r) {
+void stairs(TerrainBuilder& b, Random& r) {
   const double rise = r.log_between(1e-7, 0.7);
   for (int i = -8; i < 8; ++i) b.box(i * 0.6, -8, (i + 1) * 0.6, -2 + i * rise);
 }
 
-void ceilings(Builder& b, Random& r) {
+void ceilings(TerrainBuilder& b, Random& r) {
   slopes(b, r);
   for (int i = 0; i < 5; ++i) {
     const Vec2d middle{r.between(-5, 5), r.between(-1, 3)};
@@ -144,7 +139,7 @@ void ceilings(Builder& b, Random& r) {
   }
 }
 
-void shafts(Builder& b, Random& r) {
+void shafts(TerrainBuilder& b, Random& r) {
   // The article's character is 0.625 m wide.
   const double clearance = r.chance(0.3) ? 0 : r.log_between(1e-9, 1e-2);
   const double left = r.chance(0.5) ? -0.3125 : r.between(-1, 0);
@@ -153,7 +148,7 @@ void shafts(Builder& b, Random& r) {
   if (r.chance(0.5)) b.box(-3, -6.5, 3, -6);
 }
 
-void needles(Builder& b, Random& r) {
+void needles(TerrainBuilder& b, Random& r) {
   b.floor();
   for (int i = 0; i < 8; ++i) {
     const Vec2d tip{r.between(-4, 4), r.between(-2, 3)};
@@ -164,7 +159,7 @@ void needles(Builder& b, Random& r) {
   }
 }
 
-void concave(Builder& b, Random& r) {
+void concave(TerrainBuilder& b, Random& r) {
   b.floor();
   for (int i = 0; i < 3; ++i) {
     // A star around a point: always simple, hardly ever convex.
@@ -176,14 +171,13 @@ void concave(Builder& b, Random& r) {
       const double radius = r.between(0.15, 1.2);
       star.points.push_back(middle + Vec2d{std::cos(angle) * radius, std::sin(angle) * radius});
     }
-    Builder shifted({0, 0});
     const Vec2d origin = b.def.colliders.front().points.front() - Vec2d{-8, -3};
     for (Vec2d& p : star.points) p += origin;
     b.def.colliders.push_back(star);
   }
 }
 
-void one_way(Builder& b, Random& r) {
+void one_way(TerrainBuilder& b, Random& r) {
   b.floor();
   for (int i = 0; i < 7; ++i) {
     const Vec2d a{r.between(-5, 4), r.between(-1.5, 3)};
@@ -192,7 +186,7 @@ void one_way(Builder& b, Random& r) {
   }
 }
 
-void lattice(Builder& b, Random& r) {
+void lattice(TerrainBuilder& b, Random& r) {
   // Starts touch: everything lies on multiples of a pixel.
   for (int i = 0; i < 25; ++i) {
     const Vec2d low{r.integer(-120, 120) / 32.0, r.integer(-120, 80) / 32.0};
@@ -201,7 +195,7 @@ void lattice(Builder& b, Random& r) {
   }
 }
 
-void one_way_solids(Builder& b, Random& r) {
+void one_way_solids(TerrainBuilder& b, Random& r) {
   b.floor();
   for (int i = 0; i < 7; ++i) {
     const Vec2d a{r.between(-5, 4), r.between(-1.5, 3)};
@@ -227,92 +221,12 @@ void one_way_solids(Builder& b, Random& r) {
 
 }  // namespace
 
-std::string name_of(Family family) {
-  switch (family) {
-    case Family::tiles:
-      return "tiles";
-    case Family::slopes:
-      return "slopes";
-    case Family::spikes:
-      return "spikes";
-    case Family::papers:
-      return "papers";
-    case Family::chains:
-      return "chains";
-    case Family::wedges:
-      return "wedges";
-    case Family::stairs:
-      return "stairs";
-    case Family::ceilings:
-      return "ceilings";
-    case Family::shafts:
-      return "shafts";
-    case Family::needles:
-      return "needles";
-    case Family::concave:
-      return "concave";
-    case Family::one_way:
-      return "one_way";
-    case Family::lattice:
-      return "lattice";
-    case Family::one_way_solids:
-      return "one_way_solids";
-    case Family::circles:
-      return "circles";
-  }
-  return "";
+SceneryDef random_terrain(Terrain terrain, Random& random, const Vec2d& origin) {
+  constexpr std::array build{&tiles,  &slopes,  &spikes,  &papers,  &chains,  &wedges,         &stairs, &ceilings,
+                             &shafts, &needles, &concave, &one_way, &lattice, &one_way_solids, &circles};
+  TerrainBuilder builder(origin);
+  build[static_cast<std::size_t>(terrain)](builder, random);
+  return std::move(builder.def);
 }
 
-SceneryDef random_scenery(Family family, Random& random, const Vec2d& origin) {
-  Builder builder(origin);
-  switch (family) {
-    case Family::tiles:
-      tiles(builder, random);
-      break;
-    case Family::slopes:
-      slopes(builder, random);
-      break;
-    case Family::spikes:
-      spikes(builder, random);
-      break;
-    case Family::papers:
-      papers(builder, random);
-      break;
-    case Family::chains:
-      chains(builder, random);
-      break;
-    case Family::wedges:
-      wedges(builder, random);
-      break;
-    case Family::stairs:
-      stairs(builder, random);
-      break;
-    case Family::ceilings:
-      ceilings(builder, random);
-      break;
-    case Family::shafts:
-      shafts(builder, random);
-      break;
-    case Family::needles:
-      needles(builder, random);
-      break;
-    case Family::concave:
-      concave(builder, random);
-      break;
-    case Family::one_way:
-      one_way(builder, random);
-      break;
-    case Family::lattice:
-      lattice(builder, random);
-      break;
-    case Family::one_way_solids:
-      one_way_solids(builder, random);
-      break;
-    case Family::circles:
-      circles(builder, random);
-      break;
-  }
-  return builder.def;
-}
-
-}  // namespace paperproof::test
+}  // namespace paperproof::compare

@@ -1,31 +1,26 @@
-#include "support/play_levels.hpp"
+#include "campaign/play_levels.hpp"
 
-namespace paperproof::test {
+#include "campaign/shapes.hpp"
+
+namespace paperproof::compare {
 namespace {
 
-constexpr double half_width = 30;
-constexpr double degree = std::numbers::pi / 180;
-
-ColliderDef polygon(std::vector<Vec2d> points) { return {.points = std::move(points)}; }
-
-ColliderDef box(double left, double bottom, double right, double top) {
-  return polygon({{left, bottom}, {right, bottom}, {right, top}, {left, top}});
-}
+constexpr double half_hall = 30;  ///< [m]
 
 /// Builds from left to right.
-class Builder {
+class LevelBuilder {
  public:
-  explicit Builder(Random& random) : random_(random) {
-    add(box(-half_width, -13, half_width, -12));
-    add(box(-half_width - 1, -13, -half_width, 40));
-    add(box(half_width, -13, half_width + 1, 40));
+  explicit LevelBuilder(Random& random) : random_(random) {
+    add(box(-half_hall, -13, half_hall, -12));
+    add(box(-half_hall - 1, -13, -half_hall, 40));
+    add(box(half_hall, -13, half_hall + 1, 40));
   }
 
   SceneryDef level(PlayLevel level) {
     if (level == PlayLevel::platforms)
       for (int i = 0; i < 150; ++i) turned_box();
     else
-      while (x_ < half_width - 8) part(level);
+      while (x_ < half_hall - 8) part(level);
     return std::move(def_);
   }
 
@@ -88,7 +83,7 @@ class Builder {
   }
 
   void turned_box() {
-    const Vec2d middle{random_.between(-half_width, half_width), random_.between(-10, 8)};
+    const Vec2d middle{random_.between(-half_hall, half_hall), random_.between(-10, 8)};
     const Vec2d half{random_.between(0.025, 2), random_.between(0.01, 0.75)};
     const double angle = random_.chance(0.7) ? 0 : random_.between(-1.5, 1.5);
     const auto corner = [&](double x, double y) -> Vec2d {
@@ -135,19 +130,13 @@ class Builder {
 
   Random& random_;
   SceneryDef def_;
-  double x_ = -half_width;
+  double x_ = -half_hall;
   double y_ = 0;
 };
 
 }  // namespace
 
-std::string name_of(PlayLevel level) {
-  static constexpr std::array names{"gaps",      "kerbs",    "ramps",  "funnels",
-                                    "platforms", "sawtooth", "arches", "dead_ends"};
-  return names[static_cast<std::size_t>(level)];
-}
-
-SceneryDef play_level(PlayLevel level, Random& random) { return Builder(random).level(level); }
+SceneryDef play_level(PlayLevel level, Random& random) { return LevelBuilder(random).level(level); }
 
 CharacterShape play_shape(int which) {
   if (which == 0) return CharacterShape::article();
@@ -156,4 +145,4 @@ CharacterShape play_shape(int which) {
   return which == 1 ? CharacterShape(box) : CharacterShape(triangle);
 }
 
-}  // namespace paperproof::test
+}  // namespace paperproof::compare

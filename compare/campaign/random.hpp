@@ -5,12 +5,14 @@
 /// them draws; several draws stand within braces, `Vec2d{r.unit(), r.unit()}`, or one after the other.
 #pragma once
 
+#include <paperproof/types.hpp>
+
 #include <cmath>
 #include <cstdint>
 #include <numbers>
 #include <random>
 
-namespace paperproof::test {
+namespace paperproof::compare {
 
 class Random {
  public:
@@ -28,11 +30,18 @@ class Random {
   int integer(int low, int high) {
     return low + static_cast<int>(engine_() % static_cast<std::uint64_t>(high - low + 1));
   }
+  /// In [0, n).
+  int below(int n) { return integer(0, n - 1); }
   bool chance(double p) { return unit() < p; }
   double angle() { return between(0, 2 * std::numbers::pi); }
+  Vec2d point(double reach) { return {between(-reach, reach), between(-reach, reach)}; }
+  /// On a coarse grid, so that touching is frequent.
+  Vec2d grid_point(int reach) {
+    return {(below(2 * reach + 1) - reach) * 0.15625, (below(2 * reach + 1) - reach) * 0.15625};
+  }
 
  private:
   std::mt19937_64 engine_;
 };
 
-}  // namespace paperproof::test
+}  // namespace paperproof::compare

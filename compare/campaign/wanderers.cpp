@@ -1,9 +1,9 @@
-#include "agreement/random_movers.hpp"
+#include "campaign/wanderers.hpp"
 
 #include <cmath>
 #include <numbers>
 
-namespace paperproof::test {
+namespace paperproof::compare {
 namespace {
 
 void turn(Wanderer& wanderer, Random& r) {
@@ -73,4 +73,4 @@ Vec2d next_offset(Wanderer& wanderer, const Vec2d& offset, Random& r) {
   return next;
 }
 
-}  // namespace paperproof::test
+}  // namespace paperproof::compare

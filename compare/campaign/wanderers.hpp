@@ -1,13 +1,13 @@
 /// Things of every shape that wander about in an arena of 12 m.
 #pragma once
 
-#include "support/random.hpp"
+#include "campaign/random.hpp"
 
 #include <paperproof/scenery.hpp>
 
 #include <vector>
 
-namespace paperproof::test {
+namespace paperproof::compare {
 
 struct Wanderer {
   Vec2d velocity{0, 0};   ///< [m per step]
@@ -24,4 +24,4 @@ void round_movers(std::vector<ColliderDef>& colliders, Random& random);
 /// @return the offset of its mover [m], within 1e6.
 [[nodiscard]] Vec2d next_offset(Wanderer& wanderer, const Vec2d& offset, Random& random);
 
-}  // namespace paperproof::test
+}  // namespace paperproof::compare

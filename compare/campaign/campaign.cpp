@@ -1,0 +1,158 @@
+#include "campaign/campaign.hpp"
+
+#include "runs/input_cursor.hpp"
+#include "runs/lane.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+namespace paperproof::compare {
+namespace {
+
+/// What crushes and goes farther than this in the step ends a run [m]: what follows is mostly the same again, and in it
+/// room is looked for within reach of what crushes, for seconds.
+constexpr double far_crush = 3;
+
+class JudgedRun {
+ public:
+  JudgedRun(const RandomRun& run, const std::string& name, const RunSettings& settings)
+      : run_(run),
+        scene_(with_names(run.scene, name)),
+        scenery_(scene_.scenery),
+        script_(script_of(scene_)),
+        lane_(settings.contender, settings.scalar, scene_, scenery_, {.full = true}, "free", settings.trace_stem,
+              {.steps = scene_.steps}),
+        cursor_(scene_, script_) {}
+
+  Findings go() {
+    if (!lane_.running()) return ended();
+    if (!run_.may_begin_inside && begins_inside()) return {};
+    last_.resize(lane_.characters());
+    for (int step = 0; step < scene_.steps && lane_.running() && !ends_ && is_within_reach(); ++step) take(step);
+    lane_.finish();
+    return ended();
+  }
+
+ private:
+  [[nodiscard]] Findings ended() {
+    if (lane_.row().verdict == Verdict::failed || lane_.row().verdict == Verdict::not_applicable)
+      findings_.failed = lane_.row().reason;
+    findings_.breaches = lane_.breaches();
+    findings_.breaches.erase(Clause::continuity);
+    return std::move(findings_);
+  }
+
+  [[nodiscard]] bool begins_inside() {
+    const ExactScenery there(scenery_at(scene_, 0), lane_.header().points);
+    return !there.overlapped(scene_.start.position).empty();
+  }
+
+  [[nodiscard]] bool is_within_reach() {
+    for (std::size_t k = 0; k < lane_.characters(); ++k)
+      if ((lane_.contestant().pose(k).position - run_.centre).cwiseAbs().maxCoeff() > run_.reach) return false;
+    return true;
+  }
+
+  void take(int step) {
+    StepInput input = cursor_.at(step);
+    if (!run_.ups.empty()) {
+      input.up = run_.ups[static_cast<std::size_t>(step)];
+      input.gravity = scene_.gravity.norm() * -input.up;
+    }
+    std::vector<bool> launched(lane_.characters());
+    for (; next_launch_ < run_.launches.size() && run_.launches[next_launch_].step == step; ++next_launch_) {
+      const Launch& launch = run_.launches[next_launch_];
+      lane_.launch(launch.velocity, launch.character);
+      launched[launch.character] = true;
+    }
+    lane_.step(step, input);
+    if (!lane_.running()) return;
+    ++findings_.steps;
+    for (std::size_t k = 0; k < lane_.characters(); ++k) count(k, launched[k]);
+  }
+
+  void count(std::size_t character, bool launched) {
+    const TraceStep& record = lane_.record(character);
+    const TraceStep* before = findings_.steps > 1 ? &last_[character] : nullptr;
+    const Moment moment{lane_.header(), record, before, lane_.judgement(character), launched};
+    ++findings_.records;
+    for (std::size_t i = 0; i < happenings().size(); ++i) findings_.happened[i] += happenings()[i].is_so(moment);
+    last_[character] = record;
+    ends_ = ends_ || is_crushed_from_afar(record);
+  }
+
+  [[nodiscard]] bool is_crushed_from_afar(const TraceStep& record) const {
+    return std::any_of(record.crushed.begin(), record.crushed.end(), [&](ColliderIndex collider) {
+      const MoverMotion<double>& motion = record.movers[scene_.scenery.colliders[collider].mover];
+      return (motion.to - motion.from).norm() > far_crush;
+    });
+  }
+
+  const RandomRun& run_;
+  Scene scene_;
+  Scenery<double> scenery_;
+  Script script_;
+  Lane lane_;
+  InputCursor cursor_;
+  std::size_t next_launch_ = 0;
+  std::vector<TraceStep> last_;  ///< By character.
+  Findings findings_;
+  bool ends_ = false;
+};
+
+}  // namespace
+
+void Findings::add(const Findings& other) {
+  steps += other.steps;
+  records += other.records;
+  for (const auto& [clause, breach] : other.breaches) {
+    Breach& mine = breaches[clause];
+    if (mine.steps == 0)
+      mine = breach;
+    else
+      mine.steps += breach.steps;
+  }
+  std::transform(happened.begin(), happened.end(), other.happened.begin(), happened.begin(), std::plus<>());
+  if (failed.empty()) failed = other.failed;
+}
+
+Scene with_names(Scene scene, const std::string& name) {
+  scene.name = name;
+  for (std::size_t i = 0; i < scene.scenery.colliders.size(); ++i) scene.ids.push_back(std::to_string(i));
+  return scene;
+}
+
+Findings run_and_judge(const RandomRun& run, const std::string& name, const RunSettings& settings) {
+  if (run.scene.steps == 0) return {};
+  return JudgedRun(run, name, settings).go();
+}
+
+Findings run_family(const Family& family, int steps, const RunSettings& settings,
+                    const std::function<void(std::uint64_t, const Findings&)>& each) {
+  Findings all;
+  for (std::uint64_t seed = family.first_seed; all.steps < steps && all.failed.empty(); ++seed) {
+    const Findings one =
+        run_and_judge(family.draw(seed), fmt::format("{}_{}_{}", family.kind, family.name, seed), settings);
+    if (each) each(seed, one);
+    all.add(one);
+  }
+  return all;
+}
+
+std::vector<std::string> uncovered(const Family& family, const Findings& findings) {
+  std::vector<std::string> said;
+  for (const Coverage& part : family.covers) {
+    const auto which = std::find_if(happenings().begin(), happenings().end(),
+                                    [&](const Happening& one) { return one.name == part.happening; });
+    const int found = findings.happened[static_cast<std::size_t>(std::distance(happenings().begin(), which))];
+    const double share = static_cast<double>(found) / std::max(findings.records, 1);
+    if (share < part.least || share > part.most)
+      said.push_back(fmt::format("{}: {} of {} steps {}, expected from {} to {} of them", family.title(), found,
+                                 findings.records, which->meaning, part.least, part.most));
+  }
+  return said;
+}
+
+}  // namespace paperproof::compare

@@ -1,0 +1,51 @@
+/// Draws the runs of each kind. The same seed draws the same run on every machine; no draw reads what a run does.
+#pragma once
+
+#include "campaign/play_levels.hpp"
+#include "campaign/random.hpp"
+#include "campaign/random_run.hpp"
+#include "campaign/terrain.hpp"
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+namespace paperproof::compare {
+
+/// What turns in a run.
+enum class Turning : std::uint8_t {
+  planks,    ///< Turn about their middle, evenly, at up to 30 rad/s.
+  see_saws,  ///< Turn to and fro about a point on them.
+  wheels,    ///< Polygons of 5 to 12 corners, some with notches, that turn and go along.
+  presses,   ///< Boxes that come down, turning, onto the floor, the walls and each other.
+  papers,    ///< From a line to 5 cm thick, about any point, turning and going along.
+  balls,     ///< One or two circles, about any point, turning and going along.
+};
+inline constexpr std::array<std::string_view, 6> turning_names{"planks",  "see_saws", "wheels",
+                                                               "presses", "papers",   "balls"};
+
+/// Launches at 1e-3 to 1e6 m per step among solids that stand, up to 1e6 m from the origin; some begin inside.
+/// @param up_turns between steps, now and then.
+[[nodiscard]] RandomRun draw_still(Terrain terrain, std::uint64_t seed, bool up_turns);
+
+/// The same among up to 64 movers that wander about at up to 1e6 m per step.
+[[nodiscard]] RandomRun draw_among_movers(Terrain terrain, std::uint64_t seed, bool up_turns);
+
+[[nodiscard]] RandomRun draw_among_turning(Turning family, std::uint64_t seed);
+
+/// A chamber about as large as the character; two to four presses go in and out of it and leave no room.
+[[nodiscard]] RandomRun draw_among_presses(std::uint64_t seed);
+
+/// Keys held and jumps at random, for ten seconds. @param rate steps per second.
+[[nodiscard]] RandomRun draw_play(PlayLevel level, int rate, std::uint64_t seed);
+
+/// The same with stairs that are climbed, ground that is followed down, and a lift or press that goes to and fro.
+[[nodiscard]] RandomRun draw_stairs(PlayLevel level, std::uint64_t seed);
+
+/// Two to sixteen characters in a tight room. A run of fewer than two characters has no steps.
+[[nodiscard]] RandomRun draw_crowd(std::uint64_t seed);
+
+/// Two to ten characters among lifts, cabins, presses and papers.
+[[nodiscard]] RandomRun draw_crowd_among_movers(std::uint64_t seed);
+
+}  // namespace paperproof::compare

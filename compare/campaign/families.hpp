@@ -1,0 +1,43 @@
+/// The families of random runs: what each draws, and how much of what must happen in its runs.
+#pragma once
+
+#include "campaign/happening.hpp"
+#include "campaign/random_run.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <ostream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace paperproof::compare {
+
+/// Of the records of a family so large a share must be one of a happening, and no larger one may be.
+struct Coverage {
+  std::string_view happening;  ///< By its name.
+  double least = 0;
+  double most = 1;
+};
+
+struct Family {
+  std::string kind;  ///< `movers`: runs that are drawn alike.
+  std::string name;  ///< `tiles`: what is drawn.
+  std::function<RandomRun(std::uint64_t)> draw;
+  std::uint64_t first_seed = 1;  ///< The runs have this seed and those that follow.
+  double share = 1;              ///< Of the steps that are asked for: some are slow.
+  std::vector<Coverage> covers{};
+
+  /// As the command takes it: `movers/tiles`.
+  [[nodiscard]] std::string title() const { return kind + "/" + name; }
+  friend std::ostream& operator<<(std::ostream& out, const Family& family) { return out << family.title(); }
+};
+
+/// All of them, kind after kind.
+[[nodiscard]] const std::vector<Family>& families();
+
+/// Those of a title, of a kind, or all where nothing is asked for.
+/// @throws InputError naming those that are near where there is none.
+[[nodiscard]] std::vector<const Family*> families_named(std::string_view title);
+
+}  // namespace paperproof::compare

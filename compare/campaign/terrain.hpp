@@ -1,0 +1,49 @@
+/// Families of random scenery around the origin: each breaks a different naive sweep.
+#pragma once
+
+#include "campaign/random.hpp"
+
+#include <paperproof/scenery.hpp>
+
+#include <array>
+#include <string>
+#include <string_view>
+
+namespace paperproof::compare {
+
+enum class Terrain {
+  tiles,
+  slopes,
+  spikes,
+  papers,
+  chains,
+  wedges,
+  stairs,
+  ceilings,
+  shafts,
+  needles,
+  concave,
+  one_way,
+  lattice,
+  one_way_solids,
+  circles,
+};
+
+/// In the order of `Terrain`.
+inline constexpr std::array<std::string_view, 15> terrain_names{
+    "tiles",  "slopes",  "spikes",  "papers",  "chains",  "wedges",         "stairs", "ceilings",
+    "shafts", "needles", "concave", "one_way", "lattice", "one_way_solids", "circles"};
+
+inline constexpr std::array all_terrains = [] {
+  std::array<Terrain, terrain_names.size()> all{};
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<Terrain>(i);
+  return all;
+}();
+[[nodiscard]] inline std::string name_of(Terrain terrain) {
+  return std::string(terrain_names[static_cast<std::size_t>(terrain)]);
+}
+
+/// Solids within about 6 m of `origin`, with free room among them.
+SceneryDef random_terrain(Terrain terrain, Random& random, const Vec2d& origin);
+
+}  // namespace paperproof::compare

@@ -1,0 +1,124 @@
+#include "command/campaign_command.hpp"
+
+#include "campaign/campaign.hpp"
+#include "records/output_file.hpp"
+#include "records/row.hpp"
+#include "runs/text_columns.hpp"
+#include "scenes/load.hpp"
+#include "scenes/write_json.hpp"
+#include "words.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+
+namespace paperproof::compare {
+namespace {
+
+struct Ran {
+  const Family* family;
+  Findings findings;
+};
+
+std::string names_of(const Breaches& breaches) {
+  std::string names;
+  for (const auto& [clause, breach] : breaches)
+    names += fmt::format("{}{} {}", names.empty() ? "" : ", ", name_of(clause), breach.steps);
+  return names;
+}
+
+/// Of one kind: steps, and the shares of what happened in any of its families.
+std::string table_of(const std::vector<Ran>& all) {
+  std::vector<TextColumn> columns{{.heading = "family", .cells = {}, .words = true}, {.heading = "steps", .cells = {}}};
+  for (const Ran& ran : all) {
+    columns[0].cells.emplace_back(ran.family->title());
+    columns[1].cells.emplace_back(std::to_string(ran.findings.records));
+  }
+  for (std::size_t i = 0; i < happenings().size(); ++i) {
+    TextColumn column{.heading = std::string(happenings()[i].name), .cells = {}};
+    int found = 0;
+    for (const Ran& ran : all) {
+      found += ran.findings.happened[i];
+      column.cells.emplace_back(fmt::format("{:.2f} %", 100.0 * ran.findings.happened[i] / ran.findings.records));
+    }
+    if (found > 0) columns.push_back(std::move(column));
+  }
+  columns.push_back({.heading = "breaks, in steps", .cells = {}, .words = true});
+  for (const Ran& ran : all) {
+    const std::string names = names_of(ran.findings.breaches);
+    columns.back().cells.push_back(names.empty() ? std::nullopt : std::optional(names));
+  }
+  return aligned(columns) + "\n";
+}
+
+std::string lines_of(const Breaches& breaches, const std::string& begin) {
+  std::string lines;
+  for (const auto& [clause, breach] : breaches)
+    lines += fmt::format("{}{} on {}, first in step {}: {}\n", begin, name_of(clause), counted(breach.steps, "step"),
+                         breach.first_step, breach.first);
+  return lines;
+}
+
+/// All that are named, each once and in the order of the kinds.
+std::vector<const Family*> asked_for(const std::vector<std::string>& titles) {
+  std::vector<const Family*> named;
+  if (titles.empty()) return families_named("");
+  for (const std::string& title : titles)
+    for (const Family* family : families_named(title))
+      if (std::find(named.begin(), named.end(), family) == named.end()) named.push_back(family);
+  std::sort(named.begin(), named.end());
+  return named;
+}
+
+}  // namespace
+
+int campaign_command(const CampaignArguments& arguments) {
+  std::vector<Ran> kind;
+  std::string broken;
+  std::string missing;
+  const auto print_kind = [&] {
+    if (!kind.empty()) print_out(table_of(kind));
+    kind.clear();
+  };
+  for (const Family* family : asked_for(arguments.families)) {
+    if (!kind.empty() && kind.front().family->kind != family->kind) print_kind();
+    const int steps = std::max(1, static_cast<int>(family->share * arguments.steps));
+    Findings findings =
+        run_family(*family, steps, {.contender = arguments.contender, .trace_stem = arguments.trace_stem}, [&](std::uint64_t seed, const Findings& run) {
+          broken += lines_of(run.breaches, fmt::format("replay {} {}: ", family->title(), seed));
+        });
+    if (!findings.failed.empty()) missing += fmt::format("{}: {}\n", family->title(), findings.failed);
+    for (const std::string& uncovered_part : uncovered(*family, findings)) missing += uncovered_part + "\n";
+    if (findings.records > 0) kind.push_back({family, std::move(findings)});
+  }
+  print_kind();
+  print_out(broken + missing);
+  return missing.empty() ? 0 : 1;
+}
+
+int replay_command(const ReplayArguments& arguments) {
+  const std::vector<const Family*> named = families_named(arguments.family);
+  if (named.size() > 1) throw InputError(arguments.family + ": expected one family, such as " + named.front()->title());
+  const Family& family = *named.front();
+  const RandomRun run = family.draw(arguments.seed);
+  const std::string name = fmt::format("{}_{}_{}", family.kind, family.name, arguments.seed);
+  if (!arguments.scene_path.empty()) {
+    OutputFile file(arguments.scene_path);
+    file.write(scene_json(with_names(run.scene, name)).dump() + "\n");
+    file.commit();
+  }
+  const Findings found =
+      run_and_judge(run, name, {.contender = arguments.contender, .trace_stem = arguments.trace_stem});
+  if (!found.failed.empty()) throw InputError(fmt::format("{} {}: {}", family.title(), arguments.seed, found.failed));
+  std::string said = fmt::format("{} {}: {} judged of {}\n", family.title(), arguments.seed,
+                                 counted(found.steps, "step"), arguments.contender);
+  for (std::size_t i = 0; i < found.happened.size(); ++i)
+    if (found.happened[i] > 0)
+      said += fmt::format("  {:<11}{} in {}\n", happenings()[i].name, happenings()[i].meaning,
+                          counted(found.happened[i], "step"));
+  print_out(said + lines_of(found.breaches, "  breaks "));
+  return !found.breaches.empty() && is_guaranteed(arguments.contender, "double") ? 1 : 0;
+}
+
+}  // namespace paperproof::compare

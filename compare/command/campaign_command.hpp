@@ -1,0 +1,35 @@
+/// `paperproof campaign` and `paperproof replay`: random runs, judged by every clause of the guarantee.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace paperproof::compare {
+
+struct CampaignArguments {
+  std::vector<std::string> families;  ///< `movers/tiles`, or `movers` for all of them. Empty: every family.
+  int steps = 2000;                   ///< Of a family; slow ones take a share.
+  std::string contender = "octagon_sweep";
+  std::string trace_stem;  ///< Of every run; empty: no traces.
+};
+
+/// Prints a table for each kind of runs: steps, what happened in what share of them, and which clauses were broken;
+/// then a line for each run that broke one.
+/// @return 1 where a family is not covered or a run could not be made, else 0: what is broken is a figure here.
+/// @throws InputError where there is no such family.
+int campaign_command(const CampaignArguments& arguments);
+
+struct ReplayArguments {
+  std::string family;
+  std::uint64_t seed = 0;
+  std::string contender = "octagon_sweep";
+  std::string trace_stem;  ///< Empty: no trace.
+  std::string scene_path;  ///< Where the scene goes as JSON; empty: nowhere.
+};
+
+/// Runs one run of a family again, and prints what it breaks.
+/// @return 1 where it breaks a clause that its contender promises, else 0. @throws InputError as `campaign_command`.
+int replay_command(const ReplayArguments& arguments);
+
+}  // namespace paperproof::compare

@@ -1,0 +1,455 @@
+/// One table of equalities: the same run in another way gives the same bits. The runs are the campaign's.
+#include "campaign/campaign.hpp"
+#include "campaign/shapes.hpp"
+#include "runs/input_cursor.hpp"
+#include "support/random_runs.hpp"
+#include "support/steps_wanted.hpp"
+
+#include <paperproof/crowd.hpp>
+#include <paperproof/level.hpp>
+#include <paperproof/saved_state.hpp>
+#include <paperproof/techniques.hpp>
+
+#include <gtest/gtest.h>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <numeric>
+#include <thread>
+#include <tuple>
+
+namespace paperproof::test {
+namespace {
+
+using compare::RandomRun;
+using compare::Scene;
+using Context = StepContext<double>;
+using Report = StepReport<double>;
+using State = CharacterState<double>;
+
+/// How one and the same thing is said in another way of a run: vectors are multiplied, colliders are numbered anew.
+struct Saying {
+  Eigen::Matrix2d vector = Eigen::Matrix2d::Identity();
+  std::map<ColliderIndex, ColliderIndex>
+      colliders{};  ///< Those of the other way, by those of the run; empty: the same.
+
+  [[nodiscard]] Vec2d of(const Vec2d& v) const { return vector * v; }
+  [[nodiscard]] ColliderIndex of(ColliderIndex collider) const {
+    return collider == no_collider || colliders.empty() ? collider : colliders.at(collider);
+  }
+  [[nodiscard]] bool mirrors() const { return vector.determinant() < 0; }
+  [[nodiscard]] Side of(Side side) const {
+    if (!mirrors() || side == Side::top || side == Side::bottom) return side;
+    return side == Side::left ? Side::right : Side::left;
+  }
+  [[nodiscard]] Input of(Input input) const {
+    if (mirrors() && input.move) input.move = -*input.move;
+    return input;
+  }
+  [[nodiscard]] State of(State state) const {
+    for (Vec2d* v : {&state.position, &state.velocity, &state.last_free, &state.ride.place, &state.ride.velocity,
+                     &state.ground.normal, &state.ground.velocity})
+      *v = of(*v);
+    for (Crusher<double>& crusher : state.crushers) {
+      crusher.collider = of(crusher.collider);
+      crusher.last_free = of(crusher.last_free);
+      crusher.displacement = of(crusher.displacement);
+    }
+    state.ride.ground = of(state.ride.ground);
+    state.ground.collider = of(state.ground.collider);
+    if (mirrors()) std::swap(state.wall_left, state.wall_right);
+    return state;
+  }
+  [[nodiscard]] SceneryDef of(SceneryDef def) const {
+    for (ColliderDef& collider : def.colliders) {
+      for (Vec2d& p : collider.points) p = of(p);
+      for (std::vector<Vec2d>& hole : collider.holes)
+        for (Vec2d& p : hole) p = of(p);
+      if (collider.one_way) collider.one_way = of(*collider.one_way);
+      if (mirrors()) collider.surface_speed = -collider.surface_speed;
+    }
+    return def;
+  }
+  [[nodiscard]] CharacterDef of(CharacterDef def) const {
+    std::vector<Vec2d> points;
+    for (const Vec2d& p : def.shape.points()) points.push_back(of(p));
+    def.shape = CharacterShape(points);
+    return def;
+  }
+};
+
+/// What differs between a step and what the other way says; empty where nothing does.
+std::string difference(const Report& one, const Report& other, const Saying& saying) {
+  const MoveResult<double>& a = one.move;
+  const MoveResult<double>& b = other.move;
+  if (one.status != other.status) return "status";
+  if (one.status == StepStatus::invalid_input || one.status == StepStatus::out_of_range) return "";
+  if (saying.of(one.requested) != other.requested) return "requested";
+  if (!std::ranges::equal(a.path, b.path, [&](const auto& p, const auto& q) {
+        return saying.of(p.position) == q.position && p.fraction == q.fraction;
+      }))
+    return "path";
+  if (!std::ranges::equal(a.contacts, b.contacts, [&](const Contact<double>& p, const Contact<double>& q) {
+        return saying.of(p.collider) == q.collider && saying.of(p.normal) == q.normal && saying.of(p.side) == q.side &&
+               p.fraction == q.fraction && p.separation == q.separation;
+      }))
+    return "contacts";
+  const auto same_collider = [&](ColliderIndex p, ColliderIndex q) { return saying.of(p) == q; };
+  if (!std::ranges::equal(a.crushed, b.crushed, same_collider)) return "crushed";
+  if (!std::ranges::equal(one.dropped_through, other.dropped_through, same_collider)) return "dropped_through";
+  if (!std::ranges::equal(one.sensors, other.sensors, [&](const auto& p, const auto& q) {
+        return saying.of(p.sensor) == q.sensor && p.change == q.change && p.fraction == q.fraction;
+      }))
+    return "sensors";
+  return "";
+}
+
+/// Steps one character in some way; whoever makes it keeps what it needs alive in it.
+using Stepper = std::function<void(State&, const Input&, const Context&, Report&)>;
+
+struct OtherWay {
+  Saying saying{};
+  Stepper step;
+};
+
+Stepper controller_of(SceneryDef def, const CharacterDef& character, const TechniqueDef& technique = {}) {
+  const auto scenery = std::make_shared<const Scenery<double>>(def);
+  const auto controller = std::make_shared<const Controller<double>>(make_controller(*scenery, character, technique));
+  const auto scratch = std::make_shared<Scratch<double>>(controller->make_scratch());
+  return [scenery, controller, scratch](State& state, const Input& input, const Context& context, Report& report) {
+    controller->step(state, input, context, *scratch, report);
+  };
+}
+
+struct Equality {
+  const char* name;
+  /// Changes the run before either way makes it. @return false where there is no such way.
+  bool (*prepare)(RandomRun&, Random&);
+  OtherWay (*make)(const RandomRun&, Random&);
+  /// A run ends with its first crush: after it a level and a controller may say other things (see "Found and open" in
+  /// controller/README.md).
+  bool until_crushed = false;
+  double ties = 0;  ///< So many runs per step may come out otherwise; the next step begins alike again.
+};
+
+bool as_it_is(RandomRun&, Random&) { return true; }
+
+OtherWay turned(const RandomRun& run, Random& random) {
+  OtherWay other;
+  other.saying.vector << 0, -1, 1, 0;
+  for (int more = random.integer(0, 2); more > 0; --more) {
+    Eigen::Matrix2d quarter;
+    quarter << 0, -1, 1, 0;
+    other.saying.vector = Eigen::Matrix2d(quarter * other.saying.vector);
+  }
+  other.step = controller_of(other.saying.of(run.scene.scenery), other.saying.of(run.scene.character));
+  return other;
+}
+
+OtherWay mirrored(const RandomRun& run, Random&) {
+  OtherWay other;
+  other.saying.vector << -1, 0, 0, 1;
+  other.step = controller_of(other.saying.of(run.scene.scenery), other.saying.of(run.scene.character));
+  return other;
+}
+
+/// The order in which a level sees colliders. @return false where two have the same place in it.
+bool put_in_order(RandomRun& run, Random&) {
+  const auto key = [](const ColliderDef& collider) {
+    Vec2d lower = collider.points[0];
+    Vec2d upper = lower;
+    for (const Vec2d& point : collider.points) {
+      lower = lower.cwiseMin(point);
+      upper = upper.cwiseMax(point);
+    }
+    return std::tuple(collider.mover + 1, lower.x(), lower.y(), upper.x(), upper.y(), collider.points.size());
+  };
+  std::vector<ColliderDef>& all = run.scene.scenery.colliders;
+  std::stable_sort(all.begin(), all.end(), [&](const ColliderDef& a, const ColliderDef& b) { return key(a) < key(b); });
+  return std::adjacent_find(all.begin(), all.end(), [&](const auto& a, const auto& b) { return key(a) == key(b); }) ==
+         all.end();
+}
+
+/// In any order, with edits that are undone.
+OtherWay edited_level(const RandomRun& run, Random& random) {
+  OtherWay other;
+  const auto level = std::make_shared<Level>();
+  std::vector<ColliderIndex> order(run.scene.scenery.colliders.size());
+  std::iota(order.begin(), order.end(), 0);
+  for (std::size_t i = order.size(); i > 1; --i)
+    std::swap(order[i - 1], order[static_cast<std::size_t>(random.below(static_cast<int>(i)))]);
+  for (const ColliderIndex i : order) {
+    const ColliderDef& def = run.scene.scenery.colliders[i];
+    if (random.chance(0.2)) level->remove(level->add(def));
+    const bool is_moved = random.chance(0.2);
+    const ColliderIndex id = level->add(is_moved ? compare::box(0, 0, 1, 1, def.mover) : def);
+    if (is_moved) level->replace(id, def);
+    other.saying.colliders[i] = id;
+  }
+  const auto controller = std::make_shared<LevelController>(*level, run.scene.character);
+  const auto poses = std::make_shared<std::vector<PoseMotion>>();
+  other.step = [level, controller, poses](State& state, const Input& input, const Context& context, Report& report) {
+    poses->clear();
+    for (const MoverMotion<double>& motion : context.movers) poses->push_back({{motion.from, 0}, {motion.to, 0}});
+    controller->step(state, input, {context.gravity, context.dt, *poses, nullptr, context.up}, report);
+  };
+  return other;
+}
+
+/// Walls far away, so that all sceneries are equally large.
+bool add_frame(RandomRun& run, Random&) {
+  if (run.centre != Vec2d::Zero() || run.reach > 20) return false;
+  std::vector<ColliderDef>& all = run.scene.scenery.colliders;
+  for (const double x : {-40.0, -30.0, 30.0, 40.0}) all.push_back(compare::box(x, -40, x + 1, 40));
+  return true;
+}
+
+/// Among others that a filter leaves out, by category or by a predicate.
+OtherWay filtered(const RandomRun& run, Random& random) {
+  constexpr std::uint32_t there = 2;
+  constexpr std::uint32_t elsewhere = 4;
+  OtherWay other;
+  SceneryDef def;
+  SceneryDef more = random_terrain(static_cast<Terrain>(random.integer(0, 14)), random, {0, 0});
+  const auto is_there = std::make_shared<std::vector<bool>>();
+  const auto add = [&](ColliderDef collider, bool stays) {
+    collider.filter.category = stays ? there : elsewhere;
+    def.colliders.push_back(collider);
+    is_there->push_back(stays);
+  };
+  for (ColliderIndex i = 0; i < run.scene.scenery.colliders.size(); ++i) {
+    while (!more.colliders.empty() && random.chance(0.4)) {
+      add(more.colliders.back(), false);
+      more.colliders.pop_back();
+    }
+    other.saying.colliders[i] = static_cast<ColliderIndex>(def.colliders.size());
+    add(run.scene.scenery.colliders[i], true);
+  }
+  const auto filter = std::make_shared<ColliderFilter>();
+  if (random.chance(0.5)) {
+    filter->mask = there;
+  } else {
+    filter->is_there = [](ColliderIndex collider, const void* user) -> bool {
+      return (*static_cast<const std::vector<bool>*>(user))[collider];
+    };
+    filter->user = is_there.get();
+  }
+  // And one that goes through everything: it makes the ties, see "Found and open" in controller/README.md.
+  const auto ghost = static_cast<MoverIndex>(run.scene.movers.size());
+  add(compare::box(-2, -2, 2, 2, ghost), false);
+  const Stepper whole = controller_of(def, run.scene.character);
+  const auto motions = std::make_shared<std::vector<MoverMotion<double>>>();
+  other.step = [=, kept = is_there](State& state, const Input& input, const Context& context, Report& report) {
+    motions->assign(context.movers.begin(), context.movers.end());
+    motions->push_back({{0, 0}, {0.1, 0}});
+    Context with = context;
+    with.movers = *motions;
+    // Another character takes its step before, with the same memory and without a filter.
+    State of_another;
+    of_another.position = state.position;
+    Report report_of_another;
+    whole(of_another, {}, with, report_of_another);
+    with.filter = filter.get();
+    whole(state, input, with, report);
+  };
+  return other;
+}
+
+/// Saved as bytes and restored in each step, with memory that others have used or nobody has.
+OtherWay restored_each_step(const RandomRun& run, Random&) {
+  OtherWay other;
+  const auto scenery = std::make_shared<const Scenery<double>>(run.scene.scenery);
+  const auto controller = std::make_shared<const Controller<double>>(*scenery, run.scene.character);
+  const auto scratch = std::make_shared<Scratch<double>>(controller->make_scratch());
+  other.step = [scenery, controller, scratch](State& state, const Input& input, const Context& context,
+                                              Report& report) {
+    State elsewhere = state;
+    elsewhere.position += Vec2d(1, 1);
+    Report of_elsewhere;
+    controller->step(elsewhere, {.move = 1}, context, *scratch, of_elsewhere);
+    state = restored(save(state));
+    controller->step(state, input, context, *scratch, report);
+    *scratch = controller->make_scratch();
+  };
+  return other;
+}
+
+/// In another thread, while this one steps the same.
+OtherWay in_two_threads(const RandomRun& run, Random&) {
+  OtherWay other;
+  const auto scenery = std::make_shared<const Scenery<double>>(run.scene.scenery);
+  const auto controller = std::make_shared<const Controller<double>>(*scenery, run.scene.character);
+  other.step = [scenery, controller](State& state, const Input& input, const Context& context, Report& report) {
+    State of_this = state;
+    Report report_of_this;
+    Scratch<double> scratch = controller->make_scratch();
+    Scratch<double> scratch_of_this = controller->make_scratch();
+    {
+      const std::jthread thread([&] { controller->step(state, input, context, scratch, report); });
+      controller->step(of_this, input, context, scratch_of_this, report_of_this);
+    }
+    EXPECT_EQ(of_this, state);
+  };
+  return other;
+}
+
+OtherWay by_another_broad_phase(const RandomRun& run, Random& random) {
+  constexpr std::array all{BroadPhaseKind::all_pairs, BroadPhaseKind::tree, BroadPhaseKind::buckets};
+  TechniqueDef technique;
+  technique.broad_phase = all[static_cast<std::size_t>(random.integer(0, 2))];
+  return {.step = controller_of(run.scene.scenery, run.scene.character, technique)};
+}
+
+/// Several characters climb none, and among movers their own law of crushes holds.
+bool on_plain_ground(RandomRun& run, Random&) {
+  return run.scene.character.step_height == 0 && run.scene.movers.empty();
+}
+
+/// As one of several that are far apart.
+OtherWay one_of_many(const RandomRun& run, Random&) {
+  OtherWay other;
+  const auto scenery = std::make_shared<const Scenery<double>>(run.scene.scenery);
+  const auto crowd = std::make_shared<const Crowd<double>>(*scenery, run.scene.character);
+  const auto scratch = std::make_shared<CrowdScratch>(crowd->make_scratch(1));
+  other.step = [scenery, crowd, scratch](State& state, const Input& input, const Context& context, Report& report) {
+    CrowdReport<double> of_all(1);
+    crowd->step({&state, 1}, {&input, 1}, context, *scratch, of_all);
+    report = of_all.members[0].step;
+  };
+  return other;
+}
+
+constexpr std::array equalities{
+    Equality{"turned_by_quarters", as_it_is, turned, false, 1e-3},
+    Equality{"mirrored", as_it_is, mirrored, false, 3e-3},
+    Equality{"edited_as_built_at_once", put_in_order, edited_level, true},
+    Equality{"filtered_as_without", add_frame, filtered, false, 3e-4},
+    Equality{"restored_as_gone_on", as_it_is, restored_each_step},
+    Equality{"in_two_threads", as_it_is, in_two_threads},
+    Equality{"by_another_broad_phase", as_it_is, by_another_broad_phase},
+    Equality{"as_one_of_many", on_plain_ground, one_of_many},
+};
+
+/// One run in two ways.
+class Twice {
+ public:
+  Twice(const Equality& equality, const RandomRun& run, Random& random)
+      : equality_(equality),
+        run_(run),
+        script_(script_of(run_.scene)),
+        cursor_(run_.scene, script_),
+        one_(controller_of(run.scene.scenery, run.scene.character)),
+        other_(equality.make(run, random)) {}
+
+  int steps = 0;
+  int touching = 0;
+  int ties = 0;
+
+  /// @return the first difference, or nothing.
+  std::string go() {
+    State state;
+    state.position = run_.scene.start.position;
+    state.velocity = run_.scene.start.velocity;
+    State other_state = other_.saying.of(state);
+    for (int step = 0; step < run_.scene.steps; ++step) {
+      launch(step, state);
+      launch(step, other_state, other_.saying);
+      const compare::StepInput input = input_of(step);
+      Report report;
+      Report other_report;
+      one_(state, input.players[0], context_of(input, {}, motions_), report);
+      other_.step(other_state, other_.saying.of(input.players[0]), context_of(input, other_.saying, other_motions_),
+                  other_report);
+      ++steps;
+      touching += !report.move.contacts.empty();
+      if (equality_.until_crushed && (state.crushed || !report.move.crushed.empty())) return "";
+      std::string what = difference(report, other_report, other_.saying);
+      if (what.empty() && other_.saying.of(state) != other_state) what = "state";
+      if (!what.empty() && equality_.ties == 0) return what + " in step " + std::to_string(step);
+      ties += !what.empty();
+      if (!what.empty()) other_state = other_.saying.of(state);
+      if (report.status == StepStatus::out_of_range) return "";
+      if ((state.position - run_.centre).cwiseAbs().maxCoeff() > run_.reach) return "";
+    }
+    return "";
+  }
+
+ private:
+  void launch(int step, State& state, const Saying& saying = {}) const {
+    for (const compare::Launch& launch : run_.launches)
+      if (launch.step == step) state.velocity = saying.of(launch.velocity);
+  }
+
+  compare::StepInput input_of(int step) {
+    compare::StepInput input = cursor_.at(step);
+    if (run_.ups.empty()) return input;
+    input.up = run_.ups[static_cast<std::size_t>(step)];
+    input.gravity = run_.scene.gravity.norm() * -input.up;
+    return input;
+  }
+
+  static Context context_of(const compare::StepInput& input, const Saying& saying,
+                            std::vector<MoverMotion<double>>& motions) {
+    motions.clear();
+    for (const MoverMotion<double>& motion : input.movers)
+      motions.push_back({saying.of(motion.from), saying.of(motion.to)});
+    return {saying.of(input.gravity), input.dt, motions, nullptr, saying.of(input.up)};
+  }
+
+  const Equality& equality_;
+  RandomRun run_;
+  compare::Script script_;
+  compare::InputCursor cursor_;
+  Stepper one_;
+  OtherWay other_;
+  std::vector<MoverMotion<double>> motions_;
+  std::vector<MoverMotion<double>> other_motions_;
+};
+
+class Equalities : public ::testing::TestWithParam<std::tuple<const Equality*, const char*>> {};
+
+TEST_P(Equalities, give_the_same_bits) {
+  const auto& [equality, kind] = GetParam();
+  const std::vector<const compare::Family*> families = compare::families_named(kind);
+  constexpr std::uint64_t tries = 200;  // runs, of which one must have another way
+  const int wanted = steps_per_family();
+  int steps = 0;
+  int touching = 0;
+  int ties = 0;
+  for (std::uint64_t k = 0; steps < wanted; ++k) {
+    if (k == tries && steps == 0) GTEST_SKIP() << kind << " has no such runs";
+    const compare::Family& family = *families[k % families.size()];
+    const std::uint64_t seed = family.first_seed + k / families.size();
+    RandomRun run = family.draw(seed);
+    run.scene = with_names(run.scene, family.name);
+    Random random(seed);
+    if (!equality->prepare(run, random)) continue;
+    Twice twice(*equality, run, random);
+    ASSERT_EQ(twice.go(), "") << equality->name << ": " << family.title() << " " << seed;
+    steps += twice.steps;
+    touching += twice.touching;
+    ties += twice.ties > 0;  // what stays there comes out otherwise for several steps
+  }
+  std::printf("%s, %s: %d steps, %d with contact, ties in %d runs\n", equality->name, kind, steps, touching, ties);
+  EXPECT_GE(touching, steps / 12);
+  EXPECT_LE(ties, equality->ties > 0 ? 1 + equality->ties * steps : 0);
+}
+
+std::vector<const Equality*> all_equalities() {
+  std::vector<const Equality*> all;
+  for (const Equality& equality : equalities) all.push_back(&equality);
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, Equalities,
+                         ::testing::Combine(::testing::ValuesIn(all_equalities()),
+                                            ::testing::Values("static", "any_up", "movers", "stairs")),
+                         [](const auto& which) {
+                           return std::string(std::get<0>(which.param)->name) + "_" + std::get<1>(which.param);
+                         });
+
+}  // namespace
+}  // namespace paperproof::test
