@@ -3,6 +3,8 @@
 
 #include "scenes/scene.hpp"
 
+#include <paperproof/crowd.hpp>
+
 #include <vector>
 
 namespace paperproof::compare {

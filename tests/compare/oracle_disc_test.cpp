@@ -1,6 +1,7 @@
 /// Circles, against answers that are worked out by hand, and against another formulation in rationals.
 #include "oracle/exact.hpp"
 #include "oracle/first_meeting.hpp"
+#include "oracle/number.hpp"
 
 #include "compare/exact_shapes.hpp"
 #include "support/random_runs.hpp"
@@ -15,7 +16,6 @@ namespace paperproof::compare::detail {
 namespace {
 
 using namespace test;  // NOLINT(google-build-using-namespace): the shapes of this folder
-
 
 constexpr double closely = 1e-15;
 

@@ -19,7 +19,6 @@
 #include <optional>
 #include <set>
 #include <span>
-#include <tuple>
 
 namespace paperproof::test {
 namespace {
@@ -29,21 +28,6 @@ constexpr double pi = std::numbers::pi;
 
 ColliderDef box(double left, double bottom, double right, double top, MoverIndex mover = no_mover) {
   return {.points = {{left, bottom}, {right, bottom}, {right, top}, {left, top}}, .mover = mover};
-}
-
-/// The order in which a step sees colliders.
-void put_in_order(SceneryDef& def) {
-  const auto key = [](const ColliderDef& collider) {
-    Vec2d lower = collider.points[0];
-    Vec2d upper = lower;
-    for (const Vec2d& point : collider.points) {
-      lower = lower.cwiseMin(point);
-      upper = upper.cwiseMax(point);
-    }
-    return std::tuple(collider.mover + 1, lower.x(), lower.y(), upper.x(), upper.y(), collider.points.size());
-  };
-  std::stable_sort(def.colliders.begin(), def.colliders.end(),
-                   [&](const ColliderDef& a, const ColliderDef& b) { return key(a) < key(b); });
 }
 
 Input random_input(Random& random) {
