@@ -2,11 +2,12 @@
 
 #include "runs/input_cursor.hpp"
 #include "runs/lane.hpp"
+#include "words.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
+#include <functional>
 
 namespace paperproof::compare {
 namespace {
@@ -29,7 +30,7 @@ class JudgedRun {
   Findings go() {
     if (!lane_.running()) return ended();
     if (!run_.may_begin_inside && begins_inside()) return {};
-    last_.resize(lane_.characters());
+    grounded_.resize(lane_.characters());
     for (int step = 0; step < scene_.steps && lane_.running() && !ends_ && is_within_reach(); ++step) take(step);
     lane_.finish();
     return ended();
@@ -56,11 +57,7 @@ class JudgedRun {
   }
 
   void take(int step) {
-    StepInput input = cursor_.at(step);
-    if (!run_.ups.empty()) {
-      input.up = run_.ups[static_cast<std::size_t>(step)];
-      input.gravity = scene_.gravity.norm() * -input.up;
-    }
+    const StepInput input = with_up(run_, step, cursor_.at(step));
     std::vector<bool> launched(lane_.characters());
     for (; next_launch_ < run_.launches.size() && run_.launches[next_launch_].step == step; ++next_launch_) {
       const Launch& launch = run_.launches[next_launch_];
@@ -75,11 +72,10 @@ class JudgedRun {
 
   void count(std::size_t character, bool launched) {
     const TraceStep& record = lane_.record(character);
-    const TraceStep* before = findings_.steps > 1 ? &last_[character] : nullptr;
-    const Moment moment{lane_.header(), record, before, lane_.judgement(character), launched};
+    const Moment moment{lane_.header(), record, lane_.judgement(character), grounded_[character], launched};
     ++findings_.records;
     for (std::size_t i = 0; i < happenings().size(); ++i) findings_.happened[i] += happenings()[i].is_so(moment);
-    last_[character] = record;
+    grounded_[character] = record.grounded;
     ends_ = ends_ || is_crushed_from_afar(record);
   }
 
@@ -97,7 +93,7 @@ class JudgedRun {
   Lane lane_;
   InputCursor cursor_;
   std::size_t next_launch_ = 0;
-  std::vector<TraceStep> last_;  ///< By character.
+  std::vector<bool> grounded_;  ///< By character, after the last step.
   Findings findings_;
   bool ends_ = false;
 };
@@ -124,6 +120,13 @@ Scene with_names(Scene scene, const std::string& name) {
   return scene;
 }
 
+StepInput with_up(const RandomRun& run, int step, StepInput input) {
+  if (run.ups.empty()) return input;
+  input.up = run.ups[static_cast<std::size_t>(step)];
+  input.gravity = run.scene.gravity.norm() * -input.up;
+  return input;
+}
+
 Findings run_and_judge(const RandomRun& run, const std::string& name, const RunSettings& settings) {
   if (run.scene.steps == 0) return {};
   return JudgedRun(run, name, settings).go();
@@ -131,26 +134,33 @@ Findings run_and_judge(const RandomRun& run, const std::string& name, const RunS
 
 Findings run_family(const Family& family, int steps, const RunSettings& settings,
                     const std::function<void(std::uint64_t, const Findings&)>& each) {
+  const int wanted = std::max(1, static_cast<int>(family.share * steps));
   Findings all;
-  for (std::uint64_t seed = family.first_seed; all.steps < steps && all.failed.empty(); ++seed) {
-    const Findings one =
-        run_and_judge(family.draw(seed), fmt::format("{}_{}_{}", family.kind, family.name, seed), settings);
+  for (std::uint64_t seed = family.first_seed; all.steps < wanted && all.failed.empty(); ++seed) {
+    const Findings one = run_and_judge(family.draw(seed), family.name_of_run(seed), settings);
     if (each) each(seed, one);
     all.add(one);
   }
   return all;
 }
 
+std::string describe(const Breaches& breaches, const std::string& begin) {
+  std::string lines;
+  for (const auto& [clause, breach] : breaches)
+    lines += fmt::format("{}{} on {}, first in step {}: {}\n", begin, name_of(clause), counted(breach.steps, "step"),
+                         breach.first_step, breach.first);
+  return lines;
+}
+
 std::vector<std::string> uncovered(const Family& family, const Findings& findings) {
   std::vector<std::string> said;
   for (const Coverage& part : family.covers) {
-    const auto which = std::find_if(happenings().begin(), happenings().end(),
-                                    [&](const Happening& one) { return one.name == part.happening; });
-    const int found = findings.happened[static_cast<std::size_t>(std::distance(happenings().begin(), which))];
+    const std::size_t which = happening_named(part.happening);
+    const int found = findings.happened[which];
     const double share = static_cast<double>(found) / std::max(findings.records, 1);
     if (share < part.least || share > part.most)
       said.push_back(fmt::format("{}: {} of {} steps {}, expected from {} to {} of them", family.title(), found,
-                                 findings.records, which->meaning, part.least, part.most));
+                                 findings.records, happenings()[which].meaning, part.least, part.most));
   }
   return said;
 }

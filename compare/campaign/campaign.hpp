@@ -34,16 +34,24 @@ struct Findings {
 /// The scene with a name, and one for each collider.
 [[nodiscard]] Scene with_names(Scene scene, const std::string& name);
 
+/// The input of a step, with gravity and up of the run in it.
+[[nodiscard]] StepInput with_up(const RandomRun& run, int step, StepInput input);
+
 /// @param name of the run in its trace. The run ends early where its character leaves it, where a step is refused, and
 ///   with the first step in which something crushes that goes more than 3 m in it.
 /// @return no steps where the run would begin inside something, and must not.
 [[nodiscard]] Findings run_and_judge(const RandomRun& run, const std::string& name, const RunSettings& settings = {});
 
-/// Runs of a family until there are so many steps. @param each is told the seed of every run and what it came to.
+/// Makes runs of a family, until its share of the steps is reached. @param each is called with the seed of every run
+/// and
+///   what it came to.
 [[nodiscard]] Findings run_family(const Family& family, int steps, const RunSettings& settings = {},
                                   const std::function<void(std::uint64_t, const Findings&)>& each = {});
 
-/// What too few or too many records were of, in words; nothing where all happened that must.
+/// A line for each clause that was broken. @param begin stands before each.
+[[nodiscard]] std::string describe(const Breaches& breaches, const std::string& begin);
+
+/// A sentence for each happening whose share is too small or too large.
 [[nodiscard]] std::vector<std::string> uncovered(const Family& family, const Findings& findings);
 
 }  // namespace paperproof::compare

@@ -1,6 +1,7 @@
 /// Draws the runs of each kind. The same seed draws the same run on every machine; no draw reads what a run does.
 #pragma once
 
+#include "campaign/named.hpp"
 #include "campaign/play_levels.hpp"
 #include "campaign/random.hpp"
 #include "campaign/random_run.hpp"
@@ -23,6 +24,8 @@ enum class Turning : std::uint8_t {
 };
 inline constexpr std::array<std::string_view, 6> turning_names{"planks",  "see_saws", "wheels",
                                                                "presses", "papers",   "balls"};
+inline constexpr std::array all_turning = all_of<Turning>(turning_names);
+[[nodiscard]] inline std::string name_of(Turning turning) { return name_among(turning_names, turning); }
 
 /// Launches at 1e-3 to 1e6 m per step among solids that stand, up to 1e6 m from the origin; some begin inside.
 /// @param up_turns between steps, now and then.

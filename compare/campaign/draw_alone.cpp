@@ -1,4 +1,5 @@
 #include "campaign/draw.hpp"
+#include "campaign/drawing.hpp"
 #include "campaign/shapes.hpp"
 #include "campaign/wanderers.hpp"
 #include "scenes/step_times.hpp"
@@ -6,35 +7,15 @@
 #include <paperproof/scenery.hpp>
 
 #include <cmath>
-#include <numbers>
 #include <string>
 
 namespace paperproof::compare {
 namespace {
 
-double far(Random& random) { return random.either_sign_log_between(1, 9.9e5); }
-Vec2d round_to_pixels(const Vec2d& p) { return {std::round(p.x() * 32) / 32, std::round(p.y() * 32) / 32}; }
-
-CharacterDef any_character(Random& random) {
-  CharacterDef def;
-  if (random.chance(0.3)) def.snap = 0.5;
-  if (random.chance(0.2)) def.max_climb_degrees = random.between(0, 89);
-  return def;
-}
-
-/// Keys that are pressed and released now and then.
-void press_keys(Input& input, Random& random) {
-  if (random.chance(0.1)) input.move = random.integer(-1, 1);
-  if (random.chance(0.1)) input.jump = !input.jump;
+/// All keys.
+void press_and_drop(Random& random, Input& input) {
+  press_keys(random, input);
   input.drop = random.chance(input.drop ? 0.8 : 0.1);
-}
-
-/// Adds a launch, or what the run begins with.
-void launch(RandomRun& run, int step, const Vec2d& velocity) {
-  if (step == 0)
-    run.scene.start.velocity = velocity;
-  else
-    run.launches.push_back({.step = step, .velocity = velocity});
 }
 
 /// Any up, or one along or across a side of the scenery: there walls are exactly upright and ground is exactly level,
@@ -76,7 +57,7 @@ RandomRun draw_still(Terrain terrain, std::uint64_t seed, bool up_turns) {
   run.reach = 12;
   run.centre = random.chance(0.7) ? Vec2d{0, 0} : Vec2d{far(random), far(random)};
   scene.scenery = random_terrain(terrain, random, run.centre);
-  scene.character = any_character(random);
+  draw_rules(random, scene.character);
   scene.start.position = run.centre + Vec2d{random.between(-4, 4), random.between(-3, 5)};
   if (terrain == Terrain::shafts)
     scene.start.position = run.centre + Vec2d{random.chance(0.5) ? 0 : random.between(-1, 1), 3};
@@ -93,14 +74,13 @@ RandomRun draw_still(Terrain terrain, std::uint64_t seed, bool up_turns) {
   InputNotes notes(scene.input);
   Input input;
   for (int step = 0; step < scene.steps; ++step) {
-    press_keys(input, random);
+    press_and_drop(random, input);
     notes.note(step, input);
     if (random.chance(0.2)) {
       const double speed = random.log_between(1e-3, random.chance(0.3) ? 1e6 : 20) / scene.dt;
-      const double angle = random.chance(0.3) ? random.integer(0, 7) * std::numbers::pi / 4 : random.angle();
-      Vec2d velocity = towards(angle) * speed;
+      Vec2d velocity = towards(any_direction(random)) * speed;
       if (random.chance(0.2)) velocity.x() = 0;
-      launch(run, step, velocity);
+      add_launch(run, {.step = step, .velocity = velocity});
     }
     if (up_turns && random.chance(0.1)) up = any_up(*sides, random);
     if (up_turns) run.ups.push_back(up);
@@ -119,7 +99,7 @@ RandomRun draw_among_movers(Terrain terrain, std::uint64_t seed, bool up_turns) 
   const int movers = random.chance(0.1) ? 64 : random.integer(1, 8);
   for (int i = 0; i < movers; ++i) add_mover(scene.scenery.colliders, static_cast<MoverIndex>(i), random, run.centre);
   if (terrain == Terrain::circles) round_movers(scene.scenery.colliders, random);
-  scene.character = any_character(random);
+  draw_rules(random, scene.character);
   scene.start.position = run.centre + Vec2d{random.between(-4, 4), random.between(-3, 5)};
   scene.dt = random.chance(0.7) ? 1.0 / 60 : random.log_between(1e-3, 0.1);
   scene.steps = 60;
@@ -130,11 +110,11 @@ RandomRun draw_among_movers(Terrain terrain, std::uint64_t seed, bool up_turns) 
   Input input;
   Vec2d up{0, 1};
   for (int step = 0; step < scene.steps; ++step) {
-    press_keys(input, random);
+    press_and_drop(random, input);
     notes.note(step, input);
     if (random.chance(0.05)) {
       const double speed = random.log_between(1e-3, random.chance(0.2) ? 1e6 : 10) / scene.dt;
-      launch(run, step, towards(random.angle()) * speed);
+      add_launch(run, {.step = step, .velocity = towards(random.angle()) * speed});
     }
     for (std::size_t i = 0; i < wanderers.size(); ++i) {
       std::vector<MoverDef::Waypoint>& path = scene.movers[i].path;

@@ -1,4 +1,5 @@
 #include "campaign/draw.hpp"
+#include "campaign/drawing.hpp"
 #include "campaign/shapes.hpp"
 #include "oracle/exact.hpp"
 #include "oracle/pair.hpp"
@@ -32,7 +33,7 @@ class CrowdDraw {
     add_room();
     const int things = random_.integer(0, 4);
     for (int i = 0; i < things; ++i) add_thing();
-    draw_rules();
+    draw_rules(random_, scene_.character);
     place(0.3);
     if (starts_.size() < 2) return none();
     scene_.gravity = {0, random_.chance(0.85) ? -30.0 : random_.between(-5, 5)};
@@ -43,13 +44,13 @@ class CrowdDraw {
 
   RandomRun among_movers() {
     scene_.dt = random_.chance(0.8) ? 1.0 / 60 : random_.log_between(1e-3, 0.1);
-    if (!random_.chance(0.9)) origin_ = {far(), far()};
+    if (!random_.chance(0.9)) origin_ = {far(random_), far(random_)};
     most_ = random_.integer(2, 10);
     room_ = {extent_.x() * (3 + most_ * random_.between(0.5, 1.2)), extent_.y() * random_.between(1.5, 5)};
     add_room();
     const int movers = random_.integer(1, 4);
     for (int i = 0; i < movers; ++i) add_mover(static_cast<MoverIndex>(i));
-    draw_rules();
+    draw_rules(random_, scene_.character);
     place(0.2);
     if (starts_.size() < 2) return none();
     play({.launch = 0.01, .far_launch = 0.2});
@@ -62,8 +63,6 @@ class CrowdDraw {
     Vec2d by{0, 0};  ///< [m per step]
     int steps = 0;
   };
-
-  double far() { return random_.either_sign_log_between(1, 9.9e5); }
 
   ColliderDef& add(ColliderDef def, MoverIndex mover = no_mover, const Vec2d& at = Vec2d::Zero()) {
     for (Vec2d& point : def.points) point += origin_ + at;
@@ -120,11 +119,6 @@ class CrowdDraw {
     if (random_.chance(0.1)) scene_.scenery.colliders.back().surface_speed = random_.between(-4, 4);
   }
 
-  void draw_rules() {
-    if (random_.chance(0.3)) scene_.character.snap = 0.5;
-    if (random_.chance(0.2)) scene_.character.max_climb_degrees = random_.between(0, 89);
-  }
-
   /// Apart from each other and from all solids; in some runs on whole pixels, so that neighbours touch exactly.
   void place(double on_pixels) {
     const auto hull = scene_.character.shape.hull();
@@ -133,7 +127,7 @@ class CrowdDraw {
     const bool whole_pixels = random_.chance(on_pixels);
     for (int tries = 0; tries < 200 && static_cast<int>(starts_.size()) < most_; ++tries) {
       Vec2d at = origin_ + Vec2d{random_.between(0, room_.x()), random_.between(0, room_.y())};
-      if (whole_pixels) at = Vec2d{std::round(at.x() * 32) / 32, std::round(at.y() * 32) / 32};
+      if (whole_pixels) at = round_to_pixels(at);
       if (whole_pixels && !starts_.empty() && random_.chance(0.5))
         at = starts_.back() + Vec2d{random_.chance(0.5) ? extent_.x() : -extent_.x(), 0};
       const bool free =
@@ -161,8 +155,7 @@ class CrowdDraw {
     std::vector<Drift> drifts(scene_.movers.size());
     for (int step = 0; step < scene_.steps; ++step) {
       for (std::size_t k = 0; k < inputs.size(); ++k) {
-        if (random_.chance(0.1)) inputs[k].move = random_.integer(-1, 1);
-        if (random_.chance(0.1)) inputs[k].jump = !inputs[k].jump;
+        press_keys(random_, inputs[k]);
         notes[k].note(step, inputs[k]);
         if (random_.chance(fates.launch)) launch(step, k, fates.far_launch);
       }
@@ -172,12 +165,8 @@ class CrowdDraw {
 
   void launch(int step, std::size_t character, double far_launch) {
     const double speed = random_.log_between(1e-3, random_.chance(far_launch) ? 1e3 : 5) / scene_.dt;
-    const double angle = random_.chance(0.3) ? random_.integer(0, 7) * std::numbers::pi / 4 : random_.angle();
-    const Vec2d velocity{std::cos(angle) * speed, std::sin(angle) * speed};
-    if (step == 0)
-      (character == 0 ? scene_.start : scene_.others[character - 1].start).velocity = velocity;
-    else
-      run_.launches.push_back({step, static_cast<CharacterIndex>(character), velocity});
+    const Vec2d velocity = towards(any_direction(random_)) * speed;
+    add_launch(run_, {step, static_cast<CharacterIndex>(character), velocity});
   }
 
   void move_on(double time, Drift& drift, std::vector<MoverDef::Waypoint>& path) {
@@ -185,7 +174,7 @@ class CrowdDraw {
       drift.steps = random_.integer(5, 40);
       const double speed = random_.log_between(1e-3, random_.chance(0.1) ? 3 : 0.1);
       const double angle = random_.chance(0.7) ? random_.integer(0, 3) * std::numbers::pi / 2 : random_.angle();
-      drift.by = Vec2d{std::cos(angle), std::sin(angle)} * speed;
+      drift.by = towards(angle) * speed;
       if (random_.chance(0.15)) drift.by.setZero();
     }
     const Vec2d at = path.back().at;

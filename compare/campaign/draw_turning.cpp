@@ -1,4 +1,5 @@
 #include "campaign/draw.hpp"
+#include "campaign/drawing.hpp"
 #include "campaign/shapes.hpp"
 #include "oracle/exact.hpp"
 #include "scenes/step_times.hpp"
@@ -152,8 +153,7 @@ RandomRun draw_among_turning(Turning family, std::uint64_t seed) {
   run.reach = 14;
   scene.gravity = {0, -20};
   const Room room(family, random, scene.scenery);
-  if (random.chance(0.3)) scene.character.snap = 0.5;
-  if (random.chance(0.2)) scene.character.max_climb_degrees = random.between(0, 89);
+  draw_rules(random, scene.character);
   scene.dt = random.chance(0.8) ? 1.0 / 60 : random.log_between(1e-3, 0.05);
   scene.steps = 80;
   const StepTimes times(scene);
@@ -174,16 +174,11 @@ RandomRun draw_among_turning(Turning family, std::uint64_t seed) {
   InputNotes notes(scene.input);
   Input input;
   for (int step = 0; step < scene.steps; ++step) {
-    if (random.chance(0.1)) input.move = random.integer(-1, 1);
-    if (random.chance(0.1)) input.jump = !input.jump;
+    press_keys(random, input);
     notes.note(step, input);
     if (!random.chance(0.02)) continue;
-    const double angle = random.angle();
-    const Vec2d velocity = random.log_between(0.1, 10) / (60 * scene.dt) * Vec2d(std::cos(angle), std::sin(angle));
-    if (step == 0)
-      scene.start.velocity = velocity;
-    else
-      run.launches.push_back({.step = step, .velocity = velocity});
+    const Vec2d direction = towards(random.angle());
+    add_launch(run, {.step = step, .velocity = random.log_between(0.1, 10) / (60 * scene.dt) * direction});
   }
   return run;
 }

@@ -16,90 +16,87 @@ namespace {
 /// It happens: of few families more is known.
 constexpr double ever = 1e-9;
 
-std::vector<Family> still() {
+/// A family for each value of an enumeration. @param make from the value and its number, counted from 1; gives no name.
+template <class Values, class Make>
+std::vector<Family> one_of_each(const Values& values, const Make& make) {
   std::vector<Family> all;
-  for (std::uint64_t i = 0; i < terrain_names.size(); ++i) {
-    const auto terrain = static_cast<Terrain>(i);
-    const bool has_ledges = terrain == Terrain::one_way || terrain == Terrain::one_way_solids;
-    all.push_back({.kind = "static",
-                   .name = std::string(terrain_names[i]),
-                   .draw = [terrain](std::uint64_t seed) { return draw_still(terrain, seed, false); },
-                   .first_seed = 1000003 * (i + 1),
-                   .covers = {{"contact", 0.1, 0.9}, {"falling", 0.1}, {"launched", 0.1}}});
-    all.back().covers.push_back({"through", has_ledges ? ever : 0, has_ledges ? 1.0 : 0.0});
+  for (const auto value : values) {
+    all.push_back(make(value, std::uint64_t{all.size() + 1}));
+    all.back().name = name_of(value);
   }
   return all;
+}
+
+std::vector<Family> still() {
+  return one_of_each(all_terrains, [](Terrain terrain, std::uint64_t number) -> Family {
+    const bool has_ledges = terrain == Terrain::one_way || terrain == Terrain::one_way_solids;
+    return {.kind = "static",
+            .draw = [terrain](std::uint64_t seed) { return draw_still(terrain, seed, false); },
+            .first_seed = 1000003 * number,
+            .covers = {{"contact", 0.1, 0.9},
+                       {"falling", 0.1},
+                       {"launched", 0.1},
+                       {"through", has_ledges ? ever : 0, has_ledges ? 1.0 : 0.0}}};
+  });
 }
 
 std::vector<Family> any_up() {
-  std::vector<Family> all;
-  for (std::uint64_t i = 0; i < terrain_names.size(); ++i) {
-    const auto terrain = static_cast<Terrain>(i);
-    all.push_back({.kind = "any_up",
-                   .name = std::string(terrain_names[i]),
-                   .draw = [terrain](std::uint64_t seed) { return draw_still(terrain, seed, true); },
-                   .first_seed = 2000003 * (i + 1),
-                   .covers = {{"contact", 0.06, 0.9},
-                              {"falling", 0.1},
-                              {"walkable", 0.01},
-                              {"steep", 0.003},
-                              {"wall", 0.0004},
-                              {"ceiling", 0.01}}});
-  }
-  return all;
+  return one_of_each(all_terrains, [](Terrain terrain, std::uint64_t number) -> Family {
+    return {.kind = "any_up",
+            .draw = [terrain](std::uint64_t seed) { return draw_still(terrain, seed, true); },
+            .first_seed = 2000003 * number,
+            .covers = {{"contact", 0.06, 0.9},
+                       {"falling", 0.1},
+                       {"walkable", 0.01},
+                       {"steep", 0.003},
+                       {"wall", 0.0004},
+                       {"ceiling", 0.01}}};
+  });
 }
 
 std::vector<Family> movers(bool up_turns) {
-  std::vector<Family> all;
-  for (std::uint64_t i = 0; i < terrain_names.size(); ++i) {
-    const auto terrain = static_cast<Terrain>(i);
-    all.push_back(
-        {.kind = up_turns ? "movers_any_up" : "movers",
-         .name = std::string(terrain_names[i]),
-         .draw = [terrain, up_turns](std::uint64_t seed) { return draw_among_movers(terrain, seed, up_turns); },
-         .first_seed = 2000003 * (i + 1),
-         .share = up_turns ? 2.0 / 9 : 1,
-         .covers = {{"contact", 0.1, 0.9}, {"riding", ever}, {"crushed", ever, 0.2}}});
-  }
-  return all;
+  return one_of_each(all_terrains, [up_turns](Terrain terrain, std::uint64_t number) -> Family {
+    return {.kind = up_turns ? "movers_any_up" : "movers",
+            .draw = [terrain, up_turns](std::uint64_t seed) { return draw_among_movers(terrain, seed, up_turns); },
+            .first_seed = 2000003 * number,
+            .share = up_turns ? 2.0 / 9 : 1,
+            .covers = {{"contact", 0.1, 0.9}, {"riding", ever}, {"crushed", ever, 0.2}}};
+  });
 }
 
 std::vector<Family> turning() {
-  std::vector<Family> all;
-  for (std::uint64_t i = 0; i < turning_names.size(); ++i) {
-    const auto family = static_cast<Turning>(i);
-    all.push_back({.kind = "turning",
-                   .name = std::string(turning_names[i]),
-                   .draw = [family](std::uint64_t seed) { return draw_among_turning(family, seed); },
-                   .first_seed = 3000017 * (i + 1),
-                   .share = 1.0 / 3,
-                   .covers = {{"turning", 0.2}, {"moving", 0.02, 0.9}, {"riding", ever}, {"crushed", 0, 0.2}}});
-    if (family == Turning::presses) all.back().covers.push_back({"crushed", ever});
-  }
-  return all;
+  return one_of_each(all_turning, [](Turning family, std::uint64_t number) -> Family {
+    const double least_crushed = family == Turning::presses ? ever : 0;
+    return {.kind = "turning",
+            .draw = [family](std::uint64_t seed) { return draw_among_turning(family, seed); },
+            .first_seed = 3000017 * number,
+            .share = 1.0 / 3,
+            .covers = {{"turning", 0.2}, {"moving", 0.02, 0.9}, {"riding", ever}, {"crushed", least_crushed, 0.2}}};
+  });
 }
 
 std::vector<Family> play() {
   std::vector<Family> all;
-  for (std::size_t i = 0; i < play_level_names.size(); ++i)
-    for (const int rate : {60, 240, 1000}) {
-      const auto level = static_cast<PlayLevel>(i);
+  for (const PlayLevel level : all_play_levels)
+    for (const int rate : {60, 240, 1000})
       all.push_back({.kind = "play",
-                     .name = fmt::format("{}_at_{}", play_level_names[i], rate),
+                     .name = fmt::format("{}_at_{}", name_of(level), rate),
                      .draw = [level, rate](std::uint64_t seed) { return draw_play(level, rate, seed); },
-                     .first_seed = 7919 + i,
+                     .first_seed = 7919 + static_cast<std::uint64_t>(level),
                      .share = 4.0 / 9,
                      .covers = {{"falling", 0.01}}});
-    }
-  for (std::size_t i = 0; i < play_level_names.size(); ++i) {
-    const auto level = static_cast<PlayLevel>(i);
-    all.push_back({.kind = "stairs",
-                   .name = std::string(play_level_names[i]),
-                   .draw = [level](std::uint64_t seed) { return draw_stairs(level, seed); },
-                   .share = 4.0 / 9});
-    if (level == PlayLevel::kerbs) all.back().covers = {{"climbing", 0.0005}, {"descending", 0.001}};
-  }
   return all;
+}
+
+std::vector<Family> play_on_stairs() {
+  return one_of_each(all_play_levels, [](PlayLevel level, std::uint64_t /*number*/) -> Family {
+    std::vector<Coverage> covers;
+    if (level == PlayLevel::kerbs) covers = {{"climbing", 0.0005}, {"descending", 0.001}};
+    return {.kind = "stairs",
+            .draw = [level](std::uint64_t seed) { return draw_stairs(level, seed); },
+            .share = 4.0 / 9,
+            .covers = covers};
+  });
 }
 
 std::vector<Family> rest() {
@@ -126,7 +123,7 @@ const std::vector<Family>& families() {
   static const std::vector<Family> all = [] {
     std::vector<Family> joined;
     for (std::vector<Family>& some :
-         std::array{still(), any_up(), movers(false), movers(true), turning(), play(), rest()})
+         std::array{still(), any_up(), movers(false), movers(true), turning(), play(), play_on_stairs(), rest()})
       std::move(some.begin(), some.end(), std::back_inserter(joined));
     return joined;
   }();

@@ -13,7 +13,7 @@
 
 namespace paperproof::compare {
 
-/// Of the records of a family so large a share must be one of a happening, and no larger one may be.
+/// How large a share of a family's records a happening has, at least and at most.
 struct Coverage {
   std::string_view happening;  ///< By its name.
   double least = 0;
@@ -21,8 +21,8 @@ struct Coverage {
 };
 
 struct Family {
-  std::string kind;  ///< `movers`: runs that are drawn alike.
-  std::string name;  ///< `tiles`: what is drawn.
+  std::string kind;    ///< `movers`: runs that are drawn alike.
+  std::string name{};  ///< `tiles`: the scenery, or what moves in it.
   std::function<RandomRun(std::uint64_t)> draw;
   std::uint64_t first_seed = 1;  ///< The runs have this seed and those that follow.
   double share = 1;              ///< Of the steps that are asked for: some are slow.
@@ -30,6 +30,10 @@ struct Family {
 
   /// As the command takes it: `movers/tiles`.
   [[nodiscard]] std::string title() const { return kind + "/" + name; }
+  /// Of one run: `movers_tiles_2000003`.
+  [[nodiscard]] std::string name_of_run(std::uint64_t seed) const {
+    return kind + "_" + name + "_" + std::to_string(seed);
+  }
   friend std::ostream& operator<<(std::ostream& out, const Family& family) { return out << family.title(); }
 };
 

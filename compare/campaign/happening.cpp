@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 namespace paperproof::compare {
 namespace {
 
 Vec2d way_of(const TraceStep& step) { return step.path.back().position - step.path.front().position; }
 
-/// A contact whose normal is so far from up.
+/// Whether a contact's normal has such a part along up.
 template <class IsSo>
 bool has_contact(const Moment& m, const IsSo& is_so) {
   const Vec2d up = up_in(m.record, m.header);
@@ -47,7 +49,7 @@ bool climbs(const Moment& m) {
 
 /// Along its ground, by more than it would have fallen.
 bool descends(const Moment& m) {
-  if (m.before == nullptr || !m.before->grounded || !m.record.grounded) return false;
+  if (!m.was_grounded || !m.record.grounded) return false;
   const double dt = length_of(m.record, m.header);
   return -way_of(m.record).y() > gravity_in(m.record, m.header).norm() * dt * dt + 1e-3;
 }
@@ -95,5 +97,11 @@ constexpr std::array all{
 }  // namespace
 
 std::span<const Happening> happenings() { return all; }
+
+std::size_t happening_named(std::string_view name) {
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Happening& one) { return one.name == name; });
+  if (found == all.end()) throw std::logic_error("no happening is named " + std::string(name));
+  return static_cast<std::size_t>(found - all.begin());
+}
 
 }  // namespace paperproof::compare

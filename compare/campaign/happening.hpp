@@ -1,9 +1,10 @@
-/// What can happen to a character in a step: counted over random runs, so that a campaign shows what it met.
+/// What can happen to a character in a step. A campaign counts it.
 #pragma once
 
 #include "oracle/judge.hpp"
 #include "records/trace.hpp"
 
+#include <cstddef>
 #include <span>
 #include <string_view>
 
@@ -13,9 +14,9 @@ namespace paperproof::compare {
 struct Moment {
   const TraceHeader& header;
   const TraceStep& record;
-  const TraceStep* before;  ///< The same character's last step; null in its first one.
   const StepJudgement& judged;
-  bool launched = false;  ///< Just before it.
+  bool was_grounded = false;  ///< When the step began.
+  bool launched = false;      ///< Just before it.
 };
 
 struct Happening {
@@ -26,5 +27,7 @@ struct Happening {
 
 /// All that are counted, in the order of tables.
 [[nodiscard]] std::span<const Happening> happenings();
+/// The place of one among them. @throws std::logic_error where none has that name.
+[[nodiscard]] std::size_t happening_named(std::string_view name);
 
 }  // namespace paperproof::compare

@@ -1,6 +1,7 @@
 /// Families of random scenery around the origin: each breaks a different naive sweep.
 #pragma once
 
+#include "campaign/named.hpp"
 #include "campaign/random.hpp"
 
 #include <paperproof/scenery.hpp>
@@ -34,14 +35,8 @@ inline constexpr std::array<std::string_view, 15> terrain_names{
     "tiles",  "slopes",  "spikes",  "papers",  "chains",  "wedges",         "stairs", "ceilings",
     "shafts", "needles", "concave", "one_way", "lattice", "one_way_solids", "circles"};
 
-inline constexpr std::array all_terrains = [] {
-  std::array<Terrain, terrain_names.size()> all{};
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<Terrain>(i);
-  return all;
-}();
-[[nodiscard]] inline std::string name_of(Terrain terrain) {
-  return std::string(terrain_names[static_cast<std::size_t>(terrain)]);
-}
+inline constexpr std::array all_terrains = all_of<Terrain>(terrain_names);
+[[nodiscard]] inline std::string name_of(Terrain terrain) { return name_among(terrain_names, terrain); }
 
 /// Solids within about 6 m of `origin`, with free room among them.
 SceneryDef random_terrain(Terrain terrain, Random& random, const Vec2d& origin);

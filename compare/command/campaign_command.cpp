@@ -52,14 +52,6 @@ std::string table_of(const std::vector<Ran>& all) {
   return aligned(columns) + "\n";
 }
 
-std::string lines_of(const Breaches& breaches, const std::string& begin) {
-  std::string lines;
-  for (const auto& [clause, breach] : breaches)
-    lines += fmt::format("{}{} on {}, first in step {}: {}\n", begin, name_of(clause), counted(breach.steps, "step"),
-                         breach.first_step, breach.first);
-  return lines;
-}
-
 /// All that are named, each once and in the order of the kinds.
 std::vector<const Family*> asked_for(const std::vector<std::string>& titles) {
   std::vector<const Family*> named;
@@ -83,11 +75,11 @@ int campaign_command(const CampaignArguments& arguments) {
   };
   for (const Family* family : asked_for(arguments.families)) {
     if (!kind.empty() && kind.front().family->kind != family->kind) print_kind();
-    const int steps = std::max(1, static_cast<int>(family->share * arguments.steps));
     Findings findings =
-        run_family(*family, steps, {.contender = arguments.contender, .trace_stem = arguments.trace_stem}, [&](std::uint64_t seed, const Findings& run) {
-          broken += lines_of(run.breaches, fmt::format("replay {} {}: ", family->title(), seed));
-        });
+        run_family(*family, arguments.steps, {.contender = arguments.contender, .trace_stem = arguments.trace_stem},
+                   [&](std::uint64_t seed, const Findings& run) {
+                     broken += describe(run.breaches, fmt::format("replay {} {}: ", family->title(), seed));
+                   });
     if (!findings.failed.empty()) missing += fmt::format("{}: {}\n", family->title(), findings.failed);
     for (const std::string& uncovered_part : uncovered(*family, findings)) missing += uncovered_part + "\n";
     if (findings.records > 0) kind.push_back({family, std::move(findings)});
@@ -102,7 +94,7 @@ int replay_command(const ReplayArguments& arguments) {
   if (named.size() > 1) throw InputError(arguments.family + ": expected one family, such as " + named.front()->title());
   const Family& family = *named.front();
   const RandomRun run = family.draw(arguments.seed);
-  const std::string name = fmt::format("{}_{}_{}", family.kind, family.name, arguments.seed);
+  const std::string name = family.name_of_run(arguments.seed);
   if (!arguments.scene_path.empty()) {
     OutputFile file(arguments.scene_path);
     file.write(scene_json(with_names(run.scene, name)).dump() + "\n");
@@ -117,7 +109,7 @@ int replay_command(const ReplayArguments& arguments) {
     if (found.happened[i] > 0)
       said += fmt::format("  {:<11}{} in {}\n", happenings()[i].name, happenings()[i].meaning,
                           counted(found.happened[i], "step"));
-  print_out(said + lines_of(found.breaches, "  breaks "));
+  print_out(said + describe(found.breaches, "  breaks "));
   return !found.breaches.empty() && is_guaranteed(arguments.contender, "double") ? 1 : 0;
 }
 

@@ -16,7 +16,7 @@ struct CampaignArguments {
 
 /// Prints a table for each kind of runs: steps, what happened in what share of them, and which clauses were broken;
 /// then a line for each run that broke one.
-/// @return 1 where a family is not covered or a run could not be made, else 0: what is broken is a figure here.
+/// @return 1 where a family does not cover what it must, or a run could not be made; else 0, whatever was broken.
 /// @throws InputError where there is no such family.
 int campaign_command(const CampaignArguments& arguments);
 
@@ -28,7 +28,7 @@ struct ReplayArguments {
   std::string scene_path;  ///< Where the scene goes as JSON; empty: nowhere.
 };
 
-/// Runs one run of a family again, and prints what it breaks.
+/// Repeats one run of a family, and prints what it breaks.
 /// @return 1 where it breaks a clause that its contender promises, else 0. @throws InputError as `campaign_command`.
 int replay_command(const ReplayArguments& arguments);
 

@@ -87,7 +87,7 @@ void Lane::expect(const std::vector<Answer>& answers) {
 
 void Lane::place(const Pose& pose, std::size_t character) {
   contestant_->place(pose, character);
-  // Of our own, what is put down stands anew.
+  // A character of ours forgets its ride when it is placed.
   begin_anew(pose, character, is_reference(row_.contender) ? pose.ride : Ride<double>{});
 }
 

@@ -108,7 +108,7 @@ std::string difference(const Report& one, const Report& other, const Saying& say
   return "";
 }
 
-/// Steps one character in some way; whoever makes it keeps what it needs alive in it.
+/// Steps one character in some way. It owns what it needs.
 using Stepper = std::function<void(State&, const Input&, const Context&, Report&)>;
 
 struct OtherWay {
@@ -116,12 +116,20 @@ struct OtherWay {
   Stepper step;
 };
 
-Stepper controller_of(SceneryDef def, const CharacterDef& character, const TechniqueDef& technique = {}) {
-  const auto scenery = std::make_shared<const Scenery<double>>(def);
-  const auto controller = std::make_shared<const Controller<double>>(make_controller(*scenery, character, technique));
-  const auto scratch = std::make_shared<Scratch<double>>(controller->make_scratch());
-  return [scenery, controller, scratch](State& state, const Input& input, const Context& context, Report& report) {
-    controller->step(state, input, context, *scratch, report);
+/// What steps a character of a scene.
+struct World {
+  explicit World(const SceneryDef& def, const CharacterDef& character, const TechniqueDef& technique = {})
+      : scenery(def), controller(make_controller(scenery, character, technique)) {}
+
+  Scenery<double> scenery;
+  Controller<double> controller;
+  Scratch<double> scratch = controller.make_scratch();
+};
+
+Stepper controller_of(const SceneryDef& def, const CharacterDef& character, const TechniqueDef& technique = {}) {
+  return [world = std::make_shared<World>(def, character, technique)](State& state, const Input& input,
+                                                                      const Context& context, Report& report) {
+    world->controller.step(state, input, context, world->scratch, report);
   };
 }
 
@@ -140,12 +148,10 @@ bool as_it_is(RandomRun&, Random&) { return true; }
 
 OtherWay turned(const RandomRun& run, Random& random) {
   OtherWay other;
-  other.saying.vector << 0, -1, 1, 0;
-  for (int more = random.integer(0, 2); more > 0; --more) {
-    Eigen::Matrix2d quarter;
-    quarter << 0, -1, 1, 0;
+  Eigen::Matrix2d quarter;
+  quarter << 0, -1, 1, 0;
+  for (int quarters = random.integer(1, 3); quarters > 0; --quarters)
     other.saying.vector = Eigen::Matrix2d(quarter * other.saying.vector);
-  }
   other.step = controller_of(other.saying.of(run.scene.scenery), other.saying.of(run.scene.character));
   return other;
 }
@@ -261,40 +267,31 @@ OtherWay filtered(const RandomRun& run, Random& random) {
 
 /// Saved as bytes and restored in each step, with memory that others have used or nobody has.
 OtherWay restored_each_step(const RandomRun& run, Random&) {
-  OtherWay other;
-  const auto scenery = std::make_shared<const Scenery<double>>(run.scene.scenery);
-  const auto controller = std::make_shared<const Controller<double>>(*scenery, run.scene.character);
-  const auto scratch = std::make_shared<Scratch<double>>(controller->make_scratch());
-  other.step = [scenery, controller, scratch](State& state, const Input& input, const Context& context,
-                                              Report& report) {
+  const auto world = std::make_shared<World>(run.scene.scenery, run.scene.character);
+  return {.step = [world](State& state, const Input& input, const Context& context, Report& report) {
     State elsewhere = state;
     elsewhere.position += Vec2d(1, 1);
     Report of_elsewhere;
-    controller->step(elsewhere, {.move = 1}, context, *scratch, of_elsewhere);
+    world->controller.step(elsewhere, {.move = 1}, context, world->scratch, of_elsewhere);
     state = restored(save(state));
-    controller->step(state, input, context, *scratch, report);
-    *scratch = controller->make_scratch();
-  };
-  return other;
+    world->controller.step(state, input, context, world->scratch, report);
+    world->scratch = world->controller.make_scratch();
+  }};
 }
 
 /// In another thread, while this one steps the same.
 OtherWay in_two_threads(const RandomRun& run, Random&) {
-  OtherWay other;
-  const auto scenery = std::make_shared<const Scenery<double>>(run.scene.scenery);
-  const auto controller = std::make_shared<const Controller<double>>(*scenery, run.scene.character);
-  other.step = [scenery, controller](State& state, const Input& input, const Context& context, Report& report) {
+  const auto world = std::make_shared<World>(run.scene.scenery, run.scene.character);
+  return {.step = [world](State& state, const Input& input, const Context& context, Report& report) {
     State of_this = state;
     Report report_of_this;
-    Scratch<double> scratch = controller->make_scratch();
-    Scratch<double> scratch_of_this = controller->make_scratch();
+    Scratch<double> scratch = world->controller.make_scratch();
     {
-      const std::jthread thread([&] { controller->step(state, input, context, scratch, report); });
-      controller->step(of_this, input, context, scratch_of_this, report_of_this);
+      const std::jthread thread([&] { world->controller.step(state, input, context, world->scratch, report); });
+      world->controller.step(of_this, input, context, scratch, report_of_this);
     }
     EXPECT_EQ(of_this, state);
-  };
-  return other;
+  }};
 }
 
 OtherWay by_another_broad_phase(const RandomRun& run, Random& random) {
@@ -358,7 +355,7 @@ class Twice {
     for (int step = 0; step < run_.scene.steps; ++step) {
       launch(step, state);
       launch(step, other_state, other_.saying);
-      const compare::StepInput input = input_of(step);
+      const compare::StepInput input = with_up(run_, step, cursor_.at(step));
       Report report;
       Report other_report;
       one_(state, input.players[0], context_of(input, {}, motions_), report);
@@ -382,14 +379,6 @@ class Twice {
   void launch(int step, State& state, const Saying& saying = {}) const {
     for (const compare::Launch& launch : run_.launches)
       if (launch.step == step) state.velocity = saying.of(launch.velocity);
-  }
-
-  compare::StepInput input_of(int step) {
-    compare::StepInput input = cursor_.at(step);
-    if (run_.ups.empty()) return input;
-    input.up = run_.ups[static_cast<std::size_t>(step)];
-    input.gravity = run_.scene.gravity.norm() * -input.up;
-    return input;
   }
 
   static Context context_of(const compare::StepInput& input, const Saying& saying,

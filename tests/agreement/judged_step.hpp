@@ -2,6 +2,7 @@
 #pragma once
 
 #include "agreement/recorded.hpp"
+#include "campaign/shapes.hpp"
 #include "oracle/judge.hpp"
 
 #include <paperproof/controller.hpp>
@@ -13,14 +14,9 @@
 
 namespace paperproof::test {
 
-inline constexpr double half_width = 0.3125;  ///< Of the article's character [m],
-inline constexpr double half_height = 0.625;  ///< and half of its height.
-
-inline ColliderDef box(double left, double bottom, double right, double top, MoverIndex mover = no_mover) {
-  ColliderDef collider{.points = {{left, bottom}, {right, bottom}, {right, top}, {left, top}}};
-  collider.mover = mover;
-  return collider;
-}
+using compare::box;
+using compare::half_height;
+using compare::half_width;
 
 /// No step enters or passes what is not named, or names what had left room or came no closer.
 inline bool holds(const compare::StepJudgement& judged) {
@@ -74,7 +70,7 @@ struct Judged {
   compare::StepJudgement step(const Input& input = {}) {
     controller.step(state, input, {gravity, dt, motions}, scratch, report);
     if (!looks_for_room) return {};
-    return judge.judge(recorded<double>(report, state, motions));
+    return judge.judge(recorded(report, state, motions));
   }
   [[nodiscard]] std::set<ColliderIndex> crushed() const {
     return {report.move.crushed.begin(), report.move.crushed.end()};

@@ -273,7 +273,7 @@ class Play {
     const StepReport<double>& report = one_way_.report;
     ++tally.steps;
     std::vector<MoverMotion<double>> movers(one_way_.scenery.mover_count(), motion_);
-    compare::TraceStep record = recorded<double>(report, after, movers);
+    compare::TraceStep record = recorded(report, after, movers);
     record.respawn = true;  // launches apart, it goes on where it was
     const compare::StepJudgement judged = judge.judge(record);
     EXPECT_FALSE(judged.broke()) << where(before, input);

@@ -97,7 +97,7 @@ class Meeting {
     const double gap = normal_.dot(state_.position - middle_ - motion_.from) + low_;
     const CharacterState<double> before = state_;
     controller_.step(state_, {}, {gravity, dt, motions}, scratch_, report_);
-    const compare::StepJudgement judged = judge.judge.judge(recorded<double>(report_, state_, motions));
+    const compare::StepJudgement judged = judge.judge.judge(recorded(report_, state_, motions));
     const Vec2d place = state_.position - middle_ - motion_.to;
     // Beyond the tips nothing holds it.
     const bool beside = std::abs(place.dot(along_)) > half - 1.5;

@@ -1,6 +1,7 @@
 /// A level that changes between steps, against scenery that is built at once; and movers that turn.
 #include <paperproof/level.hpp>
 
+#include "campaign/shapes.hpp"
 #include "level/poses.hpp"
 #include "level/turn.hpp"
 #include "support/allocations.hpp"
@@ -26,9 +27,7 @@ namespace {
 constexpr double frame = 1.0 / 60;
 constexpr double pi = std::numbers::pi;
 
-ColliderDef box(double left, double bottom, double right, double top, MoverIndex mover = no_mover) {
-  return {.points = {{left, bottom}, {right, bottom}, {right, top}, {left, top}}, .mover = mover};
-}
+using compare::box;
 
 Input random_input(Random& random) {
   return {.move = static_cast<double>(random.integer(-1, 1)), .jump = random.chance(0.4)};

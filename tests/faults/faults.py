@@ -6,7 +6,7 @@ it, and runs the tests.
       N faults for each part of the project, each an operator and a place drawn by the seed, and spare ones for those
       that do not compile.
   faults.py run FAULTS RESULTS [--into FOLDER] [--every] [--full]
-      RESULTS is a JSON file, one entry for each fault that compiles; what is in it already is not run again.
+      RESULTS is a JSON file with one entry for each fault. A fault that has an entry is not run again.
       FOLDER (build/faults) gets the copy and its build. --every: all tests that fail are named, not only the first.
       --full: faults that the quick tests did not find meet the slow ones as well.
   faults.py table RESULTS...
@@ -27,7 +27,7 @@ parts = {
     'harness': (['compare'], ['compare/oracle', 'compare/benchmarks']),
 }
 
-# name, what is replaced, by what. Sources are formatted: binary operators stand between blanks, template brackets do not.
+# Name, pattern, replacement. The sources are formatted: blanks surround binary operators, and not template brackets.
 turned = {'<': '>', '>': '<', '<=': '>=', '>=': '<=', '==': '!=', '!=': '=='}
 operators = [
     ('comparison', r'(?<= )(<|>|<=|>=|==|!=)(?= )', lambda m: turned[m[0]]),

@@ -1,0 +1,46 @@
+/// What the runs of several kinds draw alike.
+#pragma once
+
+#include "campaign/random.hpp"
+#include "campaign/random_run.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace paperproof::compare {
+
+/// A coordinate far from the origin, either side of it [m].
+[[nodiscard]] inline double far(Random& random) { return random.either_sign_log_between(1, 9.9e5); }
+
+[[nodiscard]] inline Vec2d round_to_pixels(const Vec2d& p) {
+  return {std::round(p.x() * 32) / 32, std::round(p.y() * 32) / 32};
+}
+
+/// Any direction [radians]; now and then along an axis or a diagonal.
+[[nodiscard]] inline double any_direction(Random& random) {
+  return random.chance(0.3) ? random.integer(0, 7) * std::numbers::pi / 4 : random.angle();
+}
+
+/// Now and then with a snap, or with another limit for climbs.
+inline void draw_rules(Random& random, CharacterDef& character) {
+  if (random.chance(0.3)) character.snap = 0.5;
+  if (random.chance(0.2)) character.max_climb_degrees = random.between(0, 89);
+}
+
+/// Keys to walk and to jump, pressed and released now and then.
+inline void press_keys(Random& random, Input& input) {
+  if (random.chance(0.1)) input.move = random.integer(-1, 1);
+  if (random.chance(0.1)) input.jump = !input.jump;
+}
+
+/// Adds a launch; before the first step it is what the character begins with.
+inline void add_launch(RandomRun& run, const Launch& launch) {
+  if (launch.step > 0)
+    run.launches.push_back(launch);
+  else if (launch.character == 0)
+    run.scene.start.velocity = launch.velocity;
+  else
+    run.scene.others[launch.character - 1].start.velocity = launch.velocity;
+}
+
+}  // namespace paperproof::compare
