@@ -1,0 +1,47 @@
+/// A situation: a scene, what happens in it, and numbers that follow by a formula. README.md has the format.
+#pragma once
+
+#include "runs/lane.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace paperproof::test {
+
+/// Numbers by name, for formulas.
+using Values = std::map<std::string, double>;
+
+/// @throws mu::Parser::exception_type for what is no formula; std::invalid_argument with the formula in it.
+[[nodiscard]] double value_of(const std::string& formula, const Values& values);
+
+/// The same document with a number for every text that begins with `=`, and the corners of every `box`.
+[[nodiscard]] nlohmann::json computed(const nlohmann::json& document, const Values& values);
+
+/// One situation with the numbers of one of its cases.
+struct SituationCase {
+  std::string title;     ///< The numbers that tell it from the others; empty where there is one case.
+  Values values;         ///< Of `for` and `let`.
+  nlohmann::json scene;  ///< As a scene file.
+  std::string contender;
+  nlohmann::json expected;          ///< A list, formulas not computed.
+  std::vector<std::string> breaks;  ///< Clauses that the judge finds broken, because that is known and open.
+};
+
+struct Situation {
+  std::string file;  ///< Without folder and ending.
+  std::string name;
+  std::vector<SituationCase> cases;
+};
+
+/// All situations of a folder, by file. @throws std::exception that names the file.
+[[nodiscard]] std::vector<Situation> read_situations(const std::string& folder);
+
+/// A sentence for each expectation that a run misses.
+/// @param records the steps of its trace, one after the other.
+[[nodiscard]] std::vector<std::string> missed(const SituationCase& situation,
+                                              const std::vector<nlohmann::json>& records);
+
+}  // namespace paperproof::test

@@ -1,0 +1,118 @@
+/// Runs every situation of this folder, has every step judged, and asks for the numbers that it expects.
+#include "situations/situation.hpp"
+
+#include "runs/input_cursor.hpp"
+#include "scenes/load.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+namespace paperproof::test {
+namespace {
+
+using compare::Clause;
+using nlohmann::json;
+
+const std::vector<Situation>& all_situations() {
+  static const std::vector<Situation> all = read_situations(PAPERPROOF_SITUATIONS);
+  return all;
+}
+
+/// The steps of a trace file.
+std::vector<json> records_of(const std::string& path) {
+  std::vector<json> records;
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);  // the header
+  while (std::getline(file, line)) records.push_back(json::parse(line));
+  return records;
+}
+
+class Situations : public ::testing::TestWithParam<Situation> {
+ protected:
+  /// Files of this test: its scene and its trace, kept where it fails.
+  [[nodiscard]] std::string stem() const {
+    return ::testing::TempDir() + "situation_" + GetParam().file + "_" + GetParam().name;
+  }
+
+  void run(const SituationCase& situation) const {
+    std::ofstream(stem() + ".json") << situation.scene.dump(1);
+    const compare::Scene scene = compare::load_scenes(stem() + ".json").front();
+    const Scenery<double> scenery(scene.scenery);
+    compare::Lane lane(situation.contender, compare::ScalarKind::binary64, scene, scenery, {}, "free", stem(),
+                       {.steps = scene.steps});
+    ASSERT_TRUE(lane.running()) << lane.row().reason;
+    const compare::Script script = script_of(scene);
+    compare::InputCursor cursor(scene, script);
+    for (int step = 0; step < scene.steps && lane.running(); ++step) lane.step(step, cursor.at(step));
+    lane.finish();
+    const std::string trace = compare::trace_path(stem(), scene.name, situation.contender, "double");
+    for (const std::string& sentence : missed(situation, records_of(trace))) ADD_FAILURE() << sentence;
+    std::vector<std::string> broken;
+    for (const auto& [clause, breach] : lane.breaches()) broken.emplace_back(name_of(clause));
+    EXPECT_TRUE(situation.contender != "octagon_sweep" || broken == situation.breaks)
+        << "broken: " << json(broken).dump();
+    std::filesystem::remove(trace);
+  }
+};
+
+TEST_P(Situations, come_to_what_they_must) {
+  for (const SituationCase& situation : GetParam().cases) {
+    run(situation);
+    ASSERT_FALSE(HasFailure()) << GetParam().name << situation.title << "\npaperproof compare " << stem()
+                               << ".json --contender " << situation.contender << " --trace STEM";
+  }
+  std::filesystem::remove(stem() + ".json");
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Situations, ::testing::ValuesIn(all_situations()),
+                         [](const auto& situation) { return situation.param.file + "_" + situation.param.name; });
+
+/// A situation of two steps: a fall of one metre, and a rest.
+TEST(Situation, is_missed_where_its_numbers_are_not_those_of_the_record) {
+  const std::vector<json> records{
+      json::parse(R"({"path": [[0, 2, 0], [0, 1, 1]], "grounded": false, "contacts": []})"),
+      json::parse(R"({"path": [[0, 1, 0]], "grounded": true, "contacts": [{"side": "bottom"}]})")};
+  struct Row {
+    const char* expected;
+    const char* sentence;
+  };
+  const std::vector<Row> rows{
+      {R"({"step": 0, "of": "y", "is": "=high - 1"})", ""},
+      {R"({"step": 0, "of": "y", "is": 1.25, "within": 0.25})", ""},
+      {R"({"step": 0, "of": "y", "is": 1.25, "within": 0.24})", "in step 0 y is 1 instead of 1.25 within 0.24"},
+      {R"({"step": 0, "of": "y", "is": 3, "because": "it rises"})",
+       "in step 0 y is 1 instead of 3 within 0 (it rises)"},
+      {R"({"step": 0, "of": "/path/0", "is": [0, 2, 0]})", ""},
+      {R"({"step": -1, "of": "contacts/#", "is": 1})", ""},
+      {R"({"step": -1, "of": "contacts/-1/side", "is": "top"})",
+       "in step 1 contacts/-1/side is \"bottom\" instead of \"top\" within 0"},
+      {R"({"step": 0, "of": "contacts/0/side", "is": null})", ""},
+      {R"({"steps": [0, 1], "of": "y", "is": 1})", ""},
+      {R"({"steps": [0, -1], "of": "grounded", "is": true})", "in step 0 grounded is false instead of true within 0"},
+      {R"({"some": [0, 1], "of": "grounded", "is": true})", ""},
+      {R"({"some": [0, 1], "of": "y", "above": 1})",
+       "0 of steps 0 to 1 are as expected; in step 0 y is 1, and not above 1"},
+      {R"({"some": [0, 1], "times": 1, "of": "grounded", "is": true})", ""},
+      {R"({"some": [0, 1], "times": 1, "of": "y", "is": 1})", "2 of steps 0 to 1 are as expected; "},
+      {R"({"step": 1, "of": "y", "is": "=last_y"})", ""},
+      {R"({"steps": [0, 1], "of": "y", "is": "=step + 1"})", "in step 1 y is 1 instead of 2.0 within 0"},
+      {R"({"step": 0, "of": "drift", "at_most": 1})", "in step 0 drift is null, and not at_most 1"},
+      {R"({"step": 2, "of": "y", "is": 1})", "y is asked of steps 2 to 2, and there are 2"},
+  };
+  for (const Row& row : rows) {
+    SituationCase situation;
+    situation.values = {{"high", 2}};
+    situation.expected = json::array({json::parse(row.expected)});
+    const std::vector<std::string> sentences = missed(situation, records);
+    EXPECT_EQ(sentences.empty() ? "" : sentences.front(), row.sentence) << row.expected;
+  }
+  SituationCase misspelt;
+  misspelt.expected = json::parse(R"([{"step": 0, "of": "y", "iz": 1}])");
+  EXPECT_THROW(missed(misspelt, records), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace paperproof::test
