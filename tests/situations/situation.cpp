@@ -31,10 +31,16 @@ Values constants() {
   };
 }
 
-/// Every combination of the numbers that `for` lists.
-std::vector<Values> combinations(const ordered_json& lists) {
+/// The cases of `for`: every combination of the numbers that it lists by name, or each of a list of rows.
+std::vector<Values> cases_of(const ordered_json& given) {
   std::vector<Values> all{constants()};
-  for (const auto& [name, numbers] : lists.items()) {
+  if (given.is_array()) {
+    all.assign(given.size(), constants());
+    for (std::size_t i = 0; i < given.size(); ++i)
+      for (const auto& [name, number] : given[i].items()) all[i][name] = computed(json(number), all[i]).get<double>();
+    return all;
+  }
+  for (const auto& [name, numbers] : given.items()) {
     std::vector<Values> longer;
     for (const Values& values : all) {
       for (const json number : numbers) {
@@ -47,16 +53,18 @@ std::vector<Values> combinations(const ordered_json& lists) {
   return all;
 }
 
-std::string title_of(const ordered_json& lists, const Values& values) {
+/// The numbers that tell a case from the others.
+std::string title_of(const ordered_json& given, const Values& values) {
+  const ordered_json& names = given.is_array() ? given.at(0) : given;
   std::string title;
-  for (const auto& [name, numbers] : lists.items()) title += fmt::format(" {}={}", name, values.at(name));
+  for (const auto& [name, ignored] : names.items()) title += fmt::format(" {}={}", name, values.at(name));
   return title;
 }
 
 Situation read_situation(const ordered_json& text, const ordered_json& file) {
   Situation situation{.file = {}, .name = text.at("name"), .cases = {}};
-  const ordered_json lists = text.value("for", ordered_json::object());
-  for (Values& values : combinations(lists)) {
+  const ordered_json given = text.value("for", ordered_json::object());
+  for (Values& values : cases_of(given)) {
     for (const ordered_json* place : {&file, &text}) {
       const ordered_json lets = place->value("let", ordered_json::object());
       for (const auto& [name, formula] : lets.items()) values[name] = value_of(formula, values);
@@ -65,7 +73,7 @@ Situation read_situation(const ordered_json& text, const ordered_json& file) {
     scene.merge_patch(json(text.value("scene", ordered_json::object())));
     scene["paperproof_scene"] = 1;
     scene["name"] = situation.name;
-    situation.cases.push_back({.title = title_of(lists, values),
+    situation.cases.push_back({.title = title_of(given, values),
                                .values = values,
                                .scene = computed(scene, values),
                                .contender = text.value("contender", "octagon_sweep"),
