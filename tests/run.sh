@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds and runs every test, then the same under the address and undefined behaviour
-# sanitizers. The last lines are CTest's summaries. The exit status is 0 only if everything was built and passed.
+# Installs what is missing, builds and runs every test; then the core, the adapter and the oracle under the address and
+# undefined behaviour sanitizers, and what threads share under the thread sanitizer. The last lines are CTest's summaries.
+# The exit status is 0 only if everything was built and passed.
 #   tests/run.sh            all of it
 #   tests/run.sh --quick    only the release build, without the tests that take long (CTest's label `slow`)
 set -euo pipefail
@@ -25,24 +26,29 @@ mapfile -t optional < <(installable_packages "${optional_test_packages[@]}")
 
 jobs=$(build_jobs)
 
-# Configures, builds and tests one preset; what follows its name is handed to CMake.
+# run_preset PRESET TARGET SETTING... -- OPTION...: configures a preset with the settings, builds the target, and tests with
+# the options of ctest.
 run_preset() {
-  local preset=$1 log=build/$1/ctest.log
-  cmake --preset "$preset" "${whole_build[@]}" "${@:2}" &&
-    cmake --build --preset "$preset" --parallel "$jobs" &&
-    ctest --preset "$preset" "${quick[@]}" --parallel "$jobs" --no-tests=error 2>&1 | tee "$log"
+  local preset=$1 target=$2 log=build/$1/ctest.log settings=()
+  shift 2
+  while [[ $1 != -- ]]; do settings+=("$1") && shift; done
+  cmake --preset "$preset" "${whole_build[@]}" "${settings[@]}" &&
+    cmake --build --preset "$preset" --target "$target" --parallel "$jobs" &&
+    ctest --preset "$preset" "${@:2}" --parallel "$jobs" --no-tests=error 2>&1 | tee "$log"
 }
 
 rm -f build/*/ctest.log
 status=0
-run_preset release </dev/null || status=1
+run_preset release all -DPAPERPROOF_BENCHMARKS=OFF -- "${quick[@]}" </dev/null || status=1
 if ((${#quick[@]})); then exit "$status"; fi
 # Without line numbers, which take a sixth of the time to compile, and in few processes: the preset alone has the one, and
 # a process for each test.
-run_preset asan-ubsan -DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -DCMAKE_EXE_LINKER_FLAGS=-fuse-ld=lld \
-  -DPAPERPROOF_TESTS_TOGETHER=ON </dev/null || status=1
+sanitized=(-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -DCMAKE_EXE_LINKER_FLAGS=-fuse-ld=lld -DPAPERPROOF_TESTS_TOGETHER=ON)
+run_preset asan-ubsan sanitized_tests "${sanitized[@]}" -- --label-regex '^sanitized$' </dev/null || status=1
+run_preset tsan threads_tests "${sanitized[@]}" -DPAPERPROOF_COMPARE=OFF -DPAPERPROOF_BOX2D=OFF -- \
+  --tests-regex '^threads_tests' </dev/null || status=1
 
-for preset in asan-ubsan release; do
+for preset in tsan asan-ubsan release; do
   echo
   echo "== $preset"
   if [[ -f build/$preset/ctest.log ]]; then
