@@ -106,20 +106,6 @@ TEST(PeersFeature, corner_correction_by_a_slanted_head) {
   EXPECT_LT(jumps_up_beside_a_corner(box_character(), 0.2 * slant), below_the_ceiling);
 }
 
-TEST(PeersFeature, the_three_ways_to_leave_a_platform) {
-  // Godot's `platform_on_leave`: add the velocity, add it only upwards, add nothing. A step adds it.
-  Stepper<double> rider({moving(rectangle(-3, -1, 3, 0))});
-  rider.at(0, half_height + stop);
-  for (int n = 0; n < 10; ++n) rider.step_with_mover_by(0.05, -0.03);
-  const Vec2d platform = rider.state.ride.velocity;
-  EXPECT_NEAR((platform - Vec2d(3, -1.8)).norm(), 0, 1e-12);
-  rider.step_with_mover_by(0.05, -0.03, {.jump = true});
-  const Vec2d jump{0, 12 - 10.0 / 60};
-  EXPECT_NEAR((rider.state.velocity - platform - jump).norm(), 0, 1e-12) << "add";
-  const Vec2d downwards{0, std::min(0.0, platform.y())};
-  EXPECT_NEAR((rider.state.velocity - downwards - Vec2d(3, 0) - jump).norm(), 0, 1e-12) << "add upwards";
-}
-
 // ----------------------------------------------------------------------------------------------------- complaints
 
 TEST(PeersComplaint, falls_through_a_vertical_platform) {  // rapier #488
@@ -136,35 +122,6 @@ TEST(PeersComplaint, falls_through_a_vertical_platform) {  // rapier #488
       EXPECT_TRUE(faller.state.grounded) << speed;
     }
   }
-}
-
-TEST(PeersComplaint, a_motionless_character_is_passed_through) {  // rapier #485
-  for (const double speed : {0.5, 20.0, 3000.0}) {
-    Stepper<double> still({moving(rectangle(-2, -9, -1, 9))});
-    for (int n = 0; n < 60; ++n) {
-      const MoverMotion<double> wall{still.movers[0].to, still.movers[0].to + Vec2d(speed / 60, 0)};
-      still.movers[0] = wall;
-      still.controller.move(still.state, {0, 0}, {{0, 0}, still.dt, still.movers}, still.scratch, still.report);
-      ASSERT_GT(still.state.position.x() - half_width, wall.to.x() - 1) << speed << " m/s, step " << n;
-    }
-    const double pushed = std::max(0.0, -1 + speed + half_width);
-    EXPECT_NEAR(still.state.position.x(), pushed, touch) << speed;
-  }
-}
-
-TEST(PeersComplaint, sticks_to_walls) {  // bevy_rapier #489, #301
-  Stepper<double> at_the_wall({rectangle(1, -90, 2, 90)});
-  Stepper<double> free({});
-  for (Stepper<double>* jumper : {&at_the_wall, &free}) jumper->at(0, 0).with_velocity(0, 8);
-  int touching = 0;
-  for (int n = 0; n < 120; ++n) {
-    at_the_wall.step({.move = 1});
-    free.step({.move = 1});
-    touching += at_the_wall.touched(Side::right);
-    ASSERT_EQ(at_the_wall.state.velocity.y(), free.state.velocity.y()) << n;
-    ASSERT_NEAR(at_the_wall.state.position.y(), free.state.position.y(), 1e-12) << n;
-  }
-  EXPECT_GE(touching, 90);
 }
 
 TEST(PeersComplaint, snags_on_the_seams_of_walls_and_ceilings) {  // godot #87477, #92621; box2d #935
@@ -284,59 +241,6 @@ TEST(PeersComplaint, climbs_corners) {  // box2d #1032: a capsule does, users wa
   const Vec2d brink{half_width - 0.001, half_height + stop};
   on_the_brink.at(brink.x(), brink.y()).steps(600, {.move = 0});
   EXPECT_EQ(on_the_brink.state.position, brink) << "it stands on a millimetre";
-}
-
-/// A lift with a belt, under stairs and ledges.
-std::vector<ColliderDef> playground() {
-  ColliderDef belt = moving(rectangle(-6, -1, -2, 0));
-  belt.surface_speed = 1;
-  return {rectangle(-floor_width, -2, floor_width, -1.5), belt, rectangle(0, -2, 9, -1.3), rectangle(1, -2, 9, -1.1),
-          chain({{-4, 1}, {4, 1}}, Vec2d{0, 1})};
-}
-
-TEST(PeersComplaint, rollback_diverges) {  // JoltPhysics #1551, godot-proposals #2821, #9663
-  const std::uint64_t seed = 1;
-  test::Random random(seed);
-  CharacterDef character;
-  character.snap = character.step_height = 0.25;
-  character.coyote_time = 0.1;
-  character.jump_buffer = 0.1;
-  Stepper<double> player(playground(), character);
-  player.gravity = {0, -30};
-  player.at(-4, 1);
-  struct Frame {
-    Input input;
-    double dt;
-    MoverMotion<double> lift;
-    CharacterState<double> before;
-  };
-  std::vector<Frame> frames;
-  const auto take = [&player](const Frame& frame) {
-    player.dt = frame.dt;
-    player.movers[0] = frame.lift;
-    player.step(frame.input);
-  };
-  int rides = 0;
-  Input input;
-  for (int n = 0; n < 3000; ++n) {
-    if (random.chance(0.05)) input.move = random.integer(-1, 1);
-    input.jump = random.chance(0.05);
-    input.drop = random.chance(0.02);
-    const MoverMotion<double>& lift = player.movers[0];
-    frames.push_back({input, random.between(1e-3, 0.05), {lift.to, Vec2d(0, std::sin(n * 0.02))}, player.state});
-    take(frames.back());
-    rides += player.state.ride.ground != Ride<double>::none;
-    if (std::abs(player.state.position.x()) > 8) teleport(player.state, {-4, 1});
-  }
-  EXPECT_GE(rides, 300) << "seed " << seed;
-  for (std::size_t back = 0; back + 60 < frames.size(); back += 60) {
-    player.state = frames[back].before;
-    for (std::size_t n = back; n < back + 60; ++n) {
-      ASSERT_EQ(player.state, frames[n].before) << "seed " << seed << ", rolled back to " << back << ", at " << n;
-      take(frames[n]);
-      if (std::abs(player.state.position.x()) > 8) teleport(player.state, {-4, 1});
-    }
-  }
 }
 
 // ----------------------------------------------------------------------------------------------------- situations
