@@ -108,14 +108,6 @@ TEST(SeveralMovers, are_met_in_order_of_time_and_not_of_number_or_side) {
   }
 }
 
-TEST(SeveralMovers, that_close_on_a_character_crush_it) {
-  Passenger passenger("speculative", {of_mover(rectangle(-5, -9, -2, 9), 0), of_mover(rectangle(2, -9, 5, 9), 1)});
-  const MoveResult<double>& result = passenger.fly({0, 0}, {0, 0}, {{{0, 0}, {1.9, 0}}, {{0, 0}, {-1.9, 0}}});
-  EXPECT_EQ(result.status, MoveStatus::crushed);
-  EXPECT_EQ(result.crushed.size(), 2U);
-  EXPECT_TRUE(std::isfinite(result.position.x()));
-}
-
 TEST(Riding, keeps_its_place_on_the_mover_and_its_contact_from_the_first_step_on) {
   for (const Vec2d& reach : {Vec2d{0, 3}, Vec2d{5, 0}, Vec2d{-4, 2.5}}) {
     for (const std::string_view kind : carrying_kinds) {
@@ -254,26 +246,6 @@ TEST(MovingOneWay, passes_from_below_and_carries_from_above) {
   }
 }
 
-TEST(MovingLine, never_gets_past_whom_it_pushes_however_both_move) {
-  Random random(31);
-  int pushes = 0;
-  for (int run = 0; run < 200; ++run) {
-    Passenger passenger("speculative", {rectangle(-900, -9, 900, 0), of_mover(chain({{0, -50}, {0, 50}}))});
-    passenger.position = {11 * px, half_height};
-    MoverMotion<double> motion;
-    for (int step = 0; step < 60; ++step) {
-      motion = {motion.to, motion.to + Vec2d{random.between(-0.2, 0.8), random.between(-0.3, 0.3)}};
-      passenger.velocity.x() = passenger.ride.velocity.x() + random.between(-30, 20);
-      const MoveResult<double>& result = passenger.step({motion});
-      ASSERT_GT(passenger.position.x() - half_width, motion.to.x()) << "seed 31, run " << run << ", step " << step;
-      ASSERT_NEAR(passenger.position.y(), half_height, rounding) << "seed 31, run " << run << ", step " << step;
-      pushes += result.contacts.size() > 1 ? 1 : 0;
-    }
-  }
-  EXPECT_GT(pushes, 200 * 60 * 3 / 10);
-  EXPECT_LT(pushes, 200 * 60 * 9 / 10);
-}
-
 TEST(StandingMovers, are_scenery_like_any_other) {
   // A mover that does not move in the step, wherever it has come to, holds what a static collider there would.
   const Vec2d offset{0.5, 0.25};
@@ -313,42 +285,6 @@ TEST(MovingRefusals, of_techniques_for_scenery_that_stands_still_say_so) {
       EXPECT_EQ(refusal(kind, each), std::string(kind) + " is for scenery that stands still");
   EXPECT_EQ(refusal("bounding_box", mover), "");
   EXPECT_EQ(refusal("bounding_box", belt), "bounding_box carries nobody: there is a conveyor");
-}
-
-TEST(FarMovers, change_no_bit_of_a_step_among_what_stands_still) {
-  Random random(91);
-  std::vector<ColliderDef> standing{rectangle(-40, -1, 40, 0)};
-  for (int i = 0; i < 60; ++i) {
-    const double x = random.between(-30, 30);
-    const double y = random.between(0, 3);
-    standing.push_back({.points = {{x, y}, {x + random.between(1, 4), y}, {x, y + random.between(0.2, 2)}}});
-  }
-  std::vector<ColliderDef> with_mover = standing;
-  with_mover.push_back(of_mover(rectangle(500, 0, 501, 1)));
-  for (const std::string_view kind : article_kinds) {
-    SCOPED_TRACE(kind);
-    if (kind == "wind_back") continue;  // knows no movers
-    Passenger alone(kind, standing);
-    Passenger accompanied(kind, with_mover);
-    int hits = 0;
-    Motions motions(1);
-    for (int step = 0; step < 3000; ++step) {
-      if (step % 100 == 0) {
-        alone.position = accompanied.position = {random.between(-30, 30), random.between(2, 9)};
-        alone.velocity = accompanied.velocity = random.point(20);
-      }
-      if (step % 100 == 30) alone.velocity.x() = accompanied.velocity.x() = random.between(-8, 8);
-      motions[0] = {motions[0].to, {random.between(-3, 3), 0}};
-      const MoveResult<double>& expected = alone.step({});
-      const MoveResult<double>& result = accompanied.step(motions);
-      ASSERT_EQ(result.position, expected.position) << "seed 91, step " << step;
-      ASSERT_EQ(result.velocity, expected.velocity) << "seed 91, step " << step;
-      ASSERT_EQ(result.contacts.size(), expected.contacts.size()) << "seed 91, step " << step;
-      hits += expected.contacts.empty() ? 0 : 1;
-    }
-    EXPECT_GT(hits, 600);
-    EXPECT_LT(hits, 2700);
-  }
 }
 
 }  // namespace

@@ -1,9 +1,11 @@
-/// The techniques that search along the article's points: what each does that no other does, and its knobs.
+/// The techniques that search along the article's points: what each does that no other does, and against each other.
 #include "controller/article_support.hpp"
+#include "support/steps_wanted.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 
 namespace paperproof::article_tests {
 namespace {
@@ -100,58 +102,6 @@ TEST(Speculative, ends_a_fall_for_a_frame_where_the_feet_reach_a_wall) {
   EXPECT_EQ(result.contacts[0].normal, Vec2d(-1, 0));
 }
 
-TEST(Speculative, keeps_rising_at_a_wall_and_reports_the_true_normal_of_an_overhang) {
-  for (const std::string_view kind : speculative_kinds) {
-    SCOPED_TRACE(kind);
-    Rig<double> wall(kind, {rectangle(1, -9, 2, 9)});
-    wall.move({0, 0}, {25 * px, 8 * px});
-    ASSERT_EQ(wall.result.contacts.size(), 1U);
-    EXPECT_EQ(wall.result.contacts[0].side, Side::right);
-    EXPECT_EQ(wall.result.velocity, Vec2d(0, 8 * px)) << "ending the rise is a rule of the controller";
-
-    Rig<double> overhang(kind, {{.points = {{-2, 2}, {2, 1}, {2, 3}}}});
-    overhang.move({0, 0}, {0, 2});
-    ASSERT_FALSE(overhang.result.contacts.empty());
-    EXPECT_EQ(overhang.result.contacts[0].side, Side::top);
-    const Vec2d normal = Vec2d{-1, -4} / std::sqrt(17.0);  // of the face from (2, 1) to (-2, 2)
-    EXPECT_LE((overhang.result.contacts[0].normal - normal).norm(), 1e-14);
-    EXPECT_EQ(overhang.result.velocity.y(), 0);
-    EXPECT_FALSE(overhang.result.grounded);
-  }
-}
-
-TEST(AllPairs, hold_back_a_character_that_moves_away_from_what_it_is_in) {
-  // Half a pixel inside the floor, jumping: the feet do not face the movement. Tested all the same, they end it.
-  for (const std::string_view kind : speculative_kinds) {
-    SCOPED_TRACE(kind);
-    for (const auto pairs : {ArticleKnobs::Pairs::direction, ArticleKnobs::Pairs::all}) {
-      // One unit of penetration resolution, or the jump.
-      const bool stuck = pairs == ArticleKnobs::Pairs::all;
-      const double way = stuck ? px : 12 * px;
-      Rig<double> jump(kind, {rectangle(-3, -1, 3, 0)}, {.pairs = pairs});
-      EXPECT_EQ(jump.move({0, half_height - px / 2}, {0, 12 * px}).position.y(), half_height - px / 2 + way);
-      EXPECT_EQ(jump.result.velocity.y(), stuck ? 0 : 12 * px);
-      Rig<double> walk(kind, {rectangle(-3, -3, 0, 3)}, {.pairs = pairs});
-      EXPECT_EQ(walk.move({half_width - px / 2, 0}, {12 * px, 0}).position.x(), half_width - px / 2 + way);
-      EXPECT_EQ(walk.result.velocity.x(), stuck ? 0 : 12 * px);
-    }
-  }
-}
-
-TEST(ShortenedVector, sticks_to_the_floor_where_the_component_rule_walks) {
-  for (const std::string_view kind : {"mask", "speculative_march", "speculative"}) {
-    SCOPED_TRACE(kind);
-    for (const Response response : {Response::component, Response::shorten}) {
-      Rig<double> rig(kind, {rectangle(-3, -1, 30, 0)}, {.response = response});
-      Vec2d position{0, half_height};
-      for (int step = 1; step <= 50; ++step) {
-        position = rig.move(position, {4 * px, -px / 4}).position;
-        ASSERT_EQ(position, Vec2d(response == Response::component ? step * 4 * px : 0, half_height));
-      }
-    }
-  }
-}
-
 TEST(Objects, are_left_one_by_one_and_a_later_one_may_push_into_an_earlier_one) {
   // The feet are 2 px deep in a floor whose top, at 1 px, is inside of a plate that comes first and reaches to 4 px.
   const std::vector<ColliderDef> colliders{rectangle(-3, px / 2, 3, 4 * px), rectangle(-3, -3, 3, px)};
@@ -166,6 +116,88 @@ TEST(Objects, are_left_one_by_one_and_a_later_one_may_push_into_an_earlier_one) 
     const MoveResult<double>& result = rig.move({0, half_height + 8 * px}, {0, -9 * px});
     EXPECT_EQ(result.position.y(), half_height + each.feet * px) << each.iterations;
   }
+}
+
+TEST(PaperThickness, speculative_stops_at_any_and_the_march_at_a_unit_or_more) {
+  Random random(3);
+  int passed_thin = 0;
+  for (int drop = 0; drop < 4000; ++drop) {
+    const double thickness = 5 * px * std::pow(10.0, -random.between(0, 4));
+    const double top = -px / 2 - random.between(1, 40) * px;
+    const double fall = (-px / 2 - top) + thickness + random.between(0, 50) * px;  // at least to the lower edge
+    const std::vector<ColliderDef> paper{rectangle(-2, top - thickness, 2, top)};
+
+    Rig<double> exact("speculative", paper, {}, single_pixel());
+    EXPECT_NEAR(exact.move({0, 0}, {0, -fall}).position.y(), top + px / 2, 1e-14) << "seed 3, drop " << drop;
+
+    Rig<double> march("speculative_march", paper, {}, single_pixel());
+    const bool stopped = !march.move({0, 0}, {0, -fall}).contacts.empty();
+    EXPECT_TRUE(stopped || thickness <= px) << "seed 3, drop " << drop;
+    passed_thin += stopped ? 0 : 1;
+    if (stopped) {
+      // Whole units from the start, and the last one above the paper.
+      const double distance = -px / 2 - top;
+      EXPECT_NEAR(march.result.position.y(), -std::floor(distance / px) * px, 1e-14) << "seed 3, drop " << drop;
+      EXPECT_NEAR(march.result.contacts[0].separation, std::fmod(distance, px), 1e-14) << "seed 3, drop " << drop;
+    }
+    // Penetration resolution sees where the feet end, and nothing else.
+    const double end = -fall - px / 2;
+    if (std::abs(end - (top - thickness)) < 1e-9) continue;
+    Rig<double> resolution("penetration_resolution", paper, {}, single_pixel());
+    const bool inside = top - thickness < end && end < top;
+    EXPECT_EQ(resolution.move({0, 0}, {0, -fall}).contacts.empty(), !inside) << "seed 3, drop " << drop;
+  }
+  EXPECT_GT(passed_thin, 400) << "paper thinner than a unit slips between two steps of the march";
+}
+
+using Sides = std::set<Side>;
+
+Sides sides_of(const MoveResult<double>& result) {
+  Sides sides;
+  for (const Contact<double>& contact : result.contacts) sides.insert(contact.side);
+  return sides;
+}
+
+TEST(SpeculativeAgreement, computed_and_marched_contacts_end_within_a_unit_of_each_other) {
+  // Where one pair hits, the march is less than a unit short of the computed impact, and penetration resolution brings
+  // both to within a unit of the outline. Two exceptions, both rare:
+  // - two pairs hit: the second is searched along a vector that the first has bent, a little differently in each;
+  // - the way of a point through the piece is shorter than a unit: the march steps over it, and a finer one does not.
+  Random random(20);
+  int hits = 0;
+  int by_one_pair = 0;
+  int bent_apart = 0;
+  int stepped_over = 0;
+  constexpr int sweeps = test::sampled(10'000);
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    const Vec2d centre = random.point(2.5);
+    const Vec2d radii{random.between(0.2, 2), random.between(0.2, 2)};
+    const std::vector<ColliderDef> piece{{.points = on_an_ellipse(random, centre, radii)}};
+    const Vec2d start = random.point(1);
+    const Vec2d displacement = random.point(3);
+    Rig<double> computed("speculative", piece);
+    const Vec2d end = computed.move(start, displacement).position;
+    const Sides sides = sides_of(computed.result);
+    const auto agrees = [&](double unit, double apart) {
+      Rig<double> marched("speculative_march", piece, {.unit = unit});
+      const Vec2d difference = marched.move(start, displacement).position - end;
+      return sides_of(marched.result) == sides && difference.cwiseAbs().maxCoeff() <= apart + 1e-12;
+    };
+    hits += sides.empty() ? 0 : 1;
+    if (agrees(px, px)) {
+      by_one_pair += sides.size() == 1 ? 1 : 0;
+    } else if (sides.size() == 2 && agrees(px, 5 * px)) {
+      ++bent_apart;
+    } else {
+      ++stepped_over;
+      EXPECT_TRUE(agrees(px / 1024, sides.size() == 2 ? 5 * px : px)) << "seed 20, sweep " << sweep;
+    }
+  }
+  EXPECT_GT(hits, sweeps * 3 / 10);
+  EXPECT_LT(hits, sweeps * 7 / 10);
+  EXPECT_GT(by_one_pair, sweeps / 10);
+  EXPECT_LT(bent_apart, sweeps / 200);
+  EXPECT_LT(stepped_over, sweeps / 200);
 }
 
 }  // namespace

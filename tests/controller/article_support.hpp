@@ -95,26 +95,6 @@ struct Rig {
   }
 };
 
-/// Walks on, as a game does: gravity and a walking speed that is set anew in every frame.
-struct Walker {
-  double dt = 1.0 / 64;
-  double gravity = 32;
-  Vec2d position{Vec2d::Zero()};
-  Vec2d velocity{Vec2d::Zero()};
-
-  const MoveResult<double>& step(Rig<double>& rig) {
-    velocity.y() -= gravity * dt;
-    MoveRequest<double> request;
-    request.position = position;
-    request.displacement = velocity * dt;
-    request.velocity = velocity;
-    rig.technique->move(request, rig.scratch, rig.result);
-    position = rig.result.position;
-    velocity = rig.result.velocity;
-    return rig.result;
-  }
-};
-
 /// What the exception says that `make` throws, or nothing.
 template <class Error>
 std::string refusal_by(const auto& make) {

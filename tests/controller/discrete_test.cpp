@@ -1,10 +1,12 @@
 /// Discrete collision detection: impacts, islands, their order, and the technique made of them.
-#include "controller/discrete_support.hpp"
+#include "controller/passenger.hpp"
 #include "support/steps_wanted.hpp"
+#include "techniques/discrete/solver.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <deque>
 #include <optional>
 
 namespace paperproof::article_tests {
@@ -12,57 +14,57 @@ namespace {
 
 using discrete::BodyIndex;
 using discrete::find_impact;
+using discrete::Pair;
+using discrete::PairList;
+using discrete::Reaches;
 
 constexpr double gap = Tolerances<double>{}.stop;
 constexpr double touch = Tolerances<double>{}.touch;
 constexpr std::string_view kind = "discrete";
 
-TEST(DiscreteImpact, of_two_boxes_is_when_the_later_of_the_two_gaps_closes) {
-  Random random(51);
-  int hits = 0;
-  int others = 0;
-  for (int i = 0; i < 20'000; ++i) {
-    Bodies<double> bodies;
-    const Vec2d size_a{random.between(0.2, 2), random.between(0.2, 2)};
-    const Vec2d size_b{random.between(0.2, 2), random.between(0.2, 2)};
-    const Vec2d start = random.point(3);
-    const Vec2d end = random.point(1.5);
-    const Vec2d of_b = random.point(5);
-    bodies.add_box(size_a, start, end - start + of_b);
-    bodies.add_box(size_b, {0, 0}, of_b);
-    const Vec2d reach = (size_a + size_b) / 2;
-    if ((start.cwiseAbs() - reach).maxCoeff() < 0.001) continue;  // overlapping from the start, or nearly
-    if ((end.cwiseAbs() - reach).cwiseAbs().minCoeff() < 1e-9) continue;
-    const auto impact = find_impact(bodies.all[0], bodies.all[1], touch);
-    const bool overlaps = (end.cwiseAbs() - reach).maxCoeff() < 0;
-    ASSERT_EQ(impact.has_value(), overlaps) << "seed 51, case " << i;
-    ++(overlaps ? hits : others);
-    if (!overlaps) continue;
-    // Along each axis the gap |start| - reach is closed at the speed |end - start|, where there was one.
-    double last = -1;
-    for (const Eigen::Index axis : {0, 1}) {
-      const double open = std::abs(start[axis]) - reach[axis];
-      if (open > 0) last = std::max(last, open / std::abs(end[axis] - start[axis]));
-    }
-    ASSERT_NEAR(impact->time, last, 1e-9) << "seed 51, case " << i;
-    ASSERT_NEAR(impact->normal.norm(), 1, 1e-15) << "seed 51, case " << i;
+/// Bodies, and the outlines that they refer to.
+class Bodies {
+ public:
+  using Body = discrete::Body<double>;
+
+  Body& add(std::vector<Vec2d> outline, const Vec2d& position, const Vec2d& movement = {0, 0}) {
+    outlines_.push_back(std::move(outline));
+    Body body;
+    body.outline = std::span<const Vec2d>(outlines_.back());
+    body.box = {outlines_.back().front(), outlines_.back().front()};
+    for (const Vec2d& vertex : outlines_.back()) body.box = body.box.merged({vertex, vertex});
+    body.position = position;
+    body.movement = body.velocity = movement;
+    all.push_back(body);
+    return all.back();
   }
-  EXPECT_GT(hits, 20'000 * 3 / 10);
-  EXPECT_GT(others, 20'000 * 2 / 10);
-}
+
+  /// A box of a metre, by its centre.
+  Body& add_box(const Vec2d& position, const Vec2d& movement = {0, 0}) {
+    return add(rectangle(-0.5, -0.5, 0.5, 0.5).points, position, movement);
+  }
+
+  std::vector<Body> all;
+
+ private:
+  std::deque<std::vector<Vec2d>> outlines_;  // their addresses stay
+};
+
+discrete::Solver<double> make_solver() { return {gap, touch}; }
 
 TEST(DiscreteImpact, of_convex_outlines_is_when_they_begin_to_overlap) {
   Random random(52);
   int hits = 0;
   for (int i = 0; i < 10'000; ++i) {
-    Bodies<double> bodies;
+    Bodies bodies;
     const Vec2d start = random.point(4);
     const Vec2d end = random.point(1);
-    bodies.add(on_an_ellipse(random, {0, 0}, {1, 1}), start, end - start);
-    bodies.add(on_an_ellipse(random, {0, 0}, {1, 1}), {0, 0});
+    const Vec2d of_both = random.point(5);
+    bodies.add(on_an_ellipse(random, {0, 0}, {1, 1}), start, end - start + of_both);
+    bodies.add(on_an_ellipse(random, {0, 0}, {1, 1}), {0, 0}, of_both);
     const auto overlap_at = [&](double time) {
       auto moved = bodies.all[0];
-      moved.position = start + (end - start) * time;
+      moved.position = start + (end - start) * time;  // seen from the other
       return discrete::began_overlapping(moved, bodies.all[1], 0.0);
     };
     if (overlap_at(0)) continue;
@@ -70,22 +72,11 @@ TEST(DiscreteImpact, of_convex_outlines_is_when_they_begin_to_overlap) {
     ASSERT_EQ(impact.has_value(), overlap_at(1)) << "seed 52, case " << i;
     if (!impact) continue;
     ++hits;
+    ASSERT_NEAR(impact->normal.norm(), 1, 1e-15) << "seed 52, case " << i;
     ASSERT_FALSE(overlap_at(impact->time - 1e-9)) << "seed 52, case " << i;
     ASSERT_TRUE(overlap_at(std::min(1.0, impact->time + 1e-9)) || impact->time > 1 - 2e-9) << "seed 52, case " << i;
   }
   EXPECT_GT(hits, 3000);
-}
-
-TEST(DiscreteImpact, has_the_depth_and_the_point_of_where_the_frame_ends) {
-  Bodies<double> bodies;
-  bodies.add_box({1, 1}, {0, 3}, {0, -3});
-  bodies.add_static_box({9, 0.5}, {0, 0});
-  const auto impact = find_impact(bodies.all[0], bodies.all[1], touch);
-  ASSERT_TRUE(impact);
-  EXPECT_DOUBLE_EQ(impact->time, (3 - 0.5 - 0.25) / 3);
-  EXPECT_EQ(impact->normal, Vec2d(0, 1));
-  EXPECT_DOUBLE_EQ(impact->depth, 0.5 + 0.25);
-  EXPECT_EQ(impact->point, Vec2d(0, 0.25));
 }
 
 TEST(DiscreteIslands, of_many_bodies_are_those_of_a_flood_over_overlapping_boxes) {
@@ -94,9 +85,9 @@ TEST(DiscreteIslands, of_many_bodies_are_those_of_a_flood_over_overlapping_boxes
   for (int scene = 0; scene < 300; ++scene) {
     // So few that each is looked at, or so many that they are swept; the field is as dense.
     const BodyIndex count = scene % 2 == 0 ? 40 : 90;
-    Bodies<double> bodies;
+    Bodies bodies;
     for (BodyIndex i = 0; i < count; ++i) {
-      auto& body = bodies.add_box({1, 1}, random.point(scene % 2 == 0 ? 8 : 12), random.point(1));
+      auto& body = bodies.add_box(random.point(scene % 2 == 0 ? 8 : 12), random.point(1));
       if (random.below(5) == 0) body.inverse_mass = 0;
     }
     // Each covers half a metre around its way.
@@ -133,9 +124,9 @@ TEST(DiscreteIslands, of_many_bodies_are_those_of_a_flood_over_overlapping_boxes
 
 TEST(DiscreteOrder, is_that_of_the_times_of_impact_within_an_island) {
   // The mover is expected to end in all three boxes, of which the last, whose top is the highest, is met first.
-  Bodies<double> bodies;
-  for (const double y : {-2.5, -2.0, -1.5}) bodies.add_static_box({1, 1}, {0, y});
-  bodies.add_box({1, 1}, {0, 1}, {0, -3});
+  Bodies bodies;
+  for (const double y : {-2.5, -2.0, -1.5}) bodies.add_box({0, y}).inverse_mass = 0;
+  bodies.add_box({0, 1}, {0, -3});
   for (BodyIndex i = 0; i < 3; ++i) ASSERT_TRUE(find_impact(bodies.all[3], bodies.all[i], touch));
   auto solver = make_solver();
   ASSERT_TRUE(solver.solve_once(bodies.all));
@@ -146,40 +137,13 @@ TEST(DiscreteOrder, is_that_of_the_times_of_impact_within_an_island) {
   EXPECT_FALSE(solver.solve_once(bodies.all)) << "nothing is left";
 }
 
-TEST(DiscreteOrder, of_all_solved_impacts_rises_within_each_island) {
-  Random random(54);
-  int impacts = 0;
-  int against_the_indices = 0;
-  for (int scene = 0; scene < 1000; ++scene) {
-    Bodies<double> bodies;
-    for (int i = 0; i < 30; ++i) bodies.add_box({0.5, 0.5}, random.point(6), random.point(1));
-    const std::vector<Bodies<double>::Body> before = bodies.all;
-    auto solver = make_solver();
-    solver.solve_once(bodies.all);
-    std::vector<double> latest(before.size());  // of each island
-    BodyIndex last = 0;
-    for (const discrete::SolvedImpact<double>& each : solver.solved()) {
-      const auto [first, second] = each.bodies;
-      const double time = find_impact(before[first], before[second], touch)->time;
-      double& until_now = latest[solver.island_of(first)];
-      ASSERT_LE(until_now, time) << "seed 54, scene " << scene;
-      until_now = time;
-      against_the_indices += solver.island_of(first) == solver.island_of(last) && first < last ? 1 : 0;
-      last = first;
-      ++impacts;
-    }
-  }
-  EXPECT_GT(impacts, 1000);
-  EXPECT_GT(against_the_indices, 50);
-}
-
 TEST(DiscretePush, keeps_the_momentum_and_the_centre_of_mass_of_what_can_move) {
   Random random(55);
   int solved = 0;
   for (int i = 0; i < 2000; ++i) {
-    Bodies<double> bodies;
+    Bodies bodies;
     for (int body = 0; body < 6; ++body)
-      bodies.add_box({1, 1}, random.point(2), random.point(1)).inverse_mass = random.between(0.1, 10);
+      bodies.add_box(random.point(2), random.point(1)).inverse_mass = random.between(0.1, 10);
     const auto sums = [&] {
       Eigen::Vector4d of_momentum_and_place = Eigen::Vector4d::Zero();
       for (const auto& body : bodies.all)
@@ -198,12 +162,12 @@ TEST(DiscretePush, keeps_the_momentum_and_the_centre_of_mass_of_what_can_move) {
 
 /// @return the lowest speed after a step of a walk over flush tiles, as a share of the one that was set.
 double slowest_on_flush_tiles(double speed) {
-  Rig<double> rig(kind, flush_tiles(40));
-  Walker walker{.position = {1, half_height}};
+  Passenger walker(kind, flush_tiles(40));
+  walker.position = {1, half_height};
   double slowest = 1;
   while (walker.position.x() < 38 && slowest > 0) {
     walker.velocity.x() = speed;
-    slowest = std::min(slowest, walker.step(rig).velocity.x() / speed);
+    slowest = std::min(slowest, walker.step({}).velocity.x() / speed);
   }
   return slowest;
 }
@@ -211,9 +175,8 @@ double slowest_on_flush_tiles(double speed) {
 /// Whether a walk from x = 1 over flush tiles comes, in a step, from wholly on one tile to wholly beyond it. Nothing
 /// where a gap decides it.
 std::optional<bool> oversteps_a_tile(double speed) {
-  const Walker walker;
-  const double way = speed * walker.dt;
-  const double sunk = walker.gravity * walker.dt * walker.dt;  // at the end of a step, below the tiles' tops
+  const double way = speed / 64;
+  const double sunk = 32.0 / 64 / 64;  // at the end of a step, below the tiles' tops
   const double half_foot = 5 * px;
   const double half_at_the_end = half_foot + sunk / 2;  // at the tops: the flanks go 10 px up and 5 px out
   // What is reached before the gap to the tiles below has closed is met from above.
@@ -251,23 +214,72 @@ TEST(Discrete, snags_on_flush_tiles_only_where_the_feet_have_left_the_tile_when_
   EXPECT_GE(passed_above, 5);
 }
 
-TEST(Discrete, slides_along_a_slope_and_keeps_its_gap) {
-  Rig<double> rig(kind, {{.points = {{-9, -9}, {9, -9}, {9, 9}}}});
-  const MoveResult<double>& result = rig.move({0, 1.5}, {0, -1});
-  // Of the octagon's corners (5, -20) px is the first to meet the surface y = x: its x - y is the largest.
-  const double above = 1.5 - 1 - (5 + 20) * px;  // of the expected end over the surface, along y
-  const Vec2d normal = Vec2d{-1, 1} / std::sqrt(2.0);
-  const Vec2d expected = Vec2d{0, 0.5} + normal * (-above / std::sqrt(2.0) + gap);
-  EXPECT_LE((result.position - expected).norm(), 1e-12);
-  EXPECT_LE((result.velocity - Vec2d{-0.5, -0.5}).norm(), 1e-12) << "half of the fall is along the slope";
-}
-
 TEST(Discrete, begins_inside_and_comes_out_the_nearest_way_or_is_stuck) {
   Rig<double> rig(kind, {rectangle(-5, -5, 5, 0)});
   EXPECT_NEAR(rig.move({0, half_height - 0.125}, {0, 0}).position.y(), half_height + gap, 1e-12);
   EXPECT_EQ(rig.result.status, MoveStatus::moved);
   Rig<double> narrow(kind, {rectangle(-5, -5, 0.1, 5), rectangle(-0.1, -5, 5, 5)});
   EXPECT_EQ(narrow.move({0, 0}, {0, 0}).status, MoveStatus::stuck);
+}
+
+/// Sorted. @param find fills a list.
+std::vector<Pair> sorted(const auto& find) {
+  PairList pairs;
+  find(pairs);
+  std::vector<Pair> all = pairs.all();
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+template <class Scalar>
+std::vector<Pair> expect_both_alike(Reaches<Scalar> reaches) {
+  const std::vector<Pair> slow = sorted([&](PairList& pairs) { find_pairs_one_by_one(reaches, pairs); });
+  EXPECT_EQ(sorted([&](PairList& pairs) { find_pairs_by_sweep(reaches, pairs); }), slow);
+  return slow;
+}
+
+/// Boxes in a field, a row or a tower; on whole quarters of a metre, so that many touch and begin at the same place.
+template <class Scalar>
+Reaches<Scalar> any_reaches(Random& random, double share_that_moves) {
+  const Vec2d field{random.between(0.5, 12), random.between(0.5, 12)};
+  const auto place = [&random](double most) { return std::floor(random.between(0, 4 * most)) / 4; };
+  Reaches<Scalar> reaches;
+  const int count = random.below(60);
+  for (int i = 0; i < count; ++i) {
+    const Vec2d lower{place(field.x()), place(field.y())};
+    const Vec2d size{place(random.below(10) == 0 ? 12 : 1), place(1)};
+    (random.chance(share_that_moves) ? reaches.movable : reaches.fixed)
+        .push_back({{lower.cast<Scalar>(), (lower + size).cast<Scalar>()}, static_cast<BodyIndex>(i)});
+  }
+  return reaches;
+}
+
+template <class Scalar>
+void compare_with_twin(std::uint64_t seed, int scenes) {
+  Random random(seed);
+  std::size_t possible = 0;
+  std::size_t found = 0;
+  for (int scene = 0; scene < scenes; ++scene) {
+    const Reaches<Scalar> reaches = any_reaches<Scalar>(random, random.unit());
+    SCOPED_TRACE(testing::Message() << "seed " << seed << ", scene " << scene);
+    const std::size_t movable = reaches.movable.size();
+    possible += movable * (movable + reaches.fixed.size());
+    found += expect_both_alike(reaches).size();
+  }
+  EXPECT_GT(found, possible / 50);
+  EXPECT_LT(found, possible / 3);
+}
+
+TEST(DiscretePairs, of_a_sweep_are_those_of_looking_at_all) {
+  compare_with_twin<double>(61, 9000);
+  compare_with_twin<float>(62, 1000);
+}
+
+TEST(DiscretePairs, have_first_what_can_be_moved_and_the_lower_of_two_that_can) {
+  const Box2<double> here{{0, 0}, {1, 1}};
+  const Reaches<double> reaches{.movable = {{here, 3}, {here, 1}}, .fixed = {{here, 0}, {here, 2}}};
+  const std::vector<Pair> expected{{1, 0}, {1, 2}, {1, 3}, {3, 0}, {3, 2}};
+  EXPECT_EQ(expect_both_alike(reaches), expected);
 }
 
 }  // namespace

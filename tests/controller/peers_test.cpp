@@ -1,15 +1,12 @@
 /// What other controllers have, and what their users complain of, where no other test shows it. `coming_from.md` lists
 /// all of it, with the tests.
 #include "controller/stepping.hpp"
-#include "support/random_runs.hpp"
 
 #include <paperproof/contact_changes.hpp>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <span>
 #include <string>
 #include <tuple>
@@ -20,7 +17,6 @@ namespace {
 
 constexpr double stop = Tolerances<double>{}.stop;
 constexpr double touch = 1e-6;  ///< Largest gap of what was stopped [m].
-constexpr double floor_width = 60;
 
 ColliderDef moving(ColliderDef collider) {
   collider.mover = 0;
@@ -28,10 +24,7 @@ ColliderDef moving(ColliderDef collider) {
 }
 
 CharacterDef box_character() {
-  CharacterDef character;
-  character.shape = CharacterShape(std::array{Vec2d(-half_width, -half_height), Vec2d(half_width, -half_height),
-                                              Vec2d(half_width, half_height), Vec2d(-half_width, half_height)});
-  return character;
+  return article_tests::of_shape(CharacterShape(rectangle(-half_width, -half_height, half_width, half_height).points));
 }
 
 /// Ground through the origin, in pieces of a metre that abut exactly. @param rise per metre, a multiple of 1/16.
@@ -81,10 +74,7 @@ TEST(Contacts, are_added_persist_and_are_removed) {
 
 TEST(Contacts, of_one_collider_are_one_change_and_removed_ones_come_last) {
   const auto with = [](ColliderIndex collider, double fraction) {
-    Contact<double> contact;
-    contact.collider = collider;
-    contact.fraction = fraction;
-    return contact;
+    return Contact<double>{.collider = collider, .fraction = fraction};
   };
   const std::vector<Contact<double>> before{with(7, 0.1), with(3, 0.2), with(7, 0.3)};
   const std::vector<Contact<double>> now{with(5, 0.4), with(3, 0.5), with(5, 0.6)};
@@ -168,15 +158,11 @@ TEST(PeersComplaint, the_floor_flag_flickers) {  // godot #16250, #90718; bevy_r
   }
 }
 
-/// Ledges, 0.3 m apart: the character spans several.
-std::vector<ColliderDef> ladder_of_ledges() {
+TEST(PeersComplaint, one_way_platforms_pop_or_eat_jumps) {  // godot #9399, #42914; prime31 #46, #82
+  // Ledges, 0.3 m apart: the character spans several.
   std::vector<ColliderDef> ledges{rectangle(-9, -1, 9, 0)};
   for (int i = 1; i <= 20; ++i) ledges.push_back(chain({{-9, 0.3 * i}, {9, 0.3 * i}}, Vec2d{0, 1}));
-  return ledges;
-}
-
-TEST(PeersComplaint, one_way_platforms_pop_or_eat_jumps) {  // godot #9399, #42914; prime31 #46, #82
-  Stepper<double> jumper(ladder_of_ledges());
+  Stepper<double> jumper(ledges);
   jumper.gravity = {0, -30};
   jumper.at(0, half_height + stop).steps(2);
   int jumps = 0;

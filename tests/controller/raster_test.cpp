@@ -1,4 +1,4 @@
-/// Which pixels a scenery covers.
+/// Which pixels a scenery covers, and the techniques that compare them.
 #include "techniques/raster/sprite.hpp"
 
 #include "controller/article_support.hpp"
@@ -138,31 +138,15 @@ TEST(Rasteriser, draws_a_chain_as_a_line_without_gaps_or_thickness) {
   }
 }
 
-TEST(Rasteriser, finds_the_pixels_of_a_piece_one_by_one_too) {
-  Random random(6);
-  std::size_t solid = 0;
-  for (int i = 0; i < 500; ++i) {
-    std::vector<Vec2d> points{random.point(9), random.point(9)};
-    if (i % 2 == 1) points.push_back(random.point(9));
-    const Pixels pixels = pixels_of(i % 2 == 0 ? chain(points) : ColliderDef{.points = points}, 1.3);
-    for (std::int64_t y = -14; y < 14; ++y)
-      for (std::int64_t x = -14; x < 14; ++x)
-        ASSERT_EQ(raster::covers<double>(points, 1.3, {x, y}), pixels.contains({x, y})) << "seed 6, " << i;
-    solid += pixels.size();
-  }
-  EXPECT_GT(solid, 10'000U);
-}
-
 TEST(Rasteriser, draws_neither_sensors_nor_what_moves) {
   const ColliderDef solid = rectangle(0, 0, 1, 1);
   ColliderDef sensor = chain({{-100, 0}, {1e6, 7}});
   sensor.sensor = true;
   const ColliderDef mover = compare::box(4, 0, 5, 1, 0);
-  const raster::PixelBox level = raster::rasterise({{sensor, solid, mover}}, 32).box();
-  const raster::PixelBox alone = raster::rasterise({{solid}}, 32).box();
-  EXPECT_EQ(level.lower, alone.lower);
-  EXPECT_EQ(level.width, alone.width);
-  EXPECT_EQ(level.height, alone.height);
+  const Bitmap level = raster::rasterise({{sensor, solid, mover}}, 32);
+  const Bitmap alone = raster::rasterise({{solid}}, 32);
+  EXPECT_EQ(level.box().lower, alone.box().lower);
+  EXPECT_EQ(level.memory_bytes(), alone.memory_bytes());
   EXPECT_EQ(raster::pixels_around({{sensor, mover}}, 32).width, 0) << "nothing is solid";
   const raster::ColourPicture picture({{sensor, solid, mover}}, 32);
   EXPECT_EQ(picture.colour({16, 16}), 2) << "a collider keeps its number";
@@ -232,6 +216,49 @@ TEST(Bitmaps, overlap_by_words_as_they_do_pixel_by_pixel) {
   }
   EXPECT_GE(overlapping, scenes * 30);
   EXPECT_LE(overlapping, scenes * 70);
+}
+
+TEST(Mask, takes_the_vertical_movement_first_as_the_pairs_are) {
+  // Past the corner of a block, by as much down as to the right: down first, and then its fourth row of pixels, which
+  // is 7 px wide on the right of the middle, meets the block 3 px later. The other way round it would end at (4, -3).
+  Rig<double> rig("mask", {rectangle(half_width, -9, 9, -half_height)});
+  EXPECT_EQ(rig.move({0, 0}, {4 * px, -4 * px}).position, Vec2d(3 * px, -4 * px));
+  ASSERT_EQ(rig.result.contacts.size(), 1U);
+  EXPECT_EQ(rig.result.contacts[0].side, Side::right);
+}
+
+TEST(Mask, compares_only_the_white_pixels_of_its_picture_which_is_as_large_as_the_character) {
+  TechniqueDef leg_on_the_left{.name = "mask"};
+  for (int row = 0; row < 40; ++row) leg_on_the_left.sprite.emplace_back(row < 30 ? 20 : 5, '#').resize(20, '.');
+  const std::vector<ColliderDef> on_the_right{rectangle(0, -9, 9, -half_height - px)};
+  EXPECT_EQ(Rig<double>("mask", on_the_right).move({0, 0}, {0, -5 * px}).position.y(), -px) << "the hull";
+  EXPECT_EQ(Rig<double>(leg_on_the_left, on_the_right).move({0, 0}, {0, -5 * px}).position.y(), -5 * px);
+  leg_on_the_left.sprite.pop_back();
+  EXPECT_THROW(Rig<double>(leg_on_the_left, on_the_right), std::invalid_argument);
+}
+
+TEST(Mask, is_accurate_to_the_pixel_in_scenery_of_any_shape) {
+  // A tooth two pixels high and two wide, under the left foot, beside it, or just not.
+  for (int x = -12; x <= 12; ++x) {
+    const double left = x * px;
+    Rig<double> rig("mask", {rectangle(-2, -1, 2, 0), rectangle(left, 0, left + 2 * px, 2 * px)});
+    const double feet = rig.move({0, half_height + 10 * px}, {0, -9.5 * px}).position.y() - half_height;
+    // The lowest two rows of the octagon: half a pixel above the feet it reaches from -5 - 0.25 to 5 + 0.25 px, with
+    // pixel centres from -4.5 to 4.5; one and a half above, up to 5.75: from -5.5 to 5.5.
+    int expected = 2;
+    if (x + 1 < -5 || x > 4) expected = 1;
+    if (x + 1 < -6 || x > 5) expected = 0;
+    // A column that only the second row has collides from one row higher on.
+    EXPECT_EQ(feet, expected == 0 ? 0.5 * px : expected * px) << x;
+  }
+}
+
+TEST(PixelColour, is_stopped_by_decoration_in_the_colour_of_a_platform_which_is_no_collider) {
+  const SceneryDef cloud{{rectangle(half_width + 2 * px, 0, 3, 1)}};
+  const TechniqueDef painted{.name = "pixel_colour", .decoration = std::make_shared<const SceneryDef>(cloud)};
+  Rig<double> rig(painted, {rectangle(-9, -9, 9, -half_height)});
+  EXPECT_EQ(rig.move({0, 0}, {8 * px, 0}).position.x(), 2 * px);
+  EXPECT_TRUE(rig.result.contacts.empty());
 }
 
 }  // namespace
