@@ -34,7 +34,7 @@ constexpr std::array all_stopping{
 };
 
 template <class Scalar>
-class StoppingIn : public testing::Test {
+class TechniqueIn : public testing::Test {
  protected:
   static constexpr double rounding = 4 * static_cast<double>(std::numeric_limits<Scalar>::epsilon());
 
@@ -45,9 +45,9 @@ class StoppingIn : public testing::Test {
   }
 };
 using Scalars = testing::Types<float, double>;
-TYPED_TEST_SUITE(StoppingIn, Scalars, );
+TYPED_TEST_SUITE(TechniqueIn, Scalars, );
 
-TYPED_TEST(StoppingIn, leaves_the_gap_of_the_technique_at_a_wall_on_any_side) {
+TYPED_TEST(TechniqueIn, leaves_the_gap_of_the_technique_at_a_wall_on_any_side) {
   struct Case {
     Side side;
     ColliderDef wall;
@@ -86,7 +86,7 @@ TYPED_TEST(StoppingIn, leaves_the_gap_of_the_technique_at_a_wall_on_any_side) {
   }
 }
 
-TYPED_TEST(StoppingIn, keeps_the_free_component_and_records_a_corner_in_the_way) {
+TYPED_TEST(TechniqueIn, keeps_the_free_component_and_records_a_corner_in_the_way) {
   for (const Stopping& by : all_stopping) {
     SCOPED_TRACE(by.kind);
     Rig<TypeParam> rig(by.kind, {rectangle(-9, -9, 9, 0)});
@@ -103,7 +103,7 @@ TYPED_TEST(StoppingIn, keeps_the_free_component_and_records_a_corner_in_the_way)
   }
 }
 
-TYPED_TEST(StoppingIn, is_on_the_article_s_paper_at_any_speed) {
+TYPED_TEST(TechniqueIn, is_on_the_article_s_paper_at_any_speed) {
   for (const std::string_view kind : {"pixel_colour", "pixel_tile", "speculative_march", "speculative"}) {
     SCOPED_TRACE(kind);
     for (const double thickness : {5.0, 2.0}) {
@@ -157,16 +157,13 @@ TEST(EveryTechnique, refuses_a_step_out_of_range_or_with_too_many_units_and_chan
     for (const Vec2d& displacement : {Vec2d{3e6, 0}, Vec2d{-3e6, 0}, Vec2d{nan, 0}, Vec2d{0, nan}}) {
       EXPECT_EQ(status_of(displacement), MoveStatus::out_of_range);
       EXPECT_EQ(rig.result.position, request.position);
-      if (kind == "grid") {
-        EXPECT_EQ(rig.result.technique_memory, request.technique_memory);
-      }
+      const bool has_a_memory = kind == "grid";
+      EXPECT_TRUE(!has_a_memory || rig.result.technique_memory == request.technique_memory);
       EXPECT_EQ(rig.result.path.size(), 2U);
     }
     const bool searches = find_technique(kind)->unit != nullptr && kind != "grid" && kind != "speculative";
     EXPECT_EQ(status_of({9e5, 0}) == MoveStatus::refused, searches);
-    if (searches) {
-      EXPECT_EQ(rig.result.position, request.position);
-    }
+    EXPECT_TRUE(!searches || rig.result.position == request.position);
   }
 }
 
@@ -210,11 +207,8 @@ std::vector<ColliderDef> rough_ground(Random& random, std::string_view kind) {
   return ground;
 }
 
-template <class Scalar>
-class RoughGround : public testing::Test {};
-TYPED_TEST_SUITE(RoughGround, Scalars, );
-
-TYPED_TEST(RoughGround, gives_the_same_bits_by_tree_and_all_pairs_a_way_in_order_and_takes_no_memory) {
+TYPED_TEST(TechniqueIn,
+           gives_over_rough_ground_the_same_bits_by_tree_and_all_pairs_a_way_in_order_and_takes_no_memory) {
   for (const std::string_view kind : technique_names()) {
     SCOPED_TRACE(kind);
     Random random(5);
@@ -244,8 +238,7 @@ TYPED_TEST(RoughGround, gives_the_same_bits_by_tree_and_all_pairs_a_way_in_order
     EXPECT_EQ(tests::allocations(), before);
     EXPECT_GT(contacts, 400);
     const bool has_corners = kind.starts_with("speculative") || kind.starts_with("pixel") || kind == "octagon_sweep";
-    EXPECT_EQ(corners > 100, has_corners);
-    EXPECT_EQ(corners > 0, has_corners);
+    EXPECT_TRUE(has_corners ? corners > 100 : corners == 0) << corners;
   }
 }
 

@@ -33,10 +33,8 @@ TEST(BoundingBox, meets_enemies_where_they_will_be_at_the_end_of_the_frame) {
 /// Exactly: doubles hold every sum of floats of these sizes.
 bool overlap(const Box2<float>& piece, const Vec2f& position, const Box2<double>& character) {
   const Vec2d at = position.cast<double>();
-  const Vec2d lower = at + character.lower;
-  const Vec2d upper = at + character.upper;
-  return static_cast<double>(piece.lower.x()) < upper.x() && lower.x() < static_cast<double>(piece.upper.x()) &&
-         static_cast<double>(piece.lower.y()) < upper.y() && lower.y() < static_cast<double>(piece.upper.y());
+  return (piece.lower.cast<double>() - at - character.upper).maxCoeff() < 0 &&
+         (piece.upper.cast<double>() - at - character.lower).minCoeff() > 0;
 }
 
 TEST(BoundingBox, ends_free_to_the_last_bit_and_moves_no_further_than_asked) {

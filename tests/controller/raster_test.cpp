@@ -172,24 +172,6 @@ TEST(Colours, go_round_from_1_to_255_and_leave_0_to_the_background) {
     EXPECT_EQ(picture.colour(outside), 0);
 }
 
-TEST(SpriteOfTheArticle, is_its_octagon_with_the_collision_points_on_its_edge) {
-  const raster::Sprite sprite(CharacterShape::article(), 32);
-  // Row y of 40 is cut by the shoulders: in the lowest and highest 10 rows half a pixel for each row of the distance.
-  for (int y = 0; y < 40; ++y) {
-    const double cut = std::max(0.0, 5 - (std::min(y, 39 - y) + 0.5) / 2);  // from (5, 0) to (0, 10)
-    for (int x = 0; x < 20; ++x) {
-      const double from_side = std::min(x, 19 - x) + 0.5;
-      if (from_side == cut) continue;  // on the slant: either
-      ASSERT_EQ(sprite.mask().is_white({x, y}), from_side > cut) << x << ' ' << y;
-    }
-  }
-  EXPECT_EQ(sprite.edge(Side::left).size(), 40U);
-  EXPECT_EQ(sprite.edge(Side::bottom).size(), 20U);
-  EXPECT_EQ(sprite.feet()[0], (Pixel{5, 0}));
-  EXPECT_EQ(sprite.feet()[1], (Pixel{14, 0}));
-  for (const Pixel& point : sprite.points()) EXPECT_TRUE(sprite.mask().box().contains(point));
-}
-
 TEST(Bitmaps, overlap_by_words_as_they_do_pixel_by_pixel) {
   Random random(7);
   int overlapping = 0;
