@@ -232,20 +232,6 @@ TEST(Conveyor, carries_what_stands_on_it_and_no_farther_than_a_wall) {
   }
 }
 
-TEST(MovingOneWay, passes_from_below_and_carries_from_above) {
-  const ColliderDef ledge = of_mover(chain({{-2, 0}, {2, 0}}, Vec2d{0, 1}));
-  for (const std::string_view kind : speculative_kinds) {
-    SCOPED_TRACE(kind);
-    Passenger passenger(kind, {ledge});
-    EXPECT_TRUE(passenger.fly({0, -3}, {0, 6}, {{{0, 0}, {0, 1}}}).contacts.empty()) << "rises";
-    EXPECT_TRUE(passenger.fly({0, -2}, {0, 0}, {{{0, 0}, {0, -6}}}).contacts.empty()) << "it comes down";
-    const MoveResult<double>& result = passenger.fly({0, 3}, {0, -6}, {{{0, 0}, {0, 1}}});
-    EXPECT_TRUE(result.grounded);
-    EXPECT_GE(result.position.y(), 1 + half_height);
-    EXPECT_NEAR(result.position.y(), 1 + half_height, px);
-  }
-}
-
 TEST(MovingLine, never_gets_past_whom_it_pushes_however_both_move) {
   Random random(31);
   int pushes = 0;

@@ -103,25 +103,6 @@ TYPED_TEST(TechniqueIn, keeps_the_free_component_and_records_a_corner_in_the_way
   }
 }
 
-TYPED_TEST(TechniqueIn, is_on_the_article_s_paper_at_any_speed) {
-  for (const std::string_view kind : {"pixel_colour", "pixel_tile", "speculative_march", "speculative"}) {
-    SCOPED_TRACE(kind);
-    for (const double thickness : {5.0, 2.0}) {
-      const double top = -30 * px;
-      Rig<TypeParam> rig(kind, {rectangle(-2, top - thickness * px, 2, top)}, {}, single_pixel());
-      for (const double speed : {50.0, 1000.0, 100'000.0}) {
-        const MoveResult<TypeParam>& result = rig.move({px / 2, px / 2}, {0, -speed * px});
-        EXPECT_NEAR(result.position.y(), top + px / 2, this->rounding * speed);
-        EXPECT_EQ(result.velocity.y(), 0);
-        EXPECT_TRUE(result.grounded);
-        ASSERT_EQ(result.contacts.size(), 1U);
-        EXPECT_NEAR(result.contacts[0].fraction, 30 / speed, 1e-6);
-        EXPECT_NEAR(result.contacts[0].point.y(), top, this->rounding * speed);
-      }
-    }
-  }
-}
-
 TEST(EveryTechnique, ends_exactly_where_it_wants_in_the_free_and_has_contacts_at_fraction_zero_where_it_is_held) {
   const std::vector<ColliderDef> corner{rectangle(-4, -1, 4, 0), rectangle(-4, 0, -1, 4), rectangle(1, 0, 4, 4)};
   for (const std::string_view kind : technique_names()) {

@@ -186,18 +186,6 @@ TYPED_TEST(GridMoves, are_by_one_square_however_fast_and_never_pass_paper_of_one
   EXPECT_EQ(bullet.rig.result.velocity.y(), 0);
 }
 
-TEST(Grid, draws_a_fall_along_the_parabola) {
-  stepping::Stepper<double> faller({rectangle(50, -100, 51, 100)}, of_shape(unit_square()), "grid");
-  faller.at(0.5, 7.5).with_velocity(1.25, 0);
-  for (int n = 1; n <= 80; ++n) {
-    faller.step();
-    const Vec2d drawn = faller.state.position + faller.state.technique_memory;
-    EXPECT_NEAR(drawn.y(), 7.5 - 10.0 / 3600 * n * (n + 1) / 2, 1e-12) << "step " << n;
-    EXPECT_NEAR(drawn.x(), 0.5 + 1.25 / 60 * n, 1e-12);
-  }
-  EXPECT_LT(faller.state.position.y(), 0) << "it fell through several squares";
-}
-
 /// How far a walk from rest leads in so many steps of 1/60 s: each first adds to the speed, and then moves.
 double walked(int steps) {
   const CharacterDef character;

@@ -7,8 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <span>
-#include <string>
 #include <tuple>
 #include <vector>
 
@@ -51,25 +49,6 @@ double jumps_up_beside_a_corner(const CharacterDef& character, double caught) {
     highest = std::max(highest, jumper.state.position.y());
   }
   return highest;
-}
-
-TEST(Contacts, are_added_persist_and_are_removed) {
-  // Two tiles and a wall: it lands on one, walks over the seam into the wall, and jumps up along that.
-  Stepper<double> walker({rectangle(-9, -1, 0, 0), rectangle(0, -1, 9, 0), rectangle(2, 0, 3, 9)});
-  walker.gravity = {0, -30};
-  walker.at(-1, half_height + 0.1);
-  std::vector<Contact<double>> before;
-  std::string said;
-  for (int n = 0; n < 90; ++n) {
-    walker.step({.move = 1, .jump = n == 80});
-    const std::span<const Contact<double>> now = walker.report.move.contacts;
-    for_each_change<double>(before, now, [&](ContactChange change, const Contact<double>& contact) {
-      if (change == ContactChange::persisted) return;
-      said += (change == ContactChange::added ? " +" : " -") + std::to_string(contact.collider);
-    });
-    before.assign(now.begin(), now.end());
-  }
-  EXPECT_EQ(said, " +0 +1 -0 +2 -1");
 }
 
 TEST(Contacts, of_one_collider_are_one_change_and_removed_ones_come_last) {

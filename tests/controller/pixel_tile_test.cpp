@@ -59,18 +59,6 @@ TEST(PixelTileSlope, is_walked_up_and_down_at_any_speed_with_a_foot_on_the_groun
   }
 }
 
-TEST(PixelTileSlope, steeper_than_45_degrees_is_a_wall) {
-  Passenger walker("pixel_tile", hill(1, 2));
-  walker.position = {-1, half_height};
-  for (int step = 0; step < 64; ++step) {
-    walker.velocity.x() = 6;
-    walker.step({});
-  }
-  EXPECT_EQ(walker.velocity.x(), 0);
-  EXPECT_LT(walker.position.x(), 0);
-  EXPECT_EQ(walker.rig.result.contacts.back().side, Side::right);
-}
-
 TEST(PixelTileSlope, takes_nobody_down_who_jumps) {
   Rig<double> rig("pixel_tile", hill(2, 2));
   const Vec2d start{1, ground_below(raster::rasterise({hill(2, 2)}, 32), {1, 0}) + half_height};
