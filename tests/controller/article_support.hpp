@@ -1,15 +1,22 @@
 /// A scenery, a character and one of the article's techniques, ready to move; and the shapes that its tests use.
 #pragma once
 
+#include "campaign/random.hpp"
+#include "campaign/shapes.hpp"
+
 #include <paperproof/techniques.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
-#include <random>
 #include <utility>
 #include <vector>
 
 namespace paperproof::article_tests {
+
+using compare::half_height;
+using compare::half_width;
+using compare::Random;
 
 /// One pixel [m]. A power of two: whole pixels are exact in both scalars.
 inline constexpr double px = 1.0 / 32;
@@ -19,18 +26,38 @@ inline constexpr std::array<std::string_view, 4> article_kinds{"wind_back", "pen
 inline constexpr std::array<std::string_view, 2> speculative_kinds{"speculative_march", "speculative"};
 
 inline ColliderDef rectangle(double left, double bottom, double right, double top) {
-  return {.points = {{left, bottom}, {right, bottom}, {right, top}, {left, top}}};
+  return compare::box(left, bottom, right, top);
 }
 
 inline ColliderDef chain(std::vector<Vec2d> points, std::optional<Vec2d> one_way = {}) {
   return {.shape = ColliderDef::Shape::chain, .points = std::move(points), .one_way = one_way};
 }
 
+/// Squares of a metre, from x = 0 on, with their tops at height 0.
+inline std::vector<ColliderDef> flush_tiles(int count) {
+  std::vector<ColliderDef> tiles;
+  for (int i = 0; i < count; ++i) tiles.push_back(rectangle(i, -1, i + 1, 0));
+  return tiles;
+}
+
+/// Corners of a convex outline, in order of angle.
+inline std::vector<Vec2d> on_an_ellipse(Random& random, const Vec2d& centre, const Vec2d& radii) {
+  const int corners = 3 + random.below(6);
+  const double turn = random.angle();
+  std::vector<Vec2d> outline;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = turn + 6.283185 * (i + random.between(0, 0.7)) / corners;
+    outline.push_back(centre + radii.cwiseProduct(compare::towards(angle)));
+  }
+  return outline;
+}
+
 /// A square of one pixel: the article's single-pixel character.
-inline CharacterShape single_pixel() {
-  const std::array points{Vec2d{-px / 2, -px / 2}, Vec2d{px / 2, -px / 2}, Vec2d{px / 2, px / 2},
-                          Vec2d{-px / 2, px / 2}};
-  return CharacterShape(points);
+inline CharacterShape single_pixel() { return CharacterShape(rectangle(-px / 2, -px / 2, px / 2, px / 2).points); }
+
+/// A point below, and one on each other side.
+inline CharacterShape diamond() {
+  return CharacterShape(std::array{Vec2d{0, -0.5}, Vec2d{0.5, 0}, Vec2d{0, 0.5}, Vec2d{-0.5, 0}});
 }
 
 inline CharacterDef of_shape(const CharacterShape& shape) {
@@ -47,12 +74,15 @@ struct Rig {
   Scratch<Scalar> scratch;
   MoveResult<Scalar> result;
 
-  Rig(std::string_view kind, std::vector<ColliderDef> colliders, const ArticleKnobs& knobs = {},
+  Rig(const TechniqueDef& def, std::vector<ColliderDef> colliders,
       const CharacterShape& shape = CharacterShape::article())
       : scenery(SceneryDef{std::move(colliders)}),
         character(of_shape(shape)),
-        technique(make_technique<Scalar>({.name = kind, .article = knobs}, scenery, character)),
+        technique(make_technique<Scalar>(def, scenery, character)),
         scratch(technique->make_scratch()) {}
+  Rig(std::string_view kind, std::vector<ColliderDef> colliders, const ArticleKnobs& knobs = {},
+      const CharacterShape& shape = CharacterShape::article())
+      : Rig(TechniqueDef{.name = kind, .article = knobs}, std::move(colliders), shape) {}
 
   /// One step of a second: velocity and displacement are the same numbers.
   const MoveResult<Scalar>& move(const Vec2d& position, const Vec2d& displacement) {
@@ -65,38 +95,15 @@ struct Rig {
   }
 };
 
-/// Numbers that are the same with every standard library.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : engine_(seed) {}
-  /// In [low, high).
-  double between(double low, double high) {
-    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
+/// What the exception says that `make` throws, or nothing.
+template <class Error>
+std::string refusal_by(const auto& make) {
+  try {
+    make();
+  } catch (const Error& refused) {
+    return refused.what();
   }
-  int below(int count) { return static_cast<int>(engine_() % static_cast<std::uint64_t>(count)); }
-
- private:
-  std::mt19937_64 engine_;
-};
-
-/// Walks on, as a game does: gravity and a walking speed that is set anew in every frame.
-struct Walker {
-  double dt = 1.0 / 64;
-  double gravity = 32;
-  Vec2d position{Vec2d::Zero()};
-  Vec2d velocity{Vec2d::Zero()};
-
-  const MoveResult<double>& step(Rig<double>& rig) {
-    velocity.y() -= gravity * dt;
-    MoveRequest<double> request;
-    request.position = position;
-    request.displacement = velocity * dt;
-    request.velocity = velocity;
-    rig.technique->move(request, rig.scratch, rig.result);
-    position = rig.result.position;
-    velocity = rig.result.velocity;
-    return rig.result;
-  }
-};
+  return "";
+}
 
 }  // namespace paperproof::article_tests

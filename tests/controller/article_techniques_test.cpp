@@ -1,5 +1,6 @@
-/// What each of the article's techniques does with the article's own situations.
-#include "controller/article_support.hpp"
+/// What several techniques do with the same situations.
+#include "controller/passenger.hpp"
+#include "support/allocations.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,337 +11,282 @@
 namespace paperproof::article_tests {
 namespace {
 
-/// The article's scene: a character of one pixel falls 50 pixels per frame; a platform `thickness` pixels thick is
-/// `distance` pixels below its lower edge.
-template <class Scalar>
-MoveResult<Scalar> fall_of_the_bullet(std::string_view kind, double distance = 30, double thickness = 5) {
-  const double top = -px / 2 - distance * px;
-  Rig<Scalar> rig(kind, {rectangle(-2, top - thickness * px, 2, top)}, {}, single_pixel());
-  return rig.move({0, 0}, {0, -50 * px});
-}
+constexpr double gap = Tolerances<double>{}.stop;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// How a technique that keeps the free component stops.
+struct Stopping {
+  std::string_view kind;
+  double most = 0;         ///< Of the gap that it leaves [m];
+  bool is_a_stop = false;  ///< or the gap is always that of `Tolerances::stop`.
+  bool knows_when = true;  ///< Otherwise its contacts are at the end of the step.
+  bool has_corner = true;  ///< The way has a corner where one component stops.
+};
+constexpr std::array all_stopping{
+    Stopping{.kind = "pixel_colour"},
+    Stopping{.kind = "pixel_tile"},
+    Stopping{.kind = "mask", .has_corner = false},
+    Stopping{.kind = "bounding_box", .knows_when = false, .has_corner = false},
+    Stopping{.kind = "discrete", .is_a_stop = true, .has_corner = false},
+    Stopping{.kind = "penetration_resolution", .most = px, .knows_when = false, .has_corner = false},
+    Stopping{.kind = "speculative_march", .most = px},
+    Stopping{.kind = "speculative"},
+};
 
 template <class Scalar>
-class BulletThroughPaper : public testing::Test {};
+class TechniqueIn : public testing::Test {
+ protected:
+  static constexpr double rounding = 4 * static_cast<double>(std::numeric_limits<Scalar>::epsilon());
+
+  static void expect_gap(double found, const Stopping& by) {
+    const double stop = by.is_a_stop ? static_cast<double>(Tolerances<Scalar>{}.stop) : 0;
+    EXPECT_GE(found, stop - rounding);
+    EXPECT_LE(found, by.most + stop + rounding);
+  }
+};
 using Scalars = testing::Types<float, double>;
-TYPED_TEST_SUITE(BulletThroughPaper, Scalars);
+TYPED_TEST_SUITE(TechniqueIn, Scalars, );
 
-TYPED_TEST(BulletThroughPaper, techniques_that_look_only_at_the_end_pass_the_platform) {
-  for (const std::string_view kind : {"wind_back", "penetration_resolution"}) {
-    const MoveResult<TypeParam> result = fall_of_the_bullet<TypeParam>(kind);
-    EXPECT_EQ(result.position.y(), static_cast<TypeParam>(-50 * px)) << kind;
-    EXPECT_EQ(result.velocity.y(), static_cast<TypeParam>(-50 * px)) << kind;
-    EXPECT_TRUE(result.contacts.empty()) << kind;
-    EXPECT_FALSE(result.grounded) << kind;
-  }
-}
-
-TYPED_TEST(BulletThroughPaper, speculative_contacts_stop_on_the_platform) {
-  for (const std::string_view kind : speculative_kinds) {
-    const MoveResult<TypeParam> result = fall_of_the_bullet<TypeParam>(kind);
-    // Whole pixels are exact, also for the march: its 30th step lands on the edge, where nothing is inside yet.
-    const TypeParam rounding = 4 * std::numeric_limits<TypeParam>::epsilon();
-    EXPECT_NEAR(result.position.y(), static_cast<TypeParam>(-30 * px), rounding) << kind;
-    EXPECT_GE(result.position.y(), static_cast<TypeParam>(-30 * px)) << kind;
-    EXPECT_EQ(result.velocity.y(), 0) << kind;
-    EXPECT_TRUE(result.grounded) << kind;
-    ASSERT_EQ(result.contacts.size(), 1U) << kind;
-    const Contact<TypeParam>& contact = result.contacts[0];
-    EXPECT_EQ(contact.side, Side::bottom);
-    EXPECT_EQ(contact.normal, Vec2<TypeParam>(0, 1));
-    EXPECT_NEAR(contact.fraction, TypeParam(30) / TypeParam(50), rounding);
-    EXPECT_NEAR(contact.point.y(), static_cast<TypeParam>(-30.5 * px), rounding);
-    EXPECT_NEAR(contact.separation, TypeParam(0), rounding);
-  }
-}
-
-TEST(SpeculativeMarch, ends_less_than_a_unit_above_what_it_hits) {
-  for (int sixteenths = 1; sixteenths < 16; ++sixteenths) {
-    const double distance = 30 + sixteenths / 16.0;
-    const MoveResult<double> result = fall_of_the_bullet<double>("speculative_march", distance);
-    EXPECT_DOUBLE_EQ(result.position.y(), -30 * px) << "the last whole unit above " << distance;
-    ASSERT_EQ(result.contacts.size(), 1U);
-    EXPECT_NEAR(result.contacts[0].separation, (distance - 30) * px, 1e-15);
-  }
-}
-
-TEST(SpeculativeMarch, lands_exactly_on_the_end_when_nothing_is_in_the_way) {
-  Rig<double> rig("speculative_march", {rectangle(-9, -9, 9, -5)});
-  const Vec2d displacement{1.3, -0.7};
-  EXPECT_EQ(rig.move({0, 0}, displacement).position, displacement);
-  EXPECT_TRUE(rig.result.contacts.empty());
-}
-
-TEST(SpeculativeMarch, has_nothing_to_go_back_where_it_collides_at_the_start) {
-  // Feet half a pixel in the floor, falling: no advance, no way back; penetration resolution then takes one unit.
-  Rig<double> rig("speculative_march", {rectangle(-2, -2, 2, 0)});
-  const MoveResult<double>& result = rig.move({0, 19.5 * px}, {0, -3 * px});
-  EXPECT_EQ(result.contacts[0].fraction, 0);
-  EXPECT_EQ(result.position.y(), 19.5 * px + px);
-}
-
-TEST(WindBack, goes_back_along_the_movement_by_units_until_free) {
-  // Feet start 4 pixels above the floor and would end 6 below, 10 pixels along: 2-norm sqrt(200) pixels. Free where
-  // 4 - 10 (1 - k / sqrt(200)) >= 0, that is k >= 0.6 sqrt(200) = 8.49: nine units.
-  Rig<double> rig("wind_back", {rectangle(-2, -2, 2, 0)});
-  const MoveResult<double>& result = rig.move({0, 24 * px}, {10 * px, -10 * px});
-  const double fraction = 1 - std::ceil(0.6 * std::sqrt(200.0)) / std::sqrt(200.0);
-  EXPECT_NEAR(result.position.x(), 10 * px * fraction, 1e-15);
-  EXPECT_NEAR(result.position.y(), 24 * px - 10 * px * fraction, 1e-15);
-  EXPECT_EQ(result.velocity, Vec2d(10 * px, 0));
-  ASSERT_EQ(result.contacts.size(), 1U);
-  EXPECT_EQ(result.contacts[0].side, Side::bottom);
-  EXPECT_NEAR(result.contacts[0].fraction, fraction, 1e-15);
-  EXPECT_NEAR(result.contacts[0].separation, 4 * px - 10 * px * fraction, 1e-15);
-}
-
-TEST(WindBack, ends_where_it_began_when_nothing_on_the_way_is_free) {
-  Rig<double> rig("wind_back", {rectangle(-2, -2, 2, 0)});
-  EXPECT_EQ(rig.move({0, 10 * px}, {0, -3 * px}).position, Vec2d(0, 10 * px));
-  EXPECT_EQ(rig.result.status, MoveStatus::stuck);
-}
-
-TEST(PenetrationResolution, is_pushed_out_by_whole_units) {
-  // The end is 6.25 pixels in the floor: seven units, which is 0.75 above it.
-  Rig<double> rig("penetration_resolution", {rectangle(-2, -2, 2, 0)});
-  const MoveResult<double>& result = rig.move({0, 24 * px}, {10 * px, -10.25 * px});
-  EXPECT_DOUBLE_EQ(result.position.y(), 20.75 * px);
-  EXPECT_EQ(result.position.x(), 10 * px) << "the component along the floor is retained";
-  EXPECT_EQ(result.velocity, Vec2d(10 * px, 0));
-  EXPECT_EQ(result.contacts[0].fraction, 1);
-}
-
-TEST(PenetrationResolution, jitters_between_two_positions_at_rest_where_speculative_contacts_do_not) {
-  for (const std::string_view kind : article_kinds) {
-    Rig<double> rig(kind, {rectangle(-2, -2, 2, 0)});
-    Walker walker{.position = {0, 20 * px}};
-    double highest = walker.position.y();
-    for (int step = 0; step < 200; ++step) highest = std::max(highest, walker.step(rig).position.y());
-    const double hop = highest - 20 * px;
-    if (kind == "penetration_resolution") {
-      EXPECT_GT(hop, px / 2);
-      EXPECT_LE(hop, px);
-    } else {
-      EXPECT_EQ(hop, 0) << kind;
-      EXPECT_EQ(walker.position, Vec2d(0, 20 * px)) << kind;
-      EXPECT_TRUE(rig.result.grounded) << kind;
+TYPED_TEST(TechniqueIn, leaves_the_gap_of_the_technique_at_a_wall_on_any_side) {
+  struct Case {
+    Side side;
+    ColliderDef wall;
+    Vec2d out;
+  };
+  const double away = 3 * px;
+  const std::array cases{
+      Case{Side::left, rectangle(-4, -9, -half_width - away, 9), {-1, 0}},
+      Case{Side::right, rectangle(half_width + away, -9, 4, 9), {1, 0}},
+      Case{Side::bottom, rectangle(-9, -4, 9, -half_height - away), {0, -1}},
+      Case{Side::top, rectangle(-9, half_height + away, 9, 4), {0, 1}},
+  };
+  for (const Stopping& by : all_stopping) {
+    SCOPED_TRACE(by.kind);
+    for (const Case& each : cases) {
+      Rig<TypeParam> rig(by.kind, {each.wall});
+      const MoveResult<TypeParam>& result = rig.move({0, 0}, 10.3 * px * each.out);
+      const Vec2d end = result.position.template cast<double>();
+      const double left = away - end.dot(each.out);
+      this->expect_gap(left, by);
+      EXPECT_EQ(end.cwiseAbs().minCoeff(), 0);
+      EXPECT_TRUE(result.velocity.isZero(0));
+      EXPECT_EQ(result.grounded, each.side == Side::bottom);
+      ASSERT_EQ(result.contacts.size(), 1U);
+      EXPECT_EQ(result.contacts[0].side, each.side);
+      EXPECT_EQ(result.contacts[0].normal, (-each.out).template cast<TypeParam>());
+      EXPECT_NEAR(result.contacts[0].fraction, by.knows_when ? (3 - by.most / px / 2) / 10.3 : 1,
+                  by.most / px / 2 / 10.3 + 1e-6);
+      EXPECT_NEAR(result.contacts[0].separation, left, this->rounding);
+      if (by.most > 0) continue;
+      // Pressing on changes nothing, even by a fraction of a pixel.
+      rig.move(end, 0.1 * px * each.out);
+      EXPECT_LE((result.position.template cast<double>() - end).norm(), by.is_a_stop ? this->rounding : 0);
+      EXPECT_EQ(result.contacts.size(), 1U);
     }
   }
 }
 
-TEST(Speculative, rests_without_moving_a_bit_wherever_it_landed) {
-  Random random(7);
-  for (int drop = 0; drop < 200; ++drop) {
-    const double floor = random.between(-30, 30);
-    Rig<double> rig("speculative", {rectangle(-40, floor - 3, 40, floor)});
-    Walker walker{.position = {random.between(-20, 20), floor + random.between(0.7, 2)}};
-    for (int step = 0; step < 100 && !rig.result.grounded; ++step) walker.step(rig);
-    ASSERT_TRUE(rig.result.grounded) << "seed 7, drop " << drop;
-    const Vec2d landed = walker.position;
-    for (int step = 0; step < 20; ++step) walker.step(rig);
-    EXPECT_EQ(walker.position, landed) << "seed 7, drop " << drop;
-    const double gap = landed.y() - 20 * px - floor;
-    EXPECT_NEAR(gap, 0, 1e-13) << "a few ulp at 30 m";
+TYPED_TEST(TechniqueIn, keeps_the_free_component_and_records_a_corner_in_the_way) {
+  for (const Stopping& by : all_stopping) {
+    SCOPED_TRACE(by.kind);
+    Rig<TypeParam> rig(by.kind, {rectangle(-9, -9, 9, 0)});
+    const MoveResult<TypeParam>& result = rig.move({0, half_height + 4 * px}, {10 * px, -10 * px});
+    EXPECT_NEAR(result.position.x(), 10 * px, this->rounding);
+    this->expect_gap(result.position.y() - half_height, by);
+    EXPECT_EQ(result.velocity, Vec2<TypeParam>(10 * px, 0));
+    ASSERT_EQ(result.path.size(), by.has_corner ? 3U : 2U);
+    EXPECT_EQ(result.path.back().position, result.position);
+    if (!by.has_corner || by.most > 0) continue;
+    EXPECT_NEAR(result.path[1].fraction, 0.4, 1e-6);
+    EXPECT_NEAR(result.path[1].position.x(), 4 * px, 1e-6);
+    EXPECT_NEAR(result.path[1].position.y(), half_height, this->rounding);
   }
 }
 
-std::vector<ColliderDef> flush_tiles(int count) {
-  std::vector<ColliderDef> tiles;
-  for (int i = 0; i < count; ++i) tiles.push_back(rectangle(i, -1, i + 1, 0));
-  return tiles;
-}
-
-TEST(FlushTiles, walking_over_them_keeps_speed_and_height) {
-  for (const std::string_view kind : speculative_kinds) {
-    for (int speed = 1; speed <= 100; ++speed) {
-      Rig<double> rig(kind, flush_tiles(40));
-      Walker walker{.position = {1, 20 * px}, .velocity = {0.25 * speed, 0}};
-      const int steps = std::min(200, 37 * 64 * 4 / speed);
-      for (int step = 0; step < steps; ++step) {
-        walker.step(rig);
-        ASSERT_EQ(walker.velocity.x(), 0.25 * speed) << kind << " at step " << step;
-        ASSERT_EQ(walker.position.y(), 20 * px) << kind << " at step " << step;
-      }
-      // Speed and dt are multiples of powers of two: the sum is exact.
-      EXPECT_EQ(walker.position.x(), 1 + steps * 0.25 * speed / 64) << kind;
-    }
-  }
-}
-
-TEST(FlushTiles, a_point_does_not_fall_down_the_seam_between_two) {
-  const std::array diamond{Vec2d{0, -0.5}, Vec2d{0.5, 0}, Vec2d{0, 0.5}, Vec2d{-0.5, 0}};
-  for (const std::string_view kind : article_kinds) {
-    Rig<double> rig(kind, {rectangle(-1, -1, 0, 0), rectangle(0, -1, 1, 0)}, {}, CharacterShape(diamond));
-    const MoveResult<double>& result = rig.move({0, 1}, {0, -1});
-    EXPECT_NEAR(result.position.y(), 0.5, px) << kind;
-    EXPECT_EQ(result.contacts.size(), 1U) << kind;
-  }
-}
-
-TEST(FlushTiles, a_computed_contact_is_found_on_the_seam_between_two_thin_ones) {
-  // The end is far below: only the time of impact can stop it. One tile ends lower: the seam begins where both are.
-  const std::array diamond{Vec2d{0, -0.5}, Vec2d{0.5, 0}, Vec2d{0, 0.5}, Vec2d{-0.5, 0}};
-  for (const double step_down : {0.0, 0.125}) {
-    const std::vector<ColliderDef> tiles{rectangle(-1, -0.25, 0, 0), rectangle(0, -0.25, 1, -step_down)};
-    Rig<double> rig("speculative", tiles, {}, CharacterShape(diamond));
-    EXPECT_NEAR(rig.move({0, 1}, {0, -3}).position.y(), 0.5 - step_down, 1e-15);
-  }
-  // Tiles that do not share a piece of the seam leave it open: a point without width passes between them.
-  const std::vector<ColliderDef> apart{rectangle(-1, -0.25, 0, 0), rectangle(0, -0.75, 1, -0.5)};
-  Rig<double> rig("speculative", apart, {}, CharacterShape(diamond));
-  EXPECT_TRUE(rig.move({0, 1}, {0, -3}).contacts.empty());
-}
-
-TEST(SpeculativeContacts, name_what_each_foot_touches) {
-  for (const double step_down : {0.0, px / 4}) {
-    Rig<double> rig("speculative", {rectangle(-3, -1, 0, -step_down), rectangle(0, -1, 3, 0)});
-    const MoveResult<double>& result = rig.move({0, 25 * px}, {0, -10 * px});
-    const bool both = step_down == 0;
-    ASSERT_EQ(result.contacts.size(), both ? 2U : 1U);
-    EXPECT_EQ(result.contacts[0].collider, both ? 0U : 1U);
-    EXPECT_EQ(result.contacts.back().collider, 1U);
-    EXPECT_NEAR(result.position.y(), 20 * px, 1e-15);
-  }
-}
-
-TEST(SpeculativeMarch, does_not_look_beyond_the_end) {
-  // 3.5 px down to 0.25 px above the hill, where the right foot is: the last step is half a unit.
-  Rig<double> rig("speculative_march", {{.points = {{-2, -2}, {2, -2}, {2, 2}}}});
-  const MoveResult<double>& result = rig.move({0, 28.75 * px}, {0, -3.5 * px});
-  EXPECT_EQ(result.position.y(), 25.25 * px);
-  EXPECT_TRUE(result.contacts.empty());
-}
-
-TEST(WindBack, a_walker_sticks_to_the_floor) {
-  Rig<double> rig("wind_back", flush_tiles(10));
-  Walker walker{.position = {1, 20 * px}, .velocity = {6, 0}};
-  for (int step = 0; step < 60; ++step) walker.step(rig);
-  EXPECT_EQ(walker.position, Vec2d(1, 20 * px));
-}
-
-TEST(SpeculativeWay, has_a_corner_where_the_fall_ends_and_the_walk_goes_on) {
-  Rig<double> rig("speculative", {rectangle(-9, -2, 9, 0)});
-  const MoveResult<double>& result = rig.move({0, 24 * px}, {10 * px, -10 * px});
-  ASSERT_EQ(result.path.size(), 3U);
-  EXPECT_EQ(result.path[0].position, Vec2d(0, 24 * px));
-  EXPECT_EQ(result.path[0].fraction, 0);
-  EXPECT_NEAR(result.path[1].fraction, 0.4, 1e-15);
-  EXPECT_NEAR(result.path[1].position.x(), 4 * px, 1e-15);
-  EXPECT_NEAR(result.path[1].position.y(), 20 * px, 1e-15);
-  EXPECT_EQ(result.path[2].position, result.position);
-  EXPECT_EQ(result.path[2].fraction, 1);
-  EXPECT_EQ(result.position.x(), 10 * px);
-}
-
-TEST(SpeculativeWay, stops_in_a_corner_of_floor_and_wall) {
-  for (const std::string_view kind : speculative_kinds) {
-    // The wall is 22 px from the arm. The movement takes the arm 3 px into it, and the foot, 5 px behind, not.
-    Rig<double> rig(kind, {rectangle(-9, -2, 9, 0), rectangle(1, 0, 3, 5)});
-    const MoveResult<double>& result = rig.move({0, 36 * px}, {25 * px, -20 * px});
-    EXPECT_EQ(result.velocity, Vec2d(0, 0)) << kind;
-    EXPECT_LE(result.position.x(), 22 * px) << kind;
-    EXPECT_GT(result.position.x(), 21 * px) << kind;
-    EXPECT_GE(result.position.y(), 20 * px) << kind;
-    EXPECT_LT(result.position.y(), 21 * px) << kind;
-    ASSERT_EQ(result.contacts.size(), 2U) << kind;
-    EXPECT_EQ(result.contacts[0].side, Side::bottom);
-    EXPECT_EQ(result.contacts[0].collider, 0U);
-    EXPECT_EQ(result.contacts[1].side, Side::right);
-    EXPECT_EQ(result.contacts[1].collider, 1U);
-    EXPECT_EQ(result.contacts[1].normal, Vec2d(-1, 0));
-  }
-}
-
-TEST(SpeculativeWay, a_fall_ends_for_a_frame_where_the_feet_reach_a_wall) {
-  // The pairs are tested in the article's order, each along the whole vector: a foot that is taken into a wall counts
-  // as a hit of the bottom pair, although nothing is below it.
-  Rig<double> rig("speculative", {rectangle(1, -9, 3, 9)});
-  const MoveResult<double>& result = rig.move({0, 0}, {54 * px, -54 * px});
-  EXPECT_NEAR(result.position.y(), -27 * px, 1e-15) << "where the foot, 27 px away, met the wall";
-  EXPECT_NEAR(result.position.x(), 22 * px, 1e-15) << "where the arm did";
-  EXPECT_TRUE(result.grounded);
-  EXPECT_EQ(result.contacts[0].side, Side::bottom);
-  EXPECT_EQ(result.contacts[0].normal, Vec2d(-1, 0));
-}
-
-TEST(ArticleJump, hitting_a_wall_or_an_overhang_is_reported_on_the_side_of_the_pair) {
-  for (const std::string_view kind : speculative_kinds) {
-    Rig<double> wall(kind, {rectangle(1, -9, 2, 9)});
-    wall.move({0, 0}, {25 * px, 8 * px});
-    ASSERT_EQ(wall.result.contacts.size(), 1U) << kind;
-    EXPECT_EQ(wall.result.contacts[0].side, Side::right);
-    EXPECT_EQ(wall.result.velocity, Vec2d(0, 8 * px)) << "ending the rise is a rule of the controller";
-
-    Rig<double> overhang(kind, {{.points = {{-2, 2}, {2, 1}, {2, 3}}}});
-    overhang.move({0, 0}, {0, 2});
-    ASSERT_FALSE(overhang.result.contacts.empty()) << kind;
-    EXPECT_EQ(overhang.result.contacts[0].side, Side::top);
-    EXPECT_NEAR(overhang.result.contacts[0].normal.x() / overhang.result.contacts[0].normal.y(), 0.25, 1e-14)
-        << "the true normal of the face from (2, 1) to (-2, 2)";
-    EXPECT_LT(overhang.result.contacts[0].normal.y(), 0);
-    EXPECT_EQ(overhang.result.velocity.y(), 0);
-    EXPECT_FALSE(overhang.result.grounded);
-  }
-}
-
-TEST(ArticleRefusals, a_step_out_of_range_or_with_too_many_units_moves_nothing) {
-  for (const std::string_view kind : article_kinds) {
-    Rig<double> rig(kind, {rectangle(-2, -2, 2, 0)});
-    const double nan = std::numeric_limits<double>::quiet_NaN();
-    for (const Vec2d& displacement : {Vec2d{3e6, 0}, Vec2d{nan, 0}, Vec2d{0, nan}}) {
-      EXPECT_EQ(rig.move({1, 1}, displacement).status, MoveStatus::out_of_range) << kind;
-      EXPECT_EQ(rig.result.position, Vec2d(1, 1));
-      EXPECT_EQ(rig.result.path.size(), 2U);
-    }
-    const bool searches = kind != "speculative";
-    const MoveStatus far = searches ? MoveStatus::refused : MoveStatus::moved;
-    EXPECT_EQ(rig.move({0, 5}, {1e6, 0}).status, far) << kind;
-    if (searches) {
-      EXPECT_EQ(rig.result.position, Vec2d(0, 5)) << kind;
-    }
-  }
-}
-
-TEST(ArticleContacts, of_what_is_held_are_at_fraction_zero_without_a_sign) {
-  constexpr double half_height = 20 * px;
-  constexpr double half_width = 10 * px;
+TEST(EveryTechnique, ends_exactly_where_it_wants_in_the_free_and_has_contacts_at_fraction_zero_where_it_is_held) {
   const std::vector<ColliderDef> corner{rectangle(-4, -1, 4, 0), rectangle(-4, 0, -1, 4), rectangle(1, 0, 4, 4)};
   for (const std::string_view kind : technique_names()) {
-    if (kind == "grid") continue;  // stands in the middle of its square, beside nothing
+    SCOPED_TRACE(kind);
     Rig<double> rig(kind, corner);
+    EXPECT_EQ(rig.technique->name(), kind);
+    if (kind == "grid") continue;  // stands in the middle of its square, beside nothing
+    EXPECT_EQ(rig.move({0.123, 6.456}, {1.3, -0.7}).position, Vec2d(0.123, 6.456) + Vec2d(1.3, -0.7));
+    EXPECT_TRUE(rig.result.contacts.empty());
     for (const double wall : {-1.0, 1.0}) {
       rig.move({wall * (1 - half_width), half_height}, {wall * px, -px});
-      EXPECT_FALSE(rig.result.contacts.empty()) << kind;
+      EXPECT_FALSE(rig.result.contacts.empty());
       for (const Contact<double>& contact : rig.result.contacts) {
-        EXPECT_GE(contact.fraction, 0) << kind;
-        EXPECT_FALSE(std::signbit(contact.fraction)) << kind;
+        EXPECT_GE(contact.fraction, 0);
+        EXPECT_FALSE(std::signbit(contact.fraction)) << "no negative zero";
       }
     }
   }
 }
 
-TEST(ArticleKnobsCheck, a_knob_out_of_range_is_named) {
-  const Scenery<double> scenery(SceneryDef{{rectangle(0, 0, 1, 1)}});
-  const auto message = [&](const ArticleKnobs& knobs) -> std::string {
-    try {
-      (void)make_technique<double>({.name = "speculative", .article = knobs}, scenery, {});
-    } catch (const std::invalid_argument& error) {
-      return error.what();
+TEST(EveryTechnique, refuses_a_step_out_of_range_or_with_too_many_units_and_changes_nothing) {
+  for (const std::string_view kind : technique_names()) {
+    SCOPED_TRACE(kind);
+    Rig<double> rig(kind, {rectangle(0, 0, 3, 3)});
+    MoveRequest<double> request;
+    request.position = {9.5, 9.625};
+    request.technique_memory = {0.25, -0.125};
+    const auto status_of = [&](const Vec2d& displacement) {
+      request.displacement = displacement;
+      rig.technique->move(request, rig.scratch, rig.result);
+      return rig.result.status;
+    };
+    for (const Vec2d& displacement : {Vec2d{3e6, 0}, Vec2d{-3e6, 0}, Vec2d{nan, 0}, Vec2d{0, nan}}) {
+      EXPECT_EQ(status_of(displacement), MoveStatus::out_of_range);
+      EXPECT_EQ(rig.result.position, request.position);
+      const bool has_a_memory = kind == "grid";
+      EXPECT_TRUE(!has_a_memory || rig.result.technique_memory == request.technique_memory);
+      EXPECT_EQ(rig.result.path.size(), 2U);
     }
-    return "accepted";
-  };
-  EXPECT_EQ(message({}), "accepted");
-  EXPECT_EQ(message({.unit = 0}).substr(0, 5), "unit:");
-  EXPECT_EQ(message({.unit = std::numeric_limits<double>::infinity()}).substr(0, 5), "unit:");
-  EXPECT_EQ(message({.unit = std::numeric_limits<double>::quiet_NaN()}).substr(0, 5), "unit:");
-  EXPECT_EQ(message({.iterations = 0}).substr(0, 11), "iterations:");
-  EXPECT_EQ(message({.points = 6}).substr(0, 7), "points:");
+    const bool searches = find_technique(kind)->unit != nullptr && kind != "grid" && kind != "speculative";
+    EXPECT_EQ(status_of({9e5, 0}) == MoveStatus::refused, searches);
+    EXPECT_TRUE(!searches || rig.result.position == request.position);
+  }
 }
 
-TEST(ArticleNames, are_those_the_command_takes) {
-  for (const std::string_view kind : article_kinds) {
-    Rig<double> rig(kind, {rectangle(0, 0, 1, 1)});
-    EXPECT_EQ(rig.technique->name(), kind);
+TEST(EveryTechnique, names_a_knob_that_is_out_of_range) {
+  struct Case {
+    ArticleKnobs knobs;
+    std::string begins;
+  };
+  const double infinity = std::numeric_limits<double>::infinity();
+  std::vector<Case> cases{{{.unit = 0}, "unit:"},
+                          {{.unit = infinity}, "unit:"},
+                          {{.unit = nan}, "unit:"},
+                          {{.iterations = 0}, "iterations:"},
+                          {{.points = 6}, "points:"}};
+  for (const double bad : {0.0, -1.0, 1e-9, nan, infinity}) cases.push_back({{.square = bad}, "square:"});
+  for (const double bad : {0.0, -1.0, 1001.0, nan})
+    cases.push_back({{.raster_pixels_per_metre = bad}, "raster_pixels_per_metre:"});
+  for (const int bad : {0, -4, 4097}) cases.push_back({{.pixels_per_tile = bad}, "pixels_per_tile:"});
+  for (const std::string_view kind : technique_names()) {
+    SCOPED_TRACE(kind);
+    const auto message = [&](const ArticleKnobs& knobs) {
+      return refusal_by<std::invalid_argument>([&] { Rig<double>(kind, {rectangle(0, 0, 1, 1)}, knobs); });
+    };
+    EXPECT_EQ(message({}), "");
+    for (const Case& each : cases) EXPECT_EQ(message(each.knobs).substr(0, each.begins.size()), each.begins);
   }
+}
+
+/// @param kind the grid knows squares alone, and pictures no one-way chains.
+std::vector<ColliderDef> rough_ground(Random& random, std::string_view kind) {
+  std::vector<ColliderDef> ground;
+  for (int i = -10; i < 10; ++i) ground.push_back(rectangle(i, -1, i + 1, 0));
+  for (int i = -9; i < 9; i += 3) ground.push_back(rectangle(i, 0, i + 1, 1));
+  if (kind == "grid") return ground;
+  for (int i = 0; i < 10; ++i) {
+    const double x = random.between(-9, 8);
+    ground.push_back({.points = {{x, 0.1}, {x + random.between(0.3, 1), 0.1}, {x, random.between(0.3, 2)}}});
+  }
+  ground.push_back(chain({{-9, 1}, {-7, 1.5}, {-5, 1}}));
+  if (!find_technique(kind)->draws_level) ground.push_back(chain({{5, 1}, {9, 1}}, Vec2d{0, 1}));
+  return ground;
+}
+
+TYPED_TEST(TechniqueIn,
+           gives_over_rough_ground_the_same_bits_by_tree_and_all_pairs_a_way_in_order_and_takes_no_memory) {
+  for (const std::string_view kind : technique_names()) {
+    SCOPED_TRACE(kind);
+    Random random(5);
+    const std::vector<ColliderDef> ground = rough_ground(random, kind);
+    Rig<TypeParam> tree({.name = kind, .broad_phase = BroadPhaseKind::tree}, ground);
+    Rig<TypeParam> all({.name = kind, .broad_phase = BroadPhaseKind::all_pairs}, ground);
+    const std::size_t before = tests::allocations();
+    int contacts = 0;
+    int corners = 0;
+    for (int step = 0; step < 2000; ++step) {
+      const Vec2d start{random.between(-9, 9), random.between(0, 3)};
+      const Vec2d displacement{random.between(-2, 2), random.between(-2, 2)};
+      const MoveResult<TypeParam>& result = tree.move(start, displacement);
+      all.move(start, displacement);
+      ASSERT_EQ(result.position, all.result.position) << "seed 5, step " << step;
+      ASSERT_EQ(result.velocity, all.result.velocity) << "seed 5, step " << step;
+      ASSERT_EQ(result.contacts.size(), all.result.contacts.size()) << "seed 5, step " << step;
+      ASSERT_EQ(result.path[0].position, start.cast<TypeParam>());
+      ASSERT_EQ(result.path[0].fraction, 0);
+      ASSERT_EQ(result.path.back().position, result.position);
+      ASSERT_EQ(result.path.back().fraction, 1);
+      for (std::size_t i = 1; i < result.path.size(); ++i)
+        ASSERT_LE(result.path[i - 1].fraction, result.path[i].fraction) << "seed 5, step " << step;
+      contacts += result.contacts.empty() ? 0 : 1;
+      corners += result.path.size() > 2 ? 1 : 0;
+    }
+    EXPECT_EQ(tests::allocations(), before);
+    EXPECT_GT(contacts, 400);
+    const bool has_corners = kind.starts_with("speculative") || kind.starts_with("pixel") || kind == "octagon_sweep";
+    EXPECT_TRUE(has_corners ? corners > 100 : corners == 0) << corners;
+  }
+}
+
+TEST(FlushTiles, and_a_one_way_chain_are_walked_over_at_any_speed_and_keep_speed_and_height) {
+  const std::vector<ColliderDef> ledge{chain({{40, 0}, {7, 0}, {0, 0}}, Vec2d{0, 1})};
+  for (const std::string_view kind : {"pixel_colour", "bounding_box", "speculative_march", "speculative"}) {
+    SCOPED_TRACE(kind);
+    for (const std::vector<ColliderDef>& floor : {flush_tiles(40), ledge}) {
+      if (kind == "pixel_colour" && floor.size() == 1) continue;  // draws no one-way chain
+      Passenger walker(kind, floor);
+      for (int speed = 1; speed <= 100; ++speed) {
+        walker.position = {1, half_height};
+        walker.velocity = {0.25 * speed, 0};
+        const int steps = std::min(200, 37 * 64 * 4 / speed);
+        for (int step = 0; step < steps; ++step) {
+          ASSERT_TRUE(walker.step({}).grounded) << "step " << step;
+          ASSERT_EQ(walker.velocity, Vec2d(0.25 * speed, 0)) << "step " << step;
+          ASSERT_EQ(walker.position.y(), half_height) << "step " << step;
+        }
+        // Speed and dt are multiples of powers of two: the sum is exact.
+        EXPECT_EQ(walker.position.x(), 1 + steps * 0.25 * speed / 64);
+      }
+    }
+  }
+}
+
+TEST(Chain, blocks_both_ways_or_only_against_its_normal_and_has_no_inside) {
+  struct Case {
+    const char* what;
+    bool one_way;
+    double start;   ///< Height of the feet above the chain [px].
+    double motion;  ///< [px]
+    double end;     ///< Where the feet end [px].
+  };
+  constexpr double head = -40;  // where the feet are when the head touches
+  const std::array cases{
+      Case{"falls onto it", true, 6, -10, 0},
+      Case{"stands on its line and is pulled down", true, 0, -2, 0},
+      Case{"jumps from it", true, 0, 9, 9},
+      Case{"rises through it from below", true, -50, 60, 10},
+      Case{"has its head through it and falls back", true, -10, -8, -18},
+      Case{"has its feet a hair below it and falls", true, -0.25, -8, -8.25},
+      Case{"is below it and falls", true, -50, -8, -58},
+      Case{"falls onto one of two sides", false, 6, -10, 0},
+      Case{"hits one of two sides with its head", false, head - 6, 10, head},
+      Case{"is around one of two sides", false, -20, -1, -21},
+  };
+  for (const std::string_view kind : {"bounding_box", "discrete", "speculative_march", "speculative"}) {
+    SCOPED_TRACE(kind);
+    for (const Case& each : cases) {
+      const bool sees_an_inside = kind == "bounding_box" || kind == "discrete";
+      if (sees_an_inside && each.start == -20) continue;
+      Rig<double> rig(kind, {chain({{3, 0}, {-3, 0}}, each.one_way ? std::optional(Vec2d{0, 1}) : std::nullopt)});
+      rig.move({0, half_height + each.start * px}, {0, each.motion * px});
+      const bool blocked = each.end != each.start + each.motion;
+      const double up = each.motion < 0 ? 1 : -1;
+      const double above = blocked && kind == "discrete" ? gap * up : 0;
+      // A line that is reached counts as crossed: the march ends a unit before one of two sides.
+      const double slack = kind == "speculative_march" && !each.one_way ? px : 1e-12;
+      EXPECT_NEAR(rig.result.position.y() - half_height, each.end * px + above, slack) << each.what;
+      EXPECT_EQ(rig.result.contacts.size(), blocked ? 1U : 0U) << each.what;
+      EXPECT_EQ(rig.result.grounded, blocked && up > 0) << each.what;
+      for (const Contact<double>& contact : rig.result.contacts) EXPECT_EQ(contact.normal, Vec2d(0, up)) << each.what;
+    }
+  }
+  Rig<double> looks_inside("penetration_resolution", {chain({{-3, 0}, {3, 0}})});
+  EXPECT_EQ(looks_inside.move({0, half_height + px}, {0, -8 * px}).position, Vec2d(0, half_height - 7 * px));
 }
 
 }  // namespace

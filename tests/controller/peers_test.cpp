@@ -1,17 +1,12 @@
 /// What other controllers have, and what their users complain of, where no other test shows it. `coming_from.md` lists
 /// all of it, with the tests.
 #include "controller/stepping.hpp"
-#include "support/random_runs.hpp"
 
 #include <paperproof/contact_changes.hpp>
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <span>
-#include <string>
 #include <tuple>
 #include <vector>
 
@@ -20,7 +15,6 @@ namespace {
 
 constexpr double stop = Tolerances<double>{}.stop;
 constexpr double touch = 1e-6;  ///< Largest gap of what was stopped [m].
-constexpr double floor_width = 60;
 
 ColliderDef moving(ColliderDef collider) {
   collider.mover = 0;
@@ -28,10 +22,7 @@ ColliderDef moving(ColliderDef collider) {
 }
 
 CharacterDef box_character() {
-  CharacterDef character;
-  character.shape = CharacterShape(std::array{Vec2d(-half_width, -half_height), Vec2d(half_width, -half_height),
-                                              Vec2d(half_width, half_height), Vec2d(-half_width, half_height)});
-  return character;
+  return article_tests::of_shape(CharacterShape(rectangle(-half_width, -half_height, half_width, half_height).points));
 }
 
 /// Ground through the origin, in pieces of a metre that abut exactly. @param rise per metre, a multiple of 1/16.
@@ -60,31 +51,9 @@ double jumps_up_beside_a_corner(const CharacterDef& character, double caught) {
   return highest;
 }
 
-TEST(Contacts, are_added_persist_and_are_removed) {
-  // Two tiles and a wall: it lands on one, walks over the seam into the wall, and jumps up along that.
-  Stepper<double> walker({rectangle(-9, -1, 0, 0), rectangle(0, -1, 9, 0), rectangle(2, 0, 3, 9)});
-  walker.gravity = {0, -30};
-  walker.at(-1, half_height + 0.1);
-  std::vector<Contact<double>> before;
-  std::string said;
-  for (int n = 0; n < 90; ++n) {
-    walker.step({.move = 1, .jump = n == 80});
-    const std::span<const Contact<double>> now = walker.report.move.contacts;
-    for_each_change<double>(before, now, [&](ContactChange change, const Contact<double>& contact) {
-      if (change == ContactChange::persisted) return;
-      said += (change == ContactChange::added ? " +" : " -") + std::to_string(contact.collider);
-    });
-    before.assign(now.begin(), now.end());
-  }
-  EXPECT_EQ(said, " +0 +1 -0 +2 -1");
-}
-
 TEST(Contacts, of_one_collider_are_one_change_and_removed_ones_come_last) {
   const auto with = [](ColliderIndex collider, double fraction) {
-    Contact<double> contact;
-    contact.collider = collider;
-    contact.fraction = fraction;
-    return contact;
+    return Contact<double>{.collider = collider, .fraction = fraction};
   };
   const std::vector<Contact<double>> before{with(7, 0.1), with(3, 0.2), with(7, 0.3)};
   const std::vector<Contact<double>> now{with(5, 0.4), with(3, 0.5), with(5, 0.6)};
@@ -106,20 +75,6 @@ TEST(PeersFeature, corner_correction_by_a_slanted_head) {
   EXPECT_LT(jumps_up_beside_a_corner(box_character(), 0.2 * slant), below_the_ceiling);
 }
 
-TEST(PeersFeature, the_three_ways_to_leave_a_platform) {
-  // Godot's `platform_on_leave`: add the velocity, add it only upwards, add nothing. A step adds it.
-  Stepper<double> rider({moving(rectangle(-3, -1, 3, 0))});
-  rider.at(0, half_height + stop);
-  for (int n = 0; n < 10; ++n) rider.step_with_mover_by(0.05, -0.03);
-  const Vec2d platform = rider.state.ride.velocity;
-  EXPECT_NEAR((platform - Vec2d(3, -1.8)).norm(), 0, 1e-12);
-  rider.step_with_mover_by(0.05, -0.03, {.jump = true});
-  const Vec2d jump{0, 12 - 10.0 / 60};
-  EXPECT_NEAR((rider.state.velocity - platform - jump).norm(), 0, 1e-12) << "add";
-  const Vec2d downwards{0, std::min(0.0, platform.y())};
-  EXPECT_NEAR((rider.state.velocity - downwards - Vec2d(3, 0) - jump).norm(), 0, 1e-12) << "add upwards";
-}
-
 // ----------------------------------------------------------------------------------------------------- complaints
 
 TEST(PeersComplaint, falls_through_a_vertical_platform) {  // rapier #488
@@ -136,35 +91,6 @@ TEST(PeersComplaint, falls_through_a_vertical_platform) {  // rapier #488
       EXPECT_TRUE(faller.state.grounded) << speed;
     }
   }
-}
-
-TEST(PeersComplaint, a_motionless_character_is_passed_through) {  // rapier #485
-  for (const double speed : {0.5, 20.0, 3000.0}) {
-    Stepper<double> still({moving(rectangle(-2, -9, -1, 9))});
-    for (int n = 0; n < 60; ++n) {
-      const MoverMotion<double> wall{still.movers[0].to, still.movers[0].to + Vec2d(speed / 60, 0)};
-      still.movers[0] = wall;
-      still.controller.move(still.state, {0, 0}, {{0, 0}, still.dt, still.movers}, still.scratch, still.report);
-      ASSERT_GT(still.state.position.x() - half_width, wall.to.x() - 1) << speed << " m/s, step " << n;
-    }
-    const double pushed = std::max(0.0, -1 + speed + half_width);
-    EXPECT_NEAR(still.state.position.x(), pushed, touch) << speed;
-  }
-}
-
-TEST(PeersComplaint, sticks_to_walls) {  // bevy_rapier #489, #301
-  Stepper<double> at_the_wall({rectangle(1, -90, 2, 90)});
-  Stepper<double> free({});
-  for (Stepper<double>* jumper : {&at_the_wall, &free}) jumper->at(0, 0).with_velocity(0, 8);
-  int touching = 0;
-  for (int n = 0; n < 120; ++n) {
-    at_the_wall.step({.move = 1});
-    free.step({.move = 1});
-    touching += at_the_wall.touched(Side::right);
-    ASSERT_EQ(at_the_wall.state.velocity.y(), free.state.velocity.y()) << n;
-    ASSERT_NEAR(at_the_wall.state.position.y(), free.state.position.y(), 1e-12) << n;
-  }
-  EXPECT_GE(touching, 90);
 }
 
 TEST(PeersComplaint, snags_on_the_seams_of_walls_and_ceilings) {  // godot #87477, #92621; box2d #935
@@ -211,15 +137,11 @@ TEST(PeersComplaint, the_floor_flag_flickers) {  // godot #16250, #90718; bevy_r
   }
 }
 
-/// Ledges, 0.3 m apart: the character spans several.
-std::vector<ColliderDef> ladder_of_ledges() {
+TEST(PeersComplaint, one_way_platforms_pop_or_eat_jumps) {  // godot #9399, #42914; prime31 #46, #82
+  // Ledges, 0.3 m apart: the character spans several.
   std::vector<ColliderDef> ledges{rectangle(-9, -1, 9, 0)};
   for (int i = 1; i <= 20; ++i) ledges.push_back(chain({{-9, 0.3 * i}, {9, 0.3 * i}}, Vec2d{0, 1}));
-  return ledges;
-}
-
-TEST(PeersComplaint, one_way_platforms_pop_or_eat_jumps) {  // godot #9399, #42914; prime31 #46, #82
-  Stepper<double> jumper(ladder_of_ledges());
+  Stepper<double> jumper(ledges);
   jumper.gravity = {0, -30};
   jumper.at(0, half_height + stop).steps(2);
   int jumps = 0;
@@ -284,59 +206,6 @@ TEST(PeersComplaint, climbs_corners) {  // box2d #1032: a capsule does, users wa
   const Vec2d brink{half_width - 0.001, half_height + stop};
   on_the_brink.at(brink.x(), brink.y()).steps(600, {.move = 0});
   EXPECT_EQ(on_the_brink.state.position, brink) << "it stands on a millimetre";
-}
-
-/// A lift with a belt, under stairs and ledges.
-std::vector<ColliderDef> playground() {
-  ColliderDef belt = moving(rectangle(-6, -1, -2, 0));
-  belt.surface_speed = 1;
-  return {rectangle(-floor_width, -2, floor_width, -1.5), belt, rectangle(0, -2, 9, -1.3), rectangle(1, -2, 9, -1.1),
-          chain({{-4, 1}, {4, 1}}, Vec2d{0, 1})};
-}
-
-TEST(PeersComplaint, rollback_diverges) {  // JoltPhysics #1551, godot-proposals #2821, #9663
-  const std::uint64_t seed = 1;
-  test::Random random(seed);
-  CharacterDef character;
-  character.snap = character.step_height = 0.25;
-  character.coyote_time = 0.1;
-  character.jump_buffer = 0.1;
-  Stepper<double> player(playground(), character);
-  player.gravity = {0, -30};
-  player.at(-4, 1);
-  struct Frame {
-    Input input;
-    double dt;
-    MoverMotion<double> lift;
-    CharacterState<double> before;
-  };
-  std::vector<Frame> frames;
-  const auto take = [&player](const Frame& frame) {
-    player.dt = frame.dt;
-    player.movers[0] = frame.lift;
-    player.step(frame.input);
-  };
-  int rides = 0;
-  Input input;
-  for (int n = 0; n < 3000; ++n) {
-    if (random.chance(0.05)) input.move = random.integer(-1, 1);
-    input.jump = random.chance(0.05);
-    input.drop = random.chance(0.02);
-    const MoverMotion<double>& lift = player.movers[0];
-    frames.push_back({input, random.between(1e-3, 0.05), {lift.to, Vec2d(0, std::sin(n * 0.02))}, player.state});
-    take(frames.back());
-    rides += player.state.ride.ground != Ride<double>::none;
-    if (std::abs(player.state.position.x()) > 8) teleport(player.state, {-4, 1});
-  }
-  EXPECT_GE(rides, 300) << "seed " << seed;
-  for (std::size_t back = 0; back + 60 < frames.size(); back += 60) {
-    player.state = frames[back].before;
-    for (std::size_t n = back; n < back + 60; ++n) {
-      ASSERT_EQ(player.state, frames[n].before) << "seed " << seed << ", rolled back to " << back << ", at " << n;
-      take(frames[n]);
-      if (std::abs(player.state.position.x()) > 8) teleport(player.state, {-4, 1});
-    }
-  }
 }
 
 // ----------------------------------------------------------------------------------------------------- situations
