@@ -7,7 +7,6 @@
 
 #include <cmath>
 #include <limits>
-#include <optional>
 
 namespace paperproof::box2d::hero_test {
 namespace {
@@ -179,23 +178,6 @@ TEST(Hero, takes_a_coin_however_fast_it_is) {
   EXPECT_EQ(changes, (std::vector{Change::enter, Change::exit}));
 }
 
-TEST(Hero, jumps_up_through_a_platform_of_pre_solve_and_lands_on_it) {
-  b2Fixture* platform = nullptr;
-  OnFloor game({.surface_of = [&](b2Fixture& fixture) {
-    return Surface{.blocks = &fixture == platform ? Blocking::from_above : Blocking::from_everywhere};
-  }});
-  platform = &game.box(b2_staticBody, {0, 3}, 1, 0.1F);
-  game.run(5);
-  game.go({.move = 0.0, .jump = true});
-  EXPECT_GT(game.highest(194), 4.4) << "the platform stopped the jump";
-  EXPECT_EQ(game.hero.ground(), platform);
-  EXPECT_NEAR(game.feet(), 3.1, 1e-6);
-  EXPECT_TRUE(game.touches(*platform));
-  game.go({.drop = true});
-  game.run(90);
-  EXPECT_NEAR(game.feet(), 0, 1e-6);
-}
-
 TEST(Hero, is_hit_by_a_bullet_that_never_passes_it) {
   OnFloor game;
   b2Fixture& bullet = game.box(b2_dynamicBody, {-9, 0.9F}, 0.02F, 0.02F, 1);
@@ -208,24 +190,6 @@ TEST(Hero, is_hit_by_a_bullet_that_never_passes_it) {
   }
   EXPECT_GT(game.times_begun(bullet), 0);
   EXPECT_LE(game.hero.velocity().norm(), 1) << "a bullet of a five hundredth of its mass";
-}
-
-TEST(Hero, respawns_without_dragging_anything_along) {
-  OnFloor game;
-  b2Fixture& crate = game.box(b2_dynamicBody, {1, 0.51F}, 0.5F, 0.5F, 1);
-  game.box(b2_staticBody, {50, 10}, 2, 0.5F);
-  game.run(60, {.move = 1.0});
-  ASSERT_TRUE(game.touches(crate));
-  const float x = crate.GetBody()->GetPosition().x;
-  game.hero.place({50, 12});
-  EXPECT_EQ(game.hero.position(), Vec2d(50, 12));
-  EXPECT_EQ(game.hero.velocity(), Vec2d(0, 0));
-  game.run(120);
-  EXPECT_NEAR(game.x(), 50, 1e-9);
-  EXPECT_NEAR(game.feet(), 10.5, 1e-6);
-  const double slides = 6.0 * 6.0 / (2 * 0.2 * 10);  // by its own speed, with the friction of Box2D
-  EXPECT_LT(static_cast<double>(crate.GetBody()->GetPosition().x - x), slides);
-  EXPECT_FALSE(game.touches(crate));
 }
 
 TEST(Hero, carries_a_second_hero_on_its_head_in_either_order) {
@@ -283,34 +247,6 @@ TEST(Hero, follows_its_world_through_every_change) {
   game.ground.GetBody()->SetEnabled(false);
   game.run(2);
   EXPECT_FALSE(game.hero.grounded());
-}
-
-TEST(Hero, enters_and_leaves_sensors_without_moving_there) {
-  const Vec2d here(10, half_height + 1e-6);
-  OnFloor game;
-  b2Fixture& zone = game.sensor({10, 1}, 1);
-  const auto expect = [&](std::optional<Change> change, std::size_t inside, const char* after) {
-    game.go();
-    ASSERT_EQ(game.hero.sensors().size(), change ? 1U : 0U) << after;
-    EXPECT_EQ(game.hero.inside().size(), inside) << after;
-    if (!change) return;
-    EXPECT_EQ(game.hero.sensors()[0].change, *change) << after;
-    EXPECT_EQ(game.hero.sensors()[0].sensor, &zone) << after;
-  };
-  game.run(3);
-  game.hero.place(here);
-  expect(Change::enter, 1, "it was placed in it");
-  expect({}, 1, "nothing");
-  zone.GetBody()->SetTransform({13, 1}, 0);
-  expect(Change::exit, 0, "the sensor was moved away");
-  zone.GetBody()->SetTransform({10, 1}, 0);
-  expect(Change::enter, 1, "the sensor was moved back");
-  game.hero.place({80, here.y()});
-  expect(Change::exit, 0, "it was placed far away");
-  game.hero.place(here);
-  expect(Change::enter, 1, "it was placed in it again");
-  game.world.DestroyBody(zone.GetBody());
-  expect({}, 0, "the sensor was destroyed");
 }
 
 TEST(Hero, tells_each_contact_as_added_persisted_and_removed) {

@@ -66,13 +66,20 @@ TEST(Recipe, knocks_back) {
 }
 
 TEST(Recipe, respawns) {
-  Game game({.position = {0, 5}});
-  game.floor();
-  game.run(10, {.move = 1.0});
+  OnFloor game;
+  b2Fixture& crate = game.box(b2_dynamicBody, {1, 0.51F}, 0.5F, 0.5F, 1);
+  game.run(60, {.move = 1.0});
+  ASSERT_TRUE(game.touches(crate));
+  const float x = crate.GetBody()->GetPosition().x;
   respawn(game.hero, {-20, half_height + 1e-6});
-  game.go();
+  EXPECT_EQ(game.hero.velocity(), Vec2d(0, 0));
+  game.run(120);
   EXPECT_NEAR(game.x(), -20, 1e-9);
   EXPECT_TRUE(game.hero.grounded());
+  const double slides = 6.0 * 6.0 / (2 * 0.2 * 10);  // by its own speed, with the friction of Box2D
+  EXPECT_LT(static_cast<double>(crate.GetBody()->GetPosition().x - x), slides) << "it is not dragged along";
+  EXPECT_GE(crate.GetBody()->GetPosition().x, x) << "it is not dragged along";
+  EXPECT_FALSE(game.touches(crate));
 }
 
 TEST(Recipe, crouches_under_a_ceiling) {

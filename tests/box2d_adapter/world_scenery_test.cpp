@@ -71,7 +71,7 @@ TEST(WorldScenery, filters_let_collide_what_box2d_lets_collide) {
   EXPECT_EQ(filter_of(*a), Filter{}) << "steps without filters stay fast";
 }
 
-TEST(WorldScenery, shapes_arrive_in_world_coordinates) {
+TEST(WorldScenery, shapes_arrive_in_world_coordinates_and_a_loop_closed) {
   b2World world({0, 0});
   add(world, b2_staticBody, {3, 4}, box(2, 1), b2_pi / 2);
   b2EdgeShape edge;
@@ -81,6 +81,10 @@ TEST(WorldScenery, shapes_arrive_in_world_coordinates) {
   circle.m_p = {1, 0};
   circle.m_radius = 0.1F;
   add(world, b2_staticBody, {10, 20}, circle);
+  const std::array<b2Vec2, 4> corners{b2Vec2(0, 0), b2Vec2(4, 0), b2Vec2(4, 3), b2Vec2(0, 3)};
+  b2ChainShape loop;
+  loop.CreateLoop(corners.data(), 4);
+  add(world, b2_staticBody, {0, 0}, loop);
   const std::vector<ColliderDef> read = scenery_of(world).scenery.colliders;
   const Box2<double> turned = Box2<double>::around(read[0].points);
   EXPECT_LT((turned.lower - Vec2d(3 - 1, 4 - 2)).cwiseAbs().maxCoeff(), 1e-6);
@@ -90,18 +94,9 @@ TEST(WorldScenery, shapes_arrive_in_world_coordinates) {
   EXPECT_EQ(read[2].shape, ColliderDef::Shape::circle);
   EXPECT_EQ(read[2].points, (std::vector<Vec2d>{{11, 20}}));
   EXPECT_EQ(read[2].radius, static_cast<double>(0.1F));
-}
-
-TEST(WorldScenery, a_loop_arrives_closed_and_the_controller_accepts_it) {
-  b2World world({0, 0});
-  const std::array<b2Vec2, 4> corners{b2Vec2(0, 0), b2Vec2(4, 0), b2Vec2(4, 3), b2Vec2(0, 3)};
-  b2ChainShape loop;
-  loop.CreateLoop(corners.data(), 4);
-  add(world, b2_staticBody, {0, 0}, loop);
-  const SceneryDef read = scenery_of(world).scenery;
-  ASSERT_EQ(read.colliders[0].points.size(), 5U);
-  EXPECT_EQ(read.colliders[0].points.front(), read.colliders[0].points.back());
-  EXPECT_EQ(Scenery<double>(read).pieces().size(), 4U);
+  ASSERT_EQ(read[3].points.size(), 5U);
+  EXPECT_EQ(read[3].points.front(), read[3].points.back());
+  EXPECT_EQ(Scenery<double>({{read[3]}}).pieces().size(), 4U);
 }
 
 }  // namespace

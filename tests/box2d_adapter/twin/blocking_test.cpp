@@ -77,32 +77,5 @@ TEST(Blocking, small_features_on_a_floor_leave_no_hole_in_it) {
   }
 }
 
-TEST(Blocking, a_speck_of_two_millimetres_stops_a_character_above_it) {
-  for (const SceneryMode mode : modes) {
-    ReferenceWorld world(level({box(-0.001, -0.002, 0.001, 0)}), {}, {0, 1.5}, {.mode = mode});
-    for (int k = 0; k < 10; ++k) world.step({0, -60}, frame);
-    EXPECT_GT(world.position().y(), half_height);
-  }
-}
-
-/// Of 100 walking speeds (0.1 to 10 m/s) some lose over 1 % of their speed on 20 flush tiles of 1 m.
-TEST(Seams, snag_most_speeds_on_one_fixture_per_tile_and_none_on_a_loop_around_them) {
-  std::vector<ColliderDef> tiles;
-  for (int i = 0; i < 20; ++i) tiles.push_back(box(i, -1, i + 1, 0));
-  const Scenery<double> scenery = level(tiles);
-  for (const SceneryMode mode : modes) {
-    int snagged = 0;
-    for (int i = 1; i <= 100; ++i) {
-      const double speed = 0.1 * i;
-      ReferenceWorld world(scenery, {}, {1.5, half_height + rest_gap}, {.mode = mode});
-      double slowest = speed;
-      run(world, {speed, 0}, static_cast<int>(std::min(17 / (speed * frame), 1200.0)),
-          [&](const TwinStep& step) { slowest = std::min(slowest, step.velocity.x()); });
-      snagged += slowest < 0.99 * speed;
-    }
-    EXPECT_TRUE(mode == SceneryMode::pieces ? snagged > 50 : snagged == 0) << snagged;
-  }
-}
-
 }  // namespace
 }  // namespace paperproof::box2d::test

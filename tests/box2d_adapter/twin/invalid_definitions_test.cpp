@@ -62,20 +62,10 @@ TEST(InvalidDefinitions, shapes_that_box2d_would_weld_or_that_are_flat_in_float_
 
 /// Lengths from nothing to the limits, most of them sane.
 double any_length(Random& random) {
-  switch (random.below(12)) {
-    case 0:
-      return 0;
-    case 1:
-      return nan;
-    case 2:
-      return std::pow(10, random.between(-300, 300));
-    case 3:
-      return std::pow(10, random.between(-12, -2));
-    case 4:
-      return std::pow(10, random.between(2, 6.5));
-    default:
-      return random.between(-5, 5);
-  }
+  const std::array odd{0.0, nan, std::pow(10, random.between(-300, 300)), std::pow(10, random.between(-12, -2)),
+                       std::pow(10, random.between(2, 6.5))};
+  const auto which = static_cast<std::size_t>(random.below(12));
+  return which < odd.size() ? odd[which] : random.between(-5, 5);
 }
 
 Vec2d any_point(Random& random) { return {any_length(random), any_length(random)}; }

@@ -26,21 +26,6 @@ TEST(TwinMovers, are_where_their_motion_ends_however_long_they_move) {
   }
 }
 
-TEST(TwinMovers, carry_a_character_up_without_a_step_off_the_ground) {
-  ReferenceWorld world(level({box(-5, -1, 5, 0, 0)}), {}, {0, half_height + rest_gap});
-  Vec2d velocity = Vec2d::Zero();
-  for (int step = 0; step < 300; ++step) {
-    const TwinStep& twin = world.step(velocity + gravity * frame, frame, steady({0, 2}, step));
-    velocity = twin.velocity;
-    if (step < 2) continue;  // Box2D touches one step late
-    EXPECT_TRUE(twin.grounded) << step;
-    ASSERT_TRUE(twin.ground.has_value()) << step;
-    EXPECT_EQ(twin.ground->collider, 0U);
-    EXPECT_NEAR(world.position().y() - half_height - twin.movers[0].to.y(), rest_gap, 0.01) << step;
-  }
-  EXPECT_NEAR(velocity.y(), 2, 1e-4);
-}
-
 TEST(TwinMovers, push_a_resting_character_and_name_the_collider_that_does) {
   // Three boxes of one mover, one outline: the middle one is at the character's height.
   const Scenery<double> scenery = level({box(0, 5, 1, 9, 0), box(0, -1, 1, 5, 0), box(0, -3, 1, -1, 0)});
@@ -97,38 +82,6 @@ TEST(TwinMovers, are_refused_where_they_are_not_one_for_each_or_not_finite_and_f
   EXPECT_THROW(turned(std::vector<MoverTurn>(2)), InvalidDefinition);
 }
 
-TEST(TwinSensors, are_entered_and_left_once_piece_or_chain_standing_or_moving) {
-  // An L of two pieces, and a line that comes to meet the character.
-  std::vector<ColliderDef> sensors{polygon({{2, -2}, {6, -2}, {6, 0}, {4, 0}, {4, 2}, {2, 2}}),
-                                   chain({{12, -3}, {12, 3}}, 0)};
-  for (ColliderDef& sensor : sensors) sensor.sensor = true;
-  ReferenceWorld world(level(sensors), {}, {0, 0});
-  struct Seen {
-    ColliderIndex sensor;
-    bool enters;
-    double x;
-  };
-  std::vector<Seen> seen;
-  for (int step = 0; step < 240; ++step) {
-    const TwinStep& twin = world.step({3, 0}, frame, steady({-1, 0}, step));
-    EXPECT_TRUE(twin.contacts.empty());
-    for (const SensorEvent<double>& event : twin.sensors)
-      seen.push_back({event.sensor, event.change == SensorEvent<double>::Change::enter, world.position().x()});
-  }
-  // 3 t + half_width = 12 - t: they meet when t is a quarter of the way that is between them.
-  const std::vector<Seen> expected{{0, true, 2 - half_width},
-                                   {0, false, 6 + half_width},
-                                   {1, true, 3 * (12 - half_width) / 4},
-                                   {1, false, 3 * (12 + half_width) / 4}};
-  ASSERT_EQ(seen.size(), expected.size());
-  for (std::size_t i = 0; i < seen.size(); ++i) {
-    EXPECT_EQ(seen[i].sensor, expected[i].sensor);
-    EXPECT_EQ(seen[i].enters, expected[i].enters);
-    // Seen when the step after the touch begins: a step's way (and that of what moves) later at the most.
-    EXPECT_NEAR(seen[i].x, expected[i].x, 2 * 4 * frame);
-  }
-}
-
 ReferenceWorld characters_at(const std::vector<Vec2d>& positions) {
   return {level({box(-20, -1, 20, 0)}), CharacterDef{}, positions};
 }
@@ -147,16 +100,6 @@ TEST(Characters, two_bullets_do_not_pass_each_other_and_both_name_the_other) {
     EXPECT_TRUE(steps[k].contacts.empty());
   }
   EXPECT_EQ(steps[0].met[0].normal, -steps[1].met[0].normal);
-}
-
-TEST(Characters, of_the_same_mass_share_the_speed_that_one_has) {
-  ReferenceWorld world = characters_at({{0, 5}, {2 * half_width + 0.05, 5}});
-  std::vector<TwinWish> wishes{{.velocity = {6, 0}}, {}};
-  for (int i = 0; i < 4; ++i) {
-    const std::span<const TwinStep> steps = world.step_all(wishes, frame);
-    for (std::size_t k = 0; k < 2; ++k) wishes[k].velocity = steps[k].velocity;
-  }
-  for (const TwinWish& wish : wishes) EXPECT_NEAR(wish.velocity.x(), 3, 1e-4);
 }
 
 TEST(Characters, another_number_of_velocities_is_refused_and_one_is_placed) {

@@ -79,14 +79,6 @@ TEST_P(OneWay, who_jumps_up_through_it_lands_on_it_and_drops_through_it_and_says
   }
 }
 
-TEST_P(OneWay, walking_on_it_and_over_its_joint_keeps_the_speed) {
-  ReferenceWorld world = GetParam().world({-2, half_height + rest_gap});
-  run(world, {3, 0}, 60, [](const TwinStep& step) {
-    ASSERT_TRUE(step.grounded);
-    ASSERT_NEAR(step.velocity.x(), 3, 1e-6);
-  });
-}
-
 TEST(OneWayDirections, a_wall_blocks_from_the_side_that_it_faces_only_and_along_it_nothing_blocks) {
   struct Case {
     Vec2d front;

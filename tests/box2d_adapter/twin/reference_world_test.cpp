@@ -43,30 +43,6 @@ TEST(ReferenceWorld, cites_the_package_and_says_truly_whether_its_asserts_are_on
   }
 }
 
-TEST(ReferenceWorld, free_flight_follows_the_wanted_velocity_to_rounding) {
-  ReferenceWorld world(level({box(-5, -200, 5, -199)}), {}, {0, 0});
-  Vec2d expected = Vec2d::Zero();
-  for (int i = 1; i <= 120; ++i) {
-    const Vec2d velocity = Vec2d(3, 5) + gravity * (i * frame);
-    expected += velocity * frame;
-    world.step(velocity, frame);
-    // Each step rounds a coordinate of up to 8 m (ulp 9.5e-7) a few times.
-    ASSERT_LE((world.position() - expected).cwiseAbs().maxCoeff(), i * 2e-6);
-  }
-}
-
-TEST(ReferenceWorld, rests_at_the_gap_that_we_cite) {
-  for (const SceneryMode mode : modes) {
-    ReferenceWorld world(floor(), {}, {0, 1}, {.mode = mode});
-    bool grounded = false;
-    run(world, {0, 0}, 300, [&](const TwinStep& step) { grounded = step.grounded; });
-    const double gap = world.position().y() - half_height;
-    EXPECT_GE(gap, rest_gap - 0.001);
-    EXPECT_LE(gap, touch_gap + 0.001);
-    EXPECT_TRUE(grounded);
-  }
-}
-
 TEST(ReferenceWorld, placed_at_the_rest_gap_it_touches_in_the_next_step_and_a_jump_leaves_at_once) {
   ReferenceWorld world(floor(), {}, {0, 3});
   world.place(standing, {0, 0});
