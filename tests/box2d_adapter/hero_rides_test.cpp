@@ -4,10 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <box2d/b2_circle_shape.h>
-#include <box2d/b2_revolute_joint.h>
-
-#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -51,14 +47,10 @@ class Ride {
       : ground_(ground),
         game_({.position = {ground.start, top(ground) + half_height + 0.05},
                .surface_of = [this](b2Fixture&) { return Surface{.speed = belt_speed_}; }}) {
-    b2BodyDef def;
-    def.type = ground.type;
-    body_ = game_.world.CreateBody(&def);
-    b2CircleShape circle;
-    circle.m_radius = static_cast<float>(ground.wheel_radius);
-    b2PolygonShape box;
-    box.SetAsBox(4, plank_top);
-    body_->CreateFixture(ground.wheel_radius > 0 ? static_cast<b2Shape*>(&circle) : &box, 20);
+    const auto radius = static_cast<float>(ground.wheel_radius);
+    body_ =
+        (radius > 0 ? game_.circle(ground.type, {0, 0}, radius, 20) : game_.box(ground.type, {0, 0}, 4, plank_top, 20))
+            .GetBody();
     if (ground.type == b2_dynamicBody) {
       b2BodyDef wall;
       b2RevoluteJointDef joint;
@@ -97,7 +89,7 @@ class Ride {
   /// Along the surface, from the middle [m]. It is the same again after each period.
   [[nodiscard]] double place() const {
     const b2Vec2 at = body_->GetPosition();
-    const Vec2d from = game_.hero.position() - Vec2d(static_cast<double>(at.x), static_cast<double>(at.y));
+    const Vec2d from = game_.hero.position() - Vec2d(at.x, at.y);
     if (ground_.wheel_radius == 0) return from.x();
     const double turned = ground_.walked_against != 0 ? 0 : static_cast<double>(body_->GetAngle());
     return ground_.wheel_radius * (std::atan2(from.x(), from.y() - half_height) + turned);

@@ -1,21 +1,29 @@
 /// A small game for tests of `Hero`: a world, a listener, and a hero.
 #pragma once
 
+#include "campaign/shapes.hpp"
+
 #include <paperproof/box2d/hero.hpp>
 
-#include <box2d/b2_body.h>
-#include <box2d/b2_contact.h>
-#include <box2d/b2_polygon_shape.h>
-#include <box2d/b2_world.h>
-#include <box2d/b2_world_callbacks.h>
+#include <box2d/box2d.h>
 
+#include <algorithm>
+#include <array>
 #include <set>
+#include <utility>
 #include <vector>
 
 namespace paperproof::box2d::hero_test {
 
+using compare::half_height;
+using compare::half_width;
+
 inline constexpr double frame = 1.0 / 60;
-inline constexpr double half_height = 0.625;  ///< Of the default hero [m].
+
+/// A character of 0.6 m: it crouches.
+inline CharacterDef low() {
+  return {.shape = CharacterShape(std::array{Vec2d(-0.3, -0.3), Vec2d(0.3, -0.3), Vec2d(0.3, 0.3), Vec2d(-0.3, 0.3)})};
+}
 
 /// What the game's own contact listener sees of the hero.
 class HeroListener : public b2ContactListener {
@@ -49,13 +57,46 @@ struct Game {
     hero_body = &hero.body();
   }
 
-  b2Fixture& box(b2BodyType type, const b2Vec2& at, float half_width, float half_height_of_box, float density = 100) {
+  b2Fixture& add(b2BodyType type, const b2Vec2& at, const b2Shape& shape, float density = 0) {
     b2BodyDef def;
     def.type = type;
     def.position = at;
-    b2PolygonShape shape;
-    shape.SetAsBox(half_width, half_height_of_box);
     return *world.CreateBody(&def)->CreateFixture(&shape, density);
+  }
+  b2Fixture& box(b2BodyType type, const b2Vec2& at, float half_width_of_box, float half_height_of_box,
+                 float density = 100) {
+    b2PolygonShape shape;
+    shape.SetAsBox(half_width_of_box, half_height_of_box);
+    return add(type, at, shape, density);
+  }
+  /// Box2D calls it a sensor; it stands.
+  b2Fixture& sensor(const b2Vec2& at, float half_size) {
+    b2Fixture& fixture = box(b2_staticBody, at, half_size, half_size);
+    fixture.SetSensor(true);
+    return fixture;
+  }
+  b2Fixture& circle(b2BodyType type, const b2Vec2& at, float radius, float density = 1) {
+    b2CircleShape shape;
+    shape.m_radius = radius;
+    return add(type, at, shape, density);
+  }
+  /// @param points from right to left, where the front is above.
+  b2Fixture& chain(const std::vector<b2Vec2>& points, b2BodyType type = b2_staticBody) {
+    b2ChainShape shape;
+    const b2Vec2 before = points.front() + points.front() - points[1];
+    const b2Vec2 after = points.back() + points.back() - points[points.size() - 2];
+    shape.CreateChain(points.data(), static_cast<int>(points.size()), before, after);
+    return add(type, {0, 0}, shape);
+  }
+  /// A plank about its middle, and a box below it to which it is pinned.
+  b2Fixture& see_saw(bool is_limited) {
+    b2Fixture& post = box(b2_staticBody, {0, 0.3F}, 0.1F, 0.1F);
+    b2Fixture& plank = box(b2_dynamicBody, {0, 0.8F}, 3, 0.1F, 1);
+    b2RevoluteJointDef joint;
+    joint.Initialize(post.GetBody(), plank.GetBody(), {0, 0.8F});
+    joint.enableLimit = is_limited;
+    world.CreateJoint(&joint);
+    return plank;
   }
   b2Fixture& floor() { return box(b2_staticBody, {0, -1}, 100, 1); }
 
@@ -66,11 +107,41 @@ struct Game {
   void run(int frames, const Input& input = {.move = 0.0}) {
     for (int i = 0; i < frames; ++i) go(input);
   }
+  /// @return how high the feet came [m].
+  double highest(int frames, const Input& input = {.move = 0.0}) {
+    double most = feet();
+    for (int i = 0; i < frames; ++i) {
+      go(input);
+      most = std::max(most, feet());
+    }
+    return most;
+  }
+
+  [[nodiscard]] double x() const { return hero.position().x(); }
+  [[nodiscard]] double feet() const { return hero.position().y() - half_height; }
+  /// For the game's listener.
+  [[nodiscard]] bool touches(b2Fixture& fixture) const { return listener.touching.count(&fixture) == 1; }
+  [[nodiscard]] auto times_begun(const b2Fixture& fixture) const {
+    return std::count(listener.begun.begin(), listener.begun.end(), &fixture);
+  }
 
   b2World world{{0, -10}};
   const b2Body* hero_body = nullptr;
   HeroListener listener{hero_body};
   Hero hero;
+};
+
+/// The floor is at y = 0, and the hero stands on it. In the definition its position is that of its feet.
+struct OnFloor : Game {
+  explicit OnFloor(HeroDef def = {}) : Game(standing(std::move(def))), ground(floor()) {}
+
+  b2Fixture& ground;
+
+ private:
+  static HeroDef standing(HeroDef def) {
+    def.position.y() += half_height + 1e-6;
+    return def;
+  }
 };
 
 }  // namespace paperproof::box2d::hero_test

@@ -1,25 +1,25 @@
-/// Bodies that Box2D moves: they fall, rest, are lifted and hit as Box2D has it, and bad definitions never reach it.
+/// Bodies that Box2D moves, free and joined, against closed forms; bad definitions never reach Box2D.
 #include "levels.hpp"
 
 #include <paperproof/box2d/body_world.hpp>
 
-#include <gtest/gtest.h>
-
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace paperproof::box2d::test {
 namespace {
 
-ColliderDef of_mover(ColliderDef collider, MoverIndex mover) {
-  collider.mover = mover;
-  return collider;
-}
+using Kind = JointDef::Kind;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 /// A world in which the colliders behind the first are bodies.
 struct Bodies {
-  Bodies(std::vector<ColliderDef> colliders, const std::vector<BodyDef>& defs, const Vec2d& gravity)
+  Bodies(std::vector<ColliderDef> colliders, const std::vector<BodyDef>& defs, const Vec2d& pull,
+         const std::vector<JointDef>& joints = {})
       : world(level(with_movers(std::move(colliders))), std::vector<std::optional<BodyDef>>(defs.begin(), defs.end()),
-              gravity),
+              pull, joints),
         motions(defs.size()) {}
 
   static std::vector<ColliderDef> with_movers(std::vector<ColliderDef> colliders) {
@@ -27,33 +27,15 @@ struct Bodies {
     return colliders;
   }
 
-  void step() {
+  void step(double dt = frame) {
     const std::vector<MoverMotion<double>> before = motions;
-    world.step(frame, motions);
+    world.step(dt, motions);
     for (std::size_t i = 0; i < motions.size(); ++i) EXPECT_EQ(motions[i].from, before[i].to);
   }
 
   BodyWorld world;
   std::vector<MoverMotion<double>> motions;
 };
-
-TEST(BodyWorld, a_body_falls_by_the_sum_of_its_steps) {
-  Bodies bodies({box(-9, -100, 9, -99), box(0, 0, 1, 1)}, {{.velocity = {3, 0}}}, {0, -10});
-  for (int n = 1; n <= 60; ++n) {
-    bodies.step();
-    EXPECT_NEAR(bodies.motions[0].to.x(), 3 * n * frame, 1e-5);
-    EXPECT_NEAR(bodies.motions[0].to.y(), -10 * frame * frame * n * (n + 1) / 2, 1e-5) << n;
-  }
-}
-
-TEST(BodyWorld, a_body_comes_to_rest_on_what_stands_within_box2ds_gap) {
-  Bodies bodies({box(-9, -1, 9, 0), box(0, 0.5, 1, 1.5)}, {{.mass = 7}}, {0, -10});
-  for (int n = 0; n < 120; ++n) bodies.step();
-  EXPECT_NEAR(0.5 + bodies.motions[0].to.y(), rest_gap, 0.006);
-  const Vec2d at_rest = bodies.motions[0].to;
-  for (int n = 0; n < 60; ++n) bodies.step();
-  EXPECT_NEAR((bodies.motions[0].to - at_rest).norm(), 0, 1e-6);
-}
 
 TEST(BodyWorld, equal_masses_exchange_their_velocities_and_a_heavy_one_goes_on) {
   for (const double mass : {1.0, 1000.0}) {
@@ -67,72 +49,92 @@ TEST(BodyWorld, equal_masses_exchange_their_velocities_and_a_heavy_one_goes_on) 
 }
 
 TEST(BodyWorld, friction_of_a_body_and_of_scenery_mix_to_the_root_of_their_product) {
-  // On the flat a body slows down by mu g, mu = sqrt(0.45 * 0.2) = 0.3: from 3 m/s it stops within 1.5 m.
-  Bodies bodies({box(-9, -1, 9, 0), box(0, rest_gap, 1, 1)}, {{.friction = 0.45, .velocity = {3, 0}}}, {0, -10});
+  // On the flat a body slows down by mu g, mu = sqrt(0.45 * 0.2) = 0.3: from 3 m/s it stops within 1.5 m, within
+  // Box2D's gap above the ground. A slack spring changes nothing.
+  const JointDef slack{.point = {0.5, 1}, .end = {0.5, 9}, .length = 8, .stiffness = 1e-3};
+  Bodies bodies({box(-9, -1, 9, 0), box(0, rest_gap, 1, 1)}, {{.friction = 0.45, .velocity = {3, 0}}}, gravity,
+                {slack});
   for (int n = 0; n < 120; ++n) bodies.step();
   EXPECT_NEAR(bodies.motions[0].to.x(), 3 * 3 / (2 * 0.3 * 10), 0.05);
+  EXPECT_NEAR(bodies.motions[0].to.y(), 0, 0.006);
 }
 
-TEST(BodyWorld, what_goes_along_a_path_lifts_a_body_and_is_not_changed) {
-  const Scenery<double> scenery =
-      level({of_mover(box(-2, -1, 2, 0), 0), of_mover(box(0, rest_gap, 1, 1 + rest_gap), 1)});
-  const std::vector<std::optional<BodyDef>> defs{std::nullopt, BodyDef{}};
-  BodyWorld world(scenery, defs, {0, -10});
-  std::vector<MoverMotion<double>> motions(2);
-  for (int n = 0; n < 120; ++n) {
-    const MoverMotion<double> lift{{0, 2 * n * frame}, {0, 2 * (n + 1) * frame}};
-    motions[0] = lift;
-    world.step(frame, motions);
-    EXPECT_EQ(motions[0].from, lift.from);
-    EXPECT_EQ(motions[0].to, lift.to);
-    EXPECT_NEAR(motions[1].to.y(), motions[0].to.y(), 0.01) << n;
-  }
-}
-
-TEST(BodyWorld, bad_definitions_are_refused_before_box2d_sees_them) {
-  const auto world_of = [](const BodyDef& def) {
-    return Bodies({box(-9, -9, 9, -8), box(0, 0, 1, 1)}, {def}, {0, -10});
-  };
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_NO_THROW(world_of({}));
-  for (const double mass : {0.0, -1.0, nan, 1e10}) EXPECT_THROW(world_of({.mass = mass}), InvalidDefinition) << mass;
-  for (const double friction : {-1.0, nan}) EXPECT_THROW(world_of({.friction = friction}), InvalidDefinition);
-  for (const double rise : {-0.1, 1.1, nan}) EXPECT_THROW(world_of({.restitution = rise}), InvalidDefinition);
-  EXPECT_THROW(world_of({.velocity = {nan, 0}}), InvalidDefinition);
-  EXPECT_THROW(Bodies({box(-9, -9, 9, -8), box(0, 0, 1, 1)}, {{}}, {0, nan}), InvalidDefinition);
-  const std::vector<std::optional<BodyDef>> two(2);
-  EXPECT_THROW(BodyWorld(level({box(-9, -9, 9, -8), of_mover(box(0, 0, 1, 1), 0)}), two, {0, 0}), InvalidDefinition);
-}
-
-TEST(BodyWorld, a_bad_step_is_refused_and_nothing_is_stepped) {
-  Bodies bodies({box(-9, -9, 9, -8), box(0, 0, 1, 1)}, {{}}, {0, -10});
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+TEST(BodyWorld, bad_definitions_and_steps_are_refused_before_box2d_sees_them) {
+  const std::vector<ColliderDef> colliders{box(-9, -9, 9, -8), box(0, 0, 1, 1)};
+  std::vector<BodyDef> bad{{.velocity = {nan, 0}}};
+  for (const double mass : {0.0, -1.0, nan, 1e10}) bad.push_back({.mass = mass});
+  for (const double friction : {-1.0, nan}) bad.push_back({.friction = friction});
+  for (const double rise : {-0.1, 1.1, nan}) bad.push_back({.restitution = rise});
+  for (const BodyDef& def : bad) EXPECT_THROW(Bodies(colliders, {def}, gravity), InvalidDefinition) << &def - &bad[0];
+  EXPECT_THROW(Bodies(colliders, {{}}, {0, nan}), InvalidDefinition);
+  EXPECT_THROW(Bodies(colliders, {{}, {}}, gravity), InvalidDefinition);
+  Bodies bodies(colliders, {{}}, gravity);
   std::vector<MoverMotion<double>> two(2);
-  EXPECT_THROW(bodies.world.step(0, bodies.motions), InvalidDefinition);
-  EXPECT_THROW(bodies.world.step(nan, bodies.motions), InvalidDefinition);
+  for (const double dt : {0.0, nan}) EXPECT_THROW(bodies.world.step(dt, bodies.motions), InvalidDefinition);
   EXPECT_THROW(bodies.world.step(frame, two), InvalidDefinition);
   bodies.step();
   EXPECT_EQ(bodies.motions[0].from, Vec2d(0, 0));
 }
 
-TEST(BodyWorld, two_worlds_go_the_same_way_bit_for_bit) {
-  const auto pile = [] {
-    std::vector<ColliderDef> colliders{box(-9, -1, 9, 0)};
-    std::vector<BodyDef> defs;
-    for (int i = 0; i < 6; ++i) {
-      const double x = (i % 2) * 0.4;
-      colliders.push_back(box(x, i + 0.1, x + 1, i + 1));
-      defs.push_back({.mass = i % 3 == 0 ? 10.0 : 1.0});
-    }
-    return Bodies(std::move(colliders), defs, {0, -10});
-  };
-  Bodies one = pile();
-  Bodies two = pile();
-  for (int n = 0; n < 300; ++n) {
-    one.step();
-    two.step();
-    for (std::size_t i = 0; i < 6; ++i) ASSERT_EQ(one.motions[i].to, two.motions[i].to) << n << " " << i;
+/// Boxes of 1 m in a row far above the ground, each a body.
+Bodies joined(const std::vector<BodyDef>& defs, const std::vector<JointDef>& joints) {
+  std::vector<ColliderDef> colliders{box(-900, -901, 900, -900)};
+  for (double x = 0; colliders.size() <= defs.size(); x += 3) colliders.push_back(box(x, 0, x + 1, 1));
+  return {std::move(colliders), defs, gravity, joints};
+}
+
+JointDef spring(double stiffness, double damping = 0) {
+  return {.point = {0.5, 1}, .end = {0.5, 9}, .length = 8, .stiffness = stiffness, .damping = damping};
+}
+
+TEST(Rod, keeps_its_length_and_swings_like_a_pendulum) {
+  // 8 m, 0.1 m aside: 2 pi sqrt(8 / 10) = 5.62 s, less than 1 % more for the angle.
+  JointDef rod = spring(0);
+  rod.end.x() += 0.1;
+  rod.length = (rod.end - rod.point).norm();
+  Bodies bodies = joined({{.mass = 4}}, {rod});
+  double half = 0;  // when it comes to rest on the other side
+  double farthest = 0;
+  for (int n = 1; n <= 400; ++n) {
+    bodies.step();
+    EXPECT_NEAR((rod.point + bodies.motions[0].to - rod.end).norm(), rod.length, least_length) << n;
+    if (bodies.motions[0].to.x() > farthest) half = n * frame;
+    farthest = std::max(farthest, bodies.motions[0].to.x());
   }
+  EXPECT_NEAR(farthest, 0.2, 0.004);
+  EXPECT_NEAR(half, std::numbers::pi * std::sqrt(rod.length / 10), 0.05);
+}
+
+TEST(RailAndPin, leave_a_body_one_direction_and_hold_two_to_each_other) {
+  Bodies rail = joined({{.velocity = {3, 4}}}, {{.kind = Kind::prismatic, .axis = {2, 0}}});
+  Bodies held = joined({{.velocity = {3, 4}}}, {{.kind = Kind::revolute, .point = {0.5, 0.5}}});
+  Bodies both =
+      joined({{.mass = 1, .velocity = {4, 0}}, {.mass = 3}}, {{.kind = Kind::revolute, .other = 1, .point = {2, 0.5}}});
+  for (int n = 1; n <= 60; ++n) {
+    rail.step();
+    held.step();
+    both.step();
+    EXPECT_LT((rail.motions[0].to - Vec2d(3 * n * frame, 0)).norm(), 1.5e-4) << n;
+    EXPECT_LT(held.motions[0].to.norm(), 0.01) << n;
+    EXPECT_LT((both.motions[0].to - both.motions[1].to).norm(), 0.01) << n;
+  }
+  EXPECT_NEAR(both.motions[1].to.x(), 1, 0.02) << "momentum: 1 kg of 4 kg at 4 m/s";
+  EXPECT_NEAR(both.motions[1].to.y(), -10 * frame * frame * 60 * 61 / 2, 0.01);
+}
+
+TEST(Joints, that_box2d_must_not_see_are_refused) {
+  std::vector<JointDef> bad{{.body = 2, .end = {0, 9}},
+                            {.other = 5, .end = {0, 9}},
+                            {.other = 0, .end = {0, 9}},
+                            {.point = {nan, 0}, .end = {0, 9}},
+                            {.point = {0, 1}, .end = {0, 1.004}},
+                            {.kind = Kind::prismatic, .axis = {0, 0}},
+                            {.kind = Kind::prismatic, .axis = {nan, 0}},
+                            {.kind = Kind::revolute, .point = {0, nan}}};
+  for (const double value : {-1.0, 1e13, nan}) bad.insert(bad.end(), {spring(value), spring(1, value)});
+  for (const double value : {0.0, 0.004, nan}) bad.push_back({.end = {0, 9}, .length = value});
+  for (const JointDef& joint : bad) EXPECT_THROW(joined({{}, {}}, {joint}), InvalidDefinition) << &joint - &bad[0];
+  EXPECT_NO_THROW(joined({{}, {}}, {spring(10)}));
 }
 
 }  // namespace

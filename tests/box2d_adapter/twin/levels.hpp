@@ -1,44 +1,50 @@
 /// Small levels, and what the tests of the Box2D twin ask of them.
 #pragma once
 
-#include "box2d_adapter/worlds.hpp"
+#include "campaign/random.hpp"
+#include "campaign/shapes.hpp"
 
 #include <paperproof/box2d/reference_world.hpp>
 
-#include <optional>
+#include <gtest/gtest.h>
+
+#include <array>
 #include <vector>
 
 namespace paperproof::box2d::test {
 
-inline ColliderDef polygon(std::vector<Vec2d> points, std::vector<std::vector<Vec2d>> holes = {}) {
-  return {.shape = ColliderDef::Shape::polygon, .points = std::move(points), .holes = std::move(holes)};
-}
-inline ColliderDef chain(std::vector<Vec2d> points, std::optional<Vec2d> one_way = {}) {
-  return {.shape = ColliderDef::Shape::chain, .points = std::move(points), .one_way = one_way};
-}
-inline std::vector<Vec2d> rectangle(double left, double bottom, double right, double top) {
-  return {{left, bottom}, {right, bottom}, {right, top}, {left, top}};
-}
-inline ColliderDef box(double left, double bottom, double right, double top) {
-  return polygon(rectangle(left, bottom, right, top));
+using compare::box;
+using compare::chain;
+using compare::degree;
+using compare::half_height;
+using compare::half_width;
+using compare::polygon;
+using compare::Random;
+using compare::towards;
+
+inline constexpr double frame = 1.0 / 60;
+inline constexpr std::array modes{SceneryMode::chain_loops, SceneryMode::pieces};
+inline const Vec2d gravity{0, -10};
+
+inline ColliderDef with_hole(ColliderDef solid, const ColliderDef& hole) {
+  solid.holes.push_back(hole.points);
+  return solid;
 }
 inline Scenery<double> level(std::vector<ColliderDef> colliders) {
   return Scenery<double>(SceneryDef{std::move(colliders)});
 }
 
-/// Steps `world` under gravity, the horizontal velocity kept, until `steps` are done; the velocity that was left
-/// carries over as in a run.
+/// Steps `world` under gravity until `steps` are done; the velocity that was left carries over as in a run.
 template <class EachStep>
-void run(ReferenceWorld& world, Vec2d velocity, const Vec2d& gravity, int steps, const EachStep& each_step) {
+void run(ReferenceWorld& world, Vec2d velocity, int steps, const EachStep& each_step) {
   for (int i = 0; i < steps; ++i) {
-    velocity += gravity * frame;
-    const TwinStep& step = world.step(velocity, frame);
+    const TwinStep& step = world.step(velocity + gravity * frame, frame);
     velocity = step.velocity;
     each_step(step);
   }
 }
-inline void run(ReferenceWorld& world, const Vec2d& velocity, const Vec2d& gravity, int steps) {
-  run(world, velocity, gravity, steps, [](const TwinStep&) {});
+inline void run(ReferenceWorld& world, const Vec2d& velocity, int steps) {
+  run(world, velocity, steps, [](const TwinStep&) {});
 }
 
 }  // namespace paperproof::box2d::test

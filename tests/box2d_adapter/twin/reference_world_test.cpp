@@ -1,29 +1,31 @@
+/// One character in the twin: how it goes, and what a step reports.
+#include "collider_lookup.hpp"
 #include "levels.hpp"
 
 #include <box2d/b2_body.h>
 #include <box2d/b2_world.h>
-#include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
 #include <limits>
+#include <numeric>
 
 namespace paperproof::box2d::test {
 namespace {
 
-const Vec2d gravity{0, -10};
+const Vec2d standing{0, half_height + rest_gap};
 
-CharacterDef one_pixel_character() {
-  const std::array<Vec2d, 4> corners{Vec2d{0, 0}, {1, 0}, {1, 1}, {0, 1}};
-  CharacterDef character;
-  character.shape = CharacterShape::from_pixels(corners, 32);
-  return character;
+Scenery<double> floor() { return level({box(-5, -1, 5, 0)}); }
+
+std::vector<ColliderIndex> colliders_of(const TwinStep& step) {
+  std::vector<ColliderIndex> result;
+  for (const Contact<double>& contact : step.contacts) result.push_back(contact.collider);
+  return result;
 }
 
-TEST(ReferenceWorld, cites_the_package_and_not_what_the_library_calls_itself) { EXPECT_EQ(box2d_version(), "2.4.1"); }
-
-TEST(ReferenceWorld, says_truly_whether_the_asserts_of_box2d_are_on) {
+TEST(ReferenceWorld, cites_the_package_and_says_truly_whether_its_asserts_are_on) {
+  EXPECT_EQ(box2d_version(), "2.4.1") << "not what the library calls itself";
   EXPECT_NE(box2d_build(), "");
   const auto ask_for_nonsense = [] {
     b2World world({0, 0});
@@ -41,77 +43,19 @@ TEST(ReferenceWorld, says_truly_whether_the_asserts_of_box2d_are_on) {
   }
 }
 
-TEST(ReferenceWorld, free_flight_follows_the_wanted_velocity_to_rounding) {
-  ReferenceWorld world(level({box(-5, -200, 5, -199)}), {}, {0, 0});
-  Vec2d expected = Vec2d::Zero();
-  Vec2d velocity{3, 5};
-  for (int i = 0; i < 120; ++i) {
-    velocity += gravity * frame;
-    expected += velocity * frame;
-    world.step(velocity, frame);
-    // Each step rounds a coordinate of up to 8 m (ulp 9.5e-7) a few times.
-    const double rounding = (i + 1) * 2e-6;
-    ASSERT_NEAR(world.position().x(), expected.x(), rounding);
-    ASSERT_NEAR(world.position().y(), expected.y(), rounding);
-  }
-}
-
-TEST(ReferenceWorld, rests_at_the_gap_that_we_cite) {
-  for (const SceneryMode mode : {SceneryMode::chain_loops, SceneryMode::pieces}) {
-    ReferenceWorld world(level({box(-5, -1, 5, 0)}), {}, {0, 1}, {.mode = mode});
-    bool grounded = false;
-    run(world, {0, 0}, gravity, 300, [&](const TwinStep& step) { grounded = step.grounded; });
-    const double gap = world.position().y() - half_height();
-    EXPECT_GE(gap, rest_gap - 0.001);
-    EXPECT_LE(gap, touch_gap + 0.001);
-    EXPECT_TRUE(grounded);
-  }
-}
-
-TEST(ReferenceWorld, placed_at_the_rest_gap_it_touches_in_the_next_step_and_stays) {
-  ReferenceWorld world(level({box(-5, -1, 5, 0)}), {}, {0, 3});
-  world.place({1, half_height() + rest_gap}, {0, 0});
-  const Vec2d before = world.position();
+TEST(ReferenceWorld, placed_at_the_rest_gap_it_touches_in_the_next_step_and_a_jump_leaves_at_once) {
+  ReferenceWorld world(floor(), {}, {0, 3});
+  world.place(standing, {0, 0});
   const TwinStep& step = world.step(gravity * frame, frame);
   EXPECT_TRUE(step.grounded);
   ASSERT_EQ(step.contacts.size(), 1U);
   EXPECT_EQ(step.contacts[0].side, Side::bottom);
   EXPECT_EQ(step.contacts[0].fraction, 0);
   EXPECT_NEAR(step.contacts[0].separation, rest_gap, 1e-4);
-  EXPECT_NEAR(world.position().y(), before.y(), 1e-4);
-}
-
-TEST(ReferenceWorld, a_place_is_a_fresh_start_with_the_same_bits) {
-  const Scenery<double> scenery = level({box(-5, -1, 5, 0), box(2, 0, 3, 4)});
-  ReferenceWorld used(scenery, {}, {0, 3});
-  run(used, {4, 0}, gravity, 90);
-  ReferenceWorld fresh(scenery, {}, {0, 3});
-  used.place({0.5, 0.75}, {6, -2});
-  fresh.place({0.5, 0.75}, {6, -2});
-  for (int i = 0; i < 60; ++i) {
-    const Vec2d velocity = used.step({6, -2}, frame).velocity;
-    ASSERT_EQ(velocity, fresh.step({6, -2}, frame).velocity);
-    ASSERT_EQ(used.position(), fresh.position());
-  }
-}
-
-TEST(ReferenceWorld, two_worlds_give_the_same_bits) {
-  std::vector<ColliderDef> colliders{box(-20, -1, 20, 0), polygon({{4, 0}, {9, 0}, {9, 3}}), chain({{-6, 0}, {-8, 4}})};
-  const Scenery<double> scenery = level(colliders);
-  ReferenceWorld first(scenery, {}, {0, 3});
-  ReferenceWorld second(scenery, {}, {0, 3});
-  Random random(5);
-  Vec2d velocity = Vec2d::Zero();
-  for (int i = 0; i < 1000; ++i) {
-    velocity += gravity * frame;
-    if (random.below(20) == 0) velocity = Vec2d{random.between(-8, 8), random.between(0, 8)};
-    const TwinStep& a = first.step(velocity, frame);
-    const TwinStep& b = second.step(velocity, frame);
-    ASSERT_EQ(first.position(), second.position()) << "seed 5, step " << i;
-    ASSERT_EQ(a.velocity, b.velocity);
-    ASSERT_EQ(a.contacts.size(), b.contacts.size());
-    velocity = a.velocity;
-  }
+  EXPECT_NEAR(world.position().y(), standing.y(), 1e-4);
+  const TwinStep& jump = world.step({0, 12}, frame);
+  EXPECT_FALSE(jump.grounded);
+  EXPECT_TRUE(jump.contacts.empty());
 }
 
 TEST(ReferenceWorld, box2d_moves_two_metres_per_step_and_no_more_and_says_so) {
@@ -124,46 +68,134 @@ TEST(ReferenceWorld, box2d_moves_two_metres_per_step_and_no_more_and_says_so) {
   EXPECT_NEAR(world.position().x(), max_travel_per_step, 1e-5);
 }
 
-TEST(ReferenceWorld, stops_the_one_pixel_character_of_the_article_short_of_the_platform) {
-  // 50 px per frame down, a platform of 5 px, 30 px below; Box2D stops at its time-of-impact target, slop above the
-  // skin.
-  const double px = 1.0 / 32;
-  const double half = px / 2;
-  ReferenceWorld world(level({box(-4, -30 * px - half - 5 * px, 4, -30 * px - half)}), one_pixel_character(), {0, 0});
-  const TwinStep& step = world.step({0, -50 * px / frame}, frame);
-  EXPECT_FALSE(step.capped);
-  const double fallen_px = -world.position().y() / px;
-  EXPECT_GT(fallen_px, 29);
-  EXPECT_LT(fallen_px, 30);
-  ASSERT_EQ(step.contacts.size(), 1U);
-  // Exactly it is 30 px of 50; the skin of at most 20 mm leads.
-  EXPECT_LE(step.contacts[0].fraction, 0.6);
-  EXPECT_GE(step.contacts[0].fraction, 0.6 - touch_gap / (50 * px));
-  EXPECT_EQ(step.contacts[0].side, Side::bottom);
-  RecordProperty("fallen_px", std::to_string(fallen_px));
-}
-
-TEST(ReferenceWorld, the_scenery_as_run_is_the_original_rounded_to_float) {
-  const std::vector<Vec2d> ring{{0.1, 0.2}, {7.3, 0.1}, {3.7, 9.9}};
-  const ReferenceWorld world(level({polygon(ring)}), {}, {20, 20});
-  ASSERT_EQ(world.as_run().colliders.size(), 1U);
-  const std::vector<Vec2d>& run_points = world.as_run().colliders[0].points;
-  ASSERT_EQ(run_points.size(), ring.size());
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    EXPECT_EQ(run_points[i].x(), static_cast<double>(static_cast<float>(ring[i].x())));
-    EXPECT_EQ(run_points[i].y(), static_cast<double>(static_cast<float>(ring[i].y())));
+TEST(ReferenceWorld, says_what_it_made_of_the_scenery_rounded_to_float) {
+  const std::vector<ColliderDef> tiles{box(0.1, 0, 1, 1), box(1, 0, 2, 1), chain({{5, 0}, {6, 0}, {7, 1}})};
+  for (const SceneryMode mode : modes) {
+    const ReferenceWorld world(level(tiles), {}, {0, 5}, {.mode = mode});
+    const bool loops = mode == SceneryMode::chain_loops;
+    EXPECT_EQ(world.size().loops, loops ? 1U : 0U);
+    EXPECT_EQ(world.size().fixtures, loops ? 1U + 2U : 2U + 2U);
+    EXPECT_EQ(world.as_run().colliders[0].points[0], Vec2d(static_cast<double>(0.1F), 0));
+    EXPECT_EQ(world.points_as_run().size(), CharacterDef{}.shape.hull().size());
   }
-  EXPECT_EQ(world.points_as_run().size(), CharacterDef{}.shape.hull().size());
 }
 
-TEST(ReferenceWorld, says_how_many_fixtures_it_made) {
-  const Scenery<double> tiles = level({box(0, 0, 1, 1), box(1, 0, 2, 1), chain({{5, 0}, {6, 0}, {7, 1}})});
-  const ReferenceWorld loops(tiles, {}, {0, 5});
-  EXPECT_EQ(loops.size().loops, 1U);
-  EXPECT_EQ(loops.size().fixtures, 1U + 2U);
-  const ReferenceWorld pieces(tiles, {}, {0, 5}, {.mode = SceneryMode::pieces});
-  EXPECT_EQ(pieces.size().loops, 0U);
-  EXPECT_EQ(pieces.size().fixtures, 2U + 2U);
+TEST(StepContacts, name_the_collider_and_each_side_from_the_character) {
+  struct Case {
+    ColliderDef wall;
+    Vec2d velocity;
+    Side side;
+    Vec2d normal;
+  };
+  for (const Case& expected :
+       {Case{box(-5, -3, 5, -2), {0, -60}, Side::bottom, {0, 1}}, Case{box(-5, 2, 5, 3), {0, 60}, Side::top, {0, -1}},
+        Case{box(2, -5, 3, 5), {60, 0}, Side::right, {-1, 0}},
+        Case{box(-3, -5, -2, 5), {-60, 0}, Side::left, {1, 0}}}) {
+    for (const SceneryMode mode : modes) {
+      ReferenceWorld world(level({box(90, 90, 91, 91), expected.wall}), {}, {0, 0}, {.mode = mode});
+      const TwinStep* step = nullptr;
+      for (int k = 0; k < 3 && (step == nullptr || step->contacts.empty()); ++k)
+        step = &world.step(expected.velocity, frame);
+      ASSERT_EQ(step->contacts.size(), 1U);
+      EXPECT_EQ(step->contacts[0].side, expected.side);
+      EXPECT_EQ(step->contacts[0].collider, 1U);
+      EXPECT_LT((step->contacts[0].normal - expected.normal).cwiseAbs().maxCoeff(), 1e-6);
+      EXPECT_NEAR(std::abs(step->contacts[0].point.dot(expected.normal)), 2, 1e-5);
+    }
+  }
+}
+
+TEST(StepContacts, come_at_the_exact_time_of_impact_ahead_by_at_most_the_skin_and_the_path_holds_it) {
+  Random random(9);
+  for (int i = 0; i < 300; ++i) {
+    const double speed = random.between(10, 110);
+    const double way = speed * frame;
+    const double drop = random.between(touch_gap + 0.001, way);
+    ReferenceWorld world(floor(), {}, {0, half_height + drop});
+    const TwinStep& step = world.step({speed / 3, -speed}, frame);
+    ASSERT_EQ(step.contacts.size(), 1U) << "seed 9, " << i;
+    const double fraction = step.contacts[0].fraction;
+    EXPECT_LE(fraction, drop / way + 1e-5) << "seed 9, " << i;
+    EXPECT_GE(fraction, (drop - touch_gap - 0.001) / way) << "seed 9, " << i;
+    ASSERT_EQ(step.path.size(), 3U) << "seed 9, " << i;
+    EXPECT_EQ(step.path[0].fraction, 0);
+    EXPECT_EQ(step.path[1].fraction, fraction);
+    EXPECT_NEAR(step.path[1].position.x(), way / 3 * fraction, 1e-4) << "seed 9, " << i;
+    EXPECT_EQ(step.path[2].fraction, 1);
+    EXPECT_EQ(step.path[2].position, world.position());
+  }
+}
+
+TEST(StepContacts, are_none_with_a_wall_beside_which_it_rests_without_pushing) {
+  const double wall = half_width + rest_gap;
+  ReferenceWorld world(level({box(-5, -1, 5, 0), box(wall, 0, wall + 1, 50)}), {}, standing);
+  run(world, {0, 0}, 60, [](const TwinStep& step) { EXPECT_EQ(colliders_of(step), std::vector<ColliderIndex>{0}); });
+  const TwinStep& pushing = world.step({2, -10 * frame}, frame);
+  ASSERT_EQ(colliders_of(pushing), (std::vector<ColliderIndex>{0, 1}));
+  EXPECT_EQ(pushing.contacts[1].side, Side::right);
+  world.place({0, 20}, {0, 0});
+  EXPECT_TRUE(world.step({0, -5}, frame).contacts.empty());
+}
+
+TEST(StepContacts, are_ground_up_to_the_climb_limit) {
+  CharacterDef character;
+  character.max_climb_degrees = 40;
+  for (const double degrees : {38.0, 39.9, 40.1, 42.0}) {
+    const double slope = std::tan(degrees * degree);
+    ReferenceWorld world(level({polygon({{-8, 0}, {8, 0}, {8, 16 * slope}})}), character, {0, 8 * slope + 2});
+    bool grounded = false;
+    run(world, {0, 0}, 60, [&](const TwinStep& step) { grounded = grounded || step.grounded; });
+    EXPECT_EQ(grounded, degrees < 40) << degrees;
+  }
+}
+
+TEST(StepContacts, name_both_tiles_of_one_outline_that_feet_are_on) {
+  ReferenceWorld world(level({box(-1, -1, 0, 0), box(0, -1, 1, 0)}), {}, standing);
+  EXPECT_EQ(colliders_of(world.step(gravity * frame, frame)), (std::vector<ColliderIndex>{0, 1}));
+}
+
+/// To the boundary of a rectangle, from either side.
+double distance_to_boundary(const ColliderDef& rectangle, const Vec2d& point) {
+  const Vec2d outside = (rectangle.points[0] - point).cwiseMax(point - rectangle.points[2]);
+  return outside.maxCoeff() > 0 ? outside.cwiseMax(0.0).norm() : -outside.maxCoeff();
+}
+
+ColliderLookup lookup_of(const std::vector<ColliderDef>& colliders) {
+  std::vector<ColliderIndex> names(colliders.size());
+  std::iota(names.begin(), names.end(), ColliderIndex{0});
+  return {SceneryDef{colliders}, names};
+}
+
+TEST(ColliderLookup, agrees_with_a_search_through_all_edges) {
+  Random random(10);
+  std::vector<ColliderDef> colliders;
+  for (int i = 0; i < 200; ++i) {
+    const Vec2d low = random.point(10);
+    const Vec2d high = low + random.point(1.45) + Vec2d(1.55, 1.55);
+    colliders.push_back(box(low.x(), low.y(), high.x(), high.y()));
+  }
+  ColliderLookup lookup = lookup_of(colliders);
+  const double reach = 0.1;
+  int found = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec2d point = random.point(11.5) + Vec2d(1.5, 1.5);
+    const auto distance = [&](const ColliderDef& collider) { return distance_to_boundary(collider, point); };
+    const double least = distance(*std::ranges::min_element(colliders, {}, distance));
+    const std::optional<ColliderIndex> answer = lookup.nearest(point, reach);
+    ASSERT_EQ(answer.has_value(), least < reach) << "seed 10, " << i;
+    if (!answer) continue;
+    ++found;
+    EXPECT_LE(distance(colliders[*answer]), least + ColliderLookup::same_distance) << "seed 10, " << i;
+  }
+  EXPECT_GT(found, 400);
+  EXPECT_LT(found, 1900);
+}
+
+TEST(ColliderLookup, a_shared_edge_belongs_to_the_lowest_index) {
+  ColliderLookup lookup = lookup_of({box(5, 5, 6, 6), box(1, 0, 2, 1), box(0, 0, 1, 1)});
+  EXPECT_EQ(lookup.nearest({1, 0.5}, 0.02), std::optional<ColliderIndex>(1));
+  EXPECT_EQ(lookup.nearest({0, 0.5}, 0.02), std::optional<ColliderIndex>(2));
+  EXPECT_EQ(lookup.nearest({3, 0.5}, 0.02), std::nullopt);
 }
 
 }  // namespace
