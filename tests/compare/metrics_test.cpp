@@ -37,6 +37,9 @@ std::vector<Moment> resting(int steps, const std::function<Vec2d(int)>& place) {
   return run;
 }
 
+const Contact<double> bottom = contact(0, Side::bottom);
+const ExactContact floor_below = exact(0, Side::bottom);
+
 TraceHeader promising_header() {
   TraceHeader head = header();
   head.contender = "octagon_sweep";
@@ -74,8 +77,8 @@ TEST(Metrics, counts_what_the_judge_found) {
 
 TEST(Metrics, steps_that_are_said_to_be_stuck_are_counted_and_miss_no_contact) {
   std::vector<Moment> run = moments(6);
-  for (Moment& one : run) one.judged.contacts = {exact(0, Side::bottom)};
-  run[0].step.contacts = run[1].step.contacts = {contact(0, Side::bottom)};
+  for (Moment& one : run) one.judged.contacts = {floor_below};
+  run[0].step.contacts = run[1].step.contacts = {bottom};
   EXPECT_EQ(row_of(run).stuck_steps, 0);
   EXPECT_EQ(row_of(run).contact_recall, 2.0 / 6);
   for (const std::size_t i : {2U, 3U, 4U, 5U}) run[i].step.stuck = true;
@@ -96,7 +99,7 @@ TEST(Metrics, what_is_not_held_against_a_contender_is_counted_by_name) {
   run[1].judged.hovers = run[2].judged.hovers = true;
   run[3].judged.excused_crush = run[3].judged.ground_late = true;
   run[3].judged.end_overlap = run[3].judged.drawn = {1};
-  run[4].step.contacts = {contact(0, Side::bottom)};
+  run[4].step.contacts = {bottom};
   run[4].judged.excused_by_company = run[4].judged.dont_care = {0};
   const std::map<std::string, int> expected{{"company", 1}, {"corner_cut", 1},  {"drawn", 1},
                                             {"hover", 2},   {"late_ground", 1}, {"touched_crush", 1}};
@@ -160,7 +163,7 @@ TEST(Metrics, of_two_characters_every_step_of_each_counts_and_what_they_do_to_ea
 TEST(Metrics, a_contact_with_another_character_is_one_and_may_be_the_first) {
   std::vector<Moment> run = two(2);
   run[2].step.contacts = {contact(0, Side::bottom, 0.75)};
-  run[2].judged.contacts = {exact(0, Side::bottom)};
+  run[2].judged.contacts = {floor_below};
   run[3].step.met = {{.other = 0, .fraction = 0.5, .side = Side::left}};
   run[3].judged.first_met = CharacterIndex{0};
   run[3].judged.first_impact = 0.5 + 0x1p-20;
@@ -184,8 +187,8 @@ TEST(Metrics, two_characters_are_matched_and_rest_each_by_itself) {
     const Vec2d at(7 + (i % 4 == 1 ? 0x1p-6 : 0), 0);
     run[i].step.path = {{at, 0}, {at, 1}};
   }
-  run[10].step.contacts = {contact(0, Side::bottom)};
-  run[11].judged.contacts = {exact(0, Side::bottom)};
+  run[10].step.contacts = {bottom};
+  run[11].judged.contacts = {floor_below};
   const Row row = row_of(run, header_of_two());
   EXPECT_EQ(row.rest_peak_to_peak_m, 0x1p-6);
   EXPECT_EQ(row.contact_precision, 0) << "the other one's contact is no excuse";
@@ -207,11 +210,9 @@ TEST(Metrics, what_does_not_apply_is_absent) {
 }
 
 TEST(Metrics, a_contact_matches_in_its_step_or_where_the_path_is_sampled_within_one_with_its_collider_and_side) {
-  const auto bottom = contact(0, Side::bottom);
-  const auto floor = exact(0, Side::bottom);
   for (int late = -3; late <= 3; ++late) {
     std::vector<Moment> run = moments(9);
-    run[4].judged.contacts = {floor};
+    run[4].judged.contacts = {floor_below};
     run[static_cast<std::size_t>(4 + late)].step.contacts = {bottom};
     TraceHeader sampled = header();
     sampled.path_exact = false;
@@ -225,16 +226,14 @@ TEST(Metrics, a_contact_matches_in_its_step_or_where_the_path_is_sampled_within_
     EXPECT_EQ(row.contact_recall, late == 0 ? 1 : 0) << late;
     EXPECT_TRUE(row.exempted.empty());
   }
-  EXPECT_EQ(row_of({moment(0, {contact(0, Side::left)}, {floor})}).contact_precision, 0);
-  EXPECT_EQ(row_of({moment(0, {contact(1, Side::bottom)}, {floor})}).contact_precision, 0);
+  EXPECT_EQ(row_of({moment(0, {contact(0, Side::left)}, {floor_below})}).contact_precision, 0);
+  EXPECT_EQ(row_of({moment(0, {contact(1, Side::bottom)}, {floor_below})}).contact_precision, 0);
 }
 
 TEST(Metrics, the_first_and_the_last_step_are_matched_too) {
-  const auto bottom = contact(0, Side::bottom);
-  const auto floor = exact(0, Side::bottom);
   for (int steps = 1; steps <= 5; ++steps) {
     std::vector<Moment> run;
-    for (int i = 0; i < steps; ++i) run.push_back(moment(i, {bottom}, {floor}));
+    for (int i = 0; i < steps; ++i) run.push_back(moment(i, {bottom}, {floor_below}));
     run.back().step.contacts.push_back(contact(1, Side::left));
     const Row row = row_of(run);
     EXPECT_DOUBLE_EQ(*row.contact_precision, steps / (steps + 1.0));
@@ -245,15 +244,15 @@ TEST(Metrics, the_first_and_the_last_step_are_matched_too) {
 }
 
 TEST(Metrics, a_floor_of_two_tiles_is_one_contact_for_recall_and_two_for_precision) {
-  const Row row = row_of({moment(0, {contact(0, Side::bottom)}, {exact(0, Side::bottom), exact(1, Side::bottom)})});
+  const Row row = row_of({moment(0, {bottom}, {floor_below, exact(1, Side::bottom)})});
   EXPECT_EQ(row.contact_recall, 1);
   EXPECT_EQ(row.contact_precision, 1);
-  const Row missed = row_of({moment(0, {contact(0, Side::left)}, {exact(0, Side::bottom), exact(0, Side::left)})});
+  const Row missed = row_of({moment(0, {contact(0, Side::left)}, {floor_below, exact(0, Side::left)})});
   EXPECT_EQ(missed.contact_recall, 0.5);
 }
 
 TEST(Metrics, contacts_within_the_skin_count_neither_way) {
-  std::vector<Moment> run{moment(0, {contact(0, Side::bottom)}), moment(1, {contact(1, Side::left)})};
+  std::vector<Moment> run{moment(0, {bottom}), moment(1, {contact(1, Side::left)})};
   run[0].judged.dont_care = {0};
   const Row row = row_of(run);
   EXPECT_EQ(row.contact_precision, 0) << "only the left one counts, and it is wrong";
@@ -278,9 +277,9 @@ TEST(Metrics, the_first_contact_is_the_earliest_of_the_first_step_that_has_one) 
 }
 
 TEST(Metrics, the_error_of_impact_times_is_measured_where_they_are_comparable) {
-  std::vector<Moment> run{moment(0, {contact(0, Side::bottom, 0.5)}, {exact(0, Side::bottom)}),
-                          moment(1, {contact(0, Side::bottom, 0.5)}, {exact(0, Side::bottom)}),
-                          moment(2, {contact(1, Side::bottom, 0.5)}, {exact(0, Side::bottom)})};
+  std::vector<Moment> run{moment(0, {contact(0, Side::bottom, 0.5)}, {floor_below}),
+                          moment(1, {contact(0, Side::bottom, 0.5)}, {floor_below}),
+                          moment(2, {contact(1, Side::bottom, 0.5)}, {floor_below})};
   run[0].judged.first_impact = 0.625;
   run[1].judged.first_impact = 1;
   run[2].judged.first_impact = 1;
