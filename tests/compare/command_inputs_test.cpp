@@ -14,13 +14,6 @@ constexpr const char* map_text =
     R"(<map version="1.5" orientation="orthogonal" width="20" height="3" tilewidth="32" tileheight="32" infinite="0">
 <objectgroup id="1" name="solid"><object id="1" x="0" y="64" width="640" height="32"/></objectgroup></map>)";
 
-std::vector<nlohmann::json> json_lines(const std::string& text) {
-  std::vector<nlohmann::json> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(nlohmann::json::parse(line));
-  return lines;
-}
-
 double farthest_to_the_side(const std::string& trace) {
   double farthest = 0;
   const std::vector<nlohmann::json> lines = json_lines(trace);

@@ -15,22 +15,10 @@ TEST(CommandOutputs, rows_as_json_lines_are_those_of_the_json_file) {
   EXPECT_EQ(place.run(run + "rows.jsonl").status, 0);
   const nlohmann::json whole = nlohmann::json::parse(place.files().at("rows.json"));
   ASSERT_EQ(whole.at("rows").size(), 6U);
-  std::istringstream lines(place.files().at("rows.jsonl"));
-  std::string line;
-  std::getline(lines, line);
-  EXPECT_EQ(nlohmann::json::parse(line).at("environment"), whole.at("environment"));
-  for (const nlohmann::json& row : whole.at("rows")) {
-    ASSERT_TRUE(std::getline(lines, line));
-    EXPECT_EQ(nlohmann::json::parse(line), row);
-  }
-  EXPECT_FALSE(std::getline(lines, line));
-}
-
-/// The data of a page.
-nlohmann::json index_of(const std::string& page) {
-  const std::string opening = "id=\"index\">";
-  const std::size_t from = page.find(opening) + opening.size();
-  return nlohmann::json::parse(page.substr(from, page.find("</script>", from) - from));
+  std::vector<nlohmann::json> lines = json_lines(place.files().at("rows.jsonl"));
+  EXPECT_EQ(lines.at(0).at("environment"), whole.at("environment"));
+  lines.erase(lines.begin());
+  EXPECT_EQ(lines, whole.at("rows").get<std::vector<nlohmann::json>>());
 }
 
 TEST(CommandOutputs, report_puts_rows_and_pages_into_one_page_and_svg_each_picture_into_a_file) {
@@ -46,14 +34,14 @@ TEST(CommandOutputs, report_puts_rows_and_pages_into_one_page_and_svg_each_pictu
   EXPECT_EQ(place.run("report all.html m.html s.jsonl w.jsonl").status, 0);
   EXPECT_EQ(place.run("report rows.html m.json s.jsonl").status, 0);
   const auto files = place.files();
-  const nlohmann::json compared = index_of(files.at("m.html"));
-  const nlohmann::json all = index_of(files.at("all.html"));
+  const nlohmann::json compared = element(files.at("m.html"), "index");
+  const nlohmann::json all = element(files.at("all.html"), "index");
   for (const char* part : {"scenes", "environment", "sections"}) EXPECT_EQ(all.at(part), compared.at(part)) << part;
   EXPECT_GE(all.at("sections").size(), 2U);  // exemptions, fairness
   ASSERT_EQ(all.at("studies").size(), 2U);
   EXPECT_EQ(all.at("studies")[0].at("charts").size(), 1U);
   EXPECT_EQ(all.at("studies")[1].at("grids").size(), 2U);
-  const nlohmann::json of_rows = index_of(files.at("rows.html"));
+  const nlohmann::json of_rows = element(files.at("rows.html"), "index");
   ASSERT_EQ(of_rows.at("scenes").size(), 1U);
   EXPECT_EQ(of_rows.at("scenes")[0].at("rows"), compared.at("scenes")[0].at("rows"));
   EXPECT_EQ(of_rows.at("scenes")[0].at("runs"), 0);
@@ -70,9 +58,7 @@ TEST(CommandOutputs, json_lines_keep_what_is_done_when_the_command_is_interrupte
   place.write("long.json", good_with("\"steps\": 20", "\"steps\": 1000000000"));
   (void)place.run("compare article_bullet long.json --no-timing --quiet --contender octagon_sweep --rows rows.jsonl",
                   "timeout -s INT 4");
-  std::istringstream lines(place.files().at("rows.jsonl"));
-  std::vector<nlohmann::json> read;
-  for (std::string line; std::getline(lines, line);) read.push_back(nlohmann::json::parse(line));
+  const std::vector<nlohmann::json> read = json_lines(place.files().at("rows.jsonl"));
   ASSERT_EQ(read.size(), 3U);
   EXPECT_EQ(read[0].at("paperproof_rows"), 1);
   for (const std::size_t i : {std::size_t{1}, std::size_t{2}}) EXPECT_EQ(read[i].at("scene"), "article_bullet");

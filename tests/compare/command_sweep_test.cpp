@@ -24,12 +24,7 @@ class CommandSweep : public testing::Test {
     return finished;
   }
   std::string written(const std::string& name) { return content(place.path(name)); }
-  std::vector<nlohmann::json> rows_of(const std::string& name) {
-    std::vector<nlohmann::json> rows;
-    std::istringstream lines(rows_in(written(name)));
-    for (std::string line; std::getline(lines, line);) rows.push_back(nlohmann::json::parse(line));
-    return rows;
-  }
+  std::vector<nlohmann::json> rows_of(const std::string& name) { return json_lines(rows_in(written(name))); }
 
   const Workplace place;
 };
@@ -90,12 +85,6 @@ TEST_F(CommandSweep, goes_on_behind_what_a_kill_left) {
   EXPECT_TRUE(holds(refused("sweep paper --vary speed=1,2 --contender mask ", whole), "has rows of another sweep"));
   EXPECT_TRUE(holds(refused(sweep, whole + whole.substr(whole.find('\n', header) + 1)), "more rows than there are"));
   EXPECT_NE(refused(sweep, whole.substr(0, header) + "{}\n"), "") << "not a row of this sweep";
-}
-
-nlohmann::json element(const std::string& page, const std::string& id) {
-  const std::string opening = "id=\"" + id + "\">";
-  const std::size_t from = page.find(opening) + opening.size();
-  return nlohmann::json::parse(page.substr(from, page.find("</script>", from) - from));
 }
 
 TEST_F(CommandSweep, its_page_has_replays_of_its_cells_and_so_has_a_page_of_its_rows) {
