@@ -26,8 +26,17 @@ class AgreementTest : public testing::Test {
   std::optional<Agreement> agreement_;
 };
 
+const Contact<double> floor = contact(0, Side::bottom);
+const ExactContact truth = exact(0, Side::bottom);
+
+/// Ours and Box2D's, in which nothing happens.
+std::vector<std::pair<Moment, Moment>> silence(int steps) {
+  std::vector<std::pair<Moment, Moment>> run;
+  for (int i = 0; i < steps; ++i) run.emplace_back(moment(i), moment(i));
+  return run;
+}
+
 TEST_F(AgreementTest, is_the_share_of_steps_with_the_same_sides) {
-  const auto floor = contact(0, Side::bottom);
   const auto wall = contact(1, Side::left);
   const Row row = compare({{moment(0), moment(0)},
                            {moment(1, {floor}), moment(1, {floor})},
@@ -54,9 +63,7 @@ TEST_F(AgreementTest, contacts_in_the_references_skin_are_excused) {
 }
 
 TEST_F(AgreementTest, precision_and_recall_count_sides_within_one_step) {
-  const auto floor = contact(0, Side::bottom);
-  std::vector<std::pair<Moment, Moment>> run;
-  for (int i = 0; i < 8; ++i) run.emplace_back(moment(i), moment(i));
+  std::vector<std::pair<Moment, Moment>> run = silence(8);
   run[1].first.step.contacts = {floor};   // matched one step later
   run[2].second.step.contacts = {floor};  // matched one step before
   run[5].first.step.contacts = {floor};   // two steps apart: not matched
@@ -68,8 +75,6 @@ TEST_F(AgreementTest, precision_and_recall_count_sides_within_one_step) {
 
 TEST_F(AgreementTest, exact_arithmetic_says_who_is_right) {
   using Right = SideDisagreement::Right;
-  const auto floor = contact(0, Side::bottom);
-  const auto truth = exact(0, Side::bottom);
   const auto one = [&](const Moment& mine, const Moment& reference) {
     compare({{mine, reference}});
     return agreement_->disagreements().at(0).right;
@@ -86,8 +91,6 @@ TEST_F(AgreementTest, exact_arithmetic_says_who_is_right) {
 
 TEST_F(AgreementTest, a_report_one_step_early_is_right_once_the_next_step_is_known) {
   using Right = SideDisagreement::Right;
-  const auto floor = contact(0, Side::bottom);
-  const auto truth = exact(0, Side::bottom);
   compare({{moment(0, {floor}), moment(0)}});
   EXPECT_EQ(agreement_->disagreements()[0].right, Right::reference);
   compare({{moment(0, {floor}), moment(0)}, {moment(1, {floor}, {truth}), moment(1, {floor}, {truth})}});
@@ -97,8 +100,8 @@ TEST_F(AgreementTest, a_report_one_step_early_is_right_once_the_next_step_is_kno
 }
 
 TEST_F(AgreementTest, keeps_the_first_disagreements_and_counts_all) {
-  std::vector<std::pair<Moment, Moment>> run;
-  for (int i = 0; i < 6; ++i) run.emplace_back(moment(i, {contact(0, Side::bottom)}), moment(i));
+  std::vector<std::pair<Moment, Moment>> run = silence(6);
+  for (auto& [mine, reference] : run) mine.step.contacts = {contact(0, Side::bottom)};
   compare(run);
   ASSERT_EQ(agreement_->disagreements().size(), 2U);
   EXPECT_EQ(agreement_->disagreements()[1].step, 1);
@@ -106,8 +109,6 @@ TEST_F(AgreementTest, keeps_the_first_disagreements_and_counts_all) {
 }
 
 TEST_F(AgreementTest, the_first_difference_is_named_with_who_is_right) {
-  const auto floor = contact(0, Side::bottom);
-  const auto truth = exact(0, Side::bottom);
   Row row = compare({{moment(0), moment(0)}, {moment(1, {floor}, {truth}), moment(1, {}, {truth})}});
   EXPECT_EQ(row.first_difference_box2d_step, 1);
   EXPECT_NE(row.first_difference_box2d.find("mine is right"), std::string::npos) << row.first_difference_box2d;
@@ -117,10 +118,8 @@ TEST_F(AgreementTest, the_first_difference_is_named_with_who_is_right) {
 }
 
 TEST_F(AgreementTest, a_first_difference_on_which_both_are_right_is_followed_by_the_first_on_which_one_is_not) {
-  const auto floor = contact(0, Side::bottom);
-  const auto truth = exact(0, Side::bottom);
-  std::vector<std::pair<Moment, Moment>> run{
-      {moment(0, {floor}, {truth}), moment(0)}, {moment(1), moment(1)}, {moment(2), moment(2)}, {moment(3), moment(3)}};
+  std::vector<std::pair<Moment, Moment>> run = silence(4);
+  run[0].first = moment(0, {floor}, {truth});
   run[3].first.step.contacts = {floor};
   const Row row = compare(run);
   EXPECT_EQ(row.first_difference_box2d_step, 0);
@@ -129,8 +128,7 @@ TEST_F(AgreementTest, a_first_difference_on_which_both_are_right_is_followed_by_
 }
 
 TEST_F(AgreementTest, positions_apart_by_more_than_the_skin_are_a_difference) {
-  std::vector<std::pair<Moment, Moment>> run;
-  for (int i = 0; i < 5; ++i) run.emplace_back(moment(i), moment(i));
+  std::vector<std::pair<Moment, Moment>> run = silence(5);
   run[2].second.step.path.back().position = {0.0209, 0};
   EXPECT_FALSE(compare(run).first_difference_box2d_step);
   run[3].second.step.path.back().position = {0.0211, 0};
@@ -145,7 +143,7 @@ TEST_F(AgreementTest, positions_apart_by_more_than_the_skin_are_a_difference) {
 }
 
 TEST_F(AgreementTest, the_position_difference_is_the_largest_distance_of_the_ends) {
-  std::vector<std::pair<Moment, Moment>> run{{moment(0), moment(0)}, {moment(1), moment(1)}};
+  std::vector<std::pair<Moment, Moment>> run = silence(2);
   run[0].second.step.path.back().position = {3, 4};
   run[1].first.step.path.back().position = {1, 0};
   EXPECT_EQ(compare(run).max_position_difference_box2d_m, 5);

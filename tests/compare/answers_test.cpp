@@ -66,41 +66,15 @@ TEST(Answers, of_the_farthest_place_and_of_going_back_look_at_the_whole_way) {
   EXPECT_TRUE(checked(is(Of::setback, 0, {1, 0}).after(2), run).ok);
 }
 
-TEST(Answers, of_rest_are_the_last_step_that_changes_place_or_ground) {
-  std::vector<TraceStep> run = run_to({{0, 0}, {1, 0}, {1, 0}, {1, 0}, {1, 0}});
-  EXPECT_TRUE(checked(count(Of::settled, 2), run).ok);
-  run[3].grounded = false;
-  EXPECT_TRUE(checked(count(Of::settled, 5), run).ok) << "it comes to the ground again in the fifth";
-  EXPECT_TRUE(checked(count(Of::in_the_air, 1), run).ok);
-  EXPECT_TRUE(checked(count(Of::in_the_air, 0).after(4), run).ok);
-}
-
-TEST(Answers, of_a_ride_are_relative_to_the_mover) {
-  TraceHeader head = header();
-  head.scenery.colliders[1].mover = 0;
-  std::vector<TraceStep> run = run_to({{0, 0}, {0, 1}, {0, 2}});
-  for (TraceStep& step : run) step.movers = {{{0, step.step - 1.0}, {0, static_cast<double>(step.step)}}};
-  EXPECT_TRUE(checked(y_is(0).to(head.ids[1]), run, head).ok);
-  EXPECT_TRUE(checked(is(Of::drift, 0).to(head.ids[1]).after(1).within(0), run, head).ok);
-  run[2].movers[0].to.x() = 0.25;
-  EXPECT_EQ(checked(is(Of::drift, 0).to(head.ids[1]).after(1), run, head).error, 0.25);
-}
-
-TEST(Answers, of_a_contact_are_its_first_time_and_the_end_where_it_never_comes) {
+/// Other answers are those of built-in scenes, which meet them, and miss them where their run is spoilt.
+TEST(Answers, of_what_never_comes_are_the_end) {
   std::vector<TraceStep> run = run_to({{0, 0}, {1, 0}, {2, 0}, {3, 0}});
-  run[1].contacts = {contact(0, Side::bottom, 0.75), contact(1, Side::left, 0.5)};
-  run[2].contacts = {contact(0, Side::bottom, 0.125)};
-  EXPECT_TRUE(checked(is(Of::contact, 1.5), run).ok);
-  EXPECT_TRUE(checked(is(Of::contact, 1.75).to(header().ids[0]), run).ok);
-  EXPECT_TRUE(checked(count(Of::contacts, 2), run).ok);
-  EXPECT_TRUE(checked(count(Of::contacts, 1).to(header().ids[1]), run).ok);
-  run[1].contacts.clear();
+  run[1].contacts = {contact(0, Side::bottom, 0.75)};
+  EXPECT_TRUE(checked(is(Of::contact, 1.75), run).ok);
   EXPECT_EQ(checked(is(Of::contact, 1.5).to(header().ids[1]), run).error, 2.5);
-  EXPECT_TRUE(checked(count(Of::crush, 4), run).ok) << "never";
+  EXPECT_TRUE(checked(count(Of::crush, 4), run).ok);
   run[2].crushed = {1};
-  run[3].crushed = {0, 1};
   EXPECT_TRUE(checked(count(Of::crush, 2), run).ok);
-  EXPECT_TRUE(checked(count(Of::crushers, 2), run).ok);
 }
 
 TEST(Answers, allow_a_contender_the_gap_that_it_keeps_and_no_more) {

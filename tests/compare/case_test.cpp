@@ -48,33 +48,14 @@ Case random_case(Words& words) {
   return one;
 }
 
-void expect_equal(const std::vector<Case::Setting>& read, const std::vector<Case::Setting>& written) {
-  ASSERT_EQ(read.size(), written.size());
-  for (std::size_t i = 0; i < read.size(); ++i) {
-    EXPECT_EQ(read[i].key, written[i].key);
-    EXPECT_EQ(read[i].value, written[i].value);
-  }
-}
-
+/// A command says all that a Case has, so two with one command are the same.
 TEST(Case, is_read_back_from_its_command) {
   Words words;
   for (int n = 0; n < 10'000; ++n) {
-    const Case one = random_case(words);
-    SCOPED_TRACE(command_of(one));
-    const std::optional<Case> read = case_of_command(command_of(one));
-    ASSERT_TRUE(read);
-    EXPECT_EQ(read->scene, one.scene);
-    expect_equal(read->parameters, one.parameters);
-    EXPECT_EQ(read->contender, one.contender);
-    EXPECT_EQ(read->scalar, one.scalar);
-    expect_equal(read->knobs, one.knobs);
-    EXPECT_EQ(read->seed, one.seed);
-    EXPECT_EQ(read->steps, one.steps);
-    EXPECT_EQ(read->mode, one.mode);
-    EXPECT_EQ(read->full_plan, one.full_plan);
-    EXPECT_EQ(read->reference, one.reference);
-    EXPECT_EQ(id_of(*read), id_of(one));
-    if (testing::Test::HasFailure()) return;
+    const std::string command = command_of(random_case(words));
+    const std::optional<Case> read = case_of_command(command);
+    ASSERT_TRUE(read) << command;
+    ASSERT_EQ(command_of(*read), command);
   }
 }
 

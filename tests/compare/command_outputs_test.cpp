@@ -15,91 +15,40 @@ TEST(CommandOutputs, rows_as_json_lines_are_those_of_the_json_file) {
   EXPECT_EQ(place.run(run + "rows.jsonl").status, 0);
   const nlohmann::json whole = nlohmann::json::parse(place.files().at("rows.json"));
   ASSERT_EQ(whole.at("rows").size(), 6U);
-  std::istringstream lines(place.files().at("rows.jsonl"));
-  std::string line;
-  std::getline(lines, line);
-  EXPECT_EQ(nlohmann::json::parse(line).at("environment"), whole.at("environment"));
-  for (const nlohmann::json& row : whole.at("rows")) {
-    ASSERT_TRUE(std::getline(lines, line));
-    EXPECT_EQ(nlohmann::json::parse(line), row);
-  }
-  EXPECT_FALSE(std::getline(lines, line));
+  std::vector<nlohmann::json> lines = json_lines(place.files().at("rows.jsonl"));
+  EXPECT_EQ(lines.at(0).at("environment"), whole.at("environment"));
+  lines.erase(lines.begin());
+  EXPECT_EQ(lines, whole.at("rows").get<std::vector<nlohmann::json>>());
 }
 
-TEST(CommandOutputs, rows_as_csv_are_flat) {
-  const Workplace place;
-  EXPECT_EQ(place.run("compare article_bullet --no-timing --quiet --contender mask --rows rows.csv").status, 0);
-  std::istringstream lines(place.files().at("rows.csv"));
-  std::string line;
-  int comments = 0;
-  while (std::getline(lines, line) && begins(line, "# ")) ++comments;
-  EXPECT_GE(comments, 5) << "compiler, flags, versions";
-  EXPECT_TRUE(begins(line, "scene,contender,scalar,mode,steps,verdict,reason,")) << line;
-  EXPECT_TRUE(line.ends_with('\r'));
-  const auto commas = std::count(line.begin(), line.end(), ',');
-  std::getline(lines, line);
-  EXPECT_TRUE(begins(line, "article_bullet,mask,double,free,60,tunnels,\"safety: step 0: passed `platform` at "));
-  EXPECT_GE(std::count(line.begin(), line.end(), ','), commas) << "the reason has commas of its own, in quotes";
-  std::getline(lines, line);
-  EXPECT_TRUE(begins(line, "article_bullet,box2d,float,free,60,holds,,"));
-  EXPECT_EQ(std::count(line.begin(), line.end(), ','), commas);
-  EXPECT_FALSE(std::getline(lines, line));
-}
-
-/// The data of a page.
-nlohmann::json index_of(const std::string& page) {
-  const std::string opening = "id=\"index\">";
-  const std::size_t from = page.find(opening) + opening.size();
-  return nlohmann::json::parse(page.substr(from, page.find("</script>", from) - from));
-}
-
-TEST(CommandOutputs, report_puts_rows_and_pages_into_one_page) {
+TEST(CommandOutputs, report_puts_rows_and_pages_into_one_page_and_svg_each_picture_into_a_file) {
 #ifndef NDEBUG
   GTEST_SKIP() << "work-precision refuses a build with assertions";
 #endif
   const Workplace place;
-  const std::string quiet = " --quiet --contender mask,octagon_sweep ";
-  EXPECT_EQ(place.run("compare article_bullet --no-timing" + quiet + "--report m.html --rows m.json").status, 0);
-  EXPECT_EQ(place.run("sweep paper --vary speed=10,2000 --vary thickness=0.01,0.1" + quiet + "--rows s.jsonl").status,
-            0);
-  EXPECT_EQ(place.run("work-precision rest" + quiet + "--rows w.jsonl").status, 0);
+  const std::string quiet = " --quiet --contender mask,octagon_sweep --svg pictures ";
+  for (const std::string run : {"compare article_bullet --no-timing --report m.html --rows m.json",
+                                "sweep paper --vary speed=10,2000 --vary thickness=0.01,0.1 --rows s.jsonl",
+                                "work-precision rest --rows w.jsonl"})
+    EXPECT_EQ(place.run(run + quiet).status, 0) << run;
   EXPECT_EQ(place.run("report all.html m.html s.jsonl w.jsonl").status, 0);
   EXPECT_EQ(place.run("report rows.html m.json s.jsonl").status, 0);
   const auto files = place.files();
-  const nlohmann::json compared = index_of(files.at("m.html"));
-  const nlohmann::json all = index_of(files.at("all.html"));
-  EXPECT_EQ(all.at("scenes"), compared.at("scenes"));
-  EXPECT_EQ(all.at("environment"), compared.at("environment"));
-  EXPECT_EQ(all.at("sections"), compared.at("sections"));
+  const nlohmann::json compared = element(files.at("m.html"), "index");
+  const nlohmann::json all = element(files.at("all.html"), "index");
+  for (const char* part : {"scenes", "environment", "sections"}) EXPECT_EQ(all.at(part), compared.at(part)) << part;
   EXPECT_GE(all.at("sections").size(), 2U);  // exemptions, fairness
   ASSERT_EQ(all.at("studies").size(), 2U);
   EXPECT_EQ(all.at("studies")[0].at("charts").size(), 1U);
   EXPECT_EQ(all.at("studies")[1].at("grids").size(), 2U);
-  const nlohmann::json of_rows = index_of(files.at("rows.html"));
+  const nlohmann::json of_rows = element(files.at("rows.html"), "index");
   ASSERT_EQ(of_rows.at("scenes").size(), 1U);
   EXPECT_EQ(of_rows.at("scenes")[0].at("rows"), compared.at("scenes")[0].at("rows"));
   EXPECT_EQ(of_rows.at("scenes")[0].at("runs"), 0);
-  place.write("no.jsonl", "{}\n");
-  const Finished refused = place.run("report x.html no.jsonl");
-  EXPECT_EQ(refused.status, 2);
-  EXPECT_TRUE(begins(refused.err, "no.jsonl: expected rows")) << refused.err;
   EXPECT_EQ(place.run("report m.html m.html").status, 2) << "it would overwrite what it reads";
-}
-
-TEST(CommandOutputs, svg_writes_each_picture_to_a_file_of_its_own) {
-#ifndef NDEBUG
-  GTEST_SKIP() << "work-precision refuses a build with assertions";
-#endif
-  const Workplace place;
-  const std::string quiet = " --quiet --contender mask --svg pictures";
-  EXPECT_EQ(place.run("compare article_bullet --no-timing" + quiet).status, 0);
-  EXPECT_EQ(place.run("sweep paper --vary speed=10,2000 --vary thickness=0.01,0.1" + quiet).status, 0);
-  EXPECT_EQ(place.run("work-precision rest" + quiet).status, 0);
-  const auto files = place.files();
   for (const char* name : {"article_bullet.svg", "mask.svg", "rest.svg"}) {
     ASSERT_TRUE(files.contains(name)) << name;
-    EXPECT_TRUE(begins(files.at(name), "<svg ")) << name;
-    EXPECT_TRUE(files.at(name).ends_with("</svg>\n")) << name;
+    EXPECT_TRUE(begins(files.at(name), "<svg ") && files.at(name).ends_with("</svg>\n")) << name;
   }
   EXPECT_EQ(place.run("compare article_bullet --quiet --svg /dev/null/x").status, 2);
 }
@@ -109,9 +58,7 @@ TEST(CommandOutputs, json_lines_keep_what_is_done_when_the_command_is_interrupte
   place.write("long.json", good_with("\"steps\": 20", "\"steps\": 1000000000"));
   (void)place.run("compare article_bullet long.json --no-timing --quiet --contender octagon_sweep --rows rows.jsonl",
                   "timeout -s INT 4");
-  std::istringstream lines(place.files().at("rows.jsonl"));
-  std::vector<nlohmann::json> read;
-  for (std::string line; std::getline(lines, line);) read.push_back(nlohmann::json::parse(line));
+  const std::vector<nlohmann::json> read = json_lines(place.files().at("rows.jsonl"));
   ASSERT_EQ(read.size(), 3U);
   EXPECT_EQ(read[0].at("paperproof_rows"), 1);
   for (const std::size_t i : {std::size_t{1}, std::size_t{2}}) EXPECT_EQ(read[i].at("scene"), "article_bullet");
@@ -162,36 +109,31 @@ Finished run_into(const Workplace& place, const std::string& arguments, const st
 
 TEST(CommandOutputs, standard_output_that_cannot_be_written_is_an_error_of_every_subcommand) {
   const Workplace place;
+  ASSERT_EQ(place.run("compare article_bullet --contender octagon_sweep --no-timing --quiet --trace t").status, 0);
   for (const std::string arguments :
        {"compare article_bullet --no-timing", "compare article_bullet --no-timing --json", "list scenes",
-        "list contenders", "list knobs", "check article_bullet", "plan article_bullet", "study scale --grid 100",
-        "--help", "--version", "compare --help"}) {
+        "judge t.article_bullet.octagon_sweep.double.jsonl", "list contenders", "list knobs", "check article_bullet",
+        "plan article_bullet", "study scale --grid 100", "--help", "--version", "compare --help"}) {
     const Finished full = run_into(place, arguments, ">/dev/full");
     EXPECT_EQ(full.status, 2) << arguments;
     EXPECT_EQ(full.err, "standard output: cannot be written: No space left on device\n") << arguments;
     EXPECT_EQ(run_into(place, arguments, ">&-").status, 2) << arguments;
   }
-  ASSERT_EQ(
-      place.run("compare article_bullet --contender octagon_sweep --scalar double --no-timing --quiet --trace run")
-          .status,
-      0);
-  const Finished judged = run_into(place, "judge run.article_bullet.octagon_sweep.double.jsonl", ">/dev/full");
-  EXPECT_EQ(judged.status, 2);
-  EXPECT_EQ(judged.err, "standard output: cannot be written: No space left on device\n");
   EXPECT_EQ(run_into(place, "compare article_bullet --no-timing --quiet", ">/dev/full").status, 0)
       << "nothing is printed";
 }
 
 TEST(CommandOutputs, files_on_a_full_disk_are_an_error) {
   const Workplace place;
-  std::filesystem::create_symlink("/dev/full", place.path("rows.jsonl"));
-  std::filesystem::create_symlink("/dev/full", place.path("rows.csv"));
-  for (const std::string option : {"--rows /dev/full", "--rows rows.jsonl", "--rows rows.csv", "--report /dev/full"}) {
-    const Finished finished = place.run("compare article_bullet --no-timing --quiet " + option);
-    EXPECT_EQ(finished.status, 2) << option;
+  for (const char* name : {"rows.jsonl", "rows.csv"}) std::filesystem::create_symlink("/dev/full", place.path(name));
+  const std::string compare = "compare article_bullet --no-timing --quiet ";
+  for (const std::string& run :
+       {compare + "--rows /dev/full", compare + "--rows rows.jsonl", compare + "--rows rows.csv",
+        compare + "--report /dev/full", std::string("study scale --grid 100 --quiet --rows /dev/full")}) {
+    const Finished finished = place.run(run);
+    EXPECT_EQ(finished.status, 2) << run;
     EXPECT_TRUE(holds(finished.err, "cannot be written whole: No space left on device\n"));
   }
-  EXPECT_EQ(place.run("study scale --grid 100 --quiet --rows /dev/full").status, 2);
 }
 
 TEST(CommandOutputs, a_closed_pipe_ends_the_command_quietly_and_leaves_nothing_behind) {

@@ -2,7 +2,6 @@
 #include "runs/cost.hpp"
 #include "compare/scene_runs.hpp"
 #include "runs/input_cursor.hpp"
-#include "runs/lane.hpp"
 
 namespace paperproof::compare {
 namespace {
@@ -50,15 +49,6 @@ TEST(Cost, contenders_take_turns_and_are_put_back_where_the_judged_run_was) {
     EXPECT_LE(cost.ns_per_step_min, cost.ns_per_step_median);
     EXPECT_LE(cost.ns_per_step_median, cost.ns_per_step_max);
   }
-}
-
-TEST(Cost, a_lane_remembers_when_it_was_put_back) {
-  const Scene scene = empty_sky(4);
-  const Scenery<double> scenery(scene.scenery);
-  Lane lane("octagon_sweep", ScalarKind::binary64, scene, scenery, {}, "free", "", {});
-  lane.respawn(scene.start, {.step = 7, .character = 0});
-  ASSERT_EQ(lane.respawns().size(), 1U);
-  EXPECT_EQ(lane.respawns()[0].step, 7);
 }
 
 TEST(Cost, box2d_alone_goes_the_way_of_the_run) {

@@ -163,12 +163,7 @@ TEST(EnergyGained, of_a_crowd_is_that_of_all_together) {
 TraceStep ended(bool grounded, const std::vector<std::pair<ColliderIndex, Side>>& touches) {
   TraceStep step;
   step.grounded = grounded;
-  for (const auto& [collider, side] : touches) {
-    Contact<double> contact;
-    contact.collider = collider;
-    contact.side = side;
-    step.contacts.push_back(contact);
-  }
+  for (const auto& [collider, side] : touches) step.contacts.push_back({.collider = collider, .side = side});
   return step;
 }
 
@@ -188,15 +183,13 @@ TEST(EventSequence, is_that_of_changes_whenever_they_come) {
   const Row one = events_of({air, air, floor, floor, corner});
   EXPECT_EQ(one.events, 2);
   EXPECT_EQ(one.event_sequence, events_of({air, floor, floor, floor, other_order}).event_sequence) << "later";
-  EXPECT_NE(one.event_sequence, events_of({air, floor}).event_sequence) << "one is missing";
-  EXPECT_NE(one.event_sequence, events_of({air, floor, air, floor, corner}).event_sequence) << "a toggle";
-  EXPECT_NE(one.event_sequence, events_of({air, corner, floor}).event_sequence) << "another order";
-  EXPECT_NE(one.event_sequence,
-            events_of({air, floor, ended(true, {{0, Side::bottom}, {2, Side::right}})}).event_sequence)
-      << "another collider";
-  EXPECT_NE(one.event_sequence,
-            events_of({air, floor, ended(true, {{0, Side::bottom}, {1, Side::left}})}).event_sequence)
-      << "another side";
+  for (const auto& [steps, what] : std::vector<std::pair<std::vector<TraceStep>, const char*>>{
+           {{air, floor}, "one is missing"},
+           {{air, floor, air, floor, corner}, "a toggle"},
+           {{air, corner, floor}, "another order"},
+           {{air, floor, ended(true, {{0, Side::bottom}, {2, Side::right}})}, "another collider"},
+           {{air, floor, ended(true, {{0, Side::bottom}, {1, Side::left}})}, "another side"}})
+    EXPECT_NE(one.event_sequence, events_of(steps).event_sequence) << what;
 }
 
 }  // namespace

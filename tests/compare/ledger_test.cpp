@@ -10,7 +10,7 @@ namespace paperproof::compare {
 namespace {
 
 constexpr double dt = 1.0 / 64;
-const double feet = 0.625;
+constexpr double feet = 0.625;
 
 SceneryDef scenery() {
   const auto polygon = [](std::vector<Vec2d> points) {
@@ -59,11 +59,12 @@ Contact<double> touch(ColliderIndex collider, const Vec2d& normal, const Vec2d& 
 }
 Contact<double> floor_below(double x, double fraction = 0) { return touch(x < 0 ? 0 : 1, {0, 1}, {x, 0}, fraction); }
 
-class LedgerTest : public testing::Test {
- protected:
-  explicit LedgerTest(bool lockstep = true) : lockstep_(lockstep) {}
+/// Steps of the two sides, both judged by exact arithmetic, and the ledger of what they disagree about.
+class Ledgers {
+ public:
+  explicit Ledgers(bool lockstep)
+      : ledger_({&mine_header_, &mine_judge_.scenery()}, {&reference_header_, &reference_judge_.scenery()}, lockstep) {}
 
-  /// A pair of steps; both are judged by exact arithmetic.
   void add(TraceStep mine, TraceStep reference) {
     mine.step = reference.step = number_++;
     mine.start_overlap = mine_judge_.scenery().overlapped(Place(mine.path.front().position));
@@ -71,298 +72,196 @@ class LedgerTest : public testing::Test {
     ledger_.add(mine, mine_judge_.judge(mine), reference, reference_judge_.judge(reference));
   }
 
-  /// What stands in the ledger, as `cause.kind` in order; a space between.
-  std::string found() {
-    if (!finished_) ledger_.finish();
-    finished_ = true;
-    std::string text;
-    for (const auto& [key, sum] : ledger_.sums()) {
-      text += text.empty() ? "" : " ";
-      text += std::string(name_of(sum.first.cause)) + "." + std::string(name_of(sum.first.kind));
-    }
-    return text;
+  /// Nothing is added any more.
+  const Ledger& finished() {
+    ledger_.finish();
+    return ledger_;
   }
 
+ private:
   const TraceHeader mine_header_ = header(false);
   const TraceHeader reference_header_ = header(true);
   Judge mine_judge_{mine_header_};
   Judge reference_judge_{reference_header_};
-  bool lockstep_;
-  Ledger ledger_{{&mine_header_, &mine_judge_.scenery()}, {&reference_header_, &reference_judge_.scenery()}, lockstep_};
+  Ledger ledger_;
   int number_ = 0;
-  bool finished_ = false;
 };
 
-struct FreeLedgerTest : LedgerTest {
-  FreeLedgerTest() : LedgerTest(false) {}
+/// What stands in a ledger, as `cause.kind` in order; a space between.
+std::string found_in(const Ledger& ledger) {
+  std::string text;
+  for (const auto& [key, sum] : ledger.sums())
+    text +=
+        (text.empty() ? "" : " ") + std::string(name_of(sum.first.cause)) + "." + std::string(name_of(sum.first.kind));
+  return text;
+}
+
+const Vec2d still(0, 0);
+const Vec2d down(0, -0.01);
+const Vec2d right(0.1, 0);
+const Vec2d sky(-2, 2);
+const Vec2d beside_wall(2, 4);
+
+const Contact<double> ground = floor_below(-2);
+const Contact<double> landing = floor_below(-2, 1);
+
+/// So far above the first tile.
+Vec2d above(double height) { return {-2, feet + height}; }
+TraceStep falls(double height, std::vector<Contact<double>> contacts = {}) {
+  return step(above(height), down, down, std::move(contacts));
+}
+TraceStep held(double height, std::vector<Contact<double>> contacts = {}) {
+  return step(above(height), down, still, std::move(contacts));
+}
+/// 5 mm down to the floor, of which 0.5 µm are left.
+TraceStep lands(double height, std::vector<Contact<double>> contacts = {}) {
+  return step(above(height), {0, -0.005}, {0, -0.0049995}, std::move(contacts));
+}
+TraceStep capped(double height) {
+  TraceStep one = step(above(height), {0, -3}, {0, 0.5 - height});
+  one.capped = true;
+  return one;
+}
+TraceStep met(TraceStep one, const Vec2d& normal, double fraction, Side side) {
+  one.met.push_back({.other = 1, .normal = normal, .fraction = fraction, .side = side});
+  return one;
+}
+Contact<double> at_wall(double fraction) { return touch(2, {-1, 0}, {3, 4}, fraction); }
+TraceStep stopped(TraceStep one) {
+  one.velocity.setZero();
+  return one;
+}
+/// At the wall, or 15 mm before it.
+const TraceStep stops = stopped(step(beside_wall, {1, 0}, {0.6874995, 0}, {at_wall(0.6874995)}));
+TraceStep stops_early(double fraction) {
+  TraceStep early = stopped(step(beside_wall, {1, 0}, {0.6725, 0}, {at_wall(fraction)}));
+  early.path.insert(early.path.begin() + 1, {beside_wall + Vec2d(0.6725, 0), 0.6725});
+  return early;
+}
+
+/// On the slope at 45 degrees with the right foot's corner: ours keeps (1, 1) of (1, 0), Box2D (1/2, 1/2). The flank's
+/// facet is steeper than the slope, so its lower end touches first: (5/32, -5/8).
+TraceStep on_slope(double share) {
+  const double half = std::sqrt(0.5);
+  const Vec2d from = Vec2d(14, 4) - Vec2d(0.15625, -0.625) + Vec2d(-half, half) * 5e-7;
+  return step(from, {0.01, 0}, 0.01 * Vec2d(share, share), {touch(3, {-half, half}, {14, 4})});
+}
+TraceStep under_another(TraceStep one) { return met(std::move(one), {0, -1}, 1, Side::top); }
+
+const Vec2d over_seam(-0.15625, feet + 0.015);
+const Vec2d skin_from_wall(3 - 0.3125 - 0.015, 4);
+/// At 131,072 m a float has steps of 1/64 m.
+TraceStep far_out(double made) { return step({131072, 2}, {0.25, 0}, {made, 0}); }
+
+struct Story {
+  const char* name;
+  std::vector<std::pair<TraceStep, TraceStep>> steps;  ///< Ours, and Box2D's.
+  const char* found;
 };
 
-TEST_F(LedgerTest, equal_steps_are_no_disagreement) {
-  const TraceStep falls = step({-2, 2}, {0.01, -0.01}, {0.01, -0.01});
-  add(falls, falls);
-  add(falls, falls);
-  EXPECT_EQ(found(), "");
-}
+const std::vector<Story> stories{
+    {"equal_steps", {{step(sky, down, down), step(sky, down, down)}}, ""},
+    {"a_report_from_within_the_skin", {{falls(0.0199), held(0.0199, {ground})}}, "skin.contact skin.stop"},
+    {"a_report_from_beyond_the_skin", {{falls(0.0301), falls(0.0301, {ground})}}, "error_of_box2d.contact"},
+    {"a_report_that_is_not_exact", {{falls(0.0199, {ground}), falls(0.0199)}}, "error_of_ours.contact"},
+    {"an_exact_contact_that_is_missed", {{held(5e-7), held(5e-7, {ground})}}, "error_of_ours.contact"},
+    {"our_motion_lost_to_nothing", {{step(sky, right, right / 2), step(sky, right, right)}}, "error_of_ours.stop"},
+    {"box2d_stops_in_the_air", {{step(sky, right, right), step(sky, right, right / 2)}}, "unexplained.stop"},
+    {"a_report_one_step_late",
+     {{lands(0.005, {landing}), lands(0.005)}, {held(5e-7, {ground}), held(5e-7, {ground})}},
+     "event_latency.contact"},
+    {"a_report_that_never_comes",
+     {{lands(0.005, {landing}), lands(0.005)}, {step(sky, down, down), step(sky, down, down)}},
+     "skin.contact"},
+    {"a_way_beyond_two_metres",
+     {{step(above(2.5), {0, -3}, {0, -2.5 + 5e-7}, {floor_below(-2, 2.5 / 3)}), capped(2.5)}},
+     "travel_cap.contact travel_cap.stop"},
+    {"a_contact_within_two_metres_of_a_capped_step",
+     {{step(above(1.5), {0, -3}, {0, -1.5 + 5e-7}, {floor_below(-2, 0.5)}), capped(1.5)}},
+     "travel_cap.stop unexplained.contact"},
+    {"velocities_of_both_laws", {{on_slope(1), on_slope(0.5)}}, "response_law.stop"},
+    {"a_velocity_of_no_law", {{on_slope(1), on_slope(0.501)}}, "unexplained.stop"},
+    {"a_velocity_of_ours_that_is_not_our_law", {{on_slope(0.999), on_slope(0.5)}}, "error_of_ours.stop"},
+    {"a_law_before_a_circumstance", {{on_slope(1), under_another(on_slope(0.5))}}, "response_law.stop"},
+    {"a_circumstance_of_a_velocity_of_no_law", {{on_slope(1), under_another(on_slope(0.501))}}, "company.stop"},
+    {"who_meets_another_character",
+     {{step(sky, right, right), met(step(sky, right, right / 2), {-1, 0}, 0, Side::right)}},
+     "company.stop"},
+    {"a_normal_of_no_face",
+     {{step(over_seam, {0.01, 0}, {0.01, 0}), step(over_seam, {0.01, 0}, still, {touch(1, {-1, 0}, {0, 0})})}},
+     "ghost_collision.contact ghost_collision.stop"},
+    {"a_normal_of_a_face",
+     {{step(skin_from_wall, {0.01, 0}, {0.01, 0}), step(skin_from_wall, {0.01, 0}, still, {at_wall(0)})}},
+     "skin.contact skin.stop"},
+    {"a_difference_of_four_ulps", {{far_out(0.25), far_out(0.1875)}}, "float.stop"},
+    {"a_difference_of_eight_ulps", {{far_out(0.25), far_out(0.125)}}, "unexplained.stop"},
+    {"what_begins_inside",
+     {{step(above(-0.25), still, {0, 0.2500005}), step(above(-0.25), still, {0, 0.05})}},
+     "start_inside.stop"},
+    // Ours comes to the floor; Box2D stays 30 mm above it, or 19.9 mm.
+    {"both_right_beyond_the_skin", {{lands(0.005, {landing}), lands(0.035)}}, "remaining_lockstep.contact"},
+    {"both_right_within_the_skin", {{lands(0.005, {landing}), lands(0.0249)}}, "skin.contact"},
+    {"who_passes_a_wall",
+     {{step(beside_wall, {3, 0}, {0.6874995, 0}, {at_wall(0.2291665)}), step(beside_wall, {3, 0}, {3, 0})}},
+     "error_of_box2d.contact error_of_box2d.crossing unexplained.stop"},
+    {"our_own_crossing",
+     {{step(beside_wall, {3, 0}, {3, 0}), step(beside_wall, {3, 0}, {0.67, 0}, {at_wall(0.22)})}},
+     "error_of_ours.crossing unexplained.contact unexplained.stop"},
+    {"an_impact_that_is_early_by_the_skin", {{stops, stops_early(0.6725)}}, "skin.time skin.stop"},
+    {"an_impact_that_is_earlier_than_the_skin", {{stops, stops_early(0.6625)}}, "skin.stop sampled_time.time"}};
 
-TEST_F(LedgerTest, a_report_from_within_the_skin_is_skin) {
-  const Vec2d from(-2, feet + 0.0199);
-  add(step(from, {0, -0.01}, {0, -0.01}), step(from, {0, -0.01}, {0, 0}, {floor_below(-2)}));
-  EXPECT_EQ(found(), "skin.contact skin.stop");
-}
-
-TEST_F(LedgerTest, a_report_from_beyond_the_skin_is_an_error_of_box2d) {
-  const Vec2d from(-2, feet + 0.0301);
-  add(step(from, {0, -0.01}, {0, -0.01}), step(from, {0, -0.01}, {0, -0.01}, {floor_below(-2)}));
-  EXPECT_EQ(found(), "error_of_box2d.contact");
-}
-
-TEST_F(LedgerTest, a_report_that_is_not_exact_is_an_error_of_ours) {
-  const Vec2d from(-2, feet + 0.0199);
-  add(step(from, {0, -0.01}, {0, -0.01}, {floor_below(-2)}), step(from, {0, -0.01}, {0, -0.01}));
-  EXPECT_EQ(found(), "error_of_ours.contact");
-}
-
-TEST_F(LedgerTest, an_exact_contact_that_is_missed_is_an_error_of_ours) {
-  const Vec2d from(-2, feet + 5e-7);
-  add(step(from, {0, -0.01}, {0, 0}), step(from, {0, -0.01}, {0, 0}, {floor_below(-2)}));
-  EXPECT_NE(found().find("error_of_ours.contact"), std::string::npos);
-}
-
-TEST_F(LedgerTest, motion_that_is_lost_to_nothing_is_an_error_of_ours) {
-  add(step({-2, 2}, {0.1, 0}, {0.05, 0}), step({-2, 2}, {0.1, 0}, {0.1, 0}));
-  EXPECT_EQ(found(), "error_of_ours.stop");
-}
-
-TEST_F(LedgerTest, a_report_one_step_late_is_latency) {
-  const Vec2d from(-2, feet + 0.005);
-  const Vec2d there = from - Vec2d(0, 0.0049995);
-  add(step(from, {0, -0.005}, {0, -0.0049995}, {floor_below(-2, 1)}), step(from, {0, -0.005}, {0, -0.0049995}));
-  add(step(there, {0, -0.01}, {0, 0}, {floor_below(-2)}), step(there, {0, -0.01}, {0, 0}, {floor_below(-2)}));
-  EXPECT_EQ(found(), "event_latency.contact");
-}
-
-TEST_F(LedgerTest, a_report_that_never_comes_is_no_latency) {
-  const Vec2d from(-2, feet + 0.005);
-  add(step(from, {0, -0.005}, {0, -0.0049995}, {floor_below(-2, 1)}), step(from, {0, -0.005}, {0, -0.0049995}));
-  add(step({-2, 2}, {0, -0.01}, {0, -0.01}), step({-2, 2}, {0, -0.01}, {0, -0.01}));
-  EXPECT_EQ(found(), "skin.contact");
-}
-
-TEST_F(LedgerTest, a_way_beyond_two_metres_is_the_travel_cap) {
-  const Vec2d from(-2, feet + 2.5);
-  TraceStep capped = step(from, {0, -3}, {0, -2});
-  capped.capped = true;
-  add(step(from, {0, -3}, {0, -2.5 + 5e-7}, {floor_below(-2, 2.5 / 3)}), capped);
-  EXPECT_EQ(found(), "travel_cap.contact travel_cap.stop");
-}
-
-TEST_F(LedgerTest, a_contact_within_two_metres_is_not_excused_by_the_cap) {
-  const Vec2d from(-2, feet + 1.5);
-  TraceStep capped = step(from, {0, -3}, {0, -1});
-  capped.capped = true;
-  add(step(from, {0, -3}, {0, -1.5 + 5e-7}, {floor_below(-2, 0.5)}), capped);
-  EXPECT_NE(found().find("unexplained.contact"), std::string::npos);
-}
-
-/// On the slope at 45 degrees with the right foot's corner: ours keeps (1, 1) of (1, 0), Box2D (1/2, 1/2).
-class OnASlope : public LedgerTest {
- protected:
-  OnASlope() {
-    const double half = std::sqrt(0.5);
-    // The flank's facet is steeper than the slope, so its lower end touches first: (5/32, -5/8).
-    const Vec2d corner(0.15625, -0.625);
-    from_ = Vec2d(14, 4) - corner + Vec2d(-half, half) * 5e-7;
-    contact_ = touch(3, {-half, half}, {14, 4});
-    ours_ = step(from_, way_, {0.01, 0.01}, {contact_});
+TEST(Ledger, has_each_cause_and_no_other) {
+  for (const Story& story : stories) {
+    Ledgers ledgers(true);
+    for (const auto& [mine, reference] : story.steps) ledgers.add(mine, reference);
+    EXPECT_EQ(found_in(ledgers.finished()), story.found) << story.name;
   }
-  TraceStep box2d(double share) { return step(from_, way_, way_.x() * Vec2d(share, share), {contact_}); }
-
-  const Vec2d way_{0.01, 0};
-  Vec2d from_;
-  Contact<double> contact_;
-  TraceStep ours_;
-};
-
-TEST_F(OnASlope, velocities_of_both_laws_are_the_response_law) {
-  add(ours_, box2d(0.5));
-  EXPECT_EQ(found(), "response_law.stop");
 }
 
-TEST_F(OnASlope, a_velocity_of_no_law_is_unexplained) {
-  add(ours_, box2d(0.501));
-  EXPECT_EQ(found(), "unexplained.stop");
-}
-
-TEST_F(OnASlope, a_velocity_of_ours_that_is_not_our_law_is_unexplained) {
-  ours_ = step(from_, way_, {0.00999, 0.00999}, {contact_});
-  add(ours_, box2d(0.5));
-  EXPECT_EQ(found().find("response_law"), std::string::npos);
-}
-
-TEST_F(LedgerTest, a_normal_of_no_face_is_a_ghost) {
-  const Vec2d from(-0.15625, feet + 0.015);
-  const TraceStep ours = step(from, {0.01, 0}, {0.01, 0});
-  add(ours, step(from, {0.01, 0}, {0, 0}, {touch(1, {-1, 0}, {0, 0})}));
-  EXPECT_EQ(found(), "ghost_collision.contact ghost_collision.stop");
-}
-
-TEST_F(LedgerTest, a_normal_of_a_face_is_no_ghost) {
-  const Vec2d from(3 - 0.3125 - 0.015, 4);
-  const TraceStep ours = step(from, {0.01, 0}, {0.01, 0});
-  add(ours, step(from, {0.01, 0}, {0, 0}, {touch(2, {-1, 0}, {3, 4})}));
-  EXPECT_EQ(found(), "skin.contact skin.stop");
-}
-
-/// At 131,072 m a float has steps of 1/64 m; four of them are 1/16 m.
-TEST_F(LedgerTest, what_differs_by_some_ulps_is_float) {
-  const Vec2d far(131072, 2);
-  add(step(far, {0.25, 0}, {0.25, 0}), step(far, {0.25, 0}, {0.1875, 0}));
-  EXPECT_EQ(found(), "float.stop");
-}
-
-TEST_F(LedgerTest, what_differs_by_more_ulps_is_not) {
-  const Vec2d far(131072, 2);
-  add(step(far, {0.25, 0}, {0.25, 0}), step(far, {0.25, 0}, {0.125, 0}));
-  EXPECT_EQ(found(), "unexplained.stop");
-}
-
-TEST_F(LedgerTest, what_begins_inside_leaves_as_each_side_does) {
-  const Vec2d inside(-2, feet - 0.25);
-  add(step(inside, {0, 0}, {0, 0.2500005}), step(inside, {0, 0}, {0, 0.05}));
-  EXPECT_EQ(found(), "start_inside.stop");
-}
-
-/// Ours comes to the floor from 5 mm above, Box2D from 35 mm and stays 30 mm away.
-TEST_F(LedgerTest, what_both_are_right_about_beyond_the_skin_remains) {
-  const Vec2d way(0, -0.005);
-  const Vec2d made(0, -0.0049995);
-  add(step({-2, feet + 0.005}, way, made, {floor_below(-2, 1)}), step({-2, feet + 0.035}, way, made));
-  EXPECT_EQ(found(), "remaining_lockstep.contact");
-}
-
-TEST_F(LedgerTest, what_both_are_right_about_within_the_skin_is_skin) {
-  const Vec2d way(0, -0.005);
-  const Vec2d made(0, -0.0049995);
-  add(step({-2, feet + 0.005}, way, made, {floor_below(-2, 1)}), step({-2, feet + 0.0249}, way, made));
-  EXPECT_EQ(found(), "skin.contact");
-}
-
-/// A law that explains both velocities comes before what else is so in the step.
-TEST_F(OnASlope, a_law_explains_the_step_of_a_character_that_meets_another) {
-  TraceStep reference = box2d(0.5);
-  reference.met.push_back({.other = 1, .normal = {0, -1}, .fraction = 1, .side = Side::top});
-  add(ours_, reference);
-  EXPECT_EQ(found(), "response_law.stop");
-}
-
-TEST_F(OnASlope, a_circumstance_explains_a_velocity_of_no_law) {
-  TraceStep reference = box2d(0.501);
-  reference.met.push_back({.other = 1, .normal = {0, -1}, .fraction = 1, .side = Side::top});
-  add(ours_, reference);
-  EXPECT_EQ(found(), "company.stop");
-}
-
-TEST_F(LedgerTest, who_meets_another_character_is_in_company) {
-  TraceStep pushed = step({-2, 2}, {0.1, 0}, {0.05, 0});
-  pushed.met.push_back({.other = 1, .normal = {-1, 0}, .fraction = 0, .side = Side::right});
-  add(step({-2, 2}, {0.1, 0}, {0.1, 0}), pushed);
-  EXPECT_EQ(found(), "company.stop");
-}
-
-TEST_F(LedgerTest, who_meets_nobody_and_stops_in_the_air_is_unexplained) {
-  add(step({-2, 2}, {0.1, 0}, {0.1, 0}), step({-2, 2}, {0.1, 0}, {0.05, 0}));
-  EXPECT_EQ(found(), "unexplained.stop");
-}
-
-TEST_F(LedgerTest, who_passes_a_wall_errs) {
-  const Vec2d from(2, 4);
-  const Vec2d through(3, 0);
-  add(step(from, through, {0.6874995, 0}, {touch(2, {-1, 0}, {3, 4}, 0.2291665)}), step(from, through, through));
-  EXPECT_NE(found().find("error_of_box2d.crossing"), std::string::npos);
-  EXPECT_NE(found().find("error_of_box2d.contact"), std::string::npos);
-}
-
-TEST_F(LedgerTest, our_own_crossing_is_an_error_of_ours) {
-  const Vec2d from(2, 4);
-  add(step(from, {3, 0}, {3, 0}), step(from, {3, 0}, {0.67, 0}, {touch(2, {-1, 0}, {3, 4}, 0.22)}));
-  EXPECT_NE(found().find("error_of_ours.crossing"), std::string::npos);
-}
-
-TEST_F(LedgerTest, an_impact_that_is_early_by_the_skin_is_skin) {
-  const Vec2d from(2, 4);
-  const Vec2d way(1, 0);
-  const auto at_wall = [](double fraction) { return touch(2, {-1, 0}, {3, 4}, fraction); };
-  TraceStep ours = step(from, way, {0.6874995, 0}, {at_wall(0.6874995)});
-  ours.velocity.setZero();
-  TraceStep early = step(from, way, {0.6725, 0}, {at_wall(0.6725)});
-  early.path.insert(early.path.begin() + 1, {from + Vec2d(0.6725, 0), 0.6725});
-  early.velocity.setZero();
-  add(ours, early);
-  EXPECT_EQ(found(), "skin.time skin.stop");
-}
-
-TEST_F(LedgerTest, an_impact_that_is_earlier_than_the_skin_is_a_sampled_time) {
-  const Vec2d from(2, 4);
-  const Vec2d way(1, 0);
-  const auto at_wall = [](double fraction) { return touch(2, {-1, 0}, {3, 4}, fraction); };
-  TraceStep ours = step(from, way, {0.6874995, 0}, {at_wall(0.6874995)});
-  ours.velocity.setZero();
-  TraceStep early = step(from, way, {0.6725, 0}, {at_wall(0.6625)});
-  early.path.insert(early.path.begin() + 1, {from + Vec2d(0.6725, 0), 0.6725});
-  early.velocity.setZero();
-  add(ours, early);
-  EXPECT_EQ(found(), "skin.stop sampled_time.time");
-}
-
-TEST_F(LedgerTest, the_side_that_trembles_at_rest_is_named_with_its_reason) {
-  const Vec2d from(-2, feet + 0.015);
-  const Vec2d ours(-2, feet + 5e-7);
+TEST(Ledger, names_the_side_that_trembles_at_rest_with_its_reason) {
+  Ledgers ledgers(true);
   for (int k = 0; k < 40; ++k) {
-    TraceStep mine = step(ours, {0, -0.001}, {0, 0}, {floor_below(-2)});
-    TraceStep reference = step(from, {0, -0.001}, {0, 0}, {floor_below(-2)});
+    TraceStep mine = step(above(5e-7), {0, -0.001}, still, {ground});
+    TraceStep reference = step(above(0.015), {0, -0.001}, still, {ground});
     mine.grounded = reference.grounded = true;
     if (k == 36) reference.contacts.push_back(touch(0, {1, 0}, {0, 0}));
-    add(mine, reference);
+    ledgers.add(mine, reference);
   }
-  EXPECT_NE(found().find("ghost_collision.contact"), std::string::npos);
-  const auto& sums = ledger_.sums();
-  EXPECT_EQ(sums.at({Cause::skin, EventKind::toggle_box2d}).count, 2);
+  const Ledger& ledger = ledgers.finished();
+  EXPECT_TRUE(found_in(ledger).find("ghost_collision.contact") != std::string::npos) << found_in(ledger);
+  EXPECT_EQ(ledger.sums().at({Cause::skin, EventKind::toggle_box2d}).count, 2);
 }
 
-TEST_F(FreeLedgerTest, what_both_are_right_about_once_they_are_apart_is_counted_apart) {
+TEST(Ledger, counts_apart_what_both_are_right_about_once_they_are_apart) {
   // Step 0: a ghost stops Box2D. Step 1: ours comes to the wall, Box2D is a metre behind.
-  const Vec2d from(-0.15625, feet + 0.015);
-  TraceStep ours = step(from, {2.75, 0}, {2.75, 0});
-  add(ours, step(from, {2.75, 0}, {0, 0}, {touch(1, {-1, 0}, {0, 0})}));
-  const Vec2d there = from + Vec2d(2.75, 0);
+  Ledgers ledgers(false);
   const Vec2d way(0.2, 0);
-  TraceStep stops = step(there, way, {0.0937495, 0}, {touch(2, {-1, 0}, {3, feet}, 0.46875)});
-  stops.velocity.setZero();
-  add(stops, step(from, way, way));
-  EXPECT_EQ(found(), "ghost_collision.contact ghost_collision.stop after_divergence.contact after_divergence.stop");
-  const LedgerEntry& first = ledger_.sums().at({Cause::after_divergence, EventKind::contact}).first;
+  ledgers.add(step(over_seam, {2.75, 0}, {2.75, 0}), step(over_seam, {2.75, 0}, still, {touch(1, {-1, 0}, {0, 0})}));
+  ledgers.add(stopped(step(over_seam + Vec2d(2.75, 0), way, {0.0937495, 0}, {touch(2, {-1, 0}, {3, feet}, 0.46875)})),
+              step(over_seam, way, way));
+  const Ledger& ledger = ledgers.finished();
+  EXPECT_EQ(found_in(ledger),
+            "ghost_collision.contact ghost_collision.stop after_divergence.contact after_divergence.stop");
+  const LedgerEntry& first = ledger.sums().at({Cause::after_divergence, EventKind::contact}).first;
   EXPECT_EQ(first.step, 1);
   EXPECT_NE(first.words.find("apart since step 0 (ghost_collision)"), std::string::npos) << first.words;
 }
 
-TEST_F(FreeLedgerTest, nothing_is_after_divergence_while_both_are_together) {
+TEST(Ledger, has_nothing_after_divergence_while_both_are_together) {
+  Ledgers ledgers(false);
   const Vec2d from(2.5875, feet + 0.015);
   const Vec2d way(0.2, 0);
-  TraceStep stops = step(from, way, {0.0999995, 0}, {touch(2, {-1, 0}, {3, feet}, 0.5)});
-  stops.velocity.setZero();
-  add(stops, step(from, way, {0.05, 0}));
-  EXPECT_EQ(found().find("after_divergence"), std::string::npos);
+  ledgers.add(stopped(step(from, way, {0.0999995, 0}, {touch(2, {-1, 0}, {3, feet}, 0.5)})),
+              step(from, way, {0.05, 0}));
+  EXPECT_EQ(found_in(ledgers.finished()).find("after_divergence"), std::string::npos);
 }
 
-TEST_F(FreeLedgerTest, the_row_has_every_cause_with_its_first_step) {
-  const Vec2d from(-2, feet + 0.0199);
-  const TraceStep falls = step({-2, 2}, {0, -0.01}, {0, -0.01});
-  add(falls, falls);
-  for (int k = 0; k < 2; ++k)
-    add(step(from, {0, -0.01}, {0, -0.01}), step(from, {0, -0.01}, {0, 0}, {floor_below(-2)}));
-  ledger_.finish();
+TEST(Ledger, is_written_into_the_row_with_first_steps) {
+  Ledgers ledgers(false);
+  ledgers.add(falls(2), falls(2));
+  for (int k = 0; k < 2; ++k) ledgers.add(falls(0.0199), held(0.0199, {ground}));
   Row row;
-  ledger_.write(row);
+  ledgers.finished().write(row);
   ASSERT_TRUE(row.disagreements.contains("skin.contact"));
   EXPECT_EQ(row.disagreements.at("skin.contact").count, 2);
   EXPECT_EQ(row.disagreements.at("skin.contact").first_step, 1);

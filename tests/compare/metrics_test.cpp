@@ -1,11 +1,13 @@
 #include "metrics/metrics.hpp"
 
 #include "compare/moments.hpp"
+#include "records/metric.hpp"
 
 #include <gtest/gtest.h>
 #include <map>
 
 #include <cmath>
+#include <functional>
 
 namespace paperproof::compare {
 namespace {
@@ -19,6 +21,25 @@ Row row_of(const std::vector<Moment>& run, const TraceHeader& head = header()) {
   return row;
 }
 
+std::vector<Moment> moments(int steps, const std::vector<Contact<double>>& contacts = {}) {
+  std::vector<Moment> run;
+  for (int i = 0; i < steps; ++i) run.push_back(moment(i, contacts));
+  return run;
+}
+
+/// Grounded at the end of every step, at a place that depends on its number.
+std::vector<Moment> resting(int steps, const std::function<Vec2d(int)>& place) {
+  std::vector<Moment> run = moments(steps, {contact(0, Side::bottom)});
+  for (Moment& one : run) {
+    one.step.grounded = true;
+    one.step.path.back().position = place(one.step.step);
+  }
+  return run;
+}
+
+const Contact<double> bottom = contact(0, Side::bottom);
+const ExactContact floor_below = exact(0, Side::bottom);
+
 TraceHeader promising_header() {
   TraceHeader head = header();
   head.contender = "octagon_sweep";
@@ -27,8 +48,7 @@ TraceHeader promising_header() {
 }
 
 TEST(Metrics, counts_what_the_judge_found) {
-  std::vector<Moment> run;
-  for (int i = 0; i < 10; ++i) run.push_back(moment(i));
+  std::vector<Moment> run = moments(10);
   run[2].judged.tunnelled = {1};
   run[2].judged.passings = {{.collider = 1, .speed = 40, .thickness = 0.01, .angle = 90}};
   run[5].judged.tunnelled = {0, 1};
@@ -56,15 +76,12 @@ TEST(Metrics, counts_what_the_judge_found) {
 }
 
 TEST(Metrics, steps_that_are_said_to_be_stuck_are_counted_and_miss_no_contact) {
-  std::vector<Moment> run;
-  for (int i = 0; i < 6; ++i) {
-    run.push_back(moment(i));
-    run.back().judged.contacts = {exact(0, Side::bottom)};
-    if (i < 2) run.back().step.contacts = {contact(0, Side::bottom, 0)};
-  }
+  std::vector<Moment> run = moments(6);
+  for (Moment& one : run) one.judged.contacts = {floor_below};
+  run[0].step.contacts = run[1].step.contacts = {bottom};
   EXPECT_EQ(row_of(run).stuck_steps, 0);
   EXPECT_EQ(row_of(run).contact_recall, 2.0 / 6);
-  for (int i = 2; i < 6; ++i) run[static_cast<std::size_t>(i)].step.stuck = true;
+  for (const std::size_t i : {2U, 3U, 4U, 5U}) run[i].step.stuck = true;
   EXPECT_EQ(row_of(run).stuck_steps, 4);
   EXPECT_EQ(row_of(run).contact_recall, 1.0);
   EXPECT_EQ(row_of(run).exempted.at("stuck"), 4);
@@ -77,13 +94,12 @@ TEST(Metrics, steps_that_are_said_to_be_stuck_are_counted_and_miss_no_contact) {
 }
 
 TEST(Metrics, what_is_not_held_against_a_contender_is_counted_by_name) {
-  std::vector<Moment> run;
-  for (int i = 0; i < 5; ++i) run.push_back(moment(i));
+  std::vector<Moment> run = moments(5);
   run[0].judged.corner_cut = {1};
   run[1].judged.hovers = run[2].judged.hovers = true;
   run[3].judged.excused_crush = run[3].judged.ground_late = true;
   run[3].judged.end_overlap = run[3].judged.drawn = {1};
-  run[4].step.contacts = {contact(0, Side::bottom)};
+  run[4].step.contacts = {bottom};
   run[4].judged.excused_by_company = run[4].judged.dont_care = {0};
   const std::map<std::string, int> expected{{"company", 1}, {"corner_cut", 1},  {"drawn", 1},
                                             {"hover", 2},   {"late_ground", 1}, {"touched_crush", 1}};
@@ -92,7 +108,7 @@ TEST(Metrics, what_is_not_held_against_a_contender_is_counted_by_name) {
 }
 
 TEST(Metrics, distance_and_motion_lost_are_sums_over_the_run) {
-  std::vector<Moment> run{moment(0), moment(1)};
+  std::vector<Moment> run = moments(2);
   run[0].step.path = {{Vec2d(0, 0), 0}, {Vec2d(3, 4), 0.5}, {Vec2d(3, 3), 1}};
   run[1].step.path = {{Vec2d(3, 3), 0}, {Vec2d(1, 3), 1}};
   EXPECT_FALSE(row_of(run).wanted_motion_lost) << "none was wanted";
@@ -104,7 +120,7 @@ TEST(Metrics, distance_and_motion_lost_are_sums_over_the_run) {
 }
 
 TEST(Metrics, an_overlap_by_rounding_is_counted_apart) {
-  std::vector<Moment> run{moment(0), moment(1)};
+  std::vector<Moment> run = moments(2);
   run[0].judged.end_overlap = run[1].judged.end_overlap = {0};
   run[0].judged.rounded = {0};
   EXPECT_EQ(row_of(run).rounding, 1);
@@ -147,7 +163,7 @@ TEST(Metrics, of_two_characters_every_step_of_each_counts_and_what_they_do_to_ea
 TEST(Metrics, a_contact_with_another_character_is_one_and_may_be_the_first) {
   std::vector<Moment> run = two(2);
   run[2].step.contacts = {contact(0, Side::bottom, 0.75)};
-  run[2].judged.contacts = {exact(0, Side::bottom)};
+  run[2].judged.contacts = {floor_below};
   run[3].step.met = {{.other = 0, .fraction = 0.5, .side = Side::left}};
   run[3].judged.first_met = CharacterIndex{0};
   run[3].judged.first_impact = 0.5 + 0x1p-20;
@@ -171,42 +187,32 @@ TEST(Metrics, two_characters_are_matched_and_rest_each_by_itself) {
     const Vec2d at(7 + (i % 4 == 1 ? 0x1p-6 : 0), 0);
     run[i].step.path = {{at, 0}, {at, 1}};
   }
-  run[10].step.contacts = {contact(0, Side::bottom)};
-  run[11].judged.contacts = {exact(0, Side::bottom)};
+  run[10].step.contacts = {bottom};
+  run[11].judged.contacts = {floor_below};
   const Row row = row_of(run, header_of_two());
   EXPECT_EQ(row.rest_peak_to_peak_m, 0x1p-6);
   EXPECT_EQ(row.contact_precision, 0) << "the other one's contact is no excuse";
   EXPECT_EQ(row.contact_recall, 0);
 }
 
-TEST(Metrics, one_way_violations_are_absent_without_one_way_chains) {
-  EXPECT_FALSE(row_of({moment(0)}).one_way_violations);
-  std::vector<Moment> run{moment(0), moment(1)};
+TEST(Metrics, what_does_not_apply_is_absent) {
+  std::vector<Moment> run = moments(2);
+  const Row row = row_of(run);
+  std::string present;
+  for_each_metric(row, [&](const Metric& metric, const auto&) { present += std::string(metric.key) + " "; });
+  EXPECT_EQ(present,
+            "tunnels corner_cuts steps_ending_inside max_penetration_m contact_steps colliders_touched respawns "
+            "hanging_steps stuck_steps stuck_refuted ground_refuted dropped_steps distance_m rounding "
+            "energy_gained_j_kg energy_bound_j_kg events ");
+  EXPECT_EQ(row.tunnels, 0);
   run[1].judged.one_way_broken = {1};
   EXPECT_EQ(row_of(run, header(true)).one_way_violations, 1);
 }
 
-TEST(Metrics, what_does_not_apply_is_absent) {
-  const Row row = row_of({moment(0), moment(1)});
-  EXPECT_FALSE(row.contact_precision);
-  EXPECT_FALSE(row.contact_recall);
-  EXPECT_FALSE(row.max_contact_gap_m);
-  EXPECT_FALSE(row.first_contact_step);
-  EXPECT_FALSE(row.toi_error_max);
-  EXPECT_FALSE(row.rest_peak_to_peak_m);
-  EXPECT_FALSE(row.contact_toggles);
-  EXPECT_FALSE(row.ghost_speed_loss);
-  EXPECT_FALSE(row.contact_agreement_box2d);
-  EXPECT_EQ(row.tunnels, 0);
-}
-
 TEST(Metrics, a_contact_matches_in_its_step_or_where_the_path_is_sampled_within_one_with_its_collider_and_side) {
-  const auto bottom = contact(0, Side::bottom);
-  const auto floor = exact(0, Side::bottom);
   for (int late = -3; late <= 3; ++late) {
-    std::vector<Moment> run;
-    for (int i = 0; i < 9; ++i) run.push_back(moment(i));
-    run[4].judged.contacts = {floor};
+    std::vector<Moment> run = moments(9);
+    run[4].judged.contacts = {floor_below};
     run[static_cast<std::size_t>(4 + late)].step.contacts = {bottom};
     TraceHeader sampled = header();
     sampled.path_exact = false;
@@ -220,16 +226,14 @@ TEST(Metrics, a_contact_matches_in_its_step_or_where_the_path_is_sampled_within_
     EXPECT_EQ(row.contact_recall, late == 0 ? 1 : 0) << late;
     EXPECT_TRUE(row.exempted.empty());
   }
-  EXPECT_EQ(row_of({moment(0, {contact(0, Side::left)}, {floor})}).contact_precision, 0);
-  EXPECT_EQ(row_of({moment(0, {contact(1, Side::bottom)}, {floor})}).contact_precision, 0);
+  EXPECT_EQ(row_of({moment(0, {contact(0, Side::left)}, {floor_below})}).contact_precision, 0);
+  EXPECT_EQ(row_of({moment(0, {contact(1, Side::bottom)}, {floor_below})}).contact_precision, 0);
 }
 
 TEST(Metrics, the_first_and_the_last_step_are_matched_too) {
-  const auto bottom = contact(0, Side::bottom);
-  const auto floor = exact(0, Side::bottom);
   for (int steps = 1; steps <= 5; ++steps) {
     std::vector<Moment> run;
-    for (int i = 0; i < steps; ++i) run.push_back(moment(i, {bottom}, {floor}));
+    for (int i = 0; i < steps; ++i) run.push_back(moment(i, {bottom}, {floor_below}));
     run.back().step.contacts.push_back(contact(1, Side::left));
     const Row row = row_of(run);
     EXPECT_DOUBLE_EQ(*row.contact_precision, steps / (steps + 1.0));
@@ -240,15 +244,15 @@ TEST(Metrics, the_first_and_the_last_step_are_matched_too) {
 }
 
 TEST(Metrics, a_floor_of_two_tiles_is_one_contact_for_recall_and_two_for_precision) {
-  const Row row = row_of({moment(0, {contact(0, Side::bottom)}, {exact(0, Side::bottom), exact(1, Side::bottom)})});
+  const Row row = row_of({moment(0, {bottom}, {floor_below, exact(1, Side::bottom)})});
   EXPECT_EQ(row.contact_recall, 1);
   EXPECT_EQ(row.contact_precision, 1);
-  const Row missed = row_of({moment(0, {contact(0, Side::left)}, {exact(0, Side::bottom), exact(0, Side::left)})});
+  const Row missed = row_of({moment(0, {contact(0, Side::left)}, {floor_below, exact(0, Side::left)})});
   EXPECT_EQ(missed.contact_recall, 0.5);
 }
 
 TEST(Metrics, contacts_within_the_skin_count_neither_way) {
-  std::vector<Moment> run{moment(0, {contact(0, Side::bottom)}), moment(1, {contact(1, Side::left)})};
+  std::vector<Moment> run{moment(0, {bottom}), moment(1, {contact(1, Side::left)})};
   run[0].judged.dont_care = {0};
   const Row row = row_of(run);
   EXPECT_EQ(row.contact_precision, 0) << "only the left one counts, and it is wrong";
@@ -273,9 +277,9 @@ TEST(Metrics, the_first_contact_is_the_earliest_of_the_first_step_that_has_one) 
 }
 
 TEST(Metrics, the_error_of_impact_times_is_measured_where_they_are_comparable) {
-  std::vector<Moment> run{moment(0, {contact(0, Side::bottom, 0.5)}, {exact(0, Side::bottom)}),
-                          moment(1, {contact(0, Side::bottom, 0.5)}, {exact(0, Side::bottom)}),
-                          moment(2, {contact(1, Side::bottom, 0.5)}, {exact(0, Side::bottom)})};
+  std::vector<Moment> run{moment(0, {contact(0, Side::bottom, 0.5)}, {floor_below}),
+                          moment(1, {contact(0, Side::bottom, 0.5)}, {floor_below}),
+                          moment(2, {contact(1, Side::bottom, 0.5)}, {floor_below})};
   run[0].judged.first_impact = 0.625;
   run[1].judged.first_impact = 1;
   run[2].judged.first_impact = 1;
@@ -286,14 +290,8 @@ TEST(Metrics, the_error_of_impact_times_is_measured_where_they_are_comparable) {
 TEST(Metrics, rest_jitter_of_an_oscillation_is_its_closed_form) {
   // After settling the character hops between -a and +a: the range is 2a, the root mean square a.
   constexpr double a = 1.0 / 1024;
-  std::vector<Moment> run;
-  for (int i = 0; i < 130; ++i) {
-    Moment one = moment(i, {contact(0, Side::bottom)});
-    if (i % 10 == 9) one.step.contacts.clear();
-    one.step.grounded = true;
-    one.step.path.back().position = i < 30 ? Vec2d(5, 100 - i) : Vec2d(5, i % 2 == 0 ? a : -a);
-    run.push_back(one);
-  }
+  std::vector<Moment> run = resting(130, [](int i) { return Vec2d(5, i < 30 ? 100 - i : i % 2 == 0 ? a : -a); });
+  for (std::size_t i = 9; i < run.size(); i += 10) run[i].step.contacts.clear();
   const Row row = row_of(run);
   EXPECT_EQ(row.rest_peak_to_peak_m, 2 * a);
   EXPECT_NEAR(*row.rest_rms_m, a, 1e-15);
@@ -305,14 +303,11 @@ TEST(Metrics, who_stands_on_a_mover_rests_relative_to_it) {
   TraceHeader head = header();
   head.scenery.colliders[1].mover = 0;
   const auto at = [](int number) { return Vec2d(0.25 * number, 2 * number); };
-  std::vector<Moment> run;
-  for (int i = 0; i < 100; ++i) {
-    Moment one = moment(i, {contact(1, Side::bottom)});
-    one.step.grounded = true;
-    one.step.movers = {{at(i), at(i + 1)}};
+  std::vector<Moment> run = resting(100, [&](int i) -> Vec2d { return at(i + 1) + Vec2d(0, i % 2 == 0 ? 0.125 : 0); });
+  for (Moment& one : run) {
+    one.step.contacts = {contact(1, Side::bottom)};
+    one.step.movers = {{at(one.step.step), at(one.step.step + 1)}};
     one.step.requested = {0.25, -1};  // the ride, and gravity
-    one.step.path.back().position = at(i + 1) + Vec2d(0, i % 2 == 0 ? 0.125 : 0);
-    run.push_back(one);
   }
   EXPECT_EQ(row_of(run, head).rest_peak_to_peak_m, 0.125);
   for (Moment& one : run) one.step.requested.x() = 0.5;
@@ -320,11 +315,8 @@ TEST(Metrics, who_stands_on_a_mover_rests_relative_to_it) {
 }
 
 TEST(Metrics, crushes_are_counted_apart_and_so_is_what_they_press_into) {
-  std::vector<Moment> run;
-  for (int i = 0; i < 6; ++i) {
-    run.push_back(moment(i));
-    run.back().step.movers = {{}};
-  }
+  std::vector<Moment> run = moments(6);
+  for (Moment& one : run) one.step.movers = {{}};
   run[2].judged.crushed = {1};
   run[2].judged.end_overlap = run[2].judged.pressed = {1};
   run[3].judged.crushed_with_room = {1};
@@ -340,7 +332,7 @@ TEST(Metrics, crushes_are_counted_apart_and_so_is_what_they_press_into) {
 
 TEST(Metrics, sensor_events_and_what_was_made_of_them_are_counted) {
   TraceHeader head = header();
-  std::vector<Moment> run{moment(0), moment(1), moment(2)};
+  std::vector<Moment> run = moments(3);
   run[0].judged.sensor_events.resize(3);
   run[0].judged.sensor_events_missing = 1;
   run[0].judged.max_sensor_error = 0.25;
@@ -357,13 +349,9 @@ TEST(Metrics, sensor_events_and_what_was_made_of_them_are_counted) {
 
 TEST(Metrics, a_rest_needs_sixty_steps_and_the_last_one_counts) {
   const auto rest = [](std::vector<Moment>& run, int steps, double height, double hop) {
-    for (int i = 0; i < steps; ++i) {
-      Moment one = moment(static_cast<int>(run.size()));
-      one.step.grounded = true;
-      one.step.path.back().position = {0, height + (i % 2 == 0 ? hop : 0)};
-      run.push_back(one);
-    }
-    run.push_back(moment(static_cast<int>(run.size())));  // in the air
+    const auto more = resting(steps, [&](int i) { return Vec2d(0, height + (i % 2 == 0 ? hop : 0)); });
+    run.insert(run.end(), more.begin(), more.end());
+    run.push_back(moment(steps));  // in the air
   };
   std::vector<Moment> run;
   rest(run, 59, 0, 1);
@@ -383,13 +371,10 @@ TEST(Metrics, who_hops_on_its_floor_rests_and_who_jumps_does_not) {
   constexpr double hop = 1.0 / 32;
   // Grounded on the floor in every `period`-th step, a hop above it in the others.
   const auto hopping = [&](int period) {
-    std::vector<Moment> run;
-    for (int i = 0; i < 121; ++i) {
-      Moment one = moment(i);
-      one.step.grounded = i % period == 0;
-      if (one.step.grounded) one.step.contacts = {contact(0, Side::bottom)};
-      one.step.path.back().position = {0, one.step.grounded ? 0 : hop};
-      run.push_back(one);
+    std::vector<Moment> run = resting(121, [&](int i) { return Vec2d(0, i % period == 0 ? 0 : hop); });
+    for (Moment& one : run) {
+      one.step.grounded = one.step.step % period == 0;
+      if (!one.step.grounded) one.step.contacts.clear();
     }
     return run;
   };
@@ -412,7 +397,7 @@ TEST(Metrics, who_hops_on_its_floor_rests_and_who_jumps_does_not) {
 }
 
 TEST(Metrics, ghost_speed_loss_is_the_largest_share_where_motion_was_wanted) {
-  std::vector<Moment> run{moment(0), moment(1), moment(2)};
+  std::vector<Moment> run = moments(3);
   run[0].judged.ghost_speed_loss = 0.25;
   run[1].judged.ghost_speed_loss = 0.5;
   EXPECT_FALSE(row_of(run).ghost_speed_loss);

@@ -7,31 +7,19 @@
 namespace paperproof::compare {
 namespace {
 
-TEST(ArticleBullet, is_judged_as_the_article_says) {
+TEST(Sentence, says_who_is_wrong_and_how_far_the_others_agree) {
   const ReportScene result = run_scene(built_in("article_bullet"), quick());
   EXPECT_EQ(result.rows.size(), contender_names().size());
-  const Row& passed = row_of(result, "penetration_resolution");
-  EXPECT_EQ(passed.verdict, Verdict::tunnels);
-  EXPECT_EQ(passed.tunnels, 1);
-  EXPECT_TRUE(holds(passed.reason, "platform"));
-  for (const char* name : {"speculative_march", "speculative", "octagon_sweep", "box2d"}) {
-    const Row& row = row_of(result, name);
-    EXPECT_EQ(row.verdict, Verdict::holds) << name << ": " << row.reason;
-    EXPECT_EQ(row.reason, "") << name;
-    EXPECT_EQ(row.tunnels, 0) << name;
-    EXPECT_EQ(row.steps_ending_inside, 0) << name;
-    EXPECT_EQ(row.steps, 60) << name;
-    EXPECT_EQ(row.first_contact_step, 0) << name;
-  }
+  EXPECT_TRUE(holds(row_of(result, "penetration_resolution").reason, "platform"));
   const Row& ours = row_of(result, "octagon_sweep");
-  ASSERT_TRUE(ours.first_contact_fraction && ours.max_contact_gap_m && ours.max_position_difference_box2d_m);
-  EXPECT_NEAR(*ours.first_contact_fraction, 30.0 / 50, 1e-9);
-  EXPECT_LE(*ours.max_contact_gap_m, 1e-6);
-  EXPECT_LE(*ours.max_position_difference_box2d_m, 0.02) << "Box2D's skin";
+  EXPECT_EQ(ours.reason, "");
+  EXPECT_LE(ours.max_contact_gap_m.value_or(1), 1e-6);
+  EXPECT_LE(ours.max_position_difference_box2d_m.value_or(1), 0.02) << "Box2D's skin";
   EXPECT_TRUE(holds(result.sentence, "agree to 0.015 m, which is Box2D's skin."));
   const std::string wrong = result.sentence.substr(0, result.sentence.find("wrong"));
   EXPECT_TRUE(holds(wrong, "penetration_resolution"));
-  EXPECT_EQ(wrong.find("octagon_sweep"), std::string::npos) << result.sentence;
+  EXPECT_FALSE(holds(wrong, "octagon_sweep"));
+  EXPECT_TRUE(holds(run_scene(empty_sky(9), quick()).sentence, "m, which is less than Box2D's skin."));
 }
 
 TEST(Contenders, are_those_asked_for_and_the_twin_beside_them) {
@@ -57,7 +45,7 @@ TEST(Contenders, are_those_asked_for_and_the_twin_beside_them) {
   EXPECT_NE(find_row(result, "box2d", "float"), nullptr);
 }
 
-TEST(Replay, has_each_drop_as_an_event_and_the_lengths_of_the_steps) {
+TEST(Replay, has_each_drop_and_crush_as_an_event_and_the_lengths_of_the_steps) {
   RunOptions options = quick();
   options.contenders = {"octagon_sweep"};
   options.reference = false;
@@ -71,38 +59,34 @@ TEST(Replay, has_each_drop_as_an_event_and_the_lengths_of_the_steps) {
   EXPECT_EQ(drop.events[0].words, "drops through ledge");
   EXPECT_EQ(drop.events[0].step, asked->step) << "it stands on the ledge, and passes it at once";
 
+  scene = built_in("closing_ceiling");
+  const ReportRun crush = run_of(run_scene(scene, options), "octagon_sweep");
+  ASSERT_EQ(crush.events.size(), 1U);
+  EXPECT_EQ(crush.events[0].kind, ReportEvent::Kind::crush);
+  EXPECT_EQ(crush.events[0].step, 21) << "where gap / (v h) = 21.4 falls";
+
   scene = built_in("uneven_flight");
   EXPECT_EQ(run_scene(scene, options).dt_list, scene.dt_list);
-}
-
-TEST(Sentence, calls_an_agreement_of_free_flights_less_than_the_skin) {
-  EXPECT_TRUE(holds(run_scene(empty_sky(9), quick()).sentence, "m, which is less than Box2D's skin."));
 }
 
 TEST(Contenders, that_share_a_reason_not_to_run_are_told_of_together) {
   RunOptions options = quick();
   options.steps = 1;
-  const ReportScene result = run_scene(built_in("sweeping_paper"), options);
-  EXPECT_TRUE(holds(result.sentence, "mask and wind_back: each is for scenery that stands still."));
+  EXPECT_TRUE(holds(run_scene(built_in("sweeping_paper"), options).sentence,
+                    "mask and wind_back: each is for scenery that stands still."));
   options.contenders = {"mask"};
-  const ReportScene alone = run_scene(built_in("sweeping_paper"), options);
-  EXPECT_TRUE(holds(alone.sentence, "mask: mask is for scenery that stands still."));
+  EXPECT_TRUE(holds(run_scene(built_in("sweeping_paper"), options).sentence, "mask: mask is for scenery that stands"));
 }
 
-TEST(Contenders, that_cannot_turn_what_moves_say_so) {
+/// It would hold on another side each time.
+TEST(Contenders, cannot_turn_what_is_one_way_and_say_so) {
   Scene scene = empty_sky(3);
   scene.movers = {{.id = "fan", .path = {{}}, .turns = {{.time = 0, .at = 0}, {.time = 1, .at = 1}}}};
-  scene.scenery.colliders.push_back({.points = {{50, 50}, {51, 50}, {51, 51}}, .mover = 0});
+  scene.scenery.colliders.push_back(
+      {.shape = ColliderDef::Shape::chain, .points = {{50, 50}, {51, 50}}, .one_way = Vec2d(0, 1), .mover = 0});
   scene.ids.emplace_back("fan");
   for (const Row& row : run_scene(scene, quick()).rows) {
-    if (is_reference(row.contender) || row.contender == "octagon_sweep") continue;
     EXPECT_EQ(row.verdict, Verdict::not_applicable) << row.contender;
-    EXPECT_TRUE(holds(row.reason, "\"fan\"")) << row.contender;
-  }
-  scene.scenery.colliders.back() = {
-      .shape = ColliderDef::Shape::chain, .points = {{50, 50}, {51, 50}}, .one_way = Vec2d(0, 1), .mover = 0};
-  for (const Row& row : run_scene(scene, quick()).rows) {
-    EXPECT_EQ(row.verdict, Verdict::not_applicable) << row.contender << ": it would hold on another side each time";
     EXPECT_TRUE(holds(row.reason, "\"fan\"")) << row.contender;
   }
 }
@@ -166,11 +150,7 @@ TEST(Lockstep, compares_one_step_at_a_time) {
   const ReportScene result = run_scene(built_in("jump_into_corner"), options);
   ASSERT_EQ(result.rows.size(), 2U);
   const Row& mine = row_of(result, "octagon_sweep");
-  const Row& twin = row_of(result, "box2d");
-  EXPECT_EQ(mine.mode, "lockstep");
-  EXPECT_EQ(twin.mode, "lockstep");
-  EXPECT_EQ(mine.steps, 180);
-  EXPECT_EQ(twin.steps, 180);
+  for (const Row& row : result.rows) EXPECT_TRUE(row.mode == "lockstep" && row.steps == 180) << row.contender;
   // From the same start a contact is at most shifted into a neighbouring step by Box2D's skin, which counts as the
   // same.
   EXPECT_EQ(mine.contact_agreement_box2d, 1);
@@ -181,11 +161,10 @@ TEST(Lockstep, compares_one_step_at_a_time) {
   const ReportRun& in_lockstep = run_of(result, "octagon_sweep");
   const ReportRun& freely = run_of(alone, "octagon_sweep");
   ASSERT_EQ(in_lockstep.steps.size(), freely.steps.size());
-  for (std::size_t i = 0; i < freely.steps.size(); ++i)
-    EXPECT_EQ(in_lockstep.steps[i].path.back().position, freely.steps[i].path.back().position) << "step " << i;
   // And the twin begins every step no further from it than Box2D's skin, along two contacts at once at most.
   const ReportRun& beside = run_of(result, "box2d");
   for (std::size_t i = 0; i < freely.steps.size(); ++i) {
+    EXPECT_EQ(in_lockstep.steps[i].path.back().position, freely.steps[i].path.back().position) << "step " << i;
     const Vec2d apart = beside.steps[i].path.front().position - in_lockstep.steps[i].path.front().position;
     EXPECT_LE(apart.norm(), 0.015 * std::sqrt(2.0) + 1e-6) << "step " << i;
   }
@@ -199,8 +178,7 @@ TEST(Failures, become_rows_with_a_reason) {
   const Row& failed = row_of(result, "nobody");
   EXPECT_EQ(failed.verdict, Verdict::failed);
   EXPECT_TRUE(holds(failed.reason, "nobody"));
-  EXPECT_EQ(failed.steps, 0);
-  EXPECT_FALSE(failed.tunnels) << "what did not run has no numbers";
+  EXPECT_FALSE(failed.steps != 0 || failed.tunnels) << "what did not run has no numbers";
   EXPECT_EQ(row_of(result, "octagon_sweep").verdict, Verdict::holds) << "the others run on";
 }
 
@@ -233,15 +211,6 @@ TEST(Failures, of_box2d_to_express_a_scene_are_not_applicable) {
   const Row& ours = row_of(result, "octagon_sweep");
   EXPECT_EQ(ours.verdict, Verdict::holds) << ours.reason;
   EXPECT_FALSE(ours.contact_agreement_box2d) << "there is nothing to agree with";
-}
-
-TEST(Failures, steps_too_short_for_box2d_are_not_applicable) {
-  Scene scene = empty_sky(5);
-  scene.dt = 9e-10;
-  const ReportScene result = run_scene(scene, quick());
-  EXPECT_EQ(row_of(result, "box2d").verdict, Verdict::not_applicable);
-  EXPECT_TRUE(holds(row_of(result, "box2d").reason, "1e-9 s"));
-  EXPECT_EQ(row_of(result, "octagon_sweep").verdict, Verdict::holds);
 }
 
 TEST(Findings, say_that_a_run_begins_inside_a_solid) {

@@ -55,20 +55,9 @@ TEST(Headline, says_the_worst_that_happened_in_plain_words) {
   EXPECT_EQ(outcome_of(one), "cannot run");
 }
 
-TEST(Headline, has_the_exact_first_impact_of_the_bullet) {
-  const ReportScene bullet = run_scene(built_in("article_bullet"), quick());
-  EXPECT_EQ(exact_answer(bullet.rows), "exact arithmetic: `platform` is met at 0.600");
-  for (const Row& one : bullet.rows) {
-    if (one.verdict == Verdict::not_applicable) continue;
-    EXPECT_EQ(one.exact_first_impact_step, 0) << one.contender;
-    // 30 px of 50; the geometry of Box2D is float.
-    EXPECT_NEAR(one.exact_first_impact_fraction.value_or(0), 0.6, 1e-6) << one.contender;
-  }
-  EXPECT_EQ(exact_answer(run_scene(empty_sky(5), quick()).rows), "") << "there is nothing to meet";
-}
-
 TEST(Headline, trusts_the_one_with_a_guarantee) {
   std::vector<Row> rows{row("a", "mask"), row("a", "octagon_sweep")};
+  EXPECT_EQ(exact_answer(rows), "") << "there is nothing to meet";
   rows[0].exact_first_impact_step = 3;
   rows[0].exact_first_impact_fraction = 0.25;
   EXPECT_EQ(exact_answer(rows), "exact arithmetic: a solid is met at 0.250 of step 3");
