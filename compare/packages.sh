@@ -21,8 +21,6 @@ test_packages=(
 # Used by tests where the distribution has them: a browser, for the report (Ubuntu's is a snap), and the sanitizers' part
 # of clang (in older releases it comes with clang itself).
 optional_test_packages=(chromium libclang-rt-dev)
-# For a job array. These packages start services where systemd runs, and there nobody asked for any.
-[[ -d /run/systemd/system ]] || optional_test_packages+=(slurmctld slurmd slurm-client munge)
 
 missing_packages() {
   local package
