@@ -178,15 +178,7 @@ TEST(Move, refuses_what_a_step_refuses_and_changes_nothing) {
   }
 }
 
-// What it finds in general: see query_test.
-TEST(Query, finds_the_tiles_that_it_is_deep_inside_of) {
-  Stepper<double> inside({box(0, -5, 1, 1), box(1, -5, 2, 1)});
-  std::array<Contact<>, 8> found;
-  EXPECT_EQ(inside.controller.overlaps({1, -2}, {}, inside.scratch), 2U);
-  EXPECT_EQ(inside.controller.contacts_at({1, -2}, 0.5, {}, inside.scratch, found), 2U);
-  EXPECT_LT(found[0].separation, 0);
-}
-
+// What it finds: see query_test.
 TEST(Query, finds_nothing_where_it_may_not_be_asked) {
   const Stepper<double> asked({ground});
   const Controller<>& controller = asked.controller;

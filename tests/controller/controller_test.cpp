@@ -35,22 +35,6 @@ Stepper<double> standing(const CharacterDef& character = {}, std::vector<Collide
 Input walking(double move) { return {.move = move}; }
 Input jumping(std::optional<double> move = {}) { return {.move = move, .jump = true}; }
 
-TEST(Falling, follows_the_semi_implicit_parabola_with_every_technique_that_moves_freely) {
-  for (const std::string_view kind : technique_names()) {
-    if (kind == "grid") continue;  // by whole squares: see grid_test
-    Stepper<double> faller({box(50, -100, 51, 100)}, {}, kind);
-    faller.at(0.1, 7).with_velocity(1.25, 0);
-    for (int n = 1; n <= 120; ++n) {
-      ASSERT_EQ(faller.step(), StepStatus::moved) << kind;
-      // v_k = -g dt k, so that y_n = y_0 - g dt² (1 + 2 + ... + n).
-      const double fallen = 10.0 / 3600 * n * (n + 1) / 2;
-      ASSERT_NEAR(faller.state.position.y(), 7 - fallen, 1e-12) << kind << ", step " << n;
-      ASSERT_NEAR(faller.state.position.x(), 0.1 + 1.25 / 60 * n, 1e-12) << kind;
-      ASSERT_NEAR(faller.state.velocity.y(), -10.0 / 60 * n, 1e-12) << kind;
-    }
-  }
-}
-
 TEST(Falling, is_no_faster_than_the_limit) {
   CharacterDef character;
   character.max_fall_speed = 5.25;
@@ -103,20 +87,6 @@ TEST(Walking, is_steered_in_the_air_by_the_air_acceleration) {
   }
 }
 
-TEST(Jumping, reaches_the_semi_implicit_apex) {
-  CharacterDef character;
-  character.jump_speed = 16;
-  Stepper<double> jumper = standing(character);
-  const double floor = jumper.state.position.y();
-  double highest = 0;
-  for (int n = 0; n < 120; ++n) {
-    jumper.step(jumping());
-    highest = std::max(highest, jumper.state.position.y() - floor);
-  }
-  EXPECT_NEAR(highest, 16.0 * 16 / (2 * gravity) - 16 * dt / 2, 1e-13) << "short of v²/2g by v dt / 2";
-  EXPECT_TRUE(jumper.state.grounded);
-}
-
 /// Steps on which the character leaves the ground with its jumping speed.
 int take_offs(Stepper<double>& jumper, int steps, const Input& input) {
   int count = 0;
@@ -128,11 +98,21 @@ int take_offs(Stepper<double>& jumper, int steps, const Input& input) {
   return count;
 }
 
-TEST(Jumping, gives_one_jump_for_one_press) {
-  Stepper<double> jumper = standing();
-  EXPECT_EQ(take_offs(jumper, 300, jumping()), 1) << "held through several landings";
+TEST(Jumping, reaches_the_semi_implicit_apex_once_for_one_press) {
+  CharacterDef character;
+  character.jump_speed = 16;
+  Stepper<double> jumper = standing(character);
+  const double floor = jumper.state.position.y();
+  double highest = 0;
+  int jumps = 0;
+  for (int n = 0; n < 300; ++n) {
+    jumps += take_offs(jumper, 1, jumping());
+    highest = std::max(highest, jumper.state.position.y() - floor);
+  }
+  EXPECT_NEAR(highest, 16.0 * 16 / (2 * gravity) - 16 * dt / 2, 1e-13) << "short of v²/2g by v dt / 2";
+  EXPECT_EQ(jumps, 1) << "held through several landings";
   EXPECT_EQ(take_offs(jumper, 1, {}), 0);
-  EXPECT_EQ(take_offs(jumper, 300, jumping()), 1) << "pressed anew";
+  EXPECT_EQ(take_offs(jumper, 1, jumping()), 1) << "pressed anew";
 }
 
 TEST(Jumping, is_allowed_for_a_while_after_the_edge) {
@@ -218,14 +198,21 @@ TEST(Jumping, is_lower_when_the_button_is_released) {
   EXPECT_EQ(thrown.state.velocity.y(), thrown_up - gravity * dt) << "a rise that is no jump";
 }
 
+/// At rest between walls at x = -2 and x = 2, as far from the right one as it is said.
+Stepper<double> beside_a_wall(std::string_view kind, double gap, bool rule = true) {
+  CharacterDef character;
+  character.no_jump_toward_wall = rule;
+  Stepper<double> jumper =
+      without_rounding({box(-100, -1, 100, 0), box(2, 0, 3, 9), box(-3, 0, -2, 9)}, character, kind);
+  jumper.at(2 - half_width - gap, half_height).steps(40);
+  return jumper;
+}
+
 TEST(JumpingRules, refuse_a_jump_toward_a_wall_one_stands_beside) {
   for (const double toward : {1.0, -1.0}) {
-    for (const bool rule : {false, true}) {
-      CharacterDef character;
-      character.no_jump_toward_wall = rule;
-      for (const std::optional<double> move :
-           {std::optional(toward), std::optional(-toward), std::optional<double>()}) {
-        Stepper<double> jumper = standing(character, {box(2, 0, 3, 9), box(-3, 0, -2, 9)});
+    for (const std::optional<double> move : {std::optional(toward), std::optional(-toward), std::optional<double>()}) {
+      for (const bool rule : {false, true}) {
+        Stepper<double> jumper = beside_a_wall("octagon_sweep", 1, rule);
         jumper.steps(100, walking(toward));
         ASSERT_EQ(jumper.state.wall_right, toward > 0);
         ASSERT_EQ(jumper.state.wall_left, toward < 0);
@@ -235,55 +222,22 @@ TEST(JumpingRules, refuse_a_jump_toward_a_wall_one_stands_beside) {
   }
 }
 
-/// Beside a wall at x = 2, as far from it as it is said, at rest; with every technique.
-Stepper<double> beside_a_wall(std::string_view kind, double gap) {
-  CharacterDef character;
-  character.no_jump_toward_wall = true;
-  Stepper<double> jumper = without_rounding({box(-100, -1, 100, 0), box(2, 0, 3, 9)}, character, kind);
-  jumper.at(2 - half_width - gap, half_height).steps(40);
-  return jumper;
-}
-
-TEST(JumpingRules, refuse_a_jump_that_is_pressed_together_with_the_direction_after_standing_idle) {
+TEST(JumpingRules, refuse_a_jump_together_with_the_direction_after_standing_idle_or_walking_by_every_technique) {
   for (const std::string_view kind : technique_names()) {
-    struct Press {
-      double gap;
-      std::optional<double> move;
-      int jumps;
-    };
-    for (const auto& [gap, move, jumps] :
-         {Press{px / 2, 1, 0}, Press{px / 2, -1, 1}, Press{px / 2, {}, 1}, Press{3 * px, 1, 1}}) {
-      if (kind == "grid" && gap > px) continue;  // beside is the next square, whole
+    const auto jumps = [kind](double gap, std::optional<double> move, int walks = 0) {
       Stepper<double> jumper = beside_a_wall(kind, gap);
-      ASSERT_FALSE(jumper.state.wall_right) << kind << ": nothing was wanted to the right";
-      EXPECT_EQ(take_offs(jumper, jumps == 0 ? 30 : 4, jumping(move)), jumps) << kind << ", " << gap;
-    }
-  }
-}
-
-TEST(JumpingRules, refuse_a_jump_at_any_time_while_the_key_is_held_toward_the_wall) {
-  for (const std::string_view kind : technique_names()) {
-    if (kind == "wind_back") continue;  // sticks to the floor before it comes to the wall
-    for (int waits = 60; waits < 80; ++waits) {
-      Stepper<double> jumper = beside_a_wall(kind, 0.4);
-      jumper.steps(waits, walking(1));
-      EXPECT_EQ(take_offs(jumper, 30, jumping(1)), 0) << kind << ", pressed after " << waits << " steps";
-    }
-  }
-}
-
-TEST(JumpingRules, end_a_rise_at_the_side_of_something) {
-  CharacterDef character;
-  for (const bool rule : {false, true}) {
-    character.side_hit_ends_rise = rule;
-    Stepper<double> jumper = standing(character, {box(1, 0, 2, 9)});
-    double before = 0;
-    for (int step = 0; step < 40 && !jumper.touched(Side::right); ++step) {
-      before = jumper.state.velocity.y();
-      jumper.step(jumping(1));
-    }
-    ASSERT_GT(before, 2) << "it meets the wall while rising";
-    EXPECT_EQ(jumper.state.velocity.y(), rule ? 0 : before - gravity * dt);
+      EXPECT_FALSE(jumper.state.wall_right) << kind << ": nothing was wanted to the right";
+      jumper.steps(walks, walking(1));
+      return take_offs(jumper, 4, jumping(move));
+    };
+    EXPECT_EQ(jumps(px / 2, 1), 0) << kind;
+    EXPECT_EQ(jumps(px / 2, -1), 1) << kind;
+    EXPECT_EQ(jumps(px / 2, {}), 1) << kind;
+    // Beside is the next square, whole.
+    EXPECT_TRUE(kind == "grid" || jumps(3 * px, 1) == 1) << kind;
+    // It sticks to the floor before it comes to the wall.
+    for (int walks = 60; walks < 80 && kind != "wind_back"; ++walks)
+      EXPECT_EQ(jumps(0.4, 1, walks), 0) << kind << walks;
   }
 }
 
@@ -323,6 +277,9 @@ TEST(Refusals, change_nothing_for_input_that_is_no_number) {
   Stepper<double> anywhere({box(-9, -9, 9, 0)});
   anywhere.state.last_free.x() = infinity;
   EXPECT_EQ(anywhere.at(0, 3).step(), StepStatus::moved) << "a last free position that is not valid";
+  CharacterDef character;
+  character.walk_speed = -1;
+  EXPECT_THROW(Stepper<double>({}, character), InvalidCharacter);
 }
 
 TEST(Refusals, spare_a_wish_that_float_cannot_hold_as_it_is_limited_to_one) {
@@ -365,12 +322,6 @@ TEST(Refusals, change_nothing_for_a_step_that_takes_too_long_to_search) {
       EXPECT_EQ(same_bits(stepper.state, before), metres > 31'250) << kind;
     }
   }
-}
-
-TEST(Refusals, a_character_that_cannot_be_is_named) {
-  CharacterDef character;
-  character.walk_speed = -1;
-  EXPECT_THROW(Stepper<double>({}, character), InvalidCharacter);
 }
 
 }  // namespace

@@ -102,18 +102,5 @@ TEST(Crowd, scenery_that_turns_one_into_another_is_a_contact_although_nothing_mo
   }
 }
 
-TEST(Crowd, exact_neighbours_fall_and_walk_together) {
-  // Exactly touching, in pixels: no gap at all.
-  Together two = under_gravity({{0, 1}, {20 * px, 1}}, {floor_at_zero()});
-  two.step();
-  EXPECT_NEAR(two.states[0].velocity.y(), -0.5, 1e-15);
-  EXPECT_NEAR(two.states[1].velocity.y(), -0.5, 1e-15);
-  EXPECT_TRUE(two.report.members[0].met.empty());
-  two.steps(60);
-  two.inputs = {{.move = -1}, {.move = 1}};
-  two.steps(30);
-  EXPECT_GT(two.gap(0, 1), 1);
-}
-
 }  // namespace
 }  // namespace paperproof

@@ -8,7 +8,6 @@
 
 #include <array>
 #include <cmath>
-#include <numeric>
 
 namespace paperproof {
 namespace {
@@ -62,101 +61,42 @@ ExactPoint sum_of(const Terms& terms) {
   return sum;
 }
 
-/// An answer, and three points as the unrounded sums of terms, of which it is the orientation.
-struct Answer {
-  int found;
-  Terms a, b, c;
-};
+/// The orientation of three points, each the unrounded sum of terms.
+int exact(const Terms& a, const Terms& b, const Terms& c) { return cross(sum_of(a), sum_of(b), sum_of(c)).sign(); }
 
-Answer of_points(Dice& dice) {
-  const auto [a, b] = dice.line();
-  const Vec2d c = dice.near_line(a, b);
-  return {geometry::orientation_sign(a, b, c), {a}, {b}, {c}};
-}
-
-Answer of_an_offset_point(Dice& dice) {
-  const auto [a, b] = dice.line();
-  const Vec2d offset = dice.point(1);
-  const Vec2d position = dice.near_line(a, b) - offset;
-  const Vec2d rest = dice.rest();
-  return {geometry::orientation_sign_of_offset(a, b, position, offset, rest), {a}, {b}, {position, offset, rest}};
-}
-
-Answer of_an_offset_edge(Dice& dice) {
-  const auto [from, to] = dice.line();
-  const Vec2d position = dice.point(dice.power_of_two(20));
-  const Vec2d v = dice.near_line(position + from, position + to);
-  const Vec2d rest = dice.rest();
-  return {geometry::orientation_sign_of_edge_offset(position, from, to, v, rest),
-          {position, rest, from},
-          {position, rest, to},
-          {v}};
-}
-
-Answer of_a_sum_of_terms(Dice& dice) {
-  const auto [a, b] = dice.line();
-  Terms terms{dice.point(1), dice.point(dice.power_of_two(10)), dice.rest()};
-  terms.push_back(dice.near_line(a, b) - terms[0] - terms[1]);
-  return {geometry::orientation_sign_of_sum(a, b, terms), {a}, {b}, terms};
-}
-
-Answer of_two_directions(Dice& dice) {
-  const auto [a, b] = dice.line();
-  const Vec2d c = dice.point(dice.power_of_two(20));
-  const Vec2d d = dice.near_line(c, c + (b - a));
-  return {geometry::turn_sign(a, b, c, d), {Vec2d(0, 0)}, {b, -a}, {d, -c}};
-}
-
-Answer of_a_line_with_a_direction(Dice& dice) {
-  const auto [through, direction] = dice.line();
-  const Vec2d offset = dice.point(1);
-  const Vec2d position = dice.near_line(through, through + direction) - offset;
-  const Vec2d rest = dice.rest();
-  return {geometry::turn_sign_of_offset(direction, through, position, offset, rest),
-          {through},
-          {through, direction},
-          {position, offset, rest}};
-}
-
-/// Random questions, and in which share of them at least the points are on one line, and plain doubles are wrong: a
-/// test that never met a hard case shows nothing.
-struct Questions {
-  const char* name;
-  Answer (*ask)(Dice&);
-  double zero;
-  double wrong;
-};
-
-class ExactSigns : public testing::TestWithParam<Questions> {};
-
-TEST_P(ExactSigns, agree_with_rational_numbers) {
+TEST(ExactSigns, agree_with_rational_numbers_within_ulps_of_one_line) {
   Dice dice;
   int zero = 0;
-  int wrong = 0;
+  int wrong_in_doubles = 0;
   for (int i = 0; i < cases; ++i) {
-    const Answer answer = GetParam().ask(dice);
-    const int exact = cross(sum_of(answer.a), sum_of(answer.b), sum_of(answer.c)).sign();
-    ASSERT_EQ(answer.found, exact) << "seed " << seed << ", case " << i;
-    const auto rounded = [](const Terms& terms) { return std::accumulate(terms.begin(), terms.end(), Vec2d(0, 0)); };
-    const Vec2d along = rounded(answer.b) - rounded(answer.a);
-    const Vec2d to_c = rounded(answer.c) - rounded(answer.a);
-    const double left = along.x() * to_c.y();
-    const double right = along.y() * to_c.x();
-    zero += exact == 0;
-    wrong += (left > right) - (left < right) != exact;
-  }
-  EXPECT_GE(zero, GetParam().zero * cases);
-  EXPECT_GE(wrong, GetParam().wrong * cases);
-}
+    SCOPED_TRACE(testing::Message() << "seed " << seed << ", case " << i);
+    const auto [a, b] = dice.line();
+    const Vec2d c = dice.near_line(a, b);
+    const int sign = exact({a}, {b}, {c});
+    ASSERT_EQ(geometry::orientation_sign(a, b, c), sign);
+    const double left = (b.x() - a.x()) * (c.y() - a.y());
+    const double right = (b.y() - a.y()) * (c.x() - a.x());
+    zero += sign == 0;
+    wrong_in_doubles += (left > right) - (left < right) != sign;
 
-INSTANTIATE_TEST_SUITE_P(Of, ExactSigns,
-                         testing::Values(Questions{"points_within_ulps_of_one_line", of_points, 0.01, 0.033},
-                                         Questions{"an_offset_point", of_an_offset_point, 0, 0.033},
-                                         Questions{"an_offset_edge", of_an_offset_edge, 0, 0.033},
-                                         Questions{"a_sum_of_terms", of_a_sum_of_terms, 0, 0.01},
-                                         Questions{"two_directions", of_two_directions, 0, 0.01},
-                                         Questions{"a_line_with_a_direction", of_a_line_with_a_direction, 0, 0.033}),
-                         [](const auto& questions) { return std::string(questions.param.name); });
+    const Vec2d offset = dice.point(1);
+    const Vec2d rest = dice.rest();
+    const Terms sum{c - offset, offset, rest};
+    ASSERT_EQ(geometry::orientation_sign_of_offset(a, b, sum[0], offset, rest), exact({a}, {b}, sum));
+    ASSERT_EQ(geometry::turn_sign_of_offset(b - a, a, sum[0], offset, rest), exact({a}, {a, b - a}, sum));
+    ASSERT_EQ(geometry::turn_sign(a, b, b, c), exact({Vec2d(0, 0)}, {b, -a}, {c, -b}));
+    const Terms more{c - offset, offset, rest, a, -a};
+    ASSERT_EQ(geometry::orientation_sign_of_sum(a, b, more), exact({a}, {b}, more));
+    const Vec2d position = dice.point(dice.power_of_two(20));
+    const Vec2d from = a - position;
+    const Vec2d to = b - position;
+    ASSERT_EQ(geometry::orientation_sign_of_edge_offset(position, from, to, c, rest),
+              exact({position, rest, from}, {position, rest, to}, {c}));
+  }
+  // A test that never met a hard case shows nothing.
+  EXPECT_GE(zero, cases / 100);
+  EXPECT_GE(wrong_in_doubles, cases / 30);
+}
 
 TEST(ExactLengths, and_heights_agree_with_rational_numbers_within_ulps_of_a_circle) {
   Dice dice;
