@@ -137,17 +137,14 @@ TEST(Crowd, an_input_that_is_refused_changes_nothing_for_anybody) {
     EXPECT_EQ(three.step(), status) << what;
     for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(same_bits(three.states[i], before[i])) << what;
   }
+  Together rider({{0, 1}});
+  rider.states[0].ride.ground = 0;
+  EXPECT_EQ(rider.step(), StepStatus::invalid_input) << "a ride where nothing moves";
   Together still({{0, 1}}, {}, {}, {.stages = {.jump = false, .gravity = false}});
   EXPECT_EQ(still.step(), StepStatus::moved);
   still.inputs[0].jump = true;
   EXPECT_EQ(still.step(), StepStatus::invalid_input) << "a stage that is left out is asked for";
   EXPECT_EQ(Together({}).step(), StepStatus::moved) << "nobody is a crowd, too";
-}
-
-TEST(Crowd, a_ride_on_what_is_not_there_is_refused_where_nothing_moves) {
-  Together two({{0, 1}, {2, 1}});
-  two.states[1].ride.ground = 0;
-  EXPECT_EQ(two.step(), StepStatus::invalid_input);
 }
 
 TEST(Crowd, a_technique_that_knows_one_character_is_refused) {
