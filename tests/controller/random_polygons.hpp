@@ -52,21 +52,6 @@ inline Polygon star_on_grid(Random& random) {
   return polygon;
 }
 
-/// A band that is wound around itself.
-inline Polygon spiral(Random& random) {
-  Polygon polygon;
-  Points inner;
-  const double width = random.uniform(0.1, 0.9);
-  for (std::size_t i = 0; i < 10 + random.index(40); ++i) {
-    const double angle = 0.4 * static_cast<double>(i);
-    const Vec2d direction(std::cos(angle), std::sin(angle));
-    polygon.outer.push_back((1 + angle) * direction);
-    inner.push_back((1 + angle + width * 2 * std::numbers::pi) * direction);
-  }
-  polygon.outer.insert(polygon.outer.end(), inner.rbegin(), inner.rend());
-  return polygon;
-}
-
 /// Teeth on a bar; the gaps' corners are all on one line.
 inline Polygon comb(Random& random) {
   Polygon polygon;

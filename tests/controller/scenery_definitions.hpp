@@ -1,22 +1,15 @@
-/// Sceneries of one collider, whether they are refused, and where a point is.
+/// Whether a scenery is refused, and where a point is.
 #pragma once
 
 #include <paperproof/scenery.hpp>
 
 #include <algorithm>
-#include <optional>
 #include <string>
 
 #include "geometry/exact.hpp"
 #include "random_polygons.hpp"
 
 namespace paperproof::test {
-
-inline SceneryDef scenery_of(const Polygon& polygon) { return {{{.points = polygon.outer, .holes = polygon.holes}}}; }
-
-inline SceneryDef scenery_of(const Points& chain, std::optional<Vec2d> one_way) {
-  return {{{.shape = ColliderDef::Shape::chain, .points = chain, .one_way = one_way}}};
-}
 
 template <class Scalar = double>
 std::string refusal_of(const SceneryDef& def) {

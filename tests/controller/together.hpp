@@ -1,7 +1,8 @@
 /// A scenery with several characters in it, and the buttons they are steered with.
 #pragma once
 
-#include "controller/stepping.hpp"
+#include "campaign/shapes.hpp"
+#include "controller/states.hpp"
 
 #include <paperproof/crowd.hpp>
 
