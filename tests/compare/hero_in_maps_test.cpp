@@ -50,13 +50,10 @@ int expect_same_bits(const Scene& scene, const std::string& name) {
   return touching;
 }
 
-struct Maps {
-  int count = 0;
+void expect_same_in_maps(const std::filesystem::path& folder, int every, int least) {
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is missing";
+  int maps = 0;
   int touching = 0;
-};
-
-Maps compare_maps(const std::filesystem::path& folder, int every) {
-  Maps maps;
   int levels = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     const std::string extension = entry.path().extension();
@@ -68,29 +65,20 @@ Maps compare_maps(const std::filesystem::path& folder, int every) {
     } catch (const InputError&) {
       continue;  // a tileset, a world map: no level
     }
-    for (const Scene& scene : scenes) {
-      maps.touching += expect_same_bits(scene, entry.path().string());
-      ++maps.count;
-    }
+    for (const Scene& scene : scenes) touching += expect_same_bits(scene, entry.path().string());
+    maps += static_cast<int>(scenes.size());
   }
-  return maps;
+  EXPECT_GE(maps, least);
+  EXPECT_GE(touching, 20 * maps);
 }
 
 TEST(HeroInMaps, steps_as_the_controller_over_the_maps_of_four_families) {
-  const std::filesystem::path folder = std::filesystem::path(PAPERPROOF_SOURCE_DIR) / ".." / "shared" / "levels";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << folder << " is missing";
-  const Maps maps = compare_maps(folder, 1);
-  EXPECT_GE(maps.count, 10);
-  EXPECT_GE(maps.touching, 20 * maps.count);
+  expect_same_in_maps(std::filesystem::path(PAPERPROOF_SOURCE_DIR) / ".." / "shared" / "levels", 1, 10);
 }
 
 TEST(HeroInMaps, steps_as_the_controller_over_supertux_levels) {
-  const std::filesystem::path folder = "/usr/share/games/supertux2/levels";
-  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "supertux-data is not installed";
   const int every = test::steps_wanted("PAPERPROOF_EVERY_LEVEL", 0) > 0 ? 1 : 8;
-  const Maps maps = compare_maps(folder, every);
-  EXPECT_GE(maps.count, 200 / every);
-  EXPECT_GE(maps.touching, 20 * maps.count);
+  expect_same_in_maps("/usr/share/games/supertux2/levels", every, 200 / every);
 }
 
 }  // namespace
