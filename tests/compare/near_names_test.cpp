@@ -8,19 +8,6 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-TEST(EditDistance, is_the_fewest_letters_to_put_in_leave_out_or_replace_in_all_or_a_part) {
-  EXPECT_EQ(edit_distance("kitten", "sitting", false), 3U) << "k/s, e/i, and g";
-  EXPECT_EQ(edit_distance("sitting", "kitten", false), 3U);
-  EXPECT_EQ(edit_distance("flaw", "lawn", false), 2U);
-  EXPECT_EQ(edit_distance("", "abc", false), 3U);
-  EXPECT_EQ(edit_distance("abc", "", false), 3U);
-  EXPECT_EQ(edit_distance("same", "same", false), 0U);
-  EXPECT_EQ(edit_distance("bullet", "article_bullet_slow", true), 0U);
-  EXPECT_EQ(edit_distance("ballot", "article_bullet_slow", true), 2U);
-  EXPECT_EQ(edit_distance("abc", "", true), 3U);
-  EXPECT_EQ(edit_distance("long", "on", true), 2U) << "the part is no longer than the name";
-}
-
 TEST(NearNames, are_the_same_in_other_letters_then_what_holds_it_then_one_slip_in_four_letters) {
   struct Case {
     const char* typed;
@@ -44,13 +31,6 @@ TEST(NearNames, are_the_same_in_other_letters_then_what_holds_it_then_one_slip_i
            Case{"long_rest", {}, {}},
        })
     EXPECT_EQ(near_names(each.typed, each.known), each.near) << each.typed;
-}
-
-TEST(DidYouMean, says_the_near_names_in_a_sentence) {
-  EXPECT_EQ(did_you_mean("lift", {"lift_up", "rest"}), "; did you mean lift_up?");
-  EXPECT_EQ(did_you_mean("lift", {"lift_up", "lift_down"}), "; did you mean lift_up or lift_down?");
-  EXPECT_EQ(did_you_mean("lift", {"lift_a", "lift_b", "lift_c"}), "; did you mean lift_a, lift_b or lift_c?");
-  EXPECT_EQ(did_you_mean("lift", {"rest"}), "");
 }
 
 }  // namespace

@@ -209,32 +209,17 @@ TEST(SuperTuxData, is_counted_as_by_an_independent_reader) {
   EXPECT_EQ(counts.path_nodes, 2283);
 }
 
-TEST(SuperTuxData, levels_begin_outside_of_every_solid_and_hilly_landscape_has_its_published_pieces) {
+TEST(SuperTuxData, every_level_of_the_first_world_loads_and_begins_outside_of_every_solid) {
   if (!std::filesystem::exists(installed)) GTEST_SKIP() << "Debian's package supertux-data is not installed";
-  std::vector<std::string> paths = installed_levels(installed / "world1");
+  const std::vector<std::string> paths = installed_levels(installed / "world1");
   ASSERT_GT(paths.size(), 20U);
-  paths = test::sampled_of(paths);
-  for (const std::string& path : paths) {
+  for (const std::string& path : test::sampled_of(paths)) {
     for (const Scene& scene : load_scenes(path)) {
       const auto hull = scene.character.shape.hull();
       const ExactScenery exact(scenery_at(scene, 0), {hull.begin(), hull.end()});
       EXPECT_TRUE(exact.overlapped(scene.start.position).empty()) << path;
     }
   }
-  paths = installed_levels(installed);
-  const auto hilly = std::find_if(paths.begin(), paths.end(), [](const auto& path) {
-    return std::filesystem::path(path).stem() == "hilly_landscape";
-  });
-  ASSERT_NE(hilly, paths.end());
-  const Scene scene = load_scenes(*hilly).front();
-  const auto count = [&](const auto& is) {
-    return std::count_if(scene.scenery.colliders.begin(), scene.scenery.colliders.end(), is);
-  };
-  EXPECT_EQ(count([](const ColliderDef& c) { return c.one_way.has_value(); }), 25);
-  // A whole tile has twice the area 2; no slope does.
-  EXPECT_EQ(count([](const ColliderDef& c) { return !c.one_way && std::abs(twice_area(c.points)) != 2; }), 203);
-  EXPECT_EQ(scene.respawn_box->upper - scene.respawn_box->lower, Vec2d(300, 35));
-  EXPECT_EQ(scene.ids.size(), 4725U + 25U);
 }
 
 }  // namespace
