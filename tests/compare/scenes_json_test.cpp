@@ -147,7 +147,6 @@ TEST(JsonScene, is_refused_in_one_line_with_its_place) {
           {"'velocity'", "'speed'", ": /character/speed: unknown key; expected one of "},
           {"'holes'", "'hole'", ": /scenery/3/hole: unknown key"},
           {"'dt'", "+'name': 'b'", ": /name: expected each key once"},
-          {wall, "+'id': 'x'", ": /scenery/1/id: expected each key once"},
           {"'dt': 0.0078125, ", "", ": /dt: expected this key, which is missing"},
           {"'position': [0, 3], ", "", ": /character/position: expected this key"},
           {"_scene': 1", "_scene': 2", ": /paperproof_scene: expected 1"},
@@ -155,10 +154,8 @@ TEST(JsonScene, is_refused_in_one_line_with_its_place) {
           {"0.0078125", "1e999", ":3:30: expected a finite number, not 1e999"},
           {"0.0078125", "NaN", ":3:30: expected JSON; "},
           {"0.0078125", "0", ": /dt: expected a number greater than 0"},
-          {"0.0078125", "-0.01", ": /dt: expected a number greater than 0"},
           {"0.0078125", "1e300", ": /dt: expected at most 10000 s"},
           {"'dt'", "+'dt_list': []", ": /dt_list: expected at least one length"},
-          {"'dt'", "+'dt_list': 0.1", ": /dt_list: expected an array"},
           {"'dt'", "+'dt_list': [0.1, 0]", ": /dt_list/1: expected a number greater than 0"},
           {"'dt'", "+'dt_list': [0.1, 1e5]", ": /dt_list/1: expected at most 10000 s"},
           {"'dt'", "+'dt_list': [0.1, 1e3]", ": /gravity: expected at most 1e6 m of motion in a step of 1000 s"},
@@ -170,7 +167,6 @@ TEST(JsonScene, is_refused_in_one_line_with_its_place) {
           {"_metre': 4", "_metre': 1e-300", ": /pixels_per_metre: expected a number from 0.001 to 1000000"},
           {"'steps': 120", "'steps': 0", ": /steps: expected a whole number from 1 to "},
           {"'steps': 120", "'steps': 1.5", ": /steps: expected a whole number"},
-          {"'steps': 120", "'steps': '120'", ": /steps: expected a whole number"},
           {"[0, -30]", "[0, -30, 0]", ": /gravity: expected two numbers, [x, y]"},
           {"'room'", "''", ": /name: expected a text"},
           {"'room'", "'ro\\nom'", ": /name: expected a text"},
@@ -194,8 +190,6 @@ TEST(JsonScene, is_refused_in_one_line_with_its_place) {
           {"'circle'", "+'one_way': [0, 1]", ": /scenery/4/circle: 'disc': a circle cannot be one-way"},
           {wall, "+'holes': []", ": /scenery/1/holes: expected only beside 'polygon'"},
           {paper, "[[-4,0],[4,0],[-4,1],[4,1]]", ": /scenery/0/polygon: 'paper': "},
-          {paper, "[[-4,0],[4,0],[0,0]]", ": /scenery/0/polygon: 'paper': "},
-          {paper, "[[-4,0],[4,0],[4,0],[0,1]]", ": /scenery/0/polygon: 'paper': "},
           {paper, "[[-4,0],[4,0]]", ": /scenery/0/polygon: expected an array of at least 3 points"},
           {"[[5,0],[5,4]]", "[[5,0],[5,4e6]]", ": /scenery/1/chain: 'wall': "},
           {"[12,2],[18,2],[18,8],[12,8]", "[32,2],[38,2],[38,8]", ": /scenery/3/polygon: 'ring': "},
@@ -282,9 +276,6 @@ TEST(JsonScene, is_refused_for_its_further_characters_bodies_and_joints) {
           {"'prismatic'", "+'stiffness': 3", ": /joints/2/stiffness: expected only beside 'distance'"},
           {"'prismatic': [0, 1]", "'prismatic': [0, 0]", ": /joints/2/prismatic: expected a direction"},
       });
-  expect_refused("least.json", least,
-                 {{"'dt'", "+'bodies': {}", ": /bodies: expected an array"},
-                  {"'dt'", "+'characters': {}", ": /characters: expected an array"}});
 }
 
 TEST(JsonFile, that_is_no_scene_is_refused_in_one_line) {

@@ -1,7 +1,7 @@
 /// Maps of Tiled: what becomes solid, where the character begins, what is refused; and maps that nobody here drew.
 #include "scenes/tiled_model.hpp"
 
-#include "compare/scene_files.hpp"
+#include "compare/tiled_maps.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,28 +11,6 @@
 namespace paperproof::compare {
 namespace {
 
-/// A map of 4 x 3 tiles of 16 px with one tileset of 10 tiles, which are plain where nothing is said of them.
-std::string tmx(const std::string& layers, const std::string& tiles = "") {
-  return "<?xml version='1.0'?>\n"
-         "<map orientation='orthogonal' width='4' height='3' tilewidth='16' tileheight='16'>\n"
-         "<tileset firstgid='1' name='plain' tilewidth='16' tileheight='16' tilecount='10'>" +
-         tiles + "</tileset>\n" + layers + "\n</map>\n";
-}
-
-std::string tile_layer(const std::string& name, const std::string& data) {
-  return "<layer name='" + name + "' width='4' height='3'>" + data + "</layer>";
-}
-
-std::string csv(const std::string& tiles, const std::string& name = "Collision") {
-  return tile_layer(name, "<data encoding='csv'>" + tiles + "</data>");
-}
-
-std::string objects(const std::string& layer, const std::string& content) {
-  return "<objectgroup name='" + layer + "'>" + content + "</objectgroup>";
-}
-
-const std::string floor_csv = "0,0,0,0, 0,0,0,0, 1,1,1,1";
-const std::string spawn = objects("things", "<object id='1' name='Spawn' x='2' y='8'/>");
 /// One solid tile, and what it is.
 const std::string one_csv = "0,0,0,0, 0,0,0,0, 0,0,1,0";
 const std::string one = "t2,2: box 2 -3 3 -2";
@@ -54,7 +32,9 @@ void expect_read(const std::vector<Map>& maps) {
   }
 }
 
-std::string with_number(TileNumber number) { return csv("0,0,0,0, 0,0,0,0, 0," + std::to_string(number) + ",0,0"); }
+std::string with_number(TileNumber number) {
+  return csv_layer("0,0,0,0, 0,0,0,0, 0," + std::to_string(number) + ",0,0");
+}
 
 TEST(TiledTiles, are_boxes_or_their_own_shapes_where_their_cells_are) {
   constexpr TileNumber h = flipped_horizontally;
@@ -66,27 +46,27 @@ TEST(TiledTiles, are_boxes_or_their_own_shapes_where_their_cells_are) {
       "</tile>";
   const std::string two = R"(<tile id='0'><objectgroup><object id='1' x='4' y='8' width='8' height='4'/>
       <object id='2' x='0' y='0'><polyline points='0,0 16,16'/></object></objectgroup></tile>)";
-  const std::string low = with(csv(one_csv), "<layer ", "<layer offsetx='2' offsety='3' ");
+  const std::string low = with(csv_layer(one_csv), "<layer ", "<layer offsetx='2' offsety='3' ");
   expect_read({
-      {"a tile of 16 px is a metre, below zero", csv(one_csv), one},
+      {"a tile of 16 px is a metre, below zero", csv_layer(one_csv), one},
       {"a shape", with_number(1), "t1,2: polygon 1 -2.5 1 -2 2 -2", triangle},
       {"mirrored across", with_number(1 | h), "t1,2: polygon 1 -2 2 -2.5 2 -2", triangle},
       {"mirrored upwards", with_number(1 | v), "t1,2: polygon 1 -3 2 -3 1 -2.5", triangle},
       {"mirrored at the diagonal", with_number(1 | d), "t1,2: polygon 1 -3 1.5 -2 1 -2", triangle},
       {"turned by a quarter: the diagonal first", with_number(1 | d | h), "t1,2: polygon 1.5 -2 2 -2 2 -3", triangle},
       {"turned by a half", with_number(1 | h | v), "t1,2: polygon 1 -3 2 -2.5 2 -3", triangle},
-      {"several shapes", csv("0,0,1,0, 0,0,0,0, 0,0,0,0"), "t2,0: box 2.25 -0.75 2.75 -0.5; t2,0.1: chain 2 0 3 -1",
-       two},
-      {"in two layers", csv(one_csv) + csv(one_csv), one + "; t2,2#2: box 2 -3 3 -2"},
+      {"several shapes", csv_layer("0,0,1,0, 0,0,0,0, 0,0,0,0"),
+       "t2,0: box 2.25 -0.75 2.75 -0.5; t2,0.1: chain 2 0 3 -1", two},
+      {"in two layers", csv_layer(one_csv) + csv_layer(one_csv), one + "; t2,2#2: box 2 -3 3 -2"},
       {"offsets of layers and groups add up", "<group name='g' offsetx='10' offsety='1'>" + low + "</group>",
        "t2,2: box 2.75 -3.25 3.75 -2.25"},
-      {"one-way is the upper edge", csv(one_csv, "One-Way"), "t2,2: chain 2 -2 3 -2 one-way 0 1"},
+      {"one-way is the upper edge", csv_layer(one_csv, "One-Way"), "t2,2: chain 2 -2 3 -2 one-way 0 1"},
   });
 }
 
 TEST(TiledTiles, have_sizes_of_their_own_and_lie_anywhere_in_an_infinite_map) {
   const SceneFiles files;
-  const std::string large = with(tmx(csv(one_csv) + spawn), "tilewidth='16' tileheight='16' tilecount",
+  const std::string large = with(tmx(csv_layer(one_csv) + spawn), "tilewidth=\"16\" tileheight=\"16\" tilecount",
                                  "tilewidth='32' tileheight='40' tilecount");
   EXPECT_EQ(solids_of(files.load("map.tmx", large)), "t2,2: box 2 -3 4 -0.5") << "on the cell's lower left corner";
   const std::string chunks = tile_layer("Collision", R"(<data encoding='csv'>
@@ -124,9 +104,9 @@ std::string scene_around_map(double pixels_per_metre) {
 
 TEST(TiledTiles, neighbours_share_bits_where_the_tile_size_is_no_power_of_two) {
   const SceneFiles files;
-  files.write("map.tmx",
-              with(with(tmx(csv(floor_csv)), "tilewidth='16' tileheight='16'", "tilewidth='35' tileheight='35'"),
-                   "tilewidth='16' tileheight='16'", "tilewidth='35' tileheight='35'"));
+  files.write("map.tmx", with(with(tmx(csv_layer(floor_csv)), "tilewidth=\"16\" tileheight=\"16\"",
+                                   "tilewidth='35' tileheight='35'"),
+                              "tilewidth=\"16\" tileheight=\"16\"", "tilewidth='35' tileheight='35'"));
   const Scene scene = files.load("scene.json", scene_around_map(70.5));
   ASSERT_EQ(scene.ids, (std::vector<std::string>{"m/t0,2", "m/t1,2", "m/t2,2", "m/t3,2"}));
   const Box2<double> left = Box2<double>::around(scene.scenery.colliders[1].points);
@@ -138,7 +118,7 @@ TEST(TiledTiles, neighbours_share_bits_where_the_tile_size_is_no_power_of_two) {
 }
 
 TEST(TiledMarks, say_what_is_solid_the_nearest_first) {
-  const std::string plain = csv(one_csv, "ground");
+  const std::string plain = csv_layer(one_csv, "ground");
   const std::string property = "<properties><property name='Collides' type='bool' value='true'/></properties>";
   const std::string set =
       "<tile id='1'><properties><property name='solid' type='bool' value='false'/></properties></tile>"
@@ -146,14 +126,14 @@ TEST(TiledMarks, say_what_is_solid_the_nearest_first) {
   const std::string shape =
       "<tile id='0'><objectgroup><object id='1' x='0' y='8' width='16' height='8'/></objectgroup></tile>";
   expect_read({
-      {"a name", csv(one_csv, "SOLIDS"), one},
-      {"another name", csv(one_csv, "Platforms"), one},
+      {"a name", csv_layer(one_csv, "SOLIDS"), one},
+      {"another name", csv_layer(one_csv, "Platforms"), one},
       {"a class", with(plain, "<layer ", "<layer class='wall' "), one},
       {"a property", with(plain, "<data", property + "<data"), one},
       {"the group around", "<group name='walls'>" + plain + "</group>", one},
-      {"a tile that is not, in a layer that is", csv("0,0,0,0, 0,0,0,0, 0,2,1,0"), one, set},
-      {"a tile that is, in a layer that is not", csv("0,0,0,0, 0,0,0,0, 0,0,3,1", "decoration"), one, set},
-      {"no mark: tiles with shapes", csv("0,0,0,0, 0,0,0,0, 2,2,1,0", "picture"), "t2,2: box 2 -3 3 -2.5", shape,
+      {"a tile that is not, in a layer that is", csv_layer("0,0,0,0, 0,0,0,0, 0,2,1,0"), one, set},
+      {"a tile that is, in a layer that is not", csv_layer("0,0,0,0, 0,0,0,0, 0,0,3,1", "decoration"), one, set},
+      {"no mark: tiles with shapes", csv_layer("0,0,0,0, 0,0,0,0, 2,2,1,0", "picture"), "t2,2: box 2 -3 3 -2.5", shape,
        "nothing is marked; tiles with collision shapes are the solids"},
   });
 }
@@ -198,19 +178,22 @@ TEST(TiledObjects, are_polygons_chains_and_tiles_where_they_are_and_as_they_are_
        objects("things", "<object id='5' gid='1' x='32' y='32' width='8' height='8'/>"),
        "o5: circle 2.25 -1.75 radius 0.125", disc, is_circle},
       {"round and not marked",
-       objects("coins", "<object x='9' y='2' width='8' height='6'><ellipse/></object>") + csv(one_csv), one},
-      {"a point", csv(one_csv) + in_collision("x='1' y='1'><point/></object>"), one, "",
+       objects("coins", "<object x='9' y='2' width='8' height='6'><ellipse/></object>") + csv_layer(one_csv), one},
+      {"a point", csv_layer(one_csv) + in_collision("x='1' y='1'><point/></object>"), one, "",
        "object 5 is left out: it has no area"},
-      {"an empty box", csv(one_csv) + in_collision("x='1' y='1'/>"), one, "", "object 5 is left out: it has no area"},
-      {"a mover without an end of its way", csv(one_csv) + objects("Moving Platforms", "<object id='5' gid='1'/>"), one,
-       "", "mover 5 is left out: its path needs one speed and two boundaries"},
-      {"from a template", csv(one_csv) + objects("coins", "<object id='5' template='a.tx'/>"), one, "",
+      {"an empty box", csv_layer(one_csv) + in_collision("x='1' y='1'/>"), one, "",
+       "object 5 is left out: it has no area"},
+      {"a mover without an end of its way",
+       csv_layer(one_csv) + objects("Moving Platforms", "<object id='5' gid='1'/>"), one, "",
+       "mover 5 is left out: its path needs one speed and two boundaries"},
+      {"from a template", csv_layer(one_csv) + objects("coins", "<object id='5' template='a.tx'/>"), one, "",
        "1 objects made from templates are left out: templates are not read"},
   });
 }
 
 Scene with_solid(const std::string& object, const std::string& layer = "solid", const std::string& tiles = "") {
-  return SceneFiles().load("map.tmx", tmx(objects(layer, "<object id='9' " + object) + csv(floor_csv) + spawn, tiles));
+  return SceneFiles().load("map.tmx",
+                           tmx(objects(layer, "<object id='9' " + object) + csv_layer(floor_csv) + spawn, tiles));
 }
 
 TEST(TiledObjects, turn_clockwise_by_any_angle) {
@@ -310,18 +293,18 @@ TEST(TiledStart, is_at_a_marked_object_or_above_the_first_ground_with_room) {
   const SceneFiles files;
   const auto start = [&](const std::string& layers) { return files.load("map.tmx", tmx(layers)).start.position; };
   // The sprite is 20 x 40 px at 32 px/m. Its upper left corner is the object's.
-  EXPECT_EQ(start(csv(floor_csv) + objects("a", "<object name='hero' x='2' y='8'/>")),
+  EXPECT_EQ(start(csv_layer(floor_csv) + objects("a", "<object name='hero' x='2' y='8'/>")),
             Vec2d(2 / 16.0 + 10 / 32.0, -8 / 16.0 - 20 / 32.0));
-  EXPECT_EQ(start(csv(floor_csv) + objects("Player", "<object x='20' y='2'/><object x='40' y='2'/>")),
+  EXPECT_EQ(start(csv_layer(floor_csv) + objects("Player", "<object x='20' y='2'/><object x='40' y='2'/>")),
             Vec2d(20 / 16.0 + 10 / 32.0, -2 / 16.0 - 20 / 32.0));
   // At a point it stands.
-  EXPECT_EQ(start(csv(floor_csv) + objects("a", "<object name='Spawn' x='24' y='20'><point/></object>")),
+  EXPECT_EQ(start(csv_layer(floor_csv) + objects("a", "<object name='Spawn' x='24' y='20'><point/></object>")),
             Vec2d(24 / 16.0, -20 / 16.0 + 20 / 32.0));
-  EXPECT_EQ(start(csv(floor_csv) + objects("a", "<object name='Spawn' x='24' y='32'><point/></object>")),
+  EXPECT_EQ(start(csv_layer(floor_csv) + objects("a", "<object name='Spawn' x='24' y='32'><point/></object>")),
             Vec2d(24 / 16.0, -2 + 20 / 32.0))
       << "on the ground";
   // Column 0 is solid to the top: there is no room within the map. Column 1 has ground in row 2.
-  EXPECT_EQ(start(csv("1,0,0,0, 1,0,0,0, 1,1,1,1")), Vec2d(1.5, -2 + 1 / 16.0 + 20 / 32.0));
+  EXPECT_EQ(start(csv_layer("1,0,0,0, 1,0,0,0, 1,1,1,1")), Vec2d(1.5, -2 + 1 / 16.0 + 20 / 32.0));
 }
 
 TEST(TiledStart, who_stands_on_the_ground_by_a_point_is_not_inside_by_a_rounding) {
@@ -346,7 +329,7 @@ TEST(TiledStart, who_stands_on_the_ground_by_a_point_is_not_inside_by_a_rounding
 
 TEST(TiledStart, the_character_of_a_map_climbs_a_pixel_and_that_of_a_scene_what_the_scene_says) {
   const SceneFiles files;
-  const Scene alone = files.load("map.tmx", tmx(csv(floor_csv) + spawn));
+  const Scene alone = files.load("map.tmx", tmx(csv_layer(floor_csv) + spawn));
   EXPECT_EQ(alone.name, "map");
   EXPECT_EQ(alone.pixels_per_metre, 16);
   EXPECT_EQ(alone.respawn_box->lower, Vec2d(0, -3));
@@ -367,7 +350,7 @@ TEST(TiledFiles, external_tilesets_in_both_formats_are_found_relative_to_the_map
       "tiles": [{"id": 1, "objectgroup": {"objects": [{"id": 1, "x": 0, "y": 12, "width": 16, "height": 4}]}}]})");
   const std::string sets =
       "<tileset firstgid='11' source='sets/a.tsx'/><tileset firstgid='15' source='../elsewhere/b.json'/>";
-  const Scene scene = files.load("map.tmx", tmx(sets + csv("0,0,0,0, 0,0,0,0, 1,11,16,0") + spawn));
+  const Scene scene = files.load("map.tmx", tmx(sets + csv_layer("0,0,0,0, 0,0,0,0, 1,11,16,0") + spawn));
   EXPECT_EQ(solids_of(scene), "t0,2: box 0 -3 1 -2; t1,2: box 1 -3 2 -2.5; t2,2: box 2 -3 3 -2.75");
 }
 
@@ -401,24 +384,24 @@ TEST(TiledFiles, json_maps_mean_the_same) {
 
 TEST(TiledFiles, bad_maps_are_refused_with_their_line) {
   const SceneFiles files;
-  const std::string map = tmx(csv(floor_csv) + spawn);
+  const std::string map = tmx(csv_layer(floor_csv) + spawn);
   const auto base64 = [&](const std::string& compression, const std::string& text) {
     return tmx(
         tile_layer("Collision", "<data encoding='base64' compression='" + compression + "'>" + text + "</data>"));
   };
-  std::string deep = csv(floor_csv);
+  std::string deep = csv_layer(floor_csv);
   for (int i = 0; i < 1000; ++i) deep = "<group>" + deep + "</group>";
   const std::string spawn_point = objects("things", "<object id='1' name='Spawn' x='24' y='33'><point/></object>");
   for (const auto& [text, message] : std::initializer_list<std::pair<std::string, std::string>>{
            {"", ":1: expected XML; the file is empty"},
            {with(map, "</map>", ""), ":5: expected XML; "},
            {"<?xml version='1.0'?>\n<html/>", ":2: expected <map> as the outermost element"},
-           {with(map, "'orthogonal'", "'isometric'"), ":2: expected an orthogonal map"},
-           {with(map, " width='4' height='3'", " width='0' height='3'"), ":2: expected a map of at least one"},
+           {with(map, "\"orthogonal\"", "'isometric'"), ":2: expected an orthogonal map"},
+           {with(map, " width=\"4\" height=\"3\"", " width='0' height='3'"), ":2: expected a map of at least one"},
            {with(map, "0,0,0,0,", "0,0,0,"), ":4: expected 12 tiles, found 11"},
            {with(map, "1,1,1,1", "1,x,1,1"), ":4: expected a tile number as entry 9"},
            {with(map, "1,1,1,1", "1,1,1,11"), ":4: expected a tile of one of the tilesets; 11 belongs to none"},
-           {with(map, "'csv'", "'hex'"), ":4: expected the encoding csv, base64 or none"},
+           {with(map, "\"csv\"", "'hex'"), ":4: expected the encoding csv, base64 or none"},
            {with(map, "<layer", "<tileset firstgid='11' source='none.tsx'/><layer"),
             ":4: tileset none.tsx: expected a file that exists"},
            {base64("", "AQAAAAEAAAABA"), ":4: expected base64; it is cut off"},
@@ -431,14 +414,15 @@ TEST(TiledFiles, bad_maps_are_refused_with_their_line) {
            {base64("zstd", "KLUv/SAwjQAAOAIAAwAA"), ":4: expected zstd data"},
            {base64("lzma", "AAAA"), ":4: expected the compression zlib, gzip, zstd or none"},
            {tmx(spawn), ": expected at least one solid"},
-           {tmx(csv(floor_csv, "ground")), ": expected at least one solid"},
+           {tmx(csv_layer(floor_csv, "ground")), ": expected at least one solid"},
            {tmx("\n" + in_collision("x='0' y='0'><polygon points='0,0 8,8 8,0 0,8'/></object>")), ":5: \"o5\": "},
            {tmx(in_collision("x='0' y='0'><polygon points='0 8,8 8,0'/></object>")), ":4: expected points as"},
            {tmx(in_collision("x='nan' y='0' width='4' height='4'/>")), ":4: expected a finite number in \"x\""},
            {tmx(in_collision("template='a.tx' x='0' y='0'/>")), ":4: expected a solid with its own shape"},
-           {tmx(csv(floor_csv) + "\n" + with(spawn, "y='8'", "y='28'")), ":5: expected a start outside of every solid"},
-           {tmx(csv(floor_csv) + "\n" + spawn_point), ":5: expected a start outside of every solid"},
-           {tmx(csv("1,1,1,1, 1,1,1,1, 1,1,1,1")), ": expected a spawn object"},
+           {tmx(csv_layer(floor_csv) + "\n" + with(spawn, "y=\"8\"", "y='28'")),
+            ":5: expected a start outside of every solid"},
+           {tmx(csv_layer(floor_csv) + "\n" + spawn_point), ":5: expected a start outside of every solid"},
+           {tmx(csv_layer("1,1,1,1, 1,1,1,1, 1,1,1,1")), ": expected a spawn object"},
            {tmx(deep), ":4: expected fewer groups within groups"}})
     EXPECT_TRUE(begins(files.complaint("map.tmx", text), message));
   files.write("map.tmx", tmx("\n" + in_collision("x='a' y='0'/>")));
