@@ -3,10 +3,8 @@
 #include "compare/scene_runs.hpp"
 
 #include "metrics/answers.hpp"
-#include "runs/vertex_ways.hpp"
 #include "support/steps_wanted.hpp"
 
-#include <array>
 #include <cmath>
 
 namespace paperproof::compare {
