@@ -20,26 +20,17 @@ MoverDef crooked(Loop loop) {
           .loop = loop};
 }
 
-TEST(MoverOffset, is_the_waypoint_at_its_time_exactly_and_linear_between) {
-  for (const Loop loop : {Loop::once, Loop::loop, Loop::ping_pong}) {
-    EXPECT_EQ(offset_at(crooked(loop), 0.5), Vec2d(1, 0));
-    EXPECT_EQ(offset_at(crooked(loop), 2.5), Vec2d(1, 3));
-    EXPECT_EQ(offset_at(crooked(loop), 1), Vec2d(1, 3 * (1 - 0.5) / (2.5 - 0.5)));
-  }
-  EXPECT_EQ(offset_at(crooked(Loop::once), 2.75), Vec2d(0.1, 3));
-  EXPECT_EQ(offset_at(crooked(Loop::ping_pong), 2.75), Vec2d(0.1, 3));
-}
-
-TEST(MoverOffset, waits_at_the_first_waypoint_before_its_time) {
+TEST(MoverOffset, is_the_waypoint_at_its_time_exactly_linear_between_and_still_before_the_first) {
   for (const Loop loop : {Loop::once, Loop::loop, Loop::ping_pong}) {
     EXPECT_EQ(offset_at(crooked(loop), 0), Vec2d(1, 0));
     EXPECT_EQ(offset_at(crooked(loop), 0.4999), Vec2d(1, 0));
+    EXPECT_EQ(offset_at(crooked(loop), 0.5), Vec2d(1, 0));
+    EXPECT_EQ(offset_at(crooked(loop), 1), Vec2d(1, 3 * (1 - 0.5) / (2.5 - 0.5)));
+    EXPECT_EQ(offset_at(crooked(loop), 2.5), Vec2d(1, 3));
+    const MoverDef parked{.id = "parked", .path = {{.time = 1, .at = {4, 5}}}, .loop = loop};
+    for (const double time : {0.0, 1.0, 7.25}) EXPECT_EQ(offset_at(parked, time), Vec2d(4, 5));
   }
-}
-
-TEST(MoverOffset, stays_at_the_last_waypoint_of_a_path_that_runs_once) {
-  EXPECT_EQ(offset_at(crooked(Loop::once), 3), Vec2d(0.1, 3));
-  EXPECT_EQ(offset_at(crooked(Loop::once), 1e9), Vec2d(0.1, 3));
+  for (const double time : {2.75, 3.0, 1e9}) EXPECT_EQ(offset_at(crooked(Loop::once), time), Vec2d(0.1, 3));
 }
 
 TEST(MoverOffset, of_a_loop_repeats_with_its_length_to_the_bit) {
@@ -57,13 +48,6 @@ TEST(MoverOffset, of_a_ping_pong_comes_back_the_same_way) {
   for (const double before_the_end : {0.0, 0.125, 0.25, 1.0, 2.25}) {
     EXPECT_EQ(offset_at(mover, 2.75 + before_the_end), offset_at(mover, 2.75 - before_the_end));
     EXPECT_EQ(offset_at(mover, 2.75 + before_the_end + 1e6 * 4.5), offset_at(mover, 2.75 - before_the_end));
-  }
-}
-
-TEST(MoverOffset, of_a_single_waypoint_never_changes) {
-  for (const Loop loop : {Loop::once, Loop::loop, Loop::ping_pong}) {
-    const MoverDef parked{.id = "parked", .path = {{.time = 1, .at = {4, 5}}}, .loop = loop};
-    for (const double time : {0.0, 1.0, 7.25}) EXPECT_EQ(offset_at(parked, time), Vec2d(4, 5));
   }
 }
 
@@ -98,10 +82,9 @@ TEST(StepTimes, are_sums_without_the_error_of_adding_up) {
   EXPECT_EQ(even.begin(3), 3 * 0.1);
 }
 
-TEST(MoverAngle, is_zero_without_turns) { EXPECT_EQ(angle_at(crooked(Loop::loop), 3), 0); }
-
 TEST(MoverAngle, goes_on_from_round_to_round_and_comes_back_in_a_ping_pong) {
   MoverDef mover{.id = "fan", .path = {{}}, .turns = {{.time = 0, .at = 1}, {.time = 2, .at = 4}}};
+  EXPECT_EQ(angle_at(crooked(Loop::loop), 3), 0) << "without turns";
   EXPECT_EQ(angle_at(mover, 1), 2.5);
   EXPECT_EQ(angle_at(mover, 5), 4);
   mover.loop = Loop::loop;

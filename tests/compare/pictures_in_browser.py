@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Opens a page of rows in a headless Chromium: its pictures show what the rows say, whoever looks and however.
+"""Opens pages in a headless Chromium: pictures show what the rows say, and replays what happened, whoever looks and how.
 
 usage: pictures_in_browser.py COMMAND FOLDER_TO_WORK_IN    (exit status 77: skipped, with the reason)
 """
@@ -10,6 +10,7 @@ import re
 import shutil
 import subprocess
 import sys
+from urllib.parse import quote
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 CONTENDERS = "mask,penetration_resolution,octagon_sweep"
@@ -41,6 +42,10 @@ function look() {
   seen.numbers = document.querySelectorAll('.picture tbody tr').length;
   seen.maps = [...document.querySelectorAll('.map')].map((map) => map.querySelector('figcaption').textContent);
   seen.pixels = [...document.querySelectorAll('.map canvas')].map((canvas) => pixels(canvas, COLUMNS, ROWS));
+  seen.text = document.body.innerText;
+  seen.labels = [...document.querySelectorAll('[aria-label]')].map((one) => one.getAttribute('aria-label'));
+  seen.colours = Number(document.documentElement.dataset.colours || 0);
+  seen.view = (document.documentElement.dataset.seen || '').split(' ').map(Number);
   seen.cells = [...document.querySelectorAll('.matrix td a')].map((a) => [a.getAttribute('aria-label'), a.textContent]);
 }
 function done() {
@@ -181,6 +186,78 @@ def check_replays_of_cells(browser, swept):
     assert browser.look(address=address.replace("cell=3%2C1", "cell=30%2C1"))["drawn"] == "summary"
 
 
+def write_replays(command):
+    """A page with events of every kind, steps of different lengths, and texts that try to break out of it."""
+    run(command, "convert", "closing_ceiling", "hostile.json")
+    with open("hostile.json", encoding="utf-8") as file:
+        hostile = json.load(file)
+    hostile["name"] = hostile["movers"][0]["id"] = HOSTILE
+    slow = {"paperproof_scene": 1, "name": "slow", "gravity": [0, 0], "dt": 1, "dt_list": [1 / 64, 100], "steps": 2,
+            "character": {"position": [0, 1], "velocity": [0.01, 0]}, "scenery": [{"chain": [[-4, 0], [4, 0]]}]}
+    for name, scene in (("hostile.json", hostile), ("slow.json", slow)):
+        with open(name, "w", encoding="utf-8") as file:
+            json.dump(scene, file)
+    some = ("--quiet", "--no-timing", "--contender", "mask,octagon_sweep,box2d")
+    run(command, "compare", "article_bullet", "sensor_gate", "characters_head_on", "one_way_drop", "slow.json",
+        "hostile.json", *some, "--report", "several.html")
+    run(command, "compare", "one_square", "--quiet", "--no-timing", "--contender", "grid", "--report", "grid.html")
+    run(command, "report", "replays.html", "several.html", "grid.html")
+
+
+LOOK_LATER = "setTimeout(() => { look(); done(); }, 500);"
+HOSTILE = "</script><script>throw 1</script><!-- & \" ' ]]>"
+WHERE_HOSTILE = "scene=" + quote(HOSTILE)
+# Of each address: what is drawn, a height [m] that the view shows, how high it is at most, and words of the page.
+BULLET, DRAWN_AT = "scene=article_bullet", "scene 0 step 0 t "
+REPLAYS = (
+    ("", "summary", None, None, ["Held in every scene it ran in: octagon_sweep"]),
+    (BULLET + "&step=0&view=fit", DRAWN_AT + "1", None, None, ["tunnel: passes platform"]),
+    (BULLET + "&step=0&t=0.25&view=follow", DRAWN_AT + "0.25", None, None, []),
+    ("scene=sensor_gate&step=31&t=0.875&layout=side", "scene 1 step 31 t 0.875", None, None,
+     ["sensor: enters gate at 0.875 of the step"]),
+    ("scene=characters_head_on&step=2", "scene 2 step 2 t 1", None, None,
+     ["octagon_sweep, character 1", ", character 0"]),
+    ("scene=one_way_drop&step=60", "scene 3 step 60 t 1", None, None,
+     ["drops through ledge", "octagon_sweep: first drop"]),
+    ("scene=slow&step=1", "scene 4 step 1 t 1", None, None, ["step 1 of 1, t = 1.000: 100.016 s"]),
+    (WHERE_HOSTILE + "&step=22", "scene 5 step 22 t 1", None, None, [HOSTILE, "both are right about their own motion"]),
+    ("scene=one_square&step=7&view=fit", "scene 6 step 7 t 1", None, None, ["drawn at", "in between two squares"]),
+    ("scene=999", "summary", None, None, []),
+    ("scene=0", "summary", None, None, []),  # scenes have names
+    # Without a step a replay opens at the event that matters, which fills the view with those beside it. The bullet is
+    # in the platform from 30 to 36 of 50 px.
+    (BULLET, DRAWN_AT + "0.66", 0, 1, []),
+    (BULLET + "&contender=octagon_sweep", DRAWN_AT + "0.6", 0, 1, []),
+    (WHERE_HOSTILE + "&contender=octagon_sweep", "scene 5 step 21 t 1", 1.2, 3.5,
+     ["crushed by " + HOSTILE, "octagon_sweep: first crush", "Not run: mask (mask is for scenery that stands still)."]),
+)
+
+
+def check_replays(browser):
+    """Every kind of step is drawn where its address says, and told in words."""
+    def check(seen, address, drawn, height, most, words):
+        assert re.fullmatch(drawn, seen["drawn"]), (address, drawn, seen["drawn"])
+        # Background, solids, outlines and at least one contender, each with its anti-aliased shades.
+        assert drawn == "summary" or seen["colours"] >= 8, (address, seen["colours"])
+        if height is not None:
+            _, bottom, _, top = seen["view"]
+            assert bottom < height < top and top - bottom <= most, (address, seen["view"])
+        for part in words:
+            assert part in seen["text"], (address, part)
+
+    for address, *expected in REPLAYS:
+        check(browser.look(address=f"#{address}&check=1" if address else ""), address, *expected)
+    # After half a second of playing it is long through with the first step, and nowhere near the end of the second. How
+    # often a headless browser draws on its own after that is its affair.
+    played = browser.look(address="#scene=slow&step=0&t=0&play=0.5&check=1")
+    check(played, "played", r"scene 4 step 1 t (0\.0|[0-9.]*e-).*", None, None, [])
+    assert "Pause" in played["labels"], played["labels"]
+    # Jumps move the view, too: from all of the ways to what is touched first, by Box2D with its gap of 5 mm.
+    act = "[...document.querySelectorAll('button')].find((one) => one.textContent === 'first contact').click();"
+    jumped = browser.look(act + LOOK_LATER, address=f"#{BULLET}&step=9&view=fit&check=1")
+    check(jumped, "first contact", DRAWN_AT + "0.5968", 0, 1, [])
+
+
 def main():
     command, folder = os.path.abspath(sys.argv[1]), sys.argv[2]
     program = next((name for name in BROWSERS if shutil.which(name)), None)
@@ -198,6 +275,8 @@ def main():
     run(command, "report", "all.html", "m.html", "s.jsonl", "w.jsonl")
     compared, swept, precise = (rows_of(name) for name in ("m.jsonl", "s.jsonl", "w.jsonl"))
     browser = Browser(program, "all.html")
+    write_replays(command)
+    check_replays(Browser(program, "replays.html"))
 
     seen = browser.look()
     assert seen["drawn"] == "summary" and seen["strip"] == "step 0 t 1", seen

@@ -111,21 +111,6 @@ TEST(PngFiles, of_every_kind_are_read_as_what_is_in_them) {
   }
 }
 
-TEST(PngFiles, with_16_bits_are_rounded_to_the_nearest_of_8) {
-  PngFile file{PngColour::grey_alpha, 16, true, 256, 256, {}, {}};
-  for (unsigned value = 0; value < 65536; ++value) {
-    file.samples.push_back(static_cast<std::uint16_t>(value));
-    file.samples.push_back(static_cast<std::uint16_t>(65535 - value));
-  }
-  const SceneFiles files;
-  const PngPicture picture = read_png(files.write("a.png", file.bytes()), "a.png");
-  for (int value = 0; value < 65536; ++value) {
-    const Rgba pixel = picture.colour_at(value % 256, value / 256);
-    ASSERT_EQ(pixel[0], as_byte(unsigned(value), 16)) << value;
-    ASSERT_EQ(pixel[3], as_byte(unsigned(65535 - value), 16)) << value;
-  }
-}
-
 std::string complaint_about(const SceneFiles& files, const std::string& bytes) {
   try {
     (void)read_png(files.write("a.png", bytes), "a.png");

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -35,20 +36,7 @@ struct PngFile {
   std::vector<std::uint16_t> samples{};  ///< Row by row from the top, the channels of a pixel side by side.
   std::string chunks{};                  ///< Those between header and pixels.
 
-  [[nodiscard]] int channels() const {
-    switch (colour) {
-      case PngColour::grey:
-      case PngColour::indexed:
-        return 1;
-      case PngColour::grey_alpha:
-        return 2;
-      case PngColour::rgb:
-        return 3;
-      case PngColour::rgb_alpha:
-        return 4;
-    }
-    return 0;
-  }
+  [[nodiscard]] int channels() const { return std::array{1, 0, 3, 1, 2, 0, 4}.at(std::size_t(colour)); }
   [[nodiscard]] std::uint16_t sample(int column, int row, int channel) const {
     return samples[static_cast<std::size_t>((row * width + column) * channels() + channel)];
   }

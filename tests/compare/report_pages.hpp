@@ -1,33 +1,22 @@
-/// What tests of the report share: a folder of their own, and the data of a page.
+/// What tests of the report share: a folder of their own, the data of a page, and a run to show.
 #pragma once
 
 #include "report/report.hpp"
 
-#include "compare/sample_report.hpp"
+#include "campaign/shapes.hpp"
+#include "compare/scene_files.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 namespace paperproof::compare {
 
 using nlohmann::json;
 
-/// A directory of its own for each test, gone afterwards.
+/// A folder of its own for each test, and a page in it.
 class ReportTest : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const std::string name = ::testing::UnitTest::GetInstance()->current_test_info()->name();
-    folder_ = std::filesystem::temp_directory_path() / ("paperproof_" + name + "_" + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-
-  [[nodiscard]] std::string path() const { return (folder_ / "report.html").string(); }
+  [[nodiscard]] std::string path() const { return files_.path("report.html"); }
 
   [[nodiscard]] std::string page(const Report& report, const ReportOptions& options = {}) const {
     write_report(path(), report, options);
@@ -41,12 +30,12 @@ class ReportTest : public ::testing::Test {
   }
 
   [[nodiscard]] std::size_t files_left() const {
-    const std::filesystem::directory_iterator all(folder_);
+    const std::filesystem::directory_iterator all(files_.path(""));
     return static_cast<std::size_t>(std::distance(begin(all), end(all)));
   }
 
  private:
-  std::filesystem::path folder_;
+  SceneFiles files_;
 };
 
 inline std::size_t count_of(const std::string& text, const std::string& part) {
@@ -70,19 +59,51 @@ inline Report report_of(const ReportScene& scene) {
   return report;
 }
 
-/// The first run of the sample's walk, with this many steps of 60 mm.
+inline TraceStep step_of(int number, std::vector<PathPoint<double>> path, const Vec2d& velocity = {0, 0}) {
+  TraceStep step;
+  step.step = number;
+  step.path = std::move(path);
+  step.velocity = velocity;
+  return step;
+}
+
+/// A run of the article's character over tiles of a metre, with so many steps of 60 mm and a contact in each.
 inline ReportScene walk_of(int steps) {
-  ReportScene scene = sample_report().scenes[1];
-  scene.runs.resize(1);
-  std::vector<TraceStep>& all = scene.runs[0].steps;
-  const TraceStep model = all.front();
-  all.assign(static_cast<std::size_t>(steps), model);
+  ReportRun run;
+  run.header.scene = "walk";
+  run.header.contender = "octagon_sweep";
+  run.header.scalar = "double";
+  run.header.dt = 1.0 / 60;
+  const std::span<const Vec2d> points = CharacterShape::article(32).points();
+  run.header.points.assign(points.begin(), points.end());
+  for (int tile = 0; tile < 6; ++tile) {
+    run.header.scenery.colliders.push_back(box(tile, -1, tile + 1, 0));
+    run.header.ids.push_back("tile_" + std::to_string(tile));
+  }
   for (int i = 0; i < steps; ++i) {
-    TraceStep& step = all[static_cast<std::size_t>(i)];
-    step.step = i;
-    step.path[0].position.x() = 0.06 * i;
-    step.path[1].position.x() = 0.06 * (i + 1);
-    step.contacts[0].point.x() = 0.06 * (i + 1);
+    const Vec2d to{0.06 * (i + 1), half_height};
+    TraceStep step = step_of(i, {{{0.06 * i, half_height}, 0}, {to, 1}}, {3.6, 0});
+    step.grounded = true;
+    step.contacts = {{2, {to.x(), 0}, {0, 1}, 0, 5e-7, Side::bottom}};
+    run.steps.push_back(step);
+  }
+  ReportScene scene;
+  scene.name = "walk";
+  scene.runs = {run};
+  scene.rows.resize(1);
+  scene.rows[0].contender = "octagon_sweep";
+  return scene;
+}
+
+/// With a second character, which does the same 2 m higher.
+inline ReportScene pair_of(int steps) {
+  ReportScene scene = walk_of(steps);
+  ReportRun& run = scene.runs[0];
+  run.header.characters = 2;
+  run.others = {run.steps};
+  for (TraceStep& step : run.others[0]) {
+    step.character = 1;
+    for (PathPoint<double>& corner : step.path) corner.position.y() += 2;
   }
   return scene;
 }

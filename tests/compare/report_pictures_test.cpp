@@ -40,36 +40,9 @@ ChartGrid grid_of_shots() {
   return counter.grids().at(0);
 }
 
-TEST(RowPictures, a_heat_map_counts_the_cases_of_each_cell) {
-  const ChartGrid grid = grid_of_shots();
-  EXPECT_EQ(grid.title, "mask");
-  EXPECT_EQ(grid.x_label, "speed [m/s]");
-  EXPECT_EQ(grid.y_label, "thickness [m]");
-  EXPECT_EQ(grid.xs, (std::vector<std::string>{"10", "2000"}));
-  EXPECT_EQ(grid.ys, (std::vector<std::string>{"0.01", "0.1"}));
-  for (std::size_t y = 0; y < 2; ++y)
-    for (std::size_t x = 0; x < 2; ++x) {
-      EXPECT_EQ(grid.cells[y][x].all, 2);
-      EXPECT_EQ(grid.cells[y][x].bad, y == 0 && x == 1 ? 1 : 0) << x << " " << y;
-    }
-  EXPECT_EQ(total_of(grid).bad, 1);
-  EXPECT_EQ(total_of(grid).all, 8);
-}
-
-TEST(RowPictures, what_cannot_run_counts_for_nothing) {
-  GridCounter counter("", "speed_m_s", "thickness_m", Bad::does_not_hold);
-  ordered_json row = shot("grid", 10, 0.1, 0);
-  row["verdict"] = "not_applicable";
-  counter.add(row);
-  EXPECT_TRUE(counter.grids().empty());
-  counter.add(shot("grid", 20, 0.1, 0));
-  ASSERT_EQ(counter.grids().size(), 1U);
-  EXPECT_EQ(counter.grids()[0].cells[0][0].all, 0);
-  EXPECT_EQ(counter.grids()[0].cells[0][1].all, 1);
-}
-
-TEST(RowPictures, questions_of_one_scene_are_kept_apart_and_parameters_that_differ_by_contender_are_no_axis) {
+TEST(RowPictures, questions_are_kept_apart_and_a_map_has_the_first_two_axes_of_the_sweep) {
   RowPictures pictures;
+  for (const ordered_json& row : shots()) pictures.add(row);
   for (const char* question : {"a fall", "a hit"})
     for (const char* contender : {"mask", "octagon_sweep"})
       for (const double speed : {1.0, 2.0}) {
@@ -78,23 +51,35 @@ TEST(RowPictures, questions_of_one_scene_are_kept_apart_and_parameters_that_diff
         row["parameters"]["jump_rules"] = contender == std::string("mask") ? 1 : 0;
         pictures.add(row);
       }
+  ordered_json compared = shot("mask", 10, 0.1, 0);
+  compared.erase("swept");
+  pictures.add(compared);
+  EXPECT_EQ(pictures.scenes().size(), 1U) << "rows of a comparison are no sweep";
+  ordered_json refused = shot("grid", 10, 0.1, 0);
+  refused["verdict"] = "not_applicable";
+  pictures.add(refused);
+  refused = shot("mask", 20, 0.1, 0);
+  refused["verdict"] = "not_applicable";
+  pictures.add(refused);
   const std::vector<ChartPage> pages = pictures.pages();
-  ASSERT_EQ(pages.size(), 2U);
-  EXPECT_EQ(pages[0].title, "a fall");
-  EXPECT_EQ(pages[1].title, "a hit");
-  ASSERT_EQ(pages[0].grids.size(), 2U);
-  EXPECT_EQ(pages[0].grids[0].ys.size(), 1U);
-  EXPECT_EQ(pages[0].grids[0].xs.size(), 2U);
-}
-
-TEST(RowPictures, the_axes_of_a_map_are_the_first_two_of_the_sweep) {
-  RowPictures pictures;
-  for (const ordered_json& row : shots()) pictures.add(row);
-  const std::vector<ChartPage> pages = pictures.pages();
-  ASSERT_EQ(pages.size(), 1U);
+  ASSERT_EQ(pages.size(), 3U);
   EXPECT_EQ(pages[0].title, bullets_title);
-  ASSERT_EQ(pages[0].grids.size(), 1U);
-  EXPECT_EQ(pages[0].grids[0].cells[0][1].bad, 1);
+  ASSERT_EQ(pages[0].grids.size(), 1U) << "one that could run nowhere has no map";
+  const ChartGrid& grid = pages[0].grids[0];
+  EXPECT_EQ(grid.xs, (std::vector<std::string>{"10", "20", "2000"}));
+  EXPECT_EQ(grid.ys, (std::vector<std::string>{"0.01", "0.1"}));
+  for (std::size_t y = 0; y < 2; ++y)
+    for (std::size_t x = 0; x < 3; ++x) {
+      EXPECT_EQ(grid.cells[y][x].all, x == 1 ? 0 : 2) << x << " " << y;
+      EXPECT_EQ(grid.cells[y][x].bad, y == 0 && x == 2 ? 1 : 0) << x << " " << y;
+    }
+  EXPECT_EQ(total_of(grid).bad, 1);
+  EXPECT_EQ(total_of(grid).all, 8);
+  EXPECT_EQ(pages[1].title, "a fall");
+  EXPECT_EQ(pages[2].title, "a hit");
+  ASSERT_EQ(pages[1].grids.size(), 2U);
+  EXPECT_EQ(pages[1].grids[0].ys.size(), 1U) << "what differs by contender is no axis";
+  EXPECT_EQ(pages[1].grids[0].xs.size(), 2U);
 }
 
 /// A row of cells: how many of one case are bad; -1: nothing ran.
@@ -122,7 +107,7 @@ TEST(CellReplays, are_of_the_border_first_then_of_bad_cells_then_of_the_rest) {
 }
 
 TEST_F(ReportTest, replays_of_cells_stand_in_the_page_and_are_read_back) {
-  ReportScene excerpt = sample_report().scenes[0];
+  ReportScene excerpt = walk_of(9);
   excerpt.rows[0].parameters = {{"speed_m_s", 120}, {"phase", 0.25}};
   ChartPage study;
   study.title = "study";
@@ -143,15 +128,6 @@ TEST_F(ReportTest, replays_of_cells_stand_in_the_page_and_are_read_back) {
   EXPECT_EQ(row[0].size(), 4U) << "no replay";
   EXPECT_EQ(row[1][3], "paperproof compare paper --no-reference");
   EXPECT_EQ(row[1][4], 0);
-}
-
-TEST(RowPictures, rows_of_a_comparison_are_no_sweep_though_nothing_ran_beside) {
-  RowPictures pictures;
-  ordered_json row = shot("mask", 10, 0.1, 0);
-  row.erase("swept");
-  pictures.add(row);
-  EXPECT_TRUE(pictures.pages().empty());
-  EXPECT_EQ(pictures.scenes().size(), 1U);
 }
 
 ordered_json precise(double dt, double error, double ns, const std::string& knob = "", double value = 0) {
@@ -182,16 +158,6 @@ TEST(RowPictures, a_curve_over_the_step_has_the_points_without_another_knob) {
   EXPECT_EQ(series[1].name, "mask over pixel [m], slope 2.00");
   EXPECT_FALSE(series[1].shown);
   ASSERT_EQ(series[1].points.size(), 1U);
-}
-
-TEST(Svg, a_heat_map_has_its_border_where_bad_cells_begin) {
-  // The one bad cell, at the right below, has a good one above and one to the left: two pieces of border.
-  const std::string svg = svg_of(grid_of_shots());
-  EXPECT_EQ(count_of(svg, "class=\"border\""), 2U);
-  EXPECT_EQ(count_of(svg, "class=\"holds\""), 3U);
-  EXPECT_EQ(count_of(svg, "class=\"some\""), 1U);
-  EXPECT_NE(svg.find("mask: 1 of 8 cases get through"), std::string::npos);
-  EXPECT_NE(svg.find("prefers-color-scheme: dark"), std::string::npos);
 }
 
 TEST(Svg, points_of_a_chart_are_where_their_logarithms_are) {
@@ -231,40 +197,16 @@ TEST_F(ReportTest, pictures_of_equal_titles_have_files_of_their_own_and_maps_of_
   EXPECT_EQ(count_of(rest, "Upwards: thickness [m]. Across: speed [m/s]."), 1U);
 }
 
-TEST(Svg, a_strip_has_a_panel_for_each_contender_and_says_what_became_of_it) {
-  const ReportScene scene = sample_report().scenes[0];
-  const std::string svg = svg_of_strip("bullets", {{"penetration_resolution", "through", true, &scene.runs[1]},
-                                                   {"octagon_sweep", "stopped", false, scene.runs.data()},
-                                                   {"grid", "cannot run", false, nullptr}});
-  EXPECT_EQ(count_of(svg, "class=\"frame\""), 2U);
-  EXPECT_EQ(count_of(svg, "class=\"none\""), 1U);
-  EXPECT_EQ(count_of(svg, "class=\"bad\""), 1U);
-  EXPECT_EQ(count_of(svg, "class=\"good\""), 1U);
-}
-
 TEST(ChartPageHtml, carries_its_data_its_library_and_no_way_out_of_the_script) {
   ChartPage page;
   page.title = "a </script><b>title";
   page.charts = {{"chart", "x", "y", {{"series", {{1, 2}, {10, 3.5}}}}}};
-  page.table = {{"x", "y"}, {{"1", "2"}}};
   const std::string html = html_of(page);
   EXPECT_EQ(html.find("</script><b>"), std::string::npos);
   const json study = data(html, "index")["studies"][0];
   EXPECT_EQ(study["title"], page.title);
   EXPECT_EQ(study["charts"][0]["series"][0]["points"][1]["y"], 3.5);
   EXPECT_NE(html.find("Chart.js v"), std::string::npos);
-  for (const char* marker : {"<!--DATA-->", "/*STYLE*/", "/*SCRIPT*/", "src="})
-    EXPECT_EQ(html.find(marker), std::string::npos) << marker;
-}
-
-TEST_F(ReportTest, a_page_is_read_back_as_it_was_written) {
-  const std::string text = page(sample_report());
-  const PageReader reader(path());
-  EXPECT_EQ(json(reader.index()), data(text, "index"));
-  for (std::size_t scene = 0; scene < reader.index()["scenes"].size(); ++scene)
-    EXPECT_EQ(json::parse(reader.replay(scene)), data(text, "replay-" + std::to_string(scene)));
-  std::ofstream(path()) << "<html></html>";
-  EXPECT_THROW(PageReader{path()}, std::runtime_error);
 }
 
 }  // namespace

@@ -1,373 +1,249 @@
-/// The replay in a report: what comes back from its columns, and what is left out.
+/// The replay in a report: its columns, number for number, and which steps are left out.
 #include "compare/report_pages.hpp"
+#include "report/run_json.hpp"
+#include "report/scenery_json.hpp"
+#include "support/steps_wanted.hpp"
 
-#include <cmath>
 #include <limits>
-#include <map>
+#include <set>
 
 namespace paperproof::compare {
 namespace {
 
-struct DecodedStep {
-  int step = 0;
-  std::vector<Vec2d> corners;
-  std::vector<double> fractions;
-  Vec2d velocity{Vec2d::Zero()};
-  int flags = 0;
-  std::vector<Contact<double>> contacts;
-};
+constexpr int bottom = static_cast<int>(Side::bottom);
+constexpr int right = static_cast<int>(Side::right);
 
-/// Reads a run back as run_json.hpp describes it, without the writer's code.
-class Decoder {
- public:
-  Decoder(const json& run, double quantum) : run_(run), quantum_(quantum) {}
-
-  std::vector<DecodedStep> steps() {
-    std::vector<DecodedStep> all;
-    const std::string flags = run_["flags"];
-    int number = 0;
-    for (std::size_t i = 0; i < run_["step"].size(); ++i) {
-      DecodedStep step;
-      number += run_["step"][i].get<int>();
-      step.step = number;
-      step.flags = flags[i] - '0';
-      read_path(step);
-      velocity_ += pair("velocity");
-      step.velocity = velocity_ * quantum_ * 10;
-      read_contacts(step);
-      all.push_back(step);
-    }
-    return all;
-  }
-
- private:
-  double next(const char* column) { return run_[column][at_[column]++].get<double>(); }
-  Vec2d pair(const char* column) {
-    const double x = next(column);
-    return {x, next(column)};
-  }
-
-  void read_path(DecodedStep& step) {
-    const double count = next("path");
-    if (count == 0) step.corners.push_back(position_ * quantum_);
-    for (double i = 0; i < std::max(count, 1.0) && count >= 0; ++i) {
-      position_ += pair("path");
-      step.corners.push_back(position_ * quantum_);
-      if (count > 0) step.fractions.push_back(next("path") / 10'000);
-    }
-  }
-
-  void read_contacts(DecodedStep& step) {
-    for (double left = next("contacts"); left > 0; --left) {
-      const auto kind = static_cast<std::size_t>(next("contacts"));
-      relative_.resize(std::max(relative_.size(), kind + 1), Vec2d::Zero());
-      relative_[kind] += pair("contacts");
-      Contact<double> contact;
-      contact.point = (position_ + relative_[kind]) * quantum_;
-      contact.fraction = next("contacts") / 10'000;
-      contact.separation = next("contacts");
-      contact.collider = run_["kinds"][4 * kind].get<ColliderIndex>();
-      contact.side = static_cast<Side>(run_["kinds"][4 * kind + 1].get<int>());
-      contact.normal = Vec2d(run_["kinds"][4 * kind + 2], run_["kinds"][4 * kind + 3]) / 10'000;
-      step.contacts.push_back(contact);
-    }
-  }
-
-  const json& run_;
-  double quantum_;
-  std::map<std::string, std::size_t> at_;
-  Vec2d position_{Vec2d::Zero()};
-  Vec2d velocity_{Vec2d::Zero()};
-  std::vector<Vec2d> relative_;
-};
-
-void expect_near(const Vec2d& a, const Vec2d& b, double tolerance, int step) {
-  EXPECT_LE((a - b).cwiseAbs().maxCoeff(), tolerance) << "in step " << step;
-}
-
-void expect_same_contacts(const std::vector<Contact<double>>& shown, const std::vector<Contact<double>>& real,
-                          double half_unit, int step) {
-  ASSERT_EQ(shown.size(), real.size()) << "in step " << step;
-  for (std::size_t i = 0; i < real.size(); ++i) {
-    expect_near(shown[i].point, real[i].point, half_unit, step);
-    expect_near(shown[i].normal, real[i].normal, 0.5e-4, step);
-    EXPECT_EQ(shown[i].collider, real[i].collider);
-    EXPECT_EQ(shown[i].side, real[i].side);
-    EXPECT_LE(std::abs(shown[i].fraction - real[i].fraction), 0.5e-4);
-    EXPECT_LE(std::abs(shown[i].separation - real[i].separation), 0.5e-2 * std::abs(real[i].separation));
-  }
-}
-
-/// Half a display unit, and the rounding of a number of this size.
-double half_unit(double quantum, double size) {
-  return 0.5 * quantum + 8 * size * std::numeric_limits<double>::epsilon();
-}
-
-void expect_same_run(const json& shown, const ReportRun& real, double quantum) {
-  const std::vector<DecodedStep> steps = Decoder(shown, quantum).steps();
-  ASSERT_EQ(steps.size(), real.steps.size());
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    const TraceStep& step = real.steps[i];
-    const double half = half_unit(quantum, step.path.back().position.cwiseAbs().maxCoeff());
-    EXPECT_EQ(steps[i].step, step.step);
-    EXPECT_EQ((steps[i].flags & 1) != 0, step.grounded);
-    EXPECT_EQ((steps[i].flags & 2) != 0, step.jumping);
-    ASSERT_EQ(steps[i].corners.size(), step.path.size());
-    for (std::size_t k = 0; k < step.path.size(); ++k) {
-      expect_near(steps[i].corners[k], step.path[k].position, half, step.step);
-      if (!steps[i].fractions.empty()) {
-        EXPECT_LE(std::abs(steps[i].fractions[k] - step.path[k].fraction), 0.5e-4);
-      }
-    }
-    expect_near(steps[i].velocity, step.velocity, half_unit(quantum * 10, 200), step.step);
-    expect_same_contacts(steps[i].contacts, step.contacts, half, step.step);
-  }
-}
-
-TEST_F(ReportTest, every_step_comes_back_to_half_a_display_unit) {
-  const Report report = sample_report();
-  const std::string text = page(report);
-  for (std::size_t scene = 0; scene < report.scenes.size(); ++scene) {
-    const json replay = data(text, "replay-" + std::to_string(scene));
-    const double quantum = replay["quantum"];
-    EXPECT_LE(quantum, 1.25e-4) << "a ten-thousandth of the character";
-    for (std::size_t run = 0; run < report.scenes[scene].runs.size(); ++run) {
-      expect_same_run(replay["runs"][run], report.scenes[scene].runs[run], quantum);
-    }
-  }
-}
-
-/// What the column of movers says, as run_json.hpp describes it.
-std::vector<std::vector<MoverMotion<double>>> decoded_movers(const json& run, std::size_t movers, double quantum) {
-  std::size_t at = 0;
-  const auto pair = [&] {
-    const double x = run["movers"][at++];
-    return Vec2d(x, run["movers"][at++]);
-  };
-  std::vector<Vec2d> place(movers, Vec2d::Zero());
-  std::vector<Vec2d> way(movers, Vec2d::Zero());
-  std::vector<std::vector<MoverMotion<double>>> steps(run["step"].size());
-  for (auto& step : steps) {
-    const bool jumped = run["movers"][at++] == 1;
-    for (std::size_t i = 0; i < movers; ++i) {
-      if (jumped) place[i] += pair();
-      way[i] += pair();
-      step.push_back({place[i] * quantum, (place[i] + way[i]) * quantum});
-      place[i] += way[i];
-    }
-  }
-  EXPECT_EQ(at, run["movers"].size());
-  return steps;
-}
-
-TEST_F(ReportTest, movers_come_back_to_half_a_display_unit_also_across_steps_that_were_left_out) {
-  ReportScene scene = walk_of(400);
-  ReportRun& run = scene.runs[0];
-  for (TraceStep& step : run.steps) {
-    const auto at = [](int number) { return Vec2d(3 * std::sin(number * 0.05), number * 0.01); };
-    step.movers = {{at(step.step), at(step.step + 1)}, {{7, 7}, {7, 7}}};
-  }
-  run.header.scenery.colliders[0].mover = 1;
-  run.header.scenery.colliders[2].mover = 0;
-  run.header.scenery.colliders[3].mover = 0;
-  run.header.scenery.colliders[1].sensor = true;
-  std::erase_if(run.steps, [](const TraceStep& step) { return step.step > 100 && step.step % 7 != 0; });
-  const json replay = data(page(report_of(scene)), "replay-0");
-  const double quantum = replay["quantum"];
-  const auto movers = decoded_movers(replay["runs"][0], 2, quantum);
-  ASSERT_EQ(movers.size(), run.steps.size());
-  for (std::size_t i = 0; i < movers.size(); ++i) {
-    for (std::size_t m = 0; m < 2; ++m) {
-      expect_near(movers[i][m].from, run.steps[i].movers[m].from, half_unit(quantum, 10), run.steps[i].step);
-      expect_near(movers[i][m].to, run.steps[i].movers[m].to, half_unit(quantum, 10), run.steps[i].step);
-    }
-  }
-  const auto rest = static_cast<int>(run.header.ids.size()) - 4;
-  EXPECT_EQ(replay["sceneries"][0]["movers"], (json{2, 1, 0, 1, 1, 2, 0, rest}));
-  EXPECT_EQ(replay["sceneries"][0]["sensors"], json{1});
-}
-
-TEST_F(ReportTest, what_is_drawn_between_two_squares_comes_back_where_it_is) {
-  const ReportScene scene = sample_report().scenes[6];
-  const json replay = data(page(report_of(scene)), "replay-0");
-  const json& remainder = replay["runs"][0]["remainder"];
-  const std::vector<TraceStep>& steps = scene.runs[0].steps;
-  int between = 0;
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    const std::string key = std::to_string(i);
-    ASSERT_EQ(remainder.contains(key), !steps[i].remainder.isZero(0)) << i;
-    if (!remainder.contains(key)) continue;
-    const Vec2d read = Vec2d(remainder[key][0], remainder[key][1]) * replay["quantum"].get<double>();
-    expect_near(read, steps[i].remainder, half_unit(replay["quantum"], 1), steps[i].step);
-    ++between;
-  }
-  EXPECT_GE(between, 25);
-  const json others = data(page(report_of(sample_report().scenes[0])), "replay-0");
-  EXPECT_FALSE(others["runs"][0].contains("remainder")) << "nothing of it where there is none";
-}
-
-TEST_F(ReportTest, every_character_comes_back_with_whom_it_met) {
-  const ReportScene scene = sample_report().scenes[4];
-  const json replay = data(page(report_of(scene)), "replay-0");
-  const json& run = replay["runs"][0];
-  ASSERT_EQ(run["others"].size(), 1U);
-  const double quantum = replay["quantum"];
-  const std::vector<TraceStep>& sent = scene.runs[0].others[0];
-  const std::vector<DecodedStep> read = Decoder(run["others"][0], quantum).steps();
-  ASSERT_EQ(read.size(), sent.size());
-  for (std::size_t i = 0; i < read.size(); ++i) {
-    EXPECT_LE((read[i].corners.back() - sent[i].path.back().position).cwiseAbs().maxCoeff(), 0.51 * quantum) << i;
-    EXPECT_EQ(run["others"][0]["met"].contains(std::to_string(i)), !sent[i].met.empty()) << i;
-  }
-  EXPECT_EQ(run["others"][0]["met"]["20"], json::parse("[0, 1, 0, 10000, 5000]"));
-  EXPECT_EQ(run["events"][0][3], 1);
-}
-
-TEST_F(ReportTest, a_run_without_movers_has_no_column_for_them) {
-  const json replay = data(page(report_of(walk_of(3))), "replay-0");
-  EXPECT_FALSE(replay["runs"][0].contains("movers") || replay["runs"][0].contains("crush"));
-  EXPECT_FALSE(replay["sceneries"][0].contains("movers") || replay["sceneries"][0].contains("sensors"));
-}
-
-TEST_F(ReportTest, a_crush_comes_back_with_the_colliders_that_did_it) {
-  ReportScene scene = walk_of(5);
-  scene.runs[0].steps[3].crushed = {2, 5};
-  const json replay = data(page(report_of(scene)), "replay-0");
-  EXPECT_EQ(replay["runs"][0]["crush"], (json{{"3", {2, 5}}}));
-  EXPECT_TRUE(replay["sceneries"][0]["ids"].contains("5"));
-}
-
-TEST_F(ReportTest, an_event_comes_back_with_the_collider_that_it_is_about) {
-  const json runs = data(page(report_of(sample_report().scenes[0])), "replay-0")["runs"];
-  EXPECT_EQ(runs[1]["events"][0][1], "tunnel");
-  EXPECT_EQ(runs[1]["events"][0][4], 0) << "the paper";
-}
-
-TEST_F(ReportTest, a_drop_comes_back_with_the_chains_it_goes_through) {
-  ReportScene scene = walk_of(5);
-  scene.runs[0].steps[2].dropped_through = {16};
-  const json replay = data(page(report_of(scene)), "replay-0");
-  EXPECT_EQ(replay["runs"][0]["drop"], (json{{"2", {16}}}));
-  EXPECT_EQ(replay["sceneries"][0]["ids"]["16"], "ledge");
-}
-
-TEST_F(ReportTest, steps_with_lengths_of_their_own_come_back_with_these) {
-  ReportScene scene = walk_of(5);
-  EXPECT_FALSE(data(page(report_of(scene)), "replay-0").contains("dt_list"));
-  scene.dt_list = {1.0 / 64, 31.0 / 1024};
-  EXPECT_EQ(data(page(report_of(scene)), "replay-0")["dt_list"], (json{0.015625, 0.0302734375}));
-}
-
-TEST_F(ReportTest, flags_and_overlaps_come_back) {
-  ReportScene scene = walk_of(3);
-  TraceStep& step = scene.runs[0].steps[1];
-  step.grounded = step.jumping = false;
-  step.respawn = step.stuck = step.dropped = step.capped = true;
+/// Everything that a step may say. The character goes to the right by 0.4 units a step, which must not be lost.
+ReportRun run_of_everything() {
+  ReportRun run;
+  run.header.contender = "octagon_sweep";
+  run.header.scalar = "double";
+  run.header.dt = 1.0 / 64;
+  run.header.box2d = "2.4.1";
+  run.header.path_exact = true;
+  run.header.points = {{-0.5, -1}, {0.5, -1}, {0, 1}};
+  run.header.scenery.colliders = {box(0, 0, 1, 1), chain({{0, 0}, {1, 0}}, 0)};
+  run.every = 3;
+  const Contact<double> ground{1, {0.00004, 0.5}, {0, 1}, 0.25, 5e-7, Side::bottom};
+  TraceStep step = step_of(0, {{{0, 0}, 0}, {{0.00004, 1}, 1}}, {0.001, 64});
+  step.grounded = true;
+  step.contacts = {ground};
+  step.movers = {{{3, 0}, {3, 0.00004}}, {{7, 7}, {7, 7}}};
+  step.vertex_ways.resize(1);
+  step.vertex_ways[0].collider = 1;
+  step.vertex_ways[0].vertices = {{{0, 0}, {1, 0}}, {{0, 0}, {0, 1}}};
+  run.steps = {step};
+  step.step = 1;
+  step.path = {{{0.00004, 1}, 0}, {{0.00008, 2}, 1}};
+  step.grounded = false;
+  step.jumping = step.respawn = true;
+  step.contacts[0].point += Vec2d(0.00004, 1);
+  step.contacts[0].fraction = 0;
+  step.movers[0] = {{3, 0.00004}, {3, 0.00008}};
   step.start_overlap = {4, 0};
-  const json run = data(page(report_of(scene)), "replay-0")["runs"][0];
-  EXPECT_EQ(Decoder(run, 1).steps()[1].flags, 4 + 8 + 16 + 32);
-  EXPECT_EQ(run["start_overlap"], (json{{"1", {4, 0}}}));
+  run.steps.push_back(step);
+  step = step_of(2, {{{0.00012, 2}, 0}, {{0.5, 2}, 0.25}, {{0.5, 2.5}, 1}}, {32, 0});
+  step.stuck = step.dropped = step.capped = true;
+  step.contacts = {{0, {1, 2.5}, {-1, 0}, 1, 0, Side::right}, ground};
+  step.contacts[1].point = {0.5, 2};
+  step.met = {{1, {0, 1}, 0.5, Side::bottom}};
+  step.movers = {{{3, 0.00008}, {3, 0.00012}}, {{7, 7}, {7, 7}}};
+  step.vertex_ways = run.steps[0].vertex_ways;
+  step.dropped_through = {16};
+  run.steps.push_back(step);
+  step = step_of(7, {});
+  step.remainder = {-0.2, 0};
+  step.movers = {{{4, 0}, {4, 1}}, {{7, 7}, {7, 7}}};
+  step.vertex_ways = run.steps[0].vertex_ways;
+  step.crushed = {2, 5};
+  run.steps.push_back(step);
+  run.steps.push_back(step_of(8, {}, {0, std::numeric_limits<double>::quiet_NaN()}));
+  run.others.resize(1);
+  for (const double number : {0, 1, 2, 7, 8})
+    run.others[0].push_back(step_of(int(number), {{{1, number}, 0}, {{1, number + 1}, 1}}));
+  run.events = {{2, ReportEvent::Kind::tunnel, "through", 0, 1},
+                {3, ReportEvent::Kind::note, "aside"},
+                {7, ReportEvent::Kind::corner_cut, "cut", 1}};
+  return run;
 }
 
-TEST_F(ReportTest, ten_thousand_kilometres_from_the_origin_steps_still_come_back) {
-  ReportScene scene = walk_of(20);
-  for (TraceStep& step : scene.runs[0].steps) {
-    for (PathPoint<double>& corner : step.path) corner.position.x() += 1e7;
-    for (Contact<double>& contact : step.contacts) contact.point.x() += 1e7;
-  }
-  const json replay = data(page(report_of(scene)), "replay-0");
-  expect_same_run(replay["runs"][0], scene.runs[0], replay["quantum"]);
+TEST(RunJson, has_a_column_for_each_part_of_a_step_in_whole_units) {
+  const json side_kinds{1, bottom, 0, 10'000, 0, right, -10'000, 0};
+  json expected = json::parse(R"({
+    "contender": "octagon_sweep", "scalar": "double", "mode": "free", "dt": 0.015625, "box2d": "2.4.1",
+    "path_exact": true, "plan_omitted": [], "every": 3, "hull": [-5000,-10000, 5000,-10000, 0,10000],
+    "events": [[2,"tunnel","through",0,1], [3,"note","aside"], [7,"corner cut","cut",1]],
+    "scenery": 5, "not_finite_from": 8,
+    "step": [0,1,1,5], "flags": "16h0",
+    "path": [0,0,10000, 0,1,10000, 3,0,0,0,4999,0,2500,0,5000,10000, -1],
+    "velocity": [1,64000, 0,0, 31999,-64000, -32000,0],
+    "contacts": [1,0,0,-5000,2500,5e-07, 1,0,0,0,0,5e-07, 2,1,5000,0,10000,0,0,0,0,2500,5e-07, 0],
+    "start_overlap": {"1": [4,0]}, "crush": {"3": [2,5]}, "drop": {"2": [16]}, "remainder": {"3": [-2000,0]},
+    "movers": [1,30000,0,0,0,70000,70000,0,0, 0,0,1,0,0, 0,0,-1,0,0, 1,10000,-1,0,10000,0,0,0,0],
+    "turns": [0,15708,0,0, 0,15708,0,0, 0,15708,0,0, 0,15708,0,0],
+    "others": [{"step": [0,1,1,5], "flags": "0000", "path": [2,10000,0,0,0,10000,10000, 0,0,10000, 0,0,10000,
+                2,0,40000,0,0,10000,10000], "velocity": [0,0,0,0,0,0,0,0], "contacts": [0,0,0,0], "kinds": [],
+                "start_overlap": {}}]})");
+  expected["kinds"] = side_kinds;
+  expected["met"] = {{"2", {1, bottom, 0, 10'000, 5000}}};
+  EXPECT_EQ(json::parse(run_json(run_of_everything(), 5, Quantum(2, 10))), expected);
+  ReportRun plain = walk_of(3).runs[0];
+  const json columns = json::parse(run_json(plain, 0, Quantum(2, 10)));
+  for (const char* key : {"movers", "turns", "crush", "drop", "met", "remainder", "others", "not_finite_from"})
+    EXPECT_FALSE(columns.contains(key)) << key;
 }
 
-TEST_F(ReportTest, a_tiny_character_gets_a_finer_unit) {
-  ReportScene scene = walk_of(2);
-  for (Vec2d& point : scene.runs[0].header.points) point *= 1e-4;
-  const double quantum = data(page(report_of(scene)), "replay-0")["quantum"];
-  EXPECT_LE(quantum, 1.25e-8);
-  EXPECT_GT(quantum, 1.25e-10);
+TEST(SceneryJson, writes_equal_shapes_once_and_says_where_each_is_what_moves_and_what_only_notices) {
+  SceneryDef scenery;
+  scenery.colliders = {box(0, 0, 1, 1), box(2, 0, 3, 1), box(2, 1, 3, 2, 1), box(4, 0, 5, 1)};
+  scenery.colliders[3].holes = {{{4.25, 0.25}, {4.5, 0.25}, {4.5, 0.5}}};
+  scenery.colliders.push_back(chain({{4, 3}, {5, 3.5}}, 0));
+  scenery.colliders.back().one_way = Vec2d(0, 1);
+  scenery.colliders.push_back(box(0, 0, 1, 1));
+  scenery.colliders.back().sensor = true;
+  const std::vector<std::string> ids{"a", "b", "c", "d", "ledge", "zone"};
+  const json expected = json::parse(R"({
+    "shapes": [[0, [[0,0,10000,0,0,10000,-10000,0]]],
+               [0, [[0,0,10000,0,0,10000,-10000,0], [2500,2500,2500,0,0,2500]]],
+               [1, [[0,0,10000,5000]], [0,1]]],
+    "order": [0,3, 1,1, 2,1, 0,1], "unit": 10000, "at": [0,0, 2,0, 0,1, 2,-1, 0,3, -4,-3],
+    "ids": {"1": "b", "4": "ledge"}, "movers": [0,2, 2,1, 0,1, 1,1, 0,1], "sensors": [5]})");
+  EXPECT_EQ(json::parse(scenery_json(scenery, ids, {1, 4}, Quantum(2, 10))), expected);
+  SceneryDef still;
+  still.colliders = {circle({1, 2}, 0.5)};
+  const json round = json::parse(scenery_json(still, {"disc"}, {}, Quantum(2, 10)));
+  EXPECT_EQ(round["shapes"][0][1][0].size(), 2U * 64);
+  EXPECT_FALSE(round.contains("movers") || round.contains("sensors"));
 }
 
-TEST_F(ReportTest, colliders_come_back_where_they_are) {
-  const Report report = sample_report();
-  const json replay = data(page(report), "replay-1");
-  const json& scenery = replay["sceneries"][0];
-  const double quantum = replay["quantum"];
-  const std::vector<ColliderDef>& real = report.scenes[1].runs[0].header.scenery.colliders;
-  std::size_t collider = 0;
-  Vec2d origin = Vec2d::Zero();
-  for (std::size_t run = 0; run < scenery["order"].size(); run += 2) {
-    const json& shape = scenery["shapes"][scenery["order"][run].get<std::size_t>()];
-    for (int n = 0; n < scenery["order"][run + 1].get<int>(); ++n, ++collider) {
-      ASSERT_LT(collider, real.size());
-      EXPECT_EQ(shape[0] == 1, real[collider].shape == ColliderDef::Shape::chain);
-      EXPECT_EQ(shape.size() == 3, real[collider].one_way.has_value());
-      EXPECT_EQ(shape[1].size(), 1 + real[collider].holes.size());
-      origin += Vec2d(scenery["at"][2 * collider], scenery["at"][2 * collider + 1]) * scenery["unit"].get<double>();
-      Vec2d vertex = origin;
-      ASSERT_EQ(shape[1][0].size(), 2 * real[collider].points.size());
-      for (std::size_t i = 0; i < real[collider].points.size(); ++i) {
-        vertex += Vec2d(shape[1][0][2 * i], shape[1][0][2 * i + 1]);
-        expect_near(vertex * quantum, real[collider].points[i], half_unit(quantum, 30), static_cast<int>(collider));
-      }
-    }
-  }
-  EXPECT_EQ(collider, real.size());
+TEST(Quantum, is_a_ten_thousandth_of_the_character_or_finer_unless_the_scene_is_too_large_for_whole_numbers) {
+  EXPECT_DOUBLE_EQ(Quantum(1.25, 10).metres(), 1e-4);
+  EXPECT_DOUBLE_EQ(Quantum(1.25e-4, 10).metres(), 1e-8);
+  EXPECT_DOUBLE_EQ(Quantum(1.25, 1e7).metres(), 1e-4);
+  EXPECT_EQ(Quantum(1.25, 1e7).round(1e7), 100'000'000'000);
+  EXPECT_DOUBLE_EQ(Quantum(1.25, 1e12).metres(), 1e-3);
 }
 
-TEST_F(ReportTest, runs_over_the_same_scenery_share_it) {
-  ReportScene scene = sample_report().scenes[1];
+TEST_F(ReportTest, a_replay_has_the_scenery_once_lengths_of_steps_and_disagreements_up_to_the_limit) {
+  ReportScene scene = walk_of(5);
+  scene.runs.push_back(scene.runs[0]);
   EXPECT_EQ(data(page(report_of(scene)), "replay-0")["sceneries"].size(), 1U);
-  const double nudge = 1e-6;  // less than is shown, as rounding to float would do
-  scene.runs[1].header.scenery.colliders[0].points[0].x() += nudge;
+  double& corner = scene.runs[1].header.scenery.colliders[0].points[0].x();
+  corner += 1e-6;  // less than is shown, as rounding to float would do
   EXPECT_EQ(data(page(report_of(scene)), "replay-0")["sceneries"].size(), 1U);
-  scene.runs[1].header.scenery.colliders[0].points[0].x() -= 0.5;
-  const json replay = data(page(report_of(scene)), "replay-0");
+  corner -= 0.5;
+  scene.dt_list = {1.0 / 64, 31.0 / 1024};
+  const std::vector<Contact<double>> contacts{{0, {0.25, 0}, {0, 1}, 0.5, 1e-6, Side::bottom}};
+  Disagreement disagreement;
+  disagreement.step = 3;
+  disagreement.statements = {{1, {0, 1}, {0.5, 1}, contacts}};
+  disagreement.exact = contacts;
+  disagreement.who_is_right = "Nobody.";
+  scene.disagreements.assign(9, disagreement);
+  const json replay = data(page(report_of(scene), {.max_disagreements = 4}), "replay-0");
   EXPECT_EQ(replay["sceneries"].size(), 2U);
   EXPECT_EQ(replay["runs"][0]["scenery"], 0);
   EXPECT_EQ(replay["runs"][1]["scenery"], 1);
+  EXPECT_EQ(replay["sceneries"][0]["ids"], (json{{"0", "tile_0"}, {"2", "tile_2"}})) << "those that are spoken of";
+  EXPECT_EQ(replay["dt_list"], (json{0.015625, 0.0302734375}));
+  EXPECT_EQ(replay["disagreements_in_all"], 9);
+  EXPECT_EQ(replay["disagreements"].size(), 4U);
+  const json shown{{0, bottom, 2500, 0, 0, 10'000, 5000, 1e-6}};
+  const json statement{{"run", 1}, {"from", {0, 10'000}}, {"to", {5000, 10'000}}, {"contacts", shown}};
+  EXPECT_EQ(
+      replay["disagreements"][0],
+      (json{{"step", 3}, {"statements", json::array({statement})}, {"exact", shown}, {"who_is_right", "Nobody."}}));
 }
 
-TEST_F(ReportTest, a_level_of_equal_tiles_takes_a_few_bytes_for_each) {
-  ReportScene scene = walk_of(2);
-  SceneryDef& scenery = scene.runs[0].header.scenery;
-  const ColliderDef tile = scenery.colliders[0];
-  scenery.colliders.clear();
-  constexpr int tiles = 5000;
-  for (int i = 0; i < tiles; ++i) {
-    scenery.colliders.push_back(tile);
-    for (Vec2d& point : scenery.colliders.back().points) point += Vec2d(i % 250, i / 250);
-  }
-  const std::string packed = data(page(report_of(scene)), "replay-0")["sceneries"][0].dump();
-  EXPECT_LT(packed.size(), 5U * tiles) << "\"1,0,\" and a little for each new row";
-}
-
-TEST_F(ReportTest, a_stored_step_takes_about_thirty_bytes) {
+TEST_F(ReportTest, a_step_takes_about_thirty_bytes_and_a_tile_a_few) {
   constexpr int steps = 1200;
   const std::size_t few = page(report_of(walk_of(steps / 2))).size();
   const std::size_t many = page(report_of(walk_of(steps))).size();
   EXPECT_LT(many - few, 32U * steps / 2);
+  SceneryDef level;
+  for (int i = 0; i < 5000; ++i) level.colliders.push_back(box(i % 250, i / 250, i % 250 + 1, i / 250 + 1));
+  EXPECT_LT(scenery_json(level, {}, {}, Quantum(1, 250)).size(), 5U * 5000) << "\"1,0,\" and a little for each new row";
 }
 
-TEST_F(ReportTest, steps_from_the_first_position_that_is_not_finite_are_left_out) {
-  ReportScene scene = walk_of(10);
-  scene.runs[0].steps[6].path[1].position.y() = std::numeric_limits<double>::quiet_NaN();
-  const json run = data(page(report_of(scene)), "replay-0")["runs"][0];
-  EXPECT_EQ(run["step"].size(), 6U);
-  EXPECT_EQ(run["not_finite_from"], 6);
+std::set<int> steps_of(const ReportRun& run) {
+  std::set<int> all;
+  for (const TraceStep& step : run.steps) all.insert(step.step);
+  return all;
 }
 
-TEST_F(ReportTest, disagreements_beyond_the_limit_are_counted) {
-  ReportScene scene = sample_report().scenes[2];
-  const Disagreement model = scene.disagreements[0];
-  scene.disagreements.assign(9, model);
-  ReportOptions options;
-  options.max_disagreements = 4;
-  const json replay = data(page(report_of(scene), options), "replay-0");
-  EXPECT_EQ(replay["disagreements"].size(), 4U);
-  EXPECT_EQ(replay["disagreements_in_all"], 9);
-  EXPECT_EQ(replay["disagreements"][0]["step"], model.step);
-  EXPECT_EQ(replay["disagreements"][0]["statements"][0]["contacts"][0][0], model.statements[0].contacts[0].collider);
-  EXPECT_TRUE(replay["disagreements"][0].contains("exact"));
+TEST_F(ReportTest, the_step_of_a_disagreement_survives_thinning) {
+  ReportScene scene = walk_of(1000);
+  scene.disagreements.resize(1);
+  scene.disagreements[0].step = 777;
+  const json run = data(page(report_of(scene), {.max_replay_steps = 50}), "replay-0")["runs"][0];
+  std::set<int> kept;
+  int number = 0;
+  for (const json& difference : run["step"]) kept.insert(number += difference.get<int>());
+  EXPECT_LE(kept.size(), 50U);
+  for (const int step : {776, 777, 778}) EXPECT_TRUE(kept.contains(step)) << step;
+}
+
+TEST(ThinForReplay, keeps_ends_events_and_first_contact_within_the_limit) {
+  for (const int steps : {5, 8, 9, 100, 1200, 1201, test::sanitized ? 1201 : 3600}) {
+    for (const int limit : {8, 20, 60, 1200}) {
+      ReportRun run = walk_of(steps).runs[0];
+      for (TraceStep& step : run.steps)
+        if (step.step < steps / 2) step.contacts.clear();
+      run.events = {{steps / 3, ReportEvent::Kind::tunnel, ""}};
+      thin_for_replay(run, limit);
+      const std::set<int> kept = steps_of(run);
+      const auto room = static_cast<std::size_t>(std::min(steps, limit));
+      EXPECT_LE(kept.size(), room);
+      EXPECT_GE(kept.size(), room / 3) << steps << " to " << limit;
+      EXPECT_TRUE(kept.contains(0) && kept.contains(steps - 1));
+      if (limit < 20) continue;  // half of less than 20 has no room for two events with their neighbours
+      EXPECT_TRUE(kept.contains(steps / 3)) << steps << " to " << limit;
+      EXPECT_TRUE(kept.contains(steps / 2)) << steps << " to " << limit;
+    }
+  }
+}
+
+TEST(ThinForReplay, says_how_many_steps_one_stands_for_and_keeps_the_same_of_every_character) {
+  ReportRun run = pair_of(1000).runs[0];
+  thin_for_replay(run, 1000);
+  EXPECT_EQ(run.steps.size(), 1000U);
+  EXPECT_EQ(run.every, 1);
+  thin_for_replay(run, 100);
+  EXPECT_GE(run.every, 10);
+  EXPECT_LE(run.every, 12);
+  thin_for_replay(run, 50);
+  EXPECT_GE(run.every, 20) << "thinning twice multiplies";
+  ASSERT_EQ(run.others[0].size(), run.steps.size());
+  for (std::size_t i = 0; i < run.steps.size(); ++i) EXPECT_EQ(run.others[0][i].step, run.steps[i].step);
+}
+
+TEST(CutToExcerpt, leaves_the_step_that_matters_and_those_around_it) {
+  const auto ends_of = [](const std::vector<ReportEvent>& events, int around) {
+    ReportRun run = pair_of(100).runs[0];
+    for (TraceStep& step : run.steps)
+      if (step.step < 30) step.contacts.clear();
+    run.others[0].front().contacts.clear();
+    run.events = events;
+    cut_to_excerpt(run, around);
+    EXPECT_EQ(run.others[0].size(), run.steps.size());
+    for (const ReportEvent& event : run.events) EXPECT_LE(std::abs(event.step - run.steps[0].step), 2 * around);
+    return std::pair(run.steps.front().step, run.steps.back().step);
+  };
+  using Kind = ReportEvent::Kind;
+  EXPECT_EQ(ends_of({}, 4), std::pair(26, 34)) << "the first contact";
+  EXPECT_EQ(ends_of({{50, Kind::inside, ""}, {70, Kind::tunnel, ""}, {90, Kind::tunnel, ""}}, 4), std::pair(66, 74));
+  EXPECT_EQ(ends_of({{20, Kind::note, ""}, {50, Kind::inside, ""}}, 3), std::pair(47, 53));
+  EXPECT_EQ(ends_of({{1, Kind::inside, ""}}, 4), std::pair(0, 5));
+}
+
+TEST(OptionsFor, many_runs_share_the_room) {
+  EXPECT_EQ(options_for(1).max_replay_steps, ReportOptions{}.max_replay_steps);
+  EXPECT_EQ(options_for(0).max_replay_steps, ReportOptions{}.max_replay_steps);
+  const std::size_t runs = 221 * 8;
+  const auto per_run = static_cast<std::size_t>(options_for(runs).max_replay_steps);
+  EXPECT_LE(per_run * runs, 600'000U);
+  EXPECT_GT((per_run + 1) * runs, 600'000U);
+  EXPECT_EQ(options_for(1'000'000).max_replay_steps, 60);
 }
 
 }  // namespace

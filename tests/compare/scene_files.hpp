@@ -5,8 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
+#include <sstream>
 #include <string>
 #include <string_view>
 
@@ -72,6 +75,57 @@ inline std::string with(std::string text, std::string_view from, std::string_vie
     return text;
   }
   return text.replace(at, from.size(), to);
+}
+
+/// Text with " for ', so that tables of JSON can be read.
+inline std::string quoted(std::string text) {
+  std::replace(text.begin(), text.end(), '\'', '"');
+  return text;
+}
+
+/// In one place of a good file, and how the message about it begins. Each ' stands for ".
+struct Change {
+  std::string_view from;
+  std::string to;  ///< With a + in front: what is put before `from`, and a comma.
+  std::string message;
+};
+
+/// Each change of the good text is refused with its message, in one line.
+inline void expect_refused(const std::string& name, const std::string& good, std::initializer_list<Change> changes) {
+  const SceneFiles files;
+  for (const auto& [from, to, message] : changes) {
+    const std::string after = to.starts_with('+') ? to.substr(1) + ", " + std::string(from) : to;
+    const std::string said = files.complaint(name, with(good, quoted(std::string(from)), quoted(after)));
+    EXPECT_EQ(said.substr(0, message.size()), quoted(message)) << "with " << to << " it says\n" << said;
+  }
+}
+
+/// What blocks, one after the other: "a: box 0 0 2 1; b: polygon 0 0 1 0 0 1". Polygons begin with their least corner.
+inline std::string solids_of(const Scene& scene) {
+  std::ostringstream text;
+  text.precision(17);
+  for (std::size_t i = 0; i < scene.ids.size(); ++i) {
+    const ColliderDef& def = scene.scenery.colliders[i];
+    std::vector<Vec2d> points = def.points;
+    text << (i == 0 ? "" : "; ") << scene.ids[i];
+    if (def.shape == ColliderDef::Shape::polygon) {
+      const auto before = [](const Vec2d& a, const Vec2d& b) {
+        return std::pair(a.x(), a.y()) < std::pair(b.x(), b.y());
+      };
+      std::rotate(points.begin(), std::min_element(points.begin(), points.end(), before), points.end());
+      const bool is_box = points.size() == 4 && points[0].x() + points[2].x() == points[1].x() + points[3].x() &&
+                          (points[0].x() == points[1].x() || points[0].y() == points[1].y());
+      if (is_box) points = {points[0], points[2]};
+      text << (is_box ? ": box" : ": polygon");
+    } else {
+      text << (def.shape == ColliderDef::Shape::chain ? ": chain" : ": circle");
+    }
+    for (const Vec2d& point : points) text << ' ' << point.x() + 0.0 << ' ' << point.y() + 0.0;
+    if (def.radius > 0) text << " radius " << def.radius;
+    if (def.one_way) text << " one-way " << def.one_way->x() << ' ' << def.one_way->y();
+    if (def.mover != no_mover) text << " of mover " << def.mover;
+  }
+  return text.str();
 }
 
 inline testing::AssertionResult holds(const std::string& text, std::string_view part) {

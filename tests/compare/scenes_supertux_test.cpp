@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numbers>
 
 #include "oracle/exact.hpp"
 #include "scene_files.hpp"
@@ -42,28 +42,32 @@ std::string complaint(const SceneFiles& files, const std::string& text) {
   return SceneFiles::complaint_about(write_level(files, text));
 }
 
-TEST(SuperTux, solid_tiles_are_boxes_of_one_metre_and_other_tilemaps_are_pictures) {
-  const SceneFiles files;
-  const Scene scene = load_level(files, level);
-  EXPECT_EQ(scene.name, "a");
-  ASSERT_EQ(scene.ids, (std::vector<std::string>{"t0,2", "t1,2", "t2,2", "t3,2"}));
-  EXPECT_EQ(scene.scenery.colliders[1].points, (std::vector<Vec2d>{{1, -3}, {2, -3}, {2, -2}, {1, -2}}));
-  // The upper left corner of the 20 x 40 px sprite is the spawn point named main.
-  EXPECT_EQ(scene.start.position, Vec2d((32 + 10) / 32.0, -(16 + 20) / 32.0));
-  EXPECT_EQ(scene.respawn_box->lower, Vec2d(0, -3));
-  EXPECT_EQ(scene.respawn_box->upper, Vec2d(4, 0));
-  EXPECT_TRUE(scene.notes.empty());
-}
+const std::string floor_solids = "t0,2: box 0 -3 1 -2; t1,2: box 1 -3 2 -2; t2,2: box 2 -3 3 -2; t3,2: box 3 -3 4 -2";
 
-TEST(SuperTux, one_way_tiles_are_chains_at_the_side_that_blocks) {
+TEST(SuperTux, tiles_are_boxes_slopes_and_chains_at_the_side_that_blocks) {
   const SceneFiles files;
-  const Scene scene = load_level(files, with(level, "0 0 0 0 0 0 0 0 1", "0 0 0 2 0 0 0 6 7"));
-  EXPECT_EQ(scene.scenery.colliders[0].points, (std::vector<Vec2d>{{3, 0}, {4, 0}}));
-  EXPECT_EQ(scene.scenery.colliders[0].one_way, Vec2d(0, 1));
-  EXPECT_EQ(scene.scenery.colliders[1].points, (std::vector<Vec2d>{{3, -2}, {4, -2}}));
-  EXPECT_EQ(scene.scenery.colliders[1].one_way, Vec2d(0, -1));
-  EXPECT_EQ(scene.scenery.colliders[2].points, (std::vector<Vec2d>{{0, -2}, {0, -3}}));
-  EXPECT_EQ(scene.scenery.colliders[2].one_way, Vec2d(-1, 0));
+  struct Case {
+    const char* what;
+    std::string upper;  ///< The first two rows.
+    std::string solids;
+    std::string note{};
+  };
+  for (const Case& each : {
+           Case{"a metre each", "0 0 0 0 0 0 0 0", ""},
+           Case{"from above", "0 0 0 2 0 0 0 0", "t3,0: chain 3 0 4 0 one-way 0 1; "},
+           Case{"from below", "0 0 0 0 0 0 0 6", "t3,1: chain 3 -2 4 -2 one-way 0 -1; "},
+           Case{"from the left", "0 0 0 0 0 0 0 7", "t3,1: chain 3 -1 3 -2 one-way -1 0; "},
+           Case{"of its own, and one that is a picture", "4 0 0 5 0 0 0 0", "t0,0: box 0 -1 1 0; "},
+           Case{"data 2: the corner at the lower right is solid", "0 0 0 0 0 0 0 3", "t3,1: polygon 3 -2 4 -1 4 -2; "},
+           Case{"unknown", "0 0 0 99 0 0 0 99", "", "2 placed tiles are unknown to tiles.strf and left out"},
+       }) {
+    const Scene scene = load_level(files, with(level, "0 0 0 0 0 0 0 0", each.upper));
+    EXPECT_EQ(solids_of(scene), each.solids + floor_solids) << each.what;
+    EXPECT_EQ(scene.notes, each.note.empty() ? std::vector<std::string>{} : std::vector{each.note}) << each.what;
+    EXPECT_EQ(scene.name, "a");
+    EXPECT_EQ(scene.respawn_box->lower, Vec2d(0, -3));
+    EXPECT_EQ(scene.respawn_box->upper, Vec2d(4, 0));
+  }
 }
 
 /// Twice the area of a polygon with y down; positive is clockwise on the screen.
@@ -78,6 +82,7 @@ double twice_area(const std::vector<Vec2d>& points) {
 }
 
 TEST(SuperTux, slopes_are_the_tile_cut_by_the_line_that_their_data_names) {
+  using Steepness = SuperTuxTile::Steepness;
   // Corners of the tile with y down, by the number of the solid corner: SW, NE, SE, NW.
   const std::array<Vec2d, 4> solid_corner{Vec2d{0, 1}, Vec2d{1, 0}, Vec2d{1, 1}, Vec2d{0, 0}};
   for (std::uint32_t corner = 0; corner < 4; ++corner) {
@@ -86,79 +91,50 @@ TEST(SuperTux, slopes_are_the_tile_cut_by_the_line_that_their_data_names) {
       const std::vector<Vec2d> part = tile.solid_part();
       const Vec2d solid = solid_corner[corner];
       const Vec2d empty = Vec2d{1, 1} - solid;
-      EXPECT_NE(std::find(part.begin(), part.end(), solid), part.end()) << corner << " " << half;
-      EXPECT_EQ(std::find(part.begin(), part.end(), empty), part.end()) << corner << " " << half;
-      // The line joins two corners of the half: it cuts off a quarter of the tile on the far side or leaves a quarter.
-      // The half that holds the solid corner leaves a quarter, the other half cuts one off.
-      const bool halves = half == 0;
+      EXPECT_EQ(std::count(part.begin(), part.end(), solid), 1) << corner << " " << half;
+      EXPECT_EQ(std::count(part.begin(), part.end(), empty), 0) << corner << " " << half;
+      // The half that holds the solid corner leaves a quarter of the tile, the other half cuts one off.
       const bool near = (half == 1 && solid.y() == 1) || (half == 2 && solid.y() == 0) ||
                         (half == 3 && solid.x() == 0) || (half == 4 && solid.x() == 1);
-      EXPECT_EQ(twice_area(part), halves ? 1.0 : near ? 0.5 : 1.5) << corner << " " << half;
-      const double degrees = half == 0 ? 45 : half <= 2 ? 26.565051177077989 : 63.434948822922011;
-      const double rise = tile.steepness() == SuperTuxTile::Steepness::one_in_one   ? 1
-                          : tile.steepness() == SuperTuxTile::Steepness::one_in_two ? 0.5
-                                                                                    : 2;
-      EXPECT_NEAR(std::atan(rise) * 180 / std::numbers::pi, degrees, 1e-12);
+      EXPECT_EQ(twice_area(part), half == 0 ? 1.0 : near ? 0.5 : 1.5) << corner << " " << half;
+      EXPECT_EQ(tile.steepness(), half == 0   ? Steepness::one_in_one
+                                  : half <= 2 ? Steepness::one_in_two
+                                              : Steepness::two_in_one);
     }
   }
 }
 
-TEST(SuperTux, a_slope_that_rises_to_the_right_is_solid_below_it) {
-  const SceneFiles files;
-  // Tile 3: data 2, the south-east corner is solid.
-  const Scene scene = load_level(files, with(level, "0 0 0 0 0 0 0 0 1", "0 0 0 0 0 0 0 3 1"));
-  const ColliderDef& slope = scene.scenery.colliders[0];
-  EXPECT_EQ(scene.ids[0], "t3,1");
-  std::vector<std::pair<double, double>> corners;
-  for (const Vec2d& p : slope.points) corners.emplace_back(p.x(), p.y());
-  std::sort(corners.begin(), corners.end());
-  EXPECT_EQ(corners, (std::vector<std::pair<double, double>>{{3, -2}, {4, -2}, {4, -1}}));
-}
-
-TEST(SuperTux, a_tilemap_with_a_path_is_made_of_movers) {
+TEST(SuperTux, a_tilemap_with_a_path_is_made_of_movers_and_one_of_one_node_lies_elsewhere) {
   const SceneFiles files;
   const std::string moving =
       R"((path (name "p") (path (mode "pingpong") (node (x 32) (y 0) (time 2)) (node (x 32) (y 64))))
     (tilemap (solid #t) (path-ref "p") (width 2) (height 1) (tiles 1 1)) (tilemap)";
   const Scene scene = load_level(files, with(level, "(tilemap", moving));
-  // The two tiles that block are those of one mover.
-  EXPECT_EQ(scene.ids, (std::vector<std::string>{"l0/t0,0", "l0/t1,0", "t0,2", "t1,2", "t2,2", "t3,2"}));
+  EXPECT_EQ(solids_of(scene), "l0/t0,0: box 0 -1 1 0 of mover 0; l0/t1,0: box 1 -1 2 0 of mover 0; " + floor_solids);
   ASSERT_EQ(scene.movers.size(), 1U);
   EXPECT_EQ(scene.movers[0].id, "l0");
-  EXPECT_EQ(scene.scenery.colliders[0].mover, 0U);
-  EXPECT_EQ(scene.scenery.colliders[1].mover, 0U);
-  EXPECT_EQ(scene.scenery.colliders[2].mover, no_mover);
-  EXPECT_EQ(scene.scenery.colliders[1].points[3], Vec2d(1, 0));
   EXPECT_EQ(scene.movers[0].loop, MoverDef::Loop::ping_pong);
   ASSERT_EQ(scene.movers[0].path.size(), 2U);
   EXPECT_EQ(scene.movers[0].path[0].at, Vec2d(1, 0));
   EXPECT_EQ(scene.movers[0].path[1].at, Vec2d(1, -2));
   EXPECT_EQ(scene.movers[0].path[1].time, 2);
+  const Scene parked = load_level(files, with(level, "(tilemap", R"((path (name "p") (path (node (x 32) (y 32))))
+    (tilemap (solid #t) (path-ref "p") (width 2) (height 1) (tiles 0 1)) (tilemap)"));
+  EXPECT_TRUE(parked.movers.empty());
+  EXPECT_TRUE(begins(solids_of(parked), "t1,0: box 2 -2 3 -1; l1/t0,2: box 0 -3 1 -2; ")) << solids_of(parked);
 }
 
-TEST(SuperTux, a_path_of_one_node_moves_nothing_but_the_place) {
+TEST(SuperTux, begins_at_the_spawn_named_main_else_the_first_and_above_a_solid_that_is_there) {
   const SceneFiles files;
-  const std::string parked = R"((path (name "p") (path (node (x 32) (y 32))))
-    (tilemap (solid #t) (path-ref "p") (width 2) (height 1) (tiles 0 1)) (tilemap)";
-  const Scene scene = load_level(files, with(level, "(tilemap", parked));
-  EXPECT_TRUE(scene.movers.empty());
-  ASSERT_EQ(scene.ids.size(), 5U);
-  EXPECT_EQ(scene.scenery.colliders[0].points[3], Vec2d(2, -1));
-}
-
-TEST(SuperTux, a_spawn_inside_a_solid_moves_up_to_the_nearest_free_place_and_says_so) {
-  const SceneFiles files;
-  // At y = 32 px the sprite's 40 px reach 8 px into the floor, which begins at 64 px.
-  const Scene scene = load_level(files, with(level, "(x 32) (y 16)", "(x 32) (y 32)"));
-  EXPECT_EQ(scene.start.position, Vec2d((32 + 10) / 32.0, -(24 + 20) / 32.0));
-  ASSERT_EQ(scene.notes.size(), 1U);
-  EXPECT_TRUE(holds(scene.notes[0], "8 px up"));
-}
-
-TEST(SuperTux, without_a_spawn_named_main_the_first_one_counts) {
-  const SceneFiles files;
+  // The upper left corner of the 20 x 40 px sprite is the spawn point.
+  EXPECT_EQ(load_level(files, level).start.position, Vec2d((32 + 10) / 32.0, -(16 + 20) / 32.0));
   EXPECT_EQ(load_level(files, with(level, "(name \"main\") (x", "(name \"late\") (x")).start.position.x(),
             (64 + 10) / 32.0);
+  // At y = 32 px the sprite's 40 px reach 8 px into the floor, which begins at 64 px.
+  const Scene moved = load_level(files, with(level, "(x 32) (y 16)", "(x 32) (y 32)"));
+  EXPECT_EQ(moved.start.position, Vec2d((32 + 10) / 32.0, -(24 + 20) / 32.0));
+  ASSERT_EQ(moved.notes.size(), 1U);
+  EXPECT_TRUE(holds(moved.notes[0], "8 px up"));
 }
 
 TEST(SuperTux, sectors_are_scenes_of_their_own) {
@@ -173,35 +149,24 @@ TEST(SuperTux, sectors_are_scenes_of_their_own) {
   EXPECT_EQ(scenes[1].name, "a/main");
 }
 
-TEST(SuperTux, unknown_tiles_are_counted_in_a_note) {
-  const SceneFiles files;
-  const Scene scene = load_level(files, with(level, "0 0 0 0 0 0 0 0 1", "0 0 0 99 0 0 0 99 1"));
-  ASSERT_EQ(scene.notes.size(), 1U);
-  EXPECT_TRUE(begins(scene.notes[0], "2 placed tiles are unknown"));
-}
-
 TEST(SuperTux, bad_levels_are_refused_with_their_line) {
   const SceneFiles files;
-  EXPECT_EQ(complaint(files, ""), ":1: expected an S-expression; the file is empty");
-  EXPECT_EQ(complaint(files, level.substr(0, level.size() - 1)),
-            ":1: expected a \")\" for the \"(\" of this line before the file ends");
-  EXPECT_EQ(complaint(files, level + "\n)"), ":8: expected no \")\" here: nothing is open");
-  EXPECT_TRUE(begins(complaint(files, with(level, "\"main\")\n", "\"main)\n")), ":7: expected the closing quote"));
-  EXPECT_EQ(complaint(files, "\n(supertux-worldmap)"), ":2: expected (supertux-level ...)");
-  EXPECT_EQ(complaint(files, "(supertux-level\n)"), ":1: expected at least one (sector ...)");
-  EXPECT_EQ(complaint(files, with(level, "(width 4)", "")), ":4: expected (width NUMBER) in (tilemap)");
-  EXPECT_EQ(complaint(files, with(level, "(width 4)", "(width four)")), ":4: expected a finite number in (width)");
-  EXPECT_EQ(complaint(files, with(level, "(width 4)", "(width 5)")), ":4: expected 5 x 3 tiles, found 12");
-  EXPECT_EQ(complaint(files, with(level, "(solid #t)", "(solid yes)")), ":4: expected #t or #f in (solid)");
-  EXPECT_EQ(complaint(files, with(level, "1 1 1 1", "1 -1 1 1")), ":4: expected a number in (tiles), not \"-1\"");
-  EXPECT_EQ(complaint(files, with(level, "(x 64)", "(x nan)")), ":6: expected a finite number in (x)");
-  EXPECT_EQ(complaint(files, with(level, "(solid #t)", "(solid #f)")),
-            ": expected a sector with solid tiles and a spawn point");
-  EXPECT_EQ(complaint(files, std::string(100000, '(')), ":1: expected at most 100 levels of nesting");
-}
-
-TEST(SuperTux, a_bad_tileset_is_named_behind_the_level) {
-  const SceneFiles files;
+  for (const auto& [text, message] : std::initializer_list<std::pair<std::string, std::string>>{
+           {"", ":1: expected an S-expression; the file is empty"},
+           {level.substr(0, level.size() - 1), ":1: expected a \")\" for the \"(\" of this line before the file ends"},
+           {level + "\n)", ":8: expected no \")\" here: nothing is open"},
+           {with(level, "\"main\")\n", "\"main)\n"), ":7: expected the closing quote"},
+           {"\n(supertux-worldmap)", ":2: expected (supertux-level ...)"},
+           {"(supertux-level\n)", ":1: expected at least one (sector ...)"},
+           {with(level, "(width 4)", ""), ":4: expected (width NUMBER) in (tilemap)"},
+           {with(level, "(width 4)", "(width four)"), ":4: expected a finite number in (width)"},
+           {with(level, "(width 4)", "(width 5)"), ":4: expected 5 x 3 tiles, found 12"},
+           {with(level, "(solid #t)", "(solid yes)"), ":4: expected #t or #f in (solid)"},
+           {with(level, "1 1 1 1", "1 -1 1 1"), ":4: expected a number in (tiles), not \"-1\""},
+           {with(level, "(x 64)", "(x nan)"), ":6: expected a finite number in (x)"},
+           {with(level, "(solid #t)", "(solid #f)"), ": expected a sector with solid tiles and a spawn point"},
+           {std::string(100000, '('), ":1: expected at most 100 levels of nesting"}})
+    EXPECT_TRUE(begins(complaint(files, text), message));
   const std::string path = write_level(files, level);
   files.write("data/images/tiles.strf", "(supertux-tiles\n (tiles (ids 1 2) (attributes 1)))");
   EXPECT_EQ(SceneFiles::complaint_about(path), ": tiles.strf:2: expected one attribute per id");
@@ -251,32 +216,10 @@ TEST(SuperTuxData, every_level_of_the_first_world_loads_and_begins_outside_of_ev
   for (const std::string& path : test::sampled_of(paths)) {
     for (const Scene& scene : load_scenes(path)) {
       const auto hull = scene.character.shape.hull();
-      EXPECT_TRUE(
-          ExactScenery(scenery_at(scene, 0), {hull.begin(), hull.end()}).overlapped(scene.start.position).empty())
-          << path;
+      const ExactScenery exact(scenery_at(scene, 0), {hull.begin(), hull.end()});
+      EXPECT_TRUE(exact.overlapped(scene.start.position).empty()) << path;
     }
   }
-}
-
-TEST(SuperTuxData, hilly_landscape_has_its_published_pieces) {
-  if (!std::filesystem::exists(installed)) GTEST_SKIP() << "Debian's package supertux-data is not installed";
-  std::string path;
-  for (const std::string& candidate : installed_levels(installed)) {
-    if (std::filesystem::path(candidate).stem() == "hilly_landscape") path = candidate;
-  }
-  ASSERT_FALSE(path.empty());
-  const Scene scene = load_scenes(path).front();
-  const auto one_way = std::count_if(scene.scenery.colliders.begin(), scene.scenery.colliders.end(),
-                                     [](const ColliderDef& c) { return c.one_way.has_value(); });
-  // A whole tile has twice the area 2; no slope does.
-  const auto slopes =
-      std::count_if(scene.scenery.colliders.begin(), scene.scenery.colliders.end(), [](const ColliderDef& c) {
-        return c.shape == ColliderDef::Shape::polygon && std::abs(twice_area(c.points)) != 2;
-      });
-  EXPECT_EQ(one_way, 25);
-  EXPECT_EQ(slopes, 203);
-  EXPECT_EQ(scene.respawn_box->upper - scene.respawn_box->lower, Vec2d(300, 35));
-  EXPECT_EQ(scene.ids.size(), 4725U + 25U);
 }
 
 }  // namespace
