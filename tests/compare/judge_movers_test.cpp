@@ -152,6 +152,16 @@ TEST(JudgeSensors, a_stay_over_several_steps_has_one_enter_and_one_exit_wherever
   }
 }
 
+TEST(JudgeSensors, a_corner_of_the_way_is_an_event_only_where_it_is_outside) {
+  const TraceHeader there = header({sensor(box(-1, -1, 1, 1))});
+  EXPECT_TRUE(judged(there, step({here, {1.3, 0}, here})).sensor_events.empty());
+  const auto touched = judged(there, step({here, {1 + half_width, 0}, here})).sensor_events;
+  ASSERT_EQ(touched.size(), 2U) << "it is outside for an instant";
+  EXPECT_EQ(touched[0].change, leave);
+  EXPECT_EQ(touched[1].change, enter);
+  for (const ExactSensorEvent& one : touched) EXPECT_EQ(one.fraction, Exact(1, 2));
+}
+
 /// Rounds of a random way, bent at some moment, by a concave sensor that moves.
 TEST(JudgeSensors, agree_with_overlap_tested_at_many_instants) {
   constexpr std::uint64_t seed = 51;

@@ -13,15 +13,11 @@ constexpr double gap = 5e-7;      // that a step leaves
 constexpr double hardly = 1e-5;   // [m]
 constexpr double walk = 0.09375;  // in one step [m]
 
-template <class Change>
-Wanted to_the_right(const Change& change) {
+Wanted to_the_right(void (*change)(Wanted&) = [](Wanted&) {}) {
   Wanted wanted = wanting({walk, -1e-3});
   wanted.from_ground = true;
   change(wanted);
   return wanted;
-}
-Wanted to_the_right() {
-  return to_the_right([](Wanted&) {});
 }
 Wanted jump() {
   return to_the_right([](Wanted& w) { w.jumped = true; });
