@@ -9,11 +9,12 @@ namespace {
 
 using Way = std::vector<PathPoint<double>>;
 
-constexpr double width = 0.625;  // of the octagon
-const std::vector<CharacterIndex> nobody{};
-const std::vector<CharacterIndex> the_other{1};
-
-ExactPair pair() { return ExactPair(octagon()); }
+constexpr double width = 2 * half_width;
+constexpr double gap = 5e-7;
+const ExactPair& pair() {
+  static const ExactPair octagons(octagon());
+  return octagons;
+}
 
 TEST(ExactPair, touching_is_no_overlap_and_an_ulp_more_is_one) {
   EXPECT_FALSE(pair().overlap({0, 0}, {width, 0}));
@@ -21,27 +22,26 @@ TEST(ExactPair, touching_is_no_overlap_and_an_ulp_more_is_one) {
   EXPECT_TRUE(pair().overlap({3, 3}, {3, 3}));
   EXPECT_EQ(pair().separation({0, 0}, {2, 0}), 2 - width);
   EXPECT_EQ(pair().separation({2, 0}, {2.25, 0}), 0.25 - width);
-}
-
-TEST(ExactPair, a_way_that_only_slides_along_the_other_does_not_meet_it) {
+  // A way that slides along the other, and one that does not and ends free as well.
   EXPECT_FALSE(pair().meet_between({0, -5}, {width, 0}, {0, 5}, {width, 0}));
-  EXPECT_TRUE(pair().meet_between({0x1p-50, -5}, {width, 0}, {0x1p-50, 5}, {width, 0})) << "both ends are free";
+  EXPECT_TRUE(pair().meet_between({0x1p-50, -5}, {width, 0}, {0x1p-50, 5}, {width, 0}));
 }
 
 TEST(ExactPair, ways_that_cross_meet_only_at_the_same_time) {
   const Way right{{{-2, 0}, 0}, {{2, 0}, 1}};
-  EXPECT_TRUE(pair().meet(right, Way{{{0, -4}, 0}, {{0, 4}, 1}}));
-  EXPECT_FALSE(pair().meet(right, Way{{{0, -4}, 0}, {{0, 4}, 0.125}, {{0, 4}, 1}})) << "it was there before";
-  // At 0.3125 its right side is at -0.4375, and at 0.5 beyond the other's left side at -0.3125.
-  EXPECT_FALSE(pair().meet(right, Way{{{0, 0}, 0}, {{0, 0}, 0.25}, {{0, 9}, 0.3125}, {{0, 9}, 1}}));
-  EXPECT_TRUE(pair().meet(right, Way{{{0, 0}, 0}, {{0, 0}, 0.5}, {{0, 9}, 0.5625}, {{0, 9}, 1}}));
-}
-
-TEST(ExactPair, a_part_that_takes_no_time_is_looked_at_from_where_the_other_is_then) {
-  const Way jump{{{-3, 0}, 0}, {{-3, 0}, 0.5}, {{3, 0}, 0.5}, {{3, 0}, 1}};
-  EXPECT_TRUE(pair().meet(jump, Way{{{0, 0}, 0}, {{0, 0}, 1}}));
-  EXPECT_FALSE(pair().meet(jump, Way{{{0, 4}, 0}, {{0, -12}, 1}})) << "it is at -4 by then";
-  EXPECT_TRUE(pair().meet(Way{{{0, 4}, 0}, {{0, -4}, 1}}, jump)) << "it is at 0 by then";
+  // It takes no time at the half of the step: it is looked at from where the other is then.
+  const Way leap{{{-3, 0}, 0}, {{-3, 0}, 0.5}, {{3, 0}, 0.5}, {{3, 0}, 1}};
+  using Row = std::tuple<const char*, Way, Way, bool>;
+  for (const auto& [what, one, other, meet] :
+       {Row{"at one time", right, {{{0, -4}, 0}, {{0, 4}, 1}}, true},
+        Row{"it was there before", right, {{{0, -4}, 0}, {{0, 4}, 0.125}, {{0, 4}, 1}}, false},
+        // At 0.3125 its right side is at -0.4375, and at 0.5 beyond the other's left side at -0.3125.
+        Row{"gone", right, {{{0, 0}, 0}, {{0, 0}, 0.25}, {{0, 9}, 0.3125}, {{0, 9}, 1}}, false},
+        Row{"not gone", right, {{{0, 0}, 0}, {{0, 0}, 0.5}, {{0, 9}, 0.5625}, {{0, 9}, 1}}, true},
+        Row{"a leap over it", leap, {{{0, 0}, 0}, {{0, 0}, 1}}, true},
+        Row{"it is at -4 by then", leap, {{{0, 4}, 0}, {{0, -12}, 1}}, false},
+        Row{"it is at 0 by then", {{{0, 4}, 0}, {{0, -4}, 1}}, leap, true}})
+    EXPECT_EQ(pair().meet(one, other), meet) << what;
 }
 
 TEST(ExactPair, the_first_impact_is_distance_over_both_speeds) {
@@ -54,17 +54,18 @@ TEST(ExactPair, the_first_impact_is_distance_over_both_speeds) {
 }
 
 TEST(ExactPair, the_deepest_place_of_a_passing_is_found_between_the_corners) {
-  // Through each other's middle: half a width off, so the shortest way out is the other half.
-  EXPECT_NEAR(pair().deepest(Way{{{-3, 0}, 0}, {{3, 0}, 1}}, Way{{{0, 1.25 - 0.1}, 0}, {{0, 1.25 - 0.1}, 1}}), 0.1,
-              1e-12);
-  EXPECT_EQ(pair().deepest(Way{{{-3, 0}, 0}, {{3, 0}, 1}}, Way{{{0, 3}, 0}, {{0, 3}, 1}}), 0);
+  // Half a width off each other's middle, the shortest way out is the other half.
+  for (const auto& [above, depth] : {std::pair{1.25 - 0.1, 0.1}, {3.0, 0.0}})
+    EXPECT_NEAR(pair().deepest(Way{{{-3, 0}, 0}, {{3, 0}, 1}}, Way{{{0, above}, 0}, {{0, above}, 1}}), depth, 1e-12);
 }
+
+TraceStep resting(const Vec2d& at, const std::optional<Vec2d>& requested = {}) { return step({at, at}, requested); }
 
 /// What two characters do in one step, and what is said of the first one.
 class Two {
  public:
   /// @param touch as the contender states it among its tolerances [m]; 0: it states none.
-  explicit Two(bool path_exact = true, double touch = 0) : header_(header({}, path_exact)), judge_(with_two(touch)) {}
+  explicit Two(bool path_exact = true, double touch = 0) : judge_(with_two(path_exact, touch)) {}
 
   StepJudgement operator()(TraceStep one, TraceStep other, StepJudgement alone = {}) {
     other.character = 1;
@@ -76,81 +77,73 @@ class Two {
   [[nodiscard]] const StepJudgement& other() const { return judged_[1]; }
 
  private:
-  TraceHeader with_two(double touch) {
-    header_.characters = 2;
-    if (touch > 0) header_.tolerances = {{"touch", touch}};
-    return header_;
+  static TraceHeader with_two(bool path_exact, double touch) {
+    TraceHeader made = test::header({}, path_exact);
+    made.characters = 2;
+    if (touch > 0) made.tolerances = {{"touch", touch}};
+    return made;
   }
-  TraceHeader header_;
   CompanyJudge judge_;
   std::array<StepJudgement, 2> judged_{};
 };
 
-TEST(CompanyJudge, tells_a_passing_once_with_the_lower_of_the_two) {
-  Two two;
-  const StepJudgement judged = two(step({{-1, 0}, {1, 0}}), step({{1, 0}, {-1, 0}}));
-  EXPECT_EQ(judged.company.passed, the_other);
-  EXPECT_TRUE(judged.broke());
-  EXPECT_FALSE(two.other().broke());
-  EXPECT_EQ(judged.company.overlap, nobody);
-}
-
-TEST(CompanyJudge, a_rim_that_is_cut_by_no_more_than_the_slop_is_a_corner_cut) {
-  EXPECT_EQ(Two()(step({{-2, 0}, {2, 0}}), step({{0, 1.246}, {0, 1.246}})).company.corner_cut, the_other);
-  EXPECT_EQ(Two()(step({{-2, 0}, {2, 0}}), step({{0, 1.244}, {0, 1.244}})).company.passed, the_other);
-}
-
-TEST(CompanyJudge, an_overlap_is_new_once_and_its_end_on_the_same_side_is_no_passing) {
-  Two two;
-  const TraceStep rest = step({{0, 0}, {0, 0}});
-  StepJudgement judged = two(step({{-1, 0}, {-0.5, 0}}), rest);
-  EXPECT_EQ(judged.company.overlap, the_other);
-  EXPECT_EQ(judged.company.entered, the_other);
-  EXPECT_EQ(judged.max_penetration, 0.125);
-  judged = two(step({{-0.5, 0}, {-0.5, 0}}), rest);
-  EXPECT_EQ(judged.company.overlap, the_other);
-  EXPECT_EQ(judged.company.entered, nobody);
-  EXPECT_FALSE(two(step({{-0.5, 0}, {-1, 0}}), rest).company.broke());
-}
-
-TEST(CompanyJudge, an_overlap_that_ends_on_another_side_was_a_passing) {
-  Two two;
-  const TraceStep rest = step({{0, 0}, {0, 0}});
-  (void)two(step({{-1, 0}, {-0.25, 0}}), rest);
-  EXPECT_EQ(two(step({{-0.25, 0}, {1, 0}}), rest).company.passed, the_other);
-}
-
-TEST(CompanyJudge, of_a_sampled_path_only_both_ends_of_the_step_count) {
-  const TraceStep there_and_back = step({{-1, 0}, {-0.5, 0}, {-1, 0}});
-  const TraceStep rest = step({{0, 0}, {0, 0}});
-  EXPECT_EQ(Two()(there_and_back, rest).company.passed, the_other);
-  EXPECT_FALSE(Two(false)(there_and_back, rest).broke());
-  EXPECT_EQ(Two(false)(step({{-1, 0}, {1, 0}}), rest).company.passed, the_other);
-}
-
-TEST(CompanyJudge, who_begins_inside_another_may_leave_on_any_side) {
-  for (const double x : {-1.0, 1.0}) {
-    const StepJudgement judged = Two()(step({{-0.25, 0}, {x, 0}}), step({{0, 0}, {0, 0}}));
-    EXPECT_FALSE(judged.broke()) << x;
+/// What became of another: "inside, entered".
+std::string told_of_other(const StepJudgement& judged) {
+  const StepJudgement::Company& company = judged.company;
+  std::string all;
+  for (const auto& [what, characters] : {std::pair{"inside ", &company.overlap},
+                                         {"entered ", &company.entered},
+                                         {"passed ", &company.passed},
+                                         {"corner cut ", &company.corner_cut}}) {
+    if (*characters == std::vector<CharacterIndex>{1}) all += what;
   }
+  EXPECT_EQ(judged.broke(), company.broke());
+  EXPECT_EQ(company.broke(), !company.entered.empty() || !company.passed.empty());
+  return all;
 }
 
-TEST(CompanyJudge, a_character_that_is_put_elsewhere_does_not_pass_who_is_between) {
-  Two two;
-  const TraceStep rest = step({{0, 0}, {0, 0}});
-  (void)two(step({{-1, 0}, {-0.5, 0}}), rest);
+TEST(CompanyJudge, follows_a_stay_inside_of_another_over_steps) {
   TraceStep put = step({{1, 0}, {2, 0}});
   put.respawn = true;
-  EXPECT_FALSE(two(put, rest).broke());
+  const TraceStep enters = step({{-1, 0}, {-0.5, 0}});
+  const TraceStep there_and_back = step({{-1, 0}, {-0.5, 0}, {-1, 0}});
+  struct Row {
+    const char* what;
+    std::vector<TraceStep> steps;
+    std::vector<const char*> told;
+    double above = 0;  ///< Of the other, which rests [m].
+    bool path_exact = true;
+  };
+  const std::vector<Row> rows{
+      {"a rim cut by less than the slop", {step({{-2, 0}, {2, 0}})}, {"corner cut "}, 1.246},
+      {"by more", {step({{-2, 0}, {2, 0}})}, {"passed "}, 1.244},
+      {"an overlap is new once, and its end on the same side no passing",
+       {enters, resting({-0.5, 0}), step({{-0.5, 0}, {-1, 0}})},
+       {"inside entered ", "inside ", ""}},
+      {"its end on another side is one", {enters, step({{-0.5, 0}, {1, 0}})}, {"inside entered ", "passed "}},
+      {"who begins inside may leave on any side", {step({{-0.25, 0}, {-1, 0}})}, {""}},
+      {"on the other, too", {step({{-0.25, 0}, {1, 0}})}, {""}},
+      {"who is put elsewhere passes nobody", {enters, put}, {"inside entered ", ""}},
+      {"within a step it passes", {there_and_back}, {"passed "}},
+      {"of a sampled path only both ends count", {there_and_back}, {""}, 0, false},
+      {"of a sampled path the straight way", {step({{-1, 0}, {1, 0}})}, {"passed "}, 0, false},
+  };
+  for (const Row& row : rows) {
+    Two two(row.path_exact);
+    for (std::size_t i = 0; i < row.steps.size(); ++i)
+      EXPECT_EQ(told_of_other(two(row.steps[i], resting({0, row.above}))), row.told[i]) << row.what;
+  }
+  EXPECT_EQ(Two()(enters, resting({0, 0})).max_penetration, 0.125);
+  Two two;
+  EXPECT_EQ(told_of_other(two(step({{-1, 0}, {1, 0}}), step({{1, 0}, {-1, 0}}))), "passed ");
+  EXPECT_FALSE(two.other().broke()) << "it is told once, with the lower of the two";
 }
 
-TEST(CompanyJudge, the_first_impact_of_both_is_theirs_unless_scenery_comes_first) {
-  Two two;
-  TraceStep one = step({{0, 0}, {0.0625, 0}});
-  one.requested = {0.5, 0};
-  TraceStep other = step({{1, 0}, {0.75, 0}});
-  other.requested = {-0.25, 0};
+TEST(CompanyJudge, the_first_impact_of_both_is_theirs_unless_scenery_comes_first_or_one_is_stuck) {
   // 0.375 m are between them, and 0.75 m would be gone.
+  TraceStep one = step({{0, 0}, {0.0625, 0}}, Vec2d(0.5, 0));
+  const TraceStep other = step({{1, 0}, {0.75, 0}}, Vec2d(-0.25, 0));
+  Two two;
   StepJudgement judged = two(one, other);
   EXPECT_EQ(judged.first_impact, 0.5);
   EXPECT_EQ(judged.first_met, CharacterIndex{1});
@@ -162,121 +155,99 @@ TEST(CompanyJudge, the_first_impact_of_both_is_theirs_unless_scenery_comes_first
   judged = Two()(one, other, alone);
   EXPECT_EQ(judged.first_impact, 0.25);
   EXPECT_FALSE(judged.first_met);
-}
-
-TEST(CompanyJudge, who_is_stuck_does_not_go_as_requested_so_that_no_first_impact_is_comparable) {
-  TraceStep one = step({{0, 0}, {0, 0}});
-  one.requested = {0.5, 0};
   one.stuck = true;
-  TraceStep other = step({{1, 0}, {0.75, 0}});
-  other.requested = {-0.5, 0};
-  EXPECT_FALSE(Two()(one, other).first_impact_comparable);
+  EXPECT_FALSE(Two()(one, other).first_impact_comparable) << "it does not go as requested";
   EXPECT_FALSE(Two()(other, one).first_impact_comparable) << "nor that of who comes to it";
-  one.stuck = false;
-  EXPECT_TRUE(Two()(one, other).first_impact_comparable);
 }
 
 TEST(CompanyJudge, speed_that_another_takes_is_not_lost_to_nothing) {
   StepJudgement alone;
   alone.ghost_speed_loss = 1;
-  TraceStep one = step({{0, 0}, {0, 0}});
-  one.requested = {0.1, 0};
-  EXPECT_EQ(Two()(one, step({{width + 0.05, 0}, {width + 0.05, 0}}), alone).ghost_speed_loss, 0);
-  EXPECT_EQ(Two()(one, step({{width + 0.15, 0}, {width + 0.15, 0}}), alone).ghost_speed_loss, 1) << "too far away";
-  EXPECT_EQ(Two()(one, step({{-width, 0}, {-width, 0}}), alone).ghost_speed_loss, 1) << "behind it";
-  EXPECT_EQ(Two()(one, step({{0, -1.25}, {0, -1.25}}), alone).ghost_speed_loss, 1) << "below it";
+  for (const auto& [what, at, lost] : {std::tuple{"before it", Vec2d(width + 0.05, 0), 0},
+                                       {"too far away", Vec2d(width + 0.15, 0), 1},
+                                       {"behind it", Vec2d(-width, 0), 1},
+                                       {"below it", Vec2d(0, -1.25), 1}})
+    EXPECT_EQ(Two()(resting({0, 0}, Vec2d(0.1, 0)), resting(at), alone).ghost_speed_loss, lost) << what;
 }
 
 TEST(CompanyJudge, beside_another_what_scenery_was_met_is_not_told_from_what_was_requested) {
   StepJudgement alone;
   alone.contacts = {{.collider = 0, .side = Side::right}};
-  TraceStep one = step({{0, 0}, {0, 0}});
-  one.contacts = {{.collider = 1, .side = Side::bottom}};
-  const StepJudgement beside = Two()(one, step({{width + 5e-7, 0}, {width + 5e-7, 0}}), alone);
-  EXPECT_TRUE(beside.contacts.empty());
-  EXPECT_EQ(beside.dont_care, std::vector<ColliderIndex>{1});
-  const StepJudgement apart = Two()(one, step({{width + 2e-6, 0}, {width + 2e-6, 0}}), alone);
-  EXPECT_EQ(apart.contacts.size(), 1U);
-  EXPECT_TRUE(apart.dont_care.empty());
-  const Vec2d in_float(width + 5e-4, 0);
-  EXPECT_TRUE(Two(true, 7e-4)(one, step({in_float, in_float}), alone).contacts.empty()) << "it stops there";
+  TraceStep one = resting({0, 0});
+  one.contacts = {contact(1, {0, 1})};
+  // In float it stops farther away.
+  for (const auto& [apart, touch, touches] :
+       {std::tuple{gap, 0.0, true}, {2e-6, 0.0, false}, {5e-4, 0.0, false}, {5e-4, 7e-4, true}}) {
+    const StepJudgement beside = Two(true, touch)(one, resting({width + apart, 0}), alone);
+    EXPECT_EQ(beside.contacts.empty(), touches) << apart;
+    EXPECT_EQ(beside.dont_care, touches ? Colliders{1} : Colliders{}) << apart;
+  }
+}
+
+TraceHeader company_of(std::size_t characters, std::vector<ColliderDef> solids = {}) {
+  TraceHeader made = promising(std::move(solids));
+  made.characters = characters;
+  return made;
 }
 
 TEST(CompanyJudge, a_contact_is_none_where_another_turns_the_motion_aside_before) {
-  TraceHeader header = promising({box(1, -1, 2, 1)});
-  header.characters = 2;
-  TraceStep one = step({{0, 0}, {0, 0}});
-  one.requested = {2, -0.5};
-  const auto asked = [&](const Vec2d& at, const ExactContact& contact) {
-    TraceStep other = step({at, at});
+  const ExactContact wall{
+      .collider = 0, .side = Side::right, .normal = {-1, 0}, .fraction = 0.34, .touched = 0.34, .foreseen = true};
+  // Both are touched: the other first, and what it leaves goes straight down.
+  const ExactContact near{.collider = 0, .side = Side::right, .normal = {-1, 0}, .fraction = 0, .touched = 1e-6};
+  ExactContact into_it = near;
+  into_it.normal = {-std::sqrt(0.2), std::sqrt(0.8)};
+  ExactContact before = near;
+  before.touched = 1e-8;
+  const Vec2d beside(width + gap, 0);
+  for (const auto& [what, at, contact, asked] : {std::tuple{"it is between", beside, wall, false},
+                                                 {"it is behind", -beside, wall, true},
+                                                 {"it is above", Vec2d(width + gap, 1.5), wall, true},
+                                                 {"it is met first", beside, near, false},
+                                                 {"what it leaves leads into it", beside, into_it, true},
+                                                 {"it is met before", beside, before, true}}) {
+    TraceStep other = resting(at);
     other.character = 1;
     std::array<StepJudgement, 2> judged{};
     judged[0].contacts = {contact};
-    CompanyJudge(header).judge(std::array{one, other}, judged);
-    return !judged[0].contacts.empty();
-  };
-  const ExactContact wall{
-      .collider = 0, .side = Side::right, .normal = {-1, 0}, .fraction = 0.34, .touched = 0.34, .foreseen = true};
-  EXPECT_FALSE(asked({width + 5e-7, 0}, wall)) << "it is between";
-  EXPECT_TRUE(asked({-width - 5e-7, 0}, wall)) << "it is behind";
-  EXPECT_TRUE(asked({width + 5e-7, 1.5}, wall)) << "it is above";
-  // Both are touched: the other first, and what it leaves goes straight down.
-  ExactContact near{.collider = 0, .side = Side::right, .normal = {-1, 0}, .fraction = 0, .touched = 1e-6};
-  EXPECT_FALSE(asked({width + 5e-7, 0}, near));
-  near.normal = {-std::sqrt(0.2), std::sqrt(0.8)};
-  EXPECT_TRUE(asked({width + 5e-7, 0}, near)) << "that leads into it";
-  near.normal = {-1, 0};
-  near.touched = 1e-8;
-  EXPECT_TRUE(asked({width + 5e-7, 0}, near)) << "it is met before";
+    CompanyJudge(company_of(2, {box(1, -1, 2, 1)})).judge(std::array{resting({0, 0}, Vec2d(2, -0.5)), other}, judged);
+    EXPECT_EQ(!judged[0].contacts.empty(), asked) << what;
+  }
 }
 
 TEST(CompanyJudge, the_time_of_a_meeting_is_told_from_a_moment_at_which_they_are_near) {
-  TraceHeader header = promising({});
-  header.characters = 2;
-  const CompanyJudge judge(header);
-  TraceStep one = step({{0, 0}, {0, 3}});  // turned aside at once
-  one.requested = {0.5, 3};
-  TraceStep other = step({{width + 5e-7, 0}, {width + 5e-7, 0}});
-  other.character = 1;
-  const auto off = [&](double fraction) {
-    return judge.off_at(one, other, {.other = 1, .normal = {-1, 0}, .fraction = fraction}, std::array{one, other});
+  const CompanyJudge judge(company_of(2));
+  const auto off = [&](const TraceStep& one, TraceStep other, const Vec2d& normal, double fraction) {
+    other.character = 1;
+    return judge.off_at(one, other, {.other = 1, .normal = normal, .fraction = fraction}, std::array{one, other});
   };
-  EXPECT_LE(off(1e-6), 5.1e-7) << "it would have touched then";
-  EXPECT_NEAR(off(0.5), 0.25, 1e-6);
-  // Down at once at the end.
-  TraceStep lands;
-  lands.path = {{{0, 2}, 0}, {{0, 2}, 1}, {{0, 1.25 + 5e-7}, 1}};
-  TraceStep stands = step({{0, 0}, {0, 0}});
-  stands.character = 1;
-  const std::array both{lands, stands};
-  EXPECT_EQ(judge.off_at(lands, stands, {.other = 1, .normal = {0, 1}, .fraction = 1}, both), 0);
-  EXPECT_GT(judge.off_at(lands, stands, {.other = 1, .normal = {0, 1}, .fraction = 0.5}, both), 0.7);
+  const TraceStep turned_aside = step({{0, 0}, {0, 3}}, Vec2d(0.5, 3));  // at once
+  EXPECT_LE(off(turned_aside, resting({width + gap, 0}), {-1, 0}, 1e-6), 5.1e-7) << "it would have touched then";
+  EXPECT_NEAR(off(turned_aside, resting({width + gap, 0}), {-1, 0}, 0.5), 0.25, 1e-6);
+  TraceStep lands;  // down at once at the end
+  lands.path = {{{0, 2}, 0}, {{0, 2}, 1}, {{0, 1.25 + gap}, 1}};
+  EXPECT_EQ(off(lands, resting({0, 0}), {0, 1}, 1), 0);
+  EXPECT_GT(off(lands, resting({0, 0}), {0, 1}, 0.5), 0.7);
 }
 
 TEST(CompanyJudge, two_that_hold_hold_for_as_long_as_they_touch) {
-  TraceHeader header = promising({});
-  header.characters = 3;
-  constexpr double fall = 0.1;
+  const TraceHeader three = company_of(3);
+  const Vec2d fall(0, -0.1);
   // The one stands with its chamfers on theirs until they go down.
-  const auto hangs = [&](double gone, double falls) {
+  for (const auto& [gone, falls, hangs] : {std::tuple{0.75, 0.25, false}, {0.0, 0.25, true}, {0.0, 0.75, false}}) {
     std::array<TraceStep, 3> steps;
-    steps[0].path = {{{0, 0}, 0}, {{0, 0}, 0.75}, {{0, -falls}, 1}};
-    steps[0].requested = {0, -fall};
+    steps[0].path = {{{0, 0}, 0}, {{0, 0}, 0.75}, {falls * fall, 1}};
+    steps[0].requested = fall;
+    steps[0].velocity = fall / dt;
     for (const auto& [who, side] : {std::pair{1U, -1.0}, {2U, 1.0}}) {
       const Vec2d at = side * Vec2d(0.46875 + 1e-7, 0) - Vec2d(0, 0.9375 + 1e-7);
       steps[who].path = {{at, 0}, {at, gone}, {at - Vec2d(0, 2), 1}};
       steps[who].character = who;
     }
-    const CompanyJudge company(header);
-    Wanted wanted;
-    wanted.displacement = steps[0].requested;
-    wanted.velocity = wanted.displacement / dt;
-    steps[0].velocity = wanted.velocity;
-    return Judge(header).judge(steps[0], company.others_of(0, steps), &wanted).hangs;
-  };
-  EXPECT_FALSE(hangs(0.75, 0.25 * fall));
-  EXPECT_TRUE(hangs(0, 0.25 * fall)) << "they were gone";
-  EXPECT_FALSE(hangs(0, 0.75 * fall));
+    const CompanyJudge company(three);
+    const Wanted wanted = wanting(fall);
+    EXPECT_EQ(Judge(three).judge(steps[0], company.others_of(0, steps), &wanted).hangs, hangs) << gone << " " << falls;
+  }
 }
 
 }  // namespace

@@ -2,11 +2,16 @@
 #pragma once
 
 #include "campaign/random.hpp"
+#include "campaign/shapes.hpp"
 #include "oracle/exact.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace paperproof::compare::test {
+
+using Colliders = std::vector<ColliderIndex>;
+using Motions = std::vector<MoverMotion<double>>;
 
 inline double one_ulp_up(double x) { return std::nextafter(x, std::numeric_limits<double>::infinity()); }
 inline double one_ulp_down(double x) { return std::nextafter(x, -std::numeric_limits<double>::infinity()); }
@@ -34,14 +39,48 @@ inline std::vector<Vec2d> octagon() {
           {0.15625, 0.625},   {-0.15625, 0.625}, {-0.3125, 0.3125}, {-0.3125, -0.3125}};
 }
 
-inline ColliderDef polygon(std::vector<Vec2d> points) { return {.points = std::move(points)}; }
-inline ColliderDef box(double left, double bottom, double right, double top) {
-  return polygon({{left, bottom}, {right, bottom}, {right, top}, {left, top}});
+/// The middle of the octagon's lower right side, where a corner of something touches it, and the normal of that side as
+/// an obstacle has it: 63.4 degrees steep.
+inline Vec2d lower_right_middle() { return {0.234375, -0.46875}; }
+inline Vec2d lower_right() { return Vec2d(-2, 1) / std::sqrt(5.0); }
+
+inline std::vector<Vec2d> square(double half) { return {{-half, -half}, {half, -half}, {half, half}, {-half, half}}; }
+inline ColliderDef one_way(ColliderDef def, const Vec2d& normal = {0, 1}) {
+  def.one_way = normal;
+  return def;
 }
-inline ColliderDef chain(std::vector<Vec2d> points, std::optional<Vec2d> one_way = {}) {
-  return {.shape = ColliderDef::Shape::chain, .points = std::move(points), .one_way = one_way};
+inline ColliderDef sensor(ColliderDef def) {
+  def.sensor = true;
+  return def;
 }
 inline SceneryDef scenery(std::vector<ColliderDef> colliders) { return {.colliders = std::move(colliders)}; }
+inline ExactScenery world(std::vector<ColliderDef> colliders, std::vector<Vec2d> points = octagon()) {
+  return {scenery(std::move(colliders)), std::move(points)};
+}
+
+/// Counter-clockwise, without points on its edges (A. M. Andrew 1979).
+inline std::vector<ExactPoint> hull_of(std::vector<ExactPoint> points) {
+  std::sort(points.begin(), points.end(),
+            [](const ExactPoint& a, const ExactPoint& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  std::vector<ExactPoint> hull;
+  for (int half = 0; half < 2; ++half) {
+    const std::size_t start = hull.size();
+    for (const ExactPoint& point : points) {
+      while (hull.size() >= start + 2 && cross(hull[hull.size() - 2], hull.back(), point) <= 0) hull.pop_back();
+      hull.push_back(point);
+    }
+    hull.pop_back();
+    std::reverse(points.begin(), points.end());
+  }
+  return hull;
+}
+
+/// Where the corners of the octagon are.
+inline std::vector<ExactPoint> octagon_at(const ExactPoint& position) {
+  std::vector<ExactPoint> corners;
+  for (const Vec2d& corner : octagon()) corners.push_back(position + exact(corner));
+  return corners;
+}
 
 /// Another formulation of overlap: what is left of the ring after clipping it by every edge of a convex polygon, in
 /// rationals (Sutherland, Hodgman 1974); its area is right for concave rings too.
@@ -58,10 +97,7 @@ inline Exact area_within(const std::vector<Vec2d>& ring, const std::vector<Exact
       const Exact at_p = cross(a, b, p);
       const Exact at_q = cross(a, b, q);
       if (at_p >= 0) kept.push_back(p);
-      if ((at_p > 0 && at_q < 0) || (at_p < 0 && at_q > 0)) {
-        const Exact t = at_p / (at_p - at_q);
-        kept.push_back({p.x + t * (q.x - p.x), p.y + t * (q.y - p.y)});
-      }
+      if ((at_p > 0 && at_q < 0) || (at_p < 0 && at_q > 0)) kept.push_back(p + at_p / (at_p - at_q) * (q - p));
     }
     left = std::move(kept);
   }
@@ -70,39 +106,23 @@ inline Exact area_within(const std::vector<Vec2d>& ring, const std::vector<Exact
   return abs(twice) / 2;
 }
 
-/// Another formulation of overlap, for convex things: the origin against the hull of all pairwise differences.
-inline bool in_minkowski_difference(const std::vector<Vec2d>& convex, const std::vector<Vec2d>& points,
-                                    const Vec2d& position) {
+/// Another formulation of overlap, for convex things: the position within the hull of all pairwise differences.
+inline bool in_minkowski_difference(const std::vector<Vec2d>& convex, const Vec2d& position) {
   std::vector<ExactPoint> all;
-  for (const Vec2d& v : convex) {
-    for (const Vec2d& o : points) {
-      all.push_back({Exact(v.x()) - Exact(o.x()), Exact(v.y()) - Exact(o.y())});
-    }
-  }
-  const ExactPoint p = exact(position);
-  std::sort(all.begin(), all.end(),
-            [](const ExactPoint& a, const ExactPoint& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
-  const auto strictly_left = [&](auto begin, auto end) {
-    std::vector<ExactPoint> half;
-    for (auto it = begin; it != end; ++it) {
-      while (half.size() > 1 && cross(half[half.size() - 2], half.back(), *it) <= 0) half.pop_back();
-      half.push_back(*it);
-    }
-    for (std::size_t i = 0; i + 1 < half.size(); ++i) {
-      if (cross(half[i], half[i + 1], p) <= 0) return false;
-    }
-    return true;
-  };
-  return strictly_left(all.begin(), all.end()) && strictly_left(all.rbegin(), all.rend());
+  for (const Vec2d& v : convex)
+    for (const Vec2d& o : octagon()) all.push_back(exact(v) - exact(o));
+  const std::vector<ExactPoint> hull = hull_of(std::move(all));
+  for (std::size_t i = 0; i < hull.size(); ++i)
+    if (cross(hull[i], hull[(i + 1) % hull.size()], exact(position)) <= 0) return false;
+  return true;
 }
 
 /// A star-shaped ring, concave as a rule.
 inline std::vector<Vec2d> star(Random& random, const Vec2d& centre, double radius, int corners) {
   std::vector<Vec2d> ring;
   for (int i = 0; i < corners; ++i) {
-    const double angle = 2 * 3.14159265358979 * (i + random.between(0, 0.8)) / corners;
-    const double r = radius * random.between(0.2, 1);
-    ring.emplace_back(centre.x() + r * std::cos(angle), centre.y() + r * std::sin(angle));
+    const double angle = 2 * std::numbers::pi * (i + random.between(0, 0.8)) / corners;
+    ring.emplace_back(centre + radius * random.between(0.2, 1) * towards(angle));
   }
   return ring;
 }

@@ -1,11 +1,15 @@
-/// The first overlap with what turns, against answers that are fractions, and against many moments one by one.
+/// The first overlap with what turns, against answers that are fractions, and against many moments one by one. Two
+/// methods give the same answers, also where a touch is no overlap.
 #include "oracle/first_meeting.hpp"
+#include "oracle/second_meeting.hpp"
+#include "oracle/turning_room.hpp"
 
-#include "compare/exact_shapes.hpp"
+#include "compare/turning_planks.hpp"
 
 #include <gtest/gtest.h>
 
-#include <numbers>
+#include <functional>
+#include <numeric>
 
 namespace paperproof::compare::detail {
 namespace {
@@ -17,185 +21,110 @@ using Path = std::vector<PathPoint<double>>;
 
 constexpr double closely = 1e-12;
 
-std::vector<std::size_t> all_of(const VertexWay& way) {
-  std::vector<std::size_t> numbers(way.vertices.front().size());
-  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = i;
-  return numbers;
-}
+/// A question that both methods answer.
+struct Question {
+  std::vector<Vec2d> body = octagon();
+  Path path{};
+  VertexWay way{};
+  double radius = 0;
 
-Meeting met(const Path& path, const VertexWay& way, Asked asked = Asked::when) {
-  return first_meeting(octagon(), path, way, all_of(way), asked);
-}
+  [[nodiscard]] std::vector<std::size_t> part() const {
+    std::vector<std::size_t> numbers(way.vertices.front().size());
+    std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+    return numbers;
+  }
+  [[nodiscard]] Meeting first(Asked asked) const { return first_meeting(body, path, way, part(), asked, radius); }
+  [[nodiscard]] Meeting second() const { return second_meeting(body, path, way, part(), radius); }
+};
 
+VertexWay going(std::vector<std::vector<Vec2d>> vertices, std::vector<double> instants = {0, 1}) {
+  return {.collider = 0, .instants = std::move(instants), .vertices = std::move(vertices)};
+}
 Path staying(const Vec2d& at) { return {{at, 0}, {at, 1}}; }
 
 /// A plank about (0, 0), 2 m long and flat at first: its end comes up by a metre on a straight line, as the other one
 /// goes down.
-VertexWay see_saw() { return {.collider = 0, .instants = {0, 1}, .vertices = {{{-1, 0}, {1, 0}}, {{-1, -1}, {1, 1}}}}; }
+VertexWay see_saw(const Vec2d& about = {0, 0}) {
+  return going({{about - Vec2d(1, 0), about + Vec2d(1, 0)}, {about - Vec2d(1, 1), about + Vec2d(1, 1)}});
+}
+/// One so thick that goes through the octagon at (0, 0) in one chord.
+VertexWay through(double thickness) {
+  if (thickness == 0) return going({{{-3, -2}, {3, -2}}, {{-3, 2}, {3, 2}}});
+  return going({box(-3, -2, 3, -2 + thickness).points, box(-3, 2, 3, 2 + thickness).points});
+}
+/// A plank that is the line y = slope t x.
+VertexWay rising_line(double slope) { return going({{{-9, 0}, {9, 0}}, {{-9, -9 * slope}, {9, 9 * slope}}}); }
 
 /// A square whose lowest corner is its position.
 const std::vector<Vec2d> on_its_tip{{0, 0}, {1, 1}, {0, 2}, {-1, 1}};
 
-TEST(FirstMeeting, the_line_of_a_plank_comes_up_to_a_foot_after_a_fraction_that_is_known) {
-  // At time t the plank is the line y = t x. The right foot is 0.5 m beside its middle and 0.375 m up: t = 3/4.
-  const Meeting found = met(staying({0.5 - 0.15625, 0.375 + 0.625}), see_saw());
-  ASSERT_EQ(found.kind, Kind::meets);
-  EXPECT_LE(found.low, 0.75);
-  EXPECT_GT(found.high, 0.75) << "a touch is no overlap";
-  EXPECT_NEAR(found.low, 0.75, closely);
-  EXPECT_NEAR(found.high, 0.75, closely);
-}
-
-TEST(FirstMeeting, the_tip_of_a_plank_meets_the_feet_above_it) {
-  // Both feet are beyond: the tip, at x = 1, comes to height t.
-  const Meeting found = met(staying({1, 0.625 + 0.625}), see_saw());
-  ASSERT_EQ(found.kind, Kind::meets);
-  EXPECT_NEAR(found.low, 0.625, closely);
-  EXPECT_NEAR(found.high, 0.625, closely);
-}
-
-TEST(FirstMeeting, a_fall_onto_a_plank_that_rises_is_where_the_two_heights_agree) {
-  // Feet at 1.5 - t, the tip at t: t = 3/4.
-  const Meeting found = met({{{1, 1.5 + 0.625}, 0}, {{1, 0.5 + 0.625}, 1}}, see_saw());
-  ASSERT_EQ(found.kind, Kind::meets);
-  EXPECT_NEAR(found.high, 0.75, closely);
-}
-
-TEST(FirstMeeting, a_parabola_that_touches_and_goes_back_is_no_overlap_and_a_hair_less_room_is_one) {
-  // A tip goes to the left along y = h, from x = 1 to 0: the plank is t (1 - t) high there, at most 1/4.
-  const auto passing = [](double height) {
-    const VertexWay way = see_saw();
-    return first_meeting(on_its_tip, Path{{{1, height}, 0}, {{0, height}, 1}}, way, all_of(way)).kind;
-  };
-  EXPECT_EQ(passing(0.25), Kind::apart);
-  EXPECT_EQ(passing(one_ulp_up(0.25)), Kind::apart);
-  EXPECT_EQ(passing(one_ulp_down(0.25)), Kind::meets);
-  EXPECT_EQ(passing(0.25 - 1e-9), Kind::meets);
-}
-
-TEST(FirstMeeting, a_parabola_with_its_top_at_no_binary_fraction_is_decided_at_its_vertex) {
-  // The tip goes from x = 1 to -2 at height h over the plank y = t x: h - t (1 - 3 t), least at t = 1/6 where it is
-  // h - 1/12.
-  const VertexWay way{.collider = 0, .instants = {0, 1}, .vertices = {{{-4, 0}, {4, 0}}, {{-4, -4}, {4, 4}}}};
-  const auto passing = [&](double height, double end) {
-    const Path path{{{1, height}, 0}, {{1 - 3 * end, height}, end}};
-    return first_meeting(on_its_tip, path, way, all_of(way)).kind;
-  };
-  EXPECT_EQ(passing(one_ulp_up(1.0 / 12), 0.5), Kind::apart);
-  EXPECT_EQ(passing(one_ulp_down(1.0 / 12), 0.5), Kind::meets);
-}
-
-TEST(FirstMeeting, a_thin_plank_that_goes_through_in_one_chord_is_met) {
-  for (const double thickness : {0.1, 1e-3, 1e-9, 0.0}) {
-    VertexWay way{.collider = 0, .instants = {0, 1}, .vertices = {{{-3, -2}, {3, -2}}, {{-3, 2}, {3, 2}}}};
-    if (thickness > 0) {
-      way.vertices[0].insert(way.vertices[0].end(), {{3, -2 + thickness}, {-3, -2 + thickness}});
-      way.vertices[1].insert(way.vertices[1].end(), {{3, 2 + thickness}, {-3, 2 + thickness}});
-    }
-    const Meeting found = met(staying({0, 0}), way);
-    ASSERT_EQ(found.kind, Kind::meets) << thickness;
-    EXPECT_NEAR(found.high, (2 - thickness - 0.625) / 4, closely) << thickness;
-    EXPECT_EQ(met(staying({4, 0}), way).kind, Kind::apart) << "beside it";
-  }
-}
-
-TEST(FirstMeeting, an_arm_on_chords_is_met_on_its_chord_and_not_on_the_arc) {
+TEST(FirstMeeting, is_after_a_fraction_that_is_known) {
+  // The tip at height 0.4 leaps over the tip of the plank in no time; feet rest on what goes along.
+  const double foot = half_height;
+  const auto leap = [](double h) { return Path{{{-1, h}, 0}, {{-1, h}, 0.5}, {{2, h}, 0.5}, {{2, h}, 1}}; };
+  const VertexWay lift =
+      going({box(-1, -1, 1, 0).points, box(-1, -0.75, 1, 0.25).points, box(-1, 0, 1, 1).points}, {0, 0.25, 1});
   // A tip on two chords of a quarter of a circle: at height 1/√2 it is back on the circle, before that inside of it.
-  const double half = std::sqrt(0.5);
-  const VertexWay way{
-      .collider = 0, .instants = {0, 0.5, 1}, .vertices = {{{0, 0}, {1, 0}}, {{0, 0}, {half, half}}, {{0, 0}, {0, 1}}}};
   // Feet at x from 0.8 on; the tip is at 0.85 on the chord where the circle would be at 0.9.
-  const double x = 0.85;
-  const double share = (1 - x) / (1 - half);
-  const double height = share * half;
-  const Meeting found = met(staying({x, height + 0.625}), way);
-  ASSERT_EQ(found.kind, Kind::meets);
-  EXPECT_NEAR(found.high, 0.5 * share, closely);
-}
-
-TEST(FirstMeeting, resting_on_what_goes_along_is_apart_and_an_ulp_deeper_is_not) {
-  const VertexWay lift{.collider = 0,
-                       .instants = {0, 0.25, 1},
-                       .vertices = {{{-1, -1}, {1, -1}, {1, 0}, {-1, 0}},
-                                    {{-1, -0.75}, {1, -0.75}, {1, 0.25}, {-1, 0.25}},
-                                    {{-1, 0}, {1, 0}, {1, 1}, {-1, 1}}}};
-  EXPECT_EQ(met({{{0, 0.625}, 0}, {{0, 1.625}, 1}}, lift).kind, Kind::apart);
-  EXPECT_EQ(met({{{0, 0.625}, 0}, {{0, one_ulp_down(1.625)}, 1}}, lift).kind, Kind::meets);
-  EXPECT_EQ(met({{{0, 0.625}, 0}, {{0.5, 0.875}, 0.25}, {{0.5, 1.625}, 1}}, lift).kind, Kind::apart);
-}
-
-TEST(FirstMeeting, a_leap_in_no_time_meets_what_is_in_between_then) {
-  const Path leap{{{-1, 0.4 + 0.625}, 0}, {{-1, 0.4 + 0.625}, 0.5}, {{2, 0.4 + 0.625}, 0.5}, {{2, 0.4 + 0.625}, 1}};
-  const Meeting found = met(leap, see_saw());
-  ASSERT_EQ(found.kind, Kind::meets) << "the tip is at height 0.5 then";
-  EXPECT_EQ(found.low, 0.5);
-  EXPECT_EQ(found.high, 0.5);
-  Path over = leap;
-  for (PathPoint<double>& corner : over) corner.position.y() += 0.7;
-  EXPECT_EQ(met(over, see_saw()).kind, Kind::apart);
-}
-
-TEST(FirstMeeting, a_single_corner_asks_about_its_moment) {
-  const Vec2d at(1, 0.5 + 0.625);
-  EXPECT_EQ(met({{at, 0.5}}, see_saw()).kind, Kind::apart) << "they touch";
-  EXPECT_EQ(met({{at, one_ulp_up(0.5)}}, see_saw()).kind, Kind::meets);
-  EXPECT_EQ(met({{at, 0}}, see_saw()).kind, Kind::apart);
-}
-
-TEST(FirstMeeting, an_octagon_that_is_all_inside_is_met_at_once) {
-  const VertexWay way{.collider = 0,
-                      .instants = {0, 1},
-                      .vertices = {{{-9, -9}, {9, -9}, {9, 9}, {-9, 9}}, {{-9, -9}, {9, -9}, {9, 9}, {-9, 9}}}};
-  const Meeting found = met(staying({0, 0}), way);
-  EXPECT_EQ(found.kind, Kind::meets);
-  EXPECT_NEAR(found.high, 0, closely);
-}
-
-TEST(FirstMeeting, far_from_the_origin_the_answers_are_exact_as_well) {
-  const double far = 0x1p20;
-  VertexWay way = see_saw();
-  for (auto& vertices : way.vertices)
-    for (Vec2d& v : vertices) v += Vec2d(far, -far);
-  const double foot = 0.625;  // no rounding: the sums are multiples of 2^-32
-  EXPECT_EQ(met(staying({far + 1, -far + 1 + foot}), way).kind, Kind::apart);
-  EXPECT_EQ(met(staying({far + 1, -far + 1 - 0x1p-30 + foot}), way).kind, Kind::meets);
-}
-
-/// A piece that turns about a point and goes along, on chords.
-struct Turning {
-  std::vector<Vec2d> points;
-  double from;
-  double to;
-  Vec2d begin;
-  Vec2d end;
-
-  [[nodiscard]] VertexWay way(int chords) const {
-    VertexWay way;
-    for (int k = 0; k <= chords; ++k) {
-      const double t = static_cast<double>(k) / chords;
-      const double angle = from + t * (to - from);
-      way.instants.push_back(t);
-      way.vertices.emplace_back();
-      for (const Vec2d& p : points)
-        way.vertices.back().emplace_back(begin + t * (end - begin) +
-                                         Vec2d(std::cos(angle) * p.x() - std::sin(angle) * p.y(),
-                                               std::sin(angle) * p.x() + std::cos(angle) * p.y()));
-    }
-    return way;
+  const double half = std::sqrt(0.5);
+  const VertexWay arc = going({{{0, 0}, {1, 0}}, {{0, 0}, {half, half}}, {{0, 0}, {0, 1}}}, {0, 0.5, 1});
+  const double share = (1 - 0.85) / (1 - half);
+  const double far = 0x1p20;  // where sums are multiples of 2^-32
+  const auto at_far = [&](double below) { return staying({far + 1, -far + 1 - below + foot}); };
+  // A tip goes to the left along y = h, from x = 1 to 0: the plank is t (1 - t) high there, at most 1/4.
+  const auto along = [](double h) { return Path{{{1, h}, 0}, {{0, h}, 1}}; };
+  // From x = 1 to -2 the height over the plank is h - t (1 - 3 t), least at t = 1/6 where it is h - 1/12.
+  const auto past = [](double h) { return Path{{{1, h}, 0}, {{-0.5, h}, 0.5}}; };
+  constexpr double apart = -1;
+  constexpr double some_time = 2;
+  const VertexWay around = going({square(9), square(9)});
+  const auto hull = octagon();
+  using Row = std::tuple<const char*, std::vector<Vec2d>, Path, VertexWay, double>;
+  for (const auto& [what, body, path, way, moment] : {
+           // At time t the plank is the line y = t x. The right foot is 0.5 m beside its middle and 0.375 m up.
+           Row{"the line comes up to a foot", hull, staying({0.5 - 0.15625, 0.375 + foot}), see_saw(), 0.75},
+           Row{"the tip comes up between the feet", hull, staying({1, 0.625 + foot}), see_saw(), 0.625},
+           Row{"feet at 1.5 - t, the tip at t", hull, {{{1, 1.5 + foot}, 0}, {{1, 0.5 + foot}, 1}}, see_saw(), 0.75},
+           Row{"a parabola touches", on_its_tip, along(0.25), see_saw(), apart},
+           Row{"an ulp above it", on_its_tip, along(one_ulp_up(0.25)), see_saw(), apart},
+           Row{"an ulp below it", on_its_tip, along(one_ulp_down(0.25)), see_saw(), some_time},
+           Row{"a nanometre below it", on_its_tip, along(0.25 - 1e-9), see_saw(), some_time},
+           Row{"its top is at no binary fraction", on_its_tip, past(one_ulp_up(1.0 / 12)), rising_line(1), apart},
+           Row{"an ulp lower", on_its_tip, past(one_ulp_down(1.0 / 12)), rising_line(1), some_time},
+           Row{"a thick one goes through", hull, staying({0, 0}), through(0.1), (2 - 0.1 - foot) / 4},
+           Row{"a thin one", hull, staying({0, 0}), through(1e-9), (2 - 1e-9 - foot) / 4},
+           Row{"a line", hull, staying({0, 0}), through(0), (2 - foot) / 4},
+           Row{"beside it", hull, staying({4, 0}), through(0), apart},
+           Row{"the chord is met, not the arc", hull, staying({0.85, share * half + foot}), arc, 0.5 * share},
+           Row{"it rides", hull, {{{0, foot}, 0}, {{0, 1 + foot}, 1}}, lift, apart},
+           Row{"an ulp deeper", hull, {{{0, foot}, 0}, {{0, one_ulp_down(1 + foot)}, 1}}, lift, some_time},
+           Row{"it walks on it", hull, {{{0, foot}, 0}, {{0.5, 0.25 + foot}, 0.25}, {{0.5, 1 + foot}, 1}}, lift, apart},
+           Row{"it leaps through the tip", hull, leap(0.4 + foot), see_saw(), 0.5},
+           Row{"it leaps over the tip", hull, leap(1.1 + foot), see_saw(), apart},
+           Row{"at a single moment they touch", hull, {{{1, 0.5 + foot}, 0.5}}, see_saw(), apart},
+           Row{"an ulp later", hull, {{{1, 0.5 + foot}, one_ulp_up(0.5)}}, see_saw(), 0.5},
+           Row{"at first they are apart", hull, {{{1, 0.5 + foot}, 0}}, see_saw(), apart},
+           Row{"all inside it is met at once", hull, staying({0, 0}), around, 0},
+           Row{"far away they touch", hull, at_far(0), see_saw({far, -far}), apart},
+           Row{"and overlap by a nanometre", hull, at_far(0x1p-30), see_saw({far, -far}), some_time},
+       }) {
+    SCOPED_TRACE(what);
+    const Question asked{.body = body, .path = path, .way = way};
+    const Meeting found = asked.first(Asked::when);
+    EXPECT_EQ(found.kind, moment == apart ? Kind::apart : Kind::meets);
+    EXPECT_EQ(asked.second().kind, found.kind);
+    if (moment == apart || moment == some_time) continue;
+    EXPECT_NEAR(found.low, moment, closely);
+    EXPECT_NEAR(found.high, moment, closely);
+    EXPECT_TRUE(moment != 0.75 || (found.low <= 0.75 && found.high > 0.75)) << "a touch is no overlap";
   }
-};
+}
 
 /// Vertices and positions of a moment are rounded here: enough where the moment is not a touch.
 bool overlaps_at(const VertexWay& way, const Path& path, double t) {
-  std::size_t k = 0;
-  while (k + 2 < way.instants.size() && way.instants[k + 1] < t) ++k;
-  const double share = (t - way.instants[k]) / (way.instants[k + 1] - way.instants[k]);
-  std::vector<Vec2d> ring;
-  for (std::size_t i = 0; i < way.vertices[k].size(); ++i)
-    ring.push_back(way.vertices[k][i] + share * (way.vertices[k + 1][i] - way.vertices[k][i]));
+  const std::vector<Vec2d> ring = vertices_at(way, t);
   const Vec2d at = path[0].position + t * (path[1].position - path[0].position);
-  const ColliderDef def = ring.size() == 2 ? chain(ring) : polygon(ring);
-  return ExactScenery(scenery({def}), octagon()).overlaps(at, 0);
+  return world({ring.size() == 2 ? chain(ring) : polygon(ring)}).overlaps(at, 0);
 }
 
 TEST(FirstMeeting, free_before_and_overlapping_after_by_another_formulation) {
@@ -204,32 +133,171 @@ TEST(FirstMeeting, free_before_and_overlapping_after_by_another_formulation) {
   constexpr int rounds = 600;
   constexpr int moments = 40;
   int touched = 0;
-  int undecided = 0;
   for (int i = 0; i < rounds; ++i) {
-    const double thin = i % 3 == 0 ? 0 : i % 3 == 1 ? 1e-4 : 0.1;
-    Turning piece{.points = {{-0.7, 0}, {0.7, 0}}, .from = random.between(-7, 7), .to = 0, .begin = {}, .end = {}};
-    if (thin > 0) piece.points = {{-0.7, 0}, {0.7, 0}, {0.7, thin}, {-0.7, thin}};
-    piece.to = piece.from + random.between(-2, 2);
-    piece.begin = random.point(1.2);
-    piece.end = random.point(1.2);
+    SCOPED_TRACE("seed " + std::to_string(seed) + " round " + std::to_string(i));
+    std::vector<Vec2d> piece{{-0.7, 0}, {0.7, 0}};
+    if (i % 3 > 0) piece = box(-0.7, 0, 0.7, i % 3 == 1 ? 1e-4 : 0.1).points;
+    const Vec2d begin = random.point(1.2);
+    const Vec2d moved = random.point(1.2) - begin;
+    const double angle = random.between(-7, 7);
+    const double turn = random.between(-2, 2);
     const Vec2d start = random.point(1.6);
     const Path path{{start, 0}, {start + random.point(1), 1}};
-    const VertexWay way = piece.way(1 + random.below(9));
-    const Meeting found = met(path, way);
-    EXPECT_EQ(met(path, way, Asked::whether).kind, found.kind) << "seed " << seed << " round " << i;
-    undecided += found.kind == Kind::undecided;
+    const VertexWay way = on_chords(piece, begin, moved, angle, turn, 1 + random.below(9));
+    const Question asked{.path = path, .way = way};
+    const Meeting found = asked.first(Asked::when);
+    EXPECT_EQ(asked.first(Asked::whether).kind, found.kind);
+    EXPECT_NE(found.kind, Kind::undecided) << "nothing at random touches without an overlap";
     const double free_until = found.kind == Kind::apart ? 1 : found.low;
-    for (int k = 0; k < moments && free_until > 0; ++k)
-      ASSERT_FALSE(overlaps_at(way, path, free_until * k / moments)) << "seed " << seed << " round " << i;
+    for (int k = 0; k < moments && free_until > 0; ++k) ASSERT_FALSE(overlaps_at(way, path, free_until * k / moments));
     if (found.kind != Kind::meets || found.high < 1e-9) continue;
     ++touched;
-    EXPECT_LE(found.high - found.low, 1e-9) << "seed " << seed << " round " << i;
-    EXPECT_FALSE(overlaps_at(way, path, std::max(0.0, found.low - 1e-10))) << "seed " << seed << " round " << i;
-    EXPECT_TRUE(overlaps_at(way, path, std::min(1.0, found.high + 1e-10))) << "seed " << seed << " round " << i;
+    EXPECT_LE(found.high - found.low, 1e-9);
+    EXPECT_FALSE(overlaps_at(way, path, std::max(0.0, found.low - 1e-10)));
+    EXPECT_TRUE(overlaps_at(way, path, std::min(1.0, found.high + 1e-10)));
   }
-  EXPECT_EQ(undecided, 0) << "nothing at random touches without an overlap";
   EXPECT_GT(touched, rounds * 2 / 10);
   EXPECT_LT(touched, rounds * 8 / 10);
+}
+
+/// On straight ways that follow a turn, in each part first the turn at once about a place and then straight on.
+VertexWay at_once(Random& random, const std::vector<Vec2d>& points) {
+  double angle = random.between(-7, 7);
+  Vec2d at = random.point(1.2);
+  const int parts = 1 + random.below(3);
+  VertexWay way = going({placed(points, at, angle)}, {0});
+  for (int k = 0; k < parts; ++k) {
+    const double turn = random.between(-0.3, 0.3);
+    const Vec2d pivot = random.point(0.6);
+    way.instants.push_back((k + 0x1p-20) / parts);
+    way.vertices.push_back(placed(way.vertices.back(), pivot - turned(pivot, turn), turn));
+    angle += turn;
+    at += random.point(0.3);
+    way.instants.push_back(static_cast<double>(k + 1) / parts);
+    way.vertices.push_back(placed(points, at, angle));
+  }
+  return way;
+}
+
+Path random_path(Random& random, double reach) {
+  const Vec2d start = random.point(reach);
+  if (random.below(6) == 0) return {{start, random.between(0, 1)}};
+  const Vec2d end = start + random.point(0.7);
+  if (random.below(3) > 0) return {{start, 0}, {end, 1}};
+  const double when = random.below(3) == 0 ? 0 : random.between(0, 1);
+  const Vec2d leapt = start + random.point(0.4);
+  return {{start, 0}, {start, when}, {leapt, when}, {end, 1}};
+}
+
+/// Shapes that turn at random: nothing touches but by chance.
+Question at_random(Random& random) {
+  const double thin = random.below(2) == 0 ? 1e-4 : 0.1;
+  std::vector<Vec2d> wheel;
+  const int corners = 3 + random.below(6);
+  for (int k = 0; k < corners; ++k) wheel.push_back(0.5 * towards(6.28 * k / corners));
+  const std::vector<std::vector<Vec2d>> shapes{{{-0.7, 0}, {0.7, 0}}, box(-0.7, 0, 0.7, thin).points, wheel};
+  const std::vector<Vec2d>& shape = shapes[static_cast<std::size_t>(random.below(3))];
+  return {.path = random_path(random, 1.3), .way = at_once(random, shape)};
+}
+
+/// Corners on a grid that go to corners on a grid: many touch, many are parallel, many meet at one moment.
+Question on_a_grid(Random& random) {
+  Question asked;
+  if (random.below(2) == 0) asked.body = {{0, -1}, {1, 0}, {0, 1}, {-1, 0}};
+  const Vec2d here = random.grid_point(8);
+  const Vec2d there = random.below(2) == 0 ? here : random.grid_point(8);
+  std::vector<Vec2d> shape = box(-0.625, 0, 0.625, 0.625).points;
+  if (random.below(2) == 0) shape.resize(2);
+  const int before = random.below(4);
+  const auto placed = [&shape](int quarters, const Vec2d& at) {
+    std::vector<Vec2d> points;
+    for (Vec2d p : shape) {
+      for (int k = 0; k < quarters; ++k) p = {-p.y(), p.x()};
+      points.emplace_back(p + at);
+    }
+    return points;
+  };
+  asked.way = going({placed(before, here), placed(before + random.below(2), there)});
+  const Vec2d from = random.grid_point(9);
+  const Vec2d to = random.below(3) == 0 ? from : random.grid_point(9);
+  asked.path = {{from, 0}, {to, 1}};
+  if (random.below(4) == 0) asked.path = {{from, 0}, {from, 0.5}, {to, 0.5}, {to, 1}};
+  return asked;
+}
+
+/// The tip of a square passes a parabola that a plank makes, within an ulp of its top.
+Question grazing(Random& random) {
+  const double slope = 0.25 * (1 + random.below(8));
+  const double speed = 0.25 * (1 + random.below(8));
+  // At time t the plank is the line y = slope t x, and the tip is at x = 1 - speed t: highest where both are even.
+  const double top = slope / (4 * speed);
+  const int off = random.below(3);
+  const double height = off == 0 ? top : off == 1 ? one_ulp_up(top) : one_ulp_down(top);
+  return {.body = on_its_tip, .path = {{{1, height}, 0}, {{1 - speed, height}, 1}}, .way = rising_line(slope)};
+}
+
+Question with_a_disc(Random& random) {
+  Question asked{.path = random_path(random, 1), .radius = random.between(0.05, 0.5)};
+  const bool on_grid = random.below(2) == 0;  // it touches sides
+  if (on_grid) asked.radius = 0.3125;
+  asked.way = going({}, {0, random.between(0.1, 0.9), 1});
+  for (int k = 0; k < 3; ++k) asked.way.vertices.push_back({on_grid ? random.grid_point(8) : random.point(1)});
+  for (PathPoint<double>& corner : asked.path)
+    if (on_grid) corner.position = random.grid_point(8);
+  return asked;
+}
+
+TEST(SecondMeeting, agrees_with_the_first) {
+  struct Family {
+    const char* name;
+    std::uint64_t seed;
+    int rounds;
+    std::function<Question(Random&)> make;
+  };
+  for (const auto& [name, seed, rounds, make] :
+       {Family{"at random", 28, 4000, at_random}, Family{"on a grid", 29, 4000, on_a_grid},
+        Family{"grazing", 30, 1500, grazing}, Family{"discs", 31, 3000, with_a_disc}}) {
+    Random random(seed);
+    int met = 0;
+    int undecided = 0;
+    for (int i = 0; i < rounds; ++i) {
+      SCOPED_TRACE(std::string(name) + ", seed " + std::to_string(seed) + ", round " + std::to_string(i));
+      const Question question = make(random);
+      const Meeting one = question.first(question.radius > 0 ? Asked::whether : Asked::when);
+      const Meeting other = question.second();
+      met += other.kind == Kind::meets;
+      undecided += one.kind == Kind::undecided;
+      ASSERT_NE(other.kind, Kind::undecided);
+      if (one.kind == Kind::undecided) continue;
+      ASSERT_EQ(one.kind, other.kind);
+      if (one.kind == Kind::apart) continue;
+      // Of a disc the first tells the stretch; an overlap that lasts 1e-8 of a step it finds by halving.
+      const double near = question.radius > 0 || question.path.size() == 1 ? 1 : 1e-9;
+      EXPECT_LE(other.low, other.high);
+      EXPECT_LE(one.low, other.high + near);
+      EXPECT_NEAR(one.high, other.high, near);
+    }
+    EXPECT_GE(met, rounds * 3 / 10) << name;
+    EXPECT_LE(met, rounds * 7 / 10) << name;
+    EXPECT_LE(undecided, name == std::string("at random") ? 0 : rounds / 100) << name;
+  }
+}
+
+TEST(SecondMeeting, decides_a_touch_at_a_moment_that_no_halving_comes_to) {
+  // In units of 0.15625 m the octagon stands at (2, 0), with a corner at (1, -4) between a level side and one of slope
+  // -2. The end of a segment goes from (7, -7) to (-7, 0): it is at that corner at 3/7, on a line of slope -1/2 that
+  // the octagon lies above; the other end stays below.
+  const double unit = 0.15625;
+  Question touch{
+      .path = staying(Vec2d(2, 0) * unit),
+      .way = going({{Vec2d(7, -7) * unit, Vec2d(-1, -7) * unit}, {Vec2d(-7, 0) * unit, Vec2d(-7, -8) * unit}})};
+  EXPECT_EQ(touch.first(Asked::whether).kind, Kind::undecided);
+  EXPECT_EQ(touch.second().kind, Kind::apart);
+  for (PathPoint<double>& corner : touch.path) corner.position.y() = -0x1p-40;
+  const Meeting met = touch.second();
+  ASSERT_EQ(met.kind, Kind::meets);
+  EXPECT_LT(met.low, 3.0 / 7);
+  EXPECT_NEAR(met.high, 3.0 / 7, 1e-10);
 }
 
 }  // namespace

@@ -1,8 +1,6 @@
 /// Walks that leave ground which they follow, and kerbs that stop who climbs them.
 #include "compare/judge_steps.hpp"
 
-#include "oracle/intent.hpp"
-
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
@@ -11,18 +9,21 @@ namespace {
 
 using namespace test;  // NOLINT(google-build-using-namespace): the shapes of this folder
 
-constexpr double feet = 0.625;    // of the octagon, whose foot is from -0.15625 to 0.15625
-constexpr double side = 0.3125;   // of the octagon, from 0.3125 above its foot on
 constexpr double gap = 5e-7;      // that a step leaves
 constexpr double hardly = 1e-5;   // [m]
 constexpr double walk = 0.09375;  // in one step [m]
 
-Wanted to_the_right() {
-  Wanted wanted;
-  wanted.displacement = {walk, -1e-3};
-  wanted.velocity = wanted.displacement / dt;
+Wanted to_the_right(void (*change)(Wanted&) = [](Wanted&) {}) {
+  Wanted wanted = wanting({walk, -1e-3});
   wanted.from_ground = true;
+  change(wanted);
   return wanted;
+}
+Wanted jump() {
+  return to_the_right([](Wanted& w) { w.jumped = true; });
+}
+Wanted in_the_air() {
+  return to_the_right([](Wanted& w) { w.from_ground = false; });
 }
 
 /// @param turned everything, and up with it [rad].
@@ -61,7 +62,7 @@ struct OffALedge {
     TraceHeader all = promising(std::move(colliders));
     all.character.snap = snap;
     all.character.max_fall_speed = falls;
-    TraceStep off = step({{0.2, feet + gap}, {0.2 + walk, feet + gap - 1e-3}});
+    TraceStep off = step({{0.2, half_height + gap}, {0.2 + walk, half_height + gap - 1e-3}});
     off.movers = {{.from = {0, 0}, .to = {0, goes}}};
     off.velocity = ends_with;
     off.input.drop = drops;
@@ -79,15 +80,10 @@ TEST(GroundThatIsLeft, is_walkable_and_less_than_the_snap_below) {
 }
 
 TEST(GroundThatIsLeft, is_left_on_purpose_by_who_jumps_or_rises) {
-  Wanted jump = to_the_right();
-  jump.jumped = true;
-  EXPECT_FALSE((OffALedge{.wanted = jump}.is_left()));
-  Wanted in_the_air = to_the_right();
-  in_the_air.from_ground = false;
-  EXPECT_FALSE((OffALedge{.drop = 0.1, .wanted = in_the_air}.is_left()));
+  EXPECT_FALSE((OffALedge{.wanted = jump()}.is_left()));
+  EXPECT_FALSE((OffALedge{.drop = 0.1, .wanted = in_the_air()}.is_left()));
   // Faster up than a climb of 50 degrees would be.
-  Wanted rises = to_the_right();
-  rises.velocity = {6, 8};
+  const Wanted rises = to_the_right([](Wanted& w) { w.velocity = {6, 8}; });
   EXPECT_FALSE((OffALedge{.drop = 0.1, .wanted = rises, .ends_with = {6, 8}}.is_left()));
   EXPECT_TRUE((OffALedge{.drop = 0.1, .wanted = rises}.is_left()));
 }
@@ -96,20 +92,14 @@ TEST(GroundThatIsLeft, falls_no_faster_than_the_walk_and_may_carry_it) {
   EXPECT_TRUE((OffALedge{.drop = 0.1, .goes = 0.001}.is_left()));
   EXPECT_TRUE((OffALedge{.drop = 0.1, .goes = -0.1}.is_left()));
   EXPECT_FALSE((OffALedge{.drop = 0.1, .goes = -0.1, .falls = 6}.is_left()));
-  Wanted rides = to_the_right();
-  rides.ridden = 0;
-  rides.rode = {0, 1};
-  rides.velocity = {0.1, 1};
+  const Wanted rides = to_the_right([](Wanted& w) {
+    w.ridden = 0;
+    w.rode = {0, 1};
+    w.velocity = {0.1, 1};
+  });
   EXPECT_TRUE((OffALedge{.drop = 0.1, .wanted = rides, .ends_with = {0.1, 1}}.is_left()));
   EXPECT_FALSE((OffALedge{.drop = 0.1, .wanted = rides, .ends_with = {0.1, 1.1}}.is_left()));
   EXPECT_FALSE((OffALedge{.drop = 0.1, .drops = true}.is_left()));
-}
-
-TEST(GroundThatIsLeft, is_below_whatever_is_up) {
-  for (const double turned : {0.5, 1.5, 3.0, -2.0}) {
-    EXPECT_TRUE((OffALedge{.drop = 0.1, .turned = turned}.is_left())) << turned;
-    EXPECT_FALSE((OffALedge{.drop = 0.26, .turned = turned}.is_left())) << turned;
-  }
 }
 
 /// A walk that a kerb stops.
@@ -126,9 +116,9 @@ struct AtAKerb {
     colliders.insert(colliders.end(), more.begin(), more.end());
     TraceHeader all = promising(std::move(colliders));
     all.character.step_height = step_height;
-    // The corner touches the slanted side at its height: 2 up for 1 aside.
-    const double touched = std::min(side, side / 2 + height / 2);
-    TraceStep stopped = step({{1 - touched - 0.01, feet + gap}, {1 - touched - gap * 1.2, feet + gap}});
+    // The corner touches the slanted side at its height: 2 up for 1 aside, from the foot, which is half as wide, on.
+    const double touched = std::min(half_width, half_width / 2 + height / 2);
+    TraceStep stopped = step({{1 - touched - 0.01, half_height + gap}, {1 - touched - gap * 1.2, half_height + gap}});
     stopped.grounded = true;
     stopped.velocity = {0, 0};
     return judged(all, stopped, wanted, turned).kerb_missed;
@@ -146,7 +136,7 @@ TEST(KerbThatIsMissed, is_no_higher_than_the_character_climbs) {
 
 TEST(KerbThatIsMissed, has_room_above_it) {
   const auto lintel = [](double height) { return std::vector{box(-9, height, 9, 9)}; };
-  const double head = 2 * feet;
+  const double head = 2 * half_height;
   EXPECT_FALSE((AtAKerb{.height = 0.25, .more = lintel(head + 0.25)}.is_missed()));
   EXPECT_TRUE((AtAKerb{.height = 0.2, .more = lintel(head + 0.26)}.is_missed()));
   EXPECT_TRUE((AtAKerb{.height = 0.3, .more = lintel(head + 0.45)}.is_missed()));
@@ -162,24 +152,19 @@ TEST(KerbThatIsMissed, has_ground_behind_its_edge) {
   EXPECT_FALSE((AtAKerb{.height = 0.3, .more = steep}.is_missed()));
 }
 
-TEST(KerbThatIsMissed, is_a_kerb_whatever_is_up) {
+TEST(GroundAndKerbs, are_judged_alike_whatever_is_up) {
   for (const double turned : {0.5, 1.5, 3.0, -2.0}) {
-    EXPECT_TRUE((AtAKerb{.height = 0.2, .turned = turned}.is_missed())) << turned;
-    EXPECT_TRUE((AtAKerb{.height = 0.4, .turned = turned}.is_missed())) << turned;
-    EXPECT_FALSE((AtAKerb{.height = 0.51, .turned = turned}.is_missed())) << turned;
+    for (const double drop : {0.1, 0.26}) EXPECT_EQ((OffALedge{.drop = drop, .turned = turned}.is_left()), drop < 0.25);
+    for (const double height : {0.2, 0.4, 0.51})
+      EXPECT_EQ((AtAKerb{.height = height, .turned = turned}.is_missed()), height < 0.5) << height;
   }
 }
 
 TEST(KerbThatIsMissed, stops_a_walk) {
-  Wanted jump = to_the_right();
-  jump.jumped = true;
-  EXPECT_FALSE((AtAKerb{.wanted = jump}.is_missed()));
-  Wanted away = to_the_right();
-  away.displacement.x() = away.velocity.x() = -walk;
-  EXPECT_FALSE((AtAKerb{.wanted = away}.is_missed()));
-  Wanted in_the_air = to_the_right();
-  in_the_air.from_ground = false;
-  EXPECT_FALSE((AtAKerb{.wanted = in_the_air}.is_missed()));
+  EXPECT_FALSE((AtAKerb{.wanted = jump()}.is_missed()));
+  EXPECT_FALSE(
+      (AtAKerb{.wanted = to_the_right([](Wanted& w) { w.displacement.x() = w.velocity.x() = -walk; })}.is_missed()));
+  EXPECT_FALSE((AtAKerb{.wanted = in_the_air()}.is_missed()));
 }
 
 }  // namespace

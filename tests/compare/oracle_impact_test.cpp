@@ -7,12 +7,12 @@ namespace {
 
 using namespace test;  // NOLINT(google-build-using-namespace): the shapes of this folder
 
+using Impact = std::optional<ExactImpact>;
+
 TEST(ExactImpact, the_articles_bullet_meets_the_paper_at_three_fifths_exactly) {
   const double pixel = 1.0 / 32;
-  const std::vector<Vec2d> square{
-      {-pixel / 2, -pixel / 2}, {pixel / 2, -pixel / 2}, {pixel / 2, pixel / 2}, {-pixel / 2, pixel / 2}};
-  const ExactScenery world(scenery({box(-1, -5 * pixel, 1, 0)}), square);
-  const std::optional<ExactImpact> impact = world.first_impact({0, 30.5 * pixel}, {0, -50 * pixel});
+  const ExactScenery there = world({box(-1, -5 * pixel, 1, 0)}, square(pixel / 2));
+  const Impact impact = there.first_impact({0, 30.5 * pixel}, {0, -50 * pixel});
   ASSERT_TRUE(impact);
   EXPECT_EQ(impact->fraction, Exact(3, 5));
   EXPECT_EQ(impact->normal, Vec2d(0, 1));
@@ -26,106 +26,87 @@ TEST(ExactImpact, separates_before_and_meets_after) {
   int hits = 0;
   int rounds = 0;
   for (int i = 0; i < 1500; ++i) {
+    SCOPED_TRACE("seed " + std::to_string(seed) + " round " + std::to_string(i));
     const Vec2d centre = random.point(1);
-    const ExactScenery world(scenery({polygon(star(random, centre, 0.8, 3 + random.below(7)))}), octagon());
+    const ExactScenery there = world({polygon(star(random, centre, 0.8, 3 + random.below(7)))});
     const Vec2d from = random.point(2.5);
     const Vec2d displacement = 1.5 * (random.point(1.2) - from);
-    if (world.overlaps(from, 0)) continue;
+    if (there.overlaps(from, 0)) continue;
     ++rounds;
-    const std::optional<ExactImpact> impact = world.time_of_impact(from, displacement, 0);
+    const Impact impact = there.time_of_impact(from, displacement, 0);
     // The displacement that the sweep took is the exact one; the nearest double end may differ by an ulp.
     if (!impact) {
-      EXPECT_FALSE(world.meets(from, from + displacement * (1 - 1e-12), 0) &&
-                   world.penetration(from + displacement, 0) > 1e-12)
-          << "seed " << seed << " round " << i;
+      EXPECT_FALSE(there.meets(from, from + displacement * (1 - 1e-12), 0) &&
+                   there.penetration(from + displacement, 0) > 1e-12);
       continue;
     }
     ++hits;
     const double t = static_cast<double>(impact->fraction);
     ASSERT_GE(t, 0);
     ASSERT_LT(t, 1);
-    EXPECT_NEAR(world.separation(from + t * displacement, 0), 0, 1e-14) << "seed " << seed << " round " << i;
-    EXPECT_FALSE(world.meets(from, from + (t - 1e-9) * displacement, 0)) << "seed " << seed << " round " << i;
-    EXPECT_TRUE(world.meets(from, from + (t + 1e-9) * displacement, 0)) << "seed " << seed << " round " << i;
+    EXPECT_NEAR(there.separation(from + t * displacement, 0), 0, 1e-14);
+    EXPECT_FALSE(there.meets(from, from + (t - 1e-9) * displacement, 0));
+    EXPECT_TRUE(there.meets(from, from + (t + 1e-9) * displacement, 0));
     EXPECT_LT(impact->normal.dot(displacement), 0);
     EXPECT_NEAR(impact->normal.norm(), 1, 1e-15);
     // Along its normal the octagon is free of the place that it touches, a little back from there.
-    EXPECT_FALSE(world.overlaps(from + t * displacement + 1e-9 * impact->normal, 0))
-        << "seed " << seed << " round " << i;
+    EXPECT_FALSE(there.overlaps(from + t * displacement + 1e-9 * impact->normal, 0));
   }
   EXPECT_GT(hits, rounds * 3 / 10);
   EXPECT_LT(hits, rounds * 7 / 10);
 }
 
 TEST(ExactImpact, a_touching_start_hits_at_once_when_it_moves_in_and_never_when_it_slides) {
-  const ExactScenery world(scenery({box(-4, -1, 4, 0)}), octagon());
-  const std::optional<ExactImpact> in = world.time_of_impact({0, 0.625}, {1, -1e-9}, 0);
+  const ExactScenery there = world({box(-4, -1, 4, 0)});
+  const Impact in = there.time_of_impact({0, 0.625}, {1, -1e-9}, 0);
   ASSERT_TRUE(in);
   EXPECT_EQ(in->fraction, 0);
   EXPECT_EQ(in->normal, Vec2d(0, 1));
-  EXPECT_FALSE(world.time_of_impact({0, 0.625}, {1, 0}, 0));
-  EXPECT_FALSE(world.time_of_impact({0, 0.625}, {1, 5e-324}, 0));
-  EXPECT_FALSE(world.time_of_impact({0, 1}, {0, -0.375}, 0)) << "ending in touch is no impact";
+  EXPECT_FALSE(there.time_of_impact({0, 0.625}, {1, 0}, 0));
+  EXPECT_FALSE(there.time_of_impact({0, 0.625}, {1, 5e-324}, 0));
+  EXPECT_FALSE(there.time_of_impact({0, 1}, {0, -0.375}, 0)) << "ending in touch is no impact";
 }
 
 TEST(ExactImpact, the_fraction_of_a_grazing_approach_is_the_quotient_of_the_numbers_that_ran) {
-  const ExactScenery world(scenery({box(-1e6, -1, 1e6, 0)}), octagon());
-  const Vec2d from(0.1, 0.7);
-  const Vec2d displacement(300, -0.1);
-  const std::optional<ExactImpact> impact = world.time_of_impact(from, displacement, 0);
+  const Impact impact = world({box(-1e6, -1, 1e6, 0)}).time_of_impact({0.1, 0.7}, {300, -0.1}, 0);
   ASSERT_TRUE(impact);
   EXPECT_EQ(impact->fraction, (Exact(0.7) - Exact(0.625)) / Exact(0.1));
 }
 
 TEST(ExactImpact, a_seam_of_abutting_tiles_is_not_exposed_and_a_step_is) {
-  const SceneryDef tiles = scenery({box(0, -1, 1, 0), box(1, -1, 2, 0), box(2, -1, 3, 0.5)});
-  // Already a millimetre inside the first tile, the second one is met at its vertex, which is none of the floor.
-  const ExactScenery world(tiles, octagon());
-  const std::optional<ExactImpact> vertex = world.time_of_impact({0.8, 0.624}, {0.5, -0.001}, 1);
-  ASSERT_TRUE(vertex);
-  EXPECT_EQ(vertex->point, Vec2d(1, 0));
-  EXPECT_LT(vertex->normal.x(), 0);
-  EXPECT_FALSE(vertex->exposed);
-
-  const std::vector<Vec2d> square{{-0.25, -0.25}, {0.25, -0.25}, {0.25, 0.25}, {-0.25, 0.25}};
-  const ExactScenery square_world(tiles, square);
-  const std::optional<ExactImpact> side = square_world.time_of_impact({0.5, -0.5}, {0.5, 0}, 1);
-  ASSERT_TRUE(side);
-  EXPECT_EQ(side->normal, Vec2d(-1, 0));
-  EXPECT_FALSE(side->exposed) << "covered all along";
-  const std::optional<ExactImpact> partly = square_world.time_of_impact({0.5, -0.125}, {0.5, 0}, 1);
-  ASSERT_TRUE(partly);
-  EXPECT_FALSE(partly->exposed) << "what touches ends at the top of both";
-
-  for (const std::vector<Vec2d>& points : {octagon(), square}) {
-    const ExactScenery stair(tiles, points);
-    const double rest = points == square ? 0.25 : 0.625;
+  const std::vector<ColliderDef> tiles{box(0, -1, 1, 0), box(1, -1, 2, 0), box(2, -1, 3, 0.5)};
+  // Already a millimetre inside one tile, the next one is met at its vertex, which is none of the floor.
+  for (const bool rightward : {true, false}) {
+    const Impact vertex = rightward ? world(tiles).time_of_impact({0.8, 0.624}, {0.5, -0.001}, 1)
+                                    : world(tiles).time_of_impact({1.2, 0.624}, {-0.5, -0.001}, 0);
+    ASSERT_TRUE(vertex);
+    EXPECT_EQ(vertex->point, Vec2d(1, 0));
+    EXPECT_EQ(vertex->normal.x() < 0, rightward);
+    EXPECT_FALSE(vertex->exposed);
+  }
+  // All along the side is covered; or what touches ends at the top of both.
+  for (const double height : {-0.5, -0.125}) {
+    const Impact side = world(tiles, square(0.25)).time_of_impact({0.5, height}, {0.5, 0}, 1);
+    ASSERT_TRUE(side);
+    EXPECT_EQ(side->normal, Vec2d(-1, 0));
+    EXPECT_FALSE(side->exposed) << height;
+  }
+  for (const std::vector<Vec2d>& points : {octagon(), square(0.25)})
     for (const double gap : {1e-6, 0.0, -1e-6}) {
-      const std::optional<ExactImpact> step = stair.time_of_impact({1.5, rest + gap}, {0.5, -1e-9}, 2);
+      const double rest = points.size() == 4 ? 0.25 : 0.625;
+      const Impact step = world(tiles, points).time_of_impact({1.5, rest + gap}, {0.5, -1e-9}, 2);
       ASSERT_TRUE(step);
       EXPECT_TRUE(step->exposed) << "the step stands out of the floor, gap " << gap;
       EXPECT_LT(step->normal.x(), 0);
     }
-  }
-}
-
-TEST(ExactImpact, a_seam_is_not_exposed_from_either_direction) {
-  const ExactScenery world(scenery({box(0, -1, 1, 0), box(1, -1, 2, 0)}), octagon());
-  const std::optional<ExactImpact> leftward = world.time_of_impact({1.2, 0.624}, {-0.5, -0.001}, 0);
-  ASSERT_TRUE(leftward);
-  EXPECT_EQ(leftward->point, Vec2d(1, 0));
-  EXPECT_GT(leftward->normal.x(), 0);
-  EXPECT_FALSE(leftward->exposed);
 }
 
 TEST(ExactImpact, a_side_of_two_tiles_in_one_place_is_exposed_and_a_seam_of_them_is_not) {
-  const std::vector<Vec2d> square{{-0.25, -0.25}, {0.25, -0.25}, {0.25, 0.25}, {-0.25, 0.25}};
   for (const bool before : {false, true}) {
-    SceneryDef tiles = scenery({box(2, -1, 3, 1), box(2, -1, 3, 1), box(2, -2, 3, 0.5)});
-    if (before) tiles.colliders.push_back(box(1, -1, 2, 1));
-    const ExactScenery world(tiles, square);
+    std::vector<ColliderDef> tiles{box(2, -1, 3, 1), box(2, -1, 3, 1), box(2, -2, 3, 0.5)};
+    if (before) tiles.push_back(box(1, -1, 2, 1));
     for (const ColliderIndex tile : {0U, 1U, 2U}) {
-      const std::optional<ExactImpact> side = world.time_of_impact({1.5, 0}, {0.5, 0}, tile);
+      const Impact side = world(tiles, square(0.25)).time_of_impact({1.5, 0}, {0.5, 0}, tile);
       ASSERT_TRUE(side);
       EXPECT_EQ(side->exposed, !before) << tile;
     }
@@ -134,15 +115,12 @@ TEST(ExactImpact, a_side_of_two_tiles_in_one_place_is_exposed_and_a_seam_of_them
 
 TEST(ExactImpact, of_two_ledges_that_doubles_cannot_tell_apart_the_higher_one_is_met) {
   constexpr double step = 0x1p-60;
-  const Vec2d from(0, 1.5);
-  const Vec2d way(0, -2);
   for (const bool left : {true, false}) {
     const double low_left = left ? step : 0;
     const double low_right = left ? 0 : step;
-    const ExactScenery world(
-        scenery({polygon({{-4, -1}, {4, -1}, {4, low_right}, {0, low_right}, {0, low_left}, {-4, low_left}})}),
-        octagon());
-    const std::optional<ExactImpact> impact = world.time_of_impact(from, way, 0);
+    const ExactScenery there =
+        world({polygon({{-4, -1}, {4, -1}, {4, low_right}, {0, low_right}, {0, low_left}, {-4, low_left}})});
+    const Impact impact = there.time_of_impact({0, 1.5}, {0, -2}, 0);
     ASSERT_TRUE(impact);
     EXPECT_EQ(impact->fraction, (Exact(1.5) - Exact(0.625) - Exact(step)) / 2);
     EXPECT_EQ(impact->point.x() < 0, left) << "the middle of what touches lies on the higher ledge";
@@ -150,24 +128,18 @@ TEST(ExactImpact, of_two_ledges_that_doubles_cannot_tell_apart_the_higher_one_is
 }
 
 TEST(ExactImpact, corner_to_corner_the_normal_is_the_facet_most_opposed_to_the_motion) {
-  const std::vector<Vec2d> square{{-0.25, -0.25}, {0.25, -0.25}, {0.25, 0.25}, {-0.25, 0.25}};
-  const ExactScenery square_world(scenery({box(0, -1, 1, 0)}), square);
-  for (const Vec2d& way : {Vec2d(1, -2), Vec2d(2, -1)}) {
-    const std::optional<ExactImpact> impact = square_world.time_of_impact(Vec2d(-0.25, 0.25) - way / 4, way, 0);
+  using Row = std::tuple<std::vector<Vec2d>, Vec2d, Vec2d, Vec2d>;
+  // The position where its corner is on that of the tile. Of the last one the tile's side would oppose the motion most,
+  // but the arm already stands above the tile, so that the side separates nothing.
+  for (const auto& [points, corner, way, normal] :
+       {Row{square(0.25), {-0.25, 0.25}, {1, -2}, {0, 1}}, Row{square(0.25), {-0.25, 0.25}, {2, -1}, {-1, 0}},
+        Row{octagon(), {-0.15625, 0.625}, {2, -0.125}, lower_right()}}) {
+    const Impact impact = world({box(0, -1, 1, 0)}, points).time_of_impact(Vec2d(corner - way / 4), way, 0);
     ASSERT_TRUE(impact);
     EXPECT_EQ(impact->fraction, Exact(1, 4));
     EXPECT_EQ(impact->point, Vec2d(0, 0));
-    EXPECT_EQ(impact->normal, way.x() > 1 ? Vec2d(-1, 0) : Vec2d(0, 1));
+    EXPECT_NEAR((impact->normal - normal).norm(), 0, 1e-15);
   }
-  // The foot's corner meets the tile's: the tile's side would oppose the motion most, but the arm already stands above
-  // the tile, so that the side separates nothing.
-  const ExactScenery world(scenery({box(0, -1, 1, 0)}), octagon());
-  const Vec2d way(2, -0.125);
-  const std::optional<ExactImpact> impact = world.time_of_impact(Vec2d(-0.15625, 0.625) - way / 4, way, 0);
-  ASSERT_TRUE(impact);
-  EXPECT_EQ(impact->fraction, Exact(1, 4));
-  const Vec2d foot = Vec2d(-0.3125, 0.15625) / std::sqrt(0.3125 * 0.3125 + 0.15625 * 0.15625);
-  EXPECT_NEAR((impact->normal - foot).norm(), 0, 1e-15);
 }
 
 }  // namespace
