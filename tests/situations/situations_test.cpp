@@ -59,7 +59,7 @@ class Situations : public ::testing::TestWithParam<Situation> {
 };
 
 TEST_P(Situations, come_to_what_they_must) {
-  for (const SituationCase& situation : GetParam().cases) {
+  for (const SituationCase& situation : cases_of(GetParam())) {
     run(situation);
     ASSERT_FALSE(HasFailure()) << GetParam().name << situation.title << "\npaperproof compare " << stem()
                                << ".json --contender " << situation.contender << " --trace STEM";
@@ -98,6 +98,12 @@ TEST(Situation, is_missed_where_its_numbers_are_not_those_of_the_record) {
       {R"({"some": [0, 1], "times": 1, "of": "grounded", "is": true})", ""},
       {R"({"some": [0, 1], "times": 1, "of": "y", "is": 1})", "2 of steps 0 to 1 are as expected; "},
       {R"({"step": 1, "of": "y", "is": "=last_y"})", ""},
+      {R"({"step": 1, "of": "=high*y - last_y", "is": 1})", ""},
+      {R"({"step": 1, "of": "=high*y - last_y", "is": 2})", "in step 1 =high*y - last_y is 1.0 instead of 2 within 0"},
+      {R"({"steps": [0, 1], "of": "grounded", "is": "=step == 1"})", ""},
+      {R"({"steps": [0, 1], "of": "grounded", "is": "=step == 0"})",
+       "in step 0 grounded is false instead of 1.0 within 0"},
+      {R"({"steps": [0, 1], "of": "stuck", "is": "=step > 1"})", ""},
       {R"({"steps": [0, 1], "of": "y", "is": "=step + 1"})", "in step 1 y is 1 instead of 2.0 within 0"},
       {R"({"step": 0, "of": "drift", "at_most": 1})", "in step 0 drift is null, and not at_most 1"},
       {R"({"step": 2, "of": "y", "is": 1})", "y is asked of steps 2 to 2, and there are 2"},
@@ -112,6 +118,12 @@ TEST(Situation, is_missed_where_its_numbers_are_not_those_of_the_record) {
   SituationCase misspelt;
   misspelt.expected = json::parse(R"([{"step": 0, "of": "y", "iz": 1}])");
   EXPECT_THROW(missed(misspelt, records), std::invalid_argument);
+}
+
+TEST(Situation, repeats_what_each_says) {
+  const json tiles =
+      json::parse(R"([[9, 9], {"for": {"i": {"from": "=first", "to": 2}, "k": [5, 7]}, "each": ["=i", "=k"]}])");
+  EXPECT_EQ(computed(tiles, {{"first", 1}}), json::parse("[[9, 9], [1.0, 5.0], [1.0, 7.0], [2.0, 5.0], [2.0, 7.0]]"));
 }
 
 }  // namespace
