@@ -79,7 +79,7 @@ std::vector<SituationCase> cases_of(const Situation& situation) {
   const ordered_json& file = situation.shared;
   std::vector<SituationCase> cases;
   const ordered_json given = text.value("for", ordered_json::object());
-  const json named = text.value("contender", "octagon_sweep");
+  const json named = text.value("contender", ordered_json("octagon_sweep"));
   const json contenders = named.is_array() ? named : json::array({named});
   for (Values& values : cases_of(given, constants())) {
     for (const ordered_json* place : {&file, &text}) {
