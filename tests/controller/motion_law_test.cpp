@@ -1,4 +1,4 @@
-/// The law of motion: steering never holds or slows a fall, at any dt, and mirror images behave alike.
+/// The law of motion in random scenes: steering never holds or slows a fall, and mirror images behave alike.
 #include "controller/stepping.hpp"
 #include "support/random_runs.hpp"
 #include "support/steps_wanted.hpp"
@@ -109,37 +109,6 @@ TEST(Steering, neither_holds_nor_slows_a_fall_from_any_touching_state) {
   EXPECT_GE(falling, states / 4);
 }
 
-TEST(SteepRamps, are_slid_down_alike_with_the_key_uphill_and_without_one) {
-  for (const double degrees : {51.0, 55.0, 63.5, 70.0, 80.0, 89.0}) {
-    for (const double rate : {60.0, 240.0, 1000.0, 10000.0}) {
-      Player slider({{polygon({{0, 0},
-                               {-60 * std::cos(degrees * degree), 60 * std::sin(degrees * degree)},
-                               {-60 * std::cos(degrees * degree), 0}})}},
-                    CharacterDef{});
-      // Rest it on the ramp first: then only the slide is compared.
-      slider.state.position = {-30 * std::cos(degrees * degree), 60};
-      for (int i = 0; i < 20000 && slider.report.move.contacts.empty(); ++i) slider.step(std::nullopt, 1.0 / 1000);
-      ASSERT_FALSE(slider.report.move.contacts.empty()) << degrees;
-      CharacterState<double> on_ramp = slider.state;
-      on_ramp.velocity.setZero();
-      const double seconds = 0.5;
-      const auto fallen = [&](std::optional<double> key) {
-        slider.state = on_ramp;
-        for (int i = 0; i < static_cast<int>(seconds * rate); ++i) slider.step(key, 1 / rate);
-        return on_ramp.position.y() - slider.state.position.y();
-      };
-      const double sine = std::sin(degrees * degree);
-      const double expected = 0.5 * -gravity * sine * sine * seconds * seconds;
-      const double alone = fallen(std::nullopt);
-      // Semi-implicit Euler is ahead of the parabola by one part in the number of steps.
-      EXPECT_NEAR(alone, expected * (1 + 1 / (seconds * rate)), 0.01 * expected) << degrees << " degrees, " << rate;
-      EXPECT_NEAR(fallen(-1.0), alone, 1e-5) << degrees << " degrees, uphill, " << rate;
-      EXPECT_NEAR(fallen(0.0), alone, 1e-5) << degrees << " degrees, braking, " << rate;
-      EXPECT_GE(fallen(1.0), alone - 1e-5) << degrees << " degrees, downhill, " << rate;
-    }
-  }
-}
-
 TEST(MirrorImages, of_scenery_and_key_behave_alike) {
   int in_contact = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
@@ -207,27 +176,6 @@ TEST(DeadEnds, bring_a_walk_to_rest) {
   }
 }
 
-TEST(Kerbs, of_any_height_stop_a_walk_at_their_edge) {
-  constexpr std::uint64_t cases = test::sampled(10000);
-  for (std::uint64_t seed = 1; seed <= cases; ++seed) {
-    Random random(seed);
-    const double sign = random.chance(0.5) ? 1 : -1;
-    const double edge = random.between(0.5, 2);
-    const double height = random.log_between(1e-5, 2);
-    ColliderDef kerb = rectangle(edge, -1, edge + 20, height);
-    Player player({{rectangle(-20, -1, 20, 0), sign > 0 ? kerb : mirrored(kerb)}}, CharacterDef{});
-    player.state.position = {0, half_height + random.between(1e-6, 0.01)};
-    const double rate = std::array{60.0, 240.0}[seed % 2];
-    for (int i = 0; i < static_cast<int>(rate); ++i) player.step(sign, 1 / rate);
-    // The side of a foot goes out 1 px in 2, up to the arm.
-    const double foot = half_width / 2;
-    const double stops = edge - std::min(foot + height / 2, half_width);
-    ASSERT_NEAR(sign * player.state.position.x(), stops, 4e-6) << "seed " << seed << ", height " << height;
-    ASSERT_NEAR(player.state.position.y(), half_height, 1e-6) << "seed " << seed << ", height " << height;
-    ASSERT_TRUE(player.state.grounded) << "seed " << seed;
-  }
-}
-
 /// A slope of a whole number in a whole number, whose limit in degrees is what a designer computes.
 class ExactSlope {
  public:
@@ -273,37 +221,6 @@ TEST(ClimbLimit, includes_itself_on_exact_slopes_of_every_place_and_size_and_not
     const ExactSlope slope(seed);
     ASSERT_TRUE(slope.is_climbed(0)) << "seed " << seed;
     ASSERT_FALSE(slope.is_climbed(microradian)) << "seed " << seed;
-  }
-}
-
-TEST(Grounded, is_decided_where_the_step_ends) {
-  // Up along a slope into a ceiling: both are touched, the jump rises, and then the ground holds.
-  Stepper<double> under({rectangle(-4, -1, 4, 0), rectangle(-4, 2 * half_height, 4, 3)});
-  under.gravity = {0, gravity};
-  under.at(0, half_height).steps(3);
-  ASSERT_TRUE(under.state.grounded);
-  under.step({.move = {}, .jump = true});
-  EXPECT_TRUE(under.state.grounded) << "the ceiling lets no jump begin";
-  // A jump off the ground beside a wall: the ground was touched in this step, and is left.
-  Stepper<double> beside({rectangle(-4, -1, 4, 0), rectangle(half_width, 0, 4, 9)});
-  beside.gravity = {0, gravity};
-  beside.at(0, half_height + 0.01).steps(10, {.move = 1});
-  ASSERT_TRUE(beside.state.grounded);
-  beside.step({.move = 1, .jump = true});
-  EXPECT_FALSE(beside.state.grounded);
-  EXPECT_TRUE(beside.state.jumping);
-  EXPECT_GT(beside.state.velocity.y(), 0);
-}
-
-TEST(TurningAroundAtAWall, does_not_tremble) {
-  for (const double rate : {60.0, 240.0, 1000.0}) {
-    Player player({{rectangle(-4, -1, 40, 0), rectangle(-5, -1, -4, 9)}}, CharacterDef{});
-    player.state.position = {-4 + half_width + 1e-6, half_height + 1e-6};
-    // Away from the wall with less speed than one step of steering takes away.
-    for (int i = 0; i < 3; ++i) player.step(std::nullopt, 1 / rate);
-    player.state.velocity.x() = 0.3 * 60 / rate;
-    const int rest = comes_to_rest_after(player, -1, rate);
-    EXPECT_LE(rest, 10) << rate;
   }
 }
 

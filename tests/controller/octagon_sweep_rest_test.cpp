@@ -1,17 +1,17 @@
-/// octagon_sweep at rest, far away, and at other scales: what must not change does not.
+/// octagon_sweep over a million steps, an hour, and a thousand kilometres: what must not change does not.
 #include "controller/stepping.hpp"
 #include "support/steps_wanted.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace paperproof::stepping {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr int a_million = test::sampled(1'000'000);
+constexpr int an_hour = test::sampled(216'000);
 
 /// Steps until position and velocity repeat, then a given number of steps more, on which nothing may change.
 template <class Scalar>
@@ -40,35 +40,6 @@ TEST(Rest, on_flat_ground_changes_no_bit_in_a_million_steps) {
   expect_rest(stepper.at(0.3, half_height + 0.25), {}, a_million);
 }
 
-TEST(Rest, on_a_slope_of_30_degrees_changes_no_bit_in_a_million_steps) {
-  const double rise = 4 * std::tan(30 * degree);
-  Stepper<double> stepper({polygon({{-4, -9}, {4, -9}, {4, rise}, {-4, -rise}})});
-  expect_rest(stepper.at(0.3, half_height + 0.6), {}, a_million);
-}
-
-TEST(Rest, in_a_wedge_changes_no_bit_in_a_million_steps) {
-  const double half = 5 * std::tan(20 * degree);
-  Stepper<double> stepper(
-      {polygon({{0, 0}, {half, 5}, {half + 1, 5}, {half + 1, -1}, {-half - 1, -1}, {-half - 1, 5}, {-half, 5}})});
-  expect_rest(stepper.at(0.01, 3), {}, a_million);
-}
-
-TEST(Rest, walking_into_a_corner_changes_no_bit_in_a_million_steps) {
-  Stepper<double> stepper({rectangle(-4, -1, 4, 0), rectangle(1, 0, 2, 3)});
-  expect_rest(stepper.at(0, half_height + 0.1), {.move = 1}, a_million);
-}
-
-TEST(Rest, on_a_one_way_platform_changes_no_bit_in_a_million_steps) {
-  Stepper<double> stepper({chain({{-4, 0}, {4, 0}}, Vec2d{0, 1})});
-  expect_rest(stepper.at(0.3, half_height + 0.25), {}, a_million);
-}
-
-TEST(Rest, under_a_gravity_of_a_million_changes_no_bit_in_a_million_steps) {
-  Stepper<double> stepper({rectangle(-4, -1, 4, 0)});
-  stepper.gravity = {0, -1e6};
-  expect_rest(stepper.at(0.3, half_height + 0.25), {}, a_million);
-}
-
 TEST(Rest, a_thousand_kilometres_away_changes_no_bit_in_a_million_steps) {
   const double far = 1e6 - 8;
   Stepper<double> stepper({rectangle(far - 4, far - 1, far + 4, far)});
@@ -80,41 +51,6 @@ TEST(Rest, in_float_changes_no_bit_either) {
   expect_rest(flat.at(0.3, half_height + 0.25), {}, 100'000);
   Stepper<float> one_way({chain({{-4, 0}, {4, 0}}, Vec2d{0, 1})});
   expect_rest(one_way.at(0.3, half_height + 0.25), {}, 100'000);
-}
-
-TEST(RestGap, does_not_depend_on_gravity) {
-  for (const double gravity : {10.0, 1e2, 1e3, 1e4, 1e5, 1e6}) {
-    Stepper<double> stepper({rectangle(-4, -1, 4, 0)});
-    stepper.gravity = {0, -gravity};
-    stepper.at(0, half_height + 0.25).steps(120);
-    // It stops where the gap is `stop`; the last fall of up to g/3600 m is cut to 2^-53 of its length.
-    const double rounding = 4 * gravity / 3600 * 0x1p-53 + 1e-15;
-    EXPECT_NEAR(stepper.state.position.y() - half_height, Tolerances<double>{}.stop, rounding) << gravity;
-  }
-}
-
-/// The fraction of a flight to a slanted wall, everything multiplied by `scale`.
-double fraction_at(double scale) {
-  std::vector<Vec2d> points;
-  const CharacterShape article = CharacterShape::article();
-  for (const Vec2d& point : article.points()) points.push_back(point * scale);
-  CharacterDef character;
-  character.shape = CharacterShape(points);
-  const auto at = [scale](double x, double y) { return Vec2d{x * scale, y * scale}; };
-  Stepper<double> flyer({polygon({at(2, -5), at(3, -5), at(5, 6), at(4, 6)})}, character);
-  const MoveResult<double>& move = flyer.at(0.3 * scale, 0.2 * scale).fly(7.7 * scale, -1.3 * scale);
-  EXPECT_FALSE(move.contacts.empty()) << scale;
-  return move.contacts.empty() ? -1 : move.contacts[0].fraction;
-}
-
-TEST(Scale, by_a_power_of_two_gives_the_same_bits_of_the_time_of_impact) {
-  const double expected = fraction_at(1);
-  // The wall's left edge goes from (2, -5) to (4, 6): n = (11, -2) / sqrt(125) towards it; the arm (10, -10) px is the
-  // octagon's furthest point along it.
-  const Vec2d n = Vec2d{11, -2} / std::sqrt(125.0);
-  const double distance = n.dot(Vec2d{2, -5} - Vec2d{0.3, 0.2} - Vec2d{10 * px, -10 * px});
-  EXPECT_NEAR(expected, distance / n.dot(Vec2d{7.7, -1.3}), 1e-14);
-  for (int k = -13; k <= 13; ++k) EXPECT_TRUE(same_bits(fraction_at(std::ldexp(1.0, k)), expected)) << "2^" << k;
 }
 
 /// Walks over tiles into a wall and jumps, beside an origin.
@@ -145,9 +81,76 @@ TEST(Origin, moved_by_up_to_a_thousand_kilometres_changes_nothing_but_the_last_b
     // Every step is a multiple of 2^-11 m and adds without rounding, wherever it is. What is rounded is where a motion
     // stops at a gap, once at the landing, once at the wall and once at the landing after the jump.
     EXPECT_LE(furthest, 3 * ulp) << origin;
-    std::printf("origin %.0f m: up to %.3g m off, %.1f ulp\n", origin, furthest, furthest / ulp);
   }
 }
+
+/// Distance to the next double.
+double ulp(double value) { return std::nextafter(std::abs(value), INFINITY) - std::abs(value); }
+
+/// Where a lift is that goes to and fro, 97 steps each way.
+Vec2d ping_pong(const Vec2d& by, int step) {
+  constexpr int steps_each_way = 97;
+  const int phase = step % (2 * steps_each_way);
+  const int along = phase <= steps_each_way ? phase : 2 * steps_each_way - phase;
+  return by * (static_cast<double>(along) / steps_each_way);
+}
+
+class Lift : public ::testing::TestWithParam<Vec2d> {};
+
+TEST_P(Lift, carries_for_an_hour_without_a_step_of_difference) {
+  ColliderDef lift = rectangle(-1.5, -0.25, 1.5, 0);
+  lift.mover = 0;
+  Stepper<double> rider({lift});
+  rider.gravity = {0, -30};
+  rider.at(0.1, half_height + Tolerances<double>{}.stop).step();
+  const Vec2d start = rider.state.position;
+  double furthest_off_in_ulps = 0;
+  for (int step = 1; step <= an_hour; ++step) {
+    rider.movers[0] = {rider.movers[0].to, ping_pong(GetParam(), step)};
+    rider.step();
+    ASSERT_TRUE(rider.state.grounded && rider.report.move.contacts.size() == 1) << step;
+    const Vec2d& by = rider.movers[0].to;
+    for (const Eigen::Index i : {0, 1}) {
+      const double off = std::abs((rider.state.position[i] - by[i]) - start[i]);
+      const double larger = std::max({std::abs(rider.state.position[i]), std::abs(by[i]), std::abs(start[i])});
+      furthest_off_in_ulps = std::max(furthest_off_in_ulps, off / ulp(larger));
+    }
+  }
+  EXPECT_LE(furthest_off_in_ulps, 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(UpDownAndSideways, Lift,
+                         ::testing::Values(Vec2d{0, 7.3}, Vec2d{-3.3, 2.7}, Vec2d{400.1, -300.7}));
+
+/// A belt of tiles 8 km long, which stands, or is a lift that goes up and down.
+class Belt : public ::testing::TestWithParam<double> {};
+
+TEST_P(Belt, carries_for_an_hour_without_a_toggle) {
+  std::vector<ColliderDef> tiles;
+  for (int i = -1; i < 8000; ++i) {
+    ColliderDef tile = rectangle(i, -1, i + 1, 0);
+    tile.surface_speed = 2;
+    if (GetParam() != 0) tile.mover = 0;
+    tiles.push_back(tile);
+  }
+  Stepper<double> rider(tiles);
+  rider.gravity = {0, -30};
+  rider.at(0, half_height + Tolerances<double>{}.stop).step();
+  const Vec2d start = rider.state.position;
+  int toggles = 0;
+  double furthest_off = 0;
+  for (int step = 1; step <= an_hour; ++step) {
+    for (MoverMotion<double>& lift : rider.movers) lift = {lift.to, ping_pong({0, GetParam()}, step)};
+    rider.step();
+    toggles += !rider.state.grounded || rider.state.ride.ground == Ride<double>::none;
+    const Vec2d lift = rider.movers.empty() ? Vec2d(0, 0) : rider.movers[0].to;
+    furthest_off = std::max(furthest_off, (rider.state.position - lift - start - Vec2d(step / 30.0, 0)).norm());
+  }
+  EXPECT_EQ(toggles, 0);
+  EXPECT_LE(furthest_off, an_hour * ulp(7200)) << "each step rounds once along the belt";
+}
+
+INSTANTIATE_TEST_SUITE_P(StandingAndMoving, Belt, ::testing::Values(0, 7.3));
 
 }  // namespace
 }  // namespace paperproof::stepping

@@ -31,11 +31,22 @@ Values constants() {
   };
 }
 
+/// A list of numbers, or all from one to another by steps of one size.
+std::vector<double> numbers_of(const json& given, const Values& values) {
+  if (given.is_array()) return computed(given, values).get<std::vector<double>>();
+  const json range = computed(given, values);
+  const double from = range.at("from");
+  const double by = range.value("by", 1.0);
+  std::vector<double> numbers(static_cast<std::size_t>(std::lround((range.at("to").get<double>() - from) / by)) + 1);
+  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = from + static_cast<double>(i) * by;
+  return numbers;
+}
+
 /// The cases of `for`: every combination of the numbers that it lists by name, or each of a list of rows.
-std::vector<Values> cases_of(const ordered_json& given) {
-  std::vector<Values> all{constants()};
+std::vector<Values> cases_of(const ordered_json& given, const Values& others) {
+  std::vector<Values> all{others};
   if (given.is_array()) {
-    all.assign(given.size(), constants());
+    all.assign(given.size(), others);
     for (std::size_t i = 0; i < given.size(); ++i)
       for (const auto& [name, number] : given[i].items()) all[i][name] = computed(json(number), all[i]).get<double>();
     return all;
@@ -43,9 +54,9 @@ std::vector<Values> cases_of(const ordered_json& given) {
   for (const auto& [name, numbers] : given.items()) {
     std::vector<Values> longer;
     for (const Values& values : all) {
-      for (const json number : numbers) {
+      for (const double number : numbers_of(json(numbers), values)) {
         longer.push_back(values);
-        longer.back()[name] = computed(number, values).get<double>();
+        longer.back()[name] = number;
       }
     }
     all = std::move(longer);
@@ -61,10 +72,16 @@ std::string title_of(const ordered_json& given, const Values& values) {
   return title;
 }
 
-Situation read_situation(const ordered_json& text, const ordered_json& file) {
-  Situation situation{.file = {}, .name = text.at("name"), .cases = {}};
+}  // namespace
+
+std::vector<SituationCase> cases_of(const Situation& situation) {
+  const ordered_json& text = situation.text;
+  const ordered_json& file = situation.shared;
+  std::vector<SituationCase> cases;
   const ordered_json given = text.value("for", ordered_json::object());
-  for (Values& values : cases_of(given)) {
+  const json named = text.value("contender", ordered_json("octagon_sweep"));
+  const json contenders = named.is_array() ? named : json::array({named});
+  for (Values& values : cases_of(given, constants())) {
     for (const ordered_json* place : {&file, &text}) {
       const ordered_json lets = place->value("let", ordered_json::object());
       for (const auto& [name, formula] : lets.items()) values[name] = value_of(formula, values);
@@ -73,15 +90,18 @@ Situation read_situation(const ordered_json& text, const ordered_json& file) {
     scene.merge_patch(json(text.value("scene", ordered_json::object())));
     scene["paperproof_scene"] = 1;
     scene["name"] = situation.name;
-    situation.cases.push_back({.title = title_of(given, values),
-                               .values = values,
-                               .scene = computed(scene, values),
-                               .contender = text.value("contender", "octagon_sweep"),
-                               .expected = json(text.at("expect")),
-                               .breaks = text.value("breaks", std::vector<std::string>{})});
+    for (const std::string contender : contenders)
+      cases.push_back({.title = title_of(given, values),
+                       .values = values,
+                       .scene = computed(scene, values),
+                       .contender = contender,
+                       .expected = json(text.at("expect")),
+                       .breaks = text.value("breaks", std::vector<std::string>{})});
   }
-  return situation;
+  return cases;
 }
+
+namespace {
 
 /// Short names of what is asked for most; everything else is a JSON pointer into the step's record.
 const std::map<std::string, std::string>& short_names() {
@@ -95,26 +115,31 @@ json part_of(const json& record, const std::string& of) {
   const auto name = short_names().find(of);
   std::string pointer = name == short_names().end() ? of : name->second;
   if (pointer.front() != '/') pointer.insert(0, "/");
-  json part = record;
+  const json* part = &record;
   for (std::size_t at = 0; at < pointer.size();) {
     const std::size_t end = std::min(pointer.find('/', at + 1), pointer.size());
     const std::string key = pointer.substr(at + 1, end - at - 1);
     at = end;
-    if (key == "#") return part.is_null() ? 0 : part.size();
-    if (part.is_object()) {
-      part = part.contains(key) ? json(part[key]) : json();
-    } else if (part.is_array()) {
+    if (key == "#") return part->size();
+    if (part->is_object() && part->contains(key)) {
+      part = &part->at(key);
+    } else if (part->is_array()) {
       const int index = std::stoi(key);
-      const auto place = static_cast<std::size_t>(index < 0 ? index + static_cast<int>(part.size()) : index);
-      part = place < part.size() ? json(part[place]) : json();
+      const auto place = static_cast<std::size_t>(index < 0 ? index + static_cast<int>(part->size()) : index);
+      if (place >= part->size()) return {};
+      part = &part->at(place);
+    } else if (key == "stuck" || key == "dropped") {
+      return false;  // where it is not set
     } else {
-      return {};
+      static const json nothing;
+      part = &nothing;
     }
   }
-  return part;
+  return *part;
 }
 
 bool is_near(const json& part, const json& wanted, double within) {
+  if (wanted.is_number() && part.is_boolean()) return (part == true) == (wanted != 0);  // what a formula says
   if (part.is_number() && wanted.is_number()) return std::abs(part.get<double>() - wanted.get<double>()) <= within;
   if (!part.is_array() || !wanted.is_array()) return part == wanted;
   return std::equal(part.begin(), part.end(), wanted.begin(), wanted.end(),
@@ -160,14 +185,17 @@ std::pair<int, int> steps_of(const json& expected, const Values& values, int cou
   return given.is_array() ? std::pair(step(given.at(0)), step(given.at(1))) : std::pair(step(given), step(given));
 }
 
-/// What a formula may name in a step: its number, and where and how fast the character was after the one before.
+/// What a formula may name in a step: its number, and where and how fast the character is after it and the one before.
 Values in_step(int step, const std::vector<json>& records, Values values) {
   values["step"] = step;
-  if (step == 0) return values;
-  for (const auto& [name, pointer] : short_names()) {
-    const json part = part_of(records[static_cast<std::size_t>(step) - 1], pointer);
-    if (part.is_number()) values["last_" + name] = part;
-  }
+  const auto add = [&](const std::string& before, int of) {
+    for (const auto& [name, pointer] : short_names()) {
+      const json part = part_of(records[static_cast<std::size_t>(of)], pointer);
+      if (part.is_number()) values[before + name] = part;
+    }
+  };
+  add("", step);
+  if (step > 0) add("last_", step - 1);
   return values;
 }
 
@@ -181,12 +209,13 @@ std::string missed_one(const SituationCase& situation, const json& expected, con
   int times = 0;
   for (int step = first; step <= last; ++step) {
     const Values values = in_step(step, records, situation.values);
-    const std::string here = fault_of(part_of(records[static_cast<std::size_t>(step)], of), computed(expected, values));
+    const json part = of.starts_with('=') ? computed(of, values) : part_of(records[static_cast<std::size_t>(step)], of);
+    const std::string here = fault_of(part, computed(expected, values));
     times += here.empty();
     if (!here.empty() && fault.empty()) fault = fmt::format("in step {} {} {}", step, of, here);
   }
   if (expected.contains("some")) {
-    const int wanted = computed(expected, situation.values).value("times", 0);
+    const int wanted = computed(expected.value("times", json(0)), situation.values).get<int>();
     if (wanted == 0 ? times > 0 : times == wanted) return {};
     fault = fmt::format("{} of steps {} to {} are as expected; {}", times, first, last, fault);
   }
@@ -198,8 +227,10 @@ std::string missed_one(const SituationCase& situation, const json& expected, con
 
 double value_of(const std::string& formula, const Values& values) {
   try {
-    mu::Parser parser;
-    for (const auto& [name, value] : values) parser.DefineConst(name, value);
+    static mu::Parser parser;  // it takes longer to make one than to use it
+    parser.ClearConst();
+    for (const auto& [name, value] : values)
+      if (formula.find(name) != std::string::npos) parser.DefineConst(name, value);
     parser.SetExpr(formula);
     return parser.Eval();
   } catch (const mu::Parser::exception_type& error) {
@@ -214,6 +245,18 @@ json computed(const json& document, const Values& values) {
   }
   if (!document.is_structured()) return document;
   json result = document;
+  if (document.is_array()) {
+    result = json::array();
+    for (const json& part : document) {
+      if (!part.is_object() || !part.contains("each")) {
+        result.push_back(computed(part, values));
+        continue;
+      }
+      for (const Values& each : cases_of(ordered_json(part.at("for")), values))
+        result.push_back(computed(part["each"], each));
+    }
+    return result;
+  }
   for (json& part : result) part = computed(part, values);
   if (!result.is_object() || !result.contains("box")) return result;
   const std::vector<double> box = result["box"];
@@ -230,11 +273,11 @@ std::vector<Situation> read_situations(const std::string& folder) {
   std::vector<Situation> situations;
   for (const std::filesystem::path& path : paths) {
     try {
-      const ordered_json file = ordered_json::parse(std::ifstream(path));
-      for (const ordered_json& text : file.at("situations")) {
-        situations.push_back(read_situation(text, file));
-        situations.back().file = path.stem();
-      }
+      ordered_json file = ordered_json::parse(std::ifstream(path));
+      const ordered_json texts = std::move(file.at("situations"));
+      file.erase("situations");
+      for (const ordered_json& text : texts)
+        situations.push_back({.file = path.stem(), .name = text.at("name"), .text = text, .shared = file});
     } catch (const std::exception& error) {
       throw std::invalid_argument(path.string() + ": " + error.what());
     }

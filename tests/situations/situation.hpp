@@ -33,11 +33,15 @@ struct SituationCase {
 struct Situation {
   std::string file;  ///< Without folder and ending.
   std::string name;
-  std::vector<SituationCase> cases;
+  nlohmann::ordered_json text;    ///< As it stands in the file.
+  nlohmann::ordered_json shared;  ///< Of all in the file: `scene` and `let`.
 };
 
 /// All situations of a folder, by file. @throws std::exception that names the file.
 [[nodiscard]] std::vector<Situation> read_situations(const std::string& folder);
+
+/// Its cases, with all numbers computed.
+[[nodiscard]] std::vector<SituationCase> cases_of(const Situation& situation);
 
 /// A sentence for each expectation that a run misses.
 /// @param records the steps of its trace, one after the other.
