@@ -1,0 +1,114 @@
+/// Starts inside solids with a last free place: each comes out on its side, by a way that is not longer than any that
+/// trial finds there. Without a last free place the campaign asks for the shortest way: inside.
+#include "campaign/campaign.hpp"
+#include "campaign/shapes.hpp"
+#include "oracle/exact.hpp"
+#include "support/random_runs.hpp"
+#include "support/steps_wanted.hpp"
+
+#include <paperproof/controller.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <numbers>
+
+namespace paperproof::test {
+namespace {
+
+using compare::Place;
+using Colliders = std::vector<ColliderIndex>;
+
+/// What is asked of a way that is found by trial [m].
+constexpr double roomy = 1e-4;
+
+/// A scene of the family `inside`, and exact answers about it.
+struct Solids {
+  explicit Solids(const compare::RandomRun& run)
+      : start(run.scene.start.position), scenery(run.scene.scenery), controller(scenery, {}) {}
+
+  /// Whether a way passes nothing else.
+  [[nodiscard]] bool is_open(const Vec2d& from, const Vec2d& to, const Colliders& may_pass) const {
+    const Vec2d way = roomy * (to - from).normalized();
+    const Vec2d across{-way.y(), way.x()};
+    for (const Vec2d& end : {to, Vec2d(to + across), Vec2d(to - across)}) {
+      const Colliders met = oracle.met(from, end);
+      if (!std::includes(may_pass.begin(), may_pass.end(), met.begin(), met.end())) return false;
+    }
+    return true;
+  }
+  [[nodiscard]] bool is_roomy(const Vec2d& at) const {
+    const Colliders near = oracle.near(Place(at), Place(at), 2 * roomy);
+    return oracle.overlapped(at).empty() && std::none_of(near.begin(), near.end(), [&](ColliderIndex collider) {
+             return !oracle.scenery().colliders[collider].one_way && oracle.separation(Place(at), collider) <= roomy;
+           });
+  }
+  /// By trial: shorter than `length`, and open to the last free place.
+  [[nodiscard]] std::optional<Vec2d> way_out(const Colliders& inside, const Vec2d& last_free, double length) const {
+    constexpr int directions = 48;
+    constexpr double stride = 0.05;
+    for (int k = 0; k < directions; ++k) {
+      const Vec2d way = compare::towards(2 * std::numbers::pi * k / directions);
+      for (double distance = stride; distance < length; distance += stride) {
+        const Vec2d end = start + way * distance;
+        if (!is_open(start, end, inside)) break;
+        if (is_roomy(end) && is_open(last_free, end, {})) return end;
+      }
+    }
+    return std::nullopt;
+  }
+
+  Vec2d start;
+  Scenery<double> scenery;
+  Controller<double> controller;
+  compare::ExactScenery oracle{
+      scenery.as_run(), {controller.character().shape.hull().begin(), controller.character().shape.hull().end()}};
+};
+
+class WayOut : public ::testing::TestWithParam<compare::Family> {};
+
+TEST_P(WayOut, leads_to_the_side_of_the_last_free_place_by_the_shortest_way_there) {
+  constexpr int wanted = sampled(200);
+  int starts = 0;
+  int to_its_side = 0;
+  for (std::uint64_t seed = GetParam().first_seed; starts < wanted && !HasFailure(); ++seed) {
+    SCOPED_TRACE("paperproof replay " + GetParam().title() + " " + std::to_string(seed));
+    const Solids solids(GetParam().draw(seed));
+    const Colliders inside = solids.oracle.overlapped(solids.start);
+    Random random(seed);
+    CharacterState<double> state;
+    state.position = solids.start;
+    state.last_free = solids.start + random.point(9);
+    state.has_last_free = true;
+    const Vec2d last_free = state.last_free;
+    if (inside.empty() || !solids.oracle.overlapped(last_free).empty()) continue;
+    Scratch<double> scratch = solids.controller.make_scratch();
+    StepReport<double> report;
+    solids.controller.step(state, {}, {{0, 0}, 1.0 / 60}, scratch, report);
+    ++starts;
+    const auto& path = report.move.path;
+    const bool is_out = path.size() > 1 && path[1].fraction == 0 && solids.oracle.overlapped(path[1].position).empty();
+    const bool on_its_side = is_out && solids.oracle.met(last_free, path[1].position).empty();
+    to_its_side += on_its_side;
+    // Nothing is said about a way that ends farther away than the solids reach.
+    const double length = on_its_side ? (path[1].position - solids.start).norm() - roomy : 2;
+    const std::optional<Vec2d> shorter = solids.way_out(inside, last_free, length);
+    EXPECT_FALSE(shorter) << "there is a way from " << solids.start.transpose() << " on the side of "
+                          << last_free.transpose() << " to " << shorter->transpose();
+  }
+  std::printf("%s: %d starts, %d to their side\n", GetParam().title().c_str(), starts, to_its_side);
+  EXPECT_GE(to_its_side, starts / 10);
+}
+
+std::vector<compare::Family> families_inside() {
+  std::vector<compare::Family> all;
+  for (const compare::Family* family : compare::families_named("inside")) all.push_back(*family);
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, WayOut, ::testing::ValuesIn(families_inside()),
+                         [](const auto& family) { return family.param.name; });
+
+}  // namespace
+}  // namespace paperproof::test
